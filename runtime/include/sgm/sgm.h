@@ -1,0 +1,621 @@
+/*
+ * sgm.h: the C interface of the SG+M runtime, and its manual.
+ *
+ * A shape grammar with morphing (a text in the SG+M language) describes an endless world of caves, clouds or buildings.
+ * The runtime compiles the text, derives the shapes near a place, evaluates them as an implicit field and meshes it.
+ * The same grammar, parameters, seed and cell size give the same bytes on every machine, backend and thread count.
+ *
+ * Valid as C99 and as C++20. MIT licence.
+ *
+ * The way through it
+ *   sgm_runtime_create -> sgm_grammar_compile -> sgm_field_create -> sgm_mesh_chunks -> sgm_mesh_get_view
+ *
+ * Conventions, true of every declaration unless it says otherwise
+ *   Space      Right-handed, Y up. World positions are int32_t in units of 1/1024 m on each axis (SGM_UNITS_PER_METRE),
+ *              about +-2,097 km. Lengths given as double or float are metres.
+ *   Solid      The field is negative inside the solid. Normals point out of the solid; front faces run counter-clockwise
+ *              seen from the void (as in glTF and Godot).
+ *   Handles    Opaque. A function that makes one writes it through its `out` parameter, and writes NULL there when it
+ *              fails. The caller owns it and hands it back to the one function that ends it; all of those accept NULL.
+ *              A handle keeps alive whatever it was made from (a field keeps its grammar), so the order in which handles
+ *              end does not matter; only the runtime must outlive them all.
+ *   Structs    Every struct that may grow begins { uint32_t struct_size; const void* next; } and has an _INIT macro with
+ *              its defaults: start from it always, those that the library fills included. A struct_size that differs
+ *              from this header's is SGM_ERR_STRUCT_SIZE. `next` is for later extensions, each beginning with sgm_chain;
+ *              this version knows none and refuses a `next` that is not NULL with SGM_ERR_UNSUPPORTED.
+ *   Text       UTF-8. Texts that the library returns end in 0 and live as long as the handle they came from.
+ *   Errors     Functions that can fail return sgm_result: 0 done, below 0 failed, above 0 done in part. They take an
+ *              sgm_error, which may be NULL, and fill it when they fail (and only then). Bad input never aborts, and no
+ *              C++ exception leaves the library. Any function may also return SGM_ERR_OUT_OF_MEMORY.
+ *   Threads    Functions may be called from any thread at any time, on shared handles too, but for sgm_parameters, which
+ *              only one thread may use while it is being changed, and for functions that end a handle, which no other
+ *              call on that handle may accompany.
+ *   Memory     The library keeps no process-wide state. Bulk data (derived cells, samples, meshes, handles) comes from
+ *              the runtime's allocator; small bookkeeping and message texts may come from the C++ heap.
+ */
+#ifndef SGM_SGM_H
+#define SGM_SGM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#define SGM_VERSION_MAJOR 0
+#define SGM_VERSION_MINOR 1
+#define SGM_VERSION_PATCH 0
+
+/* One number for the header that a program was built with; sgm_version() is the library's. */
+#define SGM_API_VERSION (SGM_VERSION_MAJOR * 1000000u + SGM_VERSION_MINOR * 1000u + SGM_VERSION_PATCH)
+
+#if defined(SGM_STATIC)
+#define SGM_API
+#elif defined(_WIN32)
+#if defined(SGM_BUILDING_LIBRARY)
+#define SGM_API __declspec(dllexport)
+#else
+#define SGM_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define SGM_API __attribute__((visibility("default")))
+#else
+#define SGM_API
+#endif
+
+#if defined(__cplusplus)
+#define SGM_NULL nullptr
+#define SGM_SIZEOF(type) static_cast<uint32_t>(sizeof(type))
+extern "C" {
+#else
+#define SGM_NULL NULL
+#define SGM_SIZEOF(type) ((uint32_t)sizeof(type))
+#endif
+
+#define SGM_UNITS_PER_METRE 1024
+#define SGM_CHUNK_CELLS 32       /* cells on each axis of a chunk */
+#define SGM_SUBCELL 256          /* packed vertex positions are 1/256 of the chunk's cell edge */
+#define SGM_MAX_LEVEL 20         /* coarsest level of detail; a level's cell edge is twice that of the level below */
+#define SGM_MESSAGE_SIZE 500     /* bytes of sgm_error.message, its ending 0 included */
+#define SGM_NAME_SIZE 256        /* bytes of the texts in sgm_backend_info, their ending 0 included */
+
+/* ------------------------------------------------------------------------------------------------ results, errors */
+
+typedef enum sgm_result {
+  SGM_OK = 0,
+  SGM_INCOMPLETE = 1, /* the caller's array was too small: it holds as much as fits, and the count says how many exist */
+
+  SGM_ERR_INVALID_ARGUMENT = -1, /* NULL where a value is needed, not a number, a value out of its stated range */
+  SGM_ERR_STRUCT_SIZE = -2,      /* struct_size is not this library's: start from the _INIT macro, or rebuild */
+  SGM_ERR_VERSION = -3,          /* header and library do not belong together */
+  SGM_ERR_OUT_OF_MEMORY = -4,    /* the allocator returned NULL, or memory_limit was reached */
+  SGM_ERR_GRAMMAR = -5,          /* the grammar text is wrong; line and column say where */
+  SGM_ERR_LIMIT = -6,            /* a cap on counts, depth or time was reached; the message names it */
+  SGM_ERR_RANGE = -7,            /* leaves the integer world of +-2^31 units */
+  SGM_ERR_IO = -8,               /* a file could not be read or written */
+  SGM_ERR_UNSUPPORTED = -9,      /* no such backend, device or extension here */
+  SGM_ERR_CANCELLED = -10,       /* the caller's progress callback asked to stop */
+  SGM_ERR_BUSY = -11,            /* handles made from this one are still alive */
+  SGM_ERR_NOT_FOUND = -12,       /* no entry of that name or index */
+  SGM_ERR_INTERNAL = -13,        /* a fault of the library's own; please report it */
+  SGM_RESULT_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_result;
+
+/* The name of a result, "SGM_ERR_RANGE"; "unknown" for a value that this library does not know. Never NULL. Static. */
+SGM_API const char* sgm_result_name(sgm_result result);
+
+/* What went wrong, in the caller's memory. The message is one line that says what to do. */
+typedef struct sgm_error {
+  sgm_result code; /* what the function returned */
+  int32_t line;    /* in the grammar text, from 1; 0 where the error has no place in a text */
+  int32_t column;  /* in bytes, from 1; 0 as line */
+  char message[SGM_MESSAGE_SIZE]; /* ends in 0; cut off at a whole character where it was longer */
+} sgm_error;
+
+#define SGM_ERROR_INIT { SGM_OK, 0, 0, { 0 } }
+
+/* The beginning of every struct that a later version may hang on a `next` pointer. */
+typedef struct sgm_chain {
+  uint32_t struct_size;
+  uint32_t kind;
+  const void* next;
+} sgm_chain;
+
+/* -------------------------------------------------------------------------------------------------- version, build */
+
+/* The library's version, to compare with SGM_API_VERSION. */
+SGM_API uint32_t sgm_version(void);
+
+/* "0.1.0". Static. */
+SGM_API const char* sgm_version_string(void);
+
+/* One line on how the library was built: version, compiler, instruction sets, backends, checks. Static. */
+SGM_API const char* sgm_build_info(void);
+
+/* -------------------------------------------------------------------------------------------------------- runtime */
+
+/* Owns nothing but what every other handle shares: allocator, job system, log sink, limits. */
+typedef struct sgm_runtime sgm_runtime;
+
+/* Memory from the caller. Both functions may be called from any thread at one time, also after the call of ours that
+ * allocated has returned, up to the end of sgm_runtime_destroy. */
+typedef struct sgm_allocator {
+  /* Returns `size` bytes (at least 1) at a multiple of `alignment` (a power of two), or NULL. */
+  void* (*allocate)(void* user, size_t size, size_t alignment);
+  /* Takes back what allocate returned; size and alignment are those it was asked for. Never called with NULL. */
+  void (*release)(void* user, void* memory, size_t size, size_t alignment);
+  void* user;
+} sgm_allocator;
+
+/* Threads from the caller. An accepted job must run exactly once, on any thread, at any time, in any order, as soon as
+ * a thread of it is free; jobs wait for one another only by calling help. A call of ours that submits jobs
+ * returns only after they have run. The functions may be called from any thread, inside a job too. */
+typedef struct sgm_job_system {
+  /* How many jobs can run at one time, at least 1. */
+  uint32_t (*concurrency)(void* user);
+  /* Accepts a job (returns non-zero) or refuses it (returns 0): then it runs at once on the submitting thread.
+   * A higher priority should run earlier; 0 is usual. */
+  int32_t (*submit)(void* user, void (*function)(void* argument), void* argument, int32_t priority);
+  /* Runs one waiting job on the calling thread and returns non-zero, or returns 0 where none waits. May be NULL. */
+  int32_t (*help)(void* user);
+  void* user;
+} sgm_job_system;
+
+typedef enum sgm_log_level {
+  SGM_LOG_DEBUG = 0,
+  SGM_LOG_INFO = 1,
+  SGM_LOG_WARNING = 2,
+  SGM_LOG_ERROR = 3,
+  SGM_LOG_LEVEL_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_log_level;
+
+/* Where messages go. Called from any thread, several at one time; the message (one line, no newline) lives for the call.
+ * It must not call back into the library. */
+typedef struct sgm_log_sink {
+  void (*write)(void* user, sgm_log_level level, const char* message);
+  void* user;
+} sgm_log_sink;
+
+/* The three tables are copied; what their `user` points to must outlive the runtime. */
+typedef struct sgm_runtime_desc {
+  uint32_t struct_size;
+  const void* next;
+  uint32_t api_version;           /* SGM_API_VERSION of the header in use; the _INIT macro sets it */
+  uint32_t threads;               /* where jobs is NULL: threads of the library's own, 1 to 1,024; 0: one a processor */
+  const sgm_allocator* allocator; /* NULL: malloc and free */
+  const sgm_job_system* jobs;     /* NULL: a thread pool of the runtime's own */
+  const sgm_log_sink* log;        /* NULL: no messages */
+  uint64_t memory_limit;          /* most bytes to hold from the allocator at one time; 0: no limit */
+} sgm_runtime_desc;
+
+#define SGM_RUNTIME_DESC_INIT \
+  { SGM_SIZEOF(sgm_runtime_desc), SGM_NULL, SGM_API_VERSION, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0 }
+
+/* desc may be NULL: all defaults. A program built with another major version, or with a newer minor one (while the major
+ * version is 0: with any other minor one) is refused with SGM_ERR_VERSION. */
+SGM_API sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, sgm_error* error);
+
+/* SGM_ERR_BUSY, and nothing happens, while a handle made from this runtime lives. NULL is SGM_OK. */
+SGM_API sgm_result sgm_runtime_destroy(sgm_runtime* runtime);
+
+/* Bytes held from the allocator now, and the most at any one time. Either pointer may be NULL. */
+SGM_API sgm_result sgm_runtime_memory(const sgm_runtime* runtime, uint64_t* live, uint64_t* peak);
+
+/* ------------------------------------------------------------------------------------------------------- backends */
+
+typedef enum sgm_backend {
+  SGM_BACKEND_AUTO = 0, /* CUDA, then a hardware Vulkan device, then the CPU: the first that is usable here */
+  SGM_BACKEND_CPU = 1,
+  SGM_BACKEND_VULKAN = 2,
+  SGM_BACKEND_CUDA = 3,
+  SGM_BACKEND_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_backend;
+
+/* Filled by sgm_backend_query. */
+typedef struct sgm_backend_info {
+  uint32_t struct_size;
+  const void* next;
+  sgm_backend backend;         /* the one asked for; for AUTO the one chosen */
+  int32_t usable;              /* 1: work can be given to it here; 0: `reason` says why not */
+  int32_t exact;               /* 1: follows the arithmetic contract, so gives the same bytes as every other exact one */
+  uint32_t concurrency;        /* chunks worked on at one time, where usable */
+  char name[SGM_NAME_SIZE];    /* "cpu", "vulkan", "cuda" */
+  char device[SGM_NAME_SIZE];  /* device or instruction set in use, "AVX2"; empty where not usable */
+  char reason[SGM_NAME_SIZE];  /* empty where usable */
+} sgm_backend_info;
+
+#define SGM_BACKEND_INFO_INIT \
+  { SGM_SIZEOF(sgm_backend_info), SGM_NULL, SGM_BACKEND_AUTO, 0, 0, 0, { 0 }, { 0 }, { 0 } }
+
+/* Says whether a backend can be used here, and why not. A backend that is not usable is SGM_OK with usable = 0; a number
+ * that is no backend is SGM_ERR_INVALID_ARGUMENT. */
+SGM_API sgm_result sgm_backend_query(const sgm_runtime* runtime, sgm_backend backend, sgm_backend_info* info,
+                                     sgm_error* error);
+
+/* ------------------------------------------------------------------------------------------------------- grammars */
+
+/* A compiled grammar: immutable, shared freely between threads. */
+typedef struct sgm_grammar sgm_grammar;
+
+/* The messages of one compilation, errors and warnings, in text order. */
+typedef struct sgm_diagnostics sgm_diagnostics;
+
+/* Finds the text of `import "path" as name;`. `path` is as written, made relative to the root: segments joined by '/',
+ * never absolute, never with "..". Returns non-zero and sets text and size (bytes), or returns 0 where there is no such
+ * text. The text must stay as it is until sgm_grammar_compile returns. Called on the compiling thread only.
+ * Paths that begin with "std/" are built in and never asked for. */
+typedef int32_t (*sgm_import_function)(void* user, const char* path, const char** text, size_t* size);
+
+typedef struct sgm_grammar_desc {
+  uint32_t struct_size;
+  const void* next;
+  const char* text;           /* need not end in 0; copied */
+  size_t text_size;           /* bytes; SIZE_MAX: text ends in 0 */
+  const char* name;           /* file name for messages; NULL: "grammar" */
+  const char* import_folder;  /* imports are read from files in this folder, and never from outside it; or NULL */
+  sgm_import_function import_text; /* asked before import_folder; or NULL. With neither, only std/ can be imported */
+  void* import_user;
+} sgm_grammar_desc;
+
+#define SGM_GRAMMAR_DESC_INIT \
+  { SGM_SIZEOF(sgm_grammar_desc), SGM_NULL, SGM_NULL, SIZE_MAX, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL }
+
+/* Compiles a grammar. The text is untrusted: its size, depth, counts and the time it takes are capped.
+ * diagnostics may be NULL; else it receives a list of every message, whether the grammar compiled (then all of them are
+ * warnings) or not, and the caller ends it with sgm_diagnostics_destroy in both cases. It is NULL only where the call
+ * failed before it read the text (a wrong argument, no memory).
+ * SGM_ERR_GRAMMAR: the text is wrong; error holds the first message. SGM_ERR_IO: an import could not be read.
+ * SGM_ERR_LIMIT: the text is larger than a cap. */
+SGM_API sgm_result sgm_grammar_compile(sgm_runtime* runtime, const sgm_grammar_desc* desc, sgm_grammar** out,
+                                       sgm_diagnostics** diagnostics, sgm_error* error);
+SGM_API void sgm_grammar_destroy(sgm_grammar* grammar);
+
+/* A hash of the meaning-bearing text, imports included: equal on every machine. 0 for NULL. */
+SGM_API uint64_t sgm_grammar_hash(const sgm_grammar* grammar);
+
+typedef struct sgm_diagnostic {
+  uint32_t struct_size;
+  const void* next;
+  sgm_log_level severity;  /* SGM_LOG_ERROR or SGM_LOG_WARNING */
+  int32_t line, column;    /* from 1; columns count bytes */
+  int32_t length;          /* bytes from column that the message is about, at least 1 */
+  const char* file;        /* name of the text that it is in: the grammar's own, or an import's path */
+  const char* message;     /* one line, without place */
+  const char* hint;        /* what might have been meant, or "" */
+  const char* source_line; /* the line of text, without its newline, or "" */
+} sgm_diagnostic;
+
+#define SGM_DIAGNOSTIC_INIT \
+  { SGM_SIZEOF(sgm_diagnostic), SGM_NULL, SGM_LOG_ERROR, 0, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL }
+
+SGM_API void sgm_diagnostics_destroy(sgm_diagnostics* diagnostics);
+SGM_API uint32_t sgm_diagnostics_count(const sgm_diagnostics* diagnostics); /* 0 for NULL */
+/* Texts in out live as long as diagnostics. SGM_ERR_NOT_FOUND: no such index. */
+SGM_API sgm_result sgm_diagnostics_get(const sgm_diagnostics* diagnostics, uint32_t index, sgm_diagnostic* out);
+
+/* A grammar's materials and tags, by the index that vertices carry. Index 0 is the default material ("" where the
+ * grammar names none), and no tag. The name lives as long as the grammar; NULL for no such index or a NULL grammar. */
+SGM_API uint32_t sgm_grammar_material_count(const sgm_grammar* grammar);
+SGM_API const char* sgm_grammar_material(const sgm_grammar* grammar, uint32_t index);
+SGM_API uint32_t sgm_grammar_tag_count(const sgm_grammar* grammar);
+SGM_API const char* sgm_grammar_tag(const sgm_grammar* grammar, uint32_t index);
+/* Names of anchor kinds and anchors, by the indices in sgm_anchor. */
+SGM_API uint32_t sgm_grammar_name_count(const sgm_grammar* grammar);
+SGM_API const char* sgm_grammar_name(const sgm_grammar* grammar, uint32_t index);
+
+/* A layer of the grammar: an endless lattice of cells, each derived on its own. Coarse layers come first. */
+typedef struct sgm_layer_info {
+  uint32_t struct_size;
+  const void* next;
+  const char* name;    /* lives as long as the grammar */
+  int32_t cell_units;  /* edge of a cell; 0: the layer is one cell, of a grammar without layers */
+  int32_t reach_units; /* how far from its cell a shape may reach */
+} sgm_layer_info;
+
+#define SGM_LAYER_INFO_INIT { SGM_SIZEOF(sgm_layer_info), SGM_NULL, SGM_NULL, 0, 0 }
+
+SGM_API uint32_t sgm_grammar_layer_count(const sgm_grammar* grammar);
+/* SGM_ERR_NOT_FOUND: no such index. */
+SGM_API sgm_result sgm_grammar_layer(const sgm_grammar* grammar, uint32_t index, sgm_layer_info* out);
+
+/* ----------------------------------------------------------------------------------------------------- parameters */
+
+typedef enum sgm_quantity {
+  SGM_QUANTITY_NUMBER = 0, /* no unit; 50% is 0.5 */
+  SGM_QUANTITY_LENGTH = 1, /* metres */
+  SGM_QUANTITY_ANGLE = 2,  /* radians */
+  SGM_QUANTITY_OTHER = 3,  /* any other dimension (an area, a density): powers of metres */
+  SGM_QUANTITY_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_quantity;
+
+typedef struct sgm_parameter_info {
+  uint32_t struct_size;
+  const void* next;
+  const char* name; /* texts live as long as the grammar */
+  const char* doc;  /* what the grammar says of it, or "" */
+  sgm_quantity quantity;
+  int32_t line;           /* where it is declared, from 1 */
+  double default_value;   /* in the quantity's unit */
+  double minimum, maximum; /* both allowed; -infinity and infinity where the grammar gives no range */
+} sgm_parameter_info;
+
+#define SGM_PARAMETER_INFO_INIT \
+  { SGM_SIZEOF(sgm_parameter_info), SGM_NULL, SGM_NULL, SGM_NULL, SGM_QUANTITY_NUMBER, 0, 0.0, 0.0, 0.0 }
+
+SGM_API uint32_t sgm_grammar_parameter_count(const sgm_grammar* grammar); /* 0 for NULL */
+/* SGM_ERR_NOT_FOUND: no such index. */
+SGM_API sgm_result sgm_grammar_parameter(const sgm_grammar* grammar, uint32_t index, sgm_parameter_info* out);
+
+/* A value for every parameter of one grammar, at first the defaults. A field copies it when it is made. */
+typedef struct sgm_parameters sgm_parameters;
+
+SGM_API sgm_result sgm_parameters_create(const sgm_grammar* grammar, sgm_parameters** out, sgm_error* error);
+SGM_API void sgm_parameters_destroy(sgm_parameters* parameters);
+/* SGM_ERR_NOT_FOUND: no such parameter (the message offers the nearest name). SGM_ERR_INVALID_ARGUMENT: not finite, or
+ * outside the parameter's range. On failure nothing changes. */
+SGM_API sgm_result sgm_parameters_set(sgm_parameters* parameters, const char* name, double value, sgm_error* error);
+/* As above from a text with a unit, "0.3", "50%", "12 m"; SGM_ERR_GRAMMAR where it is no number or has a wrong unit. */
+SGM_API sgm_result sgm_parameters_set_text(sgm_parameters* parameters, const char* name, const char* text,
+                                           sgm_error* error);
+SGM_API sgm_result sgm_parameters_get(const sgm_parameters* parameters, const char* name, double* value,
+                                      sgm_error* error);
+
+/* ---------------------------------------------------------------------------------------------------------- fields */
+
+/* A grammar with its parameters, its seed and its finest cell: everything that the world depends on. Immutable in what
+ * it answers; keeps a cache of derived cells inside. */
+typedef struct sgm_field sgm_field;
+
+typedef struct sgm_field_desc {
+  uint32_t struct_size;
+  const void* next;
+  const sgm_grammar* grammar;       /* kept alive by the field */
+  const sgm_parameters* parameters; /* of this grammar; copied. NULL: defaults */
+  uint64_t seed;                    /* mixed with the grammar's own `seed` */
+  int32_t cell_units;               /* edge of a level-0 cell, 1 to 2^20 units; see sgm_cell_from_metres */
+  sgm_backend backend;              /* SGM_ERR_UNSUPPORTED where it is not usable here */
+  uint64_t cache_bytes;             /* derived cells to keep, about; 0: 64 MiB */
+} sgm_field_desc;
+
+#define SGM_FIELD_DESC_INIT \
+  { SGM_SIZEOF(sgm_field_desc), SGM_NULL, SGM_NULL, SGM_NULL, 0, SGM_UNITS_PER_METRE / 2, SGM_BACKEND_AUTO, 0 }
+
+SGM_API sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sgm_field** out,
+                                    sgm_error* error);
+SGM_API void sgm_field_destroy(sgm_field* field);
+
+/* Rounds a cell edge in metres to the nearest whole number of units (0.1 m becomes 102 units, 0.099609375 m).
+ * SGM_ERR_INVALID_ARGUMENT: not a number or not above 0. SGM_ERR_RANGE: under one unit or above 2^20 units. */
+SGM_API sgm_result sgm_cell_from_metres(double metres, int32_t* units, sgm_error* error);
+
+/* One sample point's results go to the same index of each array that is not NULL. */
+typedef struct sgm_sample_desc {
+  uint32_t struct_size;
+  const void* next;
+  const int32_t* points;  /* x y z in units */
+  size_t point_stride;    /* bytes from one point to the next, a multiple of 4; 0: 12 */
+  size_t count;           /* points; 0 is SGM_OK */
+  int32_t level;          /* 0 to SGM_MAX_LEVEL: what coarse chunks leave out is left out here too */
+  int32_t* q;             /* quantised field, what meshes are made of: floor(field * 1024 / finest cell + 0.5),
+                             clamped to +-2^22; solid below 0 */
+  float* values;          /* field in metres, negative inside the solid; a distance near the surface, bounded far off */
+  float* gradients;       /* 3 a point: the field's gradient over metres; points out of the solid */
+  uint16_t* materials;    /* of the shape that is nearest to its surface there */
+  uint16_t* tags;
+} sgm_sample_desc;
+
+#define SGM_SAMPLE_DESC_INIT \
+  { SGM_SIZEOF(sgm_sample_desc), SGM_NULL, SGM_NULL, 0, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL }
+
+/* Evaluates the field at points, exactly as meshing does. Blocks; uses the job system. On failure the arrays hold
+ * anything. */
+SGM_API sgm_result sgm_field_sample(sgm_field* field, const sgm_sample_desc* desc, sgm_error* error);
+
+/* An oriented point for the game (a spawn place, a door), given by the grammar. */
+typedef struct sgm_anchor {
+  int32_t position[3]; /* units */
+  float rotation[9];   /* row-major, orthonormal: world direction to the anchor's local direction */
+  uint16_t kind;       /* index for sgm_grammar_name */
+  uint16_t name;       /* index for sgm_grammar_name */
+  uint16_t tag;        /* index for sgm_grammar_tag */
+  uint16_t reserved;   /* 0 */
+  uint64_t key;        /* the same for this anchor in every run; differs from every other anchor's */
+} sgm_anchor;
+
+/* Writes the anchors in the closed box minimum..maximum (units), in an order that depends on nothing else. *count takes
+ * the anchors array's room, and returns how many there are; SGM_INCOMPLETE where they did not fit. anchors may be NULL
+ * with *count = 0, to ask. */
+SGM_API sgm_result sgm_field_anchors(sgm_field* field, const int32_t minimum[3], const int32_t maximum[3],
+                                     sgm_anchor* anchors, size_t* count, sgm_error* error);
+
+/* ---------------------------------------------------------------------------------------------------- chunk meshes */
+
+/* The mesh of one chunk, packed for drawing. Immutable and counted by reference. */
+typedef struct sgm_mesh sgm_mesh;
+
+/* Names a chunk. Its edge is 32 cells of its level, its cell edge is the field's cell_units << level, and its lowest
+ * corner is (x, y, z) times its edge. */
+typedef struct sgm_chunk_key {
+  int32_t level; /* 0 to SGM_MAX_LEVEL */
+  int32_t x, y, z;
+} sgm_chunk_key;
+
+/* Faces of a chunk. A mask has bit (1u << face). */
+typedef enum sgm_face {
+  SGM_FACE_X_LOW = 0,
+  SGM_FACE_X_HIGH = 1,
+  SGM_FACE_Y_LOW = 2,
+  SGM_FACE_Y_HIGH = 3,
+  SGM_FACE_Z_LOW = 4,
+  SGM_FACE_Z_HIGH = 5,
+  SGM_FACE_COUNT = 6,
+  SGM_FACE_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_face;
+
+typedef struct sgm_chunk_request {
+  sgm_chunk_key key;
+  uint32_t seams; /* faces to make seams for: those whose neighbour may be drawn one level coarser */
+} sgm_chunk_request;
+
+/* Long work says how far it is. Called on any thread, one call at a time, with done rising to total; must not call back
+ * into the library. Returns 0 to go on; anything else stops the work with SGM_ERR_CANCELLED. */
+typedef int32_t (*sgm_progress_function)(void* user, uint64_t done, uint64_t total);
+
+typedef struct sgm_chunks_desc {
+  uint32_t struct_size;
+  const void* next;
+  const sgm_chunk_request* requests;
+  size_t count; /* requests, 1 to 2^20 */
+  sgm_progress_function progress; /* or NULL */
+  void* progress_user;
+} sgm_chunks_desc;
+
+#define SGM_CHUNKS_DESC_INIT { SGM_SIZEOF(sgm_chunks_desc), SGM_NULL, SGM_NULL, 0, SGM_NULL, SGM_NULL }
+
+/* Meshes chunks; meshes[i] is the one of requests[i], an empty mesh where no surface crosses it. Blocks; uses the job
+ * system. Give it many chunks at once. All or nothing: on failure every entry of meshes is NULL.
+ * SGM_ERR_RANGE: a chunk does not lie inside the world wholly. */
+SGM_API sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_mesh** meshes, sgm_error* error);
+
+/* One more owner, and one less. A mesh ends with its last owner. Both accept NULL. */
+SGM_API void sgm_mesh_acquire(sgm_mesh* mesh);
+SGM_API void sgm_mesh_release(sgm_mesh* mesh);
+
+/* A packed vertex, 16 bytes, the same on every backend. */
+typedef struct sgm_vertex {
+  uint16_t x, y, z;           /* 0 to 8,192 in 1/256 of the chunk's cell edge, from the chunk's origin */
+  uint16_t material;          /* index for sgm_grammar_material */
+  int16_t normal_x, normal_y; /* octahedral, +-32,767: with n = normal / 32767 and w = 1 - |n.x| - |n.y|, the normal is
+                                 (n.x, n.y, w) where w >= 0, else ((1 - |n.y|) * sign(n.x), (1 - |n.x|) * sign(n.y), w),
+                                 then made one long; sign(0) is 1 */
+  uint16_t tag;               /* index for sgm_grammar_tag */
+  uint16_t reserved;          /* 0 */
+} sgm_vertex;
+
+/* The body of a chunk or one of its seams: draw the body always, and a seam where the neighbour across its face is one
+ * level coarser. */
+typedef struct sgm_mesh_range {
+  uint32_t first_vertex, vertex_count;
+  uint32_t first_index, index_count;
+  uint64_t hash; /* of this range's vertices and triangles, equal on every machine */
+} sgm_mesh_range;
+
+/* Pointers into a mesh, good until the mesh ends. */
+typedef struct sgm_mesh_view {
+  uint32_t struct_size;
+  const void* next;
+  sgm_chunk_key key;
+  int32_t origin[3];       /* lowest corner, units */
+  int32_t cell_units;      /* cell edge of this chunk: the field's << level */
+  int32_t bounds_min[3];   /* holds every vertex, seams included, units; all 0 where there is none */
+  int32_t bounds_max[3];
+  const sgm_vertex* vertices; /* body first, then the seams by face */
+  const uint32_t* indices;    /* into vertices (not from the range's first), three a triangle */
+  uint32_t vertex_count, vertex_stride; /* stride in bytes */
+  uint32_t index_count, index_stride;
+  sgm_mesh_range body;
+  sgm_mesh_range seams[6];    /* by sgm_face; empty where not asked for */
+  uint64_t hash;              /* of body and seams together */
+  const sgm_anchor* anchors;  /* in this chunk: low faces belong to it, high ones do not */
+  uint32_t anchor_count, anchor_stride;
+  const uint16_t* tags;       /* tags that its vertices carry, rising, 0 left out */
+  uint32_t tag_count;
+  uint32_t reserved;          /* 0 */
+} sgm_mesh_view;
+
+#define SGM_MESH_RANGE_INIT { 0, 0, 0, 0, 0 }
+#define SGM_MESH_VIEW_INIT                                                                                         \
+  {                                                                                                                \
+    SGM_SIZEOF(sgm_mesh_view), SGM_NULL, { 0, 0, 0, 0 }, { 0, 0, 0 }, 0, { 0, 0, 0 }, { 0, 0, 0 }, SGM_NULL,       \
+        SGM_NULL, 0, 0, 0, 0, SGM_MESH_RANGE_INIT,                                                                 \
+        { SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, \
+          SGM_MESH_RANGE_INIT },                                                                                   \
+        0, SGM_NULL, 0, 0, SGM_NULL, 0, 0                                                                          \
+  }
+
+SGM_API sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_error* error);
+
+/* Copies into the caller's memory. Counts come in as the arrays' room (in elements) and go out as what the mesh has.
+ * Either array may be NULL: it is not written, and its count only asks. SGM_INCOMPLETE: an array was too small; nothing
+ * was written to that one. Counts must not be NULL. */
+SGM_API sgm_result sgm_mesh_copy(const sgm_mesh* mesh, sgm_vertex* vertices, size_t* vertex_count, uint32_t* indices,
+                                 size_t* index_count, sgm_error* error);
+
+/* ------------------------------------------------------------------------------- surfaces: welded, for tools */
+
+/* One mesh in floats, each vertex once: of a region of many chunks, or of a grid of the caller's. Immutable. */
+typedef struct sgm_surface sgm_surface;
+
+typedef struct sgm_region_desc {
+  uint32_t struct_size;
+  const void* next;
+  int32_t minimum[3], maximum[3]; /* units, minimum < maximum; grown outward to whole chunks of the level */
+  int32_t level;                  /* 0 to SGM_MAX_LEVEL */
+  uint64_t max_chunks;            /* SGM_ERR_LIMIT where the region has more; 0: 65,536 */
+  sgm_progress_function progress; /* or NULL */
+  void* progress_user;
+} sgm_region_desc;
+
+#define SGM_REGION_DESC_INIT \
+  { SGM_SIZEOF(sgm_region_desc), SGM_NULL, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, SGM_NULL, SGM_NULL }
+
+/* Meshes a region and welds its chunks by exact keys: no open edge inside the region, open only where its outer faces
+ * cut the solid. Blocks; uses the job system. SGM_ERR_RANGE: the grown region leaves the world. SGM_ERR_LIMIT: too many
+ * chunks, or more vertices than 32-bit indices can name. */
+SGM_API sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc, sgm_surface** out,
+                                           sgm_error* error);
+
+/* Samples that the caller has. Value (i, j, k) is values[i + j * stride_y + k * stride_z] and lies at (i, j, k) * cell. */
+typedef struct sgm_grid_desc {
+  uint32_t struct_size;
+  const void* next;
+  const float* values; /* a length like a distance, in the unit of `cell`, negative inside the solid; finite. Quantised
+                          to cell / 1024 and clamped to +-4,096 cells, as fields are */
+  uint32_t size[3];    /* samples on x, y, z: 2 to 16,384 each; 2^33 together */
+  uint32_t reserved;   /* 0 */
+  size_t stride_y;     /* in floats, at least size[0]; 0: size[0] */
+  size_t stride_z;     /* in floats, at least size[1] * stride_y; 0: that */
+  double cell;         /* edge of a cell, above 0, finite, any unit: positions come out in it */
+  int32_t normals;     /* 1: normals from the grid's gradient (central differences, one-sided at the border); 0: none */
+  int32_t reserved2;   /* 0 */
+} sgm_grid_desc;
+
+#define SGM_GRID_DESC_INIT \
+  { SGM_SIZEOF(sgm_grid_desc), SGM_NULL, SGM_NULL, { 0, 0, 0 }, 0, 0, 0, 1.0, 1, 0 }
+
+/* Meshes a grid of samples. Open only where the grid's border cuts the solid. Blocks; uses the job system. */
+SGM_API sgm_result sgm_surface_from_grid(sgm_runtime* runtime, const sgm_grid_desc* desc, sgm_surface** out,
+                                         sgm_error* error);
+
+SGM_API void sgm_surface_destroy(sgm_surface* surface);
+
+/* Pointers into a surface, good until it ends. */
+typedef struct sgm_surface_view {
+  uint32_t struct_size;
+  const void* next;
+  int32_t origin[3];          /* units; positions count from here. All 0 for a grid */
+  int32_t cell_units;         /* cell edge; 0 for a grid */
+  int32_t extent_min[3];      /* the region grown to whole chunks, units; all 0 for a grid */
+  int32_t extent_max[3];
+  uint64_t vertex_count, index_count;
+  const float* positions;     /* 3 a vertex, metres from origin (a grid: in the unit of its cell) */
+  const float* normals;       /* 3 a vertex, one long; NULL where not asked for */
+  const uint16_t* materials;  /* NULL for a grid */
+  const uint16_t* tags;       /* NULL for a grid */
+  const uint32_t* indices;    /* three a triangle */
+  uint32_t position_stride, normal_stride, material_stride, tag_stride; /* bytes */
+  float bounds_min[3], bounds_max[3]; /* of the positions; all 0 where there is none */
+  uint64_t chunk_count;       /* chunks meshed; 1 for a grid */
+  uint64_t hash;              /* region: of its chunks' hashes, in any order of work; grid: of positions and triangles */
+} sgm_surface_view;
+
+#define SGM_SURFACE_VIEW_INIT                                                                                 \
+  {                                                                                                           \
+    SGM_SIZEOF(sgm_surface_view), SGM_NULL, { 0, 0, 0 }, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, SGM_NULL, SGM_NULL, \
+        SGM_NULL, SGM_NULL, SGM_NULL, 0, 0, 0, 0, { 0.0f, 0.0f, 0.0f }, { 0.0f, 0.0f, 0.0f }, 0, 0            \
+  }
+
+SGM_API sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_view* view, sgm_error* error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
