@@ -1,0 +1,216 @@
+#pragma once
+// The syntax tree of a whole program, all files in one set of arrays. The parser fills the written part; the checker
+// fills what is marked "resolved": after it no name needs to be looked up again. Indices are kNoId where absent.
+// Numbers are in metres, radians and plain ratios.
+
+#include <cstdint>
+#include <memory_resource>
+#include <string>
+#include <vector>
+
+#include "grammar/builtins.h"
+#include "grammar/diagnostics.h"
+#include "grammar/units.h"
+
+namespace sgm {
+
+inline constexpr uint32_t kNoId = 0xFFFFFFFFu;
+using ExprId = uint32_t;  ///< into Ast::exprs
+using StmtId = uint32_t;  ///< into Ast::stmts
+using NameId = uint32_t;  ///< into Ast::names
+
+/// A stretch of one of the Ast's index arrays.
+struct IdRange {
+  uint32_t first = 0, count = 0;
+};
+
+enum class ExprKind : uint8_t {
+  number,       ///< value, type.dim
+  text,         ///< name: its content
+  vector,       ///< (a, b, c) or the pair (a, b): children
+  negate,       ///< children[0]
+  logical_not,  ///< children[0]
+  binary,       ///< children[0] binary children[1]
+  conditional,  ///< if children[0] then children[1] else children[2]
+  range,        ///< children[0] .. children[1], the end left out
+  name,         ///< ref, id
+  member,       ///< children[0] . member; resolved away for `module.name` and for calls of methods
+  call,         ///< ref, id, bound
+};
+
+enum class BinaryOp : uint8_t {
+  add,
+  subtract,
+  multiply,
+  divide,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  not_equal,
+  logical_and,
+  logical_or
+};
+
+/// What a name or the callee of a call stands for (resolved); `id` is an index into the table named here.
+enum class Ref : uint8_t {
+  none,
+  parameter,  ///< Program::params
+  let,        ///< Program::lets; calls and plain names
+  field,      ///< Program::fields; calls and plain names
+  rule,       ///< Program::rules; calls only
+  primitive,  ///< static_cast<uint32_t>(Primitive); calls only
+  builtin,    ///< static_cast<uint32_t>(Builtin); calls; a method's receiver is bound[0]
+  value,      ///< static_cast<uint32_t>(BuiltinValue): cell, scope, p, q, u
+  local,      ///< slot of the frame of the rule alternative, let function or field that contains the name
+};
+
+enum class Member : uint8_t { none, x, y, z, other, axis, size, center, faces };
+
+struct ExprNode {
+  ExprKind kind = ExprKind::number;
+  BinaryOp binary = BinaryOp::add;
+  Ref ref = Ref::none;           ///< resolved
+  Member member = Member::none;  ///< resolved
+  bool parenthesised = false;    ///< written in parentheses that the printer keeps
+  Type type;                     ///< resolved; of let functions and fields: as last instantiated
+  double value = 0;              ///< number
+  NameId name = kNoId;           ///< name, member, text; number: as written, unit and all; call: last part
+  NameId qualifier = kNoId;      ///< call and name: `rock` of rock.fbm, once resolved to a module
+  uint32_t id = kNoId;           ///< resolved: see Ref
+  uint32_t ordinal = 0;          ///< resolved: rand, chance: number of this draw within its rule, let or field
+  IdRange children;              ///< into Ast::ids; of a call of a method: the receiver
+  IdRange args;                  ///< into Ast::args: as written
+  IdRange bound;                 ///< resolved, into Ast::ids: one ExprId for each parameter of the callee, in its
+                                 ///< order; kNoId: left out (use BuiltinParam::fallback). Defaults of lets, fields
+                                 ///< and rules are already put in. Variadic tails follow
+  Span span;
+};
+
+/// An argument as written: `value` or `name value`.
+struct ArgNode {
+  NameId name = kNoId;
+  ExprId value = kNoId;
+  Span span;
+};
+
+enum class StmtKind : uint8_t {
+  block,      ///< children; material and tag apply to all that is in it, also to what stands before them
+  call,       ///< expr: a call of a rule or a primitive
+  unite,      ///< union [smooth amount] body
+  cut,        ///< cut [smooth amount] body: takes the body away from what precedes in the block. Directly in the body
+              ///< of a layer's start rule (through loops, transforms, detail and plain blocks): from the domain
+  meet,       ///< meet [smooth amount] body: the intersection of the body's own statements, added to the block
+  sum,        ///< sum body: compact-kernel sum of the leaves
+  morph,      ///< children[0], children[1] (call or block), expr: t, power; at t = 0 the first, at t = 1 the second
+  displace,   ///< expr (length), amount: declared bound of |expr|, which clamps it, or kNoId; body
+  warp,       ///< expr (vector of lengths), amount: as in displace, for each component; body
+  transform,  ///< xforms, applied left to right from the outside in; body
+  repeat,     ///< expr: count; xforms: applied i times to copy i; body
+  for_each,   ///< slot: loop variable; expr: a range or faces; body
+  scatter,    ///< extra: Ast::scatters; body
+  let,        ///< slot = expr, from here to the end of the block
+  field,      ///< extra: Program::fields, evaluated in this frame where it is used
+  mat,        ///< extra: Program::materials
+  tag,        ///< extra: Program::tags
+  anchor,     ///< extra: kind, extra2: name; both Program::names
+  detail,     ///< expr: length; body is dropped at levels whose cell edge is larger
+};
+
+struct StmtNode {
+  StmtKind kind = StmtKind::block;
+  bool power = false;        ///< morph: by exponent
+  bool layer_level = false;  ///< resolved, cut: cuts the domain (the statement can be reached only at layer level)
+  uint16_t material = 0;     ///< resolved, block: Program::materials, 0 inherits
+  uint16_t tag = 0;          ///< resolved, block: Program::tags, 0 inherits
+  uint32_t ordinal = 0;      ///< resolved: number of this statement within its rule, for path keys
+  ExprId expr = kNoId;
+  ExprId amount = kNoId;  ///< smooth radius (length) or declared amplitude
+  StmtId body = kNoId;
+  uint32_t slot = kNoId;  ///< resolved: let, for_each
+  uint32_t extra = kNoId, extra2 = kNoId;
+  NameId name = kNoId;   ///< as written: loop variable, let, mat, tag, anchor kind
+  NameId name2 = kNoId;  ///< as written: anchor name
+  IdRange children;      ///< into Ast::ids (StmtId)
+  IdRange xforms;        ///< into Ast::xforms
+  Span span;
+};
+
+enum class XformKind : uint8_t {
+  at,      ///< a: a point, or a, b, c: lengths (kNoId is 0): moves the scope
+  rot,     ///< axis 0 1 2, or a: vector (any length but 0) where axis is 3; b: angle, right-handed
+  scale,   ///< a: factor > 0
+  size,    ///< a, b, c: the edges of the scope's box (kNoId keeps one), or a: a vector of all three
+  mirror,  ///< axis 0 1 2: that coordinate changes its sign
+};
+
+struct XformNode {
+  XformKind kind = XformKind::at;
+  uint8_t axis = 3;
+  ExprId a = kNoId, b = kNoId, c = kNoId;  ///< resolved from args
+  IdRange args;                            ///< into Ast::args: as written
+  Span span;
+};
+
+enum class ScatterArea : uint8_t {
+  cell,   ///< the box from the scope's origin to the cell's size; poisson only
+  shell,  ///< a: radius; b: up, the share of the sphere from the top (0..1, default 1)
+  box,    ///< a, b, c: edges, centred (or a: a vector)
+  disc,   ///< a: radius, in the plane y = 0
+};
+
+/// Points keep the scope's axes. With probe: the point moves to the first surface of the layer within the distance,
+/// and is left out where there is none or where it does not start in the open.
+struct ScatterNode {
+  bool poisson = false;
+  ExprId count = kNoId;  ///< a count, or the least distance with poisson
+  ScatterArea area = ScatterArea::cell;
+  ExprId a = kNoId, b = kNoId, c = kNoId;  ///< resolved from args
+  IdRange args;                            ///< into Ast::args: as written
+  int probe = 0;                           ///< 0 none, 1 up (+y), -1 down
+  ExprId distance = kNoId;
+  NameId layer_name = kNoId;
+  uint32_t layer = kNoId;  ///< resolved: Program::layers
+  ExprId when = kNoId;     ///< each point draws by itself
+  Span span;
+};
+
+/// A parameter of a rule, let function or field.
+struct FormalNode {
+  NameId name = kNoId;
+  ExprId fallback = kNoId;  ///< written default
+  Type type;                ///< resolved for rules
+  uint32_t slot = kNoId;    ///< resolved: its place in the frame; of rules, lets and global fields: its position
+  Span span;
+};
+
+/// A comment, kept for the printer.
+struct Comment {
+  uint32_t begin = 0, end = 0;
+  int line = 0;
+  bool own_line = false;  ///< nothing stands before it on its line
+};
+
+struct Ast {
+  std::pmr::vector<ExprNode> exprs;
+  std::pmr::vector<StmtNode> stmts;
+  std::pmr::vector<XformNode> xforms;
+  std::pmr::vector<ScatterNode> scatters;
+  std::pmr::vector<ArgNode> args;
+  std::pmr::vector<FormalNode> formals;
+  std::pmr::vector<uint32_t> ids;
+  std::pmr::vector<std::pmr::string> names;
+
+  explicit Ast(std::pmr::memory_resource* memory)
+      : exprs(memory),
+        stmts(memory),
+        xforms(memory),
+        scatters(memory),
+        args(memory),
+        formals(memory),
+        ids(memory),
+        names(memory) {}
+};
+
+}  // namespace sgm

@@ -1,0 +1,101 @@
+#pragma once
+// Everything the language knows without a declaration, with its signature. The tables are in builtins.cpp.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "grammar/units.h"
+
+namespace sgm {
+
+/// Names that stand for a value.
+enum class BuiltinValue : uint8_t {
+  cell,   ///< the cell being derived (rules only)
+  scope,  ///< vector: edges of the scope's box (rules only); a rule starts with its layer's cell or the domain's box
+  p,      ///< sample time: world position, metres
+  q,      ///< sample time: position in the scope in which the field is used, metres
+  u,      ///< sample time: 0..1 along the sweep (tube, beam) around it
+};
+
+/// Functions of values. Positions are measured in the scope that the rule starts with: a layer's start rule starts at
+/// the low corner of its cell (on axes that the domain does not name: at 0), axes as the world's.
+enum class Builtin : uint8_t {
+  min,           ///< (a, b); any stage
+  max,           ///< (a, b)
+  abs,           ///< (a)
+  floor,         ///< (a) ratio
+  ceil,          ///< (a) ratio, derive time
+  sqrt,          ///< (a): halves the dimension
+  mix,           ///< (a, b, t)
+  clamp,         ///< (a, low, high)
+  smoothstep,    ///< (low, high, x): 0 at low, 1 at high; low and high derive time; low > high turns it round
+  fract,         ///< (a) ratio: a - floor(a)
+  sin,           ///< (angle), derive time
+  cos,           ///< (angle), derive time
+  atan2,         ///< (y, x) -> angle, derive time
+  pow,           ///< (a, b) ratios, a >= 0, derive time
+  length,        ///< (vector), derive time
+  rand,          ///< (a, b): uniform in [a, b) by derivation path; derive time
+  rand_keyed,    ///< rand(key, a, b): by the key alone (a cell, a face or a number), the same wherever it is drawn
+  chance,        ///< (p): true with probability p, by derivation path
+  chance_keyed,  ///< chance(key, p)
+  cell_noise,    ///< cellnoise(cell, period, seed = 0): smooth noise 0..1 at the centre of the cell; derive time
+  fractal,       ///< (period, octaves = 1, seed = 0): fractal gradient noise of p in -1..1; sample time. The arguments
+                 ///< are derive time; period is rounded to units; octaves 1..12
+  cell_point,    ///< cell.point(jitter = 0.5): a point of the cell; 0 its centre, 1 anywhere in it. bound[0]: the cell
+  cell_links,    ///< cell.links(tree = 3, extra = 0): faces that a passage crosses; each face by its lower cell only,
+                 ///< so that a link is derived once; connected within blocks of 2^tree cells and between them
+  face_point,    ///< face.point(jitter = 0.5): a point of the face
+  position,      ///< vec(x, y, z), the same as (x, y, z)
+};
+
+/// Terminals. Centred on the scope's origin, axis y, unless said otherwise.
+enum class Primitive : uint8_t {
+  sphere,     ///< (r)
+  box,        ///< (x, y, z) full edges, or (edge), or (vector), such as box(scope)
+  cylinder,   ///< (r, h): h is the full height
+  truncone,   ///< (h, top, bottom): radii at +h/2 and -h/2
+  capsule,    ///< (a, b, r): from point a to point b
+  torus,      ///< (ring, tube): radii
+  ellipsoid,  ///< (x, y, z) radii, or (vector)
+  superq,     ///< (radii vector, square): square 0 an ellipsoid, 1 nearly a box (exponent 2 / (1 - s + s*2/kMaxPower))
+  blob,       ///< (r): a sphere; the usual leaf of `sum`
+  halfspace,  ///< (below h) or (above h): y under (over) h
+  tube,       ///< (a, b, r, bend = 0): round section from a to b along an arc that leaves the line by at most bend
+  beam,       ///< (a, b, r, bend = 0): as tube with a square section of half edge r
+  prism,      ///< (h, (x, z), (x, z), (x, z) ...): polygon of 3 to 64 corners, extruded to full height h
+};
+
+/// One parameter of a builtin or a primitive.
+struct BuiltinParam {
+  std::string_view name;
+  ValueKind kind;
+  Dim dim;
+  bool any_dim = false;  ///< numbers of any dimension; the first such argument sets it for all that are any_dim
+  bool required = true;
+  double fallback = 0;      ///< where it is left out
+  bool named_only = false;  ///< must be written `name value`
+  bool derive_only = true;  ///< a sample-time argument is an error
+};
+
+struct BuiltinInfo {
+  std::string_view name;
+  Builtin id;
+  std::span<const BuiltinParam> params;  ///< without a method's receiver
+};
+
+struct PrimitiveInfo {
+  std::string_view name;
+  Primitive id;
+  std::span<const BuiltinParam> params;
+  bool variadic = false;  ///< prism: more pairs may follow
+};
+
+std::span<const BuiltinInfo> builtinTable();      ///< functions, by enumerator
+std::span<const PrimitiveInfo> primitiveTable();  ///< by enumerator
+/// nullptr where there is none. rand and chance give the form without a key.
+const BuiltinInfo* findBuiltin(std::string_view name);
+const PrimitiveInfo* findPrimitive(std::string_view name);
+
+}  // namespace sgm

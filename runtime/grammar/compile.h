@@ -1,0 +1,71 @@
+#pragma once
+// Text to Program: the front door of the language. Grammar text is untrusted: size, depth, count and time are capped.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "grammar/diagnostics.h"
+#include "grammar/program.h"
+
+namespace sgm {
+
+/// Gives the text of an import. Paths are already checked: relative to the root file's folder, forward slashes, no
+/// empty part, no "." or "..", no drive, nothing absolute, ending in ".sgm", at most 255 bytes. A resolver that reads a
+/// disk must also refuse links that leave the folder. Called on the compiling thread only.
+class ImportResolver {
+ public:
+  virtual ~ImportResolver() = default;
+  /// Error code io where there is no such file. At most `limit` bytes; a longer file is an error of code limit.
+  virtual Result<std::string> read(std::string_view path, size_t limit) = 0;
+};
+
+struct CompileLimits {
+  size_t text_bytes = 1u << 20;   ///< of one file
+  size_t total_bytes = 4u << 20;  ///< of all files
+  uint32_t files = 64;
+  uint32_t import_depth = 16;
+  uint32_t nesting = 64;            ///< of blocks and of expressions
+  uint32_t nodes = 1u << 20;        ///< tokens, expressions and statements together
+  uint32_t diagnostics = 50;        ///< errors after which the compiler gives up
+  uint32_t bound_steps = 1u << 18;  ///< of the analyses that evaluate rules
+  int32_t neighbours = 4;           ///< cells that a layer's reach may span to each side
+};
+
+struct CompileOptions {
+  ImportResolver* resolver = nullptr;  ///< nullptr: only std/ imports
+  CompileLimits limits;
+  std::pmr::memory_resource* memory = std::pmr::get_default_resource();  ///< must outlive the Program
+};
+
+struct SourceFile {
+  std::string path, text;
+};
+
+/// The program is there exactly where no diagnostic is an error. Diagnostics are in order of file and place.
+struct CompileResult {
+  std::shared_ptr<const Program> program;
+  std::vector<Diagnostic> diagnostics;
+  std::vector<SourceFile> files;  ///< what was read, for renderDiagnostic
+};
+
+/// Thread-safe: no state is kept between calls. `path` is only for messages. May throw std::bad_alloc.
+CompileResult compileGrammar(std::string_view text, std::string_view path, const CompileOptions& options = {});
+
+/// `sgm fmt`: the canonical layout of one file, comments kept; a fixed point. Needs correct syntax only.
+struct FormatResult {
+  std::optional<std::string> text;
+  std::vector<Diagnostic> diagnostics;
+};
+FormatResult formatGrammar(std::string_view text, std::string_view path, const CompileLimits& limits = {});
+
+/// All diagnostics of a result, rendered one after another.
+std::string renderDiagnostics(const CompileResult& result);
+
+}  // namespace sgm

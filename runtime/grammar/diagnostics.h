@@ -1,0 +1,39 @@
+#pragma once
+// What is wrong with a grammar, where, and what to do about it. Plain values; safe to copy between threads.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sgm {
+
+/// A stretch of one source file. Lines and columns count from 1, columns in bytes; end_column is one past the last
+/// byte and lies on the line of `end_line`. Offsets are bytes from the start of the file.
+struct Span {
+  uint32_t file = 0;  ///< index into Program::modules (or CompileResult::files)
+  uint32_t begin = 0, end = 0;
+  int line = 0, column = 0;
+  int end_line = 0, end_column = 0;
+};
+
+enum class Severity : uint8_t { error, warning };
+
+struct Diagnostic {
+  Severity severity = Severity::error;
+  std::string code;     ///< stable kebab-case name, such as "unit-mismatch"; the list is in codes.h
+  std::string message;  ///< one line, no full stop
+  std::string file;     ///< as the caller named it, or the path of an import
+  int line = 0, column = 0, end_column = 0;
+  std::string hint;                ///< what to write instead; may be empty
+  std::vector<std::string> notes;  ///< further places and facts, one line each
+};
+
+/// "file:line:column: error: message", the source line, a caret line, the hint and the notes. `source` is the text of
+/// the diagnostic's file; where it is empty the source line and the caret are left out. Ends with a line feed.
+std::string renderDiagnostic(const Diagnostic& diagnostic, std::string_view source);
+
+/// "1 error, 2 warnings"
+std::string countDiagnostics(const std::vector<Diagnostic>& diagnostics);
+
+}  // namespace sgm

@@ -1,0 +1,46 @@
+#pragma once
+// Dimensions and types of the language's values.
+
+#include <cstdint>
+#include <string>
+
+namespace sgm {
+
+/// Exponents of length and angle. Ratios, counts and percentages are {0, 0}; an area is {2, 0}.
+/// Numbers are kept in metres, radians and plain ratios (30% is 0.3).
+struct Dim {
+  int8_t length = 0, angle = 0;
+  friend constexpr bool operator==(Dim, Dim) = default;
+};
+
+inline constexpr Dim kRatio{0, 0}, kLength{1, 0}, kAngle{0, 1}, kArea{2, 0}, kVolume{3, 0};
+
+/// "length", "angle", "ratio", "area", "volume", otherwise "length^2 angle".
+std::string dimName(Dim dim);
+
+enum class ValueKind : uint8_t {
+  unknown,  ///< a parameter of a rule that nothing calls; agrees with everything
+  number,   ///< one number of dimension dim
+  boolean,
+  vector,  ///< three numbers of dimension dim; a point where dim is length
+  pair,    ///< two numbers of dimension dim (corners of a prism, x and z)
+  cell,    ///< a cell of the layer: `cell`, or `other` of a face
+  face,    ///< a face of a cell, from cell.faces or cell.links
+  faces,   ///< a list of faces, for `for`
+  range,   ///< a..b of whole numbers, for `for`
+  text,
+  axis,  ///< x, y or z as an argument
+};
+
+struct Type {
+  ValueKind kind = ValueKind::unknown;
+  Dim dim;
+  bool sample = false;   ///< known at sample time only (depends on p, q, u or noise)
+  bool any_dim = false;  ///< the literal 0, which fits every dimension
+  friend constexpr bool operator==(const Type&, const Type&) = default;
+};
+
+/// "length", "point", "cell", "sample-time ratio" ...
+std::string typeName(const Type& type);
+
+}  // namespace sgm
