@@ -1,0 +1,79 @@
+# Sourced by samples/demo.sh and tests/run.sh: brings a bare Debian 12 to where the project builds.
+#
+#   source samples/setup_debian.sh
+#   sgm_setup "${SGM_BUILD_PACKAGES[@]}"                              # the library, the command, the samples
+#   sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"    # and everything that the tests need
+#   sgm_setup_npm DIRECTORY PACKAGE VERSION                           # an npm package below DIRECTORY
+#
+# Only what is missing is installed, and said. Each function returns non-zero, after one line on stderr that names what
+# could not be had. Nothing here reads standard input.
+
+# An entry is a Debian package, or PACKAGE=COMMAND where the command may also come from elsewhere.
+SGM_BUILD_PACKAGES=(
+  g++ cmake ninja-build ccache pkg-config
+  libhwy-dev libxxhash-dev libzstd-dev
+  libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers glslang-tools libglm-dev
+  libcli11-dev libfmt-dev nlohmann-json3-dev libmeshoptimizer-dev libstb-dev
+)
+SGM_TEST_PACKAGES=(
+  catch2 clang libclang-rt-14-dev spirv-tools vulkan-validationlayers valgrind
+  git=git ca-certificates nodejs=node npm=npm
+)
+
+# Prints those of the given entries that are not there.
+sgm_missing() {
+  local entry present
+  present=" $(dpkg-query -W -f='${db:Status-Status} ${Package}\n' 2>/dev/null | sed -n 's/^installed //p' | tr '\n' ' ')"
+  for entry in "$@"; do
+    [[ $entry == *=* ]] && command -v "${entry#*=}" >/dev/null && continue
+    [[ $present == *" ${entry%%=*} "* ]] || printf '%s\n' "${entry%%=*}"
+  done
+}
+
+sgm_setup() {
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    echo "setup: this is no Debian system; going on without installing anything (needed: ${*%%=*})" >&2
+    return 0
+  fi
+  local missing as_root=()
+  mapfile -t missing < <(sgm_missing "$@")
+  ((${#missing[@]})) || return 0
+  if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+      echo "setup: error: run this as root, or install by hand: apt-get install ${missing[*]}" >&2
+      return 1
+    fi
+    as_root=(sudo)
+    [[ -t 0 ]] || as_root=(sudo -n)
+  fi
+  echo "setup: installing ${missing[*]}"
+  local log
+  log=$(mktemp)
+  # Lists that are out of date may still serve; the install decides.
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >"$log" 2>&1 </dev/null || true
+  if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -q --no-install-recommends "${missing[@]}" >>"$log" 2>&1 </dev/null; then
+    tail -n 15 "$log" >&2
+    rm -f "$log"
+    mapfile -t missing < <(sgm_missing "$@")
+    echo "setup: error: could not install ${missing[*]} (is the network there?)" >&2
+    return 1
+  fi
+  rm -f "$log"
+}
+
+sgm_setup_npm() {
+  local directory=$1 package=$2 version=$3 log
+  grep -qs "\"version\": \"$version\"" "$directory/node_modules/$package/package.json" && return 0
+  echo "setup: installing npm package $package $version into $directory"
+  mkdir -p "$directory"
+  log=$(mktemp)
+  if ! npm install --prefix "$directory" --no-fund --no-audit --no-save --loglevel=error "$package@$version" \
+    >"$log" 2>&1 </dev/null; then
+    tail -n 5 "$log" >&2
+    rm -f "$log"
+    echo "setup: error: could not install npm package $package $version (is the network there?)" >&2
+    return 1
+  fi
+  rm -f "$log"
+}

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# Builds everything and runs every test, on a bare Debian 12 as root or with sudo. Installs what is missing, and says so.
+#
+#   bash tests/run.sh [--long] [--label LABEL]... [--without NAME]... [--jobs N]
+#
+#   --long          run property tests and fuzzers far longer
+#   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, consumers, style, gltf, threads, fuzz, ...)
+#   --without NAME  leave out a build (dev, scalar, clang, tsan, fuzz) or a label; each is named in the summary
+#   --jobs N        at most N compilers and tests at one time (default: one for each processor)
+#
+# Six builds: release has every test; dev (AddressSanitizer and UndefinedBehaviorSanitizer), scalar (no vector unit),
+# clang (another compiler), tsan (ThreadSanitizer) and fuzz (libFuzzer) run the part of them that they are for.
+# The last lines are ctest's summary over all of them. Exit status: 0 when all passed.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+
+variants=(dev scalar clang tsan fuzz)
+labels=() without=() jobs=$(nproc) timeout=600
+usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
+die() { echo "tests/run.sh: error: $1" >&2; exit "${2:-1}"; }
+while (($#)); do
+  case $1 in
+    --long) export SGM_LONG=1 timeout=7200 ;;
+    --label | --without | --jobs)
+      (($# > 1)) || die "$1 needs a value" 2
+      case $1 in --label) labels+=("$2") ;; --without) without+=("$2") ;; --jobs) jobs=$2 ;; esac
+      shift
+      ;;
+    -h | --help) usage && exit 0 ;;
+    *) die "unknown option $1 (--help lists them)" 2 ;;
+  esac
+  shift
+done
+[[ $jobs =~ ^[1-9][0-9]*$ ]] || die "--jobs needs a number, not '$jobs'" 2
+
+started=$SECONDS
+step() { printf '\n== %s (after %d s)\n' "$1" $((SECONDS - started)); }
+
+step "packages"
+source samples/setup_debian.sh
+sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"
+sgm_setup_npm build/tools gltf-validator 2.0.0-dev.3.10
+
+# build PRESET: quiet while all is well, the whole story when not.
+build() {
+  step "build $1"
+  local log=build/$1.configure.log
+  cmake --preset "$1" >"$log" 2>&1 || { cat "$log" >&2; die "configuring $1 failed"; }
+  grep -i -A3 'warning' "$log" || true
+  cmake --build --preset "$1" -j "$jobs" -- --quiet || die "building $1 failed"
+}
+
+chosen=(release) left_out_labels=()
+for variant in "${variants[@]}"; do
+  [[ " ${without[*]-} " == *" $variant "* ]] || chosen+=("$variant")
+done
+for name in ${without[@]+"${without[@]}"}; do
+  [[ " ${variants[*]} " == *" $name "* ]] || left_out_labels+=("$name")
+done
+for preset in "${chosen[@]}"; do build "$preset"; done
+
+# One ctest over all builds: its summary is the verdict.
+mkdir -p build/all
+{
+  for preset in "${chosen[@]}"; do echo "subdirs(\"$root/build/$preset\")"; done
+  for name in ${without[@]+"${without[@]}"}; do
+    echo "add_test(\"LEFT OUT by --without: $name\" false)"
+    echo "set_tests_properties(\"LEFT OUT by --without: $name\" PROPERTIES DISABLED TRUE LABELS left_out)"
+  done
+} >build/all/CTestTestfile.cmake
+
+step "tests"
+known=" $(ctest --test-dir build/all --print-labels | sed -n 's/^  //p' | tr '\n' ' ') "
+for name in ${labels[@]+"${labels[@]}"} ${left_out_labels[@]+"${left_out_labels[@]}"}; do
+  [[ $known == *" $name "* ]] || die "no test has the label '$name'; there are:${known% }" 2
+done
+joined() { local IFS='|'; echo "^($*)\$"; }
+filter=()
+((${#labels[@]})) && filter+=(-L "$(joined "${labels[@]}" left_out)")
+((${#left_out_labels[@]})) && filter+=(-LE "$(joined "${left_out_labels[@]}")")
+for name in ${without[@]+"${without[@]}"}; do echo "LEFT OUT by --without: $name"; done
+# A device or a tool that is not there is an error here, not a skip: the machine was set up for it.
+export SGM_REQUIRE_ALL=1
+ctest --test-dir build/all --output-on-failure --no-tests=error --no-label-summary --timeout "$timeout" -j "$jobs" \
+  ${filter[@]+"${filter[@]}"} </dev/null

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# What the tree must not hold: arithmetic outside the contract, paths of one machine, package hosts, unfinished marks,
+# files too long to read, a README whose program is not the sample that is tested.
+#
+#   bash tests/scripts/style.sh [ROOT]
+set -euo pipefail
+cd "${1:-.}"
+failed=0
+
+complain() {  # complain WHAT MATCHES
+  [[ -z $2 ]] && return
+  printf 'style: %s\n%s\n' "$1" "$2" >&2
+  failed=1
+}
+tracked() { git ls-files -co --exclude-standard -- "$@" ':!tests/scripts/style.sh'; }
+search() {  # search PATTERN PATHS...: tracked text files only
+  local pattern=$1
+  shift
+  tracked "$@" | xargs -r -d '\n' grep -nIE -- "$pattern" 2>/dev/null || true
+}
+code=('*.cpp' '*.h' '*.hpp' '*.c' '*.comp' '*.vert' '*.frag' '*.glsl' '*.cu' '*.cuh' '*.inc' '*.def')
+build=('*CMakeLists.txt' '*.cmake' '*.json' '*.sh')
+
+complain "the arithmetic contract forbids fused, approximate and vendor functions (hwy: Mul and Add, our own sqrt)" \
+  "$(search '\b(MulAdd|NegMulAdd|MulSub|NegMulSub|MulAddSub|ApproximateReciprocal|ApproximateReciprocalSqrt|_mm[0-9]*_f[n]?m(add|sub)[a-z_]*)\(' "${code[@]}")"
+complain "no fma in anything that feeds derived data" \
+  "$(search '\b(std::)?fmaf?\(' 'runtime/**' 'shaders/**' 'cuda/**')"
+complain "the kernels of shaders/common use + - * and integers alone" \
+  "$(search '\b(fma|mad|sqrt|sqrtf|rsqrt|inversesqrt|exp|exp2|pow|sin|cos|tan|atan|log|log2|normalize|length|fract|mod)\(' 'shaders/common/*.h' | grep -vE ':[0-9]+: *(//|\*)' || true)"
+complain "no value-changing optimisation" \
+  "$(search '(-ffast-math|-Ofast|/fp:fast|use_fast_math|-funsafe-math|-fassociative-math)' "${code[@]}" "${build[@]}")"
+complain "unfinished marks" "$(search '\b(TODO|FIXME|XXX|HACK)\b' "${code[@]}" "${build[@]}" '*.md')"
+complain "paths of one machine" "$(search '(^|[^[:alnum:]_.$}*])/(work|home|farm|root|Users)/' .)"
+complain "package hosts: packages come by name from the machine's own clients" \
+  "$(search '\b(deb\.debian\.org|archive\.ubuntu\.com|registry\.npmjs\.org|pypi\.org|crates\.io)' .)"
+complain "files over 1,000 lines" \
+  "$(tracked "${code[@]}" '*.sh' '*.py' | xargs -r -d '\n' wc -l | awk '$2 != "total" && $1 > 1000')"
+complain "libm in code that feeds derived data: use base/math.h (std::sqrt, floor, fabs are exact)" \
+  "$(search '\bstd::(sin|cos|tan|asin|acos|atan|atan2|exp|exp2|log|log2|pow|cbrt|hypot|fma)f?\(' \
+    'runtime/base/*' 'runtime/grammar/*' 'runtime/derive/*' 'runtime/field/*' 'runtime/mesh/*' 'runtime/backend/*')"
+
+# The program in the README is the one that is built and run as a sample.
+if [[ -e samples/minimal_c/main.c ]]; then
+  shown=$(awk '/^```c$/ { on = 1; next } /^```/ { on = 0 } on' README.md)
+  complain "README.md's C program differs from samples/minimal_c/main.c" \
+    "$(diff <(printf '%s\n' "$shown") samples/minimal_c/main.c || true)"
+fi
+exit "$failed"

@@ -1,0 +1,7 @@
+#pragma once
+// Catch2 2 and 3 keep their headers in different places; tests include this.
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+#else
+#include <catch2/catch.hpp>
+#endif
