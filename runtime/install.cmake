@@ -1,0 +1,51 @@
+# sgm::sgm, the library that others use: the objects of every module in one library, shared or static as
+# BUILD_SHARED_LIBS says, with the C interface as its only face; and its installation for find_package and pkg-config.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(SGM_MODULES base grammar derive field mesh backend stream api)
+
+add_library(sgm)
+add_library(sgm::sgm ALIAS sgm)
+set_target_properties(sgm PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
+  SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # the interface may change with each 0.x
+target_include_directories(sgm INTERFACE
+  $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+foreach(module IN LISTS SGM_MODULES)
+  target_sources(sgm PRIVATE $<TARGET_OBJECTS:sgm_${module}>)
+  get_target_property(libraries sgm_${module} LINK_LIBRARIES)
+  list(FILTER libraries EXCLUDE REGEX "^(sgm_.*|libraries-NOTFOUND)$")
+  target_link_libraries(sgm PRIVATE ${libraries})
+endforeach()
+if(SGM_SANITIZE)
+  target_link_options(sgm PUBLIC -fsanitize=${SGM_SANITIZE})
+endif()
+get_target_property(SGM_LIBRARY_TYPE sgm TYPE)
+if(SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
+  target_compile_definitions(sgm INTERFACE SGM_STATIC)
+else()
+  # Hidden visibility leaves template instances of the standard library in the open; the map leaves the interface alone.
+  target_link_options(sgm PRIVATE LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
+  set_property(TARGET sgm APPEND PROPERTY LINK_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
+endif()
+
+if(NOT SGM_INSTALL)
+  return()
+endif()
+install(TARGETS sgm EXPORT sgmTargets COMPONENT library)
+install(DIRECTORY include/sgm TYPE INCLUDE COMPONENT library FILES_MATCHING PATTERN "*.h")
+install(EXPORT sgmTargets NAMESPACE sgm:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm COMPONENT library)
+
+configure_package_config_file(sgmConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/sgmConfig.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm NO_SET_AND_CHECK_MACRO)
+# SameMinorVersion: while the major version is 0, each minor one may change the interface.
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/sgmConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sgmConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/sgmConfigVersion.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm COMPONENT library)
+
+if(SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
+  set(SGM_PC_CFLAGS "-DSGM_STATIC")
+  set(SGM_PC_LIBS "-lstdc++ -lpthread -lm")
+endif()
+configure_file(sgm.pc.in ${CMAKE_CURRENT_BINARY_DIR}/sgm.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sgm.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
