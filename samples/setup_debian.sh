@@ -12,11 +12,11 @@
 SGM_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config
   libhwy-dev libxxhash-dev libzstd-dev
-  libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers glslang-tools libglm-dev
+  libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev libmeshoptimizer-dev libstb-dev
 )
 SGM_TEST_PACKAGES=(
-  catch2 clang libclang-rt-14-dev spirv-tools vulkan-validationlayers valgrind
+  catch2 clang libclang-rt-14-dev vulkan-validationlayers valgrind
   git=git ca-certificates nodejs=node npm=npm
 )
 
