@@ -144,9 +144,9 @@ typedef struct sgm_allocator {
   void* user;
 } sgm_allocator;
 
-/* Threads from the caller. An accepted job must run exactly once, on any thread, at any time, in any order, as soon as
- * a thread of it is free; jobs wait for one another only by calling help. A call of ours that submits jobs
- * returns only after they have run. The functions may be called from any thread, inside a job too. */
+/* Threads from the caller. An accepted job must run exactly once, on any thread, at any time, in any order. The calling
+ * thread works on its own call's jobs too, so a call of ours ends even where the job system is slow to start; a job that
+ * runs after that does nothing. All accepted jobs must have run before sgm_runtime_destroy. The functions may be called from any thread, inside a job too. */
 typedef struct sgm_job_system {
   /* How many jobs can run at one time, at least 1. */
   uint32_t (*concurrency)(void* user);
@@ -261,8 +261,8 @@ typedef struct sgm_grammar_desc {
  * diagnostics may be NULL; else it receives a list of every message, whether the grammar compiled (then all of them are
  * warnings) or not, and the caller ends it with sgm_diagnostics_destroy in both cases. It is NULL only where the call
  * failed before it read the text (a wrong argument, no memory).
- * SGM_ERR_GRAMMAR: the text is wrong; error holds the first message. SGM_ERR_IO: an import could not be read.
- * SGM_ERR_LIMIT: the text is larger than a cap. */
+ * SGM_ERR_GRAMMAR: the text is wrong, reaches a cap, or imports what cannot be read; error holds the first message (of an
+ * error inside an import the message names the file, and line and column are places in it). */
 SGM_API sgm_result sgm_grammar_compile(sgm_runtime* runtime, const sgm_grammar_desc* desc, sgm_grammar** out,
                                        sgm_diagnostics** diagnostics, sgm_error* error);
 SGM_API void sgm_grammar_destroy(sgm_grammar* grammar);
@@ -300,16 +300,16 @@ SGM_API const char* sgm_grammar_tag(const sgm_grammar* grammar, uint32_t index);
 SGM_API uint32_t sgm_grammar_name_count(const sgm_grammar* grammar);
 SGM_API const char* sgm_grammar_name(const sgm_grammar* grammar, uint32_t index);
 
-/* A layer of the grammar: an endless lattice of cells, each derived on its own. Coarse layers come first. */
+/* A layer of the grammar: an endless lattice of cells, each derived on its own. A layer uses only layers before it. */
 typedef struct sgm_layer_info {
   uint32_t struct_size;
   const void* next;
-  const char* name;    /* lives as long as the grammar */
-  int32_t cell_units;  /* edge of a cell; 0: the layer is one cell, of a grammar without layers */
-  int32_t reach_units; /* how far from its cell a shape may reach */
+  const char* name;      /* lives as long as the grammar */
+  int32_t cell_units[3]; /* edges of a cell; 0 along an axis that is not cut into cells */
+  int32_t reach_units;   /* how far from its cell a shape may reach */
 } sgm_layer_info;
 
-#define SGM_LAYER_INFO_INIT { SGM_SIZEOF(sgm_layer_info), SGM_NULL, SGM_NULL, 0, 0 }
+#define SGM_LAYER_INFO_INIT { SGM_SIZEOF(sgm_layer_info), SGM_NULL, SGM_NULL, { 0, 0, 0 }, 0 }
 
 SGM_API uint32_t sgm_grammar_layer_count(const sgm_grammar* grammar);
 /* SGM_ERR_NOT_FOUND: no such index. */
@@ -331,7 +331,7 @@ typedef struct sgm_parameter_info {
   const char* name; /* texts live as long as the grammar */
   const char* doc;  /* what the grammar says of it, or "" */
   sgm_quantity quantity;
-  int32_t line;           /* where it is declared, from 1 */
+  int32_t whole;          /* 1: only whole numbers */
   double default_value;   /* in the quantity's unit */
   double minimum, maximum; /* both allowed; -infinity and infinity where the grammar gives no range */
 } sgm_parameter_info;
@@ -348,8 +348,8 @@ typedef struct sgm_parameters sgm_parameters;
 
 SGM_API sgm_result sgm_parameters_create(const sgm_grammar* grammar, sgm_parameters** out, sgm_error* error);
 SGM_API void sgm_parameters_destroy(sgm_parameters* parameters);
-/* SGM_ERR_NOT_FOUND: no such parameter (the message offers the nearest name). SGM_ERR_INVALID_ARGUMENT: not finite, or
- * outside the parameter's range. On failure nothing changes. */
+/* SGM_ERR_NOT_FOUND: no such parameter (the message offers the nearest name). SGM_ERR_INVALID_ARGUMENT: not finite, not
+ * whole where it must be, or outside the parameter's range. On failure nothing changes. */
 SGM_API sgm_result sgm_parameters_set(sgm_parameters* parameters, const char* name, double value, sgm_error* error);
 /* As above from a text with a unit, "0.3", "50%", "12 m"; SGM_ERR_GRAMMAR where it is no number or has a wrong unit. */
 SGM_API sgm_result sgm_parameters_set_text(sgm_parameters* parameters, const char* name, const char* text,
@@ -603,16 +603,19 @@ typedef struct sgm_surface_view {
   uint32_t position_stride, normal_stride, material_stride, tag_stride; /* bytes */
   float bounds_min[3], bounds_max[3]; /* of the positions; all 0 where there is none */
   uint64_t chunk_count;       /* chunks meshed; 1 for a grid */
-  uint64_t hash;              /* region: of its chunks' hashes, in any order of work; grid: of positions and triangles */
 } sgm_surface_view;
 
 #define SGM_SURFACE_VIEW_INIT                                                                                 \
   {                                                                                                           \
     SGM_SIZEOF(sgm_surface_view), SGM_NULL, { 0, 0, 0 }, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, SGM_NULL, SGM_NULL, \
-        SGM_NULL, SGM_NULL, SGM_NULL, 0, 0, 0, 0, { 0.0f, 0.0f, 0.0f }, { 0.0f, 0.0f, 0.0f }, 0, 0            \
+        SGM_NULL, SGM_NULL, SGM_NULL, 0, 0, 0, 0, { 0.0f, 0.0f, 0.0f }, { 0.0f, 0.0f, 0.0f }, 0               \
   }
 
 SGM_API sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_view* view, sgm_error* error);
+
+/* Of a region: the hash of the set of its chunks' meshes, equal on every machine and in any order of work. Of a grid: of
+ * its positions, normals and triangles, worked out at each call. 0 for NULL. */
+SGM_API uint64_t sgm_surface_hash(const sgm_surface* surface);
 
 #ifdef __cplusplus
 }

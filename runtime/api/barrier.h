@@ -1,0 +1,57 @@
+#pragma once
+// What stands between C callers and C++: argument checks that return codes, and the barrier that lets no exception out.
+
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/result.h"
+#include "sgm/sgm.h"
+
+namespace sgm::api {
+
+/// Writes code, place and message into the caller's error (which may be null), cut off at a whole UTF-8 character.
+/// Returns code.
+sgm_result fail(sgm_error* error, sgm_result code, std::string_view message, int line = 0, int column = 0) noexcept;
+
+/// The C code of one of ours.
+sgm_result resultOf(Code code) noexcept;
+
+inline sgm_result fail(sgm_error* error, const Error& e) noexcept {
+  return fail(error, resultOf(e.code), e.message, e.line, e.column);
+}
+
+/// SGM_OK, or why a descriptor cannot be read: null, another version's size, an extension that is not known here.
+template <class Desc>
+sgm_result checkDesc(sgm_error* error, const Desc* desc, const char* name) {
+  if (desc == nullptr) return fail(error, SGM_ERR_INVALID_ARGUMENT, std::string(name) + " is NULL");
+  if (desc->struct_size != sizeof(Desc))
+    return fail(error, SGM_ERR_STRUCT_SIZE,
+                std::string(name) + ".struct_size is " + std::to_string(desc->struct_size) + ", not " +
+                    std::to_string(sizeof(Desc)) + ": start from the _INIT macro of this library's header");
+  if (desc->next != nullptr)
+    return fail(error, SGM_ERR_UNSUPPORTED, std::string(name) + ".next names an extension that this version lacks");
+  return SGM_OK;
+}
+
+inline sgm_result nullArgument(sgm_error* error, const char* name) {
+  return fail(error, SGM_ERR_INVALID_ARGUMENT, std::string(name) + " is NULL");
+}
+
+/// Runs a function's body and turns what it throws into a result: nothing crosses into C.
+template <class Body>
+sgm_result guarded(sgm_error* error, Body&& body) noexcept {
+  try {
+    return std::forward<Body>(body)();
+  } catch (const std::bad_alloc&) {
+    return fail(error, SGM_ERR_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::exception& e) {
+    return fail(error, SGM_ERR_INTERNAL, e.what());
+  } catch (...) {
+    return fail(error, SGM_ERR_INTERNAL, "an unknown exception");
+  }
+}
+
+}  // namespace sgm::api

@@ -1,0 +1,35 @@
+#pragma once
+// The handles of the language: a compiled grammar, its diagnostics, and values for its parameters.
+
+#include <memory>
+#include <vector>
+
+#include "api/runtime.h"
+#include "grammar/compile.h"
+
+struct sgm_grammar {
+  sgm_grammar(sgm_runtime& runtime_in, std::shared_ptr<const sgm::Program> program_in)
+      : runtime(runtime_in), program(std::move(program_in)) {}
+
+  sgm_runtime& runtime;
+  std::shared_ptr<const sgm::Program> program;
+};
+
+struct sgm_diagnostics {
+  sgm_diagnostics(sgm_runtime& runtime_in, sgm::CompileResult&& compiled);
+
+  struct Entry {
+    sgm::Diagnostic diagnostic;
+    std::string source_line;
+  };
+  sgm_runtime& runtime;
+  std::vector<Entry> entries;
+};
+
+struct sgm_parameters {
+  sgm_parameters(sgm_runtime& runtime_in, std::shared_ptr<const sgm::Program> program_in);
+
+  sgm_runtime& runtime;
+  std::shared_ptr<const sgm::Program> program;
+  std::pmr::vector<double> values;  ///< by index in Program::params
+};

@@ -1,0 +1,125 @@
+#include "api/runtime.h"
+
+#include <cstdlib>
+#include <limits>
+
+#include "api/barrier.h"
+
+namespace sgm::api {
+namespace {
+
+constexpr uint32_t kMostThreads = 1024;
+
+void* systemAllocate(void*, size_t size, size_t alignment) {
+  return ::operator new(size, std::align_val_t{alignment}, std::nothrow);
+}
+void systemRelease(void*, void* memory, size_t, size_t alignment) {
+  ::operator delete(memory, std::align_val_t{alignment});
+}
+
+sgm_result checkVersion(uint32_t version, sgm_error* error) {
+  const uint32_t major = version / 1'000'000, minor = version / 1'000 % 1'000;
+  const bool same_minor = minor == SGM_VERSION_MINOR;
+  const bool known_minor = minor < SGM_VERSION_MINOR + 1;
+  if (major == SGM_VERSION_MAJOR && (major == 0 ? same_minor : known_minor)) return SGM_OK;
+  return fail(error, SGM_ERR_VERSION,
+              "the program was built with header " + std::to_string(major) + "." + std::to_string(minor) +
+                  " and runs with library " + sgm_version_string() + ": rebuild it with this library's sgm/sgm.h");
+}
+
+sgm_result checkRuntimeDesc(const sgm_runtime_desc& desc, sgm_error* error) {
+  if (sgm_result r = checkVersion(desc.api_version, error); r != SGM_OK) return r;
+  if (desc.threads > kMostThreads)
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "threads is above " + std::to_string(kMostThreads));
+  if (desc.allocator != nullptr && (desc.allocator->allocate == nullptr || desc.allocator->release == nullptr))
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "the allocator needs both allocate and release");
+  if (desc.jobs != nullptr && (desc.jobs->concurrency == nullptr || desc.jobs->submit == nullptr))
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "the job system needs concurrency and submit");
+  if (desc.log != nullptr && desc.log->write == nullptr) return nullArgument(error, "log->write");
+  return SGM_OK;
+}
+
+}  // namespace
+
+void* CallerMemory::do_allocate(size_t size, size_t alignment) {
+  // Zero bytes are a legal request of containers; callers' allocators need not know that case.
+  const size_t bytes = size == 0 ? 1 : size;
+  const uint64_t live = live_.fetch_add(bytes, std::memory_order_relaxed) + bytes;
+  void* memory = limit_ != 0 && live > limit_ ? nullptr : allocator_.allocate(allocator_.user, bytes, alignment);
+  if (memory == nullptr) {
+    live_.fetch_sub(bytes, std::memory_order_relaxed);
+    throw std::bad_alloc();
+  }
+  uint64_t peak = peak_.load(std::memory_order_relaxed);
+  while (live > peak && !peak_.compare_exchange_weak(peak, live, std::memory_order_relaxed)) {
+  }
+  return memory;
+}
+
+void CallerMemory::do_deallocate(void* memory, size_t size, size_t alignment) {
+  const size_t bytes = size == 0 ? 1 : size;
+  allocator_.release(allocator_.user, memory, bytes, alignment);
+  live_.fetch_sub(bytes, std::memory_order_relaxed);
+}
+
+unsigned CallerJobs::concurrency() const {
+  const uint32_t count = jobs_.concurrency(jobs_.user);
+  return count == 0 ? 1 : count;
+}
+
+void CallerJobs::submit(void (*function)(void*), void* argument, int priority) {
+  if (jobs_.submit(jobs_.user, function, argument, priority) == 0) function(argument);
+}
+
+bool CallerJobs::help() { return jobs_.help != nullptr && jobs_.help(jobs_.user) != 0; }
+
+}  // namespace sgm::api
+
+using namespace sgm::api;
+
+sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (out == nullptr) return nullArgument(error, "out");
+    *out = nullptr;
+    const sgm_runtime_desc defaults = SGM_RUNTIME_DESC_INIT;
+    if (desc == nullptr) desc = &defaults;
+    if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
+    if (sgm_result r = checkRuntimeDesc(*desc, error); r != SGM_OK) return r;
+
+    const sgm_allocator allocator =
+        desc->allocator != nullptr ? *desc->allocator : sgm_allocator{systemAllocate, systemRelease, nullptr};
+    void* memory = allocator.allocate(allocator.user, sizeof(sgm_runtime), alignof(sgm_runtime));
+    if (memory == nullptr) return fail(error, SGM_ERR_OUT_OF_MEMORY, "out of memory");
+    auto release = [&allocator](sgm_runtime* runtime) {
+      runtime->~sgm_runtime();
+      allocator.release(allocator.user, runtime, sizeof(sgm_runtime), alignof(sgm_runtime));
+    };
+    std::unique_ptr<sgm_runtime, decltype(release)> runtime(new (memory) sgm_runtime(allocator, desc->memory_limit),
+                                                            release);
+    if (desc->log != nullptr) runtime->sink = *desc->log;
+    if (desc->jobs != nullptr) {
+      runtime->jobs = std::make_unique<CallerJobs>(*desc->jobs);
+    } else {
+      runtime->jobs = sgm::makeThreadPool(desc->threads);
+    }
+    runtime->log(SGM_LOG_INFO, sgm_build_info());
+    *out = runtime.release();
+    return SGM_OK;
+  });
+}
+
+sgm_result sgm_runtime_destroy(sgm_runtime* runtime) {
+  if (runtime == nullptr) return SGM_OK;
+  if (runtime->children.load(std::memory_order_acquire) != 0) return SGM_ERR_BUSY;
+  const sgm_allocator allocator = runtime->allocator;
+  runtime->~sgm_runtime();
+  allocator.release(allocator.user, runtime, sizeof(sgm_runtime), alignof(sgm_runtime));
+  return SGM_OK;
+}
+
+sgm_result sgm_runtime_memory(const sgm_runtime* runtime, uint64_t* live, uint64_t* peak) {
+  if (runtime == nullptr) return SGM_ERR_INVALID_ARGUMENT;
+  if (live != nullptr) *live = runtime->memory.live();
+  if (peak != nullptr) *peak = runtime->memory.peak();
+  return SGM_OK;
+}
