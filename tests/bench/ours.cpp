@@ -1,0 +1,157 @@
+#include "ours.h"
+
+#include <sgm/sgm.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace bench {
+namespace {
+
+void check(sgm_result result, const sgm_error& error) {
+  if (result != SGM_OK) throw std::runtime_error(std::string(sgm_result_name(result)) + ": " + error.message);
+}
+
+using Surface = std::unique_ptr<sgm_surface, decltype(&sgm_surface_destroy)>;
+
+Surface fromGrid(sgm_runtime* runtime, const Grid& grid) {
+  sgm_grid_desc desc = SGM_GRID_DESC_INIT;
+  desc.values = grid.values.data();
+  for (int axis = 0; axis < 3; ++axis) desc.size[axis] = static_cast<uint32_t>(grid.size[axis]);
+  desc.normals = 1;
+  sgm_surface* surface = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  check(sgm_surface_from_grid(runtime, &desc, &surface, &error), error);
+  return {surface, sgm_surface_destroy};
+}
+
+sgm_surface_view viewOf(const Surface& surface) {
+  sgm_surface_view view = SGM_SURFACE_VIEW_INIT;
+  sgm_error error = SGM_ERROR_INIT;
+  check(sgm_surface_get_view(surface.get(), &view, &error), error);
+  return view;
+}
+
+Mesh copied(const sgm_surface_view& view, double scale) {
+  Mesh mesh;
+  mesh.positions.reserve(view.vertex_count * 3);
+  for (uint64_t i = 0; i < view.vertex_count; ++i) {
+    const char* at = reinterpret_cast<const char*>(view.positions) + i * view.position_stride;
+    for (int axis = 0; axis < 3; ++axis)
+      mesh.positions.push_back(static_cast<float>(double{reinterpret_cast<const float*>(at)[axis]} * scale));
+  }
+  mesh.indices.assign(view.indices, view.indices + view.index_count);
+  return mesh;
+}
+
+}  // namespace
+
+Ours::Ours(const Scene& scene, int cells, int threads) : scene_(scene), cells_(cells) {
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_runtime_desc runtime = SGM_RUNTIME_DESC_INIT;
+  runtime.threads = static_cast<uint32_t>(threads);
+  check(sgm_runtime_create(&runtime, &runtime_, &error), error);
+
+  sgm_grammar_desc text = SGM_GRAMMAR_DESC_INIT;
+  text.text = scene_.text.c_str();
+  text.text_size = scene_.text.size();
+  text.name = scene_.name.c_str();
+  sgm_grammar* grammar = nullptr;
+  check(sgm_grammar_compile(runtime_, &text, &grammar, nullptr, &error), error);
+
+  sgm_field_desc field = SGM_FIELD_DESC_INIT;
+  field.grammar = grammar;
+  field.cell_units = scene_.cell_units;
+  field.backend = SGM_BACKEND_CPU;
+  const sgm_result result = sgm_field_create(runtime_, &field, &field_, &error);
+  sgm_grammar_destroy(grammar);
+  check(result, error);
+}
+
+Ours::~Ours() {
+  sgm_field_destroy(field_);
+  sgm_runtime_destroy(runtime_);
+}
+
+std::string Ours::device() const {
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_backend_info info = SGM_BACKEND_INFO_INIT;
+  check(sgm_backend_query(runtime_, SGM_BACKEND_CPU, &info, &error), error);
+  return info.device;
+}
+
+size_t Ours::meshChunks() {
+  const int32_t edge = SGM_CHUNK_CELLS * scene_.cell_units;
+  std::vector<sgm_chunk_request> requests;
+  const int32_t count = cells_ / SGM_CHUNK_CELLS;
+  for (int32_t z = 0; z < count; ++z)
+    for (int32_t y = 0; y < count; ++y)
+      for (int32_t x = 0; x < count; ++x)
+        requests.push_back(
+            {{0, scene_.origin[0] / edge + x, scene_.origin[1] / edge + y, scene_.origin[2] / edge + z}, 0});
+  sgm_chunks_desc desc = SGM_CHUNKS_DESC_INIT;
+  desc.requests = requests.data();
+  desc.count = requests.size();
+  std::vector<sgm_mesh*> meshes(requests.size());
+  sgm_error error = SGM_ERROR_INIT;
+  check(sgm_mesh_chunks(field_, &desc, meshes.data(), &error), error);
+  size_t indices = 0;
+  for (sgm_mesh* mesh : meshes) {
+    sgm_mesh_view view = SGM_MESH_VIEW_INIT;
+    check(sgm_mesh_get_view(mesh, &view, &error), error);
+    indices += view.index_count;
+    sgm_mesh_release(mesh);
+  }
+  return indices / 3;
+}
+
+Mesh Ours::welded() {
+  sgm_region_desc region = SGM_REGION_DESC_INIT;
+  for (int axis = 0; axis < 3; ++axis) {
+    region.minimum[axis] = scene_.origin[axis];
+    region.maximum[axis] = scene_.origin[axis] + cells_ * scene_.cell_units;
+  }
+  sgm_surface* made = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  check(sgm_surface_from_region(field_, &region, &made, &error), error);
+  const Surface surface(made, sgm_surface_destroy);
+  const sgm_surface_view view = viewOf(surface);
+  for (int axis = 0; axis < 3; ++axis)
+    if (view.origin[axis] != region.minimum[axis]) throw std::runtime_error("the region was not on chunk borders");
+  return copied(view, double{SGM_UNITS_PER_METRE} / scene_.cell_units);
+}
+
+Grid Ours::sample() {
+  const int32_t n = cells_ + 1;
+  Grid grid{{n, n, n}, std::vector<float>(static_cast<size_t>(n) * static_cast<size_t>(n) * static_cast<size_t>(n))};
+  std::vector<int32_t> points(static_cast<size_t>(n) * static_cast<size_t>(n) * 3);
+  std::vector<float> values(static_cast<size_t>(n) * static_cast<size_t>(n));
+  const float scale = float{SGM_UNITS_PER_METRE} / static_cast<float>(scene_.cell_units);
+  for (int32_t z = 0; z < n; ++z) {
+    size_t at = 0;
+    for (int32_t y = 0; y < n; ++y) {
+      for (int32_t x = 0; x < n; ++x) {
+        const int32_t cell[3] = {x, y, z};
+        for (int axis = 0; axis < 3; ++axis) points[at++] = scene_.origin[axis] + cell[axis] * scene_.cell_units;
+      }
+    }
+    sgm_sample_desc desc = SGM_SAMPLE_DESC_INIT;
+    desc.points = points.data();
+    desc.count = values.size();
+    desc.values = values.data();
+    sgm_error error = SGM_ERROR_INIT;
+    check(sgm_field_sample(field_, &desc, &error), error);
+    std::transform(values.begin(), values.end(), grid.values.begin() + static_cast<std::ptrdiff_t>(values.size()) * z,
+                   [scale](float v) { return v * scale; });
+  }
+  return grid;
+}
+
+size_t Ours::meshGrid(const Grid& grid) { return viewOf(fromGrid(runtime_, grid)).index_count / 3; }
+
+Mesh Ours::gridMesh(const Grid& grid) {
+  const Surface surface = fromGrid(runtime_, grid);
+  return copied(viewOf(surface), 1.0);
+}
+
+}  // namespace bench

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Runs one fuzzer: a fixed number of inputs from a fixed seed, or for half an hour with SGM_LONG=1. An input that fails
+# stays in FOLDER, named in the output.
+#
+#   fuzz.sh PROGRAM RUNS FOLDER [SEEDS]
+set -euo pipefail
+program=$1 runs=$2 folder=$3 seeds=${4-}
+mkdir -p "$folder/found" "$folder/failed"
+# A short run says the same every time, whatever earlier runs found.
+how=(-runs="$runs" -seed=1)
+corpus=("$folder/found")
+if [[ ${SGM_LONG-} == 1 ]]; then
+  how=(-max_total_time=1800)
+else
+  rm -rf "$folder/found"
+  mkdir "$folder/found"
+fi
+if [[ -n $seeds ]]; then
+  [[ -d $seeds ]] || { echo "fuzz.sh: no folder $seeds" >&2; exit 1; }
+  corpus+=("$seeds")
+fi
+exec "$program" "${how[@]}" -timeout=20 -rss_limit_mb=4096 -max_len=8192 -print_final_stats=1 -verbosity=0 \
+  -artifact_prefix="$folder/failed/" "${corpus[@]}" </dev/null
