@@ -1,0 +1,35 @@
+# Flags that every target of ours shares, and sgm_module(): one CMake target a folder.
+
+set(SGM_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wold-style-cast -Wdouble-promotion -Wnull-dereference)
+
+# The arithmetic contract: no contraction into fma, no value-changing optimisation, in any target.
+set(SGM_EXACT_FLAGS -ffp-contract=off -fno-fast-math)
+
+function(sgm_target_flags target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${SGM_WARNINGS} -Werror> ${SGM_EXACT_FLAGS})
+  if(SGM_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${SGM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${SGM_SANITIZE})
+  endif()
+  if(SGM_BUILD_FUZZERS)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
+endfunction()
+
+# sgm_module(NAME SOURCES ... [LINK private libraries ...] [PUBLIC libraries whose headers ours include ...])
+# makes the static library sgm_NAME from the folder runtime/NAME. Headers are included as "NAME/file.h".
+function(sgm_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PUBLIC" ${ARGN})
+  add_library(sgm_${name} STATIC ${ARG_SOURCES})
+  # A folder sees its own headers and those of the modules it names, nothing else.
+  set(include_root ${CMAKE_CURRENT_BINARY_DIR}/include_root)
+  file(MAKE_DIRECTORY ${include_root})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_root}/${name} SYMBOLIC)
+  target_include_directories(sgm_${name} PUBLIC ${include_root})
+  target_link_libraries(sgm_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_LINK})
+  sgm_target_flags(sgm_${name})
+endfunction()
