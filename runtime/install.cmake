@@ -36,16 +36,19 @@ install(TARGETS sgm EXPORT sgmTargets COMPONENT library)
 install(DIRECTORY include/sgm TYPE INCLUDE COMPONENT library FILES_MATCHING PATTERN "*.h")
 install(EXPORT sgmTargets NAMESPACE sgm:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm COMPONENT library)
 
+# Whoever links the shared library needs nothing else; a static one takes our dependencies along.
+if(NOT SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
+  unset(SGM_CONFIG_DEPENDENCIES)
+  unset(SGM_PC_REQUIRES)
+else()
+  set(SGM_PC_CFLAGS "-DSGM_STATIC")
+  set(SGM_PC_LIBS "-lstdc++ -lm -pthread")
+endif()
 configure_package_config_file(sgmConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/sgmConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm NO_SET_AND_CHECK_MACRO)
 # SameMinorVersion: while the major version is 0, each minor one may change the interface.
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/sgmConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+configure_file(sgm.pc.in ${CMAKE_CURRENT_BINARY_DIR}/sgm.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sgmConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/sgmConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm COMPONENT library)
-
-if(SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
-  set(SGM_PC_CFLAGS "-DSGM_STATIC")
-  set(SGM_PC_LIBS "-lstdc++ -lpthread -lm")
-endif()
-configure_file(sgm.pc.in ${CMAKE_CURRENT_BINARY_DIR}/sgm.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sgm.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
