@@ -48,6 +48,7 @@ configure_package_config_file(sgmConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/sgm
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm NO_SET_AND_CHECK_MACRO)
 # SameMinorVersion: while the major version is 0, each minor one may change the interface.
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/sgmConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+file(RELATIVE_PATH SGM_PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(sgm.pc.in ${CMAKE_CURRENT_BINARY_DIR}/sgm.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/sgmConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/sgmConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm COMPONENT library)
