@@ -40,8 +40,8 @@ enum class Builtin : uint8_t {
   rand_keyed,    ///< rand(key, a, b): by the key alone (a cell, a face or a number), the same wherever it is drawn
   chance,        ///< (p): true with probability p, by derivation path
   chance_keyed,  ///< chance(key, p)
-  cell_noise,    ///< cellnoise(cell, period, seed = 0): smooth noise 0..1 at the centre of the cell; derive time
-  fractal,       ///< (period, octaves = 1, seed = 0): fractal gradient noise of p in -1..1; sample time. The arguments
+  cell_noise,    ///< cellnoise(cell, period, salt = 0): smooth noise 0..1 at the centre of the cell; derive time
+  fractal,       ///< (period, octaves = 1, salt = 0): fractal gradient noise of p in -1..1; sample time. The arguments
                  ///< are derive time; period is rounded to units; octaves 1..12
   cell_point,    ///< cell.point(jitter = 0.5): a point of the cell; 0 its centre, 1 anywhere in it. bound[0]: the cell
   cell_links,    ///< cell.links(tree = 3, extra = 0): faces that a passage crosses; each face by its lower cell only,
@@ -94,6 +94,11 @@ struct PrimitiveInfo {
 
 std::span<const BuiltinInfo> builtinTable();      ///< functions, by enumerator
 std::span<const PrimitiveInfo> primitiveTable();  ///< by enumerator
+// How calls are bound to these parameters: ExprNode::bound has one entry for each parameter (after the receiver of a
+// method). box and ellipsoid with one argument: bound[0] only (an edge or a vector; box(edge) is a cube), bound[1] and
+// bound[2] are kNoId. halfspace: bound[0] is `below`, bound[1] is `above`; exactly one of them is there. prism: corners
+// follow the first three.
+
 /// nullptr where there is none. rand and chance give the form without a key.
 const BuiltinInfo* findBuiltin(std::string_view name);
 const PrimitiveInfo* findPrimitive(std::string_view name);

@@ -1,0 +1,36 @@
+#include "grammar/keywords.h"
+
+#include <algorithm>
+#include <array>
+
+namespace sgm {
+
+namespace {
+
+constexpr std::array<std::string_view, 47> kKeywords = {
+    "anchor", "and",    "as",    "at",      "by",     "cut",     "depth",   "detail", "displace", "domain",
+    "else",   "expect", "false", "field",   "for",    "if",      "import",  "in",     "layer",    "let",
+    "lod",    "mat",    "meet",  "minsize", "mirror", "morph",   "morphic", "not",    "or",       "param",
+    "repeat", "report", "rot",   "rule",    "scale",  "scatter", "seed",    "size",   "start",    "sum",
+    "tag",    "then",   "true",  "union",   "units",  "warp",    "when"};
+constexpr std::array<std::string_view, 31> kClauseWords = {
+    "amp",      "axes",  "block", "box",   "cell",   "cm",    "density", "disc",   "down",  "empty",   "finite",
+    "infinite", "km",    "lerp",  "m",     "mm",     "of",    "on",      "output", "per",   "poisson", "power",
+    "probe",    "reach", "sgm",   "shell", "smooth", "solid", "up",      "uses",   "weight"};
+constexpr std::array<std::string_view, 15> kUnavailable = {"branch",    "ca",   "comp",     "extrude", "fit",
+                                                           "footprint", "link", "override", "portal",  "query",
+                                                           "roof",      "set",  "split",    "treemap", "wfc"};
+
+static_assert(std::is_sorted(kKeywords.begin(), kKeywords.end()));
+static_assert(std::is_sorted(kClauseWords.begin(), kClauseWords.end()));
+static_assert(std::is_sorted(kUnavailable.begin(), kUnavailable.end()));
+
+}  // namespace
+
+std::span<const std::string_view> keywordTable() { return kKeywords; }
+std::span<const std::string_view> clauseWordTable() { return kClauseWords; }
+std::span<const std::string_view> unavailableTable() { return kUnavailable; }
+bool isKeyword(std::string_view word) { return std::binary_search(kKeywords.begin(), kKeywords.end(), word); }
+bool isUnavailable(std::string_view word) { return std::binary_search(kUnavailable.begin(), kUnavailable.end(), word); }
+
+}  // namespace sgm

@@ -1,0 +1,20 @@
+#pragma once
+// The words of the language. Words of arguments (period, jitter, up ...) and of clauses (reach, uses, of ...) are
+// ordinary names elsewhere; only the keywords below are reserved.
+
+#include <span>
+#include <string_view>
+
+namespace sgm {
+
+/// Reserved words, sorted.
+std::span<const std::string_view> keywordTable();
+/// Words that mean something only where a clause expects them, sorted.
+std::span<const std::string_view> clauseWordTable();
+/// Words kept for constructs that this version does not have (split, treemap ...), sorted.
+std::span<const std::string_view> unavailableTable();
+
+bool isKeyword(std::string_view word);
+bool isUnavailable(std::string_view word);
+
+}  // namespace sgm

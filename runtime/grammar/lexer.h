@@ -1,0 +1,67 @@
+#pragma once
+// Text to tokens: spans, numbers with units, text constants, comments kept aside for the printer.
+
+#include <cstdint>
+#include <memory_resource>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "grammar/ast.h"
+#include "grammar/sink.h"
+
+namespace sgm {
+
+enum class Tok : uint8_t {
+  end,
+  word,    ///< a name or keyword; keyword says which
+  number,  ///< value, dim
+  text,    ///< a text constant, quotes included in the span
+  open_paren,
+  close_paren,
+  open_brace,
+  close_brace,
+  comma,
+  semicolon,
+  colon,
+  dot,
+  dots,
+  arrow,
+  assign,
+  plus,
+  minus,
+  star,
+  slash,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  equal,
+  not_equal,
+};
+
+struct Token {
+  Tok kind = Tok::end;
+  bool keyword = false;
+  bool unavailable = false;
+  bool space_before = false;  ///< something blank stands before it
+  Dim dim;
+  double value = 0;
+  Span span;
+};
+
+struct LexResult {
+  std::pmr::vector<Token> tokens;  ///< ends with Tok::end
+  std::pmr::vector<Comment> comments;
+};
+
+/// Reports what is wrong and goes on; always gives a stream that ends. At most `max_tokens`, otherwise an error.
+LexResult lex(std::string_view text, uint32_t file, uint32_t max_tokens, DiagnosticSink& sink,
+              std::pmr::memory_resource* memory);
+
+/// The content of a text constant without its quotes and escapes.
+std::string textContent(std::string_view quoted);
+/// The constant with quotes and escapes.
+std::string quoteText(std::string_view content);
+
+}  // namespace sgm

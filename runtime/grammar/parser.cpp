@@ -1,0 +1,231 @@
+#include "grammar/parser.h"
+
+#include <algorithm>
+
+#include "grammar/codes.h"
+#include "grammar/keywords.h"
+
+namespace sgm {
+
+NameId NameTable::intern(std::string_view text) {
+  const auto found = ids_.find(text);
+  if (found != ids_.end()) return found->second;
+  const NameId id = static_cast<NameId>(ast_.names.size());
+  ast_.names.emplace_back(text);
+  ids_.emplace(text, id);
+  return id;
+}
+
+Parser::Parser(Program& program, NameTable& names, uint32_t module, const CompileLimits& limits, DiagnosticSink& sink)
+    : program_(program),
+      names_(names),
+      limits_(limits),
+      sink_(sink),
+      text_(program.modules[module].text),
+      lexed_(lex(text_, module, limits.nodes, sink, program.modules.get_allocator().resource())),
+      first_expr_(program.ast.exprs.size()) {
+  out_.module = module;
+  panic_token_.span = lexed_.tokens.back().span;
+  last_ = lexed_.tokens.front().span;
+  program.modules[module].comments = lexed_.comments;
+}
+
+ModuleSyntax Parser::run() {
+  const Span first = here();
+  if (acceptWord("sgm")) {
+    if (at(Tok::number) && textOf(peek()) != "1")
+      fail(here(), codes::kVersion, join({"this is version 1 of the language, not ", textOf(peek())}),
+           "write `sgm 1;`");
+    else if (expect(Tok::number, "the version number 1"))
+      expect(Tok::semicolon, "`;`");
+    if (panic_)
+      synchronise(true);
+    else
+      item(ItemKind::version, 0, first);
+  } else if (!sink_.full()) {
+    sink_.error(first, codes::kVersion, "a grammar starts with the version of its language", "write `sgm 1;` first");
+  }
+  while (!at(Tok::end) && !sink_.full()) {
+    declaration();
+    if (panic_) synchronise(true);
+  }
+  return std::move(out_);
+}
+
+const Token& Parser::peek(size_t ahead) const {
+  if (panic_ || exhausted_) return panic_token_;
+  return lexed_.tokens[std::min(next_ + ahead, lexed_.tokens.size() - 1)];
+}
+
+const Token& Parser::take() {
+  const Token& token = peek();
+  if (!panic_ && !exhausted_) {
+    last_ = token.span;
+    if (next_ + 1 < lexed_.tokens.size()) ++next_;
+  }
+  return token;
+}
+
+std::string_view Parser::textOf(const Token& token) const {
+  return text_.substr(token.span.begin, token.span.end - token.span.begin);
+}
+
+bool Parser::atWord(std::string_view word) const { return peek().kind == Tok::word && textOf(peek()) == word; }
+
+bool Parser::accept(Tok kind) {
+  if (!at(kind) || kind == Tok::end) return false;
+  take();
+  return true;
+}
+
+bool Parser::acceptWord(std::string_view word) {
+  if (!atWord(word)) return false;
+  take();
+  return true;
+}
+
+bool Parser::expect(Tok kind, std::string_view what) {
+  if (accept(kind)) return true;
+  unexpected(what);
+  return false;
+}
+
+bool Parser::expectWord(std::string_view word) {
+  if (acceptWord(word)) return true;
+  unexpected(join({"`", word, "`"}));
+  return false;
+}
+
+void Parser::fail(const Span& span, std::string_view code, std::string message, std::string hint) {
+  if (panic_ || exhausted_) return;
+  panic_ = true;
+  sink_.error(span, code, std::move(message), std::move(hint));
+}
+
+void Parser::unexpected(std::string_view wanted) {
+  if (panic_ || exhausted_ || unavailable()) return;
+  const Token& token = peek();
+  // What is missing is reported where it should stand, just behind the last token, when that ends another line.
+  Span span = token.span;
+  if (wanted == "`;`" && (token.kind == Tok::end || token.span.line != last_.end_line)) {
+    span = last_;
+    span.begin = span.end;
+    span.line = last_.end_line;
+    span.column = last_.end_column;
+  }
+  std::string found = token.kind == Tok::end ? "the end of the text" : join({"`", textOf(token), "`"});
+  std::string hint;
+  if (token.kind == Tok::word) {
+    Suggestion suggestion(textOf(token));
+    if (wanted.size() > 2 && wanted.front() == '`') suggestion.offer(wanted.substr(1, wanted.size() - 2));
+    hint = suggestion.hint();
+  }
+  if (token.kind == Tok::assign) hint = "`=` names a value only in let, param and field; compare with `==`";
+  fail(span, codes::kSyntax, join({"expected ", wanted, ", found ", found}), std::move(hint));
+}
+
+bool Parser::unavailable() {
+  const Token& token = peek();
+  if (token.kind != Tok::word || !token.unavailable) return false;
+  fail(token.span, codes::kNotAvailable, join({"`", textOf(token), "` is not available in sgm 1 of this version"}),
+       "the word is kept for a later one");
+  return true;
+}
+
+NameId Parser::wordName(std::string_view of_what) {
+  if (!at(Tok::word)) {
+    unexpected(of_what);
+    return kNoId;
+  }
+  return intern(textOf(take()));
+}
+
+NameId Parser::declaredName(std::string_view of_what) {
+  if (at(Tok::word) && (peek().keyword || peek().unavailable)) {
+    fail(here(), codes::kReservedWord,
+         join({"`", textOf(peek()), "` is a word of the language and cannot be ", of_what}),
+         join({"another name, such as `", textOf(peek()), "_`"}));
+    return kNoId;
+  }
+  return wordName(of_what);
+}
+
+NameId Parser::textName(std::string_view of_what) {
+  if (!at(Tok::text)) {
+    unexpected(of_what);
+    return kNoId;
+  }
+  return intern(textContent(textOf(take())));
+}
+
+Span Parser::since(const Span& begin) const {
+  Span span = begin;
+  span.end = std::max(begin.end, last_.end);
+  if (last_.end > begin.end) {
+    span.end_line = last_.end_line;
+    span.end_column = last_.end_column;
+  }
+  return span;
+}
+
+bool Parser::nodeBudget() {
+  if (exhausted_) return false;
+  if (program_.ast.exprs.size() + program_.ast.stmts.size() < limits_.nodes) return true;
+  fail(here(), codes::kTooLarge, join({"more than ", std::to_string(limits_.nodes), " expressions and statements"}));
+  exhausted_ = true;
+  return false;
+}
+
+IdRange Parser::store(const std::vector<uint32_t>& ids) {
+  const IdRange range{static_cast<uint32_t>(program_.ast.ids.size()), static_cast<uint32_t>(ids.size())};
+  program_.ast.ids.insert(program_.ast.ids.end(), ids.begin(), ids.end());
+  return range;
+}
+
+IdRange Parser::storeArgs(const std::vector<ArgNode>& args) {
+  const IdRange range{static_cast<uint32_t>(program_.ast.args.size()), static_cast<uint32_t>(args.size())};
+  program_.ast.args.insert(program_.ast.args.end(), args.begin(), args.end());
+  return range;
+}
+
+bool Parser::Deeper::fits() {
+  if (parser_.nesting_ <= parser_.limits_.nesting) return true;
+  parser_.fail(parser_.here(), codes::kTooDeep,
+               join({"nested more than ", std::to_string(parser_.limits_.nesting), " deep"}));
+  return false;
+}
+
+/// Skips to behind the next ';', or to the '}' of the block around, or behind a block that opened after the error. At
+/// top level a declaration's word at the start of a line ends the search as well.
+void Parser::synchronise(bool top_level) {
+  panic_ = false;
+  uint32_t open = 0;
+  while (!at(Tok::end)) {
+    const Token& token = peek();
+    if (top_level && token.kind == Tok::word && token.span.column == 1 && token.span.begin > last_.begin) {
+      const std::string_view word = textOf(token);
+      for (std::string_view starter : {"import", "units", "param", "seed", "let", "field", "domain", "layer", "start",
+                                       "rule", "morphic", "report", "expect"})
+        if (word == starter) return;
+    }
+    if (token.kind == Tok::open_brace) {
+      ++open;
+    } else if (token.kind == Tok::close_brace) {
+      if (open == 0 && !top_level) return;
+      take();
+      if (open <= 1) {
+        // `{ ... };` and `} -> ...` belong to what was skipped.
+        accept(Tok::semicolon);
+        return;
+      }
+      --open;
+      continue;
+    } else if (token.kind == Tok::semicolon && open == 0) {
+      take();
+      return;
+    }
+    take();
+  }
+}
+
+}  // namespace sgm

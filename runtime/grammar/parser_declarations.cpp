@@ -1,0 +1,433 @@
+#include <algorithm>
+#include <array>
+
+#include "base/hash.h"
+#include "grammar/codes.h"
+#include "grammar/parser.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr std::array<std::string_view, 13> kStarters = {"import",  "units",  "param", "seed",  "let",
+                                                        "field",   "domain", "layer", "start", "rule",
+                                                        "morphic", "report", "expect"};
+constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components", "volume", "area",
+                                                       "triangles",  "genus",      "anchors"};
+
+}  // namespace
+
+void Parser::item(ItemKind kind, size_t index, const Span& begin, size_t sub) {
+  if (panic_) return;
+  out_.items.push_back({kind, static_cast<uint32_t>(index), static_cast<uint32_t>(sub), since(begin)});
+}
+
+void Parser::declaration() {
+  const Span begin = here();
+  if (unavailable()) return;
+  if (acceptWord("import")) return importDeclaration();
+  if (acceptWord("units")) {
+    const Span word = here();
+    const bool again = out_.unit != kNoId;
+    const NameId unit = wordName("a unit of length");
+    const std::string_view text = nameOf(unit);
+    if (!panic_ && text != "m" && text != "cm" && text != "mm" && text != "km")
+      fail(word, codes::kUnknownUnit, join({"unknown unit of length `", text, "`"}), "units are m, cm, mm and km");
+    expect(Tok::semicolon, "`;`");
+    if (panic_) return;
+    if (again) sink_.error(since(begin), codes::kDuplicate, "a second `units`");
+    out_.unit = unit;
+    out_.unit_span = begin;
+    return item(ItemKind::units, 0, begin);
+  }
+  if (acceptWord("param")) return paramDeclaration();
+  if (acceptWord("seed")) {
+    const ExprId seed = expression();
+    expect(Tok::semicolon, "`;`");
+    if (panic_) return;
+    if (out_.seed != kNoId) sink_.error(since(begin), codes::kDuplicate, "a second `seed`");
+    out_.seed = seed;
+    out_.seed_span = since(begin);
+    return item(ItemKind::seed, 0, begin);
+  }
+  if (acceptWord("let")) return letDeclaration();
+  if (acceptWord("field")) return fieldDeclaration();
+  if (acceptWord("domain")) return domainDeclaration();
+  if (acceptWord("layer")) return layerDeclaration();
+  if (acceptWord("start")) return startDeclaration();
+  if (acceptWord("rule")) return ruleDeclaration();
+  if (acceptWord("morphic")) return morphicDeclaration();
+  if (acceptWord("report")) return expectation(false);
+  if (acceptWord("expect")) return expectation(true);
+  if (at(Tok::close_brace)) {
+    fail(begin, codes::kSyntax, "a `}` without its `{`");
+    panic_ = false;
+    take();
+    return;
+  }
+  std::string hint;
+  if (at(Tok::word)) {
+    Suggestion suggestion(textOf(peek()));
+    for (std::string_view word : kStarters) suggestion.offer(word);
+    hint = suggestion.hint();
+    if (hint.empty()) hint = "shapes stand in rules: rule Name { ... }";
+  }
+  fail(begin, codes::kSyntax, join({"expected a declaration, found `", textOf(peek()), "`"}), std::move(hint));
+}
+
+void Parser::importDeclaration() {
+  Span begin = last_;
+  ImportDecl import;
+  import.path_span = here();
+  import.path = textName("the path of a file in quotes");
+  expectWord("as");
+  import.alias_span = here();
+  import.alias = declaredName("the name of an import");
+  expect(Tok::semicolon, "`;`");
+  if (panic_) return;
+  out_.imports.push_back(import);
+  item(ItemKind::import, out_.imports.size() - 1, begin);
+}
+
+void Parser::paramDeclaration() {
+  const Span begin = last_;
+  Param param;
+  param.module = out_.module;
+  param.span = here();
+  param.name = declaredName("the name of a parameter");
+  expect(Tok::assign, "`=`");
+  param.value_expr = expression();
+  if (acceptWord("in")) {
+    param.low_expr = expression();
+    expect(Tok::dots, "`..`");
+    param.high_expr = expression();
+    param.has_range = true;
+  }
+  if (at(Tok::text)) param.doc = textName("a text");
+  expect(Tok::semicolon, "`;`");
+  if (panic_) return;
+  program_.params.push_back(param);
+  item(ItemKind::param, program_.params.size() - 1, begin);
+}
+
+IdRange Parser::formals() {
+  constexpr size_t kMostFormals = 16;
+  std::vector<FormalNode> list;
+  if (!accept(Tok::open_paren)) return {};
+  while (!at(Tok::close_paren) && !panic_) {
+    FormalNode formal;
+    const Span begin = here();
+    formal.name = declaredName("the name of a parameter");
+    formal.slot = static_cast<uint32_t>(list.size());
+    if (accept(Tok::assign)) formal.fallback = expression();
+    formal.span = since(begin);
+    list.push_back(formal);
+    if (list.size() > kMostFormals) fail(begin, codes::kTooLarge, "more than 16 parameters");
+    if (!accept(Tok::comma)) break;
+  }
+  expect(Tok::close_paren, "`)` or `,`");
+  if (panic_) return {};
+  const IdRange range{static_cast<uint32_t>(program_.ast.formals.size()), static_cast<uint32_t>(list.size())};
+  program_.ast.formals.insert(program_.ast.formals.end(), list.begin(), list.end());
+  return range;
+}
+
+void Parser::letDeclaration() {
+  const Span begin = last_;
+  Let let;
+  let.module = out_.module;
+  let.span = here();
+  let.name = declaredName("a name");
+  let.function = at(Tok::open_paren);
+  let.formals = formals();
+  let.slot_count = let.formals.count;
+  expect(Tok::assign, "`=`");
+  let.body = expression();
+  expect(Tok::semicolon, "`;`");
+  if (panic_) return;
+  program_.lets.push_back(let);
+  item(ItemKind::let, program_.lets.size() - 1, begin);
+}
+
+uint32_t Parser::addField(bool local) {
+  Field field;
+  field.module = out_.module;
+  field.local = local;
+  field.span = here();
+  field.name = declaredName("the name of a field");
+  field.formals = formals();
+  field.slot_count = field.formals.count;
+  expect(Tok::assign, "`=`");
+  field.body = expression();
+  expect(Tok::semicolon, "`;`");
+  if (panic_) return kNoId;
+  program_.fields.push_back(field);
+  return static_cast<uint32_t>(program_.fields.size() - 1);
+}
+
+void Parser::fieldDeclaration() {
+  const Span begin = last_;
+  const uint32_t field = addField(false);
+  item(ItemKind::field, field, begin);
+}
+
+void Parser::domainDeclaration() {
+  const Span begin = last_;
+  DomainDecl domain;
+  domain.present = true;
+  if (acceptWord("infinite"))
+    domain.infinite = true;
+  else if (!acceptWord("finite"))
+    unexpected("`finite` or `infinite`");
+  while (at(Tok::word) && !panic_) {
+    const Span word = here();
+    if (acceptWord("axes")) {
+      const std::string_view axes = textOf(peek());
+      bool good = at(Tok::word) && axes.size() <= 3 && !domain.axes_written;
+      domain.axes = {false, false, false};
+      for (char c : axes) {
+        if (c < 'x' || c > 'z' || domain.axes[static_cast<size_t>(c - 'x')])
+          good = false;
+        else
+          domain.axes[static_cast<size_t>(c - 'x')] = true;
+      }
+      if (!good) fail(here(), codes::kSyntax, "expected axes such as xz", "the axes along which there are cells");
+      if (!domain.infinite) fail(word, codes::kDomain, "a finite domain has no axes");
+      take();
+      domain.axes_written = true;
+    } else if (atWord("solid") || atWord("empty")) {
+      if (domain.solid || domain.empty) fail(word, codes::kDuplicate, "`solid` or `empty` once");
+      domain.solid = atWord("solid");
+      domain.empty = !domain.solid;
+      take();
+      if (domain.solid && at(Tok::word) && !atWord("output") && !atWord("axes") && !atWord("box"))
+        domain.material = declaredName("a material");
+    } else if (acceptWord("output")) {
+      expectWord("density");
+      domain.density = true;
+    } else if (atWord("box")) {
+      if (domain.infinite)
+        fail(word, codes::kDomain, "an infinite domain has no box", "write `domain finite box(...)`");
+      if (domain.box) fail(word, codes::kDuplicate, "a second box");
+      take();
+      domain.box = true;
+      domain.box_args = storeArgs(arguments("box"));
+    } else {
+      unexpected("`solid`, `empty`, `axes`, `box`, `output` or `;`");
+    }
+  }
+  expect(Tok::semicolon, "`;`");
+  if (panic_) return;
+  domain.span = since(begin);
+  if (out_.domain.present) sink_.error(domain.span, codes::kDuplicate, "a second `domain`");
+  out_.domain = domain;
+  item(ItemKind::domain, 0, begin);
+}
+
+void Parser::layerDeclaration() {
+  const Span begin = last_;
+  LayerDecl layer;
+  layer.span = here();
+  layer.name = declaredName("the name of a layer");
+  expectWord("cell");
+  layer.cell = expression();
+  expectWord("reach");
+  layer.reach = expression();
+  if (acceptWord("uses")) {
+    do {
+      const Span place = here();
+      layer.uses.push_back({wordName("the name of a layer"), place});
+    } while (accept(Tok::comma));
+  }
+  if (!panic_) layer.span = since(layer.span);
+  expect(Tok::open_brace, "`{`");
+  expectWord("start");
+  layer.start = callExpression("the name of a rule");
+  expect(Tok::semicolon, "`;`");
+  expect(Tok::close_brace, "`}`");
+  if (panic_) return;
+  out_.layers.push_back(std::move(layer));
+  item(ItemKind::layer, out_.layers.size() - 1, begin);
+}
+
+void Parser::startDeclaration() {
+  const Span begin = last_;
+  const ExprId start = callExpression("the name of a rule");
+  expect(Tok::semicolon, "`;`");
+  if (panic_) return;
+  if (out_.start != kNoId) sink_.error(since(begin), codes::kDuplicate, "a second `start`");
+  out_.start = start;
+  out_.start_span = since(begin);
+  item(ItemKind::start, 0, begin);
+}
+
+uint32_t Parser::ruleNamed(NameId name, bool morphic, const Span& span) {
+  const auto found = rules_.find(name);
+  if (found != rules_.end()) {
+    if (morphic || program_.rules[found->second].morphic)
+      sink_.error(span, codes::kDuplicate, join({"`", nameOf(name), "` is declared twice"}),
+                  "a morphic rule has one head and no alternatives");
+    return found->second;
+  }
+  Rule rule(program_.rules.get_allocator().resource());
+  rule.name = name;
+  rule.module = out_.module;
+  rule.morphic = morphic;
+  rule.name_hash = hashText(nameOf(name));
+  rule.span = span;
+  program_.rules.push_back(std::move(rule));
+  const uint32_t index = static_cast<uint32_t>(program_.rules.size() - 1);
+  rules_.emplace(name, index);
+  return index;
+}
+
+void Parser::ruleDeclaration() {
+  const Span begin = last_;
+  const Span name_span = here();
+  Alternative head;
+  const NameId name = declaredName("the name of a rule");
+  head.formals = formals();
+  bool more = true;
+  while (more && !panic_) {
+    const Span clause = here();
+    const std::string_view word = textOf(peek());
+    auto once = [&](bool there) {
+      if (there) fail(clause, codes::kDuplicate, join({"a second `", word, "`"}));
+      take();
+    };
+    if (atWord("when")) {
+      once(head.guard != Guard::none);
+      head.guard = Guard::when;
+      head.when = expression();
+    } else if (atWord("else")) {
+      once(head.guard != Guard::none);
+      head.guard = Guard::otherwise;
+    } else if (atWord("weight")) {
+      once(head.weight != kNoId);
+      head.weight = expression();
+    } else if (atWord("depth")) {
+      once(head.depth != kNoId);
+      head.depth = expression();
+      expect(Tok::arrow, "`->` and what to derive instead");
+      head.depth_call = callExpression("what to derive instead");
+    } else if (atWord("minsize")) {
+      once(head.minsize != kNoId);
+      head.minsize = expression();
+      expect(Tok::arrow, "`->` and what to derive instead");
+      head.minsize_call = callExpression("what to derive instead");
+    } else if (atWord("lod")) {
+      once(head.lod != kNoId);
+      if (atWord("far") || atWord("mid") || atWord("near"))
+        fail(here(), codes::kSyntax, "lod takes the cell edge from which on it stands in", "such as `lod 2m`");
+      head.lod = expression();
+    } else {
+      more = false;
+    }
+  }
+  head.span = panic_ ? name_span : since(begin);
+  if (!at(Tok::open_brace)) {
+    unexpected("`{`, or `when`, `else`, `weight`, `depth`, `minsize` or `lod`");
+    return;
+  }
+  head.body = block();
+  if (panic_) return;
+  const uint32_t rule = ruleNamed(name, false, name_span);
+  program_.rules[rule].alternatives.push_back(head);
+  item(ItemKind::alternative, rule, begin, program_.rules[rule].alternatives.size() - 1);
+}
+
+void Parser::morphicDeclaration() {
+  const Span begin = last_;
+  const Span name_span = here();
+  Alternative head;
+  const NameId name = declaredName("the name of a rule");
+  head.formals = formals();
+  head.span = panic_ ? name_span : since(begin);
+  expect(Tok::colon, "`:`");
+  StmtNode morph;
+  morph.kind = StmtKind::morph;
+  const Span morph_span = here();
+  const StmtId from = morphOperand();
+  expect(Tok::arrow, "`->`");
+  const StmtId to = morphOperand();
+  expectWord("by");
+  morph.expr = expression();
+  if (acceptWord("power"))
+    morph.power = true;
+  else
+    acceptWord("lerp");
+  if (panic_) return;
+  morph.children = store({from, to});
+  const StmtId inner = addStmt(morph, morph_span);
+  StmtNode body;
+  body.kind = StmtKind::block;
+  body.children = store({inner});
+  head.body = addStmt(body, morph_span);
+  expect(Tok::semicolon, "`;`");
+  if (panic_) return;
+  const uint32_t rule = ruleNamed(name, true, name_span);
+  program_.rules[rule].alternatives.push_back(head);
+  item(ItemKind::alternative, rule, begin, program_.rules[rule].alternatives.size() - 1);
+}
+
+void Parser::expectation(bool expect_it) {
+  const Span begin = last_;
+  Expectation e;
+  e.expect = expect_it;
+  const Span word = here();
+  const std::string_view measure = textOf(peek());
+  const auto known = std::find(kMeasures.begin(), kMeasures.end(), measure);
+  if (!at(Tok::word) || known == kMeasures.end()) {
+    Suggestion suggestion(measure);
+    for (std::string_view m : kMeasures) suggestion.offer(m);
+    const std::string hint = suggestion.hint();
+    fail(word, codes::kUnknownName, join({"unknown measure `", measure, "`"}),
+         hint.empty() ? "measures are watertight, components, volume, area, triangles, genus and anchors" : hint);
+    return;
+  }
+  e.measure = static_cast<Measure>(known - kMeasures.begin());
+  take();
+  if (accept(Tok::open_paren)) {
+    if (!atWord("air") && !atWord("solid")) unexpected("`air` or `solid`");
+    e.of = wordName("`air` or `solid`");
+    expect(Tok::close_paren, "`)`");
+  }
+  const Tok sign = peek().kind;
+  if (sign >= Tok::less && sign <= Tok::not_equal) {
+    constexpr std::array<BinaryOp, 6> kOps = {BinaryOp::less,          BinaryOp::less_equal, BinaryOp::greater,
+                                              BinaryOp::greater_equal, BinaryOp::equal,      BinaryOp::not_equal};
+    e.comparison = kOps[static_cast<size_t>(sign) - static_cast<size_t>(Tok::less)];
+    e.compared = true;
+    take();
+    e.value = expression();
+  }
+  while (!panic_ && (atWord("in") || atWord("per"))) {
+    if (acceptWord("per")) {
+      e.span = here();
+      e.per_name = wordName("the name of a rule");
+    } else {
+      take();
+      if (acceptWord("block")) {
+        expect(Tok::open_paren, "`(`");
+        const Token& cells = peek();
+        if (cells.kind != Tok::number || !(cells.dim == kRatio) || cells.value < 1 || cells.value > 64 ||
+            cells.value != static_cast<double>(static_cast<int32_t>(cells.value)))
+          fail(here(), codes::kValueRange, "a block has 1 to 64 cells along an edge");
+        e.block = static_cast<int32_t>(cells.value);
+        take();
+        expect(Tok::close_paren, "`)`");
+      } else {
+        e.low = expression();
+        expect(Tok::dots, "`..`");
+        e.high = expression();
+      }
+    }
+  }
+  expect(Tok::semicolon, "`;`");
+  if (panic_) return;
+  e.span = since(begin);
+  program_.expectations.push_back(e);
+  item(ItemKind::expectation, program_.expectations.size() - 1, begin);
+}
+
+}  // namespace sgm

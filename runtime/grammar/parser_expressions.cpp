@@ -1,0 +1,310 @@
+#include <algorithm>
+
+#include "grammar/codes.h"
+#include "grammar/parser.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr uint16_t kDeepestTree = 200;  // of trees that loops build, a + b + c ...
+
+struct Operator {
+  int level = 0;  ///< binds tighter where larger; 0: no operator
+  BinaryOp op = BinaryOp::add;
+};
+
+constexpr int kComparison = 3;
+
+Operator operatorOf(Tok kind, std::string_view text) {
+  switch (kind) {
+    case Tok::plus:
+      return {4, BinaryOp::add};
+    case Tok::minus:
+      return {4, BinaryOp::subtract};
+    case Tok::star:
+      return {5, BinaryOp::multiply};
+    case Tok::slash:
+      return {5, BinaryOp::divide};
+    case Tok::less:
+      return {kComparison, BinaryOp::less};
+    case Tok::less_equal:
+      return {kComparison, BinaryOp::less_equal};
+    case Tok::greater:
+      return {kComparison, BinaryOp::greater};
+    case Tok::greater_equal:
+      return {kComparison, BinaryOp::greater_equal};
+    case Tok::equal:
+      return {kComparison, BinaryOp::equal};
+    case Tok::not_equal:
+      return {kComparison, BinaryOp::not_equal};
+    case Tok::word:
+      break;
+    default:
+      return {};
+  }
+  if (text == "or") return {1, BinaryOp::logical_or};
+  if (text == "and") return {2, BinaryOp::logical_and};
+  return {};
+}
+
+}  // namespace
+
+ExprId Parser::addExpr(ExprNode node, const Span& begin) {
+  if (!nodeBudget()) return kNoId;
+  node.span = since(begin);
+  uint16_t depth = 0;
+  auto include = [&](ExprId child) {
+    if (child != kNoId && child >= first_expr_) depth = std::max(depth, depth_[child - first_expr_]);
+  };
+  for (uint32_t i = 0; i < node.children.count; ++i) include(program_.ast.ids[node.children.first + i]);
+  for (uint32_t i = 0; i < node.args.count; ++i) include(program_.ast.args[node.args.first + i].value);
+  if (++depth > kDeepestTree) {
+    fail(node.span, codes::kTooDeep, join({"an expression with more than ", std::to_string(kDeepestTree), " steps"}),
+         "name a part of it with let");
+    depth = kDeepestTree;
+  }
+  program_.ast.exprs.push_back(node);
+  depth_.push_back(depth);
+  return static_cast<ExprId>(program_.ast.exprs.size() - 1);
+}
+
+ExprId Parser::expression() {
+  Deeper deeper(*this);
+  if (!deeper.fits()) return kNoId;
+  if (!atWord("if")) return binaryLevel(1);
+  const Span begin = here();
+  take();
+  const ExprId condition = expression();
+  expectWord("then");
+  const ExprId yes = expression();
+  expectWord("else");
+  const ExprId no = expression();
+  if (panic_) return kNoId;
+  ExprNode node;
+  node.kind = ExprKind::conditional;
+  node.children = store({condition, yes, no});
+  return addExpr(node, begin);
+}
+
+ExprId Parser::rangeOrExpression() {
+  const Span begin = here();
+  const ExprId low = expression();
+  if (!accept(Tok::dots)) return low;
+  const ExprId high = expression();
+  if (panic_) return kNoId;
+  ExprNode node;
+  node.kind = ExprKind::range;
+  node.children = store({low, high});
+  return addExpr(node, begin);
+}
+
+ExprId Parser::binaryLevel(int lowest) {
+  const Span begin = here();
+  ExprId left = unary();
+  for (;;) {
+    const Operator op = operatorOf(peek().kind, textOf(peek()));
+    if (panic_ || op.level < lowest || op.level == 0) return left;
+    const Span sign = here();
+    take();
+    const ExprId right = binaryLevel(op.level + 1);
+    if (panic_) return kNoId;
+    ExprNode node;
+    node.kind = ExprKind::binary;
+    node.binary = op.op;
+    node.children = store({left, right});
+    left = addExpr(node, begin);
+    if (op.level == kComparison && operatorOf(peek().kind, textOf(peek())).level == kComparison)
+      fail(sign, codes::kSyntax, "comparisons do not chain", "join two comparisons with `and`");
+  }
+}
+
+ExprId Parser::unary() {
+  const Span begin = here();
+  const bool minus = at(Tok::minus), negation = atWord("not");
+  if (!minus && !negation) return postfix();
+  Deeper deeper(*this);
+  if (!deeper.fits()) return kNoId;
+  take();
+  // `not a < b` denies the comparison; a minus binds to what is next.
+  const ExprId operand = negation ? binaryLevel(kComparison) : unary();
+  if (panic_) return kNoId;
+  ExprNode node;
+  node.kind = minus ? ExprKind::negate : ExprKind::logical_not;
+  node.children = store({operand});
+  return addExpr(node, begin);
+}
+
+ExprId Parser::postfix() {
+  const Span begin = here();
+  ExprId value = primary();
+  while (!panic_ && (at(Tok::dot) || at(Tok::open_paren))) {
+    if (value == kNoId) return kNoId;
+    const ExprKind kind = program_.ast.exprs[value].kind;
+    if (at(Tok::dot)) {
+      take();
+      ExprNode node;
+      node.kind = ExprKind::member;
+      node.name = wordName("a name after the point");
+      if (panic_) return kNoId;
+      node.children = store({value});
+      value = addExpr(node, begin);
+      continue;
+    }
+    if (kind != ExprKind::name && kind != ExprKind::member) return value;
+    // The call takes over the name, and the receiver where there is one.
+    ExprNode node = program_.ast.exprs[value];
+    node.kind = ExprKind::call;
+    const std::vector<ArgNode> args = arguments(nameOf(node.name));
+    if (panic_) return kNoId;
+    node.args = storeArgs(args);
+    value = addExpr(node, begin);
+  }
+  return value;
+}
+
+ExprId Parser::primary() {
+  const Span begin = here();
+  ExprNode node;
+  switch (peek().kind) {
+    case Tok::number:
+      node.kind = ExprKind::number;
+      node.value = peek().value;
+      node.type = {ValueKind::number, peek().dim, false, false};
+      node.name = intern(textOf(peek()));
+      take();
+      return addExpr(node, begin);
+    case Tok::text:
+      node.kind = ExprKind::text;
+      node.type.kind = ValueKind::text;
+      node.name = textName("a text");
+      return addExpr(node, begin);
+    case Tok::open_paren:
+      return parenthesised();
+    case Tok::word:
+      break;
+    default:
+      unexpected("an expression");
+      return kNoId;
+  }
+  if (unavailable()) return kNoId;
+  const std::string_view word = textOf(peek());
+  if (word == "true" || word == "false") {
+    node.kind = ExprKind::number;
+    node.value = word == "true" ? 1 : 0;
+    node.type.kind = ValueKind::boolean;
+    node.name = intern(word);
+    take();
+    return addExpr(node, begin);
+  }
+  if (word == "if") return expression();
+  if (peek().keyword && peek(1).kind != Tok::open_paren) {
+    unexpected("an expression");
+    return kNoId;
+  }
+  if (peek().keyword) {
+    fail(here(), codes::kSyntax, join({"`", word, "` starts a statement and gives no value"}));
+    return kNoId;
+  }
+  node.kind = ExprKind::name;
+  node.name = intern(word);
+  take();
+  return addExpr(node, begin);
+}
+
+/// ( a ), the pair ( a, b ) and the vector ( a, b, c ).
+ExprId Parser::parenthesised() {
+  Deeper deeper(*this);
+  if (!deeper.fits()) return kNoId;
+  const Span begin = here();
+  take();
+  std::vector<uint32_t> parts{expression()};
+  while (!panic_ && accept(Tok::comma)) parts.push_back(expression());
+  expect(Tok::close_paren, "`)`");
+  if (panic_) return kNoId;
+  if (parts.size() == 1) {
+    if (parts[0] != kNoId) program_.ast.exprs[parts[0]].parenthesised = true;
+    return parts[0];
+  }
+  if (parts.size() > 3) {
+    fail(since(begin), codes::kSyntax, "a vector has three parts, a pair two");
+    return kNoId;
+  }
+  ExprNode node;
+  node.kind = ExprKind::vector;
+  node.children = store(parts);
+  return addExpr(node, begin);
+}
+
+/// `name value`: a word before something that starts an expression. Before a minus it is a name only where the callee
+/// is a builtin with such a parameter and the minus touches its operand: `halfspace(below -2m)`; elsewhere `name =
+/// -2m`.
+bool Parser::namedArgumentAhead(std::string_view callee) const {
+  if (peek().kind != Tok::word) return false;
+  const std::string_view word = textOf(peek());
+  if (word == "if" || word == "not" || word == "true" || word == "false") return false;
+  const Token& next = peek(1);
+  switch (next.kind) {
+    case Tok::number:
+    case Tok::text:
+    case Tok::assign:
+      return true;
+    case Tok::word:
+      return operatorOf(next.kind, textOf(next)).level == 0 && textOf(next) != "then" && textOf(next) != "else";
+    case Tok::open_paren:
+    case Tok::minus:
+      break;
+    default:
+      return false;
+  }
+  if (!next.space_before || (next.kind == Tok::minus && peek(2).space_before)) return false;
+  auto has = [&](std::span<const BuiltinParam> params) {
+    return std::any_of(params.begin(), params.end(),
+                       [&](const BuiltinParam& p) { return p.named_only && p.name == word; });
+  };
+  if (const PrimitiveInfo* primitive = findPrimitive(callee)) return has(primitive->params);
+  if (const BuiltinInfo* builtin = findBuiltin(callee)) return has(builtin->params);
+  return false;
+}
+
+std::vector<ArgNode> Parser::arguments(std::string_view callee) {
+  constexpr size_t kMostArguments = 80;
+  std::vector<ArgNode> args;
+  if (!expect(Tok::open_paren, "`(`")) return args;
+  while (!at(Tok::close_paren) && !panic_) {
+    const Span begin = here();
+    ArgNode arg;
+    if (namedArgumentAhead(callee)) {
+      arg.name = wordName("a name");
+      accept(Tok::assign);
+    }
+    arg.value = expression();
+    arg.span = since(begin);
+    args.push_back(arg);
+    if (args.size() > kMostArguments) fail(begin, codes::kTooLarge, "too many arguments");
+    if (!accept(Tok::comma)) break;
+  }
+  expect(Tok::close_paren, "`)` or `,`");
+  return args;
+}
+
+/// Rule, rule(...) or module.Rule(...): always a call, with or without arguments.
+ExprId Parser::callExpression(std::string_view what) {
+  const Span begin = here();
+  if (!at(Tok::word) || peek().keyword) {
+    unexpected(what);
+    return kNoId;
+  }
+  const ExprId callee = postfix();
+  if (panic_ || callee == kNoId) return kNoId;
+  ExprNode node = program_.ast.exprs[callee];
+  if (node.kind == ExprKind::call) return callee;
+  if (node.kind != ExprKind::name && node.kind != ExprKind::member) {
+    fail(since(begin), codes::kSyntax, join({"expected ", what}));
+    return kNoId;
+  }
+  node.kind = ExprKind::call;
+  return addExpr(node, begin);
+}
+
+}  // namespace sgm

@@ -1,0 +1,357 @@
+#include "grammar/print_expressions.h"
+
+#include <algorithm>
+#include <array>
+
+#include "grammar/lexer.h"
+#include "grammar/sink.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr int kComparison = 3, kUnary = 6, kPostfix = 7;
+
+struct Spelling {
+  std::string_view text;
+  int level;
+};
+
+constexpr std::array<Spelling, 12> kBinary = {{{" + ", 4},
+                                               {" - ", 4},
+                                               {"*", 5},
+                                               {"/", 5},
+                                               {" < ", 3},
+                                               {" <= ", 3},
+                                               {" > ", 3},
+                                               {" >= ", 3},
+                                               {" == ", 3},
+                                               {" != ", 3},
+                                               {" and ", 2},
+                                               {" or ", 1}}};
+constexpr std::array<std::string_view, 5> kXforms = {"at", "rot", "scale", "size", "mirror"};
+
+int levelOf(const ExprNode& node) {
+  switch (node.kind) {
+    case ExprKind::conditional:
+    case ExprKind::range:
+      return 0;
+    case ExprKind::binary:
+      return kBinary[static_cast<size_t>(node.binary)].level;
+    case ExprKind::logical_not:
+      return kComparison;
+    case ExprKind::negate:
+      return kUnary;
+    default:
+      return kPostfix;
+  }
+}
+
+bool namedOnly(std::string_view callee, std::string_view name) {
+  auto has = [&](std::span<const BuiltinParam> params) {
+    return std::any_of(params.begin(), params.end(),
+                       [&](const BuiltinParam& p) { return p.named_only && p.name == name; });
+  };
+  if (const PrimitiveInfo* primitive = findPrimitive(callee)) return has(primitive->params);
+  if (const BuiltinInfo* builtin = findBuiltin(callee)) return has(builtin->params);
+  return false;
+}
+
+}  // namespace
+
+void LinePrinter::expr(std::string& out, ExprId id, int lowest) const {
+  if (id == kNoId) return;
+  const ExprNode& node = program_.expr(id);
+  const bool vector = node.kind == ExprKind::vector;
+  const bool parentheses = !vector && (levelOf(node) < lowest || (node.parenthesised && !meaning_));
+  if (parentheses) out += '(';
+  auto child = [&](uint32_t i, int level) { expr(out, program_.idAt(node.children, i), level); };
+  switch (node.kind) {
+    case ExprKind::number:
+      if (meaning_ && node.type.kind == ValueKind::number)
+        out += join({numberText(node.value), "~", std::to_string(node.type.dim.length), "~",
+                     std::to_string(node.type.dim.angle)});
+      else
+        out += program_.text(node.name);
+      break;
+    case ExprKind::text:
+      out += quoteText(program_.text(node.name));
+      break;
+    case ExprKind::vector:
+      out += '(';
+      for (uint32_t i = 0; i < node.children.count; ++i) {
+        if (i > 0) out += ", ";
+        child(i, 0);
+      }
+      out += ')';
+      break;
+    case ExprKind::negate:
+      out += '-';
+      child(0, kUnary);
+      break;
+    case ExprKind::logical_not:
+      out += "not ";
+      child(0, kComparison);
+      break;
+    case ExprKind::binary: {
+      const Spelling spelling = kBinary[static_cast<size_t>(node.binary)];
+      child(0, spelling.level == kComparison ? kComparison + 1 : spelling.level);
+      out += spelling.text;
+      child(1, spelling.level + 1);
+      break;
+    }
+    case ExprKind::conditional:
+      out += "if ";
+      child(0, 0);
+      out += " then ";
+      child(1, 0);
+      out += " else ";
+      child(2, 0);
+      break;
+    case ExprKind::range:
+      child(0, 1);
+      out += "..";
+      child(1, 1);
+      break;
+    case ExprKind::name:
+      out += program_.text(node.name);
+      break;
+    case ExprKind::member:
+      child(0, kPostfix);
+      out += join({".", program_.text(node.name)});
+      break;
+    case ExprKind::call:
+      if (node.children.count > 0) {
+        child(0, kPostfix);
+        out += '.';
+      }
+      out += program_.text(node.name);
+      // A call without arguments is a rule's, which is written without parentheses.
+      if (node.args.count > 0) args(out, node.args, program_.text(node.name));
+      break;
+  }
+  if (parentheses) out += ')';
+}
+
+void LinePrinter::args(std::string& out, IdRange range, std::string_view callee) const {
+  out += '(';
+  for (uint32_t i = 0; i < range.count; ++i) {
+    const ArgNode& arg = program_.ast.args[range.first + i];
+    if (i > 0) out += ", ";
+    if (arg.name != kNoId) {
+      const std::string_view name = program_.text(arg.name);
+      std::string value;
+      expr(value, arg.value);
+      const bool touching = value.starts_with('-') || value.starts_with('(');
+      out += join({name, touching && !namedOnly(callee, name) ? " = " : " ", value});
+    } else {
+      expr(out, arg.value);
+    }
+  }
+  out += ')';
+}
+
+void LinePrinter::formals(std::string& out, IdRange range) const {
+  if (range.count == 0) return;
+  out += '(';
+  for (uint32_t i = 0; i < range.count; ++i) {
+    const FormalNode& formal = program_.ast.formals[range.first + i];
+    if (i > 0) out += ", ";
+    out += program_.text(formal.name);
+    if (formal.fallback != kNoId) {
+      out += " = ";
+      expr(out, formal.fallback);
+    }
+  }
+  out += ')';
+}
+
+void LinePrinter::xforms(std::string& out, IdRange range) const {
+  for (uint32_t i = 0; i < range.count; ++i) {
+    const XformNode& node = program_.ast.xforms[range.first + i];
+    if (i > 0) out += ' ';
+    const std::string_view word = kXforms[static_cast<size_t>(node.kind)];
+    out += word;
+    args(out, node.args, word);
+  }
+}
+
+void LinePrinter::scatter(std::string& out, const ScatterNode& node) const {
+  out += "scatter ";
+  if (node.poisson) out += "poisson(";
+  expr(out, node.count);
+  if (node.poisson) out += ')';
+  if (node.area != ScatterArea::cell) {
+    const std::string_view word = node.area == ScatterArea::shell ? "shell"
+                                  : node.area == ScatterArea::box ? "box"
+                                                                  : "disc";
+    out += join({" on ", word});
+    args(out, node.args, word);
+  }
+  if (node.probe != 0) {
+    out += node.probe > 0 ? " probe up " : " probe down ";
+    expr(out, node.distance);
+    out += join({" of ", program_.text(node.layer_name)});
+  }
+  if (node.when != kNoId) {
+    out += " when ";
+    expr(out, node.when);
+  }
+}
+
+void LinePrinter::field(std::string& out, const Field& field) const {
+  out += join({"field ", program_.text(field.name)});
+  formals(out, field.formals);
+  out += " = ";
+  expr(out, field.body);
+  out += ';';
+}
+
+void LinePrinter::morphOperand(std::string& out, StmtId id) const {
+  const StmtNode& node = program_.stmt(id);
+  if (node.kind == StmtKind::block)
+    statement(out, id);
+  else
+    expr(out, node.expr);
+}
+
+void LinePrinter::head(std::string& out, const StmtNode& node) const {
+  auto smooth = [&](std::string_view word) {
+    out += word;
+    if (node.amount == kNoId) return;
+    out += " smooth ";
+    expr(out, node.amount);
+  };
+  auto amplitude = [&](std::string_view word) {
+    out += word;
+    expr(out, node.expr);
+    if (node.amount == kNoId) return;
+    out += " amp ";
+    expr(out, node.amount);
+  };
+  switch (node.kind) {
+    case StmtKind::block:
+      break;
+    case StmtKind::call:
+      expr(out, node.expr);
+      out += ';';
+      break;
+    case StmtKind::unite:
+      smooth("union");
+      break;
+    case StmtKind::cut:
+      smooth("cut");
+      break;
+    case StmtKind::meet:
+      smooth("meet");
+      break;
+    case StmtKind::sum:
+      out += "sum";
+      break;
+    case StmtKind::morph:
+      out += "morph(";
+      morphOperand(out, program_.idAt(node.children, 0));
+      out += ", ";
+      morphOperand(out, program_.idAt(node.children, 1));
+      out += ", ";
+      expr(out, node.expr);
+      out += node.power ? ") power;" : ");";
+      break;
+    case StmtKind::displace:
+      amplitude("displace ");
+      break;
+    case StmtKind::warp:
+      amplitude("warp ");
+      break;
+    case StmtKind::transform:
+      xforms(out, node.xforms);
+      break;
+    case StmtKind::repeat:
+      out += "repeat ";
+      expr(out, node.expr);
+      if (node.xforms.count > 0) out += ' ';
+      xforms(out, node.xforms);
+      break;
+    case StmtKind::for_each:
+      out += join({"for ", program_.text(node.name), " in "});
+      expr(out, node.expr);
+      break;
+    case StmtKind::scatter:
+      scatter(out, program_.ast.scatters[node.extra]);
+      break;
+    case StmtKind::let:
+      out += join({"let ", program_.text(node.name), " = "});
+      expr(out, node.expr);
+      out += ';';
+      break;
+    case StmtKind::field:
+      field(out, program_.fields[node.extra]);
+      break;
+    case StmtKind::mat:
+      out += join({"mat ", program_.text(node.name), ";"});
+      break;
+    case StmtKind::tag:
+      out += join({"tag ", quoteText(program_.text(node.name)), ";"});
+      break;
+    case StmtKind::anchor:
+      out += join({"anchor ", program_.text(node.name)});
+      if (node.name2 != kNoId) out += join({" ", quoteText(program_.text(node.name2))});
+      out += ';';
+      break;
+    case StmtKind::detail:
+      out += "detail ";
+      expr(out, node.expr);
+      break;
+  }
+}
+
+void LinePrinter::statement(std::string& out, StmtId id) const {
+  const StmtNode& node = program_.stmt(id);
+  if (node.kind == StmtKind::block) {
+    out += "{ ";
+    for (uint32_t i = 0; i < node.children.count; ++i) {
+      statement(out, program_.idAt(node.children, i));
+      out += ' ';
+    }
+    out += '}';
+    return;
+  }
+  head(out, node);
+  if (node.body == kNoId) return;
+  out += ' ';
+  statement(out, node.body);
+}
+
+void LinePrinter::ruleHead(std::string& out, const Rule& rule, const Alternative& alternative) const {
+  out += join({"rule ", program_.text(rule.name)});
+  formals(out, alternative.formals);
+  auto clause = [&](std::string_view word, ExprId value, ExprId call = kNoId) {
+    if (value == kNoId) return;
+    out += word;
+    expr(out, value);
+    if (call == kNoId) return;
+    out += " -> ";
+    expr(out, call);
+  };
+  if (alternative.guard == Guard::otherwise) out += " else";
+  clause(" when ", alternative.when);
+  clause(" weight ", alternative.weight);
+  clause(" depth ", alternative.depth, alternative.depth_call);
+  clause(" minsize ", alternative.minsize, alternative.minsize_call);
+  clause(" lod ", alternative.lod);
+}
+
+void LinePrinter::morphic(std::string& out, const Rule& rule, const Alternative& alternative) const {
+  const StmtNode& morph = program_.stmt(program_.idAt(program_.stmt(alternative.body).children, 0));
+  out += join({"morphic ", program_.text(rule.name)});
+  formals(out, alternative.formals);
+  out += " : ";
+  morphOperand(out, program_.idAt(morph.children, 0));
+  out += " -> ";
+  morphOperand(out, program_.idAt(morph.children, 1));
+  out += " by ";
+  expr(out, morph.expr);
+  out += morph.power ? " power;" : ";";
+}
+
+}  // namespace sgm

@@ -1,0 +1,38 @@
+#pragma once
+// Expressions, calls and statements as one line of text: the part of the printer that knows no layout.
+
+#include <string>
+#include <string_view>
+
+#include "grammar/program.h"
+
+namespace sgm {
+
+class LinePrinter {
+ public:
+  /// meaning: numbers by value and no parentheses that the source has for clarity alone.
+  LinePrinter(const Program& program, bool meaning) : program_(program), meaning_(meaning) {}
+
+  /// A range prints as a..b.
+  void expr(std::string& out, ExprId id, int lowest = 0) const;
+  void formals(std::string& out, IdRange range) const;
+  void args(std::string& out, IdRange range, std::string_view callee) const;
+  void xforms(std::string& out, IdRange range) const;
+  /// What stands before a statement's body, without a blank at the end; the whole statement where it has no body.
+  void head(std::string& out, const StmtNode& node) const;
+  /// The whole statement on one line.
+  void statement(std::string& out, StmtId id) const;
+  void ruleHead(std::string& out, const Rule& rule, const Alternative& alternative) const;
+  /// `morphic R(a) : A -> B by t power;`
+  void morphic(std::string& out, const Rule& rule, const Alternative& alternative) const;
+  void field(std::string& out, const Field& field) const;
+
+ private:
+  void morphOperand(std::string& out, StmtId id) const;
+  void scatter(std::string& out, const ScatterNode& node) const;
+
+  const Program& program_;
+  bool meaning_;
+};
+
+}  // namespace sgm

@@ -1,0 +1,282 @@
+#include "grammar/printer.h"
+
+#include <algorithm>
+#include <array>
+
+#include "grammar/lexer.h"
+#include "grammar/print_expressions.h"
+#include "grammar/sink.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr size_t kWidth = 110;
+constexpr uint32_t kLongestInline = 400;  // longer in the source: not even tried on one line, which bounds the work
+constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components", "volume", "area",
+                                                       "triangles",  "genus",      "anchors"};
+constexpr std::array<std::string_view, 6> kComparisons = {" < ", " <= ", " > ", " >= ", " == ", " != "};
+
+/// Everything but rules with blocks: declarations that always stand on one line.
+void declarationLine(std::string& out, const Program& program, const ModuleSyntax& syntax, const LinePrinter& line,
+                     const Item& item) {
+  switch (item.kind) {
+    case ItemKind::version:
+      out += "sgm 1;";
+      break;
+    case ItemKind::import: {
+      const ImportDecl& import = syntax.imports[item.index];
+      out += join({"import ", quoteText(program.text(import.path)), " as ", program.text(import.alias), ";"});
+      break;
+    }
+    case ItemKind::units:
+      out += join({"units ", program.text(syntax.unit), ";"});
+      break;
+    case ItemKind::param: {
+      const Param& param = program.params[item.index];
+      out += join({"param ", program.text(param.name), " = "});
+      line.expr(out, param.value_expr);
+      if (param.has_range) {
+        out += " in ";
+        line.expr(out, param.low_expr, 1);
+        out += "..";
+        line.expr(out, param.high_expr, 1);
+      }
+      if (param.doc != kNoId) out += join({" ", quoteText(program.text(param.doc))});
+      out += ';';
+      break;
+    }
+    case ItemKind::seed:
+      out += "seed ";
+      line.expr(out, syntax.seed);
+      out += ';';
+      break;
+    case ItemKind::let: {
+      const Let& let = program.lets[item.index];
+      out += join({"let ", program.text(let.name)});
+      if (let.function && let.formals.count == 0) out += "()";
+      line.formals(out, let.formals);
+      out += " = ";
+      line.expr(out, let.body);
+      out += ';';
+      break;
+    }
+    case ItemKind::field:
+      line.field(out, program.fields[item.index]);
+      break;
+    case ItemKind::domain: {
+      const DomainDecl& domain = syntax.domain;
+      out += domain.infinite ? "domain infinite" : "domain finite";
+      if (domain.axes_written) {
+        out += " axes ";
+        for (size_t axis = 0; axis < 3; ++axis)
+          if (domain.axes[axis]) out += static_cast<char>('x' + axis);
+      }
+      if (domain.box) {
+        out += " box";
+        line.args(out, domain.box_args, "box");
+      }
+      if (domain.solid) out += " solid";
+      if (domain.empty) out += " empty";
+      if (domain.material != kNoId) out += join({" ", program.text(domain.material)});
+      if (domain.density) out += " output density";
+      out += ';';
+      break;
+    }
+    case ItemKind::layer: {
+      const LayerDecl& layer = syntax.layers[item.index];
+      out += join({"layer ", program.text(layer.name), " cell "});
+      line.expr(out, layer.cell);
+      out += " reach ";
+      line.expr(out, layer.reach);
+      for (size_t i = 0; i < layer.uses.size(); ++i)
+        out += join({i == 0 ? " uses " : ", ", program.text(layer.uses[i].name)});
+      out += " { start ";
+      line.expr(out, layer.start);
+      out += "; }";
+      break;
+    }
+    case ItemKind::start:
+      out += "start ";
+      line.expr(out, syntax.start);
+      out += ';';
+      break;
+    case ItemKind::alternative: {
+      const Rule& rule = program.rules[item.index];
+      const Alternative& alternative = rule.alternatives[item.sub];
+      if (rule.morphic) return line.morphic(out, rule, alternative);
+      line.ruleHead(out, rule, alternative);
+      out += ' ';
+      line.statement(out, alternative.body);
+      break;
+    }
+    case ItemKind::expectation: {
+      const Expectation& e = program.expectations[item.index];
+      out += join({e.expect ? "expect " : "report ", kMeasures[static_cast<size_t>(e.measure)]});
+      if (e.of != kNoId) out += join({"(", program.text(e.of), ")"});
+      if (e.compared) {
+        out += kComparisons[static_cast<size_t>(e.comparison) - static_cast<size_t>(BinaryOp::less)];
+        line.expr(out, e.value);
+      }
+      if (e.low != kNoId) {
+        out += " in ";
+        line.expr(out, e.low, 1);
+        out += "..";
+        line.expr(out, e.high, 1);
+      }
+      if (e.block > 0) out += join({" in block(", std::to_string(e.block), ")"});
+      if (e.per_name != kNoId) out += join({" per ", program.text(e.per_name)});
+      out += ';';
+      break;
+    }
+  }
+}
+
+class ModulePrinter {
+ public:
+  ModulePrinter(const Program& program, const ModuleSyntax& syntax)
+      : program_(program),
+        syntax_(syntax),
+        line_(program, false),
+        text_(program.modules[syntax.module].text),
+        comments_(program.modules[syntax.module].comments) {}
+
+  std::string run() {
+    for (const Item& item : syntax_.items) {
+      begin(item.span, 0);
+      const bool rule = item.kind == ItemKind::alternative && !program_.rules[item.index].morphic;
+      std::string text;
+      if (rule && !fitsOneLine(item.span)) {
+        ruleInLines(program_.rules[item.index], program_.rules[item.index].alternatives[item.sub]);
+      } else {
+        declarationLine(text, program_, syntax_, line_, item);
+        if (rule && text.size() > kWidth)
+          ruleInLines(program_.rules[item.index], program_.rules[item.index].alternatives[item.sub]);
+        else
+          out_ += text;
+      }
+      end(item.span);
+    }
+    comments(static_cast<uint32_t>(text_.size()) + 1, 0);
+    return std::move(out_);
+  }
+
+ private:
+  void indent(size_t depth) { out_.append(2 * depth, ' '); }
+
+  void blankLine(int source_line) {
+    if (last_line_ > 0 && source_line > last_line_ + 1) out_ += '\n';
+  }
+
+  std::string_view commentText(const Comment& comment) const {
+    return text_.substr(comment.begin, comment.end - comment.begin);
+  }
+
+  /// Comments that stand before an offset, each on a line of its own.
+  void comments(uint32_t before, size_t depth) {
+    for (; next_ < comments_.size() && comments_[next_].begin < before; ++next_) {
+      blankLine(comments_[next_].line);
+      indent(depth);
+      out_ += join({commentText(comments_[next_]), "\n"});
+      last_line_ = comments_[next_].line;
+    }
+  }
+
+  /// A comment behind something that ends (or opens a block) on this line stays there.
+  void trailing(int line) {
+    if (next_ < comments_.size() && !comments_[next_].own_line && comments_[next_].line <= line) {
+      out_ += join({"  ", commentText(comments_[next_])});
+      ++next_;
+    }
+  }
+
+  void begin(const Span& span, size_t depth) {
+    comments(span.begin, depth);
+    blankLine(span.line);
+    indent(depth);
+    last_line_ = span.line;
+  }
+
+  void end(const Span& span) {
+    if (next_ < comments_.size() && comments_[next_].begin >= span.end && comments_[next_].line == span.end_line)
+      trailing(span.end_line);
+    out_ += '\n';
+    last_line_ = std::max(last_line_, span.end_line);
+  }
+
+  bool fitsOneLine(const Span& span) const {
+    if (span.line != span.end_line || span.end - span.begin > kLongestInline) return false;
+    return next_ >= comments_.size() || comments_[next_].begin >= span.end;
+  }
+
+  bool hasComment(const Span& span) const { return next_ < comments_.size() && comments_[next_].begin < span.end; }
+
+  void ruleInLines(const Rule& rule, const Alternative& alternative) {
+    line_.ruleHead(out_, rule, alternative);
+    out_ += ' ';
+    blockInLines(program_.stmt(alternative.body), 0);
+  }
+
+  void blockInLines(const StmtNode& block, size_t depth) {
+    if (block.children.count == 0 && !hasComment(block.span)) {
+      out_ += "{ }";
+      return;
+    }
+    out_ += '{';
+    trailing(block.span.line);
+    out_ += '\n';
+    last_line_ = 0;
+    for (uint32_t i = 0; i < block.children.count; ++i) {
+      const StmtNode& child = program_.stmt(program_.idAt(block.children, i));
+      begin(child.span, depth + 1);
+      statement(program_.idAt(block.children, i), depth + 1);
+      end(child.span);
+    }
+    comments(block.span.end, depth + 1);
+    indent(depth);
+    out_ += '}';
+    last_line_ = block.span.end_line;
+  }
+
+  void statement(StmtId id, size_t depth) {
+    const StmtNode& node = program_.stmt(id);
+    if (fitsOneLine(node.span)) {
+      std::string text;
+      line_.statement(text, id);
+      const size_t line_begin = out_.rfind('\n') + 1;
+      if (out_.size() - line_begin + text.size() <= kWidth) {
+        out_ += text;
+        return;
+      }
+    }
+    if (node.kind == StmtKind::block) return blockInLines(node, depth);
+    line_.head(out_, node);
+    if (node.body == kNoId) return;
+    out_ += ' ';
+    statement(node.body, depth);
+  }
+
+  const Program& program_;
+  const ModuleSyntax& syntax_;
+  LinePrinter line_;
+  std::string_view text_;
+  const std::pmr::vector<Comment>& comments_;
+  std::string out_;
+  size_t next_ = 0;    ///< the first comment that is not printed yet
+  int last_line_ = 0;  ///< of the source, of what was printed last; 0 at the start of a block
+};
+
+}  // namespace
+
+std::string printModule(const Program& program, const ModuleSyntax& syntax) {
+  return ModulePrinter(program, syntax).run();
+}
+
+std::string printMeaning(const Program& program, const ModuleSyntax& syntax) {
+  const LinePrinter line(program, true);
+  std::string out;
+  for (const Item& item : syntax.items) declarationLine(out, program, syntax, line, item);
+  return out;
+}
+
+}  // namespace sgm
