@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "api/runtime.h"
+#include "derive/parameters.h"
 #include "grammar/compile.h"
 
 struct sgm_grammar {
@@ -31,5 +32,5 @@ struct sgm_parameters {
 
   sgm_runtime& runtime;
   std::shared_ptr<const sgm::Program> program;
-  std::pmr::vector<double> values;  ///< by index in Program::params
+  sgm::ParameterValues values;
 };

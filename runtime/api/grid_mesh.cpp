@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <mutex>
 #include <vector>
 
 #include "mesh/chunk.h"
@@ -96,7 +97,8 @@ class GridMesher {
   Crossings crossings(size_t y, size_t z, size_t word) const;
   Active activeCells(size_t y, size_t z, size_t word) const;
   void countPlane(size_t z);
-  void meshPlanes(size_t begin, size_t end, GridMesh& mesh) const;
+  void meshPlanes(size_t begin, size_t end, GridMesh& mesh);
+  void growBounds(size_t begin, size_t end, GridMesh& mesh);
 
   /// A crossed edge of the two planes that a layer of cells lies between: its vertex and how far along it is.
   struct Edge {
@@ -113,6 +115,8 @@ class GridMesher {
   float scale_;
   size_t words_;
   std::pmr::vector<uint64_t> signs_;
+  std::mutex bounds_mutex_;
+  bool bounded_ = false;  ///< some slab has set the bounds
   std::pmr::vector<uint64_t> first_vertex_, first_triangle_;  ///< by plane and by layer of cells; counts, then sums
 };
 
@@ -269,7 +273,29 @@ void GridMesher::meshLayer(size_t z, const Edge* low, const Edge* high, uint32_t
   }
 }
 
-void GridMesher::meshPlanes(size_t begin, size_t end, GridMesh& mesh) const {
+/// Takes in the vertices that the planes own, while they are in cache.
+void GridMesher::growBounds(size_t begin, size_t end, GridMesh& mesh) {
+  const size_t first = first_vertex_[begin], last = first_vertex_[end];
+  if (first == last) return;
+  std::array<float, 3> lo, hi;
+  lo.fill(std::numeric_limits<float>::max());
+  hi.fill(std::numeric_limits<float>::lowest());
+  for (size_t v = first; v < last; ++v) {
+    for (size_t i = 0; i < 3; ++i) {
+      const float x = mesh.positions.data()[v * 3 + i];
+      lo[i] = std::min(lo[i], x);
+      hi[i] = std::max(hi[i], x);
+    }
+  }
+  const std::lock_guard lock(bounds_mutex_);
+  for (size_t i = 0; i < 3; ++i) {
+    mesh.bounds_min[i] = bounded_ ? std::min(mesh.bounds_min[i], lo[i]) : lo[i];
+    mesh.bounds_max[i] = bounded_ ? std::max(mesh.bounds_max[i], hi[i]) : hi[i];
+  }
+  bounded_ = true;
+}
+
+void GridMesher::meshPlanes(size_t begin, size_t end, GridMesh& mesh) {
   const size_t plane = nx() * ny() * 3;
   RawArray<Edge> edges(memory_);
   edges.allocate(plane * 2);
@@ -277,12 +303,13 @@ void GridMesher::meshPlanes(size_t begin, size_t end, GridMesh& mesh) const {
   Edge* high = edges.data() + plane;
   numberPlane(begin, low, &mesh);
   for (size_t z = begin; z < end; ++z) {
-    if (z + 1 == nz()) return;
+    if (z + 1 == nz()) break;
     // The plane above the last belongs to another task, which writes its vertices; its numbers are needed here too.
     numberPlane(z + 1, high, z + 1 < end ? &mesh : nullptr);
     meshLayer(z, low, high, mesh.indices.data() + first_triangle_[z] * 3);
     std::swap(low, high);
   }
+  growBounds(begin, end, mesh);
 }
 
 Result<GridMesh> GridMesher::run() {

@@ -56,6 +56,7 @@ struct GridSamples {
 struct GridMesh {
   RawArray<float> positions, normals;  ///< three a vertex
   RawArray<uint32_t> indices;          ///< three a triangle
+  std::array<float, 3> bounds_min{}, bounds_max{};  ///< of the positions; 0 where there is none
 
   explicit GridMesh(std::pmr::memory_resource* memory) : positions(memory), normals(memory), indices(memory) {}
 };

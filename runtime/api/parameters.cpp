@@ -5,10 +5,7 @@
 using namespace sgm::api;
 
 sgm_parameters::sgm_parameters(sgm_runtime& runtime_in, std::shared_ptr<const sgm::Program> program_in)
-    : runtime(runtime_in), program(std::move(program_in)), values(&runtime_in.memory) {
-  values.reserve(program->params.size());
-  for (const sgm::Param& param : program->params) values.push_back(param.value);
-}
+    : runtime(runtime_in), program(std::move(program_in)), values(sgm::ParameterValues::defaults(*program)) {}
 
 namespace {
 
@@ -34,8 +31,8 @@ sgm_result sgm_parameters_set(sgm_parameters* parameters, const char* name, doub
     if (name == nullptr) return nullArgument(error, "name");
     const sgm::Result<uint32_t> index = findParameter(*parameters->program, name);
     if (!index) return failToFind(error, index.error());
-    if (sgm::Result<void> ok = checkParameter(*parameters->program, *index, value); !ok) return fail(error, ok.error());
-    parameters->values[*index] = value;
+    if (sgm::Result<void> ok = parameters->values.set(*parameters->program, name, value); !ok)
+      return fail(error, ok.error());
     return SGM_OK;
   });
 }
@@ -47,9 +44,8 @@ sgm_result sgm_parameters_set_text(sgm_parameters* parameters, const char* name,
     if (text == nullptr) return nullArgument(error, "text");
     const sgm::Result<uint32_t> index = findParameter(*parameters->program, name);
     if (!index) return failToFind(error, index.error());
-    const sgm::Result<double> value = readParameter(*parameters->program, *index, text);
-    if (!value) return fail(error, value.error());
-    parameters->values[*index] = *value;
+    if (sgm::Result<void> ok = setFromText(*parameters->program, name, text, parameters->values); !ok)
+      return fail(error, ok.error());
     return SGM_OK;
   });
 }
@@ -61,7 +57,7 @@ sgm_result sgm_parameters_get(const sgm_parameters* parameters, const char* name
     if (value == nullptr) return nullArgument(error, "value");
     const sgm::Result<uint32_t> index = findParameter(*parameters->program, name);
     if (!index) return failToFind(error, index.error());
-    *value = parameters->values[*index];
+    *value = parameters->values.values[*index];
     return SGM_OK;
   });
 }

@@ -1,0 +1,42 @@
+#pragma once
+// The handle of a welded mesh in floats.
+
+#include <array>
+
+#include "api/grid_mesh.h"
+#include "api/runtime.h"
+#include "base/fixed.h"
+
+struct sgm_surface {
+  /// Of a grid.
+  sgm_surface(sgm_runtime& runtime_in, sgm::api::GridMesh&& mesh)
+      : runtime(runtime_in),
+        positions(std::move(mesh.positions)),
+        normals(std::move(mesh.normals)),
+        materials(&runtime_in.memory),
+        tags(&runtime_in.memory),
+        indices(std::move(mesh.indices)),
+        bounds_min(mesh.bounds_min),
+        bounds_max(mesh.bounds_max) {}
+  /// Of a region; to be filled.
+  explicit sgm_surface(sgm_runtime& runtime_in)
+      : runtime(runtime_in),
+        positions(&runtime_in.memory),
+        normals(&runtime_in.memory),
+        materials(&runtime_in.memory),
+        tags(&runtime_in.memory),
+        indices(&runtime_in.memory),
+        of_grid(false) {}
+
+  sgm_runtime& runtime;
+  sgm::api::RawArray<float> positions, normals;    ///< three a vertex
+  sgm::api::RawArray<uint16_t> materials, tags;    ///< one a vertex; empty for a grid
+  sgm::api::RawArray<uint32_t> indices;            ///< three a triangle
+  std::array<float, 3> bounds_min{}, bounds_max{};
+  bool of_grid = true;
+  sgm::Int3 origin;
+  sgm::IntBox extent{{0, 0, 0}, {0, 0, 0}};
+  int32_t cell_units = 0;
+  uint64_t chunk_count = 1;
+  uint64_t hash = 0;  ///< of a region
+};

@@ -1,0 +1,90 @@
+// sgm backends: what can compute here, and what can draw.
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "render/vulkan_device.h"
+#include "sgm/sgm.h"
+
+namespace sgm::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+
+Exit listBackends(bool json) {
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_runtime* runtime = nullptr;
+  if (sgm_runtime_create(nullptr, &runtime, &error) != SGM_OK) return complain(Exit::backend, error.message);
+  std::vector<sgm_backend_info> infos;
+  sgm_result result = SGM_OK;
+  for (const sgm_backend backend : {SGM_BACKEND_AUTO, SGM_BACKEND_CPU, SGM_BACKEND_VULKAN, SGM_BACKEND_CUDA}) {
+    sgm_backend_info& info = infos.emplace_back(sgm_backend_info SGM_BACKEND_INFO_INIT);
+    result = sgm_backend_query(runtime, backend, &info, &error);
+    if (result != SGM_OK) break;
+  }
+  sgm_runtime_destroy(runtime);
+  if (result != SGM_OK) return complain(Exit::backend, error.message);
+
+  const Result<std::vector<GpuInfo>> gpus = listGpus();
+  if (json) {
+    Json list = Json::array();
+    for (size_t i = 1; i < infos.size(); ++i) {
+      const sgm_backend_info& info = infos[i];
+      Json one{{"name", info.name}, {"usable", info.usable != 0}};
+      if (info.usable != 0) {
+        one.update({{"device", info.device}, {"exact", info.exact != 0}, {"concurrency", info.concurrency}});
+      } else {
+        one["reason"] = info.reason;
+      }
+      list.push_back(std::move(one));
+    }
+    Json devices = Json::array();
+    if (gpus) {
+      for (const GpuInfo& gpu : *gpus)
+        devices.push_back({{"name", gpu.name},
+                           {"software", gpu.software},
+                           {"rounds_to_nearest", gpu.rounds_to_nearest},
+                           {"preserves_denormals", gpu.preserves_denormals}});
+    }
+    Json out{{"version", sgm_version_string()}, {"build", sgm_build_info()}, {"auto", infos[0].name},
+             {"backends", std::move(list)},     {"vulkan_devices", std::move(devices)}};
+    if (!gpus) out["vulkan_error"] = gpus.error().message;
+    fmt::print("{}\n", out.dump(2));
+    return Exit::done;
+  }
+  fmt::print("{}\nauto chooses {}\n\n", sgm_build_info(), infos[0].name);
+  for (size_t i = 1; i < infos.size(); ++i) {
+    const sgm_backend_info& info = infos[i];
+    if (info.usable != 0) {
+      fmt::print("{:<8}usable: {}, {} at a time{}\n", info.name, info.device, info.concurrency,
+                 info.exact != 0 ? ", exact" : ", not exact");
+    } else {
+      fmt::print("{:<8}not usable: {}\n", info.name, info.reason);
+    }
+  }
+  fmt::print("\nVulkan devices for pictures:\n");
+  if (!gpus) {
+    fmt::print("  none: {}\n", gpus.error().message);
+    return Exit::done;
+  }
+  for (const GpuInfo& gpu : *gpus) {
+    fmt::print("  {}{}{}\n", gpu.name, gpu.software ? ", on the CPU" : "",
+               gpu.rounds_to_nearest ? "" : ", cannot demand round-to-nearest");
+  }
+  return Exit::done;
+}
+
+}  // namespace
+
+Command addBackends(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("backends", "List what can compute and draw on this machine, and why not");
+  const auto json = std::make_shared<bool>(false);
+  app->add_flag("--json", *json, "Print the list as one JSON object on standard output");
+  app->footer("Example:\n  sgm backends --json");
+  return [json] { return listBackends(*json); };
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,46 @@
+#include "cli/console.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace sgm::cli {
+
+Exit exitOf(Code code) {
+  switch (code) {
+    case Code::invalid_argument:
+    case Code::bad_input:
+    case Code::limit:
+    case Code::out_of_memory:
+    case Code::cancelled: return Exit::input;
+    case Code::io: return Exit::file;
+    case Code::unsupported: return Exit::backend;
+  }
+  return Exit::input;
+}
+
+Exit complain(Exit status, std::string_view message) {
+  fmt::print(stderr, "sgm: error: {}\n", message);
+  return status;
+}
+
+ProgressBar::ProgressBar(std::string_view what) : what_(what), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressBar::~ProgressBar() {
+  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+}
+
+void ProgressBar::show(uint64_t done, uint64_t total) {
+  if (!terminal_ || total == 0) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
+  last_ = now;
+  drawn_ = true;
+  constexpr uint64_t kWidth = 32;
+  const uint64_t filled = std::min(kWidth, done * kWidth / total);
+  fmt::print(stderr, "\r{} [{:#<{}}{: <{}}] {}/{}", what_, "", filled, "", kWidth - filled, done, total);
+  std::fflush(stderr);
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,57 @@
+#pragma once
+// What the command says, and with which status it ends.
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace sgm::cli {
+
+/// Exit status of the command; part of its interface.
+enum class Exit : int {
+  done = 0,
+  input = 1,    ///< the input is wrong
+  usage = 2,    ///< the command line is wrong
+  backend = 3,  ///< no such backend or device here
+  file = 4,     ///< a file could not be read or written
+};
+
+/// The status that an error of ours ends with.
+Exit exitOf(Code code);
+
+/// "sgm: error: message" as one line on stderr. Returns status.
+Exit complain(Exit status, std::string_view message);
+inline Exit complain(const Error& error) { return complain(exitOf(error.code), error.message); }
+
+/// A bar on stderr where that is a terminal, silence elsewhere. Erases itself when it ends.
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::string_view what);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// One call at a time; redraws a few times a second at most.
+  void show(uint64_t done, uint64_t total);
+
+ private:
+  std::string what_;
+  bool terminal_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace sgm::cli

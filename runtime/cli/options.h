@@ -1,0 +1,47 @@
+#pragma once
+// Options that several commands share, and how their texts become numbers.
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/fixed.h"
+#include "base/result.h"
+#include "derive/parameters.h"
+
+namespace sgm::cli {
+
+struct WorldOptions {
+  std::string file;
+  uint64_t seed = 0;
+  std::vector<std::string> sets;  ///< name=value
+  std::string backend = "auto";
+  unsigned threads = 0;
+  bool json = false;
+  std::string region;
+  std::optional<double> cell;     ///< metres
+  std::optional<double> density;  ///< the paper's LD
+  uint64_t max_chunks = 65536;
+};
+
+/// FILE, --seed, --set, --backend, --threads, --json.
+void addWorldOptions(CLI::App& app, WorldOptions& options);
+/// --region, --cell, --ld, --max-chunks.
+void addRegionOptions(CLI::App& app, WorldOptions& options);
+
+/// "x,y,z"; a number too large for a double is an infinity. Nothing where the text is no point.
+std::optional<std::array<double, 3>> readPoint(std::string_view text);
+/// A check of --option x,y,z for CLI11: "" or what is wrong.
+std::string checkPoint(const std::string& text);
+/// "x0,y0,z0:x1,y1,z1" in metres as a box of units, lo below hi on each axis. Error: invalid_argument.
+Result<IntBox> parseRegion(std::string_view text);
+/// The cell edge in units that --cell or --ld mean; 0.5 m without either. Error: invalid_argument.
+Result<int32_t> cellUnits(const WorldOptions& options);
+/// The defaults, changed by --set. Error: invalid_argument.
+Result<ParameterValues> parameterValues(const Program& program, const std::vector<std::string>& sets);
+
+}  // namespace sgm::cli

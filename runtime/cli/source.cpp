@@ -1,0 +1,32 @@
+#include "cli/source.h"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "api/import.h"
+
+namespace sgm::cli {
+
+Result<std::string> readGrammarText(const std::string& file) {
+  return api::readTextFile(file, CompileLimits{}.text_bytes);
+}
+
+Result<CompileResult> compileFile(const std::string& file) {
+  Result<std::string> text = readGrammarText(file);
+  if (!text) return text.error();
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  api::FolderImports imports(folder.empty() ? std::filesystem::path(".") : folder);
+  CompileOptions options;
+  options.resolver = &imports;
+  return compileGrammar(*text, file, options);
+}
+
+LoadedGrammar loadGrammar(const std::string& file) {
+  const Result<CompileResult> compiled = compileFile(file);
+  if (!compiled) return {nullptr, complain(compiled.error())};
+  fmt::print(stderr, "{}", renderDiagnostics(*compiled));
+  return {compiled->program, compiled->program ? Exit::done : Exit::input};
+}
+
+}  // namespace sgm::cli

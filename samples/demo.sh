@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Meshes 192 m of the infinite cave and draws a picture from inside it, on a bare Debian 12 as root or with sudo. Installs
+# what is missing, and says so.
+#
+#   bash samples/demo.sh
+#
+# Leaves out/demo/cave.glb and out/demo/cave.png.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+die() { echo "samples/demo.sh: error: $1" >&2; exit 1; }
+
+source samples/setup_debian.sh
+sgm_setup "${SGM_BUILD_PACKAGES[@]}"
+
+mkdir -p build out/demo
+log=build/demo.log
+if [[ ! -f build/release/build.ninja ]]; then
+  echo "demo: configuring build/release"
+  cmake --preset release -D SGM_BUILD_TESTS=OFF -D SGM_BUILD_BENCH=OFF >"$log" 2>&1 || {
+    cat "$log" >&2
+    die "configuring failed"
+  }
+fi
+[[ -x build/release/bin/sgm ]] || echo "demo: building build/release/bin/sgm (some minutes the first time)"
+cmake --build --preset release --target sgm_cli >"$log" 2>&1 || {
+  cat "$log" >&2
+  die "building failed"
+}
+
+sgm=build/release/bin/sgm
+cave=samples/grammars/cave.sgm
+region=-96,-96,-96:96,96,96
+"$sgm" mesh "$cave" --out out/demo/cave.glb --region "$region" --cell 0.5 --seed 7
+"$sgm" render "$cave" --out out/demo/cave.png --region "$region" --cell 0.5 --seed 7 --size 1600x900
+
+echo
+echo "Mesh:    $root/out/demo/cave.glb (opens in Blender, Godot, any glTF viewer)"
+echo "Picture: $root/out/demo/cave.png"

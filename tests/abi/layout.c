@@ -1,0 +1,278 @@
+/*
+ * Sizes and offsets of every struct of sgm/sgm.h on machines with 64-bit pointers. Compiled as C99 and as C++20: a
+ * change that breaks programs built with the header of an earlier patch version does not compile.
+ */
+#include <sgm/sgm.h>
+
+#if defined(__cplusplus)
+#define CHECK(name, truth) static_assert(truth, #name)
+#define LAYOUT_INITS sgm_layout_inits_cpp
+extern "C" int LAYOUT_INITS(void);
+#else
+#define CHECK(name, truth) typedef char check_##name[(truth) ? 1 : -1]
+#define LAYOUT_INITS sgm_layout_inits_c
+int LAYOUT_INITS(void);
+#endif
+#define SIZE(type, bytes) CHECK(sizeof_##type, sizeof(type) == (bytes))
+#define PLACE(type, field, bytes) CHECK(offsetof_##type##_##field, offsetof(type, field) == (bytes))
+
+CHECK(pointer_size, sizeof(void*) == 8);
+CHECK(result_size, sizeof(sgm_result) == 4);
+CHECK(log_level_size, sizeof(sgm_log_level) == 4);
+CHECK(backend_size, sizeof(sgm_backend) == 4);
+CHECK(quantity_size, sizeof(sgm_quantity) == 4);
+CHECK(face_size, sizeof(sgm_face) == 4);
+
+SIZE(sgm_error, 512);
+PLACE(sgm_error, code, 0);
+PLACE(sgm_error, line, 4);
+PLACE(sgm_error, column, 8);
+PLACE(sgm_error, message, 12);
+
+SIZE(sgm_chain, 16);
+PLACE(sgm_chain, struct_size, 0);
+PLACE(sgm_chain, kind, 4);
+PLACE(sgm_chain, next, 8);
+
+SIZE(sgm_allocator, 24);
+PLACE(sgm_allocator, allocate, 0);
+PLACE(sgm_allocator, release, 8);
+PLACE(sgm_allocator, user, 16);
+
+SIZE(sgm_job_system, 32);
+PLACE(sgm_job_system, concurrency, 0);
+PLACE(sgm_job_system, submit, 8);
+PLACE(sgm_job_system, help, 16);
+PLACE(sgm_job_system, user, 24);
+
+SIZE(sgm_log_sink, 16);
+PLACE(sgm_log_sink, write, 0);
+PLACE(sgm_log_sink, user, 8);
+
+SIZE(sgm_runtime_desc, 56);
+PLACE(sgm_runtime_desc, struct_size, 0);
+PLACE(sgm_runtime_desc, next, 8);
+PLACE(sgm_runtime_desc, api_version, 16);
+PLACE(sgm_runtime_desc, threads, 20);
+PLACE(sgm_runtime_desc, allocator, 24);
+PLACE(sgm_runtime_desc, jobs, 32);
+PLACE(sgm_runtime_desc, log, 40);
+PLACE(sgm_runtime_desc, memory_limit, 48);
+
+SIZE(sgm_backend_info, 800);
+PLACE(sgm_backend_info, struct_size, 0);
+PLACE(sgm_backend_info, next, 8);
+PLACE(sgm_backend_info, backend, 16);
+PLACE(sgm_backend_info, usable, 20);
+PLACE(sgm_backend_info, exact, 24);
+PLACE(sgm_backend_info, concurrency, 28);
+PLACE(sgm_backend_info, name, 32);
+PLACE(sgm_backend_info, device, 288);
+PLACE(sgm_backend_info, reason, 544);
+
+SIZE(sgm_grammar_desc, 64);
+PLACE(sgm_grammar_desc, struct_size, 0);
+PLACE(sgm_grammar_desc, next, 8);
+PLACE(sgm_grammar_desc, text, 16);
+PLACE(sgm_grammar_desc, text_size, 24);
+PLACE(sgm_grammar_desc, name, 32);
+PLACE(sgm_grammar_desc, import_folder, 40);
+PLACE(sgm_grammar_desc, import_text, 48);
+PLACE(sgm_grammar_desc, import_user, 56);
+
+SIZE(sgm_diagnostic, 64);
+PLACE(sgm_diagnostic, struct_size, 0);
+PLACE(sgm_diagnostic, next, 8);
+PLACE(sgm_diagnostic, severity, 16);
+PLACE(sgm_diagnostic, line, 20);
+PLACE(sgm_diagnostic, column, 24);
+PLACE(sgm_diagnostic, length, 28);
+PLACE(sgm_diagnostic, file, 32);
+PLACE(sgm_diagnostic, message, 40);
+PLACE(sgm_diagnostic, hint, 48);
+PLACE(sgm_diagnostic, source_line, 56);
+
+SIZE(sgm_layer_info, 40);
+PLACE(sgm_layer_info, struct_size, 0);
+PLACE(sgm_layer_info, next, 8);
+PLACE(sgm_layer_info, name, 16);
+PLACE(sgm_layer_info, cell_units, 24);
+PLACE(sgm_layer_info, reach_units, 36);
+
+SIZE(sgm_parameter_info, 64);
+PLACE(sgm_parameter_info, struct_size, 0);
+PLACE(sgm_parameter_info, next, 8);
+PLACE(sgm_parameter_info, name, 16);
+PLACE(sgm_parameter_info, doc, 24);
+PLACE(sgm_parameter_info, quantity, 32);
+PLACE(sgm_parameter_info, whole, 36);
+PLACE(sgm_parameter_info, default_value, 40);
+PLACE(sgm_parameter_info, minimum, 48);
+PLACE(sgm_parameter_info, maximum, 56);
+
+SIZE(sgm_field_desc, 56);
+PLACE(sgm_field_desc, struct_size, 0);
+PLACE(sgm_field_desc, next, 8);
+PLACE(sgm_field_desc, grammar, 16);
+PLACE(sgm_field_desc, parameters, 24);
+PLACE(sgm_field_desc, seed, 32);
+PLACE(sgm_field_desc, cell_units, 40);
+PLACE(sgm_field_desc, backend, 44);
+PLACE(sgm_field_desc, cache_bytes, 48);
+
+SIZE(sgm_sample_desc, 88);
+PLACE(sgm_sample_desc, struct_size, 0);
+PLACE(sgm_sample_desc, next, 8);
+PLACE(sgm_sample_desc, points, 16);
+PLACE(sgm_sample_desc, point_stride, 24);
+PLACE(sgm_sample_desc, count, 32);
+PLACE(sgm_sample_desc, level, 40);
+PLACE(sgm_sample_desc, q, 48);
+PLACE(sgm_sample_desc, values, 56);
+PLACE(sgm_sample_desc, gradients, 64);
+PLACE(sgm_sample_desc, materials, 72);
+PLACE(sgm_sample_desc, tags, 80);
+
+SIZE(sgm_anchor, 64);
+PLACE(sgm_anchor, position, 0);
+PLACE(sgm_anchor, rotation, 12);
+PLACE(sgm_anchor, kind, 48);
+PLACE(sgm_anchor, name, 50);
+PLACE(sgm_anchor, tag, 52);
+PLACE(sgm_anchor, reserved, 54);
+PLACE(sgm_anchor, key, 56);
+
+SIZE(sgm_chunk_key, 16);
+PLACE(sgm_chunk_key, level, 0);
+PLACE(sgm_chunk_key, x, 4);
+PLACE(sgm_chunk_key, y, 8);
+PLACE(sgm_chunk_key, z, 12);
+
+SIZE(sgm_chunk_request, 20);
+PLACE(sgm_chunk_request, key, 0);
+PLACE(sgm_chunk_request, seams, 16);
+
+SIZE(sgm_chunks_desc, 48);
+PLACE(sgm_chunks_desc, struct_size, 0);
+PLACE(sgm_chunks_desc, next, 8);
+PLACE(sgm_chunks_desc, requests, 16);
+PLACE(sgm_chunks_desc, count, 24);
+PLACE(sgm_chunks_desc, progress, 32);
+PLACE(sgm_chunks_desc, progress_user, 40);
+
+SIZE(sgm_vertex, 16);
+PLACE(sgm_vertex, x, 0);
+PLACE(sgm_vertex, y, 2);
+PLACE(sgm_vertex, z, 4);
+PLACE(sgm_vertex, material, 6);
+PLACE(sgm_vertex, normal_x, 8);
+PLACE(sgm_vertex, normal_y, 10);
+PLACE(sgm_vertex, tag, 12);
+PLACE(sgm_vertex, reserved, 14);
+
+SIZE(sgm_mesh_range, 24);
+PLACE(sgm_mesh_range, first_vertex, 0);
+PLACE(sgm_mesh_range, vertex_count, 4);
+PLACE(sgm_mesh_range, first_index, 8);
+PLACE(sgm_mesh_range, index_count, 12);
+PLACE(sgm_mesh_range, hash, 16);
+
+SIZE(sgm_mesh_view, 312);
+PLACE(sgm_mesh_view, struct_size, 0);
+PLACE(sgm_mesh_view, next, 8);
+PLACE(sgm_mesh_view, key, 16);
+PLACE(sgm_mesh_view, origin, 32);
+PLACE(sgm_mesh_view, cell_units, 44);
+PLACE(sgm_mesh_view, bounds_min, 48);
+PLACE(sgm_mesh_view, bounds_max, 60);
+PLACE(sgm_mesh_view, vertices, 72);
+PLACE(sgm_mesh_view, indices, 80);
+PLACE(sgm_mesh_view, vertex_count, 88);
+PLACE(sgm_mesh_view, vertex_stride, 92);
+PLACE(sgm_mesh_view, index_count, 96);
+PLACE(sgm_mesh_view, index_stride, 100);
+PLACE(sgm_mesh_view, body, 104);
+PLACE(sgm_mesh_view, seams, 128);
+PLACE(sgm_mesh_view, hash, 272);
+PLACE(sgm_mesh_view, anchors, 280);
+PLACE(sgm_mesh_view, anchor_count, 288);
+PLACE(sgm_mesh_view, anchor_stride, 292);
+PLACE(sgm_mesh_view, tags, 296);
+PLACE(sgm_mesh_view, tag_count, 304);
+PLACE(sgm_mesh_view, reserved, 308);
+
+SIZE(sgm_region_desc, 72);
+PLACE(sgm_region_desc, struct_size, 0);
+PLACE(sgm_region_desc, next, 8);
+PLACE(sgm_region_desc, minimum, 16);
+PLACE(sgm_region_desc, maximum, 28);
+PLACE(sgm_region_desc, level, 40);
+PLACE(sgm_region_desc, max_chunks, 48);
+PLACE(sgm_region_desc, progress, 56);
+PLACE(sgm_region_desc, progress_user, 64);
+
+SIZE(sgm_grid_desc, 72);
+PLACE(sgm_grid_desc, struct_size, 0);
+PLACE(sgm_grid_desc, next, 8);
+PLACE(sgm_grid_desc, values, 16);
+PLACE(sgm_grid_desc, size, 24);
+PLACE(sgm_grid_desc, reserved, 36);
+PLACE(sgm_grid_desc, stride_y, 40);
+PLACE(sgm_grid_desc, stride_z, 48);
+PLACE(sgm_grid_desc, cell, 56);
+PLACE(sgm_grid_desc, normals, 64);
+PLACE(sgm_grid_desc, reserved2, 68);
+
+SIZE(sgm_surface_view, 160);
+PLACE(sgm_surface_view, struct_size, 0);
+PLACE(sgm_surface_view, next, 8);
+PLACE(sgm_surface_view, origin, 16);
+PLACE(sgm_surface_view, cell_units, 28);
+PLACE(sgm_surface_view, extent_min, 32);
+PLACE(sgm_surface_view, extent_max, 44);
+PLACE(sgm_surface_view, vertex_count, 56);
+PLACE(sgm_surface_view, index_count, 64);
+PLACE(sgm_surface_view, positions, 72);
+PLACE(sgm_surface_view, normals, 80);
+PLACE(sgm_surface_view, materials, 88);
+PLACE(sgm_surface_view, tags, 96);
+PLACE(sgm_surface_view, indices, 104);
+PLACE(sgm_surface_view, position_stride, 112);
+PLACE(sgm_surface_view, normal_stride, 116);
+PLACE(sgm_surface_view, material_stride, 120);
+PLACE(sgm_surface_view, tag_stride, 124);
+PLACE(sgm_surface_view, bounds_min, 128);
+PLACE(sgm_surface_view, bounds_max, 140);
+PLACE(sgm_surface_view, chunk_count, 152);
+
+/* Every _INIT macro fills its struct, in both languages, without a warning. */
+int LAYOUT_INITS(void) {
+  const sgm_error error = SGM_ERROR_INIT;
+  const sgm_runtime_desc runtime_desc = SGM_RUNTIME_DESC_INIT;
+  const sgm_backend_info backend_info = SGM_BACKEND_INFO_INIT;
+  const sgm_grammar_desc grammar_desc = SGM_GRAMMAR_DESC_INIT;
+  const sgm_diagnostic diagnostic = SGM_DIAGNOSTIC_INIT;
+  const sgm_layer_info layer_info = SGM_LAYER_INFO_INIT;
+  const sgm_parameter_info parameter_info = SGM_PARAMETER_INFO_INIT;
+  const sgm_field_desc field_desc = SGM_FIELD_DESC_INIT;
+  const sgm_sample_desc sample_desc = SGM_SAMPLE_DESC_INIT;
+  const sgm_chunks_desc chunks_desc = SGM_CHUNKS_DESC_INIT;
+  const sgm_mesh_range mesh_range = SGM_MESH_RANGE_INIT;
+  const sgm_mesh_view mesh_view = SGM_MESH_VIEW_INIT;
+  const sgm_region_desc region_desc = SGM_REGION_DESC_INIT;
+  const sgm_grid_desc grid_desc = SGM_GRID_DESC_INIT;
+  const sgm_surface_view surface_view = SGM_SURFACE_VIEW_INIT;
+  return error.code == SGM_OK && runtime_desc.struct_size == sizeof(runtime_desc) && runtime_desc.next == SGM_NULL &&
+         backend_info.struct_size == sizeof(backend_info) && backend_info.next == SGM_NULL &&
+         grammar_desc.struct_size == sizeof(grammar_desc) && grammar_desc.next == SGM_NULL &&
+         diagnostic.struct_size == sizeof(diagnostic) && diagnostic.next == SGM_NULL &&
+         layer_info.struct_size == sizeof(layer_info) && layer_info.next == SGM_NULL &&
+         parameter_info.struct_size == sizeof(parameter_info) && parameter_info.next == SGM_NULL &&
+         field_desc.struct_size == sizeof(field_desc) && field_desc.next == SGM_NULL &&
+         sample_desc.struct_size == sizeof(sample_desc) && sample_desc.next == SGM_NULL &&
+         chunks_desc.struct_size == sizeof(chunks_desc) && chunks_desc.next == SGM_NULL && mesh_range.hash == 0 &&
+         mesh_view.struct_size == sizeof(mesh_view) && mesh_view.next == SGM_NULL &&
+         region_desc.struct_size == sizeof(region_desc) && region_desc.next == SGM_NULL &&
+         grid_desc.struct_size == sizeof(grid_desc) && grid_desc.next == SGM_NULL &&
+         surface_view.struct_size == sizeof(surface_view) && surface_view.next == SGM_NULL;
+}
