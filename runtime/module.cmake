@@ -12,7 +12,8 @@ function(sgm_target_flags target)
     VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON)
   target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${SGM_WARNINGS} -Werror> ${SGM_EXACT_FLAGS})
   if(SGM_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=${SGM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_compile_options(${target} PRIVATE -fsanitize=${SGM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-null-dereference>)  # instrumentation makes them cry wolf
     target_link_options(${target} PUBLIC -fsanitize=${SGM_SANITIZE})
   endif()
   if(SGM_BUILD_FUZZERS)
