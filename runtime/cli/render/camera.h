@@ -1,0 +1,45 @@
+#pragma once
+// A camera that finds its own place, and the light that goes with it.
+
+#include <glm/vec3.hpp>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "base/result.h"
+#include "render/scene.h"
+
+namespace sgm {
+
+struct CameraWish {
+  int width = 1280;
+  int height = 720;
+  float fov_degrees = 68;
+  /// Places to stand at, metres from the scene's origin; the first that lies in the void and has a view is taken.
+  std::span<const glm::vec3> anchors;
+  bool airborne = false;  ///< a shape seen from outside floats: look up at it
+};
+
+/// A place to look from, and what was learnt about it.
+struct View {
+  RenderCamera camera;
+  bool enclosed = false;          ///< inside a void, walls all around; else the shape is seen from outside
+  float depth = 1;                ///< median distance in metres to what is seen
+  std::vector<RenderLamp> lamps;  ///< in the void, deeper along the view
+};
+
+/// Looks for a view in the mesh: from inside the void where the mesh encloses one (at an anchor if there is one), where
+/// the space is widest and the view deep and varied; else the whole shape, three quarters from above (from below
+/// where it floats). The same mesh and
+/// wish give the same view. Errors: invalid_argument where there is no triangle.
+Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
+                          const CameraWish& wish, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+/// The view of a given camera: how deep it looks, whether it is in a void, where lamps would go.
+View viewFrom(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices, const RenderCamera& camera,
+              std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+/// Sets the scene's camera, lamps, fog and background to suit the view.
+void lightScene(const View& view, RenderScene& scene);
+
+}  // namespace sgm

@@ -1,0 +1,89 @@
+#include "render/frame.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace sgm {
+namespace {
+
+constexpr float kNear = 0.05f;                            // metres; nothing nearer than this is drawn
+constexpr int32_t kPatternUnits = 1024 * kUnitsPerMetre;  // patterns repeat here, so that float32 never loses a grain
+
+struct Axes {
+  glm::vec3 forward, right, up;
+};
+
+Axes axesOf(const RenderCamera& camera) {
+  Axes axes;
+  axes.forward = glm::normalize(camera.target - camera.position);
+  // Straight up or down there is no level right: take the world's x.
+  const glm::vec3 level = glm::cross(axes.forward, glm::vec3(0, 1, 0));
+  axes.right = glm::dot(level, level) > 1e-8f ? glm::normalize(level) : glm::vec3(1, 0, 0);
+  axes.up = glm::cross(axes.right, axes.forward);
+  return axes;
+}
+
+float wrapped(int32_t units) {
+  const int32_t rest = ((units % kPatternUnits) + kPatternUnits) % kPatternUnits;
+  return static_cast<float>(rest) / static_cast<float>(kUnitsPerMetre);
+}
+
+// Infinite reversed depth: floats are densest near 0, which is where distance goes.
+glm::mat4 viewProjection(const RenderCamera& camera, const Axes& axes, float half_width, float half_height) {
+  const auto row = [&](glm::vec3 axis, float scale) {
+    return glm::vec4(axis * scale, -glm::dot(axis, camera.position) * scale);
+  };
+  const glm::vec4 x = row(axes.right, 1 / half_width), y = row(axes.up, 1 / half_height), w = row(axes.forward, 1);
+  glm::mat4 m;
+  for (int column = 0; column < 4; ++column) {
+    m[column] = glm::vec4(x[column], y[column], column == 3 ? kNear : 0.0f, w[column]);
+  }
+  return m;
+}
+
+}  // namespace
+
+Frame frameOf(const RenderScene& scene) {
+  const RenderCamera& camera = scene.camera;
+  const Axes axes = axesOf(camera);
+  const float half_height = std::tan(glm::radians(camera.fov_degrees) / 2);
+  const float half_width = half_height * static_cast<float>(camera.width) / static_cast<float>(camera.height);
+  const float samples = static_cast<float>(camera.height * scene.supersample);
+  Frame frame{};
+  frame.view_projection = viewProjection(camera, axes, half_width, half_height);
+  frame.eye = glm::vec4(camera.position, 2 * half_height / samples);
+  frame.pattern_offset =
+      glm::vec4(wrapped(scene.origin.x), wrapped(scene.origin.y), wrapped(scene.origin.z), scene.exposure);
+  frame.forward = glm::vec4(axes.forward, scene.fog_distance);
+  frame.right = glm::vec4(axes.right * half_width, 0);
+  frame.up = glm::vec4(axes.up * half_height, 0);
+  frame.sun = glm::vec4(glm::normalize(scene.sun_direction), scene.ambient);
+  // On the helmet, a hand's breadth off the eye: near enough to light all that is seen, far enough for shadows to show.
+  const float off = 0.05f * std::max(scene.headlamp.reach, 1.0f);
+  frame.lamp_position[0] = glm::vec4(camera.position + axes.up * off + axes.right * (0.8f * off), scene.headlamp.reach);
+  frame.lamp_colour[0] = glm::vec4(scene.headlamp.colour, 0);
+  for (size_t i = 0; i < scene.lamps.size(); ++i) {
+    frame.lamp_position[i + 1] = glm::vec4(scene.lamps[i].position, scene.lamps[i].reach);
+    frame.lamp_colour[i + 1] = glm::vec4(scene.lamps[i].colour, 0);
+  }
+  frame.size = glm::uvec4(static_cast<uint32_t>(camera.width), static_cast<uint32_t>(camera.height),
+                          static_cast<uint32_t>(scene.supersample), static_cast<uint32_t>(scene.background));
+  frame.counts =
+      glm::uvec4(static_cast<uint32_t>(scene.lamps.size() + 1), static_cast<uint32_t>(scene.materials.size()), 0, 0);
+  return frame;
+}
+
+std::vector<FrameMaterial> frameMaterials(const RenderScene& scene) {
+  std::vector<FrameMaterial> materials;
+  for (const RenderMaterial& m : scene.materials) {
+    materials.push_back({glm::vec4(m.colour, std::clamp(m.roughness, 0.05f, 1.0f)),
+                         glm::uvec4(static_cast<uint32_t>(m.pattern), std::bit_cast<uint32_t>(m.relief), 0, 0)});
+  }
+  return materials;
+}
+
+}  // namespace sgm

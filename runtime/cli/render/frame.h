@@ -1,0 +1,37 @@
+#pragma once
+// What the shading pass is told. Laid out (std140, std430) as shaders/render/frame.glsl says.
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "render/scene.h"
+
+namespace sgm {
+
+struct Frame {
+  glm::mat4 view_projection;
+  glm::vec4 eye;
+  glm::vec4 pattern_offset;
+  glm::vec4 forward;
+  glm::vec4 right;
+  glm::vec4 up;
+  glm::vec4 sun;
+  glm::vec4 lamp_position[kMaxLamps + 1];
+  glm::vec4 lamp_colour[kMaxLamps + 1];
+  glm::uvec4 size;
+  glm::uvec4 counts;
+};
+static_assert(sizeof(Frame) == 64 + 6 * 16 + 2 * 16 * (kMaxLamps + 1) + 32);
+
+struct FrameMaterial {
+  glm::vec4 colour_roughness;
+  glm::uvec4 pattern;
+};
+static_assert(sizeof(FrameMaterial) == 32);
+
+/// scene must have been checked.
+Frame frameOf(const RenderScene& scene);
+std::vector<FrameMaterial> frameMaterials(const RenderScene& scene);
+
+}  // namespace sgm

@@ -1,0 +1,227 @@
+#include "render/pipeline.h"
+
+#include <array>
+#include <cstddef>
+#include <glm/mat4x4.hpp>
+
+#include "render/scene.h"
+#include "spirv/shade_comp.h"
+#include "spirv/surface_frag.h"
+#include "spirv/surface_vert.h"
+
+namespace sgm {
+namespace {
+
+constexpr VkFormat kPositionFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+VkAttachmentDescription attachment(VkFormat format, VkAttachmentStoreOp store, VkImageLayout final_layout) {
+  VkAttachmentDescription description{};
+  description.format = format;
+  description.samples = VK_SAMPLE_COUNT_1_BIT;
+  description.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+  description.storeOp = store;
+  description.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+  description.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  description.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  description.finalLayout = final_layout;
+  return description;
+}
+
+Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
+  const std::array attachments{
+      attachment(kPositionFormat, VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+      attachment(kNormalFormat, VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+      attachment(kDepthFormat, VK_ATTACHMENT_STORE_OP_DONT_CARE, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL)};
+  const std::array<VkAttachmentReference, 2> colours{
+      {{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL}, {1, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL}}};
+  const VkAttachmentReference depth{2, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+  VkSubpassDescription subpass{};
+  subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  subpass.colorAttachmentCount = static_cast<uint32_t>(colours.size());
+  subpass.pColorAttachments = colours.data();
+  subpass.pDepthStencilAttachment = &depth;
+  VkSubpassDependency then_shade{};
+  then_shade.srcSubpass = 0;
+  then_shade.dstSubpass = VK_SUBPASS_EXTERNAL;
+  then_shade.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+  then_shade.srcAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+  then_shade.dstStageMask = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+  then_shade.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
+  VkRenderPassCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
+  info.attachmentCount = static_cast<uint32_t>(attachments.size());
+  info.pAttachments = attachments.data();
+  info.subpassCount = 1;
+  info.pSubpasses = &subpass;
+  info.dependencyCount = 1;
+  info.pDependencies = &then_shade;
+  return scope.renderPass(info);
+}
+
+Result<VkPipeline> makeDrawPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout) {
+  auto vertex = scope.shader(spirv::kSurfaceVert);
+  if (!vertex) return vertex.error();
+  auto fragment = scope.shader(spirv::kSurfaceFrag);
+  if (!fragment) return fragment.error();
+  std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
+  for (VkPipelineShaderStageCreateInfo& stage : stages) {
+    stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    stage.pName = "main";
+  }
+  stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
+  stages[0].module = *vertex;
+  stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+  stages[1].module = *fragment;
+
+  const VkVertexInputBindingDescription binding{0, sizeof(RenderVertex), VK_VERTEX_INPUT_RATE_VERTEX};
+  const std::array<VkVertexInputAttributeDescription, 3> attributes{
+      {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RenderVertex, position)},
+       {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RenderVertex, normal)},
+       {2, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, material)}}};
+  VkPipelineVertexInputStateCreateInfo input{};
+  input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+  input.vertexBindingDescriptionCount = 1;
+  input.pVertexBindingDescriptions = &binding;
+  input.vertexAttributeDescriptionCount = static_cast<uint32_t>(attributes.size());
+  input.pVertexAttributeDescriptions = attributes.data();
+  VkPipelineInputAssemblyStateCreateInfo assembly{};
+  assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+  assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  VkPipelineViewportStateCreateInfo viewport{};
+  viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+  viewport.viewportCount = 1;
+  viewport.scissorCount = 1;
+  VkPipelineRasterizationStateCreateInfo raster{};
+  raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+  // A solid's inner side is never seen from the void; from outside a cave this opens it like a doll's house.
+  raster.cullMode = VK_CULL_MODE_BACK_BIT;
+  raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+  raster.lineWidth = 1;
+  VkPipelineMultisampleStateCreateInfo samples{};
+  samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+  samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+  VkPipelineDepthStencilStateCreateInfo depth{};
+  depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+  depth.depthTestEnable = VK_TRUE;
+  depth.depthWriteEnable = VK_TRUE;
+  depth.depthCompareOp = VK_COMPARE_OP_GREATER;  // depth is reversed
+  std::array<VkPipelineColorBlendAttachmentState, 2> blends{};
+  for (VkPipelineColorBlendAttachmentState& blend : blends) {
+    blend.colorWriteMask =
+        VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+  }
+  VkPipelineColorBlendStateCreateInfo blend{};
+  blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+  blend.attachmentCount = static_cast<uint32_t>(blends.size());
+  blend.pAttachments = blends.data();
+  const std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+  VkPipelineDynamicStateCreateInfo dynamic{};
+  dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+  dynamic.dynamicStateCount = static_cast<uint32_t>(dynamic_states.size());
+  dynamic.pDynamicStates = dynamic_states.data();
+
+  VkGraphicsPipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+  info.stageCount = static_cast<uint32_t>(stages.size());
+  info.pStages = stages.data();
+  info.pVertexInputState = &input;
+  info.pInputAssemblyState = &assembly;
+  info.pViewportState = &viewport;
+  info.pRasterizationState = &raster;
+  info.pMultisampleState = &samples;
+  info.pDepthStencilState = &depth;
+  info.pColorBlendState = &blend;
+  info.pDynamicState = &dynamic;
+  info.layout = layout;
+  info.renderPass = render_pass;
+  return scope.graphicsPipeline(info);
+}
+
+}  // namespace
+
+Result<SurfacePass> makeSurfacePass(VulkanScope& scope, VkExtent2D extent) {
+  SurfacePass pass;
+  pass.extent = extent;
+  constexpr VkImageUsageFlags kPlane = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+  auto positions = scope.image(extent, kPositionFormat, kPlane, VK_IMAGE_ASPECT_COLOR_BIT);
+  if (!positions) return positions.error();
+  pass.positions = *positions;
+  auto normals = scope.image(extent, kNormalFormat, kPlane, VK_IMAGE_ASPECT_COLOR_BIT);
+  if (!normals) return normals.error();
+  pass.normals = *normals;
+  auto depth =
+      scope.image(extent, kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT);
+  if (!depth) return depth.error();
+  auto render_pass = makeRenderPass(scope);
+  if (!render_pass) return render_pass.error();
+  pass.render_pass = *render_pass;
+  const std::array views{pass.positions.view, pass.normals.view, depth->view};
+  VkFramebufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+  info.renderPass = pass.render_pass;
+  info.attachmentCount = static_cast<uint32_t>(views.size());
+  info.pAttachments = views.data();
+  info.width = extent.width;
+  info.height = extent.height;
+  info.layers = 1;
+  auto framebuffer = scope.framebuffer(info);
+  if (!framebuffer) return framebuffer.error();
+  pass.framebuffer = *framebuffer;
+  auto layout = scope.pipelineLayout(VK_NULL_HANDLE, VK_SHADER_STAGE_VERTEX_BIT, sizeof(glm::mat4));
+  if (!layout) return layout.error();
+  pass.layout = *layout;
+  auto draw = makeDrawPipeline(scope, pass.render_pass, pass.layout);
+  if (!draw) return draw.error();
+  pass.draw = *draw;
+  return pass;
+}
+
+Result<ShadePass> makeShadePass(VulkanScope& scope, const SurfacePass& surfaces, const VulkanBuffer& frame,
+                                const VulkanBuffer& materials, const VulkanBuffer& pixels) {
+  constexpr std::array kTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                              VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                              VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+  ShadePass pass;
+  auto set_layout = scope.setLayout(kTypes, VK_SHADER_STAGE_COMPUTE_BIT);
+  if (!set_layout) return set_layout.error();
+  auto layout = scope.pipelineLayout(*set_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0);
+  if (!layout) return layout.error();
+  pass.layout = *layout;
+  auto shader = scope.shader(spirv::kShadeComp);
+  if (!shader) return shader.error();
+  auto pipeline = scope.computePipeline(*shader, pass.layout);
+  if (!pipeline) return pipeline.error();
+  pass.pipeline = *pipeline;
+  auto set = scope.descriptorSet(*set_layout, kTypes);
+  if (!set) return set.error();
+  pass.set = *set;
+  auto sampler = scope.sampler();
+  if (!sampler) return sampler.error();
+
+  const std::array<VkDescriptorImageInfo, 2> images{
+      {{*sampler, surfaces.positions.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+       {*sampler, surfaces.normals.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}}};
+  const std::array<VkDescriptorBufferInfo, 3> buffers{
+      {{frame.handle, 0, VK_WHOLE_SIZE}, {materials.handle, 0, VK_WHOLE_SIZE}, {pixels.handle, 0, VK_WHOLE_SIZE}}};
+  std::array<VkWriteDescriptorSet, kTypes.size()> writes{};
+  for (uint32_t i = 0; i < writes.size(); ++i) {
+    writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    writes[i].dstSet = pass.set;
+    writes[i].dstBinding = i;
+    writes[i].descriptorCount = 1;
+    writes[i].descriptorType = kTypes[i];
+    if (i < images.size()) {
+      writes[i].pImageInfo = &images[i];
+    } else {
+      writes[i].pBufferInfo = &buffers[i - images.size()];
+    }
+  }
+  const VulkanDevice& device = scope.device();
+  device.calls().vkUpdateDescriptorSets(device.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0,
+                                        nullptr);
+  return pass;
+}
+
+}  // namespace sgm

@@ -1,0 +1,153 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "render/frame.h"
+#include "render/pipeline.h"
+
+namespace sgm {
+namespace {
+
+constexpr uint32_t kGroup = 8;  // shade.comp's workgroup is kGroup * kGroup pixels
+
+bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+Error invalid(const std::string& message) { return {Code::invalid_argument, message}; }
+
+Result<void> checkCamera(const RenderCamera& camera) {
+  if (camera.width < 1 || camera.height < 1 || camera.width > kMaxPicture || camera.height > kMaxPicture) {
+    return invalid("a picture is 1 to " + std::to_string(kMaxPicture) + " pixels wide and high, not " +
+                   std::to_string(camera.width) + " x " + std::to_string(camera.height));
+  }
+  if (!(camera.fov_degrees >= 1 && camera.fov_degrees <= 150)) {
+    return invalid("the camera's field of view is 1 to 150 degrees");
+  }
+  const glm::vec3 view = camera.target - camera.position;
+  if (!finite(camera.position) || !finite(view) || !(glm::dot(view, view) > 0)) {
+    return invalid("the camera needs a finite position and a target elsewhere");
+  }
+  return {};
+}
+
+Result<void> checkMesh(const RenderScene& scene) {
+  if (scene.indices.size() % 3 != 0) return invalid("indices come in threes");
+  if (scene.vertices.size() > UINT32_MAX || scene.indices.size() > UINT32_MAX) {
+    return {Error{Code::limit, "the mesh is too large for one picture: mesh a smaller region or a coarser cell"}};
+  }
+  const auto highest = std::ranges::max_element(scene.indices);
+  if (highest != scene.indices.end() && *highest >= scene.vertices.size()) {
+    return invalid("index " + std::to_string(*highest) + " is beyond the last vertex");
+  }
+  for (const RenderVertex& vertex : scene.vertices) {
+    if (!finite(vertex.position) || !finite(vertex.normal)) return invalid("a vertex is not finite");
+  }
+  return {};
+}
+
+Result<void> check(const RenderScene& scene, const VkPhysicalDeviceLimits& limits) {
+  if (auto camera = checkCamera(scene.camera); !camera) return camera.error();
+  if (auto mesh = checkMesh(scene); !mesh) return mesh.error();
+  if (scene.materials.empty()) return invalid("a scene needs a material");
+  if (scene.lamps.size() > kMaxLamps) return invalid("a scene has at most " + std::to_string(kMaxLamps) + " lamps");
+  if (scene.supersample < 1 || scene.supersample > 3) return invalid("a pixel has 1, 2 or 3 samples on each side");
+  if (!(scene.fog_distance > 0)) return invalid("the fog's distance is above 0");
+  if (!(glm::dot(scene.sun_direction, scene.sun_direction) > 0)) return invalid("the sun's direction is not 0");
+  const uint32_t side = static_cast<uint32_t>(std::max(scene.camera.width, scene.camera.height) * scene.supersample);
+  if (side > limits.maxImageDimension2D || side > limits.maxFramebufferWidth || side > limits.maxFramebufferHeight) {
+    return Error{Code::unsupported, "this device cannot draw " + std::to_string(side) +
+                                        " samples on a side: ask for a smaller picture or less supersampling"};
+  }
+  return {};
+}
+
+template <class T>
+Result<VulkanBuffer> upload(VulkanScope& scope, std::span<const T> values, VkBufferUsageFlags usage) {
+  // Vulkan has no empty buffers; an empty mesh draws nothing from one of four bytes.
+  auto buffer = scope.buffer(std::max<VkDeviceSize>(values.size_bytes(), 4), usage);
+  if (buffer && !values.empty()) std::memcpy(buffer->data, values.data(), values.size_bytes());
+  return buffer;
+}
+
+}  // namespace
+
+Result<Renderer> Renderer::create(const GpuOptions& options) {
+  auto device = VulkanDevice::create(options);
+  if (!device) return device.error();
+  return Renderer(std::move(*device));
+}
+
+Result<Image> Renderer::render(const RenderScene& scene) const {
+  if (auto checked = check(scene, device_->limits()); !checked) return checked.error();
+  const VulkanDeviceTable& calls = device_->calls();
+  VulkanScope scope(*device_);
+
+  const Frame frame = frameOf(scene);
+  const std::vector<FrameMaterial> materials = frameMaterials(scene);
+  auto vertex_buffer = upload(scope, scene.vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  if (!vertex_buffer) return vertex_buffer.error();
+  auto index_buffer = upload(scope, scene.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  if (!index_buffer) return index_buffer.error();
+  auto frame_buffer = upload(scope, std::span(&frame, 1), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+  if (!frame_buffer) return frame_buffer.error();
+  auto material_buffer = upload(scope, std::span<const FrameMaterial>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  if (!material_buffer) return material_buffer.error();
+  const uint32_t width = frame.size.x, height = frame.size.y;
+  auto pixels = scope.buffer(VkDeviceSize{4} * width * height, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  if (!pixels) return pixels.error();
+
+  auto surfaces = makeSurfacePass(scope, {width * frame.size.z, height * frame.size.z});
+  if (!surfaces) return surfaces.error();
+  auto shade = makeShadePass(scope, *surfaces, *frame_buffer, *material_buffer, *pixels);
+  if (!shade) return shade.error();
+
+  auto drawn = device_->run([&](VkCommandBuffer commands) {
+    const std::array<VkClearValue, 3> clear{};  // alpha 0 is the background, reversed depth 0 is infinity
+    VkRenderPassBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
+    begin.renderPass = surfaces->render_pass;
+    begin.framebuffer = surfaces->framebuffer;
+    begin.renderArea.extent = surfaces->extent;
+    begin.clearValueCount = static_cast<uint32_t>(clear.size());
+    begin.pClearValues = clear.data();
+    calls.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, surfaces->draw);
+    // Upside down: our y points up, Vulkan's down.
+    const float w = static_cast<float>(surfaces->extent.width), h = static_cast<float>(surfaces->extent.height);
+    const VkViewport viewport{0, h, w, -h, 0, 1};
+    calls.vkCmdSetViewport(commands, 0, 1, &viewport);
+    calls.vkCmdSetScissor(commands, 0, 1, &begin.renderArea);
+    calls.vkCmdPushConstants(commands, surfaces->layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(glm::mat4),
+                             &frame.view_projection);
+    const VkDeviceSize offset = 0;
+    calls.vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer->handle, &offset);
+    calls.vkCmdBindIndexBuffer(commands, index_buffer->handle, 0, VK_INDEX_TYPE_UINT32);
+    if (!scene.indices.empty()) {
+      calls.vkCmdDrawIndexed(commands, static_cast<uint32_t>(scene.indices.size()), 1, 0, 0, 0);
+    }
+    calls.vkCmdEndRenderPass(commands);
+    calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade->pipeline);
+    calls.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade->layout, 0, 1, &shade->set, 0,
+                                  nullptr);
+    calls.vkCmdDispatch(commands, (width + kGroup - 1) / kGroup, (height + kGroup - 1) / kGroup, 1);
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
+    calls.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
+                               &barrier, 0, nullptr, 0, nullptr);
+  });
+  if (!drawn) return drawn.error();
+  Image image;
+  image.width = scene.camera.width;
+  image.height = scene.camera.height;
+  image.rgba.resize(size_t{4} * width * height);
+  std::memcpy(image.rgba.data(), pixels->data, image.rgba.size());
+  return image;
+}
+
+}  // namespace sgm

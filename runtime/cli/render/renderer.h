@@ -1,0 +1,38 @@
+#pragma once
+// Pictures of meshes, drawn off-screen.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "render/image.h"
+#include "render/scene.h"
+#include "render/vulkan_device.h"
+
+namespace sgm {
+
+/// Draws scenes on one Vulkan device, software ones included. One thread at a time may use it.
+///
+/// Two passes: the mesh is drawn into position, normal and material planes, supersampled; then a compute shader lights
+/// each sample once, however much of the mesh lay behind it, and averages them into pixels. The same scene gives the
+/// same bytes on the same device and driver.
+class Renderer {
+ public:
+  /// Errors: unsupported, with what to install.
+  static Result<Renderer> create(const GpuOptions& options = {});
+
+  /// Errors: invalid_argument (a size, an index or a vertex out of range, no material), out_of_memory, unsupported.
+  Result<Image> render(const RenderScene& scene) const;
+
+  const GpuInfo& info() const { return device_->info(); }
+  /// What the validation layer had to say; see GpuOptions::validation.
+  std::vector<std::string> messages() const { return device_->messages(); }
+
+ private:
+  explicit Renderer(std::unique_ptr<VulkanDevice> device) : device_(std::move(device)) {}
+
+  std::unique_ptr<VulkanDevice> device_;
+};
+
+}  // namespace sgm

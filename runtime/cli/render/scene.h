@@ -1,0 +1,81 @@
+#pragma once
+// What there is to draw: a mesh, its materials, lights, a background, and a camera.
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/fixed.h"
+
+namespace sgm {
+
+/// Positions in metres from the scene's origin; normals unit length, out of the solid (zero: the triangle's own).
+struct RenderVertex {
+  glm::vec3 position{0};
+  glm::vec3 normal{0};
+  uint32_t material = 0;  ///< index into RenderScene::materials; beyond its end the last one is meant
+};
+
+/// The procedural pattern that a surface is covered with.
+enum class SurfacePattern : uint32_t {
+  rock,    ///< strata, mineral stains, cracks; silt on what lies flat
+  flow,    ///< calcite and other flowstone: fluted, pale, wet
+  brick,   ///< courses with mortar
+  smooth,  ///< colour with a fine grain: plaster, clay, metal
+  cloud,   ///< soft white, light passes through
+};
+
+struct RenderMaterial {
+  SurfacePattern pattern = SurfacePattern::rock;
+  glm::vec3 colour{0.42f, 0.37f, 0.31f};  ///< linear, 0..1
+  float roughness = 0.75f;                ///< 0.05..1
+  float relief = 1;                       ///< strength of the shading relief, 0: as smooth as the mesh
+};
+
+/// What a grammar's `mat NAME` looks like. Names that are not known get plain rock in a tint of their own.
+RenderMaterial materialByName(std::string_view name);
+
+/// A lamp that shines on all sides and falls off with the square of the distance.
+struct RenderLamp {
+  glm::vec3 position{0};  ///< metres from the scene's origin
+  glm::vec3 colour{1, 0.9f, 0.75f};
+  float reach = 10;  ///< distance in metres at which a facing wall is well lit; 0 turns the lamp off
+};
+
+/// Looks from position to target, Y up. Positions in metres from the scene's origin.
+struct RenderCamera {
+  glm::vec3 position{0};
+  glm::vec3 target{0, 0, -1};
+  float fov_degrees = 68;  ///< across the picture's height, 1..150
+  int width = 1280;        ///< pixels, 1..kMaxPicture
+  int height = 720;
+};
+inline constexpr int kMaxPicture = 4096;
+
+enum class Background : uint32_t { cave, sky };
+
+inline constexpr size_t kMaxLamps = 8;
+
+struct RenderScene {
+  std::span<const RenderVertex> vertices;
+  std::span<const uint32_t> indices;          ///< three a triangle, counter-clockwise seen from outside the solid
+  std::span<const RenderMaterial> materials;  ///< at least one
+  /// World position of the scene's origin: patterns stick to the world, whatever origin a picture is drawn from.
+  Int3 origin;
+  RenderCamera camera;
+  /// The lamp on the explorer's helmet, a little above and beside the camera, aimed where it looks.
+  /// Its reach is in metres; its position is ignored.
+  RenderLamp headlamp;
+  std::vector<RenderLamp> lamps;  ///< set down in the scene, at most kMaxLamps
+  float ambient = 0.012f;         ///< light from everywhere, 0..1
+  Background background = Background::cave;
+  glm::vec3 sun_direction{-0.62f, 0.62f, 0.48f};  ///< towards the sun; used under a sky
+  float fog_distance = 60;                        ///< metres after which about two thirds of the light is lost to haze
+  float exposure = 1;
+  int supersample = 2;  ///< samples on each side of a pixel, 1..3
+};
+
+}  // namespace sgm

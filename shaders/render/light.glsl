@@ -1,0 +1,97 @@
+// Light that reaches a surface, and what the surface sends to the eye.
+
+// Light from the sky in a direction.
+vec3 sky(vec3 d) {
+  float h = max(d.y, 0.0);
+  vec3 c = mix(vec3(0.48, 0.64, 0.82), vec3(0.055, 0.17, 0.47), pow(h, 0.5));
+  c = mix(c, vec3(0.30, 0.34, 0.36), smoothstep(0.0, -0.5, d.y));
+  float s = max(dot(d, frame.sun.xyz), 0.0);
+  return c + vec3(1.0, 0.85, 0.62) * (0.16 * pow(s, 6.0) + 0.35 * pow(s, 60.0));
+}
+
+ivec2 planeSize() { return ivec2(frame.size.xy * frame.size.z); }
+
+// Sample coordinates of a point, and whether it is in front of the eye.
+bool project(vec3 p, out vec2 pixel) {
+  vec4 clip = frame.view_projection * vec4(p, 1.0);
+  if (clip.w <= 1e-3) return false;
+  vec2 ndc = clip.xy / clip.w;
+  pixel = vec2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y) * vec2(planeSize());
+  return true;
+}
+
+// How open the surface is to its surroundings, 0..1 (after McGuire et al., "The alchemy screen-space ambient obscurance").
+float openness(ivec2 at, vec3 p, vec3 n, float distance_to_eye, float radius, float turn) {
+  const int kTaps = 9;
+  float reach = clamp(radius / (distance_to_eye * frame.eye.w), 4.0, 0.22 * float(planeSize().y));
+  float hidden = 0.0;
+  for (int i = 0; i < kTaps; ++i) {
+    float f = (float(i) + 0.5) / float(kTaps), angle = 6.2831853 * (turn + 5.0 * f);
+    ivec2 tap = at + ivec2(vec2(cos(angle), sin(angle)) * (reach * f));
+    if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, planeSize()))) continue;
+    vec4 q = texelFetch(position_plane, tap, 0);
+    if (q.w == 0.0) continue;
+    vec3 v = q.xyz - p;
+    float d2 = dot(v, v);
+    float fade = max(0.0, 1.0 - d2 / (4.0 * radius * radius));
+    hidden += fade * max(0.0, dot(v, n) - 0.004 * distance_to_eye) * radius / (d2 + 0.03 * radius * radius);
+  }
+  return clamp(1.0 - 0.42 * hidden / float(kTaps) * 2.0, 0.0, 1.0);
+}
+
+// 1 where nothing seen in the picture stands between the point and the light.
+float unshadowed(vec3 from, vec3 to, float jitter) {
+  const int kSteps = 12;
+  float lit = 1.0, whole = length(to - from);
+  for (int i = 0; i < kSteps; ++i) {
+    float t = (float(i) + jitter) / float(kSteps);
+    vec3 q = mix(from, to, t * t * 0.96 + 0.004);
+    vec2 pixel;
+    if (!project(q, pixel)) break;
+    ivec2 tap = ivec2(pixel);
+    if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, planeSize()))) break;
+    vec4 seen = texelFetch(position_plane, tap, 0);
+    if (seen.w == 0.0) continue;
+    float behind = dot(q - frame.eye.xyz, frame.forward.xyz) - dot(seen.xyz - frame.eye.xyz, frame.forward.xyz);
+    float slack = 0.015 * length(q - frame.eye.xyz) + 0.01;
+    float thickness = 0.6 + 0.12 * whole;
+    if (behind > slack && behind < thickness) lit = min(lit, 1.0 - smoothstep(slack, 2.5 * slack, behind));
+  }
+  return lit;
+}
+
+// Lambert with wrap for what lets light through, and a GGX highlight. n.l is the light's share on a facing surface.
+vec3 reflected(Surface s, vec3 to_light, vec3 to_eye) {
+  float nl = dot(s.normal, to_light);
+  float wrap = 0.6 * s.translucency;
+  float diffuse = max(0.0, (nl + wrap) / (1.0 + wrap));
+  vec3 through = mix(vec3(1.0), vec3(1.0, 0.80, 0.58), s.translucency * (1.0 - smoothstep(-0.2, 0.6, nl)));
+  vec3 result = s.albedo * through * diffuse;
+  if (nl > 0.0 && s.specular > 0.0) {
+    vec3 h = normalize(to_light + to_eye);
+    float nh = max(dot(s.normal, h), 0.0), nv = max(dot(s.normal, to_eye), 0.05), lh = max(dot(to_light, h), 0.0);
+    float a = s.roughness * s.roughness, a2 = a * a;
+    float d = nh * nh * (a2 - 1.0) + 1.0;
+    float k = 0.5 * a + 0.02;
+    float shape = 1.0 / ((nl * (1.0 - k) + k) * (nv * (1.0 - k) + k));
+    float fresnel = s.specular + (1.0 - s.specular) * pow(1.0 - lh, 5.0);
+    result += vec3(nl * fresnel * min(0.25 * a2 / (d * d) * shape, 40.0));
+  }
+  return result;
+}
+
+// Haze lit by a lamp between the eye and distance t along d: the integral of 1 / r^2.
+float glow(vec3 d, float t, vec3 lamp) {
+  vec3 q = frame.eye.xyz - lamp;
+  float b = dot(d, q), s = inversesqrt(max(dot(q, q) - b * b, 0.02));
+  return s * (atan((t + b) * s) - atan(b * s));
+}
+
+vec3 toneMap(vec3 c) {  // Narkowicz's fit of the ACES curve
+  c *= 0.8;
+  return clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0);
+}
+
+vec3 encodeSrgb(vec3 c) {
+  return mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+}

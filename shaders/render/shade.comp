@@ -1,0 +1,129 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// Lights every sample of the picture and averages them into pixels.
+#include "render/frame.glsl"
+#include "render/noise.glsl"
+#include "render/materials.glsl"
+#include "render/light.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+Surface surfaceAt(uint material, vec3 p, vec3 n, float footprint) {
+  Material m = materials[min(material, frame.counts.y - 1u)];
+  vec3 colour = m.colour_roughness.rgb;
+  float roughness = m.colour_roughness.w, strength = uintBitsToFloat(m.pattern.y);
+  switch (m.pattern.x) {
+    case 0u: return rock(p, n, colour, roughness, strength, footprint);
+    case 1u: return flowstone(p, n, colour, roughness, strength, footprint);
+    case 2u: return brickwork(p, n, colour, roughness, strength, footprint);
+    case 4u: return vapour(p, n, colour, strength, footprint);
+    default: return plain(p, n, colour, roughness, strength, footprint);
+  }
+}
+
+vec3 lamps(Surface s, vec3 p, vec3 n, vec3 to_eye, float open, float jitter) {
+  vec3 sum = vec3(0.0), bounce = vec3(0.0);
+  for (uint i = 0u; i < frame.counts.x; ++i) {
+    vec3 at = frame.lamp_position[i].xyz, away = at - p;
+    float reach = frame.lamp_position[i].w, d2 = dot(away, away), d = sqrt(d2);
+    vec3 light = frame.lamp_colour[i].rgb * (1.2 * reach * reach / (d2 + 0.22 * reach * reach));
+    // The beam of the headlamp is wide and its rim soft; the walls send part of it back everywhere.
+    if (i == 0u) {
+      float rim = dot(-away / d, frame.forward.xyz);
+      light *= mix(0.22, 1.0, smoothstep(0.60, 0.97, rim));
+    }
+    bounce += light * (0.5 + 0.5 * dot(n, away / d));
+    vec3 l = away / d;
+    if (dot(n, l) < -0.5 * s.translucency) continue;
+    float lit = unshadowed(p + n * (0.004 * length(p - frame.eye.xyz) + 0.01), at, jitter);
+    sum += light * lit * reflected(s, l, to_eye);
+  }
+  return sum * mix(0.55, 1.0, open) + bounce * s.albedo * (0.045 * open);
+}
+
+vec3 sunlight(Surface s, vec3 p, vec3 n, vec3 to_eye, float open, float jitter) {
+  float far = 0.6 * length(p - frame.eye.xyz);
+  float lit = unshadowed(p + n * (0.006 * far + 0.01), p + frame.sun.xyz * far, jitter);
+  vec3 ground = vec3(0.24, 0.23, 0.21), zenith = vec3(0.42, 0.58, 0.86);
+  if (s.translucency > 0.99) {
+    // Vapour scatters so often that shade fills with light: it darkens by how far it faces away, not by its relief.
+    float facing = 0.5 + 0.5 * dot(normalize(mix(n, s.normal, 0.6)), frame.sun.xyz);
+    float day = facing * facing * mix(0.55, 1.0, lit) * mix(0.75, 1.0, open);
+    float rim = pow(max(0.0, -dot(frame.sun.xyz, to_eye)), 4.0) * pow(1.0 - abs(dot(n, to_eye)), 3.0);
+    vec3 shade = mix(ground, zenith, 0.55 + 0.45 * n.y) * mix(0.6, 1.0, open);
+    return s.albedo * (0.80 * shade + vec3(1.22, 1.12, 0.97) * (day + rim));
+  }
+  vec3 result = vec3(2.2, 2.0, 1.7) * reflected(s, frame.sun.xyz, to_eye) * lit;
+  return result * mix(0.7, 1.0, open) + s.albedo * mix(ground, zenith, 0.5 + 0.5 * s.normal.y) * (0.9 * open);
+}
+
+vec3 background(vec3 d) { return frame.size.w == 1u ? sky(d) : vec3(0.0022, 0.0025, 0.0030); }
+
+vec3 haze(vec3 colour, vec3 d, float t) {
+  float clear = exp(-t / frame.forward.w);
+  if (frame.size.w == 1u) return mix(mix(vec3(0.48, 0.62, 0.80), sky(d), 0.3), colour, clear);
+  vec3 scattered = vec3(0.0);
+  for (uint i = 1u; i < frame.counts.x; ++i) {
+    float reach = frame.lamp_position[i].w;
+    scattered += frame.lamp_colour[i].rgb * (reach * reach * glow(d, t, frame.lamp_position[i].xyz));
+  }
+  return mix(background(d), colour, clear) + scattered * (0.018 / frame.forward.w);
+}
+
+// Vapour thins out towards its outline: the share of the sky near the sample.
+float rimOf(ivec2 at, float turn) {
+  const int kTaps = 8;
+  float radius = 0.014 * float(planeSize().y), open = 0.0;
+  for (int i = 0; i < kTaps; ++i) {
+    float angle = 6.2831853 * (float(i) + turn) / float(kTaps);
+    vec2 offset = vec2(cos(angle), sin(angle)) * radius * (0.35 + 0.65 * fract(turn * 7.0 + 0.618 * float(i)));
+    ivec2 tap = clamp(at + ivec2(offset), ivec2(0), planeSize() - 1);
+    open += texelFetch(position_plane, tap, 0).w == 0.0 ? 1.0 / float(kTaps) : 0.0;
+  }
+  return smoothstep(0.0, 0.7, open);
+}
+
+vec3 sampleAt(ivec2 at) {
+  vec2 centre = (vec2(at) + 0.5) / vec2(planeSize()) * 2.0 - 1.0;
+  vec3 d = normalize(frame.forward.xyz + centre.x * frame.right.xyz - centre.y * frame.up.xyz);
+  vec4 seen = texelFetch(position_plane, at, 0);
+  vec3 turn = random3(ivec3(at, 1));
+  if (seen.w == 0.0) return frame.size.w == 1u ? sky(d) : haze(background(d), d, 4.0 * frame.forward.w);
+  vec3 p = seen.xyz, n = normalize(texelFetch(normal_plane, at, 0).xyz);
+  float t = length(p - frame.eye.xyz);
+  // Seen edge-on, a sample covers more of the surface; half of that is what looks sharp without flicker.
+  float footprint = t * frame.eye.w / mix(1.0, max(0.25, abs(dot(n, d))), 0.5);
+  Surface s = surfaceAt(uint(seen.w) - 1u, p + frame.pattern_offset.xyz, n, footprint);
+  float wide = openness(at, p, n, t, clamp(0.12 * t, 0.5, 40.0), turn.x);
+  float fine = openness(at, p, n, t, clamp(0.025 * t, 0.12, 8.0), turn.y);
+  float open = wide * fine;
+  vec3 colour;
+  if (frame.size.w == 1u) {
+    colour = sunlight(s, p, n, -d, open, turn.z);
+    if (s.translucency > 0.99) colour = mix(colour, sky(d), 0.8 * rimOf(at, turn.x));
+  } else {
+    colour = lamps(s, p, n, -d, open, turn.z);
+    vec3 everywhere = mix(vec3(0.90, 0.80, 0.70), vec3(0.85, 0.95, 1.10), 0.5 + 0.5 * s.normal.y);
+    colour += s.albedo * everywhere * (frame.sun.w * open);
+  }
+  return haze(colour, d, t);
+}
+
+void main() {
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(pixel, frame.size.xy))) return;
+  int side = int(frame.size.z);
+  vec2 from_centre = (vec2(pixel) + 0.5) / vec2(frame.size.xy) - 0.5;
+  float vignette = frame.size.w == 1u ? 1.0 : 1.0 - 0.55 * dot(from_centre, from_centre);
+  vec3 sum = vec3(0.0);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      sum += toneMap(sampleAt(ivec2(pixel) * side + ivec2(x, y)) * (frame.pattern_offset.w * vignette));
+    }
+  }
+  vec3 colour = encodeSrgb(sum / float(side * side));
+  // Half a step of noise keeps the dark gradients of a cave from banding.
+  colour += (random3(ivec3(pixel, 7)) - 0.5) / 255.0;
+  uvec3 bytes = uvec3(clamp(colour, 0.0, 1.0) * 255.0 + 0.5);
+  pixels[pixel.y * frame.size.x + pixel.x] = bytes.r | bytes.g << 8 | bytes.b << 16 | 0xFF000000u;
+}

@@ -1,0 +1,16 @@
+#version 450
+// Carries the mesh to the picture, metres from the scene's origin.
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in uint material;
+layout(location = 0) out vec3 out_position;
+layout(location = 1) out vec3 out_normal;
+layout(location = 2) flat out uint out_material;
+layout(push_constant) uniform View { mat4 view_projection; };
+
+void main() {
+  out_position = position;
+  out_normal = normal;
+  out_material = material;
+  gl_Position = view_projection * vec4(position, 1.0);
+}
