@@ -1,0 +1,80 @@
+#include "mesh/export.h"
+
+#include <charconv>
+
+#include "mesh/export_formats.h"
+#include "mesh/vertex.h"
+
+namespace sgm {
+
+Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (extension == ".glb") return MeshFormat::glb;
+  if (extension == ".obj") return MeshFormat::obj;
+  if (extension == ".ply") return MeshFormat::ply;
+  if (extension == ".stl") return MeshFormat::stl;
+  return Error{Code::invalid_argument,
+               path.string() + ": no mesh format that we can write; end the name in .glb, .obj, .ply or .stl"};
+}
+
+Result<void> exportMesh(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path) {
+  const Result<MeshFormat> format = meshFormatOf(path);
+  if (!format) return format.error();
+  switch (*format) {
+    case MeshFormat::glb:
+      return writeGlb(mesh, info, path);
+    case MeshFormat::obj:
+      return writeObj(mesh, info, path);
+    case MeshFormat::ply:
+      return writePly(mesh, info, path);
+    case MeshFormat::stl:
+      return writeStl(mesh, info, path);
+  }
+  return Error{Code::invalid_argument, "no such mesh format"};
+}
+
+Float3 exportedPosition(const WorldMesh& mesh, uint32_t vertex) {
+  const std::array<double, 3>& p = mesh.positions[vertex];
+  return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+}
+
+Float3 exportedNormal(const WorldMesh& mesh, uint32_t vertex) {
+  const VertexAttributes& a = mesh.attributes[vertex];
+  const std::array<double, 3> n = unpackNormal(a.normal_x, a.normal_y);
+  return {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
+}
+
+uint16_t triangleMaterial(const WorldMesh& mesh, size_t first_index) {
+  const auto at = [&](size_t corner) { return mesh.attributes[mesh.indices[first_index + corner]].material; };
+  return at(1) == at(2) ? at(1) : at(0);
+}
+
+ExportMaterial materialAt(const ExportInfo& info, uint16_t index) {
+  if (index < info.materials.size()) return info.materials[index];
+  ExportMaterial unknown;
+  unknown.name = "material " + std::to_string(index);
+  return unknown;
+}
+
+namespace {
+
+template <class T>
+std::string shortest(T value) {
+  char text[32];
+  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+
+}  // namespace
+
+std::string numberText(float value) { return shortest(value); }
+std::string numberText(double value) { return shortest(value); }
+
+std::string oneLine(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  return text;
+}
+
+}  // namespace sgm

@@ -1,0 +1,44 @@
+#pragma once
+// A welded mesh as a file that other programs read.
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "mesh/weld.h"
+
+namespace sgm {
+
+struct ExportMaterial {
+  std::string name;
+  std::array<float, 3> colour{0.8f, 0.8f, 0.8f};  ///< linear, 0..1
+  float roughness = 0.9f;                         ///< 0..1
+};
+
+/// What a file says beside the mesh. Indices beyond the tables are written as a grey material "material N".
+struct ExportInfo {
+  std::string name = "mesh";      ///< of the object
+  std::string generator = "sgm";  ///< program and version
+  std::vector<ExportMaterial> materials;
+  std::vector<std::string> tags;
+};
+
+enum class MeshFormat { glb, obj, ply, stl };
+
+/// By extension, of any case. Error: Code::invalid_argument, naming the four.
+Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
+
+/// Writes the mesh in the format of the path's extension. Positions are in metres from mesh.origin, rounded to float32.
+///  .glb  binary glTF 2.0: one primitive a material with vertices of its own, POSITION, NORMAL and _TAG; the scene's
+///        extras hold the origin in units and metres and the tag names
+///  .obj  text, with normals and usemtl; the materials in a .mtl file of the same name beside it
+///  .ply  binary little-endian: x y z nx ny nz red green blue material tag; origin, materials and tags as comments
+///  .stl  binary, with facet normals: positions alone, so that a reader welds by position
+/// A triangle takes the material that two of its vertices share, else that of its first. An empty mesh makes a valid
+/// file. The file appears whole or not at all (FileWriter). Errors: Code::io; Code::limit where the format cannot hold
+/// the mesh; Code::invalid_argument for the extension.
+Result<void> exportMesh(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path);
+
+}  // namespace sgm

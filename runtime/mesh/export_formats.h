@@ -1,0 +1,29 @@
+#pragma once
+// The writers behind exportMesh, one a format, and what they share.
+
+#include <array>
+#include <filesystem>
+#include <string>
+
+#include "mesh/export.h"
+
+namespace sgm {
+
+Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path);
+Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path);
+Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path);
+Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path);
+
+using Float3 = std::array<float, 3>;
+
+Float3 exportedPosition(const WorldMesh& mesh, uint32_t vertex);
+Float3 exportedNormal(const WorldMesh& mesh, uint32_t vertex);
+uint16_t triangleMaterial(const WorldMesh& mesh, size_t first_index);
+ExportMaterial materialAt(const ExportInfo& info, uint16_t index);
+/// Shortest text that reads back as the same number, in any locale.
+std::string numberText(float value);
+std::string numberText(double value);
+/// Line breaks and other control characters become spaces, so that a name stays within its line.
+std::string oneLine(std::string text);
+
+}  // namespace sgm

@@ -1,0 +1,221 @@
+// Binary glTF 2.0. The specification: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/export_formats.h"
+#include "mesh/file_writer.h"
+
+namespace sgm {
+namespace {
+
+constexpr uint32_t kNoVertex = std::numeric_limits<uint32_t>::max();
+constexpr size_t kVertexBytes = 28;  // position, normal, tag, two bytes of padding
+
+/// The triangles of one material. Vertices are renumbered, in the order in which the triangles use them.
+struct Primitive {
+  uint16_t material = 0;
+  std::vector<uint32_t> vertices;  // numbers in the whole mesh
+  std::vector<uint32_t> indices;   // into vertices
+  Float3 low{}, high{};
+
+  // 65535 itself is the primitive restart value.
+  bool shortIndices() const { return vertices.size() <= 65535; }
+  size_t indexBytes() const { return indices.size() * (shortIndices() ? 2 : 4); }
+  size_t paddedIndexBytes() const { return (indexBytes() + 3) / 4 * 4; }
+  size_t vertexBytes() const { return vertices.size() * kVertexBytes; }
+};
+
+std::vector<Primitive> splitByMaterial(const WorldMesh& mesh) {
+  std::vector<uint32_t> triangles_of(size_t{1} << 16);
+  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) ++triangles_of[triangleMaterial(mesh, i)];
+  std::vector<Primitive> primitives;
+  std::vector<uint32_t> primitive_of(triangles_of.size(), kNoVertex);
+  for (size_t m = 0; m < triangles_of.size(); ++m) {
+    if (triangles_of[m] == 0) continue;
+    primitive_of[m] = static_cast<uint32_t>(primitives.size());
+    primitives.emplace_back().material = static_cast<uint16_t>(m);
+    primitives.back().indices.reserve(size_t{triangles_of[m]} * 3);
+  }
+  std::vector<uint32_t> renumbered(mesh.positions.size());
+  for (size_t p = 0; p < primitives.size(); ++p) {
+    Primitive& primitive = primitives[p];
+    std::fill(renumbered.begin(), renumbered.end(), kNoVertex);
+    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+      if (primitive_of[triangleMaterial(mesh, i)] != p) continue;
+      for (size_t corner = 0; corner < 3; ++corner) {
+        const uint32_t vertex = mesh.indices[i + corner];
+        if (renumbered[vertex] == kNoVertex) {
+          renumbered[vertex] = static_cast<uint32_t>(primitive.vertices.size());
+          primitive.vertices.push_back(vertex);
+        }
+        primitive.indices.push_back(renumbered[vertex]);
+      }
+    }
+    primitive.low = primitive.high = exportedPosition(mesh, primitive.vertices.front());
+    for (uint32_t vertex : primitive.vertices) {
+      const Float3 position = exportedPosition(mesh, vertex);
+      for (size_t axis = 0; axis < 3; ++axis) {
+        primitive.low[axis] = std::min(primitive.low[axis], position[axis]);
+        primitive.high[axis] = std::max(primitive.high[axis], position[axis]);
+      }
+    }
+  }
+  return primitives;
+}
+
+/// A JSON string. Bytes that are not UTF-8 would make the file invalid: they become '?'.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (size_t i = 0; i < text.size();) {
+    const auto byte = [&](size_t k) { return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u; };
+    const unsigned lead = byte(0);
+    size_t length = lead < 0x80                   ? 1
+                    : lead >= 0xC2 && lead < 0xE0 ? 2
+                    : lead >= 0xE0 && lead < 0xF0 ? 3
+                    : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                  : 0;
+    for (size_t k = 1; k < length; ++k)
+      if ((byte(k) & 0xC0) != 0x80) length = 0;
+    const bool overlong = (lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xF0 && byte(1) < 0x90);
+    const bool outside = (lead == 0xED && byte(1) >= 0xA0) || (lead == 0xF4 && byte(1) >= 0x90);
+    if (length == 0 || (length > 1 && (overlong || outside))) {
+      out += '?';
+      ++i;
+      continue;
+    }
+    if (lead == '"' || lead == '\\') out += '\\';
+    if (lead < 0x20) {
+      constexpr char kHex[] = "0123456789abcdef";
+      out += "\\u00";
+      out += kHex[lead >> 4];
+      out += kHex[lead & 15];
+    } else {
+      out.append(text, i, length);
+    }
+    i += length;
+  }
+  return out + '"';
+}
+
+std::string vectorText(const Float3& v) {
+  return '[' + numberText(v[0]) + ',' + numberText(v[1]) + ',' + numberText(v[2]) + ']';
+}
+
+/// Joins the texts that item(i) gives for i < count.
+template <class Item>
+std::string listOf(size_t count, Item item) {
+  std::string out = "[";
+  for (size_t i = 0; i < count; ++i) {
+    if (i > 0) out += ',';
+    out += item(i);
+  }
+  return out + ']';
+}
+
+std::string extrasText(const WorldMesh& mesh, const ExportInfo& info) {
+  const auto metres = [&](int axis) { return numberText(mesh.origin[axis] / static_cast<double>(kUnitsPerMetre)); };
+  return "{\"sgm\":{\"originUnits\":[" + std::to_string(mesh.origin.x) + ',' + std::to_string(mesh.origin.y) + ',' +
+         std::to_string(mesh.origin.z) + "],\"unitsPerMetre\":" + std::to_string(kUnitsPerMetre) +
+         ",\"originMetres\":[" + metres(0) + ',' + metres(1) + ',' + metres(2) +
+         "],\"tags\":" + listOf(info.tags.size(), [&](size_t i) { return quoted(info.tags[i]); }) + "}}";
+}
+
+/// Buffer views 2p and 2p + 1 are the vertices and indices of primitive p; accessors 4p .. 4p + 3 its position, normal,
+/// tag and indices.
+std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::vector<Primitive>& primitives,
+                      size_t buffer_bytes) {
+  std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":" + quoted(info.generator) +
+                     "},\"scene\":0,\"scenes\":[{\"nodes\":[0],\"extras\":" + extrasText(mesh, info) +
+                     "}],\"nodes\":[{\"name\":" + quoted(info.name);
+  if (primitives.empty()) return json + "}]}";
+  json += ",\"mesh\":0}],\"meshes\":[{\"name\":" + quoted(info.name) + ",\"primitives\":";
+  json += listOf(primitives.size(), [](size_t p) {
+    const auto accessor = [&](size_t i) { return std::to_string(4 * p + i); };
+    return "{\"attributes\":{\"POSITION\":" + accessor(0) + ",\"NORMAL\":" + accessor(1) + ",\"_TAG\":" + accessor(2) +
+           "},\"indices\":" + accessor(3) + ",\"material\":" + std::to_string(p) + '}';
+  });
+  json +=
+      "}],\"materials\":" + listOf(primitives.size(), [&](size_t p) {
+        const ExportMaterial m = materialAt(info, primitives[p].material);
+        return "{\"name\":" + quoted(m.name) + ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[" +
+               numberText(std::clamp(m.colour[0], 0.0f, 1.0f)) + ',' + numberText(std::clamp(m.colour[1], 0.0f, 1.0f)) +
+               ',' + numberText(std::clamp(m.colour[2], 0.0f, 1.0f)) +
+               ",1],\"metallicFactor\":0,\"roughnessFactor\":" + numberText(std::clamp(m.roughness, 0.0f, 1.0f)) + "}}";
+      });
+  json += ",\"accessors\":" + listOf(primitives.size(), [&](size_t p) {
+            const Primitive& primitive = primitives[p];
+            const auto attribute = [&](size_t offset, const char* rest) {
+              return "{\"bufferView\":" + std::to_string(2 * p) + ",\"byteOffset\":" + std::to_string(offset) +
+                     ",\"count\":" + std::to_string(primitive.vertices.size()) + rest;
+            };
+            return attribute(0, ",\"componentType\":5126,\"type\":\"VEC3\",\"min\":") + vectorText(primitive.low) +
+                   ",\"max\":" + vectorText(primitive.high) + "}," +
+                   attribute(12, ",\"componentType\":5126,\"type\":\"VEC3\"},") +
+                   attribute(24, ",\"componentType\":5123,\"type\":\"SCALAR\"},") +
+                   "{\"bufferView\":" + std::to_string(2 * p + 1) +
+                   ",\"count\":" + std::to_string(primitive.indices.size()) +
+                   ",\"componentType\":" + (primitive.shortIndices() ? "5123" : "5125") + ",\"type\":\"SCALAR\"}";
+          });
+  size_t offset = 0;
+  json += ",\"bufferViews\":" + listOf(primitives.size(), [&](size_t p) {
+            const Primitive& primitive = primitives[p];
+            std::string views = "{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) +
+                                ",\"byteLength\":" + std::to_string(primitive.vertexBytes()) +
+                                ",\"byteStride\":" + std::to_string(kVertexBytes) + ",\"target\":34962},";
+            offset += primitive.vertexBytes();
+            views += "{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) +
+                     ",\"byteLength\":" + std::to_string(primitive.indexBytes()) + ",\"target\":34963}";
+            offset += primitive.paddedIndexBytes();
+            return views;
+          });
+  return json + ",\"buffers\":[{\"byteLength\":" + std::to_string(buffer_bytes) + "}]}";
+}
+
+void writePrimitive(const WorldMesh& mesh, const Primitive& primitive, FileWriter& file) {
+  for (uint32_t vertex : primitive.vertices) {
+    const Float3 position = exportedPosition(mesh, vertex), normal = exportedNormal(mesh, vertex);
+    file.write(position.data(), sizeof position);
+    file.write(normal.data(), sizeof normal);
+    file.writeValue(uint32_t{mesh.attributes[vertex].tag});
+  }
+  for (uint32_t index : primitive.indices) {
+    if (primitive.shortIndices()) {
+      file.writeValue(static_cast<uint16_t>(index));
+    } else {
+      file.writeValue(index);
+    }
+  }
+  for (size_t i = primitive.indexBytes(); i < primitive.paddedIndexBytes(); ++i) file.write("\0", 1);
+}
+
+}  // namespace
+
+Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path) {
+  const std::vector<Primitive> primitives = splitByMaterial(mesh);
+  size_t buffer_bytes = 0;
+  for (const Primitive& p : primitives) buffer_bytes += p.vertexBytes() + p.paddedIndexBytes();
+  std::string json = sceneText(mesh, info, primitives, buffer_bytes);
+  json.append((4 - json.size() % 4) % 4, ' ');
+  const size_t total = 12 + 8 + json.size() + (primitives.empty() ? 0 : 8 + buffer_bytes);
+  if (total > std::numeric_limits<uint32_t>::max()) {
+    return Error{Code::limit, "a .glb file holds at most 4 GiB, and this mesh needs " + std::to_string(total >> 20) +
+                                  " MiB; mesh a smaller region or write .ply"};
+  }
+  Result<FileWriter> file = FileWriter::create(path);
+  if (!file) return file.error();
+  file->write("glTF");
+  file->writeValue(uint32_t{2});
+  file->writeValue(static_cast<uint32_t>(total));
+  file->writeValue(static_cast<uint32_t>(json.size()));
+  file->write("JSON");
+  file->write(json);
+  if (!primitives.empty()) {
+    file->writeValue(static_cast<uint32_t>(buffer_bytes));
+    file->write("BIN\0", 4);
+    for (const Primitive& p : primitives) writePrimitive(mesh, p, *file);
+  }
+  return file->commit();
+}
+
+}  // namespace sgm

@@ -1,0 +1,77 @@
+#include "mesh/fans.h"
+
+#include <bit>
+
+namespace sgm {
+namespace {
+
+/// The six half axes from the corner that a quad touches: bit 2 * axis + side.
+constexpr uint32_t halfAxes(int quad) {
+  const int axis = quad / 4, first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
+  return 1u << (2 * first + (quad & 1)) | 1u << (2 * second + (quad >> 1 & 1));
+}
+
+/// The quads that touch a half axis of this one, itself included.
+constexpr std::array<uint16_t, 12> makeNeighbours() {
+  std::array<uint16_t, 12> neighbours{};
+  for (int q = 0; q < 12; ++q)
+    for (int other = 0; other < 12; ++other)
+      if ((halfAxes(q) & halfAxes(other)) != 0)
+        neighbours[static_cast<size_t>(q)] = static_cast<uint16_t>(neighbours[static_cast<size_t>(q)] | 1u << other);
+  return neighbours;
+}
+constexpr std::array<uint16_t, 12> kNeighbours = makeNeighbours();
+
+/// The octant on the low side of a quad.
+constexpr int octantBelow(int quad) {
+  const int axis = quad / 4, first = axis == 0 ? 1 : 0, second = axis == 2 ? 1 : 2;
+  return (quad & 1) << first | (quad >> 1 & 1) << second;
+}
+
+}  // namespace
+
+int lateralFan(uint8_t coarser, int quad) {
+  uint32_t interface = 0;
+  for (int q = 0; q < 12; ++q) {
+    const int below = octantBelow(q), above = below | 1 << (q / 4);
+    interface |= static_cast<uint32_t>((coarser >> below ^ coarser >> above) & 1) << q;
+  }
+  uint32_t cycle = 1u << quad, reached = 0;
+  while (cycle != reached) {
+    reached = cycle;
+    for (uint32_t rest = reached; rest != 0; rest &= rest - 1)
+      cycle |= kNeighbours[static_cast<size_t>(std::countr_zero(rest))] & interface;
+  }
+  return std::countr_zero(cycle);
+}
+
+SeamFans seamFans(Face face, Neighbourhood coarser) {
+  coarser = (coarser | neighbourBit(face)) & ~neighbourBit(0, 0, 0);
+  const int axis = faceAxis(face), u = (axis + 1) % 3, v = (axis + 2) % 3;
+  // The block on one side of a corner that lies at the low border (0), inside (1) or at the high border (2) of the
+  // chunk.
+  const auto offset = [](int place, int side) { return place == 1 ? 0 : place == 0 ? side - 1 : side; };
+  SeamFans fans{};
+  for (int b = 0; b < 3; ++b) {
+    for (int a = 0; a < 3; ++a) {
+      Int3 place;
+      place[axis] = faceIsHigh(face) ? 2 : 0;
+      place[u] = a;
+      place[v] = b;
+      uint32_t octants = 0;
+      for (int o = 0; o < 8; ++o) {
+        const Neighbourhood block =
+            neighbourBit(offset(place.x, o & 1), offset(place.y, o >> 1 & 1), offset(place.z, o >> 2));
+        octants |= static_cast<uint32_t>((coarser & block) != 0) << o;
+      }
+      // Any quad of the face itself: the chunk lies on the high side of its low border and on the low side elsewhere.
+      const int side_u = a == 0 ? 1 : 0, side_v = b == 0 ? 1 : 0;
+      const int quad = 4 * axis + (u < v ? side_u + 2 * side_v : side_v + 2 * side_u);
+      fans[static_cast<size_t>(b)][static_cast<size_t>(a)] =
+          static_cast<uint8_t>(lateralFan(static_cast<uint8_t>(octants), quad));
+    }
+  }
+  return fans;
+}
+
+}  // namespace sgm

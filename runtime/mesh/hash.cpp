@@ -1,0 +1,46 @@
+#include "mesh/hash.h"
+
+namespace sgm {
+
+void hashPart(MeshPart& part) {
+  ContentHash sum;
+  uint32_t place = 0;
+  for (const Vertex& v : part.vertices) {
+    const auto pack = [](auto low, auto high) {
+      return uint32_t{static_cast<uint16_t>(low)} | uint32_t{static_cast<uint16_t>(high)} << 16;
+    };
+    addWord(sum, pack(v.x, v.y), place);
+    addWord(sum, pack(v.z, v.material), place + 1);
+    addWord(sum, pack(v.normal_x, v.normal_y), place + 2);
+    addWord(sum, pack(v.tag, v.reserved), place + 3);
+    place += 4;
+  }
+  place = 1u << 31;
+  for (uint32_t index : part.indices) addWord(sum, index, place++);
+  part.hash = sum;
+}
+
+ContentHash hashParts(std::span<const PlacedPart> parts) {
+  ContentHash sum;
+  for (const PlacedPart& part : parts) {
+    if (part.mesh->indices.empty()) continue;
+    const Int3 o = part.grid.origin;
+    const uint32_t words[] = {part.mesh->hash.a,
+                              part.mesh->hash.b,
+                              static_cast<uint32_t>(o.x),
+                              static_cast<uint32_t>(o.y),
+                              static_cast<uint32_t>(o.z),
+                              static_cast<uint32_t>(part.grid.level),
+                              static_cast<uint32_t>(part.number)};
+    ContentHash chain;
+    for (uint32_t word : words) {
+      chain.a = mixWord(word ^ chain.a, 1);
+      chain.b = mixWord(word ^ chain.b, 2);
+    }
+    sum.a += chain.a;
+    sum.b += chain.b;
+  }
+  return sum;
+}
+
+}  // namespace sgm

@@ -1,0 +1,46 @@
+#pragma once
+// The content hash of a mesh part: an index-keyed sum that a GPU computes in any order of addition.
+//
+// A vertex is four words (x | y << 16, z | material << 16, normal_x | normal_y << 16, tag | reserved << 16), an index
+// is one. Word w at place i, with i = 4 * vertex + word for vertices and 2^31 + n for the n-th index, is mixed to
+//   h = w ^ (i * 0x9E3779B9 + 0x85EBCA6B)
+//   h ^= h >> 16, h *= 0x7FEB352D, h ^= h >> 15, h *= 0x846CA68B, h ^= h >> 16
+// and a = sum of h, b = sum of h * (2 i + 1), all modulo 2^32. An empty part has a = b = 0. At one place different
+// words have different h, so that a change of a single word always shows.
+
+#include <span>
+
+#include "mesh/chunk.h"
+
+namespace sgm {
+
+inline uint32_t mixWord(uint32_t word, uint32_t place) {
+  uint32_t h = word ^ (place * 0x9E3779B9u + 0x85EBCA6Bu);
+  h ^= h >> 16;
+  h *= 0x7FEB352Du;
+  h ^= h >> 15;
+  h *= 0x846CA68Bu;
+  return h ^ h >> 16;
+}
+
+inline void addWord(ContentHash& sum, uint32_t word, uint32_t place) {
+  const uint32_t h = mixWord(word, place);
+  sum.a += h;
+  sum.b += h * (2 * place + 1);
+}
+
+/// Fills part.hash from its vertices and indices; keys are not content.
+void hashPart(MeshPart& part);
+
+/// One part in its place, as a chunk's neighbours and a region see it.
+struct PlacedPart {
+  const MeshPart* mesh = nullptr;
+  ChunkGrid grid;
+  int number = 0;  ///< 0 for the body, 1 + Face for a seam
+};
+
+/// The hash of a set of parts: the sum over its parts, each mixed with where it lies. Equal in any order; a part
+/// without triangles adds nothing, so that it does not matter whether empty chunks are listed. Reads the parts' hashes.
+ContentHash hashParts(std::span<const PlacedPart> parts);
+
+}  // namespace sgm

@@ -1,0 +1,41 @@
+#pragma once
+// The seam between a chunk and a neighbour one level coarser: a sheet of seam cells without thickness in their common
+// face. The finer chunk owns it.
+
+#include "mesh/chunk.h"
+#include "mesh/fans.h"
+
+namespace sgm {
+
+inline constexpr int kCoarseCells = kChunkCells / 2;  ///< coarse squares along a side of the face
+inline constexpr int kCoarseSamples = kCoarseCells + 1;
+
+/// Samples of the field of level + 1 at the coarse grid points of one face. q has a fastest, then b; bit a of signs[b]:
+/// solid. As in ChunkSamples, q is only read at the ends of coarse edges of the face whose ends differ in sign.
+struct CoarseFace {
+  std::array<int32_t, kCoarseSamples * kCoarseSamples> q{};
+  std::array<uint32_t, kCoarseSamples> signs{};
+};
+
+/// Where coarse sample (a, b) of a face lies, in units: a along axis u = (axis + 1) % 3, b along v = (axis + 2) % 3.
+inline Int3 coarseFacePoint(const ChunkGrid& grid, Face face, int a, int b) {
+  const int axis = faceAxis(face);
+  Int3 p = grid.origin;
+  p[axis] += faceIsHigh(face) ? kChunkCells * grid.cell : 0;
+  p[(axis + 1) % 3] += 2 * a * grid.cell;
+  p[(axis + 2) % 3] += 2 * b * grid.cell;
+  return p;
+}
+
+/// Replaces part by the seam over one face. Positions are in 1/256 of the fine cell from the fine chunk's origin, as in
+/// a body; vertices on fine edges equal those of the fine chunk's body, vertices on coarse edges those of the coarse
+/// chunk's, in key and in world position, to the bit. Lateral vertices sit on their corner. `coarser` decides nothing
+/// but the fans in the keys of lateral vertices at the face's border: vertices, indices and hash are a pure function of
+/// chunk and face. Canonical order: vertices on fine edges by owning sample (b, then a), u-edge before v-edge; then
+/// those on coarse edges likewise by coarse sample; then lateral ones by coarse sample. Triangles by seam cell (b, a),
+/// loop (tables.h), then the order of triangulate.h. Fills x, y, z and keys only, as polygonizeBody does. Where the
+/// attributes of a vertex come from: the field of the level in its key.
+void polygonizeSeam(Face face, const ChunkSamples& fine, const CoarseFace& coarse, const ChunkGrid& grid,
+                    Neighbourhood coarser, MeshPart& part);
+
+}  // namespace sgm

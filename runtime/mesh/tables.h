@@ -1,0 +1,47 @@
+#pragma once
+// The case tables of cubes and seam cells, and the numbering that they and everything around them use. The arrays are
+// made at build time from case_rule.h, where the rule and the canonical order of loops stand; a GPU takes them as they
+// are.
+//
+// Cube. Corner c lies at (c & 1, c >> 1 & 1, c >> 2). Edge 4 * axis + b0 + 2 * b1 runs along axis; b0 and b1 are its
+// coordinates on the two other axes, the lower axis first. Faces are numbered as Face. Bit c of a case: corner c is
+// solid.
+//
+// Seam cell. It stands on the face of a fine chunk, over one square of the coarse grid. u = (axis + 1) % 3 and
+// v = (axis + 2) % 3 are the axes in the face whose normal runs along axis; a counts along u, b along v.
+//   corners  a + 3b            fine, a and b 0..2           9 + a + 2b   coarse, a and b 0..1
+//   edges    a + 2b            fine along u from (a, b)     6 + a + 3b   fine along v from (a, b)
+//            12 + b            coarse along u at b          14 + a       coarse along v at a
+//            16 + a + 2b       lateral, from the fine to the coarse corner at coarse (a, b)
+//   faces    a + 2b            fine square                  4            coarse square
+//            5..8              lateral pentagons: low b, high a, high b, low a
+// The table is for a high face; over a low face the same loops are walked backwards, from the same first edge.
+//
+// Loops are counter-clockwise as seen from the void. The bytes of case c lie at LoopStart[c] .. LoopStart[c + 1]: for
+// each loop its length n, then its n edges. Two vertices of a loop may be joined where EdgeFaces of their edges share
+// no bit.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace sgm {
+
+inline constexpr size_t kCubeLoopBytes = 1894;
+inline constexpr size_t kSeamLoopBytes = 98332;
+inline constexpr int kCubeEdges = 12;
+inline constexpr int kSeamEdges = 20;
+inline constexpr int kLongestCubeLoop = 7;
+inline constexpr int kLongestLoop = 12;
+
+extern const uint16_t kCubeLoopStart[256 + 1];
+extern const uint8_t kCubeLoops[kCubeLoopBytes];
+extern const uint8_t kCubeTriangles[256];  ///< triangles that a case makes
+extern const uint16_t kCubeEdgeFaces[kCubeEdges];
+
+extern const uint32_t kSeamLoopStart[8192 + 1];
+extern const uint8_t kSeamLoops[kSeamLoopBytes];
+extern const uint8_t kSeamTriangles[8192];
+extern const uint16_t kSeamEdgeFaces[kSeamEdges];
+
+}  // namespace sgm

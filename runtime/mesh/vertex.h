@@ -1,0 +1,57 @@
+#pragma once
+// Where a packed vertex lies, and what its packed normal means.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+#include "mesh/chunk.h"
+
+namespace sgm {
+
+/// How far along its edge, in 1/256, the surface crosses between q0 (the lower end on the edge's axis) and q1: 1..255.
+/// round(256 |q0| / (|q0| + |q1|)), halves up, in 32-bit integers. The signs differ, so that the sum is not 0.
+inline uint32_t crossing(int32_t q0, int32_t q1) {
+  const uint32_t a = static_cast<uint32_t>(std::abs(q0)), sum = a + static_cast<uint32_t>(std::abs(q1));
+  const uint32_t t = (512 * a + sum) / (2 * sum);
+  return t < 1 ? 1 : t > 255 ? 255 : t;
+}
+
+/// A local position in 1/256 of a cell, in whole units: round(position * cell / 256), halves up. In 32 bits for a cell
+/// of at most 2^22 units. Equal for all chunks that meet in a vertex, of whatever level, since the exact position is
+/// equal.
+inline int32_t localUnits(uint32_t position, int32_t cell) {
+  return static_cast<int32_t>(position >> 8) * cell + ((static_cast<int32_t>(position & 255) * cell + 128) >> 8);
+}
+
+/// The vertex of a body or of a seam in world units, by the rounding of localUnits: where its attributes are evaluated.
+inline Int3 vertexUnits(const ChunkGrid& grid, const Vertex& v) {
+  return {grid.origin.x + localUnits(v.x, grid.cell), grid.origin.y + localUnits(v.y, grid.cell),
+          grid.origin.z + localUnits(v.z, grid.cell)};
+}
+
+/// The crossed edge of a body's vertex: its lower end as a sample's coordinates, and its axis. A vertex never sits on a
+/// sample, so that exactly one coordinate has a fraction. Not for seams, whose edges the keys tell.
+struct SampleEdge {
+  int x, y, z, axis;
+  size_t sample() const { return static_cast<size_t>(x + kChunkSamples * (y + kChunkSamples * z)); }
+};
+inline SampleEdge edgeOfBodyVertex(const Vertex& v) {
+  return {v.x >> 8, v.y >> 8, v.z >> 8, (v.x & 255) != 0 ? 0 : (v.y & 255) != 0 ? 1 : 2};
+}
+
+/// The packed octahedral normal as a direction of length one.
+inline std::array<double, 3> unpackNormal(int16_t packed_x, int16_t packed_y) {
+  double x = packed_x / 32767.0, y = packed_y / 32767.0;
+  const double z = 1 - std::fabs(x) - std::fabs(y);
+  if (z < 0) {
+    const double folded_x = (1 - std::fabs(y)) * (x < 0 ? -1 : 1);
+    y = (1 - std::fabs(x)) * (y < 0 ? -1 : 1);
+    x = folded_x;
+  }
+  const double length = std::sqrt(x * x + y * y + z * z);
+  return {x / length, y / length, z / length};
+}
+
+}  // namespace sgm

@@ -1,0 +1,326 @@
+// Files that are written read back as the same mesh, and failures leave nothing behind.
+
+#include "mesh/export.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "catch.h"
+#include "fields.h"
+#include "mesh/check.h"
+#include "mesh/vertex.h"
+
+#if __has_include(<sys/resource.h>)
+#include <sys/resource.h>
+#include <unistd.h>
+#include <csignal>
+#endif
+
+using namespace sgm;
+using namespace sgm::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of its own for a test, removed with what is in it.
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "sgm_export_XXXXXX").string();
+    path = mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+  size_t files() const { return static_cast<size_t>(std::distance(fs::directory_iterator(path), {})); }
+};
+
+std::string readFile(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+template <class T>
+T valueAt(const std::string& bytes, size_t offset) {
+  T value;
+  REQUIRE(offset + sizeof value <= bytes.size());
+  std::memcpy(&value, bytes.data() + offset, sizeof value);
+  return value;
+}
+
+/// A bumpy ball of three materials, and the materials' table, one short.
+WorldMesh someMesh(int32_t radius = 11) {
+  const ChunkGrid grid{{-2048, 1024, 512}, 256, 0};
+  const ChunkSamples samples = sampleChunk(
+      [&](Int3 p, int) {
+        const double d =
+            std::sqrt((p.x - 16) * (p.x - 16) + (p.y - 16) * (p.y - 16) + (p.z - 16) * (p.z - 16)) - radius;
+        return static_cast<int32_t>(std::floor(d * 1024)) + static_cast<int32_t>(pointHash(1, p) % 512);
+      },
+      latticeChunk({}, 0));
+  MeshPart part;
+  polygonizeBody(samples, grid, part);
+  for (size_t i = 0; i < part.vertices.size(); ++i) {
+    Vertex& v = part.vertices[i];
+    v.material = v.y < 3000 ? 0 : v.y < 5000 ? 2 : 5;
+    v.tag = static_cast<uint16_t>(i % 7);
+    v.normal_x = static_cast<int16_t>(hashCombine(1, i) % 65535 - 32767);
+    v.normal_y = static_cast<int16_t>(hashCombine(2, i) % 65535 - 32767);
+  }
+  const PlacedPart parts[] = {{&part, grid, 0}};
+  return *weld(parts, {-1024, 0, 0});
+}
+
+ExportInfo someInfo() {
+  ExportInfo info;
+  info.name = "ball \"quoted\" \xC3\xA9 \xFF\n";
+  info.generator = "test of export";
+  info.materials = {{"rock", {0.5f, 0.4f, 0.3f}, 0.8f}, {"unused"}, {"wet rock", {0.1f, 0.2f, 0.3f}, 0.2f}};
+  info.tags = {"none", "floor"};
+  return info;
+}
+
+using Point = std::array<float, 3>;
+using Corner3 = std::array<Point, 3>;
+
+/// The triangles by position, each starting at its lowest corner: what every format must keep.
+std::multiset<Corner3> trianglesOf(const WorldMesh& mesh) {
+  std::multiset<Corner3> triangles;
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    Corner3 t;
+    for (size_t k = 0; k < 3; ++k)
+      for (size_t axis = 0; axis < 3; ++axis)
+        t[k][axis] = static_cast<float>(mesh.positions[mesh.indices[i + k]][axis]);
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    triangles.insert(t);
+  }
+  return triangles;
+}
+
+void addTriangle(std::multiset<Corner3>& triangles, Corner3 t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  triangles.insert(t);
+}
+
+}  // namespace
+
+TEST_CASE("GLB reads back", "[mesh][export]") {
+  const Folder folder;
+  const WorldMesh mesh = someMesh();
+  REQUIRE(exportMesh(mesh, someInfo(), folder.path / "ball.glb"));
+  CHECK(folder.files() == 1);
+  const std::string bytes = readFile(folder.path / "ball.glb");
+  REQUIRE(bytes.substr(0, 4) == "glTF");
+  CHECK(valueAt<uint32_t>(bytes, 4) == 2);
+  CHECK(valueAt<uint32_t>(bytes, 8) == bytes.size());
+  const size_t json_bytes = valueAt<uint32_t>(bytes, 12);
+  CHECK(bytes.substr(16, 4) == "JSON");
+  const nlohmann::json json = nlohmann::json::parse(bytes.substr(20, json_bytes));
+  const size_t data = 20 + json_bytes + 8;
+  CHECK(valueAt<uint32_t>(bytes, data - 8) == json["buffers"][0]["byteLength"]);
+  CHECK(data + json["buffers"][0]["byteLength"].get<size_t>() == bytes.size());
+  CHECK(json["asset"]["generator"] == "test of export");
+  CHECK(json["nodes"][0]["name"] == "ball \"quoted\" \xC3\xA9 ?\n");
+  CHECK(json["scenes"][0]["extras"]["sgm"]["originUnits"] == nlohmann::json({-1024, 0, 0}));
+  CHECK(json["scenes"][0]["extras"]["sgm"]["tags"][1] == "floor");
+  CHECK(json["materials"].size() == 3);
+  CHECK(json["materials"][1]["name"] == "wet rock");
+  CHECK(json["materials"][2]["name"] == "material 5");
+
+  const auto at = [&](const nlohmann::json& accessor, size_t element_bytes, size_t i) {
+    const nlohmann::json& view = json["bufferViews"][accessor["bufferView"].get<size_t>()];
+    return data + view.value("byteOffset", size_t{0}) + accessor.value("byteOffset", size_t{0}) +
+           i * view.value("byteStride", element_bytes);
+  };
+  std::multiset<Corner3> triangles;
+  std::map<Point, uint16_t> tag_of;
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    const auto& p = mesh.positions[i];
+    tag_of[{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])}] = mesh.attributes[i].tag;
+  }
+  for (const nlohmann::json& primitive : json["meshes"][0]["primitives"]) {
+    const nlohmann::json& positions = json["accessors"][primitive["attributes"]["POSITION"].get<size_t>()];
+    const nlohmann::json& normals = json["accessors"][primitive["attributes"]["NORMAL"].get<size_t>()];
+    const nlohmann::json& tags = json["accessors"][primitive["attributes"]["_TAG"].get<size_t>()];
+    const nlohmann::json& indices = json["accessors"][primitive["indices"].get<size_t>()];
+    REQUIRE(indices["componentType"] == 5123);
+    Point low{1e9f, 1e9f, 1e9f}, high{-1e9f, -1e9f, -1e9f};
+    for (size_t i = 0; i < positions["count"]; ++i) {
+      const auto p = valueAt<Point>(bytes, at(positions, 12, i)), n = valueAt<Point>(bytes, at(normals, 12, i));
+      for (size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+      CHECK(std::abs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-5f);
+      CHECK(valueAt<uint16_t>(bytes, at(tags, 2, i)) == tag_of.at(p));
+    }
+    CHECK(positions["min"].get<Point>() == low);
+    CHECK(positions["max"].get<Point>() == high);
+    for (size_t i = 0; i < indices["count"]; i += 3) {
+      Corner3 t;
+      for (size_t k = 0; k < 3; ++k)
+        t[k] = valueAt<Point>(bytes, at(positions, 12, valueAt<uint16_t>(bytes, at(indices, 2, i + k))));
+      addTriangle(triangles, t);
+    }
+  }
+  CHECK((triangles == trianglesOf(mesh)));
+}
+
+TEST_CASE("PLY and STL read back", "[mesh][export]") {
+  const Folder folder;
+  const WorldMesh mesh = someMesh();
+  REQUIRE(exportMesh(mesh, someInfo(), folder.path / "ball.PLY"));
+  const std::string ply = readFile(folder.path / "ball.PLY");
+  const std::string end_mark = "end_header\n";
+  const size_t body = ply.find(end_mark) + end_mark.size();
+  CHECK(ply.find("element vertex " + std::to_string(mesh.positions.size())) != std::string::npos);
+  CHECK(ply.find("comment origin_units -1024 0 0 of 1/1024 m\n") != std::string::npos);
+  CHECK(ply.find("comment tag 1 floor\n") != std::string::npos);
+  constexpr size_t kVertex = 24 + 3 + 4;
+  const size_t faces = body + mesh.positions.size() * kVertex;
+  REQUIRE(ply.size() == faces + mesh.indices.size() / 3 * 13);
+  std::multiset<Corner3> triangles;
+  for (size_t f = 0; f < mesh.indices.size() / 3; ++f) {
+    Corner3 t;
+    REQUIRE(ply[faces + f * 13] == 3);
+    for (size_t k = 0; k < 3; ++k)
+      t[k] = valueAt<Point>(ply, body + kVertex * valueAt<uint32_t>(ply, faces + f * 13 + 1 + 4 * k));
+    addTriangle(triangles, t);
+  }
+  CHECK((triangles == trianglesOf(mesh)));
+  CHECK(valueAt<uint16_t>(ply, body + kVertex * 20 + 27) == mesh.attributes[20].material);
+  CHECK(valueAt<uint16_t>(ply, body + kVertex * 20 + 29) == mesh.attributes[20].tag);
+
+  REQUIRE(exportMesh(mesh, someInfo(), folder.path / "ball.stl"));
+  const std::string stl = readFile(folder.path / "ball.stl");
+  REQUIRE(stl.size() == 84 + mesh.indices.size() / 3 * 50);
+  CHECK(stl.substr(0, 5) != "solid");
+  CHECK(valueAt<uint32_t>(stl, 80) == mesh.indices.size() / 3);
+  triangles.clear();
+  for (size_t f = 0; f < mesh.indices.size() / 3; ++f) addTriangle(triangles, valueAt<Corner3>(stl, 84 + f * 50 + 12));
+  CHECK((triangles == trianglesOf(mesh)));
+  CHECK(folder.files() == 2);
+}
+
+TEST_CASE("OBJ reads back, with its materials", "[mesh][export]") {
+  const Folder folder;
+  const WorldMesh mesh = someMesh();
+  REQUIRE(exportMesh(mesh, someInfo(), folder.path / "ball.obj"));
+  CHECK(folder.files() == 2);
+  std::vector<Point> points, normals;
+  std::multiset<Corner3> triangles;
+  std::set<std::string> used, defined;
+  std::istringstream in(readFile(folder.path / "ball.obj"));
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string keyword;
+    words >> keyword;
+    if (keyword == "v" || keyword == "vn") {
+      Point p;
+      words >> p[0] >> p[1] >> p[2];
+      (keyword == "v" ? points : normals).push_back(p);
+    } else if (keyword == "usemtl") {
+      used.insert(line.substr(7));
+    } else if (keyword == "f") {
+      Corner3 t;
+      for (Point& corner : t) {
+        std::string reference;
+        words >> reference;
+        const size_t number = std::stoul(reference);
+        CHECK(reference == std::to_string(number) + "//" + std::to_string(number));
+        corner = points.at(number - 1);
+      }
+      addTriangle(triangles, t);
+    }
+  }
+  CHECK(points.size() == mesh.positions.size());
+  CHECK(normals.size() == mesh.positions.size());
+  CHECK((triangles == trianglesOf(mesh)));
+  std::istringstream library(readFile(folder.path / "ball.mtl"));
+  for (std::string line; std::getline(library, line);)
+    if (line.rfind("newmtl ", 0) == 0) defined.insert(line.substr(7));
+  CHECK(used == std::set<std::string>{"rock", "wet_rock", "material_5"});
+  CHECK(defined == used);
+}
+
+TEST_CASE("large primitives get 32-bit indices, empty meshes a valid file", "[mesh][export]") {
+  const Folder folder;
+  MeshPart part;
+  const ChunkGrid grid = latticeChunk({}, 0);
+  polygonizeBody(sampleChunk([](Int3 p, int) { return (p.x + p.y + p.z) % 2 == 0 ? -1 : 1; }, grid), grid, part);
+  REQUIRE(part.vertices.size() > 65536);
+  const PlacedPart parts[] = {{&part, grid, 0}};
+  REQUIRE(exportMesh(*weld(parts, {}), {}, folder.path / "large.glb"));
+  const std::string large = readFile(folder.path / "large.glb");
+  CHECK(large.find("\"componentType\":5125") != std::string::npos);
+  for (const char* name : {"empty.glb", "empty.obj", "empty.ply", "empty.stl"})
+    REQUIRE(exportMesh(WorldMesh{}, {}, folder.path / name));
+  const std::string glb = readFile(folder.path / "empty.glb");
+  CHECK(valueAt<uint32_t>(glb, 8) == glb.size());
+  CHECK(nlohmann::json::parse(glb.substr(20)).contains("asset"));
+  CHECK(readFile(folder.path / "empty.stl").size() == 84);
+}
+
+TEST_CASE("an export that fails leaves nothing behind and the old file as it was", "[mesh][export]") {
+  const Folder folder;
+  const WorldMesh mesh = someMesh();
+  const Result<void> odd = exportMesh(mesh, {}, folder.path / "ball.xyz");
+  REQUIRE(!odd);
+  CHECK(odd.error().code == Code::invalid_argument);
+  CHECK(odd.error().message.find(".glb, .obj, .ply or .stl") != std::string::npos);
+
+  const Result<void> nowhere = exportMesh(mesh, {}, folder.path / "missing" / "ball.glb");
+  REQUIRE(!nowhere);
+  CHECK(nowhere.error().code == Code::io);
+  CHECK(nowhere.error().message.find("No such file or directory") != std::string::npos);
+
+  fs::create_directory(folder.path / "folder.glb");
+  const Result<void> onto_folder = exportMesh(mesh, {}, folder.path / "folder.glb");
+  REQUIRE(!onto_folder);
+  CHECK(onto_folder.error().message.find("folder") != std::string::npos);
+  CHECK(folder.files() == 1);
+}
+
+#if __has_include(<sys/resource.h>)
+TEST_CASE("a full disk is one clear error, and nothing stays behind", "[mesh][export]") {
+  const Folder folder;
+  const WorldMesh mesh = someMesh();
+  // A limit on file size fails the write as a full disk does.
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  for (const char* name : {"ball.glb", "ball.obj", "ball.ply", "ball.stl"}) {
+    std::ofstream(folder.path / name) << "old";
+    rlimit small = before;
+    small.rlim_cur = 20000;
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
+    const Result<void> result = exportMesh(mesh, {}, folder.path / name);
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &before) == 0);
+    INFO(name);
+    REQUIRE(!result);
+    CHECK(result.error().code == Code::io);
+    CHECK(result.error().message.find(name) != std::string::npos);
+    CHECK(result.error().message.find('\n') == std::string::npos);
+    CHECK(readFile(folder.path / name) == "old");
+    fs::remove(folder.path / name);
+    CHECK(folder.files() == 0);
+  }
+  std::signal(SIGXFSZ, old_handler);
+}
+
+TEST_CASE("a folder that may not be written to is one clear error", "[mesh][export]") {
+  if (geteuid() == 0) {
+    WARN("skipped: root may write everywhere");
+    return;
+  }
+  const Folder folder;
+  fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
+  const Result<void> result = exportMesh(someMesh(), {}, folder.path / "ball.glb");
+  fs::permissions(folder.path, fs::perms::owner_all);
+  REQUIRE(!result);
+  CHECK(result.error().code == Code::io);
+  CHECK(result.error().message.find("Permission denied") != std::string::npos);
+}
+#endif
