@@ -1,0 +1,69 @@
+// The evaluators for every vector instruction set that this compiler can make, from one source (Highway includes this
+// file once for each).
+
+#include <cstring>
+#include <vector>
+
+#include "backend/cpu/instruction_sets.h"
+
+#define HWY_TARGETS_WANTED (HWY_SSE4 | HWY_AVX2 | HWY_AVX3)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "backend/cpu/evaluate_wide.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sgm {
+namespace HWY_NAMESPACE {
+
+using std::memcpy;
+
+#define SGM_WIDE
+#include "backend/cpu/wide.h"
+#include "common/common.h"
+#include "field/evaluate_kernel.inl"
+#undef FN
+#undef PRECISE
+#undef PI
+#undef PU
+#undef PF
+#undef SGM_WIDE
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sgm
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sgm {
+
+namespace {
+
+#if HWY_TARGETS & HWY_SSE4
+constexpr FieldKernels kSse4{"sse4.2", N_SSE4::evaluateSamples, N_SSE4::evaluateAttributes};
+#endif
+#if HWY_TARGETS & HWY_AVX2
+constexpr FieldKernels kAvx2{"avx2", N_AVX2::evaluateSamples, N_AVX2::evaluateAttributes};
+#endif
+#if HWY_TARGETS & HWY_AVX3
+constexpr FieldKernels kAvx512{"avx512", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes};
+#endif
+
+}  // namespace
+
+std::vector<InstructionSet> wideInstructionSets() {
+  const int64_t here = hwy::SupportedTargets();
+  std::vector<InstructionSet> sets;
+#if HWY_TARGETS & HWY_SSE4
+  sets.push_back({&kSse4, (here & HWY_SSE4) != 0});
+#endif
+#if HWY_TARGETS & HWY_AVX2
+  sets.push_back({&kAvx2, (here & HWY_AVX2) != 0});
+#endif
+#if HWY_TARGETS & HWY_AVX3
+  sets.push_back({&kAvx512, (here & HWY_AVX3) != 0});
+#endif
+  return sets;
+}
+
+}  // namespace sgm
+#endif

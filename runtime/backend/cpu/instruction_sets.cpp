@@ -1,0 +1,29 @@
+#include "backend/cpu/instruction_sets.h"
+
+namespace sgm {
+
+std::vector<InstructionSet> instructionSets() {
+  std::vector<InstructionSet> sets{{&scalarKernels(), true}};
+#ifndef SGM_SCALAR
+  const std::vector<InstructionSet> wide = wideInstructionSets();
+  sets.insert(sets.end(), wide.begin(), wide.end());
+#endif
+  return sets;
+}
+
+const FieldKernels& bestKernels() {
+  const FieldKernels* best = &scalarKernels();
+  for (const InstructionSet& set : instructionSets()) {
+    if (set.runs_here) best = set.kernels;
+  }
+  return *best;
+}
+
+const FieldKernels* findKernels(std::string_view name) {
+  for (const InstructionSet& set : instructionSets()) {
+    if (set.kernels->name == name) return set.runs_here ? set.kernels : nullptr;
+  }
+  return nullptr;
+}
+
+}  // namespace sgm

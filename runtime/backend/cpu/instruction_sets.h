@@ -1,0 +1,28 @@
+#pragma once
+// The instruction sets that this build holds evaluators for, and which of them this processor runs.
+
+#include <string_view>
+#include <vector>
+
+#include "field/evaluate.h"
+
+namespace sgm {
+
+struct InstructionSet {
+  const FieldKernels* kernels;
+  bool runs_here;
+};
+
+/// Scalar first, then the vector sets from narrow to wide.
+std::vector<InstructionSet> instructionSets();
+
+/// The widest that runs here; all give the same bits.
+const FieldKernels& bestKernels();
+
+/// By name ("scalar", "sse4.2", "avx2", "avx512"); null where it is not built or does not run here.
+const FieldKernels* findKernels(std::string_view name);
+
+/// Without scalar; empty in a scalar build.
+std::vector<InstructionSet> wideInstructionSets();
+
+}  // namespace sgm

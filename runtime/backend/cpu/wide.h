@@ -1,0 +1,90 @@
+// The types of shaders/common over Highway vectors. Included by evaluate_wide.cpp once for each instruction set, inside
+// that set's namespace, so it has no guard. MulAdd, Sqrt and the approximate reciprocals are never used (rule 2).
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using RealTag = hn::ScalableTag<float>;
+using IntTag = hn::ScalableTag<int32_t>;
+using UintTag = hn::ScalableTag<uint32_t>;
+using uint = uint32_t;
+using Params = const uint32_t*;
+
+#define FN HWY_INLINE
+
+FN float uniformFloat(uint u) {
+  float f;
+  memcpy(&f, &u, 4);
+  return f;
+}
+
+// A mask in the width of float lanes, whatever was compared.
+struct Bool {
+  hn::Mask<RealTag> m;
+};
+FN Bool operator&&(Bool a, Bool b) { return {hn::And(a.m, b.m)}; }
+FN Bool operator||(Bool a, Bool b) { return {hn::Or(a.m, b.m)}; }
+FN Bool operator!(Bool a) { return {hn::Not(a.m)}; }
+
+struct Real {
+  hn::Vec<RealTag> v;
+  Real() = default;
+  FN Real(hn::Vec<RealTag> vec) : v(vec) {}
+  FN Real(float x) : v(hn::Set(RealTag(), x)) {}
+};
+FN Real operator+(Real a, Real b) { return hn::Add(a.v, b.v); }
+FN Real operator-(Real a, Real b) { return hn::Sub(a.v, b.v); }
+FN Real operator*(Real a, Real b) { return hn::Mul(a.v, b.v); }
+FN Real operator-(Real a) { return hn::Neg(a.v); }
+FN Bool operator<(Real a, Real b) { return {hn::Lt(a.v, b.v)}; }
+FN Bool operator>(Real a, Real b) { return {hn::Gt(a.v, b.v)}; }
+FN Bool operator<=(Real a, Real b) { return {hn::Le(a.v, b.v)}; }
+FN Bool operator>=(Real a, Real b) { return {hn::Ge(a.v, b.v)}; }
+
+struct Int {
+  hn::Vec<IntTag> v;
+  Int() = default;
+  FN Int(hn::Vec<IntTag> vec) : v(vec) {}
+  FN Int(int32_t x) : v(hn::Set(IntTag(), x)) {}
+};
+FN Bool asBool(hn::Mask<IntTag> m) { return {hn::RebindMask(RealTag(), m)}; }
+FN Bool operator<(Int a, Int b) { return asBool(hn::Lt(a.v, b.v)); }
+FN Bool operator>(Int a, Int b) { return asBool(hn::Gt(a.v, b.v)); }
+FN Bool operator>=(Int a, Int b) { return !(a < b); }
+FN Bool operator==(Int a, Int b) { return asBool(hn::Eq(a.v, b.v)); }
+FN Int operator&(Int a, Int b) { return hn::And(a.v, b.v); }
+FN Int operator|(Int a, Int b) { return hn::Or(a.v, b.v); }
+FN Int operator^(Int a, Int b) { return hn::Xor(a.v, b.v); }
+FN Int wrapAdd(Int a, Int b) { return hn::Add(a.v, b.v); }
+FN Int wrapSub(Int a, Int b) { return hn::Sub(a.v, b.v); }
+FN Int wrapMul(Int a, Int b) { return hn::Mul(a.v, b.v); }
+
+struct Uint {
+  hn::Vec<UintTag> v;
+  Uint() = default;
+  FN Uint(hn::Vec<UintTag> vec) : v(vec) {}
+  FN Uint(uint x) : v(hn::Set(UintTag(), x)) {}
+};
+FN Uint operator-(Uint a, Uint b) { return hn::Sub(a.v, b.v); }
+FN Uint operator*(Uint a, Uint b) { return hn::Mul(a.v, b.v); }
+FN Uint operator^(Uint a, Uint b) { return hn::Xor(a.v, b.v); }
+FN Uint operator&(Uint a, Uint b) { return hn::And(a.v, b.v); }
+FN Uint operator|(Uint a, Uint b) { return hn::Or(a.v, b.v); }
+FN Uint operator>>(Uint a, int count) { return hn::ShiftRightSame(a.v, count); }
+FN Uint operator<<(Uint a, int count) { return hn::ShiftLeftSame(a.v, count); }
+
+FN Real broadcast(float x) { return Real(x); }
+FN Int broadcastInt(int32_t x) { return Int(x); }
+FN Real bitsToReal(Uint u) { return hn::BitCast(RealTag(), u.v); }
+FN Uint realToBits(Real r) { return hn::BitCast(UintTag(), r.v); }
+FN Real toReal(Int i) { return hn::ConvertTo(RealTag(), i.v); }
+FN Int toInt(Real r) { return hn::ConvertTo(IntTag(), r.v); }
+FN Int toIntBits(Uint u) { return hn::BitCast(IntTag(), u.v); }
+FN Uint toUintBits(Int i) { return hn::BitCast(UintTag(), i.v); }
+FN Real sel(Bool c, Real a, Real b) { return hn::IfThenElse(c.m, a.v, b.v); }
+FN Int sel(Bool c, Int a, Int b) { return hn::IfThenElse(hn::RebindMask(IntTag(), c.m), a.v, b.v); }
+
+constexpr size_t kLanes = hn::MaxLanes(RealTag());
+FN Real loadReal(const uint32_t* p) { return hn::BitCast(RealTag(), hn::Load(UintTag(), p)); }
+FN Int loadInt(const uint32_t* p) { return hn::BitCast(IntTag(), hn::Load(UintTag(), p)); }
+FN void storeReal(Real r, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), r.v), UintTag(), p); }
+FN void storeInt(Int i, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), i.v), UintTag(), p); }

@@ -1,0 +1,68 @@
+#pragma once
+// Errors are values: every operation that bad input or a scarce machine can make fail returns a Result.
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace sgm {
+
+enum class Code {
+  invalid_argument,  ///< the caller broke the function's contract
+  bad_input,         ///< text or data from outside is wrong; line and column say where
+  limit,             ///< a cap (count, depth, memory, time) was reached
+  out_of_memory,
+  io,           ///< a file could not be read or written
+  unsupported,  ///< no such backend, device or feature here
+  cancelled,
+};
+
+/// One clear message that says what to do. line and column count from 1; 0 means no place in a text.
+struct Error {
+  Code code = Code::invalid_argument;
+  std::string message;
+  int line = 0;
+  int column = 0;
+};
+
+/// Either a value or an Error. Reading the one that is not there is a bug of the caller's.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+
+  explicit operator bool() const { return state_.index() == 0; }
+  T& operator*() & { return *there(std::get_if<0>(&state_)); }
+  const T& operator*() const& { return *there(std::get_if<0>(&state_)); }
+  T&& operator*() && { return std::move(*there(std::get_if<0>(&state_))); }
+  T* operator->() { return there(std::get_if<0>(&state_)); }
+  const T* operator->() const { return there(std::get_if<0>(&state_)); }
+  const Error& error() const { return *there(std::get_if<1>(&state_)); }
+
+ private:
+  template <class P>
+  static P* there(P* p) {
+    if (!p) std::abort();
+    return p;
+  }
+
+  std::variant<T, Error> state_;
+};
+
+template <>
+class [[nodiscard]] Result<void> {
+ public:
+  Result() = default;
+  Result(Error error) : error_(std::move(error)) {}
+
+  explicit operator bool() const { return !error_; }
+  const Error& error() const { return *error_; }
+
+ private:
+  std::optional<Error> error_;
+};
+
+}  // namespace sgm

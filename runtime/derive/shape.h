@@ -1,0 +1,159 @@
+#pragma once
+// What a cell of the grammar derives into: implicit nodes with bounds, tags and anchors, never triangles.
+//
+// Everything here is plain data in world units (1/1024 m), so that a grammar chunk can be hashed, cached, moved by an
+// integer offset and compiled into a field program (field/compile.h) without looking at the grammar again.
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <string>
+#include <vector>
+
+#include "base/fixed.h"
+#include "base/hash.h"
+
+namespace sgm {
+
+inline constexpr uint32_t kNone = 0xFFFFFFFFu;
+
+/// World to local: q = rows * float(p - origin). Rows are orthonormal (scale is folded into sizes).
+struct Frame {
+  Int3 origin;
+  std::array<float, 9> rows{1, 0, 0, 0, 1, 0, 0, 0, 1};
+};
+
+/// Leaves give a distance in units, negative inside; `size` holds what each line says, in units unless noted.
+/// Combiners act on children. Formulas: shaders/common/primitives.h and shaders/common/combine.h.
+enum class ShapeKind : uint8_t {
+  sphere,           ///< size: r
+  box,              ///< size: half extents x y z
+  cylinder,         ///< axis y, centre at origin; size: r, half height
+  truncone,         ///< axis y, centre at origin; size: bottom radius, top radius, half height
+  capsule,          ///< from the origin to origin + `axis` (size[1..3], world axes, units); size[0]: r. Rows are unused
+  torus,            ///< axis y; size: ring radius, tube radius
+  ellipsoid,        ///< size: radii x y z; field (|q/radii| - 1) * min(radii)
+  superquadric,     ///< size: radii x y z, exponent n >= 2 (no unit); field (||q/radii||_n - 1) * min(radii)
+  halfspace,        ///< solid below the plane local y = 0
+  prism,            ///< polygon in local xz, extruded along y; size: half height; polygon: first, count
+  unite,            ///< hard union of the children
+  meet,             ///< hard intersection
+  subtract,         ///< the first child without all the others
+  unite_smooth,     ///< round union, radius `amount` units: max(k, min d) - sqrt(sum max(k - d, 0)^2)
+  meet_smooth,      ///< the same by negation
+  subtract_smooth,  ///< the first child without the others, rounded by `amount`
+  sum,              ///< compact-kernel sum over leaves d with inner radius r (Shape::inner_radius):
+        ///< (T - sum max(0, 1 - (1 + d/r)^2 / kSumSupport^2)^3) * L, T = the kernel at d = 0, so that a lone leaf keeps
+        ///< its surface; L = the largest inner radius / the kernel's slope there. Zero set grows at most to the support
+  morph,        ///< two children: (1 - t) A + t B; t = `expr`, or `amount` where expr is kNone, clamped to 0..1
+  morph_power,  ///< no child; superquadric of radii size[0..2] at t = 0 to size[3..5] at t = 1, its exponent
+                ///< 2 / (1 - t + t/kMaxPower*2): from ellipsoid to box by the exponent
+  displace,     ///< one child, plus 1024 * expr (expr in metres)
+  warp,         ///< one child, read at p + round(1024 * (expr, expr + 1, expr + 2)) (each in metres)
+};
+
+inline constexpr float kSumSupport = 1.6f;  ///< support of the sum's kernel, in inner radii
+inline constexpr float kMaxPower = 20.0f;   ///< exponent of the squarest superquadric
+
+struct Shape {
+  ShapeKind kind = ShapeKind::sphere;
+  uint16_t material = 0;  ///< index into the grammar's materials; 0: inherit what is there (a cut) or the default
+  uint16_t tag = 0;       ///< index into the grammar's tags; 0: none
+  uint32_t first_child = 0, child_count = 0;  ///< range in GrammarChunk::children
+  uint32_t expr = kNone;                      ///< root in GrammarChunk::exprs
+  uint32_t first_point = 0, point_count = 0;  ///< range in GrammarChunk::points (prism)
+  int32_t detail = 0;      ///< drop the shape at levels whose cell edge is larger, in units; 0: never
+  int32_t coarsest = 0;    ///< with lod alternatives: keep only where the cell edge >= this, in units; 0: always
+  float amount = 0;        ///< smooth radius in units, or a constant morph t
+  float inner_radius = 0;  ///< leaves under a sum, in units
+  std::array<float, 6> size{};
+  Frame frame;
+};
+
+/// Sample-time expressions (`field ...`), as a directed acyclic graph in child-before-parent order.
+/// Lengths are metres here; a comparison yields 0 or 1.
+enum class ExprOp : uint8_t {
+  constant,    ///< value
+  coordinate,  ///< (row . float(p - anchor)) / 1024: any axis of the world or of a local frame, from an integer anchor
+  noise,       ///< fractal gradient noise in -1..1; see NoiseSpec in `noise`
+  sweep,       ///< 0..1 along the polyline points[first .. first + count), nearest segment
+  negate,
+  absolute,
+  floor,
+  square_root,
+  add,
+  subtract,
+  multiply,
+  divide,
+  minimum,
+  maximum,
+  less,        ///< less: a < b ? 1 : 0
+  smoothstep,  ///< a: x, b: lower edge, c: upper edge (both constants, lower < upper or the reverse)
+  mix,         ///< (1 - c) a + c b, exactly a at c = 0 and b at c = 1
+};
+
+struct Expr {
+  ExprOp op = ExprOp::constant;
+  uint32_t a = kNone, b = kNone, c = kNone;
+  float value = 0;
+  Int3 anchor;
+  std::array<float, 3> row{};
+  uint32_t noise = kNone;
+  uint32_t first_point = 0, point_count = 0;
+};
+
+struct NoiseSpec {
+  Int3 origin;                      ///< the lattice has a corner here
+  int32_t period = kUnitsPerMetre;  ///< of the first octave, in units, at least 1; each next octave halves it
+  uint32_t octaves = 1;             ///< 1..12; the field drops those with a period under two cells
+  uint32_t seed = 0;
+};
+
+/// A top-level node. A group is atomic: it adds or cuts as a whole, by hard min and max against other groups.
+struct Group {
+  uint32_t root = 0;  ///< in GrammarChunk::shapes
+  bool cut = false;
+  IntBox bounds;  ///< holds every point where the root's field is <= 0, at every level
+  PathKey key;    ///< canonical order of groups within a layer
+};
+
+/// An oriented gameplay point, emitted only by the cell that holds it.
+struct Anchor {
+  Frame frame;
+  uint16_t kind = 0, name = 0;  ///< indices into the grammar's names
+  uint16_t tag = 0;
+  PathKey key;
+};
+
+/// A shape that was left out, and why; the rest of the cell is whole.
+struct DeriveNote {
+  std::string message;
+  std::string path;  ///< derivation path, "Node/Chamber[0]/Hall"
+  int line = 0, column = 0;
+};
+
+/// Everything one cell of one layer derives to.
+struct GrammarChunk {
+  uint32_t layer = 0;
+  Int3 cell;  ///< cell coordinates, in cells
+  std::pmr::vector<Shape> shapes;
+  std::pmr::vector<uint32_t> children;
+  std::pmr::vector<Expr> exprs;
+  std::pmr::vector<NoiseSpec> noises;
+  std::pmr::vector<Int3> points;  ///< world units (sweep), or local xz in units in x and z (prism)
+  std::pmr::vector<Group> groups;
+  std::pmr::vector<Anchor> anchors;
+  std::pmr::vector<DeriveNote> notes;
+
+  explicit GrammarChunk(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : shapes(memory),
+        children(memory),
+        exprs(memory),
+        noises(memory),
+        points(memory),
+        groups(memory),
+        anchors(memory),
+        notes(memory) {}
+};
+
+}  // namespace sgm

@@ -1,0 +1,57 @@
+#pragma once
+// Evaluators of field programs. Every one gives the same bits: the scalar one here is the measure of the others.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "field/program.h"
+
+namespace sgm {
+
+inline constexpr size_t kEvalBlock = 256;  ///< points that pass through a program together, in cache
+
+/// Scratch of one thread: reused, grows once to the largest program.
+class EvalScratch {
+ public:
+  explicit EvalScratch(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : words_(memory) {}
+  uint32_t* reserve(size_t words) {
+    if (words_.size() < words) words_.resize(words);
+    return words_.data();
+  }
+
+ private:
+  std::pmr::vector<uint32_t> words_;
+};
+
+/// Points by axis, in units; not owned.
+struct Points {
+  const int32_t* x = nullptr;
+  const int32_t* y = nullptr;
+  const int32_t* z = nullptr;
+  size_t count = 0;
+};
+
+/// Where attributes go, each `count` long; null where not wanted.
+struct Attributes {
+  float* value = nullptr;  ///< units
+  float* gradient_x = nullptr;
+  float* gradient_y = nullptr;
+  float* gradient_z = nullptr;
+  int16_t* normal_x = nullptr;  ///< octahedral, as in Vertex
+  int16_t* normal_y = nullptr;
+  uint32_t* label = nullptr;  ///< tag << 16 | material
+};
+
+/// One instruction set's evaluator. The functions are pure but for scratch; any count of points, 0 included.
+struct FieldKernels {
+  const char* name;
+  void (*samples)(const ProgramView&, const Points&, EvalScratch&, int32_t* q);
+  void (*attributes)(const ProgramView&, const Points&, EvalScratch&, const Attributes&);
+};
+
+/// Plain float, one point at a time.
+const FieldKernels& scalarKernels();
+
+}  // namespace sgm

@@ -1,0 +1,289 @@
+// The interpreter, once for every instruction set: included into a namespace in which shaders/common/common.h, the type
+// kLanes and the loads and stores of Real and Int are defined.
+
+struct BlockFrame {
+  uint32_t* registers;
+  uint32_t* places;
+  uint32_t* jacobians;
+};
+
+// A register holds one plane of kEvalBlock words for its value, and four more (gradient, label) in gradient mode.
+template <bool kGradient>
+inline constexpr size_t kRegisterWords = kEvalBlock * (kGradient ? 5 : 1);
+inline constexpr size_t kFoldRegister = kMaxRegisters;
+inline constexpr size_t kCutRegister = kMaxRegisters + 1;
+
+template <bool kGradient>
+FN Dual loadDual(const BlockFrame& f, size_t r, size_t i) {
+  const uint32_t* p = f.registers + r * kRegisterWords<kGradient> + i;
+  if constexpr (kGradient) {
+    return makeDual(loadReal(p), loadReal(p + kEvalBlock), loadReal(p + 2 * kEvalBlock), loadReal(p + 3 * kEvalBlock),
+                    loadInt(p + 4 * kEvalBlock));
+  } else {
+    const Real zero = broadcast(0.0f);
+    return makeDual(loadReal(p), zero, zero, zero, broadcastInt(0));
+  }
+}
+
+template <bool kGradient>
+FN void storeDual(const BlockFrame& f, size_t r, size_t i, const Dual& d) {
+  uint32_t* p = f.registers + r * kRegisterWords<kGradient> + i;
+  storeReal(d.v, p);
+  if constexpr (kGradient) {
+    storeReal(d.x, p + kEvalBlock);
+    storeReal(d.y, p + 2 * kEvalBlock);
+    storeReal(d.z, p + 3 * kEvalBlock);
+    storeInt(d.label, p + 4 * kEvalBlock);
+  }
+}
+
+FN Int loadPlace(const BlockFrame& f, size_t place, size_t axis, size_t i) {
+  return loadInt(f.places + (place * 3 + axis) * kEvalBlock + i);
+}
+FN Real loadJacobian(const BlockFrame& f, size_t place, size_t entry, size_t i) {
+  return loadReal(f.jacobians + (place * 9 + entry) * kEvalBlock + i);
+}
+
+// The gradient by the sample's own position, of something read at a warped place: the transposed Jacobian.
+template <bool kGradient>
+FN Dual toWorld(const BlockFrame& f, size_t place, size_t i, const Dual& d) {
+  if constexpr (!kGradient) {
+    return d;
+  } else {
+    if (place == 0) return d;
+    Real g[3];
+    for (size_t j = 0; j < 3; ++j) {
+      Real a = d.x * loadJacobian(f, place, j, i);
+      Real b = d.y * loadJacobian(f, place, 3 + j, i);
+      Real c = d.z * loadJacobian(f, place, 6 + j, i);
+      a = a + b;
+      g[j] = a + c;
+    }
+    return makeDual(d.v, g[0], g[1], g[2], d.label);
+  }
+}
+
+template <bool kGradient>
+FN void warpPlace(const BlockFrame& f, const Instr& in, size_t i) {
+  const uint8_t source[3] = {in.a, in.b, in.c};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const Dual w = loadDual<kGradient>(f, source[axis], i);
+    Real moved = clampReal(w.v, -1048576.0f, 1048576.0f) * 1024.0f;
+    moved = moved + 0.5f;
+    const Int at = wrapAdd(loadPlace(f, in.place, axis, i), toInt(floorReal(moved)));
+    storeInt(at, f.places + (in.dst * size_t{3} + axis) * kEvalBlock + i);
+    if constexpr (kGradient) {
+      const Real slope[3] = {w.x, w.y, w.z};
+      for (size_t j = 0; j < 3; ++j) {
+        Real d = slope[j] * 1024.0f;
+        d = loadJacobian(f, in.place, axis * 3 + j, i) + d;
+        storeReal(d, f.jacobians + (in.dst * size_t{9} + axis * 3 + j) * kEvalBlock + i);
+      }
+    }
+  }
+}
+
+#define SGM_EACH for (size_t i = 0; i < n; i += kLanes)
+#define SGM_FORM_CONSTANT(FUNCTION) SGM_EACH storeDual<kGradient>(f, in.dst, i, FUNCTION(P));
+#define SGM_FORM_POSITION(FUNCTION)                                                                                  \
+  SGM_EACH storeDual<kGradient>(                                                                                     \
+      f, in.dst, i,                                                                                                  \
+      toWorld<kGradient>(f, in.place, i,                                                                             \
+                         FUNCTION(loadPlace(f, in.place, 0, i), loadPlace(f, in.place, 1, i),                        \
+                                  loadPlace(f, in.place, 2, i), P)));
+#define SGM_FORM_POSITION_1(FUNCTION)                                                                       \
+  SGM_EACH {                                                                                                \
+    const Int px = loadPlace(f, in.place, 0, i), py = loadPlace(f, in.place, 1, i);                         \
+    const Int pz = loadPlace(f, in.place, 2, i);                                                            \
+    const Dual t = loadDual<kGradient>(f, in.a, i);                                                         \
+    const Dual by_place = toWorld<kGradient>(f, in.place, i, FUNCTION(px, py, pz, t, P));                   \
+    storeDual<kGradient>(f, in.dst, i, addSlope(by_place, t, FUNCTION##Slope(px, py, pz, t, P)));           \
+  }
+#define SGM_FORM_UNARY(FUNCTION) \
+  SGM_EACH storeDual<kGradient>(f, in.dst, i, FUNCTION(loadDual<kGradient>(f, in.a, i)));
+#define SGM_FORM_UNARY_P(FUNCTION) \
+  SGM_EACH storeDual<kGradient>(f, in.dst, i, FUNCTION(loadDual<kGradient>(f, in.a, i), P));
+#define SGM_FORM_BINARY(FUNCTION)         \
+  SGM_EACH storeDual<kGradient>(f, in.dst, i, \
+                                FUNCTION(loadDual<kGradient>(f, in.a, i), loadDual<kGradient>(f, in.b, i)));
+#define SGM_FORM_TERNARY(FUNCTION)                                                                                  \
+  SGM_EACH storeDual<kGradient>(f, in.dst, i,                                                                       \
+                                FUNCTION(loadDual<kGradient>(f, in.a, i), loadDual<kGradient>(f, in.b, i),          \
+                                         loadDual<kGradient>(f, in.c, i)));
+#define SGM_FORM_COPY(FUNCTION) SGM_EACH storeDual<kGradient>(f, in.dst, i, loadDual<kGradient>(f, in.a, i));
+#define SGM_FORM_ROUND_BEGIN(FUNCTION)                    \
+  SGM_EACH {                                              \
+    storeDual<kGradient>(f, in.dst, i, roundNearest());   \
+    storeDual<kGradient>(f, in.b, i, roundEmpty());       \
+  }
+#define SGM_FORM_ROUND_ADD(FUNCTION)                                                                                \
+  SGM_EACH {                                                                                                        \
+    const Dual d = loadDual<kGradient>(f, in.a, i);                                                                 \
+    storeDual<kGradient>(f, in.dst, i, opMinimum(loadDual<kGradient>(f, in.dst, i), d));                            \
+    storeDual<kGradient>(f, in.b, i, roundAccumulate(loadDual<kGradient>(f, in.b, i), d, PF(P, 0)));                \
+  }
+#define SGM_FORM_ROUND_END(FUNCTION) \
+  SGM_EACH storeDual<kGradient>(f, in.dst, i, \
+                                opRoundEnd(loadDual<kGradient>(f, in.a, i), loadDual<kGradient>(f, in.b, i), P));
+#define SGM_FORM_SUM_BEGIN(FUNCTION)                    \
+  SGM_EACH {                                            \
+    storeDual<kGradient>(f, in.dst, i, roundEmpty());   \
+    storeDual<kGradient>(f, in.b, i, roundEmpty());     \
+  }
+#define SGM_FORM_SUM_ADD(FUNCTION)                                                                      \
+  SGM_EACH {                                                                                            \
+    const Dual d = loadDual<kGradient>(f, in.a, i);                                                     \
+    storeDual<kGradient>(f, in.dst, i, sumHeaviest(loadDual<kGradient>(f, in.dst, i), d));              \
+    storeDual<kGradient>(f, in.b, i, opAdd(loadDual<kGradient>(f, in.b, i), d));                        \
+  }
+#define SGM_FORM_SUM_END(FUNCTION) \
+  SGM_EACH storeDual<kGradient>(f, in.dst, i, \
+                                opSumEnd(loadDual<kGradient>(f, in.a, i), loadDual<kGradient>(f, in.b, i), P));
+#define SGM_FORM_WARP(FUNCTION) SGM_EACH warpPlace<kGradient>(f, in, i);
+
+template <bool kGradient>
+inline void runInstr(const BlockFrame& f, const Instr& in, Params P, size_t n) {
+  switch (in.op) {
+#define SGM_OP(NAME, FUNCTION, FORM, ERROR) \
+  case Op::NAME: {                          \
+    SGM_FORM_##FORM(FUNCTION)               \
+  } break;
+#include "field/ops.def"
+#undef SGM_OP
+    case Op::count:
+      break;
+  }
+}
+
+// Folds one group into the field, or into what its layer's cuts take away (program.h).
+template <bool kGradient>
+inline void foldGroup(const BlockFrame& f, const ProgramGroup& g, size_t n) {
+  const size_t into = g.cut ? kCutRegister : kFoldRegister;
+  SGM_EACH {
+    const Dual before = loadDual<kGradient>(f, into, i);
+    Dual after = opMinimum(before, loadDual<kGradient>(f, g.result, i));
+    if (g.guarded) {
+      const Int px = loadPlace(f, 0, 0, i), py = loadPlace(f, 0, 1, i), pz = loadPlace(f, 0, 2, i);
+      const Bool inside = !(px < g.influence.lo.x) && !(py < g.influence.lo.y) && !(pz < g.influence.lo.z) &&
+                          !(px > g.influence.hi.x) && !(py > g.influence.hi.y) && !(pz > g.influence.hi.z);
+      after = selDual(inside, after, before);
+    }
+    storeDual<kGradient>(f, into, i, after);
+  }
+}
+
+// One block of n points, n a multiple of kLanes; place 0 is already filled.
+template <bool kGradient>
+inline void runBlock(const ProgramView& program, const BlockFrame& f, size_t n) {
+  const Real zero = broadcast(0.0f);
+  SGM_EACH storeDual<kGradient>(f, kFoldRegister, i,
+                                makeDual(broadcast(program.initial), zero, zero, zero,
+                                         broadcastInt(static_cast<int32_t>(program.initial_label))));
+  if constexpr (kGradient) {
+    for (size_t entry = 0; entry < 9; ++entry) {
+      const Real e = broadcast(entry % 4 == 0 ? 1.0f : 0.0f);
+      SGM_EACH storeReal(e, f.jacobians + entry * kEvalBlock + i);
+    }
+  }
+  for (size_t k = 0; k < program.groups.size(); ++k) {
+    const ProgramGroup& g = program.groups[k];
+    const bool first_cut = g.cut && (k == 0 || !program.groups[k - 1].cut || program.groups[k - 1].layer != g.layer);
+    if (first_cut) SGM_EACH storeDual<kGradient>(f, kCutRegister, i, roundNearest());
+    for (const Instr& in : program.instrs.subspan(g.first, g.count)) {
+      runInstr<kGradient>(f, in, program.params.data() + in.params, n);
+    }
+    foldGroup<kGradient>(f, g, n);
+    const bool last_cut = g.cut && (k + 1 == program.groups.size() || program.groups[k + 1].layer != g.layer);
+    if (last_cut) {
+      SGM_EACH storeDual<kGradient>(
+          f, kFoldRegister, i, opCut(loadDual<kGradient>(f, kFoldRegister, i), loadDual<kGradient>(f, kCutRegister, i)));
+    }
+  }
+}
+
+template <bool kGradient>
+inline BlockFrame makeFrame(EvalScratch& scratch) {
+  constexpr size_t registers = (kMaxRegisters + 2) * kRegisterWords<kGradient>;
+  constexpr size_t places = size_t{kMaxPlaces} * 3 * kEvalBlock;
+  constexpr size_t jacobians = kGradient ? size_t{kMaxPlaces} * 9 * kEvalBlock : 0;
+  uint32_t* words = scratch.reserve(registers + places + jacobians + 16);
+  // Whole vectors must not straddle cache lines: the block starts at the next multiple of 64 bytes.
+  words += (16 - (reinterpret_cast<uintptr_t>(words) / sizeof(uint32_t)) % 16) % 16;
+  return {words, words + registers, words + registers + places};
+}
+
+// Copies a block's points to place 0, the last one repeated up to whole vectors.
+inline size_t loadPoints(const BlockFrame& f, const Points& points, size_t first, size_t count) {
+  const size_t padded = (count + kLanes - 1) / kLanes * kLanes;
+  const int32_t* axes[3] = {points.x + first, points.y + first, points.z + first};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    uint32_t* out = f.places + axis * kEvalBlock;
+    memcpy(out, axes[axis], count * sizeof(uint32_t));
+    for (size_t i = count; i < padded; ++i) out[i] = out[count - 1];
+  }
+  return padded;
+}
+
+inline void evaluateSamples(const ProgramView& program, const Points& points, EvalScratch& scratch, int32_t* q) {
+  const BlockFrame f = makeFrame<false>(scratch);
+  for (size_t first = 0; first < points.count; first += kEvalBlock) {
+    const size_t count = points.count - first < kEvalBlock ? points.count - first : kEvalBlock;
+    const size_t n = loadPoints(f, points, first, count);
+    runBlock<false>(program, f, n);
+    uint32_t* out = f.registers;
+    SGM_EACH storeInt(quantise(loadDual<false>(f, kFoldRegister, i).v, program.q_scale), out + i);
+    memcpy(q + first, out, count * sizeof(int32_t));
+  }
+}
+
+inline void evaluateAttributes(const ProgramView& program, const Points& points, EvalScratch& scratch,
+                               const Attributes& out) {
+  const BlockFrame f = makeFrame<true>(scratch);
+  for (size_t first = 0; first < points.count; first += kEvalBlock) {
+    const size_t count = points.count - first < kEvalBlock ? points.count - first : kEvalBlock;
+    const size_t n = loadPoints(f, points, first, count);
+    runBlock<true>(program, f, n);
+    // A pruned operand may have turned a zero's sign: adding +0 makes every zero the same.
+    SGM_EACH {
+      const Dual d = loadDual<true>(f, kFoldRegister, i);
+      const Real zero = broadcast(0.0f);
+      storeDual<true>(f, kFoldRegister, i, makeDual(d.v + zero, d.x + zero, d.y + zero, d.z + zero, d.label));
+    }
+    const uint32_t* fold = f.registers + kFoldRegister * kRegisterWords<true>;
+    if (out.value) memcpy(out.value + first, fold, count * sizeof(float));
+    if (out.gradient_x) memcpy(out.gradient_x + first, fold + kEvalBlock, count * sizeof(float));
+    if (out.gradient_y) memcpy(out.gradient_y + first, fold + 2 * kEvalBlock, count * sizeof(float));
+    if (out.gradient_z) memcpy(out.gradient_z + first, fold + 3 * kEvalBlock, count * sizeof(float));
+    if (out.label) memcpy(out.label + first, fold + 4 * kEvalBlock, count * sizeof(uint32_t));
+    if (out.normal_x && out.normal_y) {
+      uint32_t* packed = f.registers;
+      SGM_EACH {
+        const Dual d = loadDual<true>(f, kFoldRegister, i);
+        const PackedNormal p = packNormal(d.x, d.y, d.z);
+        storeInt(p.x, packed + i);
+        storeInt(p.y, packed + kEvalBlock + i);
+      }
+      for (size_t i = 0; i < count; ++i) {
+        out.normal_x[first + i] = static_cast<int16_t>(static_cast<int32_t>(packed[i]));
+        out.normal_y[first + i] = static_cast<int16_t>(static_cast<int32_t>(packed[kEvalBlock + i]));
+      }
+    }
+  }
+}
+
+#undef SGM_EACH
+#undef SGM_FORM_CONSTANT
+#undef SGM_FORM_POSITION
+#undef SGM_FORM_POSITION_1
+#undef SGM_FORM_UNARY
+#undef SGM_FORM_UNARY_P
+#undef SGM_FORM_BINARY
+#undef SGM_FORM_TERNARY
+#undef SGM_FORM_COPY
+#undef SGM_FORM_ROUND_BEGIN
+#undef SGM_FORM_ROUND_ADD
+#undef SGM_FORM_ROUND_END
+#undef SGM_FORM_SUM_BEGIN
+#undef SGM_FORM_SUM_ADD
+#undef SGM_FORM_SUM_END
+#undef SGM_FORM_WARP

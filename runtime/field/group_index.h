@@ -1,0 +1,30 @@
+#pragma once
+// A bounding volume hierarchy over a grammar chunk's groups, so that a mesh chunk never scans all of a cell's shapes.
+
+#include <memory_resource>
+#include <vector>
+
+#include "derive/shape.h"
+
+namespace sgm {
+
+class GroupIndex {
+ public:
+  explicit GroupIndex(const GrammarChunk& chunk, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+  /// Appends the indices of all groups whose bounds meet the box, in ascending order.
+  void query(const IntBox& box, std::pmr::vector<uint32_t>& groups) const;
+
+ private:
+  struct Node {
+    IntBox bounds;
+    uint32_t first = 0, count = 0;  ///< of order_, in a leaf
+    uint32_t right = 0;             ///< the other child; the left one follows its parent
+  };
+  uint32_t build(const GrammarChunk& chunk, uint32_t first, uint32_t count);
+
+  std::pmr::vector<Node> nodes_;
+  std::pmr::vector<uint32_t> order_;
+};
+
+}  // namespace sgm

@@ -1,0 +1,293 @@
+#include "field/interval.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "field/reference.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr double kLimit = 1e37;
+constexpr double kTiny = 1e-30;  // flushed denormals
+
+double realAt(const uint32_t* params, int i) { return double{std::bit_cast<float>(params[i])}; }
+double wholeAt(const uint32_t* params, int i) { return static_cast<double>(static_cast<int32_t>(params[i])); }
+
+constexpr double errorOf(Op op) {
+  switch (op) {
+#define SGM_OP(name, function, form, error) \
+  case Op::name:                            \
+    return error;
+#include "field/ops.def"
+#undef SGM_OP
+    case Op::count:
+      break;
+  }
+  return 0;
+}
+
+double magnitude(Interval a) { return std::max(std::abs(a.lo), std::abs(a.hi)); }
+
+Interval held(double lo, double hi) { return {std::clamp(lo, -kLimit, kLimit), std::clamp(hi, -kLimit, kLimit)}; }
+
+Interval widened(Interval a, double by) { return held(a.lo - by - kTiny, a.hi + by + kTiny); }
+
+Interval product(Interval a, Interval b) {
+  const double p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
+  return held(std::min({p, q, r, s}), std::max({p, q, r, s}));
+}
+
+Interval clamped(Interval a, double lo, double hi) { return {std::clamp(a.lo, lo, hi), std::clamp(a.hi, lo, hi)}; }
+
+Interval squared(Interval a) {
+  const double l = a.lo * a.lo, h = a.hi * a.hi;
+  return {a.lo <= 0 && a.hi >= 0 ? 0.0 : std::min(l, h), std::max(l, h)};
+}
+
+// (1 - t) a + t b over all t of an interval: linear in t, so its ends decide; linear in a and b likewise.
+Interval blend(Interval a, Interval b, Interval t) {
+  auto at = [&](double s) {
+    const Interval p = product(a, {1 - s, 1 - s}), q = product(b, {s, s});
+    return held(p.lo + q.lo, p.hi + q.hi);
+  };
+  const Interval p = at(t.lo), q = at(t.hi);
+  return {std::min(p.lo, q.lo), std::max(p.hi, q.hi)};
+}
+
+// Exact zero where the kernel is certainly spent: an operand that adds exactly nothing may be dropped.
+Interval kernelBounds(Interval x, double error) {
+  auto cube = [](double v) {
+    const double k = std::max(0.0, 1 - v);
+    return k * k * k;
+  };
+  const double slack = error * (1 + magnitude(x));
+  const double lo = cube(x.hi + slack), hi = cube(std::max(0.0, x.lo - slack));
+  return {std::max(0.0, lo - error), hi > 0 ? hi + error : 0.0};
+}
+
+double sizeSum(Op op, const uint32_t* p) {
+  auto sum = [&](int first, int last) {
+    double s = 0;
+    for (int i = first; i <= last; ++i) s += std::abs(realAt(p, i));
+    return s;
+  };
+  switch (op) {
+    case Op::sphere:
+      return sum(4, 4);
+    case Op::capsule:
+      return sum(4, 6) + sum(8, 8);
+    case Op::box:
+      return sum(13, 15);
+    case Op::cylinder:
+    case Op::torus:
+      return sum(13, 14);
+    case Op::truncone:
+      return sum(13, 15);
+    case Op::ellipsoid:
+    case Op::superquadric:
+      return sum(16, 16);
+    case Op::power_morph:
+      return sum(13, 18);
+    case Op::prism: {
+      double s = sum(13, 13), corner = 0;
+      for (int k = 0; k < static_cast<int>(p[14]); ++k) corner = std::max(corner, sum(15 + 6 * k, 18 + 6 * k));
+      return s + corner;
+    }
+    default:
+      return 0;
+  }
+}
+
+struct CentredBox {
+  double x, y, z;     // centre
+  double hx, hy, hz;  // half extents
+};
+
+CentredBox centred(const PlaceBox& b) {
+  return {(b.x.lo + b.x.hi) / 2, (b.y.lo + b.y.hi) / 2, (b.z.lo + b.z.hi) / 2,
+          (b.x.hi - b.x.lo) / 2, (b.y.hi - b.y.lo) / 2, (b.z.hi - b.z.lo) / 2};
+}
+
+// Squared distance from a ball's centre to the box: its range is exact.
+Interval distance2(const uint32_t* p, const PlaceBox& b) {
+  auto axis = [](Interval i, double c) { return squared({i.lo - c, i.hi - c}); };
+  const Interval x = axis(b.x, wholeAt(p, 1)), y = axis(b.y, wholeAt(p, 2)), z = axis(b.z, wholeAt(p, 3));
+  return {x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
+}
+
+double farthestOffset(const uint32_t* p, const PlaceBox& b) { return std::sqrt(distance2(p, b).hi); }
+
+}  // namespace
+
+PlaceBox placeBox(const IntBox& box) {
+  auto axis = [](int32_t lo, int32_t hi) { return Interval{static_cast<double>(lo), static_cast<double>(hi)}; };
+  return {axis(box.lo.x, box.hi.x), axis(box.lo.y, box.hi.y), axis(box.lo.z, box.hi.z)};
+}
+
+Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t) {
+  switch (op) {
+    case Op::noise:
+      return {-1, 1};
+    case Op::sweep:
+      return {-1e-6, 1 + 1e-6};
+    case Op::coordinate: {
+      const Interval x = product({box.x.lo - wholeAt(p, 1), box.x.hi - wholeAt(p, 1)}, {realAt(p, 4), realAt(p, 4)});
+      const Interval y = product({box.y.lo - wholeAt(p, 2), box.y.hi - wholeAt(p, 2)}, {realAt(p, 5), realAt(p, 5)});
+      const Interval z = product({box.z.lo - wholeAt(p, 3), box.z.hi - wholeAt(p, 3)}, {realAt(p, 6), realAt(p, 6)});
+      const Interval v{x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
+      return widened(v, errorOf(op) * (magnitude(x) + magnitude(y) + magnitude(z)));
+    }
+    case Op::blob: {
+      const Interval d2 = distance2(p, box);
+      return kernelBounds({d2.lo * realAt(p, 4), d2.hi * realAt(p, 4)}, errorOf(op));
+    }
+    case Op::sphere: {
+      const Interval d2 = distance2(p, box);
+      const Interval d{std::sqrt(d2.lo) - realAt(p, 4), std::sqrt(d2.hi) - realAt(p, 4)};
+      return widened(d, errorOf(op) * (std::sqrt(d2.hi) + realAt(p, 4)));
+    }
+    default:
+      break;
+  }
+  // No primitive is steeper than 1 (primitives.h): its value at the centre, and half the diagonal each way.
+  const CentredBox c = centred(box);
+  const double radius = std::sqrt(c.hx * c.hx + c.hy * c.hy + c.hz * c.hz);
+  const double error = errorOf(op) * (farthestOffset(p, box) + sizeSum(op, p)) + radius * 1e-6;
+  if (op == Op::power_morph) {
+    // Between its ends the norm falls as t grows the exponent, and the radii move: bounded from both ends of t, with
+    // the two effects taken apart. ||u||_n <= ||u||_2 and >= ||u||_max, each for the smaller and the larger radii.
+    const Interval s = clamped(t, 0, 1);
+    if (s.lo == s.hi) {
+      const double v = referencePowerMorph(p, s.lo, c.x, c.y, c.z);
+      return widened({v - radius, v + radius}, error);
+    }
+    std::array<Interval, 3> radii{};
+    for (int i = 0; i < 3; ++i) {
+      const double a = realAt(p, 13 + i), b = realAt(p, 16 + i);
+      const double r0 = (1 - s.lo) * a + s.lo * b, r1 = (1 - s.hi) * a + s.hi * b;
+      radii[static_cast<size_t>(i)] = {std::min(r0, r1), std::max(r0, r1)};
+    }
+    auto rowAt = [&](int i, double x, double y, double z) {
+      return realAt(p, i) * (x - wholeAt(p, 1)) + realAt(p, i + 1) * (y - wholeAt(p, 2)) +
+             realAt(p, i + 2) * (z - wholeAt(p, 3));
+    };
+    double low = 0, high2 = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double q = std::abs(rowAt(4 + 3 * i, c.x, c.y, c.z));
+      const Interval r = radii[static_cast<size_t>(i)];
+      low = std::max(low, std::max(0.0, q - radius) / r.hi);
+      const double u = (q + radius) / r.lo;
+      high2 += u * u;
+    }
+    const double smallest_lo = std::min({radii[0].lo, radii[1].lo, radii[2].lo});
+    const double smallest_hi = std::min({radii[0].hi, radii[1].hi, radii[2].hi});
+    auto scaled = [&](double norm, bool lower) {
+      const double v = norm - 1;
+      return v * ((v > 0) == lower ? smallest_lo : smallest_hi);
+    };
+    return widened({scaled(low, true), scaled(std::sqrt(high2), false)}, error);
+  }
+  const double v = referencePrimitive(op, p, c.x, c.y, c.z);
+  return widened({v - radius, v + radius}, error);
+}
+
+Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interval c) {
+  const double error = errorOf(op);
+  switch (op) {
+    case Op::constant:
+      return {realAt(p, 0), realAt(p, 0)};
+    case Op::copy:
+      return a;
+    case Op::negate:
+      return {-a.hi, -a.lo};
+    case Op::absolute:
+      return {a.lo <= 0 && a.hi >= 0 ? 0.0 : std::min(std::abs(a.lo), std::abs(a.hi)), magnitude(a)};
+    case Op::floor: {
+      const Interval h = clamped(a, -1e9, 1e9);
+      return {std::floor(h.lo), std::floor(h.hi)};
+    }
+    case Op::square_root: {
+      const Interval r{std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0))};
+      return widened(r, error * r.hi + 1e-15);
+    }
+    case Op::add:
+      return widened({a.lo + b.lo, a.hi + b.hi}, error * (magnitude(a) + magnitude(b)));
+    case Op::subtract:
+      return widened({a.lo - b.hi, a.hi - b.lo}, error * (magnitude(a) + magnitude(b)));
+    case Op::multiply: {
+      const Interval r = product(clamped(a, -1e18, 1e18), clamped(b, -1e18, 1e18));
+      const Interval h = clamped(r, -1e18, 1e18);
+      return widened(h, error * magnitude(h));
+    }
+    case Op::divide: {
+      if (b.lo <= 1e-30 && b.hi >= -1e-30) return {-1.1e18, 1.1e18};
+      const Interval inv{1 / b.hi, 1 / b.lo};
+      const Interval r = clamped(product(clamped(a, -1e18, 1e18), clamped(inv, -1e18, 1e18)), -1e18, 1e18);
+      return widened(r, error * magnitude(r) + 1e-18);
+    }
+    case Op::less:
+      return {a.hi < b.lo ? 1.0 : 0.0, a.lo < b.hi ? 1.0 : 0.0};
+    case Op::smoothstep: {
+      // t is clamped before anything else is rounded, so its ends give exactly 0 and 1.
+      const double inv = realAt(p, 1);
+      const Interval raw = product({a.lo - realAt(p, 0), a.hi - realAt(p, 0)}, {inv, inv});
+      const Interval t = widened(raw, error * std::abs(inv) * (magnitude(a) + std::abs(realAt(p, 0))));
+      if (t.hi <= 0) return {0, 0};
+      if (t.lo >= 1) return {1, 1};
+      auto at = [](double x) {
+        const double v = std::clamp(x, 0.0, 1.0);
+        return v * v * (3 - 2 * v);
+      };
+      return {std::max(0.0, at(t.lo) - error), at(t.hi) + error};
+    }
+    case Op::mix: {
+      const Interval r = blend(a, b, c);
+      return widened(r, error * (magnitude(a) + magnitude(b)) * (1 + 2 * magnitude(c)));
+    }
+    case Op::morph: {
+      const Interval r = blend(a, b, clamped(c, 0, 1));
+      return widened(r, error * (magnitude(a) + magnitude(b)));
+    }
+    case Op::minimum:
+      return {std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
+    case Op::maximum:
+      return {std::max(a.lo, b.lo), std::max(a.hi, b.hi)};
+    case Op::cut:
+      return {std::max(a.lo, -b.hi), std::max(a.hi, -b.lo)};
+    case Op::displace:
+      return widened({a.lo + 1024 * b.lo, a.hi + 1024 * b.hi}, error * (magnitude(a) + 1024 * magnitude(b)));
+    case Op::kernel: {
+      auto at = [&](double d) { return std::clamp(1 + d * realAt(p, 0), 0.0, 1e9); };
+      const double slack = error * (1 + magnitude(a) * realAt(p, 0));
+      const double lo = std::max(0.0, at(a.lo) - slack), hi = at(a.hi) + slack;
+      return kernelBounds({lo * lo * realAt(p, 1), hi * hi * realAt(p, 1)}, error);
+    }
+    default:
+      return {-kLimit, kLimit};
+  }
+}
+
+Interval boundRoundShare(const uint32_t* p, Interval d) {
+  const double k = realAt(p, 0);
+  const double lo = std::clamp(k - d.hi, 0.0, 1e9), hi = std::clamp(k - d.lo, 0.0, 1e9);
+  return {lo * lo, hi * hi};
+}
+
+Interval boundRoundEnd(const uint32_t* p, Interval nearest, Interval sum) {
+  const double k = realAt(p, 0);
+  const Interval top{std::max(nearest.lo, k), std::max(nearest.hi, k)};
+  const Interval root{std::sqrt(sum.lo), std::sqrt(sum.hi)};
+  return widened({top.lo - root.hi, top.hi - root.lo}, errorOf(Op::round_end) * (magnitude(top) + root.hi));
+}
+
+Interval boundSumEnd(const uint32_t* p, Interval sum) {
+  const double threshold = realAt(p, 0), length = realAt(p, 1);
+  return widened({(threshold - sum.hi) * length, (threshold - sum.lo) * length},
+                 errorOf(Op::sum_end) * (threshold + sum.hi) * length);
+}
+
+}  // namespace sgm

@@ -1,0 +1,82 @@
+#pragma once
+// A field program: immutable straight-line code by group, and the fold that joins the groups.
+//
+// At a point p the field starts as `initial` (the domain: far inside or far outside). Layer by layer, the groups whose
+// influence box holds p add, f = min(f, g), and then those that cut take their union away, f = max(f, -min g). That the
+// box decides is part of the field's definition, so the value at p never depends on which chunk asks. Everything is in
+// units (1/1024 m).
+// Shareable between threads; evaluators keep their scratch apart.
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "base/fixed.h"
+
+namespace sgm {
+
+enum class Op : uint8_t {
+#define SGM_OP(name, function, form, error) name,
+#include "field/ops.def"
+#undef SGM_OP
+  count
+};
+
+const char* opName(Op op);
+
+inline constexpr int kMaxRegisters = 32;  ///< of one group
+inline constexpr int kMaxPlaces = 8;      ///< positions: 0 is the sample's own, the others are warped
+inline constexpr float kFar = 1.0e9f;     ///< the domain's field, in units
+
+/// One operation. Registers dst, a, b, c; place is the position that a POSITION op reads (and a warp starts from; its
+/// result's number is dst). Accumulating ops use dst and b as their two registers and a as the operand.
+struct Instr {
+  Op op = Op::constant;
+  uint8_t dst = 0, a = 0, b = 0, c = 0, place = 0;
+  uint16_t reserved = 0;
+  uint32_t params = 0;  ///< first word of its parameters
+};
+static_assert(sizeof(Instr) == 12);
+
+struct ProgramGroup {
+  IntBox influence;
+  uint32_t first = 0, count = 0;  ///< range in instrs
+  uint32_t layer = 0;             ///< groups of a layer stand together, its adds before its cuts
+  uint8_t result = 0;             ///< register
+  bool cut = false;
+  bool guarded = true;  ///< false where every sample asked for is known to lie in the influence box
+};
+
+/// What an evaluator reads. Does not own.
+struct ProgramView {
+  std::span<const Instr> instrs;
+  std::span<const uint32_t> params;
+  std::span<const ProgramGroup> groups;
+  float initial = kFar;
+  uint32_t initial_label = 0;  ///< tag << 16 | material
+  float q_scale = 1;           ///< Q by unit: 1024 / finest cell edge in units
+};
+
+struct FieldProgram {
+  std::pmr::vector<Instr> instrs;
+  std::pmr::vector<uint32_t> params;
+  std::pmr::vector<ProgramGroup> groups;
+  float initial = kFar;
+  uint32_t initial_label = 0;
+  float q_scale = 1;
+
+  explicit FieldProgram(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : instrs(memory), params(memory), groups(memory) {}
+
+  ProgramView view() const { return {instrs, params, groups, initial, initial_label, q_scale}; }
+};
+
+inline constexpr uint32_t makeLabel(uint16_t material, uint16_t tag) { return uint32_t{tag} << 16 | material; }
+
+/// Q = floor(f * scale + 0.5): scale for a finest cell of so many units.
+inline float quantiseScale(int32_t finest_cell_units) {
+  return static_cast<float>(1024.0 / static_cast<double>(finest_cell_units));
+}
+
+}  // namespace sgm

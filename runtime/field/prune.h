@@ -1,0 +1,46 @@
+#pragma once
+// Interval pruning (Keeter 2020): a program cut down to what matters in a box of positions. Every sample and every
+// attribute in the box keeps its bits, because an operand is dropped only where it provably changes none.
+
+#include "field/interval.h"
+
+namespace sgm {
+
+/// A pruned program. Reads its parent's parameters, which must outlive it; reused as scratch from box to box.
+struct PrunedProgram {
+  std::pmr::vector<Instr> instrs;
+  std::pmr::vector<ProgramGroup> groups;
+  std::span<const uint32_t> params;
+  float initial = kFar;
+  uint32_t initial_label = 0;
+  float q_scale = 1;
+  Interval field;  ///< bounds of the field over the box, units
+
+  explicit PrunedProgram(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : instrs(memory), groups(memory) {}
+
+  ProgramView view() const { return {instrs, params, groups, initial, initial_label, q_scale}; }
+  /// No sample of the box is quantised to another sign.
+  bool solid() const { return field.hi * static_cast<double>(q_scale) < -0.51; }
+  bool empty() const { return field.lo * static_cast<double>(q_scale) > -0.49; }
+};
+
+/// Scratch of one thread.
+class PruneScratch {
+ public:
+  explicit PruneScratch(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : marks(memory), bounds(memory), kept(memory), reversed(memory) {}
+  struct GroupBounds {
+    Interval value;
+    bool met, whole, live;
+  };
+  std::pmr::vector<Interval> marks;  ///< by instr: what decides whether it stays (prune.cpp)
+  std::pmr::vector<GroupBounds> bounds;
+  std::pmr::vector<uint8_t> kept;
+  std::pmr::vector<Instr> reversed;
+};
+
+/// Prunes `program` to `box` (closed, every position that will be asked for). out must not be the view's own storage.
+void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch, PrunedProgram& out);
+
+}  // namespace sgm

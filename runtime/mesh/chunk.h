@@ -1,0 +1,83 @@
+#pragma once
+// The vocabulary of meshing: a chunk's samples, packed vertices, meshes with their six seams, vertex keys.
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "base/fixed.h"
+
+namespace sgm {
+
+inline constexpr int kChunkCells = 32;                 ///< cells on each axis
+inline constexpr int kChunkSamples = kChunkCells + 1;  ///< samples on each axis, both borders included
+inline constexpr int kSubcell = 256;                   ///< vertex positions are 1/256 of the chunk's cell edge
+inline constexpr int32_t kMaxQ = 1 << 22;              ///< quantised samples lie in -kMaxQ..kMaxQ; solid is Q < 0
+
+/// Faces: -x +x -y +y -z +z.
+enum class Face : uint8_t { x_lo, x_hi, y_lo, y_hi, z_lo, z_hi };
+inline constexpr int faceAxis(Face f) { return static_cast<int>(f) >> 1; }
+inline constexpr bool faceIsHigh(Face f) { return static_cast<int>(f) & 1; }
+
+/// Where a chunk lies: its lowest corner in units and its cell edge in units (finest cell << level).
+struct ChunkGrid {
+  Int3 origin;
+  int32_t cell = kUnitsPerMetre;
+  int level = 0;
+};
+
+/// Quantised samples of one chunk. q has kChunkSamples^3 entries, x fastest, then y, then z.
+/// signs has one word a row (y + z * kChunkSamples): bit x is set where sample x is solid (Q < 0).
+/// q is only defined at the ends of edges whose ends differ in sign; signs are always right.
+struct ChunkSamples {
+  std::pmr::vector<int32_t> q;
+  std::pmr::vector<uint64_t> signs;
+
+  explicit ChunkSamples(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : q(size_t{kChunkSamples} * kChunkSamples * kChunkSamples, memory),
+        signs(size_t{kChunkSamples} * kChunkSamples, memory) {}
+};
+
+/// A packed vertex, 16 bytes, the same on every backend.
+struct Vertex {
+  uint16_t x, y, z;            ///< 1/256 of the chunk's cell edge, from the chunk's origin: 0..8192
+  uint16_t material;           ///< index into the grammar's materials
+  int16_t normal_x, normal_y;  ///< octahedral, 1/32767; points out of the solid
+  uint16_t tag;                ///< index into the grammar's tags
+  uint16_t reserved;           ///< 0
+};
+static_assert(sizeof(Vertex) == 16);
+
+/// A crossed edge, and so a vertex, told apart without any tolerance.
+/// A grid edge starts at `corner` and runs along `axis` for one cell of `level`. A lateral edge (axis kLateral) joins
+/// the two levels `level` and `level + 1` at one corner of a seam; `fan` numbers the cycle of seam cells around it, so
+/// that every vertex's link is one cycle even where the two levels' fields differ.
+struct VertexKey {
+  Int3 corner;
+  uint8_t level = 0;
+  uint8_t axis = 0;
+  uint8_t fan = 0;
+  friend auto operator<=>(const VertexKey&, const VertexKey&) = default;
+};
+inline constexpr uint8_t kLateral = 3;
+
+/// Two 32-bit sums of mixed words, keyed by their index: equal on any device, in any order of addition.
+struct ContentHash {
+  uint32_t a = 0, b = 0;
+  friend auto operator<=>(const ContentHash&, const ContentHash&) = default;
+  uint64_t value() const { return uint64_t{b} << 32 | a; }
+};
+
+/// A part of a chunk that is drawn as a whole: the body, or one seam. Triangles index this part's own vertices.
+struct MeshPart {
+  std::pmr::vector<Vertex> vertices;
+  std::pmr::vector<uint32_t> indices;  ///< three a triangle, counter-clockwise seen from the void
+  std::pmr::vector<VertexKey> keys;    ///< one a vertex
+  ContentHash hash;                    ///< of vertices and indices
+
+  explicit MeshPart(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : vertices(memory), indices(memory), keys(memory) {}
+};
+
+}  // namespace sgm

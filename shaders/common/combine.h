@@ -1,0 +1,270 @@
+// What joins values: expressions, hard and round set operations, sums, morphs, displacement.
+
+FN Int mergeLabels(Int cutter, Int under) {
+  Int material = cutter & 0xFFFF;
+  Int tag = wrapSub(cutter, material);
+  Int under_material = under & 0xFFFF;
+  Int under_tag = wrapSub(under, under_material);
+  return sel(material == 0, under_material, material) | sel(tag == 0, under_tag, tag);
+}
+
+FN Dual selDual(Bool c, Dual a, Dual b) {
+  return makeDual(sel(c, a.v, b.v), sel(c, a.x, b.x), sel(c, a.y, b.y), sel(c, a.z, b.z), sel(c, a.label, b.label));
+}
+
+FN Dual opConstant(Params P) {
+  PRECISE Real zero = broadcast(0.0f);
+  return makeDual(broadcast(PF(P, 0)), zero, zero, zero, broadcastInt(0));
+}
+
+// Metres along a row: 1-3 anchor, 4-6 row already divided by 1024.
+FN Dual opCoordinate(Int px, Int py, Int pz, Params P) {
+  Real v = dotRow(offsetFrom(px, py, pz, P), PF(P, 4), PF(P, 5), PF(P, 6));
+  return makeDual(v, broadcast(PF(P, 4)), broadcast(PF(P, 5)), broadcast(PF(P, 6)), broadcastInt(0));
+}
+
+// 0..1 along a polyline. 0 segment count, then for each segment: start 1-3 (integer), vector 4-6, reciprocal of its squared
+// length, share of the whole before it, share of the whole of it (8 words from 1 + 9 k).
+FN Dual opSweep(Int px, Int py, Int pz, Params P) {
+  int count = PI(P, 0);
+  PRECISE Real best = broadcast(3.0e38f);
+  PRECISE Real v = broadcast(0.0f);
+  PRECISE Real gx = broadcast(0.0f);
+  PRECISE Real gy = broadcast(0.0f);
+  PRECISE Real gz = broadcast(0.0f);
+  for (int k = 0; k < count; ++k) {
+    int at = 1 + 9 * k;
+    Vec3 d = makeVec3(toReal(saturatingSub(px, broadcastInt(PI(P, at)))),
+                      toReal(saturatingSub(py, broadcastInt(PI(P, at + 1)))),
+                      toReal(saturatingSub(pz, broadcastInt(PI(P, at + 2)))));
+    PRECISE Real h = dotRow(d, PF(P, at + 3), PF(P, at + 4), PF(P, at + 5)) * PF(P, at + 6);
+    Bool middle = (h > 0.0f) && (h < 1.0f);
+    h = clampReal(h, 0.0f, 1.0f);
+    PRECISE Real ox = h * PF(P, at + 3);
+    PRECISE Real oy = h * PF(P, at + 4);
+    PRECISE Real oz = h * PF(P, at + 5);
+    ox = d.x - ox;
+    oy = d.y - oy;
+    oz = d.z - oz;
+    PRECISE Real s = lengthSquared3(makeVec3(ox, oy, oz));
+    Bool nearer = s < best;
+    best = sel(nearer, s, best);
+    PRECISE Real u = h * PF(P, at + 8);
+    u = u + PF(P, at + 7);
+    v = sel(nearer, u, v);
+    PRECISE Real slope = sel(middle, broadcast(PF(P, at + 6)) * PF(P, at + 8), broadcast(0.0f));
+    PRECISE Real sx = slope * PF(P, at + 3);
+    PRECISE Real sy = slope * PF(P, at + 4);
+    PRECISE Real sz = slope * PF(P, at + 5);
+    gx = sel(nearer, sx, gx);
+    gy = sel(nearer, sy, gy);
+    gz = sel(nearer, sz, gz);
+  }
+  return makeDual(v, gx, gy, gz, broadcastInt(0));
+}
+
+FN Dual opNegate(Dual a) { return makeDual(-a.v, -a.x, -a.y, -a.z, a.label); }
+
+FN Dual opAbsolute(Dual a) { return selDual(a.v < 0.0f, opNegate(a), a); }
+
+FN Dual opFloor(Dual a) {
+  PRECISE Real zero = broadcast(0.0f);
+  return makeDual(floorReal(clampReal(a.v, -1.0e9f, 1.0e9f)), zero, zero, zero, a.label);
+}
+
+FN Dual opSquareRoot(Dual a) {
+  PRECISE Real c = maxReal(a.v, broadcast(0.0f));
+  PRECISE Real inv = rsqrtReal(c);
+  PRECISE Real v = c * inv;
+  PRECISE Real k = sel(c > 0.0f, inv * 0.5f, broadcast(0.0f));
+  PRECISE Real x = a.x * k;
+  PRECISE Real y = a.y * k;
+  PRECISE Real z = a.z * k;
+  return makeDual(v, x, y, z, a.label);
+}
+
+FN Dual opAdd(Dual a, Dual b) {
+  PRECISE Real v = a.v + b.v;
+  PRECISE Real x = a.x + b.x;
+  PRECISE Real y = a.y + b.y;
+  PRECISE Real z = a.z + b.z;
+  return makeDual(v, x, y, z, a.label);
+}
+
+FN Dual opSubtract(Dual a, Dual b) {
+  PRECISE Real v = a.v - b.v;
+  PRECISE Real x = a.x - b.x;
+  PRECISE Real y = a.y - b.y;
+  PRECISE Real z = a.z - b.z;
+  return makeDual(v, x, y, z, a.label);
+}
+
+// p * a + q * b for the gradients of a product and of a quotient.
+FN Real twoProducts(Real p, Real a, Real q, Real b) {
+  PRECISE Real s = p * a;
+  PRECISE Real t = q * b;
+  PRECISE Real r = s + t;
+  return r;
+}
+
+// Products of grammar expressions are held to 1e18, so that nothing becomes infinite or NaN: Vulkan promises neither.
+FN Real holdReal(Real x) { return clampReal(x, -1.0e18f, 1.0e18f); }
+
+FN Dual opMultiply(Dual a, Dual b) {
+  PRECISE Real v = holdReal(a.v) * holdReal(b.v);
+  v = holdReal(v);
+  return makeDual(v, twoProducts(a.v, b.x, b.v, a.x), twoProducts(a.v, b.y, b.v, a.y),
+                  twoProducts(a.v, b.z, b.v, a.z), a.label);
+}
+
+FN Dual opDivide(Dual a, Dual b) {
+  PRECISE Real inv = holdReal(divideReal(broadcast(1.0f), holdReal(b.v)));
+  PRECISE Real v = holdReal(a.v) * inv;
+  v = holdReal(v);
+  PRECISE Real k = -v * inv;
+  return makeDual(v, twoProducts(inv, a.x, k, b.x), twoProducts(inv, a.y, k, b.y), twoProducts(inv, a.z, k, b.z),
+                  a.label);
+}
+
+FN Dual opMinimum(Dual a, Dual b) { return selDual(b.v < a.v, b, a); }
+FN Dual opMaximum(Dual a, Dual b) { return selDual(b.v > a.v, b, a); }
+
+// a without b: the wall that b leaves keeps the material that it was cut into unless b brings one.
+FN Dual opCut(Dual a, Dual b) {
+  Dual n = opNegate(b);
+  n.label = mergeLabels(b.label, a.label);
+  return selDual(n.v > a.v, n, a);
+}
+
+FN Dual opLess(Dual a, Dual b) {
+  PRECISE Real zero = broadcast(0.0f);
+  return makeDual(sel(a.v < b.v, broadcast(1.0f), zero), zero, zero, zero, broadcastInt(0));
+}
+
+// 0 lower edge, 1 reciprocal of (upper - lower), which is negative for a falling step.
+FN Dual opSmoothstep(Dual a, Params P) {
+  PRECISE Real t = a.v - PF(P, 0);
+  t = t * PF(P, 1);
+  t = clampReal(t, 0.0f, 1.0f);
+  PRECISE Real u = t * -2.0f;
+  u = u + 3.0f;
+  PRECISE Real v = t * t;
+  v = v * u;
+  PRECISE Real k = 1.0f - t;
+  k = k * t;
+  k = k * 6.0f;
+  k = k * PF(P, 1);
+  PRECISE Real x = a.x * k;
+  PRECISE Real y = a.y * k;
+  PRECISE Real z = a.z * k;
+  return makeDual(v, x, y, z, a.label);
+}
+
+// (1 - c) a + c b: exactly a at c = 0 and b at c = 1.
+FN Dual opMix(Dual a, Dual b, Dual c) {
+  PRECISE Real k = 1.0f - c.v;
+  PRECISE Real slope = b.v - a.v;
+  PRECISE Real x = slope * c.x;
+  x = twoProducts(k, a.x, c.v, b.x) + x;
+  PRECISE Real y = slope * c.y;
+  y = twoProducts(k, a.y, c.v, b.y) + y;
+  PRECISE Real z = slope * c.z;
+  z = twoProducts(k, a.z, c.v, b.z) + z;
+  return makeDual(twoProducts(k, a.v, c.v, b.v), x, y, z, a.label);
+}
+
+// opMix with t clamped to 0..1; the label is the nearer end's.
+FN Dual opMorph(Dual a, Dual b, Dual t) {
+  PRECISE Real w = clampReal(t.v, 0.0f, 1.0f);
+  PRECISE Real k = 1.0f - w;
+  PRECISE Real slope = b.v - a.v;
+  slope = sel((t.v > 0.0f) && (t.v < 1.0f), slope, broadcast(0.0f));
+  PRECISE Real x = slope * t.x;
+  x = twoProducts(k, a.x, w, b.x) + x;
+  PRECISE Real y = slope * t.y;
+  y = twoProducts(k, a.y, w, b.y) + y;
+  PRECISE Real z = slope * t.z;
+  z = twoProducts(k, a.z, w, b.z) + z;
+  return makeDual(twoProducts(k, a.v, w, b.v), x, y, z, sel(w < 0.5f, a.label, b.label));
+}
+
+// a + 1024 b: a in units, b in metres.
+FN Dual opDisplace(Dual a, Dual b) {
+  PRECISE Real v = b.v * 1024.0f;
+  v = a.v + v;
+  PRECISE Real x = b.x * 1024.0f;
+  x = a.x + x;
+  PRECISE Real y = b.y * 1024.0f;
+  y = a.y + y;
+  PRECISE Real z = b.z * 1024.0f;
+  z = a.z + z;
+  return makeDual(v, x, y, z, a.label);
+}
+
+// Round union of many (design.md section 3). Two registers carry it: the nearest operand, and sum max(k - d, 0)^2.
+FN Dual roundNearest() {
+  PRECISE Real zero = broadcast(0.0f);
+  return makeDual(broadcast(1.0e9f), zero, zero, zero, broadcastInt(0));
+}
+FN Dual roundEmpty() {
+  PRECISE Real zero = broadcast(0.0f);
+  return makeDual(zero, zero, zero, zero, broadcastInt(0));
+}
+FN Dual roundAccumulate(Dual sum, Dual d, float k) {
+  PRECISE Real h = k - d.v;
+  h = clampReal(h, 0.0f, 1.0e9f);
+  PRECISE Real v = h * h;
+  v = sum.v + v;
+  PRECISE Real w = h * -2.0f;
+  PRECISE Real x = w * d.x;
+  x = sum.x + x;
+  PRECISE Real y = w * d.y;
+  y = sum.y + y;
+  PRECISE Real z = w * d.z;
+  z = sum.z + z;
+  return makeDual(v, x, y, z, sum.label);
+}
+FN Dual opRoundEnd(Dual nearest, Dual sum, Params P) {
+  PRECISE Real inv = rsqrtReal(sum.v);
+  PRECISE Real root = sum.v * inv;
+  PRECISE Real v = maxReal(nearest.v, broadcast(PF(P, 0)));
+  v = v - root;
+  Bool apart = nearest.v >= PF(P, 0);
+  PRECISE Real w = inv * -0.5f;
+  PRECISE Real x = sum.x * w;
+  PRECISE Real y = sum.y * w;
+  PRECISE Real z = sum.z * w;
+  return makeDual(v, sel(apart, nearest.x, x), sel(apart, nearest.y, y), sel(apart, nearest.z, z), nearest.label);
+}
+
+// The weight of any distance under a compact-kernel sum. 0 reciprocal inner radius, 1 reciprocal of the squared support.
+FN Dual opKernel(Dual d, Params P) {
+  PRECISE Real r = d.v * PF(P, 0);
+  r = r + 1.0f;
+  r = clampReal(r, 0.0f, 1.0e9f);
+  PRECISE Real x = r * r;
+  x = x * PF(P, 1);
+  Corner k = kernelOf(x);
+  PRECISE Real s = r * 2.0f;
+  s = s * PF(P, 1);
+  s = s * PF(P, 0);
+  s = s * k.ga;
+  PRECISE Real gx = d.x * s;
+  PRECISE Real gy = d.y * s;
+  PRECISE Real gz = d.z * s;
+  return makeDual(k.v, gx, gy, gz, d.label);
+}
+
+// Two registers carry a sum: the heaviest operand (for its label), and the sum itself.
+FN Dual sumHeaviest(Dual heaviest, Dual w) { return selDual(w.v > heaviest.v, w, heaviest); }
+
+// 0 threshold, 1 length: (threshold - sum) * length.
+FN Dual opSumEnd(Dual heaviest, Dual sum, Params P) {
+  PRECISE Real v = PF(P, 0) - sum.v;
+  v = v * PF(P, 1);
+  float k = -PF(P, 1);
+  PRECISE Real x = sum.x * k;
+  PRECISE Real y = sum.y * k;
+  PRECISE Real z = sum.z * k;
+  return makeDual(v, x, y, z, heaviest.label);
+}

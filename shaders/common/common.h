@@ -1,0 +1,7 @@
+// All of the field's mathematics, in order. See portable.h.
+#include "portable.h"
+#include "real.h"
+#include "noise.h"
+#include "primitives.h"
+#include "combine.h"
+#include "attributes.h"

@@ -1,0 +1,107 @@
+// The subset of GLSL, C++ and CUDA in which the field's mathematics is written once (arithmetic contract, rule 2).
+//
+// Only + - *, comparison, conversion and integer operations on values; everything branch-free through sel(). A value that
+// differs by sample has type Real, Int, Uint or Bool; a value equal for all samples has type float, int or uint. Every
+// local is declared PRECISE, so that GLSL contracts nothing. No header here has an include guard: a C++ source includes
+// common.h once in each namespace for which it has defined the types (scalar below, wide in backend/cpu/wide.h).
+
+#ifndef __cplusplus
+
+#define FN
+#define PRECISE precise
+#define Real float
+#define Int int
+#define Uint uint
+#define Bool bool
+#define Params uint
+#define PF(P, i) uintBitsToFloat(params[(P) + uint(i)])
+#define PI(P, i) int(params[(P) + uint(i)])
+#define PU(P, i) params[(P) + uint(i)]
+#define toReal(i) float(i)
+#define toInt(r) int(r)
+#define toIntBits(u) int(u)
+#define toUintBits(i) uint(i)
+#define bitsToReal(u) uintBitsToFloat(u)
+#define realToBits(r) floatBitsToUint(r)
+#define broadcast(x) (x)
+#define broadcastInt(x) (x)
+FN Real sel(Bool c, Real a, Real b) { return c ? a : b; }
+FN Int sel(Bool c, Int a, Int b) { return c ? a : b; }
+FN Int wrapAdd(Int a, Int b) { return a + b; }
+FN Int wrapSub(Int a, Int b) { return a - b; }
+FN Int wrapMul(Int a, Int b) { return a * b; }
+
+#else
+
+#define PRECISE
+#define PI(P, i) static_cast<int>((P)[i])
+#define PU(P, i) (P)[i]
+#define PF(P, i) uniformFloat((P)[i])
+
+#ifndef SGM_WIDE
+// Plain scalars: the reference in bits for every other backend.
+#ifdef __CUDACC__
+#define FN __host__ __device__ inline
+#else
+#define FN [[gnu::always_inline]] inline
+#endif
+typedef uint32_t uint;
+typedef float Real;
+typedef int32_t Int;
+typedef uint32_t Uint;
+typedef bool Bool;
+typedef const uint32_t* Params;
+FN float uniformFloat(uint u) {
+  float f;
+  memcpy(&f, &u, 4);
+  return f;
+}
+FN Real bitsToReal(Uint u) { return uniformFloat(u); }
+FN Uint realToBits(Real r) {
+  Uint u;
+  memcpy(&u, &r, 4);
+  return u;
+}
+FN Real toReal(Int i) { return static_cast<Real>(i); }
+FN Int toInt(Real r) { return static_cast<Int>(r); }
+FN Int toIntBits(Uint u) { return static_cast<Int>(u); }
+FN Uint toUintBits(Int i) { return static_cast<Uint>(i); }
+FN Real broadcast(float x) { return x; }
+FN Int broadcastInt(int x) { return x; }
+FN Real sel(Bool c, Real a, Real b) { return c ? a : b; }
+FN Int sel(Bool c, Int a, Int b) { return c ? a : b; }
+FN Int wrapAdd(Int a, Int b) { return static_cast<Int>(static_cast<Uint>(a) + static_cast<Uint>(b)); }
+FN Int wrapSub(Int a, Int b) { return static_cast<Int>(static_cast<Uint>(a) - static_cast<Uint>(b)); }
+FN Int wrapMul(Int a, Int b) { return static_cast<Int>(static_cast<Uint>(a) * static_cast<Uint>(b)); }
+#endif
+
+#endif
+
+struct Vec3 {
+  Real x, y, z;
+};
+
+// A value, its gradient by world units, and the label (tag << 16 | material) of the shape that dominates it.
+// Where only the value is wanted the compiler drops the rest.
+struct Dual {
+  Real v, x, y, z;
+  Int label;
+};
+
+FN Vec3 makeVec3(Real x, Real y, Real z) {
+  Vec3 r;
+  r.x = x;
+  r.y = y;
+  r.z = z;
+  return r;
+}
+
+FN Dual makeDual(Real v, Real x, Real y, Real z, Int label) {
+  Dual r;
+  r.v = v;
+  r.x = x;
+  r.y = y;
+  r.z = z;
+  r.label = label;
+  return r;
+}

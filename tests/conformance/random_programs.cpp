@@ -1,0 +1,401 @@
+#include "random_programs.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "field/builder.h"
+
+namespace sgm {
+
+namespace {
+
+class Generator {
+ public:
+  Generator(std::mt19937& random, Int3 centre, int32_t extent, int32_t finest_cell)
+      : random_(random), centre_(centre), extent_(extent), builder_(finest_cell, pick(2) == 0, label()) {}
+
+  ProgramBuilder& builder() { return builder_; }
+
+  int pick(int n) { return static_cast<int>(random_() % static_cast<uint32_t>(n)); }
+  float between(double a, double b) {
+    return static_cast<float>(a + (b - a) * static_cast<double>(random_()) / 4294967295.0);
+  }
+  uint32_t label() { return makeLabel(static_cast<uint16_t>(pick(5)), static_cast<uint16_t>(pick(4))); }
+  Int3 place(double spread = 1) {
+    auto axis = [&](int32_t c) {
+      return saturate(int64_t{c} + static_cast<int64_t>(between(-spread, spread) * static_cast<float>(extent_)));
+    };
+    return {axis(centre_.x), axis(centre_.y), axis(centre_.z)};
+  }
+  float size() { return between(0.05, 0.5) * static_cast<float>(extent_); }
+
+  Frame frame(double spread = 1) {
+    // Rows of a random unit quaternion; now and then the identity.
+    Frame f;
+    f.origin = place(spread);
+    if (pick(3) == 0) return f;
+    double q[4], s = 0;
+    for (double& c : q) {
+      c = double{between(-1, 1)};
+      s += c * c;
+    }
+    s = std::sqrt(s) + 1e-9;
+    for (double& c : q) c /= s;
+    const double w = q[0], x = q[1], y = q[2], z = q[3];
+    const double rows[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+                            2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+                            2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+    for (size_t i = 0; i < 9; ++i) f.rows[i] = static_cast<float>(rows[i]);
+    return f;
+  }
+
+  std::vector<Int3> polygon() {
+    // Star-shaped, hence simple, counter-clockwise seen from +y: z falls as the angle from +x grows.
+    const int n = 3 + pick(6);
+    std::vector<Int3> corners;
+    for (int i = 0; i < n; ++i) {
+      const double a = 6.283185307179586 * i / n, r = double{size()};
+      corners.push_back({static_cast<int32_t>(r * std::cos(a)), 0, static_cast<int32_t>(-r * std::sin(a))});
+    }
+    return corners;
+  }
+
+  NoiseSpec noiseSpec() {
+    return {place(3), 1 + pick(pick(2) ? 20 : extent_), static_cast<uint32_t>(1 + pick(5)),
+            static_cast<uint32_t>(random_())};
+  }
+
+  Value primitive(Op op, double spread = 1) {
+    switch (op) {
+      case Op::sphere:
+        return builder_.sphere(place(spread), size(), label());
+      case Op::box:
+        return builder_.box(frame(spread), size(), size(), size(), label());
+      case Op::cylinder:
+        return builder_.cylinder(frame(spread), size(), size(), label());
+      case Op::truncone:
+        return builder_.truncone(frame(spread), size(), size() * (pick(3) ? 1.0f : 0.0f), size(), label());
+      case Op::capsule: {
+        const float none = pick(6) ? 1.0f : 0.0f;
+        return builder_.capsule(place(spread), size() * none, -size() * none, size() * none, size(), label());
+      }
+      case Op::torus:
+        return builder_.torus(frame(spread), size() * 1.5f, size() * 0.5f, label());
+      case Op::ellipsoid:
+        return builder_.ellipsoid(frame(spread), size(), size(), size(), label());
+      case Op::superquadric:
+        return builder_.superquadric(frame(spread), size(), size(), size(), between(2, 20), label());
+      case Op::power_morph: {
+        const float sizes[6] = {size(), size(), size(), size(), size(), size()};
+        return builder_.powerMorph(frame(spread), sizes, expression(2), label());
+      }
+      case Op::halfspace:
+        return builder_.halfspace(frame(spread), label());
+      case Op::prism:
+        return builder_.prism(frame(spread), size(), polygon(), label());
+      case Op::blob:
+        return builder_.blobWeight(place(spread), size(), label());
+      default:
+        return builder_.kernelWeight(primitive(Op::sphere, spread), size());
+    }
+  }
+
+  Value anyPrimitive() {
+    static constexpr Op kAll[] = {Op::sphere,      Op::box,       Op::cylinder,  Op::truncone,
+                                  Op::capsule,     Op::torus,     Op::ellipsoid, Op::superquadric,
+                                  Op::power_morph, Op::halfspace, Op::prism};
+    // Some operands far outside, with large positive values, which a wrong pruning would let through.
+    return primitive(kAll[pick(static_cast<int>(std::size(kAll)))], pick(5) == 0 ? 6.0 : 1.0);
+  }
+
+  Value expression(int depth) {
+    switch (pick(depth > 0 ? 14 : 4)) {
+      case 0:
+        return builder_.constant(between(-1, 1.5));
+      case 1: {
+        const Frame f = frame();
+        return builder_.coordinate(f.origin, f.rows[0], f.rows[1], f.rows[2]);
+      }
+      case 2: {
+        const NoiseSpec n = noiseSpec();
+        return builder_.noise(n, static_cast<uint32_t>(pick(static_cast<int>(n.octaves) + 1)));
+      }
+      case 3: {
+        const Int3 line[] = {place(), place(), place(), place()};
+        return builder_.sweep(line);
+      }
+      case 4:
+        return builder_.unary(Op::negate, expression(depth - 1));
+      case 5:
+        return builder_.unary(Op::absolute, expression(depth - 1));
+      case 6:
+        return builder_.unary(Op::floor, expression(depth - 1));
+      case 7:
+        return builder_.unary(Op::square_root, expression(depth - 1));
+      case 8:
+        return builder_.smoothstep(expression(depth - 1), between(-3, 0),
+                                   between(0.5, 3) * (pick(2) ? 1.0f : -1.0f) - 3.5f);
+      case 9: {
+        const Value a = expression(depth - 1), b = expression(depth - 1);
+        return builder_.ternary(Op::mix, a, b, expression(depth - 1));
+      }
+      case 10: {
+        const Value a = expression(depth - 1);
+        return builder_.binary(Op::divide, a, expression(depth - 1));
+      }
+      default: {
+        static constexpr Op kAll[] = {Op::add, Op::subtract, Op::multiply, Op::less, Op::minimum, Op::maximum};
+        const Value a = expression(depth - 1);
+        return builder_.binary(kAll[pick(6)], a, expression(depth - 1));
+      }
+    }
+  }
+
+  Value shape(int depth) {
+    if (depth <= 0) return anyPrimitive();
+    switch (pick(10)) {
+      case 0:
+        return chain(Op::minimum, depth);
+      case 1:
+        return chain(Op::maximum, depth);
+      case 2:
+        return chain(Op::cut, depth);
+      case 3:
+        return round(depth);
+      case 4:
+        return builder_.unary(Op::negate, builder_.unary(Op::negate, round(depth)));
+      case 5:
+        return sum(depth);
+      case 6: {
+        const Value a = shape(depth - 1), b = shape(depth - 1);
+        const Value t = pick(3) ? expression(2) : builder_.constant(between(-0.5, 1.5));
+        return builder_.ternary(Op::morph, a, b, t);
+      }
+      case 7: {
+        const Value a = shape(depth - 1);
+        const NoiseSpec n = noiseSpec();
+        const Value amplitude = builder_.constant(between(0, 0.1) * static_cast<float>(extent_) / 1024.0f);
+        return builder_.binary(Op::displace, a, builder_.binary(Op::multiply, amplitude, builder_.noise(n, n.octaves)));
+      }
+      case 8: {
+        const Value scale = builder_.constant(between(0, 0.1) * static_cast<float>(extent_) / 1024.0f);
+        Value moved[3];
+        for (Value& m : moved) m = builder_.binary(Op::multiply, scale, builder_.noise(noiseSpec(), 1));
+        builder_.pushWarp(moved[0], moved[1], moved[2]);
+        const Value inner = shape(depth - 1);
+        builder_.popWarp();
+        return inner;
+      }
+      default:
+        return chain(Op::minimum, depth);
+    }
+  }
+
+  Value chain(Op op, int depth) {
+    Value v = shape(depth - 1);
+    for (int n = 1 + pick(4); n > 0; --n) v = builder_.binary(op, v, shape(depth - 1));
+    return v;
+  }
+
+  Value round(int depth) {
+    const auto acc = builder_.beginRound(size() * 0.3f);
+    for (int n = 1 + pick(6); n > 0; --n) builder_.addRound(acc, shape(depth - 1));
+    return builder_.endRound(acc);
+  }
+
+  Value sum(int depth) {
+    const auto acc = builder_.beginSum();
+    for (int n = 1 + pick(8); n > 0; --n) {
+      const bool ball = pick(3) != 0;
+      builder_.addSum(acc, ball ? primitive(Op::blob) : builder_.kernelWeight(shape(depth - 1), size()));
+    }
+    return builder_.endSum(acc, 0.2263f, size());
+  }
+
+  IntBox influence() {
+    const Int3 c = place(0.5);
+    const auto r = static_cast<int32_t>(between(0.3, 2) * static_cast<float>(extent_));
+    return IntBox{c, c}.grown(r);
+  }
+
+ private:
+  std::mt19937& random_;
+  Int3 centre_;
+  int32_t extent_;
+  ProgramBuilder builder_;
+};
+
+}  // namespace
+
+FieldProgram randomProgram(std::mt19937& random, const RandomProgramOptions& o) {
+  Generator g(random, o.centre, o.extent, o.finest_cell);
+  const int layers = 1 + g.pick(3);
+  for (int layer = 0; layer < layers; ++layer) {
+    const int adds = g.pick(o.groups + 1);
+    for (int i = 0; i < o.groups; ++i) {
+      const Value root = g.shape(g.pick(o.depth + 1));
+      const IntBox influence = o.whole_influence ? IntBox::everything() : g.influence();
+      // A group too deep for the registers is left out by the builder: its own error has a test.
+      (void)g.builder().group(root, influence, static_cast<uint32_t>(layer), i >= adds);
+    }
+  }
+  return g.builder().finish();
+}
+
+FieldProgram programOf(Op op, std::mt19937& random, Int3 centre) {
+  Generator g(random, centre, 16 * 1024, 512);
+  ProgramBuilder& b = g.builder();
+  auto expression = [&] { return g.expression(1); };
+  Value v;
+  switch (op) {
+    case Op::constant:
+      v = b.constant(g.between(-100, 100));
+      break;
+    case Op::coordinate:
+      v = b.coordinate(g.place(), g.between(-1, 1), g.between(-1, 1), g.between(-1, 1));
+      break;
+    case Op::noise: {
+      const NoiseSpec n = g.noiseSpec();
+      v = b.noise(n, n.octaves);
+      break;
+    }
+    case Op::sweep: {
+      const Int3 line[] = {g.place(), g.place(), g.place()};
+      v = b.sweep(line);
+      break;
+    }
+    case Op::copy:
+      v = b.unary(Op::copy, expression());
+      break;
+    case Op::negate:
+    case Op::absolute:
+    case Op::floor:
+    case Op::square_root:
+      v = b.unary(op, expression());
+      break;
+    case Op::add:
+    case Op::subtract:
+    case Op::multiply:
+    case Op::divide:
+    case Op::less: {
+      const Value a = expression();
+      v = b.binary(op, a, expression());
+      break;
+    }
+    case Op::smoothstep:
+      v = b.smoothstep(expression(), -0.5f, 0.75f);
+      break;
+    case Op::mix: {
+      const Value a = expression(), c = expression();
+      v = b.ternary(op, a, c, expression());
+      break;
+    }
+    case Op::minimum:
+    case Op::maximum:
+    case Op::cut: {
+      const Value a = g.anyPrimitive();
+      v = b.binary(op, a, g.anyPrimitive());
+      break;
+    }
+    case Op::morph: {
+      const Value a = g.anyPrimitive(), c = g.anyPrimitive();
+      v = b.ternary(op, a, c, expression());
+      break;
+    }
+    case Op::displace: {
+      const Value a = g.anyPrimitive();
+      v = b.binary(op, a, expression());
+      break;
+    }
+    case Op::round_begin:
+    case Op::round_add:
+    case Op::round_end:
+      v = g.round(1);
+      break;
+    case Op::sum_begin:
+    case Op::sum_add:
+    case Op::sum_end:
+      v = g.sum(1);
+      break;
+    case Op::warp: {
+      const Value x = expression(), y = expression();
+      b.pushWarp(x, y, expression());
+      v = g.anyPrimitive();
+      b.popWarp();
+      break;
+    }
+    default:
+      v = g.primitive(op);
+      break;
+  }
+  (void)b.group(v, IntBox::everything(), 0, false);
+  return b.finish();
+}
+
+PointSet randomPoints(std::mt19937& random, Int3 centre, int32_t extent, size_t count) {
+  PointSet s;
+  auto axis = [&](int32_t c) {
+    const auto offset = static_cast<int64_t>(random() % (2u * static_cast<uint32_t>(extent))) - extent;
+    return saturate(int64_t{c} + offset);
+  };
+  for (size_t i = 0; i < count; ++i) {
+    s.x.push_back(axis(centre.x));
+    s.y.push_back(axis(centre.y));
+    s.z.push_back(axis(centre.z));
+  }
+  return s;
+}
+
+PointSet gridPoints(const IntBox& box, int32_t step) {
+  PointSet s;
+  for (int64_t z = box.lo.z; z <= box.hi.z; z += step) {
+    for (int64_t y = box.lo.y; y <= box.hi.y; y += step) {
+      for (int64_t x = box.lo.x; x <= box.hi.x; x += step) {
+        s.x.push_back(static_cast<int32_t>(x));
+        s.y.push_back(static_cast<int32_t>(y));
+        s.z.push_back(static_cast<int32_t>(z));
+      }
+    }
+  }
+  return s;
+}
+
+Evaluated evaluate(const FieldKernels& kernels, const ProgramView& program, const Points& points) {
+  Evaluated e;
+  const size_t n = points.count;
+  e.q.resize(n);
+  e.value.resize(n);
+  e.gx.resize(n);
+  e.gy.resize(n);
+  e.gz.resize(n);
+  e.nx.resize(n);
+  e.ny.resize(n);
+  e.label.resize(n);
+  EvalScratch scratch;
+  kernels.samples(program, points, scratch, e.q.data());
+  kernels.attributes(program, points, scratch,
+                     {e.value.data(), e.gx.data(), e.gy.data(), e.gz.data(), e.nx.data(), e.ny.data(), e.label.data()});
+  return e;
+}
+
+size_t differentBits(const Evaluated& a, const Evaluated& b) {
+  size_t different = 0;
+  auto compare = [&](const auto& u, const auto& v) {
+    if (u.size() != v.size()) {
+      different += u.size() + v.size();
+      return;
+    }
+    for (size_t i = 0; i < u.size(); ++i) different += std::memcmp(&u[i], &v[i], sizeof u[i]) != 0;
+  };
+  compare(a.q, b.q);
+  compare(a.value, b.value);
+  compare(a.gx, b.gx);
+  compare(a.gy, b.gy);
+  compare(a.gz, b.gz);
+  compare(a.nx, b.nx);
+  compare(a.ny, b.ny);
+  compare(a.label, b.label);
+  return different;
+}
+
+}  // namespace sgm
