@@ -1,0 +1,164 @@
+#include <limits>
+
+#include "scenes.h"
+
+using namespace sgm;
+
+namespace {
+
+struct Stage {
+  TestMesh mesh;
+  std::vector<RenderMaterial> materials{materialByName("limestone")};
+
+  RenderScene scene(int width, int height) const {
+    RenderScene s;
+    s.vertices = mesh.vertices;
+    s.indices = mesh.indices;
+    s.materials = materials;
+    s.camera.width = width;
+    s.camera.height = height;
+    return s;
+  }
+};
+
+void requireNoMessages(const Renderer& renderer) {
+  for (const std::string& message : renderer.messages()) {
+    INFO(message);
+    CHECK(message.empty());
+  }
+  REQUIRE(renderer.messages().empty());
+}
+
+}  // namespace
+
+TEST_CASE("a sphere in the headlamp is lit in the middle and dark around", "[render]") {
+  auto renderer = testRenderer();
+  if (!renderer) return;
+  const Stage stage{sphereMesh({0, 0, -6}, 2, false)};
+  const RenderScene scene = stage.scene(160, 120);
+  auto image = renderer->render(scene);
+  REQUIRE(image);
+  REQUIRE(image->rgba.size() == size_t{160} * 120 * 4);
+  CHECK(brightness(*image, 80, 60, 12) > 60);
+  CHECK(brightness(*image, 4, 4, 8) < 20);
+  CHECK(brightness(*image, 155, 115, 8) < 20);
+  for (size_t i = 3; i < image->rgba.size(); i += 4) REQUIRE(image->rgba[i] == 255);
+  requireNoMessages(*renderer);
+}
+
+TEST_CASE("right is right and up is up", "[render]") {
+  auto renderer = testRenderer();
+  if (!renderer) return;
+  const Stage stage{sphereMesh({2.2f, 1.6f, -6}, 0.8f, false)};
+  auto image = renderer->render(stage.scene(160, 120));
+  REQUIRE(image);
+  CHECK(brightness(*image, 120, 30, 20) > 4 * brightness(*image, 40, 30, 20));
+  CHECK(brightness(*image, 120, 30, 20) > 4 * brightness(*image, 120, 90, 20));
+}
+
+TEST_CASE("a void is seen from inside, and its walls' backs are open", "[render]") {
+  auto renderer = testRenderer();
+  if (!renderer) return;
+  const Stage stage{sphereMesh({0, 0, 0}, 4, true)};
+  auto inside = renderer->render(stage.scene(96, 96));
+  REQUIRE(inside);
+  CHECK(brightness(*inside, 48, 48, 20) > 60);
+  RenderScene scene = stage.scene(96, 96);
+  scene.camera.position = {0, 0, 9};
+  scene.headlamp.reach = 20;
+  auto outside = renderer->render(scene);
+  REQUIRE(outside);
+  CHECK(brightness(*outside, 48, 48, 20) > 60);  // the far wall, through the near one
+}
+
+TEST_CASE("every pattern draws, under every background and supersampling, with no word from the validation layer",
+          "[render]") {
+  auto renderer = testRenderer();
+  if (!renderer) return;
+  Stage stage{sphereMesh({0, 0, -6}, 2, false)};
+  for (const char* name : {"limestone", "calcite", "brick", "clay", "cloud", "nothing anyone has heard of"}) {
+    for (Background background : {Background::cave, Background::sky}) {
+      stage.materials = {materialByName(name)};
+      RenderScene scene = stage.scene(65, 47);  // odd sizes: the last workgroup is not full
+      scene.background = background;
+      scene.supersample = background == Background::sky ? 3 : 1;
+      scene.lamps.assign(kMaxLamps, RenderLamp{{3, 3, -3}, {1, 1, 1}, 2});
+      auto image = renderer->render(scene);
+      INFO(name);
+      REQUIRE(image);
+      CHECK(brightness(*image, 32, 23, 8) > 15);
+    }
+  }
+  requireNoMessages(*renderer);
+}
+
+TEST_CASE("the same scene gives the same bytes, wherever its origin lies", "[render]") {
+  auto renderer = testRenderer();
+  if (!renderer) return;
+  const Stage stage{sphereMesh({0, 0, 0}, 4, true)};
+  RenderScene scene = stage.scene(120, 80);
+  auto first = renderer->render(scene);
+  auto again = renderer->render(scene);
+  REQUIRE((first && again));
+  CHECK(first->rgba == again->rgba);
+  scene.origin = {1024 * 1024 * 1500, -1024 * 1024 * 900, 1024 * 1024};  // whole periods of the patterns
+  auto far_away = renderer->render(scene);
+  REQUIRE(far_away);
+  CHECK(first->rgba == far_away->rgba);
+  scene.origin = {4096, 0, 0};
+  auto elsewhere = renderer->render(scene);
+  REQUIRE(elsewhere);
+  CHECK(first->rgba != elsewhere->rgba);
+
+  auto other = testRenderer();
+  scene.origin = {};
+  auto on_other = other->render(scene);
+  REQUIRE(on_other);
+  CHECK(first->rgba == on_other->rgba);
+}
+
+TEST_CASE("an empty mesh is a picture of nothing", "[render]") {
+  auto renderer = testRenderer();
+  if (!renderer) return;
+  const Stage stage;
+  auto image = renderer->render(stage.scene(32, 32));
+  REQUIRE(image);
+  CHECK(brightness(*image, 16, 16, 30) < 20);
+  requireNoMessages(*renderer);
+}
+
+TEST_CASE("scenes that make no sense are refused", "[render]") {
+  auto renderer = testRenderer();
+  if (!renderer) return;
+  Stage stage{sphereMesh({0, 0, -6}, 2, false, 4)};
+  const auto refused = [&](auto change) {
+    RenderScene scene = stage.scene(32, 32);
+    change(scene);
+    auto image = renderer->render(scene);
+    return !image && image.error().code == Code::invalid_argument && !image.error().message.empty();
+  };
+  CHECK(refused([](RenderScene& s) { s.camera.width = 0; }));
+  CHECK(refused([](RenderScene& s) { s.camera.height = kMaxPicture + 1; }));
+  CHECK(refused([](RenderScene& s) { s.camera.fov_degrees = 0; }));
+  CHECK(refused([](RenderScene& s) { s.camera.target = s.camera.position; }));
+  CHECK(refused([](RenderScene& s) { s.camera.position.x = std::numeric_limits<float>::quiet_NaN(); }));
+  CHECK(refused([](RenderScene& s) { s.materials = {}; }));
+  CHECK(refused([](RenderScene& s) { s.indices = s.indices.first(4); }));
+  CHECK(refused([](RenderScene& s) { s.vertices = s.vertices.first(3); }));
+  CHECK(refused([](RenderScene& s) { s.lamps.resize(kMaxLamps + 1); }));
+  CHECK(refused([](RenderScene& s) { s.supersample = 4; }));
+  CHECK(refused([](RenderScene& s) { s.fog_distance = 0; }));
+  CHECK(refused([](RenderScene& s) { s.sun_direction = {0, 0, 0}; }));
+  stage.mesh.vertices[0].position.y = std::numeric_limits<float>::infinity();
+  CHECK(refused([](RenderScene&) {}));
+}
+
+TEST_CASE("a device that is not there is refused by number", "[render]") {
+  if (!listGpus()) return;
+  GpuOptions options;
+  options.index = 1000;
+  auto renderer = Renderer::create(options);
+  REQUIRE(!renderer);
+  CHECK(renderer.error().code == Code::unsupported);
+  CHECK(renderer.error().message.find("1000") != std::string::npos);
+}

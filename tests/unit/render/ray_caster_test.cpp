@@ -1,0 +1,72 @@
+#include "render/ray_caster.h"
+
+#include <random>
+
+#include "scenes.h"
+
+using namespace sgm;
+
+namespace {
+
+// The nearest hit, asked of each triangle alone.
+std::optional<RayHit> castSlowly(const TestMesh& mesh, glm::vec3 from, glm::vec3 direction, float max_distance) {
+  std::optional<RayHit> nearest;
+  for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {
+    const std::span<const uint32_t> one(mesh.indices.data() + size_t{3} * t, 3);
+    const RayCaster alone(mesh.vertices, one);
+    auto hit = alone.cast(from, direction, nearest ? nearest->distance : max_distance);
+    if (hit) nearest = RayHit{hit->distance, hit->front, t};
+  }
+  return nearest;
+}
+
+}  // namespace
+
+TEST_CASE("the tree finds what asking every triangle finds", "[render]") {
+  const unsigned seed = 20260;
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> unit(-1, 1);
+  const auto point = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
+  for (const size_t triangles : {1u, 7u, 8u, 9u, 63u, 500u}) {
+    TestMesh mesh;
+    for (size_t t = 0; t < triangles; ++t) {
+      const glm::vec3 centre = 10.0f * point();
+      for (int c = 0; c < 3; ++c) {
+        mesh.indices.push_back(static_cast<uint32_t>(mesh.vertices.size()));
+        mesh.vertices.push_back({centre + 1.5f * point(), {}, 0});
+      }
+    }
+    const RayCaster tree(mesh.vertices, mesh.indices);
+    int hits = 0;
+    for (int ray = 0; ray < 100; ++ray) {
+      const glm::vec3 from = 12.0f * point();
+      glm::vec3 direction = glm::normalize(-from + 6.0f * point());
+      if (ray % 10 == 0) direction = {0, 0, from.z > 0 ? -1 : 1};
+      const auto fast = tree.cast(from, direction, 30), slow = castSlowly(mesh, from, direction, 30);
+      REQUIRE(fast.has_value() == slow.has_value());
+      if (!fast) continue;
+      ++hits;
+      CHECK(fast->distance == slow->distance);
+      CHECK(fast->front == slow->front);
+      CHECK(fast->triangle == slow->triangle);
+    }
+    CHECK((triangles < 100 || hits > 10));
+  }
+}
+
+TEST_CASE("sides and distances are told apart", "[render]") {
+  const TestMesh solid = sphereMesh({0, 0, 0}, 2, false, 32);
+  const RayCaster tree(solid.vertices, solid.indices);
+  const auto outside = tree.cast({0, 0.1f, 10}, {0, 0, -1}, 100), inside = tree.cast({0, 0.1f, 0}, {0, 0, -1}, 100);
+  REQUIRE((outside && inside));
+  CHECK(outside->front);
+  CHECK(!inside->front);
+  CHECK(outside->distance == Approx(8).margin(0.05));
+  CHECK(inside->distance == Approx(2).margin(0.05));
+  CHECK(!tree.cast({0, 0.1f, 10}, {0, 0, -1}, 7));
+  CHECK(!tree.cast({0, 0.1f, 10}, {0, 0, 1}, 100));
+  const TestMesh empty;
+  const RayCaster nothing(empty.vertices, empty.indices);
+  CHECK(!nothing.cast({0, 0, 0}, {0, 0, 1}, 100));
+}
