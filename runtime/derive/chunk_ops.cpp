@@ -1,0 +1,103 @@
+#include "derive/chunk_ops.h"
+
+#include <bit>
+
+namespace sgm {
+namespace {
+
+class Hasher {
+ public:
+  void add(uint64_t v) { value_ = hashCombine(value_, v); }
+  void add(float v) { add(uint64_t{std::bit_cast<uint32_t>(v)}); }
+  void add(int32_t v) { add(uint64_t{static_cast<uint32_t>(v)}); }
+  void add(uint32_t v) { add(uint64_t{v}); }
+  void add(Int3 p) {
+    add(p.x);
+    add(p.y);
+    add(p.z);
+  }
+  void add(const Frame& f) {
+    add(f.origin);
+    for (float row : f.rows) add(row);
+  }
+  uint64_t value() const { return value_; }
+
+ private:
+  uint64_t value_ = 0;
+};
+
+void addShape(Hasher& h, const Shape& s) {
+  h.add(uint64_t{static_cast<uint8_t>(s.kind)} | uint64_t{s.material} << 8 | uint64_t{s.tag} << 24);
+  h.add(uint64_t{s.first_child} | uint64_t{s.child_count} << 32);
+  h.add(uint64_t{s.first_point} | uint64_t{s.point_count} << 32);
+  h.add(s.expr);
+  h.add(s.detail);
+  h.add(s.coarsest);
+  h.add(s.amount);
+  h.add(s.inner_radius);
+  for (float v : s.size) h.add(v);
+  h.add(s.frame);
+}
+
+void addExpr(Hasher& h, const Expr& e) {
+  h.add(uint64_t{static_cast<uint8_t>(e.op)});
+  h.add(e.a);
+  h.add(e.b);
+  h.add(e.c);
+  h.add(e.value);
+  h.add(e.anchor);
+  for (float v : e.row) h.add(v);
+  h.add(e.noise);
+  h.add(uint64_t{e.first_point} | uint64_t{e.point_count} << 32);
+}
+
+}  // namespace
+
+void translate(GrammarChunk& chunk, Int3 offset) {
+  const auto move = [&](Int3& p) { p = saturatingAdd(p, offset); };
+  for (Shape& s : chunk.shapes) move(s.frame.origin);
+  for (Expr& e : chunk.exprs) {
+    move(e.anchor);
+    // A prism's points are local; a sweep's are in the world.
+    for (uint32_t i = 0; i < e.point_count; ++i) move(chunk.points[e.first_point + i]);
+  }
+  for (NoiseSpec& n : chunk.noises) move(n.origin);
+  for (Group& g : chunk.groups) {
+    if (g.bounds.empty()) continue;
+    move(g.bounds.lo);
+    move(g.bounds.hi);
+  }
+  for (Anchor& a : chunk.anchors) move(a.frame.origin);
+}
+
+uint64_t hashChunk(const GrammarChunk& chunk) {
+  Hasher h;
+  h.add(chunk.layer);
+  h.add(chunk.cell);
+  h.add(uint64_t{chunk.shapes.size()});
+  for (const Shape& s : chunk.shapes) addShape(h, s);
+  for (uint32_t c : chunk.children) h.add(c);
+  h.add(uint64_t{chunk.exprs.size()});
+  for (const Expr& e : chunk.exprs) addExpr(h, e);
+  for (const NoiseSpec& n : chunk.noises) {
+    h.add(n.origin);
+    h.add(n.period);
+    h.add(uint64_t{n.octaves} | uint64_t{n.seed} << 32);
+  }
+  for (const Int3& p : chunk.points) h.add(p);
+  h.add(uint64_t{chunk.groups.size()});
+  for (const Group& g : chunk.groups) {
+    h.add(uint64_t{g.root} | uint64_t{g.cut ? 1u : 0u} << 32);
+    h.add(g.bounds.lo);
+    h.add(g.bounds.hi);
+    h.add(g.key.value);
+  }
+  for (const Anchor& a : chunk.anchors) {
+    h.add(a.frame);
+    h.add(uint64_t{a.kind} | uint64_t{a.name} << 16 | uint64_t{a.tag} << 32);
+    h.add(a.key.value);
+  }
+  return h.value();
+}
+
+}  // namespace sgm

@@ -1,0 +1,182 @@
+#include "derive/derive.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/math.h"
+#include "derive/bounds.h"
+#include "derive/interpreter.h"
+
+namespace sgm {
+namespace {
+
+std::string metresText(int64_t units) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", static_cast<double>(units) / kUnitsPerMetre);
+  return text;
+}
+
+/// By how much `box` passes `limit`, in units.
+int64_t excess(const IntBox& box, const IntBox& limit) {
+  int64_t most = 0;
+  for (int a = 0; a < 3; ++a) {
+    most = std::max({most, int64_t{limit.lo[a]} - box.lo[a], int64_t{box.hi[a]} - limit.hi[a]});
+  }
+  return most;
+}
+
+bool hasCells(const Layer& layer) { return layer.cell.x > 0 || layer.cell.y > 0 || layer.cell.z > 0; }
+
+}  // namespace
+
+IntBox cellBox(const Layer& layer, Int3 cell) {
+  IntBox box = IntBox::everything();
+  for (int a = 0; a < 3; ++a) {
+    if (layer.cell[a] <= 0) continue;
+    box.lo[a] = saturate(int64_t{cell[a]} * layer.cell[a]);
+    box.hi[a] = saturate((int64_t{cell[a]} + 1) * layer.cell[a] - 1);
+  }
+  return box;
+}
+
+IntBox cellLimit(const Program& program, uint32_t layer_index, Int3 cell) {
+  const Layer& layer = program.layers[layer_index];
+  if (!hasCells(layer)) return program.domain.infinite ? IntBox::everything() : program.domain.box;
+  IntBox box = cellBox(layer, cell);
+  for (int a = 0; a < 3; ++a) {
+    if (layer.cell[a] <= 0) continue;
+    box.lo[a] = saturate(int64_t{box.lo[a]} - layer.reach);
+    box.hi[a] = saturate(int64_t{box.hi[a]} + 1 + layer.reach);
+  }
+  return box;
+}
+
+Interpreter::Interpreter(const Program& program, const ParameterValues& parameters, uint64_t world_seed, uint32_t layer,
+                         Int3 cell, const LowerLayers& lower, const DeriveLimits& limits,
+                         std::pmr::memory_resource* memory)
+    : program_(program),
+      parameters_(parameters),
+      layer_(program.layers[layer]),
+      lower_(lower),
+      limits_(limits),
+      layer_index_(layer),
+      seed_(hashCombine(program.seed, world_seed)),
+      cell_(cell),
+      draft_(memory),
+      active_(program.rules.size()) {
+  lattice_.seed = hashCombine(seed_, hashText(program.text(layer_.name)));
+  lattice_.size = layer_.cell;
+  for (int a = 0; a < 3; ++a) base_[a] = lattice_.hasAxis(a) ? cellBox(layer_, cell).lo[a] : 0;
+}
+
+bool Interpreter::step(uint64_t count, const Span& span, uint32_t activation) {
+  if (failed()) return false;
+  steps_ += std::min(count, limits_.steps + 1);
+  if (steps_ <= limits_.steps) return true;
+  fail("deriving one cell takes more than " + std::to_string(limits_.steps) + " steps", span, activation);
+  return false;
+}
+
+void Interpreter::fail(const std::string& what, const Span& span, uint32_t activation) {
+  if (failed()) return;
+  const std::string path = pathText(activation);
+  Error error{Code::limit, what + (path.empty() ? "" : ", in " + path), span.line, span.column};
+  if (span.file != 0 && span.file < program_.modules.size()) {
+    error.message += " (" + std::string(program_.modules[span.file].path) + ")";
+  }
+  error_ = std::move(error);
+}
+
+void Interpreter::note(const std::string& message, const Span& span, uint32_t activation) {
+  if (notes_.size() >= limits_.notes) {
+    ++dropped_notes_;
+    return;
+  }
+  DeriveNote note{message, pathText(activation), span.line, span.column};
+  if (span.file != 0 && span.file < program_.modules.size()) {
+    note.message += " (" + std::string(program_.modules[span.file].path) + ")";
+  }
+  notes_.push_back(std::move(note));
+}
+
+std::string Interpreter::pathText(uint32_t activation) const {
+  std::vector<uint32_t> path;
+  for (uint32_t i = activation; i != kNone; i = activations_[i].parent) path.push_back(i);
+  std::string text;
+  for (size_t i = path.size(); i-- > 0;) {
+    const Activation& a = activations_[path[i]];
+    if (!text.empty()) text += '/';
+    text += program_.text(program_.rules[a.rule].name);
+    if (a.parent != kNone) text += "[" + std::to_string(a.index) + "]";
+  }
+  return text;
+}
+
+void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& out) {
+  const ShapeBounds bounds(draft_.chunk());
+  const IntBox limit = cellLimit(program_, layer_index_, cell_);
+  for (uint32_t root : list) {
+    const Origin& origin = draft_.origin(root);
+    const IntBox box = bounds.level(root, 0);
+    if (box.empty()) continue;
+    if (!isBounded(box)) {
+      note("this shape has no bound, so no cell can own it; meet it with a box, or give the displacement an amplitude",
+           origin.span, origin.activation);
+      continue;
+    }
+    if (!limit.contains(box)) {
+      const std::string by = metresText(excess(box, limit)) + " m";
+      note(hasCells(layer_) ? "this shape may pass the reach of its cell by " + by + "; it is left out whole"
+                            : "this shape may pass the domain's box by " + by + "; it is left out whole",
+           origin.span, origin.activation);
+      continue;
+    }
+    out.groups.push_back({root, cut, box, origin.key});
+  }
+}
+
+Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
+  Env env;
+  env.place.base = base_;
+  for (int a = 0; a < 3; ++a) {
+    const int64_t edge =
+        hasCells(layer_) ? layer_.cell[a] : int64_t{program_.domain.box.hi[a]} - program_.domain.box.lo[a];
+    env.scope[a] = static_cast<double>(edge) / kUnitsPerMetre;
+  }
+  env.key = lattice_.cellKey(cell_);
+  env.activation = kNone;
+  ShapeList adds;
+  call(layer_.start, 0, env, adds);
+  if (failed()) return *error_;
+  GrammarChunk roots(memory), out(memory);
+  collectGroups(adds, false, roots);
+  collectGroups(layer_cuts_, true, roots);
+  out.layer = layer_index_;
+  out.cell = cell_;
+  draft_.finish(roots.groups, out);
+  out.anchors.assign(anchors_.begin(), anchors_.end());
+  if (dropped_notes_ > 0) {
+    notes_.push_back({"and " + std::to_string(dropped_notes_) + " more notes on this cell", "", 0, 0});
+  }
+  for (DeriveNote& n : notes_) out.notes.push_back(std::move(n));
+  return out;
+}
+
+Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
+                                uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits,
+                                std::pmr::memory_resource* memory) {
+  if (layer >= program.layers.size()) return Error{Code::invalid_argument, "the grammar has no such layer"};
+  if (parameters.values.size() != program.params.size()) {
+    return Error{Code::invalid_argument, "the parameter values belong to another grammar"};
+  }
+  const Layer& info = program.layers[layer];
+  for (int a = 0; a < 3; ++a) {
+    const int64_t low = int64_t{cell[a]} * info.cell[a], high = low + info.cell[a];
+    if (low < std::numeric_limits<int32_t>::min() || high > std::numeric_limits<int32_t>::max()) {
+      return Error{Code::invalid_argument, "the cell lies beyond the end of the world"};
+    }
+  }
+  return Interpreter(program, parameters, world_seed, layer, cell, lower, limits, memory).run(memory);
+}
+
+}  // namespace sgm

@@ -1,0 +1,45 @@
+#pragma once
+// Rules, seed and cell to a grammar chunk: the one entry of derivation.
+
+#include <cstdint>
+#include <memory_resource>
+
+#include "base/fixed.h"
+#include "base/result.h"
+#include "derive/lower_layers.h"
+#include "derive/parameters.h"
+#include "derive/shape.h"
+#include "grammar/program.h"
+
+namespace sgm {
+
+/// Caps for grammar text that nobody vouches for. Reaching one fails the whole cell; none depends on a clock.
+struct DeriveLimits {
+  uint64_t steps = 4'000'000;       ///< statements, expressions, candidates of point sets and samples of probes
+  uint32_t depth = 64;              ///< rules within rules
+  uint32_t nesting = 768;           ///< statements within statements, over all rules; bounds the machine's stack
+  uint32_t shapes = 200'000;        ///< before unused ones are dropped
+  size_t bytes = size_t{64} << 20;  ///< of the draft
+  uint32_t notes = 64;              ///< further notes are counted, not kept
+};
+
+/// The box that a cell of the layer covers; along axes that are not cut into cells, all of the axis. hi is the last
+/// unit that still belongs to the cell. Saturates.
+IntBox cellBox(const Layer& layer, Int3 cell);
+
+/// The box that shapes of the cell must stay within: cellBox() grown by the reach; along axes that are not cut into
+/// cells there is no limit. A layer without cells in a finite domain: the domain's box.
+IntBox cellLimit(const Program& program, uint32_t layer, Int3 cell);
+
+/// Pure: a value of the arguments and of what `lower` answers for layers that this one uses. Thread-safe.
+///
+/// Shapes whose bounds are not within cellLimit(), or that have no bound, are left out whole, with a note; so are
+/// shapes with sizes that are not positive, and anchors outside of the cell (another cell owns those points).
+///
+/// Errors: invalid_argument (no such layer, a cell beyond the world, as many parameter values as there are not);
+/// limit, with the place in the grammar and the derivation path in the message.
+Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
+                                uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits = {},
+                                std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+}  // namespace sgm

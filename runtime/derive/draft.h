@@ -1,0 +1,83 @@
+#pragma once
+// A grammar chunk in the making: appends shapes and expressions, folds constants, and at the end keeps what is used.
+
+#include <array>
+#include <compare>
+#include <map>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "derive/shape.h"
+#include "grammar/diagnostics.h"
+
+namespace sgm {
+
+/// A number that is known while deriving, or else an expression of the field (`node`, into GrammarChunk::exprs).
+struct Num {
+  double value = 0;
+  uint32_t node = kNone;
+  bool constant() const { return node == kNone; }
+};
+
+/// Where a shape came from.
+struct Origin {
+  PathKey key;
+  uint32_t activation = 0;  ///< of a rule, in the interpreter's list
+  Span span;
+};
+
+class Draft {
+ public:
+  explicit Draft(std::pmr::memory_resource* memory);
+
+  // Arithmetic: folds constants in double, shares equal expressions.
+  Num unary(ExprOp op, Num a);
+  Num binary(ExprOp op, Num a, Num b);
+  Num mix(Num a, Num b, Num t);
+  Num smoothstep(double low, double high, Num x);
+  Num clamp(Num x, Num low, Num high) { return binary(ExprOp::minimum, binary(ExprOp::maximum, x, low), high); }
+  /// dot(row, p - anchor) in metres; row has no unit.
+  Num coordinate(Int3 anchor, std::array<double, 3> row);
+  Num noise(const NoiseSpec& spec);
+  Num sweep(uint32_t polyline);
+
+  /// The expression of a number, made where it is a constant.
+  uint32_t expression(Num n);
+  /// Three expressions one after another, as `warp` reads them; gives the first.
+  uint32_t triple(const std::array<Num, 3>& n);
+
+  uint32_t addPolyline(std::vector<Int3> points);
+  uint32_t addPrismPoints(std::span<const Int3> points);
+
+  /// Children are appended here; s.first_child and s.child_count are set.
+  uint32_t addShape(Shape s, const Origin& origin, std::span<const uint32_t> children = {});
+
+  Shape& shape(uint32_t i) { return chunk_.shapes[i]; }
+  const Shape& shape(uint32_t i) const { return chunk_.shapes[i]; }
+  const Origin& origin(uint32_t shape) const { return origins_[shape]; }
+  /// The first polyline along which the shape or one of its parts is swept, or kNone.
+  uint32_t sweepOf(uint32_t shape) const { return sweeps_[shape]; }
+  void setSweep(uint32_t shape, uint32_t polyline) { sweeps_[shape] = polyline; }
+  const GrammarChunk& chunk() const { return chunk_; }
+
+  /// Bytes that the draft takes, roughly.
+  size_t bytes() const;
+
+  /// Copies the groups and all that they reach; order is kept. Layer, cell, anchors and notes are the caller's.
+  void finish(std::span<const Group> groups, GrammarChunk& out) const;
+
+ private:
+  using ExprKey = std::array<uint64_t, 6>;
+  Num intern(const Expr& e);
+
+  GrammarChunk chunk_;
+  std::pmr::vector<Origin> origins_;
+  std::pmr::vector<uint32_t> sweeps_;
+  std::pmr::vector<uint32_t> polyline_first_;  ///< into chunk_.points; one more than there are polylines
+  std::pmr::vector<uint32_t> polyline_count_;
+  std::pmr::map<ExprKey, uint32_t> interned_;
+  std::pmr::map<std::array<uint64_t, 2>, uint32_t> noises_;
+};
+
+}  // namespace sgm

@@ -1,0 +1,119 @@
+#include "derive/expr_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/math.h"
+
+namespace sgm {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Range kEverything{-kInfinity, kInfinity};
+
+/// 0 times an unbounded factor is 0: the bound is approached, never reached.
+double product(double a, double b) { return a == 0 || b == 0 ? 0.0 : a * b; }
+
+Range multiplied(Range a, Range b) {
+  const double corner[4] = {product(a.lo, b.lo), product(a.lo, b.hi), product(a.hi, b.lo), product(a.hi, b.hi)};
+  return {*std::min_element(corner, corner + 4), *std::max_element(corner, corner + 4)};
+}
+
+Range divided(Range a, Range b) {
+  if (b.lo <= 0 && b.hi >= 0) return kEverything;
+  return multiplied(a, {std::isinf(b.hi) ? 0.0 : 1.0 / b.hi, std::isinf(b.lo) ? 0.0 : 1.0 / b.lo});
+}
+
+Range coordinateRange(const Expr& e, const IntBox* box) {
+  Range sum;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double row = static_cast<double>(e.row[static_cast<size_t>(axis)]) / kUnitsPerMetre;
+    if (row == 0) continue;
+    if (box == nullptr) return kEverything;
+    const double lo = row * (static_cast<double>(box->lo[axis]) - e.anchor[axis]);
+    const double hi = row * (static_cast<double>(box->hi[axis]) - e.anchor[axis]);
+    sum = {sum.lo + std::min(lo, hi), sum.hi + std::max(lo, hi)};
+  }
+  return sum;
+}
+
+/// Room for the rounding of one float operation and of the field's own division, root and noise.
+Range widened(Range r) {
+  const auto slack = [](double v) { return std::isinf(v) ? 0.0 : 1e-6 * std::fabs(v) + 1e-9; };
+  return {r.lo - slack(r.lo), r.hi + slack(r.hi)};
+}
+
+}  // namespace
+
+std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box) {
+  std::vector<Range> ranges;
+  ranges.reserve(exprs.size());
+  const auto at = [&](uint32_t i) { return i < ranges.size() ? ranges[i] : kEverything; };
+  for (const Expr& e : exprs) {
+    const Range a = at(e.a), b = at(e.b), c = at(e.c);
+    Range r = kEverything;
+    switch (e.op) {
+      case ExprOp::constant:
+        ranges.push_back({static_cast<double>(e.value), static_cast<double>(e.value)});
+        continue;
+      case ExprOp::coordinate:
+        r = coordinateRange(e, box);
+        break;
+      case ExprOp::noise:
+        ranges.push_back({-1, 1});
+        continue;
+      case ExprOp::sweep:
+      case ExprOp::smoothstep:
+        ranges.push_back({0, 1});
+        continue;
+      case ExprOp::less:
+        ranges.push_back({a.hi < b.lo ? 1.0 : 0.0, a.lo >= b.hi ? 0.0 : 1.0});
+        continue;
+      case ExprOp::negate:
+        r = {-a.hi, -a.lo};
+        break;
+      case ExprOp::absolute:
+        r = {a.lo > 0 ? a.lo : a.hi < 0 ? -a.hi : 0.0, std::max(-a.lo, a.hi)};
+        break;
+      case ExprOp::floor:
+        r = {std::floor(a.lo - 1e-6 * std::fabs(a.lo)), std::floor(a.hi + 1e-6 * std::fabs(a.hi))};
+        break;
+      case ExprOp::square_root:
+        r = {std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0))};
+        break;
+      case ExprOp::add:
+        r = {a.lo + b.lo, a.hi + b.hi};
+        break;
+      case ExprOp::subtract:
+        r = {a.lo - b.hi, a.hi - b.lo};
+        break;
+      case ExprOp::multiply:
+        r = multiplied(a, b);
+        break;
+      case ExprOp::divide:
+        r = divided(a, b);
+        break;
+      case ExprOp::minimum:
+        ranges.push_back({std::min(a.lo, b.lo), std::min(a.hi, b.hi)});
+        continue;
+      case ExprOp::maximum:
+        ranges.push_back({std::max(a.lo, b.lo), std::max(a.hi, b.hi)});
+        continue;
+      case ExprOp::mix: {
+        if (c.lo >= 0 && c.hi <= 1) {
+          r = {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
+        } else {
+          const Range step = multiplied({b.lo - a.hi, b.hi - a.lo}, c);
+          r = {a.lo + step.lo, a.hi + step.hi};
+        }
+        break;
+      }
+    }
+    if (std::isnan(r.lo) || std::isnan(r.hi)) r = kEverything;
+    ranges.push_back(widened(r));
+  }
+  return ranges;
+}
+
+}  // namespace sgm

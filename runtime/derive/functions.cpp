@@ -1,0 +1,146 @@
+// The functions of the language.
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
+#include "derive/interpreter.h"
+
+namespace sgm {
+namespace {
+
+enum Draw : uint64_t { kPathDraw = 0x10000, kKeyedDraw = 0x500 };
+
+/// A method's receiver is bound before the parameters of the table.
+bool isMethod(Builtin id) {
+  return id == Builtin::cell_point || id == Builtin::cell_links || id == Builtin::face_point;
+}
+
+}  // namespace
+
+Value Interpreter::argument(const ExprNode& node, uint32_t index, const Env& env) {
+  const uint32_t bound = boundAt(node, index);
+  if (bound != kNoId) return evaluate(bound, env);
+  const BuiltinInfo& info = builtinTable()[node.id];
+  const uint32_t parameter = isMethod(info.id) ? index - 1 : index;
+  return Value::number(parameter < info.params.size() ? info.params[parameter].fallback : 0.0);
+}
+
+double Interpreter::realArgument(const ExprNode& node, uint32_t index, const Env& env) {
+  return argument(node, index, env).real();
+}
+
+Value Interpreter::evaluateBuiltin(const ExprNode& node, const Env& env) {
+  switch (static_cast<Builtin>(node.id)) {
+    case Builtin::rand:
+    case Builtin::rand_keyed:
+    case Builtin::chance:
+    case Builtin::chance_keyed:
+      return evaluateRandom(node, env);
+    case Builtin::cell_noise:
+    case Builtin::fractal:
+    case Builtin::cell_point:
+    case Builtin::cell_links:
+    case Builtin::face_point:
+      return evaluateCellular(node, env);
+    default:
+      return evaluatePure(node, env);
+  }
+}
+
+Value Interpreter::evaluatePure(const ExprNode& node, const Env& env) {
+  const auto num = [&](uint32_t i) { return argument(node, i, env).n[0]; };
+  const auto real = [&](uint32_t i) { return realArgument(node, i, env); };
+  switch (static_cast<Builtin>(node.id)) {
+    case Builtin::min:
+      return Value::number(draft_.binary(ExprOp::minimum, num(0), num(1)));
+    case Builtin::max:
+      return Value::number(draft_.binary(ExprOp::maximum, num(0), num(1)));
+    case Builtin::abs:
+      return Value::number(draft_.unary(ExprOp::absolute, num(0)));
+    case Builtin::floor:
+      return Value::number(draft_.unary(ExprOp::floor, num(0)));
+    case Builtin::ceil:
+      return Value::number(-detFloor(-real(0)));
+    case Builtin::sqrt:
+      return Value::number(draft_.unary(ExprOp::square_root, num(0)));
+    case Builtin::mix:
+      return Value::number(draft_.mix(num(0), num(1), num(2)));
+    case Builtin::clamp:
+      return Value::number(draft_.clamp(num(0), num(1), num(2)));
+    case Builtin::smoothstep:
+      return Value::number(draft_.smoothstep(real(0), real(1), num(2)));
+    case Builtin::fract: {
+      const Num a = num(0);
+      return Value::number(draft_.binary(ExprOp::subtract, a, draft_.unary(ExprOp::floor, a)));
+    }
+    case Builtin::sin:
+      return Value::number(detSin(real(0)));
+    case Builtin::cos:
+      return Value::number(detCos(real(0)));
+    case Builtin::atan2:
+      return Value::number(detAtan2(real(0), real(1)));
+    case Builtin::pow:
+      return Value::number(detPow(real(0), real(1)));
+    case Builtin::length:
+      return Value::number(length(argument(node, 0, env).vec()));
+    case Builtin::position:
+      return Value::vector(num(0), num(1), num(2));
+    default:
+      return {};
+  }
+}
+
+Value Interpreter::evaluateRandom(const ExprNode& node, const Env& env) {
+  const double by_path = env.key.unit(kPathDraw + node.ordinal);
+  const auto by_key = [&] { return keyOf(argument(node, 0, env)).unit(kKeyedDraw); };
+  const auto between = [&](uint32_t first, double unit) {
+    const double low = realArgument(node, first, env), high = realArgument(node, first + 1, env);
+    return Value::number(low + (high - low) * unit);
+  };
+  switch (static_cast<Builtin>(node.id)) {
+    case Builtin::rand:
+      return between(0, by_path);
+    case Builtin::rand_keyed:
+      return between(1, by_key());
+    case Builtin::chance:
+      return Value::boolean({by_path < realArgument(node, 0, env) ? 1.0 : 0.0});
+    default:
+      return Value::boolean({by_key() < realArgument(node, 1, env) ? 1.0 : 0.0});
+  }
+}
+
+Value Interpreter::evaluateCellular(const ExprNode& node, const Env& env) {
+  const auto whole = [&](uint32_t i, double low, double high) {
+    const double v = realArgument(node, i, env);
+    return std::isnan(v) ? low : std::clamp(detFloor(v + 0.5), low, high);
+  };
+  const auto jitter = [&] { return std::clamp(realArgument(node, 1, env), 0.0, 1.0); };
+  switch (static_cast<Builtin>(node.id)) {
+    case Builtin::cell_noise: {
+      const int32_t period = std::max(1, toUnits(realArgument(node, 1, env)));
+      const double salt = realArgument(node, 2, env);
+      return Value::number(lattice_.noise(argument(node, 0, env).cell, period, keyOf(Value::number(salt)).value));
+    }
+    case Builtin::fractal: {
+      NoiseSpec spec;
+      spec.period = std::max(1, toUnits(realArgument(node, 0, env)));
+      spec.octaves = static_cast<uint32_t>(whole(1, 1, 12));
+      spec.seed = static_cast<uint32_t>(keyOf(Value::number(realArgument(node, 2, env))).value >> 32);
+      return Value::number(draft_.noise(spec));
+    }
+    case Builtin::cell_point:
+      return pointValue(lattice_.point(cell_, argument(node, 0, env).cell, jitter()), env);
+    case Builtin::face_point:
+      return pointValue(lattice_.facePoint(cell_, argument(node, 0, env).face(), jitter()), env);
+    case Builtin::cell_links: {
+      const Int3 cell = argument(node, 0, env).cell;
+      const int tree = static_cast<int>(whole(1, 0, 20));
+      return Value::ofFaces(lattice_.links(cell, tree, realArgument(node, 2, env)));
+    }
+    default:
+      return {};
+  }
+}
+
+}  // namespace sgm

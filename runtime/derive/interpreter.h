@@ -1,0 +1,210 @@
+#pragma once
+// The interpreter of one cell. Internal to derive/: everything outside calls deriveCell() (derive.h).
+//
+// evaluate.cpp: expressions. builtins.cpp: functions. statements.cpp: blocks and combiners. rules.cpp: choice and
+// calls. points.cpp: scatter and loops. primitives.cpp: leaves. derive.cpp: the cell as a whole.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "derive/derive.h"
+#include "derive/draft.h"
+#include "derive/frame.h"
+#include "derive/lattice.h"
+
+namespace sgm {
+
+/// A value of the language. Numbers, vectors and pairs use n; a cell uses `cell`, a face also `axis`; a range uses n[0]
+/// and n[1].
+struct Value {
+  ValueKind kind = ValueKind::number;
+  std::array<Num, 3> n{};
+  Int3 cell;
+  int axis = 0;
+  std::vector<FaceId> faces;
+
+  static Value number(Num v) {
+    Value result;
+    result.n[0] = v;
+    return result;
+  }
+  static Value number(double v) { return number(Num{v}); }
+  static Value boolean(Num v) {
+    Value result = number(v);
+    result.kind = ValueKind::boolean;
+    return result;
+  }
+  static Value vector(Num x, Num y, Num z) {
+    Value result;
+    result.kind = ValueKind::vector;
+    result.n = {x, y, z};
+    return result;
+  }
+  static Value vector(Vec3 v) { return vector({v.x}, {v.y}, {v.z}); }
+  static Value ofCell(Int3 c) {
+    Value result;
+    result.kind = ValueKind::cell;
+    result.cell = c;
+    return result;
+  }
+  static Value ofFace(FaceId f) {
+    Value result = ofCell(f.lower);
+    result.kind = ValueKind::face;
+    result.axis = f.axis;
+    return result;
+  }
+  static Value ofFaces(std::vector<FaceId> list) {
+    Value result;
+    result.kind = ValueKind::faces;
+    result.faces = std::move(list);
+    return result;
+  }
+  double real() const { return n[0].value; }
+  bool truth() const { return n[0].value != 0; }
+  Vec3 vec() const { return {n[0].value, n[1].value, n[2].value}; }
+  FaceId face() const { return {cell, axis}; }
+};
+
+/// One use of a rule.
+struct Activation {
+  uint32_t rule = 0;
+  uint32_t parent = kNone;
+  uint32_t index = 0;                  ///< among the parent's uses of the same rule, for the path that a person reads
+  Placement start;                     ///< the scope that the rule starts with
+  std::vector<uint32_t> child_counts;  ///< pairs: rule, uses
+};
+
+/// What a statement or an expression is evaluated in.
+struct Env {
+  Placement place;
+  Vec3 scope;  ///< edges of the scope's box, metres
+  PathKey key;
+  uint32_t activation = 0;
+  uint16_t material = 0, tag = 0;
+  uint32_t sweep = kNone;  ///< the polyline that `u` runs along
+  int32_t cut_detail = 0;  ///< of a `detail` that stands directly before a cut
+  bool anchors = true;
+  std::vector<Value>* slots = nullptr;
+};
+
+using ShapeList = std::vector<uint32_t>;
+
+class Interpreter {
+ public:
+  Interpreter(const Program& program, const ParameterValues& parameters, uint64_t world_seed, uint32_t layer, Int3 cell,
+              const LowerLayers& lower, const DeriveLimits& limits, std::pmr::memory_resource* memory);
+
+  Result<GrammarChunk> run(std::pmr::memory_resource* memory);
+
+ private:
+  /// Counts one more level of recursion for as long as it lives.
+  class Nested {
+   public:
+    explicit Nested(uint32_t& depth) : depth_(depth) { ++depth_; }
+    ~Nested() { --depth_; }
+    Nested(const Nested&) = delete;
+    Nested& operator=(const Nested&) = delete;
+
+   private:
+    uint32_t& depth_;
+  };
+
+  // Expressions. After a cap is reached they give zeros and failed() is true.
+  Value evaluate(ExprId id, const Env& env);
+  Value evaluateBinary(const ExprNode& node, const Env& env);
+  Value evaluateName(const ExprNode& node, const Env& env);
+  Value evaluateMember(const ExprNode& node, const Env& env);
+  Value evaluateCall(const ExprNode& node, const Env& env);
+  Value evaluateBuiltin(const ExprNode& node, const Env& env);
+  Value evaluatePure(const ExprNode& node, const Env& env);      ///< arithmetic
+  Value evaluateRandom(const ExprNode& node, const Env& env);    ///< rand, chance
+  Value evaluateCellular(const ExprNode& node, const Env& env);  ///< cells, faces, noise
+  Value evaluateLet(const ExprNode& node, const Env& env);
+  Value evaluateField(const ExprNode& node, const Env& env);
+  Value sampleCoordinates(const Env& env, bool local);
+  Value pointValue(Int3 units_from_cell, const Env& env) const;
+  double realArgument(const ExprNode& node, uint32_t index, const Env& env);
+  Value argument(const ExprNode& node, uint32_t index, const Env& env);
+  uint32_t boundAt(const ExprNode& node, uint32_t index) const;
+  PathKey keyOf(const Value& key) const;
+  double real(ExprId id, const Env& env) { return evaluate(id, env).real(); }
+
+  // Statements. They append to `out` what they add to the block they stand in.
+  void statement(StmtId id, const Env& env, ShapeList& out);
+  void block(const StmtNode& s, const Env& env, ShapeList& out);
+  void call(ExprId id, uint32_t ordinal, const Env& env, ShapeList& out);
+  void cut(const StmtNode& s, const Env& env, ShapeList& out);
+  void meet(const StmtNode& s, const Env& env, ShapeList& out);
+  void uniteSmooth(const StmtNode& s, const Env& env, ShapeList& out);
+  void sum(const StmtNode& s, const Env& env, ShapeList& out);
+  void morph(const StmtNode& s, const Env& env, ShapeList& out);
+  void morphPower(const StmtNode& s, const Env& env, uint32_t a, uint32_t b, Num t, ShapeList& out);
+  void displace(const StmtNode& s, const Env& env, ShapeList& out);
+  void warp(const StmtNode& s, const Env& env, ShapeList& out);
+  void repeat(const StmtNode& s, const Env& env, ShapeList& out);
+  void forEach(const StmtNode& s, const Env& env, ShapeList& out);
+  void scatter(const StmtNode& s, const Env& env, ShapeList& out);
+  void scatterPoint(const StmtNode& s, const Env& at, ShapeList& out);
+  bool probe(const ScatterNode& node, Env& env);
+  void anchor(const StmtNode& s, const Env& env);
+  void detail(const StmtNode& s, const Env& env, ShapeList& out);
+  void transform(IdRange xforms, Env& env);
+  void limitLevels(ShapeList& list, size_t from, int32_t coarsest, int32_t detail);
+
+  // Rules.
+  void callRule(uint32_t rule, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
+  void derive(const Rule& rule, const Alternative& chosen, Env& env, std::vector<Value>& arguments, ShapeList& out);
+  bool passes(const Alternative& alternative, Env& env, const std::vector<Value>& arguments);
+  const Alternative* choose(const std::vector<const Alternative*>& from, Env& env, const std::vector<Value>& arguments,
+                            uint64_t draw);
+
+  // Leaves.
+  void primitive(Primitive kind, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
+  void addLeaf(Shape shape, std::initializer_list<double> metres, double inner, const ExprNode& node, uint32_t ordinal,
+               const Env& env, ShapeList& out);
+  void boxLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
+  void sweptLeaf(bool square, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
+  void prismLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
+  void halfspaceLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
+
+  // Nodes.
+  Shape shapeIn(const Env& env, ShapeKind kind) const;
+  uint32_t addShape(Shape s, uint32_t ordinal, const Span& span, const Env& env, const ShapeList& children = {});
+  /// One node for a list that is not empty: itself, or a hard union.
+  uint32_t united(const ShapeList& list, const StmtNode& s, const Env& env);
+  std::optional<double> smoothRadius(const StmtNode& s, const Env& env);
+
+  // Trouble.
+  bool step(uint64_t count, const Span& span, uint32_t activation);
+  void fail(const std::string& what, const Span& span, uint32_t activation);
+  bool failed() const { return error_.has_value(); }
+  void note(const std::string& message, const Span& span, uint32_t activation);
+  std::string pathText(uint32_t activation) const;
+
+  void collectGroups(const ShapeList& list, bool cut, GrammarChunk& out);
+
+  const Program& program_;
+  const ParameterValues& parameters_;
+  const Layer& layer_;
+  const LowerLayers& lower_;
+  const DeriveLimits& limits_;
+  uint32_t layer_index_;
+  uint64_t seed_;  ///< of the world and the grammar
+  Int3 cell_;
+  Lattice lattice_;
+  Int3 base_;  ///< low corner of the cell, units
+  Draft draft_;
+  std::vector<Activation> activations_;
+  std::vector<uint32_t> active_;  ///< for each rule: activations on the path
+  ShapeList layer_cuts_;
+  std::vector<Anchor> anchors_;
+  std::vector<DeriveNote> notes_;
+  uint64_t dropped_notes_ = 0;
+  uint64_t steps_ = 0;
+  uint32_t depth_ = 0, nesting_ = 0;
+  std::optional<Error> error_;
+};
+
+}  // namespace sgm

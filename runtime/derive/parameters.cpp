@@ -1,0 +1,44 @@
+#include "derive/parameters.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "base/math.h"
+
+namespace sgm {
+namespace {
+
+std::string numberText(double v) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", v);
+  return text;
+}
+
+}  // namespace
+
+ParameterValues ParameterValues::defaults(const Program& program) {
+  ParameterValues result;
+  for (const Param& param : program.params) result.values.push_back(param.value);
+  return result;
+}
+
+Result<void> ParameterValues::set(const Program& program, std::string_view name, double value) {
+  const uint32_t index = program.findParam(name);
+  if (index == kNoId || index >= values.size()) {
+    return Error{Code::invalid_argument, "the grammar has no parameter " + std::string(name)};
+  }
+  const Param& param = program.params[index];
+  const std::string quoted = "parameter " + std::string(name);
+  if (!std::isfinite(value)) return Error{Code::invalid_argument, quoted + " must be a finite number"};
+  if (param.whole && detFloor(value) != value) {
+    return Error{Code::invalid_argument, quoted + " must be a whole number, not " + numberText(value)};
+  }
+  if (param.has_range && (value < param.low || value > param.high)) {
+    return Error{Code::invalid_argument, quoted + " must lie in " + numberText(param.low) + ".." +
+                                             numberText(param.high) + ", not be " + numberText(value)};
+  }
+  values[index] = value;
+  return {};
+}
+
+}  // namespace sgm

@@ -1,0 +1,23 @@
+#pragma once
+// Values of a program's parameters, as a host sets them.
+
+#include <string_view>
+#include <vector>
+
+#include "base/result.h"
+#include "grammar/program.h"
+
+namespace sgm {
+
+/// One number for each of Program::params, in its order; metres, radians and plain ratios.
+struct ParameterValues {
+  std::vector<double> values;
+
+  static ParameterValues defaults(const Program& program);
+
+  /// Refuses an unknown name, a number outside of the declared range, or a fraction for a whole parameter, and leaves
+  /// the values as they are.
+  Result<void> set(const Program& program, std::string_view name, double value);
+};
+
+}  // namespace sgm

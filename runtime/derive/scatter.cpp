@@ -1,0 +1,156 @@
+#include "derive/scatter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/math.h"
+
+namespace sgm {
+namespace {
+
+enum Draw : uint64_t { kPriorityDraw = 8 };
+
+int64_t floorDivide(int64_t a, int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+double uniform(PathKey key, size_t index, uint64_t axis) { return key.unit(index * 4 + axis); }
+
+constexpr double kTwoPi = 6.283185307179586;
+constexpr double kGoldenAngle = 2.399963229728653;
+
+}  // namespace
+
+std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, Int3 cell, PathKey key, int32_t radius,
+                                                       size_t limit) {
+  struct Candidate {
+    std::array<int64_t, 3> at{};
+    uint64_t priority = 0;
+    PathKey key;
+  };
+  const int64_t step = std::max(radius, 1);
+  std::array<int64_t, 3> low{}, first{}, count{1, 1, 1};
+  size_t total = 1;
+  for (int a = 0; a < 3; ++a) {
+    const size_t i = static_cast<size_t>(a);
+    if (!lattice.hasAxis(a)) continue;
+    low[i] = int64_t{cell[a]} * lattice.size[a];
+    // One cube more on each side: candidates two cubes apart are farther than the radius.
+    first[i] = floorDivide(low[i], step) - 1;
+    count[i] = floorDivide(low[i] + lattice.size[a] - 1, step) + 1 - first[i] + 1;
+    if (static_cast<size_t>(count[i]) > limit / total) return std::nullopt;
+    total *= static_cast<size_t>(count[i]);
+  }
+  std::vector<Candidate> candidates(total);
+  const auto index = [&](int64_t x, int64_t y, int64_t z) {
+    return static_cast<size_t>((z * count[1] + y) * count[0] + x);
+  };
+  for (int64_t z = 0; z < count[2]; ++z) {
+    for (int64_t y = 0; y < count[1]; ++y) {
+      for (int64_t x = 0; x < count[0]; ++x) {
+        Candidate& c = candidates[index(x, y, z)];
+        const std::array<int64_t, 3> cube{first[0] + x, first[1] + y, first[2] + z};
+        c.key = key;
+        for (size_t i = 0; i < 3; ++i) c.key = {hashCombine(c.key.value, static_cast<uint64_t>(cube[i]))};
+        c.priority = hashCombine(c.key.value, kPriorityDraw);
+        for (int a = 0; a < 3; ++a) {
+          const size_t i = static_cast<size_t>(a);
+          if (!lattice.hasAxis(a)) continue;
+          const double jitter = detFloor(c.key.unit(i) * static_cast<double>(step));
+          c.at[i] = cube[i] * step + static_cast<int64_t>(jitter);
+        }
+      }
+    }
+  }
+  const auto wins = [&](size_t x, size_t y, size_t z, const Candidate& c) {
+    const std::array<int64_t, 3> here{static_cast<int64_t>(x), static_cast<int64_t>(y), static_cast<int64_t>(z)};
+    std::array<int64_t, 3> from{}, to{};
+    for (size_t i = 0; i < 3; ++i) {
+      from[i] = std::max<int64_t>(here[i] - 1, 0);
+      to[i] = std::min(here[i] + 1, count[i] - 1);
+    }
+    for (int64_t k = from[2]; k <= to[2]; ++k) {
+      for (int64_t j = from[1]; j <= to[1]; ++j) {
+        for (int64_t i = from[0]; i <= to[0]; ++i) {
+          const Candidate& other = candidates[index(i, j, k)];
+          if (&other == &c) continue;
+          int64_t square = 0;
+          for (size_t a = 0; a < 3; ++a) square += (other.at[a] - c.at[a]) * (other.at[a] - c.at[a]);
+          if (square >= step * step) continue;
+          // Equal hashes fall back on the position, which both candidates see alike.
+          if (other.priority != c.priority ? other.priority > c.priority : other.at > c.at) return false;
+        }
+      }
+    }
+    return true;
+  };
+  std::vector<LatticePoint> points;
+  for (size_t z = 0; z < static_cast<size_t>(count[2]); ++z) {
+    for (size_t y = 0; y < static_cast<size_t>(count[1]); ++y) {
+      for (size_t x = 0; x < static_cast<size_t>(count[0]); ++x) {
+        const Candidate& c = candidates[(z * static_cast<size_t>(count[1]) + y) * static_cast<size_t>(count[0]) + x];
+        Int3 offset;
+        bool inside = true;
+        for (int a = 0; a < 3; ++a) {
+          const size_t i = static_cast<size_t>(a);
+          const int64_t d = c.at[i] - low[i];
+          inside = inside && d >= 0 && d < std::max(lattice.size[a], 1);
+          offset[a] = saturate(d);
+        }
+        if (inside && wins(x, y, z, c)) points.push_back({offset, c.key});
+      }
+    }
+  }
+  return points;
+}
+
+std::vector<Vec3> scatterOnShell(PathKey key, size_t count, double radius, double up) {
+  std::vector<Vec3> points;
+  points.reserve(count);
+  const double turn = kTwoPi * key.unit(~uint64_t{0});
+  for (size_t i = 0; i < count; ++i) {
+    // By Archimedes, equal steps of height cut off equal areas.
+    const double strip = (static_cast<double>(i) + uniform(key, i, 0)) / static_cast<double>(count);
+    const double y = 1.0 - 2.0 * up * strip;
+    const double around = turn + kGoldenAngle * static_cast<double>(i) + (uniform(key, i, 1) - 0.5) * 0.8;
+    const double ring = radius * std::sqrt(std::max(0.0, 1.0 - y * y));
+    points.push_back({ring * detCos(around), radius * y, ring * detSin(around)});
+  }
+  return points;
+}
+
+std::vector<Vec3> scatterInBox(PathKey key, size_t count, Vec3 edges) {
+  std::vector<Vec3> points;
+  points.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    points.push_back({edges.x * (uniform(key, i, 0) - 0.5), edges.y * (uniform(key, i, 1) - 0.5),
+                      edges.z * (uniform(key, i, 2) - 0.5)});
+  }
+  return points;
+}
+
+std::vector<Vec3> scatterOnDisc(PathKey key, size_t count, double radius) {
+  std::vector<Vec3> points;
+  points.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    const double ring = radius * std::sqrt(uniform(key, i, 0)), around = kTwoPi * uniform(key, i, 1);
+    points.push_back({ring * detCos(around), 0, ring * detSin(around)});
+  }
+  return points;
+}
+
+std::vector<size_t> thinned(PathKey key, const std::vector<Vec3>& points, double radius) {
+  std::vector<size_t> kept;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const uint64_t mine = hashCombine(key.value, i * 4 + 3);
+    bool wins = true;
+    for (size_t j = 0; j < points.size() && wins; ++j) {
+      const Vec3 d = points[j] - points[i];
+      const uint64_t theirs = hashCombine(key.value, j * 4 + 3);
+      wins = j == i || dot(d, d) >= radius * radius || theirs < mine || (theirs == mine && j > i);
+    }
+    if (wins) kept.push_back(i);
+  }
+  return kept;
+}
+
+}  // namespace sgm

@@ -1,0 +1,381 @@
+// Blocks and combiners.
+
+#include <algorithm>
+#include <cmath>
+
+#include "derive/interpreter.h"
+
+namespace sgm {
+namespace {
+
+constexpr uint64_t kNodeSalt = 0x6E6F6465;  ///< keys of combiners, apart from those of leaves and rules
+
+/// Statements that put no shape into their block.
+bool isSilent(StmtKind kind) {
+  return kind == StmtKind::let || kind == StmtKind::field || kind == StmtKind::mat || kind == StmtKind::tag ||
+         kind == StmtKind::anchor;
+}
+
+}  // namespace
+
+Shape Interpreter::shapeIn(const Env& env, ShapeKind kind) const {
+  Shape s;
+  s.kind = kind;
+  s.material = env.material;
+  s.tag = env.tag;
+  return s;
+}
+
+uint32_t Interpreter::addShape(Shape s, uint32_t ordinal, const Span& span, const Env& env, const ShapeList& children) {
+  if (draft_.chunk().shapes.size() >= limits_.shapes) {
+    fail("more than " + std::to_string(limits_.shapes) + " shapes in one cell", span, env.activation);
+  } else if (draft_.bytes() > limits_.bytes) {
+    fail("one cell takes more than " + std::to_string(limits_.bytes >> 20) + " MiB", span, env.activation);
+  }
+  Origin origin;
+  origin.key = env.key.child(kNodeSalt + static_cast<uint64_t>(s.kind), ordinal);
+  origin.activation = env.activation;
+  origin.span = span;
+  if (!children.empty() && s.inner_radius == 0) {
+    const bool first_only = s.kind == ShapeKind::subtract || s.kind == ShapeKind::subtract_smooth;
+    for (uint32_t child : children) {
+      s.inner_radius = std::max(s.inner_radius, draft_.shape(child).inner_radius);
+      if (first_only) break;
+    }
+  }
+  return draft_.addShape(s, origin, children);
+}
+
+uint32_t Interpreter::united(const ShapeList& list, const StmtNode& s, const Env& env) {
+  if (list.size() == 1) return list[0];
+  return addShape(shapeIn(env, ShapeKind::unite), s.ordinal, s.span, env, list);
+}
+
+/// Nothing where the statement has no radius; a radius that is not positive counts as none.
+std::optional<double> Interpreter::smoothRadius(const StmtNode& s, const Env& env) {
+  if (s.amount == kNoId) return std::nullopt;
+  const double units = real(s.amount, env) * env.place.scale * kUnitsPerMetre;
+  if (!(units > 0)) return std::nullopt;
+  if (units < 1e9) return units;
+  note("the smooth radius is larger than the world; the edge is left sharp", s.span, env.activation);
+  return std::nullopt;
+}
+
+void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
+  if (failed() || id == kNoId) return;
+  const StmtNode& s = program_.stmt(id);
+  if (!step(1, s.span, env.activation)) return;
+  const Nested nested(nesting_);
+  if (nesting_ > limits_.nesting) {
+    fail("expressions and statements are nested too deep", s.span, env.activation);
+    return;
+  }
+  switch (s.kind) {
+    case StmtKind::block:
+      block(s, env, out);
+      break;
+    case StmtKind::call:
+      call(s.expr, s.ordinal, env, out);
+      break;
+    case StmtKind::unite:
+      uniteSmooth(s, env, out);
+      break;
+    case StmtKind::cut:
+      cut(s, env, out);
+      break;
+    case StmtKind::meet:
+      meet(s, env, out);
+      break;
+    case StmtKind::sum:
+      sum(s, env, out);
+      break;
+    case StmtKind::morph:
+      morph(s, env, out);
+      break;
+    case StmtKind::displace:
+      displace(s, env, out);
+      break;
+    case StmtKind::warp:
+      warp(s, env, out);
+      break;
+    case StmtKind::transform: {
+      Env inner = env;
+      transform(s.xforms, inner);
+      statement(s.body, inner, out);
+      break;
+    }
+    case StmtKind::repeat:
+      repeat(s, env, out);
+      break;
+    case StmtKind::for_each:
+      forEach(s, env, out);
+      break;
+    case StmtKind::scatter:
+      scatter(s, env, out);
+      break;
+    case StmtKind::let:
+      if (env.slots != nullptr && s.slot < env.slots->size()) (*env.slots)[s.slot] = evaluate(s.expr, env);
+      break;
+    case StmtKind::anchor:
+      anchor(s, env);
+      break;
+    case StmtKind::detail:
+      detail(s, env, out);
+      break;
+    case StmtKind::field:  // evaluated where it is used
+    case StmtKind::mat:    // the checker has put both on the block
+    case StmtKind::tag:
+      break;
+  }
+}
+
+void Interpreter::block(const StmtNode& s, const Env& env, ShapeList& out) {
+  Env inner = env;
+  inner.cut_detail = 0;
+  if (s.material != 0) inner.material = s.material;
+  if (s.tag != 0) inner.tag = s.tag;
+  ShapeList own;
+  for (uint32_t i = 0; i < s.children.count; ++i) statement(program_.idAt(s.children, i), inner, own);
+  out.insert(out.end(), own.begin(), own.end());
+}
+
+void Interpreter::uniteSmooth(const StmtNode& s, const Env& env, ShapeList& out) {
+  ShapeList body;
+  statement(s.body, env, body);
+  const std::optional<double> radius = smoothRadius(s, env);
+  if (!radius || body.size() < 2) {
+    out.insert(out.end(), body.begin(), body.end());
+    return;
+  }
+  Shape node = shapeIn(env, ShapeKind::unite_smooth);
+  node.amount = static_cast<float>(*radius);
+  out.push_back(addShape(node, s.ordinal, s.span, env, body));
+}
+
+void Interpreter::cut(const StmtNode& s, const Env& env, ShapeList& out) {
+  ShapeList body;
+  Env inner = env;
+  inner.cut_detail = 0;
+  statement(s.body, inner, body);
+  if (failed() || body.empty()) return;
+  limitLevels(body, 0, 0, env.cut_detail);
+  const std::optional<double> radius = smoothRadius(s, env);
+  if (s.layer_level) {
+    if (radius && body.size() > 1) {
+      Shape node = shapeIn(env, ShapeKind::unite_smooth);
+      node.amount = static_cast<float>(*radius);
+      body = {addShape(node, s.ordinal, s.span, env, body)};
+    }
+    layer_cuts_.insert(layer_cuts_.end(), body.begin(), body.end());
+    return;
+  }
+  if (out.empty()) return;  // nothing precedes: nothing to take away from
+  ShapeList operands{united(out, s, env)};
+  operands.insert(operands.end(), body.begin(), body.end());
+  Shape node = shapeIn(env, radius ? ShapeKind::subtract_smooth : ShapeKind::subtract);
+  node.amount = static_cast<float>(radius.value_or(0));
+  out = {addShape(node, s.ordinal, s.span, env, operands)};
+}
+
+void Interpreter::meet(const StmtNode& s, const Env& env, ShapeList& out) {
+  const StmtNode& body = program_.stmt(s.body);
+  if (body.kind != StmtKind::block) {
+    statement(s.body, env, out);
+    return;
+  }
+  Env inner = env;
+  inner.cut_detail = 0;
+  if (body.material != 0) inner.material = body.material;
+  if (body.tag != 0) inner.tag = body.tag;
+  ShapeList operands;
+  for (uint32_t i = 0; i < body.children.count && !failed(); ++i) {
+    const StmtNode& child = program_.stmt(program_.idAt(body.children, i));
+    if (child.kind == StmtKind::cut) {
+      // Takes away from what the operands before it have in common.
+      if (operands.size() > 1)
+        operands = {addShape(shapeIn(inner, ShapeKind::meet), child.ordinal, s.span, inner, operands)};
+      statement(program_.idAt(body.children, i), inner, operands);
+      continue;
+    }
+    ShapeList list;
+    statement(program_.idAt(body.children, i), inner, list);
+    if (isSilent(child.kind)) continue;
+    if (list.empty()) {
+      note("one operand of this meet is missing or was left out, so the whole meet is left out", child.span,
+           env.activation);
+      return;
+    }
+    operands.push_back(united(list, child, inner));
+  }
+  if (failed() || operands.empty()) return;
+  if (operands.size() == 1) {
+    out.push_back(operands[0]);
+    return;
+  }
+  const std::optional<double> radius = smoothRadius(s, env);
+  Shape node = shapeIn(inner, radius ? ShapeKind::meet_smooth : ShapeKind::meet);
+  node.amount = static_cast<float>(radius.value_or(0));
+  out.push_back(addShape(node, s.ordinal, s.span, inner, operands));
+}
+
+void Interpreter::sum(const StmtNode& s, const Env& env, ShapeList& out) {
+  ShapeList body;
+  statement(s.body, env, body);
+  std::erase_if(body, [&](uint32_t i) {
+    if (draft_.shape(i).inner_radius > 0) return false;
+    note("this shape has no inner radius, so it cannot be summed and is left out", draft_.origin(i).span,
+         draft_.origin(i).activation);
+    return true;
+  });
+  if (failed() || body.empty()) return;
+  out.push_back(addShape(shapeIn(env, ShapeKind::sum), s.ordinal, s.span, env, body));
+}
+
+void Interpreter::morph(const StmtNode& s, const Env& env, ShapeList& out) {
+  const StmtId from = program_.idAt(s.children, 0), to = program_.idAt(s.children, 1);
+  // A parameter of the field may run along what is morphed (`u`), so it is evaluated after both ends.
+  const bool sampled = program_.expr(s.expr).type.sample;
+  Num t = sampled ? Num{} : evaluate(s.expr, env).n[0];
+  if (!sampled && !(t.value > 0)) return statement(from, env, out);
+  if (!sampled && t.value >= 1) return statement(to, env, out);
+  ShapeList a, b;
+  statement(from, env, a);
+  statement(to, env, b);
+  if (failed()) return;
+  if (a.empty() || b.empty()) {
+    note("one end of this morph is missing or was left out, so the whole morph is left out", s.span, env.activation);
+    return;
+  }
+  const uint32_t first = united(a, s, env), second = united(b, s, env);
+  if (sampled) {
+    Env inner = env;
+    const uint32_t swept = draft_.sweepOf(first) != kNone ? draft_.sweepOf(first) : draft_.sweepOf(second);
+    if (swept != kNone) inner.sweep = swept;
+    t = evaluate(s.expr, inner).n[0];
+    if (t.constant() && !(t.value > 0 && t.value < 1)) {
+      const ShapeList& end = t.value >= 1 ? b : a;
+      out.insert(out.end(), end.begin(), end.end());
+      return;
+    }
+  }
+  if (s.power) return morphPower(s, env, first, second, t, out);
+  Shape node = shapeIn(env, ShapeKind::morph);
+  const double ra = static_cast<double>(draft_.shape(first).inner_radius);
+  const double rb = static_cast<double>(draft_.shape(second).inner_radius);
+  if (t.constant()) {
+    node.amount = static_cast<float>(t.value);
+    node.inner_radius = static_cast<float>(ra + (rb - ra) * t.value);
+  } else {
+    node.expr = draft_.expression(t);
+    node.inner_radius = static_cast<float>(std::max(ra, rb));
+  }
+  if (ra == 0 || rb == 0) node.inner_radius = 0;
+  out.push_back(addShape(node, s.ordinal, s.span, env, {first, second}));
+}
+
+void Interpreter::morphPower(const StmtNode& s, const Env& env, uint32_t a, uint32_t b, Num t, ShapeList& out) {
+  const auto isRound = [&](const Shape& x) { return x.kind == ShapeKind::sphere || x.kind == ShapeKind::ellipsoid; };
+  const bool swapped = draft_.shape(a).kind == ShapeKind::box;
+  const Shape& round = draft_.shape(swapped ? b : a);
+  const Shape& square = draft_.shape(swapped ? a : b);
+  if (!isRound(round) || square.kind != ShapeKind::box) {
+    note("morph by power goes between a sphere or an ellipsoid and a box only; use lerp here", s.span, env.activation);
+    return;
+  }
+  if (round.frame.origin != square.frame.origin ||
+      (round.kind == ShapeKind::ellipsoid && round.frame.rows != square.frame.rows)) {
+    note("morph by power needs both shapes at the same centre with the same axes; use lerp here", s.span,
+         env.activation);
+    return;
+  }
+  const bool ball = round.kind == ShapeKind::sphere;
+  Shape node = shapeIn(env, ShapeKind::morph_power);
+  node.frame = square.frame;
+  for (size_t i = 0; i < 3; ++i) node.size[i] = round.size[ball ? 0 : i], node.size[3 + i] = square.size[i];
+  if (swapped) t = draft_.binary(ExprOp::subtract, {1}, t);
+  node.inner_radius = *std::max_element(node.size.begin(), node.size.end());
+  if (t.constant()) {
+    const double exponent = 2.0 / (1.0 - t.value + t.value / static_cast<double>(kMaxPower) * 2.0);
+    node.kind = ShapeKind::superquadric;
+    for (size_t i = 0; i < 3; ++i) {
+      const double from = static_cast<double>(node.size[i]), to = static_cast<double>(node.size[3 + i]);
+      node.size[i] = static_cast<float>(from + (to - from) * t.value);
+    }
+    node.inner_radius = std::min({node.size[0], node.size[1], node.size[2]});
+    node.size[3] = static_cast<float>(exponent);
+    node.size[4] = node.size[5] = 0;
+  } else {
+    node.expr = draft_.expression(t);
+  }
+  out.push_back(addShape(node, s.ordinal, s.span, env));
+}
+
+void Interpreter::displace(const StmtNode& s, const Env& env, ShapeList& out) {
+  ShapeList body;
+  statement(s.body, env, body);
+  if (failed() || body.empty()) return;
+  const uint32_t child = united(body, s, env);
+  Env inner = env;
+  if (draft_.sweepOf(child) != kNone) inner.sweep = draft_.sweepOf(child);
+  Num by = evaluate(s.expr, inner).n[0];
+  if (s.amount != kNoId) {
+    const double most = std::fabs(real(s.amount, env));
+    by = draft_.clamp(by, {-most}, {most});
+  }
+  if (by.constant() && by.value == 0) {
+    out.push_back(child);
+    return;
+  }
+  Shape node = shapeIn(env, ShapeKind::displace);
+  node.expr = draft_.expression(by);
+  out.push_back(addShape(node, s.ordinal, s.span, env, {child}));
+}
+
+void Interpreter::warp(const StmtNode& s, const Env& env, ShapeList& out) {
+  ShapeList body;
+  statement(s.body, env, body);
+  if (failed() || body.empty()) return;
+  const uint32_t child = united(body, s, env);
+  Env inner = env;
+  if (draft_.sweepOf(child) != kNone) inner.sweep = draft_.sweepOf(child);
+  std::array<Num, 3> by = evaluate(s.expr, inner).n;
+  if (s.amount != kNoId) {
+    const double most = std::fabs(real(s.amount, env));
+    for (Num& n : by) n = draft_.clamp(n, {-most}, {most});
+  }
+  Shape node = shapeIn(env, ShapeKind::warp);
+  node.expr = draft_.triple(by);
+  out.push_back(addShape(node, s.ordinal, s.span, env, {child}));
+}
+
+void Interpreter::limitLevels(ShapeList& list, size_t from, int32_t coarsest, int32_t detail_edge) {
+  for (size_t i = from; i < list.size(); ++i) {
+    Shape& s = draft_.shape(list[i]);
+    s.coarsest = std::max(s.coarsest, coarsest);
+    if (detail_edge > 0) s.detail = s.detail > 0 ? std::min(s.detail, detail_edge) : detail_edge;
+  }
+}
+
+void Interpreter::detail(const StmtNode& s, const Env& env, ShapeList& out) {
+  const int32_t edge = std::max(1, toUnits(real(s.expr, env)));
+  StmtId inside = s.body;
+  const auto kind = [&] { return program_.stmt(inside).kind; };
+  while (kind() == StmtKind::transform || kind() == StmtKind::repeat || kind() == StmtKind::for_each ||
+         kind() == StmtKind::scatter || kind() == StmtKind::detail) {
+    inside = program_.stmt(inside).body;
+  }
+  if (kind() == StmtKind::cut && !program_.stmt(inside).layer_level) {
+    Env inner = env;
+    inner.cut_detail = env.cut_detail > 0 ? std::min(env.cut_detail, edge) : edge;
+    statement(s.body, inner, out);
+    return;
+  }
+  ShapeList body;
+  const size_t first_cut = layer_cuts_.size();
+  statement(s.body, env, body);
+  limitLevels(body, 0, 0, edge);
+  limitLevels(layer_cuts_, first_cut, 0, edge);
+  out.insert(out.end(), body.begin(), body.end());
+}
+
+}  // namespace sgm

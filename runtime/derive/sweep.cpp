@@ -1,0 +1,92 @@
+#include "derive/sweep.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
+
+namespace sgm {
+namespace {
+
+Vec3 difference(Int3 a, Int3 b) {
+  return {static_cast<double>(int64_t{a.x} - b.x), static_cast<double>(int64_t{a.y} - b.y),
+          static_cast<double>(int64_t{a.z} - b.z)};
+}
+
+Vec3 normalised(Vec3 v) {
+  const double size = length(v);
+  return size > 0 ? (1.0 / size) * v : Vec3{};
+}
+
+Int3 offsetBy(Int3 p, Vec3 units) {
+  const auto along = [](int32_t at, double d) { return saturate(at + static_cast<int64_t>(detFloor(d + 0.5))); };
+  return {along(p.x, units.x), along(p.y, units.y), along(p.z, units.z)};
+}
+
+/// A unit vector across `tangent`, as near to `wanted` as it gets.
+Vec3 across(Vec3 tangent, Vec3 wanted) {
+  const Vec3 flat = wanted - dot(wanted, tangent) * tangent;
+  if (length(flat) > 1e-3) return normalised(flat);
+  const Vec3 other = std::fabs(tangent.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
+  return normalised(other - dot(other, tangent) * tangent);
+}
+
+}  // namespace
+
+std::vector<Int3> bentLine(Int3 a, Int3 b, double bend, PathKey key) {
+  const Vec3 line = difference(b, a);
+  const double size = length(line);
+  if (!(size > 0)) return {a};
+  if (!(bend > 0)) return {a, b};
+  const int segments = static_cast<int>(std::min(16.0, 8.0 + std::ceil(16.0 * bend / size)));
+  const Vec3 tangent = (1.0 / size) * line;
+  const Vec3 side = across(tangent, {0, 1, 0}), other = cross(tangent, side);
+  const double angle = 6.283185307179586 * key.unit(0);
+  const double height = bend * (0.5 + 0.5 * key.unit(1));
+  const Vec3 rise = height * (detCos(angle) * side + detSin(angle) * other);
+  std::vector<Int3> corners{a};
+  for (int i = 1; i < segments; ++i) {
+    const double t = static_cast<double>(i) / segments;
+    corners.push_back(offsetBy(a, t * line + (4.0 * t * (1.0 - t)) * rise));
+  }
+  corners.push_back(b);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+std::vector<BeamPiece> beamAlong(const std::vector<Int3>& corners, double r, Vec3 up) {
+  std::vector<BeamPiece> pieces;
+  Vec3 normal, previous;
+  for (size_t i = 0; i + 1 < corners.size(); ++i) {
+    const Vec3 line = difference(corners[i + 1], corners[i]);
+    const double size = length(line);
+    const Vec3 tangent = (1.0 / size) * line;
+    if (i == 0) {
+      normal = across(tangent, up);
+    } else {
+      // The least rotation between the tangents is, on vectors across the old one, the reflection in the plane across
+      // their sum.
+      const Vec3 sum = previous + tangent;
+      const double square = dot(sum, sum);
+      if (square > 1e-12) normal = normal - (2.0 * dot(sum, normal) / square) * sum;
+      normal = across(tangent, normal);
+    }
+    previous = tangent;
+    const Vec3 side = cross(normal, tangent);
+    BeamPiece piece;
+    piece.frame.origin = offsetBy(corners[i], 0.5 * line);
+    const Vec3 rows[3] = {side, normal, tangent};
+    for (size_t row = 0; row < 3; ++row) {
+      for (int axis = 0; axis < 3; ++axis) {
+        piece.frame.rows[3 * row + static_cast<size_t>(axis)] = static_cast<float>(rows[row][axis] + 0.0);
+      }
+    }
+    // One unit makes up for the centre's rounding.
+    const float half = static_cast<float>(r + 1.0);
+    piece.half = {half, half, static_cast<float>(0.5 * size + r + 1.0)};
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+}  // namespace sgm
