@@ -53,10 +53,8 @@ sgm_setup() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >"$log" 2>&1 </dev/null || true
   if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -q --no-install-recommends "${missing[@]}" >>"$log" 2>&1 </dev/null; then
-    tail -n 15 "$log" >&2
-    rm -f "$log"
     mapfile -t missing < <(sgm_missing "$@")
-    echo "setup: error: could not install ${missing[*]} (is the network there?)" >&2
+    echo "setup: error: could not install ${missing[*]} (is the network there? apt-get's words are in $log)" >&2
     return 1
   fi
   rm -f "$log"
@@ -68,11 +66,9 @@ sgm_setup_npm() {
   echo "setup: installing npm package $package $version into $directory"
   mkdir -p "$directory"
   log=$(mktemp)
-  if ! npm install --prefix "$directory" --no-fund --no-audit --no-save --loglevel=error "$package@$version" \
-    >"$log" 2>&1 </dev/null; then
-    tail -n 5 "$log" >&2
-    rm -f "$log"
-    echo "setup: error: could not install npm package $package $version (is the network there?)" >&2
+  if ! npm install --prefix "$directory" --no-fund --no-audit --no-save --prefer-offline --fetch-retries=1 \
+    --fetch-retry-mintimeout=1000 --loglevel=error "$package@$version" >"$log" 2>&1 </dev/null; then
+    echo "setup: error: could not install npm package $package $version (is the network there? npm's words are in $log)" >&2
     return 1
   fi
   rm -f "$log"
