@@ -99,10 +99,11 @@ uint32_t writeVertices(const ChunkSamples& samples, const ChunkGrid& grid, size_
       const Int3 corner{grid.origin.x + static_cast<int32_t>(x) * grid.cell, corner_y, corner_z};
       const auto add = [&](uint8_t axis, size_t step) {
         const uint32_t t = crossing(q[x], q[x + step]);
-        Vertex& v = part.vertices[number];
+        Vertex v{};
         v.x = static_cast<uint16_t>(x * kSubcell + (axis == 0 ? t : 0));
         v.y = static_cast<uint16_t>(y * kSubcell + (axis == 1 ? t : 0));
         v.z = static_cast<uint16_t>(z * kSubcell + (axis == 2 ? t : 0));
+        part.vertices[number] = v;
         part.keys[number] = {corner, level, axis, 0};
         numbers[(y * kSide + x) * 3 + axis] = number++;
       };
@@ -119,8 +120,8 @@ uint32_t writeVertices(const ChunkSamples& samples, const ChunkGrid& grid, size_
 void polygonizeBody(const ChunkSamples& samples, const ChunkGrid& grid, MeshPart& part) {
   Census census;
   takeCensus(samples.signs.data(), census);
-  part.vertices.assign(census.vertices, Vertex{});
-  part.keys.assign(census.vertices, VertexKey{});
+  part.vertices.resize(census.vertices);
+  part.keys.resize(census.vertices);
   part.indices.resize(census.triangles * 3);
   part.hash = {};
   if (census.vertices == 0) return;
@@ -144,14 +145,13 @@ void polygonizeBody(const ChunkSamples& samples, const ChunkGrid& grid, MeshPart
         const uint8_t* end = kCubeLoops + kCubeLoopStart[cell_case + 1];
         while (loop != end) {
           const int n = *loop++;
-          LoopPoint points[kLongestCubeLoop];
-          for (int i = 0; i < n; ++i) {
-            const uint8_t e = *loop++;
+          next_index = triangulateLoop(n, next_index, [&](size_t i) -> LoopPoint {
+            const uint8_t e = loop[i];
             const uint32_t number = of_cell[offsets[e]];
             const Vertex& v = vertices[number];
-            points[i] = {v.x, v.y, v.z, kCubeEdgeFaces[e], number};
-          }
-          next_index = triangulateLoop(points, n, next_index);
+            return {v.x, v.y, v.z, kCubeEdgeFaces[e], number};
+          });
+          loop += n;
         }
       }
     }

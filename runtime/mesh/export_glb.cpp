@@ -126,10 +126,10 @@ std::string extrasText(const WorldMesh& mesh, const ExportInfo& info) {
 std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::vector<Primitive>& primitives,
                       size_t buffer_bytes) {
   std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":" + quoted(info.generator) +
-                     "},\"scene\":0,\"scenes\":[{\"nodes\":[0],\"extras\":" + extrasText(mesh, info) +
-                     "}],\"nodes\":[{\"name\":" + quoted(info.name);
+                     "},\"scene\":0,\"scenes\":[{\"extras\":" + extrasText(mesh, info);
   if (primitives.empty()) return json + "}]}";
-  json += ",\"mesh\":0}],\"meshes\":[{\"name\":" + quoted(info.name) + ",\"primitives\":";
+  json += ",\"nodes\":[0]}],\"nodes\":[{\"name\":" + quoted(info.name) +
+          ",\"mesh\":0}],\"meshes\":[{\"name\":" + quoted(info.name) + ",\"primitives\":";
   json += listOf(primitives.size(), [](size_t p) {
     const auto accessor = [&](size_t i) { return std::to_string(4 * p + i); };
     return "{\"attributes\":{\"POSITION\":" + accessor(0) + ",\"NORMAL\":" + accessor(1) + ",\"_TAG\":" + accessor(2) +

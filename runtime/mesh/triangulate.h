@@ -9,10 +9,17 @@
 // (k, j). A measure of 0 (a flat triangle) is allowed; a repeated vertex cannot happen.
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
+#include <type_traits>
 
 #include "mesh/tables.h"
+
+// Left to its own judgement g++ keeps the unrolled pieces below as calls, at half the speed.
+#define SGM_ALWAYS_INLINE __attribute__((always_inline))
 
 namespace sgm {
 
@@ -29,33 +36,137 @@ inline int32_t triangleMeasure(const LoopPoint& a, const LoopPoint& b, const Loo
   return std::abs(uy * vz - uz * vy) + std::abs(uz * vx - ux * vz) + std::abs(ux * vy - uy * vx);
 }
 
-/// Any length from 3 to kLongestLoop. Writes 3 * (n - 2) indices and returns the end of them.
+/// The definition, for any length n from 3 to kLongestLoop: writes 3 * (n - 2) indices and returns the end of them.
 uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* out);
 
-/// As triangulateAnyLoop, with short ways through the commonest lengths.
-inline uint32_t* triangulateLoop(const LoopPoint* p, int n, uint32_t* out) {
-  const auto write = [&](int a, int b, int c) {
-    out[0] = p[a].vertex;
-    out[1] = p[b].vertex;
-    out[2] = p[c].vertex;
-    out += 3;
+namespace triangulation {
+
+/// In how many ways a piece of n points can be cut into triangles: the Catalan numbers.
+inline constexpr std::array<int, 8> kWays{0, 0, 1, 1, 2, 5, 14, 42};
+
+/// The number of the first triangulation of a piece of n points whose apex is its k-th point, where triangulations are
+/// counted by apex, then by that of the left piece, then by that of the right one.
+constexpr int firstWay(size_t n, size_t k) {
+  int way = 0;
+  for (size_t earlier = 1; earlier < k; ++earlier) way += kWays[earlier + 1] * kWays[n - earlier];
+  return way;
+}
+
+/// Triangulation `way` of the points from..from + n - 1, in pre-order.
+constexpr uint8_t* writeWay(size_t from, size_t n, int way, uint8_t* out) {
+  if (n < 3) return out;
+  size_t k = 1;
+  while (k + 1 < n - 1 && firstWay(n, k + 1) <= way) ++k;
+  const int inner = way - firstWay(n, k);
+  *out++ = static_cast<uint8_t>(from);
+  *out++ = static_cast<uint8_t>(from + k);
+  *out++ = static_cast<uint8_t>(from + n - 1);
+  out = writeWay(from, k + 1, inner / kWays[n - k], out);
+  return writeWay(from + k, n - k, inner % kWays[n - k], out);
+}
+
+template <size_t N>
+constexpr auto makeWays() {
+  std::array<std::array<uint8_t, 3 * (N - 2)>, static_cast<size_t>(kWays[N])> ways{};
+  for (size_t way = 0; way < ways.size(); ++way) writeWay(0, N, static_cast<int>(way), ways[way].data());
+  return ways;
+}
+template <size_t N>
+inline constexpr auto kTriangles = makeWays<N>();
+
+/// Calls f(std::integral_constant<size_t, i>) for Begin <= i < End: a loop that is unrolled for certain.
+template <size_t Begin, size_t End, class F>
+SGM_ALWAYS_INLINE inline void unrolled(F&& f) {
+  if constexpr (Begin < End) {
+    f(std::integral_constant<size_t, Begin>{});
+    unrolled<Begin + 1, End>(f);
+  }
+}
+
+}  // namespace triangulation
+
+/// triangulateAnyLoop for a length known to the compiler: without branches, and with cross products shared by
+/// triangles. point(i) gives the i-th LoopPoint and is called once for each.
+template <size_t N, class Load>
+inline uint32_t* triangulateLoopOf(uint32_t* out, Load&& point) {
+  using namespace triangulation;
+  struct Cross {
+    int32_t x, y, z;
+    int32_t norm() const { return std::abs(x) + std::abs(y) + std::abs(z); }
   };
-  if (n == 3) {
-    write(0, 1, 2);
-    return out;
+  int32_t x[N], y[N], z[N], best[N][N];
+  uint32_t faces[N], vertex[N];
+  int way[N][N];
+  Cross cross[N][N];  // of the points' positions relative to point 0
+  unrolled<0, N>([&](auto index) SGM_ALWAYS_INLINE {
+    constexpr size_t i = decltype(index)::value;
+    const LoopPoint p = point(i);
+    x[i] = p.x, y[i] = p.y, z[i] = p.z, faces[i] = p.faces, vertex[i] = p.vertex;
+    if constexpr (i > 0) {
+      x[i] -= x[0], y[i] -= y[0], z[i] -= z[0];
+      unrolled<1, i>([&](auto other) SGM_ALWAYS_INLINE {
+        constexpr size_t j = decltype(other)::value;
+        cross[j][i] = {y[j] * z[i] - z[j] * y[i], z[j] * x[i] - x[j] * z[i], x[j] * y[i] - y[j] * x[i]};
+      });
+    }
+    if constexpr (i + 1 < N) best[i][i + 1] = std::numeric_limits<int32_t>::max(), way[i][i + 1] = 0;
+  });
+  unrolled<2, N>([&](auto span_constant) SGM_ALWAYS_INLINE {
+    constexpr size_t kSpan = decltype(span_constant)::value;
+    unrolled<0, N - kSpan>([&](auto index) SGM_ALWAYS_INLINE {
+      constexpr size_t i = decltype(index)::value, j = i + kSpan;
+      int32_t largest = -1;
+      int chosen = 0;
+      unrolled<1, kSpan>([&](auto apex) SGM_ALWAYS_INLINE {
+        constexpr size_t k = i + decltype(apex)::value;
+        int32_t measure;
+        if constexpr (i == 0) {
+          measure = cross[k][j].norm();
+        } else {
+          const Cross &a = cross[i][k], &b = cross[k][j], &c = cross[i][j];
+          measure = Cross{a.x + b.x - c.x, a.y + b.y - c.y, a.z + b.z - c.z}.norm();
+        }
+        const int32_t smallest = std::min(std::min(best[i][k], best[k][j]), measure);
+        constexpr int kFirst = firstWay(kSpan + 1, k - i), kRight = kWays[j - k + 1];
+        const bool better = smallest > largest;
+        largest = better ? smallest : largest;
+        chosen = better ? kFirst + way[i][k] * kRight + way[k][j] : chosen;
+      });
+      best[i][j] = kSpan == N - 1 || (faces[i] & faces[j]) == 0 ? largest : -1;
+      way[i][j] = chosen;
+    });
+  });
+  const uint8_t* triangles = kTriangles<N>[static_cast<size_t>(way[0][N - 1])].data();
+  unrolled<0, 3 * (N - 2)>([&](auto i) SGM_ALWAYS_INLINE { out[i] = vertex[triangles[i]]; });
+  return out + 3 * (N - 2);
+}
+
+/// The way through for all lengths, quick for those that cubes have. point(i) gives the i-th LoopPoint.
+template <class Load>
+inline uint32_t* triangulateLoop(int n, uint32_t* out, Load&& point) {
+  switch (n) {
+    case 3:
+      for (size_t i = 0; i < 3; ++i) out[i] = point(i).vertex;
+      return out + 3;
+    case 4:
+      return triangulateLoopOf<4>(out, point);
+    case 5:
+      return triangulateLoopOf<5>(out, point);
+    case 6:
+      return triangulateLoopOf<6>(out, point);
+    case 7:
+      return triangulateLoopOf<7>(out, point);
+    default: {
+      LoopPoint points[kLongestLoop];
+      for (size_t i = 0; i < static_cast<size_t>(n); ++i) points[i] = point(i);
+      return triangulateAnyLoop(points, n, out);
+    }
   }
-  if (n > 4) return triangulateAnyLoop(p, n, out);
-  const bool odd_allowed = (p[1].faces & p[3].faces) == 0, even_allowed = (p[0].faces & p[2].faces) == 0;
-  const int32_t odd = std::min(triangleMeasure(p[0], p[1], p[3]), triangleMeasure(p[1], p[2], p[3]));
-  const int32_t even = std::min(triangleMeasure(p[0], p[2], p[3]), triangleMeasure(p[0], p[1], p[2]));
-  if (odd_allowed && (!even_allowed || odd >= even)) {
-    write(0, 1, 3);
-    write(1, 2, 3);
-  } else {
-    write(0, 2, 3);
-    write(0, 1, 2);
-  }
-  return out;
+}
+
+/// As triangulateAnyLoop, quicker.
+inline uint32_t* triangulateLoop(const LoopPoint* p, int n, uint32_t* out) {
+  return triangulateLoop(n, out, [p](size_t i) -> const LoopPoint& { return p[i]; });
 }
 
 }  // namespace sgm

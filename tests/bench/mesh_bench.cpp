@@ -2,10 +2,10 @@
 // CSV. usage: mesh_bench [repetitions]
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <vector>
 
@@ -58,13 +58,14 @@ CoarseFace coarseFaceOf(const ChunkSamples& samples) {
   return coarse;
 }
 
-/// The median time of a call, in seconds.
+/// The median time of a call, in seconds of this process's processor time: other work on the machine disturbs it
+/// little.
 double medianSeconds(int repetitions, const std::function<void()>& run) {
   std::vector<double> times;
   for (int i = 0; i < repetitions; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     run();
-    times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    times.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   }
   std::sort(times.begin(), times.end());
   return times[times.size() / 2];
