@@ -46,7 +46,8 @@ enum class Builtin : uint8_t {
   cell_point,    ///< cell.point(jitter = 0.5): a point of the cell; 0 its centre, 1 anywhere in it. bound[0]: the cell
   cell_links,    ///< cell.links(tree = 3, extra = 0): faces that a passage crosses; each face by its lower cell only,
                  ///< so that a link is derived once; connected within blocks of 2^tree cells and between them
-  face_point,    ///< face.point(jitter = 0.5): a point of the face
+  face_point,    ///< face.point(jitter = 0.5): a point of the face. In a let the receiver may be a cell in one call and
+                 ///< a face in another: tell by the value, not by the enumerator
   position,      ///< vec(x, y, z), the same as (x, y, z)
 };
 

@@ -7,7 +7,7 @@ namespace sgm {
 
 namespace {
 
-constexpr uint16_t kDeepestTree = 200;  // of trees that loops build, a + b + c ...
+constexpr uint16_t kDeepestTree = 128;  // of trees that loops build, a + b + c ...
 
 struct Operator {
   int level = 0;  ///< binds tighter where larger; 0: no operator

@@ -1,0 +1,186 @@
+#pragma once
+// Names, arguments, dimensions and stages: turns what was parsed into a resolved Program.
+//
+// Parameters of rules have one type each, found from the first call; lets and fields are checked anew for each tuple of
+// argument types (and that is remembered), so that one `fbm` serves lengths and ratios alike.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "grammar/compile.h"
+#include "grammar/parser.h"
+#include "grammar/sink.h"
+#include "grammar/syntax.h"
+
+namespace sgm {
+
+/// A call of a rule by a rule, for the checks of recursion, layers and reach.
+struct RuleCall {
+  uint32_t from = 0, alternative = 0;
+  uint32_t to = 0;
+  ExprId call = kNoId;
+  bool escape = false;  ///< of depth or minsize
+  bool shrunk = false;  ///< inside scale or size
+};
+
+/// A scatter that probes a layer.
+struct Probe {
+  uint32_t rule = 0;
+  uint32_t scatter = 0;
+};
+
+class Checker {
+ public:
+  Checker(Program& program, NameTable& names, std::vector<ModuleSyntax>& syntax, const CompileLimits& limits,
+          DiagnosticSink& sink);
+
+  /// All checks but recursion and reach. What failed is in the sink.
+  void run();
+
+  const std::vector<RuleCall>& calls() const { return calls_; }
+  const std::vector<Probe>& probes() const { return probes_; }
+
+ private:
+  struct Symbol {
+    Ref ref = Ref::none;
+    uint32_t id = 0;
+    bool import = false;
+    Span span;
+  };
+  struct Local {
+    NameId name = kNoId;
+    uint32_t slot = 0;
+    Type type;
+    uint32_t field = kNoId;  ///< a local field instead of a value
+    size_t depth = 0;        ///< of a field: how many locals stood before it
+  };
+  /// Where an expression stands.
+  struct Scope {
+    uint32_t module = 0;
+    bool rule = false;  ///< cell and scope are known, rand needs no key
+    std::vector<Local> locals;
+    uint32_t next_slot = 0;
+    uint32_t slot_count = 0;
+    uint32_t* draws = nullptr;  ///< counter of rand and chance
+  };
+  using Key = std::tuple<Ref, uint32_t, std::vector<std::tuple<int, int, int, bool, bool>>>;
+
+  // check_collect.cpp
+  void collect();
+  void declare(ModuleSyntax& module, NameId name, Symbol symbol);
+  uint16_t tableIndex(std::pmr::vector<std::pmr::string>& table, NameId name, const Span& span);
+
+  // check_domain.cpp
+  void params();
+  void seedAndDomain();
+  void layers();
+  void sortLayers();
+  void expectations();
+  void probeUses();
+  std::optional<double> constant(ExprId id, Dim dim, std::string_view what);
+  std::optional<int64_t> wholeUnits(ExprId id, std::string_view what);
+
+  // check_statements.cpp
+  void checkRules();
+  void checkRule(uint32_t rule);
+  void checkAlternative(uint32_t rule, uint32_t alternative);
+  void statement(StmtId id, bool shrunk);
+  void blockStatements(const StmtNode& node, bool shrunk);
+  void morphStatement(const StmtNode& node, bool shrunk);
+  void forEach(StmtId id, const StmtNode& node, bool shrunk);
+  void scatterStatement(const StmtNode& node, bool shrunk);
+  bool xforms(IdRange range);
+  void localField(const StmtNode& node);
+  void callRule(ExprId call, bool escape, bool shrunk);
+  void markLayerLevel(StmtId id);
+  void declareLocal(NameId name, const Span& span, Local local);
+  bool sumLeaf(StmtId id);
+
+  // check_bind.cpp
+  struct FormalView {
+    std::string_view name;
+    ExprId fallback = kNoId;
+    bool required = true;
+    bool named_only = false;
+  };
+  /// Positions and names to one list; false with an error.
+  bool bind(ExprId call, std::string_view callee, const std::vector<FormalView>& formals, bool variadic,
+            std::vector<uint32_t>& bound);
+  std::vector<FormalView> viewOf(IdRange formals) const;
+  std::vector<FormalView> viewOf(std::span<const BuiltinParam> params) const;
+  /// The written arguments of a transform or area, by position or name, to up to three expressions.
+  bool bindWords(IdRange args, const Span& span, std::string_view callee, std::initializer_list<std::string_view> words,
+                 size_t required, ExprId* out);
+  bool resolveCallee(ExprId call, bool shape);
+  void offerNames(Suggestion& suggestion, bool calls) const;
+  void unknownName(const Span& span, NameId name, bool call);
+
+  // check_expressions.cpp
+  Type expression(ExprId id);
+  Type name(ExprId id);
+  Type member(ExprId id);
+  Type binary(ExprId id);
+  Type conditional(ExprId id);
+  Type callValue(ExprId id);
+  Type builtinCall(ExprId id);
+  Type method(ExprId id);
+  Type letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<Type>& args);
+  Type localFieldUse(ExprId id, const Local& local);
+  void primitiveCall(ExprId id);
+  Type unify(const Type& a, const Type& b, bool& good) const;
+  /// Checks arguments against a builtin's parameters, each expression once; gives the dimension that those of any
+  /// dimension have in common, or none where all are a literal 0.
+  std::optional<Dim> arguments(const std::vector<uint32_t>& bound, std::span<const BuiltinParam> params,
+                               std::string_view callee);
+  /// expression() with demands: the kind, the dimension and the stage. what: "the radius of ...".
+  Type demand(ExprId id, ValueKind kind, Dim dim, std::string_view what, bool sample = false);
+  /// The same for an expression whose type is already known: no expression is checked twice, so that nesting costs
+  /// nothing.
+  void demandType(ExprId id, const Type& type, ValueKind kind, Dim dim, std::string_view what, bool sample = false);
+  bool literal(ExprId id) const;
+  bool agrees(const Type& type, ValueKind kind, Dim dim) const;
+  void deriveOnly(ExprId id, std::string_view what);
+  /// The innermost part of an expression that makes it sample-time.
+  ExprId culprit(ExprId id) const;
+  std::string unitHint(ExprId id, const Type& type, Dim wanted) const;
+
+  ExprNode& node(ExprId id) { return program_.ast.exprs[id]; }
+  const ExprNode& node(ExprId id) const { return program_.ast.exprs[id]; }
+  std::string_view text(NameId id) const { return program_.text(id); }
+  uint32_t child(const ExprNode& n, uint32_t i) const { return program_.ast.ids[n.children.first + i]; }
+  IdRange store(const std::vector<uint32_t>& ids);
+
+  Program& program_;
+  NameTable& names_;
+  std::vector<ModuleSyntax>& syntax_;
+  CompileLimits limits_;
+  DiagnosticSink& sink_;
+  std::vector<std::map<NameId, Symbol>> symbols_;
+  Scope scope_;
+  std::map<Key, Type> known_;        ///< results of lets and global fields
+  std::map<Key, Type> known_local_;  ///< of local fields, within one alternative
+  std::vector<std::pair<Ref, uint32_t>> open_;
+  std::vector<std::vector<Type>> rule_types_;
+  std::vector<uint8_t> rule_state_;  ///< 0 not reached, 1 waiting, 2 checked
+  std::vector<uint32_t> waiting_;
+  std::vector<RuleCall> calls_;
+  std::vector<Probe> probes_;
+  std::vector<bool> start_rules_;
+  uint32_t rule_ = 0, alternative_ = 0;
+  uint32_t ordinal_ = 0, draws_ = 0;
+};
+
+/// Error for every rule that may call itself without end.
+void checkRecursion(const Program& program, const std::vector<RuleCall>& calls, DiagnosticSink& sink);
+
+/// Proves how far each layer's shapes may extend from their cell, fills Layer::bound and a finite domain's box where it
+/// is not written.
+void checkReach(Program& program, const CompileLimits& limits, DiagnosticSink& sink);
+
+}  // namespace sgm

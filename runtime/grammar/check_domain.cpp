@@ -1,0 +1,334 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/hash.h"
+#include "grammar/check.h"
+#include "grammar/codes.h"
+
+namespace sgm {
+
+namespace {
+
+/// Numbers, arithmetic and lets without parameters; bounded by the cap on the depth of lets.
+std::optional<double> fold(const Program& program, ExprId id, int depth) {
+  if (id == kNoId || depth > 400) return std::nullopt;
+  const ExprNode& n = program.expr(id);
+  auto child = [&](uint32_t i) { return fold(program, program.idAt(n.children, i), depth + 1); };
+  switch (n.kind) {
+    case ExprKind::number:
+      return n.value;
+    case ExprKind::negate:
+      if (const auto a = child(0)) return -*a;
+      return std::nullopt;
+    case ExprKind::name:
+      if (n.ref == Ref::let && !program.lets[n.id].function) return fold(program, program.lets[n.id].body, depth + 20);
+      return std::nullopt;
+    case ExprKind::binary: {
+      const auto a = child(0), b = a ? child(1) : std::nullopt;
+      if (!a || !b) return std::nullopt;
+      switch (n.binary) {
+        case BinaryOp::add:
+          return *a + *b;
+        case BinaryOp::subtract:
+          return *a - *b;
+        case BinaryOp::multiply:
+          return *a * *b;
+        case BinaryOp::divide:
+          return *b == 0 ? std::nullopt : std::optional(*a / *b);
+        default:
+          return std::nullopt;
+      }
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::optional<double> Checker::constant(ExprId id, Dim dim, std::string_view what) {
+  const uint32_t before = sink_.errorCount();
+  scope_ = {};
+  demand(id, ValueKind::number, dim, what);
+  if (sink_.errorCount() > before) return std::nullopt;
+  const auto value = fold(program_, id, 0);
+  if (!value || !std::isfinite(*value)) {
+    sink_.error(node(id).span, codes::kNotConstant, join({what, " must be a constant"}),
+                "numbers, arithmetic and lets without parameters");
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<int64_t> Checker::wholeUnits(ExprId id, std::string_view what) {
+  const auto metres = constant(id, kLength, what);
+  if (!metres) return std::nullopt;
+  const double units = *metres * kUnitsPerMetre, whole = std::floor(units + 0.5);
+  if (std::fabs(units - whole) > 1e-6) {
+    sink_.error(node(id).span, codes::kWholeUnits, join({what, " is a whole number of units of 1/1024 m"}),
+                join({"the nearest is ", numberText(whole / kUnitsPerMetre), "m"}));
+    return std::nullopt;
+  }
+  return static_cast<int64_t>(whole);
+}
+
+void Checker::params() {
+  for (Param& param : program_.params) {
+    if (param.module != 0) continue;
+    scope_ = {};
+    const Type type = expression(param.value_expr);
+    if (type.kind != ValueKind::number) {
+      sink_.error(node(param.value_expr).span, codes::kTypeMismatch,
+                  join({"a parameter is a number, and this is a ", typeName(type)}));
+      continue;
+    }
+    param.dim = type.dim;
+    if (type.any_dim && param.has_range) {
+      const Type low = expression(param.low_expr), high = expression(param.high_expr);
+      param.dim = low.any_dim ? high.dim : low.dim;
+    }
+    const auto value = constant(param.value_expr, param.dim, "the default of a parameter");
+    if (!value) continue;
+    param.value = param.low = param.high = *value;
+    if (param.has_range) {
+      const auto low = constant(param.low_expr, param.dim, "the low end of a range");
+      const auto high = constant(param.high_expr, param.dim, "the high end of a range");
+      if (!low || !high) continue;
+      if (*low > *high) {
+        sink_.error(node(param.low_expr).span, codes::kParamRange, "the range is upside down");
+        continue;
+      }
+      if (*value < *low || *value > *high) {
+        sink_.error(node(param.value_expr).span, codes::kParamRange,
+                    join({"the default of `", text(param.name), "` lies outside of its range"}));
+        continue;
+      }
+      param.low = *low;
+      param.high = *high;
+    }
+    auto written_whole = [&](ExprId id) {
+      return id == kNoId || (node(id).kind == ExprKind::number && node(id).value == std::floor(node(id).value) &&
+                             text(node(id).name).find_first_not_of("0123456789") == std::string_view::npos);
+    };
+    param.whole = param.dim == kRatio && written_whole(param.value_expr) && written_whole(param.low_expr) &&
+                  written_whole(param.high_expr) && !(param.has_range && param.low == 0 && param.high == 1);
+  }
+}
+
+void Checker::seedAndDomain() {
+  ModuleSyntax& root = syntax_[0];
+  if (root.seed != kNoId) {
+    const ExprNode& seed = node(root.seed);
+    if (seed.kind == ExprKind::text) {
+      program_.seed = hashText(text(seed.name));
+    } else if (const auto value = constant(root.seed, kRatio, "a seed")) {
+      if (*value < 0 || *value != std::floor(*value) || *value > 1e9)
+        sink_.error(seed.span, codes::kValueRange, "a seed is a whole number from 0 or a text");
+      else
+        program_.seed = static_cast<uint64_t>(*value);
+    }
+  }
+  const DomainDecl& decl = root.domain;
+  Domain& domain = program_.domain;
+  domain.written = decl.present;
+  domain.infinite = decl.infinite;
+  domain.axes = decl.axes;
+  domain.solid = decl.solid;
+  domain.density = decl.density;
+  domain.span = decl.span;
+  if (decl.material != kNoId) domain.material = tableIndex(program_.materials, decl.material, decl.span);
+  if (!decl.box) return;
+  ExprId edges[3] = {kNoId, kNoId, kNoId};
+  const size_t required = decl.box_args.count == 1 ? 1 : 3;
+  if (!bindWords(decl.box_args, decl.span, "box", {"x", "y", "z"}, required, edges)) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    const ExprId edge = edges[required == 1 ? 0 : axis];
+    const auto units = wholeUnits(edge, "an edge of the domain");
+    if (!units) return;
+    if (*units < 2 || *units > (int64_t{1} << 31) - 4096) {
+      sink_.error(node(edge).span, codes::kValueRange, "an edge of the domain is from 2 units to 2097 km long");
+      return;
+    }
+    domain.box.lo[axis] = static_cast<int32_t>(-*units / 2);
+    domain.box.hi[axis] = static_cast<int32_t>(domain.box.lo[axis] + *units);
+  }
+}
+
+void Checker::layers() {
+  ModuleSyntax& root = syntax_[0];
+  const DomainDecl& decl = root.domain;
+  Domain& domain = program_.domain;
+  std::pmr::memory_resource* memory = program_.layers.get_allocator().resource();
+  if (root.start == kNoId && root.layers.empty()) {
+    Span span;
+    span.line = span.column = span.end_line = span.end_column = 1;
+    const bool library = std::none_of(root.items.begin(), root.items.end(), [](const Item& item) {
+      return item.kind == ItemKind::alternative || item.kind == ItemKind::domain;
+    });
+    if (!library)
+      sink_.error(span, codes::kNoStart, "nothing says where derivation starts", "add `start Rule;` or a layer");
+    return;
+  }
+  if (root.start != kNoId && !root.layers.empty())
+    sink_.error(root.start_span, codes::kNoStart, "a grammar starts at the top or in its layers, not both");
+  if (root.start != kNoId && decl.infinite)
+    sink_.error(root.start_span, codes::kDomain, "an infinite domain is derived by layers",
+                "layer name cell 100m reach 50m { start Rule; }");
+  if (!root.layers.empty() && !decl.infinite && !decl.box)
+    sink_.error(root.layers[0].span, codes::kDomain, "layers need an infinite domain or one with a box",
+                "write `domain infinite;` or `domain finite box(...)`");
+  if (sink_.errorCount() > 0) return;
+  if (root.start != kNoId) {
+    Layer main(memory);
+    main.name = names_.intern("main");
+    main.start = root.start;
+    main.span = root.start_span;
+    if (!domain.box.empty())
+      for (int axis = 0; axis < 3; ++axis) main.cell[axis] = domain.box.hi[axis] - domain.box.lo[axis];
+    program_.layers.push_back(std::move(main));
+    return;
+  }
+  constexpr int64_t kLargest = int64_t{1} << 30;
+  for (const LayerDecl& l : root.layers) {
+    Layer layer(memory);
+    layer.name = l.name;
+    layer.start = l.start;
+    layer.span = l.span;
+    layer.cell_expr = l.cell;
+    layer.reach_expr = l.reach;
+    const auto cell = wholeUnits(l.cell, "the cell of a layer"), reach = wholeUnits(l.reach, "the reach of a layer");
+    if (cell && (*cell < 1 || *cell > kLargest))
+      sink_.error(node(l.cell).span, codes::kValueRange, "a cell is from one unit to 1048 km long");
+    else if (reach && (*reach < 0 || *reach > kLargest))
+      sink_.error(node(l.reach).span, codes::kValueRange, "a reach is from 0 to 1048 km long");
+    else if (cell && reach) {
+      // Every chunk asks for all cells within reach: the cost of a sample grows with the cube of this.
+      if (*reach > *cell * limits_.neighbours)
+        sink_.error(node(l.reach).span, codes::kReachTooLarge,
+                    join({"a reach of more than ", std::to_string(limits_.neighbours), " cells"}),
+                    join({"make the cell at least ",
+                          metresText(static_cast<double>(*reach) / kUnitsPerMetre / limits_.neighbours), " long"}));
+      layer.reach = static_cast<int32_t>(*reach);
+      for (int axis = 0; axis < 3; ++axis)
+        layer.cell[axis] = domain.axes[static_cast<size_t>(axis)] ? static_cast<int32_t>(*cell) : 0;
+    }
+    for (const Layer& other : program_.layers)
+      if (other.name == layer.name)
+        sink_.error(l.span, codes::kDuplicate, join({"a second layer `", text(layer.name), "`"}));
+    program_.layers.push_back(std::move(layer));
+  }
+  sortLayers();
+}
+
+void Checker::sortLayers() {
+  const std::vector<LayerDecl>& decls = syntax_[0].layers;
+  const size_t count = decls.size();
+  std::vector<std::vector<uint32_t>> uses(count);
+  for (size_t l = 0; l < count; ++l)
+    for (const NamedPlace& use : decls[l].uses) {
+      Suggestion suggestion(text(use.name));
+      uint32_t found = kNoId;
+      for (uint32_t other = 0; other < count; ++other) {
+        suggestion.offer(text(decls[other].name));
+        if (decls[other].name == use.name) found = other;
+      }
+      if (found == kNoId)
+        sink_.error(use.span, codes::kUnknownName, join({"unknown layer `", text(use.name), "`"}), suggestion.hint());
+      else if (found == l)
+        sink_.error(use.span, codes::kLayerCycle, join({"layer `", text(use.name), "` uses itself"}),
+                    "a layer reads lower layers only");
+      else if (std::find(uses[l].begin(), uses[l].end(), found) == uses[l].end())
+        uses[l].push_back(found);
+    }
+  if (sink_.errorCount() > 0) return;
+  // Repeatedly the first layer all of whose lower layers are placed: declaration order wherever it is free.
+  std::vector<uint32_t> order, place(count, kNoId);
+  while (order.size() < count) {
+    uint32_t next = kNoId;
+    for (uint32_t l = 0; l < count && next == kNoId; ++l)
+      if (place[l] == kNoId &&
+          std::all_of(uses[l].begin(), uses[l].end(), [&](uint32_t u) { return place[u] != kNoId; }))
+        next = l;
+    if (next == kNoId) {
+      for (uint32_t l = 0; l < count && next == kNoId; ++l)
+        if (place[l] == kNoId) next = l;
+      for (const NamedPlace& use : decls[next].uses)
+        for (uint32_t u : uses[next])
+          if (decls[u].name == use.name && place[u] == kNoId) {
+            sink_.error(
+                use.span, codes::kLayerCycle,
+                join({"layers `", text(decls[next].name), "` and `", text(use.name), "` use each other in a circle"}),
+                "a layer reads lower layers only");
+            return;
+          }
+      return;
+    }
+    place[next] = static_cast<uint32_t>(order.size());
+    order.push_back(next);
+  }
+  std::pmr::vector<Layer> sorted(program_.layers.get_allocator());
+  for (uint32_t l : order) {
+    for (uint32_t u : uses[l]) program_.layers[l].uses.push_back(place[u]);
+    std::sort(program_.layers[l].uses.begin(), program_.layers[l].uses.end());
+    sorted.push_back(std::move(program_.layers[l]));
+  }
+  program_.layers = std::move(sorted);
+}
+
+/// A rule that probes a layer may be derived only in layers that use it.
+void Checker::probeUses() {
+  if (probes_.empty()) return;
+  std::vector<std::vector<uint32_t>> callees(program_.rules.size());
+  for (const RuleCall& call : calls_) callees[call.from].push_back(call.to);
+  for (const Layer& layer : program_.layers) {
+    if (node(layer.start).ref != Ref::rule) continue;
+    std::vector<bool> reached(program_.rules.size(), false);
+    std::vector<uint32_t> stack{node(layer.start).id};
+    while (!stack.empty()) {
+      const uint32_t rule = stack.back();
+      stack.pop_back();
+      if (reached[rule]) continue;
+      reached[rule] = true;
+      stack.insert(stack.end(), callees[rule].begin(), callees[rule].end());
+    }
+    for (const Probe& probe : probes_) {
+      const ScatterNode& scatter = program_.ast.scatters[probe.scatter];
+      if (!reached[probe.rule] || scatter.layer == kNoId) continue;
+      if (std::find(layer.uses.begin(), layer.uses.end(), scatter.layer) != layer.uses.end()) continue;
+      sink_.error(scatter.span, codes::kLayerUses,
+                  join({"layer `", text(layer.name), "` probes `", text(scatter.layer_name), "` and does not use it"}),
+                  join({"write `uses ", text(scatter.layer_name), "` in its head"}));
+    }
+  }
+}
+
+void Checker::expectations() {
+  for (Expectation& e : program_.expectations) {
+    const Dim dim = e.measure == Measure::volume ? kVolume : e.measure == Measure::area ? kArea : kRatio;
+    const bool counts = e.measure != Measure::watertight;
+    if (!counts && (e.compared || e.low != kNoId))
+      sink_.error(e.span, codes::kWrongUse, "`watertight` holds or not; it is not compared");
+    if (counts && e.expect && !e.compared && e.low == kNoId)
+      sink_.error(e.span, codes::kSyntax, "an `expect` of a number needs something to compare with",
+                  "such as == 1 or in 1..10");
+    if (e.of != kNoId && e.measure != Measure::components)
+      sink_.error(e.span, codes::kWrongUse, "only components are of air or solid");
+    if (const auto value = e.value == kNoId ? std::nullopt : constant(e.value, dim, "the value to compare with"))
+      e.value_number = *value;
+    if (const auto low = e.low == kNoId ? std::nullopt : constant(e.low, dim, "the low end of a range"))
+      e.low_number = *low;
+    if (const auto high = e.high == kNoId ? std::nullopt : constant(e.high, dim, "the high end of a range"))
+      e.high_number = *high;
+    if (e.per_name == kNoId) continue;
+    const auto found = symbols_[0].find(e.per_name);
+    if (found == symbols_[0].end() || found->second.ref != Ref::rule) {
+      Suggestion suggestion(text(e.per_name));
+      for (const Rule& rule : program_.rules) suggestion.offer(text(rule.name));
+      sink_.error(e.span, codes::kUnknownName, join({"unknown rule `", text(e.per_name), "`"}), suggestion.hint());
+    } else {
+      e.per = found->second.id;
+    }
+  }
+}
+
+}  // namespace sgm

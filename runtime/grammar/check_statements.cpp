@@ -1,0 +1,466 @@
+#include <algorithm>
+
+#include "grammar/check.h"
+#include "grammar/codes.h"
+
+namespace sgm {
+
+namespace {
+
+bool roundOrBox(Primitive p) {
+  return p == Primitive::sphere || p == Primitive::blob || p == Primitive::ellipsoid || p == Primitive::box ||
+         p == Primitive::superq;
+}
+
+}  // namespace
+
+void Checker::checkRules() {
+  rule_types_.assign(program_.rules.size(), {});
+  rule_state_.assign(program_.rules.size(), 0);
+  start_rules_.assign(program_.rules.size(), false);
+  for (uint32_t r = 0; r < program_.rules.size(); ++r) {
+    const Rule& rule = program_.rules[r];
+    bool when = false, otherwise = false;
+    for (const Alternative& a : rule.alternatives) {
+      when = when || a.guard == Guard::when;
+      otherwise = otherwise || a.guard == Guard::otherwise;
+      if (a.formals.count != rule.alternatives[0].formals.count)
+        sink_
+            .error(a.span, codes::kArgumentCount,
+                   join({"`", text(rule.name), "` has ", std::to_string(rule.alternatives[0].formals.count),
+                         rule.alternatives[0].formals.count == 1 ? " parameter" : " parameters",
+                         " in its first head and ", std::to_string(a.formals.count), " in this one"}))
+            .notes.push_back(join({"first at ", sink_.place(rule.alternatives[0].span)}));
+    }
+    const bool lod = std::any_of(rule.alternatives.begin(), rule.alternatives.end(),
+                                 [](const Alternative& a) { return a.lod != kNoId; });
+    if (otherwise && !when && !lod)
+      sink_.error(rule.span, codes::kGuards, join({"`", text(rule.name), "` has an `else` and no `when`"}));
+  }
+  if (sink_.errorCount() > 0) return;
+
+  // Starts first, then what they call, in order of the first call: types flow from callers to callees.
+  auto startAt = [&](ExprId call) {
+    scope_ = {};
+    callRule(call, false, false);
+    if (node(call).ref == Ref::rule) start_rules_[node(call).id] = true;
+  };
+  rule_ = kNoId;
+  if (syntax_[0].start != kNoId) startAt(syntax_[0].start);
+  for (const Layer& layer : program_.layers)
+    if (layer.start != syntax_[0].start) startAt(layer.start);
+  for (size_t next = 0; next < waiting_.size() && !sink_.full(); ++next) checkRule(waiting_[next]);
+  for (uint32_t r = 0; r < program_.rules.size() && !sink_.full(); ++r) {
+    if (rule_state_[r] != 0) continue;
+    const Rule& rule = program_.rules[r];
+    if (rule.module == 0 && !program_.layers.empty())
+      sink_.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", text(rule.name), "`"}));
+    rule_types_[r].assign(rule.alternatives[0].formals.count, Type{});
+    checkRule(r);
+  }
+  for (uint32_t r = 0; r < program_.rules.size(); ++r)
+    if (start_rules_[r])
+      for (const Alternative& a : program_.rules[r].alternatives) markLayerLevel(a.body);
+}
+
+void Checker::checkRule(uint32_t rule) {
+  rule_state_[rule] = 2;
+  // A rule that is checked again, with a dimension found later, leaves its calls once.
+  std::erase_if(calls_, [&](const RuleCall& call) { return call.from == rule; });
+  std::erase_if(probes_, [&](const Probe& probe) { return probe.rule == rule; });
+  ordinal_ = draws_ = 0;
+  for (uint32_t a = 0; a < program_.rules[rule].alternatives.size(); ++a) checkAlternative(rule, a);
+}
+
+void Checker::checkAlternative(uint32_t rule, uint32_t alternative) {
+  rule_ = rule;
+  alternative_ = alternative;
+  known_local_.clear();
+  scope_ = {};
+  scope_.module = program_.rules[rule].module;
+  scope_.rule = true;
+  scope_.draws = &draws_;
+  Alternative& head = program_.rules[rule].alternatives[alternative];
+  for (uint32_t i = 0; i < head.formals.count; ++i) {
+    FormalNode& formal = program_.ast.formals[head.formals.first + i];
+    formal.type = rule_types_[rule][i];
+    declareLocal(formal.name, formal.span, {formal.name, i, formal.type, kNoId, 0});
+    if (head.size_slot == kNoId && formal.type.kind == ValueKind::number && formal.type.dim == kLength)
+      head.size_slot = i;
+  }
+  scope_.next_slot = scope_.slot_count = head.formals.count;
+  if (head.when != kNoId) demand(head.when, ValueKind::boolean, kRatio, "a guard");
+  if (head.weight != kNoId) demand(head.weight, ValueKind::number, kRatio, "a weight");
+  if (head.depth != kNoId) demand(head.depth, ValueKind::number, kRatio, "a depth");
+  if (head.depth_call != kNoId) callRule(head.depth_call, true, false);
+  if (head.minsize != kNoId) demand(head.minsize, ValueKind::number, kLength, "a least size");
+  if (head.minsize_call != kNoId) callRule(head.minsize_call, true, false);
+  if (head.lod != kNoId) demand(head.lod, ValueKind::number, kLength, "a level of detail");
+  statement(head.body, false);
+  program_.rules[rule].alternatives[alternative].slot_count = scope_.slot_count;
+}
+
+void Checker::declareLocal(NameId name, const Span& span, Local local) {
+  const std::string_view word = text(name);
+  if (word == "cell" || word == "scope" || word == "p" || word == "q" || word == "u") {
+    sink_.error(span, codes::kShadowsBuiltin, join({"`", word, "` is a value of the language"}));
+    return;
+  }
+  for (const Local& known : scope_.locals)
+    if (known.name == name) {
+      sink_.error(span, codes::kDuplicate, join({"`", word, "` is declared twice in this rule"}));
+      return;
+    }
+  scope_.locals.push_back(local);
+  scope_.slot_count = std::max(scope_.slot_count, scope_.next_slot);
+}
+
+void Checker::callRule(ExprId call, bool escape, bool shrunk) {
+  ExprNode& n = node(call);
+  if (n.children.count > 0 && !resolveCallee(call, true)) {
+    sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is no shape"}));
+    return;
+  }
+  resolveCallee(call, true);
+  if (n.ref == Ref::primitive) return primitiveCall(call);
+  if (n.ref != Ref::rule) {
+    if (n.ref != Ref::none)
+      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` gives a value and is no shape"}));
+    for (uint32_t i = 0; i < n.args.count; ++i) expression(program_.ast.args[n.args.first + i].value);
+    return;
+  }
+  const uint32_t rule = n.id;
+  std::vector<uint32_t> bound;
+  if (!bind(call, text(n.name), viewOf(program_.rules[rule].alternatives[0].formals), false, bound)) return;
+  if (n.bound.count == 0) n.bound = store(bound);
+  std::vector<Type> types;
+  for (uint32_t b : bound) types.push_back(expression(b));
+  bool good = true;
+  for (size_t i = 0; i < bound.size(); ++i) {
+    const std::string what = join({"an argument of `", text(n.name), "`"});
+    deriveOnly(bound[i], what);
+    types[i].sample = false;
+    if (types[i].kind == ValueKind::boolean || types[i].kind == ValueKind::number ||
+        types[i].kind == ValueKind::vector || types[i].kind == ValueKind::cell || types[i].kind == ValueKind::face ||
+        types[i].kind == ValueKind::unknown)
+      continue;
+    good = false;
+    sink_.error(node(bound[i]).span, codes::kTypeMismatch, join({what, " cannot be a ", typeName(types[i])}));
+  }
+  if (!good) return;
+  if (rule_ != kNoId) calls_.push_back({rule_, alternative_, rule, call, escape, shrunk});
+  if (rule_state_[rule] == 0) {
+    rule_state_[rule] = 1;
+    rule_types_[rule] = types;
+    waiting_.push_back(rule);
+    return;
+  }
+  for (size_t i = 0; i < types.size(); ++i) {
+    Type& formal = rule_types_[rule][i];
+    const NameId formal_name = program_.ast.formals[program_.rules[rule].alternatives[0].formals.first + i].name;
+    if (formal.kind == ValueKind::unknown || (formal.any_dim && !types[i].any_dim && formal.kind == types[i].kind)) {
+      // The literal 0 left the dimension open; now it is known, and the body is checked with it.
+      if (formal == types[i]) continue;
+      formal = types[i];
+      if (rule_state_[rule] == 2) {
+        rule_state_[rule] = 1;
+        waiting_.push_back(rule);
+      }
+      continue;
+    }
+    demandType(bound[i], types[i], formal.kind, formal.dim,
+               join({"`", text(formal_name), "` of `", text(n.name), "`"}));
+  }
+}
+
+void Checker::statement(StmtId id, bool shrunk) {
+  if (id == kNoId || sink_.full()) return;
+  StmtNode& s = program_.ast.stmts[id];
+  s.ordinal = ordinal_++;
+  const StmtNode copy = s;
+  switch (copy.kind) {
+    case StmtKind::block: {
+      const size_t locals = scope_.locals.size();
+      blockStatements(copy, shrunk);
+      scope_.locals.resize(locals);
+      uint16_t material = 0, tag = 0;
+      for (uint32_t i = 0; i < copy.children.count; ++i) {
+        const StmtNode& child_node = program_.stmt(program_.idAt(copy.children, i));
+        uint16_t* slot = child_node.kind == StmtKind::mat   ? &material
+                         : child_node.kind == StmtKind::tag ? &tag
+                                                            : nullptr;
+        if (slot == nullptr) continue;
+        if (*slot != 0)
+          sink_.error(
+              child_node.span, codes::kDuplicate,
+              child_node.kind == StmtKind::mat ? "a second `mat` in this block" : "a second `tag` in this block",
+              "it holds for the whole block; open another block for the other");
+        *slot = static_cast<uint16_t>(child_node.extra);
+      }
+      program_.ast.stmts[id].material = material;
+      program_.ast.stmts[id].tag = tag;
+      return;
+    }
+    case StmtKind::call:
+      return callRule(copy.expr, false, shrunk);
+    case StmtKind::sum:
+      if (!sumLeaf(copy.body)) return;
+      [[fallthrough]];
+    case StmtKind::unite:
+    case StmtKind::cut:
+    case StmtKind::meet:
+      demand(copy.amount, ValueKind::number, kLength, "the width of a smooth join");
+      return statement(copy.body, shrunk);
+    case StmtKind::morph:
+      return morphStatement(copy, shrunk);
+    case StmtKind::displace:
+      demand(copy.expr, ValueKind::number, kLength, "a displacement", true);
+      demand(copy.amount, ValueKind::number, kLength, "the bound of a displacement");
+      return statement(copy.body, shrunk);
+    case StmtKind::warp:
+      demand(copy.expr, ValueKind::vector, kLength, "a warp", true);
+      demand(copy.amount, ValueKind::number, kLength, "the bound of a warp");
+      return statement(copy.body, shrunk);
+    case StmtKind::transform: {
+      const bool shrinks = xforms(copy.xforms);
+      return statement(copy.body, shrunk || shrinks);
+    }
+    case StmtKind::repeat:
+      demand(copy.expr, ValueKind::number, kRatio, "a count");
+      xforms(copy.xforms);
+      return statement(copy.body, shrunk);
+    case StmtKind::for_each:
+      return forEach(id, copy, shrunk);
+    case StmtKind::scatter:
+      return scatterStatement(copy, shrunk);
+    case StmtKind::let: {
+      Type type = expression(copy.expr);
+      deriveOnly(copy.expr, "a let");
+      type.sample = false;
+      const uint32_t slot = scope_.next_slot++;
+      program_.ast.stmts[id].slot = slot;
+      return declareLocal(copy.name, copy.span, {copy.name, slot, type, kNoId, 0});
+    }
+    case StmtKind::field:
+      return localField(copy);
+    case StmtKind::mat:
+      program_.ast.stmts[id].extra = tableIndex(program_.materials, copy.name, copy.span);
+      return;
+    case StmtKind::tag:
+      program_.ast.stmts[id].extra = tableIndex(program_.tags, copy.name, copy.span);
+      return;
+    case StmtKind::anchor:
+      program_.ast.stmts[id].extra = tableIndex(program_.names, copy.name, copy.span);
+      program_.ast.stmts[id].extra2 = copy.name2 == kNoId ? 0 : tableIndex(program_.names, copy.name2, copy.span);
+      return;
+    case StmtKind::detail:
+      demand(copy.expr, ValueKind::number, kLength, "the size of a detail");
+      return statement(copy.body, shrunk);
+  }
+}
+
+void Checker::blockStatements(const StmtNode& node, bool shrunk) {
+  for (uint32_t i = 0; i < node.children.count; ++i) statement(program_.idAt(node.children, i), shrunk);
+}
+
+bool Checker::sumLeaf(StmtId id) {
+  const StmtNode& s = program_.stmt(id);
+  if (s.kind == StmtKind::cut || s.kind == StmtKind::meet || s.kind == StmtKind::displace || s.kind == StmtKind::warp) {
+    sink_.error(s.span, codes::kWrongUse, "a sum has leaves only: spheres, blobs and other primitives",
+                "cut, displace or warp the sum as a whole");
+    return false;
+  }
+  if (s.kind != StmtKind::block) return true;
+  for (uint32_t i = 0; i < s.children.count; ++i)
+    if (!sumLeaf(program_.idAt(s.children, i))) return false;
+  return true;
+}
+
+void Checker::morphStatement(const StmtNode& node_in, bool shrunk) {
+  demand(node_in.expr, ValueKind::number, kRatio, "how far to morph", true);
+  for (uint32_t i = 0; i < 2; ++i) {
+    const StmtId operand = program_.idAt(node_in.children, i);
+    statement(operand, shrunk);
+    if (!node_in.power) continue;
+    const StmtNode& s = program_.stmt(operand);
+    const bool good = s.kind == StmtKind::call && node(s.expr).ref == Ref::primitive &&
+                      roundOrBox(static_cast<Primitive>(node(s.expr).id));
+    if (!good && sink_.errorCount() == 0)
+      sink_.error(s.span, codes::kWrongUse, "`power` morphs spheres, ellipsoids, superquadrics and boxes",
+                  "leave `power` out for a linear morph");
+  }
+}
+
+void Checker::forEach(StmtId id, const StmtNode& s, bool shrunk) {
+  const Type source = expression(s.expr);
+  Type type;
+  if (source.kind == ValueKind::range) {
+    type = {ValueKind::number, kRatio, false, false};
+  } else if (source.kind == ValueKind::faces) {
+    type.kind = ValueKind::face;
+  } else if (source.kind != ValueKind::unknown) {
+    sink_.error(node(s.expr).span, codes::kTypeMismatch,
+                join({"`for` goes through a range or faces, and this is a ", typeName(source)}),
+                "such as 0..4, cell.faces or cell.links(tree 3)");
+  }
+  const uint32_t slot = scope_.next_slot++;
+  program_.ast.stmts[id].slot = slot;
+  const size_t locals = scope_.locals.size();
+  declareLocal(s.name, s.span, {s.name, slot, type, kNoId, 0});
+  statement(s.body, shrunk);
+  scope_.locals.resize(std::min(locals, scope_.locals.size()));
+}
+
+void Checker::scatterStatement(const StmtNode& s, bool shrunk) {
+  ScatterNode& scatter = program_.ast.scatters[s.extra];
+  if (scatter.poisson)
+    demand(scatter.count, ValueKind::number, kLength, "the least distance of points");
+  else
+    demand(scatter.count, ValueKind::number, kRatio, "a count");
+  ExprId out[3] = {kNoId, kNoId, kNoId};
+  bool good = true;
+  switch (scatter.area) {
+    case ScatterArea::cell:
+      break;
+    case ScatterArea::shell:
+      good = bindWords(scatter.args, s.span, "shell", {"r", "up"}, 1, out);
+      if (good) demand(out[0], ValueKind::number, kLength, "the radius of a shell");
+      if (good) demand(out[1], ValueKind::number, kRatio, "the upper share of a shell");
+      break;
+    case ScatterArea::disc:
+      good = bindWords(scatter.args, s.span, "disc", {"r"}, 1, out);
+      if (good) demand(out[0], ValueKind::number, kLength, "the radius of a disc");
+      break;
+    case ScatterArea::box:
+      good = bindWords(scatter.args, s.span, "box", {"x", "y", "z"}, scatter.args.count == 1 ? 1 : 3, out);
+      if (!good) break;
+      if (out[1] == kNoId && out[2] == kNoId) {
+        demand(out[0], ValueKind::vector, kLength, "the size of a box");
+      } else {
+        for (ExprId edge : out) demand(edge, ValueKind::number, kLength, "an edge of a box");
+      }
+      break;
+  }
+  scatter.a = out[0];
+  scatter.b = out[1];
+  scatter.c = out[2];
+  if (scatter.probe != 0) {
+    demand(scatter.distance, ValueKind::number, kLength, "the length of a probe");
+    Suggestion suggestion(text(scatter.layer_name));
+    for (uint32_t l = 0; l < program_.layers.size(); ++l) {
+      if (program_.layers[l].name == scatter.layer_name) scatter.layer = l;
+      suggestion.offer(text(program_.layers[l].name));
+    }
+    if (scatter.layer == kNoId)
+      sink_.error(scatter.span, codes::kUnknownName, join({"unknown layer `", text(scatter.layer_name), "`"}),
+                  suggestion.hint());
+    probes_.push_back({rule_, s.extra});
+  }
+  if (scatter.when != kNoId) demand(scatter.when, ValueKind::boolean, kRatio, "the `when` of a scatter");
+  statement(s.body, shrunk);
+}
+
+void Checker::localField(const StmtNode& s) {
+  Field& field = program_.fields[s.extra];
+  for (uint32_t i = 0; i < field.formals.count; ++i)
+    program_.ast.formals[field.formals.first + i].slot = scope_.next_slot++;
+  const Local local{field.name, 0, {}, s.extra, scope_.locals.size()};
+  declareLocal(field.name, field.span, local);
+  scope_.slot_count = std::max(scope_.slot_count, scope_.next_slot);
+  field.slot_count = scope_.slot_count;
+  if (field.formals.count > 0) return;
+  // Without parameters it can be checked where it stands, used or not.
+  const size_t locals = scope_.locals.size();
+  scope_.locals.resize(local.depth);
+  Type type = expression(field.body);
+  if (type.kind != ValueKind::number && type.kind != ValueKind::vector && type.kind != ValueKind::boolean &&
+      type.kind != ValueKind::unknown)
+    sink_.error(node(field.body).span, codes::kTypeMismatch,
+                join({"a field gives a number or a vector, not a ", typeName(type)}));
+  if (locals > local.depth) scope_.locals.push_back(local);
+}
+
+bool Checker::xforms(IdRange range) {
+  bool shrinks = false;
+  for (uint32_t i = 0; i < range.count; ++i) {
+    XformNode& x = program_.ast.xforms[range.first + i];
+    ExprId out[3] = {kNoId, kNoId, kNoId};
+    auto axisOf = [&](ExprId id) -> uint8_t {
+      const std::string_view word = node(id).kind == ExprKind::name ? text(node(id).name) : std::string_view();
+      const bool hidden = std::any_of(scope_.locals.begin(), scope_.locals.end(),
+                                      [&](const Local& local) { return text(local.name) == word; });
+      if (hidden) return 3;
+      return word == "x" ? 0 : word == "y" ? 1 : word == "z" ? 2 : 3;
+    };
+    switch (x.kind) {
+      case XformKind::at:
+      case XformKind::size: {
+        const bool at = x.kind == XformKind::at;
+        shrinks = shrinks || !at;
+        if (!bindWords(x.args, x.span, at ? "at" : "size", {"x", "y", "z"}, 1, out)) break;
+        const bool alone = x.args.count == 1 && program_.ast.args[x.args.first].name == kNoId;
+        if (alone) {
+          demand(out[0], ValueKind::vector, kLength, at ? "the point of `at`" : "the edges of `size`");
+        } else {
+          for (ExprId part : out)
+            demand(part, ValueKind::number, kLength, at ? "a coordinate of `at`" : "an edge of `size`");
+        }
+        break;
+      }
+      case XformKind::rot:
+        if (!bindWords(x.args, x.span, "rot", {"axis", "angle"}, 2, out)) break;
+        x.axis = axisOf(out[0]);
+        if (x.axis == 3) {
+          const Type axis = expression(out[0]);
+          if (axis.kind != ValueKind::vector && axis.kind != ValueKind::unknown)
+            sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `rot` is x, y, z or a vector");
+          deriveOnly(out[0], "an axis");
+        }
+        demand(out[1], ValueKind::number, kAngle, "the angle of `rot`");
+        break;
+      case XformKind::scale:
+        shrinks = true;
+        if (x.args.count > 1) {
+          sink_.error(x.span, codes::kArgumentCount, "`scale` takes one factor",
+                      "a distance cannot be stretched unevenly; give the shape its sizes instead");
+          break;
+        }
+        if (bindWords(x.args, x.span, "scale", {"factor"}, 1, out))
+          demand(out[0], ValueKind::number, kRatio, "the factor of `scale`");
+        break;
+      case XformKind::mirror:
+        if (!bindWords(x.args, x.span, "mirror", {"axis"}, 1, out)) break;
+        x.axis = axisOf(out[0]);
+        if (x.axis == 3) sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `mirror` is x, y or z");
+        break;
+    }
+    x.a = out[0];
+    x.b = out[1];
+    x.c = out[2];
+  }
+  return shrinks;
+}
+
+/// A cut that stands directly at the level of a layer's start rule takes from the domain.
+void Checker::markLayerLevel(StmtId id) {
+  StmtNode& s = program_.ast.stmts[id];
+  switch (s.kind) {
+    case StmtKind::cut:
+      s.layer_level = true;
+      return;
+    case StmtKind::block:
+      for (uint32_t i = 0; i < s.children.count; ++i) markLayerLevel(program_.idAt(s.children, i));
+      return;
+    case StmtKind::transform:
+    case StmtKind::repeat:
+    case StmtKind::for_each:
+    case StmtKind::scatter:
+    case StmtKind::detail:
+      markLayerLevel(s.body);
+      return;
+    default:
+      return;
+  }
+}
+
+}  // namespace sgm

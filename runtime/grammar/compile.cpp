@@ -1,0 +1,108 @@
+#include "grammar/compile.h"
+
+#include "base/hash.h"
+#include "grammar/check.h"
+#include "grammar/codes.h"
+#include "grammar/imports.h"
+#include "grammar/printer.h"
+
+namespace sgm {
+
+namespace {
+
+/// False, with an error, where the text is longer than allowed.
+bool fits(std::string_view text, const CompileLimits& limits, DiagnosticSink& sink) {
+  const size_t limit = std::min<size_t>(limits.text_bytes, 0x7FFFFFFFu);
+  if (text.size() <= limit) return true;
+  Span span;
+  span.line = span.column = span.end_line = span.end_column = 1;
+  sink.error(span, codes::kTooLarge, join({"the text is longer than ", std::to_string(limit), " bytes"}));
+  return false;
+}
+
+std::shared_ptr<Program> newProgram(std::string_view text, std::string_view path, std::pmr::memory_resource* memory) {
+  auto program = std::allocate_shared<Program>(std::pmr::polymorphic_allocator<Program>(memory), memory);
+  program->modules.emplace_back(memory);
+  program->modules[0].path = path;
+  program->modules[0].text = text;
+  for (auto* table : {&program->materials, &program->tags, &program->names}) table->emplace_back();
+  return program;
+}
+
+}  // namespace
+
+CompileResult compileGrammar(std::string_view text, std::string_view path, const CompileOptions& options) {
+  CompileResult result;
+  DiagnosticSink sink(options.limits.diagnostics);
+  sink.addFile(path);
+  result.files.push_back({std::string(path), std::string(text)});
+  if (!fits(text, options.limits, sink)) {
+    result.diagnostics = sink.take();
+    return result;
+  }
+  std::shared_ptr<Program> program = newProgram(text, path, options.memory);
+  NameTable names(program->ast);
+  std::vector<ModuleSyntax> syntax = loadModules(*program, names, options, sink, result.files);
+  if (sink.errorCount() == 0) {
+    // Printed before the checker resolves names, which rewrites calls.
+    program->canonical = printModule(*program, syntax[0]);
+    program->hash = hashText("sgm 1");
+    for (const ModuleSyntax& module : syntax)
+      program->hash = hashCombine(program->hash, hashText(printMeaning(*program, module)));
+    Checker checker(*program, names, syntax, options.limits, sink);
+    checker.run();
+    if (sink.errorCount() == 0) checkRecursion(*program, checker.calls(), sink);
+    if (sink.errorCount() == 0) checkReach(*program, options.limits, sink);
+  }
+  if (sink.errorCount() == 0) result.program = std::move(program);
+  result.diagnostics = sink.take();
+  return result;
+}
+
+FormatResult formatGrammar(std::string_view text, std::string_view path, const CompileLimits& limits) {
+  FormatResult result;
+  DiagnosticSink sink(limits.diagnostics);
+  sink.addFile(path);
+  if (fits(text, limits, sink)) {
+    const std::shared_ptr<Program> program = newProgram(text, path, std::pmr::get_default_resource());
+    NameTable names(program->ast);
+    const ModuleSyntax syntax = Parser(*program, names, 0, limits, sink).run();
+    if (sink.errorCount() == 0) result.text = printModule(*program, syntax);
+  }
+  result.diagnostics = sink.take();
+  return result;
+}
+
+std::string renderDiagnostics(const CompileResult& result) {
+  std::string out;
+  for (const Diagnostic& diagnostic : result.diagnostics) {
+    std::string_view source;
+    for (const SourceFile& file : result.files)
+      if (file.path == diagnostic.file) {
+        source = file.text;
+        break;
+      }
+    out += renderDiagnostic(diagnostic, source);
+  }
+  return out;
+}
+
+uint32_t Program::findParam(std::string_view name) const {
+  for (uint32_t i = 0; i < params.size(); ++i)
+    if (text(params[i].name) == name) return i;
+  return kNoId;
+}
+
+uint32_t Program::findRule(std::string_view name) const {
+  for (uint32_t i = 0; i < rules.size(); ++i)
+    if (text(rules[i].name) == name) return i;
+  return kNoId;
+}
+
+uint32_t Program::findLayer(std::string_view name) const {
+  for (uint32_t i = 0; i < layers.size(); ++i)
+    if (text(layers[i].name) == name) return i;
+  return kNoId;
+}
+
+}  // namespace sgm

@@ -1,0 +1,39 @@
+#pragma once
+// Closed intervals of doubles for the proof of reach; every operation rounds outwards.
+
+#include <array>
+
+namespace sgm {
+
+struct Interval {
+  double lo = 0, hi = 0;
+
+  static Interval exactly(double v) { return {v, v}; }
+  static Interval everything();
+  bool exact() const { return lo == hi; }
+  bool bounded() const;
+  double magnitude() const;  ///< the largest absolute value in it
+  double mignitude() const;  ///< the smallest
+  friend bool operator==(const Interval&, const Interval&) = default;
+  friend bool operator<(const Interval& a, const Interval& b) { return a.lo != b.lo ? a.lo < b.lo : a.hi < b.hi; }
+};
+
+Interval operator+(Interval a, Interval b);
+Interval operator-(Interval a, Interval b);
+Interval operator-(Interval a);
+Interval operator*(Interval a, Interval b);
+Interval operator/(Interval a, Interval b);  ///< everything where b holds 0
+Interval hull(Interval a, Interval b);
+Interval minimum(Interval a, Interval b);
+Interval maximum(Interval a, Interval b);
+Interval absolute(Interval a);
+Interval squareRoot(Interval a);  ///< of the part from 0
+Interval floorOf(Interval a);
+Interval sine(Interval a);
+Interval cosine(Interval a);
+Interval power(Interval a, Interval b);  ///< a from 0
+Interval smoothStep(Interval low, Interval high, Interval x);
+
+using IntervalVector = std::array<Interval, 3>;
+
+}  // namespace sgm

@@ -1,0 +1,319 @@
+#include "grammar/reach_values.h"
+
+#include <algorithm>
+
+namespace sgm {
+
+namespace {
+
+constexpr int kDeepest = 600;  // frames of this evaluation on the stack
+constexpr Interval kEither{0, 1};
+constexpr Interval kTrue{1, 1};
+constexpr Interval kFalse{0, 0};
+
+Interval compare(BinaryOp op, Interval a, Interval b) {
+  switch (op) {
+    case BinaryOp::less:
+      return a.hi < b.lo ? kTrue : a.lo >= b.hi ? kFalse : kEither;
+    case BinaryOp::less_equal:
+      return a.hi <= b.lo ? kTrue : a.lo > b.hi ? kFalse : kEither;
+    case BinaryOp::greater:
+      return compare(BinaryOp::less, b, a);
+    case BinaryOp::greater_equal:
+      return compare(BinaryOp::less_equal, b, a);
+    case BinaryOp::equal:
+      return a.exact() && a == b ? kTrue : a.hi < b.lo || b.hi < a.lo ? kFalse : kEither;
+    case BinaryOp::not_equal: {
+      const Interval equal = compare(BinaryOp::equal, a, b);
+      return {1 - equal.hi, 1 - equal.lo};
+    }
+    default:
+      return kEither;
+  }
+}
+
+}  // namespace
+
+Interval RangeEvaluator::number(ExprId id, const RangeFrame& frame) {
+  const RangeValue value = evaluate(id, frame);
+  return value.kind == ValueKind::number ? value.v[0] : Interval::everything();
+}
+
+IntervalVector RangeEvaluator::vector(ExprId id, const RangeFrame& frame) {
+  const RangeValue value = evaluate(id, frame);
+  if (value.kind == ValueKind::vector || value.kind == ValueKind::pair) return value.v;
+  return {Interval::everything(), Interval::everything(), Interval::everything()};
+}
+
+Interval RangeEvaluator::condition(ExprId id, const RangeFrame& frame) {
+  const RangeValue value = evaluate(id, frame);
+  return value.kind == ValueKind::boolean ? value.v[0] : kEither;
+}
+
+RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
+  if (id == kNoId || steps_ == 0 || depth_ >= kDeepest) return RangeValue::unknown();
+  --steps_;
+  ++depth_;
+  const ExprNode& n = program_.expr(id);
+  RangeValue out;
+  switch (n.kind) {
+    case ExprKind::number:
+      out = n.type.kind == ValueKind::boolean ? RangeValue::condition(Interval::exactly(n.value))
+                                              : RangeValue::number(Interval::exactly(n.value));
+      break;
+    case ExprKind::vector: {
+      out.kind = n.children.count == 3 ? ValueKind::vector : ValueKind::pair;
+      for (uint32_t i = 0; i < n.children.count && i < 3; ++i) out.v[i] = number(child(n, i), frame);
+      break;
+    }
+    case ExprKind::negate:
+      out = evaluate(child(n, 0), frame);
+      for (Interval& part : out.v) part = -part;
+      break;
+    case ExprKind::logical_not: {
+      const Interval c = condition(child(n, 0), frame);
+      out = RangeValue::condition({1 - c.hi, 1 - c.lo});
+      break;
+    }
+    case ExprKind::binary:
+      out = binary(n, frame);
+      break;
+    case ExprKind::conditional: {
+      const Interval c = condition(child(n, 0), frame);
+      if (c == kTrue) {
+        out = evaluate(child(n, 1), frame);
+      } else if (c == kFalse) {
+        out = evaluate(child(n, 2), frame);
+      } else {
+        const RangeValue a = evaluate(child(n, 1), frame), b = evaluate(child(n, 2), frame);
+        if (a.kind == b.kind) out = {a.kind, {hull(a.v[0], b.v[0]), hull(a.v[1], b.v[1]), hull(a.v[2], b.v[2])}};
+      }
+      break;
+    }
+    case ExprKind::name:
+    case ExprKind::call:
+      out = call(n, frame);
+      break;
+    case ExprKind::member:
+      out = member(n, frame);
+      break;
+    case ExprKind::text:
+    case ExprKind::range:
+      break;
+  }
+  --depth_;
+  return out;
+}
+
+RangeValue RangeEvaluator::binary(const ExprNode& n, const RangeFrame& frame) {
+  if (n.binary == BinaryOp::logical_and || n.binary == BinaryOp::logical_or) {
+    const Interval a = condition(child(n, 0), frame), b = condition(child(n, 1), frame);
+    return RangeValue::condition(n.binary == BinaryOp::logical_and ? minimum(a, b) : maximum(a, b));
+  }
+  const RangeValue a = evaluate(child(n, 0), frame), b = evaluate(child(n, 1), frame);
+  if (n.binary >= BinaryOp::less && n.binary <= BinaryOp::not_equal)
+    return RangeValue::condition(
+        a.kind == ValueKind::unknown || b.kind == ValueKind::unknown ? kEither : compare(n.binary, a.v[0], b.v[0]));
+  const bool a_vector = a.kind == ValueKind::vector, b_vector = b.kind == ValueKind::vector;
+  RangeValue out;
+  out.kind = a_vector || b_vector ? ValueKind::vector : ValueKind::number;
+  for (size_t i = 0; i < (a_vector || b_vector ? 3u : 1u); ++i) {
+    const Interval x = a.v[a_vector ? i : 0], y = b.v[b_vector ? i : 0];
+    switch (n.binary) {
+      case BinaryOp::add:
+        out.v[i] = x + y;
+        break;
+      case BinaryOp::subtract:
+        out.v[i] = x - y;
+        break;
+      case BinaryOp::multiply:
+        out.v[i] = x * y;
+        break;
+      default:
+        out.v[i] = x / y;
+        break;
+    }
+  }
+  return out;
+}
+
+RangeValue RangeEvaluator::call(const ExprNode& n, const RangeFrame& frame) {
+  switch (n.ref) {
+    case Ref::parameter:
+      return RangeValue::number({program_.params[n.id].low, program_.params[n.id].high});
+    case Ref::local:
+      return n.id < frame.slots.size() ? frame.slots[n.id] : RangeValue::unknown();
+    case Ref::value: {
+      const Interval all = Interval::everything();
+      switch (static_cast<BuiltinValue>(n.id)) {
+        case BuiltinValue::cell:
+          return {ValueKind::cell, {Interval{}, Interval{}, Interval{}}};
+        case BuiltinValue::scope:
+          return RangeValue::vector(frame.scope);
+        case BuiltinValue::u:
+          return RangeValue::number({0, 1});
+        default:
+          return RangeValue::vector({all, all, all});
+      }
+    }
+    case Ref::let:
+    case Ref::field:
+      return applied(n, frame);
+    case Ref::builtin:
+      return builtin(n, frame);
+    default:
+      return RangeValue::unknown();
+  }
+}
+
+RangeValue RangeEvaluator::applied(const ExprNode& n, const RangeFrame& frame) {
+  const bool is_let = n.ref == Ref::let;
+  const IdRange formals = is_let ? program_.lets[n.id].formals : program_.fields[n.id].formals;
+  const ExprId body = is_let ? program_.lets[n.id].body : program_.fields[n.id].body;
+  RangeFrame inner;
+  if (!is_let && program_.fields[n.id].local) inner = frame;
+  for (uint32_t i = 0; i < formals.count && i < n.bound.count; ++i) {
+    const uint32_t slot = program_.ast.formals[formals.first + i].slot;
+    if (inner.slots.size() <= slot) inner.slots.resize(slot + 1);
+    inner.slots[slot] = evaluate(program_.idAt(n.bound, i), frame);
+  }
+  return evaluate(body, inner);
+}
+
+RangeValue RangeEvaluator::member(const ExprNode& n, const RangeFrame& frame) {
+  const RangeValue of = evaluate(child(n, 0), frame);
+  const bool place = of.kind == ValueKind::cell || of.kind == ValueKind::face;
+  switch (n.member) {
+    case Member::x:
+    case Member::y:
+    case Member::z:
+      if (place || of.kind == ValueKind::unknown) return RangeValue::number(Interval::everything());
+      return RangeValue::number(of.v[static_cast<size_t>(n.member) - static_cast<size_t>(Member::x)]);
+    case Member::other:
+      return {ValueKind::cell, of.v};
+    case Member::axis:
+      return RangeValue::number({0, 2});
+    case Member::size:
+      return RangeValue::vector(cell_);
+    case Member::center: {
+      if (!place) return RangeValue::unknown();
+      RangeValue out = RangeValue::vector(cell_);
+      // Of a face: half way to the other cell.
+      const Interval share = of.kind == ValueKind::face ? Interval{0, 1} : Interval{1, 1};
+      for (size_t i = 0; i < 3; ++i) out.v[i] = (of.v[i] * share + Interval{0.5, 0.5}) * cell_[i];
+      return out;
+    }
+    case Member::faces:
+      return {ValueKind::faces, {Interval{-1, 1}, Interval{-1, 1}, Interval{-1, 1}}};
+    default:
+      return RangeValue::unknown();
+  }
+}
+
+RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
+  const Builtin id = static_cast<Builtin>(n.id);
+  auto arg = [&](uint32_t i) { return program_.idAt(n.bound, i); };
+  auto in = [&](uint32_t i) { return number(arg(i), frame); };
+  switch (id) {
+    case Builtin::min:
+      return RangeValue::number(minimum(in(0), in(1)));
+    case Builtin::max:
+      return RangeValue::number(maximum(in(0), in(1)));
+    case Builtin::abs:
+      return RangeValue::number(absolute(in(0)));
+    case Builtin::floor:
+      return RangeValue::number(floorOf(in(0)));
+    case Builtin::ceil:
+      return RangeValue::number(-floorOf(-in(0)));
+    case Builtin::sqrt:
+      return RangeValue::number(squareRoot(in(0)));
+    case Builtin::mix: {
+      const Interval a = in(0), b = in(1), t = in(2);
+      const Interval line = a + (b - a) * t, both = hull(a, b);
+      // Between the ends for t in 0..1, whatever a and b have in common; the line is tighter where t is known.
+      if (t.lo >= 0 && t.hi <= 1) return RangeValue::number({std::max(line.lo, both.lo), std::min(line.hi, both.hi)});
+      return RangeValue::number(line);
+    }
+    case Builtin::clamp:
+      return RangeValue::number(minimum(maximum(in(0), in(1)), in(2)));
+    case Builtin::smoothstep:
+      return RangeValue::number(smoothStep(in(0), in(1), in(2)));
+    case Builtin::fract:
+      return RangeValue::number({0, 1});
+    case Builtin::sin:
+      return RangeValue::number(sine(in(0)));
+    case Builtin::cos:
+      return RangeValue::number(cosine(in(0)));
+    case Builtin::atan2:
+      return RangeValue::number({-3.1415926535897936, 3.1415926535897936});
+    case Builtin::pow:
+      return RangeValue::number(power(in(0), in(1)));
+    case Builtin::length: {
+      const IntervalVector v = vector(arg(0), frame);
+      Interval sum{};
+      for (const Interval& part : v) sum = sum + absolute(part) * absolute(part);
+      return RangeValue::number(squareRoot(sum));
+    }
+    case Builtin::rand:
+      return RangeValue::number(hull(in(0), in(1)));
+    case Builtin::rand_keyed:
+      return RangeValue::number(hull(in(1), in(2)));
+    case Builtin::chance: {
+      const Interval p = in(0);
+      return RangeValue::condition(p.lo >= 1 ? kTrue : p.hi <= 0 ? kFalse : kEither);
+    }
+    case Builtin::chance_keyed: {
+      const Interval p = in(1);
+      return RangeValue::condition(p.lo >= 1 ? kTrue : p.hi <= 0 ? kFalse : kEither);
+    }
+    case Builtin::cell_noise:
+      return RangeValue::number({0, 1});
+    case Builtin::fractal:
+      return RangeValue::number({-1, 1});
+    case Builtin::cell_point:
+    case Builtin::face_point: {
+      const RangeValue of = evaluate(arg(0), frame);
+      if (of.kind != ValueKind::cell && of.kind != ValueKind::face) return RangeValue::unknown();
+      Interval jitter = arg(1) == kNoId ? Interval{0.5, 0.5} : in(1);
+      jitter = minimum(maximum(jitter, {0, 0}), {1, 1});
+      const double half = jitter.hi / 2;
+      Interval spread{0.5 - half, 0.5 + half};
+      // A point of a face lies on a side of the cell in one axis.
+      if (of.kind == ValueKind::face) spread = {0, 1};
+      RangeValue out = RangeValue::vector(cell_);
+      for (size_t i = 0; i < 3; ++i)
+        out.v[i] = of.kind == ValueKind::face ? spread * cell_[i] : (of.v[i] + spread) * cell_[i];
+      return out;
+    }
+    case Builtin::cell_links:
+      return {ValueKind::faces, {Interval{0, 1}, Interval{0, 1}, Interval{0, 1}}};
+    case Builtin::position:
+      return RangeValue::vector({in(0), in(1), in(2)});
+  }
+  return RangeValue::unknown();
+}
+
+void RangeEvaluator::refine(ExprId id, bool holds, RangeFrame& frame) {
+  const ExprNode& n = program_.expr(id);
+  if (n.kind == ExprKind::logical_not) return refine(child(n, 0), !holds, frame);
+  if (n.kind != ExprKind::binary) return;
+  if (n.binary == (holds ? BinaryOp::logical_and : BinaryOp::logical_or)) {
+    refine(child(n, 0), holds, frame);
+    refine(child(n, 1), holds, frame);
+    return;
+  }
+  if (n.binary < BinaryOp::less || n.binary > BinaryOp::greater_equal) return;
+  for (uint32_t side = 0; side < 2; ++side) {
+    const ExprNode& local = program_.expr(child(n, side));
+    if (local.ref != Ref::local || local.id >= frame.slots.size() || frame.slots[local.id].kind != ValueKind::number)
+      continue;
+    const Interval other = number(child(n, 1 - side), frame);
+    const bool less = n.binary == BinaryOp::less || n.binary == BinaryOp::less_equal;
+    const bool below = (less == (side == 0)) == holds;  // the local is on the small side
+    Interval& value = frame.slots[local.id].v[0];
+    if (below && other.hi < value.hi) value.hi = std::max(other.hi, value.lo);
+    if (!below && other.lo > value.lo) value.lo = std::min(other.lo, value.hi);
+  }
+}
+
+}  // namespace sgm
