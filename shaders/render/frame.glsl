@@ -1,8 +1,9 @@
 // What the shading pass knows. Laid out as Frame in runtime/cli/render/frame.h.
-const uint kMaxLamps = 9u;  // the headlamp first
+const uint kMaxLamps = 8u;  // the headlamp first
 
-layout(std140, binding = 2) uniform Frame {
+layout(std140, binding = 3) uniform Frame {
   mat4 view_projection;
+  mat4 sun_view_projection;
   vec4 eye;             // w: angle of one sample in radians
   vec4 pattern_offset;  // from the scene's origin to the patterns' own, metres; w: exposure
   vec4 forward;         // w: fog distance, metres
@@ -16,7 +17,8 @@ layout(std140, binding = 2) uniform Frame {
 } frame;
 
 struct Material { vec4 colour_roughness; uvec4 pattern; };  // pattern.y: relief, float bits
-layout(std430, binding = 3) readonly buffer Materials { Material materials[]; };
-layout(std430, binding = 4) writeonly buffer Pixels { uint pixels[]; };
+layout(std430, binding = 4) readonly buffer Materials { Material materials[]; };
+layout(std430, binding = 5) writeonly buffer Pixels { uint pixels[]; };
 layout(binding = 0) uniform sampler2D position_plane;
 layout(binding = 1) uniform sampler2D normal_plane;
+layout(binding = 2) uniform sampler2D shadow_plane;

@@ -11,15 +11,6 @@ vec3 sky(vec3 d) {
 
 ivec2 planeSize() { return ivec2(frame.size.xy * frame.size.z); }
 
-// Sample coordinates of a point, and whether it is in front of the eye.
-bool project(vec3 p, out vec2 pixel) {
-  vec4 clip = frame.view_projection * vec4(p, 1.0);
-  if (clip.w <= 1e-3) return false;
-  vec2 ndc = clip.xy / clip.w;
-  pixel = vec2(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y) * vec2(planeSize());
-  return true;
-}
-
 // How open the surface is to its surroundings, 0..1 (after McGuire et al., "The alchemy screen-space ambient obscurance").
 float openness(ivec2 at, vec3 p, vec3 n, float distance_to_eye, float radius, float turn) {
   const int kTaps = 9;
@@ -37,27 +28,6 @@ float openness(ivec2 at, vec3 p, vec3 n, float distance_to_eye, float radius, fl
     hidden += fade * max(0.0, dot(v, n) - 0.004 * distance_to_eye) * radius / (d2 + 0.03 * radius * radius);
   }
   return clamp(1.0 - 0.42 * hidden / float(kTaps) * 2.0, 0.0, 1.0);
-}
-
-// 1 where nothing seen in the picture stands between the point and the light.
-float unshadowed(vec3 from, vec3 to, float jitter) {
-  const int kSteps = 12;
-  float lit = 1.0, whole = length(to - from);
-  for (int i = 0; i < kSteps; ++i) {
-    float t = (float(i) + jitter) / float(kSteps);
-    vec3 q = mix(from, to, t * t * 0.96 + 0.004);
-    vec2 pixel;
-    if (!project(q, pixel)) break;
-    ivec2 tap = ivec2(pixel);
-    if (any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, planeSize()))) break;
-    vec4 seen = texelFetch(position_plane, tap, 0);
-    if (seen.w == 0.0) continue;
-    float behind = dot(q - frame.eye.xyz, frame.forward.xyz) - dot(seen.xyz - frame.eye.xyz, frame.forward.xyz);
-    float slack = 0.015 * length(q - frame.eye.xyz) + 0.01;
-    float thickness = 0.6 + 0.12 * whole;
-    if (behind > slack && behind < thickness) lit = min(lit, 1.0 - smoothstep(slack, 2.5 * slack, behind));
-  }
-  return lit;
 }
 
 // Lambert with wrap for what lets light through, and a GGX highlight. n.l is the light's share on a facing surface.

@@ -111,7 +111,7 @@ Surface flowstone(vec3 p, vec3 n, vec3 colour, float roughness, float strength, 
   float grain = noise(p * 29.0).x * visible(0.035, footprint);
   vec3 honey = colour * vec3(0.92, 0.70, 0.46);
   Surface s;
-  s.albedo = mix(colour, honey, smoothstep(-0.15, 0.6, broad.x + 0.35 * rim));
+  s.albedo = mix(colour, honey, smoothstep(-0.15, 0.6, broad.x + 0.12 * rim));
   s.albedo *= 1.0 + 0.10 * flute.x + 0.05 * rim + 0.06 * grain;
   vec3 slope = flute.yzw * vec3(1.0, 0.1, 1.0) + vec3(0.0, 0.35 * cos(rim_height) * visible(0.35, footprint), 0.0);
   slope += 0.4 * relief(p, 0.21, 3, 0, footprint);

@@ -5,6 +5,7 @@
 #include "render/noise.glsl"
 #include "render/materials.glsl"
 #include "render/light.glsl"
+#include "render/shadow.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -21,29 +22,29 @@ Surface surfaceAt(uint material, vec3 p, vec3 n, float footprint) {
   }
 }
 
-vec3 lamps(Surface s, vec3 p, vec3 n, vec3 to_eye, float open, float jitter) {
+vec3 lamps(Surface s, vec3 p, vec3 n, vec3 to_eye, float open, vec2 turn) {
   vec3 sum = vec3(0.0), bounce = vec3(0.0);
   for (uint i = 0u; i < frame.counts.x; ++i) {
-    vec3 at = frame.lamp_position[i].xyz, away = at - p;
+    vec3 away = frame.lamp_position[i].xyz - p;
     float reach = frame.lamp_position[i].w, d2 = dot(away, away), d = sqrt(d2);
-    vec3 light = frame.lamp_colour[i].rgb * (1.2 * reach * reach / (d2 + 0.22 * reach * reach));
-    // The beam of the headlamp is wide and its rim soft; the walls send part of it back everywhere.
-    if (i == 0u) {
-      float rim = dot(-away / d, frame.forward.xyz);
-      light *= mix(0.22, 1.0, smoothstep(0.60, 0.97, rim));
-    }
-    bounce += light * (0.5 + 0.5 * dot(n, away / d));
+    float end = d / (kLampRange * reach);
+    if (end >= 1.0) continue;
+    float window = 1.0 - end * end;
     vec3 l = away / d;
-    if (dot(n, l) < -0.5 * s.translucency) continue;
-    float lit = unshadowed(p + n * (0.004 * length(p - frame.eye.xyz) + 0.01), at, jitter);
+    vec3 light = frame.lamp_colour[i].rgb * (window * window * 1.2 * reach * reach / (d2 + 0.22 * reach * reach));
+    // The beam of the headlamp is wide and its rim soft.
+    if (i == 0u) light *= mix(0.22, 1.0, smoothstep(0.60, 0.97, dot(-l, frame.forward.xyz)));
+    bool faces = dot(n, l) > -0.5 * s.translucency;
+    float lit = faces ? lampReaches(i, p, n, turn) : 0.0;
     sum += light * lit * reflected(s, l, to_eye);
+    // Lit walls send part of the light back everywhere near them.
+    bounce += light * (0.35 + 0.65 * lit) * (0.6 + 0.4 * dot(n, l));
   }
-  return sum * mix(0.55, 1.0, open) + bounce * s.albedo * (0.045 * open);
+  return sum * mix(0.55, 1.0, open) + bounce * s.albedo * (0.05 * open);
 }
 
-vec3 sunlight(Surface s, vec3 p, vec3 n, vec3 to_eye, float open, float jitter) {
-  float far = 0.6 * length(p - frame.eye.xyz);
-  float lit = unshadowed(p + n * (0.006 * far + 0.01), p + frame.sun.xyz * far, jitter);
+vec3 sunlight(Surface s, vec3 p, vec3 n, vec3 to_eye, float open, vec2 turn) {
+  float lit = sunReaches(p, n, turn);
   vec3 ground = vec3(0.24, 0.23, 0.21), zenith = vec3(0.42, 0.58, 0.86);
   if (s.translucency > 0.99) {
     // Vapour scatters so often that shade fills with light: it darkens by how far it faces away, not by its relief.
@@ -99,10 +100,10 @@ vec3 sampleAt(ivec2 at) {
   float open = wide * fine;
   vec3 colour;
   if (frame.size.w == 1u) {
-    colour = sunlight(s, p, n, -d, open, turn.z);
+    colour = sunlight(s, p, n, -d, open, turn.yz);
     if (s.translucency > 0.99) colour = mix(colour, sky(d), 0.8 * rimOf(at, turn.x));
   } else {
-    colour = lamps(s, p, n, -d, open, turn.z);
+    colour = lamps(s, p, n, -d, open, turn.yz);
     vec3 everywhere = mix(vec3(0.90, 0.80, 0.70), vec3(0.85, 0.95, 1.10), 0.5 + 0.5 * s.normal.y);
     colour += s.albedo * everywhere * (frame.sun.w * open);
   }

@@ -16,24 +16,12 @@ constexpr VkFormat kPositionFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
-VkAttachmentDescription attachment(VkFormat format, VkAttachmentStoreOp store, VkImageLayout final_layout) {
-  VkAttachmentDescription description{};
-  description.format = format;
-  description.samples = VK_SAMPLE_COUNT_1_BIT;
-  description.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-  description.storeOp = store;
-  description.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-  description.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-  description.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-  description.finalLayout = final_layout;
-  return description;
-}
-
 Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   const std::array attachments{
-      attachment(kPositionFormat, VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
-      attachment(kNormalFormat, VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
-      attachment(kDepthFormat, VK_ATTACHMENT_STORE_OP_DONT_CARE, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL)};
+      clearedAttachment(kPositionFormat, VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+      clearedAttachment(kNormalFormat, VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
+      clearedAttachment(kDepthFormat, VK_ATTACHMENT_STORE_OP_DONT_CARE,
+                        VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL)};
   const std::array<VkAttachmentReference, 2> colours{
       {{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL}, {1, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL}}};
   const VkAttachmentReference depth{2, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
@@ -60,20 +48,40 @@ Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   return scope.renderPass(info);
 }
 
-Result<VkPipeline> makeDrawPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout) {
-  auto vertex = scope.shader(spirv::kSurfaceVert);
-  if (!vertex) return vertex.error();
-  auto fragment = scope.shader(spirv::kSurfaceFrag);
-  if (!fragment) return fragment.error();
+}  // namespace
+
+VkAttachmentDescription clearedAttachment(VkFormat format, VkAttachmentStoreOp store, VkImageLayout final_layout) {
+  VkAttachmentDescription description{};
+  description.format = format;
+  description.samples = VK_SAMPLE_COUNT_1_BIT;
+  description.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+  description.storeOp = store;
+  description.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+  description.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  description.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  description.finalLayout = final_layout;
+  return description;
+}
+
+Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout,
+                                    std::span<const uint32_t> vertex_spirv, std::span<const uint32_t> fragment_spirv,
+                                    VkCullModeFlags cull) {
+  const bool coloured = !fragment_spirv.empty();
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (VkPipelineShaderStageCreateInfo& stage : stages) {
     stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     stage.pName = "main";
   }
+  auto vertex = scope.shader(vertex_spirv);
+  if (!vertex) return vertex.error();
   stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
   stages[0].module = *vertex;
-  stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-  stages[1].module = *fragment;
+  if (coloured) {
+    auto fragment = scope.shader(fragment_spirv);
+    if (!fragment) return fragment.error();
+    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+    stages[1].module = *fragment;
+  }
 
   const VkVertexInputBindingDescription binding{0, sizeof(RenderVertex), VK_VERTEX_INPUT_RATE_VERTEX};
   const std::array<VkVertexInputAttributeDescription, 3> attributes{
@@ -84,7 +92,7 @@ Result<VkPipeline> makeDrawPipeline(VulkanScope& scope, VkRenderPass render_pass
   input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
   input.vertexBindingDescriptionCount = 1;
   input.pVertexBindingDescriptions = &binding;
-  input.vertexAttributeDescriptionCount = static_cast<uint32_t>(attributes.size());
+  input.vertexAttributeDescriptionCount = coloured ? static_cast<uint32_t>(attributes.size()) : 1;
   input.pVertexAttributeDescriptions = attributes.data();
   VkPipelineInputAssemblyStateCreateInfo assembly{};
   assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
@@ -95,8 +103,7 @@ Result<VkPipeline> makeDrawPipeline(VulkanScope& scope, VkRenderPass render_pass
   viewport.scissorCount = 1;
   VkPipelineRasterizationStateCreateInfo raster{};
   raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-  // A solid's inner side is never seen from the void; from outside a cave this opens it like a doll's house.
-  raster.cullMode = VK_CULL_MODE_BACK_BIT;
+  raster.cullMode = cull;
   raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
   raster.lineWidth = 1;
   VkPipelineMultisampleStateCreateInfo samples{};
@@ -114,7 +121,7 @@ Result<VkPipeline> makeDrawPipeline(VulkanScope& scope, VkRenderPass render_pass
   }
   VkPipelineColorBlendStateCreateInfo blend{};
   blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-  blend.attachmentCount = static_cast<uint32_t>(blends.size());
+  blend.attachmentCount = coloured ? static_cast<uint32_t>(blends.size()) : 0;
   blend.pAttachments = blends.data();
   const std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
   VkPipelineDynamicStateCreateInfo dynamic{};
@@ -124,7 +131,7 @@ Result<VkPipeline> makeDrawPipeline(VulkanScope& scope, VkRenderPass render_pass
 
   VkGraphicsPipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-  info.stageCount = static_cast<uint32_t>(stages.size());
+  info.stageCount = coloured ? 2 : 1;
   info.pStages = stages.data();
   info.pVertexInputState = &input;
   info.pInputAssemblyState = &assembly;
@@ -139,7 +146,18 @@ Result<VkPipeline> makeDrawPipeline(VulkanScope& scope, VkRenderPass render_pass
   return scope.graphicsPipeline(info);
 }
 
-}  // namespace
+Result<VkFramebuffer> makeFramebuffer(VulkanScope& scope, VkRenderPass render_pass, std::span<const VkImageView> views,
+                                      VkExtent2D extent) {
+  VkFramebufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+  info.renderPass = render_pass;
+  info.attachmentCount = static_cast<uint32_t>(views.size());
+  info.pAttachments = views.data();
+  info.width = extent.width;
+  info.height = extent.height;
+  info.layers = 1;
+  return scope.framebuffer(info);
+}
 
 Result<SurfacePass> makeSurfacePass(VulkanScope& scope, VkExtent2D extent) {
   SurfacePass pass;
@@ -158,31 +176,25 @@ Result<SurfacePass> makeSurfacePass(VulkanScope& scope, VkExtent2D extent) {
   if (!render_pass) return render_pass.error();
   pass.render_pass = *render_pass;
   const std::array views{pass.positions.view, pass.normals.view, depth->view};
-  VkFramebufferCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-  info.renderPass = pass.render_pass;
-  info.attachmentCount = static_cast<uint32_t>(views.size());
-  info.pAttachments = views.data();
-  info.width = extent.width;
-  info.height = extent.height;
-  info.layers = 1;
-  auto framebuffer = scope.framebuffer(info);
+  auto framebuffer = makeFramebuffer(scope, pass.render_pass, views, extent);
   if (!framebuffer) return framebuffer.error();
   pass.framebuffer = *framebuffer;
   auto layout = scope.pipelineLayout(VK_NULL_HANDLE, VK_SHADER_STAGE_VERTEX_BIT, sizeof(glm::mat4));
   if (!layout) return layout.error();
   pass.layout = *layout;
-  auto draw = makeDrawPipeline(scope, pass.render_pass, pass.layout);
+  // A solid's inner side is never seen from the void; from outside a cave this opens it like a doll's house.
+  auto draw = makeMeshPipeline(scope, pass.render_pass, pass.layout, spirv::kSurfaceVert, spirv::kSurfaceFrag,
+                               VK_CULL_MODE_BACK_BIT);
   if (!draw) return draw.error();
   pass.draw = *draw;
   return pass;
 }
 
-Result<ShadePass> makeShadePass(VulkanScope& scope, const SurfacePass& surfaces, const VulkanBuffer& frame,
-                                const VulkanBuffer& materials, const VulkanBuffer& pixels) {
+Result<ShadePass> makeShadePass(VulkanScope& scope, const SurfacePass& surfaces, const VulkanImage& shadows,
+                                const VulkanBuffer& frame, const VulkanBuffer& materials, const VulkanBuffer& pixels) {
   constexpr std::array kTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                              VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                              VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+                              VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                              VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
   ShadePass pass;
   auto set_layout = scope.setLayout(kTypes, VK_SHADER_STAGE_COMPUTE_BIT);
   if (!set_layout) return set_layout.error();
@@ -200,9 +212,10 @@ Result<ShadePass> makeShadePass(VulkanScope& scope, const SurfacePass& surfaces,
   auto sampler = scope.sampler();
   if (!sampler) return sampler.error();
 
-  const std::array<VkDescriptorImageInfo, 2> images{
+  const std::array<VkDescriptorImageInfo, 3> images{
       {{*sampler, surfaces.positions.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
-       {*sampler, surfaces.normals.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}}};
+       {*sampler, surfaces.normals.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
+       {*sampler, shadows.view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL}}};
   const std::array<VkDescriptorBufferInfo, 3> buffers{
       {{frame.handle, 0, VK_WHOLE_SIZE}, {materials.handle, 0, VK_WHOLE_SIZE}, {pixels.handle, 0, VK_WHOLE_SIZE}}};
   std::array<VkWriteDescriptorSet, kTypes.size()> writes{};

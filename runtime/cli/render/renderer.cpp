@@ -9,6 +9,7 @@
 
 #include "render/frame.h"
 #include "render/pipeline.h"
+#include "render/shadow.h"
 
 namespace sgm {
 namespace {
@@ -36,8 +37,8 @@ Result<void> checkCamera(const RenderCamera& camera) {
 
 Result<void> checkMesh(const RenderScene& scene) {
   if (scene.indices.size() % 3 != 0) return invalid("indices come in threes");
-  if (scene.vertices.size() > UINT32_MAX || scene.indices.size() > UINT32_MAX) {
-    return {Error{Code::limit, "the mesh is too large for one picture: mesh a smaller region or a coarser cell"}};
+  if (scene.vertices.size() > UINT32_MAX || scene.indices.size() > UINT32_MAX / (kMaxLamps + 1)) {
+    return Error{Code::limit, "the mesh is too large for one picture: mesh a smaller region or a coarser cell"};
   }
   const auto highest = std::ranges::max_element(scene.indices);
   if (highest != scene.indices.end() && *highest >= scene.vertices.size()) {
@@ -54,6 +55,10 @@ Result<void> check(const RenderScene& scene, const VkPhysicalDeviceLimits& limit
   if (auto mesh = checkMesh(scene); !mesh) return mesh.error();
   if (scene.materials.empty()) return invalid("a scene needs a material");
   if (scene.lamps.size() > kMaxLamps) return invalid("a scene has at most " + std::to_string(kMaxLamps) + " lamps");
+  const auto dark = [](const RenderLamp& lamp) { return !(lamp.reach > 0) || !finite(lamp.position); };
+  if (dark(scene.headlamp) || std::ranges::any_of(scene.lamps, dark)) {
+    return invalid("a lamp has a finite place and a reach above 0");
+  }
   if (scene.supersample < 1 || scene.supersample > 3) return invalid("a pixel has 1, 2 or 3 samples on each side");
   if (!(scene.fog_distance > 0)) return invalid("the fog's distance is above 0");
   if (!(glm::dot(scene.sun_direction, scene.sun_direction) > 0)) return invalid("the sun's direction is not 0");
@@ -102,10 +107,16 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
 
   auto surfaces = makeSurfacePass(scope, {width * frame.size.z, height * frame.size.z});
   if (!surfaces) return surfaces.error();
-  auto shade = makeShadePass(scope, *surfaces, *frame_buffer, *material_buffer, *pixels);
+  const ShadowPlan plan = planShadows(scene, frame);
+  auto shadow_indices = upload(scope, std::span<const uint32_t>(plan.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  if (!shadow_indices) return shadow_indices.error();
+  auto shadows = makeShadowPass(scope, plan.extent);
+  if (!shadows) return shadows.error();
+  auto shade = makeShadePass(scope, *surfaces, shadows->depth, *frame_buffer, *material_buffer, *pixels);
   if (!shade) return shade.error();
 
   auto drawn = device_->run([&](VkCommandBuffer commands) {
+    recordShadows(calls, commands, plan, *shadows, *vertex_buffer, *shadow_indices);
     const std::array<VkClearValue, 3> clear{};  // alpha 0 is the background, reversed depth 0 is infinity
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;

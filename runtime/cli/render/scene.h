@@ -42,7 +42,7 @@ RenderMaterial materialByName(std::string_view name);
 struct RenderLamp {
   glm::vec3 position{0};  ///< metres from the scene's origin
   glm::vec3 colour{1, 0.9f, 0.75f};
-  float reach = 10;  ///< distance in metres at which a facing wall is well lit; 0 turns the lamp off
+  float reach = 10;  ///< distance in metres at which a facing wall is well lit, above 0
 };
 
 /// Looks from position to target, Y up. Positions in metres from the scene's origin.
@@ -57,7 +57,7 @@ inline constexpr int kMaxPicture = 4096;
 
 enum class Background : uint32_t { cave, sky };
 
-inline constexpr size_t kMaxLamps = 8;
+inline constexpr size_t kMaxLamps = 7;
 
 struct RenderScene {
   std::span<const RenderVertex> vertices;
