@@ -26,6 +26,7 @@ float lampReaches(uint lamp, vec3 p, vec3 n, vec2 turn) {
   int axis = m.x >= m.y && m.x >= m.z ? 0 : m.y >= m.z ? 1 : 2;
   float major = from[axis];
   vec2 across = axis == 0 ? from.zy : axis == 1 ? from.xz : from.xy;
+  if ((axis == 2) == (major < 0.0)) across.x = -across.x;  // as planLamp turns the tiles
   ivec2 corner = ivec2((axis * 2 + (major < 0.0 ? 1 : 0)) * kLampTile, int(lamp) * kLampTile);
   vec2 at = (across / abs(major) * 0.5 + 0.5) * float(kLampTile) + (turn - 0.5) * 3.0;
   return passing(at, corner, kLampTile, kLampNear / abs(major) * 1.004);

@@ -204,7 +204,7 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
   std::vector<size_t> by_depth(fan.distances.size());
   for (size_t i = 0; i < by_depth.size(); ++i) by_depth[i] = i;
   std::ranges::stable_sort(by_depth, std::greater{}, [&](size_t i) { return fan.distances[i]; });
-  constexpr std::array kColours{glm::vec3(1.0f, 0.70f, 0.40f), glm::vec3(0.66f, 0.82f, 1.0f),
+  constexpr std::array kColours{glm::vec3(1.0f, 0.70f, 0.40f), glm::vec3(0.78f, 0.88f, 1.0f),
                                 glm::vec3(1.0f, 0.82f, 0.60f)};
   size_t deep = 0;
   for (size_t i : by_depth) {

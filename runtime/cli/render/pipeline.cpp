@@ -64,8 +64,7 @@ VkAttachmentDescription clearedAttachment(VkFormat format, VkAttachmentStoreOp s
 }
 
 Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout,
-                                    std::span<const uint32_t> vertex_spirv, std::span<const uint32_t> fragment_spirv,
-                                    VkCullModeFlags cull) {
+                                    std::span<const uint32_t> vertex_spirv, std::span<const uint32_t> fragment_spirv) {
   const bool coloured = !fragment_spirv.empty();
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (VkPipelineShaderStageCreateInfo& stage : stages) {
@@ -103,7 +102,8 @@ Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass
   viewport.scissorCount = 1;
   VkPipelineRasterizationStateCreateInfo raster{};
   raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-  raster.cullMode = cull;
+  // A solid's inner side is never seen from the void; from outside a cave this opens it like a doll's house.
+  raster.cullMode = VK_CULL_MODE_BACK_BIT;
   raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
   raster.lineWidth = 1;
   VkPipelineMultisampleStateCreateInfo samples{};
@@ -182,9 +182,7 @@ Result<SurfacePass> makeSurfacePass(VulkanScope& scope, VkExtent2D extent) {
   auto layout = scope.pipelineLayout(VK_NULL_HANDLE, VK_SHADER_STAGE_VERTEX_BIT, sizeof(glm::mat4));
   if (!layout) return layout.error();
   pass.layout = *layout;
-  // A solid's inner side is never seen from the void; from outside a cave this opens it like a doll's house.
-  auto draw = makeMeshPipeline(scope, pass.render_pass, pass.layout, spirv::kSurfaceVert, spirv::kSurfaceFrag,
-                               VK_CULL_MODE_BACK_BIT);
+  auto draw = makeMeshPipeline(scope, pass.render_pass, pass.layout, spirv::kSurfaceVert, spirv::kSurfaceFrag);
   if (!draw) return draw.error();
   pass.draw = *draw;
   return pass;

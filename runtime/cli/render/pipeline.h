@@ -31,11 +31,10 @@ VkAttachmentDescription clearedAttachment(VkFormat format, VkAttachmentStoreOp s
 Result<VkFramebuffer> makeFramebuffer(VulkanScope& scope, VkRenderPass render_pass, std::span<const VkImageView> views,
                                       VkExtent2D extent);
 
-/// Draws RenderVertex triangles into reversed depth. With an empty fragment shader only depth is drawn and only the
-/// vertices' positions are read; else two colour attachments.
+/// Draws RenderVertex triangles' fronts into reversed depth. With an empty fragment shader only depth is drawn and only
+/// the vertices' positions are read; else two colour attachments.
 Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout,
-                                    std::span<const uint32_t> vertex_spirv, std::span<const uint32_t> fragment_spirv,
-                                    VkCullModeFlags cull);
+                                    std::span<const uint32_t> vertex_spirv, std::span<const uint32_t> fragment_spirv);
 
 Result<SurfacePass> makeSurfacePass(VulkanScope& scope, VkExtent2D extent);
 Result<ShadePass> makeShadePass(VulkanScope& scope, const SurfacePass& surfaces, const VulkanImage& shadows,

@@ -17,9 +17,11 @@ constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 glm::mat4 lookAlong(glm::vec3 eye, int face) {
   const int axis = face / 2, across = axis == 0 ? 2 : 0, along = axis == 1 ? 2 : 1;
   const float sign = face % 2 == 0 ? 1.0f : -1.0f;
+  // Turned so that no tile is mirrored, and fronts stay fronts.
+  const float turned = (axis == 2) == (sign > 0) ? 1.0f : -1.0f;
   glm::mat4 m(0);
-  m[across][0] = 1;
-  m[3][0] = -eye[across];
+  m[across][0] = turned;
+  m[3][0] = -turned * eye[across];
   m[along][1] = 1;
   m[3][1] = -eye[along];
   m[3][2] = kLampNear;
@@ -101,8 +103,8 @@ Result<ShadowPass> makeShadowPass(VulkanScope& scope, VkExtent2D extent) {
   auto layout = scope.pipelineLayout(VK_NULL_HANDLE, VK_SHADER_STAGE_VERTEX_BIT, sizeof(glm::mat4));
   if (!layout) return layout.error();
   pass.layout = *layout;
-  // Tiles may be mirrored, and a wall's back stops light as well as its front: nothing is culled.
-  auto draw = makeMeshPipeline(scope, pass.render_pass, pass.layout, spirv::kShadowVert, {}, VK_CULL_MODE_NONE);
+  // As for the eye, a wall is open from its back: a lamp outside a cave shines into the doll's house.
+  auto draw = makeMeshPipeline(scope, pass.render_pass, pass.layout, spirv::kShadowVert, {});
   if (!draw) return draw.error();
   pass.draw = *draw;
   return pass;
