@@ -2,11 +2,8 @@
 
 set(SGM_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor
   -Woverloaded-virtual -Wold-style-cast -Wdouble-promotion
-  # g++ 12 sees overlaps and null pointers inside its own std::string and std::vector once they are inlined.
+  # g++ 12 sees overlaps (GCC bug 105651) and null pointers in its own std::string and std::vector, once inlined.
   $<IF:$<CXX_COMPILER_ID:GNU>,-Wno-restrict,-Wnull-dereference>)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  list(APPEND SGM_WARNINGS -Wno-restrict)  # false alarms on "text" + std::string (GCC bug 105651)
-endif()
 
 # The arithmetic contract: no contraction into fma, no value-changing optimisation, in any target.
 set(SGM_EXACT_FLAGS -ffp-contract=off -fno-fast-math)
