@@ -171,7 +171,7 @@ WideBox Walker::leaf(const Shape& s, double a) const {
     case ShapeKind::morph_power: {
       const std::array<double, 3> most{std::max(size(0), size(3)), std::max(size(1), size(4)),
                                        std::max(size(2), size(5))};
-      return scaledRadii(s.frame, most, *std::min_element(s.size.begin(), s.size.end()), a);
+      return scaledRadii(s.frame, most, wide(*std::min_element(s.size.begin(), s.size.end())), a);
     }
     default:
       return WideBox::everything();

@@ -25,14 +25,15 @@ int64_t excess(const IntBox& box, const IntBox& limit) {
   return most;
 }
 
-bool hasCells(const Layer& layer) { return layer.cell.x > 0 || layer.cell.y > 0 || layer.cell.z > 0; }
+/// A top-level start derives once, over the domain; its scope stands at the origin.
+bool isWhole(const Layer& layer) { return layer.cell_expr == kNoId; }
 
 }  // namespace
 
 IntBox cellBox(const Layer& layer, Int3 cell) {
   IntBox box = IntBox::everything();
   for (int a = 0; a < 3; ++a) {
-    if (layer.cell[a] <= 0) continue;
+    if (isWhole(layer) || layer.cell[a] <= 0) continue;
     box.lo[a] = saturate(int64_t{cell[a]} * layer.cell[a]);
     box.hi[a] = saturate((int64_t{cell[a]} + 1) * layer.cell[a] - 1);
   }
@@ -41,12 +42,12 @@ IntBox cellBox(const Layer& layer, Int3 cell) {
 
 IntBox cellLimit(const Program& program, uint32_t layer_index, Int3 cell) {
   const Layer& layer = program.layers[layer_index];
-  if (!hasCells(layer)) return program.domain.infinite ? IntBox::everything() : program.domain.box;
+  if (isWhole(layer)) return program.domain.box.grown(kReachSlack);
   IntBox box = cellBox(layer, cell);
   for (int a = 0; a < 3; ++a) {
     if (layer.cell[a] <= 0) continue;
-    box.lo[a] = saturate(int64_t{box.lo[a]} - layer.reach);
-    box.hi[a] = saturate(int64_t{box.hi[a]} + 1 + layer.reach);
+    box.lo[a] = saturate(int64_t{box.lo[a]} - layer.reach - kReachSlack);
+    box.hi[a] = saturate(int64_t{box.hi[a]} + 1 + layer.reach + kReachSlack);
   }
   return box;
 }
@@ -66,7 +67,7 @@ Interpreter::Interpreter(const Program& program, const ParameterValues& paramete
       active_(program.rules.size()) {
   lattice_.seed = hashCombine(seed_, hashText(program.text(layer_.name)));
   lattice_.size = layer_.cell;
-  for (int a = 0; a < 3; ++a) base_[a] = lattice_.hasAxis(a) ? cellBox(layer_, cell).lo[a] : 0;
+  for (int a = 0; a < 3; ++a) base_[a] = !isWhole(layer_) && lattice_.hasAxis(a) ? cellBox(layer_, cell).lo[a] : 0;
 }
 
 bool Interpreter::step(uint64_t count, const Span& span, uint32_t activation) {
@@ -80,9 +81,10 @@ bool Interpreter::step(uint64_t count, const Span& span, uint32_t activation) {
 void Interpreter::fail(const std::string& what, const Span& span, uint32_t activation) {
   if (failed()) return;
   const std::string path = pathText(activation);
-  Error error{Code::limit, what + (path.empty() ? "" : ", in " + path), span.line, span.column};
+  Error error{Code::limit, what, span.line, span.column};
+  if (!path.empty()) error.message.append(", in ").append(path);
   if (span.file != 0 && span.file < program_.modules.size()) {
-    error.message += " (" + std::string(program_.modules[span.file].path) + ")";
+    error.message.append(" (").append(program_.modules[span.file].path).append(")");
   }
   error_ = std::move(error);
 }
@@ -94,7 +96,7 @@ void Interpreter::note(const std::string& message, const Span& span, uint32_t ac
   }
   DeriveNote note{message, pathText(activation), span.line, span.column};
   if (span.file != 0 && span.file < program_.modules.size()) {
-    note.message += " (" + std::string(program_.modules[span.file].path) + ")";
+    note.message.append(" (").append(program_.modules[span.file].path).append(")");
   }
   notes_.push_back(std::move(note));
 }
@@ -107,7 +109,10 @@ std::string Interpreter::pathText(uint32_t activation) const {
     const Activation& a = activations_[path[i]];
     if (!text.empty()) text += '/';
     text += program_.text(program_.rules[a.rule].name);
-    if (a.parent != kNone) text += "[" + std::to_string(a.index) + "]";
+    if (a.parent == kNone) continue;
+    text += '[';
+    text += std::to_string(a.index);
+    text += ']';
   }
   return text;
 }
@@ -126,7 +131,7 @@ void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& o
     }
     if (!limit.contains(box)) {
       const std::string by = metresText(excess(box, limit)) + " m";
-      note(hasCells(layer_) ? "this shape may pass the reach of its cell by " + by + "; it is left out whole"
+      note(!isWhole(layer_) ? "this shape may pass the reach of its cell by " + by + "; it is left out whole"
                             : "this shape may pass the domain's box by " + by + "; it is left out whole",
            origin.span, origin.activation);
       continue;
@@ -138,10 +143,10 @@ void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& o
 Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
   Env env;
   env.place.base = base_;
+  const IntBox& domain = program_.domain.box;
   for (int a = 0; a < 3; ++a) {
-    const int64_t edge =
-        hasCells(layer_) ? layer_.cell[a] : int64_t{program_.domain.box.hi[a]} - program_.domain.box.lo[a];
-    env.scope[a] = static_cast<double>(edge) / kUnitsPerMetre;
+    const int64_t edge = isWhole(layer_) ? int64_t{domain.hi[a]} - domain.lo[a] : layer_.cell[a];
+    env.scope[a] = static_cast<double>(std::max<int64_t>(edge, 0)) / kUnitsPerMetre;
   }
   env.key = lattice_.cellKey(cell_);
   env.activation = kNone;
@@ -156,7 +161,7 @@ Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
   draft_.finish(roots.groups, out);
   out.anchors.assign(anchors_.begin(), anchors_.end());
   if (dropped_notes_ > 0) {
-    notes_.push_back({"and " + std::to_string(dropped_notes_) + " more notes on this cell", "", 0, 0});
+    notes_.push_back({std::to_string(dropped_notes_).append(" more notes on this cell"), "", 0, 0});
   }
   for (DeriveNote& n : notes_) out.notes.push_back(std::move(n));
   return out;
@@ -170,6 +175,9 @@ Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& p
     return Error{Code::invalid_argument, "the parameter values belong to another grammar"};
   }
   const Layer& info = program.layers[layer];
+  if (isWhole(info) && cell != Int3{}) {
+    return Error{Code::invalid_argument, "a grammar without layers has the cell 0 0 0 alone"};
+  }
   for (int a = 0; a < 3; ++a) {
     const int64_t low = int64_t{cell[a]} * info.cell[a], high = low + info.cell[a];
     if (low < std::numeric_limits<int32_t>::min() || high > std::numeric_limits<int32_t>::max()) {

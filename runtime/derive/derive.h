@@ -23,12 +23,17 @@ struct DeriveLimits {
   uint32_t notes = 64;              ///< further notes are counted, not kept
 };
 
-/// The box that a cell of the layer covers; along axes that are not cut into cells, all of the axis. hi is the last
-/// unit that still belongs to the cell. Saturates.
+/// The box that a cell of the layer covers; along axes that are not cut into cells, all of the axis; without layers,
+/// everything. hi is the last unit that still belongs to the cell. Saturates.
 IntBox cellBox(const Layer& layer, Int3 cell);
 
-/// The box that shapes of the cell must stay within: cellBox() grown by the reach; along axes that are not cut into
-/// cells there is no limit. A layer without cells in a finite domain: the domain's box.
+/// Units by which bounds may pass the declared reach: bounds are rounded outwards, and a shape that reaches exactly as
+/// far as declared must not fall to that rounding.
+inline constexpr int32_t kReachSlack = 64;
+
+/// The box that holds every shape of the cell; who gathers the cells of a chunk asks which of these meet it. cellBox()
+/// grown by the reach and kReachSlack; along axes that are not cut into cells there is no limit. Without layers (a
+/// top-level start): the domain's box, grown by the slack.
 IntBox cellLimit(const Program& program, uint32_t layer, Int3 cell);
 
 /// Pure: a value of the arguments and of what `lower` answers for layers that this one uses. Thread-safe.

@@ -1,8 +1,9 @@
 #pragma once
 // The interpreter of one cell. Internal to derive/: everything outside calls deriveCell() (derive.h).
 //
-// evaluate.cpp: expressions. builtins.cpp: functions. statements.cpp: blocks and combiners. rules.cpp: choice and
-// calls. points.cpp: scatter and loops. primitives.cpp: leaves. derive.cpp: the cell as a whole.
+// evaluate.cpp: expressions. functions.cpp: the language's functions. statements.cpp: blocks and combiners. morph.cpp:
+// morphs. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets. primitives.cpp: leaves. derive.cpp: the
+// cell as a whole.
 
 #include <array>
 #include <optional>
@@ -90,6 +91,9 @@ struct Env {
 };
 
 using ShapeList = std::vector<uint32_t>;
+
+/// The exponent of a superquadric: 2 at 0, kMaxPower at 1.
+double exponentOfSquare(double square);
 
 class Interpreter {
  public:

@@ -12,11 +12,6 @@ namespace {
 constexpr double kLargest = 1073741824.0;  ///< units; a quarter of the world's edge
 constexpr uint64_t kBendSalt = 0x62656E64;
 
-double exponentOf(double square) {
-  const double s = std::clamp(square, 0.0, 1.0);
-  return 2.0 / (1.0 - s + s * 2.0 / static_cast<double>(kMaxPower));
-}
-
 }  // namespace
 
 /// `metres` go to Shape::size after what is already there (an exponent), scaled; `inner` is the inner radius in metres.
@@ -100,7 +95,7 @@ void Interpreter::primitive(Primitive kind, const ExprNode& node, uint32_t ordin
     case Primitive::superq: {
       const Vec3 radii = evaluate(boundAt(node, 0), env).vec();
       Shape shape = leaf(ShapeKind::superquadric);
-      shape.size[3] = static_cast<float>(exponentOf(number(1)));
+      shape.size[3] = static_cast<float>(exponentOfSquare(number(1)));
       return addLeaf(shape, {radii.x, radii.y, radii.z}, std::min({radii.x, radii.y, radii.z}), node, ordinal, env,
                      out);
     }
