@@ -68,7 +68,7 @@ vec3 haze(vec3 colour, vec3 d, float t) {
     float reach = frame.lamp_position[i].w;
     scattered += frame.lamp_colour[i].rgb * (reach * reach * glow(d, t, frame.lamp_position[i].xyz));
   }
-  return mix(background(d), colour, clear) + scattered * (0.018 / frame.forward.w);
+  return mix(background(d), colour, clear) + scattered * (0.010 / frame.forward.w);
 }
 
 // Vapour thins out towards its outline: the share of the sky near the sample.

@@ -96,6 +96,7 @@ struct Fan {
   std::vector<glm::vec3> directions;
   std::vector<float> distances;
   float median = 0;
+  float typical = 0;  // between the median and the upper quartile: frames are near, what they frame is what matters
   float score = 0;
 };
 
@@ -125,13 +126,16 @@ Fan lookAlong(const RayCaster& mesh, glm::vec3 from, glm::vec3 forward, const Ca
   const float n = static_cast<float>(fan.distances.size());
   const float mean = sum / n, spread = std::sqrt(std::max(0.0f, squares / n - mean * mean));
   std::vector<float> sorted = fan.distances;
-  std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2));
+  std::ranges::sort(sorted);
   fan.median = sorted[sorted.size() / 2];
-  const float nose = std::max(1.5f, 0.22f * fan.median);
-  const auto close = std::ranges::count_if(fan.distances, [&](float distance) { return distance < nose; });
-  // Deep and varied views, little of them lost to holes or to a wall before the nose; level ones before steep ones.
-  fan.score =
-      mean + 0.9f * spread - 4.0f * escaped / n - 2.5f * static_cast<float>(close) / n - 0.8f * forward.y * forward.y;
+  fan.typical = 0.5f * (fan.median + sorted[sorted.size() * 3 / 4]);
+  const float deep = std::log(std::max(sorted[sorted.size() * 9 / 10], 0.05f));
+  const float nose = std::max(1.2f, 0.15f * fan.median);
+  const auto close = std::ranges::count_if(sorted, [&](float distance) { return distance < nose; });
+  // Deep and varied views, near walls to frame far ones, little lost to holes or to a wall before the nose; level ones
+  // before steep ones.
+  fan.score = 0.5f * mean + 0.7f * deep + 1.0f * spread - 4.0f * escaped / n - 2.5f * static_cast<float>(close) / n -
+              0.8f * forward.y * forward.y;
   return fan;
 }
 
@@ -204,14 +208,14 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
   std::vector<size_t> by_depth(fan.distances.size());
   for (size_t i = 0; i < by_depth.size(); ++i) by_depth[i] = i;
   std::ranges::stable_sort(by_depth, std::greater{}, [&](size_t i) { return fan.distances[i]; });
-  constexpr std::array kColours{glm::vec3(1.0f, 0.70f, 0.40f), glm::vec3(0.78f, 0.88f, 1.0f),
+  constexpr std::array kColours{glm::vec3(1.0f, 0.70f, 0.40f), glm::vec3(0.95f, 0.93f, 0.88f),
                                 glm::vec3(1.0f, 0.82f, 0.60f)};
   size_t deep = 0;
   for (size_t i : by_depth) {
     const float depth = fan.distances[i];
     if (deep == kColours.size() || depth < 1.15f * fan.median) break;
     if (depth >= far) continue;
-    const float reach = std::clamp(0.22f * depth, 1.5f, 14.0f);
+    const float reach = std::clamp(0.28f * depth, 1.5f, 14.0f);
     if (hang(from + fan.directions[i] * (0.80f * depth), kColours[deep], reach, 0.4f * depth)) ++deep;
   }
   return lamps;
@@ -254,7 +258,7 @@ View insideView(const RayCaster& mesh, const Sight& sight, const CameraWish& wis
   View view;
   view.enclosed = true;
   view.camera = {sight.position, sight.position + sight.forward, wish.fov_degrees, wish.width, wish.height};
-  view.depth = sight.fan.median;
+  view.depth = sight.fan.typical;
   view.lamps = lampsAlong(mesh, sight.position, sight.forward, sight.fan, far);
   return view;
 }
@@ -267,13 +271,16 @@ Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<cons
   const RayCaster mesh(vertices, indices, memory);
   const glm::vec3 centre = 0.5f * (mesh.lo() + mesh.hi());
   const float radius = std::max(0.5f * glm::distance(mesh.lo(), mesh.hi()), 1e-3f), far = 2 * radius;
+  std::vector<Place> places;
   for (const glm::vec3 anchor : wish.anchors) {
     const glm::vec3 p = standing(mesh, anchor, far);
-    if (!inVoid(spaceAround(mesh, p, far))) continue;
-    return insideView(mesh, bestSight(mesh, p, wish, far), wish, far);
+    if (inVoid(spaceAround(mesh, p, far))) places.push_back({p, 0});
+    if (places.size() == kFinalists) break;
   }
-  if (seenFromOutside(mesh, centre, radius)) return outsideView(vertices, centre, wish);
-  const std::vector<Place> places = placesInVoid(mesh, far);
+  if (places.empty()) {
+    if (seenFromOutside(mesh, centre, radius)) return outsideView(vertices, centre, wish);
+    places = placesInVoid(mesh, far);
+  }
   if (places.empty()) return outsideView(vertices, centre, wish);
   std::vector<Sight> glances;
   for (size_t i = 0; i < std::min(kFinalists, places.size()); ++i) {
@@ -300,7 +307,7 @@ View viewFrom(std::span<const RenderVertex> vertices, std::span<const uint32_t> 
   const glm::vec3 forward = glm::normalize(camera.target - camera.position);
   const Fan fan = lookAlong(mesh, camera.position, forward, wish, kStudy, far);
   view.enclosed = spaceAround(mesh, camera.position, far).walls > 0.5f;
-  view.depth = fan.median;
+  view.depth = fan.typical;
   if (view.enclosed) view.lamps = lampsAlong(mesh, camera.position, forward, fan, far);
   return view;
 }

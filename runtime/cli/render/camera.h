@@ -15,7 +15,8 @@ struct CameraWish {
   int width = 1280;
   int height = 720;
   float fov_degrees = 68;
-  /// Places to stand at, metres from the scene's origin; the first that lies in the void and has a view is taken.
+  /// Places to stand at, metres from the scene's origin; of those that lie in the void the one with the
+  /// best view is taken.
   std::span<const glm::vec3> anchors;
   bool airborne = false;  ///< a shape seen from outside floats: look up at it
 };
@@ -24,7 +25,7 @@ struct CameraWish {
 struct View {
   RenderCamera camera;
   bool enclosed = false;          ///< inside a void, walls all around; else the shape is seen from outside
-  float depth = 1;                ///< median distance in metres to what is seen
+  float depth = 1;                ///< typical distance in metres to what is seen
   std::vector<RenderLamp> lamps;  ///< in the void, deeper along the view
 };
 
