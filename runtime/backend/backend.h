@@ -1,0 +1,80 @@
+#pragma once
+// The seam between the runtime and a device: field programs in, packed chunk meshes out, the same bytes from every one.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <memory_resource>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/jobs.h"
+#include "base/result.h"
+#include "field/program.h"
+#include "mesh/chunk.h"
+#include "mesh/fans.h"
+
+namespace sgm {
+
+enum class BackendKind : uint8_t { cpu, vulkan, cuda };
+
+struct BackendCapabilities {
+  BackendKind kind = BackendKind::cpu;
+  std::string device;        ///< device name, or the instruction set in use
+  bool exact = true;         ///< keeps the arithmetic contract
+  uint32_t concurrency = 1;  ///< chunks worked on at one time
+};
+
+/// One chunk to mesh. The programs must hold every group whose influence box meets the chunk's closed box.
+struct ChunkJob {
+  ChunkGrid grid;
+  std::shared_ptr<const FieldProgram> field;   ///< at grid.level
+  std::shared_ptr<const FieldProgram> coarse;  ///< at grid.level + 1; null where no seam is asked for
+  uint8_t seams = 0;                           ///< bit (1 << Face): make this seam
+  Neighbourhood coarser = 0;  ///< which blocks around are of a coarser level; decides only the fans in seam keys
+};
+
+/// What a chunk became. Parts without surface are empty, their hash 0.
+struct ChunkMesh {
+  MeshPart body;
+  std::vector<MeshPart> seams;  ///< none, or six by Face
+  uint32_t solid_samples = 0;   ///< solid ones of the lower 32^3 samples
+  bool uniform = false;         ///< proven without a sample: no body
+
+  explicit ChunkMesh(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : body(memory) {}
+};
+
+/// Work given to a device. Destroying it cancels what has not begun and waits for what has.
+class ChunkBatch {
+ public:
+  virtual ~ChunkBatch() = default;
+  /// Whether all jobs have ended; never blocks.
+  virtual bool poll() = 0;
+  /// Ends when all jobs have; the calling thread works too.
+  virtual void wait() = 0;
+  /// Jobs that have not begun end without a mesh. Any thread.
+  virtual void cancel() = 0;
+  /// After the end: one mesh a job, in order. out_of_memory, or cancelled where a job did not run.
+  virtual Result<std::vector<ChunkMesh>> take() = 0;
+};
+
+/// Thread-safe. Must outlive its batches.
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  virtual const BackendCapabilities& capabilities() const = 0;
+  virtual Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs) = 0;
+};
+
+struct BackendRequest {
+  BackendKind kind = BackendKind::cpu;
+  bool automatic = true;        ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
+  std::string instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512"; empty: the widest that runs here
+};
+
+/// factory.cpp. jobs and memory must outlive the backend. unsupported: not built or not usable here, and why.
+Result<std::unique_ptr<Backend>> makeBackend(const BackendRequest& request, JobSystem& jobs,
+                                             std::pmr::memory_resource* memory);
+
+}  // namespace sgm

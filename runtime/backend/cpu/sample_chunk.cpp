@@ -1,0 +1,112 @@
+#include <algorithm>
+
+#include "backend/cpu/mesh_chunk.h"
+
+namespace sgm {
+
+namespace {
+
+// Samples first..last on each axis, both included.
+struct SampleBox {
+  std::array<int, 3> first{}, last{};
+};
+
+IntBox boxOf(const ChunkGrid& grid, const SampleBox& b, int margin) {
+  auto at = [&](int axis, int sample) { return grid.origin[axis] + std::clamp(sample, 0, kChunkCells) * grid.cell; };
+  IntBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<size_t>(axis);
+    box.lo[axis] = at(axis, b.first[a] - margin);
+    box.hi[axis] = at(axis, b.last[a] + margin);
+  }
+  return box;
+}
+
+void fillSigns(ChunkSamples& samples, const SampleBox& b) {
+  const uint64_t run = ((uint64_t{1} << (b.last[0] - b.first[0] + 1)) - 1) << b.first[0];
+  for (int z = b.first[2]; z <= b.last[2]; ++z) {
+    for (int y = b.first[1]; y <= b.last[1]; ++y) {
+      samples.signs[static_cast<size_t>(y + z * kChunkSamples)] |= run;
+    }
+  }
+}
+
+void sampleBrick(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, const SampleBox& b,
+                 ChunkScratch& scratch) {
+  const size_t nx = static_cast<size_t>(b.last[0] - b.first[0] + 1);
+  const size_t ny = static_cast<size_t>(b.last[1] - b.first[1] + 1);
+  const size_t nz = static_cast<size_t>(b.last[2] - b.first[2] + 1);
+  const size_t count = nx * ny * nz;
+  scratch.x.resize(count);
+  scratch.y.resize(count);
+  scratch.z.resize(count);
+  scratch.q.resize(count);
+  size_t i = 0;
+  for (int z = b.first[2]; z <= b.last[2]; ++z) {
+    for (int y = b.first[1]; y <= b.last[1]; ++y) {
+      for (int x = b.first[0]; x <= b.last[0]; ++x, ++i) {
+        scratch.x[i] = grid.origin.x + x * grid.cell;
+        scratch.y[i] = grid.origin.y + y * grid.cell;
+        scratch.z[i] = grid.origin.z + z * grid.cell;
+      }
+    }
+  }
+  kernels.samples(field, {scratch.x.data(), scratch.y.data(), scratch.z.data(), count}, scratch.evaluation,
+                  scratch.q.data());
+  i = 0;
+  for (int z = b.first[2]; z <= b.last[2]; ++z) {
+    for (int y = b.first[1]; y <= b.last[1]; ++y) {
+      const size_t row = static_cast<size_t>(y + z * kChunkSamples);
+      int32_t* q = scratch.samples.q.data() + row * kChunkSamples + b.first[0];
+      uint64_t signs = 0;
+      for (size_t x = 0; x < nx; ++x, ++i) {
+        q[x] = scratch.q[i];
+        signs |= uint64_t{scratch.q[i] < 0} << x;
+      }
+      scratch.samples.signs[row] |= signs << b.first[0];
+    }
+  }
+}
+
+}  // namespace
+
+bool sampleChunk(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, ChunkScratch& scratch) {
+  ChunkSamples& samples = scratch.samples;
+  std::fill(samples.signs.begin(), samples.signs.end(), 0);
+  const SampleBox all{{0, 0, 0}, {kChunkCells, kChunkCells, kChunkCells}};
+  prune(field, boxOf(grid, all, 0), scratch.pruning, scratch.whole);
+  if (scratch.whole.solid()) fillSigns(samples, all);
+  if (scratch.whole.solid() || scratch.whole.empty()) return false;
+
+  // A uniform brick is proven with one sample around it, so that no edge that leaves it changes sign either.
+  for (int octant = 0; octant < 8; ++octant) {
+    SampleBox half;
+    for (size_t a = 0; a < 3; ++a) {
+      const bool high = octant >> a & 1;
+      half.first[a] = high ? kChunkCells / 2 : 0;
+      half.last[a] = high ? kChunkCells : kChunkCells / 2 - 1;
+    }
+    prune(scratch.whole.view(), boxOf(grid, half, 1), scratch.pruning, scratch.octant);
+    if (scratch.octant.solid()) fillSigns(samples, half);
+    if (scratch.octant.solid() || scratch.octant.empty()) continue;
+    for (int part = 0; part < 8; ++part) {
+      SampleBox brick;
+      int index = 0, stride = 1;
+      for (size_t a = 0; a < 3; ++a) {
+        const int at = 2 * (octant >> a & 1) + (part >> a & 1);
+        brick.first[a] = at * kBrickSamples;
+        brick.last[a] = at + 1 == kBricks ? kChunkCells : brick.first[a] + kBrickSamples - 1;
+        index += at * stride;
+        stride *= kBricks;
+      }
+      PrunedProgram& program = scratch.bricks[static_cast<size_t>(index)];
+      prune(scratch.octant.view(), boxOf(grid, brick, 1), scratch.pruning, program);
+      if (program.solid()) fillSigns(samples, brick);
+      if (program.solid() || program.empty()) continue;
+      sampleBrick(kernels, program.view(), grid, brick, scratch);
+    }
+  }
+  return true;
+}
+
+}  // namespace sgm

@@ -1,0 +1,17 @@
+#include "backend/backend.h"
+#include "backend/cpu/cpu_backend.h"
+
+namespace sgm {
+
+Result<std::unique_ptr<Backend>> makeBackend(const BackendRequest& request, JobSystem& jobs,
+                                             std::pmr::memory_resource* memory) {
+  if (!request.automatic && request.kind == BackendKind::vulkan) {
+    return Error{Code::unsupported, "this build meshes on the CPU only: it has no Vulkan backend"};
+  }
+  if (!request.automatic && request.kind == BackendKind::cuda) {
+    return Error{Code::unsupported, "this build meshes on the CPU only: it has no CUDA backend"};
+  }
+  return makeCpuBackend(request.instruction_set, jobs, memory);
+}
+
+}  // namespace sgm

@@ -1,0 +1,66 @@
+#pragma once
+// Derived cells, kept by use up to a number of bytes. What a cell derives to is a pure function of its key, so losing
+// one costs time only.
+
+#include <condition_variable>
+#include <functional>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "base/result.h"
+#include "field/compile.h"
+
+namespace sgm {
+
+/// A grammar chunk and the index over its groups. Immutable.
+struct DerivedCell {
+  GrammarChunk chunk;
+  GroupIndex index;
+  size_t bytes = 0;
+
+  DerivedCell(GrammarChunk&& c, std::pmr::memory_resource* memory);
+  IndexedCell indexed() const { return {&chunk, &index}; }
+};
+
+struct CellKey {
+  uint32_t layer = 0;
+  Int3 cell;
+  friend auto operator<=>(const CellKey&, const CellKey&) = default;
+};
+
+struct CellCacheStats {
+  uint64_t hits = 0, misses = 0, evicted = 0;
+  size_t bytes = 0, cells = 0;
+};
+
+/// Thread-safe. A cell asked for by several threads at once is derived by one of them; the others wait for it.
+class CellCache {
+ public:
+  using Derive = std::function<Result<GrammarChunk>()>;
+
+  CellCache(size_t byte_limit, std::pmr::memory_resource* memory) : byte_limit_(byte_limit), memory_(memory) {}
+
+  /// derive runs without any lock held, and may ask for cells of lower layers. A failed cell is not kept.
+  Result<std::shared_ptr<const DerivedCell>> get(const CellKey& key, const Derive& derive);
+
+  CellCacheStats stats() const;
+
+ private:
+  struct Entry {
+    std::shared_ptr<const DerivedCell> cell;  ///< null while it is being derived
+    std::list<CellKey>::iterator used;
+  };
+  void evict();
+
+  const size_t byte_limit_;
+  std::pmr::memory_resource* memory_;
+  mutable std::mutex mutex_;
+  std::condition_variable derived_;
+  std::map<CellKey, Entry> entries_;
+  std::list<CellKey> by_use_;  ///< latest first; only finished cells
+  CellCacheStats stats_;
+};
+
+}  // namespace sgm
