@@ -3,8 +3,8 @@
 #include <fmt/core.h>
 
 #include "cli/commands.h"
-#include "cli/output_file.h"
 #include "cli/source.h"
+#include "mesh/file_writer.h"
 
 namespace sgm::cli {
 namespace {
@@ -30,9 +30,9 @@ Exit formatOne(const std::string& file, const FmtOptions& options) {
     return Exit::done;
   }
   if (*formatted.text == *text) return Exit::done;
-  Result<OutputFile> out = OutputFile::open(file);
+  Result<FileWriter> out = FileWriter::create(file);
   if (!out) return complain(out.error());
-  if (Result<void> ok = out->write(*formatted.text); !ok) return complain(ok.error());
+  out->write(*formatted.text);
   if (Result<void> ok = out->commit(); !ok) return complain(ok.error());
   fmt::print(stderr, "formatted {}\n", file);
   return Exit::done;

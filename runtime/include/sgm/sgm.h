@@ -72,7 +72,7 @@ extern "C" {
 #define SGM_UNITS_PER_METRE 1024
 #define SGM_CHUNK_CELLS 32       /* cells on each axis of a chunk */
 #define SGM_SUBCELL 256          /* packed vertex positions are 1/256 of the chunk's cell edge */
-#define SGM_MAX_LEVEL 20         /* coarsest level of detail; a level's cell edge is twice that of the level below */
+#define SGM_MAX_LEVEL 16         /* coarsest level of detail; a level's cell edge is twice that of the level below */
 #define SGM_MESSAGE_SIZE 500     /* bytes of sgm_error.message, its ending 0 included */
 #define SGM_NAME_SIZE 256        /* bytes of the texts in sgm_backend_info, their ending 0 included */
 
@@ -226,7 +226,7 @@ typedef struct sgm_backend_info {
 
 /* Says whether a backend can be used here, and why not. A backend that is not usable is SGM_OK with usable = 0; a number
  * that is no backend is SGM_ERR_INVALID_ARGUMENT. */
-SGM_API sgm_result sgm_backend_query(const sgm_runtime* runtime, sgm_backend backend, sgm_backend_info* info,
+SGM_API sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_backend_info* info,
                                      sgm_error* error);
 
 /* ------------------------------------------------------------------------------------------------------- grammars */

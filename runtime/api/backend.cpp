@@ -1,0 +1,80 @@
+#include "backend/backend.h"
+
+#include <cstring>
+#include <string_view>
+
+#include "api/backend_request.h"
+#include "api/barrier.h"
+#include "api/runtime.h"
+
+namespace sgm::api {
+
+std::optional<BackendRequest> requestOf(sgm_backend backend) {
+  switch (backend) {
+    case SGM_BACKEND_AUTO: return BackendRequest{};
+    case SGM_BACKEND_CPU: return BackendRequest{BackendKind::cpu, false, {}};
+    case SGM_BACKEND_VULKAN: return BackendRequest{BackendKind::vulkan, false, {}};
+    case SGM_BACKEND_CUDA: return BackendRequest{BackendKind::cuda, false, {}};
+    case SGM_BACKEND_FORCE_32_BIT: break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace sgm::api
+
+using namespace sgm::api;
+
+namespace {
+
+const char* nameOf(sgm::BackendKind kind) {
+  switch (kind) {
+    case sgm::BackendKind::cpu: return "cpu";
+    case sgm::BackendKind::vulkan: return "vulkan";
+    case sgm::BackendKind::cuda: return "cuda";
+  }
+  return "";
+}
+
+sgm_backend backendOf(sgm::BackendKind kind) {
+  switch (kind) {
+    case sgm::BackendKind::cpu: return SGM_BACKEND_CPU;
+    case sgm::BackendKind::vulkan: return SGM_BACKEND_VULKAN;
+    case sgm::BackendKind::cuda: return SGM_BACKEND_CUDA;
+  }
+  return SGM_BACKEND_AUTO;
+}
+
+void copyText(char (&to)[SGM_NAME_SIZE], std::string_view text) {
+  const size_t length = text.size() < SGM_NAME_SIZE ? text.size() : SGM_NAME_SIZE - 1;
+  std::memcpy(to, text.data(), length);
+  to[length] = '\0';
+}
+
+}  // namespace
+
+sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_backend_info* info, sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (runtime == nullptr) return nullArgument(error, "runtime");
+    if (sgm_result r = checkDesc(error, info, "info"); r != SGM_OK) return r;
+    const std::optional<sgm::BackendRequest> request = requestOf(backend);
+    if (!request) return fail(error, SGM_ERR_INVALID_ARGUMENT, "backend is no sgm_backend");
+    const sgm::Result<std::unique_ptr<sgm::Backend>> made = sgm::makeBackend(*request, *runtime->jobs, &runtime->memory);
+    if (!made && made.error().code != sgm::Code::unsupported) return fail(error, made.error());
+    info->backend = backend;
+    info->usable = made ? 1 : 0;
+    info->exact = 0;
+    info->concurrency = 0;
+    copyText(info->name, nameOf(request->kind));
+    copyText(info->device, "");
+    copyText(info->reason, made ? "" : made.error().message);
+    if (made) {
+      const sgm::BackendCapabilities& capabilities = (*made)->capabilities();
+      info->backend = backendOf(capabilities.kind);
+      info->exact = capabilities.exact ? 1 : 0;
+      info->concurrency = capabilities.concurrency;
+      copyText(info->name, nameOf(capabilities.kind));
+      copyText(info->device, capabilities.device);
+    }
+    return SGM_OK;
+  });
+}

@@ -1,0 +1,81 @@
+#include <algorithm>
+
+#include "api/barrier.h"
+#include "api/field.h"
+#include "api/region_mesh.h"
+#include "api/surface.h"
+#include "mesh/vertex.h"
+
+using namespace sgm::api;
+
+namespace {
+
+constexpr uint64_t kDefaultMostChunks = 65536;
+
+void fillSurface(const RegionMesh& region, sgm_surface& surface) {
+  const sgm::WorldMesh& mesh = region.mesh;
+  const size_t count = mesh.positions.size();
+  surface.positions.allocate(3 * count);
+  surface.normals.allocate(3 * count);
+  surface.materials.allocate(count);
+  surface.tags.allocate(count);
+  surface.indices.allocate(mesh.indices.size());
+  std::copy(mesh.indices.begin(), mesh.indices.end(), surface.indices.data());
+  for (size_t v = 0; v < count; ++v) {
+    const sgm::VertexAttributes& attributes = mesh.attributes[v];
+    const std::array<double, 3> normal = sgm::unpackNormal(attributes.normal_x, attributes.normal_y);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const auto p = static_cast<float>(mesh.positions[v][axis]);
+      surface.positions.data()[3 * v + axis] = p;
+      surface.normals.data()[3 * v + axis] = static_cast<float>(normal[axis]);
+      surface.bounds_min[axis] = v == 0 ? p : std::min(surface.bounds_min[axis], p);
+      surface.bounds_max[axis] = v == 0 ? p : std::max(surface.bounds_max[axis], p);
+    }
+    surface.materials.data()[v] = attributes.material;
+    surface.tags.data()[v] = attributes.tag;
+  }
+}
+
+}  // namespace
+
+sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc, sgm_surface** out, sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (out == nullptr) return nullArgument(error, "out");
+    *out = nullptr;
+    if (field == nullptr) return nullArgument(error, "field");
+    if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
+    if (sgm_result r = checkLevel(*field, desc->level, error); r != SGM_OK) return r;
+    sgm::IntBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (desc->minimum[axis] >= desc->maximum[axis])
+        return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.minimum does not lie below desc.maximum on each axis");
+      box.lo[axis] = desc->minimum[axis];
+      box.hi[axis] = desc->maximum[axis];
+    }
+    sgm::Progress progress;
+    if (desc->progress != nullptr)
+      progress = [desc](uint64_t done, uint64_t total) { return desc->progress(desc->progress_user, done, total) == 0; };
+    const sgm::Result<RegionMesh> region =
+        meshRegion(field->world, *field->backend, *field->runtime.jobs, box, desc->level,
+                   desc->max_chunks != 0 ? desc->max_chunks : kDefaultMostChunks, progress);
+    if (!region) {
+      // All other arguments are checked above: what is left is a region that leaves the world.
+      const sgm_result code = region.error().code == sgm::Code::invalid_argument ? SGM_ERR_RANGE
+                                                                                  : resultOf(region.error().code);
+      return fail(error, code, region.error().message, region.error().line, region.error().column);
+    }
+    struct End {
+      void operator()(sgm_surface* surface) const { sgm_surface_destroy(surface); }
+    };
+    std::unique_ptr<sgm_surface, End> owner(makeHandle<sgm_surface>(field->runtime));
+    sgm_surface* surface = owner.get();
+    surface->origin = region->mesh.origin;
+    surface->extent = region->extent;
+    surface->cell_units = field->world.cellAt(desc->level);
+    surface->chunk_count = region->chunks;
+    surface->hash = region->hash.value();
+    fillSurface(*region, *surface);
+    *out = owner.release();
+    return SGM_OK;
+  });
+}

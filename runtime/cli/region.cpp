@@ -1,0 +1,110 @@
+#include "cli/region.h"
+
+#include <fmt/core.h>
+
+#include <map>
+#include <tuple>
+
+#include "api/backend_request.h"
+#include "cli/source.h"
+
+namespace sgm::cli {
+namespace {
+
+constexpr size_t kCacheBytes = size_t{512} << 20;
+constexpr size_t kMostNotes = 10;
+
+sgm_backend backendNamed(const std::string& name) {
+  if (name == "cpu") return SGM_BACKEND_CPU;
+  if (name == "vulkan") return SGM_BACKEND_VULKAN;
+  if (name == "cuda") return SGM_BACKEND_CUDA;
+  return SGM_BACKEND_AUTO;
+}
+
+const char* backendName(BackendKind kind) {
+  switch (kind) {
+    case BackendKind::cpu: return "cpu";
+    case BackendKind::vulkan: return "vulkan";
+    case BackendKind::cuda: return "cuda";
+  }
+  return "";
+}
+
+/// What derivation left out, each message once a place in the grammar.
+void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) {
+  std::map<std::tuple<int, int, std::string>, std::pair<size_t, std::string>> by_place;
+  for (const DeriveNote& note : notes) {
+    auto& [count, path] = by_place[{note.line, note.column, note.message}];
+    if (count++ == 0) path = note.path;
+  }
+  size_t shown = 0;
+  for (const auto& [place, found] : by_place) {
+    const auto& [line, column, message] = place;
+    if (++shown > kMostNotes) {
+      fmt::print(stderr, "{}: warning: {} more places where shapes were left out\n", file, by_place.size() - kMostNotes);
+      return;
+    }
+    fmt::print(stderr, "{}:{}:{}: warning: {} (left out {} times, first in {})\n", file, line, column, message,
+               found.first, found.second);
+  }
+}
+
+RegionResult failure(Exit status) { return {std::nullopt, status}; }
+
+}  // namespace
+
+RegionResult meshRegion(const WorldOptions& options, const std::optional<IntBox>& fallback) {
+  // What the command line alone can tell comes before any work.
+  std::optional<IntBox> region = fallback;
+  if (!options.region.empty()) {
+    const Result<IntBox> given = parseRegion(options.region);
+    if (!given) return failure(complain(given.error()));
+    region = *given;
+  }
+  const Result<int32_t> cell = cellUnits(options);
+  if (!cell) return failure(complain(cell.error()));
+
+  LoadedGrammar grammar = loadGrammar(options.file);
+  if (grammar.program == nullptr) return failure(grammar.status);
+  const Program& program = *grammar.program;
+  Result<ParameterValues> parameters = parameterValues(program, options.sets);
+  if (!parameters) return failure(complain(parameters.error()));
+  if (options.region.empty() && !program.domain.infinite) region = program.domain.box;
+  if (!region)
+    return failure(complain(Exit::usage, "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1"));
+
+  const Stopwatch watch;
+  const std::unique_ptr<JobSystem> jobs = makeThreadPool(options.threads);
+  std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
+  const Result<std::unique_ptr<Backend>> backend = makeBackend(*api::requestOf(backendNamed(options.backend)), *jobs, memory);
+  if (!backend) return failure(complain(backend.error()));
+  WorldFieldSettings settings;
+  settings.program = grammar.program;
+  settings.parameters = std::move(*parameters);
+  settings.seed = options.seed;
+  settings.finest_cell = *cell;
+  settings.cache_bytes = kCacheBytes;
+  const WorldField world(std::move(settings), memory);
+
+  Result<api::RegionMesh> meshed = [&] {
+    ProgressBar bar("meshing");
+    return api::meshRegion(world, **backend, *jobs, *region, 0, options.max_chunks, [&bar](uint64_t done, uint64_t total) {
+      bar.show(done, total);
+      return true;
+    });
+  }();
+  if (!meshed) return failure(complain(meshed.error()));
+  Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);
+  if (!anchors) return failure(complain(anchors.error()));
+  const double seconds = watch.seconds();
+  const Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent);
+  if (!notes) return failure(complain(notes.error()));
+  warnOfNotes(options.file, *notes);
+
+  const BackendCapabilities& capabilities = (*backend)->capabilities();
+  return {Region{grammar.program, std::move(*meshed), *cell, std::move(*anchors), backendName(capabilities.kind),
+                 capabilities.device, seconds},
+          Exit::done};
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,36 @@
+#pragma once
+// A region of a grammar's world, meshed and welded: what `mesh` writes and `render` draws.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/region_mesh.h"
+#include "cli/console.h"
+#include "cli/options.h"
+
+namespace sgm::cli {
+
+struct Region {
+  std::shared_ptr<const Program> program;
+  api::RegionMesh meshed;
+  int32_t cell = 0;  ///< units
+  std::vector<Anchor> anchors;  ///< in the region
+  std::string backend, device;
+  double seconds = 0;  ///< from the compiled grammar to the welded mesh
+
+  uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }
+};
+
+/// Nothing, and the status to end with, where something is wrong; it has been said.
+struct RegionResult {
+  std::optional<Region> region;
+  Exit status = Exit::done;
+};
+
+/// Reads, compiles and meshes what the options say. The region is --region; without it, all of a finite world, or
+/// `fallback` of an endless one. Messages go to stderr, a progress bar too where that is a terminal.
+RegionResult meshRegion(const WorldOptions& options, const std::optional<IntBox>& fallback = std::nullopt);
+
+}  // namespace sgm::cli

@@ -1,0 +1,339 @@
+// Every function with NULL, with structs of a wrong size and with numbers out of range: an error code, never a crash.
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "fixture.h"
+
+namespace {
+
+struct World {
+  RuntimeOwner runtime = makeRuntime();
+  GrammarOwner grammar = compile(runtime.get(), kBall);
+  FieldOwner field = makeField(runtime.get(), grammar.get());
+};
+
+const sgm_chain kExtension = {sizeof(sgm_chain), 1, nullptr};
+
+/// A struct that is too small, too large, or continued by an extension that no version knows.
+template <class Desc, class Call>
+void checkStruct(Desc good, Call&& call) {
+  for (const uint32_t size : {0u, 4u, good.struct_size - 1, good.struct_size + 8, 0xFFFFFFFFu}) {
+    Desc bad = good;
+    bad.struct_size = size;
+    CHECK(call(&bad) == SGM_ERR_STRUCT_SIZE);
+  }
+  Desc extended = good;
+  extended.next = &kExtension;
+  CHECK(call(&extended) == SGM_ERR_UNSUPPORTED);
+  CHECK(call(static_cast<Desc*>(nullptr)) == SGM_ERR_INVALID_ARGUMENT);
+}
+
+}  // namespace
+
+TEST_CASE("functions that end a handle accept NULL") {
+  CHECK(sgm_runtime_destroy(nullptr) == SGM_OK);
+  sgm_grammar_destroy(nullptr);
+  sgm_diagnostics_destroy(nullptr);
+  sgm_parameters_destroy(nullptr);
+  sgm_field_destroy(nullptr);
+  sgm_mesh_acquire(nullptr);
+  sgm_mesh_release(nullptr);
+  sgm_surface_destroy(nullptr);
+}
+
+TEST_CASE("questions about NULL have an answer") {
+  CHECK(sgm_grammar_hash(nullptr) == 0);
+  CHECK(sgm_diagnostics_count(nullptr) == 0);
+  CHECK(sgm_grammar_material_count(nullptr) == 0);
+  CHECK(sgm_grammar_material(nullptr, 0) == nullptr);
+  CHECK(sgm_grammar_tag_count(nullptr) == 0);
+  CHECK(sgm_grammar_tag(nullptr, 0) == nullptr);
+  CHECK(sgm_grammar_name_count(nullptr) == 0);
+  CHECK(sgm_grammar_name(nullptr, 0) == nullptr);
+  CHECK(sgm_grammar_layer_count(nullptr) == 0);
+  CHECK(sgm_grammar_parameter_count(nullptr) == 0);
+  CHECK(sgm_surface_hash(nullptr) == 0);
+  CHECK(sgm_runtime_memory(nullptr, nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  sgm_diagnostic diagnostic = SGM_DIAGNOSTIC_INIT;
+  CHECK(sgm_diagnostics_get(nullptr, 0, &diagnostic) == SGM_ERR_INVALID_ARGUMENT);
+  sgm_layer_info layer = SGM_LAYER_INFO_INIT;
+  CHECK(sgm_grammar_layer(nullptr, 0, &layer) == SGM_ERR_INVALID_ARGUMENT);
+  sgm_parameter_info parameter = SGM_PARAMETER_INFO_INIT;
+  CHECK(sgm_grammar_parameter(nullptr, 0, &parameter) == SGM_ERR_INVALID_ARGUMENT);
+}
+
+TEST_CASE("runtime descriptors are checked") {
+  const auto call = [](sgm_runtime_desc* desc) {
+    sgm_runtime* runtime = nullptr;
+    return sgm_runtime_create(desc, &runtime, nullptr);
+  };
+  sgm_runtime_desc good = SGM_RUNTIME_DESC_INIT;
+  for (const uint32_t size : {0u, good.struct_size - 1, good.struct_size + 8}) {
+    sgm_runtime_desc bad = good;
+    bad.struct_size = size;
+    CHECK(call(&bad) == SGM_ERR_STRUCT_SIZE);
+  }
+  good.next = &kExtension;
+  CHECK(call(&good) == SGM_ERR_UNSUPPORTED);
+  CHECK(sgm_runtime_create(nullptr, nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+
+  const sgm_allocator no_functions{};
+  sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+  desc.allocator = &no_functions;
+  CHECK(call(&desc) == SGM_ERR_INVALID_ARGUMENT);
+  const sgm_job_system no_jobs{};
+  desc = SGM_RUNTIME_DESC_INIT;
+  desc.jobs = &no_jobs;
+  CHECK(call(&desc) == SGM_ERR_INVALID_ARGUMENT);
+  const sgm_log_sink no_sink{};
+  desc = SGM_RUNTIME_DESC_INIT;
+  desc.log = &no_sink;
+  CHECK(call(&desc) == SGM_ERR_INVALID_ARGUMENT);
+  desc = SGM_RUNTIME_DESC_INIT;
+  desc.threads = 1025;
+  CHECK(call(&desc) == SGM_ERR_INVALID_ARGUMENT);
+}
+
+TEST_CASE("backend queries are checked") {
+  World world;
+  sgm_error error = SGM_ERROR_INIT;
+  checkStruct(sgm_backend_info SGM_BACKEND_INFO_INIT, [&](sgm_backend_info* info) {
+    return sgm_backend_query(world.runtime.get(), SGM_BACKEND_CPU, info, &error);
+  });
+  sgm_backend_info info = SGM_BACKEND_INFO_INIT;
+  CHECK(sgm_backend_query(nullptr, SGM_BACKEND_CPU, &info, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_backend_query(world.runtime.get(), static_cast<sgm_backend>(77), &info, &error) ==
+        SGM_ERR_INVALID_ARGUMENT);
+}
+
+TEST_CASE("grammar calls are checked") {
+  World world;
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_grammar_desc good = SGM_GRAMMAR_DESC_INIT;
+  good.text = kBall;
+  sgm_grammar* out = nullptr;
+  const auto compileWith = [&](const sgm_grammar_desc* desc) {
+    sgm_diagnostics* diagnostics = reinterpret_cast<sgm_diagnostics*>(&world);
+    out = reinterpret_cast<sgm_grammar*>(&world);
+    const sgm_result result = sgm_grammar_compile(world.runtime.get(), desc, &out, &diagnostics, &error);
+    CHECK(out == nullptr);
+    CHECK(diagnostics == nullptr);
+    CHECK(std::strlen(error.message) > 0);
+    return result;
+  };
+  checkStruct(good, compileWith);
+  sgm_grammar_desc no_text = good;
+  no_text.text = nullptr;
+  CHECK(compileWith(&no_text) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_grammar_compile(nullptr, &good, &out, nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_grammar_compile(world.runtime.get(), &good, nullptr, nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+
+  sgm_grammar_desc wrong = good;
+  wrong.text = "sgm 1; start";
+  sgm_diagnostics* diagnostics = nullptr;
+  REQUIRE(sgm_grammar_compile(world.runtime.get(), &wrong, &out, &diagnostics, nullptr) == SGM_ERR_GRAMMAR);
+  const DiagnosticsOwner owner(diagnostics);
+  checkStruct(sgm_diagnostic SGM_DIAGNOSTIC_INIT,
+              [&](sgm_diagnostic* d) { return sgm_diagnostics_get(diagnostics, 0, d); });
+  checkStruct(sgm_layer_info SGM_LAYER_INFO_INIT,
+              [&](sgm_layer_info* l) { return sgm_grammar_layer(world.grammar.get(), 0, l); });
+  checkStruct(sgm_parameter_info SGM_PARAMETER_INFO_INIT,
+              [&](sgm_parameter_info* p) { return sgm_grammar_parameter(world.grammar.get(), 0, p); });
+}
+
+TEST_CASE("parameter calls are checked") {
+  World world;
+  sgm_parameters* parameters = nullptr;
+  CHECK(sgm_parameters_create(nullptr, &parameters, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_create(world.grammar.get(), nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  REQUIRE(sgm_parameters_create(world.grammar.get(), &parameters, nullptr) == SGM_OK);
+  const ParametersOwner owner(parameters);
+  double value = 0;
+  CHECK(sgm_parameters_set(nullptr, "size", 2, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_set(parameters, nullptr, 2, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_set_text(nullptr, "size", "2m", nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_set_text(parameters, nullptr, "2m", nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_set_text(parameters, "size", nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_get(nullptr, "size", &value, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_get(parameters, nullptr, &value, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_get(parameters, "size", nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_get(parameters, "", &value, nullptr) == SGM_ERR_NOT_FOUND);
+}
+
+TEST_CASE("field descriptors are checked") {
+  World world;
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_field_desc good = SGM_FIELD_DESC_INIT;
+  good.grammar = world.grammar.get();
+  const auto create = [&](const sgm_field_desc* desc) {
+    sgm_field* out = nullptr;
+    const sgm_result result = sgm_field_create(world.runtime.get(), desc, &out, &error);
+    CHECK(out == nullptr);
+    return result;
+  };
+  checkStruct(good, create);
+  const auto with = [&](auto change) {
+    sgm_field_desc desc = good;
+    change(desc);
+    return create(&desc);
+  };
+  CHECK(with([](auto& d) { d.grammar = nullptr; }) == SGM_ERR_INVALID_ARGUMENT);
+  for (const int32_t cell : {0, -1, (1 << 20) + 1, std::numeric_limits<int32_t>::max(), std::numeric_limits<int32_t>::min()})
+    CHECK(with([&](auto& d) { d.cell_units = cell; }) == SGM_ERR_RANGE);
+  CHECK(with([](auto& d) { d.backend = static_cast<sgm_backend>(77); }) == SGM_ERR_INVALID_ARGUMENT);
+
+  GrammarOwner other = compile(world.runtime.get(), "sgm 1; units m; start R; rule R { sphere(1m); }");
+  sgm_parameters* parameters = nullptr;
+  REQUIRE(sgm_parameters_create(other.get(), &parameters, nullptr) == SGM_OK);
+  const ParametersOwner owner(parameters);
+  CHECK(with([&](auto& d) { d.parameters = parameters; }) == SGM_ERR_INVALID_ARGUMENT);
+
+  sgm_field* out = nullptr;
+  CHECK(sgm_field_create(nullptr, &good, &out, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_field_create(world.runtime.get(), &good, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+
+  int32_t units = 0;
+  CHECK(sgm_cell_from_metres(0.5, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  for (const double metres : {0.0, -1.0, std::nan("")})
+    CHECK(sgm_cell_from_metres(metres, &units, &error) == SGM_ERR_INVALID_ARGUMENT);
+  for (const double metres : {1e-9, 1e9, HUGE_VAL}) CHECK(sgm_cell_from_metres(metres, &units, &error) == SGM_ERR_RANGE);
+  REQUIRE(sgm_cell_from_metres(0.1, &units, &error) == SGM_OK);
+  CHECK(units == 102);
+  REQUIRE(sgm_cell_from_metres(1024, &units, &error) == SGM_OK);
+  CHECK(units == 1 << 20);
+}
+
+TEST_CASE("sampling calls are checked") {
+  World world;
+  sgm_error error = SGM_ERROR_INIT;
+  const int32_t points[] = {0, 0, 0};
+  int32_t q = 0;
+  sgm_sample_desc good = SGM_SAMPLE_DESC_INIT;
+  good.points = points;
+  good.count = 1;
+  good.q = &q;
+  checkStruct(good, [&](sgm_sample_desc* desc) { return sgm_field_sample(world.field.get(), desc, &error); });
+  const auto with = [&](auto change) {
+    sgm_sample_desc desc = good;
+    change(desc);
+    return sgm_field_sample(world.field.get(), &desc, &error);
+  };
+  CHECK(sgm_field_sample(nullptr, &good, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.points = nullptr; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.point_stride = 8; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.point_stride = 13; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.level = -1; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.level = SGM_MAX_LEVEL + 1; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.count = SIZE_MAX; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.count = 0; d.points = nullptr; }) == SGM_OK);
+  CHECK(with([](auto& d) { d.q = nullptr; }) == SGM_OK);
+
+  const int32_t lo[3] = {0, 0, 0}, hi[3] = {8192, 8192, 8192};
+  size_t count = 0;
+  CHECK(sgm_field_anchors(nullptr, lo, hi, nullptr, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_field_anchors(world.field.get(), nullptr, hi, nullptr, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_field_anchors(world.field.get(), lo, nullptr, nullptr, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_field_anchors(world.field.get(), lo, hi, nullptr, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_field_anchors(world.field.get(), hi, lo, nullptr, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+}
+
+TEST_CASE("chunk calls are checked") {
+  World world;
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_chunk_request request = {{0, 0, 0, 0}, 0};
+  sgm_chunks_desc good = SGM_CHUNKS_DESC_INIT;
+  good.requests = &request;
+  good.count = 1;
+  const auto meshWith = [&](const sgm_chunks_desc* desc) {
+    sgm_mesh* mesh = nullptr;
+    const sgm_result result = sgm_mesh_chunks(world.field.get(), desc, &mesh, &error);
+    CHECK(mesh == nullptr);
+    return result;
+  };
+  checkStruct(good, meshWith);
+  const auto with = [&](auto change) {
+    sgm_chunks_desc desc = good;
+    change(desc);
+    return meshWith(&desc);
+  };
+  sgm_mesh* mesh = nullptr;
+  CHECK(sgm_mesh_chunks(nullptr, &good, &mesh, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_chunks(world.field.get(), &good, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.requests = nullptr; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.count = 0; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.count = (1u << 20) + 1; }) == SGM_ERR_LIMIT);
+  for (const int32_t level : {-1, SGM_MAX_LEVEL + 1, std::numeric_limits<int32_t>::min()}) {
+    request = {{level, 0, 0, 0}, 0};
+    CHECK(meshWith(&good) == SGM_ERR_INVALID_ARGUMENT);
+  }
+  request = {{0, 0, 0, 0}, 64};
+  CHECK(meshWith(&good) == SGM_ERR_INVALID_ARGUMENT);
+  const int32_t far = std::numeric_limits<int32_t>::max(), low = std::numeric_limits<int32_t>::min();
+  // The chunk's edge is 8192 units: 2^31 / 8192 chunks fit each way.
+  for (const sgm_chunk_key key : {sgm_chunk_key{0, far, 0, 0}, sgm_chunk_key{0, 0, low, 0}, sgm_chunk_key{0, 0, 0, 262144},
+                                  sgm_chunk_key{0, -262145, 0, 0}, sgm_chunk_key{SGM_MAX_LEVEL, 1, 0, 0}}) {
+    request = {key, 0};
+    CHECK(meshWith(&good) == SGM_ERR_RANGE);
+  }
+  request = {{0, -262144, 262143 - 1, 0}, 63};
+  REQUIRE(sgm_mesh_chunks(world.field.get(), &good, &mesh, &error) == SGM_OK);
+  const MeshOwner owner(mesh);
+  checkStruct(sgm_mesh_view SGM_MESH_VIEW_INIT, [&](sgm_mesh_view* view) { return sgm_mesh_get_view(mesh, view, &error); });
+  sgm_mesh_view view = SGM_MESH_VIEW_INIT;
+  CHECK(sgm_mesh_get_view(nullptr, &view, &error) == SGM_ERR_INVALID_ARGUMENT);
+  size_t vertices = 0, indices = 0;
+  CHECK(sgm_mesh_copy(nullptr, nullptr, &vertices, nullptr, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_copy(mesh, nullptr, nullptr, nullptr, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_copy(mesh, nullptr, &vertices, nullptr, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+}
+
+TEST_CASE("surface calls are checked") {
+  World world;
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_region_desc good = SGM_REGION_DESC_INIT;
+  for (int axis = 0; axis < 3; ++axis) good.maximum[axis] = 8192;
+  const auto meshWith = [&](const sgm_region_desc* desc) {
+    sgm_surface* out = nullptr;
+    const sgm_result result = sgm_surface_from_region(world.field.get(), desc, &out, &error);
+    CHECK(out == nullptr);
+    return result;
+  };
+  checkStruct(good, meshWith);
+  const auto with = [&](auto change) {
+    sgm_region_desc desc = good;
+    change(desc);
+    return meshWith(&desc);
+  };
+  sgm_surface* surface = nullptr;
+  CHECK(sgm_surface_from_region(nullptr, &good, &surface, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_surface_from_region(world.field.get(), &good, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.maximum[1] = 0; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.level = SGM_MAX_LEVEL + 1; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.level = -1; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.maximum[0] = 8193; d.max_chunks = 1; }) == SGM_ERR_LIMIT);
+  CHECK(with([](auto& d) {
+          for (int axis = 0; axis < 3; ++axis) {
+            d.minimum[axis] = std::numeric_limits<int32_t>::min();
+            d.maximum[axis] = std::numeric_limits<int32_t>::max();
+          }
+        }) == SGM_ERR_LIMIT);
+
+  sgm_grid_desc grid = SGM_GRID_DESC_INIT;
+  const std::vector<float> values(8, 1.0f);
+  grid.values = values.data();
+  for (uint32_t& size : grid.size) size = 2;
+  checkStruct(grid, [&](sgm_grid_desc* desc) {
+    sgm_surface* out = nullptr;
+    return sgm_surface_from_grid(world.runtime.get(), desc, &out, &error);
+  });
+  CHECK(sgm_surface_from_grid(nullptr, &grid, &surface, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_surface_from_grid(world.runtime.get(), &grid, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  REQUIRE(sgm_surface_from_grid(world.runtime.get(), &grid, &surface, &error) == SGM_OK);
+  const SurfaceOwner owner(surface);
+  checkStruct(sgm_surface_view SGM_SURFACE_VIEW_INIT,
+              [&](sgm_surface_view* view) { return sgm_surface_get_view(surface, view, &error); });
+  sgm_surface_view view = SGM_SURFACE_VIEW_INIT;
+  CHECK(sgm_surface_get_view(nullptr, &view, &error) == SGM_ERR_INVALID_ARGUMENT);
+}

@@ -1,0 +1,93 @@
+#pragma once
+// Owners for the C interface's handles, and the little worlds that its tests use.
+
+#include <sgm/sgm.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "catch.h"
+
+struct EndRuntime {
+  // Every test hands back what it made: a runtime that is still in use at its end is a leak.
+  void operator()(sgm_runtime* runtime) const { CHECK(sgm_runtime_destroy(runtime) == SGM_OK); }
+};
+template <auto End>
+struct EndWith {
+  template <class T>
+  void operator()(T* handle) const {
+    End(handle);
+  }
+};
+using RuntimeOwner = std::unique_ptr<sgm_runtime, EndRuntime>;
+using GrammarOwner = std::unique_ptr<sgm_grammar, EndWith<sgm_grammar_destroy>>;
+using DiagnosticsOwner = std::unique_ptr<sgm_diagnostics, EndWith<sgm_diagnostics_destroy>>;
+using ParametersOwner = std::unique_ptr<sgm_parameters, EndWith<sgm_parameters_destroy>>;
+using FieldOwner = std::unique_ptr<sgm_field, EndWith<sgm_field_destroy>>;
+using MeshOwner = std::unique_ptr<sgm_mesh, EndWith<sgm_mesh_release>>;
+using SurfaceOwner = std::unique_ptr<sgm_surface, EndWith<sgm_surface_destroy>>;
+
+/// A ball of 3 m around (4, 4, 4) m.
+inline constexpr const char* kBall =
+    "sgm 1;\nunits m;\nparam size = 3m in 1m..3.5m \"radius\";\nparam count = 2 in 1..4;\nparam turn = 30deg;\n"
+    "start Ball;\nrule Ball { at(4m, 4m, 4m) sphere(size); mat marble; tag \"toy.ball\"; anchor spawn \"top\"; }\n";
+
+inline RuntimeOwner makeRuntime(const sgm_runtime_desc* desc = nullptr) {
+  sgm_runtime* runtime = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  INFO(error.message);
+  REQUIRE(sgm_runtime_create(desc, &runtime, &error) == SGM_OK);
+  return RuntimeOwner(runtime);
+}
+
+inline GrammarOwner compile(sgm_runtime* runtime, const char* text) {
+  sgm_grammar_desc desc = SGM_GRAMMAR_DESC_INIT;
+  desc.text = text;
+  sgm_grammar* grammar = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  const sgm_result result = sgm_grammar_compile(runtime, &desc, &grammar, nullptr, &error);
+  INFO(error.line << ":" << error.column << ": " << error.message);
+  REQUIRE(result == SGM_OK);
+  return GrammarOwner(grammar);
+}
+
+inline FieldOwner makeField(sgm_runtime* runtime, const sgm_grammar* grammar, int32_t cell_units = 256) {
+  sgm_field_desc desc = SGM_FIELD_DESC_INIT;
+  desc.grammar = grammar;
+  desc.seed = 7;
+  desc.cell_units = cell_units;
+  sgm_field* field = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  const sgm_result result = sgm_field_create(runtime, &desc, &field, &error);
+  INFO(error.message);
+  REQUIRE(result == SGM_OK);
+  return FieldOwner(field);
+}
+
+inline std::vector<MeshOwner> meshChunks(sgm_field* field, const std::vector<sgm_chunk_request>& requests) {
+  sgm_chunks_desc desc = SGM_CHUNKS_DESC_INIT;
+  desc.requests = requests.data();
+  desc.count = requests.size();
+  std::vector<sgm_mesh*> meshes(requests.size());
+  sgm_error error = SGM_ERROR_INIT;
+  const sgm_result result = sgm_mesh_chunks(field, &desc, meshes.data(), &error);
+  INFO(error.message);
+  REQUIRE(result == SGM_OK);
+  std::vector<MeshOwner> owners;
+  for (sgm_mesh* mesh : meshes) owners.emplace_back(mesh);
+  return owners;
+}
+
+inline sgm_mesh_view viewOf(const MeshOwner& mesh) {
+  sgm_mesh_view view = SGM_MESH_VIEW_INIT;
+  REQUIRE(sgm_mesh_get_view(mesh.get(), &view, nullptr) == SGM_OK);
+  return view;
+}
+
+inline sgm_surface_view viewOf(const SurfaceOwner& surface) {
+  sgm_surface_view view = SGM_SURFACE_VIEW_INIT;
+  REQUIRE(sgm_surface_get_view(surface.get(), &view, nullptr) == SGM_OK);
+  return view;
+}

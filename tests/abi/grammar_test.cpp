@@ -1,0 +1,200 @@
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "fixture.h"
+
+namespace {
+
+struct Compiled {
+  sgm_result result;
+  GrammarOwner grammar;
+  DiagnosticsOwner diagnostics;
+  sgm_error error = SGM_ERROR_INIT;
+};
+
+Compiled tryCompile(sgm_runtime* runtime, const sgm_grammar_desc& desc) {
+  Compiled compiled;
+  sgm_grammar* grammar = nullptr;
+  sgm_diagnostics* diagnostics = nullptr;
+  compiled.result = sgm_grammar_compile(runtime, &desc, &grammar, &diagnostics, &compiled.error);
+  compiled.grammar.reset(grammar);
+  compiled.diagnostics.reset(diagnostics);
+  return compiled;
+}
+
+sgm_grammar_desc describe(const char* text) {
+  sgm_grammar_desc desc = SGM_GRAMMAR_DESC_INIT;
+  desc.text = text;
+  return desc;
+}
+
+}  // namespace
+
+TEST_CASE("a wrong grammar gives its diagnostics, with places and the line") {
+  RuntimeOwner runtime = makeRuntime();
+  sgm_grammar_desc desc = describe("sgm 1;\nunits m;\nstart Ball;\nrule Ball { sphere(3deg); }\n");
+  desc.name = "toy.sgm";
+  const Compiled compiled = tryCompile(runtime.get(), desc);
+  CHECK(compiled.result == SGM_ERR_GRAMMAR);
+  CHECK(compiled.grammar == nullptr);
+  CHECK(compiled.error.code == SGM_ERR_GRAMMAR);
+  CHECK(compiled.error.line == 4);
+  CHECK(compiled.error.column == 20);
+  REQUIRE(sgm_diagnostics_count(compiled.diagnostics.get()) >= 1);
+  sgm_diagnostic d = SGM_DIAGNOSTIC_INIT;
+  REQUIRE(sgm_diagnostics_get(compiled.diagnostics.get(), 0, &d) == SGM_OK);
+  CHECK(d.severity == SGM_LOG_ERROR);
+  CHECK(d.line == 4);
+  CHECK(d.column == 20);
+  CHECK(d.length == 4);
+  CHECK(std::string(d.file) == "toy.sgm");
+  CHECK(std::string(d.source_line) == "rule Ball { sphere(3deg); }");
+  CHECK(std::string(d.message) == compiled.error.message);
+  CHECK(sgm_diagnostics_get(compiled.diagnostics.get(), sgm_diagnostics_count(compiled.diagnostics.get()), &d) ==
+        SGM_ERR_NOT_FOUND);
+}
+
+TEST_CASE("text need not end in 0") {
+  RuntimeOwner runtime = makeRuntime();
+  const std::string text = std::string(kBall) + "this is not read";
+  sgm_grammar_desc desc = describe(text.c_str());
+  desc.text_size = std::strlen(kBall);
+  const Compiled view = tryCompile(runtime.get(), desc);
+  CHECK(view.result == SGM_OK);
+  const Compiled whole = tryCompile(runtime.get(), describe(kBall));
+  CHECK(sgm_grammar_hash(view.grammar.get()) == sgm_grammar_hash(whole.grammar.get()));
+  CHECK(sgm_grammar_hash(whole.grammar.get()) != 0);
+}
+
+TEST_CASE("the hash is blind to layout and sees meaning") {
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner a = compile(runtime.get(), "sgm 1; units m; start R; rule R { sphere(3m); }");
+  const GrammarOwner b = compile(runtime.get(), "sgm 1;\n\nunits m;\nstart R; // here\nrule R {\n  sphere(3m); }");
+  const GrammarOwner c = compile(runtime.get(), "sgm 1; units m; start R; rule R { sphere(4m); }");
+  CHECK(sgm_grammar_hash(a.get()) == sgm_grammar_hash(b.get()));
+  CHECK(sgm_grammar_hash(a.get()) != sgm_grammar_hash(c.get()));
+}
+
+TEST_CASE("names by index") {
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(runtime.get(), kBall);
+  REQUIRE(sgm_grammar_material_count(grammar.get()) == 2);
+  CHECK(std::string(sgm_grammar_material(grammar.get(), 0)).empty());
+  CHECK(std::string(sgm_grammar_material(grammar.get(), 1)) == "marble");
+  CHECK(sgm_grammar_material(grammar.get(), 2) == nullptr);
+  REQUIRE(sgm_grammar_tag_count(grammar.get()) == 2);
+  CHECK(std::string(sgm_grammar_tag(grammar.get(), 1)) == "toy.ball");
+  CHECK(sgm_grammar_tag(grammar.get(), 99) == nullptr);
+  CHECK(sgm_grammar_name_count(grammar.get()) >= 2);
+  CHECK(sgm_grammar_name(grammar.get(), 0xFFFFFFFFu) == nullptr);
+  REQUIRE(sgm_grammar_layer_count(grammar.get()) == 1);
+  sgm_layer_info layer = SGM_LAYER_INFO_INIT;
+  REQUIRE(sgm_grammar_layer(grammar.get(), 0, &layer) == SGM_OK);
+  CHECK(std::string(layer.name) == "main");
+  CHECK(layer.cell_units[0] == 0);
+  CHECK(sgm_grammar_layer(grammar.get(), 1, &layer) == SGM_ERR_NOT_FOUND);
+}
+
+TEST_CASE("parameters are listed, set within their range, and read back") {
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(runtime.get(), kBall);
+  REQUIRE(sgm_grammar_parameter_count(grammar.get()) == 3);
+  sgm_parameter_info info = SGM_PARAMETER_INFO_INIT;
+  REQUIRE(sgm_grammar_parameter(grammar.get(), 0, &info) == SGM_OK);
+  CHECK(std::string(info.name) == "size");
+  CHECK(std::string(info.doc) == "radius");
+  CHECK(info.quantity == SGM_QUANTITY_LENGTH);
+  CHECK(info.default_value == 3.0);
+  CHECK(info.minimum == 1.0);
+  CHECK(info.maximum == 3.5);
+  CHECK(info.whole == 0);
+  REQUIRE(sgm_grammar_parameter(grammar.get(), 1, &info) == SGM_OK);
+  CHECK(info.quantity == SGM_QUANTITY_NUMBER);
+  CHECK(info.whole == 1);
+  REQUIRE(sgm_grammar_parameter(grammar.get(), 2, &info) == SGM_OK);
+  CHECK(info.quantity == SGM_QUANTITY_ANGLE);
+  CHECK(std::isinf(info.maximum));
+  CHECK(sgm_grammar_parameter(grammar.get(), 3, &info) == SGM_ERR_NOT_FOUND);
+
+  sgm_parameters* made = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  REQUIRE(sgm_parameters_create(grammar.get(), &made, &error) == SGM_OK);
+  const ParametersOwner parameters(made);
+  const auto get = [&](const char* name) {
+    double value = -1;
+    CHECK(sgm_parameters_get(made, name, &value, nullptr) == SGM_OK);
+    return value;
+  };
+  CHECK(get("size") == 3.0);
+  CHECK(sgm_parameters_set(made, "size", 2.5, &error) == SGM_OK);
+  CHECK(get("size") == 2.5);
+  CHECK(sgm_parameters_set_text(made, "size", "250 cm", &error) == SGM_OK);
+  CHECK(get("size") == 2.5);
+  CHECK(sgm_parameters_set_text(made, "turn", "-90deg", &error) == SGM_OK);
+  CHECK(get("turn") == Approx(-1.5707963267948966).epsilon(1e-15));
+
+  struct Wrong {
+    const char* name;
+    const char* text;
+    sgm_result result;
+  };
+  for (const Wrong& wrong : {Wrong{"size", "2", SGM_ERR_GRAMMAR}, Wrong{"size", "2deg", SGM_ERR_GRAMMAR},
+                             Wrong{"size", "", SGM_ERR_GRAMMAR}, Wrong{"size", "2m 3m", SGM_ERR_GRAMMAR},
+                             Wrong{"size", "wide", SGM_ERR_GRAMMAR}, Wrong{"size", "9m", SGM_ERR_INVALID_ARGUMENT},
+                             Wrong{"count", "2.5", SGM_ERR_INVALID_ARGUMENT}, Wrong{"sise", "2m", SGM_ERR_NOT_FOUND}}) {
+    INFO(wrong.name << " = " << wrong.text);
+    CHECK(sgm_parameters_set_text(made, wrong.name, wrong.text, &error) == wrong.result);
+    CHECK(std::strlen(error.message) > 0);
+  }
+  for (const double value : {std::nan(""), HUGE_VAL, 0.0, 1e9})
+    CHECK(sgm_parameters_set(made, "size", value, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_set(made, "sise", 2, &error) == SGM_ERR_NOT_FOUND);
+  CHECK(std::string(error.message).find("size") != std::string::npos);
+  CHECK(get("size") == 2.5);
+}
+
+TEST_CASE("imports come from the callback, from the folder, and from nowhere else") {
+  RuntimeOwner runtime = makeRuntime();
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::temp_directory_path() / ("sgm_abi_" + std::to_string(std::rand()));
+  fs::create_directories(folder / "inner");
+  std::ofstream(folder / "inner" / "part.sgm") << "sgm 1; let width() = 2m;";
+  std::ofstream(folder / "secret.sgm") << "sgm 1; let width() = 2m;";
+  fs::create_symlink("../secret.sgm", folder / "inner" / "link.sgm");
+  const auto text = [](const std::string& path) {
+    return "sgm 1; import \"" + path + "\" as part; units m; start R; rule R { sphere(part.width()); }";
+  };
+
+  const std::string own = text("part.sgm");
+  sgm_grammar_desc desc = describe(own.c_str());
+  CHECK(tryCompile(runtime.get(), desc).result == SGM_ERR_GRAMMAR);
+  const std::string inner = (folder / "inner").string();
+  desc.import_folder = inner.c_str();
+  CHECK(tryCompile(runtime.get(), desc).result == SGM_OK);
+
+  for (const char* path : {"../secret.sgm", "/etc/passwd", "link.sgm", "none.sgm", "../inner/part.sgm"}) {
+    const std::string other = text(path);
+    desc.text = other.c_str();
+    const Compiled compiled = tryCompile(runtime.get(), desc);
+    INFO(path << ": " << compiled.error.message);
+    CHECK(compiled.result == SGM_ERR_GRAMMAR);
+    CHECK(compiled.error.line == 1);
+  }
+
+  desc = describe(own.c_str());
+  std::string asked;
+  desc.import_user = &asked;
+  desc.import_text = [](void* user, const char* path, const char** found, size_t* size) -> int32_t {
+    *static_cast<std::string*>(user) = path;
+    *found = "sgm 1; let width() = 1m;";
+    *size = std::strlen(*found);
+    return 1;
+  };
+  CHECK(tryCompile(runtime.get(), desc).result == SGM_OK);
+  CHECK(asked == "part.sgm");
+  desc.import_text = [](void*, const char*, const char**, size_t*) -> int32_t { return 0; };
+  CHECK(tryCompile(runtime.get(), desc).result == SGM_ERR_GRAMMAR);
+  fs::remove_all(folder);
+}

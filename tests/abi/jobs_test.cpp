@@ -1,0 +1,172 @@
+// Job systems that behave in every way the contract allows.
+
+#include <condition_variable>
+#include <cstring>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "fixture.h"
+
+namespace {
+
+struct Job {
+  void (*function)(void*);
+  void* argument;
+};
+
+/// Runs nothing until it is asked to, and then the newest first.
+struct Lazy {
+  std::mutex mutex;
+  std::deque<Job> waiting;
+  bool helps;
+
+  explicit Lazy(bool helps_in) : helps(helps_in) {}
+  bool runOne() {
+    Job job{};
+    {
+      const std::lock_guard lock(mutex);
+      if (waiting.empty()) return false;
+      job = waiting.back();
+      waiting.pop_back();
+    }
+    job.function(job.argument);
+    return true;
+  }
+};
+
+sgm_job_system table(Lazy& lazy) {
+  return {[](void*) -> uint32_t { return 4; },
+          [](void* user, void (*function)(void*), void* argument, int32_t) -> int32_t {
+            auto& l = *static_cast<Lazy*>(user);
+            const std::lock_guard lock(l.mutex);
+            l.waiting.push_back({function, argument});
+            return 1;
+          },
+          [](void* user) -> int32_t {
+            auto& l = *static_cast<Lazy*>(user);
+            return l.helps && l.runOne() ? 1 : 0;
+          },
+          &lazy};
+}
+
+/// One of everything that submits jobs; the hash of it all.
+uint64_t workOn(sgm_runtime* runtime) {
+  const GrammarOwner grammar = compile(runtime, kBall);
+  const FieldOwner field = makeField(runtime, grammar.get());
+  uint64_t hash = 0;
+  for (const MeshOwner& mesh : meshChunks(field.get(), {{{0, 0, 0, 0}, 63}, {{1, 0, 0, 0}, 63}, {{0, 1, 0, 0}, 0}}))
+    hash = hash * 31 + viewOf(mesh).hash;
+  sgm_region_desc region = SGM_REGION_DESC_INIT;
+  for (int axis = 0; axis < 3; ++axis) {
+    region.minimum[axis] = -1;
+    region.maximum[axis] = 8192;
+  }
+  sgm_surface* surface = nullptr;
+  REQUIRE(sgm_surface_from_region(field.get(), &region, &surface, nullptr) == SGM_OK);
+  hash = hash * 31 + sgm_surface_hash(surface);
+  sgm_surface_destroy(surface);
+  std::vector<float> values(40 * 40 * 40);
+  for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 97) - 50.0f;
+  sgm_grid_desc grid = SGM_GRID_DESC_INIT;
+  grid.values = values.data();
+  for (uint32_t& size : grid.size) size = 40;
+  REQUIRE(sgm_surface_from_grid(runtime, &grid, &surface, nullptr) == SGM_OK);
+  hash = hash * 31 + sgm_surface_hash(surface);
+  sgm_surface_destroy(surface);
+  return hash;
+}
+
+uint64_t expectedHash() {
+  sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+  desc.threads = 1;
+  RuntimeOwner runtime = makeRuntime(&desc);
+  return workOn(runtime.get());
+}
+
+uint64_t hashWith(const sgm_job_system& jobs, Lazy* lazy) {
+  sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+  desc.jobs = &jobs;
+  RuntimeOwner runtime = makeRuntime(&desc);
+  const uint64_t hash = workOn(runtime.get());
+  // Jobs that were accepted and never begun: they find nothing left to do.
+  while (lazy != nullptr && lazy->runOne()) {
+  }
+  return hash;
+}
+
+}  // namespace
+
+TEST_CASE("a job system that runs its jobs late, or only when helped") {
+  const uint64_t expected = expectedHash();
+  for (const bool helps : {false, true}) {
+    Lazy lazy(helps);
+    CHECK(hashWith(table(lazy), &lazy) == expected);
+  }
+}
+
+TEST_CASE("a job system without help") {
+  Lazy lazy(false);
+  sgm_job_system jobs = table(lazy);
+  jobs.help = nullptr;
+  CHECK(hashWith(jobs, &lazy) == expectedHash());
+}
+
+TEST_CASE("a job system that refuses every job, and one that runs each at once") {
+  sgm_job_system refuses{};
+  refuses.concurrency = [](void*) -> uint32_t { return 0; };
+  refuses.submit = [](void*, void (*)(void*), void*, int32_t) -> int32_t { return 0; };
+  CHECK(hashWith(refuses, nullptr) == expectedHash());
+  sgm_job_system at_once{};
+  at_once.concurrency = [](void*) -> uint32_t { return 1000; };
+  at_once.submit = [](void*, void (*function)(void*), void* argument, int32_t) -> int32_t {
+    function(argument);
+    return 1;
+  };
+  CHECK(hashWith(at_once, nullptr) == expectedHash());
+}
+
+TEST_CASE("a job system with a thread for each job") {
+  struct Threads {
+    std::mutex mutex;
+    std::vector<std::thread> all;
+  } threads;
+  const sgm_job_system jobs{[](void*) -> uint32_t { return 3; },
+                            [](void* user, void (*function)(void*), void* argument, int32_t) -> int32_t {
+                              auto& t = *static_cast<Threads*>(user);
+                              const std::lock_guard lock(t.mutex);
+                              t.all.emplace_back(function, argument);
+                              return 1;
+                            },
+                            nullptr, &threads};
+  sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+  desc.jobs = &jobs;
+  RuntimeOwner runtime = makeRuntime(&desc);
+  CHECK(workOn(runtime.get()) == expectedHash());
+  for (std::thread& thread : threads.all) thread.join();
+}
+
+TEST_CASE("calls from several threads on one field agree") {
+  const auto hashes = [](sgm_field* field) {
+    sgm_chunk_request request = {{0, 0, 0, 0}, 63};
+    sgm_chunks_desc desc = SGM_CHUNKS_DESC_INIT;
+    desc.requests = &request;
+    desc.count = 1;
+    sgm_mesh* mesh = nullptr;
+    sgm_mesh_view view = SGM_MESH_VIEW_INIT;
+    uint64_t hash = 0;
+    if (sgm_mesh_chunks(field, &desc, &mesh, nullptr) == SGM_OK && sgm_mesh_get_view(mesh, &view, nullptr) == SGM_OK)
+      hash = view.hash;
+    sgm_mesh_release(mesh);
+    return hash;
+  };
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(runtime.get(), kBall);
+  const FieldOwner field = makeField(runtime.get(), grammar.get());
+  std::vector<uint64_t> found(4);
+  std::vector<std::thread> threads;
+  for (uint64_t& hash : found) threads.emplace_back([&hash, &field, &hashes] { hash = hashes(field.get()); });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(found[0] != 0);
+  for (const uint64_t hash : found) CHECK(hash == found[0]);
+}

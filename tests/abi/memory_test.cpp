@@ -1,0 +1,152 @@
+// Every allocation fails in turn: each call then says so, nothing leaks, and the next try works.
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+
+#include "fixture.h"
+
+namespace {
+
+/// Fails the n-th allocation from now, and those after it.
+struct Failing {
+  std::atomic<int64_t> left{INT64_MAX};
+  std::atomic<int64_t> live{0};
+
+  static void* allocate(void* user, size_t size, size_t alignment) {
+    auto& f = *static_cast<Failing*>(user);
+    if (f.left.fetch_sub(1) <= 0) return nullptr;
+    f.live.fetch_add(1);
+    return ::operator new(size, std::align_val_t{alignment}, std::nothrow);
+  }
+  static void release(void* user, void* memory, size_t, size_t alignment) {
+    static_cast<Failing*>(user)->live.fetch_sub(1);
+    ::operator delete(memory, std::align_val_t{alignment});
+  }
+};
+
+struct Handles {
+  sgm_runtime* runtime = nullptr;
+  sgm_grammar* grammar = nullptr;
+  sgm_diagnostics* diagnostics = nullptr;
+  sgm_parameters* parameters = nullptr;
+  sgm_field* field = nullptr;
+  sgm_mesh* meshes[2] = {};
+  sgm_surface* region = nullptr;
+  sgm_surface* grid = nullptr;
+};
+
+/// The whole way through the interface, to the first failure.
+sgm_result everything(Handles& h, const sgm_allocator& allocator, sgm_error* error) {
+  sgm_runtime_desc runtime = SGM_RUNTIME_DESC_INIT;
+  runtime.allocator = &allocator;
+  runtime.threads = 1;
+  if (sgm_result r = sgm_runtime_create(&runtime, &h.runtime, error); r != SGM_OK) return r;
+  sgm_grammar_desc text = SGM_GRAMMAR_DESC_INIT;
+  text.text = kBall;
+  if (sgm_result r = sgm_grammar_compile(h.runtime, &text, &h.grammar, &h.diagnostics, error); r != SGM_OK) return r;
+  if (sgm_result r = sgm_parameters_create(h.grammar, &h.parameters, error); r != SGM_OK) return r;
+  if (sgm_result r = sgm_parameters_set_text(h.parameters, "size", "2m", error); r != SGM_OK) return r;
+  sgm_field_desc field = SGM_FIELD_DESC_INIT;
+  field.grammar = h.grammar;
+  field.parameters = h.parameters;
+  if (sgm_result r = sgm_field_create(h.runtime, &field, &h.field, error); r != SGM_OK) return r;
+  const sgm_chunk_request requests[2] = {{{0, 0, 0, 0}, 63}, {{1, 0, 0, 0}, 0}};
+  sgm_chunks_desc chunks = SGM_CHUNKS_DESC_INIT;
+  chunks.requests = requests;
+  chunks.count = 2;
+  if (sgm_result r = sgm_mesh_chunks(h.field, &chunks, h.meshes, error); r != SGM_OK) return r;
+  const int32_t points[6] = {0, 0, 0, 4096, 4096, 4096};
+  float values[2], gradients[6];
+  sgm_sample_desc sample = SGM_SAMPLE_DESC_INIT;
+  sample.points = points;
+  sample.count = 2;
+  sample.values = values;
+  sample.gradients = gradients;
+  if (sgm_result r = sgm_field_sample(h.field, &sample, error); r != SGM_OK) return r;
+  sgm_region_desc region = SGM_REGION_DESC_INIT;
+  for (int32_t& v : region.maximum) v = 20000;
+  if (sgm_result r = sgm_surface_from_region(h.field, &region, &h.region, error); r != SGM_OK) return r;
+  const float grid_values[8] = {-1, 1, 1, 1, 1, 1, 1, 1};
+  sgm_grid_desc grid = SGM_GRID_DESC_INIT;
+  grid.values = grid_values;
+  for (uint32_t& size : grid.size) size = 2;
+  return sgm_surface_from_grid(h.runtime, &grid, &h.grid, error);
+}
+
+void endAll(Handles& h) {
+  sgm_surface_destroy(h.grid);
+  sgm_surface_destroy(h.region);
+  for (sgm_mesh* mesh : h.meshes) sgm_mesh_release(mesh);
+  sgm_field_destroy(h.field);
+  sgm_parameters_destroy(h.parameters);
+  sgm_diagnostics_destroy(h.diagnostics);
+  sgm_grammar_destroy(h.grammar);
+  CHECK(sgm_runtime_destroy(h.runtime) == SGM_OK);
+}
+
+/// Allocations of the C++ heap that are left before it fails on this thread; below 0: never.
+thread_local int64_t heap_left = -1;
+
+void* heapAllocate(size_t size, size_t alignment) {
+  if (heap_left >= 0 && heap_left-- == 0) {
+    heap_left = 0;
+    return nullptr;
+  }
+  const size_t rounded = (std::max<size_t>(size, 1) + alignment - 1) / alignment * alignment;
+  return alignment <= alignof(std::max_align_t) ? std::malloc(rounded) : std::aligned_alloc(alignment, rounded);
+}
+
+}  // namespace
+
+// The whole program's heap, the shared library's included.
+void* operator new(size_t size) {
+  if (void* memory = heapAllocate(size, alignof(std::max_align_t))) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(size_t size, std::align_val_t alignment) {
+  if (void* memory = heapAllocate(size, static_cast<size_t>(alignment))) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t, std::align_val_t) noexcept { std::free(memory); }
+
+TEST_CASE("each allocation from the allocator fails in turn") {
+  Failing failing;
+  const sgm_allocator allocator{Failing::allocate, Failing::release, &failing};
+  // One after another at first, then in growing steps: thousands of allocations differ only in their container.
+  int64_t tries = 0;
+  for (int64_t n = 0;; n += 1 + n / 64) {
+    failing.left = n;
+    Handles handles;
+    sgm_error error = SGM_ERROR_INIT;
+    const sgm_result result = everything(handles, allocator, &error);
+    failing.left = INT64_MAX;
+    endAll(handles);
+    REQUIRE(failing.live == 0);
+    ++tries;
+    if (result == SGM_OK) break;
+    INFO("allocation " << n << ": " << error.message);
+    REQUIRE(result == SGM_ERR_OUT_OF_MEMORY);
+    REQUIRE(error.code == SGM_ERR_OUT_OF_MEMORY);
+  }
+  CHECK(tries > 20);
+}
+
+TEST_CASE("each allocation of the C++ heap on the calling thread fails in turn") {
+  const sgm_allocator allocator{[](void*, size_t size, size_t alignment) { return std::aligned_alloc(std::max<size_t>(alignment, 16), (size + 63) / 64 * 64); },
+                                [](void*, void* memory, size_t, size_t) { std::free(memory); }, nullptr};
+  for (int64_t n = 0;; n += 1 + n / 48) {
+    Handles handles;
+    sgm_error error = SGM_ERROR_INIT;
+    heap_left = n;
+    const sgm_result result = everything(handles, allocator, &error);
+    heap_left = -1;
+    endAll(handles);
+    if (result == SGM_OK) break;
+    INFO("allocation " << n << ": " << error.message);
+    REQUIRE(result == SGM_ERR_OUT_OF_MEMORY);
+  }
+}

@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# sgm check and sgm fmt: messages with places, JSON, layout.
+source "$(dirname "$0")/common.sh"
+
+ball >ball.sgm
+expect 0 "$SGM" check ball.sgm
+out_has '^ball.sgm: ok$'
+err_empty
+expect 0 "$SGM" check --json ball.sgm
+json 'j.ok === true && j.files.length === 1 && j.files[0].file === "ball.sgm" && j.files[0].diagnostics.length === 0'
+json 'j.files[0].parameters[0].name === "size" && j.files[0].parameters[0].default === 3 && j.files[0].parameters[0].range[1] === 3.5'
+json '/^[0-9a-f]{16}$/.test(j.files[0].hash) && j.files[0].materials[0] === "marble" && j.files[0].layers[0].name === "main"'
+expect 0 "$SGM" check "$SOURCE"/samples/grammars/*.sgm
+
+# bad NAME LINE COLUMN TEXT: status 1, "NAME.sgm:LINE:COLUMN: error: ...", the source line, a caret below the column.
+bad() {
+  printf '%s\n' "$4" >"$1.sgm"
+  expect 1 "$SGM" check "$1.sgm"
+  local at=$1.sgm:$2:$3
+  grep -q "^$at: error: ." <<<"$err" || failed "no error at $at"
+  local line
+  line=$(sed -n "$2p" "$1.sgm")
+  grep -qF "$line" <<<"$err" || failed "the source line is not shown"
+  grep -q '\^' <<<"$err" || failed "no caret"
+  expect 1 "$SGM" check --json "$1.sgm"
+  json "j.ok === false && j.files[0].ok === false && j.files[0].diagnostics.some(d => d.severity === 'error' && d.line === $2 && d.column === $3)"
+  expect 1 "$SGM" mesh "$1.sgm" --out "$1.glb" --region 0,0,0:8,8,8
+  grep -q "^$at: error: ." <<<"$err" || failed "no error at $at"
+  [[ ! -e $1.glb ]] || failed "a file was left"
+  out_empty
+}
+bad syntax 3 17 $'sgm 1;\nstart R;\nrule R { sphere 3m; }'
+bad unknown_rule 2 7 $'sgm 1;\nstart Nowhere;\nrule R { sphere(3m); }'
+bad unknown_name 3 17 $'sgm 1;\nstart R;\nrule R { sphere(raduis); }'
+bad unit_mismatch 3 17 $'sgm 1;\nstart R;\nrule R { sphere(30deg); }'
+bad field_in_guard 3 13 $'sgm 1;\nstart R;\nrule R when p.y < 3m { sphere(3m); }'
+bad recursion 3 6 $'sgm 1;\nstart R;\nrule R { at(1m, 0m, 0m) R; }'
+bad reach 3 45 $'sgm 1;\ndomain infinite;\nlayer main cell 16m reach 2m { start R; }\nrule R { at(20m, 0m, 0m) sphere(1m); }'
+bad missing_import 2 8 $'sgm 1;\nimport "none.sgm" as none;\nstart R;\nrule R { sphere(3m); }'
+
+# The nearest name is offered.
+printf 'sgm 1;\nstart Chambr;\nrule Chamber { sphere(3m); }\n' >typo.sgm
+expect 1 "$SGM" check typo.sgm
+err_has 'did you mean .?Chamber'
+
+# Several errors in one run.
+printf 'sgm 1;\nstart R;\nrule R { sphere(3deg); box(no_such); }\n' >two.sgm
+expect 1 "$SGM" check two.sgm
+[[ $(grep -c ': error: ' <<<"$err") == 2 ]] || failed "two errors expected"
+
+# Bytes that are no text, nothing at all, a folder, nothing there.
+head -c 4096 /dev/urandom >noise.sgm
+expect 1 "$SGM" check noise.sgm
+: >empty.sgm
+expect 1 "$SGM" check empty.sgm
+expect 4 "$SGM" check none.sgm
+one_line
+expect 4 "$SGM" check .
+one_line
+head -c 3000000 /dev/zero | tr '\0' ' ' >huge.sgm
+expect 1 "$SGM" check huge.sgm
+expect 2 "$SGM" check
+expect 2 "$SGM"
+expect 2 "$SGM" frobnicate
+expect 2 "$SGM" check --no-such-option ball.sgm
+
+# Imports stay in their folder.
+mkdir inner
+printf 'sgm 1;\nlet width() = 2m;\n' >outside.sgm
+printf 'sgm 1;\nimport "../outside.sgm" as o;\nstart R;\nrule R { sphere(o.width()); }\n' >inner/up.sgm
+ln -s ../outside.sgm inner/link.sgm
+printf 'sgm 1;\nimport "link.sgm" as o;\nstart R;\nrule R { sphere(o.width()); }\n' >inner/through.sgm
+expect 1 "$SGM" check inner/up.sgm
+expect 1 "$SGM" check inner/through.sgm
+
+# fmt is a fixed point, writes only where something changes, and checks.
+for grammar in "$SOURCE"/samples/grammars/*.sgm; do
+  cp "$grammar" sample.sgm
+  expect 0 "$SGM" fmt --write sample.sgm
+  cp sample.sgm first.sgm
+  expect 0 "$SGM" fmt sample.sgm
+  diff -q "$work/.out" first.sgm >/dev/null || failed "fmt of its own output differs"
+  expect 0 "$SGM" fmt --check sample.sgm
+done
+printf 'sgm 1;units m;start   R;rule R{sphere( 3m );}' >ugly.sgm
+expect 1 "$SGM" fmt --check ugly.sgm
+expect 0 "$SGM" fmt --write ugly.sgm
+expect 0 "$SGM" fmt --check ugly.sgm
+expect 1 "$SGM" fmt syntax.sgm
+expect 4 "$SGM" fmt --write none.sgm
+expect 2 "$SGM" fmt --write --check ball.sgm
+finish

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# --help with an example for every command, --version, backends.
+source "$(dirname "$0")/common.sh"
+expect 0 "$SGM" --help
+for command in check fmt mesh render backends; do
+  out_has "$command"
+done
+for command in check fmt mesh render backends; do
+  expect 0 "$SGM" $command --help
+  out_has "Example:"
+  out_has "sgm $command"
+  err_empty
+done
+expect 0 "$SGM" --version
+out_has '^sgm [0-9]+\.[0-9]+\.[0-9]+$'
+
+# The examples work as they are printed.
+mkdir -p samples && cp -r "$SOURCE/samples/grammars" samples/
+for command in check fmt backends; do
+  expect 0 "$SGM" $command --help
+  example=$(sed -n '/^Example:/{n;s/^ *sgm //p}' <<<"$out")
+  # shellcheck disable=SC2086
+  expect 0 "$SGM" $example
+done
+
+expect 0 "$SGM" backends
+out_has 'cpu +usable'
+expect 0 "$SGM" backends --json
+json 'j.auto === "cpu" && j.backends.map(b => b.name).join() === "cpu,vulkan,cuda"'
+json 'j.backends[0].usable && j.backends[0].exact && j.backends[0].device.length > 0 && j.backends[0].concurrency >= 1'
+json 'j.backends.slice(1).every(b => b.usable || b.reason.length > 0)'
+json 'Array.isArray(j.vulkan_devices) && j.version && j.build.includes(j.version)'
+expect 2 "$SGM" backends extra
+finish

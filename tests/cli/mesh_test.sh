@@ -1,0 +1,150 @@
+#!/usr/bin/env bash
+# sgm mesh: what it prints and writes, and what it refuses.
+source "$(dirname "$0")/common.sh"
+ball >ball.sgm
+cave=$SOURCE/samples/grammars/cave.sgm
+
+expect 0 "$SGM" mesh ball.sgm --out ball.glb --region=-4,-4,-4:4,4,4 --cell 0.25 --json
+json 'j.triangles > 1000 && j.vertices > 500 && j.chunks === 8 && j.seconds > 0 && /^[0-9a-f]{16}$/.test(j.hash)'
+json 'j.cell === 0.25 && j.cell_units === 256 && j.seed === 0 && j.out === "ball.glb" && j.backend === "cpu"'
+json 'Math.abs(j.area - 4 * Math.PI * 9) < 1 && Math.abs(j.volume - 36 * Math.PI) < 3 && j.objects === 1'
+json 'j.region[0].join() === "-8,-8,-8" && j.region[1].join() === "8,8,8"'
+json "j.bytes === $(stat -c %s ball.glb)"
+[[ $(head -c 4 ball.glb) == glTF ]] || failed "no GLB"
+err_empty
+for format in obj ply stl GLB; do
+  expect 0 "$SGM" mesh ball.sgm --out "ball.$format" --region=-4,-4,-4:4,4,4
+  [[ -s ball.$format ]] || failed "no ball.$format"
+  out_has triangles
+done
+rm -f ball.glb ball.obj ball.mtl ball.ply ball.stl ball.GLB
+only ball.sgm
+
+# The same world, whatever the threads; another one for another seed or parameter.
+hash() { sed -n 's/.*"hash": "\([0-9a-f]*\)".*/\1/p' <<<"$out"; }
+expect 0 "$SGM" mesh "$cave" --region 0,0,0:32,32,32 --seed 7 --json --threads 1
+first=$(hash)
+expect 0 "$SGM" mesh "$cave" --region 0,0,0:32,32,32 --seed 7 --json --threads 3
+[[ $(hash) == "$first" ]] || failed "the hash depends on threads"
+expect 0 "$SGM" mesh "$cave" --region 0,0,0:32,32,32 --seed 8 --json
+[[ $(hash) != "$first" ]] || failed "the seed does not matter"
+expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --set size=2m --json
+json 'Math.abs(j.area - 16 * Math.PI) < 1.5'
+expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --ld 10 --json
+json 'j.cell_units === 102 && Math.abs(j.cell - 0.099609375) < 1e-12'
+# A finite world needs no region.
+expect 0 "$SGM" mesh ball.sgm --json
+json 'Math.abs(j.area - 4 * Math.PI * 9) < 2'
+only ball.sgm
+
+# Wrong input: status 1, one line, no file.
+wrong() {
+  expect 1 "$SGM" mesh ball.sgm --out wrong.glb "$@"
+  err_has '^sgm: error: .'
+  one_line
+  out_empty
+  only ball.sgm
+}
+region=--region=-4,-4,-4:4,4,4
+wrong $region --cell 0
+wrong $region --cell -1
+wrong $region --cell nan
+wrong $region --cell 1e-9
+wrong $region --cell 1e12
+wrong $region --cell inf
+wrong $region --ld 0
+wrong $region --ld -3
+wrong $region --ld 1e9
+wrong --region 0,0,0:1e300,1,1
+wrong --region 0,0,0:1e999,1,1
+wrong --region 0,0,0:nan,1,1
+wrong --region 3000000,0,0:3000001,1,1
+wrong --region 2097150,0,0:2097152,1,1
+wrong --region 0,0,0:0,1,1
+wrong --region 4,4,4:-4,-4,-4
+wrong $region --cell 0.01 --max-chunks 10
+wrong --region=-2000000,-2000000,-2000000:2000000,2000000,2000000
+wrong $region --set size=9m
+wrong $region --set size=2
+wrong $region --set size=2deg
+wrong $region --set size=
+wrong $region --set sise=2m
+err_has size
+wrong $region --set =
+
+# Wrong usage: status 2.
+usage() {
+  expect 2 "$SGM" mesh "$@"
+  err_has '^sgm: usage: .'
+  out_empty
+  only ball.sgm
+}
+usage
+usage ball.sgm --region 1,2:3,4
+usage ball.sgm --region 0,0,0
+usage ball.sgm --region 0,0,0:1,1,x
+usage ball.sgm --set size
+usage ball.sgm --out ball.blend
+usage ball.sgm --out noextension
+usage ball.sgm --seed -1
+usage ball.sgm --seed one
+usage ball.sgm --cell 1 --ld 2
+usage ball.sgm --backend metal
+usage ball.sgm --threads -2
+usage ball.sgm --max-chunks many
+usage "$cave" --out cave.glb # endless, and no region
+
+# No such backend: status 3.
+for backend in vulkan cuda; do
+  expect 3 "$SGM" mesh ball.sgm --out wrong.glb --backend $backend
+  one_line
+  only ball.sgm
+done
+
+# Files that cannot be read or written: status 4, one line, nothing left.
+unwritable() {
+  expect 4 "$SGM" mesh ball.sgm $region --out "$1"
+  err_has '^sgm: error: cannot write '
+  one_line
+  out_empty
+}
+unwritable ball.sgm/under_a_file.glb
+unwritable nowhere/ball.glb
+mkdir folder.glb
+unwritable folder.glb
+rmdir folder.glb
+only ball.sgm
+expect 4 "$SGM" mesh none.sgm --out wrong.glb
+# Standard output on a full disk.
+"$SGM" mesh ball.sgm $region --json >/dev/full 2>"$work/.err" </dev/null
+[[ $? == 4 ]] || failed "a full standard output went unseen"
+# A disk that fills up: a cap on file sizes acts like one, and a small file system is one.
+printf 'what was here before' >ball.glb
+trap '' XFSZ
+expect 4 bash -c 'ulimit -f 16 && "$@"' bash "$SGM" mesh ball.sgm $region --cell 0.1 --out ball.glb
+trap - XFSZ
+one_line
+[[ $(cat ball.glb) == 'what was here before' ]] || failed "a full disk took something"
+rm ball.glb
+only ball.sgm
+mkdir tiny
+if mount -t tmpfs -o size=64k tmpfs tiny 2>/dev/null; then
+  printf 'what was here before' >tiny/ball.glb
+  expect 4 "$SGM" mesh ball.sgm $region --cell 0.1 --out tiny/ball.glb
+  one_line
+  [[ $(ls -A tiny) == ball.glb && $(cat tiny/ball.glb) == 'what was here before' ]] || failed "a full disk left or took something"
+  umount tiny
+else
+  echo "no tmpfs can be mounted here: the cap on file sizes stood in for a full disk"
+fi
+rmdir tiny
+
+# What stands at --out stays until the new file is whole.
+printf 'before' >ball.glb
+expect 1 "$SGM" mesh ball.sgm $region --cell 0 --out ball.glb
+[[ $(cat ball.glb) == before ]] || failed "a failure touched the file"
+expect 0 "$SGM" mesh ball.sgm $region --out ball.glb
+[[ $(head -c 4 ball.glb) == glTF ]] || failed "the file was not replaced"
+rm ball.glb
+only ball.sgm
+finish

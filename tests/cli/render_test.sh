@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# sgm render: pictures, cameras and what it refuses. Needs a Vulkan device, lavapipe at least.
+source "$(dirname "$0")/common.sh"
+ball >ball.sgm
+cave=$SOURCE/samples/grammars/cave.sgm
+
+expect 0 "$SGM" backends --json
+if ! node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).vulkan_devices.length ? 0 : 1)' "$work/.out"; then
+  # No device: the command says so.
+  expect 3 "$SGM" render ball.sgm --out ball.png
+  one_line
+  only ball.sgm
+  [[ -z ${SGM_REQUIRE_ALL:-} ]] || { echo "a Vulkan device is required here" >&2; exit 1; }
+  echo "SKIPPED: no Vulkan device"
+  exit 77
+fi
+
+# picture FILE WIDTH HEIGHT: a PNG of that size.
+picture() {
+  [[ $(head -c 8 "$1" | od -An -tx1 | tr -d ' \n') == 89504e470d0a1a0a ]] || failed "$1 is no PNG"
+  [[ $(od -An -tx1 -j16 -N8 "$1" | tr -d ' \n') == "$(printf '%08x%08x' "$2" "$3")" ]] || failed "$1 is not $2x$3"
+}
+expect 0 "$SGM" render ball.sgm --out ball.png --size 160x90 --json
+json 'j.triangles > 100 && j.width === 160 && j.height === 90 && j.out === "ball.png" && j.seconds > 0 && j.device.length > 0'
+json 'j.camera.position.length === 3 && j.camera.target.length === 3'
+picture ball.png 160 90
+expect 0 "$SGM" render "$cave" --out cave.png --region=-32,-32,-32:32,32,32 --cell 1 --size 160x90 --seed 7
+picture cave.png 160 90
+expect 0 "$SGM" render ball.sgm --out looked.png --camera 0,0,8:0,0,0 --size 64x64 --json
+json 'j.camera.position.join() === "0,0,8"'
+picture looked.png 64 64
+cmp -s ball.png looked.png && failed "the camera does not matter"
+expect 0 "$SGM" render "$cave" --out at.png --at spawn --region=-96,-96,-96:96,96,96 --cell 2 --size 64x64 --seed 7
+picture at.png 64 64
+rm ./*.png
+only ball.sgm
+
+expect 1 "$SGM" render ball.sgm --out wrong.png --at nothing_of_that_name
+one_line
+expect 1 "$SGM" render ball.sgm --out wrong.png --cell 0
+expect 2 "$SGM" render ball.sgm
+expect 2 "$SGM" render ball.sgm --out wrong.jpg
+for size in 0x10 10 10x 99999x10 axb -1x5; do
+  expect 2 "$SGM" render ball.sgm --out wrong.png --size "$size"
+done
+expect 2 "$SGM" render ball.sgm --out wrong.png --camera 1,2,3
+expect 2 "$SGM" render ball.sgm --out wrong.png --camera 0,0,8:0,0,0 --at spawn
+expect 1 "$SGM" render ball.sgm --out wrong.png --camera 0,0,8:0,0,8
+expect 4 "$SGM" render ball.sgm --out nowhere/ball.png --size 64x64
+one_line
+expect 4 "$SGM" render none.sgm --out wrong.png
+only ball.sgm
+finish
