@@ -31,7 +31,7 @@ vec3 lamps(Surface s, vec3 p, vec3 n, vec3 to_eye, float open, vec2 turn) {
     if (end >= 1.0) continue;
     float window = 1.0 - end * end;
     vec3 l = away / d;
-    vec3 light = frame.lamp_colour[i].rgb * (window * window * 1.2 * reach * reach / (d2 + 0.22 * reach * reach));
+    vec3 light = frame.lamp_colour[i].rgb * (window * window * 1.2 * reach * reach / (d2 + 0.32 * reach * reach));
     // The beam of the headlamp is wide and its rim soft.
     if (i == 0u) light *= mix(0.22, 1.0, smoothstep(0.60, 0.97, dot(-l, frame.forward.xyz)));
     bool faces = dot(n, l) > -0.5 * s.translucency;

@@ -203,7 +203,7 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     const glm::vec3 d = glm::normalize(0.75f * forward + side * right + glm::vec3(0, 0.30f, 0));
     const auto wall = mesh.cast(from, d, far);
     const float room = 0.75f * std::min(wall ? wall->distance : far, 0.8f * fan.median);
-    if (room > 1.0f && hang(from + d * room, {1.0f, 0.80f, 0.56f}, 0.42f * fan.median, 0)) break;
+    if (room > 1.0f && hang(from + d * room, {1.0f, 0.80f, 0.56f}, 0.36f * fan.median, 0)) break;
   }
   std::vector<size_t> by_depth(fan.distances.size());
   for (size_t i = 0; i < by_depth.size(); ++i) by_depth[i] = i;
@@ -215,7 +215,7 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     const float depth = fan.distances[i];
     if (deep == kColours.size() || depth < 1.15f * fan.median) break;
     if (depth >= far) continue;
-    const float reach = std::clamp(0.28f * depth, 1.5f, 14.0f);
+    const float reach = std::clamp(0.24f * depth, 1.5f, 14.0f);
     if (hang(from + fan.directions[i] * (0.80f * depth), kColours[deep], reach, 0.4f * depth)) ++deep;
   }
   return lamps;
@@ -322,7 +322,7 @@ void lightScene(const View& view, RenderScene& scene) {
     scene.fog_distance = 25 * view.depth;
     return;
   }
-  scene.headlamp.reach = std::clamp(0.45f * view.depth, 1.2f, 30.0f);
+  scene.headlamp.reach = std::clamp(0.30f * view.depth, 1.2f, 30.0f);
   scene.fog_distance = std::max(4 * view.depth, 10.0f);
 }
 

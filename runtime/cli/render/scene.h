@@ -74,7 +74,7 @@ struct RenderScene {
   Background background = Background::cave;
   glm::vec3 sun_direction{-0.62f, 0.62f, 0.48f};  ///< towards the sun; used under a sky
   float fog_distance = 60;                        ///< metres after which about two thirds of the light is lost to haze
-  float exposure = 1;
+  float exposure = 0.85f;
   int supersample = 2;  ///< samples on each side of a pixel, 1..3
 };
 
