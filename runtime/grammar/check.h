@@ -26,7 +26,7 @@ struct RuleCall {
   uint32_t to = 0;
   ExprId call = kNoId;
   bool escape = false;  ///< of depth or minsize
-  bool shrunk = false;  ///< inside scale or size
+  bool shrunk = false;  ///< inside size
 };
 
 /// A scatter that probes a layer.
@@ -88,6 +88,7 @@ class Checker {
 
   // check_statements.cpp
   void checkRules();
+  void checkUnusedValues();
   void checkRule(uint32_t rule);
   void checkAlternative(uint32_t rule, uint32_t alternative);
   void statement(StmtId id, bool shrunk);
@@ -174,6 +175,7 @@ class Checker {
   std::vector<bool> start_rules_;
   uint32_t rule_ = 0, alternative_ = 0;
   uint32_t ordinal_ = 0, draws_ = 0;
+  bool layers_known_ = false;  ///< otherwise what is said of layers would only follow from another error
 };
 
 /// Error for every rule that may call itself without end.

@@ -155,6 +155,8 @@ void Checker::seedAndDomain() {
 }
 
 void Checker::layers() {
+  const uint32_t before = sink_.errorCount();
+  layers_known_ = false;
   ModuleSyntax& root = syntax_[0];
   const DomainDecl& decl = root.domain;
   Domain& domain = program_.domain;
@@ -177,7 +179,7 @@ void Checker::layers() {
   if (!root.layers.empty() && !decl.infinite && !decl.box)
     sink_.error(root.layers[0].span, codes::kDomain, "layers need an infinite domain or one with a box",
                 "write `domain infinite;` or `domain finite box(...)`");
-  if (sink_.errorCount() > 0) return;
+  if (sink_.errorCount() > before) return;
   if (root.start != kNoId) {
     Layer main(memory);
     main.name = names_.intern("main");
@@ -186,6 +188,7 @@ void Checker::layers() {
     if (!domain.box.empty())
       for (int axis = 0; axis < 3; ++axis) main.cell[axis] = domain.box.hi[axis] - domain.box.lo[axis];
     program_.layers.push_back(std::move(main));
+    layers_known_ = true;
     return;
   }
   constexpr int64_t kLargest = int64_t{1} << 30;
@@ -221,6 +224,7 @@ void Checker::layers() {
 }
 
 void Checker::sortLayers() {
+  const uint32_t before = sink_.errorCount();
   const std::vector<LayerDecl>& decls = syntax_[0].layers;
   const size_t count = decls.size();
   std::vector<std::vector<uint32_t>> uses(count);
@@ -240,7 +244,7 @@ void Checker::sortLayers() {
       else if (std::find(uses[l].begin(), uses[l].end(), found) == uses[l].end())
         uses[l].push_back(found);
     }
-  if (sink_.errorCount() > 0) return;
+  if (sink_.errorCount() > before) return;
   // Repeatedly the first layer all of whose lower layers are placed: declaration order wherever it is free.
   std::vector<uint32_t> order, place(count, kNoId);
   while (order.size() < count) {
@@ -273,6 +277,7 @@ void Checker::sortLayers() {
     sorted.push_back(std::move(program_.layers[l]));
   }
   program_.layers = std::move(sorted);
+  layers_known_ = true;
 }
 
 /// A rule that probes a layer may be derived only in layers that use it.

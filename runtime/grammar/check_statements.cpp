@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
@@ -15,6 +16,7 @@ bool roundOrBox(Primitive p) {
 }  // namespace
 
 void Checker::checkRules() {
+  const uint32_t before = sink_.errorCount();
   rule_types_.assign(program_.rules.size(), {});
   rule_state_.assign(program_.rules.size(), 0);
   start_rules_.assign(program_.rules.size(), false);
@@ -37,7 +39,7 @@ void Checker::checkRules() {
     if (otherwise && !when && !lod)
       sink_.error(rule.span, codes::kGuards, join({"`", text(rule.name), "` has an `else` and no `when`"}));
   }
-  if (sink_.errorCount() > 0) return;
+  if (sink_.errorCount() > before) return;
 
   // Starts first, then what they call, in order of the first call: types flow from callers to callees.
   auto startAt = [&](ExprId call) {
@@ -47,20 +49,34 @@ void Checker::checkRules() {
   };
   rule_ = kNoId;
   if (syntax_[0].start != kNoId) startAt(syntax_[0].start);
-  for (const Layer& layer : program_.layers)
-    if (layer.start != syntax_[0].start) startAt(layer.start);
+  for (const LayerDecl& layer : syntax_[0].layers) startAt(layer.start);
   for (size_t next = 0; next < waiting_.size() && !sink_.full(); ++next) checkRule(waiting_[next]);
   for (uint32_t r = 0; r < program_.rules.size() && !sink_.full(); ++r) {
     if (rule_state_[r] != 0) continue;
     const Rule& rule = program_.rules[r];
-    if (rule.module == 0 && !program_.layers.empty())
+    if (rule.module == 0 && layers_known_ && !program_.layers.empty())
       sink_.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", text(rule.name), "`"}));
     rule_types_[r].assign(rule.alternatives[0].formals.count, Type{});
     checkRule(r);
   }
+  checkUnusedValues();
   for (uint32_t r = 0; r < program_.rules.size(); ++r)
     if (start_rules_[r])
       for (const Alternative& a : program_.rules[r].alternatives) markLayerLevel(a.body);
+}
+
+/// Lets and fields that nothing uses are right or wrong all the same.
+void Checker::checkUnusedValues() {
+  std::set<std::pair<Ref, uint32_t>> used;
+  for (const auto& [key, type] : known_) used.emplace(std::get<0>(key), std::get<1>(key));
+  scope_ = {};
+  auto check = [&](Ref ref, uint32_t index, IdRange formals, ExprId body) {
+    if (used.count({ref, index}) == 0 && !sink_.full()) letOrField(body, ref, index, std::vector<Type>(formals.count));
+  };
+  for (uint32_t i = 0; i < program_.lets.size(); ++i)
+    check(Ref::let, i, program_.lets[i].formals, program_.lets[i].body);
+  for (uint32_t i = 0; i < program_.fields.size(); ++i)
+    if (!program_.fields[i].local) check(Ref::field, i, program_.fields[i].formals, program_.fields[i].body);
 }
 
 void Checker::checkRule(uint32_t rule) {
@@ -351,7 +367,7 @@ void Checker::scatterStatement(const StmtNode& s, bool shrunk) {
       if (program_.layers[l].name == scatter.layer_name) scatter.layer = l;
       suggestion.offer(text(program_.layers[l].name));
     }
-    if (scatter.layer == kNoId)
+    if (scatter.layer == kNoId && layers_known_)
       sink_.error(scatter.span, codes::kUnknownName, join({"unknown layer `", text(scatter.layer_name), "`"}),
                   suggestion.hint());
     probes_.push_back({rule_, s.extra});
@@ -396,7 +412,7 @@ bool Checker::xforms(IdRange range) {
       case XformKind::at:
       case XformKind::size: {
         const bool at = x.kind == XformKind::at;
-        shrinks = shrinks || !at;
+        shrinks = shrinks || !at;  // a scope that does not shrink after all is found by the proof of reach
         if (!bindWords(x.args, x.span, at ? "at" : "size", {"x", "y", "z"}, 1, out)) break;
         const bool alone = x.args.count == 1 && program_.ast.args[x.args.first].name == kNoId;
         if (alone) {
@@ -419,7 +435,6 @@ bool Checker::xforms(IdRange range) {
         demand(out[1], ValueKind::number, kAngle, "the angle of `rot`");
         break;
       case XformKind::scale:
-        shrinks = true;
         if (x.args.count > 1) {
           sink_.error(x.span, codes::kArgumentCount, "`scale` takes one factor",
                       "a distance cannot be stretched unevenly; give the shape its sizes instead");

@@ -22,8 +22,10 @@ Parser::Parser(Program& program, NameTable& names, uint32_t module, const Compil
       limits_(limits),
       sink_(sink),
       text_(program.modules[module].text),
+      errors_before_(sink.errorCount()),
       lexed_(lex(text_, module, limits.nodes, sink, program.modules.get_allocator().resource())),
       first_expr_(program.ast.exprs.size()) {
+  lexical_errors_ = sink.errorCount() > errors_before_;
   out_.module = module;
   panic_token_.span = lexed_.tokens.back().span;
   last_ = lexed_.tokens.front().span;
@@ -31,6 +33,8 @@ Parser::Parser(Program& program, NameTable& names, uint32_t module, const Compil
 }
 
 ModuleSyntax Parser::run() {
+  // What a torn text or number does to the syntax around it is not worth a complaint of its own.
+  if (lexical_errors_) return std::move(out_);
   const Span first = here();
   if (acceptWord("sgm")) {
     if (at(Tok::number) && textOf(peek()) != "1")

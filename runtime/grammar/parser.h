@@ -133,6 +133,7 @@ class Parser {
   CompileLimits limits_;
   DiagnosticSink& sink_;
   std::string_view text_;
+  uint32_t errors_before_;
   LexResult lexed_;
   ModuleSyntax out_;
   size_t next_ = 0;
@@ -144,7 +145,7 @@ class Parser {
   std::vector<uint16_t> depth_;  ///< of each expression, so that trees built by loops are capped as well
   size_t first_expr_ = 0;
   std::map<NameId, uint32_t> rules_;
-  NameId scope_rule_ = kNoId;
+  bool lexical_errors_ = false;
 };
 
 }  // namespace sgm

@@ -48,11 +48,12 @@ class ReachCheck {
     cell_ = edges;
     known_.clear();
     steps_ = limits_.bound_steps;
+    cut_short_ = false;
     RangeFrame frame;
     frame.scope = edges;
     const Extent extent = callExtent(layer.start, frame, true);
     if (sink_.full()) return;
-    const bool exhausted = steps_ == 0;
+    const bool exhausted = cut_short_;
 
     IntVector bound_lo{}, bound_hi{};
     double over_may = 0, over_sure = 0;
@@ -79,10 +80,15 @@ class ReachCheck {
     report(layer, extent, finite, over_may, over_sure, exhausted);
   }
 
+  std::string nameOf(ExprId culprit) const {
+    const std::string_view name = program_.text(program_.expr(culprit).name);
+    return name.empty() ? "what this displaces" : join({"`", name, "`"});
+  }
+
   void report(const Layer& layer, const Extent& extent, bool finite, double over_may, double over_sure,
               bool exhausted) {
     const ExprId culprit = extent.culprit == kNoId ? layer.start : extent.culprit;
-    const std::string shape = join({"`", program_.text(program_.expr(culprit).name), "`"});
+    const std::string shape = nameOf(culprit);
     const std::string name = join({"`", program_.text(layer.name), "`"});
     const double reach = layer.reach * kUnit;
     const bool unbounded = !std::isfinite(over_may);
@@ -110,10 +116,10 @@ class ReachCheck {
     for (const Interval& side : extent.may) largest = std::max(largest, side.magnitude());
     if (!extent.empty && (!std::isfinite(largest) || largest > 1e6 || exhausted)) {
       const ExprId culprit = extent.culprit == kNoId ? layer.start : extent.culprit;
-      sink_.error(
-          program_.expr(culprit).span, codes::kReach,
-          join({"cannot prove reach: `", program_.text(program_.expr(culprit).name), "` may extend without bound"}),
-          "give the domain a box: `domain finite box(x, y, z);`");
+      sink_.error(program_.expr(culprit).span, codes::kReach,
+                  join({"cannot prove reach: ", nameOf(culprit), " may extend without bound"}),
+                  exhausted ? "the rules are too many or too deep to follow; bound their recursion"
+                            : "give the domain a box: `domain finite box(x, y, z);`");
       return;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -146,6 +152,11 @@ class ReachCheck {
     return e;
   }
 
+  bool tooFar() {
+    cut_short_ = cut_short_ || steps_ == 0 || depth_ >= kDeepest;
+    return cut_short_;
+  }
+
   Extent ruleExtent(uint32_t rule, const std::vector<RangeValue>& args, const IntervalVector& scope) {
     Key key{rule, {}, {}};
     auto note = [&](const IntervalVector& v) {
@@ -159,7 +170,7 @@ class ReachCheck {
     for (uint32_t r : counted_) std::get<2>(key).push_back(active_[r]);
     const auto known = known_.find(key);
     if (known != known_.end()) return known->second;
-    if (steps_ == 0 || depth_ >= kDeepest) return Extent::unbounded();
+    if (tooFar()) return Extent::unbounded();
     --steps_;
     // A call of the same rule with the same ranges inside itself is without bound; the answer stands if it is asked.
     known_.emplace(key, Extent::unbounded());
@@ -187,7 +198,7 @@ class ReachCheck {
     }
     --depth_;
     --active_[rule];
-    if (active_[rule] == 0 || steps_ > 0) known_[key] = out;
+    known_[key] = out;
     return out;
   }
 
@@ -224,7 +235,7 @@ class ReachCheck {
 
   Extent statement(StmtId id, RangeFrame& frame) {
     if (id == kNoId) return Extent::nothing();
-    if (steps_ == 0 || depth_ >= kDeepest) return Extent::unbounded();
+    if (tooFar()) return Extent::unbounded();
     --steps_;
     ++depth_;
     Extent e = statementKinds(program_.stmt(id), frame);
@@ -278,6 +289,10 @@ class ReachCheck {
         Extent e = body(s.body, frame);
         e.grow(amplitude);
         e.shrinkSure(amplitude);
+        if (!std::isfinite(amplitude) && !e.empty) {
+          e.culprit = s.expr;
+          e.culprit_size = amplitude;
+        }
         return e;
       }
       case StmtKind::transform:
@@ -506,6 +521,7 @@ class ReachCheck {
   std::vector<uint32_t> active_;   ///< activations of each rule on the path
   std::vector<uint32_t> counted_;  ///< rules whose activations matter
   int depth_ = 0;
+  bool cut_short_ = false;  ///< the budget or the depth was not enough: nothing is proven
 };
 
 }  // namespace

@@ -51,6 +51,8 @@ double Extent::size() const {
 }
 
 void Extent::blame(ExprId call) {
+  // What has no bound at all is best shown where it starts, anything else where the layer's own rule calls it.
+  if (culprit != kNoId && !std::isfinite(culprit_size)) return;
   culprit = call;
   culprit_size = size();
 }

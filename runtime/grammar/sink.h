@@ -29,7 +29,7 @@ class DiagnosticSink {
 
   uint32_t errorCount() const { return errors_; }
   /// Enough has been said: the stages stop early.
-  bool full() const { return errors_ >= error_limit_; }
+  bool full() const { return errors_ > error_limit_; }
   std::string place(const Span& span) const;
   /// Sorted by file and place, each said once.
   std::vector<Diagnostic> take();

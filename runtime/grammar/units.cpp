@@ -24,18 +24,28 @@ std::string dimName(Dim dim) {
 std::string typeName(const Type& type) {
   const std::string_view stage = type.sample ? "sample-time " : "";
   switch (type.kind) {
-    case ValueKind::unknown: return join({stage, "value"});
-    case ValueKind::number: return join({stage, dimName(type.dim)});
-    case ValueKind::boolean: return join({stage, "condition"});
+    case ValueKind::unknown:
+      return join({stage, "value"});
+    case ValueKind::number:
+      return join({stage, dimName(type.dim)});
+    case ValueKind::boolean:
+      return join({stage, "condition"});
     case ValueKind::vector:
       return type.dim == kLength ? join({stage, "point"}) : join({stage, "vector of ", dimName(type.dim), "s"});
-    case ValueKind::pair: return join({stage, "pair of ", dimName(type.dim), "s"});
-    case ValueKind::cell: return "cell";
-    case ValueKind::face: return "face";
-    case ValueKind::faces: return "list of faces";
-    case ValueKind::range: return "range";
-    case ValueKind::text: return "text";
-    case ValueKind::axis: return "axis";
+    case ValueKind::pair:
+      return join({stage, "pair of ", dimName(type.dim), "s"});
+    case ValueKind::cell:
+      return "cell";
+    case ValueKind::face:
+      return "face";
+    case ValueKind::faces:
+      return "list of faces";
+    case ValueKind::range:
+      return "range";
+    case ValueKind::text:
+      return "text";
+    case ValueKind::axis:
+      return "axis";
   }
   return "value";
 }

@@ -1,0 +1,119 @@
+// Hostile texts: deep, long, endless; each must end quickly and with a diagnostic.
+
+#include <algorithm>
+#include <chrono>
+
+#include "catch.h"
+#include "compile_text.h"
+
+using namespace sgm;
+using namespace sgm::test;
+
+namespace {
+
+std::string repeated(std::string_view text, int times) {
+  std::string out;
+  for (int i = 0; i < times; ++i) out += text;
+  return out;
+}
+
+bool mentions(const CompileResult& result, std::string_view code) {
+  for (const Diagnostic& d : result.diagnostics)
+    if (d.code == code) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("deep nesting is refused, not followed", "[grammar][caps]") {
+  const std::string head = "sgm 1; start A; rule A { ";
+  for (const std::string& text :
+       {head + repeated("{", 100000), head + "sphere(" + repeated("(", 100000),
+        head + "sphere(" + repeated("-", 100000), head + "sphere(" + repeated("not ", 100000),
+        head + "sphere(" + repeated("if ", 100000), head + repeated("at(1m,0,0) detail 1m ", 20000),
+        head + repeated("union ", 100000), head + "let a = " + repeated("min(1,", 50000),
+        head + repeated("morph({", 50000), head + "sphere(1m" + repeated(" + 1m", 50000) + "); }",
+        head + "sphere(a" + repeated(".x", 50000) + "); }"}) {
+    const CompileResult result = compileText(text);
+    INFO(text.substr(0, 80));
+    CHECK_FALSE(result.program);
+    CHECK(mentions(result, "too-deep"));
+  }
+}
+
+TEST_CASE("chains of lets and fields do not explode", "[grammar][caps]") {
+  for (const char* kind : {"let", "field"}) {
+    std::string text = "sgm 1; start A;\n";
+    const int count = 40;
+    text += std::string(kind) + " f0(x) = x + x;\n";
+    for (int i = 1; i < count; ++i)
+      text += std::string(kind) + " f" + std::to_string(i) + "(x) = f" + std::to_string(i - 1) + "(f" +
+              std::to_string(i - 1) + "(x));\n";
+    text += "rule A { displace clamp(f39(0.001m), -1m, 1m) { sphere(1m); } }\n";
+    const auto begin = std::chrono::steady_clock::now();
+    const CompileResult result = compileText(text);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    INFO(renderDiagnostics(result));
+    CHECK(seconds.count() < 2);
+  }
+}
+
+TEST_CASE("rules that multiply are bounded once a range, not once a leaf", "[grammar][caps]") {
+  std::string text = "sgm 1; start R0;\n";
+  for (int i = 0; i < 100; ++i)
+    text += "rule R" + std::to_string(i) + " { R" + std::to_string(i + 1) + "; at(1cm, 0m, 0m) R" +
+            std::to_string(i + 1) + "; }\n";
+  text += "rule R100 { sphere(1m); }\n";
+  const auto begin = std::chrono::steady_clock::now();
+  const CompileResult result = compileText(text);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  INFO(renderDiagnostics(result));
+  CHECK(seconds.count() < 2);
+  REQUIRE(result.program);
+  CHECK(result.program->layers[0].bound.hi.x <= 2 * kUnitsPerMetre + 1);
+}
+
+TEST_CASE("a flood of errors is cut off", "[grammar][caps]") {
+  const CompileResult result = compileText("sgm 1;\n" + repeated("bogus;\n", 10000));
+  CHECK(result.diagnostics.size() == 51);
+  CHECK(result.diagnostics.back().code == "too-many-errors");
+}
+
+TEST_CASE("a megabyte of noise ends", "[grammar][caps]") {
+  for (std::string_view piece :
+       {"rule A { sphere(1m); }\n", "}", "{", "\"", "1", "a ", "// c\n", "\xFF", "rule\n", "; "}) {
+    std::string text = "sgm 1;\n" + repeated(piece, static_cast<int>(1000000 / piece.size()));
+    const auto begin = std::chrono::steady_clock::now();
+    compileText(text);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    INFO(piece);
+    CHECK(seconds.count() < 5);
+  }
+}
+
+TEST_CASE("two thousand lines compile in well under 50 ms", "[grammar][performance]") {
+  // A tree of rules, each with what a rule usually has.
+  constexpr int kRules = 249;
+  std::string text = "sgm 1;\nimport \"std/rock.sgm\" as rock;\nstart R0(4m);\n";
+  for (int i = 0; i < kRules; ++i) {
+    const std::string n = std::to_string(i);
+    auto callOf = [&](int child) {
+      return child < kRules ? "R" + std::to_string(child) + "(0.9*r);" : std::string("sphere(r);");
+    };
+    text += "rule R" + n + "(r) when r > 1m weight 2 {\n  displace rock.fbm(period 5m, amp 0.1m) { sphere(r); }\n" +
+            "  union smooth 0.2m { at(r, 0m, 0m) box(r, 0.5*r, r); rot(y, 30deg) cylinder(0.5*r, r); }\n" +
+            "  for i in 0..3 { at(0.1m*i, 0m, 0m) torus(r, 0.2*r); }\n  at(0m, 1mm, 0m) " + callOf(2 * i + 1) +
+            "\n  rot(y, rand(0deg, 90deg)) " + callOf(2 * i + 2) + "\n}\nrule R" + n + "(r) else { blob(r); }\n";
+  }
+  REQUIRE(std::count(text.begin(), text.end(), '\n') >= 1990);
+  double best = 1e9;
+  for (int round = 0; round < 3; ++round) {
+    const auto begin = std::chrono::steady_clock::now();
+    const CompileResult result = compileText(text);
+    best = std::min(best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    INFO(renderDiagnostics(result).substr(0, 2000));
+    REQUIRE(result.program);
+  }
+  WARN("2,000 lines: " << best << " ms");
+  CHECK(best < 500);  // loose, for sanitizers and busy machines
+}

@@ -1,0 +1,47 @@
+#pragma once
+// Short ways to compile a text in tests.
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "grammar/compile.h"
+
+namespace sgm::test {
+
+/// Files in memory.
+class MapResolver : public ImportResolver {
+ public:
+  std::map<std::string, std::string, std::less<>> files;
+  int reads = 0;
+
+  Result<std::string> read(std::string_view path, size_t limit) override {
+    ++reads;
+    const auto found = files.find(path);
+    if (found == files.end()) return Error{Code::io, "no such file"};
+    if (found->second.size() > limit) return Error{Code::limit, "too long"};
+    return found->second;
+  }
+};
+
+inline CompileResult compileText(std::string_view text, ImportResolver* resolver = nullptr) {
+  CompileOptions options;
+  options.resolver = resolver;
+  return compileGrammar(text, "test.sgm", options);
+}
+
+/// "3:17 unit-mismatch; 4:1 syntax" of all diagnostics.
+inline std::string brief(const std::vector<Diagnostic>& diagnostics) {
+  std::string out;
+  for (const Diagnostic& d : diagnostics) {
+    if (!out.empty()) out += "; ";
+    out += std::to_string(d.line);
+    out += ':';
+    out += std::to_string(d.column);
+    out += ' ';
+    out += d.code;
+  }
+  return out;
+}
+
+}  // namespace sgm::test

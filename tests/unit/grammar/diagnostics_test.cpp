@@ -1,0 +1,191 @@
+// Every diagnostic code with the exact place at which it is reported.
+
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "catch.h"
+#include "compile_text.h"
+
+using namespace sgm;
+using namespace sgm::test;
+
+namespace {
+
+struct Case {
+  const char* expected;  ///< as brief() writes it
+  const char* text;
+};
+
+const Case kCases[] = {
+    // The text
+    {"2:17 bad-character", "sgm 1; start A;\nrule A { sphere(#2m); }"},
+    {"2:17 bad-character", "sgm 1; start A;\nrule A { sphere($); }"},
+    {"2:14 bad-text", "sgm 1; start A;\nrule A { tag \"unclosed; }\n"},
+    {"2:14 bad-text", "sgm 1; start A;\nrule A { tag \"a\\n\"; }\n"},
+    {"2:17 bad-number", "sgm 1; start A;\nrule A { sphere(.5m); }"},
+    {"2:17 number-range", "sgm 1; start A;\nrule A { sphere(3000km); }"},
+    {"2:17 number-range", "sgm 1; start A;\nrule A { sphere(1e300); }"},
+    {"2:17 unknown-unit", "sgm 1; start A;\nrule A { sphere(3ft); }"},
+    {"1:14 unknown-unit", "sgm 1; units ft; start A; rule A { }"},
+    // The syntax
+    {"3:1 syntax", "sgm 1; start A;\nrule A { }\nbox(1m);"},
+    {"2:21 syntax", "sgm 1; start A;\nrule A { sphere(2m) }"},
+    {"2:8 syntax", "sgm 1;\nstart A\nrule A { }"},
+    {"2:10 syntax", "sgm 1; start A;\nrule A { uinon { sphere(2m); } }"},
+    {"2:8 syntax", "sgm 1; start A;\nrule A { sphere(2m);"},
+    {"2:20 syntax", "sgm 1; start A;\nrule A { let a = 1 < 2 < 3; }"},
+    {"2:10 not-available", "sgm 1; start A;\nrule A { split x { 2m: A; } sphere(2m); }"},
+    {"2:1 not-available", "sgm 1;\noverride \"A\" { use B; }\nstart A; rule A { }"},
+    {"2:6 reserved-word", "sgm 1; start A;\nrule repeat { } rule A { }"},
+    {"1:1 version", "start A; rule A { }"},
+    {"1:5 version", "sgm 2; start A; rule A { }"},
+    {"2:16 duplicate", "sgm 1; start A; rule A { }\nlet a = 1; let a = 2;"},
+    {"1:17 duplicate", "sgm 1; start A; start A; rule A { }"},
+    {"2:20 duplicate", "sgm 1; start A;\nrule A { mat rock; mat clay; }"},
+    {"2:24 duplicate", "sgm 1; start A(1);\nrule A(r) { let b = r; let r = 2; }"},
+    // Imports
+    {"1:15 import-path", "sgm 1; import \"../a.sgm\" as a; start A; rule A { }"},
+    {"1:15 import-missing", "sgm 1; import \"std/rokc.sgm\" as a; start A; rule A { }"},
+    {"1:15 import-missing", "sgm 1; import \"a.sgm\" as a; start A; rule A { }"},
+    // Names and arguments
+    {"2:10 unknown-name", "sgm 1; start A;\nrule A { shpere(2m); }"},
+    {"2:17 unknown-name", "sgm 1; start A;\nrule A { sphere(radius); }"},
+    {"1:14 unknown-name; 1:22 unused-rule", "sgm 1; start B; rule A { }"},
+    {"2:19 unknown-name", "sgm 1; import \"std/rock.sgm\" as rock; start A;\nrule A { displace rock.fmb(1m, 1m) { } }"},
+    {"2:8 unknown-name", "sgm 1; start A; rule A { }\nexpect watertihgt;"},
+    {"2:17 unknown-member", "sgm 1; start A;\nrule A { sphere(cell.q); }"},
+    {"2:10 argument-count", "sgm 1; start A;\nrule A { sphere(); }"},
+    {"2:21 argument-count", "sgm 1; start A;\nrule A { sphere(2m, 3m); }"},
+    {"3:1 argument-count", "sgm 1; start A(1);\nrule A(r) weight 1 { }\nrule A(r, s) weight 1 { }"},
+    {"2:17 argument-name", "sgm 1; start A;\nrule A { sphere(radius 2m); }"},
+    {"2:10 wrong-use", "sgm 1; let b = 2m; start A;\nrule A { b; }"},
+    {"2:17 wrong-use", "sgm 1; start A; rule B { }\nrule A { sphere(B); B; }"},
+    {"2:16 wrong-use", "sgm 1; start A;\nrule A { sum { cut { sphere(2m); } } }"},
+    {"1:16 wrong-use", "sgm 1; let a = cell; start A; rule A { }"},
+    {"1:12 shadows-builtin", "sgm 1; let sphere = 2m; start A; rule A { }"},
+    {"1:27 shadows-builtin", "sgm 1; start A(1); rule A(p) { }"},
+    {"2:6 unused-rule", "sgm 1; start A; rule A { }\nrule B { }"},
+    // Types and stages
+    {"2:17 unit-mismatch", "sgm 1; start A;\nrule A { sphere(5); }"},
+    {"2:17 type-mismatch", "sgm 1; start A;\nrule A { sphere((1m, 2m, 3m)); }"},
+    {"2:13 stage", "sgm 1; start A; field f = p.y;\nrule A when f > 0m { } rule A else { }"},
+    {"2:17 stage", "sgm 1; start A;\nrule A { sphere(p.x); }"},
+    {"2:18 stage", "sgm 1; start A;\nrule A { scatter q.x/1m on disc(2m) sphere(1m); }"},
+    {"1:16 rand-key", "sgm 1; let a = rand(1, 2); start A; rule A { sphere(a*1m); }"},
+    {"1:62 not-constant",
+     "sgm 1; param a = 1m in 0m..2m; domain infinite; layer l cell a reach 1m { start A; } rule A { }"},
+    {"1:13 value-range", "sgm 1; seed -1; start A; rule A { }"},
+    {"1:18 param-range", "sgm 1; param a = 3 in 0..2; start A; rule A { }"},
+    {"1:23 param-range", "sgm 1; param a = 3 in 4..2; start A; rule A { }"},
+    {"2:20 divide-by-zero", "sgm 1; start A;\nrule A { sphere(2m/0); }"},
+    // Structure
+    {"1:27 recursive-value", "sgm 1; let a = b; let b = a; start A; rule A { sphere(a); }"},
+    {"2:10 unbounded-recursion", "sgm 1; start A;\nrule A { A; }"},
+    {"1:1 no-start", "sgm 1; rule A { }"},
+    {"1:8 domain", "sgm 1; domain infinite; start A; rule A { }"},
+    {"2:31 layer-cycle",
+     "sgm 1; domain infinite;\nlayer a cell 8m reach 1m uses b { start A; } layer b cell 8m reach 1m uses a { start A; "
+     "} rule A { }"},
+    {"3:38 layer-uses",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nlayer b cell 8m reach 4m { start A; }\n"
+     "rule A { scatter poisson(1m) probe up 2m of a { sphere(1m); } }"},
+    {"1:38 whole-units", "sgm 1; domain infinite; layer a cell 0.0001m reach 0m { start A; } rule A { }"},
+    {"1:47 reach-too-large", "sgm 1; domain infinite; layer a cell 8m reach 80m { start A; } rule A { }"},
+    {"2:10 reach", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { sphere(6m); }"},
+    {"2:10 reach-maybe",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { sphere(rand(1m, 6m)); }"},
+    {"2:10 morph-disjoint", "sgm 1; start A;\nrule A { morph({ sphere(1m); }, { at(9m, 0m, 0m) sphere(1m); }, 0.5); }"},
+    {"2:6 guards", "sgm 1; start A;\nrule A else { }"},
+};
+
+}  // namespace
+
+TEST_CASE("every diagnostic stands where the fault is", "[grammar][diagnostics]") {
+  for (const Case& c : kCases) {
+    const CompileResult result = compileText(c.text);
+    INFO(c.text << "\n" << renderDiagnostics(result));
+    CHECK(brief(result.diagnostics) == c.expected);
+    for (const Diagnostic& d : result.diagnostics) CHECK(d.end_column > d.column);
+  }
+}
+
+namespace {
+
+/// Codes that only caps or other files bring out.
+std::vector<std::pair<std::string, CompileResult>> cappedCases() {
+  std::vector<std::pair<std::string, CompileResult>> out;
+  auto add = [&](std::string expected, std::string_view text, auto change) {
+    MapResolver resolver;
+    resolver.files["domain.sgm"] = "sgm 1;\ndomain infinite;";
+    resolver.files["loop.sgm"] = "sgm 1;\nimport \"loop.sgm\" as me;";
+    CompileOptions options;
+    options.resolver = &resolver;
+    change(options.limits);
+    out.emplace_back(std::move(expected), compileGrammar(text, "test.sgm", options));
+  };
+  auto none = [](CompileLimits&) {};
+  add("1:1 too-large", "sgm 1; start A; rule A { }", [](CompileLimits& l) { l.text_bytes = 10; });
+  add("1:10 too-large", "sgm 1; a b c", [](CompileLimits& l) { l.nodes = 4; });
+  add("1:28 too-deep", "sgm 1; start A; rule A { { { } } }", [](CompileLimits& l) { l.nesting = 3; });
+  add("1:8 syntax; 1:11 syntax; 1:14 too-many-errors", "sgm 1; a; b; c; d;",
+      [](CompileLimits& l) { l.diagnostics = 2; });
+  add("1:15 import-limit", "sgm 1; import \"domain.sgm\" as d; start A; rule A { }",
+      [](CompileLimits& l) { l.files = 1; });
+  add("2:1 import-content", "sgm 1; import \"domain.sgm\" as d; start A; rule A { }", none);
+  add("2:8 import-cycle", "sgm 1; import \"loop.sgm\" as d; start A; rule A { }", none);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("caps and imports are reported in place", "[grammar][diagnostics]") {
+  for (const auto& [expected, result] : cappedCases()) {
+    INFO(renderDiagnostics(result));
+    CHECK(brief(result.diagnostics) == expected);
+  }
+}
+
+TEST_CASE("no diagnostic code is without a test", "[grammar][diagnostics]") {
+  std::ifstream file(SGM_SOURCE_DIR "/runtime/grammar/codes.h");
+  std::stringstream text;
+  text << file.rdbuf();
+  std::string tested;
+  for (const Case& c : kCases) tested += std::string(" ") + c.expected + " ";
+  for (const auto& [expected, result] : cappedCases()) tested += " " + expected + " ";
+  const std::string source = text.str();
+  const std::regex code("= \"([a-z-]+)\"");
+  int count = 0;
+  for (std::sregex_iterator i(source.begin(), source.end(), code), end; i != end; ++i, ++count) {
+    INFO((*i)[1].str());
+    CHECK(std::regex_search(tested, std::regex(" " + (*i)[1].str() + "[ ;]")));
+  }
+  CHECK(count > 40);
+}
+
+TEST_CASE("one run reports several faults", "[grammar][diagnostics]") {
+  const CompileResult syntax =
+      compileText("sgm 1;\nstart A\nrule A { sphere(1m) }\nrule B { box(1m; sphere(2m); }\nlet = 3;\n");
+  INFO(renderDiagnostics(syntax));
+  CHECK(brief(syntax.diagnostics) == "2:8 syntax; 3:21 syntax; 4:16 syntax; 5:5 syntax");
+  const CompileResult meaning = compileText(
+      "sgm 1;\nstart A;\nparam a = 1m in 2m..3m;\nrule A { sphere(1); bx(2m); rot(y, 3m) sphere(1m + 2deg); }\n");
+  INFO(renderDiagnostics(meaning));
+  CHECK(brief(meaning.diagnostics) ==
+        "3:11 param-range; 4:17 unit-mismatch; 4:21 unknown-name; 4:36 unit-mismatch; 4:47 unit-mismatch");
+}
+
+TEST_CASE("hints name what to write", "[grammar][diagnostics]") {
+  auto hintOf = [](std::string_view text) {
+    const CompileResult result = compileText(text);
+    REQUIRE_FALSE(result.diagnostics.empty());
+    return result.diagnostics[0].hint;
+  };
+  CHECK(hintOf("sgm 1; start A; rule A { shpere(2m); }") == "did you mean `sphere`?");
+  CHECK(hintOf("sgm 1; start A; rule A { sphere(5); }") == "write `5m`");
+  CHECK(hintOf("sgm 1; start A; rule A { rot(y, 90) sphere(5m); }") == "write `90deg`");
+  CHECK(hintOf("sgm 1; start A; rule A { sphere(5mn); }") == "did you mean `m`?");
+  CHECK(hintOf("sgm 1; start A; rule A { sphere(5m) && box(1m); }") == "write `and`");
+  CHECK(hintOf("sgm 1; start A; rule A { scater 3 on disc(1m) { sphere(1m); } }") == "did you mean `scatter`?");
+}

@@ -1,0 +1,176 @@
+#include "random_program.h"
+
+#include <array>
+
+#include "base/hash.h"
+
+namespace sgm::test {
+
+namespace {
+
+class Writer {
+ public:
+  explicit Writer(uint64_t seed) : key_{seed} {}
+
+  std::string program() {
+    out_ = "sgm 1;\n";
+    if (chance(30)) comment();
+    out_ += "import \"std/noise.sgm\" as noise;\n";
+    out_ += "param size_ = 2m in 1m..3m \"a \\\"doc\\\"\";\nparam count = 3 in 1..5;\n";
+    out_ += "let twice(x) = 2*x;\nfield wave(amp, period = 2m) = amp*fractal(period);\n";
+    out_ += "domain finite box(4000m, 4000m, 4000m);\nstart R0(1m);\n";
+    for (int r = 0; r < 4; ++r) rule(r);
+    out_ += "rule R4(r) { sphere(r); }\nmorphic M(r) : sphere(r) -> box(r, r, 2*r) by 0.5" +
+            std::string(pick({"", " power", " lerp"})) + ";\n";
+    if (chance(50)) out_ += "expect volume in 1m3..2m3 per R0;\nreport area;\n";
+    return out_;
+  }
+
+ private:
+  uint64_t draw(uint64_t below) { return hashCombine(key_.value, ++count_) % below; }
+  bool chance(uint64_t percent) { return draw(100) < percent; }
+  const char* pick(std::initializer_list<const char*> list) { return list.begin()[draw(list.size())]; }
+  void comment() { out_ += std::string("// note ") + std::to_string(draw(100)) + (chance(30) ? "  \n\n\n" : "\n"); }
+  void blank() {
+    const uint64_t kind = draw(12);
+    if (kind == 0) comment();
+    out_ += kind == 1 ? "\n\n" : kind < 5 ? "\n" : " ";
+  }
+
+  void rule(int r) {
+    level_ = r;
+    if (chance(30)) comment();
+    const std::string head = "rule R" + std::to_string(r) + "(r)";
+    const uint64_t kind = draw(4);
+    const char* guards[] = {"", " when r > 0.5m and not (r >= 90m)", " weight 2", " depth 3 -> R4(r) lod 1m"};
+    out_ += head + guards[kind];
+    block(0);
+    out_ += "\n";
+    if (kind == 1) out_ += head + " else { }\n";
+    if (kind == 2) out_ += head + " weight count { M(r); }\n";
+  }
+
+  void block(int depth) {
+    blank();
+    out_ += '{';
+    const uint64_t count = draw(4);
+    for (uint64_t i = 0; i < count; ++i) {
+      blank();
+      statement(depth + 1);
+    }
+    blank();
+    out_ += '}';
+  }
+
+  void body(int depth) {
+    if (chance(60) || depth > 5)
+      block(depth);
+    else
+      statement(depth);
+  }
+
+  void statement(int depth) {
+    if (depth > 5) {
+      out_ += "sphere(r);";
+      return;
+    }
+    switch (draw(16)) {
+      case 0:
+        out_ += "sphere(" + length(0) + ");";
+        return;
+      case 1:
+        out_ += "box(" + length(0) + ", " + length(0) + "," + length(0) + ");";
+        return;
+      case 2:
+        out_ += "truncone(" + length(1) + ", bottom " + "0.5*r" + ", top r);";
+        return;
+      case 3:
+        out_ += "R" + std::to_string(level_ + 1) + "(" + length(2) + ");";
+        return;
+      case 4:
+        out_ += "union" + std::string(pick({" ", " smooth 0.2m "}));
+        return body(depth + 1);
+      case 5:
+        out_ += "cut ";
+        return block(depth + 1);
+      case 6:
+        out_ += "morph(sphere(r), { box(r); }, " + ratio(0) + ")" + pick({"", " lerp"}) + ";";
+        return;
+      case 7:
+        out_ += "displace wave(amp 0.1m" + std::string(pick({"", ", period = 3m", ", period r"})) + ") ";
+        return body(depth + 1);
+      case 8:
+        out_ += "at(" + length(0) + ", 0, -1m) " + pick({"", "rot(y, 30deg) ", "mirror(x) scale(0.5) "});
+        return body(depth + 1);
+      case 9:
+        out_ += "repeat count rot(z, -90deg) ";
+        return body(depth + 1);
+      case 10:
+        out_ += "for i" + std::to_string(depth) + " in 0..count ";
+        return block(depth + 1);
+      case 11:
+        out_ += "scatter 3 on " + std::string(pick({"disc(r)", "shell(r, up 60%)", "box(r, r, r)"})) +
+                pick({" ", " when chance(50%) "});
+        return body(depth + 1);
+      case 12:
+        out_ += "{ let v" + std::to_string(depth) + " = " + length(0) + "; tag \"t\"; mat stone; } ";
+        return;
+      case 13:
+        out_ += "anchor spawn" + std::string(pick({"", " \"n\""})) + ";";
+        return;
+      case 14:
+        out_ += "detail 5cm ";
+        return body(depth + 1);
+      default:
+        out_ += "meet { sphere(r); halfspace(below " + length(1) + "); }";
+        return;
+    }
+  }
+
+  std::string length(int depth) {
+    if (depth > 3) return pick({"r", "2m", "50cm", "size_", "1.5m"});
+    switch (draw(9)) {
+      case 0:
+        return length(depth + 1) + pick({" + ", "-", " - "}) + "(" + length(depth + 1) + ")";
+      case 1:
+        return "(" + length(depth + 1) + " + r)*" + ratio(depth + 1);
+      case 2:
+        return "twice(" + length(depth + 1) + ")/2";
+      case 3:
+        return "min(" + length(depth + 1) + ", " + length(depth + 1) + ")";
+      case 4:
+        return "(if " + ratio(depth + 1) + " < 0.5 then r else " + length(depth + 1) + ")";
+      case 5:
+        return "rand(0.5m, 1m)";
+      case 6:
+        return "(1m, r, size_).y";
+      default:
+        return pick({"r", "2m", "50cm", "size_", "(0.5*r)"});
+    }
+  }
+
+  std::string ratio(int depth) {
+    if (depth > 3) return pick({"0.5", "30%", "1"});
+    switch (draw(5)) {
+      case 0:
+        return "(" + ratio(depth + 1) + "*" + ratio(depth + 1) + ")";
+      case 1:
+        return "clamp(" + length(depth + 1) + "/1m, 0, 1)";
+      case 2:
+        return "-(-" + ratio(depth + 1) + ")";
+      default:
+        return pick({"0.5", "30%", "0.25"});
+    }
+  }
+
+  PathKey key_;
+  uint64_t count_ = 0;
+  int level_ = 0;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string randomProgram(uint64_t seed) { return Writer(seed).program(); }
+
+}  // namespace sgm::test

@@ -1,0 +1,144 @@
+#include "catch.h"
+#include "compile_text.h"
+#include "grammar/interval.h"
+
+using namespace sgm;
+using namespace sgm::test;
+
+namespace {
+
+/// The proven bound, in metres, of a rule in an 8 m cell.
+struct Bound {
+  bool compiled = false, proven = false;
+  double lo[3] = {}, hi[3] = {};
+  std::string brief, messages;
+};
+
+Bound boundOf(const std::string& body, const std::string& more = "", const std::string& reach = "30m") {
+  const CompileResult result =
+      compileText("sgm 1; import \"std/noise.sgm\" as noise; domain infinite;\nlayer l cell 8m reach " + reach +
+                  " { start A; }\n" + more + "\nrule A { " + body + " }");
+  Bound out;
+  out.brief = brief(result.diagnostics);
+  out.messages = renderDiagnostics(result);
+  if (!result.program) return out;
+  out.compiled = true;
+  out.proven = result.program->layers[0].proven;
+  for (int axis = 0; axis < 3; ++axis) {
+    out.lo[axis] = result.program->layers[0].bound.lo[axis] / 1024.0;
+    out.hi[axis] = result.program->layers[0].bound.hi[axis] / 1024.0;
+  }
+  return out;
+}
+
+void checkBound(const std::string& body, std::array<double, 3> lo, std::array<double, 3> hi,
+                const std::string& more = "") {
+  const Bound bound = boundOf(body, more);
+  INFO(body << "\n" << bound.messages);
+  REQUIRE(bound.compiled);
+  CHECK(bound.proven);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    INFO("axis " << axis);
+    CHECK(bound.lo[axis] == Approx(lo[axis]).margin(0.003));
+    CHECK(bound.hi[axis] == Approx(hi[axis]).margin(0.003));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("bounds of shapes and transforms are tight where they can be", "[grammar][reach]") {
+  checkBound("sphere(2m);", {-2, -2, -2}, {2, 2, 2});
+  checkBound("box(2m, 4m, 6m);", {-1, -2, -3}, {1, 2, 3});
+  checkBound("at(1m, 2m, 3m) sphere(1m);", {0, 1, 2}, {2, 3, 4});
+  checkBound("rot(y, 90deg) at(4m, 0m, 0m) sphere(1m);", {-1, -1, -5}, {1, 1, -3});
+  checkBound("mirror(x) at(4m, 0m, 0m) sphere(1m);", {-5, -1, -1}, {-3, 1, 1});
+  checkBound("scale(2) at(1m, 0m, 0m) sphere(1m);", {0, -2, -2}, {4, 2, 2});
+  checkBound("repeat 3 at(2m, 0m, 0m) sphere(1m);", {-1, -1, -1}, {5, 1, 1});
+  checkBound("for i in 0..4 { at(1m*i, 0m, 0m) sphere(1m); }", {-1, -1, -1}, {4, 1, 1});
+  checkBound("at(cell.center) sphere(1m);", {3, 3, 3}, {5, 5, 5});
+  checkBound("at(cell.point(jitter 0.5)) sphere(1m);", {1, 1, 1}, {7, 7, 7});
+  checkBound("sphere(rand(1m, 3m));", {-3, -3, -3}, {3, 3, 3});
+  checkBound("truncone(4m, top 1m, bottom 2m);", {-2, -2, -2}, {2, 2, 2});
+  checkBound("capsule((0m, 0m, 0m), (3m, 0m, 0m), 1m);", {-1, -1, -1}, {4, 1, 1});
+  checkBound("tube((0m, 0m, 0m), (3m, 0m, 0m), 1m, bend 2m);", {-3, -3, -3}, {6, 3, 3});
+  checkBound("prism(2m, (-1m, -2m), (3m, -2m), (0m, 4m));", {-1, -1, -2}, {3, 1, 4});
+  checkBound("meet { sphere(2m); halfspace(below 1m); }", {-2, -2, -2}, {2, 1, 2});
+  checkBound("union { sphere(2m); cut { halfspace(below 0m); } }", {-2, -2, -2}, {2, 2, 2});
+  checkBound("size(2m, 4m, 6m) B;", {-1, -2, -3}, {1, 2, 3}, "rule B { box(scope); }");
+  checkBound("scatter 9 on disc(3m) sphere(1m);", {-4, -1, -4}, {4, 1, 4});
+  checkBound("scatter poisson(1m) sphere(1m);", {-1, -1, -1}, {9, 9, 9});
+}
+
+TEST_CASE("smoothing, displacement and sums enter the reach", "[grammar][reach]") {
+  checkBound("union smooth 0.5m { sphere(2m); box(1m); }", {-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5});
+  checkBound("displace noise.fbm(period 1m, amp 0.25m) { sphere(2m); }", {-2.25, -2.25, -2.25}, {2.25, 2.25, 2.25});
+  checkBound("displace clamp(p.y, -1m, 0.5m) { sphere(2m); }", {-3, -3, -3}, {3, 3, 3});
+  checkBound("displace p.y amp 1m { sphere(2m); }", {-3, -3, -3}, {3, 3, 3});
+  checkBound("warp noise.swirl(period 1m, amp 0.5m) { sphere(2m); }", {-2.5, -2.5, -2.5}, {2.5, 2.5, 2.5});
+  checkBound("sum { blob(2m); }", {-3.2, -3.2, -3.2}, {3.2, 3.2, 3.2});
+  checkBound("morph(sphere(1m), box(4m), p.y/1m);", {-2, -2, -2}, {2, 2, 2});
+}
+
+TEST_CASE("guards narrow what a parameter may be", "[grammar][reach]") {
+  checkBound("B(rand(1m, 9m));", {-3, -3, -3}, {3, 3, 3},
+             "rule B(r) when r < 3m { sphere(r); } rule B(r) else { box(1m); }");
+  checkBound("B(rand(1m, 9m));", {-3, -3, -3}, {3, 3, 3},
+             "rule B(r) when r > 3m { box(1m); } rule B(r) else { sphere(r); }");
+  checkBound("B(3, 1m);", {-4, -4, -4}, {4, 4, 4},
+             "rule B(n, r) when n > 0 { B(n - 1, r + 1m); } rule B(n, r) else { sphere(r); }");
+  checkBound("B;", {-1, -1, -1}, {5, 1, 1}, "rule B depth 4 -> sphere(1m) { sphere(1m); at(1m, 0m, 0m) B; }");
+}
+
+TEST_CASE("a reach that cannot hold is an error, one that may not a warning", "[grammar][reach]") {
+  CHECK(boundOf("sphere(4m);", "", "4m").brief.empty());
+  CHECK(boundOf("sphere(5m);", "", "4m").brief == "4:10 reach");
+  CHECK(boundOf("sphere(rand(3m, 5m));", "", "4m").brief == "4:10 reach-maybe");
+  CHECK(boundOf("at(0m, 15m, 0m) sphere(rand(1m, 2m));", "", "4m").brief == "4:26 reach");
+  CHECK(boundOf("displace p.y { sphere(1m); }").brief == "4:19 reach");
+  CHECK(boundOf("halfspace(below 0m);").brief == "4:10 reach");
+  CHECK(boundOf("sphere(1m/rand(0, 1));").brief == "4:10 reach");
+  CHECK(boundOf("B(3m);", "rule B(r) { sphere(r); at(0m, 20m, 0m) C(r); } rule C(r) { sphere(r); }", "4m").brief ==
+        "4:10 reach");
+  const Bound bound = boundOf("B(14m);", "rule B(r) { sphere(r); }", "4m");
+  CHECK(bound.messages.find("cannot prove reach: `B` may extend 14 m from its cell, layer `l` declares reach 4 m") !=
+        std::string::npos);
+}
+
+TEST_CASE("probes count", "[grammar][reach]") {
+  const char* text =
+      "sgm 1; domain infinite solid;\nlayer net cell 8m reach 4m { start A; }\nlayer drip cell 8m reach %s uses net { "
+      "start D; }\n"
+      "rule A { cut { at(cell.center) sphere(2m); } }\nrule D { scatter poisson(1m) probe up 4m of net { sphere(1m); } "
+      "}";
+  auto with = [&](const std::string& reach) {
+    std::string out = text;
+    return brief(compileText(out.replace(out.find("%s"), 2, reach)).diagnostics);
+  };
+  CHECK(with("5m").empty());
+  CHECK(with("4m") == "5:51 reach-maybe");
+}
+
+TEST_CASE("a finite grammar without a box gets the bound of its shapes", "[grammar][reach]") {
+  const CompileResult result = compileText("sgm 1; start A; rule A { at(3m, 0m, 0m) sphere(2m); }");
+  REQUIRE(result.program);
+  CHECK(result.program->domain.box == IntBox{{-6 * 1024, -3 * 1024, -3 * 1024}, {6 * 1024, 3 * 1024, 3 * 1024}});
+  CHECK(brief(compileText("sgm 1; start A; rule A { halfspace(below 0m); }").diagnostics) == "1:26 reach");
+  CHECK(brief(compileText("sgm 1; domain finite box(4m); start A; rule A { sphere(3m); }").diagnostics) ==
+        "1:49 reach");
+  CHECK(compileText("sgm 1; domain finite box(4m); start A; rule A { meet { halfspace(below 0m); sphere(2m); } }")
+            .program);
+}
+
+TEST_CASE("interval arithmetic holds its values", "[grammar][reach]") {
+  const Interval a{-2, 3}, b{1, 4};
+  CHECK((a + b).lo <= -1);
+  CHECK((a * b).hi >= 12);
+  CHECK((a / b).lo <= -2);
+  CHECK_FALSE((b / a).bounded());
+  CHECK(absolute(a) == Interval{0, 3});
+  CHECK(cosine({-0.1, 0.1}).hi == 1);
+  CHECK(cosine({3.0, 3.3}).lo == -1);
+  CHECK(sine({0, 7}) == Interval{-1, 1});
+  CHECK(smoothStep({0, 0}, {1, 1}, {0.5, 2}).hi == Approx(1));
+  CHECK(power({2, 3}, {2, 2}).hi >= 9);
+}
