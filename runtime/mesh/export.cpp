@@ -68,8 +68,8 @@ std::string shortest(T value) {
 
 }  // namespace
 
-std::string numberText(float value) { return shortest(value); }
-std::string numberText(double value) { return shortest(value); }
+std::string decimalText(float value) { return shortest(value); }
+std::string decimalText(double value) { return shortest(value); }
 
 std::string oneLine(std::string text) {
   for (char& c : text)

@@ -21,8 +21,8 @@ Float3 exportedNormal(const WorldMesh& mesh, uint32_t vertex);
 uint16_t triangleMaterial(const WorldMesh& mesh, size_t first_index);
 ExportMaterial materialAt(const ExportInfo& info, uint16_t index);
 /// Shortest text that reads back as the same number, in any locale.
-std::string numberText(float value);
-std::string numberText(double value);
+std::string decimalText(float value);
+std::string decimalText(double value);
 /// Line breaks and other control characters become spaces, so that a name stays within its line.
 std::string oneLine(std::string text);
 

@@ -99,7 +99,7 @@ std::string quoted(const std::string& text) {
 }
 
 std::string vectorText(const Float3& v) {
-  return '[' + numberText(v[0]) + ',' + numberText(v[1]) + ',' + numberText(v[2]) + ']';
+  return '[' + decimalText(v[0]) + ',' + decimalText(v[1]) + ',' + decimalText(v[2]) + ']';
 }
 
 /// Joins the texts that item(i) gives for i < count.
@@ -114,7 +114,7 @@ std::string listOf(size_t count, Item item) {
 }
 
 std::string extrasText(const WorldMesh& mesh, const ExportInfo& info) {
-  const auto metres = [&](int axis) { return numberText(mesh.origin[axis] / static_cast<double>(kUnitsPerMetre)); };
+  const auto metres = [&](int axis) { return decimalText(mesh.origin[axis] / static_cast<double>(kUnitsPerMetre)); };
   return "{\"sgm\":{\"originUnits\":[" + std::to_string(mesh.origin.x) + ',' + std::to_string(mesh.origin.y) + ',' +
          std::to_string(mesh.origin.z) + "],\"unitsPerMetre\":" + std::to_string(kUnitsPerMetre) +
          ",\"originMetres\":[" + metres(0) + ',' + metres(1) + ',' + metres(2) +
@@ -135,14 +135,15 @@ std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::
     return "{\"attributes\":{\"POSITION\":" + accessor(0) + ",\"NORMAL\":" + accessor(1) + ",\"_TAG\":" + accessor(2) +
            "},\"indices\":" + accessor(3) + ",\"material\":" + std::to_string(p) + '}';
   });
-  json +=
-      "}],\"materials\":" + listOf(primitives.size(), [&](size_t p) {
-        const ExportMaterial m = materialAt(info, primitives[p].material);
-        return "{\"name\":" + quoted(m.name) + ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[" +
-               numberText(std::clamp(m.colour[0], 0.0f, 1.0f)) + ',' + numberText(std::clamp(m.colour[1], 0.0f, 1.0f)) +
-               ',' + numberText(std::clamp(m.colour[2], 0.0f, 1.0f)) +
-               ",1],\"metallicFactor\":0,\"roughnessFactor\":" + numberText(std::clamp(m.roughness, 0.0f, 1.0f)) + "}}";
-      });
+  json += "}],\"materials\":" + listOf(primitives.size(), [&](size_t p) {
+            const ExportMaterial m = materialAt(info, primitives[p].material);
+            return "{\"name\":" + quoted(m.name) + ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[" +
+                   decimalText(std::clamp(m.colour[0], 0.0f, 1.0f)) + ',' +
+                   decimalText(std::clamp(m.colour[1], 0.0f, 1.0f)) + ',' +
+                   decimalText(std::clamp(m.colour[2], 0.0f, 1.0f)) +
+                   ",1],\"metallicFactor\":0,\"roughnessFactor\":" + decimalText(std::clamp(m.roughness, 0.0f, 1.0f)) +
+                   "}}";
+          });
   json += ",\"accessors\":" + listOf(primitives.size(), [&](size_t p) {
             const Primitive& primitive = primitives[p];
             const auto attribute = [&](size_t offset, const char* rest) {

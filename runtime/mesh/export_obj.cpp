@@ -25,7 +25,7 @@ std::vector<uint16_t> usedMaterials(const WorldMesh& mesh) {
 }
 
 void writeVector(FileWriter& file, const char* keyword, const Float3& v) {
-  file.write(keyword + numberText(v[0]) + ' ' + numberText(v[1]) + ' ' + numberText(v[2]) + '\n');
+  file.write(keyword + decimalText(v[0]) + ' ' + decimalText(v[1]) + ' ' + decimalText(v[2]) + '\n');
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::
     const ExportMaterial material = materialAt(info, m);
     library->write("newmtl " + materialWord(info, m) + '\n');
     writeVector(*library, "Kd ", material.colour);
-    library->write("Pr " + numberText(material.roughness) + '\n');
+    library->write("Pr " + decimalText(material.roughness) + '\n');
     file->write("usemtl " + materialWord(info, m) + '\n');
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       if (triangleMaterial(mesh, i) != m) continue;
