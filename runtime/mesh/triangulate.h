@@ -164,9 +164,7 @@ inline uint32_t* triangulateLoop(int n, uint32_t* out, Load&& point) {
   }
 }
 
-/// As triangulateAnyLoop, quicker.
-inline uint32_t* triangulateLoop(const LoopPoint* p, int n, uint32_t* out) {
-  return triangulateLoop(n, out, [p](size_t i) -> const LoopPoint& { return p[i]; });
-}
+/// The same from points in memory, compiled once: for callers that are not in a hurry.
+uint32_t* triangulateLoop(const LoopPoint* loop, int n, uint32_t* out);
 
 }  // namespace sgm
