@@ -55,9 +55,12 @@ void addExpr(Hasher& h, const Expr& e) {
 
 void translate(GrammarChunk& chunk, Int3 offset) {
   const auto move = [&](Int3& p) { p = saturatingAdd(p, offset); };
-  for (Shape& s : chunk.shapes) move(s.frame.origin);
+  for (Shape& s : chunk.shapes) {
+    // Combiners have no place of their own.
+    if (s.kind < ShapeKind::unite || s.kind == ShapeKind::morph_power) move(s.frame.origin);
+  }
   for (Expr& e : chunk.exprs) {
-    move(e.anchor);
+    if (e.op == ExprOp::coordinate) move(e.anchor);
     // A prism's points are local; a sweep's are in the world.
     for (uint32_t i = 0; i < e.point_count; ++i) move(chunk.points[e.first_point + i]);
   }

@@ -130,7 +130,7 @@ void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& o
       continue;
     }
     if (!limit.contains(box)) {
-      const std::string by = metresText(excess(box, limit)) + " m";
+      const std::string by = metresText(excess(box, limit) + kReachSlack) + " m";
       note(!isWhole(layer_) ? "this shape may pass the reach of its cell by " + by + "; it is left out whole"
                             : "this shape may pass the domain's box by " + by + "; it is left out whole",
            origin.span, origin.activation);

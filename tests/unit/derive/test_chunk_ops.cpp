@@ -46,11 +46,15 @@ TEST_CASE("translation moves sweeps, coordinates and noise, but not the corners 
   sweep.first_point = 2;
   sweep.point_count = 2;
   chunk.exprs.push_back(sweep);
+  Expr height;
+  height.op = ExprOp::coordinate;
+  chunk.exprs.push_back(height);
   chunk.noises.push_back({});
   translate(chunk, {10, 20, 30});
   CHECK(chunk.points[0] == Int3{1, 0, 1});
   CHECK(chunk.points[2] == Int3{15, 25, 35});
-  CHECK(chunk.exprs[0].anchor == Int3{10, 20, 30});
+  CHECK(chunk.exprs[0].anchor == Int3{});
+  CHECK(chunk.exprs[1].anchor == Int3{10, 20, 30});
   CHECK(chunk.noises[0].origin == Int3{10, 20, 30});
 }
 
