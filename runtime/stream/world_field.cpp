@@ -25,7 +25,7 @@ Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3
   return cache_.get({layer, at}, [&]() -> Result<GrammarChunk> {
     const Program& program = *settings_.program;
     // Probes start in the cell and end within its reach.
-    const IntBox around = moved(cellBox(program.layers[layer], at).grown(program.layers[layer].reach), settings_.shift);
+    const IntBox around = moved(cellLimit(program, layer, at), settings_.shift);
     LayersBelow below(*this, around);
     Result<GrammarChunk> chunk =
         deriveCell(program, settings_.parameters, settings_.seed, layer, at, below, DeriveLimits{}, memory_);
@@ -37,9 +37,12 @@ Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3
 
 Result<std::vector<CellKey>> WorldField::cellsReaching(uint32_t layer, const IntBox& box) const {
   const Layer& info = settings_.program->layers[layer];
+  if (info.cell_expr == kNoId) return std::vector<CellKey>{{layer, {}}};  // a grammar without layers is one cell
   const IntBox home = moved(box, {saturate(-int64_t{settings_.shift.x}), saturate(-int64_t{settings_.shift.y}),
                                   saturate(-int64_t{settings_.shift.z})});
+  if (isWhole(info)) return std::vector<CellKey>{{layer, {}}};
   std::array<int64_t, 3> first{}, last{};
+  const int64_t reach = int64_t{info.reach} + kReachSlack;
   int64_t count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
@@ -48,8 +51,8 @@ Result<std::vector<CellKey>> WorldField::cellsReaching(uint32_t layer, const Int
     // Cells that would lie partly outside of the world derive nothing.
     const int64_t world_first = floorDiv(int64_t{INT32_MIN} + edge - 1, edge),
                   world_last = floorDiv(INT32_MAX, edge) - 1;
-    first[a] = std::clamp(floorDiv(int64_t{home.lo[axis]} - info.reach, edge), world_first, world_last);
-    last[a] = std::clamp(floorDiv(int64_t{home.hi[axis]} + info.reach, edge), world_first, world_last);
+    first[a] = std::clamp(floorDiv(int64_t{home.lo[axis]} - reach, edge), world_first, world_last);
+    last[a] = std::clamp(floorDiv(int64_t{home.hi[axis]} + reach, edge), world_first, world_last);
     count *= last[a] - first[a] + 1;
     if (count > kMaxCells) {
       return Error{Code::limit, "more than a million cells reach into one chunk; make the layer's cells larger"};
