@@ -84,13 +84,13 @@ const Case kCases[] = {
     {"1:27 recursive-value", "sgm 1; let a = b; let b = a; start A; rule A { sphere(a); }"},
     {"2:10 unbounded-recursion", "sgm 1; start A;\nrule A { A; }"},
     {"1:1 no-start", "sgm 1; rule A { }"},
-    {"1:8 domain", "sgm 1; domain infinite; start A; rule A { }"},
+    {"1:25 domain", "sgm 1; domain infinite; start A; rule A { }"},
     {"2:31 layer-cycle",
      "sgm 1; domain infinite;\nlayer a cell 8m reach 1m uses b { start A; } layer b cell 8m reach 1m uses a { start A; "
      "} rule A { }"},
-    {"3:38 layer-uses",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nlayer b cell 8m reach 4m { start A; }\n"
-     "rule A { scatter poisson(1m) probe up 2m of a { sphere(1m); } }"},
+    {"3:45 layer-uses",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start B; }\nlayer b cell 8m reach 4m { start A; }\n"
+     "rule A { scatter poisson(1m) probe up 2m of a { sphere(1m); } } rule B { sphere(1m); }"},
     {"1:38 whole-units", "sgm 1; domain infinite; layer a cell 0.0001m reach 0m { start A; } rule A { }"},
     {"1:47 reach-too-large", "sgm 1; domain infinite; layer a cell 8m reach 80m { start A; } rule A { }"},
     {"2:10 reach", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { sphere(6m); }"},

@@ -1,0 +1,64 @@
+// The language on hostile text: it must end, within its caps, without undefined behaviour, and printing what parses
+// must be a fixed point that keeps the meaning.
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "grammar/compile.h"
+
+namespace {
+
+/// Every import is the text itself again: circles, depth and count caps are met on the way.
+class SameText : public sgm::ImportResolver {
+ public:
+  explicit SameText(std::string_view text) : text_(text) {}
+  sgm::Result<std::string> read(std::string_view path, size_t limit) override {
+    // The sandbox: whatever the text says, a path never leaves the folder.
+    require(path.find("..") == std::string_view::npos || path.find("../") == std::string_view::npos, "left the folder");
+    require(!path.empty() && path.front() != '/', "an absolute path");
+    if (text_.size() > limit) return sgm::Error{sgm::Code::limit, "too long"};
+    return std::string(text_);
+  }
+
+  static void require(bool condition, const char* what) {
+    if (condition) return;
+    std::fprintf(stderr, "parser_fuzz: %s\n", what);
+    std::abort();
+  }
+
+ private:
+  std::string_view text_;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  sgm::CompileOptions options;
+  SameText resolver(text);
+  options.resolver = &resolver;
+  options.limits.files = 4;
+  options.limits.bound_steps = 1u << 14;
+  const sgm::CompileResult result = sgm::compileGrammar(text, "fuzz.sgm", options);
+  bool error = false;
+  for (const sgm::Diagnostic& d : result.diagnostics) {
+    error = error || d.severity == sgm::Severity::error;
+    SameText::require(d.line >= 1 && d.column >= 1 && d.end_column > d.column, "a diagnostic without a place");
+  }
+  SameText::require(error == (result.program == nullptr), "a program in spite of errors, or none without");
+  sgm::renderDiagnostics(result);
+
+  const sgm::FormatResult once = sgm::formatGrammar(text, "fuzz.sgm");
+  if (!once.text) return 0;
+  const sgm::FormatResult twice = sgm::formatGrammar(*once.text, "fuzz.sgm");
+  SameText::require(twice.text.has_value(), "what was printed does not parse");
+  SameText::require(*twice.text == *once.text, "printing is no fixed point");
+  if (!result.program) return 0;
+  const sgm::CompileResult again = sgm::compileGrammar(*once.text, "fuzz.sgm", options);
+  // An import reads the text itself, which the printed one would change; only programs without one compare.
+  if (result.files.size() == 1)
+    SameText::require(again.program && again.program->hash == result.program->hash, "printing changed the meaning");
+  return 0;
+}
