@@ -175,6 +175,7 @@ class Checker {
   std::vector<bool> start_rules_;
   uint32_t rule_ = 0, alternative_ = 0;
   uint32_t ordinal_ = 0, draws_ = 0;
+  int expression_depth_ = 0;
   bool layers_known_ = false;  ///< otherwise what is said of layers would only follow from another error
 };
 

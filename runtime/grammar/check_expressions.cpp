@@ -8,6 +8,7 @@ namespace sgm {
 namespace {
 
 constexpr Type kUnknown{};
+constexpr int kDeepestExpressions = 400;
 
 Type numberType(Dim dim, bool sample = false) { return {ValueKind::number, dim, sample, false}; }
 
@@ -123,6 +124,13 @@ Type Checker::unify(const Type& a, const Type& b, bool& good) const {
 
 Type Checker::expression(ExprId id) {
   if (id == kNoId) return kUnknown;
+  // Lets within lets add up; what a thread's stack holds must not depend on the text.
+  if (expression_depth_ >= kDeepestExpressions) {
+    sink_.error(node(id).span, codes::kTooDeep, "lets, fields and expressions within each other go too deep",
+                "use fewer levels of lets");
+    return kUnknown;
+  }
+  ++expression_depth_;
   ExprNode& n = node(id);
   Type type;
   switch (n.kind) {
@@ -193,6 +201,7 @@ Type Checker::expression(ExprId id) {
       type = callValue(id);
       break;
   }
+  --expression_depth_;
   node(id).type = type;
   return type;
 }

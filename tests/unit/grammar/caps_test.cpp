@@ -117,3 +117,20 @@ TEST_CASE("two thousand lines compile in well under 50 ms", "[grammar][performan
   WARN("2,000 lines: " << best << " ms");
   CHECK(best < 500);  // loose, for sanitizers and busy machines
 }
+
+TEST_CASE("lets within lets and rules within rules stay on a small stack", "[grammar][caps]") {
+  std::string text = "sgm 1; start R0(1m);\nlet f0(x) = x;\n";
+  for (int i = 1; i <= 60; ++i) {
+    text += "let f" + std::to_string(i) + "(x) = ";
+    for (int k = 0; k < 50; ++k) text += "-(";
+    text += "f" + std::to_string(i - 1) + "(x)" + repeated(")", 50) + ";\n";
+  }
+  CHECK(mentions(compileText(text + "rule R0(r) { sphere(f60(r)); }"), "too-deep"));
+  std::string rules = "sgm 1; start R0(1m); let f0(x) = x;\n";
+  for (int i = 0; i < 300; ++i)
+    rules +=
+        "rule R" + std::to_string(i) + "(r) { " + repeated("union ", 50) + "R" + std::to_string(i + 1) + "(r); }\n";
+  const CompileResult deep = compileText(rules + "rule R300(r) { sphere(r); }");
+  INFO(renderDiagnostics(deep).substr(0, 500));
+  CHECK(mentions(deep, "reach"));
+}
