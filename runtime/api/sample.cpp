@@ -6,6 +6,7 @@
 
 #include "api/barrier.h"
 #include "api/field.h"
+#include "backend/cpu/instruction_sets.h"
 #include "field/evaluate.h"
 #include "field/prune.h"
 
@@ -61,7 +62,8 @@ class Evaluation {
         box = box.joined({p, p});
       }
       sgm::prune(view, box, prune_scratch_, pruned_);
-      view = pruned_.view();
+      // Nothing is left of a program that is proven uniform, and the values are still asked for.
+      if (!pruned_.solid() && !pruned_.empty()) view = pruned_.view();
     }
     for (size_t first = 0; first < places.size(); first += sgm::kEvalBlock)
       runBlock(view, places.subspan(first, std::min(sgm::kEvalBlock, places.size() - first)));
@@ -77,7 +79,7 @@ class Evaluation {
       z_[i] = p.z;
     }
     const sgm::Points points{x_, y_, z_, n};
-    const sgm::FieldKernels& kernels = sgm::scalarKernels();
+    const sgm::FieldKernels& kernels = sgm::bestKernels();
     if (desc_.q != nullptr) {
       kernels.samples(view, points, scratch_, q_);
       for (size_t i = 0; i < n; ++i) desc_.q[places[i].index] = q_[i];
