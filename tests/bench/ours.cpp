@@ -116,9 +116,12 @@ Mesh Ours::welded() {
   check(sgm_surface_from_region(field_, &region, &made, &error), error);
   const Surface surface(made, sgm_surface_destroy);
   const sgm_surface_view view = viewOf(surface);
-  for (int axis = 0; axis < 3; ++axis)
-    if (view.origin[axis] != region.minimum[axis]) throw std::runtime_error("the region was not on chunk borders");
-  return copied(view, double{SGM_UNITS_PER_METRE} / scene_.cell_units);
+  Mesh mesh = copied(view, double{SGM_UNITS_PER_METRE} / scene_.cell_units);
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    const int32_t from = view.origin[i % 3] - region.minimum[i % 3];
+    mesh.positions[i] += static_cast<float>(from / static_cast<double>(scene_.cell_units));
+  }
+  return mesh;
 }
 
 Grid Ours::sample() {
