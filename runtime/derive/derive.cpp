@@ -25,10 +25,9 @@ int64_t excess(const IntBox& box, const IntBox& limit) {
   return most;
 }
 
-/// A top-level start derives once, over the domain; its scope stands at the origin.
-bool isWhole(const Layer& layer) { return layer.cell_expr == kNoId; }
-
 }  // namespace
+
+bool isWhole(const Layer& layer) { return layer.cell_expr == kNoId; }
 
 IntBox cellBox(const Layer& layer, Int3 cell) {
   IntBox box = IntBox::everything();

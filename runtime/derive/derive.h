@@ -23,6 +23,9 @@ struct DeriveLimits {
   uint32_t notes = 64;              ///< further notes are counted, not kept
 };
 
+/// A top-level start, without layers: it derives once, over the domain, as cell 0 0 0; its scope stands at the origin.
+bool isWhole(const Layer& layer);
+
 /// The box that a cell of the layer covers; along axes that are not cut into cells, all of the axis; without layers,
 /// everything. hi is the last unit that still belongs to the cell. Saturates.
 IntBox cellBox(const Layer& layer, Int3 cell);

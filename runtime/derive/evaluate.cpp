@@ -91,7 +91,8 @@ Value Interpreter::evaluateBinary(const ExprNode& node, const Env& env) {
     if (a.kind == ValueKind::cell || a.kind == ValueKind::face) {
       return {a.cell == b.cell && a.axis == b.axis ? 1.0 : 0.0};
     }
-    return negated(draft_.binary(ExprOp::add, less(a, b), less(b, a)));
+    const Num below = less(a, b), above = less(b, a);
+    return negated(draft_.binary(ExprOp::add, below, above));
   };
   switch (node.binary) {
     case BinaryOp::add:
@@ -156,8 +157,10 @@ Value Interpreter::evaluateName(const ExprNode& node, const Env& env) {
 
 Value Interpreter::sampleCoordinates(const Env& env, bool local) {
   if (!local) {
-    return Value::vector(draft_.coordinate({}, {1, 0, 0}), draft_.coordinate({}, {0, 1, 0}),
-                         draft_.coordinate({}, {0, 0, 1}));
+    const Num x = draft_.coordinate({}, {1, 0, 0});
+    const Num y = draft_.coordinate({}, {0, 1, 0});
+    const Num z = draft_.coordinate({}, {0, 0, 1});
+    return Value::vector(x, y, z);
   }
   // The anchor is the scope's origin rounded to units; what rounding took away is added back.
   const Placement& at = env.place;

@@ -51,11 +51,21 @@ Value Interpreter::evaluateBuiltin(const ExprNode& node, const Env& env) {
 Value Interpreter::evaluatePure(const ExprNode& node, const Env& env) {
   const auto num = [&](uint32_t i) { return argument(node, i, env).n[0]; };
   const auto real = [&](uint32_t i) { return realArgument(node, i, env); };
+  // One after another: the order in which a compiler evaluates a call's arguments must not reach the chunk.
+  const auto all = [&](uint32_t count) {
+    std::array<Num, 3> values;
+    for (uint32_t i = 0; i < count; ++i) values[i] = num(i);
+    return values;
+  };
   switch (static_cast<Builtin>(node.id)) {
-    case Builtin::min:
-      return Value::number(draft_.binary(ExprOp::minimum, num(0), num(1)));
-    case Builtin::max:
-      return Value::number(draft_.binary(ExprOp::maximum, num(0), num(1)));
+    case Builtin::min: {
+      const auto v = all(2);
+      return Value::number(draft_.binary(ExprOp::minimum, v[0], v[1]));
+    }
+    case Builtin::max: {
+      const auto v = all(2);
+      return Value::number(draft_.binary(ExprOp::maximum, v[0], v[1]));
+    }
     case Builtin::abs:
       return Value::number(draft_.unary(ExprOp::absolute, num(0)));
     case Builtin::floor:
@@ -64,12 +74,18 @@ Value Interpreter::evaluatePure(const ExprNode& node, const Env& env) {
       return Value::number(-detFloor(-real(0)));
     case Builtin::sqrt:
       return Value::number(draft_.unary(ExprOp::square_root, num(0)));
-    case Builtin::mix:
-      return Value::number(draft_.mix(num(0), num(1), num(2)));
-    case Builtin::clamp:
-      return Value::number(draft_.clamp(num(0), num(1), num(2)));
-    case Builtin::smoothstep:
-      return Value::number(draft_.smoothstep(real(0), real(1), num(2)));
+    case Builtin::mix: {
+      const auto v = all(3);
+      return Value::number(draft_.mix(v[0], v[1], v[2]));
+    }
+    case Builtin::clamp: {
+      const auto v = all(3);
+      return Value::number(draft_.clamp(v[0], v[1], v[2]));
+    }
+    case Builtin::smoothstep: {
+      const auto v = all(3);
+      return Value::number(draft_.smoothstep(v[0].value, v[1].value, v[2]));
+    }
     case Builtin::fract: {
       const Num a = num(0);
       return Value::number(draft_.binary(ExprOp::subtract, a, draft_.unary(ExprOp::floor, a)));
@@ -78,14 +94,20 @@ Value Interpreter::evaluatePure(const ExprNode& node, const Env& env) {
       return Value::number(detSin(real(0)));
     case Builtin::cos:
       return Value::number(detCos(real(0)));
-    case Builtin::atan2:
-      return Value::number(detAtan2(real(0), real(1)));
-    case Builtin::pow:
-      return Value::number(detPow(real(0), real(1)));
+    case Builtin::atan2: {
+      const auto v = all(2);
+      return Value::number(detAtan2(v[0].value, v[1].value));
+    }
+    case Builtin::pow: {
+      const auto v = all(2);
+      return Value::number(detPow(v[0].value, v[1].value));
+    }
     case Builtin::length:
       return Value::number(length(argument(node, 0, env).vec()));
-    case Builtin::position:
-      return Value::vector(num(0), num(1), num(2));
+    case Builtin::position: {
+      const auto v = all(3);
+      return Value::vector(v[0], v[1], v[2]);
+    }
     default:
       return {};
   }

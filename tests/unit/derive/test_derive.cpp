@@ -61,6 +61,17 @@ TEST_CASE("the cave's first cell is what it always was") {
   CHECK(hashChunk(chunk) == 0xe88bd880a0f705efu);
 }
 
+TEST_CASE("expressions stand in the order in which they are written, whatever the compiler") {
+  const auto chunk = derivedRules(
+      "rule Main { displace max(0.1m*fractal(3m), 0.1m*fractal(5m)) amp 0.2m { sphere(2m); } "
+      "displace 1m*mix(fractal(2m), fractal(4m), p.z/9m) amp 0.2m { sphere(2m); } }");
+  REQUIRE(chunk.noises.size() == 4);
+  CHECK(chunk.noises[0].period == 3072);
+  CHECK(chunk.noises[1].period == 5120);
+  CHECK(chunk.noises[2].period == 2048);
+  CHECK(chunk.noises[3].period == 4096);
+}
+
 TEST_CASE("the cave: all groups cut, bounds hold the chunk's reach, one anchor in its own cell") {
   const auto program = compiled(kCave);
   for (int i = 0; i < 27; ++i) {
