@@ -58,13 +58,13 @@ std::vector<Scene> makeScenes(int cells, const std::string& cave_path) {
 
   const int32_t cell = kEdge / cells;
   const int32_t low = -kEdge / 2;
-  // The cave has its own scale: half a metre a cell at 256 cells, so that every size sees the same 128 m of it.
+  // The cave has its own scale: half a metre a cell at 256 cells, so that every size sees the same 128 m, with a chamber.
   const int32_t cave_cell = 128 * kUnits / cells;
   return {
       {"sphere", scene("  sphere(25m);\n"), cell, {low, low, low}},
       {"blobs", scene(blobs), cell, {low, low, low}},
       {"spheres", scene(spheres), cell, {low, low, low}},
-      {"cave", readText(cave_path), cave_cell, {0, 0, 0}},
+      {"cave", readText(cave_path), cave_cell, {kEdge, kEdge, kEdge}},
   };
 }
 

@@ -73,7 +73,9 @@ uint64_t hashOf(const Piece& piece, const std::string& folder, uint32_t threads)
   const std::unique_ptr<sgm_surface, decltype(&sgm_surface_destroy)> surface_owner(surface, sgm_surface_destroy);
   sgm_surface_view view = SGM_SURFACE_VIEW_INIT;
   check(sgm_surface_get_view(surface, &view, &error), error, piece);
-  if (view.index_count == 0) throw std::runtime_error(piece.grammar + ": a piece without a surface proves nothing");
+  if (view.index_count == 0)
+    throw std::runtime_error(piece.grammar + " at " + std::to_string(piece.corner[0]) +
+                             ": a piece without a surface proves nothing");
   return sgm_surface_hash(surface);
 }
 
