@@ -11,11 +11,16 @@ namespace sgm::api {
 
 std::optional<BackendRequest> requestOf(sgm_backend backend) {
   switch (backend) {
-    case SGM_BACKEND_AUTO: return BackendRequest{};
-    case SGM_BACKEND_CPU: return BackendRequest{BackendKind::cpu, false, {}};
-    case SGM_BACKEND_VULKAN: return BackendRequest{BackendKind::vulkan, false, {}};
-    case SGM_BACKEND_CUDA: return BackendRequest{BackendKind::cuda, false, {}};
-    case SGM_BACKEND_FORCE_32_BIT: break;
+    case SGM_BACKEND_AUTO:
+      return BackendRequest{};
+    case SGM_BACKEND_CPU:
+      return BackendRequest{BackendKind::cpu, false, {}};
+    case SGM_BACKEND_VULKAN:
+      return BackendRequest{BackendKind::vulkan, false, {}};
+    case SGM_BACKEND_CUDA:
+      return BackendRequest{BackendKind::cuda, false, {}};
+    case SGM_BACKEND_FORCE_32_BIT:
+      break;
   }
   return std::nullopt;
 }
@@ -28,18 +33,24 @@ namespace {
 
 const char* nameOf(sgm::BackendKind kind) {
   switch (kind) {
-    case sgm::BackendKind::cpu: return "cpu";
-    case sgm::BackendKind::vulkan: return "vulkan";
-    case sgm::BackendKind::cuda: return "cuda";
+    case sgm::BackendKind::cpu:
+      return "cpu";
+    case sgm::BackendKind::vulkan:
+      return "vulkan";
+    case sgm::BackendKind::cuda:
+      return "cuda";
   }
   return "";
 }
 
 sgm_backend backendOf(sgm::BackendKind kind) {
   switch (kind) {
-    case sgm::BackendKind::cpu: return SGM_BACKEND_CPU;
-    case sgm::BackendKind::vulkan: return SGM_BACKEND_VULKAN;
-    case sgm::BackendKind::cuda: return SGM_BACKEND_CUDA;
+    case sgm::BackendKind::cpu:
+      return SGM_BACKEND_CPU;
+    case sgm::BackendKind::vulkan:
+      return SGM_BACKEND_VULKAN;
+    case sgm::BackendKind::cuda:
+      return SGM_BACKEND_CUDA;
   }
   return SGM_BACKEND_AUTO;
 }
@@ -58,7 +69,8 @@ sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_back
     if (sgm_result r = checkDesc(error, info, "info"); r != SGM_OK) return r;
     const std::optional<sgm::BackendRequest> request = requestOf(backend);
     if (!request) return fail(error, SGM_ERR_INVALID_ARGUMENT, "backend is no sgm_backend");
-    const sgm::Result<std::unique_ptr<sgm::Backend>> made = sgm::makeBackend(*request, *runtime->jobs, &runtime->memory);
+    const sgm::Result<std::unique_ptr<sgm::Backend>> made =
+        sgm::makeBackend(*request, *runtime->jobs, &runtime->memory);
     if (!made && made.error().code != sgm::Code::unsupported) return fail(error, made.error());
     info->backend = backend;
     info->usable = made ? 1 : 0;

@@ -73,11 +73,14 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
     for (const sgm_chunk_request& request : std::span(desc->requests, desc->count)) {
       if (sgm_result r = checkRequest(*field, request, error); r != SGM_OK) return r;
       requests.push_back({{request.key.level, {request.key.x, request.key.y, request.key.z}},
-                          static_cast<uint8_t>(request.seams), sgm::Neighbourhood{}});
+                          static_cast<uint8_t>(request.seams),
+                          sgm::Neighbourhood{}});
     }
     sgm::Progress progress;
     if (desc->progress != nullptr)
-      progress = [desc](uint64_t done, uint64_t total) { return desc->progress(desc->progress_user, done, total) == 0; };
+      progress = [desc](uint64_t done, uint64_t total) {
+        return desc->progress(desc->progress_user, done, total) == 0;
+      };
     sgm::Result<std::vector<sgm::PlacedChunk>> chunks =
         sgm::meshChunks(field->world, *field->backend, *field->runtime.jobs, requests, progress);
     if (!chunks) return fail(error, chunks.error());

@@ -16,9 +16,9 @@ sgm_result checkLevel(const sgm_field& field, int32_t level, sgm_error* error) {
   if (level < 0 || level > SGM_MAX_LEVEL)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "level is not 0 to " + std::to_string(SGM_MAX_LEVEL));
   if (int64_t{field.world.settings().finest_cell} << level > kLargestCell)
-    return fail(error, SGM_ERR_RANGE,
-                "the cells of level " + std::to_string(level) + " are larger than " + std::to_string(kLargestCell) +
-                    " units");
+    return fail(
+        error, SGM_ERR_RANGE,
+        "the cells of level " + std::to_string(level) + " are larger than " + std::to_string(kLargestCell) + " units");
   return SGM_OK;
 }
 
@@ -40,8 +40,8 @@ sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sg
 
     sgm::WorldFieldSettings settings;
     settings.program = desc->grammar->program;
-    settings.parameters = desc->parameters != nullptr ? desc->parameters->values
-                                                      : sgm::ParameterValues::defaults(*settings.program);
+    settings.parameters =
+        desc->parameters != nullptr ? desc->parameters->values : sgm::ParameterValues::defaults(*settings.program);
     settings.seed = desc->seed;
     settings.finest_cell = desc->cell_units;
     if (desc->cache_bytes != 0) settings.cache_bytes = desc->cache_bytes;

@@ -23,7 +23,8 @@ inline constexpr int32_t kLargestFinestCell = 1 << 20;
 /// Of any level: what the rounding of vertices to units holds for (mesh/vertex.h).
 inline constexpr int64_t kLargestCell = int64_t{1} << 22;
 
-/// SGM_OK where the field has cells at the level; else INVALID_ARGUMENT (no such level) or RANGE (its cells are too large).
+/// SGM_OK where the field has cells at the level; else INVALID_ARGUMENT (no such level) or RANGE (its cells are too
+/// large).
 sgm_result checkLevel(const sgm_field& field, int32_t level, sgm_error* error);
 
 }  // namespace sgm::api

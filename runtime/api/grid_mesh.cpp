@@ -116,7 +116,7 @@ class GridMesher {
   size_t words_;
   std::pmr::vector<uint64_t> signs_;
   std::mutex bounds_mutex_;
-  bool bounded_ = false;  ///< some slab has set the bounds
+  bool bounded_ = false;                                      ///< some slab has set the bounds
   std::pmr::vector<uint64_t> first_vertex_, first_triangle_;  ///< by plane and by layer of cells; counts, then sums
 };
 
@@ -179,7 +179,8 @@ std::array<float, 3> GridMesher::gradient(std::array<size_t, 3> sample) const {
   return result;
 }
 
-void GridMesher::writeVertex(GridMesh& mesh, uint32_t vertex, std::array<size_t, 3> sample, int axis, uint32_t t) const {
+void GridMesher::writeVertex(GridMesh& mesh, uint32_t vertex, std::array<size_t, 3> sample, int axis,
+                             uint32_t t) const {
   const auto a = static_cast<size_t>(axis);
   float* position = mesh.positions.data() + size_t{vertex} * 3;
   for (size_t i = 0; i < 3; ++i) {
@@ -342,9 +343,8 @@ Result<GridMesh> GridMesher::run() {
   // A few slabs a thread: each pays for one plane twice and for two planes of scratch.
   const size_t slabs = std::min<size_t>(nz(), size_t{jobs_.concurrency()} * 4);
   const size_t thick = (nz() + slabs - 1) / slabs;
-  parallelFor(jobs_, (nz() + thick - 1) / thick, [&](size_t slab) {
-    meshPlanes(slab * thick, std::min(nz(), (slab + 1) * thick), mesh);
-  });
+  parallelFor(jobs_, (nz() + thick - 1) / thick,
+              [&](size_t slab) { meshPlanes(slab * thick, std::min(nz(), (slab + 1) * thick), mesh); });
   return mesh;
 }
 

@@ -9,7 +9,8 @@
 
 using namespace sgm::api;
 
-static_assert(sizeof(sgm_vertex) == sizeof(sgm::Vertex) && offsetof(sgm_vertex, material) == offsetof(sgm::Vertex, material) &&
+static_assert(sizeof(sgm_vertex) == sizeof(sgm::Vertex) &&
+              offsetof(sgm_vertex, material) == offsetof(sgm::Vertex, material) &&
               offsetof(sgm_vertex, normal_x) == offsetof(sgm::Vertex, normal_x) &&
               offsetof(sgm_vertex, tag) == offsetof(sgm::Vertex, tag));
 static_assert(SGM_CHUNK_CELLS == sgm::kChunkCells && SGM_SUBCELL == sgm::kSubcell &&

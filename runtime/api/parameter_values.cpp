@@ -21,7 +21,8 @@ Result<uint32_t> findParameter(const Program& program, std::string_view name) {
   return Error{Code::invalid_argument, message};
 }
 
-Result<void> setFromText(const Program& program, std::string_view name, std::string_view text, ParameterValues& values) {
+Result<void> setFromText(const Program& program, std::string_view name, std::string_view text,
+                         ParameterValues& values) {
   const Result<uint32_t> index = findParameter(program, name);
   if (!index) return index.error();
 

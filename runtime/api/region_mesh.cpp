@@ -16,8 +16,8 @@ Int3 originFor(const IntBox& extent) {
 
 }  // namespace
 
-Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region, int level,
-                              uint64_t max_chunks, const Progress& progress) {
+Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
+                              int level, uint64_t max_chunks, const Progress& progress) {
   const Result<std::vector<ChunkKey>> keys = chunksOfRegion(world, region, level, max_chunks);
   if (!keys) return keys.error();
   std::vector<ChunkRequest> requests;

@@ -1,14 +1,14 @@
 #pragma once
 // A region of one level as a single mesh: what the C interface's surfaces and the command's files are made of.
 
-#include "stream/mesh_chunks.h"
 #include "mesh/weld.h"
+#include "stream/mesh_chunks.h"
 
 namespace sgm::api {
 
 struct RegionMesh {
   WorldMesh mesh;
-  IntBox extent;               ///< the region grown to whole chunks; hi does not belong to it
+  IntBox extent;  ///< the region grown to whole chunks; hi does not belong to it
   uint64_t chunks = 0;
   uint64_t solid_samples = 0;  ///< of the samples on the low faces and between, 32^3 a chunk
   ContentHash hash;            ///< of the set of its chunks' meshes
@@ -19,7 +19,7 @@ struct RegionMesh {
 /// Meshes lo <= p < hi, grown outward to whole chunks. Positions count from the world's origin where the extent lies
 /// within 4,096 m of it (float32 then keeps them to 1/4,096 m or better), else from the extent's lowest corner.
 /// Errors: invalid_argument where the extent leaves the world; limit; those of meshChunks and weld.
-Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region, int level,
-                              uint64_t max_chunks, const Progress& progress = {});
+Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
+                              int level, uint64_t max_chunks, const Progress& progress = {});
 
 }  // namespace sgm::api

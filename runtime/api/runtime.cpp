@@ -11,10 +11,10 @@ namespace {
 constexpr uint32_t kMostThreads = 1024;
 
 void* systemAllocate(void*, size_t size, size_t alignment) {
-  return ::operator new(size, std::align_val_t{alignment}, std::nothrow);
+  return ::operator new (size, std::align_val_t{alignment}, std::nothrow);
 }
 void systemRelease(void*, void* memory, size_t, size_t alignment) {
-  ::operator delete(memory, std::align_val_t{alignment});
+  ::operator delete (memory, std::align_val_t{alignment});
 }
 
 sgm_result checkVersion(uint32_t version, sgm_error* error) {

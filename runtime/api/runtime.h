@@ -1,5 +1,6 @@
 #pragma once
-// The runtime handle: what the caller gave (memory, threads, log), adapted to our interfaces, and the count of children.
+// The runtime handle: what the caller gave (memory, threads, log), adapted to our interfaces, and the count of
+// children.
 
 #include <atomic>
 #include <memory>
@@ -45,7 +46,8 @@ class CallerJobs final : public JobSystem {
 }  // namespace sgm::api
 
 struct sgm_runtime {
-  sgm_runtime(const sgm_allocator& allocator_in, uint64_t limit) : allocator(allocator_in), memory(allocator_in, limit) {}
+  sgm_runtime(const sgm_allocator& allocator_in, uint64_t limit)
+      : allocator(allocator_in), memory(allocator_in, limit) {}
 
   void log(sgm_log_level level, const std::string& message) const {
     if (sink.write != nullptr) sink.write(sink.user, level, message.c_str());

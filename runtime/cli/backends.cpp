@@ -13,7 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-
 Exit listBackends(bool json) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime* runtime = nullptr;
@@ -49,8 +48,11 @@ Exit listBackends(bool json) {
                            {"rounds_to_nearest", gpu.rounds_to_nearest},
                            {"preserves_denormals", gpu.preserves_denormals}});
     }
-    Json out{{"version", sgm_version_string()}, {"build", sgm_build_info()}, {"auto", infos[0].name},
-             {"backends", std::move(list)},     {"vulkan_devices", std::move(devices)}};
+    Json out{{"version", sgm_version_string()},
+             {"build", sgm_build_info()},
+             {"auto", infos[0].name},
+             {"backends", std::move(list)},
+             {"vulkan_devices", std::move(devices)}};
     if (!gpus) out["vulkan_error"] = gpus.error().message;
     fmt::print("{}\n", out.dump(2));
     return Exit::done;

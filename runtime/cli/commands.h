@@ -1,6 +1,6 @@
 #pragma once
-// The subcommands of `sgm`, one source each. An add function declares the subcommand's options and says what to run when
-// it is the one given.
+// The subcommands of `sgm`, one source each. An add function declares the subcommand's options and says what to run
+// when it is the one given.
 
 #include <CLI/CLI.hpp>
 #include <functional>

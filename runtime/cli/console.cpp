@@ -13,9 +13,12 @@ Exit exitOf(Code code) {
     case Code::bad_input:
     case Code::limit:
     case Code::out_of_memory:
-    case Code::cancelled: return Exit::input;
-    case Code::io: return Exit::file;
-    case Code::unsupported: return Exit::backend;
+    case Code::cancelled:
+      return Exit::input;
+    case Code::io:
+      return Exit::file;
+    case Code::unsupported:
+      return Exit::backend;
   }
   return Exit::input;
 }

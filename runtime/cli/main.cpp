@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <csignal>
 #include <exception>
 #include <new>
 #include <utility>
@@ -18,13 +19,14 @@ Exit run(int argc, char** argv) {
   CLI::App app("Shape grammars with morphing: from grammar text to meshes and pictures.", "sgm");
   app.set_version_flag("--version", std::string("sgm ") + sgm_version_string());
   app.require_subcommand(1);
-  app.footer("Run sgm COMMAND --help for its options and an example.\n"
-             "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
-             "be read or written.");
+  app.footer(
+      "Run sgm COMMAND --help for its options and an example.\n"
+      "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
+      "be read or written.");
   using Add = sgm::cli::Command (*)(CLI::App&);
   std::vector<sgm::cli::Command> commands;
-  for (const Add add : {sgm::cli::addCheck, sgm::cli::addFmt, sgm::cli::addMesh, sgm::cli::addRender,
-                        sgm::cli::addBackends})
+  for (const Add add :
+       {sgm::cli::addCheck, sgm::cli::addFmt, sgm::cli::addMesh, sgm::cli::addRender, sgm::cli::addBackends})
     commands.push_back(add(app));
 
   try {
@@ -44,6 +46,8 @@ Exit run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that grows past a limit is then a failed write, which cleans up after itself.
+  std::signal(SIGXFSZ, SIG_IGN);
   Exit status = Exit::input;
   try {
     status = run(argc, argv);

@@ -68,13 +68,14 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
                static_cast<double>(summary.bytes) / 1e6, region.seconds);
   }
   fmt::print("  region   {},{},{} to {},{},{} m: {} chunks, cells of {} m ({} units)\n", metres(box.lo.x),
-             metres(box.lo.y), metres(box.lo.z), metres(box.hi.x), metres(box.hi.y), metres(box.hi.z), region.meshed.chunks,
-             metres(region.cell), region.cell);
+             metres(box.lo.y), metres(box.lo.z), metres(box.hi.x), metres(box.hi.y), metres(box.hi.z),
+             region.meshed.chunks, metres(region.cell), region.cell);
   fmt::print("  area     {:.1f} m2 (equation 7: half of each triangle's cross product)\n", summary.measures.area);
   fmt::print("  volume   {:.1f} m3 solid, {:.1f} m3 open (equation 8: cubes of one cell, each centred on a sample)\n",
              summary.volume, summary.void_volume);
   fmt::print("  objects  {} (section 7.3: triangles joined by shared vertices)\n", summary.measures.objects);
-  fmt::print("  hash     {:016x} (seed {}, {} on {})\n", region.meshed.hash.value(), options.seed, region.backend, region.device);
+  fmt::print("  hash     {:016x} (seed {}, {} on {})\n", region.meshed.hash.value(), options.seed, region.backend,
+             region.device);
 }
 
 Exit mesh(const MeshOptions& options) {
@@ -111,10 +112,12 @@ Command addMesh(CLI::App& root) {
   const auto options = std::make_shared<MeshOptions>();
   addWorldOptions(*app, *options);
   addRegionOptions(*app, *options);
-  app->add_option("--out", options->out, "Mesh file to write; its ending chooses .glb, .obj, .ply or .stl. Without it the "
-                                         "mesh is only measured")
+  app->add_option("--out", options->out,
+                  "Mesh file to write; its ending chooses .glb, .obj, .ply or .stl. Without it the "
+                  "mesh is only measured")
       ->check(checkOut);
-  app->footer("Example:\n  sgm mesh samples/grammars/cave.sgm --out cave.glb --region 0,0,0:64,64,64 --cell 0.5 --seed 7");
+  app->footer(
+      "Example:\n  sgm mesh samples/grammars/cave.sgm --out cave.glb --region 0,0,0:64,64,64 --cell 0.5 --seed 7");
   return [options] { return mesh(*options); };
 }
 

@@ -65,7 +65,8 @@ std::string checkSet(const std::string& text) {
 void addWorldOptions(CLI::App& app, WorldOptions& options) {
   app.add_option("FILE", options.file, "The grammar, a .sgm file")->required();
   app.add_option("--seed", options.seed, "Seed of the world, a whole number from 0")->capture_default_str();
-  app.add_option("--set", options.sets, "Give a parameter of the grammar a value (repeatable)")->type_name("NAME=VALUE")
+  app.add_option("--set", options.sets, "Give a parameter of the grammar a value (repeatable)")
+      ->type_name("NAME=VALUE")
       ->allow_extra_args(false)
       ->check(checkSet);
   app.add_option("--backend", options.backend, "What computes")
@@ -81,7 +82,8 @@ void addRegionOptions(CLI::App& app, WorldOptions& options) {
   app.add_option("--region", options.region, "Region in metres, x0,y0,z0:x1,y1,z1, grown to whole chunks")
       ->type_name("BOX")
       ->check(checkRegion);
-  CLI::Option* cell = app.add_option("--cell", options.cell, "Edge of a sampling cell in metres (0.5)")->type_name("METRES");
+  CLI::Option* cell =
+      app.add_option("--cell", options.cell, "Edge of a sampling cell in metres (0.5)")->type_name("METRES");
   app.add_option("--ld", options.density, "Sampling density of the paper: cells per metre, so a cell edge of 1/N m")
       ->type_name("N")
       ->excludes(cell);

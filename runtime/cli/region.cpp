@@ -23,9 +23,12 @@ sgm_backend backendNamed(const std::string& name) {
 
 const char* backendName(BackendKind kind) {
   switch (kind) {
-    case BackendKind::cpu: return "cpu";
-    case BackendKind::vulkan: return "vulkan";
-    case BackendKind::cuda: return "cuda";
+    case BackendKind::cpu:
+      return "cpu";
+    case BackendKind::vulkan:
+      return "vulkan";
+    case BackendKind::cuda:
+      return "cuda";
   }
   return "";
 }
@@ -41,7 +44,8 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
   for (const auto& [place, found] : by_place) {
     const auto& [line, column, message] = place;
     if (++shown > kMostNotes) {
-      fmt::print(stderr, "{}: warning: {} more places where shapes were left out\n", file, by_place.size() - kMostNotes);
+      fmt::print(stderr, "{}: warning: {} more places where shapes were left out\n", file,
+                 by_place.size() - kMostNotes);
       return;
     }
     fmt::print(stderr, "{}:{}:{}: warning: {} (left out {} times, first in {})\n", file, line, column, message,
@@ -71,12 +75,14 @@ RegionResult meshRegion(const WorldOptions& options, const std::optional<IntBox>
   if (!parameters) return failure(complain(parameters.error()));
   if (options.region.empty() && !program.domain.infinite) region = program.domain.box;
   if (!region)
-    return failure(complain(Exit::usage, "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1"));
+    return failure(
+        complain(Exit::usage, "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1"));
 
   const Stopwatch watch;
   const std::unique_ptr<JobSystem> jobs = makeThreadPool(options.threads);
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
-  const Result<std::unique_ptr<Backend>> backend = makeBackend(*api::requestOf(backendNamed(options.backend)), *jobs, memory);
+  const Result<std::unique_ptr<Backend>> backend =
+      makeBackend(*api::requestOf(backendNamed(options.backend)), *jobs, memory);
   if (!backend) return failure(complain(backend.error()));
   WorldFieldSettings settings;
   settings.program = grammar.program;
@@ -88,10 +94,11 @@ RegionResult meshRegion(const WorldOptions& options, const std::optional<IntBox>
 
   Result<api::RegionMesh> meshed = [&] {
     ProgressBar bar("meshing");
-    return api::meshRegion(world, **backend, *jobs, *region, 0, options.max_chunks, [&bar](uint64_t done, uint64_t total) {
-      bar.show(done, total);
-      return true;
-    });
+    return api::meshRegion(world, **backend, *jobs, *region, 0, options.max_chunks,
+                           [&bar](uint64_t done, uint64_t total) {
+                             bar.show(done, total);
+                             return true;
+                           });
   }();
   if (!meshed) return failure(complain(meshed.error()));
   Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);

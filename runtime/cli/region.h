@@ -15,7 +15,7 @@ namespace sgm::cli {
 struct Region {
   std::shared_ptr<const Program> program;
   api::RegionMesh meshed;
-  int32_t cell = 0;  ///< units
+  int32_t cell = 0;             ///< units
   std::vector<Anchor> anchors;  ///< in the region
   std::string backend, device;
   double seconds = 0;  ///< from the compiled grammar to the welded mesh

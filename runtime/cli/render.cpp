@@ -56,7 +56,8 @@ using Gaze = std::array<std::array<double, 3>, 2>;
 std::optional<Gaze> readCamera(std::string_view text) {
   const size_t colon = text.find(':');
   if (colon == std::string_view::npos) return std::nullopt;
-  const std::optional<std::array<double, 3>> from = readPoint(text.substr(0, colon)), to = readPoint(text.substr(colon + 1));
+  const std::optional<std::array<double, 3>> from = readPoint(text.substr(0, colon)),
+                                             to = readPoint(text.substr(colon + 1));
   if (!from || !to) return std::nullopt;
   for (const double x : {(*from)[0], (*from)[1], (*from)[2], (*to)[0], (*to)[1], (*to)[2]})
     if (!(std::fabs(x) < 2.2e6)) return std::nullopt;
@@ -90,8 +91,8 @@ std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
 glm::vec3 fromOrigin(const WorldMesh& mesh, const std::array<double, 3>& world) {
   glm::vec3 point;
   for (int axis = 0; axis < 3; ++axis)
-    point[axis] = static_cast<float>(world[static_cast<size_t>(axis)] -
-                                     static_cast<double>(mesh.origin[axis]) / kUnitsPerMetre);
+    point[axis] =
+        static_cast<float>(world[static_cast<size_t>(axis)] - static_cast<double>(mesh.origin[axis]) / kUnitsPerMetre);
   return point;
 }
 
@@ -148,7 +149,8 @@ Json metres(const WorldMesh& mesh, const glm::vec3& point) {
 
 /// What is drawn of an endless world without --region: what lies around the camera, or around the world's origin.
 IntBox surroundings(const RenderOptions& options) {
-  const std::array<double, 3> centre = options.camera.empty() ? std::array<double, 3>{} : (*readCamera(options.camera))[0];
+  const std::array<double, 3> centre =
+      options.camera.empty() ? std::array<double, 3>{} : (*readCamera(options.camera))[0];
   IntBox box;
   for (int axis = 0; axis < 3; ++axis) {
     const auto middle = static_cast<int64_t>(centre[static_cast<size_t>(axis)] * kUnitsPerMetre);
@@ -201,8 +203,8 @@ Exit render(const RenderOptions& options) {
     fmt::print("{}\n", json.dump(2));
   } else {
     const Json position = metres(region.meshed.mesh, camera.position);
-    fmt::print("{}: {}x{} pixels, {} triangles meshed in {:.2f} s, drawn in {:.2f} s on {}\n", options.out, image->width,
-               image->height, triangles, region.seconds, watch.seconds(), renderer->info().name);
+    fmt::print("{}: {}x{} pixels, {} triangles meshed in {:.2f} s, drawn in {:.2f} s on {}\n", options.out,
+               image->width, image->height, triangles, region.seconds, watch.seconds(), renderer->info().name);
     fmt::print("  camera   at {:.1f},{:.1f},{:.1f} m{}\n", position[0].get<double>(), position[1].get<double>(),
                position[2].get<double>(), view->enclosed ? ", inside" : "");
   }

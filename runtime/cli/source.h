@@ -12,8 +12,8 @@ namespace sgm::cli {
 /// Reads a text of at most the compiler's own limit. Errors: io, limit.
 Result<std::string> readGrammarText(const std::string& file);
 
-/// Compiles the file; imports come from its folder. Error (io, limit) only where the file itself cannot be read: what is
-/// wrong in the text stands in the diagnostics.
+/// Compiles the file; imports come from its folder. Error (io, limit) only where the file itself cannot be read: what
+/// is wrong in the text stands in the diagnostics.
 Result<CompileResult> compileFile(const std::string& file);
 
 /// As compileFile, and prints every message to stderr as "file:line:column: error: ..." with the line and a caret. The

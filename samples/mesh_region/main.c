@@ -1,4 +1,5 @@
-/* mesh_region FILE.sgm OUT.obj: meshes 32 m around the origin and writes the welded surface as Wavefront OBJ. */
+/* mesh_region FILE.sgm OUT.obj: meshes 32 m around an anchor of the grammar's, or around the origin where it has none
+ * near, and writes the welded surface as Wavefront OBJ. */
 #include <inttypes.h>
 #include <sgm/sgm.h>
 #include <stdio.h>
@@ -67,6 +68,17 @@ static int report_progress(void* user, uint64_t done, uint64_t total) {
   return 0;
 }
 
+/* The first anchor within 128 m of the origin, in units; the origin where there is none. */
+static sgm_result find_place(sgm_field* field, int32_t place[3], sgm_error* error) {
+  const int32_t low[3] = {-128 * SGM_UNITS_PER_METRE, -128 * SGM_UNITS_PER_METRE, -128 * SGM_UNITS_PER_METRE};
+  const int32_t high[3] = {128 * SGM_UNITS_PER_METRE, 128 * SGM_UNITS_PER_METRE, 128 * SGM_UNITS_PER_METRE};
+  sgm_anchor anchor;
+  size_t count = 1;
+  sgm_result result = sgm_field_anchors(field, low, high, &anchor, &count, error);
+  if (result >= SGM_OK && count > 0) memcpy(place, anchor.position, sizeof anchor.position);
+  return result < SGM_OK ? result : SGM_OK;
+}
+
 static void print_diagnostics(const sgm_diagnostics* list) {
   uint32_t i;
   for (i = 0; i < sgm_diagnostics_count(list); ++i) {
@@ -91,6 +103,7 @@ int main(int argc, char** argv) {
   sgm_result result;
   char folder[4096];
   char* content;
+  int32_t place[3] = {0, 0, 0};
   int axis;
 
   if (argc != 3) {
@@ -107,10 +120,6 @@ int main(int argc, char** argv) {
   text.name = argv[1];
   text.import_folder = folder;
   world.seed = 7;
-  for (axis = 0; axis < 3; ++axis) {
-    region.minimum[axis] = -16 * SGM_UNITS_PER_METRE;
-    region.maximum[axis] = 16 * SGM_UNITS_PER_METRE;
-  }
   region.progress = report_progress;
 
   result = sgm_runtime_create(NULL, &runtime, &error);
@@ -119,6 +128,11 @@ int main(int argc, char** argv) {
   world.grammar = grammar;
   if (result == SGM_OK) result = sgm_cell_from_metres(0.5, &world.cell_units, &error);
   if (result == SGM_OK) result = sgm_field_create(runtime, &world, &field, &error);
+  if (result == SGM_OK) result = find_place(field, place, &error);
+  for (axis = 0; axis < 3; ++axis) {
+    region.minimum[axis] = place[axis] - 16 * SGM_UNITS_PER_METRE;
+    region.maximum[axis] = place[axis] + 16 * SGM_UNITS_PER_METRE;
+  }
   if (result == SGM_OK) result = sgm_surface_from_region(field, &region, &surface, &error);
   if (result == SGM_OK) result = sgm_surface_get_view(surface, &view, &error);
   if (result == SGM_OK) {

@@ -180,7 +180,8 @@ TEST_CASE("field descriptors are checked") {
     return create(&desc);
   };
   CHECK(with([](auto& d) { d.grammar = nullptr; }) == SGM_ERR_INVALID_ARGUMENT);
-  for (const int32_t cell : {0, -1, (1 << 20) + 1, std::numeric_limits<int32_t>::max(), std::numeric_limits<int32_t>::min()})
+  for (const int32_t cell :
+       {0, -1, (1 << 20) + 1, std::numeric_limits<int32_t>::max(), std::numeric_limits<int32_t>::min()})
     CHECK(with([&](auto& d) { d.cell_units = cell; }) == SGM_ERR_RANGE);
   CHECK(with([](auto& d) { d.backend = static_cast<sgm_backend>(77); }) == SGM_ERR_INVALID_ARGUMENT);
 
@@ -198,7 +199,8 @@ TEST_CASE("field descriptors are checked") {
   CHECK(sgm_cell_from_metres(0.5, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
   for (const double metres : {0.0, -1.0, std::nan("")})
     CHECK(sgm_cell_from_metres(metres, &units, &error) == SGM_ERR_INVALID_ARGUMENT);
-  for (const double metres : {1e-9, 1e9, HUGE_VAL}) CHECK(sgm_cell_from_metres(metres, &units, &error) == SGM_ERR_RANGE);
+  for (const double metres : {1e-9, 1e9, HUGE_VAL})
+    CHECK(sgm_cell_from_metres(metres, &units, &error) == SGM_ERR_RANGE);
   REQUIRE(sgm_cell_from_metres(0.1, &units, &error) == SGM_OK);
   CHECK(units == 102);
   REQUIRE(sgm_cell_from_metres(1024, &units, &error) == SGM_OK);
@@ -227,7 +229,10 @@ TEST_CASE("sampling calls are checked") {
   CHECK(with([](auto& d) { d.level = -1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.level = SGM_MAX_LEVEL + 1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.count = SIZE_MAX; }) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(with([](auto& d) { d.count = 0; d.points = nullptr; }) == SGM_OK);
+  CHECK(with([](auto& d) {
+          d.count = 0;
+          d.points = nullptr;
+        }) == SGM_OK);
   CHECK(with([](auto& d) { d.q = nullptr; }) == SGM_OK);
 
   const int32_t lo[3] = {0, 0, 0}, hi[3] = {8192, 8192, 8192};
@@ -272,15 +277,17 @@ TEST_CASE("chunk calls are checked") {
   CHECK(meshWith(&good) == SGM_ERR_INVALID_ARGUMENT);
   const int32_t far = std::numeric_limits<int32_t>::max(), low = std::numeric_limits<int32_t>::min();
   // The chunk's edge is 8192 units: 2^31 / 8192 chunks fit each way.
-  for (const sgm_chunk_key key : {sgm_chunk_key{0, far, 0, 0}, sgm_chunk_key{0, 0, low, 0}, sgm_chunk_key{0, 0, 0, 262144},
-                                  sgm_chunk_key{0, -262145, 0, 0}, sgm_chunk_key{SGM_MAX_LEVEL, 1, 0, 0}}) {
+  for (const sgm_chunk_key key :
+       {sgm_chunk_key{0, far, 0, 0}, sgm_chunk_key{0, 0, low, 0}, sgm_chunk_key{0, 0, 0, 262144},
+        sgm_chunk_key{0, -262145, 0, 0}, sgm_chunk_key{SGM_MAX_LEVEL, 1, 0, 0}}) {
     request = {key, 0};
     CHECK(meshWith(&good) == SGM_ERR_RANGE);
   }
   request = {{0, -262144, 262143 - 1, 0}, 63};
   REQUIRE(sgm_mesh_chunks(world.field.get(), &good, &mesh, &error) == SGM_OK);
   const MeshOwner owner(mesh);
-  checkStruct(sgm_mesh_view SGM_MESH_VIEW_INIT, [&](sgm_mesh_view* view) { return sgm_mesh_get_view(mesh, view, &error); });
+  checkStruct(sgm_mesh_view SGM_MESH_VIEW_INIT,
+              [&](sgm_mesh_view* view) { return sgm_mesh_get_view(mesh, view, &error); });
   sgm_mesh_view view = SGM_MESH_VIEW_INIT;
   CHECK(sgm_mesh_get_view(nullptr, &view, &error) == SGM_ERR_INVALID_ARGUMENT);
   size_t vertices = 0, indices = 0;
@@ -312,13 +319,16 @@ TEST_CASE("surface calls are checked") {
   CHECK(with([](auto& d) { d.maximum[1] = 0; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.level = SGM_MAX_LEVEL + 1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.level = -1; }) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(with([](auto& d) { d.maximum[0] = 8193; d.max_chunks = 1; }) == SGM_ERR_LIMIT);
+  CHECK(with([](auto& d) {
+          d.maximum[0] = 8193;
+          d.max_chunks = 1;
+        }) == SGM_ERR_LIMIT);
   CHECK(with([](auto& d) {
           for (int axis = 0; axis < 3; ++axis) {
             d.minimum[axis] = std::numeric_limits<int32_t>::min();
             d.maximum[axis] = std::numeric_limits<int32_t>::max();
           }
-        }) == SGM_ERR_LIMIT);
+        }) == SGM_ERR_RANGE);
 
   sgm_grid_desc grid = SGM_GRID_DESC_INIT;
   const std::vector<float> values(8, 1.0f);

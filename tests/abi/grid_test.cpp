@@ -21,7 +21,8 @@ struct Grid {
   void fill(F&& f) {
     for (size_t z = 0; z < size[2]; ++z)
       for (size_t y = 0; y < size[1]; ++y)
-        for (size_t x = 0; x < size[0]; ++x) at(x, y, z) = f(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+        for (size_t x = 0; x < size[0]; ++x)
+          at(x, y, z) = f(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
   }
   sgm_grid_desc desc() const {
     sgm_grid_desc d = SGM_GRID_DESC_INIT;
@@ -43,8 +44,8 @@ SurfaceOwner mesh(sgm_runtime* runtime, const sgm_grid_desc& desc) {
 }
 
 float ball(double x, double y, double z, double centre, double radius) {
-  return static_cast<float>(std::sqrt((x - centre) * (x - centre) + (y - centre) * (y - centre) + (z - centre) * (z - centre)) -
-                            radius);
+  return static_cast<float>(
+      std::sqrt((x - centre) * (x - centre) + (y - centre) * (y - centre) + (z - centre) * (z - centre)) - radius);
 }
 
 /// Directed edges that have no partner.
@@ -118,7 +119,8 @@ TEST_CASE("random grids of odd sizes are closed inside, and equal for any number
     Grid grid(side(), side(), side());
     // A border in the open, so that the surface is closed.
     grid.fill([&](double x, double y, double z) {
-      const bool border = x == 0 || y == 0 || z == 0 || x + 1 == grid.size[0] || y + 1 == grid.size[1] || z + 1 == grid.size[2];
+      const bool border =
+          x == 0 || y == 0 || z == 0 || x + 1 == grid.size[0] || y + 1 == grid.size[1] || z + 1 == grid.size[2];
       const float value = static_cast<float>(random() % 2001) / 1000.0f - 1.0f;
       return border ? 1.0f : value;
     });
@@ -205,7 +207,10 @@ TEST_CASE("wrong grids are refused") {
   CHECK(with([](auto& d) { d.stride_z = 15; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.stride_y = SIZE_MAX; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.stride_z = SIZE_MAX / 2; }) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(with([](auto& d) { d.size[0] = d.size[1] = d.size[2] = 16384; d.stride_y = d.stride_z = 0; }) == SGM_ERR_LIMIT);
+  CHECK(with([](auto& d) {
+          d.size[0] = d.size[1] = d.size[2] = 16384;
+          d.stride_y = d.stride_z = 0;
+        }) == SGM_ERR_LIMIT);
   for (const double cell : {0.0, -1.0, std::nan(""), HUGE_VAL})
     CHECK(with([&](auto& d) { d.cell = cell; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.normals = 2; }) == SGM_ERR_INVALID_ARGUMENT);

@@ -17,11 +17,11 @@ struct Failing {
     auto& f = *static_cast<Failing*>(user);
     if (f.left.fetch_sub(1) <= 0) return nullptr;
     f.live.fetch_add(1);
-    return ::operator new(size, std::align_val_t{alignment}, std::nothrow);
+    return ::operator new (size, std::align_val_t{alignment}, std::nothrow);
   }
   static void release(void* user, void* memory, size_t, size_t alignment) {
     static_cast<Failing*>(user)->live.fetch_sub(1);
-    ::operator delete(memory, std::align_val_t{alignment});
+    ::operator delete (memory, std::align_val_t{alignment});
   }
 };
 
@@ -136,7 +136,9 @@ TEST_CASE("each allocation from the allocator fails in turn") {
 }
 
 TEST_CASE("each allocation of the C++ heap on the calling thread fails in turn") {
-  const sgm_allocator allocator{[](void*, size_t size, size_t alignment) { return std::aligned_alloc(std::max<size_t>(alignment, 16), (size + 63) / 64 * 64); },
+  const sgm_allocator allocator{[](void*, size_t size, size_t alignment) {
+                                  return std::aligned_alloc(std::max<size_t>(alignment, 16), (size + 63) / 64 * 64);
+                                },
                                 [](void*, void* memory, size_t, size_t) { std::free(memory); }, nullptr};
   for (int64_t n = 0;; n += 1 + n / 48) {
     Handles handles;

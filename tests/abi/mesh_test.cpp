@@ -16,7 +16,8 @@ Place placeOf(const sgm_mesh_view& view, uint32_t index) {
   const sgm_vertex& v = view.vertices[index];
   const std::array<uint16_t, 3> p{v.x, v.y, v.z};
   Place place{};
-  for (size_t axis = 0; axis < 3; ++axis) place[axis] = int64_t{view.origin[axis]} * 256 + int64_t{p[axis]} * view.cell_units;
+  for (size_t axis = 0; axis < 3; ++axis)
+    place[axis] = int64_t{view.origin[axis]} * 256 + int64_t{p[axis]} * view.cell_units;
   return place;
 }
 
@@ -24,7 +25,7 @@ constexpr const char* kBlobs =
     "sgm 1; units m;\n"
     "domain infinite;\n"
     "layer main cell 16m reach 9m { start Blob; }\n"
-    "rule Blob { at(cell.point(jitter 0.5)) { displace 0.4m * fractal(2m) amplitude 0.4m { sphere(rand(3m, 7m)); } } "
+    "rule Blob { at(cell.point(jitter 0.5)) { displace 0.4m*fractal(2m) amp 0.4m { sphere(rand(3m, 7m)); } } "
     "anchor spawn \"middle\"; }\n";
 
 }  // namespace
@@ -59,7 +60,8 @@ TEST_CASE("a chunk's view: ranges, bounds, tags and anchors agree with its array
       CHECK(p[axis] <= int64_t{view.bounds_max[axis]} * 256);
     }
     double square = 0;
-    for (const int64_t axis : p) square += (static_cast<double>(axis) / 262144 - 4) * (static_cast<double>(axis) / 262144 - 4);
+    for (const int64_t axis : p)
+      square += (static_cast<double>(axis) / 262144 - 4) * (static_cast<double>(axis) / 262144 - 4);
     CHECK(std::sqrt(square) == Approx(3).margin(0.02));
   }
   REQUIRE(view.tag_count == 1);
@@ -82,7 +84,8 @@ TEST_CASE("copies are what the view shows, and say how much room they need") {
   CHECK(index_count == view.index_count);
   std::vector<sgm_vertex> vertices(vertex_count);
   std::vector<uint32_t> indices(index_count);
-  REQUIRE(sgm_mesh_copy(meshes[0].get(), vertices.data(), &vertex_count, indices.data(), &index_count, nullptr) == SGM_OK);
+  REQUIRE(sgm_mesh_copy(meshes[0].get(), vertices.data(), &vertex_count, indices.data(), &index_count, nullptr) ==
+          SGM_OK);
   CHECK(std::memcmp(vertices.data(), view.vertices, vertex_count * sizeof(sgm_vertex)) == 0);
   CHECK(std::equal(indices.begin(), indices.end(), view.indices));
   size_t too_few = index_count - 1;
@@ -246,7 +249,8 @@ TEST_CASE("samples are what meshes are made of") {
     CHECK(materials[i] == 1);
     CHECK(tags[i] == 1);
     if (i > 0) {
-      for (size_t axis = 0; axis < 3; ++axis) CHECK(double{gradients[3 * i + axis]} == Approx(d[axis] / length).margin(1e-3));
+      for (size_t axis = 0; axis < 3; ++axis)
+        CHECK(double{gradients[3 * i + axis]} == Approx(d[axis] / length).margin(1e-3));
     }
   }
 }

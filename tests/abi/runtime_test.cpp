@@ -14,8 +14,9 @@ TEST_CASE("the init macros fill their structs in C and in C++") {
 
 TEST_CASE("header and library are of one version") {
   CHECK(sgm_version() == SGM_API_VERSION);
-  CHECK(std::string(sgm_version_string()) == std::to_string(SGM_VERSION_MAJOR) + "." + std::to_string(SGM_VERSION_MINOR) +
-                                                 "." + std::to_string(SGM_VERSION_PATCH));
+  CHECK(std::string(sgm_version_string()) == std::to_string(SGM_VERSION_MAJOR) + "." +
+                                                 std::to_string(SGM_VERSION_MINOR) + "." +
+                                                 std::to_string(SGM_VERSION_PATCH));
   CHECK(std::string(sgm_build_info()).find(sgm_version_string()) != std::string::npos);
 }
 
@@ -66,22 +67,21 @@ TEST_CASE("memory comes from the allocator and goes back to it whole") {
     size_t live = 0, calls = 0;
     bool aligned = true;
   } counter;
-  const sgm_allocator allocator{
-      [](void* user, size_t size, size_t alignment) -> void* {
-        auto& c = *static_cast<Counter*>(user);
-        const std::lock_guard lock(c.mutex);
-        c.live += size;
-        ++c.calls;
-        c.aligned = c.aligned && size > 0 && (alignment & (alignment - 1)) == 0;
-        return ::operator new(size, std::align_val_t{alignment}, std::nothrow);
-      },
-      [](void* user, void* memory, size_t size, size_t alignment) {
-        auto& c = *static_cast<Counter*>(user);
-        const std::lock_guard lock(c.mutex);
-        c.live -= size;
-        ::operator delete(memory, std::align_val_t{alignment});
-      },
-      &counter};
+  const sgm_allocator allocator{[](void* user, size_t size, size_t alignment) -> void* {
+                                  auto& c = *static_cast<Counter*>(user);
+                                  const std::lock_guard lock(c.mutex);
+                                  c.live += size;
+                                  ++c.calls;
+                                  c.aligned = c.aligned && size > 0 && (alignment & (alignment - 1)) == 0;
+                                  return ::operator new (size, std::align_val_t{alignment}, std::nothrow);
+                                },
+                                [](void* user, void* memory, size_t size, size_t alignment) {
+                                  auto& c = *static_cast<Counter*>(user);
+                                  const std::lock_guard lock(c.mutex);
+                                  c.live -= size;
+                                  ::operator delete (memory, std::align_val_t{alignment});
+                                },
+                                &counter};
   sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
   desc.allocator = &allocator;
   {

@@ -34,8 +34,8 @@ bad unknown_rule 2 7 $'sgm 1;\nstart Nowhere;\nrule R { sphere(3m); }'
 bad unknown_name 3 17 $'sgm 1;\nstart R;\nrule R { sphere(raduis); }'
 bad unit_mismatch 3 17 $'sgm 1;\nstart R;\nrule R { sphere(30deg); }'
 bad field_in_guard 3 13 $'sgm 1;\nstart R;\nrule R when p.y < 3m { sphere(3m); }'
-bad recursion 3 6 $'sgm 1;\nstart R;\nrule R { at(1m, 0m, 0m) R; }'
-bad reach 3 45 $'sgm 1;\ndomain infinite;\nlayer main cell 16m reach 2m { start R; }\nrule R { at(20m, 0m, 0m) sphere(1m); }'
+bad recursion 3 25 $'sgm 1;\nstart R;\nrule R { at(1m, 0m, 0m) R; }'
+bad reach 4 26 $'sgm 1;\ndomain infinite;\nlayer main cell 16m reach 2m { start R; }\nrule R { at(20m, 0m, 0m) sphere(1m); }'
 bad missing_import 2 8 $'sgm 1;\nimport "none.sgm" as none;\nstart R;\nrule R { sphere(3m); }'
 
 # The nearest name is offered.

@@ -1,9 +1,11 @@
+/* clang-format off */
 /*
  * sgm.h: the C interface of the SG+M runtime, and its manual.
  *
- * A shape grammar with morphing (a text in the SG+M language) describes an endless world of caves, clouds or buildings.
- * The runtime compiles the text, derives the shapes near a place, evaluates them as an implicit field and meshes it.
- * The same grammar, parameters, seed and cell size give the same bytes on every machine, backend and thread count.
+ * A shape grammar with morphing (a text in the SG+M language) describes an endless world of caves, clouds or
+ * buildings. The runtime compiles the text, derives the shapes near a place, evaluates them as an implicit field and
+ * meshes it. The same grammar, parameters, seed and cell size give the same bytes on every machine, backend and
+ * thread count.
  *
  * Valid as C99 and as C++20. MIT licence.
  *
@@ -11,28 +13,29 @@
  *   sgm_runtime_create -> sgm_grammar_compile -> sgm_field_create -> sgm_mesh_chunks -> sgm_mesh_get_view
  *
  * Conventions, true of every declaration unless it says otherwise
- *   Space      Right-handed, Y up. World positions are int32_t in units of 1/1024 m on each axis (SGM_UNITS_PER_METRE),
- *              about +-2,097 km. Lengths given as double or float are metres.
- *   Solid      The field is negative inside the solid. Normals point out of the solid; front faces run counter-clockwise
- *              seen from the void (as in glTF and Godot).
+ *   Space      Right-handed, Y up. World positions are int32_t in units of 1/1024 m on each axis
+ *              (SGM_UNITS_PER_METRE), about +-2,097 km. Lengths given as double or float are metres.
+ *   Solid      The field is negative inside the solid. Normals point out of the solid; front faces run
+ *              counter-clockwise seen from the void (as in glTF and Godot).
  *   Handles    Opaque. A function that makes one writes it through its `out` parameter, and writes NULL there when it
- *              fails. The caller owns it and hands it back to the one function that ends it; all of those accept NULL.
- *              A handle keeps alive whatever it was made from (a field keeps its grammar), so the order in which handles
- *              end does not matter; only the runtime must outlive them all.
- *   Structs    Every struct that may grow begins { uint32_t struct_size; const void* next; } and has an _INIT macro with
- *              its defaults: start from it always, those that the library fills included. A struct_size that differs
- *              from this header's is SGM_ERR_STRUCT_SIZE. `next` is for later extensions, each beginning with sgm_chain;
- *              this version knows none and refuses a `next` that is not NULL with SGM_ERR_UNSUPPORTED.
+ *              fails. The caller owns it and hands it back to the one function that ends it; all of those accept
+ *              NULL. A handle keeps alive whatever it was made from (a field keeps its grammar), so the order in
+ *              which handles end does not matter; only the runtime must outlive them all.
+ *   Structs    Every struct that may grow begins { uint32_t struct_size; const void* next; } and has an _INIT macro
+ *              with its defaults: start from it always, those that the library fills included. A struct_size that
+ *              differs from this header's is SGM_ERR_STRUCT_SIZE. `next` is for later extensions, each beginning with
+ *              sgm_chain; this version knows none and refuses a `next` that is not NULL with SGM_ERR_UNSUPPORTED.
  *   Text       UTF-8. Texts that the library returns end in 0 and live as long as the handle they came from.
  *   Errors     Functions that can fail return sgm_result: 0 done, below 0 failed, above 0 done in part. They take an
- *              sgm_error, which may be NULL, and fill it when they fail (and only then). Bad input never aborts, and no
- *              C++ exception leaves the library. Any function may also return SGM_ERR_OUT_OF_MEMORY.
- *   Threads    Functions may be called from any thread at any time, on shared handles too, but for sgm_parameters, which
- *              only one thread may use while it is being changed, and for functions that end a handle, which no other
- *              call on that handle may accompany.
- *   Memory     The library keeps no process-wide state. Bulk data (derived cells, samples, meshes, handles) comes from
- *              the runtime's allocator; small bookkeeping and message texts may come from the C++ heap.
+ *              sgm_error, which may be NULL, and fill it when they fail (and only then). Bad input never aborts, and
+ *              no C++ exception leaves the library. Any function may also return SGM_ERR_OUT_OF_MEMORY.
+ *   Threads    Functions may be called from any thread at any time, on shared handles too, but for sgm_parameters,
+ *              which only one thread may use while it is being changed, and for functions that end a handle, which no
+ *              other call on that handle may accompany.
+ *   Memory     The library keeps no process-wide state. Bulk data (derived cells, samples, meshes, handles) comes
+ *              from the runtime's allocator; small bookkeeping and message texts may come from the C++ heap.
  */
+/* clang-format on */
 #ifndef SGM_SGM_H
 #define SGM_SGM_H
 
@@ -70,17 +73,17 @@ extern "C" {
 #endif
 
 #define SGM_UNITS_PER_METRE 1024
-#define SGM_CHUNK_CELLS 32       /* cells on each axis of a chunk */
-#define SGM_SUBCELL 256          /* packed vertex positions are 1/256 of the chunk's cell edge */
-#define SGM_MAX_LEVEL 16         /* coarsest level of detail; a level's cell edge is twice that of the level below */
-#define SGM_MESSAGE_SIZE 500     /* bytes of sgm_error.message, its ending 0 included */
-#define SGM_NAME_SIZE 256        /* bytes of the texts in sgm_backend_info, their ending 0 included */
+#define SGM_CHUNK_CELLS 32   /* cells on each axis of a chunk */
+#define SGM_SUBCELL 256      /* packed vertex positions are 1/256 of the chunk's cell edge */
+#define SGM_MAX_LEVEL 16     /* coarsest level of detail; a level's cell edge is twice that of the level below */
+#define SGM_MESSAGE_SIZE 500 /* bytes of sgm_error.message, its ending 0 included */
+#define SGM_NAME_SIZE 256    /* bytes of the texts in sgm_backend_info, their ending 0 included */
 
 /* ------------------------------------------------------------------------------------------------ results, errors */
 
 typedef enum sgm_result {
   SGM_OK = 0,
-  SGM_INCOMPLETE = 1, /* the caller's array was too small: it holds as much as fits, and the count says how many exist */
+  SGM_INCOMPLETE = 1, /* an array was too small: it holds what fits, or nothing where so said, and the count is whole */
 
   SGM_ERR_INVALID_ARGUMENT = -1, /* NULL where a value is needed, not a number, a value out of its stated range */
   SGM_ERR_STRUCT_SIZE = -2,      /* struct_size is not this library's: start from the _INIT macro, or rebuild */
@@ -103,13 +106,16 @@ SGM_API const char* sgm_result_name(sgm_result result);
 
 /* What went wrong, in the caller's memory. The message is one line that says what to do. */
 typedef struct sgm_error {
-  sgm_result code; /* what the function returned */
-  int32_t line;    /* in the grammar text, from 1; 0 where the error has no place in a text */
-  int32_t column;  /* in bytes, from 1; 0 as line */
+  sgm_result code;                /* what the function returned */
+  int32_t line;                   /* in the grammar text, from 1; 0 where the error has no place in a text */
+  int32_t column;                 /* in bytes, from 1; 0 as line */
   char message[SGM_MESSAGE_SIZE]; /* ends in 0; cut off at a whole character where it was longer */
 } sgm_error;
 
-#define SGM_ERROR_INIT { SGM_OK, 0, 0, { 0 } }
+#define SGM_ERROR_INIT  \
+  {                     \
+    SGM_OK, 0, 0, { 0 } \
+  }
 
 /* The beginning of every struct that a later version may hang on a `next` pointer. */
 typedef struct sgm_chain {
@@ -145,8 +151,9 @@ typedef struct sgm_allocator {
 } sgm_allocator;
 
 /* Threads from the caller. An accepted job must run exactly once, on any thread, at any time, in any order. The calling
- * thread works on its own call's jobs too, so a call of ours ends even where the job system is slow to start; a job that
- * runs after that does nothing. All accepted jobs must have run before sgm_runtime_destroy. The functions may be called from any thread, inside a job too. */
+ * thread works on its own call's jobs too, so a call of ours ends even where the job system is slow to start; a job
+ * that runs after that does nothing. All accepted jobs must have run before sgm_runtime_destroy. The functions may be
+ * called from any thread, inside a job too. */
 typedef struct sgm_job_system {
   /* How many jobs can run at one time, at least 1. */
   uint32_t (*concurrency)(void* user);
@@ -166,8 +173,8 @@ typedef enum sgm_log_level {
   SGM_LOG_LEVEL_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_log_level;
 
-/* Where messages go. Called from any thread, several at one time; the message (one line, no newline) lives for the call.
- * It must not call back into the library. */
+/* Where messages go. Called from any thread, several at one time; the message (one line, no newline) lives for the
+ * call. It must not call back into the library. */
 typedef struct sgm_log_sink {
   void (*write)(void* user, sgm_log_level level, const char* message);
   void* user;
@@ -188,8 +195,8 @@ typedef struct sgm_runtime_desc {
 #define SGM_RUNTIME_DESC_INIT \
   { SGM_SIZEOF(sgm_runtime_desc), SGM_NULL, SGM_API_VERSION, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0 }
 
-/* desc may be NULL: all defaults. A program built with another major version, or with a newer minor one (while the major
- * version is 0: with any other minor one) is refused with SGM_ERR_VERSION. */
+/* desc may be NULL: all defaults. A program built with another major version, or with a newer minor one (while the
+ * major version is 0: with any other minor one) is refused with SGM_ERR_VERSION. */
 SGM_API sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, sgm_error* error);
 
 /* SGM_ERR_BUSY, and nothing happens, while a handle made from this runtime lives. NULL is SGM_OK. */
@@ -212,20 +219,22 @@ typedef enum sgm_backend {
 typedef struct sgm_backend_info {
   uint32_t struct_size;
   const void* next;
-  sgm_backend backend;         /* the one asked for; for AUTO the one chosen */
-  int32_t usable;              /* 1: work can be given to it here; 0: `reason` says why not */
-  int32_t exact;               /* 1: follows the arithmetic contract, so gives the same bytes as every other exact one */
-  uint32_t concurrency;        /* chunks worked on at one time, where usable */
-  char name[SGM_NAME_SIZE];    /* "cpu", "vulkan", "cuda" */
-  char device[SGM_NAME_SIZE];  /* device or instruction set in use, "AVX2"; empty where not usable */
-  char reason[SGM_NAME_SIZE];  /* empty where usable */
+  sgm_backend backend;        /* the one asked for; for AUTO the one chosen */
+  int32_t usable;             /* 1: work can be given to it here; 0: `reason` says why not */
+  int32_t exact;              /* 1: follows the arithmetic contract, so gives the same bytes as every other exact one */
+  uint32_t concurrency;       /* chunks worked on at one time, where usable */
+  char name[SGM_NAME_SIZE];   /* "cpu", "vulkan", "cuda" */
+  char device[SGM_NAME_SIZE]; /* device or instruction set in use, "AVX2"; empty where not usable */
+  char reason[SGM_NAME_SIZE]; /* empty where usable */
 } sgm_backend_info;
 
-#define SGM_BACKEND_INFO_INIT \
-  { SGM_SIZEOF(sgm_backend_info), SGM_NULL, SGM_BACKEND_AUTO, 0, 0, 0, { 0 }, { 0 }, { 0 } }
+#define SGM_BACKEND_INFO_INIT                                                          \
+  {                                                                                    \
+    SGM_SIZEOF(sgm_backend_info), SGM_NULL, SGM_BACKEND_AUTO, 0, 0, 0, {0}, {0}, { 0 } \
+  }
 
-/* Says whether a backend can be used here, and why not. A backend that is not usable is SGM_OK with usable = 0; a number
- * that is no backend is SGM_ERR_INVALID_ARGUMENT. */
+/* Says whether a backend can be used here, and why not. A backend that is not usable is SGM_OK with usable = 0; a
+ * number that is no backend is SGM_ERR_INVALID_ARGUMENT. */
 SGM_API sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_backend_info* info,
                                      sgm_error* error);
 
@@ -246,10 +255,10 @@ typedef int32_t (*sgm_import_function)(void* user, const char* path, const char*
 typedef struct sgm_grammar_desc {
   uint32_t struct_size;
   const void* next;
-  const char* text;           /* need not end in 0; copied */
-  size_t text_size;           /* bytes; SIZE_MAX: text ends in 0 */
-  const char* name;           /* file name for messages; NULL: "grammar" */
-  const char* import_folder;  /* imports are read from files in this folder, and never from outside it; or NULL */
+  const char* text;                /* need not end in 0; copied */
+  size_t text_size;                /* bytes; SIZE_MAX: text ends in 0 */
+  const char* name;                /* file name for messages; NULL: "grammar" */
+  const char* import_folder;       /* imports are read from files in this folder, and never from outside it; or NULL */
   sgm_import_function import_text; /* asked before import_folder; or NULL. With neither, only std/ can be imported */
   void* import_user;
 } sgm_grammar_desc;
@@ -261,8 +270,8 @@ typedef struct sgm_grammar_desc {
  * diagnostics may be NULL; else it receives a list of every message, whether the grammar compiled (then all of them are
  * warnings) or not, and the caller ends it with sgm_diagnostics_destroy in both cases. It is NULL only where the call
  * failed before it read the text (a wrong argument, no memory).
- * SGM_ERR_GRAMMAR: the text is wrong, reaches a cap, or imports what cannot be read; error holds the first message (of an
- * error inside an import the message names the file, and line and column are places in it). */
+ * SGM_ERR_GRAMMAR: the text is wrong, reaches a cap, or imports what cannot be read; error holds the first message (of
+ * an error inside an import the message names the file, and line and column are places in it). */
 SGM_API sgm_result sgm_grammar_compile(sgm_runtime* runtime, const sgm_grammar_desc* desc, sgm_grammar** out,
                                        sgm_diagnostics** diagnostics, sgm_error* error);
 SGM_API void sgm_grammar_destroy(sgm_grammar* grammar);
@@ -309,7 +318,8 @@ typedef struct sgm_layer_info {
   int32_t reach_units;   /* how far from its cell a shape may reach */
 } sgm_layer_info;
 
-#define SGM_LAYER_INFO_INIT { SGM_SIZEOF(sgm_layer_info), SGM_NULL, SGM_NULL, { 0, 0, 0 }, 0 }
+#define SGM_LAYER_INFO_INIT \
+  { SGM_SIZEOF(sgm_layer_info), SGM_NULL, SGM_NULL, {0, 0, 0}, 0 }
 
 SGM_API uint32_t sgm_grammar_layer_count(const sgm_grammar* grammar);
 /* SGM_ERR_NOT_FOUND: no such index. */
@@ -331,8 +341,8 @@ typedef struct sgm_parameter_info {
   const char* name; /* texts live as long as the grammar */
   const char* doc;  /* what the grammar says of it, or "" */
   sgm_quantity quantity;
-  int32_t whole;          /* 1: only whole numbers */
-  double default_value;   /* in the quantity's unit */
+  int32_t whole;           /* 1: only whole numbers */
+  double default_value;    /* in the quantity's unit */
   double minimum, maximum; /* both allowed; -infinity and infinity where the grammar gives no range */
 } sgm_parameter_info;
 
@@ -389,15 +399,15 @@ SGM_API sgm_result sgm_cell_from_metres(double metres, int32_t* units, sgm_error
 typedef struct sgm_sample_desc {
   uint32_t struct_size;
   const void* next;
-  const int32_t* points;  /* x y z in units */
-  size_t point_stride;    /* bytes from one point to the next, a multiple of 4; 0: 12 */
-  size_t count;           /* points; 0 is SGM_OK */
-  int32_t level;          /* 0 to SGM_MAX_LEVEL: what coarse chunks leave out is left out here too */
-  int32_t* q;             /* quantised field, what meshes are made of: floor(field * 1024 / finest cell + 0.5),
-                             clamped to +-2^22; solid below 0 */
-  float* values;          /* field in metres, negative inside the solid; a distance near the surface, bounded far off */
-  float* gradients;       /* 3 a point: the field's gradient over metres; points out of the solid */
-  uint16_t* materials;    /* of the shape that is nearest to its surface there */
+  const int32_t* points; /* x y z in units */
+  size_t point_stride;   /* bytes from one point to the next, a multiple of 4; 0: 12 */
+  size_t count;          /* points; 0 is SGM_OK */
+  int32_t level;         /* 0 to SGM_MAX_LEVEL: what coarse chunks leave out is left out here too */
+  int32_t* q;            /* quantised field, what meshes are made of: floor(field * 1024 / finest cell + 0.5),
+                            clamped to +-2^22; solid below 0 */
+  float* values;         /* field in metres, negative inside the solid; a distance near the surface, bounded far off */
+  float* gradients;      /* 3 a point: the field's gradient over metres; points out of the solid */
+  uint16_t* materials;   /* of the shape that is nearest to its surface there */
   uint16_t* tags;
 } sgm_sample_desc;
 
@@ -419,9 +429,9 @@ typedef struct sgm_anchor {
   uint64_t key;        /* the same for this anchor in every run; differs from every other anchor's */
 } sgm_anchor;
 
-/* Writes the anchors in the closed box minimum..maximum (units), in an order that depends on nothing else. *count takes
- * the anchors array's room, and returns how many there are; SGM_INCOMPLETE where they did not fit. anchors may be NULL
- * with *count = 0, to ask. */
+/* Writes the anchors at minimum <= p < maximum (units, per axis), by layer, cell and key. *count takes the anchors
+ * array's room, and returns how many there are; SGM_INCOMPLETE where they did not all fit. anchors may be NULL, to ask
+ * for the count alone: SGM_INCOMPLETE again where there are any. */
 SGM_API sgm_result sgm_field_anchors(sgm_field* field, const int32_t minimum[3], const int32_t maximum[3],
                                      sgm_anchor* anchors, size_t* count, sgm_error* error);
 
@@ -462,16 +472,18 @@ typedef struct sgm_chunks_desc {
   uint32_t struct_size;
   const void* next;
   const sgm_chunk_request* requests;
-  size_t count; /* requests, 1 to 2^20 */
+  size_t count;                   /* requests, 1 to 2^20 */
   sgm_progress_function progress; /* or NULL */
   void* progress_user;
 } sgm_chunks_desc;
 
-#define SGM_CHUNKS_DESC_INIT { SGM_SIZEOF(sgm_chunks_desc), SGM_NULL, SGM_NULL, 0, SGM_NULL, SGM_NULL }
+#define SGM_CHUNKS_DESC_INIT \
+  { SGM_SIZEOF(sgm_chunks_desc), SGM_NULL, SGM_NULL, 0, SGM_NULL, SGM_NULL }
 
 /* Meshes chunks; meshes[i] is the one of requests[i], an empty mesh where no surface crosses it. Blocks; uses the job
- * system. Give it many chunks at once. All or nothing: on failure every entry of meshes is NULL.
- * SGM_ERR_RANGE: a chunk does not lie inside the world wholly. */
+ * system. Give it many chunks at once. All or nothing: on failure every entry of meshes is NULL (but for a NULL or zero
+ * argument, when it is not written). SGM_ERR_RANGE: a chunk does not lie inside the world wholly, or the cells of its
+ * level are larger than 2^22 units. */
 SGM_API sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_mesh** meshes, sgm_error* error);
 
 /* One more owner, and one less. A mesh ends with its last owner. Both accept NULL. */
@@ -502,32 +514,32 @@ typedef struct sgm_mesh_view {
   uint32_t struct_size;
   const void* next;
   sgm_chunk_key key;
-  int32_t origin[3];       /* lowest corner, units */
-  int32_t cell_units;      /* cell edge of this chunk: the field's << level */
-  int32_t bounds_min[3];   /* holds every vertex, seams included, units; all 0 where there is none */
+  int32_t origin[3];     /* lowest corner, units */
+  int32_t cell_units;    /* cell edge of this chunk: the field's << level */
+  int32_t bounds_min[3]; /* holds every vertex, seams included, units; all 0 where there is none */
   int32_t bounds_max[3];
-  const sgm_vertex* vertices; /* body first, then the seams by face */
-  const uint32_t* indices;    /* into vertices (not from the range's first), three a triangle */
+  const sgm_vertex* vertices;           /* body first, then the seams by face */
+  const uint32_t* indices;              /* into vertices (not from the range's first), three a triangle */
   uint32_t vertex_count, vertex_stride; /* stride in bytes */
   uint32_t index_count, index_stride;
   sgm_mesh_range body;
-  sgm_mesh_range seams[6];    /* by sgm_face; empty where not asked for */
-  uint64_t hash;              /* of body and seams together */
-  const sgm_anchor* anchors;  /* in this chunk: low faces belong to it, high ones do not */
+  sgm_mesh_range seams[6];   /* by sgm_face; empty where not asked for */
+  uint64_t hash;             /* of body and seams together */
+  const sgm_anchor* anchors; /* in this chunk: low faces belong to it, high ones do not */
   uint32_t anchor_count, anchor_stride;
-  const uint16_t* tags;       /* tags that its vertices carry, rising, 0 left out */
+  const uint16_t* tags; /* tags that its vertices carry, rising, 0 left out */
   uint32_t tag_count;
-  uint32_t reserved;          /* 0 */
+  uint32_t reserved; /* 0 */
 } sgm_mesh_view;
 
-#define SGM_MESH_RANGE_INIT { 0, 0, 0, 0, 0 }
-#define SGM_MESH_VIEW_INIT                                                                                         \
-  {                                                                                                                \
-    SGM_SIZEOF(sgm_mesh_view), SGM_NULL, { 0, 0, 0, 0 }, { 0, 0, 0 }, 0, { 0, 0, 0 }, { 0, 0, 0 }, SGM_NULL,       \
-        SGM_NULL, 0, 0, 0, 0, SGM_MESH_RANGE_INIT,                                                                 \
-        { SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, \
-          SGM_MESH_RANGE_INIT },                                                                                   \
-        0, SGM_NULL, 0, 0, SGM_NULL, 0, 0                                                                          \
+#define SGM_MESH_RANGE_INIT \
+  { 0, 0, 0, 0, 0 }
+#define SGM_MESH_VIEW_INIT                                                                                           \
+  {                                                                                                                  \
+    SGM_SIZEOF(sgm_mesh_view), SGM_NULL, {0, 0, 0, 0}, {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, SGM_NULL, SGM_NULL, 0, 0, \
+        0, 0, SGM_MESH_RANGE_INIT, {SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT,                   \
+                                    SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT},                  \
+        0, SGM_NULL, 0, 0, SGM_NULL, 0, 0                                                                            \
   }
 
 SGM_API sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_error* error);
@@ -554,7 +566,7 @@ typedef struct sgm_region_desc {
 } sgm_region_desc;
 
 #define SGM_REGION_DESC_INIT \
-  { SGM_SIZEOF(sgm_region_desc), SGM_NULL, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, SGM_NULL, SGM_NULL }
+  { SGM_SIZEOF(sgm_region_desc), SGM_NULL, {0, 0, 0}, {0, 0, 0}, 0, 0, SGM_NULL, SGM_NULL }
 
 /* Meshes a region and welds its chunks by exact keys: no open edge inside the region, open only where its outer faces
  * cut the solid. Blocks; uses the job system. SGM_ERR_RANGE: the grown region leaves the world. SGM_ERR_LIMIT: too many
@@ -562,7 +574,8 @@ typedef struct sgm_region_desc {
 SGM_API sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc, sgm_surface** out,
                                            sgm_error* error);
 
-/* Samples that the caller has. Value (i, j, k) is values[i + j * stride_y + k * stride_z] and lies at (i, j, k) * cell. */
+/* Samples that the caller has. Value (i, j, k) is values[i + j * stride_y + k * stride_z] and lies at (i, j, k) * cell.
+ */
 typedef struct sgm_grid_desc {
   uint32_t struct_size;
   const void* next;
@@ -578,7 +591,7 @@ typedef struct sgm_grid_desc {
 } sgm_grid_desc;
 
 #define SGM_GRID_DESC_INIT \
-  { SGM_SIZEOF(sgm_grid_desc), SGM_NULL, SGM_NULL, { 0, 0, 0 }, 0, 0, 0, 1.0, 1, 0 }
+  { SGM_SIZEOF(sgm_grid_desc), SGM_NULL, SGM_NULL, {0, 0, 0}, 0, 0, 0, 1.0, 1, 0 }
 
 /* Meshes a grid of samples. Open only where the grid's border cuts the solid. Blocks; uses the job system. */
 SGM_API sgm_result sgm_surface_from_grid(sgm_runtime* runtime, const sgm_grid_desc* desc, sgm_surface** out,
@@ -590,31 +603,32 @@ SGM_API void sgm_surface_destroy(sgm_surface* surface);
 typedef struct sgm_surface_view {
   uint32_t struct_size;
   const void* next;
-  int32_t origin[3];          /* units; positions count from here. All 0 for a grid */
-  int32_t cell_units;         /* cell edge; 0 for a grid */
-  int32_t extent_min[3];      /* the region grown to whole chunks, units; all 0 for a grid */
+  int32_t origin[3];     /* units; positions count from here: the world's origin where the region lies within 4,096 m
+                            of it, else the region's lowest corner. All 0 for a grid */
+  int32_t cell_units;    /* cell edge; 0 for a grid */
+  int32_t extent_min[3]; /* the region grown to whole chunks, units; all 0 for a grid */
   int32_t extent_max[3];
   uint64_t vertex_count, index_count;
-  const float* positions;     /* 3 a vertex, metres from origin (a grid: in the unit of its cell) */
-  const float* normals;       /* 3 a vertex, one long; NULL where not asked for */
-  const uint16_t* materials;  /* NULL for a grid */
-  const uint16_t* tags;       /* NULL for a grid */
-  const uint32_t* indices;    /* three a triangle */
+  const float* positions;    /* 3 a vertex, metres from origin (a grid: in the unit of its cell) */
+  const float* normals;      /* 3 a vertex, one long; NULL where not asked for */
+  const uint16_t* materials; /* NULL for a grid */
+  const uint16_t* tags;      /* NULL for a grid */
+  const uint32_t* indices;   /* three a triangle */
   uint32_t position_stride, normal_stride, material_stride, tag_stride; /* bytes */
   float bounds_min[3], bounds_max[3]; /* of the positions; all 0 where there is none */
-  uint64_t chunk_count;       /* chunks meshed; 1 for a grid */
+  uint64_t chunk_count;               /* chunks meshed; 1 for a grid */
 } sgm_surface_view;
 
-#define SGM_SURFACE_VIEW_INIT                                                                                 \
-  {                                                                                                           \
-    SGM_SIZEOF(sgm_surface_view), SGM_NULL, { 0, 0, 0 }, 0, { 0, 0, 0 }, { 0, 0, 0 }, 0, 0, SGM_NULL, SGM_NULL, \
-        SGM_NULL, SGM_NULL, SGM_NULL, 0, 0, 0, 0, { 0.0f, 0.0f, 0.0f }, { 0.0f, 0.0f, 0.0f }, 0               \
+#define SGM_SURFACE_VIEW_INIT                                                                                       \
+  {                                                                                                                 \
+    SGM_SIZEOF(sgm_surface_view), SGM_NULL, {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, \
+        SGM_NULL, SGM_NULL, 0, 0, 0, 0, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0                                   \
   }
 
 SGM_API sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_view* view, sgm_error* error);
 
-/* Of a region: the hash of the set of its chunks' meshes, equal on every machine and in any order of work. Of a grid: of
- * its positions, normals and triangles, worked out at each call. 0 for NULL. */
+/* Of a region: the hash of the set of its chunks' meshes, equal on every machine and in any order of work. Of a grid:
+ * of its positions, normals and triangles, worked out at each call. 0 for NULL. */
 SGM_API uint64_t sgm_surface_hash(const sgm_surface* surface);
 
 #ifdef __cplusplus
