@@ -1,9 +1,10 @@
 // Hashes of fixed pieces of the sample grammars, to compare over builds and machines.
 //
-//   sgm_hashes GRAMMARS GOLDEN [--record]
+//   sgm_hashes GRAMMARS GOLDEN [--record | --threads N]
 //
 // Each line of GOLDEN is: grammar seed cell level x y z edge hash. The cube's lowest corner and its edge are in chunks
-// of that level, cells in units. Every piece is meshed with 1, 2 and 8 threads. --record writes the hashes of today.
+// of that level, cells in units. Every piece is meshed with 1, 2 and 8 threads, or with N alone.
+// --record writes the hashes of today.
 
 #include <sgm/sgm.h>
 
@@ -83,10 +84,12 @@ uint64_t hashOf(const Piece& piece, const std::string& folder, uint32_t threads)
 
 int main(int argc, char** argv) try {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: sgm_hashes GRAMMARS GOLDEN [--record]\n");
+    std::fprintf(stderr, "usage: sgm_hashes GRAMMARS GOLDEN [--record | --threads N]\n");
     return 2;
   }
   const bool record = argc > 3 && std::strcmp(argv[3], "--record") == 0;
+  std::vector<uint32_t> thread_counts{1, 2, 8};
+  if (argc > 4 && std::strcmp(argv[3], "--threads") == 0) thread_counts = {static_cast<uint32_t>(std::stoul(argv[4]))};
   std::ifstream golden(argv[2]);
   if (!golden) throw std::runtime_error(std::string("cannot read ") + argv[2]);
   std::ostringstream out;
@@ -104,10 +107,10 @@ int main(int argc, char** argv) try {
     words >> expected;
     ++pieces;
     char first[17] = "";
-    for (const uint32_t threads : {1u, 2u, 8u}) {
+    for (const uint32_t threads : thread_counts) {
       char hash[17];
       std::snprintf(hash, sizeof hash, "%016" PRIx64, hashOf(p, argv[1], threads));
-      if (threads == 1) std::memcpy(first, hash, sizeof hash);
+      if (threads == thread_counts.front()) std::memcpy(first, hash, sizeof hash);
       const bool same = std::strcmp(hash, first) == 0 && (record || hash == expected);
       if (!same) {
         std::printf("DIFFERENT with %u threads: %s: %s\n", threads, line.c_str(), hash);
