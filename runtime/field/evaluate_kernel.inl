@@ -97,7 +97,7 @@ FN void warpPlace(const BlockFrame& f, const Instr& in, size_t i) {
     const Int pz = loadPlace(f, in.place, 2, i);                                                            \
     const Dual t = loadDual<kGradient>(f, in.a, i);                                                         \
     const Dual by_place = toWorld<kGradient>(f, in.place, i, FUNCTION(px, py, pz, t, P));                   \
-    storeDual<kGradient>(f, in.dst, i, addSlope(by_place, t, FUNCTION##Slope(px, py, pz, t, P)));           \
+    storeDual<kGradient>(f, in.dst, i, addSlope(by_place, t, opPowerMorphSlope(px, py, pz, t, P)));         \
   }
 #define SGM_FORM_UNARY(FUNCTION) \
   SGM_EACH storeDual<kGradient>(f, in.dst, i, FUNCTION(loadDual<kGradient>(f, in.a, i)));
