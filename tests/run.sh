@@ -5,23 +5,23 @@
 #
 #   --long          run property tests and fuzzers far longer
 #   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, consumers, style, gltf, threads, fuzz, ...)
-#   --without NAME  leave out a build (dev, scalar, clang, tsan, fuzz) or a label; each is named in the summary
+#   --without NAME  leave out a build (fuzz, scalar, clang, tsan) or a label; each is named in the summary
 #   --jobs N        at most N compilers and tests at one time (default: one for each processor)
 #
-# Six builds: release has every test; dev (AddressSanitizer and UndefinedBehaviorSanitizer), scalar (no vector unit),
-# clang (another compiler), tsan (ThreadSanitizer) and fuzz (libFuzzer) run the part of them that they are for.
-# The last lines are ctest's summary over all of them. Exit status: 0 when all passed.
+# Five builds: release has every test; fuzz (clang++, both sanitizers) runs the unit tests again, and the fuzzers; scalar
+# (no vector unit) and clang (another compiler) those that compare bits; tsan those with threads. --long adds dev (both
+# sanitizers, g++). The last lines are ctest's summary over all of them. Exit status: 0 when all passed.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
-variants=(dev scalar clang tsan fuzz)
+variants=(fuzz scalar clang tsan)
 labels=() without=() jobs=$(nproc) timeout=600
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
 die() { echo "tests/run.sh: error: $1" >&2; exit "${2:-1}"; }
 while (($#)); do
   case $1 in
-    --long) export SGM_LONG=1 timeout=7200 ;;
+    --long) export SGM_LONG=1 && timeout=7200 variants+=(dev) ;;
     --label | --without | --jobs)
       (($# > 1)) || die "$1 needs a value" 2
       case $1 in --label) labels+=("$2") ;; --without) without+=("$2") ;; --jobs) jobs=$2 ;; esac
