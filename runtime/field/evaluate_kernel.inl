@@ -243,11 +243,10 @@ inline void evaluateAttributes(const ProgramView& program, const Points& points,
     const size_t count = points.count - first < kEvalBlock ? points.count - first : kEvalBlock;
     const size_t n = loadPoints(f, points, first, count);
     runBlock<true>(program, f, n);
-    // A pruned operand may have turned a zero's sign: adding +0 makes every zero the same.
     SGM_EACH {
       const Dual d = loadDual<true>(f, kFoldRegister, i);
-      const Real zero = broadcast(0.0f);
-      storeDual<true>(f, kFoldRegister, i, makeDual(d.v + zero, d.x + zero, d.y + zero, d.z + zero, d.label));
+      storeDual<true>(f, kFoldRegister, i,
+                      makeDual(unsignedZero(d.v), unsignedZero(d.x), unsignedZero(d.y), unsignedZero(d.z), d.label));
     }
     const uint32_t* fold = f.registers + kFoldRegister * kRegisterWords<true>;
     if (out.value) memcpy(out.value + first, fold, count * sizeof(float));

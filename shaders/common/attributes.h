@@ -31,3 +31,6 @@ FN PackedNormal packNormal(Real dx, Real dy, Real dz) {
   r.y = toInt(floorReal(oy));
   return r;
 }
+
+// One sign for every zero: Vulkan does not promise a zero's sign, and pruning may turn it.
+FN Real unsignedZero(Real x) { return sel((x < 0.0f) || (x > 0.0f), x, broadcast(0.0f)); }

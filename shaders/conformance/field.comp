@@ -41,12 +41,6 @@ Dual toWorld(uint place, Dual d) {
   return makeDual(d.v, alongColumn(d, j[0]), alongColumn(d, j[1]), alongColumn(d, j[2]), d.label);
 }
 
-// One sign for every zero, as the evaluators give it.
-float unsignedZero(float x) {
-  PRECISE Real r = x + 0.0f;
-  return r;
-}
-
 int moved(int at, float w) {
   PRECISE Real m = clampReal(w, -1048576.0f, 1048576.0f) * 1024.0f;
   m = m + 0.5f;

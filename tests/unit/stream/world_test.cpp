@@ -1,0 +1,241 @@
+// The world does not depend on how it is visited: order, threads, reach, place, cache.
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <iostream>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+
+#include "catch.h"
+#include "grammar/compile.h"
+#include "mesh/check.h"
+#include "mesh/weld.h"
+#include "stream/layers_below.h"
+#include "stream/mesh_chunks.h"
+
+using namespace sgm;
+
+namespace {
+
+std::string sample(const std::string& name) {
+  std::ifstream file(std::string(SGM_SAMPLE_GRAMMARS) + "/" + name);
+  REQUIRE(file);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+WorldFieldSettings settingsOf(const std::string& text, int32_t cell, uint64_t seed = 7) {
+  const CompileResult compiled = compileGrammar(text, "test.sgm");
+  INFO(renderDiagnostics(compiled));
+  REQUIRE(compiled.program);
+  WorldFieldSettings s;
+  s.program = compiled.program;
+  s.parameters = ParameterValues::defaults(*compiled.program);
+  s.seed = seed;
+  s.finest_cell = cell;
+  return s;
+}
+
+std::vector<ChunkRequest> requestsOf(const WorldField& world, const IntBox& region) {
+  Result<std::vector<ChunkKey>> keys = chunksOfRegion(world, region, 0, 100'000);
+  REQUIRE(keys);
+  std::vector<ChunkRequest> requests;
+  for (const ChunkKey& k : *keys) requests.push_back({k, 0, 0});
+  return requests;
+}
+
+std::vector<PlacedChunk> meshAll(const WorldField& world, const std::vector<ChunkRequest>& requests, unsigned threads) {
+  const auto jobs = makeThreadPool(threads);
+  Result<std::unique_ptr<Backend>> backend = makeBackend({}, *jobs, world.memory());
+  REQUIRE(backend);
+  Result<std::vector<PlacedChunk>> chunks = meshChunks(world, **backend, *jobs, requests);
+  INFO((chunks ? "" : chunks.error().message));
+  REQUIRE(chunks);
+  return std::move(*chunks);
+}
+
+uint64_t hashOf(const std::vector<PlacedChunk>& chunks) {
+  std::vector<PlacedPart> parts;
+  for (const PlacedChunk& c : chunks) appendParts(c, parts);
+  return hashParts(parts).value();
+}
+
+// The first hall of the cave's cell 0 0 0 lies somewhere around the cell's middle.
+const IntBox kHall{{64 * 1024, 64 * 1024, 64 * 1024}, {128 * 1024, 128 * 1024, 128 * 1024}};
+
+}  // namespace
+
+TEST_CASE("the world's hash does not depend on visiting order, threads or the cache") {
+  for (const char* name : {"cave.sgm", "cloud.sgm"}) {
+    const std::string text = sample(name);
+    const bool cloud = name[1] == 'l';
+    const int32_t cell = cloud ? 16 * 1024 : 1024;
+    const IntBox region = cloud ? IntBox{{0, 0, 0}, {2000 * 1024, 2000 * 1024, 1000 * 1024}} : kHall;
+    const WorldField world(settingsOf(text, cell), std::pmr::get_default_resource());
+    std::vector<ChunkRequest> requests = requestsOf(world, region);
+    const std::vector<PlacedChunk> chunks = meshAll(world, requests, 1);
+    const uint64_t expected = hashOf(chunks);
+    size_t triangles = 0;
+    for (const PlacedChunk& c : chunks) triangles += c.mesh.body.indices.size() / 3;
+    INFO(name << ", " << triangles << " triangles");
+    CHECK(triangles > 1000);
+
+    for (unsigned threads : {2u, 3u, 8u}) {
+      std::mt19937 random(threads);
+      std::shuffle(requests.begin(), requests.end(), random);
+      WorldFieldSettings s = settingsOf(text, cell);
+      s.cache_bytes = threads == 3 ? 1 : size_t{64} << 20;  // a cache that keeps nothing
+      const WorldField fresh(s, std::pmr::get_default_resource());
+      CHECK(hashOf(meshAll(fresh, requests, threads)) == expected);
+    }
+    // Come back after everything was forgotten: delete and return.
+    CHECK(hashOf(meshAll(world, requests, 2)) == expected);
+    WorldFieldSettings other = settingsOf(text, cell, 8);
+    CHECK(hashOf(meshAll(WorldField(other, std::pmr::get_default_resource()), requests, 2)) != expected);
+  }
+}
+
+TEST_CASE("doubling every reach changes nothing") {
+  const std::string text = sample("cave.sgm");
+  const std::string wide = replaced(replaced(text, "reach 176m", "reach 352m"), "reach 5m", "reach 10m");
+  const WorldField narrow_world(settingsOf(text, 1024), std::pmr::get_default_resource());
+  const WorldField wide_world(settingsOf(wide, 1024), std::pmr::get_default_resource());
+  const auto requests = requestsOf(narrow_world, kHall);
+  CHECK(hashOf(meshAll(narrow_world, requests, 2)) == hashOf(meshAll(wide_world, requests, 2)));
+}
+
+TEST_CASE("shapes, anchors and noise moved together by whole chunks give the same chunks, to the end of the world") {
+  WorldFieldSettings s = settingsOf(sample("cave.sgm"), 1024);
+  const WorldField home(s, std::pmr::get_default_resource());
+  const auto requests = requestsOf(home, kHall);
+  const std::vector<PlacedChunk> expected = meshAll(home, requests, 2);
+  constexpr int32_t edge = 32 * 1024;
+  for (const Int3 chunks : {Int3{1, -1, 3}, Int3{60'000, -60'000, 59'999}, Int3{-64'000, 1, 0}}) {
+    s.shift = {chunks.x * edge, chunks.y * edge, chunks.z * edge};
+    const WorldField moved(s, std::pmr::get_default_resource());
+    std::vector<ChunkRequest> there = requests;
+    for (ChunkRequest& r : there) r.key.at = saturatingAdd(r.key.at, chunks);
+    const std::vector<PlacedChunk> found = meshAll(moved, there, 2);
+    size_t different = 0;
+    for (size_t i = 0; i < found.size(); ++i) different += found[i].mesh.body.hash != expected[i].mesh.body.hash;
+    INFO("moved by " << chunks.x << ' ' << chunks.y << ' ' << chunks.z << " chunks");
+    CHECK(different == 0);
+  }
+}
+
+TEST_CASE("a region's chunks, welded by key, have no open edge inside") {
+  const WorldField world(settingsOf(sample("cave.sgm"), 1024), std::pmr::get_default_resource());
+  const std::vector<PlacedChunk> chunks = meshAll(world, requestsOf(world, kHall), 2);
+  std::vector<PlacedPart> parts;
+  for (const PlacedChunk& c : chunks) appendParts(c, parts);
+  Result<WorldMesh> mesh = weld(parts, kHall.lo);
+  REQUIRE(mesh);
+  const MeshReport report = checkTriangles(mesh->indices, mesh->keys.size());
+  INFO(describe(report));
+  CHECK(report.manifold());
+  // Whatever is open lies in the region's outer faces.
+  std::vector<std::pair<uint32_t, uint32_t>> edges;
+  for (size_t i = 0; i < mesh->indices.size(); i += 3) {
+    for (size_t k = 0; k < 3; ++k) edges.emplace_back(mesh->indices[i + k], mesh->indices[i + (k + 1) % 3]);
+  }
+  std::sort(edges.begin(), edges.end());
+  size_t inside = 0;
+  for (const auto& [a, b] : edges) {
+    if (std::binary_search(edges.begin(), edges.end(), std::pair(b, a))) continue;
+    auto onBorder = [&](uint32_t v) {
+      const VertexKey& key = mesh->keys[v];
+      for (int axis = 0; axis < 3; ++axis) {
+        if (key.axis != axis && (key.corner[axis] == kHall.lo[axis] || key.corner[axis] == kHall.hi[axis])) return true;
+      }
+      return false;
+    };
+    inside += !onBorder(a) || !onBorder(b);
+  }
+  CHECK(inside == 0);
+}
+
+TEST_CASE("a probe in one go answers as the probe step by step") {
+  class StepByStep final : public LowerLayers {
+   public:
+    explicit StepByStep(const LayersBelow& below) : below_(below) {}
+    bool solid(uint32_t layer, Int3 p) const override { return below_.solid(layer, p); }
+
+   private:
+    const LayersBelow& below_;
+  };
+  const WorldField world(settingsOf(sample("cave.sgm"), 512), std::pmr::get_default_resource());
+  const LayersBelow below(world, kHall);
+  const StepByStep slow(below);
+  std::mt19937 random(11);
+  size_t hits = 0;
+  for (int i = 0; i < 400; ++i) {
+    Int3 from;
+    for (int axis = 0; axis < 3; ++axis) from[axis] = kHall.lo[axis] + static_cast<int32_t>(random() % (64 * 1024));
+    const std::array<double, 3> direction = i % 3 == 0   ? std::array<double, 3>{0, 1, 0}
+                                            : i % 3 == 1 ? std::array<double, 3>{0, -1, 0}
+                                                         : std::array<double, 3>{0.6, 0, 0.8};
+    const auto length = static_cast<int32_t>(random() % 8000);
+    const auto fast = below.probe(0, from, direction, length);
+    INFO("probe " << i);
+    CHECK(fast == slow.probe(0, from, direction, length));
+    hits += fast.has_value();
+  }
+  CHECK_FALSE(below.error());
+  CHECK(hits > 0);
+}
+
+TEST_CASE("a cell asked for by many threads is derived once, and a failed one is not kept") {
+  CellCache cache(1 << 20, std::pmr::get_default_resource());
+  const auto jobs = makeThreadPool(8);
+  std::atomic<int> derived{0};
+  parallelFor(*jobs, 64, [&](size_t i) {
+    const auto cell = cache.get({0, {static_cast<int32_t>(i % 4), 0, 0}}, [&]() -> Result<GrammarChunk> {
+      ++derived;
+      return GrammarChunk{};
+    });
+    if (!cell) throw std::runtime_error("no cell");
+  });
+  CHECK(derived == 4);
+  CHECK(cache.stats().cells == 4);
+
+  const CellKey bad{1, {}};
+  CHECK_FALSE(cache.get(bad, []() -> Result<GrammarChunk> { return Error{Code::limit, "too much"}; }));
+  CHECK_THROWS(cache.get(bad, []() -> Result<GrammarChunk> { throw std::bad_alloc(); }));
+  CHECK(cache.get(bad, []() -> Result<GrammarChunk> { return GrammarChunk{}; }));
+}
+
+TEST_CASE("chunks and regions outside of the world are refused with a reason") {
+  const WorldField world(settingsOf(sample("sphere.sgm"), 512), std::pmr::get_default_resource());
+  CHECK(chunkGrid(world, {0, {131'071, 0, 0}}));
+  CHECK(chunkGrid(world, {0, {-131'072, 0, 0}}));
+  for (const ChunkKey key :
+       {ChunkKey{0, {131'072, 0, 0}}, ChunkKey{0, {0, -131'073, 0}}, ChunkKey{-1, {}}, ChunkKey{kMaxLevel + 1, {}}}) {
+    const auto grid = chunkGrid(world, key);
+    REQUIRE_FALSE(grid);
+    CHECK(grid.error().code == Code::invalid_argument);
+  }
+  CHECK(chunksOfRegion(world, {{0, 0, 0}, {0, 1, 1}}, 0, 10).error().code == Code::invalid_argument);
+  CHECK(chunksOfRegion(world, IntBox::everything(), 0, 10).error().code == Code::invalid_argument);
+  CHECK(chunksOfRegion(world, {{0, 0, 0}, {1 << 20, 1 << 20, 1 << 20}}, 0, 10).error().code == Code::limit);
+}
+
+TEST_CASE("cancelled meshing says so, and a job system of one thread does not wait for itself") {
+  const WorldField world(settingsOf(sample("sphere.sgm"), 256), std::pmr::get_default_resource());
+  const auto jobs = makeThreadPool(1);
+  auto backend = makeBackend({}, *jobs, world.memory());
+  REQUIRE(backend);
+  const auto requests = requestsOf(world, {{-64 * 1024, -64 * 1024, -64 * 1024}, {64 * 1024, 64 * 1024, 64 * 1024}});
+  const auto stopped = meshChunks(world, **backend, *jobs, requests, [](uint64_t, uint64_t) { return false; });
+  REQUIRE_FALSE(stopped);
+  CHECK(stopped.error().code == Code::cancelled);
+  CHECK(meshChunks(world, **backend, *jobs, {}));
+}
