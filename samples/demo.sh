@@ -30,7 +30,7 @@ cmake --build --preset release --target sgm_cli >"$log" 2>&1 || {
 
 sgm=build/release/bin/sgm
 cave=samples/grammars/cave.sgm
-region=-96,-96,-96:96,96,96
+region=0,0,0:192,192,192
 "$sgm" mesh "$cave" --out out/demo/cave.glb --region "$region" --cell 0.5 --seed 7
 "$sgm" render "$cave" --out out/demo/cave.png --region "$region" --cell 0.5 --seed 7 --size 1600x900
 

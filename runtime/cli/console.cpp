@@ -24,7 +24,7 @@ Exit exitOf(Code code) {
 }
 
 Exit complain(Exit status, std::string_view message) {
-  fmt::print(stderr, "sgm: error: {}\n", message);
+  fmt::print(stderr, "sgm: {}: {}\n", status == Exit::usage ? "usage" : "error", message);
   return status;
 }
 

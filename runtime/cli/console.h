@@ -23,7 +23,7 @@ enum class Exit : int {
 /// The status that an error of ours ends with.
 Exit exitOf(Code code);
 
-/// "sgm: error: message" as one line on stderr. Returns status.
+/// "sgm: error: message" ("sgm: usage: message" for a wrong command line) as one line on stderr. Returns status.
 Exit complain(Exit status, std::string_view message);
 inline Exit complain(const Error& error) { return complain(exitOf(error.code), error.message); }
 

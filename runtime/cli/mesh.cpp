@@ -117,7 +117,7 @@ Command addMesh(CLI::App& root) {
                   "mesh is only measured")
       ->check(checkOut);
   app->footer(
-      "Example:\n  sgm mesh samples/grammars/cave.sgm --out cave.glb --region 0,0,0:64,64,64 --cell 0.5 --seed 7");
+      "Example:\n  sgm mesh samples/grammars/cave.sgm --out cave.glb --region 0,0,0:192,192,192 --cell 0.5 --seed 7");
   return [options] { return mesh(*options); };
 }
 

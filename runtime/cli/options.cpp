@@ -56,6 +56,15 @@ std::string checkRegion(const std::string& text) {
   return fmt::format("'{}' is not x0,y0,z0:x1,y1,z1", text);
 }
 
+/// Signed text would wrap round into an unsigned number.
+std::string checkWhole(const std::string& text) {
+  uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, why] = std::from_chars(text.data(), end, value);
+  return why == std::errc() && rest == end ? std::string()
+                                           : fmt::format("'{}' is not a whole number from 0 to 2^64 - 1", text);
+}
+
 std::string checkSet(const std::string& text) {
   return text.find('=') == std::string::npos ? fmt::format("'{}' is not NAME=VALUE", text) : std::string();
 }
@@ -64,7 +73,9 @@ std::string checkSet(const std::string& text) {
 
 void addWorldOptions(CLI::App& app, WorldOptions& options) {
   app.add_option("FILE", options.file, "The grammar, a .sgm file")->required();
-  app.add_option("--seed", options.seed, "Seed of the world, a whole number from 0")->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of the world, a whole number from 0")
+      ->check(checkWhole)
+      ->capture_default_str();
   app.add_option("--set", options.sets, "Give a parameter of the grammar a value (repeatable)")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false)
@@ -87,7 +98,9 @@ void addRegionOptions(CLI::App& app, WorldOptions& options) {
   app.add_option("--ld", options.density, "Sampling density of the paper: cells per metre, so a cell edge of 1/N m")
       ->type_name("N")
       ->excludes(cell);
-  app.add_option("--max-chunks", options.max_chunks, "Refuse regions of more chunks than this")->capture_default_str();
+  app.add_option("--max-chunks", options.max_chunks, "Refuse regions of more chunks than this")
+      ->check(checkWhole)
+      ->capture_default_str();
 }
 
 Result<IntBox> parseRegion(std::string_view text) {

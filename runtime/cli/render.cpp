@@ -231,7 +231,7 @@ Command addRender(CLI::App& root) {
   app->add_option("--fov", options->fov, "Angle across the picture's height, in degrees")
       ->check(CLI::Range(1.0, 150.0))
       ->capture_default_str();
-  app->footer("Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --region -48,-48,-48:48,48,48 --seed 7");
+  app->footer("Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --region 0,0,0:192,192,192 --seed 7");
   return [options] { return render(*options); };
 }
 

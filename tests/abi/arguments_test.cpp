@@ -151,14 +151,14 @@ TEST_CASE("parameter calls are checked") {
   REQUIRE(sgm_parameters_create(world.grammar.get(), &parameters, nullptr) == SGM_OK);
   const ParametersOwner owner(parameters);
   double value = 0;
-  CHECK(sgm_parameters_set(nullptr, "size", 2, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_set(nullptr, "radius", 2, nullptr) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_parameters_set(parameters, nullptr, 2, nullptr) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_parameters_set_text(nullptr, "size", "2m", nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_set_text(nullptr, "radius", "2m", nullptr) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_parameters_set_text(parameters, nullptr, "2m", nullptr) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_parameters_set_text(parameters, "size", nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_parameters_get(nullptr, "size", &value, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_set_text(parameters, "radius", nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_get(nullptr, "radius", &value, nullptr) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_parameters_get(parameters, nullptr, &value, nullptr) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_parameters_get(parameters, "size", nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_get(parameters, "radius", nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_parameters_get(parameters, "", &value, nullptr) == SGM_ERR_NOT_FOUND);
 }
 

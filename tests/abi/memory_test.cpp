@@ -46,7 +46,7 @@ sgm_result everything(Handles& h, const sgm_allocator& allocator, sgm_error* err
   text.text = kBall;
   if (sgm_result r = sgm_grammar_compile(h.runtime, &text, &h.grammar, &h.diagnostics, error); r != SGM_OK) return r;
   if (sgm_result r = sgm_parameters_create(h.grammar, &h.parameters, error); r != SGM_OK) return r;
-  if (sgm_result r = sgm_parameters_set_text(h.parameters, "size", "2m", error); r != SGM_OK) return r;
+  if (sgm_result r = sgm_parameters_set_text(h.parameters, "radius", "2m", error); r != SGM_OK) return r;
   sgm_field_desc field = SGM_FIELD_DESC_INIT;
   field.grammar = h.grammar;
   field.parameters = h.parameters;

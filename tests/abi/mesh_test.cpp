@@ -299,7 +299,7 @@ TEST_CASE("parameters and seed reach the mesh") {
   sgm_parameters* parameters = nullptr;
   REQUIRE(sgm_parameters_create(grammar.get(), &parameters, nullptr) == SGM_OK);
   const ParametersOwner owner(parameters);
-  REQUIRE(sgm_parameters_set(parameters, "size", 1.5, nullptr) == SGM_OK);
+  REQUIRE(sgm_parameters_set(parameters, "radius", 1.5, nullptr) == SGM_OK);
   sgm_field_desc desc = SGM_FIELD_DESC_INIT;
   desc.grammar = grammar.get();
   desc.parameters = parameters;
@@ -308,7 +308,7 @@ TEST_CASE("parameters and seed reach the mesh") {
   REQUIRE(sgm_field_create(runtime.get(), &desc, &field, nullptr) == SGM_OK);
   const FieldOwner field_owner(field);
   // The field has its own copy.
-  REQUIRE(sgm_parameters_set(parameters, "size", 3.5, nullptr) == SGM_OK);
+  REQUIRE(sgm_parameters_set(parameters, "radius", 3.5, nullptr) == SGM_OK);
   const std::vector<MeshOwner> meshes = meshChunks(field, {{{0, 0, 0, 0}, 0}});
   const sgm_mesh_view view = viewOf(meshes[0]);
   CHECK(view.bounds_max[0] - view.bounds_min[0] == Approx(3 * 1024).margin(20));

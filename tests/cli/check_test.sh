@@ -8,7 +8,7 @@ out_has '^ball.sgm: ok$'
 err_empty
 expect 0 "$SGM" check --json ball.sgm
 json 'j.ok === true && j.files.length === 1 && j.files[0].file === "ball.sgm" && j.files[0].diagnostics.length === 0'
-json 'j.files[0].parameters[0].name === "size" && j.files[0].parameters[0].default === 3 && j.files[0].parameters[0].range[1] === 3.5'
+json 'j.files[0].parameters[0].name === "radius" && j.files[0].parameters[0].default === 3 && j.files[0].parameters[0].range[1] === 3.5'
 json '/^[0-9a-f]{16}$/.test(j.files[0].hash) && j.files[0].materials[0] === "marble" && j.files[0].layers[0].name === "main"'
 expect 0 "$SGM" check "$SOURCE"/samples/grammars/*.sgm
 

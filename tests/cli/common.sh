@@ -51,4 +51,4 @@ finish() {
   echo "all passed"
 }
 
-ball() { printf 'sgm 1;\nunits m;\nparam size = 3m in 1m..3.5m "radius";\nstart Ball;\nrule Ball { sphere(size); mat marble; }\n'; }
+ball() { printf 'sgm 1;\nunits m;\nparam radius = 3m in 1m..3.5m "radius";\nstart Ball;\nrule Ball { sphere(radius); mat marble; }\n'; }

@@ -22,13 +22,13 @@ only ball.sgm
 
 # The same world, whatever the threads; another one for another seed or parameter.
 hash() { sed -n 's/.*"hash": "\([0-9a-f]*\)".*/\1/p' <<<"$out"; }
-expect 0 "$SGM" mesh "$cave" --region 0,0,0:32,32,32 --seed 7 --json --threads 1
+expect 0 "$SGM" mesh "$cave" --region 64,64,112:96,96,144 --seed 7 --json --threads 1
 first=$(hash)
-expect 0 "$SGM" mesh "$cave" --region 0,0,0:32,32,32 --seed 7 --json --threads 3
+expect 0 "$SGM" mesh "$cave" --region 64,64,112:96,96,144 --seed 7 --json --threads 3
 [[ $(hash) == "$first" ]] || failed "the hash depends on threads"
-expect 0 "$SGM" mesh "$cave" --region 0,0,0:32,32,32 --seed 8 --json
+expect 0 "$SGM" mesh "$cave" --region 64,64,112:96,96,144 --seed 8 --json
 [[ $(hash) != "$first" ]] || failed "the seed does not matter"
-expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --set size=2m --json
+expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --set radius=2m --json
 json 'Math.abs(j.area - 16 * Math.PI) < 1.5'
 expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --ld 10 --json
 json 'j.cell_units === 102 && Math.abs(j.cell - 0.099609375) < 1e-12'
@@ -64,12 +64,12 @@ wrong --region 0,0,0:0,1,1
 wrong --region 4,4,4:-4,-4,-4
 wrong $region --cell 0.01 --max-chunks 10
 wrong --region=-2000000,-2000000,-2000000:2000000,2000000,2000000
-wrong $region --set size=9m
-wrong $region --set size=2
-wrong $region --set size=2deg
-wrong $region --set size=
-wrong $region --set sise=2m
-err_has size
+wrong $region --set radius=9m
+wrong $region --set radius=2
+wrong $region --set radius=2deg
+wrong $region --set radius=
+wrong $region --set raduis=2m
+err_has radius
 wrong $region --set =
 
 # Wrong usage: status 2.
@@ -83,7 +83,7 @@ usage
 usage ball.sgm --region 1,2:3,4
 usage ball.sgm --region 0,0,0
 usage ball.sgm --region 0,0,0:1,1,x
-usage ball.sgm --set size
+usage ball.sgm --set radius
 usage ball.sgm --out ball.blend
 usage ball.sgm --out noextension
 usage ball.sgm --seed -1
@@ -92,6 +92,7 @@ usage ball.sgm --cell 1 --ld 2
 usage ball.sgm --backend metal
 usage ball.sgm --threads -2
 usage ball.sgm --max-chunks many
+usage ball.sgm --max-chunks -1
 usage "$cave" --out cave.glb # endless, and no region
 
 # No such backend: status 3.

@@ -150,10 +150,9 @@ typedef struct sgm_allocator {
   void* user;
 } sgm_allocator;
 
-/* Threads from the caller. An accepted job must run exactly once, on any thread, at any time, in any order. The calling
- * thread works on its own call's jobs too, so a call of ours ends even where the job system is slow to start; a job
- * that runs after that does nothing. All accepted jobs must have run before sgm_runtime_destroy. The functions may be
- * called from any thread, inside a job too. */
+/* Threads from the caller. An accepted job must run exactly once, on any thread, at any time, in any order, whether or
+ * not help is called. The calling thread works too, and calls help while it waits; a call of ours returns when the jobs
+ * that it submitted have run. The functions may be called from any thread, inside a job too. */
 typedef struct sgm_job_system {
   /* How many jobs can run at one time, at least 1. */
   uint32_t (*concurrency)(void* user);
@@ -361,7 +360,8 @@ SGM_API void sgm_parameters_destroy(sgm_parameters* parameters);
 /* SGM_ERR_NOT_FOUND: no such parameter (the message offers the nearest name). SGM_ERR_INVALID_ARGUMENT: not finite, not
  * whole where it must be, or outside the parameter's range. On failure nothing changes. */
 SGM_API sgm_result sgm_parameters_set(sgm_parameters* parameters, const char* name, double value, sgm_error* error);
-/* As above from a text with a unit, "0.3", "50%", "12 m"; SGM_ERR_GRAMMAR where it is no number or has a wrong unit. */
+/* As above from a text as the language writes it, "0.3", "50%", "12m"; SGM_ERR_GRAMMAR where it is no number or its
+ * unit is wrong. */
 SGM_API sgm_result sgm_parameters_set_text(sgm_parameters* parameters, const char* name, const char* text,
                                            sgm_error* error);
 SGM_API sgm_result sgm_parameters_get(const sgm_parameters* parameters, const char* name, double* value,
