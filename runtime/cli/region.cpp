@@ -57,9 +57,9 @@ RegionResult failure(Exit status) { return {std::nullopt, status}; }
 
 }  // namespace
 
-RegionResult meshRegion(const WorldOptions& options, const std::optional<IntBox>& fallback) {
+RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose) {
   // What the command line alone can tell comes before any work.
-  std::optional<IntBox> region = fallback;
+  std::optional<IntBox> region;
   if (!options.region.empty()) {
     const Result<IntBox> given = parseRegion(options.region);
     if (!given) return failure(complain(given.error()));
@@ -74,7 +74,7 @@ RegionResult meshRegion(const WorldOptions& options, const std::optional<IntBox>
   Result<ParameterValues> parameters = parameterValues(program, options.sets);
   if (!parameters) return failure(complain(parameters.error()));
   if (options.region.empty() && !program.domain.infinite) region = program.domain.box;
-  if (!region)
+  if (!region && !choose)
     return failure(
         complain(Exit::usage, "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1"));
 
@@ -92,6 +92,11 @@ RegionResult meshRegion(const WorldOptions& options, const std::optional<IntBox>
   settings.cache_bytes = kCacheBytes;
   const WorldField world(std::move(settings), memory);
 
+  if (!region) {
+    const Result<IntBox> chosen = choose(world);
+    if (!chosen) return failure(complain(chosen.error()));
+    region = *chosen;
+  }
   Result<api::RegionMesh> meshed = [&] {
     ProgressBar bar("meshing");
     return api::meshRegion(world, **backend, *jobs, *region, 0, options.max_chunks,

@@ -1,6 +1,7 @@
 #pragma once
 // A region of a grammar's world, meshed and welded: what `mesh` writes and `render` draws.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,8 +30,12 @@ struct RegionResult {
   Exit status = Exit::done;
 };
 
-/// Reads, compiles and meshes what the options say. The region is --region; without it, all of a finite world, or
-/// `fallback` of an endless one. Messages go to stderr, a progress bar too where that is a terminal.
-RegionResult meshRegion(const WorldOptions& options, const std::optional<IntBox>& fallback = std::nullopt);
+/// Says which part of an endless world is meant where no --region does.
+using ChooseRegion = std::function<Result<IntBox>(const WorldField& world)>;
+
+/// Reads, compiles and meshes what the options say. The region is --region; without it, all of a finite world, or what
+/// `choose` says of an endless one (without it, --region must be given). Messages go to stderr, a progress bar too
+/// where that is a terminal.
+RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose = {});
 
 }  // namespace sgm::cli

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
@@ -96,14 +97,17 @@ glm::vec3 fromOrigin(const WorldMesh& mesh, const std::array<double, 3>& world) 
   return point;
 }
 
-/// Anchors whose name, kind or tag is the one asked for; all of them where none is.
+/// Whether an anchor's name, kind or tag is the one asked for; none asked for is any.
+bool isWanted(const Program& program, const Anchor& anchor, std::string_view wanted) {
+  const std::string_view name = program.names[anchor.name], kind = program.names[anchor.kind];
+  const std::string_view tag = program.tags[anchor.tag];
+  return wanted.empty() || name == wanted || kind == wanted || tag == wanted;
+}
+
 std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) {
   std::vector<glm::vec3> places;
-  const Program& program = *region.program;
   for (const Anchor& anchor : region.anchors) {
-    const std::string_view name = program.names[anchor.name], kind = program.names[anchor.kind];
-    const std::string_view tag = program.tags[anchor.tag];
-    if (!wanted.empty() && name != wanted && kind != wanted && tag != wanted) continue;
+    if (!isWanted(*region.program, anchor, wanted)) continue;
     std::array<double, 3> world{};
     for (int axis = 0; axis < 3; ++axis)
       world[static_cast<size_t>(axis)] = static_cast<double>(anchor.frame.origin[axis]) / kUnitsPerMetre;
@@ -147,24 +151,47 @@ Json metres(const WorldMesh& mesh, const glm::vec3& point) {
   return json;
 }
 
-/// What is drawn of an endless world without --region: what lies around the camera, or around the world's origin.
-IntBox surroundings(const RenderOptions& options) {
-  const std::array<double, 3> centre =
-      options.camera.empty() ? std::array<double, 3>{} : (*readCamera(options.camera))[0];
+IntBox around(const std::array<int64_t, 3>& centre) {
   IntBox box;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto middle = static_cast<int64_t>(centre[static_cast<size_t>(axis)] * kUnitsPerMetre);
-    box.lo[axis] = saturate(middle - kAroundUnits);
-    box.hi[axis] = saturate(middle + kAroundUnits);
+    box.lo[axis] = saturate(centre[static_cast<size_t>(axis)] - kAroundUnits);
+    box.hi[axis] = saturate(centre[static_cast<size_t>(axis)] + kAroundUnits);
   }
   return box;
+}
+
+/// What is drawn of an endless world without --region: what lies around the camera, else around the anchor asked for
+/// (any, where none is) that is nearest to the world's origin, else around the origin.
+Result<IntBox> surroundings(const RenderOptions& options, const WorldField& world) {
+  std::array<int64_t, 3> centre{};
+  if (!options.camera.empty()) {
+    const std::array<double, 3> from = (*readCamera(options.camera))[0];
+    for (size_t axis = 0; axis < 3; ++axis) centre[axis] = static_cast<int64_t>(from[axis] * kUnitsPerMetre);
+    return around(centre);
+  }
+  for (const int32_t metres : {128, 256, 512}) {
+    const int32_t units = metres * kUnitsPerMetre;
+    const Result<std::vector<Anchor>> anchors = world.anchors({{-units, -units, -units}, {units, units, units}});
+    if (!anchors) return anchors.error();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Anchor& anchor : *anchors) {
+      if (!isWanted(*world.settings().program, anchor, options.at)) continue;
+      const Int3 p = anchor.frame.origin;
+      const double distance = 1.0 * p.x * p.x + 1.0 * p.y * p.y + 1.0 * p.z * p.z;
+      if (distance >= nearest) continue;
+      nearest = distance;
+      centre = {p.x, p.y, p.z};
+    }
+    if (std::isfinite(nearest)) break;
+  }
+  return around(centre);
 }
 
 Exit render(const RenderOptions& options) {
   // The device first: meshing may take long, and be for nothing.
   const Result<Renderer> renderer = Renderer::create();
   if (!renderer) return complain(renderer.error());
-  const RegionResult made = meshRegion(options, surroundings(options));
+  const RegionResult made = meshRegion(options, [&](const WorldField& world) { return surroundings(options, world); });
   if (!made.region) return made.status;
   const Region& region = *made.region;
   if (region.meshed.mesh.indices.empty()) return complain(Exit::input, "there is no surface in the region to draw");
@@ -231,7 +258,7 @@ Command addRender(CLI::App& root) {
   app->add_option("--fov", options->fov, "Angle across the picture's height, in degrees")
       ->check(CLI::Range(1.0, 150.0))
       ->capture_default_str();
-  app->footer("Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --region 0,0,0:192,192,192 --seed 7");
+  app->footer("Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7");
   return [options] { return render(*options); };
 }
 

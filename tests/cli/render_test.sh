@@ -24,13 +24,13 @@ expect 0 "$SGM" render ball.sgm --out ball.png --size 160x90 --json
 json 'j.triangles > 100 && j.width === 160 && j.height === 90 && j.out === "ball.png" && j.seconds > 0 && j.device.length > 0'
 json 'j.camera.position.length === 3 && j.camera.target.length === 3'
 picture ball.png 160 90
-expect 0 "$SGM" render "$cave" --out cave.png --region=-32,-32,-32:32,32,32 --cell 1 --size 160x90 --seed 7
+expect 0 "$SGM" render "$cave" --out cave.png --cell 1 --size 160x90 --seed 7
 picture cave.png 160 90
 expect 0 "$SGM" render ball.sgm --out looked.png --camera 0,0,8:0,0,0 --size 64x64 --json
 json 'j.camera.position.join() === "0,0,8"'
 picture looked.png 64 64
 cmp -s ball.png looked.png && failed "the camera does not matter"
-expect 0 "$SGM" render "$cave" --out at.png --at spawn --region=-96,-96,-96:96,96,96 --cell 2 --size 64x64 --seed 7
+expect 0 "$SGM" render "$cave" --out at.png --at spawn --region=0,0,0:192,192,192 --cell 2 --size 64x64 --seed 7
 picture at.png 64 64
 rm ./*.png
 only ball.sgm
