@@ -239,7 +239,7 @@ TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every v
   }
 }
 
-TEST_CASE("a backend runs batches, cancels them, and refuses what it cannot do") {
+TEST_CASE("a backend runs batches, cancels them, and refuses what it cannot do", "[threads]") {
   const auto jobs = makeThreadPool(3);
   const auto field = programAround(5, {kEdge, kEdge, kEdge}, kEdge);
   auto batchOf = [&](int count) {

@@ -28,7 +28,7 @@ std::vector<Int3> corners(const GrammarChunk& chunk) {
 
 }  // namespace
 
-TEST_CASE("a cell derives to the same chunk, however often, in any order, on any thread") {
+TEST_CASE("a cell derives to the same chunk, however often, in any order, on any thread", "[threads]") {
   const auto program = compiled(kCave);
   std::vector<Int3> cells;
   for (int i = 0; i < 18; ++i) cells.push_back({i % 3 - 1, (i / 3) % 3 - 1, i / 9});

@@ -74,7 +74,7 @@ const IntBox kHall{{64 * 1024, 64 * 1024, 64 * 1024}, {128 * 1024, 128 * 1024, 1
 
 }  // namespace
 
-TEST_CASE("the world's hash does not depend on visiting order, threads or the cache") {
+TEST_CASE("the world's hash does not depend on visiting order, threads or the cache", "[threads]") {
   for (const char* name : {"cave.sgm", "cloud.sgm"}) {
     const std::string text = sample(name);
     const bool cloud = name[1] == 'l';
@@ -193,7 +193,7 @@ TEST_CASE("a probe in one go answers as the probe step by step") {
   CHECK(hits > 0);
 }
 
-TEST_CASE("a cell asked for by many threads is derived once, and a failed one is not kept") {
+TEST_CASE("a cell asked for by many threads is derived once, and a failed one is not kept", "[threads]") {
   CellCache cache(1 << 20, std::pmr::get_default_resource());
   const auto jobs = makeThreadPool(8);
   std::atomic<int> derived{0};
@@ -228,7 +228,7 @@ TEST_CASE("chunks and regions outside of the world are refused with a reason") {
   CHECK(chunksOfRegion(world, {{0, 0, 0}, {1 << 20, 1 << 20, 1 << 20}}, 0, 10).error().code == Code::limit);
 }
 
-TEST_CASE("cancelled meshing says so, and a job system of one thread does not wait for itself") {
+TEST_CASE("cancelled meshing says so, and a job system of one thread does not wait for itself", "[threads]") {
   const WorldField world(settingsOf(sample("sphere.sgm"), 256), std::pmr::get_default_resource());
   const auto jobs = makeThreadPool(1);
   auto backend = makeBackend({}, *jobs, world.memory());
