@@ -147,7 +147,7 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, std::spa
 Json metres(const WorldMesh& mesh, const glm::vec3& point) {
   Json json = Json::array();
   for (int axis = 0; axis < 3; ++axis)
-    json.push_back(double{point[axis]} + static_cast<double>(mesh.origin[axis]) / kUnitsPerMetre);
+    json.push_back(static_cast<double>(point[axis]) + static_cast<double>(mesh.origin[axis]) / kUnitsPerMetre);
   return json;
 }
 

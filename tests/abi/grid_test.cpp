@@ -78,7 +78,8 @@ TEST_CASE("a sphere in a grid: closed, of the right area and volume, with its no
   double area = 0, volume = 0;
   const auto corner = [&](uint64_t i) {
     const float* p = view.positions + size_t{3} * view.indices[i];
-    return std::array<double, 3>{double{p[0]} - centre, double{p[1]} - centre, double{p[2]} - centre};
+    return std::array<double, 3>{static_cast<double>(p[0]) - centre, static_cast<double>(p[1]) - centre,
+                                 static_cast<double>(p[2]) - centre};
   };
   for (uint64_t i = 0; i < view.index_count; i += 3) {
     const auto a = corner(i), b = corner(i + 1), c = corner(i + 2);
@@ -98,9 +99,9 @@ TEST_CASE("a sphere in a grid: closed, of the right area and volume, with its no
     const float *p = view.positions + 3 * v, *n = view.normals + 3 * v;
     double dot = 0, length = 0, normal = 0;
     for (size_t k = 0; k < 3; ++k) {
-      dot += (double{p[k]} - centre) * double{n[k]};
-      length += (double{p[k]} - centre) * (double{p[k]} - centre);
-      normal += double{n[k]} * double{n[k]};
+      dot += (static_cast<double>(p[k]) - centre) * static_cast<double>(n[k]);
+      length += (static_cast<double>(p[k]) - centre) * (static_cast<double>(p[k]) - centre);
+      normal += static_cast<double>(n[k]) * static_cast<double>(n[k]);
       CHECK((p[k] >= view.bounds_min[k] && p[k] <= view.bounds_max[k]));
     }
     CHECK(normal == Approx(1).epsilon(1e-6));

@@ -168,7 +168,8 @@ TEST_CASE("calls from several threads on one field agree") {
     sgm_mesh* mesh = nullptr;
     sgm_mesh_view view = SGM_MESH_VIEW_INIT;
     uint64_t hash = 0;
-    if (sgm_mesh_chunks(field, &desc, &mesh, nullptr) == SGM_OK && sgm_mesh_get_view(mesh, &view, nullptr) == SGM_OK) hash = view.hash;
+    if (sgm_mesh_chunks(field, &desc, &mesh, nullptr) == SGM_OK && sgm_mesh_get_view(mesh, &view, nullptr) == SGM_OK)
+      hash = view.hash;
     sgm_mesh_release(mesh);
     return hash;
   };

@@ -196,7 +196,7 @@ TEST_CASE("a region is its chunks, welded: each border vertex once, open only at
   }
   const auto onBorder = [&](uint32_t v) {
     for (size_t axis = 0; axis < 3; ++axis) {
-      const double metres = double{view.positions[3 * size_t{v} + axis]} + view.origin[axis] / 1024.0;
+      const double metres = static_cast<double>(view.positions[3 * size_t{v} + axis]) + view.origin[axis] / 1024.0;
       if (metres == view.extent_min[axis] / 1024.0 || metres == view.extent_max[axis] / 1024.0) return true;
     }
     return false;
@@ -244,13 +244,13 @@ TEST_CASE("samples are what meshes are made of") {
     }
     length = std::sqrt(length);
     if (length > 3.4) break;
-    CHECK(double{values[i]} == Approx(length - 3).margin(1e-5));
-    CHECK(q[i] == static_cast<int32_t>(std::floor(double{values[i]} * 1024 * 4 + 0.5)));
+    CHECK(static_cast<double>(values[i]) == Approx(length - 3).margin(1e-5));
+    CHECK(q[i] == static_cast<int32_t>(std::floor(static_cast<double>(values[i]) * 1024 * 4 + 0.5)));
     CHECK(materials[i] == 1);
     CHECK(tags[i] == 1);
     if (i > 0) {
       for (size_t axis = 0; axis < 3; ++axis)
-        CHECK(double{gradients[3 * i + axis]} == Approx(d[axis] / length).margin(1e-3));
+        CHECK(static_cast<double>(gradients[3 * i + axis]) == Approx(d[axis] / length).margin(1e-3));
     }
   }
 }
