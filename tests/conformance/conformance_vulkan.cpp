@@ -13,7 +13,7 @@ using namespace sgm;
 
 namespace {
 
-bool required() { return std::getenv("SGM_REQUIRE_VULKAN") != nullptr; }
+bool required() { return std::getenv("SGM_REQUIRE_VULKAN") || std::getenv("SGM_REQUIRE_ALL"); }
 
 // The words of shaders/conformance/field.comp.
 struct Packed {
