@@ -18,6 +18,9 @@ fi
 if [[ -n $seeds ]]; then
   [[ -d $seeds ]] || { echo "fuzz.sh: no folder $seeds" >&2; exit 1; }
   corpus+=("$seeds")
+else
+  # Nothing to start from: long inputs at once, or a short run sees none.
+  how+=(-len_control=0)
 fi
 exec "$program" "${how[@]}" -timeout=20 -rss_limit_mb=4096 -max_len=8192 -print_final_stats=1 -verbosity=0 \
   -artifact_prefix="$folder/failed/" "${corpus[@]}" </dev/null
