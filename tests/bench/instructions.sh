@@ -45,7 +45,7 @@ for work in $("$program" --list); do
   [[ -n $known ]] || skip "no figure for '$key' yet (counted $count): run with --record"
   verdict=$(awk -v now="$count" -v was="$known" -v tolerance="$tolerance" 'BEGIN {
     change = now / was - 1
-    printf "%+.2f%% %s", 100 * change, change > tolerance ? "MORE" : change < -tolerance ? "FEWER" : "ok" }')
+    printf "%+.2f%% %s", 100 * change, (change > tolerance ? "MORE" : (change < -tolerance ? "FEWER" : "ok")) }')
   echo "$key: $count instructions, recorded $known: $verdict"
   [[ $verdict == *ok ]] || failed=1
 done
