@@ -30,9 +30,9 @@ cmake --build --preset release --target sgm_cli >"$log" 2>&1 || {
 
 sgm=build/release/bin/sgm
 cave=samples/grammars/cave.sgm
-region=0,0,0:192,192,192
-"$sgm" mesh "$cave" --out out/demo/cave.glb --region "$region" --cell 0.5 --seed 7
-"$sgm" render "$cave" --out out/demo/cave.png --region "$region" --cell 0.5 --seed 7 --size 1600x900
+region=0,-192,0:192,0,192
+"$sgm" mesh "$cave" --out out/demo/cave.glb --region "$region" --cell 0.25 --seed 3
+"$sgm" render "$cave" --out out/demo/cave.png --region "$region" --cell 0.25 --seed 3 --size 1600x900
 
 echo
 echo "Mesh:    $root/out/demo/cave.glb (opens in Blender, Godot, any glTF viewer)"
