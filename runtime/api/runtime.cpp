@@ -1,6 +1,6 @@
 #include "api/runtime.h"
 
-#include <cstdlib>
+#include <chrono>
 #include <limits>
 
 #include "api/barrier.h"
@@ -67,8 +67,40 @@ unsigned CallerJobs::concurrency() const {
   return count == 0 ? 1 : count;
 }
 
+void CallerJobs::runAccepted(void* argument) {
+  const std::unique_ptr<Accepted> job(static_cast<Accepted*>(argument));
+  job->function(job->argument);
+  CallerJobs& owner = *job->owner;
+  const std::lock_guard lock(owner.mutex_);
+  if (--owner.waiting_ == 0) owner.ended_.notify_all();
+}
+
 void CallerJobs::submit(void (*function)(void*), void* argument, int priority) {
-  if (jobs_.submit(jobs_.user, function, argument, priority) == 0) function(argument);
+  std::unique_ptr<Accepted> job(new (std::nothrow) Accepted{this, function, argument});
+  if (job == nullptr) {
+    function(argument);
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    ++waiting_;
+  }
+  if (jobs_.submit(jobs_.user, runAccepted, job.get(), priority) != 0) {
+    static_cast<void>(job.release());  // runAccepted has it, and may have ended it already
+  } else {
+    runAccepted(job.release());
+  }
+}
+
+CallerJobs::~CallerJobs() {
+  constexpr auto kBetweenHelps = std::chrono::milliseconds(1);
+  std::unique_lock lock(mutex_);
+  while (waiting_ != 0) {
+    lock.unlock();
+    const bool helped = help();
+    lock.lock();
+    if (!helped) ended_.wait_for(lock, kBetweenHelps, [this] { return waiting_ == 0; });
+  }
 }
 
 bool CallerJobs::help() { return jobs_.help != nullptr && jobs_.help(jobs_.user) != 0; }

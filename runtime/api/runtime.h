@@ -3,8 +3,10 @@
 // children.
 
 #include <atomic>
+#include <condition_variable>
 #include <memory>
 #include <memory_resource>
+#include <mutex>
 #include <new>
 #include <string>
 #include <utility>
@@ -31,16 +33,30 @@ class CallerMemory final : public std::pmr::memory_resource {
   std::atomic<uint64_t> live_{0}, peak_{0};
 };
 
-/// The caller's job system as ours.
+/// The caller's job system as ours. Ends only when every job that it accepted has run: a job that has nothing left to
+/// do may still hold memory of the runtime's.
 class CallerJobs final : public JobSystem {
  public:
   explicit CallerJobs(const sgm_job_system& jobs) : jobs_(jobs) {}
+  CallerJobs(const CallerJobs&) = delete;
+  CallerJobs& operator=(const CallerJobs&) = delete;
+  ~CallerJobs() override;
   unsigned concurrency() const override;
   void submit(void (*function)(void*), void* argument, int priority) override;
   bool help() override;
 
  private:
+  struct Accepted {
+    CallerJobs* owner;
+    void (*function)(void*);
+    void* argument;
+  };
+  static void runAccepted(void* argument);
+
   sgm_job_system jobs_;
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  uint64_t waiting_ = 0;  ///< accepted and not ended
 };
 
 }  // namespace sgm::api

@@ -1,6 +1,8 @@
 // Every allocation fails in turn: each call then says so, nothing leaks, and the next try works.
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
@@ -107,6 +109,12 @@ void* operator new(size_t size) {
 void* operator new(size_t size, std::align_val_t alignment) {
   if (void* memory = heapAllocate(size, static_cast<size_t>(alignment))) return memory;
   throw std::bad_alloc();
+}
+void* operator new(size_t size, const std::nothrow_t&) noexcept {
+  return heapAllocate(size, alignof(std::max_align_t));
+}
+void* operator new(size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return heapAllocate(size, static_cast<size_t>(alignment));
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, size_t) noexcept { std::free(memory); }

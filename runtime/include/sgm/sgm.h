@@ -198,7 +198,8 @@ typedef struct sgm_runtime_desc {
  * major version is 0: with any other minor one) is refused with SGM_ERR_VERSION. */
 SGM_API sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, sgm_error* error);
 
-/* SGM_ERR_BUSY, and nothing happens, while a handle made from this runtime lives. NULL is SGM_OK. */
+/* SGM_ERR_BUSY, and nothing happens, while a handle made from this runtime lives. Waits for jobs that the job system
+ * has accepted and not run. NULL is SGM_OK. */
 SGM_API sgm_result sgm_runtime_destroy(sgm_runtime* runtime);
 
 /* Bytes held from the allocator now, and the most at any one time. Either pointer may be NULL. */
