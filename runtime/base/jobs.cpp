@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <queue>
 #include <thread>
@@ -79,17 +80,19 @@ class ThreadPool final : public JobSystem {
   std::vector<std::thread> threads_;
 };
 
-// Shared by the caller and the jobs it has submitted; the last one out needs it, so it is reference-counted.
+// Shared by the caller and the jobs that it has submitted; one of those may run long after the call has returned, and
+// then finds nothing left to do.
 struct ForState {
   const std::function<void(size_t)>* body;
   size_t count;
   std::atomic<size_t> next{0};
-  std::atomic<size_t> pending{0};
+  std::atomic<size_t> active{0};
   std::mutex mutex;
   std::condition_variable done;
   std::exception_ptr error;
 
   void run() {
+    active.fetch_add(1);
     for (size_t i; (i = next.fetch_add(1)) < count;) {
       try {
         (*body)(i);
@@ -99,16 +102,16 @@ struct ForState {
         next.store(count);
       }
     }
+    if (active.fetch_sub(1) == 1) {
+      std::lock_guard lock(mutex);
+      done.notify_all();
+    }
   }
 };
 
 void runShare(void* argument) {
-  auto* shared = static_cast<std::shared_ptr<ForState>*>(argument);
-  const std::shared_ptr<ForState> state = *shared;
-  delete shared;
-  state->run();
-  std::lock_guard lock(state->mutex);
-  if (state->pending.fetch_sub(1) == 1) state->done.notify_all();
+  const std::unique_ptr<std::shared_ptr<ForState>> share(static_cast<std::shared_ptr<ForState>*>(argument));
+  (*share)->run();
 }
 
 }  // namespace
@@ -124,17 +127,19 @@ void parallelFor(JobSystem& jobs, size_t count, const std::function<void(size_t)
   state->body = &body;
   state->count = count;
   const size_t helpers = std::min<size_t>(jobs.concurrency(), count) - 1;
-  for (size_t i = 0; i < helpers; ++i) {
-    auto* share = new std::shared_ptr<ForState>(state);
-    state->pending.fetch_add(1);
-    jobs.submit(runShare, share, 0);
+  try {
+    for (size_t i = 0; i < helpers; ++i) {
+      auto share = std::make_unique<std::shared_ptr<ForState>>(state);
+      jobs.submit(runShare, share.get(), 0);
+      share.release();
+    }
+  } catch (const std::bad_alloc&) {
+    // Fewer threads then: what was submitted already still reads the body, so this call must go on.
   }
   state->run();
-  // A job system may run our shares late; helping it along keeps a pool of one thread from waiting for itself.
-  while (state->pending.load() != 0 && jobs.help()) {
-  }
+  // Nothing is left to begin; what other threads have begun must end before the body goes away.
   std::unique_lock lock(state->mutex);
-  state->done.wait(lock, [&] { return state->pending.load() == 0; });
+  state->done.wait(lock, [&] { return state->active.load() == 0; });
   if (state->error) std::rethrow_exception(state->error);
 }
 

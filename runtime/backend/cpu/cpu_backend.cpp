@@ -38,14 +38,14 @@ class ScratchPool {
 struct BatchState {
   BatchState(const FieldKernels& kernels_in, std::shared_ptr<ScratchPool> pool_in, std::vector<ChunkJob> jobs_in,
              std::pmr::memory_resource* memory_in)
-      : kernels(kernels_in), pool(std::move(pool_in)), jobs(std::move(jobs_in)), memory(memory_in) {
+      : kernels(kernels_in), pool(std::move(pool_in)), jobs(std::move(jobs_in)), count(jobs.size()) {
     meshes.reserve(jobs.size());
-    for (size_t i = 0; i < jobs.size(); ++i) meshes.emplace_back(memory);
+    for (size_t i = 0; i < count; ++i) meshes.emplace_back(memory_in);
   }
 
   // Takes jobs until none is left; any number of threads.
   void run() {
-    for (size_t i; (i = next.fetch_add(1)) < jobs.size();) {
+    for (size_t i; (i = next.fetch_add(1)) < count;) {
       if (cancelled.load(std::memory_order_relaxed)) {
         skipped.store(true);
       } else {
@@ -57,7 +57,7 @@ struct BatchState {
           no_memory.store(true);
         }
       }
-      if (ended.fetch_add(1) + 1 == jobs.size()) {
+      if (ended.fetch_add(1) + 1 == count) {
         std::lock_guard lock(mutex);
         done.notify_all();
       }
@@ -67,7 +67,7 @@ struct BatchState {
   const FieldKernels& kernels;
   std::shared_ptr<ScratchPool> pool;
   std::vector<ChunkJob> jobs;
-  std::pmr::memory_resource* memory;
+  const size_t count;
   std::vector<ChunkMesh> meshes;
   std::atomic<size_t> next{0}, ended{0};
   std::atomic<bool> cancelled{false}, skipped{false}, no_memory{false};
@@ -86,8 +86,12 @@ class CpuBatch final : public ChunkBatch {
   ~CpuBatch() override {
     cancel();
     wait();
+    // A share that the job system runs later still holds the state, but finds nothing to do: its memory goes now.
+    state_->jobs.clear();
+    state_->meshes.clear();
+    state_->pool.reset();
   }
-  bool poll() override { return state_->ended.load() == state_->jobs.size(); }
+  bool poll() override { return state_->ended.load() == state_->count; }
   void wait() override {
     state_->run();
     std::unique_lock lock(state_->mutex);
@@ -115,9 +119,14 @@ class CpuBackend final : public Backend {
     auto state = std::make_shared<BatchState>(kernels_, pool_, std::move(jobs), memory_);
     const size_t shares = std::min<size_t>(jobs_.concurrency(), state->jobs.size());
     auto batch = std::make_unique<CpuBatch>(state);
-    for (size_t i = 0; i < shares; ++i) {
-      auto share = std::make_unique<std::shared_ptr<BatchState>>(state);
-      jobs_.submit(runShare, share.release(), 0);
+    try {
+      for (size_t i = 0; i < shares; ++i) {
+        auto share = std::make_unique<std::shared_ptr<BatchState>>(state);
+        jobs_.submit(runShare, share.get(), 0);
+        share.release();
+      }
+    } catch (const std::bad_alloc&) {
+      // Fewer threads then: the one that waits does what is left.
     }
     return std::unique_ptr<ChunkBatch>(std::move(batch));
   }
