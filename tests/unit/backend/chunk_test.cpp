@@ -50,7 +50,8 @@ ChunkMesh meshOf(const FieldKernels& kernels, const ChunkJob& job) {
 
 bool sameBytes(const MeshPart& a, const MeshPart& b) {
   return a.indices == b.indices && a.keys == b.keys && a.hash == b.hash && a.vertices.size() == b.vertices.size() &&
-         std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(Vertex)) == 0;
+         (a.vertices.empty() ||
+          std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(Vertex)) == 0);
 }
 
 // All samples by the whole program, all attributes by the whole program: what pruning must not change.

@@ -1,0 +1,31 @@
+// The scalar evaluator once more, compiled as the arithmetic contract forbids: with contraction into fma.
+
+#include <cstdint>
+#include <cstring>
+
+#include "contracted.h"
+
+namespace sgm::contracted {
+
+using std::memcpy;
+
+#include "common/common.h"
+
+inline constexpr size_t kLanes = 1;
+FN Real loadReal(const uint32_t* p) { return uniformFloat(*p); }
+FN Int loadInt(const uint32_t* p) { return static_cast<Int>(*p); }
+FN void storeReal(Real r, uint32_t* p) { *p = realToBits(r); }
+FN void storeInt(Int i, uint32_t* p) { *p = static_cast<uint32_t>(i); }
+
+#include "field/evaluate_kernel.inl"
+
+}  // namespace sgm::contracted
+
+namespace sgm {
+
+const FieldKernels& contractedKernels() {
+  static constexpr FieldKernels kernels{"contracted", contracted::evaluateSamples, contracted::evaluateAttributes};
+  return kernels;
+}
+
+}  // namespace sgm
