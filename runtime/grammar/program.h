@@ -103,8 +103,8 @@ struct Rule {
 /// Layers stand in topological order: a layer uses only layers before it.
 struct Layer {
   NameId name = kNoId;  ///< "main" for a top-level start
-  Int3 cell;            ///< edges of a cell in units, at least 1; along axes without cells: 0
-  int32_t reach = 0;    ///< in units: shapes stay within the cell's box grown by this
+  Int3 cell;  ///< edges of a cell in units, at least 1; along axes without cells: 0; without layers: the domain's edges
+  int32_t reach = 0;  ///< in units: shapes stay within the cell's box grown by this
   std::pmr::vector<uint32_t> uses;
   ExprId start = kNoId;  ///< a call of a rule
   ExprId cell_expr = kNoId, reach_expr = kNoId;
