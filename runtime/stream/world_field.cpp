@@ -103,35 +103,37 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t la
   return compileLayers(layer + 1, box, fieldSettings(1, 1));
 }
 
-Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box) const {
-  std::vector<Anchor> found;
+Result<void> WorldField::forEachCell(const IntBox& box, const std::function<void(const GrammarChunk&)>& visit) const {
   for (uint32_t layer = 0; layer < settings_.program->layers.size(); ++layer) {
     Result<std::vector<CellKey>> keys = cellsReaching(layer, box);
     if (!keys) return keys.error();
     for (const CellKey& key : *keys) {
       Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
       if (!derived) return derived.error();
-      for (const Anchor& a : (*derived)->chunk.anchors) {
-        const Int3 p = a.frame.origin;
-        const bool below_top = p.x < box.hi.x && p.y < box.hi.y && p.z < box.hi.z;
-        if (box.contains(p) && below_top) found.push_back(a);
-      }
+      visit((*derived)->chunk);
     }
   }
+  return {};
+}
+
+Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box) const {
+  std::vector<Anchor> found;
+  const Result<void> visited = forEachCell(box, [&](const GrammarChunk& chunk) {
+    for (const Anchor& a : chunk.anchors) {
+      const Int3 p = a.frame.origin;
+      const bool below_top = p.x < box.hi.x && p.y < box.hi.y && p.z < box.hi.z;
+      if (box.contains(p) && below_top) found.push_back(a);
+    }
+  });
+  if (!visited) return visited.error();
   return found;
 }
 
 Result<std::vector<DeriveNote>> WorldField::notes(const IntBox& box) const {
   std::vector<DeriveNote> found;
-  for (uint32_t layer = 0; layer < settings_.program->layers.size(); ++layer) {
-    Result<std::vector<CellKey>> keys = cellsReaching(layer, box);
-    if (!keys) return keys.error();
-    for (const CellKey& key : *keys) {
-      Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
-      if (!derived) return derived.error();
-      found.insert(found.end(), (*derived)->chunk.notes.begin(), (*derived)->chunk.notes.end());
-    }
-  }
+  const Result<void> visited = forEachCell(
+      box, [&](const GrammarChunk& chunk) { found.insert(found.end(), chunk.notes.begin(), chunk.notes.end()); });
+  if (!visited) return visited.error();
   return found;
 }
 

@@ -55,6 +55,8 @@ class WorldField {
  private:
   Result<std::shared_ptr<const FieldProgram>> compileLayers(uint32_t layers, const IntBox& box,
                                                             const FieldSettings& field) const;
+  /// Visits the cells of all layers that can reach into the box, in order.
+  Result<void> forEachCell(const IntBox& box, const std::function<void(const GrammarChunk&)>& visit) const;
   FieldSettings fieldSettings(int32_t finest_cell, int32_t cell) const;
 
   WorldFieldSettings settings_;
