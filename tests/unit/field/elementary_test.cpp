@@ -1,0 +1,127 @@
+// The elementary functions of shaders/common/real.h against long double, within the errors that they state.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <random>
+
+#include "catch.h"
+
+namespace {
+
+using std::memcpy;
+
+#include "common/common.h"
+
+// The mantissas of two neighbouring powers of two: all there is to a function that scales with the exponent.
+constexpr uint32_t kMantissas = 1u << 24;
+
+float atStep(uint32_t step) { return uniformFloat(0x3F000000u + step); }
+
+struct Worst {
+  long double error = 0;
+  float at = 0, second = 0;
+  void add(long double e, float x, float y = 0) {
+    if (std::isnan(e) || e > error) error = e, at = x, second = y;
+  }
+};
+
+long double relative(float got, long double want) {
+  return std::fabs(static_cast<long double>(got) - want) / std::fabs(want);
+}
+
+float anyMagnitude(std::mt19937& random, int lowest, int highest) {
+  const auto exponent = static_cast<int>(random() % static_cast<uint32_t>(highest - lowest)) + lowest;
+  return std::ldexp(atStep(random() % (kMantissas / 2)), exponent + 1);
+}
+
+}  // namespace
+
+TEST_CASE("square root and reciprocals stay within their stated errors over every mantissa") {
+  Worst rsqrt, root, recip;
+  for (uint32_t step = 0; step < kMantissas; step += 3) {
+    const float x = atStep(step);
+    const auto exact = static_cast<long double>(x);
+    rsqrt.add(relative(rsqrtReal(x), 1 / std::sqrt(exact)), x);
+    root.add(relative(sqrtReal(x), std::sqrt(exact)), x);
+    recip.add(relative(recipReal(x), 1 / exact), x);
+  }
+  const uint32_t seed = 20271;
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  for (int i = 0; i < 200000; ++i) {
+    const float x = anyMagnitude(random, -126, 127), y = anyMagnitude(random, -120, 120);
+    rsqrt.add(relative(rsqrtReal(x), 1 / std::sqrt(static_cast<long double>(x))), x);
+    root.add(relative(sqrtReal(x), std::sqrt(static_cast<long double>(x))), x);
+    recip.add(relative(recipReal(y), 1 / static_cast<long double>(y)), y);
+  }
+  CAPTURE(rsqrt.at, root.at, recip.at);
+  CHECK(static_cast<double>(rsqrt.error) < 3e-7);
+  CHECK(static_cast<double>(root.error) < 4e-7);
+  CHECK(static_cast<double>(recip.error) < 2e-7);
+  CHECK(sqrtReal(0.0f) == 0.0f);
+  CHECK(std::isfinite(rsqrtReal(0.0f)));
+}
+
+TEST_CASE("powers and logarithms stay within their stated errors") {
+  const uint32_t seed = 20272;
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  Worst exponential, logarithm, power;
+  const auto check_log = [&](float x) {
+    const long double exact = std::log2(static_cast<long double>(x));
+    const long double error = std::fabs(static_cast<long double>(log2Real(x)) - exact);
+    logarithm.add(error / std::fmax(1.0L, std::fabs(exact)), x);
+  };
+  for (uint32_t step = 0; step < kMantissas; step += 7) check_log(atStep(step));
+  for (int i = 0; i < 400000; ++i) {
+    const float x = std::uniform_real_distribution<float>(-126.0f, 126.0f)(random);
+    exponential.add(relative(exp2Real(x), std::exp2(static_cast<long double>(x))), x);
+    check_log(anyMagnitude(random, -126, 127));
+    const float a = i % 2 ? std::uniform_real_distribution<float>(0.0f, 1.0f)(random) : anyMagnitude(random, -40, 0);
+    const float n = std::uniform_real_distribution<float>(1.0f, 20.0f)(random);
+    const long double exact = std::pow(static_cast<long double>(a), static_cast<long double>(n));
+    power.add(std::fabs(static_cast<long double>(powReal(a, n)) - exact), a, n);
+  }
+  for (int whole = -126; whole <= 126; ++whole) {
+    CHECK(exp2Real(static_cast<float>(whole)) == std::ldexp(1.0f, whole));
+    const float halfway = static_cast<float>(whole) + 0.5f;
+    if (whole < 126)
+      exponential.add(relative(exp2Real(halfway), std::exp2(static_cast<long double>(halfway))), halfway);
+  }
+  CAPTURE(exponential.at, logarithm.at, power.at, power.second);
+  CHECK(static_cast<double>(exponential.error) < 3e-7);
+  CHECK(static_cast<double>(logarithm.error) < 4e-7);
+  CHECK(static_cast<double>(power.error) < 1e-5);
+  CHECK(powReal(1.0f, 20.0f) == 1.0f);
+  CHECK(powReal(0.0f, 1.0f) < 1.2e-38f);
+  CHECK(std::fabs(log2Real(0.0f) + 127.0f) < 1.0f);
+}
+
+TEST_CASE("floor, division, saturation and quantisation keep their promises at the ends of their ranges") {
+  const uint32_t seed = 20273;
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  Worst quotient;
+  for (int i = 0; i < 200000; ++i) {
+    const float sign = random() % 2 ? -1.0f : 1.0f;
+    const float x = sign * anyMagnitude(random, -126, 30);
+    REQUIRE(floorReal(x) == std::floor(x));
+    const float a = sign * anyMagnitude(random, -3, 3),
+                b = (random() % 2 ? -1.0f : 1.0f) * anyMagnitude(random, -120, 120);
+    quotient.add(relative(divideReal(a, b), static_cast<long double>(a) / static_cast<long double>(b)), a, b);
+    const auto p = static_cast<int32_t>(random()), c = static_cast<int32_t>(random());
+    const int64_t exact = int64_t{p} - c;
+    REQUIRE(saturatingSub(p, c) == std::min<int64_t>(std::max<int64_t>(exact, INT32_MIN), INT32_MAX));
+  }
+  CAPTURE(quotient.at, quotient.second);
+  CHECK(static_cast<double>(quotient.error) < 4e-7);
+  CHECK(divideReal(3.0f, 0.0f) == 0.0f);
+  CHECK(quantise(0.4999f, 1.0f) == 0);
+  CHECK(quantise(0.5f, 1.0f) == 1);
+  CHECK(quantise(-0.5f, 1.0f) == 0);
+  CHECK(quantise(-0.5001f, 1.0f) == -1);
+  CHECK(quantise(1e30f, 1.0f) == 4194304);
+  CHECK(quantise(-1e30f, 1.0f) == -4194304);
+}
