@@ -57,12 +57,41 @@ WideBox placed(const Frame& frame, std::array<double, 3> centre, std::array<doub
 
 WideBox placed(const Frame& frame, double x, double y, double z) { return placed(frame, {0, 0, 0}, {x, y, z}); }
 
+/// A level of a distance lies within the shape's own box grown by that much, however the shape is turned. A negative
+/// level lies in the smaller shape.
+WideBox distance(const Frame& frame, std::array<double, 3> centre, std::array<double, 3> half, double a) {
+  if (a <= 0) return placed(frame, centre, {half[0] + a, half[1] + a, half[2] + a});
+  WideBox box = placed(frame, centre, half);
+  if (box.empty()) return box;
+  for (size_t i = 0; i < 3; ++i) box.lo[i] -= a + slack(a), box.hi[i] += a + slack(a);
+  return box;
+}
+
 /// Half extents of (norm(q / r) - 1) * min(r) <= a, for radii up to `most` of which the smallest is at least `least`.
 WideBox scaledRadii(const Frame& frame, std::array<double, 3> most, double least, double a) {
   if (!(least > 0)) return WideBox::everything();
   // Negative levels lie inside the zero set, whatever the radii are.
   const double factor = 1.0 + std::max(a, 0.0) / least;
   return placed(frame, most[0] * factor, most[1] * factor, most[2] * factor);
+}
+
+/// The same for an ellipsoid, which leaves the corners of its box empty.
+WideBox ellipsoid(const Frame& frame, std::array<double, 3> radii, double a) {
+  const double least = *std::min_element(radii.begin(), radii.end());
+  if (!(least > 0)) return WideBox::everything();
+  const double factor = 1.0 + std::max(a, 0.0) / least;
+  WideBox box;
+  for (size_t j = 0; j < 3; ++j) {
+    double square = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      const double along = wide(frame.rows[3 * i + j]) * radii[i];
+      square += along * along;
+    }
+    const double half = std::sqrt(square) * factor, at = frame.origin[static_cast<int>(j)];
+    box.lo[j] = at - half - slack(half);
+    box.hi[j] = at + half + slack(half);
+  }
+  return box;
 }
 
 WideBox halfspace(const Frame& frame, double a) {
@@ -126,8 +155,8 @@ WideBox Walker::prism(const Shape& s, double a) const {
     for (int k = 0; k < 2; ++k) lo[k] = std::min(lo[k], at[k]), hi[k] = std::max(hi[k], at[k]);
   }
   if (s.point_count == 0) return {};
-  return placed(s.frame, {(lo[0] + hi[0]) / 2, 0, (lo[1] + hi[1]) / 2},
-                {(hi[0] - lo[0]) / 2 + a, wide(s.size[0]) + a, (hi[1] - lo[1]) / 2 + a});
+  return distance(s.frame, {(lo[0] + hi[0]) / 2, 0, (lo[1] + hi[1]) / 2},
+                  {(hi[0] - lo[0]) / 2, wide(s.size[0]), (hi[1] - lo[1]) / 2}, a);
 }
 
 WideBox Walker::leaf(const Shape& s, double a) const {
@@ -140,12 +169,12 @@ WideBox Walker::leaf(const Shape& s, double a) const {
       return placed(upright, size(0) + a, size(0) + a, size(0) + a);
     }
     case ShapeKind::box:
-      return placed(s.frame, size(0) + a, size(1) + a, size(2) + a);
+      return distance(s.frame, {}, {size(0), size(1), size(2)}, a);
     case ShapeKind::cylinder:
-      return placed(s.frame, size(0) + a, size(1) + a, size(0) + a);
+      return distance(s.frame, {}, {size(0), size(1), size(0)}, a);
     case ShapeKind::truncone: {
-      const double r = std::max(size(0), size(1)) + a;
-      return placed(s.frame, r, size(2) + a, r);
+      const double r = std::max(size(0), size(1));
+      return distance(s.frame, {}, {r, size(2), r}, a);
     }
     case ShapeKind::capsule: {
       const double r = size(0) + a;
@@ -160,8 +189,9 @@ WideBox Walker::leaf(const Shape& s, double a) const {
       return box;
     }
     case ShapeKind::torus:
-      return placed(s.frame, size(0) + size(1) + a, size(1) + a, size(0) + size(1) + a);
+      return distance(s.frame, {}, {size(0) + size(1), size(1), size(0) + size(1)}, a);
     case ShapeKind::ellipsoid:
+      return ellipsoid(s.frame, {size(0), size(1), size(2)}, a);
     case ShapeKind::superquadric:
       return scaledRadii(s.frame, {size(0), size(1), size(2)}, std::min({size(0), size(1), size(2)}), a);
     case ShapeKind::halfspace:
@@ -169,9 +199,18 @@ WideBox Walker::leaf(const Shape& s, double a) const {
     case ShapeKind::prism:
       return prism(s, a);
     case ShapeKind::morph_power: {
-      const std::array<double, 3> most{std::max(size(0), size(3)), std::max(size(1), size(4)),
-                                       std::max(size(2), size(5))};
-      return scaledRadii(s.frame, most, wide(*std::min_element(s.size.begin(), s.size.end())), a);
+      // The radii at the ends of what the exponent goes through: the six given may lie far outside.
+      const Range along = range(s.expr);
+      std::array<double, 3> most{};
+      double least = kInfinity;
+      for (double end : {std::clamp(along.lo, 0.0, 1.0), std::clamp(along.hi, 0.0, 1.0)}) {
+        for (size_t i = 0; i < 3; ++i) {
+          const double r = size(i) + (size(i + 3) - size(i)) * end;
+          most[i] = std::max(most[i], r * (1 + 1e-6));
+          least = std::min(least, r * (1 - 1e-6));
+        }
+      }
+      return scaledRadii(s.frame, most, least, a);
     }
     default:
       return WideBox::everything();

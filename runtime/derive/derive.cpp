@@ -139,7 +139,7 @@ void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& o
   }
 }
 
-Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
+ShapeList Interpreter::start() {
   Env env;
   env.place.base = base_;
   const IntBox& domain = program_.domain.box;
@@ -151,6 +151,11 @@ Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
   env.activation = kNone;
   ShapeList adds;
   call(layer_.start, 0, env, adds);
+  return adds;
+}
+
+Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
+  const ShapeList adds = start();
   if (failed()) return *error_;
   GrammarChunk roots(memory), out(memory);
   collectGroups(adds, false, roots);
@@ -160,15 +165,18 @@ Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
   draft_.finish(roots.groups, out);
   out.anchors.assign(anchors_.begin(), anchors_.end());
   if (dropped_notes_ > 0) {
-    notes_.push_back({std::to_string(dropped_notes_).append(" more notes on this cell"), "", 0, 0});
+    // It has no place of its own: that of the cell's start is the nearest.
+    const Span& span = program_.expr(layer_.start).span;
+    notes_.push_back({std::to_string(dropped_notes_).append(" more notes on this cell"),
+                      std::string(program_.text(program_.expr(layer_.start).name)), span.line, span.column});
   }
   for (DeriveNote& n : notes_) out.notes.push_back(std::move(n));
   return out;
 }
 
-Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
-                                uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits,
-                                std::pmr::memory_resource* memory) {
+namespace {
+
+Result<void> checkArguments(const Program& program, const ParameterValues& parameters, uint32_t layer, Int3 cell) {
   if (layer >= program.layers.size()) return Error{Code::invalid_argument, "the grammar has no such layer"};
   if (parameters.values.size() != program.params.size()) {
     return Error{Code::invalid_argument, "the parameter values belong to another grammar"};
@@ -183,7 +191,25 @@ Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& p
       return Error{Code::invalid_argument, "the cell lies beyond the end of the world"};
     }
   }
+  return {};
+}
+
+}  // namespace
+
+Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
+                                uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits,
+                                std::pmr::memory_resource* memory) {
+  if (Result<void> ok = checkArguments(program, parameters, layer, cell); !ok) return ok.error();
   return Interpreter(program, parameters, world_seed, layer, cell, lower, limits, memory).run(memory);
+}
+
+Result<std::vector<RuleInstance>> deriveInstances(const Program& program, const ParameterValues& parameters,
+                                                  uint64_t world_seed, uint32_t layer, Int3 cell, uint32_t rule,
+                                                  const LowerLayers& lower, const DeriveLimits& limits,
+                                                  std::pmr::memory_resource* memory) {
+  if (Result<void> ok = checkArguments(program, parameters, layer, cell); !ok) return ok.error();
+  if (rule >= program.rules.size()) return Error{Code::invalid_argument, "the grammar has no such rule"};
+  return Interpreter(program, parameters, world_seed, layer, cell, lower, limits, memory).runInstances(rule, memory);
 }
 
 }  // namespace sgm

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <memory_resource>
+#include <string>
+#include <vector>
 
 #include "base/fixed.h"
 #include "base/result.h"
@@ -19,7 +21,7 @@ struct DeriveLimits {
   uint32_t depth = 64;              ///< rules within rules
   uint32_t nesting = 768;           ///< statements within statements, over all rules; bounds the machine's stack
   uint32_t shapes = 200'000;        ///< before unused ones are dropped
-  size_t bytes = size_t{64} << 20;  ///< of the draft
+  size_t bytes = size_t{64} << 20;  ///< of the draft, uses of rules, anchors and candidates of a point set
   uint32_t notes = 64;              ///< further notes are counted, not kept
 };
 
@@ -49,5 +51,24 @@ IntBox cellLimit(const Program& program, uint32_t layer, Int3 cell);
 Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
                                 uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits = {},
                                 std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+/// One use of a rule, alone: the shapes derived below the call as groups that add, wherever the call stands. What
+/// encloses the call (a cut, a meet, a sum, a smooth union, a displacement, a warp, a morph) is left out, but for the
+/// levels that an enclosing `detail` or `lod` gives. Where the rule is a layer's start, its cuts of the domain cut the
+/// other shapes; where it has nothing but such cuts, what it cuts away counts as its shapes.
+struct RuleInstance {
+  Int3 origin;          ///< of the frame that the rule starts with, units
+  std::string path;     ///< derivation path, "Node/Chamber[0]"
+  bool bounded = true;  ///< otherwise some shape has no bound, and the chunk holds no group
+  GrammarChunk chunk;   ///< with the anchors below the call that the cell owns; without notes
+};
+
+/// As deriveCell, but every use of `rule` in the cell instead of the cell as a whole; in order of derivation, those
+/// within others after them. Shapes are not held to the layer's reach.
+/// Errors: as deriveCell; limit also where the copies hold more than limits.shapes shapes together.
+Result<std::vector<RuleInstance>> deriveInstances(const Program& program, const ParameterValues& parameters,
+                                                  uint64_t world_seed, uint32_t layer, Int3 cell, uint32_t rule,
+                                                  const LowerLayers& lower, const DeriveLimits& limits = {},
+                                                  std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 }  // namespace sgm

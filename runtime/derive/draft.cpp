@@ -203,66 +203,104 @@ size_t Draft::bytes() const {
          chunk_.noises.size() * (sizeof(NoiseSpec) + 64) + chunk_.points.size() * sizeof(Int3);
 }
 
-void Draft::finish(std::span<const Group> groups, GrammarChunk& out) const {
-  // Mark from parents to children: a node stands after all that it refers to.
-  std::vector<bool> shape_used(chunk_.shapes.size()), expr_used(chunk_.exprs.size());
-  for (const Group& g : groups) shape_used[g.root] = true;
-  for (size_t i = chunk_.shapes.size(); i-- > 0;) {
-    if (!shape_used[i]) continue;
-    const Shape& s = chunk_.shapes[i];
-    for (uint32_t c = 0; c < s.child_count; ++c) shape_used[chunk_.children[s.first_child + c]] = true;
-    if (s.expr == kNone) continue;
-    for (uint32_t k = 0; k < (s.kind == ShapeKind::warp ? 3u : 1u); ++k) expr_used[s.expr + k] = true;
-  }
-  for (size_t i = chunk_.exprs.size(); i-- > 0;) {
-    if (!expr_used[i]) continue;
-    for (uint32_t operand : {chunk_.exprs[i].a, chunk_.exprs[i].b, chunk_.exprs[i].c}) {
-      if (operand != kNone) expr_used[operand] = true;
-    }
-  }
-  std::vector<uint32_t> expr_at(chunk_.exprs.size(), kNone), noise_at(chunk_.noises.size(), kNone);
-  const auto moved = [&](uint32_t i) { return i == kNone ? kNone : expr_at[i]; };
-  const auto copyPoints = [&](uint32_t first, uint32_t count) {
-    const uint32_t at = static_cast<uint32_t>(out.points.size());
-    for (uint32_t i = 0; i < count; ++i) out.points.push_back(chunk_.points[first + i]);
-    return count == 0 ? 0 : at;
+DraftCopier::DraftCopier(const GrammarChunk& from)
+    : from_(from),
+      shape_at_(from.shapes.size(), kNone),
+      expr_at_(from.exprs.size(), kNone),
+      noise_at_(from.noises.size(), kNone) {}
+
+void DraftCopier::markExpr(uint32_t root) {
+  const auto reach = [&](uint32_t i) {
+    if (i == kNone || expr_at_[i] != kNone) return;
+    expr_at_[i] = 0;
+    exprs_.push_back(i);
+    open_.push_back(i);
   };
-  for (size_t i = 0; i < chunk_.exprs.size(); ++i) {
-    if (!expr_used[i]) continue;
-    Expr e = chunk_.exprs[i];
+  const size_t bottom = open_.size();
+  reach(root);
+  while (open_.size() > bottom) {
+    const Expr& e = from_.exprs[open_.back()];
+    open_.pop_back();
+    for (uint32_t operand : {e.a, e.b, e.c}) reach(operand);
+  }
+}
+
+void DraftCopier::mark(std::span<const Group> groups) {
+  const auto reach = [&](uint32_t i) {
+    if (shape_at_[i] != kNone) return;
+    shape_at_[i] = 0;
+    shapes_.push_back(i);
+  };
+  for (const Group& g : groups) reach(g.root);
+  for (size_t next = 0; next < shapes_.size(); ++next) {
+    const Shape& s = from_.shapes[shapes_[next]];
+    for (uint32_t c = 0; c < s.child_count; ++c) reach(from_.children[s.first_child + c]);
+    if (s.expr == kNone) continue;
+    for (uint32_t k = 0; k < (s.kind == ShapeKind::warp ? 3u : 1u); ++k) markExpr(s.expr + k);
+  }
+  // A node stands after all that it refers to, and the three of a warp side by side: also in the copy.
+  std::sort(shapes_.begin(), shapes_.end());
+  std::sort(exprs_.begin(), exprs_.end());
+}
+
+uint32_t DraftCopier::copyPoints(uint32_t first, uint32_t count, GrammarChunk& out) const {
+  const uint32_t at = static_cast<uint32_t>(out.points.size());
+  for (uint32_t i = 0; i < count; ++i) out.points.push_back(from_.points[first + i]);
+  return count == 0 ? 0 : at;
+}
+
+void DraftCopier::copyExprs(GrammarChunk& out) {
+  const auto moved = [&](uint32_t i) { return i == kNone ? kNone : expr_at_[i]; };
+  for (uint32_t i : exprs_) {
+    Expr e = from_.exprs[i];
     e.a = moved(e.a);
     e.b = moved(e.b);
     e.c = moved(e.c);
     if (e.noise != kNone) {
-      uint32_t& at = noise_at[e.noise];
+      uint32_t& at = noise_at_[e.noise];
       if (at == kNone) {
         at = static_cast<uint32_t>(out.noises.size());
-        out.noises.push_back(chunk_.noises[e.noise]);
+        noises_.push_back(e.noise);
+        out.noises.push_back(from_.noises[e.noise]);
       }
       e.noise = at;
     }
-    e.first_point = copyPoints(e.first_point, e.point_count);
-    expr_at[i] = static_cast<uint32_t>(out.exprs.size());
+    e.first_point = copyPoints(e.first_point, e.point_count, out);
+    expr_at_[i] = static_cast<uint32_t>(out.exprs.size());
     out.exprs.push_back(e);
   }
-  std::vector<uint32_t> shape_at(chunk_.shapes.size(), kNone);
-  for (size_t i = 0; i < chunk_.shapes.size(); ++i) {
-    if (!shape_used[i]) continue;
-    Shape s = chunk_.shapes[i];
+}
+
+void DraftCopier::copyShapes(GrammarChunk& out) {
+  for (uint32_t i : shapes_) {
+    Shape s = from_.shapes[i];
     const uint32_t first = s.child_count == 0 ? 0 : static_cast<uint32_t>(out.children.size());
     for (uint32_t c = 0; c < s.child_count; ++c) {
-      out.children.push_back(shape_at[chunk_.children[s.first_child + c]]);
+      out.children.push_back(shape_at_[from_.children[s.first_child + c]]);
     }
     s.first_child = first;
-    s.expr = moved(s.expr);
-    s.first_point = copyPoints(s.first_point, s.point_count);
-    shape_at[i] = static_cast<uint32_t>(out.shapes.size());
+    s.expr = s.expr == kNone ? kNone : expr_at_[s.expr];
+    s.first_point = copyPoints(s.first_point, s.point_count, out);
+    shape_at_[i] = static_cast<uint32_t>(out.shapes.size());
     out.shapes.push_back(s);
   }
+}
+
+void DraftCopier::copy(std::span<const Group> groups, GrammarChunk& out) {
+  mark(groups);
+  copyExprs(out);
+  copyShapes(out);
   for (Group g : groups) {
-    g.root = shape_at[g.root];
+    g.root = shape_at_[g.root];
     out.groups.push_back(g);
   }
+  const auto forget = [](std::vector<uint32_t>& used, std::vector<uint32_t>& at) {
+    for (uint32_t i : used) at[i] = kNone;
+    used.clear();
+  };
+  forget(shapes_, shape_at_);
+  forget(exprs_, expr_at_);
+  forget(noises_, noise_at_);
 }
 
 }  // namespace sgm

@@ -27,6 +27,28 @@ struct Origin {
   Span span;
 };
 
+/// Copies groups out of a draft with all that they reach, order kept. Made once for many copies: each takes time for
+/// what it copies alone. The chunk must outlive it and stay as it is.
+class DraftCopier {
+ public:
+  explicit DraftCopier(const GrammarChunk& from);
+
+  /// Appends to `out`, which was empty; layer, cell, anchors and notes are the caller's.
+  void copy(std::span<const Group> groups, GrammarChunk& out);
+
+ private:
+  void mark(std::span<const Group> groups);
+  void markExpr(uint32_t root);
+  void copyExprs(GrammarChunk& out);
+  void copyShapes(GrammarChunk& out);
+  uint32_t copyPoints(uint32_t first, uint32_t count, GrammarChunk& out) const;
+
+  const GrammarChunk& from_;
+  std::vector<uint32_t> shape_at_, expr_at_, noise_at_;  ///< place in the copy; kNone: not in it
+  std::vector<uint32_t> shapes_, exprs_, noises_;        ///< what is in the copy, ascending
+  std::vector<uint32_t> open_;
+};
+
 class Draft {
  public:
   explicit Draft(std::pmr::memory_resource* memory);
@@ -64,8 +86,8 @@ class Draft {
   /// Bytes that the draft takes, roughly.
   size_t bytes() const;
 
-  /// Copies the groups and all that they reach; order is kept. Layer, cell, anchors and notes are the caller's.
-  void finish(std::span<const Group> groups, GrammarChunk& out) const;
+  /// DraftCopier(chunk()).copy(groups, out), for a single copy.
+  void finish(std::span<const Group> groups, GrammarChunk& out) const { DraftCopier(chunk_).copy(groups, out); }
 
  private:
   using ExprKey = std::array<uint64_t, 6>;

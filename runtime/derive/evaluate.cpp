@@ -92,7 +92,7 @@ Value Interpreter::evaluateBinary(const ExprNode& node, const Env& env) {
       return {a.cell == b.cell && a.axis == b.axis ? 1.0 : 0.0};
     }
     const Num below = less(a, b), above = less(b, a);
-    return negated(draft_.binary(ExprOp::add, below, above));
+    return negated(draft_.binary(ExprOp::maximum, below, above));
   };
   switch (node.binary) {
     case BinaryOp::add:
@@ -207,8 +207,15 @@ Value Interpreter::evaluateMember(const ExprNode& node, const Env& env) {
   return {};
 }
 
+/// A whole domain is one cell, which lies about the origin of its scope and not beside it.
+Vec3 Interpreter::cellOrigin() const {
+  if (!isWhole(layer_)) return {};
+  const Int3 low = program_.domain.box.lo;
+  return {metres(low.x), metres(low.y), metres(low.z)};
+}
+
 Value Interpreter::pointValue(Int3 units_from_cell, const Env& env) const {
-  const Vec3 at{metres(units_from_cell.x), metres(units_from_cell.y), metres(units_from_cell.z)};
+  const Vec3 at = cellOrigin() + Vec3{metres(units_from_cell.x), metres(units_from_cell.y), metres(units_from_cell.z)};
   return Value::vector(env.activation == kNone ? at : activations_[env.activation].start.fromCell(at));
 }
 

@@ -38,10 +38,36 @@ Range coordinateRange(const Expr& e, const IntBox* box) {
   return sum;
 }
 
-/// Room for the rounding of one float operation and of the field's own division, root and noise.
+/// Room for the rounding of one float operation and of the field's own division, root and noise. Whole numbers are
+/// floats themselves, and rounding never passes one: conditions stay 0 or 1.
 Range widened(Range r) {
-  const auto slack = [](double v) { return std::isinf(v) ? 0.0 : 1e-6 * std::fabs(v) + 1e-9; };
+  const auto slack = [](double v) {
+    const bool whole = std::fabs(v) < 1e6 && v == std::floor(v);
+    return std::isinf(v) || whole ? 0.0 : 1e-6 * std::fabs(v) + 1e-9;
+  };
   return {r.lo - slack(r.lo), r.hi + slack(r.hi)};
+}
+
+/// Of x within `x` between edges that are known; both ways round.
+Range smoothstepRange(Range x, Range low, Range high) {
+  if (low.lo != low.hi || high.lo != high.hi || low.lo == high.lo) return {0, 1};
+  const auto at = [&](double v) {
+    const double t = std::clamp((v - low.lo) / (high.lo - low.lo), 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+  };
+  const double a = at(x.lo), b = at(x.hi);
+  return {std::max(0.0, std::min(a, b) - 1e-6), std::min(1.0, std::max(a, b) + 1e-6)};
+}
+
+/// (1 - c) a + c b.
+Range mixRange(Range a, Range b, Range c) {
+  if (c.lo == 0 && c.hi == 0) return a;
+  if (c.lo == 1 && c.hi == 1) return b;
+  const Range step = multiplied({b.lo - a.hi, b.hi - a.lo}, c);
+  const Range line{a.lo + step.lo, a.hi + step.hi};
+  if (!(c.lo >= 0 && c.hi <= 1)) return line;
+  // Between the ends, whatever they have in common.
+  return {std::max(line.lo, std::min(a.lo, b.lo)), std::min(line.hi, std::max(a.hi, b.hi))};
 }
 
 }  // namespace
@@ -64,8 +90,10 @@ std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box) {
         ranges.push_back({-1, 1});
         continue;
       case ExprOp::sweep:
-      case ExprOp::smoothstep:
         ranges.push_back({0, 1});
+        continue;
+      case ExprOp::smoothstep:
+        ranges.push_back(smoothstepRange(a, b, c));
         continue;
       case ExprOp::less:
         ranges.push_back({a.hi < b.lo ? 1.0 : 0.0, a.lo >= b.hi ? 0.0 : 1.0});
@@ -77,7 +105,7 @@ std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box) {
         r = {a.lo > 0 ? a.lo : a.hi < 0 ? -a.hi : 0.0, std::max(-a.lo, a.hi)};
         break;
       case ExprOp::floor:
-        r = {std::floor(a.lo - 1e-6 * std::fabs(a.lo)), std::floor(a.hi + 1e-6 * std::fabs(a.hi))};
+        r = {std::floor(a.lo), std::floor(a.hi)};
         break;
       case ExprOp::square_root:
         r = {std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0))};
@@ -87,6 +115,8 @@ std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box) {
         break;
       case ExprOp::subtract:
         r = {a.lo - b.hi, a.hi - b.lo};
+        // What a number is above its own floor.
+        if (e.b < ranges.size() && exprs[e.b].op == ExprOp::floor && exprs[e.b].a == e.a) r = {0, 1};
         break;
       case ExprOp::multiply:
         r = multiplied(a, b);
@@ -100,15 +130,9 @@ std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box) {
       case ExprOp::maximum:
         ranges.push_back({std::max(a.lo, b.lo), std::max(a.hi, b.hi)});
         continue;
-      case ExprOp::mix: {
-        if (c.lo >= 0 && c.hi <= 1) {
-          r = {std::min(a.lo, b.lo), std::max(a.hi, b.hi)};
-        } else {
-          const Range step = multiplied({b.lo - a.hi, b.hi - a.lo}, c);
-          r = {a.lo + step.lo, a.hi + step.hi};
-        }
+      case ExprOp::mix:
+        r = mixRange(a, b, c);
         break;
-      }
     }
     if (std::isnan(r.lo) || std::isnan(r.hi)) r = kEverything;
     ranges.push_back(widened(r));

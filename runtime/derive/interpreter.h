@@ -2,14 +2,15 @@
 // The interpreter of one cell. Internal to derive/: everything outside calls deriveCell() (derive.h).
 //
 // evaluate.cpp: expressions. functions.cpp: the language's functions. statements.cpp: blocks and combiners. morph.cpp:
-// morphs. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets. primitives.cpp: leaves. derive.cpp: the
-// cell as a whole.
+// morphs. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets. primitives.cpp: leaves. derive.cpp:
+// the cell as a whole. instances.cpp: the uses of one rule in it.
 
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "derive/bounds.h"
 #include "derive/derive.h"
 #include "derive/draft.h"
 #include "derive/frame.h"
@@ -87,10 +88,18 @@ struct Env {
   uint32_t sweep = kNone;  ///< the polyline that `u` runs along
   int32_t cut_detail = 0;  ///< of a `detail` that stands directly before a cut
   bool anchors = true;
+  bool top = false;  ///< the layer's own use of its start rule, in which a cut takes from the domain
   std::vector<Value>* slots = nullptr;
 };
 
 using ShapeList = std::vector<uint32_t>;
+
+/// What one call of the watched rule has put out.
+struct WatchedCall {
+  uint32_t activation = 0;
+  ShapeList shapes, layer_cuts;
+  size_t first_anchor = 0, end_anchor = 0;
+};
 
 /// The exponent of a superquadric: 2 at 0, kMaxPower at 1.
 double exponentOfSquare(double square);
@@ -101,6 +110,7 @@ class Interpreter {
               const LowerLayers& lower, const DeriveLimits& limits, std::pmr::memory_resource* memory);
 
   Result<GrammarChunk> run(std::pmr::memory_resource* memory);
+  Result<std::vector<RuleInstance>> runInstances(uint32_t rule, std::pmr::memory_resource* memory);
 
  private:
   /// Counts one more level of recursion for as long as it lives.
@@ -129,6 +139,7 @@ class Interpreter {
   Value evaluateField(const ExprNode& node, const Env& env);
   Value sampleCoordinates(const Env& env, bool local);
   Value pointValue(Int3 units_from_cell, const Env& env) const;
+  Vec3 cellOrigin() const;
   double realArgument(const ExprNode& node, uint32_t index, const Env& env);
   Value argument(const ExprNode& node, uint32_t index, const Env& env);
   uint32_t boundAt(const ExprNode& node, uint32_t index) const;
@@ -147,6 +158,7 @@ class Interpreter {
   void morphPower(const StmtNode& s, const Env& env, uint32_t a, uint32_t b, Num t, ShapeList& out);
   void displace(const StmtNode& s, const Env& env, ShapeList& out);
   void warp(const StmtNode& s, const Env& env, ShapeList& out);
+  std::array<Num, 3> inWorld(const std::array<Num, 3>& local, const Placement& place);
   void repeat(const StmtNode& s, const Env& env, ShapeList& out);
   void forEach(const StmtNode& s, const Env& env, ShapeList& out);
   void scatter(const StmtNode& s, const Env& env, ShapeList& out);
@@ -160,8 +172,8 @@ class Interpreter {
   // Rules.
   void callRule(uint32_t rule, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
   void derive(const Rule& rule, const Alternative& chosen, Env& env, std::vector<Value>& arguments, ShapeList& out);
-  bool passes(const Alternative& alternative, Env& env, const std::vector<Value>& arguments);
-  const Alternative* choose(const std::vector<const Alternative*>& from, Env& env, const std::vector<Value>& arguments,
+  bool passes(const Alternative& alternative, Env& env, std::vector<Value>& arguments);
+  const Alternative* choose(const std::vector<const Alternative*>& from, Env& env, std::vector<Value>& arguments,
                             uint64_t draw);
 
   // Leaves.
@@ -182,12 +194,17 @@ class Interpreter {
 
   // Trouble.
   bool step(uint64_t count, const Span& span, uint32_t activation);
+  bool withinBytes(const Span& span, uint32_t activation);
   void fail(const std::string& what, const Span& span, uint32_t activation);
   bool failed() const { return error_.has_value(); }
   void note(const std::string& message, const Span& span, uint32_t activation);
   std::string pathText(uint32_t activation) const;
 
+  /// Derives the layer's start; gives what it adds.
+  ShapeList start();
   void collectGroups(const ShapeList& list, bool cut, GrammarChunk& out);
+  /// False where a shape has no bound.
+  bool collectAlone(const ShapeBounds& bounds, const ShapeList& list, bool cut, std::vector<Group>& out) const;
 
   const Program& program_;
   const ParameterValues& parameters_;
@@ -204,6 +221,8 @@ class Interpreter {
   std::vector<uint32_t> active_;  ///< for each rule: activations on the path
   ShapeList layer_cuts_;
   std::vector<Anchor> anchors_;
+  uint32_t watched_rule_ = kNone;
+  std::vector<WatchedCall> watched_;
   std::vector<DeriveNote> notes_;
   uint64_t dropped_notes_ = 0;
   uint64_t steps_ = 0;

@@ -115,7 +115,7 @@ void Interpreter::morphPower(const StmtNode& s, const Env& env, uint32_t a, uint
       return;
     }
   }
-  node.inner_radius = *std::max_element(node.size.begin(), node.size.end());
+  node.inner_radius = std::max(draft_.shape(a).inner_radius, draft_.shape(b).inner_radius);
   const Num along = draft_.clamp(t, {0}, {1});
   node.expr =
       draft_.expression(draft_.binary(ExprOp::add, {from->square}, draft_.binary(ExprOp::multiply, {step}, along)));

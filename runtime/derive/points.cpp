@@ -113,14 +113,17 @@ void Interpreter::scatter(const StmtNode& s, const Env& env, ShapeList& out) {
       note("the distance between points must be positive; no points", s.span, env.activation);
       return;
     }
-    const auto points = poissonInCell(lattice_, cell_, set, toUnits(amount), limits_.steps);
+    // Candidates are held all at once: they count as memory before there is any.
+    constexpr size_t kCandidate = 64;
+    const size_t most = std::min<size_t>(limits_.steps - steps_, limits_.bytes / kCandidate);
+    const auto points = poissonInCell(lattice_, cell_, set, toUnits(amount), most);
     if (!points) {
       fail("more points in one cell than steps allowed", s.span, env.activation);
       return;
     }
     if (!step(points->size() * 27, s.span, env.activation)) return;
     for (const LatticePoint& p : *points) {
-      if (!point({metres(p.offset.x), metres(p.offset.y), metres(p.offset.z)}, p.key.value)) return;
+      if (!point(cellOrigin() + Vec3{metres(p.offset.x), metres(p.offset.y), metres(p.offset.z)}, p.key.value)) return;
     }
     return;
   }
@@ -132,6 +135,10 @@ void Interpreter::scatter(const StmtNode& s, const Env& env, ShapeList& out) {
   const double up = std::clamp(b, 0.0, 1.0);
   double count = amount;
   if (node.poisson) {
+    if (!(amount > 0)) {
+      note("the distance between points must be positive; no points", s.span, env.activation);
+      return;
+    }
     constexpr double kPi = 3.141592653589793;
     const double cube = amount * amount * amount, square = amount * amount;
     count = node.area == ScatterArea::shell  ? 4.0 * kPi * size * size * up / square

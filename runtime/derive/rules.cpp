@@ -30,17 +30,17 @@ void Interpreter::call(ExprId id, uint32_t ordinal, const Env& env, ShapeList& o
   }
 }
 
-bool Interpreter::passes(const Alternative& alternative, Env& env, const std::vector<Value>& arguments) {
+bool Interpreter::passes(const Alternative& alternative, Env& env, std::vector<Value>& arguments) {
   if (alternative.guard != Guard::when) return true;
-  std::vector<Value> slots = frameOf(alternative, arguments);
-  env.slots = &slots;
+  // What stands in a head knows the arguments alone: no frame is made for it.
+  env.slots = &arguments;
   const bool holds = evaluate(alternative.when, env).truth();
   env.slots = nullptr;
   return holds;
 }
 
 const Alternative* Interpreter::choose(const std::vector<const Alternative*>& from, Env& env,
-                                       const std::vector<Value>& arguments, uint64_t draw) {
+                                       std::vector<Value>& arguments, uint64_t draw) {
   std::vector<const Alternative*> passing;
   for (const Alternative* a : from) {
     if (a->guard != Guard::otherwise && passes(*a, env, arguments)) passing.push_back(a);
@@ -56,8 +56,7 @@ const Alternative* Interpreter::choose(const std::vector<const Alternative*>& fr
   for (const Alternative* a : passing) {
     double weight = 1;
     if (a->weight != kNoId) {
-      std::vector<Value> slots = frameOf(*a, arguments);
-      env.slots = &slots;
+      env.slots = &arguments;
       weight = real(a->weight, env);
       env.slots = nullptr;
     }
@@ -80,6 +79,7 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
   std::vector<Value> arguments;
   for (uint32_t i = 0; i < node.bound.count; ++i) arguments.push_back(evaluate(boundAt(node, i), env));
   if (failed()) return;
+  if (!withinBytes(node.span, env.activation)) return;
   if (depth_ >= limits_.depth) {
     fail("rules are nested more than " + std::to_string(limits_.depth) + " deep", node.span, env.activation);
     return;
@@ -100,7 +100,12 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
   inner.activation = static_cast<uint32_t>(activations_.size());
   inner.slots = nullptr;
   inner.cut_detail = 0;
+  inner.top = env.activation == kNone;
   activations_.push_back(std::move(activation));
+
+  const size_t before = out.size(), cuts_before = layer_cuts_.size(), anchors_before = anchors_.size();
+  const size_t watched = watched_.size();
+  if (index == watched_rule_) watched_.push_back({inner.activation, {}, {}, anchors_before, anchors_before});
 
   // Alternatives with `lod` stand beside those without, each set for a range of levels of its own.
   std::vector<const Alternative*> plain;
@@ -110,8 +115,7 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
       plain.push_back(&a);
       continue;
     }
-    std::vector<Value> slots = frameOf(a, arguments);
-    inner.slots = &slots;
+    inner.slots = &arguments;
     const int32_t from = std::max(1, toUnits(real(a.lod, inner)));
     inner.slots = nullptr;
     auto at = std::find_if(coarse.begin(), coarse.end(), [&](const auto& entry) { return entry.first == from; });
@@ -135,10 +139,18 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
     run(choose(coarse[i].second, inner, arguments, i + 1), coarse[i].first, end);
     inner.anchors = false;
   }
+  if (index != watched_rule_) return;
+  // A rule's block appends to what stands before its call and leaves that alone.
+  WatchedCall& call = watched_[watched];
+  call.shapes.assign(out.begin() + static_cast<std::ptrdiff_t>(before), out.end());
+  call.layer_cuts.assign(layer_cuts_.begin() + static_cast<std::ptrdiff_t>(cuts_before), layer_cuts_.end());
+  call.end_anchor = anchors_.size();
 }
 
 void Interpreter::derive(const Rule& rule, const Alternative& chosen, Env& env, std::vector<Value>& arguments,
                          ShapeList& out) {
+  // A frame of many slots costs what filling it costs.
+  if (!step(chosen.slot_count, chosen.span, env.activation)) return;
   std::vector<Value> slots = frameOf(chosen, arguments);
   Env inner = env;
   inner.slots = &slots;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "base/math.h"
 
@@ -10,8 +11,6 @@ namespace sgm {
 namespace {
 
 enum Draw : uint64_t { kPriorityDraw = 8 };
-
-int64_t floorDivide(int64_t a, int64_t b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
 double uniform(PathKey key, size_t index, uint64_t axis) { return key.unit(index * 4 + axis); }
 
@@ -35,8 +34,8 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
     if (!lattice.hasAxis(a)) continue;
     low[i] = int64_t{cell[a]} * lattice.size[a];
     // One cube more on each side: candidates two cubes apart are farther than the radius.
-    first[i] = floorDivide(low[i], step) - 1;
-    count[i] = floorDivide(low[i] + lattice.size[a] - 1, step) + 1 - first[i] + 1;
+    first[i] = floorDiv(low[i], step) - 1;
+    count[i] = floorDiv(low[i] + lattice.size[a] - 1, step) + 1 - first[i] + 1;
     if (static_cast<size_t>(count[i]) > limit / total) return std::nullopt;
     total *= static_cast<size_t>(count[i]);
   }
@@ -73,9 +72,15 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
         for (int64_t i = from[0]; i <= to[0]; ++i) {
           const Candidate& other = candidates[index(i, j, k)];
           if (&other == &c) continue;
-          int64_t square = 0;
-          for (size_t a = 0; a < 3; ++a) square += (other.at[a] - c.at[a]) * (other.at[a] - c.at[a]);
-          if (square >= step * step) continue;
+          // One along an axis is far enough, and squares of what is left fit, however large the cell.
+          bool near = true;
+          uint64_t square = 0;
+          for (size_t a = 0; a < 3; ++a) {
+            const uint64_t d = static_cast<uint64_t>(std::abs(other.at[a] - c.at[a]));
+            near = near && d < static_cast<uint64_t>(step);
+            square += near ? d * d : 0;
+          }
+          if (!near || square >= static_cast<uint64_t>(step) * static_cast<uint64_t>(step)) continue;
           // Equal hashes fall back on the position, which both candidates see alike.
           if (other.priority != c.priority ? other.priority > c.priority : other.at > c.at) return false;
         }

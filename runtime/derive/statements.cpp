@@ -26,11 +26,18 @@ Shape Interpreter::shapeIn(const Env& env, ShapeKind kind) const {
   return s;
 }
 
+bool Interpreter::withinBytes(const Span& span, uint32_t activation) {
+  const size_t used = draft_.bytes() + activations_.size() * sizeof(Activation) + anchors_.size() * sizeof(Anchor);
+  if (used <= limits_.bytes) return true;
+  fail("one cell takes more than " + std::to_string(limits_.bytes >> 20) + " MiB", span, activation);
+  return false;
+}
+
 uint32_t Interpreter::addShape(Shape s, uint32_t ordinal, const Span& span, const Env& env, const ShapeList& children) {
   if (draft_.chunk().shapes.size() >= limits_.shapes) {
     fail("more than " + std::to_string(limits_.shapes) + " shapes in one cell", span, env.activation);
-  } else if (draft_.bytes() > limits_.bytes) {
-    fail("one cell takes more than " + std::to_string(limits_.bytes >> 20) + " MiB", span, env.activation);
+  } else {
+    withinBytes(span, env.activation);
   }
   Origin origin;
   origin.key = env.key.child(kNodeSalt + static_cast<uint64_t>(s.kind), ordinal);
@@ -160,7 +167,7 @@ void Interpreter::cut(const StmtNode& s, const Env& env, ShapeList& out) {
   if (failed() || body.empty()) return;
   limitLevels(body, 0, 0, env.cut_detail);
   const std::optional<double> radius = smoothRadius(s, env);
-  if (s.layer_level) {
+  if (s.layer_level && env.top) {
     if (radius && body.size() > 1) {
       Shape node = shapeIn(env, ShapeKind::unite_smooth);
       node.amount = static_cast<float>(*radius);
@@ -190,7 +197,7 @@ void Interpreter::meet(const StmtNode& s, const Env& env, ShapeList& out) {
   ShapeList operands;
   for (uint32_t i = 0; i < body.children.count && !failed(); ++i) {
     const StmtNode& child = program_.stmt(program_.idAt(body.children, i));
-    if (child.kind == StmtKind::cut) {
+    if (program_.stmt(program_.innermost(program_.idAt(body.children, i))).kind == StmtKind::cut) {
       // Takes away from what the operands before it have in common.
       if (operands.size() > 1)
         operands = {addShape(shapeIn(inner, ShapeKind::meet), child.ordinal, s.span, inner, operands)};
@@ -243,6 +250,7 @@ void Interpreter::displace(const StmtNode& s, const Env& env, ShapeList& out) {
     const double most = std::fabs(real(s.amount, env));
     by = draft_.clamp(by, {-most}, {most});
   }
+  by = draft_.binary(ExprOp::multiply, {env.place.scale}, by);
   if (by.constant() && by.value == 0) {
     out.push_back(child);
     return;
@@ -250,6 +258,18 @@ void Interpreter::displace(const StmtNode& s, const Env& env, ShapeList& out) {
   Shape node = shapeIn(env, ShapeKind::displace);
   node.expr = draft_.expression(by);
   out.push_back(addShape(node, s.ordinal, s.span, env, {child}));
+}
+
+/// A vector of the field in the scope, as one of the world.
+std::array<Num, 3> Interpreter::inWorld(const std::array<Num, 3>& local, const Placement& place) {
+  std::array<Num, 3> world;
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) {
+      const Num part = draft_.binary(ExprOp::multiply, {place.scale * place.axes[3 * i + j]}, local[j]);
+      world[i] = draft_.binary(ExprOp::add, world[i], part);
+    }
+  }
+  return world;
 }
 
 void Interpreter::warp(const StmtNode& s, const Env& env, ShapeList& out) {
@@ -264,6 +284,7 @@ void Interpreter::warp(const StmtNode& s, const Env& env, ShapeList& out) {
     const double most = std::fabs(real(s.amount, env));
     for (Num& n : by) n = draft_.clamp(n, {-most}, {most});
   }
+  by = inWorld(by, env.place);
   Shape node = shapeIn(env, ShapeKind::warp);
   node.expr = draft_.triple(by);
   out.push_back(addShape(node, s.ordinal, s.span, env, {child}));
@@ -279,13 +300,8 @@ void Interpreter::limitLevels(ShapeList& list, size_t from, int32_t coarsest, in
 
 void Interpreter::detail(const StmtNode& s, const Env& env, ShapeList& out) {
   const int32_t edge = std::max(1, toUnits(real(s.expr, env)));
-  StmtId inside = s.body;
-  const auto kind = [&] { return program_.stmt(inside).kind; };
-  while (kind() == StmtKind::transform || kind() == StmtKind::repeat || kind() == StmtKind::for_each ||
-         kind() == StmtKind::scatter || kind() == StmtKind::detail) {
-    inside = program_.stmt(inside).body;
-  }
-  if (kind() == StmtKind::cut && !program_.stmt(inside).layer_level) {
+  const StmtNode& inside = program_.stmt(program_.innermost(s.body));
+  if (inside.kind == StmtKind::cut && !(inside.layer_level && env.top)) {
     Env inner = env;
     inner.cut_detail = env.cut_detail > 0 ? std::min(env.cut_detail, edge) : edge;
     statement(s.body, inner, out);

@@ -74,6 +74,7 @@ struct ExprNode {
   Ref ref = Ref::none;           ///< resolved
   Member member = Member::none;  ///< resolved
   bool parenthesised = false;    ///< written in parentheses that the printer keeps
+  bool shape = false;            ///< call of a rule or terminal: needs no () where it has no arguments
   Type type;                     ///< resolved; of let functions and fields: as last instantiated
   double value = 0;              ///< number
   NameId name = kNoId;           ///< name, member, text; number: as written, unit and all; call: last part

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,12 @@
 
 namespace sgm {
 
+/// A scale around a call; `copied`: as often as there are copies.
+struct ScaleAround {
+  ExprId factor = kNoId;
+  bool copied = false;
+};
+
 /// A call of a rule by a rule, for the checks of recursion, layers and reach.
 struct RuleCall {
   uint32_t from = 0, alternative = 0;
@@ -27,6 +34,7 @@ struct RuleCall {
   ExprId call = kNoId;
   bool escape = false;  ///< of depth or minsize
   bool shrunk = false;  ///< inside size
+  std::vector<ScaleAround> scales;
 };
 
 /// A scatter that probes a layer.
@@ -81,12 +89,15 @@ class Checker {
   void seedAndDomain();
   void layers();
   void sortLayers();
+  void keepCalls();
   void expectations();
   void probeUses();
   std::optional<double> constant(ExprId id, Dim dim, std::string_view what);
   std::optional<int64_t> wholeUnits(ExprId id, std::string_view what);
 
-  // check_statements.cpp
+  std::optional<double> fold(ExprId id, int depth);
+
+  // check_statements.cpp, check_placement.cpp
   void checkRules();
   void checkUnusedValues();
   void checkRule(uint32_t rule);
@@ -96,10 +107,11 @@ class Checker {
   void morphStatement(const StmtNode& node, bool shrunk);
   void forEach(StmtId id, const StmtNode& node, bool shrunk);
   void scatterStatement(const StmtNode& node, bool shrunk);
-  bool xforms(IdRange range);
+  bool xforms(IdRange range, bool copied);
   void localField(const StmtNode& node);
   void callRule(ExprId call, bool escape, bool shrunk);
   void markLayerLevel(StmtId id);
+  void idleCuts(StmtId id, bool first);
   void declareLocal(NameId name, const Span& span, Local local);
   bool sumLeaf(StmtId id);
 
@@ -170,7 +182,10 @@ class Checker {
   std::vector<std::vector<Type>> rule_types_;
   std::vector<uint8_t> rule_state_;  ///< 0 not reached, 1 waiting, 2 checked
   std::vector<uint32_t> waiting_;
+  std::set<uint32_t> checked_;  ///< rules, at least once
   std::vector<RuleCall> calls_;
+  std::vector<ScaleAround> scales_;    ///< around the statement that is being checked
+  std::map<uint32_t, double> folded_;  ///< of lets
   std::vector<Probe> probes_;
   std::vector<bool> start_rules_;
   uint32_t rule_ = 0, alternative_ = 0;
@@ -180,7 +195,8 @@ class Checker {
 };
 
 /// Error for every rule that may call itself without end.
-void checkRecursion(const Program& program, const std::vector<RuleCall>& calls, DiagnosticSink& sink);
+void checkRecursion(const Program& program, const std::vector<RuleCall>& calls, const CompileLimits& limits,
+                    DiagnosticSink& sink);
 
 /// Proves how far each layer's shapes may extend from their cell, fills Layer::bound and a finite domain's box where it
 /// is not written.

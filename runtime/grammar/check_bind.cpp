@@ -107,7 +107,11 @@ bool Checker::bindWords(IdRange args, const Span& span, std::string_view callee,
         return false;
       }
     }
-    if (index >= list.size() || out[index] != kNoId) {
+    if (index < list.size() && out[index] != kNoId) {
+      sink_.error(arg.span, codes::kArgumentName, join({"`", list[index], "` of `", callee, "` is given twice"}));
+      return false;
+    }
+    if (index >= list.size()) {
       sink_.error(arg.span, codes::kArgumentCount,
                   join({"`", callee, "` takes at most ", std::to_string(list.size()),
                         list.size() == 1 ? " argument" : " arguments"}));

@@ -17,6 +17,7 @@ void Checker::run() {
   layers();
   if (sink_.full()) return;
   checkRules();
+  keepCalls();
   probeUses();
   expectations();
 }

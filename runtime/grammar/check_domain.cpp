@@ -9,22 +9,30 @@ namespace sgm {
 
 namespace {
 
-/// Numbers, arithmetic and lets without parameters; bounded by the cap on the depth of lets.
-std::optional<double> fold(const Program& program, ExprId id, int depth) {
+constexpr size_t kMostLayers = 256;
+
+}  // namespace
+
+/// Numbers, arithmetic and lets without parameters; each let once, however often it is used.
+std::optional<double> Checker::fold(ExprId id, int depth) {
   if (id == kNoId || depth > 400) return std::nullopt;
-  const ExprNode& n = program.expr(id);
-  auto child = [&](uint32_t i) { return fold(program, program.idAt(n.children, i), depth + 1); };
+  const ExprNode& n = node(id);
+  auto operand = [&](uint32_t i) { return fold(child(n, i), depth + 1); };
   switch (n.kind) {
     case ExprKind::number:
       return n.value;
     case ExprKind::negate:
-      if (const auto a = child(0)) return -*a;
+      if (const auto a = operand(0)) return -*a;
       return std::nullopt;
-    case ExprKind::name:
-      if (n.ref == Ref::let && !program.lets[n.id].function) return fold(program, program.lets[n.id].body, depth + 20);
-      return std::nullopt;
+    case ExprKind::name: {
+      if (n.ref != Ref::let || program_.lets[n.id].function) return std::nullopt;
+      if (const auto known = folded_.find(n.id); known != folded_.end()) return known->second;
+      const auto value = fold(program_.lets[n.id].body, depth + 20);
+      if (value) folded_.emplace(n.id, *value);
+      return value;
+    }
     case ExprKind::binary: {
-      const auto a = child(0), b = a ? child(1) : std::nullopt;
+      const auto a = operand(0), b = a ? operand(1) : std::nullopt;
       if (!a || !b) return std::nullopt;
       switch (n.binary) {
         case BinaryOp::add:
@@ -44,14 +52,12 @@ std::optional<double> fold(const Program& program, ExprId id, int depth) {
   }
 }
 
-}  // namespace
-
 std::optional<double> Checker::constant(ExprId id, Dim dim, std::string_view what) {
   const uint32_t before = sink_.errorCount();
   scope_ = {};
   demand(id, ValueKind::number, dim, what);
   if (sink_.errorCount() > before) return std::nullopt;
-  const auto value = fold(program_, id, 0);
+  const auto value = fold(id, 0);
   if (!value || !std::isfinite(*value)) {
     sink_.error(node(id).span, codes::kNotConstant, join({what, " must be a constant"}),
                 "numbers, arithmetic and lets without parameters");
@@ -179,6 +185,9 @@ void Checker::layers() {
   if (!root.layers.empty() && !decl.infinite && !decl.box)
     sink_.error(root.layers[0].span, codes::kDomain, "layers need an infinite domain or one with a box",
                 "write `domain infinite;` or `domain finite box(...)`");
+  if (root.layers.size() > kMostLayers)
+    sink_.error(root.layers[kMostLayers].span, codes::kTooLarge,
+                join({"more than ", std::to_string(kMostLayers), " layers"}));
   if (sink_.errorCount() > before) return;
   if (root.start != kNoId) {
     Layer main(memory);
@@ -278,6 +287,15 @@ void Checker::sortLayers() {
   }
   program_.layers = std::move(sorted);
   layers_known_ = true;
+}
+
+/// Who may derive whom, for whoever looks for the uses of one rule.
+void Checker::keepCalls() {
+  for (const RuleCall& call : calls_) program_.rules[call.from].calls.push_back(call.to);
+  for (Rule& rule : program_.rules) {
+    std::sort(rule.calls.begin(), rule.calls.end());
+    rule.calls.erase(std::unique(rule.calls.begin(), rule.calls.end()), rule.calls.end());
+  }
 }
 
 /// A rule that probes a layer may be derived only in layers that use it.

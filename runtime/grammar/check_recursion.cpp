@@ -2,6 +2,7 @@
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
+#include "grammar/extent.h"
 #include "grammar/reach_values.h"
 
 namespace sgm {
@@ -11,12 +12,14 @@ namespace {
 /// Decides which calls of a rule by itself bring an end nearer.
 class RecursionCheck {
  public:
-  RecursionCheck(const Program& program, const std::vector<RuleCall>& calls, DiagnosticSink& sink)
+  RecursionCheck(const Program& program, const std::vector<RuleCall>& calls, uint32_t steps, DiagnosticSink& sink)
       : program_(program),
         calls_(calls),
         sink_(sink),
         out_(program.rules.size()),
-        component_(program.rules.size(), 0) {}
+        component_(program.rules.size(), 0),
+        steps_(steps),
+        values_(program, steps_) {}
 
   void run() {
     for (uint32_t c = 0; c < calls_.size(); ++c) out_[calls_[c].from].push_back(c);
@@ -96,29 +99,35 @@ class RecursionCheck {
     return frame;
   }
 
-  /// a * f, f * a or a / f with f under 1 (or over, for /): at least halfway certain to shrink.
-  bool shrinks(ExprId id, uint32_t slot, const Alternative& head) const {
+  /// By how much the scales around a call enlarge it, at most.
+  double enlarged(const RuleCall& call, const RangeFrame& frame) {
+    double most = 1;
+    for (const ScaleAround& scale : call.scales) {
+      const double factor = scaleFactor(values_.number(scale.factor, frame)).hi;
+      // The first of the copies stands as it is.
+      most *= !scale.copied ? factor : factor <= 1 ? 1 : std::numeric_limits<double>::infinity();
+    }
+    return most;
+  }
+
+  /// a * f, f * a or a / f with f under 1 (or over, for /): at least halfway certain to shrink. `larger`: what the
+  /// scales around make of it.
+  bool shrinks(ExprId id, uint32_t slot, const Alternative& head, double larger = 1) {
     const ExprNode& n = program_.expr(id);
+    constexpr double kSurely = 0.999;
+    if (n.ref == Ref::local && n.id == slot) return larger <= kSurely;
     if (n.kind != ExprKind::binary) return false;
     const ExprId left = program_.idAt(n.children, 0), right = program_.idAt(n.children, 1);
     auto isSlot = [&](ExprId e) { return program_.expr(e).ref == Ref::local && program_.expr(e).id == slot; };
-    uint32_t steps = 10000;
-    RangeEvaluator evaluator(program_, steps);
     const RangeFrame frame = freeFrame(head);
-    constexpr double kSurely = 0.999;
     if (n.binary == BinaryOp::multiply && (isSlot(left) || isSlot(right)))
-      return evaluator.number(isSlot(left) ? right : left, frame).magnitude() <= kSurely;
-    if (n.binary == BinaryOp::divide && isSlot(left)) return evaluator.number(right, frame).lo >= 1 / kSurely;
-    if (n.binary == BinaryOp::divide || n.binary == BinaryOp::multiply) return false;
-    return n.binary == BinaryOp::subtract && isSlot(left) && decreases(right, frame, evaluator);
-  }
-
-  bool decreases(ExprId amount, const RangeFrame& frame, RangeEvaluator& evaluator) const {
-    return evaluator.number(amount, frame).lo > 1e-3;
+      return values_.number(isSlot(left) ? right : left, frame).magnitude() * larger <= kSurely;
+    if (n.binary == BinaryOp::divide && isSlot(left)) return values_.number(right, frame).lo >= larger / kSurely;
+    return n.binary == BinaryOp::subtract && isSlot(left) && larger <= 1 && values_.number(right, frame).lo > 1e-3;
   }
 
   /// The condition bounds the slot from below by something that does not fall with it.
-  bool bounds(ExprId id, uint32_t slot, bool& positive, const Alternative& head) const {
+  bool bounds(ExprId id, uint32_t slot, bool& positive, const Alternative& head) {
     const ExprNode& n = program_.expr(id);
     if (n.kind != ExprKind::binary) return false;
     const ExprId left = program_.idAt(n.children, 0), right = program_.idAt(n.children, 1);
@@ -129,24 +138,24 @@ class RecursionCheck {
     if (!greater && !less) return false;
     const ExprNode& local = program_.expr(greater ? left : right);
     if (local.ref != Ref::local || local.id != slot) return false;
-    uint32_t steps = 10000;
-    RangeEvaluator evaluator(program_, steps);
-    const Interval bound = evaluator.number(greater ? right : left, freeFrame(head));
+    const Interval bound = values_.number(greater ? right : left, freeFrame(head));
     if (!bound.bounded()) return false;
     positive = bound.lo > 0;
     return true;
   }
 
-  bool ends(const RuleCall& call) const {
+  bool ends(const RuleCall& call) {
     if (call.escape) return false;
     const Alternative& head = program_.rules[call.from].alternatives[call.alternative];
     if (head.depth != kNoId) return true;
     if (call.from != call.to) return false;
     const ExprNode& n = program_.expr(call.call);
     if (head.minsize != kNoId) {
-      if (head.size_slot == kNoId && call.shrunk) return true;
+      // The size as it comes out is what counts: with all the scales around it.
+      const double larger = enlarged(call, freeFrame(head));
+      if (head.size_slot == kNoId && (larger < 0.999 || (call.shrunk && larger <= 1))) return true;
       if (head.size_slot != kNoId && head.size_slot < n.bound.count &&
-          shrinks(program_.idAt(n.bound, head.size_slot), head.size_slot, head))
+          shrinks(program_.idAt(n.bound, head.size_slot), head.size_slot, head, larger))
         return true;
     }
     if (head.guard != Guard::when) return false;
@@ -180,12 +189,15 @@ class RecursionCheck {
   DiagnosticSink& sink_;
   std::vector<std::vector<uint32_t>> out_;
   std::vector<uint32_t> component_;
+  uint32_t steps_;  ///< left, of all questions together
+  RangeEvaluator values_;
 };
 
 }  // namespace
 
-void checkRecursion(const Program& program, const std::vector<RuleCall>& calls, DiagnosticSink& sink) {
-  RecursionCheck(program, calls, sink).run();
+void checkRecursion(const Program& program, const std::vector<RuleCall>& calls, const CompileLimits& limits,
+                    DiagnosticSink& sink) {
+  RecursionCheck(program, calls, limits.bound_steps, sink).run();
 }
 
 }  // namespace sgm

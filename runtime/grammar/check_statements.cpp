@@ -63,6 +63,9 @@ void Checker::checkRules() {
   for (uint32_t r = 0; r < program_.rules.size(); ++r)
     if (start_rules_[r])
       for (const Alternative& a : program_.rules[r].alternatives) markLayerLevel(a.body);
+  if (sink_.errorCount() > 0) return;  // what is not understood has nothing before it
+  for (const Rule& rule : program_.rules)
+    for (const Alternative& a : rule.alternatives) idleCuts(a.body, false);
 }
 
 /// Lets and fields that nothing uses are right or wrong all the same.
@@ -82,8 +85,10 @@ void Checker::checkUnusedValues() {
 void Checker::checkRule(uint32_t rule) {
   rule_state_[rule] = 2;
   // A rule that is checked again, with a dimension found later, leaves its calls once.
-  std::erase_if(calls_, [&](const RuleCall& call) { return call.from == rule; });
-  std::erase_if(probes_, [&](const Probe& probe) { return probe.rule == rule; });
+  if (!checked_.insert(rule).second) {
+    std::erase_if(calls_, [&](const RuleCall& call) { return call.from == rule; });
+    std::erase_if(probes_, [&](const Probe& probe) { return probe.rule == rule; });
+  }
   ordinal_ = draws_ = 0;
   for (uint32_t a = 0; a < program_.rules[rule].alternatives.size(); ++a) checkAlternative(rule, a);
 }
@@ -97,6 +102,8 @@ void Checker::checkAlternative(uint32_t rule, uint32_t alternative) {
   scope_.rule = true;
   scope_.draws = &draws_;
   Alternative& head = program_.rules[rule].alternatives[alternative];
+  head.size_slot = kNoId;  // a rule that is checked again may know better which parameter is a length
+  scales_.clear();
   for (uint32_t i = 0; i < head.formals.count; ++i) {
     FormalNode& formal = program_.ast.formals[head.formals.first + i];
     formal.type = rule_types_[rule][i];
@@ -108,6 +115,10 @@ void Checker::checkAlternative(uint32_t rule, uint32_t alternative) {
   if (head.when != kNoId) demand(head.when, ValueKind::boolean, kRatio, "a guard");
   if (head.weight != kNoId) demand(head.weight, ValueKind::number, kRatio, "a weight");
   if (head.depth != kNoId) demand(head.depth, ValueKind::number, kRatio, "a depth");
+  constexpr double kDeepest = 64;  // DeriveLimits::depth
+  if (head.depth != kNoId && node(head.depth).kind == ExprKind::number && node(head.depth).value > kDeepest)
+    sink_.warning(node(head.depth).span, codes::kValueRange, "rules within rules end at 64 deep",
+                  "a cell that goes deeper is not derived at all");
   if (head.depth_call != kNoId) callRule(head.depth_call, true, false);
   if (head.minsize != kNoId) demand(head.minsize, ValueKind::number, kLength, "a least size");
   if (head.minsize_call != kNoId) callRule(head.minsize_call, true, false);
@@ -164,7 +175,7 @@ void Checker::callRule(ExprId call, bool escape, bool shrunk) {
     sink_.error(node(bound[i]).span, codes::kTypeMismatch, join({what, " cannot be a ", typeName(types[i])}));
   }
   if (!good) return;
-  if (rule_ != kNoId) calls_.push_back({rule_, alternative_, rule, call, escape, shrunk});
+  if (rule_ != kNoId) calls_.push_back({rule_, alternative_, rule, call, escape, shrunk, scales_});
   if (rule_state_[rule] == 0) {
     rule_state_[rule] = 1;
     rule_types_[rule] = types;
@@ -238,13 +249,20 @@ void Checker::statement(StmtId id, bool shrunk) {
       demand(copy.amount, ValueKind::number, kLength, "the bound of a warp");
       return statement(copy.body, shrunk);
     case StmtKind::transform: {
-      const bool shrinks = xforms(copy.xforms);
-      return statement(copy.body, shrunk || shrinks);
+      const size_t outside = scales_.size();
+      const bool shrinks = xforms(copy.xforms, false);
+      statement(copy.body, shrunk || shrinks);
+      scales_.resize(outside);
+      return;
     }
-    case StmtKind::repeat:
+    case StmtKind::repeat: {
       demand(copy.expr, ValueKind::number, kRatio, "a count");
-      xforms(copy.xforms);
-      return statement(copy.body, shrunk);
+      const size_t outside = scales_.size();
+      xforms(copy.xforms, true);
+      statement(copy.body, shrunk);
+      scales_.resize(outside);
+      return;
+    }
     case StmtKind::for_each:
       return forEach(id, copy, shrunk);
     case StmtKind::scatter:
@@ -307,75 +325,6 @@ void Checker::morphStatement(const StmtNode& node_in, bool shrunk) {
   }
 }
 
-void Checker::forEach(StmtId id, const StmtNode& s, bool shrunk) {
-  const Type source = expression(s.expr);
-  Type type;
-  if (source.kind == ValueKind::range) {
-    type = {ValueKind::number, kRatio, false, false};
-  } else if (source.kind == ValueKind::faces) {
-    type.kind = ValueKind::face;
-  } else if (source.kind != ValueKind::unknown) {
-    sink_.error(node(s.expr).span, codes::kTypeMismatch,
-                join({"`for` goes through a range or faces, and this is a ", typeName(source)}),
-                "such as 0..4, cell.faces or cell.links(tree 3)");
-  }
-  const uint32_t slot = scope_.next_slot++;
-  program_.ast.stmts[id].slot = slot;
-  const size_t locals = scope_.locals.size();
-  declareLocal(s.name, s.span, {s.name, slot, type, kNoId, 0});
-  statement(s.body, shrunk);
-  scope_.locals.resize(std::min(locals, scope_.locals.size()));
-}
-
-void Checker::scatterStatement(const StmtNode& s, bool shrunk) {
-  ScatterNode& scatter = program_.ast.scatters[s.extra];
-  if (scatter.poisson)
-    demand(scatter.count, ValueKind::number, kLength, "the least distance of points");
-  else
-    demand(scatter.count, ValueKind::number, kRatio, "a count");
-  ExprId out[3] = {kNoId, kNoId, kNoId};
-  bool good = true;
-  switch (scatter.area) {
-    case ScatterArea::cell:
-      break;
-    case ScatterArea::shell:
-      good = bindWords(scatter.args, s.span, "shell", {"r", "up"}, 1, out);
-      if (good) demand(out[0], ValueKind::number, kLength, "the radius of a shell");
-      if (good) demand(out[1], ValueKind::number, kRatio, "the upper share of a shell");
-      break;
-    case ScatterArea::disc:
-      good = bindWords(scatter.args, s.span, "disc", {"r"}, 1, out);
-      if (good) demand(out[0], ValueKind::number, kLength, "the radius of a disc");
-      break;
-    case ScatterArea::box:
-      good = bindWords(scatter.args, s.span, "box", {"x", "y", "z"}, scatter.args.count == 1 ? 1 : 3, out);
-      if (!good) break;
-      if (out[1] == kNoId && out[2] == kNoId) {
-        demand(out[0], ValueKind::vector, kLength, "the size of a box");
-      } else {
-        for (ExprId edge : out) demand(edge, ValueKind::number, kLength, "an edge of a box");
-      }
-      break;
-  }
-  scatter.a = out[0];
-  scatter.b = out[1];
-  scatter.c = out[2];
-  if (scatter.probe != 0) {
-    demand(scatter.distance, ValueKind::number, kLength, "the length of a probe");
-    Suggestion suggestion(text(scatter.layer_name));
-    for (uint32_t l = 0; l < program_.layers.size(); ++l) {
-      if (program_.layers[l].name == scatter.layer_name) scatter.layer = l;
-      suggestion.offer(text(program_.layers[l].name));
-    }
-    if (scatter.layer == kNoId && layers_known_)
-      sink_.error(scatter.span, codes::kUnknownName, join({"unknown layer `", text(scatter.layer_name), "`"}),
-                  suggestion.hint());
-    probes_.push_back({rule_, s.extra});
-  }
-  if (scatter.when != kNoId) demand(scatter.when, ValueKind::boolean, kRatio, "the `when` of a scatter");
-  statement(s.body, shrunk);
-}
-
 void Checker::localField(const StmtNode& s) {
   Field& field = program_.fields[s.extra];
   for (uint32_t i = 0; i < field.formals.count; ++i)
@@ -394,88 +343,6 @@ void Checker::localField(const StmtNode& s) {
     sink_.error(node(field.body).span, codes::kTypeMismatch,
                 join({"a field gives a number or a vector, not a ", typeName(type)}));
   if (locals > local.depth) scope_.locals.push_back(local);
-}
-
-bool Checker::xforms(IdRange range) {
-  bool shrinks = false;
-  for (uint32_t i = 0; i < range.count; ++i) {
-    XformNode& x = program_.ast.xforms[range.first + i];
-    ExprId out[3] = {kNoId, kNoId, kNoId};
-    auto axisOf = [&](ExprId id) -> uint8_t {
-      const std::string_view word = node(id).kind == ExprKind::name ? text(node(id).name) : std::string_view();
-      const bool hidden = std::any_of(scope_.locals.begin(), scope_.locals.end(),
-                                      [&](const Local& local) { return text(local.name) == word; });
-      if (hidden) return 3;
-      return word == "x" ? 0 : word == "y" ? 1 : word == "z" ? 2 : 3;
-    };
-    switch (x.kind) {
-      case XformKind::at:
-      case XformKind::size: {
-        const bool at = x.kind == XformKind::at;
-        shrinks = shrinks || !at;  // a scope that does not shrink after all is found by the proof of reach
-        if (!bindWords(x.args, x.span, at ? "at" : "size", {"x", "y", "z"}, 1, out)) break;
-        const bool alone = x.args.count == 1 && program_.ast.args[x.args.first].name == kNoId;
-        if (alone) {
-          demand(out[0], ValueKind::vector, kLength, at ? "the point of `at`" : "the edges of `size`");
-        } else {
-          for (ExprId part : out)
-            demand(part, ValueKind::number, kLength, at ? "a coordinate of `at`" : "an edge of `size`");
-        }
-        break;
-      }
-      case XformKind::rot:
-        if (!bindWords(x.args, x.span, "rot", {"axis", "angle"}, 2, out)) break;
-        x.axis = axisOf(out[0]);
-        if (x.axis == 3) {
-          const Type axis = expression(out[0]);
-          if (axis.kind != ValueKind::vector && axis.kind != ValueKind::unknown)
-            sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `rot` is x, y, z or a vector");
-          deriveOnly(out[0], "an axis");
-        }
-        demand(out[1], ValueKind::number, kAngle, "the angle of `rot`");
-        break;
-      case XformKind::scale:
-        if (x.args.count > 1) {
-          sink_.error(x.span, codes::kArgumentCount, "`scale` takes one factor",
-                      "a distance cannot be stretched unevenly; give the shape its sizes instead");
-          break;
-        }
-        if (bindWords(x.args, x.span, "scale", {"factor"}, 1, out))
-          demand(out[0], ValueKind::number, kRatio, "the factor of `scale`");
-        break;
-      case XformKind::mirror:
-        if (!bindWords(x.args, x.span, "mirror", {"axis"}, 1, out)) break;
-        x.axis = axisOf(out[0]);
-        if (x.axis == 3) sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `mirror` is x, y or z");
-        break;
-    }
-    x.a = out[0];
-    x.b = out[1];
-    x.c = out[2];
-  }
-  return shrinks;
-}
-
-/// A cut that stands directly at the level of a layer's start rule takes from the domain.
-void Checker::markLayerLevel(StmtId id) {
-  StmtNode& s = program_.ast.stmts[id];
-  switch (s.kind) {
-    case StmtKind::cut:
-      s.layer_level = true;
-      return;
-    case StmtKind::block:
-      for (uint32_t i = 0; i < s.children.count; ++i) markLayerLevel(program_.idAt(s.children, i));
-      return;
-    case StmtKind::transform:
-    case StmtKind::repeat:
-    case StmtKind::for_each:
-    case StmtKind::scatter:
-    case StmtKind::detail:
-      markLayerLevel(s.body);
-      return;
-    default:
-      return;
-  }
 }
 
 }  // namespace sgm

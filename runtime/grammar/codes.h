@@ -56,5 +56,6 @@ inline constexpr std::string_view kReach = "reach";
 inline constexpr std::string_view kReachMaybe = "reach-maybe";
 inline constexpr std::string_view kMorphDisjoint = "morph-disjoint";
 inline constexpr std::string_view kGuards = "guards";
+inline constexpr std::string_view kIdleCut = "idle-cut";
 
 }  // namespace sgm::codes

@@ -51,7 +51,7 @@ CompileResult compileGrammar(std::string_view text, std::string_view path, const
       program->hash = hashCombine(program->hash, hashText(printMeaning(*program, module)));
     Checker checker(*program, names, syntax, options.limits, sink);
     checker.run();
-    if (sink.errorCount() == 0) checkRecursion(*program, checker.calls(), sink);
+    if (sink.errorCount() == 0) checkRecursion(*program, checker.calls(), options.limits, sink);
     if (sink.errorCount() == 0) checkReach(*program, options.limits, sink);
   }
   if (sink.errorCount() == 0) result.program = std::move(program);
@@ -85,6 +85,16 @@ std::string renderDiagnostics(const CompileResult& result) {
     out += renderDiagnostic(diagnostic, source);
   }
   return out;
+}
+
+StmtId Program::innermost(StmtId id) const {
+  for (;;) {
+    const StmtNode& s = stmt(id);
+    if (s.kind != StmtKind::transform && s.kind != StmtKind::repeat && s.kind != StmtKind::for_each &&
+        s.kind != StmtKind::scatter && s.kind != StmtKind::detail)
+      return id;
+    id = s.body;
+  }
 }
 
 uint32_t Program::findParam(std::string_view name) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/utf8.h"
 #include "grammar/sink.h"
 
 namespace sgm {
@@ -38,11 +39,17 @@ std::string renderDiagnostic(const Diagnostic& d, std::string_view source) {
     while (first > 0 && first < line.size() && isContinuation(line[first])) --first;
     const size_t last = std::min(line.size(), first + kWindow);
     std::string shown, caret;
+    size_t next = first;  // where the next character begins
     for (size_t i = first; i < std::max(last, column + 1); ++i) {
       const char c = i < last ? line[i] : ' ';
-      // Control characters of untrusted text never reach the terminal; tabs stay so that the caret lines up.
-      if (i < last) shown += (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F ? '?' : c;
-      if (i < column && !isContinuation(c)) caret += c == '\t' ? '\t' : ' ';
+      const size_t size = i < last ? utf8Size(line.substr(i)) : 1;
+      const bool begins = i >= next;
+      if (begins) next = i + std::max(size, size_t{1});
+      // Control characters of untrusted text and bytes that are no text never reach the terminal; tabs stay so that the
+      // caret lines up.
+      const bool hidden = (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F || (begins && size == 0);
+      if (i < last) shown += hidden ? '?' : c;
+      if (i < column && begins) caret += c == '\t' ? '\t' : ' ';
     }
     caret += '^';
     const size_t end = std::min(last, static_cast<size_t>(std::max(d.end_column - 1, d.column)));

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/utf8.h"
 #include "grammar/codes.h"
 #include "grammar/keywords.h"
 
@@ -106,7 +107,8 @@ class Lexer {
         comment.begin = static_cast<uint32_t>(at_);
         comment.line = line_;
         comment.own_line = fresh_line_;
-        while (!done() && peek() != '\n') ++at_;
+        bool foreign = false;
+        while (!done() && peek() != '\n') foreign = character(foreign);
         size_t end = at_;
         while (end > comment.begin && (text_[end - 1] == ' ' || text_[end - 1] == '\t' || text_[end - 1] == '\r'))
           --end;
@@ -118,6 +120,20 @@ class Lexer {
       blank_ = true;
     }
     return false;
+  }
+
+  /// Steps over one character of a comment or a text. One that is no UTF-8 is said at its place, once in each comment
+  /// and text; gives whether there was one.
+  bool character(bool foreign) {
+    const size_t size = utf8Size(text_.substr(at_));
+    if (size == 0 && !foreign) {
+      const size_t begin = at_++;
+      sink_.error(spanFrom(begin, line_, begin - line_start_), codes::kBadCharacter, "this byte is not UTF-8",
+                  "save the file as UTF-8");
+      return true;
+    }
+    at_ += size == 0 ? 1 : size;
+    return foreign;
   }
 
   void push(Tok kind, size_t begin, size_t column) {
@@ -219,6 +235,7 @@ class Lexer {
   void textConstant(size_t begin, size_t column) {
     ++at_;
     std::string_view complaint;
+    bool foreign = false;
     for (;;) {
       const char c = peek();
       if (done() || c == '\n') {
@@ -228,11 +245,11 @@ class Lexer {
       }
       if (c == '\\') {
         if (peek(1) != '"' && peek(1) != '\\') complaint = "a backslash stands before a quote or a backslash only";
-        at_ += peek(1) == '\n' || peek(1) == '\0' ? size_t{1} : size_t{2};
+        at_ += peek(1) == '"' || peek(1) == '\\' ? size_t{2} : size_t{1};
         continue;
       }
       if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) complaint = "a control character in a text";
-      ++at_;
+      foreign = character(foreign);
       if (c == '"') break;
     }
     if (at_ - begin > kLongestText + 2) complaint = "a text has at most 1024 bytes";

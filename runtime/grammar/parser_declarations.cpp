@@ -402,6 +402,9 @@ void Parser::expectation(bool expect_it) {
     e.value = expression();
   }
   while (!panic_ && (atWord("in") || atWord("per"))) {
+    const bool block = peek(1).kind == Tok::word && textOf(peek(1)) == "block";
+    const bool twice = atWord("per") ? e.per_name != kNoId : block ? e.block != 0 : e.low != kNoId;
+    if (twice) return fail(here(), codes::kDuplicate, "this stands here twice");
     if (acceptWord("per")) {
       e.span = here();
       e.per_name = wordName("the name of a rule");

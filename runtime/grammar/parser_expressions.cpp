@@ -298,12 +298,16 @@ ExprId Parser::callExpression(std::string_view what) {
   const ExprId callee = postfix();
   if (panic_ || callee == kNoId) return kNoId;
   ExprNode node = program_.ast.exprs[callee];
-  if (node.kind == ExprKind::call) return callee;
+  if (node.kind == ExprKind::call) {
+    program_.ast.exprs[callee].shape = true;
+    return callee;
+  }
   if (node.kind != ExprKind::name && node.kind != ExprKind::member) {
     fail(since(begin), codes::kSyntax, join({"expected ", what}));
     return kNoId;
   }
   node.kind = ExprKind::call;
+  node.shape = true;
   return addExpr(node, begin);
 }
 

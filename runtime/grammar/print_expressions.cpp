@@ -126,8 +126,8 @@ void LinePrinter::expr(std::string& out, ExprId id, int lowest) const {
         out += '.';
       }
       out += program_.text(node.name);
-      // A call without arguments is a rule's, which is written without parentheses.
-      if (node.args.count > 0) args(out, node.args, program_.text(node.name));
+      // A rule without arguments is written without parentheses; a value without them would be no call.
+      if (node.args.count > 0 || !node.shape) args(out, node.args, program_.text(node.name));
       break;
   }
   if (parentheses) out += ')';

@@ -17,6 +17,23 @@ constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components
                                                        "triangles",  "genus",      "anchors"};
 constexpr std::array<std::string_view, 6> kComparisons = {" < ", " <= ", " > ", " >= ", " == ", " != "};
 
+void measureText(std::string& out, const Program& program, const LinePrinter& line, const Expectation& e) {
+  out += measureName(e.measure);
+  if (e.of != kNoId) out += join({"(", program.text(e.of), ")"});
+  if (e.compared) {
+    out += kComparisons[static_cast<size_t>(e.comparison) - static_cast<size_t>(BinaryOp::less)];
+    line.expr(out, e.value);
+  }
+  if (e.low != kNoId) {
+    out += " in ";
+    line.expr(out, e.low, 1);
+    out += "..";
+    line.expr(out, e.high, 1);
+  }
+  if (e.block > 0) out += join({" in block(", std::to_string(e.block), ")"});
+  if (e.per_name != kNoId) out += join({" per ", program.text(e.per_name)});
+}
+
 /// Everything but rules with blocks: declarations that always stand on one line.
 void declarationLine(std::string& out, const Program& program, const ModuleSyntax& syntax, const LinePrinter& line,
                      const Item& item) {
@@ -112,20 +129,8 @@ void declarationLine(std::string& out, const Program& program, const ModuleSynta
     }
     case ItemKind::expectation: {
       const Expectation& e = program.expectations[item.index];
-      out += join({e.expect ? "expect " : "report ", kMeasures[static_cast<size_t>(e.measure)]});
-      if (e.of != kNoId) out += join({"(", program.text(e.of), ")"});
-      if (e.compared) {
-        out += kComparisons[static_cast<size_t>(e.comparison) - static_cast<size_t>(BinaryOp::less)];
-        line.expr(out, e.value);
-      }
-      if (e.low != kNoId) {
-        out += " in ";
-        line.expr(out, e.low, 1);
-        out += "..";
-        line.expr(out, e.high, 1);
-      }
-      if (e.block > 0) out += join({" in block(", std::to_string(e.block), ")"});
-      if (e.per_name != kNoId) out += join({" per ", program.text(e.per_name)});
+      out += e.expect ? "expect " : "report ";
+      measureText(out, program, line, e);
       out += ';';
       break;
     }
@@ -276,6 +281,14 @@ std::string printMeaning(const Program& program, const ModuleSyntax& syntax) {
   const LinePrinter line(program, true);
   std::string out;
   for (const Item& item : syntax.items) declarationLine(out, program, syntax, line, item);
+  return out;
+}
+
+std::string_view measureName(Measure measure) { return kMeasures[static_cast<size_t>(measure)]; }
+
+std::string printMeasure(const Program& program, const Expectation& expectation) {
+  std::string out;
+  measureText(out, program, LinePrinter(program, false), expectation);
   return out;
 }
 

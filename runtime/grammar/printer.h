@@ -15,4 +15,9 @@ std::string printModule(const Program& program, const ModuleSyntax& syntax);
 /// One line that is equal for files of equal meaning: no comments, no superfluous parentheses, numbers by value.
 std::string printMeaning(const Program& program, const ModuleSyntax& syntax);
 
+/// "watertight", "components", ...
+std::string_view measureName(Measure measure);
+/// What follows `report` or `expect`, without the semicolon: "components(air) == 1 in block(8)".
+std::string printMeasure(const Program& program, const Expectation& expectation);
+
 }  // namespace sgm

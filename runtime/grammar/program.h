@@ -95,9 +95,10 @@ struct Rule {
   bool morphic = false;
   uint64_t name_hash = 0;  ///< hashText of the name, for path keys
   std::pmr::vector<Alternative> alternatives;
-  Span span;  ///< of the first name
+  std::pmr::vector<uint32_t> calls;  ///< rules that it may call, each once, ascending
+  Span span;                         ///< of the first name
 
-  explicit Rule(std::pmr::memory_resource* memory) : alternatives(memory) {}
+  explicit Rule(std::pmr::memory_resource* memory) : alternatives(memory), calls(memory) {}
 };
 
 /// Layers stand in topological order: a layer uses only layers before it.
@@ -133,6 +134,7 @@ struct Domain {
 enum class Measure : uint8_t { watertight, components, volume, area, triangles, genus, anchors };
 
 /// `report volume;`, `expect components(air) == 1 in block(8);`, `expect volume in 1m3..2m3 per Chamber;`
+/// What each measure is, where and how finely it is taken: metrics/expectations.h. In m3 for a volume, m2 for an area.
 struct Expectation {
   bool expect = false;  ///< otherwise a report
   Measure measure = Measure::watertight;
@@ -141,7 +143,7 @@ struct Expectation {
   BinaryOp comparison = BinaryOp::equal;
   ExprId value = kNoId, low = kNoId, high = kNoId;  ///< comparison, or range; constants
   double value_number = 0, low_number = 0, high_number = 0;
-  int32_t block = 0;     ///< in block(n): cells along an edge; 0: everything
+  int32_t block = 0;     ///< in block(n): cells along an edge; 0: not written
   uint32_t per = kNoId;  ///< Program::rules
   NameId per_name = kNoId;
   Span span;
@@ -184,6 +186,8 @@ class Program {
   const StmtNode& stmt(StmtId id) const { return ast.stmts[id]; }
   /// The i-th id of a range of children or bound arguments.
   uint32_t idAt(IdRange range, uint32_t i) const { return ast.ids[range.first + i]; }
+  /// The statement inside transforms, loops, point sets and details: what a block's child comes down to.
+  StmtId innermost(StmtId id) const;
   /// kNoId where there is none.
   uint32_t findParam(std::string_view name) const;
   uint32_t findRule(std::string_view name) const;

@@ -1,6 +1,7 @@
 #include "grammar/reach_values.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sgm {
 
@@ -32,7 +33,27 @@ Interval compare(BinaryOp op, Interval a, Interval b) {
   }
 }
 
+/// The field computes with floats: where a step lies at a whole number, it may fall on either side.
+Interval sampledFloats(Interval v) {
+  auto whole = [](double x) { return x == std::floor(x) && std::fabs(x) < 1e6; };
+  return {whole(v.lo) ? v.lo : v.lo - 1e-6 * std::fabs(v.lo) - 1e-9,
+          whole(v.hi) ? v.hi : v.hi + 1e-6 * std::fabs(v.hi) + 1e-9};
+}
+
 }  // namespace
+
+IntervalVector anyDirection(const IntervalVector& v) {
+  double sum = 0;
+  for (const Interval& part : v) sum += part.magnitude() * part.magnitude();
+  const double length = std::sqrt(sum) * (1 + 1e-12);
+  const Interval ball{-length, length};
+  return {ball, ball, ball};
+}
+
+void PlaceRange::move(const IntervalVector& by) {
+  const IntervalVector step = turned ? anyDirection(by) : by;
+  for (size_t i = 0; i < 3; ++i) offset[i] = offset[i] + step[i] * scale;
+}
 
 Interval RangeEvaluator::number(ExprId id, const RangeFrame& frame) {
   const RangeValue value = evaluate(id, frame);
@@ -113,7 +134,7 @@ RangeValue RangeEvaluator::binary(const ExprNode& n, const RangeFrame& frame) {
   const RangeValue a = evaluate(child(n, 0), frame), b = evaluate(child(n, 1), frame);
   if (n.binary >= BinaryOp::less && n.binary <= BinaryOp::not_equal)
     return RangeValue::condition(
-        a.kind == ValueKind::unknown || b.kind == ValueKind::unknown ? kEither : compare(n.binary, a.v[0], b.v[0]));
+        a.kind == ValueKind::number && b.kind == ValueKind::number ? compare(n.binary, a.v[0], b.v[0]) : kEither);
   const bool a_vector = a.kind == ValueKind::vector, b_vector = b.kind == ValueKind::vector;
   RangeValue out;
   out.kind = a_vector || b_vector ? ValueKind::vector : ValueKind::number;
@@ -139,8 +160,11 @@ RangeValue RangeEvaluator::binary(const ExprNode& n, const RangeFrame& frame) {
 
 RangeValue RangeEvaluator::call(const ExprNode& n, const RangeFrame& frame) {
   switch (n.ref) {
-    case Ref::parameter:
-      return RangeValue::number({program_.params[n.id].low, program_.params[n.id].high});
+    case Ref::parameter: {
+      // Without a range the host may set any number.
+      const Param& param = program_.params[n.id];
+      return RangeValue::number(param.has_range ? Interval{param.low, param.high} : Interval::everything());
+    }
     case Ref::local:
       return n.id < frame.slots.size() ? frame.slots[n.id] : RangeValue::unknown();
     case Ref::value: {
@@ -172,6 +196,9 @@ RangeValue RangeEvaluator::applied(const ExprNode& n, const RangeFrame& frame) {
   const ExprId body = is_let ? program_.lets[n.id].body : program_.fields[n.id].body;
   RangeFrame inner;
   if (!is_let && program_.fields[n.id].local) inner = frame;
+  inner.start = frame.start;
+  inner.place = frame.place;
+  inner.scope = frame.scope;
   for (uint32_t i = 0; i < formals.count && i < n.bound.count; ++i) {
     const uint32_t slot = program_.ast.formals[formals.first + i].slot;
     if (inner.slots.size() <= slot) inner.slots.resize(slot + 1);
@@ -189,22 +216,23 @@ RangeValue RangeEvaluator::member(const ExprNode& n, const RangeFrame& frame) {
     case Member::z:
       if (place || of.kind == ValueKind::unknown) return RangeValue::number(Interval::everything());
       return RangeValue::number(of.v[static_cast<size_t>(n.member) - static_cast<size_t>(Member::x)]);
-    case Member::other:
-      return {ValueKind::cell, of.v};
+    case Member::other: {
+      RangeValue out{ValueKind::cell, of.v};
+      for (size_t i = 0; i < 3; ++i) out.v[i] = of.v[i] + Interval{0, 1};
+      return out;
+    }
     case Member::axis:
       return RangeValue::number({0, 2});
     case Member::size:
       return RangeValue::vector(cell_);
     case Member::center: {
       if (!place) return RangeValue::unknown();
-      RangeValue out = RangeValue::vector(cell_);
-      // Of a face: half way to the other cell.
-      const Interval share = of.kind == ValueKind::face ? Interval{0, 1} : Interval{1, 1};
-      for (size_t i = 0; i < 3; ++i) out.v[i] = (of.v[i] * share + Interval{0.5, 0.5}) * cell_[i];
-      return out;
+      // Of a face: on the side between its cells, half way along the others.
+      const Interval share = of.kind == ValueKind::face ? Interval{0.5, 1} : Interval{0.5, 0.5};
+      return point({of.v[0] + share, of.v[1] + share, of.v[2] + share}, frame);
     }
     case Member::faces:
-      return {ValueKind::faces, {Interval{-1, 1}, Interval{-1, 1}, Interval{-1, 1}}};
+      return {ValueKind::faces, of.v};
     default:
       return RangeValue::unknown();
   }
@@ -222,7 +250,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::abs:
       return RangeValue::number(absolute(in(0)));
     case Builtin::floor:
-      return RangeValue::number(floorOf(in(0)));
+      return RangeValue::number(floorOf(program_.expr(arg(0)).type.sample ? sampledFloats(in(0)) : in(0)));
     case Builtin::ceil:
       return RangeValue::number(-floorOf(-in(0)));
     case Builtin::sqrt:
@@ -278,19 +306,28 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
       jitter = minimum(maximum(jitter, {0, 0}), {1, 1});
       const double half = jitter.hi / 2;
       Interval spread{0.5 - half, 0.5 + half};
-      // A point of a face lies on a side of the cell in one axis.
-      if (of.kind == ValueKind::face) spread = {0, 1};
-      RangeValue out = RangeValue::vector(cell_);
-      for (size_t i = 0; i < 3; ++i)
-        out.v[i] = of.kind == ValueKind::face ? spread * cell_[i] : (of.v[i] + spread) * cell_[i];
-      return out;
+      // A point of a face lies on the side between its cells in one axis.
+      if (of.kind == ValueKind::face) spread.hi = 1;
+      return point({of.v[0] + spread, of.v[1] + spread, of.v[2] + spread}, frame);
     }
     case Builtin::cell_links:
-      return {ValueKind::faces, {Interval{0, 1}, Interval{0, 1}, Interval{0, 1}}};
+      return {ValueKind::faces, evaluate(arg(0), frame).v};
     case Builtin::position:
       return RangeValue::vector({in(0), in(1), in(2)});
   }
   return RangeValue::unknown();
+}
+
+RangeValue RangeEvaluator::point(const IntervalVector& cells, const RangeFrame& frame) {
+  RangeValue out = RangeValue::vector(cells);
+  for (size_t i = 0; i < 3; ++i) out.v[i] = (cells[i] + Interval::exactly(low_)) * cell_[i];
+  asked_.place = true;
+  const PlaceRange& start = frame.start;
+  if (start == PlaceRange{}) return out;
+  for (size_t i = 0; i < 3; ++i) out.v[i] = out.v[i] - start.offset[i];
+  if (start.turned) out.v = anyDirection(out.v);
+  for (Interval& part : out.v) part = part / start.scale;
+  return out;
 }
 
 void RangeEvaluator::refine(ExprId id, bool holds, RangeFrame& frame) {

@@ -10,7 +10,8 @@
 
 namespace sgm {
 
-/// A number or condition is v[0]; a vector or pair v; a cell or face its offset from the cell being derived, in cells.
+/// A number or condition is v[0]; a vector or pair v; a cell its offset from the cell being derived, in cells, a face
+/// that of its lower cell.
 struct RangeValue {
   ValueKind kind = ValueKind::unknown;
   IntervalVector v{Interval::everything(), Interval::everything(), Interval::everything()};
@@ -21,18 +22,45 @@ struct RangeValue {
   static RangeValue unknown() { return {}; }
 };
 
+/// Where a scope may lie: metres from the cell's low corner.
+struct PlaceRange {
+  IntervalVector offset{};
+  Interval scale{1, 1};
+  bool turned = false;  ///< in whatever way
+
+  void move(const IntervalVector& by);
+  friend bool operator==(const PlaceRange&, const PlaceRange&) = default;
+};
+
 /// What a frame's expressions may refer to.
 struct RangeFrame {
   std::vector<RangeValue> slots;
   IntervalVector scope{};  ///< edges of the scope's box
+  PlaceRange place;        ///< of the statement
+  PlaceRange start;        ///< of the rule
+  bool top = false;        ///< the layer's own use of its start rule, in which a cut takes from the domain
 };
+
+/// Any vector as long as one of these.
+IntervalVector anyDirection(const IntervalVector& v);
 
 class RangeEvaluator {
  public:
   /// steps: what is left of the caller's budget; at 0 every value is unknown.
   RangeEvaluator(const Program& program, uint32_t& steps) : program_(program), steps_(steps) {}
 
-  void setCell(const IntervalVector& edges) { cell_ = edges; }
+  /// The edges of a cell; `centred`: it lies about the origin of the start's scope, otherwise that is its low corner.
+  void setCell(const IntervalVector& edges, bool centred) {
+    cell_ = edges;
+    low_ = centred ? -0.5 : 0.0;
+  }
+
+  /// What has been asked since it was cleared: where a rule stands, and how it is scaled. Ranges of other places or
+  /// scales are the same where it was not.
+  struct Asked {
+    bool place = false, scale = false;
+  };
+  Asked& asked() { return asked_; }
 
   RangeValue evaluate(ExprId id, const RangeFrame& frame);
   Interval number(ExprId id, const RangeFrame& frame);
@@ -50,11 +78,15 @@ class RangeEvaluator {
   RangeValue builtin(const ExprNode& n, const RangeFrame& frame);
   RangeValue applied(const ExprNode& n, const RangeFrame& frame);
   RangeValue member(const ExprNode& n, const RangeFrame& frame);
+  /// A point of the cell, in the scope that the rule starts with.
+  RangeValue point(const IntervalVector& from_cell, const RangeFrame& frame);
   uint32_t child(const ExprNode& n, uint32_t i) const { return program_.idAt(n.children, i); }
 
   const Program& program_;
   uint32_t& steps_;
   IntervalVector cell_{};
+  double low_ = 0;  ///< of the cell, in cells
+  Asked asked_;
   int depth_ = 0;
 };
 

@@ -134,3 +134,23 @@ TEST_CASE("lets within lets and rules within rules stay on a small stack", "[gra
   INFO(renderDiagnostics(deep).substr(0, 500));
   CHECK(mentions(deep, "reach"));
 }
+
+TEST_CASE("a constant costs each let once", "[grammar][caps]") {
+  std::string text = "sgm 1;\nlet a0 = 1;\n";
+  for (int i = 1; i < 11; ++i) {
+    const std::string before = "a" + std::to_string(i - 1);
+    text += "let a" + std::to_string(i) + " = " + before;
+    for (int k = 0; k < 15; ++k) text += "*" + before;
+    text += ";\n";
+  }
+  text += "domain finite box(8m*a10);\nstart A; rule A { sphere(1m); }";
+  const CompileResult result = compileText(text);
+  INFO(renderDiagnostics(result));
+  CHECK(result.program);
+}
+
+TEST_CASE("layers are capped", "[grammar][caps]") {
+  std::string text = "sgm 1; domain infinite;\n";
+  for (int i = 0; i < 257; ++i) text += "layer l" + std::to_string(i) + " cell 8m reach 8m { start A; }\n";
+  CHECK(brief(compileText(text + "rule A { sphere(1m); }").diagnostics) == "258:7 too-large");
+}

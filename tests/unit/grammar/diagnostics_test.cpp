@@ -22,6 +22,16 @@ const Case kCases[] = {
     // The text
     {"2:17 bad-character", "sgm 1; start A;\nrule A { sphere(#2m); }"},
     {"2:17 bad-character", "sgm 1; start A;\nrule A { sphere($); }"},
+    // Bytes that are no UTF-8: Latin-1, a sequence cut short, one too long, a surrogate. The place is the byte's.
+    {"2:17 bad-character",
+     "sgm 1; start A; // \xC3\xA9\nrule A { } // na\xEF"
+     "ve caf\xE9\n"},
+    {"1:23 bad-character",
+     "sgm 1; param a = 1m \"d\xE9"
+     "but\"; start A; rule A { sphere(a); }"},
+    {"1:22 bad-character", "sgm 1; param a = 1m \"\xE2\x82\"; start A; rule A { sphere(a); }"},
+    {"1:22 bad-character", "sgm 1; param a = 1m \"\xC0\xAF\"; start A; rule A { sphere(a); }"},
+    {"1:17 bad-character", "sgm 1; start A;\t\xED\xA0\x80\nrule A { }"},
     {"2:14 bad-text", "sgm 1; start A;\nrule A { tag \"unclosed; }\n"},
     {"2:14 bad-text", "sgm 1; start A;\nrule A { tag \"a\\n\"; }\n"},
     {"2:17 bad-number", "sgm 1; start A;\nrule A { sphere(.5m); }"},
@@ -45,6 +55,12 @@ const Case kCases[] = {
     {"1:17 duplicate", "sgm 1; start A; start A; rule A { }"},
     {"2:20 duplicate", "sgm 1; start A;\nrule A { mat rock; mat clay; }"},
     {"2:24 duplicate", "sgm 1; start A(1);\nrule A(r) { let b = r; let r = 2; }"},
+    {"2:33 duplicate", "sgm 1; start A; rule A { sphere(1m); }\nexpect volume in 1m3..2m3 per A per A;"},
+    {"2:27 duplicate", "sgm 1; start A; rule A { sphere(1m); }\nexpect volume in 1m3..2m3 in 3m3..4m3;"},
+    {"2:19 argument-name", "sgm 1; start A;\nrule A { at(y 2m, 3m) sphere(1m); }"},
+    {"2:14 value-range", "sgm 1; start A;\nrule A depth 65 -> sphere(1m) { sphere(1m); }"},
+    // Cuts
+    {"2:30 idle-cut", "sgm 1; start A; rule A { B; }\nrule B { union { let r = 1m; cut { sphere(r); } } }"},
     // Imports
     {"1:15 import-path", "sgm 1; import \"../a.sgm\" as a; start A; rule A { }"},
     {"1:15 import-missing", "sgm 1; import \"std/rokc.sgm\" as a; start A; rule A { }"},

@@ -100,7 +100,8 @@ class Writer {
         out_ += "displace wave(amp 0.1m" + std::string(pick({"", ", period = 3m", ", period r"})) + ") ";
         return body(depth + 1);
       case 8:
-        out_ += "at(" + length(0) + ", 0, -1m) " + pick({"", "rot(y, 30deg) ", "mirror(x) scale(0.5) "});
+        out_ += chance(30) ? "at(cell.point()) " : "at(" + length(0) + ", 0, -1m) ";
+        out_ += pick({"", "rot(y, 30deg) ", "mirror(x) scale(0.5) "});
         return body(depth + 1);
       case 9:
         out_ += "repeat count rot(z, -90deg) ";

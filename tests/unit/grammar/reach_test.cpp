@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "catch.h"
 #include "compile_text.h"
 #include "grammar/interval.h"
@@ -102,6 +104,71 @@ TEST_CASE("a reach that cannot hold is an error, one that may not a warning", "[
   const Bound bound = boundOf("B(14m);", "rule B(r) { sphere(r); }", "4m");
   CHECK(bound.messages.find("cannot prove reach: `B` may extend 14 m from its cell, layer `l` declares reach 4 m") !=
         std::string::npos);
+}
+
+TEST_CASE("a turned shape grows by its displacement and not by its corners", "[grammar][reach]") {
+  const double half = 2 * std::sqrt(2.0) + 5;
+  checkBound("displace 5m*fractal(20m) { rot(y, 45deg) box(4m); }", {-half, -7, -half}, {half, 7, half});
+  checkBound("rot(y, 45deg) displace 5m*fractal(20m) { box(4m); }", {-half, -7, -half}, {half, 7, half});
+  // A warp moves points along the scope's axes, which turn with it.
+  const double turned = (1 + 2) * std::sqrt(0.5) + 2 * std::sqrt(0.5);
+  checkBound("rot(y, 45deg) warp (1m*fractal(2m), 0m, 0m) { box(4m); }", {-turned, -2, -turned}, {turned, 2, turned});
+  checkBound("scale(2) displace 1m*fractal(3m) { sphere(1m); }", {-4, -4, -4}, {4, 4, 4});
+}
+
+TEST_CASE("what is no distance grows faster when it is displaced", "[grammar][reach]") {
+  checkBound("displace 1m*fractal(3m) { ellipsoid(10m, 1m, 1m); }", {-20, -11, -11}, {20, 11, 11});
+  checkBound("B(10m);", {-15, -11, -15}, {15, 11, 15},
+             "rule B(r) { displace 3m*fractal(9m) { ellipsoid(r, 0.6*r, r); } }");
+  CHECK(boundOf("displace 1m*fractal(3m) { ellipsoid(rand(0m, 4m), 2m, 2m); }").brief == "4:19 reach");
+  // Far from its leaves, a sum's field is 0.26 of the largest.
+  checkBound("displace 0.5m*fractal(3m) { sum { blob(2m); } }", {-3.2, -3.2, -3.2}, {3.2, 3.2, 3.2});
+  const Bound bound = boundOf("displace 0.6m*fractal(3m) { sum { blob(2m); } }");
+  CHECK(bound.brief == "4:19 reach");
+  // What the hint says is so.
+  CHECK(boundOf("displace 0.5099m*fractal(3m) { sum { blob(2m); } }").proven);
+  CHECK(bound.messages.find("than 0.51 m") != std::string::npos);
+  // The largest leaf counts, where it is there for sure.
+  CHECK(boundOf("displace 0.5m*fractal(3m) { sum { blob(2m); blob(0.1m); } }").proven);
+  CHECK(boundOf("displace 0.5m*fractal(3m) { sum { blob(0.1m); scatter 3 on disc(1m) when chance(50%) blob(2m); } }")
+            .brief == "4:19 reach");
+}
+
+TEST_CASE("displaced operands of a meet that lie apart come together", "[grammar][reach]") {
+  checkBound("displace 1m*fractal(3m) { meet { sphere(1m); at(3m, 0m, 0m) sphere(1m); } }", {0, -2, -2}, {3, 2, 2});
+}
+
+TEST_CASE("a parameter without a range may be anything", "[grammar][reach]") {
+  CHECK(boundOf("sphere(2m*w);", "param w = 1;").brief == "4:10 reach");
+  CHECK(boundOf("sphere(2m*clamp(w, 0, 1));", "param w = 1;").proven);
+  CHECK(boundOf("sphere(2m*w);", "param w = 1 in 0..2;").proven);
+}
+
+TEST_CASE("counts are rounded as derivation rounds them", "[grammar][reach]") {
+  checkBound("repeat 2.5 at(2m, 0m, 0m) sphere(1m);", {-1, -1, -1}, {5, 1, 1});
+  checkBound("for i in 0..3.5 { at(1m*i, 0m, 0m) sphere(1m); }", {-1, -1, -1}, {4, 1, 1});
+  checkBound("repeat 3 size(2*scope) B;", {-16, -16, -16}, {16, 16, 16},
+             "rule B { box((min(scope.x, 32m), 32m, 32m)); }");
+}
+
+TEST_CASE("sizes are those that come out, and scopes those of the moment", "[grammar][reach]") {
+  checkBound("B(4m);", {-4, -4, -4}, {4, 4, 4}, "rule B(r) minsize 1m -> box(r) { sphere(r); scale(0.5) B(r); }");
+  checkBound("size(2m, 2m, 2m) at(scope.x, 0m, 0m) sphere(1m);", {1, -1, -1}, {3, 1, 1});
+  checkBound("at(1m, 0m, 0m) B;", {3, 3, 3}, {5, 5, 5}, "rule B { at(cell.center) sphere(1m); }");
+  checkBound("scale(-1) sphere(1m);", {-1, -1, -1}, {1, 1, 1});
+  checkBound("scale(rand(-1, 0.5)) sphere(2m);", {-2, -2, -2}, {2, 2, 2});
+  checkBound("scatter 3 on shell(-2m, up 20%) sphere(1m);", {-3, -3, -3}, {3, -0.2, 3});
+}
+
+TEST_CASE("faces are counted from the cell they belong to", "[grammar][reach]") {
+  checkBound("for f in cell.faces { at(f.other.center) sphere(1m); }", {3, 3, 3}, {13, 13, 13});
+  checkBound("for f in cell.faces { for g in f.other.faces { at(g.other.center) sphere(1m); } }", {3, 3, 3},
+             {21, 21, 21});
+}
+
+TEST_CASE("the corners of a beam's ends count", "[grammar][reach]") {
+  const double r = std::sqrt(3.0);
+  checkBound("beam((0m, 0m, 0m), (3m, 0m, 0m), 1m);", {-r, -r, -r}, {3 + r, r, r});
 }
 
 TEST_CASE("probes count", "[grammar][reach]") {

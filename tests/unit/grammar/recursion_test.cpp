@@ -21,6 +21,8 @@ TEST_CASE("recursion that ends is accepted", "[grammar][recursion]") {
            "start A(8m); rule A(r) when r > 1m { A(r*rand(0.2, 0.7)); } rule A(r) else { sphere(r); }",
            "start A(8m); rule A(r) when r > 1m { A(r/2); } rule A(r) else { sphere(r); }",
            "start A(8m); rule A(r) minsize 1m -> L { sphere(r); A(r*0.6); } rule L { sphere(1m); }",
+           "start A(8m); rule A(r) minsize 1m -> L { sphere(r); scale(0.5) A(r); } rule L { sphere(1m); }",
+           "start A(8m); rule A(r) minsize 1m -> L { sphere(r); scale(1.5) A(r*0.5); } rule L { sphere(1m); }",
            "start A; rule A depth 5 -> L { at(1m, 0m, 0m) A; } rule L { sphere(1m); }",
            "start A; rule A depth 5 -> sphere(1m) { at(1m, 0m, 0m) B; } rule B { A; }",
            "start A; rule A minsize 1m -> sphere(1m) { size(0.5*scope) A; box(scope); }",
@@ -40,6 +42,7 @@ TEST_CASE("recursion that may not end is refused", "[grammar][recursion]") {
       {"start A(3m); rule A(r) when r > 0m { A(r*0.5); }", "2:38 unbounded-recursion"},
       {"start A(3m); rule A(r) when r > 1m { A(r*rand(0.5, 1.1)); }", "2:38 unbounded-recursion"},
       {"start A(3m); rule A(r) minsize 1m -> L { A(r); } rule L { }", "2:42 unbounded-recursion"},
+      {"start A(3m); rule A(r) minsize 1m -> L { scale(2) A(r*0.6); } rule L { }", "2:51 unbounded-recursion"},
       {"start A; rule A depth 3 -> A { sphere(1m); }", "2:28 unbounded-recursion"},
       {"start A; rule A depth 3 -> B { A; } rule B { A; }", "2:46 unbounded-recursion"},
       {"start A(1, 2); rule A(a, b) when a > 0 { A(b - 1, a); }", "2:42 unbounded-recursion"},
@@ -48,4 +51,14 @@ TEST_CASE("recursion that may not end is refused", "[grammar][recursion]") {
     INFO(text);
     CHECK(checked(text) == expected);
   }
+}
+
+TEST_CASE("a rule that is checked again finds its size anew", "[grammar][recursion]") {
+  // The first call leaves the dimension of x open; with the second it is the first length.
+  const CompileResult result = compileText(
+      "sgm 1; start S; rule S { A(0, 2m); A(1m, 2m); }\n"
+      "rule A(x, r) minsize 1m -> sphere(1m) { box(max(x, 1m)); sphere(r); }");
+  INFO(renderDiagnostics(result));
+  REQUIRE(result.program);
+  CHECK(result.program->rules[result.program->findRule("A")].alternatives[0].size_slot == 0);
 }

@@ -21,6 +21,7 @@ TEST_CASE("tabs, wide letters and control characters keep the caret in place", "
   d.column = 6;
   d.end_column = 7;
   CHECK(renderDiagnostic(d, "\t\xC3\xA4\x01 x\n") == "f:1:6: error: m\n  \t\xC3\xA4? x\n  \t   ^\n");
+  CHECK(renderDiagnostic(d, "a\xE9\x80 \xC3x\n") == "f:1:6: error: m\n  a?? ?x\n       ^\n");
   d.column = 100;
   CHECK(renderDiagnostic(d, "short\n").find("^\n") != std::string::npos);
   d.line = 9;

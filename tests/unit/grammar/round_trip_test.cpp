@@ -77,6 +77,11 @@ TEST_CASE("no comment is lost", "[grammar][round]") {
   CHECK(formatted(once) == once);
 }
 
+TEST_CASE("a call without arguments stays one", "[grammar][round]") {
+  CHECK(formatted("sgm 1; start A(); rule A { at( cell.point( ) ) sphere(1m); B(); }") ==
+        "sgm 1;\nstart A;\nrule A { at(cell.point()) sphere(1m); B; }\n");
+}
+
 TEST_CASE("layout is canonical", "[grammar][round]") {
   CHECK(formatted("sgm 1;start A;\n\n\n\nrule A(r=2 , s){sphere( r*(s) );box(1m,2m ,3m);}") ==
         "sgm 1;\nstart A;\n\nrule A(r = 2, s) { sphere(r*(s)); box(1m, 2m, 3m); }\n");

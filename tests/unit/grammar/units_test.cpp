@@ -11,7 +11,9 @@ namespace {
 /// The diagnostics of a rule whose let has this value and is used as this argument.
 std::string checked(const std::string& use) {
   return brief(
-      compileText("sgm 1; param l = 2m in 1m..3m; param a = 30deg; param n = 3; start A;\nrule A { " + use + " }")
+      compileText(
+          "sgm 1; param l = 2m in 1m..3m; param a = 30deg in 0deg..90deg; param n = 3 in 1..5; start A;\nrule A { " +
+          use + " }")
           .diagnostics);
 }
 

@@ -1,0 +1,27 @@
+#pragma once
+// Text from outside claims to be UTF-8; here it is taken at its word only after a look.
+
+#include <cstddef>
+#include <string_view>
+
+namespace sgm {
+
+/// How many bytes the first character takes; 0 where the text is empty or does not begin with a character of UTF-8
+/// (RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF).
+inline size_t utf8Size(std::string_view text) {
+  const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return text.empty() ? 0 : 1;
+  const size_t size = lead >= 0xC2 && lead < 0xE0   ? 2
+                      : lead >= 0xE0 && lead < 0xF0 ? 3
+                      : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                    : 0;
+  for (size_t i = 1; i < size; ++i)
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  const unsigned second = byte(1);
+  if ((lead == 0xE0 && second < 0xA0) || (lead == 0xED && second > 0x9F)) return 0;
+  if ((lead == 0xF0 && second < 0x90) || (lead == 0xF4 && second > 0x8F)) return 0;
+  return size;
+}
+
+}  // namespace sgm

@@ -1,0 +1,198 @@
+// Transforms, loops and point sets; what cuts take from.
+
+#include <algorithm>
+
+#include "grammar/check.h"
+#include "grammar/codes.h"
+
+namespace sgm {
+
+void Checker::forEach(StmtId id, const StmtNode& s, bool shrunk) {
+  const Type source = expression(s.expr);
+  Type type;
+  if (source.kind == ValueKind::range) {
+    type = {ValueKind::number, kRatio, false, false};
+  } else if (source.kind == ValueKind::faces) {
+    type.kind = ValueKind::face;
+  } else if (source.kind != ValueKind::unknown) {
+    sink_.error(node(s.expr).span, codes::kTypeMismatch,
+                join({"`for` goes through a range or faces, and this is a ", typeName(source)}),
+                "such as 0..4, cell.faces or cell.links(tree 3)");
+  }
+  const uint32_t slot = scope_.next_slot++;
+  program_.ast.stmts[id].slot = slot;
+  const size_t locals = scope_.locals.size();
+  declareLocal(s.name, s.span, {s.name, slot, type, kNoId, 0});
+  statement(s.body, shrunk);
+  scope_.locals.resize(std::min(locals, scope_.locals.size()));
+}
+
+void Checker::scatterStatement(const StmtNode& s, bool shrunk) {
+  ScatterNode& scatter = program_.ast.scatters[s.extra];
+  if (scatter.poisson)
+    demand(scatter.count, ValueKind::number, kLength, "the least distance of points");
+  else
+    demand(scatter.count, ValueKind::number, kRatio, "a count");
+  ExprId out[3] = {kNoId, kNoId, kNoId};
+  bool good = true;
+  switch (scatter.area) {
+    case ScatterArea::cell:
+      break;
+    case ScatterArea::shell:
+      good = bindWords(scatter.args, s.span, "shell", {"r", "up"}, 1, out);
+      if (good) demand(out[0], ValueKind::number, kLength, "the radius of a shell");
+      if (good) demand(out[1], ValueKind::number, kRatio, "the upper share of a shell");
+      break;
+    case ScatterArea::disc:
+      good = bindWords(scatter.args, s.span, "disc", {"r"}, 1, out);
+      if (good) demand(out[0], ValueKind::number, kLength, "the radius of a disc");
+      break;
+    case ScatterArea::box:
+      good = bindWords(scatter.args, s.span, "box", {"x", "y", "z"}, scatter.args.count == 1 ? 1 : 3, out);
+      if (!good) break;
+      if (out[1] == kNoId && out[2] == kNoId) {
+        demand(out[0], ValueKind::vector, kLength, "the size of a box");
+      } else {
+        for (ExprId edge : out) demand(edge, ValueKind::number, kLength, "an edge of a box");
+      }
+      break;
+  }
+  scatter.a = out[0];
+  scatter.b = out[1];
+  scatter.c = out[2];
+  if (scatter.probe != 0) {
+    demand(scatter.distance, ValueKind::number, kLength, "the length of a probe");
+    Suggestion suggestion(text(scatter.layer_name));
+    for (uint32_t l = 0; l < program_.layers.size(); ++l) {
+      if (program_.layers[l].name == scatter.layer_name) scatter.layer = l;
+      suggestion.offer(text(program_.layers[l].name));
+    }
+    if (scatter.layer == kNoId && layers_known_)
+      sink_.error(scatter.span, codes::kUnknownName, join({"unknown layer `", text(scatter.layer_name), "`"}),
+                  suggestion.hint());
+    probes_.push_back({rule_, s.extra});
+  }
+  if (scatter.when != kNoId) demand(scatter.when, ValueKind::boolean, kRatio, "the `when` of a scatter");
+  statement(s.body, shrunk);
+}
+
+bool Checker::xforms(IdRange range, bool copied) {
+  bool shrinks = false;
+  for (uint32_t i = 0; i < range.count; ++i) {
+    XformNode& x = program_.ast.xforms[range.first + i];
+    ExprId out[3] = {kNoId, kNoId, kNoId};
+    auto axisOf = [&](ExprId id) -> uint8_t {
+      const std::string_view word = node(id).kind == ExprKind::name ? text(node(id).name) : std::string_view();
+      const bool hidden = std::any_of(scope_.locals.begin(), scope_.locals.end(),
+                                      [&](const Local& local) { return text(local.name) == word; });
+      if (hidden) return 3;
+      return word == "x" ? 0 : word == "y" ? 1 : word == "z" ? 2 : 3;
+    };
+    switch (x.kind) {
+      case XformKind::at:
+      case XformKind::size: {
+        const bool at = x.kind == XformKind::at;
+        shrinks = shrinks || !at;  // a scope that does not shrink after all is found by the proof of reach
+        if (!bindWords(x.args, x.span, at ? "at" : "size", {"x", "y", "z"}, 1, out)) break;
+        const bool alone = x.args.count == 1 && program_.ast.args[x.args.first].name == kNoId;
+        if (alone) {
+          demand(out[0], ValueKind::vector, kLength, at ? "the point of `at`" : "the edges of `size`");
+        } else {
+          for (ExprId part : out)
+            demand(part, ValueKind::number, kLength, at ? "a coordinate of `at`" : "an edge of `size`");
+        }
+        break;
+      }
+      case XformKind::rot:
+        if (!bindWords(x.args, x.span, "rot", {"axis", "angle"}, 2, out)) break;
+        x.axis = axisOf(out[0]);
+        if (x.axis == 3) {
+          const Type axis = expression(out[0]);
+          if (axis.kind != ValueKind::vector && axis.kind != ValueKind::unknown)
+            sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `rot` is x, y, z or a vector");
+          deriveOnly(out[0], "an axis");
+        }
+        demand(out[1], ValueKind::number, kAngle, "the angle of `rot`");
+        break;
+      case XformKind::scale:
+        if (x.args.count > 1) {
+          sink_.error(x.span, codes::kArgumentCount, "`scale` takes one factor",
+                      "a distance cannot be stretched unevenly; give the shape its sizes instead");
+          break;
+        }
+        if (bindWords(x.args, x.span, "scale", {"factor"}, 1, out))
+          demand(out[0], ValueKind::number, kRatio, "the factor of `scale`");
+        if (out[0] != kNoId) scales_.push_back({out[0], copied});
+        break;
+      case XformKind::mirror:
+        if (!bindWords(x.args, x.span, "mirror", {"axis"}, 1, out)) break;
+        x.axis = axisOf(out[0]);
+        if (x.axis == 3) sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `mirror` is x, y or z");
+        break;
+    }
+    x.a = out[0];
+    x.b = out[1];
+    x.c = out[2];
+  }
+  return shrinks;
+}
+
+/// A cut that stands directly at the level of a layer's start rule takes from the domain.
+void Checker::markLayerLevel(StmtId id) {
+  StmtNode& s = program_.ast.stmts[id];
+  switch (s.kind) {
+    case StmtKind::cut:
+      s.layer_level = true;
+      return;
+    case StmtKind::block:
+      for (uint32_t i = 0; i < s.children.count; ++i) markLayerLevel(program_.idAt(s.children, i));
+      return;
+    case StmtKind::transform:
+    case StmtKind::repeat:
+    case StmtKind::for_each:
+    case StmtKind::scatter:
+    case StmtKind::detail:
+      markLayerLevel(s.body);
+      return;
+    default:
+      return;
+  }
+}
+
+/// A cut takes from what stands before it in its block; where nothing does, it does nothing. `first`: nothing has been
+/// added yet to the block that this statement adds to.
+void Checker::idleCuts(StmtId id, bool first) {
+  if (id == kNoId || sink_.full()) return;
+  const StmtNode& s = program_.stmt(id);
+  switch (s.kind) {
+    case StmtKind::cut:
+      if (first && !s.layer_level)
+        sink_.warning(s.span, codes::kIdleCut, "nothing stands before this cut in its block",
+                      "a cut takes from what its own block has added before it");
+      return idleCuts(s.body, true);
+    case StmtKind::block: {
+      bool nothing = true;
+      for (uint32_t i = 0; i < s.children.count; ++i) {
+        const StmtId child = program_.idAt(s.children, i);
+        idleCuts(child, nothing);
+        const StmtKind kind = program_.stmt(program_.innermost(child)).kind;
+        nothing = nothing && (kind == StmtKind::cut || kind == StmtKind::let || kind == StmtKind::field ||
+                              kind == StmtKind::mat || kind == StmtKind::tag || kind == StmtKind::anchor);
+      }
+      return;
+    }
+    case StmtKind::transform:
+    case StmtKind::repeat:
+    case StmtKind::for_each:
+    case StmtKind::scatter:
+    case StmtKind::detail:
+      return idleCuts(s.body, first);
+    case StmtKind::morph:
+      for (uint32_t i = 0; i < s.children.count; ++i) idleCuts(program_.idAt(s.children, i), true);
+      return;
+    default:
+      return idleCuts(s.body, true);
+  }
+}
+
+}  // namespace sgm

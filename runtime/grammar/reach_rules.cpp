@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+
+#include "grammar/reach_check.h"
+
+namespace sgm {
+
+namespace {
+
+constexpr int kDeepest = 400;  // statements on the stack
+
+}  // namespace
+
+bool ReachCheck::tooFar() {
+  cut_short_ = cut_short_ || steps_ == 0 || depth_ >= kDeepest;
+  return cut_short_;
+}
+
+/// The extent of a call of a rule or primitive, in the caller's scope.
+Extent ReachCheck::callExtent(ExprId id, const RangeFrame& frame, Call call) {
+  if (id == kNoId) return Extent::nothing();
+  const ExprNode& n = program_.expr(id);
+  if (n.ref == Ref::primitive) {
+    Extent e = primitiveExtent(program_, n, values_, frame);
+    e.blame(id);
+    return e;
+  }
+  if (n.ref != Ref::rule) return Extent::nothing();
+  std::vector<RangeValue> args;
+  for (uint32_t i = 0; i < n.bound.count; ++i) args.push_back(values_.evaluate(program_.idAt(n.bound, i), frame));
+  Extent e = ruleExtent(n.id, args, frame, call == Call::start);
+  // The outermost call is the one to name: what stands in the start rule.
+  if (call == Call::written && !e.empty) e.blame(id);
+  return e;
+}
+
+Extent ReachCheck::ruleExtent(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top) {
+  const auto note = [](Key& key, Interval i) {
+    std::get<2>(key).push_back(i.lo);
+    std::get<2>(key).push_back(i.hi);
+  };
+  Key key{rule, top, {}, {counts_.begin(), counts_.end()}};
+  for (const RangeValue& arg : args)
+    for (const Interval& part : arg.v) note(key, part);
+  for (const Interval& edge : caller.scope) note(key, edge);
+  Key scaled = key;
+  note(scaled, caller.place.scale);
+  Key placed = scaled;
+  for (const Interval& part : caller.place.offset) note(placed, part);
+  std::get<2>(placed).push_back(caller.place.turned ? 1 : 0);
+
+  RangeEvaluator::Asked& asked = values_.asked();
+  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  if (const auto known = scaled_.find(scaled); known != scaled_.end()) {
+    asked.scale = true;
+    return known->second;
+  }
+  if (const auto known = placed_.find(placed); known != placed_.end()) {
+    asked.place = true;
+    return known->second;
+  }
+  // A call of the same rule with the same ranges inside itself is without bound. Where it stands brings no end nearer.
+  if (tooFar() || !open_.insert(scaled).second) return Extent::unbounded();
+  --steps_;
+  const RangeEvaluator::Asked before = asked;
+  asked = {};
+  ++active_[rule];
+  if (counted_[rule]) ++counts_[rule];
+  ++depth_;
+  const Extent out = alternatives(rule, args, caller, top);
+  --depth_;
+  if (counted_[rule] && --counts_[rule] == 0) counts_.erase(rule);
+  --active_[rule];
+  open_.erase(scaled);
+  (asked.place ? placed_ : asked.scale ? scaled_ : known_)[asked.place ? placed : asked.scale ? scaled : key] = out;
+  asked = {asked.place || before.place, asked.scale || before.scale};
+  return out;
+}
+
+Extent ReachCheck::alternatives(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller,
+                                bool top) {
+  Extent out = Extent::nothing();
+  bool surely_taken = false, first = true, levels = false, complete = false, weighted = false;
+  std::vector<ExprId> refused;
+  for (const Alternative& head : program_.rules[rule].alternatives) {
+    RangeFrame frame;
+    frame.scope = caller.scope;
+    frame.place = frame.start = caller.place;
+    frame.top = top;
+    frame.slots = args;
+    frame.slots.resize(std::max<size_t>(head.slot_count, args.size()));
+    if (head.guard == Guard::when) {
+      const Interval holds = values_.condition(head.when, frame);
+      if (holds.hi == 0) continue;
+      if (holds.lo == 1) surely_taken = true;
+      refused.push_back(head.when);
+      values_.refine(head.when, true, frame);
+    } else if (head.guard == Guard::otherwise) {
+      if (surely_taken) continue;
+      for (ExprId when : refused) values_.refine(when, false, frame);
+    }
+    if (head.weight != kNoId) {
+      const Interval weight = values_.number(head.weight, frame);
+      if (weight.hi <= 0 && head.guard == Guard::none) weighted = true;
+      weighted = weighted || !(weight.lo > 0 && weight.bounded());
+    }
+    complete = complete || head.guard != Guard::when;
+    levels = levels || head.lod != kNoId;
+    const double count = out.count;
+    const Extent part = alternativeExtent(rule, head, frame);
+    if (first)
+      out = part;
+    else
+      out.either(part);
+    // Alternatives by level stand beside each other.
+    if (levels) out.count = count + part.count;
+    first = false;
+  }
+  if (weighted || levels || !(complete || surely_taken)) out.certain = false;
+  if (levels) out.partial = true;
+  return out;
+}
+
+Extent ReachCheck::alternativeExtent(uint32_t rule, const Alternative& head, RangeFrame& frame) {
+  Extent out = Extent::nothing();
+  bool several = false;
+  const auto instead = [&](ExprId call) {
+    const Extent part = callExtent(call, frame, Call::instead);
+    if (several)
+      out.either(part);
+    else
+      out = part;
+    several = true;
+  };
+  if (head.depth != kNoId) {
+    const Interval most = values_.number(head.depth, frame);
+    const double activations = active_[rule] - 1;
+    if (activations >= most.lo) instead(head.depth_call);
+    if (activations >= most.hi) return out;
+  }
+  if (head.minsize != kNoId) {
+    // Sizes as they come out, however the scope is scaled.
+    values_.asked().scale = true;
+    const Interval scale = frame.place.scale, least = values_.number(head.minsize, frame);
+    Interval size{};
+    for (const Interval& edge : frame.scope) size = maximum(size, edge);
+    if (head.size_slot != kNoId) size = frame.slots[head.size_slot].v[0];
+    if ((size * scale).lo < least.hi) instead(head.minsize_call);
+    if ((size * scale).hi < least.lo) return out;
+    if (head.size_slot != kNoId && scale.lo > 0) {
+      Interval& slot = frame.slots[head.size_slot].v[0];
+      slot.lo = std::min(std::max(slot.lo, least.lo / (least.lo > 0 ? scale.hi : scale.lo) * (1 - 1e-12)), slot.hi);
+    }
+  }
+  const Extent own = statement(head.body, frame);
+  if (!several) return own;
+  out.either(own);
+  return out;
+}
+
+}  // namespace sgm

@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <cmath>
+
+#include "grammar/codes.h"
+#include "grammar/reach_check.h"
+
+namespace sgm {
+
+namespace {
+
+/// Statements that put no shape into their block.
+bool isSilent(StmtKind kind) {
+  return kind == StmtKind::let || kind == StmtKind::field || kind == StmtKind::mat || kind == StmtKind::tag ||
+         kind == StmtKind::anchor;
+}
+
+}  // namespace
+
+Extent ReachCheck::body(StmtId id, RangeFrame& frame) {
+  const IntervalVector scope = frame.scope;
+  const PlaceRange place = frame.place;
+  Extent e = statement(id, frame);
+  frame.scope = scope;
+  frame.place = place;
+  return e;
+}
+
+Extent ReachCheck::statement(StmtId id, RangeFrame& frame) {
+  if (id == kNoId) return Extent::nothing();
+  if (tooFar()) return Extent::unbounded();
+  --steps_;
+  ++depth_;
+  Extent e = statementKinds(program_.stmt(id), frame);
+  --depth_;
+  return e;
+}
+
+Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
+  switch (s.kind) {
+    case StmtKind::block:
+      return block(s, frame);
+    case StmtKind::call:
+      return callExtent(s.expr, frame, Call::written);
+    case StmtKind::unite:
+    case StmtKind::cut: {
+      Extent e = body(s.body, frame);
+      if (s.amount != kNoId) e.smooth(std::max(0.0, values_.number(s.amount, frame).hi));
+      return e;
+    }
+    case StmtKind::meet:
+      return meet(s, frame);
+    case StmtKind::sum: {
+      Extent e = body(s.body, frame);
+      e.summed();
+      return e;
+    }
+    case StmtKind::morph:
+      return morph(s, frame);
+    case StmtKind::displace:
+      return displaced(s, frame);
+    case StmtKind::warp:
+      return warped(s, frame);
+    case StmtKind::transform:
+      return transformed(s, frame);
+    case StmtKind::repeat:
+      return repeated(s, frame);
+    case StmtKind::for_each:
+      return forEach(s, frame);
+    case StmtKind::scatter:
+      return scattered(s, frame);
+    case StmtKind::let:
+      frame.slots[s.slot] = values_.evaluate(s.expr, frame);
+      return Extent::nothing();
+    case StmtKind::detail: {
+      Extent e = body(s.body, frame);
+      e.partial = true;
+      return e;
+    }
+    case StmtKind::field:
+    case StmtKind::mat:
+    case StmtKind::tag:
+    case StmtKind::anchor:
+      return Extent::nothing();
+  }
+  return Extent::unbounded();
+}
+
+Extent ReachCheck::block(const StmtNode& s, RangeFrame& frame) {
+  Extent out = Extent::nothing();
+  for (uint32_t i = 0; i < s.children.count; ++i) {
+    const StmtId child = program_.idAt(s.children, i);
+    const StmtNode& inner = program_.stmt(program_.innermost(child));
+    const Extent part = statement(child, frame);
+    if (inner.kind == StmtKind::cut && !(inner.layer_level && frame.top)) {
+      // What a nested cut takes away adds nothing, and leaves what stood before it uncertain.
+      if (!part.empty) out.uncertain();
+      out.node();
+      continue;
+    }
+    out.join(part);
+  }
+  return out;
+}
+
+Extent ReachCheck::meet(const StmtNode& s, RangeFrame& frame) {
+  const StmtNode& inner = program_.stmt(s.body);
+  if (inner.kind != StmtKind::block) return body(s.body, frame);
+  // What some level leaves out narrows nothing there; where that is so of all operands, one of them is left.
+  Extent met = Extent::nothing(), any = Extent::nothing();
+  bool first = true, missing = false;
+  for (uint32_t i = 0; i < inner.children.count; ++i) {
+    const StmtId child = program_.idAt(inner.children, i);
+    const Extent part = statement(child, frame);
+    if (isSilent(program_.stmt(child).kind)) continue;
+    if (program_.stmt(program_.innermost(child)).kind == StmtKind::cut) continue;
+    missing = missing || part.empty;
+    any.join(part);
+    if (part.partial) continue;
+    if (first)
+      met = part;
+    else
+      met.intersect(part);
+    first = false;
+  }
+  if (missing) return Extent::nothing();
+  Extent& out = first ? any : met;
+  // An operand that is not there leaves the whole meet out.
+  out.certain = false;
+  out.inner = std::max(out.inner, any.inner);
+  out.inner_low = 0;
+  out.count = std::max(1.0, any.count);
+  out.node();
+  return out;
+}
+
+Extent ReachCheck::morph(const StmtNode& s, RangeFrame& frame) {
+  Extent a = body(program_.idAt(s.children, 0), frame);
+  const Extent b = body(program_.idAt(s.children, 1), frame);
+  bool apart = false;
+  for (size_t i = 0; i < 3 && !a.empty && !b.empty; ++i)
+    apart = apart || a.at.may[i].hi < b.at.may[i].lo || b.at.may[i].hi < a.at.may[i].lo;
+  if (apart)
+    sink_.warning(s.span, codes::kMorphDisjoint, "the two shapes of this morph lie apart, and may vanish half way",
+                  "let them overlap");
+  // A blend holds what both hold: only that is certain.
+  std::array<double, 3> lo = a.sure_lo, hi = a.sure_hi;
+  for (size_t i = 0; i < 3; ++i) {
+    lo[i] = std::max(lo[i], b.sure_lo[i]);
+    hi[i] = std::min(hi[i], b.sure_hi[i]);
+  }
+  const bool both = a.certain && b.certain;
+  const double inner_low = std::min(a.inner_low, b.inner_low);
+  a.join(b);
+  a.sure_lo = lo;
+  a.sure_hi = hi;
+  a.certain = both;
+  a.inner_low = inner_low;
+  if (s.power && !a.empty) {
+    // A superquadric of radii in between.
+    const double least = inner_low > 0 ? 1 / inner_low : std::numeric_limits<double>::infinity();
+    a.at.core = a.at.may;
+    a.at.ball = 0;
+    a.at.core_radius = anyDirection(a.at.may)[0].hi;
+    a.spread = std::max(1.0, a.size() * least);
+    a.turned_spread = std::max(1.0, a.at.core_radius * least);
+  }
+  a.count = std::max(1.0, a.count);
+  a.node();
+  return a;
+}
+
+Extent ReachCheck::displaced(const StmtNode& s, RangeFrame& frame) {
+  Interval by = values_.number(s.expr, frame);
+  if (s.amount != kNoId) {
+    const double most = values_.number(s.amount, frame).magnitude();
+    by = minimum(maximum(by, {-most, -most}), {most, most});
+  }
+  Extent e = body(s.body, frame);
+  const Unbound before = e.why;
+  // What it adds to the field makes the shape smaller, what it takes away larger.
+  e.shrinkSure(by.magnitude() * (std::isfinite(e.spread) ? e.spread : 1));
+  e.grow(std::max(0.0, -by.lo));
+  e.node();
+  if ((!std::isfinite(by.lo) || e.why != before) && !e.empty) {
+    e.culprit = s.expr;
+    e.culprit_size = std::numeric_limits<double>::infinity();
+  }
+  return e;
+}
+
+Extent ReachCheck::warped(const StmtNode& s, RangeFrame& frame) {
+  IntervalVector by = values_.vector(s.expr, frame);
+  double most = std::numeric_limits<double>::infinity(), largest = 0;
+  if (s.amount != kNoId) most = values_.number(s.amount, frame).magnitude();
+  for (Interval& part : by) {
+    part = -minimum(maximum(part, {-most, -most}), {most, most});
+    largest = std::max(largest, part.magnitude());
+  }
+  Extent e = body(s.body, frame);
+  e.add(by);
+  e.node();
+  e.shrinkSure(largest);
+  if (!std::isfinite(largest) && !e.empty) {
+    e.culprit = s.expr;
+    e.culprit_size = largest;
+  }
+  return e;
+}
+
+}  // namespace sgm

@@ -1,0 +1,206 @@
+#pragma once
+// Random grammars that put shapes into every place that moves, turns, scales, grows or mixes them.
+
+#include <initializer_list>
+#include <string>
+
+#include "base/hash.h"
+
+namespace sgm {
+
+class RandomRules {
+ public:
+  explicit RandomRules(uint64_t seed) : key_{seed} {}
+
+  /// finite: without a box, so that the proof makes one; otherwise an infinite layer with cells of 256 m.
+  std::string program(bool finite) {
+    out_ =
+        "sgm 1;\nparam size_ = 2m in 1m..3m;\nparam share = 0.5 in 0..1;\nparam free = 3;\nparam count = 2 in 0..3;\n";
+    out_ += finite ? "start R0(2m);\n" : "domain infinite;\nlayer l cell 256m reach 1000m { start R0(2m); }\n";
+    levels_ = !finite;
+    out_ += "let spot(c) = c.point(jitter 0.4);\n";
+    for (level_ = 0; level_ < 3; ++level_) rule();
+    out_ += "rule R3(r) minsize 0.8m -> sphere(r) { " + leaf() + " scale(0.7) R3(r); }\n";
+    out_ += "rule Deep(r) depth 3 -> sphere(r) { box(r); at(" + length() + ", 1m, 0m) rot(z, 40deg) Deep(0.8*r); }\n";
+    out_ += "morphic Body(r) : blob(r) -> superq((r, 0.6*r, r), 0.7) by share;\n";
+    return out_;
+  }
+
+ private:
+  uint64_t draw(uint64_t below) { return hashCombine(key_.value, ++drawn_) % below; }
+  bool chance(uint64_t percent) { return draw(100) < percent; }
+  std::string pick(std::initializer_list<const char*> list) { return list.begin()[draw(list.size())]; }
+
+  void rule() {
+    const std::string head = "rule R" + std::to_string(level_) + "(r) ";
+    const uint64_t kind = draw(5);
+    out_ += head +
+            (kind == 0   ? "when r > 1.5m "
+             : kind == 1 ? "weight 2 "
+             : kind == 2 ? "lod 1m "
+                         : "") +
+            whole() + "\n";
+    if (kind < 3) out_ += head + (kind == 0 ? "else " : kind == 1 ? "weight count " : "") + block(0) + "\n";
+  }
+
+  /// A block from which the next rule is called, so that all are reached.
+  std::string whole() {
+    std::string out = block(0);
+    out.pop_back();
+    if (level_ == 2) return out + "Body(1m); R3(1m); Deep(1m); }";
+    return out + "R" + std::to_string(level_ + 1) + "(" + length() + "); }";
+  }
+
+  std::string length() {
+    return pick({"r", "1m", "size_", "0.5*r", "2.5m", "rand(0.5m, 2m)", "(r + 1m)", "min(r, 2m)", "mix(r, 2m, share)",
+                 "(if share < 0.5 then r else 1m)", "abs(-1.5m)", "max(0.3m, r - 1m)"});
+  }
+  std::string signedLength() { return pick({"", "-", "-0.5*"}) + length(); }
+  std::string angle() { return pick({"45deg", "90deg", "-30deg", "rand(0deg, 90deg)", "200deg", "10deg*count"}); }
+  std::string sampled() {
+    return pick({"1m*fractal(3m)", "r*fractal(5m, octaves 3)", "clamp(p.y, -0.5m, 1m)", "1m*fract(q.x/1m)",
+                 "mix(-1m, 0.5m, smoothstep(0m, 5m, p.z))", "(if p.x > 0m then 0.5m else -0.25m)",
+                 "0.5m*floor(2*fractal(4m))", "abs(1m*fractal(2m)) - 0.7m", "0.3m*u",
+                 "sqrt(1m*1m*abs(fractal(2m))) - 1m", "mix(-0.6m, 0m, share)", "p.y amp 0.5m", "q.x amp size_",
+                 "-0.4m"});
+  }
+  std::string field() {
+    return pick({"share", "p.x/4m", "smoothstep(-2m, 2m, q.y)", "0.5 + 0.5*fractal(2m)", "0.3", "fract(p.z/3m)"});
+  }
+  std::string point() { return "(" + signedLength() + ", " + signedLength() + ", " + signedLength() + ")"; }
+
+  std::string leaf() {
+    switch (draw(14)) {
+      case 0:
+        return "sphere(" + length() + ");";
+      case 1:
+        return "box(" + length() + ", " + length() + ", " + length() + ");";
+      case 2:
+        return "cylinder(" + length() + ", " + length() + ");";
+      case 3:
+        return "truncone(" + length() + ", top 0.2*r, bottom = " + length() + ");";
+      case 4:
+        return "capsule(" + point() + ", " + point() + ", " + length() + ");";
+      case 5:
+        return "tube(" + point() + ", " + point() + ", 0.5m, bend " + pick({"0m", "2m"}) + ");";
+      case 6:
+        return "beam(" + point() + ", " + point() + ", " + length() + pick({"", ", bend 1m"}) + ");";
+      case 7:
+        return "torus(" + length() + ", 0.4m);";
+      case 8:
+        return "ellipsoid(" + length() + ", " + length() + ", " + length() + ");";
+      case 9:
+        return "superq((" + length() + ", " + length() + ", 0.7m), share);";
+      case 10:
+        return "prism(" + length() + ", (-1m, -2m), (" + length() + ", -1m), (0m, 3m));";
+      case 11:
+        return "box(scope);";
+      case 12:
+        return "Body(" + length() + ");";
+      default:
+        return "blob(" + length() + ");";
+    }
+  }
+
+  std::string xforms() {
+    std::string out;
+    const uint64_t count = 1 + draw(3);
+    for (uint64_t i = 0; i < count; ++i) {
+      switch (draw(8)) {
+        case 0:
+          out += "rot(" + pick({"x", "y", "z", "(1m, 2m, 0m)"}) + ", " + angle() + ") ";
+          break;
+        case 1:
+          out += "scale(" + pick({"0.5", "2", "rand(0.7, 1.5)", "share", "1 - 2*share"}) + ") ";
+          break;
+        case 2:
+          out += "mirror(" + pick({"x", "y", "z"}) + ") ";
+          break;
+        case 3:
+          out += "size(" + pick({"2m, 1m, 3m", "0.5*scope", "x 1m", "(1m, r, 2m)", "y size_"}) + ") ";
+          break;
+        case 4:
+          out += "at(" + pick({"spot(cell)", "cell.center", "cell.point()"}) + ") ";
+          if (!levels_) out = "";
+          break;
+        case 5:
+          out += "at(min(scope.x, 3m), clamp(1m*free, -1m, 1m), 0m) ";
+          break;
+        default:
+          out += "at(" + signedLength() + ", " + signedLength() + ", 0m) ";
+          break;
+      }
+    }
+    return out.empty() ? "rot(z, " + angle() + ") " : out;
+  }
+
+  std::string block(int depth) {
+    std::string out = "{ ";
+    const uint64_t count = 1 + draw(2);
+    for (uint64_t i = 0; i < count; ++i) out += statement(depth + 1) + " ";
+    return out + "}";
+  }
+
+  std::string statement(int depth) {
+    if (depth > 3) return leaf();
+    switch (draw(20)) {
+      case 0:
+        return level_ < 2 ? "R" + std::to_string(level_ + 1) + "(" + length() + ");" : "R3(min(r, 3m));";
+      case 1:
+        return "union smooth " + length() + " " + block(depth);
+      case 2:
+        return "cut " + pick({"", "smooth 0.5m "}) + block(depth);
+      case 3:
+        return "meet " + pick({"", "smooth 0.3m "}) + "{ " + statement(depth + 1) + " " + statement(depth + 1) + " }";
+      case 4:
+        return "meet { halfspace(" + pick({"below", "above"}) + " " + signedLength() + "); " + leaf() + " }";
+      case 5:
+        return pick({"", "displace 0.1m*fractal(2m) "}) + "sum " + sumBody(depth);
+      case 6:
+        return "morph(" + block(depth) + ", " + block(depth) + ", " + field() + ");";
+      case 7:
+        return "morph(sphere(" + length() + "), box(" + length() + "), " + field() + ") power;";
+      case 8:
+      case 9:
+        return "displace " + sampled() + " " + block(depth);
+      case 10:
+        return "warp (" + pick({"1m*fractal(2m)", "clamp(p.x, -1m, 2m)"}) + ", 0.3m, -0.5m*fractal(1m)) " +
+               block(depth);
+      case 11:
+        return "repeat " + pick({"2.5", "count", "3", "1.4"}) + " " + xforms() + block(depth);
+      case 12:
+        return "for i" + std::to_string(depth) + " in " + pick({"0..3.5", "0.6..count", "1..3"}) + " { at(2m*i" +
+               std::to_string(depth) + ", 0m, 0m) " + statement(depth + 1) + " }";
+      case 13:
+        return "scatter 3 on " +
+               pick({"disc(r)", "shell(2m, up 60%)", "shell(-1m, up 20%)", "box(4m, 2m, r)", "shell(r)"}) + " " +
+               block(depth);
+      case 14:
+        return "detail " + pick({"5cm ", "1m "}) + block(depth);
+      case 15:
+        return "Deep(" + length() + ");";
+      case 16:
+      case 17:
+      case 18:
+        return xforms() + block(depth);
+      default:
+        return leaf();
+    }
+  }
+
+  std::string sumBody(int depth) {
+    std::string out = "{ ";
+    const uint64_t count = 1 + draw(3);
+    for (uint64_t i = 0; i < count; ++i) out += (chance(50) ? xforms() : "") + (chance(20) ? "R3(1m);" : leaf()) + " ";
+    if (depth < 3 && chance(30)) out += "scatter 4 on shell(r) { " + leaf() + " } ";
+    return out + "}";
+  }
+
+  PathKey key_;
+  uint64_t drawn_ = 0;
+  int level_ = 0;
+  bool levels_ = false;
+  std::string out_;
+};
+
+}  // namespace sgm

@@ -1,0 +1,72 @@
+// The proof of reach (grammar/reach.cpp) against what derivation gives.
+
+#include "catch.h"
+#include "derive_fixture.h"
+#include "random_rules.h"
+
+using namespace sgm;
+
+namespace {
+
+/// Values within the declared ranges; any at all where none is declared.
+ParameterValues randomValues(const Program& program, uint64_t seed) {
+  ParameterValues values = ParameterValues::defaults(program);
+  for (size_t i = 0; i < program.params.size(); ++i) {
+    const Param& param = program.params[i];
+    const double unit = PathKey{seed}.unit(i);
+    double v = param.has_range ? param.low + (param.high - param.low) * unit : 100 * unit - 50;
+    if (param.whole) v = std::floor(v + 0.5);
+    values.values[i] = v;
+  }
+  return values;
+}
+
+/// Groups stay within the proven bound, and nothing is left out for leaving its reach.
+int checkCell(const Program& program, const ParameterValues& values, uint64_t seed, Int3 cell) {
+  const Result<GrammarChunk> chunk = deriveCell(program, values, seed, 0, cell, Ceiling(0));
+  if (!chunk) return 0;  // more than a cell may cost
+  for (const DeriveNote& note : chunk->notes) {
+    INFO(note.message << " in " << note.path << " at " << note.line << ":" << note.column);
+    CHECK(note.message.find("may pass") == std::string::npos);
+    CHECK(note.message.find("has no bound") == std::string::npos);
+  }
+  const Layer& layer = program.layers[0];
+  for (const Group& group : chunk->groups) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int64_t base = isWhole(layer) ? 0 : int64_t{cell[axis]} * layer.cell[axis];
+      CAPTURE(axis, group.root);
+      CHECK(int64_t{group.bounds.lo[axis]} - base >= int64_t{layer.bound.lo[axis]} - kReachSlack);
+      CHECK(int64_t{group.bounds.hi[axis]} - base <= int64_t{layer.bound.hi[axis]} + kReachSlack);
+    }
+  }
+  return static_cast<int>(chunk->groups.size());
+}
+
+}  // namespace
+
+TEST_CASE("what is proven holds all that is derived") {
+  int proven = 0, groups = 0;
+  for (uint64_t seed = 1; seed <= 1200; ++seed) {
+    const std::string text = RandomRules(seed).program(seed % 2 == 0);
+    const CompileResult result = compileGrammar(text, "test.sgm");
+    if (!result.program) {
+      for (const Diagnostic& d : result.diagnostics) {
+        INFO(text << "\n" << renderDiagnostics(result));
+        if (d.severity == Severity::error) CHECK(d.code == "reach");
+      }
+      continue;
+    }
+    const Program& program = *result.program;
+    if (!program.layers[0].proven) continue;
+    ++proven;
+    for (uint64_t world = 1; world <= 4; ++world) {
+      INFO("seed " << seed << ", world " << world << "\n" << text);
+      const bool whole = isWhole(program.layers[0]);
+      const Int3 cell = whole ? Int3{} : Int3{static_cast<int32_t>(world) - 2, 0, 1};
+      groups += checkCell(program, randomValues(program, seed * 8 + world), world, cell);
+    }
+  }
+  INFO(proven << " proven, " << groups << " groups");
+  CHECK(proven > 300);
+  CHECK(groups > 3000);
+}
