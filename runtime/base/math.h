@@ -1,14 +1,14 @@
 #pragma once
 // Deterministic mathematics for host code that feeds derived data: the same bits from every compiler and C library.
-// Built from IEEE double + - * / and sqrt alone (contraction is off in every target). Largest relative error 4e-16
-// unless a function says otherwise; arguments in radians.
+// Built from IEEE double + - * / alone (contraction is off in every target). Largest relative error 4e-16 unless a
+// function says otherwise; arguments in radians.
 
 namespace sgm {
 
 double detSin(double x);  ///< |x| <= 1e6; absolute error under 4e-16 + 1e-16 |x|
 double detCos(double x);  ///< as detSin
 double detAtan2(double y, double x);
-double detExp(double x);
+double detExp(double x);            ///< below -708.4, where results are subnormal: absolute error under 5e-324
 double detLog(double x);            ///< x > 0; -infinity at 0; NaN below
 double detPow(double x, double y);  ///< x >= 0; relative error under 1e-14 where |y log x| < 100
 double detFloor(double x);          ///< exact

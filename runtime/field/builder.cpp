@@ -1,5 +1,6 @@
 #include "field/builder.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -7,7 +8,7 @@ namespace sgm {
 
 namespace {
 
-float reciprocal(double x) { return static_cast<float>(1.0 / x); }
+float reciprocal(double x) { return static_cast<float>(std::clamp(1.0 / x, -1e18, 1e18)); }
 
 }  // namespace
 
@@ -18,7 +19,10 @@ ProgramBuilder::ProgramBuilder(int32_t finest_cell, bool solid, uint32_t label, 
   program_.q_scale = quantiseScale(finest_cell);
 }
 
-void ProgramBuilder::put(float f) { program_.params.push_back(std::bit_cast<uint32_t>(f)); }
+// No denormals, which devices treat differently (shaders/common/real.h, settleReal).
+void ProgramBuilder::put(float f) {
+  program_.params.push_back(std::bit_cast<uint32_t>(std::abs(f) < 1e-30f ? 0.0f : f));
+}
 void ProgramBuilder::put(int32_t i) { program_.params.push_back(static_cast<uint32_t>(i)); }
 void ProgramBuilder::put(Int3 p) {
   put(p.x);
@@ -164,7 +168,7 @@ Value ProgramBuilder::kernelWeight(Value distance, float inner_radius) {
 
 Value ProgramBuilder::constant(float value) {
   const uint32_t at = mark();
-  put(value);
+  put(std::clamp(value, -1e18f, 1e18f));
   return emit(Op::constant, at);
 }
 

@@ -19,7 +19,7 @@ struct Value {
 /// Primitives and coordinates read the current place: the sample's position, or the innermost warp's.
 class ProgramBuilder {
  public:
-  /// finest_cell in units sets the scale of Q; `solid` and label are the domain's.
+  /// finest_cell in units, at least 1, sets the scale of Q; `solid` and label are the domain's.
   ProgramBuilder(int32_t finest_cell, bool solid, uint32_t label,
                  std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
@@ -37,19 +37,21 @@ class ProgramBuilder {
   /// Corners in local xz (x and z of each point, in units), counter-clockwise seen from +y, at least three.
   Value prism(const Frame& frame, float half_height, std::span<const Int3> corners, uint32_t label);
 
-  /// Operands of a sum: the cheap ball, and any distance with its inner radius.
+  /// Operands of a sum: the cheap ball, and any distance with its inner radius in units, greater than 0.
   Value blobWeight(Int3 centre, float radius, uint32_t label);
   Value kernelWeight(Value distance, float inner_radius);
 
-  Value constant(float value);
+  Value constant(float value);  ///< held to +-1e18
+  /// row . (place - anchor), in metres; the row has no unit.
   Value coordinate(Int3 anchor, float row_x, float row_y, float row_z);
   /// `octaves` of spec.octaves are evaluated; the amplitude stays that of the whole sum.
   Value noise(const NoiseSpec& spec, uint32_t octaves);
+  /// At least two points. 0 at the first, 1 at the last.
   Value sweep(std::span<const Int3> polyline);
-  Value unary(Op op, Value a);
-  Value binary(Op op, Value a, Value b);
-  Value ternary(Op op, Value a, Value b, Value c);  ///< mix and morph
-  Value smoothstep(Value x, float lower, float upper);
+  Value unary(Op op, Value a);                          ///< copy, negate, absolute, floor, square_root
+  Value binary(Op op, Value a, Value b);                ///< add to divide, less, minimum, maximum, cut, displace
+  Value ternary(Op op, Value a, Value b, Value c);      ///< mix and morph
+  Value smoothstep(Value x, float lower, float upper);  ///< lower != upper; falls where upper < lower
 
   /// Round union and compact-kernel sum over any number of operands: begin, add each, end.
   struct Accumulator {
@@ -60,6 +62,7 @@ class ProgramBuilder {
   void addRound(const Accumulator& acc, Value d);
   Value endRound(const Accumulator& acc);
   Accumulator beginSum();
+  /// weight: never negative, since pruning drops an operand that is nowhere above 0.
   void addSum(const Accumulator& acc, Value weight);
   /// threshold: the weight of the surface; length in units turns the dimensionless difference into a distance.
   Value endSum(const Accumulator& acc, float threshold, float length);

@@ -86,7 +86,13 @@ class ShapeCompiler {
         v = builder_.ternary(Op::mix, a, b, operand(e.c));
         break;
       }
-      default: {
+      case ExprOp::add:
+      case ExprOp::subtract:
+      case ExprOp::multiply:
+      case ExprOp::divide:
+      case ExprOp::minimum:
+      case ExprOp::maximum:
+      case ExprOp::less: {
         const Value a = operand(e.a);
         v = builder_.binary(binaryOp(e.op), a, operand(e.b));
         break;
@@ -110,9 +116,21 @@ class ShapeCompiler {
         return Op::minimum;
       case ExprOp::maximum:
         return Op::maximum;
-      default:
+      case ExprOp::less:
         return Op::less;
+      case ExprOp::constant:
+      case ExprOp::coordinate:
+      case ExprOp::noise:
+      case ExprOp::sweep:
+      case ExprOp::negate:
+      case ExprOp::absolute:
+      case ExprOp::floor:
+      case ExprOp::square_root:
+      case ExprOp::smoothstep:
+      case ExprOp::mix:
+        break;
     }
+    return Op::count;  // none of these takes two operands
   }
 
   // Octaves with a period under two cells would only alias.

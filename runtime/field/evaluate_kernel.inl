@@ -57,7 +57,7 @@ FN Dual toWorld(const BlockFrame& f, size_t place, size_t i, const Dual& d) {
       Real b = d.y * loadJacobian(f, place, 3 + j, i);
       Real c = d.z * loadJacobian(f, place, 6 + j, i);
       a = a + b;
-      g[j] = a + c;
+      g[j] = holdReal(a + c);
     }
     return makeDual(d.v, g[0], g[1], g[2], d.label);
   }
@@ -77,7 +77,7 @@ FN void warpPlace(const BlockFrame& f, const Instr& in, size_t i) {
       for (size_t j = 0; j < 3; ++j) {
         Real d = slope[j] * 1024.0f;
         d = loadJacobian(f, in.place, axis * 3 + j, i) + d;
-        storeReal(d, f.jacobians + (in.dst * size_t{9} + axis * 3 + j) * kEvalBlock + i);
+        storeReal(holdReal(d), f.jacobians + (in.dst * size_t{9} + axis * 3 + j) * kEvalBlock + i);
       }
     }
   }
@@ -113,8 +113,8 @@ FN void warpPlace(const BlockFrame& f, const Instr& in, size_t i) {
 #define SGM_FORM_COPY(FUNCTION) SGM_EACH storeDual<kGradient>(f, in.dst, i, loadDual<kGradient>(f, in.a, i));
 #define SGM_FORM_ROUND_BEGIN(FUNCTION)                    \
   SGM_EACH {                                              \
-    storeDual<kGradient>(f, in.dst, i, roundNearest());   \
-    storeDual<kGradient>(f, in.b, i, roundEmpty());       \
+    storeDual<kGradient>(f, in.dst, i, farAway());   \
+    storeDual<kGradient>(f, in.b, i, nothing());       \
   }
 #define SGM_FORM_ROUND_ADD(FUNCTION)                                                                                \
   SGM_EACH {                                                                                                        \
@@ -127,8 +127,8 @@ FN void warpPlace(const BlockFrame& f, const Instr& in, size_t i) {
                                 opRoundEnd(loadDual<kGradient>(f, in.a, i), loadDual<kGradient>(f, in.b, i), P));
 #define SGM_FORM_SUM_BEGIN(FUNCTION)                    \
   SGM_EACH {                                            \
-    storeDual<kGradient>(f, in.dst, i, roundEmpty());   \
-    storeDual<kGradient>(f, in.b, i, roundEmpty());     \
+    storeDual<kGradient>(f, in.dst, i, nothing());   \
+    storeDual<kGradient>(f, in.b, i, nothing());     \
   }
 #define SGM_FORM_SUM_ADD(FUNCTION)                                                                      \
   SGM_EACH {                                                                                            \
@@ -188,7 +188,7 @@ inline void runBlock(const ProgramView& program, const BlockFrame& f, size_t n) 
   for (size_t k = 0; k < program.groups.size(); ++k) {
     const ProgramGroup& g = program.groups[k];
     const bool first_cut = g.cut && (k == 0 || !program.groups[k - 1].cut || program.groups[k - 1].layer != g.layer);
-    if (first_cut) SGM_EACH storeDual<kGradient>(f, kCutRegister, i, roundNearest());
+    if (first_cut) SGM_EACH storeDual<kGradient>(f, kCutRegister, i, farAway());
     for (const Instr& in : program.instrs.subspan(g.first, g.count)) {
       runInstr<kGradient>(f, in, program.params.data() + in.params, n);
     }

@@ -9,10 +9,13 @@ namespace {
 constexpr uint32_t kLeafGroups = 8;
 }
 
-GroupIndex::GroupIndex(const GrammarChunk& chunk, std::pmr::memory_resource* memory) : nodes_(memory), order_(memory) {
+GroupIndex::GroupIndex(const GrammarChunk& chunk, std::pmr::memory_resource* memory)
+    : nodes_(memory), order_(memory), bounds_(memory) {
   order_.resize(chunk.groups.size());
   std::iota(order_.begin(), order_.end(), 0u);
   if (!order_.empty()) build(chunk, 0, static_cast<uint32_t>(order_.size()));
+  bounds_.reserve(order_.size());
+  for (uint32_t g : order_) bounds_.push_back(chunk.groups[g].bounds);
 }
 
 uint32_t GroupIndex::build(const GrammarChunk& chunk, uint32_t first, uint32_t count) {
@@ -54,7 +57,9 @@ void GroupIndex::query(const IntBox& box, std::pmr::vector<uint32_t>& groups) co
       stack[depth++] = at + 1;
       continue;
     }
-    for (uint32_t i = node.first; i < node.first + node.count; ++i) groups.push_back(order_[i]);
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (bounds_[i].meets(box)) groups.push_back(order_[i]);
+    }
   }
   std::sort(groups.begin() + static_cast<std::ptrdiff_t>(start), groups.end());
 }

@@ -25,6 +25,7 @@ class GroupIndex {
 
   std::pmr::vector<Node> nodes_;
   std::pmr::vector<uint32_t> order_;
+  std::pmr::vector<IntBox> bounds_;  ///< of the groups, in that order
 };
 
 }  // namespace sgm

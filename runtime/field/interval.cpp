@@ -12,7 +12,8 @@ namespace sgm {
 namespace {
 
 constexpr double kLimit = 1e37;
-constexpr double kTiny = 1e-30;  // flushed denormals
+constexpr double kHeld = 1e18;   // results of expressions end here (real.h, settleReal)
+constexpr double kTiny = 1e-30;  // and are 0 under this
 
 double realAt(const uint32_t* params, int i) { return double{std::bit_cast<float>(params[i])}; }
 double wholeAt(const uint32_t* params, int i) { return static_cast<double>(static_cast<int32_t>(params[i])); }
@@ -42,6 +43,12 @@ Interval product(Interval a, Interval b) {
 }
 
 Interval clamped(Interval a, double lo, double hi) { return {std::clamp(a.lo, lo, hi), std::clamp(a.hi, lo, hi)}; }
+
+Interval kept(Interval a) { return clamped(a, -kHeld, kHeld); }
+
+// Offsets from c along one axis, saturated as the evaluators do. That makes none of them change faster with the
+// position, so what is said below of slopes holds at any distance.
+Interval offsets(Interval axis, double c) { return clamped({axis.lo - c, axis.hi - c}, -2147483648.0, 2147483647.0); }
 
 Interval squared(Interval a) {
   const double l = a.lo * a.lo, h = a.hi * a.hi;
@@ -114,7 +121,7 @@ CentredBox centred(const PlaceBox& b) {
 
 // Squared distance from a ball's centre to the box: its range is exact.
 Interval distance2(const uint32_t* p, const PlaceBox& b) {
-  auto axis = [](Interval i, double c) { return squared({i.lo - c, i.hi - c}); };
+  auto axis = [](Interval i, double c) { return squared(offsets(i, c)); };
   const Interval x = axis(b.x, wholeAt(p, 1)), y = axis(b.y, wholeAt(p, 2)), z = axis(b.z, wholeAt(p, 3));
   return {x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
 }
@@ -122,6 +129,8 @@ Interval distance2(const uint32_t* p, const PlaceBox& b) {
 double farthestOffset(const uint32_t* p, const PlaceBox& b) { return std::sqrt(distance2(p, b).hi); }
 
 }  // namespace
+
+double statedError(Op op) { return errorOf(op); }
 
 PlaceBox placeBox(const IntBox& box) {
   auto axis = [](int32_t lo, int32_t hi) { return Interval{static_cast<double>(lo), static_cast<double>(hi)}; };
@@ -135,9 +144,9 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
     case Op::sweep:
       return {-1e-6, 1 + 1e-6};
     case Op::coordinate: {
-      const Interval x = product({box.x.lo - wholeAt(p, 1), box.x.hi - wholeAt(p, 1)}, {realAt(p, 4), realAt(p, 4)});
-      const Interval y = product({box.y.lo - wholeAt(p, 2), box.y.hi - wholeAt(p, 2)}, {realAt(p, 5), realAt(p, 5)});
-      const Interval z = product({box.z.lo - wholeAt(p, 3), box.z.hi - wholeAt(p, 3)}, {realAt(p, 6), realAt(p, 6)});
+      const Interval x = product(offsets(box.x, wholeAt(p, 1)), {realAt(p, 4), realAt(p, 4)});
+      const Interval y = product(offsets(box.y, wholeAt(p, 2)), {realAt(p, 5), realAt(p, 5)});
+      const Interval z = product(offsets(box.z, wholeAt(p, 3)), {realAt(p, 6), realAt(p, 6)});
       const Interval v{x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
       return widened(v, errorOf(op) * (magnitude(x) + magnitude(y) + magnitude(z)));
     }
@@ -171,13 +180,12 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
       const double r0 = (1 - s.lo) * a + s.lo * b, r1 = (1 - s.hi) * a + s.hi * b;
       radii[static_cast<size_t>(i)] = {std::min(r0, r1), std::max(r0, r1)};
     }
-    auto rowAt = [&](int i, double x, double y, double z) {
-      return realAt(p, i) * (x - wholeAt(p, 1)) + realAt(p, i + 1) * (y - wholeAt(p, 2)) +
-             realAt(p, i + 2) * (z - wholeAt(p, 3));
-    };
+    auto offset = [&](double at, int word) { return offsets({at, at}, wholeAt(p, word)).lo; };
+    const double dx = offset(c.x, 1), dy = offset(c.y, 2), dz = offset(c.z, 3);
+    auto row = [&](int i) { return realAt(p, i) * dx + realAt(p, i + 1) * dy + realAt(p, i + 2) * dz; };
     double low = 0, high2 = 0;
     for (int i = 0; i < 3; ++i) {
-      const double q = std::abs(rowAt(4 + 3 * i, c.x, c.y, c.z));
+      const double q = std::abs(row(4 + 3 * i));
       const Interval r = radii[static_cast<size_t>(i)];
       low = std::max(low, std::max(0.0, q - radius) / r.hi);
       const double u = (q + radius) / r.lo;
@@ -212,22 +220,21 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
     }
     case Op::square_root: {
       const Interval r{std::sqrt(std::max(a.lo, 0.0)), std::sqrt(std::max(a.hi, 0.0))};
-      return widened(r, error * r.hi + 1e-15);
+      return widened(r, error * r.hi + 1e-15);  // the root of what counts as 0
     }
     case Op::add:
-      return widened({a.lo + b.lo, a.hi + b.hi}, error * (magnitude(a) + magnitude(b)));
+      return widened(kept({a.lo + b.lo, a.hi + b.hi}), error * (magnitude(a) + magnitude(b)));
     case Op::subtract:
-      return widened({a.lo - b.hi, a.hi - b.lo}, error * (magnitude(a) + magnitude(b)));
+      return widened(kept({a.lo - b.hi, a.hi - b.lo}), error * (magnitude(a) + magnitude(b)));
     case Op::multiply: {
-      const Interval r = product(clamped(a, -1e18, 1e18), clamped(b, -1e18, 1e18));
-      const Interval h = clamped(r, -1e18, 1e18);
-      return widened(h, error * magnitude(h));
+      const Interval x = kept(a), y = kept(b), r = kept(product(x, y));
+      return widened(r, error * magnitude(r) + kTiny * (magnitude(x) + magnitude(y)));
     }
     case Op::divide: {
-      if (b.lo <= 1e-30 && b.hi >= -1e-30) return {-1.1e18, 1.1e18};
-      const Interval inv{1 / b.hi, 1 / b.lo};
-      const Interval r = clamped(product(clamped(a, -1e18, 1e18), clamped(inv, -1e18, 1e18)), -1e18, 1e18);
-      return widened(r, error * magnitude(r) + 1e-18);
+      if (b.lo <= 2 * kTiny && b.hi >= -2 * kTiny) return {-1.1 * kHeld, 1.1 * kHeld};
+      const Interval inv = kept({1 / b.hi, 1 / b.lo});
+      const Interval r = kept(product(kept(a), inv));
+      return widened(r, error * magnitude(r) + kTiny * magnitude(inv) + 1 / kHeld);
     }
     case Op::less:
       return {a.hi < b.lo ? 1.0 : 0.0, a.lo < b.hi ? 1.0 : 0.0};
@@ -245,11 +252,11 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
       return {std::max(0.0, at(t.lo) - error), at(t.hi) + error};
     }
     case Op::mix: {
-      const Interval r = blend(a, b, c);
+      const Interval r = kept(blend(a, b, c));
       return widened(r, error * (magnitude(a) + magnitude(b)) * (1 + 2 * magnitude(c)));
     }
     case Op::morph: {
-      const Interval r = blend(a, b, clamped(c, 0, 1));
+      const Interval r = kept(blend(a, b, clamped(c, 0, 1)));
       return widened(r, error * (magnitude(a) + magnitude(b)));
     }
     case Op::minimum:
@@ -259,7 +266,7 @@ Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interva
     case Op::cut:
       return {std::max(a.lo, -b.hi), std::max(a.hi, -b.lo)};
     case Op::displace:
-      return widened({a.lo + 1024 * b.lo, a.hi + 1024 * b.hi}, error * (magnitude(a) + 1024 * magnitude(b)));
+      return widened(kept({a.lo + 1024 * b.lo, a.hi + 1024 * b.hi}), error * (magnitude(a) + 1024 * magnitude(b)));
     case Op::kernel: {
       auto at = [&](double d) { return std::clamp(1 + d * realAt(p, 0), 0.0, 1e9); };
       const double slack = error * (1 + magnitude(a) * realAt(p, 0));
@@ -286,7 +293,7 @@ Interval boundRoundEnd(const uint32_t* p, Interval nearest, Interval sum) {
 
 Interval boundSumEnd(const uint32_t* p, Interval sum) {
   const double threshold = realAt(p, 0), length = realAt(p, 1);
-  return widened({(threshold - sum.hi) * length, (threshold - sum.lo) * length},
+  return widened(kept({(threshold - sum.hi) * length, (threshold - sum.lo) * length}),
                  errorOf(Op::sum_end) * (threshold + sum.hi) * length);
 }
 

@@ -18,6 +18,9 @@ struct PlaceBox {
 
 PlaceBox placeBox(const IntBox& box);
 
+/// The op's relative error in ops.def.
+double statedError(Op op);
+
 /// Bounds of an op that reads a position (t: the operand of power_morph).
 Interval boundPosition(Op op, const uint32_t* params, const PlaceBox& box, Interval t);
 

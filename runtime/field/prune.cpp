@@ -126,7 +126,8 @@ Interval boundGroup(const ProgramView& program, const ProgramGroup& g, const Pla
       case Op::warp: {
         auto moved = [](Interval v, Interval w) {
           // A place that could wrap around the world's end may be anywhere.
-          const Interval m{v.lo + std::max(w.lo, -1048576.0) * 1024 - 1, v.hi + std::min(w.hi, 1048576.0) * 1024 + 1};
+          auto held = [](double x) { return std::clamp(x, -1048576.0, 1048576.0) * 1024; };
+          const Interval m{v.lo + held(w.lo) - 1, v.hi + held(w.hi) + 1};
           if (m.lo < -2147483648.0 || m.hi > 2147483647.0) return Interval{-2147483648.0, 2147483647.0};
           return m;
         };

@@ -29,14 +29,13 @@ struct PrunedProgram {
 class PruneScratch {
  public:
   explicit PruneScratch(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
-      : marks(memory), bounds(memory), kept(memory), reversed(memory) {}
+      : marks(memory), bounds(memory), reversed(memory) {}
   struct GroupBounds {
     Interval value;
     bool met, whole, live;
   };
   std::pmr::vector<Interval> marks;  ///< by instr: what decides whether it stays (prune.cpp)
   std::pmr::vector<GroupBounds> bounds;
-  std::pmr::vector<uint8_t> kept;
   std::pmr::vector<Instr> reversed;
 };
 

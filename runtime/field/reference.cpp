@@ -16,9 +16,14 @@ struct Local {
 double realAt(const uint32_t* params, int i) { return double{std::bit_cast<float>(params[i])}; }
 double wholeAt(const uint32_t* params, int i) { return static_cast<double>(static_cast<int32_t>(params[i])); }
 
-Local offset(const uint32_t* p, double x, double y, double z) {
-  return {x - wholeAt(p, 1), y - wholeAt(p, 2), z - wholeAt(p, 3)};
+// An offset by axis, as far as an int32 goes: there the evaluators saturate (real.h).
+double minus(double v, double centre) { return std::clamp(v - centre, -2147483648.0, 2147483647.0); }
+
+// p: the words of the centre.
+Local offsetFrom(const uint32_t* p, double x, double y, double z) {
+  return {minus(x, wholeAt(p, 0)), minus(y, wholeAt(p, 1)), minus(z, wholeAt(p, 2))};
 }
+Local offset(const uint32_t* p, double x, double y, double z) { return offsetFrom(p + 1, x, y, z); }
 
 Local toLocal(const uint32_t* p, double x, double y, double z) {
   const Local d = offset(p, x, y, z);
@@ -97,8 +102,8 @@ double noiseOctave(Int3 o, int64_t period, uint32_t seed) {
 }
 
 double noiseSum(const uint32_t* p, Int3 at) {
-  auto minus = [](int32_t a, uint32_t b) { return static_cast<int32_t>(static_cast<uint32_t>(a) - b); };
-  const Int3 o{minus(at.x, p[0]), minus(at.y, p[1]), minus(at.z, p[2])};
+  auto wrapped = [](int32_t a, uint32_t b) { return static_cast<int32_t>(static_cast<uint32_t>(a) - b); };
+  const Int3 o{wrapped(at.x, p[0]), wrapped(at.y, p[1]), wrapped(at.z, p[2])};
   double sum = 0, weight = realAt(p, 5);
   for (uint32_t k = 0; k < p[3]; ++k, weight *= 0.5) {
     sum += weight * noiseOctave(o, static_cast<int32_t>(p[6 + 2 * k]), p[4] + 0x9E3779B9u * k);
@@ -110,7 +115,7 @@ double sweepShare(const uint32_t* p, Int3 at) {
   double best = 1e300, share = 0;
   for (uint32_t k = 0; k < p[0]; ++k) {
     const uint32_t* s = p + 1 + 9 * k;
-    const double dx = at.x - wholeAt(s, 0), dy = at.y - wholeAt(s, 1), dz = at.z - wholeAt(s, 2);
+    const auto [dx, dy, dz] = offsetFrom(s, at.x, at.y, at.z);
     const double ex = realAt(s, 3), ey = realAt(s, 4), ez = realAt(s, 5);
     const double length2 = ex * ex + ey * ey + ez * ez;
     const double t = length2 > 0 ? std::clamp((dx * ex + dy * ey + dz * ez) / length2, 0.0, 1.0) : 0.0;
@@ -128,7 +133,8 @@ double kernel(double x) {
   return k * k * k;
 }
 
-double hold(double x) { return std::clamp(x, -1e18, 1e18); }
+// Of an expression's result: real.h, settleReal.
+double settle(double x) { return std::abs(x) < 1e-30 ? 0.0 : std::clamp(x, -1e18, 1e18); }
 
 }  // namespace
 
@@ -201,10 +207,11 @@ double referenceField(const ProgramView& program, Int3 p) {
         case Op::constant:
           out = realAt(params, 0);
           break;
-        case Op::coordinate:
-          out = realAt(params, 4) * (at.x - wholeAt(params, 1)) + realAt(params, 5) * (at.y - wholeAt(params, 2)) +
-                realAt(params, 6) * (at.z - wholeAt(params, 3));
+        case Op::coordinate: {
+          const Local d = offset(params, at.x, at.y, at.z);
+          out = realAt(params, 4) * d.x + realAt(params, 5) * d.y + realAt(params, 6) * d.z;
           break;
+        }
         case Op::noise:
           out = noiseSum(params, at);
           break;
@@ -227,19 +234,19 @@ double referenceField(const ProgramView& program, Int3 p) {
           out = std::floor(std::clamp(a, -1e9, 1e9));
           break;
         case Op::square_root:
-          out = std::sqrt(std::max(a, 0.0));
+          out = std::sqrt(settle(std::max(a, 0.0)));
           break;
         case Op::add:
-          out = a + b;
+          out = settle(a + b);
           break;
         case Op::subtract:
-          out = a - b;
+          out = settle(a - b);
           break;
         case Op::multiply:
-          out = hold(hold(a) * hold(b));
+          out = settle(settle(a) * settle(b));
           break;
         case Op::divide:
-          out = b == 0 ? 0 : hold(hold(a) / hold(b));
+          out = settle(b) == 0 ? 0 : settle(settle(a) * std::clamp(1 / settle(b), -1e18, 1e18));
           break;
         case Op::less:
           out = a < b ? 1 : 0;
@@ -250,7 +257,7 @@ double referenceField(const ProgramView& program, Int3 p) {
           break;
         }
         case Op::mix:
-          out = (1 - c) * a + c * b;
+          out = settle((1 - c) * a + c * b);
           break;
         case Op::minimum:
           out = std::min(a, b);
@@ -267,7 +274,7 @@ double referenceField(const ProgramView& program, Int3 p) {
           break;
         }
         case Op::displace:
-          out = a + 1024 * b;
+          out = settle(a + 1024 * b);
           break;
         case Op::kernel: {
           const double s = std::clamp(1 + a * realAt(params, 0), 0.0, 1e9);

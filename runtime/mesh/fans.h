@@ -32,6 +32,13 @@ inline constexpr Neighbourhood neighbourBit(Face face) {
   return neighbourBit(axis == 0 ? side : 0, axis == 1 ? side : 0, axis == 2 ? side : 0);
 }
 
+/// The blocks across the faces of a mask with bit (1 << Face).
+inline constexpr Neighbourhood neighboursAcross(uint8_t faces) {
+  Neighbourhood blocks = 0;
+  for (int f = 0; f < 6; ++f) blocks |= faces >> f & 1 ? neighbourBit(static_cast<Face>(f)) : 0;
+  return blocks;
+}
+
 /// The fans of all lateral edges of one seam, [b][a]: 0 at the low border, 1 inside, 2 at the high border of the face;
 /// a counts along axis u = (axis + 1) % 3, b along v = (axis + 2) % 3.
 using SeamFans = std::array<std::array<uint8_t, 3>, 3>;

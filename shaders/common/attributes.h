@@ -32,5 +32,6 @@ FN PackedNormal packNormal(Real dx, Real dy, Real dz) {
   return r;
 }
 
-// One sign for every zero: Vulkan does not promise a zero's sign, and pruning may turn it.
-FN Real unsignedZero(Real x) { return sel((x < 0.0f) || (x > 0.0f), x, broadcast(0.0f)); }
+// One sign for every zero: Vulkan does not promise a zero's sign, and pruning may turn it. Nor does it promise
+// denormals.
+FN Real unsignedZero(Real x) { return flushReal(x); }

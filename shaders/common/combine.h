@@ -23,8 +23,8 @@ FN Dual opCoordinate(Int px, Int py, Int pz, Params P) {
   return makeDual(v, broadcast(PF(P, 4)), broadcast(PF(P, 5)), broadcast(PF(P, 6)), broadcastInt(0));
 }
 
-// 0..1 along a polyline. 0 segment count, then for each segment: start 1-3 (integer), vector 4-6, reciprocal of its squared
-// length, share of the whole before it, share of the whole of it (8 words from 1 + 9 k).
+// 0..1 along a polyline. 0 segment count, then for each segment: start 1-3 (integer), vector 4-6, reciprocal of its
+// squared length, share of the whole before it, share of the whole of it (8 words from 1 + 9 k).
 FN Dual opSweep(Int px, Int py, Int pz, Params P) {
   int count = PI(P, 0);
   PRECISE Real best = broadcast(3.0e38f);
@@ -60,7 +60,7 @@ FN Dual opSweep(Int px, Int py, Int pz, Params P) {
     gy = sel(nearer, sy, gy);
     gz = sel(nearer, sz, gz);
   }
-  return makeDual(v, gx, gy, gz, broadcastInt(0));
+  return makeDual(flushReal(v), gx, gy, gz, broadcastInt(0));
 }
 
 FN Dual opNegate(Dual a) { return makeDual(-a.v, -a.x, -a.y, -a.z, a.label); }
@@ -72,15 +72,20 @@ FN Dual opFloor(Dual a) {
   return makeDual(floorReal(clampReal(a.v, -1.0e9f, 1.0e9f)), zero, zero, zero, a.label);
 }
 
+// An expression's result (see settleReal).
+FN Dual settled(Real v, Real x, Real y, Real z, Int label) {
+  return makeDual(settleReal(v), settleReal(x), settleReal(y), settleReal(z), label);
+}
+
 FN Dual opSquareRoot(Dual a) {
-  PRECISE Real c = maxReal(a.v, broadcast(0.0f));
+  PRECISE Real c = sel(a.v > 1.0e-30f, a.v, broadcast(0.0f));
   PRECISE Real inv = rsqrtReal(c);
   PRECISE Real v = c * inv;
   PRECISE Real k = sel(c > 0.0f, inv * 0.5f, broadcast(0.0f));
   PRECISE Real x = a.x * k;
   PRECISE Real y = a.y * k;
   PRECISE Real z = a.z * k;
-  return makeDual(v, x, y, z, a.label);
+  return settled(v, x, y, z, a.label);
 }
 
 FN Dual opAdd(Dual a, Dual b) {
@@ -88,7 +93,7 @@ FN Dual opAdd(Dual a, Dual b) {
   PRECISE Real x = a.x + b.x;
   PRECISE Real y = a.y + b.y;
   PRECISE Real z = a.z + b.z;
-  return makeDual(v, x, y, z, a.label);
+  return settled(v, x, y, z, a.label);
 }
 
 FN Dual opSubtract(Dual a, Dual b) {
@@ -96,7 +101,7 @@ FN Dual opSubtract(Dual a, Dual b) {
   PRECISE Real x = a.x - b.x;
   PRECISE Real y = a.y - b.y;
   PRECISE Real z = a.z - b.z;
-  return makeDual(v, x, y, z, a.label);
+  return settled(v, x, y, z, a.label);
 }
 
 // p * a + q * b for the gradients of a product and of a quotient.
@@ -107,23 +112,22 @@ FN Real twoProducts(Real p, Real a, Real q, Real b) {
   return r;
 }
 
-// Products of grammar expressions are held to 1e18, so that nothing becomes infinite or NaN: Vulkan promises neither.
-FN Real holdReal(Real x) { return clampReal(x, -1.0e18f, 1.0e18f); }
-
+// Every register is held already (settleReal).
 FN Dual opMultiply(Dual a, Dual b) {
-  PRECISE Real v = holdReal(a.v) * holdReal(b.v);
-  v = holdReal(v);
-  return makeDual(v, twoProducts(a.v, b.x, b.v, a.x), twoProducts(a.v, b.y, b.v, a.y),
-                  twoProducts(a.v, b.z, b.v, a.z), a.label);
+  PRECISE Real p = flushReal(a.v);
+  PRECISE Real q = flushReal(b.v);
+  PRECISE Real v = p * q;
+  return settled(v, twoProducts(p, b.x, q, a.x), twoProducts(p, b.y, q, a.y), twoProducts(p, b.z, q, a.z), a.label);
 }
 
 FN Dual opDivide(Dual a, Dual b) {
-  PRECISE Real inv = holdReal(divideReal(broadcast(1.0f), holdReal(b.v)));
-  PRECISE Real v = holdReal(a.v) * inv;
-  v = holdReal(v);
+  PRECISE Real inv = holdReal(divideReal(broadcast(1.0f), flushReal(b.v)));
+  PRECISE Real v = flushReal(a.v) * inv;
+  v = settleReal(v);
   PRECISE Real k = -v * inv;
-  return makeDual(v, twoProducts(inv, a.x, k, b.x), twoProducts(inv, a.y, k, b.y), twoProducts(inv, a.z, k, b.z),
-                  a.label);
+  k = settleReal(k);
+  return settled(v, twoProducts(inv, a.x, k, b.x), twoProducts(inv, a.y, k, b.y), twoProducts(inv, a.z, k, b.z),
+                 a.label);
 }
 
 FN Dual opMinimum(Dual a, Dual b) { return selDual(b.v < a.v, b, a); }
@@ -157,7 +161,7 @@ FN Dual opSmoothstep(Dual a, Params P) {
   PRECISE Real x = a.x * k;
   PRECISE Real y = a.y * k;
   PRECISE Real z = a.z * k;
-  return makeDual(v, x, y, z, a.label);
+  return settled(v, x, y, z, a.label);
 }
 
 // (1 - c) a + c b: exactly a at c = 0 and b at c = 1.
@@ -170,10 +174,11 @@ FN Dual opMix(Dual a, Dual b, Dual c) {
   y = twoProducts(k, a.y, c.v, b.y) + y;
   PRECISE Real z = slope * c.z;
   z = twoProducts(k, a.z, c.v, b.z) + z;
-  return makeDual(twoProducts(k, a.v, c.v, b.v), x, y, z, a.label);
+  return settled(twoProducts(k, a.v, c.v, b.v), x, y, z, a.label);
 }
 
-// opMix with t clamped to 0..1; the label is the nearer end's.
+// opMix with t clamped to 0..1; the label is the nearer end's. Held but not flushed: at t <= 0 it is a and at t >= 1 it
+// is b to the bit, which pruning relies on.
 FN Dual opMorph(Dual a, Dual b, Dual t) {
   PRECISE Real w = clampReal(t.v, 0.0f, 1.0f);
   PRECISE Real k = 1.0f - w;
@@ -185,7 +190,8 @@ FN Dual opMorph(Dual a, Dual b, Dual t) {
   y = twoProducts(k, a.y, w, b.y) + y;
   PRECISE Real z = slope * t.z;
   z = twoProducts(k, a.z, w, b.z) + z;
-  return makeDual(twoProducts(k, a.v, w, b.v), x, y, z, sel(w < 0.5f, a.label, b.label));
+  return makeDual(holdReal(twoProducts(k, a.v, w, b.v)), holdReal(x), holdReal(y), holdReal(z),
+                  sel(w < 0.5f, a.label, b.label));
 }
 
 // a + 1024 b: a in units, b in metres.
@@ -198,21 +204,23 @@ FN Dual opDisplace(Dual a, Dual b) {
   y = a.y + y;
   PRECISE Real z = b.z * 1024.0f;
   z = a.z + z;
-  return makeDual(v, x, y, z, a.label);
+  return settled(v, x, y, z, a.label);
 }
 
-// Round union of many (design.md section 3). Two registers carry it: the nearest operand, and sum max(k - d, 0)^2.
-FN Dual roundNearest() {
+// Where minima and sums begin: farther than any shape, and zero.
+FN Dual farAway() {
   PRECISE Real zero = broadcast(0.0f);
   return makeDual(broadcast(1.0e9f), zero, zero, zero, broadcastInt(0));
 }
-FN Dual roundEmpty() {
+FN Dual nothing() {
   PRECISE Real zero = broadcast(0.0f);
   return makeDual(zero, zero, zero, zero, broadcastInt(0));
 }
+// Round union of many (design.md section 3). Two registers carry it: the nearest operand, and sum max(k - d, 0)^2.
 FN Dual roundAccumulate(Dual sum, Dual d, float k) {
   PRECISE Real h = k - d.v;
   h = clampReal(h, 0.0f, 1.0e9f);
+  h = sel(h > 1.0e-15f, h, broadcast(0.0f));  // its square would be a denormal
   PRECISE Real v = h * h;
   v = sum.v + v;
   PRECISE Real w = h * -2.0f;
@@ -229,15 +237,18 @@ FN Dual opRoundEnd(Dual nearest, Dual sum, Params P) {
   PRECISE Real root = sum.v * inv;
   PRECISE Real v = maxReal(nearest.v, broadcast(PF(P, 0)));
   v = v - root;
-  Bool apart = nearest.v >= PF(P, 0);
+  // Nothing was added, or only what is too little to have a direction.
+  Bool apart = (nearest.v >= PF(P, 0)) || (sum.v <= 0.0f);
   PRECISE Real w = inv * -0.5f;
   PRECISE Real x = sum.x * w;
   PRECISE Real y = sum.y * w;
   PRECISE Real z = sum.z * w;
-  return makeDual(v, sel(apart, nearest.x, x), sel(apart, nearest.y, y), sel(apart, nearest.z, z), nearest.label);
+  return makeDual(v, holdReal(sel(apart, nearest.x, x)), holdReal(sel(apart, nearest.y, y)),
+                  holdReal(sel(apart, nearest.z, z)), nearest.label);
 }
 
-// The weight of any distance under a compact-kernel sum. 0 reciprocal inner radius, 1 reciprocal of the squared support.
+// The weight of any distance under a compact-kernel sum. 0 reciprocal inner radius, 1 reciprocal of the squared
+// support.
 FN Dual opKernel(Dual d, Params P) {
   PRECISE Real r = d.v * PF(P, 0);
   r = r + 1.0f;
@@ -252,7 +263,7 @@ FN Dual opKernel(Dual d, Params P) {
   PRECISE Real gx = d.x * s;
   PRECISE Real gy = d.y * s;
   PRECISE Real gz = d.z * s;
-  return makeDual(k.v, gx, gy, gz, d.label);
+  return settled(k.v, gx, gy, gz, d.label);
 }
 
 // Two registers carry a sum: the heaviest operand (for its label), and the sum itself.
@@ -266,5 +277,5 @@ FN Dual opSumEnd(Dual heaviest, Dual sum, Params P) {
   PRECISE Real x = sum.x * k;
   PRECISE Real y = sum.y * k;
   PRECISE Real z = sum.z * k;
-  return makeDual(v, x, y, z, heaviest.label);
+  return settled(v, x, y, z, heaviest.label);
 }

@@ -17,9 +17,11 @@ struct LatticePlace {
 };
 
 // cell = floor(offset / period) and the rest, exact for every int32 offset and period >= 1. Two rounds: the first guess
-// is off by the float's rounding of a large offset, the second by at most one.
+// is off by the float's rounding of a large offset, the second by at most one. The largest offsets round up to 2^31,
+// which is no int: the guess stops at the last float below it.
 FN LatticePlace latticePlace(Int offset, int period, float inv_period) {
-  Int cell = toInt(floorReal(toReal(offset) * inv_period));
+  PRECISE Real guess = toReal(offset) * inv_period;
+  Int cell = toInt(floorReal(minReal(guess, broadcast(2147483520.0f))));
   Int rest = wrapSub(offset, wrapMul(cell, broadcastInt(period)));
   Int step = toInt(floorReal(toReal(rest) * inv_period));
   cell = wrapAdd(cell, step);
@@ -168,5 +170,5 @@ FN Dual opNoise(Int px, Int py, Int pz, Params P) {
     weight = weight * 0.5f;
   }
   v = clampReal(v, -1.0f, 1.0f);
-  return makeDual(v, x, y, z, broadcastInt(0));
+  return makeDual(flushReal(v), x, y, z, broadcastInt(0));
 }

@@ -1,9 +1,10 @@
 // The subset of GLSL, C++ and CUDA in which the field's mathematics is written once (arithmetic contract, rule 2).
 //
-// Only + - *, comparison, conversion and integer operations on values; everything branch-free through sel(). A value that
-// differs by sample has type Real, Int, Uint or Bool; a value equal for all samples has type float, int or uint. Every
-// local is declared PRECISE, so that GLSL contracts nothing. No header here has an include guard: a C++ source includes
-// common.h once in each namespace for which it has defined the types (scalar below, wide in backend/cpu/wide.h).
+// Only + - *, comparison, conversion and integer operations on values; everything branch-free through sel(). A value
+// that differs by sample has type Real, Int, Uint or Bool; a value equal for all samples has type float, int or uint.
+// Every product or sum that feeds a sum is a local declared PRECISE, so that GLSL contracts nothing. No header here has
+// an include guard: a C++ source includes common.h once in each namespace for which it has defined the types (scalar
+// below, wide in backend/cpu/wide.h).
 
 #ifndef __cplusplus
 

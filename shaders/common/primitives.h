@@ -30,11 +30,12 @@ FN Dual fromLocal(Real v, Real gx, Real gy, Real gz, Params P) {
                   dotRow(g, PF(P, 6), PF(P, 9), PF(P, 12)), broadcastInt(PI(P, 0)));
 }
 
+// Squares of less than 1e-15 units are 0: a denormal has no direction that all devices agree on.
 FN Real lengthSquared2(Real x, Real y) {
   PRECISE Real a = x * x;
   PRECISE Real b = y * y;
   PRECISE Real r = a + b;
-  return r;
+  return sel(r > 1.0e-30f, r, broadcast(0.0f));
 }
 
 FN Real lengthSquared3(Vec3 p) {
@@ -43,7 +44,7 @@ FN Real lengthSquared3(Vec3 p) {
   PRECISE Real c = p.z * p.z;
   PRECISE Real r = a + b;
   r = r + c;
-  return r;
+  return sel(r > 1.0e-30f, r, broadcast(0.0f));
 }
 
 // Signed distance in the plane to the corner made of two half-planes at signed distances a and b, both known to be
@@ -290,7 +291,8 @@ FN Dual opSuperquadric(Int px, Int py, Int pz, Params P) {
   return fromLocal(d.v, d.x, d.y, d.z, P);
 }
 
-// The exponent morph at t: radii between 13-15 and 16-18, exponent 2 / (1 - t + t * 2 / kMaxPower), 19 that 2 / kMaxPower.
+// The exponent morph at t: radii between 13-15 and 16-18, exponent 2 / (1 - t + t * 2 / kMaxPower), 19 that 2 /
+// kMaxPower.
 FN Dual powerMorphAt(Vec3 q, Real t, Params P) {
   PRECISE Real k = 1.0f - t;
   PRECISE Real ax = k * PF(P, 13);
@@ -334,7 +336,7 @@ FN Dual addSlope(Dual d, Dual t, Real slope) {
   y = d.y + y;
   PRECISE Real z = t.z * slope;
   z = d.z + z;
-  return makeDual(d.v, x, y, z, d.label);
+  return makeDual(d.v, holdReal(x), holdReal(y), holdReal(z), d.label);
 }
 
 // Solid below the local plane y = 0.
@@ -344,8 +346,9 @@ FN Dual opHalfspace(Int px, Int py, Int pz, Params P) {
   return fromLocal(q.y, zero, broadcast(1.0f), zero, P);
 }
 
-// A polygon in local xz, counter-clockwise seen from +y, between local y = -h and h. 13 half height, 14 corner count, then
-// for each corner: x, z, the edge to the next corner x, z, and the reciprocals of the edge's squared length and length.
+// A polygon in local xz, counter-clockwise seen from +y, between local y = -h and h. 13 half height, 14 corner count,
+// then for each corner: x, z, the edge to the next corner x, z, and the reciprocals of the edge's squared length and
+// length.
 FN Dual opPrism(Int px, Int py, Int pz, Params P) {
   Vec3 q = toLocal(px, py, pz, P);
   int count = PI(P, 14);
@@ -415,7 +418,8 @@ FN Corner kernelOf(Real x) {
   return r;
 }
 
-// The weight of a ball under a compact-kernel sum, without a root. 4 reciprocal of the squared support radius. No frame.
+// The weight of a ball under a compact-kernel sum, without a root. 4 reciprocal of the squared support radius. No
+// frame.
 FN Dual opBlob(Int px, Int py, Int pz, Params P) {
   Vec3 d = offsetFrom(px, py, pz, P);
   PRECISE Real x = lengthSquared3(d) * PF(P, 4);

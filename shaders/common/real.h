@@ -32,7 +32,8 @@ FN Real sqrtReal(Real x) {
   return r;
 }
 
-// 1 / x for normal x > 0 and 2^-120 < x < 2^120: relative error under 2e-7.
+// 1 / x for 2^-120 < x < 2^120: relative error under 2e-7. Beyond that range Newton's steps overflow or lose everything
+// to denormals, and the result means nothing, not even in its sign: callers keep out of it (settleReal).
 FN Real recipReal(Real x) {
   PRECISE Real y = bitsToReal(0x7EF311C7u - realToBits(x));
   PRECISE Real e = x * y;
@@ -54,6 +55,13 @@ FN Real divideReal(Real a, Real b) {
   r = r * signOf(b);
   return sel(m > 0.0f, r, broadcast(0.0f));
 }
+
+// What an expression yields is held to 1e18 and is 0 under 1e-30, gradients included. So a product of two never becomes
+// infinite (and infinity times 0 never NaN), none is a denormal that one device keeps and another flushes, and
+// reciprocals stay in their range. Vulkan promises nothing about any of these.
+FN Real holdReal(Real x) { return clampReal(x, -1.0e18f, 1.0e18f); }
+FN Real flushReal(Real x) { return sel((x < -1.0e-30f) || (x > 1.0e-30f), x, broadcast(0.0f)); }
+FN Real settleReal(Real x) { return flushReal(holdReal(x)); }
 
 // Largest whole number <= x, for |x| < 2^31.
 FN Real floorReal(Real x) {

@@ -155,8 +155,8 @@ Options parse(int argc, char** argv) {
     else
       throw std::runtime_error("unknown option " + name);
   }
-  if (options.cells < 64 || options.cells % 64 || options.cells > 1024)
-    throw std::runtime_error("--cells is a multiple of 64, at most 1024");
+  if (options.cells < 64 || (options.cells & (options.cells - 1)) != 0 || options.cells > 1024)
+    throw std::runtime_error("--cells is 64, 128, 256, 512 or 1024: the cave's cells are whole units for no other");
   if (options.runs < 1 || options.threads < 1) throw std::runtime_error("--runs and --threads are at least 1");
   return options;
 }

@@ -86,9 +86,11 @@ size_t Ours::meshChunks() {
   const int32_t count = cells_ / SGM_CHUNK_CELLS;
   for (int32_t z = 0; z < count; ++z)
     for (int32_t y = 0; y < count; ++y)
-      for (int32_t x = 0; x < count; ++x)
-        requests.push_back(
-            {{0, scene_.origin[0] / edge + x, scene_.origin[1] / edge + y, scene_.origin[2] / edge + z}, 0});
+      for (int32_t x = 0; x < count; ++x) {
+        sgm_chunk_request request = SGM_CHUNK_REQUEST_INIT;
+        request.key = {0, scene_.origin[0] / edge + x, scene_.origin[1] / edge + y, scene_.origin[2] / edge + z};
+        requests.push_back(request);
+      }
   sgm_chunks_desc desc = SGM_CHUNKS_DESC_INIT;
   desc.requests = requests.data();
   desc.count = requests.size();

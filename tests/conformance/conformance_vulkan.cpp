@@ -3,11 +3,13 @@
 #include <bit>
 #include <cstdlib>
 #include <iostream>
+#include <span>
 
 #include "catch.h"
 #include "conformance/vulkan_compute.h"
 #include "random_programs.h"
 #include "spirv/field_comp.h"
+#include "spirv/field_rte_comp.h"
 
 using namespace sgm;
 
@@ -15,7 +17,7 @@ namespace {
 
 bool required() { return std::getenv("SGM_REQUIRE_VULKAN") || std::getenv("SGM_REQUIRE_ALL"); }
 
-// The words of shaders/conformance/field.comp.
+// The words of shaders/conformance/field.glsl.
 struct Packed {
   std::vector<uint32_t> instrs, params, groups, points, results;
 };
@@ -37,10 +39,9 @@ Packed pack(const ProgramView& program, const PointSet& points) {
     for (Int3 corner : {g.influence.lo, g.influence.hi}) {
       for (int axis = 0; axis < 3; ++axis) p.groups.push_back(static_cast<uint32_t>(corner[axis]));
     }
-    p.groups.insert(
-        p.groups.end(),
-        {g.first, g.count, g.result,
-         uint32_t{g.cut} | uint32_t{g.guarded} << 1 | uint32_t{first_cut} << 2 | uint32_t{last_cut} << 3, 0u, 0u});
+    p.groups.insert(p.groups.end(),
+                    {g.first, g.count, g.result,
+                     uint32_t{g.cut} | uint32_t{g.guarded} << 1 | uint32_t{first_cut} << 2 | uint32_t{last_cut} << 3});
   }
   for (size_t i = 0; i < points.x.size(); ++i) {
     for (int32_t c : {points.x[i], points.y[i], points.z[i]}) p.points.push_back(static_cast<uint32_t>(c));
@@ -68,7 +69,7 @@ Evaluated unpack(const Packed& p) {
   return e;
 }
 
-size_t differentOnDevice(const VulkanCompute& device, const ProgramView& program, const PointSet& points) {
+size_t differentOnDevice(const ComputeShader& shader, const ProgramView& program, const PointSet& points) {
   Packed p = pack(program, points);
   const ComputeBuffer buffers[] = {computeBuffer(std::span(p.instrs)), computeBuffer(std::span(p.params)),
                                    computeBuffer(std::span(p.groups)), computeBuffer(std::span(p.points)),
@@ -76,8 +77,8 @@ size_t differentOnDevice(const VulkanCompute& device, const ProgramView& program
   const uint32_t push[] = {static_cast<uint32_t>(points.x.size()), static_cast<uint32_t>(program.groups.size()),
                            std::bit_cast<uint32_t>(program.initial), program.initial_label,
                            std::bit_cast<uint32_t>(program.q_scale)};
-  const Result<void> ran = device.run(spirv::kFieldComp, buffers, std::as_bytes(std::span(push)),
-                                      static_cast<uint32_t>(points.x.size() + 63) / 64);
+  const Result<void> ran =
+      shader.run(buffers, std::as_bytes(std::span(push)), static_cast<uint32_t>(points.x.size() + 63) / 64);
   INFO((ran ? "" : ran.error().message));
   REQUIRE(ran);
   return differentBits(evaluate(scalarKernels(), program, points.points()), unpack(p));
@@ -90,7 +91,14 @@ TEST_CASE("the GLSL of every op gives the scalar evaluator's bits") {
   INFO((device ? "" : device.error().message));
   REQUIRE(device);
   if (!*device) return;  // said on stderr
-  std::cout << "device: " << (*device)->info().name << '\n';
+  const bool rte = (*device)->info().rounds_to_nearest;
+  std::cout << "device: " << (*device)->info().name << ", shader: "
+            << (rte ? "field_rte.comp (RoundingModeRTE 32)" : "field.comp (no rounding can be demanded here)") << '\n';
+  const std::span<const uint32_t> code =
+      rte ? std::span<const uint32_t>(spirv::kFieldRteComp) : std::span<const uint32_t>(spirv::kFieldComp);
+  const Result<ComputeShader> shader = (*device)->shader(code, 5, 5 * sizeof(uint32_t));
+  INFO((shader ? "" : shader.error().message));
+  REQUIRE(shader);
   const Int3 centres[] = {{0, 0, 0}, {2'000'000'000, -2'000'000'000, 1'999'000'000}};
 
   for (int o = 0; o < static_cast<int>(Op::count); ++o) {
@@ -100,18 +108,19 @@ TEST_CASE("the GLSL of every op gives the scalar evaluator's bits") {
       const FieldProgram program = programOf(static_cast<Op>(o), random, centre);
       const PointSet points = randomPoints(random, centre, 40'000, 1000);
       INFO(opName(static_cast<Op>(o)) << ", seed " << seed);
-      CHECK(differentOnDevice(**device, program.view(), points) == 0);
+      CHECK(differentOnDevice(*shader, program.view(), points) == 0);
     }
   }
   for (uint32_t seed = 1; seed <= 40; ++seed) {
     std::mt19937 random(seed * 13);
     RandomProgramOptions options;
     options.centre = centres[seed % 2];
+    options.odd = {seed % 5 == 1, seed % 5 == 2};
     options.groups = 4;
     const FieldProgram program = randomProgram(random, options);
     const PointSet points = randomPoints(random, options.centre, 3 * options.extent, 2000);
     INFO("random program, seed " << seed);
-    CHECK(differentOnDevice(**device, program.view(), points) == 0);
+    CHECK(differentOnDevice(*shader, program.view(), points) == 0);
   }
   const std::vector<std::string> messages = (*device)->messages();
   for (const std::string& m : messages) std::cout << m << '\n';

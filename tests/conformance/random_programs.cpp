@@ -1,7 +1,10 @@
 #include "random_programs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
+#include <limits>
 
 #include "field/builder.h"
 
@@ -9,10 +12,18 @@ namespace sgm {
 
 namespace {
 
+uint32_t randomLabel(std::mt19937& random) {
+  const auto material = static_cast<uint16_t>(random() % 5), tag = static_cast<uint16_t>(random() % 4);
+  return makeLabel(material, tag);
+}
+
+// Every draw is a statement, an initialiser in braces or the only draw among a call's arguments: the order of arguments
+// is the compiler's, and one seed must mean one program everywhere.
 class Generator {
  public:
-  Generator(std::mt19937& random, Int3 centre, int32_t extent, int32_t finest_cell)
-      : random_(random), centre_(centre), extent_(extent), builder_(finest_cell, pick(2) == 0, label()) {}
+  Generator(std::mt19937& random, Int3 centre, int32_t extent, int32_t finest_cell, bool solid, uint32_t domain,
+            Oddities odd)
+      : random_(random), centre_(centre), extent_(extent), odd_(odd), builder_(finest_cell, solid, domain) {}
 
   ProgramBuilder& builder() { return builder_; }
 
@@ -20,10 +31,22 @@ class Generator {
   float between(double a, double b) {
     return static_cast<float>(a + (b - a) * static_cast<double>(random_()) / 4294967295.0);
   }
-  uint32_t label() { return makeLabel(static_cast<uint16_t>(pick(5)), static_cast<uint16_t>(pick(4))); }
+  uint32_t label() { return randomLabel(random_); }
   Int3 place(double spread = 1) {
+    if (odd_.far_anchors && pick(5) == 0) return farPlace();
     auto axis = [&](int32_t c) {
       return saturate(int64_t{c} + static_cast<int64_t>(between(-spread, spread) * static_cast<float>(extent_)));
+    };
+    return {axis(centre_.x), axis(centre_.y), axis(centre_.z)};
+  }
+  // As far as the world goes, on some axes or on all.
+  Int3 farPlace() {
+    auto axis = [&](int32_t c) {
+      const int where = pick(6);
+      const int32_t inwards = pick(2) ? pick(100'000'000) : 0;
+      if (where == 0) return saturate(int64_t{c} + inwards);
+      const bool low = where == 1 ? c < 0 : c >= 0;
+      return low ? std::numeric_limits<int32_t>::min() + inwards : std::numeric_limits<int32_t>::max() - inwards;
     };
     return {axis(centre_.x), axis(centre_.y), axis(centre_.z)};
   }
@@ -33,6 +56,13 @@ class Generator {
     // Rows of a random unit quaternion; now and then the identity.
     Frame f;
     f.origin = place(spread);
+    if (odd_.huge_and_tiny && pick(3) == 0) {
+      // As a turn of nearly nothing leaves it: squares of what it gives are denormals.
+      static constexpr float kNearlyNone[] = {1e-17f, -1e-20f, 1e-24f, 3e-39f};
+      const int entry = 1 + 4 * pick(2) + pick(3);
+      f.rows[static_cast<size_t>(entry)] = kNearlyNone[pick(4)];
+      return f;
+    }
     if (pick(3) == 0) return f;
     double q[4], s = 0;
     for (double& c : q) {
@@ -66,37 +96,44 @@ class Generator {
   }
 
   Value primitive(Op op, double spread = 1) {
+    if (op == Op::kernel) {
+      const Value distance = primitive(Op::sphere, spread);
+      return builder_.kernelWeight(distance, size());
+    }
+    // Without a frame.
+    if (op == Op::sphere || op == Op::blob || op == Op::capsule) {
+      const Int3 at = place(spread);
+      const float a[4] = {size(), size(), size(), size()};
+      const float none = op == Op::capsule && pick(6) == 0 ? 0.0f : 1.0f;
+      const uint32_t l = label();
+      if (op == Op::sphere) return builder_.sphere(at, a[0], l);
+      if (op == Op::blob) return builder_.blobWeight(at, a[0], l);
+      return builder_.capsule(at, a[1] * none, -a[2] * none, a[3] * none, a[0], l);
+    }
+    const Frame f = frame(spread);
+    const float a[6] = {size(), size(), size(), size(), size(), size()};
+    const float exponent = between(2, 20);
+    const float cone = pick(3) ? 1.0f : 0.0f;
+    const uint32_t l = label();
     switch (op) {
-      case Op::sphere:
-        return builder_.sphere(place(spread), size(), label());
       case Op::box:
-        return builder_.box(frame(spread), size(), size(), size(), label());
+        return builder_.box(f, a[0], a[1], a[2], l);
       case Op::cylinder:
-        return builder_.cylinder(frame(spread), size(), size(), label());
+        return builder_.cylinder(f, a[0], a[1], l);
       case Op::truncone:
-        return builder_.truncone(frame(spread), size(), size() * (pick(3) ? 1.0f : 0.0f), size(), label());
-      case Op::capsule: {
-        const float none = pick(6) ? 1.0f : 0.0f;
-        return builder_.capsule(place(spread), size() * none, -size() * none, size() * none, size(), label());
-      }
+        return builder_.truncone(f, a[0], a[1] * cone, a[2], l);
       case Op::torus:
-        return builder_.torus(frame(spread), size() * 1.5f, size() * 0.5f, label());
+        return builder_.torus(f, a[0] * 1.5f, a[1] * 0.5f, l);
       case Op::ellipsoid:
-        return builder_.ellipsoid(frame(spread), size(), size(), size(), label());
+        return builder_.ellipsoid(f, a[0], a[1], a[2], l);
       case Op::superquadric:
-        return builder_.superquadric(frame(spread), size(), size(), size(), between(2, 20), label());
-      case Op::power_morph: {
-        const float sizes[6] = {size(), size(), size(), size(), size(), size()};
-        return builder_.powerMorph(frame(spread), sizes, expression(2), label());
-      }
-      case Op::halfspace:
-        return builder_.halfspace(frame(spread), label());
+        return builder_.superquadric(f, a[0], a[1], a[2], exponent, l);
+      case Op::power_morph:
+        return builder_.powerMorph(f, a, expression(2), l);
       case Op::prism:
-        return builder_.prism(frame(spread), size(), polygon(), label());
-      case Op::blob:
-        return builder_.blobWeight(place(spread), size(), label());
+        return builder_.prism(f, a[0], polygon(), l);
       default:
-        return builder_.kernelWeight(primitive(Op::sphere, spread), size());
+        return builder_.halfspace(f, l);
     }
   }
 
@@ -104,11 +141,40 @@ class Generator {
     static constexpr Op kAll[] = {Op::sphere,      Op::box,       Op::cylinder,  Op::truncone,
                                   Op::capsule,     Op::torus,     Op::ellipsoid, Op::superquadric,
                                   Op::power_morph, Op::halfspace, Op::prism};
+    const Op op = kAll[pick(static_cast<int>(std::size(kAll)))];
     // Some operands far outside, with large positive values, which a wrong pruning would let through.
-    return primitive(kAll[pick(static_cast<int>(std::size(kAll)))], pick(5) == 0 ? 6.0 : 1.0);
+    return primitive(op, pick(5) == 0 ? 6.0 : 1.0);
+  }
+
+  // Squares of squares: past 1e18 in metres, or under 1e-30 where the factor is small, with gradients to match.
+  Value tower() {
+    const Frame f = frame();
+    Value v = builder_.coordinate(f.origin, f.rows[0], f.rows[1], f.rows[2]);
+    const bool tiny = pick(2) == 0;
+    if (tiny) {
+      v = builder_.binary(Op::multiply, v, builder_.constant(between(-0.05, 0.05)));
+    } else if (pick(2)) {
+      v = builder_.binary(Op::add, v, builder_.constant(between(-2000, 2000)));
+    }
+    for (int n = 3 + pick(5); n > 0; --n) v = builder_.binary(Op::multiply, v, v);
+    return v;
+  }
+  Value extreme() {
+    static constexpr float kExtremes[] = {1e-38f, 3e-39f, 1e-42f, -1e-30f, 2e-20f, 1e17f, -1e19f, 3e38f};
+    switch (pick(3)) {
+      case 0:
+        return builder_.constant(kExtremes[pick(static_cast<int>(std::size(kExtremes)))]);
+      case 1: {
+        const Value a = tower();
+        return builder_.binary(Op::divide, a, tower());
+      }
+      default:
+        return tower();
+    }
   }
 
   Value expression(int depth) {
+    if (odd_.huge_and_tiny && pick(4) == 0) return extreme();
     switch (pick(depth > 0 ? 14 : 4)) {
       case 0:
         return builder_.constant(between(-1, 1.5));
@@ -132,9 +198,11 @@ class Generator {
         return builder_.unary(Op::floor, expression(depth - 1));
       case 7:
         return builder_.unary(Op::square_root, expression(depth - 1));
-      case 8:
-        return builder_.smoothstep(expression(depth - 1), between(-3, 0),
-                                   between(0.5, 3) * (pick(2) ? 1.0f : -1.0f) - 3.5f);
+      case 8: {
+        const Value x = expression(depth - 1);
+        const float lower = between(-3, 0), width = between(0.5, 3);
+        return builder_.smoothstep(x, lower, pick(2) ? width - 3.5f : -width - 3.5f);
+      }
       case 9: {
         const Value a = expression(depth - 1), b = expression(depth - 1);
         return builder_.ternary(Op::mix, a, b, expression(depth - 1));
@@ -145,8 +213,9 @@ class Generator {
       }
       default: {
         static constexpr Op kAll[] = {Op::add, Op::subtract, Op::multiply, Op::less, Op::minimum, Op::maximum};
+        const Op op = kAll[pick(6)];
         const Value a = expression(depth - 1);
-        return builder_.binary(kAll[pick(6)], a, expression(depth - 1));
+        return builder_.binary(op, a, expression(depth - 1));
       }
     }
   }
@@ -206,8 +275,12 @@ class Generator {
   Value sum(int depth) {
     const auto acc = builder_.beginSum();
     for (int n = 1 + pick(8); n > 0; --n) {
-      const bool ball = pick(3) != 0;
-      builder_.addSum(acc, ball ? primitive(Op::blob) : builder_.kernelWeight(shape(depth - 1), size()));
+      if (pick(3) != 0) {
+        builder_.addSum(acc, primitive(Op::blob));
+      } else {
+        const Value distance = shape(depth - 1);
+        builder_.addSum(acc, builder_.kernelWeight(distance, size()));
+      }
     }
     return builder_.endSum(acc, 0.2263f, size());
   }
@@ -222,13 +295,16 @@ class Generator {
   std::mt19937& random_;
   Int3 centre_;
   int32_t extent_;
+  Oddities odd_;
   ProgramBuilder builder_;
 };
 
 }  // namespace
 
 FieldProgram randomProgram(std::mt19937& random, const RandomProgramOptions& o) {
-  Generator g(random, o.centre, o.extent, o.finest_cell);
+  const bool solid = random() % 2 == 0;
+  const uint32_t domain = randomLabel(random);
+  Generator g(random, o.centre, o.extent, o.finest_cell, solid, domain, o.odd);
   const int layers = 1 + g.pick(3);
   for (int layer = 0; layer < layers; ++layer) {
     const int adds = g.pick(o.groups + 1);
@@ -242,8 +318,10 @@ FieldProgram randomProgram(std::mt19937& random, const RandomProgramOptions& o) 
   return g.builder().finish();
 }
 
-FieldProgram programOf(Op op, std::mt19937& random, Int3 centre) {
-  Generator g(random, centre, 16 * 1024, 512);
+FieldProgram programOf(Op op, std::mt19937& random, Int3 centre, Oddities odd) {
+  // Never a solid domain: the minimum with it would hide the op.
+  const uint32_t domain = randomLabel(random);
+  Generator g(random, centre, 16 * 1024, 512, false, domain, odd);
   ProgramBuilder& b = g.builder();
   auto expression = [&] { return g.expression(1); };
   Value v;
@@ -251,9 +329,12 @@ FieldProgram programOf(Op op, std::mt19937& random, Int3 centre) {
     case Op::constant:
       v = b.constant(g.between(-100, 100));
       break;
-    case Op::coordinate:
-      v = b.coordinate(g.place(), g.between(-1, 1), g.between(-1, 1), g.between(-1, 1));
+    case Op::coordinate: {
+      const Int3 anchor = g.place();
+      const float row[3] = {g.between(-1, 1), g.between(-1, 1), g.between(-1, 1)};
+      v = b.coordinate(anchor, row[0], row[1], row[2]);
       break;
+    }
     case Op::noise: {
       const NoiseSpec n = g.noiseSpec();
       v = b.noise(n, n.octaves);
@@ -376,6 +457,10 @@ Evaluated evaluate(const FieldKernels& kernels, const ProgramView& program, cons
   kernels.attributes(program, points, scratch,
                      {e.value.data(), e.gx.data(), e.gy.data(), e.gz.data(), e.nx.data(), e.ny.data(), e.label.data()});
   return e;
+}
+
+bool shows(const Evaluated& e) {
+  return std::any_of(e.value.begin(), e.value.end(), [](float v) { return std::abs(v) != kFar; });
 }
 
 size_t differentBits(const Evaluated& a, const Evaluated& b) {

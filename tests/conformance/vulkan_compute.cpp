@@ -4,22 +4,12 @@
 #include <cstring>
 #include <utility>
 
-#include "render/vulkan_scope.h"
-
 namespace sgm {
 namespace {
 
 constexpr size_t kMaxPushBytes = 128;  // what every Vulkan device has
 
-Result<void> checkArguments(const VulkanDevice& device, std::span<const uint32_t> spirv,
-                            std::span<const ComputeBuffer> buffers, std::span<const std::byte> push,
-                            const uint32_t (&groups)[3]) {
-  if (spirv.empty()) return Error{Code::invalid_argument, "no shader given"};
-  if (buffers.empty() || buffers.size() > device.limits().maxPerStageDescriptorStorageBuffers) {
-    return Error{Code::invalid_argument, "a shader takes 1 to " +
-                                             std::to_string(device.limits().maxPerStageDescriptorStorageBuffers) +
-                                             " storage buffers here, not " + std::to_string(buffers.size())};
-  }
+Result<void> checkBuffers(const VulkanDevice& device, std::span<const ComputeBuffer> buffers) {
   for (const ComputeBuffer& buffer : buffers) {
     if (buffer.data.empty() || buffer.data.size() % 4 || buffer.data.size() > device.limits().maxStorageBufferRange) {
       return Error{Code::invalid_argument, "a storage buffer has 4 to " +
@@ -27,9 +17,10 @@ Result<void> checkArguments(const VulkanDevice& device, std::span<const uint32_t
                                                " bytes here, in fours, not " + std::to_string(buffer.data.size())};
     }
   }
-  if (push.size() > kMaxPushBytes || push.size() % 4) {
-    return Error{Code::invalid_argument, "push constants have at most 128 bytes, in fours"};
-  }
+  return {};
+}
+
+Result<void> checkGroups(const VulkanDevice& device, const uint32_t (&groups)[3]) {
   for (size_t i = 0; i < 3; ++i) {
     if (groups[i] == 0 || groups[i] > device.limits().maxComputeWorkGroupCount[i]) {
       return Error{Code::invalid_argument, "too many or no workgroups on an axis: " + std::to_string(groups[i])};
@@ -54,22 +45,45 @@ Result<std::optional<VulkanCompute>> VulkanCompute::create(bool require, bool va
   return std::optional<VulkanCompute>(VulkanCompute(std::move(*device)));
 }
 
-Result<void> VulkanCompute::run(std::span<const uint32_t> spirv, std::span<const ComputeBuffer> buffers,
-                                std::span<const std::byte> push, uint32_t groups_x, uint32_t groups_y,
-                                uint32_t groups_z) const {
-  const uint32_t groups[3] = {groups_x, groups_y, groups_z};
-  if (auto checked = checkArguments(*device_, spirv, buffers, push, groups); !checked) return checked.error();
-  VulkanScope scope(*device_);
-  const std::vector<VkDescriptorType> types(buffers.size(), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-  auto shader = scope.shader(spirv);
-  if (!shader) return shader.error();
-  auto set_layout = scope.setLayout(types, VK_SHADER_STAGE_COMPUTE_BIT);
+Result<ComputeShader> VulkanCompute::shader(std::span<const uint32_t> spirv, size_t buffers, size_t push_bytes) const {
+  const uint32_t most_buffers = device_->limits().maxPerStageDescriptorStorageBuffers;
+  if (spirv.empty()) return Error{Code::invalid_argument, "no shader given"};
+  if (buffers == 0 || buffers > most_buffers) {
+    return Error{Code::invalid_argument, "a shader takes 1 to " + std::to_string(most_buffers) +
+                                             " storage buffers here, not " + std::to_string(buffers)};
+  }
+  if (push_bytes > kMaxPushBytes || push_bytes % 4) {
+    return Error{Code::invalid_argument, "push constants have at most 128 bytes, in fours"};
+  }
+  ComputeShader made(*device_);
+  made.bindings_.assign(buffers, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+  made.push_bytes_ = push_bytes;
+  auto module = made.scope_->shader(spirv);
+  if (!module) return module.error();
+  auto set_layout = made.scope_->setLayout(made.bindings_, VK_SHADER_STAGE_COMPUTE_BIT);
   if (!set_layout) return set_layout.error();
-  auto layout = scope.pipelineLayout(*set_layout, VK_SHADER_STAGE_COMPUTE_BIT, static_cast<uint32_t>(push.size()));
+  auto layout =
+      made.scope_->pipelineLayout(*set_layout, VK_SHADER_STAGE_COMPUTE_BIT, static_cast<uint32_t>(push_bytes));
   if (!layout) return layout.error();
-  auto pipeline = scope.computePipeline(*shader, *layout);
+  auto pipeline = made.scope_->computePipeline(*module, *layout);
   if (!pipeline) return pipeline.error();
-  auto set = scope.descriptorSet(*set_layout, types);
+  made.set_layout_ = *set_layout;
+  made.layout_ = *layout;
+  made.pipeline_ = *pipeline;
+  return made;
+}
+
+Result<void> ComputeShader::run(std::span<const ComputeBuffer> buffers, std::span<const std::byte> push,
+                                uint32_t groups_x, uint32_t groups_y, uint32_t groups_z) const {
+  if (buffers.size() != bindings_.size() || push.size() != push_bytes_) {
+    return Error{Code::invalid_argument, "this shader was made for " + std::to_string(bindings_.size()) +
+                                             " buffers and " + std::to_string(push_bytes_) +
+                                             " bytes of push constants"};
+  }
+  if (auto checked = checkBuffers(*device_, buffers); !checked) return checked.error();
+  if (auto checked = checkGroups(*device_, {groups_x, groups_y, groups_z}); !checked) return checked.error();
+  VulkanScope scope(*device_);
+  auto set = scope.descriptorSet(set_layout_, bindings_);
   if (!set) return set.error();
 
   const VulkanDeviceTable& calls = device_->calls();
@@ -90,10 +104,10 @@ Result<void> VulkanCompute::run(std::span<const uint32_t> spirv, std::span<const
     memory.push_back(*made);
   }
   auto done = device_->run([&](VkCommandBuffer commands) {
-    calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, *pipeline);
-    calls.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, *layout, 0, 1, &*set, 0, nullptr);
+    calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
+    calls.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 1, &*set, 0, nullptr);
     if (!push.empty()) {
-      calls.vkCmdPushConstants(commands, *layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<uint32_t>(push.size()),
+      calls.vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<uint32_t>(push.size()),
                                push.data());
     }
     calls.vkCmdDispatch(commands, groups_x, groups_y, groups_z);

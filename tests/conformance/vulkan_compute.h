@@ -1,5 +1,5 @@
 #pragma once
-// Runs one compute shader over storage buffers and hands the bytes back: what conformance tests compare.
+// Runs compute shaders over storage buffers and hands the bytes back: what conformance tests compare.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +11,7 @@
 
 #include "base/result.h"
 #include "render/vulkan_device.h"
+#include "render/vulkan_scope.h"
 
 namespace sgm {
 
@@ -25,6 +26,30 @@ ComputeBuffer computeBuffer(std::span<T> values) {
   return {std::as_writable_bytes(values)};
 }
 
+/// A shader made ready once, to run often: making a pipeline of a large shader takes seconds. Outlived by its device.
+class ComputeShader {
+ public:
+  ComputeShader(ComputeShader&&) = default;
+
+  /// Runs it over groups x * y * z workgroups and waits. As many buffers, and as many bytes of push constants, as it
+  /// was made for. Errors: invalid_argument, out_of_memory, unsupported.
+  Result<void> run(std::span<const ComputeBuffer> buffers, std::span<const std::byte> push, uint32_t groups_x,
+                   uint32_t groups_y = 1, uint32_t groups_z = 1) const;
+
+ private:
+  friend class VulkanCompute;
+  explicit ComputeShader(const VulkanDevice& device)
+      : scope_(std::make_unique<VulkanScope>(device)), device_(&device) {}
+
+  std::unique_ptr<VulkanScope> scope_;  // owns what follows
+  const VulkanDevice* device_;
+  std::vector<VkDescriptorType> bindings_;
+  size_t push_bytes_ = 0;
+  VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
 class VulkanCompute {
  public:
   /// Opens the fastest device there is; lavapipe is enough. With validation the validation layer watches every call.
@@ -34,12 +59,9 @@ class VulkanCompute {
 
   const GpuInfo& info() const { return device_->info(); }
 
-  /// Runs `spirv` (entry "main", descriptor set 0, one storage buffer a binding from 0) over groups x * y * z
-  /// workgroups and waits. push: at most 128 bytes, a multiple of 4. Errors: invalid_argument, out_of_memory,
-  /// unsupported.
-  Result<void> run(std::span<const uint32_t> spirv, std::span<const ComputeBuffer> buffers,
-                   std::span<const std::byte> push, uint32_t groups_x, uint32_t groups_y = 1,
-                   uint32_t groups_z = 1) const;
+  /// Makes `spirv` ready (entry "main", descriptor set 0, one storage buffer a binding from 0). push_bytes: at most
+  /// 128, a multiple of 4. Errors: as run().
+  Result<ComputeShader> shader(std::span<const uint32_t> spirv, size_t buffers, size_t push_bytes) const;
 
   /// Every warning and error of the validation layer so far. A test requires this to be empty.
   std::vector<std::string> messages() const { return device_->messages(); }

@@ -125,3 +125,57 @@ TEST_CASE("floor, division, saturation and quantisation keep their promises at t
   CHECK(quantise(1e30f, 1.0f) == 4194304);
   CHECK(quantise(-1e30f, 1.0f) == -4194304);
 }
+
+TEST_CASE("a place in the noise lattice is exact over every offset and period") {
+  const uint32_t seed = 20274;
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  auto check = [](int32_t offset, int32_t period) {
+    const LatticePlace place = latticePlace(offset, period, static_cast<float>(1.0 / period));
+    int64_t cell = int64_t{offset} / period;
+    if (int64_t{offset} % period < 0) --cell;
+    const int64_t rest = int64_t{offset} - cell * period;
+    if (place.cell == cell && place.rest == rest) return;
+    CAPTURE(offset, period, place.cell, place.rest, cell, rest);
+    REQUIRE(place.cell == cell);
+    REQUIRE(place.rest == rest);
+  };
+  for (int i = 0; i < 2'000'000; ++i) {
+    const auto offset = static_cast<int32_t>(random());
+    const auto period = static_cast<int32_t>(1 + (random() >> (1 + random() % 31)));
+    check(offset, period);
+    // At and beside the corners of the lattice.
+    const int64_t corner = int64_t{offset} / period * period + static_cast<int64_t>(random() % 3) - 1;
+    check(static_cast<int32_t>(std::min<int64_t>(std::max<int64_t>(corner, INT32_MIN), INT32_MAX)), period);
+  }
+  for (int32_t period : {1, 2, 3, 7, 1000, 1024, 0x3FFFFFFF, 0x40000000, INT32_MAX - 1, INT32_MAX}) {
+    for (int32_t k = 0; k < 4000; ++k) {
+      check(INT32_MAX - k, period);
+      check(INT32_MIN + k, period);
+      check(k - 2000, period);
+    }
+  }
+}
+
+TEST_CASE("products, quotients and roots treat what is under 1e-30 as 0, denormals included") {
+  auto of = [](float v) { return makeDual(v, v, -v, 1.0f, 0); };
+  const float normal = 3.0f;
+  for (int exponent = -149; exponent <= -101; ++exponent) {
+    for (float sign : {1.0f, -1.0f}) {
+      const float tiny = sign * std::ldexp(1.0f, exponent);
+      CAPTURE(exponent, sign);
+      CHECK(opDivide(of(normal), of(tiny)).v == 0.0f);
+      CHECK(opDivide(of(tiny), of(normal)).v == 0.0f);
+      CHECK(opMultiply(of(tiny), of(1e18f)).v == 0.0f);
+      CHECK(opMultiply(of(normal), of(tiny)).v == 0.0f);
+      CHECK(opSquareRoot(of(tiny)).v == 0.0f);
+      CHECK(opAdd(of(tiny), of(0.0f)).v == 0.0f);
+      CHECK(std::fabs(opDivide(of(normal), of(tiny)).x) <= 1e18f);
+    }
+  }
+  CHECK(opMultiply(of(1e-16f), of(1e-15f)).v == 0.0f);
+  CHECK(opMultiply(of(1e-14f), of(1e-15f)).v > 0.9e-29f);
+  CHECK(opDivide(of(normal), of(2e-30f)).v == 1e18f);
+  CHECK(opDivide(of(normal), of(-2e-30f)).v == -1e18f);
+  CHECK(opSquareRoot(of(4e-30f)).v > 1.9e-15f);
+}

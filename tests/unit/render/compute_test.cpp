@@ -23,13 +23,14 @@ TEST_CASE("a compute shader reads and writes storage buffers", "[render]") {
   auto compute = testCompute();
   if (!compute) return;
   CHECK(!compute->info().name.empty());
+  const auto shader = compute->shader(spirv::kScaleComp, 2, sizeof(Push));
+  REQUIRE(shader);
   for (const int32_t count : {1, 63, 64, 65, 1234}) {
     std::vector<int32_t> in(static_cast<size_t>(count)), out(in.size(), 7);
     for (size_t i = 0; i < in.size(); ++i) in[i] = static_cast<int32_t>(i) - 5;
     const ComputeBuffer buffers[] = {computeBuffer(std::span(in)), computeBuffer(std::span(out))};
     const Push push{-3, count};
-    auto done = compute->run(spirv::kScaleComp, buffers, std::as_bytes(std::span(&push, 1)),
-                             static_cast<uint32_t>(count + 63) / 64);
+    auto done = shader->run(buffers, std::as_bytes(std::span(&push, 1)), static_cast<uint32_t>(count + 63) / 64);
     REQUIRE(done);
     for (size_t i = 0; i < in.size(); ++i) REQUIRE(out[i] == 7 - 3 * (static_cast<int32_t>(i) - 5));
   }
@@ -37,21 +38,25 @@ TEST_CASE("a compute shader reads and writes storage buffers", "[render]") {
   CHECK(compute->messages().empty());
 }
 
-TEST_CASE("a compute run that makes no sense is refused", "[render]") {
+TEST_CASE("a shader or a run that makes no sense is refused", "[render]") {
   auto compute = testCompute();
   if (!compute) return;
   std::vector<int32_t> data(64);
   const ComputeBuffer good[] = {computeBuffer(std::span(data)), computeBuffer(std::span(data))};
-  const std::vector<std::byte> push(8), long_push(132), odd_push(7);
-  const auto refused = [](const Result<void>& result) {
+  const std::vector<std::byte> push(sizeof(Push)), short_push(4);
+  const auto refused = [](const auto& result) {
     return !result && result.error().code == Code::invalid_argument && !result.error().message.empty();
   };
+  CHECK(refused(compute->shader({}, 2, sizeof(Push))));
+  CHECK(refused(compute->shader(spirv::kScaleComp, 0, sizeof(Push))));
+  CHECK(refused(compute->shader(spirv::kScaleComp, 2, 132)));
+  CHECK(refused(compute->shader(spirv::kScaleComp, 2, 7)));
+  const auto shader = compute->shader(spirv::kScaleComp, 2, sizeof(Push));
+  REQUIRE(shader);
   const ComputeBuffer with_empty[] = {good[0], ComputeBuffer{}};
-  CHECK(refused(compute->run({}, good, push, 1)));
-  CHECK(refused(compute->run(spirv::kScaleComp, {}, push, 1)));
-  CHECK(refused(compute->run(spirv::kScaleComp, with_empty, push, 1)));
-  CHECK(refused(compute->run(spirv::kScaleComp, good, long_push, 1)));
-  CHECK(refused(compute->run(spirv::kScaleComp, good, odd_push, 1)));
-  CHECK(refused(compute->run(spirv::kScaleComp, good, push, 0)));
+  CHECK(refused(shader->run(with_empty, push, 1)));
+  CHECK(refused(shader->run(std::span(good).first(1), push, 1)));
+  CHECK(refused(shader->run(good, short_push, 1)));
+  CHECK(refused(shader->run(good, push, 0)));
   CHECK(compute->messages().empty());
 }
