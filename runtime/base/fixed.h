@@ -23,6 +23,9 @@ inline int32_t saturate(int64_t v) {
       std::clamp<int64_t>(v, std::numeric_limits<int32_t>::min(), std::numeric_limits<int32_t>::max()));
 }
 
+/// floor(a / b). Precondition: b > 0.
+inline constexpr int64_t floorDiv(int64_t a, int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
+
 inline Int3 saturatingAdd(Int3 a, Int3 b) {
   return {saturate(int64_t{a.x} + b.x), saturate(int64_t{a.y} + b.y), saturate(int64_t{a.z} + b.z)};
 }

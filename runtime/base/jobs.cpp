@@ -1,11 +1,12 @@
 #include "base/jobs.h"
 
+#include <algorithm>
 #include <atomic>
-#include <condition_variable>
 #include <exception>
-#include <memory>
-#include <mutex>
+#include <new>
 #include <queue>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -25,9 +26,22 @@ struct Job {
 
 class ThreadPool final : public JobSystem {
  public:
-  explicit ThreadPool(unsigned threads) {
-    threads_.reserve(threads);
-    for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  /// To be called once, before anything else. An error where not one thread starts.
+  Result<void> start(unsigned workers) {
+    const unsigned wanted = std::max(1u, workers - 1);
+    try {
+      threads_.reserve(wanted);
+      while (threads_.size() < wanted) threads_.emplace_back([this] { work(); });
+    } catch (const std::system_error& e) {
+      if (threads_.empty()) {
+        return Error{Code::limit, std::string("not one thread could be started (") + e.what() +
+                                      "): raise the limits on processes and on address space"};
+      }
+    } catch (const std::bad_alloc&) {
+      if (threads_.empty()) return Error{Code::out_of_memory, "out of memory"};
+    }
+    workers_ = threads_.size() < wanted ? static_cast<unsigned>(threads_.size()) + 1 : workers;
+    return {};
   }
   ~ThreadPool() override {
     {
@@ -37,7 +51,7 @@ class ThreadPool final : public JobSystem {
     wake_.notify_all();
     for (std::thread& t : threads_) t.join();
   }
-  unsigned concurrency() const override { return static_cast<unsigned>(threads_.size()); }
+  unsigned concurrency() const override { return workers_; }
   void submit(void (*function)(void*), void* argument, int priority) override {
     {
       std::lock_guard lock(mutex_);
@@ -77,6 +91,7 @@ class ThreadPool final : public JobSystem {
   std::priority_queue<Job> queue_;
   uint64_t next_order_ = 0;
   bool stopping_ = false;
+  unsigned workers_ = 1;
   std::vector<std::thread> threads_;
 };
 
@@ -109,16 +124,18 @@ struct ForState {
   }
 };
 
-void runShare(void* argument) {
+void runShare(void* argument) noexcept {
   const std::unique_ptr<std::shared_ptr<ForState>> share(static_cast<std::shared_ptr<ForState>*>(argument));
   (*share)->run();
 }
 
 }  // namespace
 
-std::unique_ptr<JobSystem> makeThreadPool(unsigned threads) {
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  return std::make_unique<ThreadPool>(threads);
+Result<std::unique_ptr<JobSystem>> makeThreadPool(unsigned workers) {
+  if (workers == 0) workers = std::max(1u, std::thread::hardware_concurrency());
+  auto pool = std::make_unique<ThreadPool>();
+  if (Result<void> started = pool->start(workers); !started) return started.error();
+  return std::unique_ptr<JobSystem>(std::move(pool));
 }
 
 void parallelFor(JobSystem& jobs, size_t count, const std::function<void(size_t)>& body) {
@@ -139,7 +156,7 @@ void parallelFor(JobSystem& jobs, size_t count, const std::function<void(size_t)
   state->run();
   // Nothing is left to begin; what other threads have begun must end before the body goes away.
   std::unique_lock lock(state->mutex);
-  state->done.wait(lock, [&] { return state->active.load() == 0; });
+  helpUntil(jobs, lock, state->done, [&state] { return state->active.load() == 0; });
   if (state->error) std::rethrow_exception(state->error);
 }
 

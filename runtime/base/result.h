@@ -11,8 +11,9 @@ namespace sgm {
 
 enum class Code {
   invalid_argument,  ///< the caller broke the function's contract
+  range,             ///< beyond the integer grid: a place outside of the world, a cell too large
   bad_input,         ///< text or data from outside is wrong; line and column say where
-  limit,             ///< a cap (count, depth, memory, time) was reached
+  limit,             ///< a cap (count, depth, memory, time, threads) was reached
   out_of_memory,
   io,           ///< a file could not be read or written
   unsupported,  ///< no such backend, device or feature here

@@ -19,20 +19,47 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {
                path.string() + ": no mesh format that we can write; end the name in .glb, .obj, .ply or .stl"};
 }
 
-Result<void> exportMesh(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path) {
+Result<MeshFile> MeshFile::create(const std::filesystem::path& path) {
   const Result<MeshFormat> format = meshFormatOf(path);
   if (!format) return format.error();
-  switch (*format) {
+  MeshFile file(*format);
+  file.paths_.push_back(path);
+  if (*format == MeshFormat::obj) {
+    file.paths_.push_back(std::filesystem::path(path).replace_extension(".mtl"));
+    if (Result<void> may = mayReplaceLibrary(file.paths_.back()); !may) return may.error();
+  }
+  for (const std::filesystem::path& one : file.paths_) {
+    Result<FileWriter> writer = FileWriter::create(one);
+    if (!writer) return writer.error();
+    file.files_.push_back(std::move(*writer));
+  }
+  return file;
+}
+
+Result<void> MeshFile::write(const WorldMesh& mesh, const ExportInfo& info) {
+  switch (format_) {
     case MeshFormat::glb:
-      return writeGlb(mesh, info, path);
+      return writeGlb(mesh, info, files_[0]);
     case MeshFormat::obj:
-      return writeObj(mesh, info, path);
+      return writeObj(mesh, info, paths_[1].filename().string(), files_[1], files_[0]);
     case MeshFormat::ply:
-      return writePly(mesh, info, path);
+      return writePly(mesh, info, files_[0]);
     case MeshFormat::stl:
-      return writeStl(mesh, info, path);
+      return writeStl(mesh, info, files_[0]);
   }
   return Error{Code::invalid_argument, "no such mesh format"};
+}
+
+uint64_t MeshFile::bytes() const {
+  uint64_t sum = 0;
+  for (const FileWriter& file : files_) sum += file.bytes();
+  return sum;
+}
+
+Result<void> exportMesh(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path) {
+  Result<MeshFile> file = MeshFile::create(path);
+  if (!file) return file.error();
+  return file->write(mesh, info);
 }
 
 Float3 exportedPosition(const WorldMesh& mesh, uint32_t vertex) {

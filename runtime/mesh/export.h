@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/file_writer.h"
 #include "base/result.h"
 #include "mesh/weld.h"
 
@@ -30,15 +31,38 @@ enum class MeshFormat { glb, obj, ply, stl };
 /// By extension, of any case. Error: Code::invalid_argument, naming the four.
 Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 
-/// Writes the mesh in the format of the path's extension. Positions are in metres from mesh.origin, rounded to float32.
+/// A file for a mesh, opened before there is one, so that what cannot be written shows before the work.
+///
+/// Positions are in metres from mesh.origin, rounded to float32.
 ///  .glb  binary glTF 2.0: one primitive a material with vertices of its own, POSITION, NORMAL and _TAG; the scene's
 ///        extras hold the origin in units and metres and the tag names
 ///  .obj  text, with normals and usemtl; the materials in a .mtl file of the same name beside it
 ///  .ply  binary little-endian: x y z nx ny nz red green blue material tag; origin, materials and tags as comments
 ///  .stl  binary, with facet normals: positions alone, so that a reader welds by position
 /// A triangle takes the material that two of its vertices share, else that of its first. An empty mesh makes a valid
-/// file. The file appears whole or not at all (FileWriter). Errors: Code::io; Code::limit where the format cannot hold
-/// the mesh; Code::invalid_argument for the extension.
+/// file. Files appear whole or not at all (FileWriter), both or neither of .obj and .mtl.
+class MeshFile {
+ public:
+  /// In the format of the path's extension. Errors: Code::io, also where the .mtl of an .obj was written by others;
+  /// Code::invalid_argument for the extension.
+  static Result<MeshFile> create(const std::filesystem::path& path);
+  /// Once. Errors: Code::io; Code::limit where the format cannot hold the mesh.
+  Result<void> write(const WorldMesh& mesh, const ExportInfo& info);
+
+  /// What write leaves: the path, and the .mtl of an .obj.
+  const std::vector<std::filesystem::path>& paths() const { return paths_; }
+  /// Of all of them, once written.
+  uint64_t bytes() const;
+
+ private:
+  explicit MeshFile(MeshFormat format) : format_(format) {}
+
+  MeshFormat format_;
+  std::vector<std::filesystem::path> paths_;
+  std::vector<FileWriter> files_;  // one a path
+};
+
+/// MeshFile in one go.
 Result<void> exportMesh(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path);
 
 }  // namespace sgm

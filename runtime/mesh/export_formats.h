@@ -2,17 +2,21 @@
 // The writers behind exportMesh, one a format, and what they share.
 
 #include <array>
-#include <filesystem>
 #include <string>
 
+#include "base/file_writer.h"
 #include "mesh/export.h"
 
 namespace sgm {
 
-Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path);
-Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path);
-Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path);
-Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path);
+Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file);
+Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file);
+Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file);
+/// library_name is what the file calls the library.
+Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::string& library_name,
+                      FileWriter& library, FileWriter& file);
+/// Error: Code::io where something stands there that writeObj has not written.
+Result<void> mayReplaceLibrary(const std::filesystem::path& library);
 
 using Float3 = std::array<float, 3>;
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/utf8.h"
 #include "mesh/export_formats.h"
-#include "mesh/file_writer.h"
 
 namespace sgm {
 namespace {
@@ -68,18 +68,9 @@ std::vector<Primitive> splitByMaterial(const WorldMesh& mesh) {
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (size_t i = 0; i < text.size();) {
-    const auto byte = [&](size_t k) { return i + k < text.size() ? static_cast<unsigned char>(text[i + k]) : 0u; };
-    const unsigned lead = byte(0);
-    size_t length = lead < 0x80                   ? 1
-                    : lead >= 0xC2 && lead < 0xE0 ? 2
-                    : lead >= 0xE0 && lead < 0xF0 ? 3
-                    : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                  : 0;
-    for (size_t k = 1; k < length; ++k)
-      if ((byte(k) & 0xC0) != 0x80) length = 0;
-    const bool overlong = (lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xF0 && byte(1) < 0x90);
-    const bool outside = (lead == 0xED && byte(1) >= 0xA0) || (lead == 0xF4 && byte(1) >= 0x90);
-    if (length == 0 || (length > 1 && (overlong || outside))) {
+    const size_t length = utf8Size(std::string_view(text).substr(i));
+    const auto lead = static_cast<unsigned char>(text[i]);
+    if (length == 0) {
       out += '?';
       ++i;
       continue;
@@ -192,7 +183,7 @@ void writePrimitive(const WorldMesh& mesh, const Primitive& primitive, FileWrite
 
 }  // namespace
 
-Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path) {
+Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file) {
   const std::vector<Primitive> primitives = splitByMaterial(mesh);
   size_t buffer_bytes = 0;
   for (const Primitive& p : primitives) buffer_bytes += p.vertexBytes() + p.paddedIndexBytes();
@@ -203,20 +194,18 @@ Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, const std::
     return Error{Code::limit, "a .glb file holds at most 4 GiB, and this mesh needs " + std::to_string(total >> 20) +
                                   " MiB; mesh a smaller region or write .ply"};
   }
-  Result<FileWriter> file = FileWriter::create(path);
-  if (!file) return file.error();
-  file->write("glTF");
-  file->writeValue(uint32_t{2});
-  file->writeValue(static_cast<uint32_t>(total));
-  file->writeValue(static_cast<uint32_t>(json.size()));
-  file->write("JSON");
-  file->write(json);
+  file.write("glTF");
+  file.writeValue(uint32_t{2});
+  file.writeValue(static_cast<uint32_t>(total));
+  file.writeValue(static_cast<uint32_t>(json.size()));
+  file.write("JSON");
+  file.write(json);
   if (!primitives.empty()) {
-    file->writeValue(static_cast<uint32_t>(buffer_bytes));
-    file->write("BIN\0", 4);
-    for (const Primitive& p : primitives) writePrimitive(mesh, p, *file);
+    file.writeValue(static_cast<uint32_t>(buffer_bytes));
+    file.write("BIN\0", 4);
+    for (const Primitive& p : primitives) writePrimitive(mesh, p, file);
   }
-  return file->commit();
+  return file.commit();
 }
 
 }  // namespace sgm

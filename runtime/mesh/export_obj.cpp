@@ -1,10 +1,14 @@
 // Wavefront OBJ and its material library.
 
+#include <fstream>
+
 #include "mesh/export_formats.h"
-#include "mesh/file_writer.h"
 
 namespace sgm {
 namespace {
+
+/// What tells our libraries from others'. The first line names the generator.
+constexpr const char* kSecondLine = "# origin_units ";
 
 /// usemtl and newmtl end a name at white space in many readers.
 std::string materialWord(const ExportInfo& info, uint16_t index) {
@@ -30,26 +34,21 @@ void writeVector(FileWriter& file, const char* keyword, const Float3& v) {
 
 }  // namespace
 
-Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path) {
-  const std::filesystem::path library_path = std::filesystem::path(path).replace_extension(".mtl");
-  Result<FileWriter> library = FileWriter::create(library_path);
-  if (!library) return library.error();
-  Result<FileWriter> file = FileWriter::create(path);
-  if (!file) return file.error();
-
-  const std::string header = "# " + oneLine(info.generator) + "\n# origin_units " + std::to_string(mesh.origin.x) +
-                             ' ' + std::to_string(mesh.origin.y) + ' ' + std::to_string(mesh.origin.z) + " of 1/" +
+Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::string& library_name,
+                      FileWriter& library, FileWriter& file) {
+  const std::string header = "# " + oneLine(info.generator) + '\n' + kSecondLine + std::to_string(mesh.origin.x) + ' ' +
+                             std::to_string(mesh.origin.y) + ' ' + std::to_string(mesh.origin.z) + " of 1/" +
                              std::to_string(kUnitsPerMetre) + " m\n";
-  library->write(header);
-  file->write(header + "mtllib " + library_path.filename().string() + "\no " + oneLine(info.name) + '\n');
-  for (uint32_t i = 0; i < mesh.positions.size(); ++i) writeVector(*file, "v ", exportedPosition(mesh, i));
-  for (uint32_t i = 0; i < mesh.positions.size(); ++i) writeVector(*file, "vn ", exportedNormal(mesh, i));
+  library.write(header);
+  file.write(header + "mtllib " + library_name + "\no " + oneLine(info.name) + '\n');
+  for (uint32_t i = 0; i < mesh.positions.size(); ++i) writeVector(file, "v ", exportedPosition(mesh, i));
+  for (uint32_t i = 0; i < mesh.positions.size(); ++i) writeVector(file, "vn ", exportedNormal(mesh, i));
   for (uint16_t m : usedMaterials(mesh)) {
     const ExportMaterial material = materialAt(info, m);
-    library->write("newmtl " + materialWord(info, m) + '\n');
-    writeVector(*library, "Kd ", material.colour);
-    library->write("Pr " + decimalText(material.roughness) + '\n');
-    file->write("usemtl " + materialWord(info, m) + '\n');
+    library.write("newmtl " + materialWord(info, m) + '\n');
+    writeVector(library, "Kd ", material.colour);
+    library.write("Pr " + decimalText(material.roughness) + '\n');
+    file.write("usemtl " + materialWord(info, m) + '\n');
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       if (triangleMaterial(mesh, i) != m) continue;
       std::string line = "f";
@@ -57,13 +56,30 @@ Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::
         const std::string number = std::to_string(size_t{mesh.indices[i + corner]} + 1);
         line += ' ' + number + "//" + number;
       }
-      file->write(line + '\n');
+      file.write(line + '\n');
     }
   }
-  // Both are whole on the disk before either takes its name.
-  if (Result<void> done = file->finish(); !done) return done;
-  if (Result<void> done = library->commit(); !done) return done;
-  return file->commit();
+  // Both are whole on the disk before either takes its name, and a file never names a library that is not there yet.
+  if (Result<void> done = library.finish(); !done) return done;
+  if (Result<void> done = file.finish(); !done) return done;
+  if (Result<void> done = library.commitReversibly(); !done) return done;
+  Result<void> done = file.commit();
+  if (!done) library.undo();
+  return done;
+}
+
+Result<void> mayReplaceLibrary(const std::filesystem::path& library) {
+  std::string start(4096, '\0');
+  std::ifstream in(library, std::ios::binary);
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<size_t>(in.gcount()));
+  // Nothing is lost of an empty one, and of what cannot be read FileWriter says why.
+  if (start.empty()) return {};
+  const size_t second = start.find('\n') + 1;
+  if (start.starts_with("# ") && start.substr(second).starts_with(kSecondLine)) return {};
+  return Error{Code::io, "cannot write '" + library.string() +
+                             "', the materials of the .obj file: one that sgm did not write is there; move it away or "
+                             "choose another name"};
 }
 
 }  // namespace sgm

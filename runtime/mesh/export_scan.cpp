@@ -5,7 +5,6 @@
 
 #include "base/math.h"
 #include "mesh/export_formats.h"
-#include "mesh/file_writer.h"
 
 namespace sgm {
 namespace {
@@ -27,10 +26,8 @@ Error tooLarge(const char* format) {
 
 }  // namespace
 
-Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path) {
+Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file) {
   if (mesh.positions.size() > static_cast<size_t>(std::numeric_limits<int32_t>::max())) return tooLarge(".ply");
-  Result<FileWriter> file = FileWriter::create(path);
-  if (!file) return file.error();
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment " + oneLine(info.generator) +
                        "\ncomment origin_units " + std::to_string(mesh.origin.x) + ' ' + std::to_string(mesh.origin.y) +
                        ' ' + std::to_string(mesh.origin.z) + " of 1/" + std::to_string(kUnitsPerMetre) + " m\n";
@@ -43,7 +40,7 @@ Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, const std::
   for (const char* name : {"red", "green", "blue"}) header += std::string("property uchar ") + name + '\n';
   header += "property ushort material\nproperty ushort tag\nelement face " + std::to_string(mesh.indices.size() / 3) +
             "\nproperty list uchar int vertex_indices\nend_header\n";
-  file->write(header);
+  file.write(header);
 
   std::vector<std::array<uint8_t, 3>> colours;
   for (const ExportMaterial& m : info.materials) colours.push_back(displayColour(m.colour));
@@ -52,29 +49,27 @@ Result<void> writePly(const WorldMesh& mesh, const ExportInfo& info, const std::
     const Float3 position = exportedPosition(mesh, i), normal = exportedNormal(mesh, i);
     const VertexAttributes& a = mesh.attributes[i];
     const std::array<uint8_t, 3>& colour = a.material < colours.size() ? colours[a.material] : grey;
-    file->write(position.data(), sizeof position);
-    file->write(normal.data(), sizeof normal);
-    file->write(colour.data(), sizeof colour);
-    file->writeValue(a.material);
-    file->writeValue(a.tag);
+    file.write(position.data(), sizeof position);
+    file.write(normal.data(), sizeof normal);
+    file.write(colour.data(), sizeof colour);
+    file.writeValue(a.material);
+    file.writeValue(a.tag);
   }
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    file->writeValue(uint8_t{3});
-    file->write(&mesh.indices[i], 3 * sizeof(uint32_t));
+    file.writeValue(uint8_t{3});
+    file.write(&mesh.indices[i], 3 * sizeof(uint32_t));
   }
-  return file->commit();
+  return file.commit();
 }
 
-Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, const std::filesystem::path& path) {
+Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file) {
   if (mesh.indices.size() / 3 > std::numeric_limits<uint32_t>::max()) return tooLarge(".stl");
-  Result<FileWriter> file = FileWriter::create(path);
-  if (!file) return file.error();
   // Readers take a file that begins with "solid" for text.
   std::string header = "binary STL, " + oneLine(info.generator) + ", origin_units " + std::to_string(mesh.origin.x) +
                        ' ' + std::to_string(mesh.origin.y) + ' ' + std::to_string(mesh.origin.z);
   header.resize(80, ' ');
-  file->write(header);
-  file->writeValue(static_cast<uint32_t>(mesh.indices.size() / 3));
+  file.write(header);
+  file.writeValue(static_cast<uint32_t>(mesh.indices.size() / 3));
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const std::array<double, 3>&a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]],
                              &c = mesh.positions[mesh.indices[i + 2]];
@@ -84,14 +79,14 @@ Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, const std::
       n[k] = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
     }
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    for (double x : n) file->writeValue(length > 0 ? static_cast<float>(x / length) : 0.0f);
+    for (double x : n) file.writeValue(length > 0 ? static_cast<float>(x / length) : 0.0f);
     for (size_t corner = 0; corner < 3; ++corner) {
       const Float3 position = exportedPosition(mesh, mesh.indices[i + corner]);
-      file->write(position.data(), sizeof position);
+      file.write(position.data(), sizeof position);
     }
-    file->writeValue(uint16_t{0});
+    file.writeValue(uint16_t{0});
   }
-  return file->commit();
+  return file.commit();
 }
 
 }  // namespace sgm

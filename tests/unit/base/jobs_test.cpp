@@ -1,11 +1,14 @@
 // parallelFor over job systems that keep the contract in unkind ways.
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "base/jobs.h"
 #include "catch.h"
+#include "scarce_threads.h"
 
 using namespace sgm;
 
@@ -34,11 +37,81 @@ class ImmediateJobs final : public JobSystem {
   bool help() override { return false; }
 };
 
+// A thread for the first job; help() says whether it was ever called.
+class OneJobJobs final : public JobSystem {
+ public:
+  ~OneJobJobs() override {
+    if (thread_.joinable()) thread_.join();
+  }
+  unsigned concurrency() const override { return 2; }
+  void submit(void (*function)(void*), void* argument, int) override { thread_ = std::thread(function, argument); }
+  bool help() override {
+    helped = true;
+    return false;
+  }
+  std::atomic<bool> helped{false};
+
+ private:
+  std::thread thread_;
+};
+
 }  // namespace
+
+TEST_CASE("who waits for a loop helps the job system meanwhile", "[threads]") {
+  OneJobJobs jobs;
+  std::atomic<int> begun{0};
+  bool in_time = false;
+  const std::thread::id caller = std::this_thread::get_id();
+  parallelFor(jobs, 2, [&](size_t) {
+    // Each thread takes one, and only the caller's ends before help was called.
+    ++begun;
+    while (begun < 2) std::this_thread::yield();
+    if (std::this_thread::get_id() == caller) return;
+    for (int i = 0; i < 5000 && !jobs.helped; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    in_time = jobs.helped;
+  });
+  CHECK(in_time);
+}
+
+#if defined(SGM_SCARCE_THREADS)
+TEST_CASE("a pool is made of the threads that start, or is an error", "[threads]") {
+  {
+    const ScarceThreads none(0);
+    const auto jobs = makeThreadPool(1024);
+    REQUIRE_FALSE(jobs);
+    CHECK(jobs.error().code == Code::limit);
+    CHECK(jobs.error().message.find("thread") != std::string::npos);
+  }
+  const auto few = [] {
+    const ScarceThreads three(3);
+    return makeThreadPool(1024);
+  }();
+  REQUIRE(few);
+  CHECK((*few)->concurrency() >= 2);
+  CHECK((*few)->concurrency() <= 8);
+  std::atomic<int> runs{0};
+  parallelFor(**few, 100, [&](size_t) { ++runs; });
+  CHECK(runs == 100);
+}
+#endif
+
+TEST_CASE("a pool of N is N workers, the caller among them", "[threads]") {
+  for (unsigned threads : {1u, 2u, 4u}) {
+    const auto jobs = *makeThreadPool(threads);
+    std::atomic<unsigned> now{0}, most{0};
+    parallelFor(*jobs, 40, [&](size_t) {
+      const unsigned mine = ++now;
+      for (unsigned seen = most; seen < mine && !most.compare_exchange_weak(seen, mine);) continue;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      --now;
+    });
+    CHECK(most <= threads);
+  }
+}
 
 TEST_CASE("every index is run once, on any number of threads", "[threads]") {
   for (unsigned threads : {1u, 2u, 7u}) {
-    const auto jobs = makeThreadPool(threads);
+    const auto jobs = *makeThreadPool(threads);
     CHECK(jobs->concurrency() == threads);
     for (size_t count : {0u, 1u, 2u, 1000u}) {
       std::vector<std::atomic<int>> runs(count);
@@ -63,7 +136,7 @@ TEST_CASE("a job system that runs jobs late does not hold the caller up", "[thre
 }
 
 TEST_CASE("the first exception comes back after all have ended", "[threads]") {
-  const auto jobs = makeThreadPool(4);
+  const auto jobs = *makeThreadPool(4);
   std::atomic<int> running{0};
   CHECK_THROWS_AS(parallelFor(*jobs, 1000,
                               [&](size_t i) {
@@ -79,7 +152,7 @@ TEST_CASE("the first exception comes back after all have ended", "[threads]") {
 }
 
 TEST_CASE("loops within loops do not wait for each other", "[threads]") {
-  const auto jobs = makeThreadPool(2);
+  const auto jobs = *makeThreadPool(2);
   std::atomic<int> sum{0};
   parallelFor(*jobs, 8, [&](size_t) { parallelFor(*jobs, 8, [&](size_t) { ++sum; }); });
   CHECK(sum == 64);

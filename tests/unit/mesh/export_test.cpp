@@ -246,6 +246,47 @@ TEST_CASE("OBJ reads back, with its materials", "[mesh][export]") {
   CHECK(defined == used);
 }
 
+TEST_CASE("materials that others wrote stay, and .obj and .mtl change together or not at all", "[mesh][export]") {
+  const Folder folder;
+  const fs::path obj = folder.path / "ball.obj", mtl = folder.path / "ball.mtl";
+  const WorldMesh mesh = someMesh();
+  for (const char* foreign : {"# Blender 3.4.1 MTL File: 'ball.blend'\nnewmtl Skin\n", "newmtl a", "# x", "\n\n\n"}) {
+    std::ofstream(mtl) << foreign;
+    const Result<void> refused = exportMesh(mesh, someInfo(), obj);
+    REQUIRE(!refused);
+    CHECK(refused.error().code == Code::io);
+    CHECK(refused.error().message.find("ball.mtl") != std::string::npos);
+    CHECK(readFile(mtl) == foreign);
+    CHECK(folder.files() == 1);
+  }
+  std::ofstream(mtl, std::ios::trunc);
+  REQUIRE(exportMesh(mesh, someInfo(), obj));
+  const std::string before = readFile(mtl);
+  ExportInfo other = someInfo();
+  other.materials[0].colour = {1, 0, 0};
+  {
+    Result<MeshFile> file = MeshFile::create(obj);
+    REQUIRE(file);
+    CHECK(file->paths() == std::vector<fs::path>{obj, mtl});
+    REQUIRE(file->write(mesh, other));
+    CHECK(file->bytes() == fs::file_size(obj) + fs::file_size(mtl));
+  }
+  const std::string after = readFile(mtl);
+  CHECK(after != before);
+  // The .obj's name is taken by a folder while its mesh is made: its old materials come back.
+  for (const bool had_materials : {true, false}) {
+    fs::remove_all(obj);
+    if (!had_materials) fs::remove(mtl);
+    Result<MeshFile> file = MeshFile::create(obj);
+    REQUIRE(file);
+    fs::create_directory(obj);
+    CHECK(!file->write(mesh, someInfo()));
+    CHECK(fs::exists(mtl) == had_materials);
+    if (had_materials) CHECK(readFile(mtl) == after);
+  }
+  CHECK(folder.files() == 1);
+}
+
 TEST_CASE("large primitives get 32-bit indices, empty meshes a valid file", "[mesh][export]") {
   const Folder folder;
   MeshPart part;
