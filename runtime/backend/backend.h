@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <memory_resource>
 #include <span>
@@ -19,6 +20,9 @@ namespace sgm {
 
 enum class BackendKind : uint8_t { cpu, vulkan, cuda };
 
+/// As users write it: "cpu", "vulkan", "cuda".
+const char* backendName(BackendKind kind);
+
 struct BackendCapabilities {
   BackendKind kind = BackendKind::cpu;
   std::string device;        ///< device name, or the instruction set in use
@@ -33,6 +37,7 @@ struct ChunkJob {
   std::shared_ptr<const FieldProgram> coarse;  ///< at grid.level + 1; null where no seam is asked for
   uint8_t seams = 0;                           ///< bit (1 << Face): make this seam
   Neighbourhood coarser = 0;  ///< which blocks around are of a coarser level; decides only the fans in seam keys
+  bool signs = false;         ///< also give the signs of the samples
 };
 
 /// What a chunk became. Parts without surface are empty, their hash 0.
@@ -41,30 +46,39 @@ struct ChunkMesh {
   std::vector<MeshPart> seams;  ///< none, or six by Face
   uint32_t solid_samples = 0;   ///< solid ones of the lower 32^3 samples
   bool uniform = false;         ///< proven without a sample: no body
+  /// Where asked for and not uniform: as ChunkSamples::signs. Of a uniform chunk solid_samples says the one sign.
+  std::pmr::vector<uint64_t> signs;
 
-  explicit ChunkMesh(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : body(memory) {}
+  explicit ChunkMesh(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : body(memory), signs(memory) {}
 };
 
 /// Work given to a device. Destroying it cancels what has not begun and waits for what has.
 class ChunkBatch {
  public:
   virtual ~ChunkBatch() = default;
-  /// Whether all jobs have ended; never blocks.
+  /// Whether all jobs have ended; never blocks. The work goes on without anyone who waits, where the job system has
+  /// threads of its own.
   virtual bool poll() = 0;
-  /// Ends when all jobs have; the calling thread works too.
+  /// Ends when all jobs have; the calling thread works too, as one of the job system's workers (base/jobs.h).
   virtual void wait() = 0;
   /// Jobs that have not begun end without a mesh. Any thread.
   virtual void cancel() = 0;
-  /// After the end: one mesh a job, in order. out_of_memory, or cancelled where a job did not run.
+  /// After the end: one mesh a job, in order. out_of_memory, or cancelled where a job did not run. What else a job has
+  /// thrown is thrown here again.
   virtual Result<std::vector<ChunkMesh>> take() = 0;
 };
+
+/// Called after each chunk that was meshed, before the batch counts it as ended; on any thread, several at once. false
+/// cancels the batch.
+using AfterChunk = std::function<bool()>;
 
 /// Thread-safe. Must outlive its batches.
 class Backend {
  public:
   virtual ~Backend() = default;
   virtual const BackendCapabilities& capabilities() const = 0;
-  virtual Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs) = 0;
+  virtual Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk = {}) = 0;
 };
 
 struct BackendRequest {

@@ -3,6 +3,18 @@
 
 namespace sgm {
 
+const char* backendName(BackendKind kind) {
+  switch (kind) {
+    case BackendKind::cpu:
+      return "cpu";
+    case BackendKind::vulkan:
+      return "vulkan";
+    case BackendKind::cuda:
+      return "cuda";
+  }
+  return "";
+}
+
 Result<std::unique_ptr<Backend>> makeBackend(const BackendRequest& request, JobSystem& jobs,
                                              std::pmr::memory_resource* memory) {
   if (!request.automatic && request.kind == BackendKind::vulkan) {

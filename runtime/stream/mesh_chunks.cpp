@@ -1,7 +1,8 @@
 #include "stream/mesh_chunks.h"
 
 #include <algorithm>
-#include <atomic>
+#include <array>
+#include <limits>
 #include <mutex>
 
 namespace sgm {
@@ -10,6 +11,8 @@ namespace {
 
 // Enough to keep every thread busy, few enough that the programs of a batch stay in cache and memory.
 constexpr size_t kBatchChunks = 64;
+// Of a region: what a machine holds with half a kilobyte and more a chunk, before any mesh.
+constexpr uint64_t kMostChunks = uint64_t{1} << 24;
 
 IntBox closedBox(const ChunkGrid& grid) {
   IntBox box{grid.origin, grid.origin};
@@ -17,33 +20,57 @@ IntBox closedBox(const ChunkGrid& grid) {
   return box;
 }
 
-Result<ChunkJob> makeJob(const WorldField& world, const ChunkRequest& request) {
-  Result<ChunkGrid> grid = chunkGrid(world, request.key);
+/// What the backend needs to mesh a chunk, and what is known of it without meshing.
+Result<void> prepare(const WorldField& world, const ChunkRequest& request, ChunkJob& job, PlacedChunk& chunk) {
+  const Result<ChunkGrid> grid = chunkGrid(world, request.key);
   if (!grid) return grid.error();
-  ChunkJob job;
-  job.grid = *grid;
+  chunk.grid = job.grid = *grid;
   job.seams = request.seams;
   job.coarser = request.coarser;
-  Result<std::shared_ptr<const FieldProgram>> field = world.compile(closedBox(*grid), request.key.level);
+  job.signs = request.signs;
+  const IntBox box = closedBox(*grid);
+  Result<std::shared_ptr<const FieldProgram>> field = world.compile(box, request.key.level);
   if (!field) return field.error();
   job.field = std::move(*field);
-  if (request.seams == 0) return job;
-  Result<std::shared_ptr<const FieldProgram>> coarse = world.compile(closedBox(*grid), request.key.level + 1);
-  if (!coarse) return coarse.error();
-  job.coarse = std::move(*coarse);
-  return job;
+  if (request.seams != 0) {
+    const int above = request.key.level + 1;
+    Result<std::shared_ptr<const FieldProgram>> coarse =
+        request.outermost ? world.compileOutside(above) : world.compile(box, above);
+    if (!coarse) return coarse.error();
+    job.coarse = std::move(*coarse);
+  }
+  if (request.anchors) {
+    Result<std::vector<Anchor>> anchors = world.anchors(box);
+    if (!anchors) return anchors.error();
+    chunk.anchors = std::move(*anchors);
+  }
+  return {};
 }
+
+/// Counts chunks over all batches, and asks after each whether to go on.
+class Counter {
+ public:
+  Counter(const Progress& progress, uint64_t total) : progress_(progress), total_(total) {}
+
+  /// Any thread.
+  bool one() {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    // After the last one there is nothing left to stop.
+    if (!stopped_ && !progress_(done_, total_) && done_ < total_) stopped_ = true;
+    return !stopped_;
+  }
+  bool stopped() const { return stopped_; }
+
+ private:
+  const Progress& progress_;
+  const uint64_t total_;
+  std::mutex mutex_;
+  uint64_t done_ = 0;
+  bool stopped_ = false;
+};
 
 }  // namespace
-
-void appendParts(const PlacedChunk& chunk, std::vector<PlacedPart>& parts) {
-  if (!chunk.mesh.body.indices.empty()) parts.push_back({&chunk.mesh.body, chunk.grid, 0});
-  for (size_t f = 0; f < chunk.mesh.seams.size(); ++f) {
-    if (!chunk.mesh.seams[f].indices.empty()) {
-      parts.push_back({&chunk.mesh.seams[f], chunk.grid, 1 + static_cast<int>(f)});
-    }
-  }
-}
 
 Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key) {
   if (key.level < 0 || key.level > kMaxLevel) {
@@ -56,7 +83,7 @@ Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key) {
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t lo = key.at[axis] * edge;
     if (lo < INT32_MIN || lo + edge > INT32_MAX) {
-      return Error{Code::invalid_argument, "the chunk leaves the world, which ends about 2,097 km from the origin"};
+      return Error{Code::range, "the chunk leaves the world, which ends about 2,097 km from the origin"};
     }
     grid.origin[axis] = static_cast<int32_t>(lo);
   }
@@ -64,56 +91,60 @@ Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key) {
   return grid;
 }
 
-Result<std::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,
-                                            std::span<const ChunkRequest> requests, const Progress& progress) {
-  std::vector<PlacedChunk> chunks;
+Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,
+                                                 std::span<const ChunkRequest> requests, const Progress& progress) {
+  std::pmr::vector<PlacedChunk> chunks(world.memory());
   chunks.reserve(requests.size());
+  Counter counter(progress, requests.size());
   for (size_t first = 0; first < requests.size(); first += kBatchChunks) {
     const auto batch = requests.subspan(first, std::min(kBatchChunks, requests.size() - first));
+    for (const ChunkRequest& request : batch) chunks.push_back({request.key, {}, ChunkMesh(world.memory()), {}});
     std::vector<ChunkJob> chunk_jobs(batch.size());
     std::mutex mutex;
     std::optional<Error> error;
     size_t error_at = 0;
     parallelFor(jobs, batch.size(), [&](size_t i) {
-      Result<ChunkJob> job = makeJob(world, batch[i]);
-      if (job) {
-        chunk_jobs[i] = std::move(*job);
-        return;
-      }
+      const Result<void> prepared = prepare(world, batch[i], chunk_jobs[i], chunks[first + i]);
+      if (prepared) return;
       // Of several the first request's error, whichever thread was faster.
       std::lock_guard lock(mutex);
       if (!error || i < error_at) {
-        error = job.error();
+        error = prepared.error();
         error_at = i;
       }
     });
     if (error) return *error;
 
-    for (const ChunkJob& job : chunk_jobs) {
-      chunks.push_back({batch[chunks.size() - first].key, job.grid, ChunkMesh(world.memory())});
-    }
-    Result<std::unique_ptr<ChunkBatch>> submitted = backend.submit(std::move(chunk_jobs));
+    Result<std::unique_ptr<ChunkBatch>> submitted =
+        backend.submit(std::move(chunk_jobs), progress ? [&counter] { return counter.one(); } : AfterChunk{});
     if (!submitted) return submitted.error();
     (*submitted)->wait();
     Result<std::vector<ChunkMesh>> meshes = (*submitted)->take();
     if (!meshes) return meshes.error();
+    if (counter.stopped()) return Error{Code::cancelled, "meshing was cancelled"};
     for (size_t i = 0; i < meshes->size(); ++i) chunks[first + i].mesh = std::move((*meshes)[i]);
-    if (progress && !progress(chunks.size(), requests.size())) {
-      return Error{Code::cancelled, "meshing was cancelled"};
-    }
   }
   return chunks;
 }
 
-Result<std::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const IntBox& region, int level,
-                                             uint64_t max_chunks) {
+uint64_t countChunks(const IntBox& region, int64_t cell) {
+  const int64_t edge = kChunkCells * cell;
+  // The counts of three axes may overflow together; each alone is below 2^28.
+  long double count = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t first = floorDiv(region.lo[axis], edge), last = floorDiv(int64_t{region.hi[axis]} - 1, edge);
+    count *= static_cast<long double>(last - first + 1);
+  }
+  constexpr uint64_t kMost = std::numeric_limits<int64_t>::max();
+  return count < static_cast<long double>(kMost) ? static_cast<uint64_t>(count) : kMost;
+}
+
+Result<std::pmr::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const IntBox& region, int level,
+                                                  uint64_t max_chunks) {
   Result<ChunkGrid> unit = chunkGrid(world, {level, {}});
   if (!unit) return unit.error();
   const int64_t edge = int64_t{kChunkCells} * unit->cell;
-  auto floorDiv = [](int64_t a, int64_t b) { return a / b - (a % b < 0 ? 1 : 0); };
   std::array<int64_t, 3> first{}, last{};
-  // The counts of three axes may overflow together; each alone is at most 2^27.
-  long double count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
     if (region.lo[axis] >= region.hi[axis]) {
@@ -122,16 +153,17 @@ Result<std::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const IntB
     first[a] = floorDiv(region.lo[axis], edge);
     last[a] = floorDiv(int64_t{region.hi[axis]} - 1, edge);
     if (first[a] * edge < INT32_MIN || (last[a] + 1) * edge > INT32_MAX) {
-      return Error{Code::invalid_argument,
-                   "the region's chunks leave the world, which ends about 2,097 km from the origin"};
+      return Error{Code::range, "the region's chunks leave the world, which ends about 2,097 km from the origin"};
     }
-    count *= static_cast<long double>(last[a] - first[a] + 1);
   }
-  if (count > static_cast<long double>(max_chunks)) {
-    return Error{Code::limit, "the region has more than " + std::to_string(max_chunks) +
-                                  " chunks; make it smaller, the cells larger, or raise the limit"};
+  const uint64_t count = countChunks(region, unit->cell);
+  if (count > std::min(max_chunks, kMostChunks)) {
+    return Error{Code::limit, "the region has more than " + std::to_string(std::min(max_chunks, kMostChunks)) +
+                                  " chunks; make it smaller" +
+                                  (max_chunks < kMostChunks ? ", the cells larger, or raise the limit"
+                                                            : " or the cells larger: no limit can be higher")};
   }
-  std::vector<ChunkKey> keys;
+  std::pmr::vector<ChunkKey> keys(world.memory());
   keys.reserve(static_cast<size_t>(count));
   for (int64_t z = first[2]; z <= last[2]; ++z) {
     for (int64_t y = first[1]; y <= last[1]; ++y) {

@@ -5,23 +5,18 @@
 #include <span>
 
 #include "mesh/hash.h"
+#include "stream/chunk_key.h"
 #include "stream/world_field.h"
 
 namespace sgm {
-
-inline constexpr int kMaxLevel = 16;
-
-/// Chunk (x, y, z) of a level has its lowest corner at that times 32 cells of the level.
-struct ChunkKey {
-  int level = 0;
-  Int3 at;
-  friend auto operator<=>(const ChunkKey&, const ChunkKey&) = default;
-};
 
 struct ChunkRequest {
   ChunkKey key;
   uint8_t seams = 0;          ///< bit (1 << Face)
   Neighbourhood coarser = 0;  ///< of the blocks around; decides the fans in seam keys (mesh/fans.h)
+  bool signs = false;         ///< also give the signs of the samples (ChunkMesh::signs)
+  bool anchors = false;       ///< also give the anchors in the chunk
+  bool outermost = false;     ///< seams lead to virtual neighbours, whose field is the domain's own state (octree.h)
 };
 
 /// A finished chunk and where it lies.
@@ -29,24 +24,40 @@ struct PlacedChunk {
   ChunkKey key;
   ChunkGrid grid;
   ChunkMesh mesh;
+  std::vector<Anchor> anchors;  ///< where asked for; the chunk's low faces belong to it, its high ones do not
 };
 
-/// Appends the body and the seams that have triangles, as parts for welding, checking and hashing.
-void appendParts(const PlacedChunk& chunk, std::vector<PlacedPart>& parts);
+/// Appends the body and the seams that have triangles, as parts for welding, checking and hashing, to a vector of
+/// PlacedPart.
+template <class Parts>
+void appendParts(const PlacedChunk& chunk, Parts& parts) {
+  if (!chunk.mesh.body.indices.empty()) parts.push_back({&chunk.mesh.body, chunk.grid, 0});
+  for (size_t f = 0; f < chunk.mesh.seams.size(); ++f) {
+    if (!chunk.mesh.seams[f].indices.empty()) {
+      parts.push_back({&chunk.mesh.seams[f], chunk.grid, 1 + static_cast<int>(f)});
+    }
+  }
+}
 
-/// Says how far the work is; false stops it. One call at a time, from any thread.
+/// Says how far the work is, after every chunk; false stops it, but after the last one, when nothing is left to stop.
+/// One call at a time, with `done` rising by one, from any thread.
 using Progress = std::function<bool(uint64_t done, uint64_t total)>;
 
-/// The grid of a chunk. invalid_argument: no such level, or the chunk does not lie wholly inside the world.
+/// The grid of a chunk. Errors: invalid_argument (no such level), range (it does not lie wholly inside the world).
 Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key);
 
-/// One mesh a request, in order. Errors: those of derivation and compilation, out_of_memory, cancelled.
-Result<std::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,
-                                            std::span<const ChunkRequest> requests, const Progress& progress = {});
+/// One mesh a request, in order, in the world's memory. Errors: those of chunkGrid, derivation and compilation,
+/// out_of_memory, cancelled.
+Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,
+                                                 std::span<const ChunkRequest> requests, const Progress& progress = {});
 
-/// All chunks of a level that meet the box lo <= p < hi, in order z, y, x.
-/// invalid_argument: they leave the world. limit: more than max_chunks.
-Result<std::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const IntBox& region, int level,
-                                             uint64_t max_chunks);
+/// How many chunks of 32 cells of an edge meet the box lo <= p < hi; 2^63 - 1 where there are more. Precondition: the
+/// box is not empty, cell is positive.
+uint64_t countChunks(const IntBox& region, int64_t cell);
+
+/// All chunks of a level that meet the box lo <= p < hi, in order z, y, x, in the world's memory.
+/// invalid_argument: no such level, an empty box. range: they leave the world. limit: more than max_chunks, or 2^24.
+Result<std::pmr::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const IntBox& region, int level,
+                                                  uint64_t max_chunks);
 
 }  // namespace sgm

@@ -9,40 +9,106 @@ namespace sgm {
 
 namespace {
 
-constexpr int64_t kMaxCells = int64_t{1} << 20;
-
-// floor(a / b) for b > 0.
-int64_t floorDiv(int64_t a, int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
+constexpr int64_t kMaxCellsOfChunk = int64_t{1} << 20, kMaxCellsWalked = int64_t{1} << 24;
 
 IntBox moved(const IntBox& box, Int3 by) { return {saturatingAdd(box.lo, by), saturatingAdd(box.hi, by)}; }
+
+/// lo <= p < hi.
+bool holds(const IntBox& box, Int3 p) { return box.contains(p) && p.x < box.hi.x && p.y < box.hi.y && p.z < box.hi.z; }
+
+/// For each layer: whether its cells may derive the rule.
+std::vector<bool> layersDeriving(const Program& program, uint32_t rule) {
+  std::vector<bool> found;
+  for (const Layer& layer : program.layers) {
+    std::vector<bool> reached(program.rules.size());
+    std::vector<uint32_t> open;
+    const auto reach = [&](uint32_t r) {
+      if (!reached[r]) open.push_back(r);
+      reached[r] = true;
+    };
+    if (const ExprNode& start = program.expr(layer.start); start.ref == Ref::rule) reach(start.id);
+    while (!open.empty()) {
+      const uint32_t from = open.back();
+      open.pop_back();
+      for (uint32_t to : program.rules[from].calls) reach(to);
+    }
+    found.push_back(reached[rule]);
+  }
+  return found;
+}
 
 }  // namespace
 
 WorldField::WorldField(WorldFieldSettings settings, std::pmr::memory_resource* memory)
     : settings_(std::move(settings)), memory_(memory), cache_(settings_.cache_bytes, memory) {}
 
+WorldField::WorldField(WorldFieldSettings settings, std::shared_ptr<const DerivedCell> alone,
+                       std::pmr::memory_resource* memory)
+    : settings_(std::move(settings)), alone_(std::move(alone)), memory_(memory), cache_(0, memory) {}
+
+template <class T, class Derive>
+Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& derive) const {
+  // Probes start in the cell and end within its reach.
+  const IntBox around = moved(cellLimit(*settings_.program, layer, at), settings_.shift);
+  LayersBelow below(*this, around);
+  Result<T> derived = derive(below);
+  if (below.error()) return *below.error();
+  return derived;
+}
+
 Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3 at) const {
-  return cache_.get({layer, at}, [&]() -> Result<GrammarChunk> {
-    const Program& program = *settings_.program;
-    // Probes start in the cell and end within its reach.
-    const IntBox around = moved(cellLimit(program, layer, at), settings_.shift);
-    LayersBelow below(*this, around);
-    Result<GrammarChunk> chunk =
-        deriveCell(program, settings_.parameters, settings_.seed, layer, at, below, DeriveLimits{}, memory_);
-    if (below.error()) return *below.error();
+  return cache_.get({layer, at}, [&] {
+    Result<GrammarChunk> chunk = overLayersBelow<GrammarChunk>(layer, at, [&](const LowerLayers& below) {
+      return deriveCell(*settings_.program, settings_.parameters, settings_.seed, layer, at, below, DeriveLimits{},
+                        memory_);
+    });
     if (chunk && settings_.shift != Int3{}) translate(*chunk, settings_.shift);
+    if (chunk && settings_.on_notes && !chunk->notes.empty()) settings_.on_notes(*chunk);
     return chunk;
   });
 }
 
-Result<std::vector<CellKey>> WorldField::cellsReaching(uint32_t layer, const IntBox& box) const {
+Result<std::vector<RuleInstance>> WorldField::instances(uint32_t rule, const IntBox& box, size_t most) const {
+  const std::vector<bool> deriving = layersDeriving(*settings_.program, rule);
+  std::vector<RuleInstance> found;
+  for (uint32_t layer = 0; layer < deriving.size(); ++layer) {
+    if (!deriving[layer]) continue;
+    const Result<void> walked = walkCells(layer, box, CellsOf::box, [&](const CellKey& key) -> Result<void> {
+      Result<std::vector<RuleInstance>> derived =
+          overLayersBelow<std::vector<RuleInstance>>(layer, key.cell, [&](const LowerLayers& below) {
+            return deriveInstances(*settings_.program, settings_.parameters, settings_.seed, layer, key.cell, rule,
+                                   below, DeriveLimits{}, memory_);
+          });
+      if (!derived) return derived.error();
+      for (RuleInstance& instance : *derived) {
+        if (settings_.shift != Int3{}) {
+          translate(instance.chunk, settings_.shift);
+          instance.origin = saturatingAdd(instance.origin, settings_.shift);
+        }
+        if (holds(box, instance.origin)) found.push_back(std::move(instance));
+      }
+      if (found.size() > most) {
+        return Error{Code::limit, "the region holds more than " + std::to_string(most) + " uses of `" +
+                                      std::string(settings_.program->text(settings_.program->rules[rule].name)) +
+                                      "`; choose a smaller one"};
+      }
+      return {};
+    });
+    if (!walked) return walked.error();
+  }
+  return found;
+}
+
+Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsOf of,
+                                   const std::function<Result<void>(const CellKey&)>& visit) const {
   const Layer& info = settings_.program->layers[layer];
-  if (info.cell_expr == kNoId) return std::vector<CellKey>{{layer, {}}};  // a grammar without layers is one cell
+  // A grammar without layers is one cell.
+  if (info.cell_expr == kNoId || isWhole(info)) return visit({layer, {}});
   const IntBox home = moved(box, {saturate(-int64_t{settings_.shift.x}), saturate(-int64_t{settings_.shift.y}),
                                   saturate(-int64_t{settings_.shift.z})});
-  if (isWhole(info)) return std::vector<CellKey>{{layer, {}}};
   std::array<int64_t, 3> first{}, last{};
   const int64_t reach = int64_t{info.reach} + kReachSlack;
+  const int64_t most = of == CellsOf::chunk ? kMaxCellsOfChunk : kMaxCellsWalked;
   int64_t count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
@@ -54,21 +120,26 @@ Result<std::vector<CellKey>> WorldField::cellsReaching(uint32_t layer, const Int
     first[a] = std::clamp(floorDiv(int64_t{home.lo[axis]} - reach, edge), world_first, world_last);
     last[a] = std::clamp(floorDiv(int64_t{home.hi[axis]} + reach, edge), world_first, world_last);
     count *= last[a] - first[a] + 1;
-    if (count > kMaxCells) {
-      return Error{Code::limit, "more than a million cells reach into one chunk; make the layer's cells larger"};
+    if (count > most) {
+      const std::string what = "more than " + std::to_string(most) + " cells of the layer `" +
+                               std::string(settings_.program->text(info.name)) + "` reach into ";
+      return Error{Code::limit, of == CellsOf::chunk
+                                    ? what + "one chunk; make the layer's cells larger, or mesh at a finer level"
+                                    : what + "the box; ask for a smaller one, or make the layer's cells larger"};
     }
   }
-  std::vector<CellKey> cells;
-  cells.reserve(static_cast<size_t>(count));
   for (int64_t z = first[2]; z <= last[2]; ++z) {
     for (int64_t y = first[1]; y <= last[1]; ++y) {
-      for (int64_t x = first[0]; x <= last[0]; ++x) cells.push_back({layer, {saturate(x), saturate(y), saturate(z)}});
+      for (int64_t x = first[0]; x <= last[0]; ++x) {
+        if (Result<void> visited = visit({layer, {saturate(x), saturate(y), saturate(z)}}); !visited) return visited;
+      }
     }
   }
-  return cells;
+  return {};
 }
 
 FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const {
+  if (alone_) return {finest_cell, cell, false, 0};
   const Domain& domain = settings_.program->domain;
   return {finest_cell, cell, domain.solid, makeLabel(domain.material, 0)};
 }
@@ -76,17 +147,18 @@ FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t layers, const IntBox& box,
                                                                       const FieldSettings& field) const {
   const IntBox reached = box.grown(influenceMargin(field.cell));
-  std::vector<std::shared_ptr<const DerivedCell>> held;
-  std::vector<IndexedCell> indexed;
-  for (uint32_t layer = 0; layer < layers; ++layer) {
-    Result<std::vector<CellKey>> keys = cellsReaching(layer, reached);
-    if (!keys) return keys.error();
-    for (const CellKey& key : *keys) {
+  std::pmr::vector<std::shared_ptr<const DerivedCell>> held(memory_);
+  std::pmr::vector<IndexedCell> indexed(memory_);
+  if (alone_) indexed.push_back(alone_->indexed());
+  for (uint32_t layer = 0; layer < layers && !alone_; ++layer) {
+    const Result<void> gathered = walkCells(layer, reached, CellsOf::chunk, [&](const CellKey& key) -> Result<void> {
       Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
       if (!derived) return derived.error();
       indexed.push_back((*derived)->indexed());
       held.push_back(std::move(*derived));
-    }
+      return {};
+    });
+    if (!gathered) return gathered.error();
   }
   Result<FieldProgram> program = compileField(indexed, box, field, memory_);
   if (!program) return program.error();
@@ -98,20 +170,28 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compile(const IntBox& bo
                        fieldSettings(settings_.finest_cell, cellAt(level)));
 }
 
+Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level) const {
+  Result<FieldProgram> program =
+      compileField({}, IntBox::everything(), fieldSettings(settings_.finest_cell, cellAt(level)), memory_);
+  if (!program) return program.error();
+  return std::shared_ptr<const FieldProgram>(std::make_shared<FieldProgram>(std::move(*program)));
+}
+
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box) const {
   // One unit as the cell: in full detail, and the same whatever cells the world is meshed with.
   return compileLayers(layer + 1, box, fieldSettings(1, 1));
 }
 
 Result<void> WorldField::forEachCell(const IntBox& box, const std::function<void(const GrammarChunk&)>& visit) const {
+  if (alone_) return visit(alone_->chunk), Result<void>{};
   for (uint32_t layer = 0; layer < settings_.program->layers.size(); ++layer) {
-    Result<std::vector<CellKey>> keys = cellsReaching(layer, box);
-    if (!keys) return keys.error();
-    for (const CellKey& key : *keys) {
+    const Result<void> walked = walkCells(layer, box, CellsOf::box, [&](const CellKey& key) -> Result<void> {
       Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
       if (!derived) return derived.error();
       visit((*derived)->chunk);
-    }
+      return {};
+    });
+    if (!walked) return walked.error();
   }
   return {};
 }
@@ -120,9 +200,7 @@ Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box) const {
   std::vector<Anchor> found;
   const Result<void> visited = forEachCell(box, [&](const GrammarChunk& chunk) {
     for (const Anchor& a : chunk.anchors) {
-      const Int3 p = a.frame.origin;
-      const bool below_top = p.x < box.hi.x && p.y < box.hi.y && p.z < box.hi.z;
-      if (box.contains(p) && below_top) found.push_back(a);
+      if (holds(box, a.frame.origin)) found.push_back(a);
     }
   });
   if (!visited) return visited.error();

@@ -1,6 +1,7 @@
 #pragma once
 // A grammar with its parameters, seed and finest cell: the field of one world, at every place and level.
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct WorldFieldSettings {
   size_t cache_bytes = size_t{64} << 20;
   /// For tests: everything that is derived is moved by this many units before it is meshed.
   Int3 shift;
+  /// Told of a cell that has left something out, whenever it is derived (again, after the cache has lost it). On any
+  /// thread, several at once; must not call back.
+  std::function<void(const GrammarChunk&)> on_notes;
 };
 
 /// Thread-safe: what it answers is a pure function of its settings; only its cache has a state.
@@ -26,6 +30,8 @@ class WorldField {
  public:
   /// memory must outlive the field and all that it hands out.
   WorldField(WorldFieldSettings settings, std::pmr::memory_resource* memory);
+  /// An empty world that holds `alone` instead of what the program derives to, whatever the program's domain.
+  WorldField(WorldFieldSettings settings, std::shared_ptr<const DerivedCell> alone, std::pmr::memory_resource* memory);
 
   const WorldFieldSettings& settings() const { return settings_; }
   std::pmr::memory_resource* memory() const { return memory_; }
@@ -35,31 +41,46 @@ class WorldField {
   Result<std::shared_ptr<const DerivedCell>> cell(uint32_t layer, Int3 cell) const;
 
   /// The program of all groups that matter in the closed box at a level.
+  /// limit: more than 2^20 cells of a layer reach into the box; errors of derivation.
   Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level) const;
 
+  /// The program of the domain's own state, everywhere the same: what lies beyond the drawn world.
+  Result<std::shared_ptr<const FieldProgram>> compileOutside(int level) const;
+
   /// Anchors in the box lo <= p < hi, by layer, cell and key.
+  /// limit: more than 2^24 cells of a layer reach into the box; errors of derivation.
   Result<std::vector<Anchor>> anchors(const IntBox& box) const;
 
-  /// What derivation had to leave out in the cells that reach into the box; each cell's notes once.
+  /// What derivation had to leave out in the cells that reach into the box; each cell's notes once. Errors: as anchors.
   Result<std::vector<DeriveNote>> notes(const IntBox& box) const;
 
-  CellCacheStats cacheStats() const { return cache_.stats(); }
+  /// The uses of a rule whose frames stand in the box lo <= p < hi, by layer and cell, in order of derivation. Only
+  /// cells whose shapes can reach into the box are looked at.
+  /// limit: more than `most` of them, or more than 2^24 cells of a layer; errors of derivation.
+  Result<std::vector<RuleInstance>> instances(uint32_t rule, const IntBox& box, size_t most) const;
 
-  /// Cells of a layer whose shapes can reach into the box.
-  /// limit: more than 2^20 of them.
-  Result<std::vector<CellKey>> cellsReaching(uint32_t layer, const IntBox& box) const;
+  CellCacheStats cacheStats() const { return cache_.stats(); }
 
   /// The program of the layers up to and including `layer`, in full detail: what a derivation above may ask about.
   Result<std::shared_ptr<const FieldProgram>> compileBelow(uint32_t layer, const IntBox& box) const;
 
  private:
+  /// What cells are gathered for: one chunk's program, which holds all of them, or a look at each in turn.
+  enum class CellsOf { chunk, box };
+  /// Visits the cells of a layer whose shapes can reach into the box, in order z, y, x, to the first error.
+  Result<void> walkCells(uint32_t layer, const IntBox& box, CellsOf of,
+                         const std::function<Result<void>(const CellKey&)>& visit) const;
   Result<std::shared_ptr<const FieldProgram>> compileLayers(uint32_t layers, const IntBox& box,
                                                             const FieldSettings& field) const;
   /// Visits the cells of all layers that can reach into the box, in order.
   Result<void> forEachCell(const IntBox& box, const std::function<void(const GrammarChunk&)>& visit) const;
   FieldSettings fieldSettings(int32_t finest_cell, int32_t cell) const;
+  /// What `derive` makes of the layers below the cell.
+  template <class T, class Derive>
+  Result<T> overLayersBelow(uint32_t layer, Int3 cell, const Derive& derive) const;
 
   WorldFieldSettings settings_;
+  std::shared_ptr<const DerivedCell> alone_;
   std::pmr::memory_resource* memory_;
   mutable CellCache cache_;
 };

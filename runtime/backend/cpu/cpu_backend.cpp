@@ -1,8 +1,7 @@
 #include "backend/cpu/cpu_backend.h"
 
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
+#include <exception>
 #include <new>
 
 #include "backend/cpu/instruction_sets.h"
@@ -37,52 +36,73 @@ class ScratchPool {
 // Shared by the batch and the jobs that it has submitted: the last of them ends it.
 struct BatchState {
   BatchState(const FieldKernels& kernels_in, std::shared_ptr<ScratchPool> pool_in, std::vector<ChunkJob> jobs_in,
-             std::pmr::memory_resource* memory_in)
-      : kernels(kernels_in), pool(std::move(pool_in)), jobs(std::move(jobs_in)), count(jobs.size()) {
+             AfterChunk after_chunk_in, unsigned workers_in, std::pmr::memory_resource* memory_in)
+      : kernels(kernels_in),
+        pool(std::move(pool_in)),
+        jobs(std::move(jobs_in)),
+        after_chunk(std::move(after_chunk_in)),
+        count(jobs.size()),
+        workers(workers_in) {
     meshes.reserve(jobs.size());
     for (size_t i = 0; i < count; ++i) meshes.emplace_back(memory_in);
   }
 
-  // Takes jobs until none is left; any number of threads.
+  // Takes jobs until none is left. A thread that comes when enough are at work leaves again: those go on until nothing
+  // is left for it either.
   void run() {
-    for (size_t i; (i = next.fetch_add(1)) < count;) {
-      if (cancelled.load(std::memory_order_relaxed)) {
-        skipped.store(true);
-      } else {
-        try {
-          std::unique_ptr<ChunkScratch> scratch = pool->take();
-          meshChunk(kernels, jobs[i], *scratch, meshes[i]);
-          pool->give(std::move(scratch));
-        } catch (const std::bad_alloc&) {
-          no_memory.store(true);
+    if (working.fetch_add(1) < workers) {
+      for (size_t i; (i = next.fetch_add(1)) < count;) {
+        if (cancelled.load(std::memory_order_relaxed)) {
+          skipped.store(true);
+        } else {
+          mesh(i);
+        }
+        if (ended.fetch_add(1) + 1 == count) {
+          std::lock_guard lock(mutex);
+          done.notify_all();
         }
       }
-      if (ended.fetch_add(1) + 1 == count) {
-        std::lock_guard lock(mutex);
-        done.notify_all();
-      }
+    }
+    working.fetch_sub(1);
+  }
+
+  // Lets no exception out: it would leave through the caller's job system, which may be written in C.
+  void mesh(size_t i) noexcept {
+    try {
+      std::unique_ptr<ChunkScratch> scratch = pool->take();
+      meshChunk(kernels, jobs[i], *scratch, meshes[i]);
+      pool->give(std::move(scratch));
+      if (after_chunk && !after_chunk()) cancelled.store(true);
+    } catch (...) {
+      std::lock_guard lock(mutex);
+      if (!error) error = std::current_exception();
+      cancelled.store(true);
     }
   }
 
   const FieldKernels& kernels;
   std::shared_ptr<ScratchPool> pool;
   std::vector<ChunkJob> jobs;
+  AfterChunk after_chunk;
   const size_t count;
+  const unsigned workers;
   std::vector<ChunkMesh> meshes;
   std::atomic<size_t> next{0}, ended{0};
-  std::atomic<bool> cancelled{false}, skipped{false}, no_memory{false};
+  std::atomic<unsigned> working{0};
+  std::atomic<bool> cancelled{false}, skipped{false};
+  std::exception_ptr error;  // the first one
   std::mutex mutex;
   std::condition_variable done;
 };
 
-void runShare(void* argument) {
+void runShare(void* argument) noexcept {
   const std::unique_ptr<std::shared_ptr<BatchState>> share(static_cast<std::shared_ptr<BatchState>*>(argument));
   (*share)->run();
 }
 
 class CpuBatch final : public ChunkBatch {
  public:
-  explicit CpuBatch(std::shared_ptr<BatchState> state) : state_(std::move(state)) {}
+  CpuBatch(std::shared_ptr<BatchState> state, JobSystem& jobs) : state_(std::move(state)), jobs_(jobs) {}
   ~CpuBatch() override {
     cancel();
     wait();
@@ -90,22 +110,30 @@ class CpuBatch final : public ChunkBatch {
     state_->jobs.clear();
     state_->meshes.clear();
     state_->pool.reset();
+    state_->after_chunk = {};
   }
   bool poll() override { return state_->ended.load() == state_->count; }
   void wait() override {
     state_->run();
     std::unique_lock lock(state_->mutex);
-    state_->done.wait(lock, [this] { return poll(); });
+    helpUntil(jobs_, lock, state_->done, [this] { return poll(); });
   }
   void cancel() override { state_->cancelled.store(true); }
   Result<std::vector<ChunkMesh>> take() override {
-    if (state_->no_memory.load()) return Error{Code::out_of_memory, "out of memory while meshing chunks"};
+    if (state_->error) {
+      try {
+        std::rethrow_exception(state_->error);
+      } catch (const std::bad_alloc&) {
+        return Error{Code::out_of_memory, "out of memory while meshing chunks"};
+      }
+    }
     if (state_->skipped.load()) return Error{Code::cancelled, "meshing was cancelled"};
     return std::move(state_->meshes);
   }
 
  private:
   std::shared_ptr<BatchState> state_;
+  JobSystem& jobs_;
 };
 
 class CpuBackend final : public Backend {
@@ -115,10 +143,12 @@ class CpuBackend final : public Backend {
     capabilities_ = {BackendKind::cpu, kernels.name, true, jobs.concurrency()};
   }
   const BackendCapabilities& capabilities() const override { return capabilities_; }
-  Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs) override {
-    auto state = std::make_shared<BatchState>(kernels_, pool_, std::move(jobs), memory_);
-    const size_t shares = std::min<size_t>(jobs_.concurrency(), state->jobs.size());
-    auto batch = std::make_unique<CpuBatch>(state);
+  Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk) override {
+    const unsigned workers = jobs_.concurrency();
+    auto state =
+        std::make_shared<BatchState>(kernels_, pool_, std::move(jobs), std::move(after_chunk), workers, memory_);
+    const size_t shares = std::min<size_t>(workers, state->jobs.size());
+    auto batch = std::make_unique<CpuBatch>(state, jobs_);
     try {
       for (size_t i = 0; i < shares; ++i) {
         auto share = std::make_unique<std::shared_ptr<BatchState>>(state);

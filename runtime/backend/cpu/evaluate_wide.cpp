@@ -6,7 +6,8 @@
 
 #include "backend/cpu/instruction_sets.h"
 
-#define HWY_TARGETS_WANTED (HWY_SSE4 | HWY_AVX2 | HWY_AVX3)
+// Between those that are offered below; without one of its own a processor takes the next lower.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "backend/cpu/evaluate_wide.cpp"
 #include "hwy/foreach_target.h"

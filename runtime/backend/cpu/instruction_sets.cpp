@@ -12,11 +12,15 @@ std::vector<InstructionSet> instructionSets() {
 }
 
 const FieldKernels& bestKernels() {
-  const FieldKernels* best = &scalarKernels();
-  for (const InstructionSet& set : instructionSets()) {
-    if (set.runs_here) best = set.kernels;
-  }
-  return *best;
+  // Asking the processor costs more than a small evaluation, and its answer does not change.
+  static const FieldKernels& best = []() -> const FieldKernels& {
+    const FieldKernels* widest = &scalarKernels();
+    for (const InstructionSet& set : instructionSets()) {
+      if (set.runs_here) widest = set.kernels;
+    }
+    return *widest;
+  }();
+  return best;
 }
 
 const FieldKernels* findKernels(std::string_view name) {

@@ -106,16 +106,20 @@ void meshSeam(const FieldKernels& kernels, const ChunkJob& job, Face face, Chunk
   polygonizeSeam(face, s.samples, coarse, job.grid, job.coarser, seam);
   if (seam.vertices.empty()) return;
 
-  // Each vertex by the field of its own level, whole: what the face's pruning kept is not proven around a lateral one.
-  auto attributesOf = [&](bool own_level, const FieldProgram& field) {
+  // Each vertex by the field of its own level. All lie in the face's plane, lateral ones as well, so what pruning to it
+  // keeps is all that they need; of a plane proven uniform it keeps nothing, and then a lateral one takes the whole.
+  auto attributesOf = [&](bool own_level, const FieldProgram& field, PrunedProgram& pruned, bool pruned_already) {
     s.order.clear();
     for (size_t i = 0; i < seam.vertices.size(); ++i) {
       if ((seam.keys[i].level == job.grid.level) == own_level) s.order.push_back(static_cast<uint32_t>(i));
     }
-    evaluateAttributes(kernels, field.view(), job.grid, seam, 0, s.order.size(), s);
+    if (s.order.empty()) return;
+    if (!pruned_already) prune(field.view(), plane, s.pruning, pruned);
+    const bool uniform = pruned.solid() || pruned.empty();
+    evaluateAttributes(kernels, uniform ? field.view() : pruned.view(), job.grid, seam, 0, s.order.size(), s);
   };
-  attributesOf(true, *job.field);
-  attributesOf(false, *job.coarse);
+  attributesOf(true, *job.field, s.whole, false);
+  attributesOf(false, *job.coarse, s.octant, true);
   hashPart(seam);
 }
 
@@ -133,6 +137,7 @@ void meshChunk(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& s
   }
   mesh.solid_samples = solid;
   if (!mesh.uniform) {
+    if (job.signs) mesh.signs = s.samples.signs;
     polygonizeBody(s.samples, job.grid, mesh.body);
     fillBody(kernels, job.grid, s, mesh.body);
     hashPart(mesh.body);

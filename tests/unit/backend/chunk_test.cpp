@@ -1,9 +1,15 @@
 // Chunks from hand-built and random programs: pruned against brute force, all instruction sets, borders, octrees.
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstring>
 #include <iostream>
 #include <map>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
 
 #include "backend/backend.h"
 #include "backend/cpu/instruction_sets.h"
@@ -132,6 +138,33 @@ TEST_CASE("neighbouring chunks agree in their border to the bit, each with its o
   }
 }
 
+TEST_CASE("a seam's vertices have the attributes of the whole field of their level, each with its own pruning") {
+  size_t own = 0, coarse = 0, different = 0;
+  for (uint32_t seed = 1; seed <= 10; ++seed) {
+    const ChunkGrid grid = gridAt(0, {1, -1, 1});
+    const Int3 centre{grid.origin.x + kEdge / 2, grid.origin.y + kEdge / 2, grid.origin.z + kEdge / 2};
+    // Fields that have little in common, so that there are many lateral vertices.
+    const ChunkJob job{grid, programAround(seed, centre, kEdge), programAround(seed + 100, centre, kEdge), 63,
+                       neighboursAcross(63)};
+    const ChunkMesh mesh = meshOf(bestKernels(), job);
+    for (const MeshPart& seam : mesh.seams) {
+      for (size_t i = 0; i < seam.vertices.size(); ++i) {
+        const Vertex& v = seam.vertices[i];
+        const bool of_own_level = seam.keys[i].level == grid.level;
+        const Int3 at = vertexUnits(grid, v);
+        const Evaluated e = evaluate(scalarKernels(), (of_own_level ? job.field : job.coarse)->view(),
+                                     gridPoints({at, at}, 1).points());
+        (of_own_level ? own : coarse) += 1;
+        different += v.normal_x != e.nx[0] || v.normal_y != e.ny[0] || makeLabel(v.material, v.tag) != e.label[0];
+      }
+    }
+  }
+  INFO(own << " vertices of the chunk's level, " << coarse << " of the coarser one");
+  CHECK(different == 0);
+  CHECK(own > 1000);
+  CHECK(coarse > 500);
+}
+
 TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every vertex link is one cycle") {
   // One fine octant among coarse ones, and its opposite: faces, edges and corners between levels of every kind.
   for (uint32_t seed = 1; seed <= 6; ++seed) {
@@ -241,7 +274,7 @@ TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every v
 }
 
 TEST_CASE("a backend runs batches, cancels them, and refuses what it cannot do", "[threads]") {
-  const auto jobs = makeThreadPool(3);
+  const auto jobs = *makeThreadPool(3);
   const auto field = programAround(5, {kEdge, kEdge, kEdge}, kEdge);
   auto batchOf = [&](int count) {
     std::vector<ChunkJob> list;
@@ -273,13 +306,38 @@ TEST_CASE("a backend runs batches, cancels them, and refuses what it cannot do",
     CHECK((*batch)->take());
   }
   SECTION("cancelled") {
-    auto batch = (*backend)->submit(batchOf(200));
-    REQUIRE(batch);
-    (*batch)->cancel();
-    (*batch)->wait();
-    auto meshes = (*batch)->take();
-    // A fast pool may have been through with all of them; else the batch says that it was cancelled.
-    if (!meshes) CHECK(meshes.error().code == Code::cancelled);
+    // Nothing begins before the cancellation: this job system runs jobs within help() alone.
+    class Holding final : public JobSystem {
+     public:
+      unsigned concurrency() const override { return 2; }
+      void submit(void (*function)(void*), void* argument, int) override { held.emplace_back(function, argument); }
+      bool help() override {
+        if (held.empty()) return false;
+        const auto [function, argument] = held.back();
+        held.pop_back();
+        function(argument);
+        return true;
+      }
+      std::vector<std::pair<void (*)(void*), void*>> held;
+    } holding;
+    {
+      const Result<std::unique_ptr<Backend>> idle = makeBackend({}, holding, std::pmr::get_default_resource());
+      REQUIRE(idle);
+      auto batch = (*idle)->submit(batchOf(20));
+      REQUIRE(batch);
+      CHECK_FALSE((*batch)->poll());
+      (*batch)->cancel();
+      (*batch)->wait();
+      const auto meshes = (*batch)->take();
+      REQUIRE_FALSE(meshes);
+      CHECK(meshes.error().code == Code::cancelled);
+      // The same without a cancellation.
+      auto whole = (*idle)->submit(batchOf(2));
+      REQUIRE(whole);
+      (*whole)->wait();
+      CHECK((*whole)->take());
+    }
+    while (holding.help()) continue;
   }
   SECTION("refused") {
     BackendRequest request;
@@ -294,4 +352,74 @@ TEST_CASE("a backend runs batches, cancels them, and refuses what it cannot do",
     REQUIRE_FALSE(unknown);
     CHECK(unknown.error().message.find("scalar") != std::string::npos);
   }
+}
+
+TEST_CASE("N threads mesh N chunks at one time, whether or not anyone waits", "[threads]") {
+  const auto field = programAround(5, {kEdge, kEdge, kEdge}, kEdge);
+  for (const unsigned threads : {1u, 2u, 3u}) {
+    for (const bool waits : {true, false}) {
+      const auto jobs = *makeThreadPool(threads);
+      const Result<std::unique_ptr<Backend>> backend = makeBackend({}, *jobs, std::pmr::get_default_resource());
+      REQUIRE(backend);
+      std::vector<ChunkJob> list;
+      for (int i = 0; i < 30; ++i) list.push_back({gridAt(0, {i % 3, i / 3 % 3, 0}), field, nullptr, 0, 0});
+      std::atomic<unsigned> now{0}, most{0}, calls{0};
+      auto batch = (*backend)->submit(std::move(list), [&] {
+        const unsigned mine = ++now;
+        for (unsigned seen = most; seen < mine && !most.compare_exchange_weak(seen, mine);) continue;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        --now;
+        ++calls;
+        return true;
+      });
+      REQUIRE(batch);
+      if (waits) (*batch)->wait();
+      for (int i = 0; i < 20'000 && !(*batch)->poll(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      REQUIRE((*batch)->poll());
+      INFO(threads << " threads");
+      CHECK(most <= threads);
+      CHECK(calls == 30);
+      CHECK((*batch)->take());
+    }
+  }
+}
+
+TEST_CASE("what a chunk's job throws comes back from take, on the thread that asks", "[threads]") {
+  // A caller's allocator that is written in C++ and throws what it should not.
+  class Throwing final : public std::pmr::memory_resource {
+   public:
+    std::atomic<bool> throws{false};
+
+   private:
+    void* do_allocate(size_t size, size_t alignment) override {
+      if (throws) throw std::runtime_error("not memory");
+      return std::pmr::new_delete_resource()->allocate(size, alignment);
+    }
+    void do_deallocate(void* memory, size_t size, size_t alignment) override {
+      std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+    }
+    bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+  };
+  const auto field = programAround(5, {kEdge, kEdge, kEdge}, kEdge);
+  const auto jobs = *makeThreadPool(3);
+  Throwing memory;
+  const Result<std::unique_ptr<Backend>> backend = makeBackend({}, *jobs, &memory);
+  REQUIRE(backend);
+  std::vector<ChunkJob> list(9, ChunkJob{gridAt(0, {}), field, nullptr, 0, 0});
+  memory.throws = true;
+  auto batch = (*backend)->submit(list);
+  REQUIRE(batch);
+  (*batch)->wait();
+  CHECK_THROWS_AS((*batch)->take(), std::runtime_error);
+  memory.throws = false;
+  batch = (*backend)->submit(list, []() -> bool { throw std::runtime_error("asked too often"); });
+  REQUIRE(batch);
+  (*batch)->wait();
+  CHECK_THROWS_AS((*batch)->take(), std::runtime_error);
+}
+
+TEST_CASE("backends have names") {
+  CHECK(std::string(backendName(BackendKind::cpu)) == "cpu");
+  CHECK(std::string(backendName(BackendKind::vulkan)) == "vulkan");
+  CHECK(std::string(backendName(BackendKind::cuda)) == "cuda");
 }

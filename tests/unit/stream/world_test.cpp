@@ -2,68 +2,30 @@
 
 #include <algorithm>
 #include <atomic>
-#include <fstream>
 #include <iostream>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 
 #include "catch.h"
-#include "grammar/compile.h"
 #include "mesh/check.h"
 #include "mesh/weld.h"
 #include "stream/layers_below.h"
 #include "stream/mesh_chunks.h"
+#include "world_support.h"
 
 using namespace sgm;
 
 namespace {
 
-std::string sample(const std::string& name) {
-  std::ifstream file(std::string(SGM_SAMPLE_GRAMMARS) + "/" + name);
-  REQUIRE(file);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
-WorldFieldSettings settingsOf(const std::string& text, int32_t cell, uint64_t seed = 7) {
-  const CompileResult compiled = compileGrammar(text, "test.sgm");
-  INFO(renderDiagnostics(compiled));
-  REQUIRE(compiled.program);
-  WorldFieldSettings s;
-  s.program = compiled.program;
-  s.parameters = ParameterValues::defaults(*compiled.program);
-  s.seed = seed;
-  s.finest_cell = cell;
-  return s;
-}
-
 std::vector<ChunkRequest> requestsOf(const WorldField& world, const IntBox& region) {
-  Result<std::vector<ChunkKey>> keys = chunksOfRegion(world, region, 0, 100'000);
+  Result<std::pmr::vector<ChunkKey>> keys = chunksOfRegion(world, region, 0, 100'000);
   REQUIRE(keys);
   std::vector<ChunkRequest> requests;
   for (const ChunkKey& k : *keys) requests.push_back({k, 0, 0});
   return requests;
 }
 
-std::vector<PlacedChunk> meshAll(const WorldField& world, const std::vector<ChunkRequest>& requests, unsigned threads) {
-  const auto jobs = makeThreadPool(threads);
-  Result<std::unique_ptr<Backend>> backend = makeBackend({}, *jobs, world.memory());
-  REQUIRE(backend);
-  Result<std::vector<PlacedChunk>> chunks = meshChunks(world, **backend, *jobs, requests);
-  INFO((chunks ? "" : chunks.error().message));
-  REQUIRE(chunks);
-  return std::move(*chunks);
-}
-
-uint64_t hashOf(const std::vector<PlacedChunk>& chunks) {
+uint64_t hashOf(const std::pmr::vector<PlacedChunk>& chunks) {
   std::vector<PlacedPart> parts;
   for (const PlacedChunk& c : chunks) appendParts(c, parts);
   return hashParts(parts).value();
@@ -84,7 +46,7 @@ TEST_CASE("the world's hash does not depend on visiting order, threads or the ca
         cloud ? IntBox{{-2000 * 1024, 800 * 1024, -2000 * 1024}, {2000 * 1024, 2000 * 1024, 2000 * 1024}} : kHall;
     const WorldField world(settingsOf(text, cell, seed), std::pmr::get_default_resource());
     std::vector<ChunkRequest> requests = requestsOf(world, region);
-    const std::vector<PlacedChunk> chunks = meshAll(world, requests, 1);
+    const std::pmr::vector<PlacedChunk> chunks = meshAll(world, requests, 1);
     const uint64_t expected = hashOf(chunks);
     size_t triangles = 0;
     for (const PlacedChunk& c : chunks) triangles += c.mesh.body.indices.size() / 3;
@@ -119,14 +81,14 @@ TEST_CASE("shapes, anchors and noise moved together by whole chunks give the sam
   WorldFieldSettings s = settingsOf(sample("cave.sgm"), 1024);
   const WorldField home(s, std::pmr::get_default_resource());
   const auto requests = requestsOf(home, kHall);
-  const std::vector<PlacedChunk> expected = meshAll(home, requests, 2);
+  const std::pmr::vector<PlacedChunk> expected = meshAll(home, requests, 2);
   constexpr int32_t edge = 32 * 1024;
   for (const Int3 chunks : {Int3{1, -1, 3}, Int3{60'000, -60'000, 59'999}, Int3{-64'000, 1, 0}}) {
     s.shift = {chunks.x * edge, chunks.y * edge, chunks.z * edge};
     const WorldField moved(s, std::pmr::get_default_resource());
     std::vector<ChunkRequest> there = requests;
     for (ChunkRequest& r : there) r.key.at = saturatingAdd(r.key.at, chunks);
-    const std::vector<PlacedChunk> found = meshAll(moved, there, 2);
+    const std::pmr::vector<PlacedChunk> found = meshAll(moved, there, 2);
     size_t different = 0;
     for (size_t i = 0; i < found.size(); ++i) different += found[i].mesh.body.hash != expected[i].mesh.body.hash;
     INFO("moved by " << chunks.x << ' ' << chunks.y << ' ' << chunks.z << " chunks");
@@ -136,7 +98,7 @@ TEST_CASE("shapes, anchors and noise moved together by whole chunks give the sam
 
 TEST_CASE("a region's chunks, welded by key, have no open edge inside") {
   const WorldField world(settingsOf(sample("cave.sgm"), 1024), std::pmr::get_default_resource());
-  const std::vector<PlacedChunk> chunks = meshAll(world, requestsOf(world, kHall), 2);
+  const std::pmr::vector<PlacedChunk> chunks = meshAll(world, requestsOf(world, kHall), 2);
   std::vector<PlacedPart> parts;
   for (const PlacedChunk& c : chunks) appendParts(c, parts);
   Result<WorldMesh> mesh = weld(parts, kHall.lo);
@@ -197,7 +159,7 @@ TEST_CASE("a probe in one go answers as the probe step by step") {
 
 TEST_CASE("a cell asked for by many threads is derived once, and a failed one is not kept", "[threads]") {
   CellCache cache(1 << 20, std::pmr::get_default_resource());
-  const auto jobs = makeThreadPool(8);
+  const auto jobs = *makeThreadPool(8);
   std::atomic<int> derived{0};
   parallelFor(*jobs, 64, [&](size_t i) {
     const auto cell = cache.get({0, {static_cast<int32_t>(i % 4), 0, 0}}, [&]() -> Result<GrammarChunk> {
@@ -219,20 +181,24 @@ TEST_CASE("chunks and regions outside of the world are refused with a reason") {
   const WorldField world(settingsOf(sample("sphere.sgm"), 512), std::pmr::get_default_resource());
   CHECK(chunkGrid(world, {0, {131'070, 0, 0}}));
   CHECK(chunkGrid(world, {0, {-131'072, 0, 0}}));
-  for (const ChunkKey key :
-       {ChunkKey{0, {131'071, 0, 0}}, ChunkKey{0, {0, -131'073, 0}}, ChunkKey{-1, {}}, ChunkKey{kMaxLevel + 1, {}}}) {
+  const auto codeOf = [&](const ChunkKey& key) {
     const auto grid = chunkGrid(world, key);
     REQUIRE_FALSE(grid);
-    CHECK(grid.error().code == Code::invalid_argument);
-  }
+    return grid.error().code;
+  };
+  for (const Int3 at : {Int3{131'071, 0, 0}, Int3{0, -131'073, 0}}) CHECK(codeOf({0, at}) == Code::range);
+  for (const int level : {-1, kMaxLevel + 1}) CHECK(codeOf({level, {}}) == Code::invalid_argument);
   CHECK(chunksOfRegion(world, {{0, 0, 0}, {0, 1, 1}}, 0, 10).error().code == Code::invalid_argument);
-  CHECK(chunksOfRegion(world, IntBox::everything(), 0, 10).error().code == Code::invalid_argument);
+  CHECK(chunksOfRegion(world, IntBox::everything(), 0, 10).error().code == Code::range);
+  // Nobody holds so many, whatever the limit.
+  const IntBox vast{{-(1 << 30), -(1 << 30), -(1 << 30)}, {1 << 30, 1 << 30, 1 << 30}};
+  CHECK(chunksOfRegion(world, vast, 0, ~uint64_t{0}).error().code == Code::limit);
   CHECK(chunksOfRegion(world, {{0, 0, 0}, {1 << 20, 1 << 20, 1 << 20}}, 0, 10).error().code == Code::limit);
 }
 
 TEST_CASE("cancelled meshing says so, and a job system of one thread does not wait for itself", "[threads]") {
   const WorldField world(settingsOf(sample("sphere.sgm"), 256), std::pmr::get_default_resource());
-  const auto jobs = makeThreadPool(1);
+  const auto jobs = *makeThreadPool(1);
   auto backend = makeBackend({}, *jobs, world.memory());
   REQUIRE(backend);
   const auto requests = requestsOf(world, {{-64 * 1024, -64 * 1024, -64 * 1024}, {64 * 1024, 64 * 1024, 64 * 1024}});
@@ -240,4 +206,48 @@ TEST_CASE("cancelled meshing says so, and a job system of one thread does not wa
   REQUIRE_FALSE(stopped);
   CHECK(stopped.error().code == Code::cancelled);
   CHECK(meshChunks(world, **backend, *jobs, {}));
+}
+
+TEST_CASE("progress is told after every chunk, on any number of threads", "[threads]") {
+  const WorldField world(settingsOf(sample("sphere.sgm"), 256), std::pmr::get_default_resource());
+  const auto requests = requestsOf(world, {{-64 * 1024, -64 * 1024, 0}, {64 * 1024, 64 * 1024, 8 * 1024}});
+  REQUIRE(requests.size() > 100);
+  for (const unsigned threads : {1u, 4u}) {
+    const auto jobs = *makeThreadPool(threads);
+    auto backend = makeBackend({}, *jobs, world.memory());
+    REQUIRE(backend);
+    uint64_t calls = 0, wrong = 0;
+    const auto all = [&](uint64_t done, uint64_t total) {
+      wrong += done != ++calls || total != requests.size();
+      return done < total;  // the last answer is not asked for
+    };
+    CHECK(meshChunks(world, **backend, *jobs, requests, all));
+    CHECK(calls == requests.size());
+    CHECK(wrong == 0);
+    calls = 0;
+    const auto some = [&](uint64_t, uint64_t) { return ++calls < 70; };
+    const auto stopped = meshChunks(world, **backend, *jobs, requests, some);
+    REQUIRE_FALSE(stopped);
+    CHECK(stopped.error().code == Code::cancelled);
+    CHECK(calls == 70);
+  }
+}
+
+TEST_CASE("anchors are found in more cells than one chunk may have") {
+  // A chunk's program may be made of 2^20.
+  const IntBox box{{-530'000 * 1024, 0, 0}, {530'000 * 1024, 1024, 1024}};
+  const WorldField world(settingsOf("sgm 1; units m;\ndomain infinite axes x;\n"
+                                    "layer main cell 1m reach 1m { start Post; }\n"
+                                    "rule Post weight 1 { anchor post \"here\"; }\n"
+                                    "rule Post weight 9999 { }\n",
+                                    1024),
+                         std::pmr::get_default_resource());
+  const auto anchors = world.anchors(box);
+  INFO((anchors ? "" : anchors.error().message));
+  REQUIRE(anchors);
+  CHECK(anchors->size() > 50);
+  const auto program = world.compile(box, 0);
+  REQUIRE_FALSE(program);
+  CHECK(program.error().code == Code::limit);
+  CHECK(program.error().message.find("`main` reach into one chunk") != std::string::npos);
 }

@@ -1,0 +1,39 @@
+#pragma once
+// The name of a chunk: its level and its place among the chunks of that level.
+
+#include <array>
+
+#include "base/fixed.h"
+
+namespace sgm {
+
+inline constexpr int kMaxLevel = 16;
+
+/// Chunk (x, y, z) of a level has its lowest corner at that times 32 cells of the level.
+struct ChunkKey {
+  int level = 0;
+  Int3 at;
+  friend auto operator<=>(const ChunkKey&, const ChunkKey&) = default;
+};
+
+/// The chunk one level coarser that holds this one.
+inline ChunkKey parentOf(const ChunkKey& key) { return {key.level + 1, {key.at.x >> 1, key.at.y >> 1, key.at.z >> 1}}; }
+
+/// One of the eight chunks one level finer in this one: bits 0, 1, 2 of `index` are its half in x, y, z.
+inline ChunkKey childOf(const ChunkKey& key, int index) {
+  return {key.level - 1,
+          {2 * key.at.x + (index & 1), 2 * key.at.y + (index >> 1 & 1), 2 * key.at.z + (index >> 2 & 1)}};
+}
+
+/// The chunk of the same level that lies (dx, dy, dz) chunks away.
+inline ChunkKey neighbourOf(const ChunkKey& key, int dx, int dy, int dz) {
+  return {key.level, {key.at.x + dx, key.at.y + dy, key.at.z + dz}};
+}
+
+/// Whether `inner` lies in `outer`, or is it.
+inline bool holds(const ChunkKey& outer, const ChunkKey& inner) {
+  const int down = outer.level - inner.level;
+  return down >= 0 && Int3{inner.at.x >> down, inner.at.y >> down, inner.at.z >> down} == outer.at;
+}
+
+}  // namespace sgm

@@ -1,0 +1,34 @@
+#pragma once
+// Which octree the viewers want: chunks so small that no cell looks larger than asked for.
+
+#include <array>
+#include <span>
+
+#include "stream/octree.h"
+
+namespace sgm {
+
+/// A place that detail is wanted around. Positions in units, also between them; everything finite.
+struct LodViewer {
+  std::array<double, 3> position{};
+  double reach = 1;  ///< factor on all distances below: a viewer of more weight sees detail farther away; above 0
+};
+
+struct LodSettings {
+  int top = 8;  ///< coarsest level, 0..kMaxLevel
+  int32_t finest_cell = kUnitsPerMetre / 2;
+  /// Distance in units from a viewer within which level 0 is wanted; each coarser level reaches twice as far. With a
+  /// screen of h pixels and a vertical field of view v, cells of at most p pixels ask for
+  /// 2 * finest_cell * h / (2 tan(v / 2)) / p.
+  double finest_distance = 24.0 * kUnitsPerMetre;
+  double view_distance = 1000.0 * kUnitsPerMetre;  ///< something is drawn at least this far, in units
+};
+
+/// The octree for these viewers, closed under the rules. A pure function; no viewers: an empty tree. At the world's
+/// ends nothing is drawn where a virtual node would stick out.
+Octree lodTarget(std::span<const LodViewer> viewers, const LodSettings& settings);
+
+/// Distance in units from a place to a chunk's closed box; 0 inside.
+double distanceToChunk(const std::array<double, 3>& place, const ChunkKey& key, int32_t finest_cell);
+
+}  // namespace sgm

@@ -1,0 +1,52 @@
+#pragma once
+// Worlds of the sample grammars, and their meshes.
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "catch.h"
+#include "grammar/compile.h"
+#include "stream/mesh_chunks.h"
+
+namespace sgm {
+
+inline std::string sample(const std::string& name) {
+  std::ifstream file(std::string(SGM_SAMPLE_GRAMMARS) + "/" + name);
+  REQUIRE(file);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+inline WorldFieldSettings settingsOf(const std::string& text, int32_t cell, uint64_t seed = 7) {
+  const CompileResult compiled = compileGrammar(text, "test.sgm");
+  INFO(renderDiagnostics(compiled));
+  REQUIRE(compiled.program);
+  WorldFieldSettings s;
+  s.program = compiled.program;
+  s.parameters = ParameterValues::defaults(*compiled.program);
+  s.seed = seed;
+  s.finest_cell = cell;
+  return s;
+}
+
+inline std::pmr::vector<PlacedChunk> meshAll(const WorldField& world, const std::vector<ChunkRequest>& requests,
+                                             unsigned threads) {
+  const auto jobs = *makeThreadPool(threads);
+  Result<std::unique_ptr<Backend>> backend = makeBackend({}, *jobs, world.memory());
+  REQUIRE(backend);
+  Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, **backend, *jobs, requests);
+  INFO((chunks ? "" : chunks.error().message));
+  REQUIRE(chunks);
+  return std::move(*chunks);
+}
+
+}  // namespace sgm
