@@ -1,0 +1,22 @@
+#pragma once
+// The paper's measures of a meshed region (its section 7).
+
+#include <cstdint>
+
+#include "mesh/weld.h"
+
+namespace sgm {
+
+struct Measures {
+  double area = 0;       ///< m2, equation 7: half the length of each triangle's cross product, summed in triangle order
+  uint64_t objects = 0;  ///< section 7.3: groups of triangles that share vertices, directly or through others
+};
+
+/// Vertices are one where they are one by key, without any tolerance.
+Measures measure(const WorldMesh& mesh);
+
+/// m3, equation 8: N_C * C_E^3. A cube of edge C_E (the cell's) is centred on each sample and is inside where its
+/// sample is inside; a region's samples are those on its low faces and between, so that regions side by side add up.
+double cubeVolume(uint64_t samples_inside, int32_t cell_units);
+
+}  // namespace sgm

@@ -1,0 +1,34 @@
+#pragma once
+// What the meshes of a region say to every measure of the language.
+
+#include <cstdint>
+
+#include "metrics/components.h"
+#include "metrics/topology.h"
+#include "stream/mesh_chunks.h"
+
+namespace sgm {
+
+/// What costs more than counting: the surface needs all of the region's meshes at one time, pieces a walk over all
+/// signs.
+struct WantedMeasures {
+  bool surface = false;     ///< area and topology
+  bool components = false;  ///< pieces of solid and air
+};
+
+struct RegionMeasures {
+  IntBox extent;  ///< the region grown to whole chunks; hi does not belong to it
+  uint64_t chunks = 0;
+  uint64_t triangles = 0;  ///< each once; none of the faces where the border cuts the solid
+  double volume = 0;       ///< m3 of the solid: equation 8 of the paper (cubeVolume() in measure.h)
+  double area = 0;         ///< m2, equation 7, of the surface without the cut faces; 0 where not wanted
+  Components components;   ///< of all samples of the region, those on its high faces included; 0 where not wanted
+  Topology topology;       ///< empty where not wanted
+};
+
+/// Meshes the chunks of level 0 that meet the box lo <= p < hi, and measures them.
+/// Errors: those of chunksOfRegion, meshChunks and weld.
+Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
+                                     uint64_t max_chunks, const WantedMeasures& wanted, const Progress& progress = {});
+
+}  // namespace sgm
