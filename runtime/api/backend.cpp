@@ -31,18 +31,6 @@ using namespace sgm::api;
 
 namespace {
 
-const char* nameOf(sgm::BackendKind kind) {
-  switch (kind) {
-    case sgm::BackendKind::cpu:
-      return "cpu";
-    case sgm::BackendKind::vulkan:
-      return "vulkan";
-    case sgm::BackendKind::cuda:
-      return "cuda";
-  }
-  return "";
-}
-
 sgm_backend backendOf(sgm::BackendKind kind) {
   switch (kind) {
     case sgm::BackendKind::cpu:
@@ -76,7 +64,7 @@ sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_back
     info->usable = made ? 1 : 0;
     info->exact = 0;
     info->concurrency = 0;
-    copyText(info->name, nameOf(request->kind));
+    copyText(info->name, sgm::backendName(request->kind));
     copyText(info->device, "");
     copyText(info->reason, made ? "" : made.error().message);
     if (made) {
@@ -84,7 +72,7 @@ sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_back
       info->backend = backendOf(capabilities.kind);
       info->exact = capabilities.exact ? 1 : 0;
       info->concurrency = capabilities.concurrency;
-      copyText(info->name, nameOf(capabilities.kind));
+      copyText(info->name, sgm::backendName(capabilities.kind));
       copyText(info->device, capabilities.device);
     }
     return SGM_OK;

@@ -40,6 +40,17 @@ inline sgm_result nullArgument(sgm_error* error, const char* name) {
   return fail(error, SGM_ERR_INVALID_ARGUMENT, std::string(name) + " is NULL");
 }
 
+/// SGM_OK with the step from one element of a caller's array to the next (0 becomes the element's size), or why it
+/// cannot be.
+template <class Element>
+sgm_result checkStride(sgm_error* error, size_t& stride, const char* name) {
+  if (stride == 0) stride = sizeof(Element);
+  if (stride >= sizeof(Element) && stride % alignof(Element) == 0) return SGM_OK;
+  return fail(error, SGM_ERR_INVALID_ARGUMENT,
+              std::string(name) + " is below " + std::to_string(sizeof(Element)) + " or no multiple of " +
+                  std::to_string(alignof(Element)));
+}
+
 /// Runs a function's body and turns what it throws into a result: nothing crosses into C.
 template <class Body>
 sgm_result guarded(sgm_error* error, Body&& body) noexcept {

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <limits>
+#include <cstring>
 #include <vector>
 
 #include "api/anchors.h"
@@ -13,23 +13,38 @@ using namespace sgm::api;
 namespace {
 
 constexpr size_t kMostChunks = size_t{1} << 20;
+constexpr sgm::Neighbourhood kBlocksAround = (1u << 27) - 1 - sgm::neighbourBit(0, 0, 0);
+
+sgm::ChunkKey keyOf(const sgm_chunk_key& key) { return {key.level, {key.x, key.y, key.z}}; }
+
+sgm_result checkRequests(const sgm_chunks_desc& desc, sgm_error* error) {
+  if (desc.requests == nullptr) return nullArgument(error, "desc.requests");
+  if (desc.count == 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.count is 0");
+  if (desc.count > kMostChunks) return fail(error, SGM_ERR_LIMIT, "desc.count is above 2^20");
+  return SGM_OK;
+}
+
+sgm_chunk_request requestAt(const sgm_chunks_desc& desc, size_t stride, size_t i) {
+  sgm_chunk_request request;
+  std::memcpy(&request, reinterpret_cast<const char*>(desc.requests) + i * stride, sizeof request);
+  return request;
+}
 
 sgm_result checkRequest(const sgm_field& field, const sgm_chunk_request& request, sgm_error* error) {
   if (sgm_result r = checkLevel(field, request.key.level, error); r != SGM_OK) return r;
   if (request.seams >> SGM_FACE_COUNT != 0)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "a chunk's seams have bits beyond the six faces");
-  const int64_t edge = int64_t{SGM_CHUNK_CELLS} * field.world.cellAt(request.key.level);
-  for (const int32_t at : {request.key.x, request.key.y, request.key.z}) {
-    const int64_t low = at * edge;
-    if (low < std::numeric_limits<int32_t>::min() || low + edge > std::numeric_limits<int32_t>::max())
-      return fail(error, SGM_ERR_RANGE, "a chunk does not lie wholly inside the world of +-2^31 units");
-  }
-  return SGM_OK;
+  if ((request.coarser & ~kBlocksAround) != 0)
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "a chunk's coarser has bits beyond the 26 blocks around it");
+  if (request.reserved[0] != 0 || request.reserved[1] != 0)
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "a chunk request's reserved words must be 0");
+  const sgm::Result<sgm::ChunkGrid> grid = sgm::chunkGrid(field.world, keyOf(request.key));
+  return grid ? SGM_OK : fail(error, grid.error());
 }
 
-MeshSource sourceOf(const sgm_chunk_key& key, const sgm::PlacedChunk& chunk, std::span<const sgm_anchor> anchors) {
+MeshSource sourceOf(const sgm::PlacedChunk& chunk, std::span<const sgm_anchor> anchors) {
   MeshSource source;
-  source.key = key;
+  source.key = {chunk.key.level, chunk.key.at.x, chunk.key.at.y, chunk.key.at.z};
   source.grid = chunk.grid;
   source.parts[0] = &chunk.mesh.body;
   for (size_t face = 0; face < chunk.mesh.seams.size(); ++face) source.parts[1 + face] = &chunk.mesh.seams[face];
@@ -40,7 +55,7 @@ MeshSource sourceOf(const sgm_chunk_key& key, const sgm::PlacedChunk& chunk, std
 /// Meshes made so far; ends them unless they are handed over.
 class MadeMeshes {
  public:
-  explicit MadeMeshes(size_t count) : meshes_(count, nullptr) {}
+  MadeMeshes(size_t count, std::pmr::memory_resource* memory) : meshes_(count, nullptr, memory) {}
   MadeMeshes(const MadeMeshes&) = delete;
   MadeMeshes& operator=(const MadeMeshes&) = delete;
   ~MadeMeshes() {
@@ -53,49 +68,50 @@ class MadeMeshes {
   }
 
  private:
-  std::vector<sgm_mesh*> meshes_;
+  std::pmr::vector<sgm_mesh*> meshes_;
 };
 
 }  // namespace
 
 sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_mesh** meshes, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {
-    if (field == nullptr) return nullArgument(error, "field");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (meshes == nullptr) return nullArgument(error, "meshes");
-    if (desc->requests == nullptr) return nullArgument(error, "desc.requests");
-    if (desc->count == 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.count is 0");
-    if (desc->count > kMostChunks) return fail(error, SGM_ERR_LIMIT, "desc.count is above 2^20");
     std::fill_n(meshes, desc->count, nullptr);
+    if (field == nullptr) return nullArgument(error, "field");
+    if (sgm_result r = checkRequests(*desc, error); r != SGM_OK) return r;
+    size_t stride = desc->request_stride;
+    if (sgm_result r = checkStride<sgm_chunk_request>(error, stride, "desc.request_stride"); r != SGM_OK) return r;
 
-    std::vector<sgm::ChunkRequest> requests;
+    std::pmr::memory_resource* memory = &field->runtime.memory;
+    std::pmr::vector<sgm::ChunkRequest> requests(memory);
     requests.reserve(desc->count);
-    for (const sgm_chunk_request& request : std::span(desc->requests, desc->count)) {
+    for (size_t i = 0; i < desc->count; ++i) {
+      const sgm_chunk_request request = requestAt(*desc, stride, i);
       if (sgm_result r = checkRequest(*field, request, error); r != SGM_OK) return r;
-      requests.push_back({{request.key.level, {request.key.x, request.key.y, request.key.z}},
-                          static_cast<uint8_t>(request.seams),
-                          sgm::Neighbourhood{}});
+      const auto seams = static_cast<uint8_t>(request.seams);
+      const sgm::Neighbourhood coarser = request.coarser != 0 ? request.coarser : sgm::neighboursAcross(seams);
+      requests.push_back({keyOf(request.key), seams, coarser, false, true});
     }
     sgm::Progress progress;
     if (desc->progress != nullptr)
       progress = [desc](uint64_t done, uint64_t total) {
         return desc->progress(desc->progress_user, done, total) == 0;
       };
-    sgm::Result<std::vector<sgm::PlacedChunk>> chunks =
+    sgm::Result<std::pmr::vector<sgm::PlacedChunk>> chunks =
         sgm::meshChunks(field->world, *field->backend, *field->runtime.jobs, requests, progress);
     if (!chunks) return fail(error, chunks.error());
 
-    MadeMeshes made(desc->count);
-    for (size_t i = 0; i < desc->count; ++i) {
+    MadeMeshes made(desc->count, memory);
+    sgm::parallelFor(*field->runtime.jobs, desc->count, [&](size_t i) {
       sgm::PlacedChunk& chunk = (*chunks)[i];
-      sgm::IntBox box{chunk.grid.origin, chunk.grid.origin};
-      for (int axis = 0; axis < 3; ++axis) box.hi[axis] += SGM_CHUNK_CELLS * chunk.grid.cell;
-      const sgm::Result<std::vector<sgm_anchor>> anchors = anchorsIn(field->world, box);
-      if (!anchors) return fail(error, anchors.error());
-      made[i] = makeHandle<sgm_mesh>(field->runtime, sourceOf(desc->requests[i].key, chunk, *anchors));
+      std::vector<sgm_anchor> anchors;
+      anchors.reserve(chunk.anchors.size());
+      for (const sgm::Anchor& anchor : chunk.anchors) anchors.push_back(anchorOf(anchor));
+      made[i] = makeHandle<sgm_mesh>(field->runtime, sourceOf(chunk, anchors));
       // Give back what has been copied: a batch may be large.
-      chunk.mesh = sgm::ChunkMesh(&field->runtime.memory);
-    }
+      chunk.mesh = sgm::ChunkMesh(memory);
+    });
     made.handOver(meshes);
     return SGM_OK;
   });

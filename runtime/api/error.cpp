@@ -24,6 +24,8 @@ sgm_result resultOf(Code code) noexcept {
   switch (code) {
     case Code::invalid_argument:
       return SGM_ERR_INVALID_ARGUMENT;
+    case Code::range:
+      return SGM_ERR_RANGE;
     case Code::bad_input:
       return SGM_ERR_GRAMMAR;
     case Code::limit:

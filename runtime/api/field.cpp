@@ -4,6 +4,7 @@
 
 #include "api/backend_request.h"
 #include "api/barrier.h"
+#include "api/note_log.h"
 #include "stream/mesh_chunks.h"
 
 using namespace sgm::api;
@@ -32,7 +33,7 @@ sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sg
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (desc->grammar == nullptr) return nullArgument(error, "desc.grammar");
     if (desc->cell_units < 1 || desc->cell_units > kLargestFinestCell)
-      return fail(error, SGM_ERR_RANGE, "desc.cell_units is not 1 to " + std::to_string(kLargestFinestCell));
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.cell_units is not 1 to " + std::to_string(kLargestFinestCell));
     const std::optional<sgm::BackendRequest> request = requestOf(desc->backend);
     if (!request) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.backend is no sgm_backend");
     if (desc->parameters != nullptr && desc->parameters->program != desc->grammar->program)
@@ -45,6 +46,9 @@ sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sg
     settings.seed = desc->seed;
     settings.finest_cell = desc->cell_units;
     if (desc->cache_bytes != 0) settings.cache_bytes = desc->cache_bytes;
+    if (runtime->sink.write != nullptr)
+      settings.on_notes = [notes = std::make_shared<NoteLog>(*runtime, desc->grammar->program)](
+                              const sgm::GrammarChunk& cell) { notes->tell(cell); };
     sgm::Result<std::unique_ptr<sgm::Backend>> backend = sgm::makeBackend(*request, *runtime->jobs, &runtime->memory);
     if (!backend) return fail(error, backend.error());
     *out = makeHandle<sgm_field>(*runtime, std::move(settings), std::move(*backend));
@@ -60,9 +64,9 @@ sgm_result sgm_cell_from_metres(double metres, int32_t* units, sgm_error* error)
     if (!(metres > 0)) return fail(error, SGM_ERR_INVALID_ARGUMENT, "the cell's edge is not a number above 0");
     const double rounded = std::floor(metres * SGM_UNITS_PER_METRE + 0.5);
     if (!(rounded >= 1))
-      return fail(error, SGM_ERR_RANGE, "the cell's edge is below one unit: the smallest is 1/1024 m");
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "the cell's edge is below half a unit: the smallest is 1/1024 m");
     if (!(rounded <= kLargestFinestCell))
-      return fail(error, SGM_ERR_RANGE, "the cell's edge is too large for the integer grid: the largest is 1024 m");
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "the cell's edge is too large: the largest is 1024 m");
     *units = static_cast<int32_t>(rounded);
     return SGM_OK;
   });

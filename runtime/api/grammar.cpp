@@ -136,6 +136,25 @@ const char* sgm_grammar_name(const sgm_grammar* grammar, uint32_t index) {
   return grammar == nullptr ? nullptr : nameAt(grammar->program->names, index);
 }
 
+sgm_result sgm_grammar_domain(const sgm_grammar* grammar, sgm_domain_info* out) {
+  return guarded(nullptr, [&]() -> sgm_result {
+    if (grammar == nullptr) return SGM_ERR_INVALID_ARGUMENT;
+    if (sgm_result r = checkDesc(nullptr, out, "out"); r != SGM_OK) return r;
+    const sgm::Domain& domain = grammar->program->domain;
+    out->infinite = domain.infinite ? 1 : 0;
+    out->solid = domain.solid ? 1 : 0;
+    out->density = domain.density ? 1 : 0;
+    out->material = domain.material;
+    for (int axis = 0; axis < 3; ++axis) {
+      out->cut[axis] = domain.infinite && domain.axes[static_cast<size_t>(axis)] ? 1 : 0;
+      out->minimum[axis] = domain.infinite ? 0 : domain.box.lo[axis];
+      out->maximum[axis] = domain.infinite ? 0 : domain.box.hi[axis];
+    }
+    out->reserved = 0;
+    return SGM_OK;
+  });
+}
+
 uint32_t sgm_grammar_layer_count(const sgm_grammar* grammar) {
   return grammar == nullptr ? 0 : static_cast<uint32_t>(grammar->program->layers.size());
 }

@@ -29,7 +29,8 @@ bool liesIn(const fs::path& folder, const fs::path& file) {
 Result<std::string> readTextFile(const fs::path& path, size_t limit) {
   std::error_code why;
   const fs::file_status status = fs::status(path, why);
-  if (!fs::exists(status)) return ioError(path, "no such file");
+  if (status.type() == fs::file_type::not_found) return ioError(path, "no such file");
+  if (!fs::exists(status)) return ioError(path, why.message());  // no permission for a folder, links in a circle
   if (fs::is_directory(status)) return ioError(path, "it is a folder");
   std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
   if (file == nullptr) return ioError(path, std::strerror(errno));

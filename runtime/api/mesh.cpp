@@ -123,25 +123,32 @@ namespace {
 
 /// Copies where there is room, and says how many there are.
 template <class T>
-sgm_result copyOut(const RawArray<T>& from, T* to, size_t* count) {
+sgm_result copyOut(const RawArray<T>& from, T* to, size_t stride, size_t* count) {
   const size_t room = *count;
   *count = from.size();
   if (to == nullptr) return SGM_OK;
   if (room < from.size()) return SGM_INCOMPLETE;
-  if (from.size() > 0) std::memcpy(to, from.data(), from.size() * sizeof(T));
+  if (stride == sizeof(T)) {
+    if (from.size() > 0) std::memcpy(to, from.data(), from.size() * sizeof(T));
+    return SGM_OK;
+  }
+  char* at = reinterpret_cast<char*>(to);
+  for (size_t i = 0; i < from.size(); ++i, at += stride) std::memcpy(at, from.data() + i, sizeof(T));
   return SGM_OK;
 }
 
 }  // namespace
 
-sgm_result sgm_mesh_copy(const sgm_mesh* mesh, sgm_vertex* vertices, size_t* vertex_count, uint32_t* indices,
-                         size_t* index_count, sgm_error* error) {
+sgm_result sgm_mesh_copy(const sgm_mesh* mesh, sgm_vertex* vertices, size_t vertex_stride, size_t* vertex_count,
+                         uint32_t* indices, size_t index_stride, size_t* index_count, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {
     if (mesh == nullptr) return nullArgument(error, "mesh");
     if (vertex_count == nullptr) return nullArgument(error, "vertex_count");
     if (index_count == nullptr) return nullArgument(error, "index_count");
-    const sgm_result first = copyOut(mesh->vertices, vertices, vertex_count);
-    const sgm_result second = copyOut(mesh->indices, indices, index_count);
+    if (sgm_result r = checkStride<sgm_vertex>(error, vertex_stride, "vertex_stride"); r != SGM_OK) return r;
+    if (sgm_result r = checkStride<uint32_t>(error, index_stride, "index_stride"); r != SGM_OK) return r;
+    const sgm_result first = copyOut(mesh->vertices, vertices, vertex_stride, vertex_count);
+    const sgm_result second = copyOut(mesh->indices, indices, index_stride, index_count);
     return first != SGM_OK ? first : second;
   });
 }

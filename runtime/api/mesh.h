@@ -5,7 +5,7 @@
 #include <atomic>
 #include <span>
 
-#include "api/grid_mesh.h"
+#include "api/raw_array.h"
 #include "api/runtime.h"
 #include "mesh/chunk.h"
 

@@ -1,5 +1,6 @@
 #include "api/parameter_values.h"
 
+#include <algorithm>
 #include <memory_resource>
 #include <string>
 
@@ -13,11 +14,14 @@ Result<uint32_t> findParameter(const Program& program, std::string_view name) {
   Suggestion nearest(name);
   for (const Param& param : program.params) nearest.offer(program.text(param.name));
   std::string message = join({"the grammar has no parameter '", name, "'"});
-  if (const std::string hint = nearest.hint(); !hint.empty()) {
-    message += "; " + hint;
-  } else if (program.params.empty()) {
-    message += ": it has none";
-  }
+  if (const std::string hint = nearest.hint(); !hint.empty()) message += "; " + hint;
+  // Enough to choose from; a grammar may have hundreds.
+  constexpr size_t kMostNames = 12;
+  const size_t count = program.params.size();
+  message += count == 0 ? "; it has none" : "; it has ";
+  for (size_t i = 0; i < std::min(count, kMostNames); ++i)
+    message += join({i == 0 ? "" : ", ", program.text(program.params[i].name)});
+  if (count > kMostNames) message += join({" and ", std::to_string(count - kMostNames), " more"});
   return Error{Code::invalid_argument, message};
 }
 

@@ -60,12 +60,7 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
     const sgm::Result<RegionMesh> region =
         meshRegion(field->world, *field->backend, *field->runtime.jobs, box, desc->level,
                    desc->max_chunks != 0 ? desc->max_chunks : kDefaultMostChunks, progress);
-    if (!region) {
-      // All other arguments are checked above: what is left is a region that leaves the world.
-      const sgm_result code =
-          region.error().code == sgm::Code::invalid_argument ? SGM_ERR_RANGE : resultOf(region.error().code);
-      return fail(error, code, region.error().message, region.error().line, region.error().column);
-    }
+    if (!region) return fail(error, region.error());
     struct End {
       void operator()(sgm_surface* surface) const { sgm_surface_destroy(surface); }
     };

@@ -18,17 +18,17 @@ Int3 originFor(const IntBox& extent) {
 
 Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
                               int level, uint64_t max_chunks, const Progress& progress) {
-  const Result<std::vector<ChunkKey>> keys = chunksOfRegion(world, region, level, max_chunks);
+  const Result<std::pmr::vector<ChunkKey>> keys = chunksOfRegion(world, region, level, max_chunks);
   if (!keys) return keys.error();
-  std::vector<ChunkRequest> requests;
+  std::pmr::vector<ChunkRequest> requests(world.memory());
   requests.reserve(keys->size());
   for (const ChunkKey& key : *keys) requests.push_back({key, 0, Neighbourhood{}});
-  const Result<std::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, requests, progress);
+  const Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, requests, progress);
   if (!chunks) return chunks.error();
 
   RegionMesh result(world.memory());
   result.chunks = chunks->size();
-  std::vector<PlacedPart> parts;
+  std::pmr::vector<PlacedPart> parts(world.memory());
   for (const PlacedChunk& chunk : *chunks) {
     appendParts(chunk, parts);
     result.solid_samples += chunk.mesh.solid_samples;

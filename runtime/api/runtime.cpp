@@ -1,6 +1,5 @@
 #include "api/runtime.h"
 
-#include <chrono>
 #include <limits>
 
 #include "api/barrier.h"
@@ -93,14 +92,8 @@ void CallerJobs::submit(void (*function)(void*), void* argument, int priority) {
 }
 
 CallerJobs::~CallerJobs() {
-  constexpr auto kBetweenHelps = std::chrono::milliseconds(1);
   std::unique_lock lock(mutex_);
-  while (waiting_ != 0) {
-    lock.unlock();
-    const bool helped = help();
-    lock.lock();
-    if (!helped) ended_.wait_for(lock, kBetweenHelps, [this] { return waiting_ == 0; });
-  }
+  helpUntil(*this, lock, ended_, [this] { return waiting_ == 0; });
 }
 
 bool CallerJobs::help() { return jobs_.help != nullptr && jobs_.help(jobs_.user) != 0; }
@@ -132,9 +125,14 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
     if (desc->jobs != nullptr) {
       runtime->jobs = std::make_unique<CallerJobs>(*desc->jobs);
     } else {
-      runtime->jobs = sgm::makeThreadPool(desc->threads);
+      sgm::Result<std::unique_ptr<sgm::JobSystem>> pool = sgm::makeThreadPool(desc->threads);
+      if (!pool) return fail(error, pool.error());
+      runtime->jobs = std::move(*pool);
     }
     runtime->log(SGM_LOG_INFO, sgm_build_info());
+    if (desc->jobs == nullptr && runtime->jobs->concurrency() < desc->threads)
+      runtime->log(SGM_LOG_WARNING, "this machine lets only " + std::to_string(runtime->jobs->concurrency()) + " of " +
+                                        std::to_string(desc->threads) + " threads work");
     *out = runtime.release();
     return SGM_OK;
   });

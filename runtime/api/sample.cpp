@@ -44,8 +44,6 @@ struct Place {
   }
 };
 
-int32_t floorDiv(int32_t a, int32_t b) { return a / b - (a % b < 0 ? 1 : 0); }
-
 /// Some points with one program, and room for their results.
 class Evaluation {
  public:
@@ -147,8 +145,8 @@ sgm::Result<void> sampleSlice(const sgm_field& field, const sgm_sample_desc& des
     const sgm::Int3 p = pointAt(desc, i);
     Place place{{}, {}, i};
     for (int axis = 0; axis < 3; ++axis) {
-      place.block[axis] = floorDiv(p[axis], cell * kBlockCells);
-      place.brick[axis] = floorDiv(p[axis], cell * kBrickCells);
+      place.block[axis] = static_cast<int32_t>(sgm::floorDiv(p[axis], int64_t{cell} * kBlockCells));
+      place.brick[axis] = static_cast<int32_t>(sgm::floorDiv(p[axis], int64_t{cell} * kBrickCells));
     }
     places.push_back(place);
   }

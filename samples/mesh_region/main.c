@@ -74,7 +74,7 @@ static sgm_result find_place(sgm_field* field, int32_t place[3], sgm_error* erro
   const int32_t high[3] = {128 * SGM_UNITS_PER_METRE, 128 * SGM_UNITS_PER_METRE, 128 * SGM_UNITS_PER_METRE};
   sgm_anchor anchor;
   size_t count = 1;
-  sgm_result result = sgm_field_anchors(field, low, high, &anchor, &count, error);
+  sgm_result result = sgm_field_anchors(field, low, high, &anchor, 0, &count, error);
   if (result >= SGM_OK && count > 0) memcpy(place, anchor.position, sizeof anchor.position);
   return result < SGM_OK ? result : SGM_OK;
 }

@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   world.seed = 7;
   world.cell_units = SGM_UNITS_PER_METRE / 4;
 
-  sgm_chunk_request request = {{0, 0, 0, 0}, 0};
+  sgm_chunk_request request = SGM_CHUNK_REQUEST_INIT;
   sgm_chunks_desc chunks = SGM_CHUNKS_DESC_INIT;
   chunks.requests = &request;
   chunks.count = 1;

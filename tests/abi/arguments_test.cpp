@@ -1,5 +1,6 @@
 // Every function with NULL, with structs of a wrong size and with numbers out of range: an error code, never a crash.
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,7 +15,7 @@ struct World {
   FieldOwner field = makeField(runtime.get(), grammar.get());
 };
 
-const sgm_chain kExtension = {sizeof(sgm_chain), 1, nullptr};
+sgm_chain extension = {sizeof(sgm_chain), 1, nullptr};
 
 /// A struct that is too small, too large, or continued by an extension that no version knows.
 template <class Desc, class Call>
@@ -25,7 +26,7 @@ void checkStruct(Desc good, Call&& call) {
     CHECK(call(&bad) == SGM_ERR_STRUCT_SIZE);
   }
   Desc extended = good;
-  extended.next = &kExtension;
+  extended.next = &extension;
   CHECK(call(&extended) == SGM_ERR_UNSUPPORTED);
   CHECK(call(static_cast<Desc*>(nullptr)) == SGM_ERR_INVALID_ARGUMENT);
 }
@@ -58,6 +59,8 @@ TEST_CASE("questions about NULL have an answer") {
   CHECK(sgm_runtime_memory(nullptr, nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
   sgm_diagnostic diagnostic = SGM_DIAGNOSTIC_INIT;
   CHECK(sgm_diagnostics_get(nullptr, 0, &diagnostic) == SGM_ERR_INVALID_ARGUMENT);
+  sgm_domain_info domain = SGM_DOMAIN_INFO_INIT;
+  CHECK(sgm_grammar_domain(nullptr, &domain) == SGM_ERR_INVALID_ARGUMENT);
   sgm_layer_info layer = SGM_LAYER_INFO_INIT;
   CHECK(sgm_grammar_layer(nullptr, 0, &layer) == SGM_ERR_INVALID_ARGUMENT);
   sgm_parameter_info parameter = SGM_PARAMETER_INFO_INIT;
@@ -75,7 +78,7 @@ TEST_CASE("runtime descriptors are checked") {
     bad.struct_size = size;
     CHECK(call(&bad) == SGM_ERR_STRUCT_SIZE);
   }
-  good.next = &kExtension;
+  good.next = &extension;
   CHECK(call(&good) == SGM_ERR_UNSUPPORTED);
   CHECK(sgm_runtime_create(nullptr, nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
 
@@ -137,6 +140,8 @@ TEST_CASE("grammar calls are checked") {
   const DiagnosticsOwner owner(diagnostics);
   checkStruct(sgm_diagnostic SGM_DIAGNOSTIC_INIT,
               [&](sgm_diagnostic* d) { return sgm_diagnostics_get(diagnostics, 0, d); });
+  checkStruct(sgm_domain_info SGM_DOMAIN_INFO_INIT,
+              [&](sgm_domain_info* d) { return sgm_grammar_domain(world.grammar.get(), d); });
   checkStruct(sgm_layer_info SGM_LAYER_INFO_INIT,
               [&](sgm_layer_info* l) { return sgm_grammar_layer(world.grammar.get(), 0, l); });
   checkStruct(sgm_parameter_info SGM_PARAMETER_INFO_INIT,
@@ -182,7 +187,7 @@ TEST_CASE("field descriptors are checked") {
   CHECK(with([](auto& d) { d.grammar = nullptr; }) == SGM_ERR_INVALID_ARGUMENT);
   for (const int32_t cell :
        {0, -1, (1 << 20) + 1, std::numeric_limits<int32_t>::max(), std::numeric_limits<int32_t>::min()})
-    CHECK(with([&](auto& d) { d.cell_units = cell; }) == SGM_ERR_RANGE);
+    CHECK(with([&](auto& d) { d.cell_units = cell; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.backend = static_cast<sgm_backend>(77); }) == SGM_ERR_INVALID_ARGUMENT);
 
   GrammarOwner other = compile(world.runtime.get(), "sgm 1; units m; start R; rule R { sphere(1m); }");
@@ -197,10 +202,10 @@ TEST_CASE("field descriptors are checked") {
 
   int32_t units = 0;
   CHECK(sgm_cell_from_metres(0.5, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
-  for (const double metres : {0.0, -1.0, std::nan("")})
+  for (const double metres : {0.0, -1.0, std::nan(""), 1e-9, 0.499 / 1024, 1024.001, 1e9, HUGE_VAL})
     CHECK(sgm_cell_from_metres(metres, &units, &error) == SGM_ERR_INVALID_ARGUMENT);
-  for (const double metres : {1e-9, 1e9, HUGE_VAL})
-    CHECK(sgm_cell_from_metres(metres, &units, &error) == SGM_ERR_RANGE);
+  REQUIRE(sgm_cell_from_metres(0.501 / 1024, &units, &error) == SGM_OK);
+  CHECK(units == 1);
   REQUIRE(sgm_cell_from_metres(0.1, &units, &error) == SGM_OK);
   CHECK(units == 102);
   REQUIRE(sgm_cell_from_metres(1024, &units, &error) == SGM_OK);
@@ -237,53 +242,76 @@ TEST_CASE("sampling calls are checked") {
 
   const int32_t lo[3] = {0, 0, 0}, hi[3] = {8192, 8192, 8192};
   size_t count = 0;
-  CHECK(sgm_field_anchors(nullptr, lo, hi, nullptr, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_field_anchors(world.field.get(), nullptr, hi, nullptr, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_field_anchors(world.field.get(), lo, nullptr, nullptr, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_field_anchors(world.field.get(), lo, hi, nullptr, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_field_anchors(world.field.get(), hi, lo, nullptr, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  sgm_field* field = world.field.get();
+  CHECK(sgm_field_anchors(nullptr, lo, hi, nullptr, 0, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_field_anchors(field, nullptr, hi, nullptr, 0, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_field_anchors(field, lo, nullptr, nullptr, 0, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_field_anchors(field, lo, hi, nullptr, 0, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_field_anchors(field, hi, lo, nullptr, 0, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  for (const size_t stride : {size_t{1}, sizeof(sgm_anchor) - 8, sizeof(sgm_anchor) + 4})
+    CHECK(sgm_field_anchors(field, lo, hi, nullptr, stride, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
 }
 
 TEST_CASE("chunk calls are checked") {
   World world;
   sgm_error error = SGM_ERROR_INIT;
-  sgm_chunk_request request = {{0, 0, 0, 0}, 0};
+  sgm_chunk_request request = SGM_CHUNK_REQUEST_INIT;
   sgm_chunks_desc good = SGM_CHUNKS_DESC_INIT;
   good.requests = &request;
   good.count = 1;
-  const auto meshWith = [&](const sgm_chunks_desc* desc) {
-    sgm_mesh* mesh = nullptr;
-    const sgm_result result = sgm_mesh_chunks(world.field.get(), desc, &mesh, &error);
-    CHECK(mesh == nullptr);
+  // More entries than any call here may write, with something in them that is no mesh.
+  constexpr size_t kTooMany = (size_t{1} << 20) + 1;
+  sgm_mesh* const wild = reinterpret_cast<sgm_mesh*>(&world);
+  std::vector<sgm_mesh*> meshes(kTooMany + 1);
+  const auto meshOn = [&](sgm_field* field, const sgm_chunks_desc* desc, bool refused) {
+    std::fill(meshes.begin(), meshes.end(), wild);
+    const sgm_result result = sgm_mesh_chunks(field, desc, meshes.data(), &error);
+    const size_t written = refused ? 0 : desc->count;
+    CHECK(std::count(meshes.begin(), meshes.end(), nullptr) == static_cast<std::ptrdiff_t>(written));
+    CHECK(std::count(meshes.begin() + static_cast<std::ptrdiff_t>(written), meshes.end(), nullptr) == 0);
     return result;
   };
-  checkStruct(good, meshWith);
+  const auto meshWith = [&](const sgm_chunks_desc* desc) { return meshOn(world.field.get(), desc, false); };
+  checkStruct(good, [&](const sgm_chunks_desc* desc) { return meshOn(world.field.get(), desc, true); });
   const auto with = [&](auto change) {
     sgm_chunks_desc desc = good;
     change(desc);
     return meshWith(&desc);
   };
   sgm_mesh* mesh = nullptr;
-  CHECK(sgm_mesh_chunks(nullptr, &good, &mesh, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(meshOn(nullptr, &good, false) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_mesh_chunks(world.field.get(), &good, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.requests = nullptr; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.count = 0; }) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(with([](auto& d) { d.count = (1u << 20) + 1; }) == SGM_ERR_LIMIT);
+  CHECK(with([](auto& d) { d.count = kTooMany; }) == SGM_ERR_LIMIT);
+  for (const size_t stride : {size_t{1}, sizeof(sgm_chunk_request) - 4, sizeof(sgm_chunk_request) + 2})
+    CHECK(with([stride](auto& d) { d.request_stride = stride; }) == SGM_ERR_INVALID_ARGUMENT);
   for (const int32_t level : {-1, SGM_MAX_LEVEL + 1, std::numeric_limits<int32_t>::min()}) {
-    request = {{level, 0, 0, 0}, 0};
+    request.key.level = level;
     CHECK(meshWith(&good) == SGM_ERR_INVALID_ARGUMENT);
   }
-  request = {{0, 0, 0, 0}, 64};
+  request = chunkAt({0, 0, 0, 0}, 64);
   CHECK(meshWith(&good) == SGM_ERR_INVALID_ARGUMENT);
+  // The chunk itself, and beyond the 27 blocks.
+  for (const uint32_t block : {13u, 27u, 31u}) {
+    request = chunkAt({0, 0, 0, 0});
+    request.coarser = 1u << block;
+    CHECK(meshWith(&good) == SGM_ERR_INVALID_ARGUMENT);
+  }
+  for (const size_t word : {size_t{0}, size_t{1}}) {
+    request = chunkAt({0, 0, 0, 0});
+    request.reserved[word] = 1;
+    CHECK(meshWith(&good) == SGM_ERR_INVALID_ARGUMENT);
+  }
   const int32_t far = std::numeric_limits<int32_t>::max(), low = std::numeric_limits<int32_t>::min();
   // The chunk's edge is 8192 units: 2^31 / 8192 chunks fit each way.
   for (const sgm_chunk_key key :
        {sgm_chunk_key{0, far, 0, 0}, sgm_chunk_key{0, 0, low, 0}, sgm_chunk_key{0, 0, 0, 262144},
         sgm_chunk_key{0, -262145, 0, 0}, sgm_chunk_key{SGM_MAX_LEVEL, 1, 0, 0}}) {
-    request = {key, 0};
+    request = chunkAt(key);
     CHECK(meshWith(&good) == SGM_ERR_RANGE);
   }
-  request = {{0, -262144, 262143 - 1, 0}, 63};
+  request = chunkAt({0, -262144, 262143 - 1, 0}, 63);
   REQUIRE(sgm_mesh_chunks(world.field.get(), &good, &mesh, &error) == SGM_OK);
   const MeshOwner owner(mesh);
   checkStruct(sgm_mesh_view SGM_MESH_VIEW_INIT,
@@ -291,9 +319,12 @@ TEST_CASE("chunk calls are checked") {
   sgm_mesh_view view = SGM_MESH_VIEW_INIT;
   CHECK(sgm_mesh_get_view(nullptr, &view, &error) == SGM_ERR_INVALID_ARGUMENT);
   size_t vertices = 0, indices = 0;
-  CHECK(sgm_mesh_copy(nullptr, nullptr, &vertices, nullptr, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_mesh_copy(mesh, nullptr, nullptr, nullptr, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(sgm_mesh_copy(mesh, nullptr, &vertices, nullptr, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_copy(nullptr, nullptr, 0, &vertices, nullptr, 0, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_copy(mesh, nullptr, 0, nullptr, nullptr, 0, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_copy(mesh, nullptr, 0, &vertices, nullptr, 0, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_copy(mesh, nullptr, 8, &vertices, nullptr, 0, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_copy(mesh, nullptr, 17, &vertices, nullptr, 0, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_copy(mesh, nullptr, 0, &vertices, nullptr, 2, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
 }
 
 TEST_CASE("surface calls are checked") {
@@ -323,6 +354,12 @@ TEST_CASE("surface calls are checked") {
           d.maximum[0] = 8193;
           d.max_chunks = 1;
         }) == SGM_ERR_LIMIT);
+  // A number of chunks that no memory holds, and one that is only too many.
+  for (const int32_t far : {1 << 30, 300 * 8192})
+    CHECK(with([far](auto& d) {
+            for (int32_t& v : d.maximum) v = far;
+            d.max_chunks = std::numeric_limits<uint64_t>::max();
+          }) == SGM_ERR_LIMIT);
   CHECK(with([](auto& d) {
           for (int axis = 0; axis < 3; ++axis) {
             d.minimum[axis] = std::numeric_limits<int32_t>::min();

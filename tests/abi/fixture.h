@@ -66,6 +66,13 @@ inline FieldOwner makeField(sgm_runtime* runtime, const sgm_grammar* grammar, in
   return FieldOwner(field);
 }
 
+inline sgm_chunk_request chunkAt(const sgm_chunk_key& key, uint32_t seams = 0) {
+  sgm_chunk_request request = SGM_CHUNK_REQUEST_INIT;
+  request.key = key;
+  request.seams = seams;
+  return request;
+}
+
 inline std::vector<MeshOwner> meshChunks(sgm_field* field, const std::vector<sgm_chunk_request>& requests) {
   sgm_chunks_desc desc = SGM_CHUNKS_DESC_INIT;
   desc.requests = requests.data();

@@ -199,3 +199,38 @@ TEST_CASE("imports come from the callback, from the folder, and from nowhere els
   CHECK(tryCompile(runtime.get(), desc).result == SGM_ERR_GRAMMAR);
   fs::remove_all(folder);
 }
+
+TEST_CASE("a grammar says where its world lies") {
+  RuntimeOwner runtime = makeRuntime();
+  sgm_domain_info info = SGM_DOMAIN_INFO_INIT;
+  const GrammarOwner ball = compile(runtime.get(), kBall);
+  REQUIRE(sgm_grammar_domain(ball.get(), &info) == SGM_OK);
+  CHECK(info.infinite == 0);
+  CHECK(info.solid == 0);
+  CHECK(info.density == 0);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    CHECK(info.cut[axis] == 0);
+    // The ball at its largest.
+    CHECK(info.minimum[axis] <= 4 * 1024 - 3584);
+    CHECK(info.maximum[axis] >= 4 * 1024 + 3584);
+  }
+  const GrammarOwner box = compile(runtime.get(),
+                                   "sgm 1; units m; domain finite solid chalk box(8m, 6m, 4m);\n"
+                                   "start Hole; rule Hole { cut { sphere(1m); } }");
+  REQUIRE(sgm_grammar_domain(box.get(), &info) == SGM_OK);
+  CHECK(info.infinite == 0);
+  CHECK(info.solid == 1);
+  CHECK(std::string(sgm_grammar_material(box.get(), info.material)) == "chalk");
+  CHECK(info.minimum[0] == -4096);
+  CHECK(info.maximum[1] == 3072);
+  const GrammarOwner fog = compile(runtime.get(),
+                                   "sgm 1; units m; domain infinite axes xz output density;\n"
+                                   "layer main cell 16m reach 4m { start Puff; } rule Puff { sphere(2m); }");
+  REQUIRE(sgm_grammar_domain(fog.get(), &info) == SGM_OK);
+  CHECK(info.infinite == 1);
+  CHECK(info.density == 1);
+  CHECK(info.cut[0] == 1);
+  CHECK(info.cut[1] == 0);
+  CHECK(info.cut[2] == 1);
+  CHECK(info.maximum[0] == 0);
+}

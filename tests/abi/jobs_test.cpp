@@ -72,7 +72,8 @@ uint64_t workOn(sgm_runtime* runtime) {
   const GrammarOwner grammar = compile(runtime, kBall);
   const FieldOwner field = makeField(runtime, grammar.get());
   uint64_t hash = 0;
-  for (const MeshOwner& mesh : meshChunks(field.get(), {{{0, 0, 0, 0}, 63}, {{1, 0, 0, 0}, 63}, {{0, 1, 0, 0}, 0}}))
+  for (const MeshOwner& mesh :
+       meshChunks(field.get(), {chunkAt({0, 0, 0, 0}, 63), chunkAt({1, 0, 0, 0}, 63), chunkAt({0, 1, 0, 0})}))
     hash = hash * 31 + viewOf(mesh).hash;
   sgm_region_desc region = SGM_REGION_DESC_INIT;
   for (int axis = 0; axis < 3; ++axis) {
@@ -110,7 +111,7 @@ uint64_t hashWith(const sgm_job_system& jobs) {
 
 }  // namespace
 
-TEST_CASE("a job system that runs its jobs late and in reverse, with help and without") {
+TEST_CASE("a job system that runs its jobs late and in reverse, with help and without", "[threads]") {
   const uint64_t expected = expectedHash();
   for (const bool helps : {false, true}) {
     Lazy lazy(helps);
@@ -118,14 +119,14 @@ TEST_CASE("a job system that runs its jobs late and in reverse, with help and wi
   }
 }
 
-TEST_CASE("a job system without help") {
+TEST_CASE("a job system without help", "[threads]") {
   Lazy lazy(false);
   sgm_job_system jobs = table(lazy);
   jobs.help = nullptr;
   CHECK(hashWith(jobs) == expectedHash());
 }
 
-TEST_CASE("a job system that refuses every job, and one that runs each at once") {
+TEST_CASE("a job system that refuses every job, and one that runs each at once", "[threads]") {
   sgm_job_system refuses{};
   refuses.concurrency = [](void*) -> uint32_t { return 0; };
   refuses.submit = [](void*, void (*)(void*), void*, int32_t) -> int32_t { return 0; };
@@ -139,7 +140,53 @@ TEST_CASE("a job system that refuses every job, and one that runs each at once")
   CHECK(hashWith(at_once) == expectedHash());
 }
 
-TEST_CASE("a job system with a thread for each job") {
+TEST_CASE("a job system without threads, which runs its jobs in help alone", "[threads]") {
+  struct Helped {
+    std::mutex mutex;
+    std::deque<Job> waiting;
+    size_t ran = 0;
+  } helped;
+  const sgm_job_system jobs{[](void*) -> uint32_t { return 4; },
+                            [](void* user, void (*function)(void*), void* argument, int32_t) -> int32_t {
+                              auto& h = *static_cast<Helped*>(user);
+                              const std::lock_guard lock(h.mutex);
+                              h.waiting.push_back({function, argument});
+                              return 1;
+                            },
+                            [](void* user) -> int32_t {
+                              auto& h = *static_cast<Helped*>(user);
+                              Job job{};
+                              {
+                                const std::lock_guard lock(h.mutex);
+                                if (h.waiting.empty()) return 0;
+                                job = h.waiting.front();
+                                h.waiting.pop_front();
+                                ++h.ran;
+                              }
+                              job.function(job.argument);
+                              return 1;
+                            },
+                            &helped};
+  {
+    sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+    desc.jobs = &jobs;
+    RuntimeOwner runtime = makeRuntime(&desc);
+    const uint64_t expected = expectedHash();
+    CHECK(workOn(runtime.get()) == expected);
+    // Two calls at one time, each of which may run the other's shares.
+    uint64_t other = 0;
+    std::thread thread([&] { other = workOn(runtime.get()); });
+    const uint64_t mine = workOn(runtime.get());
+    thread.join();
+    CHECK(mine == expected);
+    CHECK(other == expected);
+  }
+  // What was left of finished calls has run before the runtime ended.
+  CHECK(helped.waiting.empty());
+  CHECK(helped.ran > 0);
+}
+
+TEST_CASE("a job system with a thread for each job", "[threads]") {
   struct Threads {
     std::mutex mutex;
     std::vector<std::thread> all;
@@ -159,9 +206,9 @@ TEST_CASE("a job system with a thread for each job") {
   for (std::thread& thread : threads.all) thread.join();
 }
 
-TEST_CASE("calls from several threads on one field agree") {
+TEST_CASE("calls from several threads on one field agree", "[threads]") {
   const auto hashes = [](sgm_field* field) {
-    sgm_chunk_request request = {{0, 0, 0, 0}, 63};
+    const sgm_chunk_request request = chunkAt({0, 0, 0, 0}, 63);
     sgm_chunks_desc desc = SGM_CHUNKS_DESC_INIT;
     desc.requests = &request;
     desc.count = 1;

@@ -1,6 +1,6 @@
 /*
- * Sizes and offsets of every struct of sgm/sgm.h on machines with 64-bit pointers. Compiled as C99 and as C++20: a
- * change that breaks programs built with the header of an earlier patch version does not compile.
+ * Sizes and offsets of every struct of sgm/sgm.h on machines with 64-bit pointers, and every number in it. Compiled as
+ * C99 and as C++20: a change that breaks programs built with the header of an earlier patch version does not compile.
  */
 #include <sgm/sgm.h>
 
@@ -22,6 +22,62 @@ CHECK(log_level_size, sizeof(sgm_log_level) == 4);
 CHECK(backend_size, sizeof(sgm_backend) == 4);
 CHECK(quantity_size, sizeof(sgm_quantity) == 4);
 CHECK(face_size, sizeof(sgm_face) == 4);
+
+/* Values that programs have compiled in. */
+CHECK(version_major, SGM_VERSION_MAJOR == 0);
+CHECK(version_minor, SGM_VERSION_MINOR == 1);
+CHECK(version_patch, SGM_VERSION_PATCH == 0);
+CHECK(api_version, SGM_API_VERSION == 1000);
+CHECK(units_per_metre, SGM_UNITS_PER_METRE == 1024);
+CHECK(chunk_cells, SGM_CHUNK_CELLS == 32);
+CHECK(subcell, SGM_SUBCELL == 256);
+CHECK(max_level, SGM_MAX_LEVEL == 16);
+CHECK(message_size, SGM_MESSAGE_SIZE == 500);
+CHECK(name_size, SGM_NAME_SIZE == 256);
+
+CHECK(ok, SGM_OK == 0);
+CHECK(incomplete, SGM_INCOMPLETE == 1);
+CHECK(err_invalid_argument, SGM_ERR_INVALID_ARGUMENT == -1);
+CHECK(err_struct_size, SGM_ERR_STRUCT_SIZE == -2);
+CHECK(err_version, SGM_ERR_VERSION == -3);
+CHECK(err_out_of_memory, SGM_ERR_OUT_OF_MEMORY == -4);
+CHECK(err_grammar, SGM_ERR_GRAMMAR == -5);
+CHECK(err_limit, SGM_ERR_LIMIT == -6);
+CHECK(err_range, SGM_ERR_RANGE == -7);
+CHECK(err_io, SGM_ERR_IO == -8);
+CHECK(err_unsupported, SGM_ERR_UNSUPPORTED == -9);
+CHECK(err_cancelled, SGM_ERR_CANCELLED == -10);
+CHECK(err_busy, SGM_ERR_BUSY == -11);
+CHECK(err_not_found, SGM_ERR_NOT_FOUND == -12);
+CHECK(err_internal, SGM_ERR_INTERNAL == -13);
+CHECK(result_force, SGM_RESULT_FORCE_32_BIT == 0x7FFFFFFF);
+
+CHECK(log_debug, SGM_LOG_DEBUG == 0);
+CHECK(log_info, SGM_LOG_INFO == 1);
+CHECK(log_warning, SGM_LOG_WARNING == 2);
+CHECK(log_error, SGM_LOG_ERROR == 3);
+CHECK(log_force, SGM_LOG_LEVEL_FORCE_32_BIT == 0x7FFFFFFF);
+
+CHECK(backend_auto, SGM_BACKEND_AUTO == 0);
+CHECK(backend_cpu, SGM_BACKEND_CPU == 1);
+CHECK(backend_vulkan, SGM_BACKEND_VULKAN == 2);
+CHECK(backend_cuda, SGM_BACKEND_CUDA == 3);
+CHECK(backend_force, SGM_BACKEND_FORCE_32_BIT == 0x7FFFFFFF);
+
+CHECK(quantity_number, SGM_QUANTITY_NUMBER == 0);
+CHECK(quantity_length, SGM_QUANTITY_LENGTH == 1);
+CHECK(quantity_angle, SGM_QUANTITY_ANGLE == 2);
+CHECK(quantity_other, SGM_QUANTITY_OTHER == 3);
+CHECK(quantity_force, SGM_QUANTITY_FORCE_32_BIT == 0x7FFFFFFF);
+
+CHECK(face_x_low, SGM_FACE_X_LOW == 0);
+CHECK(face_x_high, SGM_FACE_X_HIGH == 1);
+CHECK(face_y_low, SGM_FACE_Y_LOW == 2);
+CHECK(face_y_high, SGM_FACE_Y_HIGH == 3);
+CHECK(face_z_low, SGM_FACE_Z_LOW == 4);
+CHECK(face_z_high, SGM_FACE_Z_HIGH == 5);
+CHECK(face_count, SGM_FACE_COUNT == 6);
+CHECK(face_force, SGM_FACE_FORCE_32_BIT == 0x7FFFFFFF);
 
 SIZE(sgm_error, 512);
 PLACE(sgm_error, code, 0);
@@ -92,6 +148,18 @@ PLACE(sgm_diagnostic, message, 40);
 PLACE(sgm_diagnostic, hint, 48);
 PLACE(sgm_diagnostic, source_line, 56);
 
+SIZE(sgm_domain_info, 72);
+PLACE(sgm_domain_info, struct_size, 0);
+PLACE(sgm_domain_info, next, 8);
+PLACE(sgm_domain_info, infinite, 16);
+PLACE(sgm_domain_info, solid, 20);
+PLACE(sgm_domain_info, density, 24);
+PLACE(sgm_domain_info, material, 28);
+PLACE(sgm_domain_info, cut, 32);
+PLACE(sgm_domain_info, minimum, 44);
+PLACE(sgm_domain_info, maximum, 56);
+PLACE(sgm_domain_info, reserved, 68);
+
 SIZE(sgm_layer_info, 40);
 PLACE(sgm_layer_info, struct_size, 0);
 PLACE(sgm_layer_info, next, 8);
@@ -148,17 +216,20 @@ PLACE(sgm_chunk_key, x, 4);
 PLACE(sgm_chunk_key, y, 8);
 PLACE(sgm_chunk_key, z, 12);
 
-SIZE(sgm_chunk_request, 20);
+SIZE(sgm_chunk_request, 32);
 PLACE(sgm_chunk_request, key, 0);
 PLACE(sgm_chunk_request, seams, 16);
+PLACE(sgm_chunk_request, coarser, 20);
+PLACE(sgm_chunk_request, reserved, 24);
 
-SIZE(sgm_chunks_desc, 48);
+SIZE(sgm_chunks_desc, 56);
 PLACE(sgm_chunks_desc, struct_size, 0);
 PLACE(sgm_chunks_desc, next, 8);
 PLACE(sgm_chunks_desc, requests, 16);
-PLACE(sgm_chunks_desc, count, 24);
-PLACE(sgm_chunks_desc, progress, 32);
-PLACE(sgm_chunks_desc, progress_user, 40);
+PLACE(sgm_chunks_desc, request_stride, 24);
+PLACE(sgm_chunks_desc, count, 32);
+PLACE(sgm_chunks_desc, progress, 40);
+PLACE(sgm_chunks_desc, progress_user, 48);
 
 SIZE(sgm_vertex, 16);
 PLACE(sgm_vertex, x, 0);
@@ -252,10 +323,12 @@ int LAYOUT_INITS(void) {
   const sgm_backend_info backend_info = SGM_BACKEND_INFO_INIT;
   const sgm_grammar_desc grammar_desc = SGM_GRAMMAR_DESC_INIT;
   const sgm_diagnostic diagnostic = SGM_DIAGNOSTIC_INIT;
+  const sgm_domain_info domain_info = SGM_DOMAIN_INFO_INIT;
   const sgm_layer_info layer_info = SGM_LAYER_INFO_INIT;
   const sgm_parameter_info parameter_info = SGM_PARAMETER_INFO_INIT;
   const sgm_field_desc field_desc = SGM_FIELD_DESC_INIT;
   const sgm_sample_desc sample_desc = SGM_SAMPLE_DESC_INIT;
+  const sgm_chunk_request chunk_request = SGM_CHUNK_REQUEST_INIT;
   const sgm_chunks_desc chunks_desc = SGM_CHUNKS_DESC_INIT;
   const sgm_mesh_range mesh_range = SGM_MESH_RANGE_INIT;
   const sgm_mesh_view mesh_view = SGM_MESH_VIEW_INIT;
@@ -266,13 +339,14 @@ int LAYOUT_INITS(void) {
          backend_info.struct_size == sizeof(backend_info) && backend_info.next == SGM_NULL &&
          grammar_desc.struct_size == sizeof(grammar_desc) && grammar_desc.next == SGM_NULL &&
          diagnostic.struct_size == sizeof(diagnostic) && diagnostic.next == SGM_NULL &&
+         domain_info.struct_size == sizeof(domain_info) && domain_info.next == SGM_NULL &&
          layer_info.struct_size == sizeof(layer_info) && layer_info.next == SGM_NULL &&
          parameter_info.struct_size == sizeof(parameter_info) && parameter_info.next == SGM_NULL &&
          field_desc.struct_size == sizeof(field_desc) && field_desc.next == SGM_NULL &&
-         sample_desc.struct_size == sizeof(sample_desc) && sample_desc.next == SGM_NULL &&
-         chunks_desc.struct_size == sizeof(chunks_desc) && chunks_desc.next == SGM_NULL && mesh_range.hash == 0 &&
-         mesh_view.struct_size == sizeof(mesh_view) && mesh_view.next == SGM_NULL &&
-         region_desc.struct_size == sizeof(region_desc) && region_desc.next == SGM_NULL &&
+         sample_desc.struct_size == sizeof(sample_desc) && sample_desc.next == SGM_NULL && chunk_request.coarser == 0 &&
+         chunk_request.reserved[1] == 0 && chunks_desc.struct_size == sizeof(chunks_desc) &&
+         chunks_desc.next == SGM_NULL && mesh_range.hash == 0 && mesh_view.struct_size == sizeof(mesh_view) &&
+         mesh_view.next == SGM_NULL && region_desc.struct_size == sizeof(region_desc) && region_desc.next == SGM_NULL &&
          grid_desc.struct_size == sizeof(grid_desc) && grid_desc.next == SGM_NULL &&
          surface_view.struct_size == sizeof(surface_view) && surface_view.next == SGM_NULL;
 }

@@ -39,10 +39,10 @@ struct Handles {
 };
 
 /// The whole way through the interface, to the first failure.
-sgm_result everything(Handles& h, const sgm_allocator& allocator, sgm_error* error) {
+sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threads, sgm_error* error) {
   sgm_runtime_desc runtime = SGM_RUNTIME_DESC_INIT;
   runtime.allocator = &allocator;
-  runtime.threads = 1;
+  runtime.threads = threads;
   if (sgm_result r = sgm_runtime_create(&runtime, &h.runtime, error); r != SGM_OK) return r;
   sgm_grammar_desc text = SGM_GRAMMAR_DESC_INIT;
   text.text = kBall;
@@ -53,7 +53,7 @@ sgm_result everything(Handles& h, const sgm_allocator& allocator, sgm_error* err
   field.grammar = h.grammar;
   field.parameters = h.parameters;
   if (sgm_result r = sgm_field_create(h.runtime, &field, &h.field, error); r != SGM_OK) return r;
-  const sgm_chunk_request requests[2] = {{{0, 0, 0, 0}, 63}, {{1, 0, 0, 0}, 0}};
+  const sgm_chunk_request requests[2] = {chunkAt({0, 0, 0, 0}, 63), chunkAt({1, 0, 0, 0})};
   sgm_chunks_desc chunks = SGM_CHUNKS_DESC_INIT;
   chunks.requests = requests;
   chunks.count = 2;
@@ -89,12 +89,15 @@ void endAll(Handles& h) {
 
 /// Allocations of the C++ heap that are left before it fails on this thread; below 0: never.
 thread_local int64_t heap_left = -1;
+/// The same on all threads together.
+std::atomic<int64_t> heap_left_everywhere{INT64_MAX};
 
 void* heapAllocate(size_t size, size_t alignment) {
   if (heap_left >= 0 && heap_left-- == 0) {
     heap_left = 0;
     return nullptr;
   }
+  if (heap_left_everywhere.load() < INT64_MAX / 2 && heap_left_everywhere.fetch_sub(1) <= 0) return nullptr;
   const size_t rounded = (std::max<size_t>(size, 1) + alignment - 1) / alignment * alignment;
   return alignment <= alignof(std::max_align_t) ? std::malloc(rounded) : std::aligned_alloc(alignment, rounded);
 }
@@ -130,7 +133,7 @@ TEST_CASE("each allocation from the allocator fails in turn") {
     failing.left = n;
     Handles handles;
     sgm_error error = SGM_ERROR_INIT;
-    const sgm_result result = everything(handles, allocator, &error);
+    const sgm_result result = everything(handles, allocator, 1, &error);
     failing.left = INT64_MAX;
     endAll(handles);
     REQUIRE(failing.live == 0);
@@ -143,7 +146,11 @@ TEST_CASE("each allocation from the allocator fails in turn") {
   CHECK(tries > 20);
 }
 
-TEST_CASE("each allocation of the C++ heap on the calling thread fails in turn") {
+namespace {
+
+/// Fails the n-th allocation of the C++ heap and those after it, for ever larger n.
+template <class Begin, class End>
+void failHeap(uint32_t threads, Begin begin, End end) {
   const sgm_allocator allocator{[](void*, size_t size, size_t alignment) {
                                   return std::aligned_alloc(std::max<size_t>(alignment, 16), (size + 63) / 64 * 64);
                                 },
@@ -151,12 +158,25 @@ TEST_CASE("each allocation of the C++ heap on the calling thread fails in turn")
   for (int64_t n = 0;; n += 1 + n / 48) {
     Handles handles;
     sgm_error error = SGM_ERROR_INIT;
-    heap_left = n;
-    const sgm_result result = everything(handles, allocator, &error);
-    heap_left = -1;
+    begin(n);
+    const sgm_result result = everything(handles, allocator, threads, &error);
+    end();
     endAll(handles);
     if (result == SGM_OK) break;
-    INFO("allocation " << n << ": " << error.message);
+    INFO("allocation " << n << ", " << threads << " threads: " << error.message);
     REQUIRE(result == SGM_ERR_OUT_OF_MEMORY);
   }
+}
+
+}  // namespace
+
+TEST_CASE("each allocation of the C++ heap on the calling thread fails in turn") {
+  for (const uint32_t threads : {1u, 3u})
+    failHeap(
+        threads, [](int64_t n) { heap_left = n; }, [] { heap_left = -1; });
+}
+
+TEST_CASE("each allocation of the C++ heap on any thread fails in turn") {
+  failHeap(
+      3, [](int64_t n) { heap_left_everywhere = n; }, [] { heap_left_everywhere = INT64_MAX; });
 }

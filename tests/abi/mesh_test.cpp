@@ -34,7 +34,7 @@ TEST_CASE("a chunk's view: ranges, bounds, tags and anchors agree with its array
   RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compile(runtime.get(), kBall);
   const FieldOwner field = makeField(runtime.get(), grammar.get());
-  const std::vector<MeshOwner> meshes = meshChunks(field.get(), {{{0, 0, 0, 0}, 63}, {{0, 9, 9, 9}, 0}});
+  const std::vector<MeshOwner> meshes = meshChunks(field.get(), {chunkAt({0, 0, 0, 0}, 63), chunkAt({0, 9, 9, 9})});
   const sgm_mesh_view view = viewOf(meshes[0]);
   REQUIRE(view.index_count > 300);
   CHECK(view.index_count % 3 == 0);
@@ -76,29 +76,44 @@ TEST_CASE("copies are what the view shows, and say how much room they need") {
   RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compile(runtime.get(), kBall);
   const FieldOwner field = makeField(runtime.get(), grammar.get());
-  const std::vector<MeshOwner> meshes = meshChunks(field.get(), {{{0, 0, 0, 0}, 0}});
+  const std::vector<MeshOwner> meshes = meshChunks(field.get(), {chunkAt({0, 0, 0, 0}, 0)});
   const sgm_mesh_view view = viewOf(meshes[0]);
   size_t vertex_count = 0, index_count = 0;
-  REQUIRE(sgm_mesh_copy(meshes[0].get(), nullptr, &vertex_count, nullptr, &index_count, nullptr) == SGM_OK);
+  REQUIRE(sgm_mesh_copy(meshes[0].get(), nullptr, 0, &vertex_count, nullptr, 0, &index_count, nullptr) == SGM_OK);
   CHECK(vertex_count == view.vertex_count);
   CHECK(index_count == view.index_count);
   std::vector<sgm_vertex> vertices(vertex_count);
   std::vector<uint32_t> indices(index_count);
-  REQUIRE(sgm_mesh_copy(meshes[0].get(), vertices.data(), &vertex_count, indices.data(), &index_count, nullptr) ==
+  REQUIRE(sgm_mesh_copy(meshes[0].get(), vertices.data(), 0, &vertex_count, indices.data(), 0, &index_count, nullptr) ==
           SGM_OK);
   CHECK(std::memcmp(vertices.data(), view.vertices, vertex_count * sizeof(sgm_vertex)) == 0);
   CHECK(std::equal(indices.begin(), indices.end(), view.indices));
   size_t too_few = index_count - 1;
-  CHECK(sgm_mesh_copy(meshes[0].get(), vertices.data(), &vertex_count, indices.data(), &too_few, nullptr) ==
+  CHECK(sgm_mesh_copy(meshes[0].get(), vertices.data(), 0, &vertex_count, indices.data(), 0, &too_few, nullptr) ==
         SGM_INCOMPLETE);
   CHECK(too_few == index_count);
+
+  // Into larger elements, of which the rest stays as it is.
+  struct Wide {
+    sgm_vertex vertex;
+    uint32_t index, mine;
+  };
+  std::vector<Wide> wide(std::max(vertex_count, index_count), Wide{{}, 0, 77});
+  REQUIRE(sgm_mesh_copy(meshes[0].get(), &wide[0].vertex, sizeof(Wide), &vertex_count, &wide[0].index, sizeof(Wide),
+                        &index_count, nullptr) == SGM_OK);
+  bool same = true;
+  for (size_t i = 0; i < vertex_count; ++i)
+    same = same && std::memcmp(&wide[i].vertex, view.vertices + i, sizeof(sgm_vertex)) == 0;
+  for (size_t i = 0; i < index_count; ++i) same = same && wide[i].index == view.indices[i];
+  for (const Wide& w : wide) same = same && w.mine == 77;
+  CHECK(same);
 }
 
 TEST_CASE("a mesh outlives the field and ends with its last owner") {
   RuntimeOwner runtime = makeRuntime();
   GrammarOwner grammar = compile(runtime.get(), kBall);
   FieldOwner field = makeField(runtime.get(), grammar.get());
-  std::vector<MeshOwner> meshes = meshChunks(field.get(), {{{0, 0, 0, 0}, 0}});
+  std::vector<MeshOwner> meshes = meshChunks(field.get(), {chunkAt({0, 0, 0, 0}, 0)});
   const uint64_t hash = viewOf(meshes[0]).hash;
   sgm_mesh_acquire(meshes[0].get());
   sgm_mesh* kept = meshes[0].get();
@@ -111,10 +126,10 @@ TEST_CASE("a mesh outlives the field and ends with its last owner") {
   sgm_mesh_release(kept);
 }
 
-TEST_CASE("hashes do not depend on threads, on batches or on their order") {
+TEST_CASE("hashes do not depend on threads, on batches or on their order", "[threads]") {
   std::vector<sgm_chunk_request> requests;
   for (int32_t z = -1; z <= 1; ++z)
-    for (int32_t x = -1; x <= 1; ++x) requests.push_back({{0, x, 0, z}, 63});
+    for (int32_t x = -1; x <= 1; ++x) requests.push_back(chunkAt({0, x, 0, z}, 63));
   std::map<std::tuple<int32_t, int32_t>, uint64_t> expected;
   for (const uint32_t threads : {1u, 2u, 5u}) {
     sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
@@ -154,7 +169,7 @@ TEST_CASE("a region is its chunks, welded: each border vertex once, open only at
   desc.progress_user = &progress;
   desc.progress = [](void* user, uint64_t done, uint64_t total) -> int32_t {
     auto& p = *static_cast<Progress*>(user);
-    p.rising = p.rising && done >= p.last && done <= total;
+    p.rising = p.rising && done == p.last + 1 && done <= total;
     p.last = done;
     p.total = total;
     ++p.calls;
@@ -167,7 +182,7 @@ TEST_CASE("a region is its chunks, welded: each border vertex once, open only at
   REQUIRE(result == SGM_OK);
   const SurfaceOwner surface(made);
   const sgm_surface_view view = viewOf(surface);
-  CHECK(progress.calls > 0);
+  CHECK(progress.calls == 8);
   CHECK(progress.rising);
   CHECK(progress.last == progress.total);
   CHECK(view.chunk_count == 8);
@@ -178,7 +193,7 @@ TEST_CASE("a region is its chunks, welded: each border vertex once, open only at
   uint64_t triangles = 0;
   std::set<Place> places;
   std::vector<sgm_chunk_request> requests;
-  for (int32_t i = 0; i < 8; ++i) requests.push_back({{0, (i & 1) - 1, (i >> 1 & 1) - 1, (i >> 2) - 1}, 0});
+  for (int32_t i = 0; i < 8; ++i) requests.push_back(chunkAt({0, (i & 1) - 1, (i >> 1 & 1) - 1, (i >> 2) - 1}));
   const std::vector<MeshOwner> meshes = meshChunks(field.get(), requests);
   for (const MeshOwner& mesh : meshes) {
     const sgm_mesh_view chunk = viewOf(mesh);
@@ -207,6 +222,33 @@ TEST_CASE("a region is its chunks, welded: each border vertex once, open only at
   desc.progress = [](void*, uint64_t, uint64_t) -> int32_t { return 1; };
   CHECK(sgm_surface_from_region(field.get(), &desc, &made, &error) == SGM_ERR_CANCELLED);
   CHECK(made == nullptr);
+  // When all is done, nothing is left to stop.
+  desc.progress = [](void*, uint64_t done, uint64_t total) -> int32_t { return done == total ? 1 : 0; };
+  CHECK(sgm_surface_from_region(field.get(), &desc, &made, &error) == SGM_OK);
+  sgm_surface_destroy(made);
+}
+
+TEST_CASE("requests a stride apart, and blocks around that are coarser") {
+  struct Wide {
+    sgm_chunk_request request;
+    uint64_t mine;
+  };
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(runtime.get(), kBlobs);
+  const FieldOwner field = makeField(runtime.get(), grammar.get(), 512);
+  std::vector<Wide> wide;
+  for (int32_t x = -1; x <= 1; ++x) wide.push_back({chunkAt({0, x, 0, 0}, 63), ~0ull});
+  wide[1].request.coarser = 0x7FFFFFF & ~(1u << 13);
+  sgm_chunks_desc desc = SGM_CHUNKS_DESC_INIT;
+  desc.requests = &wide[0].request;
+  desc.request_stride = sizeof(Wide);
+  desc.count = wide.size();
+  std::array<sgm_mesh*, 3> meshes{};
+  REQUIRE(sgm_mesh_chunks(field.get(), &desc, meshes.data(), nullptr) == SGM_OK);
+  for (size_t i = 0; i < meshes.size(); ++i) {
+    const MeshOwner mesh(meshes[i]);
+    CHECK(viewOf(mesh).hash == viewOf(meshChunks(field.get(), {chunkAt(wide[i].request.key, 63)})[0]).hash);
+  }
 }
 
 TEST_CASE("samples are what meshes are made of") {
@@ -261,10 +303,10 @@ TEST_CASE("anchors: listed in order, in the chunk that holds them, once") {
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 512);
   const int32_t lo[3] = {-16384 * 2, -16384, -16384}, hi[3] = {16384 * 2 - 1, 16383, 16383};
   size_t count = 0;
-  REQUIRE(sgm_field_anchors(field.get(), lo, hi, nullptr, &count, nullptr) == SGM_INCOMPLETE);
+  REQUIRE(sgm_field_anchors(field.get(), lo, hi, nullptr, 0, &count, nullptr) == SGM_OK);
   CHECK(count == 16);
   std::vector<sgm_anchor> anchors(count);
-  REQUIRE(sgm_field_anchors(field.get(), lo, hi, anchors.data(), &count, nullptr) == SGM_OK);
+  REQUIRE(sgm_field_anchors(field.get(), lo, hi, anchors.data(), 0, &count, nullptr) == SGM_OK);
   std::set<uint64_t> keys;
   for (const sgm_anchor& anchor : anchors) {
     CHECK(keys.insert(anchor.key).second);
@@ -272,14 +314,29 @@ TEST_CASE("anchors: listed in order, in the chunk that holds them, once") {
     CHECK(std::string(sgm_grammar_name(grammar.get(), anchor.name)) == "middle");
   }
   size_t few = 3;
-  CHECK(sgm_field_anchors(field.get(), lo, hi, anchors.data(), &few, nullptr) == SGM_INCOMPLETE);
+  CHECK(sgm_field_anchors(field.get(), lo, hi, anchors.data(), 0, &few, nullptr) == SGM_INCOMPLETE);
   CHECK(few == 16);
+  struct Wide {
+    sgm_anchor anchor;
+    uint64_t mine;
+  };
+  std::vector<Wide> wide(count, Wide{{}, 77});
+  REQUIRE(sgm_field_anchors(field.get(), lo, hi, &wide[0].anchor, sizeof(Wide), &count, nullptr) == SGM_OK);
+  for (size_t i = 0; i < count; ++i) {
+    CHECK(wide[i].anchor.key == anchors[i].key);
+    CHECK(wide[i].mine == 77);
+  }
+  // A box that more cells reach into than anyone waits for is refused in words of its own.
+  const int32_t from[3] = {INT32_MIN, INT32_MIN, INT32_MIN}, to[3] = {INT32_MAX, INT32_MAX, INT32_MAX};
+  sgm_error error = SGM_ERROR_INIT;
+  CHECK(sgm_field_anchors(field.get(), from, to, nullptr, 0, &count, &error) == SGM_ERR_LIMIT);
+  CHECK(std::string(error.message).find("reach into the box") != std::string::npos);
 
   std::set<uint64_t> in_chunks;
   std::vector<sgm_chunk_request> requests;
   for (int32_t z = -1; z < 1; ++z)
     for (int32_t y = -1; y < 1; ++y)
-      for (int32_t x = -2; x < 2; ++x) requests.push_back({{0, x, y, z}, 0});
+      for (int32_t x = -2; x < 2; ++x) requests.push_back(chunkAt({0, x, y, z}));
   for (const MeshOwner& mesh : meshChunks(field.get(), requests)) {
     const sgm_mesh_view view = viewOf(mesh);
     for (uint32_t i = 0; i < view.anchor_count; ++i) {
@@ -309,7 +366,7 @@ TEST_CASE("parameters and seed reach the mesh") {
   const FieldOwner field_owner(field);
   // The field has its own copy.
   REQUIRE(sgm_parameters_set(parameters, "radius", 3.5, nullptr) == SGM_OK);
-  const std::vector<MeshOwner> meshes = meshChunks(field, {{{0, 0, 0, 0}, 0}});
+  const std::vector<MeshOwner> meshes = meshChunks(field, {chunkAt({0, 0, 0, 0}, 0)});
   const sgm_mesh_view view = viewOf(meshes[0]);
   CHECK(view.bounds_max[0] - view.bounds_min[0] == Approx(3 * 1024).margin(20));
 
@@ -321,7 +378,7 @@ TEST_CASE("parameters and seed reach the mesh") {
     desc.seed = seed;
     REQUIRE(sgm_field_create(runtime.get(), &desc, &field, nullptr) == SGM_OK);
     const FieldOwner seeded(field);
-    hashes.insert(viewOf(meshChunks(field, {{{0, 0, 0, 0}, 0}})[0]).hash);
+    hashes.insert(viewOf(meshChunks(field, {chunkAt({0, 0, 0, 0}, 0)})[0]).hash);
   }
   CHECK(hashes.size() == 3);
 }

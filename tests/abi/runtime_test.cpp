@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "fixture.h"
+#include "scarce_threads.h"
 
 extern "C" int sgm_layout_inits_c(void);
 extern "C" int sgm_layout_inits_cpp(void);
@@ -56,7 +57,7 @@ TEST_CASE("a runtime with children is busy") {
   grammar.reset();
   CHECK(sgm_runtime_destroy(runtime.get()) == SGM_ERR_BUSY);
   // The field has kept its grammar.
-  std::vector<MeshOwner> meshes = meshChunks(field.get(), {{{0, 0, 0, 0}, 0}});
+  std::vector<MeshOwner> meshes = meshChunks(field.get(), {chunkAt({0, 0, 0, 0}, 0)});
   CHECK(viewOf(meshes[0]).index_count > 0);
   field.reset();
   CHECK(sgm_runtime_destroy(runtime.get()) == SGM_ERR_BUSY);
@@ -94,7 +95,7 @@ TEST_CASE("memory comes from the allocator and goes back to it whole") {
     {
       GrammarOwner grammar = compile(runtime.get(), kBall);
       FieldOwner field = makeField(runtime.get(), grammar.get());
-      const std::vector<MeshOwner> meshes = meshChunks(field.get(), {{{0, 0, 0, 0}, 63}});
+      const std::vector<MeshOwner> meshes = meshChunks(field.get(), {chunkAt({0, 0, 0, 0}, 63)});
       uint64_t live = 0, peak = 0;
       REQUIRE(sgm_runtime_memory(runtime.get(), &live, &peak) == SGM_OK);
       CHECK(live > 0);
@@ -151,6 +152,69 @@ TEST_CASE("messages go to the sink") {
   REQUIRE(!log.lines.empty());
   CHECK(log.lines[0] == sgm_build_info());
 }
+
+TEST_CASE("what a field leaves out is logged as a warning, once a place") {
+  struct Log {
+    std::mutex mutex;
+    std::vector<std::string> warnings;
+  } log;
+  const sgm_log_sink sink{[](void* user, sgm_log_level level, const char* message) {
+                            auto& l = *static_cast<Log*>(user);
+                            const std::lock_guard lock(l.mutex);
+                            if (level == SGM_LOG_WARNING) l.warnings.emplace_back(message);
+                          },
+                          &log};
+  sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+  desc.log = &sink;
+  RuntimeOwner runtime = makeRuntime(&desc);
+  const GrammarOwner grammar = compile(runtime.get(),
+                                       "sgm 1; units m;\n"
+                                       "domain infinite;\n"
+                                       "layer main cell 8m reach 6m { start Blob; }\n"
+                                       "rule Blob { sphere(1m); scale(rand(-1, 1)) sphere(2m); }\n");
+  const FieldOwner field = makeField(runtime.get(), grammar.get());
+  // Many cells, of which half leave out the same.
+  meshChunks(field.get(), {chunkAt({0, 0, 0, 0}), chunkAt({0, 1, 0, 0}), chunkAt({0, 5, 0, 0})});
+  INFO((log.warnings.empty() ? "no warning" : log.warnings[0]));
+  REQUIRE(log.warnings.size() == 1);
+  CHECK(log.warnings[0].rfind("4:", 0) == 0);
+  CHECK(log.warnings[0].find("a scale must be positive") != std::string::npos);
+  CHECK(log.warnings[0].find("first in Blob") != std::string::npos);
+  CHECK(log.warnings[0].find("of layer main") != std::string::npos);
+}
+
+#if defined(SGM_SCARCE_THREADS)
+TEST_CASE("threads that do not start are done without, and their absence is an error only when it is total") {
+  struct Log {
+    std::vector<std::string> warnings;
+  } log;
+  const sgm_log_sink sink{[](void* user, sgm_log_level level, const char* message) {
+                            if (level == SGM_LOG_WARNING) static_cast<Log*>(user)->warnings.emplace_back(message);
+                          },
+                          &log};
+  sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+  desc.log = &sink;
+  desc.threads = 1024;
+  sgm_runtime* made = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  {
+    const ScarceThreads none(0);
+    CHECK(sgm_runtime_create(&desc, &made, &error) == SGM_ERR_LIMIT);
+  }
+  CHECK(made == nullptr);
+  CHECK(error.code == SGM_ERR_LIMIT);
+  CHECK(std::string(error.message).find("thread") != std::string::npos);
+  {
+    const ScarceThreads few(3);
+    REQUIRE(sgm_runtime_create(&desc, &made, &error) == SGM_OK);
+  }
+  const RuntimeOwner runtime(made);
+  CHECK(log.warnings.size() == 1);
+  const GrammarOwner grammar = compile(runtime.get(), kBall);
+  const FieldOwner field = makeField(runtime.get(), grammar.get());
+  CHECK(viewOf(meshChunks(field.get(), {chunkAt({0, 0, 0, 0})})[0]).index_count > 0);
+}
+#endif
 
 TEST_CASE("the CPU backend is usable and exact, and auto chooses one that is usable") {
   RuntimeOwner runtime = makeRuntime();

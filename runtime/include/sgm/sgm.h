@@ -21,10 +21,13 @@
  *              fails. The caller owns it and hands it back to the one function that ends it; all of those accept
  *              NULL. A handle keeps alive whatever it was made from (a field keeps its grammar), so the order in
  *              which handles end does not matter; only the runtime must outlive them all.
- *   Structs    Every struct that may grow begins { uint32_t struct_size; const void* next; } and has an _INIT macro
- *              with its defaults: start from it always, those that the library fills included. A struct_size that
- *              differs from this header's is SGM_ERR_STRUCT_SIZE. `next` is for later extensions, each beginning with
- *              sgm_chain; this version knows none and refuses a `next` that is not NULL with SGM_ERR_UNSUPPORTED.
+ *   Structs    Every struct that may grow begins { uint32_t struct_size; const void* next; } (void* next where the
+ *              library fills it) and has an _INIT macro with its defaults: start from it always, those that the
+ *              library fills included. A struct_size that differs from this header's is SGM_ERR_STRUCT_SIZE. `next` is
+ *              for later extensions, each beginning with sgm_chain; this version knows none and refuses a `next` that
+ *              is not NULL with SGM_ERR_UNSUPPORTED.
+ *   Arrays     Elements that may grow lie a stride of bytes apart, which is given or returned beside the array: at
+ *              least the element's size, a multiple of its alignment; 0 for the size of this header's element.
  *   Text       UTF-8. Texts that the library returns end in 0 and live as long as the handle they came from.
  *   Errors     Functions that can fail return sgm_result: 0 done, below 0 failed, above 0 done in part. They take an
  *              sgm_error, which may be NULL, and fill it when they fail (and only then). Bad input never aborts, and
@@ -90,8 +93,9 @@ typedef enum sgm_result {
   SGM_ERR_VERSION = -3,          /* header and library do not belong together */
   SGM_ERR_OUT_OF_MEMORY = -4,    /* the allocator returned NULL, or memory_limit was reached */
   SGM_ERR_GRAMMAR = -5,          /* the grammar text is wrong; line and column say where */
-  SGM_ERR_LIMIT = -6,            /* a cap on counts, depth or time was reached; the message names it */
-  SGM_ERR_RANGE = -7,            /* leaves the integer world of +-2^31 units */
+  SGM_ERR_LIMIT = -6,            /* a cap on counts, depth, time or threads was reached; the message names it. Where
+                                    deriving the grammar reached it, line and column say at which of its statements */
+  SGM_ERR_RANGE = -7,            /* leaves the integer grid: a world of +-2^31 units, cells of 2^22 units at most */
   SGM_ERR_IO = -8,               /* a file could not be read or written */
   SGM_ERR_UNSUPPORTED = -9,      /* no such backend, device or extension here */
   SGM_ERR_CANCELLED = -10,       /* the caller's progress callback asked to stop */
@@ -150,11 +154,14 @@ typedef struct sgm_allocator {
   void* user;
 } sgm_allocator;
 
-/* Threads from the caller. An accepted job must run exactly once, on any thread, at any time, in any order, whether or
- * not help is called. The calling thread works too, and calls help while it waits; a call of ours returns when the jobs
- * that it submitted have run. The functions may be called from any thread, inside a job too. */
+/* Threads from the caller. An accepted job must run exactly once, on any thread, at any time, in any order; a system
+ * without threads of its own may run its jobs in help alone. The thread that makes a call works too, and does all of it
+ * where no job is begun: a call waits only for those of its jobs that have begun, and runs help, again and again, while
+ * it waits (so it may do a share of another call's work). A job that begins after its call has returned finds nothing
+ * to do; sgm_runtime_destroy waits for the last of those, and runs help too. A job lets no C++ exception out. The
+ * functions may be called from any thread, inside a job too. */
 typedef struct sgm_job_system {
-  /* How many jobs can run at one time, at least 1. */
+  /* How many threads may work on one call at one time, at least 1: its own one, and jobs for the others. */
   uint32_t (*concurrency)(void* user);
   /* Accepts a job (returns non-zero) or refuses it (returns 0): then it runs at once on the submitting thread.
    * A higher priority should run earlier; 0 is usual. */
@@ -173,7 +180,9 @@ typedef enum sgm_log_level {
 } sgm_log_level;
 
 /* Where messages go. Called from any thread, several at one time; the message (one line, no newline) lives for the
- * call. It must not call back into the library. */
+ * call. It must not call back into the library.
+ * Warnings tell what a field leaves out as it derives cells (a shape that passes its layer's reach, a morph between
+ * shapes that do not fit), with line and column in the grammar: each place once a field, for the first 64 places. */
 typedef struct sgm_log_sink {
   void (*write)(void* user, sgm_log_level level, const char* message);
   void* user;
@@ -184,7 +193,9 @@ typedef struct sgm_runtime_desc {
   uint32_t struct_size;
   const void* next;
   uint32_t api_version;           /* SGM_API_VERSION of the header in use; the _INIT macro sets it */
-  uint32_t threads;               /* where jobs is NULL: threads of the library's own, 1 to 1,024; 0: one a processor */
+  uint32_t threads;               /* where jobs is NULL: threads that may work on one call at one time, the calling one
+                                     among them; 1 to 1,024; 0: one a processor. What the machine does not let start is
+                                     done without, and logged as a warning */
   const sgm_allocator* allocator; /* NULL: malloc and free */
   const sgm_job_system* jobs;     /* NULL: a thread pool of the runtime's own */
   const sgm_log_sink* log;        /* NULL: no messages */
@@ -195,7 +206,8 @@ typedef struct sgm_runtime_desc {
   { SGM_SIZEOF(sgm_runtime_desc), SGM_NULL, SGM_API_VERSION, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0 }
 
 /* desc may be NULL: all defaults. A program built with another major version, or with a newer minor one (while the
- * major version is 0: with any other minor one) is refused with SGM_ERR_VERSION. */
+ * major version is 0: with any other minor one) is refused with SGM_ERR_VERSION. SGM_ERR_LIMIT: the machine lets not
+ * one thread start. */
 SGM_API sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, sgm_error* error);
 
 /* SGM_ERR_BUSY, and nothing happens, while a handle made from this runtime lives. Waits for jobs that the job system
@@ -218,11 +230,11 @@ typedef enum sgm_backend {
 /* Filled by sgm_backend_query. */
 typedef struct sgm_backend_info {
   uint32_t struct_size;
-  const void* next;
+  void* next;
   sgm_backend backend;        /* the one asked for; for AUTO the one chosen */
   int32_t usable;             /* 1: work can be given to it here; 0: `reason` says why not */
   int32_t exact;              /* 1: follows the arithmetic contract, so gives the same bytes as every other exact one */
-  uint32_t concurrency;       /* chunks worked on at one time, where usable */
+  uint32_t concurrency;       /* chunks of one call worked on at one time, where usable */
   char name[SGM_NAME_SIZE];   /* "cpu", "vulkan", "cuda" */
   char device[SGM_NAME_SIZE]; /* device or instruction set in use, "AVX2"; empty where not usable */
   char reason[SGM_NAME_SIZE]; /* empty where usable */
@@ -270,8 +282,9 @@ typedef struct sgm_grammar_desc {
  * diagnostics may be NULL; else it receives a list of every message, whether the grammar compiled (then all of them are
  * warnings) or not, and the caller ends it with sgm_diagnostics_destroy in both cases. It is NULL only where the call
  * failed before it read the text (a wrong argument, no memory).
- * SGM_ERR_GRAMMAR: the text is wrong, reaches a cap, or imports what cannot be read; error holds the first message (of
- * an error inside an import the message names the file, and line and column are places in it). */
+ * SGM_ERR_GRAMMAR: the text is wrong, reaches a cap, or imports what cannot be read; error holds the first error,
+ * which a warning may stand before in the list (of an error inside an import the message names the file, and line and
+ * column are places in it). */
 SGM_API sgm_result sgm_grammar_compile(sgm_runtime* runtime, const sgm_grammar_desc* desc, sgm_grammar** out,
                                        sgm_diagnostics** diagnostics, sgm_error* error);
 SGM_API void sgm_grammar_destroy(sgm_grammar* grammar);
@@ -281,7 +294,7 @@ SGM_API uint64_t sgm_grammar_hash(const sgm_grammar* grammar);
 
 typedef struct sgm_diagnostic {
   uint32_t struct_size;
-  const void* next;
+  void* next;
   sgm_log_level severity;  /* SGM_LOG_ERROR or SGM_LOG_WARNING */
   int32_t line, column;    /* from 1; columns count bytes */
   int32_t length;          /* bytes from column that the message is about, at least 1 */
@@ -309,10 +322,29 @@ SGM_API const char* sgm_grammar_tag(const sgm_grammar* grammar, uint32_t index);
 SGM_API uint32_t sgm_grammar_name_count(const sgm_grammar* grammar);
 SGM_API const char* sgm_grammar_name(const sgm_grammar* grammar, uint32_t index);
 
+/* Where the grammar's world lies, and what is there without any shape. */
+typedef struct sgm_domain_info {
+  uint32_t struct_size;
+  void* next;
+  int32_t infinite;               /* 1: the world has no end; 0: it is the box below */
+  int32_t solid;                  /* 1: solid where no shape is, as rock; 0: void */
+  int32_t density;                /* 1: the grammar says `output density`: its solid is meant as fog, not as a wall */
+  uint32_t material;              /* of a solid domain; index for sgm_grammar_material */
+  int32_t cut[3];                 /* infinite: 1 along axes that are cut into cells, so that the world goes on and on
+                                     there; 0 along the others, and where finite */
+  int32_t minimum[3], maximum[3]; /* finite: what to mesh, minimum <= p < maximum, units; infinite: all 0 */
+  uint32_t reserved;              /* 0 */
+} sgm_domain_info;
+
+#define SGM_DOMAIN_INFO_INIT \
+  { SGM_SIZEOF(sgm_domain_info), SGM_NULL, 0, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0 }
+
+SGM_API sgm_result sgm_grammar_domain(const sgm_grammar* grammar, sgm_domain_info* out);
+
 /* A layer of the grammar: an endless lattice of cells, each derived on its own. A layer uses only layers before it. */
 typedef struct sgm_layer_info {
   uint32_t struct_size;
-  const void* next;
+  void* next;
   const char* name;      /* lives as long as the grammar */
   int32_t cell_units[3]; /* edges of a cell; 0 along an axis that is not cut into cells */
   int32_t reach_units;   /* how far from its cell a shape may reach */
@@ -337,7 +369,7 @@ typedef enum sgm_quantity {
 
 typedef struct sgm_parameter_info {
   uint32_t struct_size;
-  const void* next;
+  void* next;
   const char* name; /* texts live as long as the grammar */
   const char* doc;  /* what the grammar says of it, or "" */
   sgm_quantity quantity;
@@ -393,7 +425,7 @@ SGM_API sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* 
 SGM_API void sgm_field_destroy(sgm_field* field);
 
 /* Rounds a cell edge in metres to the nearest whole number of units (0.1 m becomes 102 units, 0.099609375 m).
- * SGM_ERR_INVALID_ARGUMENT: not a number or not above 0. SGM_ERR_RANGE: under one unit or above 2^20 units. */
+ * SGM_ERR_INVALID_ARGUMENT: not a number, below half a unit (it would round to 0), or above 2^20 units. */
 SGM_API sgm_result sgm_cell_from_metres(double metres, int32_t* units, sgm_error* error);
 
 /* One sample point's results go to the same index of each array that is not NULL. */
@@ -416,7 +448,8 @@ typedef struct sgm_sample_desc {
   { SGM_SIZEOF(sgm_sample_desc), SGM_NULL, SGM_NULL, 0, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL }
 
 /* Evaluates the field at points, exactly as meshing does. Blocks; uses the job system. On failure the arrays hold
- * anything. */
+ * anything. SGM_ERR_LIMIT: deriving a cell reached a cap of the language's (line and column say where), or more than
+ * 2^20 cells of a layer reach into one chunk. SGM_ERR_RANGE: the cells of the level are larger than 2^22 units. */
 SGM_API sgm_result sgm_field_sample(sgm_field* field, const sgm_sample_desc* desc, sgm_error* error);
 
 /* An oriented point for the game (a spawn place, a door), given by the grammar. */
@@ -430,11 +463,12 @@ typedef struct sgm_anchor {
   uint64_t key;        /* the same for this anchor in every run; differs from every other anchor's */
 } sgm_anchor;
 
-/* Writes the anchors at minimum <= p < maximum (units, per axis), by layer, cell and key. *count takes the anchors
- * array's room, and returns how many there are; SGM_INCOMPLETE where they did not all fit. anchors may be NULL, to ask
- * for the count alone: SGM_INCOMPLETE again where there are any. */
+/* Writes the anchors at minimum <= p < maximum (units, per axis), by layer, cell and key; derives the cells there that
+ * are not in the cache, on the calling thread. *count takes the anchors array's room, and returns how many there are.
+ * anchors may be NULL: then only that is asked. SGM_INCOMPLETE: they did not all fit; the first ones were written.
+ * SGM_ERR_LIMIT: as sgm_field_sample, or more than 2^24 cells of a layer reach into the box. */
 SGM_API sgm_result sgm_field_anchors(sgm_field* field, const int32_t minimum[3], const int32_t maximum[3],
-                                     sgm_anchor* anchors, size_t* count, sgm_error* error);
+                                     sgm_anchor* anchors, size_t anchor_stride, size_t* count, sgm_error* error);
 
 /* ---------------------------------------------------------------------------------------------------- chunk meshes */
 
@@ -462,29 +496,46 @@ typedef enum sgm_face {
 
 typedef struct sgm_chunk_request {
   sgm_chunk_key key;
-  uint32_t seams; /* faces to make seams for: those whose neighbour may be drawn one level coarser */
+  uint32_t seams;       /* faces to make seams for: those whose neighbour may be drawn one level coarser */
+  uint32_t coarser;     /* which of the 26 blocks of the chunk's size around it belong to coarser chunks: bit
+                           (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1) for the one at offset (dx, dy, dz), each -1 to 1.
+                           0: exactly those across the faces in seams, which always count as such. It tells apart the
+                           vertices where seams meet in an edge or a corner, for who joins them; what
+                           sgm_mesh_get_view shows does not depend on it in this version */
+  uint32_t reserved[2]; /* 0 */
 } sgm_chunk_request;
 
-/* Long work says how far it is. Called on any thread, one call at a time, with done rising to total; must not call back
- * into the library. Returns 0 to go on; anything else stops the work with SGM_ERR_CANCELLED. */
+#define SGM_CHUNK_REQUEST_INIT   \
+  {                              \
+    {0, 0, 0, 0}, 0, 0, { 0, 0 } \
+  }
+
+/* Long work says how far it is: after every chunk, with done rising by one to total. Called on any thread, one call at
+ * a time (work on other chunks goes on meanwhile, so it should be short); must not call back into the library. Returns
+ * 0 to go on; anything else stops the work with SGM_ERR_CANCELLED, but for the last call (done == total), after which
+ * nothing is left to stop. Chunks that have begun are finished first, and up to 64 are derived before the first of them
+ * is meshed, so a stop is not at once. */
 typedef int32_t (*sgm_progress_function)(void* user, uint64_t done, uint64_t total);
 
 typedef struct sgm_chunks_desc {
   uint32_t struct_size;
   const void* next;
   const sgm_chunk_request* requests;
+  size_t request_stride;          /* bytes; 0: sizeof(sgm_chunk_request) */
   size_t count;                   /* requests, 1 to 2^20 */
   sgm_progress_function progress; /* or NULL */
   void* progress_user;
 } sgm_chunks_desc;
 
 #define SGM_CHUNKS_DESC_INIT \
-  { SGM_SIZEOF(sgm_chunks_desc), SGM_NULL, SGM_NULL, 0, SGM_NULL, SGM_NULL }
+  { SGM_SIZEOF(sgm_chunks_desc), SGM_NULL, SGM_NULL, 0, 0, SGM_NULL, SGM_NULL }
 
 /* Meshes chunks; meshes[i] is the one of requests[i], an empty mesh where no surface crosses it. Blocks; uses the job
- * system. Give it many chunks at once. All or nothing: on failure every entry of meshes is NULL (but for a NULL or zero
- * argument, when it is not written). SGM_ERR_RANGE: a chunk does not lie inside the world wholly, or the cells of its
- * level are larger than 2^22 units. */
+ * system. Give it many chunks at once. All or nothing: on every failure all desc->count entries of meshes are NULL,
+ * except where meshes is NULL or desc itself is refused (NULL, SGM_ERR_STRUCT_SIZE, SGM_ERR_UNSUPPORTED), when nothing
+ * is written. SGM_ERR_RANGE: a chunk does not lie inside the world wholly, or the cells of its level are larger than
+ * 2^22 units. SGM_ERR_LIMIT: count is above 2^20, deriving a cell reached a cap of the language's (line and column say
+ * where), or more than 2^20 cells of a layer reach into one chunk. */
 SGM_API sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_mesh** meshes, sgm_error* error);
 
 /* One more owner, and one less. A mesh ends with its last owner. Both accept NULL. */
@@ -513,7 +564,7 @@ typedef struct sgm_mesh_range {
 /* Pointers into a mesh, good until the mesh ends. */
 typedef struct sgm_mesh_view {
   uint32_t struct_size;
-  const void* next;
+  void* next;
   sgm_chunk_key key;
   int32_t origin[3];     /* lowest corner, units */
   int32_t cell_units;    /* cell edge of this chunk: the field's << level */
@@ -548,8 +599,8 @@ SGM_API sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, 
 /* Copies into the caller's memory. Counts come in as the arrays' room (in elements) and go out as what the mesh has.
  * Either array may be NULL: it is not written, and its count only asks. SGM_INCOMPLETE: an array was too small; nothing
  * was written to that one. Counts must not be NULL. */
-SGM_API sgm_result sgm_mesh_copy(const sgm_mesh* mesh, sgm_vertex* vertices, size_t* vertex_count, uint32_t* indices,
-                                 size_t* index_count, sgm_error* error);
+SGM_API sgm_result sgm_mesh_copy(const sgm_mesh* mesh, sgm_vertex* vertices, size_t vertex_stride, size_t* vertex_count,
+                                 uint32_t* indices, size_t index_stride, size_t* index_count, sgm_error* error);
 
 /* ------------------------------------------------------------------------------- surfaces: welded, for tools */
 
@@ -561,7 +612,7 @@ typedef struct sgm_region_desc {
   const void* next;
   int32_t minimum[3], maximum[3]; /* units, minimum < maximum; grown outward to whole chunks of the level */
   int32_t level;                  /* 0 to SGM_MAX_LEVEL */
-  uint64_t max_chunks;            /* SGM_ERR_LIMIT where the region has more; 0: 65,536 */
+  uint64_t max_chunks;            /* SGM_ERR_LIMIT where the region has more; 0: 65,536; never more than 2^24 */
   sgm_progress_function progress; /* or NULL */
   void* progress_user;
 } sgm_region_desc;
@@ -570,8 +621,9 @@ typedef struct sgm_region_desc {
   { SGM_SIZEOF(sgm_region_desc), SGM_NULL, {0, 0, 0}, {0, 0, 0}, 0, 0, SGM_NULL, SGM_NULL }
 
 /* Meshes a region and welds its chunks by exact keys: no open edge inside the region, open only where its outer faces
- * cut the solid. Blocks; uses the job system. SGM_ERR_RANGE: the grown region leaves the world. SGM_ERR_LIMIT: too many
- * chunks, or more vertices than 32-bit indices can name. */
+ * cut the solid. Blocks; uses the job system. SGM_ERR_RANGE: the grown region leaves the world, or the cells of the
+ * level are larger than 2^22 units. SGM_ERR_LIMIT: too many chunks, more vertices than 32-bit indices can name, or as
+ * sgm_mesh_chunks. */
 SGM_API sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc, sgm_surface** out,
                                            sgm_error* error);
 
@@ -603,7 +655,7 @@ SGM_API void sgm_surface_destroy(sgm_surface* surface);
 /* Pointers into a surface, good until it ends. */
 typedef struct sgm_surface_view {
   uint32_t struct_size;
-  const void* next;
+  void* next;
   int32_t origin[3];     /* units; positions count from here: the world's origin where the region lies within 4,096 m
                             of it, else the region's lowest corner. All 0 for a grid */
   int32_t cell_units;    /* cell edge; 0 for a grid */

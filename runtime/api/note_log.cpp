@@ -1,0 +1,41 @@
+#include "api/note_log.h"
+
+#include <algorithm>
+
+namespace sgm::api {
+namespace {
+
+constexpr size_t kMostTold = 64;
+
+/// The message without its numbers: by how much a shape is too large differs from cell to cell.
+std::string kindOf(std::string message) {
+  message.erase(std::remove_if(message.begin(), message.end(), [](char c) { return c >= '0' && c <= '9'; }),
+                message.end());
+  return message;
+}
+
+}  // namespace
+
+bool NoteLog::isNew(const DeriveNote& note, bool& last) {
+  const std::lock_guard lock(mutex_);
+  last = told_.size() == kMostTold;
+  return told_.size() <= kMostTold && told_.insert({note.line, note.column, kindOf(note.message)}).second;
+}
+
+void NoteLog::tell(const GrammarChunk& cell) {
+  for (const DeriveNote& note : cell.notes) {
+    bool last = false;
+    // Without a place it is only the count of those that the cell has not kept.
+    if (note.line == 0 || !isNew(note, last)) continue;
+    if (last) {
+      runtime_.log(SGM_LOG_WARNING, "more is left out, at further places in the grammar: not logged");
+      continue;
+    }
+    runtime_.log(SGM_LOG_WARNING, std::to_string(note.line) + ":" + std::to_string(note.column) + ": " + note.message +
+                                      " (first in " + note.path + ", cell " + std::to_string(cell.cell.x) + " " +
+                                      std::to_string(cell.cell.y) + " " + std::to_string(cell.cell.z) + " of layer " +
+                                      std::string(program_->text(program_->layers[cell.layer].name)) + ")");
+  }
+}
+
+}  // namespace sgm::api
