@@ -2,17 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/commands.h"
+#include "cli/json.h"
 #include "render/vulkan_device.h"
 #include "sgm/sgm.h"
 
 namespace sgm::cli {
-namespace {
-
-using Json = nlohmann::ordered_json;
-
 Exit listBackends(bool json) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime* runtime = nullptr;
@@ -54,7 +49,7 @@ Exit listBackends(bool json) {
              {"backends", std::move(list)},
              {"vulkan_devices", std::move(devices)}};
     if (!gpus) out["vulkan_error"] = gpus.error().message;
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", out.text());
     return Exit::done;
   }
   fmt::print("{}\nauto chooses {}\n\n", sgm_build_info(), infos[0].name);
@@ -77,16 +72,6 @@ Exit listBackends(bool json) {
                gpu.rounds_to_nearest ? "" : ", cannot demand round-to-nearest");
   }
   return Exit::done;
-}
-
-}  // namespace
-
-Command addBackends(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("backends", "List what can compute and draw on this machine, and why not");
-  const auto json = std::make_shared<bool>(false);
-  app->add_flag("--json", *json, "Print the list as one JSON object on standard output");
-  app->footer("Example:\n  sgm backends --json");
-  return [json] { return listBackends(*json); };
 }
 
 }  // namespace sgm::cli

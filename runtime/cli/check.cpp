@@ -1,20 +1,25 @@
-// sgm check: is a grammar right?
+// sgm check: is a grammar right, and does its world keep what it expects?
 
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <optional>
 
 #include "cli/commands.h"
+#include "cli/expectations.h"
+#include "cli/json.h"
+#include "cli/region.h"
 #include "cli/source.h"
 
 namespace sgm::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr size_t kMostSeeds = 10;  ///< named in one line
 
-struct CheckOptions {
-  std::vector<std::string> files;
-  bool json = false;
+/// What --expect works with, made once for all files.
+struct Workshop {
+  std::unique_ptr<JobSystem> jobs;
+  std::unique_ptr<Backend> backend;
 };
 
 Json toJson(const Diagnostic& d) {
@@ -57,47 +62,75 @@ Json describe(const Program& program) {
           {"tags", std::move(tags)}};
 }
 
-Exit check(const CheckOptions& options) {
-  Exit status = Exit::done;
-  Json all = Json::array();
-  for (const std::string& file : options.files) {
-    const Result<CompileResult> compiled = compileFile(file);
-    if (!compiled) {
-      status = complain(compiled.error());
-      if (options.json) all.push_back({{"file", file}, {"ok", false}, {"error", compiled.error().message}});
-      continue;
-    }
-    const bool ok = compiled->program != nullptr;
-    if (!ok && status == Exit::done) status = Exit::input;
-    if (options.json) {
-      Json json{{"file", file}, {"ok", ok}, {"diagnostics", Json::array()}};
-      for (const Diagnostic& d : compiled->diagnostics) json["diagnostics"].push_back(toJson(d));
-      if (ok) json.update(describe(*compiled->program));
-      all.push_back(std::move(json));
-    } else {
-      fmt::print(stderr, "{}", renderDiagnostics(*compiled));
-      if (!ok) {
-        fmt::print("{}: {}\n", file, countDiagnostics(compiled->diagnostics));
-      } else if (compiled->diagnostics.empty()) {
-        fmt::print("{}: ok\n", file);
-      } else {
-        fmt::print("{}: ok, {}\n", file, countDiagnostics(compiled->diagnostics));
-      }
-    }
-  }
-  if (options.json) fmt::print("{}\n", Json{{"ok", status == Exit::done}, {"files", std::move(all)}}.dump(2));
-  return status;
+/// "2 statements fail", "fails with seeds 2, 7, of 10 from 0 on".
+std::string failureText(const ExpectationSummary& summary, const CheckOptions& options) {
+  if (options.seeds == 1)
+    return summary.failed == 1 ? "1 statement fails" : fmt::format("{} statements fail", summary.failed);
+  std::string text = summary.bad_seeds.size() == 1 ? "fails with seed " : "fails with seeds ";
+  for (size_t i = 0; i < std::min(kMostSeeds, summary.bad_seeds.size()); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", summary.bad_seeds[i]);
+  if (summary.bad_seeds.size() > kMostSeeds) text += fmt::format(" and {} more", summary.bad_seeds.size() - kMostSeeds);
+  return text + fmt::format(", of {} from {} on", options.seeds, options.seed);
+}
+
+/// "ok", "ok, 2 warnings", "ok, its 2 expectations hold with 10 seeds".
+std::string successText(const CompileResult& compiled, const ExpectationSummary* summary, uint64_t seeds) {
+  std::string text = "ok";
+  if (!compiled.diagnostics.empty()) text += ", " + countDiagnostics(compiled.diagnostics);
+  if (summary == nullptr) return text;
+  if (summary->expectations == 0) return text + ", no expectation";
+  text += summary->expectations == 1 ? ", its expectation holds"
+                                     : fmt::format(", its {} expectations hold", summary->expectations);
+  return seeds == 1 ? text : text + fmt::format(" with {} seeds", seeds);
 }
 
 }  // namespace
 
-Command addCheck(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("check", "Check grammars and say what is wrong, with line and column");
-  const auto options = std::make_shared<CheckOptions>();
-  app->add_option("FILE", options->files, "Grammars, .sgm files")->required();
-  app->add_flag("--json", options->json, "Print messages, parameters and layers as JSON on standard output");
-  app->footer("Example:\n  sgm check samples/grammars/cave.sgm");
-  return [options] { return check(*options); };
+Exit check(const CheckOptions& options) {
+  Exit status = Exit::done;
+  Json all = Json::array();
+  Workshop workshop;
+  if (options.expect) {
+    Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
+    if (!jobs) return complain(jobs.error());
+    workshop.jobs = std::move(*jobs);
+    Result<std::unique_ptr<Backend>> backend = backendOf(options, *workshop.jobs);
+    if (!backend) return complain(backend.error());
+    workshop.backend = std::move(*backend);
+  }
+  for (const std::string& file : options.files) {
+    const Result<CompileResult> compiled = compileFile(file);
+    if (!compiled) {
+      status = std::max(status, complain(compiled.error()));
+      if (options.json)
+        all.push_back(
+            {{"file", file}, {"ok", false}, {"diagnostics", Json::array()}, {"error", compiled.error().message}});
+      continue;
+    }
+    const bool ok = compiled->program != nullptr;
+    if (!ok) status = std::max(status, Exit::input);
+    if (!options.json) fmt::print(stderr, "{}", renderDiagnostics(*compiled));
+    std::optional<ExpectationSummary> summary;
+    if (ok && options.expect)
+      summary = sayExpectations(*compiled, options, options.seeds, *workshop.backend, *workshop.jobs);
+    const bool holds = !summary || summary->status == Exit::done;
+    if (!holds) status = std::max(status, summary->status);
+    if (options.json) {
+      Json json{{"file", file}, {"ok", ok && holds}, {"diagnostics", Json::array()}};
+      for (const Diagnostic& d : compiled->diagnostics) json["diagnostics"].push_back(toJson(d));
+      if (ok) json.update(describe(*compiled->program));
+      if (summary) json["expectations"] = std::move(summary->statements);
+      all.push_back(std::move(json));
+    } else if (!ok) {
+      fmt::print("{}: {}\n", file, countDiagnostics(compiled->diagnostics));
+    } else if (holds) {
+      fmt::print("{}: {}\n", file, successText(*compiled, summary ? &*summary : nullptr, options.seeds));
+    } else if (summary->failed > 0) {
+      fmt::print("{}: {}\n", file, failureText(*summary, options));
+    }
+  }
+  if (options.json) fmt::print("{}\n", Json{{"ok", status == Exit::done}, {"files", std::move(all)}}.text());
+  return status;
 }
 
 }  // namespace sgm::cli

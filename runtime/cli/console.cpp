@@ -10,6 +10,7 @@ namespace sgm::cli {
 Exit exitOf(Code code) {
   switch (code) {
     case Code::invalid_argument:
+    case Code::range:
     case Code::bad_input:
     case Code::limit:
     case Code::out_of_memory:

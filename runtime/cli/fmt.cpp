@@ -2,18 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+
+#include "base/file_writer.h"
 #include "cli/commands.h"
 #include "cli/source.h"
-#include "mesh/file_writer.h"
 
 namespace sgm::cli {
 namespace {
-
-struct FmtOptions {
-  std::vector<std::string> files;
-  bool write = false;
-  bool check = false;
-};
 
 Exit formatOne(const std::string& file, const FmtOptions& options) {
   const Result<std::string> text = readGrammarText(file);
@@ -38,25 +34,12 @@ Exit formatOne(const std::string& file, const FmtOptions& options) {
   return Exit::done;
 }
 
-Exit format(const FmtOptions& options) {
-  Exit status = Exit::done;
-  for (const std::string& file : options.files) {
-    if (const Exit one = formatOne(file, options); one != Exit::done) status = one;
-  }
-  return status;
-}
-
 }  // namespace
 
-Command addFmt(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("fmt", "Print grammars in their canonical layout, or put them into it");
-  const auto options = std::make_shared<FmtOptions>();
-  app->add_option("FILE", options->files, "Grammars, .sgm files")->required();
-  CLI::Option* write = app->add_flag("--write", options->write, "Change the files in place");
-  app->add_flag("--check", options->check, "Change nothing; status 1 where a file is not in canonical layout")
-      ->excludes(write);
-  app->footer("Example:\n  sgm fmt --write samples/grammars/cave.sgm");
-  return [options] { return format(*options); };
+Exit format(const FmtOptions& options) {
+  Exit status = Exit::done;
+  for (const std::string& file : options.files) status = std::max(status, formatOne(file, options));
+  return status;
 }
 
 }  // namespace sgm::cli

@@ -1,56 +1,41 @@
 // The command `sgm`.
 
-#include <fmt/core.h>
-
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <new>
-#include <utility>
-#include <vector>
 
+#include "base/file_writer.h"
 #include "cli/commands.h"
-#include "sgm/sgm.h"
 
 namespace {
 
 using sgm::cli::Exit;
 
-Exit run(int argc, char** argv) {
-  CLI::App app("Shape grammars with morphing: from grammar text to meshes and pictures.", "sgm");
-  app.set_version_flag("--version", std::string("sgm ") + sgm_version_string());
-  app.require_subcommand(1);
-  app.footer(
-      "Run sgm COMMAND --help for its options and an example.\n"
-      "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
-      "be read or written.");
-  using Add = sgm::cli::Command (*)(CLI::App&);
-  std::vector<sgm::cli::Command> commands;
-  for (const Add add :
-       {sgm::cli::addCheck, sgm::cli::addFmt, sgm::cli::addMesh, sgm::cli::addRender, sgm::cli::addBackends})
-    commands.push_back(add(app));
+/// Ends the process by the signal, as if it were not handled (a shell reports 128 + the signal), in whatever it is
+/// doing; but no unfinished file stays behind.
+void endBy(int signal) {
+  sgm::FileWriter::removeUnfinished();
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(e), Exit::done;
-    fmt::print(stderr, "sgm: usage: {}\nRun sgm --help, or sgm COMMAND --help.\n", e.what());
-    return Exit::usage;
+void handleSignals() {
+  // A file that grows past a limit is then a failed write, which cleans up after itself.
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) {
+    // What our caller has us ignore (nohup, a background job of a script) stays ignored.
+    if (std::signal(signal, endBy) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
-  const std::vector<CLI::App*> all = app.get_subcommands([](CLI::App*) { return true; });
-  for (size_t i = 0; i < all.size(); ++i) {
-    if (all[i]->parsed()) return commands[i]();
-  }
-  return Exit::usage;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file that grows past a limit is then a failed write, which cleans up after itself.
-  std::signal(SIGXFSZ, SIG_IGN);
+  handleSignals();
   Exit status = Exit::input;
   try {
-    status = run(argc, argv);
+    status = sgm::cli::runCommandLine(argc, argv);
   } catch (const std::bad_alloc&) {
     sgm::cli::complain(Exit::input, "out of memory: take a smaller region or a larger --cell");
   } catch (const std::exception& e) {

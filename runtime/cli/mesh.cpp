@@ -1,61 +1,43 @@
 // sgm mesh: a region of a grammar's world as one mesh file.
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/json.h"
 #include "cli/materials.h"
-#include "cli/measure.h"
 #include "cli/region.h"
 #include "mesh/export.h"
+#include "metrics/measure.h"
 #include "sgm/sgm.h"
 
 namespace sgm::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct MeshOptions : WorldOptions {
-  std::string out;
-};
-
-std::string checkOut(const std::string& out) {
-  const Result<MeshFormat> format = meshFormatOf(out);
-  return format ? std::string() : format.error().message;
-}
-
 double metres(int32_t units) { return static_cast<double>(units) / kUnitsPerMetre; }
-
-Json metres(Int3 p) { return {metres(p.x), metres(p.y), metres(p.z)}; }
 
 struct Summary {
   Measures measures;
   double volume = 0, void_volume = 0;
-  uint64_t bytes = 0;
+  std::vector<std::string> files;
+  uint64_t bytes = 0;  ///< of all files
 };
 
 void printJson(const MeshOptions& options, const Region& region, const Summary& summary) {
-  Json json{{"triangles", region.meshed.mesh.indices.size() / 3},
-            {"vertices", region.meshed.mesh.positions.size()},
-            {"chunks", region.meshed.chunks},
-            {"seconds", region.seconds},
-            {"hash", fmt::format("{:016x}", region.meshed.hash.value())},
-            {"seed", options.seed},
-            {"cell", metres(region.cell)},
-            {"cell_units", region.cell},
-            {"density", 1 / metres(region.cell)},
-            {"region", {metres(region.meshed.extent.lo), metres(region.meshed.extent.hi)}},
-            {"area", summary.measures.area},
-            {"volume", summary.volume},
-            {"void_volume", summary.void_volume},
-            {"objects", summary.measures.objects},
-            {"anchors", region.anchors.size()},
-            {"backend", region.backend},
-            {"device", region.device}};
-  if (!options.out.empty()) json.update({{"out", options.out}, {"bytes", summary.bytes}});
-  fmt::print("{}\n", json.dump(2));
+  Json json = toJson(options, region);
+  json.update({{"area", summary.measures.area},
+               {"volume", summary.volume},
+               {"void_volume", summary.void_volume},
+               {"objects", summary.measures.objects},
+               {"device", region.device}});
+  if (!options.out.empty()) {
+    json["out"] = options.out;
+    for (const std::string& file : summary.files) json["files"].push_back(file);
+    json["bytes"] = summary.bytes;
+  }
+  fmt::print("{}\n", json.text());
 }
 
 void printText(const MeshOptions& options, const Region& region, const Summary& summary) {
@@ -64,12 +46,14 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
   if (options.out.empty()) {
     fmt::print("{} triangles, {} vertices, {:.2f} s\n", triangles, vertices, region.seconds);
   } else {
-    fmt::print("{}: {} triangles, {} vertices, {:.1f} MB, {:.2f} s\n", options.out, triangles, vertices,
-               static_cast<double>(summary.bytes) / 1e6, region.seconds);
+    fmt::print("{}: {} triangles, {} vertices, {:.1f} MB, {:.2f} s\n", fmt::join(summary.files, ", "), triangles,
+               vertices, static_cast<double>(summary.bytes) / 1e6, region.seconds);
   }
   fmt::print("  region   {},{},{} to {},{},{} m: {} chunks, cells of {} m ({} units)\n", metres(box.lo.x),
              metres(box.lo.y), metres(box.lo.z), metres(box.hi.x), metres(box.hi.y), metres(box.hi.z),
              region.meshed.chunks, metres(region.cell), region.cell);
+  if (const Int3 o = region.meshed.mesh.origin; o != Int3{})
+    fmt::print("  origin   {},{},{} m: positions count from here\n", metres(o.x), metres(o.y), metres(o.z));
   fmt::print("  area     {:.1f} m2 (equation 7: half of each triangle's cross product)\n", summary.measures.area);
   fmt::print("  volume   {:.1f} m3 solid, {:.1f} m3 open (equation 8: cubes of one cell, each centred on a sample)\n",
              summary.volume, summary.void_volume);
@@ -78,7 +62,16 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
              region.device);
 }
 
+}  // namespace
+
 Exit mesh(const MeshOptions& options) {
+  // The file first: meshing may take long, and be for nothing.
+  std::optional<MeshFile> file;
+  if (!options.out.empty()) {
+    Result<MeshFile> opened = MeshFile::create(options.out);
+    if (!opened) return complain(opened.error());
+    file.emplace(std::move(*opened));
+  }
   const RegionResult made = meshRegion(options);
   if (!made.region) return made.status;
   const Region& region = *made.region;
@@ -86,16 +79,15 @@ Exit mesh(const MeshOptions& options) {
   summary.measures = measure(region.meshed.mesh);
   summary.volume = cubeVolume(region.meshed.solid_samples, region.cell);
   summary.void_volume = cubeVolume(region.samples() - region.meshed.solid_samples, region.cell);
-  if (!options.out.empty()) {
+  if (file) {
     ExportInfo info;
     info.name = std::filesystem::path(options.file).stem().string();
     info.generator = std::string("sgm ") + sgm_version_string();
     info.materials = exportMaterials(*region.program);
     for (const std::pmr::string& tag : region.program->tags) info.tags.emplace_back(tag);
-    if (Result<void> ok = exportMesh(region.meshed.mesh, info, options.out); !ok) return complain(ok.error());
-    std::error_code why;
-    const uintmax_t bytes = std::filesystem::file_size(options.out, why);
-    summary.bytes = why ? 0 : bytes;
+    if (Result<void> ok = file->write(region.meshed.mesh, info); !ok) return complain(ok.error());
+    for (const std::filesystem::path& path : file->paths()) summary.files.push_back(path.string());
+    summary.bytes = file->bytes();
   }
   if (options.json) {
     printJson(options, region, summary);
@@ -103,22 +95,6 @@ Exit mesh(const MeshOptions& options) {
     printText(options, region, summary);
   }
   return Exit::done;
-}
-
-}  // namespace
-
-Command addMesh(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("mesh", "Mesh a region and write it as .glb, .obj, .ply or .stl");
-  const auto options = std::make_shared<MeshOptions>();
-  addWorldOptions(*app, *options);
-  addRegionOptions(*app, *options);
-  app->add_option("--out", options->out,
-                  "Mesh file to write; its ending chooses .glb, .obj, .ply or .stl. Without it the "
-                  "mesh is only measured")
-      ->check(checkOut);
-  app->footer(
-      "Example:\n  sgm mesh samples/grammars/cave.sgm --out cave.glb --region 0,0,0:192,192,192 --cell 0.5 --seed 7");
-  return [options] { return mesh(*options); };
 }
 
 }  // namespace sgm::cli

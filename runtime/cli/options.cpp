@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -20,7 +21,7 @@ Error wrong(std::string message) { return {Code::invalid_argument, std::move(mes
 Result<int32_t> unitsOf(double metres) {
   const double units = std::floor(metres * kUnitsPerMetre + 0.5);
   if (!(units >= std::numeric_limits<int32_t>::min() && units <= std::numeric_limits<int32_t>::max()))
-    return wrong(fmt::format("{} m lies outside the world of +-2097152 m", metres));
+    return wrong(fmt::format("{} m lies outside the world, which reaches from -2097152 m to 2097151.999 m", metres));
   return static_cast<int32_t>(units);
 }
 
@@ -44,69 +45,34 @@ std::optional<std::array<double, 3>> readPoint(std::string_view text) {
   return point;
 }
 
-std::string checkPoint(const std::string& text) {
-  return readPoint(text) ? std::string() : fmt::format("'{}' is not x,y,z", text);
-}
-
-namespace {
-
-std::string checkRegion(const std::string& text) {
-  const size_t colon = text.find(':');
-  if (colon != std::string::npos && readPoint(text.substr(0, colon)) && readPoint(text.substr(colon + 1))) return {};
-  return fmt::format("'{}' is not x0,y0,z0:x1,y1,z1", text);
-}
-
-/// Signed text would wrap round into an unsigned number.
-std::string checkWhole(const std::string& text) {
-  uint64_t value = 0;
+std::optional<PictureSize> readSize(std::string_view text) {
+  PictureSize size;
   const char* end = text.data() + text.size();
-  const auto [rest, why] = std::from_chars(text.data(), end, value);
-  return why == std::errc() && rest == end ? std::string()
-                                           : fmt::format("'{}' is not a whole number from 0 to 2^64 - 1", text);
+  const auto [x, bad_width] = std::from_chars(text.data(), end, size.width);
+  if (bad_width != std::errc() || x == end || *x != 'x') return std::nullopt;
+  const auto [rest, bad_height] = std::from_chars(x + 1, end, size.height);
+  if (bad_height != std::errc() || rest != end) return std::nullopt;
+  const auto fits = [](int pixels) { return pixels >= 1 && pixels <= kMaxPicture; };
+  if (!fits(size.width) || !fits(size.height)) return std::nullopt;
+  return size;
 }
 
-std::string checkSet(const std::string& text) {
-  return text.find('=') == std::string::npos ? fmt::format("'{}' is not NAME=VALUE", text) : std::string();
-}
-
-}  // namespace
-
-void addWorldOptions(CLI::App& app, WorldOptions& options) {
-  app.add_option("FILE", options.file, "The grammar, a .sgm file")->required();
-  app.add_option("--seed", options.seed, "Seed of the world, a whole number from 0")
-      ->check(checkWhole)
-      ->capture_default_str();
-  app.add_option("--set", options.sets, "Give a parameter of the grammar a value (repeatable)")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false)
-      ->check(checkSet);
-  app.add_option("--backend", options.backend, "What computes")
-      ->check(CLI::IsMember({"auto", "cpu", "vulkan", "cuda"}))
-      ->capture_default_str();
-  app.add_option("--threads", options.threads, "Threads to use; 0: one for each processor")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  app.add_flag("--json", options.json, "Print the result as one JSON object on standard output");
-}
-
-void addRegionOptions(CLI::App& app, WorldOptions& options) {
-  app.add_option("--region", options.region, "Region in metres, x0,y0,z0:x1,y1,z1, grown to whole chunks")
-      ->type_name("BOX")
-      ->check(checkRegion);
-  CLI::Option* cell =
-      app.add_option("--cell", options.cell, "Edge of a sampling cell in metres (0.5)")->type_name("METRES");
-  app.add_option("--ld", options.density, "Sampling density of the paper: cells per metre, so a cell edge of 1/N m")
-      ->type_name("N")
-      ->excludes(cell);
-  app.add_option("--max-chunks", options.max_chunks, "Refuse regions of more chunks than this")
-      ->check(checkWhole)
-      ->capture_default_str();
+std::optional<Gaze> readCamera(std::string_view text) {
+  const size_t colon = text.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const std::optional<std::array<double, 3>> from = readPoint(text.substr(0, colon)),
+                                             to = readPoint(text.substr(colon + 1));
+  if (!from || !to) return std::nullopt;
+  for (const double x : {(*from)[0], (*from)[1], (*from)[2], (*to)[0], (*to)[1], (*to)[2]})
+    if (!(std::fabs(x) < 2.2e6)) return std::nullopt;
+  return Gaze{*from, *to};
 }
 
 Result<IntBox> parseRegion(std::string_view text) {
-  if (const std::string why = checkRegion(std::string(text)); !why.empty()) return wrong("--region: " + why);
-  const size_t colon = text.find(':');
-  const std::array<double, 3> lo = *readPoint(text.substr(0, colon)), hi = *readPoint(text.substr(colon + 1));
+  const size_t colon = std::min(text.find(':'), text.size());
+  const auto from = readPoint(text.substr(0, colon)), to = readPoint(text.substr(std::min(colon + 1, text.size())));
+  if (!from || !to) return wrong(fmt::format("--region: '{}' is not x0,y0,z0:x1,y1,z1", text));
+  const std::array<double, 3>&lo = *from, &hi = *to;
   IntBox box;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<size_t>(axis);
@@ -121,15 +87,16 @@ Result<IntBox> parseRegion(std::string_view text) {
 }
 
 Result<int32_t> cellUnits(const WorldOptions& options) {
-  double metres = options.cell.value_or(kDefaultCell);
-  if (options.density) {
-    if (!(*options.density > 0)) return wrong("--ld must be above 0");
-    metres = 1 / *options.density;
-  }
+  if (options.density && !(*options.density > 0 && std::isfinite(*options.density)))
+    return wrong("--ld: the sampling density is not a finite number above 0");
+  const double metres = options.density ? 1 / *options.density : options.cell.value_or(kDefaultCell);
   int32_t units = 0;
   sgm_error error = SGM_ERROR_INIT;
-  if (sgm_cell_from_metres(metres, &units, &error) != SGM_OK) return wrong(error.message);
-  return units;
+  if (sgm_cell_from_metres(metres, &units, &error) == SGM_OK) return units;
+  if (options.density)
+    return wrong(
+        fmt::format("--ld: {} cells per metre are cells of {} m: {}", *options.density, metres, error.message));
+  return wrong(fmt::format("--cell: {}", error.message));
 }
 
 Result<ParameterValues> parameterValues(const Program& program, const std::vector<std::string>& sets) {

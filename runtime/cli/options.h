@@ -1,7 +1,6 @@
 #pragma once
 // Options that several commands share, and how their texts become numbers.
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "base/fixed.h"
 #include "base/result.h"
 #include "derive/parameters.h"
+#include "render/image.h"
 
 namespace sgm::cli {
 
@@ -26,17 +26,22 @@ struct WorldOptions {
   std::optional<double> cell;     ///< metres
   std::optional<double> density;  ///< the paper's LD
   uint64_t max_chunks = 65536;
+  int level = 0;  ///< of detail: cells of 2^level times the edge that --cell or --ld say
 };
-
-/// FILE, --seed, --set, --backend, --threads, --json.
-void addWorldOptions(CLI::App& app, WorldOptions& options);
-/// --region, --cell, --ld, --max-chunks.
-void addRegionOptions(CLI::App& app, WorldOptions& options);
 
 /// "x,y,z"; a number too large for a double is an infinity. Nothing where the text is no point.
 std::optional<std::array<double, 3>> readPoint(std::string_view text);
-/// A check of --option x,y,z for CLI11: "" or what is wrong.
-std::string checkPoint(const std::string& text);
+struct PictureSize {
+  int width = 0, height = 0;
+};
+/// "1280x720", with 1 to kMaxPicture pixels each; nothing where the text is no such size.
+std::optional<PictureSize> readSize(std::string_view text);
+
+/// From where and to where, in metres.
+using Gaze = std::array<std::array<double, 3>, 2>;
+/// "x,y,z:x,y,z"; nothing where the text is no such pair of points of the world.
+std::optional<Gaze> readCamera(std::string_view text);
+
 /// "x0,y0,z0:x1,y1,z1" in metres as a box of units, lo below hi on each axis. Error: invalid_argument.
 Result<IntBox> parseRegion(std::string_view text);
 /// The cell edge in units that --cell or --ld mean; 0.5 m without either. Error: invalid_argument.

@@ -11,7 +11,6 @@
 namespace sgm::cli {
 namespace {
 
-constexpr size_t kCacheBytes = size_t{512} << 20;
 constexpr size_t kMostNotes = 10;
 
 sgm_backend backendNamed(const std::string& name) {
@@ -21,19 +20,17 @@ sgm_backend backendNamed(const std::string& name) {
   return SGM_BACKEND_AUTO;
 }
 
-const char* backendName(BackendKind kind) {
-  switch (kind) {
-    case BackendKind::cpu:
-      return "cpu";
-    case BackendKind::vulkan:
-      return "vulkan";
-    case BackendKind::cuda:
-      return "cuda";
-  }
-  return "";
+double metres(int32_t units) { return static_cast<double>(units) / kUnitsPerMetre; }
+Json metres(Int3 p) { return {metres(p.x), metres(p.y), metres(p.z)}; }
+
+RegionResult failure(Exit status) { return {std::nullopt, status}; }
+
+}  // namespace
+
+Result<std::unique_ptr<Backend>> backendOf(const WorldOptions& options, JobSystem& jobs) {
+  return makeBackend(*api::requestOf(backendNamed(options.backend)), jobs, std::pmr::new_delete_resource());
 }
 
-/// What derivation left out, each message once a place in the grammar.
 void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) {
   std::map<std::tuple<int, int, std::string>, std::pair<size_t, std::string>> by_place;
   for (const DeriveNote& note : notes) {
@@ -53,9 +50,25 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
   }
 }
 
-RegionResult failure(Exit status) { return {std::nullopt, status}; }
-
-}  // namespace
+Json toJson(const WorldOptions& options, const Region& region) {
+  const IntBox& extent = region.meshed.extent;
+  const Int3 origin = region.meshed.mesh.origin;
+  return {{"triangles", region.meshed.mesh.indices.size() / 3},
+          {"vertices", region.meshed.mesh.positions.size()},
+          {"chunks", region.meshed.chunks},
+          {"seconds", region.seconds},
+          {"hash", fmt::format("{:016x}", region.meshed.hash.value())},
+          {"seed", options.seed},
+          {"level", options.level},
+          {"cell", metres(region.cell)},
+          {"cell_units", region.cell},
+          {"density", 1 / metres(region.cell)},
+          {"region", {metres(extent.lo), metres(extent.hi)}},
+          {"origin", metres(origin)},
+          {"origin_units", {origin.x, origin.y, origin.z}},
+          {"anchors", region.anchors.size()},
+          {"backend", region.backend}};
+}
 
 RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose) {
   // What the command line alone can tell comes before any work.
@@ -79,10 +92,11 @@ RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose)
         complain(Exit::usage, "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1"));
 
   const Stopwatch watch;
-  const std::unique_ptr<JobSystem> jobs = makeThreadPool(options.threads);
+  const Result<std::unique_ptr<JobSystem>> pool = makeThreadPool(options.threads);
+  if (!pool) return failure(complain(pool.error()));
+  const std::unique_ptr<JobSystem>& jobs = *pool;
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
-  const Result<std::unique_ptr<Backend>> backend =
-      makeBackend(*api::requestOf(backendNamed(options.backend)), *jobs, memory);
+  const Result<std::unique_ptr<Backend>> backend = backendOf(options, *jobs);
   if (!backend) return failure(complain(backend.error()));
   WorldFieldSettings settings;
   settings.program = grammar.program;
@@ -99,7 +113,7 @@ RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose)
   }
   Result<api::RegionMesh> meshed = [&] {
     ProgressBar bar("meshing");
-    return api::meshRegion(world, **backend, *jobs, *region, 0, options.max_chunks,
+    return api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks,
                            [&bar](uint64_t done, uint64_t total) {
                              bar.show(done, total);
                              return true;
@@ -114,8 +128,8 @@ RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose)
   warnOfNotes(options.file, *notes);
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
-  return {Region{grammar.program, std::move(*meshed), *cell, std::move(*anchors), backendName(capabilities.kind),
-                 capabilities.device, seconds},
+  return {Region{grammar.program, std::move(*meshed), *cell << options.level, std::move(*anchors),
+                 backendName(capabilities.kind), capabilities.device, seconds},
           Exit::done};
 }
 

@@ -9,6 +9,7 @@
 
 #include "api/region_mesh.h"
 #include "cli/console.h"
+#include "cli/json.h"
 #include "cli/options.h"
 
 namespace sgm::cli {
@@ -16,13 +17,24 @@ namespace sgm::cli {
 struct Region {
   std::shared_ptr<const Program> program;
   api::RegionMesh meshed;
-  int32_t cell = 0;             ///< units
+  int32_t cell = 0;             ///< of the level, units
   std::vector<Anchor> anchors;  ///< in the region
   std::string backend, device;
   double seconds = 0;  ///< from the compiled grammar to the welded mesh
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }
 };
+
+inline constexpr size_t kCacheBytes = size_t{512} << 20;  ///< of derived cells
+
+/// The backend that --backend names. jobs must outlive it. Error: unsupported.
+Result<std::unique_ptr<Backend>> backendOf(const WorldOptions& options, JobSystem& jobs);
+
+/// What derivation left out, each message once a place in the grammar, to stderr.
+void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes);
+
+/// What --json says of a region, whatever is done with it.
+Json toJson(const WorldOptions& options, const Region& region);
 
 /// Nothing, and the status to end with, where something is wrong; it has been said.
 struct RegionResult {

@@ -3,13 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/json.h"
 #include "cli/materials.h"
 #include "cli/region.h"
 #include "mesh/vertex.h"
@@ -19,61 +17,7 @@
 namespace sgm::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int64_t kAroundUnits = int64_t{48} * kUnitsPerMetre;
-
-struct RenderOptions : WorldOptions {
-  std::string out;
-  std::string camera;
-  std::string at;
-  std::string size = "1280x720";
-  double fov = 68;
-};
-
-struct Size {
-  int width = 0, height = 0;
-};
-
-std::optional<Size> readSize(std::string_view text) {
-  Size size;
-  const char* end = text.data() + text.size();
-  const auto [x, bad_width] = std::from_chars(text.data(), end, size.width);
-  if (bad_width != std::errc() || x == end || *x != 'x') return std::nullopt;
-  const auto [rest, bad_height] = std::from_chars(x + 1, end, size.height);
-  if (bad_height != std::errc() || rest != end) return std::nullopt;
-  const auto fits = [](int pixels) { return pixels >= 1 && pixels <= kMaxPicture; };
-  if (!fits(size.width) || !fits(size.height)) return std::nullopt;
-  return size;
-}
-
-std::string checkSize(const std::string& text) {
-  if (readSize(text)) return {};
-  return fmt::format("'{}' is not WIDTHxHEIGHT with 1 to {} pixels each", text, kMaxPicture);
-}
-
-/// From where and to where, in metres; nothing where the text is no such pair.
-using Gaze = std::array<std::array<double, 3>, 2>;
-std::optional<Gaze> readCamera(std::string_view text) {
-  const size_t colon = text.find(':');
-  if (colon == std::string_view::npos) return std::nullopt;
-  const std::optional<std::array<double, 3>> from = readPoint(text.substr(0, colon)),
-                                             to = readPoint(text.substr(colon + 1));
-  if (!from || !to) return std::nullopt;
-  for (const double x : {(*from)[0], (*from)[1], (*from)[2], (*to)[0], (*to)[1], (*to)[2]})
-    if (!(std::fabs(x) < 2.2e6)) return std::nullopt;
-  return Gaze{*from, *to};
-}
-
-std::string checkCamera(const std::string& text) {
-  if (readCamera(text)) return {};
-  return fmt::format("'{}' is not x,y,z:x,y,z in metres (from where, and to where)", text);
-}
-
-std::string checkPng(const std::string& out) {
-  const std::string extension = std::filesystem::path(out).extension().string();
-  return CLI::detail::to_lower(extension) == ".png" ? std::string() : "pictures are .png files";
-}
 
 /// Drawable vertices. The renderer counts from the mesh's origin, as the mesh does.
 std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
@@ -118,7 +62,7 @@ std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) 
 
 /// The view that the options ask for, or the one that finds itself.
 Result<View> viewOf(const RenderOptions& options, const Region& region, std::span<const RenderVertex> vertices) {
-  const Size size = *readSize(options.size);
+  const PictureSize size = *readSize(options.size);
   if (!options.camera.empty()) {
     const Gaze gaze = *readCamera(options.camera);
     RenderCamera camera;
@@ -144,11 +88,13 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, std::spa
   return chooseCamera(vertices, region.meshed.mesh.indices, wish);
 }
 
-Json metres(const WorldMesh& mesh, const glm::vec3& point) {
-  Json json = Json::array();
+/// In metres of the world.
+std::array<double, 3> worldPoint(const WorldMesh& mesh, const glm::vec3& point) {
+  std::array<double, 3> world{};
   for (int axis = 0; axis < 3; ++axis)
-    json.push_back(static_cast<double>(point[axis]) + static_cast<double>(mesh.origin[axis]) / kUnitsPerMetre);
-  return json;
+    world[static_cast<size_t>(axis)] =
+        static_cast<double>(point[axis]) + static_cast<double>(mesh.origin[axis]) / kUnitsPerMetre;
+  return world;
 }
 
 IntBox around(const std::array<int64_t, 3>& centre) {
@@ -187,10 +133,14 @@ Result<IntBox> surroundings(const RenderOptions& options, const WorldField& worl
   return around(centre);
 }
 
+}  // namespace
+
 Exit render(const RenderOptions& options) {
-  // The device first: meshing may take long, and be for nothing.
+  // The device and the file first: meshing may take long, and be for nothing.
   const Result<Renderer> renderer = Renderer::create();
   if (!renderer) return complain(renderer.error());
+  Result<FileWriter> file = FileWriter::create(options.out);
+  if (!file) return complain(file.error());
   const RegionResult made = meshRegion(options, [&](const WorldField& world) { return surroundings(options, world); });
   if (!made.region) return made.status;
   const Region& region = *made.region;
@@ -209,57 +159,30 @@ Exit render(const RenderOptions& options) {
   lightScene(*view, scene);
   const Result<Image> image = renderer->render(scene);
   if (!image) return complain(image.error());
-  if (Result<void> ok = writePng(options.out, *image); !ok) return complain(ok.error());
+  if (Result<void> ok = writePng(*image, *file); !ok) return complain(ok.error());
 
   const RenderCamera& camera = view->camera;
-  const size_t triangles = region.meshed.mesh.indices.size() / 3;
+  const std::array<double, 3> position = worldPoint(region.meshed.mesh, camera.position),
+                              target = worldPoint(region.meshed.mesh, camera.target);
   if (options.json) {
-    const Json json{{"out", options.out},
-                    {"width", image->width},
-                    {"height", image->height},
-                    {"triangles", triangles},
-                    {"seconds", region.seconds},
-                    {"draw_seconds", watch.seconds()},
-                    {"hash", fmt::format("{:016x}", region.meshed.hash.value())},
-                    {"device", renderer->info().name},
-                    {"camera",
-                     {{"position", metres(region.meshed.mesh, camera.position)},
-                      {"target", metres(region.meshed.mesh, camera.target)},
-                      {"fov", camera.fov_degrees},
-                      {"enclosed", view->enclosed}}}};
-    fmt::print("{}\n", json.dump(2));
+    Json json{{"out", options.out}, {"width", image->width}, {"height", image->height}};
+    json.update(toJson(options, region));
+    json.update({{"draw_seconds", watch.seconds()},
+                 {"device", renderer->info().name},
+                 {"camera",
+                  {{"position", {position[0], position[1], position[2]}},
+                   {"target", {target[0], target[1], target[2]}},
+                   {"fov", camera.fov_degrees},
+                   {"enclosed", view->enclosed}}}});
+    fmt::print("{}\n", json.text());
   } else {
-    const Json position = metres(region.meshed.mesh, camera.position);
     fmt::print("{}: {}x{} pixels, {} triangles meshed in {:.2f} s, drawn in {:.2f} s on {}\n", options.out,
-               image->width, image->height, triangles, region.seconds, watch.seconds(), renderer->info().name);
-    fmt::print("  camera   at {:.1f},{:.1f},{:.1f} m{}\n", position[0].get<double>(), position[1].get<double>(),
-               position[2].get<double>(), view->enclosed ? ", inside" : "");
+               image->width, image->height, region.meshed.mesh.indices.size() / 3, region.seconds, watch.seconds(),
+               renderer->info().name);
+    fmt::print("  camera   at {:.1f},{:.1f},{:.1f} m{}\n", position[0], position[1], position[2],
+               view->enclosed ? ", inside" : "");
   }
   return Exit::done;
-}
-
-}  // namespace
-
-Command addRender(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("render", "Draw a picture of a region, off-screen");
-  const auto options = std::make_shared<RenderOptions>();
-  addWorldOptions(*app, *options);
-  addRegionOptions(*app, *options);
-  app->add_option("--out", options->out, "Picture to write, a .png file")->required()->check(checkPng);
-  CLI::Option* camera =
-      app->add_option("--camera", options->camera,
-                      "From where to where to look in metres, x,y,z:x,y,z; without it, a view is chosen")
-          ->type_name("VIEW")
-          ->check(checkCamera);
-  app->add_option("--at", options->at, "Look from an anchor of this name, kind or tag")
-      ->type_name("ANCHOR")
-      ->excludes(camera);
-  app->add_option("--size", options->size, "Pixels, WIDTHxHEIGHT")->check(checkSize)->capture_default_str();
-  app->add_option("--fov", options->fov, "Angle across the picture's height, in degrees")
-      ->check(CLI::Range(1.0, 150.0))
-      ->capture_default_str();
-  app->footer("Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7");
-  return [options] { return render(*options); };
 }
 
 }  // namespace sgm::cli

@@ -12,6 +12,31 @@ json 'j.files[0].parameters[0].name === "radius" && j.files[0].parameters[0].def
 json '/^[0-9a-f]{16}$/.test(j.files[0].hash) && j.files[0].materials[0] === "marble" && j.files[0].layers[0].name === "main"'
 expect 0 "$SGM" check "$SOURCE"/samples/grammars/*.sgm
 
+# Bytes that are no UTF-8: an error at their place, and JSON all the same.
+printf 'sgm 1;\nparam a = 1m "na\xefve"; // \xe9\nstart R;\nrule R { sphere(a); }\n' >latin1.sgm
+expect 1 "$SGM" check latin1.sgm
+err_has 'latin1.sgm:2:17: error: this byte is not UTF-8'
+err_has 'latin1.sgm:2:26: error: this byte is not UTF-8'
+expect 1 "$SGM" check --json latin1.sgm
+json 'j.files[0].diagnostics.map(d => d.line + ":" + d.column).join() === "2:17,2:26"'
+cp ball.sgm "$(printf 'b\xe4ll.sgm')"
+expect 0 "$SGM" check --json "$(printf 'b\xe4ll.sgm')"
+json 'j.files[0].file === "b\ufffdll.sgm"'
+
+# The highest status of several files; every file has its messages, also one that cannot be read.
+for order in "none.sgm latin1.sgm ball.sgm" "ball.sgm latin1.sgm none.sgm"; do
+  # shellcheck disable=SC2086
+  expect 4 "$SGM" check --json $order
+  json 'j.files.every(f => Array.isArray(f.diagnostics))'
+  # shellcheck disable=SC2086
+  expect 4 "$SGM" fmt --check $order
+done
+# Why a file cannot be read, not only that.
+ln -s round.sgm round.sgm
+expect 4 "$SGM" check round.sgm
+err_has 'round.sgm: Too many levels of symbolic links'
+rm round.sgm
+
 # bad NAME LINE COLUMN TEXT: status 1, "NAME.sgm:LINE:COLUMN: error: ...", the source line, a caret below the column.
 bad() {
   printf '%s\n' "$4" >"$1.sgm"
@@ -84,7 +109,10 @@ for grammar in "$SOURCE"/samples/grammars/*.sgm; do
 done
 printf 'sgm 1;units m;start   R;rule R{sphere( 3m );}' >ugly.sgm
 expect 1 "$SGM" fmt --check ugly.sgm
-expect 0 "$SGM" fmt --write ugly.sgm
+chmod 640 ugly.sgm
+ln -s ugly.sgm link.sgm
+expect 0 "$SGM" fmt --write link.sgm
+[[ -L link.sgm && $(stat -c %a ugly.sgm) == 640 ]] || failed "the link or the mode was lost"
 expect 0 "$SGM" fmt --check ugly.sgm
 expect 1 "$SGM" fmt syntax.sgm
 expect 4 "$SGM" fmt --write none.sgm

@@ -18,6 +18,46 @@ for format in obj ply stl GLB; do
   out_has triangles
 done
 rm -f ball.glb ball.obj ball.mtl ball.ply ball.stl ball.GLB
+
+# An .obj brings its materials, and says so; a .mtl of somebody else's is not touched.
+expect 0 "$SGM" mesh ball.sgm --out ball.obj
+out_has '^ball\.obj, ball\.mtl: [0-9]+ triangles'
+expect 0 "$SGM" mesh ball.sgm --out ball.obj --json
+json 'j.out === "ball.obj" && j.files.join() === "ball.obj,ball.mtl"'
+json "j.bytes === $(cat ball.obj ball.mtl | wc -c)"
+printf '# Blender 3.4.1 MTL File\nnewmtl Skin\n' >ball.mtl
+cp ball.mtl theirs
+cp ball.obj before
+expect 4 "$SGM" mesh ball.sgm --out ball.obj --cell 0.25
+one_line
+err_has "cannot write 'ball.mtl'"
+cmp -s ball.mtl theirs && cmp -s ball.obj before || failed "a file of somebody else's was touched"
+rm ball.obj ball.mtl theirs before
+
+# A name that is no UTF-8 is written as it is; in JSON something stands for it.
+name=$(printf 'b\xe4ll.glb')
+expect 0 "$SGM" mesh ball.sgm --out "$name" --json
+json 'j.out === "b\ufffdll.glb"'
+[[ -s $name ]] || failed "no file of that name"
+rm "$name"
+
+# Coarser levels: cells of twice the edge, chunks of twice the size.
+expect 0 "$SGM" mesh ball.sgm --cell 0.25 --level 1 --json
+json 'j.level === 1 && j.cell === 0.5 && j.cell_units === 512 && j.region[0].join() === "-16,-16,-16"'
+json 'Math.abs(j.volume - 36 * Math.PI) < 6'
+out_level=$out
+expect 0 "$SGM" mesh ball.sgm --cell 0.5 --json
+json "j.triangles === $(sed -n 's/.*"triangles": \([0-9]*\).*/\1/p' <<<"$out_level")"
+expect 2 "$SGM" mesh ball.sgm --level 17
+expect 2 "$SGM" mesh ball.sgm --level -1
+
+# Far from the world's origin positions count from the region's corner, and that is said.
+expect 0 "$SGM" mesh ball.sgm --json
+json 'j.origin.join() === "0,0,0" && j.origin_units.join() === "0,0,0"'
+expect 0 "$SGM" mesh ball.sgm --region 5000,0,0:5001,1,1
+out_has '  origin   4992,0,0 m: positions count from here'
+expect 0 "$SGM" mesh ball.sgm --region 5000,0,0:5001,1,1 --json
+json 'j.origin.join() === "4992,0,0" && j.origin_units[0] === 4992 * 1024'
 only ball.sgm
 
 # The same world, whatever the threads; another one for another seed or parameter.
@@ -47,19 +87,26 @@ wrong() {
 }
 region=--region=-4,-4,-4:4,4,4
 wrong $region --cell 0
+err_has '--cell: '
 wrong $region --cell -1
 wrong $region --cell nan
 wrong $region --cell 1e-9
 wrong $region --cell 1e12
 wrong $region --cell inf
 wrong $region --ld 0
+err_has '--ld: '
+wrong $region --ld inf
+err_has '--ld: .* not a finite number above 0'
 wrong $region --ld -3
 wrong $region --ld 1e9
+err_has '--ld: 1000000000 cells per metre'
 wrong --region 0,0,0:1e300,1,1
 wrong --region 0,0,0:1e999,1,1
 wrong --region 0,0,0:nan,1,1
 wrong --region 3000000,0,0:3000001,1,1
 wrong --region 2097150,0,0:2097152,1,1
+wrong --region 2097151,0,0:2097152,1,1
+err_has '2097152 m lies outside the world, which reaches from -2097152 m to 2097151.999 m'
 wrong --region 0,0,0:0,1,1
 wrong --region 4,4,4:-4,-4,-4
 wrong $region --cell 0.01 --max-chunks 10
@@ -69,7 +116,9 @@ wrong $region --set radius=2
 wrong $region --set radius=2deg
 wrong $region --set radius=
 wrong $region --set raduis=2m
-err_has radius
+err_has 'did you mean `radius`\?; it has radius'
+wrong $region --set no_such_name=2m
+err_has "no parameter 'no_such_name'; it has radius"
 wrong $region --set =
 
 # Wrong usage: status 2.
@@ -119,26 +168,45 @@ expect 4 "$SGM" mesh none.sgm --out wrong.glb
 # Standard output on a full disk.
 "$SGM" mesh ball.sgm $region --json >/dev/full 2>"$work/.err" </dev/null
 [[ $? == 4 ]] || failed "a full standard output went unseen"
-# A disk that fills up: a cap on file sizes acts like one, and a small file system is one.
-printf 'what was here before' >ball.glb
+# A disk that fills up: a cap on file sizes acts like one, at the first byte, on the way, and in the last part.
 trap '' XFSZ
-expect 4 bash -c 'ulimit -f 16 && "$@"' bash "$SGM" mesh ball.sgm $region --cell 0.1 --out ball.glb
+for format in glb obj ply stl; do
+  printf 'what was here before' >"ball.$format"
+  for blocks in 0 1 40; do
+    expect 4 bash -c '(ulimit -f "$1" && shift && exec "$@") 2>&1 | cat; exit "${PIPESTATUS[0]}"' bash $blocks \
+      "$SGM" mesh ball.sgm $region --cell 0.1 --out "ball.$format"
+    [[ $out == "sgm: error: cannot write 'ball."*"': File too large" ]] || failed "not the one line that says why"
+    [[ $(cat "ball.$format") == 'what was here before' ]] || failed "a full disk took something"
+    only ball.sgm "ball.$format"
+  done
+  rm "ball.$format"
+done
 trap - XFSZ
+
+# A name that cannot be written is said before the work, which would take minutes here.
+expect 4 timeout 20 "$SGM" mesh "$cave" --region=-512,-512,-512:512,512,512 --cell 0.1 --max-chunks 99999999 \
+  --out nowhere/cave.glb
 one_line
-[[ $(cat ball.glb) == 'what was here before' ]] || failed "a full disk took something"
-rm ball.glb
-only ball.sgm
-mkdir tiny
-if mount -t tmpfs -o size=64k tmpfs tiny 2>/dev/null; then
-  printf 'what was here before' >tiny/ball.glb
-  expect 4 "$SGM" mesh ball.sgm $region --cell 0.1 --out tiny/ball.glb
-  one_line
-  [[ $(ls -A tiny) == ball.glb && $(cat tiny/ball.glb) == 'what was here before' ]] || failed "a full disk left or took something"
-  umount tiny
-else
-  echo "no tmpfs can be mounted here: the cap on file sizes stood in for a full disk"
-fi
-rmdir tiny
+
+# A signal ends it at once, in whatever it is doing, and leaves nothing. With and without O_TMPFILE it is the same for
+# the user; tests/unit/base tests both.
+printf 'what was here before' >cave.obj
+for signal in TERM INT HUP; do
+  for delay in 0.02 0.3 1; do
+    last="kill -$signal after $delay s"
+    # A background job of a script ignores SIGINT unless it is told otherwise.
+    env --default-signal=INT "$SGM" mesh "$cave" --region=-192,-192,-192:192,192,192 --cell 0.1 --max-chunks 99999999 \
+      --out cave.obj >"$work/.out" 2>"$work/.err" </dev/null &
+    sleep $delay
+    kill -$signal $!
+    wait $! 2>/dev/null
+    status=$?
+    ((status == 128 + $(kill -l $signal))) || failed "status $((128 + $(kill -l $signal))) expected"
+    only ball.sgm cave.obj
+  done
+done
+[[ $(cat cave.obj) == 'what was here before' ]] || failed "a signal took something"
+rm cave.obj
 
 # What stands at --out stays until the new file is whole.
 printf 'before' >ball.glb

@@ -23,6 +23,8 @@ picture() {
 expect 0 "$SGM" render ball.sgm --out ball.png --size 160x90 --json
 json 'j.triangles > 100 && j.width === 160 && j.height === 90 && j.out === "ball.png" && j.seconds > 0 && j.device.length > 0'
 json 'j.camera.position.length === 3 && j.camera.target.length === 3'
+json 'j.seed === 0 && j.level === 0 && j.cell === 0.5 && j.cell_units === 512 && j.chunks === 8 && j.backend === "cpu"'
+json 'j.region[0].join() === "-16,-16,-16" && j.origin.join() === "0,0,0"'
 picture ball.png 160 90
 expect 0 "$SGM" render "$cave" --out cave.png --cell 1 --size 160x90 --seed 7
 picture cave.png 160 90
@@ -32,6 +34,8 @@ picture looked.png 64 64
 cmp -s ball.png looked.png && failed "the camera does not matter"
 expect 0 "$SGM" render "$cave" --out at.png --at spawn --region=0,0,0:192,192,192 --cell 2 --size 64x64 --seed 7
 picture at.png 64 64
+expect 0 "$SGM" render "$cave" --out level.png --level 1 --cell 1 --size 64x64 --seed 7 --json
+json 'j.level === 1 && j.cell === 2'
 rm ./*.png
 only ball.sgm
 
@@ -49,5 +53,18 @@ expect 1 "$SGM" render ball.sgm --out wrong.png --camera 0,0,8:0,0,8
 expect 4 "$SGM" render ball.sgm --out nowhere/ball.png --size 64x64
 one_line
 expect 4 "$SGM" render none.sgm --out wrong.png
+# A name that cannot be written is said before the work.
+expect 4 timeout 20 "$SGM" render "$cave" --out nowhere/cave.png --region=-512,-512,-512:512,512,512 --cell 0.1 \
+  --max-chunks 99999999
+one_line
+printf 'what was here before' >ball.png
+trap '' XFSZ
+for blocks in 0 1; do
+  expect 4 bash -c '(ulimit -f "$1" && shift && exec "$@") 2>&1 | cat; exit "${PIPESTATUS[0]}"' bash $blocks \
+    "$SGM" render ball.sgm --out ball.png --size 256x256
+done
+trap - XFSZ
+[[ $(cat ball.png) == 'what was here before' ]] || failed "a full disk took something"
+rm ball.png
 only ball.sgm
 finish

@@ -2,12 +2,14 @@
 // A picture in memory, and as a PNG file.
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "base/file_writer.h"
 #include "base/result.h"
 
 namespace sgm {
+
+inline constexpr int kMaxPicture = 4096;  ///< pixels of an edge
 
 /// 8-bit sRGB with alpha, rows from the top, 4 bytes a pixel without padding.
 struct Image {
@@ -16,8 +18,7 @@ struct Image {
   std::vector<uint8_t> rgba;
 };
 
-/// Writes a PNG beside `path` and renames it into place, so that no reader sees half a picture and a failure leaves
-/// nothing behind. Errors: invalid_argument (empty, or sizes that do not match), io (with the path and the reason).
-Result<void> writePng(const std::string& path, const Image& image);
+/// Writes a PNG and commits the file. Errors: invalid_argument (empty, or sizes that do not match), out_of_memory, io.
+Result<void> writePng(const Image& image, FileWriter& file);
 
 }  // namespace sgm

@@ -53,7 +53,6 @@ struct RenderCamera {
   int width = 1280;        ///< pixels, 1..kMaxPicture
   int height = 720;
 };
-inline constexpr int kMaxPicture = 4096;
 
 enum class Background : uint32_t { cave, sky };
 

@@ -1,0 +1,240 @@
+// The command line, declared, and nothing else: whatever includes CLI11 takes its time to compile.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "cli/commands.h"
+#include "mesh/export.h"
+#include "sgm/sgm.h"
+#include "stream/mesh_chunks.h"
+
+namespace sgm::cli {
+namespace {
+
+/// What to run when a subcommand is the one given.
+using Command = std::function<Exit()>;
+
+// Checks for CLI11: "" or what is wrong.
+
+std::string checkRegion(const std::string& text) {
+  const size_t colon = text.find(':');
+  if (colon != std::string::npos && readPoint(text.substr(0, colon)) && readPoint(text.substr(colon + 1))) return {};
+  return fmt::format("'{}' is not x0,y0,z0:x1,y1,z1", text);
+}
+
+/// Signed text would wrap round into an unsigned number.
+std::string checkWhole(const std::string& text) {
+  uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, why] = std::from_chars(text.data(), end, value);
+  return why == std::errc() && rest == end ? std::string()
+                                           : fmt::format("'{}' is not a whole number from 0 to 2^64 - 1", text);
+}
+
+std::string checkSet(const std::string& text) {
+  return text.find('=') == std::string::npos ? fmt::format("'{}' is not NAME=VALUE", text) : std::string();
+}
+
+std::string checkMeshFile(const std::string& out) {
+  const Result<MeshFormat> format = meshFormatOf(out);
+  return format ? std::string() : format.error().message;
+}
+
+std::string checkSize(const std::string& text) {
+  if (readSize(text)) return {};
+  return fmt::format("'{}' is not WIDTHxHEIGHT with 1 to {} pixels each", text, kMaxPicture);
+}
+
+std::string checkCamera(const std::string& text) {
+  if (readCamera(text)) return {};
+  return fmt::format("'{}' is not x,y,z:x,y,z in metres (from where, and to where)", text);
+}
+
+std::string checkPng(const std::string& out) {
+  const std::string extension = std::filesystem::path(out).extension().string();
+  return CLI::detail::to_lower(extension) == ".png" ? std::string() : "pictures are .png files";
+}
+
+constexpr const char* kCheckFooter =
+    "Example:\n"
+    "  sgm check samples/grammars/cave.sgm\n"
+    "  sgm check --expect samples/grammars/sphere.sgm --seeds 3\n"
+    "\n"
+    "With --expect every report becomes a line, and so does every expect that holds; one that fails is an error\n"
+    "with its place and the measured value, and the exit status is 1. Measures:\n"
+    "  watertight  the surface is a manifold, open only in the region's outer border, where the solid is cut\n"
+    "  components  connected pieces of the solid, or with (air) of the void, inside the region\n"
+    "  volume      m3 of the solid (equation 8 of the paper)\n"
+    "  area        m2 of the surface (equation 7), without the faces where the border cuts the solid\n"
+    "  triangles   of that surface\n"
+    "  genus       handles, summed over closed surfaces; not measured, and so failed, where the border cuts one\n"
+    "  anchors     inside the region\n"
+    "Where: `in block(n)` is n cells, from cell 0 on, of the layer with the largest cells, on each axis that is cut\n"
+    "into cells; on another axis it is what the layers reach. Without it: --region, else all of a finite world, else\n"
+    "block(1). Regions are grown to whole chunks of 32 cells. `per Rule` measures each use of the rule whose frame\n"
+    "stands in the region by itself, as solid in an empty world, without what encloses the call (a cut, a\n"
+    "displacement, a smooth union). Cells are 0.5 m, doubled until the region, or all uses of the rule together, have\n"
+    "at most --max-chunks chunks; --cell and --ld choose otherwise.";
+
+void addLevelOption(CLI::App& app, WorldOptions& options) {
+  app.add_option("--level", options.level, "Level of detail: each has cells of twice the edge; 0 is the finest")
+      ->check(CLI::Range(0, kMaxLevel))
+      ->capture_default_str();
+}
+
+/// --seed, --set, --backend, --threads.
+void addDerivationOptions(CLI::App& app, WorldOptions& options) {
+  app.add_option("--seed", options.seed, "Seed of the world, a whole number from 0")
+      ->check(checkWhole)
+      ->capture_default_str();
+  app.add_option(
+         "--set", options.sets,
+         "Give a parameter of the grammar a value (repeatable); they are its `param` lines, and sgm check --json "
+         "lists them")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false)
+      ->check(checkSet);
+  app.add_option("--backend", options.backend, "What computes")
+      ->check(CLI::IsMember({"auto", "cpu", "vulkan", "cuda"}))
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "Threads to use; 0: one for each processor")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+}
+
+/// FILE, --json, and those of addDerivationOptions.
+void addWorldOptions(CLI::App& app, WorldOptions& options) {
+  app.add_option("FILE", options.file, "The grammar, a .sgm file")->required();
+  addDerivationOptions(app, options);
+  app.add_flag("--json", options.json, "Print the result as one JSON object on standard output");
+}
+
+/// --region, --cell, --ld, --max-chunks.
+void addRegionOptions(CLI::App& app, WorldOptions& options) {
+  app.add_option("--region", options.region, "Region in metres, x0,y0,z0:x1,y1,z1, grown to whole chunks")
+      ->type_name("BOX")
+      ->check(checkRegion);
+  CLI::Option* cell =
+      app.add_option("--cell", options.cell, "Edge of a sampling cell in metres (0.5)")->type_name("METRES");
+  app.add_option("--ld", options.density, "Sampling density of the paper: cells per metre, so a cell edge of 1/N m")
+      ->type_name("N")
+      ->excludes(cell);
+  app.add_option("--max-chunks", options.max_chunks, "Refuse regions of more chunks than this")
+      ->check(checkWhole)
+      ->capture_default_str();
+}
+
+Command addCheck(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "check", "Check grammars and say what is wrong, with line and column; with --expect, evaluate report and expect");
+  const auto options = std::make_shared<CheckOptions>();
+  app->add_option("FILE", options->files, "Grammars, .sgm files")->required();
+  app->add_flag("--json", options->json, "Print messages, parameters and layers as JSON on standard output");
+  CLI::Option* expect =
+      app->add_flag("--expect", options->expect, "Derive and mesh what the report and expect statements are about");
+  const std::vector<CLI::Option*> plain = app->get_options([](const CLI::Option*) { return true; });
+  addDerivationOptions(*app, *options);
+  addRegionOptions(*app, *options);
+  app->add_option("--seeds", options->seeds, "Evaluate this many seeds, from --seed on, and name those that fail")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1000000}))
+      ->capture_default_str();
+  for (CLI::Option* option : app->get_options([](const CLI::Option*) { return true; })) {
+    if (std::find(plain.begin(), plain.end(), option) == plain.end()) option->needs(expect);
+  }
+  app->footer(kCheckFooter);
+  return [options] { return check(*options); };
+}
+
+Command addFmt(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("fmt", "Print grammars in their canonical layout, or put them into it");
+  const auto options = std::make_shared<FmtOptions>();
+  app->add_option("FILE", options->files, "Grammars, .sgm files")->required();
+  CLI::Option* write = app->add_flag("--write", options->write, "Change the files in place");
+  app->add_flag("--check", options->check, "Change nothing; status 1 where a file is not in canonical layout")
+      ->excludes(write);
+  app->footer("Example:\n  sgm fmt --write samples/grammars/cave.sgm");
+  return [options] { return format(*options); };
+}
+
+Command addMesh(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("mesh", "Mesh a region and write it as .glb, .obj, .ply or .stl");
+  const auto options = std::make_shared<MeshOptions>();
+  addWorldOptions(*app, *options);
+  addRegionOptions(*app, *options);
+  addLevelOption(*app, *options);
+  app->add_option("--out", options->out,
+                  "Mesh file to write; its ending chooses .glb, .obj (with its materials in a .mtl of the same name "
+                  "beside it), .ply or .stl. Without it the mesh is only measured")
+      ->check(checkMeshFile);
+  app->footer(
+      "Positions in the file are metres from the world's origin. Where the region reaches further than 4096 m from it, "
+      "they count from the region's lowest corner instead, which is then printed as the origin.\n"
+      "Example:\n  sgm mesh samples/grammars/cave.sgm --out cave.glb --region 0,0,0:192,192,192 --cell 0.5 --seed 7");
+  return [options] { return mesh(*options); };
+}
+
+Command addRender(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("render", "Draw a picture of a region, off-screen");
+  const auto options = std::make_shared<RenderOptions>();
+  addWorldOptions(*app, *options);
+  addRegionOptions(*app, *options);
+  addLevelOption(*app, *options);
+  app->add_option("--out", options->out, "Picture to write, a .png file")->required()->check(checkPng);
+  CLI::Option* camera =
+      app->add_option("--camera", options->camera,
+                      "From where to where to look in metres, x,y,z:x,y,z; without it, a view is chosen")
+          ->type_name("VIEW")
+          ->check(checkCamera);
+  app->add_option("--at", options->at, "Look from an anchor of this name, kind or tag")
+      ->type_name("ANCHOR")
+      ->excludes(camera);
+  app->add_option("--size", options->size, "Pixels, WIDTHxHEIGHT")->check(checkSize)->capture_default_str();
+  app->add_option("--fov", options->fov, "Angle across the picture's height, in degrees")
+      ->check(CLI::Range(1.0, 150.0))
+      ->capture_default_str();
+  app->footer("Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7");
+  return [options] { return render(*options); };
+}
+
+Command addBackends(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("backends", "List what can compute and draw on this machine, and why not");
+  const auto json = std::make_shared<bool>(false);
+  app->add_flag("--json", *json, "Print the list as one JSON object on standard output");
+  app->footer("Example:\n  sgm backends --json");
+  return [json] { return listBackends(*json); };
+}
+
+}  // namespace
+
+Exit runCommandLine(int argc, char** argv) {
+  CLI::App app("Shape grammars with morphing: from grammar text to meshes and pictures.", "sgm");
+  app.set_version_flag("--version", std::string("sgm ") + sgm_version_string());
+  app.require_subcommand(1);
+  app.footer(
+      "Run sgm COMMAND --help for its options and an example.\n"
+      "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
+      "be read or written; the highest of several.");
+  std::vector<Command> commands;
+  for (const auto add : {addCheck, addFmt, addMesh, addRender, addBackends}) commands.push_back(add(app));
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(e), Exit::done;
+    fmt::print(stderr, "sgm: usage: {}\nRun sgm --help, or sgm COMMAND --help.\n", e.what());
+    return Exit::usage;
+  }
+  const std::vector<CLI::App*> all = app.get_subcommands([](CLI::App*) { return true; });
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (all[i]->parsed()) return commands[i]();
+  }
+  return Exit::usage;
+}
+
+}  // namespace sgm::cli
