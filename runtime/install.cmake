@@ -41,6 +41,10 @@ if(NOT SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
   unset(SGM_CONFIG_DEPENDENCIES)
   unset(SGM_PC_REQUIRES)
 else()
+  string(APPEND SGM_CONFIG_AFTER "# A project in C alone does not link what the library needs of C++.\n"
+    "get_property(_sgm_languages GLOBAL PROPERTY ENABLED_LANGUAGES)\n"
+    "if(NOT \"CXX\" IN_LIST _sgm_languages)\n"
+    "  set_property(TARGET sgm::sgm APPEND PROPERTY INTERFACE_LINK_LIBRARIES stdc++ m)\nendif()")
   set(SGM_PC_CFLAGS "-DSGM_STATIC")
   set(SGM_PC_LIBS "-lstdc++ -lm -pthread")
 endif()

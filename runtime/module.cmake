@@ -6,6 +6,10 @@ set(SGM_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversio
   # clang++ takes an explicit double{f} for a silent promotion.
   $<IF:$<CXX_COMPILER_ID:GNU>,-Wdouble-promotion;-Wno-restrict,-Wnull-dereference>)
 
+if(SGM_WERROR)
+  list(APPEND SGM_WARNINGS -Werror)
+endif()
+
 # The arithmetic contract: no contraction into fma, no value-changing optimisation, in any target.
 set(SGM_EXACT_FLAGS -ffp-contract=off -fno-fast-math)
 
@@ -13,7 +17,7 @@ function(sgm_target_flags target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET hidden C_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${SGM_WARNINGS} -Werror> ${SGM_EXACT_FLAGS})
+  target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${SGM_WARNINGS}> ${SGM_EXACT_FLAGS})
   if(SGM_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${SGM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
       $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # instrumentation makes them cry wolf

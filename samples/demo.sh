@@ -2,7 +2,9 @@
 # Meshes 192 m of the infinite cave and draws a picture from inside it, on a bare Debian 12 as root or with sudo. Installs
 # what is missing, and says so.
 #
-#   bash samples/demo.sh
+#   bash samples/demo.sh [--no-install]
+#
+#   --no-install    install nothing: stop where a package is missing, and name it
 #
 # Leaves out/demo/cave.glb and out/demo/cave.png.
 set -euo pipefail
@@ -11,12 +13,16 @@ cd "$root"
 die() { echo "samples/demo.sh: error: $1" >&2; exit 1; }
 
 source samples/setup_debian.sh
-sgm_setup "${SGM_BUILD_PACKAGES[@]}"
+case "$#$*" in
+  0) sgm_setup "${SGM_BUILD_PACKAGES[@]}" ;;
+  1--no-install) sgm_need "${SGM_BUILD_PACKAGES[@]}" ;;
+  *) die "usage: bash samples/demo.sh [--no-install]" ;;
+esac
 
 mkdir -p build out/demo
 log=build/demo.log
 if [[ ! -f build/release/build.ninja ]]; then
-  echo "demo: configuring build/release"
+  echo "demo: configuring build/release, without the tests (cmake --preset release turns them on)"
   cmake --preset release -D SGM_BUILD_TESTS=OFF -D SGM_BUILD_BENCH=OFF >"$log" 2>&1 || {
     cat "$log" >&2
     die "configuring failed"

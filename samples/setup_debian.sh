@@ -3,6 +3,7 @@
 #   source samples/setup_debian.sh
 #   sgm_setup "${SGM_BUILD_PACKAGES[@]}"                              # the library, the command, the samples
 #   sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"    # and everything that the tests need
+#   sgm_need PACKAGE...                                               # installs nothing: fails, and names what is missing
 #   sgm_setup_npm DIRECTORY PACKAGE VERSION                           # an npm package below DIRECTORY
 #
 # Only what is missing is installed, and said. Each function returns non-zero, after one line on stderr that names what
@@ -11,14 +12,16 @@
 # An entry is a Debian package, or PACKAGE=COMMAND where the command may also come from elsewhere.
 SGM_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config
-  libhwy-dev libxxhash-dev libzstd-dev
+  libhwy-dev
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
-  libcli11-dev libfmt-dev nlohmann-json3-dev libmeshoptimizer-dev libstb-dev
+  libcli11-dev libfmt-dev libstb-dev
 )
 SGM_TEST_PACKAGES=(
-  catch2 clang libclang-rt-14-dev vulkan-validationlayers valgrind
+  catch2 nlohmann-json3-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind
   git=git ca-certificates nodejs=node npm=npm
 )
+# Only for AVX-512 where no processor has it: tests/scripts/avx512_emulated.sh.
+SGM_EMULATION_PACKAGES=(bochs bochs-term bochsbios vgabios isolinux syslinux-common xorriso busybox-static)
 
 # Prints those of the given entries that are not there.
 sgm_missing() {
@@ -58,6 +61,15 @@ sgm_setup() {
     return 1
   fi
   rm -f "$log"
+}
+
+sgm_need() {
+  local missing
+  command -v dpkg-query >/dev/null || return 0
+  mapfile -t missing < <(sgm_missing "$@")
+  ((${#missing[@]})) || return 0
+  echo "setup: error: packages are missing: apt-get install ${missing[*]}" >&2
+  return 1
 }
 
 sgm_setup_npm() {

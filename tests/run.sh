@@ -3,7 +3,8 @@
 #
 #   bash tests/run.sh [--long] [--label LABEL]... [--without NAME]... [--jobs N]
 #
-#   --long          run property tests and fuzzers far longer
+#   --long          run property tests and fuzzers far longer, and AVX-512 under emulation (label emulated;
+#                   installs an emulator; without --long that test is skipped, and named so in the summary)
 #   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, consumers, style, gltf, threads, fuzz, ...)
 #   --without NAME  leave out a build (fuzz, scalar, clang, tsan) or a label; each is named in the summary
 #   --jobs N        at most N compilers and tests at one time (default: one for each processor)

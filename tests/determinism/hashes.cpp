@@ -32,6 +32,18 @@ void check(sgm_result result, const sgm_error& error, const Piece& piece) {
                            ": " + sgm_result_name(result) + ": " + error.message);
 }
 
+// What meshed the pieces: a set that this processor lacks has not been compared.
+std::string instructionSet() {
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_runtime_desc with = SGM_RUNTIME_DESC_INIT;
+  sgm_runtime* runtime = nullptr;
+  check(sgm_runtime_create(&with, &runtime, &error), error, {});
+  const std::unique_ptr<sgm_runtime, decltype(&sgm_runtime_destroy)> runtime_owner(runtime, sgm_runtime_destroy);
+  sgm_backend_info info = SGM_BACKEND_INFO_INIT;
+  check(sgm_backend_query(runtime, SGM_BACKEND_CPU, &info, &error), error, {});
+  return info.device;
+}
+
 uint64_t hashOf(const Piece& piece, const std::string& folder, uint32_t threads) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime_desc with = SGM_RUNTIME_DESC_INIT;
@@ -122,7 +134,7 @@ int main(int argc, char** argv) try {
   }
   golden.close();
   if (record && !wrong) std::ofstream(argv[2]) << out.str();
-  std::printf("%s\n%d pieces, %d differences\n", sgm_build_info(), pieces, wrong);
+  std::printf("%s\n%d pieces by %s, %d differences\n", sgm_build_info(), pieces, instructionSet().c_str(), wrong);
   return wrong == 0 && pieces > 0 ? 0 : 1;
 } catch (const std::exception& e) {
   std::fprintf(stderr, "sgm_hashes: error: %s\n", e.what());

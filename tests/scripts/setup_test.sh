@@ -51,6 +51,13 @@ out=$(sgm_setup here one two half </dev/null)
 if NETWORK=1 sgm_setup here lost </dev/null >"$place/out" 2>"$place/err"; then fail "no error without network"; fi
 tail -n 1 "$place/err" | grep -q 'error: could not install lost ' || fail "the error was: $(cat "$place/err")"
 
+rm -f "$place/calls"
+out=$(sgm_need here one absent=sometool 2>&1) || fail "sgm_need wants what is there"
+[[ -z $out ]] || fail "sgm_need said: $out"
+if out=$(sgm_need here gone two lost=nosuchtool 2>&1); then fail "sgm_need goes on without packages"; fi
+[[ $out == "setup: error: packages are missing: apt-get install gone lost" ]] || fail "sgm_need said: $out"
+[[ -z $(calls) ]] || fail "sgm_need called apt-get"
+
 out=$(sgm_setup_npm "$place/tools" validator 1.0.0)
 [[ $out == *"validator 1.0.0"* ]] || fail "npm said: $out"
 out=$(sgm_setup_npm "$place/tools" validator 1.0.0)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # What the tree must not hold: arithmetic outside the contract, paths of one machine, package hosts, unfinished marks,
-# files too long to read, a README whose program is not the sample that is tested.
+# files too long to read, a README whose program is not the sample that is tested, or whose packages are not those that
+# the scripts install.
 #
 #   bash tests/scripts/style.sh [ROOT]
 set -euo pipefail
@@ -46,5 +47,14 @@ if [[ -e samples/minimal_c/main.c ]]; then
   shown=$(awk '/^```c$/ { on = 1; next } /^```/ { on = 0 } on' README.md)
   complain "README.md's C program differs from samples/minimal_c/main.c" \
     "$(diff <(printf '%s\n' "$shown") samples/minimal_c/main.c || true)"
+fi
+
+# A reader who installs by hand gets what samples/setup_debian.sh would have installed.
+if [[ -e samples/setup_debian.sh ]]; then
+  source samples/setup_debian.sh
+  words=$(tr -s ' \\\n' ' ' <README.md)
+  for list in "${SGM_BUILD_PACKAGES[*]%%=*}" "${SGM_TEST_PACKAGES[*]%%=*}"; do
+    [[ $words == *"apt-get install $list "* ]] || complain "README.md lacks the packages of samples/setup_debian.sh" "$list"
+  done
 fi
 exit "$failed"
