@@ -438,7 +438,8 @@ typedef struct sgm_sample_desc {
   int32_t level;         /* 0 to SGM_MAX_LEVEL: what coarse chunks leave out is left out here too */
   int32_t* q;            /* quantised field, what meshes are made of: floor(field * 1024 / finest cell + 0.5),
                             clamped to +-2^22; solid below 0 */
-  float* values;         /* field in metres, negative inside the solid; a distance near the surface, bounded far off */
+  float* values;         /* field in metres, negative inside the solid: a distance near a surface, and a constant
+                            of +-10^9 units with gradient 0 where no shape is within a cell or two */
   float* gradients;      /* 3 a point: the field's gradient over metres; points out of the solid */
   uint16_t* materials;   /* of the shape that is nearest to its surface there */
   uint16_t* tags;
@@ -496,7 +497,10 @@ typedef enum sgm_face {
 
 typedef struct sgm_chunk_request {
   sgm_chunk_key key;
-  uint32_t seams;       /* faces to make seams for: those whose neighbour may be drawn one level coarser */
+  uint32_t seams;       /* faces to make seams for: those whose neighbour may be drawn one level coarser. A seam lies
+                           in its face's plane, and asking for it does not change the body; edges and corners of the
+                           chunk need none. Its triangles may be flat, so that seams are closed and manifold by vertex
+                           identity, not where vertices are joined by place alone */
   uint32_t coarser;     /* which of the 26 blocks of the chunk's size around it belong to coarser chunks: bit
                            (dx + 1) + 3 * (dy + 1) + 9 * (dz + 1) for the one at offset (dx, dy, dz), each -1 to 1.
                            0: exactly those across the faces in seams, which always count as such. It tells apart the
