@@ -5,8 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -26,27 +24,6 @@ Error writeError(const fs::path& target, const std::string& reason) {
 }
 
 Error writeError(const fs::path& target, int code) { return writeError(target, std::generic_category().message(code)); }
-
-/// Names of unfinished files, for a signal handler. It runs between any two instructions of ours, so a name is never
-/// freed, and counts from when it is whole. A writer that finds no room is not known here, and no worse off otherwise.
-struct Slot {
-  enum State { open, filling, whole };
-  std::atomic<int> state{open};
-  std::array<char, 4096> name{};
-};
-std::array<Slot, 8> unfinished;
-
-int announce(const std::string& name) {
-  for (size_t i = 0; i < unfinished.size() && name.size() < unfinished[i].name.size(); ++i) {
-    Slot& slot = unfinished[i];
-    int expected = Slot::open;
-    if (!slot.state.compare_exchange_strong(expected, Slot::filling)) continue;
-    std::memcpy(slot.name.data(), name.c_str(), name.size() + 1);
-    slot.state = Slot::whole;
-    return static_cast<int>(i);
-  }
-  return -1;
-}
 
 /// The path with links at its end followed, also to what is not there yet.
 Result<std::string> followed(const fs::path& target) {
@@ -111,7 +88,24 @@ int openNameless([[maybe_unused]] const std::string& folder) {
 
 }  // namespace
 
-Result<FileWriter> FileWriter::create(const fs::path& target, Naming naming) {
+int UnfinishedFiles::announce(const std::string& name) {
+  for (size_t i = 0; i < slots_.size() && name.size() < slots_[i].name.size(); ++i) {
+    Slot& slot = slots_[i];
+    int expected = Slot::open;
+    if (!slot.state.compare_exchange_strong(expected, Slot::filling)) continue;
+    std::memcpy(slot.name.data(), name.c_str(), name.size() + 1);
+    slot.state = Slot::whole;
+    return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void UnfinishedFiles::remove() const noexcept {
+  for (const Slot& slot : slots_)
+    if (slot.state == Slot::whole) unlink(slot.name.data());
+}
+
+Result<FileWriter> FileWriter::create(const fs::path& target, UnfinishedFiles* unfinished, Naming naming) {
   const Result<std::string> place = followed(target);
   if (!place) return place.error();
   struct stat there {};
@@ -123,7 +117,7 @@ Result<FileWriter> FileWriter::create(const fs::path& target, Naming naming) {
   if (replaces && access(place->c_str(), W_OK) != 0) return writeError(target, errno);
 
   removeLeft(*place);
-  FileWriter writer(target, *place, naming == Naming::nameless ? openNameless(folderOf(*place)) : -1);
+  FileWriter writer(target, *place, naming == Naming::nameless ? openNameless(folderOf(*place)) : -1, unfinished);
   if (writer.file_ < 0) {
     if (const int code = writer.openNamed(); code != 0) return writeError(target, code);
   } else {
@@ -139,8 +133,8 @@ Result<FileWriter> FileWriter::create(const fs::path& target, Naming naming) {
   return writer;
 }
 
-FileWriter::FileWriter(fs::path target, std::string place, int file)
-    : target_(std::move(target)), place_(std::move(place)), file_(file) {
+FileWriter::FileWriter(fs::path target, std::string place, int file, UnfinishedFiles* unfinished)
+    : target_(std::move(target)), place_(std::move(place)), file_(file), unfinished_(unfinished) {
   buffer_.reserve(kBufferBytes);
 }
 
@@ -149,6 +143,7 @@ FileWriter::FileWriter(FileWriter&& other) noexcept
       place_(std::move(other.place_)),
       temporary_(std::exchange(other.temporary_, {})),
       file_(std::exchange(other.file_, -1)),
+      unfinished_(other.unfinished_),
       slot_(std::exchange(other.slot_, -1)),
       buffer_(std::move(other.buffer_)),
       bytes_(other.bytes_),
@@ -168,7 +163,7 @@ int FileWriter::openNamed() {
     file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file_ < 0 && errno == EEXIST) continue;
     if (file_ < 0) break;
-    slot_ = announce(temporary_);
+    announce();
     // Another may have taken it for one left behind, before it was locked.
     if (flock(file_, LOCK_EX | LOCK_NB) == 0 ? isAt(file_, temporary_) : errno != EWOULDBLOCK) return 0;
     forgetName();
@@ -184,8 +179,8 @@ int FileWriter::nameNameless() {
   for (int number = 0; number < kMostNames; ++number) {
     std::string name = nameBeside(place_, number);
     if (linkat(AT_FDCWD, linkOf(file_).c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
-      slot_ = announce(name);
       temporary_ = std::move(name);
+      announce();
       return 0;
     }
     if (errno != EEXIST) break;
@@ -193,19 +188,18 @@ int FileWriter::nameNameless() {
   return errno;
 }
 
+void FileWriter::announce() {
+  if (unfinished_ != nullptr) slot_ = unfinished_->announce(temporary_);
+}
+
 void FileWriter::forgetName() {
-  if (slot_ >= 0) unfinished[static_cast<size_t>(slot_)].state = Slot::open;
+  if (slot_ >= 0) unfinished_->forget(slot_);
   slot_ = -1;
   temporary_.clear();
 }
 
 void FileWriter::close() {
   if (file_ >= 0 && ::close(std::exchange(file_, -1)) != 0 && first_error_ == 0) first_error_ = errno;
-}
-
-void FileWriter::removeUnfinished() noexcept {
-  for (const Slot& slot : unfinished)
-    if (slot.state == Slot::whole) unlink(slot.name.data());
 }
 
 void FileWriter::write(const void* bytes, size_t count) {

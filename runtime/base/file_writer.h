@@ -1,6 +1,8 @@
 #pragma once
 // Output files that appear whole or not at all.
 
+#include <array>
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -9,6 +11,28 @@
 #include "base/result.h"
 
 namespace sgm {
+
+/// The names of unfinished files, for a program that a signal may end. It runs its handler between any two instructions
+/// of ours, so a name is never freed, and counts from when it is whole. There is room for a few; a writer that finds
+/// none is not known here, and no worse off otherwise. Must outlive the writers that it is given to. Any thread.
+class UnfinishedFiles {
+ public:
+  /// Removes them all. Neither locks nor allocates.
+  void remove() const noexcept;
+
+ private:
+  friend class FileWriter;
+  /// A slot's number, -1 where there is no room.
+  int announce(const std::string& name);
+  void forget(int slot) { slots_[static_cast<size_t>(slot)].state = Slot::open; }
+
+  struct Slot {
+    enum State { open, filling, whole };
+    std::atomic<int> state{open};
+    std::array<char, 4096> name{};
+  };
+  std::array<Slot, 8> slots_{};
+};
 
 /// Writes a file that takes its target's name on commit. Whatever fails, and without commit, nothing is left behind and
 /// the target is as it was. A target that is a link stays one, and one that is replaced keeps its mode. The first error
@@ -24,8 +48,10 @@ class FileWriter {
     named,     ///< a name beside the target from the beginning
   };
 
+  /// unfinished: told of the file while it has a name that is not its target's; or null.
   /// Error: Code::io, where the folder is missing or not writable, or the target is no regular file or write-protected.
-  static Result<FileWriter> create(const std::filesystem::path& target, Naming naming = Naming::nameless);
+  static Result<FileWriter> create(const std::filesystem::path& target, UnfinishedFiles* unfinished = nullptr,
+                                   Naming naming = Naming::nameless);
 
   FileWriter(FileWriter&& other) noexcept;
   FileWriter& operator=(FileWriter&&) = delete;
@@ -51,14 +77,11 @@ class FileWriter {
 
   uint64_t bytes() const { return bytes_; }  ///< handed to write so far
 
-  /// Removes the unfinished files that have a name. For signal handlers that end the process: neither locks nor
-  /// allocates.
-  static void removeUnfinished() noexcept;
-
  private:
   enum class Undo { impossible, exchange, remove };
 
-  FileWriter(std::filesystem::path target, std::string place, int file);
+  FileWriter(std::filesystem::path target, std::string place, int file, UnfinishedFiles* unfinished);
+  void announce();
   int openNamed();
   int nameNameless();
   void forgetName();
@@ -71,7 +94,8 @@ class FileWriter {
   std::string place_;             // where it is, links followed
   std::string temporary_;         // beside it; empty while it has no name
   int file_ = -1;
-  int slot_ = -1;  // among the names that removeUnfinished knows
+  UnfinishedFiles* unfinished_;
+  int slot_ = -1;  // in unfinished_
   std::vector<char> buffer_;
   uint64_t bytes_ = 0;
   int first_error_ = 0;  // errno of the first failure

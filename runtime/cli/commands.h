@@ -5,10 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "base/file_writer.h"
 #include "cli/console.h"
 #include "cli/options.h"
 
 namespace sgm::cli {
+
+/// Of this process: a signal handler has nothing else to hold on to. In main.cpp.
+extern UnfinishedFiles unfinished_files;
 
 struct CheckOptions : WorldOptions {
   std::vector<std::string> files;

@@ -26,7 +26,7 @@ Exit formatOne(const std::string& file, const FmtOptions& options) {
     return Exit::done;
   }
   if (*formatted.text == *text) return Exit::done;
-  Result<FileWriter> out = FileWriter::create(file);
+  Result<FileWriter> out = FileWriter::create(file, &unfinished_files);
   if (!out) return complain(out.error());
   out->write(*formatted.text);
   if (Result<void> ok = out->commit(); !ok) return complain(ok.error());

@@ -5,8 +5,9 @@
 #include <exception>
 #include <new>
 
-#include "base/file_writer.h"
 #include "cli/commands.h"
+
+constinit sgm::UnfinishedFiles sgm::cli::unfinished_files;
 
 namespace {
 
@@ -15,7 +16,7 @@ using sgm::cli::Exit;
 /// Ends the process by the signal, as if it were not handled (a shell reports 128 + the signal), in whatever it is
 /// doing; but no unfinished file stays behind.
 void endBy(int signal) {
-  sgm::FileWriter::removeUnfinished();
+  sgm::cli::unfinished_files.remove();
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }

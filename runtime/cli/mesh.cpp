@@ -68,7 +68,7 @@ Exit mesh(const MeshOptions& options) {
   // The file first: meshing may take long, and be for nothing.
   std::optional<MeshFile> file;
   if (!options.out.empty()) {
-    Result<MeshFile> opened = MeshFile::create(options.out);
+    Result<MeshFile> opened = MeshFile::create(options.out, &unfinished_files);
     if (!opened) return complain(opened.error());
     file.emplace(std::move(*opened));
   }

@@ -139,7 +139,7 @@ Exit render(const RenderOptions& options) {
   // The device and the file first: meshing may take long, and be for nothing.
   const Result<Renderer> renderer = Renderer::create();
   if (!renderer) return complain(renderer.error());
-  Result<FileWriter> file = FileWriter::create(options.out);
+  Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);
   if (!file) return complain(file.error());
   const RegionResult made = meshRegion(options, [&](const WorldField& world) { return surroundings(options, world); });
   if (!made.region) return made.status;

@@ -119,10 +119,16 @@ enum class StmtKind : uint8_t {
   detail,     ///< expr: length; body is dropped at levels whose cell edge is larger
 };
 
+/// Whether a statement adds just what its body adds, elsewhere, several times or not at every level.
+constexpr bool placesBody(StmtKind kind) {
+  return kind == StmtKind::transform || kind == StmtKind::repeat || kind == StmtKind::for_each ||
+         kind == StmtKind::scatter || kind == StmtKind::detail;
+}
+
 struct StmtNode {
   StmtKind kind = StmtKind::block;
   bool power = false;        ///< morph: by exponent
-  bool layer_level = false;  ///< resolved, cut: cuts the domain (the statement can be reached only at layer level)
+  bool layer_level = false;  ///< resolved, cut: cuts the domain, where its rule runs as a layer's start
   uint16_t material = 0;     ///< resolved, block: Program::materials, 0 inherits
   uint16_t tag = 0;          ///< resolved, block: Program::tags, 0 inherits
   uint32_t ordinal = 0;      ///< resolved: number of this statement within its rule, for path keys

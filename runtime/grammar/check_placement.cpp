@@ -139,24 +139,10 @@ bool Checker::xforms(IdRange range, bool copied) {
 
 /// A cut that stands directly at the level of a layer's start rule takes from the domain.
 void Checker::markLayerLevel(StmtId id) {
-  StmtNode& s = program_.ast.stmts[id];
-  switch (s.kind) {
-    case StmtKind::cut:
-      s.layer_level = true;
-      return;
-    case StmtKind::block:
-      for (uint32_t i = 0; i < s.children.count; ++i) markLayerLevel(program_.idAt(s.children, i));
-      return;
-    case StmtKind::transform:
-    case StmtKind::repeat:
-    case StmtKind::for_each:
-    case StmtKind::scatter:
-    case StmtKind::detail:
-      markLayerLevel(s.body);
-      return;
-    default:
-      return;
-  }
+  StmtNode& s = program_.ast.stmts[program_.innermost(id)];
+  if (s.kind == StmtKind::cut) s.layer_level = true;
+  if (s.kind != StmtKind::block) return;
+  for (uint32_t i = 0; i < s.children.count; ++i) markLayerLevel(program_.idAt(s.children, i));
 }
 
 /// A cut takes from what stands before it in its block; where nothing does, it does nothing. `first`: nothing has been
@@ -164,6 +150,7 @@ void Checker::markLayerLevel(StmtId id) {
 void Checker::idleCuts(StmtId id, bool first) {
   if (id == kNoId || sink_.full()) return;
   const StmtNode& s = program_.stmt(id);
+  if (placesBody(s.kind)) return idleCuts(s.body, first);
   switch (s.kind) {
     case StmtKind::cut:
       if (first && !s.layer_level)
@@ -181,12 +168,6 @@ void Checker::idleCuts(StmtId id, bool first) {
       }
       return;
     }
-    case StmtKind::transform:
-    case StmtKind::repeat:
-    case StmtKind::for_each:
-    case StmtKind::scatter:
-    case StmtKind::detail:
-      return idleCuts(s.body, first);
     case StmtKind::morph:
       for (uint32_t i = 0; i < s.children.count; ++i) idleCuts(program_.idAt(s.children, i), true);
       return;

@@ -90,9 +90,7 @@ std::string renderDiagnostics(const CompileResult& result) {
 StmtId Program::innermost(StmtId id) const {
   for (;;) {
     const StmtNode& s = stmt(id);
-    if (s.kind != StmtKind::transform && s.kind != StmtKind::repeat && s.kind != StmtKind::for_each &&
-        s.kind != StmtKind::scatter && s.kind != StmtKind::detail)
-      return id;
+    if (!placesBody(s.kind)) return id;
     id = s.body;
   }
 }

@@ -19,7 +19,7 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path) {
                path.string() + ": no mesh format that we can write; end the name in .glb, .obj, .ply or .stl"};
 }
 
-Result<MeshFile> MeshFile::create(const std::filesystem::path& path) {
+Result<MeshFile> MeshFile::create(const std::filesystem::path& path, UnfinishedFiles* unfinished) {
   const Result<MeshFormat> format = meshFormatOf(path);
   if (!format) return format.error();
   MeshFile file(*format);
@@ -29,7 +29,7 @@ Result<MeshFile> MeshFile::create(const std::filesystem::path& path) {
     if (Result<void> may = mayReplaceLibrary(file.paths_.back()); !may) return may.error();
   }
   for (const std::filesystem::path& one : file.paths_) {
-    Result<FileWriter> writer = FileWriter::create(one);
+    Result<FileWriter> writer = FileWriter::create(one, unfinished);
     if (!writer) return writer.error();
     file.files_.push_back(std::move(*writer));
   }

@@ -43,9 +43,9 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 /// file. Files appear whole or not at all (FileWriter), both or neither of .obj and .mtl.
 class MeshFile {
  public:
-  /// In the format of the path's extension. Errors: Code::io, also where the .mtl of an .obj was written by others;
-  /// Code::invalid_argument for the extension.
-  static Result<MeshFile> create(const std::filesystem::path& path);
+  /// In the format of the path's extension. unfinished: see FileWriter. Errors: Code::io, also where the .mtl of an
+  /// .obj was written by others; Code::invalid_argument for the extension.
+  static Result<MeshFile> create(const std::filesystem::path& path, UnfinishedFiles* unfinished = nullptr);
   /// Once. Errors: Code::io; Code::limit where the format cannot hold the mesh.
   Result<void> write(const WorldMesh& mesh, const ExportInfo& info);
 

@@ -1,8 +1,6 @@
 #pragma once
 // The name of a chunk: its level and its place among the chunks of that level.
 
-#include <array>
-
 #include "base/fixed.h"
 
 namespace sgm {

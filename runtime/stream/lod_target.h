@@ -21,7 +21,9 @@ struct LodSettings {
   /// screen of h pixels and a vertical field of view v, cells of at most p pixels ask for
   /// 2 * finest_cell * h / (2 tan(v / 2)) / p.
   double finest_distance = 24.0 * kUnitsPerMetre;
-  double view_distance = 1000.0 * kUnitsPerMetre;  ///< something is drawn at least this far, in units
+  /// Something is drawn at least this far, in units. Work grows with the cube of its ratio to a virtual node's edge,
+  /// which a coarser top keeps small.
+  double view_distance = 1000.0 * kUnitsPerMetre;
 };
 
 /// The octree for these viewers, closed under the rules. A pure function; no viewers: an empty tree. At the world's

@@ -45,6 +45,8 @@ unsigned modeOf(const fs::path& path) {
   return there.st_mode & 07777;
 }
 
+constinit UnfinishedFiles unfinished;  // for a signal handler
+
 constexpr FileWriter::Naming kBoth[] = {FileWriter::Naming::nameless, FileWriter::Naming::named};
 
 using Names = std::vector<std::string>;
@@ -56,7 +58,7 @@ TEST_CASE("a file appears on commit, and not without", "[base][files]") {
     const Folder folder;
     const fs::path target = folder.path / "file";
     for (const std::string& content : {std::string("one"), std::string(3 << 20, 'x'), std::string()}) {
-      Result<FileWriter> file = FileWriter::create(target, naming);
+      Result<FileWriter> file = FileWriter::create(target, nullptr, naming);
       REQUIRE(file);
       file->write(content);
       REQUIRE(file->commit());
@@ -66,7 +68,7 @@ TEST_CASE("a file appears on commit, and not without", "[base][files]") {
     }
     std::ofstream(target) << "before";
     for (const bool finished : {false, true}) {
-      Result<FileWriter> file = FileWriter::create(target, naming);
+      Result<FileWriter> file = FileWriter::create(target, nullptr, naming);
       REQUIRE(file);
       file->write("after");
       if (finished) REQUIRE(file->finish());
@@ -87,7 +89,7 @@ TEST_CASE("what is replaced keeps its mode, and links stay links", "[base][files
     fs::create_symlink(link, far);
     fs::create_symlink("inner/later", folder.path / "dangling");
     for (const char* name : {"far", "dangling"}) {
-      Result<FileWriter> file = FileWriter::create(folder.path / name, naming);
+      Result<FileWriter> file = FileWriter::create(folder.path / name, nullptr, naming);
       REQUIRE(file);
       file->write("after");
       REQUIRE(file->commit());
@@ -150,7 +152,7 @@ TEST_CASE("a disk that is full at any moment leaves what was there", "[base][fil
       std::optional<Error> error;
       REQUIRE(setrlimit(RLIMIT_FSIZE, &small) == 0);
       {
-        Result<FileWriter> file = FileWriter::create(target, naming);
+        Result<FileWriter> file = FileWriter::create(target, nullptr, naming);
         if (file) {
           for (int i = 0; i < 3000; ++i) file->write(std::string(1000, 'x'));
           if (const Result<void> done = file->commit(); !done) error = done.error();
@@ -175,7 +177,7 @@ TEST_CASE("a commit can be taken back", "[base][files]") {
     for (const bool existed : {true, false}) {
       if (!existed) fs::remove(target);
       {
-        Result<FileWriter> file = FileWriter::create(target, naming);
+        Result<FileWriter> file = FileWriter::create(target, nullptr, naming);
         REQUIRE(file);
         file->write("after");
         REQUIRE(file->commitReversibly());
@@ -186,7 +188,7 @@ TEST_CASE("a commit can be taken back", "[base][files]") {
       CHECK(folder.files() == (existed ? Names{"file"} : Names{}));
     }
     {
-      Result<FileWriter> file = FileWriter::create(target, naming);
+      Result<FileWriter> file = FileWriter::create(target, nullptr, naming);
       REQUIRE(file);
       REQUIRE(file->commitReversibly());
     }
@@ -204,10 +206,10 @@ TEST_CASE("a process that a signal ends leaves no unfinished file, and what a ki
     const pid_t child = fork();
     if (child == 0) {
       std::signal(SIGTERM, [](int) {
-        FileWriter::removeUnfinished();
+        unfinished.remove();
         _exit(7);
       });
-      Result<FileWriter> file = FileWriter::create(target, FileWriter::Naming::named);
+      Result<FileWriter> file = FileWriter::create(target, &unfinished, FileWriter::Naming::named);
       if (file) file->write("half");
       [[maybe_unused]] const ssize_t told = ::write(ready[1], file ? "y" : "n", 1);
       for (;;) pause();
@@ -220,7 +222,7 @@ TEST_CASE("a process that a signal ends leaves no unfinished file, and what a ki
     CHECK(folder.files() == Names{"file.sgm-part0"});
     {
       // While its writer lives, it is its writer's.
-      Result<FileWriter> other = FileWriter::create(target, FileWriter::Naming::named);
+      Result<FileWriter> other = FileWriter::create(target, nullptr, FileWriter::Naming::named);
       REQUIRE(other);
       CHECK(folder.files() == Names{"file.sgm-part0", "file.sgm-part1"});
     }
@@ -232,7 +234,7 @@ TEST_CASE("a process that a signal ends leaves no unfinished file, and what a ki
   for (const FileWriter::Naming naming : kBoth) {
     for (const char* name : {"file.sgm-part0", "file.sgm-part1"})
       std::ofstream(folder.path / name) << "half of a killed process's";
-    Result<FileWriter> file = FileWriter::create(target, naming);
+    Result<FileWriter> file = FileWriter::create(target, nullptr, naming);
     REQUIRE(file);
     REQUIRE(file->commit());
     CHECK(folder.files() == Names{"file"});
