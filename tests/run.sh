@@ -10,7 +10,7 @@
 #   --jobs N        at most N compilers and tests at one time (default: one for each processor)
 #
 # Five builds: release has every test; fuzz (clang++, both sanitizers) runs the unit tests again, and the fuzzers; scalar
-# (no vector unit) and clang (another compiler) those that compare bits; tsan those with threads. --long adds dev (both
+# (no vector unit) and clang (another compiler; also the static package) those that compare bits; tsan those with threads. --long adds dev (both
 # sanitizers, g++). The last lines are ctest's summary over all of them. Exit status: 0 when all passed.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

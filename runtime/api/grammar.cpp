@@ -2,10 +2,10 @@
 
 #include <cstdint>
 #include <cstring>
-#include <limits>
 
 #include "api/barrier.h"
 #include "api/import.h"
+#include "base/math.h"
 
 using namespace sgm::api;
 
@@ -184,14 +184,13 @@ sgm_result sgm_grammar_parameter(const sgm_grammar* grammar, uint32_t index, sgm
     const sgm::Program& program = *grammar->program;
     if (index >= program.params.size()) return SGM_ERR_NOT_FOUND;
     const sgm::Param& param = program.params[index];
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     out->name = program.ast.names[param.name].c_str();
     out->doc = param.doc == sgm::kNoId ? "" : program.ast.names[param.doc].c_str();
     out->quantity = quantityOf(param.dim);
     out->whole = param.whole ? 1 : 0;
     out->default_value = param.value;
-    out->minimum = param.has_range ? param.low : -kInfinity;
-    out->maximum = param.has_range ? param.high : kInfinity;
+    out->minimum = param.has_range ? param.low : -sgm::kInfinity;
+    out->maximum = param.has_range ? param.high : sgm::kInfinity;
     return SGM_OK;
   });
 }

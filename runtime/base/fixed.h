@@ -9,6 +9,7 @@
 namespace sgm {
 
 inline constexpr int32_t kUnitsPerMetre = 1024;
+inline constexpr double metres(int32_t units) { return static_cast<double>(units) / kUnitsPerMetre; }
 
 /// A world position or an offset, in units.
 struct Int3 {

@@ -3,7 +3,15 @@
 // Built from IEEE double + - * / alone (contraction is off in every target). Largest relative error 4e-16 unless a
 // function says otherwise; arguments in radians.
 
+#include <limits>
+
 namespace sgm {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr double kPi = 0x1.921fb54442d18p+1;
+
+/// a b of bounds, where 0 times infinity is 0: the infinite side only says that there is no bound.
+inline double boundProduct(double a, double b) { return a == 0 || b == 0 ? 0.0 : a * b; }
 
 double detSin(double x);  ///< |x| <= 1e6; absolute error under 4e-16 + 1e-16 |x|
 double detCos(double x);  ///< as detSin

@@ -46,10 +46,8 @@ Json describe(const Program& program) {
   }
   Json layers = Json::array();
   for (const Layer& layer : program.layers) {
-    const auto metres = [](int32_t units) { return static_cast<double>(units) / kUnitsPerMetre; };
-    layers.push_back({{"name", program.text(layer.name)},
-                      {"cell", {metres(layer.cell.x), metres(layer.cell.y), metres(layer.cell.z)}},
-                      {"reach", metres(layer.reach)}});
+    layers.push_back(
+        {{"name", program.text(layer.name)}, {"cell", metresJson(layer.cell)}, {"reach", metres(layer.reach)}});
   }
   Json materials = Json::array(), tags = Json::array();
   for (size_t i = 1; i < program.materials.size(); ++i) materials.push_back(program.materials[i].c_str());

@@ -12,9 +12,7 @@
 namespace sgm::cli {
 namespace {
 
-double metres(int32_t units) { return static_cast<double>(units) / kUnitsPerMetre; }
 std::string metresText(Int3 p) { return fmt::format("{},{},{}", metres(p.x), metres(p.y), metres(p.z)); }
-Json metresJson(Int3 p) { return {metres(p.x), metres(p.y), metres(p.z)}; }
 
 const char* unitOf(Measure measure) {
   return measure == Measure::volume ? " m3" : measure == Measure::area ? " m2" : "";

@@ -128,4 +128,6 @@ void Json::write(std::string& out, size_t indent) const {
   }
 }
 
+Json metresJson(Int3 units) { return {metres(units.x), metres(units.y), metres(units.z)}; }
+
 }  // namespace sgm::cli

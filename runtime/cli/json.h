@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/fixed.h"
+
 namespace sgm::cli {
 
 /// A value of JSON. Braces make objects where all they hold is pairs that begin with a text, {{"a", 1}, {"b", 2}}, and
@@ -54,5 +56,8 @@ class Json {
 
   std::variant<std::nullptr_t, bool, int64_t, uint64_t, double, std::string, Array, Object> value_;
 };
+
+/// [x, y, z] in metres.
+Json metresJson(Int3 units);
 
 }  // namespace sgm::cli

@@ -16,8 +16,6 @@
 namespace sgm::cli {
 namespace {
 
-double metres(int32_t units) { return static_cast<double>(units) / kUnitsPerMetre; }
-
 struct Summary {
   Measures measures;
   double volume = 0, void_volume = 0;

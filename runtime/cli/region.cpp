@@ -20,9 +20,6 @@ sgm_backend backendNamed(const std::string& name) {
   return SGM_BACKEND_AUTO;
 }
 
-double metres(int32_t units) { return static_cast<double>(units) / kUnitsPerMetre; }
-Json metres(Int3 p) { return {metres(p.x), metres(p.y), metres(p.z)}; }
-
 RegionResult failure(Exit status) { return {std::nullopt, status}; }
 
 }  // namespace
@@ -63,8 +60,8 @@ Json toJson(const WorldOptions& options, const Region& region) {
           {"cell", metres(region.cell)},
           {"cell_units", region.cell},
           {"density", 1 / metres(region.cell)},
-          {"region", {metres(extent.lo), metres(extent.hi)}},
-          {"origin", metres(origin)},
+          {"region", {metresJson(extent.lo), metresJson(extent.hi)}},
+          {"origin", metresJson(origin)},
           {"origin_units", {origin.x, origin.y, origin.z}},
           {"anchors", region.anchors.size()},
           {"backend", region.backend}};

@@ -10,8 +10,6 @@
 namespace sgm {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// A box in double precision, units; sides may be infinite.
 struct WideBox {
   std::array<double, 3> lo{kInfinity, kInfinity, kInfinity};

@@ -14,8 +14,6 @@ bool isTuple(const Value& v) { return v.kind == ValueKind::vector || v.kind == V
 
 size_t partsOf(const Value& v) { return v.kind == ValueKind::vector ? 3 : v.kind == ValueKind::pair ? 2 : 1; }
 
-double metres(int32_t units) { return static_cast<double>(units) / kUnitsPerMetre; }
-
 }  // namespace
 
 Value Interpreter::evaluate(ExprId id, const Env& env) {

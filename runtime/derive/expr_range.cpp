@@ -2,21 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/math.h"
 
 namespace sgm {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Range kEverything{-kInfinity, kInfinity};
 
-/// 0 times an unbounded factor is 0: the bound is approached, never reached.
-double product(double a, double b) { return a == 0 || b == 0 ? 0.0 : a * b; }
-
 Range multiplied(Range a, Range b) {
-  const double corner[4] = {product(a.lo, b.lo), product(a.lo, b.hi), product(a.hi, b.lo), product(a.hi, b.hi)};
+  const double corner[4] = {boundProduct(a.lo, b.lo), boundProduct(a.lo, b.hi), boundProduct(a.hi, b.lo),
+                            boundProduct(a.hi, b.hi)};
   return {*std::min_element(corner, corner + 4), *std::max_element(corner, corner + 4)};
 }
 

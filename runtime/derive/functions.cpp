@@ -4,17 +4,19 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "derive/draws.h"
 #include "derive/interpreter.h"
 
 namespace sgm {
 namespace {
 
-enum Draw : uint64_t { kPathDraw = 0x10000, kKeyedDraw = 0x500 };
-
 /// A method's receiver is bound before the parameters of the table.
 bool isMethod(Builtin id) {
   return id == Builtin::cell_point || id == Builtin::cell_links || id == Builtin::face_point;
 }
+
+/// Whether sine and cosine know it; the proof of reach counts on a number between -1 and 1 of any.
+bool isAngle(double radians) { return std::fabs(radians) <= 1e6; }
 
 }  // namespace
 
@@ -91,9 +93,9 @@ Value Interpreter::evaluatePure(const ExprNode& node, const Env& env) {
       return Value::number(draft_.binary(ExprOp::subtract, a, draft_.unary(ExprOp::floor, a)));
     }
     case Builtin::sin:
-      return Value::number(detSin(real(0)));
+      return Value::number(isAngle(real(0)) ? detSin(real(0)) : 0.0);
     case Builtin::cos:
-      return Value::number(detCos(real(0)));
+      return Value::number(isAngle(real(0)) ? detCos(real(0)) : 0.0);
     case Builtin::atan2: {
       const auto v = all(2);
       return Value::number(detAtan2(v[0].value, v[1].value));

@@ -4,13 +4,10 @@
 #include <array>
 
 #include "base/math.h"
+#include "derive/draws.h"
 
 namespace sgm {
 namespace {
-
-// Salts keep the kinds of key apart.
-enum Salt : uint64_t { kCellSalt = 1, kFaceSalt, kNodeSalt, kBlockSalt, kNoiseSalt };
-enum Draw : uint64_t { kJitterDraw = 0x100, kOpenDraw = 0x200, kEdgeDraw = 0x300, kChoiceDraw = 0x400 };
 
 uint64_t coordinate(int32_t v) { return static_cast<uint32_t>(v); }
 
@@ -128,7 +125,7 @@ bool Lattice::linked(FaceId face, int tree, double extra) const {
       node[a] = hasAxis(a) ? shifted(node[a], level) : 0;
       if (!hasAxis(a)) corner &= ~(1 << a);
     }
-    const PathKey key = cellHash(hashCombine(seed, static_cast<uint64_t>(level)), kNodeSalt, node);
+    const PathKey key = cellHash(hashCombine(seed, static_cast<uint64_t>(level)), kTreeSalt, node);
     const uint64_t draw = kChoiceDraw + static_cast<uint64_t>(face.axis * 8 + corner);
     compulsory = isChosen(*this, key, draw, face, level - 1) && inSpanningTree(*this, key, face.axis, corner);
   } else {

@@ -4,17 +4,11 @@
 #include <cmath>
 
 #include "base/math.h"
+#include "derive/draws.h"
 #include "derive/interpreter.h"
 #include "derive/scatter.h"
 
 namespace sgm {
-namespace {
-
-constexpr uint64_t kLoopSalt = 0x6C6F6F70, kSetSalt = 0x73657473, kAnchorSalt = 0x616E6368;
-
-double metres(int32_t units) { return static_cast<double>(units) / kUnitsPerMetre; }
-
-}  // namespace
 
 void Interpreter::transform(IdRange xforms, Env& env) {
   for (uint32_t i = 0; i < xforms.count && !failed(); ++i) {
@@ -139,7 +133,6 @@ void Interpreter::scatter(const StmtNode& s, const Env& env, ShapeList& out) {
       note("the distance between points must be positive; no points", s.span, env.activation);
       return;
     }
-    constexpr double kPi = 3.141592653589793;
     const double cube = amount * amount * amount, square = amount * amount;
     count = node.area == ScatterArea::shell  ? 4.0 * kPi * size * size * up / square
             : node.area == ScatterArea::disc ? kPi * size * size / square

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
+#include "derive/draws.h"
 #include "derive/interpreter.h"
 #include "derive/sweep.h"
 
@@ -10,7 +12,6 @@ namespace sgm {
 namespace {
 
 constexpr double kLargest = 1073741824.0;  ///< units; a quarter of the world's edge
-constexpr uint64_t kBendSalt = 0x62656E64;
 
 }  // namespace
 
@@ -113,8 +114,7 @@ void Interpreter::primitive(Primitive kind, const ExprNode& node, uint32_t ordin
 void Interpreter::halfspaceLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out) {
   const bool above = boundAt(node, 1) != kNoId;
   const double height = real(boundAt(node, above ? 1 : 0), env);
-  constexpr double kHalfTurn = 3.141592653589793;
-  const Placement place = above ? env.place.turned({1, 0, 0}, kHalfTurn) : env.place;
+  const Placement place = above ? env.place.turned({1, 0, 0}, kPi) : env.place;
   Shape shape = shapeIn(env, ShapeKind::halfspace);
   shape.frame = place.frame({0, above ? -height : height, 0});
   addLeaf(shape, {}, 0, node, ordinal, env, out);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "derive/draws.h"
 #include "derive/interpreter.h"
 
 namespace sgm {
 namespace {
 
-constexpr uint64_t kWeightDraw = 0x700;
 constexpr uint32_t kInsteadOrdinal = 0xFFFFFFFEu;  ///< of the call that `depth` or `minsize` makes
 
 std::vector<Value> frameOf(const Alternative& alternative, const std::vector<Value>& arguments) {

@@ -6,15 +6,14 @@
 #include <cstdlib>
 
 #include "base/math.h"
+#include "derive/draws.h"
 
 namespace sgm {
 namespace {
 
-enum Draw : uint64_t { kPriorityDraw = 8 };
-
 double uniform(PathKey key, size_t index, uint64_t axis) { return key.unit(index * 4 + axis); }
 
-constexpr double kTwoPi = 6.283185307179586;
+constexpr double kTwoPi = 2 * kPi;
 constexpr double kGoldenAngle = 2.399963229728653;
 
 }  // namespace
@@ -43,19 +42,22 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
   const auto index = [&](int64_t x, int64_t y, int64_t z) {
     return static_cast<size_t>((z * count[1] + y) * count[0] + x);
   };
-  for (int64_t z = 0; z < count[2]; ++z) {
+  const auto under = [](PathKey above, int64_t cube) {
+    return PathKey{hashCombine(above.value, static_cast<uint64_t>(cube))};
+  };
+  for (int64_t x = 0; x < count[0]; ++x) {
+    const PathKey plane = under(key, first[0] + x);
     for (int64_t y = 0; y < count[1]; ++y) {
-      for (int64_t x = 0; x < count[0]; ++x) {
+      const PathKey row = under(plane, first[1] + y);
+      for (int64_t z = 0; z < count[2]; ++z) {
         Candidate& c = candidates[index(x, y, z)];
         const std::array<int64_t, 3> cube{first[0] + x, first[1] + y, first[2] + z};
-        c.key = key;
-        for (size_t i = 0; i < 3; ++i) c.key = {hashCombine(c.key.value, static_cast<uint64_t>(cube[i]))};
+        c.key = under(row, cube[2]);
         c.priority = hashCombine(c.key.value, kPriorityDraw);
         for (int a = 0; a < 3; ++a) {
           const size_t i = static_cast<size_t>(a);
           if (!lattice.hasAxis(a)) continue;
-          const double jitter = detFloor(c.key.unit(i) * static_cast<double>(step));
-          c.at[i] = cube[i] * step + static_cast<int64_t>(jitter);
+          c.at[i] = cube[i] * step + static_cast<int64_t>(c.key.unit(i) * static_cast<double>(step));
         }
       }
     }
@@ -71,7 +73,8 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
       for (int64_t j = from[1]; j <= to[1]; ++j) {
         for (int64_t i = from[0]; i <= to[0]; ++i) {
           const Candidate& other = candidates[index(i, j, k)];
-          if (&other == &c) continue;
+          // A lower one is no rival, however near; equal hashes fall back on the position, which both see alike.
+          if (other.priority < c.priority || (other.priority == c.priority && other.at <= c.at)) continue;
           // One along an axis is far enough, and squares of what is left fit, however large the cell.
           bool near = true;
           uint64_t square = 0;
@@ -80,9 +83,7 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
             near = near && d < static_cast<uint64_t>(step);
             square += near ? d * d : 0;
           }
-          if (!near || square >= static_cast<uint64_t>(step) * static_cast<uint64_t>(step)) continue;
-          // Equal hashes fall back on the position, which both candidates see alike.
-          if (other.priority != c.priority ? other.priority > c.priority : other.at > c.at) return false;
+          if (near && square < static_cast<uint64_t>(step) * static_cast<uint64_t>(step)) return false;
         }
       }
     }

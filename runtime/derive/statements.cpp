@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "derive/draws.h"
 #include "derive/interpreter.h"
 
 namespace sgm {
 namespace {
-
-constexpr uint64_t kNodeSalt = 0x6E6F6465;  ///< keys of combiners, apart from those of leaves and rules
 
 /// Statements that put no shape into their block.
 bool isSilent(StmtKind kind) {
@@ -40,7 +39,7 @@ uint32_t Interpreter::addShape(Shape s, uint32_t ordinal, const Span& span, cons
     withinBytes(span, env.activation);
   }
   Origin origin;
-  origin.key = env.key.child(kNodeSalt + static_cast<uint64_t>(s.kind), ordinal);
+  origin.key = env.key.child(kCombinerSalt + static_cast<uint64_t>(s.kind), ordinal);
   origin.activation = env.activation;
   origin.span = span;
   if (!children.empty() && s.inner_radius == 0) {

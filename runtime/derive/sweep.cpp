@@ -41,7 +41,7 @@ std::vector<Int3> bentLine(Int3 a, Int3 b, double bend, PathKey key) {
   const int segments = static_cast<int>(std::min(16.0, 8.0 + std::ceil(16.0 * bend / size)));
   const Vec3 tangent = (1.0 / size) * line;
   const Vec3 side = across(tangent, {0, 1, 0}), other = cross(tangent, side);
-  const double angle = 6.283185307179586 * key.unit(0);
+  const double angle = 2 * kPi * key.unit(0);
   const double height = bend * (0.5 + 0.5 * key.unit(1));
   const Vec3 rise = height * (detCos(angle) * side + detSin(angle) * other);
   std::vector<Int3> corners{a};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 #include "field/reference.h"
@@ -14,9 +13,6 @@ namespace {
 constexpr double kLimit = 1e37;
 constexpr double kHeld = 1e18;   // results of expressions end here (real.h, settleReal)
 constexpr double kTiny = 1e-30;  // and are 0 under this
-
-double realAt(const uint32_t* params, int i) { return double{std::bit_cast<float>(params[i])}; }
-double wholeAt(const uint32_t* params, int i) { return static_cast<double>(static_cast<int32_t>(params[i])); }
 
 constexpr double errorOf(Op op) {
   switch (op) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 
 namespace sgm {
@@ -12,9 +11,6 @@ namespace {
 struct Local {
   double x, y, z;
 };
-
-double realAt(const uint32_t* params, int i) { return double{std::bit_cast<float>(params[i])}; }
-double wholeAt(const uint32_t* params, int i) { return static_cast<double>(static_cast<int32_t>(params[i])); }
 
 // An offset by axis, as far as an int32 goes: there the evaluators saturate (real.h).
 double minus(double v, double centre) { return std::clamp(v - centre, -2147483648.0, 2147483647.0); }

@@ -2,9 +2,16 @@
 // The judge: every op once more, in double precision and with the C library, from its geometric definition. Close to
 // the float evaluators, never equal; interval bounds take its value at a box's centre.
 
+#include <bit>
+#include <cstdint>
+
 #include "field/program.h"
 
 namespace sgm {
+
+/// A word of an operation's parameters as what it holds: a float, or an int32.
+inline double realAt(const uint32_t* params, int i) { return double{std::bit_cast<float>(params[i])}; }
+inline double wholeAt(const uint32_t* params, int i) { return static_cast<double>(static_cast<int32_t>(params[i])); }
 
 /// Value in units of one primitive (sphere to prism; blob: its weight) at a position in units.
 double referencePrimitive(Op op, const uint32_t* params, double x, double y, double z);

@@ -7,10 +7,7 @@ namespace sgm {
 
 namespace {
 
-constexpr Type kUnknown{};
 constexpr size_t kDeepestCalls = 48;
-
-std::string withArticle(const std::string& noun) { return (noun.find_first_of("aeiou") == 0 ? "an " : "a ") + noun; }
 
 }  // namespace
 
@@ -31,10 +28,10 @@ Type Checker::callValue(ExprId id) {
         const Local copy = *local;
         return localFieldUse(id, copy);
       }
-    return kUnknown;
+    return kUnknownType;
   }
   if (n.children.count > 0 && !resolveCallee(id, false)) return method(id);
-  if (!resolveCallee(id, false)) return kUnknown;
+  if (!resolveCallee(id, false)) return kUnknownType;
   switch (n.ref) {
     case Ref::builtin:
       return n.children.count > 0 ? method(id) : builtinCall(id);
@@ -56,13 +53,13 @@ Type Checker::callValue(ExprId id) {
     case Ref::rule:
     case Ref::primitive:
       sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is a shape and has no value"}));
-      return kUnknown;
+      return kUnknownType;
     case Ref::parameter:
       sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is a parameter and takes no arguments"}));
-      return kUnknown;
+      return kUnknownType;
     default:
       for (uint32_t i = 0; i < n.args.count; ++i) expression(program_.ast.args[n.args.first + i].value);
-      return kUnknown;
+      return kUnknownType;
   }
 }
 
@@ -72,7 +69,7 @@ std::optional<Dim> Checker::arguments(const std::vector<uint32_t>& bound, std::s
   std::vector<Type> types;
   std::optional<Dim> dim;
   for (size_t i = 0; i < bound.size(); ++i) {
-    types.push_back(bound[i] == kNoId ? kUnknown : expression(bound[i]));
+    types.push_back(bound[i] == kNoId ? kUnknownType : expression(bound[i]));
     const Type& type = types.back();
     if (!dim && paramOf(i).any_dim && type.kind == ValueKind::number && !type.any_dim) dim = type.dim;
   }
@@ -119,7 +116,7 @@ Type Checker::builtinCall(ExprId id) {
         sink_.error(n.span, codes::kUnitMismatch,
                     join({"the square root of ", withArticle(dimName(common)), " has no dimension"}),
                     "take it of an area or of a ratio");
-        return kUnknown;
+        return kUnknownType;
       }
       out.dim = {static_cast<int8_t>(common.length / 2), static_cast<int8_t>(common.angle / 2)};
       return out;
@@ -173,11 +170,11 @@ Type Checker::method(ExprId id) {
     for (std::string_view m : {"point", "links"}) suggestion.offer(m);
     sink_.error(n.span, codes::kUnknownMember, join({withArticle(typeName(type)), " has no `", word, "()`"}),
                 word == "faces" ? "write it without parentheses" : suggestion.hint());
-    return kUnknown;
+    return kUnknownType;
   }
   const BuiltinInfo& info = builtinTable()[static_cast<size_t>(builtin)];
   std::vector<uint32_t> bound;
-  if (!bind(id, word, viewOf(info.params), false, bound)) return kUnknown;
+  if (!bind(id, word, viewOf(info.params), false, bound)) return kUnknownType;
   arguments(bound, info.params, word);
   n.ref = Ref::builtin;
   n.id = static_cast<uint32_t>(builtin);

@@ -7,7 +7,6 @@ namespace sgm {
 
 namespace {
 
-constexpr Type kUnknown{};
 constexpr int kDeepestExpressions = 400;
 
 Type numberType(Dim dim, bool sample = false) { return {ValueKind::number, dim, sample, false}; }
@@ -26,8 +25,6 @@ std::string_view verb(BinaryOp op) {
       return "compared";
   }
 }
-
-std::string withArticle(const std::string& noun) { return (noun.find_first_of("aeiou") == 0 ? "an " : "a ") + noun; }
 
 }  // namespace
 
@@ -91,7 +88,7 @@ void Checker::demandType(ExprId id, const Type& type, ValueKind kind, Dim dim, s
 }
 
 Type Checker::demand(ExprId id, ValueKind kind, Dim dim, std::string_view what, bool sample) {
-  if (id == kNoId) return kUnknown;
+  if (id == kNoId) return kUnknownType;
   const Type type = expression(id);
   demandType(id, type, kind, dim, what, sample);
   return type;
@@ -123,12 +120,12 @@ Type Checker::unify(const Type& a, const Type& b, bool& good) const {
 }
 
 Type Checker::expression(ExprId id) {
-  if (id == kNoId) return kUnknown;
+  if (id == kNoId) return kUnknownType;
   // Lets within lets add up; what a thread's stack holds must not depend on the text.
   if (expression_depth_ >= kDeepestExpressions) {
     sink_.error(node(id).span, codes::kTooDeep, "lets, fields and expressions within each other go too deep",
                 "use fewer levels of lets");
-    return kUnknown;
+    return kUnknownType;
   }
   ++expression_depth_;
   ExprNode& n = node(id);
@@ -172,7 +169,7 @@ Type Checker::expression(ExprId id) {
       type = expression(child(n, 0));
       if (type.kind != ValueKind::number && type.kind != ValueKind::vector && type.kind != ValueKind::unknown) {
         sink_.error(n.span, codes::kTypeMismatch, join({"a minus stands before a number, not a ", typeName(type)}));
-        type = kUnknown;
+        type = kUnknownType;
       }
       break;
     }
@@ -327,7 +324,7 @@ Type Checker::name(ExprId id) {
     case Ref::field: {
       const IdRange formals = n.ref == Ref::let ? program_.lets[n.id].formals : program_.fields[n.id].formals;
       std::vector<uint32_t> bound;
-      if (!bind(id, word, viewOf(formals), false, bound)) return kUnknown;
+      if (!bind(id, word, viewOf(formals), false, bound)) return kUnknownType;
       n.bound = store(bound);
       std::vector<Type> types;
       for (uint32_t b : bound) types.push_back(expression(b));
@@ -336,12 +333,12 @@ Type Checker::name(ExprId id) {
     case Ref::rule:
     case Ref::primitive:
       sink_.error(n.span, codes::kWrongUse, join({"`", word, "` is a shape and has no value"}));
-      return kUnknown;
+      return kUnknownType;
     case Ref::builtin:
       sink_.error(n.span, codes::kWrongUse, join({"`", word, "` is a function and needs arguments"}));
-      return kUnknown;
+      return kUnknownType;
     default:
-      return kUnknown;
+      return kUnknownType;
   }
 }
 
@@ -358,12 +355,12 @@ Type Checker::member(ExprId id) {
     if (!hidden && found != symbols_[scope_.module].end() && found->second.import) {
       n.kind = ExprKind::name;
       resolveCallee(id, false);
-      return n.ref == Ref::none ? kUnknown : name(id);
+      return n.ref == Ref::none ? kUnknownType : name(id);
     }
   }
   const Type type = expression(of);
   n.member = Member::none;
-  Type out = kUnknown;
+  Type out = kUnknownType;
   const bool axis = word == "x" || word == "y" || word == "z";
   const Member coordinate = word == "x" ? Member::x : word == "y" ? Member::y : Member::z;
   switch (type.kind) {

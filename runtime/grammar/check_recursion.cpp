@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "base/math.h"
 #include "grammar/check.h"
 #include "grammar/codes.h"
 #include "grammar/extent.h"
@@ -105,7 +106,7 @@ class RecursionCheck {
     for (const ScaleAround& scale : call.scales) {
       const double factor = scaleFactor(values_.number(scale.factor, frame)).hi;
       // The first of the copies stands as it is.
-      most *= !scale.copied ? factor : factor <= 1 ? 1 : std::numeric_limits<double>::infinity();
+      most *= !scale.copied ? factor : factor <= 1 ? 1 : kInfinity;
     }
     return most;
   }

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
+
 namespace sgm {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSupport = 1.6;  ///< of a sum's kernel, in inner radii (derive/shape.h)
-
-double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
 double boxRadius(const IntervalVector& box) {
   double sum = 0;
@@ -94,8 +93,8 @@ void Hull::scale(Interval factor) {
     may[i] = may[i] * factor;
     core[i] = core[i] * factor;
   }
-  core_radius = product(core_radius, factor.hi);
-  ball = product(ball, factor.hi);
+  core_radius = boundProduct(core_radius, factor.hi);
+  ball = boundProduct(ball, factor.hi);
 }
 
 void Hull::mirror(size_t axis) {
@@ -227,7 +226,7 @@ void Extent::grow(double margin) {
   if (empty || !(margin > 0)) return;
   if (margin >= limit) return loseBound(Unbound::sum);
   if (!std::isfinite(spread * margin) && std::isfinite(margin)) return loseBound(Unbound::radius);
-  at.grow(product(margin, spread), product(margin, turned_spread));
+  at.grow(boundProduct(margin, spread), boundProduct(margin, turned_spread));
   if (std::isfinite(limit)) limit -= margin;
 }
 
@@ -246,7 +245,7 @@ void Extent::node() {
   if (margin > 0 && (margin >= limit || !std::isfinite(margin * spread)))
     in_sum = Hull::everywhere();
   else
-    in_sum.grow(product(margin, spread), product(margin, turned_spread));
+    in_sum.grow(boundProduct(margin, spread), boundProduct(margin, turned_spread));
 }
 
 void Extent::add(const IntervalVector& by) {
@@ -293,7 +292,7 @@ void Extent::scale(Interval written) {
     sure_lo[i] = std::isfinite(sure_lo[i]) ? (Interval::exactly(sure_lo[i]) * factor).hi : sure_lo[i];
     sure_hi[i] = std::isfinite(sure_hi[i]) ? (Interval::exactly(sure_hi[i]) * factor).lo : sure_hi[i];
   }
-  inner = product(inner, factor.hi);
+  inner = boundProduct(inner, factor.hi);
   inner_low *= factor.lo;
   if (std::isfinite(limit)) limit *= factor.lo;
 }
@@ -309,7 +308,7 @@ void Extent::mirror(int axis) {
 }
 
 void Extent::repeat(Interval times) {
-  count = product(count, std::max(0.0, times.hi));
+  count = boundProduct(count, std::max(0.0, times.hi));
   if (times.lo < 1) certain = false;
 }
 

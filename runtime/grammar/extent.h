@@ -3,8 +3,8 @@
 // here holds at least what derive/bounds.h computes for the derived shapes; the two change together.
 
 #include <cstdint>
-#include <limits>
 
+#include "base/math.h"
 #include "grammar/reach_values.h"
 
 namespace sgm {
@@ -41,7 +41,7 @@ struct Extent {
   Hull at;      ///< nothing lies outside; where operands of a meet lie apart: what is between them
   Hull in_sum;  ///< ... of each shape's kernel in a sum
   double spread = 1, turned_spread = 1;
-  double limit = std::numeric_limits<double>::infinity();
+  double limit = kInfinity;
   std::array<double, 3> sure_lo{}, sure_hi{};  ///< whenever it is derived, something reaches at least this far
 
   double inner = 0;      ///< largest inner radius of its leaves, which a sum grows by

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/math.h"
 
 namespace sgm {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kPi = 3.14159265358979323846;
 
 /// Some units in the last place outwards cover the rounding of an operation; exact results of small whole numbers,
 /// which guards and counts are made of, stay exact.
@@ -23,9 +19,6 @@ Interval outwards(double lo, double hi) {
   if (!whole(hi)) hi += std::fabs(hi) * 1e-15;
   return {lo, hi};
 }
-
-/// 0 times infinity is 0 here: the infinite side only says that there is no bound.
-double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
 
 }  // namespace
 
@@ -42,8 +35,9 @@ Interval operator-(Interval a) { return {-a.hi, -a.lo}; }
 Interval operator-(Interval a, Interval b) { return a + -b; }
 
 Interval operator*(Interval a, Interval b) {
-  if (a.exact() && b.exact()) return Interval::exactly(product(a.lo, b.lo));
-  const double c[4] = {product(a.lo, b.lo), product(a.lo, b.hi), product(a.hi, b.lo), product(a.hi, b.hi)};
+  if (a.exact() && b.exact()) return Interval::exactly(boundProduct(a.lo, b.lo));
+  const double c[4] = {boundProduct(a.lo, b.lo), boundProduct(a.lo, b.hi), boundProduct(a.hi, b.lo),
+                       boundProduct(a.hi, b.hi)};
   return outwards(*std::min_element(c, c + 4), *std::max_element(c, c + 4));
 }
 

@@ -20,6 +20,9 @@ constexpr std::array<std::string_view, 32> kClauseWords = {
 constexpr std::array<std::string_view, 15> kUnavailable = {"branch",    "ca",   "comp",     "extrude", "fit",
                                                            "footprint", "link", "override", "portal",  "query",
                                                            "roof",      "set",  "split",    "treemap", "wfc"};
+constexpr std::array<std::string_view, 5> kTransforms = {"at", "rot", "scale", "size", "mirror"};
+constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components", "volume", "area",
+                                                       "triangles",  "genus",      "anchors"};
 
 static_assert(std::is_sorted(kKeywords.begin(), kKeywords.end()));
 static_assert(std::is_sorted(kClauseWords.begin(), kClauseWords.end()));
@@ -30,6 +33,8 @@ static_assert(std::is_sorted(kUnavailable.begin(), kUnavailable.end()));
 std::span<const std::string_view> keywordTable() { return kKeywords; }
 std::span<const std::string_view> clauseWordTable() { return kClauseWords; }
 std::span<const std::string_view> unavailableTable() { return kUnavailable; }
+std::span<const std::string_view> transformTable() { return kTransforms; }
+std::span<const std::string_view> measureTable() { return kMeasures; }
 bool isKeyword(std::string_view word) { return std::binary_search(kKeywords.begin(), kKeywords.end(), word); }
 bool isUnavailable(std::string_view word) { return std::binary_search(kUnavailable.begin(), kUnavailable.end(), word); }
 

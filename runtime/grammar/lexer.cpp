@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/math.h"
 #include "base/utf8.h"
 #include "grammar/codes.h"
 #include "grammar/keywords.h"
@@ -17,7 +18,6 @@ constexpr size_t kLongestText = 1024;
 constexpr size_t kLongestNumber = 40;
 constexpr double kLargestNumber = 1e9;
 constexpr double kLargestLength = 2097151;  // the integer grid ends at 2^31 / 1024 m
-constexpr double kPi = 3.14159265358979323846;
 
 struct Unit {
   std::string_view name;

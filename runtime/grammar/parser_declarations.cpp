@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "base/hash.h"
 #include "grammar/codes.h"
+#include "grammar/keywords.h"
 #include "grammar/parser.h"
 
 namespace sgm {
@@ -12,8 +14,6 @@ namespace {
 constexpr std::array<std::string_view, 13> kStarters = {"import",  "units",  "param", "seed",  "let",
                                                         "field",   "domain", "layer", "start", "rule",
                                                         "morphic", "report", "expect"};
-constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components", "volume", "area",
-                                                       "triangles",  "genus",      "anchors"};
 
 }  // namespace
 
@@ -376,16 +376,17 @@ void Parser::expectation(bool expect_it) {
   e.expect = expect_it;
   const Span word = here();
   const std::string_view measure = textOf(peek());
-  const auto known = std::find(kMeasures.begin(), kMeasures.end(), measure);
-  if (!at(Tok::word) || known == kMeasures.end()) {
+  const std::span<const std::string_view> measures = measureTable();
+  const auto known = std::find(measures.begin(), measures.end(), measure);
+  if (!at(Tok::word) || known == measures.end()) {
     Suggestion suggestion(measure);
-    for (std::string_view m : kMeasures) suggestion.offer(m);
+    for (std::string_view m : measures) suggestion.offer(m);
     const std::string hint = suggestion.hint();
     fail(word, codes::kUnknownName, join({"unknown measure `", measure, "`"}),
          hint.empty() ? "measures are watertight, components, volume, area, triangles, genus and anchors" : hint);
     return;
   }
-  e.measure = static_cast<Measure>(known - kMeasures.begin());
+  e.measure = static_cast<Measure>(known - measures.begin());
   take();
   if (accept(Tok::open_paren)) {
     if (!atWord("air") && !atWord("solid")) unexpected("`air` or `solid`");

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <optional>
 
 #include "grammar/codes.h"
 #include "grammar/parser.h"
+#include "grammar/precedence.h"
 
 namespace sgm {
 
@@ -9,43 +11,36 @@ namespace {
 
 constexpr uint16_t kDeepestTree = 128;  // of trees that loops build, a + b + c ...
 
-struct Operator {
-  int level = 0;  ///< binds tighter where larger; 0: no operator
-  BinaryOp op = BinaryOp::add;
-};
-
-constexpr int kComparison = 3;
-
-Operator operatorOf(Tok kind, std::string_view text) {
+std::optional<BinaryOp> operatorOf(Tok kind, std::string_view text) {
   switch (kind) {
     case Tok::plus:
-      return {4, BinaryOp::add};
+      return BinaryOp::add;
     case Tok::minus:
-      return {4, BinaryOp::subtract};
+      return BinaryOp::subtract;
     case Tok::star:
-      return {5, BinaryOp::multiply};
+      return BinaryOp::multiply;
     case Tok::slash:
-      return {5, BinaryOp::divide};
+      return BinaryOp::divide;
     case Tok::less:
-      return {kComparison, BinaryOp::less};
+      return BinaryOp::less;
     case Tok::less_equal:
-      return {kComparison, BinaryOp::less_equal};
+      return BinaryOp::less_equal;
     case Tok::greater:
-      return {kComparison, BinaryOp::greater};
+      return BinaryOp::greater;
     case Tok::greater_equal:
-      return {kComparison, BinaryOp::greater_equal};
+      return BinaryOp::greater_equal;
     case Tok::equal:
-      return {kComparison, BinaryOp::equal};
+      return BinaryOp::equal;
     case Tok::not_equal:
-      return {kComparison, BinaryOp::not_equal};
+      return BinaryOp::not_equal;
     case Tok::word:
       break;
     default:
-      return {};
+      return std::nullopt;
   }
-  if (text == "or") return {1, BinaryOp::logical_or};
-  if (text == "and") return {2, BinaryOp::logical_and};
-  return {};
+  if (text == "or") return BinaryOp::logical_or;
+  if (text == "and") return BinaryOp::logical_and;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -103,18 +98,19 @@ ExprId Parser::binaryLevel(int lowest) {
   const Span begin = here();
   ExprId left = unary();
   for (;;) {
-    const Operator op = operatorOf(peek().kind, textOf(peek()));
-    if (panic_ || op.level < lowest || op.level == 0) return left;
+    const std::optional<BinaryOp> op = operatorOf(peek().kind, textOf(peek()));
+    if (panic_ || !op || precedenceOf(*op) < lowest) return left;
     const Span sign = here();
     take();
-    const ExprId right = binaryLevel(op.level + 1);
+    const ExprId right = binaryLevel(precedenceOf(*op) + 1);
     if (panic_) return kNoId;
     ExprNode node;
     node.kind = ExprKind::binary;
-    node.binary = op.op;
+    node.binary = *op;
     node.children = store({left, right});
     left = addExpr(node, begin);
-    if (op.level == kComparison && operatorOf(peek().kind, textOf(peek())).level == kComparison)
+    const std::optional<BinaryOp> next = operatorOf(peek().kind, textOf(peek()));
+    if (precedenceOf(*op) == kComparison && next && precedenceOf(*next) == kComparison)
       fail(sign, codes::kSyntax, "comparisons do not chain", "join two comparisons with `and`");
   }
 }
@@ -250,7 +246,7 @@ bool Parser::namedArgumentAhead(std::string_view callee) const {
     case Tok::assign:
       return true;
     case Tok::word:
-      return operatorOf(next.kind, textOf(next)).level == 0 && textOf(next) != "then" && textOf(next) != "else";
+      return !operatorOf(next.kind, textOf(next)) && textOf(next) != "then" && textOf(next) != "else";
     case Tok::open_paren:
     case Tok::minus:
       break;

@@ -1,13 +1,13 @@
 #include <array>
 
 #include "grammar/codes.h"
+#include "grammar/keywords.h"
 #include "grammar/parser.h"
 
 namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> kXforms = {"at", "rot", "scale", "size", "mirror"};
 constexpr std::array<std::string_view, 18> kStatements = {"union", "cut",    "meet",   "sum",     "morph",  "displace",
                                                           "warp",  "repeat", "for",    "scatter", "let",    "field",
                                                           "mat",   "tag",    "anchor", "detail",  "smooth", "when"};
@@ -84,7 +84,7 @@ StmtId Parser::callStatement() {
       peek(1).kind != Tok::close_brace) {
     Suggestion suggestion(textOf(peek()));
     for (std::string_view word : kStatements) suggestion.offer(word);
-    for (std::string_view word : kXforms) suggestion.offer(word);
+    for (std::string_view word : transformTable()) suggestion.offer(word);
     if (!suggestion.best().empty()) {
       fail(begin, codes::kSyntax, join({"`", textOf(peek()), "` starts no statement"}), suggestion.hint());
       return kNoId;
@@ -290,7 +290,7 @@ StmtId Parser::detailStatement() {
 }
 
 bool Parser::atXform() const {
-  for (std::string_view word : kXforms)
+  for (std::string_view word : transformTable())
     if (atWord(word)) return true;
   return false;
 }
@@ -299,8 +299,8 @@ XformNode Parser::xform() {
   const Span begin = here();
   const std::string_view word = textOf(take());
   XformNode node;
-  for (size_t i = 0; i < kXforms.size(); ++i)
-    if (word == kXforms[i]) node.kind = static_cast<XformKind>(i);
+  for (size_t i = 0; i < transformTable().size(); ++i)
+    if (word == transformTable()[i]) node.kind = static_cast<XformKind>(i);
   node.args = storeArgs(arguments(word));
   node.span = since(begin);
   return node;

@@ -3,41 +3,25 @@
 #include <algorithm>
 #include <array>
 
+#include "grammar/keywords.h"
 #include "grammar/lexer.h"
+#include "grammar/precedence.h"
 #include "grammar/sink.h"
 
 namespace sgm {
 
 namespace {
 
-constexpr int kComparison = 3, kUnary = 6, kPostfix = 7;
-
-struct Spelling {
-  std::string_view text;
-  int level;
-};
-
-constexpr std::array<Spelling, 12> kBinary = {{{" + ", 4},
-                                               {" - ", 4},
-                                               {"*", 5},
-                                               {"/", 5},
-                                               {" < ", 3},
-                                               {" <= ", 3},
-                                               {" > ", 3},
-                                               {" >= ", 3},
-                                               {" == ", 3},
-                                               {" != ", 3},
-                                               {" and ", 2},
-                                               {" or ", 1}}};
-constexpr std::array<std::string_view, 5> kXforms = {"at", "rot", "scale", "size", "mirror"};
+constexpr std::array<std::string_view, 12> kBinary = {
+    " + ", " - ", "*", "/", " < ", " <= ", " > ", " >= ", " == ", " != ", " and ", " or "};
 
 int levelOf(const ExprNode& node) {
   switch (node.kind) {
     case ExprKind::conditional:
     case ExprKind::range:
-      return 0;
+      return kLoosest;
     case ExprKind::binary:
-      return kBinary[static_cast<size_t>(node.binary)].level;
+      return precedenceOf(node.binary);
     case ExprKind::logical_not:
       return kComparison;
     case ExprKind::negate:
@@ -58,6 +42,8 @@ bool namedOnly(std::string_view callee, std::string_view name) {
 }
 
 }  // namespace
+
+std::string_view binaryText(BinaryOp op) { return kBinary[static_cast<size_t>(op)]; }
 
 void LinePrinter::expr(std::string& out, ExprId id, int lowest) const {
   if (id == kNoId) return;
@@ -94,10 +80,10 @@ void LinePrinter::expr(std::string& out, ExprId id, int lowest) const {
       child(0, kComparison);
       break;
     case ExprKind::binary: {
-      const Spelling spelling = kBinary[static_cast<size_t>(node.binary)];
-      child(0, spelling.level == kComparison ? kComparison + 1 : spelling.level);
-      out += spelling.text;
-      child(1, spelling.level + 1);
+      const int level = precedenceOf(node.binary);
+      child(0, level == kComparison ? kComparison + 1 : level);
+      out += binaryText(node.binary);
+      child(1, level + 1);
       break;
     }
     case ExprKind::conditional:
@@ -170,7 +156,7 @@ void LinePrinter::xforms(std::string& out, IdRange range) const {
   for (uint32_t i = 0; i < range.count; ++i) {
     const XformNode& node = program_.ast.xforms[range.first + i];
     if (i > 0) out += ' ';
-    const std::string_view word = kXforms[static_cast<size_t>(node.kind)];
+    const std::string_view word = transformTable()[static_cast<size_t>(node.kind)];
     out += word;
     args(out, node.args, word);
   }

@@ -8,6 +8,9 @@
 
 namespace sgm {
 
+/// With a blank on either side where the formatter puts one: " + ", "*".
+std::string_view binaryText(BinaryOp op);
+
 class LinePrinter {
  public:
   /// meaning: numbers by value and no parentheses that the source has for clarity alone.

@@ -1,9 +1,10 @@
 #include "grammar/printer.h"
 
 #include <algorithm>
-#include <array>
 
+#include "grammar/keywords.h"
 #include "grammar/lexer.h"
+#include "grammar/precedence.h"
 #include "grammar/print_expressions.h"
 #include "grammar/sink.h"
 
@@ -13,22 +14,19 @@ namespace {
 
 constexpr size_t kWidth = 110;
 constexpr uint32_t kLongestInline = 400;  // longer in the source: not even tried on one line, which bounds the work
-constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components", "volume", "area",
-                                                       "triangles",  "genus",      "anchors"};
-constexpr std::array<std::string_view, 6> kComparisons = {" < ", " <= ", " > ", " >= ", " == ", " != "};
 
 void measureText(std::string& out, const Program& program, const LinePrinter& line, const Expectation& e) {
   out += measureName(e.measure);
   if (e.of != kNoId) out += join({"(", program.text(e.of), ")"});
   if (e.compared) {
-    out += kComparisons[static_cast<size_t>(e.comparison) - static_cast<size_t>(BinaryOp::less)];
+    out += binaryText(e.comparison);
     line.expr(out, e.value);
   }
   if (e.low != kNoId) {
     out += " in ";
-    line.expr(out, e.low, 1);
+    line.expr(out, e.low, kOr);
     out += "..";
-    line.expr(out, e.high, 1);
+    line.expr(out, e.high, kOr);
   }
   if (e.block > 0) out += join({" in block(", std::to_string(e.block), ")"});
   if (e.per_name != kNoId) out += join({" per ", program.text(e.per_name)});
@@ -55,9 +53,9 @@ void declarationLine(std::string& out, const Program& program, const ModuleSynta
       line.expr(out, param.value_expr);
       if (param.has_range) {
         out += " in ";
-        line.expr(out, param.low_expr, 1);
+        line.expr(out, param.low_expr, kOr);
         out += "..";
-        line.expr(out, param.high_expr, 1);
+        line.expr(out, param.high_expr, kOr);
       }
       if (param.doc != kNoId) out += join({" ", quoteText(program.text(param.doc))});
       out += ';';
@@ -284,7 +282,7 @@ std::string printMeaning(const Program& program, const ModuleSyntax& syntax) {
   return out;
 }
 
-std::string_view measureName(Measure measure) { return kMeasures[static_cast<size_t>(measure)]; }
+std::string_view measureName(Measure measure) { return measureTable()[static_cast<size_t>(measure)]; }
 
 std::string printMeasure(const Program& program, const Expectation& expectation) {
   std::string out;

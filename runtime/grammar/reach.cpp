@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
 #include "grammar/codes.h"
 #include "grammar/reach_check.h"
 
@@ -9,7 +10,6 @@ namespace sgm {
 namespace {
 
 constexpr double kUnit = 1.0 / kUnitsPerMetre;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

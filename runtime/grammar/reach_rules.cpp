@@ -7,12 +7,12 @@ namespace sgm {
 
 namespace {
 
-constexpr int kDeepest = 400;  // statements on the stack
+constexpr int kDeepestStatement = 400;  // statements on the stack
 
 }  // namespace
 
 bool ReachCheck::tooFar() {
-  cut_short_ = cut_short_ || steps_ == 0 || depth_ >= kDeepest;
+  cut_short_ = cut_short_ || steps_ == 0 || depth_ >= kDeepestStatement;
   return cut_short_;
 }
 

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <optional>
 
+#include "base/math.h"
+
 namespace sgm {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Interval kHalf{0.5, 0.5};
 constexpr double kLargestSize = 1e5;  ///< metres; what is larger may be left out, scaled
 

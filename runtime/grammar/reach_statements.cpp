@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
 #include "grammar/codes.h"
 #include "grammar/reach_check.h"
 
@@ -157,7 +158,7 @@ Extent ReachCheck::morph(const StmtNode& s, RangeFrame& frame) {
   a.inner_low = inner_low;
   if (s.power && !a.empty) {
     // A superquadric of radii in between.
-    const double least = inner_low > 0 ? 1 / inner_low : std::numeric_limits<double>::infinity();
+    const double least = inner_low > 0 ? 1 / inner_low : kInfinity;
     a.at.core = a.at.may;
     a.at.ball = 0;
     a.at.core_radius = anyDirection(a.at.may)[0].hi;
@@ -183,14 +184,14 @@ Extent ReachCheck::displaced(const StmtNode& s, RangeFrame& frame) {
   e.node();
   if ((!std::isfinite(by.lo) || e.why != before) && !e.empty) {
     e.culprit = s.expr;
-    e.culprit_size = std::numeric_limits<double>::infinity();
+    e.culprit_size = kInfinity;
   }
   return e;
 }
 
 Extent ReachCheck::warped(const StmtNode& s, RangeFrame& frame) {
   IntervalVector by = values_.vector(s.expr, frame);
-  double most = std::numeric_limits<double>::infinity(), largest = 0;
+  double most = kInfinity, largest = 0;
   if (s.amount != kNoId) most = values_.number(s.amount, frame).magnitude();
   for (Interval& part : by) {
     part = -minimum(maximum(part, {-most, -most}), {most, most});

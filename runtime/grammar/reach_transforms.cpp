@@ -15,7 +15,7 @@ Interval rounded(Interval v) { return floorOf({v.lo + 0.5, v.hi + 0.5}); }
 Interval powerOf(Interval base, double times) {
   if (times == 0 || base == Interval{1, 1}) return {1, 1};
   const double low = base.lo > 0 ? detPow(base.lo, times) : 0, high = base.hi > 0 ? detPow(base.hi, times) : 0;
-  return {low * (1 - 1e-9), std::isnan(high) ? std::numeric_limits<double>::infinity() : high * (1 + 1e-9)};
+  return {low * (1 - 1e-9), std::isnan(high) ? kInfinity : high * (1 + 1e-9)};
 }
 
 }  // namespace
@@ -241,7 +241,7 @@ Extent ReachCheck::scattered(const StmtNode& s, RangeFrame& frame) {
   frame.place.move(at);
   Extent e = body(s.body, frame);
   frame.place = place;
-  Interval times{0, std::numeric_limits<double>::infinity()};
+  Interval times{0, kInfinity};
   if (!scatter.poisson) times = rounded(values_.number(scatter.count, frame));
   if (scatter.when != kNoId || scatter.probe != 0) times.lo = 0;
   e.repeat(times);

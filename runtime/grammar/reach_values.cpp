@@ -7,7 +7,7 @@ namespace sgm {
 
 namespace {
 
-constexpr int kDeepest = 600;  // frames of this evaluation on the stack
+constexpr int kDeepestValue = 600;  // frames of this evaluation on the stack
 constexpr Interval kEither{0, 1};
 constexpr Interval kTrue{1, 1};
 constexpr Interval kFalse{0, 0};
@@ -72,7 +72,7 @@ Interval RangeEvaluator::condition(ExprId id, const RangeFrame& frame) {
 }
 
 RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
-  if (id == kNoId || steps_ == 0 || depth_ >= kDeepest) return RangeValue::unknown();
+  if (id == kNoId || steps_ == 0 || depth_ >= kDeepestValue) return RangeValue::unknown();
   --steps_;
   ++depth_;
   const ExprNode& n = program_.expr(id);

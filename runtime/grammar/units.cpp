@@ -50,4 +50,6 @@ std::string typeName(const Type& type) {
   return "value";
 }
 
+std::string withArticle(const std::string& noun) { return (noun.find_first_of("aeiou") == 0 ? "an " : "a ") + noun; }
+
 }  // namespace sgm

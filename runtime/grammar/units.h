@@ -40,7 +40,11 @@ struct Type {
   friend constexpr bool operator==(const Type&, const Type&) = default;
 };
 
+inline constexpr Type kUnknownType{};
+
 /// "length", "point", "cell", "sample-time ratio" ...
 std::string typeName(const Type& type);
+/// "a length", "an angle": the noun with its article.
+std::string withArticle(const std::string& noun);
 
 }  // namespace sgm

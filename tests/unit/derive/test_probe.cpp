@@ -1,21 +1,6 @@
-#include "catch.h"
-#include "derive/lower_layers.h"
+#include "derive_fixture.h"
 
 using namespace sgm;
-
-namespace {
-
-/// Solid above a plane.
-class Ceiling : public LowerLayers {
- public:
-  explicit Ceiling(int32_t height) : height_(height) {}
-  bool solid(uint32_t, Int3 p) const override { return p.y >= height_; }
-
- private:
-  int32_t height_;
-};
-
-}  // namespace
 
 TEST_CASE("a probe finds the first solid unit") {
   for (int32_t height : {1, 2, 255, 256, 257, 1000, 4095, 4096}) {

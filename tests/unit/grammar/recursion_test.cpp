@@ -6,7 +6,7 @@ using namespace sgm::test;
 
 namespace {
 
-std::string checked(const std::string& rules) {
+std::string recursionErrors(const std::string& rules) {
   return brief(compileText("sgm 1; domain finite box(1000m);\n" + rules).diagnostics);
 }
 
@@ -28,7 +28,7 @@ TEST_CASE("recursion that ends is accepted", "[grammar][recursion]") {
            "start A; rule A minsize 1m -> sphere(1m) { size(0.5*scope) A; box(scope); }",
        }) {
     INFO(good);
-    CHECK(checked(good).empty());
+    CHECK(recursionErrors(good).empty());
   }
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("recursion that may not end is refused", "[grammar][recursion]") {
       {"start A; rule A weight 1 { sphere(1m); } rule A weight 1 { A; }", "2:60 unbounded-recursion"}};
   for (const auto& [text, expected] : bad) {
     INFO(text);
-    CHECK(checked(text) == expected);
+    CHECK(recursionErrors(text) == expected);
   }
 }
 

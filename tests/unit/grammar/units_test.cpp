@@ -9,7 +9,7 @@ using namespace sgm::test;
 namespace {
 
 /// The diagnostics of a rule whose let has this value and is used as this argument.
-std::string checked(const std::string& use) {
+std::string brokenUnits(const std::string& use) {
   return brief(
       compileText(
           "sgm 1; param l = 2m in 1m..3m; param a = 30deg in 0deg..90deg; param n = 3 in 1..5; start A;\nrule A { " +
@@ -44,7 +44,7 @@ TEST_CASE("sums and comparisons want equal dimensions", "[grammar][units]") {
                            "at(x 3m, z l) sphere(l);",
                            "sphere(30%*l);"}) {
     INFO(good);
-    CHECK(checked(good).empty());
+    CHECK(brokenUnits(good).empty());
   }
   const std::pair<const char*, const char*> bad[] = {{"sphere(l + a);", "2:17 unit-mismatch"},
                                                      {"sphere(l + 2);", "2:17 unit-mismatch"},
@@ -67,7 +67,7 @@ TEST_CASE("sums and comparisons want equal dimensions", "[grammar][units]") {
                                                      {"sphere(rand(1, 2m)*1m);", "2:25 unit-mismatch"}};
   for (const auto& [text, expected] : bad) {
     INFO(text);
-    CHECK(checked(text) == expected);
+    CHECK(brokenUnits(text) == expected);
   }
 }
 

@@ -9,8 +9,6 @@ using namespace sgm::test;
 
 namespace {
 
-constexpr int32_t kMetre = kUnitsPerMetre;
-
 double valueOf(const Outcome& outcome) {
   REQUIRE_FALSE(outcome.error);
   REQUIRE(outcome.measured.size() == 1);

@@ -11,8 +11,6 @@ using namespace sgm::test;
 
 namespace {
 
-constexpr int32_t kMetre = kUnitsPerMetre;
-
 /// A layer below that nothing asks about.
 class NoLayers final : public LowerLayers {
  public:

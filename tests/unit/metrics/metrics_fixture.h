@@ -11,6 +11,8 @@
 
 namespace sgm::test {
 
+inline constexpr int32_t kMetre = kUnitsPerMetre;
+
 inline std::shared_ptr<const Program> compiled(const std::string& text) {
   const CompileResult result = compileGrammar(text, "test.sgm");
   INFO(text << '\n' << renderDiagnostics(result));

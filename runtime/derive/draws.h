@@ -1,0 +1,33 @@
+#pragma once
+// What keeps the keys and draws of derivation apart: the named numbers that are hashed with a key, in one list. A
+// number that changes makes other worlds.
+
+#include <cstdint>
+
+namespace sgm {
+
+/// Salts of keys that a cell's place is hashed with.
+enum LatticeSalt : uint64_t { kCellSalt = 1, kFaceSalt, kTreeSalt, kBlockSalt, kNoiseSalt };
+
+/// Salts of keys under a derivation path or a cell's key.
+enum PathSalt : uint64_t {
+  kCombinerSalt = 0x6E6F6465,  ///< plus the statement's kind: apart from the keys of leaves and rules
+  kLoopSalt = 0x6C6F6F70,      ///< plus the statement's ordinal
+  kSetSalt = 0x73657473,       ///< plus the hash of the rule's name, for a set of the whole layer
+  kAnchorSalt = 0x616E6368,
+  kBendSalt = 0x62656E64,
+};
+
+/// Ordinals of the draws that one key gives.
+enum Draw : uint64_t {
+  kPriorityDraw = 8,
+  kJitterDraw = 0x100,  ///< plus the axis
+  kOpenDraw = 0x200,
+  kEdgeDraw = 0x300,    ///< plus 8 times one corner plus the other
+  kChoiceDraw = 0x400,  ///< plus 8 times the axis plus the corner
+  kKeyedDraw = 0x500,
+  kWeightDraw = 0x700,
+  kPathDraw = 0x10000,  ///< plus the expression's ordinal
+};
+
+}  // namespace sgm
