@@ -27,7 +27,8 @@ const char* opName(Op op);
 
 inline constexpr int kMaxRegisters = 32;  ///< of one group
 inline constexpr int kMaxPlaces = 8;      ///< positions: 0 is the sample's own, the others are warped
-inline constexpr float kFar = 1.0e9f;     ///< the domain's field, in units
+/// The domain's field, in units: beyond every value, so that a cut that is not there takes nothing away from anything.
+inline constexpr float kFar = 1.0e30f;
 
 /// One operation. Registers dst, a, b, c; place is the position that a POSITION op reads (and a warp starts from; its
 /// result's number is dst). Accumulating ops use dst and b as their two registers and a as the operand.

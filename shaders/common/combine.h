@@ -207,10 +207,10 @@ FN Dual opDisplace(Dual a, Dual b) {
   return settled(v, x, y, z, a.label);
 }
 
-// Where minima and sums begin: farther than any shape, and zero.
+// Where minima and sums begin: beyond every value (kFar in runtime/field/program.h), and zero.
 FN Dual farAway() {
   PRECISE Real zero = broadcast(0.0f);
-  return makeDual(broadcast(1.0e9f), zero, zero, zero, broadcastInt(0));
+  return makeDual(broadcast(1.0e30f), zero, zero, zero, broadcastInt(0));
 }
 FN Dual nothing() {
   PRECISE Real zero = broadcast(0.0f);

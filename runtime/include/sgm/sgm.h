@@ -439,7 +439,8 @@ typedef struct sgm_sample_desc {
   int32_t* q;            /* quantised field, what meshes are made of: floor(field * 1024 / finest cell + 0.5),
                             clamped to +-2^22; solid below 0 */
   float* values;         /* field in metres, negative inside the solid: a distance near a surface, and a constant
-                            of +-10^9 units with gradient 0 where no shape is within a cell or two */
+                            of +-10^30 units (9.8 * 10^26 m) with gradient 0 where no shape is
+                            within a cell or two */
   float* gradients;      /* 3 a point: the field's gradient over metres; points out of the solid */
   uint16_t* materials;   /* of the shape that is nearest to its surface there */
   uint16_t* tags;
