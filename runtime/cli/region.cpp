@@ -120,7 +120,7 @@ RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose)
   Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);
   if (!anchors) return failure(complain(anchors.error()));
   const double seconds = watch.seconds();
-  const Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent);
+  const Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, *cell << options.level);
   if (!notes) return failure(complain(notes.error()));
   warnOfNotes(options.file, *notes);
 

@@ -202,4 +202,7 @@ void checkRecursion(const Program& program, const std::vector<RuleCall>& calls, 
 /// is not written.
 void checkReach(Program& program, const CompileLimits& limits, DiagnosticSink& sink);
 
+/// Fills Layer::coarsest_cell and Layer::anchors. Precondition: the program has no errors.
+void findLayerContents(Program& program, const CompileLimits& limits);
+
 }  // namespace sgm

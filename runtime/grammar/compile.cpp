@@ -53,6 +53,7 @@ CompileResult compileGrammar(std::string_view text, std::string_view path, const
     checker.run();
     if (sink.errorCount() == 0) checkRecursion(*program, checker.calls(), options.limits, sink);
     if (sink.errorCount() == 0) checkReach(*program, options.limits, sink);
+    if (sink.errorCount() == 0) findLayerContents(*program, options.limits);
   }
   if (sink.errorCount() == 0) result.program = std::move(program);
   result.diagnostics = sink.take();

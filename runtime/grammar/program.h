@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <memory_resource>
 #include <string>
@@ -112,6 +113,13 @@ struct Layer {
   IntBox bound;  ///< proven bound of what the layer adds or cuts, from the cell's low corner, within cell + reach where
                  ///< `proven`; otherwise derivation must reject what passes it
   bool proven = false;
+  /// In units: at levels whose cells have a longer edge the layer shows nothing, whatever its parameters, seed and
+  /// cell, as all its shapes stand under a `detail`. INT32_MAX: no such edge; 0: it has no shapes.
+  int32_t coarsest_cell = std::numeric_limits<int32_t>::max();
+  bool anchors = true;  ///< it may have anchors
+
+  bool shows(int32_t cell_edge) const { return cell_edge <= coarsest_cell; }
+
   Span span;
 
   explicit Layer(std::pmr::memory_resource* memory) : uses(memory) {}

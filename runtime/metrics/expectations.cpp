@@ -174,7 +174,7 @@ class Evaluator {
       keep(s, std::move(measured));
     }
     // A region of very many cells was meshed without looking at all of them at once: then there are no notes of it.
-    const Result<std::vector<DeriveNote>> notes = world.notes(measures->extent);
+    const Result<std::vector<DeriveNote>> notes = world.notes(measures->extent, *cell);
     if (!notes && notes.error().code != Code::limit) return notes.error();
     if (notes) result_.notes.insert(result_.notes.end(), notes->begin(), notes->end());
     return {};

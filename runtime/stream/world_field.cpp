@@ -151,6 +151,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
   std::pmr::vector<IndexedCell> indexed(memory_);
   if (alone_) indexed.push_back(alone_->indexed());
   for (uint32_t layer = 0; layer < layers && !alone_; ++layer) {
+    if (!settings_.program->layers[layer].shows(field.cell)) continue;
     const Result<void> gathered = walkCells(layer, reached, CellsOf::chunk, [&](const CellKey& key) -> Result<void> {
       Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
       if (!derived) return derived.error();
@@ -182,9 +183,11 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t la
   return compileLayers(layer + 1, box, fieldSettings(1, 1));
 }
 
-Result<void> WorldField::forEachCell(const IntBox& box, const std::function<void(const GrammarChunk&)>& visit) const {
+Result<void> WorldField::forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,
+                                     const std::function<void(const GrammarChunk&)>& visit) const {
   if (alone_) return visit(alone_->chunk), Result<void>{};
   for (uint32_t layer = 0; layer < settings_.program->layers.size(); ++layer) {
+    if (!wanted(settings_.program->layers[layer])) continue;
     const Result<void> walked = walkCells(layer, box, CellsOf::box, [&](const CellKey& key) -> Result<void> {
       Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
       if (!derived) return derived.error();
@@ -198,7 +201,8 @@ Result<void> WorldField::forEachCell(const IntBox& box, const std::function<void
 
 Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box) const {
   std::vector<Anchor> found;
-  const Result<void> visited = forEachCell(box, [&](const GrammarChunk& chunk) {
+  const auto wanted = [](const Layer& layer) { return layer.anchors; };
+  const Result<void> visited = forEachCell(box, wanted, [&](const GrammarChunk& chunk) {
     for (const Anchor& a : chunk.anchors) {
       if (holds(box, a.frame.origin)) found.push_back(a);
     }
@@ -207,10 +211,12 @@ Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box) const {
   return found;
 }
 
-Result<std::vector<DeriveNote>> WorldField::notes(const IntBox& box) const {
+Result<std::vector<DeriveNote>> WorldField::notes(const IntBox& box, int32_t cell_edge) const {
   std::vector<DeriveNote> found;
-  const Result<void> visited = forEachCell(
-      box, [&](const GrammarChunk& chunk) { found.insert(found.end(), chunk.notes.begin(), chunk.notes.end()); });
+  const auto wanted = [&](const Layer& layer) { return layer.shows(cell_edge) || layer.anchors; };
+  const Result<void> visited = forEachCell(box, wanted, [&](const GrammarChunk& chunk) {
+    found.insert(found.end(), chunk.notes.begin(), chunk.notes.end());
+  });
   if (!visited) return visited.error();
   return found;
 }

@@ -51,8 +51,9 @@ class WorldField {
   /// limit: more than 2^24 cells of a layer reach into the box; errors of derivation.
   Result<std::vector<Anchor>> anchors(const IntBox& box) const;
 
-  /// What derivation had to leave out in the cells that reach into the box; each cell's notes once. Errors: as anchors.
-  Result<std::vector<DeriveNote>> notes(const IntBox& box) const;
+  /// What derivation had to leave out in the cells that reach into the box, of layers that show where cells have this
+  /// edge or may have anchors; each cell's notes once. Errors: as anchors.
+  Result<std::vector<DeriveNote>> notes(const IntBox& box, int32_t cell_edge) const;
 
   /// The uses of a rule whose frames stand in the box lo <= p < hi, by layer and cell, in order of derivation. Only
   /// cells whose shapes can reach into the box are looked at.
@@ -72,8 +73,9 @@ class WorldField {
                          const std::function<Result<void>(const CellKey&)>& visit) const;
   Result<std::shared_ptr<const FieldProgram>> compileLayers(uint32_t layers, const IntBox& box,
                                                             const FieldSettings& field) const;
-  /// Visits the cells of all layers that can reach into the box, in order.
-  Result<void> forEachCell(const IntBox& box, const std::function<void(const GrammarChunk&)>& visit) const;
+  /// Visits the cells of all wanted layers that can reach into the box, in order.
+  Result<void> forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,
+                           const std::function<void(const GrammarChunk&)>& visit) const;
   FieldSettings fieldSettings(int32_t finest_cell, int32_t cell) const;
   /// What `derive` makes of the layers below the cell.
   template <class T, class Derive>

@@ -16,7 +16,9 @@ class RandomRules {
   std::string program(bool finite) {
     out_ =
         "sgm 1;\nparam size_ = 2m in 1m..3m;\nparam share = 0.5 in 0..1;\nparam free = 3;\nparam count = 2 in 0..3;\n";
-    out_ += finite ? "start R0(2m);\n" : "domain infinite;\nlayer l cell 256m reach 1000m { start R0(2m); }\n";
+    const std::string start = "start " + pick({"R0", "R0", "Fine"}) + "(2m);";
+    out_ += finite ? start + "\n" : "domain infinite;\nlayer l cell 256m reach 1000m { " + start + " }\n";
+    out_ += "rule Fine(r) { detail " + pick({"30cm", "0.5*size_", "0.2*r"}) + " { R0(r); anchor here; } }\n";
     levels_ = !finite;
     out_ += "let spot(c) = c.point(jitter 0.4);\n";
     for (level_ = 0; level_ < 3; ++level_) rule();

@@ -1,8 +1,12 @@
-// The proof of reach (grammar/reach.cpp) against what derivation gives.
+// What is proven of layers, their reach and the levels at which they show, against what derivation gives.
+
+#include <algorithm>
+#include <limits>
 
 #include "catch.h"
 #include "derive_fixture.h"
 #include "random_rules.h"
+#include "rounds.h"
 
 using namespace sgm;
 
@@ -21,6 +25,15 @@ ParameterValues randomValues(const Program& program, uint64_t seed) {
   return values;
 }
 
+/// The largest cell edge at which a shape may show.
+int32_t coarsestCell(const GrammarChunk& chunk, uint32_t index) {
+  const Shape& s = chunk.shapes[index];
+  int32_t most = s.child_count == 0 ? std::numeric_limits<int32_t>::max() : 0;
+  for (uint32_t i = 0; i < s.child_count; ++i)
+    most = std::max(most, coarsestCell(chunk, chunk.children[s.first_child + i]));
+  return s.detail > 0 ? std::min(most, s.detail) : most;
+}
+
 /// Groups stay within the proven bound, and nothing is left out for leaving its reach.
 int checkCell(const Program& program, const ParameterValues& values, uint64_t seed, Int3 cell) {
   const Result<GrammarChunk> chunk = deriveCell(program, values, seed, 0, cell, Ceiling(0));
@@ -31,6 +44,7 @@ int checkCell(const Program& program, const ParameterValues& values, uint64_t se
     CHECK(note.message.find("has no bound") == std::string::npos);
   }
   const Layer& layer = program.layers[0];
+  CHECK((chunk->anchors.empty() || layer.anchors));
   for (const Group& group : chunk->groups) {
     for (int axis = 0; axis < 3; ++axis) {
       const int64_t base = isWhole(layer) ? 0 : int64_t{cell[axis]} * layer.cell[axis];
@@ -38,6 +52,7 @@ int checkCell(const Program& program, const ParameterValues& values, uint64_t se
       CHECK(int64_t{group.bounds.lo[axis]} - base >= int64_t{layer.bound.lo[axis]} - kReachSlack);
       CHECK(int64_t{group.bounds.hi[axis]} - base <= int64_t{layer.bound.hi[axis]} + kReachSlack);
     }
+    CHECK(coarsestCell(*chunk, group.root) <= layer.coarsest_cell);
   }
   return static_cast<int>(chunk->groups.size());
 }
@@ -45,8 +60,9 @@ int checkCell(const Program& program, const ParameterValues& values, uint64_t se
 }  // namespace
 
 TEST_CASE("what is proven holds all that is derived") {
-  int proven = 0, groups = 0;
-  for (uint64_t seed = 1; seed <= 1200; ++seed) {
+  int proven = 0, groups = 0, fine = 0;
+  const int programs = static_cast<int>(rounds(1200));
+  for (uint64_t seed = 1; seed <= static_cast<uint64_t>(programs); ++seed) {
     const std::string text = RandomRules(seed).program(seed % 2 == 0);
     const CompileResult result = compileGrammar(text, "test.sgm");
     if (!result.program) {
@@ -59,6 +75,7 @@ TEST_CASE("what is proven holds all that is derived") {
     const Program& program = *result.program;
     if (!program.layers[0].proven) continue;
     ++proven;
+    fine += program.layers[0].coarsest_cell < std::numeric_limits<int32_t>::max();
     for (uint64_t world = 1; world <= 4; ++world) {
       INFO("seed " << seed << ", world " << world << "\n" << text);
       const bool whole = isWhole(program.layers[0]);
@@ -67,6 +84,7 @@ TEST_CASE("what is proven holds all that is derived") {
     }
   }
   INFO(proven << " proven, " << groups << " groups");
-  CHECK(proven > 300);
-  CHECK(groups > 3000);
+  CHECK(proven > programs / 4);
+  CHECK(groups > programs * 5 / 2);
+  CHECK(fine > programs / 24);
 }

@@ -1,5 +1,6 @@
 // What the checked program says.
 
+#include <limits>
 #include <thread>
 
 #include "catch.h"
@@ -44,6 +45,38 @@ TEST_CASE("layers are sorted so that each uses lower ones", "[grammar][program]"
   CHECK(std::vector<uint32_t>(p.layers[2].uses.begin(), p.layers[2].uses.end()) == std::vector<uint32_t>{0, 1});
   CHECK(p.layers[0].cell == Int3{32768, 32768, 32768});
   CHECK(p.layers[0].reach == 4096);
+}
+
+TEST_CASE("a layer shows where cells are not larger than every detail around its shapes", "[grammar][program]") {
+  constexpr int32_t kEvery = std::numeric_limits<int32_t>::max();
+  const auto contents = [](const std::string& rules) {
+    const CompileResult result = compileText(
+        "sgm 1; param fine = 20cm in 10cm..50cm; param open = 20cm; domain infinite;\n"
+        "layer l cell 8m reach 20m { start A; }\n" +
+        rules);
+    INFO(brief(result.diagnostics));
+    REQUIRE(result.program);
+    return result.program->layers[0];
+  };
+  // A unit more, for what the interval's rounding may hide.
+  CHECK(contents("rule A { detail 25cm { sphere(1m); } }").coarsest_cell == 257);
+  CHECK(contents("rule A { detail 25cm { B(); } } rule B { sphere(1m); }").coarsest_cell == 257);
+  CHECK(contents("rule A { detail 25cm { B(); } B(); } rule B { sphere(1m); }").coarsest_cell == kEvery);
+  CHECK(contents("rule A { detail 25cm sphere(1m); detail 1m { detail 50cm cut { box(1m); } } }").coarsest_cell == 513);
+  CHECK(contents("rule A { B(); } rule B depth 3 -> C() { B(); } rule C { detail 25cm box(1m); }").coarsest_cell ==
+        257);
+  CHECK(contents("rule A { B(); } rule B depth 3 -> box(1m) { B(); }").coarsest_cell == kEvery);
+  CHECK(contents("rule A { detail fine box(1m); }").coarsest_cell == 513);
+  CHECK(contents("rule A { detail open box(1m); }").coarsest_cell == kEvery);
+  CHECK(contents("rule A { B(30cm); } rule B(r) { detail r box(1m); }").coarsest_cell == kEvery);
+  CHECK(contents("rule A { detail 0.01*scope.x box(1m); }").coarsest_cell == kEvery);
+  CHECK(contents("rule A { morph(B(), B(), 0.5); } rule B { detail 25cm box(1m); }").coarsest_cell == 257);
+  CHECK(contents("rule A { detail -2*2000000m box(1m); }").coarsest_cell == 1);
+  const Layer marks = contents("rule A { anchor spawn; }");
+  CHECK(marks.coarsest_cell == 0);
+  CHECK(marks.anchors);
+  CHECK(contents("rule A { detail 1m { B(); } } rule B { anchor spawn; sphere(1m); }").anchors);
+  CHECK_FALSE(contents("rule A { sphere(1m); }").anchors);
 }
 
 TEST_CASE("axes without cells have no cell edge", "[grammar][program]") {

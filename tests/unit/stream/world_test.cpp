@@ -233,12 +233,22 @@ TEST_CASE("progress is told after every chunk, on any number of threads", "[thre
   }
 }
 
+TEST_CASE("what a layer of anchors alone leaves out is noted") {
+  const WorldField world(settingsOf("sgm 1; units m;\ndomain infinite;\nlayer main cell 8m reach 1m { start Post; }\n"
+                                    "rule Post { at(20m, 0m, 0m) anchor post \"here\"; }\n",
+                                    1024),
+                         std::pmr::get_default_resource());
+  const auto notes = world.notes({{0, 0, 0}, {1024, 1024, 1024}}, 1024);
+  REQUIRE(notes);
+  CHECK_FALSE(notes->empty());
+}
+
 TEST_CASE("anchors are found in more cells than one chunk may have") {
   // A chunk's program may be made of 2^20.
   const IntBox box{{-530'000 * 1024, 0, 0}, {530'000 * 1024, 1024, 1024}};
   const WorldField world(settingsOf("sgm 1; units m;\ndomain infinite axes x;\n"
                                     "layer main cell 1m reach 1m { start Post; }\n"
-                                    "rule Post weight 1 { anchor post \"here\"; }\n"
+                                    "rule Post weight 1 { anchor post \"here\"; sphere(10cm); }\n"
                                     "rule Post weight 9999 { }\n",
                                     1024),
                          std::pmr::get_default_resource());
