@@ -6,6 +6,7 @@
 #include <random>
 
 #include "fixture.h"
+#include "rounds.h"
 
 namespace {
 
@@ -115,7 +116,7 @@ TEST_CASE("random grids of odd sizes are closed inside, and equal for any number
   const unsigned seed = 20251121;
   INFO("seed " << seed);
   std::mt19937 random(seed);
-  for (int round = 0; round < 12; ++round) {
+  for (unsigned round = 0; round < sgm::rounds(12); ++round) {
     const auto side = [&] { return static_cast<uint32_t>(2 + random() % 70); };
     Grid grid(side(), side(), side());
     // A border in the open, so that the surface is closed.

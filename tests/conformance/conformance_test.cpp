@@ -8,6 +8,7 @@
 #include "backend/cpu/instruction_sets.h"
 #include "catch.h"
 #include "random_programs.h"
+#include "rounds.h"
 
 using namespace sgm;
 
@@ -20,7 +21,7 @@ uint32_t fromEnvironment(const char* name, uint32_t otherwise) {
 uint32_t seedFromEnvironment() { return fromEnvironment("SGM_TEST_SEED", 20'260'101u); }
 // An emulated processor, which is some hundred times slower, takes fewer.
 uint32_t roundsOfEachOp() { return fromEnvironment("SGM_TEST_ROUNDS", 12); }
-uint32_t randomPrograms() { return fromEnvironment("SGM_TEST_PROGRAMS", 150); }
+uint32_t randomPrograms() { return fromEnvironment("SGM_TEST_PROGRAMS", sgm::rounds(150)); }
 
 // All that run here, or SGM_TEST_INSTRUCTION_SET alone: where that one is the question, leaving it out is no answer.
 std::vector<const FieldKernels*> compared() {

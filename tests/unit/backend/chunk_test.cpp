@@ -22,6 +22,7 @@
 #include "mesh/vertex.h"
 #include "mesh/weld.h"
 #include "random_programs.h"
+#include "rounds.h"
 
 using namespace sgm;
 
@@ -97,7 +98,7 @@ ChunkMesh bruteForce(const FieldProgram& field, const ChunkGrid& grid) {
 
 TEST_CASE("a chunk meshed by pruned bricks is the chunk meshed by brute force") {
   size_t triangles = 0;
-  for (uint32_t seed = 1; seed <= 24; ++seed) {
+  for (uint32_t seed = 1; seed <= rounds(24); ++seed) {
     const Int3 corner = seed % 2 ? Int3{} : Int3{120'000, -120'000, 90'000};
     const ChunkGrid grid = gridAt(0, corner);
     const Int3 centre{grid.origin.x + kEdge / 2, grid.origin.y + kEdge / 2, grid.origin.z + kEdge / 2};
@@ -110,7 +111,7 @@ TEST_CASE("a chunk meshed by pruned bricks is the chunk meshed by brute force") 
       CHECK(sameBytes(expected.body, meshOf(*set.kernels, job).body));
     }
   }
-  CHECK(triangles > 20'000);
+  CHECK(triangles > 800 * rounds(24));
 }
 
 TEST_CASE("neighbouring chunks agree in their border to the bit, each with its own pruning") {
@@ -140,7 +141,7 @@ TEST_CASE("neighbouring chunks agree in their border to the bit, each with its o
 
 TEST_CASE("a seam's vertices have the attributes of the whole field of their level, each with its own pruning") {
   size_t own = 0, coarse = 0, different = 0;
-  for (uint32_t seed = 1; seed <= 10; ++seed) {
+  for (uint32_t seed = 1; seed <= rounds(10); ++seed) {
     const ChunkGrid grid = gridAt(0, {1, -1, 1});
     const Int3 centre{grid.origin.x + kEdge / 2, grid.origin.y + kEdge / 2, grid.origin.z + kEdge / 2};
     // Fields that have little in common, so that there are many lateral vertices.
@@ -161,8 +162,8 @@ TEST_CASE("a seam's vertices have the attributes of the whole field of their lev
   }
   INFO(own << " vertices of the chunk's level, " << coarse << " of the coarser one");
   CHECK(different == 0);
-  CHECK(own > 1000);
-  CHECK(coarse > 500);
+  CHECK(own > 100 * rounds(10));
+  CHECK(coarse > 50 * rounds(10));
 }
 
 TEST_CASE("octrees of chunks whose levels' fields differ are closed, and every vertex link is one cycle") {

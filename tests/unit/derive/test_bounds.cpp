@@ -4,6 +4,7 @@
 #include "derive/bounds.h"
 #include "field_reference.h"
 #include "random_chunk.h"
+#include "rounds.h"
 
 using namespace sgm;
 
@@ -37,7 +38,7 @@ int checkLevel(RandomChunk& random, uint32_t root, double a, const IntBox& box) 
 TEST_CASE("bounds hold every point of the level set, for every kind of shape") {
   std::set<ShapeKind> seen;
   int inside = 0;
-  for (uint32_t seed = 1; seed <= 3000; ++seed) {
+  for (uint32_t seed = 1; seed <= rounds(3000); ++seed) {
     CAPTURE(seed);
     RandomChunk random(seed);
     const uint32_t root = random.tree(static_cast<int>(seed % 4));
@@ -46,7 +47,7 @@ TEST_CASE("bounds hold every point of the level set, for every kind of shape") {
       inside += checkLevel(random, root, a, levelBounds(random.chunk, root, a));
     }
   }
-  CHECK(inside > 10000);
+  CHECK(inside > static_cast<int>(3 * rounds(3000)));
   CHECK(seen.size() == 20);  // all but the half-space
 }
 
@@ -118,7 +119,7 @@ TEST_CASE("a displacement without an amplitude has no bound") {
 }
 
 TEST_CASE("ranges hold the values of random expressions") {
-  for (uint32_t seed = 1; seed <= 500; ++seed) {
+  for (uint32_t seed = 1; seed <= rounds(500); ++seed) {
     CAPTURE(seed);
     RandomChunk random(seed);
     const IntBox box{{-3000, -3000, -3000}, {3000, 3000, 3000}};

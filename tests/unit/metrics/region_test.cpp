@@ -8,6 +8,7 @@
 #include "fields.h"
 #include "metrics/measure.h"
 #include "metrics_fixture.h"
+#include "rounds.h"
 
 using namespace sgm;
 using namespace sgm::test;
@@ -71,7 +72,7 @@ RegionMeasures measured(const LatticeField& field, const IntBox& lattice) {
 }  // namespace
 
 TEST_CASE("regions of random fields: pieces, volume, borders", "[metrics]") {
-  for (uint64_t seed = 1; seed <= 8; ++seed) {
+  for (uint64_t seed = 1; seed <= rounds(10); ++seed) {
     PathKey random{hashCombine(0x6D657472, seed)};
     const Int3 chunks{1 + static_cast<int>(random.unit(1) * 2), 1 + static_cast<int>(random.unit(2) * 2),
                       1 + static_cast<int>(random.unit(3) * 2)};

@@ -1,11 +1,11 @@
 // Whatever octree is drawn, its surface is closed: bodies, seams between levels whose fields differ, outer faces.
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 
 #include "catch.h"
 #include "mesh/check.h"
+#include "rounds.h"
 #include "stream/frame.h"
 #include "stream/lod_target.h"
 #include "world_support.h"
@@ -53,7 +53,7 @@ TEST_CASE("random octrees of a cave and of a cloud are closed in every vertex") 
   for (const Scene& scene : scenes) {
     const WorldField world(settingsOf(sample(scene.grammar), scene.cell, 3), std::pmr::get_default_resource());
     size_t triangles = 0, seams = 0;
-    for (uint32_t seed = 1; seed <= (std::getenv("SGM_LONG") ? 20 : 2); ++seed) {
+    for (uint32_t seed = 1; seed <= rounds(2); ++seed) {
       CAPTURE(scene.grammar, seed);
       std::mt19937 random(seed);
       const Octree tree = randomTreeAround(random, scene.centre, 3, scene.cell);

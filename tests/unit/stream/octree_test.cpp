@@ -1,13 +1,13 @@
 // The octree's two rules, what viewers want, and steps from one octree to another.
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <random>
 #include <set>
 
 #include "catch.h"
 #include "mesh/chunk.h"
+#include "rounds.h"
 #include "stream/commit_plan.h"
 #include "stream/lod_target.h"
 
@@ -191,7 +191,7 @@ TEST_CASE("what viewers want is fine near them, reaches as far as asked, and kee
 
 TEST_CASE("a step keeps the rules and draws nothing that is not ready, whatever is ready") {
   int whole = 0, partial = 0;
-  for (uint32_t seed = 1; seed <= (std::getenv("SGM_LONG") ? 200 : 20); ++seed) {
+  for (uint32_t seed = 1; seed <= rounds(100); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
     Octree committed = randomTree(random);
