@@ -237,6 +237,14 @@ TEST_CASE("materials and tags hold for their block and what it calls") {
   CHECK(rootOf(chunk, 1).tag != 0);
 }
 
+TEST_CASE("sine and cosine stay between -1 and 1, whatever the angle") {
+  const GrammarChunk chunk =
+      derivedRules("rule Main { sphere(2m + 1m*sin(10000000rad)); sphere(2m + 1m*cos(-10000000rad)); }");
+  REQUIRE(chunk.groups.size() == 2);
+  CHECK(rootOf(chunk, 0).size[0] == 2048);
+  CHECK(rootOf(chunk, 1).size[0] == 2048);
+}
+
 TEST_CASE("detail and lod limit the levels of what they hold") {
   const auto chunk = derivedRules(
       "rule Main { detail 0.5m { sphere(1m); detail 0.25m box(1m); } M(); }"
