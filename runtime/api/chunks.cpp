@@ -2,11 +2,10 @@
 #include <cstring>
 #include <vector>
 
-#include "api/anchors.h"
 #include "api/barrier.h"
 #include "api/field.h"
 #include "api/mesh.h"
-#include "stream/mesh_chunks.h"
+#include "stream/chunk_surface.h"
 
 using namespace sgm::api;
 
@@ -40,16 +39,6 @@ sgm_result checkRequest(const sgm_field& field, const sgm_chunk_request& request
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "a chunk request's reserved words must be 0");
   const sgm::Result<sgm::ChunkGrid> grid = sgm::chunkGrid(field.world, keyOf(request.key));
   return grid ? SGM_OK : fail(error, grid.error());
-}
-
-MeshSource sourceOf(const sgm::PlacedChunk& chunk, std::span<const sgm_anchor> anchors) {
-  MeshSource source;
-  source.key = {chunk.key.level, chunk.key.at.x, chunk.key.at.y, chunk.key.at.z};
-  source.grid = chunk.grid;
-  source.parts[0] = &chunk.mesh.body;
-  for (size_t face = 0; face < chunk.mesh.seams.size(); ++face) source.parts[1 + face] = &chunk.mesh.seams[face];
-  source.anchors = anchors;
-  return source;
 }
 
 /// Meshes made so far; ends them unless they are handed over.
@@ -104,13 +93,11 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
 
     MadeMeshes made(desc->count, memory);
     sgm::parallelFor(*field->runtime.jobs, desc->count, [&](size_t i) {
-      sgm::PlacedChunk& chunk = (*chunks)[i];
-      std::vector<sgm_anchor> anchors;
-      anchors.reserve(chunk.anchors.size());
-      for (const sgm::Anchor& anchor : chunk.anchors) anchors.push_back(anchorOf(anchor));
-      made[i] = makeHandle<sgm_mesh>(field->runtime, sourceOf(chunk, anchors));
-      // Give back what has been copied: a batch may be large.
-      chunk.mesh = sgm::ChunkMesh(memory);
+      // What has been copied goes at once: a batch may be large.
+      sgm::PlacedChunk chunk = std::move((*chunks)[i]);
+      auto surface = std::allocate_shared<sgm::ChunkSurface>(std::pmr::polymorphic_allocator<>(memory),
+                                                             surfaceOf(requests[i], std::move(chunk), nullptr, memory));
+      made[i] = makeHandle<sgm_mesh>(field->runtime, std::move(surface));
     });
     made.handOver(meshes);
     return SGM_OK;

@@ -56,7 +56,9 @@ sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sg
   });
 }
 
-void sgm_field_destroy(sgm_field* field) { endHandle(field); }
+void sgm_field_destroy(sgm_field* field) {
+  if (field != nullptr && field->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) endHandle(field);
+}
 
 sgm_result sgm_cell_from_metres(double metres, int32_t* units, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {

@@ -1,6 +1,7 @@
 #pragma once
 // The handle of a field: one world, and the backend that meshes it.
 
+#include <atomic>
 #include <memory>
 
 #include "api/grammar.h"
@@ -13,6 +14,7 @@ struct sgm_field {
       : runtime(runtime_in), world(std::move(settings), &runtime_in.memory), backend(std::move(backend_in)) {}
 
   sgm_runtime& runtime;
+  std::atomic<uint32_t> owners{1};  ///< the caller's, and the worlds that stream it
   sgm::WorldField world;
   std::unique_ptr<sgm::Backend> backend;
 };
@@ -22,6 +24,9 @@ namespace sgm::api {
 inline constexpr int32_t kLargestFinestCell = 1 << 20;
 /// Of any level: what the rounding of vertices to units holds for (mesh/vertex.h).
 inline constexpr int64_t kLargestCell = int64_t{1} << 22;
+
+/// One more owner, whom sgm_field_destroy takes away again.
+inline void acquireField(sgm_field* field) { field->owners.fetch_add(1, std::memory_order_relaxed); }
 
 /// SGM_OK where the field has cells at the level; else INVALID_ARGUMENT (no such level) or RANGE (its cells are too
 /// large).

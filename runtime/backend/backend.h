@@ -38,6 +38,7 @@ struct ChunkJob {
   uint8_t seams = 0;                           ///< bit (1 << Face): make this seam
   Neighbourhood coarser = 0;  ///< which blocks around are of a coarser level; decides only the fans in seam keys
   bool signs = false;         ///< also give the signs of the samples
+  bool body = true;           ///< false: only the seams; body, signs and counts stay empty
 };
 
 /// What a chunk became. Parts without surface are empty, their hash 0.

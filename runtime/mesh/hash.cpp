@@ -20,25 +20,29 @@ void hashPart(MeshPart& part) {
   part.hash = sum;
 }
 
+ContentHash hashPlaced(ContentHash part, const ChunkGrid& grid, int number) {
+  const uint32_t words[] = {part.a,
+                            part.b,
+                            static_cast<uint32_t>(grid.origin.x),
+                            static_cast<uint32_t>(grid.origin.y),
+                            static_cast<uint32_t>(grid.origin.z),
+                            static_cast<uint32_t>(grid.level),
+                            static_cast<uint32_t>(number)};
+  ContentHash chain;
+  for (uint32_t word : words) {
+    chain.a = mixWord(word ^ chain.a, 1);
+    chain.b = mixWord(word ^ chain.b, 2);
+  }
+  return chain;
+}
+
 ContentHash hashParts(std::span<const PlacedPart> parts) {
   ContentHash sum;
   for (const PlacedPart& part : parts) {
     if (part.mesh->indices.empty()) continue;
-    const Int3 o = part.grid.origin;
-    const uint32_t words[] = {part.mesh->hash.a,
-                              part.mesh->hash.b,
-                              static_cast<uint32_t>(o.x),
-                              static_cast<uint32_t>(o.y),
-                              static_cast<uint32_t>(o.z),
-                              static_cast<uint32_t>(part.grid.level),
-                              static_cast<uint32_t>(part.number)};
-    ContentHash chain;
-    for (uint32_t word : words) {
-      chain.a = mixWord(word ^ chain.a, 1);
-      chain.b = mixWord(word ^ chain.b, 2);
-    }
-    sum.a += chain.a;
-    sum.b += chain.b;
+    const ContentHash placed = hashPlaced(part.mesh->hash, part.grid, part.number);
+    sum.a += placed.a;
+    sum.b += placed.b;
   }
   return sum;
 }

@@ -39,6 +39,9 @@ struct PlacedPart {
   int number = 0;  ///< 0 for the body, 1 + Face for a seam
 };
 
+/// A part's hash mixed with where it lies and which part of its chunk it is: 0 for the body, 1 + Face for a seam.
+ContentHash hashPlaced(ContentHash part, const ChunkGrid& grid, int number);
+
 /// The hash of a set of parts: the sum over its parts, each mixed with where it lies. Equal in any order; a part
 /// without triangles adds nothing, so that it does not matter whether empty chunks are listed. Reads the parts' hashes.
 ContentHash hashParts(std::span<const PlacedPart> parts);

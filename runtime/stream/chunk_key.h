@@ -2,6 +2,7 @@
 // The name of a chunk: its level and its place among the chunks of that level.
 
 #include "base/fixed.h"
+#include "base/hash.h"
 
 namespace sgm {
 
@@ -12,6 +13,15 @@ struct ChunkKey {
   int level = 0;
   Int3 at;
   friend auto operator<=>(const ChunkKey&, const ChunkKey&) = default;
+};
+
+/// For unordered containers, whose order must never be seen.
+struct ChunkKeyHash {
+  size_t operator()(const ChunkKey& key) const {
+    const auto bits = [](int v) { return uint64_t{static_cast<uint32_t>(v)}; };
+    const uint64_t low = bits(key.at.x) | bits(key.at.y) << 32, high = bits(key.at.z) | bits(key.level) << 32;
+    return static_cast<size_t>(mix64(low * 0x9E3779B97F4A7C15u + high));
+  }
 };
 
 /// The chunk one level coarser that holds this one.

@@ -12,6 +12,7 @@ namespace sgm {
 struct LodViewer {
   std::array<double, 3> position{};
   double reach = 1;  ///< factor on all distances below: a viewer of more weight sees detail farther away; above 0
+  friend bool operator==(const LodViewer&, const LodViewer&) = default;
 };
 
 struct LodSettings {

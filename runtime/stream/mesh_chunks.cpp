@@ -28,6 +28,7 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, Chunk
   job.seams = request.seams;
   job.coarser = request.coarser;
   job.signs = request.signs;
+  job.body = request.body;
   const IntBox box = closedBox(*grid);
   Result<std::shared_ptr<const FieldProgram>> field = world.compile(box, request.key.level);
   if (!field) return field.error();

@@ -16,6 +16,7 @@ struct ChunkRequest {
   Neighbourhood coarser = 0;  ///< of the blocks around; decides the fans in seam keys (mesh/fans.h)
   bool signs = false;         ///< also give the signs of the samples (ChunkMesh::signs)
   bool anchors = false;       ///< also give the anchors in the chunk
+  bool body = true;           ///< false: seams alone, of a chunk whose body is there already
   bool outermost = false;     ///< seams lead to virtual neighbours, whose field is the domain's own state (octree.h)
 };
 

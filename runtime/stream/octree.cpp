@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/hash.h"
 #include "mesh/chunk.h"
 
 namespace sgm {
@@ -26,12 +25,6 @@ void appendLeaves(const Octree& tree, const ChunkKey& node, std::vector<ChunkKey
 
 }  // namespace
 
-size_t Octree::Hash::operator()(const ChunkKey& key) const {
-  const auto bits = [](int v) { return uint64_t{static_cast<uint32_t>(v)}; };
-  return static_cast<size_t>(
-      hashCombine(bits(key.at.x) | bits(key.at.y) << 32, bits(key.at.z) | bits(key.level) << 32));
-}
-
 Octree::Octree(int top, int32_t finest_cell) : top_(top) {
   const int64_t edge = int64_t{kChunkCells} * finest_cell << (top + 1);
   // The world's first unit is a multiple of every power of two, but of no other edge; division rounds towards 0.
@@ -51,17 +44,17 @@ bool Octree::canSplit(const ChunkKey& node) const {
 
 bool Octree::split(ChunkKey node) {
   if (!canSplit(node)) return false;
-  while (split_.insert(node).second && node.level <= top_) node = parentOf(node);
+  while (split_.insert(node) && node.level <= top_) node = parentOf(node);
   return true;
 }
 
 void Octree::merge(const ChunkKey& node) {
-  if (split_.erase(node) == 0 || node.level == 1) return;
+  if (!split_.erase(node) || node.level == 1) return;
   for (int i = 0; i < 8; ++i) merge(childOf(node, i));
 }
 
 std::vector<ChunkKey> Octree::splitNodes() const {
-  std::vector<ChunkKey> nodes(split_.begin(), split_.end());
+  std::vector<ChunkKey> nodes = split_.unordered();
   std::sort(nodes.begin(), nodes.end(),
             [](const ChunkKey& a, const ChunkKey& b) { return a.level != b.level ? a.level > b.level : a.at < b.at; });
   return nodes;

@@ -9,11 +9,10 @@
 // The rules (mesh/seam.h): chunks that share a face differ by one level at most, and around an edge of the grid of a
 // level split and unsplit nodes never stand crosswise.
 
-#include <unordered_set>
 #include <vector>
 
 #include "mesh/fans.h"
-#include "stream/chunk_key.h"
+#include "stream/chunk_set.h"
 
 namespace sgm {
 
@@ -45,12 +44,9 @@ class Octree {
   friend bool operator==(const Octree& a, const Octree& b) { return a.top_ == b.top_ && a.split_ == b.split_; }
 
  private:
-  struct Hash {
-    size_t operator()(const ChunkKey& key) const;
-  };
   int top_;
   int32_t first_virtual_ = 0, last_virtual_ = -1;  ///< places, on every axis, of virtual nodes inside the world
-  std::unordered_set<ChunkKey, Hash> split_;       ///< never iterated without sorting
+  ChunkSet split_;
 };
 
 /// What breaks a rule next to a split node: `needed` would have to be split too. Around an edge, `or_else` would do as

@@ -123,25 +123,33 @@ void meshSeam(const FieldKernels& kernels, const ChunkJob& job, Face face, Chunk
   hashPart(seam);
 }
 
+uint32_t countSolid(const ChunkSamples& samples) {
+  constexpr uint64_t lower = (uint64_t{1} << kChunkCells) - 1;
+  uint32_t solid = 0;
+  for (int z = 0; z < kChunkCells; ++z) {
+    for (int y = 0; y < kChunkCells; ++y) {
+      solid += static_cast<uint32_t>(std::popcount(samples.signs[static_cast<size_t>(y + z * kChunkSamples)] & lower));
+    }
+  }
+  return solid;
+}
+
+/// All of a chunk but its seams.
+void fillOwn(const FieldKernels& kernels, const ChunkJob& job, bool uniform, ChunkScratch& s, ChunkMesh& mesh) {
+  mesh.uniform = uniform;
+  mesh.solid_samples = countSolid(s.samples);
+  if (uniform) return;
+  if (job.signs) mesh.signs = s.samples.signs;
+  polygonizeBody(s.samples, job.grid, mesh.body);
+  fillBody(kernels, job.grid, s, mesh.body);
+  hashPart(mesh.body);
+}
+
 }  // namespace
 
 void meshChunk(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& s, ChunkMesh& mesh) {
-  mesh.uniform = !sampleChunk(kernels, job.field->view(), job.grid, s);
-  uint32_t solid = 0;
-  constexpr uint64_t lower = (uint64_t{1} << kChunkCells) - 1;
-  for (int z = 0; z < kChunkCells; ++z) {
-    for (int y = 0; y < kChunkCells; ++y) {
-      solid +=
-          static_cast<uint32_t>(std::popcount(s.samples.signs[static_cast<size_t>(y + z * kChunkSamples)] & lower));
-    }
-  }
-  mesh.solid_samples = solid;
-  if (!mesh.uniform) {
-    if (job.signs) mesh.signs = s.samples.signs;
-    polygonizeBody(s.samples, job.grid, mesh.body);
-    fillBody(kernels, job.grid, s, mesh.body);
-    hashPart(mesh.body);
-  }
+  const bool uniform = !sampleChunk(kernels, job.field->view(), job.grid, s, job.body ? uint8_t{0} : job.seams);
+  if (job.body) fillOwn(kernels, job, uniform, s, mesh);
   if (job.seams == 0) return;
   mesh.seams.reserve(6);
   for (int f = 0; f < 6; ++f) {

@@ -45,7 +45,9 @@ struct ChunkScratch {
 /// Pure but for scratch. Throws std::bad_alloc only.
 void meshChunk(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& scratch, ChunkMesh& mesh);
 
-/// The samples of a chunk alone; false where the chunk is proven uniform (only the signs are filled).
-bool sampleChunk(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, ChunkScratch& scratch);
+/// The samples of a chunk alone; false where the chunk is proven uniform (only the signs are filled). Where `faces`
+/// names some, bit (1 << Face), only the samples in those faces are sure to be there.
+bool sampleChunk(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, ChunkScratch& scratch,
+                 uint8_t faces = 0);
 
 }  // namespace sgm

@@ -68,9 +68,19 @@ void sampleBrick(const FieldKernels& kernels, const ProgramView& field, const Ch
   }
 }
 
+/// Whether samples of the box lie in one of the faces.
+bool touches(const SampleBox& b, uint8_t faces) {
+  for (int f = 0; f < 6; ++f) {
+    const auto axis = static_cast<size_t>(f >> 1);
+    if ((faces >> f & 1) && (f & 1 ? b.last[axis] == kChunkCells : b.first[axis] == 0)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-bool sampleChunk(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, ChunkScratch& scratch) {
+bool sampleChunk(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, ChunkScratch& scratch,
+                 uint8_t faces) {
   ChunkSamples& samples = scratch.samples;
   std::fill(samples.signs.begin(), samples.signs.end(), 0);
   const SampleBox all{{0, 0, 0}, {kChunkCells, kChunkCells, kChunkCells}};
@@ -86,6 +96,7 @@ bool sampleChunk(const FieldKernels& kernels, const ProgramView& field, const Ch
       half.first[a] = high ? kChunkCells / 2 : 0;
       half.last[a] = high ? kChunkCells : kChunkCells / 2 - 1;
     }
+    if (faces != 0 && !touches(half, faces)) continue;
     prune(scratch.whole.view(), boxOf(grid, half, 1), scratch.pruning, scratch.octant);
     if (scratch.octant.solid()) fillSigns(samples, half);
     if (scratch.octant.solid() || scratch.octant.empty()) continue;
@@ -99,6 +110,7 @@ bool sampleChunk(const FieldKernels& kernels, const ProgramView& field, const Ch
         index += at * stride;
         stride *= kBricks;
       }
+      if (faces != 0 && !touches(brick, faces)) continue;
       PrunedProgram& program = scratch.bricks[static_cast<size_t>(index)];
       prune(scratch.octant.view(), boxOf(grid, brick, 1), scratch.pruning, program);
       if (program.solid()) fillSigns(samples, brick);

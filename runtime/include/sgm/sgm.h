@@ -689,6 +689,155 @@ SGM_API sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_
  * of its positions, normals and triangles, worked out at each call. 0 for NULL. */
 SGM_API uint64_t sgm_surface_hash(const sgm_surface* surface);
 
+/* ---------------------------------------------------------------------------------------------- worlds: streaming */
+
+/* A field, streamed: chunks of every level of detail around moving viewers, meshed on the job system and handed over
+ * frame by frame. What is drawn is one closed surface at all times: where detail meets coarser detail a seam joins
+ * them, the outer faces are closed against the domain's own state (solid or void), and what is drawn stays until
+ * everything that replaces it is there.
+ *
+ * A frame of the engine
+ *   sgm_world_set_viewers     where the cameras are
+ *   sgm_world_update          takes over what is finished, has more work begun; never waits
+ *   sgm_world_poll            what has changed, until it is empty; then draw */
+typedef struct sgm_world sgm_world;
+
+typedef struct sgm_world_desc {
+  uint32_t struct_size;
+  const void* next;
+  int32_t top_level; /* coarsest level, 0 to SGM_MAX_LEVEL. Its chunks surround what is drawn, so a chunk of it should
+                        not be much larger than view_distance */
+  uint32_t reserved; /* 0 */
+  double finest_distance; /* metres from a viewer within which level 0 is drawn; each coarser level reaches twice as
+                             far. With a screen of h pixels and a vertical field of view v a cell then looks no larger
+                             than 2 * cell * h / (2 tan(v / 2)) / finest_distance pixels */
+  double view_distance;   /* metres within which something is drawn, above 0 */
+  uint64_t mesh_bytes;    /* the most bytes of meshes at one time, those that the engine holds and those in work
+                             included: a hard cap. Where it does not suffice detail is drawn nearer. 0: 256 MiB */
+} sgm_world_desc;
+
+#define SGM_WORLD_DESC_INIT \
+  { SGM_SIZEOF(sgm_world_desc), SGM_NULL, 8, 0, 24.0, 1000.0, 0 }
+
+/* SGM_ERR_LIMIT: mesh_bytes is too small to stream with; the message says how much is needed. SGM_ERR_RANGE: the cells
+ * of top_level are larger than 2^22 units. SGM_ERR_INVALID_ARGUMENT: top_level, or a distance that is not finite and
+ * above 0. */
+SGM_API sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_world** out, sgm_error* error);
+
+/* Waits for the chunks that are being meshed at this moment, and for no others. Meshes that the engine holds stay good
+ * until it releases them. */
+SGM_API void sgm_world_destroy(sgm_world* world);
+
+/* A camera, or anything else that the world is there for. */
+typedef struct sgm_viewer {
+  double position[3]; /* metres, inside the world */
+  float direction[3]; /* where it looks, of any length: that comes first. All 0: everywhere */
+  float velocity[3];  /* metres a second, at most 10,000: where it will be in half a second is streamed too */
+  float fov;          /* vertical field of view in radians, to 3: a narrower one sees detail from farther away. 0: 70
+                         degrees, which the world's distances hold for */
+  float weight;       /* 0.01 to 100: factor on the world's distances for this viewer */
+} sgm_viewer;
+
+#define SGM_VIEWER_INIT \
+  { {0.0, 0.0, 0.0}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 1.0f }
+
+/* Replaces all viewers. With none (count 0) what is drawn stays and nothing is meshed. SGM_ERR_INVALID_ARGUMENT: a
+ * value that is not finite, or out of its range; SGM_ERR_RANGE: a viewer outside the world, or too fast. On failure the
+ * viewers are as before. Never waits. */
+SGM_API sgm_result sgm_world_set_viewers(sgm_world* world, const sgm_viewer* viewers, size_t viewer_stride,
+                                         size_t count, sgm_error* error);
+
+/* Takes over what is finished and has more work begun, on the job system. Waits for no job and no device (where the job
+ * system refuses a job that job runs here, at once). At most max_bytes of vertices and indices are handed over; a frame
+ * with more comes over several updates, and what is drawn changes with the last of them. SGM_INCOMPLETE, and nothing
+ * happens: events of the update before have not all been polled. SGM_ERR_INVALID_ARGUMENT: max_bytes is 0. */
+SGM_API sgm_result sgm_world_update(sgm_world* world, uint64_t max_bytes, sgm_error* error);
+
+typedef enum sgm_event_kind {
+  SGM_EVENT_READY = 0,    /* take over `mesh`: it belongs to the engine now, which releases it. Not drawn yet */
+  SGM_EVENT_SHOWN = 1,    /* draw the chunk: the body of its mesh, and those of its seams that `seams` names */
+  SGM_EVENT_REPLACED = 2, /* draw the mesh that was READY last instead of the one before. Where its body's hash is equal
+                             only seams were added: the body's bytes are the same, at the same place */
+  SGM_EVENT_SEAMS = 3,    /* draw other seams of the same mesh; or nothing has changed but `coarser` */
+  SGM_EVENT_REMOVED = 4,  /* draw it no more; release its meshes. Also for a mesh that was READY and never shown */
+  SGM_EVENT_FAILED = 5,   /* the chunk cannot be made; `result` says why and the log tells more. What is coarser stays
+                             in its place */
+  SGM_EVENT_KIND_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_event_kind;
+
+/* One change. Chunks without triangles are never told of. */
+typedef struct sgm_world_event {
+  sgm_event_kind kind;
+  sgm_result result; /* of FAILED; else SGM_OK */
+  sgm_chunk_key key;
+  sgm_mesh* mesh;   /* of READY; else NULL */
+  uint32_t seams;   /* of SHOWN, REPLACED and SEAMS: mask of sgm_face */
+  uint32_t coarser; /* likewise: the blocks around that belong to coarser chunks, as sgm_chunk_request.coarser; 0 where
+                       no seam is drawn */
+  uint64_t frame;   /* number of the frame that it belongs to; 0 for READY and FAILED */
+} sgm_world_event;
+
+/* The next events, in order. *count takes the array's room and returns how many were written; 0 when none is left. All
+ * changes of a frame come between two updates: draw only when all are polled. */
+SGM_API sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t event_stride, size_t* count,
+                                  sgm_error* error);
+
+/* A chunk that is drawn. */
+typedef struct sgm_drawn_chunk {
+  sgm_chunk_key key;
+  sgm_mesh* mesh; /* one more owner: release it */
+  uint32_t seams, coarser;
+} sgm_drawn_chunk;
+
+/* Everything that is drawn, by key: for who comes later than its events. *count takes the array's room and returns how
+ * many there are. chunks may be NULL: then only that is asked. SGM_INCOMPLETE: they did not all fit; nothing was
+ * written. */
+SGM_API sgm_result sgm_world_get_drawn(sgm_world* world, sgm_drawn_chunk* chunks, size_t chunk_stride, size_t* count,
+                                       sgm_error* error);
+
+/* Blocks until everything that the viewers want is drawn: for loading screens, tools and tests. Works along. Updates
+ * without a limit of bytes meanwhile, so that events gather, to be polled after. progress (or NULL) is told now and
+ * then how many chunks are meshed of those known to be wanted; what it returns other than 0 ends the wait with
+ * SGM_ERR_CANCELLED. SGM_ERR_LIMIT: memory does not suffice. */
+SGM_API sgm_result sgm_world_wait_idle(sgm_world* world, sgm_progress_function progress, void* progress_user,
+                                       sgm_error* error);
+
+/* Drops everything that waits to be meshed; what is being meshed is dropped when it comes back. What is drawn stays.
+ * The next update begins anew for the viewers there are: take them away first to stop. */
+SGM_API void sgm_world_cancel(sgm_world* world);
+
+/* The hash of the set of chunk bodies of a level in a region, grown outward to whole chunks: as sgm_surface_hash of the
+ * same region, equal on every machine and whatever was streamed before. Reads what is drawn and meshes the rest;
+ * blocks. Errors: as sgm_surface_from_region. */
+SGM_API sgm_result sgm_world_hash(sgm_world* world, const int32_t minimum[3], const int32_t maximum[3], int32_t level,
+                                  uint64_t* hash, sgm_error* error);
+
+/* Figures of a world, filled by sgm_world_get_stats. Counts are since creation unless they say "now". */
+typedef struct sgm_world_stats {
+  uint32_t struct_size;
+  void* next;
+  uint64_t frame;          /* number of the frame that is drawn now */
+  uint64_t plans;          /* times that the work was planned */
+  uint64_t chunks_meshed;  /* bodies */
+  uint64_t seam_jobs;      /* chunks that were given further seams afterwards */
+  uint64_t chunks_in_vain; /* meshed, never drawn and not wanted any more */
+  uint64_t chunks_failed;
+  uint64_t queued;     /* chunks that wait to be meshed, now */
+  uint64_t in_work;    /* chunks being meshed now */
+  uint64_t drawn;      /* chunks drawn now that have triangles */
+  uint64_t kept;       /* chunks known now, drawn or not, empty or not */
+  uint64_t mesh_bytes; /* of all meshes now, the engine's included */
+  uint64_t peak_mesh_bytes;
+  double detail;     /* factor on the distances of detail: below 1 where memory is scarce */
+  int32_t idle;      /* 1: what the viewers want is drawn */
+  uint32_t reserved; /* 0 */
+} sgm_world_stats;
+
+#define SGM_WORLD_STATS_INIT \
+  { SGM_SIZEOF(sgm_world_stats), SGM_NULL, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0 }
+
+SGM_API sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, sgm_error* error);
+
 #ifdef __cplusplus
 }
 #endif

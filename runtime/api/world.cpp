@@ -1,0 +1,243 @@
+#include <cstring>
+
+#include "api/barrier.h"
+#include "api/field.h"
+#include "api/mesh.h"
+#include "mesh/hash.h"
+#include "stream/world.h"
+
+using namespace sgm::api;
+
+struct sgm_world {
+  sgm_world(sgm_runtime& runtime_in, sgm_field& field_in, std::unique_ptr<sgm::World> world_in)
+      : runtime(runtime_in), field(field_in), world(std::move(world_in)) {
+    acquireField(&field);
+  }
+  ~sgm_world() {
+    world.reset();
+    sgm_field_destroy(&field);
+  }
+
+  sgm_runtime& runtime;
+  sgm_field& field;
+  std::unique_ptr<sgm::World> world;
+};
+
+namespace {
+
+constexpr uint64_t kDefaultMeshBytes = uint64_t{256} << 20;
+
+sgm_chunk_key keyOf(const sgm::ChunkKey& key) { return {key.level, key.at.x, key.at.y, key.at.z}; }
+
+/// Fails, and tells the log: a game that overlooks a result of a frame finds it there.
+sgm_result failLogged(const sgm_world& world, sgm_error* error, const sgm::Error& e) {
+  world.runtime.log(SGM_LOG_WARNING, e.message);
+  return fail(error, e);
+}
+
+sgm::Viewer viewerOf(const sgm_viewer& viewer) {
+  sgm::Viewer v;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    v.position[axis] = viewer.position[axis] * sgm::kUnitsPerMetre;
+    v.direction[axis] = static_cast<double>(viewer.direction[axis]);
+    v.velocity[axis] = static_cast<double>(viewer.velocity[axis]) * sgm::kUnitsPerMetre;
+  }
+  v.fov = static_cast<double>(viewer.fov);
+  v.weight = static_cast<double>(viewer.weight);
+  return v;
+}
+
+sgm_event_kind kindOf(sgm::WorldEvent::Kind kind) {
+  using Kind = sgm::WorldEvent::Kind;
+  switch (kind) {
+    case Kind::ready:
+      return SGM_EVENT_READY;
+    case Kind::shown:
+      return SGM_EVENT_SHOWN;
+    case Kind::replaced:
+      return SGM_EVENT_REPLACED;
+    case Kind::seams:
+      return SGM_EVENT_SEAMS;
+    case Kind::removed:
+      return SGM_EVENT_REMOVED;
+    case Kind::failed:
+      return SGM_EVENT_FAILED;
+  }
+  return SGM_EVENT_FAILED;
+}
+
+}  // namespace
+
+sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_world** out, sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (out == nullptr) return nullArgument(error, "out");
+    *out = nullptr;
+    if (field == nullptr) return nullArgument(error, "field");
+    if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
+    if (sgm_result r = checkLevel(*field, desc->top_level, error); r != SGM_OK) return r;
+    sgm::WorldSettings settings;
+    settings.lod.top = desc->top_level;
+    settings.lod.finest_cell = field->world.settings().finest_cell;
+    settings.lod.finest_distance = desc->finest_distance * sgm::kUnitsPerMetre;
+    settings.lod.view_distance = desc->view_distance * sgm::kUnitsPerMetre;
+    settings.mesh_bytes = desc->mesh_bytes != 0 ? desc->mesh_bytes : kDefaultMeshBytes;
+    sgm_runtime& runtime = field->runtime;
+    sgm::Result<std::unique_ptr<sgm::World>> world =
+        sgm::World::create(field->world, *field->backend, *runtime.jobs, settings, &runtime.memory);
+    if (!world) return fail(error, world.error());
+    *out = makeHandle<sgm_world>(runtime, *field, std::move(*world));
+    return SGM_OK;
+  });
+}
+
+void sgm_world_destroy(sgm_world* world) { endHandle(world); }
+
+sgm_result sgm_world_set_viewers(sgm_world* world, const sgm_viewer* viewers, size_t viewer_stride, size_t count,
+                                 sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (world == nullptr) return nullArgument(error, "world");
+    if (viewers == nullptr && count != 0) return nullArgument(error, "viewers");
+    if (sgm_result r = checkStride<sgm_viewer>(error, viewer_stride, "viewer_stride"); r != SGM_OK) return r;
+    std::vector<sgm::Viewer> all;
+    all.reserve(count);
+    for (size_t i = 0; i < count; ++i) {
+      sgm_viewer viewer;
+      std::memcpy(&viewer, reinterpret_cast<const char*>(viewers) + i * viewer_stride, sizeof viewer);
+      all.push_back(viewerOf(viewer));
+    }
+    const sgm::Result<void> set = world->world->setViewers(all);
+    return set ? SGM_OK : failLogged(*world, error, set.error());
+  });
+}
+
+sgm_result sgm_world_update(sgm_world* world, uint64_t max_bytes, sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (world == nullptr) return nullArgument(error, "world");
+    if (max_bytes == 0) {
+      return failLogged(*world, error,
+                        {sgm::Code::invalid_argument, "max_bytes is 0: nothing could ever be handed over"});
+    }
+    return world->world->update(max_bytes) ? SGM_OK : SGM_INCOMPLETE;
+  });
+}
+
+sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t event_stride, size_t* count,
+                          sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (count == nullptr) return nullArgument(error, "count");
+    const size_t room = *count;
+    *count = 0;
+    if (world == nullptr) return nullArgument(error, "world");
+    if (events == nullptr) return nullArgument(error, "events");
+    if (sgm_result r = checkStride<sgm_world_event>(error, event_stride, "event_stride"); r != SGM_OK) return r;
+    char* at = reinterpret_cast<char*>(events);
+    world->world->poll([&](const sgm::WorldEvent& event) {
+      if (*count == room) return false;
+      sgm_world_event out{};
+      out.kind = kindOf(event.kind);
+      out.key = keyOf(event.key);
+      out.seams = event.seams;
+      out.coarser = event.coarser;
+      out.frame = event.frame;
+      if (event.error) {
+        out.result = resultOf(event.error->code);
+        world->runtime.log(SGM_LOG_ERROR, event.error->message);
+      }
+      if (event.surface != nullptr) out.mesh = makeHandle<sgm_mesh>(world->runtime, event.surface);
+      std::memcpy(at, &out, sizeof out);
+      at += event_stride;
+      ++*count;
+      return true;
+    });
+    return SGM_OK;
+  });
+}
+
+sgm_result sgm_world_get_drawn(sgm_world* world, sgm_drawn_chunk* chunks, size_t chunk_stride, size_t* count,
+                               sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (world == nullptr) return nullArgument(error, "world");
+    if (count == nullptr) return nullArgument(error, "count");
+    if (sgm_result r = checkStride<sgm_drawn_chunk>(error, chunk_stride, "chunk_stride"); r != SGM_OK) return r;
+    const std::shared_ptr<const sgm::DrawnFrame> frame = world->world->drawn();
+    const size_t room = *count;
+    *count = frame->drawn.size();
+    if (chunks == nullptr) return SGM_OK;
+    if (room < frame->drawn.size()) return SGM_INCOMPLETE;
+    std::vector<sgm_mesh*> made;
+    try {
+      made.reserve(frame->drawn.size());
+      for (const sgm::DrawnChunk& chunk : frame->drawn) {
+        made.push_back(makeHandle<sgm_mesh>(world->runtime, chunk.surface));
+      }
+    } catch (...) {
+      for (sgm_mesh* mesh : made) sgm_mesh_release(mesh);
+      throw;
+    }
+    char* at = reinterpret_cast<char*>(chunks);
+    for (size_t i = 0; i < made.size(); ++i, at += chunk_stride) {
+      const sgm::DrawnChunk& chunk = frame->drawn[i];
+      const sgm_drawn_chunk out{keyOf(chunk.key), made[i], chunk.seams, chunk.coarser};
+      std::memcpy(at, &out, sizeof out);
+    }
+    return SGM_OK;
+  });
+}
+
+sgm_result sgm_world_wait_idle(sgm_world* world, sgm_progress_function progress, void* progress_user,
+                               sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (world == nullptr) return nullArgument(error, "world");
+    const sgm::Result<void> waited = world->world->waitIdle([&] {
+      if (progress == nullptr) return true;
+      const sgm::WorldStats stats = world->world->stats();
+      const uint64_t done = stats.planner.meshed;
+      return progress(progress_user, done, done + stats.queued + stats.in_work) == 0;
+    });
+    return waited ? SGM_OK : fail(error, waited.error());
+  });
+}
+
+void sgm_world_cancel(sgm_world* world) {
+  if (world != nullptr) world->world->cancel();
+}
+
+sgm_result sgm_world_hash(sgm_world* world, const int32_t minimum[3], const int32_t maximum[3], int32_t level,
+                          uint64_t* hash, sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (world == nullptr) return nullArgument(error, "world");
+    if (minimum == nullptr) return nullArgument(error, "minimum");
+    if (maximum == nullptr) return nullArgument(error, "maximum");
+    if (hash == nullptr) return nullArgument(error, "hash");
+    if (sgm_result r = checkLevel(world->field, level, error); r != SGM_OK) return r;
+    const sgm::IntBox region{{minimum[0], minimum[1], minimum[2]}, {maximum[0], maximum[1], maximum[2]}};
+    const sgm::Result<sgm::ContentHash> sum = world->world->hashBodies(region, level);
+    if (!sum) return fail(error, sum.error());
+    *hash = sum->value();
+    return SGM_OK;
+  });
+}
+
+sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (world == nullptr) return nullArgument(error, "world");
+    if (sgm_result r = checkDesc(error, stats, "stats"); r != SGM_OK) return r;
+    const sgm::WorldStats now = world->world->stats();
+    stats->frame = now.frame;
+    stats->plans = now.plans;
+    stats->chunks_meshed = now.planner.meshed;
+    stats->seam_jobs = now.planner.seam_jobs;
+    stats->chunks_in_vain = now.planner.never_drawn;
+    stats->chunks_failed = now.planner.failed;
+    stats->queued = now.queued;
+    stats->in_work = now.in_work;
+    stats->drawn = now.planner.drawn;
+    stats->kept = now.planner.records;
+    stats->mesh_bytes = now.surface_bytes;
+    stats->peak_mesh_bytes = now.peak_surface_bytes;
+    stats->detail = now.planner.detail;
+    stats->idle = now.idle ? 1 : 0;
+    stats->reserved = 0;
+    return SGM_OK;
+  });
+}

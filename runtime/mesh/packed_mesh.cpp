@@ -1,0 +1,96 @@
+#include "mesh/packed_mesh.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "mesh/hash.h"
+
+namespace sgm {
+
+namespace {
+
+/// A range's content, wherever it lies: its indices count from `first`.
+struct RangeSource {
+  std::span<const Vertex> vertices;
+  std::span<const uint32_t> indices;
+  uint32_t first = 0;
+  ContentHash hash;
+};
+
+RangeSource sourceOf(const MeshPart* part, const PackedMesh* before, size_t i) {
+  if (part != nullptr) return {part->vertices, part->indices, 0, part->hash};
+  if (before == nullptr) return {};
+  const PackedRange& r = before->ranges[i];
+  return {std::span(before->vertices).subspan(r.first_vertex, r.vertex_count),
+          std::span(before->indices).subspan(r.first_index, r.index_count), r.first_vertex, r.hash};
+}
+
+}  // namespace
+
+PackedMesh packMesh(const MeshParts& parts, const PackedMesh* before, std::pmr::memory_resource* memory) {
+  PackedMesh mesh(memory);
+  std::array<RangeSource, 7> sources;
+  size_t vertex_count = 0, index_count = 0;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    sources[i] = sourceOf(parts[i], before, i);
+    mesh.ranges[i] = {static_cast<uint32_t>(vertex_count), static_cast<uint32_t>(sources[i].vertices.size()),
+                      static_cast<uint32_t>(index_count), static_cast<uint32_t>(sources[i].indices.size()),
+                      sources[i].hash};
+    vertex_count += sources[i].vertices.size();
+    index_count += sources[i].indices.size();
+  }
+  mesh.vertices.reserve(vertex_count);
+  mesh.indices.reserve(index_count);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const RangeSource& source = sources[i];
+    mesh.vertices.insert(mesh.vertices.end(), source.vertices.begin(), source.vertices.end());
+    const uint32_t by = mesh.ranges[i].first_vertex - source.first;
+    std::transform(source.indices.begin(), source.indices.end(), std::back_inserter(mesh.indices),
+                   [by](uint32_t index) { return index + by; });
+  }
+  return mesh;
+}
+
+IntBox boundsOf(const ChunkGrid& grid, std::span<const Vertex> vertices) {
+  if (vertices.empty()) return {{0, 0, 0}, {0, 0, 0}};
+  std::array<uint32_t, 3> lo, hi{};
+  lo.fill(std::numeric_limits<uint32_t>::max());
+  for (const Vertex& v : vertices) {
+    const std::array<uint32_t, 3> p{v.x, v.y, v.z};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      lo[axis] = std::min(lo[axis], p[axis]);
+      hi[axis] = std::max(hi[axis], p[axis]);
+    }
+  }
+  IntBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<size_t>(axis);
+    const int64_t cell = grid.cell;
+    box.lo[axis] = saturate(grid.origin[axis] + lo[i] * cell / kSubcell);
+    box.hi[axis] = saturate(grid.origin[axis] + (hi[i] * cell + kSubcell - 1) / kSubcell);
+  }
+  return box;
+}
+
+std::pmr::vector<uint16_t> tagsOf(std::span<const Vertex> vertices, std::pmr::memory_resource* memory) {
+  std::pmr::vector<uint16_t> tags(memory);
+  for (const Vertex& v : vertices) {
+    if (v.tag != 0 && (tags.empty() || tags.back() != v.tag)) tags.push_back(v.tag);
+  }
+  std::sort(tags.begin(), tags.end());
+  tags.erase(std::unique(tags.begin(), tags.end()), tags.end());
+  return tags;
+}
+
+ContentHash hashOf(const PackedMesh& mesh, const ChunkGrid& grid) {
+  ContentHash sum;
+  for (size_t i = 0; i < mesh.ranges.size(); ++i) {
+    if (mesh.ranges[i].index_count == 0) continue;
+    const ContentHash placed = hashPlaced(mesh.ranges[i].hash, grid, static_cast<int>(i));
+    sum.a += placed.a;
+    sum.b += placed.b;
+  }
+  return sum;
+}
+
+}  // namespace sgm

@@ -1,0 +1,53 @@
+#pragma once
+// The chunks that a world has meshed, or is about to. One thread at a time: the planner's.
+
+#include <memory>
+#include <optional>
+#include <unordered_map>
+
+#include "stream/chunk_surface.h"
+
+namespace sgm {
+
+struct ChunkRecord {
+  std::shared_ptr<const ChunkSurface> surface;  ///< null where nothing is there yet, or it has no triangles
+  bool body = false;                            ///< meshed, triangles or not
+  uint8_t seams = 0;                            ///< that are made, triangles or not
+  bool in_work = false;                         ///< a request for it has been handed out and not come back
+  bool failed = false;                          ///< its last request; it is not asked for again
+  bool ever_drawn = false;
+  uint64_t wanted = 0;  ///< the last plan that had a use for it
+
+  size_t bytes() const { return surface != nullptr ? surface->bytes() : 0; }
+};
+
+class ChunkStore {
+ public:
+  /// Null where there is none.
+  const ChunkRecord* find(const ChunkKey& key) const {
+    const auto at = records_.find(key);
+    return at == records_.end() ? nullptr : &at->second;
+  }
+  ChunkRecord& at(const ChunkKey& key) { return records_[key]; }
+  size_t size() const { return records_.size(); }
+
+  /// Frees surfaces of records that no plan since `since` had a use for, those unused longest first, until `bytes` are
+  /// freed or none is left. Returns what it took away.
+  struct Freed {
+    size_t bytes = 0;
+    uint64_t never_drawn = 0;  ///< chunks with a body that were meshed in vain
+  };
+  Freed freeUnused(uint64_t since, size_t bytes);
+  /// Forgets everything that no request is out for.
+  void clear();
+
+  template <class Visit>
+  void forEach(const Visit& visit) const {
+    for (const auto& [key, record] : records_) visit(key, record);
+  }
+
+ private:
+  std::unordered_map<ChunkKey, ChunkRecord, ChunkKeyHash> records_;  ///< order is never seen outside
+};
+
+}  // namespace sgm

@@ -1,0 +1,35 @@
+#pragma once
+// A finished chunk: what is drawn of it, and what an engine asks of it. Immutable, shared between the world, its frames
+// and the engine.
+
+#include <memory>
+#include <vector>
+
+#include "mesh/packed_mesh.h"
+#include "stream/mesh_chunks.h"
+
+namespace sgm {
+
+struct ChunkSurface {
+  ChunkKey key;
+  ChunkGrid grid;
+  PackedMesh mesh;
+  uint8_t seams = 0;                    ///< those that were made, with or without triangles, bit (1 << Face)
+  IntBox bounds{{0, 0, 0}, {0, 0, 0}};  ///< of every vertex, units; all 0 where there is none
+  std::pmr::vector<uint16_t> tags;      ///< that vertices carry, rising, 0 left out
+  std::vector<Anchor> anchors;          ///< where asked for
+  ContentHash hash;                     ///< of body and seams, and where they lie
+
+  explicit ChunkSurface(std::pmr::memory_resource* memory) : mesh(memory), tags(memory) {}
+
+  size_t bytes() const {
+    return sizeof *this + mesh.bytes() + tags.capacity() * sizeof(uint16_t) + anchors.capacity() * sizeof(Anchor);
+  }
+};
+
+/// What came of a request. Parts that it did not ask for are those of `before`, an earlier surface of the same chunk
+/// (or null). Throws std::bad_alloc.
+ChunkSurface surfaceOf(const ChunkRequest& request, PlacedChunk&& chunk, const ChunkSurface* before,
+                       std::pmr::memory_resource* memory);
+
+}  // namespace sgm

@@ -1,0 +1,228 @@
+#include "stream/planner.h"
+
+#include <algorithm>
+
+namespace sgm {
+
+namespace {
+
+/// The share of the memory's cap up to which surfaces are kept that nobody uses now.
+constexpr double kKeptShare = 0.6;
+/// Of what is used: above this share detail is lowered, below that one it comes back. Their ratio is more than what one
+/// step changes, so that detail does not swing.
+constexpr double kFullShare = 0.55, kFreeShare = 0.25;
+constexpr double kLessDetail = 0.8, kLeastDetail = 1.0 / 64;
+/// Plans after a change of detail before the next.
+constexpr uint64_t kPlansToSettle = 20;
+
+ChunkKey across(const ChunkKey& key, int face) {
+  ChunkKey neighbour = key;
+  neighbour.at[face >> 1] += face & 1 ? 1 : -1;
+  return neighbour;
+}
+
+/// Faces of a node whose neighbour is coarser than it in one of the trees.
+uint8_t facesToCoarser(const ChunkKey& node, const Octree& a, const Octree& b) {
+  uint8_t faces = 0;
+  for (int face = 0; face < 6; ++face) {
+    const ChunkKey above = parentOf(across(node, face));
+    if (!a.isSplit(above) || !b.isSplit(above)) faces = static_cast<uint8_t>(faces | 1 << face);
+  }
+  return faces;
+}
+
+}  // namespace
+
+Planner::Planner(const PlannerSettings& settings)
+    : settings_(settings),
+      target_(settings.lod.top, settings.lod.finest_cell),
+      applied_(std::make_shared<DrawnFrame>(Octree(settings.lod.top, settings.lod.finest_cell))) {}
+
+Plan Planner::plan(PlanInput&& input) {
+  ++plans_;
+  Plan plan;
+  for (const ChunkKey& key : input.begun) store_.at(key).in_work = true;
+  take(input.finished, plan);
+  refuse(input.refused, plan);
+  learnApplied(input.applied);
+  if (input.viewers.empty()) {
+    step_ = nullptr;
+    changed_ = true;
+    plan.idle = !tally();
+    return plan;
+  }
+  keepToBudget(input.live_bytes);
+  retarget(input.viewers);
+  if (changed_) {
+    changed_ = false;
+    step_ = nextStep();
+    if (step_ != nullptr) offered_.push_back(step_->to);
+  }
+  plan.step = step_;
+  fillQueue(plan.queue);
+  const bool in_work = tally();
+  plan.idle = !in_work && plan.queue.empty() && plan.step == nullptr;
+  return plan;
+}
+
+void Planner::learnApplied(uint64_t number) {
+  // A step may be taken while a better one is being planned in its place.
+  const auto taken =
+      std::find_if(offered_.begin(), offered_.end(), [number](const auto& frame) { return frame->number == number; });
+  if (taken == offered_.end()) return;
+  applied_ = std::move(*taken);
+  offered_.clear();
+  step_ = nullptr;
+  changed_ = true;
+}
+
+void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
+  for (FinishedChunk& chunk : finished) {
+    ChunkRecord& record = store_.at(chunk.request.key);
+    record.in_work = false;
+    if (chunk.error) {
+      // Scarce memory may come back; anything else would fail again.
+      if (chunk.error->code == Code::cancelled || chunk.error->code == Code::out_of_memory) continue;
+      record.failed = true;
+      ++stats_.failed;
+      plan.failed.push_back({chunk.request.key, std::move(*chunk.error)});
+      continue;
+    }
+    changed_ = true;
+    ++(chunk.request.body ? stats_.meshed : stats_.seam_jobs);
+    record.body = true;
+    record.seams = static_cast<uint8_t>(record.seams | chunk.request.seams);
+    record.surface = std::move(chunk.surface);
+  }
+}
+
+void Planner::refuse(const std::vector<ChunkKey>& refused, Plan& plan) {
+  for (const ChunkKey& key : refused) {
+    ChunkRecord& record = store_.at(key);
+    if (record.failed) continue;
+    const size_t bytes = record.bytes();
+    record = {};
+    record.failed = true;
+    ++stats_.failed;
+    changed_ = true;
+    plan.failed.push_back({key, Error{Code::limit, "a chunk's mesh has " + std::to_string(bytes) +
+                                                       " bytes, more than may be handed over in one frame"}});
+  }
+}
+
+void Planner::retarget(std::span<const Viewer> viewers) {
+  viewers_.assign(viewers.begin(), viewers.end());
+  LodSettings lod = settings_.lod;
+  lod.finest_distance *= stats_.detail;
+  std::vector<LodViewer> wanting = lodViewers(viewers, lod);
+  if (wanting == targeted_ && targeted_detail_ == stats_.detail) return;
+  target_ = lodTarget(wanting, lod);
+  targeted_ = std::move(wanting);
+  targeted_detail_ = stats_.detail;
+  changed_ = true;
+}
+
+std::shared_ptr<const FrameStep> Planner::nextStep() {
+  const Readiness ready{[this](const ChunkKey& key) {
+                          const ChunkRecord* record = store_.find(key);
+                          return record != nullptr && record->body;
+                        },
+                        [this](const ChunkKey& key) {
+                          const ChunkRecord* record = store_.find(key);
+                          return record != nullptr ? record->seams : uint8_t{0};
+                        }};
+  CommitPlan commit = planCommit(applied_->tree, target_, ready);
+  missing_ = std::move(commit.missing);
+  if (commit.tree == applied_->tree) return nullptr;
+  auto frame = std::make_shared<DrawnFrame>(drawFrame(commit.tree, [&](const ChunkKey& key, uint8_t seams) {
+    // What an engine has already it keeps, where it holds all that is drawn.
+    const std::shared_ptr<const ChunkSurface> drawn = applied_->find(key);
+    return drawn != nullptr && (seams & ~drawn->seams) == 0 ? drawn : store_.find(key)->surface;
+  }));
+  frame->number = ++frames_;
+  for (const ChunkKey& leaf : frame->tree.leaves()) store_.at(leaf).ever_drawn = true;
+  auto step = std::make_shared<FrameStep>();
+  step->from = applied_->number;
+  step->changes = changesBetween(*applied_, *frame);
+  step->to = std::move(frame);
+  return step;
+}
+
+void Planner::fillQueue(std::vector<WorkItem>& queue) {
+  for (const ChunkKey& leaf : applied_->tree.leaves()) store_.at(leaf).wanted = plans_;
+  if (step_ != nullptr) {
+    for (const ChunkKey& leaf : step_->to->tree.leaves()) store_.at(leaf).wanted = plans_;
+  }
+  for (const ChunkKey& node : target_.splitNodes()) {
+    if (node.level <= target_.top()) break;
+    want(node, queue);
+  }
+  for (const MissingSeams& missing : missing_) request(missing.chunk, missing.faces, queue);
+  std::sort(queue.begin(), queue.end(), [](const WorkItem& a, const WorkItem& b) {
+    return a.urgency != b.urgency ? a.urgency > b.urgency : a.request.key > b.request.key;
+  });
+}
+
+void Planner::want(const ChunkKey& node, std::vector<WorkItem>& queue) {
+  const bool split = target_.isSplit(node);
+  // What is drawn leads to the target in steps: a node that is to be split, and is not even drawn whole, stands in
+  // until all that is in it is there.
+  const Octree& drawn = applied_->tree;
+  if (node.level <= target_.top() && (!split || !(drawn.isSplit(node) || drawn.isLeaf(node)))) {
+    request(node, facesToCoarser(node, target_, split ? drawn : target_), queue);
+  }
+  for (int i = 0; split && i < 8; ++i) want(childOf(node, i), queue);
+}
+
+void Planner::request(const ChunkKey& key, uint8_t seams, std::vector<WorkItem>& queue) {
+  ChunkRecord& record = store_.at(key);
+  record.wanted = plans_;
+  const auto missing = static_cast<uint8_t>(seams & ~record.seams);
+  if (record.in_work || record.failed || (record.body && missing == 0)) return;
+  WorkItem item;
+  item.request.key = key;
+  item.request.seams = missing;
+  item.request.body = !record.body;
+  item.request.anchors = !record.body && key.level == 0;
+  item.request.outermost = key.level == target_.top();
+  item.before = record.surface;
+  item.urgency = urgency(key, viewers_, settings_.lod);
+  queue.push_back(std::move(item));
+}
+
+bool Planner::tally() {
+  bool in_work = false;
+  stats_.records = store_.size();
+  stats_.never_drawn = freed_in_vain_;
+  wanted_bytes_ = 0;
+  store_.forEach([&](const ChunkKey&, const ChunkRecord& record) {
+    in_work = in_work || record.in_work;
+    if (record.wanted == plans_) {
+      wanted_bytes_ += record.bytes();
+    } else if (record.body && !record.ever_drawn) {
+      ++stats_.never_drawn;
+    }
+  });
+  stats_.drawn = applied_->drawn.size();
+  return in_work;
+}
+
+void Planner::keepToBudget(size_t live_bytes) {
+  const auto cap = static_cast<double>(settings_.mesh_bytes);
+  const auto share = [cap](double part) { return static_cast<size_t>(part * cap); };
+  if (live_bytes > share(kKeptShare)) {
+    const ChunkStore::Freed freed = store_.freeUnused(plans_ - 1, live_bytes - share(kKeptShare));
+    freed_in_vain_ += freed.never_drawn;
+  }
+  // What is drawn and what is to replace it are there at one time: each gets half.
+  if (plans_ < detail_settled_) return;
+  if (wanted_bytes_ > share(kFullShare) && stats_.detail > kLeastDetail) {
+    stats_.detail *= kLessDetail;
+    detail_settled_ = plans_ + kPlansToSettle;
+  } else if (wanted_bytes_ < share(kFreeShare) && stats_.detail < 1) {
+    stats_.detail = std::min(1.0, stats_.detail / kLessDetail);
+    detail_settled_ = plans_ + kPlansToSettle;
+  }
+}
+
+}  // namespace sgm

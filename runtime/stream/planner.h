@@ -1,0 +1,113 @@
+#pragma once
+// What a world does next: which chunks to mesh, in which order, and which frame to draw of those that are there.
+//
+// One thread at a time. Everything comes in by plan() and goes out by its answer; whoever calls it runs the jobs and
+// hands frames to the engine (world.h).
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "stream/chunk_store.h"
+#include "stream/commit_plan.h"
+#include "stream/drawn_frame.h"
+#include "stream/viewer.h"
+
+namespace sgm {
+
+/// A request handed out, and come back.
+struct WorkItem {
+  ChunkRequest request;
+  std::shared_ptr<const ChunkSurface> before;  ///< where the request is for seams alone
+  double urgency = 0;                          ///< smaller first
+};
+
+struct FinishedChunk {
+  ChunkRequest request;
+  std::shared_ptr<const ChunkSurface> surface;  ///< null: no triangles, or an error
+  std::optional<Error> error;                   ///< cancelled: it was never begun, and may be asked for again
+};
+
+struct FailedChunk {
+  ChunkKey key;
+  Error error;
+};
+
+/// One atomic step of what is drawn.
+struct FrameStep {
+  uint64_t from = 0;  ///< number of the frame that it starts from
+  std::shared_ptr<const DrawnFrame> to;
+  std::vector<FrameChange> changes;
+};
+
+struct PlanInput {
+  std::vector<Viewer> viewers;
+  std::vector<FinishedChunk> finished;
+  std::vector<ChunkKey> begun;    ///< handed out since the last plan
+  std::vector<ChunkKey> refused;  ///< whose surfaces are too large to be handed to the engine
+  uint64_t applied = 0;           ///< number of the frame that the engine draws
+  size_t live_bytes = 0;          ///< of all surfaces, the engine's own included
+};
+
+struct Plan {
+  std::vector<WorkItem> queue;            ///< everything to be meshed that is not being meshed, the most urgent last
+  std::shared_ptr<const FrameStep> step;  ///< the next frame; null where what is drawn is the best there is
+  std::vector<FailedChunk> failed;        ///< since the last plan
+  bool idle = false;                      ///< nothing to mesh, nothing to draw: what the viewers want is there
+};
+
+struct PlannerSettings {
+  LodSettings lod;
+  size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces
+};
+
+struct PlannerStats {
+  uint64_t meshed = 0;       ///< chunks whose body came back
+  uint64_t seam_jobs = 0;    ///< requests for seams alone that came back
+  uint64_t never_drawn = 0;  ///< meshed chunks that are neither drawn, nor wanted, nor ever were drawn
+  uint64_t failed = 0;
+  size_t records = 0;  ///< chunks known
+  size_t drawn = 0;    ///< chunks drawn that have triangles
+  double detail = 1;   ///< factor on the distances at which detail is wanted: below 1 under pressure of memory
+};
+
+class Planner {
+ public:
+  explicit Planner(const PlannerSettings& settings);
+
+  Plan plan(PlanInput&& input);
+
+  const PlannerStats& stats() const { return stats_; }
+  const DrawnFrame& applied() const { return *applied_; }
+
+ private:
+  void learnApplied(uint64_t number);
+  void take(std::vector<FinishedChunk>& finished, Plan& plan);
+  void refuse(const std::vector<ChunkKey>& refused, Plan& plan);
+  void keepToBudget(size_t live_bytes);
+  void retarget(std::span<const Viewer> viewers);
+  std::shared_ptr<const FrameStep> nextStep();
+  void fillQueue(std::vector<WorkItem>& queue);
+  void want(const ChunkKey& node, std::vector<WorkItem>& queue);
+  void request(const ChunkKey& key, uint8_t seams, std::vector<WorkItem>& queue);
+  /// Whether anything is being meshed.
+  bool tally();
+
+  PlannerSettings settings_;
+  ChunkStore store_;
+  std::vector<Viewer> viewers_;
+  std::vector<LodViewer> targeted_;  ///< what target_ was made for
+  double targeted_detail_ = 0;
+  Octree target_;
+  std::shared_ptr<const DrawnFrame> applied_;
+  std::shared_ptr<const FrameStep> step_;                   ///< the last one offered, not known to be taken
+  std::vector<std::shared_ptr<const DrawnFrame>> offered_;  ///< what steps from applied_ lead to, any may be taken
+  std::vector<MissingSeams> missing_;
+  bool changed_ = true;  ///< since the last step was looked for
+  uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
+  uint64_t freed_in_vain_ = 0;
+  size_t wanted_bytes_ = 0;  ///< of what the last plan had a use for
+  PlannerStats stats_;
+};
+
+}  // namespace sgm

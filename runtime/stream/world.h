@@ -1,0 +1,118 @@
+#pragma once
+// A world that is streamed: meshed around its viewers on the job system, handed to an engine frame by frame.
+//
+//   engine's thread            jobs
+//   setViewers, update  --->   plan (planner.h): which chunks, which frame next
+//   poll events         <---   mesh (mesh_chunks.h): one request at a time a job, the most urgent first
+//
+// What both sides share lies in a mailbox behind one mutex that is held for the moving of pointers only. update() waits
+// for nothing else, so that an engine never waits for a job or a device.
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "backend/backend.h"
+#include "stream/planner.h"
+#include "stream/surface_pool.h"
+#include "stream/world_field.h"
+
+namespace sgm {
+
+struct WorldSettings {
+  LodSettings lod;
+  size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces, the engine's own and those in work included
+};
+
+/// What an engine is told, in order. Between two updates a whole frame's changes come, or none of them.
+struct WorldEvent {
+  enum class Kind {
+    ready,     ///< a surface to take over; it is not drawn yet
+    shown,     ///< draw it from now on
+    replaced,  ///< draw the surface that was ready last instead of the earlier one
+    seams,     ///< draw other seams of the same surface, or the same among other neighbours
+    removed,   ///< draw it no more, and forget it; also of one that was ready and never shown
+    failed,    ///< the chunk cannot be made: what is coarser stays in its place
+  };
+  Kind kind = Kind::ready;
+  ChunkKey key;
+  std::shared_ptr<const ChunkSurface> surface;  ///< of ready
+  uint8_t seams = 0;                            ///< to draw, bit (1 << Face)
+  Neighbourhood coarser = 0;                    ///< as DrawnChunk::coarser
+  uint64_t frame = 0;                           ///< that the change belongs to; 0 for ready and failed
+  std::optional<Error> error;                   ///< of failed
+};
+
+struct WorldStats {
+  PlannerStats planner;
+  size_t queued = 0, in_work = 0;  ///< requests
+  uint64_t frame = 0;              ///< number of the frame that is drawn
+  uint64_t plans = 0;
+  size_t surface_bytes = 0, peak_surface_bytes = 0;
+  bool idle = false;  ///< what the viewers want is drawn
+};
+
+/// Functions may be called from any thread, one of update, poll and waitIdle at a time.
+class World {
+ public:
+  /// Errors: invalid_argument, limit (mesh_bytes is too small to stream with; the message says how much is needed).
+  /// field, backend, jobs and memory must outlive the world; surfaces may outlive it, but not memory.
+  static Result<std::unique_ptr<World>> create(const WorldField& field, Backend& backend, JobSystem& jobs,
+                                               const WorldSettings& settings, std::pmr::memory_resource* memory);
+  /// Waits for jobs that have begun; those that the job system runs later find nothing to do.
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// Replaces all viewers; none: what is drawn stays, and nothing is meshed. Errors, and nothing changes: those of
+  /// checkViewer.
+  Result<void> setViewers(std::span<const Viewer> viewers);
+
+  /// Takes over what is finished, at most `bytes` of new surfaces, and has more work begun. Never waits. False, and
+  /// nothing happens, while events of the update before have not been polled. bytes must not be 0.
+  bool update(size_t bytes);
+
+  /// Gives `take` the next events, in order, until it returns false for one or none is left. An event that it refused,
+  /// or threw at, comes first the next time.
+  void poll(const std::function<bool(const WorldEvent&)>& take);
+
+  /// What is drawn since the last update that took a frame over.
+  std::shared_ptr<const DrawnFrame> drawn() const;
+
+  /// Updates, without a limit of bytes, until everything that the viewers want is drawn; the calling thread works too.
+  /// Polled events must make room: they gather meanwhile. `more` is asked now and then; false ends the wait.
+  /// Errors: cancelled; limit, where memory does not suffice for that.
+  Result<void> waitIdle(const std::function<bool()>& more = {});
+
+  /// Drops everything that waits to be meshed, and what is being meshed is dropped when it comes back. The next update
+  /// begins anew for the viewers there are.
+  void cancel();
+
+  /// The hash of the set of bodies (hashParts) of a level's chunks that meet lo <= p < hi; chunks that are not drawn
+  /// are meshed. Errors: those of chunksOfRegion and meshChunks.
+  Result<ContentHash> hashBodies(const IntBox& region, int level) const;
+
+  WorldStats stats() const;
+
+ private:
+  struct Core;
+  World(std::shared_ptr<Core> core, JobSystem& jobs);
+  void advance(size_t bytes);
+  /// Hands over surfaces of a step, and when all are there its changes: then true.
+  bool stage(const std::shared_ptr<const FrameStep>& step, size_t bytes);
+
+  std::shared_ptr<Core> core_;
+  JobSystem& jobs_;
+  // The engine's side, guarded by front_.
+  mutable std::mutex front_;
+  std::vector<WorldEvent> events_;
+  size_t polled_ = 0;
+  std::shared_ptr<const FrameStep> staged_;
+  size_t staged_changes_ = 0;  ///< of staged_, whose surfaces have been handed over
+  std::unordered_map<ChunkKey, std::shared_ptr<const ChunkSurface>, ChunkKeyHash> handed_;
+};
+
+}  // namespace sgm
