@@ -224,6 +224,13 @@ void Checker::layers() {
       for (int axis = 0; axis < 3; ++axis)
         layer.cell[axis] = domain.axes[static_cast<size_t>(axis)] ? static_cast<int32_t>(*cell) : 0;
     }
+    if (l.detail != kNoId) {
+      const auto detail = wholeUnits(l.detail, "the detail of a layer");
+      if (detail && (*detail < 1 || *detail > kLargest))
+        sink_.error(node(l.detail).span, codes::kValueRange, "a detail is from one unit to 1048 km long");
+      else if (detail)
+        layer.coarsest_cell = static_cast<int32_t>(*detail);
+    }
     for (const Layer& other : program_.layers)
       if (other.name == layer.name)
         sink_.error(l.span, codes::kDuplicate, join({"a second layer `", text(layer.name), "`"}));

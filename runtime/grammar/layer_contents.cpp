@@ -123,7 +123,7 @@ void findLayerContents(Program& program, const CompileLimits& limits) {
   const RuleContents rules(program, limits.bound_steps);
   for (Layer& layer : program.layers) {
     const Contents contents = rules.ofCall(layer.start);
-    layer.coarsest_cell = contents.coarsest_cell;
+    layer.coarsest_cell = std::min(layer.coarsest_cell, contents.coarsest_cell);
     layer.anchors = contents.anchors;
   }
 }

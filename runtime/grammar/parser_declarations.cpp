@@ -233,6 +233,7 @@ void Parser::layerDeclaration() {
   layer.cell = expression();
   expectWord("reach");
   layer.reach = expression();
+  if (acceptWord("detail")) layer.detail = expression();
   if (acceptWord("uses")) {
     do {
       const Span place = here();

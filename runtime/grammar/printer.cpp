@@ -104,6 +104,10 @@ void declarationLine(std::string& out, const Program& program, const ModuleSynta
       line.expr(out, layer.cell);
       out += " reach ";
       line.expr(out, layer.reach);
+      if (layer.detail != kNoId) {
+        out += " detail ";
+        line.expr(out, layer.detail);
+      }
       for (size_t i = 0; i < layer.uses.size(); ++i)
         out += join({i == 0 ? " uses " : ", ", program.text(layer.uses[i].name)});
       out += " { start ";

@@ -114,7 +114,7 @@ struct Layer {
                  ///< `proven`; otherwise derivation must reject what passes it
   bool proven = false;
   /// In units: at levels whose cells have a longer edge the layer shows nothing, whatever its parameters, seed and
-  /// cell, as all its shapes stand under a `detail`. INT32_MAX: no such edge; 0: it has no shapes.
+  /// cell: by its own `detail`, or as all its shapes stand under one. INT32_MAX: no such edge; 0: it has no shapes.
   int32_t coarsest_cell = std::numeric_limits<int32_t>::max();
   bool anchors = true;  ///< it may have anchors
 

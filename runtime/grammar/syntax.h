@@ -47,6 +47,7 @@ struct NamedPlace {
 struct LayerDecl {
   NameId name = kNoId;
   ExprId cell = kNoId, reach = kNoId, start = kNoId;
+  ExprId detail = kNoId;  ///< or kNoId: shown at every level
   std::vector<NamedPlace> uses;
   Span span;
 };

@@ -12,24 +12,10 @@ constexpr double kKeptShare = 0.6;
 /// step changes, so that detail does not swing.
 constexpr double kFullShare = 0.55, kFreeShare = 0.25;
 constexpr double kLessDetail = 0.8, kLeastDetail = 1.0 / 64;
+/// Plans from one count of what is wanted to the next, where memory is not scarce.
+constexpr uint64_t kPlansToTally = 16;
 /// Plans after a change of detail before the next.
 constexpr uint64_t kPlansToSettle = 20;
-
-ChunkKey across(const ChunkKey& key, int face) {
-  ChunkKey neighbour = key;
-  neighbour.at[face >> 1] += face & 1 ? 1 : -1;
-  return neighbour;
-}
-
-/// Faces of a node whose neighbour is coarser than it in one of the trees.
-uint8_t facesToCoarser(const ChunkKey& node, const Octree& a, const Octree& b) {
-  uint8_t faces = 0;
-  for (int face = 0; face < 6; ++face) {
-    const ChunkKey above = parentOf(across(node, face));
-    if (!a.isSplit(above) || !b.isSplit(above)) faces = static_cast<uint8_t>(faces | 1 << face);
-  }
-  return faces;
-}
 
 }  // namespace
 
@@ -42,16 +28,16 @@ Plan Planner::plan(PlanInput&& input) {
   ++plans_;
   Plan plan;
   for (const ChunkKey& key : input.begun) store_.at(key).in_work = true;
+  in_work_ += input.begun.size();
   take(input.finished, plan);
   refuse(input.refused, plan);
   learnApplied(input.applied);
   if (input.viewers.empty()) {
     step_ = nullptr;
     changed_ = true;
-    plan.idle = !tally();
+    plan.idle = in_work_ == 0;
     return plan;
   }
-  keepToBudget(input.live_bytes);
   retarget(input.viewers);
   if (changed_) {
     changed_ = false;
@@ -60,8 +46,10 @@ Plan Planner::plan(PlanInput&& input) {
   }
   plan.step = step_;
   fillQueue(plan.queue);
-  const bool in_work = tally();
-  plan.idle = !in_work && plan.queue.empty() && plan.step == nullptr;
+  stats_.drawn = applied_->drawn.size();
+  plan.idle = in_work_ == 0 && plan.queue.empty() && plan.step == nullptr;
+  if (plan.idle || plans_ % kPlansToTally == 0) tally();
+  keepToBudget(input.live_bytes);
   return plan;
 }
 
@@ -80,6 +68,7 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
   for (FinishedChunk& chunk : finished) {
     ChunkRecord& record = store_.at(chunk.request.key);
     record.in_work = false;
+    --in_work_;
     if (chunk.error) {
       // Scarce memory may come back; anything else would fail again.
       if (chunk.error->code == Code::cancelled || chunk.error->code == Code::out_of_memory) continue;
@@ -117,6 +106,7 @@ void Planner::retarget(std::span<const Viewer> viewers) {
   std::vector<LodViewer> wanting = lodViewers(viewers, lod);
   if (wanting == targeted_ && targeted_detail_ == stats_.detail) return;
   target_ = lodTarget(wanting, lod);
+  listTarget();
   targeted_ = std::move(wanting);
   targeted_detail_ = stats_.detail;
   changed_ = true;
@@ -148,14 +138,31 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
   return step;
 }
 
-void Planner::fillQueue(std::vector<WorkItem>& queue) {
-  for (const ChunkKey& leaf : applied_->tree.leaves()) store_.at(leaf).wanted = plans_;
-  if (step_ != nullptr) {
-    for (const ChunkKey& leaf : step_->to->tree.leaves()) store_.at(leaf).wanted = plans_;
-  }
+void Planner::listTarget() {
+  target_nodes_.clear();
+  const auto visit = [this](const auto& self, const ChunkKey& node) -> void {
+    const bool split = target_.isSplit(node);
+    if (node.level <= target_.top()) {
+      target_nodes_.push_back({node, coarserFaces(target_, node), split});
+    }
+    for (int i = 0; split && i < 8; ++i) self(self, childOf(node, i));
+  };
   for (const ChunkKey& node : target_.splitNodes()) {
     if (node.level <= target_.top()) break;
-    want(node, queue);
+    visit(visit, node);
+  }
+}
+
+void Planner::fillQueue(std::vector<WorkItem>& queue) {
+  const Octree& drawn = applied_->tree;
+  for (const TargetNode& node : target_nodes_) {
+    if (!node.split) {
+      request(node.key, node.faces, queue);
+    } else if (!drawn.isSplit(node.key) && !drawn.isLeaf(node.key)) {
+      // What is drawn leads to the target in steps: a node that is to be split, and is not even drawn whole, stands in
+      // until all that is in it is there.
+      request(node.key, node.faces | coarserFaces(drawn, node.key), queue);
+    }
   }
   for (const MissingSeams& missing : missing_) request(missing.chunk, missing.faces, queue);
   std::sort(queue.begin(), queue.end(), [](const WorkItem& a, const WorkItem& b) {
@@ -163,18 +170,7 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
   });
 }
 
-void Planner::want(const ChunkKey& node, std::vector<WorkItem>& queue) {
-  const bool split = target_.isSplit(node);
-  // What is drawn leads to the target in steps: a node that is to be split, and is not even drawn whole, stands in
-  // until all that is in it is there.
-  const Octree& drawn = applied_->tree;
-  if (node.level <= target_.top() && (!split || !(drawn.isSplit(node) || drawn.isLeaf(node)))) {
-    request(node, facesToCoarser(node, target_, split ? drawn : target_), queue);
-  }
-  for (int i = 0; split && i < 8; ++i) want(childOf(node, i), queue);
-}
-
-void Planner::request(const ChunkKey& key, uint8_t seams, std::vector<WorkItem>& queue) {
+void Planner::request(const ChunkKey& key, int seams, std::vector<WorkItem>& queue) {
   ChunkRecord& record = store_.at(key);
   record.wanted = plans_;
   const auto missing = static_cast<uint8_t>(seams & ~record.seams);
@@ -190,39 +186,41 @@ void Planner::request(const ChunkKey& key, uint8_t seams, std::vector<WorkItem>&
   queue.push_back(std::move(item));
 }
 
-bool Planner::tally() {
-  bool in_work = false;
+void Planner::tally() {
+  for (const ChunkKey& leaf : applied_->tree.leaves()) store_.at(leaf).wanted = plans_;
+  if (step_ != nullptr) {
+    for (const ChunkKey& leaf : step_->to->tree.leaves()) store_.at(leaf).wanted = plans_;
+  }
   stats_.records = store_.size();
   stats_.never_drawn = freed_in_vain_;
   wanted_bytes_ = 0;
   store_.forEach([&](const ChunkKey&, const ChunkRecord& record) {
-    in_work = in_work || record.in_work;
     if (record.wanted == plans_) {
       wanted_bytes_ += record.bytes();
     } else if (record.body && !record.ever_drawn) {
       ++stats_.never_drawn;
     }
   });
-  stats_.drawn = applied_->drawn.size();
-  return in_work;
 }
 
 void Planner::keepToBudget(size_t live_bytes) {
-  const auto cap = static_cast<double>(settings_.mesh_bytes);
-  const auto share = [cap](double part) { return static_cast<size_t>(part * cap); };
+  const auto share = [cap = static_cast<double>(settings_.mesh_bytes)](double part) {
+    return static_cast<size_t>(part * cap);
+  };
   if (live_bytes > share(kKeptShare)) {
-    const ChunkStore::Freed freed = store_.freeUnused(plans_ - 1, live_bytes - share(kKeptShare));
+    tally();
+    const ChunkStore::Freed freed = store_.freeUnused(plans_, live_bytes - share(kKeptShare));
     freed_in_vain_ += freed.never_drawn;
   }
-  // What is drawn and what is to replace it are there at one time: each gets half.
   if (plans_ < detail_settled_) return;
   if (wanted_bytes_ > share(kFullShare) && stats_.detail > kLeastDetail) {
     stats_.detail *= kLessDetail;
-    detail_settled_ = plans_ + kPlansToSettle;
   } else if (wanted_bytes_ < share(kFreeShare) && stats_.detail < 1) {
     stats_.detail = std::min(1.0, stats_.detail / kLessDetail);
-    detail_settled_ = plans_ + kPlansToSettle;
+  } else {
+    return;
   }
+  detail_settled_ = plans_ + kPlansToSettle;
 }
 
 }  // namespace sgm

@@ -88,10 +88,17 @@ class Planner {
   void retarget(std::span<const Viewer> viewers);
   std::shared_ptr<const FrameStep> nextStep();
   void fillQueue(std::vector<WorkItem>& queue);
-  void want(const ChunkKey& node, std::vector<WorkItem>& queue);
-  void request(const ChunkKey& key, uint8_t seams, std::vector<WorkItem>& queue);
-  /// Whether anything is being meshed.
-  bool tally();
+  void listTarget();
+  void request(const ChunkKey& key, int seams, std::vector<WorkItem>& queue);
+  /// Counts what is wanted now, and what is not.
+  void tally();
+
+  /// A node of the target that has a mesh, and its seams there.
+  struct TargetNode {
+    ChunkKey key;
+    uint8_t faces = 0;
+    bool split = false;
+  };
 
   PlannerSettings settings_;
   ChunkStore store_;
@@ -99,6 +106,7 @@ class Planner {
   std::vector<LodViewer> targeted_;  ///< what target_ was made for
   double targeted_detail_ = 0;
   Octree target_;
+  std::vector<TargetNode> target_nodes_;
   std::shared_ptr<const DrawnFrame> applied_;
   std::shared_ptr<const FrameStep> step_;                   ///< the last one offered, not known to be taken
   std::vector<std::shared_ptr<const DrawnFrame>> offered_;  ///< what steps from applied_ lead to, any may be taken
@@ -106,6 +114,7 @@ class Planner {
   bool changed_ = true;  ///< since the last step was looked for
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
   uint64_t freed_in_vain_ = 0;
+  size_t in_work_ = 0;
   size_t wanted_bytes_ = 0;  ///< of what the last plan had a use for
   PlannerStats stats_;
 };

@@ -72,6 +72,17 @@ TEST_CASE("a layer shows where cells are not larger than every detail around its
   CHECK(contents("rule A { detail 0.01*scope.x box(1m); }").coarsest_cell == kEvery);
   CHECK(contents("rule A { morph(B(), B(), 0.5); } rule B { detail 25cm box(1m); }").coarsest_cell == 257);
   CHECK(contents("rule A { detail -2*2000000m box(1m); }").coarsest_cell == 1);
+  const auto declared = [](const std::string& clause) {
+    const CompileResult result = compileText("sgm 1; domain infinite; layer l cell 8m reach 20m " + clause +
+                                             " { start A; } rule A { detail 25cm sphere(1m); }");
+    INFO(brief(result.diagnostics));
+    REQUIRE(result.program);
+    return result.program->layers[0].coarsest_cell;
+  };
+  CHECK(declared("detail 12.5cm") == 128);
+  CHECK(declared("detail 1m") == 257);
+  CHECK(compileText("sgm 1; domain infinite; layer l cell 8m reach 20m detail 0m { start A; } rule A { }").program ==
+        nullptr);
   const Layer marks = contents("rule A { anchor spawn; }");
   CHECK(marks.coarsest_cell == 0);
   CHECK(marks.anchors);
