@@ -22,8 +22,4 @@ ChunkStore::Freed ChunkStore::freeUnused(uint64_t since, size_t bytes) {
   return freed;
 }
 
-void ChunkStore::clear() {
-  std::erase_if(records_, [](const auto& entry) { return !entry.second.in_work; });
-}
-
 }  // namespace sgm

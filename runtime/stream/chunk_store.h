@@ -38,8 +38,7 @@ class ChunkStore {
     uint64_t never_drawn = 0;  ///< chunks with a body that were meshed in vain
   };
   Freed freeUnused(uint64_t since, size_t bytes);
-  /// Forgets everything that no request is out for.
-  void clear();
+  void clear() { records_.clear(); }
 
   template <class Visit>
   void forEach(const Visit& visit) const {

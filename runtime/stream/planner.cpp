@@ -28,14 +28,13 @@ Plan Planner::plan(PlanInput&& input) {
   ++plans_;
   Plan plan;
   for (const ChunkKey& key : input.begun) store_.at(key).in_work = true;
-  in_work_ += input.begun.size();
   take(input.finished, plan);
   refuse(input.refused, plan);
   learnApplied(input.applied);
   if (input.viewers.empty()) {
     step_ = nullptr;
     changed_ = true;
-    plan.idle = in_work_ == 0;
+    plan.idle = true;
     return plan;
   }
   retarget(input.viewers);
@@ -47,10 +46,27 @@ Plan Planner::plan(PlanInput&& input) {
   plan.step = step_;
   fillQueue(plan.queue);
   stats_.drawn = applied_->drawn.size();
-  plan.idle = in_work_ == 0 && plan.queue.empty() && plan.step == nullptr;
+  plan.idle = plan.queue.empty() && plan.step == nullptr;
   if (plan.idle || plans_ % kPlansToTally == 0) tally();
   keepToBudget(input.live_bytes);
   return plan;
+}
+
+void Planner::restart(std::shared_ptr<const DrawnFrame> drawn) {
+  store_.clear();
+  offered_.clear();
+  missing_.clear();
+  step_ = nullptr;
+  targeted_.clear();
+  changed_ = true;
+  applied_ = std::move(drawn);
+  frames_ = std::max(frames_, applied_->number);
+  for (const ChunkKey& leaf : applied_->tree.leaves()) {
+    ChunkRecord& record = store_.at(leaf);
+    record.surface = applied_->find(leaf);
+    record.body = record.ever_drawn = true;
+    record.seams = record.surface != nullptr ? record.surface->seams : coarserFaces(applied_->tree, leaf);
+  }
 }
 
 void Planner::learnApplied(uint64_t number) {
@@ -68,7 +84,6 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
   for (FinishedChunk& chunk : finished) {
     ChunkRecord& record = store_.at(chunk.request.key);
     record.in_work = false;
-    --in_work_;
     if (chunk.error) {
       // Scarce memory may come back; anything else would fail again.
       if (chunk.error->code == Code::cancelled || chunk.error->code == Code::out_of_memory) continue;

@@ -75,7 +75,10 @@ class Planner {
  public:
   explicit Planner(const PlannerSettings& settings);
 
+  /// Throws std::bad_alloc; then what it knows is not whole any more, and restart() must come before the next plan.
   Plan plan(PlanInput&& input);
+  /// Forgets everything but what is drawn.
+  void restart(std::shared_ptr<const DrawnFrame> drawn);
 
   const PlannerStats& stats() const { return stats_; }
   const DrawnFrame& applied() const { return *applied_; }
@@ -114,7 +117,6 @@ class Planner {
   bool changed_ = true;  ///< since the last step was looked for
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
   uint64_t freed_in_vain_ = 0;
-  size_t in_work_ = 0;
   size_t wanted_bytes_ = 0;  ///< of what the last plan had a use for
   PlannerStats stats_;
 };

@@ -12,10 +12,12 @@ namespace sgm {
 namespace {
 
 /// What a chunk may come to: every cell cut in the worst way, with six seams.
-constexpr size_t kLargestChunk = size_t{6} << 20;
+constexpr size_t kLargestChunk = size_t{5} << 20;
 /// Requests that come back before the planner looks at them, where more are waiting and no update comes.
 constexpr size_t kFinishedToPlan = 64;
 constexpr size_t kHashedAtOnce = 256;
+/// Failures told in one update: there is room for so many.
+constexpr ptrdiff_t kFailedAtOnce = 64;
 /// Plans in a row that bring nothing, until a wait gives up.
 constexpr int kPlansInVain = 1000;
 constexpr int kPlanPriority = 2, kMeshPriority = 1;
@@ -41,7 +43,8 @@ struct World::Core : std::enable_shared_from_this<Core> {
   const WorldSettings settings;
   std::pmr::memory_resource* memory;
   std::shared_ptr<SurfacePool> surfaces;
-  Planner planner;  ///< of the planning job alone
+  Planner planner;            ///< of the planning job alone, which never runs twice at one time
+  bool planner_lost = false;  ///< memory gave out while it planned; guarded by the mutex
 
   mutable std::mutex mutex;  ///< guards what follows
   std::condition_variable changed;
@@ -76,6 +79,9 @@ struct World::Core : std::enable_shared_from_this<Core> {
   void kickPlanner();
   void kickMeshing();
   PlanInput planInput();
+  /// Whether to plan again at once.
+  bool publish(Plan&& plan);
+  std::shared_ptr<const DrawnFrame> currentFrame() const;
   void planOnce();
   void meshOnce();
   FinishedChunk meshOne(const WorkItem& item, uint64_t of_generation) const;
@@ -155,30 +161,51 @@ PlanInput World::Core::planInput() {
 }
 
 void World::Core::planOnce() {
-  Plan plan = planner.plan(planInput());
   bool again;
-  {
+  try {
+    if (planner_lost) planner.restart(currentFrame());
+    Plan plan = planner.plan(planInput());
+    again = publish(std::move(plan));
+  } catch (const std::bad_alloc&) {
+    // What the planner knows is no longer whole. It begins anew from what is drawn, at the next update.
     const std::lock_guard lock(mutex);
-    if (!begun.empty()) {
-      const std::set<ChunkKey> gone(begun.begin(), begun.end());
-      std::erase_if(plan.queue, [&](const WorkItem& item) { return gone.contains(item.request.key); });
-    }
-    queue.swap(plan.queue);
-    step = std::move(plan.step);
-    failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()),
-                  std::make_move_iterator(plan.failed.end()));
-    viewers_planned = viewers_planning;
-    idle = plan.idle && finished.empty() && begun.empty();
-    planner_stats = planner.stats();
+    planner_lost = true;
+    planning = false;
+    queue.clear();
+    ++generation;
     ++plans;
-    again = planning = plan_again;
     changed.notify_all();
+    return;
   }
   kickMeshing();
   if (again && !submit(run<&Core::planOnce>, kPlanPriority)) {
     const std::lock_guard lock(mutex);
     planning = false;
   }
+}
+
+std::shared_ptr<const DrawnFrame> World::Core::currentFrame() const {
+  const std::lock_guard lock(mutex);
+  return drawn;
+}
+
+bool World::Core::publish(Plan&& plan) {
+  const std::lock_guard lock(mutex);
+  if (!begun.empty()) {
+    const std::set<ChunkKey> gone(begun.begin(), begun.end());
+    std::erase_if(plan.queue, [&](const WorkItem& item) { return gone.contains(item.request.key); });
+  }
+  failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
+  queue.swap(plan.queue);
+  step = std::move(plan.step);
+  viewers_planned = viewers_planning;
+  idle = plan.idle && meshing == 0 && finished.empty() && begun.empty();
+  planner_stats = planner.stats();
+  planner_lost = false;
+  ++plans;
+  planning = plan_again;
+  changed.notify_all();
+  return planning;
 }
 
 FinishedChunk World::Core::meshOne(const WorkItem& item, uint64_t of_generation) const {
@@ -211,9 +238,14 @@ void World::Core::meshOnce() {
       --mesh_jobs;
       return;
     }
+    try {
+      begun.push_back(queue.back().request.key);
+    } catch (const std::bad_alloc&) {
+      --mesh_jobs;
+      return;
+    }
     item = std::move(queue.back());
     queue.pop_back();
-    begun.push_back(item.request.key);
     of_generation = generation;
     ++meshing;
     reserved += kLargestChunk;
@@ -226,7 +258,11 @@ void World::Core::meshOnce() {
     reserved -= kLargestChunk;
     if (generation != of_generation) done = {item.request, nullptr, Error{Code::cancelled, "no longer wanted"}};
     const bool scarce = done.error && done.error->code == Code::out_of_memory;
-    finished.push_back(std::move(done));
+    try {
+      finished.push_back(std::move(done));
+    } catch (const std::bad_alloc&) {
+      planner_lost = true;  // it would wait for this one for ever
+    }
     plan = !scarce && (finished.size() >= kFinishedToPlan || queue.empty());
     more = !scarce && !queue.empty() && hasRoom() && !stopped;
     if (!more) --mesh_jobs;
@@ -247,7 +283,7 @@ Result<std::unique_ptr<World>> World::create(const WorldField& field, Backend& b
       !std::isfinite(lod.view_distance)) {
     return Error{Code::invalid_argument, "the finest and the view distance must be finite and above 0"};
   }
-  const size_t least = kLargestChunk * (jobs.concurrency() + 3);
+  const size_t least = kLargestChunk * (jobs.concurrency() + 2);
   if (settings.mesh_bytes < least) {
     return Error{Code::limit, "mesh_bytes is " + std::to_string(settings.mesh_bytes) + ", too small to stream with: " +
                                   std::to_string(jobs.concurrency()) + " threads need " + std::to_string(least)};
@@ -294,19 +330,16 @@ bool World::update(size_t bytes) {
 
 void World::advance(size_t bytes) {
   std::shared_ptr<const FrameStep> step;
-  std::vector<FailedChunk> failed;
+  events_.reserve(events_.size() + kFailedAtOnce);
   {
     const std::lock_guard lock(core_->mutex);
     if (core_->settled() && core_->failed.empty()) return;
     if (core_->step != nullptr && core_->step->from == core_->applied) step = core_->step;
-    failed.swap(core_->failed);
-  }
-  for (FailedChunk& chunk : failed) {
-    WorldEvent event;
-    event.kind = WorldEvent::Kind::failed;
-    event.key = chunk.key;
-    event.error = std::move(chunk.error);
-    events_.push_back(std::move(event));
+    const auto told = core_->failed.end() - std::min<ptrdiff_t>(kFailedAtOnce, std::ssize(core_->failed));
+    for (auto chunk = told; chunk != core_->failed.end(); ++chunk) {
+      events_.push_back({WorldEvent::Kind::failed, chunk->key, nullptr, 0, 0, 0, std::move(chunk->error)});
+    }
+    core_->failed.erase(told, core_->failed.end());
   }
   if (step != nullptr && stage(step, bytes)) {
     const std::lock_guard lock(core_->mutex);
@@ -316,48 +349,63 @@ void World::advance(size_t bytes) {
   core_->kickPlanner();
 }
 
-bool World::stage(const std::shared_ptr<const FrameStep>& step, size_t bytes) {
-  using Kind = FrameChange::Kind;
-  if (step != staged_) {
-    // What was handed over for a step that will not be taken is wanted no more, but where this one has it too.
-    std::unordered_map<ChunkKey, const ChunkSurface*, ChunkKeyHash> drawn;
-    for (const DrawnChunk& chunk : step->to->drawn) drawn[chunk.key] = chunk.surface.get();
-    if (staged_ != nullptr) {
-      for (const FrameChange& change : staged_->changes) {
-        if (change.kind == Kind::shown && handed_.contains(change.chunk.key) && !drawn.contains(change.chunk.key)) {
-          handed_.erase(change.chunk.key);
-          events_.push_back({WorldEvent::Kind::removed, change.chunk.key, nullptr, 0, 0, 0, {}});
-        }
-      }
+void World::restage(const std::shared_ptr<const FrameStep>& step) {
+  // What was handed over for a step that will not be taken is wanted no more, but where this one has it too.
+  std::unordered_set<ChunkKey, ChunkKeyHash> drawn;
+  for (const DrawnChunk& chunk : step->to->drawn) drawn.insert(chunk.key);
+  if (staged_ != nullptr) {
+    events_.reserve(events_.size() + staged_->changes.size());
+    for (const FrameChange& change : staged_->changes) {
+      const ChunkKey& key = change.chunk.key;
+      if (change.kind != FrameChange::Kind::shown || drawn.contains(key) || handed_.erase(key) == 0) continue;
+      events_.push_back({WorldEvent::Kind::removed, key, nullptr, 0, 0, 0, {}});
     }
-    staged_ = step;
-    staged_changes_ = 0;
   }
+  staged_ = step;
+  staged_changes_ = 0;
+}
+
+bool World::handOver(const FrameStep& step, size_t bytes) {
   size_t given = 0;
-  for (; staged_changes_ < step->changes.size(); ++staged_changes_) {
-    const FrameChange& change = step->changes[staged_changes_];
-    if (change.kind != Kind::shown && change.kind != Kind::replaced) continue;
-    std::shared_ptr<const ChunkSurface>& handed = handed_[change.chunk.key];
-    if (handed == change.chunk.surface) continue;
-    const size_t size = change.chunk.surface->mesh.bytes();
+  for (; staged_changes_ < step.changes.size(); ++staged_changes_) {
+    const DrawnChunk& chunk = step.changes[staged_changes_].chunk;
+    if (chunk.surface == nullptr) continue;
+    std::shared_ptr<const ChunkSurface>& handed = handed_[chunk.key];
+    if (handed == chunk.surface) continue;
+    const size_t size = chunk.surface->mesh.bytes();
     if (size > bytes) {
       const std::lock_guard lock(core_->mutex);
-      core_->refused.push_back(change.chunk.key);
+      core_->refused.push_back(chunk.key);
       return false;
     }
     if (size > bytes - given) return false;
+    events_.push_back({WorldEvent::Kind::ready, chunk.key, chunk.surface, 0, 0, 0, {}});
     given += size;
-    handed = change.chunk.surface;
-    events_.push_back({WorldEvent::Kind::ready, change.chunk.key, change.chunk.surface, 0, 0, 0, {}});
+    handed = chunk.surface;
   }
-  const auto kindOf = [](Kind kind) {
-    return kind == Kind::shown      ? WorldEvent::Kind::shown
-           : kind == Kind::replaced ? WorldEvent::Kind::replaced
-           : kind == Kind::seams    ? WorldEvent::Kind::seams
-                                    : WorldEvent::Kind::removed;
+  return true;
+}
+
+bool World::stage(const std::shared_ptr<const FrameStep>& step, size_t bytes) {
+  if (step != staged_) restage(step);
+  if (!handOver(*step, bytes)) return false;
+  const auto kindOf = [](FrameChange::Kind kind) {
+    switch (kind) {
+      case FrameChange::Kind::shown:
+        return WorldEvent::Kind::shown;
+      case FrameChange::Kind::replaced:
+        return WorldEvent::Kind::replaced;
+      case FrameChange::Kind::seams:
+        return WorldEvent::Kind::seams;
+      case FrameChange::Kind::removed:
+        break;
+    }
+    return WorldEvent::Kind::removed;
   };
+  // All of them or none: nothing below can fail.
+  events_.reserve(events_.size() + step->changes.size());
   for (const FrameChange& change : step->changes) {
-    if (change.kind == Kind::removed) handed_.erase(change.chunk.key);
+    if (change.kind == FrameChange::Kind::removed) handed_.erase(change.chunk.key);
     events_.push_back({kindOf(change.kind),
                        change.chunk.key,
                        nullptr,

@@ -13,6 +13,7 @@
 #include <mutex>
 #include <span>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "backend/backend.h"
@@ -101,6 +102,9 @@ class World {
   struct Core;
   World(std::shared_ptr<Core> core, JobSystem& jobs);
   void advance(size_t bytes);
+  void restage(const std::shared_ptr<const FrameStep>& step);
+  /// Whether all of the step's surfaces have been handed over.
+  bool handOver(const FrameStep& step, size_t bytes);
   /// Hands over surfaces of a step, and when all are there its changes: then true.
   bool stage(const std::shared_ptr<const FrameStep>& step, size_t bytes);
 

@@ -287,8 +287,8 @@ TEST_CASE("a mesh that is too large to be handed over is told of, and what is co
 
 TEST_CASE("surfaces stay below their cap, and detail comes nearer instead") {
   WorldSettings settings;
-  settings.lod.finest_distance = 80.0 * kUnitsPerMetre;
-  settings.mesh_bytes = size_t{33} << 20;
+  settings.lod.finest_distance = 60.0 * kUnitsPerMetre;
+  settings.mesh_bytes = size_t{21} << 20;
   Scene scene(*makeThreadPool(2),
               "sgm 1; units m; domain infinite; layer l cell 16m reach 1m { start Balls; }\n"
               "rule Balls { for x in 0..1 { for y in 0..1 { for z in 0..1 { at(2m+4m*x, 2m+4m*y, 2m+4m*z) "
