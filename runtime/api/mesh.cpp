@@ -12,7 +12,10 @@ using namespace sgm::api;
 static_assert(sizeof(sgm_vertex) == sizeof(sgm::Vertex) &&
               offsetof(sgm_vertex, material) == offsetof(sgm::Vertex, material) &&
               offsetof(sgm_vertex, normal_x) == offsetof(sgm::Vertex, normal_x) &&
-              offsetof(sgm_vertex, tag) == offsetof(sgm::Vertex, tag));
+              offsetof(sgm_vertex, tag) == offsetof(sgm::Vertex, tag) &&
+              offsetof(sgm_vertex, kind) == offsetof(sgm::Vertex, kind));
+static_assert(SGM_VERTEX_OWN == int{sgm::kOwnEdge} && SGM_VERTEX_COARSER == int{sgm::kCoarserEdge} &&
+              SGM_VERTEX_LATERAL == int{sgm::kLateralEdge});
 static_assert(SGM_CHUNK_CELLS == sgm::kChunkCells && SGM_SUBCELL == sgm::kSubcell &&
               SGM_UNITS_PER_METRE == sgm::kUnitsPerMetre);
 

@@ -39,20 +39,30 @@ struct ChunkSamples {
         signs(size_t{kChunkSamples} * kChunkSamples, memory) {}
 };
 
+/// Which crossed edge a vertex stands for; the word that tells it is part of the vertex, so that whoever sees only
+/// positions can form exact keys (VertexKey).
+enum VertexKind : uint16_t {
+  kOwnEdge = 0,      ///< of the chunk's own level: one coordinate is no multiple of kSubcell, the edge's axis
+  kCoarserEdge = 1,  ///< of the level above, in seams alone: one coordinate is no multiple of 2 * kSubcell
+  kLateralEdge = 2,  ///< in seams alone: sits on a corner of the level above and joins the two levels
+};
+
 /// A packed vertex, 16 bytes, the same on every backend.
 struct Vertex {
   uint16_t x, y, z;            ///< 1/256 of the chunk's cell edge, from the chunk's origin: 0..8192
   uint16_t material;           ///< index into the grammar's materials
   int16_t normal_x, normal_y;  ///< octahedral, 1/32767; points out of the solid
   uint16_t tag;                ///< index into the grammar's tags
-  uint16_t reserved;           ///< 0
+  uint16_t kind;               ///< a VertexKind; 0 throughout a body
 };
 static_assert(sizeof(Vertex) == 16);
 
-/// A crossed edge, and so a vertex, told apart without any tolerance.
-/// A grid edge starts at `corner` and runs along `axis` for one cell of `level`. A lateral edge (axis kLateral) joins
-/// the two levels `level` and `level + 1` at one corner of a seam; `fan` numbers the cycle of seam cells around it, so
-/// that every vertex's link is one cycle even where the two levels' fields differ.
+/// A crossed edge, and so a vertex, told apart without any tolerance. It follows from a chunk and a packed vertex:
+/// corner is the vertex's place rounded down to the grid of the edge's level, axis the coordinate that is no multiple
+/// of that level's cell; the fan of a lateral edge follows from the blocks around the chunk (mesh/fans.h). A grid edge
+/// starts at `corner` and runs along `axis` for one cell of `level`. A lateral edge (axis kLateral) joins the two
+/// levels `level` and `level + 1` at one corner of a seam; `fan` numbers the cycle of seam cells around it, so that
+/// every vertex's link is one cycle even where the two levels' fields differ.
 struct VertexKey {
   Int3 corner;
   uint8_t level = 0;

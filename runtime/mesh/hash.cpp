@@ -12,7 +12,7 @@ void hashPart(MeshPart& part) {
     addWord(sum, pack(v.x, v.y), place);
     addWord(sum, pack(v.z, v.material), place + 1);
     addWord(sum, pack(v.normal_x, v.normal_y), place + 2);
-    addWord(sum, pack(v.tag, v.reserved), place + 3);
+    addWord(sum, pack(v.tag, v.kind), place + 3);
     place += 4;
   }
   place = 1u << 31;

@@ -1,7 +1,7 @@
 #pragma once
 // The content hash of a mesh part: an index-keyed sum that a GPU computes in any order of addition.
 //
-// A vertex is four words (x | y << 16, z | material << 16, normal_x | normal_y << 16, tag | reserved << 16), an index
+// A vertex is four words (x | y << 16, z | material << 16, normal_x | normal_y << 16, tag | kind << 16), an index
 // is one. Word w at place i, with i = 4 * vertex + word for vertices and 2^31 + n for the n-th index, is mixed to
 //   h = w ^ (i * 0x9E3779B9 + 0x85EBCA6B)
 //   h ^= h >> 16, h *= 0x7FEB352D, h ^= h >> 15, h *= 0x846CA68B, h ^= h >> 16

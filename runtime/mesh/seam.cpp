@@ -119,10 +119,10 @@ class SeamBuilder {
     v.x = static_cast<uint16_t>(at.x);
     v.y = static_cast<uint16_t>(at.y);
     v.z = static_cast<uint16_t>(at.z);
-    const bool coarse_edge = step == 2 && edge_axis != kLateral;
+    v.kind = step == 1 ? kOwnEdge : edge_axis == kLateral ? kLateralEdge : kCoarserEdge;
+    const int level = grid_.level + (v.kind == kCoarserEdge ? 1 : 0);
     part_.vertices.push_back(v);
-    part_.keys.push_back(
-        {corner, static_cast<uint8_t>(grid_.level + (coarse_edge ? 1 : 0)), static_cast<uint8_t>(edge_axis), 0});
+    part_.keys.push_back({corner, static_cast<uint8_t>(level), static_cast<uint8_t>(edge_axis), 0});
     return static_cast<uint32_t>(part_.vertices.size() - 1);
   }
 

@@ -78,6 +78,10 @@ CHECK(face_z_low, SGM_FACE_Z_LOW == 4);
 CHECK(face_z_high, SGM_FACE_Z_HIGH == 5);
 CHECK(face_count, SGM_FACE_COUNT == 6);
 CHECK(face_force, SGM_FACE_FORCE_32_BIT == 0x7FFFFFFF);
+CHECK(vertex_own, SGM_VERTEX_OWN == 0);
+CHECK(vertex_coarser, SGM_VERTEX_COARSER == 1);
+CHECK(vertex_lateral, SGM_VERTEX_LATERAL == 2);
+CHECK(vertex_force, SGM_VERTEX_KIND_FORCE_32_BIT == 0x7FFFFFFF);
 
 SIZE(sgm_error, 512);
 PLACE(sgm_error, code, 0);
@@ -239,7 +243,7 @@ PLACE(sgm_vertex, material, 6);
 PLACE(sgm_vertex, normal_x, 8);
 PLACE(sgm_vertex, normal_y, 10);
 PLACE(sgm_vertex, tag, 12);
-PLACE(sgm_vertex, reserved, 14);
+PLACE(sgm_vertex, kind, 14);
 
 SIZE(sgm_mesh_range, 24);
 PLACE(sgm_mesh_range, first_vertex, 0);

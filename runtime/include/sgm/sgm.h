@@ -547,6 +547,26 @@ SGM_API sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc
 SGM_API void sgm_mesh_acquire(sgm_mesh* mesh);
 SGM_API void sgm_mesh_release(sgm_mesh* mesh);
 
+/* What a vertex stands for: one edge of a grid of samples that the surface crosses. Vertices are the same where their
+ * edges are the same, in whatever chunks: each has a key, so that meshes are welded and checked without a tolerance.
+ * The key is { corner, level, axis, fan }. With positions in units (which may be fractions of one) and levels' cells:
+ *   own      level is the chunk's own; axis the one coordinate that is no multiple of its cell; corner the position
+ *            rounded down to multiples of that cell; fan 0
+ *   coarser  the same with level + 1 and its cell
+ *   lateral  level is the chunk's own; axis 3; corner the position itself, a multiple of the cell of level + 1. fan
+ *            tells apart the vertices of one corner, which joins seams that meet in an edge or a corner of the chunk:
+ *            around the corner lie 8 blocks, one to an octant, and between octants that share a face 12 quarter planes,
+ *            numbered 4 * (axis of the normal) + (high side on the lower of the other axes) + 2 * (on the higher one).
+ *            Those with a block of the chunk's size on one side and a coarser chunk on the other carry seams, and seams
+ *            that touch in a half axis from the corner share the vertex: fan is the lowest number of those joined to
+ *            this vertex's own seam. Which blocks are coarser is what sgm_chunk_request.coarser says. */
+typedef enum sgm_vertex_kind {
+  SGM_VERTEX_OWN = 0,     /* on an edge of the chunk's own level; every vertex of a body */
+  SGM_VERTEX_COARSER = 1, /* on an edge of the level above; in seams alone */
+  SGM_VERTEX_LATERAL = 2, /* on a corner, joins the two levels; in seams alone */
+  SGM_VERTEX_KIND_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_vertex_kind;
+
 /* A packed vertex, 16 bytes, the same on every backend. */
 typedef struct sgm_vertex {
   uint16_t x, y, z;           /* 0 to 8,192 in 1/256 of the chunk's cell edge, from the chunk's origin */
@@ -555,7 +575,7 @@ typedef struct sgm_vertex {
                                  (n.x, n.y, w) where w >= 0, else ((1 - |n.y|) * sign(n.x), (1 - |n.x|) * sign(n.y), w),
                                  then made one long; sign(0) is 1 */
   uint16_t tag;               /* index for sgm_grammar_tag */
-  uint16_t reserved;          /* 0 */
+  uint16_t kind;              /* an sgm_vertex_kind */
 } sgm_vertex;
 
 /* The body of a chunk or one of its seams: draw the body always, and a seam where the neighbour across its face is one

@@ -242,6 +242,7 @@ TEST_CASE("the content hash is a sum over places, and shows every change of a wo
   };
   CHECK(changed([](MeshPart& p) { p.vertices[7].normal_y = 1; }));
   CHECK(changed([](MeshPart& p) { p.vertices[9].tag = 4; }));
+  CHECK(changed([](MeshPart& p) { p.vertices[9].kind = kLateralEdge; }));
   CHECK(changed([](MeshPart& p) {
     std::swap(p.indices[3], p.indices[4]);
     p.indices[3] += 1;
