@@ -1,0 +1,337 @@
+#include "cli/frame_checker.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "base/hash.h"
+
+namespace sgm::cli {
+namespace {
+
+constexpr int kChunkEdge = kChunkCells * kSubcell;
+
+ChunkKey keyOf(const sgm_chunk_key& key) { return {key.level, {key.x, key.y, key.z}}; }
+
+/// Whether no other chunk can have the vertex: no face of the chunk holds it.
+bool isInside(const VertexPlace& v) {
+  const auto inner = [](uint16_t at) { return at != 0 && at != kChunkEdge; };
+  return inner(v.x) && inner(v.y) && inner(v.z);
+}
+
+Error malformed(const ChunkKey& key, const std::string& what) {
+  return {Code::invalid_argument, "the mesh of chunk " + std::to_string(key.at.x) + "," + std::to_string(key.at.y) +
+                                      "," + std::to_string(key.at.z) + " of level " + std::to_string(key.level) + " " +
+                                      what};
+}
+
+/// Counts one edge by its uses in both directions.
+template <class Counts>
+void countUse(uint64_t forward, uint64_t backward, Counts& counts) {
+  counts.edges += forward + backward > 0;
+  counts.open += forward != backward;
+  counts.nonmanifold += forward > 1 || backward > 1;
+}
+
+/// Calls use(from, to), indices both, for every edge of the triangles that are not degenerate; returns how many are.
+template <class Use>
+uint64_t forEachEdge(const std::vector<uint32_t>& indices, const std::vector<uint32_t>& ids, const Use& use) {
+  uint64_t degenerate = 0;
+  for (size_t i = 0; i < indices.size(); i += 3) {
+    const uint32_t a = indices[i], b = indices[i + 1], c = indices[i + 2];
+    if (ids[a] == ids[b] || ids[b] == ids[c] || ids[c] == ids[a]) {
+      ++degenerate;
+      continue;
+    }
+    use(a, b);
+    use(b, c);
+    use(c, a);
+  }
+  return degenerate;
+}
+
+template <class T>
+T elementAt(const T* first, uint32_t stride, uint32_t i) {
+  T element;
+  std::memcpy(&element, reinterpret_cast<const char*>(first) + size_t{stride} * i, sizeof element);
+  return element;
+}
+
+}  // namespace
+
+std::optional<VertexKey> vertexKey(const ChunkGrid& grid, const VertexPlace& vertex, const SeamOf* seam) {
+  const std::array<int, 3> at{vertex.x, vertex.y, vertex.z};
+  if (vertex.kind > SGM_VERTEX_LATERAL || (vertex.kind != SGM_VERTEX_OWN && seam == nullptr)) return {};
+  const int step = vertex.kind == SGM_VERTEX_OWN ? kSubcell : 2 * kSubcell;
+  VertexKey key;
+  key.level = static_cast<uint8_t>(grid.level + (vertex.kind == SGM_VERTEX_COARSER ? 1 : 0));
+  key.axis = kLateral;
+  int axes = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int local = at[static_cast<size_t>(axis)];
+    if (local > kChunkEdge) return {};
+    if (local % step != 0) {
+      key.axis = static_cast<uint8_t>(axis);
+      ++axes;
+    }
+    key.corner[axis] = saturate(grid.origin[axis] + int64_t{local / step * (step / kSubcell)} * grid.cell);
+  }
+  if (axes != (vertex.kind == SGM_VERTEX_LATERAL ? 0 : 1)) return {};
+  if (seam == nullptr) return key;
+  const auto axis = static_cast<size_t>(faceAxis(seam->face));
+  if (at[axis] != (faceIsHigh(seam->face) ? kChunkEdge : 0)) return {};
+  if (vertex.kind != SGM_VERTEX_LATERAL) return key;
+  const auto side = [](int local) { return local == 0 ? size_t{0} : local == kChunkEdge ? size_t{2} : size_t{1}; };
+  key.fan = seam->fans[side(at[(axis + 2) % 3])][side(at[(axis + 1) % 3])];
+  return key;
+}
+
+size_t FrameChecker::Hash::operator()(const VertexKey& key) const {
+  const uint64_t xy = uint64_t{static_cast<uint32_t>(key.corner.x)} << 32 | static_cast<uint32_t>(key.corner.y);
+  const uint64_t rest = uint64_t{static_cast<uint32_t>(key.corner.z)} << 32 | uint64_t{key.level} << 16 |
+                        uint64_t{key.axis} << 8 | key.fan;
+  return hashCombine(xy, rest);
+}
+
+size_t FrameChecker::Hash::operator()(const Edge& edge) const {
+  return mix64(uint64_t{edge.first} << 32 | edge.second);
+}
+
+size_t FrameChecker::Hash::operator()(const ChunkKey& key) const {
+  return operator()(VertexKey{key.at, static_cast<uint8_t>(key.level), 0, 0});
+}
+
+Result<FrameChecker::Chunk> FrameChecker::copyOf(const sgm_mesh_view& mesh) {
+  const ChunkKey key = keyOf(mesh.key);
+  if (key.level < 0 || key.level > kMaxLevel) return malformed(key, "has no such level");
+  Chunk chunk;
+  chunk.grid = {{mesh.origin[0], mesh.origin[1], mesh.origin[2]}, mesh.cell_units, key.level};
+  for (size_t number = 0; number < chunk.parts.size(); ++number) {
+    const sgm_mesh_range& range = number == 0 ? mesh.body : mesh.seams[number - 1];
+    Part& part = chunk.parts[number];
+    if (uint64_t{range.first_vertex} + range.vertex_count > mesh.vertex_count ||
+        uint64_t{range.first_index} + range.index_count > mesh.index_count || range.index_count % 3 != 0)
+      return malformed(key, "has a range that its arrays do not hold");
+    const SeamOf seam = seamOf({}, number);
+    part.vertices.reserve(range.vertex_count);
+    for (uint32_t i = 0; i < range.vertex_count; ++i) {
+      const sgm_vertex v = elementAt(mesh.vertices, mesh.vertex_stride, range.first_vertex + i);
+      part.vertices.push_back({v.x, v.y, v.z, v.kind});
+      if (!vertexKey(chunk.grid, part.vertices.back(), number == 0 ? nullptr : &seam))
+        return malformed(key, "has a vertex that no key follows from: " + std::to_string(range.first_vertex + i));
+    }
+    part.indices.reserve(range.index_count);
+    for (uint32_t i = 0; i < range.index_count; ++i) {
+      const uint32_t index = elementAt(mesh.indices, mesh.index_stride, range.first_index + i);
+      if (index < range.first_vertex || index - range.first_vertex >= range.vertex_count)
+        return malformed(key, "has an index outside of its range: number " + std::to_string(range.first_index + i));
+      part.indices.push_back(index - range.first_vertex);
+    }
+  }
+  return chunk;
+}
+
+SeamOf FrameChecker::seamOf(const DrawnParts& drawn, size_t number) {
+  if (number == 0) return {};
+  const auto face = static_cast<Face>(number - 1);
+  return {face, seamFans(face, drawn.coarser | neighboursAcross(static_cast<uint8_t>(drawn.seams)))};
+}
+
+template <class ChunkOrConst, class Visit>
+void FrameChecker::forEachDrawn(ChunkOrConst& chunk, const Visit& visit) {
+  for (size_t number = 0; number < chunk.parts.size(); ++number)
+    if (number == 0 || (chunk.drawn.seams >> (number - 1) & 1) != 0) visit(chunk.parts[number], number);
+}
+
+void FrameChecker::numberByEdge(const Part& part, std::vector<uint32_t>& first) {
+  std::vector<uint64_t> edges;  // within the chunk; then the vertex's number
+  edges.reserve(part.vertices.size());
+  for (const VertexPlace& v : part.vertices) {
+    const uint64_t axis = v.x % kSubcell != 0 ? 0 : v.y % kSubcell != 0 ? 1 : 2;
+    const uint64_t cell = (uint64_t{v.x} / kSubcell << 16) | (uint64_t{v.y} / kSubcell << 8) | v.z / kSubcell;
+    edges.push_back((cell << 2 | axis) << 32 | edges.size());
+  }
+  std::sort(edges.begin(), edges.end());
+  first.resize(edges.size());
+  for (size_t i = 0, lowest = 0; i < edges.size(); ++i) {
+    if (edges[i] >> 32 != edges[lowest] >> 32) lowest = i;
+    first[static_cast<uint32_t>(edges[i])] = static_cast<uint32_t>(edges[lowest]);
+  }
+}
+
+Result<void> FrameChecker::draw(const sgm_mesh_view& mesh, const DrawnParts& parts) {
+  Result<Chunk> copy = copyOf(mesh);
+  if (!copy) return copy.error();
+  erase(mesh.key);
+  const ChunkKey key = keyOf(mesh.key);
+  Chunk& chunk = chunks_[key] = std::move(*copy);
+  chunk.drawn = parts;
+  forEachDrawn(chunk, [&](Part&, size_t number) { show(chunk, number); });
+  place(key, true);
+  return {};
+}
+
+Result<void> FrameChecker::redraw(const sgm_chunk_key& key, const DrawnParts& parts) {
+  const auto at = chunks_.find(keyOf(key));
+  if (at == chunks_.end()) return malformed(keyOf(key), "is not drawn");
+  Chunk& chunk = at->second;
+  // Only lateral vertices depend on the blocks around, but seams are small: one whose fans change goes and comes back.
+  std::array<bool, 1 + SGM_FACE_COUNT> stays{true};
+  forEachDrawn(chunk, [&](Part&, size_t number) {
+    if (number == 0) return;
+    stays[number] =
+        (parts.seams >> (number - 1) & 1) != 0 && seamOf(chunk.drawn, number).fans == seamOf(parts, number).fans;
+    if (!stays[number]) hide(chunk, number);
+  });
+  chunk.drawn = parts;
+  forEachDrawn(chunk, [&](Part&, size_t number) {
+    if (!stays[number]) show(chunk, number);
+  });
+  return {};
+}
+
+bool FrameChecker::erase(const sgm_chunk_key& key) {
+  const auto at = chunks_.find(keyOf(key));
+  if (at == chunks_.end()) return false;
+  Chunk& chunk = at->second;
+  forEachDrawn(chunk, [&](Part&, size_t number) { hide(chunk, number); });
+  chunks_.erase(at);
+  place(keyOf(key), false);
+  return true;
+}
+
+void FrameChecker::show(Chunk& chunk, size_t number) {
+  Part& part = chunk.parts[number];
+  if (number == 0) numberByEdge(part, first_);
+  const SeamOf seam = seamOf(chunk.drawn, number);
+  part.ids.resize(part.vertices.size());
+  for (size_t i = 0; i < part.ids.size(); ++i) {
+    if (number == 0 && isInside(part.vertices[i])) {
+      part.ids[i] = kInside | first_[i];
+      continue;
+    }
+    const auto [at, fresh] =
+        vertices_.try_emplace(*vertexKey(chunk.grid, part.vertices[i], number == 0 ? nullptr : &seam));
+    VertexUse& use = at->second;
+    if (fresh && free_ids_.empty()) {
+      use.id = next_id_++;
+    } else if (fresh) {
+      use.id = free_ids_.back();
+      free_ids_.pop_back();
+    }
+    ++use.uses;
+    part.ids[i] = use.id;
+  }
+  inside_.clear();
+  part.degenerate = forEachEdge(part.indices, part.ids, [&](uint32_t i, uint32_t j) {
+    if (((part.ids[i] | part.ids[j]) & kInside) == 0) {
+      useEdge(part.ids[i], part.ids[j], true);
+    } else {
+      const uint64_t from = first_[i], to = first_[j];
+      inside_.push_back(from < to ? from << 32 | to << 1 : to << 32 | from << 1 | 1);
+    }
+  });
+  std::sort(inside_.begin(), inside_.end());
+  part.inside = {};
+  for (size_t i = 0; i < inside_.size();) {
+    const uint64_t edge = inside_[i] >> 1;
+    std::array<uint64_t, 2> uses{};
+    for (; i < inside_.size() && inside_[i] >> 1 == edge; ++i) ++uses[inside_[i] & 1];
+    countUse(uses[0], uses[1], part.inside);
+  }
+  report_.edges += part.inside.edges;
+  report_.open_edges += part.inside.open;
+  report_.nonmanifold_edges += part.inside.nonmanifold;
+  report_.degenerate_triangles += part.degenerate;
+  report_.triangles += part.indices.size() / 3;
+}
+
+void FrameChecker::hide(Chunk& chunk, size_t number) {
+  Part& part = chunk.parts[number];
+  forEachEdge(part.indices, part.ids, [&](uint32_t i, uint32_t j) {
+    if (((part.ids[i] | part.ids[j]) & kInside) == 0) useEdge(part.ids[i], part.ids[j], false);
+  });
+  const SeamOf seam = seamOf(chunk.drawn, number);
+  for (size_t i = 0; i < part.ids.size(); ++i) {
+    if ((part.ids[i] & kInside) != 0) continue;
+    const auto at = vertices_.find(*vertexKey(chunk.grid, part.vertices[i], number == 0 ? nullptr : &seam));
+    if (--at->second.uses != 0) continue;
+    free_ids_.push_back(at->second.id);
+    vertices_.erase(at);
+  }
+  part.ids = {};
+  report_.edges -= part.inside.edges;
+  report_.open_edges -= part.inside.open;
+  report_.nonmanifold_edges -= part.inside.nonmanifold;
+  report_.degenerate_triangles -= part.degenerate;
+  report_.triangles -= part.indices.size() / 3;
+}
+
+void FrameChecker::useEdge(uint32_t from, uint32_t to, bool more) {
+  const auto at = edges_.try_emplace(std::minmax(from, to)).first;
+  EdgeUse& use = at->second;
+  Counts before, after;
+  countUse(use.forward, use.backward, before);
+  uint32_t& direction = from < to ? use.forward : use.backward;
+  direction = more ? direction + 1 : direction - 1;
+  countUse(use.forward, use.backward, after);
+  report_.edges += after.edges - before.edges;
+  report_.open_edges += after.open - before.open;
+  report_.nonmanifold_edges += after.nonmanifold - before.nonmanifold;
+  if (after.edges == 0) edges_.erase(at);
+}
+
+void FrameChecker::place(const ChunkKey& key, bool more) {
+  uint64_t pairs = 0;
+  for (ChunkKey outer = key; outer.level <= kMaxLevel; outer = parentOf(outer)) {
+    const auto at = places_.try_emplace(outer).first;
+    Place& place = at->second;
+    if (outer == key) {
+      place.drawn = more;
+      pairs += place.below;
+    } else {
+      place.below = more ? place.below + 1 : place.below - 1;
+      pairs += place.drawn;
+    }
+    if (!place.drawn && place.below == 0) places_.erase(at);
+  }
+  report_.chunks = chunks_.size();
+  report_.overlaps = more ? report_.overlaps + pairs : report_.overlaps - pairs;
+}
+
+WholeReport FrameChecker::checkWhole() const {
+  WholeReport whole;
+  std::pmr::unsynchronized_pool_resource pool;
+  std::pmr::unordered_map<VertexKey, uint32_t, Hash> shared(&pool);
+  std::vector<uint32_t> indices, first, numbers;
+  uint32_t next = 0;
+  for (const auto& [key, chunk] : chunks_) {
+    forEachDrawn(chunk, [&](const Part& part, size_t number) {
+      if (number == 0) numberByEdge(part, first);
+      const SeamOf seam = seamOf(chunk.drawn, number);
+      numbers.resize(part.vertices.size());
+      for (size_t i = 0; i < numbers.size(); ++i) {
+        if (number == 0 && isInside(part.vertices[i])) {
+          numbers[i] = first[i] == i ? next++ : numbers[first[i]];
+          continue;
+        }
+        const auto [at, fresh] =
+            shared.try_emplace(*vertexKey(chunk.grid, part.vertices[i], number == 0 ? nullptr : &seam), next);
+        next += fresh;
+        numbers[i] = at->second;
+      }
+      for (const uint32_t index : part.indices) indices.push_back(numbers[index]);
+    });
+    for (ChunkKey outer = key; outer.level < kMaxLevel;) whole.frame.overlaps += chunks_.count(outer = parentOf(outer));
+  }
+  whole.mesh = checkTriangles(indices, next);
+  whole.frame.chunks = chunks_.size();
+  whole.frame.triangles = whole.mesh.triangles;
+  whole.frame.edges = whole.mesh.edges;
+  whole.frame.open_edges = whole.mesh.unmatched_edges;
+  whole.frame.nonmanifold_edges = whole.mesh.repeated_edges;
+  whole.frame.degenerate_triangles = whole.mesh.degenerate_triangles;
+  return whole;
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,90 @@
+#pragma once
+// Octrees of chunks of a field, meshed through the public interface and drawn into a frame checker.
+
+#include <map>
+#include <random>
+#include <vector>
+
+#include "cli/frame_checker.h"
+#include "fixture.h"
+#include "stream/frame.h"
+
+namespace sgm {
+
+/// Two closed worlds around the origin whose coarse levels have lost pebbles and octaves.
+inline constexpr const char* kClosedWorlds[] = {
+    "sgm 1;\nimport \"std/rock.sgm\" as rock;\nunits m;\ndomain finite box(120m, 120m, 120m) empty;\nstart Rock;\n"
+    "rule Rock {\n"
+    "  at(4m, -3m, 5m) displace rock.fbm(period 9m, amp 4m) { sphere(30m); }\n"
+    "  repeat 9 at(3m, 4m, 2m) detail 1m { at(0m, 0m, -35m) sphere(1.2m); }\n}\n",
+    "sgm 1;\nimport \"std/rock.sgm\" as rock;\nunits m;\ndomain finite box(120m, 120m, 120m) solid limestone;\n"
+    "start Cave;\nrule Cave {\n"
+    "  cut {\n"
+    "    at(4m, -3m, 5m) displace rock.fbm(period 7m, amp 3m) { sphere(20m); }\n"
+    "    tube((4m, -3m, 5m), (0m, 6m, 46m), 3m, bend 6m);\n"
+    "    tube((4m, -3m, 5m), (-40m, -14m, -24m), 2m, bend 9m);\n  }\n"
+    "  repeat 8 at(2m, 1m, 1m) detail 1m { at(-8m, -6m, -4m) sphere(0.9m); }\n}\n"};
+inline constexpr int kTop = 3;
+inline constexpr int32_t kFinestCell = 256;
+
+/// All of the closed worlds, refined at random places around their middle.
+inline Octree randomTree(std::mt19937& random) {
+  Octree tree(kTop, kFinestCell);
+  for (int corner = 0; corner < 8; ++corner)
+    tree.split({kTop + 1, {-(corner & 1), -(corner >> 1 & 1), -(corner >> 2)}});
+  const int splits = 1 + static_cast<int>(random() % 6);
+  for (int i = 0; i < splits; ++i) {
+    const int level = 1 + static_cast<int>(random() % kTop);
+    const int32_t edge = kChunkCells * kFinestCell << level;
+    ChunkKey key{level, {}};
+    for (int axis = 0; axis < 3; ++axis)
+      key.at[axis] = static_cast<int32_t>(floorDiv(static_cast<int32_t>(random() % 65536) - 32768, edge));
+    tree.split(key);
+  }
+  refineToRules(tree);
+  return tree;
+}
+
+inline sgm_chunk_key publicKey(const ChunkKey& key) { return {key.level, key.at.x, key.at.y, key.at.z}; }
+
+/// What an octree draws.
+using Drawing = std::map<ChunkKey, cli::DrawnParts>;
+inline Drawing drawingOf(const Octree& tree) {
+  Drawing drawing;
+  for (const ChunkRequest& request : frameRequests(tree)) drawing[request.key] = {request.seams, request.coarser};
+  return drawing;
+}
+
+/// A closed world's field, and the meshes asked for so far, with all seams.
+class MeshedWorld {
+ public:
+  explicit MeshedWorld(const char* grammar)
+      : runtime_(makeRuntime()),
+        grammar_(compile(runtime_.get(), grammar)),
+        field_(makeField(runtime_.get(), grammar_.get(), kFinestCell)) {}
+
+  void want(const Drawing& drawing) {
+    std::vector<sgm_chunk_request> requests;
+    for (const auto& [key, parts] : drawing) {
+      if (meshes_.count(key) != 0) continue;
+      requests.push_back(chunkAt(publicKey(key), 63));
+      requests.back().coarser = parts.coarser;
+    }
+    if (requests.empty()) return;
+    std::vector<MeshOwner> made = meshChunks(field_.get(), requests);
+    for (size_t i = 0; i < made.size(); ++i) {
+      const sgm_chunk_key& key = requests[i].key;
+      meshes_.emplace(ChunkKey{key.level, {key.x, key.y, key.z}}, std::move(made[i]));
+    }
+  }
+  sgm_mesh_view view(const ChunkKey& key) const { return viewOf(meshes_.at(key)); }
+  bool empty(const ChunkKey& key) const { return view(key).index_count == 0; }
+
+ private:
+  RuntimeOwner runtime_;
+  GrammarOwner grammar_;
+  FieldOwner field_;
+  std::map<ChunkKey, MeshOwner> meshes_;
+};
+
+}  // namespace sgm

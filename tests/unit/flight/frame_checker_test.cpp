@@ -1,0 +1,328 @@
+// The checker sees what is wrong with a frame, sees nothing wrong with a right one, and loses count of nothing.
+
+#include "cli/frame_checker.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <random>
+
+#include "drawn_world.h"
+#include "rounds.h"
+#include "world_support.h"
+
+using namespace sgm;
+using cli::DrawnParts;
+using cli::FrameChecker;
+using cli::FrameReport;
+using cli::WholeReport;
+
+namespace {
+
+void drawAll(FrameChecker& checker, MeshedWorld& world, const Drawing& drawing) {
+  world.want(drawing);
+  for (const auto& [key, parts] : drawing) REQUIRE(checker.draw(world.view(key), parts));
+}
+
+/// Checks that the running numbers are those of a check of everything.
+WholeReport agreed(const FrameChecker& checker) {
+  const WholeReport whole = checker.checkWhole();
+  INFO(describe(whole.mesh));
+  CHECK(whole.frame.chunks == checker.check().chunks);
+  CHECK(whole.frame.triangles == checker.check().triangles);
+  CHECK(whole.frame.edges == checker.check().edges);
+  CHECK(whole.frame.open_edges == checker.check().open_edges);
+  CHECK(whole.frame.nonmanifold_edges == checker.check().nonmanifold_edges);
+  CHECK(whole.frame.overlaps == checker.check().overlaps);
+  CHECK(whole.frame == checker.check());
+  return whole;
+}
+
+}  // namespace
+
+TEST_CASE("what an octree draws is closed, and stays so as octrees follow each other") {
+  for (const char* grammar : kClosedWorlds) {
+    MeshedWorld world(grammar);
+    FrameChecker checker;
+    Drawing drawn;
+    uint64_t triangles = 0, redrawn = 0, half_done = 0;
+    for (uint32_t seed = 1; seed <= rounds(4); ++seed) {
+      CAPTURE(grammar, seed);
+      std::mt19937 random(seed);
+      const Drawing next = drawingOf(randomTree(random));
+      world.want(next);
+      // Chunk by chunk, in any order: between two frames anything may be open.
+      std::vector<ChunkKey> changes;
+      for (const auto& [key, parts] : drawn)
+        if (next.count(key) == 0) changes.push_back(key);
+      for (const auto& [key, parts] : next)
+        if (drawn.count(key) == 0 || !(drawn.at(key) == parts)) changes.push_back(key);
+      std::shuffle(changes.begin(), changes.end(), random);
+      for (size_t i = 0; i < changes.size(); ++i) {
+        const auto to = next.find(changes[i]);
+        if (to == next.end()) {
+          REQUIRE(checker.erase(publicKey(changes[i])));
+        } else if (drawn.count(changes[i]) != 0 && random() % 4 != 0) {
+          REQUIRE(checker.redraw(publicKey(changes[i]), to->second));
+          ++redrawn;
+        } else {
+          REQUIRE(checker.draw(world.view(changes[i]), to->second));
+        }
+        if (i == changes.size() / 2) half_done += agreed(checker).frame.closed() ? 0u : 1u;
+      }
+      drawn = next;
+      CHECK(agreed(checker).closed());
+      CHECK(checker.check().closed());
+      CHECK(checker.check().chunks == next.size());
+      triangles += checker.check().triangles;
+    }
+    CHECK(triangles > 10000);
+    CHECK(redrawn > 10);
+    CHECK(half_done > 1);
+    for (const auto& [key, parts] : drawn) CHECK(checker.erase(publicKey(key)));
+    CHECK(checker.check() == FrameReport{});
+  }
+}
+
+TEST_CASE("a seam that is missing shows as open edges, until it is drawn") {
+  MeshedWorld world(kClosedWorlds[1]);
+  std::mt19937 random(3);
+  const Drawing drawing = drawingOf(randomTree(random));
+  FrameChecker checker;
+  drawAll(checker, world, drawing);
+  REQUIRE(checker.check().closed());
+  int left_out = 0;
+  for (const auto& [key, parts] : drawing) {
+    const sgm_mesh_view view = world.view(key);
+    for (uint32_t face = 0; face < 6; ++face) {
+      if ((parts.seams >> face & 1) == 0 || view.seams[face].index_count == 0 || left_out == 12) continue;
+      CAPTURE(key.level, key.at.x, key.at.y, key.at.z, face);
+      REQUIRE(checker.redraw(view.key, {parts.seams & ~(1u << face), parts.coarser}));
+      CHECK(checker.check().open_edges > 0);
+      agreed(checker);
+      REQUIRE(checker.redraw(view.key, parts));
+      CHECK(checker.check().closed());
+      ++left_out;
+    }
+  }
+  CHECK(left_out == 12);
+}
+
+TEST_CASE("a seam too many is open too") {
+  MeshedWorld world(kClosedWorlds[0]);
+  std::mt19937 random(5);
+  const Drawing drawing = drawingOf(randomTree(random));
+  FrameChecker checker;
+  drawAll(checker, world, drawing);
+  for (const auto& [key, parts] : drawing) {
+    const sgm_mesh_view view = world.view(key);
+    for (uint32_t face = 0; face < 6; ++face) {
+      if ((parts.seams >> face & 1) != 0 || view.seams[face].index_count == 0) continue;
+      REQUIRE(checker.redraw(view.key, {parts.seams | 1u << face, parts.coarser}));
+      CHECK_FALSE(checker.check().closed());
+      agreed(checker);
+      REQUIRE(checker.redraw(view.key, parts));
+      CHECK(checker.check().closed());
+      return;
+    }
+  }
+  FAIL("no chunk has such a seam");
+}
+
+TEST_CASE("a chunk that is drawn inside another one is seen, whichever came first") {
+  MeshedWorld world(kClosedWorlds[0]);
+  std::mt19937 random(4);
+  const Octree tree = randomTree(random);
+  const Drawing drawing = drawingOf(tree);
+  FrameChecker checker;
+  drawAll(checker, world, drawing);
+  int tried = 0;
+  for (const ChunkKey& node : tree.splitNodes()) {
+    if (node.level > kTop) continue;
+    const auto inside = static_cast<uint64_t>(
+        std::count_if(drawing.begin(), drawing.end(), [&](const auto& leaf) { return holds(node, leaf.first); }));
+    const Drawing over{{node, {}}};
+    world.want(over);
+    REQUIRE(checker.draw(world.view(node), {}));
+    CHECK(checker.check().overlaps == inside);
+    agreed(checker);
+    const auto& [leaf, parts] =
+        *std::find_if(drawing.begin(), drawing.end(), [&](const auto& drawn) { return holds(node, drawn.first); });
+    REQUIRE(checker.draw(world.view(leaf), parts));  // once more: below the one that came later
+    CHECK(checker.check().overlaps == inside);
+    REQUIRE(checker.erase(publicKey(node)));
+    CHECK(checker.check().overlaps == 0);
+    CHECK(checker.check().closed());
+    ++tried;
+  }
+  CHECK(tried > 0);
+}
+
+TEST_CASE("wrong blocks around a chunk are seen, as open edges") {
+  MeshedWorld world(kClosedWorlds[1]);
+  std::mt19937 random(1);
+  int open = 0, tried = 0;
+  for (int round = 0; round < 2; ++round) {
+    const Drawing drawing = drawingOf(randomTree(random));
+    FrameChecker checker;
+    drawAll(checker, world, drawing);
+    for (const auto& [key, parts] : drawing) {
+      if (parts.seams == 0 || world.view(key).index_count == 0 || random() % 4 != 0) continue;
+      for (const Neighbourhood wrong : {Neighbourhood{0}, (1u << 27) - 1}) {
+        REQUIRE(checker.redraw(publicKey(key), {parts.seams, wrong}));
+        agreed(checker);
+        open += checker.check().open_edges > 0;
+        ++tried;
+      }
+      REQUIRE(checker.redraw(publicKey(key), parts));
+    }
+    CHECK(agreed(checker).closed());
+  }
+  CHECK(tried > 10);
+  CHECK(open > 0);
+}
+
+TEST_CASE("wrong blocks that join two surfaces in a point are seen in that vertex") {
+  // A pebble around the corner of eight chunks that the finest level alone knows; two chunks across from each other are
+  // of that level, and each closes its eighth of the pebble for itself.
+  MeshedWorld world(
+      "sgm 1;\nunits m;\ndomain finite box(120m, 120m, 120m) empty;\nstart Pebble;\n"
+      "rule Pebble { detail 0.3m { sphere(1m); } }\n");
+  Octree tree(kTop, kFinestCell);
+  tree.split({1, {0, 0, 0}});
+  tree.split({1, {-1, -1, -1}});
+  refineToRules(tree);
+  const Drawing drawing = drawingOf(tree);
+  const ChunkKey upper{0, {0, 0, 0}};
+  FrameChecker checker;
+  drawAll(checker, world, drawing);
+  CHECK(checker.checkWhole().closed());
+  CHECK(checker.check().triangles > 100);
+  // As if the chunks across its lower edges were the fine ones, and the one across the corner not: then its vertex in
+  // the corner has the other one's key.
+  DrawnParts wrong = drawing.at(upper);
+  wrong.coarser &= ~(neighbourBit(0, -1, -1) | neighbourBit(-1, 0, -1) | neighbourBit(-1, -1, 0));
+  wrong.coarser |= neighbourBit(-1, -1, -1);
+  REQUIRE(checker.redraw(publicKey(upper), wrong));
+  CHECK(checker.check().closed());
+  const WholeReport whole = agreed(checker);
+  CHECK(whole.mesh.pinched_vertices == 1);
+  CHECK_FALSE(whole.closed());
+}
+
+TEST_CASE("keys follow from packed vertices and the blocks around") {
+  std::mt19937 random(9);
+  const std::vector<ChunkRequest> requests = frameRequests(randomTree(random));
+  const WorldField field(settingsOf(kClosedWorlds[1], kFinestCell), std::pmr::get_default_resource());
+  const std::pmr::vector<PlacedChunk> chunks = meshAll(field, requests, 2);
+  MeshedWorld world(kClosedWorlds[1]);
+  std::array<size_t, 3> kinds{};
+  size_t fans = 0, wrong = 0;
+  for (size_t i = 0; i < requests.size(); ++i) {
+    const ChunkRequest& request = requests[i];
+    world.want({{request.key, {request.seams, request.coarser}}});
+    const sgm_mesh_view view = world.view(request.key);
+    for (int face = -1; face < 6; ++face) {
+      if (face >= 0 && (request.seams >> face & 1) == 0) continue;
+      const sgm_mesh_range& range = face < 0 ? view.body : view.seams[face];
+      const MeshPart& part = face < 0 ? chunks[i].mesh.body : chunks[i].mesh.seams[static_cast<size_t>(face)];
+      if (request.outermost && part.keys.size() != range.vertex_count) continue;  // asked of another neighbour
+      REQUIRE(part.keys.size() == range.vertex_count);
+      cli::SeamOf seam;
+      if (face >= 0) seam = {static_cast<Face>(face), seamFans(static_cast<Face>(face), request.coarser)};
+      for (uint32_t v = 0; v < range.vertex_count; ++v) {
+        const sgm_vertex& vertex = view.vertices[range.first_vertex + v];
+        const std::optional<VertexKey> key =
+            cli::vertexKey(chunks[i].grid, {vertex.x, vertex.y, vertex.z, vertex.kind}, face < 0 ? nullptr : &seam);
+        wrong += !key || *key != part.keys[v];
+        ++kinds[vertex.kind];
+        fans += key && key->fan != 0;
+      }
+    }
+  }
+  CHECK(wrong == 0);
+  for (const size_t count : kinds) CHECK(count > 10);
+  CHECK(fans > 0);
+}
+
+TEST_CASE("a mesh that is not well formed is refused, and changes nothing") {
+  MeshedWorld world(kClosedWorlds[0]);
+  std::mt19937 random(2);
+  const Drawing drawing = drawingOf(randomTree(random));
+  FrameChecker checker;
+  drawAll(checker, world, drawing);
+  const FrameReport before = checker.check();
+  const auto whole = std::find_if(drawing.begin(), drawing.end(),
+                                  [&](const auto& drawn) { return world.view(drawn.first).body.index_count > 0; });
+  REQUIRE(whole != drawing.end());
+  const sgm_mesh_view view = world.view(whole->first);
+  const std::vector<sgm_vertex> vertices(view.vertices, view.vertices + view.vertex_count);
+  const std::vector<uint32_t> indices(view.indices, view.indices + view.index_count);
+  const auto refused = [&](auto&& spoil) {
+    std::vector<sgm_vertex> other_vertices = vertices;
+    std::vector<uint32_t> other_indices = indices;
+    sgm_mesh_view other = view;
+    spoil(other, other_vertices, other_indices);
+    other.vertices = other_vertices.data();
+    other.indices = other_indices.data();
+    const Result<void> drawn = checker.draw(other, whole->second);
+    return !drawn && drawn.error().code == Code::invalid_argument && checker.check() == before;
+  };
+  CHECK(refused([](auto&, auto& v, auto&) { v[0].x = v[0].y = v[0].z = 256; }));
+  CHECK(refused([](auto&, auto& v, auto&) { v[0].x = v[0].y = 100; }));
+  CHECK(refused([](auto&, auto& v, auto&) { v[0].x = 8300; }));
+  CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = SGM_VERTEX_COARSER; }));
+  CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = 3; }));
+  CHECK(refused([](auto& m, auto&, auto& i) { i[0] = m.body.vertex_count; }));
+  CHECK(refused([](auto& m, auto&, auto&) { m.body.index_count -= 1; }));
+  CHECK(refused([](auto& m, auto&, auto&) { m.vertex_count = m.body.vertex_count - 1; }));
+  CHECK(refused([](auto& m, auto&, auto&) { m.key.level = 17; }));
+  CHECK_FALSE(checker.redraw({0, 1000, 0, 0}, {}));
+  CHECK_FALSE(checker.erase({0, 1000, 0, 0}));
+}
+
+TEST_CASE("an edge that three triangles use, and a triangle with a vertex twice, are seen") {
+  MeshedWorld world(kClosedWorlds[0]);
+  const Drawing drawing{{{kTop, {0, 0, 0}}, {}}};
+  world.want(drawing);
+  const sgm_mesh_view view = world.view({kTop, {0, 0, 0}});
+  REQUIRE(view.body.index_count > 300);
+  for (const uint32_t at : {0u, 150u, 297u}) {
+    std::vector<uint32_t> indices(view.indices, view.indices + view.body.index_count);
+    sgm_mesh_view other = view;
+    for (sgm_mesh_range& seam : other.seams) seam = SGM_MESH_RANGE_INIT;
+    FrameChecker checker;
+    other.indices = indices.data();
+    REQUIRE(checker.draw(other, {}));
+    const FrameReport plain = checker.check();
+    CHECK(plain.nonmanifold_edges + plain.degenerate_triangles == 0);
+    indices.insert(indices.end(), {indices[at], indices[at + 1], indices[at + 2]});
+    indices.insert(indices.end(), {indices[at], indices[at + 1], indices[at]});
+    other.indices = indices.data();
+    other.index_count = other.body.index_count = static_cast<uint32_t>(indices.size());
+    REQUIRE(checker.draw(other, {}));
+    CHECK(checker.check().nonmanifold_edges == 3);
+    CHECK(checker.check().degenerate_triangles == 1);
+    agreed(checker);
+  }
+}
+
+TEST_CASE("changes cost less than half a microsecond an edge", "[.measure]") {
+  MeshedWorld world(kClosedWorlds[0]);
+  std::mt19937 random(1);
+  const Drawing drawing = drawingOf(randomTree(random));
+  world.want(drawing);
+  FrameChecker checker;
+  uint64_t edges = 0;
+  double best = 1e9;
+  for (int round = 0; round < 20; ++round) {
+    const auto start = std::chrono::steady_clock::now();
+    for (const auto& [key, parts] : drawing) REQUIRE(checker.draw(world.view(key), parts));
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    edges = checker.check().edges;
+    best = std::min(best, seconds.count());
+  }
+  std::printf("%llu edges, %.3f us each, erased and drawn\n", static_cast<unsigned long long>(edges),
+              best / static_cast<double>(edges) * 1e6);
+}
