@@ -14,10 +14,10 @@ SGM_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config
   libhwy-dev
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
-  libcli11-dev libfmt-dev libstb-dev
+  libcli11-dev libfmt-dev libstb-dev nlohmann-json3-dev
 )
 SGM_TEST_PACKAGES=(
-  catch2 nlohmann-json3-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind
+  catch2 clang libclang-rt-14-dev vulkan-validationlayers valgrind
   git=git ca-certificates nodejs=node npm=npm
 )
 # Only for AVX-512 where no processor has it: tests/scripts/avx512_emulated.sh.
