@@ -77,6 +77,7 @@ class MeshedWorld {
       meshes_.emplace(ChunkKey{key.level, {key.x, key.y, key.z}}, std::move(made[i]));
     }
   }
+  const sgm_grammar* grammar() const { return grammar_.get(); }
   sgm_mesh_view view(const ChunkKey& key) const { return viewOf(meshes_.at(key)); }
   bool empty(const ChunkKey& key) const { return view(key).index_count == 0; }
 
