@@ -1,0 +1,11 @@
+#include "stream/queries.h"
+
+#include "stream/world_field.h"
+
+namespace sgm {
+
+QueryField queryField(const WorldField& world) {
+  return {[&world](const IntBox& box) { return world.compile(box, 0); }, world.settings().finest_cell, world.memory()};
+}
+
+}  // namespace sgm
