@@ -252,6 +252,76 @@ TEST_CASE("sampling calls are checked") {
     CHECK(sgm_field_anchors(field, lo, hi, nullptr, stride, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
 }
 
+TEST_CASE("questions to the field are checked") {
+  World world;
+  sgm_field* field = world.field.get();
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_surface_point point = SGM_SURFACE_POINT_INIT;
+  const double infinite = std::numeric_limits<double>::infinity(), nan = std::nan("");
+
+  const sgm_ray_desc ray = SGM_RAY_DESC_INIT;
+  checkStruct(ray, [&](sgm_ray_desc* desc) { return sgm_field_ray_cast(field, desc, &point, &error); });
+  checkStruct(point, [&](sgm_surface_point* out) { return sgm_field_ray_cast(field, &ray, out, &error); });
+  CHECK(sgm_field_ray_cast(nullptr, &ray, &point, &error) == SGM_ERR_INVALID_ARGUMENT);
+  const auto cast = [&](auto change) {
+    sgm_ray_desc desc = ray;
+    change(desc);
+    error = SGM_ERROR_INIT;
+    const sgm_result result = sgm_field_ray_cast(field, &desc, &point, &error);
+    CHECK((result == SGM_OK) == (error.message[0] == 0));
+    return result;
+  };
+  CHECK(cast([](auto&) {}) == SGM_OK);
+  for (const double bad : {nan, infinite, -infinite}) {
+    CHECK(cast([&](auto& d) { d.from[1] = bad; }) == SGM_ERR_INVALID_ARGUMENT);
+    CHECK(cast([&](auto& d) { d.direction[2] = bad; }) == SGM_ERR_INVALID_ARGUMENT);
+  }
+  CHECK(cast([](auto& d) { d.direction[1] = 0; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(cast([&](auto& d) { d.length = nan; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(cast([](auto& d) { d.length = -1; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(cast([](auto& d) { d.length = 4096; }) == SGM_OK);
+  CHECK(cast([](auto& d) { d.length = 4096.1; }) == SGM_ERR_LIMIT);
+  CHECK(cast([](auto& d) { d.from[0] = 2147483648.0; }) == SGM_ERR_RANGE);
+
+  const sgm_closest_desc closest = SGM_CLOSEST_DESC_INIT;
+  checkStruct(closest, [&](sgm_closest_desc* desc) { return sgm_field_closest_point(field, desc, &point, &error); });
+  checkStruct(point, [&](sgm_surface_point* out) { return sgm_field_closest_point(field, &closest, out, &error); });
+  CHECK(sgm_field_closest_point(nullptr, &closest, &point, &error) == SGM_ERR_INVALID_ARGUMENT);
+  const auto nearest = [&](auto change) {
+    sgm_closest_desc desc = closest;
+    change(desc);
+    return sgm_field_closest_point(field, &desc, &point, &error);
+  };
+  CHECK(nearest([](auto&) {}) == SGM_OK);
+  CHECK(nearest([&](auto& d) { d.position[0] = nan; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(nearest([](auto& d) { d.position[2] = -2147483649.0; }) == SGM_ERR_RANGE);
+  CHECK(nearest([](auto& d) { d.max_distance = -1; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(nearest([&](auto& d) { d.max_distance = infinite; }) == SGM_ERR_LIMIT);
+
+  sgm_walk_desc walk = SGM_WALK_DESC_INIT;
+  for (int32_t& v : walk.maximum) v = 4096;
+  sgm_walkable walkable = SGM_WALKABLE_INIT;
+  checkStruct(walk, [&](sgm_walk_desc* desc) { return sgm_field_is_walkable(field, desc, &walkable, &error); });
+  checkStruct(walkable, [&](sgm_walkable* out) { return sgm_field_is_walkable(field, &walk, out, &error); });
+  CHECK(sgm_field_is_walkable(nullptr, &walk, &walkable, &error) == SGM_ERR_INVALID_ARGUMENT);
+  const auto stand = [&](auto change) {
+    sgm_walk_desc desc = walk;
+    change(desc);
+    return sgm_field_is_walkable(field, &desc, &walkable, &error);
+  };
+  CHECK(stand([](auto&) {}) == SGM_OK);
+  CHECK(stand([](auto& d) { d.minimum[1] = d.maximum[1]; }) == SGM_ERR_INVALID_ARGUMENT);
+  for (const double bad : {nan, -1.0}) {
+    CHECK(stand([&](auto& d) { d.radius = bad; }) == SGM_ERR_INVALID_ARGUMENT);
+    CHECK(stand([&](auto& d) { d.height = bad; }) == SGM_ERR_INVALID_ARGUMENT);
+    CHECK(stand([&](auto& d) { d.step = bad; }) == SGM_ERR_INVALID_ARGUMENT);
+    CHECK(stand([&](auto& d) { d.slope = bad; }) == SGM_ERR_INVALID_ARGUMENT);
+    CHECK(stand([&](auto& d) { d.area = bad; }) == SGM_ERR_INVALID_ARGUMENT);
+  }
+  CHECK(stand([](auto& d) { d.minimum[0] = std::numeric_limits<int32_t>::min(); }) == SGM_ERR_RANGE);
+  CHECK(stand([](auto& d) { d.minimum[0] = -1'000'000'000; }) == SGM_ERR_LIMIT);
+}
+
 TEST_CASE("chunk calls are checked") {
   World world;
   sgm_error error = SGM_ERROR_INIT;

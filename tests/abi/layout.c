@@ -214,6 +214,50 @@ PLACE(sgm_anchor, tag, 52);
 PLACE(sgm_anchor, reserved, 54);
 PLACE(sgm_anchor, key, 56);
 
+SIZE(sgm_surface_point, 88);
+PLACE(sgm_surface_point, struct_size, 0);
+PLACE(sgm_surface_point, next, 8);
+PLACE(sgm_surface_point, found, 16);
+PLACE(sgm_surface_point, inside, 20);
+PLACE(sgm_surface_point, position, 24);
+PLACE(sgm_surface_point, normal, 48);
+PLACE(sgm_surface_point, distance, 72);
+PLACE(sgm_surface_point, material, 80);
+PLACE(sgm_surface_point, tag, 82);
+PLACE(sgm_surface_point, reserved, 84);
+
+SIZE(sgm_ray_desc, 72);
+PLACE(sgm_ray_desc, struct_size, 0);
+PLACE(sgm_ray_desc, next, 8);
+PLACE(sgm_ray_desc, from, 16);
+PLACE(sgm_ray_desc, direction, 40);
+PLACE(sgm_ray_desc, length, 64);
+
+SIZE(sgm_closest_desc, 48);
+PLACE(sgm_closest_desc, struct_size, 0);
+PLACE(sgm_closest_desc, next, 8);
+PLACE(sgm_closest_desc, position, 16);
+PLACE(sgm_closest_desc, max_distance, 40);
+
+SIZE(sgm_walk_desc, 80);
+PLACE(sgm_walk_desc, struct_size, 0);
+PLACE(sgm_walk_desc, next, 8);
+PLACE(sgm_walk_desc, minimum, 16);
+PLACE(sgm_walk_desc, maximum, 28);
+PLACE(sgm_walk_desc, radius, 40);
+PLACE(sgm_walk_desc, height, 48);
+PLACE(sgm_walk_desc, step, 56);
+PLACE(sgm_walk_desc, slope, 64);
+PLACE(sgm_walk_desc, area, 72);
+
+SIZE(sgm_walkable, 40);
+PLACE(sgm_walkable, struct_size, 0);
+PLACE(sgm_walkable, next, 8);
+PLACE(sgm_walkable, walkable, 16);
+PLACE(sgm_walkable, sides, 20);
+PLACE(sgm_walkable, standing, 24);
+PLACE(sgm_walkable, largest, 32);
+
 SIZE(sgm_chunk_key, 16);
 PLACE(sgm_chunk_key, level, 0);
 PLACE(sgm_chunk_key, x, 4);
@@ -332,6 +376,11 @@ int LAYOUT_INITS(void) {
   const sgm_parameter_info parameter_info = SGM_PARAMETER_INFO_INIT;
   const sgm_field_desc field_desc = SGM_FIELD_DESC_INIT;
   const sgm_sample_desc sample_desc = SGM_SAMPLE_DESC_INIT;
+  const sgm_surface_point surface_point = SGM_SURFACE_POINT_INIT;
+  const sgm_ray_desc ray_desc = SGM_RAY_DESC_INIT;
+  const sgm_closest_desc closest_desc = SGM_CLOSEST_DESC_INIT;
+  const sgm_walk_desc walk_desc = SGM_WALK_DESC_INIT;
+  const sgm_walkable walkable = SGM_WALKABLE_INIT;
   const sgm_chunk_request chunk_request = SGM_CHUNK_REQUEST_INIT;
   const sgm_chunks_desc chunks_desc = SGM_CHUNKS_DESC_INIT;
   const sgm_mesh_range mesh_range = SGM_MESH_RANGE_INIT;
@@ -347,7 +396,12 @@ int LAYOUT_INITS(void) {
          layer_info.struct_size == sizeof(layer_info) && layer_info.next == SGM_NULL &&
          parameter_info.struct_size == sizeof(parameter_info) && parameter_info.next == SGM_NULL &&
          field_desc.struct_size == sizeof(field_desc) && field_desc.next == SGM_NULL &&
-         sample_desc.struct_size == sizeof(sample_desc) && sample_desc.next == SGM_NULL && chunk_request.coarser == 0 &&
+         sample_desc.struct_size == sizeof(sample_desc) && sample_desc.next == SGM_NULL &&
+         surface_point.struct_size == sizeof(surface_point) && surface_point.next == SGM_NULL &&
+         ray_desc.struct_size == sizeof(ray_desc) && ray_desc.next == SGM_NULL &&
+         closest_desc.struct_size == sizeof(closest_desc) && closest_desc.next == SGM_NULL &&
+         walk_desc.struct_size == sizeof(walk_desc) && walk_desc.next == SGM_NULL &&
+         walkable.struct_size == sizeof(walkable) && walkable.next == SGM_NULL && chunk_request.coarser == 0 &&
          chunk_request.reserved[1] == 0 && chunks_desc.struct_size == sizeof(chunks_desc) &&
          chunks_desc.next == SGM_NULL && mesh_range.hash == 0 && mesh_view.struct_size == sizeof(mesh_view) &&
          mesh_view.next == SGM_NULL && region_desc.struct_size == sizeof(region_desc) && region_desc.next == SGM_NULL &&

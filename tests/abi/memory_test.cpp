@@ -66,6 +66,18 @@ sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threa
   sample.values = values;
   sample.gradients = gradients;
   if (sgm_result r = sgm_field_sample(h.field, &sample, error); r != SGM_OK) return r;
+  sgm_ray_desc ray = SGM_RAY_DESC_INIT;
+  sgm_closest_desc closest = SGM_CLOSEST_DESC_INIT;
+  ray.from[0] = ray.from[2] = closest.position[0] = closest.position[2] = 4096;
+  ray.from[1] = closest.position[1] = 8192;
+  ray.length = closest.max_distance = 5;
+  sgm_surface_point point = SGM_SURFACE_POINT_INIT;
+  if (sgm_result r = sgm_field_ray_cast(h.field, &ray, &point, error); r != SGM_OK) return r;
+  if (sgm_result r = sgm_field_closest_point(h.field, &closest, &point, error); r != SGM_OK) return r;
+  sgm_walk_desc walk = SGM_WALK_DESC_INIT;
+  for (int32_t& v : walk.maximum) v = 8192;
+  sgm_walkable walkable = SGM_WALKABLE_INIT;
+  if (sgm_result r = sgm_field_is_walkable(h.field, &walk, &walkable, error); r != SGM_OK) return r;
   sgm_region_desc region = SGM_REGION_DESC_INIT;
   for (int32_t& v : region.maximum) v = 20000;
   if (sgm_result r = sgm_surface_from_region(h.field, &region, &h.region, error); r != SGM_OK) return r;

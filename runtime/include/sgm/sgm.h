@@ -472,6 +472,103 @@ typedef struct sgm_anchor {
 SGM_API sgm_result sgm_field_anchors(sgm_field* field, const int32_t minimum[3], const int32_t maximum[3],
                                      sgm_anchor* anchors, size_t anchor_stride, size_t* count, sgm_error* error);
 
+/* ------------------------------------------------------------------------------------------- questions to the field */
+
+/* Answered by the field itself at level 0, where no mesh need be: what a ray hits, what surface is nearest, where one
+ * can stand. All of them block, derive the cells there that are not in the cache, and work on the calling thread: ask
+ * from many threads at once. The answers are the same on every machine, and at any distance from the origin.
+ * Positions are in units, as double: also between them. Errors common to all, each with a message that says which:
+ * SGM_ERR_INVALID_ARGUMENT (not finite, or out of its stated range), SGM_ERR_RANGE (a position outside of the world),
+ * SGM_ERR_LIMIT (farther or larger than stated, or as sgm_field_sample). */
+
+/* A place on the surface. Filled by sgm_field_ray_cast and sgm_field_closest_point. */
+typedef struct sgm_surface_point {
+  uint32_t struct_size;
+  void* next;
+  int32_t found;      /* 0: there is none, and all below is 0 */
+  int32_t inside;     /* 1: the place that was asked about lies in the solid itself */
+  double position[3]; /* units */
+  double normal[3];   /* one long, out of the solid */
+  double distance;    /* from the place that was asked about, metres */
+  uint16_t material;  /* index for sgm_grammar_material */
+  uint16_t tag;       /* index for sgm_grammar_tag */
+  uint32_t reserved;  /* 0 */
+} sgm_surface_point;
+
+#define SGM_SURFACE_POINT_INIT \
+  { SGM_SIZEOF(sgm_surface_point), SGM_NULL, 0, 0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0, 0, 0, 0 }
+
+typedef struct sgm_ray_desc {
+  uint32_t struct_size;
+  const void* next;
+  double from[3];      /* units, in the world */
+  double direction[3]; /* any length but 0 */
+  double length;       /* metres, 0 to 4,096 m or 8,192 cells, whichever is more */
+} sgm_ray_desc;
+
+#define SGM_RAY_DESC_INIT \
+  { SGM_SIZEOF(sgm_ray_desc), SGM_NULL, {0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, 1.0 }
+
+/* The first solid on a ray. One that starts in the solid hits it at once (inside). Nothing solid is stepped over that
+ * the ray passes through for a sixteenth of a cell, or for a unit where that is more; so no wall as thick as a cell.
+ * The hit lies on the void's side, less than a unit from the solid. A ray ends where the world does. */
+SGM_API sgm_result sgm_field_ray_cast(sgm_field* field, const sgm_ray_desc* desc, sgm_surface_point* out,
+                                      sgm_error* error);
+
+typedef struct sgm_closest_desc {
+  uint32_t struct_size;
+  const void* next;
+  double position[3];  /* units, in the world */
+  double max_distance; /* metres, 0 to 64 m or 256 cells, whichever is more */
+} sgm_closest_desc;
+
+#define SGM_CLOSEST_DESC_INIT \
+  { SGM_SIZEOF(sgm_closest_desc), SGM_NULL, {0.0, 0.0, 0.0}, 1.0 }
+
+/* The surface nearest to a place, from the void or from inside the solid. Looks at all of the surface that the samples
+ * of level 0 show: none of that is nearer than the answer by more than a quarter of a cell and a sixty-fourth of the
+ * distance; as a rule the answer is exact to a unit. Work grows with the square of the distance found. */
+SGM_API sgm_result sgm_field_closest_point(sgm_field* field, const sgm_closest_desc* desc, sgm_surface_point* out,
+                                           sgm_error* error);
+
+/* A box, and an upright cylinder that is to stand and walk in it. Lengths in metres. */
+typedef struct sgm_walk_desc {
+  uint32_t struct_size;
+  const void* next;
+  int32_t minimum[3], maximum[3]; /* units, minimum < maximum: floors at minimum <= p < maximum count. With the walker's
+                                     room around it at most 4,096 chunks of 32 cells, all in the world */
+  double radius;                  /* 0 to 64 cells */
+  double height;                  /* above 0, to 256 cells */
+  double step;                    /* climbs and drops this much from one place to the next; 0 to below height */
+  double slope;                   /* least y of a floor's normal: the cosine of the steepest angle, 0 to 1 */
+  double area;                    /* square metres of connected floor that make a box walkable; 0 or more */
+} sgm_walk_desc;
+
+#define SGM_WALK_DESC_INIT \
+  { SGM_SIZEOF(sgm_walk_desc), SGM_NULL, {0, 0, 0}, {0, 0, 0}, 0.3, 1.8, 0.4, 0.7071067811865476, 1.0 }
+
+/* Filled by sgm_field_is_walkable. Areas in square metres, seen from above, in steps of a cell. */
+typedef struct sgm_walkable {
+  uint32_t struct_size;
+  void* next;
+  int32_t walkable; /* 1: largest is above 0, and is at least the walker's area */
+  uint32_t sides;   /* side faces of the box that the largest part comes to, bit (1u << sgm_face): with both ends of a
+                       passage among them it can be walked through */
+  double standing;  /* floor that the walker can stand on */
+  double largest;   /* of that the largest connected part */
+} sgm_walkable;
+
+#define SGM_WALKABLE_INIT \
+  { SGM_SIZEOF(sgm_walkable), SGM_NULL, 0, 0, 0.0, 0.0 }
+
+/* Where in a box one can stand, and how far walk. Judged on the samples of level 0, a cell apart. A place to stand is a
+ * column of samples with a floor in the box: solid under void, its normal up to the slope, with the walker's height
+ * free above it, and no solid within the walker's radius that is higher than its step and lower than its head (higher
+ * by what the slope rises on the way there). Places side by side are connected where their floors differ by no more
+ * than the step and what the slope rises in a cell. */
+SGM_API sgm_result sgm_field_is_walkable(sgm_field* field, const sgm_walk_desc* desc, sgm_walkable* out,
+                                         sgm_error* error);
+
 /* ---------------------------------------------------------------------------------------------------- chunk meshes */
 
 /* The mesh of one chunk, packed for drawing. Immutable and counted by reference. */
