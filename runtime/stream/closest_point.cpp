@@ -9,7 +9,7 @@ namespace sgm {
 
 namespace {
 
-constexpr int kNearBrick = 8;         // cells on each axis whose samples are taken together
+constexpr int kNearBrick = 4;         // cells on each axis whose samples are taken together
 constexpr int64_t kFirstSearch = 16;  // cells: what is near is found without compiling what is far
 constexpr int64_t kSearchGrowth = 4;
 constexpr double kNone = std::numeric_limits<double>::infinity();

@@ -479,7 +479,7 @@ SGM_API sgm_result sgm_field_anchors(sgm_field* field, const int32_t minimum[3],
  * from many threads at once. The answers are the same on every machine, and at any distance from the origin.
  * Positions are in units, as double: also between them. Errors common to all, each with a message that says which:
  * SGM_ERR_INVALID_ARGUMENT (not finite, or out of its stated range), SGM_ERR_RANGE (a position outside of the world),
- * SGM_ERR_LIMIT (farther or larger than stated, or as sgm_field_sample). */
+ * SGM_ERR_LIMIT (farther or larger than stated, or as sgm_field_sample). On failure `out` stays as it was. */
 
 /* A place on the surface. Filled by sgm_field_ray_cast and sgm_field_closest_point. */
 typedef struct sgm_surface_point {

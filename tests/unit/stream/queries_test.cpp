@@ -236,6 +236,28 @@ TEST_CASE("the surface nearest to a place by a ball is exact, inside and out") {
   CHECK(middle->inside);
 }
 
+TEST_CASE("the answers do not depend on the cell, odd, tiny or larger than the shape") {
+  for (const int32_t cell : {1, 3, 77, 250, 1000, 3001}) {
+    CAPTURE(cell);
+    const Asked asked(oneShape("at(0.4m, 0.3m, -0.2m) sphere(1m);", cell));
+    const Vector middle{0.4 * kMetre, 0.3 * kMetre, -0.2 * kMetre};
+    Dice dice(static_cast<uint32_t>(cell));
+    for (int i = 0; i < 12; ++i) {
+      const Vector from = along(middle, dice.direction(), dice.real(1.02, 1.04) * kMetre);
+      const double away = length(less(from, middle)) - kMetre;
+      const Vector towards = less(middle, from);
+      const auto hit = cast(asked.field, from, towards, 4 * kMetre);
+      // A ball of a third of a cell lies between its samples, and its quantised field is as coarse as the cell.
+      const double rough = 2 + cell / 512.0;
+      REQUIRE(hit);
+      CHECK(hit->distance == Approx(away).margin(rough));
+      const auto found = closest(asked.field, from, 60);
+      if (cell <= 250) REQUIRE(found);
+      if (found) CHECK(found->distance == Approx(away).margin(rough));
+    }
+  }
+}
+
 TEST_CASE("a wall is hit from any side, a cell thick or a sixteenth of one") {
   for (const auto& [thick, cell] : {std::pair{0.25, 256}, std::pair{1.0, 1024}, std::pair{0.0166, 256}}) {
     const Asked asked(
