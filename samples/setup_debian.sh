@@ -12,7 +12,7 @@
 # An entry is a Debian package, or PACKAGE=COMMAND where the command may also come from elsewhere.
 SGM_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config
-  libhwy-dev
+  libhwy-dev libzstd-dev libxxhash-dev
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
   libcli11-dev libfmt-dev libstb-dev nlohmann-json3-dev
 )
