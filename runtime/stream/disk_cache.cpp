@@ -13,8 +13,8 @@
 namespace sgm {
 namespace {
 
-// The least share of a set: room for thousands of chunks, so that sets of random keys are of like size.
-constexpr uint64_t kLeastShare = uint64_t{64} << 20;
+// The least share of a set: thousands of chunks, so that random keys fill all sets alike, and listing takes 10 ms.
+constexpr uint64_t kLeastShare = uint64_t{16} << 20;
 constexpr uint64_t kSlack = 8;  // one part of so many is made free, or written between two listings
 
 class FileCache final : public DiskCache {

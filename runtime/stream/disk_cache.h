@@ -56,8 +56,8 @@ class DiskCache {
   using Log = std::function<void(const std::string&)>;
 
   /// Makes the folder where it is missing. byte_limit: of all entries' files; never exceeded by one process, and by
-  /// less than an eighth for each other one that writes at the same time. An entry whose file is larger than half of it
-  /// (or than 64 MiB, for a limit above that) may be dropped. memory, thread-safe, must outlive the cache.
+  /// less than an eighth for each other one that writes at the same time. An entry is dropped whose file is larger than
+  /// that, and may be where it is larger than 16 MiB. memory, thread-safe, must outlive the cache.
   /// Errors: invalid_argument (a limit of 0, no folder), io (the folder cannot be made, or is none), unsupported (built
   /// without: SGM_DISK_CACHE).
   static Result<std::unique_ptr<DiskCache>> open(const std::filesystem::path& folder, uint64_t byte_limit, Log log,

@@ -22,7 +22,7 @@ struct EntryHeader {
 };
 static_assert(sizeof(EntryHeader) == 48);
 
-// Meshes whose words are split by meaning gain little from a higher one (tests/bench).
+// The cave's chunks are half a percent smaller at level 3, which takes a quarter longer.
 constexpr int kZstdLevel = 1;
 
 }  // namespace

@@ -204,14 +204,14 @@ TEST_CASE("the limit holds after every put", "[stream][disk]") {
 
 TEST_CASE("a folder that is far over the limit is brought below it, set by set", "[stream][disk]") {
   const CacheFolder folder;
-  constexpr uint64_t kLimit = uint64_t{256} << 20;
+  constexpr uint64_t kLimit = uint64_t{64} << 20;
   uint64_t before = 0;
   for (uint64_t i = 0; i < 400; ++i) {
     const fs::path file = fileOf(folder, keyNumber(i));
     writeFile(file, {});
-    fs::resize_file(file, 2 << 20);  // holes: it takes no room
+    fs::resize_file(file, 1 << 18);  // holes: it takes no room
     age(file, std::chrono::seconds(1 + i));
-    before += 2 << 20;
+    before += 1 << 18;
   }
   const fs::path foreign[] = {folder.path / "README", fileOf(folder, keyNumber(0)).parent_path() / "notes",
                               folder.path / "00" / "ff000000000000000000000000000000",
