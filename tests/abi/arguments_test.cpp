@@ -454,3 +454,73 @@ TEST_CASE("surface calls are checked") {
   sgm_surface_view view = SGM_SURFACE_VIEW_INIT;
   CHECK(sgm_surface_get_view(nullptr, &view, &error) == SGM_ERR_INVALID_ARGUMENT);
 }
+
+TEST_CASE("world calls are checked") {
+  World fixture;
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_world_desc good = SGM_WORLD_DESC_INIT;
+  good.top_level = 2;
+  good.view_distance = 20;
+  const auto createWith = [&](const sgm_world_desc* desc) {
+    sgm_world* out = reinterpret_cast<sgm_world*>(&fixture);
+    const sgm_result result = sgm_world_create(fixture.field.get(), desc, &out, &error);
+    CHECK(out == nullptr);
+    return result;
+  };
+  checkStruct(good, createWith);
+  const auto with = [&](auto change) {
+    sgm_world_desc desc = good;
+    change(desc);
+    return createWith(&desc);
+  };
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  CHECK(with([](auto& d) { d.top_level = -1; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.top_level = SGM_MAX_LEVEL + 1; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.top_level = 15; }) == SGM_ERR_RANGE);
+  CHECK(with([](auto& d) { d.finest_distance = 0; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.view_distance = kNaN; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.mesh_bytes = 1000; }) == SGM_ERR_LIMIT);
+  sgm_world* world = nullptr;
+  CHECK(sgm_world_create(nullptr, &good, &world, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_create(fixture.field.get(), &good, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  REQUIRE(sgm_world_create(fixture.field.get(), &good, &world, &error) == SGM_OK);
+  const WorldOwner owner(world);
+
+  sgm_viewer viewer = SGM_VIEWER_INIT;
+  CHECK(sgm_world_set_viewers(nullptr, &viewer, 0, 1, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_set_viewers(world, nullptr, 0, 1, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_set_viewers(world, &viewer, 12, 1, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_set_viewers(world, nullptr, 0, 0, &error) == SGM_OK);
+  viewer.position[2] = kNaN;
+  CHECK(sgm_world_set_viewers(world, &viewer, 0, 1, &error) == SGM_ERR_INVALID_ARGUMENT);
+  viewer.position[2] = 3e6;
+  CHECK(sgm_world_set_viewers(world, &viewer, 0, 1, &error) == SGM_ERR_RANGE);
+
+  CHECK(sgm_world_update(nullptr, 1, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_update(world, 0, &error) == SGM_ERR_INVALID_ARGUMENT);
+  sgm_world_event event;
+  size_t count = 1;
+  CHECK(sgm_world_poll(nullptr, &event, 0, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_poll(world, nullptr, 0, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_poll(world, &event, 0, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_poll(world, &event, 9, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  sgm_drawn_chunk drawn;
+  CHECK(sgm_world_get_drawn(nullptr, &drawn, 0, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_get_drawn(world, &drawn, 0, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_get_drawn(world, &drawn, 5, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_wait_idle(nullptr, nullptr, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  sgm_world_cancel(nullptr);
+  sgm_world_destroy(nullptr);
+  const int32_t low[3] = {0, 0, 0}, high[3] = {100, 100, 100};
+  uint64_t hash = 0;
+  CHECK(sgm_world_hash(nullptr, low, high, 0, &hash, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_hash(world, nullptr, high, 0, &hash, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_hash(world, low, nullptr, 0, &hash, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_hash(world, low, high, 0, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_hash(world, high, low, 0, &hash, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_hash(world, low, high, 99, &hash, &error) == SGM_ERR_INVALID_ARGUMENT);
+  checkStruct(sgm_world_stats SGM_WORLD_STATS_INIT,
+              [&](sgm_world_stats* stats) { return sgm_world_get_stats(world, stats, &error); });
+  sgm_world_stats stats = SGM_WORLD_STATS_INIT;
+  CHECK(sgm_world_get_stats(nullptr, &stats, &error) == SGM_ERR_INVALID_ARGUMENT);
+}

@@ -27,6 +27,7 @@ using DiagnosticsOwner = std::unique_ptr<sgm_diagnostics, EndWith<sgm_diagnostic
 using ParametersOwner = std::unique_ptr<sgm_parameters, EndWith<sgm_parameters_destroy>>;
 using FieldOwner = std::unique_ptr<sgm_field, EndWith<sgm_field_destroy>>;
 using MeshOwner = std::unique_ptr<sgm_mesh, EndWith<sgm_mesh_release>>;
+using WorldOwner = std::unique_ptr<sgm_world, EndWith<sgm_world_destroy>>;
 using SurfaceOwner = std::unique_ptr<sgm_surface, EndWith<sgm_surface_destroy>>;
 
 /// A ball of 3 m around (4, 4, 4) m.

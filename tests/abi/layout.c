@@ -76,6 +76,13 @@ CHECK(face_y_low, SGM_FACE_Y_LOW == 2);
 CHECK(face_y_high, SGM_FACE_Y_HIGH == 3);
 CHECK(face_z_low, SGM_FACE_Z_LOW == 4);
 CHECK(face_z_high, SGM_FACE_Z_HIGH == 5);
+CHECK(event_ready, SGM_EVENT_READY == 0);
+CHECK(event_shown, SGM_EVENT_SHOWN == 1);
+CHECK(event_replaced, SGM_EVENT_REPLACED == 2);
+CHECK(event_seams, SGM_EVENT_SEAMS == 3);
+CHECK(event_removed, SGM_EVENT_REMOVED == 4);
+CHECK(event_failed, SGM_EVENT_FAILED == 5);
+CHECK(event_kind_force_32_bit, SGM_EVENT_KIND_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(face_count, SGM_FACE_COUNT == 6);
 CHECK(face_force, SGM_FACE_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(vertex_own, SGM_VERTEX_OWN == 0);
@@ -364,6 +371,56 @@ PLACE(sgm_surface_view, bounds_min, 128);
 PLACE(sgm_surface_view, bounds_max, 140);
 PLACE(sgm_surface_view, chunk_count, 152);
 
+SIZE(sgm_world_desc, 48);
+PLACE(sgm_world_desc, struct_size, 0);
+PLACE(sgm_world_desc, next, 8);
+PLACE(sgm_world_desc, top_level, 16);
+PLACE(sgm_world_desc, reserved, 20);
+PLACE(sgm_world_desc, finest_distance, 24);
+PLACE(sgm_world_desc, view_distance, 32);
+PLACE(sgm_world_desc, mesh_bytes, 40);
+
+SIZE(sgm_viewer, 56);
+PLACE(sgm_viewer, position, 0);
+PLACE(sgm_viewer, direction, 24);
+PLACE(sgm_viewer, velocity, 36);
+PLACE(sgm_viewer, fov, 48);
+PLACE(sgm_viewer, weight, 52);
+
+SIZE(sgm_world_event, 48);
+PLACE(sgm_world_event, kind, 0);
+PLACE(sgm_world_event, result, 4);
+PLACE(sgm_world_event, key, 8);
+PLACE(sgm_world_event, mesh, 24);
+PLACE(sgm_world_event, seams, 32);
+PLACE(sgm_world_event, coarser, 36);
+PLACE(sgm_world_event, frame, 40);
+
+SIZE(sgm_drawn_chunk, 32);
+PLACE(sgm_drawn_chunk, key, 0);
+PLACE(sgm_drawn_chunk, mesh, 16);
+PLACE(sgm_drawn_chunk, seams, 24);
+PLACE(sgm_drawn_chunk, coarser, 28);
+
+SIZE(sgm_world_stats, 128);
+PLACE(sgm_world_stats, struct_size, 0);
+PLACE(sgm_world_stats, next, 8);
+PLACE(sgm_world_stats, frame, 16);
+PLACE(sgm_world_stats, plans, 24);
+PLACE(sgm_world_stats, chunks_meshed, 32);
+PLACE(sgm_world_stats, seam_jobs, 40);
+PLACE(sgm_world_stats, chunks_in_vain, 48);
+PLACE(sgm_world_stats, chunks_failed, 56);
+PLACE(sgm_world_stats, queued, 64);
+PLACE(sgm_world_stats, in_work, 72);
+PLACE(sgm_world_stats, drawn, 80);
+PLACE(sgm_world_stats, kept, 88);
+PLACE(sgm_world_stats, mesh_bytes, 96);
+PLACE(sgm_world_stats, peak_mesh_bytes, 104);
+PLACE(sgm_world_stats, detail, 112);
+PLACE(sgm_world_stats, idle, 120);
+PLACE(sgm_world_stats, reserved, 124);
+
 /* Every _INIT macro fills its struct, in both languages, without a warning. */
 int LAYOUT_INITS(void) {
   const sgm_error error = SGM_ERROR_INIT;
@@ -388,6 +445,9 @@ int LAYOUT_INITS(void) {
   const sgm_region_desc region_desc = SGM_REGION_DESC_INIT;
   const sgm_grid_desc grid_desc = SGM_GRID_DESC_INIT;
   const sgm_surface_view surface_view = SGM_SURFACE_VIEW_INIT;
+  const sgm_world_desc world_desc = SGM_WORLD_DESC_INIT;
+  const sgm_viewer viewer = SGM_VIEWER_INIT;
+  const sgm_world_stats world_stats = SGM_WORLD_STATS_INIT;
   return error.code == SGM_OK && runtime_desc.struct_size == sizeof(runtime_desc) && runtime_desc.next == SGM_NULL &&
          backend_info.struct_size == sizeof(backend_info) && backend_info.next == SGM_NULL &&
          grammar_desc.struct_size == sizeof(grammar_desc) && grammar_desc.next == SGM_NULL &&
@@ -406,5 +466,7 @@ int LAYOUT_INITS(void) {
          chunks_desc.next == SGM_NULL && mesh_range.hash == 0 && mesh_view.struct_size == sizeof(mesh_view) &&
          mesh_view.next == SGM_NULL && region_desc.struct_size == sizeof(region_desc) && region_desc.next == SGM_NULL &&
          grid_desc.struct_size == sizeof(grid_desc) && grid_desc.next == SGM_NULL &&
-         surface_view.struct_size == sizeof(surface_view) && surface_view.next == SGM_NULL;
+         surface_view.struct_size == sizeof(surface_view) && surface_view.next == SGM_NULL &&
+         world_desc.struct_size == sizeof(world_desc) && world_desc.next == SGM_NULL && viewer.fov == 0.0f &&
+         viewer.weight > 0.5f && world_stats.struct_size == sizeof(world_stats) && world_stats.next == SGM_NULL;
 }

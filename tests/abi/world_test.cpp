@@ -1,0 +1,170 @@
+// A streamed world through the C interface alone, as an engine uses it.
+
+#include <map>
+#include <tuple>
+
+#include "fixture.h"
+
+namespace {
+
+/// Some balls around the origin, in a void that ends nowhere.
+constexpr const char* kBalls =
+    "sgm 1; units m; domain infinite;\nlayer l cell 16m reach 8m { start Ball; }\n"
+    "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
+
+WorldOwner makeWorld(sgm_field* field) {
+  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+  desc.top_level = 3;
+  desc.finest_distance = 10;
+  desc.view_distance = 60;
+  sgm_world* world = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  const sgm_result result = sgm_world_create(field, &desc, &world, &error);
+  INFO(error.message);
+  REQUIRE(result == SGM_OK);
+  return WorldOwner(world);
+}
+
+void look(sgm_world* world, double x) {
+  sgm_viewer viewer = SGM_VIEWER_INIT;
+  viewer.position[0] = x;
+  REQUIRE(sgm_world_set_viewers(world, &viewer, 0, 1, nullptr) == SGM_OK);
+}
+
+using Key = std::tuple<int32_t, int32_t, int32_t, int32_t>;
+Key keyOf(const sgm_chunk_key& key) { return {key.level, key.x, key.y, key.z}; }
+
+struct Drawn {
+  uint64_t hash = 0;
+  uint32_t seams = 0, coarser = 0;
+  friend bool operator==(const Drawn&, const Drawn&) = default;
+};
+
+/// Keeps, from events alone, what is drawn.
+class Engine {
+ public:
+  void poll(sgm_world* world) {
+    // Fewer at one time than there are: polling goes on where it stopped.
+    sgm_world_event events[7];
+    for (size_t count = 7;; count = 7) {
+      REQUIRE(sgm_world_poll(world, events, 0, &count, nullptr) == SGM_OK);
+      if (count == 0) return;
+      for (size_t i = 0; i < count; ++i) take(events[i]);
+    }
+  }
+
+  std::map<Key, Drawn> drawn;
+
+ private:
+  void take(const sgm_world_event& event) {
+    const Key key = keyOf(event.key);
+    CHECK(event.result == SGM_OK);
+    CHECK((event.mesh != nullptr) == (event.kind == SGM_EVENT_READY));
+    switch (event.kind) {
+      case SGM_EVENT_READY:
+        meshes_[key] = MeshOwner(event.mesh);
+        break;
+      case SGM_EVENT_SHOWN:
+      case SGM_EVENT_REPLACED: {
+        REQUIRE(meshes_.count(key) == 1);
+        drawn[key] = {viewOf(meshes_[key]).hash, event.seams, event.coarser};
+        break;
+      }
+      case SGM_EVENT_SEAMS:
+        REQUIRE(drawn.count(key) == 1);
+        drawn[key].seams = event.seams;
+        drawn[key].coarser = event.coarser;
+        break;
+      case SGM_EVENT_REMOVED:
+        drawn.erase(key);
+        meshes_.erase(key);
+        break;
+      default:
+        FAIL("an event of no known kind");
+    }
+  }
+  std::map<Key, MeshOwner> meshes_;
+};
+
+}  // namespace
+
+TEST_CASE("events lead to what the world says it draws") {
+  const RuntimeOwner runtime = makeRuntime();
+  FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
+  const WorldOwner world = makeWorld(field.get());
+  field.reset();  // the world keeps it
+  Engine engine;
+  for (const double x : {0.0, 30.0, 500.0, 0.0}) {
+    look(world.get(), x);
+    for (int frame = 0; frame < 5; ++frame) {
+      REQUIRE(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_OK);
+      engine.poll(world.get());
+    }
+    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+    engine.poll(world.get());
+    size_t count = 0;
+    REQUIRE(sgm_world_get_drawn(world.get(), nullptr, 0, &count, nullptr) == SGM_OK);
+    CHECK(count > 20);
+    std::vector<sgm_drawn_chunk> chunks(count);
+    size_t room = count - 1;
+    CHECK(sgm_world_get_drawn(world.get(), chunks.data(), 0, &room, nullptr) == SGM_INCOMPLETE);
+    REQUIRE(sgm_world_get_drawn(world.get(), chunks.data(), 0, &count, nullptr) == SGM_OK);
+    std::map<Key, Drawn> drawn;
+    for (const sgm_drawn_chunk& chunk : chunks) {
+      const MeshOwner mesh(chunk.mesh);
+      drawn[keyOf(chunk.key)] = {viewOf(mesh).hash, chunk.seams, chunk.coarser};
+    }
+    CHECK(drawn == engine.drawn);
+    sgm_world_stats stats = SGM_WORLD_STATS_INIT;
+    REQUIRE(sgm_world_get_stats(world.get(), &stats, nullptr) == SGM_OK);
+    CHECK(stats.idle == 1);
+    CHECK(stats.drawn == drawn.size());
+    CHECK(stats.mesh_bytes > 0);
+    CHECK(stats.peak_mesh_bytes >= stats.mesh_bytes);
+  }
+}
+
+TEST_CASE("an update waits for the events of the one before, and unpolled meshes end with the world") {
+  const RuntimeOwner runtime = makeRuntime();
+  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
+  const WorldOwner world = makeWorld(field.get());
+  look(world.get(), 0);
+  REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  CHECK(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_INCOMPLETE);
+  sgm_world_event event;
+  size_t count = 1;
+  REQUIRE(sgm_world_poll(world.get(), &event, 0, &count, nullptr) == SGM_OK);
+  REQUIRE(count == 1);
+  sgm_mesh_release(event.mesh);
+  CHECK(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_INCOMPLETE);
+}
+
+TEST_CASE("a world's hash is that of the region's surface, streamed or not") {
+  const RuntimeOwner runtime = makeRuntime();
+  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
+  const WorldOwner world = makeWorld(field.get());
+  sgm_region_desc region = SGM_REGION_DESC_INIT;
+  for (int32_t& v : region.minimum) v = -8 * 1024;
+  for (int32_t& v : region.maximum) v = 24 * 1024;
+  sgm_surface* surface = nullptr;
+  REQUIRE(sgm_surface_from_region(field.get(), &region, &surface, nullptr) == SGM_OK);
+  const SurfaceOwner owner(surface);
+  for (int turn = 0; turn < 2; ++turn) {
+    uint64_t hash = 0;
+    REQUIRE(sgm_world_hash(world.get(), region.minimum, region.maximum, 0, &hash, nullptr) == SGM_OK);
+    CHECK(hash == sgm_surface_hash(surface));
+    look(world.get(), 0);
+    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  }
+}
+
+TEST_CASE("a wait can be ended, and a world cancelled, at any time") {
+  const RuntimeOwner runtime = makeRuntime();
+  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
+  const WorldOwner world = makeWorld(field.get());
+  look(world.get(), 0);
+  const auto stop = [](void*, uint64_t done, uint64_t total) -> int32_t { return done <= total ? 1 : 2; };
+  CHECK(sgm_world_wait_idle(world.get(), stop, nullptr, nullptr) == SGM_ERR_CANCELLED);
+  sgm_world_cancel(world.get());
+  REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+}
