@@ -237,7 +237,7 @@ Result<std::vector<Int3>> FlightPlanner::wayAround() {
             const double d = node[axis] - (*goal)[axis];
             sum += d * d;
           }
-          return static_cast<int64_t>(9.8 * std::sqrt(sum));
+          return static_cast<int64_t>(12 * std::sqrt(sum));
         },
         [&](Int3 node, int64_t) { return !(there = node == *goal); });
     if (grid_->error()) return *grid_->error();

@@ -65,8 +65,11 @@ bool VoidGrid::isClear(Int3 node) {
 }
 
 const VoidGrid::Block& VoidGrid::blockAt(Int3 at) {
+  // Mostly the one that was asked for last.
+  if (latest_ != nullptr && latest_at_ == at) return *latest_;
+  latest_at_ = at;
   const auto known = blocks_.find(at);
-  if (known != blocks_.end()) return known->second;
+  if (known != blocks_.end()) return *(latest_ = &known->second);
   if (blocks_.size() >= kMostBlocks) blocks_.clear();
   constexpr int kSide = kBlock + 2;
   std::vector<Int3> points;
@@ -77,6 +80,7 @@ const VoidGrid::Block& VoidGrid::blockAt(Int3 at) {
         points.push_back(placeOf({at.x * kBlock + x, at.y * kBlock + y, at.z * kBlock + z}));
   const Result<std::vector<bool>> solid = solidAt(field_, points);
   Block& block = blocks_[at];
+  latest_ = &block;
   if (!solid) {
     error_ = solid.error();
     return block;
@@ -143,12 +147,12 @@ VoidSearch::VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::functi
       for (int y = -1; y <= 1; ++y) {
         for (int x = -1; x <= 1; ++x) {
           const Int3 to{node.x + x, node.y + y, node.z + z};
-          if (to == node || !grid.isClear(to)) continue;
+          if (to == node) continue;
           const int64_t step = kStepCost[static_cast<size_t>(std::abs(x) + std::abs(y) + std::abs(z))];
           const int64_t there = cost + (walls > 0 ? 2 * step : step);
-          const auto [at, fresh] = reached_.try_emplace(to, Reached{there, node, false});
-          if (!fresh && (at->second.done || at->second.cost <= there)) continue;
-          at->second = {there, node, false};
+          const auto known = reached_.find(to);
+          if (known != reached_.end() ? known->second.done || known->second.cost <= there : !grid.isClear(to)) continue;
+          reached_[to] = {there, node, false};
           queue.push({there + left(to), to});
         }
       }

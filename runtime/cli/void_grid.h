@@ -52,6 +52,8 @@ class VoidGrid {
   sgm_field* field_;
   int32_t step_;
   std::unordered_map<Int3, Block, PlaceHash> blocks_;
+  const Block* latest_ = nullptr;
+  Int3 latest_at_;
   std::unordered_set<Int3, PlaceHash> blocked_;
   std::optional<Error> error_;
 };
@@ -59,9 +61,9 @@ class VoidGrid {
 /// The nodes reached from one, nearest first.
 class VoidSearch {
  public:
-  /// `guess` of a node is at most what is left of its way, in tenths of a step (ways along walls cost
-  /// twice that); null: 0 everywhere. `visit` is called
-  /// with each node as it is reached for good, and returns false to stop. The search ends after `most` nodes.
+  /// `guess` of a node is about what is left of its way, in tenths of a step; null: 0 everywhere, and all ways are the
+  /// cheapest. Along walls ways cost twice their length. `visit` is called with each node as it is reached, and returns
+  /// false to stop. The search ends after `most` nodes.
   VoidSearch(VoidGrid& grid, Int3 from, size_t most, const std::function<int64_t(Int3)>& guess,
              const std::function<bool(Int3 node, int64_t cost)>& visit);
 
