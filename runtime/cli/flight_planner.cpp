@@ -1,5 +1,7 @@
 #include "cli/flight_planner.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -55,19 +57,28 @@ FlightPlanner::FlightPlanner(sgm_field* field, const sgm_grammar* grammar, const
   for (int axis = 0; domain_.infinite == 0 && axis < 3; ++axis)
     edge = std::max(edge, saturate((int64_t{domain_.maximum[axis]} - domain_.minimum[axis]) / 4));
   scale_ = std::max(edge, 8 * kUnitsPerMetre);
-  const double room = settings.room > 0    ? settings.room
-                      : domain_.solid != 0 ? 0.5
-                                           : std::clamp(scale_ / kUnitsPerMetre / 200, 0.5, 4.0);
-  grid_ = std::make_unique<VoidGrid>(field, std::max(2, static_cast<int32_t>(2 * room * kUnitsPerMetre)));
+  if (settings_.room <= 0)
+    settings_.room = domain_.solid != 0 ? 0.5 : std::clamp(scale_ / kUnitsPerMetre / 200, 0.5, 4.0);
+  grid_ = std::make_unique<VoidGrid>(field, std::max(2, static_cast<int32_t>(2 * settings_.room * kUnitsPerMetre)));
 }
 
 double FlightPlanner::spacing() const { return metres(grid_->step()) / 4; }
 
 Result<FlightPlanner> FlightPlanner::begin(sgm_field* field, const sgm_grammar* grammar, const AutoFlight& settings) {
-  FlightPlanner planner(field, grammar, settings);
-  if (Result<void> ok = planner.settle(unitsOf(settings.near_place), 512 * kUnitsPerMetre); !ok) return ok.error();
-  planner.home_ = planner.grid_->placeOf(planner.node_);
-  return planner;
+  std::optional<Error> error;
+  AutoFlight narrower = settings;
+  // Where the world is to say how much room there is, there may be less of it.
+  for (int attempt = 0; attempt < (settings.room > 0 ? 1 : 2); ++attempt) {
+    FlightPlanner planner(field, grammar, narrower);
+    const Result<void> settled = planner.settle(unitsOf(settings.near_place), 512 * kUnitsPerMetre);
+    if (settled) {
+      planner.home_ = planner.grid_->placeOf(planner.node_);
+      return planner;
+    }
+    if (!error) error = settled.error();
+    narrower.room = planner.settings_.room / 2;
+  }
+  return *error;
 }
 
 Result<void> FlightPlanner::settle(Int3 near, int32_t reach) {
@@ -106,9 +117,8 @@ Result<void> FlightPlanner::settle(Int3 near, int32_t reach) {
     return {};
   }
   if (grid_->error()) return *grid_->error();
-  return noRoom("found no void to fly in, " + std::to_string(metres(grid_->step())) + " m wide, near " +
-                std::to_string(metres(near.x)) + "," + std::to_string(metres(near.y)) + "," +
-                std::to_string(metres(near.z)));
+  return noRoom(fmt::format("found no void to fly in, {} m wide, near {:.0f},{:.0f},{:.0f} m", metres(grid_->step()),
+                            metres(near.x), metres(near.y), metres(near.z)));
 }
 
 bool FlightPlanner::leadsOn(Int3 node) {

@@ -14,7 +14,7 @@ namespace sgm::cli {
 struct AutoFlight {
   uint64_t seed = 0;  ///< of the choices on the way; the same seed makes the same flight
   /// Metres of void on every side of the path along the axes, a quarter of that where there is no other way on; 0: by
-  /// the world, 0.5 in caves.
+  /// the world, 0.5 in caves and half of it in narrow ones.
   double room = 0;
   Metres3 near_place{0};  ///< the flight begins near here, where there is a place for it
 };

@@ -178,6 +178,17 @@ TEST_CASE("in an open world the flight winds between the solids") {
   }
 }
 
+TEST_CASE("a narrow passage is flown where no other is") {
+  const FlownWorld world(
+      "sgm 1;\nunits m;\ndomain finite box(120m, 64m, 64m) solid limestone;\nstart A;\n"
+      "rule A { cut { tube((-50m, 0m, 0m), (50m, 0m, 0m), 1.3m, bend 8m); } }\n",
+      256);
+  FlightPath path = world.fly();
+  const Flown flown = fly(world, path, 150, 0.1, 0.05, 8);
+  CHECK(flown.tight == 0);
+  CHECK(flown.regions.size() > 8);
+}
+
 TEST_CASE("where there is no room to fly, that is said") {
   const FlownWorld world(
       "sgm 1;\nunits m;\ndomain finite box(64m, 64m, 64m) solid limestone;\nstart A;\n"
