@@ -93,11 +93,10 @@ TEST_CASE("a picture shows the chunks that are drawn, each level in its colour",
   CHECK(blue[2] > blue[1]);
   CHECK(blue[1] > blue[0]);
 
+  // In its own material, from the other side.
   wish.levels = false;
-  CHECK(brightness(draw(pictured(world, fine)), 80, 60, 20) > 30);
-  // Far from the origin nothing is lost: the camera's own place counts.
   wish.camera.position = {4, -3, -70};
   wish.camera.direction = {0, 0, 1};
-  CHECK(brightness(draw(pictured(world, fine)), 80, 60, 20) > 30);
+  CHECK(brightness(draw(pictured(world, coarse)), 80, 60, 20) > 30);
   for (const std::string& message : renderer->messages()) CHECK(message.empty());
 }
