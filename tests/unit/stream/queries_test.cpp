@@ -154,10 +154,10 @@ TEST_CASE("rays and nearest points agree with a turned box, near the origin and 
   const Vector size{4 * kMetre, 2 * kMetre, 7 * kMetre};
   const double angle = 30 * 3.14159265358979 / 180;
   const std::string shape = "rot(y, 30deg) box(4m, 2m, 7m);";
-  constexpr int32_t kFar = 1'500'000 * 1024;
-  const Int3 far{kFar, -kFar, kFar};
+  constexpr int32_t kMoved = 1'500'000 * 1024;
+  const Int3 far{kMoved, -kMoved, kMoved};
   const Asked near_world(oneShape(shape)), far_world(oneShape(shape, 256, far));
-  const Vector shift{kFar, -kFar, kFar};
+  const Vector shift{kMoved, -kMoved, kMoved};
   // Which way the language turns is told by what it builds.
   const double turned =
       solidAt(near_world.field, rounded({std::sin(angle) * 3 * kMetre, 0, std::cos(angle) * 3 * kMetre})) ? angle
@@ -286,8 +286,8 @@ TEST_CASE("a wall is hit from any side, a cell thick or a sixteenth of one") {
 TEST_CASE("random rays and places in the cave agree with dense sampling, here and 1,500 km away") {
   const WorldFieldSettings settings = settingsOf(withoutDrips(), 256);
   WorldFieldSettings moved = settings;
-  constexpr int32_t kFar = 1 << 30;
-  moved.shift = {kFar + (1 << 28) + (1 << 27), -kFar, 1 << 28};
+  constexpr int32_t kMoved = 1 << 30;
+  moved.shift = {kMoved + (1 << 28) + (1 << 27), -kMoved, 1 << 28};
   const Asked asked(settings), far_asked(moved);
   const Vector shift{static_cast<double>(moved.shift.x), static_cast<double>(moved.shift.y),
                      static_cast<double>(moved.shift.z)};

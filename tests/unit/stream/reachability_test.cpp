@@ -167,7 +167,8 @@ TEST_CASE("random clusters: whatever a flood fill over all samples reaches is re
       const Place viewer = placeBy(from);
       const std::vector<ReachedChunk> reached = reachedFrom(viewer, 1e5, lookupIn(chunks));
       const std::set<ChunkKey> expected = cluster.floodFill(from);
-      for (const auto& [key, voids] : chunks) {
+      for (const auto& known : chunks) {
+        const ChunkKey& key = known.first;
         const std::optional<uint32_t> steps = stepsTo(reached, key);
         if (expected.contains(key)) {
           reachable += 1;
