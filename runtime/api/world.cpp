@@ -80,6 +80,9 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     settings.lod.finest_cell = field->world.settings().finest_cell;
     settings.lod.finest_distance = desc->finest_distance * sgm::kUnitsPerMetre;
     settings.lod.view_distance = desc->view_distance * sgm::kUnitsPerMetre;
+    if ((desc->flags & ~static_cast<uint32_t>(SGM_WORLD_BY_DISTANCE)) != 0)
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_world_flag");
+    settings.by_reach = (desc->flags & SGM_WORLD_BY_DISTANCE) == 0;
     settings.mesh_bytes = desc->mesh_bytes != 0 ? desc->mesh_bytes : kDefaultMeshBytes;
     sgm_runtime& runtime = field->runtime;
     sgm::Result<std::unique_ptr<sgm::World>> world =
@@ -226,9 +229,11 @@ sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, s
     stats->frame = now.frame;
     stats->plans = now.plans;
     stats->chunks_meshed = now.planner.meshed;
+    stats->finest_meshed = now.planner.finest;
     stats->seam_jobs = now.planner.seam_jobs;
     stats->chunks_in_vain = now.planner.never_drawn;
     stats->chunks_failed = now.planner.failed;
+    stats->stale = now.stale;
     stats->queued = now.queued;
     stats->in_work = now.in_work;
     stats->drawn = now.planner.drawn;

@@ -202,6 +202,56 @@ Command addRender(CLI::App& root) {
   return [options] { return render(*options); };
 }
 
+Command addFly(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("fly", "Stream a world along a path, frame by frame, and say how well it went");
+  const auto options = std::make_shared<FlyOptions>();
+  addWorldOptions(*app, *options);
+  CLI::Option* cell =
+      app->add_option("--cell", options->cell, "Edge of a level-0 cell in metres (0.5)")->type_name("METRES");
+  app->add_option("--ld", options->density, "Cells per metre, so a cell edge of 1/N m")->type_name("N")->excludes(cell);
+  CLI::Option* path = app->add_option(
+      "--path", options->path, "Path to follow, a JSON file: {\"points\": [[x, y, z], ...], \"loop\": true}, metres");
+  app->add_flag_callback(
+         "--auto", [] {}, "Find a way through the void of the world: what it does without --path")
+      ->excludes(path);
+  app->add_option("--speed", options->speed, "Metres a second")->check(CLI::Range(0.0, 1000.0))->capture_default_str();
+  app->add_option("--frames", options->frames, "Frames of 1/60 s")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{100000000}))
+      ->capture_default_str();
+  app->add_option("--teleports", options->teleports, "Leaps to far places, spread over the frames")
+      ->check(checkWhole)
+      ->excludes(path)
+      ->capture_default_str();
+  app->add_flag(
+      "--check", options->check,
+      "Check every frame's surface for open and non-manifold edges by exact keys, and each 500th frame whole; "
+      "as fast as frames come. Status 1 where one is not closed");
+  app->add_flag("--unpaced", options->unpaced, "As fast as frames come, instead of 60 a second");
+  app->add_flag("--compare", options->compare, "Fly a second time with level 0 by distance alone, to compare");
+  app->add_option("--top-level", options->top_level, "Coarsest level of detail")
+      ->check(CLI::Range(0, kMaxLevel))
+      ->capture_default_str();
+  app->add_option("--finest", options->finest, "Metres within which what is seen shall be of level 0")
+      ->check(CLI::Range(1.0, 10000.0))
+      ->capture_default_str();
+  app->add_option("--margin", options->finest_margin, "Metres beyond that where level 0 is meshed ahead")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  app->add_option("--view", options->view, "Metres within which anything is drawn")
+      ->check(CLI::Range(1.0, 100000.0))
+      ->capture_default_str();
+  app->add_option("--mesh-mb", options->mesh_mb, "Most megabytes (2^20 bytes) of meshes")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 20))
+      ->capture_default_str();
+  CLI::Option* png = app->add_option("--png", options->pictures, "Draw this many frames on one sheet")
+                         ->check(CLI::Range(uint64_t{1}, uint64_t{64}));
+  app->add_option("--out", options->out, "The sheet, a .png file")->check(checkPng)->needs(png)->capture_default_str();
+  app->add_flag("--levels", options->levels, "Each level of detail in a colour of its own, in pictures")->needs(png);
+  app->footer(
+      "Example:\n  sgm fly samples/grammars/cave.sgm --cell 0.25 --speed 20 --frames 1200 --png 6 --out flight.png");
+  return [options] { return fly(*options); };
+}
+
 Command addBackends(CLI::App& root) {
   CLI::App* app = root.add_subcommand("backends", "List what can compute and draw on this machine, and why not");
   const auto json = std::make_shared<bool>(false);
@@ -221,7 +271,7 @@ Exit runCommandLine(int argc, char** argv) {
       "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
       "be read or written; the highest of several.");
   std::vector<Command> commands;
-  for (const auto add : {addCheck, addFmt, addMesh, addRender, addBackends}) commands.push_back(add(app));
+  for (const auto add : {addCheck, addFmt, addMesh, addRender, addFly, addBackends}) commands.push_back(add(app));
 
   try {
     app.parse(argc, argv);

@@ -42,6 +42,21 @@ struct RenderOptions : WorldOptions {
 };
 Exit render(const RenderOptions& options);
 
+struct FlyOptions : WorldOptions {
+  std::string path;  ///< a JSON file; empty: the flight finds its own way
+  double speed = 20;
+  uint64_t frames = 600;
+  uint64_t teleports = 0;
+  bool check = false, unpaced = false, compare = false;
+  int top_level = 6;
+  double finest = 24, finest_margin = 6, view = 600;  ///< metres
+  uint64_t mesh_mb = 256;
+  uint64_t pictures = 0;
+  std::string out = "flight.png";
+  bool levels = false;
+};
+Exit fly(const FlyOptions& options);
+
 Exit listBackends(bool json);
 
 /// Reads the command line and runs what it asks for.

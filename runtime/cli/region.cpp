@@ -13,16 +13,16 @@ namespace {
 
 constexpr size_t kMostNotes = 10;
 
+RegionResult failure(Exit status) { return {std::nullopt, status}; }
+
+}  // namespace
+
 sgm_backend backendNamed(const std::string& name) {
   if (name == "cpu") return SGM_BACKEND_CPU;
   if (name == "vulkan") return SGM_BACKEND_VULKAN;
   if (name == "cuda") return SGM_BACKEND_CUDA;
   return SGM_BACKEND_AUTO;
 }
-
-RegionResult failure(Exit status) { return {std::nullopt, status}; }
-
-}  // namespace
 
 Result<std::unique_ptr<Backend>> backendOf(const WorldOptions& options, JobSystem& jobs) {
   return makeBackend(*api::requestOf(backendNamed(options.backend)), jobs, std::pmr::new_delete_resource());

@@ -11,6 +11,7 @@
 #include "cli/console.h"
 #include "cli/json.h"
 #include "cli/options.h"
+#include "sgm/sgm.h"
 
 namespace sgm::cli {
 
@@ -29,6 +30,9 @@ inline constexpr size_t kCacheBytes = size_t{512} << 20;  ///< of derived cells
 
 /// The backend that --backend names. jobs must outlive it. Error: unsupported.
 Result<std::unique_ptr<Backend>> backendOf(const WorldOptions& options, JobSystem& jobs);
+
+/// The backend of that name, as --backend takes it.
+sgm_backend backendNamed(const std::string& name);
 
 /// What derivation left out, each message once a place in the grammar, to stderr.
 void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes);

@@ -5,12 +5,14 @@
 #include <optional>
 #include <unordered_map>
 
+#include "mesh/void_components.h"
 #include "stream/chunk_surface.h"
 
 namespace sgm {
 
 struct ChunkRecord {
   std::shared_ptr<const ChunkSurface> surface;  ///< null where nothing is there yet, or it has no triangles
+  std::unique_ptr<const VoidComponents> voids;  ///< of a level-0 chunk whose body is there; else null
   bool body = false;                            ///< meshed, triangles or not
   uint8_t seams = 0;                            ///< that are made, triangles or not
   bool in_work = false;                         ///< a request for it has been handed out and not come back

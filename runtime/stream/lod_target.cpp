@@ -15,8 +15,8 @@ double edgeOf(int level, int32_t finest_cell) {
 
 class TargetBuilder {
  public:
-  TargetBuilder(Octree& tree, std::span<const LodViewer> viewers, const LodSettings& settings)
-      : tree_(tree), viewers_(viewers), settings_(settings) {}
+  TargetBuilder(Octree& tree, std::span<const LodViewer> viewers, const LodSettings& settings, const ChunkSet* finest)
+      : tree_(tree), viewers_(viewers), settings_(settings), finest_(finest) {}
 
   void addAround(const LodViewer& viewer) {
     const double edge = edgeOf(settings_.top + 1, settings_.finest_cell);
@@ -49,6 +49,7 @@ class TargetBuilder {
   }
 
   bool wanted(const ChunkKey& node) const {
+    if (node.level == 1 && finest_ != nullptr && !finest_->contains(node)) return false;
     const double within = splitDistance(node.level);
     return std::any_of(viewers_.begin(), viewers_.end(), [&](const LodViewer& v) {
       return distanceToChunk(v.position, node, settings_.finest_cell) < within * v.reach;
@@ -66,6 +67,7 @@ class TargetBuilder {
   Octree& tree_;
   std::span<const LodViewer> viewers_;
   const LodSettings& settings_;
+  const ChunkSet* finest_;
 };
 
 }  // namespace
@@ -81,9 +83,9 @@ double distanceToChunk(const std::array<double, 3>& place, const ChunkKey& key, 
   return std::sqrt(squares);
 }
 
-Octree lodTarget(std::span<const LodViewer> viewers, const LodSettings& settings) {
+Octree lodTarget(std::span<const LodViewer> viewers, const LodSettings& settings, const ChunkSet* finest) {
   Octree tree(settings.top, settings.finest_cell);
-  TargetBuilder builder(tree, viewers, settings);
+  TargetBuilder builder(tree, viewers, settings, finest);
   for (const LodViewer& viewer : viewers) builder.addAround(viewer);
   refineToRules(tree);
   return tree;

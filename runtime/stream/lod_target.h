@@ -28,8 +28,9 @@ struct LodSettings {
 };
 
 /// The octree for these viewers, closed under the rules. A pure function; no viewers: an empty tree. At the world's
-/// ends nothing is drawn where a virtual node would stick out.
-Octree lodTarget(std::span<const LodViewer> viewers, const LodSettings& settings);
+/// ends nothing is drawn where a virtual node would stick out. finest: the level-1 nodes that may be split for a
+/// viewer's sake; null: all.
+Octree lodTarget(std::span<const LodViewer> viewers, const LodSettings& settings, const ChunkSet* finest = nullptr);
 
 /// Distance in units from a place to a chunk's closed box; 0 inside.
 double distanceToChunk(const std::array<double, 3>& place, const ChunkKey& key, int32_t finest_cell);

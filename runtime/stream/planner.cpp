@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "stream/reachability.h"
+
 namespace sgm {
 
 namespace {
@@ -61,6 +63,7 @@ void Planner::restart(std::shared_ptr<const DrawnFrame> drawn) {
   changed_ = true;
   applied_ = std::move(drawn);
   frames_ = std::max(frames_, applied_->number);
+  voids_changed_ = true;
   for (const ChunkKey& leaf : applied_->tree.leaves()) {
     ChunkRecord& record = store_.at(leaf);
     record.surface = applied_->find(leaf);
@@ -94,6 +97,11 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
     }
     changed_ = true;
     ++(chunk.request.body ? stats_.meshed : stats_.seam_jobs);
+    if (chunk.request.body && chunk.request.key.level == 0) ++stats_.finest;
+    if (chunk.voids != nullptr) {
+      record.voids = std::move(chunk.voids);
+      voids_changed_ = true;
+    }
     record.body = true;
     record.seams = static_cast<uint8_t>(record.seams | chunk.request.seams);
     record.surface = std::move(chunk.surface);
@@ -105,7 +113,7 @@ void Planner::refuse(const std::vector<ChunkKey>& refused, Plan& plan) {
     ChunkRecord& record = store_.at(key);
     if (record.failed) continue;
     const size_t bytes = record.bytes();
-    record = {};
+    record = ChunkRecord{};
     record.failed = true;
     ++stats_.failed;
     changed_ = true;
@@ -119,12 +127,40 @@ void Planner::retarget(std::span<const Viewer> viewers) {
   LodSettings lod = settings_.lod;
   lod.finest_distance *= stats_.detail;
   std::vector<LodViewer> wanting = lodViewers(viewers, lod);
-  if (wanting == targeted_ && targeted_detail_ == stats_.detail) return;
-  target_ = lodTarget(wanting, lod);
+  const bool moved = wanting != targeted_ || targeted_detail_ != stats_.detail;
+  if (settings_.by_reach && (moved || voids_changed_)) {
+    voids_changed_ = false;
+    ChunkSet reached = reachedParents(wanting, lod);
+    if (!moved && reached == reached_) return;
+    reached_ = std::move(reached);
+  } else if (!moved) {
+    return;
+  }
+  target_ = lodTarget(wanting, lod, settings_.by_reach ? &reached_ : nullptr);
   listTarget();
   targeted_ = std::move(wanting);
   targeted_detail_ = stats_.detail;
   changed_ = true;
+}
+
+ChunkSet Planner::reachedParents(std::span<const LodViewer> viewers, const LodSettings& lod) const {
+  std::vector<std::array<double, 3>> places;
+  double reach = 0;
+  for (const LodViewer& viewer : viewers) {
+    places.push_back(viewer.position);
+    reach = std::max(reach, viewer.reach);
+  }
+  // A node is split as a whole: chunks of it lie farther away than the node does.
+  const double radius = lod.finest_distance * reach + 2.0 * kChunkCells * lod.finest_cell;
+  const VoidLookup voids = [this](const ChunkKey& key) -> const VoidComponents* {
+    const ChunkRecord* record = store_.find(key);
+    return record != nullptr ? record->voids.get() : nullptr;
+  };
+  ChunkSet parents;
+  for (const ReachedChunk& chunk : reachedChunks(places, radius, lod.finest_cell, voids)) {
+    parents.insert(parentOf(chunk.key));
+  }
+  return parents;
 }
 
 std::shared_ptr<const FrameStep> Planner::nextStep() {
@@ -195,6 +231,7 @@ void Planner::request(const ChunkKey& key, int seams, std::vector<WorkItem>& que
   item.request.seams = missing;
   item.request.body = !record.body;
   item.request.anchors = !record.body && key.level == 0;
+  item.request.signs = !record.body && key.level == 0 && settings_.by_reach;
   item.request.outermost = key.level == target_.top();
   item.before = record.surface;
   item.urgency = urgency(key, viewers_, settings_.lod);

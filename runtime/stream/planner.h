@@ -25,6 +25,7 @@ struct WorkItem {
 struct FinishedChunk {
   ChunkRequest request;
   std::shared_ptr<const ChunkSurface> surface;  ///< null: no triangles, or an error
+  std::unique_ptr<const VoidComponents> voids;  ///< where the request was for the signs
   std::optional<Error> error;                   ///< cancelled: it was never begun, and may be asked for again
 };
 
@@ -59,10 +60,12 @@ struct Plan {
 struct PlannerSettings {
   LodSettings lod;
   size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces
+  bool by_reach = true;                   ///< level 0 only where a viewer's void leads to (reachability.h)
 };
 
 struct PlannerStats {
   uint64_t meshed = 0;       ///< chunks whose body came back
+  uint64_t finest = 0;       ///< of these, those of level 0
   uint64_t seam_jobs = 0;    ///< requests for seams alone that came back
   uint64_t never_drawn = 0;  ///< meshed chunks that are neither drawn, nor wanted, nor ever were drawn
   uint64_t failed = 0;
@@ -89,6 +92,7 @@ class Planner {
   void refuse(const std::vector<ChunkKey>& refused, Plan& plan);
   void keepToBudget(size_t live_bytes);
   void retarget(std::span<const Viewer> viewers);
+  ChunkSet reachedParents(std::span<const LodViewer> viewers, const LodSettings& lod) const;
   std::shared_ptr<const FrameStep> nextStep();
   void fillQueue(std::vector<WorkItem>& queue);
   void listTarget();
@@ -108,6 +112,8 @@ class Planner {
   std::vector<Viewer> viewers_;
   std::vector<LodViewer> targeted_;  ///< what target_ was made for
   double targeted_detail_ = 0;
+  ChunkSet reached_;            ///< level-1 nodes with chunks that the viewers' void leads to
+  bool voids_changed_ = false;  ///< since reached_ was found
   Octree target_;
   std::vector<TargetNode> target_nodes_;
   std::shared_ptr<const DrawnFrame> applied_;

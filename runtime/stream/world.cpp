@@ -6,6 +6,7 @@
 #include <set>
 
 #include "mesh/hash.h"
+#include "stream/reachability.h"
 
 namespace sgm {
 
@@ -34,7 +35,7 @@ struct World::Core : std::enable_shared_from_this<Core> {
         settings(settings_in),
         memory(memory_in),
         surfaces(std::make_shared<SurfacePool>(memory_in)),
-        planner({settings_in.lod, settings_in.mesh_bytes}),
+        planner({settings_in.lod, settings_in.mesh_bytes, settings_in.by_reach}),
         drawn(std::make_shared<DrawnFrame>(Octree(settings_in.lod.top, settings_in.lod.finest_cell))) {}
 
   const WorldField& field;
@@ -58,11 +59,12 @@ struct World::Core : std::enable_shared_from_this<Core> {
   uint64_t applied = 0;
   std::shared_ptr<const DrawnFrame> drawn;  ///< the frame of that number
   uint64_t generation = 0;                  ///< of requests: those of an earlier one are not wanted any more
-  size_t meshing = 0;                       ///< jobs at work on a request
-  size_t reserved = 0;                      ///< bytes that these may come to
-  size_t running = 0;                       ///< jobs between their begin and end
-  size_t mesh_jobs = 0;                     ///< submitted or running
-  bool planning = false;                    ///< likewise
+  size_t meshing_before = 0;  ///< jobs that were at work when the plan for these viewers came, less those that ended
+  size_t meshing = 0;         ///< jobs at work on a request
+  size_t reserved = 0;        ///< bytes that these may come to
+  size_t running = 0;         ///< jobs between their begin and end
+  size_t mesh_jobs = 0;       ///< submitted or running
+  bool planning = false;      ///< likewise
   bool plan_again = false;
   bool stopped = false;
   bool idle = false;
@@ -198,6 +200,7 @@ bool World::Core::publish(Plan&& plan) {
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
   queue.swap(plan.queue);
   step = std::move(plan.step);
+  if (viewers_planned != viewers_planning) meshing_before = meshing;
   viewers_planned = viewers_planning;
   idle = plan.idle && meshing == 0 && finished.empty() && begun.empty();
   planner_stats = planner.stats();
@@ -209,7 +212,8 @@ bool World::Core::publish(Plan&& plan) {
 }
 
 FinishedChunk World::Core::meshOne(const WorkItem& item, uint64_t of_generation) const {
-  FinishedChunk done{item.request, nullptr, {}};
+  FinishedChunk done;
+  done.request = item.request;
   const Progress progress = [&](uint64_t, uint64_t) {
     const std::lock_guard lock(mutex);
     return generation == of_generation && !stopped;
@@ -221,6 +225,7 @@ FinishedChunk World::Core::meshOne(const WorkItem& item, uint64_t of_generation)
       done.error = chunks.error();
       return done;
     }
+    if (item.request.signs) done.voids = std::make_unique<const VoidComponents>(voidsOf(chunks->front().mesh));
     ChunkSurface surface = surfaceOf(item.request, std::move(chunks->front()), item.before.get(), memory);
     if (!surface.mesh.indices.empty()) done.surface = surfaces->add(std::move(surface));
   } catch (const std::bad_alloc&) {
@@ -255,8 +260,9 @@ void World::Core::meshOnce() {
   {
     const std::lock_guard lock(mutex);
     --meshing;
+    if (meshing_before > 0) --meshing_before;
     reserved -= kLargestChunk;
-    if (generation != of_generation) done = {item.request, nullptr, Error{Code::cancelled, "no longer wanted"}};
+    if (generation != of_generation) done.error = Error{Code::cancelled, "no longer wanted"};
     const bool scarce = done.error && done.error->code == Code::out_of_memory;
     try {
       finished.push_back(std::move(done));
@@ -300,7 +306,7 @@ World::~World() {
   core_->finished.clear();
   core_->step = nullptr;
   core_->drawn = nullptr;
-  core_->planner = Planner({core_->settings.lod, core_->settings.mesh_bytes});
+  core_->planner = Planner({core_->settings.lod, core_->settings.mesh_bytes, core_->settings.by_reach});
   lock.unlock();
   staged_ = nullptr;
   events_.clear();
@@ -492,6 +498,8 @@ WorldStats World::stats() const {
   stats.planner = core_->planner_stats;
   stats.queued = core_->queue.size();
   stats.in_work = core_->meshing;
+  stats.stale = core_->viewers_planned != core_->viewers_set ? core_->queue.size() + core_->meshing
+                                                             : std::min(core_->meshing, core_->meshing_before);
   stats.frame = core_->applied;
   stats.plans = core_->plans;
   stats.surface_bytes = core_->surfaces->bytes();

@@ -26,6 +26,7 @@ namespace sgm {
 struct WorldSettings {
   LodSettings lod;
   size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces, the engine's own and those in work included
+  bool by_reach = true;                   ///< as PlannerSettings::by_reach
 };
 
 /// What an engine is told, in order. Between two updates a whole frame's changes come, or none of them.
@@ -50,6 +51,7 @@ struct WorldEvent {
 struct WorldStats {
   PlannerStats planner;
   size_t queued = 0, in_work = 0;  ///< requests
+  size_t stale = 0;                ///< of these, those planned for viewers of before
   uint64_t frame = 0;              ///< number of the frame that is drawn
   uint64_t plans = 0;
   size_t surface_bytes = 0, peak_surface_bytes = 0;

@@ -819,12 +819,18 @@ SGM_API uint64_t sgm_surface_hash(const sgm_surface* surface);
  *   sgm_world_poll            what has changed, until it is empty; then draw */
 typedef struct sgm_world sgm_world;
 
+typedef enum sgm_world_flag {
+  SGM_WORLD_BY_DISTANCE = 1, /* level 0 wherever it is near enough. Without this flag only where a viewer's void leads
+                                to: what is near but behind rock stays one level coarser, and is never seen */
+  SGM_WORLD_FLAG_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_world_flag;
+
 typedef struct sgm_world_desc {
   uint32_t struct_size;
   const void* next;
   int32_t top_level; /* coarsest level, 0 to SGM_MAX_LEVEL. Its chunks surround what is drawn, so a chunk of it should
                         not be much larger than view_distance */
-  uint32_t reserved; /* 0 */
+  uint32_t flags;    /* of sgm_world_flag, joined by | */
   double finest_distance; /* metres from a viewer within which level 0 is drawn; each coarser level reaches twice as
                              far. With a screen of h pixels and a vertical field of view v a cell then looks no larger
                              than 2 * cell * h / (2 tan(v / 2)) / finest_distance pixels */
@@ -936,9 +942,11 @@ typedef struct sgm_world_stats {
   uint64_t frame;          /* number of the frame that is drawn now */
   uint64_t plans;          /* times that the work was planned */
   uint64_t chunks_meshed;  /* bodies */
+  uint64_t finest_meshed;  /* of these, those of level 0 */
   uint64_t seam_jobs;      /* chunks that were given further seams afterwards */
   uint64_t chunks_in_vain; /* meshed, never drawn and not wanted any more */
   uint64_t chunks_failed;
+  uint64_t stale;      /* chunks that wait or are being meshed now, planned for viewers of before */
   uint64_t queued;     /* chunks that wait to be meshed, now */
   uint64_t in_work;    /* chunks being meshed now */
   uint64_t drawn;      /* chunks drawn now that have triangles */
@@ -951,7 +959,7 @@ typedef struct sgm_world_stats {
 } sgm_world_stats;
 
 #define SGM_WORLD_STATS_INIT \
-  { SGM_SIZEOF(sgm_world_stats), SGM_NULL, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0 }
+  { SGM_SIZEOF(sgm_world_stats), SGM_NULL, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0 }
 
 SGM_API sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, sgm_error* error);
 
