@@ -10,7 +10,7 @@
 
 namespace sgm {
 
-struct ChunkRecord {
+struct KnownChunk {
   std::shared_ptr<const ChunkSurface> surface;  ///< null where nothing is there yet, or it has no triangles
   std::unique_ptr<const VoidComponents> voids;  ///< of a level-0 chunk whose body is there; else null
   bool body = false;                            ///< meshed, triangles or not
@@ -26,11 +26,11 @@ struct ChunkRecord {
 class ChunkStore {
  public:
   /// Null where there is none.
-  const ChunkRecord* find(const ChunkKey& key) const {
+  const KnownChunk* find(const ChunkKey& key) const {
     const auto at = records_.find(key);
     return at == records_.end() ? nullptr : &at->second;
   }
-  ChunkRecord& at(const ChunkKey& key) { return records_[key]; }
+  KnownChunk& at(const ChunkKey& key) { return records_[key]; }
   size_t size() const { return records_.size(); }
 
   /// Frees surfaces of records that no plan since `since` had a use for, those unused longest first, until `bytes` are
@@ -48,7 +48,7 @@ class ChunkStore {
   }
 
  private:
-  std::unordered_map<ChunkKey, ChunkRecord, ChunkKeyHash> records_;  ///< order is never seen outside
+  std::unordered_map<ChunkKey, KnownChunk, ChunkKeyHash> records_;  ///< order is never seen outside
 };
 
 }  // namespace sgm

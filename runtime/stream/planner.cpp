@@ -65,7 +65,7 @@ void Planner::restart(std::shared_ptr<const DrawnFrame> drawn) {
   frames_ = std::max(frames_, applied_->number);
   voids_changed_ = true;
   for (const ChunkKey& leaf : applied_->tree.leaves()) {
-    ChunkRecord& record = store_.at(leaf);
+    KnownChunk& record = store_.at(leaf);
     record.surface = applied_->find(leaf);
     record.body = record.ever_drawn = true;
     record.seams = record.surface != nullptr ? record.surface->seams : coarserFaces(applied_->tree, leaf);
@@ -85,7 +85,7 @@ void Planner::learnApplied(uint64_t number) {
 
 void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
   for (FinishedChunk& chunk : finished) {
-    ChunkRecord& record = store_.at(chunk.request.key);
+    KnownChunk& record = store_.at(chunk.request.key);
     record.in_work = false;
     if (chunk.error) {
       // Scarce memory may come back; anything else would fail again.
@@ -110,10 +110,10 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
 
 void Planner::refuse(const std::vector<ChunkKey>& refused, Plan& plan) {
   for (const ChunkKey& key : refused) {
-    ChunkRecord& record = store_.at(key);
+    KnownChunk& record = store_.at(key);
     if (record.failed) continue;
     const size_t bytes = record.bytes();
-    record = ChunkRecord{};
+    record = KnownChunk{};
     record.failed = true;
     ++stats_.failed;
     changed_ = true;
@@ -153,7 +153,7 @@ ChunkSet Planner::reachedParents(std::span<const LodViewer> viewers, const LodSe
   // A node is split as a whole: chunks of it lie farther away than the node does.
   const double radius = lod.finest_distance * reach + 2.0 * kChunkCells * lod.finest_cell;
   const VoidLookup voids = [this](const ChunkKey& key) -> const VoidComponents* {
-    const ChunkRecord* record = store_.find(key);
+    const KnownChunk* record = store_.find(key);
     return record != nullptr ? record->voids.get() : nullptr;
   };
   ChunkSet parents;
@@ -165,11 +165,11 @@ ChunkSet Planner::reachedParents(std::span<const LodViewer> viewers, const LodSe
 
 std::shared_ptr<const FrameStep> Planner::nextStep() {
   const Readiness ready{[this](const ChunkKey& key) {
-                          const ChunkRecord* record = store_.find(key);
+                          const KnownChunk* record = store_.find(key);
                           return record != nullptr && record->body;
                         },
                         [this](const ChunkKey& key) {
-                          const ChunkRecord* record = store_.find(key);
+                          const KnownChunk* record = store_.find(key);
                           return record != nullptr ? record->seams : uint8_t{0};
                         }};
   CommitPlan commit = planCommit(applied_->tree, target_, ready);
@@ -222,7 +222,7 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
 }
 
 void Planner::request(const ChunkKey& key, int seams, std::vector<WorkItem>& queue) {
-  ChunkRecord& record = store_.at(key);
+  KnownChunk& record = store_.at(key);
   record.wanted = plans_;
   const auto missing = static_cast<uint8_t>(seams & ~record.seams);
   if (record.in_work || record.failed || (record.body && missing == 0)) return;
@@ -246,7 +246,7 @@ void Planner::tally() {
   stats_.records = store_.size();
   stats_.never_drawn = freed_in_vain_;
   wanted_bytes_ = 0;
-  store_.forEach([&](const ChunkKey&, const ChunkRecord& record) {
+  store_.forEach([&](const ChunkKey&, const KnownChunk& record) {
     if (record.wanted == plans_) {
       wanted_bytes_ += record.bytes();
     } else if (record.body && !record.ever_drawn) {

@@ -1,6 +1,7 @@
 #include "stream/world.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -12,6 +13,8 @@ namespace sgm {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 /// What a chunk may come to: every cell cut in the worst way, with six seams.
 constexpr size_t kLargestChunk = size_t{5} << 20;
 /// Requests that come back before the planner looks at them, where more are waiting and no update comes.
@@ -21,6 +24,8 @@ constexpr size_t kHashedAtOnce = 256;
 constexpr ptrdiff_t kFailedAtOnce = 64;
 /// Plans in a row that bring nothing, until a wait gives up.
 constexpr int kPlansInVain = 1000;
+/// How long at least the jobs mesh after a plan, in times that it took, before an update has the next one made.
+constexpr int kMeshingPerPlanning = 2;
 constexpr int kPlanPriority = 2, kMeshPriority = 1;
 
 }  // namespace
@@ -56,7 +61,7 @@ struct World::Core : std::enable_shared_from_this<Core> {
   std::vector<FinishedChunk> finished;
   std::vector<FailedChunk> failed;
   std::shared_ptr<const FrameStep> step;
-  uint64_t applied = 0;
+  uint64_t applied = 0, applied_planning = 0;
   std::shared_ptr<const DrawnFrame> drawn;  ///< the frame of that number
   uint64_t generation = 0;                  ///< of requests: those of an earlier one are not wanted any more
   size_t meshing_before = 0;  ///< jobs that were at work when the plan for these viewers came, less those that ended
@@ -69,6 +74,7 @@ struct World::Core : std::enable_shared_from_this<Core> {
   bool stopped = false;
   bool idle = false;
   uint64_t plans = 0;
+  Clock::time_point next_plan;  ///< not earlier, while there is something to mesh
   PlannerStats planner_stats;
 
   /// What the viewers of now want is there and drawn.
@@ -78,6 +84,8 @@ struct World::Core : std::enable_shared_from_this<Core> {
 
   /// False where no memory is left to do so.
   bool submit(void (*function)(void*), int priority) noexcept;
+  /// Whether an update should have the work planned: planning must leave the jobs time to mesh.
+  bool planIsDue() const;
   void kickPlanner();
   void kickMeshing();
   PlanInput planInput();
@@ -155,14 +163,23 @@ PlanInput World::Core::planInput() {
     input.finished.swap(finished);
     input.begun.swap(begun);
     input.refused.swap(refused);
-    input.applied = applied;
+    input.applied = applied_planning = applied;
   }
   surfaces->collect();
   input.live_bytes = surfaces->bytes();
   return input;
 }
 
+bool World::Core::planIsDue() const {
+  const std::lock_guard lock(mutex);
+  const bool news = planner_lost || viewers_planning != viewers_set || applied_planning != applied ||
+                    !finished.empty() || !refused.empty();
+  const bool stuck = !queue.empty() && mesh_jobs == 0;  // without room, or out of memory
+  return stuck || (news && (queue.empty() || Clock::now() >= next_plan));
+}
+
 void World::Core::planOnce() {
+  const Clock::time_point begun_at = Clock::now();
   bool again;
   try {
     if (planner_lost) planner.restart(currentFrame());
@@ -178,6 +195,11 @@ void World::Core::planOnce() {
     ++plans;
     changed.notify_all();
     return;
+  }
+  {
+    const std::lock_guard lock(mutex);
+    const Clock::time_point now = Clock::now();
+    next_plan = now + kMeshingPerPlanning * (now - begun_at);
   }
   kickMeshing();
   if (again && !submit(run<&Core::planOnce>, kPlanPriority)) {
@@ -352,7 +374,7 @@ void World::advance(size_t bytes) {
     core_->applied = step->to->number;
     core_->drawn = step->to;
   }
-  core_->kickPlanner();
+  if (core_->planIsDue()) core_->kickPlanner();
 }
 
 void World::restage(const std::shared_ptr<const FrameStep>& step) {
@@ -441,7 +463,8 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
     advance(std::numeric_limits<size_t>::max());
     std::unique_lock lock(core_->mutex);
     if (core_->settled()) return {};
-    if (core_->applied != frame || core_->planner_stats.meshed + core_->planner_stats.seam_jobs != finished)
+    if (core_->mesh_jobs > 0 || core_->applied != frame ||
+        core_->planner_stats.meshed + core_->planner_stats.seam_jobs != finished)
       in_vain = 0;
     frame = core_->applied;
     finished = core_->planner_stats.meshed + core_->planner_stats.seam_jobs;
