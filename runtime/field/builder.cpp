@@ -279,7 +279,7 @@ void ProgramBuilder::pushWarp(Value x, Value y, Value z) {
 
 void ProgramBuilder::popWarp() { --place_; }
 
-Result<void> ProgramBuilder::group(Value root, const IntBox& influence, uint32_t layer, bool cut) {
+Result<void> ProgramBuilder::group(Value root, const IntBox& influence, uint32_t layer, bool cut, float smooth) {
   std::pmr::vector<uint32_t> last_use(next_value_, 0, steps_.get_allocator());
   std::pmr::vector<uint8_t> home(next_value_, kMaxRegisters, steps_.get_allocator());
   auto use = [&](uint32_t id, size_t at) {
@@ -341,7 +341,7 @@ Result<void> ProgramBuilder::group(Value root, const IntBox& influence, uint32_t
     program_.instrs.resize(first);
     return Error{Code::limit, "a shape is nested too deeply for a field program; split it into shallower rules"};
   }
-  program_.groups.push_back({influence, first, count, layer, result, cut, true});
+  program_.groups.push_back({influence, first, count, layer, result, cut, true, smooth});
   return {};
 }
 

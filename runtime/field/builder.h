@@ -71,9 +71,9 @@ class ProgramBuilder {
   void pushWarp(Value x, Value y, Value z);
   void popWarp();
 
-  /// Ends the group. Groups must come in order of layer, adds before cuts. limit: more registers or places than there
-  /// are.
-  Result<void> group(Value root, const IntBox& influence, uint32_t layer, bool cut);
+  /// Ends the group. Groups must come in order of layer, adds before cuts; one that is smooth (a width in units, at
+  /// most 2^20) must be the only one of its layer. limit: more registers or places than there are.
+  Result<void> group(Value root, const IntBox& influence, uint32_t layer, bool cut, float smooth = 0);
 
   FieldProgram finish() { return std::move(program_); }
 

@@ -319,7 +319,7 @@ struct Gathered {
 }  // namespace
 
 Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntBox& box, const FieldSettings& settings,
-                                  std::pmr::memory_resource* memory) {
+                                  std::pmr::memory_resource* memory, std::span<const Brush> brushes) {
   const int32_t margin = influenceMargin(settings.cell);
   std::pmr::vector<Gathered> gathered(memory);
   std::pmr::vector<uint32_t> found(memory);
@@ -351,6 +351,11 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
     if (Result<void> ended = builder.group(**root, group.bounds.grown(margin), g.layer, g.cut); !ended) {
       return ended.error();
     }
+  }
+  uint32_t layer = gathered.empty() ? 0 : gathered.back().layer;
+  for (const Brush& brush : brushes) {
+    if (!brushShows(brush, settings.cell) || !brushBounds(brush).grown(margin).meets(box)) continue;
+    if (Result<void> emitted = emitBrush(builder, brush, settings.cell, ++layer); !emitted) return emitted.error();
   }
   return builder.finish();
 }

@@ -158,10 +158,18 @@ inline void runInstr(const BlockFrame& f, const Instr& in, Params P, size_t n) {
 // Folds one group into the field, or into what its layer's cuts take away (program.h).
 template <bool kGradient>
 inline void foldGroup(const BlockFrame& f, const ProgramGroup& g, size_t n) {
-  const size_t into = g.cut ? kCutRegister : kFoldRegister;
+  const bool smooth = g.smooth > 0;
+  const size_t into = g.cut && !smooth ? kCutRegister : kFoldRegister;
   SGM_EACH {
-    const Dual before = loadDual<kGradient>(f, into, i);
-    Dual after = opMinimum(before, loadDual<kGradient>(f, g.result, i));
+    const Dual before = loadDual<kGradient>(f, into, i), own = loadDual<kGradient>(f, g.result, i);
+    Dual after = before;
+    if (!smooth) {
+      after = opMinimum(before, own);
+    } else if (g.cut) {
+      after = roundCut(before, own, g.smooth);
+    } else {
+      after = roundUnion(before, own, g.smooth);
+    }
     if (g.guarded) {
       const Int px = loadPlace(f, 0, 0, i), py = loadPlace(f, 0, 1, i), pz = loadPlace(f, 0, 2, i);
       const Bool inside = !(px < g.influence.lo.x) && !(py < g.influence.lo.y) && !(pz < g.influence.lo.z) &&
@@ -187,13 +195,14 @@ inline void runBlock(const ProgramView& program, const BlockFrame& f, size_t n) 
   }
   for (size_t k = 0; k < program.groups.size(); ++k) {
     const ProgramGroup& g = program.groups[k];
-    const bool first_cut = g.cut && (k == 0 || !program.groups[k - 1].cut || program.groups[k - 1].layer != g.layer);
+    const bool cuts = g.cut && g.smooth == 0;
+    const bool first_cut = cuts && (k == 0 || !program.groups[k - 1].cut || program.groups[k - 1].layer != g.layer);
     if (first_cut) SGM_EACH storeDual<kGradient>(f, kCutRegister, i, farAway());
     for (const Instr& in : program.instrs.subspan(g.first, g.count)) {
       runInstr<kGradient>(f, in, program.params.data() + in.params, n);
     }
     foldGroup<kGradient>(f, g, n);
-    const bool last_cut = g.cut && (k + 1 == program.groups.size() || program.groups[k + 1].layer != g.layer);
+    const bool last_cut = cuts && (k + 1 == program.groups.size() || program.groups[k + 1].layer != g.layer);
     if (last_cut) {
       SGM_EACH storeDual<kGradient>(
           f, kFoldRegister, i, opCut(loadDual<kGradient>(f, kFoldRegister, i), loadDual<kGradient>(f, kCutRegister, i)));

@@ -287,6 +287,19 @@ Interval boundRoundEnd(const uint32_t* p, Interval nearest, Interval sum) {
   return widened({top.lo - root.hi, top.hi - root.lo}, errorOf(Op::round_end) * (magnitude(top) + root.hi));
 }
 
+Interval boundRoundUnion(Interval a, Interval b, double k) {
+  // Monotone in both, and never above the nearer one.
+  const Interval nearest{std::min(a.lo, b.lo), std::min(a.hi, b.hi)};
+  const double u = std::clamp(k - a.lo, 0.0, 1e9), v = std::clamp(k - b.lo, 0.0, 1e9), root = std::sqrt(u * u + v * v);
+  if (u == 0 || v == 0) return nearest;
+  return {std::min(nearest.lo, widened({k - root, k - root}, errorOf(Op::round_end) * (k + root)).lo), nearest.hi};
+}
+
+Interval boundRoundCut(Interval a, Interval b, double k) {
+  const Interval r = boundRoundUnion({-a.hi, -a.lo}, b, k);
+  return {-r.hi, -r.lo};
+}
+
 Interval boundSumEnd(const uint32_t* p, Interval sum) {
   const double threshold = realAt(p, 0), length = realAt(p, 1);
   return widened(kept({(threshold - sum.hi) * length, (threshold - sum.lo) * length}),

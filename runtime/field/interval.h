@@ -32,5 +32,8 @@ Interval boundRoundEnd(const uint32_t* params, Interval nearest, Interval sum);
 Interval boundSumEnd(const uint32_t* params, Interval sum);
 /// One operand's share of a round union's sum.
 Interval boundRoundShare(const uint32_t* params, Interval d);
+/// A field and a smooth group (program.h) of width k > 0: their round union, and the field without the group.
+Interval boundRoundUnion(Interval a, Interval b, double k);
+Interval boundRoundCut(Interval a, Interval b, double k);
 
 }  // namespace sgm

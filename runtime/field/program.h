@@ -2,9 +2,10 @@
 // A field program: immutable straight-line code by group, and the fold that joins the groups.
 //
 // At a point p the field starts as `initial` (the domain: far inside or far outside). Layer by layer, the groups whose
-// influence box holds p add, f = min(f, g), and then those that cut take their union away, f = max(f, -min g). That the
-// box decides is part of the field's definition, so the value at p never depends on which chunk asks. Everything is in
-// units (1/1024 m).
+// influence box holds p add, f = min(f, g), and then those that cut take their union away, f = max(f, -min g). A smooth
+// group is a layer of its own and blends with what is there: by the round union of f and g, or of -f and g, negated
+// (roundUnion in shaders/common/combine.h). That the box decides is part of the field's definition, so the value at p
+// never depends on which chunk asks. Everything is in units (1/1024 m).
 // Shareable between threads; evaluators keep their scratch apart.
 
 #include <cstdint>
@@ -47,6 +48,7 @@ struct ProgramGroup {
   uint8_t result = 0;             ///< register
   bool cut = false;
   bool guarded = true;  ///< false where every sample asked for is known to lie in the influence box
+  float smooth = 0;     ///< width of the blend in units, only of the one group of a layer; 0: min and max
 };
 
 /// What an evaluator reads. Does not own.

@@ -224,6 +224,18 @@ void keepGroup(const ProgramView& program, const ProgramGroup& g, const Interval
   out.groups.push_back(kept);
 }
 
+// Folds a smooth group into the field's bounds. Where it is k away and no nearer than the field, the field keeps its
+// bits; where the field is, the group takes its place.
+bool foldSmooth(const ProgramGroup& g, PruneScratch::GroupBounds& b, Interval& field) {
+  const double k = double{g.smooth};
+  const Interval under = field, distance = g.cut ? Interval{-under.hi, -under.lo} : under;
+  b.live = b.met && !(b.value.lo >= k && b.value.lo >= distance.hi);
+  if (!b.live) return false;
+  field = g.cut ? boundRoundCut(under, b.value, k) : boundRoundUnion(under, b.value, k);
+  if (!b.whole) field = {std::min(field.lo, under.lo), std::max(field.hi, under.hi)};
+  return !g.cut && b.whole && under.lo >= k && under.lo > b.value.hi;
+}
+
 }  // namespace
 
 void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch, PrunedProgram& out) {
@@ -240,26 +252,44 @@ void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch,
   scratch.bounds.resize(groups);
   Interval field{double{program.initial}, double{program.initial}};
 
-  // Forward, layer by layer.
+  auto bound = [&](size_t i) -> PruneScratch::GroupBounds& {
+    const ProgramGroup& g = program.groups[i];
+    auto& b = scratch.bounds[i];
+    b.met = !g.guarded || g.influence.meets(box);
+    b.whole = !g.guarded || g.influence.contains(box);
+    b.live = b.met;
+    if (b.met) b.value = boundGroup(program, g, places, scratch.marks.data() + g.first);
+    return b;
+  };
+  // What lies below the layer of `first` never shows.
   size_t keep_from = 0;
+  auto replaceBelow = [&](size_t first) {
+    for (size_t i = keep_from; i < first; ++i) scratch.bounds[i].live = false;
+    keep_from = first;
+    out.initial = kFar;
+    out.initial_label = 0;
+  };
+
+  // Forward, layer by layer.
   for (size_t first = 0; first < groups;) {
+    if (program.groups[first].smooth > 0) {
+      if (foldSmooth(program.groups[first], bound(first), field)) replaceBelow(first);
+      ++first;
+      continue;
+    }
     const uint32_t layer = program.groups[first].layer;
     size_t last = first;
     double add_hi = field.hi, cut_hi = 1e300;
     Interval adds{1e300, 1e300}, cuts{1e300, 1e300};
     for (; last < groups && program.groups[last].layer == layer; ++last) {
-      const ProgramGroup& g = program.groups[last];
-      auto& b = scratch.bounds[last];
-      b.met = !g.guarded || g.influence.meets(box);
-      b.whole = !g.guarded || g.influence.contains(box);
-      b.live = b.met;
+      const auto& b = bound(last);
       if (!b.met) continue;
-      b.value = boundGroup(program, g, places, scratch.marks.data() + g.first);
-      Interval& side = g.cut ? cuts : adds;
+      const bool cut = program.groups[last].cut;
+      Interval& side = cut ? cuts : adds;
       side.lo = std::min(side.lo, b.value.lo);
       if (b.whole) {
         side.hi = std::min(side.hi, b.value.hi);
-        double& hi = g.cut ? cut_hi : add_hi;
+        double& hi = cut ? cut_hi : add_hi;
         hi = std::min(hi, b.value.hi);
       }
     }
@@ -271,12 +301,7 @@ void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch,
       if (!b.met) continue;
       b.live = program.groups[i].cut ? b.value.lo <= cut_hi && -b.value.lo >= joined.lo : b.value.lo <= add_hi;
     }
-    if (replaced) {
-      for (size_t i = keep_from; i < first; ++i) scratch.bounds[i].live = false;
-      keep_from = first;
-      out.initial = kFar;
-      out.initial_label = 0;
-    }
+    if (replaced) replaceBelow(first);
     field = {std::max(joined.lo, -cuts.hi), std::max(joined.hi, -cuts.lo)};
     first = last;
   }

@@ -129,6 +129,11 @@ double kernel(double x) {
   return k * k * k;
 }
 
+double roundUnion(double a, double b, double k) {
+  const double u = std::clamp(k - a, 0.0, 1e9), v = std::clamp(k - b, 0.0, 1e9), nearest = std::min(a, b);
+  return u > 0 && v > 0 ? std::min(nearest, k - std::hypot(u, v)) : nearest;
+}
+
 // Of an expression's result: real.h, settleReal.
 double settle(double x) { return std::abs(x) < 1e-30 ? 0.0 : std::clamp(x, -1e18, 1e18); }
 
@@ -315,6 +320,11 @@ double referenceField(const ProgramView& program, Int3 p) {
       }
     }
     if (g.guarded && !g.influence.contains(p)) continue;
+    if (g.smooth > 0) {
+      const double joined = roundUnion(g.cut ? -field : field, r[g.result], double{g.smooth});
+      field = g.cut ? -joined : joined;
+      continue;
+    }
     // max(f, -g) one cut after another is the same as taking their union away.
     field = g.cut ? std::max(field, -r[g.result]) : std::min(field, r[g.result]);
   }

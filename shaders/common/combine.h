@@ -232,19 +232,34 @@ FN Dual roundAccumulate(Dual sum, Dual d, float k) {
   z = sum.z + z;
   return makeDual(v, x, y, z, sum.label);
 }
-FN Dual opRoundEnd(Dual nearest, Dual sum, Params P) {
+FN Dual roundEnd(Dual nearest, Dual sum, float k) {
   PRECISE Real inv = rsqrtReal(sum.v);
   PRECISE Real root = sum.v * inv;
-  PRECISE Real v = maxReal(nearest.v, broadcast(PF(P, 0)));
+  PRECISE Real v = maxReal(nearest.v, broadcast(k));
   v = v - root;
   // Nothing was added, or only what is too little to have a direction.
-  Bool apart = (nearest.v >= PF(P, 0)) || (sum.v <= 0.0f);
+  Bool apart = (nearest.v >= k) || (sum.v <= 0.0f);
   PRECISE Real w = inv * -0.5f;
   PRECISE Real x = sum.x * w;
   PRECISE Real y = sum.y * w;
   PRECISE Real z = sum.z * w;
   return makeDual(v, holdReal(sel(apart, nearest.x, x)), holdReal(sel(apart, nearest.y, y)),
                   holdReal(sel(apart, nearest.z, z)), nearest.label);
+}
+FN Dual opRoundEnd(Dual nearest, Dual sum, Params P) { return roundEnd(nearest, sum, PF(P, 0)); }
+
+// Round union of a field and one group. Unlike that of many it is the nearer one to the bit where either is k or more
+// away, so that pruning may leave such a group out; and rounding never puts it above the nearer one.
+FN Dual roundUnion(Dual a, Dual b, float k) {
+  Dual nearest = opMinimum(a, b);
+  Dual blended = roundEnd(nearest, roundAccumulate(roundAccumulate(nothing(), a, k), b, k), k);
+  Bool blends = (a.v < k) && (b.v < k) && (blended.v < nearest.v);
+  return selDual(blends, blended, nearest);
+}
+// a without b, rounded; the labels are opCut's.
+FN Dual roundCut(Dual a, Dual b, float k) {
+  b.label = mergeLabels(b.label, a.label);
+  return opNegate(roundUnion(opNegate(a), b, k));
 }
 
 // The weight of any distance under a compact-kernel sum. 0 reciprocal inner radius, 1 reciprocal of the squared

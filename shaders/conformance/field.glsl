@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) readonly buffer InstrWords { uint instrs[]; };  // three a program.h Instr
 layout(std430, binding = 1) readonly buffer ParamWords { uint params[]; };
-layout(std430, binding = 2) readonly buffer GroupWords { uint groups[]; };  // ten a group: see conformance_vulkan.cpp
+layout(std430, binding = 2) readonly buffer GroupWords { uint groups[]; };  // eleven a group: see conformance_vulkan.cpp
 layout(std430, binding = 3) readonly buffer PointWords { int points[]; };   // x y z
 layout(std430, binding = 4) buffer ResultWords { uint results[]; };  // q, value, gradient, normal x y, label
 
@@ -118,7 +118,7 @@ void main() {
   Dual field = makeDual(uintBitsToFloat(initial_bits), 0.0f, 0.0f, 0.0f, int(initial_label));
   Dual cuts = farAway();
   for (uint g = 0u; g < group_count; ++g) {
-    uint at = 10u * g;
+    uint at = 11u * g;
     ivec3 lo = ivec3(groups[at], groups[at + 1u], groups[at + 2u]);
     ivec3 hi = ivec3(groups[at + 3u], groups[at + 4u], groups[at + 5u]);
     uint first = groups[at + 6u], count = groups[at + 7u], result = groups[at + 8u], flags = groups[at + 9u];
@@ -126,8 +126,16 @@ void main() {
     if ((flags & 4u) != 0u) cuts = farAway();
     for (uint k = 0u; k < count; ++k) run(first + k);
     bool inside = !guarded || (all(greaterThanEqual(p, lo)) && all(lessThanEqual(p, hi)));
+    float smooth_width = uintBitsToFloat(groups[at + 10u]);
+    Dual own = registers[result];
+    if (smooth_width > 0.0f) {
+      Dual blended = field;
+      if (cut) blended = roundCut(field, own, smooth_width); else blended = roundUnion(field, own, smooth_width);
+      field = selDual(inside, blended, field);
+      continue;
+    }
     Dual before = cut ? cuts : field;
-    Dual after = selDual(inside, opMinimum(before, registers[result]), before);
+    Dual after = selDual(inside, opMinimum(before, own), before);
     if (cut) cuts = after; else field = after;
     if ((flags & 8u) != 0u) field = opCut(field, cuts);
   }

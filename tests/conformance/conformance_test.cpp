@@ -74,6 +74,7 @@ TEST_CASE("random programs give the scalar evaluator's bits on every instruction
     RandomProgramOptions options;
     options.centre = kTestCentres[round % 3];
     options.odd = {round % 5 == 1, round % 5 == 2};
+    options.smooth_groups = static_cast<int>(round % 4);
     const FieldProgram program = randomProgram(random, options);
     const PointSet points = randomPoints(random, options.centre, 3 * options.extent, 513);
     const Evaluated expected = evaluate(scalarKernels(), program.view(), points.points());

@@ -41,7 +41,8 @@ Packed pack(const ProgramView& program, const PointSet& points) {
     }
     p.groups.insert(p.groups.end(),
                     {g.first, g.count, g.result,
-                     uint32_t{g.cut} | uint32_t{g.guarded} << 1 | uint32_t{first_cut} << 2 | uint32_t{last_cut} << 3});
+                     uint32_t{g.cut} | uint32_t{g.guarded} << 1 | uint32_t{first_cut} << 2 | uint32_t{last_cut} << 3,
+                     std::bit_cast<uint32_t>(g.smooth)});
   }
   for (size_t i = 0; i < points.x.size(); ++i) {
     for (int32_t c : {points.x[i], points.y[i], points.z[i]}) p.points.push_back(static_cast<uint32_t>(c));
@@ -117,6 +118,7 @@ TEST_CASE("the GLSL of every op gives the scalar evaluator's bits") {
     options.centre = centres[seed % 2];
     options.odd = {seed % 5 == 1, seed % 5 == 2};
     options.groups = 4;
+    options.smooth_groups = static_cast<int>(seed % 4);
     const FieldProgram program = randomProgram(random, options);
     const PointSet points = randomPoints(random, options.centre, 3 * options.extent, 2000);
     INFO("random program, seed " << seed);

@@ -52,6 +52,7 @@ TEST_CASE("an evaluator on a thread that flushes denormals gives the same bits")
       options.groups = 3;
       options.centre = kTestCentres[round % 3];
       options.odd = {round % 4 == 1, true};
+      options.smooth_groups = 2;
       const FieldProgram program =
           o >= 0 ? programOf(static_cast<Op>(o), random, options.centre, options.odd) : randomProgram(random, options);
       const PointSet points = pointsFor(program, random, options.centre);

@@ -315,6 +315,13 @@ FieldProgram randomProgram(std::mt19937& random, const RandomProgramOptions& o) 
       (void)g.builder().group(root, influence, static_cast<uint32_t>(layer), i >= adds);
     }
   }
+  for (int i = 0; i < o.smooth_groups; ++i) {
+    const Value root = g.shape(g.pick(2));
+    const IntBox influence = o.whole_influence ? IntBox::everything() : g.influence();
+    const float width = g.pick(4) == 0 ? 1.0f : g.size();
+    const bool cut = g.pick(2) == 0;
+    (void)g.builder().group(root, influence, static_cast<uint32_t>(layers + i), cut, width);
+  }
   return g.builder().finish();
 }
 

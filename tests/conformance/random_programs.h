@@ -22,6 +22,7 @@ struct RandomProgramOptions {
   int depth = 4;  ///< of combiners
   int32_t finest_cell = 512;
   bool whole_influence = false;  ///< influence boxes that hold everything, instead of random ones
+  int smooth_groups = 0;         ///< above the others, each a layer of its own
   Oddities odd;
 };
 

@@ -352,6 +352,7 @@ TEST_CASE("interval bounds hold every float value") {
       options.groups = 2;
       options.whole_influence = seed % 3 == 0;
       options.odd = {seed % 4 == 0, seed % 5 == 0};
+      options.smooth_groups = static_cast<int>(seed % 3);
       const FieldProgram program =
           o >= 0 ? programOf(static_cast<Op>(o), random, centre, options.odd) : randomProgram(random, options);
       const IntBox box = randomBox(random, centre, 30'000);
@@ -485,6 +486,7 @@ TEST_CASE("a pruned program keeps every bit of every sample and attribute") {
     options.whole_influence = seed % 4 == 0;
     options.depth = 2 + static_cast<int>(seed % 4);
     options.odd = {seed % 6 == 0, seed % 5 == 0};
+    options.smooth_groups = static_cast<int>(seed % 7 == 0 ? 12 : seed % 3);
     const FieldProgram program = randomProgram(random, options);
     IntBox box = randomBox(random, options.centre, options.extent);
     PruneScratch scratch;
