@@ -12,16 +12,16 @@ if(NOT SGM_SCALAR)
   set(SGM_PC_REQUIRES libhwy)
 endif()
 
+# Its header alone: nothing of it is left to link.
+find_path(SGM_XXHASH_INCLUDE xxhash.h)
+if(NOT SGM_XXHASH_INCLUDE)
+  message(FATAL_ERROR "xxhash.h is missing: install the package libxxhash-dev")
+endif()
+
 if(SGM_DISK_CACHE)
   find_package(zstd CONFIG QUIET)
   if(NOT TARGET zstd::libzstd_shared)
     message(FATAL_ERROR "zstd is missing: install the package libzstd-dev, or set SGM_DISK_CACHE=OFF to do without the cache")
-  endif()
-  # Its header alone: nothing to link.
-  find_path(SGM_XXHASH_INCLUDE xxhash.h)
-  if(NOT SGM_XXHASH_INCLUDE)
-    message(FATAL_ERROR
-      "xxhash.h is missing: install the package libxxhash-dev, or set SGM_DISK_CACHE=OFF to do without the cache")
   endif()
   string(APPEND SGM_CONFIG_DEPENDENCIES "\nfind_dependency(zstd CONFIG)")
   list(APPEND SGM_PC_REQUIRES libzstd)

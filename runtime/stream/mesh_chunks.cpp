@@ -21,7 +21,8 @@ IntBox closedBox(const ChunkGrid& grid) {
 }
 
 /// What the backend needs to mesh a chunk, and what is known of it without meshing.
-Result<void> prepare(const WorldField& world, const ChunkRequest& request, ChunkJob& job, PlacedChunk& chunk) {
+Result<void> prepare(const WorldField& world, const ChunkRequest& request, const EditSnapshot* edits, ChunkJob& job,
+                     PlacedChunk& chunk) {
   const Result<ChunkGrid> grid = chunkGrid(world, request.key);
   if (!grid) return grid.error();
   chunk.grid = job.grid = *grid;
@@ -30,13 +31,13 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, Chunk
   job.signs = request.signs;
   job.body = request.body;
   const IntBox box = closedBox(*grid);
-  Result<std::shared_ptr<const FieldProgram>> field = world.compile(box, request.key.level);
+  Result<std::shared_ptr<const FieldProgram>> field = world.compile(box, request.key.level, edits);
   if (!field) return field.error();
   job.field = std::move(*field);
   if (request.seams != 0) {
     const int above = request.key.level + 1;
     Result<std::shared_ptr<const FieldProgram>> coarse =
-        request.outermost ? world.compileOutside(above) : world.compile(box, above);
+        request.outermost ? world.compileOutside(above) : world.compile(box, above, edits);
     if (!coarse) return coarse.error();
     job.coarse = std::move(*coarse);
   }
@@ -93,7 +94,8 @@ Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key) {
 }
 
 Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,
-                                                 std::span<const ChunkRequest> requests, const Progress& progress) {
+                                                 std::span<const ChunkRequest> requests, const Progress& progress,
+                                                 const EditSnapshot* edits) {
   std::pmr::vector<PlacedChunk> chunks(world.memory());
   chunks.reserve(requests.size());
   Counter counter(progress, requests.size());
@@ -105,7 +107,7 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     std::optional<Error> error;
     size_t error_at = 0;
     parallelFor(jobs, batch.size(), [&](size_t i) {
-      const Result<void> prepared = prepare(world, batch[i], chunk_jobs[i], chunks[first + i]);
+      const Result<void> prepared = prepare(world, batch[i], edits, chunk_jobs[i], chunks[first + i]);
       if (prepared) return;
       // Of several the first request's error, whichever thread was faster.
       std::lock_guard lock(mutex);

@@ -47,10 +47,11 @@ using Progress = std::function<bool(uint64_t done, uint64_t total)>;
 /// The grid of a chunk. Errors: invalid_argument (no such level), range (it does not lie wholly inside the world).
 Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key);
 
-/// One mesh a request, in order, in the world's memory. Errors: those of chunkGrid, derivation and compilation,
-/// out_of_memory, cancelled.
+/// One mesh a request, in order, in the world's memory. edits: laid on the world, or null. Errors: those of chunkGrid,
+/// derivation and compilation, out_of_memory, cancelled.
 Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,
-                                                 std::span<const ChunkRequest> requests, const Progress& progress = {});
+                                                 std::span<const ChunkRequest> requests, const Progress& progress = {},
+                                                 const EditSnapshot* edits = nullptr);
 
 /// How many chunks of 32 cells of an edge meet the box lo <= p < hi; 2^63 - 1 where there are more. Precondition: the
 /// box is not empty, cell is positive.

@@ -145,7 +145,8 @@ FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const
 }
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t layers, const IntBox& box,
-                                                                      const FieldSettings& field) const {
+                                                                      const FieldSettings& field,
+                                                                      const EditSnapshot* edits) const {
   const IntBox reached = box.grown(influenceMargin(field.cell));
   std::pmr::vector<std::shared_ptr<const DerivedCell>> held(memory_);
   std::pmr::vector<IndexedCell> indexed(memory_);
@@ -161,14 +162,17 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
     });
     if (!gathered) return gathered.error();
   }
-  Result<FieldProgram> program = compileField(indexed, box, field, memory_);
+  std::pmr::vector<Brush> brushes(memory_);
+  if (edits) edits->query(reached, field.cell, brushes);
+  Result<FieldProgram> program = compileField(indexed, box, field, memory_, brushes);
   if (!program) return program.error();
   return std::shared_ptr<const FieldProgram>(std::make_shared<FieldProgram>(std::move(*program)));
 }
 
-Result<std::shared_ptr<const FieldProgram>> WorldField::compile(const IntBox& box, int level) const {
+Result<std::shared_ptr<const FieldProgram>> WorldField::compile(const IntBox& box, int level,
+                                                                const EditSnapshot* edits) const {
   return compileLayers(static_cast<uint32_t>(settings_.program->layers.size()), box,
-                       fieldSettings(settings_.finest_cell, cellAt(level)));
+                       fieldSettings(settings_.finest_cell, cellAt(level)), edits);
 }
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level) const {
@@ -180,7 +184,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box) const {
   // One unit as the cell: in full detail, and the same whatever cells the world is meshed with.
-  return compileLayers(layer + 1, box, fieldSettings(1, 1));
+  return compileLayers(layer + 1, box, fieldSettings(1, 1), nullptr);
 }
 
 Result<void> WorldField::forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,

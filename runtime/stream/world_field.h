@@ -9,6 +9,7 @@
 #include "derive/derive.h"
 #include "field/evaluate.h"
 #include "stream/cell_cache.h"
+#include "stream/edit_snapshot.h"
 
 namespace sgm {
 
@@ -40,9 +41,10 @@ class WorldField {
   /// The cell of a layer, derived or from the cache.
   Result<std::shared_ptr<const DerivedCell>> cell(uint32_t layer, Int3 cell) const;
 
-  /// The program of all groups that matter in the closed box at a level.
-  /// limit: more than 2^20 cells of a layer reach into the box; errors of derivation.
-  Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level) const;
+  /// The program of all groups that matter in the closed box at a level, and of the edits above them; derivation knows
+  /// nothing of edits. limit: more than 2^20 cells of a layer reach into the box; errors of derivation.
+  Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level,
+                                                      const EditSnapshot* edits = nullptr) const;
 
   /// The program of the domain's own state, everywhere the same: what lies beyond the drawn world.
   Result<std::shared_ptr<const FieldProgram>> compileOutside(int level) const;
@@ -72,7 +74,8 @@ class WorldField {
   Result<void> walkCells(uint32_t layer, const IntBox& box, CellsOf of,
                          const std::function<Result<void>(const CellKey&)>& visit) const;
   Result<std::shared_ptr<const FieldProgram>> compileLayers(uint32_t layers, const IntBox& box,
-                                                            const FieldSettings& field) const;
+                                                            const FieldSettings& field,
+                                                            const EditSnapshot* edits) const;
   /// Visits the cells of all wanted layers that can reach into the box, in order.
   Result<void> forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,
                            const std::function<void(const GrammarChunk&)>& visit) const;

@@ -1,0 +1,90 @@
+#pragma once
+// All that was done to a world. Worlds that have exchanged their operations, in any order and any number of times, have
+// equal sets of them, and so equal hashes and equal fields.
+//
+// The set only grows. A brush shows unless the latest undo or redo of it, by order, is an undo; so an undo may come
+// before its brush, and of two worlds that undo and redo at one time all agree on one. One that names no brush does
+// nothing.
+
+#include <map>
+#include <optional>
+
+#include "field/compile.h"
+#include "stream/edit_snapshot.h"
+
+namespace sgm {
+
+struct EditSettings {
+  /// Whose operations are made here. Nobody else's, and never used again where operations may have been lost, with a
+  /// journal's last second for instance: best drawn at random for each log.
+  uint64_t author = 1;
+  uint16_t most_material = 0xFFFF, most_tag = 0xFFFF;  ///< the largest that a brush may have
+  size_t most_operations = size_t{1} << 20;
+};
+
+/// Thread-compatible; its snapshots may be on any thread. The memory must outlive it and them.
+class EditLog {
+ public:
+  struct Edited {
+    EditId id;
+    IntBox box;  ///< what it changes; empty where it changes nothing
+  };
+
+  explicit EditLog(EditSettings settings, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+  /// Lays a brush on top of all that is known here. Errors: checkBrush's; invalid_argument for a material or a tag that
+  /// there is not; limit.
+  Result<Edited> add(const Brush& brush);
+  /// Undoes an operation: hides a brush or, of an undo, shows the brush again, or, of a redo, hides it again.
+  /// invalid_argument: the operation is not known here, or names no brush that is. limit.
+  Result<Edited> undo(EditId id);
+
+  /// Adds what is not yet known; all or nothing, unless memory runs out. Gives what it changes, a box for each brush
+  /// that comes or goes. bad_input: an operation that could not have been made, or is known here with another content.
+  /// limit.
+  Result<std::vector<IntBox>> merge(std::span<const EditOperation> operations);
+  /// merge of what exportBytes gave somewhere. bad_input as well for any other bytes.
+  Result<std::vector<IntBox>> import(std::span<const std::byte> bytes);
+
+  /// How many operations are known. What is learned later comes after them in operations() and exportBytes().
+  uint64_t size() const { return known_.size(); }
+  /// In the order in which they were learned here, all but the first `since`; until another is learned.
+  std::span<const EditOperation> operations(uint64_t since = 0) const;
+  std::vector<std::byte> exportBytes(uint64_t since = 0) const;
+
+  /// Of the set.
+  uint64_t hash() const;
+  std::shared_ptr<const EditSnapshot> snapshot() const;
+
+ private:
+  struct Sight {  ///< the latest undo or redo of a brush
+    EditOrder order;
+    bool hidden = false;
+  };
+
+  const EditOperation* find(EditId id) const;
+  bool hidden(EditId brush) const;
+  Result<void> check(const EditOperation& operation) const;
+  Result<Edited> make(EditOperation operation);
+  void makeRoom(size_t more);
+  IntBox insert(const EditOperation& operation);
+
+  EditSettings settings_;
+  std::pmr::vector<EditOperation> known_;
+  std::pmr::map<EditId, size_t> places_;  ///< in known_
+  std::pmr::map<EditId, Sight> sights_;   ///< by brush, known or not
+  EditSnapshot shown_;
+  uint64_t latest_ = 0;  ///< time
+  uint64_t number_ = 0;  ///< the largest of our own
+  uint64_t sum_ = 0;     ///< of the operations' checksums
+};
+
+/// Where chunks with cells of this edge, in units, must be meshed again after a change: those whose closed box meets
+/// the result. It holds what their seams read of the next coarser level.
+IntBox editReach(const IntBox& changed, int32_t cell);
+
+/// The operations without which the same brushes show, in the same order and whatever else is still to come: the
+/// brushes that show, and each brush's latest undo or redo.
+std::vector<EditOperation> essentialEdits(std::span<const EditOperation> operations);
+
+}  // namespace sgm
