@@ -200,17 +200,22 @@ IntBox editReach(const IntBox& changed, int32_t cell) { return changed.grown(inf
 
 std::vector<EditOperation> essentialEdits(std::span<const EditOperation> operations) {
   std::map<EditId, const EditOperation*> sights;
+  std::map<uint64_t, uint64_t> last;  // number, by author
   for (const EditOperation& operation : operations) {
+    const EditId id = operation.order.id;
+    last[id.author] = std::max(last[id.author], id.number);
     if (laysBrush(operation)) continue;
     const EditOperation*& latest = sights[operation.target];
     if (!latest || latest->order < operation.order) latest = &operation;
   }
   std::vector<EditOperation> kept;
   for (const EditOperation& operation : operations) {
-    const auto at = sights.find(laysBrush(operation) ? operation.order.id : operation.target);
+    const EditId id = operation.order.id;
+    const auto at = sights.find(laysBrush(operation) ? id : operation.target);
     const EditOperation* latest = at == sights.end() ? nullptr : at->second;
     const bool shows = !latest || latest->kind == EditOperation::Kind::redo;
-    if (laysBrush(operation) ? shows : latest == &operation) kept.push_back(operation);
+    if ((laysBrush(operation) ? shows : latest == &operation) || last[id.author] == id.number)
+      kept.push_back(operation);
   }
   return kept;
 }

@@ -83,8 +83,9 @@ class EditLog {
 /// the result. It holds what their seams read of the next coarser level.
 IntBox editReach(const IntBox& changed, int32_t cell);
 
-/// The operations without which the same brushes show, in the same order and whatever else is still to come: the
-/// brushes that show, and each brush's latest undo or redo.
+/// The operations with which alone the same brushes show: those brushes, and each brush's latest undo or redo, so that
+/// one that comes back from elsewhere is hidden again. And each author's last, so that numbers go on. A redo of what
+/// was left out shows it once it has come back.
 std::vector<EditOperation> essentialEdits(std::span<const EditOperation> operations);
 
 }  // namespace sgm
