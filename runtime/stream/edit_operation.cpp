@@ -60,8 +60,6 @@ bool get(ByteReader& in, Brush& brush) {
   return true;
 }
 
-bool counts(uint64_t n) { return n >= 1 && n <= kMostEditTime; }
-
 }  // namespace
 
 void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes) {
@@ -74,6 +72,14 @@ void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes) {
   } else {
     put(out, operation.target);
   }
+}
+
+Result<void> checkEdit(const EditOperation& operation) {
+  for (const uint64_t n : {operation.order.time, operation.order.id.number}) {
+    if (n >= 1 && n <= kMostEditTime) continue;
+    return Error{Code::invalid_argument, "an edit's time or number is " + std::to_string(n) + ", which is none"};
+  }
+  return operation.kind == EditOperation::Kind::brush ? checkBrush(operation.brush) : Result<void>();
 }
 
 Result<EditOperation> decodeEdit(ByteReader& bytes) {
@@ -90,11 +96,8 @@ Result<EditOperation> decodeEdit(ByteReader& bytes) {
     operation.target = getId(bytes);
   }
   if (bytes.failed()) return bad("they end too early");
-  if (!known || !counts(operation.order.id.number) || !counts(operation.order.time)) {
-    return bad("a number lies beyond what there is");
-  }
-  if (operation.kind != EditOperation::Kind::brush) return operation;
-  if (Result<void> whole = checkBrush(operation.brush); !whole) return bad(whole.error().message);
+  if (!known) return bad("a number lies beyond what there is");
+  if (Result<void> could = checkEdit(operation); !could) return bad(could.error().message);
   return operation;
 }
 

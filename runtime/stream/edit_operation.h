@@ -35,7 +35,10 @@ struct EditOperation {
   Brush brush;    ///< of a brush
 };
 
-inline constexpr uint64_t kMostEditTime = uint64_t{1} << 62;  ///< of times and of numbers
+inline constexpr uint64_t kMostEditTime = uint64_t{1} << 62;  ///< of times and of numbers; both begin at 1
+
+/// invalid_argument, range: no log could have made it.
+Result<void> checkEdit(const EditOperation& operation);
 
 /// Appends the operation's bytes, the same for equal operations whatever their unused members hold.
 void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes);

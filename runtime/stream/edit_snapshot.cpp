@@ -36,6 +36,7 @@ struct EditSnapshot::Node {
   std::pmr::vector<Entry> entries;  ///< by order
   IntBox bounds;                    ///< of all below
   size_t count = 0;                 ///< of all below
+  uint64_t batch = 0;               ///< that made it
 
   explicit Node(std::pmr::memory_resource* memory) : entries(memory) {}
   Node(const Node& other, std::pmr::memory_resource* memory)
@@ -43,6 +44,7 @@ struct EditSnapshot::Node {
 
   void sum() {
     count = entries.size();
+    bounds = {};
     for (const Entry& e : entries) bounds = bounds.joined(e.bounds);
     for (const NodePtr& child : children) {
       if (!child) continue;
@@ -52,39 +54,49 @@ struct EditSnapshot::Node {
   }
 };
 
-EditSnapshot::NodePtr EditSnapshot::changed(const NodePtr& node, int level, const Entry& entry, int home,
-                                            bool add) const {
+struct EditSnapshot::Change {
+  Entry entry;
+  bool add;
+  uint64_t batch;
+  int home = homeLevel(entry.bounds);
+};
+
+EditSnapshot::NodePtr EditSnapshot::changed(const NodePtr& node, int level, const Change& change) const {
   const std::pmr::polymorphic_allocator<Node> allocator(memory_);
-  const std::shared_ptr<Node> copy =
-      node ? std::allocate_shared<Node>(allocator, *node, memory_) : std::allocate_shared<Node>(allocator, memory_);
-  if (level > home) {
-    NodePtr& child = copy->children[childOfMiddle(entry.bounds, level)];
-    child = changed(child, level - 1, entry, home, add);
+  // What this batch made nobody else has seen.
+  const bool ours = node && change.batch != 0 && node->batch == change.batch;
+  const std::shared_ptr<Node> own = ours   ? std::const_pointer_cast<Node>(node)
+                                    : node ? std::allocate_shared<Node>(allocator, *node, memory_)
+                                           : std::allocate_shared<Node>(allocator, memory_);
+  if (level > change.home) {
+    NodePtr& child = own->children[childOfMiddle(change.entry.bounds, level)];
+    child = changed(child, level - 1, change);
   } else {
-    const auto at = std::lower_bound(copy->entries.begin(), copy->entries.end(), entry,
+    const auto at = std::lower_bound(own->entries.begin(), own->entries.end(), change.entry,
                                      [](const Entry& a, const Entry& b) { return a.order < b.order; });
-    if (add) {
-      copy->entries.insert(at, entry);
+    if (change.add) {
+      own->entries.insert(at, change.entry);
     } else {
-      copy->entries.erase(at);
+      own->entries.erase(at);
     }
   }
-  copy->sum();
-  return copy->count > 0 ? copy : nullptr;
+  own->batch = change.batch;
+  own->sum();
+  return own->count > 0 ? own : nullptr;
 }
 
-EditSnapshot EditSnapshot::with(const EditOrder& order, const Brush& brush) const {
-  const Entry entry{order, brushBounds(brush), brush};
+EditSnapshot EditSnapshot::changed(const Change& change) const {
   EditSnapshot result(memory_);
-  result.root_ = changed(root_, kWorldLevel, entry, homeLevel(entry.bounds), true);
+  result.root_ = changed(root_, kWorldLevel, change);
   return result;
 }
 
-EditSnapshot EditSnapshot::without(const EditOrder& order, const Brush& brush) const {
-  const Entry entry{order, brushBounds(brush), brush};
-  EditSnapshot result(memory_);
-  result.root_ = changed(root_, kWorldLevel, entry, homeLevel(entry.bounds), false);
-  return result;
+EditSnapshot EditSnapshot::with(const EditOrder& order, const Brush& brush, uint64_t batch) const {
+  return changed(Change{{order, brushBounds(brush), brush}, true, batch});
+}
+
+EditSnapshot EditSnapshot::without(const EditOrder& order, const Brush& brush, uint64_t batch) const {
+  return changed(Change{{order, brushBounds(brush), brush}, false, batch});
 }
 
 void EditSnapshot::collect(const Node& node, const IntBox& box, int32_t cell, std::pmr::vector<const Entry*>& found) {

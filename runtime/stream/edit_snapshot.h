@@ -22,9 +22,11 @@ class EditSnapshot {
   /// Holds what every brush changes.
   IntBox bounds() const;
 
-  /// Precondition: the brush was checked; it is not there, or it is.
-  EditSnapshot with(const EditOrder& order, const Brush& brush) const;
-  EditSnapshot without(const EditOrder& order, const Brush& brush) const;
+  /// Precondition: the brush was checked; it is not there, or it is. Snapshots made under one batch, any number but 0,
+  /// may share even what changes, which makes many changes cheap: only the last of them is right, and no other may have
+  /// been handed out. A number serves one batch.
+  EditSnapshot with(const EditOrder& order, const Brush& brush, uint64_t batch = 0) const;
+  EditSnapshot without(const EditOrder& order, const Brush& brush, uint64_t batch = 0) const;
 
  private:
   struct Entry {
@@ -35,7 +37,10 @@ class EditSnapshot {
   struct Node;
   using NodePtr = std::shared_ptr<const Node>;
 
-  NodePtr changed(const NodePtr& node, int level, const Entry& entry, int home, bool add) const;
+  struct Change;
+
+  NodePtr changed(const NodePtr& node, int level, const Change& change) const;
+  EditSnapshot changed(const Change& change) const;
   static void collect(const Node& node, const IntBox& box, int32_t cell, std::pmr::vector<const Entry*>& found);
 
   NodePtr root_;

@@ -39,9 +39,8 @@ bool EditLog::hidden(EditId brush) const {
 }
 
 Result<void> EditLog::check(const EditOperation& operation) const {
-  if (!laysBrush(operation)) return {};
+  if (Result<void> could = checkEdit(operation); !could || !laysBrush(operation)) return could;
   const Brush& brush = operation.brush;
-  if (Result<void> whole = checkBrush(brush); !whole) return whole;
   const auto beyond = [](const char* what, uint16_t has, uint16_t most) {
     return Error{Code::invalid_argument, "a brush's " + std::string(what) + " is " + std::to_string(has) +
                                              "; the last one is " + std::to_string(most)};
@@ -55,34 +54,34 @@ void EditLog::makeRoom(size_t more) {
   if (known_.capacity() - known_.size() < more) known_.reserve(std::max(known_.size() + more, 2 * known_.size()));
 }
 
-// Every step that may throw comes before any that shows.
-IntBox EditLog::insert(const EditOperation& operation) {
+// Precondition: there is room. Where memory runs out, the operation is not known, and nothing has changed.
+IntBox EditLog::insert(const EditOperation& operation, uint64_t batch) {
   const EditId id = operation.order.id;
-  makeRoom(1);
-  EditSnapshot shown = shown_;
-  Sight* sight = nullptr;
-  IntBox changed;
-  if (laysBrush(operation)) {
-    if (!hidden(id)) {
-      shown = shown.with(operation.order, operation.brush);
-      changed = brushBounds(operation.brush);
-    }
-  } else {
-    const bool hides = operation.kind == EditOperation::Kind::undo;
-    sight = &sights_[operation.target];
-    if (operation.order < sight->order) {
-      sight = nullptr;
-    } else if (const EditOperation* target = find(operation.target);
-               target && laysBrush(*target) && sight->hidden != hides) {
-      shown = hides ? shown.without(target->order, target->brush) : shown.with(target->order, target->brush);
-      changed = brushBounds(target->brush);
-    }
-  }
   const uint64_t own = checksum(bytesOf(operation));
-  places_.emplace(id, known_.size());
+  Sight* sight = laysBrush(operation) ? nullptr : &sights_[operation.target];
+  const auto place = places_.emplace(id, known_.size()).first;
+  IntBox changed;
+  try {
+    if (!sight) {
+      if (!hidden(id)) {
+        shown_ = shown_.with(operation.order, operation.brush, batch);
+        changed = brushBounds(operation.brush);
+      }
+    } else if (sight->order < operation.order) {
+      const bool hides = operation.kind == EditOperation::Kind::undo;
+      const EditOperation* target = operation.target == id ? nullptr : find(operation.target);
+      if (target && laysBrush(*target) && sight->hidden != hides) {
+        shown_ = hides ? shown_.without(target->order, target->brush, batch)
+                       : shown_.with(target->order, target->brush, batch);
+        changed = brushBounds(target->brush);
+      }
+      *sight = {operation.order, hides};
+    }
+  } catch (...) {
+    places_.erase(place);
+    throw;
+  }
   known_.push_back(operation);
-  if (sight) *sight = {operation.order, operation.kind == EditOperation::Kind::undo};
-  shown_ = std::move(shown);
   latest_ = std::max(latest_, operation.order.time);
   if (id.author == settings_.author) number_ = std::max(number_, id.number);
   sum_ += own;
@@ -96,7 +95,8 @@ Result<EditLog::Edited> EditLog::make(EditOperation operation) {
   // Whoever sends the last time there is makes equals of all that follow; numbers still order them.
   operation.order = {std::min(latest_ + 1, kMostEditTime), {settings_.author, number_ + 1}};
   if (Result<void> good = check(operation); !good) return good.error();
-  const IntBox box = insert(operation);
+  makeRoom(1);
+  const IntBox box = insert(operation, 0);
   return Edited{operation.order.id, box};
 }
 
@@ -145,8 +145,9 @@ Result<std::vector<IntBox>> EditLog::merge(std::span<const EditOperation> operat
   });
   std::vector<IntBox> changed;
   makeRoom(fresh.size());
+  ++batch_;
   for (const EditOperation* operation : order) {
-    if (const IntBox box = insert(*operation); !box.empty()) changed.push_back(box);
+    if (const IntBox box = insert(*operation, batch_); !box.empty()) changed.push_back(box);
   }
   return changed;
 }

@@ -67,7 +67,7 @@ class EditLog {
   Result<void> check(const EditOperation& operation) const;
   Result<Edited> make(EditOperation operation);
   void makeRoom(size_t more);
-  IntBox insert(const EditOperation& operation);
+  IntBox insert(const EditOperation& operation, uint64_t batch);
 
   EditSettings settings_;
   std::pmr::vector<EditOperation> known_;
@@ -77,6 +77,7 @@ class EditLog {
   uint64_t latest_ = 0;  ///< time
   uint64_t number_ = 0;  ///< the largest of our own
   uint64_t sum_ = 0;     ///< of the operations' checksums
+  uint64_t batch_ = 0;   ///< the last one's number
 };
 
 /// Where chunks with cells of this edge, in units, must be meshed again after a change: those whose closed box meets

@@ -141,6 +141,24 @@ class ChunkMaker {
   GrammarChunk chunk_;
 };
 
+std::vector<Brush> brushesFrom(Bytes& in, Int3 near) {
+  std::vector<Brush> brushes;
+  for (uint32_t n = in.below(4); n > 0; --n) {
+    Brush b;
+    b.shape = static_cast<Brush::Shape>(in.below(4));
+    b.cut = in.byte() & 1;
+    b.material = static_cast<uint16_t>(in.below(3));
+    b.from = {in.place(near.x), in.place(near.y), in.place(near.z)};
+    b.to = {in.place(near.x), in.place(near.y), in.place(near.z)};
+    b.half = {in.place(0), in.place(2000), in.place(2000)};
+    for (float& q : b.turn) q = in.length(-1, 1);
+    b.radius = in.place(2000);
+    b.smooth = in.byte() & 1 ? 0 : in.place(1000);
+    if (checkBrush(b)) brushes.push_back(b);
+  }
+  return brushes;
+}
+
 struct Results {
   std::vector<int32_t> q;
   std::vector<int16_t> nx, ny;
@@ -176,7 +194,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   settings.solid = in.byte() & 1;
   const int32_t step = 1 + static_cast<int32_t>(in.below(1024));
   const IntBox box = IntBox{near, near}.grown(step);
-  const Result<FieldProgram> program = compileField({&cell, 1}, box, settings);
+  const std::vector<Brush> brushes = brushesFrom(in, near);
+  const Result<FieldProgram> program =
+      compileField({&cell, 1}, box, settings, std::pmr::get_default_resource(), brushes);
   if (!program) {
     require(!program.error().message.empty(), "an error without words");
     return 0;
