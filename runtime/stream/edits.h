@@ -7,7 +7,9 @@
 // nothing.
 
 #include <map>
-#include <optional>
+#include <memory>
+#include <span>
+#include <vector>
 
 #include "field/compile.h"
 #include "stream/edit_snapshot.h"
@@ -31,6 +33,9 @@ class EditLog {
   };
 
   explicit EditLog(EditSettings settings, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+  /// Not copied: two would give the same numbers to different operations.
+  EditLog(EditLog&&) = default;
+  EditLog& operator=(EditLog&&) = default;
 
   /// Lays a brush on top of all that is known here. Errors: checkBrush's; invalid_argument for a material or a tag that
   /// there is not; limit.
