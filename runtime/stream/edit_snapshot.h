@@ -10,7 +10,8 @@
 namespace sgm {
 
 /// Immutable and cheap to copy; any thread. with() and without() copy the way from the root of an octree to one node,
-/// some twenty nodes, whatever the number of brushes. The memory must outlive all snapshots made from this one.
+/// some twenty nodes, whatever the number of brushes. The memory must be thread-safe, and outlive all snapshots made
+/// from this one.
 class EditSnapshot {
  public:
   explicit EditSnapshot(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) : memory_(memory) {}

@@ -24,7 +24,7 @@ struct EditSettings {
   size_t most_operations = size_t{1} << 20;
 };
 
-/// Thread-compatible; its snapshots may be on any thread. The memory must outlive it and them.
+/// Thread-compatible; its snapshots may be on any thread. The memory must be thread-safe, and outlive it and them.
 class EditLog {
  public:
   struct Edited {
