@@ -6,7 +6,9 @@
 #
 #   --no-install    install nothing: stop where a package is missing, and name it
 #
-# Leaves out/demo/cave.glb and out/demo/cave.png.
+# Then flies through it, streamed, for 20 seconds of the game's time.
+#
+# Leaves out/demo/cave.glb, out/demo/cave.png and out/demo/flight.png.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -39,7 +41,9 @@ cave=samples/grammars/cave.sgm
 region=0,-192,0:192,0,192
 "$sgm" mesh "$cave" --out out/demo/cave.glb --region "$region" --cell 0.25 --seed 3
 "$sgm" render "$cave" --out out/demo/cave.png --region "$region" --cell 0.25 --seed 3 --size 1600x900
+"$sgm" fly "$cave" --cell 0.25 --seed 3 --speed 20 --frames 1200 --png 6 --out out/demo/flight.png
 
 echo
 echo "Mesh:    $root/out/demo/cave.glb (opens in Blender, Godot, any glTF viewer)"
 echo "Picture: $root/out/demo/cave.png"
+echo "Flight:  $root/out/demo/flight.png"

@@ -2,12 +2,18 @@
 
 namespace sgm {
 
+MeshParts partsOf(const ChunkMesh& mesh) {
+  MeshParts parts{&mesh.body};
+  for (size_t f = 0; f < mesh.seams.size(); ++f) parts[1 + f] = &mesh.seams[f];
+  return parts;
+}
+
 ChunkSurface surfaceOf(const ChunkRequest& request, PlacedChunk&& chunk, const ChunkSurface* before,
                        std::pmr::memory_resource* memory) {
-  MeshParts parts{};
-  if (request.body) parts[0] = &chunk.mesh.body;
-  for (size_t f = 0; f < chunk.mesh.seams.size(); ++f) {
-    if (request.seams >> f & 1) parts[1 + f] = &chunk.mesh.seams[f];
+  MeshParts parts = partsOf(chunk.mesh);
+  if (!request.body) parts[0] = nullptr;
+  for (size_t f = 0; f < 6; ++f) {
+    if (!(request.seams >> f & 1)) parts[1 + f] = nullptr;
   }
   ChunkSurface surface(memory);
   surface.key = chunk.key;

@@ -27,6 +27,9 @@ struct ChunkSurface {
   }
 };
 
+/// The body, and the seams that there are.
+MeshParts partsOf(const ChunkMesh& mesh);
+
 /// What came of a request. Parts that it did not ask for are those of `before`, an earlier surface of the same chunk
 /// (or null). Throws std::bad_alloc.
 ChunkSurface surfaceOf(const ChunkRequest& request, PlacedChunk&& chunk, const ChunkSurface* before,

@@ -91,7 +91,8 @@ struct World::Core : std::enable_shared_from_this<Core> {
   PlanInput planInput();
   /// Whether to plan again at once.
   bool publish(Plan&& plan);
-  std::shared_ptr<const DrawnFrame> currentFrame() const;
+  /// Null where the planner is whole.
+  std::shared_ptr<const DrawnFrame> frameToRestartFrom() const;
   void planOnce();
   void meshOnce();
   FinishedChunk meshOne(const WorkItem& item, uint64_t of_generation) const;
@@ -182,7 +183,7 @@ void World::Core::planOnce() {
   const Clock::time_point begun_at = Clock::now();
   bool again;
   try {
-    if (planner_lost) planner.restart(currentFrame());
+    if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner.restart(frame);
     Plan plan = planner.plan(planInput());
     again = publish(std::move(plan));
   } catch (const std::bad_alloc&) {
@@ -208,9 +209,9 @@ void World::Core::planOnce() {
   }
 }
 
-std::shared_ptr<const DrawnFrame> World::Core::currentFrame() const {
+std::shared_ptr<const DrawnFrame> World::Core::frameToRestartFrom() const {
   const std::lock_guard lock(mutex);
-  return drawn;
+  return planner_lost ? drawn : nullptr;
 }
 
 bool World::Core::publish(Plan&& plan) {

@@ -11,8 +11,8 @@
 #include "base/hash.h"
 #include "grammar/compile.h"
 #include "measure.h"
-#include "pack_chunk.h"
 #include "stream/chunk_codec.h"
+#include "stream/chunk_surface.h"
 #include "stream/disk_entry.h"
 #include "stream/frame.h"
 #include "stream/lod_target.h"
@@ -58,7 +58,7 @@ std::vector<ChunkRecord> caveChunks(const char* path) {
   std::vector<ChunkRecord> records;
   for (const PlacedChunk& chunk : chunks) {
     ChunkRecord record;
-    record.mesh = packChunk(chunk.mesh);
+    record.mesh = packMesh(partsOf(chunk.mesh), nullptr, std::pmr::get_default_resource());
     record.solid_samples = chunk.mesh.solid_samples;
     if (!record.mesh.indices.empty()) records.push_back(std::move(record));
   }

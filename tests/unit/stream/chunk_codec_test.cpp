@@ -6,8 +6,8 @@
 #include <random>
 
 #include "mesh/hash.h"
-#include "pack_chunk.h"
 #include "rounds.h"
+#include "stream/chunk_surface.h"
 #include "stream/frame.h"
 #include "stream/lod_target.h"
 #include "world_support.h"
@@ -115,7 +115,7 @@ TEST_CASE("the cave's chunks survive their bytes, and their hashes hold", "[stre
   size_t triangles = 0, seams = 0;
   for (const PlacedChunk& chunk : chunks) {
     ChunkRecord record;
-    record.mesh = packChunk(chunk.mesh);
+    record.mesh = packMesh(partsOf(chunk.mesh), nullptr, std::pmr::get_default_resource());
     record.solid_samples = chunk.mesh.solid_samples;
     const Result<ChunkRecord> back = decoded(encoded(record));
     REQUIRE(back);
