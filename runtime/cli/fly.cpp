@@ -264,7 +264,7 @@ FlightResult flyOnce(const FlyOptions& options, bool by_distance) {
   settings.frames = options.frames;
   settings.teleports = options.teleports;
   settings.check = options.check;
-  settings.paced = !options.unpaced && !options.check;
+  settings.paced = !options.unpaced;
   settings.finest_distance = options.finest;
   FlightPlace last;
   ProgressBar bar(by_distance ? "by distance" : "flying");

@@ -9,7 +9,7 @@ namespace {
 
 /// Some balls around the origin, in a void that ends nowhere.
 constexpr const char* kBalls =
-    "sgm 1; units m; domain infinite;\nlayer l cell 16m reach 8m { start Ball; }\n"
+    "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
     "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
 
 WorldOwner makeWorld(sgm_field* field) {
