@@ -17,7 +17,7 @@ constexpr double kBehind = 3;
 
 using Vector = std::array<double, 3>;
 
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double innerProduct(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 bool finite(const Vector& v) {
   return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
@@ -56,7 +56,7 @@ Result<void> checkViewer(const Viewer& viewer) {
       return Error{Code::range, "a viewer stands outside the world, which ends about 2,097 km from the origin"};
     }
   }
-  if (dot(viewer.velocity, viewer.velocity) > kFastest * kFastest) {
+  if (innerProduct(viewer.velocity, viewer.velocity) > kFastest * kFastest) {
     return Error{Code::range, "a viewer moves faster than 10,000 m/s: move it without velocity, as a teleport"};
   }
   if (viewer.weight < 0.01 || viewer.weight > 100) {
@@ -91,10 +91,10 @@ double urgency(const ChunkKey& key, std::span<const Viewer> viewers, const LodSe
     double waits = away / (std::ldexp(settings.finest_distance, key.level) * reachOf(viewer));
     const Vector towards{(key.at.x + 0.5) * edge - viewer.position[0], (key.at.y + 0.5) * edge - viewer.position[1],
                          (key.at.z + 0.5) * edge - viewer.position[2]};
-    const double lengths = std::sqrt(dot(towards, towards) * dot(viewer.direction, viewer.direction));
+    const double lengths = std::sqrt(innerProduct(towards, towards) * innerProduct(viewer.direction, viewer.direction));
     // Around the viewer itself there is no behind: it may turn.
     if (lengths > 0 && away > 0) {
-      waits *= 1 + (kBehind - 1) * (1 - dot(towards, viewer.direction) / lengths) / 2;
+      waits *= 1 + (kBehind - 1) * (1 - innerProduct(towards, viewer.direction) / lengths) / 2;
     }
     most = std::min(most, waits);
   }
