@@ -9,9 +9,9 @@ namespace {
 /// The tree is put together from what is ready; then whatever breaks a rule, or lacks a seam, is undone. Undoing puts
 /// back committed nodes, which stay from then on, or takes away nodes that were not committed, which do not come back:
 /// so it ends, at the latest with the committed tree, in which nothing is broken.
-class Planner {
+class StepSearch {
  public:
-  Planner(const Octree& committed, const Octree& target, const Readiness& ready)
+  StepSearch(const Octree& committed, const Octree& target, const Readiness& ready)
       : committed_(committed), target_(target), ready_(ready), plan_{Octree(committed), {}} {}
 
   CommitPlan run() {
@@ -142,7 +142,7 @@ class Planner {
 }  // namespace
 
 CommitPlan planCommit(const Octree& committed, const Octree& target, const Readiness& ready) {
-  return Planner(committed, target, ready).run();
+  return StepSearch(committed, target, ready).run();
 }
 
 }  // namespace sgm
