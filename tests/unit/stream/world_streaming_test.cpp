@@ -168,7 +168,7 @@ void checkFrame(const Scene& scene, const Engine& engine) {
 /// A frame's time of an engine that lends its thread.
 void workOrWait(Scene& scene) {
   for (int jobs = 0; jobs < 50; ++jobs) {
-    if (!scene.jobs->help()) return std::this_thread::sleep_for(std::chrono::microseconds(100));
+    if (!scene.jobs->help()) return std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }
 
