@@ -16,9 +16,12 @@ struct KnownChunk {
   bool body = false;                            ///< meshed, triangles or not
   uint8_t seams = 0;                            ///< that are made, triangles or not
   bool in_work = false;                         ///< a request for it has been handed out and not come back
-  bool failed = false;                          ///< its last request; it is not asked for again
+  bool failed = false;                          ///< its last request; it is not asked for again, until edits change it
   bool ever_drawn = false;
+  uint64_t edited = 0;  ///< the last state of edits (EditState::number) that changed it
   uint64_t wanted = 0;  ///< the last plan that had a use for it
+  uint64_t queued = 0;  ///< the last plan that asked for it
+  size_t queue_at = 0;  ///< where in that plan's list
 
   size_t bytes() const { return surface != nullptr ? surface->bytes() : 0; }
 };
@@ -30,7 +33,14 @@ class ChunkStore {
     const auto at = records_.find(key);
     return at == records_.end() ? nullptr : &at->second;
   }
-  KnownChunk& at(const ChunkKey& key) { return records_[key]; }
+  KnownChunk& at(const ChunkKey& key) {
+    const auto [record, is_new] = records_.try_emplace(key);
+    if (is_new) record->second.edited = edits_;
+    return record->second;
+  }
+  /// Chunks that become known from now on count as edited in the state of this number: what was known of them before
+  /// is forgotten.
+  void setEdits(uint64_t number) { edits_ = number; }
   size_t size() const { return records_.size(); }
 
   /// Frees surfaces of records that no plan since `since` had a use for, those unused longest first, until `bytes` are
@@ -43,11 +53,12 @@ class ChunkStore {
   void clear() { records_.clear(); }
 
   template <class Visit>
-  void forEach(const Visit& visit) const {
-    for (const auto& [key, record] : records_) visit(key, record);
+  void forEach(const Visit& visit) {
+    for (auto& [key, record] : records_) visit(key, record);
   }
 
  private:
+  uint64_t edits_ = 0;
   std::unordered_map<ChunkKey, KnownChunk, ChunkKeyHash> records_;  ///< order is never seen outside
 };
 

@@ -70,7 +70,24 @@ class TargetBuilder {
   const ChunkSet* finest_;
 };
 
+/// How many cubes of an edge a ball meets, at most.
+double cubesInBall(double radius, double edge) {
+  constexpr double kHalfDiagonal = 0.8660254;
+  return 4.0 / 3.0 * 3.141592653589793 * std::pow(radius / edge + kHalfDiagonal, 3);
+}
+
 }  // namespace
+
+double expectedLeaves(std::span<const LodViewer> viewers, const LodSettings& settings) {
+  double leaves = 0;
+  for (const LodViewer& viewer : viewers) {
+    const double split = cubesInBall(settings.finest_distance * viewer.reach, edgeOf(1, settings.finest_cell));
+    const double roots =
+        cubesInBall(settings.view_distance * viewer.reach, edgeOf(settings.top + 1, settings.finest_cell));
+    leaves += 8 * (roots + settings.top * split);
+  }
+  return leaves;
+}
 
 double distanceToChunk(const std::array<double, 3>& place, const ChunkKey& key, int32_t finest_cell) {
   const double edge = edgeOf(key.level, finest_cell);

@@ -13,6 +13,8 @@ constexpr double kKeptShare = 0.6;
 /// Of what is used: above this share detail is lowered, below that one it comes back. Their ratio is more than what one
 /// step changes, so that detail does not swing.
 constexpr double kFullShare = 0.55, kFreeShare = 0.25;
+/// Above this share what is drawn may not be there twice, before edits and after.
+constexpr double kSqueezedShare = 0.75;
 constexpr double kLessDetail = 0.8, kLeastDetail = 1.0 / 64;
 /// Plans from one count of what is wanted to the next, where memory is not scarce.
 constexpr uint64_t kPlansToTally = 16;
@@ -31,12 +33,15 @@ Plan Planner::plan(PlanInput&& input) {
   Plan plan;
   for (const ChunkKey& key : input.begun) store_.at(key).in_work = true;
   take(input.finished, plan);
-  refuse(input.refused, plan);
   learnApplied(input.applied);
+  refuse(input.refused, plan);
+  findOutdated();
+  takeUpEdits(input);
+  plan.edits = edits_;
   if (input.viewers.empty()) {
     step_ = nullptr;
     changed_ = true;
-    plan.idle = true;
+    plan.idle = edits_.number == input.edits.number;
     return plan;
   }
   retarget(input.viewers);
@@ -48,9 +53,10 @@ Plan Planner::plan(PlanInput&& input) {
   plan.step = step_;
   fillQueue(plan.queue);
   stats_.drawn = applied_->drawn.size();
-  plan.idle = plan.queue.empty() && plan.step == nullptr;
+  stats_.edits_drawn = edits_drawn_;
+  plan.idle = plan.queue.empty() && plan.step == nullptr && edits_.number == input.edits.number;
   if (plan.idle || plans_ % kPlansToTally == 0) tally();
-  keepToBudget(input.live_bytes);
+  if (keepToBudget(input.live_bytes)) plan.idle = false;
   return plan;
 }
 
@@ -62,14 +68,27 @@ void Planner::restart(std::shared_ptr<const DrawnFrame> drawn) {
   targeted_.clear();
   changed_ = true;
   applied_ = std::move(drawn);
+  edits_drawn_ = applied_->edits;
+  oldest_edits_ = edits_.number;
   frames_ = std::max(frames_, applied_->number);
   voids_changed_ = true;
   for (const ChunkKey& leaf : applied_->tree.leaves()) {
     KnownChunk& record = store_.at(leaf);
-    record.surface = applied_->find(leaf);
-    record.body = record.ever_drawn = true;
-    record.seams = record.surface != nullptr ? record.surface->seams : coarserFaces(applied_->tree, leaf);
+    if (edits_drawn_ == edits_.number) {
+      record = knownOfDrawn(leaf);
+    } else {  // which of them are out of date is forgotten
+      record.edited = edits_.number;
+      record.ever_drawn = true;
+    }
   }
+}
+
+KnownChunk Planner::knownOfDrawn(const ChunkKey& leaf) const {
+  KnownChunk known;
+  known.surface = applied_->find(leaf);
+  known.body = known.ever_drawn = true;
+  known.seams = known.surface != nullptr ? known.surface->seams : coarserFaces(applied_->tree, leaf);
+  return known;
 }
 
 void Planner::learnApplied(uint64_t number) {
@@ -78,6 +97,7 @@ void Planner::learnApplied(uint64_t number) {
       std::find_if(offered_.begin(), offered_.end(), [number](const auto& frame) { return frame->number == number; });
   if (taken == offered_.end()) return;
   applied_ = std::move(*taken);
+  edits_drawn_ = applied_->edits;
   offered_.clear();
   step_ = nullptr;
   changed_ = true;
@@ -87,6 +107,11 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
   for (FinishedChunk& chunk : finished) {
     KnownChunk& record = store_.at(chunk.request.key);
     record.in_work = false;
+    if (chunk.edits < std::max(record.edited, oldest_edits_)) {
+      changed_ = true;
+      ++stats_.edited;
+      continue;
+    }
     if (chunk.error) {
       // Scarce memory may come back; anything else would fail again.
       if (chunk.error->code == Code::cancelled || chunk.error->code == Code::out_of_memory) continue;
@@ -95,6 +120,8 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
       plan.failed.push_back({chunk.request.key, std::move(*chunk.error)});
       continue;
     }
+    // After a restart two may be on their way: the later one knows nothing of what the earlier one brought.
+    if (chunk.request.body ? record.body : record.surface != chunk.before) continue;
     changed_ = true;
     ++(chunk.request.body ? stats_.meshed : stats_.seam_jobs);
     if (chunk.request.body && chunk.request.key.level == 0) ++stats_.finest;
@@ -113,7 +140,10 @@ void Planner::refuse(const std::vector<ChunkKey>& refused, Plan& plan) {
     KnownChunk& record = store_.at(key);
     if (record.failed) continue;
     const size_t bytes = record.bytes();
-    record = KnownChunk{};
+    // One that is drawn stays as it is drawn.
+    const uint64_t edited = record.edited;
+    record = applied_->tree.isLeaf(key) && edited <= edits_drawn_ ? knownOfDrawn(key) : KnownChunk{};
+    record.edited = edited;
     record.failed = true;
     ++stats_.failed;
     changed_ = true;
@@ -122,11 +152,73 @@ void Planner::refuse(const std::vector<ChunkKey>& refused, Plan& plan) {
   }
 }
 
+void Planner::takeUpEdits(PlanInput& input) {
+  if (input.edits.number == edits_.number) return;
+  const bool drawn = edits_drawn_ == edits_.number;
+  // What failed waits for an edit that heals it.
+  const bool in_vain =
+      !outdated_.empty() &&
+      std::all_of(outdated_.begin(), outdated_.end(), [this](const ChunkKey& leaf) { return store_.at(leaf).failed; });
+  if (!drawn && !in_vain) return;
+  edits_ = std::move(input.edits);
+  store_.setEdits(edits_.number);
+  invalidate(input.edited);
+  findOutdated();
+  step_ = nullptr;
+  changed_ = true;
+}
+
+void Planner::invalidate(std::span<const EditedBox> changes) {
+  std::vector<std::vector<IntBox>> reaches(static_cast<size_t>(target_.top()) + 1);
+  for (size_t level = 0; level < reaches.size(); ++level) {
+    for (const EditedBox& change : changes) {
+      reaches[level].push_back(editReach(change.box, settings_.lod.finest_cell << level));
+    }
+  }
+  store_.forEach([&](const ChunkKey& key, KnownChunk& record) {
+    const int64_t edge = int64_t{kChunkCells} * settings_.lod.finest_cell << key.level;
+    IntBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lo[axis] = saturate(key.at[axis] * edge);
+      box.hi[axis] = saturate((key.at[axis] + int64_t{1}) * edge);
+    }
+    const std::vector<IntBox>& reach = reaches[static_cast<size_t>(key.level)];
+    if (std::none_of(reach.begin(), reach.end(), [&box](const IntBox& r) { return r.meets(box); })) return;
+    // The void's parts stay until the new ones are there: an unknown chunk would count as passable.
+    record.surface = nullptr;
+    record.body = record.failed = false;
+    record.seams = 0;
+    record.edited = edits_.number;
+  });
+}
+
+void Planner::findOutdated() {
+  outdated_.clear();
+  if (edits_drawn_ == edits_.number) return;
+  for (const ChunkKey& leaf : applied_->tree.leaves()) {
+    if (!isReady(leaf, coarserFaces(applied_->tree, leaf))) outdated_.push_back(leaf);
+  }
+}
+
+bool Planner::isReady(const ChunkKey& chunk, uint8_t seams) const {
+  const KnownChunk* record = store_.find(chunk);
+  return record != nullptr && record->body && (seams & ~record->seams) == 0;
+}
+
+bool Planner::targetIsReady() const {
+  return std::all_of(target_nodes_.begin(), target_nodes_.end(),
+                     [this](const TargetNode& node) { return node.split || isReady(node.key, node.faces); });
+}
+
 void Planner::retarget(std::span<const Viewer> viewers) {
   viewers_.assign(viewers.begin(), viewers.end());
   LodSettings lod = settings_.lod;
   lod.finest_distance *= stats_.detail;
   std::vector<LodViewer> wanting = lodViewers(viewers, lod);
+  while (expectedLeaves(wanting, lod) > kMostExpectedLeaves && lod.finest_distance > settings_.lod.finest_cell) {
+    lod.finest_distance *= kLessDetail;
+    lod.view_distance *= kLessDetail;
+  }
   const bool moved = wanting != targeted_ || targeted_detail_ != stats_.detail;
   if (settings_.by_reach && (moved || voids_changed_)) {
     voids_changed_ = false;
@@ -163,7 +255,14 @@ ChunkSet Planner::reachedParents(std::span<const LodViewer> viewers, const LodSe
   return parents;
 }
 
-std::shared_ptr<const FrameStep> Planner::nextStep() {
+std::optional<Octree> Planner::nextTree() {
+  missing_.clear();
+  if (!outdated_.empty()) {
+    // Where memory does not suffice to mesh all that is drawn once more, less detail does. Where even the coarsest
+    // chunks find no room beside what is drawn, that stays as it is.
+    if (!targetIsReady()) return std::nullopt;
+    return target_;
+  }
   const Readiness ready{[this](const ChunkKey& key) {
                           const KnownChunk* record = store_.find(key);
                           return record != nullptr && record->body;
@@ -174,17 +273,31 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
                         }};
   CommitPlan commit = planCommit(applied_->tree, target_, ready);
   missing_ = std::move(commit.missing);
-  if (commit.tree == applied_->tree) return nullptr;
-  auto frame = std::make_shared<DrawnFrame>(drawFrame(commit.tree, [&](const ChunkKey& key, uint8_t seams) {
+  return std::move(commit.tree);
+}
+
+std::shared_ptr<const FrameStep> Planner::nextStep() {
+  const std::optional<Octree> tree = nextTree();
+  const bool moves = tree && *tree != applied_->tree;
+  if (!tree || (!moves && edits_drawn_ == edits_.number)) return nullptr;
+  auto frame = std::make_shared<DrawnFrame>(drawFrame(*tree, [this](const ChunkKey& key, uint8_t seams) {
     // What an engine has already it keeps, where it holds all that is drawn.
-    const std::shared_ptr<const ChunkSurface> drawn = applied_->find(key);
-    return drawn != nullptr && (seams & ~drawn->seams) == 0 ? drawn : store_.find(key)->surface;
+    std::shared_ptr<const ChunkSurface> drawn = applied_->find(key);
+    const KnownChunk& record = *store_.find(key);
+    const bool same = drawn != nullptr && (record.edited <= edits_drawn_ ||
+                                           (record.surface != nullptr && record.surface->hash == drawn->hash));
+    return same && (seams & ~drawn->seams) == 0 ? drawn : record.surface;
   }));
-  frame->number = ++frames_;
-  for (const ChunkKey& leaf : frame->tree.leaves()) store_.at(leaf).ever_drawn = true;
   auto step = std::make_shared<FrameStep>();
   step->from = applied_->number;
   step->changes = changesBetween(*applied_, *frame);
+  if (!moves && step->changes.empty()) {
+    edits_drawn_ = edits_.number;  // they have changed nothing that is drawn
+    return nullptr;
+  }
+  frame->number = ++frames_;
+  frame->edits = edits_.number;
+  for (const ChunkKey& leaf : frame->tree.leaves()) store_.at(leaf).ever_drawn = true;
   step->to = std::move(frame);
   return step;
 }
@@ -206,6 +319,9 @@ void Planner::listTarget() {
 
 void Planner::fillQueue(std::vector<WorkItem>& queue) {
   const Octree& drawn = applied_->tree;
+  if (!squeezed_) {
+    for (const ChunkKey& leaf : outdated_) request(leaf, coarserFaces(drawn, leaf), queue, true);
+  }
   for (const TargetNode& node : target_nodes_) {
     if (!node.split) {
       request(node.key, node.faces, queue);
@@ -217,15 +333,23 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
   }
   for (const MissingSeams& missing : missing_) request(missing.chunk, missing.faces, queue);
   std::sort(queue.begin(), queue.end(), [](const WorkItem& a, const WorkItem& b) {
+    if (a.edited != b.edited) return b.edited;
     return a.urgency != b.urgency ? a.urgency > b.urgency : a.request.key > b.request.key;
   });
 }
 
-void Planner::request(const ChunkKey& key, int seams, std::vector<WorkItem>& queue) {
+void Planner::request(const ChunkKey& key, int seams, std::vector<WorkItem>& queue, bool edited) {
   KnownChunk& record = store_.at(key);
   record.wanted = plans_;
   const auto missing = static_cast<uint8_t>(seams & ~record.seams);
   if (record.in_work || record.failed || (record.body && missing == 0)) return;
+  if (record.queued == plans_) {
+    uint8_t& faces = queue[record.queue_at].request.seams;
+    faces = static_cast<uint8_t>(faces | missing);
+    return;
+  }
+  record.queued = plans_;
+  record.queue_at = queue.size();
   WorkItem item;
   item.request.key = key;
   item.request.seams = missing;
@@ -234,18 +358,25 @@ void Planner::request(const ChunkKey& key, int seams, std::vector<WorkItem>& que
   item.request.signs = !record.body && key.level == 0 && settings_.by_reach;
   item.request.outermost = key.level == target_.top();
   item.before = record.surface;
+  item.edited = edited;
   item.urgency = urgency(key, viewers_, settings_.lod);
   queue.push_back(std::move(item));
 }
 
 void Planner::tally() {
-  for (const ChunkKey& leaf : applied_->tree.leaves()) store_.at(leaf).wanted = plans_;
+  if (!squeezed_) {
+    for (const ChunkKey& leaf : applied_->tree.leaves()) store_.at(leaf).wanted = plans_;
+  }
   if (step_ != nullptr) {
     for (const ChunkKey& leaf : step_->to->tree.leaves()) store_.at(leaf).wanted = plans_;
   }
   stats_.records = store_.size();
   stats_.never_drawn = freed_in_vain_;
   wanted_bytes_ = 0;
+  for (const ChunkKey& leaf : outdated_) {
+    const std::shared_ptr<const ChunkSurface> drawn = applied_->find(leaf);
+    if (drawn != nullptr) wanted_bytes_ += drawn->bytes();
+  }
   store_.forEach([&](const ChunkKey&, const KnownChunk& record) {
     if (record.wanted == plans_) {
       wanted_bytes_ += record.bytes();
@@ -255,7 +386,7 @@ void Planner::tally() {
   });
 }
 
-void Planner::keepToBudget(size_t live_bytes) {
+bool Planner::keepToBudget(size_t live_bytes) {
   const auto share = [cap = static_cast<double>(settings_.mesh_bytes)](double part) {
     return static_cast<size_t>(part * cap);
   };
@@ -264,15 +395,14 @@ void Planner::keepToBudget(size_t live_bytes) {
     const ChunkStore::Freed freed = store_.freeUnused(plans_, live_bytes - share(kKeptShare));
     freed_in_vain_ += freed.never_drawn;
   }
-  if (plans_ < detail_settled_) return;
-  if (wanted_bytes_ > share(kFullShare) && stats_.detail > kLeastDetail) {
-    stats_.detail *= kLessDetail;
-  } else if (wanted_bytes_ < share(kFreeShare) && stats_.detail < 1) {
-    stats_.detail = std::min(1.0, stats_.detail / kLessDetail);
-  } else {
-    return;
+  squeezed_ = !outdated_.empty() && (squeezed_ || live_bytes > share(kSqueezedShare));
+  const bool full = wanted_bytes_ > share(kFullShare) && stats_.detail > kLeastDetail;
+  const bool free = wanted_bytes_ < share(kFreeShare) && stats_.detail < 1;
+  if ((full || free) && plans_ >= detail_settled_) {
+    stats_.detail = full ? stats_.detail * kLessDetail : std::min(1.0, stats_.detail / kLessDetail);
+    detail_settled_ = plans_ + kPlansToSettle;
   }
-  detail_settled_ = plans_ + kPlansToSettle;
+  return full;
 }
 
 }  // namespace sgm

@@ -12,6 +12,7 @@
 #include "stream/commit_plan.h"
 #include "stream/drawn_frame.h"
 #include "stream/viewer.h"
+#include "stream/world_edits.h"
 
 namespace sgm {
 
@@ -19,11 +20,14 @@ namespace sgm {
 struct WorkItem {
   ChunkRequest request;
   std::shared_ptr<const ChunkSurface> before;  ///< where the request is for seams alone
+  bool edited = false;                         ///< what is drawn of it is out of date: before all others
   double urgency = 0;                          ///< smaller first
 };
 
 struct FinishedChunk {
   ChunkRequest request;
+  uint64_t edits = 0;                           ///< number of the state of edits that it was meshed under
+  std::shared_ptr<const ChunkSurface> before;   ///< as in the work item: what `surface` adds to
   std::shared_ptr<const ChunkSurface> surface;  ///< null: no triangles, or an error
   std::unique_ptr<const VoidComponents> voids;  ///< where the request was for the signs
   std::optional<Error> error;                   ///< cancelled: it was never begun, and may be asked for again
@@ -47,11 +51,14 @@ struct PlanInput {
   std::vector<ChunkKey> begun;    ///< handed out since the last plan
   std::vector<ChunkKey> refused;  ///< whose surfaces are too large to be handed to the engine
   uint64_t applied = 0;           ///< number of the frame that the engine draws
+  EditState edits;                ///< the latest
+  std::vector<EditedBox> edited;  ///< what has changed since Planner::edits()
   size_t live_bytes = 0;          ///< of all surfaces, the engine's own included
 };
 
 struct Plan {
   std::vector<WorkItem> queue;            ///< everything to be meshed that is not being meshed, the most urgent last
+  EditState edits;                        ///< to mesh the queue under
   std::shared_ptr<const FrameStep> step;  ///< the next frame; null where what is drawn is the best there is
   std::vector<FailedChunk> failed;        ///< since the last plan
   bool idle = false;                      ///< nothing to mesh, nothing to draw: what the viewers want is there
@@ -67,11 +74,13 @@ struct PlannerStats {
   uint64_t meshed = 0;       ///< chunks whose body came back
   uint64_t finest = 0;       ///< of these, those of level 0
   uint64_t seam_jobs = 0;    ///< requests for seams alone that came back
+  uint64_t edited = 0;       ///< requests that came back after edits had changed their chunk
   uint64_t never_drawn = 0;  ///< meshed chunks that are neither drawn, nor wanted, nor ever were drawn
   uint64_t failed = 0;
-  size_t records = 0;  ///< chunks known
-  size_t drawn = 0;    ///< chunks drawn that have triangles
-  double detail = 1;   ///< factor on the distances at which detail is wanted: below 1 under pressure of memory
+  size_t records = 0;        ///< chunks known
+  size_t drawn = 0;          ///< chunks drawn that have triangles
+  uint64_t edits_drawn = 0;  ///< number of the state of edits that is drawn
+  double detail = 1;         ///< factor on the distances at which detail is wanted: below 1 under pressure of memory
 };
 
 class Planner {
@@ -85,18 +94,33 @@ class Planner {
 
   const PlannerStats& stats() const { return stats_; }
   const DrawnFrame& applied() const { return *applied_; }
+  /// The state of edits that chunks are meshed under now.
+  const EditState& edits() const { return edits_; }
 
  private:
   void learnApplied(uint64_t number);
+  /// Edits are taken up state by state: the next one when the one before is drawn. So a frame shows one state, a change
+  /// waits for two frames of changes at most, and however many there are, what is to be meshed again is what is drawn.
+  void takeUpEdits(PlanInput& input);
+  void invalidate(std::span<const EditedBox> changes);
+  void findOutdated();
+  bool isReady(const ChunkKey& chunk, uint8_t seams) const;
+  bool targetIsReady() const;
+  /// What comes nearest to the target of what is ready; none: what is drawn must stay.
+  std::optional<Octree> nextTree();
   void take(std::vector<FinishedChunk>& finished, Plan& plan);
   void refuse(const std::vector<ChunkKey>& refused, Plan& plan);
-  void keepToBudget(size_t live_bytes);
+  /// Whether detail must be lowered yet.
+  bool keepToBudget(size_t live_bytes);
   void retarget(std::span<const Viewer> viewers);
   ChunkSet reachedParents(std::span<const LodViewer> viewers, const LodSettings& lod) const;
   std::shared_ptr<const FrameStep> nextStep();
   void fillQueue(std::vector<WorkItem>& queue);
   void listTarget();
-  void request(const ChunkKey& key, int seams, std::vector<WorkItem>& queue);
+  /// Asks for what is not there yet, with what this plan asks for it already.
+  void request(const ChunkKey& key, int seams, std::vector<WorkItem>& queue, bool edited = false);
+  /// What is known of a chunk that is drawn.
+  KnownChunk knownOfDrawn(const ChunkKey& leaf) const;
   /// Counts what is wanted now, and what is not.
   void tally();
 
@@ -120,7 +144,12 @@ class Planner {
   std::shared_ptr<const FrameStep> step_;                   ///< the last one offered, not known to be taken
   std::vector<std::shared_ptr<const DrawnFrame>> offered_;  ///< what steps from applied_ lead to, any may be taken
   std::vector<MissingSeams> missing_;
-  bool changed_ = true;  ///< since the last step was looked for
+  EditState edits_;
+  uint64_t edits_drawn_ = 0;        ///< the state that applied_ shows
+  uint64_t oldest_edits_ = 0;       ///< what was meshed under an earlier state is not taken
+  std::vector<ChunkKey> outdated_;  ///< leaves of applied_ that are not there as edits_ has them
+  bool squeezed_ = false;           ///< these find no room beside what is drawn
+  bool changed_ = true;             ///< since the last step was looked for
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
   uint64_t freed_in_vain_ = 0;
   size_t wanted_bytes_ = 0;  ///< of what the last plan had a use for

@@ -3,31 +3,26 @@
 //
 //   engine's thread            jobs
 //   setViewers, update  --->   plan (planner.h): which chunks, which frame next
-//   poll events         <---   mesh (mesh_chunks.h): one request at a time a job, the most urgent first
+//   edit                --->   mesh (mesh_chunks.h): one request at a time a job, the most urgent first
+//   poll events         <---   write the journal of edits
 //
-// What both sides share lies in a mailbox behind one mutex that is held for the moving of pointers only. update() waits
-// for nothing else, so that an engine never waits for a job or a device.
+// What both sides share lies in a mailbox (world_core.h) behind one mutex that is held for the moving of pointers only.
+// update() waits for nothing else, so that an engine never waits for a job or a device.
 
-#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "backend/backend.h"
 #include "stream/planner.h"
-#include "stream/surface_pool.h"
+#include "stream/queries.h"
+#include "stream/world_edits.h"
 #include "stream/world_field.h"
+#include "stream/world_settings.h"
 
 namespace sgm {
-
-struct WorldSettings {
-  LodSettings lod;
-  size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces, the engine's own and those in work included
-  bool by_reach = true;                   ///< as PlannerSettings::by_reach
-};
 
 /// What an engine is told, in order. Between two updates a whole frame's changes come, or none of them.
 struct WorldEvent {
@@ -54,14 +49,20 @@ struct WorldStats {
   size_t stale = 0;                ///< of these, those planned for viewers of before
   uint64_t frame = 0;              ///< number of the frame that is drawn
   uint64_t plans = 0;
+  uint64_t edits = 0, edits_drawn = 0;  ///< EditState::number of now, and of what is drawn
   size_t surface_bytes = 0, peak_surface_bytes = 0;
   bool idle = false;  ///< what the viewers want is drawn
 };
 
+class WorldCore;
+
+inline constexpr size_t kMostViewers = 1024;
+
 /// Functions may be called from any thread, one of update, poll and waitIdle at a time.
 class World {
  public:
-  /// Errors: invalid_argument, limit (mesh_bytes is too small to stream with; the message says how much is needed).
+  /// Reads the journal, where there is to be one. Errors: invalid_argument; limit (mesh_bytes is too small to stream
+  /// with, or the distances are too large: the message says what would do); those of WorldEdits::open.
   /// field, backend, jobs and memory must outlive the world; surfaces may outlive it, but not memory.
   static Result<std::unique_ptr<World>> create(const WorldField& field, Backend& backend, JobSystem& jobs,
                                                const WorldSettings& settings, std::pmr::memory_resource* memory);
@@ -71,7 +72,7 @@ class World {
   World& operator=(const World&) = delete;
 
   /// Replaces all viewers; none: what is drawn stays, and nothing is meshed. Errors, and nothing changes: those of
-  /// checkViewer.
+  /// checkViewer; limit (more than kMostViewers).
   Result<void> setViewers(std::span<const Viewer> viewers);
 
   /// Takes over what is finished, at most `bytes` of new surfaces, and has more work begun. Never waits. False, and
@@ -94,6 +95,22 @@ class World {
   /// begins anew for the viewers there are.
   void cancel();
 
+  /// Lays a brush on the world, or undoes an edit, as EditLog does; or takes over the edits of another world. Drawn two
+  /// frames of changes later at the latest. Never wait for a job or the disk.
+  Result<EditId> edit(const Brush& brush);
+  Result<EditId> undo(EditId id);
+  Result<void> importEdits(std::span<const std::byte> bytes);
+  /// All edits but the first `since`, in the order in which they were learned here: for another world's importEdits().
+  std::vector<std::byte> exportEdits(uint64_t since = 0) const;
+  uint64_t editCount() const;
+  /// Of the set of edits: worlds that have exchanged theirs have equal ones.
+  uint64_t editHash() const;
+  /// Returns when the disk has every edit of before. Errors: io.
+  Result<void> flushEdits();
+
+  /// The field with the edits of now, to be asked at level 0. Must not outlive the world's field.
+  QueryField queryField() const;
+
   /// The hash of the set of bodies (hashParts) of a level's chunks that meet lo <= p < hi; chunks that are not drawn
   /// are meshed. Errors: those of chunksOfRegion and meshChunks.
   Result<ContentHash> hashBodies(const IntBox& region, int level) const;
@@ -101,8 +118,7 @@ class World {
   WorldStats stats() const;
 
  private:
-  struct Core;
-  World(std::shared_ptr<Core> core, JobSystem& jobs);
+  World(std::shared_ptr<WorldCore> core, JobSystem& jobs);
   void advance(size_t bytes);
   void restage(const std::shared_ptr<const FrameStep>& step);
   /// Whether all of the step's surfaces have been handed over.
@@ -110,7 +126,7 @@ class World {
   /// Hands over surfaces of a step, and when all are there its changes: then true.
   bool stage(const std::shared_ptr<const FrameStep>& step, size_t bytes);
 
-  std::shared_ptr<Core> core_;
+  std::shared_ptr<WorldCore> core_;
   JobSystem& jobs_;
   // The engine's side, guarded by front_.
   mutable std::mutex front_;

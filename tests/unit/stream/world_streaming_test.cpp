@@ -1,198 +1,13 @@
 // A streamed world: every frame is the closed frame of its octree, within its caps, whatever the viewers do.
 
 #include <algorithm>
-#include <map>
-#include <random>
-#include <thread>
+#include <limits>
 
 #include "catch.h"
-#include "mesh/check.h"
 #include "rounds.h"
-#include "stream/frame.h"
-#include "stream/world.h"
-#include "world_support.h"
+#include "streaming_support.h"
 
 using namespace sgm;
-
-namespace {
-
-constexpr int32_t kStreamedCell = 512;
-
-/// The cave without its drips: small cells in plenty would make the tests slow, and nothing else.
-std::string caveText() {
-  return replaced(sample("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
-}
-
-/// Jobs that run only when somebody helps, in an order drawn at random: the latest and the most disorderly system that
-/// the contract allows.
-class LateJobs final : public JobSystem {
- public:
-  explicit LateJobs(uint32_t seed) : random_(seed) {}
-  ~LateJobs() override {
-    while (help()) {
-    }
-  }
-  unsigned concurrency() const override { return 3; }
-  void submit(void (*function)(void*), void* argument, int) override {
-    const std::lock_guard lock(mutex_);
-    jobs_.push_back({function, argument});
-  }
-  bool help() override {
-    std::pair<void (*)(void*), void*> job;
-    {
-      const std::lock_guard lock(mutex_);
-      if (jobs_.empty()) return false;
-      std::swap(jobs_[random_() % jobs_.size()], jobs_.back());
-      job = jobs_.back();
-      jobs_.pop_back();
-    }
-    job.first(job.second);
-    return true;
-  }
-
- private:
-  std::mutex mutex_;
-  std::mt19937 random_;
-  std::vector<std::pair<void (*)(void*), void*>> jobs_;
-};
-
-struct Scene {
-  explicit Scene(std::unique_ptr<JobSystem> jobs_in, const std::string& text = caveText(),
-                 WorldSettings settings_in = {})
-      : field(settingsOf(text, kStreamedCell, 3), std::pmr::get_default_resource()),
-        jobs(std::move(jobs_in)),
-        settings(settings_in) {
-    std::pmr::memory_resource* memory = field.memory();
-    settings.lod.top = 3;
-    settings.lod.finest_cell = kStreamedCell;
-    if (settings_in.lod.finest_distance == WorldSettings{}.lod.finest_distance) {
-      settings.lod.finest_distance = 20.0 * kUnitsPerMetre;
-    }
-    settings.lod.view_distance = 120.0 * kUnitsPerMetre;
-    Result<std::unique_ptr<Backend>> made = makeBackend({}, *jobs, memory);
-    REQUIRE(made);
-    backend = std::move(*made);
-    Result<std::unique_ptr<World>> created = World::create(field, *backend, *jobs, settings, memory);
-    REQUIRE(created);
-    world = std::move(*created);
-  }
-
-  WorldField field;
-  std::unique_ptr<JobSystem> jobs;
-  WorldSettings settings;
-  std::unique_ptr<Backend> backend;
-  std::unique_ptr<World> world;
-};
-
-/// An engine that believes nothing but events.
-class Engine {
- public:
-  struct Shown {
-    std::shared_ptr<const ChunkSurface> surface;
-    uint8_t seams = 0;
-    Neighbourhood coarser = 0;
-  };
-
-  /// Bytes that came since the last call.
-  size_t take(World& world) {
-    using Kind = WorldEvent::Kind;
-    size_t bytes = 0;
-    world.poll([&](const WorldEvent& event) {
-      switch (event.kind) {
-        case Kind::ready:
-          REQUIRE(event.surface != nullptr);
-          ready_[event.key] = event.surface;
-          bytes += event.surface->mesh.bytes();
-          break;
-        case Kind::shown:
-          CHECK(shown.count(event.key) == 0);
-          shown[event.key] = {surfaceOf(event.key), event.seams, event.coarser};
-          break;
-        case Kind::replaced:
-          REQUIRE(shown.count(event.key) == 1);
-          shown[event.key] = {surfaceOf(event.key), event.seams, event.coarser};
-          break;
-        case Kind::seams:
-          REQUIRE(shown.count(event.key) == 1);
-          shown[event.key].seams = event.seams;
-          shown[event.key].coarser = event.coarser;
-          break;
-        case Kind::removed:
-          CHECK(shown.erase(event.key) + ready_.erase(event.key) > 0);
-          break;
-        case Kind::failed:
-          FAIL(event.error->message);
-      }
-      return true;
-    });
-    return bytes;
-  }
-
-  std::map<ChunkKey, Shown> shown;
-
- private:
-  const std::shared_ptr<const ChunkSurface>& surfaceOf(const ChunkKey& key) {
-    REQUIRE(ready_.count(key) == 1);
-    return ready_[key];
-  }
-  std::map<ChunkKey, std::shared_ptr<const ChunkSurface>> ready_;
-};
-
-using PartHashes = std::map<std::pair<ChunkKey, size_t>, ContentHash>;
-
-/// What the engine draws is, part by part, the frame of the octree; and that frame is closed in every vertex.
-void checkFrame(const Scene& scene, const Engine& engine) {
-  const std::shared_ptr<const DrawnFrame> frame = scene.world->drawn();
-  PartHashes drawn, wanted;
-  for (const auto& [key, shown] : engine.shown) {
-    for (size_t i = 0; i < shown.surface->mesh.ranges.size(); ++i) {
-      if (i > 0 && !(shown.seams >> (i - 1) & 1)) continue;
-      const PackedRange& range = shown.surface->mesh.ranges[i];
-      if (range.index_count > 0) drawn[{key, i}] = range.hash;
-    }
-  }
-  const std::pmr::vector<PlacedChunk> chunks = meshAll(scene.field, frameRequests(frame->tree), 2);
-  std::vector<const MeshPart*> parts;
-  for (const PlacedChunk& chunk : chunks) {
-    std::vector<PlacedPart> placed;
-    appendParts(chunk, placed);
-    for (const PlacedPart& part : placed) {
-      wanted[{chunk.key, static_cast<size_t>(part.number)}] = part.mesh->hash;
-      parts.push_back(part.mesh);
-    }
-  }
-  CHECK(drawn == wanted);
-  CHECK(checkParts(parts).closed());
-}
-
-/// A frame's time of an engine that lends its thread.
-void workOrWait(Scene& scene) {
-  for (int jobs = 0; jobs < 50; ++jobs) {
-    if (!scene.jobs->help()) return std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-}
-
-Viewer viewerAt(double x, double y, double z) {
-  Viewer viewer;
-  viewer.position = {x * kUnitsPerMetre, y * kUnitsPerMetre, z * kUnitsPerMetre};
-  return viewer;
-}
-
-/// A walk with turns, and now and then a leap to another part of the world.
-Viewer wander(std::mt19937& random, Viewer viewer) {
-  const auto step = [&](double most) {
-    return (static_cast<double>(random() % 2001) / 1000.0 - 1) * most * kUnitsPerMetre;
-  };
-  const bool leap = random() % 12 == 0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    viewer.position[axis] += leap ? step(150) : step(6);
-    viewer.velocity[axis] = leap ? 0 : step(20);
-    viewer.direction[axis] = step(1);
-  }
-  return viewer;
-}
-
-}  // namespace
 
 TEST_CASE("every frame of a wandering viewer is the closed frame of its octree") {
   for (uint32_t seed = 1; seed <= rounds(3); ++seed) {
@@ -297,6 +112,30 @@ TEST_CASE("a mesh that is too large to be handed over is told of, and what is co
   CHECK(failed > 0);
 }
 
+TEST_CASE("what is drawn stays drawn where its next surface is too large to be handed over") {
+  for (uint32_t seed = 1; seed <= rounds(3); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    Scene scene(*makeThreadPool(2));
+    Engine engine;
+    engine.fails_may_come = true;
+    Viewer viewer = viewerAt(96, 96, 96);
+    for (int turn = 0; turn < 12; ++turn) {
+      viewer = wander(random, viewer);
+      REQUIRE(scene.world->setViewers({&viewer, 1}));
+      const size_t bytes = turn % 2 == 0 ? size_t{1} << 30 : 15'000;
+      for (int updates = 0; updates < 20'000 && !scene.world->stats().idle; ++updates) {
+        REQUIRE(scene.world->update(bytes));
+        engine.take(*scene.world);
+        workOrWait(scene);
+      }
+      CHECK(scene.world->stats().idle);
+      checkFrame(scene, engine);
+    }
+    CHECK(scene.world->stats().planner.failed > 0);
+  }
+}
+
 TEST_CASE("surfaces stay below their cap, and detail comes nearer instead") {
   WorldSettings settings;
   settings.lod.finest_distance = 60.0 * kUnitsPerMetre;
@@ -331,6 +170,75 @@ TEST_CASE("a cap too small to stream with is refused, with how much is needed") 
       World::create(scene.field, *scene.backend, *scene.jobs, settings, scene.field.memory());
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == Code::limit);
+}
+
+TEST_CASE("distances that would take too many chunks are refused, with what would do") {
+  Scene scene(*makeThreadPool(1));
+  const auto refused = [&](double finest, double view, Code code, const std::string& says) {
+    WorldSettings settings = scene.settings;
+    settings.lod.finest_distance = finest;
+    settings.lod.view_distance = view;
+    const Result<std::unique_ptr<World>> world =
+        World::create(scene.field, *scene.backend, *scene.jobs, settings, scene.field.memory());
+    REQUIRE_FALSE(world);
+    CHECK(world.error().code == code);
+    CHECK(world.error().message.find(says) != std::string::npos);
+  };
+  refused(20.0 * kUnitsPerMetre, 1e6 * kUnitsPerMetre, Code::limit, "coarsest level");
+  refused(5e4 * kUnitsPerMetre, 120.0 * kUnitsPerMetre, Code::limit, "larger cells");
+  refused(0, 1000, Code::invalid_argument, "above 0");
+  refused(1000, std::numeric_limits<double>::infinity(), Code::invalid_argument, "finite");
+}
+
+TEST_CASE("viewers of great weight see as far as can be planned, and too many are refused") {
+  Scene scene(*makeThreadPool(1));
+  Viewer viewer = viewerAt(96, 96, 96);
+  viewer.weight = 100;
+  viewer.fov = 0.05;
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  for (int updates = 0; updates < 1000 && scene.world->stats().plans == 0; ++updates) {
+    REQUIRE(scene.world->update(size_t{1} << 30));
+    scene.world->poll([](const WorldEvent&) { return true; });
+    workOrWait(scene);
+  }
+  CHECK(scene.world->stats().plans > 0);
+  // With those that stand in until finer ones are there.
+  CHECK(scene.world->stats().queued < static_cast<size_t>(kMostExpectedLeaves * 9 / 8));
+  const std::vector<Viewer> many(kMostViewers + 1, viewer);
+  const Result<void> set = scene.world->setViewers(many);
+  REQUIRE_FALSE(set);
+  CHECK(set.error().code == Code::limit);
+}
+
+TEST_CASE("jobs that run at once, where they are submitted, mesh a chunk an update and no more") {
+  /// A system without threads, which cannot keep a job for later either.
+  class NoJobs final : public JobSystem {
+   public:
+    unsigned concurrency() const override { return 1; }
+    void submit(void (*function)(void*), void* argument, int) override {
+      deepest = std::max(deepest, ++depth);
+      function(argument);
+      --depth;
+    }
+    bool help() override { return false; }
+    int depth = 0, deepest = 0;
+  };
+  Scene scene(std::make_unique<NoJobs>());
+  Engine engine;
+  const Viewer viewer = viewerAt(96, 96, 96);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  uint64_t before = 0, most = 0;
+  for (int updates = 0; updates < 100'000 && !scene.world->stats().idle; ++updates) {
+    REQUIRE(scene.world->update(size_t{1} << 30));
+    engine.take(*scene.world);
+    const WorldStats stats = scene.world->stats();
+    most = std::max(most, stats.planner.meshed + stats.planner.seam_jobs - before);
+    before = stats.planner.meshed + stats.planner.seam_jobs;
+  }
+  CHECK(scene.world->stats().idle);
+  CHECK(most <= 2);
+  CHECK(static_cast<const NoJobs&>(*scene.jobs).deepest < 8);
+  checkFrame(scene, engine);
 }
 
 TEST_CASE("viewers that make no sense are refused, and the world goes on") {

@@ -39,11 +39,11 @@ inline WorldFieldSettings settingsOf(const std::string& text, int32_t cell, uint
 }
 
 inline std::pmr::vector<PlacedChunk> meshAll(const WorldField& world, const std::vector<ChunkRequest>& requests,
-                                             unsigned threads) {
+                                             unsigned threads, const EditSnapshot* edits = nullptr) {
   const auto jobs = *makeThreadPool(threads);
   Result<std::unique_ptr<Backend>> backend = makeBackend({}, *jobs, world.memory());
   REQUIRE(backend);
-  Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, **backend, *jobs, requests);
+  Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, **backend, *jobs, requests, {}, edits);
   INFO((chunks ? "" : chunks.error().message));
   REQUIRE(chunks);
   return std::move(*chunks);

@@ -1,0 +1,329 @@
+#include "stream/world_core.h"
+
+#include <algorithm>
+#include <set>
+
+#include "stream/reachability.h"
+
+namespace sgm {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Requests that come back before the planner looks at them, where more are waiting and no update comes.
+constexpr size_t kFinishedToPlan = 64;
+/// How long at least the jobs mesh after a plan, in times that it took, before an update has the next one made.
+constexpr int kMeshingPerPlanning = 2;
+constexpr int kFlushPriority = 3, kPlanPriority = 2, kMeshPriority = 1;
+/// With the time that a disk takes: no more than a second's edits are ever lost.
+constexpr auto kBetweenFlushes = 250ms;
+
+}  // namespace
+
+WorldCore::WorldCore(const WorldField& field_in, Backend& backend_in, JobSystem& jobs_in,
+                     const WorldSettings& settings_in, std::pmr::memory_resource* memory)
+    : field(field_in),
+      backend(backend_in),
+      jobs(jobs_in),
+      settings(settings_in),
+      edits(settings_in.edits, memory),
+      drawn(std::make_shared<DrawnFrame>(Octree(settings_in.lod.top, settings_in.lod.finest_cell))),
+      memory_(memory),
+      surfaces_(std::make_shared<SurfacePool>(memory)),
+      planner_({settings_in.lod, settings_in.mesh_bytes, settings_in.by_reach}) {}
+
+template <void (WorldCore::*work)()>
+void WorldCore::run(void* argument) noexcept {
+  const std::unique_ptr<std::shared_ptr<WorldCore>> owner(static_cast<std::shared_ptr<WorldCore>*>(argument));
+  WorldCore& core = **owner;
+  {
+    const std::lock_guard lock(core.mutex);
+    if (core.stopped_) return;
+    ++core.running_;
+  }
+  (core.*work)();
+  const std::lock_guard lock(core.mutex);
+  --core.running_;
+  core.changed.notify_all();
+}
+
+void WorldCore::stop() {
+  std::unique_lock lock(mutex);
+  stopped_ = true;
+  helpUntil(jobs, lock, changed, [this] { return running_ == 0; });
+  queue.clear();
+  finished_.clear();
+  step = nullptr;
+  drawn = nullptr;
+  planner_ = Planner({settings.lod, settings.mesh_bytes, settings.by_reach});
+  lock.unlock();
+  surfaces_->close();
+  if (const Result<void> flushed = edits.flush(); !flushed && settings.on_warning) {
+    settings.on_warning(flushed.error().message);
+  }
+}
+
+bool WorldCore::settled() const {
+  return idle_ && viewers_planned_ == viewers_set && edits_planning_ == edits.number() && step == nullptr;
+}
+
+WorldCore::Work WorldCore::work() const {
+  const size_t all = queue.size() + meshing_;
+  return {queue.size(), meshing_, viewers_planned_ != viewers_set ? all : std::min(meshing_, meshing_before_)};
+}
+
+bool WorldCore::submit(void (*function)(void*), int priority) noexcept {
+  try {
+    auto owner = std::make_unique<std::shared_ptr<WorldCore>>(shared_from_this());
+    jobs.submit(function, owner.get(), priority);
+    static_cast<void>(owner.release());
+    return true;
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+}
+
+void WorldCore::kickJournal() {
+  if (!edits.unwritten()) return;
+  {
+    const std::lock_guard lock(mutex);
+    if (stopped_ || flushing_ || Clock::now() < next_flush_) return;
+    flushing_ = true;
+    next_flush_ = Clock::now() + kBetweenFlushes;
+  }
+  if (submit(run<&WorldCore::flushOnce>, kFlushPriority)) return;
+  const std::lock_guard lock(mutex);
+  flushing_ = false;
+}
+
+void WorldCore::flushOnce() {
+  Result<void> flushed;
+  try {
+    flushed = edits.flush();
+  } catch (const std::bad_alloc&) {
+    flushed = Error{Code::out_of_memory, "out of memory while writing the journal of edits"};
+  }
+  bool first;
+  {
+    const std::lock_guard lock(mutex);
+    flushing_ = false;
+    first = !flushed && !flush_failed_;
+    flush_failed_ = !flushed;
+  }
+  // What could not be written is tried again with the next edits, and at the end.
+  if (first && settings.on_warning) settings.on_warning(flushed.error().message);
+}
+
+void WorldCore::kickPlanner() {
+  {
+    const std::lock_guard lock(mutex);
+    if (stopped_) return;
+    if (planning_) {
+      plan_again_ = true;
+      return;
+    }
+    planning_ = true;
+  }
+  if (submit(run<&WorldCore::planOnce>, kPlanPriority)) return;
+  const std::lock_guard lock(mutex);
+  planning_ = false;  // the next update tries again
+}
+
+void WorldCore::kickMeshing() {
+  // A job system that runs jobs at once gets no more than these.
+  for (size_t more = mostMeshJobs(); more > 0; --more) {
+    {
+      const std::lock_guard lock(mutex);
+      if (stopped_ || mesh_jobs >= mostMeshJobs() || mesh_jobs >= queue.size() + meshing_ || !hasRoom()) return;
+      ++mesh_jobs;
+    }
+    if (submit(run<&WorldCore::meshOnce>, kMeshPriority)) continue;
+    const std::lock_guard lock(mutex);
+    --mesh_jobs;
+    return;
+  }
+}
+
+PlanInput WorldCore::planInput() {
+  PlanInput input;
+  input.edits = edits.state();
+  input.edited = edits.changedSince(planner_.edits().number);
+  {
+    const std::lock_guard lock(mutex);
+    plan_again_ = false;
+    input.viewers = viewers;
+    viewers_planning_ = viewers_set;
+    edits_planning_ = input.edits.number;
+    input.finished.swap(finished_);
+    input.begun.swap(begun_);
+    input.refused.swap(refused);
+    input.applied = applied_planning_ = applied;
+  }
+  surfaces_->collect();
+  input.live_bytes = surfaces_->bytes();
+  return input;
+}
+
+bool WorldCore::planIsDue() const {
+  const std::lock_guard lock(mutex);
+  // One state of edits after the other: while one is being meshed and drawn the next need not be looked at.
+  const bool new_edits = edits_planning_ != edits.number();
+  if (new_edits && queue_edits_.number == edits_drawn) return true;
+  const bool news = new_edits || planner_lost_ || viewers_planning_ != viewers_set || applied_planning_ != applied ||
+                    !finished_.empty() || !refused.empty();
+  // Without room, out of memory, or between two states of edits of which one changed nothing.
+  const bool stuck = mesh_jobs == 0 && step == nullptr && !idle_;
+  return stuck || (news && (queue.empty() || Clock::now() >= next_plan_));
+}
+
+void WorldCore::losePlanner() {
+  const std::lock_guard lock(mutex);
+  planner_lost_ = true;
+  planning_ = false;
+  queue.clear();
+  ++generation;
+  ++plans;
+  changed.notify_all();
+}
+
+void WorldCore::planOnce() {
+  for (bool again = true; again;) {
+    const Clock::time_point begun_at = Clock::now();
+    try {
+      if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
+      Plan plan = planner_.plan(planInput());
+      edits.forget(plan.edits.number);
+      again = publish(std::move(plan));
+    } catch (const std::bad_alloc&) {
+      // What the planner knows is no longer whole. It begins anew from what is drawn, at the next update.
+      return losePlanner();
+    }
+    {
+      const std::lock_guard lock(mutex);
+      const Clock::time_point now = Clock::now();
+      next_plan_ = now + kMeshingPerPlanning * (now - begun_at);
+    }
+    kickMeshing();
+  }
+}
+
+std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() const {
+  const std::lock_guard lock(mutex);
+  return planner_lost_ ? drawn : nullptr;
+}
+
+bool WorldCore::publish(Plan&& plan) {
+  const std::lock_guard lock(mutex);
+  if (!begun_.empty()) {
+    const std::set<ChunkKey> gone(begun_.begin(), begun_.end());
+    std::erase_if(plan.queue, [&](const WorkItem& item) { return gone.contains(item.request.key); });
+  }
+  failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
+  queue.swap(plan.queue);
+  queue_edits_ = std::move(plan.edits);
+  step = std::move(plan.step);
+  if (viewers_planned_ != viewers_planning_) meshing_before_ = meshing_;
+  viewers_planned_ = viewers_planning_;
+  idle_ = plan.idle && meshing_ == 0 && finished_.empty() && begun_.empty();
+  planner_stats = planner_.stats();
+  if (applied_planning_ == applied) edits_drawn = planner_stats.edits_drawn;
+  planner_lost_ = false;
+  ++plans;
+  planning_ = plan_again_ && !stopped_;
+  changed.notify_all();
+  return planning_;
+}
+
+FinishedChunk WorldCore::meshOne(const WorkItem& item, const EditState& under, uint64_t of_generation) const {
+  FinishedChunk done;
+  done.request = item.request;
+  done.before = item.before;
+  done.edits = under.number;
+  const Progress progress = [&](uint64_t, uint64_t) {
+    const std::lock_guard lock(mutex);
+    return generation == of_generation && !stopped_;
+  };
+  try {
+    Result<std::pmr::vector<PlacedChunk>> chunks =
+        meshChunks(field, backend, jobs, std::span(&item.request, 1), progress, under.brushes.get());
+    if (!chunks) {
+      done.error = chunks.error();
+      return done;
+    }
+    if (item.request.signs) done.voids = std::make_unique<const VoidComponents>(voidsOf(chunks->front().mesh));
+    ChunkSurface surface = surfaceOf(item.request, std::move(chunks->front()), item.before.get(), memory_);
+    if (!surface.mesh.indices.empty()) done.surface = surfaces_->add(std::move(surface));
+  } catch (const std::bad_alloc&) {
+    done.error = Error{Code::out_of_memory, "out of memory while meshing a chunk"};
+  }
+  return done;
+}
+
+void WorldCore::meshOnce() {
+  WorkItem item;
+  EditState under;
+  uint64_t of_generation;
+  {
+    const std::lock_guard lock(mutex);
+    // A job system that runs what is handed on at once, within submit(), would mesh the whole queue in one call.
+    const bool at_once = std::count(submitting_.begin(), submitting_.end(), std::this_thread::get_id()) > 0;
+    if (at_once || queue.empty() || !hasRoom()) {
+      --mesh_jobs;
+      return;
+    }
+    try {
+      begun_.push_back(queue.back().request.key);
+    } catch (const std::bad_alloc&) {
+      --mesh_jobs;
+      return;
+    }
+    item = std::move(queue.back());
+    queue.pop_back();
+    under = queue_edits_;
+    of_generation = generation;
+    ++meshing_;
+    meshing_edited_ += item.edited;
+    reserved_ += kLargestChunk;
+  }
+  FinishedChunk done = meshOne(item, under, of_generation);
+  bool plan, more;
+  {
+    const std::lock_guard lock(mutex);
+    --meshing_;
+    meshing_edited_ -= item.edited;
+    if (meshing_before_ > 0) --meshing_before_;
+    reserved_ -= kLargestChunk;
+    if (generation != of_generation) done.error = Error{Code::cancelled, "no longer wanted"};
+    const bool scarce = done.error && done.error->code == Code::out_of_memory;
+    try {
+      finished_.push_back(std::move(done));
+    } catch (const std::bad_alloc&) {
+      planner_lost_ = true;  // it would wait for this one for ever
+    }
+    // What was dug is drawn as soon as the last chunk of it is there.
+    const bool redrawn = item.edited && meshing_edited_ == 0 && (queue.empty() || !queue.back().edited);
+    plan = !scarce && (redrawn || finished_.size() >= kFinishedToPlan || queue.empty());
+    more = !scarce && !queue.empty() && hasRoom() && !stopped_;
+    if (!more) --mesh_jobs;
+  }
+  if (plan) kickPlanner();
+  if (more) meshAgain();
+}
+
+void WorldCore::meshAgain() {
+  const std::thread::id self = std::this_thread::get_id();
+  bool handed_on = false;
+  try {
+    const std::lock_guard lock(mutex);
+    submitting_.push_back(self);
+    handed_on = true;
+  } catch (const std::bad_alloc&) {
+  }
+  const bool submitted = handed_on && submit(run<&WorldCore::meshOnce>, kMeshPriority);
+  const std::lock_guard lock(mutex);
+  if (handed_on) submitting_.erase(std::find(submitting_.begin(), submitting_.end(), self));
+  if (!submitted) --mesh_jobs;
+}
+
+}  // namespace sgm

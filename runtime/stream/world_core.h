@@ -1,0 +1,124 @@
+#pragma once
+// What a streamed world and its jobs share (world.h): a mailbox behind one mutex, a job that plans, and jobs that mesh.
+//
+// Jobs own the core, and may begin late: after the world's end they find nothing to do. No job takes longer than one
+// plan or one chunk, so that an engine's own jobs get their turn.
+
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "backend/backend.h"
+#include "stream/planner.h"
+#include "stream/surface_pool.h"
+#include "stream/world_edits.h"
+#include "stream/world_field.h"
+#include "stream/world_settings.h"
+
+namespace sgm {
+
+/// What a chunk may come to, in bytes: every cell cut in the worst way, with six seams.
+inline constexpr size_t kLargestChunk = size_t{5} << 20;
+
+class WorldCore : public std::enable_shared_from_this<WorldCore> {
+ public:
+  WorldCore(const WorldField& field, Backend& backend, JobSystem& jobs, const WorldSettings& settings,
+            std::pmr::memory_resource* memory);
+
+  /// Has the work planned, unless that is being done: then once more after it.
+  void kickPlanner();
+  /// Whether an update should have the work planned: planning must leave the jobs time to mesh.
+  bool planIsDue() const;
+  /// Has the journal written, at most every kBetweenFlushes.
+  void kickJournal();
+  /// Waits for jobs that have begun, and lets go of all memory.
+  void stop();
+
+  /// What the viewers of now want is there and drawn, edits included. Precondition: the mutex is held.
+  bool settled() const;
+
+  const WorldField& field;
+  Backend& backend;
+  JobSystem& jobs;
+  const WorldSettings settings;
+  WorldEdits edits;
+
+  mutable std::mutex mutex;  ///< guards what follows; held for the moving of pointers only
+  std::condition_variable changed;
+  std::vector<Viewer> viewers;
+  uint64_t viewers_set = 0;     ///< counts changes
+  std::vector<WorkItem> queue;  ///< the most urgent last
+  std::vector<ChunkKey> refused;
+  std::vector<FailedChunk> failed;
+  std::shared_ptr<const FrameStep> step;
+  uint64_t applied = 0;
+  std::shared_ptr<const DrawnFrame> drawn;  ///< the frame of that number
+  uint64_t edits_drawn = 0;                 ///< the state of edits that it shows
+  uint64_t generation = 0;                  ///< of requests: those of an earlier one are not wanted any more
+  uint64_t plans = 0;
+  size_t mesh_jobs = 0;  ///< submitted or running
+  PlannerStats planner_stats;
+
+  struct Work {
+    size_t queued = 0, in_work = 0;
+    size_t stale = 0;  ///< of these, those planned for viewers of before
+  };
+  /// Precondition: the mutex is held.
+  Work work() const;
+  const SurfacePool& surfaces() const { return *surfaces_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  size_t mostMeshJobs() const { return std::max(1u, jobs.concurrency() - 1); }
+  bool hasRoom() const { return surfaces_->bytes() + reserved_ + kLargestChunk <= settings.mesh_bytes; }
+
+  /// False where no memory is left to do so.
+  bool submit(void (*function)(void*), int priority) noexcept;
+  void kickMeshing();
+  PlanInput planInput();
+  /// Whether to plan again at once.
+  bool publish(Plan&& plan);
+  void losePlanner();
+  /// Null where the planner is whole.
+  std::shared_ptr<const DrawnFrame> frameToRestartFrom() const;
+  void planOnce();
+  void meshOnce();
+  void meshAgain();
+  FinishedChunk meshOne(const WorkItem& item, const EditState& under, uint64_t of_generation) const;
+  void flushOnce();
+
+  /// A job's frame: does nothing after the world's end.
+  template <void (WorldCore::*work)()>
+  static void run(void* argument) noexcept;
+
+  std::pmr::memory_resource* memory_;
+  std::shared_ptr<SurfacePool> surfaces_;
+  Planner planner_;  ///< of the planning job alone, which never runs twice at one time
+
+  // Guarded by the mutex.
+  bool planner_lost_ = false;  ///< memory gave out while it planned
+  uint64_t viewers_planning_ = 0, viewers_planned_ = 0, applied_planning_ = 0, edits_planning_ = 0;
+  EditState queue_edits_;  ///< that the queue is meshed under
+  std::vector<ChunkKey> begun_;
+  std::vector<FinishedChunk> finished_;
+  size_t meshing_before_ = 0;  ///< jobs that were at work when the plan for these viewers came, less those that ended
+  size_t meshing_ = 0;         ///< jobs at work on a request
+  size_t meshing_edited_ = 0;  ///< of these, those on a chunk that is drawn out of date
+  size_t reserved_ = 0;        ///< bytes that these may come to
+  size_t running_ = 0;         ///< jobs between their begin and end
+  std::vector<std::thread::id> submitting_;  ///< threads that are handing on a mesh job
+  bool planning_ = false;                    ///< submitted or running
+  bool plan_again_ = false;
+  bool flushing_ = false;  ///< likewise
+  bool stopped_ = false;
+  bool idle_ = false;
+  Clock::time_point next_plan_;  ///< not earlier, while there is something to mesh
+  Clock::time_point next_flush_;
+  bool flush_failed_ = false;
+};
+
+}  // namespace sgm

@@ -1,0 +1,27 @@
+#pragma once
+// What a streamed world is made with.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "stream/edit_journal.h"
+#include "stream/edits.h"
+#include "stream/lod_target.h"
+
+namespace sgm {
+
+struct WorldSettings {
+  LodSettings lod;
+  size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces, the engine's own and those in work included
+  bool by_reach = true;                   ///< as PlannerSettings::by_reach
+  EditSettings edits{0};                  ///< author 0: drawn at random
+  std::filesystem::path journal;          ///< of the edits; empty: they are not kept
+  WorldIdentity identity;                 ///< that the journal must have
+  /// Told of what costs work or detail and is no error. Any thread; must not call back.
+  std::function<void(const std::string&)> on_warning;
+};
+
+}  // namespace sgm

@@ -1,0 +1,194 @@
+#pragma once
+// A streamed world with an engine that draws it, and what must hold of every frame.
+
+#include <map>
+#include <mutex>
+#include <random>
+#include <thread>
+
+#include "mesh/check.h"
+#include "stream/frame.h"
+#include "stream/world.h"
+#include "world_support.h"
+
+namespace sgm {
+
+inline constexpr int32_t kStreamedCell = 512;
+
+/// The cave without its drips: small cells in plenty would make the tests slow, and nothing else.
+inline std::string caveText() {
+  return replaced(sample("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
+}
+
+/// Jobs that run only when somebody helps, in an order drawn at random: the latest and the most disorderly system that
+/// the contract allows.
+class LateJobs final : public JobSystem {
+ public:
+  explicit LateJobs(uint32_t seed) : random_(seed) {}
+  ~LateJobs() override {
+    while (help()) {
+    }
+  }
+  unsigned concurrency() const override { return 3; }
+  void submit(void (*function)(void*), void* argument, int) override {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back({function, argument});
+  }
+  bool help() override {
+    std::pair<void (*)(void*), void*> job;
+    {
+      const std::lock_guard lock(mutex_);
+      if (jobs_.empty()) return false;
+      std::swap(jobs_[random_() % jobs_.size()], jobs_.back());
+      job = jobs_.back();
+      jobs_.pop_back();
+    }
+    job.first(job.second);
+    return true;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::mt19937 random_;
+  std::vector<std::pair<void (*)(void*), void*>> jobs_;
+};
+
+struct Scene {
+  explicit Scene(std::unique_ptr<JobSystem> jobs_in, const std::string& text = caveText(),
+                 WorldSettings settings_in = {})
+      : field(settingsOf(text, kStreamedCell, 3), std::pmr::get_default_resource()),
+        jobs(std::move(jobs_in)),
+        settings(settings_in) {
+    std::pmr::memory_resource* memory = field.memory();
+    settings.lod.top = 3;
+    settings.lod.finest_cell = kStreamedCell;
+    if (settings_in.lod.finest_distance == WorldSettings{}.lod.finest_distance) {
+      settings.lod.finest_distance = 20.0 * kUnitsPerMetre;
+    }
+    settings.lod.view_distance = 120.0 * kUnitsPerMetre;
+    Result<std::unique_ptr<Backend>> made = makeBackend({}, *jobs, memory);
+    REQUIRE(made);
+    backend = std::move(*made);
+    Result<std::unique_ptr<World>> created = World::create(field, *backend, *jobs, settings, memory);
+    REQUIRE(created);
+    world = std::move(*created);
+  }
+
+  WorldField field;
+  std::unique_ptr<JobSystem> jobs;
+  WorldSettings settings;
+  std::unique_ptr<Backend> backend;
+  std::unique_ptr<World> world;
+};
+
+/// An engine that believes nothing but events.
+class Engine {
+ public:
+  struct Shown {
+    std::shared_ptr<const ChunkSurface> surface;
+    uint8_t seams = 0;
+    Neighbourhood coarser = 0;
+  };
+
+  /// Bytes that came since the last call.
+  size_t take(World& world) {
+    using Kind = WorldEvent::Kind;
+    size_t bytes = 0;
+    world.poll([&](const WorldEvent& event) {
+      switch (event.kind) {
+        case Kind::ready:
+          REQUIRE(event.surface != nullptr);
+          ready_[event.key] = event.surface;
+          bytes += event.surface->mesh.bytes();
+          break;
+        case Kind::shown:
+          CHECK(shown.count(event.key) == 0);
+          shown[event.key] = {surfaceOf(event.key), event.seams, event.coarser};
+          break;
+        case Kind::replaced:
+          REQUIRE(shown.count(event.key) == 1);
+          shown[event.key] = {surfaceOf(event.key), event.seams, event.coarser};
+          break;
+        case Kind::seams:
+          REQUIRE(shown.count(event.key) == 1);
+          shown[event.key].seams = event.seams;
+          shown[event.key].coarser = event.coarser;
+          break;
+        case Kind::removed:
+          CHECK(shown.erase(event.key) + ready_.erase(event.key) > 0);
+          break;
+        case Kind::failed:
+          if (!fails_may_come) FAIL(event.error->message);
+          break;
+      }
+      return true;
+    });
+    return bytes;
+  }
+
+  std::map<ChunkKey, Shown> shown;
+  bool fails_may_come = false;
+
+ private:
+  const std::shared_ptr<const ChunkSurface>& surfaceOf(const ChunkKey& key) {
+    REQUIRE(ready_.count(key) == 1);
+    return ready_[key];
+  }
+  std::map<ChunkKey, std::shared_ptr<const ChunkSurface>> ready_;
+};
+
+using PartHashes = std::map<std::pair<ChunkKey, size_t>, ContentHash>;
+
+/// What the engine draws is, part by part, the frame of the octree; and that frame is closed in every vertex.
+inline void checkFrame(const Scene& scene, const Engine& engine, const EditSnapshot* edits = nullptr) {
+  const std::shared_ptr<const DrawnFrame> frame = scene.world->drawn();
+  PartHashes drawn, wanted;
+  for (const auto& [key, shown] : engine.shown) {
+    for (size_t i = 0; i < shown.surface->mesh.ranges.size(); ++i) {
+      if (i > 0 && !(shown.seams >> (i - 1) & 1)) continue;
+      const PackedRange& range = shown.surface->mesh.ranges[i];
+      if (range.index_count > 0) drawn[{key, i}] = range.hash;
+    }
+  }
+  const std::pmr::vector<PlacedChunk> chunks = meshAll(scene.field, frameRequests(frame->tree), 2, edits);
+  std::vector<const MeshPart*> parts;
+  for (const PlacedChunk& chunk : chunks) {
+    std::vector<PlacedPart> placed;
+    appendParts(chunk, placed);
+    for (const PlacedPart& part : placed) {
+      wanted[{chunk.key, static_cast<size_t>(part.number)}] = part.mesh->hash;
+      parts.push_back(part.mesh);
+    }
+  }
+  CHECK(drawn == wanted);
+  CHECK(checkParts(parts).closed());
+}
+
+/// A frame's time of an engine that lends its thread.
+inline void workOrWait(Scene& scene) {
+  for (int jobs = 0; jobs < 50; ++jobs) {
+    if (!scene.jobs->help()) return std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+inline Viewer viewerAt(double x, double y, double z) {
+  Viewer viewer;
+  viewer.position = {x * kUnitsPerMetre, y * kUnitsPerMetre, z * kUnitsPerMetre};
+  return viewer;
+}
+
+/// A walk with turns, and now and then a leap to another part of the world.
+inline Viewer wander(std::mt19937& random, Viewer viewer) {
+  const auto step = [&](double most) {
+    return (static_cast<double>(random() % 2001) / 1000.0 - 1) * most * kUnitsPerMetre;
+  };
+  const bool leap = random() % 12 == 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    viewer.position[axis] += leap ? step(150) : step(6);
+    viewer.velocity[axis] = leap ? 0 : step(20);
+    viewer.direction[axis] = step(1);
+  }
+  return viewer;
+}
+
+}  // namespace sgm
