@@ -24,22 +24,6 @@ Int3 getPlace(ByteReader& in) {
   return p;
 }
 
-void put(ByteWriter& out, const Brush& brush) {
-  out.put(static_cast<uint8_t>(brush.shape));
-  out.put(static_cast<uint8_t>(brush.cut));
-  out.put(brush.material);
-  out.put(brush.tag);
-  out.put(brush.smooth);
-  put(out, brush.from);
-  if (brush.shape == Brush::Shape::box) {
-    put(out, brush.half);
-    for (float q : brush.turn) out.put(q);
-    return;
-  }
-  out.put(brush.radius);
-  if (brush.shape == Brush::Shape::capsule) put(out, brush.to);
-}
-
 // Nothing where a byte stands for nothing.
 bool get(ByteReader& in, Brush& brush) {
   const auto shape = in.get<uint8_t>(), cut = in.get<uint8_t>();
@@ -62,13 +46,30 @@ bool get(ByteReader& in, Brush& brush) {
 
 }  // namespace
 
+void encodeBrush(const Brush& brush, std::vector<std::byte>& bytes) {
+  ByteWriter out(bytes);
+  out.put(static_cast<uint8_t>(brush.shape));
+  out.put(static_cast<uint8_t>(brush.cut));
+  out.put(brush.material);
+  out.put(brush.tag);
+  out.put(brush.smooth);
+  put(out, brush.from);
+  if (brush.shape == Brush::Shape::box) {
+    put(out, brush.half);
+    for (float q : brush.turn) out.put(q);
+    return;
+  }
+  out.put(brush.radius);
+  if (brush.shape == Brush::Shape::capsule) put(out, brush.to);
+}
+
 void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes) {
   ByteWriter out(bytes);
   out.put(static_cast<uint8_t>(operation.kind));
   put(out, operation.order.id);
   out.put(operation.order.time);
   if (operation.kind == EditOperation::Kind::brush) {
-    put(out, operation.brush);
+    encodeBrush(operation.brush, bytes);
   } else {
     put(out, operation.target);
   }

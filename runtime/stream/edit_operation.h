@@ -40,6 +40,9 @@ inline constexpr uint64_t kMostEditTime = uint64_t{1} << 62;  ///< of times and 
 /// invalid_argument, range: no log could have made it.
 Result<void> checkEdit(const EditOperation& operation);
 
+/// Appends the brush's bytes, the same for equal brushes whatever their unused members hold.
+void encodeBrush(const Brush& brush, std::vector<std::byte>& bytes);
+
 /// Appends the operation's bytes, the same for equal operations whatever their unused members hold.
 void encodeEdit(const EditOperation& operation, std::vector<std::byte>& bytes);
 /// The next operation. bad_input: there is none, or it is none that could have been made.

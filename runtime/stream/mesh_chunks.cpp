@@ -14,12 +14,6 @@ constexpr size_t kBatchChunks = 64;
 // Of a region: what a machine holds with half a kilobyte and more a chunk, before any mesh.
 constexpr uint64_t kMostChunks = uint64_t{1} << 24;
 
-IntBox closedBox(const ChunkGrid& grid) {
-  IntBox box{grid.origin, grid.origin};
-  for (int axis = 0; axis < 3; ++axis) box.hi[axis] += kChunkCells * grid.cell;
-  return box;
-}
-
 /// What the backend needs to mesh a chunk, and what is known of it without meshing.
 Result<void> prepare(const WorldField& world, const ChunkRequest& request, const EditSnapshot* edits, ChunkJob& job,
                      PlacedChunk& chunk) {
@@ -30,7 +24,7 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   job.coarser = request.coarser;
   job.signs = request.signs;
   job.body = request.body;
-  const IntBox box = closedBox(*grid);
+  const IntBox box = chunkBox(*grid);
   Result<std::shared_ptr<const FieldProgram>> field = world.compile(box, request.key.level, edits);
   if (!field) return field.error();
   job.field = std::move(*field);
@@ -91,6 +85,12 @@ Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key) {
   }
   grid.cell = static_cast<int32_t>(cell);
   return grid;
+}
+
+IntBox chunkBox(const ChunkGrid& grid) {
+  IntBox box{grid.origin, grid.origin};
+  for (int axis = 0; axis < 3; ++axis) box.hi[axis] += kChunkCells * grid.cell;
+  return box;
 }
 
 Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,

@@ -47,6 +47,9 @@ using Progress = std::function<bool(uint64_t done, uint64_t total)>;
 /// The grid of a chunk. Errors: invalid_argument (no such level), range (it does not lie wholly inside the world).
 Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key);
 
+/// The chunk with its borders: lo <= p <= hi. Precondition: chunkGrid gave the grid.
+IntBox chunkBox(const ChunkGrid& grid);
+
 /// One mesh a request, in order, in the world's memory. edits: laid on the world, or null. Errors: those of chunkGrid,
 /// derivation and compilation, out_of_memory, cancelled.
 Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/bytes.h"
 #include "derive/chunk_ops.h"
 #include "stream/layers_below.h"
 
@@ -45,6 +46,19 @@ WorldField::WorldField(WorldFieldSettings settings, std::pmr::memory_resource* m
 WorldField::WorldField(WorldFieldSettings settings, std::shared_ptr<const DerivedCell> alone,
                        std::pmr::memory_resource* memory)
     : settings_(std::move(settings)), alone_(std::move(alone)), memory_(memory), cache_(0, memory) {}
+
+std::optional<std::vector<std::byte>> WorldField::identity() const {
+  if (alone_) return std::nullopt;
+  std::vector<std::byte> bytes;
+  ByteWriter out(bytes);
+  out.put(settings_.program->hash);
+  out.put(uint64_t{settings_.parameters.values.size()});
+  for (double value : settings_.parameters.values) out.put(value);
+  out.put(settings_.seed);
+  out.put(settings_.finest_cell);
+  for (int axis = 0; axis < 3; ++axis) out.put(settings_.shift[axis]);
+  return bytes;
+}
 
 template <class T, class Derive>
 Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& derive) const {
@@ -146,7 +160,7 @@ FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t layers, const IntBox& box,
                                                                       const FieldSettings& field,
-                                                                      const EditSnapshot* edits) const {
+                                                                      std::span<const Brush> brushes) const {
   const IntBox reached = box.grown(influenceMargin(field.cell));
   std::pmr::vector<std::shared_ptr<const DerivedCell>> held(memory_);
   std::pmr::vector<IndexedCell> indexed(memory_);
@@ -162,8 +176,6 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
     });
     if (!gathered) return gathered.error();
   }
-  std::pmr::vector<Brush> brushes(memory_);
-  if (edits) edits->query(reached, field.cell, brushes);
   Result<FieldProgram> program = compileField(indexed, box, field, memory_, brushes);
   if (!program) return program.error();
   return std::shared_ptr<const FieldProgram>(std::make_shared<FieldProgram>(std::move(*program)));
@@ -172,7 +184,13 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
 Result<std::shared_ptr<const FieldProgram>> WorldField::compile(const IntBox& box, int level,
                                                                 const EditSnapshot* edits) const {
   return compileLayers(static_cast<uint32_t>(settings_.program->layers.size()), box,
-                       fieldSettings(settings_.finest_cell, cellAt(level)), edits);
+                       fieldSettings(settings_.finest_cell, cellAt(level)), brushes(box, level, edits));
+}
+
+std::pmr::vector<Brush> WorldField::brushes(const IntBox& box, int level, const EditSnapshot* edits) const {
+  std::pmr::vector<Brush> found(memory_);
+  if (edits) edits->query(box.grown(influenceMargin(cellAt(level))), cellAt(level), found);
+  return found;
 }
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level) const {
@@ -184,7 +202,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box) const {
   // One unit as the cell: in full detail, and the same whatever cells the world is meshed with.
-  return compileLayers(layer + 1, box, fieldSettings(1, 1), nullptr);
+  return compileLayers(layer + 1, box, fieldSettings(1, 1), {});
 }
 
 Result<void> WorldField::forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,

@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "backend/backend.h"
@@ -38,6 +40,10 @@ class WorldField {
   std::pmr::memory_resource* memory() const { return memory_; }
   int32_t cellAt(int level) const { return settings_.finest_cell << level; }
 
+  /// Bytes that tell the field from every other: what changes any answer changes them, and layout and comments of the
+  /// grammar do not. None of a world that holds `alone`, whose content has no name.
+  std::optional<std::vector<std::byte>> identity() const;
+
   /// The cell of a layer, derived or from the cache.
   Result<std::shared_ptr<const DerivedCell>> cell(uint32_t layer, Int3 cell) const;
 
@@ -45,6 +51,9 @@ class WorldField {
   /// nothing of edits. limit: more than 2^20 cells of a layer reach into the box; errors of derivation.
   Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level,
                                                       const EditSnapshot* edits = nullptr) const;
+
+  /// The edits that compile() lays above all, in order.
+  std::pmr::vector<Brush> brushes(const IntBox& box, int level, const EditSnapshot* edits) const;
 
   /// The program of the domain's own state, everywhere the same: what lies beyond the drawn world.
   Result<std::shared_ptr<const FieldProgram>> compileOutside(int level) const;
@@ -75,7 +84,7 @@ class WorldField {
                          const std::function<Result<void>(const CellKey&)>& visit) const;
   Result<std::shared_ptr<const FieldProgram>> compileLayers(uint32_t layers, const IntBox& box,
                                                             const FieldSettings& field,
-                                                            const EditSnapshot* edits) const;
+                                                            std::span<const Brush> brushes) const;
   /// Visits the cells of all wanted layers that can reach into the box, in order.
   Result<void> forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,
                            const std::function<void(const GrammarChunk&)>& visit) const;
