@@ -52,6 +52,14 @@ class FileCache final : public DiskCache {
     return std::nullopt;
   }
 
+  void reject(const DiskKey& key) override {
+    failed("remove", unlessGone(folder_.remove(key)));
+    const std::lock_guard lock(mutex_);
+    --stats_.hits;
+    ++stats_.misses;
+    ++stats_.damaged;
+  }
+
   void put(const DiskKey& key, std::span<const std::byte> content) override try {
     if (content.size() > kMaxDiskContent) return count(&DiskCacheStats::dropped);
     const auto file = packDiskEntry(key, content, memory_);

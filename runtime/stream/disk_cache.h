@@ -38,7 +38,7 @@ struct DiskKey {
 /// Of this process, since the cache was opened.
 struct DiskCacheStats {
   uint64_t hits = 0, misses = 0;  ///< one or the other for every get
-  uint64_t damaged = 0;           ///< misses where a file was there that could not be trusted
+  uint64_t damaged = 0;           ///< misses where something was there that could not be trusted
   uint64_t stored = 0;
   uint64_t dropped = 0;  ///< not stored: too large, or no room could be made
   uint64_t evicted = 0;
@@ -69,6 +69,9 @@ class DiskCache {
 
   /// The content, in `memory`; none on a miss. A file that cannot be trusted is removed. Waits for no other thread.
   virtual std::optional<std::pmr::vector<std::byte>> get(const DiskKey& key, std::pmr::memory_resource* memory) = 0;
+
+  /// What get gave is not what the key stands for: removes it, and counts a damaged miss instead of the hit.
+  virtual void reject(const DiskKey& key) = 0;
 
   /// Stores the content unless it is there. Takes as long as the disk does: not for a thread that draws.
   virtual void put(const DiskKey& key, std::span<const std::byte> content) = 0;
