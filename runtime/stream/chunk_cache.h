@@ -1,0 +1,33 @@
+#pragma once
+// One chunk of a world: from the disk cache what it has, meshed the rest, which is then kept (chunk_part.h).
+
+#include <optional>
+
+#include "mesh/void_components.h"
+#include "stream/chunk_surface.h"
+#include "stream/disk_cache.h"
+
+namespace sgm {
+
+/// What came of a request.
+struct MeshedChunk {
+  ChunkSurface surface;                 ///< may be without triangles
+  std::optional<VoidComponents> voids;  ///< where signs were asked for
+};
+
+/// Meshes the chunks of one world. Borrows all that it names; as thread-safe as they are.
+struct ChunkMesher {
+  const WorldField& world;
+  Backend& backend;
+  JobSystem& jobs;
+  std::pmr::memory_resource* memory;  ///< of what it gives
+  DiskCache* cache = nullptr;         ///< null: everything is meshed
+
+  /// As surfaceOf makes it of what meshChunks gives, equal in every byte wherever it comes from. Signs and anchors come
+  /// with the body only. What the cache has is not derived, so that notes of its cells may never be told. Of a backend
+  /// that is not exact nothing is kept. Takes as long as the disk does. Errors: those of meshChunks, and nothing is
+  /// kept. Throws std::bad_alloc.
+  Result<MeshedChunk> mesh(ChunkRequest request, const ChunkSurface* before, const EditSnapshot* edits = nullptr) const;
+};
+
+}  // namespace sgm

@@ -1,0 +1,76 @@
+#pragma once
+// What of a chunk has an entry in the disk cache: its body, or one of its seams.
+//
+// Each is a function of the world, the chunk and the brushes around it alone. Which seams were asked for together
+// follows from the way a viewer has come, and the next time he comes another way: so they are kept apart.
+//
+// An entry serves as long as nothing changes that it depends on, and is never found again after: kMeshingVersion, the
+// codec's version (chunk_codec.h), the meaning of the grammar's files, those of the standard library that it imports
+// included, the parameters' values, the seed, the finest cell, and the brushes that show around the chunk. So a change
+// of a grammar, but in layout or comments, leaves all entries of its worlds behind, to age and be evicted. A saved
+// world loses nothing by that but time: entries are only what meshing gives again.
+
+#include <optional>
+
+#include "mesh/void_components.h"
+#include "stream/mesh_chunks.h"
+
+namespace sgm {
+
+/// Of all that stands between a grammar's meaning and a chunk's vertices, indices, anchors and voids. To be raised by
+/// every change of the library after which one of them comes out differently: with golden hashes, for seams as well.
+inline constexpr uint32_t kMeshingVersion = 1;
+
+inline constexpr int kChunkParts = 7;  ///< 0 is the body, 1 + Face a seam
+
+/// Whether the request asks for the part.
+bool asksFor(const ChunkRequest& request, int part);
+
+/// All that the parts of a request depend on. Immutable.
+class ChunkPartInputs {
+ public:
+  /// None where the world has no identity. Precondition: the chunk lies in the world (chunkGrid).
+  static std::optional<ChunkPartInputs> of(const WorldField& world, const ChunkRequest& request,
+                                           const EditSnapshot* edits);
+
+  /// Equal where a part is: for DiskCache::keyOf.
+  std::vector<std::byte> bytes(int part) const;
+
+  const ChunkRequest& request() const { return request_; }
+  const IntBox& box() const { return box_; }
+  /// Whether there is one of that number, in the grammar or of a brush.
+  bool isMaterial(uint16_t number) const;
+  bool isTag(uint16_t number) const;
+  /// Of an anchor's kind or name.
+  bool isName(uint16_t number) const { return number < program_->names.size(); }
+
+ private:
+  ChunkPartInputs(const WorldField& world, const ChunkRequest& request, const EditSnapshot* edits,
+                  std::vector<std::byte>&& identity);
+  bool isOfBrush(uint16_t number, uint16_t Brush::*member) const;
+
+  ChunkRequest request_;
+  IntBox box_;
+  std::shared_ptr<const Program> program_;
+  std::vector<std::byte> identity_;
+  std::pmr::vector<Brush> brushes_, coarser_;  ///< that show at the chunk's level; at the next, where seams see it
+};
+
+/// A part, without the keys of its vertices.
+struct ChunkPart {
+  MeshPart mesh;
+  std::vector<Anchor> anchors;  ///< of a body, where asked for
+  VoidComponents voids;         ///< of a body, where signs were asked for
+
+  explicit ChunkPart(std::pmr::memory_resource* memory) : mesh(memory), voids(memory) {}
+};
+
+std::pmr::vector<std::byte> encodeChunkPart(int part, const MeshPart& mesh, std::span<const Anchor> anchors,
+                                            std::span<const VoidComponent> voids, std::pmr::memory_resource* memory);
+
+/// For any bytes. None where meshing cannot have given them: nothing is believed that a reader could stumble over, and
+/// the mesh has the hash that it says. Throws std::bad_alloc.
+std::optional<ChunkPart> decodeChunkPart(std::span<const std::byte> bytes, int part, const ChunkPartInputs& inputs,
+                                         std::pmr::memory_resource* memory);
+
+}  // namespace sgm
