@@ -1,5 +1,6 @@
 #pragma once
-// One chunk of a world: from the disk cache what it has, meshed the rest, which is then kept (chunk_part.h).
+// One chunk of a world: from the disk cache what it has, meshed the rest, which is then kept (chunk_part.h): parts with
+// triangles, and those without where the chunk had to be sampled to know.
 
 #include <optional>
 

@@ -11,6 +11,7 @@
 #include "base/hash.h"
 #include "grammar/compile.h"
 #include "measure.h"
+#include "stream/chunk_cache.h"
 #include "stream/chunk_codec.h"
 #include "stream/chunk_surface.h"
 #include "stream/disk_entry.h"
@@ -33,8 +34,7 @@ T must(Result<T> result) {
   return std::move(*result);
 }
 
-/// The chunks with triangles, of a frame of half-metre cells; prints what meshing takes.
-std::vector<ChunkRecord> caveChunks(const char* path) {
+WorldFieldSettings caveSettings(const char* path) {
   std::ifstream in(path);
   std::stringstream text;
   text << in.rdbuf();
@@ -43,14 +43,24 @@ std::vector<ChunkRecord> caveChunks(const char* path) {
   if (!settings.program) throw std::runtime_error(std::string("cannot compile ") + path);
   settings.parameters = ParameterValues::defaults(*settings.program);
   settings.seed = 7;
-  const WorldField world(settings, heap);
-  const auto jobs = must(makeThreadPool(1));
-  const auto backend = must(makeBackend({}, *jobs, heap));
+  return settings;
+}
+
+std::vector<ChunkRequest> aroundViewer(int32_t finest_cell) {
   const LodViewer viewer{{96 * 1024.0, 96 * 1024.0, 96 * 1024.0}};
   LodSettings lod;
+  lod.finest_cell = finest_cell;
   lod.top = 4;
   lod.view_distance = 150 * 1024.0;
-  const std::vector<ChunkRequest> requests = frameRequests(lodTarget({&viewer, 1}, lod));
+  return frameRequests(lodTarget({&viewer, 1}, lod));
+}
+
+/// The chunks with triangles, of a frame of half-metre cells; prints what meshing takes.
+std::vector<ChunkRecord> caveChunks(const char* path) {
+  const WorldField world(caveSettings(path), heap);
+  const auto jobs = must(makeThreadPool(1));
+  const auto backend = must(makeBackend({}, *jobs, heap));
+  const std::vector<ChunkRequest> requests = aroundViewer(world.settings().finest_cell);
   must(meshChunks(world, *backend, *jobs, requests));  // cells are derived
   const double start = now();
   const auto chunks = must(meshChunks(world, *backend, *jobs, requests));
@@ -111,6 +121,39 @@ void files(const std::vector<ChunkRecord>& records, const std::filesystem::path&
   std::printf("encode and put %.0f us a chunk; get and decode %.0f us\n", put, get);
 }
 
+/// A frame of quarter-metre cells, chunk by chunk as a world asks for them, with and without the cache.
+void throughCache(const char* path, const std::filesystem::path& folder) {
+  WorldFieldSettings settings = caveSettings(path);
+  settings.finest_cell = kUnitsPerMetre / 4;
+  std::vector<ChunkRequest> requests = aroundViewer(settings.finest_cell);
+  for (ChunkRequest& request : requests) request.signs = request.anchors = request.key.level == 0;
+  const auto jobs = must(makeThreadPool(1));
+  const auto backend = must(makeBackend({}, *jobs, heap));
+  const auto cache = must(DiskCache::open(folder, uint64_t{1} << 30, {}));
+  const auto pass = [&](const char* what, const WorldField& world, DiskCache* with) {
+    double full = 0, empty = 0;
+    size_t count = 0;
+    for (const ChunkRequest& request : requests) {
+      const double start = now();
+      const MeshedChunk chunk = must(ChunkMesher{world, *backend, *jobs, heap, with}.mesh(request, nullptr));
+      const bool drawn = !chunk.surface.mesh.indices.empty();
+      (drawn ? full : empty) += now() - start;
+      count += drawn;
+    }
+    const auto each = [](double time, size_t chunks) { return 1000 * time / static_cast<double>(chunks); };
+    std::printf("%-24s %5zu chunks with triangles %7.0f us each, %5zu without %7.0f us\n", what, count,
+                each(full, count), requests.size() - count, each(empty, requests.size() - count));
+  };
+  const WorldField first(settings, heap), second(settings, heap), third(settings, heap);
+  pass("derive, mesh:", first, nullptr);
+  pass("mesh:", first, nullptr);
+  pass("derive, mesh, put:", second, cache.get());
+  pass("get:", third, cache.get());
+  const DiskCacheStats stats = cache->stats();
+  std::printf("%llu entries, %.1f MB\n", static_cast<unsigned long long>(stats.stored),
+              static_cast<double>(stats.bytes) * 1e-6);
+}
+
 void largeFolder(const std::filesystem::path& folder) {
   constexpr size_t kEntries = 100'000;
   const auto key = [](size_t i) { return DiskKey{mix64(i + 1), i}; };
@@ -142,6 +185,7 @@ int main() try {
   std::string folder = (std::filesystem::temp_directory_path() / "sgm_bench_XXXXXX").string();
   if (mkdtemp(folder.data()) == nullptr) throw std::runtime_error("cannot make " + folder);
   files(records, folder + "/chunks");
+  throughCache(SGM_BENCH_CAVE, folder + "/frame");
   largeFolder(folder + "/large");
   std::filesystem::remove_all(folder);
   return 0;
