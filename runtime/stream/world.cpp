@@ -6,6 +6,7 @@
 #include <random>
 #include <unordered_set>
 
+#include "base/checksum.h"
 #include "mesh/hash.h"
 #include "stream/world_core.h"
 
@@ -50,6 +51,17 @@ uint64_t randomAuthor() {
   return (uint64_t{device()} << 32 | device()) | 1;  // never 0
 }
 
+Result<void> openJournal(WorldCore& core) {
+  const std::optional<std::vector<std::byte>> identity = core.field.identity();
+  if (!identity) return Error{Code::unsupported, "a world without a grammar cannot keep a journal of edits"};
+  const WorldFieldSettings& of = core.field.settings();
+  const Result<std::string> opened =
+      core.edits.open(core.settings.journal, {checksum(*identity), of.seed, of.finest_cell});
+  if (!opened) return opened.error();
+  if (!opened->empty() && core.settings.on_warning) core.settings.on_warning(*opened);
+  return {};
+}
+
 }  // namespace
 
 World::World(std::shared_ptr<WorldCore> core, JobSystem& jobs) : core_(std::move(core)), jobs_(jobs) {}
@@ -66,9 +78,12 @@ Result<std::unique_ptr<World>> World::create(const WorldField& field, Backend& b
   if (own.edits.author == 0) own.edits.author = randomAuthor();
   auto core = std::make_shared<WorldCore>(field, backend, jobs, own, memory);
   if (!own.journal.empty()) {
-    const Result<std::string> opened = core->edits.open(own.journal, own.identity);
+    if (Result<void> opened = openJournal(*core); !opened) return opened.error();
+  }
+  if (!own.cache.empty()) {
+    Result<std::unique_ptr<DiskCache>> opened = DiskCache::open(own.cache, own.cache_bytes, own.on_warning, memory);
     if (!opened) return opened.error();
-    if (!opened->empty() && own.on_warning) own.on_warning(*opened);
+    core->cache = std::move(*opened);
   }
   return std::unique_ptr<World>(new World(std::move(core), jobs));
 }
@@ -288,6 +303,7 @@ QueryField World::queryField() const {
 
 WorldStats World::stats() const {
   WorldStats stats;
+  if (core_->cache != nullptr) stats.cache = core_->cache->stats();
   const std::lock_guard lock(core_->mutex);
   stats.planner = core_->planner_stats;
   const WorldCore::Work work = core_->work();

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "backend/backend.h"
+#include "stream/disk_cache.h"
 #include "stream/planner.h"
 #include "stream/queries.h"
 #include "stream/world_edits.h"
@@ -50,6 +51,7 @@ struct WorldStats {
   uint64_t frame = 0;              ///< number of the frame that is drawn
   uint64_t plans = 0;
   uint64_t edits = 0, edits_drawn = 0;  ///< EditState::number of now, and of what is drawn
+  DiskCacheStats cache;
   size_t surface_bytes = 0, peak_surface_bytes = 0;
   bool idle = false;  ///< what the viewers want is drawn
 };

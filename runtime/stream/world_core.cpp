@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "stream/reachability.h"
-
 namespace sgm {
 
 namespace {
@@ -235,25 +233,20 @@ bool WorldCore::publish(Plan&& plan) {
   return planning_;
 }
 
-FinishedChunk WorldCore::meshOne(const WorkItem& item, const EditState& under, uint64_t of_generation) const {
+FinishedChunk WorldCore::meshOne(const WorkItem& item, const EditState& under) const {
   FinishedChunk done;
   done.request = item.request;
   done.before = item.before;
   done.edits = under.number;
-  const Progress progress = [&](uint64_t, uint64_t) {
-    const std::lock_guard lock(mutex);
-    return generation == of_generation && !stopped_;
-  };
+  const ChunkMesher mesher{field, backend, jobs, memory_, cache.get()};
   try {
-    Result<std::pmr::vector<PlacedChunk>> chunks =
-        meshChunks(field, backend, jobs, std::span(&item.request, 1), progress, under.brushes.get());
-    if (!chunks) {
-      done.error = chunks.error();
+    Result<MeshedChunk> chunk = mesher.mesh(item.request, item.before.get(), under.brushes.get());
+    if (!chunk) {
+      done.error = chunk.error();
       return done;
     }
-    if (item.request.signs) done.voids = std::make_unique<const VoidComponents>(voidsOf(chunks->front().mesh));
-    ChunkSurface surface = surfaceOf(item.request, std::move(chunks->front()), item.before.get(), memory_);
-    if (!surface.mesh.indices.empty()) done.surface = surfaces_->add(std::move(surface));
+    if (chunk->voids) done.voids = std::make_unique<const VoidComponents>(std::move(*chunk->voids));
+    if (!chunk->surface.mesh.indices.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
   } catch (const std::bad_alloc&) {
     done.error = Error{Code::out_of_memory, "out of memory while meshing a chunk"};
   }
@@ -286,7 +279,7 @@ void WorldCore::meshOnce() {
     meshing_edited_ += item.edited;
     reserved_ += kLargestChunk;
   }
-  FinishedChunk done = meshOne(item, under, of_generation);
+  FinishedChunk done = meshOne(item, under);
   bool plan, more;
   {
     const std::lock_guard lock(mutex);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "backend/backend.h"
+#include "stream/chunk_cache.h"
 #include "stream/planner.h"
 #include "stream/surface_pool.h"
 #include "stream/world_edits.h"
@@ -45,6 +46,7 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
   JobSystem& jobs;
   const WorldSettings settings;
   WorldEdits edits;
+  std::unique_ptr<DiskCache> cache;  ///< null: none; set before the first job
 
   mutable std::mutex mutex;  ///< guards what follows; held for the moving of pointers only
   std::condition_variable changed;
@@ -88,7 +90,7 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
   void planOnce();
   void meshOnce();
   void meshAgain();
-  FinishedChunk meshOne(const WorkItem& item, const EditState& under, uint64_t of_generation) const;
+  FinishedChunk meshOne(const WorkItem& item, const EditState& under) const;
   void flushOnce();
 
   /// A job's frame: does nothing after the world's end.

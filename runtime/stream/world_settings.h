@@ -19,7 +19,8 @@ struct WorldSettings {
   bool by_reach = true;                   ///< as PlannerSettings::by_reach
   EditSettings edits{0};                  ///< author 0: drawn at random
   std::filesystem::path journal;          ///< of the edits; empty: they are not kept
-  WorldIdentity identity;                 ///< that the journal must have
+  std::filesystem::path cache;            ///< folder of meshed chunks that outlast the world; empty: none
+  uint64_t cache_bytes = uint64_t{1} << 30;  ///< the most bytes of its files
   /// Told of what costs work or detail and is no error. Any thread; must not call back.
   std::function<void(const std::string&)> on_warning;
 };

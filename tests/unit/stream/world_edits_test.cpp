@@ -234,7 +234,6 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
   std::filesystem::remove(path);
   WorldSettings settings;
   settings.journal = path;
-  settings.identity = {1, 2, kStreamedCell};
   const Viewer viewer = viewerAt(96, 96, 96);
   uint64_t hash = 0;
   {
@@ -263,13 +262,11 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
     REQUIRE_FALSE(second);  // somebody has it open
     CHECK(second.error().code == Code::limit);
   }
-  settings.identity.seed = 3;
-  Scene scene(*makeThreadPool(1));
-  WorldSettings other = scene.settings;
-  other.journal = path;
-  other.identity = settings.identity;
+  Scene other(*makeThreadPool(1), replaced(caveText(), "detail 4m", "detail 5m"));
+  WorldSettings wrong = other.settings;
+  wrong.journal = path;
   const Result<std::unique_ptr<World>> refused =
-      World::create(scene.field, *scene.backend, *scene.jobs, other, scene.field.memory());
+      World::create(other.field, *other.backend, *other.jobs, wrong, other.field.memory());
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == Code::bad_input);
   std::filesystem::remove(path);
