@@ -95,6 +95,7 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
     sgm::parallelFor(*field->runtime.jobs, desc->count, [&](size_t i) {
       // What has been copied goes at once: a batch may be large.
       sgm::PlacedChunk chunk = std::move((*chunks)[i]);
+      const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kPack);
       auto surface = std::allocate_shared<sgm::ChunkSurface>(std::pmr::polymorphic_allocator<>(memory),
                                                              surfaceOf(requests[i], std::move(chunk), nullptr, memory));
       made[i] = makeHandle<sgm_mesh>(field->runtime, std::move(surface));

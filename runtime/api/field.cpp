@@ -49,7 +49,9 @@ sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sg
     if (runtime->sink.write != nullptr)
       settings.on_notes = [notes = std::make_shared<NoteLog>(*runtime, desc->grammar->program)](
                               const sgm::GrammarChunk& cell) { notes->tell(cell); };
-    sgm::Result<std::unique_ptr<sgm::Backend>> backend = sgm::makeBackend(*request, *runtime->jobs, &runtime->memory);
+    settings.profiler = runtime->profiler;
+    sgm::Result<std::unique_ptr<sgm::Backend>> backend =
+        sgm::makeBackend(*request, *runtime->jobs, &runtime->memory, runtime->profiler);
     if (!backend) return fail(error, backend.error());
     *out = makeHandle<sgm_field>(*runtime, std::move(settings), std::move(*backend));
     return SGM_OK;

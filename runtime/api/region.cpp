@@ -57,6 +57,7 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
       progress = [desc](uint64_t done, uint64_t total) {
         return desc->progress(desc->progress_user, done, total) == 0;
       };
+    const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kRegion);
     const sgm::Result<RegionMesh> region =
         meshRegion(field->world, *field->backend, *field->runtime.jobs, box, desc->level,
                    desc->max_chunks != 0 ? desc->max_chunks : kDefaultMostChunks, progress);

@@ -1,6 +1,7 @@
 #include "api/runtime.h"
 
-#include <limits>
+#include <cstddef>
+#include <cstring>
 
 #include "api/barrier.h"
 
@@ -26,6 +27,8 @@ sgm_result checkVersion(uint32_t version, sgm_error* error) {
                   " and runs with library " + sgm_version_string() + ": rebuild it with this library's sgm/sgm.h");
 }
 
+constexpr size_t kSizeWithoutProfiler = offsetof(sgm_runtime_desc, profiler);
+
 sgm_result checkRuntimeDesc(const sgm_runtime_desc& desc, sgm_error* error) {
   if (sgm_result r = checkVersion(desc.api_version, error); r != SGM_OK) return r;
   if (desc.threads > kMostThreads)
@@ -35,6 +38,8 @@ sgm_result checkRuntimeDesc(const sgm_runtime_desc& desc, sgm_error* error) {
   if (desc.jobs != nullptr && (desc.jobs->concurrency == nullptr || desc.jobs->submit == nullptr))
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "the job system needs concurrency and submit");
   if (desc.log != nullptr && desc.log->write == nullptr) return nullArgument(error, "log->write");
+  if (desc.profiler != nullptr && (desc.profiler->begin == nullptr || desc.profiler->end == nullptr))
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "the profiler needs both begin and end");
   return SGM_OK;
 }
 
@@ -106,9 +111,12 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
   return guarded(error, [&]() -> sgm_result {
     if (out == nullptr) return nullArgument(error, "out");
     *out = nullptr;
-    const sgm_runtime_desc defaults = SGM_RUNTIME_DESC_INIT;
-    if (desc == nullptr) desc = &defaults;
-    if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
+    sgm_runtime_desc whole = SGM_RUNTIME_DESC_INIT;
+    if (desc != nullptr) {
+      if (sgm_result r = checkDesc(error, desc, "desc", kSizeWithoutProfiler); r != SGM_OK) return r;
+      std::memcpy(&whole, desc, desc->struct_size);
+    }
+    desc = &whole;
     if (sgm_result r = checkRuntimeDesc(*desc, error); r != SGM_OK) return r;
 
     const sgm_allocator allocator =
@@ -122,10 +130,12 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
     std::unique_ptr<sgm_runtime, decltype(release)> runtime(new (memory) sgm_runtime(allocator, desc->memory_limit),
                                                             release);
     if (desc->log != nullptr) runtime->sink = *desc->log;
+    if (const sgm_profiler* p = desc->profiler; p != nullptr)
+      runtime->profiler = {p->begin, p->end, p->thread, p->plot, p->user};
     if (desc->jobs != nullptr) {
       runtime->jobs = std::make_unique<CallerJobs>(*desc->jobs);
     } else {
-      sgm::Result<std::unique_ptr<sgm::JobSystem>> pool = sgm::makeThreadPool(desc->threads);
+      sgm::Result<std::unique_ptr<sgm::JobSystem>> pool = sgm::makeThreadPool(desc->threads, runtime->profiler);
       if (!pool) return fail(error, pool.error());
       runtime->jobs = std::move(*pool);
     }

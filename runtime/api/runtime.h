@@ -1,6 +1,6 @@
 #pragma once
-// The runtime handle: what the caller gave (memory, threads, log), adapted to our interfaces, and the count of
-// children.
+// The runtime handle: what the caller gave (memory, threads, log, profiler), adapted to our interfaces, and the count
+// of children.
 
 #include <atomic>
 #include <condition_variable>
@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/jobs.h"
+#include "base/profile.h"
 #include "sgm/sgm.h"
 
 namespace sgm::api {
@@ -72,6 +73,7 @@ struct sgm_runtime {
   sgm_allocator allocator;  ///< frees the runtime itself, which `memory` lies within
   sgm::api::CallerMemory memory;
   sgm_log_sink sink{};
+  sgm::Profiler profiler;
   std::unique_ptr<sgm::JobSystem> jobs;
   std::atomic<uint64_t> children{0};
 };

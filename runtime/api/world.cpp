@@ -35,6 +35,15 @@ sgm_result failLogged(const sgm_world& world, sgm_error* error, const sgm::Error
   return fail(error, e);
 }
 
+void plotStats(const sgm_world& world) {
+  const sgm::Profiler& profiler = world.runtime.profiler;
+  if (profiler.plot == nullptr) return;
+  const sgm::WorldStats now = world.world->stats();
+  profiler.plot(profiler.user, sgm::plot::kQueued, static_cast<double>(now.queued));
+  profiler.plot(profiler.user, sgm::plot::kInWork, static_cast<double>(now.in_work));
+  profiler.plot(profiler.user, sgm::plot::kMeshBytes, static_cast<double>(now.surface_bytes));
+}
+
 sgm::Viewer viewerOf(const sgm_viewer& viewer) {
   sgm::Viewer v;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -120,7 +129,10 @@ sgm_result sgm_world_update(sgm_world* world, uint64_t max_bytes, sgm_error* err
       return failLogged(*world, error,
                         {sgm::Code::invalid_argument, "max_bytes is 0: nothing could ever be handed over"});
     }
-    return world->world->update(max_bytes) ? SGM_OK : SGM_INCOMPLETE;
+    const sgm::ProfileScope scope(world->runtime.profiler, sgm::zone::kUpdate);
+    if (!world->world->update(max_bytes)) return SGM_INCOMPLETE;
+    plotStats(*world);
+    return SGM_OK;
   });
 }
 
@@ -133,6 +145,7 @@ sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t even
     if (world == nullptr) return nullArgument(error, "world");
     if (events == nullptr) return nullArgument(error, "events");
     if (sgm_result r = checkStride<sgm_world_event>(error, event_stride, "event_stride"); r != SGM_OK) return r;
+    const sgm::ProfileScope scope(world->runtime.profiler, sgm::zone::kPoll);
     char* at = reinterpret_cast<char*>(events);
     world->world->poll([&](const sgm::WorldEvent& event) {
       if (*count == room) return false;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/jobs.h"
+#include "base/profile.h"
 #include "base/result.h"
 #include "field/program.h"
 #include "mesh/chunk.h"
@@ -90,6 +91,6 @@ struct BackendRequest {
 
 /// factory.cpp. jobs and memory must outlive the backend. unsupported: not built or not usable here, and why.
 Result<std::unique_ptr<Backend>> makeBackend(const BackendRequest& request, JobSystem& jobs,
-                                             std::pmr::memory_resource* memory);
+                                             std::pmr::memory_resource* memory, const Profiler& profiler = {});
 
 }  // namespace sgm

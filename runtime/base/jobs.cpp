@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <queue>
@@ -26,12 +27,13 @@ struct Job {
 
 class ThreadPool final : public JobSystem {
  public:
+  explicit ThreadPool(const Profiler& profiler) : profiler_(profiler) {}
   /// To be called once, before anything else. An error where not one thread starts.
   Result<void> start(unsigned workers) {
     const unsigned wanted = std::max(1u, workers - 1);
     try {
       threads_.reserve(wanted);
-      while (threads_.size() < wanted) threads_.emplace_back([this] { work(); });
+      while (threads_.size() < wanted) threads_.emplace_back([this, number = threads_.size() + 1] { work(number); });
     } catch (const std::system_error& e) {
       if (threads_.empty()) {
         return Error{Code::limit, std::string("not one thread could be started (") + e.what() +
@@ -72,7 +74,10 @@ class ThreadPool final : public JobSystem {
   }
 
  private:
-  void work() {
+  void work(size_t number) {
+    char name[32];
+    std::snprintf(name, sizeof name, "sgm worker %zu", number);
+    profiler_.nameThread(name);
     for (;;) {
       Job job;
       {
@@ -86,6 +91,7 @@ class ThreadPool final : public JobSystem {
     }
   }
 
+  const Profiler profiler_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::priority_queue<Job> queue_;
@@ -131,9 +137,9 @@ void runShare(void* argument) noexcept {
 
 }  // namespace
 
-Result<std::unique_ptr<JobSystem>> makeThreadPool(unsigned workers) {
+Result<std::unique_ptr<JobSystem>> makeThreadPool(unsigned workers, const Profiler& profiler) {
   if (workers == 0) workers = std::max(1u, std::thread::hardware_concurrency());
-  auto pool = std::make_unique<ThreadPool>();
+  auto pool = std::make_unique<ThreadPool>(profiler);
   if (Result<void> started = pool->start(workers); !started) return started.error();
   return std::unique_ptr<JobSystem>(std::move(pool));
 }

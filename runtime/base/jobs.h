@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 
+#include "base/profile.h"
 #include "base/result.h"
 
 namespace sgm {
@@ -29,8 +30,9 @@ class JobSystem {
 };
 
 /// Threads of our own. workers = 0: one for each processor. Where the machine does not let all of them start, those
-/// that did do the work, and concurrency() says how many. Errors, where not one thread starts: limit, out_of_memory.
-Result<std::unique_ptr<JobSystem>> makeThreadPool(unsigned workers);
+/// that did do the work, and concurrency() says how many. The profiler is told their names: "sgm worker 1" and so on.
+/// Errors, where not one thread starts: limit, out_of_memory.
+Result<std::unique_ptr<JobSystem>> makeThreadPool(unsigned workers, const Profiler& profiler = {});
 
 /// Runs body(i) for i in [0, count) on the job system and returns when all are done; the caller's thread works too.
 /// The first exception of a body is thrown again here, after all have ended.

@@ -85,6 +85,7 @@ Result<MeshedChunk> ChunkMesher::mesh(ChunkRequest request, const ChunkSurface* 
   for (int part = 0; part < kChunkParts; ++part) {
     if (auto& of_part = found[static_cast<size_t>(part)]) place(std::move(*of_part), part, chunk, voids);
   }
+  const ProfileScope scope(world.profiler(), zone::kPack);
   MeshedChunk result{surfaceOf(request, std::move(chunk), before, memory), std::nullopt};
   if (request.signs) result.voids = std::move(voids);
   return result;

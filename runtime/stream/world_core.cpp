@@ -189,6 +189,7 @@ void WorldCore::planOnce() {
   for (bool again = true; again;) {
     const Clock::time_point begun_at = Clock::now();
     try {
+      const ProfileScope scope(field.profiler(), zone::kPlan);
       if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
       Plan plan = planner_.plan(planInput());
       edits.forget(plan.edits.number);

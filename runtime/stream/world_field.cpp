@@ -62,6 +62,7 @@ std::optional<std::vector<std::byte>> WorldField::identity() const {
 
 template <class T, class Derive>
 Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& derive) const {
+  const ProfileScope scope(profiler(), zone::kDerive);
   // Probes start in the cell and end within its reach.
   const IntBox around = moved(cellLimit(*settings_.program, layer, at), settings_.shift);
   LayersBelow below(*this, around);
@@ -161,6 +162,7 @@ FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t layers, const IntBox& box,
                                                                       const FieldSettings& field,
                                                                       std::span<const Brush> brushes) const {
+  const ProfileScope scope(profiler(), zone::kCompile);
   const IntBox reached = box.grown(influenceMargin(field.cell));
   std::pmr::vector<std::shared_ptr<const DerivedCell>> held(memory_);
   std::pmr::vector<IndexedCell> indexed(memory_);

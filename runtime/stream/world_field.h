@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "backend/backend.h"
+#include "base/profile.h"
 #include "derive/derive.h"
 #include "field/evaluate.h"
 #include "stream/cell_cache.h"
@@ -26,6 +27,7 @@ struct WorldFieldSettings {
   /// Told of a cell that has left something out, whenever it is derived (again, after the cache has lost it). On any
   /// thread, several at once; must not call back.
   std::function<void(const GrammarChunk&)> on_notes;
+  Profiler profiler;
 };
 
 /// Thread-safe: what it answers is a pure function of its settings; only its cache has a state.
@@ -37,6 +39,7 @@ class WorldField {
   WorldField(WorldFieldSettings settings, std::shared_ptr<const DerivedCell> alone, std::pmr::memory_resource* memory);
 
   const WorldFieldSettings& settings() const { return settings_; }
+  const Profiler& profiler() const { return settings_.profiler; }
   std::pmr::memory_resource* memory() const { return memory_; }
   int32_t cellAt(int level) const { return settings_.finest_cell << level; }
 

@@ -94,6 +94,14 @@ TEST_CASE("runtime descriptors are checked") {
   desc = SGM_RUNTIME_DESC_INIT;
   desc.log = &no_sink;
   CHECK(call(&desc) == SGM_ERR_INVALID_ARGUMENT);
+  for (const bool begins : {false, true}) {
+    sgm_profiler half{};
+    if (begins) half.begin = [](void*, const char*) -> uint64_t { return 0; };
+    if (!begins) half.end = [](void*, uint64_t) {};
+    desc = SGM_RUNTIME_DESC_INIT;
+    desc.profiler = &half;
+    CHECK(call(&desc) == SGM_ERR_INVALID_ARGUMENT);
+  }
   desc = SGM_RUNTIME_DESC_INIT;
   desc.threads = 1025;
   CHECK(call(&desc) == SGM_ERR_INVALID_ARGUMENT);

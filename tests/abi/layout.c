@@ -118,7 +118,14 @@ SIZE(sgm_log_sink, 16);
 PLACE(sgm_log_sink, write, 0);
 PLACE(sgm_log_sink, user, 8);
 
-SIZE(sgm_runtime_desc, 56);
+SIZE(sgm_profiler, 40);
+PLACE(sgm_profiler, begin, 0);
+PLACE(sgm_profiler, end, 8);
+PLACE(sgm_profiler, thread, 16);
+PLACE(sgm_profiler, plot, 24);
+PLACE(sgm_profiler, user, 32);
+
+SIZE(sgm_runtime_desc, 64);
 PLACE(sgm_runtime_desc, struct_size, 0);
 PLACE(sgm_runtime_desc, next, 8);
 PLACE(sgm_runtime_desc, api_version, 16);
@@ -127,6 +134,7 @@ PLACE(sgm_runtime_desc, allocator, 24);
 PLACE(sgm_runtime_desc, jobs, 32);
 PLACE(sgm_runtime_desc, log, 40);
 PLACE(sgm_runtime_desc, memory_limit, 48);
+PLACE(sgm_runtime_desc, profiler, 56); /* where it ended before */
 
 SIZE(sgm_backend_info, 800);
 PLACE(sgm_backend_info, struct_size, 0);

@@ -36,8 +36,10 @@ class ScratchPool {
 // Shared by the batch and the jobs that it has submitted: the last of them ends it.
 struct BatchState {
   BatchState(const FieldKernels& kernels_in, std::shared_ptr<ScratchPool> pool_in, std::vector<ChunkJob> jobs_in,
-             AfterChunk after_chunk_in, unsigned workers_in, std::pmr::memory_resource* memory_in)
+             AfterChunk after_chunk_in, unsigned workers_in, std::pmr::memory_resource* memory_in,
+             const Profiler& profiler_in)
       : kernels(kernels_in),
+        profiler(profiler_in),
         pool(std::move(pool_in)),
         jobs(std::move(jobs_in)),
         after_chunk(std::move(after_chunk_in)),
@@ -70,7 +72,10 @@ struct BatchState {
   void mesh(size_t i) noexcept {
     try {
       std::unique_ptr<ChunkScratch> scratch = pool->take();
-      meshChunk(kernels, jobs[i], *scratch, meshes[i]);
+      {
+        const ProfileScope scope(profiler, zone::kMesh);
+        meshChunk(kernels, jobs[i], *scratch, meshes[i]);
+      }
       pool->give(std::move(scratch));
       if (after_chunk && !after_chunk()) cancelled.store(true);
     } catch (...) {
@@ -81,6 +86,7 @@ struct BatchState {
   }
 
   const FieldKernels& kernels;
+  const Profiler profiler;
   std::shared_ptr<ScratchPool> pool;
   std::vector<ChunkJob> jobs;
   AfterChunk after_chunk;
@@ -138,15 +144,19 @@ class CpuBatch final : public ChunkBatch {
 
 class CpuBackend final : public Backend {
  public:
-  CpuBackend(const FieldKernels& kernels, JobSystem& jobs, std::pmr::memory_resource* memory)
-      : kernels_(kernels), jobs_(jobs), memory_(memory), pool_(std::make_shared<ScratchPool>(memory)) {
+  CpuBackend(const FieldKernels& kernels, JobSystem& jobs, std::pmr::memory_resource* memory, const Profiler& profiler)
+      : kernels_(kernels),
+        jobs_(jobs),
+        memory_(memory),
+        profiler_(profiler),
+        pool_(std::make_shared<ScratchPool>(memory)) {
     capabilities_ = {BackendKind::cpu, kernels.name, true, jobs.concurrency()};
   }
   const BackendCapabilities& capabilities() const override { return capabilities_; }
   Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk) override {
     const unsigned workers = jobs_.concurrency();
-    auto state =
-        std::make_shared<BatchState>(kernels_, pool_, std::move(jobs), std::move(after_chunk), workers, memory_);
+    auto state = std::make_shared<BatchState>(kernels_, pool_, std::move(jobs), std::move(after_chunk), workers,
+                                              memory_, profiler_);
     const size_t shares = std::min<size_t>(workers, state->jobs.size());
     auto batch = std::make_unique<CpuBatch>(state, jobs_);
     try {
@@ -165,6 +175,7 @@ class CpuBackend final : public Backend {
   const FieldKernels& kernels_;
   JobSystem& jobs_;
   std::pmr::memory_resource* memory_;
+  const Profiler profiler_;
   std::shared_ptr<ScratchPool> pool_;
   BackendCapabilities capabilities_;
 };
@@ -172,7 +183,7 @@ class CpuBackend final : public Backend {
 }  // namespace
 
 Result<std::unique_ptr<Backend>> makeCpuBackend(std::string_view instruction_set, JobSystem& jobs,
-                                                std::pmr::memory_resource* memory) {
+                                                std::pmr::memory_resource* memory, const Profiler& profiler) {
   const FieldKernels* kernels = instruction_set.empty() ? &bestKernels() : findKernels(instruction_set);
   if (!kernels) {
     std::string known;
@@ -182,7 +193,7 @@ Result<std::unique_ptr<Backend>> makeCpuBackend(std::string_view instruction_set
     return Error{Code::unsupported,
                  "the CPU backend has no instruction set '" + std::string(instruction_set) + "' here; it has " + known};
   }
-  return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(*kernels, jobs, memory));
+  return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(*kernels, jobs, memory, profiler));
 }
 
 }  // namespace sgm

@@ -23,9 +23,9 @@
  *              which handles end does not matter; only the runtime must outlive them all.
  *   Structs    Every struct that may grow begins { uint32_t struct_size; const void* next; } (void* next where the
  *              library fills it) and has an _INIT macro with its defaults: start from it always, those that the
- *              library fills included. A struct_size that differs from this header's is SGM_ERR_STRUCT_SIZE. `next` is
- *              for later extensions, each beginning with sgm_chain; this version knows none and refuses a `next` that
- *              is not NULL with SGM_ERR_UNSUPPORTED.
+ *              library fills included. A struct_size that differs from this header's is SGM_ERR_STRUCT_SIZE; only
+ *              members at the end that say so may be missing. `next` is for later extensions, each beginning with
+ *              sgm_chain; this version knows none and refuses a `next` that is not NULL with SGM_ERR_UNSUPPORTED.
  *   Arrays     Elements that may grow lie a stride of bytes apart, which is given or returned beside the array: at
  *              least the element's size, a multiple of its alignment; 0 for the size of this header's element.
  *   Text       UTF-8. Texts that the library returns end in 0 and live as long as the handle they came from.
@@ -188,7 +188,33 @@ typedef struct sgm_log_sink {
   void* user;
 } sgm_log_sink;
 
-/* The three tables are copied; what their `user` points to must outlive the runtime. */
+/* The engine's own profiler (Tracy, Superluminal, PIX, Unreal's or Godot's): zones, which nest on each thread and end
+ * there, whatever becomes of the work. Called from any thread, several at one time, some ten times a chunk. The
+ * functions must not call back into the library and let no C++ exception out.
+ * Names are static, and each is one pointer for as long as the library is loaded: a table of source locations, colours
+ * or ids may be kept by it. Any zone may lie in any other, of its own name too: layers use layers, and a thread that
+ * waits works for other calls meanwhile.
+ *   sgm.derive   one cell of a layer of the grammar becomes shapes
+ *   sgm.compile  shapes near a chunk become its field program: cells that it needs are derived in it, or waited for
+ *   sgm.mesh     a field program becomes samples and triangles, on the CPU
+ *   sgm.pack     triangles become what sgm_mesh_get_view shows
+ *   sgm.plan     what a world draws and meshes next is decided, in a job
+ *   sgm.update   sgm_world_update
+ *   sgm.poll     sgm_world_poll
+ *   sgm.region   sgm_surface_from_region
+ * Plots come at the end of each sgm_world_update; they are those members of sgm_world_stats:
+ *   sgm.queued, sgm.in_work, sgm.mesh_bytes */
+typedef struct sgm_profiler {
+  uint64_t (*begin)(void* user, const char* zone); /* returns anything: an index, a pointer, a small struct's bytes */
+  void (*end)(void* user, uint64_t begun); /* ends the thread's zone that began last; takes what begin returned */
+  /* Called once on each thread that the runtime starts, before it works; the name ("sgm worker 1") lives for the call.
+   * May be NULL; threads of an sgm_job_system are the engine's to name. */
+  void (*thread)(void* user, const char* name);
+  void (*plot)(void* user, const char* name, double value); /* may be NULL */
+  void* user;
+} sgm_profiler;
+
+/* The four tables are copied; what their `user` points to must outlive the runtime. */
 typedef struct sgm_runtime_desc {
   uint32_t struct_size;
   const void* next;
@@ -200,10 +226,11 @@ typedef struct sgm_runtime_desc {
   const sgm_job_system* jobs;     /* NULL: a thread pool of the runtime's own */
   const sgm_log_sink* log;        /* NULL: no messages */
   uint64_t memory_limit;          /* most bytes to hold from the allocator at one time; 0: no limit */
+  const sgm_profiler* profiler;   /* NULL: no profiler. May be missing: programs built before it was added run on */
 } sgm_runtime_desc;
 
 #define SGM_RUNTIME_DESC_INIT \
-  { SGM_SIZEOF(sgm_runtime_desc), SGM_NULL, SGM_API_VERSION, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0 }
+  { SGM_SIZEOF(sgm_runtime_desc), SGM_NULL, SGM_API_VERSION, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0, SGM_NULL }
 
 /* desc may be NULL: all defaults. A program built with another major version, or with a newer minor one (while the
  * major version is 0: with any other minor one) is refused with SGM_ERR_VERSION. SGM_ERR_LIMIT: the machine lets not
