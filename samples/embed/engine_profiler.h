@@ -1,0 +1,80 @@
+#pragma once
+// An engine's profiler, in small: how often each zone was entered, and how long its thread was in it and in nothing
+// inside it.
+
+#include <sgm/sgm.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <string_view>
+#include <vector>
+
+class EngineProfiler {
+ public:
+  using Clock = std::chrono::steady_clock;
+  struct Zone {
+    uint64_t count = 0;
+    Clock::duration alone{};    ///< without the zones inside
+    Clock::duration longest{};  ///< of one, with them
+  };
+
+  sgm_profiler table() {
+    sgm_profiler profiler{};
+    profiler.begin = [](void*, const char* zone) { return begin(zone); };
+    profiler.end = [](void* user, uint64_t begun) { static_cast<EngineProfiler*>(user)->end(begun); };
+    profiler.plot = [](void* user, const char* name, double value) {
+      auto& self = *static_cast<EngineProfiler*>(user);
+      const std::lock_guard lock(self.mutex_);
+      self.highest_[name] = std::max(self.highest_[name], value);
+    };
+    profiler.user = this;
+    return profiler;
+  }
+
+  // Asked when nothing is at work any more.
+  const std::map<std::string_view, Zone>& zones() const { return zones_; }
+  const std::map<std::string_view, double>& highest() const { return highest_; }  ///< of each plot
+  bool nested() const { return nested_; }  ///< every end was that of its thread's last zone
+
+ private:
+  struct Open {
+    const char* zone;
+    Clock::time_point since;
+    Clock::duration inside{};
+  };
+  static std::vector<Open>& openHere() {
+    thread_local std::vector<Open> open;
+    return open;
+  }
+
+  static uint64_t begin(const char* zone) noexcept {
+    std::vector<Open>& open = openHere();
+    open.push_back({zone, Clock::now()});
+    return open.size();
+  }
+
+  void end(uint64_t begun) noexcept {
+    const Clock::time_point now = Clock::now();
+    std::vector<Open>& open = openHere();
+    const std::lock_guard lock(mutex_);
+    if (open.size() != begun) {
+      nested_ = false;
+      return;
+    }
+    const Open ended = open.back();
+    open.pop_back();
+    const Clock::duration taken = now - ended.since;
+    if (!open.empty()) open.back().inside += taken;
+    Zone& zone = zones_[ended.zone];
+    ++zone.count;
+    zone.alone += taken - ended.inside;
+    zone.longest = std::max(zone.longest, taken);
+  }
+
+  std::mutex mutex_;
+  std::map<std::string_view, Zone> zones_;
+  std::map<std::string_view, double> highest_;
+  bool nested_ = true;
+};
