@@ -143,6 +143,20 @@ bool drawFrame(sgm_world* world) {
   }
 }
 
+/// Frames until the world's figures are as wanted; how many. This thread runs no job meanwhile.
+template <class Wanted>
+size_t drawUntil(sgm_world* world, Wanted wanted) {
+  sgm_world_stats stats = SGM_WORLD_STATS_INIT;
+  for (size_t frames = 1; frames < 60'000; ++frames) {
+    REQUIRE(drawFrame(world));
+    REQUIRE(sgm_world_get_stats(world, &stats, nullptr) == SGM_OK);
+    if (wanted(stats)) return frames;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  FAIL("the world does not come so far");
+  return 0;
+}
+
 sgm_result meshRegion(sgm_field* field, int32_t edge, sgm_progress_function progress, void* user) {
   sgm_region_desc region = SGM_REGION_DESC_INIT;
   for (int32_t& v : region.maximum) v = edge;
@@ -168,14 +182,7 @@ TEST_CASE("zones nest on each thread, and all of them are there", "[threads]") {
     meshChunks(field.get(), {chunkAt({0, 0, 0, 0}, 63), chunkAt({1, 0, 0, 0})});
     const WorldOwner world = streamFrom(field.get());
     lookFrom(world.get(), 100);
-    // The plan is another thread's: this one runs no job here.
-    sgm_world_stats stats = SGM_WORLD_STATS_INIT;
-    for (; stats.plans == 0 && updates < 20'000; ++updates) {
-      REQUIRE(drawFrame(world.get()));
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      REQUIRE(sgm_world_get_stats(world.get(), &stats, nullptr) == SGM_OK);
-    }
-    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+    updates = drawUntil(world.get(), [](const sgm_world_stats& stats) { return stats.chunks_meshed > 0; });
   }
   checkWhole(record);
   for (const std::string& name : kZones) {
@@ -199,14 +206,9 @@ TEST_CASE("plots are the world's figures") {
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kTwoLayers).get(), 1024);
   const WorldOwner world = streamFrom(field.get());
   lookFrom(world.get(), 0);
-  sgm_world_stats stats = SGM_WORLD_STATS_INIT;
-  for (int frames = 0; stats.idle == 0 && frames < 20'000; ++frames) {
-    REQUIRE(drawFrame(world.get()));
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    REQUIRE(sgm_world_get_stats(world.get(), &stats, nullptr) == SGM_OK);
-  }
-  REQUIRE(stats.idle == 1);
+  drawUntil(world.get(), [](const sgm_world_stats& stats) { return stats.idle == 1; });
   REQUIRE(drawFrame(world.get()));
+  sgm_world_stats stats = SGM_WORLD_STATS_INIT;
   REQUIRE(sgm_world_get_stats(world.get(), &stats, nullptr) == SGM_OK);
   CHECK(stats.mesh_bytes > 0);
   CHECK(record.plots["sgm.mesh_bytes"].back() == static_cast<double>(stats.mesh_bytes));
@@ -236,7 +238,7 @@ TEST_CASE("every zone ends where calls fail", "[threads]") {
   const sgm_profiler profiler = record.table();
   {
     const RuntimeOwner runtime = profiled(profiler);
-    // Deriving reaches a cap: too many uses of a rule.
+    // Deriving reaches a cap: too many shapes.
     const GrammarOwner endless = compile(runtime.get(),
                                          "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m { start Many; }\n"
                                          "rule Many { for i in 0..4000000 { at(1m, 1m, 1m) sphere(0.1m); } }\n");
@@ -244,15 +246,14 @@ TEST_CASE("every zone ends where calls fail", "[threads]") {
     CHECK(meshRegion(capped.get(), 20'000, nullptr, nullptr) == SGM_ERR_LIMIT);
     CHECK(record.counts["sgm.derive"] > 0);
     CHECK(record.counts["sgm.mesh"] == 0);
-    const WorldOwner world = streamFrom(capped.get());
+    // And compiling, in a world: too many cells for any chunk.
+    const GrammarOwner dense = compile(runtime.get(),
+                                       "sgm 1; units m; domain infinite;\nlayer l cell 1m reach 0.5m { start Dot; }\n"
+                                       "rule Dot { sphere(0.1m); }\n");
+    const FieldOwner crowded = makeField(runtime.get(), dense.get(), 4096);
+    const WorldOwner world = streamFrom(crowded.get());
     lookFrom(world.get(), 0);
-    sgm_world_stats stats = SGM_WORLD_STATS_INIT;
-    for (int frames = 0; stats.chunks_failed == 0 && frames < 20'000; ++frames) {
-      REQUIRE(drawFrame(world.get()));
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      REQUIRE(sgm_world_get_stats(world.get(), &stats, nullptr) == SGM_OK);
-    }
-    CHECK(stats.chunks_failed > 0);
+    drawUntil(world.get(), [](const sgm_world_stats& stats) { return stats.chunks_failed > 0; });
     CHECK(sgm_world_update(world.get(), 0, nullptr) == SGM_ERR_INVALID_ARGUMENT);
     CHECK(sgm_world_poll(world.get(), nullptr, 0, nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
   }
