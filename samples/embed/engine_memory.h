@@ -41,7 +41,7 @@ class EngineMemory {
     return memory;
   }
   void release(void* memory, size_t size, size_t alignment) {
-    ::operator delete (memory, size, std::align_val_t{alignment});
+    ::operator delete (memory, std::align_val_t{alignment});
     --blocks_;
     live_ -= size;
   }

@@ -100,6 +100,10 @@ void checkWhole(const ZoneRecord& record) {
   for (const auto& [name, pointers] : record.pointers) CHECK(pointers.size() == 1);
 }
 
+constexpr const char* kOneLayer =
+    "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m { start Ball; }\n"
+    "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
+
 /// Some balls around the origin; what stands on them asks for the layer below while it is derived.
 constexpr const char* kTwoLayers =
     "sgm 1; units m; domain infinite;\n"
@@ -203,7 +207,7 @@ TEST_CASE("plots are the world's figures") {
   ZoneRecord record;
   const sgm_profiler profiler = record.table();
   const RuntimeOwner runtime = profiled(profiler);
-  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kTwoLayers).get(), 1024);
+  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kOneLayer).get(), 1024);
   const WorldOwner world = streamFrom(field.get());
   lookFrom(world.get(), 0);
   drawUntil(world.get(), [](const sgm_world_stats& stats) { return stats.idle == 1; });
