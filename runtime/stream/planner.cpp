@@ -359,7 +359,7 @@ void Planner::request(const ChunkKey& key, int seams, std::vector<WorkItem>& que
   item.request.outermost = key.level == target_.top();
   item.before = record.surface;
   item.edited = edited;
-  item.urgency = urgency(key, viewers_, settings_.lod);
+  item.urgency = urgency(key, viewers_, settings_.lod, settings_.all_around);
   queue.push_back(std::move(item));
 }
 

@@ -67,6 +67,7 @@ struct Plan {
 struct PlannerSettings {
   LodSettings lod;
   size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces
+  double all_around = 0;                  ///< as urgency()'s: where colliders are wanted
   bool by_reach = true;                   ///< level 0 only where a viewer's void leads to (reachability.h)
 };
 

@@ -83,7 +83,7 @@ std::vector<LodViewer> lodViewers(std::span<const Viewer> viewers, const LodSett
   return wanting;
 }
 
-double urgency(const ChunkKey& key, std::span<const Viewer> viewers, const LodSettings& settings) {
+double urgency(const ChunkKey& key, std::span<const Viewer> viewers, const LodSettings& settings, double all_around) {
   const double edge = std::ldexp(static_cast<double>(kChunkCells) * settings.finest_cell, key.level);
   double most = std::numeric_limits<double>::infinity();
   for (const Viewer& viewer : viewers) {
@@ -93,7 +93,7 @@ double urgency(const ChunkKey& key, std::span<const Viewer> viewers, const LodSe
                          (key.at.z + 0.5) * edge - viewer.position[2]};
     const double lengths = std::sqrt(innerProduct(towards, towards) * innerProduct(viewer.direction, viewer.direction));
     // Around the viewer itself there is no behind: it may turn.
-    if (lengths > 0 && away > 0) {
+    if (lengths > 0 && away > all_around) {
       waits *= 1 + (kBehind - 1) * (1 - innerProduct(towards, viewer.direction) / lengths) / 2;
     }
     most = std::min(most, waits);

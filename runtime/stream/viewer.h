@@ -35,8 +35,10 @@ Result<void> checkViewer(const Viewer& viewer);
 std::vector<LodViewer> lodViewers(std::span<const Viewer> viewers, const LodSettings& settings);
 
 /// Smaller is more urgent: the chunk's distance from where the viewer is or will be within kLookAhead, measured by what
-/// the chunk's level is wanted within, so that what looks largest comes first; what is behind a viewer waits longer.
-/// At least 0. Precondition: viewers are not empty.
-double urgency(const ChunkKey& key, std::span<const Viewer> viewers, const LodSettings& settings);
+/// the chunk's level is wanted within, so that what looks largest comes first; what is behind a viewer waits longer,
+/// unless it is nearer than `all_around` (units), where bodies may fall. At least 0. Precondition: viewers are not
+/// empty.
+double urgency(const ChunkKey& key, std::span<const Viewer> viewers, const LodSettings& settings,
+               double all_around = 0);
 
 }  // namespace sgm

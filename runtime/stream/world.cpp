@@ -125,6 +125,12 @@ void World::advance(size_t bytes) {
       events_.push_back({WorldEvent::Kind::failed, chunk->key, nullptr, 0, 0, 0, std::move(chunk->error)});
     }
     core_->failed.erase(told, core_->failed.end());
+    events_.reserve(events_.size() + core_->collider_changes.size());
+    for (ColliderChange& change : core_->collider_changes) {
+      const auto kind = change.collider ? WorldEvent::Kind::collider : WorldEvent::Kind::collider_removed;
+      events_.push_back({kind, change.key, nullptr, 0, 0, 0, {}, std::move(change.collider)});
+    }
+    core_->collider_changes.clear();
   }
   if (step != nullptr && stage(step, bytes)) {
     const std::lock_guard lock(core_->mutex);
@@ -207,7 +213,10 @@ bool World::stage(const std::shared_ptr<const FrameStep>& step, size_t bytes) {
 
 void World::poll(const std::function<bool(const WorldEvent&)>& take) {
   const std::lock_guard front(front_);
-  for (; polled_ < events_.size() && take(events_[polled_]); ++polled_) events_[polled_].surface = nullptr;
+  for (; polled_ < events_.size() && take(events_[polled_]); ++polled_) {
+    events_[polled_].surface = nullptr;
+    events_[polled_].collider = nullptr;
+  }
 }
 
 std::shared_ptr<const DrawnFrame> World::drawn() const {
@@ -315,6 +324,7 @@ WorldStats World::stats() const {
   stats.edits = core_->edits.number();
   stats.edits_drawn = core_->edits_drawn;
   stats.surface_bytes = core_->surfaces().bytes();
+  stats.collider_bytes = core_->collider_bytes;
   stats.peak_surface_bytes = core_->surfaces().peakBytes();
   stats.idle = core_->settled();
   return stats;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "backend/backend.h"
+#include "stream/collider.h"
 #include "stream/disk_cache.h"
 #include "stream/planner.h"
 #include "stream/queries.h"
@@ -28,12 +29,14 @@ namespace sgm {
 /// What an engine is told, in order. Between two updates a whole frame's changes come, or none of them.
 struct WorldEvent {
   enum class Kind {
-    ready,     ///< a surface to take over; it is not drawn yet
-    shown,     ///< draw it from now on
-    replaced,  ///< draw the surface that was ready last instead of the earlier one
-    seams,     ///< draw other seams of the same surface, or the same among other neighbours
-    removed,   ///< draw it no more, and forget it; also of one that was ready and never shown
-    failed,    ///< the chunk cannot be made: what is coarser stays in its place
+    ready,             ///< a surface to take over; it is not drawn yet
+    shown,             ///< draw it from now on
+    replaced,          ///< draw the surface that was ready last instead of the earlier one
+    seams,             ///< draw other seams of the same surface, or the same among other neighbours
+    removed,           ///< draw it no more, and forget it; also of one that was ready and never shown
+    failed,            ///< the chunk cannot be made: what is coarser stays in its place
+    collider,          ///< collide with this, instead of the chunk's earlier one
+    collider_removed,  ///< collide with the chunk no more
   };
   Kind kind = Kind::ready;
   ChunkKey key;
@@ -42,6 +45,7 @@ struct WorldEvent {
   Neighbourhood coarser = 0;                    ///< as DrawnChunk::coarser
   uint64_t frame = 0;                           ///< that the change belongs to; 0 for ready and failed
   std::optional<Error> error;                   ///< of failed
+  std::shared_ptr<const Collider> collider{};   ///< of collider
 };
 
 struct WorldStats {
@@ -53,6 +57,7 @@ struct WorldStats {
   uint64_t edits = 0, edits_drawn = 0;  ///< EditState::number of now, and of what is drawn
   DiskCacheStats cache;
   size_t surface_bytes = 0, peak_surface_bytes = 0;
+  size_t collider_bytes = 0;
   bool idle = false;  ///< what the viewers want is drawn
 };
 

@@ -14,8 +14,14 @@ constexpr size_t kFinishedToPlan = 64;
 /// How long at least the jobs mesh after a plan, in times that it took, before an update has the next one made.
 constexpr int kMeshingPerPlanning = 2;
 constexpr int kFlushPriority = 3, kPlanPriority = 2, kMeshPriority = 1;
+/// Between two plans: some milliseconds' work.
+constexpr size_t kCollidersAtOnce = 128;
 /// With the time that a disk takes: no more than a second's edits are ever lost.
 constexpr auto kBetweenFlushes = 250ms;
+
+PlannerSettings plannerSettings(const WorldSettings& settings) {
+  return {settings.lod, settings.mesh_bytes, settings.collider_distance, settings.by_reach};
+}
 
 }  // namespace
 
@@ -29,7 +35,8 @@ WorldCore::WorldCore(const WorldField& field_in, Backend& backend_in, JobSystem&
       drawn(std::make_shared<DrawnFrame>(Octree(settings_in.lod.top, settings_in.lod.finest_cell))),
       memory_(memory),
       surfaces_(std::make_shared<SurfacePool>(memory)),
-      planner_({settings_in.lod, settings_in.mesh_bytes, settings_in.by_reach}) {}
+      planner_(plannerSettings(settings_in)),
+      colliders_(settings_in.collider_distance, settings_in.lod.finest_cell) {}
 
 template <void (WorldCore::*work)()>
 void WorldCore::run(void* argument) noexcept {
@@ -54,7 +61,7 @@ void WorldCore::stop() {
   finished_.clear();
   step = nullptr;
   drawn = nullptr;
-  planner_ = Planner({settings.lod, settings.mesh_bytes, settings.by_reach});
+  planner_ = Planner(plannerSettings(settings));
   lock.unlock();
   surfaces_->close();
   if (const Result<void> flushed = edits.flush(); !flushed && settings.on_warning) {
@@ -63,7 +70,8 @@ void WorldCore::stop() {
 }
 
 bool WorldCore::settled() const {
-  return idle_ && viewers_planned_ == viewers_set && edits_planning_ == edits.number() && step == nullptr;
+  return idle_ && viewers_planned_ == viewers_set && edits_planning_ == edits.number() && step == nullptr &&
+         colliders_done_ && collider_changes.empty();
 }
 
 WorldCore::Work WorldCore::work() const {
@@ -171,7 +179,7 @@ bool WorldCore::planIsDue() const {
   const bool news = new_edits || planner_lost_ || viewers_planning_ != viewers_set || applied_planning_ != applied ||
                     !finished_.empty() || !refused.empty();
   // Without room, out of memory, or between two states of edits of which one changed nothing.
-  const bool stuck = mesh_jobs == 0 && step == nullptr && !idle_;
+  const bool stuck = mesh_jobs == 0 && step == nullptr && (!idle_ || !colliders_done_);
   return stuck || (news && (queue.empty() || Clock::now() >= next_plan_));
 }
 
@@ -188,23 +196,41 @@ void WorldCore::losePlanner() {
 void WorldCore::planOnce() {
   for (bool again = true; again;) {
     const Clock::time_point begun_at = Clock::now();
+    bool more_colliders;
     try {
       const ProfileScope scope(field.profiler(), zone::kPlan);
       if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
       Plan plan = planner_.plan(planInput());
       edits.forget(plan.edits.number);
-      again = publish(std::move(plan));
+      publish(std::move(plan));
+      kickMeshing();
+      more_colliders = makeColliders();
     } catch (const std::bad_alloc&) {
       // What the planner knows is no longer whole. It begins anew from what is drawn, at the next update.
       return losePlanner();
     }
-    {
-      const std::lock_guard lock(mutex);
-      const Clock::time_point now = Clock::now();
-      next_plan_ = now + kMeshingPerPlanning * (now - begun_at);
-    }
-    kickMeshing();
+    const std::lock_guard lock(mutex);
+    const Clock::time_point now = Clock::now();
+    next_plan_ = now + kMeshingPerPlanning * (now - begun_at);
+    again = planning_ = (plan_again_ || more_colliders) && !stopped_;
   }
+}
+
+bool WorldCore::makeColliders() {
+  std::shared_ptr<const DrawnFrame> frame;
+  std::vector<Viewer> around;
+  {
+    const std::lock_guard lock(mutex);
+    frame = drawn;
+    around = viewers;
+  }
+  const bool done = colliders_.update(*frame, around, kCollidersAtOnce, memory_);
+  const std::lock_guard lock(mutex);
+  if (collider_changes.empty()) collider_changes.swap(colliders_.changes());
+  collider_bytes = colliders_.bytes();
+  colliders_done_ = done && colliders_.changes().empty() && frame == drawn;
+  changed.notify_all();
+  return !done && colliders_.changes().empty();
 }
 
 std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() const {
@@ -212,7 +238,7 @@ std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() const {
   return planner_lost_ ? drawn : nullptr;
 }
 
-bool WorldCore::publish(Plan&& plan) {
+void WorldCore::publish(Plan&& plan) {
   const std::lock_guard lock(mutex);
   if (!begun_.empty()) {
     const std::set<ChunkKey> gone(begun_.begin(), begun_.end());
@@ -229,9 +255,7 @@ bool WorldCore::publish(Plan&& plan) {
   if (applied_planning_ == applied) edits_drawn = planner_stats.edits_drawn;
   planner_lost_ = false;
   ++plans;
-  planning_ = plan_again_ && !stopped_;
   changed.notify_all();
-  return planning_;
 }
 
 FinishedChunk WorldCore::meshOne(const WorkItem& item, const EditState& under) const {

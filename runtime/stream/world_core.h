@@ -13,6 +13,7 @@
 
 #include "backend/backend.h"
 #include "stream/chunk_cache.h"
+#include "stream/collider.h"
 #include "stream/planner.h"
 #include "stream/surface_pool.h"
 #include "stream/world_edits.h"
@@ -55,6 +56,7 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
   std::vector<WorkItem> queue;  ///< the most urgent last
   std::vector<ChunkKey> refused;
   std::vector<FailedChunk> failed;
+  std::vector<ColliderChange> collider_changes;
   std::shared_ptr<const FrameStep> step;
   uint64_t applied = 0;
   std::shared_ptr<const DrawnFrame> drawn;  ///< the frame of that number
@@ -63,6 +65,7 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
   uint64_t plans = 0;
   size_t mesh_jobs = 0;  ///< submitted or running
   PlannerStats planner_stats;
+  size_t collider_bytes = 0;
 
   struct Work {
     size_t queued = 0, in_work = 0;
@@ -76,18 +79,21 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
   using Clock = std::chrono::steady_clock;
 
   size_t mostMeshJobs() const { return std::max(1u, jobs.concurrency() - 1); }
-  bool hasRoom() const { return surfaces_->bytes() + reserved_ + kLargestChunk <= settings.mesh_bytes; }
+  bool hasRoom() const {
+    return surfaces_->bytes() + collider_bytes + reserved_ + kLargestChunk <= settings.mesh_bytes;
+  }
 
   /// False where no memory is left to do so.
   bool submit(void (*function)(void*), int priority) noexcept;
   void kickMeshing();
   PlanInput planInput();
-  /// Whether to plan again at once.
-  bool publish(Plan&& plan);
+  void publish(Plan&& plan);
   void losePlanner();
   /// Null where the planner is whole.
   std::shared_ptr<const DrawnFrame> frameToRestartFrom() const;
   void planOnce();
+  /// Whether to go on with it at once.
+  bool makeColliders();
   void meshOnce();
   void meshAgain();
   FinishedChunk meshOne(const WorkItem& item, const EditState& under) const;
@@ -99,7 +105,8 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
 
   std::pmr::memory_resource* memory_;
   std::shared_ptr<SurfacePool> surfaces_;
-  Planner planner_;  ///< of the planning job alone, which never runs twice at one time
+  Planner planner_;      ///< of the planning job alone, which never runs twice at one time
+  Colliders colliders_;  ///< likewise
 
   // Guarded by the mutex.
   bool planner_lost_ = false;  ///< memory gave out while it planned
@@ -118,6 +125,7 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
   bool flushing_ = false;  ///< likewise
   bool stopped_ = false;
   bool idle_ = false;
+  bool colliders_done_ = true;
   Clock::time_point next_plan_;  ///< not earlier, while there is something to mesh
   Clock::time_point next_flush_;
   bool flush_failed_ = false;

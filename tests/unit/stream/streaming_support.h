@@ -1,6 +1,7 @@
 #pragma once
 // A streamed world with an engine that draws it, and what must hold of every frame.
 
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <random>
@@ -117,6 +118,12 @@ class Engine {
         case Kind::removed:
           CHECK(shown.erase(event.key) + ready_.erase(event.key) > 0);
           break;
+        case Kind::collider:
+          colliders[event.key] = event.collider;
+          break;
+        case Kind::collider_removed:
+          CHECK(colliders.erase(event.key) == 1);
+          break;
         case Kind::failed:
           if (!fails_may_come) FAIL(event.error->message);
           break;
@@ -127,6 +134,7 @@ class Engine {
   }
 
   std::map<ChunkKey, Shown> shown;
+  std::map<ChunkKey, std::shared_ptr<const Collider>> colliders;
   bool fails_may_come = false;
 
  private:

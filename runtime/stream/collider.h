@@ -1,0 +1,70 @@
+#pragma once
+// What a chunk's drawn parts come to for a physics engine, and which chunks have it.
+
+#include <map>
+#include <memory>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "stream/drawn_frame.h"
+#include "stream/viewer.h"
+
+namespace sgm {
+
+/// Triangles of a body and the seams that are drawn with it, each vertex once. Immutable.
+struct Collider {
+  ChunkKey key;
+  ChunkGrid grid;
+  std::pmr::vector<float> positions;     ///< three a vertex, metres from the grid's origin
+  std::pmr::vector<uint32_t> indices;    ///< three a triangle; none without area
+  std::pmr::vector<uint16_t> materials;  ///< one a triangle: that of its first vertex
+  uint64_t number = 0;                   ///< rises with every collider that a world makes
+
+  explicit Collider(std::pmr::memory_resource* memory) : positions(memory), indices(memory), materials(memory) {}
+  size_t bytes() const {
+    return sizeof *this + positions.capacity() * sizeof(float) + indices.capacity() * sizeof(uint32_t) +
+           materials.capacity() * sizeof(uint16_t);
+  }
+};
+
+/// seams: bit (1 << Face), of those that the surface has. Throws std::bad_alloc.
+Collider colliderOf(const ChunkSurface& surface, uint8_t seams, std::pmr::memory_resource* memory);
+
+struct ColliderChange {
+  ChunkKey key;
+  std::shared_ptr<const Collider> collider;  ///< null: the chunk has none any more
+};
+
+/// Which drawn chunks have a collider: those within a distance of a viewer, whatever their level, as they are drawn.
+/// One thread at a time.
+class Colliders {
+ public:
+  /// distance: units; 0: no chunk has one.
+  Colliders(double distance, int32_t finest_cell) : distance_(distance), finest_cell_(finest_cell) {}
+
+  /// The next changes, at most `most` new colliders among them, the nearest first; true where none are left after them.
+  /// Chunks keep theirs until they are a quarter of the distance farther away. Does nothing while changes of before
+  /// have not been taken. Throws std::bad_alloc, and nothing has happened.
+  bool update(const DrawnFrame& frame, std::span<const Viewer> viewers, size_t most, std::pmr::memory_resource* memory);
+  /// Emptied by whoever takes them.
+  std::vector<ColliderChange>& changes() { return changes_; }
+
+  size_t bytes() const { return bytes_; }  ///< of those that chunks have
+
+ private:
+  struct Given {
+    std::shared_ptr<const ChunkSurface> surface;
+    uint8_t seams = 0;
+    size_t bytes = 0;
+  };
+
+  double distance_;
+  int32_t finest_cell_;
+  std::map<ChunkKey, Given> given_;
+  std::vector<ColliderChange> changes_;
+  uint64_t number_ = 0;
+  size_t bytes_ = 0;
+};
+
+}  // namespace sgm

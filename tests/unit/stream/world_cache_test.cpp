@@ -1,0 +1,38 @@
+// A world with a folder for what it has meshed.
+
+#include "catch.h"
+#include "streaming_support.h"
+
+using namespace sgm;
+
+TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and draws the same") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "sgm_world_cache_test";
+  std::filesystem::remove_all(folder);
+  WorldSettings settings;
+  settings.cache = folder;
+  const Viewer viewer = viewerAt(96, 96, 96);
+  const IntBox region{{64 * 1024, 64 * 1024, 64 * 1024}, {128 * 1024, 128 * 1024, 128 * 1024}};
+  ContentHash first;
+  for (const bool again : {false, true}) {
+    CAPTURE(again);
+    Scene scene(*makeThreadPool(2), caveText(), settings);
+    Engine engine;
+    REQUIRE(scene.world->setViewers({&viewer, 1}));
+    REQUIRE(scene.world->waitIdle());
+    engine.take(*scene.world);
+    checkFrame(scene, engine);
+    const ContentHash hash = *scene.world->hashBodies(region, 0);
+    const DiskCacheStats cache = scene.world->stats().cache;
+    if (again) {
+      CHECK(hash == first);
+      CHECK(cache.hits > 50);
+      CHECK(cache.stored < cache.hits / 4);
+    } else {
+      first = hash;
+      CHECK(cache.stored > 50);
+    }
+    CHECK(cache.damaged == 0);
+    CHECK(cache.errors == 0);
+  }
+  std::filesystem::remove_all(folder);
+}
