@@ -76,6 +76,8 @@ const char* sgm_result_name(sgm_result result) {
       return "SGM_ERR_NOT_FOUND";
     case SGM_ERR_INTERNAL:
       return "SGM_ERR_INTERNAL";
+    case SGM_ERR_DATA:
+      return "SGM_ERR_DATA";
     case SGM_RESULT_FORCE_32_BIT:
       break;
   }

@@ -1,39 +1,20 @@
+#include <cmath>
 #include <cstring>
+#include <filesystem>
 
 #include "api/barrier.h"
-#include "api/field.h"
+#include "api/collider.h"
 #include "api/mesh.h"
+#include "api/world.h"
 #include "mesh/hash.h"
-#include "stream/world.h"
 
 using namespace sgm::api;
-
-struct sgm_world {
-  sgm_world(sgm_runtime& runtime_in, sgm_field& field_in, std::unique_ptr<sgm::World> world_in)
-      : runtime(runtime_in), field(field_in), world(std::move(world_in)) {
-    acquireField(&field);
-  }
-  ~sgm_world() {
-    world.reset();
-    sgm_field_destroy(&field);
-  }
-
-  sgm_runtime& runtime;
-  sgm_field& field;
-  std::unique_ptr<sgm::World> world;
-};
 
 namespace {
 
 constexpr uint64_t kDefaultMeshBytes = uint64_t{256} << 20;
 
 sgm_chunk_key keyOf(const sgm::ChunkKey& key) { return {key.level, key.at.x, key.at.y, key.at.z}; }
-
-/// Fails, and tells the log: a game that overlooks a result of a frame finds it there.
-sgm_result failLogged(const sgm_world& world, sgm_error* error, const sgm::Error& e) {
-  world.runtime.log(SGM_LOG_WARNING, e.message);
-  return fail(error, e);
-}
 
 void plotStats(const sgm_world& world) {
   const sgm::Profiler& profiler = world.runtime.profiler;
@@ -56,6 +37,10 @@ sgm::Viewer viewerOf(const sgm_viewer& viewer) {
   return v;
 }
 
+std::filesystem::path pathOf(const char* utf8) {
+  return utf8 != nullptr ? std::filesystem::path(reinterpret_cast<const char8_t*>(utf8)) : std::filesystem::path();
+}
+
 sgm_event_kind kindOf(sgm::WorldEvent::Kind kind) {
   using Kind = sgm::WorldEvent::Kind;
   switch (kind) {
@@ -71,6 +56,10 @@ sgm_event_kind kindOf(sgm::WorldEvent::Kind kind) {
       return SGM_EVENT_REMOVED;
     case Kind::failed:
       return SGM_EVENT_FAILED;
+    case Kind::collider:
+      return SGM_EVENT_COLLIDER;
+    case Kind::collider_removed:
+      return SGM_EVENT_COLLIDER_REMOVED;
   }
   return SGM_EVENT_FAILED;
 }
@@ -93,10 +82,21 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
       return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_world_flag");
     settings.by_reach = (desc->flags & SGM_WORLD_BY_DISTANCE) == 0;
     settings.mesh_bytes = desc->mesh_bytes != 0 ? desc->mesh_bytes : kDefaultMeshBytes;
+    if (!(desc->collider_distance >= 0) || !std::isfinite(desc->collider_distance))
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.collider_distance is not a finite number from 0");
+    settings.collider_distance = desc->collider_distance * sgm::kUnitsPerMetre;
+    const sgm::Program& program = *field->world.settings().program;
+    settings.edits.author = desc->author;
+    settings.edits.most_material = static_cast<uint16_t>(program.materials.size() - 1);
+    settings.edits.most_tag = static_cast<uint16_t>(program.tags.size() - 1);
+    settings.journal = pathOf(desc->journal);
+    settings.cache = pathOf(desc->cache_folder);
+    if (desc->cache_bytes != 0) settings.cache_bytes = desc->cache_bytes;
     sgm_runtime& runtime = field->runtime;
+    settings.on_warning = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
     sgm::Result<std::unique_ptr<sgm::World>> world =
         sgm::World::create(field->world, *field->backend, *runtime.jobs, settings, &runtime.memory);
-    if (!world) return fail(error, world.error());
+    if (!world) return failData(error, world.error());
     *out = makeHandle<sgm_world>(runtime, *field, std::move(*world));
     return SGM_OK;
   });
@@ -159,6 +159,7 @@ sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t even
         out.result = resultOf(event.error->code);
         world->runtime.log(SGM_LOG_ERROR, event.error->message);
       }
+      if (event.collider != nullptr) out.collider = makeHandle<sgm_collider>(world->runtime, event.collider);
       if (event.surface != nullptr) out.mesh = makeHandle<sgm_mesh>(world->runtime, event.surface);
       std::memcpy(at, &out, sizeof out);
       at += event_stride;
@@ -256,6 +257,14 @@ sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, s
     stats->detail = now.planner.detail;
     stats->idle = now.idle ? 1 : 0;
     stats->reserved = 0;
+    stats->collider_bytes = now.collider_bytes;
+    stats->edits = world->world->editCount();
+    stats->edits_state = now.edits;
+    stats->edits_drawn = now.edits_drawn;
+    stats->cache_hits = now.cache.hits;
+    stats->cache_misses = now.cache.misses;
+    stats->cache_damaged = now.cache.damaged;
+    stats->cache_bytes = now.cache.bytes;
     return SGM_OK;
   });
 }

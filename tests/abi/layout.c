@@ -50,6 +50,7 @@ CHECK(err_cancelled, SGM_ERR_CANCELLED == -10);
 CHECK(err_busy, SGM_ERR_BUSY == -11);
 CHECK(err_not_found, SGM_ERR_NOT_FOUND == -12);
 CHECK(err_internal, SGM_ERR_INTERNAL == -13);
+CHECK(err_data, SGM_ERR_DATA == -14);
 CHECK(result_force, SGM_RESULT_FORCE_32_BIT == 0x7FFFFFFF);
 
 CHECK(log_debug, SGM_LOG_DEBUG == 0);
@@ -84,6 +85,12 @@ CHECK(event_replaced, SGM_EVENT_REPLACED == 2);
 CHECK(event_seams, SGM_EVENT_SEAMS == 3);
 CHECK(event_removed, SGM_EVENT_REMOVED == 4);
 CHECK(event_failed, SGM_EVENT_FAILED == 5);
+CHECK(event_collider, SGM_EVENT_COLLIDER == 6);
+CHECK(event_collider_removed, SGM_EVENT_COLLIDER_REMOVED == 7);
+CHECK(brush_sphere, SGM_BRUSH_SPHERE == 0);
+CHECK(brush_box, SGM_BRUSH_BOX == 1);
+CHECK(brush_capsule, SGM_BRUSH_CAPSULE == 2);
+CHECK(brush_shape_force_32_bit, SGM_BRUSH_SHAPE_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(event_kind_force_32_bit, SGM_EVENT_KIND_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(face_count, SGM_FACE_COUNT == 6);
 CHECK(face_force, SGM_FACE_FORCE_32_BIT == 0x7FFFFFFF);
@@ -381,7 +388,7 @@ PLACE(sgm_surface_view, bounds_min, 128);
 PLACE(sgm_surface_view, bounds_max, 140);
 PLACE(sgm_surface_view, chunk_count, 152);
 
-SIZE(sgm_world_desc, 48);
+SIZE(sgm_world_desc, 88);
 PLACE(sgm_world_desc, struct_size, 0);
 PLACE(sgm_world_desc, next, 8);
 PLACE(sgm_world_desc, top_level, 16);
@@ -389,6 +396,11 @@ PLACE(sgm_world_desc, flags, 20);
 PLACE(sgm_world_desc, finest_distance, 24);
 PLACE(sgm_world_desc, view_distance, 32);
 PLACE(sgm_world_desc, mesh_bytes, 40);
+PLACE(sgm_world_desc, collider_distance, 48);
+PLACE(sgm_world_desc, journal, 56);
+PLACE(sgm_world_desc, cache_folder, 64);
+PLACE(sgm_world_desc, cache_bytes, 72);
+PLACE(sgm_world_desc, author, 80);
 
 SIZE(sgm_viewer, 56);
 PLACE(sgm_viewer, position, 0);
@@ -397,14 +409,42 @@ PLACE(sgm_viewer, velocity, 36);
 PLACE(sgm_viewer, fov, 48);
 PLACE(sgm_viewer, weight, 52);
 
-SIZE(sgm_world_event, 48);
+SIZE(sgm_world_event, 56);
 PLACE(sgm_world_event, kind, 0);
 PLACE(sgm_world_event, result, 4);
 PLACE(sgm_world_event, key, 8);
 PLACE(sgm_world_event, mesh, 24);
-PLACE(sgm_world_event, seams, 32);
-PLACE(sgm_world_event, coarser, 36);
-PLACE(sgm_world_event, frame, 40);
+PLACE(sgm_world_event, collider, 32);
+PLACE(sgm_world_event, seams, 40);
+PLACE(sgm_world_event, coarser, 44);
+PLACE(sgm_world_event, frame, 48);
+
+SIZE(sgm_collider_view, 80);
+PLACE(sgm_collider_view, struct_size, 0);
+PLACE(sgm_collider_view, next, 8);
+PLACE(sgm_collider_view, key, 16);
+PLACE(sgm_collider_view, origin, 32);
+PLACE(sgm_collider_view, vertex_count, 44);
+PLACE(sgm_collider_view, index_count, 48);
+PLACE(sgm_collider_view, positions, 56);
+PLACE(sgm_collider_view, indices, 64);
+PLACE(sgm_collider_view, materials, 72);
+
+SIZE(sgm_brush, 72);
+PLACE(sgm_brush, shape, 0);
+PLACE(sgm_brush, cut, 4);
+PLACE(sgm_brush, material, 8);
+PLACE(sgm_brush, tag, 10);
+PLACE(sgm_brush, from, 12);
+PLACE(sgm_brush, to, 24);
+PLACE(sgm_brush, half, 36);
+PLACE(sgm_brush, turn, 48);
+PLACE(sgm_brush, radius, 64);
+PLACE(sgm_brush, smooth, 68);
+
+SIZE(sgm_edit_id, 16);
+PLACE(sgm_edit_id, author, 0);
+PLACE(sgm_edit_id, number, 8);
 
 SIZE(sgm_drawn_chunk, 32);
 PLACE(sgm_drawn_chunk, key, 0);
@@ -412,7 +452,7 @@ PLACE(sgm_drawn_chunk, mesh, 16);
 PLACE(sgm_drawn_chunk, seams, 24);
 PLACE(sgm_drawn_chunk, coarser, 28);
 
-SIZE(sgm_world_stats, 144);
+SIZE(sgm_world_stats, 208);
 PLACE(sgm_world_stats, struct_size, 0);
 PLACE(sgm_world_stats, next, 8);
 PLACE(sgm_world_stats, frame, 16);
@@ -432,6 +472,14 @@ PLACE(sgm_world_stats, peak_mesh_bytes, 120);
 PLACE(sgm_world_stats, detail, 128);
 PLACE(sgm_world_stats, idle, 136);
 PLACE(sgm_world_stats, reserved, 140);
+PLACE(sgm_world_stats, collider_bytes, 144);
+PLACE(sgm_world_stats, edits, 152);
+PLACE(sgm_world_stats, edits_state, 160);
+PLACE(sgm_world_stats, edits_drawn, 168);
+PLACE(sgm_world_stats, cache_hits, 176);
+PLACE(sgm_world_stats, cache_misses, 184);
+PLACE(sgm_world_stats, cache_damaged, 192);
+PLACE(sgm_world_stats, cache_bytes, 200);
 
 /* Every _INIT macro fills its struct, in both languages, without a warning. */
 int LAYOUT_INITS(void) {
@@ -458,6 +506,8 @@ int LAYOUT_INITS(void) {
   const sgm_grid_desc grid_desc = SGM_GRID_DESC_INIT;
   const sgm_surface_view surface_view = SGM_SURFACE_VIEW_INIT;
   const sgm_world_desc world_desc = SGM_WORLD_DESC_INIT;
+  const sgm_collider_view collider_view = SGM_COLLIDER_VIEW_INIT;
+  const sgm_brush brush = SGM_BRUSH_INIT;
   const sgm_viewer viewer = SGM_VIEWER_INIT;
   const sgm_world_stats world_stats = SGM_WORLD_STATS_INIT;
   return error.code == SGM_OK && runtime_desc.struct_size == sizeof(runtime_desc) && runtime_desc.next == SGM_NULL &&
@@ -479,6 +529,7 @@ int LAYOUT_INITS(void) {
          mesh_view.next == SGM_NULL && region_desc.struct_size == sizeof(region_desc) && region_desc.next == SGM_NULL &&
          grid_desc.struct_size == sizeof(grid_desc) && grid_desc.next == SGM_NULL &&
          surface_view.struct_size == sizeof(surface_view) && surface_view.next == SGM_NULL &&
+         collider_view.struct_size == sizeof(collider_view) && collider_view.next == SGM_NULL && brush.cut == 1 &&
          world_desc.struct_size == sizeof(world_desc) && world_desc.next == SGM_NULL && viewer.fov == 0.0f &&
          viewer.weight > 0.5f && world_stats.struct_size == sizeof(world_stats) && world_stats.next == SGM_NULL;
 }

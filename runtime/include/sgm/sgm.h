@@ -102,6 +102,7 @@ typedef enum sgm_result {
   SGM_ERR_BUSY = -11,            /* handles made from this one are still alive */
   SGM_ERR_NOT_FOUND = -12,       /* no entry of that name or index */
   SGM_ERR_INTERNAL = -13,        /* a fault of the library's own; please report it */
+  SGM_ERR_DATA = -14,            /* bytes or a file from elsewhere are damaged, of another version or another world's */
   SGM_RESULT_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_result;
 
@@ -843,8 +844,13 @@ SGM_API uint64_t sgm_surface_hash(const sgm_surface* surface);
  * A frame of the engine
  *   sgm_world_set_viewers     where the cameras are
  *   sgm_world_update          takes over what is finished, has more work begun; never waits
- *   sgm_world_poll            what has changed, until it is empty; then draw */
+ *   sgm_world_poll            what has changed, until it is empty; then draw
+ *
+ * Worlds can be dug and built on (sgm_world_edit). A frame shows one state of the edits, closed: a dig is drawn with
+ * the next frame of changes or the one after it. */
 typedef struct sgm_world sgm_world;
+/* What a physics engine collides with in one chunk: immutable, counted by reference. */
+typedef struct sgm_collider sgm_collider;
 
 typedef enum sgm_world_flag {
   SGM_WORLD_BY_DISTANCE = 1, /* level 0 wherever it is near enough. Without this flag only where a viewer's void leads
@@ -858,24 +864,39 @@ typedef struct sgm_world_desc {
   int32_t top_level; /* coarsest level, 0 to SGM_MAX_LEVEL. Its chunks surround what is drawn, so a chunk of it should
                         not be much larger than view_distance */
   uint32_t flags;    /* of sgm_world_flag, joined by | */
-  double finest_distance; /* metres from a viewer within which level 0 is drawn; each coarser level reaches twice as
-                             far. With a screen of h pixels and a vertical field of view v a cell then looks no larger
-                             than 2 * cell * h / (2 tan(v / 2)) / finest_distance pixels */
-  double view_distance;   /* metres within which something is drawn, above 0 */
-  uint64_t mesh_bytes;    /* the most bytes of meshes at one time, those that the engine holds and those in work
-                             included: a hard cap. Where it does not suffice detail is drawn nearer. 0: 256 MiB */
+  double finest_distance;   /* metres from a viewer within which level 0 is drawn; each coarser level reaches twice as
+                               far. With a screen of h pixels and a vertical field of view v a cell then looks no larger
+                               than 2 * cell * h / (2 tan(v / 2)) / finest_distance pixels */
+  double view_distance;     /* metres within which something is drawn, above 0 */
+  uint64_t mesh_bytes;      /* the most bytes of meshes at one time, those that the engine holds and those in work
+                               included: a hard cap. Where it does not suffice detail is drawn nearer. 0: 256 MiB */
+  double collider_distance; /* metres from a viewer within which chunks have a collider: of what is drawn there, at
+                               whatever level; 0: none has one */
+  const char* journal;      /* UTF-8 path of the file that keeps the edits; made where there is none. A process that is
+                               killed, at any moment, loses the last second's edits at most. NULL: they are not kept */
+  const char* cache_folder; /* UTF-8 path of a folder that keeps meshed chunks from one run to the next, for any number
+                               of worlds and processes at one time; made where there is none. What the grammar, its
+                               parameters, the seed, an edit or this library's version change is meshed anew, as is what
+                               is damaged. NULL: none is kept */
+  uint64_t cache_bytes;     /* the most bytes of its files; 0: 1 GiB */
+  uint64_t author; /* whose edits are made here: in worlds that exchange edits no two may have the same, nor may
+                      a number be used again where edits may have been lost. 0: drawn at random */
 } sgm_world_desc;
 
 #define SGM_WORLD_DESC_INIT \
-  { SGM_SIZEOF(sgm_world_desc), SGM_NULL, 8, 0, 24.0, 1000.0, 0 }
+  { SGM_SIZEOF(sgm_world_desc), SGM_NULL, 8, 0, 24.0, 1000.0, 0, 0.0, SGM_NULL, SGM_NULL, 0, 0 }
 
-/* SGM_ERR_LIMIT: mesh_bytes is too small to stream with; the message says how much is needed. SGM_ERR_RANGE: the cells
- * of top_level are larger than 2^22 units. SGM_ERR_INVALID_ARGUMENT: top_level, or a distance that is not finite and
- * above 0. */
+/* Reads the journal; what is wrong with it and could be mended is told to the log. SGM_ERR_LIMIT: mesh_bytes is too
+ * small to stream with, or the distances take more chunks than can be planned for (the message says what would do); the
+ * journal is in use, or too large. SGM_ERR_RANGE: the cells of top_level are larger than 2^22 units.
+ * SGM_ERR_INVALID_ARGUMENT: top_level, or a distance that is not finite and above 0 (collider_distance: below 0).
+ * SGM_ERR_DATA: the journal is of another world (grammar, parameters, seed, cell), or none: it stays as it is.
+ * SGM_ERR_IO: the journal or the folder can be neither read nor made. SGM_ERR_UNSUPPORTED: built without a disk cache.
+ */
 SGM_API sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_world** out, sgm_error* error);
 
-/* Waits for the chunks that are being meshed at this moment, and for no others. Meshes that the engine holds stay good
- * until it releases them. */
+/* Waits for the chunks that are being meshed at this moment, and for no others, and writes the journal. Meshes that the
+ * engine holds stay good until it releases them. */
 SGM_API void sgm_world_destroy(sgm_world* world);
 
 /* A camera, or anything else that the world is there for. */
@@ -885,15 +906,15 @@ typedef struct sgm_viewer {
   float velocity[3];  /* metres a second, at most 10,000: where it will be in half a second is streamed too */
   float fov;          /* vertical field of view in radians, to 3: a narrower one sees detail from farther away. 0: 70
                          degrees, which the world's distances hold for */
-  float weight;       /* 0.01 to 100: factor on the world's distances for this viewer */
+  float weight;       /* 0.01 to 100: factor on the world's distances for this viewer, as far as can be planned for */
 } sgm_viewer;
 
 #define SGM_VIEWER_INIT \
   { {0.0, 0.0, 0.0}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f, 1.0f }
 
 /* Replaces all viewers. With none (count 0) what is drawn stays and nothing is meshed. SGM_ERR_INVALID_ARGUMENT: a
- * value that is not finite, or out of its range; SGM_ERR_RANGE: a viewer outside the world, or too fast. On failure the
- * viewers are as before. Never waits. */
+ * value that is not finite, or out of its range; SGM_ERR_RANGE: a viewer outside the world, or too fast; SGM_ERR_LIMIT:
+ * more than 1,024. On failure the viewers are as before. Never waits. */
 SGM_API sgm_result sgm_world_set_viewers(sgm_world* world, const sgm_viewer* viewers, size_t viewer_stride,
                                          size_t count, sgm_error* error);
 
@@ -912,6 +933,10 @@ typedef enum sgm_event_kind {
   SGM_EVENT_REMOVED = 4,  /* draw it no more; release its meshes. Also for a mesh that was READY and never shown */
   SGM_EVENT_FAILED = 5,   /* the chunk cannot be made; `result` says why and the log tells more. What is coarser stays
                              in its place */
+  SGM_EVENT_COLLIDER = 6, /* collide with `collider` instead of the chunk's earlier one: it belongs to the engine now,
+                             which releases it. Comes soon after what is drawn there has changed; not counted in
+                             max_bytes */
+  SGM_EVENT_COLLIDER_REMOVED = 7, /* collide with the chunk no more */
   SGM_EVENT_KIND_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_event_kind;
 
@@ -920,17 +945,41 @@ typedef struct sgm_world_event {
   sgm_event_kind kind;
   sgm_result result; /* of FAILED; else SGM_OK */
   sgm_chunk_key key;
-  sgm_mesh* mesh;   /* of READY; else NULL */
-  uint32_t seams;   /* of SHOWN, REPLACED and SEAMS: mask of sgm_face */
+  sgm_mesh* mesh;         /* of READY; else NULL */
+  sgm_collider* collider; /* of COLLIDER; else NULL */
+  uint32_t seams;         /* of SHOWN, REPLACED and SEAMS: mask of sgm_face */
   uint32_t coarser; /* likewise: the blocks around that belong to coarser chunks, as sgm_chunk_request.coarser; 0 where
                        no seam is drawn */
-  uint64_t frame;   /* number of the frame that it belongs to; 0 for READY and FAILED */
+  uint64_t frame;   /* number of the frame that it belongs to; 0 for READY, FAILED and those of colliders */
 } sgm_world_event;
 
 /* The next events, in order. *count takes the array's room and returns how many were written; 0 when none is left. All
  * changes of a frame come between two updates: draw only when all are polled. */
 SGM_API sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t event_stride, size_t* count,
                                   sgm_error* error);
+
+/* One more owner, and one less. A collider ends with its last owner. Both accept NULL. */
+SGM_API void sgm_collider_acquire(sgm_collider* collider);
+SGM_API void sgm_collider_release(sgm_collider* collider);
+
+/* Pointers into a collider, good until it ends. Its triangles are those of the chunk's body and of the seams that are
+ * drawn, without those that have no area; colliders of neighbours meet exactly. */
+typedef struct sgm_collider_view {
+  uint32_t struct_size;
+  void* next;
+  sgm_chunk_key key;
+  int32_t origin[3]; /* of the chunk, units: positions count from here */
+  uint32_t vertex_count;
+  uint32_t index_count;
+  const float* positions;    /* 3 a vertex, metres */
+  const uint32_t* indices;   /* three a triangle, counter-clockwise seen from the void */
+  const uint16_t* materials; /* one a triangle: index for sgm_grammar_material */
+} sgm_collider_view;
+
+#define SGM_COLLIDER_VIEW_INIT \
+  { SGM_SIZEOF(sgm_collider_view), SGM_NULL, {0, 0, 0, 0}, {0, 0, 0}, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL }
+
+SGM_API sgm_result sgm_collider_get_view(const sgm_collider* collider, sgm_collider_view* view, sgm_error* error);
 
 /* A chunk that is drawn. */
 typedef struct sgm_drawn_chunk {
@@ -956,9 +1005,77 @@ SGM_API sgm_result sgm_world_wait_idle(sgm_world* world, sgm_progress_function p
  * The next update begins anew for the viewers there are: take them away first to stop. */
 SGM_API void sgm_world_cancel(sgm_world* world);
 
+typedef enum sgm_brush_shape {
+  SGM_BRUSH_SPHERE = 0,
+  SGM_BRUSH_BOX = 1,
+  SGM_BRUSH_CAPSULE = 2,
+  SGM_BRUSH_SHAPE_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_brush_shape;
+
+/* What is dug away or built on. Whole units, so that it is the same on every machine; each length 1 to 2^20. What a
+ * shape does not use may be anything. */
+typedef struct sgm_brush {
+  sgm_brush_shape shape;
+  int32_t cut;       /* 1: takes its shape away; 0: adds it */
+  uint16_t material; /* index for sgm_grammar_material. 0: a cut leaves what it was cut into, an add has the default */
+  uint16_t tag;      /* index for sgm_grammar_tag; likewise */
+  int32_t from[3];   /* centre of a sphere or a box, one end of a capsule */
+  int32_t to[3];     /* other end of a capsule */
+  int32_t half[3];   /* half extents of a box along its own axes */
+  float turn[4];     /* quaternion x y z w, of any length, that turns a box's axes to the world's */
+  int32_t radius;    /* of a sphere or a capsule */
+  int32_t smooth;    /* width of the blend with what is there; 0: none */
+} sgm_brush;
+
+#define SGM_BRUSH_INIT \
+  { SGM_BRUSH_SPHERE, 1, 0, 0, {0, 0, 0}, {0, 0, 0}, {1024, 1024, 1024}, {0.0f, 0.0f, 0.0f, 1.0f}, 1024, 0 }
+
+/* Names an edit in all worlds that exchange theirs. Both 0 name none. */
+typedef struct sgm_edit_id {
+  uint64_t author, number;
+} sgm_edit_id;
+
+/* Lays a brush on top of all that the grammar derives and of earlier edits. Shows at every level of detail whose cells
+ * are no larger than the brush is thick. Never waits for a job or the disk. id (or NULL) names the edit, for undo.
+ * SGM_ERR_INVALID_ARGUMENT: a length out of its range, a turn without direction, no such material or tag.
+ * SGM_ERR_RANGE: it leaves the world. SGM_ERR_LIMIT: more than 2^20 edits. */
+SGM_API sgm_result sgm_world_edit(sgm_world* world, const sgm_brush* brush, sgm_edit_id* id, sgm_error* error);
+
+/* Undoes an edit, of whatever author; of an undo, redoes it. undone (or NULL) names the undo. SGM_ERR_NOT_FOUND: no
+ * such edit is known here. */
+SGM_API sgm_result sgm_world_undo(sgm_world* world, const sgm_edit_id* id, sgm_edit_id* undone, sgm_error* error);
+
+/* The edits, but the first `since` of them in the order in which they were learned here, as bytes for another world of
+ * the same grammar, parameters, seed and cell. *count takes the array's room and returns how many bytes there are.
+ * bytes may be NULL: then only that is asked. SGM_INCOMPLETE: they did not fit; nothing was written. How many edits are
+ * known is sgm_world_stats.edits: what was sent before need not be sent again. */
+SGM_API sgm_result sgm_world_export_edits(sgm_world* world, uint64_t since, void* bytes, size_t* count,
+                                          sgm_error* error);
+
+/* Takes over the edits of another world, all or none; those that are known already change nothing. Worlds that have
+ * exchanged all their edits, in whatever order, are equal. SGM_ERR_DATA: bytes that no world has exported, or edits
+ * that contradict those known here. SGM_ERR_LIMIT: more than 2^20 edits. */
+SGM_API sgm_result sgm_world_import_edits(sgm_world* world, const void* bytes, size_t count, sgm_error* error);
+
+/* Returns when the journal has every edit made before, on the disk: for a save. Blocks. SGM_ERR_IO: it could not be
+ * written; nothing is lost, and the next second tries again. */
+SGM_API sgm_result sgm_world_flush_edits(sgm_world* world, sgm_error* error);
+
+/* Of the set of edits; equal in worlds that know the same ones. 0 for NULL. */
+SGM_API uint64_t sgm_world_edits_hash(const sgm_world* world);
+
+/* As the queries of a field, asked of the world with its edits: sgm_field_ray_cast, sgm_field_closest_point,
+ * sgm_field_is_walkable. Edits that were just made count, drawn or not. */
+SGM_API sgm_result sgm_world_ray_cast(sgm_world* world, const sgm_ray_desc* desc, sgm_surface_point* out,
+                                      sgm_error* error);
+SGM_API sgm_result sgm_world_closest_point(sgm_world* world, const sgm_closest_desc* desc, sgm_surface_point* out,
+                                           sgm_error* error);
+SGM_API sgm_result sgm_world_is_walkable(sgm_world* world, const sgm_walk_desc* desc, sgm_walkable* out,
+                                         sgm_error* error);
+
 /* The hash of the set of chunk bodies of a level in a region, grown outward to whole chunks: as sgm_surface_hash of the
- * same region, equal on every machine and whatever was streamed before. Reads what is drawn and meshes the rest;
- * blocks. Errors: as sgm_surface_from_region. */
+ * same region where nothing was edited, equal on every machine and whatever was streamed before. Reads what is drawn
+ * and meshes the rest; blocks. Errors: as sgm_surface_from_region. */
 SGM_API sgm_result sgm_world_hash(sgm_world* world, const int32_t minimum[3], const int32_t maximum[3], int32_t level,
                                   uint64_t* hash, sgm_error* error);
 
@@ -980,13 +1097,21 @@ typedef struct sgm_world_stats {
   uint64_t kept;       /* chunks known now, drawn or not, empty or not */
   uint64_t mesh_bytes; /* of all meshes now, the engine's included */
   uint64_t peak_mesh_bytes;
-  double detail;     /* factor on the distances of detail: below 1 where memory is scarce */
-  int32_t idle;      /* 1: what the viewers want is drawn */
-  uint32_t reserved; /* 0 */
+  double detail;           /* factor on the distances of detail: below 1 where memory is scarce */
+  int32_t idle;            /* 1: what the viewers want is drawn, edits and colliders included */
+  uint32_t reserved;       /* 0 */
+  uint64_t collider_bytes; /* of the colliders that chunks have now */
+  uint64_t edits;          /* known: brushes, undos and redos */
+  uint64_t edits_state;    /* rises with every change that edits make to the world */
+  uint64_t edits_drawn;    /* the edits_state that is drawn now */
+  uint64_t cache_hits;     /* parts of chunks that came from cache_folder */
+  uint64_t cache_misses;
+  uint64_t cache_damaged; /* of the misses, those where what was there could not be trusted */
+  uint64_t cache_bytes;   /* of the folder's files, as far as they were looked at */
 } sgm_world_stats;
 
 #define SGM_WORLD_STATS_INIT \
-  { SGM_SIZEOF(sgm_world_stats), SGM_NULL, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0 }
+  { SGM_SIZEOF(sgm_world_stats), SGM_NULL, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 
 SGM_API sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, sgm_error* error);
 

@@ -1,0 +1,17 @@
+#pragma once
+// The handle of one chunk's collider, counted by reference.
+
+#include <atomic>
+#include <memory>
+
+#include "api/runtime.h"
+#include "stream/collider.h"
+
+struct sgm_collider {
+  sgm_collider(sgm_runtime& runtime_in, std::shared_ptr<const sgm::Collider> collider_in)
+      : runtime(runtime_in), collider(std::move(collider_in)) {}
+
+  sgm_runtime& runtime;
+  std::atomic<uint32_t> owners{1};
+  std::shared_ptr<const sgm::Collider> collider;
+};

@@ -1,0 +1,38 @@
+#pragma once
+// The handle of a streamed world, which keeps its field.
+
+#include <memory>
+
+#include "api/barrier.h"
+#include "api/field.h"
+#include "stream/world.h"
+
+struct sgm_world {
+  sgm_world(sgm_runtime& runtime_in, sgm_field& field_in, std::unique_ptr<sgm::World> world_in)
+      : runtime(runtime_in), field(field_in), world(std::move(world_in)) {
+    sgm::api::acquireField(&field);
+  }
+  ~sgm_world() {
+    world.reset();
+    sgm_field_destroy(&field);
+  }
+
+  sgm_runtime& runtime;
+  sgm_field& field;
+  std::unique_ptr<sgm::World> world;
+};
+
+namespace sgm::api {
+
+/// Fails where what came from elsewhere is no text of a grammar.
+inline sgm_result failData(sgm_error* error, const Error& e) {
+  return fail(error, e.code == Code::bad_input ? SGM_ERR_DATA : resultOf(e.code), e.message);
+}
+
+/// Fails, and tells the log: a game that overlooks a result of a frame finds it there.
+inline sgm_result failLogged(const sgm_world& world, sgm_error* error, const Error& e) {
+  world.runtime.log(SGM_LOG_WARNING, e.message);
+  return failData(error, e);
+}
+
+}  // namespace sgm::api
