@@ -15,12 +15,14 @@ double edgeOf(int level, int32_t finest_cell) {
 
 class TargetBuilder {
  public:
-  TargetBuilder(Octree& tree, std::span<const LodViewer> viewers, const LodSettings& settings, const ChunkSet* finest)
-      : tree_(tree), viewers_(viewers), settings_(settings), finest_(finest) {}
+  /// near: the distance within which all levels are split; 0: each has its own.
+  TargetBuilder(Octree& tree, std::span<const LodViewer> viewers, const LodSettings& settings, double near,
+                const ChunkSet* finest)
+      : tree_(tree), viewers_(viewers), settings_(settings), near_(near), finest_(finest) {}
 
   void addAround(const LodViewer& viewer) {
     const double edge = edgeOf(settings_.top + 1, settings_.finest_cell);
-    const double far = settings_.view_distance * viewer.reach;
+    const double far = splitDistance(settings_.top + 1) * viewer.reach;
     std::array<int32_t, 3> first{}, last{};
     for (size_t axis = 0; axis < 3; ++axis) {
       first[axis] = placeOf((viewer.position[axis] - far) / edge);
@@ -44,6 +46,7 @@ class TargetBuilder {
 
   /// Within which distance a node of this level must not be drawn whole.
   double splitDistance(int level) const {
+    if (near_ > 0) return near_;
     if (level > settings_.top) return settings_.view_distance;
     return std::ldexp(settings_.finest_distance, level - 1);
   }
@@ -67,6 +70,7 @@ class TargetBuilder {
   Octree& tree_;
   std::span<const LodViewer> viewers_;
   const LodSettings& settings_;
+  double near_;
   const ChunkSet* finest_;
 };
 
@@ -101,8 +105,13 @@ double distanceToChunk(const std::array<double, 3>& place, const ChunkKey& key, 
 }
 
 Octree lodTarget(std::span<const LodViewer> viewers, const LodSettings& settings, const ChunkSet* finest) {
+  return nearTarget(viewers, settings, 0, finest);
+}
+
+Octree nearTarget(std::span<const LodViewer> viewers, const LodSettings& settings, double distance,
+                  const ChunkSet* finest) {
   Octree tree(settings.top, settings.finest_cell);
-  TargetBuilder builder(tree, viewers, settings, finest);
+  TargetBuilder builder(tree, viewers, settings, distance, finest);
   for (const LodViewer& viewer : viewers) builder.addAround(viewer);
   refineToRules(tree);
   return tree;

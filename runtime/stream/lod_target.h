@@ -32,6 +32,11 @@ struct LodSettings {
 /// viewer's sake; null: all.
 Octree lodTarget(std::span<const LodViewer> viewers, const LodSettings& settings, const ChunkSet* finest = nullptr);
 
+/// The coarsest such octree that has level 0 within `distance` (units, times a viewer's reach): what it takes to stand
+/// there. Never finer than lodTarget() with a finest_distance and a view_distance that are no smaller.
+Octree nearTarget(std::span<const LodViewer> viewers, const LodSettings& settings, double distance,
+                  const ChunkSet* finest = nullptr);
+
 /// The most chunks that are planned for; each costs about a microsecond a plan, and half a kilobyte.
 inline constexpr double kMostExpectedLeaves = 131072;
 

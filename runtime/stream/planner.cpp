@@ -13,9 +13,11 @@ constexpr double kKeptShare = 0.6;
 /// Of what is used: above this share detail is lowered, below that one it comes back. Their ratio is more than what one
 /// step changes, so that detail does not swing.
 constexpr double kFullShare = 0.55, kFreeShare = 0.25;
-/// Above this share what is drawn may not be there twice, before edits and after.
+/// Above this share edits wait, for what is drawn has no room to be there twice, before them and after.
 constexpr double kSqueezedShare = 0.75;
 constexpr double kLessDetail = 0.8, kLeastDetail = 1.0 / 64;
+/// Of the finest distance, where no collider says what is near.
+constexpr double kNearShare = 2.0 / 3;
 /// Plans from one count of what is wanted to the next, where memory is not scarce.
 constexpr uint64_t kPlansToTally = 16;
 /// Plans after a change of detail before the next.
@@ -70,6 +72,7 @@ void Planner::restart(std::shared_ptr<const DrawnFrame> drawn) {
   applied_ = std::move(drawn);
   edits_drawn_ = applied_->edits;
   oldest_edits_ = edits_.number;
+  postponed_ = false;
   frames_ = std::max(frames_, applied_->number);
   voids_changed_ = true;
   for (const ChunkKey& leaf : applied_->tree.leaves()) {
@@ -107,7 +110,7 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
   for (FinishedChunk& chunk : finished) {
     KnownChunk& record = store_.at(chunk.request.key);
     record.in_work = false;
-    if (chunk.edits < std::max(record.edited, oldest_edits_)) {
+    if (chunk.edits < std::max(record.edited, oldest_edits_) || chunk.edits > edits_.number) {
       changed_ = true;
       ++stats_.edited;
       continue;
@@ -152,62 +155,9 @@ void Planner::refuse(const std::vector<ChunkKey>& refused, Plan& plan) {
   }
 }
 
-void Planner::takeUpEdits(PlanInput& input) {
-  if (input.edits.number == edits_.number) return;
-  const bool drawn = edits_drawn_ == edits_.number;
-  // What failed waits for an edit that heals it.
-  const bool in_vain =
-      !outdated_.empty() &&
-      std::all_of(outdated_.begin(), outdated_.end(), [this](const ChunkKey& leaf) { return store_.at(leaf).failed; });
-  if (!drawn && !in_vain) return;
-  edits_ = std::move(input.edits);
-  store_.setEdits(edits_.number);
-  invalidate(input.edited);
-  findOutdated();
-  step_ = nullptr;
-  changed_ = true;
-}
-
-void Planner::invalidate(std::span<const EditedBox> changes) {
-  std::vector<std::vector<IntBox>> reaches(static_cast<size_t>(target_.top()) + 1);
-  for (size_t level = 0; level < reaches.size(); ++level) {
-    for (const EditedBox& change : changes) {
-      reaches[level].push_back(editReach(change.box, settings_.lod.finest_cell << level));
-    }
-  }
-  store_.forEach([&](const ChunkKey& key, KnownChunk& record) {
-    const int64_t edge = int64_t{kChunkCells} * settings_.lod.finest_cell << key.level;
-    IntBox box;
-    for (int axis = 0; axis < 3; ++axis) {
-      box.lo[axis] = saturate(key.at[axis] * edge);
-      box.hi[axis] = saturate((key.at[axis] + int64_t{1}) * edge);
-    }
-    const std::vector<IntBox>& reach = reaches[static_cast<size_t>(key.level)];
-    if (std::none_of(reach.begin(), reach.end(), [&box](const IntBox& r) { return r.meets(box); })) return;
-    // The void's parts stay until the new ones are there: an unknown chunk would count as passable.
-    record.surface = nullptr;
-    record.body = record.failed = false;
-    record.seams = 0;
-    record.edited = edits_.number;
-  });
-}
-
-void Planner::findOutdated() {
-  outdated_.clear();
-  if (edits_drawn_ == edits_.number) return;
-  for (const ChunkKey& leaf : applied_->tree.leaves()) {
-    if (!isReady(leaf, coarserFaces(applied_->tree, leaf))) outdated_.push_back(leaf);
-  }
-}
-
 bool Planner::isReady(const ChunkKey& chunk, uint8_t seams) const {
   const KnownChunk* record = store_.find(chunk);
   return record != nullptr && record->body && (seams & ~record->seams) == 0;
-}
-
-bool Planner::targetIsReady() const {
-  return std::all_of(target_nodes_.begin(), target_nodes_.end(),
-                     [this](const TargetNode& node) { return node.split || isReady(node.key, node.faces); });
 }
 
 void Planner::retarget(std::span<const Viewer> viewers) {
@@ -228,8 +178,10 @@ void Planner::retarget(std::span<const Viewer> viewers) {
   } else if (!moved) {
     return;
   }
-  target_ = lodTarget(wanting, lod, settings_.by_reach ? &reached_ : nullptr);
-  listTarget();
+  const ChunkSet* const reached = settings_.by_reach ? &reached_ : nullptr;
+  target_ = lodTarget(wanting, lod, reached);
+  listNodes(target_, target_nodes_);
+  listNodes(nearTarget(wanting, lod, std::min(nearDistance(), lod.finest_distance), reached), near_nodes_);
   targeted_ = std::move(wanting);
   targeted_detail_ = stats_.detail;
   changed_ = true;
@@ -257,12 +209,7 @@ ChunkSet Planner::reachedParents(std::span<const LodViewer> viewers, const LodSe
 
 std::optional<Octree> Planner::nextTree() {
   missing_.clear();
-  if (!outdated_.empty()) {
-    // Where memory does not suffice to mesh all that is drawn once more, less detail does. Where even the coarsest
-    // chunks find no room beside what is drawn, that stays as it is.
-    if (!targetIsReady()) return std::nullopt;
-    return target_;
-  }
+  if (!outdated_.empty()) return std::nullopt;
   const Readiness ready{[this](const ChunkKey& key) {
                           const KnownChunk* record = store_.find(key);
                           return record != nullptr && record->body;
@@ -302,43 +249,46 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
   return step;
 }
 
-void Planner::listTarget() {
-  target_nodes_.clear();
-  const auto visit = [this](const auto& self, const ChunkKey& node) -> void {
-    const bool split = target_.isSplit(node);
-    if (node.level <= target_.top()) {
-      target_nodes_.push_back({node, coarserFaces(target_, node), split});
-    }
+double Planner::nearDistance() const {
+  return settings_.all_around > 0 ? settings_.all_around : kNearShare * settings_.lod.finest_distance;
+}
+
+void Planner::listNodes(const Octree& tree, std::vector<OctreeNode>& nodes) {
+  nodes.clear();
+  const auto visit = [&](const auto& self, const ChunkKey& node) -> void {
+    const bool split = tree.isSplit(node);
+    if (node.level <= tree.top()) nodes.push_back({node, coarserFaces(tree, node), split});
     for (int i = 0; split && i < 8; ++i) self(self, childOf(node, i));
   };
-  for (const ChunkKey& node : target_.splitNodes()) {
-    if (node.level <= target_.top()) break;
+  for (const ChunkKey& node : tree.splitNodes()) {
+    if (node.level <= tree.top()) break;
     visit(visit, node);
   }
 }
 
 void Planner::fillQueue(std::vector<WorkItem>& queue) {
   const Octree& drawn = applied_->tree;
-  if (!squeezed_) {
-    for (const ChunkKey& leaf : outdated_) request(leaf, coarserFaces(drawn, leaf), queue, true);
+  for (const ChunkKey& leaf : outdated_) request(leaf, coarserFaces(drawn, leaf), Rank::edited, queue);
+  for (const OctreeNode& node : near_nodes_) {
+    if (!node.split && !drawn.isSplit(node.key)) request(node.key, node.faces, Rank::near, queue);
   }
-  for (const TargetNode& node : target_nodes_) {
+  for (const OctreeNode& node : target_nodes_) {
     if (!node.split) {
-      request(node.key, node.faces, queue);
+      request(node.key, node.faces, Rank::other, queue);
     } else if (!drawn.isSplit(node.key) && !drawn.isLeaf(node.key)) {
       // What is drawn leads to the target in steps: a node that is to be split, and is not even drawn whole, stands in
       // until all that is in it is there.
-      request(node.key, node.faces | coarserFaces(drawn, node.key), queue);
+      request(node.key, node.faces | coarserFaces(drawn, node.key), Rank::other, queue);
     }
   }
-  for (const MissingSeams& missing : missing_) request(missing.chunk, missing.faces, queue);
+  for (const MissingSeams& missing : missing_) request(missing.chunk, missing.faces, Rank::other, queue);
   std::sort(queue.begin(), queue.end(), [](const WorkItem& a, const WorkItem& b) {
-    if (a.edited != b.edited) return b.edited;
+    if (a.rank != b.rank) return a.rank > b.rank;
     return a.urgency != b.urgency ? a.urgency > b.urgency : a.request.key > b.request.key;
   });
 }
 
-void Planner::request(const ChunkKey& key, int seams, std::vector<WorkItem>& queue, bool edited) {
+void Planner::request(const ChunkKey& key, int seams, Rank rank, std::vector<WorkItem>& queue) {
   KnownChunk& record = store_.at(key);
   record.wanted = plans_;
   const auto missing = static_cast<uint8_t>(seams & ~record.seams);
@@ -358,15 +308,13 @@ void Planner::request(const ChunkKey& key, int seams, std::vector<WorkItem>& que
   item.request.signs = !record.body && key.level == 0 && settings_.by_reach;
   item.request.outermost = key.level == target_.top();
   item.before = record.surface;
-  item.edited = edited;
+  item.rank = rank;
   item.urgency = urgency(key, viewers_, settings_.lod, settings_.all_around);
   queue.push_back(std::move(item));
 }
 
 void Planner::tally() {
-  if (!squeezed_) {
-    for (const ChunkKey& leaf : applied_->tree.leaves()) store_.at(leaf).wanted = plans_;
-  }
+  for (const ChunkKey& leaf : applied_->tree.leaves()) store_.at(leaf).wanted = plans_;
   if (step_ != nullptr) {
     for (const ChunkKey& leaf : step_->to->tree.leaves()) store_.at(leaf).wanted = plans_;
   }
@@ -386,6 +334,8 @@ void Planner::tally() {
   });
 }
 
+bool Planner::canLowerDetail() const { return stats_.detail > kLeastDetail; }
+
 bool Planner::keepToBudget(size_t live_bytes) {
   const auto share = [cap = static_cast<double>(settings_.mesh_bytes)](double part) {
     return static_cast<size_t>(part * cap);
@@ -395,8 +345,8 @@ bool Planner::keepToBudget(size_t live_bytes) {
     const ChunkStore::Freed freed = store_.freeUnused(plans_, live_bytes - share(kKeptShare));
     freed_in_vain_ += freed.never_drawn;
   }
-  squeezed_ = !outdated_.empty() && (squeezed_ || live_bytes > share(kSqueezedShare));
-  const bool full = wanted_bytes_ > share(kFullShare) && stats_.detail > kLeastDetail;
+  if (!outdated_.empty() && live_bytes > share(kSqueezedShare) && canLowerDetail()) postponeEdits();
+  const bool full = wanted_bytes_ > share(postponed_ ? room_beside_ : kFullShare) && canLowerDetail();
   const bool free = wanted_bytes_ < share(kFreeShare) && stats_.detail < 1;
   if ((full || free) && plans_ >= detail_settled_) {
     stats_.detail = full ? stats_.detail * kLessDetail : std::min(1.0, stats_.detail / kLessDetail);

@@ -20,8 +20,14 @@ namespace sgm {
 struct WorkItem {
   ChunkRequest request;
   std::shared_ptr<const ChunkSurface> before;  ///< where the request is for seams alone
-  bool edited = false;                         ///< what is drawn of it is out of date: before all others
-  double urgency = 0;                          ///< smaller first
+  /// All of one rank come before those of the next.
+  enum class Rank : uint8_t {
+    edited,  ///< what is drawn of it is out of date
+    near,    ///< it takes this to stand where a viewer is
+    other,
+  };
+  Rank rank = Rank::other;
+  double urgency = 0;  ///< smaller first
 };
 
 struct FinishedChunk {
@@ -99,38 +105,42 @@ class Planner {
   const EditState& edits() const { return edits_; }
 
  private:
+  using Rank = WorkItem::Rank;
+  /// A node that has a mesh, and its seams if it is drawn.
+  struct OctreeNode {
+    ChunkKey key;
+    uint8_t faces = 0;
+    bool split = false;
+  };
+
   void learnApplied(uint64_t number);
   /// Edits are taken up state by state: the next one when the one before is drawn. So a frame shows one state, a change
   /// waits for two frames of changes at most, and however many there are, what is to be meshed again is what is drawn.
   void takeUpEdits(PlanInput& input);
+  /// Goes back to the state that is drawn: memory does not suffice to mesh it once more.
+  void postponeEdits();
   void invalidate(std::span<const EditedBox> changes);
   void findOutdated();
   bool isReady(const ChunkKey& chunk, uint8_t seams) const;
-  bool targetIsReady() const;
   /// What comes nearest to the target of what is ready; none: what is drawn must stay.
   std::optional<Octree> nextTree();
   void take(std::vector<FinishedChunk>& finished, Plan& plan);
   void refuse(const std::vector<ChunkKey>& refused, Plan& plan);
+  bool canLowerDetail() const;
   /// Whether detail must be lowered yet.
   bool keepToBudget(size_t live_bytes);
   void retarget(std::span<const Viewer> viewers);
   ChunkSet reachedParents(std::span<const LodViewer> viewers, const LodSettings& lod) const;
   std::shared_ptr<const FrameStep> nextStep();
   void fillQueue(std::vector<WorkItem>& queue);
-  void listTarget();
+  double nearDistance() const;
+  static void listNodes(const Octree& tree, std::vector<OctreeNode>& nodes);
   /// Asks for what is not there yet, with what this plan asks for it already.
-  void request(const ChunkKey& key, int seams, std::vector<WorkItem>& queue, bool edited = false);
+  void request(const ChunkKey& key, int seams, Rank rank, std::vector<WorkItem>& queue);
   /// What is known of a chunk that is drawn.
   KnownChunk knownOfDrawn(const ChunkKey& leaf) const;
   /// Counts what is wanted now, and what is not.
   void tally();
-
-  /// A node of the target that has a mesh, and its seams there.
-  struct TargetNode {
-    ChunkKey key;
-    uint8_t faces = 0;
-    bool split = false;
-  };
 
   PlannerSettings settings_;
   ChunkStore store_;
@@ -140,7 +150,7 @@ class Planner {
   ChunkSet reached_;            ///< level-1 nodes with chunks that the viewers' void leads to
   bool voids_changed_ = false;  ///< since reached_ was found
   Octree target_;
-  std::vector<TargetNode> target_nodes_;
+  std::vector<OctreeNode> target_nodes_, near_nodes_;
   std::shared_ptr<const DrawnFrame> applied_;
   std::shared_ptr<const FrameStep> step_;                   ///< the last one offered, not known to be taken
   std::vector<std::shared_ptr<const DrawnFrame>> offered_;  ///< what steps from applied_ lead to, any may be taken
@@ -149,7 +159,9 @@ class Planner {
   uint64_t edits_drawn_ = 0;        ///< the state that applied_ shows
   uint64_t oldest_edits_ = 0;       ///< what was meshed under an earlier state is not taken
   std::vector<ChunkKey> outdated_;  ///< leaves of applied_ that are not there as edits_ has them
-  bool squeezed_ = false;           ///< these find no room beside what is drawn
+  EditState edits_before_;          ///< before edits_ was taken up
+  bool postponed_ = false;          ///< edits found no room, and wait until less detail is drawn
+  double room_beside_ = 0;          ///< the share of memory that it may take then
   bool changed_ = true;             ///< since the last step was looked for
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
   uint64_t freed_in_vain_ = 0;

@@ -201,7 +201,7 @@ void WorldCore::planOnce() {
       const ProfileScope scope(field.profiler(), zone::kPlan);
       if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
       Plan plan = planner_.plan(planInput());
-      edits.forget(plan.edits.number);
+      edits.forget(planner_.stats().edits_drawn);
       publish(std::move(plan));
       kickMeshing();
       more_colliders = makeColliders();
@@ -301,7 +301,7 @@ void WorldCore::meshOnce() {
     under = queue_edits_;
     of_generation = generation;
     ++meshing_;
-    meshing_edited_ += item.edited;
+    ++meshing_of_rank_[static_cast<size_t>(item.rank)];
     reserved_ += kLargestChunk;
   }
   FinishedChunk done = meshOne(item, under);
@@ -309,7 +309,7 @@ void WorldCore::meshOnce() {
   {
     const std::lock_guard lock(mutex);
     --meshing_;
-    meshing_edited_ -= item.edited;
+    const size_t left_of_rank = --meshing_of_rank_[static_cast<size_t>(item.rank)];
     if (meshing_before_ > 0) --meshing_before_;
     reserved_ -= kLargestChunk;
     if (generation != of_generation) done.error = Error{Code::cancelled, "no longer wanted"};
@@ -319,9 +319,9 @@ void WorldCore::meshOnce() {
     } catch (const std::bad_alloc&) {
       planner_lost_ = true;  // it would wait for this one for ever
     }
-    // What was dug is drawn as soon as the last chunk of it is there.
-    const bool redrawn = item.edited && meshing_edited_ == 0 && (queue.empty() || !queue.back().edited);
-    plan = !scarce && (redrawn || finished_.size() >= kFinishedToPlan || queue.empty());
+    // What was dug, and what it takes to stand, is drawn as soon as the last chunk of it is there.
+    const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.back().rank > item.rank);
+    plan = !scarce && (rank_done || finished_.size() >= kFinishedToPlan || queue.empty());
     more = !scarce && !queue.empty() && hasRoom() && !stopped_;
     if (!more) --mesh_jobs;
   }

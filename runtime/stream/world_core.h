@@ -4,6 +4,7 @@
 // Jobs own the core, and may begin late: after the world's end they find nothing to do. No job takes longer than one
 // plan or one chunk, so that an engine's own jobs get their turn.
 
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <memory>
@@ -116,9 +117,9 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
   std::vector<FinishedChunk> finished_;
   size_t meshing_before_ = 0;  ///< jobs that were at work when the plan for these viewers came, less those that ended
   size_t meshing_ = 0;         ///< jobs at work on a request
-  size_t meshing_edited_ = 0;  ///< of these, those on a chunk that is drawn out of date
-  size_t reserved_ = 0;        ///< bytes that these may come to
-  size_t running_ = 0;         ///< jobs between their begin and end
+  std::array<size_t, 3> meshing_of_rank_{};  ///< likewise, by WorkItem::Rank
+  size_t reserved_ = 0;                      ///< bytes that these may come to
+  size_t running_ = 0;                       ///< jobs between their begin and end
   std::vector<std::thread::id> submitting_;  ///< threads that are handing on a mesh job
   bool planning_ = false;                    ///< submitted or running
   bool plan_again_ = false;

@@ -1,0 +1,90 @@
+// How a plan takes up edits, and gives them back.
+
+#include <algorithm>
+
+#include "stream/planner.h"
+
+namespace sgm {
+
+namespace {
+
+/// Twice the share of memory that what is drawn may take when edits are taken up that found no room before.
+constexpr double kFirstRoom = 0.5;
+
+}  // namespace
+
+void Planner::takeUpEdits(PlanInput& input) {
+  const bool drawn = edits_drawn_ == edits_.number;
+  if (input.edits.number == edits_.number) {
+    if (drawn) postponed_ = false;
+    return;
+  }
+  if (postponed_ && canLowerDetail() &&
+      wanted_bytes_ > static_cast<size_t>(room_beside_ * static_cast<double>(settings_.mesh_bytes))) {
+    return;
+  }
+  // What failed waits for an edit that heals it.
+  const bool in_vain =
+      !outdated_.empty() &&
+      std::all_of(outdated_.begin(), outdated_.end(), [this](const ChunkKey& leaf) { return store_.at(leaf).failed; });
+  if (!drawn && !in_vain) return;
+  if (drawn) edits_before_ = std::move(edits_);
+  edits_ = std::move(input.edits);
+  store_.setEdits(edits_.number);
+  invalidate(input.edited);
+  findOutdated();
+  step_ = nullptr;
+  changed_ = true;
+}
+
+void Planner::invalidate(std::span<const EditedBox> changes) {
+  std::vector<std::vector<IntBox>> reaches(static_cast<size_t>(target_.top()) + 1);
+  for (size_t level = 0; level < reaches.size(); ++level) {
+    for (const EditedBox& change : changes) {
+      reaches[level].push_back(editReach(change.box, settings_.lod.finest_cell << level));
+    }
+  }
+  store_.forEach([&](const ChunkKey& key, KnownChunk& record) {
+    const int64_t edge = int64_t{kChunkCells} * settings_.lod.finest_cell << key.level;
+    IntBox box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lo[axis] = saturate(key.at[axis] * edge);
+      box.hi[axis] = saturate((key.at[axis] + int64_t{1}) * edge);
+    }
+    const std::vector<IntBox>& reach = reaches[static_cast<size_t>(key.level)];
+    if (std::none_of(reach.begin(), reach.end(), [&box](const IntBox& r) { return r.meets(box); })) return;
+    // The void's parts stay until the new ones are there: an unknown chunk would count as passable.
+    record.surface = nullptr;
+    record.body = record.failed = false;
+    record.seams = 0;
+    record.edited = edits_.number;
+  });
+}
+
+void Planner::postponeEdits() {
+  room_beside_ = (postponed_ ? room_beside_ : kFirstRoom) / 2;
+  postponed_ = true;
+  edits_ = edits_before_;
+  store_.setEdits(edits_.number);
+  store_.forEach([this](const ChunkKey& key, KnownChunk& record) {
+    if (record.edited <= edits_drawn_) return;
+    const KnownChunk known = applied_->tree.isLeaf(key) ? knownOfDrawn(key) : KnownChunk{};
+    record.surface = known.surface;
+    record.body = known.body;
+    record.seams = known.seams;
+    record.failed = false;
+    record.edited = edits_drawn_;
+  });
+  outdated_.clear();
+  changed_ = true;
+}
+
+void Planner::findOutdated() {
+  outdated_.clear();
+  if (edits_drawn_ == edits_.number) return;
+  for (const ChunkKey& leaf : applied_->tree.leaves()) {
+    if (!isReady(leaf, coarserFaces(applied_->tree, leaf))) outdated_.push_back(leaf);
+  }
+}
+
+}  // namespace sgm
