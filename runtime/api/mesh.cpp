@@ -14,6 +14,10 @@ static_assert(sizeof(sgm_vertex) == sizeof(sgm::Vertex) &&
               offsetof(sgm_vertex, normal_x) == offsetof(sgm::Vertex, normal_x) &&
               offsetof(sgm_vertex, tag) == offsetof(sgm::Vertex, tag) &&
               offsetof(sgm_vertex, kind) == offsetof(sgm::Vertex, kind));
+static_assert(sizeof(sgm_instance_batch) == sizeof(sgm::InstanceBatch) &&
+              offsetof(sgm_instance_batch, name) == offsetof(sgm::InstanceBatch, name) &&
+              offsetof(sgm_instance_batch, count) == offsetof(sgm::InstanceBatch, count) &&
+              sizeof(sgm::InstanceTransform) == 12 * sizeof(float));
 static_assert(SGM_VERTEX_OWN == int{sgm::kOwnEdge} && SGM_VERTEX_COARSER == int{sgm::kCoarserEdge} &&
               SGM_VERTEX_LATERAL == int{sgm::kLateralEdge});
 static_assert(SGM_CHUNK_CELLS == sgm::kChunkCells && SGM_SUBCELL == sgm::kSubcell &&
@@ -65,10 +69,12 @@ sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_erro
     view->hash = surface.hash.value();
     view->anchors = mesh->anchors.data();
     view->anchor_count = static_cast<uint32_t>(mesh->anchors.size());
+    view->batches = reinterpret_cast<const sgm_instance_batch*>(surface.batches.data());
+    view->batch_count = static_cast<uint32_t>(surface.batches.size());
+    view->transforms = reinterpret_cast<const float*>(surface.transforms.data());
     view->anchor_stride = sizeof(sgm_anchor);
     view->tags = surface.tags.data();
     view->tag_count = static_cast<uint32_t>(surface.tags.size());
-    view->reserved = 0;
     return SGM_OK;
   });
 }

@@ -1,6 +1,41 @@
 #include "stream/chunk_surface.h"
 
+#include <algorithm>
+#include <tuple>
+
 namespace sgm {
+
+namespace {
+
+InstanceTransform transformOf(const Frame& frame, const ChunkGrid& grid) {
+  InstanceTransform t{};
+  for (size_t row = 0; row < 3; ++row) {
+    // The frame's rows lead from the world to the anchor; its columns lead back.
+    for (size_t column = 0; column < 3; ++column) t[row * 4 + column] = frame.rows[column * 3 + row];
+    const auto axis = static_cast<int>(row);
+    t[row * 4 + 3] =
+        static_cast<float>(static_cast<double>(int64_t{frame.origin[axis]} - grid.origin[axis]) / kUnitsPerMetre);
+  }
+  return t;
+}
+
+void placeAnchors(std::vector<Anchor>&& anchors, ChunkSurface& surface) {
+  std::sort(anchors.begin(), anchors.end(), [](const Anchor& a, const Anchor& b) {
+    return std::tie(a.kind, a.name, a.key.value) < std::tie(b.kind, b.name, b.key.value);
+  });
+  surface.anchors = std::move(anchors);
+  surface.transforms.reserve(surface.anchors.size());
+  for (const Anchor& anchor : surface.anchors) {
+    if (surface.batches.empty() || surface.batches.back().kind != anchor.kind ||
+        surface.batches.back().name != anchor.name) {
+      surface.batches.push_back({anchor.kind, anchor.name, static_cast<uint32_t>(surface.transforms.size()), 0});
+    }
+    ++surface.batches.back().count;
+    surface.transforms.push_back(transformOf(anchor.frame, surface.grid));
+  }
+}
+
+}  // namespace
 
 MeshParts partsOf(const ChunkMesh& mesh) {
   MeshParts parts{&mesh.body};
@@ -23,9 +58,11 @@ ChunkSurface surfaceOf(const ChunkRequest& request, PlacedChunk&& chunk, const C
   surface.bounds = boundsOf(chunk.grid, surface.mesh.vertices);
   surface.tags = tagsOf(surface.mesh.vertices, memory);
   if (request.body || before == nullptr) {
-    surface.anchors = std::move(chunk.anchors);
+    placeAnchors(std::move(chunk.anchors), surface);
   } else {
     surface.anchors = before->anchors;
+    surface.transforms = before->transforms;
+    surface.batches = before->batches;
   }
   surface.hash = hashOf(surface.mesh, chunk.grid);
   return surface;

@@ -2,6 +2,7 @@
 // A finished chunk: what is drawn of it, and what an engine asks of it. Immutable, shared between the world, its frames
 // and the engine.
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -10,20 +11,35 @@
 
 namespace sgm {
 
+/// Anchors of one kind and name, behind each other: what an engine draws as copies of one thing.
+struct InstanceBatch {
+  uint16_t kind = 0, name = 0;
+  uint32_t first = 0, count = 0;
+  friend bool operator==(const InstanceBatch&, const InstanceBatch&) = default;
+};
+
+/// Row-major, 3 rows of 4: from an anchor's own axes to the chunk's, in metres from the chunk's origin.
+using InstanceTransform = std::array<float, 12>;
+
 struct ChunkSurface {
   ChunkKey key;
   ChunkGrid grid;
   PackedMesh mesh;
-  uint8_t seams = 0;                    ///< those that were made, with or without triangles, bit (1 << Face)
-  IntBox bounds{{0, 0, 0}, {0, 0, 0}};  ///< of every vertex, units; all 0 where there is none
-  std::pmr::vector<uint16_t> tags;      ///< that vertices carry, rising, 0 left out
-  std::vector<Anchor> anchors;          ///< where asked for
-  ContentHash hash;                     ///< of body and seams, and where they lie
+  uint8_t seams = 0;                          ///< those that were made, with or without triangles, bit (1 << Face)
+  IntBox bounds{{0, 0, 0}, {0, 0, 0}};        ///< of every vertex, units; all 0 where there is none
+  std::pmr::vector<uint16_t> tags;            ///< that vertices carry, rising, 0 left out
+  std::vector<Anchor> anchors;                ///< where asked for; by kind, name and key
+  std::vector<InstanceTransform> transforms;  ///< of the anchors
+  std::vector<InstanceBatch> batches;         ///< likewise
+  ContentHash hash;                           ///< of body and seams, and where they lie
 
   explicit ChunkSurface(std::pmr::memory_resource* memory) : mesh(memory), tags(memory) {}
 
+  /// Nothing to draw, and nothing to place.
+  bool empty() const { return mesh.indices.empty() && anchors.empty(); }
   size_t bytes() const {
-    return sizeof *this + mesh.bytes() + tags.capacity() * sizeof(uint16_t) + anchors.capacity() * sizeof(Anchor);
+    return sizeof *this + mesh.bytes() + tags.capacity() * sizeof(uint16_t) + anchors.capacity() * sizeof(Anchor) +
+           transforms.capacity() * sizeof(InstanceTransform) + batches.capacity() * sizeof(InstanceBatch);
   }
 };
 

@@ -11,7 +11,7 @@
 
 namespace sgm {
 
-/// A drawn chunk that has triangles.
+/// A drawn chunk that has triangles or anchors.
 struct DrawnChunk {
   ChunkKey key;
   std::shared_ptr<const ChunkSurface> surface;

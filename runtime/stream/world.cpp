@@ -1,6 +1,7 @@
 #include "stream/world.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -17,8 +18,9 @@ namespace {
 constexpr size_t kHashedAtOnce = 256;
 /// Failures told in one update: there is room for so many.
 constexpr ptrdiff_t kFailedAtOnce = 64;
-/// Plans in a row that bring nothing, until a wait gives up.
-constexpr int kPlansInVain = 1000;
+/// Looks in a row that find nothing new, until a wait gives up.
+constexpr int kLooksInVain = 2000;
+constexpr auto kBetweenLooks = std::chrono::milliseconds(2);
 
 std::string metres(double units) {
   char text[32];
@@ -227,7 +229,7 @@ std::shared_ptr<const DrawnFrame> World::drawn() const {
 Result<void> World::waitIdle(const std::function<bool()>& more) {
   const std::lock_guard front(front_);
   uint64_t frame = 0, finished = 0;
-  for (int in_vain = 0; in_vain < kPlansInVain; ++in_vain) {
+  for (int in_vain = 0; in_vain < kLooksInVain; ++in_vain) {
     advance(std::numeric_limits<size_t>::max());
     std::unique_lock lock(core_->mutex);
     if (core_->settled()) return {};
@@ -237,7 +239,10 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
     frame = core_->applied;
     finished = core_->planner_stats.meshed + core_->planner_stats.seam_jobs;
     const uint64_t plans = core_->plans;
-    helpUntil(jobs_, lock, core_->changed, [&] { return core_->plans != plans; });
+    // A plan may become due by time alone.
+    const auto look_again = std::chrono::steady_clock::now() + kBetweenLooks;
+    helpUntil(jobs_, lock, core_->changed,
+              [&] { return core_->plans != plans || std::chrono::steady_clock::now() >= look_again; });
     lock.unlock();
     if (more && !more()) return Error{Code::cancelled, "the wait was cancelled"};
   }

@@ -271,7 +271,7 @@ FinishedChunk WorldCore::meshOne(const WorkItem& item, const EditState& under) c
       return done;
     }
     if (chunk->voids) done.voids = std::make_unique<const VoidComponents>(std::move(*chunk->voids));
-    if (!chunk->surface.mesh.indices.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
+    if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
   } catch (const std::bad_alloc&) {
     done.error = Error{Code::out_of_memory, "out of memory while meshing a chunk"};
   }

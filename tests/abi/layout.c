@@ -320,7 +320,7 @@ PLACE(sgm_mesh_range, first_index, 8);
 PLACE(sgm_mesh_range, index_count, 12);
 PLACE(sgm_mesh_range, hash, 16);
 
-SIZE(sgm_mesh_view, 312);
+SIZE(sgm_mesh_view, 328);
 PLACE(sgm_mesh_view, struct_size, 0);
 PLACE(sgm_mesh_view, next, 8);
 PLACE(sgm_mesh_view, key, 16);
@@ -342,7 +342,9 @@ PLACE(sgm_mesh_view, anchor_count, 288);
 PLACE(sgm_mesh_view, anchor_stride, 292);
 PLACE(sgm_mesh_view, tags, 296);
 PLACE(sgm_mesh_view, tag_count, 304);
-PLACE(sgm_mesh_view, reserved, 308);
+PLACE(sgm_mesh_view, batch_count, 308);
+PLACE(sgm_mesh_view, batches, 312);
+PLACE(sgm_mesh_view, transforms, 320);
 
 SIZE(sgm_region_desc, 72);
 PLACE(sgm_region_desc, struct_size, 0);
@@ -445,6 +447,12 @@ PLACE(sgm_brush, smooth, 68);
 SIZE(sgm_edit_id, 16);
 PLACE(sgm_edit_id, author, 0);
 PLACE(sgm_edit_id, number, 8);
+
+SIZE(sgm_instance_batch, 12);
+PLACE(sgm_instance_batch, kind, 0);
+PLACE(sgm_instance_batch, name, 2);
+PLACE(sgm_instance_batch, first, 4);
+PLACE(sgm_instance_batch, count, 8);
 
 SIZE(sgm_drawn_chunk, 32);
 PLACE(sgm_drawn_chunk, key, 0);

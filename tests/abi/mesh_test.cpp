@@ -339,6 +339,25 @@ TEST_CASE("anchors: listed in order, in the chunk that holds them, once") {
       for (int32_t x = -2; x < 2; ++x) requests.push_back(chunkAt({0, x, y, z}));
   for (const MeshOwner& mesh : meshChunks(field.get(), requests)) {
     const sgm_mesh_view view = viewOf(mesh);
+    uint32_t batched = 0;
+    for (uint32_t b = 0; b < view.batch_count; ++b) {
+      const sgm_instance_batch& batch = view.batches[b];
+      CHECK(batch.first == batched);
+      REQUIRE(batch.first + batch.count <= view.anchor_count);
+      batched += batch.count;
+      for (uint32_t i = batch.first; i < batched; ++i) {
+        CHECK((view.anchors[i].kind == batch.kind && view.anchors[i].name == batch.name));
+        const float* t = view.transforms + 12 * size_t{i};
+        for (size_t row = 0; row < 3; ++row) {
+          for (size_t column = 0; column < 3; ++column) {
+            CHECK(t[row * 4 + column] == view.anchors[i].rotation[column * 3 + row]);
+          }
+          CHECK(view.origin[row] + static_cast<double>(t[row * 4 + 3]) * SGM_UNITS_PER_METRE ==
+                view.anchors[i].position[row]);
+        }
+      }
+    }
+    CHECK(batched == view.anchor_count);
     for (uint32_t i = 0; i < view.anchor_count; ++i) {
       CHECK(in_chunks.insert(view.anchors[i].key).second);
       for (size_t axis = 0; axis < 3; ++axis) {

@@ -711,6 +711,13 @@ typedef struct sgm_mesh_range {
   uint64_t hash; /* of this range's vertices and triangles, equal on every machine */
 } sgm_mesh_range;
 
+/* Anchors of one kind and name in a mesh, behind each other: copies of one thing, for an engine that draws instances.
+ */
+typedef struct sgm_instance_batch {
+  uint16_t kind, name;   /* indices for sgm_grammar_name */
+  uint32_t first, count; /* of the mesh's anchors and transforms */
+} sgm_instance_batch;
+
 /* Pointers into a mesh, good until the mesh ends. */
 typedef struct sgm_mesh_view {
   uint32_t struct_size;
@@ -727,11 +734,13 @@ typedef struct sgm_mesh_view {
   sgm_mesh_range body;
   sgm_mesh_range seams[6];   /* by sgm_face; empty where not asked for */
   uint64_t hash;             /* of body and seams together */
-  const sgm_anchor* anchors; /* in this chunk: low faces belong to it, high ones do not */
+  const sgm_anchor* anchors; /* in this chunk: low faces belong to it, high ones do not. By kind, name and key */
   uint32_t anchor_count, anchor_stride;
   const uint16_t* tags; /* tags that its vertices carry, rising, 0 left out */
   uint32_t tag_count;
-  uint32_t reserved; /* 0 */
+  uint32_t batch_count;
+  const sgm_instance_batch* batches; /* of the anchors */
+  const float* transforms; /* 12 an anchor, row-major 3 x 4: from its own axes to the chunk's, metres from origin */
 } sgm_mesh_view;
 
 #define SGM_MESH_RANGE_INIT \
@@ -741,7 +750,7 @@ typedef struct sgm_mesh_view {
     SGM_SIZEOF(sgm_mesh_view), SGM_NULL, {0, 0, 0, 0}, {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, SGM_NULL, SGM_NULL, 0, 0, \
         0, 0, SGM_MESH_RANGE_INIT, {SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT,                   \
                                     SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT},                  \
-        0, SGM_NULL, 0, 0, SGM_NULL, 0, 0                                                                            \
+        0, SGM_NULL, 0, 0, SGM_NULL, 0, 0, SGM_NULL, SGM_NULL                                                        \
   }
 
 SGM_API sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_error* error);
@@ -940,7 +949,8 @@ typedef enum sgm_event_kind {
   SGM_EVENT_KIND_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_event_kind;
 
-/* One change. Chunks without triangles are never told of. */
+/* One change. Chunks without triangles and anchors are never told of; those of anchors alone have a mesh without
+ * triangles. */
 typedef struct sgm_world_event {
   sgm_event_kind kind;
   sgm_result result; /* of FAILED; else SGM_OK */
@@ -981,7 +991,7 @@ typedef struct sgm_collider_view {
 
 SGM_API sgm_result sgm_collider_get_view(const sgm_collider* collider, sgm_collider_view* view, sgm_error* error);
 
-/* A chunk that is drawn. */
+/* A chunk that is drawn, and has triangles or anchors. */
 typedef struct sgm_drawn_chunk {
   sgm_chunk_key key;
   sgm_mesh* mesh; /* one more owner: release it */
@@ -1093,7 +1103,7 @@ typedef struct sgm_world_stats {
   uint64_t stale;      /* chunks that wait or are being meshed now, planned for viewers of before */
   uint64_t queued;     /* chunks that wait to be meshed, now */
   uint64_t in_work;    /* chunks being meshed now */
-  uint64_t drawn;      /* chunks drawn now that have triangles */
+  uint64_t drawn;      /* chunks drawn now that have triangles or anchors */
   uint64_t kept;       /* chunks known now, drawn or not, empty or not */
   uint64_t mesh_bytes; /* of all meshes now, the engine's included */
   uint64_t peak_mesh_bytes;
