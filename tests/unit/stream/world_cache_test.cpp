@@ -15,8 +15,8 @@ TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and
   ContentHash first;
   for (const bool again : {false, true}) {
     CAPTURE(again);
-    Scene scene(*makeThreadPool(2), caveText(), settings);
-    Engine engine;
+    sgm::Scene scene(*makeThreadPool(2), caveText(), settings);
+    sgm::Engine engine;
     REQUIRE(scene.world->setViewers({&viewer, 1}));
     REQUIRE(scene.world->waitIdle());
     engine.take(*scene.world);
