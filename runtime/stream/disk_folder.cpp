@@ -96,7 +96,9 @@ int DiskFolder::write(const DiskKey& key, std::span<const std::byte> file) const
   if (opened < 0 && errno == ENOENT && (mkdir(shardName(shardOf(key)).c_str(), 0777) == 0 || errno == EEXIST)) {
     opened = create();
   }
-  if (opened < 0 && errno == EEXIST && lstat(part.c_str(), &there) == 0 && isLeft(there) && unlink(part.c_str()) == 0) {
+  if (opened < 0 && errno == EEXIST) {
+    // Somebody else is bringing it, and may be done by now.
+    if (lstat(part.c_str(), &there) != 0 || !isLeft(there) || unlink(part.c_str()) != 0) return EEXIST;
     opened = create();
   }
   if (opened < 0) return errno;
