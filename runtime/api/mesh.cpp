@@ -72,6 +72,7 @@ sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_erro
     view->batches = reinterpret_cast<const sgm_instance_batch*>(surface.batches.data());
     view->batch_count = static_cast<uint32_t>(surface.batches.size());
     view->transforms = reinterpret_cast<const float*>(surface.transforms.data());
+    view->morphs = surface.morphs.empty() ? nullptr : surface.morphs.front().data();
     view->anchor_stride = sizeof(sgm_anchor);
     view->tags = surface.tags.data();
     view->tag_count = static_cast<uint32_t>(surface.tags.size());

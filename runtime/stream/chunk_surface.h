@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/packed_mesh.h"
+#include "stream/geomorph.h"
 #include "stream/mesh_chunks.h"
 
 namespace sgm {
@@ -31,15 +32,17 @@ struct ChunkSurface {
   std::vector<Anchor> anchors;                ///< where asked for; by kind, name and key
   std::vector<InstanceTransform> transforms;  ///< of the anchors
   std::vector<InstanceBatch> batches;         ///< likewise
+  std::pmr::vector<MorphOffset> morphs;       ///< one a vertex, where asked for; else none
   ContentHash hash;                           ///< of body and seams, and where they lie
 
-  explicit ChunkSurface(std::pmr::memory_resource* memory) : mesh(memory), tags(memory) {}
+  explicit ChunkSurface(std::pmr::memory_resource* memory) : mesh(memory), tags(memory), morphs(memory) {}
 
   /// Nothing to draw, and nothing to place.
   bool empty() const { return mesh.indices.empty() && anchors.empty(); }
   size_t bytes() const {
     return sizeof *this + mesh.bytes() + tags.capacity() * sizeof(uint16_t) + anchors.capacity() * sizeof(Anchor) +
-           transforms.capacity() * sizeof(InstanceTransform) + batches.capacity() * sizeof(InstanceBatch);
+           transforms.capacity() * sizeof(InstanceTransform) + batches.capacity() * sizeof(InstanceBatch) +
+           morphs.capacity() * sizeof(MorphOffset);
   }
 };
 

@@ -271,6 +271,15 @@ FinishedChunk WorldCore::meshOne(const WorkItem& item, const EditState& under) c
       return done;
     }
     if (chunk->voids) done.voids = std::make_unique<const VoidComponents>(std::move(*chunk->voids));
+    if (settings.morph) {
+      Result<std::pmr::vector<MorphOffset>> morphs =
+          morphOffsets(field, chunk->surface.mesh, chunk->surface.grid, under.brushes.get(), memory_);
+      if (!morphs) {
+        done.error = morphs.error();
+        return done;
+      }
+      chunk->surface.morphs = std::move(*morphs);
+    }
     if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
   } catch (const std::bad_alloc&) {
     done.error = Error{Code::out_of_memory, "out of memory while meshing a chunk"};

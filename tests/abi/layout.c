@@ -78,6 +78,7 @@ CHECK(face_y_high, SGM_FACE_Y_HIGH == 3);
 CHECK(face_z_low, SGM_FACE_Z_LOW == 4);
 CHECK(face_z_high, SGM_FACE_Z_HIGH == 5);
 CHECK(world_by_distance, SGM_WORLD_BY_DISTANCE == 1);
+CHECK(world_morph, SGM_WORLD_MORPH == 2);
 CHECK(world_flag_force_32_bit, SGM_WORLD_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(event_ready, SGM_EVENT_READY == 0);
 CHECK(event_shown, SGM_EVENT_SHOWN == 1);
@@ -320,7 +321,7 @@ PLACE(sgm_mesh_range, first_index, 8);
 PLACE(sgm_mesh_range, index_count, 12);
 PLACE(sgm_mesh_range, hash, 16);
 
-SIZE(sgm_mesh_view, 328);
+SIZE(sgm_mesh_view, 336);
 PLACE(sgm_mesh_view, struct_size, 0);
 PLACE(sgm_mesh_view, next, 8);
 PLACE(sgm_mesh_view, key, 16);
@@ -345,6 +346,7 @@ PLACE(sgm_mesh_view, tag_count, 304);
 PLACE(sgm_mesh_view, batch_count, 308);
 PLACE(sgm_mesh_view, batches, 312);
 PLACE(sgm_mesh_view, transforms, 320);
+PLACE(sgm_mesh_view, morphs, 328);
 
 SIZE(sgm_region_desc, 72);
 PLACE(sgm_region_desc, struct_size, 0);

@@ -1,5 +1,6 @@
 // A streamed world through the C interface alone, as an engine uses it.
 
+#include <cstdlib>
 #include <map>
 #include <tuple>
 
@@ -155,6 +156,38 @@ TEST_CASE("a world's hash is that of the region's surface, streamed or not") {
     CHECK(hash == sgm_surface_hash(surface));
     look(world.get(), 0);
     REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  }
+}
+
+TEST_CASE("meshes have morph offsets where they are asked for, to the coarser surface") {
+  const RuntimeOwner runtime = makeRuntime();
+  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
+  for (const uint32_t flags : {0u, uint32_t{SGM_WORLD_MORPH}}) {
+    sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+    desc.top_level = 3;
+    desc.finest_distance = 10;
+    desc.view_distance = 60;
+    desc.flags = flags;
+    sgm_world* made = nullptr;
+    REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
+    const WorldOwner world(made);
+    look(world.get(), 0);
+    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+    size_t count = 0, moved = 0;
+    REQUIRE(sgm_world_get_drawn(world.get(), nullptr, 0, &count, nullptr) == SGM_OK);
+    std::vector<sgm_drawn_chunk> chunks(count);
+    REQUIRE(sgm_world_get_drawn(world.get(), chunks.data(), 0, &count, nullptr) == SGM_OK);
+    for (const sgm_drawn_chunk& chunk : chunks) {
+      const MeshOwner mesh(chunk.mesh);
+      const sgm_mesh_view view = viewOf(mesh);
+      CHECK((view.morphs != nullptr) == (flags != 0 && view.vertex_count > 0));
+      for (uint32_t i = 0; view.morphs != nullptr && i < 3 * view.vertex_count; ++i) {
+        CHECK(std::abs(view.morphs[i]) <= 1024);
+        moved += view.morphs[i] != 0;
+        if (view.vertices[i / 3].kind != SGM_VERTEX_OWN) CHECK(view.morphs[i] == 0);
+      }
+    }
+    CHECK((moved > 0) == (flags != 0));
   }
 }
 

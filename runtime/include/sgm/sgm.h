@@ -741,6 +741,12 @@ typedef struct sgm_mesh_view {
   uint32_t batch_count;
   const sgm_instance_batch* batches; /* of the anchors */
   const float* transforms; /* 12 an anchor, row-major 3 x 4: from its own axes to the chunk's, metres from origin */
+  const int16_t* morphs; /* 3 a vertex, in 1/256 of the chunk's cell edge, to +-1,024: from the vertex to the surface of
+                            the next coarser level. NULL but in worlds with SGM_WORLD_MORPH. An engine that draws
+                            vertices at position + b * morph and lets b rise from 0 to 1 before a chunk gives way to a
+                            coarser one shows no pop. Vertices that chunks share have the same offset, so nothing opens
+                            where b depends on place and level alone; those of seams that are the coarser level's, or
+                            join the two, have 0 */
 } sgm_mesh_view;
 
 #define SGM_MESH_RANGE_INIT \
@@ -750,7 +756,7 @@ typedef struct sgm_mesh_view {
     SGM_SIZEOF(sgm_mesh_view), SGM_NULL, {0, 0, 0, 0}, {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, SGM_NULL, SGM_NULL, 0, 0, \
         0, 0, SGM_MESH_RANGE_INIT, {SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT,                   \
                                     SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT},                  \
-        0, SGM_NULL, 0, 0, SGM_NULL, 0, 0, SGM_NULL, SGM_NULL                                                        \
+        0, SGM_NULL, 0, 0, SGM_NULL, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL                                              \
   }
 
 SGM_API sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_error* error);
@@ -864,6 +870,7 @@ typedef struct sgm_collider sgm_collider;
 typedef enum sgm_world_flag {
   SGM_WORLD_BY_DISTANCE = 1, /* level 0 wherever it is near enough. Without this flag only where a viewer's void leads
                                 to: what is near but behind rock stays one level coarser, and is never seen */
+  SGM_WORLD_MORPH = 2,       /* meshes have morph offsets: sgm_mesh_view.morphs */
   SGM_WORLD_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_world_flag;
 
