@@ -76,6 +76,8 @@ class FileWriter {
   void undo();
 
   uint64_t bytes() const { return bytes_; }  ///< handed to write so far
+  /// Where the unfinished file stands, for another program to fill it; empty while it has no name.
+  const std::string& name() const { return temporary_; }
 
  private:
   enum class Undo { impossible, exchange, remove };

@@ -61,6 +61,11 @@ std::string checkPng(const std::string& out) {
   return CLI::detail::to_lower(extension) == ".png" ? std::string() : "pictures are .png files";
 }
 
+std::string checkVideo(const std::string& out) {
+  const std::string extension = std::filesystem::path(out).extension().string();
+  return CLI::detail::to_lower(extension) == ".mp4" ? std::string() : "videos are .mp4 files";
+}
+
 constexpr const char* kCheckFooter =
     "Example:\n"
     "  sgm check samples/grammars/cave.sgm\n"
@@ -222,12 +227,18 @@ Command addFly(CLI::App& root) {
       ->check(checkWhole)
       ->excludes(path)
       ->capture_default_str();
+  app->add_option("--edits", options->edits, "Dig while flying, N times a second of the path: mostly holes of 4 m (1)")
+      ->type_name("N")
+      ->expected(0, 1)
+      ->default_str("1")
+      ->check(CLI::Range(0.0, 60.0));
   app->add_flag(
       "--check", options->check,
       "Check every frame's surface for open and non-manifold edges by exact keys, and each 500th frame whole. "
       "Status 1 where one is not closed");
   app->add_flag("--unpaced", options->unpaced, "As fast as frames come, instead of 60 a second");
-  app->add_flag("--compare", options->compare, "Fly a second time with level 0 by distance alone, to compare");
+  CLI::Option* compare =
+      app->add_flag("--compare", options->compare, "Fly a second time with level 0 by distance alone, to compare");
   app->add_option("--top-level", options->top_level, "Coarsest level of detail")
       ->check(CLI::Range(0, kMaxLevel))
       ->capture_default_str();
@@ -246,7 +257,17 @@ Command addFly(CLI::App& root) {
   CLI::Option* png = app->add_option("--png", options->pictures, "Draw this many frames on one sheet")
                          ->check(CLI::Range(uint64_t{1}, uint64_t{64}));
   app->add_option("--out", options->out, "The sheet, a .png file")->check(checkPng)->needs(png)->capture_default_str();
-  app->add_flag("--levels", options->levels, "Each level of detail in a colour of its own, in pictures")->needs(png);
+  app->add_flag("--levels", options->levels, "Each level of detail in a colour of its own, in pictures");
+  app->add_option(
+         "--video", options->video,
+         "Draw every second frame into a video, an .mp4 file, by the program ffmpeg. The flight waits for each "
+         "picture, but the world is streamed on")
+      ->check(checkVideo);
+  app->add_option("--cache", options->cache, "Folder that keeps meshed chunks from one flight to the next")
+      ->type_name("FOLDER");
+  app->add_option("--journal", options->journal, "File that keeps what is dug from one flight to the next")
+      ->type_name("FILE")
+      ->excludes(compare);
   app->footer(
       "Example:\n  sgm fly samples/grammars/cave.sgm --cell 0.25 --speed 20 --frames 1200 --png 6 --out flight.png");
   return [options] { return fly(*options); };

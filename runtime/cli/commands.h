@@ -47,6 +47,7 @@ struct FlyOptions : WorldOptions {
   double speed = 20;
   uint64_t frames = 600;
   uint64_t teleports = 0;
+  double edits = 0;  ///< digs a second of the path
   bool check = false, unpaced = false, compare = false;
   int top_level = 6;
   double finest = 24, finest_margin = 6, view = 600;  ///< metres
@@ -54,6 +55,8 @@ struct FlyOptions : WorldOptions {
   uint64_t pictures = 0;
   std::string out = "flight.png";
   bool levels = false;
+  std::string video;           ///< an .mp4 file; empty: none
+  std::string journal, cache;  ///< a file and a folder of the world's; empty: none
 };
 Exit fly(const FlyOptions& options);
 

@@ -3,7 +3,6 @@
 #include <ctime>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -16,10 +15,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kFramesASecond = 60;
+constexpr auto kFrame = std::chrono::microseconds(16667);
 constexpr uint64_t kWholeCheckEvery = 500;
-constexpr double kWalkable = 16;  // metres
 constexpr int kRaysAFrame = 6, kRaysToWalk = 48;
 constexpr uint64_t kFramesToForget = 2;
+/// Until digs that are not drawn are left to the wait for all.
+constexpr int kFramesToDraw = 600;
+/// The wait needs room for meshes that the engine holds until it polls.
+constexpr int kWaits = 16;
 
 double threadMilliseconds() {
   timespec now{};
@@ -31,14 +34,6 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-Error errorOf(const sgm_error& error) {
-  const Code code = error.code == SGM_ERR_RANGE           ? Code::range
-                    : error.code == SGM_ERR_LIMIT         ? Code::limit
-                    : error.code == SGM_ERR_OUT_OF_MEMORY ? Code::out_of_memory
-                                                          : Code::invalid_argument;
-  return {code, error.message, error.line, error.column};
-}
-
 /// The n-th direction of a sequence that covers the sphere evenly, however many are taken.
 Metres3 directionOf(uint64_t n) {
   const double index = static_cast<double>(n);
@@ -48,175 +43,156 @@ Metres3 directionOf(uint64_t n) {
   return {side * std::cos(turn), z, side * std::sin(turn)};
 }
 
-/// An engine's side of the world: what it draws, and the checker of that.
-class Engine {
+/// Where the viewer is, frame by frame.
+class Course {
  public:
-  explicit Engine(bool check) {
-    if (check) checker_.emplace();
-  }
+  struct Stop {
+    FlightPlace place;
+    bool leapt = false;  ///< from far away
+  };
 
-  /// Takes over all events. The checker's work on them waits for checkFrame().
-  Result<void> poll(sgm_world* world) {
-    sgm_error error = SGM_ERROR_INIT;
-    for (;;) {
-      size_t count = events_.size();
-      if (sgm_world_poll(world, events_.data(), 0, &count, &error) != SGM_OK) return errorOf(error);
-      if (count == 0) return {};
-      for (size_t i = 0; i < count; ++i) take(events_[i]);
-    }
-  }
+  Course(FlightPath& path, const FlightSettings& settings)
+      : path_(path),
+        step_(settings.speed / kFramesASecond),
+        leg_(settings.teleports == 0 ? 0 : settings.frames / (settings.teleports + 1)),
+        teleports_(settings.teleports) {}
 
-  Result<void> checkFrame(uint64_t frame, FlightReport& report) {
-    if (!checker_) return {};
-    for (const Key& key : changed_) {
-      const auto at = drawn_.find(key);
-      const sgm_chunk_key name{std::get<0>(key), std::get<1>(key), std::get<2>(key), std::get<3>(key)};
-      if (at == drawn_.end()) {
-        checker_->erase(name);
-        continue;
-      }
-      sgm_mesh_view view = SGM_MESH_VIEW_INIT;
-      sgm_error error = SGM_ERROR_INIT;
-      if (sgm_mesh_get_view(at->second.mesh.get(), &view, &error) != SGM_OK) return errorOf(error);
-      if (Result<void> drawn = checker_->draw(view, {at->second.seams, at->second.coarser}); !drawn) return drawn;
+  Result<Stop> next() {
+    Stop stop;
+    if (leg_ != 0 && frame_ > 0 && frame_ % leg_ == 0 && teleported_ < teleports_) {
+      if (Result<void> moved = path_.teleport(++teleported_); !moved) return moved.error();
+      flown_ = 0;
+      // Stands for so long: what a moving viewer makes stale is not the leap's.
+      stands_ = kFramesToForget;
+      stop.leapt = true;
     }
-    changed_.clear();
-    const FrameReport& now = checker_->check();
-    report.worst.chunks = std::max(report.worst.chunks, now.chunks);
-    report.worst.triangles = std::max(report.worst.triangles, now.triangles);
-    report.worst.edges = std::max(report.worst.edges, now.edges);
-    report.worst.open_edges = std::max(report.worst.open_edges, now.open_edges);
-    report.worst.nonmanifold_edges = std::max(report.worst.nonmanifold_edges, now.nonmanifold_edges);
-    report.worst.degenerate_triangles = std::max(report.worst.degenerate_triangles, now.degenerate_triangles);
-    report.worst.overlaps = std::max(report.worst.overlaps, now.overlaps);
-    if (frame % kWholeCheckEvery == kWholeCheckEvery - 1) {
-      const WholeReport whole = checker_->checkWhole();
-      ++report.whole_checks;
-      if (!whole.closed() || !(whole.frame == now)) ++report.whole_failures;
+    const Result<FlightPlace> place = path_.at(flown_);
+    if (!place) return place.error();
+    stop.place = *place;
+    ++frame_;
+    if (stands_ > 0) {
+      --stands_;
+    } else {
+      flown_ += step_;
     }
-    return {};
+    return stop;
   }
-
-  /// Whether a place of the surface is drawn at level 0: a chunk of that level with triangles holds it, or all but
-  /// touches it.
-  bool finestAt(const int32_t (&place)[3], int32_t cell) const {
-    const int64_t edge = int64_t{SGM_CHUNK_CELLS} * cell;
-    for (int corner = 0; corner < 8; ++corner) {
-      std::array<int32_t, 3> at{};
-      for (size_t axis = 0; axis < 3; ++axis) {
-        const int64_t p = int64_t{place[axis]} + ((corner >> axis & 1) != 0 ? cell : -cell);
-        at[axis] = static_cast<int32_t>(floorDiv(p, edge));
-      }
-      if (drawn_.contains({0, at[0], at[1], at[2]})) return true;
-    }
-    return false;
-  }
-
-  const DrawnMeshes& drawn() const { return drawn_; }
 
  private:
-  using Key = DrawnMeshes::key_type;
-
-  void take(const sgm_world_event& event) {
-    const Key key{event.key.level, event.key.x, event.key.y, event.key.z};
-    switch (event.kind) {
-      case SGM_EVENT_READY:
-        ready_[key] = std::shared_ptr<sgm_mesh>(event.mesh, sgm_mesh_release);
-        return;
-      case SGM_EVENT_SHOWN:
-      case SGM_EVENT_REPLACED:
-        drawn_[key] = {ready_[key], event.seams, event.coarser};
-        break;
-      case SGM_EVENT_SEAMS:
-        drawn_[key].seams = event.seams;
-        drawn_[key].coarser = event.coarser;
-        break;
-      case SGM_EVENT_REMOVED:
-        drawn_.erase(key);
-        ready_.erase(key);
-        break;
-      default:
-        return;
-    }
-    if (checker_) changed_.push_back(key);
-  }
-
-  std::array<sgm_world_event, 256> events_;
-  DrawnMeshes drawn_;
-  std::map<Key, std::shared_ptr<sgm_mesh>> ready_;
-  std::vector<Key> changed_;  ///< since the last checkFrame(), where there is a checker
-  std::optional<FrameChecker> checker_;
+  FlightPath& path_;
+  const double step_;  ///< metres a frame
+  const uint64_t leg_, teleports_;
+  uint64_t frame_ = 0, teleported_ = 0, stands_ = 0;
+  double flown_ = 0;  ///< metres along the path
 };
 
 class Flight {
  public:
-  Flight(sgm_world* world, sgm_field* field, FlightPath& path, const FlightSettings& settings)
-      : world_(world), field_(field), path_(path), settings_(settings), engine_(settings.check) {}
+  Flight(sgm_world* world, FlightPath& path, const FlightSettings& settings)
+      : world_(world), course_(path, settings), settings_(settings), engine_(settings.check) {
+    if (settings.edits > 0) digger_.emplace(world, settings.seed, settings.edits);
+  }
 
-  Result<FlightReport> run(const AfterFrame& after_frame) {
-    const uint64_t leg = settings_.teleports == 0 ? 0 : settings_.frames / (settings_.teleports + 1);
+  Result<FlightReport> run(const FlightWatch& watch) {
+    if (Result<void> planned = plan(watch); !planned) return planned.error();
     Clock::time_point due = Clock::now();
     for (uint64_t frame = 0; frame < settings_.frames; ++frame) {
-      if (leg != 0 && frame > 0 && frame % leg == 0 && teleported_ < settings_.teleports) {
-        if (Result<void> moved = path_.teleport(++teleported_); !moved) return moved.error();
-        flown_ = 0;
-        teleport_frame_ = frame;
+      const Result<Course::Stop> stop = settings_.paced ? planned_[frame] : course_.next();
+      if (!stop) return stop.error();
+      if (digger_) {
+        if (Result<void> found = digger_->plan(frame, stop->place); !found) return found.error();
       }
-      // A path is planned before its frame begins: an engine knows where its camera is.
-      const Result<FlightPlace> place = path_.at(flown_);
-      if (!place) return place.error();
       if (settings_.paced) {
         std::this_thread::sleep_until(due);
-        due = std::max(due + std::chrono::microseconds(16667), Clock::now() - std::chrono::milliseconds(50));
+        due = std::max(due + kFrame, Clock::now() - 3 * kFrame);
       }
+      if (stop->leapt) leap(frame);
       const Clock::time_point begun = Clock::now();
       if (frame == 0) start_ = begun;
-      if (Result<void> drawn = drawFrame(*place); !drawn) return drawn.error();
-      if (Result<void> looked = look(*place, frame); !looked) return looked.error();
-      if (Result<void> checked = engine_.checkFrame(frame, report_); !checked) return checked.error();
+      place_ = stop->place;
+      if (Result<void> flown = flyFrame(frame); !flown) return flown.error();
       report_.seconds += since(begun) / 1e3;
       ++report_.frames;
-      flown_ += settings_.speed / kFramesASecond;
-      if (after_frame && !after_frame(frame, *place, engine_.drawn())) break;
+      if (watch.flown && !watch.flown(frame, place_, engine_.drawn())) return Error{Code::cancelled, "ended"};
     }
     if (settings_.paced) report_.seconds = since(start_) / 1e3;
     return finish();
   }
 
  private:
-  Result<void> drawFrame(const FlightPlace& place) {
-    sgm_viewer viewer = SGM_VIEWER_INIT;
-    for (int axis = 0; axis < 3; ++axis) {
-      viewer.position[axis] = place.position[axis];
-      viewer.direction[axis] = static_cast<float>(place.direction[axis]);
-      viewer.velocity[axis] = static_cast<float>(place.direction[axis] * settings_.speed);
+  Result<void> plan(const FlightWatch& watch) {
+    if (!settings_.paced) return {};
+    for (uint64_t frame = 0; frame < settings_.frames; ++frame) {
+      const Result<Course::Stop> stop = course_.next();
+      if (!stop) return stop.error();
+      planned_.push_back(*stop);
+      if (watch.planned) watch.planned(frame);
     }
-    sgm_error error = SGM_ERROR_INIT;
-    const double before = threadMilliseconds();
-    if (sgm_world_set_viewers(world_, &viewer, 0, 1, &error) != SGM_OK) return errorOf(error);
-    if (sgm_world_update(world_, settings_.frame_bytes, &error) != SGM_OK) return errorOf(error);
-    if (Result<void> polled = engine_.poll(world_); !polled) return polled;
-    times_.push_back(threadMilliseconds() - before);
     return {};
   }
 
-  /// Looks around: are the surfaces that can be seen nearby drawn at level 0?
-  Result<void> look(const FlightPlace& place, uint64_t frame) {
-    if (teleport_frame_ && (frame == *teleport_frame_ || frame == *teleport_frame_ + kFramesToForget)) {
-      sgm_world_stats stats = SGM_WORLD_STATS_INIT;
-      if (sgm_world_get_stats(world_, &stats, nullptr) == SGM_OK) {
-        (frame == *teleport_frame_ ? report_.stale_before : report_.stale_after) += stats.stale;
+  /// What is there to be done for the place that is about to be left?
+  void leap(uint64_t frame) {
+    teleport_frame_ = frame;
+    sgm_world_stats stats = SGM_WORLD_STATS_INIT;
+    sgm_world_get_stats(world_, &stats, nullptr);
+    report_.work_at_teleports.push_back(stats.queued + stats.in_work);
+  }
+
+  Result<void> flyFrame(uint64_t frame) {
+    const Result<double> time = drawFrame();
+    if (!time) return time.error();
+    times_.push_back(*time);
+    if (settings_.paced && teleport_frame_ && frame == *teleport_frame_ + kFramesToForget) {
+      const uint64_t work = report_.work_at_teleports.back();
+      if (work > 0) {
+        const uint64_t left = std::min(work, stats_.stale);
+        report_.stale.push_back(static_cast<double>(left) / static_cast<double>(work));
       }
     }
+    if (Result<void> looked = look(frame); !looked) return looked;
+    return engine_.checkFrame(frame % kWholeCheckEvery == kWholeCheckEvery - 1, report_.checked);
+  }
+
+  /// The milliseconds that this took.
+  Result<double> drawFrame() {
+    sgm_viewer viewer = SGM_VIEWER_INIT;
+    for (int axis = 0; axis < 3; ++axis) {
+      viewer.position[axis] = place_.position[axis];
+      viewer.direction[axis] = static_cast<float>(place_.direction[axis]);
+      viewer.velocity[axis] = static_cast<float>(place_.direction[axis] * settings_.speed);
+    }
+    sgm_error error = SGM_ERROR_INIT;
+    const double before = threadMilliseconds();
+    if (digger_) {
+      if (Result<void> dug = digger_->dig(); !dug) return dug.error();
+    }
+    if (sgm_world_set_viewers(world_, &viewer, 0, 1, &error) != SGM_OK) return errorOf(error);
+    if (sgm_world_update(world_, settings_.frame_bytes, &error) != SGM_OK) return errorOf(error);
+    const Result<uint64_t> handed_over = engine_.poll(world_);
+    if (!handed_over) return handed_over.error();
+    const double time = threadMilliseconds() - before;
+    report_.peak_handed_over = std::max(report_.peak_handed_over, *handed_over);
+    const uint64_t drawn = stats_.frame;
+    if (sgm_world_get_stats(world_, &stats_, &error) != SGM_OK) return errorOf(error);
+    commits_ += stats_.frame != drawn;
+    report_.peak_collider_bytes = std::max(report_.peak_collider_bytes, stats_.collider_bytes);
+    if (digger_) digger_->look(stats_);
+    return time;
+  }
+
+  /// Looks around: are the surfaces that can be seen nearby drawn at level 0?
+  Result<void> look(uint64_t frame) {
     if (report_.walkable_ms < 0) {
-      const Result<Sight> sight = see(place, kWalkable, kRaysToWalk);
+      const Result<Sight> sight = see(kWalkableDistance, kRaysToWalk);
       if (!sight) return sight.error();
-      if (sight->seen > 0 && sight->finest == sight->seen) report_.walkable_ms = since(start_);
+      if (sight->seen > 0 && sight->finest == sight->seen && engine_.collidesNear(place_.position, kWalkableDistance))
+        report_.walkable_ms = since(start_);
       return {};
     }
     // Where a teleport has just led to everything is new.
     if (teleport_frame_ && frame < *teleport_frame_ + static_cast<uint64_t>(kFramesASecond)) return {};
-    const Result<Sight> sight = see(place, settings_.finest_distance, kRaysAFrame);
+    const Result<Sight> sight = see(settings_.finest_distance, kRaysAFrame);
     if (!sight) return sight.error();
     report_.seen += sight->seen;
     report_.seen_finest += sight->finest;
@@ -228,21 +204,21 @@ class Flight {
   struct Sight {
     uint64_t seen = 0, finest = 0;
   };
-  Result<Sight> see(const FlightPlace& place, double distance, int rays) {
+  Result<Sight> see(double distance, int rays) {
     Sight sight;
     for (int i = 0; i < rays; ++i) {
       const Metres3 direction = directionOf(rays_++);
       sgm_ray_desc ray = SGM_RAY_DESC_INIT;
       for (int axis = 0; axis < 3; ++axis) {
-        ray.from[axis] = place.position[axis] * SGM_UNITS_PER_METRE;
+        ray.from[axis] = place_.position[axis] * SGM_UNITS_PER_METRE;
         ray.direction[axis] = direction[axis];
       }
       ray.length = distance;
       sgm_surface_point hit = SGM_SURFACE_POINT_INIT;
       sgm_error error = SGM_ERROR_INIT;
-      const sgm_result result = sgm_field_ray_cast(field_, &ray, &hit, &error);
-      if (result != SGM_OK) return errorOf(error);
-      if (hit.found == 0) continue;
+      if (sgm_world_ray_cast(world_, &ray, &hit, &error) != SGM_OK) return errorOf(error);
+      // In what was built around the viewer there is nothing to see.
+      if (hit.found == 0 || hit.inside != 0) continue;
       int32_t at[3];
       for (int axis = 0; axis < 3; ++axis) at[axis] = static_cast<int32_t>(hit.position[axis]);
       ++sight.seen;
@@ -252,37 +228,55 @@ class Flight {
   }
 
   Result<FlightReport> finish() {
-    std::sort(times_.begin(), times_.end());
-    if (!times_.empty()) {
-      const auto at = [this](double share) {
-        return times_[static_cast<size_t>(share * static_cast<double>(times_.size() - 1))];
-      };
-      report_.main_thread = {at(0.5), at(0.99), times_.back()};
-    }
-    sgm_error error = SGM_ERROR_INIT;
-    if (sgm_world_get_stats(world_, &report_.stats, &error) != SGM_OK) return errorOf(error);
-    report_.commits = report_.stats.frame;
+    report_.stats = stats_;
+    report_.commits = commits_;
+    report_.main_thread = spreadOf(times_);
+    if (Result<void> rested = rest(); !rested) return rested.error();
+    report_.colliders = engine_.checkColliders(place_.position, kWalkableDistance);
+    if (digger_) report_.digs = digger_->report();
     return report_;
   }
 
+  Result<void> rest() {
+    // Frames go on, so that the last digs count like the others.
+    for (int frame = 0; frame < kFramesToDraw && digger_ && digger_->waits(); ++frame) {
+      std::this_thread::sleep_for(kFrame);
+      if (const Result<double> drawn = drawFrame(); !drawn) return drawn.error();
+      if (Result<void> checked = engine_.checkFrame(false, report_.checked); !checked) return checked;
+    }
+    sgm_error error = SGM_ERROR_INIT;
+    sgm_result waited = SGM_ERR_LIMIT;
+    for (int wait = 0; waited == SGM_ERR_LIMIT && wait < kWaits; ++wait) {
+      waited = sgm_world_wait_idle(world_, nullptr, nullptr, &error);
+      if (const Result<uint64_t> polled = engine_.poll(world_); !polled) return polled.error();
+    }
+    if (waited != SGM_OK) return errorOf(error);
+    if (digger_) {
+      if (sgm_world_get_stats(world_, &stats_, &error) != SGM_OK) return errorOf(error);
+      digger_->look(stats_);
+    }
+    return engine_.checkFrame(true, report_.checked);
+  }
+
   sgm_world* world_;
-  sgm_field* field_;
-  FlightPath& path_;
+  Course course_;
   const FlightSettings& settings_;
-  Engine engine_;
+  FlightEngine engine_;
+  std::optional<FlightDigger> digger_;
   FlightReport report_;
+  std::vector<Course::Stop> planned_;             ///< of a paced flight
+  FlightPlace place_;                             ///< of the frame
+  sgm_world_stats stats_ = SGM_WORLD_STATS_INIT;  ///< after it
   Clock::time_point start_;
   std::vector<double> times_;
-  double flown_ = 0;  ///< metres along the path
-  uint64_t teleported_ = 0, rays_ = 0;
+  uint64_t rays_ = 0, commits_ = 0;
   std::optional<uint64_t> teleport_frame_;
 };
 
 }  // namespace
 
-Result<FlightReport> fly(sgm_world* world, sgm_field* field, FlightPath& path, const FlightSettings& settings,
-                         const AfterFrame& after_frame) {
-  return Flight(world, field, path, settings).run(after_frame);
+Result<FlightReport> fly(sgm_world* world, FlightPath& path, const FlightSettings& settings, const FlightWatch& watch) {
+  return Flight(world, path, settings).run(watch);
 }
 
 }  // namespace sgm::cli

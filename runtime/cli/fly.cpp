@@ -3,15 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/flight.h"
-#include "cli/flight_picture.h"
-#include "cli/json.h"
+#include "cli/fly_pictures.h"
+#include "cli/fly_report.h"
 #include "cli/region.h"
 #include "cli/source.h"
-#include "render/image.h"
 
 namespace sgm::cli {
 namespace {
@@ -93,6 +94,10 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   world_desc.finest_distance = options.finest + options.finest_margin;
   world_desc.view_distance = options.view;
   world_desc.mesh_bytes = options.mesh_mb << 20;
+  world_desc.collider_distance = kWalkableDistance;
+  if (!options.journal.empty()) world_desc.journal = options.journal.c_str();
+  // A flight to compare with meshes for itself.
+  if (!options.cache.empty() && !by_distance) world_desc.cache_folder = options.cache.c_str();
   if (by_distance) world_desc.flags = SGM_WORLD_BY_DISTANCE;
   sgm_world* world = nullptr;
   if (sgm_world_create(field, &world_desc, &world, &error) != SGM_OK) return complain(error);
@@ -107,141 +112,35 @@ Result<FlightPath> pathOf(const FlyOptions& options, const Scene& scene) {
   return FlightPath::automatic(scene.field.get(), scene.grammar.get(), flight);
 }
 
-/// Pictures of evenly spaced frames.
-class Sheet {
- public:
-  Sheet(const FlyOptions& options, const Scene& scene) : options_(options), scene_(scene) {}
-
-  Result<void> begin() {
-    if (options_.pictures == 0) return {};
-    Result<Renderer> renderer = Renderer::create();
-    if (!renderer) return renderer.error();
-    renderer_.emplace(std::move(*renderer));
-    return {};
-  }
-
-  void take(uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn) {
-    const uint64_t wanted = options_.pictures;
-    if (!renderer_ || error_ || (frame + 1) * wanted / options_.frames == frame * wanted / options_.frames) return;
-    std::vector<PicturedChunk> chunks;
-    for (const auto& [key, chunk] : drawn) {
-      PicturedChunk& pictured = chunks.emplace_back();
-      sgm_mesh_get_view(chunk.mesh.get(), &pictured.mesh, nullptr);
-      pictured.seams = chunk.seams;
-    }
-    PictureWish wish;
-    wish.camera = place;
-    wish.levels = options_.levels;
-    Result<Image> image = drawChunks(*renderer_, scene_.grammar.get(), chunks, wish);
-    if (image) {
-      images_.push_back(std::move(*image));
-    } else {
-      error_ = image.error();
-    }
-  }
-
-  Result<void> write() {
-    if (!renderer_) return {};
-    if (error_) return *error_;
-    Result<FileWriter> file = FileWriter::create(options_.out, &unfinished_files);
-    if (!file) return file.error();
-    return writePng(contactSheet(images_, images_.size() > 1 ? 2 : 1), *file);
-  }
-
- private:
-  const FlyOptions& options_;
-  const Scene& scene_;
-  std::optional<Renderer> renderer_;
-  std::vector<Image> images_;
-  std::optional<Error> error_;
-};
-
-double share(uint64_t part, uint64_t whole) {
-  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
-/// The hash of level 0 around the flight's end, at rest.
+/// The hash of level 0 around the flight's end.
 Result<uint64_t> hashAround(const Scene& scene, const FlightPlace& place) {
-  sgm_error error = SGM_ERROR_INIT;
-  if (sgm_world_wait_idle(scene.world.get(), nullptr, nullptr, &error) != SGM_OK) {
-    return Error{Code::limit, error.message};
-  }
+  // Grown to whole chunks it must not leave the world.
+  const int64_t farthest = std::numeric_limits<int32_t>::max() - int64_t{SGM_CHUNK_CELLS} * scene.cell - kHashedAround;
   int32_t low[3], high[3];
   for (int axis = 0; axis < 3; ++axis) {
-    const auto middle = static_cast<int32_t>(place.position[axis] * SGM_UNITS_PER_METRE);
+    const int64_t place_units = std::llround(place.position[axis] * SGM_UNITS_PER_METRE);
+    const auto middle = static_cast<int32_t>(std::clamp(place_units, -farthest, farthest));
     low[axis] = middle - kHashedAround;
     high[axis] = middle + kHashedAround;
   }
+  sgm_error error = SGM_ERROR_INIT;
   uint64_t hash = 0;
-  if (sgm_world_hash(scene.world.get(), low, high, 0, &hash, &error) != SGM_OK) {
-    return Error{Code::limit, error.message};
-  }
+  if (sgm_world_hash(scene.world.get(), low, high, 0, &hash, &error) != SGM_OK) return errorOf(error);
   return hash;
 }
 
-struct Flown {
-  FlightReport report;
-  uint64_t hash = 0;
-};
-
-Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<FlightReport>& by_distance) {
-  const FlightReport& r = flown.report;
-  Json json = {{"frames", r.frames},
-               {"commits", r.commits},
-               {"checked", options.check},
-               {"open_edges", r.worst.open_edges},
-               {"nonmanifold_edges", r.worst.nonmanifold_edges},
-               {"degenerate_triangles", r.worst.degenerate_triangles},
-               {"overlaps", r.worst.overlaps},
-               {"whole_checks", r.whole_checks},
-               {"whole_failures", r.whole_failures},
-               {"main_thread_ms", {{"p50", r.main_thread.p50}, {"p99", r.main_thread.p99}, {"max", r.main_thread.max}}},
-               {"time_to_walkable_ms", r.walkable_ms},
-               {"chunks_meshed", r.stats.chunks_meshed},
-               {"finest_meshed", r.stats.finest_meshed},
-               {"seam_jobs", r.stats.seam_jobs},
-               {"chunks_per_second", r.seconds > 0 ? static_cast<double>(r.stats.chunks_meshed) / r.seconds : 0.0},
-               {"wasted_fraction", share(r.stats.chunks_in_vain, r.stats.chunks_meshed)},
-               {"stale_at_teleports", r.stale_before},
-               {"stale_after_2_frames", r.stale_after},
-               {"lod0_coverage", share(r.seen_finest, r.seen)},
-               {"lod0_covered_frames", share(r.frames_covered, r.frames_seen)},
-               {"peak_bytes", {{"meshes", r.stats.peak_mesh_bytes}}},
-               {"world_hash", fmt::format("{:016x}", flown.hash)},
-               {"seconds", r.seconds}};
-  if (by_distance) {
-    json["finest_meshed_by_distance"] = by_distance->stats.finest_meshed;
-    json["finest_saved"] = 1 - share(r.stats.finest_meshed, by_distance->stats.finest_meshed);
-  }
-  return json;
-}
-
-void print(const FlyOptions& options, const Flown& flown, const std::optional<FlightReport>& by_distance) {
-  const FlightReport& r = flown.report;
-  fmt::print("{} frames at {} m/s, {} changes of what is drawn, {:.1f} s\n", r.frames, options.speed, r.commits,
-             r.seconds);
-  if (options.check) {
-    fmt::print(
-        "  surface   {} open edges, {} non-manifold, {} overlaps in any frame (up to {} triangles); {} of {} "
-        "whole checks failed\n",
-        r.worst.open_edges, r.worst.nonmanifold_edges, r.worst.overlaps, r.worst.triangles, r.whole_failures,
-        r.whole_checks);
-  }
-  fmt::print("  frame     {:.3f} ms of the caller's thread in the middle, {:.3f} at 99 %, {:.3f} at most\n",
-             r.main_thread.p50, r.main_thread.p99, r.main_thread.max);
-  if (r.walkable_ms >= 0)
-    fmt::print("  start     all that is seen within 16 m of level 0 after {:.0f} ms\n", r.walkable_ms);
-  fmt::print("  level 0   {:.2f} % of the surfaces seen within {} m, all of them in {:.2f} % of frames\n",
-             100 * share(r.seen_finest, r.seen), options.finest, 100 * share(r.frames_covered, r.frames_seen));
-  fmt::print("  chunks    {} meshed ({} of level 0), {} given further seams, {:.1f} % in vain\n", r.stats.chunks_meshed,
-             r.stats.finest_meshed, r.stats.seam_jobs, 100 * share(r.stats.chunks_in_vain, r.stats.chunks_meshed));
-  if (by_distance) {
-    fmt::print("  reach     {} of level 0 instead of {} by distance alone: {:.1f} % saved\n", r.stats.finest_meshed,
-               by_distance->stats.finest_meshed,
-               100 * (1 - share(r.stats.finest_meshed, by_distance->stats.finest_meshed)));
-  }
-  fmt::print("  memory    {:.1f} MB of meshes at most\n", static_cast<double>(r.stats.peak_mesh_bytes) / 1e6);
-  fmt::print("  hash      {:016x} (level 0 within 32 m of the end, seed {})\n", flown.hash, options.seed);
+FlightSettings settingsOf(const FlyOptions& options, const Scene& scene) {
+  FlightSettings settings;
+  settings.cell_units = scene.cell;
+  settings.seed = options.seed;
+  settings.speed = options.speed;
+  settings.frames = options.frames;
+  settings.teleports = options.teleports;
+  settings.edits = options.edits;
+  settings.check = options.check;
+  settings.paced = !options.unpaced;
+  settings.finest_distance = options.finest;
+  return settings;
 }
 
 struct FlightResult {
@@ -249,52 +148,50 @@ struct FlightResult {
   Exit status = Exit::done;
 };
 
-FlightResult flyOnce(const FlyOptions& options, bool by_distance) {
+/// pictures: null where the flight is by distance, to compare.
+FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   Scene scene;
-  if (const Exit status = makeScene(options, by_distance, scene); status != Exit::done) return {{}, status};
+  if (const Exit status = makeScene(options, pictures == nullptr, scene); status != Exit::done) return {{}, status};
   Result<FlightPath> path = pathOf(options, scene);
   if (!path) return {{}, cli::complain(path.error())};
-  Sheet sheet(options, scene);
-  if (!by_distance) {
-    if (Result<void> begun = sheet.begin(); !begun) return {{}, cli::complain(begun.error())};
-  }
-  FlightSettings settings;
-  settings.cell_units = scene.cell;
-  settings.speed = options.speed;
-  settings.frames = options.frames;
-  settings.teleports = options.teleports;
-  settings.check = options.check;
-  settings.paced = !options.unpaced;
-  settings.finest_distance = options.finest;
+  const FlightSettings settings = settingsOf(options, scene);
   FlightPlace last;
-  ProgressBar bar(by_distance ? "by distance" : "flying");
-  Result<FlightReport> report = sgm::cli::fly(scene.world.get(), scene.field.get(), *path, settings,
-                                              [&](uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn) {
-                                                bar.show(frame + 1, options.frames);
-                                                last = place;
-                                                sheet.take(frame, place, drawn);
-                                                return true;
-                                              });
-  if (!report) return {{}, cli::complain(report.error())};
-  if (Result<void> written = sheet.write(); !written) return {{}, cli::complain(written.error())};
-  Flown flown{*report, 0};
-  if (!by_distance) {
-    const Result<uint64_t> hash = hashAround(scene, last);
-    if (!hash) return {{}, cli::complain(hash.error())};
-    flown.hash = *hash;
+  std::optional<ProgressBar> bar(std::in_place, "planning");
+  FlightWatch watch;
+  watch.planned = [&](uint64_t frame) { bar->show(frame + 1, options.frames); };
+  watch.flown = [&](uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn) {
+    if (frame == 0) bar.emplace(pictures == nullptr ? "by distance" : "flying");
+    bar->show(frame + 1, options.frames);
+    last = place;
+    return pictures == nullptr || pictures->take(scene.grammar.get(), frame, place, drawn);
+  };
+  Result<FlightReport> report = sgm::cli::fly(scene.world.get(), *path, settings, watch);
+  bar.reset();
+  if (!report && report.error().code != Code::cancelled) return {{}, cli::complain(report.error())};
+  if (pictures != nullptr) {
+    if (Result<void> drawn = pictures->finish(); !drawn) return {{}, cli::complain(drawn.error())};
   }
-  return {flown, Exit::done};
+  Flown flown;
+  flown.report = std::move(*report);
+  flown.frame_bytes = settings.frame_bytes;
+  const Result<uint64_t> hash = hashAround(scene, last);
+  if (!hash) return {{}, cli::complain(hash.error())};
+  flown.hash = *hash;
+  sgm_runtime_memory(scene.runtime.get(), nullptr, &flown.runtime_peak_bytes);
+  return {std::move(flown), Exit::done};
 }
 
 }  // namespace
 
 Exit fly(const FlyOptions& options) {
   if (const LoadedGrammar loaded = loadGrammar(options.file); loaded.program == nullptr) return loaded.status;
-  const FlightResult flight = flyOnce(options, false);
+  FlyPictures pictures(options);
+  if (Result<void> begun = pictures.begin(); !begun) return cli::complain(begun.error());
+  const FlightResult flight = flyOnce(options, &pictures);
   if (!flight.flown) return flight.status;
   std::optional<FlightReport> by_distance;
   if (options.compare) {
-    const FlightResult other = flyOnce(options, true);
+    const FlightResult other = flyOnce(options, nullptr);
     if (!other.flown) return other.status;
     by_distance = other.flown->report;
   }
@@ -303,9 +200,8 @@ Exit fly(const FlyOptions& options) {
   } else {
     print(options, *flight.flown, by_distance);
   }
-  const FlightReport& r = flight.flown->report;
-  return r.worst.closed() && r.whole_failures == 0 ? Exit::done
-                                                   : cli::complain(Exit::input, "a frame's surface was not closed");
+  const std::optional<std::string> defect = defectOf(flight.flown->report);
+  return defect ? cli::complain(Exit::input, *defect) : Exit::done;
 }
 
 }  // namespace sgm::cli

@@ -1,0 +1,26 @@
+#pragma once
+// What `sgm fly` says of a flight.
+
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/flight.h"
+#include "cli/json.h"
+
+namespace sgm::cli {
+
+struct Flown {
+  FlightReport report;
+  uint64_t hash = 0;                ///< of level 0 around the end, at rest
+  uint64_t runtime_peak_bytes = 0;  ///< of all that the runtime held at one time
+  uint64_t frame_bytes = 0;         ///< the most that could be handed over in one frame
+};
+
+/// by_distance: of a second flight, with level 0 by distance alone.
+Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<FlightReport>& by_distance);
+void print(const FlyOptions& options, const Flown& flown, const std::optional<FlightReport>& by_distance);
+
+/// What was not as it is promised; nothing where all was.
+std::optional<std::string> defectOf(const FlightReport& report);
+
+}  // namespace sgm::cli
