@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# sgm fly: flights whose every frame is closed, the same world whoever flies, and what it refuses.
+# sgm fly: flights that dig and whose every frame is closed, the same world whoever flies, and what it refuses.
 source "$(dirname "$0")/common.sh"
 cave=$SOURCE/samples/grammars/cave.sgm
 
@@ -10,12 +10,23 @@ frames=1000
 for flight in "5 1 --unpaced" "20 2" "60 3 --unpaced"; do
   read -r speed seed pace <<<"$flight"
   expect 0 "$SGM" fly "$cave" --cell 0.5 --seed "$seed" --speed "$speed" --frames "$frames" --teleports 3 --finest 16 \
-    --top-level 5 --view 200 --check --json $pace
+    --top-level 5 --view 200 --check --edits 5 --json $pace
   json "j.frames === $frames && j.commits > 10 && j.chunks_meshed > 500"
   json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.degenerate_triangles === 0 && j.overlaps === 0'
   [[ -n $pace ]] || json 'j.commits > 80 && j.chunks_meshed > 1500'
   json 'j.whole_checks >= 2 && j.whole_failures === 0'
-  json 'j.peak_bytes.meshes > 1e6 && j.peak_bytes.meshes < 256 * 2 ** 20'
+  json 'j.peak_bytes.meshes > 1e6 && j.peak_bytes.meshes < 256 * 2 ** 20 && j.peak_bytes.meshes < j.peak_bytes.runtime'
+  json 'j.peak_bytes.handed_over_per_frame.largest > 0'
+  json 'j.peak_bytes.handed_over_per_frame.largest <= j.peak_bytes.handed_over_per_frame.cap'
+  json 'j.colliders.count > 0 && j.peak_bytes.colliders > 0 && j.time_to_walkable_ms > 0'
+  json 'j.colliders.missing === 0 && j.colliders.unlike === 0 && j.colliders.stray === 0'
+  json "j.digs >= Math.floor(($frames - 60) / 12) - 1 && j.digs === j.edits && j.digs_by_kind.cuts > j.digs / 2"
+  json 'j.dig_frames.max <= 2 && j.dig_frames.p50 <= j.dig_frames.p99 && j.dig_ms.p50 > 0 && j.dig_ms.p99 <= j.dig_ms.max'
+  json 'j.work_at_teleports.length === 3'
+  # How soon stale work goes is measured at 60 frames a second alone.
+  [[ -z $pace ]] || json 'j.stale_after_2_frames === null'
+  [[ -n $pace ]] || json 'j.work_at_teleports.every((n) => n === 0) === (j.stale_after_2_frames === null)'
+  [[ -n $pace ]] || json '!j.stale_after_2_frames || j.stale_after_2_frames.median <= j.stale_after_2_frames.worst'
 done
 
 # The same place by another way, at another speed, with other threads.
@@ -33,6 +44,50 @@ expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --frames 30 --unpaced --top-leve
 out_has 'changes of what is drawn'
 err_empty
 
+# What was dug and meshed is there for the next flight, and another one digs elsewhere.
+kept=(--path path.json --speed 10 --frames 180 --edits 4 --cache chunks --journal dug)
+expect 0 "$SGM" fly "$cave" "${small[@]}" "${kept[@]}"
+json 'j.edits === 8 && j.cache.misses > 100 && j.cache.damaged === 0 && j.peak_bytes.disk_cache > 1e4'
+json "j.world_hash !== '$hash'"
+expect 0 "$SGM" fly "$cave" "${small[@]}" "${kept[@]}"
+json 'j.edits === 16 && j.digs === 8 && j.cache.hits > 100'
+expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --path path.json --frames 120 --top-level 3 --view 60 --edits
+out_has 'digs +1 '
+
+# encoder LINE: a program ffmpeg that runs that; $file is what it is to write.
+encoder() {
+  mkdir -p bin
+  printf '#!/usr/bin/env bash\nfor word; do file=${word#file:}; done\n%s\n' "$1" >bin/ffmpeg
+  chmod +x bin/ffmpeg
+}
+video=(--cell 1 --seed 3 --path path.json --top-level 2 --view 40 --unpaced --json --video flight.mp4)
+expect 3 timeout 20 env PATH="$work/none" "$SGM" fly "$cave" "${video[@]}" --frames 99999999
+err_has 'ffmpeg'
+one_line
+expect 0 "$SGM" backends --json
+if node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).vulkan_devices.length ? 0 : 1)' "$work/.out"; then
+  encoder 'wc -c >"$file"; printf "%s " "$@" >>"$file"'
+  expect 0 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 9
+  [[ $(<flight.mp4) == "$((5 * 640 * 360 * 4))"*' -s 640x360 -r 30 '* ]] || failed "the video is not five pictures"
+  rm flight.mp4
+  encoder 'head -c 1000000 >"$file"; echo "first words" >&2; echo "no room for a film" >&2; exit 7'
+  expect 4 timeout 60 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 99999999
+  err_has 'status 7: no room for a film'
+  one_line
+  # All was taken, and still it failed; or nothing was written.
+  encoder 'cat >"$file"; exit 7'
+  expect 4 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 3
+  encoder 'cat >/dev/null'
+  expect 4 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 3
+  one_line
+else
+  [[ -z ${SGM_REQUIRE_ALL:-} ]] || failed "a Vulkan device is required here"
+  echo "no Vulkan device: videos are left out"
+  encoder 'cat >"$file"'
+  expect 3 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 3
+  one_line
+fi
+
 # What is wrong is said in one line, and nothing is left behind.
 printf '{"points": [[0, 0, 0]]}' >one.json
 printf '{"points": ' >torn.json
@@ -48,5 +103,15 @@ expect 2 "$SGM" fly "$cave" --frames 0
 expect 2 "$SGM" fly "$cave" --out sheet.png
 expect 1 "$SGM" fly "$cave" --mesh-mb 1 --frames 10
 err_has 'mesh_bytes'
-only path.json other.json one.json torn.json flat.json
+expect 2 "$SGM" fly "$cave" --edits 61
+expect 2 "$SGM" fly "$cave" --video flight.avi
+expect 2 "$SGM" fly "$cave" --compare --journal dug
+# A name that cannot be written is said before the flight.
+for wrong in "--png 2 --out nowhere/flight.png" "--video nowhere/flight.mp4" "--journal nowhere/dug" "--cache path.json"; do
+  expect 4 timeout 20 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" --frames 99999999 --unpaced $wrong
+  one_line
+done
+expect 1 "$SGM" fly "$cave" --seed 4 --frames 10 --journal dug
+err_has 'journal'
+only bin chunks dug path.json other.json one.json torn.json flat.json
 finish
