@@ -18,7 +18,7 @@ namespace {
 constexpr uint64_t kAmple = uint64_t{1} << 30;
 
 /// A grammar's world, and a box of places where it has much to mesh.
-struct Scene {
+struct Excerpt {
   std::string grammar;
   int32_t cell;
   IntBox box;
@@ -31,8 +31,8 @@ IntBox around(int32_t x, int32_t y, int32_t z, int32_t metres) {
   return IntBox{middle, middle}.grown(metres * 1024);
 }
 
-const std::vector<Scene>& scenes() {
-  static const std::vector<Scene> all{{"cave.sgm", 256, around(112, 96, 96, 24)},
+const std::vector<Excerpt>& scenes() {
+  static const std::vector<Excerpt> all{{"cave.sgm", 256, around(112, 96, 96, 24)},
                                       {"cloud.sgm", 4096, around(450, 1200, 450, 600)},
                                       {"combine.sgm", 256, around(0, 0, 0, 12)}};
   return all;
@@ -75,7 +75,7 @@ bool same(const MeshedChunk& a, const MeshedChunk& b) {
          a.voids == b.voids;
 }
 
-ChunkRequest randomRequest(std::mt19937& random, const Scene& scene) {
+ChunkRequest randomRequest(std::mt19937& random, const Excerpt& scene) {
   ChunkRequest request;
   request.key.level = static_cast<int>(random() % 3);
   const Int3 at = randomPlace(random, scene.box);
@@ -109,7 +109,7 @@ bool sampled(const Machine& machine, const WorldField& world, const ChunkRequest
   return !chunks->front().mesh.uniform;
 }
 
-std::shared_ptr<const EditSnapshot> randomEdits(std::mt19937& random, const Scene& scene, int count) {
+std::shared_ptr<const EditSnapshot> randomEdits(std::mt19937& random, const Excerpt& scene, int count) {
   EditSnapshot edits;
   for (int i = 1; i <= count; ++i) {
     const auto number = static_cast<uint64_t>(i);
@@ -141,7 +141,7 @@ TEST_CASE("a chunk comes out of the cache as it was meshed", "[stream][disk]") {
   std::mt19937 random(static_cast<uint32_t>(seed));
   const Machine machine;
   size_t triangles = 0, seam_triangles = 0, empty = 0, proven = 0, anchors = 0, voids = 0, edited = 0;
-  for (const Scene& scene : scenes()) {
+  for (const Excerpt& scene : scenes()) {
     const CacheFolder folder;
     const auto cache = openCache(folder, kAmple);
     const WorldField world(scene.settings(), std::pmr::get_default_resource());
@@ -249,7 +249,7 @@ TEST_CASE("a body and each seam are kept apart, for any request", "[stream][disk
 }
 
 TEST_CASE("whatever a part depends on is in its key, and what it does not is not", "[stream][disk]") {
-  const Scene& scene = scenes()[0];
+  const Excerpt& scene = scenes()[0];
   const WorldFieldSettings settings = scene.settings();
   const WorldField world(settings, std::pmr::get_default_resource());
   const ChunkRequest request = caveRequest();
@@ -352,7 +352,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
 }
 
 TEST_CASE("the brushes that show around a part are in its key, and no others", "[stream][disk]") {
-  const Scene& scene = scenes()[0];
+  const Excerpt& scene = scenes()[0];
   const WorldField world(scene.settings(), std::pmr::get_default_resource());
   const ChunkRequest request = caveRequest();
   const IntBox box = chunkBox(*chunkGrid(world, request.key));
@@ -641,7 +641,7 @@ TEST_CASE("the meshing version stands for these bytes", "[stream][disk]") {
   constexpr uint64_t kSum = 0x92539f1c389dd134;
   const Machine machine;
   uint64_t sum = 0;
-  for (const Scene& scene : scenes()) {
+  for (const Excerpt& scene : scenes()) {
     const CacheFolder folder;
     const auto cache = openCache(folder, kAmple);
     const WorldField world(scene.settings(), std::pmr::get_default_resource());
