@@ -66,7 +66,7 @@ Result<void> openJournal(WorldCore& core) {
 
 }  // namespace
 
-World::World(std::shared_ptr<WorldCore> core, JobSystem& jobs) : core_(std::move(core)), jobs_(jobs) {}
+World::World(std::unique_ptr<WorldCore> core, JobSystem& jobs) : core_(std::move(core)), jobs_(jobs) {}
 
 Result<std::unique_ptr<World>> World::create(const WorldField& field, Backend& backend, JobSystem& jobs,
                                              const WorldSettings& settings, std::pmr::memory_resource* memory) {
@@ -78,7 +78,7 @@ Result<std::unique_ptr<World>> World::create(const WorldField& field, Backend& b
   }
   WorldSettings own = settings;
   if (own.edits.author == 0) own.edits.author = randomAuthor();
-  auto core = std::make_shared<WorldCore>(field, backend, jobs, own, memory);
+  auto core = std::make_unique<WorldCore>(field, backend, jobs, own, memory);
   if (!own.journal.empty()) {
     if (Result<void> opened = openJournal(*core); !opened) return opened.error();
   }

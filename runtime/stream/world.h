@@ -125,7 +125,7 @@ class World {
   WorldStats stats() const;
 
  private:
-  World(std::shared_ptr<WorldCore> core, JobSystem& jobs);
+  World(std::unique_ptr<WorldCore> core, JobSystem& jobs);
   void advance(size_t bytes);
   void restage(const std::shared_ptr<const FrameStep>& step);
   /// Whether all of the step's surfaces have been handed over.
@@ -133,7 +133,7 @@ class World {
   /// Hands over surfaces of a step, and when all are there its changes: then true.
   bool stage(const std::shared_ptr<const FrameStep>& step, size_t bytes);
 
-  std::shared_ptr<WorldCore> core_;
+  std::unique_ptr<WorldCore> core_;
   JobSystem& jobs_;
   // The engine's side, guarded by front_.
   mutable std::mutex front_;

@@ -34,35 +34,36 @@ WorldCore::WorldCore(const WorldField& field_in, Backend& backend_in, JobSystem&
       edits(settings_in.edits, memory),
       drawn(std::make_shared<DrawnFrame>(Octree(settings_in.lod.top, settings_in.lod.finest_cell))),
       memory_(memory),
+      gate_(std::make_shared<Gate>(*this)),
       surfaces_(std::make_shared<SurfacePool>(memory)),
       planner_(plannerSettings(settings_in)),
       colliders_(settings_in.collider_distance, settings_in.lod.finest_cell) {}
 
 template <void (WorldCore::*work)()>
 void WorldCore::run(void* argument) noexcept {
-  const std::unique_ptr<std::shared_ptr<WorldCore>> owner(static_cast<std::shared_ptr<WorldCore>*>(argument));
-  WorldCore& core = **owner;
+  const std::unique_ptr<std::shared_ptr<Gate>> owner(static_cast<std::shared_ptr<Gate>*>(argument));
+  Gate& gate = **owner;
   {
-    const std::lock_guard lock(core.mutex);
-    if (core.stopped_) return;
-    ++core.running_;
+    const std::lock_guard lock(gate.mutex);
+    if (gate.closed) return;
+    ++gate.running;
   }
-  (core.*work)();
-  const std::lock_guard lock(core.mutex);
-  --core.running_;
-  core.changed.notify_all();
+  (gate.core.*work)();
+  const std::lock_guard lock(gate.mutex);
+  --gate.running;
+  gate.ended.notify_all();
 }
 
 void WorldCore::stop() {
-  std::unique_lock lock(mutex);
-  stopped_ = true;
-  helpUntil(jobs, lock, changed, [this] { return running_ == 0; });
-  queue.clear();
-  finished_.clear();
-  step = nullptr;
-  drawn = nullptr;
-  planner_ = Planner(plannerSettings(settings));
-  lock.unlock();
+  {
+    const std::lock_guard lock(mutex);
+    stopped_ = true;
+  }
+  {
+    std::unique_lock lock(gate_->mutex);
+    gate_->closed = true;
+    helpUntil(jobs, lock, gate_->ended, [this] { return gate_->running == 0; });
+  }
   surfaces_->close();
   if (const Result<void> flushed = edits.flush(); !flushed && settings.on_warning) {
     settings.on_warning(flushed.error().message);
@@ -81,7 +82,7 @@ WorldCore::Work WorldCore::work() const {
 
 bool WorldCore::submit(void (*function)(void*), int priority) noexcept {
   try {
-    auto owner = std::make_unique<std::shared_ptr<WorldCore>>(shared_from_this());
+    auto owner = std::make_unique<std::shared_ptr<Gate>>(gate_);
     jobs.submit(function, owner.get(), priority);
     static_cast<void>(owner.release());
     return true;

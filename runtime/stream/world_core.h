@@ -1,7 +1,7 @@
 #pragma once
 // What a streamed world and its jobs share (world.h): a mailbox behind one mutex, a job that plans, and jobs that mesh.
 //
-// Jobs own the core, and may begin late: after the world's end they find nothing to do. No job takes longer than one
+// Jobs may begin late: all that they own is a gate, which is closed after the world's end. No job takes longer than one
 // plan or one chunk, so that an engine's own jobs get their turn.
 
 #include <array>
@@ -26,7 +26,7 @@ namespace sgm {
 /// What a chunk may come to, in bytes: every cell cut in the worst way, with six seams.
 inline constexpr size_t kLargestChunk = size_t{5} << 20;
 
-class WorldCore : public std::enable_shared_from_this<WorldCore> {
+class WorldCore {
  public:
   WorldCore(const WorldField& field, Backend& backend, JobSystem& jobs, const WorldSettings& settings,
             std::pmr::memory_resource* memory);
@@ -37,7 +37,7 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
   bool planIsDue() const;
   /// Has the journal written, at most every kBetweenFlushes.
   void kickJournal();
-  /// Waits for jobs that have begun, and lets go of all memory.
+  /// Waits for jobs that have begun: no other will touch the core. Once, before its end. Writes the journal.
   void stop();
 
   /// What the viewers of now want is there and drawn, edits included. Precondition: the mutex is held.
@@ -84,6 +84,16 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
     return surfaces_->bytes() + collider_bytes + reserved_ + kLargestChunk <= settings.mesh_bytes;
   }
 
+  /// What jobs own.
+  struct Gate {
+    explicit Gate(WorldCore& core_in) : core(core_in) {}
+    WorldCore& core;
+    std::mutex mutex;  ///< guards what follows
+    std::condition_variable ended;
+    bool closed = false;  ///< the core is no more, or will not be for long
+    size_t running = 0;   ///< jobs between their begin and end
+  };
+
   /// False where no memory is left to do so.
   bool submit(void (*function)(void*), int priority) noexcept;
   void kickMeshing();
@@ -100,11 +110,12 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
   FinishedChunk meshOne(const WorkItem& item, const EditState& under) const;
   void flushOnce();
 
-  /// A job's frame: does nothing after the world's end.
+  /// A job's frame: does nothing once the gate is closed.
   template <void (WorldCore::*work)()>
   static void run(void* argument) noexcept;
 
   std::pmr::memory_resource* memory_;
+  const std::shared_ptr<Gate> gate_;
   std::shared_ptr<SurfacePool> surfaces_;
   Planner planner_;      ///< of the planning job alone, which never runs twice at one time
   Colliders colliders_;  ///< likewise
@@ -119,7 +130,6 @@ class WorldCore : public std::enable_shared_from_this<WorldCore> {
   size_t meshing_ = 0;         ///< jobs at work on a request
   std::array<size_t, 3> meshing_of_rank_{};  ///< likewise, by WorkItem::Rank
   size_t reserved_ = 0;                      ///< bytes that these may come to
-  size_t running_ = 0;                       ///< jobs between their begin and end
   std::vector<std::thread::id> submitting_;  ///< threads that are handing on a mesh job
   bool planning_ = false;                    ///< submitted or running
   bool plan_again_ = false;
