@@ -262,7 +262,13 @@ EditJournal::~EditJournal() {
 
 void EditJournal::append(std::span<const EditOperation> operations) {
   const std::lock_guard lock(appending_);
-  for (const EditOperation& operation : operations) putRecord(operation, waiting_);
+  const size_t before = waiting_.size();
+  try {
+    for (const EditOperation& operation : operations) putRecord(operation, waiting_);
+  } catch (const std::bad_alloc&) {
+    waiting_.resize(before);  // half a record would be damage to all that follows
+    throw;
+  }
 }
 
 Result<void> EditJournal::flush() {

@@ -32,7 +32,7 @@ class EditJournal {
   EditJournal& operator=(const EditJournal&) = delete;
   ~EditJournal();  ///< flushes; whoever wants to know how that went flushes before
 
-  /// Takes operations into memory; never waits for the disk.
+  /// Takes operations into memory; never waits for the disk. Throws std::bad_alloc, and none is taken.
   void append(std::span<const EditOperation> operations);
   /// Writes what was appended, and returns when the disk has it: where it is called every second, on any thread but the
   /// frame's, no more than that second can be lost. io: nothing is lost, and the next call tries again.

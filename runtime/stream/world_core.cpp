@@ -18,6 +18,8 @@ constexpr int kFlushPriority = 3, kPlanPriority = 2, kMeshPriority = 1;
 constexpr size_t kCollidersAtOnce = 128;
 /// With the time that a disk takes: no more than a second's edits are ever lost.
 constexpr auto kBetweenFlushes = 250ms;
+/// Fits into a string without memory of its own.
+constexpr const char* kOutOfMemory = "out of memory";
 
 PlannerSettings plannerSettings(const WorldSettings& settings) {
   return {settings.lod, settings.mesh_bytes, settings.collider_distance, settings.by_reach};
@@ -54,7 +56,7 @@ void WorldCore::run(void* argument) noexcept {
   gate.ended.notify_all();
 }
 
-void WorldCore::stop() {
+void WorldCore::stop() noexcept {
   {
     const std::lock_guard lock(mutex);
     stopped_ = true;
@@ -65,8 +67,16 @@ void WorldCore::stop() {
     helpUntil(jobs, lock, gate_->ended, [this] { return gate_->running == 0; });
   }
   surfaces_->close();
-  if (const Result<void> flushed = edits.flush(); !flushed && settings.on_warning) {
-    settings.on_warning(flushed.error().message);
+  flush_failed_ = false;  // this time for good: it is told of again
+  flushOnce();
+}
+
+void WorldCore::warn(const char* message) const noexcept {
+  if (!settings.on_warning) return;
+  try {
+    settings.on_warning(message);
+  } catch (const std::bad_alloc&) {
+    // A job lets no exception out, and there is no memory to say more.
   }
 }
 
@@ -109,7 +119,7 @@ void WorldCore::flushOnce() {
   try {
     flushed = edits.flush();
   } catch (const std::bad_alloc&) {
-    flushed = Error{Code::out_of_memory, "out of memory while writing the journal of edits"};
+    flushed = Error{Code::out_of_memory, kOutOfMemory};
   }
   bool first;
   {
@@ -119,7 +129,9 @@ void WorldCore::flushOnce() {
     flush_failed_ = !flushed;
   }
   // What could not be written is tried again with the next edits, and at the end.
-  if (first && settings.on_warning) settings.on_warning(flushed.error().message);
+  if (!first) return;
+  const Error& why = flushed.error();
+  warn(why.code == Code::out_of_memory ? "out of memory while writing the journal of edits" : why.message.c_str());
 }
 
 void WorldCore::kickPlanner() {
@@ -283,7 +295,7 @@ FinishedChunk WorldCore::meshOne(const WorkItem& item, const EditState& under) c
     }
     if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
   } catch (const std::bad_alloc&) {
-    done.error = Error{Code::out_of_memory, "out of memory while meshing a chunk"};
+    done.error = Error{Code::out_of_memory, kOutOfMemory};
   }
   return done;
 }
@@ -322,7 +334,7 @@ void WorldCore::meshOnce() {
     const size_t left_of_rank = --meshing_of_rank_[static_cast<size_t>(item.rank)];
     if (meshing_before_ > 0) --meshing_before_;
     reserved_ -= kLargestChunk;
-    if (generation != of_generation) done.error = Error{Code::cancelled, "no longer wanted"};
+    if (generation != of_generation) done.error = Error{Code::cancelled, "unwanted"};
     const bool scarce = done.error && done.error->code == Code::out_of_memory;
     try {
       finished_.push_back(std::move(done));

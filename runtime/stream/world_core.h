@@ -38,7 +38,7 @@ class WorldCore {
   /// Has the journal written, at most every kBetweenFlushes.
   void kickJournal();
   /// Waits for jobs that have begun: no other will touch the core. Once, before its end. Writes the journal.
-  void stop();
+  void stop() noexcept;
 
   /// What the viewers of now want is there and drawn, edits included. Precondition: the mutex is held.
   bool settled() const;
@@ -109,6 +109,8 @@ class WorldCore {
   void meshAgain();
   FinishedChunk meshOne(const WorkItem& item, const EditState& under) const;
   void flushOnce();
+  /// Any thread, without a lock.
+  void warn(const char* message) const noexcept;
 
   /// A job's frame: does nothing once the gate is closed.
   template <void (WorldCore::*work)()>

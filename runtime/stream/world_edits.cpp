@@ -123,15 +123,20 @@ void WorldEdits::forget(uint64_t number) {
 
 Result<void> WorldEdits::flush() {
   if (journal_ == nullptr) return {};
-  {
-    const std::lock_guard lock(mutex_);
-    unwritten_.store(false, std::memory_order_release);
-    journal_->append(log_.operations(journalled_));
-    journalled_ = log_.size();
+  try {
+    {
+      const std::lock_guard lock(mutex_);
+      unwritten_.store(false, std::memory_order_release);
+      journal_->append(log_.operations(journalled_));
+      journalled_ = log_.size();
+    }
+    Result<void> flushed = journal_->flush();
+    if (!flushed) unwritten_.store(true, std::memory_order_release);
+    return flushed;
+  } catch (const std::bad_alloc&) {
+    unwritten_.store(true, std::memory_order_release);
+    throw;
   }
-  Result<void> flushed = journal_->flush();
-  if (!flushed) unwritten_.store(true, std::memory_order_release);
-  return flushed;
 }
 
 }  // namespace sgm

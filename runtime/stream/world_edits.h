@@ -54,7 +54,8 @@ class WorldEdits {
 
   /// Whether there is something to write that flush() has not tried to write.
   bool unwritten() const { return unwritten_.load(std::memory_order_acquire); }
-  /// Returns when the disk has every operation of before. Errors: as EditJournal::flush; unwritten() holds again.
+  /// Returns when the disk has every operation of before. Errors: as EditJournal::flush; unwritten() holds again, also
+  /// where it throws std::bad_alloc.
   Result<void> flush();
 
  private:
