@@ -162,6 +162,7 @@ void World::restage(const std::shared_ptr<const FrameStep>& step) {
 
 bool World::handOver(const FrameStep& step, size_t bytes) {
   size_t given = 0;
+  events_.reserve(events_.size() + step.changes.size() - staged_changes_);  // what counts as handed over is told
   for (; staged_changes_ < step.changes.size(); ++staged_changes_) {
     const DrawnChunk& chunk = step.changes[staged_changes_].chunk;
     if (chunk.surface == nullptr) continue;
@@ -174,9 +175,9 @@ bool World::handOver(const FrameStep& step, size_t bytes) {
       return false;
     }
     if (size > bytes - given) return false;
+    handed_[chunk.key] = chunk.surface;
     events_.push_back({WorldEvent::Kind::ready, chunk.key, chunk.surface, 0, 0, 0, {}});
     given += size;
-    handed_[chunk.key] = chunk.surface;
   }
   return true;
 }
@@ -239,10 +240,11 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
     frame = core_->applied;
     finished = core_->planner_stats.meshed + core_->planner_stats.seam_jobs;
     const uint64_t plans = core_->plans;
-    // A plan may become due by time alone.
+    // Where nothing is at work a plan becomes due by time alone.
     const auto look_again = std::chrono::steady_clock::now() + kBetweenLooks;
-    helpUntil(jobs_, lock, core_->changed,
-              [&] { return core_->plans != plans || std::chrono::steady_clock::now() >= look_again; });
+    helpUntil(jobs_, lock, core_->changed, [&] {
+      return core_->plans != plans || core_->settled() || std::chrono::steady_clock::now() >= look_again;
+    });
     lock.unlock();
     if (more && !more()) return Error{Code::cancelled, "the wait was cancelled"};
   }

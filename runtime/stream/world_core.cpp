@@ -81,13 +81,13 @@ void WorldCore::warn(const char* message) const noexcept {
 }
 
 bool WorldCore::settled() const {
-  return idle_ && viewers_planned_ == viewers_set && edits_planning_ == edits.number() && step == nullptr &&
-         colliders_done_ && collider_changes.empty();
+  return idle_ && planned_with_.viewers == viewers_set && planned_with_.applied == applied &&
+         planned_with_.edits == edits.number() && step == nullptr && colliders_done_ && collider_changes.empty();
 }
 
 WorldCore::Work WorldCore::work() const {
   const size_t all = queue.size() + meshing_;
-  return {queue.size(), meshing_, viewers_planned_ != viewers_set ? all : std::min(meshing_, meshing_before_)};
+  return {queue.size(), meshing_, planned_with_.viewers != viewers_set ? all : std::min(meshing_, meshing_before_)};
 }
 
 bool WorldCore::submit(void (*function)(void*), int priority) noexcept {
@@ -172,12 +172,11 @@ PlanInput WorldCore::planInput() {
     const std::lock_guard lock(mutex);
     plan_again_ = false;
     input.viewers = viewers;
-    viewers_planning_ = viewers_set;
-    edits_planning_ = input.edits.number;
+    planning_with_ = {viewers_set, applied, input.edits.number};
     input.finished.swap(finished_);
     input.begun.swap(begun_);
     input.refused.swap(refused);
-    input.applied = applied_planning_ = applied;
+    input.applied = applied;
   }
   surfaces_->collect();
   input.live_bytes = surfaces_->bytes();
@@ -187,12 +186,13 @@ PlanInput WorldCore::planInput() {
 bool WorldCore::planIsDue() const {
   const std::lock_guard lock(mutex);
   // One state of edits after the other: while one is being meshed and drawn the next need not be looked at.
-  const bool new_edits = edits_planning_ != edits.number();
+  const bool new_edits = planning_with_.edits != edits.number();
   if (new_edits && queue_edits_.number == edits_drawn) return true;
-  const bool news = new_edits || planner_lost_ || viewers_planning_ != viewers_set || applied_planning_ != applied ||
-                    !finished_.empty() || !refused.empty();
+  const bool news = new_edits || planner_lost_ || planning_with_.viewers != viewers_set ||
+                    planning_with_.applied != applied || !finished_.empty() || !refused.empty();
   // Without room, out of memory, or between two states of edits of which one changed nothing.
-  const bool stuck = mesh_jobs == 0 && step == nullptr && (!idle_ || !colliders_done_);
+  const bool nothing_to_draw = step == nullptr || step->from != applied;
+  const bool stuck = !atWork() && nothing_to_draw && (!idle_ || !colliders_done_);
   return stuck || (news && (queue.empty() || Clock::now() >= next_plan_));
 }
 
@@ -209,11 +209,13 @@ void WorldCore::losePlanner() {
 void WorldCore::planOnce() {
   for (bool again = true; again;) {
     const Clock::time_point begun_at = Clock::now();
-    bool more_colliders;
+    bool more_colliders = false;
     try {
       const ProfileScope scope(field.profiler(), zone::kPlan);
       if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
       Plan plan = planner_.plan(planInput());
+      // A step that was offered before a restart may be taken after it: the planner has forgotten where that leads.
+      if (planner_.applied().number != planning_with_.applied) return losePlanner();
       edits.forget(planner_.stats().edits_drawn);
       publish(std::move(plan));
       kickMeshing();
@@ -226,6 +228,7 @@ void WorldCore::planOnce() {
     const Clock::time_point now = Clock::now();
     next_plan_ = now + kMeshingPerPlanning * (now - begun_at);
     again = planning_ = (plan_again_ || more_colliders) && !stopped_;
+    changed.notify_all();
   }
 }
 
@@ -242,13 +245,13 @@ bool WorldCore::makeColliders() {
   if (collider_changes.empty()) collider_changes.swap(colliders_.changes());
   collider_bytes = colliders_.bytes();
   colliders_done_ = done && colliders_.changes().empty() && frame == drawn;
-  changed.notify_all();
   return !done && colliders_.changes().empty();
 }
 
-std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() const {
+std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() {
   const std::lock_guard lock(mutex);
-  return planner_lost_ ? drawn : nullptr;
+  // From now on a job may find anew that it must restart.
+  return std::exchange(planner_lost_, false) ? drawn : nullptr;
 }
 
 void WorldCore::publish(Plan&& plan) {
@@ -261,12 +264,12 @@ void WorldCore::publish(Plan&& plan) {
   queue.swap(plan.queue);
   queue_edits_ = std::move(plan.edits);
   step = std::move(plan.step);
-  if (viewers_planned_ != viewers_planning_) meshing_before_ = meshing_;
-  viewers_planned_ = viewers_planning_;
+  if (planned_with_.viewers != planning_with_.viewers) meshing_before_ = meshing_;
+  planned_with_ = planning_with_;
+  colliders_done_ = false;
   idle_ = plan.idle && meshing_ == 0 && finished_.empty() && begun_.empty();
   planner_stats = planner_.stats();
-  if (applied_planning_ == applied) edits_drawn = planner_stats.edits_drawn;
-  planner_lost_ = false;
+  if (planned_with_.applied == applied) edits_drawn = planner_stats.edits_drawn;
   ++plans;
   changed.notify_all();
 }

@@ -42,6 +42,8 @@ class WorldCore {
 
   /// What the viewers of now want is there and drawn, edits included. Precondition: the mutex is held.
   bool settled() const;
+  /// A plan or a chunk is being made. Precondition: the mutex is held.
+  bool atWork() const { return planning_ || mesh_jobs > 0; }
 
   const WorldField& field;
   Backend& backend;
@@ -101,7 +103,7 @@ class WorldCore {
   void publish(Plan&& plan);
   void losePlanner();
   /// Null where the planner is whole.
-  std::shared_ptr<const DrawnFrame> frameToRestartFrom() const;
+  std::shared_ptr<const DrawnFrame> frameToRestartFrom();
   void planOnce();
   /// Whether to go on with it at once.
   bool makeColliders();
@@ -124,8 +126,11 @@ class WorldCore {
 
   // Guarded by the mutex.
   bool planner_lost_ = false;  ///< memory gave out while it planned
-  uint64_t viewers_planning_ = 0, viewers_planned_ = 0, applied_planning_ = 0, edits_planning_ = 0;
-  EditState queue_edits_;  ///< that the queue is meshed under
+  struct Seen {
+    uint64_t viewers = 0, applied = 0, edits = 0;
+  };
+  Seen planning_with_, planned_with_;  ///< what the plan in the making has seen, and what the published one had
+  EditState queue_edits_;              ///< that the queue is meshed under
   std::vector<ChunkKey> begun_;
   std::vector<FinishedChunk> finished_;
   size_t meshing_before_ = 0;  ///< jobs that were at work when the plan for these viewers came, less those that ended
