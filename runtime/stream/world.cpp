@@ -234,7 +234,7 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
     advance(std::numeric_limits<size_t>::max());
     std::unique_lock lock(core_->mutex);
     if (core_->settled()) return {};
-    if (core_->mesh_jobs > 0 || core_->applied != frame ||
+    if ((core_->mesh_jobs > 0 && !core_->scarce) || core_->applied != frame ||
         core_->planner_stats.meshed + core_->planner_stats.seam_jobs != finished)
       in_vain = 0;
     frame = core_->applied;

@@ -101,6 +101,15 @@ bool WorldCore::submit(void (*function)(void*), int priority) noexcept {
   }
 }
 
+void WorldCore::tellScarce() noexcept {
+  {
+    const std::lock_guard lock(mutex);
+    scarce = true;
+    if (std::exchange(scarce_told_, true)) return;
+  }
+  warn("memory is too scarce for what the viewers want: what is drawn stays, and every update tries again");
+}
+
 void WorldCore::kickJournal() {
   if (!edits.unwritten()) return;
   {
@@ -154,7 +163,8 @@ void WorldCore::kickMeshing() {
   for (size_t more = mostMeshJobs(); more > 0; --more) {
     {
       const std::lock_guard lock(mutex);
-      if (stopped_ || mesh_jobs >= mostMeshJobs() || mesh_jobs >= queue.size() + meshing_ || !hasRoom()) return;
+      const size_t most = scarce ? 1 : mostMeshJobs();
+      if (stopped_ || mesh_jobs >= most || mesh_jobs >= queue.size() + meshing_ || !hasRoom()) return;
       ++mesh_jobs;
     }
     if (submit(run<&WorldCore::meshOnce>, kMeshPriority)) continue;
@@ -218,11 +228,16 @@ void WorldCore::planOnce() {
       if (planner_.applied().number != planning_with_.applied) return losePlanner();
       edits.forget(planner_.stats().edits_drawn);
       publish(std::move(plan));
-      kickMeshing();
-      more_colliders = makeColliders();
     } catch (const std::bad_alloc&) {
       // What the planner knows is no longer whole. It begins anew from what is drawn, at the next update.
+      tellScarce();
       return losePlanner();
+    }
+    kickMeshing();
+    try {
+      more_colliders = makeColliders();
+    } catch (const std::bad_alloc&) {
+      tellScarce();
     }
     const std::lock_guard lock(mutex);
     const Clock::time_point now = Clock::now();
@@ -245,6 +260,7 @@ bool WorldCore::makeColliders() {
   if (collider_changes.empty()) collider_changes.swap(colliders_.changes());
   collider_bytes = colliders_.bytes();
   colliders_done_ = done && colliders_.changes().empty() && frame == drawn;
+  if (settled()) scarce = scarce_told_ = false;
   return !done && colliders_.changes().empty();
 }
 
@@ -266,7 +282,7 @@ void WorldCore::publish(Plan&& plan) {
   step = std::move(plan.step);
   if (planned_with_.viewers != planning_with_.viewers) meshing_before_ = meshing_;
   planned_with_ = planning_with_;
-  colliders_done_ = false;
+  colliders_done_ = passed_over_ = false;
   idle_ = plan.idle && meshing_ == 0 && finished_.empty() && begun_.empty();
   planner_stats = planner_.stats();
   if (planned_with_.applied == applied) edits_drawn = planner_stats.edits_drawn;
@@ -330,7 +346,7 @@ void WorldCore::meshOnce() {
     reserved_ += kLargestChunk;
   }
   FinishedChunk done = meshOne(item, under);
-  bool plan, more;
+  bool plan, more, out_of_memory;
   {
     const std::lock_guard lock(mutex);
     --meshing_;
@@ -338,18 +354,22 @@ void WorldCore::meshOnce() {
     if (meshing_before_ > 0) --meshing_before_;
     reserved_ -= kLargestChunk;
     if (generation != of_generation) done.error = Error{Code::cancelled, "unwanted"};
-    const bool scarce = done.error && done.error->code == Code::out_of_memory;
+    out_of_memory = done.error && done.error->code == Code::out_of_memory;
+    if (!done.error) scarce = false;
     try {
       finished_.push_back(std::move(done));
     } catch (const std::bad_alloc&) {
-      planner_lost_ = true;  // it would wait for this one for ever
+      planner_lost_ = out_of_memory = true;  // it would wait for this one for ever
     }
     // What was dug, and what it takes to stand, is drawn as soon as the last chunk of it is there.
     const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.back().rank > item.rank);
-    plan = !scarce && (rank_done || finished_.size() >= kFinishedToPlan || queue.empty());
-    more = !scarce && !queue.empty() && hasRoom() && !stopped_;
+    plan = !out_of_memory && (rank_done || finished_.size() >= kFinishedToPlan || queue.empty());
+    // Memory may suffice for what is less urgent; but what is tried in vain is little.
+    const bool goes_on = !out_of_memory || !std::exchange(passed_over_, true);
+    more = goes_on && !queue.empty() && hasRoom() && !stopped_;
     if (!more) --mesh_jobs;
   }
+  if (out_of_memory) tellScarce();
   if (plan) kickPlanner();
   if (more) meshAgain();
 }

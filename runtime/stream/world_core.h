@@ -67,6 +67,7 @@ class WorldCore {
   uint64_t generation = 0;                  ///< of requests: those of an earlier one are not wanted any more
   uint64_t plans = 0;
   size_t mesh_jobs = 0;  ///< submitted or running
+  bool scarce = false;   ///< memory gave out, and no chunk could be made since
   PlannerStats planner_stats;
   size_t collider_bytes = 0;
 
@@ -111,6 +112,8 @@ class WorldCore {
   void meshAgain();
   FinishedChunk meshOne(const WorkItem& item, const EditState& under) const;
   void flushOnce();
+  /// Memory gave out: the next update tries again, with one job at first.
+  void tellScarce() noexcept;
   /// Any thread, without a lock.
   void warn(const char* message) const noexcept;
 
@@ -125,6 +128,8 @@ class WorldCore {
   Colliders colliders_;  ///< likewise
 
   // Guarded by the mutex.
+  bool scarce_told_ = false;   ///< since the world was at rest
+  bool passed_over_ = false;   ///< memory gave out for a chunk since the last plan
   bool planner_lost_ = false;  ///< memory gave out while it planned
   struct Seen {
     uint64_t viewers = 0, applied = 0, edits = 0;

@@ -23,7 +23,8 @@ struct WorldSettings {
   std::filesystem::path journal;          ///< of the edits; empty: they are not kept
   std::filesystem::path cache;            ///< folder of meshed chunks that outlast the world; empty: none
   uint64_t cache_bytes = uint64_t{1} << 30;  ///< the most bytes of its files
-  /// Told of what costs work or detail and is no error. Any thread; must not call back.
+  /// Told of what costs work or detail and is no error, of scarce memory once until the world is at rest. Any thread;
+  /// must not call back.
   std::function<void(const std::string&)> on_warning;
 };
 
