@@ -81,7 +81,7 @@ void WorldCore::warn(const char* message) const noexcept {
 }
 
 bool WorldCore::settled() const {
-  return idle_ && planned_with_.viewers == viewers_set && planned_with_.applied == applied &&
+  return idle_ && !planner_lost_ && planned_with_.viewers == viewers_set && planned_with_.applied == applied &&
          planned_with_.edits == edits.number() && step == nullptr && colliders_done_ && collider_changes.empty();
 }
 
@@ -359,7 +359,9 @@ void WorldCore::meshOnce() {
     try {
       finished_.push_back(std::move(done));
     } catch (const std::bad_alloc&) {
-      planner_lost_ = out_of_memory = true;  // it would wait for this one for ever
+      // The planner would wait for this one for ever, and so would a new one that was told of its begin.
+      planner_lost_ = out_of_memory = true;
+      std::erase(begun_, item.request.key);
     }
     // What was dug, and what it takes to stand, is drawn as soon as the last chunk of it is there.
     const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.back().rank > item.rank);
