@@ -1,31 +1,12 @@
 // Every allocation fails in turn: each call then says so, nothing leaks, and the next try works.
 
-#include <algorithm>
-#include <atomic>
-#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
+#include "failing_memory.h"
 #include "fixture.h"
 
 namespace {
-
-/// Fails the n-th allocation from now, and those after it.
-struct Failing {
-  std::atomic<int64_t> left{INT64_MAX};
-  std::atomic<int64_t> live{0};
-
-  static void* allocate(void* user, size_t size, size_t alignment) {
-    auto& f = *static_cast<Failing*>(user);
-    if (f.left.fetch_sub(1) <= 0) return nullptr;
-    f.live.fetch_add(1);
-    return ::operator new (size, std::align_val_t{alignment}, std::nothrow);
-  }
-  static void release(void* user, void* memory, size_t, size_t alignment) {
-    static_cast<Failing*>(user)->live.fetch_sub(1);
-    ::operator delete (memory, std::align_val_t{alignment});
-  }
-};
 
 struct Handles {
   sgm_runtime* runtime = nullptr;
@@ -97,21 +78,6 @@ void endAll(Handles& h) {
   sgm_diagnostics_destroy(h.diagnostics);
   sgm_grammar_destroy(h.grammar);
   CHECK(sgm_runtime_destroy(h.runtime) == SGM_OK);
-}
-
-/// Allocations of the C++ heap that are left before it fails on this thread; below 0: never.
-thread_local int64_t heap_left = -1;
-/// The same on all threads together.
-std::atomic<int64_t> heap_left_everywhere{INT64_MAX};
-
-void* heapAllocate(size_t size, size_t alignment) {
-  if (heap_left >= 0 && heap_left-- == 0) {
-    heap_left = 0;
-    return nullptr;
-  }
-  if (heap_left_everywhere.load() < INT64_MAX / 2 && heap_left_everywhere.fetch_sub(1) <= 0) return nullptr;
-  const size_t rounded = (std::max<size_t>(size, 1) + alignment - 1) / alignment * alignment;
-  return alignment <= alignof(std::max_align_t) ? std::malloc(rounded) : std::aligned_alloc(alignment, rounded);
 }
 
 }  // namespace
