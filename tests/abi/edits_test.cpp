@@ -100,7 +100,7 @@ void settle(sgm_world* world, Engine& engine) {
 
 }  // namespace
 
-TEST_CASE("a dig is drawn, collided with and asked about, and its undo takes all of that back") {
+TEST_CASE("a dig is drawn, collided with and asked about, and its undo takes all of that back", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kRock).get(), 512);
   sgm_world_desc desc = smallWorld();
@@ -153,7 +153,7 @@ TEST_CASE("a dig is drawn, collided with and asked about, and its undo takes all
   CHECK(hashOf(world.get()) != whole);
 }
 
-TEST_CASE("worlds exchange edits as bytes, and are equal then") {
+TEST_CASE("worlds exchange edits as bytes, and are equal then", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kRock).get(), 512);
   const WorldOwner one = makeWorld(field.get(), smallWorld()), other = makeWorld(field.get(), smallWorld());
@@ -181,7 +181,7 @@ TEST_CASE("worlds exchange edits as bytes, and are equal then") {
   CHECK(hashOf(one.get()) == hashOf(other.get()));
 }
 
-TEST_CASE("a journal and a folder of chunks outlast the world") {
+TEST_CASE("a journal and a folder of chunks outlast the world", "[threads]") {
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / "sgm_abi_world";
   fs::remove_all(folder);

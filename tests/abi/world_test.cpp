@@ -89,7 +89,7 @@ class Engine {
 
 }  // namespace
 
-TEST_CASE("events lead to what the world says it draws") {
+TEST_CASE("events lead to what the world says it draws", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
   const WorldOwner world = makeWorld(field.get());
@@ -125,7 +125,7 @@ TEST_CASE("events lead to what the world says it draws") {
   }
 }
 
-TEST_CASE("an update waits for the events of the one before, and unpolled meshes end with the world") {
+TEST_CASE("an update waits for the events of the one before, and unpolled meshes end with the world", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
   const WorldOwner world = makeWorld(field.get());
@@ -140,7 +140,7 @@ TEST_CASE("an update waits for the events of the one before, and unpolled meshes
   CHECK(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_INCOMPLETE);
 }
 
-TEST_CASE("a world's hash is that of the region's surface, streamed or not") {
+TEST_CASE("a world's hash is that of the region's surface, streamed or not", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
   const WorldOwner world = makeWorld(field.get());
@@ -191,7 +191,7 @@ TEST_CASE("meshes have morph offsets where they are asked for, to the coarser su
   }
 }
 
-TEST_CASE("a wait can be ended, and a world cancelled, at any time") {
+TEST_CASE("a wait can be ended, and a world cancelled, at any time", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
   const WorldOwner world = makeWorld(field.get());

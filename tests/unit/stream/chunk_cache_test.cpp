@@ -33,8 +33,8 @@ IntBox around(int32_t x, int32_t y, int32_t z, int32_t metres) {
 
 const std::vector<Excerpt>& scenes() {
   static const std::vector<Excerpt> all{{"cave.sgm", 256, around(112, 96, 96, 24)},
-                                      {"cloud.sgm", 4096, around(450, 1200, 450, 600)},
-                                      {"combine.sgm", 256, around(0, 0, 0, 12)}};
+                                        {"cloud.sgm", 4096, around(450, 1200, 450, 600)},
+                                        {"combine.sgm", 256, around(0, 0, 0, 12)}};
   return all;
 }
 
@@ -185,11 +185,11 @@ TEST_CASE("a chunk comes out of the cache as it was meshed", "[stream][disk]") {
   }
   INFO(triangles << " triangles, " << seam_triangles << " of seams, " << empty << " empty, " << proven << " proven, "
                  << anchors << " anchors, " << voids << " voids, " << edited << " edited");
-  CHECK(triangles > 10'000);
+  CHECK(triangles > 300 * rounds(30));
   CHECK(seam_triangles > 100);
   CHECK(empty >= 1);
   CHECK(proven >= 3);
-  CHECK(voids > 10);
+  CHECK(voids > rounds(30) / 3);
   CHECK(edited >= 3);
 }
 
@@ -602,8 +602,8 @@ TEST_CASE("what cannot be kept is meshed as ever", "[stream][disk]") {
   CHECK(cache->stats().hits == partCount(request));
 }
 
-TEST_CASE("several threads share a cache, and a small one", "[stream][disk]") {
-  const auto limit = GENERATE(kAmple, uint64_t{40'000});
+TEST_CASE("several threads share a cache, and a small one", "[stream][disk][threads]") {
+  const auto limit = GENERATE(uint64_t{kAmple}, uint64_t{40'000});
   CAPTURE(limit);
   const Machine machine;
   const CacheFolder folder;

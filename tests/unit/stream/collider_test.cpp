@@ -74,7 +74,7 @@ void checkColliders(const Engine& engine, const Viewer& viewer) {
 
 }  // namespace
 
-TEST_CASE("colliders are what is drawn near a viewer that moves and digs, and go when it leaves") {
+TEST_CASE("colliders are what is drawn near a viewer that moves and digs, and go when it leaves", "[threads]") {
   for (uint32_t seed = 1; seed <= rounds(2); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);

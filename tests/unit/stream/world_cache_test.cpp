@@ -5,7 +5,7 @@
 
 using namespace sgm;
 
-TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and draws the same") {
+TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and draws the same", "[threads]") {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "sgm_world_cache_test";
   std::filesystem::remove_all(folder);
   WorldSettings settings;

@@ -105,7 +105,7 @@ TEST_CASE("every frame shows one state of the edits, and is closed") {
   }
 }
 
-TEST_CASE("a dig is in the next frame of changes or the one after, while the viewer moves") {
+TEST_CASE("a dig is in the next frame of changes or the one after, while the viewer moves", "[threads]") {
   for (uint32_t seed = 1; seed <= rounds(3); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
@@ -133,7 +133,7 @@ TEST_CASE("a dig is in the next frame of changes or the one after, while the vie
   }
 }
 
-TEST_CASE("digs come faster than they can be drawn, and what waits stays bounded") {
+TEST_CASE("digs come faster than they can be drawn, and what waits stays bounded", "[threads]") {
   Scene scene(*makeThreadPool(2));
   const Viewer viewer = viewerAt(96, 96, 96);
   REQUIRE(scene.world->setViewers({&viewer, 1}));
@@ -160,7 +160,7 @@ TEST_CASE("digs come faster than they can be drawn, and what waits stays bounded
   checkFrame(scene, engine, log.snapshot().get());
 }
 
-TEST_CASE("an edit larger than all that is drawn finds room under a small cap") {
+TEST_CASE("an edit larger than all that is drawn finds room under a small cap", "[threads]") {
   WorldSettings settings;
   settings.lod.finest_distance = 60.0 * kUnitsPerMetre;
   settings.mesh_bytes = size_t{21} << 20;
@@ -198,7 +198,7 @@ TEST_CASE("an edit larger than all that is drawn finds room under a small cap") 
   checkFrame(scene, engine, editor.at(stats.edits_drawn));
 }
 
-TEST_CASE("worlds that have exchanged their edits are equal") {
+TEST_CASE("worlds that have exchanged their edits are equal", "[threads]") {
   Scene one(*makeThreadPool(2)), other(*makeThreadPool(1));
   const Viewer viewer = viewerAt(96, 96, 96);
   const IntBox region{{64 * 1024, 64 * 1024, 64 * 1024}, {128 * 1024, 128 * 1024, 128 * 1024}};
@@ -229,7 +229,7 @@ TEST_CASE("worlds that have exchanged their edits are equal") {
   CHECK(other.world->editHash() == hash);
 }
 
-TEST_CASE("a journal brings the edits back, and a world of another kind does not take it") {
+TEST_CASE("a journal brings the edits back, and a world of another kind does not take it", "[threads]") {
   const std::filesystem::path path = std::filesystem::temp_directory_path() / "sgm_world_edits_test.journal";
   std::filesystem::remove(path);
   WorldSettings settings;
