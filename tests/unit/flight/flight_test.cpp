@@ -34,7 +34,7 @@ struct CaveFlight {
     REQUIRE(result == SGM_OK);
     world.reset(made);
     settings.cell_units = kFinestCell;
-    settings.frames = 300;
+    settings.frames = 180;
     settings.finest_distance = 8;
     settings.check = true;
     settings.paced = false;
@@ -65,14 +65,14 @@ TEST_CASE("a flight that digs draws each dig soon, closed, and makes the same wo
   paced.settings.paced = true;
   const FlightReport report = flight.fly(), other = paced.fly();
   for (const FlightReport& r : {report, other}) {
-    CHECK(r.frames == 300);
+    CHECK(r.frames == 180);
     // From the second second on.
-    CHECK(r.digs.digs() == 40);
+    CHECK(r.digs.digs() == 20);
     CHECK(r.digs.cuts > r.digs.adds + r.digs.undos);
     CHECK(r.digs.undos > 0);
     CHECK(r.digs.frames.max <= 2);
     CHECK(r.digs.milliseconds.max > 0);
-    CHECK(r.stats.edits == 40);
+    CHECK(r.stats.edits == 20);
     CHECK(r.checked.worst.edges > 1000);
     CHECK(r.checked.worst.closed());
     CHECK(r.checked.whole_checks == 1);
