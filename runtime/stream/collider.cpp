@@ -79,12 +79,10 @@ bool Colliders::update(const DrawnFrame& frame, std::span<const Viewer> viewers,
   std::sort(missing.begin(), missing.end(), [](const Wanted& a, const Wanted& b) {
     return a.away != b.away ? a.away < b.away : a.chunk->key < b.chunk->key;
   });
-  uint64_t number = number_;
   for (const Wanted& wanted : std::span(missing).first(std::min(most, missing.size()))) {
     const DrawnChunk& chunk = *wanted.chunk;
     auto made = std::allocate_shared<Collider>(std::pmr::polymorphic_allocator<>(memory),
                                                colliderOf(*chunk.surface, chunk.seams, memory));
-    made->number = ++number;
     next[chunk.key] = {chunk.surface, chunk.seams, made->bytes()};
     changes.push_back({chunk.key, std::move(made)});
   }
@@ -92,7 +90,6 @@ bool Colliders::update(const DrawnFrame& frame, std::span<const Viewer> viewers,
     if (!next.contains(key)) changes.push_back({key, nullptr});
   }
   given_.swap(next);
-  number_ = number;
   bytes_ = 0;
   for (const auto& [key, given] : given_) bytes_ += given.bytes;
   changes_.swap(changes);

@@ -19,7 +19,6 @@ struct Collider {
   std::pmr::vector<float> positions;     ///< three a vertex, metres from the grid's origin
   std::pmr::vector<uint32_t> indices;    ///< three a triangle; none without area
   std::pmr::vector<uint16_t> materials;  ///< one a triangle: that of its first vertex
-  uint64_t number = 0;                   ///< rises with every collider that a world makes
 
   explicit Collider(std::pmr::memory_resource* memory) : positions(memory), indices(memory), materials(memory) {}
   size_t bytes() const {
@@ -63,7 +62,6 @@ class Colliders {
   int32_t finest_cell_;
   std::map<ChunkKey, Given> given_;
   std::vector<ColliderChange> changes_;
-  uint64_t number_ = 0;
   size_t bytes_ = 0;
 };
 

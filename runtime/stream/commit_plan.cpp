@@ -111,9 +111,9 @@ class StepSearch {
       if (needed == 0) continue;
       const auto missing = static_cast<uint8_t>(needed & ~ready_.seams(leaf));
       if (missing == 0) continue;
-      undone = true;
       plan_.missing.push_back({leaf, missing});
       if (!committed_.isLeaf(leaf)) {
+        undone = true;
         // New here: by a split above it, or by a merge of what is drawn.
         if (committed_.isSplit(leaf)) {
           restore(leaf);
@@ -127,7 +127,9 @@ class StepSearch {
         if (!(missing >> face & 1)) continue;
         ChunkKey neighbour = leaf;
         neighbour.at[face >> 1] += face & 1 ? 1 : -1;
-        if (!plan_.tree.isSplit(parentOf(neighbour))) restore(parentOf(neighbour));
+        if (plan_.tree.isSplit(parentOf(neighbour))) continue;
+        restore(parentOf(neighbour));
+        undone |= plan_.tree.isSplit(parentOf(neighbour));
       }
     }
     return undone;

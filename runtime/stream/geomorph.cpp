@@ -15,7 +15,7 @@ namespace {
 MorphOffset newtonStep(double value, const std::array<double, 3>& gradient, int32_t cell) {
   const double square = gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2];
   MorphOffset offset{};
-  if (!(square > 0) || std::fabs(value) > square * kMostMorph * static_cast<double>(cell)) return offset;
+  if (!(square > 0) || std::fabs(value) > std::sqrt(square) * kMostMorph / kSubcell * cell) return offset;
   const double scale = -value / square * kSubcell / cell;
   for (size_t axis = 0; axis < 3; ++axis) {
     const double step = std::floor(scale * gradient[axis] + 0.5);

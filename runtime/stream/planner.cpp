@@ -16,6 +16,8 @@ constexpr double kFullShare = 0.55, kFreeShare = 0.25;
 /// Above this share edits wait, for what is drawn has no room to be there twice, before them and after.
 constexpr double kSqueezedShare = 0.75;
 constexpr double kLessDetail = 0.8, kLeastDetail = 1.0 / 64;
+/// Of what viewers ask for in vain, where it cannot be planned for.
+constexpr double kLeastReach = 1e-6;
 /// Of the finest distance, where no collider says what is near.
 constexpr double kNearShare = 2.0 / 3;
 /// Plans from one count of what is wanted to the next, where memory is not scarce.
@@ -43,7 +45,7 @@ Plan Planner::plan(PlanInput&& input) {
   if (input.viewers.empty()) {
     step_ = nullptr;
     changed_ = true;
-    plan.idle = edits_.number == input.edits.number;
+    plan.idle = true;
     return plan;
   }
   retarget(input.viewers);
@@ -56,9 +58,15 @@ Plan Planner::plan(PlanInput&& input) {
   fillQueue(plan.queue);
   stats_.drawn = applied_->drawn.size();
   stats_.edits_drawn = edits_drawn_;
-  plan.idle = plan.queue.empty() && plan.step == nullptr && edits_.number == input.edits.number;
+  const bool edits_wait = edits_.number < input.edits.number && edits_failed_ < input.edits.number;
+  plan.idle = plan.queue.empty() && plan.step == nullptr && !edits_wait;
   if (plan.idle || plans_ % kPlansToTally == 0) tally();
-  if (keepToBudget(input.live_bytes)) plan.idle = false;
+  if (keepToBudget(input.live_bytes, input.collider_bytes)) plan.idle = false;
+  if (plan.edits.number != edits_.number) {
+    plan.queue.clear();
+    plan.step = nullptr;
+    plan.edits = edits_;
+  }
   return plan;
 }
 
@@ -104,6 +112,16 @@ void Planner::learnApplied(uint64_t number) {
   offered_.clear();
   step_ = nullptr;
   changed_ = true;
+  // Of a step that was taken late something may have been forgotten since.
+  for (const ChunkKey& leaf : applied_->tree.leaves()) {
+    KnownChunk& record = store_.at(leaf);
+    record.ever_drawn = true;
+    if (record.edited > edits_drawn_ || isReady(leaf, coarserFaces(applied_->tree, leaf))) continue;
+    KnownChunk known = knownOfDrawn(leaf);
+    record.surface = std::move(known.surface);
+    record.body = known.body;
+    record.seams = known.seams;
+  }
 }
 
 void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
@@ -165,9 +183,9 @@ void Planner::retarget(std::span<const Viewer> viewers) {
   LodSettings lod = settings_.lod;
   lod.finest_distance *= stats_.detail;
   std::vector<LodViewer> wanting = lodViewers(viewers, lod);
-  while (expectedLeaves(wanting, lod) > kMostExpectedLeaves && lod.finest_distance > settings_.lod.finest_cell) {
-    lod.finest_distance *= kLessDetail;
-    lod.view_distance *= kLessDetail;
+  for (double reach = 1; expectedLeaves(wanting, lod) > kMostExpectedLeaves && reach > kLeastReach;) {
+    reach *= kLessDetail;
+    for (LodViewer& viewer : wanting) viewer.reach *= kLessDetail;
   }
   const bool moved = wanting != targeted_ || targeted_detail_ != stats_.detail;
   if (settings_.by_reach && (moved || voids_changed_)) {
@@ -272,7 +290,10 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
   const Octree& drawn = applied_->tree;
   for (const ChunkKey& leaf : outdated_) request(leaf, coarserFaces(drawn, leaf), Rank::edited, queue);
   for (const OctreeNode& node : near_nodes_) {
-    if (!node.split && !drawn.isSplit(node.key)) request(node.key, node.faces, Rank::near, queue);
+    if (node.split || drawn.isSplit(node.key)) continue;
+    // What stands in for finer chunks is worth its time only where what is drawn is coarser still.
+    const bool stands_in = target_.isSplit(node.key);
+    if (!stands_in || !drawn.isLeaf(parentOf(node.key))) request(node.key, node.faces, Rank::near, queue);
   }
   for (const OctreeNode& node : target_nodes_) {
     if (!node.split) {
@@ -317,8 +338,8 @@ void Planner::request(const ChunkKey& key, int seams, Rank rank, std::vector<Wor
 
 void Planner::tally() {
   for (const ChunkKey& leaf : applied_->tree.leaves()) store_.at(leaf).wanted = plans_;
-  if (step_ != nullptr) {
-    for (const ChunkKey& leaf : step_->to->tree.leaves()) store_.at(leaf).wanted = plans_;
+  for (const std::shared_ptr<const DrawnFrame>& frame : offered_) {
+    for (const ChunkKey& leaf : frame->tree.leaves()) store_.at(leaf).wanted = plans_;
   }
   stats_.records = store_.size();
   stats_.never_drawn = freed_in_vain_;
@@ -338,7 +359,7 @@ void Planner::tally() {
 
 bool Planner::canLowerDetail() const { return stats_.detail > kLeastDetail; }
 
-bool Planner::keepToBudget(size_t live_bytes) {
+bool Planner::keepToBudget(size_t live_bytes, size_t collider_bytes) {
   const auto share = [cap = static_cast<double>(settings_.mesh_bytes)](double part) {
     return static_cast<size_t>(part * cap);
   };
@@ -347,14 +368,16 @@ bool Planner::keepToBudget(size_t live_bytes) {
     const ChunkStore::Freed freed = store_.freeUnused(plans_, live_bytes - share(kKeptShare));
     freed_in_vain_ += freed.never_drawn;
   }
-  if (!outdated_.empty() && live_bytes > share(kSqueezedShare) && canLowerDetail()) postponeEdits();
-  const bool full = wanted_bytes_ > share(postponed_ ? room_beside_ : kFullShare) && canLowerDetail();
-  const bool free = wanted_bytes_ < share(kFreeShare) && stats_.detail < 1;
+  const bool squeezed = !outdated_.empty() && live_bytes > share(kSqueezedShare) && canLowerDetail();
+  if (squeezed) postponeEdits();
+  const size_t used = wanted_bytes_ + collider_bytes;
+  const bool full = used > share(postponed_ ? room_beside_ : kFullShare) && canLowerDetail();
+  const bool free = used < share(kFreeShare) && stats_.detail < 1;
   if ((full || free) && plans_ >= detail_settled_) {
     stats_.detail = full ? stats_.detail * kLessDetail : std::min(1.0, stats_.detail / kLessDetail);
     detail_settled_ = plans_ + kPlansToSettle;
   }
-  return full;
+  return full || squeezed;
 }
 
 }  // namespace sgm

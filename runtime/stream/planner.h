@@ -60,6 +60,7 @@ struct PlanInput {
   EditState edits;                ///< the latest
   std::vector<EditedBox> edited;  ///< what has changed since Planner::edits()
   size_t live_bytes = 0;          ///< of all surfaces, the engine's own included
+  size_t collider_bytes = 0;      ///< that come on top
 };
 
 struct Plan {
@@ -117,7 +118,9 @@ class Planner {
   /// Edits are taken up state by state: the next one when the one before is drawn. So a frame shows one state, a change
   /// waits for two frames of changes at most, and however many there are, what is to be meshed again is what is drawn.
   void takeUpEdits(PlanInput& input);
-  /// Goes back to the state that is drawn: memory does not suffice to mesh it once more.
+  /// Goes back to the state of edits that is drawn.
+  void giveEditsBack();
+  /// For want of memory to mesh what is drawn once more: until less detail is drawn.
   void postponeEdits();
   void invalidate(std::span<const EditedBox> changes);
   void findOutdated();
@@ -128,7 +131,7 @@ class Planner {
   void refuse(const std::vector<ChunkKey>& refused, Plan& plan);
   bool canLowerDetail() const;
   /// Whether detail must be lowered yet.
-  bool keepToBudget(size_t live_bytes);
+  bool keepToBudget(size_t live_bytes, size_t collider_bytes);
   void retarget(std::span<const Viewer> viewers);
   ChunkSet reachedParents(std::span<const LodViewer> viewers, const LodSettings& lod) const;
   std::shared_ptr<const FrameStep> nextStep();
@@ -161,8 +164,9 @@ class Planner {
   std::vector<ChunkKey> outdated_;  ///< leaves of applied_ that are not there as edits_ has them
   EditState edits_before_;          ///< before edits_ was taken up
   bool postponed_ = false;          ///< edits found no room, and wait until less detail is drawn
-  double room_beside_ = 0;          ///< the share of memory that it may take then
-  bool changed_ = true;             ///< since the last step was looked for
+  uint64_t edits_failed_ = 0;  ///< a state that cannot be drawn, since a chunk of it cannot be made: until the next
+  double room_beside_ = 0;     ///< the share of memory that it may take then
+  bool changed_ = true;        ///< since the last step was looked for
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
   uint64_t freed_in_vain_ = 0;
   size_t wanted_bytes_ = 0;  ///< of what the last plan had a use for

@@ -14,21 +14,21 @@ constexpr double kFirstRoom = 0.5;
 }  // namespace
 
 void Planner::takeUpEdits(PlanInput& input) {
-  const bool drawn = edits_drawn_ == edits_.number;
-  if (input.edits.number == edits_.number) {
-    if (drawn) postponed_ = false;
-    return;
+  const bool fails = !outdated_.empty() && std::all_of(outdated_.begin(), outdated_.end(),
+                                                       [this](const ChunkKey& leaf) { return store_.at(leaf).failed; });
+  if (fails) {
+    // The world streams on as it is drawn. The next edit, an undo for instance, may heal it.
+    edits_failed_ = edits_.number;
+    giveEditsBack();
   }
+  if (edits_drawn_ != edits_.number) return;
+  if (input.edits.number == edits_.number) postponed_ = false;
+  if (input.edits.number == edits_.number || input.edits.number <= edits_failed_) return;
   if (postponed_ && canLowerDetail() &&
       wanted_bytes_ > static_cast<size_t>(room_beside_ * static_cast<double>(settings_.mesh_bytes))) {
     return;
   }
-  // What failed waits for an edit that heals it.
-  const bool in_vain =
-      !outdated_.empty() &&
-      std::all_of(outdated_.begin(), outdated_.end(), [this](const ChunkKey& leaf) { return store_.at(leaf).failed; });
-  if (!drawn && !in_vain) return;
-  if (drawn) edits_before_ = std::move(edits_);
+  edits_before_ = std::move(edits_);
   edits_ = std::move(input.edits);
   store_.setEdits(edits_.number);
   invalidate(input.edited);
@@ -64,6 +64,10 @@ void Planner::invalidate(std::span<const EditedBox> changes) {
 void Planner::postponeEdits() {
   room_beside_ = (postponed_ ? room_beside_ : kFirstRoom) / 2;
   postponed_ = true;
+  giveEditsBack();
+}
+
+void Planner::giveEditsBack() {
   edits_ = edits_before_;
   store_.setEdits(edits_.number);
   store_.forEach([this](const ChunkKey& key, KnownChunk& record) {

@@ -108,6 +108,7 @@ Result<void> World::setViewers(std::span<const Viewer> viewers) {
 
 bool World::update(size_t bytes) {
   const std::lock_guard front(front_);
+  core_->kickJournal();
   if (polled_ < events_.size()) return false;
   events_.clear();
   polled_ = 0;
@@ -117,10 +118,12 @@ bool World::update(size_t bytes) {
 
 void World::advance(size_t bytes) {
   std::shared_ptr<const FrameStep> step;
+  std::shared_ptr<const DrawnFrame> stays;
   events_.reserve(events_.size() + kFailedAtOnce);
   {
     const std::lock_guard lock(core_->mutex);
-    if (core_->settled() && core_->failed.empty() && !core_->edits.unwritten()) return;
+    if (core_->settled() && core_->failed.empty() && staged_ == nullptr) return;
+    if (core_->step == nullptr) stays = core_->drawn;
     if (core_->step != nullptr && core_->step->from == core_->applied) step = core_->step;
     const auto told = core_->failed.end() - std::min<ptrdiff_t>(kFailedAtOnce, std::ssize(core_->failed));
     for (auto chunk = told; chunk != core_->failed.end(); ++chunk) {
@@ -134,20 +137,20 @@ void World::advance(size_t bytes) {
     }
     core_->collider_changes.clear();
   }
+  if (stays != nullptr && staged_ != nullptr) restage(nullptr, *stays);
   if (step != nullptr && stage(step, bytes)) {
     const std::lock_guard lock(core_->mutex);
     core_->applied = step->to->number;
     core_->drawn = step->to;
     core_->edits_drawn = step->to->edits;
   }
-  core_->kickJournal();
   if (core_->planIsDue()) core_->kickPlanner();
 }
 
-void World::restage(const std::shared_ptr<const FrameStep>& step) {
-  // What was handed over for a step that will not be taken is wanted no more, but where this one has it too.
+void World::restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame) {
+  // What was handed over for a step that will not be taken is wanted no more, but where this frame has it too.
   std::unordered_set<ChunkKey, ChunkKeyHash> drawn;
-  for (const DrawnChunk& chunk : step->to->drawn) drawn.insert(chunk.key);
+  for (const DrawnChunk& chunk : frame.drawn) drawn.insert(chunk.key);
   if (staged_ != nullptr) {
     events_.reserve(events_.size() + staged_->changes.size());
     for (const FrameChange& change : staged_->changes) {
@@ -183,7 +186,7 @@ bool World::handOver(const FrameStep& step, size_t bytes) {
 }
 
 bool World::stage(const std::shared_ptr<const FrameStep>& step, size_t bytes) {
-  if (step != staged_) restage(step);
+  if (step != staged_) restage(step, *step->to);
   if (!handOver(*step, bytes)) return false;
   const auto kindOf = [](FrameChange::Kind kind) {
     switch (kind) {
@@ -231,6 +234,7 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
   const std::lock_guard front(front_);
   uint64_t frame = 0, finished = 0;
   for (int in_vain = 0; in_vain < kLooksInVain; ++in_vain) {
+    core_->kickJournal();
     advance(std::numeric_limits<size_t>::max());
     std::unique_lock lock(core_->mutex);
     if (core_->settled()) return {};
@@ -252,8 +256,9 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
 }
 
 void World::cancel() {
+  std::vector<WorkItem> dropped;  // freed after the mutex
   const std::lock_guard lock(core_->mutex);
-  core_->queue.clear();
+  dropped.swap(core_->queue);
   ++core_->generation;
   ++core_->viewers_set;  // to be planned anew
 }

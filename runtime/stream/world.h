@@ -63,7 +63,7 @@ struct WorldStats {
 
 class WorldCore;
 
-inline constexpr size_t kMostViewers = 1024;
+inline constexpr size_t kMostViewers = 256;
 
 /// Functions may be called from any thread, one of update, poll and waitIdle at a time.
 class World {
@@ -127,7 +127,8 @@ class World {
  private:
   World(std::unique_ptr<WorldCore> core, JobSystem& jobs);
   void advance(size_t bytes);
-  void restage(const std::shared_ptr<const FrameStep>& step);
+  /// Takes back what was handed over for the staged step and is not in the frame that comes, or stays.
+  void restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame);
   /// Whether all of the step's surfaces have been handed over.
   bool handOver(const FrameStep& step, size_t bytes);
   /// Hands over surfaces of a step, and when all are there its changes: then true.

@@ -190,6 +190,7 @@ PlanInput WorldCore::planInput() {
   }
   surfaces_->collect();
   input.live_bytes = surfaces_->bytes();
+  input.collider_bytes = colliders_.bytes();
   return input;
 }
 
@@ -207,10 +208,11 @@ bool WorldCore::planIsDue() const {
 }
 
 void WorldCore::losePlanner() {
+  std::vector<WorkItem> dropped;  // freed after the mutex
   const std::lock_guard lock(mutex);
   planner_lost_ = true;
   planning_ = false;
-  queue.clear();
+  dropped.swap(queue);
   ++generation;
   ++plans;
   changed.notify_all();
@@ -255,7 +257,10 @@ bool WorldCore::makeColliders() {
     frame = drawn;
     around = viewers;
   }
-  const bool done = colliders_.update(*frame, around, kCollidersAtOnce, memory_);
+  // Without viewers everything stays as it is.
+  const size_t used = surfaces_->bytes() + colliders_.bytes();
+  const size_t room = used < settings.mesh_bytes ? (settings.mesh_bytes - used) / kLargestChunk : 0;
+  const bool done = around.empty() || colliders_.update(*frame, around, std::min(room, kCollidersAtOnce), memory_);
   const std::lock_guard lock(mutex);
   if (collider_changes.empty()) collider_changes.swap(colliders_.changes());
   collider_bytes = colliders_.bytes();
@@ -271,15 +276,25 @@ std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() {
 }
 
 void WorldCore::publish(Plan&& plan) {
-  const std::lock_guard lock(mutex);
-  if (!begun_.empty()) {
-    const std::set<ChunkKey> gone(begun_.begin(), begun_.end());
-    std::erase_if(plan.queue, [&](const WorkItem& item) { return gone.contains(item.request.key); });
+  // The queue is long, and the engine may wait for the mutex: most of what has begun meanwhile goes without it.
+  std::vector<ChunkKey> begun;
+  {
+    const std::lock_guard lock(mutex);
+    begun = begun_;
   }
+  const auto leaveOut = [&plan](std::span<const ChunkKey> keys) {
+    if (keys.empty()) return;
+    const std::set<ChunkKey> gone(keys.begin(), keys.end());
+    std::erase_if(plan.queue, [&](const WorkItem& item) { return gone.contains(item.request.key); });
+  };
+  leaveOut(begun);
+  const std::lock_guard lock(mutex);
+  leaveOut(std::span(begun_).subspan(std::min(begun.size(), begun_.size())));
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
+  // What was there before goes with the plan, when nobody waits for it.
   queue.swap(plan.queue);
-  queue_edits_ = std::move(plan.edits);
-  step = std::move(plan.step);
+  std::swap(queue_edits_, plan.edits);
+  step.swap(plan.step);
   if (planned_with_.viewers != planning_with_.viewers) meshing_before_ = meshing_;
   planned_with_ = planning_with_;
   colliders_done_ = passed_over_ = false;

@@ -54,8 +54,14 @@ Result<void> WorldEdits::merge(const Merge& from) {
   try {
     const Result<std::vector<IntBox>> boxes = from();
     if (!boxes) return boxes.error();
-    makeRoom(boxes->size());
-    changed(*boxes);
+    if (boxes->size() > kMostChanges) {
+      IntBox all;
+      for (const IntBox& box : *boxes) all = all.joined(box);
+      changed({&all, 1});
+    } else {
+      makeRoom(boxes->size());
+      changed(*boxes);
+    }
   } catch (const std::bad_alloc&) {
     // A part may have been merged, and nobody knows which.
     changed({&everything, 1});

@@ -744,9 +744,10 @@ typedef struct sgm_mesh_view {
   const int16_t* morphs; /* 3 a vertex, in 1/256 of the chunk's cell edge, to +-1,024: from the vertex to the surface of
                             the next coarser level. NULL but in worlds with SGM_WORLD_MORPH. An engine that draws
                             vertices at position + b * morph and lets b rise from 0 to 1 before a chunk gives way to a
-                            coarser one shows no pop. Vertices that chunks share have the same offset, so nothing opens
-                            where b depends on place and level alone; those of seams that are the coarser level's, or
-                            join the two, have 0 */
+                            coarser one shows no pop. Chunks of a level give a vertex that they share the same offset,
+                            and in seams those vertices have 0 that are the coarser level's or join the two. So nothing
+                            opens where b depends on place and level alone, and is 0 where a chunk meets a finer one: it
+                            rises from 0 at the near end of a level's range to 1 at its far end */
 } sgm_mesh_view;
 
 #define SGM_MESH_RANGE_INIT \
@@ -889,7 +890,8 @@ typedef struct sgm_world_desc {
   double collider_distance; /* metres from a viewer within which chunks have a collider: of what is drawn there, at
                                whatever level; 0: none has one */
   const char* journal;      /* UTF-8 path of the file that keeps the edits; made where there is none. A process that is
-                               killed, at any moment, loses the last second's edits at most. NULL: they are not kept */
+                               killed, at any moment, loses the last second's edits at most, as long as it calls
+                               sgm_world_update; sgm_world_flush_edits writes them at once. NULL: they are not kept */
   const char* cache_folder; /* UTF-8 path of a folder that keeps meshed chunks from one run to the next, for any number
                                of worlds and processes at one time; made where there is none. What the grammar, its
                                parameters, the seed, an edit or this library's version change is meshed anew, as is what
@@ -930,13 +932,14 @@ typedef struct sgm_viewer {
 
 /* Replaces all viewers. With none (count 0) what is drawn stays and nothing is meshed. SGM_ERR_INVALID_ARGUMENT: a
  * value that is not finite, or out of its range; SGM_ERR_RANGE: a viewer outside the world, or too fast; SGM_ERR_LIMIT:
- * more than 1,024. On failure the viewers are as before. Never waits. */
+ * more than 256. On failure the viewers are as before. Never waits. */
 SGM_API sgm_result sgm_world_set_viewers(sgm_world* world, const sgm_viewer* viewers, size_t viewer_stride,
                                          size_t count, sgm_error* error);
 
 /* Takes over what is finished and has more work begun, on the job system. Waits for no job and no device (where the job
  * system refuses a job that job runs here, at once). At most max_bytes of vertices and indices are handed over; a frame
- * with more comes over several updates, and what is drawn changes with the last of them. SGM_INCOMPLETE, and nothing
+ * with more comes over several updates, and what is drawn changes with the last of them. A mesh that is larger than
+ * max_bytes alone is FAILED, and not asked for again. SGM_INCOMPLETE, and nothing
  * happens: events of the update before have not all been polled. SGM_ERR_INVALID_ARGUMENT: max_bytes is 0. */
 SGM_API sgm_result sgm_world_update(sgm_world* world, uint64_t max_bytes, sgm_error* error);
 
@@ -1063,9 +1066,10 @@ SGM_API sgm_result sgm_world_edit(sgm_world* world, const sgm_brush* brush, sgm_
 SGM_API sgm_result sgm_world_undo(sgm_world* world, const sgm_edit_id* id, sgm_edit_id* undone, sgm_error* error);
 
 /* The edits, but the first `since` of them in the order in which they were learned here, as bytes for another world of
- * the same grammar, parameters, seed and cell. *count takes the array's room and returns how many bytes there are.
- * bytes may be NULL: then only that is asked. SGM_INCOMPLETE: they did not fit; nothing was written. How many edits are
- * known is sgm_world_stats.edits: what was sent before need not be sent again. */
+ * the same grammar, parameters, seed and cell; or, when a game's grammar has changed and its journals are refused, for
+ * a world of the new one, if the places still suit it. *count takes the array's room and returns how many bytes there
+ * are. bytes may be NULL: then only that is asked. SGM_INCOMPLETE: they did not fit; nothing was written. How many
+ * edits are known is sgm_world_stats.edits: what was sent before need not be sent again. */
 SGM_API sgm_result sgm_world_export_edits(sgm_world* world, uint64_t since, void* bytes, size_t* count,
                                           sgm_error* error);
 
@@ -1100,7 +1104,7 @@ SGM_API sgm_result sgm_world_hash(sgm_world* world, const int32_t minimum[3], co
 typedef struct sgm_world_stats {
   uint32_t struct_size;
   void* next;
-  uint64_t frame;          /* number of the frame that is drawn now */
+  uint64_t frame;          /* number of the frame that is drawn now; rises, not always by one */
   uint64_t plans;          /* times that the work was planned */
   uint64_t chunks_meshed;  /* bodies */
   uint64_t finest_meshed;  /* of these, those of level 0 */

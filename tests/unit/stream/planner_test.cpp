@@ -1,5 +1,6 @@
 // What a plan asks for: each chunk once, with all its seams, whatever came before.
 
+#include <optional>
 #include <random>
 #include <set>
 
@@ -43,7 +44,7 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
     std::vector<WorkItem> queue;
     EditState edits, under;
     std::vector<EditedBox> edited;
-    std::shared_ptr<const FrameStep> step;
+    std::vector<std::shared_ptr<const FrameStep>> offered;  // that may be taken, however late
     PlanInput input;
     Viewer viewer;
     uint64_t frames = 0;
@@ -76,12 +77,18 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
       }
       queue = std::move(plan.queue);
       under = plan.edits;
-      step = plan.step;
+      std::erase_if(offered, [&](const auto& step) { return step->from != planner.applied().number; });
+      if (plan.step != nullptr) offered.push_back(plan.step);
       input = {};
       input.applied = planner.applied().number;
-      if (step != nullptr && random() % 2 == 0) {
-        input.applied = step->to->number;
+      // Now and then memory seems full, so that whatever is not wanted goes.
+      input.live_bytes = random() % 3 == 0 ? size_t{200} << 20 : 0;
+      if (!offered.empty() && random() % 2 == 0) {
+        input.applied = offered[random() % offered.size()]->to->number;
         ++frames;
+      }
+      if (plan.step != nullptr && !plan.step->to->drawn.empty() && random() % 4 == 0) {
+        input.refused.push_back(plan.step->to->drawn[random() % plan.step->to->drawn.size()].key);
       }
       for (auto jobs = random() % 120; jobs > 0 && !queue.empty(); --jobs) {
         const WorkItem item = queue.back();
@@ -98,4 +105,64 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
     }
     CHECK(frames > 5);
   }
+}
+
+TEST_CASE("edits without viewers leave nothing to do") {
+  Planner planner(plannerSettings(false));
+  EditState edits;
+  for (int turn = 0; turn < 4; ++turn) {
+    PlanInput input;
+    input.edits = {++edits.number, nullptr};
+    input.edited.push_back({edits.number, IntBox{{0, 0, 0}, {1000, 1000, 1000}}});
+    CHECK(planner.plan(std::move(input)).idle);
+  }
+}
+
+TEST_CASE("an edited chunk that cannot be made keeps the edits back, and nothing else") {
+  Planner planner(plannerSettings(false));
+  EditState edits;
+  std::optional<EditedBox> pending;
+  bool fails = false;
+  Viewer viewer;
+  /// Plans and meshes until nothing is left to do.
+  const auto settle = [&] {
+    PlanInput input;
+    for (int turn = 0; turn < 500; ++turn) {
+      input.viewers = {viewer};
+      input.edits = edits;
+      if (pending && pending->number > planner.edits().number) input.edited = {*pending};
+      Plan plan = planner.plan(std::move(input));
+      input = {};
+      input.applied = plan.step != nullptr ? plan.step->to->number : planner.applied().number;
+      for (const WorkItem& item : plan.queue) {
+        FinishedChunk done;
+        done.request = item.request;
+        done.before = item.before;
+        done.edits = plan.edits.number;
+        done.surface = surfaceFor(item.request, item.before.get());
+        if (fails && item.rank == WorkItem::Rank::edited) done.error = Error{Code::limit, "too large"};
+        input.begun.push_back(item.request.key);
+        input.finished.push_back(std::move(done));
+      }
+      if (plan.idle) return true;
+    }
+    return false;
+  };
+  REQUIRE(settle());
+  const auto dig = [&] { pending = EditedBox{++edits.number, IntBox{{0, 0, 0}, {1000, 1000, 1000}}}; };
+  fails = true;
+  dig();
+  REQUIRE(settle());
+  CHECK(planner.stats().failed > 0);
+  CHECK(planner.stats().edits_drawn == 0);
+  const uint64_t frame = planner.applied().number;
+  viewer.position[0] += 200.0 * kUnitsPerMetre;
+  REQUIRE(settle());
+  CHECK(planner.applied().number > frame);
+  // The next edit heals it.
+  viewer.position[0] = 0;
+  fails = false;
+  dig();
+  REQUIRE(settle());
+  CHECK(planner.stats().edits_drawn == edits.number);
 }
