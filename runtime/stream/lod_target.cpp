@@ -74,6 +74,15 @@ class TargetBuilder {
   const ChunkSet* finest_;
 };
 
+/// near: as TargetBuilder's.
+Octree targetOf(std::span<const LodViewer> viewers, const LodSettings& settings, double near, const ChunkSet* finest) {
+  Octree tree(settings.top, settings.finest_cell);
+  TargetBuilder builder(tree, viewers, settings, near, finest);
+  for (const LodViewer& viewer : viewers) builder.addAround(viewer);
+  refineToRules(tree);
+  return tree;
+}
+
 /// How many cubes of an edge a ball meets, at most.
 double cubesInBall(double radius, double edge) {
   constexpr double kHalfDiagonal = 0.8660254;
@@ -105,16 +114,12 @@ double distanceToChunk(const std::array<double, 3>& place, const ChunkKey& key, 
 }
 
 Octree lodTarget(std::span<const LodViewer> viewers, const LodSettings& settings, const ChunkSet* finest) {
-  return nearTarget(viewers, settings, 0, finest);
+  return targetOf(viewers, settings, 0, finest);
 }
 
 Octree nearTarget(std::span<const LodViewer> viewers, const LodSettings& settings, double distance,
                   const ChunkSet* finest) {
-  Octree tree(settings.top, settings.finest_cell);
-  TargetBuilder builder(tree, viewers, settings, distance, finest);
-  for (const LodViewer& viewer : viewers) builder.addAround(viewer);
-  refineToRules(tree);
-  return tree;
+  return targetOf(viewers, settings, distance, finest);
 }
 
 }  // namespace sgm

@@ -32,8 +32,8 @@ struct LodSettings {
 /// viewer's sake; null: all.
 Octree lodTarget(std::span<const LodViewer> viewers, const LodSettings& settings, const ChunkSet* finest = nullptr);
 
-/// The coarsest such octree that has level 0 within `distance` (units, times a viewer's reach): what it takes to stand
-/// there. Never finer than lodTarget() with a finest_distance and a view_distance that are no smaller.
+/// The coarsest such octree that has level 0 within `distance` (units above 0, times a viewer's reach): what it takes
+/// to stand there. Never finer than lodTarget() with a finest_distance and a view_distance that are no smaller.
 Octree nearTarget(std::span<const LodViewer> viewers, const LodSettings& settings, double distance,
                   const ChunkSet* finest = nullptr);
 

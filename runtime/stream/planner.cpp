@@ -42,6 +42,7 @@ Plan Planner::plan(PlanInput&& input) {
   findOutdated();
   takeUpEdits(input);
   plan.edits = edits_;
+  stats_.edits_drawn = edits_drawn_;
   if (input.viewers.empty()) {
     step_ = nullptr;
     changed_ = true;

@@ -164,9 +164,9 @@ class Planner {
   std::vector<ChunkKey> outdated_;  ///< leaves of applied_ that are not there as edits_ has them
   EditState edits_before_;          ///< before edits_ was taken up
   bool postponed_ = false;          ///< edits found no room, and wait until less detail is drawn
-  uint64_t edits_failed_ = 0;  ///< a state that cannot be drawn, since a chunk of it cannot be made: until the next
-  double room_beside_ = 0;     ///< the share of memory that it may take then
-  bool changed_ = true;        ///< since the last step was looked for
+  double room_beside_ = 0;          ///< the share of memory that this may take then
+  uint64_t edits_failed_ = 0;       ///< a state that is not drawn: a chunk of it cannot be made
+  bool changed_ = true;             ///< since the last step was looked for
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
   uint64_t freed_in_vain_ = 0;
   size_t wanted_bytes_ = 0;  ///< of what the last plan had a use for

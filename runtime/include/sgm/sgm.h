@@ -886,7 +886,8 @@ typedef struct sgm_world_desc {
                                than 2 * cell * h / (2 tan(v / 2)) / finest_distance pixels */
   double view_distance;     /* metres within which something is drawn, above 0 */
   uint64_t mesh_bytes;      /* the most bytes of meshes at one time, those that the engine holds and those in work
-                               included: a hard cap. Where it does not suffice detail is drawn nearer. 0: 256 MiB */
+                               included, and of the chunks' colliders: a hard cap. Where it does not suffice detail is drawn
+                               nearer. 0: 256 MiB */
   double collider_distance; /* metres from a viewer within which chunks have a collider: of what is drawn there, at
                                whatever level; 0: none has one */
   const char* journal;      /* UTF-8 path of the file that keeps the edits; made where there is none. A process that is
@@ -951,7 +952,8 @@ typedef enum sgm_event_kind {
   SGM_EVENT_SEAMS = 3,    /* draw other seams of the same mesh; or nothing has changed but `coarser` */
   SGM_EVENT_REMOVED = 4,  /* draw it no more; release its meshes. Also for a mesh that was READY and never shown */
   SGM_EVENT_FAILED = 5,   /* the chunk cannot be made; `result` says why and the log tells more. What is coarser stays
-                             in its place */
+                             in its place. Where edits had changed it, the world is drawn as before them until a
+                             further edit, an undo for instance */
   SGM_EVENT_COLLIDER = 6, /* collide with `collider` instead of the chunk's earlier one: it belongs to the engine now,
                              which releases it. Comes soon after what is drawn there has changed; not counted in
                              max_bytes */
