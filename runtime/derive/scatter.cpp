@@ -62,32 +62,33 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
       }
     }
   }
-  const auto wins = [&](size_t x, size_t y, size_t z, const Candidate& c) {
-    const std::array<int64_t, 3> here{static_cast<int64_t>(x), static_cast<int64_t>(y), static_cast<int64_t>(z)};
-    std::array<int64_t, 3> from{}, to{};
-    for (size_t i = 0; i < 3; ++i) {
-      from[i] = std::max<int64_t>(here[i] - 1, 0);
-      to[i] = std::min(here[i] + 1, count[i] - 1);
-    }
-    for (int64_t k = from[2]; k <= to[2]; ++k) {
-      for (int64_t j = from[1]; j <= to[1]; ++j) {
-        for (int64_t i = from[0]; i <= to[0]; ++i) {
-          const Candidate& other = candidates[index(i, j, k)];
-          // A lower one is no rival, however near; equal hashes fall back on the position, which both see alike.
-          if (other.priority < c.priority || (other.priority == c.priority && other.at <= c.at)) continue;
-          // One along an axis is far enough, and squares of what is left fit, however large the cell.
-          bool near = true;
-          uint64_t square = 0;
-          for (size_t a = 0; a < 3; ++a) {
-            const uint64_t d = static_cast<uint64_t>(std::abs(other.at[a] - c.at[a]));
-            near = near && d < static_cast<uint64_t>(step);
-            square += near ? d * d : 0;
-          }
-          if (near && square < static_cast<uint64_t>(step) * static_cast<uint64_t>(step)) return false;
+  // Steps to the cubes around one, the nearest first: most candidates lose, and most of these to a cube beside theirs.
+  std::vector<std::ptrdiff_t> around;
+  for (int64_t shared = 2; shared >= 0; --shared) {
+    for (int64_t k = -1; k <= 1; ++k) {
+      for (int64_t j = -1; j <= 1; ++j) {
+        for (int64_t i = -1; i <= 1; ++i) {
+          const bool there =
+              (i == 0 || lattice.hasAxis(0)) && (j == 0 || lattice.hasAxis(1)) && (k == 0 || lattice.hasAxis(2));
+          if (there && (i == 0) + (j == 0) + (k == 0) == shared) around.push_back((k * count[1] + j) * count[0] + i);
         }
       }
     }
-    return true;
+  }
+  const auto wins = [&](const Candidate& c) {
+    return std::none_of(around.begin(), around.end(), [&](std::ptrdiff_t away) {
+      const Candidate& other = *(&c + away);
+      // A lower one is no rival, however near; equal hashes fall back on the position, which both see alike.
+      if (other.priority < c.priority || (other.priority == c.priority && other.at <= c.at)) return false;
+      // One along an axis is far enough, and squares of what is left fit, however large the cell.
+      uint64_t square = 0;
+      for (size_t a = 0; a < 3; ++a) {
+        const auto d = static_cast<uint64_t>(std::abs(other.at[a] - c.at[a]));
+        if (d >= static_cast<uint64_t>(step)) return false;
+        square += d * d;
+      }
+      return square < static_cast<uint64_t>(step) * static_cast<uint64_t>(step);
+    });
   };
   std::vector<LatticePoint> points;
   for (size_t z = 0; z < static_cast<size_t>(count[2]); ++z) {
@@ -102,7 +103,8 @@ std::optional<std::vector<LatticePoint>> poissonInCell(const Lattice& lattice, I
           inside = inside && d >= 0 && d < std::max(lattice.size[a], 1);
           offset[a] = saturate(d);
         }
-        if (inside && wins(x, y, z, c)) points.push_back({offset, c.key});
+        // Inside, so that there are cubes all around it.
+        if (inside && wins(c)) points.push_back({offset, c.key});
       }
     }
   }
