@@ -17,7 +17,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double kFramesASecond = 60;
 constexpr auto kFrame = std::chrono::microseconds(16667);
 constexpr uint64_t kWholeCheckEvery = 500;
-constexpr int kRaysAFrame = 6, kRaysToWalk = 48;
+constexpr int kRaysAFrame = 6;
+constexpr uint64_t kRaysToWalk = 48;
 constexpr uint64_t kFramesToForget = 2;
 /// Until digs that are not drawn are left to the wait for all.
 constexpr int kFramesToDraw = 600;
@@ -184,10 +185,10 @@ class Flight {
   /// Looks around: are the surfaces that can be seen nearby drawn at level 0?
   Result<void> look(uint64_t frame) {
     if (report_.walkable_ms < 0) {
-      const Result<Sight> sight = see(kWalkableDistance, kRaysToWalk);
-      if (!sight) return sight.error();
-      if (sight->seen > 0 && sight->finest == sight->seen && engine_.collidesNear(place_.position, kWalkableDistance))
-        report_.walkable_ms = since(start_);
+      const double now = since(start_);
+      const Result<bool> walkable = isWalkable();
+      if (!walkable) return walkable.error();
+      if (*walkable) report_.walkable_ms = now;
       return {};
     }
     // Where a teleport has just led to everything is new.
@@ -201,30 +202,53 @@ class Flight {
     return {};
   }
 
+  /// Rays cost far more than frames do: what is not yet fine enough is looked at first in the next frame, lest the
+  /// question takes the time from the jobs that it is about.
+  Result<bool> isWalkable() {
+    if (!engine_.collidesNear(place_.position, kWalkableDistance)) return false;
+    bool seen = false;
+    for (uint64_t i = 0; i < kRaysToWalk; ++i) {
+      const Result<Surface> surface = surfaceAlong((coarse_ray_ + i) % kRaysToWalk, kWalkableDistance);
+      if (!surface) return surface.error();
+      seen = seen || *surface != Surface::none;
+      if (*surface != Surface::coarse) continue;
+      coarse_ray_ = (coarse_ray_ + i) % kRaysToWalk;
+      return false;
+    }
+    return seen;
+  }
+
   struct Sight {
     uint64_t seen = 0, finest = 0;
   };
   Result<Sight> see(double distance, int rays) {
     Sight sight;
     for (int i = 0; i < rays; ++i) {
-      const Metres3 direction = directionOf(rays_++);
-      sgm_ray_desc ray = SGM_RAY_DESC_INIT;
-      for (int axis = 0; axis < 3; ++axis) {
-        ray.from[axis] = place_.position[axis] * SGM_UNITS_PER_METRE;
-        ray.direction[axis] = direction[axis];
-      }
-      ray.length = distance;
-      sgm_surface_point hit = SGM_SURFACE_POINT_INIT;
-      sgm_error error = SGM_ERROR_INIT;
-      if (sgm_world_ray_cast(world_, &ray, &hit, &error) != SGM_OK) return errorOf(error);
-      // In what was built around the viewer there is nothing to see.
-      if (hit.found == 0 || hit.inside != 0) continue;
-      int32_t at[3];
-      for (int axis = 0; axis < 3; ++axis) at[axis] = static_cast<int32_t>(hit.position[axis]);
-      ++sight.seen;
-      if (engine_.finestAt(at, settings_.cell_units)) ++sight.finest;
+      const Result<Surface> surface = surfaceAlong(rays_++, distance);
+      if (!surface) return surface.error();
+      sight.seen += *surface != Surface::none;
+      sight.finest += *surface == Surface::finest;
     }
     return sight;
+  }
+
+  enum class Surface { none, coarse, finest };
+  /// In what was built around the viewer there is nothing to see.
+  Result<Surface> surfaceAlong(uint64_t direction_number, double distance) const {
+    const Metres3 direction = directionOf(direction_number);
+    sgm_ray_desc ray = SGM_RAY_DESC_INIT;
+    for (int axis = 0; axis < 3; ++axis) {
+      ray.from[axis] = place_.position[axis] * SGM_UNITS_PER_METRE;
+      ray.direction[axis] = direction[axis];
+    }
+    ray.length = distance;
+    sgm_surface_point hit = SGM_SURFACE_POINT_INIT;
+    sgm_error error = SGM_ERROR_INIT;
+    if (sgm_world_ray_cast(world_, &ray, &hit, &error) != SGM_OK) return errorOf(error);
+    if (hit.found == 0 || hit.inside != 0) return Surface::none;
+    int32_t at[3];
+    for (int axis = 0; axis < 3; ++axis) at[axis] = static_cast<int32_t>(hit.position[axis]);
+    return engine_.finestAt(at, settings_.cell_units) ? Surface::finest : Surface::coarse;
   }
 
   Result<FlightReport> finish() {
@@ -269,7 +293,7 @@ class Flight {
   sgm_world_stats stats_ = SGM_WORLD_STATS_INIT;  ///< after it
   Clock::time_point start_;
   std::vector<double> times_;
-  uint64_t rays_ = 0, commits_ = 0;
+  uint64_t rays_ = 0, coarse_ray_ = 0, commits_ = 0;
   std::optional<uint64_t> teleport_frame_;
 };
 
