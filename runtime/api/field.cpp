@@ -4,6 +4,7 @@
 
 #include "api/backend_request.h"
 #include "api/barrier.h"
+#include "api/host_field.h"
 #include "api/note_log.h"
 #include "stream/mesh_chunks.h"
 
@@ -50,6 +51,7 @@ sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sg
       settings.on_notes = [notes = std::make_shared<NoteLog>(*runtime, desc->grammar->program)](
                               const sgm::GrammarChunk& cell) { notes->tell(cell); };
     settings.profiler = runtime->profiler;
+    if (sgm_result r = takeHosts(error, *desc, *settings.program, settings.hosts); r != SGM_OK) return r;
     sgm::Result<std::unique_ptr<sgm::Backend>> backend =
         sgm::makeBackend(*request, *runtime->jobs, &runtime->memory, runtime->profiler);
     if (!backend) return fail(error, backend.error());

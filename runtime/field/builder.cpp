@@ -152,6 +152,17 @@ Value ProgramBuilder::prism(const Frame& frame, float half_height, std::span<con
   return emit(Op::prism, at);
 }
 
+Value ProgramBuilder::lattice(const SampleLattice& at, std::span<const float> samples, float limit, uint32_t label) {
+  const uint32_t params = beginPrimitive(at.origin, label);
+  put(at.spacing);
+  for (uint32_t count : at.count) put(static_cast<int32_t>(count));
+  put(reciprocal(static_cast<double>(at.spacing)));
+  put(limit);
+  program_.params.reserve(program_.params.size() + samples.size());
+  for (float sample : samples) put(sample);
+  return emit(Op::lattice, params);
+}
+
 Value ProgramBuilder::blobWeight(Int3 centre, float radius, uint32_t label) {
   const uint32_t at = beginPrimitive(centre, label);
   const double support = double{radius} * double{kSumSupport};

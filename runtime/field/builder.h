@@ -6,6 +6,7 @@
 
 #include "base/result.h"
 #include "derive/shape.h"
+#include "field/lattice.h"
 #include "field/program.h"
 
 namespace sgm {
@@ -36,6 +37,10 @@ class ProgramBuilder {
   Value halfspace(const Frame& frame, uint32_t label);
   /// Corners in local xz (x and z of each point, in units), counter-clockwise seen from +y, at least three.
   Value prism(const Frame& frame, float half_height, std::span<const Int3> corners, uint32_t label);
+
+  /// One sample for each point, in units, whole 1024ths. limit: a value as large as it, or beyond, counts as far
+  /// (1e18).
+  Value lattice(const SampleLattice& at, std::span<const float> samples, float limit, uint32_t label);
 
   /// Operands of a sum: the cheap ball, and any distance with its inner radius in units, greater than 0.
   Value blobWeight(Int3 centre, float radius, uint32_t label);

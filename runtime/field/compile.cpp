@@ -319,7 +319,8 @@ struct Gathered {
 }  // namespace
 
 Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntBox& box, const FieldSettings& settings,
-                                  std::pmr::memory_resource* memory, std::span<const Brush> brushes) {
+                                  std::pmr::memory_resource* memory, std::span<const HostField> hosts,
+                                  std::span<const Brush> brushes) {
   const int32_t margin = influenceMargin(settings.cell);
   std::pmr::vector<Gathered> gathered(memory);
   std::pmr::vector<uint32_t> found(memory);
@@ -353,6 +354,12 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
     }
   }
   uint32_t layer = gathered.empty() ? 0 : gathered.back().layer;
+  for (const HostField& host : hosts) {
+    if (!host.bounds.grown(margin).meets(box)) continue;
+    if (Result<void> emitted = emitHostField(builder, host, box, settings.cell, ++layer, memory); !emitted) {
+      return emitted.error();
+    }
+  }
   for (const Brush& brush : brushes) {
     if (!brushShows(brush, settings.cell) || !brushBounds(brush).grown(margin).meets(box)) continue;
     if (Result<void> emitted = emitBrush(builder, brush, settings.cell, ++layer); !emitted) return emitted.error();

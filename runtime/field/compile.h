@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "field/brush.h"
 #include "field/group_index.h"
+#include "field/host_field.h"
 
 namespace sgm {
 
@@ -24,12 +25,12 @@ struct FieldSettings {
 };
 
 /// Compiles all groups whose influence box meets `box`. Cells may come in any order, each once: groups are sorted by
-/// layer, adds before cuts, then key. Brushes, which were checked, lie above them in the order given; those that show
-/// at the level and reach into the box matter, others may be among them. Pure. limit: a shape needs more registers than
-/// there are.
+/// layer, adds before cuts, then key. The host's fields lie above them and brushes, which were checked, above these,
+/// each in the order given; those that show at the level and reach into the box matter, others may be among them. Pure,
+/// as far as the host's fields are. limit: a shape needs more registers than there are; errors of emitHostField().
 Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntBox& box, const FieldSettings& settings,
                                   std::pmr::memory_resource* memory = std::pmr::get_default_resource(),
-                                  std::span<const Brush> brushes = {});
+                                  std::span<const HostField> hosts = {}, std::span<const Brush> brushes = {});
 
 /// How far around its solid a group still reaches: one cell diagonal (two cells on each axis hold it).
 inline int32_t influenceMargin(int32_t cell) { return 2 * cell; }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "field/lattice.h"
 #include "field/reference.h"
 
 namespace sgm {
@@ -139,6 +140,8 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
       return {-1, 1};
     case Op::sweep:
       return {-1e-6, 1 + 1e-6};
+    case Op::lattice:
+      return boundLattice(p, box);
     case Op::coordinate: {
       const Interval x = product(offsets(box.x, wholeAt(p, 1)), {realAt(p, 4), realAt(p, 4)});
       const Interval y = product(offsets(box.y, wholeAt(p, 2)), {realAt(p, 5), realAt(p, 5)});

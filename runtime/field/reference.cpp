@@ -1,5 +1,7 @@
 #include "field/reference.h"
 
+#include "field/lattice.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -213,6 +215,9 @@ double referenceField(const ProgramView& program, Int3 p) {
           out = realAt(params, 4) * d.x + realAt(params, 5) * d.y + realAt(params, 6) * d.z;
           break;
         }
+        case Op::lattice:
+          out = referenceLattice(params, at.x, at.y, at.z);
+          break;
         case Op::noise:
           out = noiseSum(params, at);
           break;

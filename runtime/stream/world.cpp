@@ -235,9 +235,11 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
   uint64_t frame = 0, finished = 0;
   for (int in_vain = 0; in_vain < kLooksInVain; ++in_vain) {
     core_->kickJournal();
+    const size_t events = events_.size();
     advance(std::numeric_limits<size_t>::max());
+    if (events_.size() > events) in_vain = 0;
     std::unique_lock lock(core_->mutex);
-    if (core_->settled()) return {};
+    if (core_->settled() && core_->failed.empty()) return {};
     if ((core_->mesh_jobs > 0 && !core_->scarce) || core_->applied != frame ||
         core_->planner_stats.meshed + core_->planner_stats.seam_jobs != finished)
       in_vain = 0;

@@ -57,6 +57,17 @@ std::optional<std::vector<std::byte>> WorldField::identity() const {
   out.put(settings_.seed);
   out.put(settings_.finest_cell);
   for (int axis = 0; axis < 3; ++axis) out.put(settings_.shift[axis]);
+  out.put(uint64_t{settings_.hosts.size()});
+  for (const HostField& host : settings_.hosts) {
+    out.put(host.identity);
+    for (const Int3 corner : {host.bounds.lo, host.bounds.hi}) {
+      for (int axis = 0; axis < 3; ++axis) out.put(corner[axis]);
+    }
+    out.put(uint32_t{host.cut});
+    out.put(host.label);
+    out.put(host.smooth);
+    out.put(host.steepness);
+  }
   return bytes;
 }
 
@@ -161,6 +172,7 @@ FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t layers, const IntBox& box,
                                                                       const FieldSettings& field,
+                                                                      std::span<const HostField> hosts,
                                                                       std::span<const Brush> brushes) const {
   const ProfileScope scope(profiler(), zone::kCompile);
   const IntBox reached = box.grown(influenceMargin(field.cell));
@@ -178,7 +190,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
     });
     if (!gathered) return gathered.error();
   }
-  Result<FieldProgram> program = compileField(indexed, box, field, memory_, brushes);
+  Result<FieldProgram> program = compileField(indexed, box, field, memory_, hosts, brushes);
   if (!program) return program.error();
   return std::shared_ptr<const FieldProgram>(std::make_shared<FieldProgram>(std::move(*program)));
 }
@@ -186,7 +198,8 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
 Result<std::shared_ptr<const FieldProgram>> WorldField::compile(const IntBox& box, int level,
                                                                 const EditSnapshot* edits) const {
   return compileLayers(static_cast<uint32_t>(settings_.program->layers.size()), box,
-                       fieldSettings(settings_.finest_cell, cellAt(level)), brushes(box, level, edits));
+                       fieldSettings(settings_.finest_cell, cellAt(level)), settings_.hosts,
+                       brushes(box, level, edits));
 }
 
 std::pmr::vector<Brush> WorldField::brushes(const IntBox& box, int level, const EditSnapshot* edits) const {
@@ -204,7 +217,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box) const {
   // One unit as the cell: in full detail, and the same whatever cells the world is meshed with.
-  return compileLayers(layer + 1, box, fieldSettings(1, 1), {});
+  return compileLayers(layer + 1, box, fieldSettings(1, 1), {}, {});
 }
 
 Result<void> WorldField::forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,

@@ -28,6 +28,8 @@ struct WorldFieldSettings {
   /// thread, several at once; must not call back.
   std::function<void(const GrammarChunk&)> on_notes;
   Profiler profiler;
+  /// Above all that the grammar derives, in this order, and below edits; derivation knows nothing of them.
+  std::vector<HostField> hosts;
 };
 
 /// Thread-safe: what it answers is a pure function of its settings; only its cache has a state.
@@ -50,8 +52,9 @@ class WorldField {
   /// The cell of a layer, derived or from the cache.
   Result<std::shared_ptr<const DerivedCell>> cell(uint32_t layer, Int3 cell) const;
 
-  /// The program of all groups that matter in the closed box at a level, and of the edits above them; derivation knows
-  /// nothing of edits. limit: more than 2^20 cells of a layer reach into the box; errors of derivation.
+  /// The program of all groups that matter in the closed box at a level, of the host's fields above them and the edits
+  /// above these; derivation knows nothing of either. limit: more than 2^20 cells of a layer reach into the box, or the
+  /// box is too large to sample a host's field; errors of derivation and of these fields.
   Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level,
                                                       const EditSnapshot* edits = nullptr) const;
 
@@ -87,6 +90,7 @@ class WorldField {
                          const std::function<Result<void>(const CellKey&)>& visit) const;
   Result<std::shared_ptr<const FieldProgram>> compileLayers(uint32_t layers, const IntBox& box,
                                                             const FieldSettings& field,
+                                                            std::span<const HostField> hosts,
                                                             std::span<const Brush> brushes) const;
   /// Visits the cells of all wanted layers that can reach into the box, in order.
   Result<void> forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,

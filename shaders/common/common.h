@@ -3,5 +3,6 @@
 #include "real.h"
 #include "noise.h"
 #include "primitives.h"
+#include "lattice.h"
 #include "combine.h"
 #include "attributes.h"

@@ -2,6 +2,7 @@
 //
 // Only + - *, comparison, conversion and integer operations on values; everything branch-free through sel(). A value
 // that differs by sample has type Real, Int, Uint or Bool; a value equal for all samples has type float, int or uint.
+// PF, PI and PU read a word of an op's parameters that is the same for all samples, gatherReal one for each.
 // Every product or sum that feeds a sum is a local declared PRECISE, so that GLSL contracts nothing. No header here has
 // an include guard: a C++ source includes common.h once in each namespace for which it has defined the types (scalar
 // below, wide in backend/cpu/wide.h).
@@ -18,6 +19,7 @@
 #define PF(P, i) uintBitsToFloat(params[(P) + uint(i)])
 #define PI(P, i) int(params[(P) + uint(i)])
 #define PU(P, i) params[(P) + uint(i)]
+#define gatherReal(P, i) uintBitsToFloat(params[(P) + uint(i)])
 #define toReal(i) float(i)
 #define toInt(r) int(r)
 #define toIntBits(u) int(u)
@@ -63,6 +65,7 @@ FN Uint realToBits(Real r) {
   memcpy(&u, &r, 4);
   return u;
 }
+FN Real gatherReal(Params P, Int i) { return uniformFloat(P[i]); }
 FN Real toReal(Int i) { return static_cast<Real>(i); }
 FN Int toInt(Real r) { return static_cast<Int>(r); }
 FN Int toIntBits(Uint u) { return static_cast<Int>(u); }

@@ -207,7 +207,26 @@ PLACE(sgm_parameter_info, default_value, 40);
 PLACE(sgm_parameter_info, minimum, 48);
 PLACE(sgm_parameter_info, maximum, 56);
 
-SIZE(sgm_field_desc, 56);
+SIZE(sgm_host_lattice, 28);
+PLACE(sgm_host_lattice, origin, 0);
+PLACE(sgm_host_lattice, spacing, 12);
+PLACE(sgm_host_lattice, count, 16);
+
+SIZE(sgm_host_field, 80);
+PLACE(sgm_host_field, struct_size, 0);
+PLACE(sgm_host_field, next, 8);
+PLACE(sgm_host_field, sample, 16);
+PLACE(sgm_host_field, user, 24);
+PLACE(sgm_host_field, identity, 32);
+PLACE(sgm_host_field, minimum, 40);
+PLACE(sgm_host_field, maximum, 52);
+PLACE(sgm_host_field, steepness, 64);
+PLACE(sgm_host_field, flags, 68);
+PLACE(sgm_host_field, material, 72);
+PLACE(sgm_host_field, tag, 74);
+PLACE(sgm_host_field, smooth, 76);
+
+SIZE(sgm_field_desc, 72);
 PLACE(sgm_field_desc, struct_size, 0);
 PLACE(sgm_field_desc, next, 8);
 PLACE(sgm_field_desc, grammar, 16);
@@ -216,6 +235,8 @@ PLACE(sgm_field_desc, seed, 32);
 PLACE(sgm_field_desc, cell_units, 40);
 PLACE(sgm_field_desc, backend, 44);
 PLACE(sgm_field_desc, cache_bytes, 48);
+PLACE(sgm_field_desc, hosts, 56);
+PLACE(sgm_field_desc, host_count, 64);
 
 SIZE(sgm_sample_desc, 88);
 PLACE(sgm_sample_desc, struct_size, 0);

@@ -110,6 +110,7 @@ class Generator {
       if (op == Op::blob) return builder_.blobWeight(at, a[0], l);
       return builder_.capsule(at, a[1] * none, -a[2] * none, a[3] * none, a[0], l);
     }
+    if (op == Op::lattice) return lattice(place(spread));
     const Frame f = frame(spread);
     const float a[6] = {size(), size(), size(), size(), size(), size()};
     const float exponent = between(2, 20);
@@ -137,10 +138,27 @@ class Generator {
     }
   }
 
+  // Of whole 1024ths, some huge; as rough as no distance is, or with far values that count as such.
+  Value lattice(Int3 near) {
+    SampleLattice at;
+    at.spacing = 1 + pick(extent_ / 2);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto count = static_cast<uint32_t>(2 + pick(6));
+      at.count[static_cast<size_t>(axis)] = count;
+      const int64_t last = std::numeric_limits<int32_t>::max() - int64_t{count - 1} * at.spacing;
+      at.origin[axis] = static_cast<int32_t>(std::min<int64_t>(near[axis], last));
+    }
+    std::vector<float> samples(at.points());
+    const double largest = odd_.huge_and_tiny && pick(3) == 0 ? 1e12 : extent_;
+    for (float& sample : samples) sample = std::floor(between(-largest, largest) * 1024.0f) / 1024.0f;
+    const float limit = pick(3) == 0 ? size() : 1e18f;
+    return builder_.lattice(at, samples, limit, label());
+  }
+
   Value anyPrimitive() {
     static constexpr Op kAll[] = {Op::sphere,      Op::box,       Op::cylinder,  Op::truncone,
                                   Op::capsule,     Op::torus,     Op::ellipsoid, Op::superquadric,
-                                  Op::power_morph, Op::halfspace, Op::prism};
+                                  Op::power_morph, Op::halfspace, Op::prism,     Op::lattice};
     const Op op = kAll[pick(static_cast<int>(std::size(kAll)))];
     // Some operands far outside, with large positive values, which a wrong pruning would let through.
     return primitive(op, pick(5) == 0 ? 6.0 : 1.0);

@@ -196,7 +196,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const IntBox box = IntBox{near, near}.grown(step);
   const std::vector<Brush> brushes = brushesFrom(in, near);
   const Result<FieldProgram> program =
-      compileField({&cell, 1}, box, settings, std::pmr::get_default_resource(), brushes);
+      compileField({&cell, 1}, box, settings, std::pmr::get_default_resource(), {}, brushes);
   if (!program) {
     require(!program.error().message.empty(), "an error without words");
     return 0;

@@ -76,6 +76,7 @@ FN Real broadcast(float x) { return Real(x); }
 FN Int broadcastInt(int32_t x) { return Int(x); }
 FN Real bitsToReal(Uint u) { return hn::BitCast(RealTag(), u.v); }
 FN Uint realToBits(Real r) { return hn::BitCast(UintTag(), r.v); }
+FN Real gatherReal(Params P, Int i) { return hn::BitCast(RealTag(), hn::GatherIndex(UintTag(), P, i.v)); }
 FN Real toReal(Int i) { return hn::ConvertTo(RealTag(), i.v); }
 FN Int toInt(Real r) { return hn::ConvertTo(IntTag(), r.v); }
 FN Int toIntBits(Uint u) { return hn::BitCast(IntTag(), u.v); }

@@ -434,6 +434,54 @@ SGM_API sgm_result sgm_parameters_get(const sgm_parameters* parameters, const ch
  * it answers; keeps a cache of derived cells inside. */
 typedef struct sgm_field sgm_field;
 
+/* Points of a host's field that are asked for together: origin + spacing * (x, y, z), in units, each whole point of the
+ * world. The value of (x, y, z) goes to index (z * count[1] + y) * count[0] + x. */
+typedef struct sgm_host_lattice {
+  int32_t origin[3]; /* units */
+  int32_t spacing;   /* units: the edge of a cell of the level that is meshed. Leave out what is finer */
+  uint32_t count[3]; /* at least 1; 2^22 points at most, as a rule 34^3 */
+} sgm_host_lattice;
+
+/* Writes the field in metres at each point, solid below 0, and returns SGM_OK; anything else fails the call, or the
+ * chunk, that needs it. Called from any thread, several at one time; must not call back into the library and lets no
+ * C++ exception out. */
+typedef sgm_result (*sgm_host_sample)(void* user, const sgm_host_lattice* lattice, float* values);
+
+typedef enum sgm_host_flag {
+  SGM_HOST_CUT = 1, /* takes its solid away from what is there; without this flag it adds it */
+  SGM_HOST_FLAG_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_host_flag;
+
+/* A field of the host's own beside the grammar's: a terrain, or rooms that another program made. Meshed, streamed and
+ * asked about like everything else, and dug into by edits. The grammar's own rules know nothing of it.
+ * Its values are rounded to 1/1024 unit, and read linearly between the points of each level. So that neighbouring
+ * chunks fit, a value must be the same whenever its point is asked for at one spacing; so that it is on every machine,
+ * it must be computed alike there. */
+typedef struct sgm_host_field {
+  uint32_t struct_size;
+  const void* next;
+  sgm_host_sample sample;
+  void* user;         /* must live as long as the field and all that is made from it */
+  uint64_t identity;  /* of what it samples: another number wherever a value differs. What is kept on disk (cache and
+                         journal) counts as another world's under another one */
+  int32_t minimum[3]; /* units: nothing is asked for, nor changed, more than two cells outside of this box */
+  int32_t maximum[3];
+  float steepness;    /* the most that the value changes over a metre of way, from 0 to 1000; 1 of a distance. Then
+                         chunks far from the surface ask for a single point, and what is two cells away or more counts
+                         as far. 0: not known */
+  uint32_t flags;     /* of sgm_host_flag */
+  uint16_t material;  /* index for sgm_grammar_material; 0: the default. Of a cut: what it leaves on the surface, 0: what
+                         was there */
+  uint16_t tag;       /* index for sgm_grammar_tag */
+  int32_t smooth;     /* width of the blend with what is there, 0 to 2^20 units; 0: none */
+} sgm_host_field;
+
+#define SGM_HOST_FIELD_INIT                                                                                    \
+  {                                                                                                            \
+    SGM_SIZEOF(sgm_host_field), SGM_NULL, SGM_NULL, SGM_NULL, 0, {INT32_MIN, INT32_MIN, INT32_MIN},            \
+        {INT32_MAX, INT32_MAX, INT32_MAX}, 0.0f, 0, 0, 0, 0                                                    \
+  }
+
 typedef struct sgm_field_desc {
   uint32_t struct_size;
   const void* next;
@@ -443,10 +491,13 @@ typedef struct sgm_field_desc {
   int32_t cell_units;               /* edge of a level-0 cell, 1 to 2^20 units; see sgm_cell_from_metres */
   sgm_backend backend;              /* SGM_ERR_UNSUPPORTED where it is not usable here */
   uint64_t cache_bytes;             /* derived cells to keep, about; 0: 64 MiB */
+  const sgm_host_field* hosts;      /* above all that the grammar derives, in this order; copied. NULL: none */
+  size_t host_count;                /* at most 16 */
 } sgm_field_desc;
 
 #define SGM_FIELD_DESC_INIT \
-  { SGM_SIZEOF(sgm_field_desc), SGM_NULL, SGM_NULL, SGM_NULL, 0, SGM_UNITS_PER_METRE / 2, SGM_BACKEND_AUTO, 0 }
+  { SGM_SIZEOF(sgm_field_desc), SGM_NULL, SGM_NULL, SGM_NULL, 0, SGM_UNITS_PER_METRE / 2, SGM_BACKEND_AUTO, 0, \
+    SGM_NULL, 0 }
 
 SGM_API sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sgm_field** out,
                                     sgm_error* error);

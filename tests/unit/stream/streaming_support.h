@@ -54,10 +54,15 @@ class LateJobs final : public JobSystem {
   std::vector<std::pair<void (*)(void*), void*>> jobs_;
 };
 
+inline WorldFieldSettings withHosts(WorldFieldSettings settings, std::vector<HostField> hosts) {
+  settings.hosts = std::move(hosts);
+  return settings;
+}
+
 struct Scene {
   explicit Scene(std::unique_ptr<JobSystem> jobs_in, const std::string& text = caveText(),
-                 WorldSettings settings_in = {})
-      : field(settingsOf(text, kStreamedCell, 3), std::pmr::get_default_resource()),
+                 WorldSettings settings_in = {}, std::vector<HostField> hosts = {})
+      : field(withHosts(settingsOf(text, kStreamedCell, 3), std::move(hosts)), std::pmr::get_default_resource()),
         jobs(std::move(jobs_in)),
         settings(settings_in) {
     std::pmr::memory_resource* memory = field.memory();

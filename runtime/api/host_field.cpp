@@ -1,0 +1,70 @@
+#include "api/host_field.h"
+
+#include <string>
+
+#include "api/barrier.h"
+#include "field/brush.h"
+
+namespace sgm::api {
+
+namespace {
+
+constexpr size_t kMostHosts = 16;
+constexpr float kSteepest = 1000;
+
+sgm_result check(sgm_error* error, const sgm_host_field& host, const Program& program, const std::string& name) {
+  if (sgm_result r = checkDesc(error, &host, name.c_str()); r != SGM_OK) return r;
+  const auto wrong = [&](const char* what) { return fail(error, SGM_ERR_INVALID_ARGUMENT, name + what); };
+  if (host.sample == nullptr) return wrong(".sample is NULL");
+  for (int axis = 0; axis < 3; ++axis) {
+    if (host.minimum[axis] > host.maximum[axis]) return wrong(".minimum lies above its maximum");
+  }
+  if (!(host.steepness >= 0 && host.steepness <= kSteepest)) return wrong(".steepness is not 0 to 1000");
+  if ((host.flags & ~static_cast<uint32_t>(SGM_HOST_CUT)) != 0)
+    return wrong(".flags has bits that are no sgm_host_flag");
+  if (host.material >= program.materials.size()) return wrong(".material is none of the grammar's");
+  if (host.tag >= program.tags.size()) return wrong(".tag is none of the grammar's");
+  if (host.smooth < 0 || host.smooth > kMaxBrushSize) return wrong(".smooth is not 0 to 2^20 units");
+  return SGM_OK;
+}
+
+Result<void> sampleHost(sgm_host_sample sample, void* user, const SampleLattice& at, std::span<float> values) {
+  const sgm_host_lattice lattice{
+      {at.origin.x, at.origin.y, at.origin.z}, at.spacing, {at.count[0], at.count[1], at.count[2]}};
+  const sgm_result result = sample(user, &lattice, values.data());
+  if (result != SGM_OK) {
+    return Error{result == SGM_ERR_OUT_OF_MEMORY ? Code::out_of_memory : Code::unsupported,
+                 std::string("the host's field could not be sampled: it answered ") + sgm_result_name(result)};
+  }
+  for (float& value : values) value *= SGM_UNITS_PER_METRE;
+  return {};
+}
+
+}  // namespace
+
+sgm_result takeHosts(sgm_error* error, const sgm_field_desc& desc, const Program& program,
+                     std::vector<HostField>& hosts) {
+  if (desc.host_count == 0) return SGM_OK;
+  if (desc.hosts == nullptr) return nullArgument(error, "desc.hosts");
+  if (desc.host_count > kMostHosts)
+    return fail(error, SGM_ERR_LIMIT, "desc.host_count is more than " + std::to_string(kMostHosts));
+  for (size_t i = 0; i < desc.host_count; ++i) {
+    const sgm_host_field& host = desc.hosts[i];
+    if (sgm_result r = check(error, host, program, "desc.hosts[" + std::to_string(i) + "]"); r != SGM_OK) return r;
+    HostField field;
+    field.sample = [sample = host.sample, user = host.user](const SampleLattice& at, std::span<float> values) {
+      return sampleHost(sample, user, at, values);
+    };
+    field.identity = host.identity;
+    field.bounds = {{host.minimum[0], host.minimum[1], host.minimum[2]},
+                    {host.maximum[0], host.maximum[1], host.maximum[2]}};
+    field.cut = (host.flags & SGM_HOST_CUT) != 0;
+    field.label = makeLabel(host.material, host.tag);
+    field.smooth = host.smooth;
+    field.steepness = host.steepness;
+    hosts.push_back(std::move(field));
+  }
+  return SGM_OK;
+}
+
+}  // namespace sgm::api

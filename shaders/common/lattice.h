@@ -1,0 +1,92 @@
+// Samples on a lattice of whole positions, read between them: linear along each axis, exact at the lattice's own points.
+//
+// What is the same on every device is the host's samples, which are whole 1024ths of a unit: no difference of two is a
+// denormal. Each cell is read with what lies at its lower corner weighing all there, so that two lattices which share
+// points agree at these, wherever each of them begins.
+
+// The cell of an axis that holds a position, how far along it that lies, 0 to 1, and how fast: beyond the lattice it
+// stays at the end.
+struct SamplePlace {
+  Int cell;
+  Real t;
+  Real slope;
+};
+
+// Integers decide where a cell ends: the product is the right one or a neighbour.
+FN SamplePlace samplePlace(Int p, int origin, int spacing, int count, float inverse) {
+  Int d = saturatingSub(p, broadcastInt(origin));
+  Bool before = d < 0;
+  d = sel(before, broadcastInt(0), d);
+  d = sel(d > 1073741824, broadcastInt(1073741824), d);
+  PRECISE Real u = toReal(d) * inverse;
+  Int cell = toInt(floorReal(u));
+  Int rest = wrapSub(d, wrapMul(cell, broadcastInt(spacing)));
+  cell = sel(rest < 0, wrapSub(cell, broadcastInt(1)), cell);
+  cell = sel(rest >= broadcastInt(spacing), wrapAdd(cell, broadcastInt(1)), cell);
+  cell = sel(cell > count - 2, broadcastInt(count - 2), cell);
+  rest = wrapSub(d, wrapMul(cell, broadcastInt(spacing)));
+  SamplePlace r;
+  r.cell = cell;
+  PRECISE Real t = toReal(rest) * inverse;
+  r.t = clampReal(t, 0.0f, 1.0f);
+  r.slope = sel(before || (rest > broadcastInt(spacing)), broadcast(0.0f), broadcast(inverse));
+  return r;
+}
+
+FN Real mixSamples(Real a, Real b, Real t) {
+  PRECISE Real r = b - a;
+  r = r * t;
+  r = a + r;
+  return r;
+}
+
+// 4 spacing in units, 5-7 points along x, y, z (at least 2), 8 reciprocal of the spacing, 9 the size at which a value
+// counts as far, 10 the samples in units, x fastest.
+FN Dual opLattice(Int px, Int py, Int pz, Params P) {
+  SamplePlace x = samplePlace(px, PI(P, 1), PI(P, 4), PI(P, 5), PF(P, 8));
+  SamplePlace y = samplePlace(py, PI(P, 2), PI(P, 4), PI(P, 6), PF(P, 8));
+  SamplePlace z = samplePlace(pz, PI(P, 3), PI(P, 4), PI(P, 7), PF(P, 8));
+  Int row = broadcastInt(PI(P, 5));
+  Int layer = broadcastInt(PI(P, 5) * PI(P, 6));
+  Int at = wrapAdd(wrapAdd(wrapMul(z.cell, layer), wrapMul(y.cell, row)), wrapAdd(x.cell, broadcastInt(10)));
+  Int one = broadcastInt(1);
+  Int at_y = wrapAdd(at, row);
+  Int at_z = wrapAdd(at, layer);
+  Int at_yz = wrapAdd(at_y, layer);
+  PRECISE Real a0 = gatherReal(P, at);
+  PRECISE Real a1 = gatherReal(P, wrapAdd(at, one));
+  PRECISE Real b0 = gatherReal(P, at_y);
+  PRECISE Real b1 = gatherReal(P, wrapAdd(at_y, one));
+  PRECISE Real c0 = gatherReal(P, at_z);
+  PRECISE Real c1 = gatherReal(P, wrapAdd(at_z, one));
+  PRECISE Real d0 = gatherReal(P, at_yz);
+  PRECISE Real d1 = gatherReal(P, wrapAdd(at_yz, one));
+
+  Real a = mixSamples(a0, a1, x.t);
+  Real b = mixSamples(b0, b1, x.t);
+  Real c = mixSamples(c0, c1, x.t);
+  Real d = mixSamples(d0, d1, x.t);
+  Real low = mixSamples(a, b, y.t);
+  Real high = mixSamples(c, d, y.t);
+  Real v = mixSamples(low, high, z.t);
+
+  PRECISE Real slope_a = a1 - a0;
+  PRECISE Real slope_b = b1 - b0;
+  PRECISE Real slope_c = c1 - c0;
+  PRECISE Real slope_d = d1 - d0;
+  PRECISE Real gx = mixSamples(mixSamples(slope_a, slope_b, y.t), mixSamples(slope_c, slope_d, y.t), z.t);
+  gx = gx * x.slope;
+  PRECISE Real slope_low = b - a;
+  PRECISE Real slope_high = d - c;
+  PRECISE Real gy = mixSamples(slope_low, slope_high, z.t);
+  gy = gy * y.slope;
+  PRECISE Real gz = high - low;
+  gz = gz * z.slope;
+
+  Real zero = broadcast(0.0f);
+  Bool above = v >= PF(P, 9);
+  Bool below = v <= -PF(P, 9);
+  Bool far = above || below;
+  v = sel(above, broadcast(1.0e18f), sel(below, broadcast(-1.0e18f), v));
+  return makeDual(v, sel(far, zero, gx), sel(far, zero, gy), sel(far, zero, gz), broadcastInt(PI(P, 0)));
+}
