@@ -24,11 +24,10 @@ inline sgm_result fail(sgm_error* error, const Error& e) noexcept {
 }
 
 /// SGM_OK, or why a descriptor cannot be read: null, another version's size, an extension that is not known here.
-/// earlier_size: of the struct before it grew, also taken; only so much of it may be read then.
 template <class Desc>
-sgm_result checkDesc(sgm_error* error, const Desc* desc, const char* name, size_t earlier_size = sizeof(Desc)) {
+sgm_result checkDesc(sgm_error* error, const Desc* desc, const char* name) {
   if (desc == nullptr) return fail(error, SGM_ERR_INVALID_ARGUMENT, std::string(name) + " is NULL");
-  if (desc->struct_size != sizeof(Desc) && desc->struct_size != earlier_size)
+  if (desc->struct_size != sizeof(Desc))
     return fail(error, SGM_ERR_STRUCT_SIZE,
                 std::string(name) + ".struct_size is " + std::to_string(desc->struct_size) + ", not " +
                     std::to_string(sizeof(Desc)) + ": start from the _INIT macro of this library's header");

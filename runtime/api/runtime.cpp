@@ -1,8 +1,5 @@
 #include "api/runtime.h"
 
-#include <cstddef>
-#include <cstring>
-
 #include "api/barrier.h"
 
 namespace sgm::api {
@@ -26,8 +23,6 @@ sgm_result checkVersion(uint32_t version, sgm_error* error) {
               "the program was built with header " + std::to_string(major) + "." + std::to_string(minor) +
                   " and runs with library " + sgm_version_string() + ": rebuild it with this library's sgm/sgm.h");
 }
-
-constexpr size_t kSizeWithoutProfiler = offsetof(sgm_runtime_desc, profiler);
 
 sgm_result checkRuntimeDesc(const sgm_runtime_desc& desc, sgm_error* error) {
   if (sgm_result r = checkVersion(desc.api_version, error); r != SGM_OK) return r;
@@ -111,12 +106,9 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
   return guarded(error, [&]() -> sgm_result {
     if (out == nullptr) return nullArgument(error, "out");
     *out = nullptr;
-    sgm_runtime_desc whole = SGM_RUNTIME_DESC_INIT;
-    if (desc != nullptr) {
-      if (sgm_result r = checkDesc(error, desc, "desc", kSizeWithoutProfiler); r != SGM_OK) return r;
-      std::memcpy(&whole, desc, desc->struct_size);
-    }
-    desc = &whole;
+    const sgm_runtime_desc defaults = SGM_RUNTIME_DESC_INIT;
+    if (desc == nullptr) desc = &defaults;
+    if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (sgm_result r = checkRuntimeDesc(*desc, error); r != SGM_OK) return r;
 
     const sgm_allocator allocator =

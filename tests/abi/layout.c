@@ -25,9 +25,9 @@ CHECK(face_size, sizeof(sgm_face) == 4);
 
 /* Values that programs have compiled in. */
 CHECK(version_major, SGM_VERSION_MAJOR == 0);
-CHECK(version_minor, SGM_VERSION_MINOR == 1);
+CHECK(version_minor, SGM_VERSION_MINOR == 2);
 CHECK(version_patch, SGM_VERSION_PATCH == 0);
-CHECK(api_version, SGM_API_VERSION == 1000);
+CHECK(api_version, SGM_API_VERSION == 2000);
 CHECK(units_per_metre, SGM_UNITS_PER_METRE == 1024);
 CHECK(chunk_cells, SGM_CHUNK_CELLS == 32);
 CHECK(subcell, SGM_SUBCELL == 256);

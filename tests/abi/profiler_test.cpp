@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <map>
 #include <mutex>
 #include <random>
@@ -348,23 +347,4 @@ TEST_CASE("a profiler of zones alone suffices, and changes no byte") {
   }
   CHECK(hashes[0] != 0);
   CHECK(hashes[0] == hashes[1]);
-}
-
-TEST_CASE("a program built before there were profilers runs on, and what lies behind its descriptor is not read") {
-  ZoneRecord record;
-  const sgm_profiler profiler = record.table();
-  sgm_runtime_desc whole = SGM_RUNTIME_DESC_INIT;
-  whole.threads = 2;
-  whole.profiler = &profiler;
-  whole.struct_size = static_cast<uint32_t>(offsetof(sgm_runtime_desc, profiler));
-  // In memory that ends where the descriptor did, for sanitizers to watch; and then with a profiler behind it.
-  const auto short_desc = std::make_unique<unsigned char[]>(whole.struct_size);
-  std::memcpy(short_desc.get(), &whole, whole.struct_size);
-  for (const void* desc : {static_cast<const void*>(short_desc.get()), static_cast<const void*>(&whole)}) {
-    const RuntimeOwner runtime = makeRuntime(static_cast<const sgm_runtime_desc*>(desc));
-    const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBall).get());
-    CHECK(viewOf(meshChunks(field.get(), {chunkAt({0, 0, 0, 0})})[0]).index_count > 0);
-  }
-  CHECK(record.total() == 0);
-  CHECK(record.thread_names.empty());
 }

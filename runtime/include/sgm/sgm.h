@@ -23,9 +23,9 @@
  *              which handles end does not matter; only the runtime must outlive them all.
  *   Structs    Every struct that may grow begins { uint32_t struct_size; const void* next; } (void* next where the
  *              library fills it) and has an _INIT macro with its defaults: start from it always, those that the
- *              library fills included. A struct_size that differs from this header's is SGM_ERR_STRUCT_SIZE; only
- *              members at the end that say so may be missing. `next` is for later extensions, each beginning with
- *              sgm_chain; this version knows none and refuses a `next` that is not NULL with SGM_ERR_UNSUPPORTED.
+ *              library fills included. A struct_size that differs from this header's is SGM_ERR_STRUCT_SIZE. `next` is
+ *              for later extensions, each beginning with sgm_chain; this version knows none and refuses a `next` that
+ *              is not NULL with SGM_ERR_UNSUPPORTED.
  *   Arrays     Elements that may grow lie a stride of bytes apart, which is given or returned beside the array: at
  *              least the element's size, a multiple of its alignment; 0 for the size of this header's element.
  *   Text       UTF-8. Texts that the library returns end in 0 and live as long as the handle they came from.
@@ -46,7 +46,7 @@
 #include <stdint.h>
 
 #define SGM_VERSION_MAJOR 0
-#define SGM_VERSION_MINOR 1
+#define SGM_VERSION_MINOR 2
 #define SGM_VERSION_PATCH 0
 
 /* One number for the header that a program was built with; sgm_version() is the library's. */
@@ -134,7 +134,7 @@ typedef struct sgm_chain {
 /* The library's version, to compare with SGM_API_VERSION. */
 SGM_API uint32_t sgm_version(void);
 
-/* "0.1.0". Static. */
+/* "0.2.0". Static. */
 SGM_API const char* sgm_version_string(void);
 
 /* One line on how the library was built: version, compiler, instruction sets, backends, checks. Static. */
@@ -227,7 +227,7 @@ typedef struct sgm_runtime_desc {
   const sgm_job_system* jobs;     /* NULL: a thread pool of the runtime's own */
   const sgm_log_sink* log;        /* NULL: no messages */
   uint64_t memory_limit;          /* most bytes to hold from the allocator at one time; 0: no limit */
-  const sgm_profiler* profiler;   /* NULL: no profiler. May be missing: programs built before it was added run on */
+  const sgm_profiler* profiler;   /* NULL: no profiler */
 } sgm_runtime_desc;
 
 #define SGM_RUNTIME_DESC_INIT \
