@@ -38,7 +38,7 @@ sgm_result sgm_field_anchors(sgm_field* field, const int32_t minimum[3], const i
       box.lo[axis] = minimum[axis];
       box.hi[axis] = maximum[axis];
     }
-    const sgm::Result<std::vector<sgm::Anchor>> found = field->world.anchors(box);
+    const sgm::Result<std::vector<sgm::Anchor>> found = field->content->world.anchors(box);
     if (!found) return fail(error, found.error());
     const size_t room = *count;
     *count = found->size();

@@ -30,14 +30,14 @@ sgm_chunk_request requestAt(const sgm_chunks_desc& desc, size_t stride, size_t i
 }
 
 sgm_result checkRequest(const sgm_field& field, const sgm_chunk_request& request, sgm_error* error) {
-  if (sgm_result r = checkLevel(field, request.key.level, error); r != SGM_OK) return r;
+  if (sgm_result r = checkLevel(field.content->world, request.key.level, error); r != SGM_OK) return r;
   if (request.seams >> SGM_FACE_COUNT != 0)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "a chunk's seams have bits beyond the six faces");
   if ((request.coarser & ~kBlocksAround) != 0)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "a chunk's coarser has bits beyond the 26 blocks around it");
   if (request.reserved[0] != 0 || request.reserved[1] != 0)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "a chunk request's reserved words must be 0");
-  const sgm::Result<sgm::ChunkGrid> grid = sgm::chunkGrid(field.world, keyOf(request.key));
+  const sgm::Result<sgm::ChunkGrid> grid = sgm::chunkGrid(field.content->world, keyOf(request.key));
   return grid ? SGM_OK : fail(error, grid.error());
 }
 
@@ -88,7 +88,7 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
         return desc->progress(desc->progress_user, done, total) == 0;
       };
     sgm::Result<std::pmr::vector<sgm::PlacedChunk>> chunks =
-        sgm::meshChunks(field->world, *field->backend, *field->runtime.jobs, requests, progress);
+        sgm::meshChunks(field->content->world, *field->content->backend, *field->runtime.jobs, requests, progress);
     if (!chunks) return fail(error, chunks.error());
 
     MadeMeshes made(desc->count, memory);

@@ -4,13 +4,9 @@
 
 using namespace sgm::api;
 
-void sgm_collider_acquire(sgm_collider* collider) {
-  if (collider != nullptr) collider->owners.fetch_add(1, std::memory_order_relaxed);
-}
+sgm_result sgm_collider_acquire(sgm_collider* collider) { return acquireHandle(collider, __func__); }
 
-void sgm_collider_release(sgm_collider* collider) {
-  if (collider != nullptr && collider->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) endHandle(collider);
-}
+sgm_result sgm_collider_release(sgm_collider* collider) { return releaseHandle(collider, __func__); }
 
 sgm_result sgm_collider_get_view(const sgm_collider* collider, sgm_collider_view* view, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {

@@ -1,7 +1,6 @@
 #pragma once
 // The handle of one chunk's collider, counted by reference.
 
-#include <atomic>
 #include <memory>
 
 #include "api/runtime.h"
@@ -12,6 +11,5 @@ struct sgm_collider {
       : runtime(runtime_in), collider(std::move(collider_in)) {}
 
   sgm_runtime& runtime;
-  std::atomic<uint32_t> owners{1};
   std::shared_ptr<const sgm::Collider> collider;
 };

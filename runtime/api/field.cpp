@@ -14,10 +14,10 @@ static_assert(SGM_MAX_LEVEL == sgm::kMaxLevel);
 
 namespace sgm::api {
 
-sgm_result checkLevel(const sgm_field& field, int32_t level, sgm_error* error) {
+sgm_result checkLevel(const WorldField& field, int32_t level, sgm_error* error) {
   if (level < 0 || level > SGM_MAX_LEVEL)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "level is not 0 to " + std::to_string(SGM_MAX_LEVEL));
-  if (int64_t{field.world.settings().finest_cell} << level > kLargestCell)
+  if (int64_t{field.settings().finest_cell} << level > kLargestCell)
     return fail(
         error, SGM_ERR_RANGE,
         "the cells of level " + std::to_string(level) + " are larger than " + std::to_string(kLargestCell) + " units");
@@ -55,14 +55,14 @@ sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sg
     sgm::Result<std::unique_ptr<sgm::Backend>> backend =
         sgm::makeBackend(*request, *runtime->jobs, &runtime->memory, runtime->profiler);
     if (!backend) return fail(error, backend.error());
-    *out = makeHandle<sgm_field>(*runtime, std::move(settings), std::move(*backend));
+    auto content = std::allocate_shared<FieldContent>(std::pmr::polymorphic_allocator<>(&runtime->memory),
+                                                      std::move(settings), &runtime->memory, std::move(*backend));
+    *out = makeHandle<sgm_field>(*runtime, std::move(content));
     return SGM_OK;
   });
 }
 
-void sgm_field_destroy(sgm_field* field) {
-  if (field != nullptr && field->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) endHandle(field);
-}
+sgm_result sgm_field_destroy(sgm_field* field) { return releaseHandle(field, __func__); }
 
 sgm_result sgm_cell_from_metres(double metres, int32_t* units, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {

@@ -1,7 +1,6 @@
 #pragma once
 // The handle of a field: one world, and the backend that meshes it.
 
-#include <atomic>
 #include <memory>
 
 #include "api/grammar.h"
@@ -9,14 +8,25 @@
 #include "backend/backend.h"
 #include "stream/world_field.h"
 
+namespace sgm::api {
+
+/// What a field is, kept by its handle and by the worlds that stream it.
+struct FieldContent {
+  FieldContent(WorldFieldSettings settings, std::pmr::memory_resource* memory, std::unique_ptr<Backend> backend_in)
+      : world(std::move(settings), memory), backend(std::move(backend_in)) {}
+
+  WorldField world;
+  std::unique_ptr<Backend> backend;
+};
+
+}  // namespace sgm::api
+
 struct sgm_field {
-  sgm_field(sgm_runtime& runtime_in, sgm::WorldFieldSettings settings, std::unique_ptr<sgm::Backend> backend_in)
-      : runtime(runtime_in), world(std::move(settings), &runtime_in.memory), backend(std::move(backend_in)) {}
+  sgm_field(sgm_runtime& runtime_in, std::shared_ptr<sgm::api::FieldContent> content_in)
+      : runtime(runtime_in), content(std::move(content_in)) {}
 
   sgm_runtime& runtime;
-  std::atomic<uint32_t> owners{1};  ///< the caller's, and the worlds that stream it
-  sgm::WorldField world;
-  std::unique_ptr<sgm::Backend> backend;
+  std::shared_ptr<sgm::api::FieldContent> content;
 };
 
 namespace sgm::api {
@@ -25,11 +35,8 @@ inline constexpr int32_t kLargestFinestCell = 1 << 20;
 /// Of any level: what the rounding of vertices to units holds for (mesh/vertex.h).
 inline constexpr int64_t kLargestCell = int64_t{1} << 22;
 
-/// One more owner, whom sgm_field_destroy takes away again.
-inline void acquireField(sgm_field* field) { field->owners.fetch_add(1, std::memory_order_relaxed); }
-
 /// SGM_OK where the field has cells at the level; else INVALID_ARGUMENT (no such level) or RANGE (its cells are too
 /// large).
-sgm_result checkLevel(const sgm_field& field, int32_t level, sgm_error* error);
+sgm_result checkLevel(const WorldField& field, int32_t level, sgm_error* error);
 
 }  // namespace sgm::api

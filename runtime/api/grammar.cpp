@@ -79,7 +79,7 @@ sgm_result sgm_grammar_compile(sgm_runtime* runtime, const sgm_grammar_desc* des
       try {
         *out = makeHandle<sgm_grammar>(*runtime, program);
       } catch (...) {
-        endHandle(list);
+        sgm_diagnostics_destroy(list);
         throw;
       }
     }
@@ -88,11 +88,11 @@ sgm_result sgm_grammar_compile(sgm_runtime* runtime, const sgm_grammar_desc* des
   });
 }
 
-void sgm_grammar_destroy(sgm_grammar* grammar) { endHandle(grammar); }
+sgm_result sgm_grammar_destroy(sgm_grammar* grammar) { return releaseHandle(grammar, __func__); }
 
 uint64_t sgm_grammar_hash(const sgm_grammar* grammar) { return grammar == nullptr ? 0 : grammar->program->hash; }
 
-void sgm_diagnostics_destroy(sgm_diagnostics* diagnostics) { endHandle(diagnostics); }
+sgm_result sgm_diagnostics_destroy(sgm_diagnostics* diagnostics) { return releaseHandle(diagnostics, __func__); }
 
 uint32_t sgm_diagnostics_count(const sgm_diagnostics* diagnostics) {
   return diagnostics == nullptr ? 0 : static_cast<uint32_t>(diagnostics->entries.size());

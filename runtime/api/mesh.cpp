@@ -37,13 +37,9 @@ sgm_mesh::sgm_mesh(sgm_runtime& runtime_in, std::shared_ptr<const sgm::ChunkSurf
   for (const sgm::Anchor& anchor : surface->anchors) anchors.push_back(anchorOf(anchor));
 }
 
-void sgm_mesh_acquire(sgm_mesh* mesh) {
-  if (mesh != nullptr) mesh->owners.fetch_add(1, std::memory_order_relaxed);
-}
+sgm_result sgm_mesh_acquire(sgm_mesh* mesh) { return acquireHandle(mesh, __func__); }
 
-void sgm_mesh_release(sgm_mesh* mesh) {
-  if (mesh != nullptr && mesh->owners.fetch_sub(1, std::memory_order_acq_rel) == 1) endHandle(mesh);
-}
+sgm_result sgm_mesh_release(sgm_mesh* mesh) { return releaseHandle(mesh, __func__); }
 
 sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {

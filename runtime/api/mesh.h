@@ -1,7 +1,6 @@
 #pragma once
 // The handle of one chunk's mesh: body and seams in one vertex array and one index array, counted by reference.
 
-#include <atomic>
 #include <memory>
 
 #include "api/runtime.h"
@@ -11,7 +10,6 @@ struct sgm_mesh {
   sgm_mesh(sgm_runtime& runtime_in, std::shared_ptr<const sgm::ChunkSurface> surface_in);
 
   sgm_runtime& runtime;
-  std::atomic<uint32_t> owners{1};
   std::shared_ptr<const sgm::ChunkSurface> surface;
   std::pmr::vector<sgm_anchor> anchors;
 };

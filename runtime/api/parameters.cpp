@@ -23,7 +23,7 @@ sgm_result sgm_parameters_create(const sgm_grammar* grammar, sgm_parameters** ou
   });
 }
 
-void sgm_parameters_destroy(sgm_parameters* parameters) { endHandle(parameters); }
+sgm_result sgm_parameters_destroy(sgm_parameters* parameters) { return releaseHandle(parameters, __func__); }
 
 sgm_result sgm_parameters_set(sgm_parameters* parameters, const char* name, double value, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {

@@ -84,7 +84,7 @@ sgm_result ask(Owner* owner, const char* name, const Field& field, const Questio
   });
 }
 
-sgm::QueryField plain(const sgm_field& field) { return sgm::queryField(field.world); }
+sgm::QueryField plain(const sgm_field& field) { return sgm::queryField(field.content->world); }
 sgm::QueryField edited(const sgm_world& world) { return world.world->queryField(); }
 
 }  // namespace

@@ -44,7 +44,7 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
     *out = nullptr;
     if (field == nullptr) return nullArgument(error, "field");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
-    if (sgm_result r = checkLevel(*field, desc->level, error); r != SGM_OK) return r;
+    if (sgm_result r = checkLevel(field->content->world, desc->level, error); r != SGM_OK) return r;
     sgm::IntBox box;
     for (int axis = 0; axis < 3; ++axis) {
       if (desc->minimum[axis] >= desc->maximum[axis])
@@ -59,7 +59,7 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
       };
     const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kRegion);
     const sgm::Result<RegionMesh> region =
-        meshRegion(field->world, *field->backend, *field->runtime.jobs, box, desc->level,
+        meshRegion(field->content->world, *field->content->backend, *field->runtime.jobs, box, desc->level,
                    desc->max_chunks != 0 ? desc->max_chunks : kDefaultMostChunks, progress);
     if (!region) return fail(error, region.error());
     struct End {
@@ -69,7 +69,7 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
     sgm_surface* surface = owner.get();
     surface->origin = region->mesh.origin;
     surface->extent = region->extent;
-    surface->cell_units = field->world.cellAt(desc->level);
+    surface->cell_units = field->content->world.cellAt(desc->level);
     surface->chunk_count = region->chunks;
     surface->hash = region->hash.value();
     fillSurface(*region, *surface);

@@ -1,5 +1,7 @@
 #include "api/runtime.h"
 
+#include <cstdio>
+
 #include "api/barrier.h"
 
 namespace sgm::api {
@@ -98,6 +100,13 @@ CallerJobs::~CallerJobs() {
 
 bool CallerJobs::help() { return jobs_.help != nullptr && jobs_.help(jobs_.user) != 0; }
 
+sgm_result refuseEnded(const HandleHead& head, const char* function) noexcept {
+  char message[128];  // memory may be what is lacking
+  std::snprintf(message, sizeof message, "%s: this handle has ended before; nothing was done", function);
+  head.runtime.log(SGM_LOG_ERROR, message);
+  return SGM_ERR_INVALID_ARGUMENT;
+}
+
 }  // namespace sgm::api
 
 using namespace sgm::api;
@@ -151,7 +160,11 @@ sgm_result sgm_runtime_destroy(sgm_runtime* runtime) {
 
 sgm_result sgm_runtime_memory(const sgm_runtime* runtime, uint64_t* live, uint64_t* peak) {
   if (runtime == nullptr) return SGM_ERR_INVALID_ARGUMENT;
-  if (live != nullptr) *live = runtime->memory.live();
+  if (live != nullptr) {
+    // Two counters, which others change between: never below none.
+    const uint64_t ended = runtime->ended.bytes(), held = runtime->memory.live();
+    *live = held > ended ? held - ended : 0;
+  }
   if (peak != nullptr) *peak = runtime->memory.peak();
   return SGM_OK;
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "api/ended_handles.h"
 #include "base/jobs.h"
 #include "base/profile.h"
 #include "sgm/sgm.h"
@@ -66,12 +67,14 @@ struct sgm_runtime {
   sgm_runtime(const sgm_allocator& allocator_in, uint64_t limit)
       : allocator(allocator_in), memory(allocator_in, limit) {}
 
-  void log(sgm_log_level level, const std::string& message) const {
-    if (sink.write != nullptr) sink.write(sink.user, level, message.c_str());
+  void log(sgm_log_level level, const char* message) const {
+    if (sink.write != nullptr) sink.write(sink.user, level, message);
   }
+  void log(sgm_log_level level, const std::string& message) const { log(level, message.c_str()); }
 
   sgm_allocator allocator;  ///< frees the runtime itself, which `memory` lies within
   sgm::api::CallerMemory memory;
+  sgm::api::EndedHandles ended{&memory};
   sgm_log_sink sink{};
   sgm::Profiler profiler;
   std::unique_ptr<sgm::JobSystem> jobs;
@@ -80,22 +83,51 @@ struct sgm_runtime {
 
 namespace sgm::api {
 
-/// A handle in the runtime's memory, counted as its child. Throws std::bad_alloc, and what the constructor throws.
+inline HandleHead& headOf(void* handle) { return static_cast<HandleHead*>(handle)[-1]; }
+
+/// A handle in the runtime's memory behind its head, counted as the runtime's child, with one owner. Throws
+/// std::bad_alloc, and what the constructor throws.
 template <class Handle, class... Arguments>
 Handle* makeHandle(sgm_runtime& runtime, Arguments&&... arguments) {
-  std::pmr::polymorphic_allocator<> allocator(&runtime.memory);
-  Handle* handle = allocator.new_object<Handle>(runtime, std::forward<Arguments>(arguments)...);
+  constexpr size_t kSize = sizeof(HandleHead) + sizeof(Handle);
+  static_assert(alignof(Handle) <= alignof(HandleHead));
+  static_assert(kSize <= kMostHandleSize);
+  void* memory = runtime.memory.allocate(kSize, alignof(HandleHead));
+  auto* head = new (memory) HandleHead{runtime, kSize};
+  Handle* handle = nullptr;
+  try {
+    handle = new (head + 1) Handle(runtime, std::forward<Arguments>(arguments)...);
+  } catch (...) {
+    runtime.memory.deallocate(memory, kSize, alignof(HandleHead));
+    throw;
+  }
   runtime.children.fetch_add(1, std::memory_order_relaxed);
   return handle;
 }
 
-/// Ends a handle; null is nothing to do.
+/// INVALID_ARGUMENT, and the log is told: the handle had ended before this function was called.
+sgm_result refuseEnded(const HandleHead& head, const char* function) noexcept;
+
+/// One more owner of a handle; null is nothing to do. INVALID_ARGUMENT, and nothing happens: it has ended.
+inline sgm_result acquireHandle(void* handle, const char* function) noexcept {
+  if (handle == nullptr || gainOwner(headOf(handle))) return SGM_OK;
+  return refuseEnded(headOf(handle), function);
+}
+
+/// One owner of a handle less, which ends with its last; null is nothing to do. INVALID_ARGUMENT, and nothing happens:
+/// it has ended. What it owned is freed at once, the handle itself once it is forgotten.
 template <class Handle>
-void endHandle(Handle* handle) {
-  if (handle == nullptr) return;
-  sgm_runtime& runtime = handle->runtime;
-  std::pmr::polymorphic_allocator<>(&runtime.memory).delete_object(handle);
+sgm_result releaseHandle(Handle* handle, const char* function) noexcept {
+  if (handle == nullptr) return SGM_OK;
+  HandleHead& head = headOf(handle);
+  const uint32_t owners = loseOwner(head);
+  if (owners == 0) return refuseEnded(head, function);
+  if (owners > 1) return SGM_OK;
+  sgm_runtime& runtime = head.runtime;
+  handle->~Handle();
+  runtime.ended.add(&head);
   runtime.children.fetch_sub(1, std::memory_order_release);
+  return SGM_OK;
 }
 
 }  // namespace sgm::api

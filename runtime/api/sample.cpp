@@ -129,17 +129,17 @@ sgm::Result<void> sampleBlock(const sgm_field& field, const sgm_sample_desc& des
     const sgm::Int3 p = pointAt(desc, place.index);
     box = box.joined({p, p});
   }
-  const sgm::Result<std::shared_ptr<const sgm::FieldProgram>> program = field.world.compile(box, desc.level);
+  const sgm::Result<std::shared_ptr<const sgm::FieldProgram>> program = field.content->world.compile(box, desc.level);
   if (!program) return program.error();
-  Evaluation evaluation(desc, field.world.memory());
+  Evaluation evaluation(desc, field.content->world.memory());
   for (const std::span<const Place> brick : runsOf(places, [](const Place& p) { return p.brick; }))
     evaluation.run(**program, brick);
   return {};
 }
 
 sgm::Result<void> sampleSlice(const sgm_field& field, const sgm_sample_desc& desc, size_t first, size_t end) {
-  const int32_t cell = field.world.cellAt(desc.level);
-  std::pmr::vector<Place> places(field.world.memory());
+  const int32_t cell = field.content->world.cellAt(desc.level);
+  std::pmr::vector<Place> places(field.content->world.memory());
   places.reserve(end - first);
   for (size_t i = first; i < end; ++i) {
     const sgm::Int3 p = pointAt(desc, i);
@@ -169,7 +169,7 @@ sgm_result sgm_field_sample(sgm_field* field, const sgm_sample_desc* desc, sgm_e
     if (field == nullptr) return nullArgument(error, "field");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (sgm_result r = checkSamples(*desc, error); r != SGM_OK) return r;
-    if (sgm_result r = checkLevel(*field, desc->level, error); r != SGM_OK) return r;
+    if (sgm_result r = checkLevel(field->content->world, desc->level, error); r != SGM_OK) return r;
     for (size_t first = 0; first < desc->count; first += kSlice) {
       const sgm::Result<void> ok = sampleSlice(*field, *desc, first, std::min(desc->count, first + kSlice));
       if (!ok) return fail(error, ok.error());

@@ -30,7 +30,7 @@ class WordHash {
 
 }  // namespace
 
-void sgm_surface_destroy(sgm_surface* surface) { endHandle(surface); }
+sgm_result sgm_surface_destroy(sgm_surface* surface) { return releaseHandle(surface, __func__); }
 
 sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_view* view, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {

@@ -72,10 +72,10 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     *out = nullptr;
     if (field == nullptr) return nullArgument(error, "field");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
-    if (sgm_result r = checkLevel(*field, desc->top_level, error); r != SGM_OK) return r;
+    if (sgm_result r = checkLevel(field->content->world, desc->top_level, error); r != SGM_OK) return r;
     sgm::WorldSettings settings;
     settings.lod.top = desc->top_level;
-    settings.lod.finest_cell = field->world.settings().finest_cell;
+    settings.lod.finest_cell = field->content->world.settings().finest_cell;
     settings.lod.finest_distance = desc->finest_distance * sgm::kUnitsPerMetre;
     settings.lod.view_distance = desc->view_distance * sgm::kUnitsPerMetre;
     if ((desc->flags & ~static_cast<uint32_t>(SGM_WORLD_BY_DISTANCE | SGM_WORLD_MORPH)) != 0)
@@ -86,7 +86,7 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     if (!(desc->collider_distance >= 0) || !std::isfinite(desc->collider_distance))
       return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.collider_distance is not a finite number from 0");
     settings.collider_distance = desc->collider_distance * sgm::kUnitsPerMetre;
-    const sgm::Program& program = *field->world.settings().program;
+    const sgm::Program& program = *field->content->world.settings().program;
     settings.edits.author = desc->author;
     settings.edits.most_material = static_cast<uint16_t>(program.materials.size() - 1);
     settings.edits.most_tag = static_cast<uint16_t>(program.tags.size() - 1);
@@ -96,14 +96,14 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     sgm_runtime& runtime = field->runtime;
     settings.on_warning = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
     sgm::Result<std::unique_ptr<sgm::World>> world =
-        sgm::World::create(field->world, *field->backend, *runtime.jobs, settings, &runtime.memory);
+        sgm::World::create(field->content->world, *field->content->backend, *runtime.jobs, settings, &runtime.memory);
     if (!world) return failData(error, world.error());
-    *out = makeHandle<sgm_world>(runtime, *field, std::move(*world));
+    *out = makeHandle<sgm_world>(runtime, field->content, std::move(*world));
     return SGM_OK;
   });
 }
 
-void sgm_world_destroy(sgm_world* world) { endHandle(world); }
+sgm_result sgm_world_destroy(sgm_world* world) { return releaseHandle(world, __func__); }
 
 sgm_result sgm_world_set_viewers(sgm_world* world, const sgm_viewer* viewers, size_t viewer_stride, size_t count,
                                  sgm_error* error) {
@@ -227,7 +227,7 @@ sgm_result sgm_world_hash(sgm_world* world, const int32_t minimum[3], const int3
     if (minimum == nullptr) return nullArgument(error, "minimum");
     if (maximum == nullptr) return nullArgument(error, "maximum");
     if (hash == nullptr) return nullArgument(error, "hash");
-    if (sgm_result r = checkLevel(world->field, level, error); r != SGM_OK) return r;
+    if (sgm_result r = checkLevel(world->field->world, level, error); r != SGM_OK) return r;
     const sgm::IntBox region{{minimum[0], minimum[1], minimum[2]}, {maximum[0], maximum[1], maximum[2]}};
     const sgm::Result<sgm::ContentHash> sum = world->world->hashBodies(region, level);
     if (!sum) return fail(error, sum.error());

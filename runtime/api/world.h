@@ -8,18 +8,13 @@
 #include "stream/world.h"
 
 struct sgm_world {
-  sgm_world(sgm_runtime& runtime_in, sgm_field& field_in, std::unique_ptr<sgm::World> world_in)
-      : runtime(runtime_in), field(field_in), world(std::move(world_in)) {
-    sgm::api::acquireField(&field);
-  }
-  ~sgm_world() {
-    world.reset();
-    sgm_field_destroy(&field);
-  }
+  sgm_world(sgm_runtime& runtime_in, std::shared_ptr<sgm::api::FieldContent> field_in,
+            std::unique_ptr<sgm::World> world_in)
+      : runtime(runtime_in), field(std::move(field_in)), world(std::move(world_in)) {}
 
   sgm_runtime& runtime;
-  sgm_field& field;
-  std::unique_ptr<sgm::World> world;
+  std::shared_ptr<sgm::api::FieldContent> field;
+  std::unique_ptr<sgm::World> world;  ///< ends before its field
 };
 
 namespace sgm::api {

@@ -18,7 +18,7 @@ template <auto End>
 struct EndWith {
   template <class T>
   void operator()(T* handle) const {
-    End(handle);
+    if (const sgm_result result = End(handle); result != SGM_OK) FAIL_CHECK(sgm_result_name(result));
   }
 };
 using RuntimeOwner = std::unique_ptr<sgm_runtime, EndRuntime>;

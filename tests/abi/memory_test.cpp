@@ -158,3 +158,24 @@ TEST_CASE("each allocation of the C++ heap on any thread fails in turn") {
   failHeap(
       3, [](int64_t n) { heap_left_everywhere = n; }, [] { heap_left_everywhere = INT64_MAX; });
 }
+
+TEST_CASE("handles are ended, and ended again, without any memory") {
+  Failing failing;
+  const sgm_allocator allocator{Failing::allocate, Failing::release, &failing};
+  Handles handles;
+  REQUIRE(everything(handles, allocator, 1, nullptr) == SGM_OK);
+  failing.left = 0;
+  heap_left = 0;
+  const sgm_result first = sgm_field_destroy(handles.field), second = sgm_field_destroy(handles.field);
+  const sgm_result mesh = sgm_mesh_release(handles.meshes[0]), again = sgm_mesh_release(handles.meshes[0]);
+  heap_left = -1;
+  failing.left = INT64_MAX;
+  CHECK(first == SGM_OK);
+  CHECK(second == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(mesh == SGM_OK);
+  CHECK(again == SGM_ERR_INVALID_ARGUMENT);
+  handles.field = nullptr;
+  handles.meshes[0] = nullptr;
+  endAll(handles);
+  CHECK(failing.live == 0);
+}

@@ -21,6 +21,9 @@
  *              fails. The caller owns it and hands it back to the one function that ends it; all of those accept
  *              NULL. A handle keeps alive whatever it was made from (a field keeps its grammar), so the order in
  *              which handles end does not matter; only the runtime must outlive them all.
+ *              To end a handle that has ended does nothing but tell the log, and is SGM_ERR_INVALID_ARGUMENT; of two
+ *              threads that end one at one time, one does. A runtime remembers the 1,024 handles that ended last: to
+ *              end an older one again, and any other use of a handle that has ended, is undefined.
  *   Structs    Every struct that may grow begins { uint32_t struct_size; const void* next; } (void* next where the
  *              library fills it) and has an _INIT macro with its defaults: start from it always, those that the
  *              library fills included. A struct_size that differs from this header's is SGM_ERR_STRUCT_SIZE. `next` is
@@ -34,7 +37,7 @@
  *              no C++ exception leaves the library. Any function may also return SGM_ERR_OUT_OF_MEMORY.
  *   Threads    Functions may be called from any thread at any time, on shared handles too, but for sgm_parameters,
  *              which only one thread may use while it is being changed, and for functions that end a handle, which no
- *              other call on that handle may accompany.
+ *              call on that handle may accompany but another that ends it.
  *   Memory     The library keeps no process-wide state. Bulk data (derived cells, samples, meshes, handles) comes
  *              from the runtime's allocator; small bookkeeping and message texts may come from the C++ heap.
  */
@@ -239,10 +242,11 @@ typedef struct sgm_runtime_desc {
 SGM_API sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, sgm_error* error);
 
 /* SGM_ERR_BUSY, and nothing happens, while a handle made from this runtime lives. Waits for jobs that the job system
- * has accepted and not run. NULL is SGM_OK. */
+ * has accepted and not run. NULL is SGM_OK. A second call is undefined: what a runtime remembers ends with it. */
 SGM_API sgm_result sgm_runtime_destroy(sgm_runtime* runtime);
 
-/* Bytes held from the allocator now, and the most at any one time. Either pointer may be NULL. */
+/* Bytes held from the allocator now, and the most at any one time. Either pointer may be NULL. What is remembered of
+ * ended handles, at most 512 KiB, counts for peak and memory_limit, and not for live. */
 SGM_API sgm_result sgm_runtime_memory(const sgm_runtime* runtime, uint64_t* live, uint64_t* peak);
 
 /* ------------------------------------------------------------------------------------------------------- backends */
@@ -315,7 +319,7 @@ typedef struct sgm_grammar_desc {
  * column are places in it). */
 SGM_API sgm_result sgm_grammar_compile(sgm_runtime* runtime, const sgm_grammar_desc* desc, sgm_grammar** out,
                                        sgm_diagnostics** diagnostics, sgm_error* error);
-SGM_API void sgm_grammar_destroy(sgm_grammar* grammar);
+SGM_API sgm_result sgm_grammar_destroy(sgm_grammar* grammar);
 
 /* A hash of the meaning-bearing text, imports included: equal on every machine. 0 for NULL. */
 SGM_API uint64_t sgm_grammar_hash(const sgm_grammar* grammar);
@@ -335,7 +339,7 @@ typedef struct sgm_diagnostic {
 #define SGM_DIAGNOSTIC_INIT \
   { SGM_SIZEOF(sgm_diagnostic), SGM_NULL, SGM_LOG_ERROR, 0, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL }
 
-SGM_API void sgm_diagnostics_destroy(sgm_diagnostics* diagnostics);
+SGM_API sgm_result sgm_diagnostics_destroy(sgm_diagnostics* diagnostics);
 SGM_API uint32_t sgm_diagnostics_count(const sgm_diagnostics* diagnostics); /* 0 for NULL */
 /* Texts in out live as long as diagnostics. SGM_ERR_NOT_FOUND: no such index. */
 SGM_API sgm_result sgm_diagnostics_get(const sgm_diagnostics* diagnostics, uint32_t index, sgm_diagnostic* out);
@@ -417,7 +421,7 @@ SGM_API sgm_result sgm_grammar_parameter(const sgm_grammar* grammar, uint32_t in
 typedef struct sgm_parameters sgm_parameters;
 
 SGM_API sgm_result sgm_parameters_create(const sgm_grammar* grammar, sgm_parameters** out, sgm_error* error);
-SGM_API void sgm_parameters_destroy(sgm_parameters* parameters);
+SGM_API sgm_result sgm_parameters_destroy(sgm_parameters* parameters);
 /* SGM_ERR_NOT_FOUND: no such parameter (the message offers the nearest name). SGM_ERR_INVALID_ARGUMENT: not finite, not
  * whole where it must be, or outside the parameter's range. On failure nothing changes. */
 SGM_API sgm_result sgm_parameters_set(sgm_parameters* parameters, const char* name, double value, sgm_error* error);
@@ -501,7 +505,7 @@ typedef struct sgm_field_desc {
 
 SGM_API sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sgm_field** out,
                                     sgm_error* error);
-SGM_API void sgm_field_destroy(sgm_field* field);
+SGM_API sgm_result sgm_field_destroy(sgm_field* field);
 
 /* Rounds a cell edge in metres to the nearest whole number of units (0.1 m becomes 102 units, 0.099609375 m).
  * SGM_ERR_INVALID_ARGUMENT: not a number, below half a unit (it would round to 0), or above 2^20 units. */
@@ -719,9 +723,10 @@ typedef struct sgm_chunks_desc {
  * where), or more than 2^20 cells of a layer reach into one chunk. */
 SGM_API sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_mesh** meshes, sgm_error* error);
 
-/* One more owner, and one less. A mesh ends with its last owner. Both accept NULL. */
-SGM_API void sgm_mesh_acquire(sgm_mesh* mesh);
-SGM_API void sgm_mesh_release(sgm_mesh* mesh);
+/* One more owner, and one less. A mesh ends with its last owner; both then refuse it, as functions that end a handle do.
+ * Both accept NULL. */
+SGM_API sgm_result sgm_mesh_acquire(sgm_mesh* mesh);
+SGM_API sgm_result sgm_mesh_release(sgm_mesh* mesh);
 
 /* What a vertex stands for: one edge of a grid of samples that the surface crosses. Vertices are the same where their
  * edges are the same, in whatever chunks: each has a key, so that meshes are welded and checked without a tolerance.
@@ -867,7 +872,7 @@ typedef struct sgm_grid_desc {
 SGM_API sgm_result sgm_surface_from_grid(sgm_runtime* runtime, const sgm_grid_desc* desc, sgm_surface** out,
                                          sgm_error* error);
 
-SGM_API void sgm_surface_destroy(sgm_surface* surface);
+SGM_API sgm_result sgm_surface_destroy(sgm_surface* surface);
 
 /* Pointers into a surface, good until it ends. */
 typedef struct sgm_surface_view {
@@ -967,7 +972,7 @@ SGM_API sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc
 
 /* Waits for the chunks that are being meshed at this moment, and for no others, and writes the journal. Meshes that the
  * engine holds stay good until it releases them. */
-SGM_API void sgm_world_destroy(sgm_world* world);
+SGM_API sgm_result sgm_world_destroy(sgm_world* world);
 
 /* A camera, or anything else that the world is there for. */
 typedef struct sgm_viewer {
@@ -1031,9 +1036,10 @@ typedef struct sgm_world_event {
 SGM_API sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t event_stride, size_t* count,
                                   sgm_error* error);
 
-/* One more owner, and one less. A collider ends with its last owner. Both accept NULL. */
-SGM_API void sgm_collider_acquire(sgm_collider* collider);
-SGM_API void sgm_collider_release(sgm_collider* collider);
+/* One more owner, and one less. A collider ends with its last owner; both then refuse it, as functions that end a
+ * handle do. Both accept NULL. */
+SGM_API sgm_result sgm_collider_acquire(sgm_collider* collider);
+SGM_API sgm_result sgm_collider_release(sgm_collider* collider);
 
 /* Pointers into a collider, good until it ends. Its triangles are those of the chunk's body and of the seams that are
  * drawn, without those that have no area; colliders of neighbours meet exactly. */
