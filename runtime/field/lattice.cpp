@@ -10,24 +10,24 @@ namespace sgm {
 
 namespace {
 
-constexpr int kSpacing = 4, kCount = 5, kLimit = 9, kSamples = 10;  // words (shaders/common/lattice.h)
+constexpr int kSpacingWord = 4, kCountWord = 5, kLimitWord = 9, kSamplesWord = 10;  // words (shaders/common/lattice.h)
 constexpr double kFarAway = double{1e18f};
 constexpr double kFarthest = 1 << 30;
 
 /// How far along an axis, in cells.
 double along(const uint32_t* p, int axis, double at) {
-  const double last = wholeAt(p, kCount + axis) - 1;
+  const double last = wholeAt(p, kCountWord + axis) - 1;
   const double offset = std::clamp(at - wholeAt(p, 1 + axis), 0.0, kFarthest);
-  return std::min(offset / wholeAt(p, kSpacing), last);
+  return std::min(offset / wholeAt(p, kSpacingWord), last);
 }
 
 double sampleAt(const uint32_t* p, int64_t x, int64_t y, int64_t z) {
-  const auto row = static_cast<int64_t>(p[kCount]), column = static_cast<int64_t>(p[kCount + 1]);
-  return realAt(p + kSamples, static_cast<int>((z * column + y) * row + x));
+  const auto row = static_cast<int64_t>(p[kCountWord]), column = static_cast<int64_t>(p[kCountWord + 1]);
+  return realAt(p + kSamplesWord, static_cast<int>((z * column + y) * row + x));
 }
 
 double farOrNot(const uint32_t* p, double v) {
-  const double limit = realAt(p, kLimit);
+  const double limit = realAt(p, kLimitWord);
   return v >= limit ? kFarAway : v <= -limit ? -kFarAway : v;
 }
 
@@ -73,7 +73,7 @@ Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
   }
   const double slack = statedError(Op::lattice) * std::max(std::abs(all.lo), std::abs(all.hi));
   // What may count as far may be as far.
-  const double limit = realAt(p, kLimit);
+  const double limit = realAt(p, kLimitWord);
   const double lo = all.lo - slack, hi = all.hi + slack;
   return {lo >= limit    ? kFarAway
           : lo <= -limit ? -kFarAway
@@ -89,7 +89,7 @@ double referenceLattice(const uint32_t* p, double x, double y, double z) {
   std::array<double, 3> t{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
-    cell[a] = std::min(static_cast<int64_t>(std::floor(at[a])), static_cast<int64_t>(p[kCount + axis]) - 2);
+    cell[a] = std::min(static_cast<int64_t>(std::floor(at[a])), static_cast<int64_t>(p[kCountWord + axis]) - 2);
     t[a] = at[a] - static_cast<double>(cell[a]);
   }
   double sum = 0;

@@ -38,7 +38,7 @@ sgm_host_field hostOf(Ground& ground) {
   return host;
 }
 
-FieldOwner makeField(sgm_runtime* runtime, const sgm_grammar* grammar, const sgm_host_field& host, sgm_error* error) {
+FieldOwner makeHosted(sgm_runtime* runtime, const sgm_grammar* grammar, const sgm_host_field& host, sgm_error* error) {
   sgm_field_desc desc = SGM_FIELD_DESC_INIT;
   desc.grammar = grammar;
   desc.cell_units = 256;
@@ -58,7 +58,7 @@ TEST_CASE("a host's ground lies beside the grammar's ball: samples, rays, meshes
   sgm_host_field host = hostOf(ground);
   host.material = 1;
   sgm_error error = SGM_ERROR_INIT;
-  const FieldOwner field = makeField(runtime.get(), grammar.get(), host, &error);
+  const FieldOwner field = makeHosted(runtime.get(), grammar.get(), host, &error);
   INFO(error.message);
   REQUIRE(field);
 
@@ -98,7 +98,7 @@ TEST_CASE("a host that cannot be sampled fails chunks, and the last good frame s
   const GrammarOwner grammar = compile(runtime.get(), kBall);
   Ground ground;
   sgm_error error = SGM_ERROR_INIT;
-  const FieldOwner field = makeField(runtime.get(), grammar.get(), hostOf(ground), &error);
+  const FieldOwner field = makeHosted(runtime.get(), grammar.get(), hostOf(ground), &error);
   REQUIRE(field);
   sgm_world_desc desc = SGM_WORLD_DESC_INIT;
   desc.top_level = 2;
@@ -152,7 +152,7 @@ TEST_CASE("what a host's field says of itself is checked") {
     sgm_host_field host = hostOf(ground);
     spoil(host);
     sgm_error error = SGM_ERROR_INIT;
-    CHECK_FALSE(makeField(runtime.get(), grammar.get(), host, &error));
+    CHECK_FALSE(makeHosted(runtime.get(), grammar.get(), host, &error));
     CHECK(error.code == expected);
     INFO(error.message);
     CHECK(std::string(error.message).find(named) != std::string::npos);

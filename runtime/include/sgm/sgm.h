@@ -939,7 +939,9 @@ typedef struct sgm_world_desc {
   uint32_t flags;    /* of sgm_world_flag, joined by | */
   double finest_distance;   /* metres from a viewer within which level 0 is drawn; each coarser level reaches twice as
                                far. With a screen of h pixels and a vertical field of view v a cell then looks no larger
-                               than 2 * cell * h / (2 tan(v / 2)) / finest_distance pixels */
+                               than p = 2 * cell * h / (2 tan(v / 2)) / finest_distance pixels, and where a
+                               layer's `detail` of D leaves out a passage of a width w, this ends in a wall that looks
+                               no larger than p * w / D pixels, as long as the statistics' detail is 1 */
   double view_distance;     /* metres within which something is drawn, above 0 */
   uint64_t mesh_bytes;      /* the most bytes of meshes at one time, those that the engine holds and those in work
                                included, and of the chunks' colliders: a hard cap. Where it does not suffice detail is drawn

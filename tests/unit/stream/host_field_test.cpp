@@ -14,7 +14,7 @@
 namespace sgm {
 namespace {
 
-constexpr double kMetre = kUnitsPerMetre;
+constexpr double kHostMetre = kUnitsPerMetre;
 
 using Distance = std::function<double(double x, double y, double z)>;
 
@@ -38,7 +38,7 @@ HostField hostOf(Distance distance, float steepness = 0) {
   return host;
 }
 
-HostField ball(double x, double y, double z, double radius, float steepness = 0) {
+HostField hostBall(double x, double y, double z, double radius, float steepness = 0) {
   return hostOf([=](double px, double py, double pz) { return std::hypot(px - x, py - y, pz - z) - radius; },
                 steepness);
 }
@@ -47,12 +47,13 @@ HostField ball(double x, double y, double z, double radius, float steepness = 0)
 HostField hills(double height, double phase, float steepness) {
   return hostOf(
       [=](double x, double y, double z) {
-        return 0.7 * (y - height - 3 * kMetre * std::sin(x / (9 * kMetre) + phase) * std::cos(z / (7 * kMetre)));
+        return 0.7 *
+               (y - height - 3 * kHostMetre * std::sin(x / (9 * kHostMetre) + phase) * std::cos(z / (7 * kHostMetre)));
       },
       steepness);
 }
 
-HostField counted(HostField host, std::atomic<uint64_t>& calls, std::atomic<uint64_t>& points) {
+HostField countedHost(HostField host, std::atomic<uint64_t>& calls, std::atomic<uint64_t>& points) {
   host.sample = [inner = host.sample, &calls, &points](const SampleLattice& at, std::span<float> values) {
     ++calls;
     points += values.size();
@@ -64,7 +65,7 @@ HostField counted(HostField host, std::atomic<uint64_t>& calls, std::atomic<uint
 const char* const kEmptyWorld =
     "sgm 1; units m; domain infinite; layer l cell 64m reach 8m { start Main; } rule Main { }";
 
-WorldField worldOf(std::vector<HostField> hosts, int32_t cell = 512, const std::string& text = kEmptyWorld) {
+WorldField hostedWorld(std::vector<HostField> hosts, int32_t cell = 512, const std::string& text = kEmptyWorld) {
   return WorldField(withHosts(settingsOf(text, cell), std::move(hosts)), std::pmr::get_default_resource());
 }
 
@@ -84,7 +85,8 @@ TEST_CASE("a host's hills and the grammar's caves are one closed surface in ever
   for (uint32_t seed = 1; seed <= rounds(2); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
-    HostField above = hills(within(random, 90, 101) * kMetre, within(random, 0, 6), random() % 2 == 0 ? 1.0f : 0.0f);
+    HostField above =
+        hills(within(random, 90, 101) * kHostMetre, within(random, 0, 6), random() % 2 == 0 ? 1.0f : 0.0f);
     above.cut = true;
     above.sample = [inner = above.sample](const SampleLattice& at, std::span<float> values) -> Result<void> {
       if (Result<void> sampled = inner(at, values); !sampled) return sampled;
@@ -92,7 +94,8 @@ TEST_CASE("a host's hills and the grammar's caves are one closed surface in ever
       return {};
     };
     above.smooth = random() % 2 == 0 ? 2 * kUnitsPerMetre : 0;
-    HostField rock = ball(96 * kMetre, 100 * kMetre, 96 * kMetre, 7 * kMetre, random() % 2 == 0 ? 1.0f : 0.0f);
+    HostField rock =
+        hostBall(96 * kHostMetre, 100 * kHostMetre, 96 * kHostMetre, 7 * kHostMetre, random() % 2 == 0 ? 1.0f : 0.0f);
     rock.label = makeLabel(1, 0);
     // Less than all of it: its box cuts it off.
     rock.bounds = {{90 * kUnitsPerMetre, 90 * kUnitsPerMetre, 90 * kUnitsPerMetre},
@@ -135,7 +138,7 @@ TEST_CASE("what a host's field is at a place does not depend on the box that ask
     HostField host = hills(0, seed, random() % 3 == 0 ? 0.0f : 1.0f);
     host.cut = random() % 2 == 0;
     const bool steep = host.steepness > 0;
-    const WorldField world = worldOf({counted(host, calls, points)});
+    const WorldField world = hostedWorld({countedHost(host, calls, points)});
     const int level = static_cast<int>(random() % 3);
     const int32_t edge = 32 * world.cellAt(level);
     size_t alone = 0;
@@ -181,10 +184,10 @@ TEST_CASE("what a host's field is at a place does not depend on the box that ask
 }
 
 TEST_CASE("a host's surface nears what it samples with the square of the cell") {
-  const double radius = 6.3 * kMetre, middle = 0.37 * kMetre;
+  const double radius = 6.3 * kHostMetre, middle = 0.37 * kHostMetre;
   double before = 0;
   for (const int32_t cell : {1024, 512, 256}) {
-    const WorldField world = worldOf({ball(middle, middle, middle, radius, 1)}, cell);
+    const WorldField world = hostedWorld({hostBall(middle, middle, middle, radius, 1)}, cell);
     double worst = 0;
     size_t vertices = 0;
     for (const PlacedChunk& chunk : meshAll(world, chunksAround(0, 1024 / cell), 2)) {
@@ -206,9 +209,9 @@ TEST_CASE("an edit in a host's solid shows what that is made of, however far fro
   const std::string text =
       replaced(kEmptyWorld, "rule Main { }", "rule Main { at(20m, 10m, 10m) { sphere(1m); mat marble; } }");
   for (const float steepness : {0.0f, 1.0f}) {
-    HostField rock = ball(0, 0, 0, 40 * kMetre, steepness);
+    HostField rock = hostBall(0, 0, 0, 40 * kHostMetre, steepness);
     rock.label = makeLabel(1, 0);
-    const WorldField world = worldOf({rock}, 512, text);
+    const WorldField world = hostedWorld({rock}, 512, text);
     EditLog edits{EditSettings{}};
     Brush dig;
     dig.cut = true;
@@ -229,15 +232,15 @@ TEST_CASE("an edit in a host's solid shows what that is made of, however far fro
 }
 
 TEST_CASE("rays hit a host's field, as far as it goes in the world") {
-  const WorldField world = worldOf({ball(0, 0, 0, 5 * kMetre, 1)});
+  const WorldField world = hostedWorld({hostBall(0, 0, 0, 5 * kHostMetre, 1)});
   const QueryField field = queryField(world);
-  const Result<std::optional<SurfacePoint>> hit = rayCast(field, {0, 40 * kMetre, 0}, {0, -1, 0}, 60 * kMetre);
+  const Result<std::optional<SurfacePoint>> hit = rayCast(field, {0, 40 * kHostMetre, 0}, {0, -1, 0}, 60 * kHostMetre);
   REQUIRE(hit);
   REQUIRE(*hit);
-  CHECK((*hit)->position[1] == Approx(5 * kMetre).margin(16));
+  CHECK((*hit)->position[1] == Approx(5 * kHostMetre).margin(16));
 
   // Cells that the world's end cuts off.
-  const WorldField everywhere = worldOf({hills(0, 0, 0)}, 1000);
+  const WorldField everywhere = hostedWorld({hills(0, 0, 0)}, 1000);
   for (const int32_t end : {INT32_MIN, INT32_MAX}) {
     const Int3 corner{end, 0, end};
     const Result<std::shared_ptr<const FieldProgram>> program = everywhere.compile({corner, corner}, 3);
@@ -255,7 +258,8 @@ TEST_CASE("a host's field that fails, or is no number, fails its chunk with a me
     return Error{Code::unsupported, "the host is out of order"};
   };
   const auto messageOf = [](const HostField& host) {
-    const Result<std::shared_ptr<const FieldProgram>> program = worldOf({host}).compile({{0, 0, 0}, {99, 99, 99}}, 0);
+    const Result<std::shared_ptr<const FieldProgram>> program =
+        hostedWorld({host}).compile({{0, 0, 0}, {99, 99, 99}}, 0);
     REQUIRE_FALSE(program);
     return program.error().message;
   };
@@ -264,14 +268,14 @@ TEST_CASE("a host's field that fails, or is no number, fails its chunk with a me
       hostOf([](double x, double y, double z) { return x == 512 && y == 0 && z == 512 ? std::nan("") : x; });
   CHECK(messageOf(odd) == "the host's field is not a number at 512, 0, 512 units");
   const Result<std::shared_ptr<const FieldProgram>> huge =
-      worldOf({hills(0, 0, 0)}).compile({{0, 0, 0}, {1 << 24, 1 << 24, 1 << 24}}, 0);
+      hostedWorld({hills(0, 0, 0)}).compile({{0, 0, 0}, {1 << 24, 1 << 24, 1 << 24}}, 0);
   REQUIRE_FALSE(huge);
   CHECK(huge.error().code == Code::limit);
 }
 
 TEST_CASE("a world's identity tells the host's fields apart") {
-  HostField host = ball(0, 0, 0, kMetre);
-  const auto identityOf = [](const std::vector<HostField>& hosts) { return worldOf(hosts).identity(); };
+  HostField host = hostBall(0, 0, 0, kHostMetre);
+  const auto identityOf = [](const std::vector<HostField>& hosts) { return hostedWorld(hosts).identity(); };
   const auto plain = identityOf({host});
   CHECK(plain == identityOf({host}));
   CHECK(plain != identityOf({}));

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "mesh/check.h"
+#include "mesh/vertex.h"
 #include "stream/frame.h"
 #include "stream/world.h"
 #include "world_support.h"

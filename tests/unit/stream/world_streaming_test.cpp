@@ -9,6 +9,41 @@
 
 using namespace sgm;
 
+namespace {
+
+/// How far along the x axis the drawn surface is, in units.
+double wallAlong(const Engine& engine, const std::array<double, 3>& from, double side) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& [key, shown] : engine.shown) {
+    const PackedMesh& mesh = shown.surface->mesh;
+    for (size_t part = 0; part < mesh.ranges.size(); ++part) {
+      if (part > 0 && !(shown.seams >> (part - 1) & 1)) continue;
+      const PackedRange& range = mesh.ranges[part];
+      for (uint32_t i = range.first_index; i < range.first_index + range.index_count; i += 3) {
+        // Corners around the axis, in its plane; the sides of the triangle on which it lies are alike.
+        std::array<std::array<double, 3>, 3> p{};
+        for (size_t c = 0; c < 3; ++c) {
+          const Int3 at = vertexUnits(shown.surface->grid, mesh.vertices[mesh.indices[i + c]]);
+          p[c] = {(at.x - from[0]) * side, at.y - from[1] + 0.25, at.z - from[2] + 0.125};
+        }
+        std::array<double, 3> area{};
+        for (size_t c = 0; c < 3; ++c) {
+          const auto &a = p[(c + 1) % 3], &b = p[(c + 2) % 3];
+          area[c] = a[1] * b[2] - a[2] * b[1];
+        }
+        const double sum = area[0] + area[1] + area[2];
+        const bool crossed = (area[0] > 0 && area[1] > 0 && area[2] > 0) || (area[0] < 0 && area[1] < 0 && area[2] < 0);
+        if (!crossed) continue;
+        const double x = (area[0] * p[0][0] + area[1] * p[1][0] + area[2] * p[2][0]) / sum;
+        if (x > 0) nearest = std::min(nearest, x);
+      }
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
 TEST_CASE("every frame of a wandering viewer is the closed frame of its octree") {
   for (uint32_t seed = 1; seed <= rounds(3); ++seed) {
     CAPTURE(seed);
@@ -39,6 +74,36 @@ TEST_CASE("every frame of a wandering viewer is the closed frame of its octree")
       CHECK(scene.world->drawn()->tree == lodTarget(lodViewers({&viewer, 1}, scene.settings.lod), scene.settings.lod));
     }
   }
+}
+
+TEST_CASE("a passage that a level leaves out ends in no larger a wall than is stated") {
+  // sgm.h, sgm_world_desc.finest_distance, in pixels of a screen whose focal length is 1 pixel.
+  const double width = 8, detail = 1;
+  const std::string text = replaced(sample("passage.sgm"), "detail 4m", "detail 1m");
+  Scene scene(*makeThreadPool(2), text);
+  const double cell = static_cast<double>(kStreamedCell) / kUnitsPerMetre;
+  const double finest = scene.settings.lod.finest_distance / kUnitsPerMetre;
+  const double stated = 2 * cell / finest * width / detail;
+  Engine engine;
+  double largest = 0;
+  for (uint32_t seed = 1; seed <= rounds(6); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const double at = static_cast<double>(random() % 64'000) / 1000;
+    const Viewer viewer = viewerAt(at, 0, 0);
+    REQUIRE(scene.world->setViewers({&viewer, 1}));
+    REQUIRE(scene.world->waitIdle());
+    engine.take(*scene.world);
+    for (const double side : {-1.0, 1.0}) {
+      const double wall = wallAlong(engine, viewer.position, side) / kUnitsPerMetre;
+      CAPTURE(at, side, wall);
+      // The drawn world itself ends farther away.
+      CHECK(wall < scene.settings.lod.view_distance / kUnitsPerMetre);
+      CHECK(width / wall <= stated);
+      largest = std::max(largest, width / wall);
+    }
+  }
+  CHECK(largest > stated / 8);
 }
 
 TEST_CASE("a world at rest draws the same by whatever way its viewers came, with any number of threads", "[threads]") {
