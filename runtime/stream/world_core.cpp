@@ -327,6 +327,12 @@ FinishedChunk WorldCore::meshOne(const WorkItem& item, const EditState& under) c
       }
       chunk->surface.morphs = std::move(*morphs);
     }
+    if (const size_t bytes = chunk->surface.bytes(); bytes > kLargestChunk) {
+      done.error =
+          Error{Code::limit, "a chunk's mesh and anchors have " + std::to_string(bytes) + " bytes, more than the " +
+                                 std::to_string(kLargestChunk) + " of the largest; place fewer anchors"};
+      return done;
+    }
     if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
   } catch (const std::bad_alloc&) {
     done.error = Error{Code::out_of_memory, kOutOfMemory};

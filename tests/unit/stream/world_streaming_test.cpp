@@ -372,3 +372,29 @@ TEST_CASE("surfaces may be let go of on any thread, after the world's end too", 
   CHECK(kept.front()->mesh.vertices.size() > 0);
   kept.clear();
 }
+
+TEST_CASE("a chunk with more anchors than fit into what is reserved for it fails, and nothing else does") {
+  // All of them stand in the chunk at the origin.
+  const std::string text =
+      "sgm 1; units m; start Main;\n"
+      "rule Main { repeat 250 rot(y, 1deg) { repeat 250 rot(x, 1deg) { anchor spawn \"x\"; } } sphere(12m); }\n";
+  WorldSettings settings;
+  settings.collider_distance = 8.0 * kUnitsPerMetre;
+  Scene scene(*makeThreadPool(2), text, settings);
+  const Viewer viewer = viewerAt(4, 4, 4);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  REQUIRE(scene.world->waitIdle());
+  uint64_t failed = 0;
+  scene.world->poll([&](const WorldEvent& event) {
+    if (event.kind == WorldEvent::Kind::failed) {
+      ++failed;
+      CHECK(event.error->code == Code::limit);
+      CHECK(event.error->message.find("place fewer anchors") != std::string::npos);
+      CHECK(event.key.level == 0);
+    }
+    return true;
+  });
+  CHECK(failed > 0);
+  CHECK(scene.world->drawn()->drawn.size() >= 8);
+  CHECK(scene.world->stats().peak_surface_bytes <= settings.mesh_bytes);
+}
