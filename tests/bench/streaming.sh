@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Measures the streaming figures with `sgm fly`, and writes them with what was asked: streaming.csv, streaming.svg, and a
+# table on standard output. It judges no time: exit status 1 only where a flight fails, or a surface was not closed.
+#
+#   streaming.sh SGM [OUT_DIR] [--long | --quick]
+#
+#   SGM       the command
+#   OUT_DIR   for the results and each flight's own report (default: out/streaming)
+#   --long    digs for a minute, and 33,400 frames in each flight that is checked
+#   --quick   a few frames of everything, to see that it runs: the figures mean nothing
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+sgm='' out='' mode=''
+for word; do
+  case $word in
+    --long | --quick) mode=$word ;;
+    *) if [[ -z $sgm ]]; then sgm=$word; else out=$word; fi ;;
+  esac
+done
+[[ -n $sgm ]] || { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}" >&2; exit 2; }
+out=${out:-out/streaming}
+mkdir -p "$out"
+rm -f "$out"/*.flight.json
+
+cave=$here/../../samples/grammars/cave.sgm
+frames=600 dug=1200 checked=1000
+world=(--cell 0.25 --seed 3) speeds=(5 20 60) seeds=(1 2 3)
+[[ $mode == --long ]] && dug=3600 checked=33400
+if [[ $mode == --quick ]]; then
+  frames=40 dug=90 checked=90 speeds=(60) seeds=(1)
+  world=(--cell 0.5 --seed 3 --top-level 3 --view 60)
+fi
+
+failed=0
+# flight NAME OPTION...: its report, its command and its exit status in NAME.flight.json.
+flight() {
+  local name=$1 status=0 report=$out/$1.report
+  shift
+  echo "sgm fly cave.sgm $*" >&2
+  "$sgm" fly "$cave" "$@" --json >"$report" || status=$?
+  ((status == 0)) || { failed=1; echo "streaming: the flight $name failed with status $status" >&2; }
+  node -e 'const [file, status, command] = process.argv.slice(1);
+    const text = require("fs").readFileSync(file, "utf8");
+    console.log(JSON.stringify({ command, status: +status, report: text ? JSON.parse(text) : null }))' \
+    "$report" "$status" "sgm fly samples/grammars/cave.sgm $*" >"$out/$name.flight.json"
+  rm "$report"
+}
+
+for run in 1 2 3; do flight "walk$run" "${world[@]}" --speed 20 --frames "$frames"; done
+flight fast "${world[@]}" --speed 60 --frames "$frames"
+flight reach "${world[@]}" --speed 20 --frames "$frames" --compare
+flight leaps "${world[@]}" --speed 20 --frames "$frames" --teleports 10
+flight digs "${world[@]}" --speed 5 --edits 60 --frames "$dug"
+for speed in "${speeds[@]}"; do
+  for seed in "${seeds[@]}"; do
+    flight "closed_${speed}_$seed" --cell 0.5 --seed "$seed" --speed "$speed" --frames "$checked" --finest 16 \
+      --top-level 5 --view 200 --teleports 10 --edits 5 --unpaced --check
+  done
+done
+node "$here/streaming_table.js" "$out" || failed=1
+exit "$failed"

@@ -1,0 +1,99 @@
+// The flights that streaming.sh flew, against what was asked: streaming.csv, streaming.svg, a table on standard output.
+// Exit status 1 where a flight has no report or a surface was not closed.
+'use strict';
+const fs = require('fs');
+const path = require('path');
+
+const folder = process.argv[2];
+const flights = fs.readdirSync(folder).filter((name) => name.endsWith('.flight.json')).sort().map((name) =>
+  ({ name: name.split('.')[0], ...JSON.parse(fs.readFileSync(path.join(folder, name), 'utf8')) }));
+
+const percent = (share) => 100 * share;
+const never = (ms) => (ms < 0 ? Infinity : ms);
+const unclosed = (r) => (r.checked ? r.open_edges + r.nonmanifold_edges + r.overlaps + r.whole_failures : Infinity);
+// NAME, flights, what is measured of a report (nothing: it was not), most or least that is asked, unit.
+const lines = [
+  { line: 'caller\'s thread, 99 % of frames', of: /^walk/, value: (r) => r.main_thread_ms.p99, most: 1, unit: 'ms' },
+  { line: 'caller\'s thread, longest frame', of: /^walk/, value: (r) => r.main_thread_ms.max, most: 2, unit: 'ms' },
+  { line: 'frames with level 0 within 24 m, 20 m/s', of: /^walk/, value: (r) => percent(r.lod0_covered_frames),
+    least: 100, unit: '%' },
+  { line: 'time to walkable', of: /^walk/, value: (r) => never(r.time_to_walkable_ms), most: 500, unit: 'ms' },
+  { line: 'chunks meshed in vain, 20 m/s', of: /^walk/, value: (r) => percent(r.wasted_fraction), most: 10, unit: '%' },
+  { line: 'frames with level 0 within 24 m, 60 m/s', of: /^fast/, value: (r) => percent(r.lod0_covered_frames),
+    least: 99, unit: '%' },
+  { line: 'chunks meshed in vain, 60 m/s', of: /^fast/, value: (r) => percent(r.wasted_fraction), most: 10, unit: '%' },
+  { line: 'level 0 saved by reachability', of: /^reach/, value: (r) => percent(r.finest_saved), least: 40, unit: '%',
+    more: (r) => `${r.finest_meshed} chunks instead of ${r.finest_meshed_by_distance}` },
+  { line: 'stale work gone 2 frames after a leap', of: /^leaps/, least: 95, unit: '%',
+    value: (r) => r.stale_after_2_frames && percent(1 - r.stale_after_2_frames.worst),
+    more: (r) => `work at the leaps: ${r.work_at_teleports.join(' ')}` },
+  { line: 'changes of what is drawn until a dig is', of: /^digs/, value: (r) => (r.digs > 0 ? r.dig_frames.max : null),
+    most: 2, unit: '', more: (r) => `${r.digs} digs` },
+  // No number is asked: more digs must not make it grow.
+  { line: 'chunks that waited while digging', of: /^digs/, value: (r) => r.most_queued_while_digging, unit: '' },
+  { line: 'open, non-manifold and overlapping edges', of: /^closed_/, value: unclosed, most: 0, unit: '',
+    more: (r, all) => `${sum(all, 'frames')} frames, ${sum(all, 'commits')} changes of what is drawn` },
+];
+
+function sum(reports, what) {
+  return reports.reduce((total, report) => total + report[what], 0);
+}
+const text = (x) => (x === Infinity ? 'never' : String(+x.toPrecision(4)));
+
+function measure(line) {
+  const flown = flights.filter((flight) => line.of.test(flight.name));
+  const reports = flown.map((flight) => flight.report);
+  const command = flown.map((flight) => flight.command).filter((c, i, all) => all.indexOf(c) === i).join('; ');
+  const unit = line.unit && ` ${line.unit}`;
+  const asked = line.most !== undefined ? `at most ${line.most}${unit}`
+    : line.least !== undefined ? `at least ${line.least}${unit}` : 'bounded';
+  const values = reports.map((report) => (report ? line.value(report) : null));
+  if (values.length === 0 || values.some((v) => typeof v !== 'number')) {
+    return { line: line.line, asked, reached: 'not measured', met: 'no', command };
+  }
+  // Best first.
+  values.sort((a, b) => (line.least !== undefined ? b - a : a - b));
+  const worst = values[values.length - 1], median = values[values.length >> 1];
+  const meets = (v) => (line.least !== undefined ? v >= line.least : v <= line.most);
+  const judged = line.most !== undefined || line.least !== undefined;
+  let reached = values.length === 1 ? `${text(worst)}${unit}` : `median ${text(median)}${unit}, worst ${text(worst)}${unit}`;
+  if (line.more) reached += ` (${line.more(reports[0], reports)})`;
+  return { line: line.line, asked, reached, command, median, worst, bound: line.most ?? line.least,
+    met: !judged ? 'reported' : meets(worst) ? 'yes' : meets(median) ? 'in the median' : 'no' };
+}
+
+const escaped = (s) => s.replace(/&/g, '&amp;').replace(/</g, '&lt;').replace(/>/g, '&gt;');
+
+/// Reached against asked, worst and median; the line at 1 is what was asked.
+function chart(rows) {
+  const shown = rows.filter((row) => row.bound > 0 && Number.isFinite(row.worst));
+  const left = 300, unit = 260, height = 30, top = 40, width = left + 2 * unit + 240;
+  const scaled = (v) => Math.min(2, v) * unit;
+  const bars = shown.map((row, i) => {
+    const y = top + i * height, worst = row.worst / row.bound, median = row.median / row.bound;
+    return `<text x="${left - 8}" y="${y + 15}" text-anchor="end">${escaped(row.line)}</text>` +
+      `<rect x="${left}" y="${y + 3}" width="${scaled(worst)}" height="16" fill="#9aa7b5"/>` +
+      `<rect x="${left}" y="${y + 7}" width="${scaled(median)}" height="8" fill="#2b3a4a"/>` +
+      `<text x="${left + Math.max(scaled(worst), unit) + 8}" y="${y + 15}">${text(worst)} (${escaped(row.asked)})</text>`;
+  });
+  const end = top + shown.length * height;
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${end + 12}" font-family="sans-serif" ` +
+    'font-size="12" fill="#111"><rect width="100%" height="100%" fill="#fff"/>' +
+    `<text x="${left}" y="20">reached / asked: wide bars the worst run, narrow ones the median</text>${bars.join('')}` +
+    `<path d="M${left + unit} ${top - 8}V${end}" stroke="#111" stroke-dasharray="4 3"/></svg>\n`;
+}
+
+const rows = lines.map(measure);
+const columns = ['line', 'asked', 'reached', 'met', 'command'];
+const quoted = (s) => (/[",]/.test(s) ? `"${s.replace(/"/g, '""')}"` : s);
+fs.writeFileSync(path.join(folder, 'streaming.csv'),
+  [columns, ...rows.map((row) => columns.map((c) => row[c]))].map((row) => row.map(quoted).join(',') + '\n').join(''));
+fs.writeFileSync(path.join(folder, 'streaming.svg'), chart(rows));
+const shown = columns.slice(0, 4);
+const table = [shown, shown.map(() => '---'), ...rows.map((row) => shown.map((c) => row[c]))];
+for (const row of table) console.log(`| ${row.join(' | ')} |`);
+
+const closed = flights.filter((flight) => /^closed_/.test(flight.name));
+const whole = closed.length > 0 && closed.every((flight) => flight.report && unclosed(flight.report) === 0);
+if (!whole) console.error('streaming: a surface was not closed');
+process.exit(whole && flights.every((flight) => flight.report) ? 0 : 1);

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# The script that measures streaming: it runs, measures every line, and fails where a flight or closedness does.
+source "$(dirname "$0")/common.sh"
+script=$SOURCE/tests/bench/streaming.sh
+expect 0 bash "$script" "$SGM" figures --quick
+out_has '\| line \| asked \| reached \| met \|'
+[[ ! $out =~ 'not measured' ]] || failed "something was not measured"
+lines=figures/streaming.csv
+[[ $(head -1 $lines) == line,asked,reached,met,command ]] || failed "the CSV has no such columns"
+[[ $(wc -l <$lines) == 13 && $(grep -c 'sgm fly samples/grammars/cave.sgm --' $lines) == 12 ]] || failed "12 lines expected"
+grep -q '^<svg .*</svg>$' figures/streaming.svg || failed "no chart"
+
+# One that tells of an open edge, and one that says nothing.
+printf '#!/usr/bin/env bash\nsed "s/\\"open_edges\\": *0/\\"open_edges\\": 1/" "$REPORT"\n' >torn
+printf '#!/usr/bin/env bash\nexit 1\n' >mute
+chmod +x torn mute
+for flight in figures/closed_*.flight.json; do
+  node -p 'const f = JSON.parse(require("fs").readFileSync(process.argv[1])); JSON.stringify(f.report, null, 1)' "$flight" >one.json
+done
+expect 1 env REPORT=one.json bash "$script" "$PWD/torn" worse --quick
+err_has 'not closed'
+expect 1 bash "$script" "$PWD/mute" worse --quick
+err_has 'failed with status 1'
+out_has 'not measured'
+expect 2 bash "$script"
+finish
