@@ -1,7 +1,6 @@
 #pragma once
 // What the queries share: checks, positions that do not lose steps far from the origin, and points evaluated together.
 
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -10,13 +9,9 @@
 #include "field/prune.h"
 #include "mesh/vertex.h"
 #include "stream/queries.h"
+#include "stream/vec3.h"
 
 namespace sgm {
-
-using Vec3 = std::array<double, 3>;
-
-inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Vec3 scaled(const Vec3& a, double by) { return {a[0] * by, a[1] * by, a[2] * by}; }
 
 /// A position split into whole units and what is left, 0 to 1: sums with offsets round the same wherever it is.
 struct SplitPosition {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesh/chunk.h"
+#include "stream/vec3.h"
 
 namespace sgm {
 
@@ -15,11 +16,7 @@ constexpr int kStepsOfChunk = 8;
 /// How much longer what lies straight behind a viewer waits than what it looks at.
 constexpr double kBehind = 3;
 
-using Vector = std::array<double, 3>;
-
-double innerProduct(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-bool finite(const Vector& v) {
+bool finite(const Vec3& v) {
   return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
 }
 
@@ -28,18 +25,18 @@ double reachOf(const Viewer& viewer) {
   return viewer.weight * std::clamp(std::tan(kUsualFov / 2) / std::tan(viewer.fov / 2), 0.25, 8.0);
 }
 
-Vector ahead(const Viewer& viewer) {
-  Vector p = viewer.position;
+Vec3 ahead(const Viewer& viewer) {
+  Vec3 p = viewer.position;
   for (size_t axis = 0; axis < 3; ++axis) p[axis] += viewer.velocity[axis] * kLookAhead;
   return p;
 }
 
 /// From the chunk's box to the way from `from` to `to`, by three places on it.
-double distanceToWay(const Vector& from, const Vector& to, const ChunkKey& key, int32_t finest_cell) {
+double distanceToWay(const Vec3& from, const Vec3& to, const ChunkKey& key, int32_t finest_cell) {
   double least = distanceToChunk(from, key, finest_cell);
   if (from == to) return least;
-  const Vector middle{(from[0] + to[0]) / 2, (from[1] + to[1]) / 2, (from[2] + to[2]) / 2};
-  for (const Vector& place : {middle, to}) least = std::min(least, distanceToChunk(place, key, finest_cell));
+  const Vec3 middle{(from[0] + to[0]) / 2, (from[1] + to[1]) / 2, (from[2] + to[2]) / 2};
+  for (const Vec3& place : {middle, to}) least = std::min(least, distanceToChunk(place, key, finest_cell));
   return least;
 }
 
@@ -56,7 +53,7 @@ Result<void> checkViewer(const Viewer& viewer) {
       return Error{Code::range, "a viewer stands outside the world, which ends about 2,097 km from the origin"};
     }
   }
-  if (innerProduct(viewer.velocity, viewer.velocity) > kFastest * kFastest) {
+  if (dot(viewer.velocity, viewer.velocity) > kFastest * kFastest) {
     return Error{Code::range, "a viewer moves faster than 10,000 m/s: move it without velocity, as a teleport"};
   }
   if (viewer.weight < 0.01 || viewer.weight > 100) {
@@ -70,7 +67,7 @@ Result<void> checkViewer(const Viewer& viewer) {
 
 std::vector<LodViewer> lodViewers(std::span<const Viewer> viewers, const LodSettings& settings) {
   const double step = static_cast<double>(kChunkCells) * settings.finest_cell / kStepsOfChunk;
-  const auto inSteps = [step](Vector p) {
+  const auto inSteps = [step](Vec3 p) {
     for (double& x : p) x = std::floor(x / step + 0.5) * step;
     return p;
   };
@@ -89,12 +86,12 @@ double urgency(const ChunkKey& key, std::span<const Viewer> viewers, const LodSe
   for (const Viewer& viewer : viewers) {
     const double away = distanceToWay(viewer.position, ahead(viewer), key, settings.finest_cell);
     double waits = away / (std::ldexp(settings.finest_distance, key.level) * reachOf(viewer));
-    const Vector towards{(key.at.x + 0.5) * edge - viewer.position[0], (key.at.y + 0.5) * edge - viewer.position[1],
-                         (key.at.z + 0.5) * edge - viewer.position[2]};
-    const double lengths = std::sqrt(innerProduct(towards, towards) * innerProduct(viewer.direction, viewer.direction));
+    const Vec3 towards{(key.at.x + 0.5) * edge - viewer.position[0], (key.at.y + 0.5) * edge - viewer.position[1],
+                       (key.at.z + 0.5) * edge - viewer.position[2]};
+    const double lengths = std::sqrt(dot(towards, towards) * dot(viewer.direction, viewer.direction));
     // Around the viewer itself there is no behind: it may turn.
     if (lengths > 0 && away > all_around) {
-      waits *= 1 + (kBehind - 1) * (1 - innerProduct(towards, viewer.direction) / lengths) / 2;
+      waits *= 1 + (kBehind - 1) * (1 - dot(towards, viewer.direction) / lengths) / 2;
     }
     most = std::min(most, waits);
   }

@@ -127,6 +127,25 @@ sgm_world_desc troubledWorld(const Folder& folder, bool by_distance) {
   return desc;
 }
 
+/// A field to stream whose memory and words are ours.
+struct Scene {
+  sgm_allocator allocator;
+  Log log;
+  sgm_log_sink sink{Log::write, &log};
+  Folder folder;
+  RuntimeOwner runtime;
+  FieldOwner field;
+
+  Scene(Failing& failing, uint32_t threads) : allocator{Failing::allocate, Failing::release, &failing} {
+    sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+    desc.allocator = &allocator;
+    desc.threads = threads;
+    desc.log = &sink;
+    runtime = makeRuntime(&desc);
+    field = makeField(runtime.get(), compile(runtime.get(), kHollows).get(), 256);
+  }
+};
+
 struct Outcome {
   uint64_t drawn = 0, edits = 0;
 };
@@ -134,36 +153,27 @@ struct Outcome {
 /// One session, in trouble from begin() to end(). Whether memory ever gave out: troubled().
 template <class Begin, class End, class Troubled>
 Outcome trouble(Failing& failing, bool by_distance, Begin begin, End end, Troubled troubled) {
-  const sgm_allocator allocator{Failing::allocate, Failing::release, &failing};
-  Log log;
-  const sgm_log_sink sink{Log::write, &log};
   Outcome outcome;
   {
-    const Folder folder;
-    sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
-    desc.allocator = &allocator;
-    desc.threads = 2;
-    desc.log = &sink;
-    const RuntimeOwner runtime = makeRuntime(&desc);
-    const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kHollows).get(), 256);
+    const Scene scene(failing, 2);
     {
       Session session;
-      session.field = field.get();
-      session.desc = troubledWorld(folder, by_distance);
+      session.field = scene.field.get();
+      session.desc = troubledWorld(scene.folder, by_distance);
       begin();
       for (int left = kTroubledFrames; left > 0 && !session.atRest(); left -= troubled()) session.frame();
       end();
       session.settle();
       CHECK(session.wrong == SGM_OK);
-      CHECK(log.scarce <= 1);
+      CHECK(scene.log.scarce <= 1);
       outcome = {session.drawnHash(), sgm_world_edits_hash(session.world)};
     }
     // What was dug is in the journal, whole.
     sgm_world* again = nullptr;
-    const sgm_world_desc world = troubledWorld(folder, by_distance);
-    REQUIRE(sgm_world_create(field.get(), &world, &again, nullptr) == SGM_OK);
+    const sgm_world_desc world = troubledWorld(scene.folder, by_distance);
+    REQUIRE(sgm_world_create(scene.field.get(), &world, &again, nullptr) == SGM_OK);
     CHECK(sgm_world_edits_hash(again) == outcome.edits);
-    CHECK(log.damaged == 0);
+    CHECK(scene.log.damaged == 0);
     sgm_world_destroy(again);
   }
   CHECK(failing.live == 0);
@@ -227,24 +237,15 @@ TEST_CASE("a streamed world outlives a heap that gives out, and is right once me
 
 TEST_CASE("a world whose memory never suffices says so once, tries little, and a wait for it ends") {
   Failing failing;
-  const sgm_allocator allocator{Failing::allocate, Failing::release, &failing};
-  Log log;
-  const sgm_log_sink sink{Log::write, &log};
-  const Folder folder;
-  sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
-  desc.allocator = &allocator;
-  desc.threads = 3;
-  desc.log = &sink;
-  const RuntimeOwner runtime = makeRuntime(&desc);
-  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kHollows).get(), 256);
+  const Scene scene(failing, 3);
   Session session;
-  session.field = field.get();
-  session.desc = troubledWorld(folder, true);
+  session.field = scene.field.get();
+  session.desc = troubledWorld(scene.folder, true);
   session.frame();
   REQUIRE(session.world != nullptr);
   failing.left = 0;
   for (int i = 0; i < 50; ++i) session.frame();
-  CHECK(log.scarce == 1);
+  CHECK(scene.log.scarce == 1);
   sgm_world_stats stats = SGM_WORLD_STATS_INIT;
   REQUIRE(sgm_world_get_stats(session.world, &stats, nullptr) == SGM_OK);
   const uint64_t plans = stats.plans;
@@ -253,12 +254,12 @@ TEST_CASE("a world whose memory never suffices says so once, tries little, and a
   REQUIRE(sgm_world_get_stats(session.world, &stats, nullptr) == SGM_OK);
   CHECK(stats.plans <= plans + 100);
   CHECK(failing.left > left - 50 * 100);  // allocations that were tried
-  CHECK(log.scarce == 1);
+  CHECK(scene.log.scarce == 1);
   CHECK(stats.idle == 0);
   const sgm_result waited = sgm_world_wait_idle(session.world, nullptr, nullptr, nullptr);
   CHECK((waited == SGM_ERR_LIMIT || waited == SGM_ERR_OUT_OF_MEMORY));
   failing.left = INT64_MAX;
   session.settle();
   CHECK(session.wrong == SGM_OK);
-  CHECK(log.scarce == 1);
+  CHECK(scene.log.scarce == 1);
 }
