@@ -1,9 +1,9 @@
 #include "api/host_field.h"
 
+#include <cstring>
 #include <string>
 
 #include "api/barrier.h"
-#include "field/brush.h"
 
 namespace sgm::api {
 
@@ -24,8 +24,24 @@ sgm_result check(sgm_error* error, const sgm_host_field& host, const Program& pr
     return wrong(".flags has bits that are no sgm_host_flag");
   if (host.material >= program.materials.size()) return wrong(".material is none of the grammar's");
   if (host.tag >= program.tags.size()) return wrong(".tag is none of the grammar's");
-  if (host.smooth < 0 || host.smooth > kMaxBrushSize) return wrong(".smooth is not 0 to 2^20 units");
+  if (host.smooth < 0 || host.smooth > kWidestHostBlend) return wrong(".smooth is not 0 to 16,384 units");
   return SGM_OK;
+}
+
+/// Of what a callback answers: nothing is tried again for it, whatever it says.
+Code codeOf(sgm_result result) {
+  switch (result) {
+    case SGM_ERR_INVALID_ARGUMENT:
+      return Code::invalid_argument;
+    case SGM_ERR_LIMIT:
+      return Code::limit;
+    case SGM_ERR_RANGE:
+      return Code::range;
+    case SGM_ERR_IO:
+      return Code::io;
+    default:
+      return Code::unsupported;
+  }
 }
 
 Result<void> sampleHost(sgm_host_sample sample, void* user, const SampleLattice& at, std::span<float> values) {
@@ -33,8 +49,10 @@ Result<void> sampleHost(sgm_host_sample sample, void* user, const SampleLattice&
       {at.origin.x, at.origin.y, at.origin.z}, at.spacing, {at.count[0], at.count[1], at.count[2]}};
   const sgm_result result = sample(user, &lattice, values.data());
   if (result != SGM_OK) {
-    return Error{result == SGM_ERR_OUT_OF_MEMORY ? Code::out_of_memory : Code::unsupported,
-                 std::string("the host's field could not be sampled: it answered ") + sgm_result_name(result)};
+    return Error{codeOf(result), std::string("the host's field could not be sampled at ") +
+                                     std::to_string(lattice.origin[0]) + ", " + std::to_string(lattice.origin[1]) +
+                                     ", " + std::to_string(lattice.origin[2]) + " units: it answered " +
+                                     sgm_result_name(result)};
   }
   for (float& value : values) value *= SGM_UNITS_PER_METRE;
   return {};
@@ -48,8 +66,11 @@ sgm_result takeHosts(sgm_error* error, const sgm_field_desc& desc, const Program
   if (desc.hosts == nullptr) return nullArgument(error, "desc.hosts");
   if (desc.host_count > kMostHosts)
     return fail(error, SGM_ERR_LIMIT, "desc.host_count is more than " + std::to_string(kMostHosts));
+  size_t stride = desc.host_stride;
+  if (sgm_result r = checkStride<sgm_host_field>(error, stride, "desc.host_stride"); r != SGM_OK) return r;
   for (size_t i = 0; i < desc.host_count; ++i) {
-    const sgm_host_field& host = desc.hosts[i];
+    sgm_host_field host;
+    std::memcpy(&host, reinterpret_cast<const char*>(desc.hosts) + i * stride, sizeof host);
     if (sgm_result r = check(error, host, program, "desc.hosts[" + std::to_string(i) + "]"); r != SGM_OK) return r;
     HostField field;
     field.sample = [sample = host.sample, user = host.user](const SampleLattice& at, std::span<float> values) {

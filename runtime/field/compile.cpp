@@ -355,7 +355,7 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
   }
   uint32_t layer = gathered.empty() ? 0 : gathered.back().layer;
   for (const HostField& host : hosts) {
-    if (!host.bounds.grown(margin).meets(box)) continue;
+    if (!host.bounds.grown(host.smooth).grown(margin).meets(box)) continue;
     if (Result<void> emitted = emitHostField(builder, host, box, settings.cell, ++layer, memory); !emitted) {
       return emitted.error();
     }

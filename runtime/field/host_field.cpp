@@ -10,73 +10,94 @@ namespace sgm {
 
 namespace {
 
-constexpr double kNoLimit = 1e18, kLargestSample = 1e12;
 constexpr double kStepsAUnit = 1024;
 /// Of the samples of a box that is far from the surface, which are all alike.
 constexpr int32_t kFarSpacing = 1 << 22;
 
 /// Whole steps: no two hosts' last bits, and no denormals between them (shaders/common/lattice.h).
-float settled(float sample) {
-  const double held = std::clamp(static_cast<double>(sample), -kLargestSample, kLargestSample);
+float wholeSteps(float sample) {
+  const double held = std::clamp(double{sample}, -double{kLargestSample}, double{kLargestSample});
   return static_cast<float>(std::floor(held * kStepsAUnit + 0.5) / kStepsAUnit);
 }
 
-std::string textOf(Int3 p) { return std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z); }
+Error badSample(const SampleLattice& at, size_t i, const std::string& what) {
+  const size_t row = at.count[0], layer = row * at.count[1];
+  const std::array<size_t, 3> place{i % row, i % layer / row, i / layer};
+  std::string text = "the host's field " + what + " at ";
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto offset = static_cast<int64_t>(place[static_cast<size_t>(axis)]) * at.spacing;
+    text += std::to_string(at.origin[axis] + offset) + (axis < 2 ? ", " : " units");
+  }
+  return {Code::invalid_argument, text};
+}
 
-Result<void> takeSamples(const HostField& field, const SampleLattice& at, std::span<float> values) {
-  if (Result<void> sampled = field.sample(at, values); !sampled) return sampled;
+/// A chunk that trusts the steepness and one that samples would not fit together.
+Result<void> checkSteepness(const HostField& field, const SampleLattice& at, std::span<const float> values) {
+  const size_t row = at.count[0], layer = row * at.count[1];
+  const double most = double{field.steepness} * at.spacing;
   for (size_t i = 0; i < values.size(); ++i) {
-    if (!std::isnan(values[i])) {
-      values[i] = settled(values[i]);
-      continue;
+    const std::array<size_t, 3> steps{i % row + 1 < row ? size_t{1} : 0, i % layer + row < layer ? row : 0,
+                                      i + layer < values.size() ? layer : 0};
+    for (const size_t step : steps) {
+      const double a = double{values[i]}, b = double{values[i + step]};
+      if (std::abs(a - b) <= most + 1 + 1e-5 * (std::abs(a) + std::abs(b))) continue;
+      return badSample(at, i, "changes by more than its steepness of " + std::to_string(field.steepness));
     }
-    const size_t row = at.count[0], layer = row * at.count[1];
-    const std::array<size_t, 3> place{i % row, i % layer / row, i / layer};
-    Int3 p = at.origin;
-    for (int axis = 0; axis < 3; ++axis) p[axis] += static_cast<int32_t>(place[static_cast<size_t>(axis)]) * at.spacing;
-    return Error{Code::invalid_argument, "the host's field is not a number at " + textOf(p) + " units"};
   }
   return {};
 }
 
-/// Where one sample shows that all of the box counts as far: on which side of the surface; else 0.
-Result<double> farSide(const HostField& field, const SampleLattice& lattice, double limit) {
+Result<void> takeSamples(const HostField& field, const SampleLattice& at, std::span<float> values) {
+  if (Result<void> sampled = field.sample(at, values); !sampled) return sampled;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) return badSample(at, i, "is not finite");
+    values[i] = wholeSteps(values[i]);
+  }
+  return field.steepness > 0 ? checkSteepness(field, at, values) : Result<void>();
+}
+
+/// Where one sample shows that all of the lattice counts as far: on which side of the surface; else 0.
+Result<float> farSide(const HostField& field, const SampleLattice& lattice, double limit) {
   SampleLattice middle = lattice;
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
-    // Of the lattice's own points: a host knows no others.
+    // One of the lattice's own points: a host knows no others.
     const int64_t cells = lattice.count[a] - 1, before = cells / 2, after = cells - before;
-    middle.origin[axis] = saturate(int64_t{lattice.origin[axis]} + before * lattice.spacing);
+    middle.origin[axis] = static_cast<int32_t>(lattice.origin[axis] + before * lattice.spacing);
     middle.count[a] = 1;
     const double reach = static_cast<double>(after) * lattice.spacing;
     square += reach * reach;
   }
   float sample = 0;
   if (Result<void> taken = takeSamples(field, middle, {&sample, 1}); !taken) return taken.error();
-  const double value = static_cast<double>(sample);
-  // Steps that samples were rounded by, and what is lost in mixing them.
-  const double change = static_cast<double>(field.steepness) * std::sqrt(square) * (1 + 1e-5) + 1;
-  if (std::abs(value) - change < limit * (1 + 1e-5)) return 0.0;
-  return value < 0 ? -1.0 : 1.0;
+  // What checkSteepness() lets pass, the steps that samples were rounded by, and what is lost in mixing them.
+  const double change = double{field.steepness} * std::sqrt(square) * (1 + 1e-5) + 1;
+  if (std::abs(double{sample}) - change < limit * (1 + 1e-5)) return 0.0f;
+  return sample < 0 ? -1.0f : 1.0f;
 }
 
 }  // namespace
 
 Result<void> emitHostField(ProgramBuilder& builder, const HostField& field, const IntBox& box, int32_t cell,
                            uint32_t layer, std::pmr::memory_resource* memory) {
-  const IntBox influence = field.bounds.grown(influenceMargin(cell));
-  Result<SampleLattice> lattice = latticeAround(box.clipped(influence), cell);
-  if (!lattice) return lattice.error();
-  const double limit = field.steepness > 0 ? static_cast<double>(field.steepness) * influenceMargin(cell) : kNoLimit;
-  const Result<double> side = field.steepness > 0 ? farSide(field, *lattice, limit) : Result<double>(0.0);
+  const IntBox influence = field.bounds.grown(field.smooth).grown(influenceMargin(cell));
+  SampleLattice lattice = latticeAround(box.clipped(influence), cell);
+  const double steep = double{field.steepness} * influenceMargin(cell);
+  const double limit = steep > 0 ? std::max(steep, double{kWidestHostBlend}) : double{kFarSample};
+  const Result<float> side = steep > 0 ? farSide(field, lattice, limit) : Result<float>(0.0f);
   if (!side) return side.error();
-  if (*side != 0) *lattice = {box.lo, kFarSpacing, {2, 2, 2}};
-  std::pmr::vector<float> samples(lattice->points(), static_cast<float>(*side * kLargestSample), memory);
-  if (*side == 0) {
-    if (Result<void> taken = takeSamples(field, *lattice, samples); !taken) return taken;
+  // Nothing lies between samples that are alike, so that it does not matter where they stand.
+  if (*side != 0) lattice = {{0, 0, 0}, kFarSpacing, {4, 4, 4}};
+  const std::optional<size_t> points = latticePoints(lattice);
+  if (!points) {
+    return Error{Code::limit, "the box takes more samples of a field of the host's than fit; ask for a smaller one"};
   }
-  const Value root = builder.lattice(*lattice, samples, static_cast<float>(limit), field.label);
+  std::pmr::vector<float> samples(*points, *side * kLargestSample, memory);
+  if (*side == 0) {
+    if (Result<void> taken = takeSamples(field, lattice, samples); !taken) return taken;
+  }
+  const Value root = builder.lattice(lattice, samples, static_cast<float>(limit), field.label);
   return builder.group(root, influence, layer, field.cut, static_cast<float>(field.smooth));
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "field/reference.h"
 
@@ -11,14 +10,19 @@ namespace sgm {
 namespace {
 
 constexpr int kSpacingWord = 4, kCountWord = 5, kLimitWord = 9, kSamplesWord = 10;  // words (shaders/common/lattice.h)
-constexpr double kFarAway = double{1e18f};
+constexpr double kFarAway = double{kFarSample};
+constexpr int64_t kMostPoints = int64_t{1} << 25;
 constexpr double kFarthest = 1 << 30;
 
-/// How far along an axis, in cells.
+/// How far along an axis, in cells: at least 1, for the first and the last cell have slopes alone.
 double along(const uint32_t* p, int axis, double at) {
-  const double last = wholeAt(p, kCountWord + axis) - 1;
+  const double last = wholeAt(p, kCountWord + axis) - 2;
   const double offset = std::clamp(at - wholeAt(p, 1 + axis), 0.0, kFarthest);
-  return std::min(offset / wholeAt(p, kSpacingWord), last);
+  return std::clamp(offset / wholeAt(p, kSpacingWord), 1.0, last);
+}
+
+int64_t cellAt(const uint32_t* p, int axis, double along_axis) {
+  return std::min(static_cast<int64_t>(std::floor(along_axis)), static_cast<int64_t>(p[kCountWord + axis]) - 3);
 }
 
 double sampleAt(const uint32_t* p, int64_t x, int64_t y, int64_t z) {
@@ -26,70 +30,13 @@ double sampleAt(const uint32_t* p, int64_t x, int64_t y, int64_t z) {
   return realAt(p + kSamplesWord, static_cast<int>((z * column + y) * row + x));
 }
 
-double farOrNot(const uint32_t* p, double v) {
-  const double limit = realAt(p, kLimitWord);
-  return v >= limit ? kFarAway : v <= -limit ? -kFarAway : v;
-}
-
-}  // namespace
-
-Result<SampleLattice> latticeAround(const IntBox& box, int32_t spacing) {
-  SampleLattice lattice;
-  lattice.spacing = spacing;
-  int64_t points = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    int64_t first = floorDiv(box.lo[axis], spacing), last = floorDiv(box.hi[axis], spacing) + 1;
-    // Where the world ends on an incomplete cell, the last whole one goes on.
-    if (first * spacing < INT32_MIN) ++first;
-    if (last * spacing > INT32_MAX) --last;
-    first = std::min(first, last - 1);
-    points *= std::min(last - first + 1, kMostLatticePoints + 1);
-    if (points > kMostLatticePoints || (last - first) * spacing > int64_t{1} << 30) {
-      return Error{Code::limit, "the box takes more than " + std::to_string(kMostLatticePoints) +
-                                    " samples of a field of the host's; ask for a smaller one"};
-    }
-    lattice.origin[axis] = saturate(first * spacing);
-    lattice.count[static_cast<size_t>(axis)] = static_cast<uint32_t>(last - first + 1);
-  }
-  return lattice;
-}
-
-Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
-  const std::array<Interval, 3> axes{box.x, box.y, box.z};
-  std::array<int64_t, 3> first{}, last{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<size_t>(axis);
-    first[a] = static_cast<int64_t>(std::floor(along(p, axis, axes[a].lo)));
-    last[a] = static_cast<int64_t>(std::ceil(along(p, axis, axes[a].hi)));
-  }
-  Interval all{kFarAway, -kFarAway};
-  for (int64_t z = first[2]; z <= last[2]; ++z) {
-    for (int64_t y = first[1]; y <= last[1]; ++y) {
-      for (int64_t x = first[0]; x <= last[0]; ++x) {
-        const double sample = sampleAt(p, x, y, z);
-        all = {std::min(all.lo, sample), std::max(all.hi, sample)};
-      }
-    }
-  }
-  const double slack = statedError(Op::lattice) * std::max(std::abs(all.lo), std::abs(all.hi));
-  // What may count as far may be as far.
-  const double limit = realAt(p, kLimitWord);
-  const double lo = all.lo - slack, hi = all.hi + slack;
-  return {lo >= limit    ? kFarAway
-          : lo <= -limit ? -kFarAway
-                         : lo,
-          hi <= -limit  ? -kFarAway
-          : hi >= limit ? kFarAway
-                        : hi};
-}
-
-double referenceLattice(const uint32_t* p, double x, double y, double z) {
-  const std::array<double, 3> at{along(p, 0, x), along(p, 1, y), along(p, 2, z)};
+/// Mixed from the corners of a cell. at: in cells.
+double mixedAt(const uint32_t* p, const std::array<double, 3>& at) {
   std::array<int64_t, 3> cell{};
   std::array<double, 3> t{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
-    cell[a] = std::min(static_cast<int64_t>(std::floor(at[a])), static_cast<int64_t>(p[kCountWord + axis]) - 2);
+    cell[a] = cellAt(p, axis, at[a]);
     t[a] = at[a] - static_cast<double>(cell[a]);
   }
   double sum = 0;
@@ -103,7 +50,81 @@ double referenceLattice(const uint32_t* p, double x, double y, double z) {
     }
     if (weight > 0) sum += weight * sampleAt(p, place[0], place[1], place[2]);
   }
-  return farOrNot(p, sum);
+  return sum;
+}
+
+double farOrNot(const uint32_t* p, double v) {
+  const double limit = realAt(p, kLimitWord);
+  return v >= limit ? kFarAway : v <= -limit ? -kFarAway : v;
+}
+
+}  // namespace
+
+SampleLattice latticeAround(const IntBox& box, int32_t spacing) {
+  const int64_t world_first = -(INT64_C(2147483648) / spacing), world_last = INT64_C(2147483647) / spacing;
+  SampleLattice lattice;
+  lattice.spacing = spacing;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t first = std::clamp(floorDiv(box.lo[axis], spacing) - 1, world_first, world_last - 3);
+    const int64_t last = std::clamp(floorDiv(box.hi[axis], spacing) + 2, first + 3, world_last);
+    lattice.origin[axis] = static_cast<int32_t>(first * spacing);
+    lattice.count[static_cast<size_t>(axis)] = static_cast<uint32_t>(last - first + 1);
+  }
+  return lattice;
+}
+
+std::optional<size_t> latticePoints(const SampleLattice& lattice) {
+  int64_t points = 1;
+  for (const uint32_t count : lattice.count) {
+    points *= count;
+    if (points > kMostPoints || int64_t{count} * lattice.spacing > static_cast<int64_t>(kFarthest)) return std::nullopt;
+  }
+  return static_cast<size_t>(points);
+}
+
+Interval boundLattice(const uint32_t* p, const PlaceBox& box) {
+  const std::array<Interval, 3> axes{box.x, box.y, box.z};
+  std::array<Interval, 3> range{};
+  std::array<int64_t, 3> first{}, last{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<size_t>(axis);
+    range[a] = {along(p, axis, axes[a].lo), along(p, axis, axes[a].hi)};
+    first[a] = cellAt(p, axis, range[a].lo);
+    last[a] = cellAt(p, axis, range[a].hi) + 1;
+  }
+  Interval all{kFarAway, -kFarAway};
+  for (int64_t z = first[2]; z <= last[2]; ++z) {
+    for (int64_t y = first[1]; y <= last[1]; ++y) {
+      for (int64_t x = first[0]; x <= last[0]; ++x) {
+        const double sample = sampleAt(p, x, y, z);
+        all = {std::min(all.lo, sample), std::max(all.hi, sample)};
+      }
+    }
+  }
+  const double slack = statedError(Op::lattice) * std::max(std::abs(all.lo), std::abs(all.hi));
+  // Within one cell the corners of the box decide, for along each axis the value is a line.
+  if (last[0] == first[0] + 1 && last[1] == first[1] + 1 && last[2] == first[2] + 1) {
+    all = {kFarAway, -kFarAway};
+    for (int corner = 0; corner < 8; ++corner) {
+      std::array<double, 3> at{};
+      for (size_t a = 0; a < 3; ++a) at[a] = (corner >> a & 1) != 0 ? range[a].hi : range[a].lo;
+      const double value = mixedAt(p, at);
+      all = {std::min(all.lo, value), std::max(all.hi, value)};
+    }
+  }
+  // What may count as far may be as far.
+  const double limit = realAt(p, kLimitWord);
+  const double lo = all.lo - slack, hi = all.hi + slack;
+  return {lo >= limit    ? kFarAway
+          : lo <= -limit ? -kFarAway
+                         : lo,
+          hi <= -limit  ? -kFarAway
+          : hi >= limit ? kFarAway
+                        : hi};
+}
+
+double referenceLattice(const uint32_t* p, double x, double y, double z) {
+  return farOrNot(p, mixedAt(p, {along(p, 0, x), along(p, 1, y), along(p, 2, z)}));
 }
 
 }  // namespace sgm

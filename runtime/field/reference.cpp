@@ -1,10 +1,10 @@
 #include "field/reference.h"
 
-#include "field/lattice.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "field/lattice.h"
 
 namespace sgm {
 

@@ -84,10 +84,11 @@ Result<void> checkHead(const fs::path& path, std::span<const std::byte> bytes, c
   const WorldIdentity of{0, 0, in.get<int32_t>()};
   const auto grammar = in.get<uint64_t>(), seed = in.get<uint64_t>();
   if (in.get<uint64_t>() != checksum(bytes.first(kHeadBytes - 8))) return bad("its head is damaged");
-  const char* differs = grammar != world.grammar ? "grammar or its parameters"
-                        : seed != world.seed     ? "seed"
-                        : of.cell != world.cell  ? "finest cell"
-                                                 : nullptr;
+  // The first of them holds the others too.
+  const char* differs = seed != world.seed         ? "seed"
+                        : of.cell != world.cell    ? "finest cell"
+                        : grammar != world.grammar ? "grammar, parameters of it, or fields of the host's"
+                                                   : nullptr;
   if (differs) return bad("it belongs to another world, with another " + std::string(differs));
   return {};
 }

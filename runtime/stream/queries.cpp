@@ -5,7 +5,8 @@
 namespace sgm {
 
 QueryField queryField(const WorldField& world) {
-  return {[&world](const IntBox& box) { return world.compile(box, 0); }, world.settings().finest_cell, world.memory()};
+  return {[&world](const IntBox& box) { return world.compile(box, 0); }, world.settings().finest_cell, world.memory(),
+          !world.settings().hosts.empty()};
 }
 
 }  // namespace sgm

@@ -23,6 +23,7 @@ struct QueryField {
   std::function<Result<std::shared_ptr<const FieldProgram>>(const IntBox&)> at;
   int32_t finest_cell = kUnitsPerMetre / 2;  ///< edge of a level-0 cell
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
+  bool sampled = false;  ///< a program costs as much as its box holds cells (the host's fields): ask for small ones
 };
 
 class WorldField;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int64_t kPieceUnits = 64 * kUnitsPerMetre, kPieceCells = 128;  // whichever is more shares a program
 constexpr int64_t kMostPieces = 64;
+constexpr int64_t kSampledPieceCells = 32;  // of a field that is sampled for each program
 constexpr int64_t kLeafSteps = 48;  // as many samples cost as much as proving once more that none are needed
 constexpr double kInWorld = 1.0;    // from the world's end, so that rounding stays inside
 
@@ -25,7 +26,9 @@ class RayWalk {
 
   Result<std::optional<SurfacePoint>> run() {
     const auto last = static_cast<int64_t>(std::ceil(length_ / step_));
-    const auto piece = static_cast<int64_t>(static_cast<double>(longestRay(field_.finest_cell) / kMostPieces) / step_);
+    const int64_t units =
+        field_.sampled ? kSampledPieceCells * field_.finest_cell : longestRay(field_.finest_cell) / kMostPieces;
+    const auto piece = static_cast<int64_t>(static_cast<double>(units) / step_);
     for (int64_t first = 0; first <= last; first += piece) {
       const int64_t end = std::min(last, first + piece - 1);
       Result<std::shared_ptr<const FieldProgram>> program = field_.at(stretch(first, end));

@@ -76,6 +76,13 @@ Result<std::unique_ptr<World>> World::create(const WorldField& field, Backend& b
     return Error{Code::limit, "mesh_bytes is " + std::to_string(settings.mesh_bytes) + ", too small to stream with: " +
                                   std::to_string(jobs.concurrency()) + " threads need " + std::to_string(least)};
   }
+  if (!settings.journal.empty() || !settings.cache.empty()) {
+    for (const HostField& host : field.settings().hosts) {
+      if (host.identity != 0) continue;
+      return Error{Code::invalid_argument,
+                   "a field of the host's has the identity 0: what is kept on disk could not be told from another's"};
+    }
+  }
   WorldSettings own = settings;
   if (own.edits.author == 0) own.edits.author = randomAuthor();
   auto core = std::make_unique<WorldCore>(field, backend, jobs, own, memory);
@@ -321,7 +328,7 @@ QueryField World::queryField() const {
   return {[field = &core_->field, edits = core_->edits.state()](const IntBox& box) {
             return field->compile(box, 0, edits.brushes.get());
           },
-          core_->field.settings().finest_cell, core_->field.memory()};
+          core_->field.settings().finest_cell, core_->field.memory(), !core_->field.settings().hosts.empty()};
 }
 
 WorldStats World::stats() const {

@@ -57,7 +57,6 @@ std::optional<std::vector<std::byte>> WorldField::identity() const {
   out.put(settings_.seed);
   out.put(settings_.finest_cell);
   for (int axis = 0; axis < 3; ++axis) out.put(settings_.shift[axis]);
-  out.put(uint64_t{settings_.hosts.size()});
   for (const HostField& host : settings_.hosts) {
     out.put(host.identity);
     for (const Int3 corner : {host.bounds.lo, host.bounds.hi}) {

@@ -12,24 +12,27 @@ struct SamplePlace {
   Real slope;
 };
 
-// Integers decide where a cell ends: the product is the right one or a neighbour.
+// Integers decide where a cell ends: within 2^20 cells the product is the right one or a neighbour, and beyond them it
+// is held to the last cell. The first and the last one of the lattice are there for the slopes beside them alone.
 FN SamplePlace samplePlace(Int p, int origin, int spacing, int count, float inverse) {
   Int d = saturatingSub(p, broadcastInt(origin));
-  Bool before = d < 0;
-  d = sel(before, broadcastInt(0), d);
+  d = sel(d < 0, broadcastInt(0), d);
   d = sel(d > 1073741824, broadcastInt(1073741824), d);
   PRECISE Real u = toReal(d) * inverse;
   Int cell = toInt(floorReal(u));
   Int rest = wrapSub(d, wrapMul(cell, broadcastInt(spacing)));
   cell = sel(rest < 0, wrapSub(cell, broadcastInt(1)), cell);
   cell = sel(rest >= broadcastInt(spacing), wrapAdd(cell, broadcastInt(1)), cell);
-  cell = sel(cell > count - 2, broadcastInt(count - 2), cell);
+  Bool before = cell < 1;
+  Bool behind = cell > count - 3;
+  cell = sel(before, broadcastInt(1), cell);
+  cell = sel(behind, broadcastInt(count - 3), cell);
   rest = wrapSub(d, wrapMul(cell, broadcastInt(spacing)));
   SamplePlace r;
   r.cell = cell;
   PRECISE Real t = toReal(rest) * inverse;
   r.t = clampReal(t, 0.0f, 1.0f);
-  r.slope = sel(before || (rest > broadcastInt(spacing)), broadcast(0.0f), broadcast(inverse));
+  r.slope = sel(before || behind, broadcast(0.0f), broadcast(0.5f * inverse));
   return r;
 }
 
@@ -40,7 +43,22 @@ FN Real mixSamples(Real a, Real b, Real t) {
   return r;
 }
 
-// 4 spacing in units, 5-7 points along x, y, z (at least 2), 8 reciprocal of the spacing, 9 the size at which a value
+// Twice the slope along a row, from differences over two cells: it has no creases, and leans to no side.
+FN Real sampleSlope(Params P, Int at, Int step, Real t) {
+  PRECISE Real near = gatherReal(P, wrapAdd(at, step)) - gatherReal(P, wrapSub(at, step));
+  PRECISE Real far = gatherReal(P, wrapAdd(wrapAdd(at, step), step)) - gatherReal(P, at);
+  return mixSamples(near, far, t);
+}
+
+// That of the four rows of a cell, mixed.
+FN Real slopeInCell(Params P, Int at, Int along, Int b, Int c, Real t, Real tb, Real tc) {
+  Real low = mixSamples(sampleSlope(P, at, along, t), sampleSlope(P, wrapAdd(at, b), along, t), tb);
+  Int next = wrapAdd(at, c);
+  Real high = mixSamples(sampleSlope(P, next, along, t), sampleSlope(P, wrapAdd(next, b), along, t), tb);
+  return mixSamples(low, high, tc);
+}
+
+// 4 spacing in units, 5-7 points along x, y, z (at least 4), 8 reciprocal of the spacing, 9 the size at which a value
 // counts as far, 10 the samples in units, x fastest.
 FN Dual opLattice(Int px, Int py, Int pz, Params P) {
   SamplePlace x = samplePlace(px, PI(P, 1), PI(P, 4), PI(P, 5), PF(P, 8));
@@ -70,18 +88,9 @@ FN Dual opLattice(Int px, Int py, Int pz, Params P) {
   Real high = mixSamples(c, d, y.t);
   Real v = mixSamples(low, high, z.t);
 
-  PRECISE Real slope_a = a1 - a0;
-  PRECISE Real slope_b = b1 - b0;
-  PRECISE Real slope_c = c1 - c0;
-  PRECISE Real slope_d = d1 - d0;
-  PRECISE Real gx = mixSamples(mixSamples(slope_a, slope_b, y.t), mixSamples(slope_c, slope_d, y.t), z.t);
-  gx = gx * x.slope;
-  PRECISE Real slope_low = b - a;
-  PRECISE Real slope_high = d - c;
-  PRECISE Real gy = mixSamples(slope_low, slope_high, z.t);
-  gy = gy * y.slope;
-  PRECISE Real gz = high - low;
-  gz = gz * z.slope;
+  PRECISE Real gx = slopeInCell(P, at, one, row, layer, x.t, y.t, z.t) * x.slope;
+  PRECISE Real gy = slopeInCell(P, at, row, one, layer, y.t, x.t, z.t) * y.slope;
+  PRECISE Real gz = slopeInCell(P, at, layer, one, row, z.t, x.t, y.t) * z.slope;
 
   Real zero = broadcast(0.0f);
   Bool above = v >= PF(P, 9);

@@ -130,8 +130,10 @@ TEST_CASE("a host that cannot be sampled fails chunks, and the last good frame s
   CHECK(stats.drawn > 4);
   ground.fails = true;
   viewer.position[0] = 40;
-  CHECK(settle() > 0);
+  const uint64_t failed = settle();
+  CHECK(failed > 0);
   REQUIRE(sgm_world_get_stats(world.get(), &stats, &error) == SGM_OK);
+  CHECK(stats.chunks_failed == failed);
   CHECK(stats.drawn > 0);
 
   const int32_t point[3] = {0, 0, 0};
@@ -140,7 +142,7 @@ TEST_CASE("a host that cannot be sampled fails chunks, and the last good frame s
   sample.points = point;
   sample.count = 1;
   sample.values = &value;
-  CHECK(sgm_field_sample(field.get(), &sample, &error) == SGM_ERR_UNSUPPORTED);
+  CHECK(sgm_field_sample(field.get(), &sample, &error) == SGM_ERR_IO);
   CHECK(std::string(error.message).find("SGM_ERR_IO") != std::string::npos);
 }
 
@@ -169,6 +171,7 @@ TEST_CASE("what a host's field says of itself is checked") {
   refused([](Host& h) { h.material = 99; }, SGM_ERR_INVALID_ARGUMENT, "material");
   refused([](Host& h) { h.tag = 99; }, SGM_ERR_INVALID_ARGUMENT, "tag");
   refused([](Host& h) { h.smooth = -1; }, SGM_ERR_INVALID_ARGUMENT, "smooth");
+  refused([](Host& h) { h.smooth = 16385; }, SGM_ERR_INVALID_ARGUMENT, "smooth");
   sgm_field_desc desc = SGM_FIELD_DESC_INIT;
   desc.grammar = grammar.get();
   desc.host_count = 1;
@@ -177,6 +180,28 @@ TEST_CASE("what a host's field says of itself is checked") {
   CHECK(sgm_field_create(runtime.get(), &desc, &field, &error) == SGM_ERR_INVALID_ARGUMENT);
   const std::vector<sgm_host_field> many(17, hostOf(ground));
   desc.hosts = many.data();
+  desc.host_stride = 7;
+  CHECK(sgm_field_create(runtime.get(), &desc, &field, &error) == SGM_ERR_INVALID_ARGUMENT);
+  desc.host_stride = 0;
+  desc.hosts = many.data();
   desc.host_count = many.size();
   CHECK(sgm_field_create(runtime.get(), &desc, &field, &error) == SGM_ERR_LIMIT);
+}
+
+TEST_CASE("a world keeps nothing on disk of a host's field without identity") {
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(runtime.get(), kBall);
+  Ground ground;
+  sgm_host_field host = hostOf(ground);
+  host.identity = 0;
+  sgm_error error = SGM_ERROR_INIT;
+  const FieldOwner field = makeHosted(runtime.get(), grammar.get(), host, &error);
+  REQUIRE(field);
+  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+  desc.top_level = 2;
+  desc.view_distance = 60;
+  desc.journal = "never-made.journal";
+  sgm_world* world = nullptr;
+  CHECK(sgm_world_create(field.get(), &desc, &world, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(std::string(error.message).find("identity") != std::string::npos);
 }

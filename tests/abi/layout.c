@@ -226,7 +226,7 @@ PLACE(sgm_host_field, material, 72);
 PLACE(sgm_host_field, tag, 74);
 PLACE(sgm_host_field, smooth, 76);
 
-SIZE(sgm_field_desc, 72);
+SIZE(sgm_field_desc, 80);
 PLACE(sgm_field_desc, struct_size, 0);
 PLACE(sgm_field_desc, next, 8);
 PLACE(sgm_field_desc, grammar, 16);
@@ -236,7 +236,8 @@ PLACE(sgm_field_desc, cell_units, 40);
 PLACE(sgm_field_desc, backend, 44);
 PLACE(sgm_field_desc, cache_bytes, 48);
 PLACE(sgm_field_desc, hosts, 56);
-PLACE(sgm_field_desc, host_count, 64);
+PLACE(sgm_field_desc, host_stride, 64);
+PLACE(sgm_field_desc, host_count, 72);
 
 SIZE(sgm_sample_desc, 88);
 PLACE(sgm_sample_desc, struct_size, 0);

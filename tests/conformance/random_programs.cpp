@@ -143,15 +143,18 @@ class Generator {
     SampleLattice at;
     at.spacing = 1 + pick(extent_ / 2);
     for (int axis = 0; axis < 3; ++axis) {
-      const auto count = static_cast<uint32_t>(2 + pick(6));
+      const auto count = static_cast<uint32_t>(4 + pick(5));
       at.count[static_cast<size_t>(axis)] = count;
       const int64_t last = std::numeric_limits<int32_t>::max() - int64_t{count - 1} * at.spacing;
       at.origin[axis] = static_cast<int32_t>(std::min<int64_t>(near[axis], last));
     }
-    std::vector<float> samples(at.points());
+    std::vector<float> samples(*latticePoints(at));
     const double largest = odd_.huge_and_tiny && pick(3) == 0 ? 1e12 : extent_;
     for (float& sample : samples) sample = std::floor(between(-largest, largest) * 1024.0f) / 1024.0f;
-    const float limit = pick(3) == 0 ? size() : 1e18f;
+    const float limit = pick(3) == 0 ? size() : kFarSample;
+    // What is far away beside what is not, where nothing says how steep it is.
+    const int sentinel = pick(static_cast<int>(samples.size()));
+    if (limit == kFarSample && pick(2) == 0) samples[static_cast<size_t>(sentinel)] = kLargestSample;
     return builder_.lattice(at, samples, limit, label());
   }
 

@@ -443,12 +443,14 @@ typedef struct sgm_field sgm_field;
 typedef struct sgm_host_lattice {
   int32_t origin[3]; /* units */
   int32_t spacing;   /* units: the edge of a cell of the level that is meshed. Leave out what is finer */
-  uint32_t count[3]; /* at least 1; 2^22 points at most, as a rule 34^3 */
+  uint32_t count[3]; /* at least 1; 2^25 points at most, as a rule 36^3 */
 } sgm_host_lattice;
 
 /* Writes the field in metres at each point, solid below 0, and returns SGM_OK; anything else fails the call, or the
- * chunk, that needs it. Called from any thread, several at one time; must not call back into the library and lets no
- * C++ exception out. */
+ * chunk, that needs it, with SGM_ERR_INVALID_ARGUMENT, LIMIT, RANGE or IO where it is that, else SGM_ERR_UNSUPPORTED. A
+ * value that is not finite fails it too. A world does not ask again for a chunk that has failed until an edit changes
+ * it: what is still to be loaded must be waited for, or left out. Called from any thread, several at one time; must not
+ * call back into the library and lets no C++ exception out. */
 typedef sgm_result (*sgm_host_sample)(void* user, const sgm_host_lattice* lattice, float* values);
 
 typedef enum sgm_host_flag {
@@ -457,27 +459,31 @@ typedef enum sgm_host_flag {
 } sgm_host_flag;
 
 /* A field of the host's own beside the grammar's: a terrain, or rooms that another program made. Meshed, streamed and
- * asked about like everything else, and dug into by edits. The grammar's own rules know nothing of it.
- * Its values are rounded to 1/1024 unit, and read linearly between the points of each level. So that neighbouring
- * chunks fit, a value must be the same whenever its point is asked for at one spacing; so that it is on every machine,
- * it must be computed alike there. */
+ * asked about like everything else, and dug into by edits; also outside of a finite domain. The grammar's own rules know
+ * nothing of it.
+ * Its values are rounded to 1/1024 unit, and read linearly between the points of each level, normals from differences
+ * over two cells. So that neighbouring chunks fit, a value must be the same whenever its point is asked for at one
+ * spacing; so that it is on every machine, it must be computed alike there.
+ * Rays and nearest points ask for all cells that they come near: SGM_ERR_LIMIT where these are more than 2^25. */
 typedef struct sgm_host_field {
   uint32_t struct_size;
   const void* next;
   sgm_host_sample sample;
   void* user;         /* must live as long as the field and all that is made from it */
   uint64_t identity;  /* of what it samples: another number wherever a value differs. What is kept on disk (cache and
-                         journal) counts as another world's under another one */
-  int32_t minimum[3]; /* units: nothing is asked for, nor changed, more than two cells outside of this box */
+                         journal) counts as another world's under another one. 0: nothing can be kept there */
+  int32_t minimum[3]; /* units. Its solid must lie within this box: three cells outside of it, and the blend's width,
+                         nothing more is asked for, and what is solid there ends where a level's cells say so */
   int32_t maximum[3];
   float steepness;    /* the most that the value changes over a metre of way, from 0 to 1000; 1 of a distance. Then
-                         chunks far from the surface ask for a single point, and what is two cells away or more counts
-                         as far. 0: not known */
+                         chunks far from the surface ask for a single point, and a value counts as far that is over 16 m
+                         and over what it changes by in two cells: wider blends of edits end there. Values farther apart
+                         than this allows fail a chunk. 0: not known */
   uint32_t flags;     /* of sgm_host_flag */
   uint16_t material;  /* index for sgm_grammar_material; 0: the default. Of a cut: what it leaves on the surface, 0: what
                          was there */
   uint16_t tag;       /* index for sgm_grammar_tag */
-  int32_t smooth;     /* width of the blend with what is there, 0 to 2^20 units; 0: none */
+  int32_t smooth;     /* width of the blend with what is there, 0 to 16,384 units; 0: none */
 } sgm_host_field;
 
 #define SGM_HOST_FIELD_INIT                                                                                    \
@@ -496,12 +502,13 @@ typedef struct sgm_field_desc {
   sgm_backend backend;              /* SGM_ERR_UNSUPPORTED where it is not usable here */
   uint64_t cache_bytes;             /* derived cells to keep, about; 0: 64 MiB */
   const sgm_host_field* hosts;      /* above all that the grammar derives, in this order; copied. NULL: none */
+  size_t host_stride;               /* bytes; 0: sizeof(sgm_host_field) */
   size_t host_count;                /* at most 16 */
 } sgm_field_desc;
 
 #define SGM_FIELD_DESC_INIT \
   { SGM_SIZEOF(sgm_field_desc), SGM_NULL, SGM_NULL, SGM_NULL, 0, SGM_UNITS_PER_METRE / 2, SGM_BACKEND_AUTO, 0, \
-    SGM_NULL, 0 }
+    SGM_NULL, 0, 0 }
 
 SGM_API sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sgm_field** out,
                                     sgm_error* error);
@@ -939,9 +946,11 @@ typedef struct sgm_world_desc {
   uint32_t flags;    /* of sgm_world_flag, joined by | */
   double finest_distance;   /* metres from a viewer within which level 0 is drawn; each coarser level reaches twice as
                                far. With a screen of h pixels and a vertical field of view v a cell then looks no larger
-                               than p = 2 * cell * h / (2 tan(v / 2)) / finest_distance pixels, and where a
-                               layer's `detail` of D leaves out a passage of a width w, this ends in a wall that looks
-                               no larger than p * w / D pixels, as long as the statistics' detail is 1 */
+                               than p = 2 * cell * h / (2 tan(v / 2)) / finest_distance pixels. Where a layer's
+                               `detail` leaves out a passage of a width w this ends in a wall of p * w / c pixels at
+                               most, c being the edge of the first cell that is wider than the detail. All of this in
+                               the middle of the picture of a viewer of weight 1, in a world that is idle, where no
+                               chunk has failed and the statistics' detail is 1 */
   double view_distance;     /* metres within which something is drawn, above 0 */
   uint64_t mesh_bytes;      /* the most bytes of meshes at one time, those that the engine holds and those in work
                                included, and of the chunks' colliders: a hard cap. Where it does not suffice detail is drawn
@@ -953,7 +962,7 @@ typedef struct sgm_world_desc {
                                sgm_world_update; sgm_world_flush_edits writes them at once. NULL: they are not kept */
   const char* cache_folder; /* UTF-8 path of a folder that keeps meshed chunks from one run to the next, for any number
                                of worlds and processes at one time; made where there is none. What the grammar, its
-                               parameters, the seed, an edit or this library's version change is meshed anew, as is what
+                               parameters, the seed, the host's fields, an edit or this library's version change is meshed anew, as is what
                                is damaged. NULL: none is kept */
   uint64_t cache_bytes;     /* the most bytes of its files; 0: 1 GiB */
   uint64_t author; /* whose edits are made here: in worlds that exchange edits no two may have the same, nor may
@@ -966,8 +975,10 @@ typedef struct sgm_world_desc {
 /* Reads the journal; what is wrong with it and could be mended is told to the log. SGM_ERR_LIMIT: mesh_bytes is too
  * small to stream with, or the distances take more chunks than can be planned for (the message says what would do); the
  * journal is in use, or too large. SGM_ERR_RANGE: the cells of top_level are larger than 2^22 units.
- * SGM_ERR_INVALID_ARGUMENT: top_level, or a distance that is not finite and above 0 (collider_distance: below 0).
- * SGM_ERR_DATA: the journal is of another world (grammar, parameters, seed, cell), or none: it stays as it is.
+ * SGM_ERR_INVALID_ARGUMENT: top_level, or a distance that is not finite and above 0 (collider_distance: below 0); a
+ * journal or a cache_folder with a host's field whose identity is 0.
+ * SGM_ERR_DATA: the journal is of another world (grammar, parameters, seed, cell, host's fields), or none: it stays as it
+ * is.
  * SGM_ERR_IO: the journal or the folder can be neither read nor made. SGM_ERR_UNSUPPORTED: built without a disk cache.
  */
 SGM_API sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_world** out, sgm_error* error);

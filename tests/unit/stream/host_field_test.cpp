@@ -131,6 +131,7 @@ TEST_CASE("a host's hills and the grammar's caves are one closed surface in ever
 }
 
 TEST_CASE("what a host's field is at a place does not depend on the box that asked") {
+  size_t alone_in_all = 0;
   for (uint32_t seed = 1; seed <= rounds(12); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
@@ -138,13 +139,21 @@ TEST_CASE("what a host's field is at a place does not depend on the box that ask
     HostField host = hills(0, seed, random() % 3 == 0 ? 0.0f : 1.0f);
     host.cut = random() % 2 == 0;
     const bool steep = host.steepness > 0;
-    const WorldField world = hostedWorld({countedHost(host, calls, points)});
+    host.smooth = random() % 2 == 0 ? 0 : within(random, 1, kWidestHostBlend);
+    if (random() % 3 == 0) {
+      host.bounds = {{-within(random, 1, 60'000), -40'000, -within(random, 1, 60'000)}, {30'000, 40'000, 50'000}};
+    }
+    HostField rock = hostBall(20'000, 0, -9'000, 15'000, random() % 2 == 0 ? 0.0f : 1.0f);
+    const int32_t cells[] = {512, 256, 1000, 102};
+    const WorldField world = hostedWorld({countedHost(host, calls, points), rock}, cells[random() % 4]);
     const int level = static_cast<int>(random() % 3);
     const int32_t edge = 32 * world.cellAt(level);
     size_t alone = 0;
     for (int round = 0; round < 12; ++round) {
       const auto at = [&] { return static_cast<int32_t>(random() % 8) - 4; };
-      const Int3 chunk{at() * edge, at() * edge, at() * edge};
+      Int3 chunk{at() * edge, at() * edge, at() * edge};
+      // Now and then at an end of the world, in cells that it cuts off.
+      if (round % 4 == 3) chunk[static_cast<int>(random() % 3)] = random() % 2 == 0 ? INT32_MIN : INT32_MAX - edge;
       const IntBox small{chunk, {chunk.x + edge, chunk.y + edge, chunk.z + edge}};
       const IntBox large = small.grown(static_cast<int32_t>(random() % static_cast<uint32_t>(edge)));
       const uint64_t calls_before = calls, points_before = points;
@@ -179,8 +188,10 @@ TEST_CASE("what a host's field is at a place does not depend on the box that ask
       };
       CHECK(evaluated(**own) == evaluated(**other));
     }
-    CHECK((alone > 0) == steep);
+    if (!steep) CHECK(alone == 0);
+    alone_in_all += alone;
   }
+  CHECK(alone_in_all > 0);
 }
 
 TEST_CASE("a host's surface nears what it samples with the square of the cell") {
@@ -239,6 +250,22 @@ TEST_CASE("rays hit a host's field, as far as it goes in the world") {
   REQUIRE(*hit);
   CHECK((*hit)->position[1] == Approx(5 * kHostMetre).margin(16));
 
+  // Slanting rays over many small cells, beside what is steep and what is not.
+  for (const float steepness : {0.0f, 1.0f}) {
+    const WorldField fine = hostedWorld({hostBall(0, 0, 0, 5 * kHostMetre, steepness)}, 102);
+    const double side = 40 * kHostMetre;
+    const Result<std::optional<SurfacePoint>> slanting =
+        rayCast(queryField(fine), {side, side, side}, {-1, -1, -1}, 90 * kHostMetre);
+    REQUIRE(slanting);
+    REQUIRE(*slanting);
+    CHECK((*slanting)->distance == Approx(side * std::sqrt(3.0) - 5 * kHostMetre).margin(8));
+    const Result<std::optional<SurfacePoint>> nearest =
+        closestPoint(queryField(fine), {0, 9 * kHostMetre, 0}, 20 * kHostMetre);
+    REQUIRE(nearest);
+    REQUIRE(*nearest);
+    CHECK((*nearest)->distance == Approx(4 * kHostMetre).margin(102));
+  }
+
   // Cells that the world's end cuts off.
   const WorldField everywhere = hostedWorld({hills(0, 0, 0)}, 1000);
   for (const int32_t end : {INT32_MIN, INT32_MAX}) {
@@ -266,11 +293,18 @@ TEST_CASE("a host's field that fails, or is no number, fails its chunk with a me
   CHECK(messageOf(refused) == "the host is out of order");
   const HostField odd =
       hostOf([](double x, double y, double z) { return x == 512 && y == 0 && z == 512 ? std::nan("") : x; });
-  CHECK(messageOf(odd) == "the host's field is not a number at 512, 0, 512 units");
+  CHECK(messageOf(odd) == "the host's field is not finite at 512, 0, 512 units");
   const Result<std::shared_ptr<const FieldProgram>> huge =
       hostedWorld({hills(0, 0, 0)}).compile({{0, 0, 0}, {1 << 24, 1 << 24, 1 << 24}}, 0);
   REQUIRE_FALSE(huge);
   CHECK(huge.error().code == Code::limit);
+}
+
+TEST_CASE("a host's field that is steeper than it says fails, instead of chunks that do not fit") {
+  const HostField jump = hostOf([](double x, double, double) { return x < 1024 ? -2000.0 : 2000.0; }, 1);
+  const Result<std::shared_ptr<const FieldProgram>> program = hostedWorld({jump}).compile({{0, 0, 0}, {99, 99, 99}}, 0);
+  REQUIRE_FALSE(program);
+  CHECK(program.error().message.find("steepness of 1") != std::string::npos);
 }
 
 TEST_CASE("a world's identity tells the host's fields apart") {
@@ -289,6 +323,16 @@ TEST_CASE("a world's identity tells the host's fields apart") {
   other = host;
   other.smooth = 1;
   CHECK(plain != identityOf({other}));
+  other = host;
+  other.label = 1;
+  CHECK(plain != identityOf({other}));
+  other = host;
+  other.steepness = 1;
+  CHECK(plain != identityOf({other}));
+  other = host;
+  other.bounds.hi.z = 5;
+  CHECK(plain != identityOf({other}));
+  CHECK(identityOf({host, other}) != identityOf({other, host}));
 }
 
 }  // namespace sgm
