@@ -236,7 +236,7 @@ Command addFly(CLI::App& root) {
       "--check", options->check,
       "Check every frame's surface for open and non-manifold edges by exact keys, and each 500th frame whole. "
       "Status 1 where one is not closed");
-  app->add_flag("--unpaced", options->unpaced, "As fast as frames come, instead of 60 a second");
+  app->add_flag("--unpaced", options->unpaced, "As soon as there is something new to draw, instead of 60 frames a second");
   CLI::Option* compare =
       app->add_flag("--compare", options->compare, "Fly a second time with level 0 by distance alone, to compare");
   app->add_option("--top-level", options->top_level, "Coarsest level of detail")

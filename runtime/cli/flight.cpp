@@ -16,6 +16,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kFramesASecond = 60;
 constexpr auto kFrame = std::chrono::microseconds(16667);
+/// Without a pace the next frame comes when the world was planned anew, and so late at the most.
+constexpr auto kLongestWait = std::chrono::milliseconds(4);
+constexpr auto kBetweenLooksForNews = std::chrono::microseconds(100);
 constexpr uint64_t kWholeCheckEvery = 500;
 constexpr int kRaysAFrame = 6;
 constexpr uint64_t kRaysToWalk = 48;
@@ -115,6 +118,9 @@ class Flight {
       report_.seconds += since(begun) / 1e3;
       ++report_.frames;
       if (watch.flown && !watch.flown(frame, place_, engine_.drawn())) return Error{Code::cancelled, "ended"};
+      if (!settings_.paced) {
+        if (const Result<void> waited = awaitNews(); !waited) return waited.error();
+      }
     }
     if (settings_.paced) report_.seconds = since(start_) / 1e3;
     return finish();
@@ -128,6 +134,18 @@ class Flight {
       if (!stop) return stop.error();
       planned_.push_back(*stop);
       if (watch.planned) watch.planned(frame);
+    }
+    return {};
+  }
+
+  /// Frames that follow each other faster than anything is done would all show the same.
+  Result<void> awaitNews() const {
+    const Clock::time_point latest = Clock::now() + kLongestWait;
+    sgm_error error = SGM_ERROR_INIT;
+    for (sgm_world_stats now = SGM_WORLD_STATS_INIT; Clock::now() < latest;) {
+      if (sgm_world_get_stats(world_, &now, &error) != SGM_OK) return errorOf(error);
+      if (now.plans != stats_.plans || now.idle != 0) return {};
+      std::this_thread::sleep_for(kBetweenLooksForNews);
     }
     return {};
   }

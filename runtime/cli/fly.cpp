@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -45,11 +46,18 @@ Exit complain(const sgm_error& error) {
   return cli::complain(status, error.message);
 }
 
+/// What the world has to say, beside a progress bar: a damaged journal, a folder that cannot be written.
+void tellWarning(void*, sgm_log_level level, const char* message) {
+  if (level >= SGM_LOG_WARNING) std::fprintf(stderr, "sgm: warning: %s\n", message);
+}
+
 /// What the options say, through the public interface. Messages of the grammar have been printed before.
 Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime_desc runtime_desc = SGM_RUNTIME_DESC_INIT;
   runtime_desc.threads = options.threads;
+  const sgm_log_sink sink{tellWarning, nullptr};
+  runtime_desc.log = &sink;
   sgm_runtime* runtime = nullptr;
   if (sgm_runtime_create(&runtime_desc, &runtime, &error) != SGM_OK) return complain(error);
   scene.runtime.reset(runtime);

@@ -79,6 +79,8 @@ CHECK(face_z_low, SGM_FACE_Z_LOW == 4);
 CHECK(face_z_high, SGM_FACE_Z_HIGH == 5);
 CHECK(world_by_distance, SGM_WORLD_BY_DISTANCE == 1);
 CHECK(world_morph, SGM_WORLD_MORPH == 2);
+CHECK(host_cut, SGM_HOST_CUT == 1);
+CHECK(host_width, SGM_HOST_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(world_flag_force_32_bit, SGM_WORLD_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(event_ready, SGM_EVENT_READY == 0);
 CHECK(event_shown, SGM_EVENT_SHOWN == 1);
@@ -537,6 +539,7 @@ int LAYOUT_INITS(void) {
   const sgm_region_desc region_desc = SGM_REGION_DESC_INIT;
   const sgm_grid_desc grid_desc = SGM_GRID_DESC_INIT;
   const sgm_surface_view surface_view = SGM_SURFACE_VIEW_INIT;
+  const sgm_host_field host_field = SGM_HOST_FIELD_INIT;
   const sgm_world_desc world_desc = SGM_WORLD_DESC_INIT;
   const sgm_collider_view collider_view = SGM_COLLIDER_VIEW_INIT;
   const sgm_brush brush = SGM_BRUSH_INIT;
@@ -550,6 +553,7 @@ int LAYOUT_INITS(void) {
          layer_info.struct_size == sizeof(layer_info) && layer_info.next == SGM_NULL &&
          parameter_info.struct_size == sizeof(parameter_info) && parameter_info.next == SGM_NULL &&
          field_desc.struct_size == sizeof(field_desc) && field_desc.next == SGM_NULL &&
+         host_field.struct_size == sizeof(host_field) && host_field.next == SGM_NULL && host_field.steepness == 0.0f &&
          sample_desc.struct_size == sizeof(sample_desc) && sample_desc.next == SGM_NULL &&
          surface_point.struct_size == sizeof(surface_point) && surface_point.next == SGM_NULL &&
          ray_desc.struct_size == sizeof(ray_desc) && ray_desc.next == SGM_NULL &&
