@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -19,6 +20,17 @@ namespace {
 
 /// What to run when a subcommand is the one given.
 using Command = std::function<Exit()>;
+
+/// CLI::Range, which lets what is not a number pass.
+CLI::Validator numberIn(double low, double high) {
+  const CLI::Validator range = CLI::Range(low, high);
+  const auto check = [range](std::string& text) {
+    double value = 0;
+    const bool number = CLI::detail::lexical_cast(text, value) && !std::isnan(value);
+    return number ? range(text) : fmt::format("'{}' is not a number", text);
+  };
+  return {check, range.get_description()};
+}
 
 // Checks for CLI11: "" or what is wrong.
 
@@ -201,7 +213,7 @@ Command addRender(CLI::App& root) {
       ->excludes(camera);
   app->add_option("--size", options->size, "Pixels, WIDTHxHEIGHT")->check(checkSize)->capture_default_str();
   app->add_option("--fov", options->fov, "Angle across the picture's height, in degrees")
-      ->check(CLI::Range(1.0, 150.0))
+      ->check(numberIn(1.0, 150.0))
       ->capture_default_str();
   app->footer("Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7");
   return [options] { return render(*options); };
@@ -219,7 +231,7 @@ Command addFly(CLI::App& root) {
   app->add_flag_callback(
          "--auto", [] {}, "Find a way through the void of the world: what it does without --path")
       ->excludes(path);
-  app->add_option("--speed", options->speed, "Metres a second")->check(CLI::Range(0.0, 1000.0))->capture_default_str();
+  app->add_option("--speed", options->speed, "Metres a second")->check(numberIn(0.0, 1000.0))->capture_default_str();
   app->add_option("--frames", options->frames, "Frames of 1/60 s")
       ->check(CLI::Range(uint64_t{1}, uint64_t{100000000}))
       ->capture_default_str();
@@ -227,29 +239,32 @@ Command addFly(CLI::App& root) {
       ->check(checkWhole)
       ->excludes(path)
       ->capture_default_str();
-  app->add_option("--edits", options->edits, "Dig while flying, N times a second of the path: mostly holes of 4 m (1)")
+  app->add_option("--edits", options->edits,
+                  "Dig while flying, mostly holes of 4 m: N times a second of the path, once without N. Without "
+                  "--edits nothing is dug")
       ->type_name("N")
       ->expected(0, 1)
       ->default_str("1")
-      ->check(CLI::Range(0.0, 60.0));
+      ->check(numberIn(0.0, 60.0));
   app->add_flag(
       "--check", options->check,
       "Check every frame's surface for open and non-manifold edges by exact keys, and each 500th frame whole. "
       "Status 1 where one is not closed");
-  app->add_flag("--unpaced", options->unpaced, "As soon as there is something new to draw, instead of 60 frames a second");
+  app->add_flag("--unpaced", options->unpaced,
+                "As soon as there is something new to draw, instead of 60 frames a second");
   CLI::Option* compare =
       app->add_flag("--compare", options->compare, "Fly a second time with level 0 by distance alone, to compare");
   app->add_option("--top-level", options->top_level, "Coarsest level of detail")
       ->check(CLI::Range(0, kMaxLevel))
       ->capture_default_str();
   app->add_option("--finest", options->finest, "Metres within which what is seen shall be of level 0")
-      ->check(CLI::Range(1.0, 10000.0))
+      ->check(numberIn(1.0, 10000.0))
       ->capture_default_str();
   app->add_option("--margin", options->finest_margin, "Metres beyond that where level 0 is meshed ahead")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(numberIn(0.0, 1000.0))
       ->capture_default_str();
   app->add_option("--view", options->view, "Metres within which anything is drawn")
-      ->check(CLI::Range(1.0, 100000.0))
+      ->check(numberIn(1.0, 100000.0))
       ->capture_default_str();
   app->add_option("--mesh-mb", options->mesh_mb, "Most megabytes (2^20 bytes) of meshes")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 20))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <iterator>
@@ -68,6 +69,8 @@ Result<PathPoints> readPathPoints(std::string_view text) {
 }
 
 Result<FlightPath> FlightPath::ofFile(const std::string& file) {
+  std::error_code none;
+  if (std::filesystem::is_directory(file, none)) return Error{Code::io, "cannot read " + file + ": it is a folder"};
   std::ifstream in(file, std::ios::binary);
   std::string text;
   if (in) text.assign(std::istreambuf_iterator<char>(in), {});

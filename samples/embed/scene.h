@@ -71,6 +71,11 @@ class Scene {
       case SGM_EVENT_REMOVED:
         chunks_.erase(key);
         return;
+      case SGM_EVENT_COLLIDER:
+        sgm_collider_release(event.collider);  // an engine hands its triangles to its physics
+        return;
+      case SGM_EVENT_COLLIDER_REMOVED:
+        return;
       default:
         throw std::runtime_error(std::string("a chunk cannot be made: ") + sgm_result_name(event.result));
     }

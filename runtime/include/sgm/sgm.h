@@ -1086,8 +1086,9 @@ typedef struct sgm_drawn_chunk {
 SGM_API sgm_result sgm_world_get_drawn(sgm_world* world, sgm_drawn_chunk* chunks, size_t chunk_stride, size_t* count,
                                        sgm_error* error);
 
-/* Blocks until everything that the viewers want is drawn: for loading screens, tools and tests. Works along. Updates
- * without a limit of bytes meanwhile, so that events gather, to be polled after. progress (or NULL) is told now and
+/* Blocks until everything that the viewers want is drawn, as far as it can be made (SGM_EVENT_FAILED and the statistics'
+ * chunks_failed tell of the rest): for loading screens, tools and tests. Works along. Updates without a limit of bytes
+ * meanwhile, so that events gather, to be polled after. progress (or NULL) is told now and
  * then how many chunks are meshed of those known to be wanted; what it returns other than 0 ends the wait with
  * SGM_ERR_CANCELLED. SGM_ERR_LIMIT: memory does not suffice. */
 SGM_API sgm_result sgm_world_wait_idle(sgm_world* world, sgm_progress_function progress, void* progress_user,
@@ -1191,14 +1192,14 @@ typedef struct sgm_world_stats {
   uint64_t mesh_bytes; /* of all meshes now, the engine's included */
   uint64_t peak_mesh_bytes;
   double detail;           /* factor on the distances of detail: below 1 where memory is scarce */
-  int32_t idle;            /* 1: what the viewers want is drawn, edits and colliders included */
+  int32_t idle;            /* 1: what the viewers want is drawn, as far as it can be made, edits and colliders included */
   uint32_t reserved;       /* 0 */
   uint64_t collider_bytes; /* of the colliders that chunks have now */
   uint64_t edits;          /* known: brushes, undos and redos */
   uint64_t edits_state;    /* rises with every change that edits make to the world */
   uint64_t edits_drawn;    /* the edits_state that is drawn now */
   uint64_t cache_hits;     /* parts of chunks that came from cache_folder */
-  uint64_t cache_misses;
+  uint64_t cache_misses;  /* parts that are proven to be empty among them: these are not kept */
   uint64_t cache_damaged; /* of the misses, those where what was there could not be trusted */
   uint64_t cache_bytes;   /* of the folder's files, as far as they were looked at */
 } sgm_world_stats;
