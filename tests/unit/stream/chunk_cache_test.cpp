@@ -62,7 +62,7 @@ TEST_CASE("a chunk comes out of the cache as it was meshed", "[stream][disk]") {
   CHECK(empty >= 1);
   CHECK(proven >= 3);
   CHECK(voids > rounds(30) / 3);
-  CHECK(edited >= 3);
+  CHECK(edited >= std::max(rounds(30) / 10, 1u));
 }
 
 TEST_CASE("anchors come out of the cache as they were derived", "[stream][disk]") {

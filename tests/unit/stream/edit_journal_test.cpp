@@ -202,8 +202,11 @@ TEST_CASE("a journal of another world, version or kind is refused and left alone
     CHECK(journal.error().message == "journal '" + fs::canonical(folder.file()).string() + "': " + why);
     CHECK(bytesIn(folder.file()) == before);
   };
-  refused({1, kWorld.seed, kWorld.cell}, "it belongs to another world, with another grammar or its parameters");
+  refused({1, kWorld.seed, kWorld.cell},
+          "it belongs to another world, with another grammar, parameters of it, or fields of the host's");
   refused({kWorld.grammar, 1, kWorld.cell}, "it belongs to another world, with another seed");
+  // What names the grammar holds seed and cell too.
+  refused({1, 1, kWorld.cell}, "it belongs to another world, with another seed");
   refused({kWorld.grammar, kWorld.seed, 1}, "it belongs to another world, with another finest cell");
   std::string other = bytes;
   other[8] = 2;
