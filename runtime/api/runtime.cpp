@@ -149,23 +149,14 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
   });
 }
 
-namespace {
-
-void tellAlive(const sgm_runtime& runtime, uint64_t alive) noexcept {
-  try {
-    runtime.log(SGM_LOG_ERROR, "sgm_runtime_destroy: " + std::to_string(alive) +
-                                   " handles made from this runtime have not been ended; nothing was done");
-  } catch (const std::bad_alloc&) {
-    // The result says it as well.
-  }
-}
-
-}  // namespace
-
 sgm_result sgm_runtime_destroy(sgm_runtime* runtime) {
   if (runtime == nullptr) return SGM_OK;
   if (const uint64_t alive = runtime->children.load(std::memory_order_acquire); alive != 0) {
-    tellAlive(*runtime, alive);
+    char message[128];  // memory may be what is lacking
+    std::snprintf(message, sizeof message,
+                  "sgm_runtime_destroy: handles made from this runtime that have not ended: %llu",
+                  static_cast<unsigned long long>(alive));
+    runtime->log(SGM_LOG_ERROR, message);
     return SGM_ERR_BUSY;
   }
   const sgm_allocator allocator = runtime->allocator;

@@ -115,12 +115,12 @@ class Flight {
       if (frame == 0) start_ = begun;
       place_ = stop->place;
       if (Result<void> flown = flyFrame(frame); !flown) return flown.error();
-      report_.seconds += since(begun) / 1e3;
-      ++report_.frames;
-      if (watch.flown && !watch.flown(frame, place_, engine_.drawn())) return Error{Code::cancelled, "ended"};
       if (!settings_.paced) {
         if (const Result<void> waited = awaitNews(); !waited) return waited.error();
       }
+      report_.seconds += since(begun) / 1e3;
+      ++report_.frames;
+      if (watch.flown && !watch.flown(frame, place_, engine_.drawn())) return Error{Code::cancelled, "ended"};
     }
     if (settings_.paced) report_.seconds = since(start_) / 1e3;
     return finish();

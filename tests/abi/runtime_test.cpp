@@ -50,9 +50,19 @@ TEST_CASE("a header of another version is refused") {
 }
 
 TEST_CASE("a runtime with children is busy") {
-  RuntimeOwner runtime = makeRuntime();
+  std::vector<std::string> errors;
+  const sgm_log_sink sink{[](void* user, sgm_log_level level, const char* message) {
+                            if (level != SGM_LOG_ERROR) return;
+                            static_cast<std::vector<std::string>*>(user)->emplace_back(message);
+                          },
+                          &errors};
+  sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+  desc.log = &sink;
+  RuntimeOwner runtime = makeRuntime(&desc);
   GrammarOwner grammar = compile(runtime.get(), kBall);
   CHECK(sgm_runtime_destroy(runtime.get()) == SGM_ERR_BUSY);
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].find("not ended: 1") != std::string::npos);
   FieldOwner field = makeField(runtime.get(), grammar.get());
   grammar.reset();
   CHECK(sgm_runtime_destroy(runtime.get()) == SGM_ERR_BUSY);

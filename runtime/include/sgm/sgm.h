@@ -949,12 +949,13 @@ typedef struct sgm_world_desc {
                                than p = 2 * cell * h / (2 tan(v / 2)) / finest_distance pixels. Where a layer's
                                `detail` leaves out a passage of a width w this ends in a wall of p * w / c pixels at
                                most, c being the edge of the first cell that is wider than the detail. All of this in
-                               the middle of the picture of a viewer of weight 1, in a world that is idle, where no
-                               chunk has failed and the statistics' detail is 1 */
+                               the middle of the picture of a viewer of weight 1, one of no more than can be planned
+                               for, in a world that is idle, where no chunk has failed and the statistics' detail
+                               is 1 */
   double view_distance;     /* metres within which something is drawn, above 0 */
   uint64_t mesh_bytes;      /* the most bytes of meshes at one time, those that the engine holds and those in work
-                               included, and of the chunks' colliders: a hard cap. Where it does not suffice detail is drawn
-                               nearer. 0: 256 MiB */
+                               included, and of the chunks' colliders: a hard cap. Where it does not suffice detail
+                               is drawn nearer. 0: 256 MiB */
   double collider_distance; /* metres from a viewer within which chunks have a collider: of what is drawn there, at
                                whatever level; 0: none has one */
   const char* journal;      /* UTF-8 path of the file that keeps the edits; made where there is none. A process that is
@@ -962,8 +963,8 @@ typedef struct sgm_world_desc {
                                sgm_world_update; sgm_world_flush_edits writes them at once. NULL: they are not kept */
   const char* cache_folder; /* UTF-8 path of a folder that keeps meshed chunks from one run to the next, for any number
                                of worlds and processes at one time; made where there is none. What the grammar, its
-                               parameters, the seed, the host's fields, an edit or this library's version change is meshed anew, as is what
-                               is damaged. NULL: none is kept */
+                               parameters, the seed, the host's fields, an edit or this library's version change is
+                               meshed anew, as is what is damaged. NULL: none is kept */
   uint64_t cache_bytes;     /* the most bytes of its files; 0: 1 GiB */
   uint64_t author; /* whose edits are made here: in worlds that exchange edits no two may have the same, nor may
                       a number be used again where edits may have been lost. 0: drawn at random */
@@ -1088,9 +1089,9 @@ SGM_API sgm_result sgm_world_get_drawn(sgm_world* world, sgm_drawn_chunk* chunks
 
 /* Blocks until everything that the viewers want is drawn, as far as it can be made (SGM_EVENT_FAILED and the statistics'
  * chunks_failed tell of the rest): for loading screens, tools and tests. Works along. Updates without a limit of bytes
- * meanwhile, so that events gather, to be polled after. progress (or NULL) is told now and
- * then how many chunks are meshed of those known to be wanted; what it returns other than 0 ends the wait with
- * SGM_ERR_CANCELLED. SGM_ERR_LIMIT: memory does not suffice. */
+ * meanwhile, so that events gather, to be polled after. progress (or NULL) is told now and then how many chunks are
+ * meshed of those known to be wanted; what it returns other than 0 ends the wait with SGM_ERR_CANCELLED. SGM_ERR_LIMIT:
+ * memory does not suffice. */
 SGM_API sgm_result sgm_world_wait_idle(sgm_world* world, sgm_progress_function progress, void* progress_user,
                                        sgm_error* error);
 
