@@ -18,6 +18,14 @@ if(NOT SGM_XXHASH_INCLUDE)
   message(FATAL_ERROR "xxhash.h is missing: install the package libxxhash-dev")
 endif()
 
+# Headers alone: the loader is looked for when a program runs. The command draws pictures with it.
+if(SGM_VULKAN OR SGM_BUILD_CLI)
+  find_path(SGM_VULKAN_INCLUDE vulkan/vulkan.h)
+  if(NOT SGM_VULKAN_INCLUDE)
+    message(FATAL_ERROR "vulkan/vulkan.h is missing: install the package libvulkan-dev, or set SGM_VULKAN=OFF and SGM_BUILD_CLI=OFF to do without")
+  endif()
+endif()
+
 if(SGM_DISK_CACHE)
   find_package(zstd CONFIG QUIET)
   if(NOT TARGET zstd::libzstd_shared)

@@ -4,6 +4,9 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(SGM_MODULES base grammar derive field mesh backend stream api)
+if(SGM_VULKAN)
+  list(APPEND SGM_MODULES vulkan)
+endif()
 
 add_library(sgm)
 add_library(sgm::sgm ALIAS sgm)
@@ -46,7 +49,7 @@ else()
     "if(NOT \"CXX\" IN_LIST _sgm_languages)\n"
     "  set_property(TARGET sgm::sgm APPEND PROPERTY INTERFACE_LINK_LIBRARIES stdc++ m)\nendif()")
   set(SGM_PC_CFLAGS "-DSGM_STATIC")
-  set(SGM_PC_LIBS "-lstdc++ -lm -pthread")
+  set(SGM_PC_LIBS "-lstdc++ -lm -ldl -pthread")
 endif()
 configure_package_config_file(sgmConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/sgmConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm NO_SET_AND_CHECK_MACRO)

@@ -35,6 +35,7 @@ sgm_result resultOf(Code code) noexcept {
     case Code::io:
       return SGM_ERR_IO;
     case Code::unsupported:
+    case Code::device_lost:
       return SGM_ERR_UNSUPPORTED;
     case Code::cancelled:
       return SGM_ERR_CANCELLED;

@@ -18,6 +18,7 @@ enum class Code {
   io,           ///< a file could not be read or written
   unsupported,  ///< no such backend, device or feature here
   cancelled,
+  device_lost,  ///< the GPU has failed; what was made with it is of no more use
 };
 
 /// One clear message that says what to do. line and column count from 1; 0 means no place in a text.

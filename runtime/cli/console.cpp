@@ -19,6 +19,7 @@ Exit exitOf(Code code) {
     case Code::io:
       return Exit::file;
     case Code::unsupported:
+    case Code::device_lost:
       return Exit::backend;
   }
   return Exit::input;
