@@ -22,7 +22,7 @@ Exit listBackends(bool json) {
   sgm_runtime_destroy(runtime);
   if (result != SGM_OK) return complain(Exit::backend, error.message);
 
-  const Result<std::vector<GpuInfo>> gpus = listGpus();
+  const Result<std::vector<vulkan::DeviceInfo>> gpus = listGpus();
   if (json) {
     Json list = Json::array();
     for (size_t i = 1; i < infos.size(); ++i) {
@@ -37,10 +37,10 @@ Exit listBackends(bool json) {
     }
     Json devices = Json::array();
     if (gpus) {
-      for (const GpuInfo& gpu : *gpus)
+      for (const vulkan::DeviceInfo& gpu : *gpus)
         devices.push_back({{"name", gpu.name},
-                           {"software", gpu.software},
-                           {"rounds_to_nearest", gpu.rounds_to_nearest},
+                           {"software", gpu.software()},
+                           {"rounds_to_nearest", gpu.exact},
                            {"preserves_denormals", gpu.preserves_denormals}});
     }
     Json out{{"version", sgm_version_string()},
@@ -67,9 +67,9 @@ Exit listBackends(bool json) {
     fmt::print("  none: {}\n", gpus.error().message);
     return Exit::done;
   }
-  for (const GpuInfo& gpu : *gpus) {
-    fmt::print("  {}{}{}\n", gpu.name, gpu.software ? ", on the CPU" : "",
-               gpu.rounds_to_nearest ? "" : ", cannot demand round-to-nearest");
+  for (const vulkan::DeviceInfo& gpu : *gpus) {
+    fmt::print("  {}{}{}\n", gpu.name, gpu.software() ? ", on the CPU" : "",
+               gpu.exact ? "" : ", cannot demand round-to-nearest");
   }
   return Exit::done;
 }

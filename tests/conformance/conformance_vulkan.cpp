@@ -92,7 +92,7 @@ TEST_CASE("the GLSL of every op gives the scalar evaluator's bits") {
   INFO((device ? "" : device.error().message));
   REQUIRE(device);
   if (!*device) return;  // said on stderr
-  const bool rte = (*device)->info().rounds_to_nearest;
+  const bool rte = (*device)->info().exact;
   std::cout << "device: " << (*device)->info().name << ", shader: "
             << (rte ? "field_rte.comp (RoundingModeRTE 32)" : "field.comp (no rounding can be demanded here)") << '\n';
   const std::span<const uint32_t> code =

@@ -86,7 +86,7 @@ Result<void> ComputeShader::run(std::span<const ComputeBuffer> buffers, std::spa
   auto set = scope.descriptorSet(set_layout_, bindings_);
   if (!set) return set.error();
 
-  const VulkanDeviceTable& calls = device_->calls();
+  const DrawingTable& calls = device_->calls();
   std::vector<VulkanBuffer> memory;
   for (const ComputeBuffer& buffer : buffers) {
     auto made = scope.buffer(buffer.data.size(), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);

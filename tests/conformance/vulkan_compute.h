@@ -57,7 +57,7 @@ class VulkanCompute {
   /// with `require`, an Error. A missing validation layer is always an Error.
   static Result<std::optional<VulkanCompute>> create(bool require, bool validation);
 
-  const GpuInfo& info() const { return device_->info(); }
+  const vulkan::DeviceInfo& info() const { return device_->info(); }
 
   /// Makes `spirv` ready (entry "main", descriptor set 0, one storage buffer a binding from 0). push_bytes: at most
   /// 128, a multiple of 4. Errors: as run().

@@ -20,7 +20,7 @@ bool hasExtension(const InstanceTable& calls, VkPhysicalDevice device, const cha
 }  // namespace
 
 Result<std::unique_ptr<Device>> Device::open(const OwnDevice& options) {
-  auto instance = Instance::create({options.validation, options.replace_instance_calls});
+  auto instance = Instance::create({options.validation, options.log, options.replace_instance_calls});
   if (!instance) return instance.error();
   std::unique_ptr<Device> device(new Device);
   device->instance_ = std::move(*instance);

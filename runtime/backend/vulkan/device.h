@@ -18,8 +18,9 @@ struct OwnDevice {
   int index = -1;         ///< in the order of listDevices(); -1 takes the fastest kind that can be used
   bool software = false;  ///< index -1: take a software device where there is no hardware
   Validation validation = Validation::none;
-  std::function<void(InstanceTable&)> replace_instance_calls;
-  ReplaceCalls replace_calls;
+  std::shared_ptr<MessageLog> log = nullptr;  ///< as InstanceOptions::log
+  std::function<void(InstanceTable&)> replace_instance_calls = nullptr;
+  ReplaceCalls replace_calls = nullptr;
 };
 
 /// An engine's device. All handles must outlive the Device that borrows them.
@@ -38,7 +39,7 @@ struct BorrowedDevice {
   uint32_t api_version = 0;          ///< VkApplicationInfo::apiVersion
   bool timeline_semaphores = false;  ///< the feature timelineSemaphore
   bool memory_budget = false;        ///< the extension VK_EXT_memory_budget
-  ReplaceCalls replace_calls;
+  ReplaceCalls replace_calls = nullptr;
 };
 
 /// A device, ready to compute, with one queue. Any thread may use it. Must outlive all that is made with it.

@@ -22,14 +22,13 @@ uint32_t furtherChecks(Validation validation) {
 VKAPI_ATTR VkBool32 VKAPI_CALL Instance::onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                                    VkDebugUtilsMessageTypeFlagsEXT,
                                                    const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-  auto* instance = static_cast<Instance*>(user);
-  const std::scoped_lock lock(instance->mutex_);
-  instance->messages_.emplace_back(data->pMessage ? data->pMessage : "");
+  static_cast<MessageLog*>(user)->add(data->pMessage ? data->pMessage : "");
   return VK_FALSE;
 }
 
 Result<std::unique_ptr<Instance>> Instance::create(const InstanceOptions& options) {
   std::unique_ptr<Instance> instance(new Instance);
+  instance->log_ = options.log ? options.log : std::make_shared<MessageLog>();
   if (auto opened = instance->open(options); !opened) return opened.error();
   return instance;
 }
@@ -48,7 +47,7 @@ Result<void> Instance::open(const InstanceOptions& options) {
       VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   debug.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
   debug.pfnUserCallback = onMessage;
-  debug.pUserData = this;
+  debug.pUserData = log_.get();
   VkValidationFeaturesEXT features{};
   features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
   features.pNext = &debug;
@@ -94,11 +93,6 @@ Result<std::vector<VkPhysicalDevice>> Instance::devices() const {
   if (result < 0) return errorOf(result, "listing Vulkan devices");
   devices.resize(count);  // one may have gone in between
   return devices;
-}
-
-std::vector<std::string> Instance::messages() const {
-  const std::scoped_lock lock(mutex_);
-  return messages_;
 }
 
 }  // namespace sgm::vulkan

@@ -20,16 +20,35 @@ enum class Validation : uint8_t {
   gpu_assisted,     ///< shaders that reach beyond their buffers; slow
 };
 
+/// Warnings and errors of the validation layer. Any thread.
+class MessageLog {
+ public:
+  void add(const char* text) {
+    const std::scoped_lock lock(mutex_);
+    texts_.emplace_back(text);
+  }
+  std::vector<std::string> texts() const {
+    const std::scoped_lock lock(mutex_);
+    return texts_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> texts_;
+};
+
 struct InstanceOptions {
   Validation validation = Validation::none;
+  /// Gets the messages, those about what the instance's end leaves behind too; null: one of the instance's own.
+  std::shared_ptr<MessageLog> log = nullptr;
   /// May replace entries of the table before anything but vkCreateInstance is called; for tests.
-  std::function<void(InstanceTable&)> replace_calls;
+  std::function<void(InstanceTable&)> replace_calls = nullptr;
 };
 
 /// Any thread may use it. Must outlive the devices made from it.
 class Instance {
  public:
-  /// For Vulkan 1.2. Errors: unsupported (no loader, no driver, no validation layer), with what to install;
+  /// Of Vulkan 1.2. Errors: unsupported (no loader, no driver, no validation layer), with what to install;
   /// out_of_memory.
   static Result<std::unique_ptr<Instance>> create(const InstanceOptions& options = {});
   ~Instance();
@@ -39,7 +58,7 @@ class Instance {
   /// In the loader's order, unusable ones too. Errors: as create.
   Result<std::vector<VkPhysicalDevice>> devices() const;
   /// Warnings and errors of the validation layer so far; empty without it.
-  std::vector<std::string> messages() const;
+  std::vector<std::string> messages() const { return log_->texts(); }
 
   VkInstance handle() const { return instance_; }
   const InstanceTable& calls() const { return calls_; }
@@ -56,8 +75,7 @@ class Instance {
   InstanceTable calls_;
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-  mutable std::mutex mutex_;
-  std::vector<std::string> messages_;
+  std::shared_ptr<MessageLog> log_;
 };
 
 }  // namespace sgm::vulkan

@@ -98,4 +98,6 @@ struct DeviceTable {
   SGM_VK_DEVICE(SGM_VK_MEMBER)
 };
 
+#undef SGM_VK_MEMBER
+
 }  // namespace sgm::vulkan

@@ -88,7 +88,7 @@ Result<Renderer> Renderer::create(const GpuOptions& options) {
 
 Result<Image> Renderer::render(const RenderScene& scene) const {
   if (auto checked = check(scene, device_->limits()); !checked) return checked.error();
-  const VulkanDeviceTable& calls = device_->calls();
+  const DrawingTable& calls = device_->calls();
   VulkanScope scope(*device_);
 
   const Frame frame = frameOf(scene);

@@ -25,7 +25,7 @@ class Renderer {
   /// Errors: invalid_argument (a size, an index or a vertex out of range, no material), out_of_memory, unsupported.
   Result<Image> render(const RenderScene& scene) const;
 
-  const GpuInfo& info() const { return device_->info(); }
+  const vulkan::DeviceInfo& info() const { return device_->info(); }
   /// What the validation layer had to say; see GpuOptions::validation.
   std::vector<std::string> messages() const { return device_->messages(); }
 

@@ -110,8 +110,8 @@ Result<ShadowPass> makeShadowPass(VulkanScope& scope, VkExtent2D extent) {
   return pass;
 }
 
-void recordShadows(const VulkanDeviceTable& calls, VkCommandBuffer commands, const ShadowPlan& plan,
-                   const ShadowPass& pass, const VulkanBuffer& vertices, const VulkanBuffer& indices) {
+void recordShadows(const DrawingTable& calls, VkCommandBuffer commands, const ShadowPlan& plan, const ShadowPass& pass,
+                   const VulkanBuffer& vertices, const VulkanBuffer& indices) {
   const VkClearValue clear{};  // reversed depth: 0 is infinity
   VkRenderPassBeginInfo begin{};
   begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;

@@ -44,7 +44,7 @@ struct ShadowPass {
 Result<ShadowPass> makeShadowPass(VulkanScope& scope, VkExtent2D extent);
 
 /// Draws all tiles. `indices` holds the plan's, `vertices` the scene's.
-void recordShadows(const VulkanDeviceTable& calls, VkCommandBuffer commands, const ShadowPlan& plan,
-                   const ShadowPass& pass, const VulkanBuffer& vertices, const VulkanBuffer& indices);
+void recordShadows(const DrawingTable& calls, VkCommandBuffer commands, const ShadowPlan& plan, const ShadowPass& pass,
+                   const VulkanBuffer& vertices, const VulkanBuffer& indices);
 
 }  // namespace sgm

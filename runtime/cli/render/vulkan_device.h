@@ -4,36 +4,23 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "backend/vulkan/devices.h"
 #include "base/result.h"
-#include "render/vulkan_table.h"
+#include "render/drawing_table.h"
 
 namespace sgm {
-
-/// What a Vulkan device says of itself.
-struct GpuInfo {
-  std::string name;
-  VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
-  uint32_t api_version = 0;
-  bool software = false;  ///< runs on the CPU (lavapipe and its like)
-  /// shaderRoundingModeRTEFloat32: shaders may demand round-to-nearest, so the arithmetic contract holds on it.
-  bool rounds_to_nearest = false;
-  bool preserves_denormals = false;  ///< shaderDenormPreserveFloat32
-};
 
 struct GpuOptions {
   int index = -1;           ///< in the order of listGpus(); -1 takes the fastest kind there is
   bool validation = false;  ///< load VK_LAYER_KHRONOS_validation; an error where it is not installed
 };
 
-/// The text and Code for a failed Vulkan call; `what` says what was being done.
-Error vulkanError(VkResult result, const std::string& what);
-
-/// Every Vulkan device of this machine that has Vulkan 1.2. Errors: unsupported, where there is no loader or driver.
-Result<std::vector<GpuInfo>> listGpus();
+/// Every device of this machine that has Vulkan 1.2; not all of them mesh. Errors: unsupported, where there is none, no
+/// loader or no driver.
+Result<std::vector<vulkan::DeviceInfo>> listGpus();
 
 /// Owns the instance, the device and one queue that draws and computes. One thread at a time may use it.
 class VulkanDevice {
@@ -48,36 +35,28 @@ class VulkanDevice {
   Result<void> run(const std::function<void(VkCommandBuffer)>& record) const;
 
   /// Warnings and errors of the validation layer so far; empty when created without it. Any thread.
-  std::vector<std::string> messages() const;
+  std::vector<std::string> messages() const { return instance_->messages(); }
 
-  const GpuInfo& info() const { return info_; }
-  const VulkanInstanceTable& instanceCalls() const { return instance_calls_; }
-  const VulkanDeviceTable& calls() const { return calls_; }
+  const vulkan::DeviceInfo& info() const { return info_; }
+  const vulkan::InstanceTable& instanceCalls() const { return instance_->calls(); }
+  const DrawingTable& calls() const { return calls_; }
   VkPhysicalDevice physical() const { return physical_; }
   VkDevice handle() const { return device_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
 
  private:
-  struct Messages {
-    std::mutex mutex;
-    std::vector<std::string> texts;
-  };
-  friend struct VulkanDeviceBuilder;
-
   VulkanDevice() = default;
+  Result<void> choose(int index);
+  Result<void> open();
 
-  VulkanGlobalTable global_calls_;
-  VulkanInstanceTable instance_calls_;
-  VulkanDeviceTable calls_;
-  VkInstance instance_ = VK_NULL_HANDLE;
-  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  std::unique_ptr<vulkan::Instance> instance_;
+  DrawingTable calls_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t family_ = 0;
-  GpuInfo info_;
+  vulkan::DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};
-  std::unique_ptr<Messages> messages_ = std::make_unique<Messages>();
 };
 
 }  // namespace sgm

@@ -12,7 +12,7 @@ Result<Handle> VulkanScope::make(VkResult (*create)(VkDevice, const Info*, const
                                  const std::string& what) {
   Handle handle = VK_NULL_HANDLE;
   const VkResult result = create(device_.handle(), &info, nullptr, &handle);
-  if (result != VK_SUCCESS) return vulkanError(result, what);
+  if (result != VK_SUCCESS) return vulkan::errorOf(result, what);
   cleanups_.push_back([device = device_.handle(), destroy, handle] { destroy(device, handle, nullptr); });
   return handle;
 }
@@ -26,7 +26,7 @@ Result<VkDeviceMemory> VulkanScope::memory(const VkMemoryRequirements& needs, Vk
          !((needs.memoryTypeBits >> type & 1) && (properties.memoryTypes[type].propertyFlags & wanted) == wanted)) {
     ++type;
   }
-  if (type == properties.memoryTypeCount) return vulkanError(VK_ERROR_OUT_OF_DEVICE_MEMORY, what);
+  if (type == properties.memoryTypeCount) return vulkan::errorOf(VK_ERROR_OUT_OF_DEVICE_MEMORY, what);
   VkMemoryAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
   info.allocationSize = needs.size;
@@ -36,7 +36,7 @@ Result<VkDeviceMemory> VulkanScope::memory(const VkMemoryRequirements& needs, Vk
 
 Result<VulkanBuffer> VulkanScope::buffer(VkDeviceSize bytes, VkBufferUsageFlags usage) {
   const std::string what = "a GPU buffer of " + std::to_string(bytes) + " bytes";
-  const VulkanDeviceTable& calls = device_.calls();
+  const DrawingTable& calls = device_.calls();
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = bytes;
@@ -44,7 +44,7 @@ Result<VulkanBuffer> VulkanScope::buffer(VkDeviceSize bytes, VkBufferUsageFlags 
   // The memory is allocated before the buffer joins the clean-up list's end: freed after the buffer is destroyed.
   VkBuffer handle = VK_NULL_HANDLE;
   VkResult result = calls.vkCreateBuffer(device_.handle(), &info, nullptr, &handle);
-  if (result != VK_SUCCESS) return vulkanError(result, what);
+  if (result != VK_SUCCESS) return vulkan::errorOf(result, what);
   VkMemoryRequirements needs;
   calls.vkGetBufferMemoryRequirements(device_.handle(), handle, &needs);
   auto allocated = memory(needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, what);
@@ -53,7 +53,7 @@ Result<VulkanBuffer> VulkanScope::buffer(VkDeviceSize bytes, VkBufferUsageFlags 
   void* data = nullptr;
   result = calls.vkBindBufferMemory(device_.handle(), handle, *allocated, 0);
   if (result == VK_SUCCESS) result = calls.vkMapMemory(device_.handle(), *allocated, 0, VK_WHOLE_SIZE, 0, &data);
-  if (result != VK_SUCCESS) return vulkanError(result, what);
+  if (result != VK_SUCCESS) return vulkan::errorOf(result, what);
   return VulkanBuffer{handle, static_cast<std::byte*>(data), bytes};
 }
 
@@ -61,7 +61,7 @@ Result<VulkanImage> VulkanScope::image(VkExtent2D extent, VkFormat format, VkIma
                                        VkImageAspectFlags aspect) {
   const std::string what =
       "a GPU image of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) + " pixels";
-  const VulkanDeviceTable& calls = device_.calls();
+  const DrawingTable& calls = device_.calls();
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.imageType = VK_IMAGE_TYPE_2D;
@@ -74,14 +74,14 @@ Result<VulkanImage> VulkanScope::image(VkExtent2D extent, VkFormat format, VkIma
   info.usage = usage;
   VkImage handle = VK_NULL_HANDLE;
   const VkResult result = calls.vkCreateImage(device_.handle(), &info, nullptr, &handle);
-  if (result != VK_SUCCESS) return vulkanError(result, what);
+  if (result != VK_SUCCESS) return vulkan::errorOf(result, what);
   VkMemoryRequirements needs;
   calls.vkGetImageMemoryRequirements(device_.handle(), handle, &needs);
   auto allocated = memory(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, what);
   cleanups_.push_back([device = device_.handle(), &calls, handle] { calls.vkDestroyImage(device, handle, nullptr); });
   if (!allocated) return allocated.error();
   const VkResult bound = calls.vkBindImageMemory(device_.handle(), handle, *allocated, 0);
-  if (bound != VK_SUCCESS) return vulkanError(bound, what);
+  if (bound != VK_SUCCESS) return vulkan::errorOf(bound, what);
   VkImageViewCreateInfo view{};
   view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
   view.image = handle;
@@ -131,7 +131,7 @@ Result<VkDescriptorSet> VulkanScope::descriptorSet(VkDescriptorSetLayout layout,
   pool_info.maxSets = 1;
   pool_info.poolSizeCount = static_cast<uint32_t>(sizes.size());
   pool_info.pPoolSizes = sizes.data();
-  const VulkanDeviceTable& calls = device_.calls();
+  const DrawingTable& calls = device_.calls();
   auto pool = make(calls.vkCreateDescriptorPool, calls.vkDestroyDescriptorPool, pool_info, "a descriptor pool");
   if (!pool) return pool.error();
   VkDescriptorSetAllocateInfo info{};
@@ -141,7 +141,7 @@ Result<VkDescriptorSet> VulkanScope::descriptorSet(VkDescriptorSetLayout layout,
   info.pSetLayouts = &layout;
   VkDescriptorSet set = VK_NULL_HANDLE;
   const VkResult result = calls.vkAllocateDescriptorSets(device_.handle(), &info, &set);
-  if (result != VK_SUCCESS) return vulkanError(result, "a descriptor set");
+  if (result != VK_SUCCESS) return vulkan::errorOf(result, "a descriptor set");
   return set;
 }
 
@@ -167,10 +167,10 @@ Result<VkPipeline> VulkanScope::computePipeline(VkShaderModule shader, VkPipelin
   info.stage.pName = "main";
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
-  const VulkanDeviceTable& calls = device_.calls();
+  const DrawingTable& calls = device_.calls();
   const VkResult result =
       calls.vkCreateComputePipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
-  if (result != VK_SUCCESS) return vulkanError(result, "a compute pipeline");
+  if (result != VK_SUCCESS) return vulkan::errorOf(result, "a compute pipeline");
   cleanups_.push_back(
       [device = device_.handle(), &calls, pipeline] { calls.vkDestroyPipeline(device, pipeline, nullptr); });
   return pipeline;
@@ -186,10 +186,10 @@ Result<VkFramebuffer> VulkanScope::framebuffer(const VkFramebufferCreateInfo& in
 
 Result<VkPipeline> VulkanScope::graphicsPipeline(const VkGraphicsPipelineCreateInfo& info) {
   VkPipeline pipeline = VK_NULL_HANDLE;
-  const VulkanDeviceTable& calls = device_.calls();
+  const DrawingTable& calls = device_.calls();
   const VkResult result =
       calls.vkCreateGraphicsPipelines(device_.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
-  if (result != VK_SUCCESS) return vulkanError(result, "a graphics pipeline");
+  if (result != VK_SUCCESS) return vulkan::errorOf(result, "a graphics pipeline");
   cleanups_.push_back(
       [device = device_.handle(), &calls, pipeline] { calls.vkDestroyPipeline(device, pipeline, nullptr); });
   return pipeline;

@@ -1,0 +1,136 @@
+#include "backend/vulkan/pipeline_cache.h"
+
+#include <bit>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+#include "base/checksum.h"
+#include "base/file_writer.h"
+
+namespace sgm::vulkan {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "files are written as they lie in memory");
+
+struct FileHeader {
+  std::array<char, 4> magic{'S', 'G', 'M', 'P'};
+  uint32_t version = 1;
+  uint64_t bytes = 0, hash = 0;
+  friend bool operator==(const FileHeader&, const FileHeader&) = default;
+};
+static_assert(sizeof(FileHeader) == 24);
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;  // our shaders take some hundred kilobytes
+
+FileHeader headerFor(std::span<const std::byte> data) {
+  FileHeader header;
+  header.bytes = data.size();
+  header.hash = checksum(data);
+  return header;
+}
+
+std::vector<std::byte> readCacheFile(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (error || bytes > kLargestFile) return {};
+  std::vector<std::byte> content(static_cast<size_t>(bytes));
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(content.data()), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<size_t>(file.gcount()));
+  return content;
+}
+
+}  // namespace
+
+std::string pipelineCacheName(const DeviceInfo& info) {
+  char text[64];
+  std::snprintf(text, sizeof text, "vulkan-%08x-%08x-%08x-", info.vendor, info.device, info.driver_version);
+  std::string name = text;
+  for (const uint8_t byte : info.cache_id) {
+    std::snprintf(text, sizeof text, "%02x", byte);
+    name += text;
+  }
+  return name + ".cache";
+}
+
+std::vector<std::byte> packPipelineCache(std::span<const std::byte> data) {
+  const FileHeader header = headerFor(data);
+  std::vector<std::byte> file(sizeof header + data.size());
+  std::memcpy(file.data(), &header, sizeof header);
+  if (!data.empty()) std::memcpy(file.data() + sizeof header, data.data(), data.size());
+  return file;
+}
+
+std::optional<std::span<const std::byte>> unpackPipelineCache(const DeviceInfo& info, std::span<const std::byte> file) {
+  FileHeader header;
+  VkPipelineCacheHeaderVersionOne driver;
+  if (file.size() < sizeof header + sizeof driver) return std::nullopt;
+  std::memcpy(&header, file.data(), sizeof header);
+  const std::span data = file.subspan(sizeof header);
+  if (header != headerFor(data)) return std::nullopt;
+  std::memcpy(&driver, data.data(), sizeof driver);
+  if (driver.headerSize < sizeof driver || driver.headerVersion != VK_PIPELINE_CACHE_HEADER_VERSION_ONE ||
+      driver.vendorID != info.vendor || driver.deviceID != info.device ||
+      std::memcmp(driver.pipelineCacheUUID, info.cache_id.data(), VK_UUID_SIZE) != 0) {
+    return std::nullopt;
+  }
+  return data;
+}
+
+Result<std::unique_ptr<PipelineCache>> PipelineCache::create(Device& device, const std::filesystem::path& folder) {
+  std::unique_ptr<PipelineCache> cache(new PipelineCache(device));
+  std::vector<std::byte> file;
+  VkPipelineCacheCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
+  if (!folder.empty()) {
+    cache->file_ = folder / pipelineCacheName(device.info());
+    file = readCacheFile(cache->file_);
+    if (const auto data = unpackPipelineCache(device.info(), file)) {
+      info.initialDataSize = data->size();
+      info.pInitialData = data->data();
+      cache->loaded_ = true;
+      cache->saved_ = checksum(*data);
+    }
+  }
+  const VkResult result = device.calls().vkCreatePipelineCache(device.handle(), &info, nullptr, &cache->cache_);
+  if (result != VK_SUCCESS) return errorOf(result, "a pipeline cache");
+  return cache;
+}
+
+PipelineCache::~PipelineCache() { device_.calls().vkDestroyPipelineCache(device_.handle(), cache_, nullptr); }
+
+Result<void> PipelineCache::save() {
+  if (file_.empty()) return {};
+  const std::scoped_lock lock(saving_);
+  const DeviceTable& calls = device_.calls();
+  std::vector<std::byte> data;
+  // Another thread may add to the cache between the two calls.
+  VkResult result = VK_INCOMPLETE;
+  while (result == VK_INCOMPLETE) {
+    size_t bytes = 0;
+    result = calls.vkGetPipelineCacheData(device_.handle(), cache_, &bytes, nullptr);
+    if (result != VK_SUCCESS) break;
+    data.resize(bytes);
+    result = calls.vkGetPipelineCacheData(device_.handle(), cache_, &bytes, data.data());
+    data.resize(bytes);
+  }
+  if (result != VK_SUCCESS) return errorOf(result, "saving the pipeline cache");
+  const uint64_t hash = checksum(data);
+  if (hash == saved_) return {};
+  std::error_code error;
+  std::filesystem::create_directories(file_.parent_path(), error);
+  if (error) {
+    return Error{Code::io, "cannot make the folder " + file_.parent_path().string() + ": " + error.message()};
+  }
+  auto writer = FileWriter::create(file_);
+  if (!writer) return writer.error();
+  const std::vector<std::byte> packed = packPipelineCache(data);
+  writer->write(packed.data(), packed.size());
+  if (auto committed = writer->commit(); !committed) return committed.error();
+  saved_ = hash;
+  return {};
+}
+
+}  // namespace sgm::vulkan

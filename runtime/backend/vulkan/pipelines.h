@@ -1,0 +1,53 @@
+#pragma once
+// Compute shaders made ready to run.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "backend/vulkan/device.h"
+
+namespace sgm::vulkan {
+
+class PipelineCache;
+
+struct PipelineDesc {
+  const char* name = "";  ///< for errors
+  std::span<const uint32_t> spirv;
+  uint32_t buffers = 0;                 ///< storage buffers of set 0, bound at 0, 1, 2...; at most kMaxBuffers
+  uint32_t push_bytes = 0;              ///< a multiple of 4, at most 128
+  std::span<const uint32_t> constants;  ///< words of the specialization constants 0, 1, 2...
+};
+
+inline constexpr uint32_t kMaxBuffers = 16;
+
+/// A shader's entry "main" with its layouts. Outlived by its device; must outlive the commands that run it.
+class Pipeline {
+ public:
+  /// May take seconds for a large shader. cache: null for none. Any thread, several at once.
+  /// Errors: invalid_argument (more than the device or this layer has room for), out_of_memory, unsupported.
+  static Result<Pipeline> create(Device& device, const PipelineDesc& desc, const PipelineCache* cache = nullptr);
+  Pipeline(Pipeline&& other) noexcept;
+  Pipeline& operator=(Pipeline&&) = delete;
+  ~Pipeline();
+
+  VkPipeline handle() const { return pipeline_; }
+  VkPipelineLayout layout() const { return layout_; }
+  VkDescriptorSetLayout setLayout() const { return set_layout_; }
+  uint32_t buffers() const { return buffers_; }
+  uint32_t pushBytes() const { return push_bytes_; }
+
+ private:
+  explicit Pipeline(Device& device) : device_(device) {}
+  VkResult makeLayouts();
+  VkResult makePipeline(const PipelineDesc& desc, VkPipelineCache cache);
+
+  Device& device_;
+  VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+  uint32_t buffers_ = 0, push_bytes_ = 0;
+};
+
+}  // namespace sgm::vulkan

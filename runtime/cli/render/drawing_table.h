@@ -1,0 +1,39 @@
+#pragma once
+// The Vulkan functions that drawing needs beside those of computing.
+
+#include "backend/vulkan/tables.h"
+
+namespace sgm {
+
+#define SGM_VK_DRAWING(X)         \
+  X(vkCreateFence)                \
+  X(vkDestroyFence)               \
+  X(vkWaitForFences)              \
+  X(vkCreateImage)                \
+  X(vkDestroyImage)               \
+  X(vkGetImageMemoryRequirements) \
+  X(vkBindImageMemory)            \
+  X(vkCreateImageView)            \
+  X(vkDestroyImageView)           \
+  X(vkCreateSampler)              \
+  X(vkDestroySampler)             \
+  X(vkCreateGraphicsPipelines)    \
+  X(vkCreateRenderPass)           \
+  X(vkDestroyRenderPass)          \
+  X(vkCreateFramebuffer)          \
+  X(vkDestroyFramebuffer)         \
+  X(vkCmdBeginRenderPass)         \
+  X(vkCmdEndRenderPass)           \
+  X(vkCmdBindVertexBuffers)       \
+  X(vkCmdBindIndexBuffer)         \
+  X(vkCmdSetViewport)             \
+  X(vkCmdSetScissor)              \
+  X(vkCmdDrawIndexed)
+
+struct DrawingTable : vulkan::DeviceTable {
+#define SGM_VK_MEMBER(name) PFN_##name name = nullptr;
+  SGM_VK_DRAWING(SGM_VK_MEMBER)
+#undef SGM_VK_MEMBER
+};
+
+}  // namespace sgm
