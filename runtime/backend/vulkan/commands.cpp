@@ -117,6 +117,8 @@ void Commands::barrier(uint32_t before, uint32_t after) {
                                                       &barrier, 0, nullptr, 0, nullptr);
 }
 
+CommandRing::CommandRing(Queue& queue) : queue_(queue) {}
+
 Result<std::unique_ptr<CommandRing>> CommandRing::create(Queue& queue, const CommandRingOptions& options) {
   std::unique_ptr<CommandRing> ring(new CommandRing(queue));
   ring->slots_.resize(options.recordings);

@@ -94,7 +94,7 @@ class CommandRing {
 
  private:
   friend class Commands;
-  explicit CommandRing(Queue& queue) : queue_(queue) {}
+  explicit CommandRing(Queue& queue);
   Result<void> fill(Commands::Slot& slot, const CommandRingOptions& options);
   Result<Commands::Slot*> findSlot(uint64_t nanoseconds);
 

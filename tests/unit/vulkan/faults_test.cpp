@@ -1,0 +1,178 @@
+// Every call that can fail does so once: an error that says what happened, and nothing is left behind.
+
+#include "faults.h"
+
+#include <set>
+
+#include "support.h"
+
+using namespace sgm;
+using namespace sgm::vulkan;
+
+namespace {
+
+/// What a function of Vulkan may give, beside success.
+std::vector<VkResult> failuresOf(const std::string& function) {
+  const std::set<std::string> of_the_queue{"vkQueueSubmit", "vkWaitSemaphores", "vkGetSemaphoreCounterValue"};
+  std::vector<VkResult> failures{VK_ERROR_OUT_OF_HOST_MEMORY, VK_ERROR_OUT_OF_DEVICE_MEMORY};
+  if (of_the_queue.count(function)) failures = {VK_ERROR_DEVICE_LOST, VK_ERROR_OUT_OF_HOST_MEMORY};
+  if (function == "vkCreateDevice") failures.push_back(VK_ERROR_INITIALIZATION_FAILED);
+  if (function == "vkMapMemory") failures.push_back(VK_ERROR_MEMORY_MAP_FAILED);
+  if (function == "vkAllocateDescriptorSets") failures.push_back(VK_ERROR_OUT_OF_POOL_MEMORY);
+  if (function == "vkAllocateMemory") failures.push_back(VK_ERROR_TOO_MANY_OBJECTS);
+  return failures;
+}
+
+Code codeOf(VkResult failure) {
+  switch (failure) {
+    case VK_ERROR_DEVICE_LOST:
+      return Code::device_lost;
+    case VK_ERROR_TOO_MANY_OBJECTS:
+      return Code::limit;
+    case VK_ERROR_INITIALIZATION_FAILED:
+      return Code::unsupported;
+    default:
+      return Code::out_of_memory;
+  }
+}
+
+/// Failures of these are made good, or come when nobody asks any more.
+bool mayBeMadeGood(const std::string& function) {
+  const std::set<std::string> functions{"vkCreateBuffer",
+                                        "vkAllocateMemory",
+                                        "vkBindBufferMemory",
+                                        "vkMapMemory",  // a smaller block will do
+                                        "vkWaitSemaphores",
+                                        "vkDeviceWaitIdle",                       // before all is destroyed
+                                        "vkEnumerateDeviceExtensionProperties"};  // no budget is known then
+  return functions.count(function) != 0;
+}
+
+Result<std::vector<int32_t>> runOnce(const std::shared_ptr<MessageLog>& log) {
+  OwnDevice options = watched(log);
+  options.replace_instance_calls = [](InstanceTable& table) { Faults::wrap(table); };
+  options.replace_calls = [](DeviceTable& table) { Faults::wrap(table); };
+  const auto device = Device::open(options);
+  if (!device) return device.error();
+  return throughAllLayers(**device, std::vector<int32_t>{1, 2, 3}, {});
+}
+
+}  // namespace
+
+TEST_CASE("every call that can fail may fail", "[vulkan]") {
+  if (!haveDevice()) return;
+  const std::vector<int32_t> expected{29, 38, 47};
+  Faults faults;
+  auto log = std::make_shared<MessageLog>();
+  const auto whole = runOnce(log);
+  REQUIRE(whole);
+  REQUIRE(*whole == expected);
+  const std::map<std::string, unsigned> counts = faults.counts();
+  REQUIRE(counts.size() > 20);
+  for (const auto& [function, calls] : counts) {
+    for (const VkResult failure : failuresOf(function)) {
+      for (unsigned nth = 1; nth <= calls; ++nth) {
+        CAPTURE(function, nth, static_cast<int>(failure));
+        faults.arm(function, nth, failure);
+        const auto result = runOnce(log);
+        REQUIRE(faults.struck());
+        if (result) {
+          CHECK(mayBeMadeGood(function));
+          CHECK(*result == expected);
+        } else {
+          INFO(result.error().message);
+          CHECK(result.error().code == codeOf(failure));
+          CHECK(result.error().message.find("VkResult " + std::to_string(failure)) != std::string::npos);
+        }
+        REQUIRE(log->texts() == std::vector<std::string>());
+      }
+    }
+  }
+}
+
+TEST_CASE("a lost device stays lost", "[vulkan]") {
+  TestDevice watched_device;
+  if (!watched_device) return;
+  OwnDevice options = watched(watched_device.log);
+  options.replace_calls = [](DeviceTable& table) { Faults::wrap(table); };
+  for (const char* where : {"vkQueueSubmit", "vkWaitSemaphores", "vkGetSemaphoreCounterValue"}) {
+    CAPTURE(where);
+    Faults faults;
+    const auto device = Device::open(options);
+    REQUIRE(device);
+    const auto queue = Queue::create(**device);
+    REQUIRE(queue);
+    const auto ring = CommandRing::create(**queue);
+    REQUIRE(ring);
+    auto commands = (*ring)->begin();
+    auto more = (*ring)->begin();
+    REQUIRE(commands);
+    REQUIRE(more);
+    const auto first = (*ring)->submit(std::move(*commands));
+    REQUIRE(first);
+    faults.arm(where, 1, VK_ERROR_DEVICE_LOST);
+    const auto lost = [](const auto& result) { return !result && result.error().code == Code::device_lost; };
+    if (std::string(where) == "vkQueueSubmit") CHECK(lost((*ring)->submit(std::move(*more))));
+    if (std::string(where) == "vkWaitSemaphores") CHECK(lost((*queue)->wait(*first)));
+    if (std::string(where) == "vkGetSemaphoreCounterValue") CHECK(lost((*queue)->reached()));
+    REQUIRE(faults.struck());
+    CHECK((*queue)->lost());
+    CHECK(lost((*queue)->wait(*first)));
+    CHECK(lost((*queue)->reached()));
+    CHECK(lost((*ring)->begin()));
+  }
+}
+
+TEST_CASE("a submission that finds no memory may be made again", "[vulkan]") {
+  TestDevice watched_device;
+  if (!watched_device) return;
+  Faults faults;
+  OwnDevice options = watched(watched_device.log);
+  options.replace_calls = [](DeviceTable& table) { Faults::wrap(table); };
+  const auto device = Device::open(options);
+  REQUIRE(device);
+  const auto queue = Queue::create(**device);
+  REQUIRE(queue);
+  const auto ring = CommandRing::create(**queue);
+  REQUIRE(ring);
+  for (uint64_t expected = 1; expected <= 2; ++expected) {
+    faults.arm("vkQueueSubmit", 1, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+    auto commands = (*ring)->begin();
+    REQUIRE(commands);
+    const auto refused = (*ring)->submit(std::move(*commands));
+    REQUIRE(!refused);
+    CHECK(refused.error().code == Code::out_of_memory);
+    CHECK((*queue)->submitted() == expected - 1);
+    auto again = (*ring)->begin();
+    REQUIRE(again);
+    const auto value = (*ring)->submit(std::move(*again));
+    REQUIRE(value);
+    CHECK(*value == expected);
+    CHECK(*(*queue)->wait(*value));
+  }
+}
+
+TEST_CASE("memory that the driver refuses is asked for in smaller blocks, and then refused", "[vulkan]") {
+  TestDevice watched_device;
+  if (!watched_device) return;
+  Faults faults;
+  OwnDevice options = watched(watched_device.log);
+  options.replace_calls = [](DeviceTable& table) { Faults::wrap(table); };
+  const auto device = Device::open(options);
+  REQUIRE(device);
+  MemoryOptions small;
+  small.first_block = 1 << 20;
+  Memory memory(**device, small);
+  faults.arm("vkAllocateMemory", 1, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+  const auto half = memory.buffer(MemoryKind::device, 1000);
+  CHECK(half);
+  CHECK(memory.statistics().reserved == 1 << 19);
+  faults.arm("vkAllocateMemory", 1, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+  const auto refused = memory.buffer(MemoryKind::device, 16 << 20);
+  REQUIRE(!refused);
+  CHECK(refused.error().code == Code::out_of_memory);
+  CHECK(memory.statistics().blocks == 1);
+  CHECK(memory.statistics().used == 1000);
+  faults.disarm();
+  CHECK(memory.buffer(MemoryKind::device, 16 << 20));
+}

@@ -1,0 +1,199 @@
+#include "backend/vulkan/memory.h"
+
+#include <map>
+#include <random>
+
+#include "support.h"
+
+using namespace sgm;
+using namespace sgm::vulkan;
+
+namespace {
+
+constexpr VkMemoryPropertyFlags kNear = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+constexpr VkMemoryPropertyFlags kSeen = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+
+VkPhysicalDeviceMemoryProperties memoryOf(std::vector<VkMemoryPropertyFlags> types) {
+  VkPhysicalDeviceMemoryProperties memory{};
+  memory.memoryTypeCount = static_cast<uint32_t>(types.size());
+  for (size_t i = 0; i < types.size(); ++i) memory.memoryTypes[i] = {types[i], 0};
+  memory.memoryHeapCount = 1;
+  return memory;
+}
+
+}  // namespace
+
+TEST_CASE("ranges never overlap, and all come back", "[vulkan]") {
+  for (unsigned seed = 0; seed < rounds(40); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const uint64_t granule = uint64_t{1} << (random() % 9);
+    const uint64_t size = granule * (1 + random() % 4000);
+    Ranges ranges(size, granule);
+    std::map<uint64_t, uint64_t> taken;
+    for (int step = 0; step < 400; ++step) {
+      if (taken.empty() || random() % 5 < 3) {
+        const uint64_t bytes = 1 + random() % (size / (1 + random() % 64));
+        const auto offset = ranges.take(bytes);
+        // What is free between two taken ranges, the longest.
+        uint64_t longest = 0, end = 0;
+        for (const auto& [at, length] : taken) {
+          longest = std::max(longest, at - end);
+          end = at + (length + granule - 1) / granule * granule;
+        }
+        longest = std::max(longest, size - end);
+        REQUIRE(offset.has_value() == ((bytes + granule - 1) / granule * granule <= longest));
+        if (!offset) continue;
+        REQUIRE(*offset % granule == 0);
+        REQUIRE(*offset + bytes <= size);
+        const auto [it, fresh] = taken.emplace(*offset, bytes);
+        REQUIRE(fresh);
+        if (it != taken.begin()) REQUIRE(std::prev(it)->first + std::prev(it)->second <= *offset);
+        if (std::next(it) != taken.end()) REQUIRE(*offset + bytes <= std::next(it)->first);
+        REQUIRE(!ranges.empty());
+      } else {
+        const auto it = std::next(taken.begin(), static_cast<std::ptrdiff_t>(random() % taken.size()));
+        ranges.give(it->first);
+        taken.erase(it);
+      }
+    }
+    for (const auto& [offset, bytes] : taken) ranges.give(offset);
+    CHECK(ranges.empty());
+    CHECK(ranges.take(size) == std::optional<uint64_t>(0));
+  }
+}
+
+TEST_CASE("each kind of memory is looked for where it is", "[vulkan]") {
+  const auto choose = [](const std::vector<VkMemoryPropertyFlags>& types, MemoryKind kind, bool unified) {
+    return chooseMemoryType(memoryOf(types), ~0u, kind, unified);
+  };
+  // A graphics card with a window onto its memory, as drivers list them.
+  const std::vector<VkMemoryPropertyFlags> card{0, kNear, kSeen, kSeen | kCached, kNear | kSeen};
+  CHECK(choose(card, MemoryKind::device, false) == 1);
+  CHECK(choose(card, MemoryKind::upload, false) == 2);
+  CHECK(choose(card, MemoryKind::readback, false) == 3);
+  // Host and device share all memory.
+  const std::vector<VkMemoryPropertyFlags> shared{kNear, kNear | kSeen, kNear | kSeen | kCached};
+  CHECK(choose(shared, MemoryKind::device, true) == 1);
+  CHECK(choose(shared, MemoryKind::upload, true) == 1);
+  CHECK(choose(shared, MemoryKind::readback, true) == 2);
+  // One type for everything, as software devices have it.
+  for (const MemoryKind kind : {MemoryKind::device, MemoryKind::upload, MemoryKind::readback}) {
+    CHECK(choose({kNear | kSeen | kCached}, kind, true) == 0);
+  }
+  // Cached and not coherent is better to read from than coherent and not cached.
+  const VkMemoryPropertyFlags stale = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | kCached;
+  CHECK(choose({kNear, kSeen, stale}, MemoryKind::readback, false) == 2);
+  CHECK(choose({kNear, kSeen, stale}, MemoryKind::upload, false) == 1);
+  // Nothing cached, and nothing that the host sees.
+  CHECK(choose({kNear, kSeen}, MemoryKind::readback, false) == 1);
+  CHECK(choose({kNear}, MemoryKind::upload, false) == -1);
+  // Memory with rules of its own.
+  CHECK(choose({kNear | VK_MEMORY_PROPERTY_PROTECTED_BIT}, MemoryKind::device, false) == -1);
+  CHECK(chooseMemoryType(memoryOf(card), 1u << 4, MemoryKind::device, false) == 4);
+  CHECK(chooseMemoryType(memoryOf(card), 0, MemoryKind::device, false) == -1);
+}
+
+TEST_CASE("buffers never overlap, and keep what was written", "[vulkan]") {
+  TestDevice device;
+  if (!device) return;
+  MemoryOptions options;
+  options.first_block = 1 << 16;
+  options.largest_block = 1 << 18;
+  Memory memory(*device, options);
+  for (unsigned seed = 0; seed < rounds(5); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    struct Held {
+      Buffer buffer;
+      std::byte mark{};
+    };
+    std::vector<Held> held;
+    uint64_t used = 0;
+    const auto unspoilt = [](const Held& one) {
+      return std::all_of(one.buffer.data(), one.buffer.data() + one.buffer.size(),
+                         [&](std::byte byte) { return byte == one.mark; });
+    };
+    for (int step = 0; step < 300; ++step) {
+      if (held.empty() || random() % 5 < 3) {
+        const uint64_t most = random() % 20 == 0 ? 400'000 : 5000;
+        auto made = memory.buffer(random() % 2 ? MemoryKind::upload : MemoryKind::readback, 1 + random() % most);
+        REQUIRE(made);
+        CHECK(made->offset() % 256 == 0);
+        CHECK(made->offset() % device.device->limits().minStorageBufferOffsetAlignment == 0);
+        const auto mark = static_cast<std::byte>(random() % 256);
+        std::memset(made->data(), static_cast<int>(mark), made->size());
+        used += made->size();
+        held.push_back({std::move(*made), mark});
+      } else {
+        const size_t i = random() % held.size();
+        REQUIRE(unspoilt(held[i]));
+        used -= held[i].buffer.size();
+        std::swap(held[i], held.back());
+        held.pop_back();
+      }
+      REQUIRE(memory.statistics().used == used);
+      REQUIRE(memory.statistics().buffers == held.size());
+      REQUIRE(memory.statistics().reserved >= used);
+    }
+    for (const Held& one : held) REQUIRE(unspoilt(one));
+  }
+  CHECK(memory.statistics().used == 0);
+  CHECK(memory.statistics().blocks <= 2);  // one spare of each kind
+}
+
+TEST_CASE("blocks double, and what is larger than any has its own", "[vulkan]") {
+  TestDevice device;
+  if (!device) return;
+  MemoryOptions options;
+  options.first_block = 1 << 16;
+  options.largest_block = 1 << 17;
+  Memory memory(*device, options);
+  std::vector<Buffer> held;
+  const auto take = [&](VkDeviceSize bytes) {
+    auto made = memory.buffer(MemoryKind::device, bytes);
+    REQUIRE(made);
+    held.push_back(std::move(*made));
+    return memory.statistics().reserved;
+  };
+  CHECK(take(40'000) == 1 << 16);
+  CHECK(take(20'000) == 1 << 16);
+  CHECK(take(40'000) == (1 << 16) + (1 << 17));
+  CHECK(take(1 << 20) == (1 << 16) + (1 << 17) + (1 << 20));
+  CHECK(memory.statistics().blocks == 3);
+  held.pop_back();
+  CHECK(memory.statistics().blocks == 2);
+  held.clear();
+  CHECK(memory.statistics().blocks == 1);
+}
+
+TEST_CASE("too much memory is refused, and what is there stays", "[vulkan]") {
+  TestDevice device;
+  if (!device) return;
+  MemoryOptions options;
+  options.first_block = 1 << 16;
+  options.cap = 1 << 18;
+  Memory memory(*device, options);
+  CHECK(memory.buffer(MemoryKind::device, 0).error().code == Code::invalid_argument);
+  auto kept = memory.buffer(MemoryKind::device, 1 << 16);
+  REQUIRE(kept);
+  const auto over = memory.buffer(MemoryKind::device, 1 << 18);
+  REQUIRE(!over);
+  CHECK(over.error().code == Code::limit);
+  CHECK(over.error().message.find("262144") != std::string::npos);
+  // Not all of the next block has room under the cap, but what is asked for has.
+  auto rest = memory.buffer(MemoryKind::device, 150'000);
+  CHECK(rest);
+  // A block that nobody uses makes room for one of another kind.
+  rest = Buffer();
+  CHECK(memory.buffer(MemoryKind::upload, 180'000));
+
+  Memory boundless(*device);
+  for (const uint64_t bytes : {uint64_t{1} << 50, UINT64_MAX}) {
+    const auto huge = boundless.buffer(MemoryKind::device, bytes);
+    REQUIRE(!huge);
+    CHECK(huge.error().code == Code::out_of_memory);
+  }
+  CHECK(boundless.statistics().blocks == 0);
+}
