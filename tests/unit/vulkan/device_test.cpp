@@ -2,6 +2,7 @@
 
 #include "backend/vulkan/device.h"
 
+#include "engine.h"
 #include "support.h"
 
 using namespace sgm;
@@ -9,63 +10,11 @@ using namespace sgm::vulkan;
 
 namespace {
 
-/// An engine with a device of its own, as the loader gives it.
-struct Engine {
-  std::unique_ptr<Instance> instance;
-  VkPhysicalDevice physical = VK_NULL_HANDLE;
-  VkDevice device = VK_NULL_HANDLE;
-  VkQueue queue = VK_NULL_HANDLE;
-  DeviceTable calls;
-  int locks = 0, unlocks = 0, held = 0;
-
-  Engine() {
-    auto made = Instance::create({Validation::synchronization});
-    REQUIRE(made);
-    instance = std::move(*made);
-    const auto devices = instance->devices();
-    REQUIRE(devices);
-    for (VkPhysicalDevice candidate : *devices) {
-      if (lackOf(describe(instance->calls(), candidate)).empty()) physical = candidate;
-    }
-    REQUIRE(physical);
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queue_info{};
-    queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-    queue_info.queueCount = 1;
-    queue_info.pQueuePriorities = &priority;
-    VkPhysicalDeviceTimelineSemaphoreFeatures timeline{};
-    timeline.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES;
-    timeline.timelineSemaphore = VK_TRUE;
-    VkDeviceCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    info.pNext = &timeline;
-    info.queueCreateInfoCount = 1;
-    info.pQueueCreateInfos = &queue_info;
-    REQUIRE(instance->calls().vkCreateDevice(physical, &info, nullptr, &device) == VK_SUCCESS);
-    REQUIRE(loadDevice(instance->calls(), device, calls));
-    calls.vkGetDeviceQueue(device, 0, 0, &queue);
-  }
-  ~Engine() {
-    calls.vkDestroyDevice(device, nullptr);
-    CHECK(instance->messages() == std::vector<std::string>());
-  }
-  Engine(const Engine&) = delete;
-  Engine& operator=(const Engine&) = delete;
-
-  BorrowedDevice lend() {
-    BorrowedDevice lent;
-    lent.get_instance_proc_addr = instance->resolver();
-    lent.instance = instance->handle();
-    lent.physical = physical;
-    lent.device = device;
-    lent.queue = queue;
-    lent.lock = [](void* user) { ++static_cast<Engine*>(user)->locks, ++static_cast<Engine*>(user)->held; };
-    lent.unlock = [](void* user) { ++static_cast<Engine*>(user)->unlocks, --static_cast<Engine*>(user)->held; };
-    lent.user = this;
-    lent.api_version = VK_API_VERSION_1_2;
-    lent.timeline_semaphores = true;
-    return lent;
-  }
+/// An environment variable, for as long as this lives.
+struct Environment {
+  const char* name;
+  Environment(const char* variable, const char* value) : name(variable) { setenv(name, value, 1); }
+  ~Environment() { unsetenv(name); }
 };
 
 }  // namespace
@@ -184,4 +133,42 @@ TEST_CASE("shaders are watched on the device where that is asked for", "[vulkan]
   REQUIRE(back);
   CHECK(*back == std::vector<int32_t>{29});
   CHECK((*device)->messages() == std::vector<std::string>());
+}
+
+TEST_CASE("where there is no driver or no validation layer, the error says what to install", "[vulkan]") {
+  if (!haveDevice()) return;
+  {
+    const Environment no_layers("VK_LAYER_PATH", "/nowhere");
+    const auto device = Device::open(watched());
+    REQUIRE(!device);
+    CHECK(device.error().code == Code::unsupported);
+    CHECK(device.error().message.find("vulkan-validationlayers") != std::string::npos);
+  }
+  const Environment no_drivers("VK_ICD_FILENAMES", "/nowhere/driver.json");
+  const auto device = Device::open();
+  REQUIRE(!device);
+  CHECK(device.error().code == Code::unsupported);
+  CHECK(device.error().message.find("driver") != std::string::npos);
+}
+
+TEST_CASE("a missing barrier is heard", "[vulkan]") {
+  if (!haveDevice()) return;
+  const auto device = Device::open(watched());
+  REQUIRE(device);
+  Memory memory(**device);
+  const auto buffer = memory.buffer(MemoryKind::device, 256);
+  const auto queue = Queue::create(**device);
+  REQUIRE(buffer);
+  REQUIRE(queue);
+  const auto ring = CommandRing::create(**queue);
+  REQUIRE(ring);
+  for (const bool guarded : {true, false}) {
+    auto commands = (*ring)->begin();
+    REQUIRE(commands);
+    commands->fill(*buffer, 1);
+    if (guarded) commands->barrier(kTransfer, kTransfer);
+    commands->fill(*buffer, 2);
+    REQUIRE((*ring)->submit(std::move(*commands)));
+    CHECK((*device)->messages().empty() == guarded);
+  }
 }

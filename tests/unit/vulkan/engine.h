@@ -1,0 +1,68 @@
+#pragma once
+// An engine that lends its device.
+
+#include "backend/vulkan/device.h"
+#include "catch.h"
+
+namespace sgm::vulkan {
+
+/// Made without our help; the validation layer has to be silent until its end.
+struct Engine {
+  std::unique_ptr<Instance> instance;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  DeviceTable calls;
+  int locks = 0, unlocks = 0, held = 0;
+
+  Engine() {
+    auto made = Instance::create({Validation::synchronization});
+    REQUIRE(made);
+    instance = std::move(*made);
+    const auto devices = instance->devices();
+    REQUIRE(devices);
+    for (VkPhysicalDevice candidate : *devices) {
+      if (lackOf(describe(instance->calls(), candidate)).empty()) physical = candidate;
+    }
+    REQUIRE(physical);
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue_info{};
+    queue_info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue_info.queueCount = 1;
+    queue_info.pQueuePriorities = &priority;
+    VkPhysicalDeviceTimelineSemaphoreFeatures timeline{};
+    timeline.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES;
+    timeline.timelineSemaphore = VK_TRUE;
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = &timeline;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue_info;
+    REQUIRE(instance->calls().vkCreateDevice(physical, &info, nullptr, &device) == VK_SUCCESS);
+    REQUIRE(loadDevice(instance->calls(), device, calls));
+    calls.vkGetDeviceQueue(device, 0, 0, &queue);
+  }
+  ~Engine() {
+    calls.vkDestroyDevice(device, nullptr);
+    CHECK(instance->messages() == std::vector<std::string>());
+  }
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  BorrowedDevice lend() {
+    BorrowedDevice lent;
+    lent.get_instance_proc_addr = instance->resolver();
+    lent.instance = instance->handle();
+    lent.physical = physical;
+    lent.device = device;
+    lent.queue = queue;
+    lent.lock = [](void* user) { ++static_cast<Engine*>(user)->locks, ++static_cast<Engine*>(user)->held; };
+    lent.unlock = [](void* user) { ++static_cast<Engine*>(user)->unlocks, --static_cast<Engine*>(user)->held; };
+    lent.user = this;
+    lent.api_version = VK_API_VERSION_1_2;
+    lent.timeline_semaphores = true;
+    return lent;
+  }
+};
+
+}  // namespace sgm::vulkan
