@@ -11,7 +11,7 @@ inline constexpr uint32_t kNoRoom = 0xFFFFFFFFu;
 struct Chunk {
   int32_t origin[3];
   int32_t cell;
-  uint32_t samples, signs, row_starts, part;
+  uint32_t samples, signs, rows, part;
   uint32_t tape[8];
 };
 static_assert(sizeof(Chunk) == 16 * sizeof(uint32_t));
@@ -32,11 +32,22 @@ struct Part {
 };
 static_assert(sizeof(Part) == 8 * sizeof(uint32_t));
 
-inline constexpr uint32_t kSamples = 33 * 33 * 33;   ///< words of a chunk's samples
-inline constexpr uint32_t kSignWords = 2 * 33 * 33;  ///< of its signs
-inline constexpr uint32_t kRowStartWords = 3 * 33 * 33;
-inline constexpr uint32_t kCoarseSamples = 17 * 17;  ///< of a seam
-inline constexpr uint32_t kCoarseSigns = 17;
-inline constexpr uint32_t kSeamCounts = 352;
+/// The push constants (shaders/mesher/sizes.glsl). The list of active cells has kCellWords for each of max_cells.
+struct Sizes {
+  uint32_t part_count, seam_records, cell_list, max_vertices, max_indices, max_cells;
+};
+static_assert(sizeof(Sizes) == 6 * sizeof(uint32_t));
+
+/// What the sums of a batch in 32 bits allow, whatever its signs are.
+inline constexpr uint32_t kMaxParts = 8192;
+
+// Words in scratch, rounded up to fours: every place is a multiple of four.
+inline constexpr uint32_t kSampleWords = 33 * 33 * 33 + 3;   ///< a chunk's samples
+inline constexpr uint32_t kSignWords = 2 * 33 * 33 + 2;      ///< its signs
+inline constexpr uint32_t kRowsWords = 5384;                 ///< what the census says of its rows
+inline constexpr uint32_t kCoarseSampleWords = 17 * 17 + 3;  ///< a seam's samples
+inline constexpr uint32_t kCoarseSignWords = 17 + 3;         ///< its signs
+inline constexpr uint32_t kSeamCountWords = 392;             ///< what the census says of it
+inline constexpr uint32_t kCellWords = 4;                    ///< an active cell
 
 }  // namespace sgm::batch

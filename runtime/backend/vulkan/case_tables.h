@@ -1,0 +1,18 @@
+#pragma once
+// The case tables of mesh/tables.h as the words of binding 5.
+
+#include <cstdint>
+#include <vector>
+
+namespace sgm {
+namespace case_layout {
+
+using uint = uint32_t;
+#include "mesher/case_layout.h"
+
+}  // namespace case_layout
+
+/// case_layout::kTableWords words, the same on every call.
+std::vector<uint32_t> caseTables();
+
+}  // namespace sgm

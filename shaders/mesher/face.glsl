@@ -1,0 +1,45 @@
+// A face of a chunk as a plane of samples: a along axis u, b along v (mesh/seam.h).
+
+uint axisOf(uint face) { return face >> 1; }
+bool isHigh(uint face) { return (face & 1u) != 0u; }
+
+// How far apart neighbours along an axis lie among a chunk's samples.
+uint strideOf(uint axis) { return axis == 0u ? 1u : axis == 1u ? kSide : kSide * kSide; }
+
+struct Plane {
+  uint origin, step_u, step_v;  // among the chunk's samples
+};
+
+Plane planeOf(uint face) {
+  uint axis = axisOf(face);
+  return Plane(isHigh(face) ? kCells * strideOf(axis) : 0u, strideOf((axis + 1u) % 3u), strideOf((axis + 2u) % 3u));
+}
+
+// A point of the plane as coordinates of the chunk: u, v and the face's own place, in whatever unit.
+uvec3 pointOf(uint face, uint u, uint v, uint high) {
+  uint axis = axisOf(face), w = isHigh(face) ? high : 0u;
+  return axis == 0u ? uvec3(w, u, v) : axis == 1u ? uvec3(v, w, u) : uvec3(u, v, w);
+}
+
+// The crossed edges of a row of the fine or of the coarse samples of a face.
+RowEdges fineEdges(uvec2 row, uvec2 above, uint b) { return crossedEdges(row, above, uvec2(0u), b, kCells); }
+RowEdges coarseEdges(uint row, uint above, uint b) {
+  return RowEdges((row ^ row >> 1) & 0xFFFFu, b + 1u < kCoarseSide ? uvec2(row ^ above, 0u) : uvec2(0u), uvec2(0u));
+}
+
+// Where the fine and the coarse signs of one corner differ; bit a.
+uint lateralEdges(uvec2 fine, uint coarse) {
+  uint even = fine.x & 0x55555555u;  // samples 0, 2, .. 30, to be moved together
+  even = (even | even >> 1) & 0x33333333u;
+  even = (even | even >> 2) & 0x0F0F0F0Fu;
+  even = (even | even >> 4) & 0x00FF00FFu;
+  even = (even | even >> 8) & 0x0000FFFFu;
+  return (even | fine.y << 16) ^ coarse;
+}
+
+// A seam cell's case: its fine rows 2 b .. 2 b + 2, its coarse rows b and b + 1.
+uint seamCase(uvec2 f0, uvec2 f1, uvec2 f2, uint c0, uint c1, uint a) {
+  uvec3 low = uvec3(f0.x, f1.x, f2.x) >> (2u * a) & 7u, last = a == 15u ? uvec3(f0.y, f1.y, f2.y) << 2 : uvec3(0u);
+  uvec3 rows = low | last;
+  return rows.x | rows.y << 3 | rows.z << 6 | (c0 >> a & 3u) << 9 | (c1 >> a & 3u) << 11;
+}

@@ -1,0 +1,35 @@
+// The content hash (mesh/hash.h): a sum over words in any order.
+
+uvec2 hashWord(uint word, uint place) {
+  uint h = word ^ (place * 0x9E3779B9u + 0x85EBCA6Bu);
+  h ^= h >> 16;
+  h *= 0x7FEB352Du;
+  h ^= h >> 15;
+  h *= 0x846CA68Bu;
+  h ^= h >> 16;
+  return uvec2(h, h * (2u * place + 1u));
+}
+
+// `number` counts within the part.
+uvec2 hashVertex(uvec4 vertex, uint number) {
+  uint place = 4u * number;
+  return hashWord(vertex.x, place) + hashWord(vertex.y, place + 1u) + hashWord(vertex.z, place + 2u) +
+         hashWord(vertex.w, place + 3u);
+}
+
+uvec2 hashIndex(uint index, uint number) { return hashWord(index, 0x80000000u + number); }
+
+// Adds to the hashes of parts: one pair of atomics a part and subgroup, whichever invocation has which part. Called in
+// uniform control flow; kNoRoom: the invocation has nothing.
+void addHash(uint part, uvec2 share) {
+  uint left = part, next = subgroupMin(left);
+  while (next != kNoRoom) {
+    uvec2 sum = subgroupAdd(left == next ? share : uvec2(0u));
+    if (subgroupElect()) {
+      atomicAdd(parts[kHeadWords + next * kPartWords + kPartHash], sum.x);
+      atomicAdd(parts[kHeadWords + next * kPartWords + kPartHash + 1u], sum.y);
+    }
+    if (left == next) left = kNoRoom;
+    next = subgroupMin(left);
+  }
+}
