@@ -68,14 +68,13 @@ uint numberEdges(Seam seam, uint a, uint b, out uint number[kEdges]) {
 
 uint byteOf(uint place) { return tables[kSeamBytes + place / 4u] >> (8u * (place % 4u)) & 255u; }
 
-uvec2 trianglesOf(Seam seam, uint cell) {
+void writeTriangles(Seam seam, uint cell, inout uvec2 hash) {
   uint a = cell & 15u, b = cell >> 4 & 15u, index = 3u * (cell >> 8);
   uint number[kEdges];
   uint entry = tables[kSeamCases + numberEdges(seam, a, b, number)];
   uint left = entry >> kSeamTrianglesShift, at = entry & ((1u << kSeamTrianglesShift) - 1u);
   uvec2 corner = pointOf(seam.face, 512u * a, 512u * b, kCells * 256u).xy;
   uint corner_z = pointOf(seam.face, 512u * a, 512u * b, kCells * 256u).z;
-  uvec2 hash = uvec2(0u);
   do {
     uint n = byteOf(at), i = 0u;
     Point loop[kLongestLoop];
@@ -102,7 +101,6 @@ uvec2 trianglesOf(Seam seam, uint cell) {
       cutFirst(todo, apex);
     } while (anyLeft(todo));
   } while (left != 0u);
-  return hash;
 }
 
 void main() {
@@ -118,7 +116,7 @@ void main() {
   uint live = scratch[seam.counts + kSeamActive], i = gl_LocalInvocationIndex;
   uvec2 hash = uvec2(0u);
   do {
-    if (i < live) hash += trianglesOf(seam, scratch[seam.counts + kSeamCells + i]);
+    if (i < live) writeTriangles(seam, scratch[seam.counts + kSeamCells + i], hash);
     i += gl_WorkGroupSize.x;
   } while (i < live);
   addHash(seam.part, hash);

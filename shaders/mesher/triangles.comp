@@ -15,7 +15,7 @@ layout(local_size_x = 64) in;
 
 const uint kEdges = 12u;
 
-uvec2 trianglesOf(ActiveCell cell, uint first_vertex, uint first_index) {
+void writeTriangles(ActiveCell cell, uint first_vertex, uint first_index, inout uvec2 hash) {
   uint number[kEdges];
   number[0] = cell.first.x;
   number[1] = cell.first.y;
@@ -32,7 +32,6 @@ uvec2 trianglesOf(ActiveCell cell, uint first_vertex, uint first_index) {
 
   uvec4 loops = table_fours[kCubeCases / 4u + cell.cell_case];
   uint lengths = loops.y >> 16, in_face = loops.z, index = cell.index;
-  uvec2 hash = uvec2(0u);
   do {
     uint n = lengths & 7u, vertex[kPoints], i = 0u;
     uint place[kPoints];
@@ -58,7 +57,6 @@ uvec2 trianglesOf(ActiveCell cell, uint first_vertex, uint first_index) {
     in_face >>= (n - 1u) * (n - 2u) / 2u;
     lengths >>= 3;
   } while (lengths != 0u);
-  return hash;
 }
 
 void main() {
@@ -70,7 +68,7 @@ void main() {
       ActiveCell cell = unpackCell(scratch_fours[cell_list / kCellWords + i]);
       part = cell.part;
       uvec4 record = part_fours[(kHeadWords + part * kPartWords) / 4u];
-      hash = trianglesOf(cell, record[kPartFirstVertex], record[kPartFirstIndex]);
+      writeTriangles(cell, record[kPartFirstVertex], record[kPartFirstIndex], hash);
     }
     addHash(part, hash);
     base += gl_NumWorkGroups.x * gl_WorkGroupSize.x;

@@ -60,10 +60,9 @@ TEST_CASE("shaders mesh bodies to the bytes of the CPU", "[vulkan_mesher]") {
       if (!input.with_body[i]) continue;
       CAPTURE(i);
       const auto rows = rowsOf(input.chunks[i], expected[body]);
-      for (size_t r = 0; r < rows.size(); ++r) {
-        CAPTURE(r);
-        REQUIRE(output.rows[body * rows.size() + r] == rows[r]);
-      }
+      const auto row = std::mismatch(rows.begin(), rows.end(),
+                                     output.rows.begin() + static_cast<std::ptrdiff_t>(body * rows.size()));
+      REQUIRE(row.first - rows.begin() == static_cast<std::ptrdiff_t>(rows.size()));
       ++body;
     }
   }

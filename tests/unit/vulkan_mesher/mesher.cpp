@@ -1,5 +1,6 @@
 #include "mesher.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
@@ -282,14 +283,12 @@ void requireParts(const MeshOutput& output, const std::vector<MeshPart>& expecte
     REQUIRE(part.indices == mesh.indices.size());
     REQUIRE(part.first_vertex == vertices);
     REQUIRE(part.first_index == indices);
-    for (size_t v = 0; v < mesh.vertices.size(); ++v) {
-      CAPTURE(v);
-      REQUIRE(std::memcmp(&output.vertices[vertices + v], &mesh.vertices[v], sizeof(Vertex)) == 0);
-    }
-    for (size_t n = 0; n < mesh.indices.size(); ++n) {
-      CAPTURE(n);
-      REQUIRE(output.indices[indices + n] == mesh.indices[n]);
-    }
+    const auto same = [](const Vertex& x, const Vertex& y) { return std::memcmp(&x, &y, sizeof(Vertex)) == 0; };
+    const auto vertex =
+        std::mismatch(mesh.vertices.begin(), mesh.vertices.end(), output.vertices.begin() + vertices, same);
+    REQUIRE(vertex.first - mesh.vertices.begin() == static_cast<std::ptrdiff_t>(mesh.vertices.size()));
+    const auto index = std::mismatch(mesh.indices.begin(), mesh.indices.end(), output.indices.begin() + indices);
+    REQUIRE(index.first - mesh.indices.begin() == static_cast<std::ptrdiff_t>(mesh.indices.size()));
     REQUIRE(ContentHash{part.hash[0], part.hash[1]} == mesh.hash);
     vertices += part.vertices;
     indices += part.indices;
