@@ -64,6 +64,16 @@ TEST_CASE("ranges never overlap, and all come back", "[vulkan]") {
   }
 }
 
+TEST_CASE("the tightest gap is taken", "[vulkan]") {
+  Ranges ranges(64, 4);
+  const auto wide = ranges.take(16), between = ranges.take(4), tight = ranges.take(8), last = ranges.take(4);
+  REQUIRE((wide && between && tight && last));
+  ranges.give(*wide);
+  ranges.give(*tight);
+  CHECK(ranges.take(6) == tight);
+  CHECK(ranges.take(12) == wide);
+}
+
 TEST_CASE("each kind of memory is looked for where it is", "[vulkan]") {
   const auto choose = [](const std::vector<VkMemoryPropertyFlags>& types, MemoryKind kind, bool unified) {
     return chooseMemoryType(memoryOf(types), ~0u, kind, unified);
@@ -187,7 +197,12 @@ TEST_CASE("too much memory is refused, and what is there stays", "[vulkan]") {
   CHECK(rest);
   // A block that nobody uses makes room for one of another kind.
   rest = Buffer();
+  rest = memory.buffer(MemoryKind::device, 100'000);
+  CHECK(rest);
+  rest = Buffer();
+  CHECK(memory.statistics().reserved == (1 << 16) + (1 << 17));
   CHECK(memory.buffer(MemoryKind::upload, 180'000));
+  CHECK(memory.statistics().reserved == 1 << 16);
 
   Memory boundless(*device);
   for (const uint64_t bytes : {uint64_t{1} << 50, UINT64_MAX}) {
