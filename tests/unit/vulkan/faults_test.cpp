@@ -226,3 +226,30 @@ TEST_CASE("a wait that ends too early says so", "[vulkan]") {
   CHECK(!(*queue)->lost());
   CHECK(*(*queue)->wait(*value));
 }
+
+TEST_CASE("nothing is destroyed while it is in use, whatever the last wait says", "[vulkan]") {
+  TestDevice watched_device;
+  if (!watched_device) return;
+  Faults faults;
+  OwnDevice options = watched(watched_device.log);
+  options.replace_calls = [](DeviceTable& table) { Faults::wrap(table); };
+  const auto device = Device::open(options);
+  REQUIRE(device);
+  Memory memory(**device);
+  const auto buffer = memory.buffer(MemoryKind::device, 32 << 20);
+  const auto queue = Queue::create(**device);
+  REQUIRE((buffer && queue));
+  auto ring = CommandRing::create(**queue);
+  REQUIRE(ring);
+  auto commands = (*ring)->begin();
+  REQUIRE(commands);
+  for (uint32_t i = 0; i < 20; ++i) {  // long enough to be in use when the wait fails at once
+    commands->fill(*buffer, i);
+    commands->barrier(kTransfer, kTransfer);
+  }
+  REQUIRE((*ring)->submit(std::move(*commands)));
+  faults.arm("vkWaitSemaphores", 1, VK_ERROR_OUT_OF_HOST_MEMORY);
+  ring->reset();
+  CHECK(faults.struck());
+  CHECK((*device)->messages() == std::vector<std::string>());
+}
