@@ -93,7 +93,7 @@ TEST_CASE("a shader that makes no sense is refused", "[vulkan]") {
   CHECK(refused([](PipelineDesc& desc) { desc.push_bytes = 6; }));
 }
 
-TEST_CASE("many threads record, submit and wait at one time", "[vulkan]") {
+TEST_CASE("many threads record, submit and wait at one time", "[vulkan][threads]") {
   TestDevice device;
   if (!device) return;
   constexpr int kThreads = 8;
