@@ -3,6 +3,7 @@
 #include <map>
 #include <random>
 
+#include "engine.h"
 #include "support.h"
 
 using namespace sgm;
@@ -22,7 +23,44 @@ VkPhysicalDeviceMemoryProperties memoryOf(std::vector<VkMemoryPropertyFlags> typ
   return memory;
 }
 
+/// A loader whose driver allows 1 MiB of each heap, half of which others use.
+PFN_vkGetInstanceProcAddr real_resolver = nullptr;
+
+VKAPI_ATTR void VKAPI_CALL scarceMemory(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties2* properties) {
+  auto* budget = static_cast<VkPhysicalDeviceMemoryBudgetPropertiesEXT*>(properties->pNext);
+  REQUIRE(budget->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT);
+  std::fill(std::begin(budget->heapBudget), std::end(budget->heapBudget), 1 << 20);
+  std::fill(std::begin(budget->heapUsage), std::end(budget->heapUsage), 1 << 19);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL scarceResolver(VkInstance instance, const char* name) {
+  if (std::string(name) != "vkGetPhysicalDeviceMemoryProperties2") return real_resolver(instance, name);
+  return reinterpret_cast<PFN_vkVoidFunction>(scarceMemory);
+}
+
 }  // namespace
+
+TEST_CASE("the driver's budget is kept where the driver tells it", "[vulkan]") {
+  if (!haveDevice()) return;
+  Engine engine;
+  real_resolver = engine.instance->resolver();
+  BorrowedDevice lent = engine.lend();
+  lent.get_instance_proc_addr = scarceResolver;
+  for (const bool told : {true, false}) {
+    lent.memory_budget = told;
+    const auto device = Device::borrow(lent);
+    REQUIRE(device);
+    Memory memory(**device);
+    const auto large = memory.buffer(MemoryKind::device, 3 << 18);
+    CHECK(bool(large) == !told);
+    if (large) continue;
+    CHECK(large.error().code == Code::out_of_memory);
+    CHECK(large.error().message.find("1048576") != std::string::npos);
+    // The usual block is far too large, and a smaller one will do.
+    CHECK(memory.buffer(MemoryKind::device, 1 << 18));
+    CHECK(memory.statistics().reserved <= 1 << 19);
+  }
+}
 
 TEST_CASE("ranges never overlap, and all come back", "[vulkan]") {
   for (unsigned seed = 0; seed < rounds(40); ++seed) {

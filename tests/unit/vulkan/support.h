@@ -40,13 +40,20 @@ inline void keepLibraries() {
       nullptr);
 }
 
-/// false, after saying so, where this machine has no Vulkan device; an error where the tests must not be skipped.
+/// false, after saying so, where this machine has no usable Vulkan device; an error where the tests must not be
+/// skipped.
 inline bool haveDevice() {
   static const std::string missing = [] {
     if (const auto device = Device::open(watched())) keepLibraries();
     const auto devices = listDevices();
     if (!devices) return devices.error().message;
-    return devices->empty() ? std::string("no Vulkan device here") : std::string();
+    std::string lacks = "no usable Vulkan device here";
+    for (const DeviceInfo& info : *devices) {
+      const std::string lack = lackOf(info);
+      if (lack.empty()) return lack;
+      lacks += "; " + lack;
+    }
+    return lacks;
   }();
   if (missing.empty()) return true;
   INFO(missing);
