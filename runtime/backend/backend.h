@@ -75,17 +75,27 @@ class ChunkBatch {
 /// cancels the batch.
 using AfterChunk = std::function<bool()>;
 
+/// What a backend did with the chunks it was given, since it was made.
+struct BackendCounters {
+  uint64_t chunks = 0;       ///< that have ended with a mesh
+  uint64_t on_cpu = 0;       ///< of these, meshed by the CPU instead: too large for the device, or while it failed
+  uint64_t device_lost = 0;  ///< how many times the device failed
+  uint64_t batches = 0;      ///< submissions to the device
+};
+
 /// Thread-safe. Must outlive its batches.
 class Backend {
  public:
   virtual ~Backend() = default;
   virtual const BackendCapabilities& capabilities() const = 0;
+  virtual BackendCounters counters() const { return {}; }
   virtual Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk = {}) = 0;
 };
 
 struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
   bool automatic = true;        ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
+  int device = -1;              ///< Vulkan: in the order in which devices are listed; -1: the fastest kind
   std::string instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512"; empty: the widest that runs here
 };
 

@@ -1,5 +1,8 @@
 #include "backend/backend.h"
 #include "backend/cpu/cpu_backend.h"
+#ifdef SGM_VULKAN
+#include "backend/vulkan/vulkan_backend.h"
+#endif
 
 namespace sgm {
 
@@ -15,13 +18,42 @@ const char* backendName(BackendKind kind) {
   return "";
 }
 
+namespace {
+
+#ifdef SGM_VULKAN
+/// software: also where it is the CPU that computes.
+Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest& request, bool software, JobSystem& jobs,
+                                            std::pmr::memory_resource* memory, const Profiler& profiler) {
+  Result<std::unique_ptr<Backend>> cpu = makeCpuBackend(request.instruction_set, jobs, memory, profiler);
+  if (!cpu) return cpu.error();
+  VulkanBackendOptions options;
+  options.open = [index = request.device, software] {
+    vulkan::OwnDevice device;
+    device.index = index;
+    device.software = software;
+    return vulkan::Device::open(device);
+  };
+  return makeVulkanBackend(options, std::move(*cpu), jobs, memory, profiler);
+}
+#else
+Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest&, bool, JobSystem&, std::pmr::memory_resource*,
+                                            const Profiler&) {
+  return Error{Code::unsupported, "this build has no Vulkan backend: build it with SGM_VULKAN=ON"};
+}
+#endif
+
+}  // namespace
+
 Result<std::unique_ptr<Backend>> makeBackend(const BackendRequest& request, JobSystem& jobs,
                                              std::pmr::memory_resource* memory, const Profiler& profiler) {
-  if (!request.automatic && request.kind == BackendKind::vulkan) {
-    return Error{Code::unsupported, "this build meshes on the CPU only: it has no Vulkan backend"};
+  if (request.automatic) {
+    Result<std::unique_ptr<Backend>> hardware = makeVulkan(request, false, jobs, memory, profiler);
+    if (hardware) return hardware;
+    return makeCpuBackend(request.instruction_set, jobs, memory, profiler);
   }
-  if (!request.automatic && request.kind == BackendKind::cuda) {
-    return Error{Code::unsupported, "this build meshes on the CPU only: it has no CUDA backend"};
+  if (request.kind == BackendKind::vulkan) return makeVulkan(request, true, jobs, memory, profiler);
+  if (request.kind == BackendKind::cuda) {
+    return Error{Code::unsupported, "this build has no CUDA backend"};
   }
   return makeCpuBackend(request.instruction_set, jobs, memory, profiler);
 }

@@ -192,6 +192,7 @@ Value ProgramBuilder::coordinate(Int3 anchor, float row_x, float row_y, float ro
 }
 
 Value ProgramBuilder::noise(const NoiseSpec& spec, uint32_t octaves) {
+  if (octaves == 0) return constant(0.0f);
   double whole = 0, gain = 1;
   for (uint32_t k = 0; k < spec.octaves; ++k, gain *= 0.5) whole += gain;
   const uint32_t at = mark();

@@ -145,7 +145,7 @@ FN Dual noiseOctave(Int ox, Int oy, Int oz, int period, float inv_period, uint s
   return makeDual(r.v, rx, ry, rz, broadcastInt(0));
 }
 
-// Fractal sum, clamped to -1..1. Parameters: origin 0-2, octaves to evaluate 3, seed 4, gain to unit sum 5,
+// Fractal sum, clamped to -1..1. Parameters: origin 0-2, octaves to evaluate 3 (one or more), seed 4, gain to unit sum 5,
 // then for each octave its period and the period's reciprocal.
 FN Dual opNoise(Int px, Int py, Int pz, Params P) {
   Int ox = wrapSub(px, broadcastInt(PI(P, 0)));
@@ -157,8 +157,9 @@ FN Dual opNoise(Int px, Int py, Int pz, Params P) {
   PRECISE Real x = broadcast(0.0f);
   PRECISE Real y = broadcast(0.0f);
   PRECISE Real z = broadcast(0.0f);
-  for (int k = 0; k < octaves; ++k) {
-    Dual o = noiseOctave(ox, oy, oz, PI(P, 6 + 2 * k), PF(P, 7 + 2 * k), PU(P, 4) + 0x9E3779B9u * uint(k));
+  int k = 0;
+  do {  // at least one; software Vulkan runs the body of a `for` once more than its count
+    Dual o = noiseOctave(ox, oy, oz, QI(P, 6 + 2 * k), QF(P, 7 + 2 * k), PU(P, 4) + 0x9E3779B9u * uint(k));
     PRECISE Real a = o.v * weight;
     v = v + a;
     a = o.x * weight;
@@ -168,7 +169,8 @@ FN Dual opNoise(Int px, Int py, Int pz, Params P) {
     a = o.z * weight;
     z = z + a;
     weight = weight * 0.5f;
-  }
+    ++k;
+  } while (k < octaves);
   v = clampReal(v, -1.0f, 1.0f);
   return makeDual(flushReal(v), x, y, z, broadcastInt(0));
 }

@@ -3,7 +3,7 @@
 // One batch meshes many chunks. Places are in words from a buffer's beginning, multiples of four. A part is what is
 // drawn as a whole: the body of a chunk, or one seam.
 
-layout(std430, set = 0, binding = 0) restrict readonly buffer Batch { uint batch[]; };
+layout(std430, set = 0, binding = 0) readonly buffer Batch { uint batch[]; };
 layout(std430, set = 0, binding = 1) buffer Scratch { uint scratch[]; };
 layout(std430, set = 0, binding = 2) buffer Parts { uint parts[]; };
 layout(std430, set = 0, binding = 3) restrict buffer Vertices { uvec4 vertices[]; };
@@ -11,6 +11,7 @@ layout(std430, set = 0, binding = 4) restrict buffer Indices { uint indices[]; }
 layout(std430, set = 0, binding = 5) readonly buffer Tables { uint tables[]; };
 
 // The same words in pairs and fours: four words at once cost a software device as much as one.
+layout(std430, set = 0, binding = 0) readonly buffer BatchFours { uvec4 batch_fours[]; };
 layout(std430, set = 0, binding = 1) buffer ScratchPairs { uvec2 scratch_pairs[]; };
 layout(std430, set = 0, binding = 1) buffer ScratchFours { uvec4 scratch_fours[]; };
 layout(std430, set = 0, binding = 2) buffer PartFours { uvec4 part_fours[]; };
@@ -30,7 +31,7 @@ const uint kChunkSamples = 4u;  // where in scratch its samples lie: Q of all 33
 const uint kChunkSigns = 5u;    // where in scratch: two words a row, samples 0..31 and sample 32
 const uint kChunkRows = 6u;     // where in scratch: kRowsWords, what the census says of the rows
 const uint kChunkPart = 7u;     // the number of its body among the parts; kNoRoom where no body is asked for
-const uint kChunkTape = 8u;     // eight more words, of the field's program (tape.glsl)
+const uint kChunkFaces = 8u;    // 0, or of a chunk without a body the faces that it has seams on, bit (1 << Face)
 
 // What the census says of a chunk's rows. Four words a row: the vertices, the indices and the active cells before it, and
 // the active cells of its own, a bit each. Behind them how many rows have active cells, and which.
@@ -62,6 +63,8 @@ const uint kHeadDispatch = 0u;  // three words: workgroups for the batch's activ
 const uint kHeadCells = 3u;     // active cells of all bodies that have room
 const uint kHeadVertices = 4u;  // of all parts that have room
 const uint kHeadIndices = 5u;
+const uint kHeadSampled = 6u;   // three words: workgroups, one an item that is sampled
+const uint kHeadEntries = 9u;   // entries of the list of vertices
 const uint kHeadWords = 16u;
 const uint kPartWords = 8u;
 const uint kPartVertices = 0u;

@@ -28,6 +28,9 @@ using std::memcpy;
 #undef PI
 #undef PU
 #undef PF
+#undef QI
+#undef QU
+#undef QF
 #undef SGM_WIDE
 
 }  // namespace HWY_NAMESPACE

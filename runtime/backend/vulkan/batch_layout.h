@@ -12,7 +12,7 @@ struct Chunk {
   int32_t origin[3];
   int32_t cell;
   uint32_t samples, signs, rows, part;
-  uint32_t tape[8];
+  uint32_t faces, reserved[7];
 };
 static_assert(sizeof(Chunk) == 16 * sizeof(uint32_t));
 
@@ -21,9 +21,22 @@ struct Seam {
 };
 static_assert(sizeof(Seam) == 8 * sizeof(uint32_t));
 
+/// What is pruned together: all boxes that one program is asked about.
+struct PruneJob {
+  enum Kind : uint32_t { bricks, own_planes, coarse_planes };
+  uint32_t headers, records, kind, chunk, first_seam, seam_count, lists;
+  float initial;
+  uint32_t initial_label;
+  float q_scale;
+  uint32_t reserved[2];
+};
+static_assert(sizeof(PruneJob) == 12 * sizeof(uint32_t));
+
 struct Head {
   uint32_t dispatch[3];
-  uint32_t cells, vertices, indices, reserved[10];
+  uint32_t cells, vertices, indices;
+  uint32_t sampled[3];
+  uint32_t entries, reserved[6];
 };
 static_assert(sizeof(Head) == 16 * sizeof(uint32_t));
 
@@ -35,11 +48,16 @@ static_assert(sizeof(Part) == 8 * sizeof(uint32_t));
 /// The push constants (shaders/mesher/sizes.glsl). The list of active cells has kCellWords for each of max_cells.
 struct Sizes {
   uint32_t part_count, seam_records, cell_list, max_vertices, max_indices, max_cells;
+  // What pruning, sampling and attributes take beside (shaders/mesher/items.glsl).
+  uint32_t chunk_count = 0, jobs = 0, items = 0, sampled = 0, entries = 0, planes = 0;
 };
-static_assert(sizeof(Sizes) == 6 * sizeof(uint32_t));
+static_assert(sizeof(Sizes) == 12 * sizeof(uint32_t));
 
 /// What the sums of a batch in 32 bits allow, whatever its signs are.
 inline constexpr uint32_t kMaxParts = 8192;
+
+inline constexpr uint32_t kItemWords = 8;  ///< of a brick or a plane (shaders/mesher/items.glsl)
+inline constexpr uint32_t kBricks = 64;    ///< of a chunk
 
 // Words in scratch, rounded up to fours: every place is a multiple of four.
 inline constexpr uint32_t kSampleWords = 33 * 33 * 33 + 3;   ///< a chunk's samples

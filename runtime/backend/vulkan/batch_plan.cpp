@@ -1,0 +1,196 @@
+#include "backend/vulkan/batch_plan.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+namespace sgm {
+
+namespace {
+
+constexpr uint32_t kChunkWords = sizeof(batch::Chunk) / 4, kSeamWords = sizeof(batch::Seam) / 4,
+                   kJobWords = sizeof(batch::PruneJob) / 4, kHeadWords = sizeof(batch::Head) / 4,
+                   kPartWords = sizeof(batch::Part) / 4;
+constexpr uint32_t kJobsOfChunk = 3;  // bricks, planes, and planes of the coarser level
+// A shader reads records and headers in whole vectors, beyond the last one too.
+constexpr uint32_t kBeyond = 256;
+
+uint32_t seamsOf(const ChunkJob& job) { return job.coarse ? static_cast<uint32_t>(std::popcount(job.seams)) : 0u; }
+
+/// Hands out places in scratch, multiples of four.
+class Places {
+ public:
+  uint32_t take(uint64_t words) {
+    const uint64_t at = next_;
+    next_ += (words + 3) & ~uint64_t{3};
+    return static_cast<uint32_t>(at);
+  }
+  uint64_t used() const { return next_; }
+
+ private:
+  uint64_t next_ = 0;
+};
+
+template <class Record>
+void put(std::pmr::vector<uint32_t>& words, size_t at, const Record& record) {
+  std::memcpy(words.data() + at, &record, sizeof record);
+}
+
+/// One batch in the making.
+class Planner {
+ public:
+  Planner(std::span<const ChunkJob> jobs, const BatchRoom& room, BatchPlan& plan)
+      : jobs_(jobs), room_(room), plan_(plan) {
+    uint32_t seams = 0;
+    for (const ChunkJob& job : jobs) seams += seamsOf(job);
+    const auto chunks = static_cast<uint32_t>(jobs.size());
+    plan.sizes = {};
+    plan.sizes.seam_records = chunks * kChunkWords;
+    plan.sizes.jobs = plan.sizes.seam_records + seams * kSeamWords;
+    plan.words.assign(plan.sizes.jobs + size_t{kJobsOfChunk} * chunks * kJobWords, 0u);
+    plan.parts.assign(kHeadWords, 0u);
+    plan.chunks.clear();
+    plan.refused.clear();
+    plan.seam_count = plan.job_count = 0;
+    plan.kinds = 0;
+  }
+
+  /// Takes up job i; false, and nothing has changed, where scratch would not hold it as well.
+  bool add(uint32_t i, uint32_t most_scratch, bool must) {
+    const ChunkJob& job = jobs_[i];
+    const uint32_t seams = seamsOf(job);
+    const size_t words = plan_.words.size();
+    Tape field, coarse;
+    if (!appendTape(job.field->view(), plan_.tape_scratch, plan_.words, field) ||
+        (seams > 0 && !appendTape(job.coarse->view(), plan_.tape_scratch, plan_.words, coarse))) {
+      plan_.words.resize(words);
+      plan_.refused.push_back(i);
+      return true;
+    }
+    const Places before = places_;
+    place(i, field, coarse);
+    if (!must && scratchWords() > most_scratch) {
+      places_ = before;
+      plan_.words.resize(words);
+      undo(seams);
+      return false;
+    }
+    plan_.kinds |= field.kinds | coarse.kinds;
+    return true;
+  }
+
+  void finish() {
+    const auto chunks = static_cast<uint32_t>(plan_.chunks.size());
+    const uint32_t bricks = chunks * batch::kBricks, planes = 2 * plan_.seam_count;
+    batch::Sizes& s = plan_.sizes;
+    s.part_count = part_count_;
+    s.chunk_count = chunks;
+    s.max_vertices = room_.vertices * std::max(chunks, 8u);
+    s.max_indices = room_.indices * std::max(chunks, 8u);
+    s.max_cells = room_.cells * std::max(chunks, 8u);
+    s.items = places_.take(uint64_t{bricks + planes} * batch::kItemWords);
+    s.sampled = places_.take(bricks + planes);
+    s.entries = places_.take(s.max_vertices);
+    s.cell_list = places_.take(uint64_t{s.max_cells} * batch::kCellWords);
+    plan_.scratch_words = static_cast<uint32_t>(places_.used());
+    for (uint32_t c = 0; c < chunks; ++c) plan_.chunks[c].item = s.items + c * batch::kBricks * batch::kItemWords;
+    plan_.words.resize(plan_.words.size() + kBeyond, 0u);
+  }
+
+ private:
+  uint64_t scratchWords() const {
+    const uint64_t chunks = std::max<uint64_t>(plan_.chunks.size(), 8);
+    return places_.used() +
+           chunks *
+               (batch::kBricks * (batch::kItemWords + 1) + room_.vertices + uint64_t{room_.cells} * batch::kCellWords) +
+           uint64_t{plan_.seam_count} * 2 * (batch::kItemWords + 1);
+  }
+
+  uint32_t newPart(bool body) {
+    batch::Part part{};
+    part.middle = body ? batch::kNoRoom : 0;
+    const size_t at = plan_.parts.size();
+    plan_.parts.resize(at + kPartWords);
+    put(plan_.parts, at, part);
+    return part_count_++;
+  }
+
+  void addJob(batch::PruneJob::Kind kind, uint32_t chunk, uint32_t first_seam, uint32_t seams, const Tape& tape) {
+    batch::PruneJob job{};
+    job.headers = tape.headers;
+    job.records = tape.records;
+    job.kind = kind;
+    job.chunk = chunk;
+    job.first_seam = first_seam;
+    job.seam_count = seams;
+    job.lists = places_.take(uint64_t{tape.records} * (kind == batch::PruneJob::bricks ? batch::kBricks : seams));
+    job.initial = tape.initial;
+    job.initial_label = tape.initial_label;
+    job.q_scale = tape.q_scale;
+    put(plan_.words, plan_.sizes.jobs + size_t{plan_.job_count} * kJobWords, job);
+    ++plan_.job_count;
+  }
+
+  void place(uint32_t i, const Tape& field, const Tape& coarse) {
+    const ChunkJob& job = jobs_[i];
+    const auto number = static_cast<uint32_t>(plan_.chunks.size());
+    BatchPlan::Chunk& planned = plan_.chunks.emplace_back();
+    planned.job = i;
+    planned.seams.fill(batch::kNoRoom);
+    batch::Chunk chunk{};
+    for (int axis = 0; axis < 3; ++axis) chunk.origin[axis] = job.grid.origin[axis];
+    chunk.cell = job.grid.cell;
+    chunk.samples = places_.take(batch::kSampleWords);
+    chunk.signs = planned.signs = places_.take(batch::kSignWords);
+    chunk.rows = places_.take(batch::kRowsWords);
+    chunk.part = planned.body = job.body ? newPart(true) : batch::kNoRoom;
+    chunk.faces = job.body ? 0u : job.seams;
+    put(plan_.words, size_t{number} * kChunkWords, chunk);
+    addJob(batch::PruneJob::bricks, number, 0, 0, field);
+
+    const uint32_t seams = seamsOf(job);
+    if (seams == 0) return;
+    const uint32_t first = plan_.seam_count;
+    for (uint32_t face = 0; face < 6; ++face) {
+      if ((job.seams >> face & 1) == 0) continue;
+      batch::Seam seam{};
+      seam.chunk = number;
+      seam.face = face;
+      seam.samples = places_.take(batch::kCoarseSampleWords);
+      seam.signs = places_.take(batch::kCoarseSignWords);
+      seam.counts = places_.take(batch::kSeamCountWords);
+      seam.part = planned.seams[face] = newPart(false);
+      put(plan_.words, plan_.sizes.seam_records + size_t{plan_.seam_count} * kSeamWords, seam);
+      ++plan_.seam_count;
+    }
+    addJob(batch::PruneJob::own_planes, number, first, seams, field);
+    addJob(batch::PruneJob::coarse_planes, number, first, seams, coarse);
+  }
+
+  void undo(uint32_t seams) {
+    const uint32_t parts = seams + (plan_.chunks.back().body != batch::kNoRoom ? 1 : 0);
+    part_count_ -= parts;
+    plan_.parts.resize(plan_.parts.size() - size_t{parts} * kPartWords);
+    plan_.chunks.pop_back();
+    plan_.seam_count -= seams;
+    plan_.job_count -= seams > 0 ? kJobsOfChunk : 1;
+  }
+
+  std::span<const ChunkJob> jobs_;
+  const BatchRoom& room_;
+  BatchPlan& plan_;
+  Places places_;
+  uint32_t part_count_ = 0;
+};
+
+}  // namespace
+
+size_t planBatch(std::span<const ChunkJob> jobs, const BatchRoom& room, uint32_t most_scratch, BatchPlan& plan) {
+  Planner planner(jobs, room, plan);
+  uint32_t taken = 0;
+  while (taken < jobs.size() && planner.add(taken, most_scratch, plan.chunks.empty())) ++taken;
+  planner.finish();
+  return taken;
+}
+
+}  // namespace sgm

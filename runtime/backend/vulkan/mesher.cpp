@@ -1,0 +1,258 @@
+#include "backend/vulkan/mesher.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "backend/vulkan/case_tables.h"
+#include "spirv/allocate_comp.h"
+#include "spirv/attributes_comp.h"
+#include "spirv/attributes_rte_comp.h"
+#include "spirv/body_vertices_comp.h"
+#include "spirv/census_body_comp.h"
+#include "spirv/census_seam_comp.h"
+#include "spirv/fill_signs_comp.h"
+#include "spirv/list_cells_comp.h"
+#include "spirv/prune_comp.h"
+#include "spirv/sample_comp.h"
+#include "spirv/sample_rte_comp.h"
+#include "spirv/seam_triangles_comp.h"
+#include "spirv/seam_vertices_comp.h"
+#include "spirv/triangles_comp.h"
+
+namespace sgm::vulkan {
+
+namespace {
+
+constexpr uint32_t kBindings = 6;
+constexpr uint32_t kPartSize = sizeof(batch::Part), kHeadSize = sizeof(batch::Head);
+// One subgroup a workgroup where lanes are a processor's: what a workgroup shares it would load once for each subgroup.
+constexpr uint32_t kSoftwareWidth = 8, kHardwareWidth = 64;
+constexpr uint64_t kAllKinds = ~uint64_t{0};
+
+/// A buffer of at least so many bytes, the old one where it has them.
+Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffer) {
+  bytes = std::max<uint64_t>(bytes, 256);
+  if (buffer && buffer.size() >= bytes) return {};
+  buffer = Buffer();
+  Result<Buffer> made = memory.buffer(kind, bytes + bytes / 4);
+  if (!made) return made.error();
+  buffer = std::move(*made);
+  return {};
+}
+
+}  // namespace
+
+uint32_t Mesher::width() const { return software() ? kSoftwareWidth : kHardwareWidth; }
+
+uint32_t Mesher::mostScratchWords() const {
+  const uint64_t range = std::min<uint64_t>(queue_.device().limits().maxStorageBufferRange, uint64_t{128} << 20);
+  return static_cast<uint32_t>(range / sizeof(uint32_t) / 4 * 3);  // a buffer is a quarter larger than was asked for
+}
+
+Result<std::unique_ptr<Mesher>> Mesher::create(Queue& queue, Memory& memory, CommandRing& ring,
+                                               const PipelineCache* cache) {
+  std::unique_ptr<Mesher> mesher(new Mesher(queue, memory, ring, cache));
+  const std::vector<uint32_t> tables = caseTables();
+  const uint64_t bytes = tables.size() * sizeof(uint32_t);
+  Result<Buffer> buffer = memory.buffer(MemoryKind::upload, bytes);
+  if (!buffer) return buffer.error();
+  std::memcpy(buffer->data(), tables.data(), bytes);
+  mesher->tables_ = std::move(*buffer);
+  return mesher;
+}
+
+Result<std::shared_ptr<const Pipeline>> Mesher::makePipeline(Kernel kernel, uint64_t kinds) const {
+  const bool rte = queue_.device().info().exact;
+  struct Source {
+    const char* name;
+    std::span<const uint32_t> spirv;
+  };
+  const std::array<Source, kernels> sources{{
+      {"prune", spirv::kPruneComp},
+      {"fill_signs", spirv::kFillSignsComp},
+      {"sample",
+       rte ? std::span<const uint32_t>(spirv::kSampleRteComp) : std::span<const uint32_t>(spirv::kSampleComp)},
+      {"census_body", spirv::kCensusBodyComp},
+      {"census_seam", spirv::kCensusSeamComp},
+      {"allocate", spirv::kAllocateComp},
+      {"body_vertices", spirv::kBodyVerticesComp},
+      {"seam_vertices", spirv::kSeamVerticesComp},
+      {"attributes",
+       rte ? std::span<const uint32_t>(spirv::kAttributesRteComp) : std::span<const uint32_t>(spirv::kAttributesComp)},
+      {"list_cells", spirv::kListCellsComp},
+      {"triangles", spirv::kTrianglesComp},
+      {"seam_triangles", spirv::kSeamTrianglesComp},
+  }};
+  const bool interprets = kernel == prune || kernel == sample || kernel == attributes;
+  const bool wide = interprets || kernel == fill_signs || kernel == body_vertices;
+  const std::array<uint32_t, 3> constants{width(), static_cast<uint32_t>(kinds), static_cast<uint32_t>(kinds >> 32)};
+  PipelineDesc desc;
+  desc.name = sources[kernel].name;
+  desc.spirv = sources[kernel].spirv;
+  desc.buffers = kBindings;
+  desc.push_bytes = sizeof(batch::Sizes);
+  desc.constants = std::span(constants).first(interprets ? 3 : wide ? 1 : 0);
+  Result<Pipeline> made = Pipeline::create(queue_.device(), desc, cache_);
+  if (!made) return made.error();
+  return std::make_shared<const Pipeline>(std::move(*made));
+}
+
+// Software runs every branch of an interpreter; so it gets pipelines of the instructions that have occurred so far.
+Result<Mesher::Pipelines> Mesher::pipelinesFor(uint64_t kinds) {
+  const std::scoped_lock lock(mutex_);
+  const uint64_t wanted = software() ? kinds_ | kinds : kAllKinds;
+  for (int k = 0; k < kernels; ++k) {
+    const auto kernel = static_cast<Kernel>(k);
+    const bool interprets = kernel == prune || kernel == sample || kernel == attributes;
+    std::shared_ptr<const Pipeline>& pipeline = pipelines_[static_cast<size_t>(k)];
+    if (pipeline && (!interprets || kinds_ == wanted)) continue;
+    Result<std::shared_ptr<const Pipeline>> made = makePipeline(kernel, wanted);
+    if (!made) {
+      for (const Kernel stale : {prune, sample, attributes}) pipelines_[stale] = nullptr;
+      kinds_ = 0;
+      return made.error();
+    }
+    pipeline = std::move(*made);
+  }
+  kinds_ = wanted;
+  return pipelines_;
+}
+
+Result<void> Mesher::fit(const BatchPlan& plan, BatchBuffers& b) {
+  const uint64_t words = plan.words.size() * sizeof(uint32_t), parts = plan.parts.size() * sizeof(uint32_t);
+  const uint64_t signs = plan.chunks.size() * uint64_t{batch::kSignWords} * sizeof(uint32_t);
+  const struct {
+    MemoryKind kind;
+    uint64_t bytes;
+    Buffer* buffer;
+  } needs[] = {
+      {MemoryKind::device, words, &b.words},
+      {MemoryKind::device, uint64_t{plan.scratch_words} * sizeof(uint32_t), &b.scratch},
+      {MemoryKind::device, parts, &b.parts},
+      {MemoryKind::device, uint64_t{plan.sizes.max_vertices} * sizeof(Vertex), &b.vertices},
+      {MemoryKind::device, uint64_t{plan.sizes.max_indices} * sizeof(uint32_t), &b.indices},
+  };
+  for (const auto& need : needs) {
+    if (Result<void> grown = grow(memory_, need.kind, need.bytes, *need.buffer); !grown) return grown.error();
+  }
+  if (b.words.data() != nullptr) return {};
+  if (Result<void> grown = grow(memory_, MemoryKind::upload, words + parts, b.staging); !grown) return grown.error();
+  if (Result<void> grown = grow(memory_, MemoryKind::readback, parts, b.parts_back); !grown) return grown.error();
+  return grow(memory_, MemoryKind::readback, signs, b.signs_back);
+}
+
+Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, const BatchPlan& plan, BatchBuffers& b) {
+  const std::array<BufferRange, kBindings> ranges{b.words, b.scratch, b.parts, b.vertices, b.indices, tables_};
+  batch::Sizes sizes = plan.sizes;
+  Result<void> bound;
+  const auto bind = [&](Kernel kernel) {
+    if (bound) bound = commands.bind(*pipelines[kernel], ranges, std::as_bytes(std::span(&sizes, 1)));
+    return static_cast<bool>(bound);
+  };
+  const auto settle = [&] { commands.barrier(kCompute, kCompute | kIndirect); };
+  const BufferRange sampled(b.parts, offsetof(batch::Head, sampled), 3 * sizeof(uint32_t));
+  const BufferRange cells(b.parts, offsetof(batch::Head, dispatch), 3 * sizeof(uint32_t));
+  const auto chunks = static_cast<uint32_t>(plan.chunks.size());
+
+  if (bind(prune)) commands.dispatch(plan.job_count, batch::kBricks / width());
+  settle();
+  if (bind(fill_signs)) commands.dispatch(chunks + plan.seam_count);
+  settle();
+  if (bind(sample)) commands.dispatchIndirect(sampled);
+  settle();
+  if (bind(census_body)) commands.dispatch(chunks);
+  if (plan.seam_count > 0 && bind(census_seam)) commands.dispatch(plan.seam_count);
+  settle();
+  if (bind(allocate)) commands.dispatch(1);
+  settle();
+  if (bind(body_vertices)) commands.dispatchIndirect(sampled);
+  if (plan.seam_count > 0 && bind(seam_vertices)) commands.dispatch(plan.seam_count);
+  settle();
+  if (bind(attributes)) commands.dispatchIndirect(sampled);
+  if (bind(list_cells)) commands.dispatch(chunks);
+  if (plan.seam_count > 0) {
+    sizes.planes = 1;
+    if (bind(attributes)) commands.dispatch(plan.seam_count, 2);
+    sizes.planes = 0;
+  }
+  settle();
+  if (bind(triangles)) commands.dispatchIndirect(cells);
+  if (plan.seam_count > 0 && bind(seam_triangles)) commands.dispatch(plan.seam_count);
+  return bound;
+}
+
+Result<uint64_t> Mesher::submit(const BatchPlan& plan, BatchBuffers& b) {
+  Result<Pipelines> pipelines = pipelinesFor(plan.kinds);
+  if (!pipelines) return pipelines.error();
+  if (Result<void> fits = fit(plan, b); !fits) return fits.error();
+  Result<Commands> commands = ring_.begin();
+  if (!commands) return commands.error();
+  const uint64_t words = plan.words.size() * sizeof(uint32_t), parts = plan.parts.size() * sizeof(uint32_t);
+  const bool seen = b.words.data() != nullptr;
+  std::memcpy(seen ? b.words.data() : b.staging.data(), plan.words.data(), words);
+  std::memcpy(seen ? b.parts.data() : b.staging.data() + words, plan.parts.data(), parts);
+  batch::Head head{};
+  head.sampled[1] = head.sampled[2] = 1;
+  std::memcpy(seen ? b.parts.data() : b.staging.data() + words, &head, sizeof head);
+  if (!seen) {
+    commands->copy(BufferRange(b.staging, 0, words), BufferRange(b.words, 0, words));
+    commands->copy(BufferRange(b.staging, words, parts), BufferRange(b.parts, 0, parts));
+    commands->barrier(kTransfer, kCompute);
+  }
+  if (Result<void> recorded = record(*commands, *pipelines, plan, b); !recorded) return recorded.error();
+  if (seen) {
+    commands->barrier(kCompute, kHost);
+  } else {
+    commands->barrier(kCompute, kTransfer);
+    commands->copy(BufferRange(b.parts, 0, parts), BufferRange(b.parts_back, 0, parts));
+    constexpr uint64_t kSigns = batch::kSignWords * sizeof(uint32_t);
+    for (size_t c = 0; c < plan.chunks.size(); ++c) {
+      commands->copy(BufferRange(b.scratch, uint64_t{plan.chunks[c].signs} * sizeof(uint32_t), kSigns),
+                     BufferRange(b.signs_back, c * kSigns, kSigns));
+    }
+    commands->barrier(kTransfer, kHost);
+  }
+  return ring_.submit(std::move(*commands));
+}
+
+Result<Mesher::Output> Mesher::read(BatchBuffers& b) {
+  Output out;
+  const bool seen = b.words.data() != nullptr;
+  const Buffer& parts = seen ? b.parts : b.parts_back;
+  if (Result<void> ready = parts.beforeRead(); !ready) return ready.error();
+  out.head = reinterpret_cast<const batch::Head*>(parts.data());
+  out.parts = reinterpret_cast<const batch::Part*>(parts.data() + kHeadSize);
+  if (seen) {
+    for (const Buffer* buffer : {&b.scratch, &b.vertices, &b.indices}) {
+      if (Result<void> ready = buffer->beforeRead(); !ready) return ready.error();
+    }
+    out.signs = reinterpret_cast<const uint32_t*>(b.scratch.data());
+    out.signs_in_place = true;
+    out.vertices = reinterpret_cast<const Vertex*>(b.vertices.data());
+    out.indices = reinterpret_cast<const uint32_t*>(b.indices.data());
+    return out;
+  }
+  if (Result<void> ready = b.signs_back.beforeRead(); !ready) return ready.error();
+  out.signs = reinterpret_cast<const uint32_t*>(b.signs_back.data());
+  const uint64_t vertices = uint64_t{out.head->vertices} * sizeof(Vertex);
+  const uint64_t indices = uint64_t{out.head->indices} * sizeof(uint32_t);
+  if (vertices == 0 || indices == 0) return out;
+  if (Result<void> grown = grow(memory_, MemoryKind::readback, vertices, b.vertices_back); !grown) return grown.error();
+  if (Result<void> grown = grow(memory_, MemoryKind::readback, indices, b.indices_back); !grown) return grown.error();
+  Result<Commands> commands = ring_.begin();
+  if (!commands) return commands.error();
+  commands->copy(BufferRange(b.vertices, 0, vertices), BufferRange(b.vertices_back, 0, vertices));
+  commands->copy(BufferRange(b.indices, 0, indices), BufferRange(b.indices_back, 0, indices));
+  commands->barrier(kTransfer, kHost);
+  const Result<uint64_t> value = ring_.submit(std::move(*commands));
+  if (!value) return value.error();
+  if (const Result<bool> ended = queue_.wait(*value); !ended) return ended.error();
+  for (const Buffer* buffer : {&b.vertices_back, &b.indices_back}) {
+    if (Result<void> ready = buffer->beforeRead(); !ready) return ready.error();
+  }
+  out.vertices = reinterpret_cast<const Vertex*>(b.vertices_back.data());
+  out.indices = reinterpret_cast<const uint32_t*>(b.indices_back.data());
+  return out;
+}
+
+}  // namespace sgm::vulkan

@@ -1,0 +1,62 @@
+#pragma once
+// A field program in the order and form in which the mesher's shaders run it (shaders/mesher/tape.glsl).
+//
+// A shader sweeps over all kinds of op and takes, of each kind, as many instructions in a row as there are: software
+// Vulkan executes both sides of every branch, so that a switch would cost it all ops for each instruction, and hardware
+// likes long runs of one op as well. Hence the order: within a block as many instructions as possible of one kind stand
+// together, those first that others read. Values live in slots, each written once and read any number of times before
+// its slot is used again. The folds of groups (field/program.h) are instructions too, and keep their order.
+
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "field/program.h"
+
+namespace sgm {
+
+inline constexpr uint32_t kTapeSlots = 64;
+inline constexpr uint32_t kTapeRecordWords = 32;
+inline constexpr uint32_t kMostTapeRecords = 1024;
+inline constexpr uint32_t kMostTapeLayers = 64;
+
+/// Instructions that are no Op: numbers from Op::count on.
+enum class TapeOp : uint32_t {
+  fold = static_cast<uint32_t>(Op::count),  ///< a group into the field, or into what its layer takes away
+  smooth,                                   ///< a smooth group into the field
+  layer_end,                                ///< what the layer takes away, out of the field
+  count
+};
+
+/// Where a program lies in a batch's words.
+struct Tape {
+  uint32_t headers = 0;  ///< place in units of four words: one header a record
+  uint32_t records = 0;
+  float initial = kFar;
+  uint32_t initial_label = 0;
+  float q_scale = 1;
+  uint64_t kinds = 0;  ///< bit by instruction: which of them occur
+};
+
+/// Reused from program to program.
+struct TapeScratch {
+  struct Node {
+    uint32_t kind = 0, place = 0, params = 0, group = 0, layer = 0, order = 0, stage = 0;
+    bool layer_cuts = false;                                ///< of a layer's end: something is taken away
+    int32_t dst = -1, second = -1, a = -1, b = -1, c = -1;  ///< values; -1: none
+  };
+  struct Value {
+    uint32_t stage = 0, rank = 0, last = 0;
+    int32_t slot = -1;
+    bool in_block = false;
+  };
+  explicit TapeScratch(std::pmr::memory_resource* memory) : nodes(memory), values(memory) {}
+  std::pmr::vector<Node> nodes;
+  std::pmr::vector<Value> values;
+};
+
+/// Appends the program's records and headers to words. false, and words as before, where a shader's bounds do not hold
+/// it: more records, layers, or values at one time than there may be. Throws std::bad_alloc.
+bool appendTape(const ProgramView& program, TapeScratch& scratch, std::pmr::vector<uint32_t>& words, Tape& tape);
+
+}  // namespace sgm

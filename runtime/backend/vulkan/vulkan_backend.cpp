@@ -1,0 +1,289 @@
+#include "backend/vulkan/vulkan_backend.h"
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <new>
+
+#include "backend/vulkan/read_meshes.h"
+
+namespace sgm {
+
+namespace {
+
+using vulkan::BatchBuffers;
+using vulkan::Mesher;
+
+/// A device with all that is made on it. Ends when its last batch does.
+struct Session {
+  std::unique_ptr<vulkan::Device> device;
+  std::unique_ptr<vulkan::Queue> queue;
+  std::unique_ptr<vulkan::Memory> memory;
+  std::unique_ptr<vulkan::CommandRing> ring;
+  std::unique_ptr<vulkan::PipelineCache> cache;
+  std::unique_ptr<Mesher> mesher;
+  std::mutex mutex;
+  std::vector<std::unique_ptr<struct Slot>> idle;
+
+  ~Session();
+};
+
+/// The plan and the buffers of one submission.
+struct Slot {
+  explicit Slot(std::pmr::memory_resource* memory) : plan(memory) {}
+  BatchPlan plan;
+  BatchBuffers buffers;
+  size_t first = 0;    ///< of the batch's jobs
+  uint64_t value = 0;  ///< of the queue; 0: not submitted
+};
+
+Session::~Session() {
+  if (queue) queue->drain();
+  idle.clear();
+}
+
+Result<std::shared_ptr<Session>> openSession(const VulkanBackendOptions& options) {
+  auto session = std::make_shared<Session>();
+  Result<std::unique_ptr<vulkan::Device>> device = options.open();
+  if (!device) return device.error();
+  session->device = std::move(*device);
+  auto queue = vulkan::Queue::create(*session->device);
+  if (!queue) return queue.error();
+  session->queue = std::move(*queue);
+  vulkan::MemoryOptions memory;
+  memory.cap = options.memory_cap;
+  session->memory = std::make_unique<vulkan::Memory>(*session->device, memory);
+  auto ring = vulkan::CommandRing::create(*session->queue);
+  if (!ring) return ring.error();
+  session->ring = std::move(*ring);
+  if (!options.pipeline_folder.empty()) {
+    // Without it pipelines are made anew, and nothing else.
+    if (auto cache = vulkan::PipelineCache::create(*session->device, options.pipeline_folder)) {
+      session->cache = std::move(*cache);
+    }
+  }
+  auto mesher = Mesher::create(*session->queue, *session->memory, *session->ring, session->cache.get());
+  if (!mesher) return mesher.error();
+  session->mesher = std::move(*mesher);
+  return session;
+}
+
+struct Counters {
+  std::atomic<uint64_t> chunks{0}, on_cpu{0}, device_lost{0}, batches{0};
+};
+
+/// What batches share with the backend, which they must not outlive.
+struct Shared {
+  VulkanBackendOptions options;
+  std::unique_ptr<Backend> cpu;
+  std::pmr::memory_resource* memory;
+  Profiler profiler;
+  Counters counters;
+  std::mutex mutex;
+  std::shared_ptr<Session> session;  ///< null: lost, and not open again
+};
+
+class VulkanBatch final : public ChunkBatch {
+ public:
+  VulkanBatch(Shared& shared, std::shared_ptr<Session> session, std::vector<ChunkJob> jobs, AfterChunk after_chunk)
+      : shared_(shared), session_(std::move(session)), jobs_(std::move(jobs)), after_chunk_(std::move(after_chunk)) {
+    meshes_.reserve(jobs_.size());
+    for (size_t i = 0; i < jobs_.size(); ++i) meshes_.emplace_back(shared.memory);
+    done_.resize(jobs_.size());
+  }
+  ~VulkanBatch() override {
+    cancel();
+    for (std::unique_ptr<Slot>& slot : slots_) {
+      if (slot->value != 0) (void)session_->queue->wait(slot->value);
+      release(slot);
+    }
+  }
+
+  /// Hands the jobs to the device, as many as it takes; the CPU does the rest when the batch is waited for.
+  void submit() {
+    size_t first = 0;
+    while (session_ && first < jobs_.size()) {
+      std::unique_ptr<Slot> slot = takeSlot();
+      slot->first = first;
+      const auto rest = std::span<const ChunkJob>(jobs_).subspan(first);
+      const size_t taken = planBatch(rest, shared_.options.room, session_->mesher->mostScratchWords(), slot->plan);
+      first += taken;
+      if (!slot->plan.chunks.empty()) {
+        const Result<uint64_t> value = session_->mesher->submit(slot->plan, slot->buffers);
+        if (!value) {
+          note(value.error());
+          release(slot);
+          break;
+        }
+        slot->value = *value;
+        shared_.counters.batches.fetch_add(1);
+      }
+      slots_.push_back(std::move(slot));
+    }
+  }
+
+  bool poll() override {
+    const std::scoped_lock lock(mutex_);
+    if (ended_) return true;
+    for (const std::unique_ptr<Slot>& slot : slots_) {
+      if (slot->value == 0) continue;
+      const Result<uint64_t> reached = session_->queue->reached();
+      if (reached && *reached < slot->value) return false;
+    }
+    finish();
+    return true;
+  }
+  void wait() override {
+    const std::scoped_lock lock(mutex_);
+    if (!ended_) finish();
+  }
+  void cancel() override { cancelled_.store(true); }
+  Result<std::vector<ChunkMesh>> take() override {
+    if (error_) {
+      try {
+        std::rethrow_exception(error_);
+      } catch (const std::bad_alloc&) {
+        return Error{Code::out_of_memory, "out of memory while meshing chunks"};
+      }
+    }
+    if (skipped_) return Error{Code::cancelled, "meshing was cancelled"};
+    return std::move(meshes_);
+  }
+
+ private:
+  std::unique_ptr<Slot> takeSlot() {
+    const std::scoped_lock lock(session_->mutex);
+    if (session_->idle.empty()) return std::make_unique<Slot>(shared_.memory);
+    std::unique_ptr<Slot> slot = std::move(session_->idle.back());
+    session_->idle.pop_back();
+    return slot;
+  }
+  void release(std::unique_ptr<Slot>& slot) {
+    slot->value = 0;
+    const std::scoped_lock lock(session_->mutex);
+    session_->idle.push_back(std::move(slot));
+  }
+
+  void note(const Error& error) {
+    if (error.code != Code::device_lost) return;
+    const std::scoped_lock lock(shared_.mutex);
+    if (shared_.session == session_) {
+      shared_.session = nullptr;
+      shared_.counters.device_lost.fetch_add(1);
+    }
+  }
+
+  /// Lets no exception out: poll() and wait() are called where there is nobody to catch one.
+  void finish() noexcept {
+    try {
+      for (std::unique_ptr<Slot>& slot : slots_) {
+        if (slot->value != 0 && !cancelled_.load()) readSlot(*slot);
+        if (slot->value != 0) (void)session_->queue->wait(slot->value);
+        release(slot);
+      }
+      slots_.clear();
+      doRest();
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+    ended_ = true;
+  }
+
+  void readSlot(Slot& slot) {
+    const Result<bool> ended = session_->queue->wait(slot.value);
+    if (!ended) return note(ended.error());
+    const Result<Mesher::Output> output = session_->mesher->read(slot.buffers);
+    if (!output) return note(output.error());
+    for (size_t c = 0; c < slot.plan.chunks.size() && !cancelled_.load(); ++c) {
+      const size_t job = slot.first + slot.plan.chunks[c].job;
+      if (!vulkan::readMesh(slot.plan, *output, c, jobs_[job], meshes_[job])) continue;
+      done_[job] = true;
+      shared_.counters.chunks.fetch_add(1);
+      if (after_chunk_ && !after_chunk_()) cancelled_.store(true);
+    }
+  }
+
+  void doRest() {
+    std::vector<ChunkJob> rest;
+    std::vector<size_t> numbers;
+    for (size_t i = 0; i < jobs_.size(); ++i) {
+      if (done_[i]) continue;
+      rest.push_back(jobs_[i]);
+      numbers.push_back(i);
+    }
+    if (rest.empty()) return;
+    skipped_ = cancelled_.load();
+    if (skipped_) return;
+    Result<std::unique_ptr<ChunkBatch>> batch = shared_.cpu->submit(std::move(rest), after_chunk_);
+    if (!batch) throw std::bad_alloc();
+    (*batch)->wait();
+    Result<std::vector<ChunkMesh>> meshes = (*batch)->take();
+    if (!meshes && meshes.error().code == Code::out_of_memory) throw std::bad_alloc();
+    skipped_ = !meshes;
+    if (skipped_) return;
+    for (size_t i = 0; i < numbers.size(); ++i) meshes_[numbers[i]] = std::move((*meshes)[i]);
+    shared_.counters.chunks.fetch_add(numbers.size());
+    shared_.counters.on_cpu.fetch_add(numbers.size());
+  }
+
+  Shared& shared_;
+  std::shared_ptr<Session> session_;
+  std::vector<ChunkJob> jobs_;
+  AfterChunk after_chunk_;
+  std::vector<ChunkMesh> meshes_;
+  std::vector<bool> done_;
+  std::vector<std::unique_ptr<Slot>> slots_;
+  std::atomic<bool> cancelled_{false};
+  std::mutex mutex_;
+  bool ended_ = false, skipped_ = false;
+  std::exception_ptr error_;
+};
+
+class VulkanBackend final : public Backend {
+ public:
+  VulkanBackend(const VulkanBackendOptions& options, std::unique_ptr<Backend> cpu, std::pmr::memory_resource* memory,
+                const Profiler& profiler, std::shared_ptr<Session> session) {
+    shared_.options = options;
+    shared_.cpu = std::move(cpu);
+    shared_.memory = memory;
+    shared_.profiler = profiler;
+    const vulkan::DeviceInfo& info = session->device->info();
+    capabilities_ = {BackendKind::vulkan, info.name, info.exact, 64};
+    shared_.session = std::move(session);
+  }
+  const BackendCapabilities& capabilities() const override { return capabilities_; }
+  BackendCounters counters() const override {
+    const Counters& c = shared_.counters;
+    return {c.chunks.load(), c.on_cpu.load(), c.device_lost.load(), c.batches.load()};
+  }
+  Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk) override {
+    auto batch = std::make_unique<VulkanBatch>(shared_, session(), std::move(jobs), std::move(after_chunk));
+    batch->submit();
+    return std::unique_ptr<ChunkBatch>(std::move(batch));
+  }
+
+ private:
+  /// The one there is, or after a loss a new one; null where there is none to be had.
+  std::shared_ptr<Session> session() {
+    const std::scoped_lock lock(shared_.mutex);
+    if (shared_.session) return shared_.session;
+    if (Result<std::shared_ptr<Session>> opened = openSession(shared_.options)) shared_.session = std::move(*opened);
+    return shared_.session;
+  }
+
+  Shared shared_;
+  BackendCapabilities capabilities_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Backend>> makeVulkanBackend(const VulkanBackendOptions& options, std::unique_ptr<Backend> cpu,
+                                                   JobSystem&, std::pmr::memory_resource* memory,
+                                                   const Profiler& profiler) {
+  Result<std::shared_ptr<Session>> session = openSession(options);
+  if (!session) return session.error();
+  return std::unique_ptr<Backend>(
+      std::make_unique<VulkanBackend>(options, std::move(cpu), memory, profiler, std::move(*session)));
+}
+
+}  // namespace sgm

@@ -1,0 +1,205 @@
+// Normals, materials and tags: a workgroup the vertices of a brick, or those of a seam that one of its two levels' fields
+// decides. Adds the vertices' share to the part's hash.
+
+layout(local_size_x_id = 0) in;
+
+#include "mesher/batch.glsl"
+#include "mesher/sizes.glsl"
+#include "mesher/items.glsl"
+#include "mesher/tape.glsl"
+#include "op_numbers.glsl"
+#include "mesher/window.glsl"
+#include "common/common.h"
+#include "mesher/hash.glsl"
+
+float slot_v[64], slot_x[64], slot_y[64], slot_z[64];
+int slot_label[64];
+ivec3 warped[8];
+mat3 jacobians[8];  // column j holds d place / d sample_j
+
+Dual readSlot(uint slot) { return makeDual(slot_v[slot], slot_x[slot], slot_y[slot], slot_z[slot], slot_label[slot]); }
+void writeSlot(uint slot, Dual d) {
+  slot_v[slot] = d.v;
+  slot_x[slot] = d.x;
+  slot_y[slot] = d.y;
+  slot_z[slot] = d.z;
+  slot_label[slot] = d.label;
+}
+
+// Nothing precise may read a global here: glslang follows `precise` back through every assignment to the arrays above,
+// which takes it for ever. Functions end that search, so all arithmetic stands in functions of values.
+float alongColumn(Dual d, vec3 column) {
+  PRECISE Real a = d.x * column.x;
+  PRECISE Real b = d.y * column.y;
+  PRECISE Real c = d.z * column.z;
+  a = a + b;
+  PRECISE Real r = a + c;
+  return holdReal(r);
+}
+Dual byColumns(Dual d, mat3 j) {
+  return makeDual(d.v, alongColumn(d, j[0]), alongColumn(d, j[1]), alongColumn(d, j[2]), d.label);
+}
+int movedBy(int at, float w) {
+  PRECISE Real m = clampReal(w, -1048576.0f, 1048576.0f) * 1024.0f;
+  m = m + 0.5f;
+  return at + toInt(floorReal(m));
+}
+vec3 steepened(vec3 column, float x, float y, float z) {
+  PRECISE Real a = x * 1024.0f;
+  a = column.x + a;
+  PRECISE Real b = y * 1024.0f;
+  b = column.y + b;
+  PRECISE Real c = z * 1024.0f;
+  c = column.z + c;
+  return vec3(holdReal(a), holdReal(b), holdReal(c));
+}
+
+// A local position in 1/256 of a cell, in whole units (mesh/vertex.h).
+int localUnits(uint at, int cell) { return int(at >> 8) * cell + ((int(at & 255u) * cell + 128) >> 8); }
+
+void main() {
+  const bool plane = planes != 0u;
+  const uint number = plane ? chunk_count * kBricks + 2u * gl_WorkGroupID.x + gl_WorkGroupID.y
+                            : scratch[sampled_at + gl_WorkGroupID.x];
+  const uint item = items_at + kItemWords * number;
+  const uint owner = scratch[item + kItemOwner];
+  const bool brick = number < chunk_count * kBricks;
+  const uint chunk = brick ? owner : kChunkWords * batch[owner + kSeamChunk];
+  const uint list = scratch[item + kItemList], list_end = list + scratch[item + kItemCount];
+  const float initial = uintBitsToFloat(scratch[item + kItemInitial]);
+  const int initial_label = int(scratch[item + kItemLabel]);
+  const int cell = int(batch[chunk + kChunkCell]);
+  const ivec3 origin =
+      ivec3(batch[chunk + kChunkOrigin], batch[chunk + kChunkOrigin + 1u], batch[chunk + kChunkOrigin + 2u]);
+  const uint part_number = brick ? batch[chunk + kChunkPart] : batch[owner + kSeamPart];
+  const uint part = kHeadWords + kPartWords * (part_number == kNoRoom ? 0u : part_number);
+  const uint first_vertex = parts[part + kPartFirstVertex];
+  // A seam's vertices: on fine edges, on coarse ones, lateral ones. The middle ones are the coarser level's.
+  const uint fine = parts[part + kPartCells], middle = parts[part + kPartMiddle];
+  const uint total = parts[part + kPartVertices];
+  const uint work = scratch[item + kItemWork];
+  uint count = brick ? scratch[item + kItemFlags] >> 2 : gl_WorkGroupID.y == 0u ? total - middle : middle;
+  if (part_number == kNoRoom || first_vertex == kNoRoom || brick == plane) count = 0u;
+
+  uint filled_to = fillWindow(list, list_end);
+  const bool whole = filled_to == list_end;
+  uvec2 share = uvec2(0u);
+  uint base = 0u;
+  while (base < count) {
+    const uint i = base + gl_LocalInvocationID.x;
+    const bool used = i < count;
+    const uint k = min(i, count - 1u);
+    const uint of_seam = gl_WorkGroupID.y == 0u ? (k < fine ? k : k + middle) : fine + k;
+    const uint vertex = brick ? scratch[work + k] : first_vertex + of_seam;
+    uvec4 packed_vertex = vertices[vertex];
+    const ivec3 p = origin + ivec3(localUnits(packed_vertex.x & 0xFFFFu, cell), localUnits(packed_vertex.x >> 16, cell),
+                                   localUnits(packed_vertex.y & 0xFFFFu, cell));
+    warped[0] = p;
+    jacobians[0] = mat3(1.0f);
+    Dual field = makeDual(initial, 0.0f, 0.0f, 0.0f, initial_label);
+    Dual cuts = farAway();
+    uint next = list;
+    do {
+      if (!whole) filled_to = fillWindow(next, list_end);
+      next = filled_to;
+
+#define MOVED (OCCURS(kOp_warp) && place != 0u)
+#define PX (MOVED ? warped[place].x : p.x)
+#define PY (MOVED ? warped[place].y : p.y)
+#define PZ (MOVED ? warped[place].z : p.z)
+
+#define STORE(d)       \
+  {                    \
+    Dual made = (d);   \
+    writeSlot(dst, made); \
+  }
+#define FORM_CONSTANT(F) STORE(F(P))
+#define FORM_POSITION(F)                                                         \
+  {                                                                              \
+    Dual made = F(PX, PY, PZ, P);                                                \
+    if (OCCURS(kOp_warp)) made = selDual(place == 0u, made, byColumns(made, jacobians[place])); \
+    writeSlot(dst, made);                                                        \
+  }
+#define FORM_POSITION_1(F)                                                       \
+  {                                                                              \
+    Dual t = readSlot(ra);                                                       \
+    Dual made = F(PX, PY, PZ, t, P);                                             \
+    if (OCCURS(kOp_warp)) made = selDual(place == 0u, made, byColumns(made, jacobians[place])); \
+    writeSlot(dst, addSlope(made, t, opPowerMorphSlope(PX, PY, PZ, t, P)));      \
+  }
+#define FORM_UNARY(F) STORE(F(readSlot(ra)))
+#define FORM_UNARY_P(F) STORE(F(readSlot(ra), P))
+#define FORM_BINARY(F) STORE(F(readSlot(ra), readSlot(rb)))
+#define FORM_TERNARY(F) STORE(F(readSlot(ra), readSlot(rb), readSlot(rc)))
+#define FORM_COPY(F) STORE(readSlot(ra))
+#define FORM_ROUND_BEGIN(F)     \
+  writeSlot(dst, farAway());    \
+  writeSlot(rb, nothing());
+#define FORM_ROUND_ADD(F)                                          \
+  {                                                                \
+    Dual d = readSlot(ra);                                         \
+    writeSlot(dst, opMinimum(readSlot(dst), d));                   \
+    writeSlot(rb, roundAccumulate(readSlot(rb), d, PF(P, 0)));     \
+  }
+#define FORM_ROUND_END(F) STORE(opRoundEnd(readSlot(ra), readSlot(rb), P))
+#define FORM_SUM_BEGIN(F)       \
+  writeSlot(dst, nothing());    \
+  writeSlot(rb, nothing());
+#define FORM_SUM_ADD(F)                                \
+  {                                                    \
+    Dual d = readSlot(ra);                             \
+    writeSlot(dst, sumHeaviest(readSlot(dst), d));     \
+    writeSlot(rb, opAdd(readSlot(rb), d));             \
+  }
+#define FORM_SUM_END(F) STORE(opSumEnd(readSlot(ra), readSlot(rb), P))
+#define FORM_WARP(F)                                                                                         \
+  {                                                                                                          \
+    Dual wx = readSlot(ra), wy = readSlot(rb), wz = readSlot(rc);                                            \
+    ivec3 from = warped[place];                                                                              \
+    mat3 slopes = jacobians[place];                                                                          \
+    warped[dst] = ivec3(movedBy(from.x, wx.v), movedBy(from.y, wy.v), movedBy(from.z, wz.v));                \
+    jacobians[dst] = mat3(steepened(slopes[0], wx.x, wy.x, wz.x), steepened(slopes[1], wx.y, wy.y, wz.y),    \
+                          steepened(slopes[2], wx.z, wy.z, wz.z));                                           \
+  }
+#define INFLUENCE                                                                                            \
+  const ivec3 lo = ivec3(PI(P, 0), PI(P, 1), PI(P, 2)), hi = ivec3(PI(P, 3), PI(P, 4), PI(P, 5));            \
+  const uint flags = PU(P, 6);                                                                               \
+  const bool cut = (flags & 1u) != 0u;                                                                       \
+  const bool within = (flags & 2u) == 0u || (all(greaterThanEqual(p, lo)) && all(lessThanEqual(p, hi)));
+#define FORM_FOLD                                                                   \
+  {                                                                                 \
+    INFLUENCE                                                                       \
+    Dual own = readSlot(ra);                                                        \
+    if (within && cut) cuts = opMinimum(cuts, own);                                 \
+    if (within && !cut) field = opMinimum(field, own);                              \
+  }
+#define FORM_SMOOTH                                                                 \
+  {                                                                                 \
+    INFLUENCE                                                                       \
+    Dual own = readSlot(ra);                                                        \
+    Dual blended = selDual(cut, roundCut(field, own, PF(P, 7)), roundUnion(field, own, PF(P, 7))); \
+    field = selDual(within, blended, field);                                        \
+  }
+#define FORM_LAYER_END          \
+  field = opCut(field, cuts);   \
+  cuts = farAway();
+#include "mesher/sweep.glsl"
+    } while (next < list_end);
+
+    const PackedNormal normal = packNormal(unsignedZero(field.x), unsignedZero(field.y), unsignedZero(field.z));
+    const uint label = uint(field.label);
+    packed_vertex.y = (packed_vertex.y & 0xFFFFu) | label << 16;
+    packed_vertex.z = (uint(normal.x) & 0xFFFFu) | uint(normal.y) << 16;
+    packed_vertex.w = (packed_vertex.w & 0xFFFF0000u) | label >> 16;
+    if (used) {
+      vertices[vertex] = packed_vertex;
+      share += hashVertex(packed_vertex, vertex - first_vertex);
+    }
+    base += gl_WorkGroupSize.x;
+  }
+  share = subgroupAdd(share);
+  if (subgroupElect() && count > 0u) {
+    atomicAdd(parts[part + kPartHash], share.x);
+    atomicAdd(parts[part + kPartHash + 1u], share.y);
+  }
+}

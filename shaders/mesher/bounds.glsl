@@ -1,0 +1,145 @@
+// Bounds of what the evaluators return over a box of positions, in float32 and so wider than the host's
+// (field/interval.h): by ten roundings of the largest magnitude at every step, and by what each op states of its own
+// error. What follows from them never shows in a mesh: pruned or not a program gives the same bits.
+
+struct Bounds {
+  float lo, hi;
+};
+
+const float kMostBound = 1.0e30f;
+const float kHeldAt = 1.0e18f;  // where expressions end (real.h)
+
+Bounds makeBounds(float lo, float hi) {
+  Bounds b;
+  b.lo = lo;
+  b.hi = hi;
+  return b;
+}
+
+float magnitudeOf(Bounds a) { return max(abs(a.lo), abs(a.hi)); }
+
+Bounds widened(Bounds a, float by) {
+  float slack = by + 1.0e-6f * magnitudeOf(a) + 1.0e-20f;
+  return makeBounds(clamp(a.lo - slack, -kMostBound, kMostBound), clamp(a.hi + slack, -kMostBound, kMostBound));
+}
+
+Bounds clampedTo(Bounds a, float lo, float hi) { return makeBounds(clamp(a.lo, lo, hi), clamp(a.hi, lo, hi)); }
+Bounds keptOf(Bounds a) { return clampedTo(a, -kHeldAt, kHeldAt); }
+Bounds negated(Bounds a) { return makeBounds(-a.hi, -a.lo); }
+
+Bounds productOf(Bounds a, Bounds b) {
+  a = clampedTo(a, -kHeldAt, kHeldAt);
+  b = clampedTo(b, -kHeldAt, kHeldAt);
+  float p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
+  return widened(makeBounds(min(min(p, q), min(r, s)), max(max(p, q), max(r, s))), 0.0f);
+}
+
+Bounds sumOf(Bounds a, Bounds b) {
+  return widened(makeBounds(a.lo + b.lo, a.hi + b.hi), 1.0e-6f * (magnitudeOf(a) + magnitudeOf(b)));
+}
+
+// (1 - t) a + t b over all t: linear in t, so that its ends decide.
+Bounds blendOf(Bounds a, Bounds b, Bounds t) {
+  Bounds low = sumOf(productOf(a, makeBounds(1.0f - t.lo, 1.0f - t.lo)), productOf(b, makeBounds(t.lo, t.lo)));
+  Bounds high = sumOf(productOf(a, makeBounds(1.0f - t.hi, 1.0f - t.hi)), productOf(b, makeBounds(t.hi, t.hi)));
+  return widened(makeBounds(min(low.lo, high.lo), max(low.hi, high.hi)),
+                 1.0e-6f * (magnitudeOf(a) + magnitudeOf(b)) * (1.0f + magnitudeOf(t)));
+}
+
+// Exact zero where the kernel is certainly spent, so that the operand may be left out.
+Bounds kernelRange(Bounds x, float error) {
+  float slack = (error + 1.0e-6f) * (1.0f + magnitudeOf(x));
+  float low = max(0.0f, 1.0f - (x.hi + slack)), high = max(0.0f, 1.0f - max(0.0f, x.lo - slack));
+  low = low * low * low;
+  high = high * high * high;
+  return makeBounds(max(0.0f, low - error - 1.0e-6f), high > 0.0f ? high + error + 1.0e-6f : 0.0f);
+}
+
+// Offsets along one axis from a centre, and their squares.
+Bounds offsetRange(int lo, int hi, int centre) {
+  return widened(makeBounds(float(saturatingSub(lo, centre)), float(saturatingSub(hi, centre))), 0.0f);
+}
+Bounds squareOf(Bounds a) {
+  float l = a.lo * a.lo, h = a.hi * a.hi;
+  return widened(makeBounds(a.lo <= 0.0f && a.hi >= 0.0f ? 0.0f : min(l, h), max(l, h)), 0.0f);
+}
+
+// Of an op over operands (number is a constant at every place that calls this, so that one line of it is left).
+Bounds operandBounds(uint number, Bounds a, Bounds b, Bounds c, float p0, float p1) {
+  float error = kStatedErrors[number];
+  if (number == kOp_constant) return makeBounds(p0, p0);
+  if (number == kOp_copy) return a;
+  if (number == kOp_negate) return negated(a);
+  if (number == kOp_absolute) {
+    return makeBounds(a.lo <= 0.0f && a.hi >= 0.0f ? 0.0f : min(abs(a.lo), abs(a.hi)), magnitudeOf(a));
+  }
+  if (number == kOp_floor) {
+    Bounds h = clampedTo(a, -1.0e9f, 1.0e9f);
+    return makeBounds(floor(h.lo), floor(h.hi));
+  }
+  if (number == kOp_square_root) {
+    Bounds r = makeBounds(sqrtReal(max(a.lo, 0.0f)), sqrtReal(max(a.hi, 0.0f)));
+    return widened(r, 2.0f * error * r.hi + 1.0e-14f);
+  }
+  if (number == kOp_add) return keptOf(sumOf(a, b));
+  if (number == kOp_subtract) return keptOf(sumOf(a, negated(b)));
+  if (number == kOp_multiply) {
+    return widened(keptOf(productOf(a, b)), 1.0e-29f * (magnitudeOf(keptOf(a)) + magnitudeOf(keptOf(b))));
+  }
+  if (number == kOp_divide) {
+    bool through = b.lo <= 1.0e-29f && b.hi >= -1.0e-29f;
+    Bounds by = through ? makeBounds(1.0f, 1.0f) : b;
+    Bounds inverse = widened(keptOf(makeBounds(divideReal(1.0f, by.hi), divideReal(1.0f, by.lo))), 1.0e-17f);
+    Bounds r = widened(keptOf(productOf(a, inverse)), 1.0e-29f * magnitudeOf(inverse) + 1.0e-17f);
+    return through ? makeBounds(-2.0e18f, 2.0e18f) : r;
+  }
+  if (number == kOp_less) return makeBounds(a.hi < b.lo ? 1.0f : 0.0f, a.lo < b.hi ? 1.0f : 0.0f);
+  if (number == kOp_smoothstep) {
+    Bounds t = productOf(makeBounds(a.lo - p0, a.hi - p0), makeBounds(p1, p1));
+    t = widened(t, 4.0f * error * abs(p1) * (magnitudeOf(a) + abs(p0)));
+    Bounds u = clampedTo(t, 0.0f, 1.0f);
+    float low = u.lo * u.lo * (3.0f - 2.0f * u.lo) - error - 1.0e-6f;
+    float high = u.hi * u.hi * (3.0f - 2.0f * u.hi) + error + 1.0e-6f;
+    // t is clamped before anything else is rounded, so that its ends give exactly 0 and 1.
+    return t.hi <= 0.0f ? makeBounds(0.0f, 0.0f) : t.lo >= 1.0f ? makeBounds(1.0f, 1.0f) : makeBounds(max(low, 0.0f), high);
+  }
+  if (number == kOp_mix) return keptOf(blendOf(a, b, c));
+  if (number == kOp_minimum) return makeBounds(min(a.lo, b.lo), min(a.hi, b.hi));
+  if (number == kOp_maximum) return makeBounds(max(a.lo, b.lo), max(a.hi, b.hi));
+  if (number == kOp_cut) return makeBounds(max(a.lo, -b.hi), max(a.hi, -b.lo));
+  if (number == kOp_morph) return keptOf(blendOf(a, b, clampedTo(c, 0.0f, 1.0f)));
+  if (number == kOp_displace) return keptOf(sumOf(a, productOf(b, makeBounds(1024.0f, 1024.0f))));
+  if (number == kOp_kernel) {
+    Bounds r = widened(productOf(a, makeBounds(p0, p0)), 4.0f * error * (1.0f + magnitudeOf(a) * p0));
+    r = clampedTo(makeBounds(r.lo + 1.0f, r.hi + 1.0f), 0.0f, 1.0e9f);
+    return kernelRange(productOf(makeBounds(r.lo * r.lo, r.hi * r.hi), makeBounds(p1, p1)), error);
+  }
+  return makeBounds(-kMostBound, kMostBound);
+}
+
+Bounds roundShare(Bounds d, float k) {
+  Bounds u = clampedTo(makeBounds(k - d.hi, k - d.lo), 0.0f, 1.0e9f);
+  u = widened(u, 1.0e-6f * (k + min(magnitudeOf(d), 2.0e9f)));
+  u = makeBounds(max(u.lo, 0.0f), u.hi);
+  return makeBounds(u.lo * u.lo * 0.999998f, d.lo >= k ? 0.0f : u.hi * u.hi * 1.000002f);
+}
+
+Bounds roundEndRange(Bounds nearest, Bounds sum, float k) {
+  Bounds top = makeBounds(max(nearest.lo, k), max(nearest.hi, k));
+  Bounds root = makeBounds(sqrtReal(sum.lo), sqrtReal(sum.hi));
+  return widened(makeBounds(top.lo - root.hi, top.hi - root.lo),
+                 (kStatedErrors[kOp_round_end] + 1.0e-6f) * (magnitudeOf(top) + root.hi));
+}
+
+Bounds roundUnionRange(Bounds a, Bounds b, float k) {
+  Bounds nearest = makeBounds(min(a.lo, b.lo), min(a.hi, b.hi));
+  float u = clamp(k - a.lo, 0.0f, 1.0e9f), v = clamp(k - b.lo, 0.0f, 1.0e9f);
+  float root = sqrtReal(u * u + v * v);
+  float low = widened(makeBounds(k - root, k - root), (kStatedErrors[kOp_round_end] + 1.0e-6f) * (k + root)).lo;
+  return u == 0.0f || v == 0.0f ? nearest : makeBounds(min(nearest.lo, low), nearest.hi);
+}
+
+Bounds sumEndRange(Bounds sum, float threshold, float size) {
+  Bounds r = productOf(makeBounds(threshold - sum.hi, threshold - sum.lo), makeBounds(size, size));
+  return widened(keptOf(r), (kStatedErrors[kOp_sum_end] + 2.0e-6f) * (abs(threshold) + sum.hi) * abs(size));
+}

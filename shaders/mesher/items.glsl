@@ -1,0 +1,59 @@
+// What is pruned, sampled and given attributes as a whole: the bricks of a chunk, 8^3 samples and one more on its high
+// faces; and the plane of a seam, once in the chunk's own field and once in the coarser level's.
+
+const uint kBricks = 64u;      // of a chunk, x fastest
+const uint kBrickSamples = 8u;
+const uint kItemWords = 8u;
+const uint kItemList = 0u;     // where in scratch its list of records begins
+const uint kItemCount = 1u;    // how many; 0 for a uniform brick
+const uint kItemFlags = 2u;
+const uint kItemInitial = 3u;  // the field below all that is left, as bits, and its label
+const uint kItemLabel = 4u;
+const uint kItemScale = 5u;    // Q by unit, as bits
+const uint kItemOwner = 6u;    // of a brick the chunk's record, of a plane the seam's, as places in batch
+const uint kItemWork = 7u;     // attributes: its vertices, as a place in the list of vertices, and their number behind it
+const uint kItemSolid = 1u;    // proven: all samples are solid,
+const uint kItemEmpty = 2u;    // or none is
+
+// An entry of a list: the record's place, in units of 32 words, and what became of it.
+const uint kKept = 0u;
+const uint kFirstAlone = 1u;   // only its first operand is left: a copy; of a fold: the influence box need not be asked
+const uint kSecondAlone = 2u;
+
+// A header of a record (one vector: its first two words, its place in units of 32 words, and what it is).
+const uint kOperands = 3u;        // bits 0, 1: how many slots it reads
+const uint kReadsPosition = 4u;
+const uint kBeginsTwo = 8u;       // makes two values
+const uint kAddsTo = 16u;         // adds to two values
+const uint kEndsRound = 32u;
+const uint kMakesPlace = 64u;
+const uint kChooses = 128u;       // may come down to one of its first two operands
+const uint kAddsRound = 256u;
+const uint kCuts = 512u;          // of a fold: into what is taken away. Of a layer's end: there is such
+const uint kIsFold = 1024u;
+const uint kIsSmooth = 2048u;
+const uint kIsLayerEnd = 4096u;
+
+// A job of pruning: one program, and all boxes that it is asked about.
+const uint kJobWords = 12u;
+const uint kJobHeaders = 0u;  // place of the first header, in vectors
+const uint kJobRecords = 1u;
+const uint kJobKind = 2u;     // 0 the bricks of a chunk; 1 the planes of its seams; 2 those in the coarser level's field
+const uint kJobChunk = 3u;    // number in the batch
+const uint kJobFirstSeam = 4u;
+const uint kJobSeams = 5u;
+const uint kJobLists = 6u;    // where in scratch each box gets room for a list of all records
+const uint kJobInitial = 7u;  // bits; the label, Q by unit
+const uint kJobLabel = 8u;
+const uint kJobScale = 9u;
+
+uint brickItem(uint chunk, uint brick) { return items_at + kItemWords * (chunk * kBricks + brick); }
+// coarse: 0 or 1
+uint planeItem(uint seam, uint coarse) { return items_at + kItemWords * (chunk_count * kBricks + 2u * seam + coarse); }
+
+// Brick b of a chunk covers samples first..last on each axis.
+uvec3 firstOfBrick(uint b) { return uvec3(b & 3u, b >> 2 & 3u, b >> 4) * kBrickSamples; }
+uvec3 lastOfBrick(uint b) {
+  uvec3 first = firstOfBrick(b);
+  return first + kBrickSamples - uvec3(lessThan(first, uvec3(24u)));
+}

@@ -1,0 +1,153 @@
+// The samples and signs of one item a workgroup: a brick that is not proven uniform, or the coarse plane of a seam.
+
+layout(local_size_x_id = 0) in;
+
+#include "mesher/batch.glsl"
+#include "mesher/sizes.glsl"
+#include "mesher/items.glsl"
+#include "mesher/tape.glsl"
+#include "op_numbers.glsl"
+#include "mesher/window.glsl"
+#include "common/common.h"
+
+const uint kEach = 4u;  // samples an invocation takes at one time
+
+float slots[64u * kEach];
+ivec3 warped[7u * kEach];
+
+Dual valueOf(float v) { return makeDual(v, 0.0f, 0.0f, 0.0f, 0); }
+
+int movedBy(int at, float w) {
+  PRECISE Real m = clampReal(w, -1048576.0f, 1048576.0f) * 1024.0f;
+  m = m + 0.5f;
+  return at + toInt(floorReal(m));
+}
+
+float folded(float field, float own, float width, bool cut) {
+  Dual f = valueOf(field), g = valueOf(own);
+  return cut ? roundCut(f, g, width).v : roundUnion(f, g, width).v;
+}
+
+void main() {
+  const uint item = items_at + kItemWords * scratch[sampled_at + gl_WorkGroupID.x];
+  const uint list = scratch[item + kItemList], list_end = list + scratch[item + kItemCount];
+  const float initial = uintBitsToFloat(scratch[item + kItemInitial]);
+  const float scale = uintBitsToFloat(scratch[item + kItemScale]);
+  const uint owner = scratch[item + kItemOwner];
+  const uint number = (item - items_at) / kItemWords;
+  const bool plane = number >= chunk_count * kBricks;
+  const uint chunk = plane ? kChunkWords * batch[owner + kSeamChunk] : owner;
+  const int cell = int(batch[chunk + kChunkCell]);
+  ivec3 origin = ivec3(batch[chunk + kChunkOrigin], batch[chunk + kChunkOrigin + 1u], batch[chunk + kChunkOrigin + 2u]);
+  const uint samples = plane ? batch[owner + kSeamSamples] : batch[chunk + kChunkSamples];
+  const uint signs = plane ? batch[owner + kSeamSigns] : batch[chunk + kChunkSigns];
+  const uint face = plane ? batch[owner + kSeamFace] : 0u;
+  const uint axis = face >> 1;
+  const uvec3 first = plane ? uvec3(0u) : firstOfBrick(number % kBricks);
+  const uvec3 extent = plane ? uvec3(kCoarseSide) : lastOfBrick(number % kBricks) - first + 1u;
+  // Rows of eight, then what a brick on the high side has beyond them, one a row.
+  const uint rows = extent.y * extent.z;
+  const uint count = plane ? kCoarseSide * kCoarseSide : rows * extent.x;
+  const uint inverse = extent.y == 8u ? 8192u : 7282u;  // 65536 / rows of y, rounded up: exact for 81 rows
+
+  uint filled_to = fillWindow(list, list_end);
+  const bool whole = filled_to == list_end;
+  uint base = 0u;
+  do {
+    int px[kEach], py[kEach], pz[kEach];
+    float field[kEach], cuts[kEach];
+    uint target[kEach], word[kEach];
+    uint bit[kEach];
+    bool inside[kEach];
+    for (uint s = 0u; s < kEach; ++s) {
+      uint i = base + s * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+      inside[s] = i < count;
+      i = min(i, count - 1u);
+      bool beyond = i >= 8u * rows;
+      uint row = beyond ? i - 8u * rows : i >> 3;
+      uint z = row * inverse >> 16;
+      uvec3 at = first + uvec3(beyond ? 8u : i & 7u, row - z * extent.y, z);
+      uint b = i * 3856u >> 16, a = i - b * kCoarseSide;  // by 17: exact for 289
+      ivec3 on_plane = ivec3(0);
+      on_plane[axis] = (face & 1u) != 0u ? 32 : 0;
+      on_plane[(axis + 1u) % 3u] = int(2u * a);
+      on_plane[(axis + 2u) % 3u] = int(2u * b);
+      ivec3 p = origin + (plane ? on_plane : ivec3(at)) * cell;
+      px[s] = p.x;
+      py[s] = p.y;
+      pz[s] = p.z;
+      uint sign_row = at.y + kSide * at.z;
+      target[s] = samples + (plane ? i : at.x + kSide * sign_row);
+      word[s] = signs + (plane ? b : 2u * sign_row + (at.x >> 5));
+      bit[s] = plane ? a : at.x & 31u;
+      field[s] = initial;
+      cuts[s] = 1.0e30f;
+    }
+    uint next = list;
+    do {
+      if (!whole) filled_to = fillWindow(next, list_end);
+      next = filled_to;
+
+#define EACH(BODY)                                                                                     \
+  { const uint s = 0u; BODY } { const uint s = 1u; BODY } { const uint s = 2u; BODY } { const uint s = 3u; BODY }
+#define MOVED (OCCURS(kOp_warp) && place != 0u)
+#define PX (MOVED ? warped[(place - 1u) * kEach + s].x : px[s])
+#define PY (MOVED ? warped[(place - 1u) * kEach + s].y : py[s])
+#define PZ (MOVED ? warped[(place - 1u) * kEach + s].z : pz[s])
+#define SLOT(r) slots[(r) * kEach + s]
+#define READ(r) valueOf(SLOT(r))
+#define FORM_CONSTANT(F) EACH(SLOT(dst) = F(P).v;)
+#define FORM_POSITION(F) EACH(SLOT(dst) = F(PX, PY, PZ, P).v;)
+#define FORM_POSITION_1(F) EACH(SLOT(dst) = F(PX, PY, PZ, READ(ra), P).v;)
+#define FORM_UNARY(F) EACH(SLOT(dst) = F(READ(ra)).v;)
+#define FORM_UNARY_P(F) EACH(SLOT(dst) = F(READ(ra), P).v;)
+#define FORM_BINARY(F) EACH(SLOT(dst) = F(READ(ra), READ(rb)).v;)
+#define FORM_TERNARY(F) EACH(SLOT(dst) = F(READ(ra), READ(rb), READ(rc)).v;)
+#define FORM_COPY(F) EACH(SLOT(dst) = SLOT(ra);)
+#define FORM_ROUND_BEGIN(F) EACH(SLOT(dst) = farAway().v; SLOT(rb) = nothing().v;)
+#define FORM_ROUND_ADD(F)                                           \
+  EACH(Dual d = READ(ra); SLOT(dst) = opMinimum(READ(dst), d).v;    \
+       SLOT(rb) = roundAccumulate(READ(rb), d, PF(P, 0)).v;)
+#define FORM_ROUND_END(F) EACH(SLOT(dst) = opRoundEnd(READ(ra), READ(rb), P).v;)
+#define FORM_SUM_BEGIN(F) EACH(SLOT(dst) = nothing().v; SLOT(rb) = nothing().v;)
+#define FORM_SUM_ADD(F)                                             \
+  EACH(Dual d = READ(ra); SLOT(dst) = sumHeaviest(READ(dst), d).v; SLOT(rb) = opAdd(READ(rb), d).v;)
+#define FORM_SUM_END(F) EACH(SLOT(dst) = opSumEnd(READ(ra), READ(rb), P).v;)
+#define FORM_WARP(F)                                                                                   \
+  EACH(warped[(dst - 1u) * kEach + s] =                                                                \
+           ivec3(movedBy(PX, SLOT(ra)), movedBy(PY, SLOT(rb)), movedBy(PZ, SLOT(rc)));)
+#define WITHIN                                                                                         \
+  ((flags & 2u) == 0u || (px[s] >= lo.x && py[s] >= lo.y && pz[s] >= lo.z && px[s] <= hi.x && py[s] <= hi.y && pz[s] <= hi.z))
+#define INFLUENCE                                                                                      \
+  const ivec3 lo = ivec3(PI(P, 0), PI(P, 1), PI(P, 2)), hi = ivec3(PI(P, 3), PI(P, 4), PI(P, 5));      \
+  const uint flags = PU(P, 6);                                                                         \
+  const bool cut = (flags & 1u) != 0u;
+#define FORM_FOLD                                                                                      \
+  INFLUENCE                                                                                            \
+  EACH(bool within = WITHIN; Dual before = valueOf(cut ? cuts[s] : field[s]);                          \
+       float after = opMinimum(before, READ(ra)).v; if (within && cut) cuts[s] = after;                \
+       if (within && !cut) field[s] = after;)
+#define FORM_SMOOTH                                                                                    \
+  INFLUENCE                                                                                            \
+  EACH(bool within = WITHIN; float after = folded(field[s], SLOT(ra), PF(P, 7), cut); if (within) field[s] = after;)
+#define FORM_LAYER_END EACH(field[s] = opCut(valueOf(field[s]), valueOf(cuts[s])).v; cuts[s] = 1.0e30f;)
+#include "mesher/sweep.glsl"
+    } while (next < list_end);
+
+    for (uint s = 0u; s < kEach; ++s) {
+      int q = quantise(field[s], scale);
+      bool solid = inside[s] && q < 0;
+      if (inside[s]) scratch[target[s]] = uint(q);
+      // Eight invocations in a row share a row of a brick, unless they are beyond it or on a plane.
+      uint i = base + s * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+      bool alone = plane || i >= 8u * rows;
+      uint lane = gl_SubgroupInvocationID;
+      uvec4 ballot = subgroupBallot(solid);
+      uint half_word = lane < 32u ? ballot.x : ballot.y;
+      uint row_bits = half_word >> (lane & 24u) & 0xFFu;
+      uint bits = alone ? (solid ? 1u << bit[s] : 0u) : (lane & 7u) == 0u ? row_bits << bit[s] : 0u;
+      if (bits != 0u) atomicOr(scratch[word[s]], bits);
+    }
+    base += kEach * gl_WorkGroupSize.x;
+  } while (base < count);
+}
