@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-// What a chunk's body has, from signs alone: a workgroup a chunk, an invocation a run of rows. It walks them twice, once
-// for the sums and once for the running counts.
+// What a chunk's body has, from signs alone: a workgroup a chunk, an invocation a run of rows. It walks them twice,
+// once for the sums and once for the running counts.
 layout(local_size_x = 64) in;
 #include "mesher/batch.glsl"
 #include "mesher/edges.glsl"
@@ -12,10 +12,11 @@ const uint kPairs = 545u;       // of rows
 const uint kPairsInRun = 9u;    // 64 runs are at least as many
 const uint kPairsToPlane = 16u; // from a pair to that which holds the next row but 32
 
-// Triangles of a row of cells between rows a, b (next in y), c (next in z) and d (both). A case with n solid corners has
-// n - 2 f triangles, f of its faces being wholly solid; two less for each of the two loops around opposite corners
-// alone, and none where all is solid. (Of E cut edges in L loops come E - 2 L triangles. E is 3 n - 2 e for e edges
-// within the solid, and L = n - e + f by Euler's formula, where the solid corners hang together without a ring.)
+// Triangles of a row of cells between the sample rows a, b (next in y), c (next in z) and d (both), 32 cells at once.
+//
+// E cut edges in L loops make E - 2 L triangles. With n solid corners, e edges and f faces wholly in the solid, E is
+// 3 n - 2 e, and by Euler's formula L is n - e + f: together n - 2 f. Two cases stand apart: a ring around two opposite
+// void corners has two loops more than the formula, and the solid cube two less.
 uint trianglesOf(uint a, uint b, uint c, uint d, uint a1, uint b1, uint c1, uint d1) {
   uint low = a & b & c & d, high = a1 & b1 & c1 & d1;
   uint corners = bitCount(a) + bitCount(b) + bitCount(c) + bitCount(d) + bitCount(a1) + bitCount(b1) + bitCount(c1) +

@@ -1,5 +1,5 @@
-// The crossed edges that the samples of one row own, and so the numbers of the vertices on them: by sample, then x-edge,
-// y-edge, z-edge. A row's signs are two words, samples 0..31 and sample 32. A plane of a face has x and y alone.
+// The crossed edges that the samples of one row own, and so the numbers of the vertices on them: by sample, then
+// x-edge, y-edge, z-edge. A row's signs are two words, samples 0..31 and sample 32. A plane has x and y alone.
 
 struct RowEdges {
   uint x;
@@ -31,6 +31,12 @@ uint verticesBefore(RowEdges e, uint x) {
 uint ownedEdges(RowEdges e, uint x) {
   uvec3 owned = x < 32u ? uvec3(e.x, e.y.x, e.z.x) >> x : uvec3(0u, e.y.y, e.z.y);
   return (owned.x & 1u) | (owned.y & 1u) << 1 | (owned.z & 1u) << 2;
+}
+
+// The same of samples x and x + 1, three bits each; x < 32.
+uint ownedByTwo(RowEdges e, uint x) {
+  uvec3 here = uvec3(e.x, e.y.x, e.z.x) >> x & 1u, next = uvec3(e.x >> 1, shifted(e.y), shifted(e.z)) >> x & 1u;
+  return here.x | here.y << 1 | here.z << 2 | next.x << 3 | next.y << 4 | next.z << 5;
 }
 
 // The number of the vertex on bit `edge` of a mask of owned edges (of one sample, or of some in a row), of which the

@@ -22,14 +22,15 @@ uvec2 hashIndex(uint index, uint number) { return hashWord(index, 0x80000000u + 
 // Adds to the hashes of parts: one pair of atomics a part and subgroup, whichever invocation has which part. Called in
 // uniform control flow; kNoRoom: the invocation has nothing.
 void addHash(uint part, uvec2 share) {
-  uint left = part, next = subgroupMin(left);
-  while (next != kNoRoom) {
+  uint left = part;
+  do {
+    uint next = subgroupMin(left);
     uvec2 sum = subgroupAdd(left == next ? share : uvec2(0u));
-    if (subgroupElect()) {
-      atomicAdd(parts[kHeadWords + next * kPartWords + kPartHash], sum.x);
-      atomicAdd(parts[kHeadWords + next * kPartWords + kPartHash + 1u], sum.y);
+    if (subgroupElect() && next != kNoRoom) {
+      uint at = kHeadWords + next * kPartWords + kPartHash;
+      atomicAdd(parts[at], sum.x);
+      atomicAdd(parts[at + 1u], sum.y);
     }
-    if (left == next) left = kNoRoom;
-    next = subgroupMin(left);
-  }
+    left = left == next ? kNoRoom : left;
+  } while (subgroupMin(left) != kNoRoom);
 }

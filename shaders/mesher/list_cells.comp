@@ -7,6 +7,7 @@ layout(local_size_x = 64) in;
 #include "mesher/edges.glsl"
 #include "mesher/cells.glsl"
 
+// The triangles of one case (census_body.comp says why).
 uint trianglesOf(uint cell_case) {
   const uint kFaces[6] = uint[](0x55u, 0xAAu, 0x33u, 0xCCu, 0x0Fu, 0xF0u);
   uint count = bitCount(cell_case) + (cell_case == 0xFFu ? 4u : 0u);
@@ -15,30 +16,40 @@ uint trianglesOf(uint cell_case) {
   return hollow == 0x81u || hollow == 0x42u || hollow == 0x24u || hollow == 0x18u ? count - 4u : count;
 }
 
+// Three rows' signs from row r on; what lies beyond the chunk does not matter.
+void readRows(uint signs, uint r, out uvec2 a, out uvec2 b, out uvec2 c) {
+  uint pair = signs / 4u + min(r, kRows - 2u) / 2u;
+  uvec4 low = scratch_fours[pair], high = scratch_fours[pair + 1u];
+  bool odd = (r & 1u) != 0u;
+  a = odd ? low.zw : low.xy;
+  b = odd ? high.xy : low.zw;
+  c = odd ? high.zw : high.xy;
+}
+
 void listRow(uint signs, uint rows, uint part, uint list, uint r) {
-  uint y = r % kSide, z = r / kSide, pair = signs / 2u + r;
+  uint y = r % kSide, z = r / kSide;
   uvec4 counts = scratch_fours[rows / kRowWords + r];
   uvec4 first = uvec4(counts.x, 0u, scratch[rows + (r + kSide) * kRowWords], 0u);
-  uvec2 s00 = scratch_pairs[pair], s10 = scratch_pairs[pair + 1u];
-  uvec2 s01 = scratch_pairs[pair + kSide], s11 = scratch_pairs[pair + kSide + 1u];
-  // In the last rows of cells these lie beyond the chunk, and do not matter.
-  uvec2 s20 = scratch_pairs[pair + 2u], s21 = scratch_pairs[pair + kSide + 2u];
-  uint far = signs / 2u + min(r + 2u * kSide, kRows - 2u);
-  uvec2 s02 = scratch_pairs[far], s12 = scratch_pairs[far + 1u];
+  uvec2 s00, s10, s20, s01, s11, s21, s02, s12, s22;
+  readRows(signs, r, s00, s10, s20);
+  readRows(signs, r + kSide, s01, s11, s21);
+  readRows(signs, r + 2u * kSide, s02, s12, s22);
   RowEdges e00 = crossedEdges(s00, s10, s01, y, z), e10 = crossedEdges(s10, s20, s11, y + 1u, z);
   RowEdges e01 = crossedEdges(s01, s11, s02, y, z + 1u), e11 = crossedEdges(s11, s21, s12, y + 1u, z + 1u);
   first.y = first.x + verticesOf(e00);
   first.w = first.z + verticesOf(e01);
-  uvec4 words = uvec4(s00.x, s10.x, s01.x, s11.x), next_words = uvec4(shifted(s00), shifted(s10), shifted(s01), shifted(s11));
+  uvec4 words = uvec4(s00.x, s10.x, s01.x, s11.x);
+  uvec4 next_words = uvec4(shifted(s00), shifted(s10), shifted(s01), shifted(s11));
   uint index = counts.y, to = list / kCellWords + counts.z, live = counts.w;
   do {
     uint x = uint(findLSB(live));
     uvec4 corners = (words >> x & 1u) | (next_words >> x & 1u) << 1;
     ActiveCell cell;
     cell.cell_case = corners.x | corners.y << 2 | corners.z << 4 | corners.w << 6;
-    cell.first = first + uvec4(verticesBefore(e00, x), verticesBefore(e10, x), verticesBefore(e01, x), verticesBefore(e11, x));
-    cell.owned = uvec3(ownedEdges(e00, x) | ownedEdges(e00, x + 1u) << 3, ownedEdges(e10, x) | ownedEdges(e10, x + 1u) << 3,
-                       ownedEdges(e01, x) | ownedEdges(e01, x + 1u) << 3);
+    cell.first = first;
+    cell.first.xy += uvec2(verticesBefore(e00, x), verticesBefore(e10, x));
+    cell.first.zw += uvec2(verticesBefore(e01, x), verticesBefore(e11, x));
+    cell.owned = uvec3(ownedByTwo(e00, x), ownedByTwo(e10, x), ownedByTwo(e01, x));
     cell.index = index;
     cell.part = part;
     scratch_fours[to] = packCell(cell);

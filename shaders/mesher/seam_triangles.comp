@@ -4,7 +4,7 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 // The triangles of all seams that have room: a workgroup a seam, an invocation an active cell. Runs when vertices have
 // their positions. Loops have up to 12 points and are cut as mesh/triangulate.cpp says.
-layout(local_size_x = 64) in;
+layout(local_size_x = 32) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"
 #include "mesher/edges.glsl"
@@ -28,10 +28,14 @@ uvec2 numbersFrom(RowEdges e, uint start, uint a) {
                ownedEdges(e, a) | ownedEdges(e, a + 1u) << 3 | (a + 2u <= kCells ? ownedEdges(e, a + 2u) << 6 : 0u));
 }
 
-// The numbers of the vertices on a cell's edges (mesh/tables.h), and its case.
-uint numberEdges(Seam seam, uint a, uint b, out uint number[kEdges]) {
+// The numbers of the vertices on a cell's edges (mesh/tables.h).
+uint number[kEdges];
+
+// Fills them for the cell at (a, b), and gives its case.
+uint numberEdges(Seam seam, uint a, uint b) {
   uint fine = (seam.counts + kSeamPlane) / 2u + 2u * b, signs = batch[seam.record + kSeamSigns] + b;
-  uvec2 f0 = scratch_pairs[fine], f1 = scratch_pairs[fine + 1u], f2 = scratch_pairs[fine + 2u], f3 = scratch_pairs[fine + 3u];
+  uvec2 f0 = scratch_pairs[fine], f1 = scratch_pairs[fine + 1u];
+  uvec2 f2 = scratch_pairs[fine + 2u], f3 = scratch_pairs[fine + 3u];
   uint c0 = scratch[signs], c1 = scratch[signs + 1u], c2 = scratch[signs + 2u];
   uint rows = seam.counts + kSeamFineRows + 2u * b, coarse_rows = seam.counts + kSeamCoarseRows + b;
   uint lateral_rows = seam.counts + kSeamLateralRows + b;
@@ -70,25 +74,21 @@ uint byteOf(uint place) { return tables[kSeamBytes + place / 4u] >> (8u * (place
 
 void writeTriangles(Seam seam, uint cell, inout uvec2 hash) {
   uint a = cell & 15u, b = cell >> 4 & 15u, index = 3u * (cell >> 8);
-  uint number[kEdges];
-  uint entry = tables[kSeamCases + numberEdges(seam, a, b, number)];
+  uint entry = tables[kSeamCases + numberEdges(seam, a, b)];
   uint left = entry >> kSeamTrianglesShift, at = entry & ((1u << kSeamTrianglesShift) - 1u);
-  uvec2 corner = pointOf(seam.face, 512u * a, 512u * b, kCells * 256u).xy;
-  uint corner_z = pointOf(seam.face, 512u * a, 512u * b, kCells * 256u).z;
+  uvec3 corner = pointOf(seam.face, 512u * a, 512u * b, kCells * 256u);
   do {
     uint n = byteOf(at), i = 0u;
-    Point loop[kLongestLoop];
     do {
       uint edge = byteOf(at + 1u + (i == 0u || isHigh(seam.face) ? i : n - i));
       uvec2 vertex = vertices[seam.first_vertex + number[edge]].xy;
-      loop[i] = packPoint(uvec3(vertex.x & 0xFFFFu, vertex.x >> 16, vertex.y & 0xFFFFu) - uvec3(corner, corner_z),
+      loop[i] = packPoint(uvec3(vertex.x & 0xFFFFu, vertex.x >> 16, vertex.y & 0xFFFFu) - corner,
                           tables[kSeamFaces + edge], number[edge]);
       ++i;
     } while (i < n);
     at += n + 1u;
     left -= n - 2u;
-    uint chord[kLongestLoop * kLongestLoop];
-    cutLoop(loop, n, chord);
+    cutLoop(n);
     Chords todo = wholeLoop(n);
     do {
       uint from = todo.from, to = endOfFirst(todo), apex = apexOf(chord[from * kLongestLoop + to]);

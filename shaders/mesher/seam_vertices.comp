@@ -25,8 +25,8 @@ Row fineRow(uint chunk, uint face, uint counts, uint b) {
   uint at = (counts + kSeamPlane) / 2u + b;
   RowEdges e = fineEdges(scratch_pairs[at], scratch_pairs[at + 1u], b);
   Plane plane = planeOf(face);
-  return Row(b, kOwnEdge, uvec2(e.x, 0u), e.y, batch[chunk + kChunkSamples] + plane.origin + b * plane.step_v, plane.step_u,
-             plane.step_v);
+  uint samples = batch[chunk + kChunkSamples] + plane.origin + b * plane.step_v;
+  return Row(b, kOwnEdge, uvec2(e.x, 0u), e.y, samples, plane.step_u, plane.step_v);
 }
 
 Row coarseRow(uint record, uint b) {

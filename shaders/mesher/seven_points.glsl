@@ -1,5 +1,5 @@
-// Where a loop of at most seven points is cut: the definition in mesh/triangulate.h, by dynamic programming over chords,
-// without a branch or an access to memory. What lies beyond the loop's n points is computed and not looked at.
+// Where a loop of at most seven points is cut: the definition in mesh/triangulate.h, by dynamic programming over
+// chords, without a branch or an access to memory. What lies beyond the loop's n points is computed and not looked at.
 
 const uint kPoints = 7u;
 
@@ -16,8 +16,8 @@ int norm(ivec3 v) {
   return a.x + a.y + a.z;
 }
 
-// The piece of the loop between two points: the largest possible smallest triangle, -1 where their chord lies in a face;
-// and the apexes of its triangles in pre-order, three bits each.
+// The piece of the loop between two points: the largest possible smallest triangle, -1 where their chord lies in a
+// face; and the apexes of its triangles in pre-order, three bits each.
 struct Piece {
   int best;
   uint apexes;
@@ -34,8 +34,11 @@ void forbid(inout Piece piece, uint in_face, uint i, uint j) {
   if ((in_face >> (i + (j - 1u) * (j - 2u) / 2u) & 1u) != 0u) piece.best = -1;
 }
 
-// in_face: a bit for each chord (case_layout.h). The apexes of the whole loop.
-uint chooseApexes(uint place[kPoints], uint n, uint in_face) {
+// The loop's places: an invocation's own, since an argument would be copied, element by element.
+uint place[kPoints];
+
+// in_face: a bit for each chord (case_layout.h). The apexes of the whole loop of n points.
+uint chooseApexes(uint n, uint in_face) {
   const Piece side = Piece(0x7FFFFFFF, 0u), none = Piece(-1, 0u);
   uvec3 origin = highBits(place[0]);
   ivec3 p[kPoints];  // all indices are constants: these arrays are registers

@@ -33,20 +33,19 @@ void writeTriangles(ActiveCell cell, uint first_vertex, uint first_index, inout 
   uvec4 loops = table_fours[kCubeCases / 4u + cell.cell_case];
   uint lengths = loops.y >> 16, in_face = loops.z, index = cell.index;
   do {
-    uint n = lengths & 7u, vertex[kPoints], i = 0u;
-    uint place[kPoints];
+    uint n = lengths & 7u, edges = loops.x, i = 0u;
     do {
-      vertex[i] = number[loops.x & 15u];
-      loops.xy = uvec2(loops.x >> 4 | loops.y << 28, loops.y >> 4);
-      place[i] = packPlace(vertices[first_vertex + vertex[i]].xy);
+      place[i] = packPlace(vertices[first_vertex + number[edges >> (4u * i) & 15u]].xy);
       ++i;
     } while (i < n);
-    uint apexes = chooseApexes(place, n, in_face);
+    loops.xy = uvec2(loops.x >> (4u * n) | loops.y << (32u - 4u * n), loops.y >> (4u * n));
+    uint apexes = chooseApexes(n, in_face);
     Chords left = wholeLoop(n);
     do {
       uint apex = apexes & 7u, from = left.from, to = endOfFirst(left);
       apexes >>= 3;
-      uvec3 triangle = uvec3(vertex[from], vertex[apex], vertex[to]);
+      uvec3 corner = uvec3(edges >> (4u * from), edges >> (4u * apex), edges >> (4u * to)) & 15u;
+      uvec3 triangle = uvec3(number[corner.x], number[corner.y], number[corner.z]);
       hash += hashIndex(triangle.x, index) + hashIndex(triangle.y, index + 1u) + hashIndex(triangle.z, index + 2u);
       indices[first_index + index] = triangle.x;
       indices[first_index + index + 1u] = triangle.y;

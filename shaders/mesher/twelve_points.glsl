@@ -23,20 +23,22 @@ int measureOf(ivec3 a, ivec3 b, ivec3 c) {
 uint apexOf(uint chord) { return chord & 15u; }
 int bestOf(uint chord) { return int(chord) >> 4; }
 
-void cutLoop(Point loop[kLongestLoop], uint n, out uint chord[kLongestLoop * kLongestLoop]) {
+// An invocation's own. As arguments they would be copied, element by element.
+Point loop[kLongestLoop];
+uint chord[kLongestLoop * kLongestLoop];
+
+// Fills the chords of the loop of n points.
+void cutLoop(uint n) {
+  const int side = 0x7FFFFFF;  // more than any triangle
   uint i = 0u, span = 2u;
-  do {
-    chord[i * kLongestLoop + i + 1u] = 0x7FFFFFF0u;
-    ++i;
-  } while (i + 1u < n);
-  i = 0u;
   do {
     uint j = i + span, k = i + 1u, chosen = 0u;
     int largest = -1;
     ivec3 from = placeOf(loop[i]), to = placeOf(loop[j]);
     do {
-      int sides = min(bestOf(chord[i * kLongestLoop + k]), bestOf(chord[k * kLongestLoop + j]));
-      int smallest = min(sides, measureOf(from, placeOf(loop[k]), to));
+      int left = k == i + 1u ? side : bestOf(chord[i * kLongestLoop + k]);
+      int right = j == k + 1u ? side : bestOf(chord[k * kLongestLoop + j]);
+      int smallest = min(min(left, right), measureOf(from, placeOf(loop[k]), to));
       chosen = smallest > largest ? k : chosen;
       largest = max(largest, smallest);
       ++k;

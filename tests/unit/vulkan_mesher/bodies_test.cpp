@@ -56,9 +56,13 @@ TEST_CASE("shaders mesh bodies to the bytes of the CPU", "[vulkan_mesher]") {
     CHECK(output.head.cells == roomFor(input, expected).cells);
     CHECK(output.head.dispatch[0] == (output.head.cells + 63) / 64);
     size_t body = 0;
+    uint32_t cells = 0;
     for (size_t i = 0; i < input.chunks.size(); ++i) {
       if (!input.with_body[i]) continue;
       CAPTURE(i);
+      CHECK(output.parts[body].cells == activeCells(input.chunks[i]));
+      CHECK(output.parts[body].middle == cells);
+      cells += output.parts[body].cells;
       const auto rows = rowsOf(input.chunks[i], expected[body]);
       const auto row = std::mismatch(rows.begin(), rows.end(),
                                      output.rows.begin() + static_cast<std::ptrdiff_t>(body * rows.size()));

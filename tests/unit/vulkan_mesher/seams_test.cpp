@@ -1,5 +1,7 @@
 // Seams of all faces, against polygonizeSeam.
 
+#include <algorithm>
+
 #include "../mesh/fields.h"
 #include "catch.h"
 #include "mesher.h"
@@ -33,6 +35,15 @@ TEST_CASE("shaders mesh seams to the bytes of the CPU", "[vulkan_mesher]") {
     REQUIRE(output.inputs_kept);
     REQUIRE(output.guards_kept);
     requireParts(output, expected, expected.size());
+    for (size_t i = input.bodies(); i < expected.size(); ++i) {
+      CAPTURE(i);
+      const auto ofKind = [&](uint16_t kind) {
+        return std::count_if(expected[i].vertices.begin(), expected[i].vertices.end(),
+                             [=](const Vertex& v) { return v.kind == kind; });
+      };
+      CHECK(output.parts[i].cells == ofKind(kOwnEdge));
+      CHECK(output.parts[i].middle == ofKind(kCoarserEdge));
+    }
   }
   for (const std::string& message : mesher->messages()) UNSCOPED_INFO(message);
   CHECK(mesher->messages().empty());
