@@ -58,9 +58,8 @@ vec3 steepened(vec3 column, float x, float y, float z) {
 int localUnits(uint at, int cell) { return int(at >> 8) * cell + ((int(at & 255u) * cell + 128) >> 8); }
 
 void main() {
-  const bool plane = planes != 0u;
-  const uint number = plane ? chunk_count * kBricks + 2u * gl_WorkGroupID.x + gl_WorkGroupID.y
-                            : scratch[sampled_at + gl_WorkGroupID.x];
+  const uvec4 unit = scratch_fours[units_at / kUnitWords + gl_WorkGroupID.x];
+  const uint number = unit.x;
   const uint item = items_at + kItemWords * number;
   const uint owner = scratch[item + kItemOwner];
   const bool brick = number < chunk_count * kBricks;
@@ -76,10 +75,8 @@ void main() {
   const uint first_vertex = parts[part + kPartFirstVertex];
   // A seam's vertices: on fine edges, on coarse ones, lateral ones. The middle ones are the coarser level's.
   const uint fine = parts[part + kPartCells], middle = parts[part + kPartMiddle];
-  const uint total = parts[part + kPartVertices];
-  const uint work = scratch[item + kItemWork];
-  uint count = brick ? scratch[item + kItemFlags] >> 2 : gl_WorkGroupID.y == 0u ? total - middle : middle;
-  if (part_number == kNoRoom || first_vertex == kNoRoom || brick == plane) count = 0u;
+  const bool coarse = ((number - chunk_count * kBricks) & 1u) == 1u;
+  const uint count = unit.z;
 
   uint filled_to = fillWindow(list, list_end);
   const bool whole = filled_to == list_end;
@@ -89,8 +86,9 @@ void main() {
     const uint i = base + gl_LocalInvocationID.x;
     const bool used = i < count;
     const uint k = min(i, count - 1u);
-    const uint of_seam = gl_WorkGroupID.y == 0u ? (k < fine ? k : k + middle) : fine + k;
-    const uint vertex = brick ? scratch[work + k] : first_vertex + of_seam;
+    const uint at = unit.y + k;
+    const uint of_seam = coarse ? fine + at : at < fine ? at : at + middle;
+    const uint vertex = brick ? scratch[at] : first_vertex + of_seam;
     uvec4 packed_vertex = vertices[vertex];
     const ivec3 p = origin + ivec3(localUnits(packed_vertex.x & 0xFFFFu, cell), localUnits(packed_vertex.x >> 16, cell),
                                    localUnits(packed_vertex.y & 0xFFFFu, cell));

@@ -26,8 +26,9 @@ uvec2 samplesOf(uint lo, uint hi) {
 }
 
 void main() {
-  const uint number = scratch[sampled_at + gl_WorkGroupID.x];
-  const bool brick = number < chunk_count * kBricks;
+  const uint entry = scratch[sampled_at + gl_WorkGroupID.x];
+  const uint number = itemOfEntry(entry);
+  const bool brick = number < chunk_count * kBricks && sliceOfEntry(entry) == 0u;
   const uint item = items_at + kItemWords * number;
   const uint chunk_number = min(number / kBricks, chunk_count - 1u);
   const uint chunk = kChunkWords * chunk_number;
@@ -56,8 +57,14 @@ void main() {
   barrier();
   if (gl_LocalInvocationID.x == 0u) {
     brick_entries = vertices_at + atomicAdd(parts[kHeadEntries], brick_vertices);
-    scratch[item + kItemWork] = brick_entries;
-    scratch[item + kItemFlags] = brick ? brick_vertices << 2 : scratch[item + kItemFlags];
+    const uint most = verticesOfUnit(scratch[item + kItemCount], gl_WorkGroupSize.x);
+    uint unit = units_at / kUnitWords + atomicAdd(parts[kHeadUnits], (brick_vertices + most - 1u) / most);
+    uint from = 0u;
+    while (from < brick_vertices) {
+      scratch_fours[unit] = uvec4(number, brick_entries + from, min(brick_vertices - from, most), 0u);
+      from += most;
+      ++unit;
+    }
   }
   barrier();
   at += brick_entries;

@@ -11,7 +11,6 @@ const uint kItemInitial = 3u;  // the field below all that is left, as bits, and
 const uint kItemLabel = 4u;
 const uint kItemScale = 5u;    // Q by unit, as bits
 const uint kItemOwner = 6u;    // of a brick the chunk's record, of a plane the seam's, as places in batch
-const uint kItemWork = 7u;     // attributes: its vertices, as a place in the list of vertices, and their number behind it
 const uint kItemSolid = 1u;    // proven: all samples are solid,
 const uint kItemEmpty = 2u;    // or none is
 
@@ -46,6 +45,23 @@ const uint kJobLists = 6u;    // where in scratch each box gets room for a list 
 const uint kJobInitial = 7u;  // bits; the label, Q by unit
 const uint kJobLabel = 8u;
 const uint kJobScale = 9u;
+
+// Software Vulkan ends all loops of an invocation when they have come to 65,535 rounds together (a guard of Mesa's
+// against endless ones), so long work is cut: sampling into slices, each an entry of the list of what is sampled (the
+// item's number, the slice, how many there are), attributes into units of so many vertices.
+const uint kMostRounds = 60000u;
+const uint kMostSlices = 16u;
+// Of a sweep over so many records, at most: all kinds of op for each, and the octaves of noise.
+uint roundsOf(uint records) { return 64u * records + 64u; }
+uint sampledEntry(uint item, uint slice, uint slices) { return item | slice << 20 | slices << 26; }
+uint itemOfEntry(uint entry) { return entry & 0xFFFFFu; }
+uint sliceOfEntry(uint entry) { return entry >> 20 & 63u; }
+uint slicesOfEntry(uint entry) { return entry >> 26; }
+
+// A unit of attributes: the item's number, the first of its vertices (of a brick: its place in the list of vertices by
+// brick; of a plane: which of those that the plane's field decides), and how many.
+const uint kUnitWords = 4u;
+uint verticesOfUnit(uint records, uint width) { return max(kMostRounds / roundsOf(records), 1u) * width; }
 
 uint brickItem(uint chunk, uint brick) { return items_at + kItemWords * (chunk * kBricks + brick); }
 // coarse: 0 or 1

@@ -386,8 +386,14 @@ void main() {
     const uint touched = at_low.x | at_high.x << 1 | at_low.y << 2 | at_high.y << 3 | at_low.z << 4 | at_high.z << 5;
     const bool wanted = kind_of_job == 2u || faces == 0u || (faces & touched) != 0u;
     if (!(solid || empty) && kind_of_job != 1u && wanted) {
-      uint at = atomicAdd(parts[kHeadSampled], 1u);
-      scratch[sampled_at + at] = (item - items_at) / kItemWords;
+      const uint passes = (729u + 4u * gl_WorkGroupSize.x - 1u) / (4u * gl_WorkGroupSize.x);
+      const uint slices = min(passes * roundsOf(list_end - begin) / kMostRounds + 1u, kMostSlices);
+      const uint at = sampled_at + atomicAdd(parts[kHeadSampled], slices);
+      uint slice = 0u;
+      do {
+        scratch[at + slice] = sampledEntry((item - items_at) / kItemWords, slice, slices);
+        ++slice;
+      } while (slice < slices);
     }
   }
 }

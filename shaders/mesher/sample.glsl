@@ -29,7 +29,8 @@ float folded(float field, float own, float width, bool cut) {
 }
 
 void main() {
-  const uint item = items_at + kItemWords * scratch[sampled_at + gl_WorkGroupID.x];
+  const uint entry = scratch[sampled_at + gl_WorkGroupID.x];
+  const uint item = items_at + kItemWords * itemOfEntry(entry);
   const uint list = scratch[item + kItemList], list_end = list + scratch[item + kItemCount];
   const float initial = uintBitsToFloat(scratch[item + kItemInitial]);
   const float scale = uintBitsToFloat(scratch[item + kItemScale]);
@@ -52,7 +53,7 @@ void main() {
 
   uint filled_to = fillWindow(list, list_end);
   const bool whole = filled_to == list_end;
-  uint base = 0u;
+  uint base = sliceOfEntry(entry) * kEach * gl_WorkGroupSize.x;
   do {
     int px[kEach], py[kEach], pz[kEach];
     float field[kEach], cuts[kEach];
@@ -148,6 +149,6 @@ void main() {
       uint bits = alone ? (solid ? 1u << bit[s] : 0u) : (lane & 7u) == 0u ? row_bits << bit[s] : 0u;
       if (bits != 0u) atomicOr(scratch[word[s]], bits);
     }
-    base += kEach * gl_WorkGroupSize.x;
+    base += slicesOfEntry(entry) * kEach * gl_WorkGroupSize.x;
   } while (base < count);
 }

@@ -9,7 +9,7 @@ layout(push_constant) uniform Sizes {
   uint chunk_count;
   uint jobs_at;      // where in batch the jobs of pruning begin
   uint items_at;     // in scratch: bricks and planes (items.glsl),
-  uint sampled_at;   // the numbers of those to sample,
-  uint vertices_at;  // and the vertices of each brick
-  uint planes;       // of attributes.comp: 0 bricks, 1 planes
+  uint sampled_at;   // what is to be sampled,
+  uint vertices_at;  // the vertices of each brick,
+  uint units_at;     // and the units of attributes
 };

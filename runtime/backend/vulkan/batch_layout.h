@@ -36,7 +36,9 @@ struct Head {
   uint32_t dispatch[3];
   uint32_t cells, vertices, indices;
   uint32_t sampled[3];
-  uint32_t entries, reserved[6];
+  uint32_t entries;
+  uint32_t units[3];
+  uint32_t reserved[3];
 };
 static_assert(sizeof(Head) == 16 * sizeof(uint32_t));
 
@@ -49,7 +51,7 @@ static_assert(sizeof(Part) == 8 * sizeof(uint32_t));
 struct Sizes {
   uint32_t part_count, seam_records, cell_list, max_vertices, max_indices, max_cells;
   // What pruning, sampling and attributes take beside (shaders/mesher/items.glsl).
-  uint32_t chunk_count = 0, jobs = 0, items = 0, sampled = 0, entries = 0, planes = 0;
+  uint32_t chunk_count = 0, jobs = 0, items = 0, sampled = 0, entries = 0, units = 0;
 };
 static_assert(sizeof(Sizes) == 12 * sizeof(uint32_t));
 
@@ -58,6 +60,8 @@ inline constexpr uint32_t kMaxParts = 8192;
 
 inline constexpr uint32_t kItemWords = 8;  ///< of a brick or a plane (shaders/mesher/items.glsl)
 inline constexpr uint32_t kBricks = 64;    ///< of a chunk
+inline constexpr uint32_t kMostSlices = 16;  ///< that sampling an item is cut into
+inline constexpr uint32_t kUnitWords = 4;    ///< of attributes
 
 // Words in scratch, rounded up to fours: every place is a multiple of four.
 inline constexpr uint32_t kSampleWords = 33 * 33 * 33 + 3;   ///< a chunk's samples

@@ -14,6 +14,8 @@ constexpr uint32_t kChunkWords = sizeof(batch::Chunk) / 4, kSeamWords = sizeof(b
 constexpr uint32_t kJobsOfChunk = 3;  // bricks, planes, and planes of the coarser level
 // A shader reads records and headers in whole vectors, beyond the last one too.
 constexpr uint32_t kBeyond = 256;
+// What 65,535 workgroups can do, of units, and what 20 bits can number, of items.
+constexpr size_t kMostChunks = 64;
 
 uint32_t seamsOf(const ChunkJob& job) { return job.coarse ? static_cast<uint32_t>(std::popcount(job.seams)) : 0u; }
 
@@ -89,7 +91,8 @@ class Planner {
     s.max_indices = room_.indices * std::max(chunks, 8u);
     s.max_cells = room_.cells * std::max(chunks, 8u);
     s.items = places_.take(uint64_t{bricks + planes} * batch::kItemWords);
-    s.sampled = places_.take(bricks + planes);
+    s.sampled = places_.take(uint64_t{bricks + planes} * batch::kMostSlices);
+    s.units = places_.take(unitWords(s.max_vertices, bricks + planes));
     s.entries = places_.take(s.max_vertices);
     s.cell_list = places_.take(uint64_t{s.max_cells} * batch::kCellWords);
     plan_.scratch_words = static_cast<uint32_t>(places_.used());
@@ -98,12 +101,17 @@ class Planner {
   }
 
  private:
+  /// No unit but an item's last has fewer vertices than a subgroup has invocations.
+  static uint64_t unitWords(uint64_t vertices, uint64_t items) {
+    return (vertices / 8 + items) * batch::kUnitWords;
+  }
+
   uint64_t scratchWords() const {
     const uint64_t chunks = std::max<uint64_t>(plan_.chunks.size(), 8);
     return places_.used() +
            chunks *
-               (batch::kBricks * (batch::kItemWords + 1) + room_.vertices + uint64_t{room_.cells} * batch::kCellWords) +
-           uint64_t{plan_.seam_count} * 2 * (batch::kItemWords + 1);
+               (batch::kBricks * (batch::kItemWords + batch::kMostSlices + batch::kUnitWords) + room_.vertices * 2 + uint64_t{room_.cells} * batch::kCellWords) +
+           uint64_t{plan_.seam_count} * 2 * (batch::kItemWords + batch::kMostSlices + batch::kUnitWords);
   }
 
   uint32_t newPart(bool body) {
@@ -188,7 +196,7 @@ class Planner {
 size_t planBatch(std::span<const ChunkJob> jobs, const BatchRoom& room, uint32_t most_scratch, BatchPlan& plan) {
   Planner planner(jobs, room, plan);
   uint32_t taken = 0;
-  while (taken < jobs.size() && planner.add(taken, most_scratch, plan.chunks.empty())) ++taken;
+  while (taken < std::min(jobs.size(), kMostChunks) && planner.add(taken, most_scratch, plan.chunks.empty())) ++taken;
   planner.finish();
   return taken;
 }

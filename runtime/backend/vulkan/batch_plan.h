@@ -43,8 +43,8 @@ struct BatchPlan {
   TapeScratch tape_scratch;
 };
 
-/// Plans jobs for one submission; how many of them were taken up, from the first on: fewer where their scratch would be
-/// more than most_scratch words. At least one is. Throws std::bad_alloc.
+/// Plans jobs for one submission; how many of them were taken up, from the first on: at most 64, and fewer where their
+/// scratch would be more than most_scratch words. At least one is. Throws std::bad_alloc.
 size_t planBatch(std::span<const ChunkJob> jobs, const BatchRoom& room, uint32_t most_scratch, BatchPlan& plan);
 
 }  // namespace sgm

@@ -12,6 +12,7 @@
 #include "spirv/census_seam_comp.h"
 #include "spirv/fill_signs_comp.h"
 #include "spirv/list_cells_comp.h"
+#include "spirv/plane_units_comp.h"
 #include "spirv/prune_comp.h"
 #include "spirv/sample_comp.h"
 #include "spirv/sample_rte_comp.h"
@@ -77,6 +78,7 @@ Result<std::shared_ptr<const Pipeline>> Mesher::makePipeline(Kernel kernel, uint
       {"allocate", spirv::kAllocateComp},
       {"body_vertices", spirv::kBodyVerticesComp},
       {"seam_vertices", spirv::kSeamVerticesComp},
+      {"plane_units", spirv::kPlaneUnitsComp},
       {"attributes",
        rte ? std::span<const uint32_t>(spirv::kAttributesRteComp) : std::span<const uint32_t>(spirv::kAttributesComp)},
       {"list_cells", spirv::kListCellsComp},
@@ -84,7 +86,7 @@ Result<std::shared_ptr<const Pipeline>> Mesher::makePipeline(Kernel kernel, uint
       {"seam_triangles", spirv::kSeamTrianglesComp},
   }};
   const bool interprets = kernel == prune || kernel == sample || kernel == attributes;
-  const bool wide = interprets || kernel == fill_signs || kernel == body_vertices;
+  const bool wide = interprets || kernel == fill_signs || kernel == body_vertices || kernel == plane_units;
   const std::array<uint32_t, 3> constants{width(), static_cast<uint32_t>(kinds), static_cast<uint32_t>(kinds >> 32)};
   PipelineDesc desc;
   desc.name = sources[kernel].name;
@@ -143,7 +145,7 @@ Result<void> Mesher::fit(const BatchPlan& plan, BatchBuffers& b) {
 
 Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, const BatchPlan& plan, BatchBuffers& b) {
   const std::array<BufferRange, kBindings> ranges{b.words, b.scratch, b.parts, b.vertices, b.indices, tables_};
-  batch::Sizes sizes = plan.sizes;
+  const batch::Sizes& sizes = plan.sizes;
   Result<void> bound;
   const auto bind = [&](Kernel kernel) {
     if (bound) bound = commands.bind(*pipelines[kernel], ranges, std::as_bytes(std::span(&sizes, 1)));
@@ -151,6 +153,7 @@ Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, cons
   };
   const auto settle = [&] { commands.barrier(kCompute, kCompute | kIndirect); };
   const BufferRange sampled(b.parts, offsetof(batch::Head, sampled), 3 * sizeof(uint32_t));
+  const BufferRange units(b.parts, offsetof(batch::Head, units), 3 * sizeof(uint32_t));
   const BufferRange cells(b.parts, offsetof(batch::Head, dispatch), 3 * sizeof(uint32_t));
   const auto chunks = static_cast<uint32_t>(plan.chunks.size());
 
@@ -167,14 +170,10 @@ Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, cons
   settle();
   if (bind(body_vertices)) commands.dispatchIndirect(sampled);
   if (plan.seam_count > 0 && bind(seam_vertices)) commands.dispatch(plan.seam_count);
+  if (plan.seam_count > 0 && bind(plane_units)) commands.dispatch(plan.seam_count);
   settle();
-  if (bind(attributes)) commands.dispatchIndirect(sampled);
+  if (bind(attributes)) commands.dispatchIndirect(units);
   if (bind(list_cells)) commands.dispatch(chunks);
-  if (plan.seam_count > 0) {
-    sizes.planes = 1;
-    if (bind(attributes)) commands.dispatch(plan.seam_count, 2);
-    sizes.planes = 0;
-  }
   settle();
   if (bind(triangles)) commands.dispatchIndirect(cells);
   if (plan.seam_count > 0 && bind(seam_triangles)) commands.dispatch(plan.seam_count);
@@ -192,7 +191,7 @@ Result<uint64_t> Mesher::submit(const BatchPlan& plan, BatchBuffers& b) {
   std::memcpy(seen ? b.words.data() : b.staging.data(), plan.words.data(), words);
   std::memcpy(seen ? b.parts.data() : b.staging.data() + words, plan.parts.data(), parts);
   batch::Head head{};
-  head.sampled[1] = head.sampled[2] = 1;
+  head.sampled[1] = head.sampled[2] = head.units[1] = head.units[2] = 1;
   std::memcpy(seen ? b.parts.data() : b.staging.data() + words, &head, sizeof head);
   if (!seen) {
     commands->copy(BufferRange(b.staging, 0, words), BufferRange(b.words, 0, words));

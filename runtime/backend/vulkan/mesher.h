@@ -54,6 +54,7 @@ class Mesher {
     allocate,
     body_vertices,
     seam_vertices,
+    plane_units,
     attributes,
     list_cells,
     triangles,
