@@ -19,6 +19,12 @@ constexpr size_t kMostChunks = 64;
 
 uint32_t seamsOf(const ChunkJob& job) { return job.coarse ? static_cast<uint32_t>(std::popcount(job.seams)) : 0u; }
 
+/// The domain alone, the same on both sides of every seam.
+bool isUniform(const ChunkJob& job) {
+  const auto bare = [](const FieldProgram& program) { return program.groups.empty(); };
+  return bare(*job.field) && (seamsOf(job) == 0 || (bare(*job.coarse) && job.coarse->initial == job.field->initial));
+}
+
 /// Hands out places in scratch, multiples of four.
 class Places {
  public:
@@ -52,8 +58,9 @@ class Planner {
     plan.words.assign(plan.sizes.jobs + size_t{kJobsOfChunk} * chunks * kJobWords, 0u);
     plan.parts.assign(kHeadWords, 0u);
     plan.chunks.clear();
+    plan.uniform.clear();
     plan.refused.clear();
-    plan.seam_count = plan.job_count = 0;
+    plan.seam_count = plan.plane_jobs = 0;
     plan.kinds = 0;
   }
 
@@ -61,6 +68,10 @@ class Planner {
   bool add(uint32_t i, uint32_t most_scratch, bool must) {
     const ChunkJob& job = jobs_[i];
     const uint32_t seams = seamsOf(job);
+    if (isUniform(job)) {
+      plan_.uniform.push_back(i);
+      return true;
+    }
     const size_t words = plan_.words.size();
     Tape field, coarse;
     if (!appendTape(job.field->view(), plan_.tape_scratch, plan_.words, field) ||
@@ -86,6 +97,7 @@ class Planner {
     const uint32_t bricks = chunks * batch::kBricks, planes = 2 * plan_.seam_count;
     batch::Sizes& s = plan_.sizes;
     s.part_count = part_count_;
+    plan_.plane_jobs_at = s.jobs + static_cast<uint32_t>(jobs_.size()) * kJobWords;
     s.chunk_count = chunks;
     s.max_vertices = room_.vertices * std::max(chunks, 8u);
     s.max_indices = room_.indices * std::max(chunks, 8u);
@@ -135,8 +147,8 @@ class Planner {
     job.initial = tape.initial;
     job.initial_label = tape.initial_label;
     job.q_scale = tape.q_scale;
-    put(plan_.words, plan_.sizes.jobs + size_t{plan_.job_count} * kJobWords, job);
-    ++plan_.job_count;
+    const size_t number = kind == batch::PruneJob::bricks ? chunk : jobs_.size() + plan_.plane_jobs++;
+    put(plan_.words, plan_.sizes.jobs + number * kJobWords, job);
   }
 
   void place(uint32_t i, const Tape& field, const Tape& coarse) {
@@ -181,7 +193,7 @@ class Planner {
     plan_.parts.resize(plan_.parts.size() - size_t{parts} * kPartWords);
     plan_.chunks.pop_back();
     plan_.seam_count -= seams;
-    plan_.job_count -= seams > 0 ? kJobsOfChunk : 1;
+    plan_.plane_jobs -= seams > 0 ? 2 : 0;
   }
 
   std::span<const ChunkJob> jobs_;

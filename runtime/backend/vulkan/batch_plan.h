@@ -22,7 +22,7 @@ struct BatchRoom {
 /// Reused from batch to batch: grows, and then takes no more memory.
 struct BatchPlan {
   explicit BatchPlan(std::pmr::memory_resource* memory)
-      : words(memory), parts(memory), chunks(memory), refused(memory), tape_scratch(memory) {}
+      : words(memory), parts(memory), chunks(memory), uniform(memory), refused(memory), tape_scratch(memory) {}
 
   struct Chunk {
     uint32_t job = 0;
@@ -35,9 +35,12 @@ struct BatchPlan {
   std::pmr::vector<uint32_t> words;    ///< binding 0
   std::pmr::vector<uint32_t> parts;    ///< what binding 2 begins as
   std::pmr::vector<Chunk> chunks;      ///< those that the device meshes
+  std::pmr::vector<uint32_t> uniform;  ///< numbers of jobs whose programs have no group: nothing is to be done
   std::pmr::vector<uint32_t> refused;  ///< numbers of jobs that it cannot take
   batch::Sizes sizes{};
-  uint32_t seam_count = 0, job_count = 0;
+  uint32_t seam_count = 0;
+  uint32_t plane_jobs = 0;  ///< of pruning, behind one for each chunk's bricks,
+  uint32_t plane_jobs_at = 0;  ///< from here on in words
   uint32_t scratch_words = 0;
   uint64_t kinds = 0;  ///< of tapes: which instructions occur
   TapeScratch tape_scratch;

@@ -145,7 +145,7 @@ Result<void> Mesher::fit(const BatchPlan& plan, BatchBuffers& b) {
 
 Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, const BatchPlan& plan, BatchBuffers& b) {
   const std::array<BufferRange, kBindings> ranges{b.words, b.scratch, b.parts, b.vertices, b.indices, tables_};
-  const batch::Sizes& sizes = plan.sizes;
+  batch::Sizes sizes = plan.sizes;
   Result<void> bound;
   const auto bind = [&](Kernel kernel) {
     if (bound) bound = commands.bind(*pipelines[kernel], ranges, std::as_bytes(std::span(&sizes, 1)));
@@ -157,7 +157,12 @@ Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, cons
   const BufferRange cells(b.parts, offsetof(batch::Head, dispatch), 3 * sizeof(uint32_t));
   const auto chunks = static_cast<uint32_t>(plan.chunks.size());
 
-  if (bind(prune)) commands.dispatch(plan.job_count, batch::kBricks / width());
+  if (bind(prune)) commands.dispatch(chunks, batch::kBricks / width());
+  if (plan.plane_jobs > 0) {
+    sizes.jobs = plan.plane_jobs_at;
+    if (bind(prune)) commands.dispatch(plan.plane_jobs);
+    sizes.jobs = plan.sizes.jobs;
+  }
   settle();
   if (bind(fill_signs)) commands.dispatch(chunks + plan.seam_count);
   settle();

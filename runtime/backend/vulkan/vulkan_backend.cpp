@@ -177,7 +177,8 @@ class VulkanBatch final : public ChunkBatch {
   void finish() noexcept {
     try {
       for (std::unique_ptr<Slot>& slot : slots_) {
-        if (slot->value != 0 && !cancelled_.load()) readSlot(*slot);
+        fillUniform(*slot);
+        if (!cancelled_.load()) readSlot(*slot);
         if (slot->value != 0) (void)session_->queue->wait(slot->value);
         release(slot);
       }
@@ -189,17 +190,36 @@ class VulkanBatch final : public ChunkBatch {
     ended_ = true;
   }
 
+  void ended(size_t job) {
+    done_[job] = true;
+    shared_.counters.chunks.fetch_add(1);
+    if (after_chunk_ && !after_chunk_()) cancelled_.store(true);
+  }
+
+  void fillUniform(const Slot& slot) {
+    for (const uint32_t number : slot.plan.uniform) {
+      if (cancelled_.load()) return;
+      const ChunkJob& job = jobs_[slot.first + number];
+      ChunkMesh& mesh = meshes_[slot.first + number];
+      if (job.body) {
+        mesh.uniform = true;
+        mesh.solid_samples = job.field->initial < 0 ? kChunkCells * kChunkCells * kChunkCells : 0;
+      }
+      for (int face = 0; job.seams != 0 && face < 6; ++face) mesh.seams.emplace_back(shared_.memory);
+      ended(slot.first + number);
+    }
+  }
+
   void readSlot(Slot& slot) {
-    const Result<bool> ended = session_->queue->wait(slot.value);
-    if (!ended) return note(ended.error());
+    if (slot.value == 0) return;
+    const Result<bool> reached = session_->queue->wait(slot.value);
+    if (!reached) return note(reached.error());
     const Result<Mesher::Output> output = session_->mesher->read(slot.buffers);
     if (!output) return note(output.error());
     for (size_t c = 0; c < slot.plan.chunks.size() && !cancelled_.load(); ++c) {
       const size_t job = slot.first + slot.plan.chunks[c].job;
       if (!vulkan::readMesh(slot.plan, *output, c, jobs_[job], meshes_[job])) continue;
-      done_[job] = true;
-      shared_.counters.chunks.fetch_add(1);
-      if (after_chunk_ && !after_chunk_()) cancelled_.store(true);
+      ended(job);
     }
   }
 
