@@ -34,28 +34,28 @@ FN Dual opSweep(Int px, Int py, Int pz, Params P) {
   PRECISE Real gz = broadcast(0.0f);
   for (int k = 0; k < count; ++k) {
     int at = 1 + 9 * k;
-    Vec3 d = makeVec3(toReal(saturatingSub(px, broadcastInt(QI(P, at)))),
-                      toReal(saturatingSub(py, broadcastInt(QI(P, at + 1)))),
-                      toReal(saturatingSub(pz, broadcastInt(QI(P, at + 2)))));
-    PRECISE Real h = dotRow(d, QF(P, at + 3), QF(P, at + 4), QF(P, at + 5)) * QF(P, at + 6);
+    Vec3 d = makeVec3(toReal(saturatingSub(px, broadcastInt(RI(P, at)))),
+                      toReal(saturatingSub(py, broadcastInt(RI(P, at + 1)))),
+                      toReal(saturatingSub(pz, broadcastInt(RI(P, at + 2)))));
+    PRECISE Real h = dotRow(d, RF(P, at + 3), RF(P, at + 4), RF(P, at + 5)) * RF(P, at + 6);
     Bool middle = (h > 0.0f) && (h < 1.0f);
     h = clampReal(h, 0.0f, 1.0f);
-    PRECISE Real ox = h * QF(P, at + 3);
-    PRECISE Real oy = h * QF(P, at + 4);
-    PRECISE Real oz = h * QF(P, at + 5);
+    PRECISE Real ox = h * RF(P, at + 3);
+    PRECISE Real oy = h * RF(P, at + 4);
+    PRECISE Real oz = h * RF(P, at + 5);
     ox = d.x - ox;
     oy = d.y - oy;
     oz = d.z - oz;
     PRECISE Real s = lengthSquared3(makeVec3(ox, oy, oz));
     Bool nearer = s < best;
     best = sel(nearer, s, best);
-    PRECISE Real u = h * QF(P, at + 8);
-    u = u + QF(P, at + 7);
+    PRECISE Real u = h * RF(P, at + 8);
+    u = u + RF(P, at + 7);
     v = sel(nearer, u, v);
-    PRECISE Real slope = sel(middle, broadcast(QF(P, at + 6)) * QF(P, at + 8), broadcast(0.0f));
-    PRECISE Real sx = slope * QF(P, at + 3);
-    PRECISE Real sy = slope * QF(P, at + 4);
-    PRECISE Real sz = slope * QF(P, at + 5);
+    PRECISE Real slope = sel(middle, broadcast(RF(P, at + 6)) * RF(P, at + 8), broadcast(0.0f));
+    PRECISE Real sx = slope * RF(P, at + 3);
+    PRECISE Real sy = slope * RF(P, at + 4);
+    PRECISE Real sz = slope * RF(P, at + 5);
     gx = sel(nearer, sx, gx);
     gy = sel(nearer, sy, gy);
     gz = sel(nearer, sz, gz);

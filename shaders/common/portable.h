@@ -2,8 +2,9 @@
 //
 // Only + - *, comparison, conversion and integer operations on values; everything branch-free through sel(). A value
 // that differs by sample has type Real, Int, Uint or Bool; a value equal for all samples has type float, int or uint.
-// PF, PI and PU read a word of an op's parameters that is the same for all samples, gatherReal one for each; QF, QI and
-// QU are PF, PI and PU where the word's number is no constant, which not every backend can do as fast.
+// PF, PI and PU read a word of an op's parameters that is the same for all samples, gatherReal one for each; QF, QI
+// and QU are PF, PI and PU where the word's number is no constant but under 28; RF, RI and RU where it may be any. Not
+// every backend reads these as fast.
 // Every product or sum that feeds a sum is a local declared PRECISE, so that GLSL contracts nothing. No header here has
 // an include guard: a C++ source includes common.h once in each namespace for which it has defined the types (scalar
 // below, wide in backend/cpu/wide.h).
@@ -20,12 +21,15 @@
 #ifndef PU  // a shader may hold parameters in another way
 #define PU(P, i) params[(P) + uint(i)]
 #define QU(P, i) PU(P, i)
+#define RU(P, i) PU(P, i)
 #define gatherReal(P, i) uintBitsToFloat(params[(P) + uint(i)])
 #endif
 #define PF(P, i) uintBitsToFloat(PU(P, i))
 #define PI(P, i) int(PU(P, i))
 #define QF(P, i) uintBitsToFloat(QU(P, i))
 #define QI(P, i) int(QU(P, i))
+#define RF(P, i) uintBitsToFloat(RU(P, i))
+#define RI(P, i) int(RU(P, i))
 #define toReal(i) float(i)
 #define toInt(r) int(r)
 #define toIntBits(u) int(u)
@@ -46,9 +50,10 @@ FN Int wrapMul(Int a, Int b) { return a * b; }
 #define PI(P, i) static_cast<int>((P)[i])
 #define PU(P, i) (P)[i]
 #define PF(P, i) uniformFloat((P)[i])
-#define QI(P, i) PI(P, i)
-#define QU(P, i) PU(P, i)
 #define QF(P, i) PF(P, i)
+#define QI(P, i) PI(P, i)
+#define RF(P, i) PF(P, i)
+#define RI(P, i) PI(P, i)
 
 #ifndef SGM_WIDE
 // Plain scalars: the reference in bits for every other backend.

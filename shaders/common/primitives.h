@@ -359,32 +359,32 @@ FN Dual opPrism(Int px, Int py, Int pz, Params P) {
   Bool inside = best < 0.0f;
   for (int k = 0; k < count; ++k) {
     int at = 15 + 6 * k;
-    PRECISE Real wx = q.x - QF(P, at);
-    PRECISE Real wz = q.z - QF(P, at + 1);
-    PRECISE Real a = wx * QF(P, at + 2);
-    PRECISE Real b = wz * QF(P, at + 3);
+    PRECISE Real wx = q.x - RF(P, at);
+    PRECISE Real wz = q.z - RF(P, at + 1);
+    PRECISE Real a = wx * RF(P, at + 2);
+    PRECISE Real b = wz * RF(P, at + 3);
     PRECISE Real h = a + b;
-    h = h * QF(P, at + 4);
+    h = h * RF(P, at + 4);
     PRECISE Real held = clampReal(h, 0.0f, 1.0f);
-    PRECISE Real dx = held * QF(P, at + 2);
+    PRECISE Real dx = held * RF(P, at + 2);
     dx = wx - dx;
-    PRECISE Real dz = held * QF(P, at + 3);
+    PRECISE Real dz = held * RF(P, at + 3);
     dz = wz - dz;
     PRECISE Real s = lengthSquared2(dx, dz);
     Bool nearer = s < best;
     Bool middle = (h > 0.0f) && (h < 1.0f);
-    PRECISE Real nx = broadcast(-QF(P, at + 3)) * QF(P, at + 5);
-    PRECISE Real nz = broadcast(QF(P, at + 2)) * QF(P, at + 5);
+    PRECISE Real nx = broadcast(-RF(P, at + 3)) * RF(P, at + 5);
+    PRECISE Real nz = broadcast(RF(P, at + 2)) * RF(P, at + 5);
     best = sel(nearer, s, best);
     gx = sel(nearer, sel(middle, nx, dx), gx);
     gz = sel(nearer, sel(middle, nz, dz), gz);
     on_edge = (nearer && middle) || (on_edge && !nearer);
     // Crossing rule: the edge spans the point's z, and passes it on the side of +x.
-    PRECISE Real next_z = broadcast(QF(P, at + 1)) + QF(P, at + 3);
-    PRECISE Real c = wz * QF(P, at + 2);
-    PRECISE Real e = wx * QF(P, at + 3);
-    Bool upward = (broadcast(QF(P, at + 1)) <= q.z) && (q.z < next_z);
-    Bool downward = (next_z <= q.z) && (q.z < QF(P, at + 1));
+    PRECISE Real next_z = broadcast(RF(P, at + 1)) + RF(P, at + 3);
+    PRECISE Real c = wz * RF(P, at + 2);
+    PRECISE Real e = wx * RF(P, at + 3);
+    Bool upward = (broadcast(RF(P, at + 1)) <= q.z) && (q.z < next_z);
+    Bool downward = (next_z <= q.z) && (q.z < RF(P, at + 1));
     Bool cross = (upward && (c > e)) || (downward && (c < e));
     inside = (inside && !cross) || (!inside && cross);
   }

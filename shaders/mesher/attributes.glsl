@@ -168,8 +168,11 @@ void main() {
   {                                                                                 \
     INFLUENCE                                                                       \
     Dual own = readSlot(ra);                                                        \
-    if (within && cut) cuts = opMinimum(cuts, own);                                 \
-    if (within && !cut) field = opMinimum(field, own);                              \
+    const bool ends = (flags & kEndsLayer) != 0u;                                   \
+    Dual left = opCut(field, cuts);                                                 \
+    Dual merged = opMinimum(selDual(cut, cuts, field), own);                        \
+    field = selDual(ends, left, selDual(within && !cut, merged, field));            \
+    cuts = selDual(ends, farAway(), selDual(within && cut, merged, cuts));          \
   }
 #define FORM_SMOOTH                                                                 \
   {                                                                                 \
@@ -178,9 +181,6 @@ void main() {
     Dual blended = selDual(cut, roundCut(field, own, PF(P, 7)), roundUnion(field, own, PF(P, 7))); \
     field = selDual(within, blended, field);                                        \
   }
-#define FORM_LAYER_END          \
-  field = opCut(field, cuts);   \
-  cuts = farAway();
 #include "mesher/sweep.glsl"
     } while (next < list_end);
 

@@ -33,6 +33,10 @@ const uint kIsFold = 1024u;
 const uint kIsSmooth = 2048u;
 const uint kIsLayerEnd = 4096u;
 
+// Of a fold's own flags (its seventh parameter): bit 0, into what is taken away; bit 1, the influence box decides; and
+// instead of a group the end of its layer.
+const uint kEndsLayer = 4u;
+
 // A job of pruning: one program, and all boxes that it is asked about.
 const uint kJobWords = 12u;
 const uint kJobHeaders = 0u;  // place of the first header, in vectors

@@ -246,29 +246,30 @@ void main() {
 #define FORM_FOLD                                                             \
   {                                                                           \
     GROUP                                                                     \
+    const bool ends = (flags & kEndsLayer) != 0u;                             \
+    const uint layer = min(slots_word, kMostLayers - 1u);                     \
     mark[record_number] = met ? value.lo : kNever;                            \
     whole_mark[record_number] = whole ? 1.0f : 0.0f;                          \
-    float met_low = met ? value.lo : kNever, whole_high = met && whole ? value.hi : kNever; \
+    float met_low = met && !ends ? value.lo : kNever;                         \
+    float whole_high = met && whole && !ends ? value.hi : kNever;             \
     adds.lo = cut ? adds.lo : min(adds.lo, met_low);                          \
     adds.hi = cut ? adds.hi : min(adds.hi, whole_high);                       \
     add_high = cut ? add_high : min(add_high, whole_high);                    \
     cuts.lo = cut ? min(cuts.lo, met_low) : cuts.lo;                          \
     cuts.hi = cut ? min(cuts.hi, whole_high) : cuts.hi;                       \
     cut_high = cut ? min(cut_high, whole_high) : cut_high;                    \
-  }
-#define FORM_LAYER_END                                                        \
-  {                                                                           \
-    const uint layer = slots_word;                                            \
-    Bounds joined = makeBounds(min(field.lo, adds.lo), min(field.hi, adds.hi)); \
-    layer_add[layer] = add_high;                                              \
-    layer_cut[layer] = cut_high;                                              \
-    layer_joined[layer] = joined.lo;                                          \
-    layer_replaced[layer] = adds.hi < field.lo ? 1.0f : 0.0f;                 \
-    field = makeBounds(max(joined.lo, -cuts.hi), max(joined.hi, -cuts.lo));   \
-    adds = makeBounds(kNever, kNever);                                        \
-    cuts = makeBounds(kNever, kNever);                                        \
-    add_high = field.hi;                                                      \
-    cut_high = kNever;                                                        \
+    if (ends) {                                                               \
+      Bounds joined = makeBounds(min(field.lo, adds.lo), min(field.hi, adds.hi)); \
+      layer_add[layer] = add_high;                                            \
+      layer_cut[layer] = cut_high;                                            \
+      layer_joined[layer] = joined.lo;                                        \
+      layer_replaced[layer] = adds.hi < field.lo ? 1.0f : 0.0f;               \
+      field = makeBounds(max(joined.lo, -cuts.hi), max(joined.hi, -cuts.lo)); \
+      adds = makeBounds(kNever, kNever);                                      \
+      cuts = makeBounds(kNever, kNever);                                      \
+      add_high = field.hi;                                                    \
+      cut_high = kNever;                                                      \
+    }                                                                         \
   }
 // Where a smooth group is its width away and no nearer than the field, the field keeps its bits; where the field is, the
 // group takes its place.

@@ -125,13 +125,15 @@ void main() {
   const bool cut = (flags & 1u) != 0u;
 #define FORM_FOLD                                                                                      \
   INFLUENCE                                                                                            \
-  EACH(bool within = WITHIN; Dual before = valueOf(cut ? cuts[s] : field[s]);                          \
-       float after = opMinimum(before, READ(ra)).v; if (within && cut) cuts[s] = after;                \
-       if (within && !cut) field[s] = after;)
+  const bool ends = (flags & kEndsLayer) != 0u;                                                        \
+  EACH(bool within = WITHIN && !ends; Dual before = valueOf(cut ? cuts[s] : field[s]);                 \
+       float after = opMinimum(before, READ(ra)).v;                                                    \
+       float left = opCut(valueOf(field[s]), valueOf(cuts[s])).v;                                      \
+       field[s] = ends ? left : within && !cut ? after : field[s];                                     \
+       cuts[s] = ends ? 1.0e30f : within && cut ? after : cuts[s];)
 #define FORM_SMOOTH                                                                                    \
   INFLUENCE                                                                                            \
   EACH(bool within = WITHIN; float after = folded(field[s], SLOT(ra), PF(P, 7), cut); if (within) field[s] = after;)
-#define FORM_LAYER_END EACH(field[s] = opCut(valueOf(field[s]), valueOf(cuts[s])).v; cuts[s] = 1.0e30f;)
 #include "mesher/sweep.glsl"
     } while (next < list_end);
 

@@ -27,7 +27,6 @@
 #include "op_sweep.glsl"
       SWEEP(kOpCount, FORM_FOLD)
       SWEEP(kOpCount + 1u, FORM_SMOOTH)
-      SWEEP(kOpCount + 2u, FORM_LAYER_END)
     } while (kind != kEndOfWindow);
   }
 #undef SWEEP

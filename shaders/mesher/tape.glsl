@@ -30,5 +30,6 @@ layout(constant_id = 2) const uint kKindsHigh = 0xFFFFFFFFu;
 #define OCCURS(NUMBER) (((NUMBER) < 32u ? kKindsLow >> ((NUMBER) & 31u) : kKindsHigh >> ((NUMBER) & 31u)) & 1u) != 0u
 
 #define PU(P, i) wordOfRecord(uint(i) + 2u)
-#define QU(P, i) farWord(uint(i))
+#define QU(P, i) wordOfRecord(uint(i) + 2u)
+#define RU(P, i) farWord(uint(i))
 #define gatherReal(P, i) uintBitsToFloat(batch[wordOfRecord(12u) + uint(i)])

@@ -15,11 +15,14 @@ uint fillWindow(uint from, uint end) {
     uint head = subgroupShuffle(words.x, 0u), slots_word = subgroupShuffle(words.y, 0u);
     uint pieces = head >> 16, kind = head & 0xFFu;
     bool fits = filled + pieces + 1u < kWindow && at < end;
-    bool copies = choice != kKept && kind < kOpCount;
+    bool alone_left = choice != kKept && kind < kOpCount;
     uint alone = choice == kFirstAlone ? slots_word >> 8 & 0xFFu : slots_word >> 16 & 0xFFu;
-    if (copies && lane == 0u) {
-      words.x = kOp_copy | 1u << 16;
-      words.y = (slots_word & 0xFFu) | alone << 8;
+    // A minimum of one operand with itself is that operand, and stays in the row of minima that it stands in; others
+    // become copies.
+    bool copies = alone_left && kind != kOp_minimum && kind != kOp_maximum;
+    if (alone_left && lane == 0u) {
+      words.x = copies ? kOp_copy | 1u << 16 : words.x;
+      words.y = (slots_word & 0xFFu) | alone << 8 | alone << 16;
     }
     // The ninth word is a fold's flags.
     if (choice == kFirstAlone && kind >= kOpCount && lane == 2u) words.x &= ~2u;

@@ -28,9 +28,10 @@ using std::memcpy;
 #undef PI
 #undef PU
 #undef PF
-#undef QI
-#undef QU
 #undef QF
+#undef QI
+#undef RF
+#undef RI
 #undef SGM_WIDE
 
 }  // namespace HWY_NAMESPACE

@@ -11,6 +11,7 @@ namespace sgm {
 
 namespace {
 
+constexpr uint32_t kFirstWords = 28;  // of parameters, in a record's first 32 words
 constexpr uint32_t kKinds = static_cast<uint32_t>(TapeOp::count);
 
 /// The turn of each kind within a sweep.
@@ -78,11 +79,10 @@ uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program, bool l
   const bool cut = n.kind >= static_cast<uint32_t>(Op::count) && program.groups[n.group].cut;
   switch (n.kind) {
     case static_cast<uint32_t>(TapeOp::fold):
+      if (n.ends_layer) return kIsLayerEnd | (layer_cuts ? kCuts : 0);
       return kIsFold | 1 | (cut ? kCuts : 0);
     case static_cast<uint32_t>(TapeOp::smooth):
       return kIsSmooth | 1 | (cut ? kCuts : 0);
-    case static_cast<uint32_t>(TapeOp::layer_end):
-      return kIsLayerEnd | (layer_cuts ? kCuts : 0);
     default:
       break;
   }
@@ -160,6 +160,9 @@ float sizesOf(Op op, const uint32_t* p) {
   }
 }
 
+// Their words are read as those of a record's beginning (shaders/mesher/tape.glsl).
+constexpr uint32_t kMostOctaves = (kFirstWords - 6) / 2;
+
 class Scheduler {
  public:
   Scheduler(const ProgramView& program, TapeScratch& scratch)
@@ -171,7 +174,7 @@ class Scheduler {
   /// false: too much for a shader.
   bool run() {
     readNodes();
-    if (nodes_.size() > kMostTapeRecords || layers_ > kMostTapeLayers) return false;
+    if (!fits_ || nodes_.size() > kMostTapeRecords || layers_ > kMostTapeLayers) return false;
     sortBlocks();
     return assignSlots();
   }
@@ -198,7 +201,8 @@ class Scheduler {
       if (g.smooth > 0) continue;
       if (last) {
         Node end;
-        end.kind = static_cast<uint32_t>(TapeOp::layer_end);
+        end.kind = static_cast<uint32_t>(TapeOp::fold);
+        end.ends_layer = true;
         end.group = k;
         end.layer = layers_++;
         // The cuts of a layer stand behind its adds.
@@ -219,6 +223,7 @@ class Scheduler {
       n.kind = static_cast<uint32_t>(in.op);
       n.place = in.place;
       n.params = in.params;
+      fits_ = fits_ && (in.op != Op::noise || program_.params[in.params + 3] <= kMostOctaves);
       const Shape shape = shapeOf(in.op);
       if (shape.operands > 0) n.a = registers_[in.a];
       if (shape.operands > 1) n.b = registers_[in.b];
@@ -370,12 +375,12 @@ class Scheduler {
   std::array<int32_t, kMaxRegisters> registers_{};
   size_t made_ = 0;
   uint32_t layers_ = 0;
+  bool fits_ = true;
 };
 
 /// Writes one record, 32 words and more, and returns how many times 32 words it has.
 uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, const TapeScratch::Node& n,
                      std::pmr::vector<uint32_t>& words) {
-  constexpr uint32_t kFirstWords = 28;  // of parameters, in the first 32 words
   const size_t at = words.size();
   const bool is_op = n.kind < static_cast<uint32_t>(Op::count);
   const auto op = static_cast<Op>(n.kind);
@@ -391,7 +396,7 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
     fold = {static_cast<uint32_t>(g.influence.lo.x),   static_cast<uint32_t>(g.influence.lo.y),
             static_cast<uint32_t>(g.influence.lo.z),   static_cast<uint32_t>(g.influence.hi.x),
             static_cast<uint32_t>(g.influence.hi.y),   static_cast<uint32_t>(g.influence.hi.z),
-            (g.cut ? 1u : 0u) | (g.guarded ? 2u : 0u), std::bit_cast<uint32_t>(g.smooth)};
+            (g.cut ? 1u : 0u) | (g.guarded ? 2u : 0u) | (n.ends_layer ? 4u : 0u), std::bit_cast<uint32_t>(g.smooth)};
   }
   const uint32_t pieces = count <= kFirstWords ? 1 : 2 + (count - kFirstWords - 1) / kTapeRecordWords;
   words.resize(at + size_t{pieces} * kTapeRecordWords);
@@ -404,7 +409,7 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
   record[0] = n.kind | n.place << 8 | pieces << 16;
   record[1] = (n.kind == static_cast<uint32_t>(Op::warp) ? n.group : slot(n.dst)) | slot(n.a) << 8 |
               (two ? slot(n.second) : slot(n.b)) << 16 | slot(n.c) << 24;
-  if (n.kind == static_cast<uint32_t>(TapeOp::layer_end)) record[1] = n.layer;
+  if (n.ends_layer) record[1] = n.layer;
   std::copy_n(params, std::min(count, kFirstWords), record + 2);
   if (count > kFirstWords) std::copy_n(params + kFirstWords, count - kFirstWords, record + kTapeRecordWords);
   if (is_op && shapeOf(op).position) record[30] = std::bit_cast<uint32_t>(sizesOf(op, params));
