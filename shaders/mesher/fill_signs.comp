@@ -25,14 +25,18 @@ void main() {
   const uint signs = batch[kChunkWords * number + kChunkSigns];
   while (row < kRows) {
     const uint z = row / kSide, y = row - z * kSide;
-    const uint first = 4u * min(y >> 3, 3u) + 16u * min(z >> 3, 3u);
+    const uvec2 brick = min(uvec2(y, z) >> 3, uvec2(3u)), part = min(uvec2(y, z) >> 2, uvec2(7u)) & 1u;
+    const uint first = 4u * brick.x + 16u * brick.y, first_part = 2u * part.x + 4u * part.y;
     uint low = 0u, last = 0u;
     for (uint x = 0u; x < 4u; ++x) {
-      last = scratch[brickItem(number, first + x) + kItemFlags] & kItemSolid;
-      low |= last != 0u ? 0xFFu << (8u * x) : 0u;
+      const uint item = brickItem(number, first + x);
+      const uint parts_solid = scratch[item + kItemParts] >> first_part & 3u;
+      const uint solid = (scratch[item + kItemFlags] & kItemSolid) != 0u ? 3u : parts_solid;
+      low |= ((solid & 1u) * 0x0Fu | (solid >> 1) * 0xF0u) << (8u * x);
+      last = solid >> 1;
     }
     scratch[signs + 2u * row] = low;
-    scratch[signs + 2u * row + 1u] = last != 0u ? 1u : 0u;
+    scratch[signs + 2u * row + 1u] = last;
     row += gl_WorkGroupSize.x;
   }
 }

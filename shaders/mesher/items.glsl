@@ -11,8 +11,23 @@ const uint kItemInitial = 3u;  // the field below all that is left, as bits, and
 const uint kItemLabel = 4u;
 const uint kItemScale = 5u;    // Q by unit, as bits
 const uint kItemOwner = 6u;    // of a brick the chunk's record, of a plane the seam's, as places in batch
+const uint kItemParts = 7u;    // of a brick that is sampled: which of its eight parts are solid throughout; from bit 8, empty
 const uint kItemSolid = 1u;    // proven: all samples are solid,
 const uint kItemEmpty = 2u;    // or none is
+
+// Brick b of a chunk covers samples first..last on each axis.
+uvec3 firstOfBrick(uint b) { return uvec3(b & 3u, b >> 2 & 3u, b >> 4) * kBrickSamples; }
+uvec3 lastOfBrick(uint b) {
+  uvec3 first = firstOfBrick(b);
+  return first + kBrickSamples - uvec3(lessThan(first, uvec3(24u)));
+}
+
+// Its eight parts, x fastest: 4^3 samples, and one more on the chunk's high faces.
+uvec3 firstOfPart(uint b, uint part) { return firstOfBrick(b) + 4u * uvec3(part & 1u, part >> 1 & 1u, part >> 2); }
+uvec3 lastOfPart(uint b, uint part) {
+  uvec3 first = firstOfPart(b, part);
+  return first + 4u - uvec3(lessThan(first, uvec3(28u)));
+}
 
 // An entry of a list: the record's place, in units of 32 words, and what became of it.
 const uint kKept = 0u;
@@ -70,10 +85,3 @@ uint verticesOfUnit(uint records, uint width) { return max(kMostRounds / roundsO
 uint brickItem(uint chunk, uint brick) { return items_at + kItemWords * (chunk * kBricks + brick); }
 // coarse: 0 or 1
 uint planeItem(uint seam, uint coarse) { return items_at + kItemWords * (chunk_count * kBricks + 2u * seam + coarse); }
-
-// Brick b of a chunk covers samples first..last on each axis.
-uvec3 firstOfBrick(uint b) { return uvec3(b & 3u, b >> 2 & 3u, b >> 4) * kBrickSamples; }
-uvec3 lastOfBrick(uint b) {
-  uvec3 first = firstOfBrick(b);
-  return first + kBrickSamples - uvec3(lessThan(first, uvec3(24u)));
-}

@@ -44,17 +44,18 @@ void main() {
   const uint signs = plane ? batch[owner + kSeamSigns] : batch[chunk + kChunkSigns];
   const uint face = plane ? batch[owner + kSeamFace] : 0u;
   const uint axis = face >> 1;
-  const uvec3 first = plane ? uvec3(0u) : firstOfBrick(number % kBricks);
-  const uvec3 extent = plane ? uvec3(kCoarseSide) : lastOfBrick(number % kBricks) - first + 1u;
-  // Rows of eight, then what a brick on the high side has beyond them, one a row.
-  const uint rows = extent.y * extent.z;
-  const uint count = plane ? kCoarseSide * kCoarseSide : rows * extent.x;
-  const uint inverse = extent.y == 8u ? 8192u : 7282u;  // 65536 / rows of y, rounded up: exact for 81 rows
+  // The parts of a brick that are not uniform; a plane is one.
+  const uint uniform_parts = scratch[item + kItemParts];
+  uint left = plane ? 1u : ~(uniform_parts | uniform_parts >> 8) & 0xFFu;
 
   uint filled_to = fillWindow(list, list_end);
   const bool whole = filled_to == list_end;
-  uint base = sliceOfEntry(entry) * kEach * gl_WorkGroupSize.x;
-  do {
+  uint part = uint(findLSB(left)), base = sliceOfEntry(entry) * kEach * gl_WorkGroupSize.x;
+  if (left != 0u) do {
+    const uvec3 first = firstOfPart(number % kBricks, part);
+    const uvec3 extent = lastOfPart(number % kBricks, part) - first + 1u;
+    const uint count = plane ? kCoarseSide * kCoarseSide : extent.x * extent.y * extent.z;
+    const uvec3 inverse = mix(uvec3(13108u), uvec3(16384u), equal(extent, uvec3(4u)));  // of 4 or 5, times 65536
     int px[kEach], py[kEach], pz[kEach];
     float field[kEach], cuts[kEach];
     uint target[kEach], word[kEach];
@@ -64,10 +65,8 @@ void main() {
       uint i = base + s * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
       inside[s] = i < count;
       i = min(i, count - 1u);
-      bool beyond = i >= 8u * rows;
-      uint row = beyond ? i - 8u * rows : i >> 3;
-      uint z = row * inverse >> 16;
-      uvec3 at = first + uvec3(beyond ? 8u : i & 7u, row - z * extent.y, z);
+      const uint row = i * inverse.x >> 16, z = row * inverse.y >> 16;
+      uvec3 at = first + uvec3(i - row * extent.x, row - z * extent.y, z);
       uint b = i * 3856u >> 16, a = i - b * kCoarseSide;  // by 17: exact for 289
       ivec3 on_plane = ivec3(0);
       on_plane[axis] = (face & 1u) != 0u ? 32 : 0;
@@ -141,16 +140,19 @@ void main() {
       int q = quantise(field[s], scale);
       bool solid = inside[s] && q < 0;
       if (inside[s]) scratch[target[s]] = uint(q);
-      // Eight invocations in a row share a row of a brick, unless they are beyond it or on a plane.
-      uint i = base + s * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-      bool alone = plane || i >= 8u * rows;
-      uint lane = gl_SubgroupInvocationID;
-      uvec4 ballot = subgroupBallot(solid);
-      uint half_word = lane < 32u ? ballot.x : ballot.y;
-      uint row_bits = half_word >> (lane & 24u) & 0xFFu;
-      uint bits = alone ? (solid ? 1u << bit[s] : 0u) : (lane & 7u) == 0u ? row_bits << bit[s] : 0u;
+      // Four invocations in a row share a row of samples, where rows have four.
+      const bool alone = plane || extent.x != 4u;
+      const uint lane = gl_SubgroupInvocationID;
+      const uvec4 ballot = subgroupBallot(solid);
+      const uint row_bits = (lane < 32u ? ballot.x : ballot.y) >> (lane & 28u) & 0xFu;
+      const uint bits = alone ? (solid ? 1u << bit[s] : 0u) : (lane & 3u) == 0u ? row_bits << bit[s] : 0u;
       if (bits != 0u) atomicOr(scratch[word[s]], bits);
     }
     base += slicesOfEntry(entry) * kEach * gl_WorkGroupSize.x;
-  } while (base < count);
+    if (base >= count) {
+      base = sliceOfEntry(entry) * kEach * gl_WorkGroupSize.x;
+      left &= left - 1u;
+      part = uint(findLSB(left)) & 7u;
+    }
+  } while (left != 0u);
 }

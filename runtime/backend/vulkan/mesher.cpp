@@ -14,6 +14,7 @@
 #include "spirv/list_cells_comp.h"
 #include "spirv/plane_units_comp.h"
 #include "spirv/prune_comp.h"
+#include "spirv/refine_comp.h"
 #include "spirv/sample_comp.h"
 #include "spirv/sample_rte_comp.h"
 #include "spirv/seam_triangles_comp.h"
@@ -70,6 +71,7 @@ Result<std::shared_ptr<const Pipeline>> Mesher::makePipeline(Kernel kernel, uint
   };
   const std::array<Source, kernels> sources{{
       {"prune", spirv::kPruneComp},
+      {"refine", spirv::kRefineComp},
       {"fill_signs", spirv::kFillSignsComp},
       {"sample",
        rte ? std::span<const uint32_t>(spirv::kSampleRteComp) : std::span<const uint32_t>(spirv::kSampleComp)},
@@ -85,7 +87,7 @@ Result<std::shared_ptr<const Pipeline>> Mesher::makePipeline(Kernel kernel, uint
       {"triangles", spirv::kTrianglesComp},
       {"seam_triangles", spirv::kSeamTrianglesComp},
   }};
-  const bool interprets = kernel == prune || kernel == sample || kernel == attributes;
+  const bool interprets = kernel == prune || kernel == refine || kernel == sample || kernel == attributes;
   const bool wide = interprets || kernel == fill_signs || kernel == body_vertices || kernel == plane_units;
   const std::array<uint32_t, 3> constants{width(), static_cast<uint32_t>(kinds), static_cast<uint32_t>(kinds >> 32)};
   PipelineDesc desc;
@@ -105,12 +107,12 @@ Result<Mesher::Pipelines> Mesher::pipelinesFor(uint64_t kinds) {
   const uint64_t wanted = software() ? kinds_ | kinds : kAllKinds;
   for (int k = 0; k < kernels; ++k) {
     const auto kernel = static_cast<Kernel>(k);
-    const bool interprets = kernel == prune || kernel == sample || kernel == attributes;
+    const bool interprets = kernel == prune || kernel == refine || kernel == sample || kernel == attributes;
     std::shared_ptr<const Pipeline>& pipeline = pipelines_[static_cast<size_t>(k)];
     if (pipeline && (!interprets || kinds_ == wanted)) continue;
     Result<std::shared_ptr<const Pipeline>> made = makePipeline(kernel, wanted);
     if (!made) {
-      for (const Kernel stale : {prune, sample, attributes}) pipelines_[stale] = nullptr;
+      for (const Kernel stale : {prune, refine, sample, attributes}) pipelines_[stale] = nullptr;
       kinds_ = 0;
       return made.error();
     }
@@ -163,6 +165,8 @@ Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, cons
     if (bind(prune)) commands.dispatch(plan.plane_jobs);
     sizes.jobs = plan.sizes.jobs;
   }
+  settle();
+  if (bind(refine)) commands.dispatchIndirect(sampled);
   settle();
   if (bind(fill_signs)) commands.dispatch(chunks + plan.seam_count);
   settle();

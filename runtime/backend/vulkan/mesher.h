@@ -47,6 +47,7 @@ class Mesher {
  private:
   enum Kernel {
     prune,
+    refine,
     fill_signs,
     sample,
     census_body,
