@@ -14,6 +14,12 @@ void setSlot(uint slot, Bounds b) {
   high[slot] = b.hi;
 }
 
+// The field with what a layer adds and takes away. A list of what pruning left has no end of layers that take nothing
+// away: what they add waits for whatever comes next.
+Bounds layerJoined(Bounds field, Bounds adds, Bounds cuts) {
+  return makeBounds(max(min(field.lo, adds.lo), -cuts.hi), max(min(field.hi, adds.hi), -cuts.lo));
+}
+
 int movedTo(int at, float by, float slack) {
   float to = float(at) + clamp(by, -1048576.0f, 1048576.0f) * 1024.0f;
   to = to + slack * (2.0f + 4.0e-7f * (abs(float(at)) + abs(to)));
@@ -175,9 +181,8 @@ Bounds powerMorphBounds(ivec3 middle, Bounds t, ivec3 lo, ivec3 hi) {
     cuts.hi = cut ? min(cuts.hi, whole_high) : cuts.hi;                       \
     cut_high = cut ? min(cut_high, whole_high) : cut_high;                    \
     if (ends) {                                                               \
-      Bounds joined = makeBounds(min(field.lo, adds.lo), min(field.hi, adds.hi)); \
-      MARK_LAYER(layer, joined.lo, adds.hi < field.lo) \
-      field = makeBounds(max(joined.lo, -cuts.hi), max(joined.hi, -cuts.lo)); \
+      MARK_LAYER(layer, min(field.lo, adds.lo), adds.hi < field.lo) \
+      field = layerJoined(field, adds, cuts);                                 \
       adds = makeBounds(kNever, kNever);                                      \
       cuts = makeBounds(kNever, kNever);                                      \
       add_high = field.hi;                                                    \
@@ -190,7 +195,7 @@ Bounds powerMorphBounds(ivec3 middle, Bounds t, ivec3 lo, ivec3 hi) {
   {                                                                                                   \
     GROUP                                                                                             \
     const float k = PF(P, 7);                                                                         \
-    const Bounds under = field, distance = cut ? negated(under) : under;                              \
+    const Bounds under = layerJoined(field, adds, cuts), distance = cut ? negated(under) : under;                              \
     const bool live = met && !(value.lo >= k && value.lo >= distance.hi);                             \
     Bounds joined = roundUnionRange(distance, value, k);                                              \
     if (cut) joined = negated(joined);                                                                \
@@ -198,6 +203,10 @@ Bounds powerMorphBounds(ivec3 middle, Bounds t, ivec3 lo, ivec3 hi) {
     const bool replaces = live && !cut && whole && under.lo >= k && under.lo > value.hi;              \
     MARK(live ? 0.0f : kNever)                                                       \
     MARK_WHOLE((whole ? 1.0f : 0.0f) + (replaces ? 2.0f : 0.0f)) \
+    field = under;                                                                                    \
     if (live) field = joined;                                                                         \
+    adds = makeBounds(kNever, kNever);                                                                \
+    cuts = makeBounds(kNever, kNever);                                                                \
+    cut_high = kNever;                                                                                \
     add_high = field.hi;                                                                              \
   }

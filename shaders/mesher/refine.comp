@@ -52,6 +52,7 @@ void main() {
 #include "mesher/sweep.glsl"
   } while (next < list_end);
 
+  field = layerJoined(field, adds, cuts);
   const uint solid = subgroupBallot(field.hi * scale < -0.55f).x & 0xFFu;
   const uint empty = subgroupBallot(field.lo * scale > -0.45f).x & 0xFFu;
   if (gl_LocalInvocationID.x == 0u && brick && sliceOfEntry(entry) == 0u) {
