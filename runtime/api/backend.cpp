@@ -12,17 +12,33 @@ namespace sgm::api {
 std::optional<BackendRequest> requestOf(sgm_backend backend) {
   switch (backend) {
     case SGM_BACKEND_AUTO:
-      return BackendRequest{};
+      return BackendRequest{BackendKind::cpu, true, -1, {}};
     case SGM_BACKEND_CPU:
-      return BackendRequest{BackendKind::cpu, false, {}};
+      return BackendRequest{BackendKind::cpu, false, -1, {}};
     case SGM_BACKEND_VULKAN:
-      return BackendRequest{BackendKind::vulkan, false, {}};
+      return BackendRequest{BackendKind::vulkan, false, -1, {}};
     case SGM_BACKEND_CUDA:
-      return BackendRequest{BackendKind::cuda, false, {}};
+      return BackendRequest{BackendKind::cuda, false, -1, {}};
     case SGM_BACKEND_FORCE_32_BIT:
       break;
   }
   return std::nullopt;
+}
+
+Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendRequest& request) {
+  DeviceBackends& shared = runtime.devices;
+  const bool device = request.automatic || request.kind != BackendKind::cpu;
+  const std::scoped_lock lock(shared.mutex);
+  const BackendRequest wanted = request.automatic && shared.none ? BackendRequest{} : request;
+  std::shared_ptr<Backend>& kept = request.automatic ? shared.automatic : shared.vulkan;
+  if (device && kept) return kept;
+  Result<std::unique_ptr<Backend>> made = makeBackend(wanted, *runtime.jobs, &runtime.memory, runtime.profiler);
+  if (!made) return made.error();
+  std::shared_ptr<Backend> backend = std::move(*made);
+  const bool on_cpu = backend->capabilities().kind == BackendKind::cpu;
+  if (device && !on_cpu) kept = backend;
+  shared.none = shared.none || (request.automatic && on_cpu);
+  return backend;
 }
 
 }  // namespace sgm::api
@@ -57,8 +73,7 @@ sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_back
     if (sgm_result r = checkDesc(error, info, "info"); r != SGM_OK) return r;
     const std::optional<sgm::BackendRequest> request = requestOf(backend);
     if (!request) return fail(error, SGM_ERR_INVALID_ARGUMENT, "backend is no sgm_backend");
-    const sgm::Result<std::unique_ptr<sgm::Backend>> made =
-        sgm::makeBackend(*request, *runtime->jobs, &runtime->memory);
+    const sgm::Result<std::shared_ptr<sgm::Backend>> made = backendFor(*runtime, *request);
     if (!made && made.error().code != sgm::Code::unsupported) return fail(error, made.error());
     info->backend = backend;
     info->usable = made ? 1 : 0;

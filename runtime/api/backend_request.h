@@ -11,4 +11,8 @@ namespace sgm::api {
 /// Nothing for a number that is no sgm_backend.
 std::optional<BackendRequest> requestOf(sgm_backend backend);
 
+/// The backend for a field of the runtime's. A device is opened once and meshes for all fields; where `automatic` has
+/// found none it is not looked for again. Errors: as makeBackend.
+Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendRequest& request);
+
 }  // namespace sgm::api

@@ -52,8 +52,7 @@ sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sg
                               const sgm::GrammarChunk& cell) { notes->tell(cell); };
     settings.profiler = runtime->profiler;
     if (sgm_result r = takeHosts(error, *desc, *settings.program, settings.hosts); r != SGM_OK) return r;
-    sgm::Result<std::unique_ptr<sgm::Backend>> backend =
-        sgm::makeBackend(*request, *runtime->jobs, &runtime->memory, runtime->profiler);
+    sgm::Result<std::shared_ptr<sgm::Backend>> backend = backendFor(*runtime, *request);
     if (!backend) return fail(error, backend.error());
     auto content = std::allocate_shared<FieldContent>(std::pmr::polymorphic_allocator<>(&runtime->memory),
                                                       std::move(settings), &runtime->memory, std::move(*backend));

@@ -12,11 +12,11 @@ namespace sgm::api {
 
 /// What a field is, kept by its handle and by the worlds that stream it.
 struct FieldContent {
-  FieldContent(WorldFieldSettings settings, std::pmr::memory_resource* memory, std::unique_ptr<Backend> backend_in)
+  FieldContent(WorldFieldSettings settings, std::pmr::memory_resource* memory, std::shared_ptr<Backend> backend_in)
       : world(std::move(settings), memory), backend(std::move(backend_in)) {}
 
   WorldField world;
-  std::unique_ptr<Backend> backend;
+  std::shared_ptr<Backend> backend;
 };
 
 }  // namespace sgm::api

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "api/ended_handles.h"
+#include "backend/backend.h"
 #include "base/jobs.h"
 #include "base/profile.h"
 #include "sgm/sgm.h"
@@ -61,6 +62,13 @@ class CallerJobs final : public JobSystem {
   uint64_t waiting_ = 0;  ///< accepted and not ended
 };
 
+/// Backends on devices, which all fields of a runtime share: opening one takes long, and its memory is large.
+struct DeviceBackends {
+  std::mutex mutex;
+  std::shared_ptr<Backend> vulkan, automatic;  ///< null until asked for
+  bool none = false;                           ///< `automatic` has found no device
+};
+
 }  // namespace sgm::api
 
 struct sgm_runtime {
@@ -78,6 +86,7 @@ struct sgm_runtime {
   sgm_log_sink sink{};
   sgm::Profiler profiler;
   std::unique_ptr<sgm::JobSystem> jobs;
+  sgm::api::DeviceBackends devices;
   std::atomic<uint64_t> children{0};
 };
 

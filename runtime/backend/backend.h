@@ -94,7 +94,7 @@ class Backend {
 
 struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
-  bool automatic = true;        ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
+  bool automatic = false;       ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
   int device = -1;              ///< Vulkan: in the order in which devices are listed; -1: the fastest kind
   std::string instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512"; empty: the widest that runs here
 };

@@ -58,8 +58,8 @@ static_assert(sizeof(Sizes) == 12 * sizeof(uint32_t));
 /// What the sums of a batch in 32 bits allow, whatever its signs are.
 inline constexpr uint32_t kMaxParts = 8192;
 
-inline constexpr uint32_t kItemWords = 8;  ///< of a brick or a plane (shaders/mesher/items.glsl)
-inline constexpr uint32_t kBricks = 64;    ///< of a chunk
+inline constexpr uint32_t kItemWords = 8;    ///< of a brick or a plane (shaders/mesher/items.glsl)
+inline constexpr uint32_t kBricks = 64;      ///< of a chunk
 inline constexpr uint32_t kMostSlices = 16;  ///< that sampling an item is cut into
 inline constexpr uint32_t kUnitWords = 4;    ///< of attributes
 

@@ -114,15 +114,13 @@ class Planner {
 
  private:
   /// No unit but an item's last has fewer vertices than a subgroup has invocations.
-  static uint64_t unitWords(uint64_t vertices, uint64_t items) {
-    return (vertices / 8 + items) * batch::kUnitWords;
-  }
+  static uint64_t unitWords(uint64_t vertices, uint64_t items) { return (vertices / 8 + items) * batch::kUnitWords; }
 
   uint64_t scratchWords() const {
     const uint64_t chunks = std::max<uint64_t>(plan_.chunks.size(), 8);
     return places_.used() +
-           chunks *
-               (batch::kBricks * (batch::kItemWords + batch::kMostSlices + batch::kUnitWords) + room_.vertices * 2 + uint64_t{room_.cells} * batch::kCellWords) +
+           chunks * (batch::kBricks * (batch::kItemWords + batch::kMostSlices + batch::kUnitWords) +
+                     room_.vertices * 2 + uint64_t{room_.cells} * batch::kCellWords) +
            uint64_t{plan_.seam_count} * 2 * (batch::kItemWords + batch::kMostSlices + batch::kUnitWords);
   }
 

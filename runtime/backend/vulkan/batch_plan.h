@@ -39,7 +39,7 @@ struct BatchPlan {
   std::pmr::vector<uint32_t> refused;  ///< numbers of jobs that it cannot take
   batch::Sizes sizes{};
   uint32_t seam_count = 0;
-  uint32_t plane_jobs = 0;  ///< of pruning, behind one for each chunk's bricks,
+  uint32_t plane_jobs = 0;     ///< of pruning, behind one for each chunk's bricks,
   uint32_t plane_jobs_at = 0;  ///< from here on in words
   uint32_t scratch_words = 0;
   uint64_t kinds = 0;  ///< of tapes: which instructions occur

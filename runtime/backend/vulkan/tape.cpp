@@ -393,10 +393,14 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
     count = static_cast<uint32_t>(std::min<size_t>(left == 0 ? 0 : parameterWords(op, params), left));
   } else {
     const ProgramGroup& g = program.groups[n.group];
-    fold = {static_cast<uint32_t>(g.influence.lo.x),   static_cast<uint32_t>(g.influence.lo.y),
-            static_cast<uint32_t>(g.influence.lo.z),   static_cast<uint32_t>(g.influence.hi.x),
-            static_cast<uint32_t>(g.influence.hi.y),   static_cast<uint32_t>(g.influence.hi.z),
-            (g.cut ? 1u : 0u) | (g.guarded ? 2u : 0u) | (n.ends_layer ? 4u : 0u), std::bit_cast<uint32_t>(g.smooth)};
+    fold = {static_cast<uint32_t>(g.influence.lo.x),
+            static_cast<uint32_t>(g.influence.lo.y),
+            static_cast<uint32_t>(g.influence.lo.z),
+            static_cast<uint32_t>(g.influence.hi.x),
+            static_cast<uint32_t>(g.influence.hi.y),
+            static_cast<uint32_t>(g.influence.hi.z),
+            (g.cut ? 1u : 0u) | (g.guarded ? 2u : 0u) | (n.ends_layer ? 4u : 0u),
+            std::bit_cast<uint32_t>(g.smooth)};
   }
   const uint32_t pieces = count <= kFirstWords ? 1 : 2 + (count - kFirstWords - 1) / kTapeRecordWords;
   words.resize(at + size_t{pieces} * kTapeRecordWords);

@@ -22,8 +22,9 @@ inline constexpr uint32_t kMostTapeLayers = 64;
 
 /// Instructions that are no Op: numbers from Op::count on.
 enum class TapeOp : uint32_t {
-  fold = static_cast<uint32_t>(Op::count),  ///< a group into the field, or into what its layer takes away; or that out of it
-  smooth,                                   ///< a smooth group into the field
+  fold = static_cast<uint32_t>(
+      Op::count),  ///< a group into the field, or into what its layer takes away; or that out of it
+  smooth,          ///< a smooth group into the field
   count
 };
 
@@ -42,7 +43,7 @@ struct TapeScratch {
   struct Node {
     uint32_t kind = 0, place = 0, params = 0, group = 0, layer = 0, order = 0, stage = 0;
     bool ends_layer = false;  ///< a fold, not of a group: what the layer takes away goes out of the field
-    bool layer_cuts = false;                                ///< of a layer's end: something is taken away
+    bool layer_cuts = false;  ///< of a layer's end: something is taken away
     int32_t dst = -1, second = -1, a = -1, b = -1, c = -1;  ///< values; -1: none
   };
   struct Value {
