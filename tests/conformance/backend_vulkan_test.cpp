@@ -1,0 +1,172 @@
+// The Vulkan backend gives the CPU's scalar bytes: every op, random programs, the sample grammars.
+//
+// One backend for all: it makes pipelines for the instructions that it has met, which takes seconds, so the first batch
+// holds them all.
+
+#include <algorithm>
+#include <iostream>
+
+#include "catch.h"
+#include "compare_meshes.h"
+#include "mesh_jobs.h"
+#include "rounds.h"
+#include "stream/mesh_chunks.h"
+#include "unit/stream/world_support.h"
+#include "vulkan_machine.h"
+
+using namespace sgm;
+
+namespace {
+
+uint32_t seedOfAll() {
+  const char* text = std::getenv("SGM_TEST_SEED");
+  return text ? static_cast<uint32_t>(std::strtoul(text, nullptr, 10)) : 20'260'101u;
+}
+
+std::vector<ChunkJob> jobsOf(const std::vector<NamedJob>& named) {
+  std::vector<ChunkJob> jobs;
+  for (const NamedJob& one : named) jobs.push_back(one.job);
+  return jobs;
+}
+
+VulkanMachine& machine() {
+  static VulkanMachine one;
+  return one;
+}
+
+/// Whether there is a device, with pipelines of every instruction.
+bool ready() {
+  static const bool made = [] {
+    if (!machine()) return false;
+    std::cout << "comparing " << machine().vulkan->capabilities().device << " with scalar, seed " << seedOfAll()
+              << std::endl;
+    (void)meshesOf(*machine().vulkan, jobsOf(jobsOfEveryOp(seedOfAll(), 1)));
+    return true;
+  }();
+  return made;
+}
+
+struct Seen {
+  size_t triangles = 0, in_seams = 0;
+};
+
+/// Meshes the jobs in batches of this size by both.
+Seen compare(const std::vector<NamedJob>& named, size_t batch = 64) {
+  Seen seen;
+  for (size_t first = 0; first < named.size(); first += batch) {
+    const auto from = named.begin() + static_cast<std::ptrdiff_t>(first);
+    const std::vector<NamedJob> some(from, from + static_cast<std::ptrdiff_t>(std::min(batch, named.size() - first)));
+    const std::vector<ChunkMesh> expected = meshesOf(*machine().scalar, jobsOf(some));
+    const std::vector<ChunkMesh> found = meshesOf(*machine().vulkan, jobsOf(some));
+    for (size_t i = 0; i < some.size(); ++i) {
+      INFO(some[i].name);
+      CHECK(differenceOf(expected[i], found[i]) == "");
+      seen.triangles += expected[i].body.indices.size() / 3;
+      for (const MeshPart& seam : expected[i].seams) seen.in_seams += seam.indices.size() / 3;
+    }
+  }
+  return seen;
+}
+
+/// What of the chunks since then the device has not done.
+struct OnDevice {
+  BackendCounters before = machine().vulkan->counters();
+  uint64_t byCpu() const { return machine().vulkan->counters().on_cpu - before.on_cpu; }
+};
+
+}  // namespace
+
+TEST_CASE("every op gives the scalar backend's bytes on the device, at the origin and at the world's ends") {
+  if (!ready()) return;
+  const OnDevice device;
+  const std::vector<NamedJob> jobs = jobsOfEveryOp(seedOfAll(), rounds(3));
+  const Seen seen = compare(jobs);
+  CHECK(seen.triangles > 300 * jobs.size());
+  CHECK(device.byCpu() == 0);
+  CHECK(machine().silent());
+}
+
+TEST_CASE("random programs give the scalar backend's bytes on the device, seams, signs and all") {
+  if (!ready()) return;
+  const OnDevice device;
+  std::vector<NamedJob> jobs;
+  for (uint32_t i = 0; i < rounds(120); ++i) jobs.push_back(randomJob(seedOfAll() + i, static_cast<int>(i % 3)));
+  const Seen seen = compare(jobs);
+  CAPTURE(seen.triangles, seen.in_seams);
+  CHECK(seen.triangles > 300 * jobs.size());
+  CHECK(seen.in_seams > 20 * jobs.size());
+  CHECK(device.byCpu() < jobs.size() / 4);
+  CHECK(machine().silent());
+}
+
+TEST_CASE("batches of any size give the same bytes, programs of nothing among them") {
+  if (!ready()) return;
+  std::vector<NamedJob> jobs;
+  for (uint32_t i = 0; i < 200; ++i) {
+    NamedJob& one = jobs.emplace_back(randomJob(seedOfAll() + 5000 + i % 20, 0));
+    if (i % 4 != 0) continue;
+    // Solid or void throughout; with seams to what is not, in every second one.
+    one.job.field = shared(ProgramBuilder(512, i % 8 == 0, makeLabel(3, 1)).finish());
+    one.job.seams = static_cast<uint8_t>(one.job.coarse ? one.job.seams : 0);
+    one.job.signs = true;
+    one.name += ", nothing in it";
+  }
+  CHECK(meshesOf(*machine().vulkan, {}).empty());
+  const std::vector<NamedJob> few(jobs.begin(), jobs.begin() + 5);
+  CHECK(compare(few, 1).triangles > 0);
+  CHECK(compare(jobs, 200).triangles > 0);
+  CHECK(machine().silent());
+}
+
+TEST_CASE("the sample grammars give the scalar backend's bytes on the device") {
+  if (!ready()) return;
+  struct Place {
+    const char* grammar;
+    int32_t cell;
+    Int3 from, to;  ///< metres
+  };
+  static constexpr Place kPlaces[] = {
+      {"arches.sgm", 256, {-8, 0, -8}, {8, 8, 8}},         {"cave.sgm", 256, {88, 72, 72}, {136, 120, 120}},
+      {"choice.sgm", 256, {0, 0, 0}, {32, 8, 32}},         {"cloud.sgm", 4096, {0, 800, 0}, {1050, 1800, 1050}},
+      {"combine.sgm", 256, {-12, -12, -12}, {12, 12, 12}}, {"morph.sgm", 256, {-12, -12, -12}, {12, 12, 12}},
+      {"passage.sgm", 512, {0, -8, -8}, {64, 8, 8}},       {"primitives.sgm", 256, {-12, -12, -12}, {12, 12, 12}},
+      {"sphere.sgm", 256, {-4, -4, -4}, {4, 4, 4}},        {"terrain.sgm", 1024, {-40, -10, -40}, {40, 20, 40}},
+      {"tree.sgm", 256, {-6, 0, -6}, {6, 10, 6}}};
+  for (const Place& place : kPlaces) {
+    CAPTURE(place.grammar);
+    const WorldField world(settingsOf(sample(place.grammar), place.cell, 3), std::pmr::get_default_resource());
+    std::mt19937 random(seedOfAll());
+    std::vector<ChunkRequest> requests;
+    for (uint32_t i = 0; i < rounds(24); ++i) {
+      ChunkRequest& request = requests.emplace_back();
+      request.key.level = static_cast<int>(random() % 3);
+      const int64_t edge = int64_t{kChunkCells} * place.cell << request.key.level;
+      for (int axis = 0; axis < 3; ++axis) {
+        const int64_t low = int64_t{place.from[axis]} * kUnitsPerMetre, high = int64_t{place.to[axis]} * kUnitsPerMetre;
+        const int64_t at = low + static_cast<int64_t>(random() % static_cast<uint64_t>(high - low));
+        request.key.at[axis] = static_cast<int32_t>(floorDiv(at, edge));
+      }
+      request.seams = static_cast<uint8_t>(random() % 2 ? random() % 64 : 0);
+      request.coarser = neighboursAcross(request.seams);
+      request.signs = random() % 2 == 0;
+      request.outermost = random() % 4 == 0;
+    }
+    const auto by = [&](Backend& backend) {
+      auto chunks = meshChunks(world, backend, *machine().jobs, requests);
+      INFO((chunks ? std::string() : chunks.error().message));
+      REQUIRE(chunks);
+      return std::move(*chunks);
+    };
+    const auto expected = by(*machine().scalar);
+    const auto found = by(*machine().vulkan);
+    size_t triangles = 0;
+    for (size_t i = 0; i < requests.size(); ++i) {
+      const ChunkKey& key = requests[i].key;
+      CAPTURE(key.level, key.at.x, key.at.y, key.at.z, int{requests[i].seams});
+      CHECK(differenceOf(expected[i].mesh, found[i].mesh) == "");
+      triangles += expected[i].mesh.body.indices.size() / 3;
+    }
+    CHECK(triangles > 1000);
+  }
+  CHECK(machine().silent());
+}

@@ -1,0 +1,76 @@
+#pragma once
+// A Vulkan backend whose device the validation layer watches, and the CPU backend that it is compared with.
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "backend/backend.h"
+#include "backend/cpu/cpu_backend.h"
+#include "backend/vulkan/vulkan_backend.h"
+#include "catch.h"
+
+namespace sgm {
+
+/// Software devices count too. All of its tests end with CHECK(machine.silent()).
+struct VulkanMachine {
+  std::shared_ptr<vulkan::MessageLog> log = std::make_shared<vulkan::MessageLog>();
+  std::unique_ptr<JobSystem> jobs = *makeThreadPool(2);
+  std::unique_ptr<Backend> scalar = *makeCpuBackend("scalar", *jobs, std::pmr::get_default_resource(), {});
+  std::unique_ptr<Backend> vulkan;  ///< null, after saying so, where this machine has no usable device
+
+  /// replace: as vulkan::OwnDevice::replace_calls.
+  explicit VulkanMachine(const BatchRoom& room = {}, const vulkan::ReplaceCalls& replace = nullptr) {
+    VulkanBackendOptions options;
+    options.room = room;
+    options.open = [log_of_all = log, replace] {
+      vulkan::OwnDevice device;
+      device.software = true;
+      device.validation = vulkan::Validation::synchronization;
+      device.log = log_of_all;
+      device.replace_calls = replace;
+      return vulkan::Device::open(device);
+    };
+    Result<std::unique_ptr<Backend>> cpu = makeCpuBackend("", *jobs, std::pmr::get_default_resource(), {});
+    REQUIRE(cpu);
+    Result<std::unique_ptr<Backend>> made =
+        makeVulkanBackend(options, std::move(*cpu), *jobs, std::pmr::get_default_resource(), {});
+    if (made) {
+      vulkan = std::move(*made);
+      return;
+    }
+    INFO(made.error().message);
+    REQUIRE(std::getenv("SGM_REQUIRE_VULKAN") == nullptr);
+    std::fprintf(stderr, "SKIPPED: %s\n", made.error().message.c_str());
+  }
+  explicit operator bool() const { return vulkan != nullptr; }
+
+  /// Whether the validation layer has had nothing to say. It takes whatever a shader binds for what it reads and
+  /// writes, as a whole; the mesher's scratch, its binding 1, is shared out among kernels that run at one time.
+  bool silent() const {
+    const std::vector<std::string> texts = log->texts();
+    return std::all_of(texts.begin(), texts.end(), [](const std::string& text) {
+      const bool of_scratch = text.find("SYNC-HAZARD") != std::string::npos &&
+                              text.find("vkCmdDispatch") != std::string::npos &&
+                              text.find("binding #1 index 0") != std::string::npos;
+      if (!of_scratch) UNSCOPED_INFO(text);
+      return of_scratch;
+    });
+  }
+};
+
+inline std::vector<ChunkMesh> meshesOf(Backend& backend, const std::vector<ChunkJob>& jobs) {
+  Result<std::unique_ptr<ChunkBatch>> batch = backend.submit(jobs);
+  REQUIRE(batch);
+  (*batch)->wait();
+  Result<std::vector<ChunkMesh>> meshes = (*batch)->take();
+  INFO((meshes ? std::string() : meshes.error().message));
+  REQUIRE(meshes);
+  REQUIRE(meshes->size() == jobs.size());
+  return std::move(*meshes);
+}
+
+}  // namespace sgm
