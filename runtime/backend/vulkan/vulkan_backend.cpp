@@ -24,6 +24,7 @@ struct Session {
   std::unique_ptr<Mesher> mesher;
   std::mutex mutex;
   std::vector<std::unique_ptr<struct Slot>> idle;
+  std::vector<std::unique_ptr<struct Slot>> stuck;  ///< the device may use them still, to the end
 
   ~Session();
 };
@@ -35,11 +36,13 @@ struct Slot {
   BatchBuffers buffers;
   size_t first = 0;    ///< of the batch's jobs
   uint64_t value = 0;  ///< of the queue; 0: not submitted
+  bool stuck = false;  ///< nobody could say that the device has done with it
 };
 
 Session::~Session() {
   if (queue) queue->drain();
   idle.clear();
+  stuck.clear();
 }
 
 Result<std::shared_ptr<Session>> openSession(const VulkanBackendOptions& options) {
@@ -93,8 +96,10 @@ class VulkanBatch final : public ChunkBatch {
   }
   ~VulkanBatch() override {
     cancel();
+    rest_.reset();
     for (std::unique_ptr<Slot>& slot : slots_) {
-      if (slot->value != 0) (void)session_->queue->wait(slot->value);
+      if (!slot) continue;
+      (void)awaitSlot(*slot);
       release(slot);
     }
   }
@@ -123,19 +128,30 @@ class VulkanBatch final : public ChunkBatch {
   }
 
   bool poll() override {
-    const std::scoped_lock lock(mutex_);
+    // Whoever waits holds the lock until the end.
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return false;
     if (ended_) return true;
-    for (const std::unique_ptr<Slot>& slot : slots_) {
-      if (slot->value == 0) continue;
-      const Result<uint64_t> reached = session_->queue->reached();
-      if (reached && *reached < slot->value) return false;
+    if (!read_) {
+      for (const std::unique_ptr<Slot>& slot : slots_) {
+        if (slot->value == 0) continue;
+        const Result<uint64_t> reached = session_->queue->reached();
+        if (reached && *reached < slot->value) return false;
+      }
+      guarded([&] { readSlots(); });
     }
-    finish();
+    if (rest_ && !rest_->poll()) return false;
+    guarded([&] { end(); });
     return true;
   }
   void wait() override {
     const std::scoped_lock lock(mutex_);
-    if (!ended_) finish();
+    if (ended_) return;
+    guarded([&] {
+      if (!read_) readSlots();
+      if (rest_) rest_->wait();
+    });
+    guarded([&] { end(); });
   }
   void cancel() override { cancelled_.store(true); }
   Result<std::vector<ChunkMesh>> take() override {
@@ -161,11 +177,14 @@ class VulkanBatch final : public ChunkBatch {
   void release(std::unique_ptr<Slot>& slot) {
     slot->value = 0;
     const std::scoped_lock lock(session_->mutex);
-    session_->idle.push_back(std::move(slot));
+    (slot->stuck ? session_->stuck : session_->idle).push_back(std::move(slot));
   }
 
   void note(const Error& error) {
-    if (error.code != Code::device_lost) return;
+    if (error.code == Code::device_lost) leave();
+  }
+  /// The next batch opens the device anew.
+  void leave() {
     const std::scoped_lock lock(shared_.mutex);
     if (shared_.session == session_) {
       shared_.session = nullptr;
@@ -173,24 +192,38 @@ class VulkanBatch final : public ChunkBatch {
     }
   }
 
-  /// Lets no exception out: poll() and wait() are called where there is nobody to catch one.
-  void finish() noexcept {
+  /// poll() and wait() are called where there is nobody to catch anything.
+  template <class Work>
+  void guarded(const Work& work) noexcept {
     try {
-      for (std::unique_ptr<Slot>& slot : slots_) {
-        fillUniform(*slot);
-        if (!cancelled_.load()) readSlot(*slot);
-        if (slot->value != 0) (void)session_->queue->wait(slot->value);
-        release(slot);
-      }
-      slots_.clear();
-      doRest();
+      work();
     } catch (...) {
-      error_ = std::current_exception();
+      if (!error_) error_ = std::current_exception();
     }
-    ended_ = true;
   }
 
-  void ended(size_t job) {
+  /// Waits for the slot; whether what the device has left in it may be read. Where not, it may be in use still.
+  bool awaitSlot(Slot& slot) {
+    if (slot.value == 0) return false;
+    Result<bool> ended = session_->queue->wait(slot.value);
+    if (!ended) ended = session_->queue->wait(slot.value);  // the driver may have been out of memory
+    if (!ended) leave();
+    slot.stuck = !ended;
+    return !slot.stuck;
+  }
+
+  void readSlots() {
+    read_ = true;
+    for (std::unique_ptr<Slot>& slot : slots_) {
+      fillUniform(*slot);
+      if (awaitSlot(*slot) && !cancelled_.load()) readSlot(*slot);
+      release(slot);
+    }
+    slots_.clear();
+    startRest();
+  }
+
+  void finished(size_t job) {
     done_[job] = true;
     shared_.counters.chunks.fetch_add(1);
     if (after_chunk_ && !after_chunk_()) cancelled_.store(true);
@@ -206,44 +239,48 @@ class VulkanBatch final : public ChunkBatch {
         mesh.solid_samples = job.field->initial < 0 ? kChunkCells * kChunkCells * kChunkCells : 0;
       }
       for (int face = 0; job.seams != 0 && face < 6; ++face) mesh.seams.emplace_back(shared_.memory);
-      ended(slot.first + number);
+      finished(slot.first + number);
     }
   }
 
   void readSlot(Slot& slot) {
-    if (slot.value == 0) return;
-    const Result<bool> reached = session_->queue->wait(slot.value);
-    if (!reached) return note(reached.error());
     const Result<Mesher::Output> output = session_->mesher->read(slot.buffers);
     if (!output) return note(output.error());
     for (size_t c = 0; c < slot.plan.chunks.size() && !cancelled_.load(); ++c) {
       const size_t job = slot.first + slot.plan.chunks[c].job;
       if (!vulkan::readMesh(slot.plan, *output, c, jobs_[job], meshes_[job])) continue;
-      ended(job);
+      finished(job);
     }
   }
 
-  void doRest() {
+  void startRest() {
     std::vector<ChunkJob> rest;
-    std::vector<size_t> numbers;
     for (size_t i = 0; i < jobs_.size(); ++i) {
       if (done_[i]) continue;
       rest.push_back(jobs_[i]);
-      numbers.push_back(i);
+      numbers_.push_back(i);
     }
     if (rest.empty()) return;
     skipped_ = cancelled_.load();
     if (skipped_) return;
-    Result<std::unique_ptr<ChunkBatch>> batch = shared_.cpu->submit(std::move(rest), after_chunk_);
+    Result<std::unique_ptr<ChunkBatch>> batch = shared_.cpu->submit(
+        std::move(rest), [this] { return (!after_chunk_ || after_chunk_()) && !cancelled_.load(); });
     if (!batch) throw std::bad_alloc();
-    (*batch)->wait();
-    Result<std::vector<ChunkMesh>> meshes = (*batch)->take();
+    rest_ = std::move(*batch);
+  }
+
+  /// Takes what the CPU has made of the rest.
+  void end() {
+    ended_ = true;
+    const std::unique_ptr<ChunkBatch> rest = std::move(rest_);
+    if (!rest) return;
+    Result<std::vector<ChunkMesh>> meshes = rest->take();
     if (!meshes && meshes.error().code == Code::out_of_memory) throw std::bad_alloc();
     skipped_ = !meshes;
     if (skipped_) return;
-    for (size_t i = 0; i < numbers.size(); ++i) meshes_[numbers[i]] = std::move((*meshes)[i]);
-    shared_.counters.chunks.fetch_add(numbers.size());
-    shared_.counters.on_cpu.fetch_add(numbers.size());
+    for (size_t i = 0; i < numbers_.size(); ++i) meshes_[numbers_[i]] = std::move((*meshes)[i]);
+    shared_.counters.chunks.fetch_add(numbers_.size());
+    shared_.counters.on_cpu.fetch_add(numbers_.size());
   }
 
   Shared& shared_;
@@ -253,9 +290,11 @@ class VulkanBatch final : public ChunkBatch {
   std::vector<ChunkMesh> meshes_;
   std::vector<bool> done_;
   std::vector<std::unique_ptr<Slot>> slots_;
+  std::unique_ptr<ChunkBatch> rest_;  ///< what the device has not done, on the CPU
+  std::vector<size_t> numbers_;       ///< of the rest's jobs
   std::atomic<bool> cancelled_{false};
   std::mutex mutex_;
-  bool ended_ = false, skipped_ = false;
+  bool read_ = false, ended_ = false, skipped_ = false;
   std::exception_ptr error_;
 };
 

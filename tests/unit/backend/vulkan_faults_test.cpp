@@ -1,0 +1,185 @@
+// The device fails, is lost, or has no room: the meshes are the same, the CPU has made what the device has not, and
+// the next batch finds a device again.
+
+#include <atomic>
+#include <chrono>
+#include <iostream>
+#include <thread>
+
+#include "compare_meshes.h"
+#include "mesh_jobs.h"
+#include "rounds.h"
+#include "unit/vulkan/faults.h"
+#include "vulkan_machine.h"
+
+using namespace sgm;
+using vulkan::Faults;
+
+namespace {
+
+VulkanMachine faulty(const BatchRoom& room = {}) {
+  return VulkanMachine(room, [](vulkan::DeviceTable& table) { Faults::wrap(table); });
+}
+
+/// Spheres, with seams to others: few kinds of instructions, and so pipelines that are soon made again.
+std::vector<ChunkJob> spheres(uint32_t seed, uint32_t count) {
+  std::mt19937 random(seed);
+  std::vector<ChunkJob> jobs;
+  for (uint32_t i = 0; i < count; ++i) {
+    const auto program = [&] {
+      ProgramBuilder b(512, false, makeLabel(1, 0));
+      const auto radius = static_cast<float>(1000 + random() % 4000);
+      (void)b.group(b.sphere({static_cast<int32_t>(random() % 2000), 0, 0}, radius, makeLabel(2, 1)),
+                    IntBox::everything(), 0, false);
+      return shared(b.finish());
+    };
+    ChunkJob& job = jobs.emplace_back();
+    job.grid = gridAround({}, 256);
+    job.field = program();
+    job.coarse = program();
+    job.seams = static_cast<uint8_t>(random() % 64);
+    job.coarser = neighboursAcross(job.seams);
+    job.signs = random() % 2 == 0;
+  }
+  return jobs;
+}
+
+std::vector<ChunkMesh> polled(Backend& backend, const std::vector<ChunkJob>& jobs) {
+  Result<std::unique_ptr<ChunkBatch>> batch = backend.submit(jobs);
+  REQUIRE(batch);
+  while (!(*batch)->poll()) std::this_thread::sleep_for(std::chrono::microseconds(200));
+  Result<std::vector<ChunkMesh>> meshes = (*batch)->take();
+  REQUIRE(meshes);
+  return std::move(*meshes);
+}
+
+void checkSame(const std::vector<ChunkMesh>& expected, const std::vector<ChunkMesh>& found) {
+  REQUIRE(expected.size() == found.size());
+  for (size_t i = 0; i < expected.size(); ++i) {
+    CAPTURE(i);
+    CHECK(differenceOf(expected[i], found[i]) == "");
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a device that is lost at any call costs no mesh, and is there again for the next batch", "[vulkan]") {
+  Faults faults;
+  const VulkanMachine machine = faulty();
+  if (!machine) return;
+  const std::vector<ChunkJob> jobs = spheres(1, 5);
+  const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
+  checkSame(expected, meshesOf(*machine.vulkan, jobs));
+  REQUIRE(machine.vulkan->counters().on_cpu == 0);
+  constexpr uint32_t kSeed = 20'260'101;
+  std::cout << "losing devices, seed " << kSeed << std::endl;
+  std::mt19937 random(kSeed);
+  uint64_t losses = 0;
+  for (uint32_t tries = 0; losses < rounds(100); ++tries) {
+    REQUIRE(tries < 20 * rounds(100));
+    static const char* const kCalls[] = {"vkQueueSubmit", "vkWaitSemaphores", "vkGetSemaphoreCounterValue"};
+    const char* const call = kCalls[random() % 3];
+    const auto nth = 1 + static_cast<unsigned>(random() % 3);
+    const bool polls = random() % 2 == 0;
+    CAPTURE(tries, call, nth, polls);
+    const BackendCounters before = machine.vulkan->counters();
+    faults.arm(call, nth, VK_ERROR_DEVICE_LOST);
+    checkSame(expected, polls ? polled(*machine.vulkan, jobs) : meshesOf(*machine.vulkan, jobs));
+    const bool struck = faults.struck();
+    faults.disarm();
+    const BackendCounters after = machine.vulkan->counters();
+    REQUIRE(after.chunks == before.chunks + jobs.size());
+    // Asked in vain how far it is, the backend waits, and so hears of it.
+    REQUIRE(after.device_lost == before.device_lost + struck);
+    REQUIRE(after.on_cpu == before.on_cpu + (struck ? jobs.size() : 0));
+    losses += struck;
+    if (!struck) continue;
+    checkSame(expected, meshesOf(*machine.vulkan, jobs));
+    const BackendCounters again = machine.vulkan->counters();
+    REQUIRE(again.on_cpu == after.on_cpu);
+    REQUIRE(again.batches == after.batches + 1);
+  }
+  CHECK(machine.silent());
+}
+
+TEST_CASE("what the device has no memory or no pipeline for is meshed by the CPU", "[vulkan]") {
+  static const std::pair<const char*, VkResult> kFailures[] = {
+      {"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},
+      {"vkCreateBuffer", VK_ERROR_OUT_OF_HOST_MEMORY},
+      {"vkCreateComputePipelines", VK_ERROR_OUT_OF_DEVICE_MEMORY},
+      {"vkAllocateDescriptorSets", VK_ERROR_OUT_OF_POOL_MEMORY},
+      {"vkEndCommandBuffer", VK_ERROR_OUT_OF_DEVICE_MEMORY},
+      {"vkQueueSubmit", VK_ERROR_OUT_OF_DEVICE_MEMORY},
+      {"vkWaitSemaphores", VK_ERROR_OUT_OF_HOST_MEMORY},
+      {"vkGetSemaphoreCounterValue", VK_ERROR_OUT_OF_HOST_MEMORY},
+  };
+  Faults faults;
+  const std::vector<ChunkJob> jobs = spheres(2, 3);
+  std::mt19937 random(7);
+  uint64_t on_cpu = 0;
+  for (const auto& [call, failure] : kFailures) {
+    for (uint32_t round = 0; round < rounds(1); ++round) {
+      // A machine of its own: pipelines and buffers are made once.
+      const VulkanMachine machine = faulty();
+      if (!machine) return;
+      const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
+      const auto nth = 1 + static_cast<unsigned>(random() % 4);
+      CAPTURE(call, nth, round);
+      faults.arm(call, nth, failure);
+      checkSame(expected, meshesOf(*machine.vulkan, jobs));
+      faults.disarm();
+      on_cpu += machine.vulkan->counters().on_cpu;
+      checkSame(expected, meshesOf(*machine.vulkan, jobs));
+      const uint64_t before = machine.vulkan->counters().on_cpu;
+      checkSame(expected, meshesOf(*machine.vulkan, jobs));
+      CHECK(machine.vulkan->counters().on_cpu == before);
+      CHECK(machine.silent());
+    }
+  }
+  CHECK(on_cpu > 0);
+}
+
+TEST_CASE("a chunk that finds no room in its batch is meshed by the CPU, and counted", "[vulkan]") {
+  Faults faults;
+  static constexpr BatchRoom kScarce[] = {{64, 36'864, 6144}, {6144, 384, 6144}, {6144, 36'864, 64}};
+  for (const BatchRoom& room : kScarce) {
+    const VulkanMachine machine = faulty(room);
+    if (!machine) return;
+    CAPTURE(room.vertices, room.indices, room.cells);
+    const std::vector<ChunkJob> jobs = spheres(3, 12);
+    checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
+    const BackendCounters counters = machine.vulkan->counters();
+    CHECK(counters.on_cpu > 0);
+    CHECK(counters.chunks == jobs.size());
+    CHECK(counters.device_lost == 0);
+    CHECK(machine.silent());
+  }
+}
+
+TEST_CASE("a batch that is cancelled ends without its meshes, wherever it is", "[vulkan]") {
+  Faults faults;
+  const VulkanMachine machine = faulty({64, 384, 64});
+  if (!machine) return;
+  const std::vector<ChunkJob> jobs = spheres(4, 12);
+  const auto cancelled = [](ChunkBatch& batch) {
+    batch.wait();
+    const auto meshes = batch.take();
+    return !meshes && meshes.error().code == Code::cancelled;
+  };
+  auto batch = machine.vulkan->submit(jobs);
+  REQUIRE(batch);
+  (*batch)->cancel();
+  CHECK(cancelled(**batch));
+  // By who is told of the chunks, the first of which is the CPU's: there is room for none.
+  std::atomic<int> told{0};
+  batch = machine.vulkan->submit(jobs, [&] { return ++told < 3; });
+  REQUIRE(batch);
+  CHECK(cancelled(**batch));
+  CHECK(told >= 3);
+  // Left alone while the device works on it.
+  batch = machine.vulkan->submit(jobs);
+  REQUIRE(batch);
+  batch->reset();
+  checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
+  CHECK(machine.silent());
+}
