@@ -27,7 +27,7 @@ std::optional<BackendRequest> requestOf(sgm_backend backend) {
 
 Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendRequest& request) {
   DeviceBackends& shared = runtime.devices;
-  const bool device = request.automatic || request.kind != BackendKind::cpu;
+  const bool device = request.automatic || request.kind == BackendKind::vulkan;
   const std::scoped_lock lock(shared.mutex);
   const BackendRequest wanted = request.automatic && shared.none ? BackendRequest{} : request;
   std::shared_ptr<Backend>& kept = request.automatic ? shared.automatic : shared.vulkan;
