@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,18 +23,13 @@ struct VulkanMachine {
   std::unique_ptr<Backend> scalar = *makeCpuBackend("scalar", *jobs, std::pmr::get_default_resource(), {});
   std::unique_ptr<Backend> vulkan;  ///< null, after saying so, where this machine has no usable device
 
-  /// replace: as vulkan::OwnDevice::replace_calls.
-  explicit VulkanMachine(const BatchRoom& room = {}, const vulkan::ReplaceCalls& replace = nullptr) {
+  using Open = std::function<Result<std::unique_ptr<vulkan::Device>>()>;
+
+  /// open: instead of a device of our own that the layer watches.
+  explicit VulkanMachine(const BatchRoom& room = {}, const Open& open = nullptr) {
     VulkanBackendOptions options;
     options.room = room;
-    options.open = [log_of_all = log, replace] {
-      vulkan::OwnDevice device;
-      device.software = true;
-      device.validation = vulkan::Validation::synchronization;
-      device.log = log_of_all;
-      device.replace_calls = replace;
-      return vulkan::Device::open(device);
-    };
+    options.open = open ? open : [log_of_all = log] { return vulkan::Device::open(watched(log_of_all)); };
     Result<std::unique_ptr<Backend>> cpu = makeCpuBackend("", *jobs, std::pmr::get_default_resource(), {});
     REQUIRE(cpu);
     Result<std::unique_ptr<Backend>> made =
@@ -48,10 +44,18 @@ struct VulkanMachine {
   }
   explicit operator bool() const { return vulkan != nullptr; }
 
+  static vulkan::OwnDevice watched(std::shared_ptr<vulkan::MessageLog> log) {
+    vulkan::OwnDevice device;
+    device.software = true;
+    device.validation = vulkan::Validation::synchronization;
+    device.log = std::move(log);
+    return device;
+  }
+
   /// Whether the validation layer has had nothing to say. It takes whatever a shader binds for what it reads and
   /// writes, as a whole; the mesher's scratch, its binding 1, is shared out among kernels that run at one time.
-  bool silent() const {
-    const std::vector<std::string> texts = log->texts();
+  bool silent() const { return silent(log->texts()); }
+  static bool silent(const std::vector<std::string>& texts) {
     return std::all_of(texts.begin(), texts.end(), [](const std::string& text) {
       const bool of_scratch = text.find("SYNC-HAZARD") != std::string::npos &&
                               text.find("vkCmdDispatch") != std::string::npos &&

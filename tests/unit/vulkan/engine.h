@@ -15,8 +15,8 @@ struct Engine {
   DeviceTable calls;
   int locks = 0, unlocks = 0, held = 0;
 
-  Engine() {
-    auto made = Instance::create({Validation::synchronization});
+  explicit Engine(Validation validation = Validation::synchronization) {
+    auto made = Instance::create({validation});
     REQUIRE(made);
     instance = std::move(*made);
     const auto devices = instance->devices();
