@@ -2,12 +2,56 @@
 
 #include <fmt/core.h>
 
+#include "backend/vulkan/devices.h"
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "render/vulkan_device.h"
 #include "sgm/sgm.h"
 
 namespace sgm::cli {
+namespace {
+
+const char* typeName(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return "software";
+    default:
+      return "other";
+  }
+}
+
+Json deviceJson(const vulkan::DeviceInfo& device) {
+  const std::string lack = vulkan::lackOf(device);
+  Json one{{"name", device.name},
+           {"type", typeName(device.type)},
+           {"driver", device.driver},
+           {"software", device.software()},
+           {"usable", lack.empty()}};
+  if (lack.empty()) {
+    one.update({{"exact", device.exact}, {"preserves_denormals", device.preserves_denormals}});
+  } else {
+    one["reason"] = lack;
+  }
+  return one;
+}
+
+void printDevice(const vulkan::DeviceInfo& device) {
+  const std::string lack = vulkan::lackOf(device);
+  fmt::print("  {} ({}{}{}): ", device.name, typeName(device.type), device.driver.empty() ? "" : ", ", device.driver);
+  if (lack.empty()) {
+    fmt::print("usable, {}\n", device.exact ? "exact" : "not exact");
+  } else {
+    fmt::print("not usable: {}\n", lack);
+  }
+}
+
+}  // namespace
+
 Exit listBackends(bool json) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime* runtime = nullptr;
@@ -22,7 +66,7 @@ Exit listBackends(bool json) {
   sgm_runtime_destroy(runtime);
   if (result != SGM_OK) return complain(Exit::backend, error.message);
 
-  const Result<std::vector<vulkan::DeviceInfo>> gpus = listGpus();
+  const Result<std::vector<vulkan::DeviceInfo>> gpus = vulkan::listDevices();
   if (json) {
     Json list = Json::array();
     for (size_t i = 1; i < infos.size(); ++i) {
@@ -37,11 +81,7 @@ Exit listBackends(bool json) {
     }
     Json devices = Json::array();
     if (gpus) {
-      for (const vulkan::DeviceInfo& gpu : *gpus)
-        devices.push_back({{"name", gpu.name},
-                           {"software", gpu.software()},
-                           {"rounds_to_nearest", gpu.exact},
-                           {"preserves_denormals", gpu.preserves_denormals}});
+      for (const vulkan::DeviceInfo& gpu : *gpus) devices.push_back(deviceJson(gpu));
     }
     Json out{{"version", sgm_version_string()},
              {"build", sgm_build_info()},
@@ -62,15 +102,13 @@ Exit listBackends(bool json) {
       fmt::print("{:<8}not usable: {}\n", info.name, info.reason);
     }
   }
-  fmt::print("\nVulkan devices for pictures:\n");
+  fmt::print("\nVulkan devices:\n");
   if (!gpus) {
     fmt::print("  none: {}\n", gpus.error().message);
     return Exit::done;
   }
-  for (const vulkan::DeviceInfo& gpu : *gpus) {
-    fmt::print("  {}{}{}\n", gpu.name, gpu.software() ? ", on the CPU" : "",
-               gpu.exact ? "" : ", cannot demand round-to-nearest");
-  }
+  if (gpus->empty()) fmt::print("  none\n");
+  for (const vulkan::DeviceInfo& gpu : *gpus) printDevice(gpu);
   return Exit::done;
 }
 

@@ -26,9 +26,11 @@ done
 expect 0 "$SGM" backends
 out_has 'cpu +usable'
 expect 0 "$SGM" backends --json
-json 'j.auto === "cpu" && j.backends.map(b => b.name).join() === "cpu,vulkan,cuda"'
+json 'j.auto === (j.backends[1].usable && j.vulkan_devices.some(d => d.usable && !d.software) ? "vulkan" : "cpu") && j.backends.map(b => b.name).join() === "cpu,vulkan,cuda"'
 json 'j.backends[0].usable && j.backends[0].exact && j.backends[0].device.length > 0 && j.backends[0].concurrency >= 1'
 json 'j.backends.slice(1).every(b => b.usable || b.reason.length > 0)'
+json 'j.vulkan_devices.every(d => d.name && d.type && (d.usable ? typeof d.exact === "boolean" : d.reason.length > 0))'
+json '!j.backends[1].usable || j.vulkan_devices.some(d => d.usable)'
 json 'Array.isArray(j.vulkan_devices) && j.version && j.build.includes(j.version)'
 expect 2 "$SGM" backends extra
 finish

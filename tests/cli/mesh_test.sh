@@ -145,11 +145,25 @@ usage ball.sgm --max-chunks -1
 usage "$cave" --out cave.glb # endless, and no region
 
 # No such backend: status 3.
-for backend in vulkan cuda; do
-  expect 3 "$SGM" mesh ball.sgm --out wrong.glb --backend $backend
+refused() {
+  expect 3 "$SGM" mesh ball.sgm --out wrong.glb --backend "$1"
   one_line
   only ball.sgm
-done
+}
+refused cuda
+
+# A Vulkan device, lavapipe at least, writes the CPU's file.
+expect 0 "$SGM" backends --json
+if node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).backends[1].usable ? 0 : 1)' "$work/.out"; then
+  expect 0 "$SGM" mesh ball.sgm $region --out cpu.glb --backend cpu
+  expect 0 "$SGM" mesh ball.sgm $region --out vulkan.glb --backend vulkan --json
+  json 'j.backend === "vulkan" && j.triangles > 100'
+  cmp cpu.glb vulkan.glb || failed "the two backends' files differ"
+  rm cpu.glb vulkan.glb
+else
+  [[ -z ${SGM_REQUIRE_ALL:-} ]] || failed "a Vulkan device is required here"
+  refused vulkan
+fi
 
 # Files that cannot be read or written: status 4, one line, nothing left.
 unwritable() {
