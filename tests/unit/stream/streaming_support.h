@@ -62,7 +62,7 @@ inline WorldFieldSettings withHosts(WorldFieldSettings settings, std::vector<Hos
 
 struct Scene {
   explicit Scene(std::unique_ptr<JobSystem> jobs_in, const std::string& text = caveText(),
-                 WorldSettings settings_in = {}, std::vector<HostField> hosts = {})
+                 WorldSettings settings_in = {}, std::vector<HostField> hosts = {}, const BackendRequest& request = {})
       : field(withHosts(settingsOf(text, kStreamedCell, 3), std::move(hosts)), std::pmr::get_default_resource()),
         jobs(std::move(jobs_in)),
         settings(settings_in) {
@@ -73,7 +73,7 @@ struct Scene {
       settings.lod.finest_distance = 20.0 * kUnitsPerMetre;
     }
     settings.lod.view_distance = 120.0 * kUnitsPerMetre;
-    Result<std::unique_ptr<Backend>> made = makeBackend({}, *jobs, memory);
+    Result<std::unique_ptr<Backend>> made = makeBackend(request, *jobs, memory);
     REQUIRE(made);
     backend = std::move(*made);
     Result<std::unique_ptr<World>> created = World::create(field, *backend, *jobs, settings, memory);
