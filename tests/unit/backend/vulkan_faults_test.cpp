@@ -124,11 +124,8 @@ void checkSame(const std::vector<ChunkMesh>& expected, const std::vector<ChunkMe
   }
 }
 
-}  // namespace
-
-TEST_CASE("a device that is lost at any call costs no mesh, and is there again for the next batch", "[vulkan]") {
-  if (!haveDevice()) return;
-  Faulty faulty;
+/// A device that is lost at any call costs no mesh, and is there again for the next batch.
+void loseDevices(Faulty& faulty) {
   Faults& faults = faulty.faults;
   const VulkanMachine machine = faulty.machine();
   REQUIRE(machine);
@@ -166,30 +163,8 @@ TEST_CASE("a device that is lost at any call costs no mesh, and is there again f
   }
 }
 
-TEST_CASE("a device of our own is opened anew once it is lost", "[vulkan]") {
-  Faults faults;
-  const auto log = std::make_shared<vulkan::MessageLog>();
-  {
-    const VulkanMachine machine({}, [log] {
-      vulkan::OwnDevice own = VulkanMachine::watched(log);
-      own.replace_calls = [](vulkan::DeviceTable& table) { Faults::wrap(table); };
-      return vulkan::Device::open(own);
-    });
-    if (!machine) return;
-    const std::vector<ChunkJob> jobs = spheres(5, 2);
-    const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
-    faults.arm("vkWaitSemaphores", 1, VK_ERROR_DEVICE_LOST);
-    checkSame(expected, meshesOf(*machine.vulkan, jobs));
-    faults.disarm();
-    checkSame(expected, meshesOf(*machine.vulkan, jobs));
-    CHECK(machine.vulkan->counters().device_lost == 1);
-    CHECK(machine.vulkan->counters().on_cpu == jobs.size());
-  }
-  // What the device's end leaves behind is told of, too.
-  CHECK(VulkanMachine::silent(log->texts()));
-}
-
-TEST_CASE("what the device has no memory or no pipeline for is meshed by the CPU", "[vulkan]") {
+/// What the device has no memory or no pipeline for is meshed by the CPU.
+void failCalls(Faulty& faulty) {
   static const std::pair<const char*, VkResult> kFailures[] = {
       {"vkAllocateMemory", VK_ERROR_OUT_OF_DEVICE_MEMORY},
       {"vkCreateBuffer", VK_ERROR_OUT_OF_HOST_MEMORY},
@@ -200,8 +175,6 @@ TEST_CASE("what the device has no memory or no pipeline for is meshed by the CPU
       {"vkWaitSemaphores", VK_ERROR_OUT_OF_HOST_MEMORY},
       {"vkGetSemaphoreCounterValue", VK_ERROR_OUT_OF_HOST_MEMORY},
   };
-  if (!haveDevice()) return;
-  Faulty faulty;
   Faults& faults = faulty.faults;
   const std::vector<ChunkJob> jobs = spheres(2, 3);
   std::mt19937 random(7);
@@ -227,9 +200,8 @@ TEST_CASE("what the device has no memory or no pipeline for is meshed by the CPU
   CHECK(on_cpu > 0);
 }
 
-TEST_CASE("a chunk that finds no room in its batch is meshed by the CPU, and counted", "[vulkan]") {
-  if (!haveDevice()) return;
-  Faulty faulty;
+/// A chunk that finds no room in its batch is meshed by the CPU, and counted.
+void leaveNoRoom(Faulty& faulty) {
   static constexpr BatchRoom kScarce[] = {{64, 36'864, 6144}, {6144, 384, 6144}, {6144, 36'864, 64}};
   for (const BatchRoom& room : kScarce) {
     const VulkanMachine machine = faulty.machine(room);
@@ -244,9 +216,8 @@ TEST_CASE("a chunk that finds no room in its batch is meshed by the CPU, and cou
   }
 }
 
-TEST_CASE("a batch that is cancelled ends without its meshes, wherever it is", "[vulkan]") {
-  if (!haveDevice()) return;
-  Faulty faulty;
+/// A batch that is cancelled ends without its meshes, wherever it is.
+void cancelBatches(Faulty& faulty) {
   const VulkanMachine machine = faulty.machine({64, 384, 64});
   REQUIRE(machine);
   const std::vector<ChunkJob> jobs = spheres(4, 12);
@@ -270,4 +241,38 @@ TEST_CASE("a batch that is cancelled ends without its meshes, wherever it is", "
   REQUIRE(batch);
   batch->reset();
   checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
+}
+
+}  // namespace
+
+TEST_CASE("whatever the device refuses, the meshes are right, and the next batch finds a device", "[vulkan]") {
+  if (!haveDevice()) return;
+  Faulty faulty;
+  loseDevices(faulty);
+  failCalls(faulty);
+  leaveNoRoom(faulty);
+  cancelBatches(faulty);
+}
+
+TEST_CASE("a device of our own is opened anew once it is lost", "[vulkan]") {
+  Faults faults;
+  const auto log = std::make_shared<vulkan::MessageLog>();
+  {
+    const VulkanMachine machine({}, [log] {
+      vulkan::OwnDevice own = VulkanMachine::watched(log);
+      own.replace_calls = [](vulkan::DeviceTable& table) { Faults::wrap(table); };
+      return vulkan::Device::open(own);
+    });
+    if (!machine) return;
+    const std::vector<ChunkJob> jobs = spheres(5, 2);
+    const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
+    faults.arm("vkWaitSemaphores", 1, VK_ERROR_DEVICE_LOST);
+    checkSame(expected, meshesOf(*machine.vulkan, jobs));
+    faults.disarm();
+    checkSame(expected, meshesOf(*machine.vulkan, jobs));
+    CHECK(machine.vulkan->counters().device_lost == 1);
+    CHECK(machine.vulkan->counters().on_cpu == jobs.size());
+  }
+  // What the device's end leaves behind is told of, too.
+  CHECK(VulkanMachine::silent(log->texts()));
 }
