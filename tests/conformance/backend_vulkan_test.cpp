@@ -90,7 +90,7 @@ TEST_CASE("random programs give the scalar backend's bytes on the device, seams,
   if (!ready()) return;
   const OnDevice device;
   std::vector<NamedJob> jobs;
-  for (uint32_t i = 0; i < rounds(120); ++i) jobs.push_back(randomJob(seedOfAll() + i, static_cast<int>(i % 3)));
+  for (uint32_t i = 0; i < rounds(120); ++i) jobs.push_back(randomJob(seedOfAll() + i, static_cast<int>(i % 5)));
   const Seen seen = compare(jobs);
   CAPTURE(seen.triangles, seen.in_seams);
   CHECK(seen.triangles > 300 * jobs.size());

@@ -149,43 +149,42 @@ Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, cons
   const std::array<BufferRange, kBindings> ranges{b.words, b.scratch, b.parts, b.vertices, b.indices, tables_};
   batch::Sizes sizes = plan.sizes;
   Result<void> bound;
-  const auto bind = [&](Kernel kernel) {
+  // One after the other, even where two could overlap: each has work for the whole device, and what is between them is
+  // plain to see for who reads it and for the validation layer.
+  const auto run = [&](Kernel kernel, const auto& dispatch) {
     if (bound) bound = commands.bind(*pipelines[kernel], ranges, std::as_bytes(std::span(&sizes, 1)));
-    return static_cast<bool>(bound);
+    if (!bound) return;
+    dispatch();
+    commands.barrier(kCompute, kCompute | kIndirect);
   };
-  const auto settle = [&] { commands.barrier(kCompute, kCompute | kIndirect); };
+  const auto direct = [&](Kernel kernel, uint32_t x, uint32_t y = 1) {
+    if (x > 0) run(kernel, [&] { commands.dispatch(x, y); });
+  };
+  const auto indirect = [&](Kernel kernel, const BufferRange& counts) {
+    run(kernel, [&] { commands.dispatchIndirect(counts); });
+  };
   const BufferRange sampled(b.parts, offsetof(batch::Head, sampled), 3 * sizeof(uint32_t));
   const BufferRange units(b.parts, offsetof(batch::Head, units), 3 * sizeof(uint32_t));
   const BufferRange cells(b.parts, offsetof(batch::Head, dispatch), 3 * sizeof(uint32_t));
   const auto chunks = static_cast<uint32_t>(plan.chunks.size());
 
-  if (bind(prune)) commands.dispatch(chunks, batch::kBricks / width());
-  if (plan.plane_jobs > 0) {
-    sizes.jobs = plan.plane_jobs_at;
-    if (bind(prune)) commands.dispatch(plan.plane_jobs);
-    sizes.jobs = plan.sizes.jobs;
-  }
-  settle();
-  if (bind(refine)) commands.dispatchIndirect(sampled);
-  settle();
-  if (bind(fill_signs)) commands.dispatch(chunks + plan.seam_count);
-  settle();
-  if (bind(sample)) commands.dispatchIndirect(sampled);
-  settle();
-  if (bind(census_body)) commands.dispatch(chunks);
-  if (plan.seam_count > 0 && bind(census_seam)) commands.dispatch(plan.seam_count);
-  settle();
-  if (bind(allocate)) commands.dispatch(1);
-  settle();
-  if (bind(body_vertices)) commands.dispatchIndirect(sampled);
-  if (plan.seam_count > 0 && bind(seam_vertices)) commands.dispatch(plan.seam_count);
-  if (plan.seam_count > 0 && bind(plane_units)) commands.dispatch(plan.seam_count);
-  settle();
-  if (bind(attributes)) commands.dispatchIndirect(units);
-  if (bind(list_cells)) commands.dispatch(chunks);
-  settle();
-  if (bind(triangles)) commands.dispatchIndirect(cells);
-  if (plan.seam_count > 0 && bind(seam_triangles)) commands.dispatch(plan.seam_count);
+  direct(prune, chunks, batch::kBricks / width());
+  sizes.jobs = plan.plane_jobs_at;
+  direct(prune, plan.plane_jobs);
+  sizes.jobs = plan.sizes.jobs;
+  indirect(refine, sampled);
+  direct(fill_signs, chunks + plan.seam_count);
+  indirect(sample, sampled);
+  direct(census_body, chunks);
+  direct(census_seam, plan.seam_count);
+  direct(allocate, 1);
+  indirect(body_vertices, sampled);
+  direct(seam_vertices, plan.seam_count);
+  direct(plane_units, plan.seam_count);
+  indirect(attributes, units);
+  direct(list_cells, chunks);
+  indirect(triangles, cells);
+  direct(seam_triangles, plan.seam_count);
   return bound;
 }
 
