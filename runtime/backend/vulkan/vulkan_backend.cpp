@@ -106,6 +106,7 @@ class VulkanBatch final : public ChunkBatch {
 
   /// Hands the jobs to the device, as many as it takes; the CPU does the rest when the batch is waited for.
   void submit() {
+    const ProfileScope scope(shared_.profiler, zone::kMesh);
     size_t first = 0;
     while (session_ && first < jobs_.size()) {
       std::unique_ptr<Slot> slot = takeSlot();
@@ -213,6 +214,7 @@ class VulkanBatch final : public ChunkBatch {
   }
 
   void readSlots() {
+    const ProfileScope scope(shared_.profiler, zone::kMesh);
     read_ = true;
     for (std::unique_ptr<Slot>& slot : slots_) {
       fillUniform(*slot);

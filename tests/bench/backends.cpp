@@ -1,0 +1,133 @@
+// The Vulkan backend beside the CPU's: the chunks around a viewer in the sample cave, meshed by both in turn.
+//
+//   sgm_bench_backends [GRAMMAR [CELL_UNITS [THREADS]]]
+//
+// Software Vulkan takes its number of threads from LP_NUM_THREADS: set it to THREADS as well.
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "grammar/compile.h"
+#include "measure.h"
+#include "stream/frame.h"
+#include "stream/lod_target.h"
+#include "stream/mesh_chunks.h"
+
+using namespace sgm;
+using bench::now;
+
+namespace {
+
+constexpr int kRuns = 5;
+constexpr size_t kBatchChunks = 64;
+std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
+
+template <class T>
+T must(Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+WorldFieldSettings settingsOf(const char* path, int32_t cell) {
+  std::ifstream in(path);
+  std::stringstream text;
+  text << in.rdbuf();
+  WorldFieldSettings settings;
+  settings.program = compileGrammar(text.str(), path).program;
+  if (!settings.program) throw std::runtime_error(std::string("cannot compile ") + path);
+  settings.parameters = ParameterValues::defaults(*settings.program);
+  settings.seed = 3;
+  settings.finest_cell = cell;
+  return settings;
+}
+
+std::vector<ChunkJob> jobsAround(const WorldField& world) {
+  const LodViewer viewer{{96 * 1024.0, 96 * 1024.0, 96 * 1024.0}};
+  LodSettings lod;
+  lod.finest_cell = world.settings().finest_cell;
+  lod.top = 4;
+  lod.view_distance = 150 * 1024.0;
+  std::vector<ChunkJob> jobs;
+  for (const ChunkRequest& request : frameRequests(lodTarget({&viewer, 1}, lod))) {
+    ChunkJob& job = jobs.emplace_back();
+    job.grid = must(chunkGrid(world, request.key));
+    job.seams = request.seams;
+    job.coarser = request.coarser;
+    const IntBox box = chunkBox(job.grid);
+    job.field = must(world.compile(box, request.key.level));
+    if (request.seams != 0) job.coarse = must(world.compile(box, request.key.level + 1));
+  }
+  return jobs;
+}
+
+struct Run {
+  double whole = 0, submitting = 0;  ///< ms
+  size_t triangles = 0;
+  ContentHash hash;  ///< sums of all parts'
+};
+
+Run meshAll(Backend& backend, const std::vector<ChunkJob>& jobs) {
+  Run run;
+  const double start = now();
+  for (size_t first = 0; first < jobs.size(); first += kBatchChunks) {
+    const auto begin = jobs.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto count = static_cast<std::ptrdiff_t>(std::min(kBatchChunks, jobs.size() - first));
+    const double before = now();
+    auto batch = must(backend.submit({begin, begin + count}));
+    run.submitting += now() - before;
+    batch->wait();
+    for (const ChunkMesh& mesh : must(batch->take())) {
+      const auto add = [&run](const MeshPart& part) {
+        run.triangles += part.indices.size() / 3;
+        run.hash.a += part.hash.a;
+        run.hash.b += part.hash.b;
+      };
+      add(mesh.body);
+      for (const MeshPart& seam : mesh.seams) add(seam);
+    }
+  }
+  run.whole = now() - start;
+  return run;
+}
+
+void compare(const char* path, int32_t cell, unsigned threads) {
+  const WorldField world(settingsOf(path, cell), heap);
+  const std::vector<ChunkJob> jobs = jobsAround(world);
+  const auto pool = must(makeThreadPool(threads));
+  BackendRequest request;
+  const auto cpu = must(makeBackend(request, *pool, heap));
+  request.kind = BackendKind::vulkan;
+  const auto device = must(makeBackend(request, *pool, heap));
+  const Run first = meshAll(*device, jobs);
+  std::printf("%s, %u threads | %s\n", cpu->capabilities().device.c_str(), threads,
+              device->capabilities().device.c_str());
+  std::printf("%zu chunks, %zu triangles; the first time, pipelines made: %.0f ms\n", jobs.size(), first.triangles,
+              first.whole);
+  Run best_cpu, best_device;
+  for (int i = 0; i < kRuns; ++i) {
+    const Run a = meshAll(*cpu, jobs), b = meshAll(*device, jobs);
+    if (a.hash != b.hash || a.triangles != b.triangles) throw std::runtime_error("the meshes differ");
+    if (i == 0 || a.whole < best_cpu.whole) best_cpu = a;
+    if (i == 0 || b.whole < best_device.whole) best_device = b;
+  }
+  const BackendCounters counters = device->counters();
+  std::printf("best of %d: CPU %.1f ms, Vulkan %.1f ms (%.2f times the CPU), %.2f %% of it in submit; by the CPU %llu\n",
+              kRuns, best_cpu.whole, best_device.whole, best_device.whole / best_cpu.whole,
+              100 * best_device.submitting / best_device.whole, static_cast<unsigned long long>(counters.on_cpu));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    compare(argc > 1 ? argv[1] : SGM_BENCH_CAVE, argc > 2 ? std::atoi(argv[2]) : 256,
+            argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 2);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "sgm_bench_backends: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
