@@ -162,6 +162,8 @@ float sizesOf(Op op, const uint32_t* p) {
 
 // Their words are read as those of a record's beginning (shaders/mesher/tape.glsl).
 constexpr uint32_t kMostOctaves = (kFirstWords - 6) / 2;
+// A record that never fits into a shader's window would be waited for without an end.
+constexpr uint32_t kMostWords = 100 * kTapeRecordWords;
 
 class Scheduler {
  public:
@@ -223,7 +225,9 @@ class Scheduler {
       n.kind = static_cast<uint32_t>(in.op);
       n.place = in.place;
       n.params = in.params;
-      fits_ = fits_ && (in.op != Op::noise || program_.params[in.params + 3] <= kMostOctaves);
+      const uint32_t* params = program_.params.data() + in.params;
+      fits_ = fits_ && (in.op == Op::noise ? params[3] <= kMostOctaves
+                                           : in.op == Op::copy || parameterWords(in.op, params) <= kMostWords);
       const Shape shape = shapeOf(in.op);
       if (shape.operands > 0) n.a = registers_[in.a];
       if (shape.operands > 1) n.b = registers_[in.b];

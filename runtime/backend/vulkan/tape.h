@@ -57,7 +57,8 @@ struct TapeScratch {
 };
 
 /// Appends the program's records and headers to words. false, and words as before, where a shader's bounds do not hold
-/// it: more records, layers, or values at one time than there may be. Throws std::bad_alloc.
+/// it: more records, layers, octaves, words of one record, or values at one time than there may be. Throws
+/// std::bad_alloc.
 bool appendTape(const ProgramView& program, TapeScratch& scratch, std::pmr::vector<uint32_t>& words, Tape& tape);
 
 }  // namespace sgm
