@@ -99,6 +99,29 @@ TEST_CASE("random programs give the scalar backend's bytes on the device, seams,
   CHECK(machine().silent());
 }
 
+TEST_CASE("a prism of more corners than a shader's window holds is meshed by the CPU") {
+  if (!ready()) return;
+  const OnDevice device;
+  std::vector<Int3> corners;  // a square with many steps along its sides
+  constexpr int32_t kSide = 250, kStep = 40;
+  for (int32_t side = 0; side < 4; ++side) {
+    for (int32_t i = 0; i < kSide; ++i) {
+      const int32_t along = (2 * i - kSide) * kStep / 2, across = kSide * kStep / 2 + i % 2;
+      const Int3 turned[] = {{along, 0, across}, {across, 0, -along}, {-along, 0, -across}, {-across, 0, along}};
+      corners.push_back(turned[side]);
+    }
+  }
+  ProgramBuilder builder(512, false, 0);
+  REQUIRE(builder.group(builder.prism({}, 2000.0f, corners, 0), IntBox::everything(), 0, false));
+  NamedJob one;
+  one.job.grid = gridAround({0, 0, 0}, 512);
+  one.job.field = shared(builder.finish());
+  one.name = "a prism of 1,000 corners";
+  const Seen seen = compare({one});
+  CHECK(seen.triangles > 0);
+  CHECK(device.byCpu() == 1);
+}
+
 TEST_CASE("batches of any size give the same bytes, programs of nothing among them") {
   if (!ready()) return;
   std::vector<NamedJob> jobs;
