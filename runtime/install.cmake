@@ -36,7 +36,8 @@ if(NOT SGM_INSTALL)
   return()
 endif()
 install(TARGETS sgm EXPORT sgmTargets COMPONENT library)
-install(DIRECTORY include/sgm TYPE INCLUDE COMPONENT library FILES_MATCHING PATTERN "*.h")
+install(FILES include/sgm/sgm.h $<$<BOOL:${SGM_VULKAN}>:include/sgm/sgm_vulkan.h> DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sgm
+  COMPONENT library)
 install(EXPORT sgmTargets NAMESPACE sgm:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm COMPONENT library)
 
 # Whoever links the shared library needs nothing else; a static one takes our dependencies along.

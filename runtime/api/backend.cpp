@@ -9,16 +9,27 @@
 
 namespace sgm::api {
 
+namespace {
+
+BackendRequest requestFor(BackendKind kind, bool automatic = false) {
+  BackendRequest request;
+  request.kind = kind;
+  request.automatic = automatic;
+  return request;
+}
+
+}  // namespace
+
 std::optional<BackendRequest> requestOf(sgm_backend backend) {
   switch (backend) {
     case SGM_BACKEND_AUTO:
-      return BackendRequest{BackendKind::cpu, true, -1, {}};
+      return requestFor(BackendKind::cpu, true);
     case SGM_BACKEND_CPU:
-      return BackendRequest{BackendKind::cpu, false, -1, {}};
+      return requestFor(BackendKind::cpu);
     case SGM_BACKEND_VULKAN:
-      return BackendRequest{BackendKind::vulkan, false, -1, {}};
+      return requestFor(BackendKind::vulkan);
     case SGM_BACKEND_CUDA:
-      return BackendRequest{BackendKind::cuda, false, -1, {}};
+      return requestFor(BackendKind::cuda);
     case SGM_BACKEND_FORCE_32_BIT:
       break;
   }
@@ -39,6 +50,21 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
   if (device && !on_cpu) kept = backend;
   shared.none = shared.none || (request.automatic && on_cpu);
   return backend;
+}
+
+Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device) {
+  DeviceBackends& shared = runtime.devices;
+  const std::scoped_lock lock(shared.mutex);
+  if (shared.vulkan || (shared.automatic && shared.automatic->capabilities().kind == BackendKind::vulkan)) {
+    return Error{Code::busy, "the runtime meshes on a Vulkan device already: lend one before its first field"};
+  }
+  BackendRequest request = requestFor(BackendKind::vulkan);
+  request.lent = std::move(device);
+  Result<std::unique_ptr<Backend>> made = makeBackend(request, *runtime.jobs, &runtime.memory, runtime.profiler);
+  if (!made) return made.error();
+  shared.vulkan = std::move(*made);
+  if (!shared.vulkan->capabilities().software) shared.automatic = shared.vulkan;
+  return {};
 }
 
 }  // namespace sgm::api

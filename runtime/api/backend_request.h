@@ -11,6 +11,10 @@ namespace sgm::api {
 /// Nothing for a number that is no sgm_backend.
 std::optional<BackendRequest> requestOf(sgm_backend backend);
 
+/// From now on the runtime's Vulkan backend is on this device; that which is chosen by itself, too, where it is
+/// hardware. Errors: as makeBackend; busy.
+Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device);
+
 /// The backend for a field of the runtime's. A device is opened once and meshes for all fields; where `automatic` has
 /// found none it is not looked for again. Errors: as makeBackend.
 Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendRequest& request);

@@ -35,8 +35,11 @@ sgm_result resultOf(Code code) noexcept {
     case Code::io:
       return SGM_ERR_IO;
     case Code::unsupported:
-    case Code::device_lost:
       return SGM_ERR_UNSUPPORTED;
+    case Code::busy:
+      return SGM_ERR_BUSY;
+    case Code::device_lost:
+      return SGM_ERR_DEVICE_LOST;
     case Code::cancelled:
       return SGM_ERR_CANCELLED;
   }
@@ -79,6 +82,8 @@ const char* sgm_result_name(sgm_result result) {
       return "SGM_ERR_INTERNAL";
     case SGM_ERR_DATA:
       return "SGM_ERR_DATA";
+    case SGM_ERR_DEVICE_LOST:
+      return "SGM_ERR_DEVICE_LOST";
     case SGM_RESULT_FORCE_32_BIT:
       break;
   }

@@ -78,9 +78,14 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     settings.lod.finest_cell = field->content->world.settings().finest_cell;
     settings.lod.finest_distance = desc->finest_distance * sgm::kUnitsPerMetre;
     settings.lod.view_distance = desc->view_distance * sgm::kUnitsPerMetre;
-    if ((desc->flags & ~static_cast<uint32_t>(SGM_WORLD_BY_DISTANCE | SGM_WORLD_MORPH)) != 0)
+    if ((desc->flags & ~static_cast<uint32_t>(SGM_WORLD_BY_DISTANCE | SGM_WORLD_MORPH | SGM_WORLD_RESIDENT)) != 0)
       return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_world_flag");
     settings.morph = (desc->flags & SGM_WORLD_MORPH) != 0;
+    settings.resident = (desc->flags & SGM_WORLD_RESIDENT) != 0;
+    if (settings.resident && !field->content->backend->capabilities().lends_meshes)
+      return fail(error, SGM_ERR_UNSUPPORTED,
+                  "desc.flags has SGM_WORLD_RESIDENT, and the field's backend is not on a device that was lent: "
+                  "sgm_runtime_lend_vulkan comes before sgm_field_create");
     settings.by_reach = (desc->flags & SGM_WORLD_BY_DISTANCE) == 0;
     settings.mesh_bytes = desc->mesh_bytes != 0 ? desc->mesh_bytes : kDefaultMeshBytes;
     if (!(desc->collider_distance >= 0) || !std::isfinite(desc->collider_distance))

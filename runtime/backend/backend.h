@@ -26,10 +26,23 @@ const char* backendName(BackendKind kind);
 
 struct BackendCapabilities {
   BackendKind kind = BackendKind::cpu;
-  std::string device;        ///< device name, or the instruction set in use
-  bool exact = true;         ///< keeps the arithmetic contract
-  uint32_t concurrency = 1;  ///< chunks worked on at one time
+  std::string device;         ///< device name, or the instruction set in use
+  bool exact = true;          ///< keeps the arithmetic contract
+  uint32_t concurrency = 1;   ///< chunks worked on at one time
+  bool software = false;     ///< the CPU plays a device's part
+  bool lends_meshes = false;  ///< ChunkJob::resident and upload(): the device is the engine's own
 };
+
+/// What draws a part on the device that has meshed it (vulkan/device_meshes.h). Immutable; any thread may end it.
+class DevicePart {
+ public:
+  virtual ~DevicePart() = default;
+  virtual BackendKind kind() const = 0;
+};
+
+inline constexpr size_t kMeshParts = 7;
+/// The body, then seams by Face; null where there is none.
+using DeviceParts = std::array<std::shared_ptr<const DevicePart>, kMeshParts>;
 
 /// One chunk to mesh. The programs must hold every group whose influence box meets the chunk's closed box.
 struct ChunkJob {
@@ -40,6 +53,7 @@ struct ChunkJob {
   Neighbourhood coarser = 0;  ///< which blocks around are of a coarser level; decides only the fans in seam keys
   bool signs = false;         ///< also give the signs of the samples
   bool body = true;           ///< false: only the seams; body, signs and counts stay empty
+  bool resident = false;      ///< also leave vertices and indices on the device, where it is the engine's
 };
 
 /// What a chunk became. Parts without surface are empty, their hash 0.
@@ -50,6 +64,7 @@ struct ChunkMesh {
   bool uniform = false;         ///< proven without a sample: no body
   /// Where asked for and not uniform: as ChunkSamples::signs. Of a uniform chunk solid_samples says the one sign.
   std::pmr::vector<uint64_t> signs;
+  DeviceParts on_device;  ///< of ChunkJob::resident, as far as the device meshed them and has the memory
 
   explicit ChunkMesh(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : body(memory), signs(memory) {}
@@ -90,12 +105,22 @@ class Backend {
   virtual const BackendCapabilities& capabilities() const = 0;
   virtual BackendCounters counters() const { return {}; }
   virtual Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk = {}) = 0;
+  /// Brings a part with triangles to the device, as ChunkJob::resident leaves it there. Errors: unsupported (nobody
+  /// could draw it there), out_of_memory, limit, device_lost.
+  virtual Result<std::shared_ptr<const DevicePart>> upload(const MeshPart&) {
+    return Error{Code::unsupported, "this backend has no device that an engine lent"};
+  }
 };
+
+namespace vulkan {
+struct BorrowedDevice;
+}
 
 struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
-  bool automatic = false;       ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
-  int device = -1;              ///< Vulkan: in the order in which devices are listed; -1: the fastest kind
+  bool automatic = false;  ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
+  int device = -1;         ///< Vulkan: in the order in which devices are listed; -1: the fastest kind
+  std::shared_ptr<const vulkan::BorrowedDevice> lent;  ///< Vulkan: the engine's; null: one of our own
   std::string instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512"; empty: the widest that runs here
 };
 

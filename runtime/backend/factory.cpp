@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "backend/backend.h"
 #include "backend/cpu/cpu_backend.h"
 #ifdef SGM_VULKAN
@@ -33,6 +35,12 @@ Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest& request, bool 
     device.software = software;
     return vulkan::Device::open(device);
   };
+  if (request.lent) {
+    options.open = [lent = request.lent, once = false]() mutable -> Result<std::unique_ptr<vulkan::Device>> {
+      if (std::exchange(once, true)) return Error{Code::device_lost, "the engine's Vulkan device was lost"};
+      return vulkan::Device::borrow(*lent);
+    };
+  }
   return makeVulkanBackend(options, std::move(*cpu), jobs, memory, profiler);
 }
 #else

@@ -18,6 +18,7 @@ enum class Code {
   io,           ///< a file could not be read or written
   unsupported,  ///< no such backend, device or feature here
   cancelled,
+  busy,         ///< something that is in use stands in the way
   device_lost,  ///< the GPU has failed; what was made with it is of no more use
 };
 

@@ -15,6 +15,7 @@ Exit exitOf(Code code) {
     case Code::limit:
     case Code::out_of_memory:
     case Code::cancelled:
+    case Code::busy:
       return Exit::input;
     case Code::io:
       return Exit::file;

@@ -51,6 +51,17 @@ void place(ChunkPart&& found, int part, PlacedChunk& chunk, VoidComponents& void
   seams[static_cast<size_t>(part - 1)] = std::move(found.mesh);
 }
 
+/// Brings to the device what it has not meshed itself: what comes from the disk, and what the CPU has meshed for it.
+void bring(Backend& backend, const ChunkRequest& request, PlacedChunk& chunk) {
+  const MeshParts meshes = partsOf(chunk.mesh);
+  for (int part = 0; part < kChunkParts; ++part) {
+    const auto p = static_cast<size_t>(part);
+    if (!asksFor(request, part) || meshes[p] == nullptr || meshes[p]->indices.empty()) continue;
+    if (chunk.mesh.on_device[p]) continue;
+    if (auto brought = backend.upload(*meshes[p])) chunk.mesh.on_device[p] = std::move(*brought);
+  }
+}
+
 }  // namespace
 
 Result<MeshedChunk> ChunkMesher::mesh(ChunkRequest request, const ChunkSurface* before,
@@ -73,6 +84,7 @@ Result<MeshedChunk> ChunkMesher::mesh(ChunkRequest request, const ChunkSurface* 
   PlacedChunk chunk{request.key, *grid, ChunkMesh(memory), {}};
   VoidComponents voids(memory);
   if (rest.body || rest.seams != 0) {
+    rest.resident = resident;
     Result<std::pmr::vector<PlacedChunk>> meshed = meshChunks(world, backend, jobs, {&rest, 1}, {}, edits);
     if (!meshed) return meshed.error();
     chunk = std::move(meshed->front());
@@ -86,6 +98,7 @@ Result<MeshedChunk> ChunkMesher::mesh(ChunkRequest request, const ChunkSurface* 
     if (auto& of_part = found[static_cast<size_t>(part)]) place(std::move(*of_part), part, chunk, voids);
   }
   const ProfileScope scope(world.profiler(), zone::kPack);
+  if (resident) bring(backend, request, chunk);
   MeshedChunk result{surfaceOf(request, std::move(chunk), before, memory), std::nullopt};
   if (request.signs) result.voids = std::move(voids);
   return result;

@@ -54,6 +54,13 @@ ChunkSurface surfaceOf(const ChunkRequest& request, PlacedChunk&& chunk, const C
   surface.key = chunk.key;
   surface.grid = chunk.grid;
   surface.mesh = packMesh(parts, before != nullptr ? &before->mesh : nullptr, memory);
+  for (size_t p = 0; p < parts.size(); ++p) {
+    if (parts[p] != nullptr) {
+      surface.on_device[p] = std::move(chunk.mesh.on_device[p]);
+    } else if (before != nullptr) {
+      surface.on_device[p] = before->on_device[p];
+    }
+  }
   surface.seams = static_cast<uint8_t>(request.seams | (before != nullptr ? before->seams : 0));
   surface.bounds = boundsOf(chunk.grid, surface.mesh.vertices);
   surface.tags = tagsOf(surface.mesh.vertices, memory);

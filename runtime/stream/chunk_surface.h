@@ -33,6 +33,7 @@ struct ChunkSurface {
   std::vector<InstanceTransform> transforms;  ///< of the anchors
   std::vector<InstanceBatch> batches;         ///< likewise
   std::pmr::vector<MorphOffset> morphs;       ///< one a vertex, where asked for; else none
+  DeviceParts on_device;                      ///< where asked for: parts with triangles that the device has, too
   ContentHash hash;                           ///< of body and seams, and where they lie
 
   explicit ChunkSurface(std::pmr::memory_resource* memory) : mesh(memory), tags(memory), morphs(memory) {}

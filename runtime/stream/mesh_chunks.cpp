@@ -24,6 +24,7 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   job.coarser = request.coarser;
   job.signs = request.signs;
   job.body = request.body;
+  job.resident = request.resident;
   const IntBox box = chunkBox(*grid);
   Result<std::shared_ptr<const FieldProgram>> field = world.compile(box, request.key.level, edits);
   if (!field) return field.error();

@@ -17,6 +17,7 @@ struct ChunkRequest {
   bool signs = false;         ///< also give the signs of the samples (ChunkMesh::signs)
   bool anchors = false;       ///< also give the anchors in the chunk
   bool body = true;           ///< false: seams alone, of a chunk whose body is there already
+  bool resident = false;      ///< also leave the parts on the backend's device (ChunkJob::resident)
   bool outermost = false;     ///< seams lead to virtual neighbours, whose field is the domain's own state (octree.h)
 };
 

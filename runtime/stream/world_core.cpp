@@ -310,7 +310,7 @@ FinishedChunk WorldCore::meshOne(const WorkItem& item, const EditState& under) c
   done.request = item.request;
   done.before = item.before;
   done.edits = under.number;
-  const ChunkMesher mesher{field, backend, jobs, memory_, cache.get()};
+  const ChunkMesher mesher{field, backend, jobs, memory_, cache.get(), settings.resident};
   try {
     Result<MeshedChunk> chunk = mesher.mesh(item.request, item.before.get(), under.brushes.get());
     if (!chunk) {

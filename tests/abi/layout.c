@@ -51,6 +51,7 @@ CHECK(err_busy, SGM_ERR_BUSY == -11);
 CHECK(err_not_found, SGM_ERR_NOT_FOUND == -12);
 CHECK(err_internal, SGM_ERR_INTERNAL == -13);
 CHECK(err_data, SGM_ERR_DATA == -14);
+CHECK(err_device_lost, SGM_ERR_DEVICE_LOST == -15);
 CHECK(result_force, SGM_RESULT_FORCE_32_BIT == 0x7FFFFFFF);
 
 CHECK(log_debug, SGM_LOG_DEBUG == 0);
@@ -79,6 +80,7 @@ CHECK(face_z_low, SGM_FACE_Z_LOW == 4);
 CHECK(face_z_high, SGM_FACE_Z_HIGH == 5);
 CHECK(world_by_distance, SGM_WORLD_BY_DISTANCE == 1);
 CHECK(world_morph, SGM_WORLD_MORPH == 2);
+CHECK(world_resident, SGM_WORLD_RESIDENT == 4);
 CHECK(host_cut, SGM_HOST_CUT == 1);
 CHECK(host_width, SGM_HOST_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(world_flag_force_32_bit, SGM_WORLD_FLAG_FORCE_32_BIT == 0x7FFFFFFF);

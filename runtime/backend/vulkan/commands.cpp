@@ -107,6 +107,11 @@ void Commands::copy(const BufferRange& from, const BufferRange& to) {
   ring_->queue_.device().calls().vkCmdCopyBuffer(slot_->commands, from.handle, to.handle, 1, &region);
 }
 
+void Commands::write(const BufferRange& range, std::span<const std::byte> bytes) {
+  ring_->queue_.device().calls().vkCmdUpdateBuffer(slot_->commands, range.handle, range.offset, range.size,
+                                                   bytes.data());
+}
+
 void Commands::barrier(uint32_t before, uint32_t after) {
   const Scope source = scopeOf(before), destination = scopeOf(after);
   VkMemoryBarrier barrier{};

@@ -55,6 +55,8 @@ class Commands {
   void fill(const BufferRange& range, uint32_t word);
   /// As many bytes as `from` has; the two do not overlap.
   void copy(const BufferRange& from, const BufferRange& to);
+  /// As many bytes as the range has, which are at most 65,536; its offset and size are multiples of 4.
+  void write(const BufferRange& range, std::span<const std::byte> bytes);
   /// What `before` wrote, and has read, is done before `after` reads or writes. What the host wrote before submit()
   /// needs none.
   void barrier(uint32_t before, uint32_t after);

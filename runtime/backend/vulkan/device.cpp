@@ -59,8 +59,11 @@ Result<std::unique_ptr<Device>> Device::borrow(const BorrowedDevice& engine) {
   device->instance_calls_.vkGetPhysicalDeviceQueueFamilyProperties(engine.physical, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   device->instance_calls_.vkGetPhysicalDeviceQueueFamilyProperties(engine.physical, &count, families.data());
-  if (engine.family >= count) {
-    return Error{Code::invalid_argument, device->info_.name + " has no queue family " + std::to_string(engine.family)};
+  std::vector<uint32_t> named = engine.readers;
+  named.push_back(engine.family);
+  for (const uint32_t family : named) {
+    if (family < count) continue;
+    return Error{Code::invalid_argument, device->info_.name + " has no queue family " + std::to_string(family)};
   }
   if (!(families[engine.family].queueFlags & VK_QUEUE_COMPUTE_BIT)) {
     return Error{Code::unsupported, "the engine's Vulkan queue does not compute: lend one of another family"};
@@ -68,6 +71,7 @@ Result<std::unique_ptr<Device>> Device::borrow(const BorrowedDevice& engine) {
   device->device_ = engine.device;
   device->queue_ = engine.queue;
   device->family_ = engine.family;
+  device->readers_ = engine.readers;
   device->memory_budget_ = engine.memory_budget;
   device->lock_ = engine.lock;
   device->unlock_ = engine.unlock;

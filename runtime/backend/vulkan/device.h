@@ -30,7 +30,8 @@ struct BorrowedDevice {
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
-  uint32_t family = 0;  ///< the queue's
+  uint32_t family = 0;            ///< the queue's
+  std::vector<uint32_t> readers;  ///< families of other queues that use meshes
   /// Called around every use of the queue, on the thread that submits; both or neither. null: nobody but us uses it.
   void (*lock)(void* user) = nullptr;
   void (*unlock)(void* user) = nullptr;
@@ -63,7 +64,8 @@ class Device {
   VkQueue queue() const { return queue_; }  ///< to be used under a QueueLock only
   uint32_t family() const { return family_; }
   bool borrowed() const { return !instance_; }
-  bool memoryBudget() const { return memory_budget_; }  ///< VK_EXT_memory_budget is enabled
+  const std::vector<uint32_t>& readers() const { return readers_; }  ///< BorrowedDevice::readers
+  bool memoryBudget() const { return memory_budget_; }               ///< VK_EXT_memory_budget is enabled
   /// Warnings and errors of the validation layer so far; empty without it, and on a borrowed device.
   std::vector<std::string> messages() const;
 
@@ -82,6 +84,7 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t family_ = 0;
+  std::vector<uint32_t> readers_;
   bool memory_budget_ = false;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};

@@ -139,6 +139,15 @@ Result<void> Memory::fill(Block& block, MemoryKind kind, VkDeviceSize bytes) {
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = bytes;
   info.usage = kUsage;
+  std::vector<uint32_t> families = options_.families;
+  families.push_back(device_.family());
+  std::sort(families.begin(), families.end());
+  families.erase(std::unique(families.begin(), families.end()), families.end());
+  if (families.size() > 1) {
+    info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+    info.queueFamilyIndexCount = static_cast<uint32_t>(families.size());
+    info.pQueueFamilyIndices = families.data();
+  }
   VkResult result = calls.vkCreateBuffer(device_.handle(), &info, nullptr, &block.buffer);
   if (result != VK_SUCCESS) return errorOf(result, what);
   VkMemoryRequirements needs;

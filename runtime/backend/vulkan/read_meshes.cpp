@@ -59,4 +59,19 @@ bool readMesh(const BatchPlan& plan, const Mesher::Output& output, size_t chunk,
   return true;
 }
 
+PartSources sourcesOf(const BatchPlan& plan, const Mesher::Output& output, size_t chunk, const BatchBuffers& buffers) {
+  const BatchPlan::Chunk& planned = plan.chunks[chunk];
+  PartSources sources;
+  for (size_t p = 0; p < sources.size(); ++p) {
+    const uint32_t number = p == 0 ? planned.body : planned.seams[p - 1];
+    if (number == batch::kNoRoom || output.parts[number].indices == 0) continue;
+    const batch::Part& part = output.parts[number];
+    sources[p] = {BufferRange(buffers.vertices, part.first_vertex * uint64_t{sizeof(Vertex)},
+                              part.vertices * uint64_t{sizeof(Vertex)}),
+                  BufferRange(buffers.indices, part.first_index * uint64_t{sizeof(uint32_t)},
+                              part.indices * uint64_t{sizeof(uint32_t)})};
+  }
+  return sources;
+}
+
 }  // namespace sgm::vulkan

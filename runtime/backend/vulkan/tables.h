@@ -78,6 +78,7 @@ namespace sgm::vulkan {
   X(vkCmdDispatchIndirect)          \
   X(vkCmdFillBuffer)                \
   X(vkCmdCopyBuffer)                \
+  X(vkCmdUpdateBuffer)              \
   X(vkCmdPipelineBarrier)
 
 #define SGM_VK_MEMBER(name) PFN_##name name = nullptr;

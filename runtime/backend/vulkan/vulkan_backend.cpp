@@ -1,10 +1,12 @@
 #include "backend/vulkan/vulkan_backend.h"
 
 #include <atomic>
+#include <deque>
 #include <exception>
 #include <mutex>
 #include <new>
 
+#include "backend/vulkan/device_meshes.h"
 #include "backend/vulkan/read_meshes.h"
 
 namespace sgm {
@@ -22,9 +24,11 @@ struct Session {
   std::unique_ptr<vulkan::CommandRing> ring;
   std::unique_ptr<vulkan::PipelineCache> cache;
   std::unique_ptr<Mesher> mesher;
+  std::unique_ptr<vulkan::Memory> kept_memory;  ///< of meshes that stay; null where nobody could draw them
+  std::unique_ptr<vulkan::DeviceMeshes> kept;   ///< likewise
   std::mutex mutex;
-  std::vector<std::unique_ptr<struct Slot>> idle;
-  std::vector<std::unique_ptr<struct Slot>> stuck;  ///< the device may use them still, to the end
+  std::deque<std::unique_ptr<struct Slot>> idle;
+  std::deque<std::unique_ptr<struct Slot>> stuck;  ///< the device may use them still, to the end
 
   ~Session();
 };
@@ -36,6 +40,7 @@ struct Slot {
   BatchBuffers buffers;
   size_t first = 0;    ///< of the batch's jobs
   uint64_t value = 0;  ///< of the queue; 0: not submitted
+  uint64_t kept = 0;   ///< of the queue: parts are copied out until then
   bool stuck = false;  ///< nobody could say that the device has done with it
 };
 
@@ -68,6 +73,11 @@ Result<std::shared_ptr<Session>> openSession(const VulkanBackendOptions& options
   auto mesher = Mesher::create(*session->queue, *session->memory, *session->ring, session->cache.get());
   if (!mesher) return mesher.error();
   session->mesher = std::move(*mesher);
+  if (session->device->borrowed()) {
+    memory.families = session->device->readers();
+    session->kept_memory = std::make_unique<vulkan::Memory>(*session->device, memory);
+    session->kept = std::make_unique<vulkan::DeviceMeshes>(*session->queue, *session->kept_memory, *session->ring);
+  }
   return session;
 }
 
@@ -115,6 +125,12 @@ class VulkanBatch final : public ChunkBatch {
       const size_t taken = planBatch(rest, shared_.options.room, session_->mesher->mostScratchWords(), slot->plan);
       first += taken;
       if (!slot->plan.chunks.empty()) {
+        if (const Result<bool> copied = session_->queue->wait(slot->kept); !copied) {
+          slot->stuck = true;
+          note(copied.error());
+          release(slot);
+          break;
+        }
         const Result<uint64_t> value = session_->mesher->submit(slot->plan, slot->buffers);
         if (!value) {
           note(value.error());
@@ -171,8 +187,9 @@ class VulkanBatch final : public ChunkBatch {
   std::unique_ptr<Slot> takeSlot() {
     const std::scoped_lock lock(session_->mutex);
     if (session_->idle.empty()) return std::make_unique<Slot>(shared_.memory);
-    std::unique_ptr<Slot> slot = std::move(session_->idle.back());
-    session_->idle.pop_back();
+    // The one that has been idle for longest: nothing is copied out of it any more, as a rule.
+    std::unique_ptr<Slot> slot = std::move(session_->idle.front());
+    session_->idle.pop_front();
     return slot;
   }
   void release(std::unique_ptr<Slot>& slot) {
@@ -253,6 +270,25 @@ class VulkanBatch final : public ChunkBatch {
       if (!vulkan::readMesh(slot.plan, *output, c, jobs_[job], meshes_[job])) continue;
       finished(job);
     }
+    keepMeshes(slot, *output);
+  }
+
+  /// Copies what is to stay to its own place on the device. What cannot be, is uploaded by whoever wants it there.
+  void keepMeshes(Slot& slot, const Mesher::Output& output) {
+    if (!session_->kept) return;
+    std::vector<size_t> of;
+    std::vector<vulkan::PartSources> sources;
+    for (size_t c = 0; c < slot.plan.chunks.size(); ++c) {
+      const size_t job = slot.first + slot.plan.chunks[c].job;
+      if (!jobs_[job].resident || !done_[job]) continue;
+      of.push_back(job);
+      sources.push_back(vulkan::sourcesOf(slot.plan, output, c, slot.buffers));
+    }
+    if (of.empty()) return;
+    Result<vulkan::KeptParts> kept = session_->kept->keep(session_, sources);
+    if (!kept) return note(kept.error());
+    slot.kept = kept->value;
+    for (size_t i = 0; i < of.size(); ++i) meshes_[of[i]].on_device = std::move(kept->chunks[i]);
   }
 
   void startRest() {
@@ -309,7 +345,8 @@ class VulkanBackend final : public Backend {
     shared_.memory = memory;
     shared_.profiler = profiler;
     const vulkan::DeviceInfo& info = session->device->info();
-    capabilities_ = {BackendKind::vulkan, info.name, info.exact, 64};
+    capabilities_ = {BackendKind::vulkan, info.name, info.exact, 64, info.software(),
+                     session->device->borrowed()};
     shared_.session = std::move(session);
   }
   const BackendCapabilities& capabilities() const override { return capabilities_; }
@@ -321,6 +358,12 @@ class VulkanBackend final : public Backend {
     auto batch = std::make_unique<VulkanBatch>(shared_, session(), std::move(jobs), std::move(after_chunk));
     batch->submit();
     return std::unique_ptr<ChunkBatch>(std::move(batch));
+  }
+  Result<std::shared_ptr<const DevicePart>> upload(const MeshPart& part) override {
+    const std::shared_ptr<Session> current = session();
+    if (!current) return Error{Code::device_lost, "the GPU was lost, and could not be opened again"};
+    if (!current->kept) return Backend::upload(part);
+    return current->kept->upload(current, part);
   }
 
  private:

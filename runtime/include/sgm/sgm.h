@@ -102,10 +102,11 @@ typedef enum sgm_result {
   SGM_ERR_IO = -8,               /* a file could not be read or written */
   SGM_ERR_UNSUPPORTED = -9,      /* no such backend, device or extension here */
   SGM_ERR_CANCELLED = -10,       /* the caller's progress callback asked to stop */
-  SGM_ERR_BUSY = -11,            /* handles made from this one are still alive */
+  SGM_ERR_BUSY = -11,            /* in use, as by handles that were made from it and are still alive */
   SGM_ERR_NOT_FOUND = -12,       /* no entry of that name or index */
   SGM_ERR_INTERNAL = -13,        /* a fault of the library's own; please report it */
   SGM_ERR_DATA = -14,            /* bytes or a file from elsewhere are damaged, of another version or another world's */
+  SGM_ERR_DEVICE_LOST = -15,     /* the GPU has failed; what lies on it is lost, and everything else goes on */
   SGM_RESULT_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_result;
 
@@ -935,6 +936,8 @@ typedef enum sgm_world_flag {
   SGM_WORLD_BY_DISTANCE = 1, /* level 0 wherever it is near enough. Without this flag only where a viewer's void leads
                                 to: what is near but behind rock stays one level coarser, and is never seen */
   SGM_WORLD_MORPH = 2,       /* meshes have morph offsets: sgm_mesh_view.morphs */
+  SGM_WORLD_RESIDENT = 4,    /* meshes also lie on the Vulkan device that the engine lent, which draws them from there:
+                                sgm_vulkan.h. That memory, about as much again, does not count for mesh_bytes */
   SGM_WORLD_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_world_flag;
 
@@ -980,8 +983,8 @@ typedef struct sgm_world_desc {
  * journal or a cache_folder with a host's field whose identity is 0.
  * SGM_ERR_DATA: the journal is of another world (grammar, parameters, seed, cell, host's fields), or none: it stays as it
  * is.
- * SGM_ERR_IO: the journal or the folder can be neither read nor made. SGM_ERR_UNSUPPORTED: built without a disk cache.
- */
+ * SGM_ERR_IO: the journal or the folder can be neither read nor made. SGM_ERR_UNSUPPORTED: built without a disk cache;
+ * SGM_WORLD_RESIDENT, and the field's backend is not on a lent device. */
 SGM_API sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_world** out, sgm_error* error);
 
 /* Waits for the chunks that are being meshed at this moment, and for no others, and writes the journal. Meshes that the

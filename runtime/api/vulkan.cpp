@@ -1,0 +1,78 @@
+#include "sgm/sgm_vulkan.h"
+
+#include <algorithm>
+#include <span>
+
+#include "api/backend_request.h"
+#include "api/barrier.h"
+#include "api/mesh.h"
+#include "api/runtime.h"
+#include "backend/vulkan/device_meshes.h"
+
+using namespace sgm::api;
+
+namespace {
+
+sgm::vulkan::BorrowedDevice deviceOf(const sgm_vulkan_device_desc& desc) {
+  sgm::vulkan::BorrowedDevice lent;
+  lent.get_instance_proc_addr = desc.get_instance_proc_addr;
+  lent.instance = desc.instance;
+  lent.physical = desc.physical_device;
+  lent.device = desc.device;
+  lent.queue = desc.queue;
+  lent.family = desc.queue_family;
+  const std::span readers(desc.reader_families, desc.reader_family_count);
+  lent.readers.assign(readers.begin(), readers.end());
+  lent.lock = desc.lock_queue;
+  lent.unlock = desc.unlock_queue;
+  lent.user = desc.user;
+  lent.api_version = desc.api_version;
+  lent.timeline_semaphores = desc.timeline_semaphores != 0;
+  lent.memory_budget = desc.memory_budget != 0;
+  return lent;
+}
+
+sgm_vulkan_part partOf(const sgm::vulkan::VulkanPart& part) {
+  return {part.buffer(), part.vertexOffset(), part.indexOffset(), part.drawOffset(), part.vertexCount(), part.draw()};
+}
+
+}  // namespace
+
+sgm_result sgm_runtime_lend_vulkan(sgm_runtime* runtime, const sgm_vulkan_device_desc* desc, sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (runtime == nullptr) return nullArgument(error, "runtime");
+    if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
+    if (desc->reader_families == nullptr && desc->reader_family_count != 0) {
+      return nullArgument(error, "desc.reader_families");
+    }
+    const sgm::Result<void> lent =
+        lendVulkan(*runtime, std::make_shared<const sgm::vulkan::BorrowedDevice>(deviceOf(*desc)));
+    return lent ? SGM_OK : fail(error, lent.error());
+  });
+}
+
+sgm_result sgm_mesh_get_vulkan_view(const sgm_mesh* mesh, sgm_vulkan_mesh_view* view, sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (mesh == nullptr) return nullArgument(error, "mesh");
+    if (sgm_result r = checkDesc(error, view, "view"); r != SGM_OK) return r;
+    sgm_vulkan_mesh_view found = SGM_VULKAN_MESH_VIEW_INIT;
+    const sgm::ChunkSurface& surface = *mesh->surface;
+    for (size_t p = 0; p < surface.on_device.size(); ++p) {
+      if (surface.mesh.ranges[p].index_count == 0) continue;
+      const sgm::DevicePart* part = surface.on_device[p].get();
+      if (part == nullptr || part->kind() != sgm::BackendKind::vulkan) {
+        return fail(error, SGM_ERR_NOT_FOUND,
+                    "the mesh is not on a lent Vulkan device: make the world with SGM_WORLD_RESIDENT; where the "
+                    "device's memory is used up, upload what sgm_mesh_get_view shows");
+      }
+      const auto& placed = static_cast<const sgm::vulkan::VulkanPart&>(*part);
+      const sgm::vulkan::Queue& queue = placed.memory().meshes().queue();
+      if (queue.lost()) return fail(error, SGM_ERR_DEVICE_LOST, "the Vulkan device was lost, and the mesh with it");
+      found.semaphore = queue.semaphore();
+      found.value = std::max(found.value, placed.memory().value());
+      (p == 0 ? found.body : found.seams[p - 1]) = partOf(placed);
+    }
+    *view = found;
+    return SGM_OK;
+  });
+}

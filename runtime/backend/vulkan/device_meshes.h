@@ -1,0 +1,102 @@
+#pragma once
+// Meshes that stay on the device: parts copied out of a batch's buffers, or brought from the host, to memory of their
+// own, where the engine that lent the device draws them.
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "backend/backend.h"
+#include "backend/vulkan/commands.h"
+
+namespace sgm::vulkan {
+
+class DeviceMeshes;
+
+/// The memory of parts that were copied together. Its end may come before that of the copying; not before that of what
+/// the engine has the device do with it.
+class DeviceMemory {
+ public:
+  DeviceMemory(std::shared_ptr<const void> owner, DeviceMeshes& meshes, Buffer&& buffer)
+      : owner_(std::move(owner)), meshes_(meshes), buffer_(std::move(buffer)) {}
+  ~DeviceMemory();
+  DeviceMemory(const DeviceMemory&) = delete;
+  DeviceMemory& operator=(const DeviceMemory&) = delete;
+
+  const Buffer& buffer() const { return buffer_; }
+  const DeviceMeshes& meshes() const { return meshes_; }
+  uint64_t value() const { return value_; }  ///< of the queue: from it on the content is there
+
+ private:
+  friend class DeviceMeshes;
+  std::shared_ptr<const void> owner_;  // what the memory is outlived by
+  DeviceMeshes& meshes_;
+  Buffer buffer_;
+  uint64_t value_ = 0;
+};
+
+/// A part as draw commands address it. Immutable.
+class VulkanPart final : public DevicePart {
+ public:
+  VulkanPart(std::shared_ptr<const DeviceMemory> memory, VkDeviceSize draw, uint32_t vertices, uint32_t indices);
+  BackendKind kind() const override { return BackendKind::vulkan; }
+
+  VkBuffer buffer() const { return memory_->buffer().handle(); }
+  // Bytes from the beginning of buffer().
+  VkDeviceSize drawOffset() const { return draw_; }  ///< of draw(), likewise in the device's memory
+  VkDeviceSize vertexOffset() const;                 ///< a multiple of sizeof(Vertex)
+  VkDeviceSize indexOffset() const;                  ///< a multiple of 4
+  uint32_t vertexCount() const { return vertices_; }
+  uint32_t indexCount() const { return indices_; }
+  /// With the buffer bound whole, as vertices and as 32-bit indices.
+  VkDrawIndexedIndirectCommand draw() const;
+  const DeviceMemory& memory() const { return *memory_; }
+
+ private:
+  std::shared_ptr<const DeviceMemory> memory_;
+  VkDeviceSize draw_;
+  uint32_t vertices_, indices_;
+};
+
+/// Where a part lies before it is copied; nothing where it has no indices.
+struct PartSource {
+  BufferRange vertices, indices;
+};
+using PartSources = std::array<PartSource, kMeshParts>;  ///< in the order of DeviceParts
+
+/// Parts that are being copied.
+struct KeptParts {
+  std::vector<DeviceParts> chunks;
+  uint64_t value = 0;  ///< of the queue: from it on the sources are not read any more
+};
+
+/// Any thread may use it. Outlived by the queue, memory and ring that it is given, and by its parts.
+class DeviceMeshes {
+ public:
+  DeviceMeshes(Queue& queue, Memory& memory, CommandRing& ring) : queue_(queue), memory_(memory), ring_(ring) {}
+
+  /// Copies parts, in the device's own time: one DeviceParts a chunk, null where there is no source, and throughout a
+  /// chunk that no memory is left for. Later submissions may write to the sources, the host may not before their end.
+  /// owner keeps alive what this is outlived by. Errors: as CommandRing::submit. Throws std::bad_alloc.
+  Result<KeptParts> keep(const std::shared_ptr<const void>& owner, std::span<const PartSources> chunks);
+  /// Brings a part from the host; it has triangles. Errors: also those of Memory::buffer.
+  Result<std::shared_ptr<const DevicePart>> upload(const std::shared_ptr<const void>& owner, const MeshPart& part);
+
+  const Queue& queue() const { return queue_; }
+
+ private:
+  friend class DeviceMemory;
+  /// Gives the buffer back once the queue has reached the value.
+  void retire(Buffer&& buffer, uint64_t value) noexcept;
+
+  Queue& queue_;
+  Memory& memory_;
+  CommandRing& ring_;
+  std::mutex mutex_;
+  std::vector<std::pair<uint64_t, Buffer>> retired_;
+};
+
+}  // namespace sgm::vulkan

@@ -1,0 +1,116 @@
+/* clang-format off */
+/*
+ * sgm_vulkan.h: an engine's own Vulkan device, lent to the runtime, and meshes that stay on it.
+ *
+ * In libraries that were built with SGM_VULKAN; takes Vulkan's own header, and calls no function of Vulkan's that is
+ * not reached through the vkGetInstanceProcAddr given here. What sgm.h says of every declaration holds here as well.
+ *
+ * The way through it
+ *   sgm_runtime_lend_vulkan   before the runtime's first field
+ *   sgm_field_create          with SGM_BACKEND_VULKAN, or AUTO where the device is hardware
+ *   sgm_world_create          with SGM_WORLD_RESIDENT
+ *   sgm_mesh_get_vulkan_view  of every mesh that is READY; draw it from there, upload nothing
+ */
+/* clang-format on */
+#ifndef SGM_SGM_VULKAN_H
+#define SGM_SGM_VULKAN_H
+
+#include <sgm/sgm.h>
+#include <vulkan/vulkan_core.h>
+
+#if defined(__cplusplus)
+extern "C" {
+#endif
+
+/* The engine's device. Made for Vulkan 1.2 or newer (VkApplicationInfo.apiVersion), with the feature timelineSemaphore
+ * and a queue that computes. All handles must outlive the runtime.
+ *
+ * The runtime submits to the queue from any thread, and waits for what it has submitted by a timeline semaphore: never
+ * for the queue, nor for the device. */
+typedef struct sgm_vulkan_device_desc {
+  uint32_t struct_size;
+  const void* next;
+  uint32_t api_version;  /* VkApplicationInfo.apiVersion of the instance */
+  uint32_t queue_family; /* of `queue` */
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr;
+  VkInstance instance;
+  VkPhysicalDevice physical_device;
+  VkDevice device;
+  VkQueue queue;
+  /* Families of the engine's other queues that read meshes, so that it need not transfer their ownership; may be NULL
+   * where the count is 0. Copied. */
+  const uint32_t* reader_families;
+  uint32_t reader_family_count;
+  int32_t timeline_semaphores; /* 1: VkPhysicalDeviceVulkan12Features.timelineSemaphore is enabled. Needed */
+  int32_t memory_budget;       /* 1: VK_EXT_memory_budget is enabled, so that the runtime keeps to what is left */
+  /* Called around every use of the queue, on the thread that uses it, for who shares it; both or neither. They may
+   * wait, and must not call the runtime. */
+  void (*lock_queue)(void* user);
+  void (*unlock_queue)(void* user);
+  void* user;
+} sgm_vulkan_device_desc;
+
+#define SGM_VULKAN_DEVICE_DESC_INIT                                                                                    \
+  {                                                                                                                    \
+    SGM_SIZEOF(sgm_vulkan_device_desc), SGM_NULL, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, 0, \
+        0, 0, SGM_NULL, SGM_NULL, SGM_NULL                                                                             \
+  }
+
+/* From now on the runtime's Vulkan backend is this device. A software one is taken for SGM_BACKEND_VULKAN alone.
+ *
+ * SGM_ERR_INVALID_ARGUMENT: a handle is missing, half a lock, no such queue family. SGM_ERR_UNSUPPORTED: the device
+ * lacks something, which the message names. SGM_ERR_BUSY: the runtime meshes on a Vulkan device already. When it fails
+ * nothing has changed.
+ *
+ * A lent device that is lost stays lost: the CPU meshes from then on, with the same bytes. */
+SGM_API sgm_result sgm_runtime_lend_vulkan(sgm_runtime* runtime, const sgm_vulkan_device_desc* desc, sgm_error* error);
+
+/* A body or a seam in a VkBuffer of the runtime's, among others; its usage has VERTEX, INDEX, INDIRECT, STORAGE and
+ * TRANSFER_SRC. Vertices are sgm_vertex, indices uint32_t counted from the part's first vertex. */
+typedef struct sgm_vulkan_part {
+  VkBuffer buffer;            /* VK_NULL_HANDLE: no triangles; all else is 0 then */
+  VkDeviceSize vertex_offset; /* bytes in buffer; a multiple of sizeof(sgm_vertex) */
+  VkDeviceSize index_offset;  /* bytes; a multiple of 4 */
+  VkDeviceSize draw_offset;   /* bytes; a multiple of 4. `draw` lies there, for vkCmdDrawIndexedIndirect */
+  uint32_t vertex_count;
+  /* With the buffer bound from its beginning both as vertices and as indices (VK_INDEX_TYPE_UINT32): one instance, so
+   * that all parts of a buffer are drawn by one vkCmdDrawIndexedIndirect with commands that the engine gathers. */
+  VkDrawIndexedIndirectCommand draw;
+} sgm_vulkan_part;
+
+/* Filled by sgm_mesh_get_vulkan_view. */
+typedef struct sgm_vulkan_mesh_view {
+  uint32_t struct_size;
+  void* next;
+  /* The parts are there from the moment at which the timeline semaphore has this value: the engine's submission waits
+   * for it, on the device. The semaphore is the same for all meshes; of several the largest value counts. */
+  VkSemaphore semaphore;
+  uint64_t value;
+  sgm_vulkan_part body;
+  sgm_vulkan_part seams[6]; /* by sgm_face; draw those that the chunk's events name */
+} sgm_vulkan_mesh_view;
+
+#define SGM_VULKAN_PART_INIT                      \
+  {                                               \
+    VK_NULL_HANDLE, 0, 0, 0, 0, { 0, 0, 0, 0, 0 } \
+  }
+#define SGM_VULKAN_MESH_VIEW_INIT                                                                                   \
+  {                                                                                                                 \
+    SGM_SIZEOF(sgm_vulkan_mesh_view), SGM_NULL, VK_NULL_HANDLE, 0, SGM_VULKAN_PART_INIT, {                          \
+      SGM_VULKAN_PART_INIT, SGM_VULKAN_PART_INIT, SGM_VULKAN_PART_INIT, SGM_VULKAN_PART_INIT, SGM_VULKAN_PART_INIT, \
+          SGM_VULKAN_PART_INIT                                                                                      \
+    }                                                                                                               \
+  }
+
+/* Where the mesh lies on the lent device, with the same bytes as in sgm_mesh_get_view. Good until the mesh ends:
+ * release it only when the device has done with it. Meshes of one chunk share what they have in common.
+ *
+ * SGM_ERR_NOT_FOUND: it is not there, or not all of it: the world is not SGM_WORLD_RESIDENT, or no memory was left on
+ * the device. Upload what sgm_mesh_get_view shows. SGM_ERR_DEVICE_LOST: the device was lost after it. */
+SGM_API sgm_result sgm_mesh_get_vulkan_view(const sgm_mesh* mesh, sgm_vulkan_mesh_view* view, sgm_error* error);
+
+#if defined(__cplusplus)
+}
+#endif
+
+#endif

@@ -1,0 +1,52 @@
+/*
+ * As layout.c, for sgm/sgm_vulkan.h: sizes, offsets and _INIT macros, as C99 and as C++20.
+ */
+#include <sgm/sgm_vulkan.h>
+
+#if defined(__cplusplus)
+#define CHECK(name, truth) static_assert(truth, #name)
+#define LAYOUT_INITS sgm_vulkan_inits_cpp
+extern "C" int LAYOUT_INITS(void);
+#else
+#define CHECK(name, truth) typedef char check_##name[(truth) ? 1 : -1]
+#define LAYOUT_INITS sgm_vulkan_inits_c
+int LAYOUT_INITS(void);
+#endif
+#define SIZE(type, bytes) CHECK(sizeof_##type, sizeof(type) == (bytes))
+#define PLACE(type, field, bytes) CHECK(offsetof_##type##_##field, offsetof(type, field) == (bytes))
+
+SIZE(sgm_vulkan_device_desc, 112);
+PLACE(sgm_vulkan_device_desc, api_version, 16);
+PLACE(sgm_vulkan_device_desc, queue_family, 20);
+PLACE(sgm_vulkan_device_desc, get_instance_proc_addr, 24);
+PLACE(sgm_vulkan_device_desc, instance, 32);
+PLACE(sgm_vulkan_device_desc, physical_device, 40);
+PLACE(sgm_vulkan_device_desc, device, 48);
+PLACE(sgm_vulkan_device_desc, queue, 56);
+PLACE(sgm_vulkan_device_desc, reader_families, 64);
+PLACE(sgm_vulkan_device_desc, reader_family_count, 72);
+PLACE(sgm_vulkan_device_desc, timeline_semaphores, 76);
+PLACE(sgm_vulkan_device_desc, memory_budget, 80);
+PLACE(sgm_vulkan_device_desc, lock_queue, 88);
+PLACE(sgm_vulkan_device_desc, unlock_queue, 96);
+PLACE(sgm_vulkan_device_desc, user, 104);
+SIZE(sgm_vulkan_part, 56);
+PLACE(sgm_vulkan_part, buffer, 0);
+PLACE(sgm_vulkan_part, vertex_offset, 8);
+PLACE(sgm_vulkan_part, index_offset, 16);
+PLACE(sgm_vulkan_part, draw_offset, 24);
+PLACE(sgm_vulkan_part, vertex_count, 32);
+PLACE(sgm_vulkan_part, draw, 36);
+SIZE(sgm_vulkan_mesh_view, 424);
+PLACE(sgm_vulkan_mesh_view, semaphore, 16);
+PLACE(sgm_vulkan_mesh_view, value, 24);
+PLACE(sgm_vulkan_mesh_view, body, 32);
+PLACE(sgm_vulkan_mesh_view, seams, 88);
+
+int LAYOUT_INITS(void) {
+  const sgm_vulkan_device_desc device = SGM_VULKAN_DEVICE_DESC_INIT;
+  const sgm_vulkan_mesh_view view = SGM_VULKAN_MESH_VIEW_INIT;
+  return device.struct_size == sizeof(device) && device.next == SGM_NULL && device.timeline_semaphores == 0 &&
+         device.user == SGM_NULL && view.struct_size == sizeof(view) && view.next == SGM_NULL && view.value == 0 &&
+         view.body.draw.indexCount == 0 && view.seams[5].vertex_count == 0;
+}
