@@ -29,7 +29,8 @@ struct BackendCapabilities {
   std::string device;         ///< device name, or the instruction set in use
   bool exact = true;          ///< keeps the arithmetic contract
   uint32_t concurrency = 1;   ///< chunks worked on at one time
-  bool software = false;     ///< the CPU plays a device's part
+  uint32_t batch = 1;         ///< chunks of one submit() that keep it busy
+  bool software = false;      ///< the CPU plays a device's part
   bool lends_meshes = false;  ///< ChunkJob::resident and upload(): the device is the engine's own
 };
 
@@ -118,10 +119,10 @@ struct BorrowedDevice;
 
 struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
-  bool automatic = false;  ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
-  int device = -1;         ///< Vulkan: in the order in which devices are listed; -1: the fastest kind
-  std::shared_ptr<const vulkan::BorrowedDevice> lent;  ///< Vulkan: the engine's; null: one of our own
+  bool automatic = false;       ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
+  int device = -1;              ///< Vulkan: in the order in which devices are listed; -1: the fastest kind
   std::string instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512"; empty: the widest that runs here
+  std::shared_ptr<const vulkan::BorrowedDevice> lent = nullptr;  ///< Vulkan: the engine's; null: one of our own
 };
 
 /// factory.cpp. jobs and memory must outlive the backend. unsupported: not built or not usable here, and why.

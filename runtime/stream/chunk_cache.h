@@ -3,6 +3,8 @@
 // triangles, and those without where the chunk had to be sampled to know.
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "mesh/void_components.h"
 #include "stream/chunk_surface.h"
@@ -14,6 +16,11 @@ namespace sgm {
 struct MeshedChunk {
   ChunkSurface surface;                 ///< may be without triangles
   std::optional<VoidComponents> voids;  ///< where signs were asked for
+};
+
+struct ChunkOrder {
+  ChunkRequest request;
+  const ChunkSurface* before = nullptr;  ///< as surfaceOf takes it
 };
 
 /// Meshes the chunks of one world. Borrows all that it names; as thread-safe as they are.
@@ -29,7 +36,10 @@ struct ChunkMesher {
   /// with the body only. What the cache has is not derived, so that notes of its cells may never be told. Of a backend
   /// that is not exact nothing is kept. Takes as long as the disk does. Errors: those of meshChunks, and nothing is
   /// kept. Throws std::bad_alloc.
-  Result<MeshedChunk> mesh(ChunkRequest request, const ChunkSurface* before, const EditSnapshot* edits = nullptr) const;
+  Result<MeshedChunk> mesh(const ChunkRequest& request, const ChunkSurface* before,
+                           const EditSnapshot* edits = nullptr) const;
+  /// Many at once, each as if alone: the backend gets all of them together, and the job system the rest of the work.
+  std::vector<Result<MeshedChunk>> mesh(std::span<const ChunkOrder> orders, const EditSnapshot* edits) const;
 };
 
 }  // namespace sgm

@@ -305,87 +305,120 @@ void WorldCore::publish(Plan&& plan) {
   changed.notify_all();
 }
 
-FinishedChunk WorldCore::meshOne(const WorkItem& item, const EditState& under) const {
-  FinishedChunk done;
-  done.request = item.request;
-  done.before = item.before;
-  done.edits = under.number;
+void WorldCore::takeItems(std::vector<WorkItem>& items) {
+  // A device is only busy with many chunks at one time; but each job is to have some.
+  const size_t share = (queue.size() + mostMeshJobs() - 1) / mostMeshJobs();
+  const size_t most = scarce ? 1 : std::min(share, items.capacity());
+  while (items.size() < most && !queue.empty() && hasRoom()) {
+    // What is more urgent does not wait for what is less.
+    if (!items.empty() && queue.back().rank != items.front().rank) return;
+    try {
+      begun_.push_back(queue.back().request.key);
+    } catch (const std::bad_alloc&) {
+      return;
+    }
+    ++meshing_;
+    ++meshing_of_rank_[static_cast<size_t>(queue.back().rank)];
+    reserved_ += kLargestChunk;
+    items.push_back(std::move(queue.back()));
+    queue.pop_back();
+  }
+}
+
+void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const EditState& under, FinishedChunk& done) const {
+  if (!chunk) {
+    done.error = chunk.error();
+    return;
+  }
+  if (chunk->voids) done.voids = std::make_unique<const VoidComponents>(std::move(*chunk->voids));
+  if (settings.morph) {
+    Result<std::pmr::vector<MorphOffset>> morphs =
+        morphOffsets(field, chunk->surface.mesh, chunk->surface.grid, under.brushes.get(), memory_);
+    if (!morphs) {
+      done.error = morphs.error();
+      return;
+    }
+    chunk->surface.morphs = std::move(*morphs);
+  }
+  if (const size_t bytes = chunk->surface.bytes(); bytes > kLargestChunk) {
+    done.error =
+        Error{Code::limit, "a chunk's mesh and anchors have " + std::to_string(bytes) + " bytes, more than the " +
+                               std::to_string(kLargestChunk) + " of the largest; place fewer anchors"};
+    return;
+  }
+  if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
+}
+
+void WorldCore::meshItems(std::span<const WorkItem> items, const EditState& under,
+                          std::span<FinishedChunk> done) const {
   const ChunkMesher mesher{field, backend, jobs, memory_, cache.get(), settings.resident};
   try {
-    Result<MeshedChunk> chunk = mesher.mesh(item.request, item.before.get(), under.brushes.get());
-    if (!chunk) {
-      done.error = chunk.error();
-      return done;
-    }
-    if (chunk->voids) done.voids = std::make_unique<const VoidComponents>(std::move(*chunk->voids));
-    if (settings.morph) {
-      Result<std::pmr::vector<MorphOffset>> morphs =
-          morphOffsets(field, chunk->surface.mesh, chunk->surface.grid, under.brushes.get(), memory_);
-      if (!morphs) {
-        done.error = morphs.error();
-        return done;
-      }
-      chunk->surface.morphs = std::move(*morphs);
-    }
-    if (const size_t bytes = chunk->surface.bytes(); bytes > kLargestChunk) {
-      done.error =
-          Error{Code::limit, "a chunk's mesh and anchors have " + std::to_string(bytes) + " bytes, more than the " +
-                                 std::to_string(kLargestChunk) + " of the largest; place fewer anchors"};
-      return done;
-    }
-    if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
+    std::vector<ChunkOrder> orders;
+    for (const WorkItem& item : items) orders.push_back({item.request, item.before.get()});
+    std::vector<Result<MeshedChunk>> chunks = mesher.mesh(orders, under.brushes.get());
+    parallelFor(jobs, items.size(), [&](size_t i) { surfaceOne(chunks[i], under, done[i]); });
   } catch (const std::bad_alloc&) {
-    done.error = Error{Code::out_of_memory, kOutOfMemory};
+    for (FinishedChunk& chunk : done) {
+      if (chunk.surface == nullptr) chunk.error = Error{Code::out_of_memory, kOutOfMemory};
+    }
   }
-  return done;
 }
 
 void WorldCore::meshOnce() {
-  WorkItem item;
+  std::vector<WorkItem> items;
+  std::vector<FinishedChunk> done;
+  try {
+    items.reserve(backend.capabilities().batch);
+    done.reserve(items.capacity());
+  } catch (const std::bad_alloc&) {
+    const std::lock_guard lock(mutex);
+    --mesh_jobs;
+    return;
+  }
   EditState under;
   uint64_t of_generation;
   {
     const std::lock_guard lock(mutex);
     // A job system that runs what is handed on at once, within submit(), would mesh the whole queue in one call.
     const bool at_once = std::count(submitting_.begin(), submitting_.end(), std::this_thread::get_id()) > 0;
-    if (at_once || queue.empty() || !hasRoom()) {
+    if (!at_once) takeItems(items);
+    if (items.empty()) {
       --mesh_jobs;
       return;
     }
-    try {
-      begun_.push_back(queue.back().request.key);
-    } catch (const std::bad_alloc&) {
-      --mesh_jobs;
-      return;
-    }
-    item = std::move(queue.back());
-    queue.pop_back();
     under = queue_edits_;
     of_generation = generation;
-    ++meshing_;
-    ++meshing_of_rank_[static_cast<size_t>(item.rank)];
-    reserved_ += kLargestChunk;
   }
-  FinishedChunk done = meshOne(item, under);
-  bool plan, more, out_of_memory;
+  for (const WorkItem& item : items) {
+    done.emplace_back();
+    done.back().request = item.request;
+    done.back().before = item.before;
+    done.back().edits = under.number;
+  }
+  meshItems(items, under, done);
+  bool plan, more, out_of_memory = false;
   {
     const std::lock_guard lock(mutex);
-    --meshing_;
-    const size_t left_of_rank = --meshing_of_rank_[static_cast<size_t>(item.rank)];
-    if (meshing_before_ > 0) --meshing_before_;
-    reserved_ -= kLargestChunk;
-    if (generation != of_generation) done.error = Error{Code::cancelled, "unwanted"};
-    out_of_memory = done.error && done.error->code == Code::out_of_memory;
-    if (!done.error) scarce = false;
-    try {
-      finished_.push_back(std::move(done));
-    } catch (const std::bad_alloc&) {
-      // The planner would wait for this one for ever, and so would a new one that was told of its begin.
-      planner_lost_ = out_of_memory = true;
-      std::erase(begun_, item.request.key);
+    const WorkItem::Rank rank = items.front().rank;
+    meshing_ -= items.size();
+    const size_t left_of_rank = meshing_of_rank_[static_cast<size_t>(rank)] -= items.size();
+    meshing_before_ -= std::min(meshing_before_, items.size());
+    reserved_ -= items.size() * kLargestChunk;
+    for (FinishedChunk& chunk : done) {
+      if (generation != of_generation) chunk.error = Error{Code::cancelled, "unwanted"};
+      out_of_memory = out_of_memory || (chunk.error && chunk.error->code == Code::out_of_memory);
+      if (!chunk.error) scarce = false;
+      const ChunkKey key = chunk.request.key;
+      try {
+        finished_.push_back(std::move(chunk));
+      } catch (const std::bad_alloc&) {
+        // The planner would wait for this one for ever, and so would a new one that was told of its begin.
+        planner_lost_ = out_of_memory = true;
+        std::erase(begun_, key);
+      }
     }
     // What was dug, and what it takes to stand, is drawn as soon as the last chunk of it is there.
-    const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.back().rank > item.rank);
+    const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.back().rank > rank);
     plan = !out_of_memory && (rank_done || finished_.size() >= kFinishedToPlan || queue.empty());
     // Memory may suffice for what is less urgent; but what is tried in vain is little.
     const bool goes_on = !out_of_memory || !std::exchange(passed_over_, true);

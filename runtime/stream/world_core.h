@@ -2,7 +2,7 @@
 // What a streamed world and its jobs share (world.h): a mailbox behind one mutex, a job that plans, and jobs that mesh.
 //
 // Jobs may begin late: all that they own is a gate, which is closed after the world's end. No job takes longer than one
-// plan or one chunk, so that an engine's own jobs get their turn.
+// plan, one chunk or one batch of a device's, so that an engine's own jobs get their turn.
 
 #include <array>
 #include <chrono>
@@ -82,7 +82,11 @@ class WorldCore {
  private:
   using Clock = std::chrono::steady_clock;
 
-  size_t mostMeshJobs() const { return std::max(1u, jobs.concurrency() - 1); }
+  /// Those that wait for a device while it works on a batch are few: one prepares its chunks, one finishes them.
+  size_t mostMeshJobs() const {
+    const size_t most = std::max(1u, jobs.concurrency() - 1);
+    return backend.capabilities().batch > 1 ? std::min<size_t>(most, 3) : most;
+  }
   bool hasRoom() const {
     return surfaces_->bytes() + collider_bytes + reserved_ + kLargestChunk <= settings.mesh_bytes;
   }
@@ -110,7 +114,10 @@ class WorldCore {
   bool makeColliders();
   void meshOnce();
   void meshAgain();
-  FinishedChunk meshOne(const WorkItem& item, const EditState& under) const;
+  /// As many of the queue's items as one job meshes, at most the vector's capacity. Precondition: the mutex is held.
+  void takeItems(std::vector<WorkItem>& items);
+  void surfaceOne(Result<MeshedChunk>& chunk, const EditState& under, FinishedChunk& done) const;
+  void meshItems(std::span<const WorkItem> items, const EditState& under, std::span<FinishedChunk> done) const;
   void flushOnce();
   /// Memory gave out: the next update tries again, with one job at first.
   void tellScarce() noexcept;

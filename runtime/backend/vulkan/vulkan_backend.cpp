@@ -16,6 +16,9 @@ namespace {
 using vulkan::BatchBuffers;
 using vulkan::Mesher;
 
+/// What the many invocations of a device take; where they run on few threads, each batch only takes longer.
+constexpr uint32_t kBatch = 64, kSoftwareBatch = 8;
+
 /// A device with all that is made on it. Ends when its last batch does.
 struct Session {
   std::unique_ptr<vulkan::Device> device;
@@ -345,7 +348,12 @@ class VulkanBackend final : public Backend {
     shared_.memory = memory;
     shared_.profiler = profiler;
     const vulkan::DeviceInfo& info = session->device->info();
-    capabilities_ = {BackendKind::vulkan, info.name, info.exact, 64, info.software(),
+    capabilities_ = {BackendKind::vulkan,
+                     info.name,
+                     info.exact,
+                     64,
+                     info.software() ? kSoftwareBatch : kBatch,
+                     info.software(),
                      session->device->borrowed()};
     shared_.session = std::move(session);
   }
