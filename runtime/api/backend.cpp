@@ -40,7 +40,9 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
   DeviceBackends& shared = runtime.devices;
   const bool device = request.automatic || request.kind == BackendKind::vulkan;
   const std::scoped_lock lock(shared.mutex);
-  const BackendRequest wanted = request.automatic && shared.none ? BackendRequest{} : request;
+  BackendRequest wanted = request.automatic && shared.none ? BackendRequest{} : request;
+  wanted.pipeline_folder = runtime.pipeline_folder;
+  wanted.warn = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
   std::shared_ptr<Backend>& kept = request.automatic ? shared.automatic : shared.vulkan;
   if (device && kept) return kept;
   Result<std::unique_ptr<Backend>> made = makeBackend(wanted, *runtime.jobs, &runtime.memory, runtime.profiler);

@@ -133,6 +133,7 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
     if (desc->log != nullptr) runtime->sink = *desc->log;
     if (const sgm_profiler* p = desc->profiler; p != nullptr)
       runtime->profiler = {p->begin, p->end, p->thread, p->plot, p->user};
+    runtime->pipeline_folder = pathOf(desc->pipeline_folder);
     if (desc->jobs != nullptr) {
       runtime->jobs = std::make_unique<CallerJobs>(*desc->jobs);
     } else {

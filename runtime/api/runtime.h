@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <filesystem>
 #include <memory>
 #include <memory_resource>
 #include <mutex>
@@ -62,6 +63,11 @@ class CallerJobs final : public JobSystem {
   uint64_t waiting_ = 0;  ///< accepted and not ended
 };
 
+/// A path that the caller gave in UTF-8; empty for null.
+inline std::filesystem::path pathOf(const char* utf8) {
+  return utf8 != nullptr ? std::filesystem::path(reinterpret_cast<const char8_t*>(utf8)) : std::filesystem::path();
+}
+
 /// Backends on devices, which all fields of a runtime share: opening one takes long, and its memory is large.
 struct DeviceBackends {
   std::mutex mutex;
@@ -86,6 +92,7 @@ struct sgm_runtime {
   sgm_log_sink sink{};
   sgm::Profiler profiler;
   std::unique_ptr<sgm::JobSystem> jobs;
+  std::filesystem::path pipeline_folder;  ///< empty: pipelines are not kept
   sgm::api::DeviceBackends devices;
   std::atomic<uint64_t> children{0};
 };

@@ -37,10 +37,6 @@ sgm::Viewer viewerOf(const sgm_viewer& viewer) {
   return v;
 }
 
-std::filesystem::path pathOf(const char* utf8) {
-  return utf8 != nullptr ? std::filesystem::path(reinterpret_cast<const char8_t*>(utf8)) : std::filesystem::path();
-}
-
 sgm_event_kind kindOf(sgm::WorldEvent::Kind kind) {
   using Kind = sgm::WorldEvent::Kind;
   switch (kind) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <memory_resource>
@@ -123,6 +124,9 @@ struct BackendRequest {
   int device = -1;              ///< Vulkan: in the order in which devices are listed; -1: the fastest kind
   std::string instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512"; empty: the widest that runs here
   std::shared_ptr<const vulkan::BorrowedDevice> lent = nullptr;  ///< Vulkan: the engine's; null: one of our own
+  std::filesystem::path pipeline_folder = {};  ///< Vulkan: where compiled pipelines are kept from run to run, or empty
+  /// Told, in one line, what the backend goes on without. Any thread; null: nobody is.
+  std::function<void(const std::string&)> warn = nullptr;
 };
 
 /// factory.cpp. jobs and memory must outlive the backend. unsupported: not built or not usable here, and why.

@@ -41,6 +41,8 @@ Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest& request, bool 
       return vulkan::Device::borrow(*lent);
     };
   }
+  options.pipeline_folder = request.pipeline_folder;
+  options.warn = request.warn;
   return makeVulkanBackend(options, std::move(*cpu), jobs, memory, profiler);
 }
 #else

@@ -58,6 +58,8 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   runtime_desc.threads = options.threads;
   const sgm_log_sink sink{tellWarning, nullptr};
   runtime_desc.log = &sink;
+  const std::string pipelines = pipelineFolder();
+  if (!pipelines.empty()) runtime_desc.pipeline_folder = pipelines.c_str();
   sgm_runtime* runtime = nullptr;
   if (sgm_runtime_create(&runtime_desc, &runtime, &error) != SGM_OK) return complain(error);
   scene.runtime.reset(runtime);

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cstdlib>
 #include <map>
 #include <tuple>
 
@@ -24,8 +25,22 @@ sgm_backend backendNamed(const std::string& name) {
   return SGM_BACKEND_AUTO;
 }
 
+std::string pipelineFolder() {
+  // A path that is not absolute counts as none (XDG Base Directory Specification).
+  const auto absolute = [](const char* variable) {
+    const char* text = std::getenv(variable);
+    return text != nullptr && *text == '/' ? std::string(text) : std::string();
+  };
+  if (const std::string cache = absolute("XDG_CACHE_HOME"); !cache.empty()) return cache + "/sgm/pipelines";
+  const std::string home = absolute("HOME");
+  return home.empty() ? home : home + "/.cache/sgm/pipelines";
+}
+
 Result<std::unique_ptr<Backend>> backendOf(const WorldOptions& options, JobSystem& jobs) {
-  return makeBackend(*api::requestOf(backendNamed(options.backend)), jobs, std::pmr::new_delete_resource());
+  BackendRequest request = *api::requestOf(backendNamed(options.backend));
+  request.pipeline_folder = pipelineFolder();
+  request.warn = [](const std::string& message) { fmt::print(stderr, "sgm: warning: {}\n", message); };
+  return makeBackend(request, jobs, std::pmr::new_delete_resource());
 }
 
 void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) {

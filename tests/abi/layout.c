@@ -137,7 +137,7 @@ PLACE(sgm_profiler, thread, 16);
 PLACE(sgm_profiler, plot, 24);
 PLACE(sgm_profiler, user, 32);
 
-SIZE(sgm_runtime_desc, 64);
+SIZE(sgm_runtime_desc, 72);
 PLACE(sgm_runtime_desc, struct_size, 0);
 PLACE(sgm_runtime_desc, next, 8);
 PLACE(sgm_runtime_desc, api_version, 16);
@@ -146,7 +146,8 @@ PLACE(sgm_runtime_desc, allocator, 24);
 PLACE(sgm_runtime_desc, jobs, 32);
 PLACE(sgm_runtime_desc, log, 40);
 PLACE(sgm_runtime_desc, memory_limit, 48);
-PLACE(sgm_runtime_desc, profiler, 56); /* where it ended before */
+PLACE(sgm_runtime_desc, profiler, 56);
+PLACE(sgm_runtime_desc, pipeline_folder, 64);
 
 SIZE(sgm_backend_info, 800);
 PLACE(sgm_backend_info, struct_size, 0);

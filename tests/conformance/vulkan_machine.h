@@ -22,12 +22,17 @@ struct VulkanMachine {
   std::unique_ptr<Backend> scalar = *makeCpuBackend("scalar", *jobs, std::pmr::get_default_resource(), {});
   std::unique_ptr<Backend> vulkan;  ///< null, after saying so, where this machine has no usable device
 
+  std::vector<std::string> warnings;  ///< of the Vulkan backend
+
   using Open = std::function<Result<std::unique_ptr<vulkan::Device>>()>;
 
   /// open: instead of a device of our own that the layer watches.
-  explicit VulkanMachine(const BatchRoom& room = {}, const Open& open = nullptr) {
+  explicit VulkanMachine(const BatchRoom& room = {}, const Open& open = nullptr,
+                         const std::filesystem::path& pipeline_folder = {}) {
     VulkanBackendOptions options;
     options.room = room;
+    options.pipeline_folder = pipeline_folder;
+    options.warn = [this](const std::string& text) { warnings.push_back(text); };
     options.open = open ? open : [log_of_all = log] { return vulkan::Device::open(watched(log_of_all)); };
     Result<std::unique_ptr<Backend>> cpu = makeCpuBackend("", *jobs, std::pmr::get_default_resource(), {});
     REQUIRE(cpu);
@@ -41,6 +46,8 @@ struct VulkanMachine {
     REQUIRE(std::getenv("SGM_REQUIRE_VULKAN") == nullptr);
     std::fprintf(stderr, "SKIPPED: %s\n", made.error().message.c_str());
   }
+  VulkanMachine(const VulkanMachine&) = delete;
+  VulkanMachine& operator=(const VulkanMachine&) = delete;
   explicit operator bool() const { return vulkan != nullptr; }
 
   static vulkan::OwnDevice watched(std::shared_ptr<vulkan::MessageLog> log) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "backend/vulkan/case_tables.h"
 #include "spirv/allocate_comp.h"
@@ -117,9 +118,15 @@ Result<Mesher::Pipelines> Mesher::pipelinesFor(uint64_t kinds) {
       return made.error();
     }
     pipeline = std::move(*made);
+    made_ = true;
   }
   kinds_ = wanted;
   return pipelines_;
+}
+
+bool Mesher::madePipelines() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(made_, false);
 }
 
 Result<void> Mesher::fit(const BatchPlan& plan, BatchBuffers& b) {

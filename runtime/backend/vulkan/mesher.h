@@ -43,6 +43,8 @@ class Mesher {
   Result<Output> read(BatchBuffers& buffers);
 
   uint32_t mostScratchWords() const;
+  /// Whether pipelines were made since it was asked last.
+  bool madePipelines();
 
  private:
   enum Kernel {
@@ -80,6 +82,7 @@ class Mesher {
   Buffer tables_;
   std::mutex mutex_;
   uint64_t kinds_ = 0;  ///< what the pipelines know
+  bool made_ = false;
   Pipelines pipelines_;
 };
 

@@ -71,6 +71,8 @@ Result<std::shared_ptr<Session>> openSession(const VulkanBackendOptions& options
     // Without it pipelines are made anew, and nothing else.
     if (auto cache = vulkan::PipelineCache::create(*session->device, options.pipeline_folder)) {
       session->cache = std::move(*cache);
+    } else if (options.warn) {
+      options.warn("compiled pipelines are not kept: " + cache.error().message);
     }
   }
   auto mesher = Mesher::create(*session->queue, *session->memory, *session->ring, session->cache.get());
@@ -95,6 +97,7 @@ struct Shared {
   std::pmr::memory_resource* memory;
   Profiler profiler;
   Counters counters;
+  std::atomic<bool> warned{false};  ///< that pipelines cannot be kept; once is enough
   std::mutex mutex;
   std::shared_ptr<Session> session;  ///< null: lost, and not open again
 };
@@ -145,6 +148,7 @@ class VulkanBatch final : public ChunkBatch {
       }
       slots_.push_back(std::move(slot));
     }
+    keepPipelines();
   }
 
   bool poll() override {
@@ -203,6 +207,13 @@ class VulkanBatch final : public ChunkBatch {
 
   void note(const Error& error) {
     if (error.code == Code::device_lost) leave();
+  }
+  /// Where they are new, and at once: whoever ends the process later would lose them.
+  void keepPipelines() {
+    if (!session_ || !session_->cache || !session_->mesher->madePipelines()) return;
+    const Result<void> saved = session_->cache->save();
+    if (saved || !shared_.options.warn || shared_.warned.exchange(true)) return;
+    shared_.options.warn("compiled pipelines are not kept: " + saved.error().message);
   }
   /// The next batch opens the device anew.
   void leave() {

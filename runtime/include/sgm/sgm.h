@@ -232,10 +232,17 @@ typedef struct sgm_runtime_desc {
   const sgm_log_sink* log;        /* NULL: no messages */
   uint64_t memory_limit;          /* most bytes to hold from the allocator at one time; 0: no limit */
   const sgm_profiler* profiler;   /* NULL: no profiler */
+  const char* pipeline_folder;    /* UTF-8 path of a folder that keeps what a Vulkan device's driver makes of the
+                                     library's shaders, which may take it many seconds, from one run to the next: a
+                                     file for each device and driver, for any number of runtimes, processes and programs
+                                     at one time; made where there is none. All of it may be deleted at any time, and is
+                                     made anew where it is missing or damaged; but drivers trust what is whole, so let
+                                     nobody write there whose programs you would not run. Where it cannot be written the
+                                     log is told, and nothing fails. Copied. NULL: none is kept */
 } sgm_runtime_desc;
 
 #define SGM_RUNTIME_DESC_INIT \
-  { SGM_SIZEOF(sgm_runtime_desc), SGM_NULL, SGM_API_VERSION, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0, SGM_NULL }
+  { SGM_SIZEOF(sgm_runtime_desc), SGM_NULL, SGM_API_VERSION, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0, SGM_NULL, SGM_NULL }
 
 /* desc may be NULL: all defaults. A program built with another major version, or with a newer minor one (while the
  * major version is 0: with any other minor one) is refused with SGM_ERR_VERSION. SGM_ERR_LIMIT: the machine lets not

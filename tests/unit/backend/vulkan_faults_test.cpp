@@ -3,7 +3,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <string>
 #include <thread>
@@ -17,6 +20,7 @@
 
 using namespace sgm;
 using vulkan::Faults;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -70,15 +74,16 @@ struct Faulty {
 
   ~Faulty() { KeptPipelines::destroyAll(engine.device); }
 
-  VulkanMachine machine(const BatchRoom& room = {}) {
-    return VulkanMachine(room, [this] {
+  VulkanMachine machine(const BatchRoom& room = {}, const fs::path& pipeline_folder = {}) {
+    const auto open = [this] {
       vulkan::BorrowedDevice lent = engine.lend();
       lent.replace_calls = [](vulkan::DeviceTable& table) {
         KeptPipelines::wrap(table);
         Faults::wrap(table);
       };
       return vulkan::Device::borrow(lent);
-    });
+    };
+    return VulkanMachine(room, open, pipeline_folder);
   }
 };
 
@@ -243,6 +248,60 @@ void cancelBatches(Faulty& faulty) {
   checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
 }
 
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "sgm_pipelines_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+};
+
+std::string readAll(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What is kept of pipelines is found by the next backend, mended where it is damaged, and done without where there is
+/// no room for it.
+void keepPipelines(Faulty& faulty) {
+  const Folder folder;
+  const std::vector<ChunkJob> jobs = spheres(6, 2);
+  const auto warningsWith = [&](const fs::path& where) {
+    const VulkanMachine machine = faulty.machine({}, where);
+    REQUIRE(machine);
+    const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
+    for (int again = 0; again < 2; ++again) checkSame(expected, meshesOf(*machine.vulkan, jobs));
+    CHECK(machine.vulkan->counters().on_cpu == 0);
+    return machine.warnings;
+  };
+  const std::vector<std::string> none;
+  const fs::path kept = folder.path / "a" / "b";
+  CHECK(warningsWith(kept) == none);
+  REQUIRE(std::distance(fs::directory_iterator(kept), {}) == 1);
+  const fs::path file = fs::directory_iterator(kept)->path();
+  const std::string content = readAll(file);
+  CHECK(content.size() > 24);
+  // What was found, and is all that was needed, is not written again.
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  fs::last_write_time(file, long_ago);
+  CHECK(warningsWith(kept) == none);
+  CHECK(fs::last_write_time(file) == long_ago);
+
+  std::string damaged = content;
+  damaged.back() = static_cast<char>(damaged.back() ^ 1);
+  std::ofstream(file, std::ios::binary) << damaged;
+  CHECK(warningsWith(kept) == none);
+  CHECK(readAll(file) == content);
+
+  const std::vector<std::string> warnings = warningsWith(file / "folder");
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find("compiled pipelines are not kept") != std::string::npos);
+  CHECK(warnings[0].find((file / "folder").string()) != std::string::npos);
+  CHECK(readAll(file) == content);
+}
+
 }  // namespace
 
 TEST_CASE("whatever the device refuses, the meshes are right, and the next batch finds a device", "[vulkan]") {
@@ -252,6 +311,7 @@ TEST_CASE("whatever the device refuses, the meshes are right, and the next batch
   failCalls(faulty);
   leaveNoRoom(faulty);
   cancelBatches(faulty);
+  keepPipelines(faulty);
 }
 
 TEST_CASE("a device of our own is opened anew once it is lost", "[vulkan]") {

@@ -1,0 +1,106 @@
+// sgm_runtime_desc.pipeline_folder. How files are found again, and what becomes of damaged ones, is tested where no
+// shader has to be compiled for it (tests/unit/backend).
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+
+#include "fixture.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether there is a device to compile for; if not, that is said.
+bool haveDevice() {
+  const RuntimeOwner runtime = makeRuntime();
+  sgm_backend_info info = SGM_BACKEND_INFO_INIT;
+  REQUIRE(sgm_backend_query(runtime.get(), SGM_BACKEND_VULKAN, &info, nullptr) == SGM_OK);
+  if (info.usable != 0) return true;
+  INFO(info.reason);
+  REQUIRE(std::getenv("SGM_REQUIRE_VULKAN") == nullptr);
+  std::fprintf(stderr, "SKIPPED: %s\n", info.reason);
+  return false;
+}
+
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "sgm_pipelines_XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path = name;
+  }
+  ~Folder() { fs::remove_all(path); }
+};
+
+std::string readAll(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The only file of the folder.
+fs::path fileIn(const fs::path& folder) {
+  REQUIRE(std::distance(fs::directory_iterator(folder), {}) == 1);
+  return fs::directory_iterator(folder)->path();
+}
+
+struct Warnings {
+  std::mutex mutex;
+  std::vector<std::string> texts;
+};
+
+/// What a runtime with that folder warns of while its device meshes a ball.
+std::vector<std::string> warningsOfABall(const fs::path& folder) {
+  Warnings warnings;
+  const sgm_log_sink sink{[](void* user, sgm_log_level level, const char* message) {
+                            if (level < SGM_LOG_WARNING) return;
+                            auto& w = *static_cast<Warnings*>(user);
+                            const std::lock_guard lock(w.mutex);
+                            w.texts.emplace_back(message);
+                          },
+                          &warnings};
+  {
+    // The path is copied.
+    std::string path = folder.string();
+    sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+    desc.log = &sink;
+    desc.pipeline_folder = path.c_str();
+    const RuntimeOwner runtime = makeRuntime(&desc);
+    path.assign(path.size(), 'x');
+    const GrammarOwner grammar = compile(runtime.get(), kBall);
+    sgm_field_desc field_desc = SGM_FIELD_DESC_INIT;
+    field_desc.grammar = grammar.get();
+    field_desc.cell_units = 256;
+    field_desc.backend = SGM_BACKEND_VULKAN;
+    sgm_field* made = nullptr;
+    REQUIRE(sgm_field_create(runtime.get(), &field_desc, &made, nullptr) == SGM_OK);
+    const FieldOwner field(made);
+    const std::vector<MeshOwner> meshes = meshChunks(field.get(), {chunkAt({0, 0, 0, 0})});
+    CHECK(viewOf(meshes[0]).index_count > 0);
+  }
+  return warnings.texts;
+}
+
+}  // namespace
+
+TEST_CASE("a runtime keeps the pipelines of its device where it is told to", "[vulkan]") {
+  if (!haveDevice()) return;
+  const Folder folder;
+  const fs::path deeper = folder.path / "a" / "b";
+  CHECK(warningsOfABall(deeper) == std::vector<std::string>());
+  CHECK(readAll(fileIn(deeper)).substr(0, 4) == "SGMP");
+}
+
+TEST_CASE("a folder that cannot hold pipelines costs one line in the log", "[vulkan]") {
+  if (!haveDevice()) return;
+  const Folder folder;
+  std::ofstream(folder.path / "file") << "in the way";
+  const std::vector<std::string> warnings = warningsOfABall(folder.path / "file" / "folder");
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find("compiled pipelines are not kept") != std::string::npos);
+  CHECK(warnings[0].find((folder.path / "file" / "folder").string()) != std::string::npos);
+  CHECK(readAll(fileIn(folder.path)) == "in the way");
+}
