@@ -6,18 +6,14 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
-#include "grammar/compile.h"
+#include "cave.h"
 #include "measure.h"
-#include "stream/frame.h"
-#include "stream/lod_target.h"
 #include "stream/mesh_chunks.h"
 
 using namespace sgm;
-using bench::now;
+using bench::must, bench::now;
 
 namespace {
 
@@ -25,33 +21,9 @@ constexpr int kRuns = 5;
 constexpr size_t kBatchChunks = 64;
 std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
 
-template <class T>
-T must(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().message);
-  return std::move(*result);
-}
-
-WorldFieldSettings settingsOf(const char* path, int32_t cell) {
-  std::ifstream in(path);
-  std::stringstream text;
-  text << in.rdbuf();
-  WorldFieldSettings settings;
-  settings.program = compileGrammar(text.str(), path).program;
-  if (!settings.program) throw std::runtime_error(std::string("cannot compile ") + path);
-  settings.parameters = ParameterValues::defaults(*settings.program);
-  settings.seed = 3;
-  settings.finest_cell = cell;
-  return settings;
-}
-
 std::vector<ChunkJob> jobsAround(const WorldField& world) {
-  const LodViewer viewer{{96 * 1024.0, 96 * 1024.0, 96 * 1024.0}};
-  LodSettings lod;
-  lod.finest_cell = world.settings().finest_cell;
-  lod.top = 4;
-  lod.view_distance = 150 * 1024.0;
   std::vector<ChunkJob> jobs;
-  for (const ChunkRequest& request : frameRequests(lodTarget({&viewer, 1}, lod))) {
+  for (const ChunkRequest& request : bench::aroundViewer(world.settings().finest_cell)) {
     ChunkJob& job = jobs.emplace_back();
     job.grid = must(chunkGrid(world, request.key));
     job.seams = request.seams;
@@ -94,7 +66,9 @@ Run meshAll(Backend& backend, const std::vector<ChunkJob>& jobs) {
 }
 
 void compare(const char* path, int32_t cell, unsigned threads) {
-  const WorldField world(settingsOf(path, cell), heap);
+  WorldFieldSettings settings = bench::settingsOf(path, 3);
+  settings.finest_cell = cell;
+  const WorldField world(settings, heap);
   const std::vector<ChunkJob> jobs = jobsAround(world);
   const auto pool = must(makeThreadPool(threads));
   BackendRequest request;
@@ -114,9 +88,10 @@ void compare(const char* path, int32_t cell, unsigned threads) {
     if (i == 0 || b.whole < best_device.whole) best_device = b;
   }
   const BackendCounters counters = device->counters();
-  std::printf("best of %d: CPU %.1f ms, Vulkan %.1f ms (%.2f times the CPU), %.2f %% of it in submit; by the CPU %llu\n",
-              kRuns, best_cpu.whole, best_device.whole, best_device.whole / best_cpu.whole,
-              100 * best_device.submitting / best_device.whole, static_cast<unsigned long long>(counters.on_cpu));
+  std::printf(
+      "best of %d: CPU %.1f ms, Vulkan %.1f ms (%.2f times the CPU), %.2f %% of it in submit; by the CPU %llu\n", kRuns,
+      best_cpu.whole, best_device.whole, best_device.whole / best_cpu.whole,
+      100 * best_device.submitting / best_device.whole, static_cast<unsigned long long>(counters.on_cpu));
 }
 
 }  // namespace

@@ -4,22 +4,18 @@
 
 #include <cstdio>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "base/hash.h"
-#include "grammar/compile.h"
+#include "cave.h"
 #include "measure.h"
 #include "stream/chunk_cache.h"
 #include "stream/chunk_codec.h"
 #include "stream/chunk_surface.h"
 #include "stream/disk_entry.h"
-#include "stream/frame.h"
-#include "stream/lod_target.h"
 
 using namespace sgm;
-using bench::now;
+using bench::must, bench::now;
 
 namespace {
 
@@ -28,39 +24,12 @@ std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
 
 using Bytes = std::pmr::vector<std::byte>;
 
-template <class T>
-T must(Result<T> result) {
-  if (!result) throw std::runtime_error(result.error().message);
-  return std::move(*result);
-}
-
-WorldFieldSettings caveSettings(const char* path) {
-  std::ifstream in(path);
-  std::stringstream text;
-  text << in.rdbuf();
-  WorldFieldSettings settings;
-  settings.program = compileGrammar(text.str(), path).program;
-  if (!settings.program) throw std::runtime_error(std::string("cannot compile ") + path);
-  settings.parameters = ParameterValues::defaults(*settings.program);
-  settings.seed = 7;
-  return settings;
-}
-
-std::vector<ChunkRequest> aroundViewer(int32_t finest_cell) {
-  const LodViewer viewer{{96 * 1024.0, 96 * 1024.0, 96 * 1024.0}};
-  LodSettings lod;
-  lod.finest_cell = finest_cell;
-  lod.top = 4;
-  lod.view_distance = 150 * 1024.0;
-  return frameRequests(lodTarget({&viewer, 1}, lod));
-}
-
 /// The chunks with triangles, of a frame of half-metre cells; prints what meshing takes.
 std::vector<ChunkRecord> caveChunks(const char* path) {
-  const WorldField world(caveSettings(path), heap);
+  const WorldField world(bench::settingsOf(path, 7), heap);
   const auto jobs = must(makeThreadPool(1));
   const auto backend = must(makeBackend({}, *jobs, heap));
-  const std::vector<ChunkRequest> requests = aroundViewer(world.settings().finest_cell);
+  const std::vector<ChunkRequest> requests = bench::aroundViewer(world.settings().finest_cell);
   must(meshChunks(world, *backend, *jobs, requests));  // cells are derived
   const double start = now();
   const auto chunks = must(meshChunks(world, *backend, *jobs, requests));
@@ -123,9 +92,9 @@ void files(const std::vector<ChunkRecord>& records, const std::filesystem::path&
 
 /// A frame of quarter-metre cells, chunk by chunk as a world asks for them, with and without the cache.
 void throughCache(const char* path, const std::filesystem::path& folder) {
-  WorldFieldSettings settings = caveSettings(path);
+  WorldFieldSettings settings = bench::settingsOf(path, 7);
   settings.finest_cell = kUnitsPerMetre / 4;
-  std::vector<ChunkRequest> requests = aroundViewer(settings.finest_cell);
+  std::vector<ChunkRequest> requests = bench::aroundViewer(settings.finest_cell);
   for (ChunkRequest& request : requests) request.signs = request.anchors = request.key.level == 0;
   const auto jobs = must(makeThreadPool(1));
   const auto backend = must(makeBackend({}, *jobs, heap));

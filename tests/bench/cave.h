@@ -1,0 +1,44 @@
+#pragma once
+// A grammar's world, and the chunks around a viewer in the sample cave: what the stages are measured on.
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "grammar/compile.h"
+#include "stream/frame.h"
+#include "stream/lod_target.h"
+
+namespace bench {
+
+template <class T>
+T must(sgm::Result<T> result) {
+  if (!result) throw std::runtime_error(result.error().message);
+  return std::move(*result);
+}
+
+/// path: of a grammar. Cells of half a metre.
+inline sgm::WorldFieldSettings settingsOf(const char* path, uint64_t seed) {
+  std::ifstream in(path);
+  std::stringstream text;
+  text << in.rdbuf();
+  sgm::WorldFieldSettings settings;
+  settings.program = sgm::compileGrammar(text.str(), path).program;
+  if (!settings.program) throw std::runtime_error(std::string("cannot compile ") + path);
+  settings.parameters = sgm::ParameterValues::defaults(*settings.program);
+  settings.seed = seed;
+  return settings;
+}
+
+inline std::vector<sgm::ChunkRequest> aroundViewer(int32_t finest_cell) {
+  const sgm::LodViewer viewer{{96 * 1024.0, 96 * 1024.0, 96 * 1024.0}};
+  sgm::LodSettings lod;
+  lod.finest_cell = finest_cell;
+  lod.top = 4;
+  lod.view_distance = 150 * 1024.0;
+  return sgm::frameRequests(sgm::lodTarget({&viewer, 1}, lod));
+}
+
+}  // namespace bench
