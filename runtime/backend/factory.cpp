@@ -43,7 +43,7 @@ Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest& request, bool 
   }
   options.pipeline_folder = request.pipeline_folder;
   options.warn = request.warn;
-  return makeVulkanBackend(options, std::move(*cpu), jobs, memory, profiler);
+  return makeVulkanBackend(options, std::move(*cpu), memory, profiler);
 }
 #else
 Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest&, bool, JobSystem&, std::pmr::memory_resource*,

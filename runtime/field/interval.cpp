@@ -73,6 +73,29 @@ Interval kernelBounds(Interval x, double error) {
   return {std::max(0.0, lo - error), hi > 0 ? hi + error : 0.0};
 }
 
+struct CentredBox {
+  double x, y, z;     // centre
+  double hx, hy, hz;  // half extents
+};
+
+CentredBox centred(const PlaceBox& b) {
+  return {(b.x.lo + b.x.hi) / 2, (b.y.lo + b.y.hi) / 2, (b.z.lo + b.z.hi) / 2,
+          (b.x.hi - b.x.lo) / 2, (b.y.hi - b.y.lo) / 2, (b.z.hi - b.z.lo) / 2};
+}
+
+// Squared distance from a ball's centre to the box: its range is exact.
+Interval distance2(const uint32_t* p, const PlaceBox& b) {
+  auto axis = [](Interval i, double c) { return squared(offsets(i, c)); };
+  const Interval x = axis(b.x, wholeAt(p, 1)), y = axis(b.y, wholeAt(p, 2)), z = axis(b.z, wholeAt(p, 3));
+  return {x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
+}
+
+double farthestOffset(const uint32_t* p, const PlaceBox& b) { return std::sqrt(distance2(p, b).hi); }
+
+}  // namespace
+
+double statedError(Op op) { return errorOf(op); }
+
 double sizeSum(Op op, const uint32_t* p) {
   auto sum = [&](int first, int last) {
     double s = 0;
@@ -105,29 +128,6 @@ double sizeSum(Op op, const uint32_t* p) {
       return 0;
   }
 }
-
-struct CentredBox {
-  double x, y, z;     // centre
-  double hx, hy, hz;  // half extents
-};
-
-CentredBox centred(const PlaceBox& b) {
-  return {(b.x.lo + b.x.hi) / 2, (b.y.lo + b.y.hi) / 2, (b.z.lo + b.z.hi) / 2,
-          (b.x.hi - b.x.lo) / 2, (b.y.hi - b.y.lo) / 2, (b.z.hi - b.z.lo) / 2};
-}
-
-// Squared distance from a ball's centre to the box: its range is exact.
-Interval distance2(const uint32_t* p, const PlaceBox& b) {
-  auto axis = [](Interval i, double c) { return squared(offsets(i, c)); };
-  const Interval x = axis(b.x, wholeAt(p, 1)), y = axis(b.y, wholeAt(p, 2)), z = axis(b.z, wholeAt(p, 3));
-  return {x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
-}
-
-double farthestOffset(const uint32_t* p, const PlaceBox& b) { return std::sqrt(distance2(p, b).hi); }
-
-}  // namespace
-
-double statedError(Op op) { return errorOf(op); }
 
 PlaceBox placeBox(const IntBox& box) {
   auto axis = [](int32_t lo, int32_t hi) { return Interval{static_cast<double>(lo), static_cast<double>(hi)}; };

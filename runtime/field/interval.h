@@ -21,6 +21,9 @@ PlaceBox placeBox(const IntBox& box);
 /// The op's relative error in ops.def.
 double statedError(Op op);
 
+/// The sizes that enter a primitive's value beside its offset: its rounding is relative to the sum of both.
+double sizeSum(Op op, const uint32_t* params);
+
 /// Bounds of an op that reads a position (t: the operand of power_morph).
 Interval boundPosition(Op op, const uint32_t* params, const PlaceBox& box, Interval t);
 

@@ -37,7 +37,7 @@ struct VulkanMachine {
     Result<std::unique_ptr<Backend>> cpu = makeCpuBackend("", *jobs, std::pmr::get_default_resource(), {});
     REQUIRE(cpu);
     Result<std::unique_ptr<Backend>> made =
-        makeVulkanBackend(options, std::move(*cpu), *jobs, std::pmr::get_default_resource(), {});
+        makeVulkanBackend(options, std::move(*cpu), std::pmr::get_default_resource(), {});
     if (made) {
       vulkan = std::move(*made);
       return;

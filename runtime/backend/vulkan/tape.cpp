@@ -4,8 +4,9 @@
 #include <array>
 #include <bit>
 #include <bitset>
-#include <cmath>
 #include <cstring>
+
+#include "field/interval.h"
 
 namespace sgm {
 
@@ -124,39 +125,6 @@ uint32_t parameterWords(Op op, const uint32_t* p) {
       return 10;  // the samples lie apart
     default:
       return shapeOf(op).position ? 21 : 2;
-  }
-}
-
-/// The sizes that enter a primitive's value beside its offset: what its rounding is measured by (field/interval.cpp).
-float sizesOf(Op op, const uint32_t* p) {
-  const auto sum = [p](int first, int last) {
-    float s = 0;
-    for (int i = first; i <= last; ++i) s += std::abs(std::bit_cast<float>(p[i]));
-    return s;
-  };
-  switch (op) {
-    case Op::sphere:
-      return sum(4, 4);
-    case Op::capsule:
-      return sum(4, 6) + sum(8, 8);
-    case Op::box:
-    case Op::truncone:
-      return sum(13, 15);
-    case Op::cylinder:
-    case Op::torus:
-      return sum(13, 14);
-    case Op::ellipsoid:
-    case Op::superquadric:
-      return sum(16, 16);
-    case Op::power_morph:
-      return sum(13, 18);
-    case Op::prism: {
-      float corner = 0;
-      for (int k = 0; k < static_cast<int>(p[14]); ++k) corner = std::max(corner, sum(15 + 6 * k, 18 + 6 * k));
-      return sum(13, 13) + corner;
-    }
-    default:
-      return 0;
   }
 }
 
@@ -420,7 +388,7 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
   if (n.ends_layer) record[1] = n.layer;
   std::copy_n(params, std::min(count, kFirstWords), record + 2);
   if (count > kFirstWords) std::copy_n(params + kFirstWords, count - kFirstWords, record + kTapeRecordWords);
-  if (is_op && shapeOf(op).position) record[30] = std::bit_cast<uint32_t>(sizesOf(op, params));
+  if (is_op && shapeOf(op).position) record[30] = std::bit_cast<uint32_t>(static_cast<float>(sizeSum(op, params)));
   return pieces;
 }
 

@@ -401,8 +401,7 @@ class VulkanBackend final : public Backend {
 }  // namespace
 
 Result<std::unique_ptr<Backend>> makeVulkanBackend(const VulkanBackendOptions& options, std::unique_ptr<Backend> cpu,
-                                                   JobSystem&, std::pmr::memory_resource* memory,
-                                                   const Profiler& profiler) {
+                                                   std::pmr::memory_resource* memory, const Profiler& profiler) {
   Result<std::shared_ptr<Session>> session = openSession(options);
   if (!session) return session.error();
   return std::unique_ptr<Backend>(

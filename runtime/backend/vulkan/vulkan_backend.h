@@ -22,7 +22,6 @@ struct VulkanBackendOptions {
 /// Meshes what a device has no room for, or loses, by the CPU backend that it is given; the stream goes on, with the
 /// same bytes. Errors, where the device cannot even be opened: as options.open.
 Result<std::unique_ptr<Backend>> makeVulkanBackend(const VulkanBackendOptions& options, std::unique_ptr<Backend> cpu,
-                                                   JobSystem& jobs, std::pmr::memory_resource* memory,
-                                                   const Profiler& profiler);
+                                                   std::pmr::memory_resource* memory, const Profiler& profiler);
 
 }  // namespace sgm

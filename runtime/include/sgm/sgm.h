@@ -467,8 +467,8 @@ typedef enum sgm_host_flag {
 } sgm_host_flag;
 
 /* A field of the host's own beside the grammar's: a terrain, or rooms that another program made. Meshed, streamed and
- * asked about like everything else, and dug into by edits; also outside of a finite domain. The grammar's own rules know
- * nothing of it.
+ * asked about like everything else, and dug into by edits; also outside of a finite domain. The grammar's own rules
+ * know nothing of it.
  * Its values are rounded to 1/1024 unit, and read linearly between the points of each level, normals from differences
  * over two cells. So that neighbouring chunks fit, a value must be the same whenever its point is asked for at one
  * spacing; so that it is on every machine, it must be computed alike there.
@@ -488,8 +488,8 @@ typedef struct sgm_host_field {
                          and over what it changes by in two cells: wider blends of edits end there. Values farther apart
                          than this allows fail a chunk. 0: not known */
   uint32_t flags;     /* of sgm_host_flag */
-  uint16_t material;  /* index for sgm_grammar_material; 0: the default. Of a cut: what it leaves on the surface, 0: what
-                         was there */
+  uint16_t material;  /* index for sgm_grammar_material; 0: the default. Of a cut: what it leaves on the surface, 0:
+                         what was there */
   uint16_t tag;       /* index for sgm_grammar_tag */
   int32_t smooth;     /* width of the blend with what is there, 0 to 16,384 units; 0: none */
 } sgm_host_field;
@@ -738,8 +738,8 @@ typedef struct sgm_chunks_desc {
  * where), or more than 2^20 cells of a layer reach into one chunk. */
 SGM_API sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_mesh** meshes, sgm_error* error);
 
-/* One more owner, and one less. A mesh ends with its last owner; both then refuse it, as functions that end a handle do.
- * Both accept NULL. */
+/* One more owner, and one less. A mesh ends with its last owner; both then refuse it, as functions that end a handle
+ * do. Both accept NULL. */
 SGM_API sgm_result sgm_mesh_acquire(sgm_mesh* mesh);
 SGM_API sgm_result sgm_mesh_release(sgm_mesh* mesh);
 
@@ -988,8 +988,8 @@ typedef struct sgm_world_desc {
  * journal is in use, or too large. SGM_ERR_RANGE: the cells of top_level are larger than 2^22 units.
  * SGM_ERR_INVALID_ARGUMENT: top_level, or a distance that is not finite and above 0 (collider_distance: below 0); a
  * journal or a cache_folder with a host's field whose identity is 0.
- * SGM_ERR_DATA: the journal is of another world (grammar, parameters, seed, cell, host's fields), or none: it stays as it
- * is.
+ * SGM_ERR_DATA: the journal is of another world (grammar, parameters, seed, cell, host's fields), or none: it stays as
+ * it is.
  * SGM_ERR_IO: the journal or the folder can be neither read nor made. SGM_ERR_UNSUPPORTED: built without a disk cache;
  * SGM_WORLD_RESIDENT, and the field's backend is not on a lent device. */
 SGM_API sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_world** out, sgm_error* error);
@@ -1097,11 +1097,11 @@ typedef struct sgm_drawn_chunk {
 SGM_API sgm_result sgm_world_get_drawn(sgm_world* world, sgm_drawn_chunk* chunks, size_t chunk_stride, size_t* count,
                                        sgm_error* error);
 
-/* Blocks until everything that the viewers want is drawn, as far as it can be made (SGM_EVENT_FAILED and the statistics'
- * chunks_failed tell of the rest): for loading screens, tools and tests. Works along. Updates without a limit of bytes
- * meanwhile, so that events gather, to be polled after. progress (or NULL) is told now and then how many chunks are
- * meshed of those known to be wanted; what it returns other than 0 ends the wait with SGM_ERR_CANCELLED. SGM_ERR_LIMIT:
- * memory does not suffice. */
+/* Blocks until everything that the viewers want is drawn, as far as it can be made (SGM_EVENT_FAILED and the
+ * statistics' chunks_failed tell of the rest): for loading screens, tools and tests. Works along. Updates without a
+ * limit of bytes meanwhile, so that events gather, to be polled after. progress (or NULL) is told now and then how many
+ * chunks are meshed of those known to be wanted; what it returns other than 0 ends the wait with SGM_ERR_CANCELLED.
+ * SGM_ERR_LIMIT: memory does not suffice. */
 SGM_API sgm_result sgm_world_wait_idle(sgm_world* world, sgm_progress_function progress, void* progress_user,
                                        sgm_error* error);
 
@@ -1203,7 +1203,8 @@ typedef struct sgm_world_stats {
   uint64_t mesh_bytes; /* of all meshes now, the engine's included */
   uint64_t peak_mesh_bytes;
   double detail;           /* factor on the distances of detail: below 1 where memory is scarce */
-  int32_t idle;            /* 1: what the viewers want is drawn, as far as it can be made, edits and colliders included */
+  int32_t idle;            /* 1: what the viewers want is drawn, as far as it can be made, edits and colliders
+                              included */
   uint32_t reserved;       /* 0 */
   uint64_t collider_bytes; /* of the colliders that chunks have now */
   uint64_t edits;          /* known: brushes, undos and redos */
