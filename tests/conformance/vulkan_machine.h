@@ -27,13 +27,12 @@ struct VulkanMachine {
   using Open = std::function<Result<std::unique_ptr<vulkan::Device>>()>;
 
   /// open: instead of a device of our own that the layer watches.
-  explicit VulkanMachine(const BatchRoom& room = {}, const Open& open = nullptr,
-                         const std::filesystem::path& pipeline_folder = {}) {
-    VulkanBackendOptions options;
-    options.room = room;
-    options.pipeline_folder = pipeline_folder;
+  explicit VulkanMachine(const BatchRoom& room = {}, const Open& open = nullptr)
+      : VulkanMachine(optionsOf(room, open)) {}
+  /// Where options.open is null: as above.
+  explicit VulkanMachine(VulkanBackendOptions options) {
     options.warn = [this](const std::string& text) { warnings.push_back(text); };
-    options.open = open ? open : [log_of_all = log] { return vulkan::Device::open(watched(log_of_all)); };
+    if (!options.open) options.open = [log_of_all = log] { return vulkan::Device::open(watched(log_of_all)); };
     Result<std::unique_ptr<Backend>> cpu = makeCpuBackend("", *jobs, std::pmr::get_default_resource(), {});
     REQUIRE(cpu);
     Result<std::unique_ptr<Backend>> made =
@@ -50,10 +49,18 @@ struct VulkanMachine {
   VulkanMachine& operator=(const VulkanMachine&) = delete;
   explicit operator bool() const { return vulkan != nullptr; }
 
-  static vulkan::OwnDevice watched(std::shared_ptr<vulkan::MessageLog> log) {
+  static VulkanBackendOptions optionsOf(const BatchRoom& room, const Open& open) {
+    VulkanBackendOptions options;
+    options.room = room;
+    options.open = open;
+    return options;
+  }
+
+  static vulkan::OwnDevice watched(std::shared_ptr<vulkan::MessageLog> log,
+                                   vulkan::Validation validation = vulkan::Validation::synchronization) {
     vulkan::OwnDevice device;
     device.software = true;
-    device.validation = vulkan::Validation::synchronization;
+    device.validation = validation;
     device.log = std::move(log);
     return device;
   }

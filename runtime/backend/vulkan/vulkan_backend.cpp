@@ -61,9 +61,7 @@ Result<std::shared_ptr<Session>> openSession(const VulkanBackendOptions& options
   auto queue = vulkan::Queue::create(*session->device);
   if (!queue) return queue.error();
   session->queue = std::move(*queue);
-  vulkan::MemoryOptions memory;
-  memory.cap = options.memory_cap;
-  session->memory = std::make_unique<vulkan::Memory>(*session->device, memory);
+  session->memory = std::make_unique<vulkan::Memory>(*session->device, options.memory);
   auto ring = vulkan::CommandRing::create(*session->queue);
   if (!ring) return ring.error();
   session->ring = std::move(*ring);

@@ -7,6 +7,7 @@
 #include "backend/backend.h"
 #include "backend/vulkan/batch_plan.h"
 #include "backend/vulkan/device.h"
+#include "backend/vulkan/memory.h"
 
 namespace sgm {
 
@@ -15,7 +16,7 @@ struct VulkanBackendOptions {
   std::function<Result<std::unique_ptr<vulkan::Device>>()> open;
   std::filesystem::path pipeline_folder;         ///< where pipelines are kept from run to run; empty: nowhere
   std::function<void(const std::string&)> warn;  ///< as BackendRequest::warn
-  uint64_t memory_cap = UINT64_MAX;              ///< bytes of the device's memory, at most
+  vulkan::MemoryOptions memory;
   BatchRoom room;
 };
 

@@ -75,7 +75,10 @@ struct Faulty {
   ~Faulty() { KeptPipelines::destroyAll(engine.device); }
 
   VulkanMachine machine(const BatchRoom& room = {}, const fs::path& pipeline_folder = {}) {
-    const auto open = [this] {
+    VulkanBackendOptions options;
+    options.room = room;
+    options.pipeline_folder = pipeline_folder;
+    options.open = [this] {
       vulkan::BorrowedDevice lent = engine.lend();
       lent.replace_calls = [](vulkan::DeviceTable& table) {
         KeptPipelines::wrap(table);
@@ -83,7 +86,7 @@ struct Faulty {
       };
       return vulkan::Device::borrow(lent);
     };
-    return VulkanMachine(room, open, pipeline_folder);
+    return VulkanMachine(options);
   }
 };
 

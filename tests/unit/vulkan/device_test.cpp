@@ -135,6 +135,40 @@ TEST_CASE("shaders are watched on the device where that is asked for", "[vulkan]
   CHECK((*device)->messages() == std::vector<std::string>());
 }
 
+TEST_CASE("a shader that reaches beyond its buffer is heard", "[vulkan]") {
+  if (!haveDevice()) return;
+  OwnDevice options = watched();
+  options.validation = Validation::gpu_assisted;
+  const auto device = Device::open(options);
+  REQUIRE(device);
+  const uint32_t constants[] = {0, 1};
+  const auto shader = Pipeline::create(**device, affineShader(constants));
+  REQUIRE(shader);
+  // What the layer knows of are whole VkBuffers: a block for each.
+  MemoryOptions small;
+  small.first_block = small.largest_block = 64 * sizeof(int32_t);
+  Memory memory(**device, small);
+  const auto in = memory.buffer(MemoryKind::device, 64 * sizeof(int32_t));
+  const auto out = memory.buffer(MemoryKind::device, 64 * sizeof(int32_t));
+  const auto queue = Queue::create(**device);
+  REQUIRE((in && out && queue));
+  const auto ring = CommandRing::create(**queue);
+  REQUIRE(ring);
+  for (const int32_t count : {64, 65}) {
+    auto commands = (*ring)->begin();
+    REQUIRE(commands);
+    commands->fill(*in, 1);
+    commands->barrier(kTransfer, kCompute);
+    REQUIRE(commands->bind(*shader, std::array<BufferRange, 2>{*in, *out}, bytesOf(count)));
+    commands->dispatch(2);
+    const auto value = (*ring)->submit(std::move(*commands));
+    REQUIRE(value);
+    REQUIRE((*queue)->wait(*value));
+    for (const std::string& text : (*device)->messages()) UNSCOPED_INFO(text);
+    CHECK((*device)->messages().empty() == (count == 64));
+  }
+}
+
 TEST_CASE("where there is no driver or no validation layer, the error says what to install", "[vulkan]") {
   if (!haveDevice()) return;
   {

@@ -1,0 +1,71 @@
+// The mesher's shaders under GPU-assisted validation, which puts a check before each of their accesses: none reaches
+// beyond its buffer. That the layer would say so is tested beside the device (tests/unit/vulkan).
+
+#include "catch.h"
+#include "compare_meshes.h"
+#include "mesh_jobs.h"
+#include "vulkan_machine.h"
+
+using namespace sgm;
+
+namespace {
+
+/// Two layers of spheres that add, cut and blend, some with seams to others, some to none. Few kinds of instructions:
+/// each is compiled with its checks.
+std::vector<ChunkJob> layeredBalls(uint32_t seed, size_t count) {
+  std::mt19937 random(seed);
+  std::vector<ChunkJob> jobs;
+  for (size_t i = 0; i < count; ++i) {
+    const Int3 centre = kTestCentres[i % 3];
+    const auto near = [&] {
+      Int3 at = centre;
+      for (int axis = 0; axis < 3; ++axis) at[axis] += static_cast<int32_t>(random() % 2000);
+      return shared(layered(at));
+    };
+    ChunkJob& job = jobs.emplace_back();
+    job.grid = gridAround(centre, 256 << random() % 2);
+    job.field = near();
+    job.seams = static_cast<uint8_t>(i == 0 ? 63 : i == 1 ? 0 : random() % 64);
+    if (job.seams != 0) job.coarse = near();
+    job.coarser = neighboursAcross(job.seams);
+    job.signs = i % 2 == 0;
+    job.body = i % 5 != 4;
+  }
+  return jobs;
+}
+
+}  // namespace
+
+TEST_CASE("no shader reaches beyond its buffers, in batches that find room and in those that do not") {
+  constexpr uint32_t kSeed = 20'260'101;
+  CAPTURE(kSeed);
+  const auto log = std::make_shared<vulkan::MessageLog>();
+  VulkanBackendOptions options;
+  options.open = [log] { return vulkan::Device::open(VulkanMachine::watched(log, vulkan::Validation::gpu_assisted)); };
+  // What the layer knows of are whole VkBuffers: one for each of ours.
+  options.memory.first_block = options.memory.largest_block = 256;
+  // A batch has room for eight chunks at least: enough for four of these balls, and not for twenty.
+  options.room = {900, 5400, 900};
+  const VulkanMachine machine(options);
+  if (!machine) return;
+  for (const size_t count : {size_t{4}, size_t{20}}) {
+    const std::vector<ChunkJob> jobs = layeredBalls(kSeed, count);
+    const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
+    const uint64_t before = machine.vulkan->counters().on_cpu;
+    const std::vector<ChunkMesh> found = meshesOf(*machine.vulkan, jobs);
+    const uint64_t on_cpu = machine.vulkan->counters().on_cpu - before;
+    size_t triangles = 0, in_seams = 0;
+    for (size_t i = 0; i < count; ++i) {
+      CAPTURE(i);
+      CHECK(differenceOf(expected[i], found[i]) == "");
+      triangles += expected[i].body.indices.size() / 3;
+      for (const MeshPart& seam : expected[i].seams) in_seams += seam.indices.size() / 3;
+    }
+    CAPTURE(count, triangles, in_seams, on_cpu);
+    CHECK(triangles > 300 * count);
+    CHECK(in_seams > 10 * count);
+    CHECK((on_cpu > 0) == (count == 20));
+    CHECK(on_cpu < count);
+  }
+  CHECK(VulkanMachine::silent(log->texts()));
+}
