@@ -49,6 +49,7 @@ bool readMesh(const BatchPlan& plan, const Mesher::Output& output, size_t chunk,
     if (!mesh.uniform) readPart(output, planned.body, job, 0, mesh.body);
   }
   if (job.seams == 0) return true;
+  mesh.seams.reserve(6);
   for (size_t face = 0; face < 6; ++face) {
     MeshPart& seam = mesh.seams.emplace_back(mesh.body.vertices.get_allocator().resource());
     if (planned.seams[face] == batch::kNoRoom) continue;

@@ -269,6 +269,7 @@ class VulkanBatch final : public ChunkBatch {
         mesh.uniform = true;
         mesh.solid_samples = job.field->initial < 0 ? kChunkCells * kChunkCells * kChunkCells : 0;
       }
+      if (job.seams != 0) mesh.seams.reserve(6);
       for (int face = 0; job.seams != 0 && face < 6; ++face) mesh.seams.emplace_back(shared_.memory);
       finished(slot.first + number);
     }

@@ -1,5 +1,6 @@
 #include "counted_heap.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -11,7 +12,7 @@ thread_local int allocations = 0;
 void* allocate(size_t size, size_t alignment) noexcept {
   ++allocations;
   void* memory = nullptr;
-  return posix_memalign(&memory, alignment, size) == 0 ? memory : nullptr;
+  return posix_memalign(&memory, std::max(alignment, alignof(void*)), size) == 0 ? memory : nullptr;
 }
 
 void* allocateOrThrow(size_t size, size_t alignment) {
