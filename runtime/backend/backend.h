@@ -81,7 +81,8 @@ class ChunkBatch {
   virtual bool poll() = 0;
   /// Ends when all jobs have; the calling thread works too, as one of the job system's workers (base/jobs.h).
   virtual void wait() = 0;
-  /// Jobs that have not begun end without a mesh. Any thread.
+  /// Jobs that have not begun end without a mesh. Any thread. A device cannot be stopped: what was submitted to it runs
+  /// to its end, and only its meshes are not read.
   virtual void cancel() = 0;
   /// After the end: one mesh a job, in order. out_of_memory, or cancelled where a job did not run. What else a job has
   /// thrown is thrown here again.

@@ -251,6 +251,56 @@ void cancelBatches(Faulty& faulty) {
   checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
 }
 
+/// Cancelled at any moment by another thread, a batch ends, with all of its meshes or none, and the next is whole.
+void cancelAnywhere(Faulty& faulty) {
+  using Clock = std::chrono::steady_clock;
+  const VulkanMachine roomy = faulty.machine(), scarce = faulty.machine({6144, 384, 6144});
+  REQUIRE((roomy && scarce));
+  const std::vector<ChunkJob> jobs = spheres(8, 12);
+  const std::vector<ChunkMesh> expected = meshesOf(*roomy.scalar, jobs);
+  constexpr uint32_t kSeed = 20'260'102;
+  std::cout << "cancelling, seed " << kSeed << std::endl;
+  std::mt19937 random(kSeed);
+  unsigned cancelled = 0, whole = 0;
+  for (const VulkanMachine* machine : {&roomy, &scarce}) {
+    checkSame(expected, meshesOf(*machine->vulkan, jobs));
+    const auto before = Clock::now();
+    checkSame(expected, meshesOf(*machine->vulkan, jobs));
+    const auto took = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - before).count();
+    for (uint32_t round = 0; round < rounds(20); ++round) {
+      // Before all else, after all else, and anywhere between.
+      const auto wait = round == 0 ? 0 : static_cast<int64_t>(random() % static_cast<uint64_t>(took + 1));
+      const bool polls = random() % 2 == 0;
+      CAPTURE(round, wait, polls);
+      auto batch = machine->vulkan->submit(jobs);
+      REQUIRE(batch);
+      std::thread other;
+      if (round == 0) (*batch)->cancel();
+      if (round > 1) {
+        other = std::thread([&] {
+          std::this_thread::sleep_for(std::chrono::microseconds(wait));
+          (*batch)->cancel();
+        });
+      }
+      if (polls) {
+        while (!(*batch)->poll()) std::this_thread::sleep_for(std::chrono::microseconds(200));
+      } else {
+        (*batch)->wait();
+      }
+      if (other.joinable()) other.join();
+      if (round == 1) (*batch)->cancel();
+      const auto meshes = (*batch)->take();
+      ++(meshes ? whole : cancelled);
+      if (meshes) checkSame(expected, *meshes);
+      if (!meshes) REQUIRE(meshes.error().code == Code::cancelled);
+      checkSame(expected, meshesOf(*machine->vulkan, jobs));
+    }
+  }
+  CAPTURE(cancelled, whole);
+  CHECK(cancelled >= 2);
+  CHECK(whole >= 2);
+}
+
 struct Folder {
   fs::path path;
   Folder() {
@@ -314,6 +364,7 @@ TEST_CASE("whatever the device refuses, the meshes are right, and the next batch
   failCalls(faulty);
   leaveNoRoom(faulty);
   cancelBatches(faulty);
+  cancelAnywhere(faulty);
   keepPipelines(faulty);
 }
 
