@@ -107,6 +107,7 @@ sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_back
     info->usable = made ? 1 : 0;
     info->exact = 0;
     info->concurrency = 0;
+    info->chunks = info->chunks_on_cpu = info->losses = 0;
     copyText(info->name, sgm::backendName(request->kind));
     copyText(info->device, "");
     copyText(info->reason, made ? "" : made.error().message);
@@ -115,6 +116,10 @@ sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_back
       info->backend = backendOf(capabilities.kind);
       info->exact = capabilities.exact ? 1 : 0;
       info->concurrency = capabilities.concurrency;
+      const sgm::BackendCounters counters = (*made)->counters();
+      info->chunks = counters.chunks;
+      info->chunks_on_cpu = counters.on_cpu;
+      info->losses = counters.device_lost;
       copyText(info->name, sgm::backendName(capabilities.kind));
       copyText(info->device, capabilities.device);
     }

@@ -188,6 +188,9 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   if (!hash) return {{}, cli::complain(hash.error())};
   flown.hash = *hash;
   sgm_runtime_memory(scene.runtime.get(), nullptr, &flown.runtime_peak_bytes);
+  sgm_error error = SGM_ERROR_INIT;
+  if (sgm_backend_query(scene.runtime.get(), backendNamed(options.backend), &flown.backend, &error) != SGM_OK)
+    return {{}, complain(error)};
   return {std::move(flown), Exit::done};
 }
 

@@ -68,6 +68,12 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
         {"handed_over_per_frame", {{"largest", r.peak_handed_over}, {"cap", flown.frame_bytes}}}}},
       {"cache", {{"hits", r.stats.cache_hits}, {"misses", r.stats.cache_misses}, {"damaged", r.stats.cache_damaged}}},
       {"edits", r.stats.edits},
+      {"backend", flown.backend.name},
+      {"device", flown.backend.device},
+      {"on_device",
+       {{"chunks", flown.backend.chunks - flown.backend.chunks_on_cpu},
+        {"chunks_on_cpu", flown.backend.chunks_on_cpu},
+        {"losses", flown.backend.losses}}},
       {"world_hash", fmt::format("{:016x}", flown.hash)},
       {"seconds", r.seconds}};
   if (by_distance) {
@@ -123,6 +129,11 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
   if (!options.cache.empty()) {
     fmt::print("  cache     {} parts of chunks found, {} not ({} damaged), {:.1f} MB\n", r.stats.cache_hits,
                r.stats.cache_misses, r.stats.cache_damaged, megabytes(r.stats.cache_bytes));
+  }
+  if (flown.backend.chunks > 0) {
+    fmt::print("  device    {} meshed {} parts of chunks, the CPU {} in its stead; lost {} times\n",
+               flown.backend.device, flown.backend.chunks - flown.backend.chunks_on_cpu, flown.backend.chunks_on_cpu,
+               flown.backend.losses);
   }
   fmt::print("  hash      {:016x} (level 0 within 32 m of the end, seed {})\n", flown.hash, options.seed);
 }

@@ -11,9 +11,10 @@ namespace sgm::cli {
 
 struct Flown {
   FlightReport report;
-  uint64_t hash = 0;                ///< of level 0 around the end, at rest
-  uint64_t runtime_peak_bytes = 0;  ///< of all that the runtime held at one time
-  uint64_t frame_bytes = 0;         ///< the most that could be handed over in one frame
+  uint64_t hash = 0;                                 ///< of level 0 around the end, at rest
+  uint64_t runtime_peak_bytes = 0;                   ///< of all that the runtime held at one time
+  uint64_t frame_bytes = 0;                          ///< the most that could be handed over in one frame
+  sgm_backend_info backend = SGM_BACKEND_INFO_INIT;  ///< at the end
 };
 
 /// by_distance: of a second flight, with level 0 by distance alone.

@@ -74,6 +74,11 @@ std::vector<std::string> warningsOfABall(const fs::path& folder) {
     const FieldOwner field(made);
     const std::vector<MeshOwner> meshes = meshChunks(field.get(), {chunkAt({0, 0, 0, 0})});
     CHECK(viewOf(meshes[0]).index_count > 0);
+    sgm_backend_info info = SGM_BACKEND_INFO_INIT;
+    REQUIRE(sgm_backend_query(runtime.get(), SGM_BACKEND_VULKAN, &info, nullptr) == SGM_OK);
+    CHECK(info.chunks == 1);
+    CHECK(info.chunks_on_cpu == 0);
+    CHECK(info.losses == 0);
   }
   return warnings.texts;
 }

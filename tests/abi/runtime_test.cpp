@@ -236,6 +236,7 @@ TEST_CASE("the CPU backend is usable and exact, and auto chooses one that is usa
   CHECK(std::string(cpu.name) == "cpu");
   CHECK(std::strlen(cpu.device) > 0);
   CHECK(std::strlen(cpu.reason) == 0);
+  CHECK(cpu.chunks + cpu.chunks_on_cpu + cpu.losses == 0);
   sgm_backend_info chosen = SGM_BACKEND_INFO_INIT;
   REQUIRE(sgm_backend_query(runtime.get(), SGM_BACKEND_AUTO, &chosen, nullptr) == SGM_OK);
   CHECK(chosen.usable == 1);

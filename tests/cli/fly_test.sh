@@ -77,6 +77,21 @@ err_has 'ffmpeg'
 one_line
 expect 0 "$SGM" backends --json
 if node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).vulkan_devices.length ? 0 : 1)' "$work/.out"; then
+  # Who meshes makes no difference, and what the driver has compiled is kept. Few kinds of shapes: software Vulkan takes
+  # seconds to compile each, longer than the flight; but the world is at rest before it is hashed.
+  {
+    echo 'sgm 1; units m; domain infinite; layer l cell 16m reach 1m { start Balls; }'
+    echo 'rule Balls { for x in 0..1 { for z in 0..1 { at(4m+8m*x, 8m, 4m+8m*z) sphere(2.6m); } } }'
+  } >balls.sgm
+  balls=(balls.sgm --cell 0.5 --finest 12 --top-level 2 --view 40 --path path.json --speed 10 --frames 30 --unpaced --json)
+  expect 0 "$SGM" fly "${balls[@]}" --backend cpu
+  json 'j.backend === "cpu" && j.on_device.chunks === 0'
+  hash=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).world_hash' "$work/.out")
+  expect 0 "$SGM" fly "${balls[@]}" --backend vulkan
+  json "j.world_hash === '$hash' && j.world_hash !== '0000000000000000'"
+  json 'j.backend === "vulkan" && j.device !== "" && j.on_device.chunks > 0 && j.on_device.losses === 0'
+  [[ $(head -c 4 .cache/sgm/pipelines/vulkan-*.cache) == SGMP ]] || failed "no pipelines are kept"
+  rm balls.sgm
   encoder 'wc -c >"$file"; printf "%s " "$@" >>"$file"'
   expect 0 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 3
   [[ $(<flight.mp4) == "$((2 * 640 * 360 * 4))"*' -s 640x360 -r 30 '* ]] || failed "the video is not two pictures"

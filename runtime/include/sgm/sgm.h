@@ -278,12 +278,14 @@ typedef struct sgm_backend_info {
   char name[SGM_NAME_SIZE];   /* "cpu", "vulkan", "cuda" */
   char device[SGM_NAME_SIZE]; /* device or instruction set in use, "AVX2"; empty where not usable */
   char reason[SGM_NAME_SIZE]; /* empty where usable */
+  /* Of a device, which all fields of a runtime share: since it was first used. 0 for the CPU. */
+  uint64_t chunks;        /* that have become meshes */
+  uint64_t chunks_on_cpu; /* of these, meshed by the CPU instead: too large for the device, or while it failed */
+  uint64_t losses;        /* how often the device was lost */
 } sgm_backend_info;
 
-#define SGM_BACKEND_INFO_INIT                                                          \
-  {                                                                                    \
-    SGM_SIZEOF(sgm_backend_info), SGM_NULL, SGM_BACKEND_AUTO, 0, 0, 0, {0}, {0}, { 0 } \
-  }
+#define SGM_BACKEND_INFO_INIT \
+  { SGM_SIZEOF(sgm_backend_info), SGM_NULL, SGM_BACKEND_AUTO, 0, 0, 0, {0}, {0}, {0}, 0, 0, 0 }
 
 /* Says whether a backend can be used here, and why not. A backend that is not usable is SGM_OK with usable = 0; a
  * number that is no backend is SGM_ERR_INVALID_ARGUMENT. */
