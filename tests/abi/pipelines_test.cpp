@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <mutex>
 
 #include "fixture.h"
+#include "temporary_folder.h"
 
 namespace fs = std::filesystem;
 
@@ -24,21 +24,6 @@ bool haveDevice() {
   REQUIRE(std::getenv("SGM_REQUIRE_VULKAN") == nullptr);
   std::fprintf(stderr, "SKIPPED: %s\n", info.reason);
   return false;
-}
-
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "sgm_pipelines_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-};
-
-std::string readAll(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 struct Warnings {
@@ -87,11 +72,11 @@ std::vector<std::string> warningsOfABall(const fs::path& folder) {
 
 TEST_CASE("a folder that cannot hold pipelines costs one line in the log", "[vulkan]") {
   if (!haveDevice()) return;
-  const Folder folder;
+  const sgm::TemporaryFolder folder;
   std::ofstream(folder.path / "file") << "in the way";
   const std::vector<std::string> warnings = warningsOfABall(folder.path / "file" / "folder");
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].find("compiled pipelines are not kept") != std::string::npos);
   CHECK(warnings[0].find((folder.path / "file" / "folder").string()) != std::string::npos);
-  CHECK(readAll(folder.path / "file") == "in the way");
+  CHECK(sgm::contentOf(folder.path / "file") == "in the way");
 }

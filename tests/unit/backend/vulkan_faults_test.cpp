@@ -1,5 +1,5 @@
-// The device fails, is lost, or has no room: the meshes are the same, the CPU has made what the device has not, and
-// the next batch finds a device again.
+// The device fails, is lost, has no room, or is not waited for: the meshes are the same, the CPU has made what the
+// device has not, and the next batch finds a device again.
 
 #include <atomic>
 #include <chrono>
@@ -14,6 +14,7 @@
 #include "compare_meshes.h"
 #include "mesh_jobs.h"
 #include "rounds.h"
+#include "temporary_folder.h"
 #include "unit/vulkan/engine.h"
 #include "unit/vulkan/faults.h"
 #include "vulkan_machine.h"
@@ -301,25 +302,10 @@ void cancelAnywhere(Faulty& faulty) {
   CHECK(whole >= 2);
 }
 
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "sgm_pipelines_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-};
-
-std::string readAll(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// What is kept of pipelines is found by the next backend, mended where it is damaged, and done without where there is
 /// no room for it.
 void keepPipelines(Faulty& faulty) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::vector<ChunkJob> jobs = spheres(6, 2);
   const auto warningsWith = [&](const fs::path& where) {
     const VulkanMachine machine = faulty.machine({}, where);
@@ -334,7 +320,7 @@ void keepPipelines(Faulty& faulty) {
   CHECK(warningsWith(kept) == none);
   REQUIRE(std::distance(fs::directory_iterator(kept), {}) == 1);
   const fs::path file = fs::directory_iterator(kept)->path();
-  const std::string content = readAll(file);
+  const std::string content = contentOf(file);
   CHECK(content.size() > 24);
   // What was found, and is all that was needed, is not written again.
   const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1);
@@ -346,13 +332,13 @@ void keepPipelines(Faulty& faulty) {
   damaged.back() = static_cast<char>(damaged.back() ^ 1);
   std::ofstream(file, std::ios::binary) << damaged;
   CHECK(warningsWith(kept) == none);
-  CHECK(readAll(file) == content);
+  CHECK(contentOf(file) == content);
 
   const std::vector<std::string> warnings = warningsWith(file / "folder");
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].find("compiled pipelines are not kept") != std::string::npos);
   CHECK(warnings[0].find((file / "folder").string()) != std::string::npos);
-  CHECK(readAll(file) == content);
+  CHECK(contentOf(file) == content);
 }
 
 }  // namespace

@@ -4,22 +4,13 @@
 #include <random>
 
 #include "support.h"
+#include "temporary_folder.h"
 
 using namespace sgm;
 using namespace sgm::vulkan;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "sgm_pipelines_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-};
 
 std::vector<std::byte> readAll(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -91,7 +82,7 @@ TEST_CASE("a pipeline cache's file is taken whole, undamaged and of this device,
 TEST_CASE("a pipeline cache lasts from run to run, and mends what is damaged", "[vulkan]") {
   TestDevice device;
   if (!device) return;
-  const Folder folder;
+  const TemporaryFolder folder;
   const fs::path deeper = folder.path / "a" / "b", file = deeper / pipelineCacheName(device.device->info());
   const std::vector<int32_t> numbers{1};
   const auto run = [&] {
@@ -129,7 +120,7 @@ TEST_CASE("a pipeline cache lasts from run to run, and mends what is damaged", "
 TEST_CASE("a pipeline cache that cannot be saved says so", "[vulkan]") {
   TestDevice device;
   if (!device) return;
-  const Folder folder;
+  const TemporaryFolder folder;
   writeAll(folder.path / "file", {});
   const auto cache = PipelineCache::create(*device, folder.path / "file" / "folder");
   REQUIRE(cache);
