@@ -18,6 +18,12 @@ BackendRequest requestFor(BackendKind kind, bool automatic = false) {
   return request;
 }
 
+Result<std::unique_ptr<Backend>> makeFor(sgm_runtime& runtime, BackendRequest request) {
+  request.pipeline_folder = runtime.pipeline_folder;
+  request.warn = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
+  return makeBackend(request, *runtime.jobs, &runtime.memory, runtime.profiler);
+}
+
 }  // namespace
 
 std::optional<BackendRequest> requestOf(sgm_backend backend) {
@@ -40,12 +46,10 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
   DeviceBackends& shared = runtime.devices;
   const bool device = request.automatic || request.kind == BackendKind::vulkan;
   const std::scoped_lock lock(shared.mutex);
-  BackendRequest wanted = request.automatic && shared.none ? BackendRequest{} : request;
-  wanted.pipeline_folder = runtime.pipeline_folder;
-  wanted.warn = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
+  const BackendRequest wanted = request.automatic && shared.none ? BackendRequest{} : request;
   std::shared_ptr<Backend>& kept = request.automatic ? shared.automatic : shared.vulkan;
   if (device && kept) return kept;
-  Result<std::unique_ptr<Backend>> made = makeBackend(wanted, *runtime.jobs, &runtime.memory, runtime.profiler);
+  Result<std::unique_ptr<Backend>> made = makeFor(runtime, wanted);
   if (!made) return made.error();
   std::shared_ptr<Backend> backend = std::move(*made);
   const bool on_cpu = backend->capabilities().kind == BackendKind::cpu;
@@ -62,7 +66,7 @@ Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::Borr
   }
   BackendRequest request = requestFor(BackendKind::vulkan);
   request.lent = std::move(device);
-  Result<std::unique_ptr<Backend>> made = makeBackend(request, *runtime.jobs, &runtime.memory, runtime.profiler);
+  Result<std::unique_ptr<Backend>> made = makeFor(runtime, std::move(request));
   if (!made) return made.error();
   shared.vulkan = std::move(*made);
   if (!shared.vulkan->capabilities().software) shared.automatic = shared.vulkan;

@@ -77,6 +77,7 @@ Result<std::shared_ptr<Session>> openSession(const VulkanBackendOptions& options
   if (!mesher) return mesher.error();
   session->mesher = std::move(*mesher);
   if (session->device->borrowed()) {
+    vulkan::MemoryOptions memory = options.memory;
     memory.families = session->device->readers();
     session->kept_memory = std::make_unique<vulkan::Memory>(*session->device, memory);
     session->kept = std::make_unique<vulkan::DeviceMeshes>(*session->queue, *session->kept_memory, *session->ring);
