@@ -1,6 +1,8 @@
 #pragma once
 // A streamed world with an engine that draws it, and what must hold of every frame.
 
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -60,9 +62,29 @@ inline WorldFieldSettings withHosts(WorldFieldSettings settings, std::vector<Hos
   return settings;
 }
 
+/// The CPU, or what SGM_TEST_BACKEND names: the same tests for every backend. Where that one is not to be had the whole
+/// program is skipped, as status 77 tells, unless SGM_REQUIRE_VULKAN forbids it.
+inline const BackendRequest& testedBackend() {
+  static const BackendRequest tested = [] {
+    BackendRequest request;
+    const char* name = std::getenv("SGM_TEST_BACKEND");
+    if (name == nullptr) return request;
+    REQUIRE(std::string(name) == "vulkan");
+    request.kind = BackendKind::vulkan;
+    const auto jobs = *makeThreadPool(1);
+    const auto made = makeBackend(request, *jobs, std::pmr::get_default_resource());
+    if (made) return request;
+    INFO(made.error().message);
+    REQUIRE(std::getenv("SGM_REQUIRE_VULKAN") == nullptr);
+    std::fprintf(stderr, "SKIPPED: %s\n", made.error().message.c_str());
+    std::exit(77);
+  }();
+  return tested;
+}
+
 struct Scene {
   explicit Scene(std::unique_ptr<JobSystem> jobs_in, const std::string& text = caveText(),
-                 WorldSettings settings_in = {}, std::vector<HostField> hosts = {}, const BackendRequest& request = {})
+                 WorldSettings settings_in = {}, std::vector<HostField> hosts = {}, const BackendRequest& request = testedBackend())
       : field(withHosts(settingsOf(text, kStreamedCell, 3), std::move(hosts)), std::pmr::get_default_resource()),
         jobs(std::move(jobs_in)),
         settings(settings_in) {
