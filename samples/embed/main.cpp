@@ -9,9 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -20,6 +17,7 @@
 #include "engine_jobs.h"
 #include "engine_memory.h"
 #include "engine_profiler.h"
+#include "grammar_file.h"
 #include "handles.h"
 #include "streaming.h"
 
@@ -43,22 +41,6 @@ struct Log {
             this};
   }
 };
-
-GrammarOwner compileFile(sgm_runtime* runtime, const char* path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path)) throw std::runtime_error(std::string("cannot read ") + path);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const std::string folder = std::filesystem::path(path).parent_path().string();
-  sgm_grammar_desc desc = SGM_GRAMMAR_DESC_INIT;
-  desc.text = text.data();
-  desc.text_size = text.size();
-  desc.name = path;
-  desc.import_folder = folder.empty() ? "." : folder.c_str();
-  sgm_grammar* grammar = nullptr;
-  sgm_error error = SGM_ERROR_INIT;
-  must(sgm_grammar_compile(runtime, &desc, &grammar, nullptr, &error), error);
-  return GrammarOwner(grammar);
-}
 
 FieldOwner makeField(sgm_runtime* runtime, const sgm_grammar* grammar) {
   sgm_field_desc desc = SGM_FIELD_DESC_INIT;
