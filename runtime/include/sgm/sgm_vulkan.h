@@ -44,7 +44,7 @@ typedef struct sgm_vulkan_device_desc {
   int32_t timeline_semaphores; /* 1: VkPhysicalDeviceVulkan12Features.timelineSemaphore is enabled. Needed */
   int32_t memory_budget;       /* 1: VK_EXT_memory_budget is enabled, so that the runtime keeps to what is left */
   /* Called around every use of the queue, on the thread that uses it, for who shares it; both or neither. They may
-   * wait, and must not call the runtime. */
+   * wait, and must not call the runtime. Any function of the runtime's may use the queue: hold the lock in none. */
   void (*lock_queue)(void* user);
   void (*unlock_queue)(void* user);
   void* user;
@@ -74,7 +74,9 @@ typedef struct sgm_vulkan_part {
   VkDeviceSize draw_offset;   /* bytes; a multiple of 4. `draw` lies there, for vkCmdDrawIndexedIndirect */
   uint32_t vertex_count;
   /* With the buffer bound from its beginning both as vertices and as indices (VK_INDEX_TYPE_UINT32): one instance, so
-   * that all parts of a buffer are drawn by one vkCmdDrawIndexedIndirect with commands that the engine gathers. */
+   * that all parts of a buffer are drawn by one vkCmdDrawIndexedIndirect with commands that the engine gathers.
+   * firstInstance is 0; there an engine puts the number of a record of its own with the chunk's place (the origin and
+   * cell_units of sgm_mesh_get_view). */
   VkDrawIndexedIndirectCommand draw;
 } sgm_vulkan_part;
 
@@ -83,7 +85,10 @@ typedef struct sgm_vulkan_mesh_view {
   uint32_t struct_size;
   void* next;
   /* The parts are there from the moment at which the timeline semaphore has this value: the engine's submission waits
-   * for it, on the device. The semaphore is the same for all meshes; of several the largest value counts. */
+   * for it, on the device, at the stages that read them (VERTEX_INPUT; DRAW_INDIRECT for what lies at draw_offset).
+   * What signals it was submitted before, so that a wait on the lent queue itself ends. The semaphore is the same for
+   * all meshes of a runtime, and lives as long as any of them; of several the largest value counts. VK_NULL_HANDLE and
+   * 0: no triangles, nothing to wait for. */
   VkSemaphore semaphore;
   uint64_t value;
   sgm_vulkan_part body;

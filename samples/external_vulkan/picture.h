@@ -1,0 +1,30 @@
+#pragma once
+// Pictures on the host: compared, and written as PNG.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+struct Picture {
+  uint32_t width = 0, height = 0;
+  std::vector<uint8_t> rgba;  ///< row by row from the top
+
+  size_t pixels() const { return rgba.size() / 4; }
+  /// Pixels that no surface has been drawn to: their alpha is 0.
+  size_t uncovered() const {
+    size_t count = 0;
+    for (size_t i = 3; i < rgba.size(); i += 4) count += rgba[i] == 0;
+    return count;
+  }
+  /// Pixels that differ, of pictures of one size.
+  size_t differences(const Picture& other) const {
+    size_t count = 0;
+    for (size_t i = 0; i < rgba.size(); i += 4) count += !std::equal(&rgba[i], &rgba[i] + 4, &other.rgba[i]);
+    return count;
+  }
+};
+
+/// Throws where the file cannot be written.
+void writePng(const Picture& picture, const std::string& path);
