@@ -9,6 +9,8 @@
 #   --without NAME  leave out a build (fuzz, scalar, clang, tsan) or a label; each is named in the summary
 #   --jobs N        at most N compilers and tests at one time (default: one for each processor)
 #
+# A Vulkan device must be there (software Vulkan is installed, and will do), unless --without vulkan leaves it out.
+#
 # Five builds: release has every test; fuzz (clang++, both sanitizers) runs the unit tests again, and the fuzzers; scalar
 # (no vector unit) and clang (another compiler; also the static package) those that compare bits; tsan those with threads. --long adds dev (both
 # sanitizers, g++). The last lines are ctest's summary over all of them. Exit status: 0 when all passed.
@@ -33,6 +35,7 @@ while (($#)); do
   esac
   shift
 done
+[[ " ${without[*]-} " == *" vulkan "* ]] || export SGM_REQUIRE_VULKAN=1
 [[ $jobs =~ ^[1-9][0-9]*$ ]] || die "--jobs needs a number, not '$jobs'" 2
 
 started=$SECONDS
