@@ -111,7 +111,7 @@ sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_back
     info->usable = made ? 1 : 0;
     info->exact = 0;
     info->concurrency = 0;
-    info->chunks = info->chunks_on_cpu = info->losses = 0;
+    info->chunks = info->chunks_on_cpu = info->losses = info->resident = 0;
     copyText(info->name, sgm::backendName(request->kind));
     copyText(info->device, "");
     copyText(info->reason, made ? "" : made.error().message);
@@ -124,6 +124,7 @@ sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_back
       info->chunks = counters.chunks;
       info->chunks_on_cpu = counters.on_cpu;
       info->losses = counters.device_lost;
+      info->resident = counters.resident;
       copyText(info->name, sgm::backendName(capabilities.kind));
       copyText(info->device, capabilities.device);
     }

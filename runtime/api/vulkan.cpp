@@ -29,6 +29,7 @@ sgm::vulkan::BorrowedDevice deviceOf(const sgm_vulkan_device_desc& desc) {
   lent.api_version = desc.api_version;
   lent.timeline_semaphores = desc.timeline_semaphores != 0;
   lent.memory_budget = desc.memory_budget != 0;
+  if (desc.mesh_bytes != 0) lent.resident_cap = desc.mesh_bytes;
   return lent;
 }
 

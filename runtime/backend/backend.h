@@ -99,6 +99,7 @@ struct BackendCounters {
   uint64_t on_cpu = 0;       ///< of these, meshed by the CPU instead: too large for the device, or while it failed
   uint64_t device_lost = 0;  ///< how many times the device failed
   uint64_t batches = 0;      ///< submissions to the device
+  uint64_t resident = 0;     ///< bytes of parts that lie on the device now
 };
 
 /// Thread-safe. Must outlive its batches.

@@ -149,7 +149,7 @@ PLACE(sgm_runtime_desc, memory_limit, 48);
 PLACE(sgm_runtime_desc, profiler, 56);
 PLACE(sgm_runtime_desc, pipeline_folder, 64);
 
-SIZE(sgm_backend_info, 824);
+SIZE(sgm_backend_info, 832);
 PLACE(sgm_backend_info, struct_size, 0);
 PLACE(sgm_backend_info, next, 8);
 PLACE(sgm_backend_info, backend, 16);
@@ -162,6 +162,7 @@ PLACE(sgm_backend_info, reason, 544);
 PLACE(sgm_backend_info, chunks, 800);
 PLACE(sgm_backend_info, chunks_on_cpu, 808);
 PLACE(sgm_backend_info, losses, 816);
+PLACE(sgm_backend_info, resident, 824);
 
 SIZE(sgm_grammar_desc, 64);
 PLACE(sgm_grammar_desc, struct_size, 0);

@@ -15,7 +15,7 @@ int LAYOUT_INITS(void);
 #define SIZE(type, bytes) CHECK(sizeof_##type, sizeof(type) == (bytes))
 #define PLACE(type, field, bytes) CHECK(offsetof_##type##_##field, offsetof(type, field) == (bytes))
 
-SIZE(sgm_vulkan_device_desc, 112);
+SIZE(sgm_vulkan_device_desc, 120);
 PLACE(sgm_vulkan_device_desc, api_version, 16);
 PLACE(sgm_vulkan_device_desc, queue_family, 20);
 PLACE(sgm_vulkan_device_desc, get_instance_proc_addr, 24);
@@ -30,6 +30,7 @@ PLACE(sgm_vulkan_device_desc, memory_budget, 80);
 PLACE(sgm_vulkan_device_desc, lock_queue, 88);
 PLACE(sgm_vulkan_device_desc, unlock_queue, 96);
 PLACE(sgm_vulkan_device_desc, user, 104);
+PLACE(sgm_vulkan_device_desc, mesh_bytes, 112);
 SIZE(sgm_vulkan_part, 56);
 PLACE(sgm_vulkan_part, buffer, 0);
 PLACE(sgm_vulkan_part, vertex_offset, 8);

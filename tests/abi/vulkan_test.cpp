@@ -297,6 +297,40 @@ TEST_CASE("meshes outlive the world that they were streamed in", "[vulkan]") {
   CHECK(triangles > 0);
 }
 
+TEST_CASE("meshes keep to the bytes that they may have on the device, and the rest is not there", "[vulkan]") {
+  if (!vk::haveDevice()) return;
+  Lender lender;
+  sgm_vulkan_device_desc desc = lender.lend();
+  desc.mesh_bytes = 100000;
+  const RuntimeOwner runtime = makeRuntime();
+  REQUIRE(sgm_runtime_lend_vulkan(runtime.get(), &desc, nullptr) == SGM_OK);
+  const auto residentNow = [&] {
+    sgm_backend_info info = SGM_BACKEND_INFO_INIT;
+    REQUIRE(sgm_backend_query(runtime.get(), SGM_BACKEND_VULKAN, &info, nullptr) == SGM_OK);
+    return info.resident;
+  };
+  {
+    const GrammarOwner grammar = compile(runtime.get(), kBalls);
+    const FieldOwner field = makeVulkanField(runtime.get(), grammar.get(), SGM_BACKEND_VULKAN);
+    const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
+    look(world.get(), 0, 0);
+    waitIdle(world.get());
+    size_t there = 0, missing = 0;
+    for (const MeshOwner& mesh : drawnOf(world.get())) {
+      sgm_vulkan_mesh_view view = SGM_VULKAN_MESH_VIEW_INIT;
+      const sgm_result result = sgm_mesh_get_vulkan_view(mesh.get(), &view, nullptr);
+      REQUIRE((result == SGM_OK || result == SGM_ERR_NOT_FOUND));
+      ++(result == SGM_OK ? there : missing);
+      if (result == SGM_OK) checkMesh(lender, mesh);
+    }
+    CHECK(there > 0);
+    CHECK(missing > 0);
+    CHECK(residentNow() > 0);
+    CHECK(residentNow() <= 100000);
+  }
+  CHECK(residentNow() == 0);
+}
+
 TEST_CASE("a device that cannot be lent is refused, for a reason, and changes nothing", "[vulkan]") {
   if (!vk::haveDevice()) return;
   Lender lender;

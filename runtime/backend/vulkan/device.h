@@ -40,6 +40,7 @@ struct BorrowedDevice {
   uint32_t api_version = 0;          ///< VkApplicationInfo::apiVersion
   bool timeline_semaphores = false;  ///< the feature timelineSemaphore
   bool memory_budget = false;        ///< the extension VK_EXT_memory_budget
+  uint64_t resident_cap = UINT64_MAX;  ///< bytes of its memory for meshes that stay there, at most
   ReplaceCalls replace_calls = nullptr;
 };
 

@@ -105,16 +105,27 @@ Result<std::shared_ptr<const DevicePart>> DeviceMeshes::upload(const std::shared
   return std::move(kept->chunks[0][0]);
 }
 
-void DeviceMeshes::retire(Buffer&& buffer, uint64_t value) noexcept {
+uint64_t DeviceMeshes::bytes() {
+  const std::scoped_lock lock(mutex_);
+  collect();
+  return memory_.statistics().used;
+}
+
+uint64_t DeviceMeshes::collect() noexcept {
   // Of a lost device nothing is in use any more.
   const Result<uint64_t> now = queue_.reached();
   const uint64_t reached = now ? *now : queue_.lost() ? UINT64_MAX : 0;
-  const std::scoped_lock lock(mutex_);
   const auto in_use = [&](const auto& retired) { return retired.first > reached; };
   retired_.erase(std::stable_partition(retired_.begin(), retired_.end(), in_use), retired_.end());
-  if (value <= reached) return;
+  return reached;
+}
+
+void DeviceMeshes::retire(Buffer&& buffer, uint64_t value) noexcept {
+  Buffer retired = std::move(buffer);
+  const std::scoped_lock lock(mutex_);
+  if (value <= collect()) return;
   try {
-    retired_.emplace_back(value, std::move(buffer));
+    retired_.emplace_back(value, std::move(retired));
   } catch (const std::bad_alloc&) {
     static_cast<void>(queue_.wait(value));
   }

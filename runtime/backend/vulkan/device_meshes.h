@@ -85,12 +85,16 @@ class DeviceMeshes {
   /// Brings a part from the host; it has triangles. Errors: also those of Memory::buffer.
   Result<std::shared_ptr<const DevicePart>> upload(const std::shared_ptr<const void>& owner, const MeshPart& part);
 
+  /// Of parts that have not ended, as the memory counts them.
+  uint64_t bytes();
   const Queue& queue() const { return queue_; }
 
  private:
   friend class DeviceMemory;
   /// Gives the buffer back once the queue has reached the value.
   void retire(Buffer&& buffer, uint64_t value) noexcept;
+  /// Gives back what may be. Returns the value that the queue has reached. Precondition: the mutex is held.
+  uint64_t collect() noexcept;
 
   Queue& queue_;
   Memory& memory_;

@@ -78,6 +78,7 @@ Result<std::shared_ptr<Session>> openSession(const VulkanBackendOptions& options
   session->mesher = std::move(*mesher);
   if (session->device->borrowed()) {
     vulkan::MemoryOptions memory = options.memory;
+    memory.cap = options.resident_cap;
     memory.families = session->device->readers();
     session->kept_memory = std::make_unique<vulkan::Memory>(*session->device, memory);
     session->kept = std::make_unique<vulkan::DeviceMeshes>(*session->queue, *session->kept_memory, *session->ring);
@@ -371,7 +372,10 @@ class VulkanBackend final : public Backend {
   const BackendCapabilities& capabilities() const override { return capabilities_; }
   BackendCounters counters() const override {
     const Counters& c = shared_.counters;
-    return {c.chunks.load(), c.on_cpu.load(), c.device_lost.load(), c.batches.load()};
+    const std::scoped_lock lock(shared_.mutex);
+    const bool keeps = shared_.session && shared_.session->kept;
+    return {c.chunks.load(), c.on_cpu.load(), c.device_lost.load(), c.batches.load(),
+            keeps ? shared_.session->kept->bytes() : 0};
   }
   Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk) override {
     auto batch = std::make_unique<VulkanBatch>(shared_, session(), std::move(jobs), std::move(after_chunk));
@@ -394,7 +398,7 @@ class VulkanBackend final : public Backend {
     return shared_.session;
   }
 
-  Shared shared_;
+  mutable Shared shared_;
   BackendCapabilities capabilities_;
 };
 

@@ -17,6 +17,7 @@ struct VulkanBackendOptions {
   std::filesystem::path pipeline_folder;         ///< where pipelines are kept from run to run; empty: nowhere
   std::function<void(const std::string&)> warn;  ///< as BackendRequest::warn
   vulkan::MemoryOptions memory;
+  uint64_t resident_cap = UINT64_MAX;  ///< bytes of the device's memory for meshes that stay, at most
   BatchRoom room;
 };
 

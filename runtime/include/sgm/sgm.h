@@ -282,10 +282,11 @@ typedef struct sgm_backend_info {
   uint64_t chunks;        /* that have become meshes */
   uint64_t chunks_on_cpu; /* of these, meshed by the CPU instead: too large for the device, or while it failed */
   uint64_t losses;        /* how often the device was lost */
+  uint64_t resident;      /* bytes of meshes that lie on the device at this moment (SGM_WORLD_RESIDENT) */
 } sgm_backend_info;
 
 #define SGM_BACKEND_INFO_INIT \
-  { SGM_SIZEOF(sgm_backend_info), SGM_NULL, SGM_BACKEND_AUTO, 0, 0, 0, {0}, {0}, {0}, 0, 0, 0 }
+  { SGM_SIZEOF(sgm_backend_info), SGM_NULL, SGM_BACKEND_AUTO, 0, 0, 0, {0}, {0}, {0}, 0, 0, 0, 0 }
 
 /* Says whether a backend can be used here, and why not. A backend that is not usable is SGM_OK with usable = 0; a
  * number that is no backend is SGM_ERR_INVALID_ARGUMENT. */

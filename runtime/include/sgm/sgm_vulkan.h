@@ -48,12 +48,14 @@ typedef struct sgm_vulkan_device_desc {
   void (*lock_queue)(void* user);
   void (*unlock_queue)(void* user);
   void* user;
+  uint64_t mesh_bytes; /* the most bytes of the device's memory for meshes that stay there, taken in blocks; what has no
+                          room is not on the device (SGM_ERR_NOT_FOUND). 0: as many as the driver gives */
 } sgm_vulkan_device_desc;
 
 #define SGM_VULKAN_DEVICE_DESC_INIT                                                                                    \
   {                                                                                                                    \
     SGM_SIZEOF(sgm_vulkan_device_desc), SGM_NULL, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, 0, \
-        0, 0, SGM_NULL, SGM_NULL, SGM_NULL                                                                             \
+        0, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0                                                                          \
   }
 
 /* From now on the runtime's Vulkan backend is this device. A software one is taken for SGM_BACKEND_VULKAN alone.
