@@ -61,7 +61,11 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
 Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device) {
   DeviceBackends& shared = runtime.devices;
   const std::scoped_lock lock(shared.mutex);
-  if (shared.vulkan || (shared.automatic && shared.automatic->capabilities().kind == BackendKind::vulkan)) {
+  // One that was only asked about gives way.
+  for (std::shared_ptr<Backend>* kept : {&shared.vulkan, &shared.automatic}) {
+    if (*kept && kept->use_count() == (shared.vulkan == shared.automatic ? 2 : 1) && !shared.lent) kept->reset();
+  }
+  if (shared.vulkan || shared.automatic) {
     return Error{Code::busy, "the runtime meshes on a Vulkan device already: lend one before its first field"};
   }
   BackendRequest request = requestFor(BackendKind::vulkan);
@@ -69,6 +73,7 @@ Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::Borr
   Result<std::unique_ptr<Backend>> made = makeFor(runtime, std::move(request));
   if (!made) return made.error();
   shared.vulkan = std::move(*made);
+  shared.lent = true;
   if (!shared.vulkan->capabilities().software) shared.automatic = shared.vulkan;
   return {};
 }

@@ -72,6 +72,7 @@ inline std::filesystem::path pathOf(const char* utf8) {
 struct DeviceBackends {
   std::mutex mutex;
   std::shared_ptr<Backend> vulkan, automatic;  ///< null until asked for
+  bool lent = false;                           ///< `vulkan` is the engine's
   bool none = false;                           ///< `automatic` has found no device
 };
 

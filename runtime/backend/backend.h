@@ -30,7 +30,6 @@ struct BackendCapabilities {
   std::string device;         ///< device name, or the instruction set in use
   bool exact = true;          ///< keeps the arithmetic contract
   uint32_t concurrency = 1;   ///< chunks worked on at one time
-  uint32_t batch = 1;         ///< chunks of one submit() that keep it busy
   bool software = false;      ///< the CPU plays a device's part
   bool lends_meshes = false;  ///< ChunkJob::resident and upload(): the device is the engine's own
 };
@@ -76,8 +75,8 @@ struct ChunkMesh {
 class ChunkBatch {
  public:
   virtual ~ChunkBatch() = default;
-  /// Whether all jobs have ended; never blocks. The work goes on without anyone who waits, where the job system has
-  /// threads of its own.
+  /// Whether all jobs have ended; does not wait for the device's work. The work goes on without anyone who waits, where
+  /// the job system has threads of its own.
   virtual bool poll() = 0;
   /// Ends when all jobs have; the calling thread works too, as one of the job system's workers (base/jobs.h).
   virtual void wait() = 0;
@@ -109,9 +108,12 @@ class Backend {
   virtual const BackendCapabilities& capabilities() const = 0;
   virtual BackendCounters counters() const { return {}; }
   virtual Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk = {}) = 0;
-  /// Brings a part with triangles to the device, as ChunkJob::resident leaves it there. Errors: unsupported (nobody
-  /// could draw it there), out_of_memory, limit, device_lost.
-  virtual Result<std::shared_ptr<const DevicePart>> upload(const MeshPart&) {
+  /// Chunks of one submit() that keep it busy now: a device takes more than the CPU that stands in for it.
+  virtual uint32_t batch() const { return 1; }
+  /// Brings parts to the device, as ChunkJob::resident leaves them there; null where one has no triangles, or there is
+  /// no room for it. Waits for the device. Errors: unsupported (nobody could draw them there), out_of_memory, limit,
+  /// device_lost. Throws std::bad_alloc.
+  virtual Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const>) {
     return Error{Code::unsupported, "this backend has no device that an engine lent"};
   }
 };

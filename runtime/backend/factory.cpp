@@ -37,8 +37,9 @@ Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest& request, bool 
   };
   if (request.lent) {
     options.resident_cap = request.lent->resident_cap;
-    options.open = [lent = request.lent, once = false]() mutable -> Result<std::unique_ptr<vulkan::Device>> {
-      if (std::exchange(once, true)) return Error{Code::device_lost, "the engine's Vulkan device was lost"};
+    options.open = [lent = request.lent,
+                    opened = std::make_shared<bool>(false)]() -> Result<std::unique_ptr<vulkan::Device>> {
+      if (std::exchange(*opened, true)) return Error{Code::device_lost, "the engine's Vulkan device was lost"};
       return vulkan::Device::borrow(*lent);
     };
   }

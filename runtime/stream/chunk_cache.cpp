@@ -51,17 +51,6 @@ void place(ChunkPart&& found, int part, PlacedChunk& chunk, VoidComponents& void
   seams[static_cast<size_t>(part - 1)] = std::move(found.mesh);
 }
 
-/// Brings to the device what it has not meshed itself: what comes from the disk, and what the CPU has meshed for it.
-void bring(Backend& backend, const ChunkRequest& request, PlacedChunk& chunk) {
-  const MeshParts meshes = partsOf(chunk.mesh);
-  for (int part = 0; part < kChunkParts; ++part) {
-    const auto p = static_cast<size_t>(part);
-    if (!asksFor(request, part) || meshes[p] == nullptr || meshes[p]->indices.empty()) continue;
-    if (chunk.mesh.on_device[p]) continue;
-    if (auto brought = backend.upload(*meshes[p])) chunk.mesh.on_device[p] = std::move(*brought);
-  }
-}
-
 /// One order between what the disk had and what is handed out.
 struct InWork {
   ChunkRequest request, rest;  ///< rest: without what the disk had
@@ -69,10 +58,14 @@ struct InWork {
   std::optional<ChunkPartInputs> inputs;
   std::array<std::optional<ChunkPart>, kChunkParts> found;
   PlacedChunk chunk;
+  VoidComponents voids;
   std::optional<Error> error;
 
   InWork(const ChunkOrder& order, std::pmr::memory_resource* memory)
-      : request(order.request), before(order.before), chunk{order.request.key, {}, ChunkMesh(memory), {}} {
+      : request(order.request),
+        before(order.before),
+        chunk{order.request.key, {}, ChunkMesh(memory), {}},
+        voids(memory) {
     if (!request.body) request.signs = request.anchors = false;
     rest = request;
   }
@@ -96,42 +89,80 @@ void lookUp(const ChunkMesher& mesher, const EditSnapshot* edits, InWork& work) 
   }
 }
 
-/// Those of the numbers, together; where that fails each alone, so that one does not fail all.
+/// Those of the numbers, together; where that fails each half, so that one fails alone.
 void meshRest(const ChunkMesher& mesher, const EditSnapshot* edits, std::span<const size_t> numbers,
-              std::vector<InWork>& work) {
+              const Progress& progress, std::vector<InWork>& work) {
+  if (numbers.empty()) return;
   std::vector<ChunkRequest> requests;
   for (const size_t i : numbers) {
     requests.push_back(work[i].rest);
     requests.back().resident = mesher.resident;
   }
   Result<std::pmr::vector<PlacedChunk>> meshed =
-      meshChunks(mesher.world, mesher.backend, mesher.jobs, requests, {}, edits);
+      meshChunks(mesher.world, mesher.backend, mesher.jobs, requests, progress, edits);
   if (meshed) {
     for (size_t k = 0; k < numbers.size(); ++k) work[numbers[k]].chunk = std::move((*meshed)[k]);
-  } else if (numbers.size() == 1) {
-    work[numbers[0]].error = meshed.error();
+  } else if (numbers.size() == 1 || meshed.error().code == Code::cancelled) {
+    for (const size_t i : numbers) work[i].error = meshed.error();
   } else {
-    for (const size_t& i : numbers) meshRest(mesher, edits, {&i, 1}, work);
+    const size_t half = numbers.size() / 2;
+    meshRest(mesher, edits, numbers.first(half), progress, work);
+    meshRest(mesher, edits, numbers.subspan(half), progress, work);
   }
 }
 
-MeshedChunk finish(const ChunkMesher& mesher, InWork& work) {
-  VoidComponents voids(mesher.memory);
+/// What was not there is kept, and what was there joins it.
+void complete(const ChunkMesher& mesher, InWork& work) {
   if (work.isToMesh()) {
     work.chunk.anchors.shrink_to_fit();
-    if (work.rest.signs) voids = voidsOf(work.chunk.mesh);
+    if (work.rest.signs) work.voids = voidsOf(work.chunk.mesh);
     // A body from the cache was sampled, and a chunk that is drawn most likely.
     const bool sampled = work.request.body ? !work.chunk.mesh.uniform : work.before != nullptr;
-    if (work.inputs) keep(*mesher.cache, *work.inputs, work.rest, work.chunk, voids, sampled, mesher.memory);
+    if (work.inputs) keep(*mesher.cache, *work.inputs, work.rest, work.chunk, work.voids, sampled, mesher.memory);
   }
   for (int part = 0; part < kChunkParts; ++part) {
-    if (auto& of_part = work.found[static_cast<size_t>(part)]) place(std::move(*of_part), part, work.chunk, voids);
+    if (auto& of_part = work.found[static_cast<size_t>(part)]) place(std::move(*of_part), part, work.chunk, work.voids);
   }
+}
+
+/// Brings to the device what it has not meshed itself: what comes from the disk, and what the CPU has meshed for it.
+/// Where it cannot, it is not there.
+void bring(Backend& backend, std::span<InWork> all) {
+  std::vector<const MeshPart*> parts;
+  std::vector<std::shared_ptr<const DevicePart>*> places;
+  for (InWork& work : all) {
+    const MeshParts meshes = partsOf(work.chunk.mesh);
+    for (int part = 0; part < kChunkParts && !work.error; ++part) {
+      const auto p = static_cast<size_t>(part);
+      if (!asksFor(work.request, part) || meshes[p] == nullptr || meshes[p]->indices.empty()) continue;
+      if (work.chunk.mesh.on_device[p]) continue;
+      parts.push_back(meshes[p]);
+      places.push_back(&work.chunk.mesh.on_device[p]);
+    }
+  }
+  if (parts.empty()) return;
+  auto brought = backend.upload(parts);
+  for (size_t i = 0; brought && i < places.size(); ++i) *places[i] = std::move((*brought)[i]);
+}
+
+MeshedChunk surfaced(const ChunkMesher& mesher, InWork& work) {
   const ProfileScope scope(mesher.world.profiler(), zone::kPack);
-  if (mesher.resident) bring(mesher.backend, work.request, work.chunk);
   MeshedChunk result{surfaceOf(work.request, std::move(work.chunk), work.before, mesher.memory), std::nullopt};
-  if (work.request.signs) result.voids = std::move(voids);
+  if (work.request.signs) result.voids = std::move(work.voids);
   return result;
+}
+
+/// For those without an error, on the job system; who is out of memory has one then.
+template <class Body>
+void forEach(JobSystem& jobs, std::vector<InWork>& work, const Body& body) {
+  parallelFor(jobs, work.size(), [&](size_t i) {
+    if (work[i].error) return;
+    try {
+      body(i);
+    } catch (const std::bad_alloc&) {
+      work[i].error = Error{Code::out_of_memory, "out of memory"};
+    }
+  });
 }
 
 }  // namespace
@@ -142,21 +173,21 @@ Result<MeshedChunk> ChunkMesher::mesh(const ChunkRequest& request, const ChunkSu
   return std::move(mesh({&order, 1}, edits).front());
 }
 
-std::vector<Result<MeshedChunk>> ChunkMesher::mesh(std::span<const ChunkOrder> orders,
-                                                   const EditSnapshot* edits) const {
+std::vector<Result<MeshedChunk>> ChunkMesher::mesh(std::span<const ChunkOrder> orders, const EditSnapshot* edits,
+                                                   const Progress& progress) const {
   std::vector<InWork> work;
   work.reserve(orders.size());
   for (const ChunkOrder& order : orders) work.emplace_back(order, memory);
-  parallelFor(jobs, work.size(), [&](size_t i) { lookUp(*this, edits, work[i]); });
+  forEach(jobs, work, [&](size_t i) { lookUp(*this, edits, work[i]); });
   std::vector<size_t> to_mesh;
   for (size_t i = 0; i < work.size(); ++i) {
     if (work[i].isToMesh()) to_mesh.push_back(i);
   }
-  if (!to_mesh.empty()) meshRest(*this, edits, to_mesh, work);
+  meshRest(*this, edits, to_mesh, progress, work);
+  forEach(jobs, work, [&](size_t i) { complete(*this, work[i]); });
+  if (resident) bring(backend, work);
   std::vector<std::optional<MeshedChunk>> finished(work.size());
-  parallelFor(jobs, work.size(), [&](size_t i) {
-    if (!work[i].error) finished[i] = finish(*this, work[i]);
-  });
+  forEach(jobs, work, [&](size_t i) { finished[i] = surfaced(*this, work[i]); });
   std::vector<Result<MeshedChunk>> results;
   results.reserve(work.size());
   for (size_t i = 0; i < work.size(); ++i) {

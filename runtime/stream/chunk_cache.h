@@ -39,7 +39,9 @@ struct ChunkMesher {
   Result<MeshedChunk> mesh(const ChunkRequest& request, const ChunkSurface* before,
                            const EditSnapshot* edits = nullptr) const;
   /// Many at once, each as if alone: the backend gets all of them together, and the job system the rest of the work.
-  std::vector<Result<MeshedChunk>> mesh(std::span<const ChunkOrder> orders, const EditSnapshot* edits) const;
+  /// progress: as of meshChunks, also of parts of them, from the beginning each time.
+  std::vector<Result<MeshedChunk>> mesh(std::span<const ChunkOrder> orders, const EditSnapshot* edits,
+                                        const Progress& progress = {}) const;
 };
 
 }  // namespace sgm

@@ -164,7 +164,7 @@ void WorldCore::kickMeshing() {
     {
       const std::lock_guard lock(mutex);
       const size_t most = scarce ? 1 : mostMeshJobs();
-      if (stopped_ || mesh_jobs >= most || mesh_jobs >= queue.size() + meshing_ || !hasRoom()) return;
+      if (stopped_ || mesh_jobs >= most || mesh_jobs - meshing_jobs_ >= queue.size() || !hasRoom()) return;
       ++mesh_jobs;
     }
     if (submit(run<&WorldCore::meshOnce>, kMeshPriority)) continue;
@@ -305,17 +305,19 @@ void WorldCore::publish(Plan&& plan) {
   changed.notify_all();
 }
 
-void WorldCore::takeItems(std::vector<WorkItem>& items) {
-  // A device is only busy with many chunks at one time; but each job is to have some.
-  const size_t share = (queue.size() + mostMeshJobs() - 1) / mostMeshJobs();
-  const size_t most = scarce ? 1 : std::min(share, items.capacity());
+void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
+  // A device is only busy with many chunks at one time; but each job is to have some, and room for them.
+  const size_t idle = std::max<size_t>(1, mostMeshJobs() - std::min(mostMeshJobs(), meshing_jobs_));
+  const auto shareOf = [idle](size_t of) { return (of + idle - 1) / idle; };
+  const size_t share = std::max(shareOf(queue.size()), std::min<size_t>(batch, 8));
+  const size_t most = scarce ? 1 : std::min({batch, share, std::max<size_t>(1, shareOf(room() / kLargestChunk))});
   while (items.size() < most && !queue.empty() && hasRoom()) {
     // What is more urgent does not wait for what is less.
-    if (!items.empty() && queue.back().rank != items.front().rank) return;
+    if (!items.empty() && queue.back().rank != items.front().rank) break;
     try {
       begun_.push_back(queue.back().request.key);
     } catch (const std::bad_alloc&) {
-      return;
+      break;
     }
     ++meshing_;
     ++meshing_of_rank_[static_cast<size_t>(queue.back().rank)];
@@ -323,6 +325,7 @@ void WorldCore::takeItems(std::vector<WorkItem>& items) {
     items.push_back(std::move(queue.back()));
     queue.pop_back();
   }
+  if (!items.empty()) ++meshing_jobs_;
 }
 
 void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const EditState& under, FinishedChunk& done) const {
@@ -349,17 +352,24 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const EditState& under, F
   if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
 }
 
-void WorldCore::meshItems(std::span<const WorkItem> items, const EditState& under,
+void WorldCore::meshItems(std::span<const WorkItem> items, const EditState& under, const Progress& progress,
                           std::span<FinishedChunk> done) const {
   const ChunkMesher mesher{field, backend, jobs, memory_, cache.get(), settings.resident};
+  const Error out_of_memory{Code::out_of_memory, kOutOfMemory};
   try {
     std::vector<ChunkOrder> orders;
     for (const WorkItem& item : items) orders.push_back({item.request, item.before.get()});
-    std::vector<Result<MeshedChunk>> chunks = mesher.mesh(orders, under.brushes.get());
-    parallelFor(jobs, items.size(), [&](size_t i) { surfaceOne(chunks[i], under, done[i]); });
+    std::vector<Result<MeshedChunk>> chunks = mesher.mesh(orders, under.brushes.get(), progress);
+    parallelFor(jobs, items.size(), [&](size_t i) {
+      try {
+        surfaceOne(chunks[i], under, done[i]);
+      } catch (const std::bad_alloc&) {
+        done[i].error = out_of_memory;
+      }
+    });
   } catch (const std::bad_alloc&) {
     for (FinishedChunk& chunk : done) {
-      if (chunk.surface == nullptr) chunk.error = Error{Code::out_of_memory, kOutOfMemory};
+      if (chunk.surface == nullptr) chunk.error = out_of_memory;
     }
   }
 }
@@ -367,9 +377,10 @@ void WorldCore::meshItems(std::span<const WorkItem> items, const EditState& unde
 void WorldCore::meshOnce() {
   std::vector<WorkItem> items;
   std::vector<FinishedChunk> done;
+  const size_t batch = backend.batch();
   try {
-    items.reserve(backend.capabilities().batch);
-    done.reserve(items.capacity());
+    items.reserve(batch);
+    done.reserve(batch);
   } catch (const std::bad_alloc&) {
     const std::lock_guard lock(mutex);
     --mesh_jobs;
@@ -381,7 +392,7 @@ void WorldCore::meshOnce() {
     const std::lock_guard lock(mutex);
     // A job system that runs what is handed on at once, within submit(), would mesh the whole queue in one call.
     const bool at_once = std::count(submitting_.begin(), submitting_.end(), std::this_thread::get_id()) > 0;
-    if (!at_once) takeItems(items);
+    if (!at_once) takeItems(batch, items);
     if (items.empty()) {
       --mesh_jobs;
       return;
@@ -395,11 +406,17 @@ void WorldCore::meshOnce() {
     done.back().before = item.before;
     done.back().edits = under.number;
   }
-  meshItems(items, under, done);
+  // Of a batch that nobody wants any more what has not begun is left.
+  const auto wanted = [&](uint64_t, uint64_t) {
+    const std::lock_guard lock(mutex);
+    return !stopped_ && generation == of_generation;
+  };
+  meshItems(items, under, items.size() > 1 ? Progress(wanted) : Progress(), done);
   bool plan, more, out_of_memory = false;
   {
     const std::lock_guard lock(mutex);
     const WorkItem::Rank rank = items.front().rank;
+    --meshing_jobs_;
     meshing_ -= items.size();
     const size_t left_of_rank = meshing_of_rank_[static_cast<size_t>(rank)] -= items.size();
     meshing_before_ -= std::min(meshing_before_, items.size());

@@ -85,11 +85,14 @@ class WorldCore {
   /// Those that wait for a device while it works on a batch are few: one prepares its chunks, one finishes them.
   size_t mostMeshJobs() const {
     const size_t most = std::max(1u, jobs.concurrency() - 1);
-    return backend.capabilities().batch > 1 ? std::min<size_t>(most, 3) : most;
+    return backend.batch() > 1 ? std::min<size_t>(most, 3) : most;
   }
-  bool hasRoom() const {
-    return surfaces_->bytes() + collider_bytes + reserved_ + kLargestChunk <= settings.mesh_bytes;
+  /// Bytes that are neither taken nor promised.
+  size_t room() const {
+    const size_t used = surfaces_->bytes() + collider_bytes + reserved_;
+    return settings.mesh_bytes - std::min(settings.mesh_bytes, used);
   }
+  bool hasRoom() const { return room() >= kLargestChunk; }
 
   /// What jobs own.
   struct Gate {
@@ -114,10 +117,12 @@ class WorldCore {
   bool makeColliders();
   void meshOnce();
   void meshAgain();
-  /// As many of the queue's items as one job meshes, at most the vector's capacity. Precondition: the mutex is held.
-  void takeItems(std::vector<WorkItem>& items);
+  /// As many of the queue's items as one job meshes, at most `batch`, which the vector has room for. Precondition: the
+  /// mutex is held.
+  void takeItems(size_t batch, std::vector<WorkItem>& items);
   void surfaceOne(Result<MeshedChunk>& chunk, const EditState& under, FinishedChunk& done) const;
-  void meshItems(std::span<const WorkItem> items, const EditState& under, std::span<FinishedChunk> done) const;
+  void meshItems(std::span<const WorkItem> items, const EditState& under, const Progress& progress,
+                 std::span<FinishedChunk> done) const;
   void flushOnce();
   /// Memory gave out: the next update tries again, with one job at first.
   void tellScarce() noexcept;
@@ -145,8 +150,9 @@ class WorldCore {
   EditState queue_edits_;              ///< that the queue is meshed under
   std::vector<ChunkKey> begun_;
   std::vector<FinishedChunk> finished_;
-  size_t meshing_before_ = 0;  ///< jobs that were at work when the plan for these viewers came, less those that ended
-  size_t meshing_ = 0;         ///< jobs at work on a request
+  size_t meshing_before_ = 0;  ///< requests in work when the plan for these viewers came, less as many as have ended
+  size_t meshing_ = 0;         ///< requests in work
+  size_t meshing_jobs_ = 0;    ///< jobs at work on them
   std::array<size_t, 3> meshing_of_rank_{};  ///< likewise, by WorkItem::Rank
   size_t reserved_ = 0;                      ///< bytes that these may come to
   std::vector<std::thread::id> submitting_;  ///< threads that are handing on a mesh job

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
 namespace sgm::vulkan {
@@ -44,6 +45,7 @@ Commands::~Commands() {
   if (!slot_) return;
   const std::scoped_lock lock(ring_->mutex_);
   slot_->state = Slot::idle;
+  ring_->recorded_.notify_one();
 }
 
 VkCommandBuffer Commands::handle() const { return slot_->commands; }
@@ -186,12 +188,28 @@ Result<Commands::Slot*> CommandRing::findSlot(uint64_t nanoseconds) {
         return &slot;
       }
     }
-    if (oldest == UINT64_MAX) return Error{Code::limit, "too many recordings of commands at one time"};
+    if (oldest == UINT64_MAX) {
+      if (!awaitRecorded(nanoseconds)) return Error{Code::limit, "too many recordings of commands at one time"};
+      continue;
+    }
     // Another thread may have been quicker to take the one that was waited for; then there is a next one.
     const auto ended = queue_.wait(oldest, nanoseconds);
     if (!ended) return ended.error();
     if (!*ended) return Error{Code::limit, "the GPU has not ended its earlier work in time"};
   }
+}
+
+bool CommandRing::awaitRecorded(uint64_t nanoseconds) {
+  const auto recorded = [this] {
+    return std::any_of(slots_.begin(), slots_.end(),
+                       [](const Commands::Slot& slot) { return slot.state != Commands::Slot::recording; });
+  };
+  std::unique_lock lock(mutex_);
+  if (nanoseconds == UINT64_MAX) {
+    recorded_.wait(lock, recorded);
+    return true;
+  }
+  return recorded_.wait_for(lock, std::chrono::nanoseconds(nanoseconds), recorded);
 }
 
 Result<Commands> CommandRing::begin(uint64_t nanoseconds) {
@@ -220,6 +238,7 @@ Result<uint64_t> CommandRing::submit(Commands commands) {
   commands.slot_->state = Commands::Slot::submitted;
   commands.slot_->value = *value;
   commands.slot_ = nullptr;
+  recorded_.notify_one();
   return *value;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Recording work for the device: a ring of command buffers, each with the descriptor sets that it needs.
 
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -88,8 +89,8 @@ class CommandRing {
   CommandRing(const CommandRing&) = delete;
   CommandRing& operator=(const CommandRing&) = delete;
 
-  /// Begins a recording; where all are run, waits for the oldest at most so many nanoseconds. Errors: limit (all are
-  /// being recorded, or none has ended in time), device_lost, out_of_memory.
+  /// Begins a recording; where none is idle, waits at most so many nanoseconds for the next to be. No thread may begin
+  /// as many at one time as there are. Errors: limit (none was in time), device_lost, out_of_memory.
   Result<Commands> begin(uint64_t nanoseconds = UINT64_MAX);
   /// Gives the work to the queue, as Queue::submit. Whatever comes of it, the recording has ended.
   Result<uint64_t> submit(Commands commands);
@@ -99,9 +100,12 @@ class CommandRing {
   explicit CommandRing(Queue& queue);
   Result<void> fill(Commands::Slot& slot, const CommandRingOptions& options);
   Result<Commands::Slot*> findSlot(uint64_t nanoseconds);
+  /// Whether one is not being recorded, after at most so long.
+  bool awaitRecorded(uint64_t nanoseconds);
 
   Queue& queue_;
   std::mutex mutex_;
+  std::condition_variable recorded_;
   std::vector<Commands::Slot> slots_;
 };
 

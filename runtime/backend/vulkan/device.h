@@ -37,9 +37,9 @@ struct BorrowedDevice {
   void (*unlock)(void* user) = nullptr;
   void* user = nullptr;
   // What the engine enabled, which Vulkan does not tell:
-  uint32_t api_version = 0;          ///< VkApplicationInfo::apiVersion
-  bool timeline_semaphores = false;  ///< the feature timelineSemaphore
-  bool memory_budget = false;        ///< the extension VK_EXT_memory_budget
+  uint32_t api_version = 0;            ///< VkApplicationInfo::apiVersion
+  bool timeline_semaphores = false;    ///< the feature timelineSemaphore
+  bool memory_budget = false;          ///< the extension VK_EXT_memory_budget
   uint64_t resident_cap = UINT64_MAX;  ///< bytes of its memory for meshes that stay there, at most
   ReplaceCalls replace_calls = nullptr;
 };

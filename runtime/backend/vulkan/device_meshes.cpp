@@ -1,6 +1,5 @@
 #include "backend/vulkan/device_meshes.h"
 
-#include <algorithm>
 #include <cstring>
 
 namespace sgm::vulkan {
@@ -9,6 +8,9 @@ namespace {
 /// A draw command, padded so that vertices behind it begin at a multiple of their size.
 constexpr VkDeviceSize kDrawBytes = 2 * sizeof(Vertex);
 static_assert(sizeof(VkDrawIndexedIndirectCommand) <= kDrawBytes);
+// Buffers begin at multiples of 256 bytes, and lie in blocks that no draw command is too short to address.
+static_assert(256 % sizeof(Vertex) == 0);
+static_assert(MemoryOptions{}.largest_block / sizeof(Vertex) <= INT32_MAX);
 
 VkDeviceSize bytesOf(const PartSource& part) {
   const VkDeviceSize bytes = kDrawBytes + part.vertices.size + part.indices.size;
@@ -54,13 +56,17 @@ VkDrawIndexedIndirectCommand VulkanPart::draw() const {
 }
 
 Result<KeptParts> DeviceMeshes::keep(const std::shared_ptr<const void>& owner, std::span<const PartSources> chunks) {
+  {
+    const std::scoped_lock lock(mutex_);
+    collect();
+  }
   KeptParts kept{std::vector<DeviceParts>(chunks.size())};
   std::vector<std::shared_ptr<DeviceMemory>> memories;
-  memories.reserve(chunks.size());
-  Result<Commands> commands = ring_.begin();
-  if (!commands) return commands.error();
-  // The memory may be that of parts whose copying is still under way.
-  commands->barrier(kTransfer | kCompute, kTransfer);
+  struct Copy {
+    const PartSource& source;
+    std::shared_ptr<const VulkanPart> part;
+  };
+  std::vector<Copy> copies;
   for (size_t c = 0; c < chunks.size(); ++c) {
     const VkDeviceSize bytes = bytesOf(chunks[c]);
     if (bytes == 0) continue;
@@ -71,16 +77,21 @@ Result<KeptParts> DeviceMeshes::keep(const std::shared_ptr<const void>& owner, s
     for (size_t p = 0; p < chunks[c].size(); ++p) {
       const PartSource& source = chunks[c][p];
       if (source.indices.size == 0) continue;
-      auto part = std::make_shared<const VulkanPart>(memories.back(), draw,
-                                                     static_cast<uint32_t>(source.vertices.size / sizeof(Vertex)),
-                                                     static_cast<uint32_t>(source.indices.size / sizeof(uint32_t)));
-      copyPart(*commands, source, *part);
-      kept.chunks[c][p] = std::move(part);
+      const auto vertices = static_cast<uint32_t>(source.vertices.size / sizeof(Vertex));
+      const auto indices = static_cast<uint32_t>(source.indices.size / sizeof(uint32_t));
+      copies.push_back({source, std::make_shared<const VulkanPart>(memories.back(), draw, vertices, indices)});
+      kept.chunks[c][p] = copies.back().part;
       draw += bytesOf(source);
     }
   }
-  if (memories.empty()) return kept;
-  commands->barrier(kTransfer, kTransfer | kCompute);
+  if (copies.empty()) return kept;
+  // Others wait for a recording: none is held any longer than it takes.
+  Result<Commands> commands = ring_.begin();
+  if (!commands) return commands.error();
+  // Shaders wrote the sources.
+  commands->barrier(kCompute, kTransfer);
+  for (const Copy& copy : copies) copyPart(*commands, copy.source, *copy.part);
+  commands->barrier(kTransfer, kCompute);
   const Result<uint64_t> value = ring_.submit(std::move(*commands));
   if (!value) return value.error();
   kept.value = *value;
@@ -88,21 +99,34 @@ Result<KeptParts> DeviceMeshes::keep(const std::shared_ptr<const void>& owner, s
   return kept;
 }
 
-Result<std::shared_ptr<const DevicePart>> DeviceMeshes::upload(const std::shared_ptr<const void>& owner,
-                                                               const MeshPart& part) {
-  const VkDeviceSize vertices = part.vertices.size() * sizeof(Vertex);
-  const VkDeviceSize indices = part.indices.size() * sizeof(uint32_t);
-  Result<Buffer> staging = memory_.buffer(MemoryKind::upload, vertices + indices);
+Result<std::vector<std::shared_ptr<const DevicePart>>> DeviceMeshes::upload(const std::shared_ptr<const void>& owner,
+                                                                            std::span<const MeshPart* const> parts) {
+  VkDeviceSize bytes = 0;
+  for (const MeshPart* part : parts) {
+    bytes += part->vertices.size() * sizeof(Vertex) + part->indices.size() * sizeof(uint32_t);
+  }
+  std::vector<std::shared_ptr<const DevicePart>> brought(parts.size());
+  if (bytes == 0) return brought;
+  Result<Buffer> staging = staging_.buffer(MemoryKind::upload, bytes);
   if (!staging) return staging.error();
-  std::memcpy(staging->data(), part.vertices.data(), vertices);
-  std::memcpy(staging->data() + vertices, part.indices.data(), indices);
-  PartSources sources;
-  sources[0] = {BufferRange(*staging, 0, vertices), BufferRange(*staging, vertices, indices)};
-  Result<KeptParts> kept = keep(owner, {&sources, 1});
+  std::vector<PartSources> sources(parts.size());
+  VkDeviceSize at = 0;
+  const auto stage = [&](const auto& array) {
+    const BufferRange range(*staging, at, array.size() * sizeof(array[0]));
+    if (!array.empty()) std::memcpy(staging->data() + at, array.data(), range.size);
+    at += range.size;
+    return range;
+  };
+  for (size_t i = 0; i < parts.size(); ++i) sources[i][0] = {stage(parts[i]->vertices), stage(parts[i]->indices)};
+  Result<KeptParts> kept = keep(owner, sources);
   if (!kept) return kept.error();
-  retire(std::move(*staging), kept->value);
-  if (!kept->chunks[0][0]) return Error{Code::out_of_memory, "no memory of the GPU's is left for a mesh"};
-  return std::move(kept->chunks[0][0]);
+  const Result<bool> there = queue_.wait(kept->value);
+  if (!there) {
+    retire(std::move(*staging), kept->value);
+    return there.error();
+  }
+  for (size_t i = 0; i < parts.size(); ++i) brought[i] = std::move(kept->chunks[i][0]);
+  return brought;
 }
 
 uint64_t DeviceMeshes::bytes() {
@@ -115,8 +139,7 @@ uint64_t DeviceMeshes::collect() noexcept {
   // Of a lost device nothing is in use any more.
   const Result<uint64_t> now = queue_.reached();
   const uint64_t reached = now ? *now : queue_.lost() ? UINT64_MAX : 0;
-  const auto in_use = [&](const auto& retired) { return retired.first > reached; };
-  retired_.erase(std::stable_partition(retired_.begin(), retired_.end(), in_use), retired_.end());
+  std::erase_if(retired_, [&](const auto& retired) { return retired.first <= reached; });
   return reached;
 }
 
@@ -127,7 +150,7 @@ void DeviceMeshes::retire(Buffer&& buffer, uint64_t value) noexcept {
   try {
     retired_.emplace_back(value, std::move(retired));
   } catch (const std::bad_alloc&) {
-    static_cast<void>(queue_.wait(value));
+    queue_.drain();
   }
 }
 

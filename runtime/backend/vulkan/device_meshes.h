@@ -76,14 +76,17 @@ struct KeptParts {
 /// Any thread may use it. Outlived by the queue, memory and ring that it is given, and by its parts.
 class DeviceMeshes {
  public:
-  DeviceMeshes(Queue& queue, Memory& memory, CommandRing& ring) : queue_(queue), memory_(memory), ring_(ring) {}
+  /// memory: of the parts; staging: of what comes from the host.
+  DeviceMeshes(Queue& queue, Memory& memory, Memory& staging, CommandRing& ring)
+      : queue_(queue), memory_(memory), staging_(staging), ring_(ring) {}
 
   /// Copies parts, in the device's own time: one DeviceParts a chunk, null where there is no source, and throughout a
   /// chunk that no memory is left for. Later submissions may write to the sources, the host may not before their end.
   /// owner keeps alive what this is outlived by. Errors: as CommandRing::submit. Throws std::bad_alloc.
   Result<KeptParts> keep(const std::shared_ptr<const void>& owner, std::span<const PartSources> chunks);
-  /// Brings a part from the host; it has triangles. Errors: also those of Memory::buffer.
-  Result<std::shared_ptr<const DevicePart>> upload(const std::shared_ptr<const void>& owner, const MeshPart& part);
+  /// Brings parts from the host, as Backend::upload; returns when they are there. Errors: also those of Memory::buffer.
+  Result<std::vector<std::shared_ptr<const DevicePart>>> upload(const std::shared_ptr<const void>& owner,
+                                                                std::span<const MeshPart* const> parts);
 
   /// Of parts that have not ended, as the memory counts them.
   uint64_t bytes();
@@ -98,6 +101,7 @@ class DeviceMeshes {
 
   Queue& queue_;
   Memory& memory_;
+  Memory& staging_;
   CommandRing& ring_;
   std::mutex mutex_;
   std::vector<std::pair<uint64_t, Buffer>> retired_;

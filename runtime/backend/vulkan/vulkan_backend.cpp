@@ -1,7 +1,6 @@
 #include "backend/vulkan/vulkan_backend.h"
 
 #include <atomic>
-#include <deque>
 #include <exception>
 #include <mutex>
 #include <new>
@@ -30,8 +29,9 @@ struct Session {
   std::unique_ptr<vulkan::Memory> kept_memory;  ///< of meshes that stay; null where nobody could draw them
   std::unique_ptr<vulkan::DeviceMeshes> kept;   ///< likewise
   std::mutex mutex;
-  std::deque<std::unique_ptr<struct Slot>> idle;
-  std::deque<std::unique_ptr<struct Slot>> stuck;  ///< the device may use them still, to the end
+  size_t slots = 0;
+  std::vector<std::unique_ptr<struct Slot>> idle;   ///< with room for all that there are, and so the next
+  std::vector<std::unique_ptr<struct Slot>> stuck;  ///< the device may use them still, to the end
 
   ~Session();
 };
@@ -81,7 +81,8 @@ Result<std::shared_ptr<Session>> openSession(const VulkanBackendOptions& options
     memory.cap = options.resident_cap;
     memory.families = session->device->readers();
     session->kept_memory = std::make_unique<vulkan::Memory>(*session->device, memory);
-    session->kept = std::make_unique<vulkan::DeviceMeshes>(*session->queue, *session->kept_memory, *session->ring);
+    session->kept = std::make_unique<vulkan::DeviceMeshes>(*session->queue, *session->kept_memory, *session->memory,
+                                                           *session->ring);
   }
   return session;
 }
@@ -100,6 +101,7 @@ struct Shared {
   std::atomic<bool> warned{false};  ///< that pipelines cannot be kept; once is enough
   std::mutex mutex;
   std::shared_ptr<Session> session;  ///< null: lost, and not open again
+  std::atomic<bool> open{true};      ///< there is one; for who must not wait while it is opened
 };
 
 class VulkanBatch final : public ChunkBatch {
@@ -125,28 +127,20 @@ class VulkanBatch final : public ChunkBatch {
     const ProfileScope scope(shared_.profiler, zone::kMesh);
     size_t first = 0;
     while (session_ && first < jobs_.size()) {
-      std::unique_ptr<Slot> slot = takeSlot();
-      slot->first = first;
+      // Whatever is thrown, the slot goes back by our end: the device may be at work in it.
+      slots_.reserve(slots_.size() + 1);
+      slots_.push_back(takeSlot());
+      Slot& slot = *slots_.back();
+      slot.first = first;
       const auto rest = std::span<const ChunkJob>(jobs_).subspan(first);
-      const size_t taken = planBatch(rest, shared_.options.room, session_->mesher->mostScratchWords(), slot->plan);
-      first += taken;
-      if (!slot->plan.chunks.empty()) {
-        if (const Result<bool> copied = session_->queue->wait(slot->kept); !copied) {
-          slot->stuck = true;
-          note(copied.error());
-          release(slot);
-          break;
-        }
-        const Result<uint64_t> value = session_->mesher->submit(slot->plan, slot->buffers);
-        if (!value) {
-          note(value.error());
-          release(slot);
-          break;
-        }
-        slot->value = *value;
-        shared_.counters.batches.fetch_add(1);
+      first += planBatch(rest, shared_.options.room, session_->mesher->mostScratchWords(), slot.plan);
+      if (slot.plan.chunks.empty()) continue;
+      if (const Result<void> submitted = submitSlot(slot); !submitted) {
+        note(submitted.error());
+        release(slots_.back());
+        slots_.pop_back();
+        break;
       }
-      slots_.push_back(std::move(slot));
     }
     keepPipelines();
   }
@@ -165,6 +159,9 @@ class VulkanBatch final : public ChunkBatch {
       guarded([&] { readSlots(); });
     }
     if (rest_ && !rest_->poll()) return false;
+    if (const Result<uint64_t> reached = session_ ? session_->queue->reached() : kept_; reached && *reached < kept_) {
+      return false;
+    }
     guarded([&] { end(); });
     return true;
   }
@@ -174,6 +171,8 @@ class VulkanBatch final : public ChunkBatch {
     guarded([&] {
       if (!read_) readSlots();
       if (rest_) rest_->wait();
+      // Whoever draws these meshes does not wait for what was submitted between them and their copies.
+      if (kept_ > 0) static_cast<void>(reach(kept_));
     });
     guarded([&] { end(); });
   }
@@ -193,16 +192,40 @@ class VulkanBatch final : public ChunkBatch {
  private:
   std::unique_ptr<Slot> takeSlot() {
     const std::scoped_lock lock(session_->mutex);
-    if (session_->idle.empty()) return std::make_unique<Slot>(shared_.memory);
+    std::vector<std::unique_ptr<Slot>>& idle = session_->idle;
+    if (idle.empty()) {
+      auto made = std::make_unique<Slot>(shared_.memory);
+      idle.reserve(session_->slots + 1);
+      session_->stuck.reserve(session_->slots + 1);
+      ++session_->slots;
+      return made;
+    }
     // The one that has been idle for longest: nothing is copied out of it any more, as a rule.
-    std::unique_ptr<Slot> slot = std::move(session_->idle.front());
-    session_->idle.pop_front();
+    std::unique_ptr<Slot> slot = std::move(idle.front());
+    idle.erase(idle.begin());
     return slot;
   }
   void release(std::unique_ptr<Slot>& slot) {
     slot->value = 0;
     const std::scoped_lock lock(session_->mutex);
     (slot->stuck ? session_->stuck : session_->idle).push_back(std::move(slot));
+  }
+
+  Result<void> submitSlot(Slot& slot) {
+    if (const Result<bool> copied = reach(slot.kept); !copied) {
+      slot.stuck = true;
+      return copied.error();
+    }
+    const Result<uint64_t> value = session_->mesher->submit(slot.plan, slot.buffers);
+    if (!value) return value.error();
+    slot.value = *value;
+    shared_.counters.batches.fetch_add(1);
+    return {};
+  }
+  /// Waits; a second time where the driver may have been out of memory.
+  Result<bool> reach(uint64_t value) const {
+    const Result<bool> reached = session_->queue->wait(value);
+    return reached ? reached : session_->queue->wait(value);
   }
 
   void note(const Error& error) {
@@ -220,6 +243,7 @@ class VulkanBatch final : public ChunkBatch {
     const std::scoped_lock lock(shared_.mutex);
     if (shared_.session == session_) {
       shared_.session = nullptr;
+      shared_.open.store(false);
       shared_.counters.device_lost.fetch_add(1);
     }
   }
@@ -237,8 +261,7 @@ class VulkanBatch final : public ChunkBatch {
   /// Waits for the slot; whether what the device has left in it may be read. Where not, it may be in use still.
   bool awaitSlot(Slot& slot) {
     if (slot.value == 0) return false;
-    Result<bool> ended = session_->queue->wait(slot.value);
-    if (!ended) ended = session_->queue->wait(slot.value);  // the driver may have been out of memory
+    const Result<bool> ended = reach(slot.value);
     if (!ended) leave();
     slot.stuck = !ended;
     return !slot.stuck;
@@ -285,7 +308,7 @@ class VulkanBatch final : public ChunkBatch {
       if (!vulkan::readMesh(slot.plan, *output, c, jobs_[job], meshes_[job])) continue;
       finished(job);
     }
-    keepMeshes(slot, *output);
+    if (!cancelled_.load()) keepMeshes(slot, *output);
   }
 
   /// Copies what is to stay to its own place on the device. What cannot be, is uploaded by whoever wants it there.
@@ -302,7 +325,7 @@ class VulkanBatch final : public ChunkBatch {
     if (of.empty()) return;
     Result<vulkan::KeptParts> kept = session_->kept->keep(session_, sources);
     if (!kept) return note(kept.error());
-    slot.kept = kept->value;
+    kept_ = slot.kept = kept->value;
     for (size_t i = 0; i < of.size(); ++i) meshes_[of[i]].on_device = std::move(kept->chunks[i]);
   }
 
@@ -345,6 +368,7 @@ class VulkanBatch final : public ChunkBatch {
   std::vector<std::unique_ptr<Slot>> slots_;
   std::unique_ptr<ChunkBatch> rest_;  ///< what the device has not done, on the CPU
   std::vector<size_t> numbers_;       ///< of the rest's jobs
+  uint64_t kept_ = 0;                 ///< of the queue: all parts that stay are at their places then
   std::atomic<bool> cancelled_{false};
   std::mutex mutex_;
   bool read_ = false, ended_ = false, skipped_ = false;
@@ -360,13 +384,7 @@ class VulkanBackend final : public Backend {
     shared_.memory = memory;
     shared_.profiler = profiler;
     const vulkan::DeviceInfo& info = session->device->info();
-    capabilities_ = {BackendKind::vulkan,
-                     info.name,
-                     info.exact,
-                     64,
-                     info.software() ? kSoftwareBatch : kBatch,
-                     info.software(),
-                     session->device->borrowed()};
+    capabilities_ = {BackendKind::vulkan, info.name, info.exact, 64, info.software(), session->device->borrowed()};
     shared_.session = std::move(session);
   }
   const BackendCapabilities& capabilities() const override { return capabilities_; }
@@ -382,11 +400,15 @@ class VulkanBackend final : public Backend {
     batch->submit();
     return std::unique_ptr<ChunkBatch>(std::move(batch));
   }
-  Result<std::shared_ptr<const DevicePart>> upload(const MeshPart& part) override {
+  uint32_t batch() const override {
+    if (!shared_.open.load()) return 1;
+    return capabilities_.software ? kSoftwareBatch : kBatch;
+  }
+  Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) override {
     const std::shared_ptr<Session> current = session();
     if (!current) return Error{Code::device_lost, "the GPU was lost, and could not be opened again"};
-    if (!current->kept) return Backend::upload(part);
-    return current->kept->upload(current, part);
+    if (!current->kept) return Backend::upload(parts);
+    return current->kept->upload(current, parts);
   }
 
  private:
@@ -395,6 +417,7 @@ class VulkanBackend final : public Backend {
     const std::scoped_lock lock(shared_.mutex);
     if (shared_.session) return shared_.session;
     if (Result<std::shared_ptr<Session>> opened = openSession(shared_.options)) shared_.session = std::move(*opened);
+    shared_.open.store(shared_.session != nullptr);
     return shared_.session;
   }
 

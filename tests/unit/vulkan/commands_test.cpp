@@ -34,7 +34,7 @@ TEST_CASE("the ring hands out as many recordings as it has", "[vulkan]") {
     auto second = (*ring)->begin();
     REQUIRE(first);
     REQUIRE(second);
-    const auto third = (*ring)->begin();
+    const auto third = (*ring)->begin(1000);
     REQUIRE(!third);
     CHECK(third.error().code == Code::limit);
   }
@@ -52,6 +52,31 @@ TEST_CASE("the ring hands out as many recordings as it has", "[vulkan]") {
   CHECK(*(*queue)->reached() == last);
   CHECK(*(*queue)->wait(last, 0));
   CHECK((*queue)->wait(last + 1, 0).error().code == Code::invalid_argument);
+}
+
+TEST_CASE("more threads than recordings take their turns", "[vulkan][threads]") {
+  TestDevice device;
+  if (!device) return;
+  auto queue = Queue::create(*device);
+  REQUIRE(queue);
+  auto ring = CommandRing::create(**queue, {2, 1, 2});
+  REQUIRE(ring);
+  constexpr uint64_t kThreads = 8, kTurns = 25;
+  std::atomic<uint64_t> submitted = 0;
+  std::vector<std::thread> threads;
+  for (uint64_t t = 0; t < kThreads; ++t) {
+    threads.emplace_back([&] {
+      for (uint64_t turn = 0; turn < kTurns; ++turn) {
+        auto commands = (*ring)->begin();
+        if (!commands) continue;
+        std::this_thread::yield();
+        if ((*ring)->submit(std::move(*commands))) ++submitted;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  CHECK(submitted == kThreads * kTurns);
+  CHECK((*queue)->submitted() == kThreads * kTurns);
 }
 
 TEST_CASE("a recording has as many binds as the ring was made for", "[vulkan]") {
