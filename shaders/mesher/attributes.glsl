@@ -12,8 +12,8 @@ layout(local_size_x_id = 0) in;
 #include "common/common.h"
 #include "mesher/hash.glsl"
 
-float slot_v[64], slot_x[64], slot_y[64], slot_z[64];
-int slot_label[64];
+float slot_v[kSlots], slot_x[kSlots], slot_y[kSlots], slot_z[kSlots];
+int slot_label[kSlots];
 ivec3 warped[8];
 mat3 jacobians[8];  // column j holds d place / d sample_j
 
@@ -78,6 +78,7 @@ void main() {
   const bool coarse = ((number - chunk_count * kBricks) & 1u) == 1u;
   const uint count = unit.z;
 
+  writeSlot(kFarSlot, farAway());
   uint filled_to = fillWindow(list, list_end);
   const bool whole = filled_to == list_end;
   uvec2 share = uvec2(0u);
@@ -116,7 +117,7 @@ void main() {
   {                                                                              \
     Dual made = F(PX, PY, PZ, P);                                                \
     if (OCCURS(kOp_warp)) made = selDual(place == 0u, made, byColumns(made, jacobians[place])); \
-    writeSlot(dst, made);                                                        \
+    writeSlot(dst, opMinimum(readSlot(ra), made));                               \
   }
 #define FORM_POSITION_1(F)                                                       \
   {                                                                              \
@@ -125,11 +126,16 @@ void main() {
     if (OCCURS(kOp_warp)) made = selDual(place == 0u, made, byColumns(made, jacobians[place])); \
     writeSlot(dst, addSlope(made, t, opPowerMorphSlope(PX, PY, PZ, t, P)));      \
   }
-#define FORM_UNARY(F) STORE(F(readSlot(ra)))
-#define FORM_UNARY_P(F) STORE(F(readSlot(ra), P))
-#define FORM_BINARY(F) STORE(F(readSlot(ra), readSlot(rb)))
-#define FORM_TERNARY(F) STORE(F(readSlot(ra), readSlot(rb), readSlot(rc)))
-#define FORM_COPY(F) STORE(readSlot(ra))
+#define READ_JOINED                                   \
+  const Dual a = readSlot(ra), b = readSlot(rb);      \
+  Dual c = nothing(), made = a;                       \
+  if (kHasThird) c = readSlot(rc);
+#define WRITE_JOINED writeSlot(dst, made);
+#define FORM_UNARY(F) made = F(a);
+#define FORM_UNARY_P(F) made = F(a, P);
+#define FORM_BINARY(F) made = F(a, b);
+#define FORM_TERNARY(F) made = F(a, b, c);
+#define FORM_COPY(F)
 #define FORM_ROUND_BEGIN(F)     \
   writeSlot(dst, farAway());    \
   writeSlot(rb, nothing());

@@ -5,7 +5,7 @@
 const float kNever = 3.0e38f;
 const uint kMostLayers = 64u;
 
-float low[64], high[64];
+float low[kSlots], high[kSlots];
 ivec3 place_low[8], place_high[8];
 
 Bounds slotBounds(uint slot) { return makeBounds(low[slot], high[slot]); }
@@ -90,8 +90,14 @@ Bounds powerMorphBounds(ivec3 middle, Bounds t, ivec3 lo, ivec3 hi) {
 #define OPERANDS(a, b, c) setSlot(dst, operandBounds(number, a, b, c, PF(P, 0), PF(P, 1)));
 #define NONE makeBounds(0.0f, 0.0f)
 #define FORM_CONSTANT(F) OPERANDS(NONE, NONE, NONE)
-#define FORM_POSITION(F) \
-  setSlot(dst, positionBounds(number, F(MIDDLE_OF(x), MIDDLE_OF(y), MIDDLE_OF(z), P).v, LO, HI));
+#define FORM_NOISE(F) setSlot(dst, positionBounds(number, 0.0f, LO, HI));
+#define FORM_POSITION(F)                                                                                 \
+  {                                                                                                      \
+    Bounds a = slotBounds(ra);                                                                           \
+    Bounds b = positionBounds(number, F(MIDDLE_OF(x), MIDDLE_OF(y), MIDDLE_OF(z), P).v, LO, HI);         \
+    MARK(float(b.lo > a.hi ? kFirstAlone : a.lo > b.hi ? kSecondAlone : kKept))                          \
+    setSlot(dst, makeBounds(min(a.lo, b.lo), min(a.hi, b.hi)));                                          \
+  }
 #define FORM_POSITION_1(F) \
   setSlot(dst, powerMorphBounds(ivec3(MIDDLE_OF(x), MIDDLE_OF(y), MIDDLE_OF(z)), slotBounds(ra), LO, HI));
 #define FORM_UNARY(F) OPERANDS(slotBounds(ra), NONE, NONE)

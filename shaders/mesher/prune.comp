@@ -36,24 +36,21 @@ float nearest_high[64];     // by slot: of a round union that ends
 
 // Records from..end of the program into the window; returns the first that found no room.
 uint fillWindow(uint headers, uint from, uint end) {
-  uint lane = gl_SubgroupInvocationID & 7u;
-  uint filled = 0u;
-  uint at = from;
+  const uint lane = gl_SubgroupInvocationID & 7u;
+  uint filled = 0u, at = from, base = from, piece = 0u;
+  bool fits = true;
   do {
-    uint place = batch_fours[headers + at].z * 8u;
-    uvec4 words = batch_fours[place + lane];
-    uint pieces = subgroupShuffle(words.x, 0u) >> 16;
-    bool fits = filled + pieces + 1u < kWindow;
-    window[filled] = words;
-    uint piece = 1u;
-    while (piece < pieces && fits) {
-      window[filled + piece] = batch_fours[place + 8u * piece + lane];
-      ++piece;
-    }
-    filled += fits ? pieces : 0u;
-    at += fits ? 1u : 0u;
-    if (!fits) break;
-  } while (at < end);
+    const uvec4 eight = batch_fours[headers + base + lane];
+    do {
+      const uint pieces = subgroupShuffle(eight.x, at - base) >> 16;
+      fits = fits && (piece > 0u || filled + pieces + 1u < kWindow);
+      if (fits) window[filled] = batch_fours[(subgroupShuffle(eight.z, at - base) + piece) * 8u + lane];
+      filled += fits ? 1u : 0u;
+      piece = piece + 1u < pieces ? piece + 1u : 0u;
+      at += fits && piece == 0u ? 1u : 0u;
+    } while (fits && at < min(base + 8u, end));
+    base += 8u;
+  } while (fits && at < end);
   window[filled] = uvec4(kEndOfWindow);
   return at;
 }
@@ -87,6 +84,7 @@ void main() {
     lo[axis] = at;
     hi[axis] = at;
   }
+  setSlot(kFarSlot, makeBounds(kMostBound, kMostBound));
   place_low[0] = lo;
   place_high[0] = hi;
 
@@ -155,7 +153,7 @@ void main() {
 
     // What it makes is not wanted any more, what it reads is.
     const uint dst_low = dst < 32u ? 1u << dst : 0u, dst_high = dst >= 32u ? 1u << (dst - 32u) : 0u;
-    const uint two_low = rb < 32u ? 1u << rb : 0u, two_high = rb >= 32u ? 1u << (rb - 32u) : 0u;
+    const uint two_low = rb < 32u ? 1u << rb : 0u, two_high = rb >= 32u ? 1u << (rb & 31u) : 0u;
     if (keep && is_op && (traits & (kAddsTo | kMakesPlace)) == 0u) {
       live_low &= ~dst_low;
       live_high &= ~dst_high;
@@ -173,7 +171,7 @@ void main() {
     live_low |= (read_a && ra < 32u ? 1u << ra : 0u) | (read_b ? two_low : 0u) | (read_c && rc < 32u ? 1u << rc : 0u);
     live_high |= (read_a && ra >= 32u ? 1u << (ra - 32u) : 0u) | (read_b ? two_high : 0u) |
                  (read_c && rc >= 32u ? 1u << (rc - 32u) : 0u);
-    if (keep && (traits & (kReadsPosition | kMakesPlace)) != 0u && !chooses) live_places |= 1u << place;
+    if (keep && (traits & (kReadsPosition | kMakesPlace)) != 0u && !(chooses && choice == kFirstAlone)) live_places |= 1u << place;
     if (emit && listed) {
       --begin;
       scratch[begin] = record_place | choice << 30;

@@ -28,7 +28,9 @@ void main() {
   const uint number = itemOfEntry(entry);
   const uint item = items_at + kItemWords * number;
   const bool brick = number < chunk_count * kBricks;
-  const uint list = scratch[item + kItemList], list_end = list + scratch[item + kItemCount];
+  // An item's other slices have nothing to add.
+  const bool asked = brick && sliceOfEntry(entry) == 0u;
+  const uint list = scratch[item + kItemList], list_end = list + (asked ? scratch[item + kItemCount] : 0u);
   const float scale = uintBitsToFloat(scratch[item + kItemScale]);
   const float initial = uintBitsToFloat(scratch[item + kItemInitial]);
   const uint owner = scratch[item + kItemOwner];
@@ -40,6 +42,7 @@ void main() {
   const ivec3 first = ivec3(firstOfPart(number % kBricks, which)), last = ivec3(lastOfPart(number % kBricks, which));
   // As of a brick: proven with one sample around it.
   const ivec3 lo = origin + max(first - 1, ivec3(0)) * cell, hi = origin + min(last + 1, ivec3(32)) * cell;
+  setSlot(kFarSlot, makeBounds(kMostBound, kMostBound));
   place_low[0] = lo;
   place_high[0] = hi;
 
@@ -55,7 +58,7 @@ void main() {
   field = layerJoined(field, adds, cuts);
   const uint solid = subgroupBallot(field.hi * scale < -0.55f).x & 0xFFu;
   const uint empty = subgroupBallot(field.lo * scale > -0.45f).x & 0xFFu;
-  if (gl_LocalInvocationID.x == 0u && brick && sliceOfEntry(entry) == 0u) {
+  if (gl_LocalInvocationID.x == 0u && asked) {
     scratch[item + kItemParts] = solid | empty << 8;
   }
 }

@@ -12,7 +12,7 @@ layout(local_size_x_id = 0) in;
 
 const uint kEach = 4u;  // samples an invocation takes at one time
 
-float slots[64u * kEach];
+float slots[kSlots * kEach];
 ivec3 warped[7u * kEach];
 
 Dual valueOf(float v) { return makeDual(v, 0.0f, 0.0f, 0.0f, 0); }
@@ -48,6 +48,7 @@ void main() {
   const uint uniform_parts = scratch[item + kItemParts];
   uint left = plane ? 1u : ~(uniform_parts | uniform_parts >> 8) & 0xFFu;
 
+  for (uint s = 0u; s < kEach; ++s) slots[kFarSlot * kEach + s] = farAway().v;
   uint filled_to = fillWindow(list, list_end);
   const bool whole = filled_to == list_end;
   uint part = uint(findLSB(left)), base = sliceOfEntry(entry) * kEach * gl_WorkGroupSize.x;
@@ -97,13 +98,27 @@ void main() {
 #define SLOT(r) slots[(r) * kEach + s]
 #define READ(r) valueOf(SLOT(r))
 #define FORM_CONSTANT(F) EACH(SLOT(dst) = F(P).v;)
-#define FORM_POSITION(F) EACH(SLOT(dst) = F(PX, PY, PZ, P).v;)
+#define FORM_POSITION(F) EACH(SLOT(dst) = opMinimum(READ(ra), F(PX, PY, PZ, P)).v;)
+// Its octaves are a loop within, which fills the processor by itself.
+#define OF_SAMPLE(p) (s == 0u ? p[0] : s == 1u ? p[1] : s == 2u ? p[2] : p[3])
+#define FORM_NOISE(F)                                                                                  \
+  uint s = 0u;                                                                                         \
+  do {                                                                                                 \
+    ivec3 at = ivec3(OF_SAMPLE(px), OF_SAMPLE(py), OF_SAMPLE(pz));                                     \
+    if (MOVED) at = warped[(place - 1u) * kEach + s];                                                  \
+    SLOT(dst) = F(at.x, at.y, at.z, P).v;                                                              \
+    ++s;                                                                                               \
+  } while (s < kEach);
 #define FORM_POSITION_1(F) EACH(SLOT(dst) = F(PX, PY, PZ, READ(ra), P).v;)
-#define FORM_UNARY(F) EACH(SLOT(dst) = F(READ(ra)).v;)
-#define FORM_UNARY_P(F) EACH(SLOT(dst) = F(READ(ra), P).v;)
-#define FORM_BINARY(F) EACH(SLOT(dst) = F(READ(ra), READ(rb)).v;)
-#define FORM_TERNARY(F) EACH(SLOT(dst) = F(READ(ra), READ(rb), READ(rc)).v;)
-#define FORM_COPY(F) EACH(SLOT(dst) = SLOT(ra);)
+#define READ_JOINED                                                                                    \
+  float a[kEach], b[kEach], c[kEach], made[kEach];                                                     \
+  EACH(a[s] = SLOT(ra); b[s] = SLOT(rb); c[s] = kHasThird ? SLOT(rc) : 0.0f; made[s] = a[s];)
+#define WRITE_JOINED EACH(SLOT(dst) = made[s];)
+#define FORM_UNARY(F) EACH(made[s] = F(valueOf(a[s])).v;)
+#define FORM_UNARY_P(F) EACH(made[s] = F(valueOf(a[s]), P).v;)
+#define FORM_BINARY(F) EACH(made[s] = F(valueOf(a[s]), valueOf(b[s])).v;)
+#define FORM_TERNARY(F) EACH(made[s] = F(valueOf(a[s]), valueOf(b[s]), valueOf(c[s])).v;)
+#define FORM_COPY(F)
 #define FORM_ROUND_BEGIN(F) EACH(SLOT(dst) = farAway().v; SLOT(rb) = nothing().v;)
 #define FORM_ROUND_ADD(F)                                           \
   EACH(Dual d = READ(ra); SLOT(dst) = opMinimum(READ(dst), d).v;    \

@@ -5,15 +5,18 @@
 //
 // Needs: every lane of a subgroup active, which all of a workgroup's control flow here grants; subgroups of 8 or more.
 
+const uint kSlots = 65u;    // of values; the last is never written: farther than anything
+const uint kFarSlot = 64u;
 const uint kWindow = 128u;  // records in sight
 uvec4 window[kWindow];      // lane l of 8 holds words 4 l to 4 l + 3
 uvec4 record;               // the current one
+uvec4 own;                  // what an op reads of it (sweep.glsl)
 uint record_at;             // its place in the window
 uint record_number;         // how many came before it
 
 uint wordOfRecord(uint i) {
   uint k = i & 3u;
-  return subgroupShuffle(k == 0u ? record.x : k == 1u ? record.y : k == 2u ? record.z : record.w, i >> 2);
+  return subgroupShuffle(k == 0u ? own.x : k == 1u ? own.y : k == 2u ? own.z : own.w, i >> 2);
 }
 
 // A parameter whose number is no constant: in the first 28, or in what follows the first 32 words.
@@ -27,7 +30,8 @@ uint farWord(uint i) {
 // Only kinds of op that occur are compiled in on software Vulkan: it would run each of them at least once a sweep.
 layout(constant_id = 1) const uint kKindsLow = 0xFFFFFFFFu;
 layout(constant_id = 2) const uint kKindsHigh = 0xFFFFFFFFu;
-#define OCCURS(NUMBER) (((NUMBER) < 32u ? kKindsLow >> ((NUMBER) & 31u) : kKindsHigh >> ((NUMBER) & 31u)) & 1u) != 0u
+#define OCCURS(NUMBER) ((((NUMBER) < 32u ? kKindsLow >> ((NUMBER) & 31u) : kKindsHigh >> ((NUMBER) & 31u)) & 1u) != 0u)
+#define kHasThird (OCCURS(kOp_mix) || OCCURS(kOp_morph))  // operands
 
 #define PU(P, i) wordOfRecord(uint(i) + 2u)
 #define QU(P, i) wordOfRecord(uint(i) + 2u)

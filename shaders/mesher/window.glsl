@@ -2,41 +2,41 @@
 
 const uint kEndOfWindow = 0xFFu;
 
-// Loads entries from `from` on, up to `end`; returns the first that found no room.
+// Loads entries from `from` on, up to `end`; returns the first that found no room. A round brings a piece of a record, 32
+// words; entries come eight at a time, one a lane.
 uint fillWindow(uint from, uint end) {
-  uint lane = gl_SubgroupInvocationID & 7u;
-  uint filled = 0u;
-  uint at = from;
+  const uint lane = gl_SubgroupInvocationID & 7u;
+  uint filled = 0u, at = from, base = from, piece = 0u, pieces = 1u;
+  bool fits = from < end;
   do {
-    uint entry = scratch[at];
-    uint place = (entry & 0x3FFFFFFFu) * 8u;
-    uint choice = entry >> 30;
-    uvec4 words = batch_fours[place + lane];
-    uint head = subgroupShuffle(words.x, 0u), slots_word = subgroupShuffle(words.y, 0u);
-    uint pieces = head >> 16, kind = head & 0xFFu;
-    bool fits = filled + pieces + 1u < kWindow && at < end;
-    bool alone_left = choice != kKept && kind < kOpCount;
-    uint alone = choice == kFirstAlone ? slots_word >> 8 & 0xFFu : slots_word >> 16 & 0xFFu;
-    // A minimum of one operand with itself is that operand, and stays in the row of minima that it stands in; others
-    // become copies.
-    bool copies = alone_left && kind != kOp_minimum && kind != kOp_maximum;
-    if (alone_left && lane == 0u) {
-      words.x = copies ? kOp_copy | 1u << 16 : words.x;
-      words.y = (slots_word & 0xFFu) | alone << 8 | alone << 16;
-    }
-    // The ninth word is a fold's flags.
-    if (choice == kFirstAlone && kind >= kOpCount && lane == 2u) words.x &= ~2u;
-    if (copies) pieces = 1u;
-    if (fits) window[filled] = words;
-    uint piece = 1u;
-    while (piece < pieces && fits) {
-      window[filled + piece] = batch_fours[place + 8u * piece + lane];
-      ++piece;
-    }
-    filled += fits ? pieces : 0u;
-    at += fits ? 1u : 0u;
-    if (!fits) break;
-  } while (at < end);
+    const uint entries = scratch[base + lane];
+    do {
+      const uint entry = fits ? subgroupShuffle(entries, at - base) : 0u;
+      const uint choice = entry >> 30;
+      uvec4 words = batch_fours[((entry & 0x3FFFFFFFu) + piece) * 8u + lane];
+      const uint head = subgroupShuffle(words.x, 0u), slots_word = subgroupShuffle(words.y, 0u), kind = head & 0xFFu;
+      const bool first = piece == 0u;
+      const bool alone_left = first && choice != kKept && kind < kOpCount;
+      const uint alone = choice == kFirstAlone ? slots_word >> 8 & 0xFFu : slots_word >> 16 & 0xFFu;
+      // A minimum of one operand with itself is that operand, and stays in the row of minima that it stands in; a shape
+      // without its operand has the far slot for its second; others become copies.
+      const bool unites = kind < kFirstJoin && choice == kSecondAlone;
+      const bool copies = alone_left && kind != kOp_minimum && kind != kOp_maximum && !unites;
+      if (alone_left && lane == 0u) {
+        words.x = copies ? kOp_copy | 1u << 16 : words.x;
+        words.y = (slots_word & 0xFFu) | alone << 8 | alone << 16;
+      }
+      // The ninth word is a fold's flags.
+      if (first && choice == kFirstAlone && kind >= kOpCount && lane == 2u) words.x &= ~2u;
+      if (first) pieces = copies ? 1u : head >> 16;
+      fits = fits && (!first || filled + pieces + 1u < kWindow);
+      if (fits) window[filled] = words;
+      filled += fits ? 1u : 0u;
+      piece = piece + 1u < pieces ? piece + 1u : 0u;
+      at += fits && piece == 0u ? 1u : 0u;
+    } while (fits && at < min(base + 8u, end));
+    base += 8u;
+  } while (fits && at < end);
   window[filled] = uvec4(kEndOfWindow);
   return at;
 }

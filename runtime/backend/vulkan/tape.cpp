@@ -27,40 +27,41 @@ constexpr std::array<uint32_t, kKinds> kRanks = makeRanks();
 struct Shape {
   uint32_t operands = 0;
   bool position = false;
+  uint32_t words = 0;  ///< of parameters, at most, where it does not read a position
 };
 
 Shape shapeOf(Op op) {
   switch (op) {
 #define SGM_FORM_CONSTANT \
-  Shape { 0, false }
+  Shape { 0, false, 1 }
 #define SGM_FORM_POSITION \
-  Shape { 0, true }
+  Shape { 0, true, 0 }
 #define SGM_FORM_POSITION_1 \
-  Shape { 1, true }
+  Shape { 1, true, 0 }
 #define SGM_FORM_UNARY \
-  Shape { 1, false }
+  Shape { 1, false, 0 }
 #define SGM_FORM_UNARY_P \
-  Shape { 1, false }
+  Shape { 1, false, 2 }
 #define SGM_FORM_BINARY \
-  Shape { 2, false }
+  Shape { 2, false, 0 }
 #define SGM_FORM_TERNARY \
-  Shape { 3, false }
+  Shape { 3, false, 0 }
 #define SGM_FORM_COPY \
-  Shape { 1, false }
+  Shape { 1, false, 0 }
 #define SGM_FORM_ROUND_BEGIN \
-  Shape { 0, false }
+  Shape { 0, false, 0 }
 #define SGM_FORM_ROUND_ADD \
-  Shape { 1, false }
+  Shape { 1, false, 1 }
 #define SGM_FORM_ROUND_END \
-  Shape { 2, false }
+  Shape { 2, false, 1 }
 #define SGM_FORM_SUM_BEGIN \
-  Shape { 0, false }
+  Shape { 0, false, 0 }
 #define SGM_FORM_SUM_ADD \
-  Shape { 1, false }
+  Shape { 1, false, 0 }
 #define SGM_FORM_SUM_END \
-  Shape { 2, false }
+  Shape { 2, false, 2 }
 #define SGM_FORM_WARP \
-  Shape { 3, false }
+  Shape { 3, false, 0 }
 #define SGM_OP(name, function, form, error) \
   case Op::name:                            \
     return SGM_FORM_##form;
@@ -89,6 +90,7 @@ uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program, bool l
   }
   const auto op = static_cast<Op>(n.kind);
   const Shape shape = shapeOf(op);
+  if (shape.position && shape.operands == 0 && n.a >= 0) return 1 | kReadsPosition | kChooses;
   uint32_t traits = shape.operands | (shape.position ? kReadsPosition : 0);
   switch (op) {
     case Op::round_begin:
@@ -124,7 +126,7 @@ uint32_t parameterWords(Op op, const uint32_t* p) {
     case Op::lattice:
       return 10;  // the samples lie apart
     default:
-      return shapeOf(op).position ? 21 : 2;
+      return shapeOf(op).position ? 21 : shapeOf(op).words;
   }
 }
 
@@ -144,6 +146,7 @@ class Scheduler {
   /// false: too much for a shader.
   bool run() {
     readNodes();
+    uniteShapes();
     if (!fits_ || nodes_.size() > kMostTapeRecords || layers_ > kMostTapeLayers) return false;
     sortBlocks();
     return assignSlots();
@@ -228,6 +231,50 @@ class Scheduler {
     nodes_.push_back(n);
   }
 
+  /// Reads a position and nothing else, in a form that takes a minimum with its operand.
+  static bool isShape(uint32_t kind) {
+    if (kind >= static_cast<uint32_t>(Op::count) || kind == static_cast<uint32_t>(Op::noise)) return false;
+    const Shape shape = shapeOf(static_cast<Op>(kind));
+    return shape.position && shape.operands == 0;
+  }
+
+  /// A minimum of what shapes before have come to and of the shape just before it goes into that shape, unless others
+  /// want one of the two, or the shape would have to wait for another sweep.
+  void uniteShapes() {
+    for (const Node& n : nodes_) {
+      forEachValue(n, [&](size_t v) { values_[v].uses += 1; });
+      if (n.dst >= 0) values_[static_cast<size_t>(n.dst)].kind = n.kind;
+    }
+    int32_t values = 0;
+    size_t kept = 0;
+    for (size_t i = 0; i < nodes_.size(); ++i) {
+      Node n = nodes_[i];
+      if (n.kind == static_cast<uint32_t>(Op::minimum) && kept > 0) {
+        const TapeScratch::Value &a = values_[static_cast<size_t>(n.a)], &b = values_[static_cast<size_t>(n.b)];
+        Node& shape = nodes_[kept - 1];
+        // Made once and read once.
+        const bool alone = a.uses == 2 && b.uses == 2 && shape.dst == b.renamed && shape.a < 0;
+        if (alone && isShape(shape.kind) && isShape(a.kind) && kRanks[a.kind] <= kRanks[shape.kind]) {
+          shape.a = a.renamed;
+          TapeScratch::Value& made = values_[static_cast<size_t>(n.dst)];
+          made.renamed = shape.dst;
+          made.kind = shape.kind;
+          continue;
+        }
+      }
+      for (int32_t* v : {&n.a, &n.b, &n.c, &n.dst, &n.second}) {
+        if (*v < 0) continue;
+        TapeScratch::Value& value = values_[static_cast<size_t>(*v)];
+        if (value.renamed < 0) value.renamed = values++;
+        *v = value.renamed;
+      }
+      n.order = static_cast<uint32_t>(kept);
+      nodes_[kept++] = n;
+    }
+    nodes_.resize(kept);
+    values_.assign(static_cast<size_t>(values), {});
+  }
+
   template <class F>
   static void forEachValue(const Node& n, F&& f) {
     for (const int32_t v : {n.a, n.b, n.c, n.dst, n.second}) {
@@ -245,6 +292,8 @@ class Scheduler {
                 [](const Node& a, const Node& b) {
                   if (a.stage != b.stage) return a.stage < b.stage;
                   if (kRanks[a.kind] != kRanks[b.kind]) return kRanks[a.kind] < kRanks[b.kind];
+                  if (a.step != b.step) return a.step < b.step;
+                  if (a.kind != b.kind) return a.kind < b.kind;
                   return a.order < b.order;
                 });
       first = last;
@@ -301,12 +350,21 @@ class Scheduler {
         fold_rank = rank;
       }
       if (warps) place_stage[n.group] = n.stage + 1;
+      // Among those of one turn, which are all ops that join values, the kinds stand together in the same way.
+      n.step = 0;
+      forEachValue(n, [&](size_t v) {
+        const TapeScratch::Value& read = values_[v];
+        if (!read.in_block || read.stage != n.stage || read.rank != rank) return;
+        n.step = std::max(n.step, read.kind <= n.kind ? read.step : read.step + 1);
+      });
       for (const int32_t v : {n.dst, n.second}) {
         if (v < 0) continue;
         TapeScratch::Value& made = values_[static_cast<size_t>(v)];
         made.in_block = true;
         made.stage = n.stage;
         made.rank = rank;
+        made.kind = n.kind;
+        made.step = n.step;
       }
     }
   }
@@ -381,14 +439,17 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
   const auto slot = [&](int32_t v) {
     return v < 0 ? 0u : static_cast<uint32_t>(scratch.values[static_cast<size_t>(v)].slot);
   };
+  const Shape shape = is_op ? shapeOf(op) : Shape{};
+  const bool unites = shape.position && shape.operands == 0;
   const bool two = n.second >= 0;
   record[0] = n.kind | n.place << 8 | pieces << 16;
   record[1] = (n.kind == static_cast<uint32_t>(Op::warp) ? n.group : slot(n.dst)) | slot(n.a) << 8 |
               (two ? slot(n.second) : slot(n.b)) << 16 | slot(n.c) << 24;
   if (n.ends_layer) record[1] = n.layer;
+  if (unites) record[1] = slot(n.dst) | (n.a < 0 ? kFarSlot : slot(n.a)) << 8 | kFarSlot << 16;
   std::copy_n(params, std::min(count, kFirstWords), record + 2);
   if (count > kFirstWords) std::copy_n(params + kFirstWords, count - kFirstWords, record + kTapeRecordWords);
-  if (is_op && shapeOf(op).position) record[30] = std::bit_cast<uint32_t>(static_cast<float>(sizeSum(op, params)));
+  if (shape.position) record[30] = std::bit_cast<uint32_t>(static_cast<float>(sizeSum(op, params)));
   return pieces;
 }
 

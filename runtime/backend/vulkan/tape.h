@@ -5,7 +5,9 @@
 // Vulkan executes both sides of every branch, so that a switch would cost it all ops for each instruction, and hardware
 // likes long runs of one op as well. Hence the order: within a block as many instructions as possible of one kind stand
 // together, those first that others read. Values live in slots, each written once and read any number of times before
-// its slot is used again. The folds of groups (field/program.h) are instructions too, and keep their order.
+// its slot is used again. The folds of groups (field/program.h) are instructions too, and keep their order. A union of
+// primitives is no instruction of its own: each takes the minimum of itself and its operand, which is far for the
+// first.
 
 #include <cstdint>
 #include <memory_resource>
@@ -16,6 +18,7 @@
 namespace sgm {
 
 inline constexpr uint32_t kTapeSlots = 64;
+inline constexpr uint32_t kFarSlot = kTapeSlots;  ///< never written: farther than anything
 inline constexpr uint32_t kTapeRecordWords = 32;
 inline constexpr uint32_t kMostTapeRecords = 1024;
 inline constexpr uint32_t kMostTapeLayers = 64;
@@ -41,14 +44,14 @@ struct Tape {
 /// Reused from program to program.
 struct TapeScratch {
   struct Node {
-    uint32_t kind = 0, place = 0, params = 0, group = 0, layer = 0, order = 0, stage = 0;
+    uint32_t kind = 0, place = 0, params = 0, group = 0, layer = 0, order = 0, stage = 0, step = 0;
     bool ends_layer = false;  ///< a fold, not of a group: what the layer takes away goes out of the field
     bool layer_cuts = false;  ///< of a layer's end: something is taken away
     int32_t dst = -1, second = -1, a = -1, b = -1, c = -1;  ///< values; -1: none
   };
   struct Value {
-    uint32_t stage = 0, rank = 0, last = 0;
-    int32_t slot = -1;
+    uint32_t stage = 0, rank = 0, kind = 0, step = 0, last = 0, uses = 0;
+    int32_t slot = -1, renamed = -1;
     bool in_block = false;
   };
   explicit TapeScratch(std::pmr::memory_resource* memory) : nodes(memory), values(memory) {}
