@@ -17,7 +17,7 @@ layout(local_size_x_id = 0) in;
 shared uint brick_vertices;
 shared uint brick_entries;
 
-uvec2 signsOfRow(uint signs, uint row) { return uvec2(scratch[signs + 2u * row], scratch[signs + 2u * row + 1u]); }
+uvec2 signsOfRow(uint signs, uint row) { return scratch_pairs[signs / 2u + row]; }
 
 // Samples lo to hi of a word of 32 and one of a single bit.
 uvec2 samplesOf(uint lo, uint hi) {

@@ -29,9 +29,7 @@ void main() {
     const uint first = 4u * brick.x + 16u * brick.y, first_part = 2u * part.x + 4u * part.y;
     uint low = 0u, last = 0u;
     for (uint x = 0u; x < 4u; ++x) {
-      const uint item = brickItem(number, first + x);
-      const uint parts_solid = scratch[item + kItemParts] >> first_part & 3u;
-      const uint solid = (scratch[item + kItemFlags] & kItemSolid) != 0u ? 3u : parts_solid;
+      const uint solid = scratch[brickItem(number, first + x) + kItemParts] >> first_part & 3u;
       low |= ((solid & 1u) * 0x0Fu | (solid >> 1) * 0xF0u) << (8u * x);
       last = solid >> 1;
     }

@@ -11,7 +11,7 @@ const uint kItemInitial = 3u;  // the field below all that is left, as bits, and
 const uint kItemLabel = 4u;
 const uint kItemScale = 5u;    // Q by unit, as bits
 const uint kItemOwner = 6u;    // of a brick the chunk's record, of a plane the seam's, as places in batch
-const uint kItemParts = 7u;    // of a brick that is sampled: which of its eight parts are solid throughout; from bit 8, empty
+const uint kItemParts = 7u;    // of a brick: which of its eight parts are solid throughout; from bit 8, empty
 const uint kItemSolid = 1u;    // proven: all samples are solid,
 const uint kItemEmpty = 2u;    // or none is
 

@@ -106,76 +106,80 @@ void main() {
   float limit_add = 0.0f, limit_cut = 0.0f, limit_joined = 0.0f;
   const bool listed = used && (!bricks || !(solid || empty));
   uint r = records;
-  uvec4 headers_here = uvec4(0u);
-  uint lane = gl_SubgroupInvocationID & 7u;
+  const uint lane = gl_SubgroupInvocationID & 7u;
   if (records > 0u) do {
-    --r;
-    headers_here = batch_fours[headers + (r & ~7u) + lane];
-    const uint head_word = subgroupShuffle(headers_here.x, r & 7u), slots_word = subgroupShuffle(headers_here.y, r & 7u);
-    const uint record_place = subgroupShuffle(headers_here.z, r & 7u), traits = subgroupShuffle(headers_here.w, r & 7u);
-    const uint dst = slots_word & 0xFFu, ra = slots_word >> 8 & 0xFFu, rb = slots_word >> 16 & 0xFFu, rc = slots_word >> 24;
-    const uint place = head_word >> 8 & 0xFFu;
-    const float m = mark[r], w = whole_mark[r];
-    const bool is_fold = (traits & kIsFold) != 0u, is_smooth = (traits & kIsSmooth) != 0u;
-    const bool is_end = (traits & kIsLayerEnd) != 0u, cuts_too = (traits & kCuts) != 0u;
-    const bool is_op = !(is_fold || is_smooth || is_end);
-    if (is_end || is_smooth) below = below || replaced;
-    const uint layer = is_end ? slots_word : 0u;
-    if (is_end) {
-      limit_add = layer_add[layer];
-      limit_cut = layer_cut[layer];
-      limit_joined = layer_joined[layer];
-      replaced = layer_replaced[layer] > 0.0f;
-    }
-    const bool writes = (traits & (kBeginsTwo | kAddsTo)) == 0u;
-    const bool dst_live = ((traits & kMakesPlace) != 0u ? live_places >> dst
-                           : dst < 32u ? live_low >> dst : live_high >> (dst - 32u)) % 2u == 1u;
-    bool keep = is_op && dst_live;
-    uint choice = kKept;
-    bool emit = keep;
-    if ((traits & kAddsTo) != 0u) {
-      keep = keep && !((traits & kAddsRound) != 0u ? m > nearest_high[dst] : m <= 0.0f);
-      emit = keep;
-    }
-    if (keep && (traits & kEndsRound) != 0u) nearest_high[ra] = m;
-    if (keep && (traits & kChooses) != 0u) {
-      choice = uint(m);
-      emit = choice == kKept || dst != (choice == kFirstAlone ? ra : rb);
-    }
-    if (is_fold) keep = !below && m < kNever && (cuts_too ? m <= limit_cut && -m >= limit_joined : m <= limit_add);
-    if (is_smooth) keep = !below && m < kNever;
-    if (is_end) keep = !below && cuts_too;
-    if (!is_op) emit = keep;
-    if (keep && (is_fold || is_smooth)) choice = (uint(w) & 1u) != 0u ? kFirstAlone : kKept;
-    if (is_smooth) {
-      replaced = keep && uint(w) >= 2u;
-    }
-
-    // What it makes is not wanted any more, what it reads is.
-    const uint dst_low = dst < 32u ? 1u << dst : 0u, dst_high = dst >= 32u ? 1u << (dst - 32u) : 0u;
-    const uint two_low = rb < 32u ? 1u << rb : 0u, two_high = rb >= 32u ? 1u << (rb & 31u) : 0u;
-    if (keep && is_op && (traits & (kAddsTo | kMakesPlace)) == 0u) {
-      live_low &= ~dst_low;
-      live_high &= ~dst_high;
-      if ((traits & kBeginsTwo) != 0u) {
-        live_low &= ~two_low;
-        live_high &= ~two_high;
+    const uint from = (r - 1u) & ~7u;
+    const uvec4 eight = batch_fours[headers + from + lane];
+    do {
+      --r;
+      const uint head_word = subgroupShuffle(eight.x, r & 7u), slots_word = subgroupShuffle(eight.y, r & 7u);
+      const uint record_place = subgroupShuffle(eight.z, r & 7u), traits = subgroupShuffle(eight.w, r & 7u);
+      const uint dst = slots_word & 0xFFu, ra = slots_word >> 8 & 0xFFu, rb = slots_word >> 16 & 0xFFu;
+      const uint rc = slots_word >> 24;
+      const uint place = head_word >> 8 & 0xFFu;
+      const float m = mark[r], w = whole_mark[r];
+      const bool is_fold = (traits & kIsFold) != 0u, is_smooth = (traits & kIsSmooth) != 0u;
+      const bool is_end = (traits & kIsLayerEnd) != 0u, cuts_too = (traits & kCuts) != 0u;
+      const bool is_op = !(is_fold || is_smooth || is_end);
+      if (is_end || is_smooth) below = below || replaced;
+      const uint layer = is_end ? slots_word : 0u;
+      if (is_end) {
+        limit_add = layer_add[layer];
+        limit_cut = layer_cut[layer];
+        limit_joined = layer_joined[layer];
+        replaced = layer_replaced[layer] > 0.0f;
       }
-    }
-    if (keep && (traits & kMakesPlace) != 0u) live_places &= ~(1u << dst);
-    const uint operands = traits & kOperands;
-    const bool chooses = is_op && choice != kKept;
-    const bool read_a = keep && operands > 0u && !(chooses && choice == kSecondAlone);
-    const bool read_b = keep && (operands > 1u || (traits & kAddsTo) != 0u) && !(chooses && choice == kFirstAlone);
-    const bool read_c = keep && operands > 2u && !chooses;
-    live_low |= (read_a && ra < 32u ? 1u << ra : 0u) | (read_b ? two_low : 0u) | (read_c && rc < 32u ? 1u << rc : 0u);
-    live_high |= (read_a && ra >= 32u ? 1u << (ra - 32u) : 0u) | (read_b ? two_high : 0u) |
-                 (read_c && rc >= 32u ? 1u << (rc - 32u) : 0u);
-    if (keep && (traits & (kReadsPosition | kMakesPlace)) != 0u && !(chooses && choice == kFirstAlone)) live_places |= 1u << place;
-    if (emit && listed) {
-      --begin;
-      scratch[begin] = record_place | choice << 30;
-    }
+      const bool writes = (traits & (kBeginsTwo | kAddsTo)) == 0u;
+      const bool dst_live = ((traits & kMakesPlace) != 0u ? live_places >> dst
+                             : dst < 32u ? live_low >> dst : live_high >> (dst - 32u)) % 2u == 1u;
+      bool keep = is_op && dst_live;
+      uint choice = kKept;
+      bool emit = keep;
+      if ((traits & kAddsTo) != 0u) {
+        keep = keep && !((traits & kAddsRound) != 0u ? m > nearest_high[dst] : m <= 0.0f);
+        emit = keep;
+      }
+      if (keep && (traits & kEndsRound) != 0u) nearest_high[ra] = m;
+      if (keep && (traits & kChooses) != 0u) {
+        choice = uint(m);
+        emit = choice == kKept || dst != (choice == kFirstAlone ? ra : rb);
+      }
+      if (is_fold) keep = !below && m < kNever && (cuts_too ? m <= limit_cut && -m >= limit_joined : m <= limit_add);
+      if (is_smooth) keep = !below && m < kNever;
+      if (is_end) keep = !below && cuts_too;
+      if (!is_op) emit = keep;
+      if (keep && (is_fold || is_smooth)) choice = (uint(w) & 1u) != 0u ? kFirstAlone : kKept;
+      if (is_smooth) {
+        replaced = keep && uint(w) >= 2u;
+      }
+
+      // What it makes is not wanted any more, what it reads is.
+      const uint dst_low = dst < 32u ? 1u << dst : 0u, dst_high = dst >= 32u ? 1u << (dst - 32u) : 0u;
+      const uint two_low = rb < 32u ? 1u << rb : 0u, two_high = rb >= 32u ? 1u << (rb & 31u) : 0u;
+      if (keep && is_op && (traits & (kAddsTo | kMakesPlace)) == 0u) {
+        live_low &= ~dst_low;
+        live_high &= ~dst_high;
+        if ((traits & kBeginsTwo) != 0u) {
+          live_low &= ~two_low;
+          live_high &= ~two_high;
+        }
+      }
+      if (keep && (traits & kMakesPlace) != 0u) live_places &= ~(1u << dst);
+      const uint operands = traits & kOperands;
+      const bool chooses = is_op && choice != kKept;
+      const bool read_a = keep && operands > 0u && !(chooses && choice == kSecondAlone);
+      const bool read_b = keep && (operands > 1u || (traits & kAddsTo) != 0u) && !(chooses && choice == kFirstAlone);
+      const bool read_c = keep && operands > 2u && !chooses;
+      live_low |= (read_a && ra < 32u ? 1u << ra : 0u) | (read_b ? two_low : 0u) | (read_c && rc < 32u ? 1u << rc : 0u);
+      live_high |= (read_a && ra >= 32u ? 1u << (ra - 32u) : 0u) | (read_b ? two_high : 0u) |
+                   (read_c && rc >= 32u ? 1u << (rc - 32u) : 0u);
+      const bool at_place = (traits & (kReadsPosition | kMakesPlace)) != 0u && !(chooses && choice == kFirstAlone);
+      if (keep && at_place) live_places |= 1u << place;
+      if (emit && listed) {
+        --begin;
+        scratch[begin] = record_place | choice << 30;
+      }
+    } while (r > from);
   } while (r > 0u);
 
   if (used) {
@@ -188,7 +192,7 @@ void main() {
     scratch[item + kItemLabel] = below || replaced ? 0u : batch[job + kJobLabel];
     scratch[item + kItemScale] = batch[job + kJobScale];
     scratch[item + kItemOwner] = bricks ? chunk : seam;
-    scratch[item + kItemParts] = 0u;
+    scratch[item + kItemParts] = (solid ? 0xFFu : 0u) | (empty ? 0xFF00u : 0u);  // where it is not sampled
     // Where only seams are asked for, only what touches their faces is sampled.
     const uint faces = batch[chunk + kChunkFaces];
     const uvec3 at_low = uvec3(equal(firstOfBrick(which), uvec3(0u))), at_high = uvec3(equal(lastOfBrick(which), uvec3(32u)));

@@ -2,8 +2,8 @@
 
 const uint kEndOfWindow = 0xFFu;
 
-// Loads entries from `from` on, up to `end`; returns the first that found no room. A round brings a piece of a record, 32
-// words; entries come eight at a time, one a lane.
+// Loads entries from `from` on, up to `end`; returns the first that found no room. A round brings a piece of a record,
+// 32 words; entries come eight at a time, one a lane.
 uint fillWindow(uint from, uint end) {
   const uint lane = gl_SubgroupInvocationID & 7u;
   uint filled = 0u, at = from, base = from, piece = 0u, pieces = 1u;

@@ -4,10 +4,10 @@
 // A shader sweeps over all kinds of op and takes, of each kind, as many instructions in a row as there are: software
 // Vulkan executes both sides of every branch, so that a switch would cost it all ops for each instruction, and hardware
 // likes long runs of one op as well. Hence the order: within a block as many instructions as possible of one kind stand
-// together, those first that others read. Values live in slots, each written once and read any number of times before
-// its slot is used again. The folds of groups (field/program.h) are instructions too, and keep their order. A union of
-// primitives is no instruction of its own: each takes the minimum of itself and its operand, which is far for the
-// first.
+// together, those first that others read; ops that only join values count as one kind first, and are then sorted among
+// themselves. Values live in slots, each written once and read any number of times before its slot is used again. The
+// folds of groups (field/program.h) are instructions too, and keep their order. A union of primitives is no instruction
+// of its own: each takes the minimum of itself and its operand, which is far for the first.
 
 #include <cstdint>
 #include <memory_resource>
