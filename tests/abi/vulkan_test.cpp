@@ -279,6 +279,38 @@ TEST_CASE("what comes from the disk lies on the lent device, too", "[vulkan]") {
   std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("a dig and its undo lie on the lent device, as do seams that come later", "[vulkan]") {
+  if (!vk::haveDevice()) return;
+  Lender lender;
+  const RuntimeOwner runtime = lentRuntime(lender);
+  const GrammarOwner grammar = compile(runtime.get(), kBalls);
+  const FieldOwner field = makeVulkanField(runtime.get(), grammar.get(), SGM_BACKEND_VULKAN);
+  const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
+  const auto checkAll = [&] {
+    waitIdle(world.get());
+    std::vector<uint64_t> hashes;
+    for (const MeshOwner& mesh : drawnOf(world.get())) {
+      checkMesh(lender, mesh);
+      hashes.push_back(viewOf(mesh).hash);
+    }
+    return hashes;
+  };
+  look(world.get(), 0, 0);
+  const std::vector<uint64_t> before = checkAll();
+  sgm_brush brush = SGM_BRUSH_INIT;
+  for (int32_t& place : brush.from) place = 12 * SGM_UNITS_PER_METRE;
+  brush.radius = 3 * SGM_UNITS_PER_METRE;
+  sgm_edit_id id{};
+  REQUIRE(sgm_world_edit(world.get(), &brush, &id, nullptr) == SGM_OK);
+  CHECK(checkAll() != before);
+  REQUIRE(sgm_world_undo(world.get(), &id, nullptr, nullptr) == SGM_OK);
+  CHECK(checkAll() == before);
+  for (const double x : {8.0, 24.0, 0.0}) {
+    look(world.get(), x, 0);
+    checkAll();
+  }
+}
+
 TEST_CASE("meshes outlive the world that they were streamed in", "[vulkan]") {
   if (!vk::haveDevice()) return;
   Lender lender;

@@ -26,7 +26,8 @@ extern "C" {
  * and a queue that computes. All handles must outlive the runtime.
  *
  * The runtime submits to the queue from any thread, and waits for what it has submitted by a timeline semaphore: never
- * for the queue, nor for the device. */
+ * for the queue, nor for the device. A batch has up to 64 chunks, and what else is submitted to the queue waits behind
+ * it: where the device has a second queue, best one that only computes, lend that one. */
 typedef struct sgm_vulkan_device_desc {
   uint32_t struct_size;
   const void* next;
@@ -37,8 +38,8 @@ typedef struct sgm_vulkan_device_desc {
   VkPhysicalDevice physical_device;
   VkDevice device;
   VkQueue queue;
-  /* Families of the engine's other queues that read meshes, so that it need not transfer their ownership; may be NULL
-   * where the count is 0. Copied. */
+  /* All families other than queue_family whose queues use meshes: buffers are shared with these
+   * (VK_SHARING_MODE_CONCURRENT), and no ownership is transferred. NULL where the count is 0. Copied. */
   const uint32_t* reader_families;
   uint32_t reader_family_count;
   int32_t timeline_semaphores; /* 1: VkPhysicalDeviceVulkan12Features.timelineSemaphore is enabled. Needed */
@@ -61,14 +62,17 @@ typedef struct sgm_vulkan_device_desc {
 /* From now on the runtime's Vulkan backend is this device. A software one is taken for SGM_BACKEND_VULKAN alone.
  *
  * SGM_ERR_INVALID_ARGUMENT: a handle is missing, half a lock, no such queue family. SGM_ERR_UNSUPPORTED: the device
- * lacks something, which the message names. SGM_ERR_BUSY: the runtime meshes on a Vulkan device already. When it fails
- * nothing has changed.
+ * lacks something, which the message names. SGM_ERR_BUSY: the runtime has lent one, or a field on a Vulkan device of
+ * its own. When it fails nothing has changed.
  *
- * A lent device that is lost stays lost: the CPU meshes from then on, with the same bytes. */
+ * A lent device that is lost stays lost: the CPU meshes from then on, with the same bytes, and meshes are not on a
+ * device. To lend the one that takes its place, end the runtime. */
 SGM_API sgm_result sgm_runtime_lend_vulkan(sgm_runtime* runtime, const sgm_vulkan_device_desc* desc, sgm_error* error);
 
 /* A body or a seam in a VkBuffer of the runtime's, among others; its usage has VERTEX, INDEX, INDIRECT, STORAGE and
- * TRANSFER_SRC. Vertices are sgm_vertex, indices uint32_t counted from the part's first vertex. */
+ * TRANSFER_SRC. Vertices are sgm_vertex, indices uint32_t counted from the part's first vertex. To bind it as storage
+ * begin at a multiple of minStorageBufferOffsetAlignment below, and mind maxStorageBufferRange: the buffer is larger.
+ * Morph offsets (SGM_WORLD_MORPH) are not there: upload sgm_mesh_view.morphs. */
 typedef struct sgm_vulkan_part {
   VkBuffer buffer;            /* VK_NULL_HANDLE: no triangles; all else is 0 then */
   VkDeviceSize vertex_offset; /* bytes in buffer; a multiple of sizeof(sgm_vertex) */
@@ -86,11 +90,12 @@ typedef struct sgm_vulkan_part {
 typedef struct sgm_vulkan_mesh_view {
   uint32_t struct_size;
   void* next;
-  /* The parts are there from the moment at which the timeline semaphore has this value: the engine's submission waits
-   * for it, on the device, at the stages that read them (VERTEX_INPUT; DRAW_INDIRECT for what lies at draw_offset).
-   * What signals it was submitted before, so that a wait on the lent queue itself ends. The semaphore is the same for
-   * all meshes of a runtime, and lives as long as any of them; of several the largest value counts. VK_NULL_HANDLE and
-   * 0: no triangles, nothing to wait for. */
+  /* The parts are there from the moment at which the timeline semaphore has this value, which is before the mesh is
+   * READY as a rule, so that waiting takes no time. But it makes them visible: the engine's submission waits for the
+   * value, on the device, at the stages that read them (VERTEX_INPUT; DRAW_INDIRECT for what lies at draw_offset). What
+   * signals it was submitted before, so that a wait on the lent queue itself ends. The semaphore is the same for all
+   * meshes of a runtime, and lives as long as any of them; of several the largest value counts. VK_NULL_HANDLE and 0:
+   * no triangles, nothing to wait for. */
   VkSemaphore semaphore;
   uint64_t value;
   sgm_vulkan_part body;
@@ -112,8 +117,9 @@ typedef struct sgm_vulkan_mesh_view {
 /* Where the mesh lies on the lent device, with the same bytes as in sgm_mesh_get_view. Good until the mesh ends:
  * release it only when the device has done with it. Meshes of one chunk share what they have in common.
  *
- * SGM_ERR_NOT_FOUND: it is not there, or not all of it: the world is not SGM_WORLD_RESIDENT, or no memory was left on
- * the device. Upload what sgm_mesh_get_view shows. SGM_ERR_DEVICE_LOST: the device was lost after it. */
+ * SGM_ERR_NOT_FOUND: it is not there, or not all of it: the world is not SGM_WORLD_RESIDENT, no memory was left on the
+ * device, or it was lost before. Upload what sgm_mesh_get_view shows. SGM_ERR_DEVICE_LOST: the device was lost after
+ * it. */
 SGM_API sgm_result sgm_mesh_get_vulkan_view(const sgm_mesh* mesh, sgm_vulkan_mesh_view* view, sgm_error* error);
 
 #if defined(__cplusplus)
