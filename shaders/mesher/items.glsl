@@ -34,19 +34,7 @@ const uint kKept = 0u;
 const uint kFirstAlone = 1u;   // only its first operand is left: a copy; of a fold: the influence box need not be asked
 const uint kSecondAlone = 2u;
 
-// A header of a record (one vector: its first two words, its place in units of 32 words, and what it is).
-const uint kOperands = 3u;        // bits 0, 1: how many slots it reads
-const uint kReadsPosition = 4u;
-const uint kBeginsTwo = 8u;       // makes two values
-const uint kAddsTo = 16u;         // adds to two values
-const uint kEndsRound = 32u;
-const uint kMakesPlace = 64u;
-const uint kChooses = 128u;       // may come down to one of its first two operands
-const uint kAddsRound = 256u;
-const uint kCuts = 512u;          // of a fold: into what is taken away. Of a layer's end: there is such
-const uint kIsFold = 1024u;
-const uint kIsSmooth = 2048u;
-const uint kIsLayerEnd = 4096u;
+#include "mesher/record_header.h"
 
 // Of a fold's own flags (its seventh parameter): bit 0, into what is taken away; bit 1, the influence box decides; and
 // instead of a group the end of its layer.
