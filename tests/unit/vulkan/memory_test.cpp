@@ -1,6 +1,7 @@
 #include "backend/vulkan/memory.h"
 
 #include <map>
+#include <optional>
 #include <random>
 
 #include "engine.h"
@@ -74,14 +75,19 @@ TEST_CASE("ranges never overlap, and all come back", "[vulkan]") {
       if (taken.empty() || random() % 5 < 3) {
         const uint64_t bytes = 1 + random() % (size / (1 + random() % 64));
         const auto offset = ranges.take(bytes);
-        // What is free between two taken ranges, the longest.
-        uint64_t longest = 0, end = 0;
+        // What is free between two taken ranges, looked at one by one: the first of the shortest that will do.
+        const uint64_t needed = (bytes + granule - 1) / granule * granule;
+        std::optional<uint64_t> best;
+        uint64_t shortest = UINT64_MAX, end = 0;
+        const auto look = [&](uint64_t next) {
+          if (next - end >= needed && next - end < shortest) best = end, shortest = next - end;
+        };
         for (const auto& [at, length] : taken) {
-          longest = std::max(longest, at - end);
+          look(at);
           end = at + (length + granule - 1) / granule * granule;
         }
-        longest = std::max(longest, size - end);
-        REQUIRE(offset.has_value() == ((bytes + granule - 1) / granule * granule <= longest));
+        look(size);
+        REQUIRE(offset == best);
         if (!offset) continue;
         REQUIRE(*offset % granule == 0);
         REQUIRE(*offset + bytes <= size);
