@@ -66,7 +66,8 @@ Memory::Memory(Device& device, const MemoryOptions& options)
       options_(options),
       granule_(
           std::max({kGranule, device.limits().nonCoherentAtomSize, device.limits().minStorageBufferOffsetAlignment})),
-      unified_(device.info().software() || device.info().type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU) {
+      unified_(!options.apart &&
+               (device.info().software() || device.info().type == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU)) {
   device.instanceCalls().vkGetPhysicalDeviceMemoryProperties(device.physical(), &properties_);
 }
 

@@ -32,7 +32,8 @@ struct MemoryOptions {
   uint64_t first_block = uint64_t{64} << 20;     ///< bytes; each further one of a kind is twice as large as the last
   uint64_t largest_block = uint64_t{512} << 20;  ///< what needs more has a block of its own
   uint64_t cap = UINT64_MAX;                     ///< bytes of all blocks together
-  std::vector<uint32_t> families;                ///< beside the device's own: whose queues use the buffers, too
+  bool apart = false;  ///< takes host and device to share no memory, even where they do: to test what is copied then
+  std::vector<uint32_t> families;  ///< beside the device's own: whose queues use the buffers, too
 };
 
 struct MemoryStatistics {

@@ -260,6 +260,7 @@ Result<Mesher::Output> Mesher::read(BatchBuffers& b) {
   commands->barrier(kTransfer, kHost);
   const Result<uint64_t> value = ring_.submit(std::move(*commands));
   if (!value) return value.error();
+  b.reading = *value;
   if (const Result<bool> ended = queue_.wait(*value); !ended) return ended.error();
   for (const Buffer* buffer : {&b.vertices_back, &b.indices_back}) {
     if (Result<void> ready = buffer->beforeRead(); !ready) return ready.error();

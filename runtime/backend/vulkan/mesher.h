@@ -16,6 +16,7 @@ namespace sgm::vulkan {
 struct BatchBuffers {
   Buffer words, staging, scratch, parts, vertices, indices;
   Buffer parts_back, signs_back, vertices_back, indices_back;  ///< where the host does not see the device's
+  uint64_t reading = 0;  ///< of the queue: vertices and indices are brought to the host until then
 };
 
 /// Any thread may use it. Outlived by the queue, memory and ring that it is given.

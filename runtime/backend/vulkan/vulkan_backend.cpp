@@ -1,5 +1,6 @@
 #include "backend/vulkan/vulkan_backend.h"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -212,7 +213,8 @@ class VulkanBatch final : public ChunkBatch {
   }
 
   Result<void> submitSlot(Slot& slot) {
-    if (const Result<bool> copied = reach(slot.kept); !copied) {
+    // Also what was given up to wait for, when the driver was out of memory.
+    if (const Result<bool> copied = reach(std::max(slot.kept, slot.buffers.reading)); !copied) {
       slot.stuck = true;
       return copied.error();
     }

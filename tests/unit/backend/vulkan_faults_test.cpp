@@ -11,9 +11,9 @@
 #include <string>
 #include <thread>
 
-#include "compare_meshes.h"
-#include "mesh_jobs.h"
+#include "kept_pipelines.h"
 #include "rounds.h"
+#include "spheres.h"
 #include "temporary_folder.h"
 #include "unit/vulkan/engine.h"
 #include "unit/vulkan/faults.h"
@@ -21,52 +21,10 @@
 
 using namespace sgm;
 using vulkan::Faults;
+using vulkan::KeptPipelines;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Pipelines of one device that are made once, for all that are opened on it: software Vulkan takes seconds for each.
-/// As Faults: statics, one at a time.
-class KeptPipelines {
- public:
-  static void wrap(vulkan::DeviceTable& table) {
-    State& s = state();
-    s.calls = table;
-    table.vkCreateShaderModule = [](VkDevice device, const VkShaderModuleCreateInfo* info,
-                                    const VkAllocationCallbacks* allocator, VkShaderModule* module) {
-      // The pipeline comes next (Pipeline::makePipeline).
-      state().code.assign(reinterpret_cast<const char*>(info->pCode), info->codeSize);
-      return state().calls.vkCreateShaderModule(device, info, allocator, module);
-    };
-    table.vkCreateComputePipelines = [](VkDevice device, VkPipelineCache cache, uint32_t count,
-                                        const VkComputePipelineCreateInfo* info, const VkAllocationCallbacks* allocator,
-                                        VkPipeline* pipeline) {
-      const VkSpecializationInfo& constants = *info->stage.pSpecializationInfo;
-      const std::string bytes(static_cast<const char*>(constants.pData), constants.dataSize);
-      VkPipeline& kept = state().made[state().code + bytes];
-      VkResult result = VK_SUCCESS;
-      if (!kept) result = state().calls.vkCreateComputePipelines(device, cache, count, info, allocator, &kept);
-      *pipeline = kept;
-      return result;
-    };
-    table.vkDestroyPipeline = [](VkDevice, VkPipeline, const VkAllocationCallbacks*) {};
-  }
-  static void destroyAll(VkDevice device) {
-    for (const auto& [key, pipeline] : state().made) state().calls.vkDestroyPipeline(device, pipeline, nullptr);
-    state().made.clear();
-  }
-
- private:
-  struct State {
-    vulkan::DeviceTable calls;
-    std::string code;
-    std::map<std::string, VkPipeline> made;
-  };
-  static State& state() {
-    static State one;
-    return one;
-  }
-};
 
 /// A device whose calls fail when told. To open it anew is to begin anew on an engine's device, which takes no time.
 struct Faulty {
@@ -92,46 +50,6 @@ struct Faulty {
 };
 
 bool haveDevice() { return static_cast<bool>(VulkanMachine()); }
-
-/// Spheres, with seams to others: few kinds of instructions, and so pipelines that are soon made again.
-std::vector<ChunkJob> spheres(uint32_t seed, uint32_t count) {
-  std::mt19937 random(seed);
-  std::vector<ChunkJob> jobs;
-  for (uint32_t i = 0; i < count; ++i) {
-    const auto program = [&] {
-      ProgramBuilder b(512, false, makeLabel(1, 0));
-      const auto radius = static_cast<float>(1000 + random() % 4000);
-      (void)b.group(b.sphere({static_cast<int32_t>(random() % 2000), 0, 0}, radius, makeLabel(2, 1)),
-                    IntBox::everything(), 0, false);
-      return shared(b.finish());
-    };
-    ChunkJob& job = jobs.emplace_back();
-    job.grid = gridAround({}, 256);
-    job.field = program();
-    job.coarse = program();
-    job.seams = static_cast<uint8_t>(random() % 64);
-    job.coarser = neighboursAcross(job.seams);
-    job.signs = random() % 2 == 0;
-  }
-  return jobs;
-}
-
-std::vector<ChunkMesh> polled(Backend& backend, const std::vector<ChunkJob>& jobs) {
-  Result<std::unique_ptr<ChunkBatch>> batch = backend.submit(jobs);
-  REQUIRE(batch);
-  while (!(*batch)->poll()) std::this_thread::sleep_for(std::chrono::microseconds(200));
-  Result<std::vector<ChunkMesh>> meshes = (*batch)->take();
-  REQUIRE(meshes);
-  return std::move(*meshes);
-}
-
-void checkSame(const std::vector<ChunkMesh>& expected, const std::vector<ChunkMesh>& found) {
-  REQUIRE(expected.size() == found.size());
-  for (size_t i = 0; i < expected.size(); ++i) {
-    CAPTURE(i);
-    CHECK(differenceOf(expected[i], found[i]) == "");
-  }
-}
 
 /// A device that is lost at any call costs no mesh, and is there again for the next batch.
 void loseDevices(Faulty& faulty) {

@@ -1,0 +1,172 @@
+// A device that the host shares no memory with: what is copied there and back, and what stays.
+
+#include <cstring>
+#include <iostream>
+#include <string>
+
+#include "backend/vulkan/device_meshes.h"
+#include "far_device.h"
+#include "kept_pipelines.h"
+#include "rounds.h"
+#include "spheres.h"
+#include "unit/vulkan/engine.h"
+#include "unit/vulkan/faults.h"
+#include "vulkan_machine.h"
+
+using namespace sgm;
+using vulkan::FarDevice;
+using vulkan::Faults;
+
+namespace {
+
+struct Far {
+  Faults faults;
+  vulkan::Engine engine{vulkan::Validation::core};
+
+  ~Far() { vulkan::KeptPipelines::destroyAll(engine.device); }
+
+  VulkanMachine machine(const BatchRoom& room = {}) {
+    VulkanBackendOptions options;
+    options.room = room;
+    options.memory.apart = true;
+    options.open = [this] {
+      vulkan::BorrowedDevice lent = engine.lend();
+      FarDevice::wrap(lent);
+      lent.replace_calls = [](vulkan::DeviceTable& table) {
+        vulkan::KeptPipelines::wrap(table);
+        FarDevice::wrap(table);
+        Faults::wrap(table);
+      };
+      return vulkan::Device::borrow(lent);
+    };
+    return VulkanMachine(options);
+  }
+};
+
+/// What lies on the device, as an engine of its own copies it out.
+void checkOnDevice(vulkan::Engine& engine, const DevicePart& on_device, const MeshPart& expected) {
+  const auto& part = static_cast<const vulkan::VulkanPart&>(on_device);
+  REQUIRE(engine.calls.vkDeviceWaitIdle(engine.device) == VK_SUCCESS);
+  const auto device = vulkan::Device::borrow(engine.lend());
+  REQUIRE(device);
+  const auto queue = vulkan::Queue::create(**device);
+  REQUIRE(queue);
+  vulkan::Memory memory(**device);
+  const auto ring = vulkan::CommandRing::create(**queue);
+  REQUIRE(ring);
+  const VkDeviceSize vertices = expected.vertices.size() * sizeof(Vertex);
+  const VkDeviceSize indices = expected.indices.size() * sizeof(uint32_t);
+  REQUIRE(part.vertexCount() == expected.vertices.size());
+  REQUIRE(part.indexCount() == expected.indices.size());
+  const auto back = memory.buffer(vulkan::MemoryKind::readback, vertices + indices);
+  REQUIRE(back);
+  auto commands = (*ring)->begin();
+  REQUIRE(commands);
+  const vulkan::Buffer& buffer = part.memory().buffer();
+  commands->copy(vulkan::BufferRange(buffer, part.vertexOffset() - buffer.offset(), vertices),
+                 vulkan::BufferRange(*back, 0, vertices));
+  commands->copy(vulkan::BufferRange(buffer, part.indexOffset() - buffer.offset(), indices),
+                 vulkan::BufferRange(*back, vertices, indices));
+  commands->barrier(vulkan::kTransfer, vulkan::kHost);
+  const auto value = (*ring)->submit(std::move(*commands));
+  REQUIRE(value);
+  REQUIRE((*queue)->wait(*value));
+  REQUIRE(back->beforeRead());
+  CHECK(std::memcmp(back->data(), expected.vertices.data(), vertices) == 0);
+  CHECK(std::memcmp(back->data() + vertices, expected.indices.data(), indices) == 0);
+}
+
+/// Batches that grow and shrink in the buffers of the last, each read from host memory that must be invalidated.
+void compareFar(Far& far) {
+  const VulkanMachine machine = far.machine();
+  REQUIRE(machine);
+  std::mt19937 random(11);
+  for (uint32_t seed = 100; seed < 100 + rounds(6); ++seed) {
+    CAPTURE(seed);
+    const std::vector<ChunkJob> jobs = spheres(seed, 1 + static_cast<uint32_t>(random() % 12));
+    const unsigned before = FarDevice::invalidations();
+    checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
+    CHECK(FarDevice::invalidations() >= before + 4);
+  }
+  CHECK(machine.vulkan->counters().on_cpu == 0);
+}
+
+void overflowFar(Far& far) {
+  static constexpr BatchRoom kScarce[] = {{64, 36'864, 6144}, {6144, 384, 6144}, {6144, 36'864, 64}};
+  for (const BatchRoom& room : kScarce) {
+    const VulkanMachine machine = far.machine(room);
+    REQUIRE(machine);
+    const std::vector<ChunkJob> jobs = spheres(3, 12);
+    checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
+    CHECK(machine.vulkan->counters().on_cpu > 0);
+    auto batch = machine.vulkan->submit(jobs);
+    REQUIRE(batch);
+    (*batch)->cancel();
+    (*batch)->wait();
+    CHECK_FALSE((*batch)->take());
+    checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
+  }
+}
+
+/// Submissions and waits fail: those of the batch, and those of its reading.
+void failFar(Far& far) {
+  const std::vector<ChunkJob> jobs = spheres(1, 5);
+  uint64_t on_cpu = 0;
+  for (const char* call : {"vkQueueSubmit", "vkWaitSemaphores"}) {
+    for (const VkResult failure : {VK_ERROR_DEVICE_LOST, VK_ERROR_OUT_OF_HOST_MEMORY}) {
+      for (unsigned nth = 1; nth <= 3; ++nth) {
+        CAPTURE(call, failure, nth);
+        const VulkanMachine machine = far.machine();
+        REQUIRE(machine);
+        const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
+        far.faults.arm(call, nth, failure);
+        checkSame(expected, meshesOf(*machine.vulkan, jobs));
+        far.faults.disarm();
+        on_cpu += machine.vulkan->counters().on_cpu;
+        for (int again = 0; again < 2; ++again) checkSame(expected, meshesOf(*machine.vulkan, jobs));
+      }
+    }
+  }
+  CHECK(on_cpu > 0);
+}
+
+/// Meshes stay on the device as they came back from it, and come there from the host; in vain they do no harm.
+void stayFar(Far& far) {
+  std::vector<ChunkJob> jobs = spheres(5, 4);
+  for (ChunkJob& job : jobs) job.resident = true;
+  for (const unsigned nth : {0u, 1u, 2u, 3u}) {
+    CAPTURE(nth);
+    const VulkanMachine machine = far.machine();
+    REQUIRE(machine);
+    const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
+    if (nth > 0) far.faults.arm("vkQueueSubmit", nth, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+    const std::vector<ChunkMesh> found = meshesOf(*machine.vulkan, jobs);
+    far.faults.disarm();
+    checkSame(expected, found);
+    size_t parts = 0;
+    for (const ChunkMesh& mesh : found) {
+      if (!mesh.on_device[0]) continue;
+      ++parts;
+      checkOnDevice(far.engine, *mesh.on_device[0], mesh.body);
+    }
+    CHECK((parts > 0) == (nth == 0));
+    REQUIRE(!expected[0].body.indices.empty());
+    far.faults.arm("vkQueueSubmit", 1, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+    CHECK_FALSE(machine.vulkan->upload(expected[0].body));
+    far.faults.disarm();
+    const auto uploaded = machine.vulkan->upload(expected[0].body);
+    REQUIRE(uploaded);
+    checkOnDevice(far.engine, **uploaded, expected[0].body);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a device that shares no memory with the host makes the same meshes", "[vulkan]") {
+  if (!VulkanMachine()) return;
+  Far far;
+  compareFar(far);
+  overflowFar(far);
+  failFar(far);
+  stayFar(far);
+}
