@@ -1,8 +1,11 @@
 // A device that the host shares no memory with: what is copied there and back, and what stays.
 
+#include <algorithm>
 #include <cstring>
 #include <iostream>
+#include <random>
 #include <string>
+#include <thread>
 
 #include "backend/vulkan/device_meshes.h"
 #include "far_device.h"
@@ -162,6 +165,82 @@ void stayFar(Far& far) {
   }
 }
 
+/// No memory is left for what stays: the meshes come without it, and later ones with it.
+void stayWithoutMemory(Far& far) {
+  std::vector<ChunkJob> jobs = spheres(5, 4);
+  for (ChunkJob& job : jobs) job.resident = true;
+  const VulkanMachine machine = far.machine();
+  REQUIRE(machine);
+  std::vector<ChunkJob> passing = jobs;
+  for (ChunkJob& job : passing) job.resident = false;
+  const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
+  checkSame(expected, meshesOf(*machine.vulkan, passing));
+  // The batch has its buffers; what asks for memory now is what stays. Of this error nothing smaller is tried.
+  const auto staying = [&] {
+    const std::vector<ChunkMesh> found = meshesOf(*machine.vulkan, jobs);
+    checkSame(expected, found);
+    size_t parts = 0;
+    for (const ChunkMesh& mesh : found) {
+      for (const auto& part : mesh.on_device) parts += part != nullptr;
+    }
+    return parts;
+  };
+  far.faults.arm("vkAllocateMemory", 1, VK_ERROR_UNKNOWN);
+  const size_t fewer = staying();
+  CHECK(far.faults.struck());
+  far.faults.disarm();
+  CHECK(staying() > fewer);
+  CHECK(machine.vulkan->counters().on_cpu == 0);
+}
+
+/// Parts end in any order, on any thread, while they are copied or after, and outlive the backend and their device.
+void endAnywhere(Far& far) {
+  constexpr uint32_t kSeed = 20'260'103;
+  std::cout << "ending parts, seed " << kSeed << std::endl;
+  std::mt19937 random(kSeed);
+  std::vector<std::shared_ptr<const DevicePart>> held;
+  {
+    const VulkanMachine machine = far.machine();
+    REQUIRE(machine);
+    for (uint32_t round = 0; round < rounds(8); ++round) {
+      CAPTURE(round);
+      // Batches of any size: buffers grow while parts are copied out of them.
+      std::vector<ChunkJob> jobs = spheres(kSeed + round, 1 + static_cast<uint32_t>(random() % 12));
+      for (ChunkJob& job : jobs) job.resident = true;
+      std::vector<ChunkMesh> found = meshesOf(*machine.vulkan, jobs);
+      checkSame(meshesOf(*machine.scalar, jobs), found);
+      std::vector<std::shared_ptr<const DevicePart>> ending;
+      for (ChunkMesh& mesh : found) {
+        for (auto& part : mesh.on_device) {
+          if (part) (random() % 3 == 0 ? held : ending).push_back(std::move(part));
+        }
+      }
+      std::shuffle(ending.begin(), ending.end(), random);
+      std::shuffle(held.begin(), held.end(), random);
+      std::vector<std::shared_ptr<const DevicePart>> others;
+      for (size_t i = ending.size() / 2; i > 0; --i) {
+        others.push_back(std::move(ending.back()));
+        ending.pop_back();
+      }
+      std::thread other([&others] { others.clear(); });
+      ending.clear();
+      if (held.size() > 8) held.resize(8);
+      other.join();
+    }
+    // The device is lost under what is held.
+    far.faults.arm("vkQueueSubmit", 1, VK_ERROR_DEVICE_LOST);
+    const std::vector<ChunkJob> jobs = spheres(kSeed, 3);
+    checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
+    far.faults.disarm();
+    CHECK(machine.vulkan->counters().device_lost == 1);
+    REQUIRE(!held.empty());
+    for (const auto& part : held) {
+      CHECK(static_cast<const vulkan::VulkanPart&>(*part).memory().meshes().queue().lost());
+    }
+  }
+  held.clear();
+}
+
 }  // namespace
 
 TEST_CASE("a device that shares no memory with the host makes the same meshes", "[vulkan]") {
@@ -171,4 +250,6 @@ TEST_CASE("a device that shares no memory with the host makes the same meshes", 
   overflowFar(far);
   failFar(far);
   stayFar(far);
+  stayWithoutMemory(far);
+  endAnywhere(far);
 }
