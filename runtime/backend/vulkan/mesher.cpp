@@ -131,7 +131,6 @@ bool Mesher::madePipelines() {
 
 Result<void> Mesher::fit(const BatchPlan& plan, BatchBuffers& b) {
   const uint64_t words = plan.words.size() * sizeof(uint32_t), parts = plan.parts.size() * sizeof(uint32_t);
-  const uint64_t signs = plan.chunks.size() * uint64_t{batch::kSignWords} * sizeof(uint32_t);
   const struct {
     MemoryKind kind;
     uint64_t bytes;
@@ -148,8 +147,26 @@ Result<void> Mesher::fit(const BatchPlan& plan, BatchBuffers& b) {
   }
   if (b.words.data() != nullptr) return {};
   if (Result<void> grown = grow(memory_, MemoryKind::upload, words + parts, b.staging); !grown) return grown.error();
-  if (Result<void> grown = grow(memory_, MemoryKind::readback, parts, b.parts_back); !grown) return grown.error();
-  return grow(memory_, MemoryKind::readback, signs, b.signs_back);
+  return fitBack(plan, b);
+}
+
+Result<void> Mesher::fitBack(const BatchPlan& plan, BatchBuffers& b) {
+  b.brought_vertices = std::min<uint64_t>(usual_vertices_.load(), plan.sizes.max_vertices * uint64_t{sizeof(Vertex)});
+  b.brought_indices = std::min<uint64_t>(usual_indices_.load(), plan.sizes.max_indices * uint64_t{sizeof(uint32_t)});
+  const struct {
+    uint64_t bytes;
+    Buffer* buffer;
+  } needs[] = {
+      {plan.parts.size() * sizeof(uint32_t), &b.parts_back},
+      {plan.chunks.size() * uint64_t{batch::kSignWords} * sizeof(uint32_t), &b.signs_back},
+      {b.brought_vertices, &b.vertices_back},
+      {b.brought_indices, &b.indices_back},
+  };
+  for (const auto& need : needs) {
+    if (Result<void> grown = grow(memory_, MemoryKind::readback, need.bytes, *need.buffer); !grown)
+      return grown.error();
+  }
+  return {};
 }
 
 Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, const BatchPlan& plan, BatchBuffers& b) {
@@ -224,6 +241,11 @@ Result<uint64_t> Mesher::submit(const BatchPlan& plan, BatchBuffers& b) {
       commands->copy(BufferRange(b.scratch, uint64_t{plan.chunks[c].signs} * sizeof(uint32_t), kSigns),
                      BufferRange(b.signs_back, c * kSigns, kSigns));
     }
+    if (b.brought_vertices > 0 && b.brought_indices > 0) {
+      commands->copy(BufferRange(b.vertices, 0, b.brought_vertices),
+                     BufferRange(b.vertices_back, 0, b.brought_vertices));
+      commands->copy(BufferRange(b.indices, 0, b.brought_indices), BufferRange(b.indices_back, 0, b.brought_indices));
+    }
     commands->barrier(kTransfer, kHost);
   }
   return ring_.submit(std::move(*commands));
@@ -248,9 +270,24 @@ Result<Mesher::Output> Mesher::read(BatchBuffers& b) {
   }
   if (Result<void> ready = b.signs_back.beforeRead(); !ready) return ready.error();
   out.signs = reinterpret_cast<const uint32_t*>(b.signs_back.data());
-  const uint64_t vertices = uint64_t{out.head->vertices} * sizeof(Vertex);
-  const uint64_t indices = uint64_t{out.head->indices} * sizeof(uint32_t);
-  if (vertices == 0 || indices == 0) return out;
+  if (out.head->vertices == 0 || out.head->indices == 0) return out;
+  if (Result<void> brought = bringLater(*out.head, b); !brought) return brought.error();
+  for (const Buffer* buffer : {&b.vertices_back, &b.indices_back}) {
+    if (Result<void> ready = buffer->beforeRead(); !ready) return ready.error();
+  }
+  out.vertices = reinterpret_cast<const Vertex*>(b.vertices_back.data());
+  out.indices = reinterpret_cast<const uint32_t*>(b.indices_back.data());
+  return out;
+}
+
+/// What did not come with the batch.
+Result<void> Mesher::bringLater(const batch::Head& head, BatchBuffers& b) {
+  const uint64_t vertices = uint64_t{head.vertices} * sizeof(Vertex);
+  const uint64_t indices = uint64_t{head.indices} * sizeof(uint32_t);
+  // A quarter more than this one had: batches that come after one another lie side by side.
+  usual_vertices_.store((vertices + vertices / 4) / 256 * 256);
+  usual_indices_.store((indices + indices / 4) / 256 * 256);
+  if (vertices <= b.brought_vertices && indices <= b.brought_indices) return {};
   if (Result<void> grown = grow(memory_, MemoryKind::readback, vertices, b.vertices_back); !grown) return grown.error();
   if (Result<void> grown = grow(memory_, MemoryKind::readback, indices, b.indices_back); !grown) return grown.error();
   Result<Commands> commands = ring_.begin();
@@ -262,12 +299,7 @@ Result<Mesher::Output> Mesher::read(BatchBuffers& b) {
   if (!value) return value.error();
   b.reading = *value;
   if (const Result<bool> ended = queue_.wait(*value); !ended) return ended.error();
-  for (const Buffer* buffer : {&b.vertices_back, &b.indices_back}) {
-    if (Result<void> ready = buffer->beforeRead(); !ready) return ready.error();
-  }
-  out.vertices = reinterpret_cast<const Vertex*>(b.vertices_back.data());
-  out.indices = reinterpret_cast<const uint32_t*>(b.indices_back.data());
-  return out;
+  return {};
 }
 
 }  // namespace sgm::vulkan

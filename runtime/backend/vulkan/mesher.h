@@ -2,6 +2,7 @@
 // The shaders of shaders/mesher/ on one device: a planned batch in, its parts out.
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -15,7 +16,12 @@ namespace sgm::vulkan {
 /// The buffers of a batch in flight; reused from batch to batch, and grown where one needs more.
 struct BatchBuffers {
   Buffer words, staging, scratch, parts, vertices, indices;
-  Buffer parts_back, signs_back, vertices_back, indices_back;  ///< where the host does not see the device's
+  /// Where the host does not see the device's: what is brought back. The buffers of the batches that are at work in
+  /// turn are the ring that results come back through. How many vertices and indices there will be only the device
+  /// knows; as many as batches of late have had come back with the batch itself, and only where it has more they come
+  /// after it.
+  Buffer parts_back, signs_back, vertices_back, indices_back;
+  uint64_t brought_vertices = 0, brought_indices = 0;  ///< bytes that come with the batch
   uint64_t reading = 0;  ///< of the queue: vertices and indices are brought to the host until then
 };
 
@@ -72,6 +78,8 @@ class Mesher {
   Result<std::shared_ptr<const Pipeline>> makePipeline(Kernel kernel, uint64_t kinds) const;
   Result<Pipelines> pipelinesFor(uint64_t kinds);
   Result<void> fit(const BatchPlan& plan, BatchBuffers& buffers);
+  Result<void> fitBack(const BatchPlan& plan, BatchBuffers& buffers);
+  Result<void> bringLater(const batch::Head& head, BatchBuffers& buffers);
   Result<void> record(Commands& commands, const Pipelines& pipelines, const BatchPlan& plan, BatchBuffers& buffers);
   bool software() const { return queue_.device().info().software(); }
   uint32_t width() const;
@@ -85,6 +93,8 @@ class Mesher {
   uint64_t kinds_ = 0;  ///< what the pipelines know
   bool made_ = false;
   Pipelines pipelines_;
+  /// Bytes that the last batch had, and some more.
+  std::atomic<uint64_t> usual_vertices_{0}, usual_indices_{0};
 };
 
 }  // namespace sgm::vulkan

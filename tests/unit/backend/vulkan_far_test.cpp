@@ -241,6 +241,19 @@ void endAnywhere(Far& far) {
   held.clear();
 }
 
+/// Once it is known how much there usually is, that comes back with the batch.
+void repeatFar(Far& far) {
+  const VulkanMachine machine = far.machine();
+  REQUIRE(machine);
+  const std::vector<ChunkJob> jobs = spheres(5, 4);
+  const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
+  for (const unsigned submissions : {2u, 1u, 1u}) {
+    far.faults.disarm();
+    checkSame(expected, meshesOf(*machine.vulkan, jobs));
+    CHECK(far.faults.counts().at("vkQueueSubmit") == submissions);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("a device that shares no memory with the host makes the same meshes", "[vulkan]") {
@@ -252,4 +265,5 @@ TEST_CASE("a device that shares no memory with the host makes the same meshes", 
   stayFar(far);
   stayWithoutMemory(far);
   endAnywhere(far);
+  repeatFar(far);
 }
