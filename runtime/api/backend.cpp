@@ -66,7 +66,9 @@ Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::Borr
     if (*kept && kept->use_count() == (shared.vulkan == shared.automatic ? 2 : 1) && !shared.lent) kept->reset();
   }
   if (shared.vulkan || shared.automatic) {
-    return Error{Code::busy, "the runtime meshes on a Vulkan device already: lend one before its first field"};
+    return Error{
+        Code::busy,
+        "the runtime has a Vulkan device already, lent or of a field of its own: lend one, before its first field"};
   }
   BackendRequest request = requestFor(BackendKind::vulkan);
   request.lent = std::move(device);

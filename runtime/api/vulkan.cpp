@@ -62,9 +62,10 @@ sgm_result sgm_mesh_get_vulkan_view(const sgm_mesh* mesh, sgm_vulkan_mesh_view* 
       if (surface.mesh.ranges[p].index_count == 0) continue;
       const sgm::DevicePart* part = surface.on_device[p].get();
       if (part == nullptr || part->kind() != sgm::BackendKind::vulkan) {
-        return fail(error, SGM_ERR_NOT_FOUND,
-                    "the mesh is not on a lent Vulkan device: make the world with SGM_WORLD_RESIDENT; where the "
-                    "device's memory is used up, upload what sgm_mesh_get_view shows");
+        return fail(
+            error, SGM_ERR_NOT_FOUND,
+            "the mesh is not on the lent Vulkan device: the world is not SGM_WORLD_RESIDENT, or the device's memory "
+            "(sgm_vulkan_device_desc.mesh_bytes) is used up; upload what sgm_mesh_get_view shows");
       }
       const auto& placed = static_cast<const sgm::vulkan::VulkanPart&>(*part);
       const sgm::vulkan::Queue& queue = placed.memory().meshes().queue();

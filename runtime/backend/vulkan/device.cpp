@@ -35,10 +35,10 @@ Result<std::unique_ptr<Device>> Device::open(const OwnDevice& options) {
 Result<std::unique_ptr<Device>> Device::borrow(const BorrowedDevice& engine) {
   if (!engine.get_instance_proc_addr || !engine.instance || !engine.physical || !engine.device || !engine.queue) {
     return Error{Code::invalid_argument,
-                 "a borrowed Vulkan device needs vkGetInstanceProcAddr, instance, physical device, device and queue"};
+                 "a lent Vulkan device needs vkGetInstanceProcAddr, instance, physical device, device and queue"};
   }
   if (!engine.lock != !engine.unlock) {
-    return Error{Code::invalid_argument, "a borrowed Vulkan queue has a lock and an unlock function, or neither"};
+    return Error{Code::invalid_argument, "a lent Vulkan queue has a lock and an unlock function, or neither"};
   }
   if (engine.api_version < VK_API_VERSION_1_2) {
     return Error{Code::unsupported,

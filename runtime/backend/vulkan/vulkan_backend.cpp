@@ -6,87 +6,19 @@
 #include <mutex>
 #include <new>
 
-#include "backend/vulkan/device_meshes.h"
 #include "backend/vulkan/read_meshes.h"
+#include "backend/vulkan/session.h"
 
 namespace sgm {
 
 namespace {
 
-using vulkan::BatchBuffers;
 using vulkan::Mesher;
+using vulkan::Session;
+using vulkan::Slot;
 
 /// What the many invocations of a device take; where they run on few threads, each batch only takes longer.
 constexpr uint32_t kBatch = 64, kSoftwareBatch = 8;
-
-/// A device with all that is made on it. Ends when its last batch does.
-struct Session {
-  std::unique_ptr<vulkan::Device> device;
-  std::unique_ptr<vulkan::Queue> queue;
-  std::unique_ptr<vulkan::Memory> memory;
-  std::unique_ptr<vulkan::CommandRing> ring;
-  std::unique_ptr<vulkan::PipelineCache> cache;
-  std::unique_ptr<Mesher> mesher;
-  std::unique_ptr<vulkan::Memory> kept_memory;  ///< of meshes that stay; null where nobody could draw them
-  std::unique_ptr<vulkan::DeviceMeshes> kept;   ///< likewise
-  std::mutex mutex;
-  size_t slots = 0;
-  std::vector<std::unique_ptr<struct Slot>> idle;   ///< with room for all that there are, and so the next
-  std::vector<std::unique_ptr<struct Slot>> stuck;  ///< the device may use them still, to the end
-
-  ~Session();
-};
-
-/// The plan and the buffers of one submission.
-struct Slot {
-  explicit Slot(std::pmr::memory_resource* memory) : plan(memory) {}
-  BatchPlan plan;
-  BatchBuffers buffers;
-  size_t first = 0;    ///< of the batch's jobs
-  uint64_t value = 0;  ///< of the queue; 0: not submitted
-  uint64_t kept = 0;   ///< of the queue: parts are copied out until then
-  bool stuck = false;  ///< nobody could say that the device has done with it
-};
-
-Session::~Session() {
-  if (queue) queue->drain();
-  idle.clear();
-  stuck.clear();
-}
-
-Result<std::shared_ptr<Session>> openSession(const VulkanBackendOptions& options) {
-  auto session = std::make_shared<Session>();
-  Result<std::unique_ptr<vulkan::Device>> device = options.open();
-  if (!device) return device.error();
-  session->device = std::move(*device);
-  auto queue = vulkan::Queue::create(*session->device);
-  if (!queue) return queue.error();
-  session->queue = std::move(*queue);
-  session->memory = std::make_unique<vulkan::Memory>(*session->device, options.memory);
-  auto ring = vulkan::CommandRing::create(*session->queue);
-  if (!ring) return ring.error();
-  session->ring = std::move(*ring);
-  if (!options.pipeline_folder.empty()) {
-    // Without it pipelines are made anew, and nothing else.
-    if (auto cache = vulkan::PipelineCache::create(*session->device, options.pipeline_folder)) {
-      session->cache = std::move(*cache);
-    } else if (options.warn) {
-      options.warn("compiled pipelines are not kept: " + cache.error().message);
-    }
-  }
-  auto mesher = Mesher::create(*session->queue, *session->memory, *session->ring, session->cache.get());
-  if (!mesher) return mesher.error();
-  session->mesher = std::move(*mesher);
-  if (session->device->borrowed()) {
-    vulkan::MemoryOptions memory = options.memory;
-    memory.cap = options.resident_cap;
-    memory.families = session->device->readers();
-    session->kept_memory = std::make_unique<vulkan::Memory>(*session->device, memory);
-    session->kept = std::make_unique<vulkan::DeviceMeshes>(*session->queue, *session->kept_memory, *session->memory,
-                                                           *session->ring);
-  }
-  return session;
-}
 
 struct Counters {
   std::atomic<uint64_t> chunks{0}, on_cpu{0}, device_lost{0}, batches{0};
@@ -119,7 +51,7 @@ class VulkanBatch final : public ChunkBatch {
     for (std::unique_ptr<Slot>& slot : slots_) {
       if (!slot) continue;
       (void)awaitSlot(*slot);
-      release(slot);
+      session_->release(slot);
     }
   }
 
@@ -130,7 +62,7 @@ class VulkanBatch final : public ChunkBatch {
     while (session_ && first < jobs_.size()) {
       // Whatever is thrown, the slot goes back by our end: the device may be at work in it.
       slots_.reserve(slots_.size() + 1);
-      slots_.push_back(takeSlot());
+      slots_.push_back(session_->takeSlot(shared_.memory));
       Slot& slot = *slots_.back();
       slot.first = first;
       const auto rest = std::span<const ChunkJob>(jobs_).subspan(first);
@@ -138,7 +70,7 @@ class VulkanBatch final : public ChunkBatch {
       if (slot.plan.chunks.empty()) continue;
       if (const Result<void> submitted = submitSlot(slot); !submitted) {
         note(submitted.error());
-        release(slots_.back());
+        session_->release(slots_.back());
         slots_.pop_back();
         break;
       }
@@ -173,7 +105,7 @@ class VulkanBatch final : public ChunkBatch {
       if (!read_) readSlots();
       if (rest_) rest_->wait();
       // Whoever draws these meshes does not wait for what was submitted between them and their copies.
-      if (kept_ > 0) static_cast<void>(reach(kept_));
+      if (kept_ > 0) static_cast<void>(session_->reach(kept_));
     });
     guarded([&] { end(); });
   }
@@ -191,30 +123,9 @@ class VulkanBatch final : public ChunkBatch {
   }
 
  private:
-  std::unique_ptr<Slot> takeSlot() {
-    const std::scoped_lock lock(session_->mutex);
-    std::vector<std::unique_ptr<Slot>>& idle = session_->idle;
-    if (idle.empty()) {
-      auto made = std::make_unique<Slot>(shared_.memory);
-      idle.reserve(session_->slots + 1);
-      session_->stuck.reserve(session_->slots + 1);
-      ++session_->slots;
-      return made;
-    }
-    // The one that has been idle for longest: nothing is copied out of it any more, as a rule.
-    std::unique_ptr<Slot> slot = std::move(idle.front());
-    idle.erase(idle.begin());
-    return slot;
-  }
-  void release(std::unique_ptr<Slot>& slot) {
-    slot->value = 0;
-    const std::scoped_lock lock(session_->mutex);
-    (slot->stuck ? session_->stuck : session_->idle).push_back(std::move(slot));
-  }
-
   Result<void> submitSlot(Slot& slot) {
     // Also what was given up to wait for, when the driver was out of memory.
-    if (const Result<bool> copied = reach(std::max(slot.kept, slot.buffers.reading)); !copied) {
+    if (const Result<bool> copied = session_->reach(std::max(slot.kept, slot.buffers.reading)); !copied) {
       slot.stuck = true;
       return copied.error();
     }
@@ -224,12 +135,6 @@ class VulkanBatch final : public ChunkBatch {
     shared_.counters.batches.fetch_add(1);
     return {};
   }
-  /// Waits; a second time where the driver may have been out of memory.
-  Result<bool> reach(uint64_t value) const {
-    const Result<bool> reached = session_->queue->wait(value);
-    return reached ? reached : session_->queue->wait(value);
-  }
-
   void note(const Error& error) {
     if (error.code == Code::device_lost) leave();
   }
@@ -263,7 +168,7 @@ class VulkanBatch final : public ChunkBatch {
   /// Waits for the slot; whether what the device has left in it may be read. Where not, it may be in use still.
   bool awaitSlot(Slot& slot) {
     if (slot.value == 0) return false;
-    const Result<bool> ended = reach(slot.value);
+    const Result<bool> ended = session_->reach(slot.value);
     if (!ended) leave();
     slot.stuck = !ended;
     return !slot.stuck;
@@ -275,7 +180,7 @@ class VulkanBatch final : public ChunkBatch {
     for (std::unique_ptr<Slot>& slot : slots_) {
       fillUniform(*slot);
       if (awaitSlot(*slot) && !cancelled_.load()) readSlot(*slot);
-      release(slot);
+      session_->release(slot);
     }
     slots_.clear();
     startRest();
@@ -418,7 +323,7 @@ class VulkanBackend final : public Backend {
   std::shared_ptr<Session> session() {
     const std::scoped_lock lock(shared_.mutex);
     if (shared_.session) return shared_.session;
-    if (Result<std::shared_ptr<Session>> opened = openSession(shared_.options)) shared_.session = std::move(*opened);
+    if (Result<std::shared_ptr<Session>> opened = Session::open(shared_.options)) shared_.session = std::move(*opened);
     shared_.open.store(shared_.session != nullptr);
     return shared_.session;
   }
@@ -431,7 +336,7 @@ class VulkanBackend final : public Backend {
 
 Result<std::unique_ptr<Backend>> makeVulkanBackend(const VulkanBackendOptions& options, std::unique_ptr<Backend> cpu,
                                                    std::pmr::memory_resource* memory, const Profiler& profiler) {
-  Result<std::shared_ptr<Session>> session = openSession(options);
+  Result<std::shared_ptr<Session>> session = Session::open(options);
   if (!session) return session.error();
   return std::unique_ptr<Backend>(
       std::make_unique<VulkanBackend>(options, std::move(cpu), memory, profiler, std::move(*session)));

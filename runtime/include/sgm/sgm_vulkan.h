@@ -42,8 +42,9 @@ typedef struct sgm_vulkan_device_desc {
    * (VK_SHARING_MODE_CONCURRENT), and no ownership is transferred. NULL where the count is 0. Copied. */
   const uint32_t* reader_families;
   uint32_t reader_family_count;
-  int32_t timeline_semaphores; /* 1: VkPhysicalDeviceVulkan12Features.timelineSemaphore is enabled. Needed */
-  int32_t memory_budget;       /* 1: VK_EXT_memory_budget is enabled, so that the runtime keeps to what is left */
+  int32_t
+      timeline_semaphores; /* 1: VkPhysicalDeviceVulkan12Features.timelineSemaphore is enabled. Needed, and believed */
+  int32_t memory_budget;   /* 1: VK_EXT_memory_budget is enabled, so that the runtime keeps to what is left */
   /* Called around every use of the queue, on the thread that uses it, for who shares it; both or neither. They may
    * wait, and must not call the runtime. Any function of the runtime's may use the queue: hold the lock in none. */
   void (*lock_queue)(void* user);
@@ -92,10 +93,10 @@ typedef struct sgm_vulkan_mesh_view {
   void* next;
   /* The parts are there from the moment at which the timeline semaphore has this value, which is before the mesh is
    * READY as a rule, so that waiting takes no time. But it makes them visible: the engine's submission waits for the
-   * value, on the device, at the stages that read them (VERTEX_INPUT; DRAW_INDIRECT for what lies at draw_offset). What
-   * signals it was submitted before, so that a wait on the lent queue itself ends. The semaphore is the same for all
-   * meshes of a runtime, and lives as long as any of them; of several the largest value counts. VK_NULL_HANDLE and 0:
-   * no triangles, nothing to wait for. */
+   * value, on the device, at the stages that read them (VERTEX_INPUT, DRAW_INDIRECT for what lies at draw_offset, or
+   * those of its own shaders and copies). What signals it was submitted before, so that a wait on the lent queue itself
+   * ends. The semaphore is the same for all meshes of a runtime, and lives as long as any of them; of several the
+   * largest value counts. VK_NULL_HANDLE and 0: no triangles, nothing to wait for. */
   VkSemaphore semaphore;
   uint64_t value;
   sgm_vulkan_part body;
