@@ -36,8 +36,11 @@ if(NOT SGM_INSTALL)
   return()
 endif()
 install(TARGETS sgm EXPORT sgmTargets COMPONENT library)
-install(FILES include/sgm/sgm.h $<$<BOOL:${SGM_VULKAN}>:include/sgm/sgm_vulkan.h> DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sgm
-  COMPONENT library)
+set(headers include/sgm/sgm.h)
+if(SGM_VULKAN)
+  list(APPEND headers include/sgm/sgm_vulkan.h)
+endif()
+install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sgm COMPONENT library)
 install(EXPORT sgmTargets NAMESPACE sgm:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/sgm COMPONENT library)
 
 # Whoever links the shared library needs nothing else; a static one takes our dependencies along.
