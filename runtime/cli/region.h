@@ -28,9 +28,8 @@ struct Region {
 
 inline constexpr size_t kCacheBytes = size_t{512} << 20;  ///< of derived cells
 
-/// Where this user's compiled pipelines are kept, as sgm_runtime_desc.pipeline_folder: $XDG_CACHE_HOME/sgm/pipelines,
-/// or
-/// ~/.cache/sgm/pipelines. Empty where neither is known.
+/// Where this user's compiled pipelines are kept, as sgm_runtime_desc.pipeline_folder: sgm/pipelines in $XDG_CACHE_HOME
+/// or ~/.cache. Empty where neither is known.
 std::string pipelineFolder();
 
 /// The backend that --backend names. jobs must outlive it. Error: unsupported.

@@ -54,11 +54,13 @@ inline GrammarOwner compile(sgm_runtime* runtime, const char* text) {
   return GrammarOwner(grammar);
 }
 
-inline FieldOwner makeField(sgm_runtime* runtime, const sgm_grammar* grammar, int32_t cell_units = 256) {
+inline FieldOwner makeField(sgm_runtime* runtime, const sgm_grammar* grammar, int32_t cell_units = 256,
+                            sgm_backend backend = SGM_BACKEND_AUTO) {
   sgm_field_desc desc = SGM_FIELD_DESC_INIT;
   desc.grammar = grammar;
   desc.seed = 7;
   desc.cell_units = cell_units;
+  desc.backend = backend;
   sgm_field* field = nullptr;
   sgm_error error = SGM_ERROR_INIT;
   const sgm_result result = sgm_field_create(runtime, &desc, &field, &error);

@@ -166,20 +166,6 @@ WorldOwner makeWorld(sgm_field* field, uint32_t flags, const char* cache = nullp
   return WorldOwner(world);
 }
 
-FieldOwner makeVulkanField(sgm_runtime* runtime, const sgm_grammar* grammar, sgm_backend backend) {
-  sgm_field_desc desc = SGM_FIELD_DESC_INIT;
-  desc.grammar = grammar;
-  desc.seed = 7;
-  desc.cell_units = 256;
-  desc.backend = backend;
-  sgm_field* field = nullptr;
-  sgm_error error = SGM_ERROR_INIT;
-  const sgm_result result = sgm_field_create(runtime, &desc, &field, &error);
-  INFO(error.message);
-  REQUIRE(result == SGM_OK);
-  return FieldOwner(field);
-}
-
 void look(sgm_world* world, double x, double z) {
   sgm_viewer viewer = SGM_VIEWER_INIT;
   viewer.position[0] = x;
@@ -238,11 +224,11 @@ TEST_CASE("a mesh lies on the lent device with the bytes that the host sees, whe
   const char* text = GENERATE(kBalls, kLumps);
   const RuntimeOwner runtime = lentRuntime(lender);
   const GrammarOwner grammar = compile(runtime.get(), text);
-  const FieldOwner field = makeVulkanField(runtime.get(), grammar.get(), SGM_BACKEND_VULKAN);
+  const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_VULKAN);
   const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
   const RuntimeOwner other = makeRuntime();
   const GrammarOwner other_grammar = compile(other.get(), text);
-  const FieldOwner other_field = makeVulkanField(other.get(), other_grammar.get(), SGM_BACKEND_CPU);
+  const FieldOwner other_field = makeField(other.get(), other_grammar.get(), 256, SGM_BACKEND_CPU);
   const WorldOwner on_cpu = makeWorld(other_field.get(), 0);
   std::vector<MeshOwner> kept;
   for (unsigned step = 0; step < sgm::rounds(3); ++step) {
@@ -270,7 +256,7 @@ TEST_CASE("what comes from the disk lies on the lent device, too", "[vulkan]") {
   for (const bool again : {false, true}) {
     const RuntimeOwner runtime = lentRuntime(lender);
     const GrammarOwner grammar = compile(runtime.get(), kBalls);
-    const FieldOwner field = makeVulkanField(runtime.get(), grammar.get(), SGM_BACKEND_VULKAN);
+    const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_VULKAN);
     const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT, folder.c_str());
     look(world.get(), 0, 0);
     waitIdle(world.get());
@@ -289,7 +275,7 @@ TEST_CASE("a dig and its undo lie on the lent device, as do seams that come late
   Lender lender;
   const RuntimeOwner runtime = lentRuntime(lender);
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
-  const FieldOwner field = makeVulkanField(runtime.get(), grammar.get(), SGM_BACKEND_VULKAN);
+  const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_VULKAN);
   const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
   const auto checkAll = [&] {
     waitIdle(world.get());
@@ -323,7 +309,7 @@ TEST_CASE("meshes outlive the world that they were streamed in", "[vulkan]") {
   std::vector<MeshOwner> meshes;
   {
     const GrammarOwner grammar = compile(runtime.get(), kBalls);
-    const FieldOwner field = makeVulkanField(runtime.get(), grammar.get(), SGM_BACKEND_VULKAN);
+    const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_VULKAN);
     const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
     look(world.get(), 0, 0);
     waitIdle(world.get());
@@ -348,7 +334,7 @@ TEST_CASE("meshes keep to the bytes that they may have on the device, and the re
   };
   {
     const GrammarOwner grammar = compile(runtime.get(), kBalls);
-    const FieldOwner field = makeVulkanField(runtime.get(), grammar.get(), SGM_BACKEND_VULKAN);
+    const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_VULKAN);
     const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
     look(world.get(), 0, 0);
     waitIdle(world.get());
@@ -409,7 +395,7 @@ TEST_CASE("what is not on a lent device says so", "[vulkan]") {
   Lender lender;
   const RuntimeOwner runtime = lentRuntime(lender);
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
-  const FieldOwner on_cpu = makeVulkanField(runtime.get(), grammar.get(), SGM_BACKEND_CPU);
+  const FieldOwner on_cpu = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CPU);
   sgm_world_desc desc = SGM_WORLD_DESC_INIT;
   desc.flags = SGM_WORLD_RESIDENT;
   sgm_world* refused = nullptr;

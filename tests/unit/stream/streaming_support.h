@@ -84,7 +84,8 @@ inline const BackendRequest& testedBackend() {
 
 struct Scene {
   explicit Scene(std::unique_ptr<JobSystem> jobs_in, const std::string& text = caveText(),
-                 WorldSettings settings_in = {}, std::vector<HostField> hosts = {}, const BackendRequest& request = testedBackend())
+                 WorldSettings settings_in = {}, std::vector<HostField> hosts = {},
+                 const BackendRequest& request = testedBackend())
       : field(withHosts(settingsOf(text, kStreamedCell, 3), std::move(hosts)), std::pmr::get_default_resource()),
         jobs(std::move(jobs_in)),
         settings(settings_in) {
