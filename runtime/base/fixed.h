@@ -15,8 +15,8 @@ inline constexpr double metres(int32_t units) { return static_cast<double>(units
 struct Int3 {
   int32_t x = 0, y = 0, z = 0;
   friend auto operator<=>(const Int3&, const Int3&) = default;
-  int32_t& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
-  int32_t operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr int32_t& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr int32_t operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 };
 
 inline int32_t saturate(int64_t v) {
@@ -43,12 +43,12 @@ struct IntBox {
     constexpr int32_t a = std::numeric_limits<int32_t>::min(), b = std::numeric_limits<int32_t>::max();
     return {{a, a, a}, {b, b, b}};
   }
-  bool empty() const { return lo.x > hi.x || lo.y > hi.y || lo.z > hi.z; }
-  bool contains(Int3 p) const {
+  constexpr bool empty() const { return lo.x > hi.x || lo.y > hi.y || lo.z > hi.z; }
+  constexpr bool contains(Int3 p) const {
     return p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z;
   }
-  bool contains(const IntBox& b) const { return b.empty() || (contains(b.lo) && contains(b.hi)); }
-  bool meets(const IntBox& b) const {
+  constexpr bool contains(const IntBox& b) const { return b.empty() || (contains(b.lo) && contains(b.hi)); }
+  constexpr bool meets(const IntBox& b) const {
     return !empty() && !b.empty() && lo.x <= b.hi.x && b.lo.x <= hi.x && lo.y <= b.hi.y && b.lo.y <= hi.y &&
            lo.z <= b.hi.z && b.lo.z <= hi.z;
   }

@@ -21,6 +21,8 @@ class EvalScratch {
     return words_.data();
   }
 
+  uint64_t operations = 0;  ///< what countingKernels() has added up, and nobody else touches
+
  private:
   std::pmr::vector<uint32_t> words_;
 };
@@ -53,5 +55,9 @@ struct FieldKernels {
 
 /// Plain float, one point at a time.
 const FieldKernels& scalarKernels();
+
+/// As scalarKernels(), and adds to EvalScratch::operations the instructions of the program times the points: what every
+/// evaluator of this interface does, but for whole vectors at a block's end.
+const FieldKernels& countingKernels();
 
 }  // namespace sgm

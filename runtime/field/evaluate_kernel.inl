@@ -1,5 +1,5 @@
-// The interpreter, once for every instruction set: included into a namespace in which shaders/common/common.h, the type
-// kLanes and the loads and stores of Real and Int are defined.
+// The interpreter, once for every instruction set and device: included into a namespace in which shaders/common/common.h,
+// kLanes, kEvalBlock and the loads and stores of Real and Int are defined.
 
 struct BlockFrame {
   uint32_t* registers;
@@ -142,7 +142,7 @@ FN void warpPlace(const BlockFrame& f, const Instr& in, size_t i) {
 #define SGM_FORM_WARP(FUNCTION) SGM_EACH warpPlace<kGradient>(f, in, i);
 
 template <bool kGradient>
-inline void runInstr(const BlockFrame& f, const Instr& in, Params P, size_t n) {
+SGM_KERNEL void runInstr(const BlockFrame& f, const Instr& in, Params P, size_t n) {
   switch (in.op) {
 #define SGM_OP(NAME, FUNCTION, FORM, ERROR) \
   case Op::NAME: {                          \
@@ -157,7 +157,7 @@ inline void runInstr(const BlockFrame& f, const Instr& in, Params P, size_t n) {
 
 // Folds one group into the field, or into what its layer's cuts take away (program.h).
 template <bool kGradient>
-inline void foldGroup(const BlockFrame& f, const ProgramGroup& g, size_t n) {
+SGM_KERNEL void foldGroup(const BlockFrame& f, const ProgramGroup& g, size_t n) {
   const bool smooth = g.smooth > 0;
   const size_t into = g.cut && !smooth ? kCutRegister : kFoldRegister;
   SGM_EACH {
@@ -182,7 +182,7 @@ inline void foldGroup(const BlockFrame& f, const ProgramGroup& g, size_t n) {
 
 // One block of n points, n a multiple of kLanes; place 0 is already filled.
 template <bool kGradient>
-inline void runBlock(const ProgramView& program, const BlockFrame& f, size_t n) {
+SGM_KERNEL void runBlock(const ProgramView& program, const BlockFrame& f, size_t n) {
   const Real zero = broadcast(0.0f);
   SGM_EACH storeDual<kGradient>(f, kFoldRegister, i,
                                 makeDual(broadcast(program.initial), zero, zero, zero,
@@ -206,75 +206,6 @@ inline void runBlock(const ProgramView& program, const BlockFrame& f, size_t n) 
     if (last_cut) {
       SGM_EACH storeDual<kGradient>(
           f, kFoldRegister, i, opCut(loadDual<kGradient>(f, kFoldRegister, i), loadDual<kGradient>(f, kCutRegister, i)));
-    }
-  }
-}
-
-template <bool kGradient>
-inline BlockFrame makeFrame(EvalScratch& scratch) {
-  constexpr size_t registers = (kMaxRegisters + 2) * kRegisterWords<kGradient>;
-  constexpr size_t places = size_t{kMaxPlaces} * 3 * kEvalBlock;
-  constexpr size_t jacobians = kGradient ? size_t{kMaxPlaces} * 9 * kEvalBlock : 0;
-  uint32_t* words = scratch.reserve(registers + places + jacobians + 16);
-  // Whole vectors must not straddle cache lines: the block starts at the next multiple of 64 bytes.
-  words += (16 - (reinterpret_cast<uintptr_t>(words) / sizeof(uint32_t)) % 16) % 16;
-  return {words, words + registers, words + registers + places};
-}
-
-// Copies a block's points to place 0, the last one repeated up to whole vectors.
-inline size_t loadPoints(const BlockFrame& f, const Points& points, size_t first, size_t count) {
-  const size_t padded = (count + kLanes - 1) / kLanes * kLanes;
-  const int32_t* axes[3] = {points.x + first, points.y + first, points.z + first};
-  for (size_t axis = 0; axis < 3; ++axis) {
-    uint32_t* out = f.places + axis * kEvalBlock;
-    memcpy(out, axes[axis], count * sizeof(uint32_t));
-    for (size_t i = count; i < padded; ++i) out[i] = out[count - 1];
-  }
-  return padded;
-}
-
-inline void evaluateSamples(const ProgramView& program, const Points& points, EvalScratch& scratch, int32_t* q) {
-  const BlockFrame f = makeFrame<false>(scratch);
-  for (size_t first = 0; first < points.count; first += kEvalBlock) {
-    const size_t count = points.count - first < kEvalBlock ? points.count - first : kEvalBlock;
-    const size_t n = loadPoints(f, points, first, count);
-    runBlock<false>(program, f, n);
-    uint32_t* out = f.registers;
-    SGM_EACH storeInt(quantise(loadDual<false>(f, kFoldRegister, i).v, program.q_scale), out + i);
-    memcpy(q + first, out, count * sizeof(int32_t));
-  }
-}
-
-inline void evaluateAttributes(const ProgramView& program, const Points& points, EvalScratch& scratch,
-                               const Attributes& out) {
-  const BlockFrame f = makeFrame<true>(scratch);
-  for (size_t first = 0; first < points.count; first += kEvalBlock) {
-    const size_t count = points.count - first < kEvalBlock ? points.count - first : kEvalBlock;
-    const size_t n = loadPoints(f, points, first, count);
-    runBlock<true>(program, f, n);
-    SGM_EACH {
-      const Dual d = loadDual<true>(f, kFoldRegister, i);
-      storeDual<true>(f, kFoldRegister, i,
-                      makeDual(unsignedZero(d.v), unsignedZero(d.x), unsignedZero(d.y), unsignedZero(d.z), d.label));
-    }
-    const uint32_t* fold = f.registers + kFoldRegister * kRegisterWords<true>;
-    if (out.value) memcpy(out.value + first, fold, count * sizeof(float));
-    if (out.gradient_x) memcpy(out.gradient_x + first, fold + kEvalBlock, count * sizeof(float));
-    if (out.gradient_y) memcpy(out.gradient_y + first, fold + 2 * kEvalBlock, count * sizeof(float));
-    if (out.gradient_z) memcpy(out.gradient_z + first, fold + 3 * kEvalBlock, count * sizeof(float));
-    if (out.label) memcpy(out.label + first, fold + 4 * kEvalBlock, count * sizeof(uint32_t));
-    if (out.normal_x && out.normal_y) {
-      uint32_t* packed = f.registers;
-      SGM_EACH {
-        const Dual d = loadDual<true>(f, kFoldRegister, i);
-        const PackedNormal p = packNormal(d.x, d.y, d.z);
-        storeInt(p.x, packed + i);
-        storeInt(p.y, packed + kEvalBlock + i);
-      }
-      for (size_t i = 0; i < count; ++i) {
-        out.normal_x[first + i] = static_cast<int16_t>(static_cast<int32_t>(packed[i]));
-        out.normal_y[first + i] = static_cast<int16_t>(static_cast<int32_t>(packed[kEvalBlock + i]));
-      }
     }
   }
 }

@@ -1,5 +1,6 @@
 #include <cstring>
 
+#include "base/kernel.h"
 #include "field/evaluate.h"
 
 namespace sgm {
@@ -29,7 +30,7 @@ FN Int loadInt(const uint32_t* p) { return static_cast<Int>(*p); }
 FN void storeReal(Real r, uint32_t* p) { *p = realToBits(r); }
 FN void storeInt(Int i, uint32_t* p) { *p = static_cast<uint32_t>(i); }
 
-#include "field/evaluate_kernel.inl"
+#include "field/evaluate_blocks.inl"
 
 }  // namespace scalar
 

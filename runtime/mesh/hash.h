@@ -10,11 +10,12 @@
 
 #include <span>
 
+#include "base/kernel.h"
 #include "mesh/chunk.h"
 
 namespace sgm {
 
-inline uint32_t mixWord(uint32_t word, uint32_t place) {
+SGM_KERNEL uint32_t mixWord(uint32_t word, uint32_t place) {
   uint32_t h = word ^ (place * 0x9E3779B9u + 0x85EBCA6Bu);
   h ^= h >> 16;
   h *= 0x7FEB352Du;

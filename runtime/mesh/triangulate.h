@@ -17,27 +17,12 @@
 #include <type_traits>
 
 #include "mesh/tables.h"
+#include "mesh/triangulate_any.h"
 
 // Left to its own judgement g++ keeps the unrolled pieces below as calls, at half the speed.
 #define SGM_ALWAYS_INLINE __attribute__((always_inline))
 
 namespace sgm {
-
-/// A vertex of a loop. Positions may be relative to anything; two points of a loop are at most 512 apart on each axis.
-struct LoopPoint {
-  int32_t x, y, z;
-  uint32_t faces;   ///< the faces of the cell that the vertex's edge lies in
-  uint32_t vertex;  ///< what is written into the index list
-};
-
-inline int32_t triangleMeasure(const LoopPoint& a, const LoopPoint& b, const LoopPoint& c) {
-  const int32_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-  const int32_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-  return std::abs(uy * vz - uz * vy) + std::abs(uz * vx - ux * vz) + std::abs(ux * vy - uy * vx);
-}
-
-/// The definition, for any length n from 3 to kLongestLoop: writes 3 * (n - 2) indices and returns the end of them.
-uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* out);
 
 namespace triangulation {
 

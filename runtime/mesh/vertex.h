@@ -6,13 +6,14 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "base/kernel.h"
 #include "mesh/chunk.h"
 
 namespace sgm {
 
 /// How far along its edge, in 1/256, the surface crosses between q0 (the lower end on the edge's axis) and q1: 1..255.
 /// round(256 |q0| / (|q0| + |q1|)), halves up, in 32-bit integers. The signs differ, so that the sum is not 0.
-inline uint32_t crossing(int32_t q0, int32_t q1) {
+SGM_KERNEL uint32_t crossing(int32_t q0, int32_t q1) {
   const uint32_t a = static_cast<uint32_t>(std::abs(q0)), sum = a + static_cast<uint32_t>(std::abs(q1));
   const uint32_t t = (512 * a + sum) / (2 * sum);
   return t < 1 ? 1 : t > 255 ? 255 : t;
@@ -21,12 +22,12 @@ inline uint32_t crossing(int32_t q0, int32_t q1) {
 /// A local position in 1/256 of a cell, in whole units: round(position * cell / 256), halves up. In 32 bits for a cell
 /// of at most 2^22 units. Equal for all chunks that meet in a vertex, of whatever level, since the exact position is
 /// equal.
-inline int32_t localUnits(uint32_t position, int32_t cell) {
+SGM_KERNEL int32_t localUnits(uint32_t position, int32_t cell) {
   return static_cast<int32_t>(position >> 8) * cell + ((static_cast<int32_t>(position & 255) * cell + 128) >> 8);
 }
 
 /// The vertex of a body or of a seam in world units, by the rounding of localUnits: where its attributes are evaluated.
-inline Int3 vertexUnits(const ChunkGrid& grid, const Vertex& v) {
+SGM_KERNEL Int3 vertexUnits(const ChunkGrid& grid, const Vertex& v) {
   return {grid.origin.x + localUnits(v.x, grid.cell), grid.origin.y + localUnits(v.y, grid.cell),
           grid.origin.z + localUnits(v.z, grid.cell)};
 }

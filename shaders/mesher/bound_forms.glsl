@@ -14,92 +14,24 @@ void setSlot(uint slot, Bounds b) {
   high[slot] = b.hi;
 }
 
-// The field with what a layer adds and takes away. A list of what pruning left has no end of layers that take nothing
-// away: what they add waits for whatever comes next.
-Bounds layerJoined(Bounds field, Bounds adds, Bounds cuts) {
-  return makeBounds(max(min(field.lo, adds.lo), -cuts.hi), max(min(field.hi, adds.hi), -cuts.lo));
-}
-
-int movedTo(int at, float by, float slack) {
-  float to = float(at) + clamp(by, -1048576.0f, 1048576.0f) * 1024.0f;
-  to = to + slack * (2.0f + 4.0e-7f * (abs(float(at)) + abs(to)));
-  return to < -2147483000.0f ? -2147483647 - 1 : to > 2147483000.0f ? 2147483647 : int(to);
-}
-
-// Of an op that reads a position, from its value at the middle of the box.
-Bounds positionBounds(uint number, float middle, ivec3 lo, ivec3 hi) {
-  const uint P = 0u;
-  float error = kStatedErrors[number];
-  if (number == kOp_noise) return makeBounds(-1.0f, 1.0f);
-  if (number == kOp_sweep) return makeBounds(-2.0e-6f, 1.0f + 2.0e-6f);
-  if (number == kOp_lattice) {
-    Bounds all = makeBounds(PF(P, 11), PF(P, 12));
-    all = widened(all, 2.0f * error * magnitudeOf(all));
-    bool far = all.hi >= PF(P, 9) || all.lo <= -PF(P, 9);
-    return far ? makeBounds(-kHeldAt, kHeldAt) : all;
-  }
-  Bounds x = offsetRange(lo.x, hi.x, PI(P, 1)), y = offsetRange(lo.y, hi.y, PI(P, 2)), z = offsetRange(lo.z, hi.z, PI(P, 3));
-  if (number == kOp_coordinate) {
-    x = productOf(x, makeBounds(PF(P, 4), PF(P, 4)));
-    y = productOf(y, makeBounds(PF(P, 5), PF(P, 5)));
-    z = productOf(z, makeBounds(PF(P, 6), PF(P, 6)));
-    return widened(sumOf(sumOf(x, y), z), 4.0f * error * (magnitudeOf(x) + magnitudeOf(y) + magnitudeOf(z)));
-  }
-  if (number == kOp_blob) {
-    Bounds d2 = sumOf(sumOf(squareOf(x), squareOf(y)), squareOf(z));
-    d2 = makeBounds(max(d2.lo, 0.0f), d2.hi);
-    return kernelRange(productOf(d2, makeBounds(PF(P, 4), PF(P, 4))), 2.0f * error);
-  }
-  // None is steeper than 1 (primitives.h).
-  vec3 extent = vec3(float(uint(hi.x - lo.x)), float(uint(hi.y - lo.y)), float(uint(hi.z - lo.z))) * 0.5f + 1.0f;
-  float radius = sqrtReal(extent.x * extent.x + extent.y * extent.y + extent.z * extent.z) * 1.00001f;
-  float farthest = magnitudeOf(x) + magnitudeOf(y) + magnitudeOf(z);
-  float sizes = uintBitsToFloat(wordOfRecord(30u));
-  return widened(makeBounds(middle - radius, middle + radius), 3.0f * error * (farthest + sizes));
-}
-
-// Between its ends the norm falls as t grows the exponent, and the radii move: bounded from both, with the two effects
-// taken apart. ||u||_n <= ||u||_2 and >= ||u||_max, each for the smaller and the larger radii.
-Bounds powerMorphBounds(ivec3 middle, Bounds t, ivec3 lo, ivec3 hi) {
-  const uint P = 0u;
-  Bounds s = clampedTo(t, 0.0f, 1.0f);
-  vec3 extent = vec3(float(uint(hi.x - lo.x)), float(uint(hi.y - lo.y)), float(uint(hi.z - lo.z))) * 0.5f + 1.0f;
-  float radius = sqrtReal(extent.x * extent.x + extent.y * extent.y + extent.z * extent.z) * 1.00001f;
-  Bounds x = offsetRange(lo.x, hi.x, PI(P, 1)), y = offsetRange(lo.y, hi.y, PI(P, 2)), z = offsetRange(lo.z, hi.z, PI(P, 3));
-  float farthest = magnitudeOf(x) + magnitudeOf(y) + magnitudeOf(z);
-  float slack = 3.0f * kStatedErrors[kOp_power_morph] * (farthest + uintBitsToFloat(wordOfRecord(30u)));
-  Vec3 local = toLocal(middle.x, middle.y, middle.z, P);
-  vec3 q = abs(vec3(local.x, local.y, local.z));
-  vec3 a = vec3(PF(P, 13), PF(P, 14), PF(P, 15)), b = vec3(PF(P, 16), PF(P, 17), PF(P, 18));
-  vec3 r0 = (1.0f - s.lo) * a + s.lo * b, r1 = (1.0f - s.hi) * a + s.hi * b;
-  vec3 small = min(r0, r1) * 0.99999f, large = max(r0, r1) * 1.00001f;
-  float reach = radius + slack;
-  vec3 within = max(q - reach, vec3(0.0f));
-  vec3 lowest = within * vec3(recipReal(large.x), recipReal(large.y), recipReal(large.z));
-  vec3 u = (q + reach) * vec3(recipReal(small.x), recipReal(small.y), recipReal(small.z));
-  float norm_low = max(lowest.x, max(lowest.y, lowest.z)) * 0.9999f - 1.0f;
-  float norm_high = sqrtReal(u.x * u.x + u.y * u.y + u.z * u.z) * 1.0001f - 1.0f;
-  float smallest_low = min(small.x, min(small.y, small.z)), smallest_high = min(large.x, min(large.y, large.z));
-  return widened(makeBounds(norm_low * (norm_low > 0.0f ? smallest_low : smallest_high),
-                            norm_high * (norm_high > 0.0f ? smallest_high : smallest_low)), slack);
-}
-
-#define LO place_low[place]
-#define HI place_high[place]
-#define MIDDLE_OF(axis) (place_low[place].axis + int(uint(place_high[place].axis - place_low[place].axis) >> 1))
+#define BOX makeBox(place_low[place], place_high[place])
+#define SIZES uintBitsToFloat(wordOfRecord(30u))
+#define MIDDLE_OF(axis) middleOf(place_low[place].axis, place_high[place].axis)
+#define SAMPLES makeBounds(PF(P, 11), PF(P, 12))  // of a lattice
 #define OPERANDS(a, b, c) setSlot(dst, operandBounds(number, a, b, c, PF(P, 0), PF(P, 1)));
 #define NONE makeBounds(0.0f, 0.0f)
 #define FORM_CONSTANT(F) OPERANDS(NONE, NONE, NONE)
-#define FORM_NOISE(F) setSlot(dst, positionBounds(number, 0.0f, LO, HI));
+#define FORM_NOISE(F) setSlot(dst, positionBounds(number, P, 0.0f, 0.0f, NONE, BOX));
 #define FORM_POSITION(F)                                                                                 \
   {                                                                                                      \
     Bounds a = slotBounds(ra);                                                                           \
-    Bounds b = positionBounds(number, F(MIDDLE_OF(x), MIDDLE_OF(y), MIDDLE_OF(z), P).v, LO, HI);         \
+    float middle = F(MIDDLE_OF(x), MIDDLE_OF(y), MIDDLE_OF(z), P).v;                                     \
+    Bounds b = positionBounds(number, P, middle, SIZES, SAMPLES, BOX);                                   \
     MARK(float(b.lo > a.hi ? kFirstAlone : a.lo > b.hi ? kSecondAlone : kKept))                          \
     setSlot(dst, makeBounds(min(a.lo, b.lo), min(a.hi, b.hi)));                                          \
   }
 #define FORM_POSITION_1(F) \
-  setSlot(dst, powerMorphBounds(ivec3(MIDDLE_OF(x), MIDDLE_OF(y), MIDDLE_OF(z)), slotBounds(ra), LO, HI));
+  setSlot(dst, powerMorphBounds(P, slotBounds(ra), SIZES, BOX));
 #define FORM_UNARY(F) OPERANDS(slotBounds(ra), NONE, NONE)
 #define FORM_UNARY_P(F) OPERANDS(slotBounds(ra), NONE, NONE)
 #define FORM_COPY(F) OPERANDS(slotBounds(ra), NONE, NONE)
@@ -153,7 +85,7 @@ Bounds powerMorphBounds(ivec3 middle, Bounds t, ivec3 lo, ivec3 hi) {
 #define FORM_SUM_END(F) setSlot(dst, sumEndRange(slotBounds(rb), PF(P, 0), PF(P, 1)));
 #define FORM_WARP(F)                                                                          \
   {                                                                                           \
-    ivec3 from = LO, to = HI;                                                                 \
+    ivec3 from = place_low[place], to = place_high[place];                                    \
     place_low[dst] = ivec3(movedTo(from.x, low[ra], -1.0f), movedTo(from.y, low[rb], -1.0f),  \
                            movedTo(from.z, low[rc], -1.0f));                                  \
     place_high[dst] = ivec3(movedTo(to.x, high[ra], 1.0f), movedTo(to.y, high[rb], 1.0f),     \

@@ -15,7 +15,8 @@ layout(local_size_x_id = 0) in;
 #include "mesher/tape.glsl"
 #include "op_numbers.glsl"
 #include "common/common.h"
-#include "mesher/bounds.glsl"
+#include "mesher/box.glsl"
+#include "common/bounds.h"
 
 const uint kEndOfWindow = 0xFFu;
 const uint kMostRecords = 1024u;

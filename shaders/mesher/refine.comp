@@ -16,7 +16,8 @@ layout(local_size_x_id = 0) in;
 #include "op_numbers.glsl"
 #include "mesher/window.glsl"
 #include "common/common.h"
-#include "mesher/bounds.glsl"
+#include "mesher/box.glsl"
+#include "common/bounds.h"
 
 #define MARK(value) {}
 #define MARK_WHOLE(value) {}

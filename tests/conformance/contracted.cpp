@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "base/kernel.h"
 #include "contracted.h"
 
 namespace sgm::contracted {
@@ -17,7 +18,7 @@ FN Int loadInt(const uint32_t* p) { return static_cast<Int>(*p); }
 FN void storeReal(Real r, uint32_t* p) { *p = realToBits(r); }
 FN void storeInt(Int i, uint32_t* p) { *p = static_cast<uint32_t>(i); }
 
-#include "field/evaluate_kernel.inl"
+#include "field/evaluate_blocks.inl"
 
 }  // namespace sgm::contracted
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <vector>
 
+#include "base/kernel.h"
 #include "backend/cpu/instruction_sets.h"
 
 // Between those that are offered below; without one of its own a processor takes the next lower.
@@ -22,7 +23,7 @@ using std::memcpy;
 #define SGM_WIDE
 #include "backend/cpu/wide.h"
 #include "common/common.h"
-#include "field/evaluate_kernel.inl"
+#include "field/evaluate_blocks.inl"
 #undef FN
 #undef PRECISE
 #undef PI

@@ -6,6 +6,7 @@
 #include "catch.h"
 #include "field/builder.h"
 #include "random_programs.h"
+#include "rounds.h"
 
 using namespace sgm;
 
@@ -57,4 +58,22 @@ TEST_CASE("one seed means one random program, whatever the compiler") {
   }
   // Whoever changes the generator changes this too.
   CHECK(hash == 0xa56a6131dfc0950du);
+}
+
+TEST_CASE("the evaluator that counts gives the scalar one's bits, and counts every instruction of every point") {
+  for (uint32_t seed = 1; seed <= rounds(50); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const FieldProgram program = randomProgram(random, {});
+    const PointSet points = randomPoints(random, {}, 20'000, random() % (2 * kEvalBlock + 2));
+    CHECK(differentBits(evaluate(countingKernels(), program.view(), points.points()),
+                        evaluate(scalarKernels(), program.view(), points.points())) == 0);
+    EvalScratch scratch;
+    std::vector<int32_t> q(points.x.size());
+    countingKernels().samples(program.view(), points.points(), scratch, q.data());
+    const uint64_t once = uint64_t{program.instrs.size()} * points.x.size();
+    CHECK(scratch.operations == once);
+    countingKernels().attributes(program.view(), points.points(), scratch, {});
+    CHECK(scratch.operations == 2 * once);
+  }
 }

@@ -1,6 +1,9 @@
 // Bounds of what the evaluators return over a box of positions, in float32 and so wider than the host's
 // (field/interval.h): by ten roundings of the largest magnitude at every step, and by what each op states of its own
 // error. What follows from them never shows in a mesh: pruned or not a program gives the same bits.
+//
+// In the subset of portable.h, for devices: whoever includes it has included common.h, defined kOp_NAME and
+// kStatedErrors (ops.def), Box3 of whole positions, and, in C++, min, max, abs, clamp and floor of floats.
 
 struct Bounds {
   float lo, hi;
@@ -9,37 +12,37 @@ struct Bounds {
 const float kMostBound = 1.0e30f;
 const float kHeldAt = 1.0e18f;  // where expressions end (real.h)
 
-Bounds makeBounds(float lo, float hi) {
+FN Bounds makeBounds(float lo, float hi) {
   Bounds b;
   b.lo = lo;
   b.hi = hi;
   return b;
 }
 
-float magnitudeOf(Bounds a) { return max(abs(a.lo), abs(a.hi)); }
+FN float magnitudeOf(Bounds a) { return max(abs(a.lo), abs(a.hi)); }
 
-Bounds widened(Bounds a, float by) {
+FN Bounds widened(Bounds a, float by) {
   float slack = by + 1.0e-6f * magnitudeOf(a) + 1.0e-20f;
   return makeBounds(clamp(a.lo - slack, -kMostBound, kMostBound), clamp(a.hi + slack, -kMostBound, kMostBound));
 }
 
-Bounds clampedTo(Bounds a, float lo, float hi) { return makeBounds(clamp(a.lo, lo, hi), clamp(a.hi, lo, hi)); }
-Bounds keptOf(Bounds a) { return clampedTo(a, -kHeldAt, kHeldAt); }
-Bounds negated(Bounds a) { return makeBounds(-a.hi, -a.lo); }
+FN Bounds clampedTo(Bounds a, float lo, float hi) { return makeBounds(clamp(a.lo, lo, hi), clamp(a.hi, lo, hi)); }
+FN Bounds keptOf(Bounds a) { return clampedTo(a, -kHeldAt, kHeldAt); }
+FN Bounds negated(Bounds a) { return makeBounds(-a.hi, -a.lo); }
 
-Bounds productOf(Bounds a, Bounds b) {
+FN Bounds productOf(Bounds a, Bounds b) {
   a = clampedTo(a, -kHeldAt, kHeldAt);
   b = clampedTo(b, -kHeldAt, kHeldAt);
   float p = a.lo * b.lo, q = a.lo * b.hi, r = a.hi * b.lo, s = a.hi * b.hi;
   return widened(makeBounds(min(min(p, q), min(r, s)), max(max(p, q), max(r, s))), 0.0f);
 }
 
-Bounds sumOf(Bounds a, Bounds b) {
+FN Bounds sumOf(Bounds a, Bounds b) {
   return widened(makeBounds(a.lo + b.lo, a.hi + b.hi), 1.0e-6f * (magnitudeOf(a) + magnitudeOf(b)));
 }
 
 // (1 - t) a + t b over all t: linear in t, so that its ends decide.
-Bounds blendOf(Bounds a, Bounds b, Bounds t) {
+FN Bounds blendOf(Bounds a, Bounds b, Bounds t) {
   Bounds low = sumOf(productOf(a, makeBounds(1.0f - t.lo, 1.0f - t.lo)), productOf(b, makeBounds(t.lo, t.lo)));
   Bounds high = sumOf(productOf(a, makeBounds(1.0f - t.hi, 1.0f - t.hi)), productOf(b, makeBounds(t.hi, t.hi)));
   return widened(makeBounds(min(low.lo, high.lo), max(low.hi, high.hi)),
@@ -47,7 +50,7 @@ Bounds blendOf(Bounds a, Bounds b, Bounds t) {
 }
 
 // Exact zero where the kernel is certainly spent, so that the operand may be left out.
-Bounds kernelRange(Bounds x, float error) {
+FN Bounds kernelRange(Bounds x, float error) {
   float slack = (error + 1.0e-6f) * (1.0f + magnitudeOf(x));
   float low = max(0.0f, 1.0f - (x.hi + slack)), high = max(0.0f, 1.0f - max(0.0f, x.lo - slack));
   low = low * low * low;
@@ -56,16 +59,16 @@ Bounds kernelRange(Bounds x, float error) {
 }
 
 // Offsets along one axis from a centre, and their squares.
-Bounds offsetRange(int lo, int hi, int centre) {
+FN Bounds offsetRange(int lo, int hi, int centre) {
   return widened(makeBounds(float(saturatingSub(lo, centre)), float(saturatingSub(hi, centre))), 0.0f);
 }
-Bounds squareOf(Bounds a) {
+FN Bounds squareOf(Bounds a) {
   float l = a.lo * a.lo, h = a.hi * a.hi;
   return widened(makeBounds(a.lo <= 0.0f && a.hi >= 0.0f ? 0.0f : min(l, h), max(l, h)), 0.0f);
 }
 
 // Of an op over operands (number is a constant at every place that calls this, so that one line of it is left).
-Bounds operandBounds(uint number, Bounds a, Bounds b, Bounds c, float p0, float p1) {
+FN Bounds operandBounds(uint number, Bounds a, Bounds b, Bounds c, float p0, float p1) {
   float error = kStatedErrors[number];
   if (number == kOp_constant) return makeBounds(p0, p0);
   if (number == kOp_copy) return a;
@@ -117,21 +120,21 @@ Bounds operandBounds(uint number, Bounds a, Bounds b, Bounds c, float p0, float 
   return makeBounds(-kMostBound, kMostBound);
 }
 
-Bounds roundShare(Bounds d, float k) {
+FN Bounds roundShare(Bounds d, float k) {
   Bounds u = clampedTo(makeBounds(k - d.hi, k - d.lo), 0.0f, 1.0e9f);
   u = widened(u, 1.0e-6f * (k + min(magnitudeOf(d), 2.0e9f)));
   u = makeBounds(max(u.lo, 0.0f), u.hi);
   return makeBounds(u.lo * u.lo * 0.999998f, d.lo >= k ? 0.0f : u.hi * u.hi * 1.000002f);
 }
 
-Bounds roundEndRange(Bounds nearest, Bounds sum, float k) {
+FN Bounds roundEndRange(Bounds nearest, Bounds sum, float k) {
   Bounds top = makeBounds(max(nearest.lo, k), max(nearest.hi, k));
   Bounds root = makeBounds(sqrtReal(sum.lo), sqrtReal(sum.hi));
   return widened(makeBounds(top.lo - root.hi, top.hi - root.lo),
                  (kStatedErrors[kOp_round_end] + 1.0e-6f) * (magnitudeOf(top) + root.hi));
 }
 
-Bounds roundUnionRange(Bounds a, Bounds b, float k) {
+FN Bounds roundUnionRange(Bounds a, Bounds b, float k) {
   Bounds nearest = makeBounds(min(a.lo, b.lo), min(a.hi, b.hi));
   float u = clamp(k - a.lo, 0.0f, 1.0e9f), v = clamp(k - b.lo, 0.0f, 1.0e9f);
   float root = sqrtReal(u * u + v * v);
@@ -139,7 +142,95 @@ Bounds roundUnionRange(Bounds a, Bounds b, float k) {
   return u == 0.0f || v == 0.0f ? nearest : makeBounds(min(nearest.lo, low), nearest.hi);
 }
 
-Bounds sumEndRange(Bounds sum, float threshold, float size) {
+FN Bounds sumEndRange(Bounds sum, float threshold, float size) {
   Bounds r = productOf(makeBounds(threshold - sum.hi, threshold - sum.lo), makeBounds(size, size));
   return widened(keptOf(r), (kStatedErrors[kOp_sum_end] + 2.0e-6f) * (abs(threshold) + sum.hi) * abs(size));
+}
+
+// The field with what a layer adds and takes away. A list of what pruning left has no end of layers that take nothing
+// away: what they add waits for whatever comes next.
+FN Bounds layerJoined(Bounds field, Bounds adds, Bounds cuts) {
+  return makeBounds(max(min(field.lo, adds.lo), -cuts.hi), max(min(field.hi, adds.hi), -cuts.lo));
+}
+
+FN int movedTo(int at, float by, float slack) {
+  float to = float(at) + clamp(by, -1048576.0f, 1048576.0f) * 1024.0f;
+  to = to + slack * (2.0f + 4.0e-7f * (abs(float(at)) + abs(to)));
+  return to < -2147483000.0f ? -2147483647 - 1 : to > 2147483000.0f ? 2147483647 : int(to);
+}
+
+FN int middleOf(int lo, int hi) { return int(uint(lo) + ((uint(hi) - uint(lo)) >> 1)); }
+FN float halfOf(int lo, int hi) { return float(uint(hi) - uint(lo)) * 0.5f + 1.0f; }
+
+// How far the value of what is nowhere steeper than 1 (primitives.h) may be from that at the middle of the box.
+FN float reachOf(Box3 box) {
+  float x = halfOf(box.lo_x, box.hi_x), y = halfOf(box.lo_y, box.hi_y), z = halfOf(box.lo_z, box.hi_z);
+  return sqrtReal(x * x + y * y + z * z) * 1.00001f;
+}
+
+// Of an op that reads a position, from its value at the middle of the box. sizes: what enters beside the offset
+// (field/interval.h, sizeSum); samples: of a lattice, all that it has.
+FN Bounds positionBounds(uint number, Params P, float middle, float sizes, Bounds samples, Box3 box) {
+  float error = kStatedErrors[number];
+  if (number == kOp_noise) return makeBounds(-1.0f, 1.0f);
+  if (number == kOp_sweep) return makeBounds(-2.0e-6f, 1.0f + 2.0e-6f);
+  if (number == kOp_lattice) {
+    Bounds all = widened(samples, 2.0f * error * magnitudeOf(samples));
+    bool far = all.hi >= PF(P, 9) || all.lo <= -PF(P, 9);
+    return far ? makeBounds(-kHeldAt, kHeldAt) : all;
+  }
+  Bounds x = offsetRange(box.lo_x, box.hi_x, PI(P, 1)), y = offsetRange(box.lo_y, box.hi_y, PI(P, 2));
+  Bounds z = offsetRange(box.lo_z, box.hi_z, PI(P, 3));
+  if (number == kOp_coordinate) {
+    x = productOf(x, makeBounds(PF(P, 4), PF(P, 4)));
+    y = productOf(y, makeBounds(PF(P, 5), PF(P, 5)));
+    z = productOf(z, makeBounds(PF(P, 6), PF(P, 6)));
+    return widened(sumOf(sumOf(x, y), z), 4.0f * error * (magnitudeOf(x) + magnitudeOf(y) + magnitudeOf(z)));
+  }
+  if (number == kOp_blob) {
+    Bounds d2 = sumOf(sumOf(squareOf(x), squareOf(y)), squareOf(z));
+    d2 = makeBounds(max(d2.lo, 0.0f), d2.hi);
+    return kernelRange(productOf(d2, makeBounds(PF(P, 4), PF(P, 4))), 2.0f * error);
+  }
+  float radius = reachOf(box);
+  float farthest = magnitudeOf(x) + magnitudeOf(y) + magnitudeOf(z);
+  return widened(makeBounds(middle - radius, middle + radius), 3.0f * error * (farthest + sizes));
+}
+
+// One axis of a power morph, its part in both norms: the distance q of the middle from the centre, between the radii a
+// and b, t of the way.
+struct MorphAxis {
+  float smallest, largest, nearest, farthest;
+};
+FN MorphAxis morphAxis(float q, float a, float b, Bounds t, float reach) {
+  float r0 = (1.0f - t.lo) * a + t.lo * b, r1 = (1.0f - t.hi) * a + t.hi * b;
+  MorphAxis m;
+  m.smallest = min(r0, r1) * 0.99999f;
+  m.largest = max(r0, r1) * 1.00001f;
+  m.nearest = max(q - reach, 0.0f) * recipReal(m.largest);
+  m.farthest = (q + reach) * recipReal(m.smallest);
+  return m;
+}
+
+// Between its ends the norm falls as t grows the exponent, and the radii move: bounded from both, with the two effects
+// taken apart. ||u||_n <= ||u||_2 and >= ||u||_max, each for the smaller and the larger radii.
+FN Bounds powerMorphBounds(Params P, Bounds t, float sizes, Box3 box) {
+  Bounds s = clampedTo(t, 0.0f, 1.0f);
+  float radius = reachOf(box);
+  Bounds x = offsetRange(box.lo_x, box.hi_x, PI(P, 1)), y = offsetRange(box.lo_y, box.hi_y, PI(P, 2));
+  Bounds z = offsetRange(box.lo_z, box.hi_z, PI(P, 3));
+  float all = magnitudeOf(x) + magnitudeOf(y) + magnitudeOf(z);
+  float slack = 3.0f * kStatedErrors[kOp_power_morph] * (all + sizes);
+  Vec3 local = toLocal(middleOf(box.lo_x, box.hi_x), middleOf(box.lo_y, box.hi_y), middleOf(box.lo_z, box.hi_z), P);
+  float reach = radius + slack;
+  MorphAxis u = morphAxis(abs(local.x), PF(P, 13), PF(P, 16), s, reach);
+  MorphAxis v = morphAxis(abs(local.y), PF(P, 14), PF(P, 17), s, reach);
+  MorphAxis w = morphAxis(abs(local.z), PF(P, 15), PF(P, 18), s, reach);
+  float squares = u.farthest * u.farthest + v.farthest * v.farthest + w.farthest * w.farthest;
+  float norm_low = max(u.nearest, max(v.nearest, w.nearest)) * 0.9999f - 1.0f;
+  float norm_high = sqrtReal(squares) * 1.0001f - 1.0f;
+  float smallest = min(u.smallest, min(v.smallest, w.smallest));
+  float largest = min(u.largest, min(v.largest, w.largest));
+  return widened(makeBounds(norm_low * (norm_low > 0.0f ? smallest : largest),
+                            norm_high * (norm_high > 0.0f ? largest : smallest)), slack);
 }

@@ -1,0 +1,8 @@
+#pragma once
+// Marks functions that a GPU runs too.
+
+#ifdef __CUDACC__
+#define SGM_KERNEL __host__ __device__ inline
+#else
+#define SGM_KERNEL inline
+#endif

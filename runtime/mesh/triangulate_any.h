@@ -1,0 +1,73 @@
+#pragma once
+// The definition of how a loop of cut edges becomes triangles (triangulate.h), for any length, on the CPU and on a GPU.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+
+#include "base/kernel.h"
+#include "mesh/tables.h"
+
+namespace sgm {
+
+/// A vertex of a loop. Positions may be relative to anything; two points of a loop are at most 512 apart on each axis.
+struct LoopPoint {
+  int32_t x, y, z;
+  uint32_t faces;   ///< the faces of the cell that the vertex's edge lies in
+  uint32_t vertex;  ///< what is written into the index list
+};
+
+SGM_KERNEL int32_t triangleMeasure(const LoopPoint& a, const LoopPoint& b, const LoopPoint& c) {
+  const int32_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+  const int32_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+  return std::abs(uy * vz - uz * vy) + std::abs(uz * vx - ux * vz) + std::abs(ux * vy - uy * vx);
+}
+
+/// For any length n from 3 to kLongest: writes 3 * (n - 2) indices and returns the end of them.
+template <int kLongest = kLongestLoop>
+SGM_KERNEL uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* out) {
+  constexpr int kSide = kLongest;
+  int32_t best[static_cast<size_t>(kSide * kSide)];
+  uint8_t apex[static_cast<size_t>(kSide * kSide)];
+  for (int i = 0; i + 1 < n; ++i) best[i * kSide + i + 1] = std::numeric_limits<int32_t>::max();
+  for (int span = 2; span < n; ++span) {
+    for (int i = 0; i + span < n; ++i) {
+      const int j = i + span;
+      int32_t largest = -1;
+      if (span == n - 1 || (loop[i].faces & loop[j].faces) == 0) {
+        for (int k = i + 1; k < j; ++k) {
+          const int32_t sides = std::min(best[i * kSide + k], best[k * kSide + j]);
+          if (sides <= largest) continue;
+          const int32_t smallest = std::min(sides, triangleMeasure(loop[i], loop[k], loop[j]));
+          if (smallest > largest) {
+            largest = smallest;
+            apex[i * kSide + j] = static_cast<uint8_t>(k);
+          }
+        }
+      }
+      best[i * kSide + j] = largest;
+    }
+  }
+  uint8_t stack[static_cast<size_t>(2 * kSide)];
+  int depth = 0;
+  stack[depth++] = 0;
+  stack[depth++] = static_cast<uint8_t>(n - 1);
+  while (depth > 0) {
+    const int j = stack[--depth], i = stack[--depth];
+    if (j - i < 2) continue;
+    const uint8_t k = apex[i * kSide + j];
+    out[0] = loop[i].vertex;
+    out[1] = loop[k].vertex;
+    out[2] = loop[j].vertex;
+    out += 3;
+    stack[depth++] = k;
+    stack[depth++] = static_cast<uint8_t>(j);
+    stack[depth++] = static_cast<uint8_t>(i);
+    stack[depth++] = k;
+  }
+  return out;
+}
+
+}  // namespace sgm
