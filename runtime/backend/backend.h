@@ -55,6 +55,7 @@ struct ChunkJob {
   bool signs = false;         ///< also give the signs of the samples
   bool body = true;           ///< false: only the seams; body, signs and counts stay empty
   bool resident = false;      ///< also leave vertices and indices on the device, where it is the engine's
+  bool prompt = false;        ///< rather by the CPU than wait until the device is ready for work
 };
 
 /// What a chunk became. Parts without surface are empty, their hash 0.
@@ -95,7 +96,7 @@ using AfterChunk = std::function<bool()>;
 /// What a backend did with the chunks it was given, since it was made.
 struct BackendCounters {
   uint64_t chunks = 0;       ///< that have ended with a mesh
-  uint64_t on_cpu = 0;       ///< of these, meshed by the CPU instead: too large for the device, or while it failed
+  uint64_t on_cpu = 0;       ///< of these, meshed by the CPU instead: too large for the device, or it was not ready
   uint64_t device_lost = 0;  ///< how many times the device failed
   uint64_t batches = 0;      ///< submissions to the device
   uint64_t resident = 0;     ///< bytes of parts that lie on the device now
@@ -125,12 +126,12 @@ struct BorrowedDevice;
 struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
   bool automatic = false;       ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
-  int device = -1;              ///< Vulkan: in the order in which devices are listed; -1: the fastest kind
+  int device = -1;              ///< of its kind, in the order in which they are listed; -1: the first, or fastest, that can be used
   std::string instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512"; empty: the widest that runs here
   std::shared_ptr<const vulkan::BorrowedDevice> lent = nullptr;  ///< Vulkan: the engine's; null: one of our own
   std::filesystem::path pipeline_folder = {};  ///< Vulkan: where compiled pipelines are kept from run to run, or empty
-  /// Told, in one line, what the backend goes on without. Any thread; null: nobody is.
-  std::function<void(const std::string&)> warn = nullptr;
+  /// Told, in one line, what took long and what the backend goes on without. Any thread; null: nobody is.
+  std::function<void(const std::string&)> inform = nullptr, warn = nullptr;
 };
 
 /// factory.cpp. jobs and memory must outlive the backend. unsupported: not built or not usable here, and why.

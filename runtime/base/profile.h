@@ -22,7 +22,8 @@ struct Profiler {
 /// What zones and plots are called. Each is one pointer in all of the library: profilers keep tables by it.
 namespace zone {
 inline constexpr char kDerive[] = "sgm.derive", kCompile[] = "sgm.compile", kMesh[] = "sgm.mesh", kPack[] = "sgm.pack",
-                      kPlan[] = "sgm.plan", kUpdate[] = "sgm.update", kPoll[] = "sgm.poll", kRegion[] = "sgm.region";
+                      kPlan[] = "sgm.plan", kUpdate[] = "sgm.update", kPoll[] = "sgm.poll", kRegion[] = "sgm.region",
+                      kShaders[] = "sgm.shaders";
 }  // namespace zone
 namespace plot {
 inline constexpr char kQueued[] = "sgm.queued", kInWork[] = "sgm.in_work", kMeshBytes[] = "sgm.mesh_bytes";

@@ -97,9 +97,13 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
   }
   fmt::print("  frame     {:.3f} ms of the caller's thread in the middle, {:.3f} at 99 %, {:.3f} at most\n",
              r.main_thread.p50, r.main_thread.p99, r.main_thread.max);
-  if (r.walkable_ms >= 0)
+  if (r.walkable_ms >= 0) {
     fmt::print("  start     all that is seen within {} m of level 0, and with colliders, after {:.0f} ms\n",
                kWalkableDistance, r.walkable_ms);
+  } else {
+    fmt::print("  start     over before all that is seen within {} m was of level 0: fly longer (--frames)\n",
+               kWalkableDistance);
+  }
   fmt::print("  level 0   {:.2f} % of the surfaces seen within {} m, all of them in {:.2f} % of frames\n",
              100 * shareOf(r.seen_finest, r.seen), options.finest, 100 * shareOf(r.frames_covered, r.frames_seen));
   fmt::print("  chunks    {} meshed ({} of level 0), {} given further seams, {:.1f} % in vain\n", r.stats.chunks_meshed,

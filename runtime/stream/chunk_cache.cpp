@@ -97,6 +97,7 @@ void meshRest(const ChunkMesher& mesher, const EditSnapshot* edits, std::span<co
   for (const size_t i : numbers) {
     requests.push_back(work[i].rest);
     requests.back().resident = mesher.resident;
+    requests.back().prompt = true;
   }
   Result<std::pmr::vector<PlacedChunk>> meshed =
       meshChunks(mesher.world, mesher.backend, mesher.jobs, requests, progress, edits);

@@ -9,7 +9,8 @@ namespace sgm {
 
 namespace {
 
-// Enough to keep every thread busy, few enough that the programs of a batch stay in cache and memory.
+// Enough to keep every thread busy, few enough that the programs of a batch stay in cache and memory; a device may want
+// more.
 constexpr size_t kBatchChunks = 64;
 // Of a region: what a machine holds with half a kilobyte and more a chunk, before any mesh.
 constexpr uint64_t kMostChunks = uint64_t{1} << 24;
@@ -25,6 +26,7 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   job.signs = request.signs;
   job.body = request.body;
   job.resident = request.resident;
+  job.prompt = request.prompt;
   const IntBox box = chunkBox(*grid);
   Result<std::shared_ptr<const FieldProgram>> field = world.compile(box, request.key.level, edits);
   if (!field) return field.error();
@@ -100,8 +102,9 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
   std::pmr::vector<PlacedChunk> chunks(world.memory());
   chunks.reserve(requests.size());
   Counter counter(progress, requests.size());
-  for (size_t first = 0; first < requests.size(); first += kBatchChunks) {
-    const auto batch = requests.subspan(first, std::min(kBatchChunks, requests.size() - first));
+  const size_t most = std::max<size_t>(kBatchChunks, backend.batch());
+  for (size_t first = 0; first < requests.size(); first += most) {
+    const auto batch = requests.subspan(first, std::min(most, requests.size() - first));
     for (const ChunkRequest& request : batch) chunks.push_back({request.key, {}, ChunkMesh(world.memory()), {}});
     std::vector<ChunkJob> chunk_jobs(batch.size());
     std::mutex mutex;

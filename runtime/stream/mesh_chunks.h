@@ -18,6 +18,7 @@ struct ChunkRequest {
   bool anchors = false;       ///< also give the anchors in the chunk
   bool body = true;           ///< false: seams alone, of a chunk whose body is there already
   bool resident = false;      ///< also leave the parts on the backend's device (ChunkJob::resident)
+  bool prompt = false;        ///< do not wait for a device to be ready (ChunkJob::prompt)
   bool outermost = false;     ///< seams lead to virtual neighbours, whose field is the domain's own state (octree.h)
 };
 

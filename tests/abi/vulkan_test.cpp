@@ -151,7 +151,19 @@ size_t checkMesh(Lender& lender, const MeshOwner& mesh) {
   return view.index_count / 3;
 }
 
+/// What a world would not wait for is waited for here: the device meshes then, not the CPU in its stead.
+void makeReady(sgm_field* field) {
+  std::vector<sgm_chunk_request> requests;
+  for (int level = 0; level < 4; ++level) {
+    for (int corner = 0; corner < 8; ++corner) {
+      requests.push_back(chunkAt({level, corner % 2 - 1, corner / 2 % 2 - 1, corner / 4 - 1}, 63));
+    }
+  }
+  meshChunks(field, requests);
+}
+
 WorldOwner makeWorld(sgm_field* field, uint32_t flags, const char* cache = nullptr) {
+  if (flags & SGM_WORLD_RESIDENT) makeReady(field);
   sgm_world_desc desc = SGM_WORLD_DESC_INIT;
   desc.top_level = 3;
   desc.flags = flags;

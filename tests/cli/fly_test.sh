@@ -42,6 +42,9 @@ expect 0 "$SGM" fly "$cave" "${small[@]}" --speed 20 --frames 200 --compare
 json 'j.finest_meshed_by_distance > j.finest_meshed && j.finest_saved > 0.2'
 expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --frames 30 --unpaced --top-level 3 --view 60
 out_has 'changes of what is drawn'
+# Nothing is meshed so soon: such a flight says that it shows nothing.
+expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --path path.json --frames 1 --top-level 3 --view 60
+out_has "over before all that is seen"
 err_empty
 
 # What was dug and meshed is there for the next flight, and another one digs elsewhere.

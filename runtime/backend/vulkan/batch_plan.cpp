@@ -74,8 +74,7 @@ class Planner {
     }
     const size_t words = plan_.words.size();
     Tape field, coarse;
-    if (!appendTape(job.field->view(), plan_.tape_scratch, plan_.words, field) ||
-        (seams > 0 && !appendTape(job.coarse->view(), plan_.tape_scratch, plan_.words, coarse))) {
+    if (!append(*job.field, job, field) || (seams > 0 && !append(*job.coarse, job, coarse))) {
       plan_.words.resize(words);
       plan_.refused.push_back(i);
       return true;
@@ -113,6 +112,24 @@ class Planner {
   }
 
  private:
+  /// The program, or where that is too much for a shader what is left of it in the chunk.
+  bool append(const FieldProgram& program, const ChunkJob& job, Tape& tape) {
+    if (appendTape(program.view(), plan_.tape_scratch, plan_.words, tape)) return true;
+    IntBox box{job.grid.origin, job.grid.origin};
+    for (int axis = 0; axis < 3; ++axis) box.hi[axis] += kChunkCells * job.grid.cell;
+    prune(program.view(), box, plan_.prune_scratch, plan_.pruned);
+    const bool solid = plan_.pruned.solid();
+    if (!solid && !plan_.pruned.empty()) {
+      return appendTape(plan_.pruned.view(), plan_.tape_scratch, plan_.words, tape);
+    }
+    // Of what is uniform nothing is left; what a seam's vertices there look like, only the whole program can tell.
+    if (seamsOf(job) > 0) return false;
+    ProgramView uniform;
+    uniform.initial = solid ? -kFar : kFar;
+    uniform.q_scale = program.q_scale;
+    return appendTape(uniform, plan_.tape_scratch, plan_.words, tape);
+  }
+
   /// No unit but an item's last has fewer vertices than a subgroup has invocations.
   static uint64_t unitWords(uint64_t vertices, uint64_t items) { return (vertices / 8 + items) * batch::kUnitWords; }
 

@@ -9,6 +9,7 @@
 #include "backend/backend.h"
 #include "backend/vulkan/batch_layout.h"
 #include "backend/vulkan/tape.h"
+#include "field/prune.h"
 
 namespace sgm {
 
@@ -22,7 +23,14 @@ struct BatchRoom {
 /// Reused from batch to batch: grows, and then takes no more memory.
 struct BatchPlan {
   explicit BatchPlan(std::pmr::memory_resource* memory)
-      : words(memory), parts(memory), chunks(memory), uniform(memory), refused(memory), tape_scratch(memory) {}
+      : words(memory),
+        parts(memory),
+        chunks(memory),
+        uniform(memory),
+        refused(memory),
+        tape_scratch(memory),
+        prune_scratch(memory),
+        pruned(memory) {}
 
   struct Chunk {
     uint32_t job = 0;
@@ -44,6 +52,8 @@ struct BatchPlan {
   uint32_t scratch_words = 0;
   uint64_t kinds = 0;  ///< of tapes: which instructions occur
   TapeScratch tape_scratch;
+  PruneScratch prune_scratch;
+  PrunedProgram pruned;
 };
 
 /// Plans jobs for one submission; how many of them were taken up, from the first on: at most 64, and fewer where their

@@ -5,32 +5,12 @@
 #include <utility>
 
 #include "backend/vulkan/case_tables.h"
-#include "spirv/allocate_comp.h"
-#include "spirv/attributes_comp.h"
-#include "spirv/attributes_rte_comp.h"
-#include "spirv/body_vertices_comp.h"
-#include "spirv/census_body_comp.h"
-#include "spirv/census_seam_comp.h"
-#include "spirv/fill_signs_comp.h"
-#include "spirv/list_cells_comp.h"
-#include "spirv/plane_units_comp.h"
-#include "spirv/prune_comp.h"
-#include "spirv/refine_comp.h"
-#include "spirv/sample_comp.h"
-#include "spirv/sample_rte_comp.h"
-#include "spirv/seam_triangles_comp.h"
-#include "spirv/seam_vertices_comp.h"
-#include "spirv/triangles_comp.h"
 
 namespace sgm::vulkan {
 
 namespace {
 
-constexpr uint32_t kBindings = 6;
-constexpr uint32_t kPartSize = sizeof(batch::Part), kHeadSize = sizeof(batch::Head);
-// One subgroup a workgroup where lanes are a processor's: what a workgroup shares it would load once for each subgroup.
-constexpr uint32_t kSoftwareWidth = 8, kHardwareWidth = 64;
-constexpr uint64_t kAllKinds = ~uint64_t{0};
+constexpr uint32_t kHeadSize = sizeof(batch::Head);
 
 /// A buffer of at least so many bytes, the old one where it has them.
 Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffer) {
@@ -45,16 +25,13 @@ Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffe
 
 }  // namespace
 
-uint32_t Mesher::width() const { return software() ? kSoftwareWidth : kHardwareWidth; }
-
 uint32_t Mesher::mostScratchWords() const {
   const uint64_t range = std::min<uint64_t>(queue_.device().limits().maxStorageBufferRange, uint64_t{128} << 20);
   return static_cast<uint32_t>(range / sizeof(uint32_t) / 4 * 3);  // a buffer is a quarter larger than was asked for
 }
 
-Result<std::unique_ptr<Mesher>> Mesher::create(Queue& queue, Memory& memory, CommandRing& ring,
-                                               const PipelineCache* cache) {
-  std::unique_ptr<Mesher> mesher(new Mesher(queue, memory, ring, cache));
+Result<std::unique_ptr<Mesher>> Mesher::create(Queue& queue, Memory& memory, CommandRing& ring, Kernels& kernels) {
+  std::unique_ptr<Mesher> mesher(new Mesher(queue, memory, ring, kernels));
   const std::vector<uint32_t> tables = caseTables();
   const uint64_t bytes = tables.size() * sizeof(uint32_t);
   Result<Buffer> buffer = memory.buffer(MemoryKind::upload, bytes);
@@ -62,71 +39,6 @@ Result<std::unique_ptr<Mesher>> Mesher::create(Queue& queue, Memory& memory, Com
   std::memcpy(buffer->data(), tables.data(), bytes);
   mesher->tables_ = std::move(*buffer);
   return mesher;
-}
-
-Result<std::shared_ptr<const Pipeline>> Mesher::makePipeline(Kernel kernel, uint64_t kinds) const {
-  const bool rte = queue_.device().info().exact;
-  struct Source {
-    const char* name;
-    std::span<const uint32_t> spirv;
-  };
-  const std::array<Source, kernels> sources{{
-      {"prune", spirv::kPruneComp},
-      {"refine", spirv::kRefineComp},
-      {"fill_signs", spirv::kFillSignsComp},
-      {"sample",
-       rte ? std::span<const uint32_t>(spirv::kSampleRteComp) : std::span<const uint32_t>(spirv::kSampleComp)},
-      {"census_body", spirv::kCensusBodyComp},
-      {"census_seam", spirv::kCensusSeamComp},
-      {"allocate", spirv::kAllocateComp},
-      {"body_vertices", spirv::kBodyVerticesComp},
-      {"seam_vertices", spirv::kSeamVerticesComp},
-      {"plane_units", spirv::kPlaneUnitsComp},
-      {"attributes",
-       rte ? std::span<const uint32_t>(spirv::kAttributesRteComp) : std::span<const uint32_t>(spirv::kAttributesComp)},
-      {"list_cells", spirv::kListCellsComp},
-      {"triangles", spirv::kTrianglesComp},
-      {"seam_triangles", spirv::kSeamTrianglesComp},
-  }};
-  const bool interprets = kernel == prune || kernel == refine || kernel == sample || kernel == attributes;
-  const bool wide = interprets || kernel == fill_signs || kernel == body_vertices || kernel == plane_units;
-  const std::array<uint32_t, 3> constants{width(), static_cast<uint32_t>(kinds), static_cast<uint32_t>(kinds >> 32)};
-  PipelineDesc desc;
-  desc.name = sources[kernel].name;
-  desc.spirv = sources[kernel].spirv;
-  desc.buffers = kBindings;
-  desc.push_bytes = sizeof(batch::Sizes);
-  desc.constants = std::span(constants).first(interprets ? 3 : wide ? 1 : 0);
-  Result<Pipeline> made = Pipeline::create(queue_.device(), desc, cache_);
-  if (!made) return made.error();
-  return std::make_shared<const Pipeline>(std::move(*made));
-}
-
-// Software runs every branch of an interpreter; so it gets pipelines of the instructions that have occurred so far.
-Result<Mesher::Pipelines> Mesher::pipelinesFor(uint64_t kinds) {
-  const std::scoped_lock lock(mutex_);
-  const uint64_t wanted = software() ? kinds_ | kinds : kAllKinds;
-  for (int k = 0; k < kernels; ++k) {
-    const auto kernel = static_cast<Kernel>(k);
-    const bool interprets = kernel == prune || kernel == refine || kernel == sample || kernel == attributes;
-    std::shared_ptr<const Pipeline>& pipeline = pipelines_[static_cast<size_t>(k)];
-    if (pipeline && (!interprets || kinds_ == wanted)) continue;
-    Result<std::shared_ptr<const Pipeline>> made = makePipeline(kernel, wanted);
-    if (!made) {
-      for (const Kernel stale : {prune, refine, sample, attributes}) pipelines_[stale] = nullptr;
-      kinds_ = 0;
-      return made.error();
-    }
-    pipeline = std::move(*made);
-    made_ = true;
-  }
-  kinds_ = wanted;
-  return pipelines_;
-}
-
-bool Mesher::madePipelines() {
-  const std::scoped_lock lock(mutex_);
-  return std::exchange(made_, false);
 }
 
 Result<void> Mesher::fit(const BatchPlan& plan, BatchBuffers& b) {
@@ -170,7 +82,7 @@ Result<void> Mesher::fitBack(const BatchPlan& plan, BatchBuffers& b) {
 }
 
 Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, const BatchPlan& plan, BatchBuffers& b) {
-  const std::array<BufferRange, kBindings> ranges{b.words, b.scratch, b.parts, b.vertices, b.indices, tables_};
+  const std::array<BufferRange, kKernelBuffers> ranges{b.words, b.scratch, b.parts, b.vertices, b.indices, tables_};
   batch::Sizes sizes = plan.sizes;
   Result<void> bound;
   // One after the other, even where two could overlap: each has work for the whole device, and what is between them is
@@ -192,7 +104,7 @@ Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, cons
   const BufferRange cells(b.parts, offsetof(batch::Head, dispatch), 3 * sizeof(uint32_t));
   const auto chunks = static_cast<uint32_t>(plan.chunks.size());
 
-  direct(prune, chunks, batch::kBricks / width());
+  direct(prune, chunks, batch::kBricks / kernels_.width());
   sizes.jobs = plan.plane_jobs_at;
   direct(prune, plan.plane_jobs);
   sizes.jobs = plan.sizes.jobs;
@@ -213,7 +125,7 @@ Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, cons
 }
 
 Result<uint64_t> Mesher::submit(const BatchPlan& plan, BatchBuffers& b) {
-  Result<Pipelines> pipelines = pipelinesFor(plan.kinds);
+  Result<Pipelines> pipelines = kernels_.get(plan.kinds);
   if (!pipelines) return pipelines.error();
   if (Result<void> fits = fit(plan, b); !fits) return fits.error();
   Result<Commands> commands = ring_.begin();

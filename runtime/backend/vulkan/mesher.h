@@ -4,12 +4,10 @@
 #include <array>
 #include <atomic>
 #include <memory>
-#include <mutex>
-#include <vector>
 
 #include "backend/vulkan/batch_plan.h"
 #include "backend/vulkan/commands.h"
-#include "backend/vulkan/pipeline_cache.h"
+#include "backend/vulkan/kernels.h"
 
 namespace sgm::vulkan {
 
@@ -25,15 +23,14 @@ struct BatchBuffers {
   uint64_t reading = 0;  ///< of the queue: vertices and indices are brought to the host until then
 };
 
-/// Any thread may use it. Outlived by the queue, memory and ring that it is given.
+/// Any thread may use it. Outlived by all that it is given.
 class Mesher {
  public:
-  /// Errors: as Pipeline::create and Memory::buffer.
-  static Result<std::unique_ptr<Mesher>> create(Queue& queue, Memory& memory, CommandRing& ring,
-                                                const PipelineCache* cache);
+  /// Errors: as Memory::buffer.
+  static Result<std::unique_ptr<Mesher>> create(Queue& queue, Memory& memory, CommandRing& ring, Kernels& kernels);
 
   /// Submits the batch; the value of the queue that it ends with. The plan and the buffers must stay as they are until
-  /// then. Makes pipelines where instructions come up for the first time, which may take seconds. Errors: device_lost,
+  /// then. Waits for pipelines that are not made yet (Kernels::get). Errors: device_lost,
   /// out_of_memory, limit, unsupported. Throws std::bad_alloc.
   Result<uint64_t> submit(const BatchPlan& plan, BatchBuffers& buffers);
 
@@ -50,49 +47,20 @@ class Mesher {
   Result<Output> read(BatchBuffers& buffers);
 
   uint32_t mostScratchWords() const;
-  /// Whether pipelines were made since it was asked last.
-  bool madePipelines();
 
  private:
-  enum Kernel {
-    prune,
-    refine,
-    fill_signs,
-    sample,
-    census_body,
-    census_seam,
-    allocate,
-    body_vertices,
-    seam_vertices,
-    plane_units,
-    attributes,
-    list_cells,
-    triangles,
-    seam_triangles,
-    kernels
-  };
-  using Pipelines = std::array<std::shared_ptr<const Pipeline>, kernels>;
-
-  Mesher(Queue& queue, Memory& memory, CommandRing& ring, const PipelineCache* cache)
-      : queue_(queue), memory_(memory), ring_(ring), cache_(cache) {}
-  Result<std::shared_ptr<const Pipeline>> makePipeline(Kernel kernel, uint64_t kinds) const;
-  Result<Pipelines> pipelinesFor(uint64_t kinds);
+  Mesher(Queue& queue, Memory& memory, CommandRing& ring, Kernels& kernels)
+      : queue_(queue), memory_(memory), ring_(ring), kernels_(kernels) {}
   Result<void> fit(const BatchPlan& plan, BatchBuffers& buffers);
   Result<void> fitBack(const BatchPlan& plan, BatchBuffers& buffers);
   Result<void> bringLater(const batch::Head& head, BatchBuffers& buffers);
   Result<void> record(Commands& commands, const Pipelines& pipelines, const BatchPlan& plan, BatchBuffers& buffers);
-  bool software() const { return queue_.device().info().software(); }
-  uint32_t width() const;
 
   Queue& queue_;
   Memory& memory_;
   CommandRing& ring_;
-  const PipelineCache* cache_;
+  Kernels& kernels_;
   Buffer tables_;
-  std::mutex mutex_;
-  uint64_t kinds_ = 0;  ///< what the pipelines know
-  bool made_ = false;
-  Pipelines pipelines_;
   /// Bytes that the last batch had, and some more.
   std::atomic<uint64_t> usual_vertices_{0}, usual_indices_{0};
 };

@@ -14,8 +14,9 @@ namespace sgm {
 struct VulkanBackendOptions {
   /// Opens the device, anew after a loss; an error then means that the CPU does all. Called by one thread at a time.
   std::function<Result<std::unique_ptr<vulkan::Device>>()> open;
-  std::filesystem::path pipeline_folder;         ///< where pipelines are kept from run to run; empty: nowhere
-  std::function<void(const std::string&)> warn;  ///< as BackendRequest::warn
+  std::filesystem::path pipeline_folder;           ///< where pipelines are kept from run to run; empty: nowhere
+  std::function<void(const std::string&)> inform;  ///< as BackendRequest::inform
+  std::function<void(const std::string&)> warn;    ///< as BackendRequest::warn
   vulkan::MemoryOptions memory;
   uint64_t resident_cap = UINT64_MAX;  ///< bytes of the device's memory for meshes that stay, at most
   BatchRoom room;

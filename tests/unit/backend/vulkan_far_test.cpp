@@ -1,7 +1,6 @@
 // A device that the host shares no memory with: what is copied there and back, and what stays.
 
 #include <algorithm>
-#include <cstring>
 #include <iostream>
 #include <random>
 #include <string>
@@ -9,79 +8,36 @@
 
 #include "backend/vulkan/device_meshes.h"
 #include "far_device.h"
-#include "kept_pipelines.h"
+#include "faulty.h"
+#include "on_device.h"
 #include "rounds.h"
 #include "spheres.h"
-#include "unit/vulkan/engine.h"
-#include "unit/vulkan/faults.h"
-#include "vulkan_machine.h"
 
 using namespace sgm;
 using vulkan::FarDevice;
-using vulkan::Faults;
 
 namespace {
 
-struct Far {
-  Faults faults;
-  vulkan::Engine engine{vulkan::Validation::core};
-
-  ~Far() { vulkan::KeptPipelines::destroyAll(engine.device); }
-
-  VulkanMachine machine(const BatchRoom& room = {}) {
-    VulkanBackendOptions options;
-    options.room = room;
-    options.memory.apart = true;
-    options.open = [this] {
-      vulkan::BorrowedDevice lent = engine.lend();
-      FarDevice::wrap(lent);
-      lent.replace_calls = [](vulkan::DeviceTable& table) {
-        vulkan::KeptPipelines::wrap(table);
-        FarDevice::wrap(table);
-        Faults::wrap(table);
-      };
-      return vulkan::Device::borrow(lent);
+VulkanMachine farMachine(Faulty& faulty, const BatchRoom& room = {}) {
+  VulkanBackendOptions options;
+  options.room = room;
+  options.memory.apart = true;
+  options.open = [&faulty] {
+    vulkan::BorrowedDevice lent = faulty.engine.lend();
+    FarDevice::wrap(lent);
+    lent.replace_calls = [](vulkan::DeviceTable& table) {
+      vulkan::KeptPipelines::wrap(table);
+      FarDevice::wrap(table);
+      vulkan::Faults::wrap(table);
     };
-    return VulkanMachine(options);
-  }
-};
-
-/// What lies on the device, as an engine of its own copies it out.
-void checkOnDevice(vulkan::Engine& engine, const DevicePart& on_device, const MeshPart& expected) {
-  const auto& part = static_cast<const vulkan::VulkanPart&>(on_device);
-  REQUIRE(engine.calls.vkDeviceWaitIdle(engine.device) == VK_SUCCESS);
-  const auto device = vulkan::Device::borrow(engine.lend());
-  REQUIRE(device);
-  const auto queue = vulkan::Queue::create(**device);
-  REQUIRE(queue);
-  vulkan::Memory memory(**device);
-  const auto ring = vulkan::CommandRing::create(**queue);
-  REQUIRE(ring);
-  const VkDeviceSize vertices = expected.vertices.size() * sizeof(Vertex);
-  const VkDeviceSize indices = expected.indices.size() * sizeof(uint32_t);
-  REQUIRE(part.vertexCount() == expected.vertices.size());
-  REQUIRE(part.indexCount() == expected.indices.size());
-  const auto back = memory.buffer(vulkan::MemoryKind::readback, vertices + indices);
-  REQUIRE(back);
-  auto commands = (*ring)->begin();
-  REQUIRE(commands);
-  const vulkan::Buffer& buffer = part.memory().buffer();
-  commands->copy(vulkan::BufferRange(buffer, part.vertexOffset() - buffer.offset(), vertices),
-                 vulkan::BufferRange(*back, 0, vertices));
-  commands->copy(vulkan::BufferRange(buffer, part.indexOffset() - buffer.offset(), indices),
-                 vulkan::BufferRange(*back, vertices, indices));
-  commands->barrier(vulkan::kTransfer, vulkan::kHost);
-  const auto value = (*ring)->submit(std::move(*commands));
-  REQUIRE(value);
-  REQUIRE((*queue)->wait(*value));
-  REQUIRE(back->beforeRead());
-  CHECK(std::memcmp(back->data(), expected.vertices.data(), vertices) == 0);
-  CHECK(std::memcmp(back->data() + vertices, expected.indices.data(), indices) == 0);
+    return vulkan::Device::borrow(lent);
+  };
+  return VulkanMachine(options);
 }
 
 /// Batches that grow and shrink in the buffers of the last, each read from host memory that must be invalidated.
-void compareFar(Far& far) {
-  const VulkanMachine machine = far.machine();
+void compareFar(Faulty& faulty) {
+  const VulkanMachine machine = farMachine(faulty);
   REQUIRE(machine);
   std::mt19937 random(11);
   for (uint32_t seed = 100; seed < 100 + rounds(6); ++seed) {
@@ -94,10 +50,10 @@ void compareFar(Far& far) {
   CHECK(machine.vulkan->counters().on_cpu == 0);
 }
 
-void overflowFar(Far& far) {
+void overflowFar(Faulty& faulty) {
   static constexpr BatchRoom kScarce[] = {{64, 36'864, 6144}, {6144, 384, 6144}, {6144, 36'864, 64}};
   for (const BatchRoom& room : kScarce) {
-    const VulkanMachine machine = far.machine(room);
+    const VulkanMachine machine = farMachine(faulty, room);
     REQUIRE(machine);
     const std::vector<ChunkJob> jobs = spheres(3, 12);
     checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
@@ -112,19 +68,19 @@ void overflowFar(Far& far) {
 }
 
 /// Submissions and waits fail: those of the batch, and those of its reading.
-void failFar(Far& far) {
+void failFar(Faulty& faulty) {
   const std::vector<ChunkJob> jobs = spheres(1, 5);
   uint64_t on_cpu = 0;
   for (const char* call : {"vkQueueSubmit", "vkWaitSemaphores"}) {
     for (const VkResult failure : {VK_ERROR_DEVICE_LOST, VK_ERROR_OUT_OF_HOST_MEMORY}) {
       for (unsigned nth = 1; nth <= 3; ++nth) {
         CAPTURE(call, failure, nth);
-        const VulkanMachine machine = far.machine();
+        const VulkanMachine machine = farMachine(faulty);
         REQUIRE(machine);
         const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
-        far.faults.arm(call, nth, failure);
+        faulty.faults.arm(call, nth, failure);
         checkSame(expected, meshesOf(*machine.vulkan, jobs));
-        far.faults.disarm();
+        faulty.faults.disarm();
         on_cpu += machine.vulkan->counters().on_cpu;
         for (int again = 0; again < 2; ++again) checkSame(expected, meshesOf(*machine.vulkan, jobs));
       }
@@ -134,42 +90,42 @@ void failFar(Far& far) {
 }
 
 /// Meshes stay on the device as they came back from it, and come there from the host; in vain they do no harm.
-void stayFar(Far& far) {
+void stayFar(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(5, 4);
   for (ChunkJob& job : jobs) job.resident = true;
   for (const unsigned nth : {0u, 1u, 2u, 3u}) {
     CAPTURE(nth);
-    const VulkanMachine machine = far.machine();
+    const VulkanMachine machine = farMachine(faulty);
     REQUIRE(machine);
     const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
-    if (nth > 0) far.faults.arm("vkQueueSubmit", nth, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+    if (nth > 0) faulty.faults.arm("vkQueueSubmit", nth, VK_ERROR_OUT_OF_DEVICE_MEMORY);
     const std::vector<ChunkMesh> found = meshesOf(*machine.vulkan, jobs);
-    far.faults.disarm();
+    faulty.faults.disarm();
     checkSame(expected, found);
     size_t parts = 0;
     for (const ChunkMesh& mesh : found) {
       if (!mesh.on_device[0]) continue;
       ++parts;
-      checkOnDevice(far.engine, *mesh.on_device[0], mesh.body);
+      checkOnDevice(faulty.engine, {{mesh.on_device[0].get(), &mesh.body}});
     }
     CHECK((parts > 0) == (nth == 0));
     REQUIRE(!expected[0].body.indices.empty());
-    far.faults.arm("vkQueueSubmit", 1, VK_ERROR_OUT_OF_DEVICE_MEMORY);
+    faulty.faults.arm("vkQueueSubmit", 1, VK_ERROR_OUT_OF_DEVICE_MEMORY);
     const MeshPart* const body = &expected[0].body;
     CHECK_FALSE(machine.vulkan->upload({&body, 1}));
-    far.faults.disarm();
+    faulty.faults.disarm();
     const auto uploaded = machine.vulkan->upload({&body, 1});
     REQUIRE(uploaded);
     REQUIRE(uploaded->front() != nullptr);
-    checkOnDevice(far.engine, *uploaded->front(), *body);
+    checkOnDevice(faulty.engine, {{uploaded->front().get(), body}});
   }
 }
 
 /// No memory is left for what stays: the meshes come without it, and later ones with it.
-void stayWithoutMemory(Far& far) {
+void stayWithoutMemory(Faulty& faulty) {
   std::vector<ChunkJob> jobs = spheres(5, 4);
   for (ChunkJob& job : jobs) job.resident = true;
-  const VulkanMachine machine = far.machine();
+  const VulkanMachine machine = farMachine(faulty);
   REQUIRE(machine);
   std::vector<ChunkJob> passing = jobs;
   for (ChunkJob& job : passing) job.resident = false;
@@ -185,22 +141,22 @@ void stayWithoutMemory(Far& far) {
     }
     return parts;
   };
-  far.faults.arm("vkAllocateMemory", 1, VK_ERROR_UNKNOWN);
+  faulty.faults.arm("vkAllocateMemory", 1, VK_ERROR_UNKNOWN);
   const size_t fewer = staying();
-  CHECK(far.faults.struck());
-  far.faults.disarm();
+  CHECK(faulty.faults.struck());
+  faulty.faults.disarm();
   CHECK(staying() > fewer);
   CHECK(machine.vulkan->counters().on_cpu == 0);
 }
 
 /// Parts end in any order, on any thread, while they are copied or after, and outlive the backend and their device.
-void endAnywhere(Far& far) {
+void endAnywhere(Faulty& faulty) {
   constexpr uint32_t kSeed = 20'260'103;
   std::cout << "ending parts, seed " << kSeed << std::endl;
   std::mt19937 random(kSeed);
   std::vector<std::shared_ptr<const DevicePart>> held;
   {
-    const VulkanMachine machine = far.machine();
+    const VulkanMachine machine = farMachine(faulty);
     REQUIRE(machine);
     for (uint32_t round = 0; round < rounds(8); ++round) {
       CAPTURE(round);
@@ -208,6 +164,14 @@ void endAnywhere(Far& far) {
       std::vector<ChunkJob> jobs = spheres(kSeed + round, 1 + static_cast<uint32_t>(random() % 12));
       for (ChunkJob& job : jobs) job.resident = true;
       std::vector<ChunkMesh> found = meshesOf(*machine.vulkan, jobs);
+      // Nobody has to wait for what a batch that has ended left there.
+      for (const ChunkMesh& mesh : found) {
+        for (const auto& part : mesh.on_device) {
+          if (!part) continue;
+          const vulkan::DeviceMemory& memory = static_cast<const vulkan::VulkanPart&>(*part).memory();
+          REQUIRE(*memory.meshes().queue().reached() >= memory.value());
+        }
+      }
       checkSame(meshesOf(*machine.scalar, jobs), found);
       std::vector<std::shared_ptr<const DevicePart>> ending;
       for (ChunkMesh& mesh : found) {
@@ -228,10 +192,10 @@ void endAnywhere(Far& far) {
       other.join();
     }
     // The device is lost under what is held.
-    far.faults.arm("vkQueueSubmit", 1, VK_ERROR_DEVICE_LOST);
+    faulty.faults.arm("vkQueueSubmit", 1, VK_ERROR_DEVICE_LOST);
     const std::vector<ChunkJob> jobs = spheres(kSeed, 3);
     checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.vulkan, jobs));
-    far.faults.disarm();
+    faulty.faults.disarm();
     CHECK(machine.vulkan->counters().device_lost == 1);
     REQUIRE(!held.empty());
     for (const auto& part : held) {
@@ -242,28 +206,26 @@ void endAnywhere(Far& far) {
 }
 
 /// Once it is known how much there usually is, that comes back with the batch.
-void repeatFar(Far& far) {
-  const VulkanMachine machine = far.machine();
+void repeatFar(Faulty& faulty) {
+  const VulkanMachine machine = farMachine(faulty);
   REQUIRE(machine);
   const std::vector<ChunkJob> jobs = spheres(5, 4);
   const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
   for (const unsigned submissions : {2u, 1u, 1u}) {
-    far.faults.disarm();
+    faulty.faults.disarm();
     checkSame(expected, meshesOf(*machine.vulkan, jobs));
-    CHECK(far.faults.counts().at("vkQueueSubmit") == submissions);
+    CHECK(faulty.faults.counts().at("vkQueueSubmit") == submissions);
   }
 }
 
 }  // namespace
 
-TEST_CASE("a device that shares no memory with the host makes the same meshes", "[vulkan]") {
-  if (!VulkanMachine()) return;
-  Far far;
-  compareFar(far);
-  overflowFar(far);
-  failFar(far);
-  stayFar(far);
-  stayWithoutMemory(far);
-  endAnywhere(far);
-  repeatFar(far);
+void sgm::checkFarDevice(Faulty& faulty) {
+  compareFar(faulty);
+  overflowFar(faulty);
+  failFar(faulty);
+  stayFar(faulty);
+  stayWithoutMemory(faulty);
+  endAnywhere(faulty);
+  repeatFar(faulty);
 }

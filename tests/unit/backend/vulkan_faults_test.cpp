@@ -11,43 +11,18 @@
 #include <string>
 #include <thread>
 
-#include "kept_pipelines.h"
+#include "faulty.h"
 #include "rounds.h"
+#include "scarce_threads.h"
 #include "spheres.h"
 #include "temporary_folder.h"
-#include "unit/vulkan/engine.h"
-#include "unit/vulkan/faults.h"
 #include "vulkan_machine.h"
 
 using namespace sgm;
 using vulkan::Faults;
-using vulkan::KeptPipelines;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A device whose calls fail when told. To open it anew is to begin anew on an engine's device, which takes no time.
-struct Faulty {
-  Faults faults;
-  vulkan::Engine engine{vulkan::Validation::core};  // of synchronization see VulkanMachine::silent
-
-  ~Faulty() { KeptPipelines::destroyAll(engine.device); }
-
-  VulkanMachine machine(const BatchRoom& room = {}, const fs::path& pipeline_folder = {}) {
-    VulkanBackendOptions options;
-    options.room = room;
-    options.pipeline_folder = pipeline_folder;
-    options.open = [this] {
-      vulkan::BorrowedDevice lent = engine.lend();
-      lent.replace_calls = [](vulkan::DeviceTable& table) {
-        KeptPipelines::wrap(table);
-        Faults::wrap(table);
-      };
-      return vulkan::Device::borrow(lent);
-    };
-    return VulkanMachine(options);
-  }
-};
 
 bool haveDevice() { return static_cast<bool>(VulkanMachine()); }
 
@@ -259,6 +234,21 @@ void keepPipelines(Faulty& faulty) {
   CHECK(contentOf(file) == content);
 }
 
+#ifdef SGM_SCARCE_THREADS
+/// Where no thread can be had that makes the shaders ready, whoever came first waits for them.
+void lackThreads(Faulty& faulty) {
+  std::vector<ChunkJob> jobs = spheres(7, 3);
+  for (ChunkJob& job : jobs) job.prompt = true;
+  // The driver would want threads too: on this device it has made the pipelines for the tests before.
+  const VulkanMachine machine = faulty.machine();
+  REQUIRE(machine);
+  const std::vector<ChunkMesh> expected = meshesOf(*machine.scalar, jobs);
+  const ScarceThreads scarce(0);
+  checkSame(expected, meshesOf(*machine.vulkan, jobs));
+  CHECK(machine.vulkan->counters().on_cpu == 0);
+}
+#endif
+
 }  // namespace
 
 TEST_CASE("whatever the device refuses, the meshes are right, and the next batch finds a device", "[vulkan]") {
@@ -270,6 +260,11 @@ TEST_CASE("whatever the device refuses, the meshes are right, and the next batch
   cancelBatches(faulty);
   cancelAnywhere(faulty);
   keepPipelines(faulty);
+  checkMeshesThatStay(faulty);
+  checkFarDevice(faulty);
+#ifdef SGM_SCARCE_THREADS
+  lackThreads(faulty);
+#endif
 }
 
 TEST_CASE("a device of our own is opened anew once it is lost", "[vulkan]") {

@@ -82,6 +82,25 @@ inline const BackendRequest& testedBackend() {
   return tested;
 }
 
+/// One that is waited for until it is ready: what is tested is streaming on the device, not on the CPU in its stead.
+class PatientBackend final : public Backend {
+ public:
+  explicit PatientBackend(std::unique_ptr<Backend> backend) : backend_(std::move(backend)) {}
+  const BackendCapabilities& capabilities() const override { return backend_->capabilities(); }
+  BackendCounters counters() const override { return backend_->counters(); }
+  uint32_t batch() const override { return backend_->batch(); }
+  Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk) override {
+    for (ChunkJob& job : jobs) job.prompt = false;
+    return backend_->submit(std::move(jobs), std::move(after_chunk));
+  }
+  Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) override {
+    return backend_->upload(parts);
+  }
+
+ private:
+  std::unique_ptr<Backend> backend_;
+};
+
 struct Scene {
   explicit Scene(std::unique_ptr<JobSystem> jobs_in, const std::string& text = caveText(),
                  WorldSettings settings_in = {}, std::vector<HostField> hosts = {},
@@ -98,7 +117,7 @@ struct Scene {
     settings.lod.view_distance = 120.0 * kUnitsPerMetre;
     Result<std::unique_ptr<Backend>> made = makeBackend(request, *jobs, memory);
     REQUIRE(made);
-    backend = std::move(*made);
+    backend = std::make_unique<PatientBackend>(std::move(*made));
     Result<std::unique_ptr<World>> created = World::create(field, *backend, *jobs, settings, memory);
     REQUIRE(created);
     world = std::move(*created);

@@ -1,0 +1,325 @@
+#include "backend/device_batch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <new>
+
+namespace sgm {
+
+namespace {
+
+struct DeviceCounters {
+  std::atomic<uint64_t> chunks{0}, on_cpu{0}, device_lost{0}, batches{0};
+};
+
+/// To open a device costs more than a batch: what fails so often in a row is left alone.
+constexpr unsigned kMostInVain = 8;
+
+/// What batches share with the backend, which they must not outlive.
+struct DeviceShared {
+  OpenSession open;
+  std::unique_ptr<Backend> cpu;
+  std::pmr::memory_resource* memory;
+  Profiler profiler;
+  DeviceCounters counters;
+  std::mutex mutex;
+  std::shared_ptr<DeviceSession> session;  ///< null: lost, and not open again
+  WarnOf warn;
+  std::string name;
+  /// How often it was lost, or could not be opened, since it last did something.
+  std::atomic<unsigned> in_vain{0};
+
+  /// The next batch opens the device anew.
+  void leave(const std::shared_ptr<DeviceSession>& lost, const Error& why) noexcept {
+    {
+      const std::scoped_lock lock(mutex);
+      if (session != lost) return;
+      session = nullptr;
+      counters.device_lost.fetch_add(1);
+      ++in_vain;
+    }
+    if (!warn) return;
+    try {
+      warn(name + " was lost, and the CPU goes on: " + why.message);
+      if (in_vain.load() == kMostInVain) warn(name + " is left alone: it was lost time and again");
+    } catch (const std::bad_alloc&) {
+      // The counter tells as much.
+    }
+  }
+};
+
+class DeviceBatch final : public ChunkBatch {
+ public:
+  DeviceBatch(DeviceShared& shared, std::shared_ptr<DeviceSession> session, std::vector<ChunkJob> jobs,
+              AfterChunk after_chunk)
+      : shared_(shared), session_(std::move(session)), jobs_(std::move(jobs)), after_chunk_(std::move(after_chunk)) {
+    meshes_.reserve(jobs_.size());
+    for (size_t i = 0; i < jobs_.size(); ++i) meshes_.emplace_back(shared.memory);
+    done_.resize(jobs_.size());
+  }
+  ~DeviceBatch() override {
+    cancel();
+    rest_.reset();
+    releaseSlots();
+  }
+
+  /// Hands the jobs to the device, as many as it takes; the CPU does the rest when the batch is waited for.
+  void submit() {
+    const ProfileScope scope(shared_.profiler, zone::kMesh);
+    const bool prompt = std::any_of(jobs_.begin(), jobs_.end(), [](const ChunkJob& job) { return job.prompt; });
+    size_t first = 0;
+    while (session_ && first < jobs_.size()) {
+      // Whatever is thrown, the slot goes back by our end: the device may be at work in it.
+      slots_.reserve(slots_.size() + 1);
+      slots_.push_back(session_->takeSlot());
+      DeviceSlot& slot = *slots_.back();
+      slot.first = first;
+      first += session_->plan(std::span<const ChunkJob>(jobs_).subspan(first), slot);
+      if (!session_->hasWork(slot)) continue;
+      if (prompt && !session_->ready(slot)) break;
+      if (const Result<void> submitted = session_->submit(slot); !submitted) {
+        note(submitted.error());
+        break;
+      }
+      shared_.counters.batches.fetch_add(1);
+    }
+  }
+
+  bool poll() override {
+    // Whoever waits holds the lock until the end.
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) return false;
+    if (ended_) return true;
+    if (!read_) {
+      if (!slotsEnded()) return false;
+      guarded([&] { readSlots(); });
+    }
+    if ((rest_ && !rest_->poll()) || !slotsEnded()) return false;
+    guarded([&] { end(); });
+    return true;
+  }
+  void wait() override {
+    const std::scoped_lock lock(mutex_);
+    if (ended_) return;
+    guarded([&] {
+      if (!read_) readSlots();
+      if (rest_) rest_->wait();
+    });
+    guarded([&] { end(); });
+  }
+  void cancel() override { cancelled_.store(true); }
+  Result<std::vector<ChunkMesh>> take() override {
+    if (error_) {
+      try {
+        std::rethrow_exception(error_);
+      } catch (const std::bad_alloc&) {
+        return Error{Code::out_of_memory, "out of memory while meshing chunks"};
+      }
+    }
+    if (skipped_) return Error{Code::cancelled, "meshing was cancelled"};
+    return std::move(meshes_);
+  }
+
+ private:
+  void note(const Error& error) {
+    if (error.code == Code::device_lost) shared_.leave(session_, error);
+  }
+
+  /// poll() and wait() are called where there is nobody to catch anything.
+  template <class Work>
+  void guarded(const Work& work) noexcept {
+    try {
+      work();
+    } catch (...) {
+      if (!error_) error_ = std::current_exception();
+    }
+  }
+
+  /// Waits for the slot; whether what the device has left in it may be read. Where not, it may be in use still.
+  bool awaitSlot(DeviceSlot& slot) {
+    if (!slot.submitted) return false;
+    const Result<void> ended = session_->await(slot);
+    if (!ended) shared_.leave(session_, ended.error());
+    slot.stuck = !ended;
+    return !slot.stuck;
+  }
+
+  bool slotsEnded() {
+    for (const std::unique_ptr<DeviceSlot>& slot : slots_) {
+      if (!slot || !slot->submitted) continue;
+      const Result<bool> ended = session_->ended(*slot);
+      // Asked in vain how far it is, the batch waits, and so hears of it.
+      if (ended && !*ended) return false;
+    }
+    return true;
+  }
+  void releaseSlots() {
+    for (std::unique_ptr<DeviceSlot>& slot : slots_) {
+      if (!slot) continue;
+      (void)awaitSlot(*slot);
+      session_->release(std::move(slot));
+    }
+    slots_.clear();
+  }
+
+  void readSlots() {
+    const ProfileScope scope(shared_.profiler, zone::kMesh);
+    read_ = true;
+    for (std::unique_ptr<DeviceSlot>& slot : slots_) {
+      fillUniform(*slot);
+      const bool goes_on = awaitSlot(*slot) && !cancelled_.load() && readSlot(*slot);
+      if (!goes_on) session_->release(std::move(slot));
+    }
+    std::erase(slots_, nullptr);
+    startRest();
+  }
+
+  void finished(size_t job) {
+    done_[job] = true;
+    shared_.counters.chunks.fetch_add(1);
+    if (after_chunk_ && !after_chunk_()) cancelled_.store(true);
+  }
+
+  void fillUniform(const DeviceSlot& slot) {
+    for (const uint32_t number : session_->uniform(slot)) {
+      if (cancelled_.load()) return;
+      const ChunkJob& job = jobs_[slot.first + number];
+      ChunkMesh& mesh = meshes_[slot.first + number];
+      if (job.body) {
+        mesh.uniform = true;
+        mesh.solid_samples = job.field->initial < 0 ? kChunkCells * kChunkCells * kChunkCells : 0;
+      }
+      if (job.seams != 0) mesh.seams.reserve(6);
+      for (int face = 0; job.seams != 0 && face < 6; ++face) mesh.seams.emplace_back(shared_.memory);
+      finished(slot.first + number);
+    }
+  }
+
+  /// Whether the device is at work in the slot once more.
+  bool readSlot(DeviceSlot& slot) {
+    const auto done = [&](size_t job) {
+      finished(slot.first + job);
+      return !cancelled_.load();
+    };
+    const Result<bool> read = session_->read(slot, std::span<const ChunkJob>(jobs_).subspan(slot.first),
+                                             std::span<ChunkMesh>(meshes_).subspan(slot.first), done);
+    if (read) shared_.in_vain.store(0);
+    if (!read) note(read.error());
+    return read && *read;
+  }
+
+  void startRest() {
+    std::vector<ChunkJob> rest;
+    for (size_t i = 0; i < jobs_.size(); ++i) {
+      if (done_[i]) continue;
+      rest.push_back(jobs_[i]);
+      numbers_.push_back(i);
+    }
+    if (rest.empty()) return;
+    skipped_ = cancelled_.load();
+    if (skipped_) return;
+    Result<std::unique_ptr<ChunkBatch>> batch = shared_.cpu->submit(
+        std::move(rest), [this] { return (!after_chunk_ || after_chunk_()) && !cancelled_.load(); });
+    if (!batch) throw std::bad_alloc();
+    rest_ = std::move(*batch);
+  }
+
+  /// Waits for meshes that stay, and takes what the CPU has made of the rest.
+  void end() {
+    ended_ = true;
+    // Whoever draws meshes that stay does not wait for what was submitted between them and their copies.
+    releaseSlots();
+    const std::unique_ptr<ChunkBatch> rest = std::move(rest_);
+    if (!rest) return;
+    Result<std::vector<ChunkMesh>> meshes = rest->take();
+    if (!meshes && meshes.error().code == Code::out_of_memory) throw std::bad_alloc();
+    skipped_ = !meshes;
+    if (skipped_) return;
+    for (size_t i = 0; i < numbers_.size(); ++i) meshes_[numbers_[i]] = std::move((*meshes)[i]);
+    shared_.counters.chunks.fetch_add(numbers_.size());
+    shared_.counters.on_cpu.fetch_add(numbers_.size());
+  }
+
+  DeviceShared& shared_;
+  std::shared_ptr<DeviceSession> session_;
+  std::vector<ChunkJob> jobs_;
+  AfterChunk after_chunk_;
+  std::vector<ChunkMesh> meshes_;
+  std::vector<bool> done_;
+  std::vector<std::unique_ptr<DeviceSlot>> slots_;  ///< once read: those that the device is still at work in
+  std::unique_ptr<ChunkBatch> rest_;                ///< what the device has not done, on the CPU
+  std::vector<size_t> numbers_;                     ///< of the rest's jobs
+  std::atomic<bool> cancelled_{false};
+  std::mutex mutex_;
+  bool read_ = false, ended_ = false, skipped_ = false;
+  std::exception_ptr error_;
+};
+
+class DeviceBackend final : public Backend {
+ public:
+  DeviceBackend(OpenSession open, std::shared_ptr<DeviceSession> session, std::unique_ptr<Backend> cpu,
+                std::pmr::memory_resource* memory, const Profiler& profiler, WarnOf warn)
+      : capabilities_(session->capabilities()) {
+    shared_.open = std::move(open);
+    shared_.warn = std::move(warn);
+    shared_.name = capabilities_.device;
+    shared_.cpu = std::move(cpu);
+    shared_.memory = memory;
+    shared_.profiler = profiler;
+    shared_.session = std::move(session);
+  }
+  const BackendCapabilities& capabilities() const override { return capabilities_; }
+  BackendCounters counters() const override {
+    const DeviceCounters& c = shared_.counters;
+    const std::scoped_lock lock(shared_.mutex);
+    const uint64_t resident = shared_.session ? shared_.session->resident() : 0;
+    return {c.chunks.load(), c.on_cpu.load(), c.device_lost.load(), c.batches.load(), resident};
+  }
+  Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk) override {
+    auto batch = std::make_unique<DeviceBatch>(shared_, session(), std::move(jobs), std::move(after_chunk));
+    batch->submit();
+    return std::unique_ptr<ChunkBatch>(std::move(batch));
+  }
+  uint32_t batch() const override {
+    // Whoever holds the lock for long opens a device.
+    const std::unique_lock lock(shared_.mutex, std::try_to_lock);
+    return lock && shared_.session ? shared_.session->batch() : 1;
+  }
+  Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) override {
+    const std::shared_ptr<DeviceSession> current = session();
+    if (!current) return Error{Code::device_lost, "the GPU was lost, and could not be opened again"};
+    auto brought = current->upload(parts);
+    if (!brought && brought.error().code == Code::device_lost) shared_.leave(current, brought.error());
+    return brought;
+  }
+
+ private:
+  /// The one there is, or after a loss a new one; null where there is none to be had.
+  std::shared_ptr<DeviceSession> session() {
+    const std::scoped_lock lock(shared_.mutex);
+    if (shared_.session || shared_.in_vain.load() >= kMostInVain) return shared_.session;
+    if (Result<std::shared_ptr<DeviceSession>> opened = shared_.open()) {
+      shared_.session = std::move(*opened);
+    } else {
+      ++shared_.in_vain;
+    }
+    return shared_.session;
+  }
+
+  mutable DeviceShared shared_;
+  const BackendCapabilities capabilities_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Backend>> makeDeviceBackend(OpenSession open, std::unique_ptr<Backend> cpu,
+                                                   std::pmr::memory_resource* memory, const Profiler& profiler,
+                                                   WarnOf warn) {
+  Result<std::shared_ptr<DeviceSession>> session = open();
+  if (!session) return session.error();
+  return std::unique_ptr<Backend>(std::make_unique<DeviceBackend>(std::move(open), std::move(*session), std::move(cpu),
+                                                                  memory, profiler, std::move(warn)));
+}
+
+}  // namespace sgm
