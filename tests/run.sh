@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # Builds everything and runs every test, on a bare Debian 12 as root or with sudo. Installs what is missing, and says so.
 #
-#   bash tests/run.sh [--long] [--label LABEL]... [--without NAME]... [--jobs N]
+#   bash tests/run.sh [--long] [--require-cuda] [--label LABEL]... [--without NAME]... [--jobs N]
 #
 #   --long          run property tests and fuzzers far longer, and AVX-512 under emulation (label emulated;
 #                   installs an emulator; without --long that test is skipped, and named so in the summary)
 #   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, consumers, style, gltf, threads, fuzz, ...)
 #   --without NAME  leave out a build (fuzz, scalar, clang, tsan) or a label; each is named in the summary
+#   --require-cuda  nvcc and an NVIDIA GPU must be there, for the tests of label cuda that run on one; without it those are
+#                   skipped, and named so in the summary
 #   --jobs N        at most N compilers and tests at one time (default: one for each processor)
 #
 # A Vulkan device must be there (software Vulkan is installed, and will do), unless --without vulkan leaves it out.
@@ -25,6 +27,7 @@ die() { echo "tests/run.sh: error: $1" >&2; exit "${2:-1}"; }
 while (($#)); do
   case $1 in
     --long) export SGM_LONG=1 && timeout=7200 variants+=(dev) ;;
+    --require-cuda) export SGM_REQUIRE_CUDA=1 ;;
     --label | --without | --jobs)
       (($# > 1)) || die "$1 needs a value" 2
       case $1 in --label) labels+=("$2") ;; --without) without+=("$2") ;; --jobs) jobs=$2 ;; esac
@@ -49,8 +52,9 @@ sgm_setup_npm build/tools gltf-validator 2.0.0-dev.3.10
 # build PRESET: quiet while all is well, the whole story when not.
 build() {
   step "build $1"
-  local log=build/$1.configure.log
-  cmake --preset "$1" >"$log" 2>&1 || { cat "$log" >&2; die "configuring $1 failed"; }
+  local log=build/$1.configure.log options=()
+  [[ $1 != release || -z ${SGM_REQUIRE_CUDA:-} ]] || options=(-DSGM_CUDA=ON)
+  cmake --preset "$1" ${options[@]+"${options[@]}"} >"$log" 2>&1 || { cat "$log" >&2; die "configuring $1 failed"; }
   grep -i -A3 'warning' "$log" || true
   cmake --build --preset "$1" -j "$jobs" -- --quiet || die "building $1 failed"
 }

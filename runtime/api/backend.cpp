@@ -20,6 +20,7 @@ BackendRequest requestFor(BackendKind kind, bool automatic = false) {
 
 Result<std::unique_ptr<Backend>> makeFor(sgm_runtime& runtime, BackendRequest request) {
   request.pipeline_folder = runtime.pipeline_folder;
+  request.inform = [&runtime](const std::string& message) { runtime.log(SGM_LOG_INFO, message); };
   request.warn = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
   return makeBackend(request, *runtime.jobs, &runtime.memory, runtime.profiler);
 }
@@ -44,16 +45,22 @@ std::optional<BackendRequest> requestOf(sgm_backend backend) {
 
 Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendRequest& request) {
   DeviceBackends& shared = runtime.devices;
-  const bool device = request.automatic || request.kind == BackendKind::vulkan;
+  const bool device = request.automatic || request.kind != BackendKind::cpu;
   const std::scoped_lock lock(shared.mutex);
   const BackendRequest wanted = request.automatic && shared.none ? BackendRequest{} : request;
-  std::shared_ptr<Backend>& kept = request.automatic ? shared.automatic : shared.vulkan;
+  // One GPU, one context: what was asked for by name is what AUTO prefers.
+  if (request.automatic && !shared.automatic && shared.cuda) shared.automatic = shared.cuda;
+  std::shared_ptr<Backend>& kept = request.automatic                   ? shared.automatic
+                                   : request.kind == BackendKind::cuda ? shared.cuda
+                                                                       : shared.vulkan;
   if (device && kept) return kept;
   Result<std::unique_ptr<Backend>> made = makeFor(runtime, wanted);
   if (!made) return made.error();
   std::shared_ptr<Backend> backend = std::move(*made);
   const bool on_cpu = backend->capabilities().kind == BackendKind::cpu;
   if (device && !on_cpu) kept = backend;
+  // What is asked for by name later is that one, too.
+  if (request.automatic && backend->capabilities().kind == BackendKind::cuda && !shared.cuda) shared.cuda = backend;
   shared.none = shared.none || (request.automatic && on_cpu);
   return backend;
 }
@@ -61,11 +68,15 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
 Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device) {
   DeviceBackends& shared = runtime.devices;
   const std::scoped_lock lock(shared.mutex);
+  const auto isVulkan = [](const std::shared_ptr<Backend>& kept) {
+    return kept && kept->capabilities().kind == BackendKind::vulkan;
+  };
   // One that was only asked about gives way.
   for (std::shared_ptr<Backend>* kept : {&shared.vulkan, &shared.automatic}) {
-    if (*kept && kept->use_count() == (shared.vulkan == shared.automatic ? 2 : 1) && !shared.lent) kept->reset();
+    const long owners = shared.vulkan == shared.automatic ? 2 : 1;
+    if (isVulkan(*kept) && kept->use_count() == owners && !shared.lent) kept->reset();
   }
-  if (shared.vulkan || shared.automatic) {
+  if (isVulkan(shared.vulkan) || isVulkan(shared.automatic)) {
     return Error{
         Code::busy,
         "the runtime has a Vulkan device already, lent or of a field of its own: lend one, before its first field"};
@@ -76,7 +87,7 @@ Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::Borr
   if (!made) return made.error();
   shared.vulkan = std::move(*made);
   shared.lent = true;
-  if (!shared.vulkan->capabilities().software) shared.automatic = shared.vulkan;
+  if (!shared.vulkan->capabilities().software && !shared.automatic) shared.automatic = shared.vulkan;
   return {};
 }
 

@@ -71,7 +71,7 @@ inline std::filesystem::path pathOf(const char* utf8) {
 /// Backends on devices, which all fields of a runtime share: opening one takes long, and its memory is large.
 struct DeviceBackends {
   std::mutex mutex;
-  std::shared_ptr<Backend> vulkan, automatic;  ///< null until asked for
+  std::shared_ptr<Backend> vulkan, cuda, automatic;  ///< null until asked for
   bool lent = false;                           ///< `vulkan` is the engine's
   bool none = false;                           ///< `automatic` has found no device
 };

@@ -2,6 +2,8 @@
 
 #include "backend/backend.h"
 #include "backend/cpu/cpu_backend.h"
+#include "cuda/cuda_backend.h"
+#include "cuda/driver_device.h"
 #ifdef SGM_VULKAN
 #include "backend/vulkan/vulkan_backend.h"
 #endif
@@ -44,6 +46,7 @@ Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest& request, bool 
     };
   }
   options.pipeline_folder = request.pipeline_folder;
+  options.inform = request.inform;
   options.warn = request.warn;
   return makeVulkanBackend(options, std::move(*cpu), memory, profiler);
 }
@@ -54,19 +57,34 @@ Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest&, bool, JobSyst
 }
 #endif
 
+Result<std::unique_ptr<Backend>> makeCuda(const BackendRequest& request, JobSystem& jobs,
+                                          std::pmr::memory_resource* memory, const Profiler& profiler) {
+  if (cuda::kernelImage().empty()) {
+    return Error{Code::unsupported, "this build has no CUDA kernels: build it where nvcc is, with SGM_CUDA=ON"};
+  }
+  const Result<cuda::DriverTable> driver = cuda::openDriver();
+  if (!driver) return driver.error();
+  Result<std::unique_ptr<Backend>> cpu = makeCpuBackend(request.instruction_set, jobs, memory, profiler);
+  if (!cpu) return cpu.error();
+  CudaBackendOptions options;
+  options.open = [table = *driver, index = request.device] {
+    return cuda::openDevice(table, cuda::kernelImage(), index);
+  };
+  options.warn = request.warn;
+  return makeCudaBackend(options, std::move(*cpu), memory, profiler);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Backend>> makeBackend(const BackendRequest& request, JobSystem& jobs,
                                              std::pmr::memory_resource* memory, const Profiler& profiler) {
   if (request.automatic) {
-    Result<std::unique_ptr<Backend>> hardware = makeVulkan(request, false, jobs, memory, profiler);
-    if (hardware) return hardware;
+    if (Result<std::unique_ptr<Backend>> cuda = makeCuda(request, jobs, memory, profiler)) return cuda;
+    if (Result<std::unique_ptr<Backend>> hardware = makeVulkan(request, false, jobs, memory, profiler)) return hardware;
     return makeCpuBackend(request.instruction_set, jobs, memory, profiler);
   }
   if (request.kind == BackendKind::vulkan) return makeVulkan(request, true, jobs, memory, profiler);
-  if (request.kind == BackendKind::cuda) {
-    return Error{Code::unsupported, "this build has no CUDA backend"};
-  }
+  if (request.kind == BackendKind::cuda) return makeCuda(request, jobs, memory, profiler);
   return makeCpuBackend(request.instruction_set, jobs, memory, profiler);
 }
 

@@ -5,6 +5,7 @@
 #include "backend/vulkan/devices.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cuda/driver_device.h"
 #include "sgm/sgm.h"
 
 namespace sgm::cli {
@@ -50,6 +51,43 @@ void printDevice(const vulkan::DeviceInfo& device) {
   }
 }
 
+Json deviceJson(const cuda::DeviceInfo& device) {
+  const std::string lack = cuda::lackOf(device);
+  Json one{{"name", device.name},
+           {"compute_capability", fmt::format("{}.{}", device.capability_major, device.capability_minor)},
+           {"driver", fmt::format("{}.{}", device.driver / 1000, device.driver % 1000 / 10)},
+           {"memory_bytes", device.memory},
+           {"multiprocessors", device.processors},
+           {"usable", lack.empty()}};
+  if (!lack.empty()) one["reason"] = lack;
+  return one;
+}
+
+void printDevice(const cuda::DeviceInfo& device) {
+  const std::string lack = cuda::lackOf(device);
+  fmt::print("  {} (compute capability {}.{}, {} multiprocessors, {:.1f} GB, CUDA {}.{}): {}\n", device.name,
+             device.capability_major, device.capability_minor, device.processors,
+             static_cast<double>(device.memory) * 1e-9, device.driver / 1000, device.driver % 1000 / 10,
+             lack.empty() ? "usable, exact" : "not usable: " + lack);
+}
+
+/// A list of devices, or why there is none.
+template <class Device>
+void printDevices(const char* kind, const Result<std::vector<Device>>& devices) {
+  fmt::print("\n{} devices:\n", kind);
+  if (!devices) fmt::print("  none: {}\n", devices.error().message);
+  if (devices && devices->empty()) fmt::print("  none\n");
+  for (size_t i = 0; devices && i < devices->size(); ++i) printDevice((*devices)[i]);
+}
+
+template <class Device>
+void addDevices(const char* kind, const Result<std::vector<Device>>& devices, Json& out) {
+  Json list = Json::array();
+  for (size_t i = 0; devices && i < devices->size(); ++i) list.push_back(deviceJson((*devices)[i]));
+  out[std::string(kind) + "_devices"] = std::move(list);
+  if (!devices) out[std::string(kind) + "_error"] = devices.error().message;
+}
+
 }  // namespace
 
 Exit listBackends(bool json) {
@@ -66,7 +104,8 @@ Exit listBackends(bool json) {
   sgm_runtime_destroy(runtime);
   if (result != SGM_OK) return complain(Exit::backend, error.message);
 
-  const Result<std::vector<vulkan::DeviceInfo>> gpus = vulkan::listDevices();
+  const Result<std::vector<vulkan::DeviceInfo>> by_vulkan = vulkan::listDevices();
+  const Result<std::vector<cuda::DeviceInfo>> by_cuda = cuda::listDevices();
   if (json) {
     Json list = Json::array();
     for (size_t i = 1; i < infos.size(); ++i) {
@@ -79,16 +118,12 @@ Exit listBackends(bool json) {
       }
       list.push_back(std::move(one));
     }
-    Json devices = Json::array();
-    if (gpus) {
-      for (const vulkan::DeviceInfo& gpu : *gpus) devices.push_back(deviceJson(gpu));
-    }
     Json out{{"version", sgm_version_string()},
              {"build", sgm_build_info()},
              {"auto", infos[0].name},
-             {"backends", std::move(list)},
-             {"vulkan_devices", std::move(devices)}};
-    if (!gpus) out["vulkan_error"] = gpus.error().message;
+             {"backends", std::move(list)}};
+    addDevices("vulkan", by_vulkan, out);
+    addDevices("cuda", by_cuda, out);
     fmt::print("{}\n", out.text());
     return Exit::done;
   }
@@ -102,13 +137,8 @@ Exit listBackends(bool json) {
       fmt::print("{:<8}not usable: {}\n", info.name, info.reason);
     }
   }
-  fmt::print("\nVulkan devices:\n");
-  if (!gpus) {
-    fmt::print("  none: {}\n", gpus.error().message);
-    return Exit::done;
-  }
-  if (gpus->empty()) fmt::print("  none\n");
-  for (const vulkan::DeviceInfo& gpu : *gpus) printDevice(gpu);
+  printDevices("Vulkan", by_vulkan);
+  printDevices("CUDA", by_cuda);
   return Exit::done;
 }
 

@@ -7,6 +7,7 @@
 
 #include "backend/backend.h"
 #include "base/fixed.h"
+#include "catch.h"
 #include "field/builder.h"
 #include "random_programs.h"
 
@@ -92,6 +93,18 @@ inline NamedJob randomJob(uint32_t seed, int depth) {
   named.name = "random program, seed " + std::to_string(seed) + ", depth " + std::to_string(depth) + ", " +
                std::to_string(job.field->view().instrs.size()) + " instructions";
   return named;
+}
+
+/// By one batch that is waited for.
+inline std::vector<ChunkMesh> meshesOf(Backend& backend, const std::vector<ChunkJob>& jobs) {
+  Result<std::unique_ptr<ChunkBatch>> batch = backend.submit(jobs);
+  REQUIRE(batch);
+  (*batch)->wait();
+  Result<std::vector<ChunkMesh>> meshes = (*batch)->take();
+  INFO((meshes ? std::string() : meshes.error().message));
+  REQUIRE(meshes);
+  REQUIRE(meshes->size() == jobs.size());
+  return std::move(*meshes);
 }
 
 }  // namespace sgm

@@ -12,6 +12,7 @@
 #include "backend/cpu/cpu_backend.h"
 #include "backend/vulkan/vulkan_backend.h"
 #include "catch.h"
+#include "mesh_jobs.h"
 
 namespace sgm {
 
@@ -23,6 +24,9 @@ struct VulkanMachine {
   std::unique_ptr<Backend> vulkan;  ///< null, after saying so, where this machine has no usable device
 
   std::vector<std::string> warnings;  ///< of the Vulkan backend
+
+  static constexpr bool kAnyPrism = false;  ///< a shader's window holds few corners
+  Backend& device() const { return *vulkan; }
 
   using Open = std::function<Result<std::unique_ptr<vulkan::Device>>()>;
 
@@ -73,15 +77,6 @@ struct VulkanMachine {
   }
 };
 
-inline std::vector<ChunkMesh> meshesOf(Backend& backend, const std::vector<ChunkJob>& jobs) {
-  Result<std::unique_ptr<ChunkBatch>> batch = backend.submit(jobs);
-  REQUIRE(batch);
-  (*batch)->wait();
-  Result<std::vector<ChunkMesh>> meshes = (*batch)->take();
-  INFO((meshes ? std::string() : meshes.error().message));
-  REQUIRE(meshes);
-  REQUIRE(meshes->size() == jobs.size());
-  return std::move(*meshes);
-}
+using TestedMachine = VulkanMachine;
 
 }  // namespace sgm

@@ -201,7 +201,8 @@ typedef struct sgm_log_sink {
  * waits works for other calls meanwhile.
  *   sgm.derive   one cell of a layer of the grammar becomes shapes
  *   sgm.compile  shapes near a chunk become its field program: cells that it needs are derived in it, or waited for
- *   sgm.mesh     a field program becomes samples and triangles, on the CPU
+ *   sgm.mesh     a field program becomes samples and triangles; of a device, what the CPU has to do with that
+ *   sgm.shaders  a device's shaders are made ready, on a thread of its own where a world would have to wait
  *   sgm.pack     triangles become what sgm_mesh_get_view shows
  *   sgm.plan     what a world draws and meshes next is decided, in a job
  *   sgm.update   sgm_world_update
@@ -280,7 +281,8 @@ typedef struct sgm_backend_info {
   char reason[SGM_NAME_SIZE]; /* empty where usable */
   /* Of a device, which all fields of a runtime share: since it was first used. 0 for the CPU. */
   uint64_t chunks;        /* that have become meshes */
-  uint64_t chunks_on_cpu; /* of these, meshed by the CPU instead: too large for the device, or while it failed */
+  uint64_t chunks_on_cpu; /* of these, meshed by the CPU instead: too large for the device, while it failed, or, of a
+                           * world, while its shaders were not ready (SGM_LOG_INFO says so where it takes long) */
   uint64_t losses;        /* how often the device was lost */
   uint64_t resident;      /* bytes of meshes that lie on the device at this moment (SGM_WORLD_RESIDENT) */
 } sgm_backend_info;

@@ -1,7 +1,8 @@
-// The Vulkan backend gives the CPU's scalar bytes: every op, random programs, the sample grammars.
+// A device's backend gives the CPU's scalar bytes: every op, random programs, the sample grammars. The same body for
+// every kind of device; which one it is SGM_TEST_MACHINE says, a header that defines TestedMachine.
 //
-// One backend for all: it makes pipelines for the instructions that it has met, which takes seconds, so the first batch
-// holds them all.
+// One backend for all cases: Vulkan makes pipelines for the instructions that it has met, which takes seconds, so the
+// first batch holds them all.
 
 #include <algorithm>
 #include <iostream>
@@ -12,7 +13,8 @@
 #include "rounds.h"
 #include "stream/mesh_chunks.h"
 #include "unit/stream/world_support.h"
-#include "vulkan_machine.h"
+
+#include SGM_TEST_MACHINE
 
 using namespace sgm;
 
@@ -29,8 +31,8 @@ std::vector<ChunkJob> jobsOf(const std::vector<NamedJob>& named) {
   return jobs;
 }
 
-VulkanMachine& machine() {
-  static VulkanMachine one;
+TestedMachine& machine() {
+  static TestedMachine one;
   return one;
 }
 
@@ -38,9 +40,9 @@ VulkanMachine& machine() {
 bool ready() {
   static const bool made = [] {
     if (!machine()) return false;
-    std::cout << "comparing " << machine().vulkan->capabilities().device << " with scalar, seed " << seedOfAll()
+    std::cout << "comparing " << machine().device().capabilities().device << " with scalar, seed " << seedOfAll()
               << std::endl;
-    (void)meshesOf(*machine().vulkan, jobsOf(jobsOfEveryOp(seedOfAll(), 1)));
+    (void)meshesOf(machine().device(), jobsOf(jobsOfEveryOp(seedOfAll(), 1)));
     return true;
   }();
   return made;
@@ -57,7 +59,7 @@ Seen compare(const std::vector<NamedJob>& named, size_t batch = 64) {
     const auto from = named.begin() + static_cast<std::ptrdiff_t>(first);
     const std::vector<NamedJob> some(from, from + static_cast<std::ptrdiff_t>(std::min(batch, named.size() - first)));
     const std::vector<ChunkMesh> expected = meshesOf(*machine().scalar, jobsOf(some));
-    const std::vector<ChunkMesh> found = meshesOf(*machine().vulkan, jobsOf(some));
+    const std::vector<ChunkMesh> found = meshesOf(machine().device(), jobsOf(some));
     for (size_t i = 0; i < some.size(); ++i) {
       INFO(some[i].name);
       CHECK(differenceOf(expected[i], found[i]) == "");
@@ -70,8 +72,8 @@ Seen compare(const std::vector<NamedJob>& named, size_t batch = 64) {
 
 /// What of the chunks since then the device has not done.
 struct OnDevice {
-  BackendCounters before = machine().vulkan->counters();
-  uint64_t byCpu() const { return machine().vulkan->counters().on_cpu - before.on_cpu; }
+  BackendCounters before = machine().device().counters();
+  uint64_t byCpu() const { return machine().device().counters().on_cpu - before.on_cpu; }
 };
 
 }  // namespace
@@ -99,7 +101,7 @@ TEST_CASE("random programs give the scalar backend's bytes on the device, seams,
   CHECK(machine().silent());
 }
 
-TEST_CASE("a prism of more corners than a shader's window holds is meshed by the CPU") {
+TEST_CASE("a prism of a thousand corners is meshed by the device, or by the CPU and counted") {
   if (!ready()) return;
   const OnDevice device;
   std::vector<Int3> corners;  // a square with many steps along its sides
@@ -119,7 +121,7 @@ TEST_CASE("a prism of more corners than a shader's window holds is meshed by the
   one.name = "a prism of 1,000 corners";
   const Seen seen = compare({one});
   CHECK(seen.triangles > 0);
-  CHECK(device.byCpu() == 1);
+  CHECK(device.byCpu() == (TestedMachine::kAnyPrism ? 0 : 1));
 }
 
 TEST_CASE("batches of any size give the same bytes, programs of nothing among them") {
@@ -134,7 +136,7 @@ TEST_CASE("batches of any size give the same bytes, programs of nothing among th
     one.job.signs = true;
     one.name += ", nothing in it";
   }
-  CHECK(meshesOf(*machine().vulkan, {}).empty());
+  CHECK(meshesOf(machine().device(), {}).empty());
   const std::vector<NamedJob> few(jobs.begin(), jobs.begin() + 5);
   CHECK(compare(few, 1).triangles > 0);
   CHECK(compare(jobs, 200).triangles > 0);
@@ -148,13 +150,18 @@ TEST_CASE("the sample grammars give the scalar backend's bytes on the device") {
     int32_t cell;
     Int3 from, to;  ///< metres
   };
-  static constexpr Place kPlaces[] = {
-      {"arches.sgm", 256, {-8, 0, -8}, {8, 8, 8}},         {"cave.sgm", 256, {88, 72, 72}, {136, 120, 120}},
-      {"choice.sgm", 256, {0, 0, 0}, {32, 8, 32}},         {"cloud.sgm", 4096, {0, 800, 0}, {1050, 1800, 1050}},
-      {"combine.sgm", 256, {-12, -12, -12}, {12, 12, 12}}, {"morph.sgm", 256, {-12, -12, -12}, {12, 12, 12}},
-      {"passage.sgm", 512, {0, -8, -8}, {64, 8, 8}},       {"primitives.sgm", 256, {-12, -12, -12}, {12, 12, 12}},
-      {"sphere.sgm", 256, {-4, -4, -4}, {4, 4, 4}},        {"terrain.sgm", 1024, {-40, -10, -40}, {40, 20, 40}},
-      {"tree.sgm", 256, {-6, 0, -6}, {6, 10, 6}}};
+  static constexpr Place kPlaces[] = {{"arches.sgm", 256, {-8, 0, -8}, {8, 8, 8}},
+                                      {"building.sgm", 256, {-8, -2, -8}, {8, 22, 8}},
+                                      {"cave.sgm", 256, {88, 72, 72}, {136, 120, 120}},
+                                      {"choice.sgm", 256, {0, 0, 0}, {32, 8, 32}},
+                                      {"cloud.sgm", 4096, {0, 800, 0}, {1050, 1800, 1050}},
+                                      {"combine.sgm", 256, {-12, -12, -12}, {12, 12, 12}},
+                                      {"morph.sgm", 256, {-12, -12, -12}, {12, 12, 12}},
+                                      {"passage.sgm", 512, {0, -8, -8}, {64, 8, 8}},
+                                      {"primitives.sgm", 256, {-12, -12, -12}, {12, 12, 12}},
+                                      {"sphere.sgm", 256, {-4, -4, -4}, {4, 4, 4}},
+                                      {"terrain.sgm", 1024, {-40, -10, -40}, {40, 20, 40}},
+                                      {"tree.sgm", 256, {-6, 0, -6}, {6, 10, 6}}};
   for (const Place& place : kPlaces) {
     CAPTURE(place.grammar);
     const WorldField world(settingsOf(sample(place.grammar), place.cell, 3), std::pmr::get_default_resource());
@@ -181,7 +188,10 @@ TEST_CASE("the sample grammars give the scalar backend's bytes on the device") {
       return std::move(*chunks);
     };
     const auto expected = by(*machine().scalar);
-    const auto found = by(*machine().vulkan);
+    const OnDevice device;
+    const auto found = by(machine().device());
+    // What is too much for a shader is none of the samples, whole or pruned to a chunk.
+    CHECK(device.byCpu() < requests.size() / 2);
     size_t triangles = 0;
     for (size_t i = 0; i < requests.size(); ++i) {
       const ChunkKey& key = requests[i].key;
@@ -189,7 +199,7 @@ TEST_CASE("the sample grammars give the scalar backend's bytes on the device") {
       CHECK(differenceOf(expected[i].mesh, found[i].mesh) == "");
       triangles += expected[i].mesh.body.indices.size() / 3;
     }
-    CHECK(triangles > 1000);
+    CHECK(triangles > 20 * requests.size());
   }
   CHECK(machine().silent());
 }

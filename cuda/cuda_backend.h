@@ -1,0 +1,25 @@
+#pragma once
+// Chunks on an NVIDIA GPU, in batches; the CPU takes what the GPU cannot, or loses (backend/device_batch.h).
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "backend/backend.h"
+#include "cuda/batch_plan.h"
+#include "cuda/device.h"
+
+namespace sgm {
+
+struct CudaBackendOptions {
+  /// Opens the device, anew after a loss; an error then means that the CPU does all. Called by one thread at a time.
+  std::function<Result<std::unique_ptr<cuda::Device>>()> open;
+  std::function<void(const std::string&)> warn = nullptr;  ///< as BackendRequest::warn
+  cuda::Room room;
+};
+
+/// Errors, where the device cannot even be opened: as options.open and cuda::Mesher::create.
+Result<std::unique_ptr<Backend>> makeCudaBackend(const CudaBackendOptions& options, std::unique_ptr<Backend> cpu,
+                                                 std::pmr::memory_resource* memory, const Profiler& profiler);
+
+}  // namespace sgm

@@ -1,0 +1,111 @@
+#pragma once
+// Where kernels run: a GPU (driver_device.h), or loops on the CPU for tests (host_device.h).
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "base/result.h"
+#include "cuda/kernels/batch.h"
+
+namespace sgm::cuda {
+
+enum class Kernel : uint8_t {
+  Prune,
+  Sample,
+  CensusBody,
+  CensusSeam,
+  Allocate,
+  BodyVertices,
+  SeamVertices,
+  ListCells,
+  BodyTriangles,
+  SeamTriangles,
+  count
+};
+
+struct DeviceInfo {
+  std::string name;
+  int capability_major = 0, capability_minor = 0;
+  int driver = 0;           ///< CUDA's version that it speaks: 1000 * major + 10 * minor; 0: no driver
+  uint64_t memory = 0;      ///< bytes
+  uint32_t processors = 1;  ///< multiprocessors
+  int memory_pools = 0;     ///< 1: memory can be had in a stream's order
+  std::string ails;         ///< why the driver tells no more of it; empty: it does
+};
+
+enum class MemoryKind : uint8_t {
+  device,
+  pinned  ///< the host's, which the device copies from and to while the host goes on
+};
+
+/// Work in order, each piece after those before it; the caller's thread goes on. One thread at a time. Its end waits
+/// for all. Errors of all that can fail: out_of_memory, device_lost, unsupported.
+class Stream {
+ public:
+  virtual ~Stream() = default;
+  /// Bytes at a multiple of 256. What of the device's is freed may be in use by what the stream was given before;
+  /// pinned memory is waited for.
+  virtual Result<void*> allocate(MemoryKind kind, size_t bytes) = 0;
+  virtual void free(MemoryKind kind, void* memory) noexcept = 0;
+  /// Between pinned memory and the device's, which stay as they are until the end of the copy.
+  virtual Result<void> copyIn(void* device, const void* pinned, size_t bytes) = 0;
+  virtual Result<void> copyOut(void* pinned, const void* device, size_t bytes) = 0;
+  virtual Result<void> clear(void* device, size_t bytes) = 0;
+  /// blocks: at least one.
+  virtual Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) = 0;
+  /// Whether all has ended; does not wait.
+  virtual Result<bool> ended() = 0;
+  virtual Result<void> wait() = 0;
+};
+
+/// Any thread may use it. Outlives its streams.
+class Device {
+ public:
+  virtual ~Device() = default;
+  virtual const DeviceInfo& info() const = 0;
+  virtual Result<std::unique_ptr<Stream>> makeStream() = 0;
+};
+
+/// Memory of a stream, which it does not outlive.
+class Memory {
+ public:
+  Memory() = default;
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+  ~Memory() { reset(); }
+
+  /// At least so many bytes; what was there is lost where it was not enough.
+  Result<void> grow(Stream& stream, MemoryKind kind, size_t bytes) {
+    if (bytes <= bytes_) return {};
+    reset();
+    // A quarter more: batches that come after one another are much alike. Pinned memory keeps the whole device waiting
+    // when it is taken, and so is taken seldom.
+    bytes = kind == MemoryKind::pinned ? std::bit_ceil(bytes) : bytes + bytes / 4;
+    Result<void*> made = stream.allocate(kind, bytes);
+    if (!made) return made.error();
+    stream_ = &stream;
+    kind_ = kind;
+    data_ = static_cast<std::byte*>(*made);
+    bytes_ = bytes;
+    return {};
+  }
+  void reset() noexcept {
+    if (data_ != nullptr) stream_->free(kind_, data_);
+    data_ = nullptr;
+    bytes_ = 0;
+  }
+  std::byte* data() const { return data_; }
+  size_t bytes() const { return bytes_; }
+
+ private:
+  Stream* stream_ = nullptr;
+  MemoryKind kind_ = MemoryKind::device;
+  std::byte* data_ = nullptr;
+  size_t bytes_ = 0;
+};
+
+}  // namespace sgm::cuda

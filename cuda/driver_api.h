@@ -1,0 +1,83 @@
+#pragma once
+// What is used of the CUDA driver's interface, found at run time: the library loads where there is no driver, and is
+// built where there is no toolkit. Types and numbers are those of cuda.h (tests/unit/cuda/toolkit_test.cpp compares).
+
+#include <cstddef>
+#include <cstdint>
+
+namespace sgm::cuda {
+
+using CuResult = int;
+using CuDevice = int;
+using CuPointer = unsigned long long;
+struct CuContextTag;
+struct CuModuleTag;
+struct CuFunctionTag;
+struct CuStreamTag;
+struct CuPoolTag;
+using CuContext = CuContextTag*;
+using CuModule = CuModuleTag*;
+using CuFunction = CuFunctionTag*;
+using CuStream = CuStreamTag*;
+using CuPool = CuPoolTag*;
+
+/// CUmemPoolProps.
+struct CuPoolProperties {
+  int allocation_type = 1;  ///< pinned, the only one
+  int handle_types = 0;
+  int location_type = 1;  ///< a device,
+  int location = 0;       ///< of this number
+  void* security = nullptr;
+  size_t most_bytes = 0;  ///< 0: as the system sees fit
+  unsigned char reserved[56] = {};
+};
+
+inline constexpr CuResult kCuSuccess = 0, kCuOutOfMemory = 2, kCuNoDevice = 100, kCuNoBinary = 209, kCuUnknownPtx = 222,
+                          kCuNotReady = 600, kCuDriverMismatch = 803;
+inline constexpr int kCuProcessors = 16, kCuCapabilityMajor = 75, kCuCapabilityMinor = 76, kCuMemoryPools = 115;
+inline constexpr unsigned kCuNonBlockingStream = 1;
+inline constexpr unsigned kCuBlockingWaits = 4;  ///< who waits sleeps: an engine needs the processors
+
+/// SGM_CU(entry of the table, name in the driver, parameters)
+#define SGM_CU_FUNCTIONS                                                                                           \
+  SGM_CU(init, "cuInit", (unsigned flags))                                                                         \
+  SGM_CU(driverGetVersion, "cuDriverGetVersion", (int* version))                                                   \
+  SGM_CU(getErrorString, "cuGetErrorString", (CuResult result, const char** text))                                 \
+  SGM_CU(deviceGetCount, "cuDeviceGetCount", (int* count))                                                         \
+  SGM_CU(deviceGet, "cuDeviceGet", (CuDevice * device, int number))                                                \
+  SGM_CU(deviceGetName, "cuDeviceGetName", (char* name, int size, CuDevice device))                                \
+  SGM_CU(deviceGetAttribute, "cuDeviceGetAttribute", (int* value, int attribute, CuDevice device))                 \
+  SGM_CU(deviceTotalMem, "cuDeviceTotalMem_v2", (size_t * bytes, CuDevice device))                                 \
+  SGM_CU(ctxCreate, "cuCtxCreate_v2", (CuContext * context, unsigned flags, CuDevice device))                      \
+  SGM_CU(ctxDestroy, "cuCtxDestroy_v2", (CuContext context))                                                       \
+  SGM_CU(ctxPushCurrent, "cuCtxPushCurrent_v2", (CuContext context))                                               \
+  SGM_CU(ctxPopCurrent, "cuCtxPopCurrent_v2", (CuContext * context))                                               \
+  SGM_CU(moduleLoadData, "cuModuleLoadData", (CuModule * module, const void* image))                               \
+  SGM_CU(moduleUnload, "cuModuleUnload", (CuModule module))                                                        \
+  SGM_CU(moduleGetFunction, "cuModuleGetFunction", (CuFunction * function, CuModule module, const char* name))     \
+  SGM_CU(streamCreate, "cuStreamCreate", (CuStream * stream, unsigned flags))                                      \
+  SGM_CU(streamDestroy, "cuStreamDestroy_v2", (CuStream stream))                                                   \
+  SGM_CU(streamQuery, "cuStreamQuery", (CuStream stream))                                                          \
+  SGM_CU(streamSynchronize, "cuStreamSynchronize", (CuStream stream))                                              \
+  SGM_CU(memPoolCreate, "cuMemPoolCreate", (CuPool * pool, const CuPoolProperties* properties))                    \
+  SGM_CU(memPoolDestroy, "cuMemPoolDestroy", (CuPool pool))                                                        \
+  SGM_CU(memAllocFromPoolAsync, "cuMemAllocFromPoolAsync",                                                         \
+         (CuPointer * memory, size_t bytes, CuPool pool, CuStream stream))                                         \
+  SGM_CU(memFreeAsync, "cuMemFreeAsync", (CuPointer memory, CuStream stream))                                      \
+  SGM_CU(memHostAlloc, "cuMemHostAlloc", (void** memory, size_t bytes, unsigned flags))                            \
+  SGM_CU(memFreeHost, "cuMemFreeHost", (void* memory))                                                             \
+  SGM_CU(memcpyHtoDAsync, "cuMemcpyHtoDAsync_v2", (CuPointer to, const void* from, size_t bytes, CuStream stream)) \
+  SGM_CU(memcpyDtoHAsync, "cuMemcpyDtoHAsync_v2", (void* to, CuPointer from, size_t bytes, CuStream stream))       \
+  SGM_CU(memsetD8Async, "cuMemsetD8Async", (CuPointer at, unsigned char value, size_t bytes, CuStream stream))     \
+  SGM_CU(launchKernel, "cuLaunchKernel",                                                                           \
+         (CuFunction function, unsigned blocks_x, unsigned blocks_y, unsigned blocks_z, unsigned threads_x,        \
+          unsigned threads_y, unsigned threads_z, unsigned shared_bytes, CuStream stream, void** parameters,       \
+          void** extra))
+
+struct DriverTable {
+#define SGM_CU(entry, name, parameters) CuResult(*entry) parameters = nullptr;
+  SGM_CU_FUNCTIONS
+#undef SGM_CU
+};
+
+}  // namespace sgm::cuda

@@ -1,0 +1,324 @@
+#include "cuda/driver_device.h"
+
+#include <array>
+
+#include "cuda/kernels/kernels.h"
+
+namespace sgm::cuda {
+
+namespace {
+
+Error errorOf(const DriverTable& driver, CuResult result, const std::string& what) {
+  const char* text = nullptr;
+  if (driver.getErrorString(result, &text) != kCuSuccess || text == nullptr) text = "unknown error";
+  const std::string message = what + ": " + text + " (CUresult " + std::to_string(result) + ")";
+  switch (result) {
+    case kCuOutOfMemory:
+      return {Code::out_of_memory, message};
+    case kCuNoDevice:
+      return {Code::unsupported, "the CUDA driver finds no GPU: " + message};
+    case kCuDriverMismatch:
+    case kCuUnknownPtx:
+    case kCuNoBinary:
+      return {Code::unsupported, "the CUDA driver is too old for this build, update it: " + message};
+    default:
+      // Errors of a context stay with it: whatever failed, only a new one helps.
+      return {Code::device_lost, message};
+  }
+}
+
+/// Makes a context this thread's for as long as it lives.
+class Current {
+ public:
+  Current(const DriverTable& driver, CuContext context)
+      : driver_(driver), pushed_(driver.ctxPushCurrent(context) == kCuSuccess) {}
+  ~Current() {
+    CuContext popped = nullptr;
+    if (pushed_) driver_.ctxPopCurrent(&popped);
+  }
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
+  /// Where not, another's context would take the call.
+  explicit operator bool() const { return pushed_; }
+  static Error refused() { return {Code::device_lost, "the CUDA context can no longer be used"}; }
+
+ private:
+  const DriverTable& driver_;
+  const bool pushed_;
+};
+
+/// What streams share with their device.
+struct Opened {
+  const DriverTable driver;
+  DeviceInfo info;
+  CuContext context = nullptr;
+  CuModule module = nullptr;
+  /// Our own: the device's is shared with the engine, and gives nothing back when a context is lost.
+  CuPool pool = nullptr;
+  std::array<CuFunction, static_cast<size_t>(Kernel::count)> functions{};
+
+  explicit Opened(const DriverTable& table) : driver(table) {}
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  ~Opened() {
+    if (context == nullptr) return;
+    {
+      const Current current(driver, context);
+      if (current && pool != nullptr) driver.memPoolDestroy(pool);
+      if (current && module != nullptr) driver.moduleUnload(module);
+    }
+    driver.ctxDestroy(context);
+  }
+  Result<void> check(CuResult result, const char* what) const {
+    if (result == kCuSuccess) return {};
+    return errorOf(driver, result, std::string(what) + " on " + info.name);
+  }
+};
+
+uint32_t threadsOf(Kernel kernel) {
+  switch (kernel) {
+#define SGM_CUDA_KERNEL(Name) \
+  case Kernel::Name:          \
+    return Name::kThreads;
+    SGM_CUDA_KERNELS
+#undef SGM_CUDA_KERNEL
+    case Kernel::count:
+      break;
+  }
+  return 0;
+}
+
+CuPointer pointerOf(const void* device) { return static_cast<CuPointer>(reinterpret_cast<uintptr_t>(device)); }
+
+class DriverStream final : public Stream {
+ public:
+  DriverStream(const Opened& device, CuStream stream) : device_(device), driver_(device.driver), stream_(stream) {}
+  ~DriverStream() override {
+    const Current current(driver_, device_.context);
+    if (!current) return;
+    driver_.streamSynchronize(stream_);
+    driver_.streamDestroy(stream_);
+  }
+
+  Result<void*> allocate(MemoryKind kind, size_t bytes) override {
+    const Current current(driver_, device_.context);
+    if (!current) return Current::refused();
+    if (kind == MemoryKind::pinned) {
+      void* memory = nullptr;
+      const Result<void> made = device_.check(driver_.memHostAlloc(&memory, bytes, 0), "allocating pinned memory");
+      if (!made) return made.error();
+      return memory;
+    }
+    CuPointer memory = 0;
+    const Result<void> made =
+        device_.check(driver_.memAllocFromPoolAsync(&memory, bytes, device_.pool, stream_), "allocating memory");
+    if (!made) return made.error();
+    return reinterpret_cast<void*>(static_cast<uintptr_t>(memory));
+  }
+  void free(MemoryKind kind, void* memory) noexcept override {
+    const Current current(driver_, device_.context);
+    if (!current) return;
+    if (kind == MemoryKind::device) {
+      driver_.memFreeAsync(pointerOf(memory), stream_);
+      return;
+    }
+    // Copies may be under way in it.
+    driver_.streamSynchronize(stream_);
+    driver_.memFreeHost(memory);
+  }
+  Result<void> copyIn(void* device, const void* pinned, size_t bytes) override {
+    const Current current(driver_, device_.context);
+    if (!current) return Current::refused();
+    return device_.check(driver_.memcpyHtoDAsync(pointerOf(device), pinned, bytes, stream_), "copying a batch");
+  }
+  Result<void> copyOut(void* pinned, const void* device, size_t bytes) override {
+    const Current current(driver_, device_.context);
+    if (!current) return Current::refused();
+    return device_.check(driver_.memcpyDtoHAsync(pinned, pointerOf(device), bytes, stream_), "copying meshes");
+  }
+  Result<void> clear(void* device, size_t bytes) override {
+    const Current current(driver_, device_.context);
+    if (!current) return Current::refused();
+    return device_.check(driver_.memsetD8Async(pointerOf(device), 0, bytes, stream_), "clearing memory");
+  }
+  Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) override {
+    const Current current(driver_, device_.context);
+    if (!current) return Current::refused();
+    // The driver copies the parameters before it returns.
+    Batch copy = batch;
+    void* parameters[] = {&copy};
+    return device_.check(driver_.launchKernel(device_.functions[static_cast<size_t>(kernel)], blocks, 1, 1,
+                                              threadsOf(kernel), 1, 1, 0, stream_, parameters, nullptr),
+                         "launching a kernel");
+  }
+  Result<bool> ended() override {
+    const Current current(driver_, device_.context);
+    if (!current) return Current::refused();
+    const CuResult result = driver_.streamQuery(stream_);
+    if (result == kCuNotReady) return false;
+    if (const Result<void> asked = device_.check(result, "asking for the batch"); !asked) return asked.error();
+    return true;
+  }
+  Result<void> wait() override {
+    const Current current(driver_, device_.context);
+    if (!current) return Current::refused();
+    return device_.check(driver_.streamSynchronize(stream_), "waiting for the batch");
+  }
+
+ private:
+  const Opened& device_;
+  const DriverTable& driver_;
+  const CuStream stream_;
+};
+
+class DriverDevice final : public Device {
+ public:
+  explicit DriverDevice(std::unique_ptr<Opened> opened) : opened_(std::move(opened)) {}
+  const DeviceInfo& info() const override { return opened_->info; }
+  Result<std::unique_ptr<Stream>> makeStream() override {
+    const Current current(opened_->driver, opened_->context);
+    if (!current) return Current::refused();
+    CuStream stream = nullptr;
+    const Result<void> made =
+        opened_->check(opened_->driver.streamCreate(&stream, kCuNonBlockingStream), "making a stream");
+    if (!made) return made.error();
+    return std::unique_ptr<Stream>(std::make_unique<DriverStream>(*opened_, stream));
+  }
+
+ private:
+  std::unique_ptr<Opened> opened_;
+};
+
+Result<DeviceInfo> describe(const DriverTable& driver, CuDevice device, int version) {
+  DeviceInfo info;
+  info.driver = version;
+  char name[256] = {};
+  size_t bytes = 0;
+  int processors = 0;
+  const struct {
+    int attribute;
+    int* value;
+  } attributes[] = {{kCuCapabilityMajor, &info.capability_major},
+                    {kCuCapabilityMinor, &info.capability_minor},
+                    {kCuProcessors, &processors},
+                    {kCuMemoryPools, &info.memory_pools}};
+  CuResult result = driver.deviceGetName(name, static_cast<int>(sizeof name) - 1, device);
+  if (result == kCuSuccess) result = driver.deviceTotalMem(&bytes, device);
+  for (const auto& one : attributes) {
+    if (result == kCuSuccess) result = driver.deviceGetAttribute(one.value, one.attribute, device);
+  }
+  if (result != kCuSuccess) return errorOf(driver, result, "asking for the CUDA devices");
+  info.name = name;
+  info.memory = bytes;
+  info.processors = static_cast<uint32_t>(processors > 0 ? processors : 1);
+  return info;
+}
+
+Result<void> openContext(Opened& opened, CuDevice device, std::span<const std::byte> image) {
+  const DriverTable& driver = opened.driver;
+  if (Result<void> made = opened.check(driver.ctxCreate(&opened.context, kCuBlockingWaits, device), "making a context");
+      !made) {
+    return made;
+  }
+  // A new context is the thread's; the engine's comes back.
+  CuContext popped = nullptr;
+  driver.ctxPopCurrent(&popped);
+  const Current current(driver, opened.context);
+  if (!current) return Current::refused();
+  if (Result<void> loaded = opened.check(driver.moduleLoadData(&opened.module, image.data()), "loading the kernels");
+      !loaded) {
+    return loaded;
+  }
+  CuPoolProperties properties;
+  properties.location = device;
+  const CuResult pooled = driver.memPoolCreate(&opened.pool, &properties);
+  if (Result<void> made = opened.check(pooled, "making a memory pool"); !made) return made;
+  static constexpr const char* kNames[] = {
+#define SGM_CUDA_KERNEL(Name) "sgm" #Name,
+      SGM_CUDA_KERNELS
+#undef SGM_CUDA_KERNEL
+  };
+  static_assert(std::size(kNames) == static_cast<size_t>(Kernel::count));
+  for (size_t k = 0; k < std::size(kNames); ++k) {
+    const CuResult found = driver.moduleGetFunction(&opened.functions[k], opened.module, kNames[k]);
+    if (Result<void> checked = opened.check(found, kNames[k]); !checked) return checked;
+  }
+  return {};
+}
+
+/// Before it is open there is no device to be lost: another holds it for itself, say.
+Error unusable(const Error& error) {
+  return {error.code == Code::device_lost ? Code::unsupported : error.code, error.message};
+}
+
+}  // namespace
+
+std::string lackOf(const DeviceInfo& info) {
+  if (!info.ails.empty()) return info.ails;
+  if (10 * info.capability_major + info.capability_minor < 75) {
+    return "it has compute capability " + std::to_string(info.capability_major) + "." +
+           std::to_string(info.capability_minor) + ", and 7.5 is the least that works";
+  }
+  if (info.memory_pools == 0) return "it has no memory pools (cuMemAllocAsync)";
+  return {};
+}
+
+Result<std::vector<DeviceInfo>> listDevices(const DriverTable& driver) {
+  int version = 0, count = 0;
+  if (const CuResult result = driver.driverGetVersion(&version); result != kCuSuccess) {
+    return errorOf(driver, result, "asking for the CUDA driver's version");
+  }
+  const CuResult counted = driver.deviceGetCount(&count);
+  if (counted != kCuSuccess) return errorOf(driver, counted, "counting the CUDA devices");
+  std::vector<DeviceInfo> infos;
+  for (int i = 0; i < count; ++i) {
+    CuDevice device = 0;
+    const CuResult got = driver.deviceGet(&device, i);
+    if (got != kCuSuccess) return errorOf(driver, got, "asking for the CUDA devices");
+    Result<DeviceInfo> info = describe(driver, device, version);
+    // One that is sick keeps nobody from the others.
+    if (info) {
+      infos.push_back(std::move(*info));
+    } else {
+      infos.emplace_back().ails = info.error().message;
+    }
+  }
+  return infos;
+}
+
+Result<std::vector<DeviceInfo>> listDevices() {
+  const Result<DriverTable> driver = openDriver();
+  if (!driver) return driver.error();
+  return listDevices(*driver);
+}
+
+Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<const std::byte> image, int index) {
+  if (image.empty()) {
+    return Error{Code::unsupported, "this build has no CUDA kernels: build it where nvcc is, with SGM_CUDA=ON"};
+  }
+  Result<std::vector<DeviceInfo>> infos = listDevices(driver);
+  if (!infos) return unusable(infos.error());
+  if (infos->empty()) return Error{Code::unsupported, "the CUDA driver finds no GPU"};
+  if (index >= static_cast<int>(infos->size())) {
+    return Error{Code::unsupported,
+                 "there is no CUDA device " + std::to_string(index) + ": there are " + std::to_string(infos->size())};
+  }
+  size_t chosen = index < 0 ? 0 : static_cast<size_t>(index);
+  while (index < 0 && chosen + 1 < infos->size() && !lackOf((*infos)[chosen]).empty()) ++chosen;
+  const DeviceInfo& info = (*infos)[chosen];
+  if (const std::string lack = lackOf(info); !lack.empty()) {
+    return Error{Code::unsupported, info.name + " cannot be used: " + lack};
+  }
+  auto opened = std::make_unique<Opened>(driver);
+  opened->info = info;
+  CuDevice device = 0;
+  if (Result<void> got = opened->check(driver.deviceGet(&device, static_cast<int>(chosen)), "opening"); !got) {
+    return unusable(got.error());
+  }
+  if (Result<void> made = openContext(*opened, device, image); !made) {
+    return unusable(made.error());
+  }
+  return std::unique_ptr<Device>(std::make_unique<DriverDevice>(std::move(opened)));
+}
+
+}  // namespace sgm::cuda

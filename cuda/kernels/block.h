@@ -1,0 +1,73 @@
+#pragma once
+// What a kernel is written against: a block of threads that runs phases, with scans between them.
+//
+// A kernel is a class with the constant kThreads, the plain struct Shared, and
+//   template <class Block> SGM_KERNEL static void run(Block& block, const Batch& batch, Shared& shared);
+// Within run() every line that stands in no phase is the same for all threads of the block. block.each(f) is a phase:
+// f(thread) for each of them, in any order, and all have ended before the next line. So a phase is a plain function,
+// without a barrier, and the same source runs on a GPU, a thread a thread, and here, a loop. What threads of one phase
+// write for each other to read is read in a later phase only; where they write to one place they use the functions
+// below.
+
+#include <bit>
+#include <cstdint>
+
+#include "base/kernel.h"
+
+namespace sgm::cuda {
+
+/// Returns what was there.
+SGM_KERNEL uint32_t addTo(uint32_t& sum, uint32_t by) {
+#ifdef __CUDA_ARCH__
+  return atomicAdd(&sum, by);
+#else
+  const uint32_t before = sum;
+  sum += by;
+  return before;
+#endif
+}
+
+SGM_KERNEL void raiseTo(uint32_t& most, uint32_t value) {
+#ifdef __CUDA_ARCH__
+  atomicMax(&most, value);
+#else
+  if (value > most) most = value;
+#endif
+}
+
+SGM_KERNEL void setBits(uint64_t& word, uint64_t bits) {
+#ifdef __CUDA_ARCH__
+  atomicOr(reinterpret_cast<unsigned long long*>(&word), static_cast<unsigned long long>(bits));
+#else
+  word |= bits;
+#endif
+}
+
+SGM_KERNEL uint32_t countOf(uint64_t bits) {
+#ifdef __CUDA_ARCH__
+  return static_cast<uint32_t>(__popcll(bits));
+#else
+  return static_cast<uint32_t>(std::popcount(bits));
+#endif
+}
+
+/// Precondition: there is one.
+SGM_KERNEL uint32_t lowestOf(uint64_t bits) {
+#ifdef __CUDA_ARCH__
+  return static_cast<uint32_t>(__ffsll(static_cast<long long>(bits)) - 1);
+#else
+  return static_cast<uint32_t>(std::countr_zero(bits));
+#endif
+}
+
+/// The last place whose value is at most `value`, in ascending values of which the first is.
+SGM_KERNEL uint32_t lastAtMost(const uint32_t* values, uint32_t count, uint32_t value) {
+  uint32_t lo = 0, hi = count;
+  while (hi - lo > 1) {
+    const uint32_t middle = (lo + hi) / 2;
+    (values[middle] <= value ? lo : hi) = middle;
+  }
+  return lo;
+}
+
+}  // namespace sgm::cuda

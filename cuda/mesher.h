@@ -1,0 +1,60 @@
+#pragma once
+// A planned batch through all kernels of one stream, and its parts back.
+
+#include <atomic>
+#include <memory>
+
+#include "cuda/batch_plan.h"
+#include "cuda/device.h"
+
+namespace sgm::cuda {
+
+/// A stream and the memory of a batch on it; reused from batch to batch, and grown where one needs more.
+struct BatchMemory {
+  std::unique_ptr<Stream> stream;  ///< outlives the memory below
+  Memory staging, input, scratch, result;
+  Memory vertices, indices;
+  /// What is brought back. How many vertices and indices there will be only the device knows; as many as batches of
+  /// late have had come back with the batch itself, and only where it has more they come after it.
+  Memory result_back, signs_back, vertices_back, indices_back;
+  uint64_t brought_vertices = 0, brought_indices = 0;  ///< bytes that come with the batch
+  uint64_t input_bytes = 0, result_bytes = 0;
+};
+
+/// Any thread may use it. Outlived by the device.
+class Mesher {
+ public:
+  /// Errors: as Stream's.
+  static Result<std::unique_ptr<Mesher>> create(Device& device, const Room& room);
+
+  /// Gives the batch to the memory's stream, which is made where there is none yet. Plan and memory stay as they are
+  /// until its end. Errors: as Stream's; part of the batch may run nevertheless.
+  Result<void> submit(const Plan& plan, BatchMemory& memory);
+
+  /// After the end: what the host reads, valid until the next submission. Waits where more must be brought.
+  struct Output {
+    const Part* parts = nullptr;
+    const Vertex* vertices = nullptr;
+    const uint32_t* indices = nullptr;
+    const uint64_t* signs = nullptr;  ///< kRows a chunk
+  };
+  Result<Output> read(const Plan& plan, BatchMemory& memory);
+
+ private:
+  Mesher(Device& device, const Room& room) : device_(device), room_(room) {}
+  Result<void> makeTables();
+  Batch sized(const Plan& plan) const;
+  Result<void> fit(const Plan& plan, BatchMemory& memory, Batch& batch) const;
+  Result<void> run(Stream& stream, const Batch& batch) const;
+  Result<void> bring(const Plan& plan, BatchMemory& memory, const Batch& batch) const;
+  Result<void> bringRest(const Head& head, BatchMemory& memory);
+
+  Device& device_;
+  const Room room_;
+  std::unique_ptr<Stream> stream_;  ///< of the tables
+  Memory tables_;
+  /// Bytes that the last batch had, and some more.
+  std::atomic<uint64_t> usual_vertices_{0}, usual_indices_{0};
+};
+
+}  // namespace sgm::cuda

@@ -1,0 +1,265 @@
+#include "fake_driver.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "catch.h"
+#include "cuda/driver_device.h"
+#include "cuda/kernels/kernels.h"
+#include "host_device.h"
+
+namespace sgm::cuda {
+
+namespace {
+
+FakeDriver::State fake_state;
+std::unique_ptr<Device> fake_host;
+std::unique_ptr<Stream> fake_runs;  ///< the kernels
+std::set<void*> fake_blocks;        ///< alive
+char fake_function[static_cast<size_t>(Kernel::count)];
+int fake_things[3];
+
+/// What a stream was given and has not done: nothing is done before somebody waits, or asks twice.
+struct FakeStream {
+  std::vector<std::function<void()>> queued;
+  bool asked = false;
+
+  void finish() {
+    for (const auto& piece : queued) piece();
+    queued.clear();
+    asked = false;
+  }
+};
+std::set<FakeStream*> fake_streams;  ///< alive
+FakeStream& of(CuStream stream) { return *reinterpret_cast<FakeStream*>(stream); }
+void* hostOf(CuPointer memory) { return reinterpret_cast<void*>(static_cast<uintptr_t>(memory)); }
+
+/// What the call is to give; 0 as a rule.
+int before(const char* call, bool needs_context = true) {
+  FakeDriver::State& s = fake_state;
+  if (needs_context && s.depth == 0) ++s.calls_without;
+  if (s.fail_nth > 0 && s.fail_call == call) {
+    if (--s.fail_nth > 0) return 0;
+    if (s.lasts) s.fail_nth = 1;
+    return s.fail_result;
+  }
+  return 0;
+}
+
+template <class Handle>
+Handle thing(int number) {
+  return reinterpret_cast<Handle>(&fake_things[number]);
+}
+
+DriverTable makeTable() {
+  DriverTable t;
+  t.init = [](unsigned) { return before("init", false); };
+  t.driverGetVersion = [](int* version) {
+    *version = 13000;
+    return before("driverGetVersion", false);
+  };
+  t.getErrorString = [](CuResult result, const char** text) {
+    *text = result == kCuOutOfMemory ? "out of memory" : "a failure";
+    return kCuSuccess;
+  };
+  t.deviceGetCount = [](int* count) {
+    *count = fake_state.devices;
+    return before("deviceGetCount", false);
+  };
+  t.deviceGet = [](CuDevice* device, int number) {
+    *device = number;
+    return before("deviceGet", false);
+  };
+  t.deviceGetName = [](char* name, int size, CuDevice) {
+    std::strncpy(name, "a GPU that pretends", static_cast<size_t>(size));
+    return before("deviceGetName", false);
+  };
+  t.deviceGetAttribute = [](int* value, int attribute, CuDevice) {
+    const FakeDriver::State& s = fake_state;
+    *value = attribute == kCuCapabilityMajor   ? s.capability_major
+             : attribute == kCuCapabilityMinor ? s.capability_minor
+             : attribute == kCuMemoryPools     ? s.memory_pools
+                                               : 2;
+    return before("deviceGetAttribute", false);
+  };
+  t.deviceTotalMem = [](size_t* bytes, CuDevice) {
+    *bytes = size_t{8} << 30;
+    return before("deviceTotalMem", false);
+  };
+  t.ctxCreate = [](CuContext* context, unsigned, CuDevice) {
+    if (const int result = before("ctxCreate", false)) return result;
+    *context = thing<CuContext>(0);
+    ++fake_state.contexts;
+    ++fake_state.depth;
+    return kCuSuccess;
+  };
+  t.ctxDestroy = [](CuContext) {
+    --fake_state.contexts;
+    return before("ctxDestroy", false);
+  };
+  t.ctxPushCurrent = [](CuContext) {
+    if (const int result = before("ctxPushCurrent", false)) return result;
+    ++fake_state.depth;
+    return kCuSuccess;
+  };
+  t.ctxPopCurrent = [](CuContext* context) {
+    *context = thing<CuContext>(0);
+    --fake_state.depth;
+    return kCuSuccess;
+  };
+  t.moduleLoadData = [](CuModule* module, const void*) {
+    if (const int result = before("moduleLoadData")) return result;
+    *module = thing<CuModule>(1);
+    ++fake_state.modules;
+    return kCuSuccess;
+  };
+  t.moduleUnload = [](CuModule) {
+    --fake_state.modules;
+    return before("moduleUnload");
+  };
+  t.moduleGetFunction = [](CuFunction* function, CuModule, const char* name) {
+    if (const int result = before("moduleGetFunction")) return result;
+    static constexpr const char* kNames[] = {
+#define SGM_CUDA_KERNEL(Name) "sgm" #Name,
+        SGM_CUDA_KERNELS
+#undef SGM_CUDA_KERNEL
+    };
+    for (size_t k = 0; k < std::size(kNames); ++k) {
+      if (std::strcmp(name, kNames[k]) == 0) *function = reinterpret_cast<CuFunction>(&fake_function[k]);
+    }
+    return kCuSuccess;
+  };
+  t.streamCreate = [](CuStream* stream, unsigned) {
+    if (const int result = before("streamCreate")) return result;
+    auto* const made = new FakeStream;
+    fake_streams.insert(made);
+    *stream = reinterpret_cast<CuStream>(made);
+    ++fake_state.streams;
+    return kCuSuccess;
+  };
+  t.streamDestroy = [](CuStream stream) {
+    // The GPU goes on with what it was given.
+    of(stream).finish();
+    fake_streams.erase(&of(stream));
+    delete &of(stream);
+    --fake_state.streams;
+    return before("streamDestroy");
+  };
+  t.streamQuery = [](CuStream stream) {
+    if (const int result = before("streamQuery")) return result;
+    if (!of(stream).queued.empty() && !std::exchange(of(stream).asked, true)) return kCuNotReady;
+    of(stream).finish();
+    return kCuSuccess;
+  };
+  t.streamSynchronize = [](CuStream stream) {
+    // Where it fails it has not waited.
+    if (const int result = before("streamSynchronize")) return result;
+    of(stream).finish();
+    return kCuSuccess;
+  };
+  t.memPoolCreate = [](CuPool* pool, const CuPoolProperties*) {
+    if (const int result = before("memPoolCreate")) return result;
+    *pool = thing<CuPool>(2);
+    ++fake_state.pools;
+    return kCuSuccess;
+  };
+  t.memPoolDestroy = [](CuPool) {
+    --fake_state.pools;
+    return before("memPoolDestroy");
+  };
+  t.memAllocFromPoolAsync = [](CuPointer* memory, size_t bytes, CuPool, CuStream) {
+    if (const int result = before("memAllocFromPoolAsync")) return result;
+    void* const block = std::aligned_alloc(256, (bytes + 255) / 256 * 256);
+    std::memset(block, 0xCD, bytes);
+    *memory = reinterpret_cast<uintptr_t>(block);
+    fake_blocks.insert(block);
+    ++fake_state.device_blocks;
+    return kCuSuccess;
+  };
+  t.memFreeAsync = [](CuPointer memory, CuStream stream) {
+    of(stream).queued.emplace_back([memory] {
+      fake_blocks.erase(hostOf(memory));
+      std::free(hostOf(memory));
+    });
+    --fake_state.device_blocks;
+    return before("memFreeAsync");
+  };
+  t.memHostAlloc = [](void** memory, size_t bytes, unsigned) {
+    if (const int result = before("memHostAlloc")) return result;
+    *memory = std::aligned_alloc(256, (bytes + 255) / 256 * 256);
+    std::memset(*memory, 0xCD, bytes);
+    fake_blocks.insert(*memory);
+    ++fake_state.pinned_blocks;
+    return kCuSuccess;
+  };
+  t.memFreeHost = [](void* memory) {
+    fake_blocks.erase(memory);
+    std::free(memory);
+    --fake_state.pinned_blocks;
+    return before("memFreeHost");
+  };
+  t.memcpyHtoDAsync = [](CuPointer to, const void* from, size_t bytes, CuStream stream) {
+    if (const int result = before("memcpyHtoDAsync")) return result;
+    of(stream).queued.emplace_back([=] { std::memcpy(hostOf(to), from, bytes); });
+    return kCuSuccess;
+  };
+  t.memcpyDtoHAsync = [](void* to, CuPointer from, size_t bytes, CuStream stream) {
+    if (const int result = before("memcpyDtoHAsync")) return result;
+    // What is read before the end is nothing.
+    std::memset(to, 0xCD, bytes);
+    of(stream).queued.emplace_back([=] { std::memcpy(to, hostOf(from), bytes); });
+    return kCuSuccess;
+  };
+  t.memsetD8Async = [](CuPointer at, unsigned char value, size_t bytes, CuStream stream) {
+    if (const int result = before("memsetD8Async")) return result;
+    of(stream).queued.emplace_back([=] { std::memset(hostOf(at), value, bytes); });
+    return kCuSuccess;
+  };
+  t.launchKernel = [](CuFunction function, unsigned blocks, unsigned, unsigned, unsigned threads, unsigned, unsigned,
+                      unsigned, CuStream stream, void** parameters, void**) {
+    if (const int result = before("launchKernel")) return result;
+    if (threads == 0 || threads > 1024 || blocks == 0) return 1;
+    ++fake_state.launches;
+    const auto kernel = static_cast<Kernel>(reinterpret_cast<const char*>(function) - fake_function);
+    const Batch batch = *static_cast<const Batch*>(parameters[0]);
+    of(stream).queued.emplace_back([=] { static_cast<void>(fake_runs->launch(kernel, blocks, batch)); });
+    return kCuSuccess;
+  };
+  return t;
+}
+
+}  // namespace
+
+FakeDriver::FakeDriver() {
+  fake_state = {};
+  fake_host = makeHostDevice();
+  fake_runs = *fake_host->makeStream();
+}
+
+FakeDriver::~FakeDriver() {
+  CHECK(fake_state.contexts == 0);
+  if (!fake_state.may_leave) {
+    CHECK(fake_state.modules == 0);
+    CHECK(fake_state.pools == 0);
+    CHECK(fake_state.streams == 0);
+    CHECK(fake_state.device_blocks == 0);
+    CHECK(fake_state.pinned_blocks == 0);
+  }
+  CHECK(fake_state.depth == 0);
+  CHECK(fake_state.calls_without == 0);
+  // What may be left goes here, or who looks for leaks would find it.
+  for (FakeStream* stream : std::exchange(fake_streams, {})) delete stream;
+  for (void* block : std::exchange(fake_blocks, {})) std::free(block);
+  fake_runs.reset();
+  fake_host.reset();
+}
+
+DriverTable FakeDriver::table() const { return makeTable(); }
+FakeDriver::State& FakeDriver::state() const { return fake_state; }
+
+}  // namespace sgm::cuda
