@@ -288,6 +288,41 @@ Command addFly(CLI::App& root) {
   return [options] { return fly(*options); };
 }
 
+Command addBench(CLI::App& root) {
+  CLI::App* group = root.add_subcommand("bench", "Measure this machine: sgm bench paper");
+  group->require_subcommand(1);
+  CLI::App* app = group->add_subcommand(
+      "paper",
+      "The paper's tables 1 to 3 of this runtime: speedup, efficiency and throughput of cave, cloud, building");
+  const auto options = std::make_shared<BenchOptions>();
+  app->add_option("--runs", options->runs, "Runs that count, after one that warms up; the times are their median")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1000}))
+      ->capture_default_str();
+  app->add_option(
+         "--backend", options->backends,
+         "Measure this one beside the sequential CPU (repeatable). Without it all of them, but software Vulkan, "
+         "which --backend vulkan measures")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember({"cpu", "vulkan", "cuda"}));
+  app->add_option("--threads", options->threads, "Threads beside the sequential one; 0: one for each processor")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  CLI::Option* cell =
+      app->add_option("--cell", options->cell, "Edge of a sampling cell in metres, in all stages")->type_name("METRES");
+  app->add_option("--size", options->cells,
+                  "Sampling cells on the edge of each stage's cube, of 64 m of cave, 1024 m of sky, 32 m of building")
+      ->type_name("CELLS")
+      ->check(CLI::Range(uint64_t{8}, uint64_t{1024}))
+      ->excludes(cell)
+      ->capture_default_str();
+  app->add_flag("--json", options->json, "Print the result as one JSON object on standard output");
+  app->footer(
+      "Exit status 1 where two backends, or two runs, make different meshes.\n"
+      "Example:\n  sgm bench paper --size 64 --runs 3");
+  group->footer("Example:\n  sgm bench paper --size 64 --runs 3");
+  return [options] { return benchPaper(*options); };
+}
+
 Command addBackends(CLI::App& root) {
   CLI::App* app = root.add_subcommand("backends", "List what can compute and draw on this machine, and why not");
   const auto json = std::make_shared<bool>(false);
@@ -307,7 +342,8 @@ Exit runCommandLine(int argc, char** argv) {
       "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
       "be read or written; the highest of several.");
   std::vector<Command> commands;
-  for (const auto add : {addCheck, addFmt, addMesh, addRender, addFly, addBackends}) commands.push_back(add(app));
+  for (const auto add : {addCheck, addFmt, addMesh, addRender, addFly, addBench, addBackends})
+    commands.push_back(add(app));
 
   try {
     app.parse(argc, argv);

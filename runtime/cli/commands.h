@@ -2,6 +2,7 @@
 // The subcommands of `sgm`, one source each: what they are asked, and what runs. How the command line asks is in
 // arguments.cpp alone.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,16 @@ struct FlyOptions : WorldOptions {
   std::string journal, cache;  ///< a file and a folder of the world's; empty: none
 };
 Exit fly(const FlyOptions& options);
+
+struct BenchOptions {
+  uint64_t runs = 10;
+  std::vector<std::string> backends;  ///< none: all that `auto` might choose
+  unsigned threads = 0;
+  uint64_t cells = 256;        ///< on the edge of a stage's cube
+  std::optional<double> cell;  ///< metres, instead
+  bool json = false;
+};
+Exit benchPaper(const BenchOptions& options);
 
 Exit listBackends(bool json);
 

@@ -1,0 +1,152 @@
+#include "cli/bench_report.h"
+
+#include <fmt/core.h>
+
+#include <optional>
+
+#include "cli/paper.h"
+
+namespace sgm::cli {
+namespace {
+
+constexpr const char* kMeasured =
+    "from derived cells to packed meshes: field programs compiled, pruned, sampled and meshed, by each backend in "
+    "turn. "
+    "The first run is told apart: it also derives the cells (what the paper's section 5 cannot measure) and makes a "
+    "device ready";
+constexpr const char* kCounted =
+    "instructions of the field programs, pruned to bricks, times the samples and vertices at which they are evaluated: "
+    "a distance, a minimum, an octave of noise each. Counted in a run of its own on the CPU; one is many flop, and no "
+    "flop is counted";
+constexpr const char* kNoWorkers = "the device does not tell how many processors it has";
+
+/// The four figures of a contender, one formula each.
+struct Figures {
+  double seconds = 0, speedup = 0, throughput = 0;
+  std::optional<double> efficiency;
+};
+
+Figures figuresOf(const StageResult& result, std::span<const Contender> contenders, size_t i) {
+  Figures figures;
+  figures.seconds = result.times[i].median();
+  figures.speedup = speedup(result.times[0].median(), figures.seconds);
+  figures.throughput = throughput(static_cast<double>(result.operations), figures.seconds);
+  if (contenders[i].workers > 0) figures.efficiency = efficiency(figures.speedup, contenders[i].workers);
+  return figures;
+}
+
+std::string hexHash(const StageResult& result) { return fmt::format("{:016x}", result.hash.value()); }
+
+Json rowJson(const StageResult& result, std::span<const Contender> contenders, size_t i) {
+  const Contender& contender = contenders[i];
+  Json row{{"name", contender.name}, {"measured", contender.backend != nullptr}};
+  if (contender.backend == nullptr) {
+    row["reason"] = contender.reason;
+    return row;
+  }
+  const Figures figures = figuresOf(result, contenders, i);
+  row.update({{"device", contender.device},
+              {"workers", contender.workers > 0 ? Json(contender.workers) : Json()},
+              {"first_seconds", result.times[i].first},
+              {"seconds", figures.seconds},
+              {"run_seconds", result.times[i].seconds},
+              {"speedup", figures.speedup},
+              {"efficiency", figures.efficiency ? Json(*figures.efficiency) : Json()},
+              {"operations_per_second", figures.throughput},
+              {"chunks_on_cpu", result.times[i].on_cpu},
+              {"triangles", result.triangles},
+              {"hash", hexHash(result)}});
+  if (!figures.efficiency) row["no_efficiency"] = kNoWorkers;
+  return row;
+}
+
+Json paperJson(const PaperStage& paper) {
+  return {{"sequential_seconds", paper.sequential},
+          {"parallel_seconds", paper.parallel},
+          {"speedup", paper.speedup()},
+          {"printed_efficiency", paper.efficiency},
+          {"efficiency", efficiency(paper.speedup(), kPaperWorkers)}};
+}
+
+void printRow(const BenchOptions& options, const StageResult& result, std::span<const Contender> contenders, size_t i) {
+  const Contender& contender = contenders[i];
+  if (contender.backend == nullptr) {
+    fmt::print("  {:<17}not measured: {}\n", contender.name, contender.reason);
+    return;
+  }
+  const Figures figures = figuresOf(result, contenders, i);
+  fmt::print("  {:<17}{:>7}{:>10.4f}{:>10.4f}{:>9.2f}{:>12}{:>9.3f}{:>12}  {}\n", contender.name,
+             contender.workers > 0 ? fmt::format("{}", contender.workers) : "-", result.times[i].first, figures.seconds,
+             figures.speedup, figures.efficiency ? fmt::format("{:.3f}", *figures.efficiency) : "-",
+             figures.throughput / 1e9, result.triangles, hexHash(result));
+  if (const uint64_t on_cpu = result.times[i].on_cpu; on_cpu > 0) {
+    fmt::print("  {:<17}left {} of {} chunks in all runs to the CPU: too large for it, or it has failed\n", "", on_cpu,
+               (options.runs + 1) * result.chunks);
+  }
+}
+
+void printPaper(const PaperStage& paper) {
+  fmt::print("  {:<17}{:>7}{:>20.4f}{:>9.2f}{:>12}\n", "paper, sequential", 1, paper.sequential, 1.0, "-");
+  fmt::print("  {:<17}{:>7}{:>20.4f}{:>9.2f}{:>12.3f}  by its own times {:.4f}\n", "paper, parallel", kPaperWorkers,
+             paper.parallel, paper.speedup(), paper.efficiency, efficiency(paper.speedup(), kPaperWorkers));
+}
+
+void printStage(const BenchOptions& options, const StageResult& result, const PaperStage& paper,
+                std::span<const Contender> contenders) {
+  const StageModel& model = *result.model;
+  fmt::print("\n{}: {} m of {} with the seed {}, cells of {} m: {} chunks, {:.1f} million field operations\n",
+             model.name, model.edge, model.file, model.seed, metres(result.cell), result.chunks,
+             static_cast<double>(result.operations) / 1e6);
+  fmt::print("  {:<17}{:>7}{:>10}{:>10}{:>9}{:>12}{:>9}{:>12}  {}\n", "", "workers", "first, s", "median, s", "speedup",
+             "efficiency", "Gop/s", "triangles", "hash");
+  for (size_t i = 0; i < contenders.size(); ++i) printRow(options, result, contenders, i);
+  printPaper(paper);
+}
+
+}  // namespace
+
+Json toJson(const BenchOptions& options, std::span<const Contender> contenders, std::span<const StageResult> results) {
+  Json stages = Json::array();
+  for (size_t s = 0; s < results.size(); ++s) {
+    const StageResult& result = results[s];
+    Json rows = Json::array();
+    for (size_t i = 0; i < contenders.size(); ++i) rows.push_back(rowJson(result, contenders, i));
+    stages.push_back({{"stage", result.model->name},
+                      {"grammar", result.model->file},
+                      {"seed", result.model->seed},
+                      {"region", {metresJson(result.extent.lo), metresJson(result.extent.hi)}},
+                      {"cell", metres(result.cell)},
+                      {"cell_units", result.cell},
+                      {"chunks", result.chunks},
+                      {"operations", result.operations},
+                      {"rows", std::move(rows)},
+                      {"paper", paperJson(kPaperStages[s])}});
+  }
+  return {{"runs", options.runs},
+          {"measured", kMeasured},
+          {"counted", kCounted},
+          {"stages", std::move(stages)},
+          {"paper",
+           {{"workers", kPaperWorkers},
+            {"sequential_gflops", kPaperSequentialThroughput},
+            {"parallel_gflops", kPaperParallelThroughput},
+            {"inconsistencies", paperInconsistencies()}}}};
+}
+
+void print(const BenchOptions& options, std::span<const Contender> contenders, std::span<const StageResult> results) {
+  fmt::print("Tables 1 to 3 of the paper: medians of {} warm run{}\n", options.runs, options.runs == 1 ? "" : "s");
+  for (const Contender& contender : contenders)
+    if (contender.backend != nullptr) fmt::print("  {:<17}{}\n", contender.name, contender.device);
+  for (size_t s = 0; s < results.size(); ++s) printStage(options, results[s], kPaperStages[s], contenders);
+  fmt::print("\nthroughput of the paper, one figure for all stages: {} Gflop/s sequential, {} parallel\n",
+             kPaperSequentialThroughput, kPaperParallelThroughput);
+  fmt::print("\nTimes:      {}.\nOperations: {}.\n", kMeasured, kCounted);
+  fmt::print("Workers:    threads of the CPU, the caller's included; -: {}, and so there is no efficiency.\n",
+             kNoWorkers);
+  fmt::print("Hash:       of a stage's meshes, the same in every run and on every backend, or the benchmark fails.\n");
+  fmt::print("\nThe paper's figures are no baseline. What does not agree in them:\n");
+  size_t number = 0;
+  for (const std::string& text : paperInconsistencies()) fmt::print("  {}. {}\n", ++number, text);
+}
+
+}  // namespace sgm::cli

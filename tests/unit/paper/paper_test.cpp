@@ -1,0 +1,187 @@
+// What `sgm bench paper` measures, and what it says of the paper's own figures.
+
+#include <algorithm>
+#include <random>
+
+#include "backend/cpu/cpu_backend.h"
+#include "catch.h"
+#include "cli/paper.h"
+#include "cli/paper_stage.h"
+#include "rounds.h"
+
+using namespace sgm;
+using namespace sgm::cli;
+
+namespace {
+
+constexpr int32_t kCell = 1024;  // of the building, whose cube is eight chunks then
+
+constexpr uint64_t kNever = ~uint64_t{0};
+
+/// Meshes as the CPU does, but for one batch, in which it turns a triangle round. Says that it has left two chunks of
+/// every batch to somebody else.
+class LyingBackend final : public Backend {
+ public:
+  LyingBackend(std::shared_ptr<Backend> honest, uint64_t lie_at) : honest_(std::move(honest)), lie_at_(lie_at) {}
+  const BackendCapabilities& capabilities() const override { return honest_->capabilities(); }
+  BackendCounters counters() const override {
+    BackendCounters counters;
+    counters.on_cpu = 2 * batches_;
+    return counters;
+  }
+  Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk) override {
+    Result<std::unique_ptr<ChunkBatch>> batch = honest_->submit(std::move(jobs), std::move(after_chunk));
+    if (!batch) return batch.error();
+    return std::unique_ptr<ChunkBatch>(std::make_unique<Batch>(std::move(*batch), batches_++ == lie_at_));
+  }
+
+ private:
+  class Batch final : public ChunkBatch {
+   public:
+    Batch(std::unique_ptr<ChunkBatch> honest, bool lies) : honest_(std::move(honest)), lies_(lies) {}
+    bool poll() override { return honest_->poll(); }
+    void wait() override { honest_->wait(); }
+    void cancel() override { honest_->cancel(); }
+    Result<std::vector<ChunkMesh>> take() override {
+      Result<std::vector<ChunkMesh>> meshes = honest_->take();
+      if (!meshes || !lies_) return meshes;
+      const auto with_surface =
+          std::find_if(meshes->begin(), meshes->end(), [](const ChunkMesh& m) { return !m.body.indices.empty(); });
+      REQUIRE(with_surface != meshes->end());
+      std::swap(with_surface->body.indices[0], with_surface->body.indices[1]);
+      hashPart(with_surface->body);
+      return meshes;
+    }
+
+   private:
+    std::unique_ptr<ChunkBatch> honest_;
+    bool lies_;
+  };
+
+  std::shared_ptr<Backend> honest_;
+  uint64_t lie_at_, batches_ = 0;
+};
+
+Contender contender(const char* name, const char* instruction_set, unsigned threads) {
+  Contender made;
+  made.name = name;
+  made.device = instruction_set;
+  made.workers = threads;
+  made.jobs = std::move(*makeThreadPool(threads));
+  made.backend = std::move(*makeCpuBackend(instruction_set, *made.jobs, std::pmr::new_delete_resource(), {}));
+  return made;
+}
+
+Contender absent() {
+  Contender made;
+  made.name = "absent";
+  made.reason = "nobody made it";
+  return made;
+}
+
+const StageModel& building() { return stageModels()[2]; }
+
+}  // namespace
+
+TEST_CASE("the stages are those of the paper, and every one has a surface") {
+  REQUIRE(stageModels().size() == kPaperStages.size());
+  const Contender contenders[] = {contender("sequential", "scalar", 1)};
+  for (size_t i = 0; i < stageModels().size(); ++i) {
+    CAPTURE(i);
+    const StageModel& model = stageModels()[i];
+    CHECK(model.name == kPaperStages[i].name);
+    const Result<StageResult> result = measureStage(model, model.edge * kUnitsPerMetre / 32, 1, contenders, [] {});
+    REQUIRE(result);
+    CHECK(result->triangles > 100);
+    CHECK(result->operations > result->triangles);
+  }
+}
+
+TEST_CASE("all contenders run as often, and what is absent does not") {
+  const Contender contenders[] = {contender("sequential", "scalar", 1), absent(), contender("parallel", "", 2)};
+  size_t steps = 0;
+  const Result<StageResult> result = measureStage(building(), kCell, 3, contenders, [&] { ++steps; });
+  REQUIRE(result);
+  CHECK(steps == 8);  // with the first ones, which warm up
+  CHECK(result->times[0].seconds.size() == 3);
+  CHECK(result->times[1].seconds.empty());
+  CHECK(result->times[2].seconds.size() == 3);
+  CHECK(result->times[2].median() > 0);
+  CHECK(result->times[2].first > 0);
+  CHECK(result->chunks > 0);
+  CHECK(result->hash != ContentHash{});
+}
+
+TEST_CASE("operations are those of the stage, whoever counts them") {
+  const Contender one[] = {contender("sequential", "", 1)};
+  const Contender two[] = {contender("sequential", "scalar", 1), contender("parallel", "", 3)};
+  const Result<StageResult> a = measureStage(building(), kCell, 1, one, [] {});
+  const Result<StageResult> b = measureStage(building(), kCell, 1, two, [] {});
+  const Result<StageResult> finer = measureStage(building(), kCell / 2, 1, one, [] {});
+  REQUIRE((a && b && finer));
+  CHECK(a->operations == b->operations);
+  CHECK(finer->operations > a->operations);
+}
+
+TEST_CASE("a run with another mesh is an error that names both backends") {
+  for (uint64_t lie_at : {0u, 1u, 3u}) {
+    CAPTURE(lie_at);
+    Contender contenders[] = {contender("honest", "scalar", 1), contender("liar", "scalar", 1)};
+    const Result<StageResult> agreed = measureStage(building(), kCell * 32, 3, contenders, [] {});
+    REQUIRE(agreed);
+    REQUIRE(agreed->triangles > 0);
+    contenders[1].backend = std::make_shared<LyingBackend>(contenders[1].backend, lie_at);
+    const Result<StageResult> result = measureStage(building(), kCell * 32, 3, contenders, [] {});
+    REQUIRE_FALSE(result);
+    CHECK(result.error().code == Code::bad_input);
+    CHECK(result.error().message.find("building: the meshes differ: honest (scalar) makes ") == 0);
+    CHECK(result.error().message.find("and liar (scalar) makes ") != std::string::npos);
+  }
+}
+
+TEST_CASE("what a device leaves to the CPU is told of each") {
+  Contender contenders[] = {contender("cpu", "scalar", 1), contender("device", "scalar", 1)};
+  contenders[1].backend = std::make_shared<LyingBackend>(contenders[1].backend, kNever);
+  const Result<StageResult> result = measureStage(building(), kCell * 32, 3, contenders, [] {});
+  REQUIRE(result);
+  CHECK(result->times[0].on_cpu == 0);
+  CHECK(result->times[1].on_cpu == 8);  // two of each run's one batch
+}
+
+TEST_CASE("errors name the stage and the contender") {
+  const Contender contenders[] = {contender("sequential", "scalar", 1)};
+  const Result<StageResult> result = measureStage(building(), 1, 1, contenders, [] {});
+  REQUIRE_FALSE(result);
+  CHECK(result.error().code == Code::limit);
+  CHECK(result.error().message.find("building: sequential: ") == 0);
+  const Contender nobody[] = {absent()};
+  CHECK_FALSE(measureStage(building(), kCell, 1, nobody, [] {}));
+}
+
+TEST_CASE("the median is the middle of the times, in any order") {
+  std::mt19937 random(7);
+  for (unsigned count = 1; count <= rounds(50); ++count) {
+    CAPTURE(count);
+    StageTimes times;
+    for (unsigned i = 1; i <= count; ++i) times.seconds.push_back(i);
+    std::shuffle(times.seconds.begin(), times.seconds.end(), random);
+    CHECK(times.median() == (1 + count) / 2.0);
+  }
+}
+
+TEST_CASE("what is inconsistent in the paper's tables is told in numbers") {
+  const std::vector<std::string> texts = paperInconsistencies();
+  const auto said = [&texts](const char* what) {
+    return std::any_of(texts.begin(), texts.end(),
+                       [what](const std::string& text) { return text.find(what) != std::string::npos; });
+  };
+  CHECK(said("8.44, 4.96 and 7.83"));
+  CHECK(said("0.0331, 0.0195 and 0.0307"));
+  CHECK(said("0.028, 0.015 and 0.027"));
+  CHECK(said("301, 331 and 290"));
+  CHECK(said("25.8 times the throughput, at speedups of 5.0 to 8.4"));
+  CHECK(said("3.1, 5.2 and 3.3 times the operations"));
+  CHECK(said("m = 255"));
+  CHECK(said("T2300"));
+  CHECK_FALSE(said("{"));
+}
