@@ -63,15 +63,19 @@ Result<int32_t> cellOf(const BenchOptions& options, const StageModel& model) {
 }  // namespace
 
 Exit benchPaper(const BenchOptions& options) {
-  const Result<std::vector<Contender>> contenders = makeContenders(options);
-  if (!contenders) return complain(contenders.error());
-  const auto measured = static_cast<uint64_t>(std::count_if(
-      contenders->begin(), contenders->end(), [](const Contender& contender) { return contender.backend != nullptr; }));
+  Result<std::vector<Contender>> contenders = std::vector<Contender>();
   std::vector<StageResult> results;
   {
     ProgressBar bar("measuring");
     uint64_t done = 0;
     for (const StageModel& model : stageModels()) {
+      // Devices of its own, as in a process that generates this stage alone: software is made ready for the kinds of
+      // instruction that it has met so far, and each costs it time whether it is there or not.
+      contenders = makeContenders(options);
+      if (!contenders) return complain(contenders.error());
+      const auto measured =
+          static_cast<uint64_t>(std::count_if(contenders->begin(), contenders->end(),
+                                              [](const Contender& contender) { return contender.backend != nullptr; }));
       const Result<int32_t> cell = cellOf(options, model);
       if (!cell) return complain(cell.error());
       Result<StageResult> result = measureStage(model, *cell, options.runs, *contenders, [&] {

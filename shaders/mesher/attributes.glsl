@@ -10,6 +10,7 @@ layout(local_size_x_id = 0) in;
 #include "op_numbers.glsl"
 #include "mesher/window.glsl"
 #include "common/common.h"
+#include "mesher/addend.glsl"
 #include "mesher/hash.glsl"
 
 float slot_v[kSlots], slot_x[kSlots], slot_y[kSlots], slot_z[kSlots];
@@ -129,7 +130,8 @@ void main() {
 #define READ_JOINED                                   \
   const Dual a = readSlot(ra), b = readSlot(rb);      \
   Dual c = nothing(), made = a;                       \
-  if (kHasThird) c = readSlot(rc);
+  c.v = PF(P, kBy);                                   \
+  if (kHasThird) c = selDual(GOES_BY_CONSTANT(P), c, readSlot(rc));
 #define WRITE_JOINED writeSlot(dst, made);
 #define FORM_UNARY(F) made = F(a);
 #define FORM_UNARY_P(F) made = F(a, P);
@@ -151,7 +153,7 @@ void main() {
   writeSlot(rb, nothing());
 #define FORM_SUM_ADD(F)                                \
   {                                                    \
-    Dual d = readSlot(ra);                             \
+    Dual d = addend(readSlot(ra), readSlot(rc), P);    \
     writeSlot(dst, sumHeaviest(readSlot(dst), d));     \
     writeSlot(rb, opAdd(readSlot(rb), d));             \
   }

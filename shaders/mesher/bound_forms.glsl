@@ -14,6 +14,16 @@ void setSlot(uint slot, Bounds b) {
   high[slot] = b.hi;
 }
 
+// As addend() of addend.glsl.
+Bounds addendBounds(Bounds a, Bounds b, uint P) {
+  const uint how = PU(P, kHow);
+  const Bounds by = makeBounds(PF(P, kBy), PF(P, kBy));
+  if ((how & kByConstant) != 0u) a = operandBounds(kOp_morph, a, b, by, 0.0f, 0.0f);
+  const Bounds weight = operandBounds(kOp_kernel, a, a, a, PF(P, 0), PF(P, 1));
+  if ((how & kWeighs) != 0u) a = weight;
+  return a;
+}
+
 #define BOX makeBox(place_low[place], place_high[place])
 #define SIZES uintBitsToFloat(wordOfRecord(30u))
 #define MIDDLE_OF(axis) middleOf(place_low[place].axis, place_high[place].axis)
@@ -47,7 +57,9 @@ void setSlot(uint slot, Bounds b) {
   }
 #define FORM_TERNARY(F)                                                       \
   {                                                                           \
-    Bounds a = slotBounds(ra), b = slotBounds(rb), c = slotBounds(rc);        \
+    Bounds a = slotBounds(ra), b = slotBounds(rb);                            \
+    Bounds c = makeBounds(PF(P, kBy), PF(P, kBy));                            \
+    if (!GOES_BY_CONSTANT(P)) c = slotBounds(rc);                             \
     Bounds r = operandBounds(number, a, b, c, 0.0f, 0.0f);                    \
     uint choice = kKept;                                                      \
     if (number == kOp_morph) {                                                \
@@ -77,7 +89,8 @@ void setSlot(uint slot, Bounds b) {
   setSlot(rb, NONE);
 #define FORM_SUM_ADD(F)                                                                       \
   {                                                                                           \
-    Bounds a = slotBounds(ra), n = slotBounds(dst), s = slotBounds(rb);                       \
+    Bounds a = addendBounds(slotBounds(ra), slotBounds(rc), P);                               \
+    Bounds n = slotBounds(dst), s = slotBounds(rb);                                           \
     MARK(a.hi)                                                               \
     setSlot(dst, makeBounds(max(n.lo, a.lo), max(n.hi, a.hi)));                               \
     setSlot(rb, sumOf(s, a));                                                                 \

@@ -13,3 +13,9 @@ const uint kCuts = 512u;          // of a fold: into what is taken away. Of a la
 const uint kIsFold = 1024u;
 const uint kIsSmooth = 2048u;
 const uint kIsLayerEnd = 4096u;
+
+// Of the parameters of a mix, a morph and what is added to a sum.
+const uint kBy = 2u;          // the constant that it goes by
+const uint kHow = 3u;         // bits:
+const uint kByConstant = 1u;  // a mix, a morph: by that, not by its third operand. A sum: adds the morph by it
+const uint kWeighs = 2u;      // a sum: adds the kernel of its operand

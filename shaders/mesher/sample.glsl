@@ -9,6 +9,7 @@ layout(local_size_x_id = 0) in;
 #include "op_numbers.glsl"
 #include "mesher/window.glsl"
 #include "common/common.h"
+#include "mesher/addend.glsl"
 
 const uint kEach = 4u;  // samples an invocation takes at one time
 
@@ -112,7 +113,8 @@ void main() {
 #define FORM_POSITION_1(F) EACH(SLOT(dst) = F(PX, PY, PZ, READ(ra), P).v;)
 #define READ_JOINED                                                                                    \
   float a[kEach], b[kEach], c[kEach], made[kEach];                                                     \
-  EACH(a[s] = SLOT(ra); b[s] = SLOT(rb); c[s] = kHasThird ? SLOT(rc) : 0.0f; made[s] = a[s];)
+  EACH(a[s] = SLOT(ra); b[s] = SLOT(rb); c[s] = PF(P, kBy); made[s] = a[s];                              \
+       if (kHasThird) c[s] = GOES_BY_CONSTANT(P) ? c[s] : SLOT(rc);)
 #define WRITE_JOINED EACH(SLOT(dst) = made[s];)
 #define FORM_UNARY(F) EACH(made[s] = F(valueOf(a[s])).v;)
 #define FORM_UNARY_P(F) EACH(made[s] = F(valueOf(a[s]), P).v;)
@@ -124,10 +126,10 @@ void main() {
   EACH(Dual d = READ(ra); SLOT(dst) = opMinimum(READ(dst), d).v;    \
        SLOT(rb) = roundAccumulate(READ(rb), d, PF(P, 0)).v;)
 #define FORM_ROUND_END(F) EACH(SLOT(dst) = opRoundEnd(READ(ra), READ(rb), P).v;)
-#define FORM_SUM_BEGIN(F) EACH(SLOT(dst) = nothing().v; SLOT(rb) = nothing().v;)
-#define FORM_SUM_ADD(F)                                             \
-  EACH(Dual d = READ(ra); SLOT(dst) = sumHeaviest(READ(dst), d).v; SLOT(rb) = opAdd(READ(rb), d).v;)
-#define FORM_SUM_END(F) EACH(SLOT(dst) = opSumEnd(READ(ra), READ(rb), P).v;)
+// The heaviest operand gives a label, and none of the value.
+#define FORM_SUM_BEGIN(F) EACH(SLOT(rb) = nothing().v;)
+#define FORM_SUM_ADD(F) EACH(SLOT(rb) = opAdd(READ(rb), addend(READ(ra), READ(rc), P)).v;)
+#define FORM_SUM_END(F) EACH(SLOT(dst) = opSumEnd(nothing(), READ(rb), P).v;)
 #define FORM_WARP(F)                                                                                   \
   EACH(warped[(dst - 1u) * kEach + s] =                                                                \
            ivec3(movedBy(PX, SLOT(ra)), movedBy(PY, SLOT(rb)), movedBy(PZ, SLOT(rc)));)

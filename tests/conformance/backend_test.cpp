@@ -124,6 +124,53 @@ TEST_CASE("a prism of a thousand corners is meshed by the device, or by the CPU 
   CHECK(device.byCpu() == (TestedMachine::kAnyPrism ? 0 : 1));
 }
 
+TEST_CASE(
+    "sums of morphed shapes give the scalar backend's bytes, whatever else reads the shapes, the weights, the time") {
+  if (!ready()) return;
+  const OnDevice device;
+  std::mt19937 random(seedOfAll());
+  const auto between = [&random](float low, float high) {
+    return low + (high - low) * static_cast<float>(random() % 1024) / 1023.0f;
+  };
+  static constexpr float kTimes[] = {-0.25f, 0, 1e-6f, 0.25f, 0.5f, 1, 1.5f};
+  constexpr uint32_t kReaders = 5;
+  std::vector<NamedJob> jobs;
+  for (const float time : kTimes) {
+    for (uint32_t reader = 0; reader < kReaders; ++reader) {
+      ProgramBuilder b(512, false, makeLabel(1, 0));
+      const auto sum = b.beginSum();
+      Value t = b.constant(time), kernel, shape;
+      for (uint16_t i = 0; i < 12; ++i) {
+        const Int3 at{static_cast<int32_t>(between(-5000, 5000)), static_cast<int32_t>(between(-5000, 5000)),
+                      static_cast<int32_t>(between(-5000, 5000))};
+        Frame frame;
+        frame.origin = at;
+        const float r = between(1000, 2500);
+        const Value ball = b.sphere(at, r, makeLabel(2, i));
+        shape = b.ternary(Op::morph, ball, b.superquadric(frame, r, 0.5f * r, r, 4, makeLabel(3, i)), t);
+        kernel = b.kernelWeight(shape, 0.6f * r);
+        b.addSum(sum, kernel);
+      }
+      // What has a reader beside the sum cannot become a part of it.
+      if (reader == 1) b.addSum(sum, kernel);
+      if (reader == 2) b.addSum(sum, b.binary(Op::multiply, kernel, kernel));
+      if (reader == 3) b.addSum(sum, b.binary(Op::maximum, t, b.constant(0.01f)));
+      Value root = b.endSum(sum, 0.2263f, 1500);
+      if (reader == 4) root = b.binary(Op::cut, root, b.ternary(Op::mix, shape, root, t));
+      REQUIRE(b.group(root, IntBox::everything(), 0, false));
+      NamedJob& one = jobs.emplace_back();
+      one.job.grid = gridAround({0, 0, 0}, 512);
+      one.job.field = one.job.coarse = shared(b.finish());
+      one.job.seams = 63;
+      one.name = "time " + std::to_string(time) + ", reader " + std::to_string(reader);
+    }
+  }
+  const Seen seen = compare(jobs);
+  CHECK(seen.triangles > 300 * jobs.size());
+  CHECK(device.byCpu() == 0);
+  CHECK(machine().silent());
+}
+
 TEST_CASE("batches of any size give the same bytes, programs of nothing among them") {
   if (!ready()) return;
   std::vector<NamedJob> jobs;

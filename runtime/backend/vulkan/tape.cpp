@@ -37,13 +37,15 @@ uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program, bool l
   if (shape.position && shape.operands == 0 && n.a >= 0) return 1 | kReadsPosition | kChooses;
   uint32_t traits = shape.operands | (shape.position ? kReadsPosition : 0);
   switch (op) {
+    case Op::mix:
+      return n.by_constant ? traits - 1 : traits;
     case Op::round_begin:
     case Op::sum_begin:
       return traits | kBeginsTwo;
     case Op::round_add:
       return traits | kAddsTo | kAddsRound;
     case Op::sum_add:
-      return traits | kAddsTo;
+      return traits | kAddsTo | (n.by_constant ? 3 : 0);
     case Op::round_end:
       return traits | kEndsRound;
     case Op::warp:
@@ -51,8 +53,9 @@ uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program, bool l
     case Op::minimum:
     case Op::maximum:
     case Op::cut:
-    case Op::morph:
       return traits | kChooses;
+    case Op::morph:
+      return (n.by_constant ? traits - 1 : traits) | kChooses;
     default:
       return traits;
   }
@@ -70,7 +73,11 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
   if (is_op) {
     const size_t left = program.params.size() - std::min<size_t>(n.params, program.params.size());
     params = program.params.data() + n.params;
-    count = static_cast<uint32_t>(std::min<size_t>(left == 0 ? 0 : parameterWords(op, params), left));
+    count = static_cast<uint32_t>(std::min<size_t>(left == 0 ? 0
+                                                   : n.kind == static_cast<uint32_t>(Op::sum_add)
+                                                       ? (n.weighs ? 2u : 0u)
+                                                       : parameterWords(op, params),
+                                                   left));
   } else {
     const ProgramGroup& g = program.groups[n.group];
     fold = {static_cast<uint32_t>(g.influence.lo.x),
@@ -87,18 +94,21 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
   uint32_t* record = words.data() + at;
   std::fill(record, record + size_t{pieces} * kTapeRecordWords, 0u);
   const auto slot = [&](int32_t v) {
-    return v < 0 ? 0u : static_cast<uint32_t>(scratch.values[static_cast<size_t>(v)].slot);
+    return v < 0 ? kFarSlot : static_cast<uint32_t>(scratch.values[static_cast<size_t>(v)].slot);
   };
   const OpShape shape = is_op ? shapeOf(op) : OpShape{};
-  const bool unites = shape.position && shape.operands == 0;
   const bool two = n.second >= 0;
   record[0] = n.kind | n.place << 8 | pieces << 16;
   record[1] = (n.kind == static_cast<uint32_t>(Op::warp) ? n.group : slot(n.dst)) | slot(n.a) << 8 |
               (two ? slot(n.second) : slot(n.b)) << 16 | slot(n.c) << 24;
   if (n.ends_layer) record[1] = n.layer;
-  if (unites) record[1] = slot(n.dst) | (n.a < 0 ? kFarSlot : slot(n.a)) << 8 | kFarSlot << 16;
   std::copy_n(params, std::min(count, kFirstWords), record + 2);
   if (count > kFirstWords) std::copy_n(params + kFirstWords, count - kFirstWords, record + kTapeRecordWords);
+  if (n.by_constant) record[2 + record_header::kBy] = std::bit_cast<uint32_t>(n.by);
+  if (n.by_constant || n.weighs) {
+    record[2 + record_header::kHow] =
+        (n.by_constant ? record_header::kByConstant : 0) | (n.weighs ? record_header::kWeighs : 0);
+  }
   if (shape.position) record[30] = std::bit_cast<uint32_t>(static_cast<float>(sizeSum(op, params)));
   return pieces;
 }
@@ -152,6 +162,9 @@ bool appendTape(const ProgramView& program, TapeScratch& scratch, std::pmr::vect
     header[2] = static_cast<uint32_t>(record / kTapeRecordWords);
     header[3] = traitsOf(n, program, n.layer_cuts);
     tape.kinds |= uint64_t{1} << n.kind;
+    if (n.c >= 0 && (n.kind == static_cast<uint32_t>(Op::mix) || n.kind == static_cast<uint32_t>(Op::morph))) {
+      tape.kinds |= kReadsThird;
+    }
     // What pruning may make of it.
     if (n.kind < static_cast<uint32_t>(Op::count) && shapeOf(static_cast<Op>(n.kind)).operands > 1) {
       tape.kinds |= uint64_t{1} << static_cast<uint32_t>(Op::copy);

@@ -31,6 +31,9 @@ enum class TapeOp : uint32_t {
   count
 };
 
+/// Some mix or morph goes by a value, not by a constant.
+inline constexpr uint64_t kReadsThird = uint64_t{1} << 63;
+
 /// Where a program lies in a batch's words.
 struct Tape {
   uint32_t headers = 0;  ///< place in units of four words: one header a record
@@ -38,23 +41,34 @@ struct Tape {
   float initial = kFar;
   uint32_t initial_label = 0;
   float q_scale = 1;
-  uint64_t kinds = 0;  ///< bit by instruction: which of them occur
+  uint64_t kinds = 0;  ///< bit by instruction: which of them occur; and kReadsThird
 };
 
 /// Reused from program to program.
 struct TapeScratch {
   struct Node {
     uint32_t kind = 0, place = 0, params = 0, group = 0, layer = 0, order = 0, stage = 0, step = 0;
-    bool ends_layer = false;  ///< a fold, not of a group: what the layer takes away goes out of the field
-    bool layer_cuts = false;  ///< of a layer's end: something is taken away
+    bool ends_layer = false;   ///< a fold, not of a group: what the layer takes away goes out of the field
+    bool layer_cuts = false;   ///< of a layer's end: something is taken away
+    bool gone = false;         ///< part of another
+    bool weighs = false;       ///< of sum_add: it adds the kernel of its operand; params are the kernel's
+    bool by_constant = false;  ///< of mix and morph: `by` instead of c. Of sum_add: of the morph of a and c by it
+    float by = 0;
     int32_t dst = -1, second = -1, a = -1, b = -1, c = -1;  ///< values; -1: none
   };
   struct Value {
-    uint32_t stage = 0, rank = 0, kind = 0, step = 0, last = 0, uses = 0;
+    uint32_t stage = 0, rank = 0, kind = 0, step = 0, last = 0, uses = 0, maker = 0;
     int32_t slot = -1, renamed = -1;
     bool in_block = false;
   };
   explicit TapeScratch(std::pmr::memory_resource* memory) : nodes(memory), values(memory) {}
+  /// f(number) of each value that n makes or reads.
+  template <class F>
+  static void forEachValue(const Node& n, F&& f) {
+    for (const int32_t v : {n.a, n.b, n.c, n.dst, n.second}) {
+      if (v >= 0) f(static_cast<size_t>(v));
+    }
+  }
   std::pmr::vector<Node> nodes;
   std::pmr::vector<Value> values;
 };

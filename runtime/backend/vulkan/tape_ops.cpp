@@ -1,6 +1,28 @@
 #include "backend/vulkan/tape_ops.h"
 
+#include <array>
+
+#include "backend/vulkan/tape.h"
+
 namespace sgm {
+
+namespace {
+
+constexpr uint32_t kKinds = static_cast<uint32_t>(TapeOp::count);
+
+constexpr std::array<uint32_t, kKinds> makeRanks() {
+  std::array<uint32_t, kKinds> ranks{};
+#include "sweep_ranks.inl"
+  for (uint32_t kind = static_cast<uint32_t>(Op::count); kind < kKinds; ++kind) ranks[kind] = kind;
+  return ranks;
+}
+
+}  // namespace
+
+uint32_t sweepRank(uint32_t kind) {
+  static constexpr std::array<uint32_t, kKinds> kRanks = makeRanks();
+  return kRanks[kind];
+}
 
 OpShape shapeOf(Op op) {
   switch (op) {

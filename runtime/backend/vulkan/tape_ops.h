@@ -1,6 +1,6 @@
 #pragma once
 // What a tape has to know of an op: how many values it reads, whether it reads the position, how many words of
-// parameters.
+// parameters, when a sweep comes to it.
 
 #include <cstdint>
 
@@ -17,6 +17,9 @@ struct OpShape {
 };
 
 OpShape shapeOf(Op op);
+
+/// The turn of a kind of instruction (TapeOp) within a sweep.
+uint32_t sweepRank(uint32_t kind);
 
 /// How many words of parameters an op has, at most. p: its parameters.
 uint32_t parameterWords(Op op, const uint32_t* p);

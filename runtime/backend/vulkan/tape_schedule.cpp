@@ -4,22 +4,12 @@
 #include <array>
 #include <bitset>
 
+#include "backend/vulkan/tape_fuse.h"
 #include "backend/vulkan/tape_ops.h"
 
 namespace sgm {
 
 namespace {
-
-constexpr uint32_t kKinds = static_cast<uint32_t>(TapeOp::count);
-
-/// The turn of each kind within a sweep.
-constexpr std::array<uint32_t, kKinds> makeRanks() {
-  std::array<uint32_t, kKinds> ranks{};
-#include "sweep_ranks.inl"
-  for (uint32_t kind = static_cast<uint32_t>(Op::count); kind < kKinds; ++kind) ranks[kind] = kind;
-  return ranks;
-}
-constexpr std::array<uint32_t, kKinds> kRanks = makeRanks();
 
 // Their words are read as those of a record's beginning (shaders/mesher/tape.glsl).
 constexpr uint32_t kMostOctaves = (kFirstWords - 6) / 2;
@@ -29,7 +19,7 @@ constexpr uint32_t kMostWords = 100 * kTapeRecordWords;
 class Scheduler {
  public:
   Scheduler(const ProgramView& program, TapeScratch& scratch)
-      : program_(program), nodes_(scratch.nodes), values_(scratch.values) {
+      : program_(program), scratch_(scratch), nodes_(scratch.nodes), values_(scratch.values) {
     nodes_.clear();
     values_.clear();
   }
@@ -37,7 +27,7 @@ class Scheduler {
   /// false: too much for a shader.
   bool run() {
     readNodes();
-    uniteShapes();
+    fuseNodes(program_, scratch_);
     if (!fits_ || nodes_.size() > kMostTapeRecords || layers_ > kMostTapeLayers) return false;
     sortBlocks();
     return assignSlots();
@@ -122,67 +112,16 @@ class Scheduler {
     nodes_.push_back(n);
   }
 
-  /// Reads a position and nothing else, in a form that takes a minimum with its operand.
-  static bool isShape(uint32_t kind) {
-    if (kind >= static_cast<uint32_t>(Op::count) || kind == static_cast<uint32_t>(Op::noise)) return false;
-    const OpShape shape = shapeOf(static_cast<Op>(kind));
-    return shape.position && shape.operands == 0;
-  }
-
-  /// A minimum of what shapes before have come to and of the shape just before it goes into that shape, unless others
-  /// want one of the two, or the shape would have to wait for another sweep.
-  void uniteShapes() {
-    for (const Node& n : nodes_) {
-      forEachValue(n, [&](size_t v) { values_[v].uses += 1; });
-      if (n.dst >= 0) values_[static_cast<size_t>(n.dst)].kind = n.kind;
-    }
-    int32_t values = 0;
-    size_t kept = 0;
-    for (size_t i = 0; i < nodes_.size(); ++i) {
-      Node n = nodes_[i];
-      if (n.kind == static_cast<uint32_t>(Op::minimum) && kept > 0) {
-        const TapeScratch::Value &a = values_[static_cast<size_t>(n.a)], &b = values_[static_cast<size_t>(n.b)];
-        Node& shape = nodes_[kept - 1];
-        // Made once and read once.
-        const bool alone = a.uses == 2 && b.uses == 2 && shape.dst == b.renamed && shape.a < 0;
-        if (alone && isShape(shape.kind) && isShape(a.kind) && kRanks[a.kind] <= kRanks[shape.kind]) {
-          shape.a = a.renamed;
-          TapeScratch::Value& made = values_[static_cast<size_t>(n.dst)];
-          made.renamed = shape.dst;
-          made.kind = shape.kind;
-          continue;
-        }
-      }
-      for (int32_t* v : {&n.a, &n.b, &n.c, &n.dst, &n.second}) {
-        if (*v < 0) continue;
-        TapeScratch::Value& value = values_[static_cast<size_t>(*v)];
-        if (value.renamed < 0) value.renamed = values++;
-        *v = value.renamed;
-      }
-      n.order = static_cast<uint32_t>(kept);
-      nodes_[kept++] = n;
-    }
-    nodes_.resize(kept);
-    values_.assign(static_cast<size_t>(values), {});
-  }
-
-  template <class F>
-  static void forEachValue(const Node& n, F&& f) {
-    for (const int32_t v : {n.a, n.b, n.c, n.dst, n.second}) {
-      if (v >= 0) f(static_cast<size_t>(v));
-    }
-  }
-
   /// Blocks are as long as their values surely find slots; a place is made once in a block and not read before.
   void sortBlocks() {
-    for (const Node& n : nodes_) forEachValue(n, [&](size_t v) { values_[v].last = n.order; });
+    for (const Node& n : nodes_) TapeScratch::forEachValue(n, [&](size_t v) { values_[v].last = n.order; });
     for (size_t first = 0; first < nodes_.size();) {
       const size_t last = endOfBlock(first);
       setStages(first, last);
       std::sort(nodes_.begin() + static_cast<std::ptrdiff_t>(first), nodes_.begin() + static_cast<std::ptrdiff_t>(last),
                 [](const Node& a, const Node& b) {
                   if (a.stage != b.stage) return a.stage < b.stage;
-                  if (kRanks[a.kind] != kRanks[b.kind]) return kRanks[a.kind] < kRanks[b.kind];
+                  if (sweepRank(a.kind) != sweepRank(b.kind)) return sweepRank(a.kind) < sweepRank(b.kind);
                   if (a.step != b.step) return a.step < b.step;
                   if (a.kind != b.kind) return a.kind < b.kind;
                   return a.order < b.order;
@@ -223,12 +162,12 @@ class Scheduler {
     uint32_t fold_stage = 0, fold_rank = 0;
     for (size_t i = first; i < last; ++i) {
       Node& n = nodes_[i];
-      const uint32_t rank = kRanks[n.kind];
+      const uint32_t rank = sweepRank(n.kind);
       n.stage = 0;
       const auto after = [&](uint32_t stage, uint32_t other) {
         n.stage = std::max(n.stage, other <= rank ? stage : stage + 1);
       };
-      forEachValue(n, [&](size_t v) {
+      TapeScratch::forEachValue(n, [&](size_t v) {
         if (values_[v].in_block) after(values_[v].stage, values_[v].rank);
       });
       const bool warps = n.kind == static_cast<uint32_t>(Op::warp);
@@ -243,7 +182,7 @@ class Scheduler {
       if (warps) place_stage[n.group] = n.stage + 1;
       // Among those of one turn, which are all ops that join values, the kinds stand together in the same way.
       n.step = 0;
-      forEachValue(n, [&](size_t v) {
+      TapeScratch::forEachValue(n, [&](size_t v) {
         const TapeScratch::Value& read = values_[v];
         if (!read.in_block || read.stage != n.stage || read.rank != rank) return;
         n.step = std::max(n.step, read.kind <= n.kind ? read.step : read.step + 1);
@@ -263,7 +202,7 @@ class Scheduler {
   bool assignSlots() {
     for (TapeScratch::Value& v : values_) v.last = 0;
     for (uint32_t i = 0; i < nodes_.size(); ++i) {
-      forEachValue(nodes_[i], [&](size_t v) { values_[v].last = i; });
+      TapeScratch::forEachValue(nodes_[i], [&](size_t v) { values_[v].last = i; });
     }
     uint64_t free = ~uint64_t{0};
     for (uint32_t i = 0; i < nodes_.size(); ++i) {
@@ -291,6 +230,7 @@ class Scheduler {
   uint64_t bitOf(int32_t value) const { return uint64_t{1} << values_[static_cast<size_t>(value)].slot; }
 
   const ProgramView& program_;
+  TapeScratch& scratch_;
   std::pmr::vector<Node>& nodes_;
   std::pmr::vector<TapeScratch::Value>& values_;
   std::array<int32_t, kMaxRegisters> registers_{};

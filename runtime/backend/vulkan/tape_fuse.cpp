@@ -1,0 +1,123 @@
+#include "backend/vulkan/tape_fuse.h"
+
+#include <bit>
+
+#include "backend/vulkan/tape_ops.h"
+
+namespace sgm {
+
+namespace {
+
+using Node = TapeScratch::Node;
+using Value = TapeScratch::Value;
+
+bool is(const Node& n, Op op) { return n.kind == static_cast<uint32_t>(op); }
+
+class Fuser {
+ public:
+  Fuser(const ProgramView& program, TapeScratch& scratch)
+      : program_(program), nodes_(scratch.nodes), values_(scratch.values) {}
+
+  void run() {
+    count();
+    for (Node& n : nodes_) {
+      takeConstant(n);
+      if (is(n, Op::sum_add)) takeOperand(n);
+    }
+    uniteShapes();
+  }
+
+ private:
+  void count() {
+    for (size_t i = 0; i < nodes_.size(); ++i) {
+      const Node& n = nodes_[i];
+      TapeScratch::forEachValue(n, [&](size_t v) { values_[v].uses += 1; });
+      if (n.dst < 0) continue;
+      Value& made = values_[static_cast<size_t>(n.dst)];
+      if (made.uses == 1) made.maker = static_cast<uint32_t>(i);
+      made.kind = n.kind;
+    }
+  }
+
+  Node& makerOf(int32_t v) { return nodes_[values_[static_cast<size_t>(v)].maker]; }
+  bool readOnce(int32_t v) const { return values_[static_cast<size_t>(v)].uses == 2; }  // made once, too
+
+  /// By what a mix or a morph goes is a constant more often than not: a parameter then.
+  void takeConstant(Node& n) {
+    if (n.c < 0 || is(n, Op::warp) || !is(makerOf(n.c), Op::constant)) return;
+    Node& constant = makerOf(n.c);
+    n.by_constant = true;
+    n.by = std::bit_cast<float>(program_.params[constant.params]);
+    if (readOnce(n.c)) constant.gone = true;
+    values_[static_cast<size_t>(n.c)].uses -= 1;
+    n.c = -1;
+  }
+
+  /// What a sum adds is the weight of a distance as a rule, and that a morph of two shapes in grammars that morph.
+  void takeOperand(Node& n) {
+    if (!is(makerOf(n.a), Op::kernel) || !readOnce(n.a)) return;
+    Node& kernel = makerOf(n.a);
+    n.weighs = true;
+    n.params = kernel.params;
+    n.a = kernel.a;
+    kernel.gone = true;
+    if (!is(makerOf(n.a), Op::morph) || !readOnce(n.a)) return;
+    Node& morph = makerOf(n.a);
+    if (!morph.by_constant) return;
+    n.by_constant = true;
+    n.by = morph.by;
+    n.a = morph.a;
+    n.c = morph.b;
+    morph.gone = true;
+  }
+
+  /// Reads a position and nothing else, in a form that takes a minimum with its operand.
+  static bool isShape(uint32_t kind) {
+    if (kind >= static_cast<uint32_t>(Op::count) || kind == static_cast<uint32_t>(Op::noise)) return false;
+    const OpShape shape = shapeOf(static_cast<Op>(kind));
+    return shape.position && shape.operands == 0;
+  }
+
+  /// A minimum of what shapes before have come to and of the shape just before it goes into that shape, unless others
+  /// want one of the two, or the shape would have to wait for another sweep.
+  void uniteShapes() {
+    int32_t values = 0;
+    size_t kept = 0;
+    for (size_t i = 0; i < nodes_.size(); ++i) {
+      Node n = nodes_[i];
+      if (n.gone) continue;
+      if (is(n, Op::minimum) && kept > 0) {
+        const Value &a = values_[static_cast<size_t>(n.a)], &b = values_[static_cast<size_t>(n.b)];
+        Node& shape = nodes_[kept - 1];
+        const bool alone = readOnce(n.a) && readOnce(n.b) && shape.dst == b.renamed && shape.a < 0;
+        if (alone && isShape(shape.kind) && isShape(a.kind) && sweepRank(a.kind) <= sweepRank(shape.kind)) {
+          shape.a = a.renamed;
+          Value& made = values_[static_cast<size_t>(n.dst)];
+          made.renamed = shape.dst;
+          made.kind = shape.kind;
+          continue;
+        }
+      }
+      for (int32_t* v : {&n.a, &n.b, &n.c, &n.dst, &n.second}) {
+        if (*v < 0) continue;
+        Value& value = values_[static_cast<size_t>(*v)];
+        if (value.renamed < 0) value.renamed = values++;
+        *v = value.renamed;
+      }
+      n.order = static_cast<uint32_t>(kept);
+      nodes_[kept++] = n;
+    }
+    nodes_.resize(kept);
+    values_.assign(static_cast<size_t>(values), {});
+  }
+
+  const ProgramView& program_;
+  std::pmr::vector<Node>& nodes_;
+  std::pmr::vector<Value>& values_;
+};
+
+}  // namespace
+
+void fuseNodes(const ProgramView& program, TapeScratch& scratch) { Fuser(program, scratch).run(); }
+
+}  // namespace sgm
