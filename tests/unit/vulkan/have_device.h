@@ -1,9 +1,6 @@
 #pragma once
 // Whether this machine has a device to test on.
 
-#include <dlfcn.h>
-#include <link.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -11,6 +8,7 @@
 
 #include "backend/vulkan/device.h"
 #include "catch.h"
+#include "keep_libraries.h"
 
 namespace sgm::vulkan {
 
@@ -20,17 +18,6 @@ inline OwnDevice watched(std::shared_ptr<MessageLog> log = std::make_shared<Mess
   options.validation = Validation::synchronization;
   options.log = std::move(log);
   return options;
-}
-
-/// Keeps every library that is loaded now in memory to the end: drivers and layers leave allocations behind when they
-/// are unloaded, which a leak checker could not tell from ours.
-inline void keepLibraries() {
-  dl_iterate_phdr(
-      [](dl_phdr_info* info, size_t, void*) {
-        if (info->dlpi_name && *info->dlpi_name) dlopen(info->dlpi_name, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
-        return 0;
-      },
-      nullptr);
 }
 
 /// false, after saying so, where this machine has no usable Vulkan device; an error where the tests must not be
