@@ -61,7 +61,7 @@ struct Item {
   enum State : uint32_t { mixed, solid, empty };
   uint32_t state;
   uint32_t program;
-  uint32_t pruned;  ///< 0: found no room, or is uniform. The program as a whole holds everywhere
+  uint32_t pruned;  ///< 0: found no room, or is not sampled. The program as a whole holds everywhere
   uint32_t first_instr, instrs, first_group, groups;  ///< where pruned
   float initial;
   uint32_t initial_label;

@@ -61,7 +61,7 @@ SGM_KERNEL float sumOfSizes(Params P, int first, int last) {
   return sum;
 }
 
-/// field/interval.h, sizeSum: with a thousandth more, as what it is widened by is itself rounded.
+/// field/interval.h, sizeSum. That it is rounded itself, positionBounds makes good.
 SGM_KERNEL float sizesOf(Op op, Params P) {
   switch (op) {
     case Op::sphere:

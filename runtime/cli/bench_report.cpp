@@ -26,38 +26,37 @@ struct Figures {
   std::optional<double> efficiency;
 };
 
-Figures figuresOf(const StageResult& result, std::span<const Contender> contenders, size_t i) {
+Figures figuresOf(const StageResult& result, const StageRow& row) {
   Figures figures;
-  figures.seconds = result.times[i].median();
-  figures.speedup = speedup(result.times[0].median(), figures.seconds);
+  figures.seconds = row.median();
+  figures.speedup = speedup(result.rows[0].median(), figures.seconds);
   figures.throughput = throughput(static_cast<double>(result.operations), figures.seconds);
-  if (contenders[i].workers > 0) figures.efficiency = efficiency(figures.speedup, contenders[i].workers);
+  if (row.workers > 0) figures.efficiency = efficiency(figures.speedup, row.workers);
   return figures;
 }
 
 std::string hexHash(const StageResult& result) { return fmt::format("{:016x}", result.hash.value()); }
 
-Json rowJson(const StageResult& result, std::span<const Contender> contenders, size_t i) {
-  const Contender& contender = contenders[i];
-  Json row{{"name", contender.name}, {"measured", contender.backend != nullptr}};
-  if (contender.backend == nullptr) {
-    row["reason"] = contender.reason;
-    return row;
+Json rowJson(const StageResult& result, const StageRow& row) {
+  Json json{{"name", row.name}, {"measured", row.measured()}};
+  if (!row.measured()) {
+    json["reason"] = row.reason;
+    return json;
   }
-  const Figures figures = figuresOf(result, contenders, i);
-  row.update({{"device", contender.device},
-              {"workers", contender.workers > 0 ? Json(contender.workers) : Json()},
-              {"first_seconds", result.times[i].first},
-              {"seconds", figures.seconds},
-              {"run_seconds", result.times[i].seconds},
-              {"speedup", figures.speedup},
-              {"efficiency", figures.efficiency ? Json(*figures.efficiency) : Json()},
-              {"operations_per_second", figures.throughput},
-              {"chunks_on_cpu", result.times[i].on_cpu},
-              {"triangles", result.triangles},
-              {"hash", hexHash(result)}});
-  if (!figures.efficiency) row["no_efficiency"] = kNoWorkers;
-  return row;
+  const Figures figures = figuresOf(result, row);
+  json.update({{"device", row.device},
+               {"workers", row.workers > 0 ? Json(row.workers) : Json()},
+               {"first_seconds", row.first},
+               {"seconds", figures.seconds},
+               {"run_seconds", row.seconds},
+               {"speedup", figures.speedup},
+               {"efficiency", figures.efficiency ? Json(*figures.efficiency) : Json()},
+               {"operations_per_second", figures.throughput},
+               {"chunks_on_cpu", row.on_cpu},
+               {"triangles", result.triangles},
+               {"hash", hexHash(result)}});
+  if (!figures.efficiency) json["no_efficiency"] = kNoWorkers;
+  return json;
 }
 
 Json paperJson(const PaperStage& paper) {
@@ -68,20 +67,19 @@ Json paperJson(const PaperStage& paper) {
           {"efficiency", efficiency(paper.speedup(), kPaperWorkers)}};
 }
 
-void printRow(const BenchOptions& options, const StageResult& result, std::span<const Contender> contenders, size_t i) {
-  const Contender& contender = contenders[i];
-  if (contender.backend == nullptr) {
-    fmt::print("  {:<17}not measured: {}\n", contender.name, contender.reason);
+void printRow(const BenchOptions& options, const StageResult& result, const StageRow& row) {
+  if (!row.measured()) {
+    fmt::print("  {:<17}not measured: {}\n", row.name, row.reason);
     return;
   }
-  const Figures figures = figuresOf(result, contenders, i);
-  fmt::print("  {:<17}{:>7}{:>10.4f}{:>10.4f}{:>9.2f}{:>12}{:>9.3f}{:>12}  {}\n", contender.name,
-             contender.workers > 0 ? fmt::format("{}", contender.workers) : "-", result.times[i].first, figures.seconds,
-             figures.speedup, figures.efficiency ? fmt::format("{:.3f}", *figures.efficiency) : "-",
-             figures.throughput / 1e9, result.triangles, hexHash(result));
-  if (const uint64_t on_cpu = result.times[i].on_cpu; on_cpu > 0) {
-    fmt::print("  {:<17}left {} of {} chunks in all runs to the CPU: too large for it, or it has failed\n", "", on_cpu,
-               (options.runs + 1) * result.chunks);
+  const Figures figures = figuresOf(result, row);
+  fmt::print("  {:<17}{:>7}{:>10.4f}{:>10.4f}{:>9.2f}{:>12}{:>9.3f}{:>12}  {}\n", row.name,
+             row.workers > 0 ? fmt::format("{}", row.workers) : "-", row.first, figures.seconds, figures.speedup,
+             figures.efficiency ? fmt::format("{:.3f}", *figures.efficiency) : "-", figures.throughput / 1e9,
+             result.triangles, hexHash(result));
+  if (row.on_cpu > 0) {
+    fmt::print("  {:<17}left {} of {} chunks in all runs to the CPU: too large for it, or it has failed\n", "",
+               row.on_cpu, (options.runs + 1) * result.chunks);
   }
 }
 
@@ -91,26 +89,25 @@ void printPaper(const PaperStage& paper) {
              paper.parallel, paper.speedup(), paper.efficiency, efficiency(paper.speedup(), kPaperWorkers));
 }
 
-void printStage(const BenchOptions& options, const StageResult& result, const PaperStage& paper,
-                std::span<const Contender> contenders) {
+void printStage(const BenchOptions& options, const StageResult& result, const PaperStage& paper) {
   const StageModel& model = *result.model;
   fmt::print("\n{}: {} m of {} with the seed {}, cells of {} m: {} chunks, {:.1f} million field operations\n",
              model.name, model.edge, model.file, model.seed, metres(result.cell), result.chunks,
              static_cast<double>(result.operations) / 1e6);
   fmt::print("  {:<17}{:>7}{:>10}{:>10}{:>9}{:>12}{:>9}{:>12}  {}\n", "", "workers", "first, s", "median, s", "speedup",
              "efficiency", "Gop/s", "triangles", "hash");
-  for (size_t i = 0; i < contenders.size(); ++i) printRow(options, result, contenders, i);
+  for (const StageRow& row : result.rows) printRow(options, result, row);
   printPaper(paper);
 }
 
 }  // namespace
 
-Json toJson(const BenchOptions& options, std::span<const Contender> contenders, std::span<const StageResult> results) {
+Json toJson(const BenchOptions& options, std::span<const StageResult> results) {
   Json stages = Json::array();
   for (size_t s = 0; s < results.size(); ++s) {
     const StageResult& result = results[s];
     Json rows = Json::array();
-    for (size_t i = 0; i < contenders.size(); ++i) rows.push_back(rowJson(result, contenders, i));
+    for (const StageRow& row : result.rows) rows.push_back(rowJson(result, row));
     stages.push_back({{"stage", result.model->name},
                       {"grammar", result.model->file},
                       {"seed", result.model->seed},
@@ -133,11 +130,11 @@ Json toJson(const BenchOptions& options, std::span<const Contender> contenders, 
             {"inconsistencies", paperInconsistencies()}}}};
 }
 
-void print(const BenchOptions& options, std::span<const Contender> contenders, std::span<const StageResult> results) {
+void print(const BenchOptions& options, std::span<const StageResult> results) {
   fmt::print("Tables 1 to 3 of the paper: medians of {} warm run{}\n", options.runs, options.runs == 1 ? "" : "s");
-  for (const Contender& contender : contenders)
-    if (contender.backend != nullptr) fmt::print("  {:<17}{}\n", contender.name, contender.device);
-  for (size_t s = 0; s < results.size(); ++s) printStage(options, results[s], kPaperStages[s], contenders);
+  for (const StageRow& row : results.front().rows)
+    if (row.measured()) fmt::print("  {:<17}{}\n", row.name, row.device);
+  for (size_t s = 0; s < results.size(); ++s) printStage(options, results[s], kPaperStages[s]);
   fmt::print("\nthroughput of the paper, one figure for all stages: {} Gflop/s sequential, {} parallel\n",
              kPaperSequentialThroughput, kPaperParallelThroughput);
   fmt::print("\nTimes:      {}.\nOperations: {}.\n", kMeasured, kCounted);

@@ -9,8 +9,8 @@
 
 namespace sgm::cli {
 
-/// results: one a stage, in the order of kPaperStages; the first contender is the sequential one, and measured.
-Json toJson(const BenchOptions& options, std::span<const Contender> contenders, std::span<const StageResult> results);
-void print(const BenchOptions& options, std::span<const Contender> contenders, std::span<const StageResult> results);
+/// results: one a stage, in the order of kPaperStages; the first row is the sequential one, and measured.
+Json toJson(const BenchOptions& options, std::span<const StageResult> results);
+void print(const BenchOptions& options, std::span<const StageResult> results);
 
 }  // namespace sgm::cli

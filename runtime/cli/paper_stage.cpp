@@ -113,7 +113,7 @@ std::span<const StageModel> stageModels() {
   return kModels;
 }
 
-double StageTimes::median() const {
+double StageRow::median() const {
   std::vector<double> sorted = seconds;
   std::sort(sorted.begin(), sorted.end());
   const size_t half = sorted.size() / 2;
@@ -127,7 +127,13 @@ Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t
   StageResult result;
   result.model = &model;
   result.cell = cell;
-  result.times.resize(contenders.size());
+  for (const Contender& contender : contenders) {
+    StageRow& row = result.rows.emplace_back();
+    row.name = contender.name;
+    row.device = contender.device;
+    row.reason = contender.reason;
+    row.workers = contender.workers;
+  }
   // Each has a world of its own, and derives it in its first run.
   std::deque<WorldField> worlds;
   for (size_t i = 0; i < contenders.size(); ++i) worlds.emplace_back(scene->settings, std::pmr::new_delete_resource());
@@ -151,11 +157,11 @@ Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t
                                  outcomeOf(contenders[*first], expected), outcomeOf(contender, *made))};
       }
       last = i;
-      result.times[i].on_cpu += contender.backend->counters().on_cpu - on_cpu;
+      result.rows[i].on_cpu += contender.backend->counters().on_cpu - on_cpu;
       if (run == 0) {
-        result.times[i].first = made->seconds;
+        result.rows[i].first = made->seconds;
       } else {
-        result.times[i].seconds.push_back(made->seconds);
+        result.rows[i].seconds.push_back(made->seconds);
       }
       step();
     }

@@ -36,12 +36,16 @@ struct Contender {
   std::shared_ptr<Backend> backend;  ///< null where it is not measured
 };
 
-struct StageTimes {
+/// What a stage took one of them.
+struct StageRow {
+  std::string name, device, reason;  ///< as Contender's
+  unsigned workers = 0;
   double first = 0;             ///< seconds of the run before the others: it derives, and makes a device ready
   std::vector<double> seconds;  ///< by run after that one; none where it is not measured
   uint64_t on_cpu = 0;          ///< chunks of all runs that a device left to the CPU
 
-  /// Precondition: there are runs.
+  bool measured() const { return !seconds.empty(); }
+  /// Precondition: measured.
   double median() const;
 };
 
@@ -53,8 +57,8 @@ struct StageResult {
   /// Instructions of field programs, times the samples and vertices at which they are evaluated once the programs are
   /// pruned to bricks. Counted in a run of its own, by the scalar evaluator.
   uint64_t operations = 0;
-  ContentHash hash;               ///< of the set of chunk meshes, the same in every run of every contender
-  std::vector<StageTimes> times;  ///< by contender
+  ContentHash hash;            ///< of the set of chunk meshes, the same in every run of every contender
+  std::vector<StageRow> rows;  ///< by contender
 };
 
 /// Generates the stage once with each contender, and then so many times with all of them in turn: from derived cells

@@ -59,6 +59,7 @@ class ProgramBuilder {
   Value smoothstep(Value x, float lower, float upper);  ///< lower != upper; falls where upper < lower
 
   /// Round union and compact-kernel sum over any number of operands: begin, add each, end.
+  /// Read by what adds to it and ends it, and by nothing else.
   struct Accumulator {
     Value nearest, sum;
     float k = 0;

@@ -34,7 +34,7 @@ class PruneScratch {
     Interval value;
     bool met, whole, live;
   };
-  std::pmr::vector<Interval> marks;  ///< by instr: what decides whether it stays (prune.cpp)
+  std::pmr::vector<Interval> marks;  ///< by instr: what decides whether it stays (prune_kernel.inl)
   std::pmr::vector<GroupBounds> bounds;
   std::pmr::vector<Instr> reversed;
 };

@@ -130,8 +130,8 @@ void main() {
 #define READ_JOINED                                   \
   const Dual a = readSlot(ra), b = readSlot(rb);      \
   Dual c = nothing(), made = a;                       \
-  c.v = PF(P, kBy);                                   \
-  if (kHasThird) c = selDual(GOES_BY_CONSTANT(P), c, readSlot(rc));
+  c.v = PF(P, kByWord);                               \
+  if (kHasThird) c = selDual(HOW(P, kHowByConstant), c, readSlot(rc));
 #define WRITE_JOINED writeSlot(dst, made);
 #define FORM_UNARY(F) made = F(a);
 #define FORM_UNARY_P(F) made = F(a, P);

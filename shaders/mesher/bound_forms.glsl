@@ -1,4 +1,4 @@
-// Bounds flow through a program, one box of positions an invocation: the forms of sweep.glsl for them (field/prune.cpp).
+// Bounds flow through a program, one box of positions an invocation: the forms of sweep.glsl for them (field/prune_kernel.inl).
 // Needs the box lo..hi, the field and what its layers add and take away (field, adds, cuts, add_high, cut_high); MARK and
 // MARK_WHOLE take what decides whether the current record stays, MARK_LAYER what decides it in a layer.
 
@@ -16,11 +16,15 @@ void setSlot(uint slot, Bounds b) {
 
 // As addend() of addend.glsl.
 Bounds addendBounds(Bounds a, Bounds b, uint P) {
-  const uint how = PU(P, kHow);
-  const Bounds by = makeBounds(PF(P, kBy), PF(P, kBy));
-  if ((how & kByConstant) != 0u) a = operandBounds(kOp_morph, a, b, by, 0.0f, 0.0f);
-  const Bounds weight = operandBounds(kOp_kernel, a, a, a, PF(P, 0), PF(P, 1));
-  if ((how & kWeighs) != 0u) a = weight;
+  if ((kKindsHigh & kSomeMorphs) != 0u) {
+    const Bounds by = makeBounds(PF(P, kByWord), PF(P, kByWord));
+    const Bounds morphed = operandBounds(kOp_morph, a, b, by, 0.0f, 0.0f);
+    if (HOW(P, kHowMorphs)) a = morphed;
+  }
+  if ((kKindsHigh & kSomeWeighs) != 0u) {
+    const Bounds weight = operandBounds(kOp_kernel, a, a, a, PF(P, 0), PF(P, 1));
+    if (HOW(P, kHowWeighs)) a = weight;
+  }
   return a;
 }
 
@@ -58,8 +62,8 @@ Bounds addendBounds(Bounds a, Bounds b, uint P) {
 #define FORM_TERNARY(F)                                                       \
   {                                                                           \
     Bounds a = slotBounds(ra), b = slotBounds(rb);                            \
-    Bounds c = makeBounds(PF(P, kBy), PF(P, kBy));                            \
-    if (!GOES_BY_CONSTANT(P)) c = slotBounds(rc);                             \
+    Bounds c = makeBounds(PF(P, kByWord), PF(P, kByWord));                    \
+    if (!HOW(P, kHowByConstant)) c = slotBounds(rc);                             \
     Bounds r = operandBounds(number, a, b, c, 0.0f, 0.0f);                    \
     uint choice = kKept;                                                      \
     if (number == kOp_morph) {                                                \

@@ -35,6 +35,12 @@ float nearest_high[64];     // by slot: of a round union that ends
   layer_replaced[layer] = replaces ? 1.0f : 0.0f;
 #include "mesher/bound_forms.glsl"
 
+// The far slot has none: it is there without being made.
+uvec2 bitOf(uint slot) {
+  const uint bit = 1u << (slot & 31u);
+  return uvec2(slot < 32u ? bit : 0u, slot >= 32u && slot < kFarSlot ? bit : 0u);
+}
+
 // Records from..end of the program into the window; returns the first that found no room.
 uint fillWindow(uint headers, uint from, uint end) {
   const uint lane = gl_SubgroupInvocationID & 7u;
@@ -102,7 +108,8 @@ void main() {
   const bool solid = field.hi * scale < -0.55f, empty = field.lo * scale > -0.45f;
   const uint list_end = batch[job + kJobLists] + (which + 1u) * records;
   uint begin = list_end;
-  uint live_low = 0u, live_high = 0u, live_places = 0u;
+  uvec2 live = uvec2(0u);  // slots
+  uint live_places = 0u;
   bool below = false, replaced = false;  // what lies below a layer that covers all never shows
   float limit_add = 0.0f, limit_cut = 0.0f, limit_joined = 0.0f;
   const bool listed = used && (!bricks || !(solid || empty));
@@ -130,9 +137,9 @@ void main() {
         limit_joined = layer_joined[layer];
         replaced = layer_replaced[layer] > 0.0f;
       }
-      const bool writes = (traits & (kBeginsTwo | kAddsTo)) == 0u;
-      const bool dst_live = ((traits & kMakesPlace) != 0u ? live_places >> dst
-                             : dst < 32u ? live_low >> dst : live_high >> (dst - 32u)) % 2u == 1u;
+      const uvec2 made = bitOf(dst), second = bitOf(rb);
+      const bool dst_live =
+          (traits & kMakesPlace) != 0u ? (live_places >> dst & 1u) != 0u : (live & made) != uvec2(0u);
       bool keep = is_op && dst_live;
       uint choice = kKept;
       bool emit = keep;
@@ -155,15 +162,9 @@ void main() {
       }
 
       // What it makes is not wanted any more, what it reads is.
-      const uint dst_low = dst < 32u ? 1u << dst : 0u, dst_high = dst >= 32u ? 1u << (dst - 32u) : 0u;
-      const uint two_low = rb < 32u ? 1u << rb : 0u, two_high = rb >= 32u ? 1u << (rb & 31u) : 0u;
       if (keep && is_op && (traits & (kAddsTo | kMakesPlace)) == 0u) {
-        live_low &= ~dst_low;
-        live_high &= ~dst_high;
-        if ((traits & kBeginsTwo) != 0u) {
-          live_low &= ~two_low;
-          live_high &= ~two_high;
-        }
+        live &= ~made;
+        if ((traits & kBeginsTwo) != 0u) live &= ~second;
       }
       if (keep && (traits & kMakesPlace) != 0u) live_places &= ~(1u << dst);
       const uint operands = traits & kOperands;
@@ -171,9 +172,9 @@ void main() {
       const bool read_a = keep && operands > 0u && !(chooses && choice == kSecondAlone);
       const bool read_b = keep && (operands > 1u || (traits & kAddsTo) != 0u) && !(chooses && choice == kFirstAlone);
       const bool read_c = keep && operands > 2u && !chooses;
-      live_low |= (read_a && ra < 32u ? 1u << ra : 0u) | (read_b ? two_low : 0u) | (read_c && rc < 32u ? 1u << rc : 0u);
-      live_high |= (read_a && ra >= 32u ? 1u << (ra - 32u) : 0u) | (read_b ? two_high : 0u) |
-                   (read_c && rc >= 32u ? 1u << (rc - 32u) : 0u);
+      if (read_a) live |= bitOf(ra);
+      if (read_b) live |= second;
+      if (read_c) live |= bitOf(rc);
       const bool at_place = (traits & (kReadsPosition | kMakesPlace)) != 0u && !(chooses && choice == kFirstAlone);
       if (keep && at_place) live_places |= 1u << place;
       if (emit && listed) {

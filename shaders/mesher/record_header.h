@@ -1,7 +1,7 @@
-// What a header says of its record, as GLSL and as C++ (backend/vulkan/tape.cpp).
+// What headers and records of a tape mean, as GLSL and as C++ (backend/vulkan/tape.cpp).
 
 // A header of a record (one vector: its first two words, its place in units of 32 words, and what it is).
-const uint kOperands = 3u;        // bits 0, 1: how many slots it reads
+const uint kOperands = 3u;        // bits 0, 1: the number of its last operand
 const uint kReadsPosition = 4u;
 const uint kBeginsTwo = 8u;       // makes two values
 const uint kAddsTo = 16u;         // adds to two values
@@ -14,8 +14,14 @@ const uint kIsFold = 1024u;
 const uint kIsSmooth = 2048u;
 const uint kIsLayerEnd = 4096u;
 
-// Of the parameters of a mix, a morph and what is added to a sum.
-const uint kBy = 2u;          // the constant that it goes by
-const uint kHow = 3u;         // bits:
-const uint kByConstant = 1u;  // a mix, a morph: by that, not by its third operand. A sum: adds the morph by it
-const uint kWeighs = 2u;      // a sum: adds the kernel of its operand
+// Parameters of a mix, of a morph and of what is added to a sum, whose own are fewer: words,
+const uint kByWord = 2u;   // the constant that a mix or a morph goes by, or the morph that is added
+const uint kHowWord = 3u;  // bits:
+const uint kHowByConstant = 1u;  // of a mix or a morph: by that, not by its third operand
+const uint kHowMorphs = 2u;      // of a sum: it adds the morph of its first and third operand, or,
+const uint kHowWeighs = 4u;      // after that, a kernel
+
+// Kinds, beside those of instructions, bits of the upper word.
+const uint kSomeReadsThird = 0x80000000u;  // some mix or morph goes by a value
+const uint kSomeMorphs = 0x40000000u;      // some sum adds morphs,
+const uint kSomeWeighs = 0x20000000u;      // or kernels

@@ -113,8 +113,8 @@ void main() {
 #define FORM_POSITION_1(F) EACH(SLOT(dst) = F(PX, PY, PZ, READ(ra), P).v;)
 #define READ_JOINED                                                                                    \
   float a[kEach], b[kEach], c[kEach], made[kEach];                                                     \
-  EACH(a[s] = SLOT(ra); b[s] = SLOT(rb); c[s] = PF(P, kBy); made[s] = a[s];                              \
-       if (kHasThird) c[s] = GOES_BY_CONSTANT(P) ? c[s] : SLOT(rc);)
+  EACH(a[s] = SLOT(ra); b[s] = SLOT(rb); c[s] = PF(P, kByWord); made[s] = a[s];                          \
+       if (kHasThird) c[s] = HOW(P, kHowByConstant) ? c[s] : SLOT(rc);)
 #define WRITE_JOINED EACH(SLOT(dst) = made[s];)
 #define FORM_UNARY(F) EACH(made[s] = F(valueOf(a[s])).v;)
 #define FORM_UNARY_P(F) EACH(made[s] = F(valueOf(a[s]), P).v;)

@@ -31,8 +31,8 @@ uint farWord(uint i) {
 layout(constant_id = 1) const uint kKindsLow = 0xFFFFFFFFu;
 layout(constant_id = 2) const uint kKindsHigh = 0xFFFFFFFFu;
 #define OCCURS(NUMBER) ((((NUMBER) < 32u ? kKindsLow >> ((NUMBER) & 31u) : kKindsHigh >> ((NUMBER) & 31u)) & 1u) != 0u)
-#define kHasThird (kKindsHigh >> 31 != 0u)  // operands, of a mix or a morph
-#define GOES_BY_CONSTANT(P) ((PU(P, kHow) & kByConstant) != 0u)
+#define kHasThird ((kKindsHigh & kSomeReadsThird) != 0u)
+#define HOW(P, BIT) ((PU(P, kHowWord) & (BIT)) != 0u)
 
 #define PU(P, i) wordOfRecord(uint(i) + 2u)
 #define QU(P, i) wordOfRecord(uint(i) + 2u)

@@ -56,7 +56,7 @@ class Kernels {
   Kernels(const Kernels&) = delete;
   Kernels& operator=(const Kernels&) = delete;
 
-  /// Those that know these kinds (bit by instruction); makes what is missing, which may take seconds. Errors: as
+  /// Those that know these kinds (Tape::kinds); makes what is missing, which may take seconds. Errors: as
   /// Pipeline::create. Throws std::bad_alloc.
   Result<Pipelines> get(uint64_t kinds);
   /// Whether get() would give them at once. Where not, a thread of its own makes them. Where there is no thread to be

@@ -19,33 +19,28 @@ using uint = uint32_t;
 
 }  // namespace record_header
 
+bool is(const TapeScratch::Node& n, Op op) { return n.kind == static_cast<uint32_t>(op); }
+
 /// What a header says of its record.
-uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program, bool layer_cuts) {
+uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program) {
   using namespace record_header;
-  const bool cut = n.kind >= static_cast<uint32_t>(Op::count) && program.groups[n.group].cut;
-  switch (n.kind) {
-    case static_cast<uint32_t>(TapeOp::fold):
-      if (n.ends_layer) return kIsLayerEnd | (layer_cuts ? kCuts : 0);
-      return kIsFold | 1 | (cut ? kCuts : 0);
-    case static_cast<uint32_t>(TapeOp::smooth):
-      return kIsSmooth | 1 | (cut ? kCuts : 0);
-    default:
-      break;
+  const uint32_t operands = n.c >= 0 ? 3 : n.b >= 0 ? 2 : n.a >= 0 ? 1 : 0;
+  if (n.kind >= static_cast<uint32_t>(Op::count)) {
+    if (n.ends_layer) return kIsLayerEnd | (n.layer_cuts ? kCuts : 0);
+    const bool smooth = n.kind == static_cast<uint32_t>(TapeOp::smooth);
+    return operands | (smooth ? kIsSmooth : kIsFold) | (program.groups[n.group].cut ? kCuts : 0);
   }
   const auto op = static_cast<Op>(n.kind);
   const OpShape shape = shapeOf(op);
-  if (shape.position && shape.operands == 0 && n.a >= 0) return 1 | kReadsPosition | kChooses;
-  uint32_t traits = shape.operands | (shape.position ? kReadsPosition : 0);
+  const uint32_t traits = operands | (shape.position ? kReadsPosition : 0);
   switch (op) {
-    case Op::mix:
-      return n.by_constant ? traits - 1 : traits;
     case Op::round_begin:
     case Op::sum_begin:
       return traits | kBeginsTwo;
     case Op::round_add:
       return traits | kAddsTo | kAddsRound;
     case Op::sum_add:
-      return traits | kAddsTo | (n.by_constant ? 3 : 0);
+      return traits | kAddsTo;
     case Op::round_end:
       return traits | kEndsRound;
     case Op::warp:
@@ -53,12 +48,35 @@ uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program, bool l
     case Op::minimum:
     case Op::maximum:
     case Op::cut:
-      return traits | kChooses;
     case Op::morph:
-      return (n.by_constant ? traits - 1 : traits) | kChooses;
+      return traits | kChooses;
     default:
-      return traits;
+      return traits | (shape.position && shape.operands == 0 && n.a >= 0 ? kChooses : 0);
   }
+}
+
+/// Words of parameters of its own, at most.
+uint32_t wordsOf(const TapeScratch::Node& n, const uint32_t* params) {
+  return parameterWords(n.weighs ? Op::kernel : static_cast<Op>(n.kind), params);
+}
+
+/// How a mix or a morph goes, and what a sum adds; 0 of others.
+uint32_t howOf(const TapeScratch::Node& n) {
+  using namespace record_header;
+  return (n.by_constant ? kHowByConstant : 0) | (n.morphs ? kHowMorphs : 0) | (n.weighs ? kHowWeighs : 0);
+}
+
+/// The bits of Tape::kinds.
+uint64_t kindsOf(const TapeScratch::Node& n) {
+  using namespace record_header;
+  static_assert(static_cast<uint32_t>(TapeOp::count) <= 61, "the last three bits are others");
+  const bool joins = is(n, Op::mix) || is(n, Op::morph);
+  const uint32_t others =
+      (joins && !n.by_constant ? kSomeReadsThird : 0) | (n.morphs ? kSomeMorphs : 0) | (n.weighs ? kSomeWeighs : 0);
+  // What pruning may make of it.
+  const bool may_copy = n.kind < static_cast<uint32_t>(Op::count) && shapeOf(static_cast<Op>(n.kind)).operands > 1;
+  return uint64_t{1} << n.kind | uint64_t{others} << 32 |
+         (may_copy ? uint64_t{1} << static_cast<uint32_t>(Op::copy) : 0);
 }
 
 /// Writes one record, 32 words and more, and returns how many times 32 words it has.
@@ -73,11 +91,7 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
   if (is_op) {
     const size_t left = program.params.size() - std::min<size_t>(n.params, program.params.size());
     params = program.params.data() + n.params;
-    count = static_cast<uint32_t>(std::min<size_t>(left == 0 ? 0
-                                                   : n.kind == static_cast<uint32_t>(Op::sum_add)
-                                                       ? (n.weighs ? 2u : 0u)
-                                                       : parameterWords(op, params),
-                                                   left));
+    count = static_cast<uint32_t>(std::min<size_t>(left == 0 ? 0 : wordsOf(n, params), left));
   } else {
     const ProgramGroup& g = program.groups[n.group];
     fold = {static_cast<uint32_t>(g.influence.lo.x),
@@ -104,10 +118,9 @@ uint32_t writeRecord(const ProgramView& program, const TapeScratch& scratch, con
   if (n.ends_layer) record[1] = n.layer;
   std::copy_n(params, std::min(count, kFirstWords), record + 2);
   if (count > kFirstWords) std::copy_n(params + kFirstWords, count - kFirstWords, record + kTapeRecordWords);
-  if (n.by_constant) record[2 + record_header::kBy] = std::bit_cast<uint32_t>(n.by);
-  if (n.by_constant || n.weighs) {
-    record[2 + record_header::kHow] =
-        (n.by_constant ? record_header::kByConstant : 0) | (n.weighs ? record_header::kWeighs : 0);
+  if (const uint32_t how = howOf(n); how != 0) {
+    record[2 + record_header::kByWord] = std::bit_cast<uint32_t>(n.by);
+    record[2 + record_header::kHowWord] = how;
   }
   if (shape.position) record[30] = std::bit_cast<uint32_t>(static_cast<float>(sizeSum(op, params)));
   return pieces;
@@ -160,15 +173,8 @@ bool appendTape(const ProgramView& program, TapeScratch& scratch, std::pmr::vect
     header[0] = words[record];
     header[1] = words[record + 1];
     header[2] = static_cast<uint32_t>(record / kTapeRecordWords);
-    header[3] = traitsOf(n, program, n.layer_cuts);
-    tape.kinds |= uint64_t{1} << n.kind;
-    if (n.c >= 0 && (n.kind == static_cast<uint32_t>(Op::mix) || n.kind == static_cast<uint32_t>(Op::morph))) {
-      tape.kinds |= kReadsThird;
-    }
-    // What pruning may make of it.
-    if (n.kind < static_cast<uint32_t>(Op::count) && shapeOf(static_cast<Op>(n.kind)).operands > 1) {
-      tape.kinds |= uint64_t{1} << static_cast<uint32_t>(Op::copy);
-    }
+    header[3] = traitsOf(n, program);
+    tape.kinds |= kindsOf(n);
   }
   return true;
 }

@@ -7,7 +7,8 @@
 // together, those first that others read; ops that only join values count as one kind first, and are then sorted among
 // themselves. Values live in slots, each written once and read any number of times before its slot is used again. The
 // folds of groups (field/program.h) are instructions too, and keep their order. A union of primitives is no instruction
-// of its own: each takes the minimum of itself and its operand, which is far for the first.
+// of its own: each takes the minimum of itself and its operand, which is far for the first. Nor is what a mix or a
+// morph goes by where that is constant, nor the weight that a sum adds (tape_fuse.h).
 
 #include <cstdint>
 #include <memory_resource>
@@ -18,7 +19,8 @@
 namespace sgm {
 
 inline constexpr uint32_t kTapeSlots = 64;
-inline constexpr uint32_t kFarSlot = kTapeSlots;  ///< never written: farther than anything
+inline constexpr uint32_t kFarSlot =
+    kTapeSlots;  ///< never written: farther than anything; stands where an instruction has no operand
 inline constexpr uint32_t kTapeRecordWords = 32;
 inline constexpr uint32_t kMostTapeRecords = 1024;
 inline constexpr uint32_t kMostTapeLayers = 64;
@@ -31,9 +33,6 @@ enum class TapeOp : uint32_t {
   count
 };
 
-/// Some mix or morph goes by a value, not by a constant.
-inline constexpr uint64_t kReadsThird = uint64_t{1} << 63;
-
 /// Where a program lies in a batch's words.
 struct Tape {
   uint32_t headers = 0;  ///< place in units of four words: one header a record
@@ -41,7 +40,7 @@ struct Tape {
   float initial = kFar;
   uint32_t initial_label = 0;
   float q_scale = 1;
-  uint64_t kinds = 0;  ///< bit by instruction: which of them occur; and kReadsThird
+  uint64_t kinds = 0;  ///< bit by instruction: which of them occur; and those at its end (record_header.h)
 };
 
 /// Reused from program to program.
@@ -50,14 +49,17 @@ struct TapeScratch {
     uint32_t kind = 0, place = 0, params = 0, group = 0, layer = 0, order = 0, stage = 0, step = 0;
     bool ends_layer = false;   ///< a fold, not of a group: what the layer takes away goes out of the field
     bool layer_cuts = false;   ///< of a layer's end: something is taken away
-    bool gone = false;         ///< part of another
-    bool weighs = false;       ///< of sum_add: it adds the kernel of its operand; params are the kernel's
-    bool by_constant = false;  ///< of mix and morph: `by` instead of c. Of sum_add: of the morph of a and c by it
+    bool gone = false;         ///< part of those that read it
+    bool by_constant = false;  ///< of a mix or a morph: `by` takes the place of c
+    bool morphs = false;       ///< of a sum: it adds the morph of a and c by `by`, or,
+    bool weighs = false;       ///< after that, the kernel with these params
     float by = 0;
     int32_t dst = -1, second = -1, a = -1, b = -1, c = -1;  ///< values; -1: none
   };
   struct Value {
-    uint32_t stage = 0, rank = 0, kind = 0, step = 0, last = 0, uses = 0, maker = 0;
+    uint32_t stage = 0, rank = 0, kind = 0, step = 0, last = 0;
+    uint32_t uses = 0;   ///< by all that make or read it
+    int32_t maker = -1;  ///< number of the node that makes all of it; -1: several make it
     int32_t slot = -1, renamed = -1;
     bool in_block = false;
   };

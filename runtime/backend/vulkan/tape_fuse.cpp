@@ -34,41 +34,45 @@ class Fuser {
       TapeScratch::forEachValue(n, [&](size_t v) { values_[v].uses += 1; });
       if (n.dst < 0) continue;
       Value& made = values_[static_cast<size_t>(n.dst)];
-      if (made.uses == 1) made.maker = static_cast<uint32_t>(i);
+      made.maker = made.uses == 1 && n.second < 0 ? static_cast<int32_t>(i) : -1;
       made.kind = n.kind;
     }
   }
 
-  Node& makerOf(int32_t v) { return nodes_[values_[static_cast<size_t>(v)].maker]; }
+  /// The node of this op that makes the value; null where another does.
+  Node* makerOf(int32_t v, Op op) {
+    const int32_t maker = v < 0 ? -1 : values_[static_cast<size_t>(v)].maker;
+    return maker >= 0 && is(nodes_[static_cast<size_t>(maker)], op) ? &nodes_[static_cast<size_t>(maker)] : nullptr;
+  }
   bool readOnce(int32_t v) const { return values_[static_cast<size_t>(v)].uses == 2; }  // made once, too
 
-  /// By what a mix or a morph goes is a constant more often than not: a parameter then.
   void takeConstant(Node& n) {
-    if (n.c < 0 || is(n, Op::warp) || !is(makerOf(n.c), Op::constant)) return;
-    Node& constant = makerOf(n.c);
+    if (!is(n, Op::mix) && !is(n, Op::morph)) return;
+    Node* const constant = makerOf(n.c, Op::constant);
+    if (constant == nullptr) return;
     n.by_constant = true;
-    n.by = std::bit_cast<float>(program_.params[constant.params]);
-    if (readOnce(n.c)) constant.gone = true;
+    n.by = std::bit_cast<float>(program_.params[constant->params]);
+    constant->gone = readOnce(n.c);
     values_[static_cast<size_t>(n.c)].uses -= 1;
     n.c = -1;
   }
 
   /// What a sum adds is the weight of a distance as a rule, and that a morph of two shapes in grammars that morph.
   void takeOperand(Node& n) {
-    if (!is(makerOf(n.a), Op::kernel) || !readOnce(n.a)) return;
-    Node& kernel = makerOf(n.a);
+    Node* const kernel = makerOf(n.a, Op::kernel);
+    if (kernel == nullptr || !readOnce(n.a)) return;
     n.weighs = true;
-    n.params = kernel.params;
-    n.a = kernel.a;
-    kernel.gone = true;
-    if (!is(makerOf(n.a), Op::morph) || !readOnce(n.a)) return;
-    Node& morph = makerOf(n.a);
-    if (!morph.by_constant) return;
-    n.by_constant = true;
-    n.by = morph.by;
-    n.a = morph.a;
-    n.c = morph.b;
-    morph.gone = true;
+    n.params = kernel->params;
+    n.a = kernel->a;
+    kernel->gone = true;
+    Node* const morph = makerOf(n.a, Op::morph);
+    // At either end pruning leaves one of the two shapes out, which is worth more.
+    if (morph == nullptr || !readOnce(n.a) || !morph->by_constant || !(morph->by > 0 && morph->by < 1)) return;
+    n.morphs = true;
+    n.by = morph->by;
+    n.a = morph->a;
+    n.c = morph->b;
+    morph->gone = true;
   }
 
   /// Reads a position and nothing else, in a form that takes a minimum with its operand.

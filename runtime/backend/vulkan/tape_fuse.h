@@ -6,7 +6,7 @@
 
 namespace sgm {
 
-/// scratch: nodes in the program's order, their values by number. Leaves fewer of both, numbered anew.
+/// scratch: nodes in the program's order, their values by number. Leaves no more of either, numbered anew.
 void fuseNodes(const ProgramView& program, TapeScratch& scratch);
 
 }  // namespace sgm

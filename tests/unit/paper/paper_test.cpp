@@ -103,11 +103,11 @@ TEST_CASE("all contenders run as often, and what is absent does not") {
   const Result<StageResult> result = measureStage(building(), kCell, 3, contenders, [&] { ++steps; });
   REQUIRE(result);
   CHECK(steps == 8);  // with the first ones, which warm up
-  CHECK(result->times[0].seconds.size() == 3);
-  CHECK(result->times[1].seconds.empty());
-  CHECK(result->times[2].seconds.size() == 3);
-  CHECK(result->times[2].median() > 0);
-  CHECK(result->times[2].first > 0);
+  CHECK(result->rows[0].seconds.size() == 3);
+  CHECK(result->rows[1].seconds.empty());
+  CHECK(result->rows[2].seconds.size() == 3);
+  CHECK(result->rows[2].median() > 0);
+  CHECK(result->rows[2].first > 0);
   CHECK(result->chunks > 0);
   CHECK(result->hash != ContentHash{});
 }
@@ -144,8 +144,8 @@ TEST_CASE("what a device leaves to the CPU is told of each") {
   contenders[1].backend = std::make_shared<LyingBackend>(contenders[1].backend, kNever);
   const Result<StageResult> result = measureStage(building(), kCell * 32, 3, contenders, [] {});
   REQUIRE(result);
-  CHECK(result->times[0].on_cpu == 0);
-  CHECK(result->times[1].on_cpu == 8);  // two of each run's one batch
+  CHECK(result->rows[0].on_cpu == 0);
+  CHECK(result->rows[1].on_cpu == 8);  // two of each run's one batch
 }
 
 TEST_CASE("errors name the stage and the contender") {
@@ -162,10 +162,10 @@ TEST_CASE("the median is the middle of the times, in any order") {
   std::mt19937 random(7);
   for (unsigned count = 1; count <= rounds(50); ++count) {
     CAPTURE(count);
-    StageTimes times;
-    for (unsigned i = 1; i <= count; ++i) times.seconds.push_back(i);
-    std::shuffle(times.seconds.begin(), times.seconds.end(), random);
-    CHECK(times.median() == (1 + count) / 2.0);
+    StageRow row;
+    for (unsigned i = 1; i <= count; ++i) row.seconds.push_back(i);
+    std::shuffle(row.seconds.begin(), row.seconds.end(), random);
+    CHECK(row.median() == (1 + count) / 2.0);
   }
 }
 
