@@ -19,8 +19,6 @@ using uint = uint32_t;
 
 }  // namespace record_header
 
-bool is(const TapeScratch::Node& n, Op op) { return n.kind == static_cast<uint32_t>(op); }
-
 /// What a header says of its record.
 uint32_t traitsOf(const TapeScratch::Node& n, const ProgramView& program) {
   using namespace record_header;
@@ -70,7 +68,7 @@ uint32_t howOf(const TapeScratch::Node& n) {
 uint64_t kindsOf(const TapeScratch::Node& n) {
   using namespace record_header;
   static_assert(static_cast<uint32_t>(TapeOp::count) <= 61, "the last three bits are others");
-  const bool joins = is(n, Op::mix) || is(n, Op::morph);
+  const bool joins = n.is(Op::mix) || n.is(Op::morph);
   const uint32_t others =
       (joins && !n.by_constant ? kSomeReadsThird : 0) | (n.morphs ? kSomeMorphs : 0) | (n.weighs ? kSomeWeighs : 0);
   // What pruning may make of it.

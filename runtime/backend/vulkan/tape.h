@@ -55,6 +55,8 @@ struct TapeScratch {
     bool weighs = false;       ///< after that, the kernel with these params
     float by = 0;
     int32_t dst = -1, second = -1, a = -1, b = -1, c = -1;  ///< values; -1: none
+
+    bool is(Op op) const { return kind == static_cast<uint32_t>(op); }
   };
   struct Value {
     uint32_t stage = 0, rank = 0, kind = 0, step = 0, last = 0;

@@ -11,8 +11,6 @@ namespace {
 using Node = TapeScratch::Node;
 using Value = TapeScratch::Value;
 
-bool is(const Node& n, Op op) { return n.kind == static_cast<uint32_t>(op); }
-
 class Fuser {
  public:
   Fuser(const ProgramView& program, TapeScratch& scratch)
@@ -22,7 +20,7 @@ class Fuser {
     count();
     for (Node& n : nodes_) {
       takeConstant(n);
-      if (is(n, Op::sum_add)) takeOperand(n);
+      if (n.is(Op::sum_add)) takeOperand(n);
     }
     uniteShapes();
   }
@@ -42,12 +40,12 @@ class Fuser {
   /// The node of this op that makes the value; null where another does.
   Node* makerOf(int32_t v, Op op) {
     const int32_t maker = v < 0 ? -1 : values_[static_cast<size_t>(v)].maker;
-    return maker >= 0 && is(nodes_[static_cast<size_t>(maker)], op) ? &nodes_[static_cast<size_t>(maker)] : nullptr;
+    return maker >= 0 && nodes_[static_cast<size_t>(maker)].is(op) ? &nodes_[static_cast<size_t>(maker)] : nullptr;
   }
   bool readOnce(int32_t v) const { return values_[static_cast<size_t>(v)].uses == 2; }  // made once, too
 
   void takeConstant(Node& n) {
-    if (!is(n, Op::mix) && !is(n, Op::morph)) return;
+    if (!n.is(Op::mix) && !n.is(Op::morph)) return;
     Node* const constant = makerOf(n.c, Op::constant);
     if (constant == nullptr) return;
     n.by_constant = true;
@@ -90,7 +88,7 @@ class Fuser {
     for (size_t i = 0; i < nodes_.size(); ++i) {
       Node n = nodes_[i];
       if (n.gone) continue;
-      if (is(n, Op::minimum) && kept > 0) {
+      if (n.is(Op::minimum) && kept > 0) {
         const Value &a = values_[static_cast<size_t>(n.a)], &b = values_[static_cast<size_t>(n.b)];
         Node& shape = nodes_[kept - 1];
         const bool alone = readOnce(n.a) && readOnce(n.b) && shape.dst == b.renamed && shape.a < 0;
