@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "backend/device_batch.h"
+#include "cuda/kept_meshes.h"
 #include "cuda/mesher.h"
 #include "mesh/vertex_keys.h"
 
@@ -41,7 +42,7 @@ bool readSigns(const uint64_t* signs, const ChunkJob& job, ChunkMesh& mesh) {
   return !mesh.uniform;
 }
 
-class Session final : public DeviceSession {
+class Session final : public DeviceSession, public std::enable_shared_from_this<Session> {
  public:
   static Result<std::shared_ptr<DeviceSession>> open(const CudaBackendOptions& options,
                                                      std::pmr::memory_resource* memory) {
@@ -52,12 +53,17 @@ class Session final : public DeviceSession {
     Result<std::unique_ptr<Mesher>> mesher = Mesher::create(*session->device_, options.room);
     if (!mesher) return mesher.error();
     session->mesher_ = std::move(*mesher);
+    if (session->device_->borrowed()) {
+      Result<std::unique_ptr<KeptMeshes>> kept = KeptMeshes::create(*session->device_, options.resident_cap);
+      if (!kept) return kept.error();
+      session->kept_ = std::move(*kept);
+    }
     return std::shared_ptr<DeviceSession>(std::move(session));
   }
 
   Session(const Room& room, std::pmr::memory_resource* memory) : room_(room), memory_(memory) {}
   BackendCapabilities capabilities() const override {
-    return {BackendKind::cuda, device_->info().name, true, kMostChunks, false, false};
+    return {BackendKind::cuda, device_->info().name, true, kMostChunks, false, device_->borrowed()};
   }
   uint32_t batch() const override { return kMostChunks; }
 
@@ -90,14 +96,29 @@ class Session final : public DeviceSession {
     auto& slot = static_cast<Slot&>(base);
     const Result<Mesher::Output> output = mesher_->read(slot.plan, slot.memory);
     if (!output) return output.error();
+    std::vector<size_t> staying;
+    std::vector<PartSources> sources;
     for (size_t c = 0; c < slot.plan.chunks_of.size(); ++c) {
       const Plan::Parts& parts = slot.plan.chunks_of[c];
       if (!haveRoom(*output, parts)) continue;
       readMesh(*output, parts, output->signs + c * kRows, jobs[parts.job], meshes[parts.job]);
-      if (!done(parts.job)) break;
+      if (kept_ && jobs[parts.job].resident) {
+        staying.push_back(parts.job);
+        sources.push_back(sourcesOf(*output, parts, slot.memory));
+      }
+      if (!done(parts.job)) return false;
     }
-    return false;
+    if (staying.empty()) return false;
+    Result<std::vector<DeviceParts>> kept = kept_->keep(shared_from_this(), *slot.memory.stream, sources);
+    if (!kept) return kept.error();
+    for (size_t i = 0; i < staying.size(); ++i) meshes[staying[i]].on_device = std::move((*kept)[i]);
+    return true;
   }
+
+  Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) override {
+    return kept_ ? kept_->upload(shared_from_this(), parts) : DeviceSession::upload(parts);
+  }
+  uint64_t resident() const override { return kept_ ? kept_->bytes() : 0; }
 
  private:
   static bool haveRoom(const Mesher::Output& output, const Plan::Parts& parts) {
@@ -105,6 +126,20 @@ class Session final : public DeviceSession {
     bool all = hasRoom(parts.body);
     for (const uint32_t seam : parts.seams) all = all && hasRoom(seam);
     return all;
+  }
+
+  static PartSources sourcesOf(const Mesher::Output& output, const Plan::Parts& parts, const BatchMemory& memory) {
+    PartSources sources{};
+    for (size_t p = 0; p < sources.size(); ++p) {
+      const uint32_t number = p == 0 ? parts.body : parts.seams[p - 1];
+      if (number == kNone) continue;
+      const Part& from = output.parts[number];
+      sources[p].vertices = reinterpret_cast<const Vertex*>(memory.vertices.data()) + from.first_vertex;
+      sources[p].indices = reinterpret_cast<const uint32_t*>(memory.indices.data()) + from.first_index;
+      sources[p].vertex_count = from.vertices;
+      sources[p].index_count = from.indices;
+    }
+    return sources;
   }
 
   void readMesh(const Mesher::Output& output, const Plan::Parts& parts, const uint64_t* signs, const ChunkJob& job,
@@ -124,6 +159,7 @@ class Session final : public DeviceSession {
   std::pmr::memory_resource* const memory_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Mesher> mesher_;
+  std::unique_ptr<KeptMeshes> kept_;  // null where nobody could draw them
   IdleSlots slots_;
 };
 

@@ -16,6 +16,7 @@ struct CudaBackendOptions {
   std::function<Result<std::unique_ptr<cuda::Device>>()> open;
   std::function<void(const std::string&)> warn = nullptr;  ///< as BackendRequest::warn
   cuda::Room room;
+  uint64_t resident_cap = UINT64_MAX;  ///< of a borrowed device: the most bytes of meshes that stay on it
 };
 
 /// Errors, where the device cannot even be opened: as options.open and cuda::Mesher::create.

@@ -54,10 +54,15 @@ class Stream {
   /// Between pinned memory and the device's, which stay as they are until the end of the copy.
   virtual Result<void> copyIn(void* device, const void* pinned, size_t bytes) = 0;
   virtual Result<void> copyOut(void* pinned, const void* device, size_t bytes) = 0;
+  /// From one place of the device's to another.
+  virtual Result<void> copy(void* to, const void* from, size_t bytes) = 0;
   virtual Result<void> clear(void* device, size_t bytes) = 0;
   /// blocks: at least one.
   virtual Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) = 0;
-  /// Whether all has ended; does not wait.
+  /// What was given until now is what ended() and wait() speak of, until more is given: a stream of the engine's goes
+  /// on with the engine's work.
+  virtual Result<void> mark() = 0;
+  /// Whether that has ended; does not wait.
   virtual Result<bool> ended() = 0;
   virtual Result<void> wait() = 0;
 };
@@ -68,6 +73,10 @@ class Device {
   virtual ~Device() = default;
   virtual const DeviceInfo& info() const = 0;
   virtual Result<std::unique_ptr<Stream>> makeStream() = 0;
+  /// Whether an engine lent it, and reads its memory.
+  virtual bool borrowed() const { return false; }
+  /// Whether something has failed for good: nothing in its memory can be read any more.
+  virtual bool lost() const { return false; }
 };
 
 /// Memory of a stream, which it does not outlive.

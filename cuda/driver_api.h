@@ -14,11 +14,13 @@ struct CuContextTag;
 struct CuModuleTag;
 struct CuFunctionTag;
 struct CuStreamTag;
+struct CuEventTag;
 struct CuPoolTag;
 using CuContext = CuContextTag*;
 using CuModule = CuModuleTag*;
 using CuFunction = CuFunctionTag*;
 using CuStream = CuStreamTag*;
+using CuEvent = CuEventTag*;
 using CuPool = CuPoolTag*;
 
 /// CUmemPoolProps.
@@ -36,7 +38,9 @@ inline constexpr CuResult kCuSuccess = 0, kCuOutOfMemory = 2, kCuNoDevice = 100,
                           kCuNotReady = 600, kCuDriverMismatch = 803;
 inline constexpr int kCuProcessors = 16, kCuCapabilityMajor = 75, kCuCapabilityMinor = 76, kCuMemoryPools = 115;
 inline constexpr unsigned kCuNonBlockingStream = 1;
-inline constexpr unsigned kCuBlockingWaits = 4;  ///< who waits sleeps: an engine needs the processors
+inline constexpr unsigned kCuBlockingWaits = 4;  ///< of a context: who waits sleeps, as an engine needs the processors
+inline constexpr unsigned kCuEventBlocks = 1;    ///< of an event: likewise
+inline constexpr unsigned kCuEventUntimed = 2;
 
 /// SGM_CU(entry of the table, name in the driver, parameters)
 #define SGM_CU_FUNCTIONS                                                                                           \
@@ -50,6 +54,7 @@ inline constexpr unsigned kCuBlockingWaits = 4;  ///< who waits sleeps: an engin
   SGM_CU(deviceTotalMem, "cuDeviceTotalMem_v2", (size_t * bytes, CuDevice device))                                 \
   SGM_CU(ctxCreate, "cuCtxCreate_v2", (CuContext * context, unsigned flags, CuDevice device))                      \
   SGM_CU(ctxDestroy, "cuCtxDestroy_v2", (CuContext context))                                                       \
+  SGM_CU(ctxGetDevice, "cuCtxGetDevice", (CuDevice * device))                                                      \
   SGM_CU(ctxPushCurrent, "cuCtxPushCurrent_v2", (CuContext context))                                               \
   SGM_CU(ctxPopCurrent, "cuCtxPopCurrent_v2", (CuContext * context))                                               \
   SGM_CU(moduleLoadData, "cuModuleLoadData", (CuModule * module, const void* image))                               \
@@ -57,8 +62,11 @@ inline constexpr unsigned kCuBlockingWaits = 4;  ///< who waits sleeps: an engin
   SGM_CU(moduleGetFunction, "cuModuleGetFunction", (CuFunction * function, CuModule module, const char* name))     \
   SGM_CU(streamCreate, "cuStreamCreate", (CuStream * stream, unsigned flags))                                      \
   SGM_CU(streamDestroy, "cuStreamDestroy_v2", (CuStream stream))                                                   \
-  SGM_CU(streamQuery, "cuStreamQuery", (CuStream stream))                                                          \
-  SGM_CU(streamSynchronize, "cuStreamSynchronize", (CuStream stream))                                              \
+  SGM_CU(eventCreate, "cuEventCreate", (CuEvent * event, unsigned flags))                                          \
+  SGM_CU(eventDestroy, "cuEventDestroy_v2", (CuEvent event))                                                       \
+  SGM_CU(eventRecord, "cuEventRecord", (CuEvent event, CuStream stream))                                           \
+  SGM_CU(eventQuery, "cuEventQuery", (CuEvent event))                                                              \
+  SGM_CU(eventSynchronize, "cuEventSynchronize", (CuEvent event))                                                  \
   SGM_CU(memPoolCreate, "cuMemPoolCreate", (CuPool * pool, const CuPoolProperties* properties))                    \
   SGM_CU(memPoolDestroy, "cuMemPoolDestroy", (CuPool pool))                                                        \
   SGM_CU(memAllocFromPoolAsync, "cuMemAllocFromPoolAsync",                                                         \
@@ -68,6 +76,7 @@ inline constexpr unsigned kCuBlockingWaits = 4;  ///< who waits sleeps: an engin
   SGM_CU(memFreeHost, "cuMemFreeHost", (void* memory))                                                             \
   SGM_CU(memcpyHtoDAsync, "cuMemcpyHtoDAsync_v2", (CuPointer to, const void* from, size_t bytes, CuStream stream)) \
   SGM_CU(memcpyDtoHAsync, "cuMemcpyDtoHAsync_v2", (void* to, CuPointer from, size_t bytes, CuStream stream))       \
+  SGM_CU(memcpyDtoDAsync, "cuMemcpyDtoDAsync_v2", (CuPointer to, CuPointer from, size_t bytes, CuStream stream))   \
   SGM_CU(memsetD8Async, "cuMemsetD8Async", (CuPointer at, unsigned char value, size_t bytes, CuStream stream))     \
   SGM_CU(launchKernel, "cuLaunchKernel",                                                                           \
          (CuFunction function, unsigned blocks_x, unsigned blocks_y, unsigned blocks_z, unsigned threads_x,        \

@@ -1,6 +1,7 @@
 #include "cuda/driver_device.h"
 
 #include <array>
+#include <atomic>
 
 #include "cuda/kernels/kernels.h"
 
@@ -52,6 +53,9 @@ struct Opened {
   const DriverTable driver;
   DeviceInfo info;
   CuContext context = nullptr;
+  CuStream stream = nullptr;  ///< the engine's, for all batches; null: each has one of our own
+  bool borrowed = false;      ///< the context is the engine's
+  mutable std::atomic<bool> lost{false};
   CuModule module = nullptr;
   /// Our own: the device's is shared with the engine, and gives nothing back when a context is lost.
   CuPool pool = nullptr;
@@ -67,11 +71,13 @@ struct Opened {
       if (current && pool != nullptr) driver.memPoolDestroy(pool);
       if (current && module != nullptr) driver.moduleUnload(module);
     }
-    driver.ctxDestroy(context);
+    if (!borrowed) driver.ctxDestroy(context);
   }
   Result<void> check(CuResult result, const char* what) const {
     if (result == kCuSuccess) return {};
-    return errorOf(driver, result, std::string(what) + " on " + info.name);
+    const Error error = errorOf(driver, result, std::string(what) + " on " + info.name);
+    if (error.code == Code::device_lost) lost.store(true);
+    return error;
   }
 };
 
@@ -92,12 +98,15 @@ CuPointer pointerOf(const void* device) { return static_cast<CuPointer>(reinterp
 
 class DriverStream final : public Stream {
  public:
-  DriverStream(const Opened& device, CuStream stream) : device_(device), driver_(device.driver), stream_(stream) {}
+  /// event: this stream's from now on.
+  DriverStream(const Opened& device, CuStream stream, CuEvent event)
+      : device_(device), driver_(device.driver), stream_(stream), event_(event) {}
   ~DriverStream() override {
+    static_cast<void>(wait());
     const Current current(driver_, device_.context);
     if (!current) return;
-    driver_.streamSynchronize(stream_);
-    driver_.streamDestroy(stream_);
+    driver_.eventDestroy(event_);
+    if (stream_ != device_.stream) driver_.streamDestroy(stream_);
   }
 
   Result<void*> allocate(MemoryKind kind, size_t bytes) override {
@@ -122,28 +131,37 @@ class DriverStream final : public Stream {
       driver_.memFreeAsync(pointerOf(memory), stream_);
       return;
     }
-    // Copies may be under way in it.
-    driver_.streamSynchronize(stream_);
-    driver_.memFreeHost(memory);
+    // Copies may be under way in it. Where nobody can say that they have ended, it is left to the context's end.
+    if (wait()) driver_.memFreeHost(memory);
   }
   Result<void> copyIn(void* device, const void* pinned, size_t bytes) override {
     const Current current(driver_, device_.context);
     if (!current) return Current::refused();
+    marked_ = false;
     return device_.check(driver_.memcpyHtoDAsync(pointerOf(device), pinned, bytes, stream_), "copying a batch");
   }
   Result<void> copyOut(void* pinned, const void* device, size_t bytes) override {
     const Current current(driver_, device_.context);
     if (!current) return Current::refused();
+    marked_ = false;
     return device_.check(driver_.memcpyDtoHAsync(pinned, pointerOf(device), bytes, stream_), "copying meshes");
+  }
+  Result<void> copy(void* to, const void* from, size_t bytes) override {
+    const Current current(driver_, device_.context);
+    if (!current) return Current::refused();
+    marked_ = false;
+    return device_.check(driver_.memcpyDtoDAsync(pointerOf(to), pointerOf(from), bytes, stream_), "keeping meshes");
   }
   Result<void> clear(void* device, size_t bytes) override {
     const Current current(driver_, device_.context);
     if (!current) return Current::refused();
+    marked_ = false;
     return device_.check(driver_.memsetD8Async(pointerOf(device), 0, bytes, stream_), "clearing memory");
   }
   Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) override {
     const Current current(driver_, device_.context);
     if (!current) return Current::refused();
+    marked_ = false;
     // The driver copies the parameters before it returns.
     Batch copy = batch;
     void* parameters[] = {&copy};
@@ -151,38 +169,60 @@ class DriverStream final : public Stream {
                                               threadsOf(kernel), 1, 1, 0, stream_, parameters, nullptr),
                          "launching a kernel");
   }
-  Result<bool> ended() override {
+  Result<void> mark() override {
+    if (marked_) return {};
     const Current current(driver_, device_.context);
     if (!current) return Current::refused();
-    const CuResult result = driver_.streamQuery(stream_);
+    const Result<void> recorded = device_.check(driver_.eventRecord(event_, stream_), "marking the end of the batch");
+    marked_ = static_cast<bool>(recorded);
+    return recorded;
+  }
+  Result<bool> ended() override {
+    if (Result<void> known = mark(); !known) return known.error();
+    const Current current(driver_, device_.context);
+    if (!current) return Current::refused();
+    const CuResult result = driver_.eventQuery(event_);
     if (result == kCuNotReady) return false;
     if (const Result<void> asked = device_.check(result, "asking for the batch"); !asked) return asked.error();
     return true;
   }
   Result<void> wait() override {
+    if (Result<void> known = mark(); !known) return known;
     const Current current(driver_, device_.context);
     if (!current) return Current::refused();
-    return device_.check(driver_.streamSynchronize(stream_), "waiting for the batch");
+    return device_.check(driver_.eventSynchronize(event_), "waiting for the batch");
   }
 
  private:
   const Opened& device_;
   const DriverTable& driver_;
   const CuStream stream_;
+  const CuEvent event_;
+  bool marked_ = false;  ///< the event stands behind all that was given
 };
 
 class DriverDevice final : public Device {
  public:
   explicit DriverDevice(std::unique_ptr<Opened> opened) : opened_(std::move(opened)) {}
   const DeviceInfo& info() const override { return opened_->info; }
+  bool borrowed() const override { return opened_->borrowed; }
+  bool lost() const override { return opened_->lost.load(); }
   Result<std::unique_ptr<Stream>> makeStream() override {
     const Current current(opened_->driver, opened_->context);
     if (!current) return Current::refused();
-    CuStream stream = nullptr;
-    const Result<void> made =
-        opened_->check(opened_->driver.streamCreate(&stream, kCuNonBlockingStream), "making a stream");
-    if (!made) return made.error();
-    return std::unique_ptr<Stream>(std::make_unique<DriverStream>(*opened_, stream));
+    const DriverTable& driver = opened_->driver;
+    CuStream stream = opened_->stream;
+    if (stream == nullptr) {
+      const CuResult result = driver.streamCreate(&stream, kCuNonBlockingStream);
+      if (const Result<void> made = opened_->check(result, "making a stream"); !made) return made.error();
+    }
+    CuEvent event = nullptr;
+    const CuResult result = driver.eventCreate(&event, kCuEventBlocks | kCuEventUntimed);
+    if (const Result<void> made = opened_->check(result, "making an event"); !made) {
+      if (stream != opened_->stream) driver.streamDestroy(stream);
+      return made.error();
+    }
+    return std::unique_ptr<Stream>(std::make_unique<DriverStream>(*opened_, stream, event));
   }
 
  private:
@@ -214,15 +254,18 @@ Result<DeviceInfo> describe(const DriverTable& driver, CuDevice device, int vers
   return info;
 }
 
-Result<void> openContext(Opened& opened, CuDevice device, std::span<const std::byte> image) {
-  const DriverTable& driver = opened.driver;
-  if (Result<void> made = opened.check(driver.ctxCreate(&opened.context, kCuBlockingWaits, device), "making a context");
-      !made) {
-    return made;
-  }
+Result<void> makeContext(Opened& opened, CuDevice device) {
+  const CuResult result = opened.driver.ctxCreate(&opened.context, kCuBlockingWaits, device);
+  if (Result<void> made = opened.check(result, "making a context"); !made) return made;
   // A new context is the thread's; the engine's comes back.
   CuContext popped = nullptr;
-  driver.ctxPopCurrent(&popped);
+  opened.driver.ctxPopCurrent(&popped);
+  return {};
+}
+
+/// What batches need in the context.
+Result<void> loadKernels(Opened& opened, CuDevice device, std::span<const std::byte> image) {
+  const DriverTable& driver = opened.driver;
   const Current current(driver, opened.context);
   if (!current) return Current::refused();
   if (Result<void> loaded = opened.check(driver.moduleLoadData(&opened.module, image.data()), "loading the kernels");
@@ -244,6 +287,10 @@ Result<void> openContext(Opened& opened, CuDevice device, std::span<const std::b
     if (Result<void> checked = opened.check(found, kNames[k]); !checked) return checked;
   }
   return {};
+}
+
+Error noKernels() {
+  return {Code::unsupported, "this build has no CUDA kernels: build it where nvcc is, with SGM_CUDA=ON"};
 }
 
 /// Before it is open there is no device to be lost: another holds it for itself, say.
@@ -293,9 +340,7 @@ Result<std::vector<DeviceInfo>> listDevices() {
 }
 
 Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<const std::byte> image, int index) {
-  if (image.empty()) {
-    return Error{Code::unsupported, "this build has no CUDA kernels: build it where nvcc is, with SGM_CUDA=ON"};
-  }
+  if (image.empty()) return noKernels();
   Result<std::vector<DeviceInfo>> infos = listDevices(driver);
   if (!infos) return unusable(infos.error());
   if (infos->empty()) return Error{Code::unsupported, "the CUDA driver finds no GPU"};
@@ -312,12 +357,37 @@ Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<
   auto opened = std::make_unique<Opened>(driver);
   opened->info = info;
   CuDevice device = 0;
-  if (Result<void> got = opened->check(driver.deviceGet(&device, static_cast<int>(chosen)), "opening"); !got) {
-    return unusable(got.error());
+  Result<void> made = opened->check(driver.deviceGet(&device, static_cast<int>(chosen)), "opening");
+  if (made) made = makeContext(*opened, device);
+  if (made) made = loadKernels(*opened, device, image);
+  if (!made) return unusable(made.error());
+  return std::unique_ptr<Device>(std::make_unique<DriverDevice>(std::move(opened)));
+}
+
+Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::span<const std::byte> image,
+                                             const BorrowedContext& lent) {
+  if (image.empty()) return noKernels();
+  auto opened = std::make_unique<Opened>(driver);
+  opened->borrowed = true;
+  opened->context = lent.context;
+  opened->stream = lent.stream;
+  opened->info.name = "the lent CUDA context";
+  CuDevice device = 0;
+  int version = 0;
+  {
+    const Current current(driver, lent.context);
+    if (!current) return unusable(Current::refused());
+    CuResult result = driver.ctxGetDevice(&device);
+    if (result == kCuSuccess) result = driver.driverGetVersion(&version);
+    if (Result<void> got = opened->check(result, "asking for the device"); !got) return unusable(got.error());
   }
-  if (Result<void> made = openContext(*opened, device, image); !made) {
-    return unusable(made.error());
+  Result<DeviceInfo> info = describe(driver, device, version);
+  if (!info) return unusable(info.error());
+  opened->info = std::move(*info);
+  if (const std::string lack = lackOf(opened->info); !lack.empty()) {
+    return Error{Code::unsupported, opened->info.name + " cannot be used: " + lack};
   }
+  if (Result<void> made = loadKernels(*opened, device, image); !made) return unusable(made.error());
   return std::unique_ptr<Device>(std::make_unique<DriverDevice>(std::move(opened)));
 }
 

@@ -26,6 +26,18 @@ Result<std::vector<DeviceInfo>> listDevices(const DriverTable& driver);
 /// As openDriver() and listDevices().
 Result<std::vector<DeviceInfo>> listDevices();
 
+/// The engine's. Both outlive the device.
+struct BorrowedContext {
+  CuContext context = nullptr;
+  CuStream stream = nullptr;  ///< for all batches; null: streams of our own
+  uint64_t mesh_bytes = 0;    ///< the most for meshes that stay on the device
+};
+
+/// Opens a device in the engine's context, which stays the engine's; a thread's current context is as before after
+/// every call. Errors: as openDevice().
+Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::span<const std::byte> image,
+                                             const BorrowedContext& lent);
+
 /// Opens a device with a context of its own, so that what fails in it is nobody else's loss. index: as listed; -1: the
 /// first that can be used. image: the kernels, as nvcc makes them. Errors: unsupported, out_of_memory, device_lost.
 Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<const std::byte> image, int index = -1);

@@ -221,7 +221,8 @@ Result<void> Mesher::submit(const Plan& plan, BatchMemory& m) {
   if (Result<void> cleared = stream.clear(m.scratch.data(), zeroBytes(plan)); !cleared) return cleared;
   if (Result<void> cleared = stream.clear(m.result.data(), m.result_bytes); !cleared) return cleared;
   if (Result<void> ran = run(stream, batch); !ran) return ran;
-  return bring(plan, m, batch);
+  if (Result<void> brought = bring(plan, m, batch); !brought) return brought;
+  return stream.mark();
 }
 
 Result<Mesher::Output> Mesher::read(const Plan& plan, BatchMemory& m) {

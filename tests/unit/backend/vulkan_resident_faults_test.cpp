@@ -1,10 +1,12 @@
 // The device fails, is lost or has no room where meshes stay on it or are brought to it: the meshes are the same, what
 // could not stay is not there, and the next batch stays again.
 
+#include <chrono>
 #include <iostream>
 #include <random>
 #include <set>
 #include <string>
+#include <thread>
 
 #include "faulty.h"
 #include "on_device.h"
@@ -124,7 +126,7 @@ class Strikes {
     faulty_.faults.disarm();
 
     const Stayed stayed = checkStayed(faulty_.engine, expected_, drawn, !brings);
-    const BackendCounters after = counters();
+    const BackendCounters after = countersOnceOnlyThese(stayed.bytes);
     const bool lost = struck && failure.result == VK_ERROR_DEVICE_LOST;
     CAPTURE(struck, stayed.there, stayed.lost, all_.wanted);
     REQUIRE((struck || scarce || stayed.there == all_.wanted));
@@ -157,6 +159,12 @@ class Strikes {
   unsigned partly = 0;   ///< some stayed, and some did not
 
  private:
+  /// What was being copied when a wait failed is given back once the copying has ended.
+  BackendCounters countersOnceOnlyThese(uint64_t bytes) const {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (counters().resident != bytes && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+    return counters();
+  }
   BackendCounters counters() const { return machine_->vulkan->counters(); }
   void renew(uint64_t cap) {
     VulkanBackendOptions options;

@@ -17,10 +17,8 @@ using cuda::FakeDriver;
 
 namespace {
 
-constexpr std::array<std::byte, 16> kImage{};
-
 Result<std::unique_ptr<cuda::Device>> open(const FakeDriver& driver, int index = -1) {
-  return cuda::openDevice(driver.table(), kImage, index);
+  return cuda::openDevice(driver.table(), cuda::kFakeImage, index);
 }
 
 std::string refusal(const FakeDriver& driver, int index = -1) {
@@ -114,9 +112,9 @@ TEST_CASE("whatever call of the driver fails, the meshes are right and the next 
   FakeDriver::State& state = machine.driver.state();
   uint64_t struck = 0;
   for (uint32_t round = 0; round < rounds(150); ++round) {
-    static const char* const kCalls[] = {"memAllocFromPoolAsync", "memHostAlloc",  "memcpyHtoDAsync",
-                                         "memcpyDtoHAsync",       "memsetD8Async", "launchKernel",
-                                         "streamSynchronize",     "streamQuery",   "streamCreate"};
+    static const char* const kCalls[] = {"memAllocFromPoolAsync", "memHostAlloc", "memcpyHtoDAsync",  "memcpyDtoHAsync",
+                                         "memsetD8Async",         "launchKernel", "eventSynchronize", "eventQuery",
+                                         "streamCreate",          "eventRecord",  "eventCreate"};
     state.fail_call = kCalls[random() % std::size(kCalls)];
     state.fail_nth = 1 + static_cast<unsigned>(random() % 9);
     state.fail_result = random() % 2 == 0 ? cuda::kCuOutOfMemory : 700;  // an illegal address

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <set>
@@ -26,17 +27,30 @@ int fake_things[3];
 
 /// What a stream was given and has not done: nothing is done before somebody waits, or asks twice.
 struct FakeStream {
-  std::vector<std::function<void()>> queued;
-  bool asked = false;
+  std::deque<std::function<void()>> queued;
+  uint64_t given = 0;  ///< pieces, ever
 
-  void finish() {
-    for (const auto& piece : queued) piece();
-    queued.clear();
-    asked = false;
+  void give(std::function<void()> piece) {
+    queued.push_back(std::move(piece));
+    ++given;
+  }
+  uint64_t done() const { return given - queued.size(); }
+  void finish(uint64_t pieces) {
+    while (done() < pieces) {
+      queued.front()();
+      queued.pop_front();
+    }
   }
 };
+struct FakeEvent {
+  FakeStream* stream = nullptr;
+  uint64_t after = 0;  ///< so many of its pieces
+  bool asked = false;
+};
 std::set<FakeStream*> fake_streams;  ///< alive
+std::set<FakeEvent*> fake_events;    ///< alive
 FakeStream& of(CuStream stream) { return *reinterpret_cast<FakeStream*>(stream); }
+FakeEvent& of(CuEvent event) { return *reinterpret_cast<FakeEvent*>(event); }
 void* hostOf(CuPointer memory) { return reinterpret_cast<void*>(static_cast<uintptr_t>(memory)); }
 
 /// What the call is to give; 0 as a rule.
@@ -46,6 +60,7 @@ int before(const char* call, bool needs_context = true) {
   if (s.fail_nth > 0 && s.fail_call == call) {
     if (--s.fail_nth > 0) return 0;
     if (s.lasts) s.fail_nth = 1;
+    s.unsure = s.unsure || s.fail_call == "eventRecord" || s.fail_call == "eventSynchronize";
     return s.fail_result;
   }
   return 0;
@@ -102,6 +117,10 @@ DriverTable makeTable() {
     --fake_state.contexts;
     return before("ctxDestroy", false);
   };
+  t.ctxGetDevice = [](CuDevice* device) {
+    *device = 0;
+    return before("ctxGetDevice");
+  };
   t.ctxPushCurrent = [](CuContext) {
     if (const int result = before("ctxPushCurrent", false)) return result;
     ++fake_state.depth;
@@ -144,22 +163,43 @@ DriverTable makeTable() {
   };
   t.streamDestroy = [](CuStream stream) {
     // The GPU goes on with what it was given.
-    of(stream).finish();
+    of(stream).finish(of(stream).given);
     fake_streams.erase(&of(stream));
     delete &of(stream);
     --fake_state.streams;
     return before("streamDestroy");
   };
-  t.streamQuery = [](CuStream stream) {
-    if (const int result = before("streamQuery")) return result;
-    if (!of(stream).queued.empty() && !std::exchange(of(stream).asked, true)) return kCuNotReady;
-    of(stream).finish();
+  t.eventCreate = [](CuEvent* event, unsigned) {
+    if (const int result = before("eventCreate")) return result;
+    auto* const made = new FakeEvent;
+    fake_events.insert(made);
+    *event = reinterpret_cast<CuEvent>(made);
+    ++fake_state.events;
     return kCuSuccess;
   };
-  t.streamSynchronize = [](CuStream stream) {
+  t.eventDestroy = [](CuEvent event) {
+    fake_events.erase(&of(event));
+    delete &of(event);
+    --fake_state.events;
+    return before("eventDestroy");
+  };
+  t.eventRecord = [](CuEvent event, CuStream stream) {
+    if (const int result = before("eventRecord")) return result;
+    of(event) = {&of(stream), of(stream).given, false};
+    return kCuSuccess;
+  };
+  t.eventQuery = [](CuEvent event) {
+    if (const int result = before("eventQuery")) return result;
+    FakeEvent& e = of(event);
+    if (e.stream == nullptr) return kCuSuccess;
+    if (e.stream->done() < e.after && !std::exchange(e.asked, true)) return kCuNotReady;
+    e.stream->finish(e.after);
+    return kCuSuccess;
+  };
+  t.eventSynchronize = [](CuEvent event) {
     // Where it fails it has not waited.
-    if (const int result = before("streamSynchronize")) return result;
-    of(stream).finish();
+    if (const int result = before("eventSynchronize")) return result;
+    if (of(event).stream != nullptr) of(event).stream->finish(of(event).after);
     return kCuSuccess;
   };
   t.memPoolCreate = [](CuPool* pool, const CuPoolProperties*) {
@@ -182,7 +222,7 @@ DriverTable makeTable() {
     return kCuSuccess;
   };
   t.memFreeAsync = [](CuPointer memory, CuStream stream) {
-    of(stream).queued.emplace_back([memory] {
+    of(stream).give([memory] {
       fake_blocks.erase(hostOf(memory));
       std::free(hostOf(memory));
     });
@@ -205,19 +245,24 @@ DriverTable makeTable() {
   };
   t.memcpyHtoDAsync = [](CuPointer to, const void* from, size_t bytes, CuStream stream) {
     if (const int result = before("memcpyHtoDAsync")) return result;
-    of(stream).queued.emplace_back([=] { std::memcpy(hostOf(to), from, bytes); });
+    of(stream).give([=] { std::memcpy(hostOf(to), from, bytes); });
     return kCuSuccess;
   };
   t.memcpyDtoHAsync = [](void* to, CuPointer from, size_t bytes, CuStream stream) {
     if (const int result = before("memcpyDtoHAsync")) return result;
     // What is read before the end is nothing.
     std::memset(to, 0xCD, bytes);
-    of(stream).queued.emplace_back([=] { std::memcpy(to, hostOf(from), bytes); });
+    of(stream).give([=] { std::memcpy(to, hostOf(from), bytes); });
+    return kCuSuccess;
+  };
+  t.memcpyDtoDAsync = [](CuPointer to, CuPointer from, size_t bytes, CuStream stream) {
+    if (const int result = before("memcpyDtoDAsync")) return result;
+    of(stream).give([=] { std::memcpy(hostOf(to), hostOf(from), bytes); });
     return kCuSuccess;
   };
   t.memsetD8Async = [](CuPointer at, unsigned char value, size_t bytes, CuStream stream) {
     if (const int result = before("memsetD8Async")) return result;
-    of(stream).queued.emplace_back([=] { std::memset(hostOf(at), value, bytes); });
+    of(stream).give([=] { std::memset(hostOf(at), value, bytes); });
     return kCuSuccess;
   };
   t.launchKernel = [](CuFunction function, unsigned blocks, unsigned, unsigned, unsigned threads, unsigned, unsigned,
@@ -227,7 +272,7 @@ DriverTable makeTable() {
     ++fake_state.launches;
     const auto kernel = static_cast<Kernel>(reinterpret_cast<const char*>(function) - fake_function);
     const Batch batch = *static_cast<const Batch*>(parameters[0]);
-    of(stream).queued.emplace_back([=] { static_cast<void>(fake_runs->launch(kernel, blocks, batch)); });
+    of(stream).give([=] { static_cast<void>(fake_runs->launch(kernel, blocks, batch)); });
     return kCuSuccess;
   };
   return t;
@@ -247,13 +292,15 @@ FakeDriver::~FakeDriver() {
     CHECK(fake_state.modules == 0);
     CHECK(fake_state.pools == 0);
     CHECK(fake_state.streams == 0);
+    CHECK(fake_state.events == 0);
     CHECK(fake_state.device_blocks == 0);
-    CHECK(fake_state.pinned_blocks == 0);
+    if (!fake_state.unsure) CHECK(fake_state.pinned_blocks == 0);
   }
   CHECK(fake_state.depth == 0);
   CHECK(fake_state.calls_without == 0);
   // What may be left goes here, or who looks for leaks would find it.
   for (FakeStream* stream : std::exchange(fake_streams, {})) delete stream;
+  for (FakeEvent* event : std::exchange(fake_events, {})) delete event;
   for (void* block : std::exchange(fake_blocks, {})) std::free(block);
   fake_runs.reset();
   fake_host.reset();

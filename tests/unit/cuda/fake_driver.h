@@ -2,12 +2,17 @@
 // A CUDA driver that pretends: its GPU's memory is the host's, its kernels run here (host_device.h), and it keeps count
 // of what it has given out. One at a time, as the driver's table holds plain functions.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
 #include "cuda/driver_api.h"
 
 namespace sgm::cuda {
+
+/// The fake runs every kernel, whatever the image is.
+inline constexpr std::array<std::byte, 16> kFakeImage{};
 
 class FakeDriver {
  public:
@@ -21,7 +26,7 @@ class FakeDriver {
 
   struct State {
     int devices = 1, capability_major = 9, capability_minor = 0, memory_pools = 1;
-    int contexts = 0, modules = 0, pools = 0, streams = 0;  ///< alive
+    int contexts = 0, modules = 0, pools = 0, streams = 0, events = 0;  ///< alive
     int64_t device_blocks = 0, pinned_blocks = 0;
     int depth = 0;          ///< contexts that are current
     int calls_without = 0;  ///< that need a current context, and had none
@@ -32,6 +37,7 @@ class FakeDriver {
     int fail_result = 0;
     bool lasts = false;
     bool may_leave = false;  ///< things in a context that cannot be used any more
+    bool unsure = false;     ///< a wait has failed: nobody could say whether pinned memory was in use
   };
   State& state() const;
 };

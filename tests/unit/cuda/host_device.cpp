@@ -60,6 +60,12 @@ class HostStream final : public Stream {
     std::memcpy(pinned, device, bytes);
     return {};
   }
+  Result<void> copy(void* to, const void* from, size_t bytes) override {
+    if (Result<void> may = before("copy"); !may) return may;
+    std::memcpy(to, from, bytes);
+    return {};
+  }
+  Result<void> mark() override { return before("mark"); }
   Result<void> clear(void* device, size_t bytes) override {
     if (Result<void> may = before("clear"); !may) return may;
     std::memset(device, 0, bytes);
@@ -116,6 +122,7 @@ class HostDevice final : public Device {
     info_.name = "CUDA kernels on the CPU";
   }
   const DeviceInfo& info() const override { return info_; }
+  bool borrowed() const override { return options_.borrowed; }
   Result<std::unique_ptr<Stream>> makeStream() override {
     if (options_.before) {
       if (Result<void> may = options_.before("makeStream"); !may) return may.error();

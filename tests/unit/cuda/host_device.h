@@ -14,6 +14,7 @@ struct HostDeviceOptions {
   std::optional<uint32_t> shuffled;
   /// Called before every call that can fail, with its name ("allocate", "launch"...); an error is its result.
   std::function<Result<void>(const char* call)> before = nullptr;
+  bool borrowed = false;  ///< as if an engine had lent it
 };
 
 /// New memory holds bytes that no kernel can take for anything.
