@@ -37,6 +37,8 @@ struct DeviceInfo {
   std::string ails;         ///< why the driver tells no more of it; empty: it does
 };
 
+inline constexpr size_t kAlignment = 256;  ///< of what is taken from a device's memory
+
 enum class MemoryKind : uint8_t {
   device,
   pinned  ///< the host's, which the device copies from and to while the host goes on
@@ -47,7 +49,7 @@ enum class MemoryKind : uint8_t {
 class Stream {
  public:
   virtual ~Stream() = default;
-  /// Bytes at a multiple of 256. What of the device's is freed may be in use by what the stream was given before;
+  /// Bytes at a multiple of kAlignment. What of the device's is freed may be in use by what the stream was given before;
   /// pinned memory is waited for.
   virtual Result<void*> allocate(MemoryKind kind, size_t bytes) = 0;
   virtual void free(MemoryKind kind, void* memory) noexcept = 0;

@@ -29,8 +29,8 @@ Result<std::vector<DeviceInfo>> listDevices();
 /// The engine's. Both outlive the device.
 struct BorrowedContext {
   CuContext context = nullptr;
-  CuStream stream = nullptr;  ///< for all batches; null: streams of our own
-  uint64_t mesh_bytes = 0;    ///< the most for meshes that stay on the device
+  CuStream stream = nullptr;         ///< for all batches; null: streams of our own
+  uint64_t mesh_bytes = UINT64_MAX;  ///< the most for meshes that stay on the device
 };
 
 /// Opens a device in the engine's context, which stays the engine's; a thread's current context is as before after

@@ -7,8 +7,6 @@ namespace sgm::cuda {
 
 namespace {
 
-constexpr size_t kAlignment = 256;
-
 size_t aligned(size_t bytes) { return (bytes + kAlignment - 1) / kAlignment * kAlignment; }
 
 size_t bytesOf(const PartSource& source) {

@@ -10,7 +10,6 @@ namespace sgm::cuda {
 
 namespace {
 
-constexpr size_t kAlignment = 256;
 /// Blocks that a multiprocessor has at one time or soon after: of the kernels whose work only the device knows.
 constexpr uint32_t kBlocksAProcessor = 32;
 

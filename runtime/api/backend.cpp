@@ -65,22 +65,28 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
   return backend;
 }
 
+namespace {
+
+/// What was only asked about gives way to what is lent; of a field's, or lent before, it does not.
+Result<void> giveWay(DeviceBackends& shared, BackendKind kind, std::shared_ptr<Backend>& named, bool lent) {
+  const auto isKind = [kind](const std::shared_ptr<Backend>& kept) {
+    return kept && kept->capabilities().kind == kind;
+  };
+  for (std::shared_ptr<Backend>* kept : {&named, &shared.automatic}) {
+    const long owners = named == shared.automatic ? 2 : 1;
+    if (isKind(*kept) && kept->use_count() == owners && !lent) kept->reset();
+  }
+  if (!isKind(named) && !isKind(shared.automatic)) return {};
+  return Error{Code::busy, std::string("the runtime has a ") + (kind == BackendKind::cuda ? "CUDA" : "Vulkan") +
+                               " device already, lent or of a field of its own: lend one, before its first field"};
+}
+
+}  // namespace
+
 Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device) {
   DeviceBackends& shared = runtime.devices;
   const std::scoped_lock lock(shared.mutex);
-  const auto isVulkan = [](const std::shared_ptr<Backend>& kept) {
-    return kept && kept->capabilities().kind == BackendKind::vulkan;
-  };
-  // One that was only asked about gives way.
-  for (std::shared_ptr<Backend>* kept : {&shared.vulkan, &shared.automatic}) {
-    const long owners = shared.vulkan == shared.automatic ? 2 : 1;
-    if (isVulkan(*kept) && kept->use_count() == owners && !shared.lent) kept->reset();
-  }
-  if (isVulkan(shared.vulkan) || isVulkan(shared.automatic)) {
-    return Error{
-        Code::busy,
-        "the runtime has a Vulkan device already, lent or of a field of its own: lend one, before its first field"};
-  }
+  if (Result<void> free = giveWay(shared, BackendKind::vulkan, shared.vulkan, shared.lent); !free) return free;
   BackendRequest request = requestFor(BackendKind::vulkan);
   request.lent = std::move(device);
   Result<std::unique_ptr<Backend>> made = makeFor(runtime, std::move(request));
@@ -88,6 +94,21 @@ Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::Borr
   shared.vulkan = std::move(*made);
   shared.lent = true;
   if (!shared.vulkan->capabilities().software && !shared.automatic) shared.automatic = shared.vulkan;
+  return {};
+}
+
+Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::BorrowedContext> context) {
+  DeviceBackends& shared = runtime.devices;
+  const std::scoped_lock lock(shared.mutex);
+  if (Result<void> free = giveWay(shared, BackendKind::cuda, shared.cuda, shared.lent_context); !free) return free;
+  BackendRequest request = requestFor(BackendKind::cuda);
+  request.lent_context = std::move(context);
+  Result<std::unique_ptr<Backend>> made = makeFor(runtime, std::move(request));
+  if (!made) return made.error();
+  shared.cuda = std::move(*made);
+  shared.lent_context = true;
+  if (!shared.automatic) shared.automatic = shared.cuda;
+  shared.none = false;
   return {};
 }
 

@@ -15,6 +15,9 @@ std::optional<BackendRequest> requestOf(sgm_backend backend);
 /// hardware. Errors: as makeBackend; busy.
 Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device);
 
+/// As lendVulkan; what is chosen by itself is that, unless something was lent before.
+Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::BorrowedContext> context);
+
 /// The backend for a field of the runtime's. A device is opened once and meshes for all fields; where `automatic` has
 /// found none it is not looked for again. Errors: as makeBackend.
 Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendRequest& request);

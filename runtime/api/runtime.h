@@ -72,8 +72,8 @@ inline std::filesystem::path pathOf(const char* utf8) {
 struct DeviceBackends {
   std::mutex mutex;
   std::shared_ptr<Backend> vulkan, cuda, automatic;  ///< null until asked for
-  bool lent = false;                           ///< `vulkan` is the engine's
-  bool none = false;                           ///< `automatic` has found no device
+  bool lent = false, lent_context = false;           ///< `vulkan`, `cuda` is the engine's
+  bool none = false;                                 ///< `automatic` has found no device
 };
 
 }  // namespace sgm::api

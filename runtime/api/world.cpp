@@ -79,11 +79,10 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     settings.morph = (desc->flags & SGM_WORLD_MORPH) != 0;
     settings.resident = (desc->flags & SGM_WORLD_RESIDENT) != 0;
     if (settings.resident && !field->content->backend->capabilities().lends_meshes)
-      return fail(
-          error, SGM_ERR_UNSUPPORTED,
-          "desc.flags has SGM_WORLD_RESIDENT, and the field's backend is not on a device that was lent: "
-          "sgm_runtime_lend_vulkan comes before sgm_field_create, which then takes SGM_BACKEND_VULKAN (AUTO only "
-          "where the device is hardware)");
+      return fail(error, SGM_ERR_UNSUPPORTED,
+                  "desc.flags has SGM_WORLD_RESIDENT, and the field's backend is not on a device that was lent: "
+                  "sgm_runtime_lend_vulkan or sgm_runtime_lend_cuda comes before sgm_field_create, which then takes "
+                  "SGM_BACKEND_VULKAN (AUTO only where the device is hardware) or SGM_BACKEND_CUDA");
     settings.by_reach = (desc->flags & SGM_WORLD_BY_DISTANCE) == 0;
     settings.mesh_bytes = desc->mesh_bytes != 0 ? desc->mesh_bytes : kDefaultMeshBytes;
     if (!(desc->collider_distance >= 0) || !std::isfinite(desc->collider_distance))

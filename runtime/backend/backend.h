@@ -122,6 +122,9 @@ class Backend {
 namespace vulkan {
 struct BorrowedDevice;
 }
+namespace cuda {
+struct BorrowedContext;
+}
 
 struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
@@ -129,6 +132,7 @@ struct BackendRequest {
   int device = -1;              ///< of its kind, in the order in which they are listed; -1: the first, or fastest, that can be used
   std::string instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512"; empty: the widest that runs here
   std::shared_ptr<const vulkan::BorrowedDevice> lent = nullptr;  ///< Vulkan: the engine's; null: one of our own
+  std::shared_ptr<const cuda::BorrowedContext> lent_context = nullptr;  ///< CUDA: likewise
   std::filesystem::path pipeline_folder = {};  ///< Vulkan: where compiled pipelines are kept from run to run, or empty
   /// Told, in one line, what took long and what the backend goes on without. Any thread; null: nobody is.
   std::function<void(const std::string&)> inform = nullptr, warn = nullptr;

@@ -67,9 +67,11 @@ Result<std::unique_ptr<Backend>> makeCuda(const BackendRequest& request, JobSyst
   Result<std::unique_ptr<Backend>> cpu = makeCpuBackend(request.instruction_set, jobs, memory, profiler);
   if (!cpu) return cpu.error();
   CudaBackendOptions options;
-  options.open = [table = *driver, index = request.device] {
-    return cuda::openDevice(table, cuda::kernelImage(), index);
+  options.open = [table = *driver, lent = request.lent_context, index = request.device] {
+    return lent ? cuda::borrowDevice(table, cuda::kernelImage(), *lent)
+                : cuda::openDevice(table, cuda::kernelImage(), index);
   };
+  if (request.lent_context) options.resident_cap = request.lent_context->mesh_bytes;
   options.warn = request.warn;
   return makeCudaBackend(options, std::move(*cpu), memory, profiler);
 }

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "backend/vulkan/commands.h"
-#include "fixture.h"
+#include "resident_worlds.h"
 #include "rounds.h"
 #include "vulkan/engine.h"
 #include "vulkan/have_device.h"
@@ -24,14 +24,6 @@ extern "C" const char* __lsan_default_suppressions(void) { return "leak:libVkLay
 namespace {
 
 namespace vk = sgm::vulkan;
-
-/// Balls, and lumps around them.
-constexpr const char* kLumps =
-    "sgm 1; units m; domain infinite;\nlayer l cell 16m reach 8m detail 1m { start Lump; }\n"
-    "rule Lump { at(8m, 8m, 8m) { scatter 5 on disc(4m) sphere(rand(1m, 3m)); } }\n";
-constexpr const char* kBalls =
-    "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
-    "rule Ball { at(8m, 8m, 8m) sphere(7m); }\n";
 
 /// The engine's side: a device, its queue behind a mutex, and a way to read what lies in its memory.
 class Lender {
@@ -149,64 +141,6 @@ size_t checkMesh(Lender& lender, const MeshOwner& mesh) {
   checkPart(lender, view, view.body, place.body);
   for (size_t face = 0; face < 6; ++face) checkPart(lender, view, view.seams[face], place.seams[face]);
   return view.index_count / 3;
-}
-
-/// What a world would not wait for is waited for here: the device meshes then, not the CPU in its stead.
-void makeReady(sgm_field* field) {
-  std::vector<sgm_chunk_request> requests;
-  for (int level = 0; level < 4; ++level) {
-    for (int corner = 0; corner < 8; ++corner) {
-      requests.push_back(chunkAt({level, corner % 2 - 1, corner / 2 % 2 - 1, corner / 4 - 1}, 63));
-    }
-  }
-  meshChunks(field, requests);
-}
-
-WorldOwner makeWorld(sgm_field* field, uint32_t flags, const char* cache = nullptr) {
-  if (flags & SGM_WORLD_RESIDENT) makeReady(field);
-  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
-  desc.top_level = 3;
-  desc.flags = flags;
-  desc.finest_distance = 10;
-  desc.view_distance = 60;
-  desc.cache_folder = cache;
-  sgm_world* world = nullptr;
-  sgm_error error = SGM_ERROR_INIT;
-  const sgm_result result = sgm_world_create(field, &desc, &world, &error);
-  INFO(error.message);
-  REQUIRE(result == SGM_OK);
-  return WorldOwner(world);
-}
-
-void look(sgm_world* world, double x, double z) {
-  sgm_viewer viewer = SGM_VIEWER_INIT;
-  viewer.position[0] = x;
-  viewer.position[2] = z;
-  REQUIRE(sgm_world_set_viewers(world, &viewer, 0, 1, nullptr) == SGM_OK);
-}
-
-std::vector<MeshOwner> drawnOf(sgm_world* world) {
-  size_t count = 0;
-  REQUIRE(sgm_world_get_drawn(world, nullptr, 0, &count, nullptr) == SGM_OK);
-  std::vector<sgm_drawn_chunk> chunks(count);
-  REQUIRE(sgm_world_get_drawn(world, chunks.data(), 0, &count, nullptr) == SGM_OK);
-  std::vector<MeshOwner> meshes;
-  for (const sgm_drawn_chunk& chunk : chunks) meshes.emplace_back(chunk.mesh);
-  return meshes;
-}
-
-void pollAll(sgm_world* world) {
-  sgm_world_event events[16];
-  for (size_t count = 16;; count = 16) {
-    REQUIRE(sgm_world_poll(world, events, 0, &count, nullptr) == SGM_OK);
-    if (count == 0) return;
-    for (size_t i = 0; i < count; ++i) sgm_mesh_release(events[i].mesh);
-  }
-}
-
-void waitIdle(sgm_world* world) {
-  REQUIRE(sgm_world_wait_idle(world, nullptr, nullptr, nullptr) == SGM_OK);
-  pollAll(world);
 }
 
 RuntimeOwner lentRuntime(Lender& lender) {

@@ -948,9 +948,9 @@ typedef enum sgm_world_flag {
   SGM_WORLD_BY_DISTANCE = 1, /* level 0 wherever it is near enough. Without this flag only where a viewer's void leads
                                 to: what is near but behind rock stays one level coarser, and is never seen */
   SGM_WORLD_MORPH = 2,       /* meshes have morph offsets: sgm_mesh_view.morphs */
-  SGM_WORLD_RESIDENT = 4,    /* meshes also lie on the Vulkan device that the engine lent, which draws them from there:
-                                sgm_vulkan.h. That memory, about as much again in blocks of 64 MiB and more, counts for
-                                sgm_vulkan_device_desc.mesh_bytes and not for the world's */
+  SGM_WORLD_RESIDENT = 4,    /* meshes also lie on the device that the engine lent, which draws them from there:
+                                sgm_vulkan.h, sgm_cuda.h. That memory, about as much again, on Vulkan in blocks of 64 MiB
+                                and more, counts for mesh_bytes of what was lent, and not for the world's */
   SGM_WORLD_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_world_flag;
 

@@ -1,13 +1,10 @@
 #pragma once
-// A CUDA driver that pretends: its GPU's memory is the host's, its kernels run here (host_device.h), and it keeps count
-// of what it has given out. One at a time, as the driver's table holds plain functions.
+// The driver that pretends (fake_gpu.h), for one test.
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <string>
 
-#include "cuda/driver_api.h"
+#include "fake_gpu.h"
 
 namespace sgm::cuda {
 
@@ -16,30 +13,15 @@ inline constexpr std::array<std::byte, 16> kFakeImage{};
 
 class FakeDriver {
  public:
-  FakeDriver();
+  FakeDriver() { beginFake(); }
   /// CHECKs that nothing is left.
   ~FakeDriver();
   FakeDriver(const FakeDriver&) = delete;
   FakeDriver& operator=(const FakeDriver&) = delete;
 
-  DriverTable table() const;
-
-  struct State {
-    int devices = 1, capability_major = 9, capability_minor = 0, memory_pools = 1;
-    int contexts = 0, modules = 0, pools = 0, streams = 0, events = 0;  ///< alive
-    int64_t device_blocks = 0, pinned_blocks = 0;
-    int depth = 0;          ///< contexts that are current
-    int calls_without = 0;  ///< that need a current context, and had none
-    uint64_t launches = 0;
-    // The nth call of that name from now on gives this result, and where it is one that lasts all after it do.
-    std::string fail_call;
-    unsigned fail_nth = 0;
-    int fail_result = 0;
-    bool lasts = false;
-    bool may_leave = false;  ///< things in a context that cannot be used any more
-    bool unsure = false;     ///< a wait has failed: nobody could say whether pinned memory was in use
-  };
-  State& state() const;
+  using State = FakeState;
+  DriverTable table() const { return fakeTable(); }
+  State& state() const { return fakeState(); }
 };
 
 }  // namespace sgm::cuda

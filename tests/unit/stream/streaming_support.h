@@ -69,8 +69,8 @@ inline const BackendRequest& testedBackend() {
     BackendRequest request;
     const char* name = std::getenv("SGM_TEST_BACKEND");
     if (name == nullptr) return request;
-    REQUIRE(std::string(name) == "vulkan");
-    request.kind = BackendKind::vulkan;
+    REQUIRE((std::string(name) == "vulkan" || std::string(name) == "cuda"));
+    request.kind = std::string(name) == "cuda" ? BackendKind::cuda : BackendKind::vulkan;
     const auto jobs = *makeThreadPool(1);
     const auto made = makeBackend(request, *jobs, std::pmr::get_default_resource());
     if (made) return request;

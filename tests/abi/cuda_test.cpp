@@ -1,0 +1,246 @@
+// An engine that lends its CUDA context through the C interface, and reads meshes where they lie. On a GPU that
+// pretends, where LD_LIBRARY_PATH has its libcuda.so.1 first: its memory is the host's.
+
+#include <sgm/sgm_cuda.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <random>
+
+#include "cuda/driver_device.h"
+#include "resident_worlds.h"
+#include "rounds.h"
+
+extern "C" int sgm_cuda_inits_c(void);
+extern "C" int sgm_cuda_inits_cpp(void);
+
+namespace {
+
+/// The engine's side.
+class Lender {
+ public:
+  explicit Lender(bool with_stream = false) {
+    auto driver = sgm::cuda::openDriver();
+    INFO((driver ? std::string() : driver.error().message));
+    REQUIRE(driver);
+    driver_ = *driver;
+    REQUIRE(driver_.ctxCreate(&context_, 0, 0) == sgm::cuda::kCuSuccess);
+    if (with_stream) REQUIRE(driver_.streamCreate(&stream_, 0) == sgm::cuda::kCuSuccess);
+    sgm::cuda::CuContext popped = nullptr;
+    driver_.ctxPopCurrent(&popped);
+  }
+  ~Lender() {
+    driver_.ctxPushCurrent(context_);
+    if (stream_ != nullptr) driver_.streamDestroy(stream_);
+    sgm::cuda::CuContext popped = nullptr;
+    driver_.ctxPopCurrent(&popped);
+    driver_.ctxDestroy(context_);
+  }
+  Lender(const Lender&) = delete;
+  Lender& operator=(const Lender&) = delete;
+
+  sgm_cuda_device_desc lend() const {
+    sgm_cuda_device_desc desc = SGM_CUDA_DEVICE_DESC_INIT;
+    desc.context = reinterpret_cast<CUctx_st*>(context_);
+    desc.stream = reinterpret_cast<CUstream_st*>(stream_);
+    return desc;
+  }
+  RuntimeOwner runtime() const {
+    RuntimeOwner runtime = makeRuntime();
+    const sgm_cuda_device_desc desc = lend();
+    sgm_error error = SGM_ERROR_INIT;
+    const sgm_result result = sgm_runtime_lend_cuda(runtime.get(), &desc, &error);
+    INFO(error.message);
+    REQUIRE(result == SGM_OK);
+    return runtime;
+  }
+
+ private:
+  sgm::cuda::DriverTable driver_;
+  sgm::cuda::CuContext context_ = nullptr;
+  sgm::cuda::CuStream stream_ = nullptr;
+};
+
+void checkPart(const sgm_mesh_view& view, const sgm_mesh_range& range, const sgm_cuda_part& part) {
+  REQUIRE((part.vertices != 0) == (range.index_count > 0));
+  CHECK(part.vertex_count == range.vertex_count);
+  CHECK(part.index_count == range.index_count);
+  if (range.index_count == 0) return;
+  CHECK(part.vertices % 256 + part.indices % 256 == 0);
+  const auto* vertices = reinterpret_cast<const sgm_vertex*>(part.vertices);
+  CHECK(std::memcmp(vertices, view.vertices + range.first_vertex, part.vertex_count * sizeof(sgm_vertex)) == 0);
+  const auto* indices = reinterpret_cast<const uint32_t*>(part.indices);
+  size_t different = 0;
+  for (uint32_t i = 0; i < part.index_count; ++i) {
+    different += indices[i] + range.first_vertex != view.indices[range.first_index + i] ? 1u : 0u;
+  }
+  CHECK(different == 0);
+}
+
+/// What the GPU has is what the host has. Returns how many triangles there are.
+size_t checkMesh(const MeshOwner& mesh) {
+  const sgm_mesh_view view = viewOf(mesh);
+  sgm_cuda_mesh_view place = SGM_CUDA_MESH_VIEW_INIT;
+  sgm_error error = SGM_ERROR_INIT;
+  const sgm_result result = sgm_mesh_get_cuda_view(mesh.get(), &place, &error);
+  INFO(error.message);
+  REQUIRE(result == SGM_OK);
+  checkPart(view, view.body, place.body);
+  for (size_t face = 0; face < 6; ++face) checkPart(view, view.seams[face], place.seams[face]);
+  return view.index_count / 3;
+}
+
+sgm_backend_info infoOf(const RuntimeOwner& runtime, sgm_backend backend) {
+  sgm_backend_info info = SGM_BACKEND_INFO_INIT;
+  REQUIRE(sgm_backend_query(runtime.get(), backend, &info, nullptr) == SGM_OK);
+  return info;
+}
+
+}  // namespace
+
+TEST_CASE("what the CUDA header's macros set is the same in C and in C++", "[cuda]") {
+  CHECK(sgm_cuda_inits_c() == 1);
+  CHECK(sgm_cuda_inits_cpp() == 1);
+}
+
+TEST_CASE("a mesh lies in the lent context with the bytes that the host sees, wherever the viewer goes", "[cuda]") {
+  const bool with_stream = GENERATE(false, true);
+  const Lender lender(with_stream);
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed, with_stream);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-40, 40);
+  const RuntimeOwner runtime = lender.runtime();
+  {
+    const GrammarOwner grammar = compile(runtime.get(), kLumps);
+    const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
+    const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
+    const RuntimeOwner other = makeRuntime();
+    const GrammarOwner other_grammar = compile(other.get(), kLumps);
+    const FieldOwner other_field = makeField(other.get(), other_grammar.get(), 256, SGM_BACKEND_CPU);
+    const WorldOwner on_cpu = makeWorld(other_field.get(), 0);
+    std::vector<MeshOwner> kept;
+    for (unsigned step = 0; step < sgm::rounds(3); ++step) {
+      const double x = place(random), z = place(random);
+      for (sgm_world* one : {world.get(), on_cpu.get()}) {
+        look(one, x, z);
+        waitIdle(one);
+      }
+      std::vector<MeshOwner> meshes = drawnOf(world.get());
+      CHECK(meshes.size() == drawnOf(on_cpu.get()).size());
+      size_t triangles = 0;
+      for (const MeshOwner& mesh : meshes) triangles += checkMesh(mesh);
+      CHECK(triangles > 0);
+      // What the engine holds is not overwritten by what comes after.
+      for (const MeshOwner& mesh : kept) checkMesh(mesh);
+      kept = std::move(meshes);
+    }
+    CHECK(infoOf(runtime, SGM_BACKEND_CUDA).resident > 0);
+    CHECK(infoOf(runtime, SGM_BACKEND_CUDA).chunks_on_cpu == 0);
+  }
+  CHECK(infoOf(runtime, SGM_BACKEND_CUDA).resident == 0);
+}
+
+TEST_CASE("a dig lies in the lent context, and what has no room there says so", "[cuda]") {
+  const Lender lender;
+  for (const uint64_t bytes : {uint64_t{0}, uint64_t{60000}}) {
+    CAPTURE(bytes);
+    const RuntimeOwner runtime = makeRuntime();
+    sgm_cuda_device_desc desc = lender.lend();
+    desc.mesh_bytes = bytes;
+    REQUIRE(sgm_runtime_lend_cuda(runtime.get(), &desc, nullptr) == SGM_OK);
+    const GrammarOwner grammar = compile(runtime.get(), kBalls);
+    const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_AUTO);
+    const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
+    look(world.get(), 0, 0);
+    waitIdle(world.get());
+    sgm_brush brush = SGM_BRUSH_INIT;
+    for (int32_t& place : brush.from) place = 12 * SGM_UNITS_PER_METRE;
+    brush.radius = 3 * SGM_UNITS_PER_METRE;
+    sgm_edit_id id{};
+    REQUIRE(sgm_world_edit(world.get(), &brush, &id, nullptr) == SGM_OK);
+    waitIdle(world.get());
+    size_t there = 0, missing = 0;
+    for (const MeshOwner& mesh : drawnOf(world.get())) {
+      sgm_cuda_mesh_view view = SGM_CUDA_MESH_VIEW_INIT;
+      sgm_error error = SGM_ERROR_INIT;
+      const sgm_result result = sgm_mesh_get_cuda_view(mesh.get(), &view, &error);
+      REQUIRE((result == SGM_OK || result == SGM_ERR_NOT_FOUND));
+      ++(result == SGM_OK ? there : missing);
+      if (result == SGM_OK) checkMesh(mesh);
+      if (result != SGM_OK) CHECK_THAT(error.message, Catch::Contains("mesh_bytes"));
+    }
+    CHECK(there > 0);
+    CHECK((missing > 0) == (bytes > 0));
+  }
+}
+
+TEST_CASE("meshes outlive the world that they were streamed in, as CUDA's", "[cuda]") {
+  const Lender lender;
+  const RuntimeOwner runtime = lender.runtime();
+  std::vector<MeshOwner> meshes;
+  {
+    const GrammarOwner grammar = compile(runtime.get(), kBalls);
+    const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
+    const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
+    look(world.get(), 0, 0);
+    waitIdle(world.get());
+    meshes = drawnOf(world.get());
+  }
+  size_t triangles = 0;
+  for (const MeshOwner& mesh : meshes) triangles += checkMesh(mesh);
+  CHECK(triangles > 0);
+}
+
+TEST_CASE("a context that cannot be lent is refused, for a reason, and changes nothing", "[cuda]") {
+  const Lender lender;
+  const RuntimeOwner runtime = makeRuntime();
+  const sgm_cuda_device_desc good = lender.lend();
+  sgm_error error = SGM_ERROR_INIT;
+  const auto refused = [&](sgm_result result, const char* word, const auto& change) {
+    sgm_cuda_device_desc desc = good;
+    change(desc);
+    CHECK(sgm_runtime_lend_cuda(runtime.get(), &desc, &error) == result);
+    CHECK_THAT(error.message, Catch::Contains(word));
+  };
+  CHECK(sgm_runtime_lend_cuda(nullptr, &good, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_runtime_lend_cuda(runtime.get(), nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  refused(SGM_ERR_STRUCT_SIZE, "struct_size", [](auto& d) { d.struct_size = 8; });
+  refused(SGM_ERR_UNSUPPORTED, "next", [](auto& d) { d.next = &d; });
+  refused(SGM_ERR_INVALID_ARGUMENT, "context", [](auto& d) { d.context = nullptr; });
+  // What was only asked about gives way; it is AUTO's, too.
+  CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend == SGM_BACKEND_CUDA);
+  REQUIRE(sgm_runtime_lend_cuda(runtime.get(), &good, nullptr) == SGM_OK);
+  refused(SGM_ERR_BUSY, "CUDA device already", [](auto&) {});
+  CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend == SGM_BACKEND_CUDA);
+  const RuntimeOwner used = makeRuntime();
+  const GrammarOwner grammar = compile(used.get(), kBalls);
+  const FieldOwner field = makeField(used.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
+  CHECK(sgm_runtime_lend_cuda(used.get(), &good, &error) == SGM_ERR_BUSY);
+}
+
+TEST_CASE("what is not in a lent context says so", "[cuda]") {
+  const Lender lender;
+  const RuntimeOwner runtime = lender.runtime();
+  const GrammarOwner grammar = compile(runtime.get(), kBalls);
+  const FieldOwner on_cpu = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CPU);
+  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+  desc.flags = SGM_WORLD_RESIDENT;
+  sgm_world* refused = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  CHECK(sgm_world_create(on_cpu.get(), &desc, &refused, &error) == SGM_ERR_UNSUPPORTED);
+  CHECK_THAT(error.message, Catch::Contains("sgm_runtime_lend_cuda"));
+  const WorldOwner world = makeWorld(on_cpu.get(), 0);
+  look(world.get(), 0, 0);
+  waitIdle(world.get());
+  const std::vector<MeshOwner> meshes = drawnOf(world.get());
+  REQUIRE(!meshes.empty());
+  sgm_cuda_mesh_view view = SGM_CUDA_MESH_VIEW_INIT;
+  CHECK(sgm_mesh_get_cuda_view(meshes[0].get(), &view, &error) == SGM_ERR_NOT_FOUND);
+  CHECK_THAT(error.message, Catch::Contains("SGM_WORLD_RESIDENT"));
+  CHECK(view.body.vertices == 0);
+  CHECK(sgm_mesh_get_cuda_view(nullptr, &view, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_get_cuda_view(meshes[0].get(), nullptr, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  view.struct_size = 1;
+  CHECK(sgm_mesh_get_cuda_view(meshes[0].get(), &view, nullptr) == SGM_ERR_STRUCT_SIZE);
+}

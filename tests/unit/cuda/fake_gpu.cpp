@@ -1,0 +1,329 @@
+#include "fake_gpu.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "cuda/driver_device.h"
+#include "cuda/kernels/kernels.h"
+#include "host_device.h"
+
+namespace sgm::cuda {
+
+namespace {
+
+std::mutex fake_mutex;
+FakeState fake_state;
+thread_local int fake_depth = 0;  ///< contexts that are current
+std::unique_ptr<Device> fake_host;
+std::unique_ptr<Stream> fake_runs;  ///< the kernels
+std::set<void*> fake_blocks;        ///< alive
+char fake_function[static_cast<size_t>(Kernel::count)];
+int fake_things[3];
+
+/// What a stream was given and has not done: nothing is done before somebody waits, or asks twice.
+struct FakeStream {
+  std::deque<std::function<void()>> queued;
+  uint64_t given = 0;  ///< pieces, ever
+
+  void give(std::function<void()> piece) {
+    queued.push_back(std::move(piece));
+    ++given;
+  }
+  uint64_t done() const { return given - queued.size(); }
+  void finish(uint64_t pieces) {
+    while (done() < pieces) {
+      queued.front()();
+      queued.pop_front();
+    }
+  }
+};
+struct FakeEvent {
+  FakeStream* stream = nullptr;
+  uint64_t after = 0;  ///< so many of its pieces
+  bool asked = false;
+};
+std::set<FakeStream*> fake_streams;  ///< alive
+std::set<FakeEvent*> fake_events;    ///< alive
+FakeStream& of(CuStream stream) { return *reinterpret_cast<FakeStream*>(stream); }
+FakeEvent& of(CuEvent event) { return *reinterpret_cast<FakeEvent*>(event); }
+void* hostOf(CuPointer memory) { return reinterpret_cast<void*>(static_cast<uintptr_t>(memory)); }
+
+/// What the call is to give; 0 as a rule.
+int before(const char* call, bool needs_context = true) {
+  FakeState& s = fake_state;
+  if (needs_context && fake_depth == 0) ++s.calls_without;
+  if (s.fail_nth > 0 && s.fail_call == call) {
+    if (--s.fail_nth > 0) return 0;
+    if (s.lasts) s.fail_nth = 1;
+    s.unsure = s.unsure || s.fail_call == "eventRecord" || s.fail_call == "eventSynchronize";
+    return s.fail_result;
+  }
+  return 0;
+}
+
+template <class Handle>
+Handle thing(int number) {
+  return reinterpret_cast<Handle>(&fake_things[number]);
+}
+
+DriverTable makeTable() {
+  DriverTable t;
+  t.init = [](unsigned) {
+    // As a library: nobody else has begun.
+    if (!fake_host) beginFake();
+    return before("init", false);
+  };
+  t.driverGetVersion = [](int* version) {
+    *version = 13000;
+    return before("driverGetVersion", false);
+  };
+  t.getErrorString = [](CuResult result, const char** text) {
+    *text = result == kCuOutOfMemory ? "out of memory" : "a failure";
+    return kCuSuccess;
+  };
+  t.deviceGetCount = [](int* count) {
+    *count = fake_state.devices;
+    return before("deviceGetCount", false);
+  };
+  t.deviceGet = [](CuDevice* device, int number) {
+    *device = number;
+    return before("deviceGet", false);
+  };
+  t.deviceGetName = [](char* name, int size, CuDevice) {
+    std::strncpy(name, "a GPU that pretends", static_cast<size_t>(size));
+    return before("deviceGetName", false);
+  };
+  t.deviceGetAttribute = [](int* value, int attribute, CuDevice) {
+    const FakeState& s = fake_state;
+    *value = attribute == kCuCapabilityMajor   ? s.capability_major
+             : attribute == kCuCapabilityMinor ? s.capability_minor
+             : attribute == kCuMemoryPools     ? s.memory_pools
+                                               : 2;
+    return before("deviceGetAttribute", false);
+  };
+  t.deviceTotalMem = [](size_t* bytes, CuDevice) {
+    *bytes = size_t{8} << 30;
+    return before("deviceTotalMem", false);
+  };
+  t.ctxCreate = [](CuContext* context, unsigned, CuDevice) {
+    if (const int result = before("ctxCreate", false)) return result;
+    *context = thing<CuContext>(0);
+    ++fake_state.contexts;
+    ++fake_depth;
+    return kCuSuccess;
+  };
+  t.ctxDestroy = [](CuContext) {
+    --fake_state.contexts;
+    return before("ctxDestroy", false);
+  };
+  t.ctxGetDevice = [](CuDevice* device) {
+    *device = 0;
+    return before("ctxGetDevice");
+  };
+  t.ctxPushCurrent = [](CuContext) {
+    if (const int result = before("ctxPushCurrent", false)) return result;
+    ++fake_depth;
+    return kCuSuccess;
+  };
+  t.ctxPopCurrent = [](CuContext* context) {
+    *context = thing<CuContext>(0);
+    --fake_depth;
+    return kCuSuccess;
+  };
+  t.moduleLoadData = [](CuModule* module, const void*) {
+    if (const int result = before("moduleLoadData")) return result;
+    *module = thing<CuModule>(1);
+    ++fake_state.modules;
+    return kCuSuccess;
+  };
+  t.moduleUnload = [](CuModule) {
+    --fake_state.modules;
+    return before("moduleUnload");
+  };
+  t.moduleGetFunction = [](CuFunction* function, CuModule, const char* name) {
+    if (const int result = before("moduleGetFunction")) return result;
+    static constexpr const char* kNames[] = {
+#define SGM_CUDA_KERNEL(Name) "sgm" #Name,
+        SGM_CUDA_KERNELS
+#undef SGM_CUDA_KERNEL
+    };
+    for (size_t k = 0; k < std::size(kNames); ++k) {
+      if (std::strcmp(name, kNames[k]) == 0) *function = reinterpret_cast<CuFunction>(&fake_function[k]);
+    }
+    return kCuSuccess;
+  };
+  t.streamCreate = [](CuStream* stream, unsigned) {
+    if (const int result = before("streamCreate")) return result;
+    auto* const made = new FakeStream;
+    fake_streams.insert(made);
+    *stream = reinterpret_cast<CuStream>(made);
+    ++fake_state.streams;
+    return kCuSuccess;
+  };
+  t.streamDestroy = [](CuStream stream) {
+    // The GPU goes on with what it was given.
+    of(stream).finish(of(stream).given);
+    fake_streams.erase(&of(stream));
+    delete &of(stream);
+    --fake_state.streams;
+    return before("streamDestroy");
+  };
+  t.eventCreate = [](CuEvent* event, unsigned) {
+    if (const int result = before("eventCreate")) return result;
+    auto* const made = new FakeEvent;
+    fake_events.insert(made);
+    *event = reinterpret_cast<CuEvent>(made);
+    ++fake_state.events;
+    return kCuSuccess;
+  };
+  t.eventDestroy = [](CuEvent event) {
+    fake_events.erase(&of(event));
+    delete &of(event);
+    --fake_state.events;
+    return before("eventDestroy");
+  };
+  t.eventRecord = [](CuEvent event, CuStream stream) {
+    if (const int result = before("eventRecord")) return result;
+    of(event) = {&of(stream), of(stream).given, false};
+    return kCuSuccess;
+  };
+  t.eventQuery = [](CuEvent event) {
+    if (const int result = before("eventQuery")) return result;
+    FakeEvent& e = of(event);
+    if (e.stream == nullptr) return kCuSuccess;
+    if (e.stream->done() < e.after && !std::exchange(e.asked, true)) return kCuNotReady;
+    e.stream->finish(e.after);
+    return kCuSuccess;
+  };
+  t.eventSynchronize = [](CuEvent event) {
+    // Where it fails it has not waited.
+    if (const int result = before("eventSynchronize")) return result;
+    if (of(event).stream != nullptr) of(event).stream->finish(of(event).after);
+    return kCuSuccess;
+  };
+  t.memPoolCreate = [](CuPool* pool, const CuPoolProperties*) {
+    if (const int result = before("memPoolCreate")) return result;
+    *pool = thing<CuPool>(2);
+    ++fake_state.pools;
+    return kCuSuccess;
+  };
+  t.memPoolDestroy = [](CuPool) {
+    --fake_state.pools;
+    return before("memPoolDestroy");
+  };
+  t.memAllocFromPoolAsync = [](CuPointer* memory, size_t bytes, CuPool, CuStream) {
+    if (const int result = before("memAllocFromPoolAsync")) return result;
+    void* const block = std::aligned_alloc(256, (bytes + 255) / 256 * 256);
+    std::memset(block, 0xCD, bytes);
+    *memory = reinterpret_cast<uintptr_t>(block);
+    fake_blocks.insert(block);
+    ++fake_state.device_blocks;
+    return kCuSuccess;
+  };
+  t.memFreeAsync = [](CuPointer memory, CuStream stream) {
+    of(stream).give([memory] {
+      fake_blocks.erase(hostOf(memory));
+      std::free(hostOf(memory));
+    });
+    --fake_state.device_blocks;
+    return before("memFreeAsync");
+  };
+  t.memHostAlloc = [](void** memory, size_t bytes, unsigned) {
+    if (const int result = before("memHostAlloc")) return result;
+    *memory = std::aligned_alloc(256, (bytes + 255) / 256 * 256);
+    std::memset(*memory, 0xCD, bytes);
+    fake_blocks.insert(*memory);
+    ++fake_state.pinned_blocks;
+    return kCuSuccess;
+  };
+  t.memFreeHost = [](void* memory) {
+    fake_blocks.erase(memory);
+    std::free(memory);
+    --fake_state.pinned_blocks;
+    return before("memFreeHost");
+  };
+  t.memcpyHtoDAsync = [](CuPointer to, const void* from, size_t bytes, CuStream stream) {
+    if (const int result = before("memcpyHtoDAsync")) return result;
+    of(stream).give([=] { std::memcpy(hostOf(to), from, bytes); });
+    return kCuSuccess;
+  };
+  t.memcpyDtoHAsync = [](void* to, CuPointer from, size_t bytes, CuStream stream) {
+    if (const int result = before("memcpyDtoHAsync")) return result;
+    // What is read before the end is nothing.
+    std::memset(to, 0xCD, bytes);
+    of(stream).give([=] { std::memcpy(to, hostOf(from), bytes); });
+    return kCuSuccess;
+  };
+  t.memcpyDtoDAsync = [](CuPointer to, CuPointer from, size_t bytes, CuStream stream) {
+    if (const int result = before("memcpyDtoDAsync")) return result;
+    of(stream).give([=] { std::memcpy(hostOf(to), hostOf(from), bytes); });
+    return kCuSuccess;
+  };
+  t.memsetD8Async = [](CuPointer at, unsigned char value, size_t bytes, CuStream stream) {
+    if (const int result = before("memsetD8Async")) return result;
+    of(stream).give([=] { std::memset(hostOf(at), value, bytes); });
+    return kCuSuccess;
+  };
+  t.launchKernel = [](CuFunction function, unsigned blocks, unsigned, unsigned, unsigned threads, unsigned, unsigned,
+                      unsigned, CuStream stream, void** parameters, void**) {
+    if (const int result = before("launchKernel")) return result;
+    if (threads == 0 || threads > 1024 || blocks == 0) return 1;
+    ++fake_state.launches;
+    const auto kernel = static_cast<Kernel>(reinterpret_cast<const char*>(function) - fake_function);
+    const Batch batch = *static_cast<const Batch*>(parameters[0]);
+    of(stream).give([=] { static_cast<void>(fake_runs->launch(kernel, blocks, batch)); });
+    return kCuSuccess;
+  };
+  return t;
+}
+
+/// Any thread may call a driver.
+template <class Entry>
+struct OneAtATime;
+template <class... Arguments>
+struct OneAtATime<CuResult (*DriverTable::*)(Arguments...)> {
+  template <CuResult (*DriverTable::*entry)(Arguments...)>
+  static CuResult call(Arguments... arguments) {
+    static const DriverTable table = makeTable();
+    const std::scoped_lock lock(fake_mutex);
+    return (table.*entry)(arguments...);
+  }
+};
+
+}  // namespace
+
+FakeState& fakeState() { return fake_state; }
+
+int fakeDepth() { return fake_depth; }
+
+DriverTable fakeTable() {
+  DriverTable table;
+#define SGM_CU(entry, name, parameters) \
+  table.entry = OneAtATime<decltype(&DriverTable::entry)>::call<&DriverTable::entry>;
+  SGM_CU_FUNCTIONS
+#undef SGM_CU
+  return table;
+}
+
+void beginFake() {
+  fake_state = {};
+  fake_host = makeHostDevice();
+  fake_runs = *fake_host->makeStream();
+}
+
+void endFake() {
+  for (FakeStream* stream : std::exchange(fake_streams, {})) delete stream;
+  for (FakeEvent* event : std::exchange(fake_events, {})) delete event;
+  for (void* block : std::exchange(fake_blocks, {})) std::free(block);
+  fake_runs.reset();
+  fake_host.reset();
+}
+
+}  // namespace sgm::cuda
