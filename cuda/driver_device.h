@@ -11,6 +11,9 @@
 
 namespace sgm::cuda {
 
+/// Whether this machine has an NVIDIA driver, be it of use or not.
+bool haveDriver();
+
 /// The machine's driver, initialised. unsupported: there is none, or it is too old, and what to do.
 Result<DriverTable> openDriver();
 

@@ -33,8 +33,17 @@ std::span<const std::byte> kernelImage() {
 #endif
 }
 
+namespace {
+
+/// Stays in memory: what a driver keeps for threads must outlive them.
+void* openLibrary() { return dlopen("libcuda.so.1", RTLD_NOW | RTLD_LOCAL); }
+
+}  // namespace
+
+bool haveDriver() { return openLibrary() != nullptr; }
+
 Result<DriverTable> openDriver() {
-  void* library = dlopen("libcuda.so.1", RTLD_NOW | RTLD_LOCAL);
+  void* library = openLibrary();
   if (!library) return Error{Code::unsupported, "no NVIDIA driver here: there is no libcuda.so.1"};
   DriverTable table;
   const char* missing = nullptr;

@@ -81,7 +81,12 @@ Result<std::unique_ptr<Backend>> makeCuda(const BackendRequest& request, JobSyst
 Result<std::unique_ptr<Backend>> makeBackend(const BackendRequest& request, JobSystem& jobs,
                                              std::pmr::memory_resource* memory, const Profiler& profiler) {
   if (request.automatic) {
-    if (Result<std::unique_ptr<Backend>> cuda = makeCuda(request, jobs, memory, profiler)) return cuda;
+    Result<std::unique_ptr<Backend>> cuda = makeCuda(request, jobs, memory, profiler);
+    if (cuda) return cuda;
+    // Whoever has a GPU of NVIDIA's would wonder.
+    if (request.inform && !cuda::kernelImage().empty() && cuda::haveDriver()) {
+      request.inform("auto passes over CUDA: " + cuda.error().message);
+    }
     if (Result<std::unique_ptr<Backend>> hardware = makeVulkan(request, false, jobs, memory, profiler)) return hardware;
     return makeCpuBackend(request.instruction_set, jobs, memory, profiler);
   }

@@ -1,6 +1,7 @@
 // An engine that lends its CUDA context through the C interface, and reads meshes where they lie. On a GPU that
 // pretends, where LD_LIBRARY_PATH has its libcuda.so.1 first: its memory is the host's.
 
+#include <dlfcn.h>
 #include <sgm/sgm_cuda.h>
 
 #include <cstdlib>
@@ -8,6 +9,7 @@
 #include <random>
 
 #include "cuda/driver_device.h"
+#include "cuda/fake_gpu.h"
 #include "resident_worlds.h"
 #include "rounds.h"
 
@@ -217,6 +219,22 @@ TEST_CASE("a context that cannot be lent is refused, for a reason, and changes n
   const GrammarOwner grammar = compile(used.get(), kBalls);
   const FieldOwner field = makeField(used.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
   CHECK(sgm_runtime_lend_cuda(used.get(), &good, &error) == SGM_ERR_BUSY);
+}
+
+TEST_CASE("auto says why it passes over a driver that is there", "[cuda]") {
+  std::string said;
+  const sgm_log_sink sink{
+      [](void* user, sgm_log_level, const char* message) { *static_cast<std::string*>(user) += message; }, &said};
+  sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+  desc.log = &sink;
+  const RuntimeOwner runtime = makeRuntime(&desc);
+  const auto state = reinterpret_cast<sgm::cuda::FakeState* (*)()>(
+      dlsym(dlopen("libcuda.so.1", RTLD_NOW | RTLD_NOLOAD), "sgm_fake_state"));
+  REQUIRE(state != nullptr);
+  state()->memory_pools = 0;
+  CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend != SGM_BACKEND_CUDA);
+  state()->memory_pools = 1;
+  CHECK_THAT(said, Catch::Contains("auto passes over CUDA: ") && Catch::Contains("memory pools"));
 }
 
 TEST_CASE("what is not in a lent context says so", "[cuda]") {
