@@ -1,12 +1,13 @@
-// The Vulkan backend beside the CPU's: the chunks around a viewer in the sample cave, meshed by both in turn.
+// A device's backend beside the CPU's: the chunks around a viewer in the sample cave, meshed by both in turn.
 //
-//   sgm_bench_backends [GRAMMAR [CELL_UNITS [THREADS]]]
+//   sgm_bench_backends [GRAMMAR [CELL_UNITS [THREADS [vulkan | cuda]]]]
 //
 // Software Vulkan takes its number of threads from LP_NUM_THREADS: set it to THREADS as well.
 
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
+#include <string>
 
 #include "cave.h"
 #include "measure.h"
@@ -37,7 +38,7 @@ std::vector<ChunkJob> jobsAround(const WorldField& world) {
 
 struct Run {
   double whole = 0, submitting = 0;  ///< ms
-  size_t triangles = 0;
+  size_t triangles = 0, with_surface = 0;
   ContentHash hash;  ///< sums of all parts'
 };
 
@@ -57,6 +58,7 @@ Run meshAll(Backend& backend, const std::vector<ChunkJob>& jobs) {
         run.hash.a += part.hash.a;
         run.hash.b += part.hash.b;
       };
+      run.with_surface += mesh.body.indices.empty() ? 0u : 1u;
       add(mesh.body);
       for (const MeshPart& seam : mesh.seams) add(seam);
     }
@@ -65,7 +67,13 @@ Run meshAll(Backend& backend, const std::vector<ChunkJob>& jobs) {
   return run;
 }
 
-void compare(const char* path, int32_t cell, unsigned threads) {
+BackendKind kindOf(const std::string& name) {
+  if (name == "vulkan") return BackendKind::vulkan;
+  if (name == "cuda") return BackendKind::cuda;
+  throw std::runtime_error("the backend is vulkan or cuda, not " + name);
+}
+
+void compare(const char* path, int32_t cell, unsigned threads, const std::string& name) {
   WorldFieldSettings settings = bench::settingsOf(path, 3);
   settings.finest_cell = cell;
   const WorldField world(settings, heap);
@@ -73,13 +81,13 @@ void compare(const char* path, int32_t cell, unsigned threads) {
   const auto pool = must(makeThreadPool(threads));
   BackendRequest request;
   const auto cpu = must(makeBackend(request, *pool, heap));
-  request.kind = BackendKind::vulkan;
+  request.kind = kindOf(name);
   const auto device = must(makeBackend(request, *pool, heap));
   const Run first = meshAll(*device, jobs);
   std::printf("%s, %u threads | %s\n", cpu->capabilities().device.c_str(), threads,
               device->capabilities().device.c_str());
-  std::printf("%zu chunks, %zu triangles; the first time, pipelines made: %.0f ms\n", jobs.size(), first.triangles,
-              first.whole);
+  std::printf("%zu chunks, %zu with a surface, %zu triangles; the first time, all made ready: %.0f ms\n", jobs.size(),
+              first.with_surface, first.triangles, first.whole);
   Run best_cpu, best_device;
   for (int i = 0; i < kRuns; ++i) {
     const Run a = meshAll(*cpu, jobs), b = meshAll(*device, jobs);
@@ -89,8 +97,10 @@ void compare(const char* path, int32_t cell, unsigned threads) {
   }
   const BackendCounters counters = device->counters();
   std::printf(
-      "best of %d: CPU %.1f ms, Vulkan %.1f ms (%.2f times the CPU), %.2f %% of it in submit; by the CPU %llu\n", kRuns,
-      best_cpu.whole, best_device.whole, best_device.whole / best_cpu.whole,
+      "best of %d: CPU %.1f ms, %s %.1f ms (%.2f times the CPU; %.0f chunks with a surface a second), %.2f %% of it in "
+      "submit; by the CPU %llu\n",
+      kRuns, best_cpu.whole, name.c_str(), best_device.whole, best_device.whole / best_cpu.whole,
+      1000 * static_cast<double>(best_device.with_surface) / best_device.whole,
       100 * best_device.submitting / best_device.whole, static_cast<unsigned long long>(counters.on_cpu));
 }
 
@@ -99,7 +109,7 @@ void compare(const char* path, int32_t cell, unsigned threads) {
 int main(int argc, char** argv) {
   try {
     compare(argc > 1 ? argv[1] : SGM_BENCH_CAVE, argc > 2 ? std::atoi(argv[2]) : 256,
-            argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 2);
+            argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 2, argc > 4 ? argv[4] : "vulkan");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "sgm_bench_backends: %s\n", error.what());
     return 1;
