@@ -1,12 +1,11 @@
 #include "cuda/cuda_backend.h"
 
-#include <bit>
 #include <utility>
 
 #include "backend/device_batch.h"
+#include "backend/read_chunk.h"
 #include "cuda/kept_meshes.h"
 #include "cuda/mesher.h"
-#include "mesh/vertex_keys.h"
 
 namespace sgm {
 
@@ -19,28 +18,7 @@ struct Slot final : DeviceSlot {
   BatchMemory memory;
 };
 
-/// Fills a part from the batch's.
-void readPart(const Mesher::Output& output, uint32_t number, const ChunkJob& job, int part_of_chunk, MeshPart& part) {
-  const Part& from = output.parts[number];
-  part.vertices.assign(output.vertices + from.first_vertex, output.vertices + from.first_vertex + from.vertices);
-  part.indices.assign(output.indices + from.first_index, output.indices + from.first_index + from.indices);
-  part.hash = {from.hash[0], from.hash[1]};
-  deriveKeys(job.grid, part_of_chunk, job.coarser, part);
-}
-
-/// What signs say of a chunk; whether anything is to be drawn.
-bool readSigns(const uint64_t* signs, const ChunkJob& job, ChunkMesh& mesh) {
-  constexpr uint64_t kLower = (uint64_t{1} << kChunkCells) - 1;
-  uint32_t all = 0;
-  for (uint32_t row = 0; row < kRows; ++row) {
-    all += static_cast<uint32_t>(std::popcount(signs[row]));
-    const bool lower = row % kSide < kChunkCells && row / kSide < kChunkCells;
-    if (lower) mesh.solid_samples += static_cast<uint32_t>(std::popcount(signs[row] & kLower));
-  }
-  mesh.uniform = all == 0 || all == kSamples;
-  if (job.signs && !mesh.uniform) mesh.signs.assign(signs, signs + kRows);
-  return !mesh.uniform;
-}
+uint32_t partOf(const Plan::Parts& parts, size_t number) { return number == 0 ? parts.body : parts.seams[number - 1]; }
 
 class Session final : public DeviceSession, public std::enable_shared_from_this<Session> {
  public:
@@ -122,16 +100,17 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
 
  private:
   static bool haveRoom(const Mesher::Output& output, const Plan::Parts& parts) {
-    const auto hasRoom = [&](uint32_t part) { return part == kNone || output.parts[part].first_vertex != kNone; };
-    bool all = hasRoom(parts.body);
-    for (const uint32_t seam : parts.seams) all = all && hasRoom(seam);
-    return all;
+    for (size_t p = 0; p < kMeshParts; ++p) {
+      const uint32_t number = partOf(parts, p);
+      if (number != kNone && output.parts[number].first_vertex == kNone) return false;
+    }
+    return true;
   }
 
   static PartSources sourcesOf(const Mesher::Output& output, const Plan::Parts& parts, const BatchMemory& memory) {
     PartSources sources{};
     for (size_t p = 0; p < sources.size(); ++p) {
-      const uint32_t number = p == 0 ? parts.body : parts.seams[p - 1];
+      const uint32_t number = partOf(parts, p);
       if (number == kNone) continue;
       const Part& from = output.parts[number];
       sources[p].vertices = reinterpret_cast<const Vertex*>(memory.vertices.data()) + from.first_vertex;
@@ -142,17 +121,20 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     return sources;
   }
 
-  void readMesh(const Mesher::Output& output, const Plan::Parts& parts, const uint64_t* signs, const ChunkJob& job,
-                ChunkMesh& mesh) const {
-    if (job.body && readSigns(signs, job, mesh)) readPart(output, parts.body, job, 0, mesh.body);
-    if (job.seams == 0) return;
-    mesh.seams.reserve(6);
-    for (size_t face = 0; face < 6; ++face) {
-      MeshPart& seam = mesh.seams.emplace_back(memory_);
-      const uint32_t number = parts.seams[face];
-      if (number == kNone || output.parts[number].vertices == 0) continue;
-      readPart(output, number, job, 1 + static_cast<int>(face), seam);
-    }
+  static void readMesh(const Mesher::Output& output, const Plan::Parts& parts, const uint64_t* signs,
+                       const ChunkJob& job, ChunkMesh& mesh) {
+    const auto made = [&](size_t p) -> MadePart {
+      const uint32_t number = partOf(parts, p);
+      if (number == kNone) return {};
+      const Part& part = output.parts[number];
+      return {output.vertices + part.first_vertex,
+              output.indices + part.first_index,
+              part.vertices,
+              part.indices,
+              {part.hash[0], part.hash[1]}};
+    };
+    readChunk(
+        job, [signs](uint32_t row) { return signs[row]; }, made, mesh);
   }
 
   const Room room_;

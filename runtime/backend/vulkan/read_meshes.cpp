@@ -1,62 +1,39 @@
 #include "backend/vulkan/read_meshes.h"
 
-#include <bit>
-
-#include "mesh/vertex_keys.h"
+#include "backend/read_chunk.h"
 
 namespace sgm::vulkan {
 
 namespace {
 
-constexpr size_t kRows = size_t{kChunkSamples} * kChunkSamples;
-
 bool hasRoom(const Mesher::Output& output, uint32_t part) {
   return part == batch::kNoRoom || output.parts[part].first_vertex != batch::kNoRoom;
 }
 
-void readPart(const Mesher::Output& output, uint32_t number, const ChunkJob& job, int part_of_chunk, MeshPart& part) {
-  const batch::Part& record = output.parts[number];
-  part.vertices.assign(output.vertices + record.first_vertex, output.vertices + record.first_vertex + record.vertices);
-  part.indices.assign(output.indices + record.first_index, output.indices + record.first_index + record.indices);
-  part.hash = {record.hash[0], record.hash[1]};
-  deriveKeys(job.grid, part_of_chunk, job.coarser, part);
+uint32_t partOf(const BatchPlan::Chunk& planned, size_t number) {
+  return number == 0 ? planned.body : planned.seams[number - 1];
 }
 
 }  // namespace
 
 bool readMesh(const BatchPlan& plan, const Mesher::Output& output, size_t chunk, const ChunkJob& job, ChunkMesh& mesh) {
   const BatchPlan::Chunk& planned = plan.chunks[chunk];
-  if (!hasRoom(output, planned.body)) return false;
-  for (const uint32_t seam : planned.seams) {
-    if (!hasRoom(output, seam)) return false;
+  for (size_t p = 0; p < kMeshParts; ++p) {
+    if (!hasRoom(output, partOf(planned, p))) return false;
   }
-  if (job.body) {
-    const uint32_t* signs = output.signs + (output.signs_in_place ? planned.signs : chunk * batch::kSignWords);
-    uint32_t solid = 0, all = 0;
-    for (size_t row = 0; row < kRows; ++row) {
-      const auto count = static_cast<uint32_t>(std::popcount(signs[2 * row]));
-      all += count + (signs[2 * row + 1] & 1);
-      if (row % kChunkSamples < kChunkCells && row / kChunkSamples < kChunkCells) solid += count;
-    }
-    mesh.solid_samples = solid;
-    mesh.uniform = all == 0 || all == kRows * kChunkSamples;
-    if (job.signs && !mesh.uniform) {
-      mesh.signs.resize(kRows);
-      for (size_t row = 0; row < kRows; ++row) {
-        mesh.signs[row] = signs[2 * row] | uint64_t{signs[2 * row + 1] & 1} << 32;
-      }
-    }
-    if (!mesh.uniform) readPart(output, planned.body, job, 0, mesh.body);
-  }
-  if (job.seams == 0) return true;
-  mesh.seams.reserve(6);
-  for (size_t face = 0; face < 6; ++face) {
-    MeshPart& seam = mesh.seams.emplace_back(mesh.body.vertices.get_allocator().resource());
-    if (planned.seams[face] == batch::kNoRoom) continue;
-    if (output.parts[planned.seams[face]].vertices > 0) {
-      readPart(output, planned.seams[face], job, 1 + static_cast<int>(face), seam);
-    }
-  }
+  const uint32_t* signs = output.signs + (output.signs_in_place ? planned.signs : chunk * batch::kSignWords);
+  const auto signsOfRow = [&](uint32_t row) { return signs[2 * row] | uint64_t{signs[2 * row + 1] & 1} << 32; };
+  const auto made = [&](size_t p) -> MadePart {
+    const uint32_t number = partOf(planned, p);
+    if (number == batch::kNoRoom) return {};
+    const batch::Part& part = output.parts[number];
+    return {output.vertices + part.first_vertex,
+            output.indices + part.first_index,
+            part.vertices,
+            part.indices,
+            {part.hash[0], part.hash[1]}};
+  };
+  readChunk(job, signsOfRow, made, mesh);
   return true;
 }
 
@@ -64,7 +41,7 @@ PartSources sourcesOf(const BatchPlan& plan, const Mesher::Output& output, size_
   const BatchPlan::Chunk& planned = plan.chunks[chunk];
   PartSources sources;
   for (size_t p = 0; p < sources.size(); ++p) {
-    const uint32_t number = p == 0 ? planned.body : planned.seams[p - 1];
+    const uint32_t number = partOf(planned, p);
     if (number == batch::kNoRoom || output.parts[number].indices == 0) continue;
     const batch::Part& part = output.parts[number];
     sources[p] = {BufferRange(buffers.vertices, part.first_vertex * uint64_t{sizeof(Vertex)},
