@@ -16,6 +16,7 @@ struct Slot final : DeviceSlot {
   explicit Slot(std::pmr::memory_resource* resource) : plan(resource) {}
   Plan plan;
   BatchMemory memory;
+  Stream* awaited = nullptr;  ///< of the two, the one that is at work
 };
 
 uint32_t partOf(const Plan::Parts& parts, size_t number) { return number == 0 ? parts.body : parts.seams[number - 1]; }
@@ -63,11 +64,12 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     slot.stuck = true;
     Result<void> submitted = mesher_->submit(slot.plan, slot.memory);
     if (submitted) slot.submitted = true;
+    slot.awaited = slot.memory.stream.get();
     slot.stuck = !submitted && (!slot.memory.stream || !slot.memory.stream->wait());
     return submitted;
   }
-  Result<bool> ended(DeviceSlot& slot) override { return static_cast<Slot&>(slot).memory.stream->ended(); }
-  Result<void> await(DeviceSlot& slot) override { return static_cast<Slot&>(slot).memory.stream->wait(); }
+  Result<bool> ended(DeviceSlot& slot) override { return static_cast<Slot&>(slot).awaited->ended(); }
+  Result<void> await(DeviceSlot& slot) override { return static_cast<Slot&>(slot).awaited->wait(); }
 
   Result<bool> read(DeviceSlot& base, std::span<const ChunkJob> jobs, std::span<ChunkMesh> meshes,
                     const std::function<bool(size_t)>& done) override {
@@ -87,8 +89,11 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
       if (!done(parts.job)) return false;
     }
     if (staying.empty()) return false;
-    Result<std::vector<DeviceParts>> kept = kept_->keep(shared_from_this(), *slot.memory.stream, sources);
+    const Result<Stream*> reading = mesher_->reading(slot.memory);
+    if (!reading) return reading.error();
+    Result<std::vector<DeviceParts>> kept = kept_->keep(shared_from_this(), **reading, sources);
     if (!kept) return kept.error();
+    slot.awaited = *reading;
     for (size_t i = 0; i < staying.size(); ++i) meshes[staying[i]].on_device = std::move((*kept)[i]);
     return true;
   }

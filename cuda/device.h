@@ -45,12 +45,12 @@ enum class MemoryKind : uint8_t {
 };
 
 /// Work in order, each piece after those before it; the caller's thread goes on. One thread at a time. Its end waits
-/// for all. Errors of all that can fail: out_of_memory, device_lost, unsupported.
+/// for what it was given, frees apart. Errors of all that can fail: out_of_memory, device_lost, unsupported.
 class Stream {
  public:
   virtual ~Stream() = default;
-  /// Bytes at a multiple of kAlignment. What of the device's is freed may be in use by what the stream was given before;
-  /// pinned memory is waited for.
+  /// Bytes at a multiple of kAlignment. What of the device's is freed may be in use by what the stream was given
+  /// before; pinned memory is waited for.
   virtual Result<void*> allocate(MemoryKind kind, size_t bytes) = 0;
   virtual void free(MemoryKind kind, void* memory) noexcept = 0;
   /// Between pinned memory and the device's, which stay as they are until the end of the copy.
@@ -69,12 +69,17 @@ class Stream {
   virtual Result<void> wait() = 0;
 };
 
+enum class StreamUse : uint8_t {
+  own,      ///< nobody else's work is in it
+  batches,  ///< where an engine lent a stream, that one
+};
+
 /// Any thread may use it. Outlives its streams.
 class Device {
  public:
   virtual ~Device() = default;
   virtual const DeviceInfo& info() const = 0;
-  virtual Result<std::unique_ptr<Stream>> makeStream() = 0;
+  virtual Result<std::unique_ptr<Stream>> makeStream(StreamUse use = StreamUse::own) = 0;
   /// Whether an engine lent it, and reads its memory.
   virtual bool borrowed() const { return false; }
   /// Whether something has failed for good: nothing in its memory can be read any more.

@@ -37,6 +37,7 @@ struct CuPoolProperties {
 inline constexpr CuResult kCuSuccess = 0, kCuOutOfMemory = 2, kCuNoDevice = 100, kCuNoBinary = 209, kCuUnknownPtx = 222,
                           kCuNotReady = 600, kCuDriverMismatch = 803;
 inline constexpr int kCuProcessors = 16, kCuCapabilityMajor = 75, kCuCapabilityMinor = 76, kCuMemoryPools = 115;
+inline constexpr int kCuPoolThreshold = 4;  ///< of a pool: how many free bytes it keeps
 inline constexpr unsigned kCuNonBlockingStream = 1;
 inline constexpr unsigned kCuBlockingWaits = 4;  ///< of a context: who waits sleeps, as an engine needs the processors
 inline constexpr unsigned kCuEventBlocks = 1;    ///< of an event: likewise
@@ -62,12 +63,14 @@ inline constexpr unsigned kCuEventUntimed = 2;
   SGM_CU(moduleGetFunction, "cuModuleGetFunction", (CuFunction * function, CuModule module, const char* name))     \
   SGM_CU(streamCreate, "cuStreamCreate", (CuStream * stream, unsigned flags))                                      \
   SGM_CU(streamDestroy, "cuStreamDestroy_v2", (CuStream stream))                                                   \
+  SGM_CU(streamGetCtx, "cuStreamGetCtx", (CuStream stream, CuContext * context))                                   \
   SGM_CU(eventCreate, "cuEventCreate", (CuEvent * event, unsigned flags))                                          \
   SGM_CU(eventDestroy, "cuEventDestroy_v2", (CuEvent event))                                                       \
   SGM_CU(eventRecord, "cuEventRecord", (CuEvent event, CuStream stream))                                           \
   SGM_CU(eventQuery, "cuEventQuery", (CuEvent event))                                                              \
   SGM_CU(eventSynchronize, "cuEventSynchronize", (CuEvent event))                                                  \
   SGM_CU(memPoolCreate, "cuMemPoolCreate", (CuPool * pool, const CuPoolProperties* properties))                    \
+  SGM_CU(memPoolSetAttribute, "cuMemPoolSetAttribute", (CuPool pool, int attribute, void* value))                  \
   SGM_CU(memPoolDestroy, "cuMemPoolDestroy", (CuPool pool))                                                        \
   SGM_CU(memAllocFromPoolAsync, "cuMemAllocFromPoolAsync",                                                         \
          (CuPointer * memory, size_t bytes, CuPool pool, CuStream stream))                                         \

@@ -9,6 +9,8 @@ namespace sgm::cuda {
 
 namespace {
 
+constexpr uint64_t kPoolKeeps = uint64_t{256} << 20;  // of what is free, bytes: some batches' worth
+
 Error errorOf(const DriverTable& driver, CuResult result, const std::string& what) {
   const char* text = nullptr;
   if (driver.getErrorString(result, &text) != kCuSuccess || text == nullptr) text = "unknown error";
@@ -111,7 +113,7 @@ class DriverStream final : public Stream {
 
   Result<void*> allocate(MemoryKind kind, size_t bytes) override {
     const Current current(driver_, device_.context);
-    if (!current) return Current::refused();
+    if (!current) return refused();
     if (kind == MemoryKind::pinned) {
       void* memory = nullptr;
       const Result<void> made = device_.check(driver_.memHostAlloc(&memory, bytes, 0), "allocating pinned memory");
@@ -119,6 +121,7 @@ class DriverStream final : public Stream {
       return memory;
     }
     CuPointer memory = 0;
+    marked_ = false;
     const Result<void> made =
         device_.check(driver_.memAllocFromPoolAsync(&memory, bytes, device_.pool, stream_), "allocating memory");
     if (!made) return made.error();
@@ -132,35 +135,35 @@ class DriverStream final : public Stream {
       return;
     }
     // Copies may be under way in it. Where nobody can say that they have ended, it is left to the context's end.
-    if (wait()) driver_.memFreeHost(memory);
+    if (wait() && !device_.lost.load()) driver_.memFreeHost(memory);
   }
   Result<void> copyIn(void* device, const void* pinned, size_t bytes) override {
     const Current current(driver_, device_.context);
-    if (!current) return Current::refused();
+    if (!current) return refused();
     marked_ = false;
     return device_.check(driver_.memcpyHtoDAsync(pointerOf(device), pinned, bytes, stream_), "copying a batch");
   }
   Result<void> copyOut(void* pinned, const void* device, size_t bytes) override {
     const Current current(driver_, device_.context);
-    if (!current) return Current::refused();
+    if (!current) return refused();
     marked_ = false;
     return device_.check(driver_.memcpyDtoHAsync(pinned, pointerOf(device), bytes, stream_), "copying meshes");
   }
   Result<void> copy(void* to, const void* from, size_t bytes) override {
     const Current current(driver_, device_.context);
-    if (!current) return Current::refused();
+    if (!current) return refused();
     marked_ = false;
     return device_.check(driver_.memcpyDtoDAsync(pointerOf(to), pointerOf(from), bytes, stream_), "keeping meshes");
   }
   Result<void> clear(void* device, size_t bytes) override {
     const Current current(driver_, device_.context);
-    if (!current) return Current::refused();
+    if (!current) return refused();
     marked_ = false;
     return device_.check(driver_.memsetD8Async(pointerOf(device), 0, bytes, stream_), "clearing memory");
   }
   Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) override {
     const Current current(driver_, device_.context);
-    if (!current) return Current::refused();
+    if (!current) return refused();
     marked_ = false;
     // The driver copies the parameters before it returns.
     Batch copy = batch;
@@ -172,7 +175,7 @@ class DriverStream final : public Stream {
   Result<void> mark() override {
     if (marked_) return {};
     const Current current(driver_, device_.context);
-    if (!current) return Current::refused();
+    if (!current) return refused();
     const Result<void> recorded = device_.check(driver_.eventRecord(event_, stream_), "marking the end of the batch");
     marked_ = static_cast<bool>(recorded);
     return recorded;
@@ -180,25 +183,36 @@ class DriverStream final : public Stream {
   Result<bool> ended() override {
     if (Result<void> known = mark(); !known) return known.error();
     const Current current(driver_, device_.context);
-    if (!current) return Current::refused();
+    if (!current) return refused();
     const CuResult result = driver_.eventQuery(event_);
     if (result == kCuNotReady) return false;
     if (const Result<void> asked = device_.check(result, "asking for the batch"); !asked) return asked.error();
     return true;
   }
   Result<void> wait() override {
-    if (Result<void> known = mark(); !known) return known;
+    if (Result<void> known = mark(); !known) return unsure(known.error());
     const Current current(driver_, device_.context);
-    if (!current) return Current::refused();
-    return device_.check(driver_.eventSynchronize(event_), "waiting for the batch");
+    if (!current) return refused();
+    const Result<void> waited = device_.check(driver_.eventSynchronize(event_), "waiting for the batch");
+    return waited ? waited : unsure(waited.error());
   }
 
  private:
+  Error refused() const {
+    device_.lost.store(true);
+    return Current::refused();
+  }
+  /// Who cannot be waited for may write for ever: nothing on the device is to be trusted any more.
+  Error unsure(const Error& why) const {
+    device_.lost.store(true);
+    return {Code::device_lost, why.message};
+  }
+
   const Opened& device_;
   const DriverTable& driver_;
   const CuStream stream_;
   const CuEvent event_;
-  bool marked_ = false;  ///< the event stands behind all that was given
+  bool marked_ = true;  ///< the event stands behind all that was given; where that is nothing, it need not
 };
 
 class DriverDevice final : public Device {
@@ -207,11 +221,11 @@ class DriverDevice final : public Device {
   const DeviceInfo& info() const override { return opened_->info; }
   bool borrowed() const override { return opened_->borrowed; }
   bool lost() const override { return opened_->lost.load(); }
-  Result<std::unique_ptr<Stream>> makeStream() override {
+  Result<std::unique_ptr<Stream>> makeStream(StreamUse use) override {
     const Current current(opened_->driver, opened_->context);
     if (!current) return Current::refused();
     const DriverTable& driver = opened_->driver;
-    CuStream stream = opened_->stream;
+    CuStream stream = use == StreamUse::batches ? opened_->stream : nullptr;
     if (stream == nullptr) {
       const CuResult result = driver.streamCreate(&stream, kCuNonBlockingStream);
       if (const Result<void> made = opened_->check(result, "making a stream"); !made) return made.error();
@@ -276,6 +290,10 @@ Result<void> loadKernels(Opened& opened, CuDevice device, std::span<const std::b
   properties.location = device;
   const CuResult pooled = driver.memPoolCreate(&opened.pool, &properties);
   if (Result<void> made = opened.check(pooled, "making a memory pool"); !made) return made;
+  // What one batch gives back the next one takes: not by way of the system, at every wait of anyone.
+  uint64_t kept_bytes = kPoolKeeps;
+  const CuResult told = driver.memPoolSetAttribute(opened.pool, kCuPoolThreshold, &kept_bytes);
+  if (Result<void> set = opened.check(told, "setting up a memory pool"); !set) return set;
   static constexpr const char* kNames[] = {
 #define SGM_CUDA_KERNEL(Name) "sgm" #Name,
       SGM_CUDA_KERNELS
@@ -380,6 +398,11 @@ Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::spa
     CuResult result = driver.ctxGetDevice(&device);
     if (result == kCuSuccess) result = driver.driverGetVersion(&version);
     if (Result<void> got = opened->check(result, "asking for the device"); !got) return unusable(got.error());
+    CuContext of_stream = lent.context;
+    if (lent.stream != nullptr) result = driver.streamGetCtx(lent.stream, &of_stream);
+    if (result != kCuSuccess || of_stream != lent.context) {
+      return Error{Code::invalid_argument, "the lent stream is none of the lent context's"};
+    }
   }
   Result<DeviceInfo> info = describe(driver, device, version);
   if (!info) return unusable(info.error());

@@ -47,10 +47,10 @@ Result<std::unique_ptr<KeptMeshes>> KeptMeshes::create(Device& device, uint64_t 
 Result<std::shared_ptr<const KeptMemory>> KeptMeshes::allocate(const std::shared_ptr<const void>& owner, Stream& stream,
                                                                size_t bytes) {
   std::shared_ptr<const KeptMemory> none;
-  if (bytes_.fetch_add(bytes) + bytes > cap_) {
-    bytes_.fetch_sub(bytes);
-    return none;
-  }
+  uint64_t taken = bytes_.load();
+  do {
+    if (bytes > cap_ || taken > cap_ - bytes) return none;
+  } while (!bytes_.compare_exchange_weak(taken, taken + bytes));
   const Result<void*> made = stream.allocate(MemoryKind::device, bytes);
   if (!made) {
     bytes_.fetch_sub(bytes);
@@ -69,7 +69,8 @@ Result<std::shared_ptr<const KeptMemory>> KeptMeshes::allocate(const std::shared
 
 void KeptMeshes::free(std::byte* data, size_t bytes) noexcept {
   const std::scoped_lock lock(ending_mutex_);
-  ending_->free(MemoryKind::device, data);
+  // Of a lost device nobody can say what it writes to: it is left to the context's end.
+  if (!device_.lost()) ending_->free(MemoryKind::device, data);
   bytes_.fetch_sub(bytes);
 }
 

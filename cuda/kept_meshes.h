@@ -16,7 +16,7 @@ namespace sgm::cuda {
 
 class KeptMeshes;
 
-/// The memory of a chunk's parts, or of what was brought together. Its end gives it back, which must not come before
+/// The memory of a chunk's parts, or of one that was brought. Its end gives it back, which must not come before
 /// that of what the engine has the device do with it.
 class KeptMemory {
  public:

@@ -209,7 +209,7 @@ Result<void> Mesher::bring(const Plan& plan, BatchMemory& m, const Batch& batch)
 
 Result<void> Mesher::submit(const Plan& plan, BatchMemory& m) {
   if (!m.stream) {
-    Result<std::unique_ptr<Stream>> made = device_.makeStream();
+    Result<std::unique_ptr<Stream>> made = device_.makeStream(StreamUse::batches);
     if (!made) return made.error();
     m.stream = std::move(*made);
   }
@@ -222,6 +222,15 @@ Result<void> Mesher::submit(const Plan& plan, BatchMemory& m) {
   if (Result<void> ran = run(stream, batch); !ran) return ran;
   if (Result<void> brought = bring(plan, m, batch); !brought) return brought;
   return stream.mark();
+}
+
+Result<Stream*> Mesher::reading(BatchMemory& m) {
+  if (!m.reading) {
+    Result<std::unique_ptr<Stream>> made = device_.makeStream();
+    if (!made) return made.error();
+    m.reading = std::move(*made);
+  }
+  return m.reading.get();
 }
 
 Result<Mesher::Output> Mesher::read(const Plan& plan, BatchMemory& m) {
@@ -242,12 +251,15 @@ Result<void> Mesher::bringRest(const Head& head, BatchMemory& m) {
   usual_vertices_.store(vertices + vertices / 4);
   usual_indices_.store(indices + indices / 4);
   if (vertices <= m.brought_vertices && indices <= m.brought_indices) return {};
+  const Result<Stream*> stream = reading(m);
+  if (!stream) return stream.error();
   if (Result<void> grown = m.vertices_back.grow(*m.stream, MemoryKind::pinned, vertices); !grown) return grown;
   if (Result<void> grown = m.indices_back.grow(*m.stream, MemoryKind::pinned, indices); !grown) return grown;
-  if (Result<void> copied = m.stream->copyOut(m.vertices_back.data(), m.vertices.data(), vertices); !copied)
+  if (Result<void> copied = (*stream)->copyOut(m.vertices_back.data(), m.vertices.data(), vertices); !copied)
     return copied;
-  if (Result<void> copied = m.stream->copyOut(m.indices_back.data(), m.indices.data(), indices); !copied) return copied;
-  return m.stream->wait();
+  if (Result<void> copied = (*stream)->copyOut(m.indices_back.data(), m.indices.data(), indices); !copied)
+    return copied;
+  return (*stream)->wait();
 }
 
 }  // namespace sgm::cuda

@@ -12,6 +12,8 @@ namespace sgm::cuda {
 /// A stream and the memory of a batch on it; reused from batch to batch, and grown where one needs more.
 struct BatchMemory {
   std::unique_ptr<Stream> stream;  ///< outlives the memory below
+  std::unique_ptr<Stream>
+      reading;  ///< of what is copied once the batch has ended: not behind what an engine gave since
   Memory staging, input, scratch, result;
   Memory vertices, indices;
   /// What is brought back. How many vertices and indices there will be only the device knows; as many as batches of
@@ -31,6 +33,8 @@ class Mesher {
   /// until its end. Errors: as Stream's; part of the batch may run nevertheless.
   Result<void> submit(const Plan& plan, BatchMemory& memory);
 
+  /// The stream of what is copied after the end. Errors: as Stream's.
+  Result<Stream*> reading(BatchMemory& memory);
   /// After the end: what the host reads, valid until the next submission. Waits where more must be brought.
   struct Output {
     const Part* parts = nullptr;

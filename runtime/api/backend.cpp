@@ -104,11 +104,13 @@ Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::Borrowed
   BackendRequest request = requestFor(BackendKind::cuda);
   request.lent_context = std::move(context);
   Result<std::unique_ptr<Backend>> made = makeFor(runtime, std::move(request));
-  if (!made) return made.error();
+  // It has not been the runtime's yet to be lost.
+  if (!made)
+    return made.error().code == Code::device_lost ? Error{Code::unsupported, made.error().message} : made.error();
   shared.cuda = std::move(*made);
   shared.lent_context = true;
-  if (!shared.automatic) shared.automatic = shared.cuda;
-  shared.none = false;
+  // Of what was lent, the first that is hardware.
+  if (!shared.lent || shared.automatic != shared.vulkan) shared.automatic = shared.cuda;
   return {};
 }
 

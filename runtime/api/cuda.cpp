@@ -31,6 +31,12 @@ sgm_result sgm_runtime_lend_cuda(sgm_runtime* runtime, const sgm_cuda_device_des
     if (runtime == nullptr) return nullArgument(error, "runtime");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (desc->context == nullptr) return nullArgument(error, "desc.context");
+    constexpr uintptr_t kPerThread = 2;  // CU_STREAM_PER_THREAD
+    if (reinterpret_cast<uintptr_t>(desc->stream) == kPerThread) {
+      return fail(error, SGM_ERR_INVALID_ARGUMENT,
+                  "desc.stream is CU_STREAM_PER_THREAD, another one on every thread: lend one of your own, "
+                  "CU_STREAM_LEGACY, or NULL");
+    }
     const sgm::Result<void> lent =
         lendCuda(*runtime, std::make_shared<const sgm::cuda::BorrowedContext>(contextOf(*desc)));
     return lent ? SGM_OK : fail(error, lent.error());
@@ -50,7 +56,8 @@ sgm_result sgm_mesh_get_cuda_view(const sgm_mesh* mesh, sgm_cuda_mesh_view* view
         return fail(
             error, SGM_ERR_NOT_FOUND,
             "the mesh is not in the lent CUDA context: the world is not SGM_WORLD_RESIDENT, or the GPU's memory "
-            "(sgm_cuda_device_desc.mesh_bytes) is used up; upload what sgm_mesh_get_view shows");
+            "(sgm_cuda_device_desc.mesh_bytes) is used up, or the context was lost before; upload what "
+            "sgm_mesh_get_view shows");
       }
       const auto& placed = static_cast<const sgm::cuda::CudaPart&>(*part);
       if (placed.memory->meshes().device().lost()) {

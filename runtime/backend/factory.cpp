@@ -67,9 +67,12 @@ Result<std::unique_ptr<Backend>> makeCuda(const BackendRequest& request, JobSyst
   Result<std::unique_ptr<Backend>> cpu = makeCpuBackend(request.instruction_set, jobs, memory, profiler);
   if (!cpu) return cpu.error();
   CudaBackendOptions options;
-  options.open = [table = *driver, lent = request.lent_context, index = request.device] {
-    return lent ? cuda::borrowDevice(table, cuda::kernelImage(), *lent)
-                : cuda::openDevice(table, cuda::kernelImage(), index);
+  options.open = [table = *driver, lent = request.lent_context, index = request.device,
+                  opened = std::make_shared<bool>(false)]() -> Result<std::unique_ptr<cuda::Device>> {
+    if (!lent) return cuda::openDevice(table, cuda::kernelImage(), index);
+    // As the Vulkan device: meshes that are on it would be lost and there at once.
+    if (std::exchange(*opened, true)) return Error{Code::device_lost, "the engine's CUDA context was lost"};
+    return cuda::borrowDevice(table, cuda::kernelImage(), *lent);
   };
   if (request.lent_context) options.resident_cap = request.lent_context->mesh_bytes;
   options.warn = request.warn;

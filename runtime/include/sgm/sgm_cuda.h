@@ -28,8 +28,11 @@ struct CUstream_st;
 /* The engine's context, of a GPU with compute capability 7.5 or newer. Both handles must outlive the runtime.
  *
  * The runtime makes the context current around its calls, on whatever thread they are, and leaves every thread the one
- * that it had. It never waits for the context, nor for a stream: only for an event behind what it gave a stream itself.
- */
+ * that it had. Of a stream it waits only for an event behind what it gave it itself. But CUDA may make it wait for the
+ * whole device where kernels are loaded or pinned memory is taken or given back: at lending, at the runtime's end, and
+ * while batches still grow. A kernel of the engine's that waits for the host must not wait for the runtime's then. Nor
+ * may the engine capture a graph meanwhile, but in the mode RELAXED, or CU_STREAM_CAPTURE_MODE_THREAD_LOCAL on threads
+ * that do not call the runtime: calls of the runtime's would end the capture. */
 typedef struct sgm_cuda_device_desc {
   uint32_t struct_size;
   const void* next;
@@ -44,11 +47,12 @@ typedef struct sgm_cuda_device_desc {
 #define SGM_CUDA_DEVICE_DESC_INIT \
   { SGM_SIZEOF(sgm_cuda_device_desc), SGM_NULL, SGM_NULL, SGM_NULL, 0 }
 
-/* From now on the runtime's CUDA backend is in this context, and so is AUTO's, unless a Vulkan device was lent before.
+/* From now on the runtime's CUDA backend is in this context, and so is AUTO's, unless a Vulkan device that is hardware
+ * was lent before.
  *
- * SGM_ERR_INVALID_ARGUMENT: no context. SGM_ERR_UNSUPPORTED: no kernels in this build, no driver, a GPU that cannot
- * mesh, or a context that takes no calls; the message says which. SGM_ERR_BUSY: the runtime has lent one, or a field on
- * a CUDA device of its own. When it fails nothing has changed.
+ * SGM_ERR_INVALID_ARGUMENT: no context, or a stream that is not of it. SGM_ERR_UNSUPPORTED: no kernels in this build,
+ * no driver, a GPU that cannot mesh, or a context that takes no calls; the message says which. SGM_ERR_BUSY: the
+ * runtime has lent one, or a field on a CUDA device of its own. When it fails nothing has changed.
  *
  * A lent context that is lost stays lost, as CUDA's do: the CPU meshes from then on, with the same bytes, and meshes
  * are not on the GPU. */
@@ -87,7 +91,7 @@ typedef struct sgm_cuda_mesh_view {
  *
  * SGM_ERR_NOT_FOUND: it is not there, or not all of it: the world is not SGM_WORLD_RESIDENT, no memory was left on the
  * GPU, or the context was lost before. Upload what sgm_mesh_get_view shows. SGM_ERR_DEVICE_LOST: the context was lost
- * after it. */
+ * after it, as far as the runtime has heard. */
 SGM_API sgm_result sgm_mesh_get_cuda_view(const sgm_mesh* mesh, sgm_cuda_mesh_view* view, sgm_error* error);
 
 #if defined(__cplusplus)

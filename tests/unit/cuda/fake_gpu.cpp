@@ -62,7 +62,8 @@ int before(const char* call, bool needs_context = true) {
   if (s.fail_nth > 0 && s.fail_call == call) {
     if (--s.fail_nth > 0) return 0;
     if (s.lasts) s.fail_nth = 1;
-    s.unsure = s.unsure || s.fail_call == "eventRecord" || s.fail_call == "eventSynchronize";
+    s.unsure = s.unsure || s.fail_result != kCuOutOfMemory || s.fail_call == "eventRecord" ||
+               s.fail_call == "eventSynchronize";
     return s.fail_result;
   }
   return 0;
@@ -175,6 +176,10 @@ DriverTable makeTable() {
     --fake_state.streams;
     return before("streamDestroy");
   };
+  t.streamGetCtx = [](CuStream, CuContext* context) {
+    *context = thing<CuContext>(0);
+    return before("streamGetCtx");
+  };
   t.eventCreate = [](CuEvent* event, unsigned) {
     if (const int result = before("eventCreate")) return result;
     auto* const made = new FakeEvent;
@@ -214,6 +219,7 @@ DriverTable makeTable() {
     ++fake_state.pools;
     return kCuSuccess;
   };
+  t.memPoolSetAttribute = [](CuPool, int, void*) { return before("memPoolSetAttribute"); };
   t.memPoolDestroy = [](CuPool) {
     --fake_state.pools;
     return before("memPoolDestroy");
@@ -232,6 +238,8 @@ DriverTable makeTable() {
       fake_blocks.erase(hostOf(memory));
       std::free(hostOf(memory));
     });
+    // Where nothing is before it, it may happen at once: whatever another stream does with the memory came too late.
+    if (of(stream).queued.size() == 1) of(stream).finish(of(stream).given);
     --fake_state.device_blocks;
     return before("memFreeAsync");
   };
@@ -276,6 +284,7 @@ DriverTable makeTable() {
     if (const int result = before("launchKernel")) return result;
     if (threads == 0 || threads > 1024 || blocks == 0) return 1;
     ++fake_state.launches;
+    fake_state.launched_on = stream;
     const auto kernel = static_cast<Kernel>(reinterpret_cast<const char*>(function) - fake_function);
     const Batch batch = *static_cast<const Batch*>(parameters[0]);
     of(stream).give([=] { static_cast<void>(fake_runs->launch(kernel, blocks, batch)); });

@@ -17,13 +17,14 @@ struct FakeState {
   int64_t device_blocks = 0, pinned_blocks = 0;
   int calls_without = 0;  ///< that need a current context, and had none
   uint64_t launches = 0;
+  CuStream launched_on = nullptr;  ///< the last of them
   // The nth call of that name from now on gives this result, and where it is one that lasts all after it do.
   std::string fail_call;
   unsigned fail_nth = 0;
   int fail_result = 0;
   bool lasts = false;
   bool may_leave = false;  ///< things in a context that cannot be used any more
-  bool unsure = false;     ///< a wait has failed: nobody could say whether pinned memory was in use
+  bool unsure = false;  ///< something has failed for good, or a wait: nobody could say whether pinned memory was in use
 };
 
 FakeState& fakeState();

@@ -123,7 +123,7 @@ class HostDevice final : public Device {
   }
   const DeviceInfo& info() const override { return info_; }
   bool borrowed() const override { return options_.borrowed; }
-  Result<std::unique_ptr<Stream>> makeStream() override {
+  Result<std::unique_ptr<Stream>> makeStream(StreamUse) override {
     if (options_.before) {
       if (Result<void> may = options_.before("makeStream"); !may) return may.error();
     }

@@ -19,6 +19,7 @@ static_assert(kCuProcessors == CU_DEVICE_ATTRIBUTE_MULTIPROCESSOR_COUNT);
 static_assert(kCuCapabilityMajor == CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR);
 static_assert(kCuCapabilityMinor == CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR);
 static_assert(kCuMemoryPools == CU_DEVICE_ATTRIBUTE_MEMORY_POOLS_SUPPORTED);
+static_assert(kCuPoolThreshold == CU_MEMPOOL_ATTR_RELEASE_THRESHOLD);
 static_assert(kCuEventBlocks == CU_EVENT_BLOCKING_SYNC && kCuEventUntimed == CU_EVENT_DISABLE_TIMING);
 static_assert(sizeof(CuEvent) == sizeof(CUevent));
 static_assert(kCuNonBlockingStream == CU_STREAM_NON_BLOCKING && kCuBlockingWaits == CU_CTX_SCHED_BLOCKING_SYNC);
