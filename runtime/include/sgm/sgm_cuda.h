@@ -38,8 +38,9 @@ typedef struct sgm_cuda_device_desc {
   const void* next;
   struct CUctx_st* context;   /* CUcontext. The primary one will do */
   struct CUstream_st* stream; /* CUstream for all batches, one behind the other and between what the engine gives it;
-                                 not one that is being captured. NULL: streams of the runtime's own, several at a time,
-                                 that wait for nothing of the engine's */
+                                 not one that is being captured, nor CU_STREAM_PER_THREAD, which is another on every
+                                 thread. NULL: streams of the runtime's own, several at a time, that wait for nothing of
+                                 the engine's */
   uint64_t mesh_bytes;        /* the most bytes of the GPU's memory for meshes that stay there; what has no room is not
                                  there (SGM_ERR_NOT_FOUND). 0: as many as the driver gives */
 } sgm_cuda_device_desc;
