@@ -130,12 +130,13 @@ class DriverStream final : public Stream {
   void free(MemoryKind kind, void* memory) noexcept override {
     const Current current(driver_, device_.context);
     if (!current) return;
-    if (kind == MemoryKind::device) {
-      driver_.memFreeAsync(pointerOf(memory), stream_);
-      return;
-    }
     // Copies may be under way in it. Where nobody can say that they have ended, it is left to the context's end.
-    if (wait() && !device_.lost.load()) driver_.memFreeHost(memory);
+    if (device_.lost.load() || (kind == MemoryKind::pinned && !wait())) return;
+    if (kind == MemoryKind::pinned) {
+      driver_.memFreeHost(memory);
+    } else {
+      driver_.memFreeAsync(pointerOf(memory), stream_);
+    }
   }
   Result<void> copyIn(void* device, const void* pinned, size_t bytes) override {
     const Current current(driver_, device_.context);

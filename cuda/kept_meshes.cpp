@@ -69,8 +69,7 @@ Result<std::shared_ptr<const KeptMemory>> KeptMeshes::allocate(const std::shared
 
 void KeptMeshes::free(std::byte* data, size_t bytes) noexcept {
   const std::scoped_lock lock(ending_mutex_);
-  // Of a lost device nobody can say what it writes to: it is left to the context's end.
-  if (!device_.lost()) ending_->free(MemoryKind::device, data);
+  ending_->free(MemoryKind::device, data);
   bytes_.fetch_sub(bytes);
 }
 

@@ -12,8 +12,6 @@ namespace sgm::cuda {
 /// A stream and the memory of a batch on it; reused from batch to batch, and grown where one needs more.
 struct BatchMemory {
   std::unique_ptr<Stream> stream;  ///< outlives the memory below
-  std::unique_ptr<Stream>
-      reading;  ///< of what is copied once the batch has ended: not behind what an engine gave since
   Memory staging, input, scratch, result;
   Memory vertices, indices;
   /// What is brought back. How many vertices and indices there will be only the device knows; as many as batches of
@@ -21,6 +19,8 @@ struct BatchMemory {
   Memory result_back, signs_back, vertices_back, indices_back;
   uint64_t brought_vertices = 0, brought_indices = 0;  ///< bytes that come with the batch
   uint64_t input_bytes = 0, result_bytes = 0;
+  /// Of what is copied once the batch has ended: not behind what an engine gave since. Ends before the memory.
+  std::unique_ptr<Stream> reading;
 };
 
 /// Any thread may use it. Outlived by the device.

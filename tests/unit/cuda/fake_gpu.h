@@ -24,7 +24,7 @@ struct FakeState {
   int fail_result = 0;
   bool lasts = false;
   bool may_leave = false;  ///< things in a context that cannot be used any more
-  bool unsure = false;  ///< something has failed for good, or a wait: nobody could say whether pinned memory was in use
+  bool unsure = false;  ///< something has failed for good, or a wait: nobody could say whether memory was in use
 };
 
 FakeState& fakeState();
