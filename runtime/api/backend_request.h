@@ -15,7 +15,7 @@ std::optional<BackendRequest> requestOf(sgm_backend backend);
 /// hardware. Errors: as makeBackend; busy.
 Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device);
 
-/// As lendVulkan; what is chosen by itself is that, unless something was lent before.
+/// As lendVulkan; what is chosen by itself is that, unless a Vulkan device that is hardware was lent before.
 Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::BorrowedContext> context);
 
 /// The backend for a field of the runtime's. A device is opened once and meshes for all fields; where `automatic` has

@@ -210,6 +210,8 @@ TEST_CASE("a context that cannot be lent is refused, for a reason, and changes n
   refused(SGM_ERR_STRUCT_SIZE, "struct_size", [](auto& d) { d.struct_size = 8; });
   refused(SGM_ERR_UNSUPPORTED, "next", [](auto& d) { d.next = &d; });
   refused(SGM_ERR_INVALID_ARGUMENT, "context", [](auto& d) { d.context = nullptr; });
+  refused(SGM_ERR_INVALID_ARGUMENT, "CU_STREAM_PER_THREAD",
+          [](auto& d) { d.stream = reinterpret_cast<CUstream_st*>(uintptr_t{2}); });
   // What was only asked about gives way; it is AUTO's, too.
   CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend == SGM_BACKEND_CUDA);
   REQUIRE(sgm_runtime_lend_cuda(runtime.get(), &good, nullptr) == SGM_OK);

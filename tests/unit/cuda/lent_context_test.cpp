@@ -320,3 +320,13 @@ TEST_CASE("a context that cannot mesh is refused with the reason", "[cuda]") {
     CHECK_FALSE(refusal().empty());
   }
 }
+
+TEST_CASE("a stream of which nobody can tell the context is refused", "[cuda]") {
+  const Engine engine(true);
+  FakeDriver::State& state = engine.driver.state();
+  state.fail_call = "streamGetCtx", state.fail_nth = 1, state.fail_result = 400;
+  const auto refused = cuda::borrowDevice(engine.table(), cuda::kFakeImage, engine.lend());
+  REQUIRE(!refused);
+  CHECK(refused.error().code == Code::invalid_argument);
+  CHECK(cuda::borrowDevice(engine.table(), cuda::kFakeImage, engine.lend()));
+}
