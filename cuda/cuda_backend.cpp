@@ -6,6 +6,7 @@
 #include "backend/read_chunk.h"
 #include "cuda/kept_meshes.h"
 #include "cuda/mesher.h"
+#include "cuda/placed_meshes.h"
 
 namespace sgm {
 
@@ -16,7 +17,8 @@ struct Slot final : DeviceSlot {
   explicit Slot(std::pmr::memory_resource* resource) : plan(resource) {}
   Plan plan;
   BatchMemory memory;
-  Stream* awaited = nullptr;  ///< of the two, the one that is at work
+  Stream* awaited = nullptr;          ///< of the two, the one that is at work
+  std::unique_ptr<Placement> placed;  ///< what it writes to on the device that draws
 };
 
 uint32_t partOf(const Plan::Parts& parts, size_t number) { return number == 0 ? parts.body : parts.seams[number - 1]; }
@@ -32,7 +34,11 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     Result<std::unique_ptr<Mesher>> mesher = Mesher::create(*session->device_, options.room);
     if (!mesher) return mesher.error();
     session->mesher_ = std::move(*mesher);
-    if (session->device_->borrowed()) {
+    if (options.store) {
+      Result<std::unique_ptr<PlacedMeshes>> placed = PlacedMeshes::create(*session->device_, options.store);
+      if (!placed) return placed.error();
+      session->placed_ = std::move(*placed);
+    } else if (session->device_->borrowed()) {
       Result<std::unique_ptr<KeptMeshes>> kept = KeptMeshes::create(*session->device_, options.resident_cap);
       if (!kept) return kept.error();
       session->kept_ = std::move(*kept);
@@ -42,14 +48,17 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
 
   Session(const Room& room, std::pmr::memory_resource* memory) : room_(room), memory_(memory) {}
   BackendCapabilities capabilities() const override {
-    return {BackendKind::cuda, device_->info().name, true, kMostChunks, false, device_->borrowed()};
+    return {BackendKind::cuda, device_->info().name, true, kMostChunks, false, placed_ || kept_};
   }
   uint32_t batch() const override { return kMostChunks; }
 
   std::unique_ptr<DeviceSlot> takeSlot() override {
     return slots_.take([this] { return std::make_unique<Slot>(memory_); });
   }
-  void release(std::unique_ptr<DeviceSlot> slot) noexcept override { slots_.give(std::move(slot)); }
+  void release(std::unique_ptr<DeviceSlot> slot) noexcept override {
+    static_cast<Slot&>(*slot).placed.reset();
+    slots_.give(std::move(slot));
+  }
   size_t plan(std::span<const ChunkJob> jobs, DeviceSlot& slot) override {
     return planBatch(jobs, room_, static_cast<Slot&>(slot).plan);
   }
@@ -69,7 +78,15 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     return submitted;
   }
   Result<bool> ended(DeviceSlot& slot) override { return static_cast<Slot&>(slot).awaited->ended(); }
-  Result<void> await(DeviceSlot& slot) override { return static_cast<Slot&>(slot).awaited->wait(); }
+  Result<void> await(DeviceSlot& base) override {
+    auto& slot = static_cast<Slot&>(base);
+    if (Result<void> waited = slot.awaited->wait(); !waited) return waited;
+    // Where it fails the meshes are not on the device that draws, which is no loss of this one.
+    if (const std::unique_ptr<Placement> placed = std::move(slot.placed)) {
+      static_cast<void>(placed_->store().publish(*placed));
+    }
+    return {};
+  }
 
   Result<bool> read(DeviceSlot& base, std::span<const ChunkJob> jobs, std::span<ChunkMesh> meshes,
                     const std::function<bool(size_t)>& done) override {
@@ -82,7 +99,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
       const Plan::Parts& parts = slot.plan.chunks_of[c];
       if (!haveRoom(*output, parts)) continue;
       readMesh(*output, parts, output->signs + c * kRows, jobs[parts.job], meshes[parts.job]);
-      if (kept_ && jobs[parts.job].resident) {
+      if ((placed_ || kept_) && jobs[parts.job].resident) {
         staying.push_back(parts.job);
         sources.push_back(sourcesOf(*output, parts, slot.memory));
       }
@@ -91,7 +108,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     if (staying.empty()) return false;
     const Result<Stream*> reading = mesher_->reading(slot.memory);
     if (!reading) return reading.error();
-    Result<std::vector<DeviceParts>> kept = kept_->keep(shared_from_this(), **reading, sources);
+    Result<std::vector<DeviceParts>> kept = keep(slot, **reading, sources);
     if (!kept) return kept.error();
     slot.awaited = *reading;
     for (size_t i = 0; i < staying.size(); ++i) meshes[staying[i]].on_device = std::move((*kept)[i]);
@@ -99,11 +116,20 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   }
 
   Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) override {
+    if (placed_) return placed_->store().upload(parts);
     return kept_ ? kept_->upload(shared_from_this(), parts) : DeviceSession::upload(parts);
   }
-  uint64_t resident() const override { return kept_ ? kept_->bytes() : 0; }
+  uint64_t resident() const override { return placed_ ? placed_->store().bytes() : kept_ ? kept_->bytes() : 0; }
 
  private:
+  Result<std::vector<DeviceParts>> keep(Slot& slot, Stream& stream, std::span<const PartSources> sources) {
+    if (!placed_) return kept_->keep(shared_from_this(), stream, sources);
+    Result<std::unique_ptr<Placement>> placed = placed_->keep(stream, sources);
+    if (!placed) return placed.error();
+    slot.placed = std::move(*placed);
+    return slot.placed->chunks;
+  }
+
   static bool haveRoom(const Mesher::Output& output, const Plan::Parts& parts) {
     for (size_t p = 0; p < kMeshParts; ++p) {
       const uint32_t number = partOf(parts, p);
@@ -146,7 +172,9 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   std::pmr::memory_resource* const memory_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Mesher> mesher_;
-  std::unique_ptr<KeptMeshes> kept_;  // null where nobody could draw them
+  // Of meshes that stay; at most one of the two.
+  std::unique_ptr<PlacedMeshes> placed_;
+  std::unique_ptr<KeptMeshes> kept_;
   IdleSlots slots_;
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "backend/backend.h"
+#include "backend/mesh_store.h"
 #include "cuda/batch_plan.h"
 #include "cuda/device.h"
 
@@ -16,6 +17,8 @@ struct CudaBackendOptions {
   std::function<Result<std::unique_ptr<cuda::Device>>()> open;
   std::function<void(const std::string&)> warn = nullptr;  ///< as BackendRequest::warn
   cuda::Room room;
+  std::shared_ptr<MeshStore> store =
+      nullptr;                         ///< where meshes stay; null: in a borrowed device's own memory, or nowhere
   uint64_t resident_cap = UINT64_MAX;  ///< of a borrowed device: the most bytes of meshes that stay on it
 };
 

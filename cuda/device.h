@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/result.h"
+#include "base/shared_memory.h"
 #include "cuda/kernels/batch.h"
 
 namespace sgm::cuda {
@@ -34,7 +35,8 @@ struct DeviceInfo {
   uint64_t memory = 0;      ///< bytes
   uint32_t processors = 1;  ///< multiprocessors
   int memory_pools = 0;     ///< 1: memory can be had in a stream's order
-  std::string ails;         ///< why the driver tells no more of it; empty: it does
+  DeviceId id{};
+  std::string ails;  ///< why the driver tells no more of it; empty: it does
 };
 
 inline constexpr size_t kAlignment = 256;  ///< of what is taken from a device's memory
@@ -74,12 +76,24 @@ enum class StreamUse : uint8_t {
   batches,  ///< where an engine lent a stream, that one
 };
 
-/// Any thread may use it. Outlives its streams.
+/// Another API's memory where the device's kernels and copies reach it. Its end, which does not wait for them, must not
+/// come before theirs.
+class ImportedMemory {
+ public:
+  virtual ~ImportedMemory() = default;
+  virtual std::byte* data() const = 0;
+};
+
+/// Any thread may use it. Outlives its streams; what it has imported may outlive it.
 class Device {
  public:
   virtual ~Device() = default;
   virtual const DeviceInfo& info() const = 0;
   virtual Result<std::unique_ptr<Stream>> makeStream(StreamUse use = StreamUse::own) = 0;
+  /// Errors: unsupported, out_of_memory, device_lost, and those of SharedBlock::descriptor().
+  virtual Result<std::shared_ptr<const ImportedMemory>> import(const SharedBlock&) {
+    return Error{Code::unsupported, info().name + " imports no other API's memory"};
+  }
   /// Whether an engine lent it, and reads its memory.
   virtual bool borrowed() const { return false; }
   /// Whether something has failed for good: nothing in its memory can be read any more.

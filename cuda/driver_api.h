@@ -16,12 +16,14 @@ struct CuFunctionTag;
 struct CuStreamTag;
 struct CuEventTag;
 struct CuPoolTag;
+struct CuImportedTag;
 using CuContext = CuContextTag*;
 using CuModule = CuModuleTag*;
 using CuFunction = CuFunctionTag*;
 using CuStream = CuStreamTag*;
 using CuEvent = CuEventTag*;
 using CuPool = CuPoolTag*;
+using CuImported = CuImportedTag*;  ///< CUexternalMemory
 
 /// CUmemPoolProps.
 struct CuPoolProperties {
@@ -32,6 +34,31 @@ struct CuPoolProperties {
   void* security = nullptr;
   size_t most_bytes = 0;  ///< 0: as the system sees fit
   unsigned char reserved[56] = {};
+};
+
+/// CUDA_EXTERNAL_MEMORY_HANDLE_DESC.
+struct CuSharedMemory {
+  int type = 1;  ///< a file descriptor, the driver's once it has taken the memory
+  union {
+    int descriptor;
+    void* names[2];
+  } handle = {};
+  unsigned long long bytes = 0;
+  unsigned flags = 0;
+  unsigned reserved[16] = {};
+};
+inline constexpr unsigned kCuDedicatedMemory = 1;
+
+/// CUDA_EXTERNAL_MEMORY_BUFFER_DESC.
+struct CuSharedRange {
+  unsigned long long offset = 0, bytes = 0;
+  unsigned flags = 0;
+  unsigned reserved[16] = {};
+};
+
+/// CUuuid.
+struct CuId {
+  unsigned char bytes[16];
 };
 
 inline constexpr CuResult kCuSuccess = 0, kCuOutOfMemory = 2, kCuNoDevice = 100, kCuNoBinary = 209, kCuUnknownPtx = 222,
@@ -53,6 +80,7 @@ inline constexpr unsigned kCuEventUntimed = 2;
   SGM_CU(deviceGetName, "cuDeviceGetName", (char* name, int size, CuDevice device))                                \
   SGM_CU(deviceGetAttribute, "cuDeviceGetAttribute", (int* value, int attribute, CuDevice device))                 \
   SGM_CU(deviceTotalMem, "cuDeviceTotalMem_v2", (size_t * bytes, CuDevice device))                                 \
+  SGM_CU(deviceGetUuid, "cuDeviceGetUuid_v2", (CuId * id, CuDevice device))                                        \
   SGM_CU(ctxCreate, "cuCtxCreate_v2", (CuContext * context, unsigned flags, CuDevice device))                      \
   SGM_CU(ctxDestroy, "cuCtxDestroy_v2", (CuContext context))                                                       \
   SGM_CU(ctxGetDevice, "cuCtxGetDevice", (CuDevice * device))                                                      \
@@ -75,6 +103,11 @@ inline constexpr unsigned kCuEventUntimed = 2;
   SGM_CU(memAllocFromPoolAsync, "cuMemAllocFromPoolAsync",                                                         \
          (CuPointer * memory, size_t bytes, CuPool pool, CuStream stream))                                         \
   SGM_CU(memFreeAsync, "cuMemFreeAsync", (CuPointer memory, CuStream stream))                                      \
+  SGM_CU(importExternalMemory, "cuImportExternalMemory", (CuImported * imported, const CuSharedMemory* memory))    \
+  SGM_CU(externalMemoryGetMappedBuffer, "cuExternalMemoryGetMappedBuffer",                                         \
+         (CuPointer * memory, CuImported imported, const CuSharedRange* range))                                    \
+  SGM_CU(destroyExternalMemory, "cuDestroyExternalMemory", (CuImported imported))                                  \
+  SGM_CU(memFree, "cuMemFree_v2", (CuPointer memory))                                                              \
   SGM_CU(memHostAlloc, "cuMemHostAlloc", (void** memory, size_t bytes, unsigned flags))                            \
   SGM_CU(memFreeHost, "cuMemFreeHost", (void* memory))                                                             \
   SGM_CU(memcpyHtoDAsync, "cuMemcpyHtoDAsync_v2", (CuPointer to, const void* from, size_t bytes, CuStream stream)) \

@@ -1,5 +1,8 @@
 #include "cuda/driver_device.h"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <atomic>
 
@@ -216,6 +219,61 @@ class DriverStream final : public Stream {
   bool marked_ = true;  ///< the event stands behind all that was given; where that is nothing, it need not
 };
 
+class DriverImport final : public ImportedMemory {
+ public:
+  static Result<std::shared_ptr<const ImportedMemory>> make(std::shared_ptr<const Opened> device,
+                                                            const SharedBlock& block) {
+    auto made = std::make_shared<DriverImport>(std::move(device));
+    if (const Result<void> imported = made->import(block); !imported) return imported.error();
+    return std::shared_ptr<const ImportedMemory>(std::move(made));
+  }
+
+  explicit DriverImport(std::shared_ptr<const Opened> device) : device_(std::move(device)) {}
+  ~DriverImport() override {
+    const Current current(device_->driver, device_->context);
+    if (!current) return;
+    if (memory_ != 0) device_->driver.memFree(memory_);
+    if (imported_ != nullptr) device_->driver.destroyExternalMemory(imported_);
+  }
+  DriverImport(const DriverImport&) = delete;
+  DriverImport& operator=(const DriverImport&) = delete;
+  std::byte* data() const override { return reinterpret_cast<std::byte*>(static_cast<uintptr_t>(memory_)); }
+
+ private:
+  Result<void> import(const SharedBlock& block) {
+    const Current current(device_->driver, device_->context);
+    if (!current) return Current::refused();
+    const Result<int> descriptor = block.descriptor();
+    if (!descriptor) return descriptor.error();
+    CuSharedMemory shared;
+    shared.handle.descriptor = *descriptor;
+    shared.bytes = block.bytes();
+    shared.flags = block.dedicated() ? kCuDedicatedMemory : 0;
+    const CuResult taken = device_->driver.importExternalMemory(&imported_, &shared);
+    if (taken != kCuSuccess) {
+      imported_ = nullptr;
+      close(*descriptor);
+      return refused(taken);
+    }
+    CuSharedRange whole;
+    whole.bytes = block.bytes();
+    const CuResult mapped = device_->driver.externalMemoryGetMappedBuffer(&memory_, imported_, &whole);
+    if (mapped == kCuSuccess) return {};
+    memory_ = 0;
+    return refused(mapped);
+  }
+  /// Memory that cannot be imported harms no context.
+  Error refused(CuResult result) const {
+    Error error = errorOf(device_->driver, result, "importing the drawing device's memory on " + device_->info.name);
+    if (error.code == Code::device_lost) error.code = Code::unsupported;
+    return error;
+  }
+
+  const std::shared_ptr<const Opened> device_;
+  CuImported imported_ = nullptr;
+  CuPointer memory_ = 0;
+};
+
 class DriverDevice final : public Device {
  public:
   explicit DriverDevice(std::unique_ptr<Opened> opened) : opened_(std::move(opened)) {}
@@ -239,9 +297,12 @@ class DriverDevice final : public Device {
     }
     return std::unique_ptr<Stream>(std::make_unique<DriverStream>(*opened_, stream, event));
   }
+  Result<std::shared_ptr<const ImportedMemory>> import(const SharedBlock& block) override {
+    return DriverImport::make(opened_, block);
+  }
 
  private:
-  std::unique_ptr<Opened> opened_;
+  std::shared_ptr<Opened> opened_;
 };
 
 Result<DeviceInfo> describe(const DriverTable& driver, CuDevice device, int version) {
@@ -259,12 +320,15 @@ Result<DeviceInfo> describe(const DriverTable& driver, CuDevice device, int vers
                     {kCuMemoryPools, &info.memory_pools}};
   CuResult result = driver.deviceGetName(name, static_cast<int>(sizeof name) - 1, device);
   if (result == kCuSuccess) result = driver.deviceTotalMem(&bytes, device);
+  CuId id{};
+  if (result == kCuSuccess) result = driver.deviceGetUuid(&id, device);
   for (const auto& one : attributes) {
     if (result == kCuSuccess) result = driver.deviceGetAttribute(one.value, one.attribute, device);
   }
   if (result != kCuSuccess) return errorOf(driver, result, "asking for the CUDA devices");
   info.name = name;
   info.memory = bytes;
+  std::copy(std::begin(id.bytes), std::end(id.bytes), info.id.begin());
   info.processors = static_cast<uint32_t>(processors > 0 ? processors : 1);
   return info;
 }
@@ -356,6 +420,15 @@ Result<std::vector<DeviceInfo>> listDevices() {
   const Result<DriverTable> driver = openDriver();
   if (!driver) return driver.error();
   return listDevices(*driver);
+}
+
+Result<int> findDevice(const DriverTable& driver, const DeviceId& id) {
+  const Result<std::vector<DeviceInfo>> infos = listDevices(driver);
+  if (!infos) return unusable(infos.error());
+  for (size_t i = 0; i < infos->size(); ++i) {
+    if ((*infos)[i].ails.empty() && (*infos)[i].id == id) return static_cast<int>(i);
+  }
+  return Error{Code::unsupported, "the GPU that draws is none of the CUDA driver's"};
 }
 
 Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<const std::byte> image, int index) {

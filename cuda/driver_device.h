@@ -41,6 +41,9 @@ struct BorrowedContext {
 Result<std::unique_ptr<Device>> borrowDevice(const DriverTable& driver, std::span<const std::byte> image,
                                              const BorrowedContext& lent);
 
+/// The number of the GPU, as listed. unsupported: it is none of the driver's. Other errors: as listDevices().
+Result<int> findDevice(const DriverTable& driver, const DeviceId& id);
+
 /// Opens a device with a context of its own, so that what fails in it is nobody else's loss. index: as listed; -1: the
 /// first that can be used. image: the kernels, as nvcc makes them. Errors: unsupported, out_of_memory, device_lost.
 Result<std::unique_ptr<Device>> openDevice(const DriverTable& driver, std::span<const std::byte> image, int index = -1);

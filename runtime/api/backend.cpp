@@ -18,11 +18,23 @@ BackendRequest requestFor(BackendKind kind, bool automatic = false) {
   return request;
 }
 
-Result<std::unique_ptr<Backend>> makeFor(sgm_runtime& runtime, BackendRequest request) {
+Result<std::shared_ptr<Backend>> makeFor(sgm_runtime& runtime, BackendRequest request) {
+  if (request.kind == BackendKind::cuda && !request.automatic) request.lent = runtime.devices.drawing;
   request.pipeline_folder = runtime.pipeline_folder;
   request.inform = [&runtime](const std::string& message) { runtime.log(SGM_LOG_INFO, message); };
   request.warn = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
-  return makeBackend(request, *runtime.jobs, &runtime.memory, runtime.profiler);
+  Result<std::unique_ptr<Backend>> made = makeBackend(request, *runtime.jobs, &runtime.memory, runtime.profiler);
+  if (!made) return made.error();
+  return std::shared_ptr<Backend>(std::move(*made));
+}
+
+/// CUDA, where it meshes for the lent device that draws; else that device, where it is hardware; else the CPU.
+Result<std::shared_ptr<Backend>> makeBeside(sgm_runtime& runtime) {
+  Result<std::shared_ptr<Backend>> cuda = makeFor(runtime, requestFor(BackendKind::cuda));
+  if (cuda) return cuda;
+  runtime.log(SGM_LOG_INFO, "auto passes over CUDA: " + cuda.error().message);
+  const std::shared_ptr<Backend>& drawing = runtime.devices.vulkan;
+  return drawing->capabilities().software ? makeFor(runtime, requestFor(BackendKind::cpu)) : drawing;
 }
 
 }  // namespace
@@ -54,9 +66,10 @@ Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendR
                                    : request.kind == BackendKind::cuda ? shared.cuda
                                                                        : shared.vulkan;
   if (device && kept) return kept;
-  Result<std::unique_ptr<Backend>> made = makeFor(runtime, wanted);
+  Result<std::shared_ptr<Backend>> made =
+      wanted.automatic && shared.drawing ? makeBeside(runtime) : makeFor(runtime, wanted);
   if (!made) return made.error();
-  std::shared_ptr<Backend> backend = std::move(*made);
+  const std::shared_ptr<Backend> backend = std::move(*made);
   const bool on_cpu = backend->capabilities().kind == BackendKind::cpu;
   if (device && !on_cpu) kept = backend;
   // What is asked for by name later is that one, too.
@@ -83,17 +96,28 @@ Result<void> giveWay(DeviceBackends& shared, BackendKind kind, std::shared_ptr<B
 
 }  // namespace
 
-Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device) {
+Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device,
+                        bool shares_memory) {
   DeviceBackends& shared = runtime.devices;
   const std::scoped_lock lock(shared.mutex);
   if (Result<void> free = giveWay(shared, BackendKind::vulkan, shared.vulkan, shared.lent); !free) return free;
+  if (shares_memory && !giveWay(shared, BackendKind::cuda, shared.cuda, shared.lent_context)) {
+    return Error{Code::busy,
+                 "the runtime has a CUDA device already, whose meshes would not stay on this one: lend the "
+                 "Vulkan device before"};
+  }
   BackendRequest request = requestFor(BackendKind::vulkan);
-  request.lent = std::move(device);
-  Result<std::unique_ptr<Backend>> made = makeFor(runtime, std::move(request));
+  request.lent = device;
+  Result<std::shared_ptr<Backend>> made = makeFor(runtime, std::move(request));
   if (!made) return made.error();
   shared.vulkan = std::move(*made);
   shared.lent = true;
-  if (!shared.vulkan->capabilities().software && !shared.automatic) shared.automatic = shared.vulkan;
+  if (shares_memory) {
+    shared.drawing = std::move(device);
+    shared.none = false;
+  } else if (!shared.vulkan->capabilities().software && !shared.automatic) {
+    shared.automatic = shared.vulkan;
+  }
   return {};
 }
 
@@ -103,7 +127,7 @@ Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::Borrowed
   if (Result<void> free = giveWay(shared, BackendKind::cuda, shared.cuda, shared.lent_context); !free) return free;
   BackendRequest request = requestFor(BackendKind::cuda);
   request.lent_context = std::move(context);
-  Result<std::unique_ptr<Backend>> made = makeFor(runtime, std::move(request));
+  Result<std::shared_ptr<Backend>> made = makeFor(runtime, std::move(request));
   // It has not been the runtime's yet to be lost.
   if (!made)
     return made.error().code == Code::device_lost ? Error{Code::unsupported, made.error().message} : made.error();

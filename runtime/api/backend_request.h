@@ -12,8 +12,9 @@ namespace sgm::api {
 std::optional<BackendRequest> requestOf(sgm_backend backend);
 
 /// From now on the runtime's Vulkan backend is on this device; that which is chosen by itself, too, where it is
-/// hardware. Errors: as makeBackend; busy.
-Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device);
+/// hardware. shares_memory: it was lent with external memory, so that what CUDA meshes stays on it, and CUDA is rather
+/// chosen where it can do that. Errors: as makeBackend; busy.
+Result<void> lendVulkan(sgm_runtime& runtime, std::shared_ptr<const vulkan::BorrowedDevice> device, bool shares_memory);
 
 /// As lendVulkan; what is chosen by itself is that, unless a Vulkan device that is hardware was lent before.
 Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::BorrowedContext> context);

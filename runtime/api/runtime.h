@@ -74,6 +74,8 @@ struct DeviceBackends {
   std::shared_ptr<Backend> vulkan, cuda, automatic;  ///< null until asked for
   bool lent = false, lent_context = false;           ///< `vulkan`, `cuda` is the engine's
   bool none = false;                                 ///< `automatic` has found no device
+  /// Where CUDA's meshes stay: lent with external memory; null: not.
+  std::shared_ptr<const vulkan::BorrowedDevice> drawing;
 };
 
 }  // namespace sgm::api

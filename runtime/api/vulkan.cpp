@@ -29,6 +29,7 @@ sgm::vulkan::BorrowedDevice deviceOf(const sgm_vulkan_device_desc& desc) {
   lent.api_version = desc.api_version;
   lent.timeline_semaphores = desc.timeline_semaphores != 0;
   lent.memory_budget = desc.memory_budget != 0;
+  lent.external_memory = desc.external_memory != 0;
   if (desc.mesh_bytes != 0) lent.resident_cap = desc.mesh_bytes;
   return lent;
 }
@@ -46,8 +47,8 @@ sgm_result sgm_runtime_lend_vulkan(sgm_runtime* runtime, const sgm_vulkan_device
     if (desc->reader_families == nullptr && desc->reader_family_count != 0) {
       return nullArgument(error, "desc.reader_families");
     }
-    const sgm::Result<void> lent =
-        lendVulkan(*runtime, std::make_shared<const sgm::vulkan::BorrowedDevice>(deviceOf(*desc)));
+    const sgm::Result<void> lent = lendVulkan(
+        *runtime, std::make_shared<const sgm::vulkan::BorrowedDevice>(deviceOf(*desc)), desc->external_memory != 0);
     return lent ? SGM_OK : fail(error, lent.error());
   });
 }
@@ -70,6 +71,10 @@ sgm_result sgm_mesh_get_vulkan_view(const sgm_mesh* mesh, sgm_vulkan_mesh_view* 
       const auto& placed = static_cast<const sgm::vulkan::VulkanPart&>(*part);
       const sgm::vulkan::Queue& queue = placed.memory().meshes().queue();
       if (queue.lost()) return fail(error, SGM_ERR_DEVICE_LOST, "the Vulkan device was lost, and the mesh with it");
+      if (!placed.memory().there()) {
+        return fail(error, SGM_ERR_NOT_FOUND,
+                    "the mesh could not be brought to the lent Vulkan device: upload what sgm_mesh_get_view shows");
+      }
       found.semaphore = queue.semaphore();
       found.value = std::max(found.value, placed.memory().value());
       (p == 0 ? found.body : found.seams[p - 1]) = partOf(placed);

@@ -128,10 +128,12 @@ struct BorrowedContext;
 
 struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
-  bool automatic = false;       ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
-  int device = -1;              ///< of its kind, in the order in which they are listed; -1: the first, or fastest, that can be used
+  bool automatic = false;  ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
+  int device = -1;  ///< of its kind, in the order in which they are listed; -1: the first, or fastest, that can be used
   std::string instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512"; empty: the widest that runs here
-  std::shared_ptr<const vulkan::BorrowedDevice> lent = nullptr;  ///< Vulkan: the engine's; null: one of our own
+  std::shared_ptr<const vulkan::BorrowedDevice> lent =
+      nullptr;  ///< Vulkan: the engine's; null: one of our own. CUDA: where meshes stay, lent with external_memory; or
+                ///< null
   std::shared_ptr<const cuda::BorrowedContext> lent_context = nullptr;  ///< CUDA: likewise
   std::filesystem::path pipeline_folder = {};  ///< Vulkan: where compiled pipelines are kept from run to run, or empty
   /// Told, in one line, what took long and what the backend goes on without. Any thread; null: nobody is.

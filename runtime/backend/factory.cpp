@@ -5,6 +5,7 @@
 #include "cuda/cuda_backend.h"
 #include "cuda/driver_device.h"
 #ifdef SGM_VULKAN
+#include "backend/vulkan/shared_meshes.h"
 #include "backend/vulkan/vulkan_backend.h"
 #endif
 
@@ -50,9 +51,17 @@ Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest& request, bool 
   options.warn = request.warn;
   return makeVulkanBackend(options, std::move(*cpu), memory, profiler);
 }
+
+Result<std::shared_ptr<MeshStore>> openStore(const vulkan::BorrowedDevice& drawing) {
+  return vulkan::openSharedMeshes(drawing);
+}
 #else
 Result<std::unique_ptr<Backend>> makeVulkan(const BackendRequest&, bool, JobSystem&, std::pmr::memory_resource*,
                                             const Profiler&) {
+  return Error{Code::unsupported, "this build has no Vulkan backend: build it with SGM_VULKAN=ON"};
+}
+
+Result<std::shared_ptr<MeshStore>> openStore(const vulkan::BorrowedDevice&) {
   return Error{Code::unsupported, "this build has no Vulkan backend: build it with SGM_VULKAN=ON"};
 }
 #endif
@@ -67,7 +76,16 @@ Result<std::unique_ptr<Backend>> makeCuda(const BackendRequest& request, JobSyst
   Result<std::unique_ptr<Backend>> cpu = makeCpuBackend(request.instruction_set, jobs, memory, profiler);
   if (!cpu) return cpu.error();
   CudaBackendOptions options;
-  options.open = [table = *driver, lent = request.lent_context, index = request.device,
+  int device = request.device;
+  if (request.lent) {
+    Result<std::shared_ptr<MeshStore>> store = openStore(*request.lent);
+    if (!store) return store.error();
+    const Result<int> found = cuda::findDevice(*driver, (*store)->device());
+    if (!found) return found.error();
+    device = *found;
+    options.store = std::move(*store);
+  }
+  options.open = [table = *driver, lent = request.lent_context, index = device,
                   opened = std::make_shared<bool>(false)]() -> Result<std::unique_ptr<cuda::Device>> {
     if (!lent) return cuda::openDevice(table, cuda::kernelImage(), index);
     // As the Vulkan device: meshes that are on it would be lost and there at once.

@@ -1,15 +1,11 @@
 // An engine that lends its CUDA context through the C interface, and reads meshes where they lie. On a GPU that
 // pretends, where LD_LIBRARY_PATH has its libcuda.so.1 first: its memory is the host's.
 
-#include <dlfcn.h>
-#include <sgm/sgm_cuda.h>
-
 #include <cstdlib>
 #include <cstring>
 #include <random>
 
-#include "cuda/driver_device.h"
-#include "cuda/fake_gpu.h"
+#include "cuda_lender.h"
 #include "resident_worlds.h"
 #include "rounds.h"
 
@@ -17,51 +13,6 @@ extern "C" int sgm_cuda_inits_c(void);
 extern "C" int sgm_cuda_inits_cpp(void);
 
 namespace {
-
-/// The engine's side.
-class Lender {
- public:
-  explicit Lender(bool with_stream = false) {
-    auto driver = sgm::cuda::openDriver();
-    INFO((driver ? std::string() : driver.error().message));
-    REQUIRE(driver);
-    driver_ = *driver;
-    REQUIRE(driver_.ctxCreate(&context_, 0, 0) == sgm::cuda::kCuSuccess);
-    if (with_stream) REQUIRE(driver_.streamCreate(&stream_, 0) == sgm::cuda::kCuSuccess);
-    sgm::cuda::CuContext popped = nullptr;
-    driver_.ctxPopCurrent(&popped);
-  }
-  ~Lender() {
-    driver_.ctxPushCurrent(context_);
-    if (stream_ != nullptr) driver_.streamDestroy(stream_);
-    sgm::cuda::CuContext popped = nullptr;
-    driver_.ctxPopCurrent(&popped);
-    driver_.ctxDestroy(context_);
-  }
-  Lender(const Lender&) = delete;
-  Lender& operator=(const Lender&) = delete;
-
-  sgm_cuda_device_desc lend() const {
-    sgm_cuda_device_desc desc = SGM_CUDA_DEVICE_DESC_INIT;
-    desc.context = reinterpret_cast<CUctx_st*>(context_);
-    desc.stream = reinterpret_cast<CUstream_st*>(stream_);
-    return desc;
-  }
-  RuntimeOwner runtime() const {
-    RuntimeOwner runtime = makeRuntime();
-    const sgm_cuda_device_desc desc = lend();
-    sgm_error error = SGM_ERROR_INIT;
-    const sgm_result result = sgm_runtime_lend_cuda(runtime.get(), &desc, &error);
-    INFO(error.message);
-    REQUIRE(result == SGM_OK);
-    return runtime;
-  }
-
- private:
-  sgm::cuda::DriverTable driver_;
-  sgm::cuda::CuContext context_ = nullptr;
-  sgm::cuda::CuStream stream_ = nullptr;
-};
 
 void checkPart(const sgm_mesh_view& view, const sgm_mesh_range& range, const sgm_cuda_part& part) {
   REQUIRE((part.vertices != 0) == (range.index_count > 0));
@@ -92,12 +43,6 @@ size_t checkMesh(const MeshOwner& mesh) {
   return view.index_count / 3;
 }
 
-sgm_backend_info infoOf(const RuntimeOwner& runtime, sgm_backend backend) {
-  sgm_backend_info info = SGM_BACKEND_INFO_INIT;
-  REQUIRE(sgm_backend_query(runtime.get(), backend, &info, nullptr) == SGM_OK);
-  return info;
-}
-
 }  // namespace
 
 TEST_CASE("what the CUDA header's macros set is the same in C and in C++", "[cuda]") {
@@ -107,7 +52,7 @@ TEST_CASE("what the CUDA header's macros set is the same in C and in C++", "[cud
 
 TEST_CASE("a mesh lies in the lent context with the bytes that the host sees, wherever the viewer goes", "[cuda]") {
   const bool with_stream = GENERATE(false, true);
-  const Lender lender(with_stream);
+  const CudaLender lender(with_stream);
   const unsigned seed = std::random_device()();
   CAPTURE(seed, with_stream);
   std::mt19937 random(seed);
@@ -144,7 +89,7 @@ TEST_CASE("a mesh lies in the lent context with the bytes that the host sees, wh
 }
 
 TEST_CASE("a dig lies in the lent context, and what has no room there says so", "[cuda]") {
-  const Lender lender;
+  const CudaLender lender;
   for (const uint64_t bytes : {uint64_t{0}, uint64_t{60000}}) {
     CAPTURE(bytes);
     const RuntimeOwner runtime = makeRuntime();
@@ -178,7 +123,7 @@ TEST_CASE("a dig lies in the lent context, and what has no room there says so", 
 }
 
 TEST_CASE("meshes outlive the world that they were streamed in, as CUDA's", "[cuda]") {
-  const Lender lender;
+  const CudaLender lender;
   const RuntimeOwner runtime = lender.runtime();
   std::vector<MeshOwner> meshes;
   {
@@ -195,7 +140,7 @@ TEST_CASE("meshes outlive the world that they were streamed in, as CUDA's", "[cu
 }
 
 TEST_CASE("a context that cannot be lent is refused, for a reason, and changes nothing", "[cuda]") {
-  const Lender lender;
+  const CudaLender lender;
   const RuntimeOwner runtime = makeRuntime();
   const sgm_cuda_device_desc good = lender.lend();
   sgm_error error = SGM_ERROR_INIT;
@@ -230,17 +175,15 @@ TEST_CASE("auto says why it passes over a driver that is there", "[cuda]") {
   sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
   desc.log = &sink;
   const RuntimeOwner runtime = makeRuntime(&desc);
-  const auto state = reinterpret_cast<sgm::cuda::FakeState* (*)()>(
-      dlsym(dlopen("libcuda.so.1", RTLD_NOW | RTLD_NOLOAD), "sgm_fake_state"));
-  REQUIRE(state != nullptr);
-  state()->memory_pools = 0;
+  sgm::cuda::FakeState& gpu = pretendedGpu();
+  gpu.memory_pools = 0;
   CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend != SGM_BACKEND_CUDA);
-  state()->memory_pools = 1;
+  gpu.memory_pools = 1;
   CHECK_THAT(said, Catch::Contains("auto passes over CUDA: ") && Catch::Contains("memory pools"));
 }
 
 TEST_CASE("what is not in a lent context says so", "[cuda]") {
-  const Lender lender;
+  const CudaLender lender;
   const RuntimeOwner runtime = lender.runtime();
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
   const FieldOwner on_cpu = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CPU);

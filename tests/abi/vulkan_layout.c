@@ -27,6 +27,7 @@ PLACE(sgm_vulkan_device_desc, reader_families, 64);
 PLACE(sgm_vulkan_device_desc, reader_family_count, 72);
 PLACE(sgm_vulkan_device_desc, timeline_semaphores, 76);
 PLACE(sgm_vulkan_device_desc, memory_budget, 80);
+PLACE(sgm_vulkan_device_desc, external_memory, 84);
 PLACE(sgm_vulkan_device_desc, lock_queue, 88);
 PLACE(sgm_vulkan_device_desc, unlock_queue, 96);
 PLACE(sgm_vulkan_device_desc, user, 104);

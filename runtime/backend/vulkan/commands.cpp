@@ -124,6 +124,27 @@ void Commands::barrier(uint32_t before, uint32_t after) {
                                                       &barrier, 0, nullptr, 0, nullptr);
 }
 
+void Commands::acquire(std::span<const BufferRange> ranges) {
+  const Device& device = ring_->queue_.device();
+  std::vector<VkBufferMemoryBarrier> barriers;
+  barriers.reserve(ranges.size());
+  for (const BufferRange& range : ranges) {
+    VkBufferMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER;
+    barrier.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_EXTERNAL;
+    // Of what several families share none is the owner.
+    barrier.dstQueueFamilyIndex = device.sharesBuffers() ? VK_QUEUE_FAMILY_IGNORED : device.family();
+    barrier.buffer = range.handle;
+    barrier.offset = range.offset;
+    barrier.size = range.size;
+    barriers.push_back(barrier);
+  }
+  device.calls().vkCmdPipelineBarrier(slot_->commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT,
+                                      VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr,
+                                      static_cast<uint32_t>(barriers.size()), barriers.data(), 0, nullptr);
+}
+
 CommandRing::CommandRing(Queue& queue) : queue_(queue) {}
 
 Result<std::unique_ptr<CommandRing>> CommandRing::create(Queue& queue, const CommandRingOptions& options) {

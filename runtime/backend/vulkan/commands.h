@@ -61,6 +61,9 @@ class Commands {
   /// What `before` wrote, and has read, is done before `after` reads or writes. What the host wrote before submit()
   /// needs none.
   void barrier(uint32_t before, uint32_t after);
+  /// Takes over what another API has written in the ranges (MemoryOptions::shared), for whatever comes after. Throws
+  /// std::bad_alloc.
+  void acquire(std::span<const BufferRange> ranges);
 
   VkCommandBuffer handle() const;
 

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "backend/vulkan/memory.h"
+
 namespace sgm::vulkan {
 namespace {
 
@@ -73,10 +75,19 @@ Result<std::unique_ptr<Device>> Device::borrow(const BorrowedDevice& engine) {
   device->family_ = engine.family;
   device->readers_ = engine.readers;
   device->memory_budget_ = engine.memory_budget;
+  device->external_memory_ = engine.external_memory;
   device->lock_ = engine.lock;
   device->unlock_ = engine.unlock;
   device->user_ = engine.user;
   if (auto loaded = device->load(engine.replace_calls); !loaded) return loaded.error();
+  if (engine.external_memory && !device->calls_.vkGetMemoryFdKHR) {
+    return Error{Code::unsupported,
+                 "the engine's Vulkan device was made without the extension VK_KHR_external_memory_fd: enable it, or "
+                 "say nothing of external memory"};
+  }
+  if (engine.external_memory && !sharedMemoryNeeds(*device)) {
+    return Error{Code::unsupported, device->info_.name + " shares no memory with other APIs"};
+  }
   return device;
 }
 

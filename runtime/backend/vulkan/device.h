@@ -1,6 +1,7 @@
 #pragma once
 // The device that the Vulkan backend computes on: one of our own, or the engine's, borrowed.
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -40,6 +41,7 @@ struct BorrowedDevice {
   uint32_t api_version = 0;            ///< VkApplicationInfo::apiVersion
   bool timeline_semaphores = false;    ///< the feature timelineSemaphore
   bool memory_budget = false;          ///< the extension VK_EXT_memory_budget
+  bool external_memory = false;        ///< the extension VK_KHR_external_memory_fd
   uint64_t resident_cap = UINT64_MAX;  ///< bytes of its memory for meshes that stay there, at most
   ReplaceCalls replace_calls = nullptr;
 };
@@ -66,7 +68,11 @@ class Device {
   uint32_t family() const { return family_; }
   bool borrowed() const { return !instance_; }
   const std::vector<uint32_t>& readers() const { return readers_; }  ///< BorrowedDevice::readers
-  bool memoryBudget() const { return memory_budget_; }               ///< VK_EXT_memory_budget is enabled
+  bool sharesBuffers() const {                                       ///< with families other than family()
+    return std::any_of(readers_.begin(), readers_.end(), [this](uint32_t reader) { return reader != family_; });
+  }
+  bool memoryBudget() const { return memory_budget_; }      ///< VK_EXT_memory_budget is enabled
+  bool externalMemory() const { return external_memory_; }  ///< BorrowedDevice::external_memory
   /// Warnings and errors of the validation layer so far; empty without it, and on a borrowed device.
   std::vector<std::string> messages() const;
 
@@ -87,6 +93,7 @@ class Device {
   uint32_t family_ = 0;
   std::vector<uint32_t> readers_;
   bool memory_budget_ = false;
+  bool external_memory_ = false;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};
   std::mutex queue_mutex_;

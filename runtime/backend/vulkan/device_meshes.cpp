@@ -1,5 +1,6 @@
 #include "backend/vulkan/device_meshes.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace sgm::vulkan {
@@ -12,26 +13,42 @@ static_assert(sizeof(VkDrawIndexedIndirectCommand) <= kDrawBytes);
 static_assert(256 % sizeof(Vertex) == 0);
 static_assert(MemoryOptions{}.largest_block / sizeof(Vertex) <= INT32_MAX);
 
-VkDeviceSize bytesOf(const PartSource& part) {
-  const VkDeviceSize bytes = kDrawBytes + part.vertices.size + part.indices.size;
+VkDeviceSize bytesOf(const PartSize& part) {
+  if (part.indices == 0) return 0;
+  const VkDeviceSize bytes =
+      kDrawBytes + part.vertices * VkDeviceSize{sizeof(Vertex)} + part.indices * VkDeviceSize{sizeof(uint32_t)};
   return (bytes + sizeof(Vertex) - 1) / sizeof(Vertex) * sizeof(Vertex);
 }
 
-VkDeviceSize bytesOf(const PartSources& parts) {
+VkDeviceSize bytesOf(const PartSizes& parts) {
   VkDeviceSize bytes = 0;
-  for (const PartSource& part : parts) bytes += part.indices.size > 0 ? bytesOf(part) : 0;
+  for (const PartSize& part : parts) bytes += bytesOf(part);
   return bytes;
 }
 
-void copyPart(Commands& commands, const PartSource& source, const VulkanPart& part) {
+PartSizes sizesOf(const PartSources& sources) {
+  PartSizes sizes;
+  for (size_t p = 0; p < sources.size(); ++p) {
+    sizes[p].vertices = static_cast<uint32_t>(sources[p].vertices.size / sizeof(Vertex));
+    sizes[p].indices = static_cast<uint32_t>(sources[p].indices.size / sizeof(uint32_t));
+  }
+  return sizes;
+}
+
+/// Bytes at an offset of VulkanPart's.
+BufferRange within(const VulkanPart& part, VkDeviceSize offset, VkDeviceSize bytes) {
   const Buffer& buffer = part.memory().buffer();
-  const auto within = [&](VkDeviceSize offset, VkDeviceSize bytes) {
-    return BufferRange(buffer, offset - buffer.offset(), bytes);
-  };
+  return {buffer, offset - buffer.offset(), bytes};
+}
+
+void writeDraw(Commands& commands, const VulkanPart& part) {
   const VkDrawIndexedIndirectCommand draw = part.draw();
-  commands.write(within(part.drawOffset(), sizeof draw), std::as_bytes(std::span(&draw, 1)));
-  commands.copy(source.vertices, within(part.vertexOffset(), source.vertices.size));
-  commands.copy(source.indices, within(part.indexOffset(), source.indices.size));
+  commands.write(within(part, part.drawOffset(), sizeof draw), std::as_bytes(std::span(&draw, 1)));
+}
+
+void copyPart(Commands& commands, const PartSource& source, const VulkanPart& part) {
+  commands.copy(source.vertices, within(part, part.vertexOffset(), source.vertices.size));
+  commands.copy(source.indices, within(part, part.indexOffset(), source.indices.size));
 }
 
 }  // namespace
@@ -55,47 +72,70 @@ VkDrawIndexedIndirectCommand VulkanPart::draw() const {
   return command;
 }
 
-Result<KeptParts> DeviceMeshes::keep(const std::shared_ptr<const void>& owner, std::span<const PartSources> chunks) {
+PlacedParts DeviceMeshes::place(const std::shared_ptr<const void>& owner, std::span<const PartSizes> chunks) {
   {
     const std::scoped_lock lock(mutex_);
     collect();
   }
-  KeptParts kept{std::vector<DeviceParts>(chunks.size())};
-  std::vector<std::shared_ptr<DeviceMemory>> memories;
-  struct Copy {
-    const PartSource& source;
-    std::shared_ptr<const VulkanPart> part;
-  };
-  std::vector<Copy> copies;
+  PlacedParts placed;
+  placed.chunks.resize(chunks.size());
   for (size_t c = 0; c < chunks.size(); ++c) {
     const VkDeviceSize bytes = bytesOf(chunks[c]);
     if (bytes == 0) continue;
     Result<Buffer> buffer = memory_.buffer(MemoryKind::device, bytes);
     if (!buffer) continue;
-    memories.push_back(std::make_shared<DeviceMemory>(owner, *this, std::move(*buffer)));
-    VkDeviceSize draw = memories.back()->buffer().offset();
+    placed.memories.push_back(std::make_shared<DeviceMemory>(owner, *this, std::move(*buffer)));
+    VkDeviceSize draw = placed.memories.back()->buffer().offset();
     for (size_t p = 0; p < chunks[c].size(); ++p) {
-      const PartSource& source = chunks[c][p];
-      if (source.indices.size == 0) continue;
-      const auto vertices = static_cast<uint32_t>(source.vertices.size / sizeof(Vertex));
-      const auto indices = static_cast<uint32_t>(source.indices.size / sizeof(uint32_t));
-      copies.push_back({source, std::make_shared<const VulkanPart>(memories.back(), draw, vertices, indices)});
-      kept.chunks[c][p] = copies.back().part;
-      draw += bytesOf(source);
+      const PartSize& size = chunks[c][p];
+      if (size.indices == 0) continue;
+      auto part = std::make_shared<const VulkanPart>(placed.memories.back(), draw, size.vertices, size.indices);
+      placed.parts.push_back({c, p, part});
+      placed.chunks[c][p] = std::move(part);
+      draw += bytesOf(size);
     }
   }
-  if (copies.empty()) return kept;
+  return placed;
+}
+
+Result<void> DeviceMeshes::acquire(const PlacedParts& placed) {
+  if (placed.parts.empty()) return {};
+  std::vector<BufferRange> ranges;
+  for (const auto& memory : placed.memories) ranges.emplace_back(memory->buffer());
+  Result<Commands> commands = ring_.begin();
+  if (!commands) return commands.error();
+  commands->acquire(ranges);
+  for (const PlacedParts::Part& part : placed.parts) writeDraw(*commands, *part.placed);
+  const Result<uint64_t> value = ring_.submit(std::move(*commands));
+  if (!value) return value.error();
+  for (const auto& memory : placed.memories) memory->value_ = *value;
+  return {};
+}
+
+void DeviceMeshes::abandon(const PlacedParts& placed) noexcept {
+  for (const auto& memory : placed.memories) memory->value_ = DeviceMemory::kNever;
+}
+
+Result<KeptParts> DeviceMeshes::keep(const std::shared_ptr<const void>& owner, std::span<const PartSources> chunks) {
+  std::vector<PartSizes> sizes(chunks.size());
+  std::transform(chunks.begin(), chunks.end(), sizes.begin(), sizesOf);
+  PlacedParts placed = place(owner, sizes);
+  KeptParts kept{std::move(placed.chunks)};
+  if (placed.parts.empty()) return kept;
   // Others wait for a recording: none is held any longer than it takes.
   Result<Commands> commands = ring_.begin();
   if (!commands) return commands.error();
   // Shaders wrote the sources.
   commands->barrier(kCompute, kTransfer);
-  for (const Copy& copy : copies) copyPart(*commands, copy.source, *copy.part);
+  for (const PlacedParts::Part& part : placed.parts) {
+    writeDraw(*commands, *part.placed);
+    copyPart(*commands, chunks[part.chunk][part.part], *part.placed);
+  }
   commands->barrier(kTransfer, kCompute);
   const Result<uint64_t> value = ring_.submit(std::move(*commands));
   if (!value) return value.error();
   kept.value = *value;
-  for (const auto& memory : memories) memory->value_ = *value;
+  for (const auto& memory : placed.memories) memory->value_ = *value;
   return kept;
 }
 

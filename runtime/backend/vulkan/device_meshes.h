@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "backend/backend.h"
+#include "backend/mesh_store.h"
 #include "backend/vulkan/commands.h"
 
 namespace sgm::vulkan {
@@ -29,12 +30,15 @@ class DeviceMemory {
   const Buffer& buffer() const { return buffer_; }
   const DeviceMeshes& meshes() const { return meshes_; }
   uint64_t value() const { return value_; }  ///< of the queue: from it on the content is there
+  /// Whether it will be. Where not, nobody could bring it.
+  bool there() const { return value_ != 0 && value_ != kNever; }
 
  private:
   friend class DeviceMeshes;
   std::shared_ptr<const void> owner_;  // what the memory is outlived by
   DeviceMeshes& meshes_;
   Buffer buffer_;
+  static constexpr uint64_t kNever = UINT64_MAX;
   uint64_t value_ = 0;
 };
 
@@ -67,6 +71,17 @@ struct PartSource {
 };
 using PartSources = std::array<PartSource, kMeshParts>;  ///< in the order of DeviceParts
 
+/// Parts that have a place, and no content yet.
+struct PlacedParts {
+  struct Part {
+    size_t chunk, part;
+    std::shared_ptr<const VulkanPart> placed;
+  };
+  std::vector<DeviceParts> chunks;  ///< null throughout a chunk that no memory is left for
+  std::vector<Part> parts;
+  std::vector<std::shared_ptr<DeviceMemory>> memories;
+};
+
 /// Parts that are being copied.
 struct KeptParts {
   std::vector<DeviceParts> chunks;
@@ -79,6 +94,14 @@ class DeviceMeshes {
   /// memory: of the parts; staging: of what comes from the host.
   DeviceMeshes(Queue& queue, Memory& memory, Memory& staging, CommandRing& ring)
       : queue_(queue), memory_(memory), staging_(staging), ring_(ring) {}
+
+  /// Memory for parts. Throws std::bad_alloc.
+  PlacedParts place(const std::shared_ptr<const void>& owner, std::span<const PartSizes> chunks);
+  /// What another API has written to placed parts, and nobody writes to any more, is there from a value of the queue
+  /// on. Errors: as CommandRing::submit. Throws std::bad_alloc.
+  Result<void> acquire(const PlacedParts& placed);
+  /// What may be written to still, for all that anybody knows, is kept from others until the end.
+  static void abandon(const PlacedParts& placed) noexcept;
 
   /// Copies parts, in the device's own time: one DeviceParts a chunk, null where there is no source, and throughout a
   /// chunk that no memory is left for. Later submissions may write to the sources, the host may not before their end.

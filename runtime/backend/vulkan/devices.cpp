@@ -124,6 +124,7 @@ DeviceInfo describe(const InstanceTable& calls, VkPhysicalDevice device) {
   features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
   features.pNext = &timeline;
   calls.vkGetPhysicalDeviceFeatures2(device, &features);
+  std::copy(std::begin(properties11.deviceUUID), std::end(properties11.deviceUUID), info.id.begin());
   info.exact = properties12.shaderRoundingModeRTEFloat32 == VK_TRUE;
   info.preserves_denormals = properties12.shaderDenormPreserveFloat32 == VK_TRUE;
   info.driver = std::string(properties12.driverName) + " " + properties12.driverInfo;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backend/vulkan/instance.h"
+#include "base/shared_memory.h"
 
 namespace sgm::vulkan {
 
@@ -35,6 +36,7 @@ struct DeviceInfo {
   uint32_t subgroup_size = 0;
   uint64_t max_allocation = 0;  ///< bytes of one vkAllocateMemory
   std::string driver;
+  DeviceId id{};  ///< deviceUUID
 
   bool software() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }  ///< lavapipe and its like
 };

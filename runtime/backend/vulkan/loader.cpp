@@ -41,6 +41,9 @@ bool loadDevice(const InstanceTable& instance, VkDevice device, DeviceTable& tab
   complete = complete && table.name;
   SGM_VK_DEVICE(SGM_LOAD)
 #undef SGM_LOAD
+#define SGM_LOAD(name) table.name = reinterpret_cast<PFN_##name>(instance.vkGetDeviceProcAddr(device, #name));
+  SGM_VK_DEVICE_EXTENSIONS(SGM_LOAD)
+#undef SGM_LOAD
   return complete;
 }
 

@@ -12,6 +12,8 @@ constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BU
                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                       VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
 
+constexpr VkExternalMemoryHandleTypeFlagBits kHandleType = VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT;
+
 constexpr VkMemoryPropertyFlags kNear = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
 constexpr VkMemoryPropertyFlags kVisible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
 constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -50,6 +52,49 @@ int chooseMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t al
   return best;
 }
 
+std::optional<SharedMemoryNeeds> sharedMemoryNeeds(const Device& device) {
+  if (!device.externalMemory()) return std::nullopt;
+  VkPhysicalDeviceExternalBufferInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_BUFFER_INFO;
+  info.usage = kUsage;
+  info.handleType = kHandleType;
+  VkExternalBufferProperties properties{};
+  properties.sType = VK_STRUCTURE_TYPE_EXTERNAL_BUFFER_PROPERTIES;
+  device.instanceCalls().vkGetPhysicalDeviceExternalBufferProperties(device.physical(), &info, &properties);
+  const VkExternalMemoryFeatureFlags features = properties.externalMemoryProperties.externalMemoryFeatures;
+  if (!(features & VK_EXTERNAL_MEMORY_FEATURE_EXPORTABLE_BIT)) return std::nullopt;
+  return SharedMemoryNeeds{(features & VK_EXTERNAL_MEMORY_FEATURE_DEDICATED_ONLY_BIT) != 0};
+}
+
+namespace {
+
+class ExportedBlock final : public SharedBlock {
+ public:
+  ExportedBlock(const Device& device, uint64_t bytes, bool dedicated)
+      : device_(device), bytes_(bytes), dedicated_(dedicated) {}
+  void setMemory(VkDeviceMemory memory) { memory_ = memory; }
+  uint64_t bytes() const override { return bytes_; }
+  bool dedicated() const override { return dedicated_; }
+  Result<int> descriptor() const override {
+    VkMemoryGetFdInfoKHR info{};
+    info.sType = VK_STRUCTURE_TYPE_MEMORY_GET_FD_INFO_KHR;
+    info.memory = memory_;
+    info.handleType = kHandleType;
+    int descriptor = -1;
+    const VkResult result = device_.calls().vkGetMemoryFdKHR(device_.handle(), &info, &descriptor);
+    if (result != VK_SUCCESS) return errorOf(result, "sharing memory of " + device_.info().name);
+    return descriptor;
+  }
+
+ private:
+  const Device& device_;
+  const uint64_t bytes_;
+  const bool dedicated_;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+};
+
+}  // namespace
+
 struct Memory::Block {
   Ranges ranges;
   MemoryKind kind;
@@ -59,6 +104,7 @@ struct Memory::Block {
   VkDeviceMemory memory = VK_NULL_HANDLE;
   std::byte* data = nullptr;
   bool coherent = true;
+  std::unique_ptr<ExportedBlock> shared = nullptr;
 };
 
 Memory::Memory(Device& device, const MemoryOptions& options)
@@ -136,8 +182,12 @@ Result<void> Memory::fill(Block& block, MemoryKind kind, VkDeviceSize bytes) {
   const std::string what = "a block of " + std::to_string(bytes) + " bytes of GPU memory";
   const DeviceTable& calls = device_.calls();
   if (bytes > device_.info().max_allocation) return errorOf(VK_ERROR_OUT_OF_DEVICE_MEMORY, what);
+  VkExternalMemoryBufferCreateInfo exported_buffer{};
+  exported_buffer.sType = VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO;
+  exported_buffer.handleTypes = kHandleType;
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  if (options_.shared) info.pNext = &exported_buffer;
   info.size = bytes;
   info.usage = kUsage;
   std::vector<uint32_t> families = options_.families;
@@ -157,12 +207,26 @@ Result<void> Memory::fill(Block& block, MemoryKind kind, VkDeviceSize bytes) {
   if (type < 0) return Error{Code::unsupported, what + ": " + device_.info().name + " has no memory of this kind"};
   const auto index = static_cast<uint32_t>(type);
   if (auto checked = checkBudget(index, needs.size); !checked) return checked.error();
+  VkMemoryDedicatedAllocateInfo dedicated{};
+  dedicated.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO;
+  dedicated.buffer = block.buffer;
+  VkExportMemoryAllocateInfo exported{};
+  exported.sType = VK_STRUCTURE_TYPE_EXPORT_MEMORY_ALLOCATE_INFO;
+  exported.handleTypes = kHandleType;
   VkMemoryAllocateInfo allocate{};
   allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  if (options_.shared) {
+    const std::optional<SharedMemoryNeeds> shared = sharedMemoryNeeds(device_);
+    if (!shared) return Error{Code::unsupported, what + ": " + device_.info().name + " shares none with other APIs"};
+    if (shared->dedicated) exported.pNext = &dedicated;
+    allocate.pNext = &exported;
+    block.shared = std::make_unique<ExportedBlock>(device_, needs.size, shared->dedicated);
+  }
   allocate.allocationSize = needs.size;
   allocate.memoryTypeIndex = index;
   result = calls.vkAllocateMemory(device_.handle(), &allocate, nullptr, &block.memory);
   if (result != VK_SUCCESS) return errorOf(result, what);
+  if (block.shared) block.shared->setMemory(block.memory);
   result = calls.vkBindBufferMemory(device_.handle(), block.buffer, block.memory, 0);
   const VkMemoryPropertyFlags flags = properties_.memoryTypes[index].propertyFlags;
   block.coherent = (flags & kCoherent) != 0;
@@ -193,6 +257,7 @@ Result<void> Memory::checkBudget(uint32_t type, VkDeviceSize bytes) const {
 
 void Memory::destroy(Block& block) noexcept {
   const DeviceTable& calls = device_.calls();
+  block.shared.reset();
   calls.vkDestroyBuffer(device_.handle(), block.buffer, nullptr);
   calls.vkFreeMemory(device_.handle(), block.memory, nullptr);
 }
@@ -261,6 +326,8 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
   data_ = std::exchange(other.data_, nullptr);
   return *this;
 }
+
+SharedBlock* Buffer::block() const { return block_ ? static_cast<Memory::Block*>(block_)->shared.get() : nullptr; }
 
 Result<void> Buffer::beforeRead() const {
   if (!memory_) return {};

@@ -9,11 +9,13 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "backend/vulkan/device.h"
 #include "backend/vulkan/ranges.h"
+#include "base/shared_memory.h"
 
 namespace sgm::vulkan {
 
@@ -32,7 +34,8 @@ struct MemoryOptions {
   uint64_t first_block = uint64_t{64} << 20;     ///< bytes; each further one of a kind is twice as large as the last
   uint64_t largest_block = uint64_t{512} << 20;  ///< what needs more has a block of its own
   uint64_t cap = UINT64_MAX;                     ///< bytes of all blocks together
-  bool apart = false;  ///< takes host and device to share no memory, even where they do: to test what is copied then
+  bool apart = false;   ///< takes host and device to share no memory, even where they do: to test what is copied then
+  bool shared = false;  ///< another API imports the blocks; of a device with externalMemory()
   std::vector<uint32_t> families;  ///< beside the device's own: whose queues use the buffers, too
 };
 
@@ -59,6 +62,7 @@ class Buffer {
   VkDeviceSize offset() const { return offset_; }  ///< in handle(); a multiple of 256
   VkDeviceSize size() const { return size_; }      ///< as asked for
   std::byte* data() const { return data_; }        ///< null where the host does not see it
+  SharedBlock* block() const;                      ///< what it lies in, where MemoryOptions::shared; null: it is not
   /// After the device wrote and before the host reads data(). Nothing to do for memory that the host sees coherently.
   /// Error: out_of_memory.
   Result<void> beforeRead() const;
@@ -71,6 +75,12 @@ class Buffer {
   VkDeviceSize offset_ = 0, size_ = 0;
   std::byte* data_ = nullptr;
 };
+
+/// Whether another API can import blocks of the device's memory, and how; nothing where not.
+struct SharedMemoryNeeds {
+  bool dedicated = false;  ///< of one buffer alone, and imported as such
+};
+std::optional<SharedMemoryNeeds> sharedMemoryNeeds(const Device& device);
 
 /// Any thread may use it. Outlived by its device. The content of a new buffer is undefined.
 class Memory {

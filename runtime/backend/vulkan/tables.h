@@ -15,17 +15,18 @@ namespace sgm::vulkan {
   X(vkCreateInstance)    \
   X(vkEnumerateInstanceVersion)
 
-#define SGM_VK_INSTANCE(X)                    \
-  X(vkDestroyInstance)                        \
-  X(vkEnumeratePhysicalDevices)               \
-  X(vkEnumerateDeviceExtensionProperties)     \
-  X(vkGetPhysicalDeviceProperties)            \
-  X(vkGetPhysicalDeviceProperties2)           \
-  X(vkGetPhysicalDeviceFeatures2)             \
-  X(vkGetPhysicalDeviceMemoryProperties)      \
-  X(vkGetPhysicalDeviceMemoryProperties2)     \
-  X(vkGetPhysicalDeviceQueueFamilyProperties) \
-  X(vkCreateDevice)                           \
+#define SGM_VK_INSTANCE(X)                       \
+  X(vkDestroyInstance)                           \
+  X(vkEnumeratePhysicalDevices)                  \
+  X(vkEnumerateDeviceExtensionProperties)        \
+  X(vkGetPhysicalDeviceProperties)               \
+  X(vkGetPhysicalDeviceProperties2)              \
+  X(vkGetPhysicalDeviceFeatures2)                \
+  X(vkGetPhysicalDeviceMemoryProperties)         \
+  X(vkGetPhysicalDeviceMemoryProperties2)        \
+  X(vkGetPhysicalDeviceQueueFamilyProperties)    \
+  X(vkGetPhysicalDeviceExternalBufferProperties) \
+  X(vkCreateDevice)                              \
   X(vkGetDeviceProcAddr)
 
 #define SGM_VK_INSTANCE_DEBUG(X)    \
@@ -81,6 +82,8 @@ namespace sgm::vulkan {
   X(vkCmdUpdateBuffer)              \
   X(vkCmdPipelineBarrier)
 
+#define SGM_VK_DEVICE_EXTENSIONS(X) X(vkGetMemoryFdKHR)
+
 #define SGM_VK_MEMBER(name) PFN_##name name = nullptr;
 
 struct GlobalTable {
@@ -94,9 +97,11 @@ struct InstanceTable {
   SGM_VK_INSTANCE_DEBUG(SGM_VK_MEMBER)
 };
 
-/// What computing needs. Who draws, too, has a table of its own that begins with this one.
+/// What computing needs. Who draws, too, has a table of its own that begins with this one. The functions of extensions
+/// are null where the device was made without them.
 struct DeviceTable {
   SGM_VK_DEVICE(SGM_VK_MEMBER)
+  SGM_VK_DEVICE_EXTENSIONS(SGM_VK_MEMBER)
 };
 
 #undef SGM_VK_MEMBER

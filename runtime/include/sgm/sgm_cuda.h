@@ -11,6 +11,9 @@
  *   sgm_field_create        with SGM_BACKEND_CUDA, or AUTO
  *   sgm_world_create        with SGM_WORLD_RESIDENT
  *   sgm_mesh_get_cuda_view  of every mesh that is READY; read it there, upload nothing
+ *
+ * Who draws with Vulkan lends that device with external_memory before (sgm_vulkan.h): meshes are in its buffers then, and
+ * not here.
  */
 /* clang-format on */
 #ifndef SGM_SGM_CUDA_H
@@ -91,7 +94,7 @@ typedef struct sgm_cuda_mesh_view {
  * mesh ends: release it only when the GPU has done with it. Meshes of one chunk share what they have in common.
  *
  * SGM_ERR_NOT_FOUND: it is not there, or not all of it: the world is not SGM_WORLD_RESIDENT, no memory was left on the
- * GPU, or the context was lost before. Upload what sgm_mesh_get_view shows. SGM_ERR_DEVICE_LOST: the context was lost
+ * GPU, the context was lost before, or meshes stay on a Vulkan device. Upload what sgm_mesh_get_view shows. SGM_ERR_DEVICE_LOST: the context was lost
  * after it, as far as the runtime has heard. */
 SGM_API sgm_result sgm_mesh_get_cuda_view(const sgm_mesh* mesh, sgm_cuda_mesh_view* view, sgm_error* error);
 

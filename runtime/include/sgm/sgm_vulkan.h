@@ -45,6 +45,7 @@ typedef struct sgm_vulkan_device_desc {
   int32_t
       timeline_semaphores; /* 1: VkPhysicalDeviceVulkan12Features.timelineSemaphore is enabled. Needed, and believed */
   int32_t memory_budget;   /* 1: VK_EXT_memory_budget is enabled, so that the runtime keeps to what is left */
+  int32_t external_memory; /* 1: VK_KHR_external_memory_fd is enabled, so that CUDA may mesh for this device (below) */
   /* Called around every use of the queue, on the thread that uses it, for who shares it; both or neither. They may
    * wait, and must not call the runtime. Any function of the runtime's may use the queue: hold the lock in none. */
   void (*lock_queue)(void* user);
@@ -57,14 +58,20 @@ typedef struct sgm_vulkan_device_desc {
 #define SGM_VULKAN_DEVICE_DESC_INIT                                                                                    \
   {                                                                                                                    \
     SGM_SIZEOF(sgm_vulkan_device_desc), SGM_NULL, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, 0, \
-        0, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0                                                                          \
+        0, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0                                                                       \
   }
 
 /* From now on the runtime's Vulkan backend is this device. A software one is taken for SGM_BACKEND_VULKAN alone.
  *
+ * CUDA meshes, Vulkan draws: of a device lent with external_memory, memory is shared with CUDA, and what the runtime's
+ * CUDA backend leaves on the GPU (SGM_WORLD_RESIDENT) lies in this device's buffers: sgm_mesh_get_vulkan_view shows it.
+ * Lend it before the runtime's first CUDA field, and before sgm_runtime_lend_cuda. A field with SGM_BACKEND_CUDA is
+ * then refused (SGM_ERR_UNSUPPORTED) where CUDA does not run on the same GPU or cannot import its memory;
+ * SGM_BACKEND_AUTO takes CUDA where that can be had, and else this device.
+ *
  * SGM_ERR_INVALID_ARGUMENT: a handle is missing, half a lock, no such queue family. SGM_ERR_UNSUPPORTED: the device
  * lacks something, which the message names. SGM_ERR_BUSY: the runtime has lent one, or a field on a Vulkan device of
- * its own. When it fails nothing has changed.
+ * its own, or with external_memory on a CUDA one. When it fails nothing has changed.
  *
  * A lent device that is lost stays lost: the CPU meshes from then on, with the same bytes, and meshes are not on a
  * device. To lend the one that takes its place, end the runtime. */
@@ -95,8 +102,8 @@ typedef struct sgm_vulkan_mesh_view {
    * READY as a rule, so that waiting takes no time. But it makes them visible: the engine's submission waits for the
    * value, on the device, at the stages that read them (VERTEX_INPUT, DRAW_INDIRECT for what lies at draw_offset, or
    * those of its own shaders and copies). What signals it was submitted before, so that a wait on the lent queue itself
-   * ends. The semaphore is the same for all meshes of a runtime, and lives as long as any of them; of several the
-   * largest value counts. VK_NULL_HANDLE and 0: no triangles, nothing to wait for. */
+   * ends. The semaphore is the same for all meshes of a backend of the runtime's, and lives as long as any of them; of
+   * several the largest value counts. VK_NULL_HANDLE and 0: no triangles, nothing to wait for. */
   VkSemaphore semaphore;
   uint64_t value;
   sgm_vulkan_part body;

@@ -12,6 +12,7 @@ FakeDriver::~FakeDriver() {
     CHECK(left.pools == 0);
     CHECK(left.streams == 0);
     CHECK(left.events == 0);
+    CHECK(left.imports + left.mapped == 0);
     if (!left.unsure) CHECK(left.device_blocks + left.pinned_blocks == 0);
   }
   CHECK(fakeDepth() == 0);

@@ -1,5 +1,10 @@
 #include "fake_gpu.h"
 
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
@@ -49,8 +54,34 @@ struct FakeEvent {
   uint64_t after = 0;  ///< so many of its pieces
   bool asked = false;
 };
-std::set<FakeStream*> fake_streams;  ///< alive
-std::set<FakeEvent*> fake_events;    ///< alive
+/// Another API's memory as Mesa's software device shares it: a file, with a header that says where the memory begins.
+class FakeImport {
+ public:
+  FakeImport(int descriptor, uint64_t bytes) : bytes_(bytes) {
+    struct stat file;
+    if (fstat(descriptor, &file) != 0) return;
+    size_ = static_cast<size_t>(file.st_size);
+    void* const mapped = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
+    if (mapped == MAP_FAILED) return;
+    file_ = static_cast<std::byte*>(mapped);
+    std::memcpy(&offset_, file_ + sizeof(uint64_t), sizeof offset_);
+  }
+  ~FakeImport() {
+    if (file_ != nullptr) munmap(file_, size_);
+  }
+  FakeImport(const FakeImport&) = delete;
+  FakeImport& operator=(const FakeImport&) = delete;
+  std::byte* begin() const { return file_ != nullptr && offset_ + bytes_ <= size_ ? file_ + offset_ : nullptr; }
+  uint64_t bytes() const { return bytes_; }
+
+ private:
+  uint64_t bytes_, offset_ = 0;
+  size_t size_ = 0;
+  std::byte* file_ = nullptr;
+};
+std::vector<std::unique_ptr<FakeImport>> fake_imports;  ///< alive
+std::set<FakeStream*> fake_streams;                     ///< alive
+std::set<FakeEvent*> fake_events;                       ///< alive
 FakeStream& of(CuStream stream) { return *reinterpret_cast<FakeStream*>(stream); }
 FakeEvent& of(CuEvent event) { return *reinterpret_cast<FakeEvent*>(event); }
 void* hostOf(CuPointer memory) { return reinterpret_cast<void*>(static_cast<uintptr_t>(memory)); }
@@ -112,6 +143,10 @@ DriverTable makeTable() {
   t.deviceTotalMem = [](size_t* bytes, CuDevice) {
     *bytes = size_t{8} << 30;
     return before("deviceTotalMem", false);
+  };
+  t.deviceGetUuid = [](CuId* id, CuDevice) {
+    std::copy(fake_state.id.begin(), fake_state.id.end(), id->bytes);
+    return before("deviceGetUuid", false);
   };
   t.ctxCreate = [](CuContext* context, unsigned, CuDevice) {
     if (const int result = before("ctxCreate", false)) return result;
@@ -243,6 +278,33 @@ DriverTable makeTable() {
     --fake_state.device_blocks;
     return before("memFreeAsync");
   };
+  t.importExternalMemory = [](CuImported* imported, const CuSharedMemory* memory) {
+    if (const int result = before("importExternalMemory")) return result;
+    auto made = std::make_unique<FakeImport>(memory->handle.descriptor, memory->bytes);
+    if (memory->type != 1 || made->begin() == nullptr) return 1;
+    close(memory->handle.descriptor);
+    ++fake_state.imports;
+    fake_imports.push_back(std::move(made));
+    *imported = reinterpret_cast<CuImported>(fake_imports.back().get());
+    return kCuSuccess;
+  };
+  t.externalMemoryGetMappedBuffer = [](CuPointer* memory, CuImported imported, const CuSharedRange* range) {
+    if (const int result = before("externalMemoryGetMappedBuffer")) return result;
+    FakeImport& import = *reinterpret_cast<FakeImport*>(imported);
+    if (range->offset != 0 || range->bytes != import.bytes()) return 1;
+    ++fake_state.mapped;
+    *memory = reinterpret_cast<uintptr_t>(import.begin());
+    return kCuSuccess;
+  };
+  t.memFree = [](CuPointer) {
+    --fake_state.mapped;
+    return before("memFree");
+  };
+  t.destroyExternalMemory = [](CuImported imported) {
+    std::erase_if(fake_imports, [imported](const auto& one) { return one.get() == reinterpret_cast<void*>(imported); });
+    --fake_state.imports;
+    return before("destroyExternalMemory");
+  };
   t.memHostAlloc = [](void** memory, size_t bytes, unsigned) {
     if (const int result = before("memHostAlloc")) return result;
     *memory = std::aligned_alloc(256, (bytes + 255) / 256 * 256);
@@ -322,7 +384,9 @@ DriverTable fakeTable() {
 }
 
 void beginFake() {
+  const auto id = fake_state.id;
   fake_state = {};
+  fake_state.id = id;
   fake_host = makeHostDevice();
   fake_runs = *fake_host->makeStream();
 }
@@ -331,6 +395,7 @@ void endFake() {
   for (FakeStream* stream : std::exchange(fake_streams, {})) delete stream;
   for (FakeEvent* event : std::exchange(fake_events, {})) delete event;
   for (void* block : std::exchange(fake_blocks, {})) std::free(block);
+  fake_imports.clear();
   fake_runs.reset();
   fake_host.reset();
 }

@@ -1,10 +1,35 @@
-// libcuda.so.1, as a program finds it: the driver that pretends (fake_gpu.h).
+// libcuda.so.1, as a program finds it: the driver that pretends (fake_gpu.h). With SGM_PRETEND_VULKAN in the
+// environment its GPU is the first of Vulkan's devices.
+
+#include <cstdlib>
 
 #include "fake_gpu.h"
+#ifdef SGM_PRETENDS_VULKAN
+#include "backend/vulkan/devices.h"
+#endif
 
 namespace {
 
-const sgm::cuda::DriverTable table = sgm::cuda::fakeTable();
+#ifdef SGM_PRETENDS_VULKAN
+void becomeVulkan() {
+  if (std::getenv("SGM_PRETEND_VULKAN") == nullptr) return;
+  const auto devices = sgm::vulkan::listDevices();
+  if (devices && !devices->empty()) sgm::cuda::fakeState().id = devices->front().id;
+}
+#else
+void becomeVulkan() {}
+#endif
+
+sgm::cuda::DriverTable makeTable() {
+  sgm::cuda::DriverTable made = sgm::cuda::fakeTable();
+  made.init = [](unsigned flags) {
+    becomeVulkan();
+    return sgm::cuda::fakeTable().init(flags);
+  };
+  return made;
+}
+
+const sgm::cuda::DriverTable table = makeTable();
 
 }  // namespace
 

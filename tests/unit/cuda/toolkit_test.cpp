@@ -29,6 +29,16 @@ static_assert(offsetof(CuPoolProperties, location) == offsetof(CUmemPoolProps, l
 static_assert(offsetof(CuPoolProperties, most_bytes) == offsetof(CUmemPoolProps, maxSize));
 static_assert(CuPoolProperties{}.allocation_type == CU_MEM_ALLOCATION_TYPE_PINNED);
 static_assert(CuPoolProperties{}.location_type == CU_MEM_LOCATION_TYPE_DEVICE);
+static_assert(sizeof(CuId) == sizeof(CUuuid));
+static_assert(CuSharedMemory{}.type == CU_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD);
+static_assert(kCuDedicatedMemory == CUDA_EXTERNAL_MEMORY_DEDICATED);
+static_assert(sizeof(CuSharedMemory) == sizeof(CUDA_EXTERNAL_MEMORY_HANDLE_DESC));
+static_assert(offsetof(CuSharedMemory, handle) == offsetof(CUDA_EXTERNAL_MEMORY_HANDLE_DESC, handle));
+static_assert(offsetof(CuSharedMemory, bytes) == offsetof(CUDA_EXTERNAL_MEMORY_HANDLE_DESC, size));
+static_assert(offsetof(CuSharedMemory, flags) == offsetof(CUDA_EXTERNAL_MEMORY_HANDLE_DESC, flags));
+static_assert(sizeof(CuSharedRange) == sizeof(CUDA_EXTERNAL_MEMORY_BUFFER_DESC));
+static_assert(offsetof(CuSharedRange, bytes) == offsetof(CUDA_EXTERNAL_MEMORY_BUFFER_DESC, size));
+static_assert(offsetof(CuSharedRange, flags) == offsetof(CUDA_EXTERNAL_MEMORY_BUFFER_DESC, flags));
 static_assert(sizeof(CuPointer) == sizeof(CUdeviceptr) && sizeof(CuContext) == sizeof(CUcontext));
 
 TEST_CASE("the driver has every function that is looked up, by that name", "[cuda]") {

@@ -15,7 +15,8 @@ struct Engine {
   DeviceTable calls;
   int locks = 0, unlocks = 0, held = 0;
 
-  explicit Engine(Validation validation = Validation::synchronization) {
+  /// external_memory: made with VK_KHR_external_memory_fd.
+  explicit Engine(Validation validation = Validation::synchronization, bool external_memory = false) {
     auto made = Instance::create({validation});
     REQUIRE(made);
     instance = std::move(*made);
@@ -38,6 +39,9 @@ struct Engine {
     info.pNext = &timeline;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue_info;
+    const char* const extension = VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME;
+    info.enabledExtensionCount = external_memory ? 1 : 0;
+    info.ppEnabledExtensionNames = &extension;
     REQUIRE(instance->calls().vkCreateDevice(physical, &info, nullptr, &device) == VK_SUCCESS);
     REQUIRE(loadDevice(instance->calls(), device, calls));
     calls.vkGetDeviceQueue(device, 0, 0, &queue);

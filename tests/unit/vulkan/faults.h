@@ -33,6 +33,10 @@ class Faults {
 #define SGM_WRAP(name) Wrapper<&DeviceTable::name>::into(table, #name);
     SGM_VK_DEVICE(SGM_WRAP)
 #undef SGM_WRAP
+#define SGM_WRAP(name) \
+  if (table.name) Wrapper<&DeviceTable::name>::into(table, #name);
+    SGM_VK_DEVICE_EXTENSIONS(SGM_WRAP)
+#undef SGM_WRAP
   }
   static void wrap(InstanceTable& table) {
     real<InstanceTable>() = table;
