@@ -1,6 +1,7 @@
-// external_vulkan FILE.sgm [--frames N] [--compare K] [--size WxH] [--png FILE] [--validate]: an engine that lends its
-// Vulkan device to the library, flies a viewer through a grammar's world, and draws the meshes from where they were
-// made. Every K-th frame is drawn once more from buffers that were uploaded, and must be the same picture.
+// external_vulkan FILE.sgm [--frames N] [--compare K] [--size WxH] [--png FILE] [--cuda] [--validate]: an engine that
+// lends its Vulkan device to the library, flies a viewer through a grammar's world, and draws the meshes from where
+// they were made, or with --cuda from where CUDA has put them. Every K-th frame is drawn once more from buffers that
+// were uploaded, and must be the same picture.
 
 #include <sgm/sgm.h>
 #include <sgm/sgm_vulkan.h>
@@ -28,13 +29,13 @@ constexpr int kSkipped = 77;  // no device here: nothing was tested
 constexpr double kMetresPerFrame = 0.25;
 constexpr auto kFrameTime = std::chrono::milliseconds(16);  // leaves the device time to mesh, as a display does
 constexpr const char* kUsage =
-    "usage: external_vulkan FILE.sgm [--frames N] [--compare K] [--size WxH] [--png FILE] [--validate]\n";
+    "usage: external_vulkan FILE.sgm [--frames N] [--compare K] [--size WxH] [--png FILE] [--cuda] [--validate]\n";
 
 struct Options {
   std::string grammar, png;
   int frames = 120, compare = 10;
   VkExtent2D size{640, 360};
-  bool validate = false;
+  bool cuda = false, validate = false;
 };
 
 std::optional<Options> parse(int argc, char** argv) {
@@ -45,6 +46,8 @@ std::optional<Options> parse(int argc, char** argv) {
     unsigned width = 0, height = 0;
     if (word == "--validate") {
       options.validate = true;
+    } else if (word == "--cuda") {
+      options.cuda = true;
     } else if (word == "--frames" && more) {
       options.frames = std::atoi(argv[++i]);
     } else if (word == "--compare" && more) {
@@ -85,12 +88,12 @@ void lend(sgm_runtime* runtime, VulkanDevice& device) {
   must(sgm_runtime_lend_vulkan(runtime, &desc, &error), error);
 }
 
-FieldOwner makeField(sgm_runtime* runtime, const sgm_grammar* grammar) {
+FieldOwner makeField(sgm_runtime* runtime, const sgm_grammar* grammar, bool cuda) {
   sgm_field_desc desc = SGM_FIELD_DESC_INIT;
   desc.grammar = grammar;
   desc.seed = 7;
   desc.cell_units = SGM_UNITS_PER_METRE / 4;
-  desc.backend = SGM_BACKEND_VULKAN;  // software devices, too
+  desc.backend = cuda ? SGM_BACKEND_CUDA : SGM_BACKEND_VULKAN;  // software devices, too
   sgm_field* field = nullptr;
   sgm_error error = SGM_ERROR_INIT;
   must(sgm_field_create(runtime, &desc, &field, &error), error);
@@ -145,9 +148,9 @@ void run(const Options& options, Validation* validation) {
   std::optional<VulkanDevice> device;  // outlives the runtime that it is lent to
   const RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compileFile(runtime.get(), options.grammar.c_str());
-  device.emplace(validation);
+  device.emplace(validation, options.cuda);
   lend(runtime.get(), *device);
-  const FieldOwner field = makeField(runtime.get(), grammar.get());
+  const FieldOwner field = makeField(runtime.get(), grammar.get(), options.cuda);
   const CavePath path(field.get(), options.frames * kMetresPerFrame);
   const WorldOwner world = makeWorld(field.get());
   const ChunkPipeline pipeline(device->handle(), options.size);

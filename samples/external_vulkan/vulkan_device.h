@@ -17,8 +17,10 @@
 
 class VulkanDevice {
  public:
-  /// As VulkanInstance. Throws NoDevice.
-  explicit VulkanDevice(Validation* validation) : instance_(validation) { openBest(); }
+  /// As VulkanInstance. share_memory: CUDA is to mesh for it. Throws NoDevice.
+  VulkanDevice(Validation* validation, bool share_memory) : instance_(validation), share_memory_(share_memory) {
+    openBest();
+  }
   VulkanDevice(const VulkanDevice&) = delete;
   VulkanDevice& operator=(const VulkanDevice&) = delete;
   ~VulkanDevice() { vkDestroyDevice(device_, nullptr); }
@@ -44,6 +46,7 @@ class VulkanDevice {
     desc.queue = queue_;
     desc.timeline_semaphores = 1;
     desc.memory_budget = memory_budget_ ? 1 : 0;
+    desc.external_memory = share_memory_ ? 1 : 0;
     desc.lock_queue = [](void* user) { static_cast<VulkanDevice*>(user)->queue_mutex_.lock(); };
     desc.unlock_queue = [](void* user) { static_cast<VulkanDevice*>(user)->queue_mutex_.unlock(); };
     desc.user = this;
@@ -85,7 +88,7 @@ class VulkanDevice {
   }
 
   /// Empty: the device can do all that is asked of it here.
-  static std::string lackOf(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) {
+  std::string lackOf(VkPhysicalDevice device, const VkPhysicalDeviceProperties& properties) const {
     if (properties.apiVersion < VulkanInstance::kApiVersion) return "Vulkan 1.2";
     VkPhysicalDeviceVulkan12Features features12{};
     features12.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES;
@@ -97,6 +100,7 @@ class VulkanDevice {
     if (!features.features.multiDrawIndirect) return "multiDrawIndirect";
     if (!features.features.drawIndirectFirstInstance) return "drawIndirectFirstInstance";
     if (!drawingFamily(device)) return "a queue that both draws and computes";
+    if (share_memory_ && !hasExtension(device, kShareMemory)) return kShareMemory;
     return {};
   }
 
@@ -139,21 +143,26 @@ class VulkanDevice {
     VkPhysicalDeviceFeatures features{};
     features.multiDrawIndirect = VK_TRUE;
     features.drawIndirectFirstInstance = VK_TRUE;
-    const char* budget = VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
-    memory_budget_ = hasExtension(physical_, budget);
+    std::vector<const char*> extensions;
+    memory_budget_ = hasExtension(physical_, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    if (memory_budget_) extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    if (share_memory_) extensions.push_back(kShareMemory);
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.pNext = &features12;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    info.enabledExtensionCount = memory_budget_ ? 1 : 0;
-    info.ppEnabledExtensionNames = &budget;
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     info.pEnabledFeatures = &features;
     must(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, family_, 0, &queue_);
   }
 
+  static constexpr const char* kShareMemory = VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME;
+
   VulkanInstance instance_;
+  const bool share_memory_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   uint32_t family_ = 0;
   bool memory_budget_ = false;
