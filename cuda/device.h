@@ -33,6 +33,7 @@ struct DeviceInfo {
   int capability_major = 0, capability_minor = 0;
   int driver = 0;           ///< CUDA's version that it speaks: 1000 * major + 10 * minor; 0: no driver
   uint64_t memory = 0;      ///< bytes
+  int clock = 0;            ///< of its multiprocessors at most, kHz
   uint32_t processors = 1;  ///< multiprocessors
   int memory_pools = 0;     ///< 1: memory can be had in a stream's order
   DeviceId id{};

@@ -63,7 +63,8 @@ struct CuId {
 
 inline constexpr CuResult kCuSuccess = 0, kCuOutOfMemory = 2, kCuNoDevice = 100, kCuNoBinary = 209, kCuUnknownPtx = 222,
                           kCuNotReady = 600, kCuDriverMismatch = 803;
-inline constexpr int kCuProcessors = 16, kCuCapabilityMajor = 75, kCuCapabilityMinor = 76, kCuMemoryPools = 115;
+inline constexpr int kCuClock = 13, kCuProcessors = 16, kCuCapabilityMajor = 75, kCuCapabilityMinor = 76,
+                     kCuMemoryPools = 115;
 inline constexpr int kCuPoolThreshold = 4;  ///< of a pool: how many free bytes it keeps
 inline constexpr unsigned kCuNonBlockingStream = 1;
 inline constexpr unsigned kCuBlockingWaits = 4;  ///< of a context: who waits sleeps, as an engine needs the processors

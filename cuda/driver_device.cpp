@@ -1,11 +1,8 @@
 #include "cuda/driver_device.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
-#include <atomic>
 
+#include "cuda/driver_stream.h"
 #include "cuda/kernels/kernels.h"
 
 namespace sgm::cuda {
@@ -14,291 +11,15 @@ namespace {
 
 constexpr uint64_t kPoolKeeps = uint64_t{256} << 20;  // of what is free, bytes: some batches' worth
 
-Error errorOf(const DriverTable& driver, CuResult result, const std::string& what) {
-  const char* text = nullptr;
-  if (driver.getErrorString(result, &text) != kCuSuccess || text == nullptr) text = "unknown error";
-  const std::string message = what + ": " + text + " (CUresult " + std::to_string(result) + ")";
-  switch (result) {
-    case kCuOutOfMemory:
-      return {Code::out_of_memory, message};
-    case kCuNoDevice:
-      return {Code::unsupported, "the CUDA driver finds no GPU: " + message};
-    case kCuDriverMismatch:
-    case kCuUnknownPtx:
-    case kCuNoBinary:
-      return {Code::unsupported, "the CUDA driver is too old for this build, update it: " + message};
-    default:
-      // Errors of a context stay with it: whatever failed, only a new one helps.
-      return {Code::device_lost, message};
-  }
-}
-
-/// Makes a context this thread's for as long as it lives.
-class Current {
- public:
-  Current(const DriverTable& driver, CuContext context)
-      : driver_(driver), pushed_(driver.ctxPushCurrent(context) == kCuSuccess) {}
-  ~Current() {
-    CuContext popped = nullptr;
-    if (pushed_) driver_.ctxPopCurrent(&popped);
-  }
-  Current(const Current&) = delete;
-  Current& operator=(const Current&) = delete;
-  /// Where not, another's context would take the call.
-  explicit operator bool() const { return pushed_; }
-  static Error refused() { return {Code::device_lost, "the CUDA context can no longer be used"}; }
-
- private:
-  const DriverTable& driver_;
-  const bool pushed_;
-};
-
-/// What streams share with their device.
-struct Opened {
-  const DriverTable driver;
-  DeviceInfo info;
-  CuContext context = nullptr;
-  CuStream stream = nullptr;  ///< the engine's, for all batches; null: each has one of our own
-  bool borrowed = false;      ///< the context is the engine's
-  mutable std::atomic<bool> lost{false};
-  CuModule module = nullptr;
-  /// Our own: the device's is shared with the engine, and gives nothing back when a context is lost.
-  CuPool pool = nullptr;
-  std::array<CuFunction, static_cast<size_t>(Kernel::count)> functions{};
-
-  explicit Opened(const DriverTable& table) : driver(table) {}
-  Opened(const Opened&) = delete;
-  Opened& operator=(const Opened&) = delete;
-  ~Opened() {
-    if (context == nullptr) return;
-    {
-      const Current current(driver, context);
-      if (current && pool != nullptr) driver.memPoolDestroy(pool);
-      if (current && module != nullptr) driver.moduleUnload(module);
-    }
-    if (!borrowed) driver.ctxDestroy(context);
-  }
-  Result<void> check(CuResult result, const char* what) const {
-    if (result == kCuSuccess) return {};
-    const Error error = errorOf(driver, result, std::string(what) + " on " + info.name);
-    if (error.code == Code::device_lost) lost.store(true);
-    return error;
-  }
-};
-
-uint32_t threadsOf(Kernel kernel) {
-  switch (kernel) {
-#define SGM_CUDA_KERNEL(Name) \
-  case Kernel::Name:          \
-    return Name::kThreads;
-    SGM_CUDA_KERNELS
-#undef SGM_CUDA_KERNEL
-    case Kernel::count:
-      break;
-  }
-  return 0;
-}
-
-CuPointer pointerOf(const void* device) { return static_cast<CuPointer>(reinterpret_cast<uintptr_t>(device)); }
-
-class DriverStream final : public Stream {
- public:
-  /// event: this stream's from now on.
-  DriverStream(const Opened& device, CuStream stream, CuEvent event)
-      : device_(device), driver_(device.driver), stream_(stream), event_(event) {}
-  ~DriverStream() override {
-    static_cast<void>(wait());
-    const Current current(driver_, device_.context);
-    if (!current) return;
-    driver_.eventDestroy(event_);
-    if (stream_ != device_.stream) driver_.streamDestroy(stream_);
-  }
-
-  Result<void*> allocate(MemoryKind kind, size_t bytes) override {
-    const Current current(driver_, device_.context);
-    if (!current) return refused();
-    if (kind == MemoryKind::pinned) {
-      void* memory = nullptr;
-      const Result<void> made = device_.check(driver_.memHostAlloc(&memory, bytes, 0), "allocating pinned memory");
-      if (!made) return made.error();
-      return memory;
-    }
-    CuPointer memory = 0;
-    marked_ = false;
-    const Result<void> made =
-        device_.check(driver_.memAllocFromPoolAsync(&memory, bytes, device_.pool, stream_), "allocating memory");
-    if (!made) return made.error();
-    return reinterpret_cast<void*>(static_cast<uintptr_t>(memory));
-  }
-  void free(MemoryKind kind, void* memory) noexcept override {
-    const Current current(driver_, device_.context);
-    if (!current) return;
-    // Copies may be under way in it. Where nobody can say that they have ended, it is left to the context's end.
-    if (device_.lost.load() || (kind == MemoryKind::pinned && !wait())) return;
-    if (kind == MemoryKind::pinned) {
-      driver_.memFreeHost(memory);
-    } else {
-      driver_.memFreeAsync(pointerOf(memory), stream_);
-    }
-  }
-  Result<void> copyIn(void* device, const void* pinned, size_t bytes) override {
-    const Current current(driver_, device_.context);
-    if (!current) return refused();
-    marked_ = false;
-    return device_.check(driver_.memcpyHtoDAsync(pointerOf(device), pinned, bytes, stream_), "copying a batch");
-  }
-  Result<void> copyOut(void* pinned, const void* device, size_t bytes) override {
-    const Current current(driver_, device_.context);
-    if (!current) return refused();
-    marked_ = false;
-    return device_.check(driver_.memcpyDtoHAsync(pinned, pointerOf(device), bytes, stream_), "copying meshes");
-  }
-  Result<void> copy(void* to, const void* from, size_t bytes) override {
-    const Current current(driver_, device_.context);
-    if (!current) return refused();
-    marked_ = false;
-    return device_.check(driver_.memcpyDtoDAsync(pointerOf(to), pointerOf(from), bytes, stream_), "keeping meshes");
-  }
-  Result<void> clear(void* device, size_t bytes) override {
-    const Current current(driver_, device_.context);
-    if (!current) return refused();
-    marked_ = false;
-    return device_.check(driver_.memsetD8Async(pointerOf(device), 0, bytes, stream_), "clearing memory");
-  }
-  Result<void> launch(Kernel kernel, uint32_t blocks, const Batch& batch) override {
-    const Current current(driver_, device_.context);
-    if (!current) return refused();
-    marked_ = false;
-    // The driver copies the parameters before it returns.
-    Batch copy = batch;
-    void* parameters[] = {&copy};
-    return device_.check(driver_.launchKernel(device_.functions[static_cast<size_t>(kernel)], blocks, 1, 1,
-                                              threadsOf(kernel), 1, 1, 0, stream_, parameters, nullptr),
-                         "launching a kernel");
-  }
-  Result<void> mark() override {
-    if (marked_) return {};
-    const Current current(driver_, device_.context);
-    if (!current) return refused();
-    const Result<void> recorded = device_.check(driver_.eventRecord(event_, stream_), "marking the end of the batch");
-    marked_ = static_cast<bool>(recorded);
-    return recorded;
-  }
-  Result<bool> ended() override {
-    if (Result<void> known = mark(); !known) return known.error();
-    const Current current(driver_, device_.context);
-    if (!current) return refused();
-    const CuResult result = driver_.eventQuery(event_);
-    if (result == kCuNotReady) return false;
-    if (const Result<void> asked = device_.check(result, "asking for the batch"); !asked) return asked.error();
-    return true;
-  }
-  Result<void> wait() override {
-    if (Result<void> known = mark(); !known) return unsure(known.error());
-    const Current current(driver_, device_.context);
-    if (!current) return refused();
-    const Result<void> waited = device_.check(driver_.eventSynchronize(event_), "waiting for the batch");
-    return waited ? waited : unsure(waited.error());
-  }
-
- private:
-  Error refused() const {
-    device_.lost.store(true);
-    return Current::refused();
-  }
-  /// Who cannot be waited for may write for ever: nothing on the device is to be trusted any more.
-  Error unsure(const Error& why) const {
-    device_.lost.store(true);
-    return {Code::device_lost, why.message};
-  }
-
-  const Opened& device_;
-  const DriverTable& driver_;
-  const CuStream stream_;
-  const CuEvent event_;
-  bool marked_ = true;  ///< the event stands behind all that was given; where that is nothing, it need not
-};
-
-class DriverImport final : public ImportedMemory {
- public:
-  static Result<std::shared_ptr<const ImportedMemory>> make(std::shared_ptr<const Opened> device,
-                                                            const SharedBlock& block) {
-    auto made = std::make_shared<DriverImport>(std::move(device));
-    if (const Result<void> imported = made->import(block); !imported) return imported.error();
-    return std::shared_ptr<const ImportedMemory>(std::move(made));
-  }
-
-  explicit DriverImport(std::shared_ptr<const Opened> device) : device_(std::move(device)) {}
-  ~DriverImport() override {
-    const Current current(device_->driver, device_->context);
-    if (!current) return;
-    if (memory_ != 0) device_->driver.memFree(memory_);
-    if (imported_ != nullptr) device_->driver.destroyExternalMemory(imported_);
-  }
-  DriverImport(const DriverImport&) = delete;
-  DriverImport& operator=(const DriverImport&) = delete;
-  std::byte* data() const override { return reinterpret_cast<std::byte*>(static_cast<uintptr_t>(memory_)); }
-
- private:
-  Result<void> import(const SharedBlock& block) {
-    const Current current(device_->driver, device_->context);
-    if (!current) return Current::refused();
-    const Result<int> descriptor = block.descriptor();
-    if (!descriptor) return descriptor.error();
-    CuSharedMemory shared;
-    shared.handle.descriptor = *descriptor;
-    shared.bytes = block.bytes();
-    shared.flags = block.dedicated() ? kCuDedicatedMemory : 0;
-    const CuResult taken = device_->driver.importExternalMemory(&imported_, &shared);
-    if (taken != kCuSuccess) {
-      imported_ = nullptr;
-      close(*descriptor);
-      return refused(taken);
-    }
-    CuSharedRange whole;
-    whole.bytes = block.bytes();
-    const CuResult mapped = device_->driver.externalMemoryGetMappedBuffer(&memory_, imported_, &whole);
-    if (mapped == kCuSuccess) return {};
-    memory_ = 0;
-    return refused(mapped);
-  }
-  /// Memory that cannot be imported harms no context.
-  Error refused(CuResult result) const {
-    Error error = errorOf(device_->driver, result, "importing the drawing device's memory on " + device_->info.name);
-    if (error.code == Code::device_lost) error.code = Code::unsupported;
-    return error;
-  }
-
-  const std::shared_ptr<const Opened> device_;
-  CuImported imported_ = nullptr;
-  CuPointer memory_ = 0;
-};
-
 class DriverDevice final : public Device {
  public:
   explicit DriverDevice(std::unique_ptr<Opened> opened) : opened_(std::move(opened)) {}
   const DeviceInfo& info() const override { return opened_->info; }
   bool borrowed() const override { return opened_->borrowed; }
   bool lost() const override { return opened_->lost.load(); }
-  Result<std::unique_ptr<Stream>> makeStream(StreamUse use) override {
-    const Current current(opened_->driver, opened_->context);
-    if (!current) return Current::refused();
-    const DriverTable& driver = opened_->driver;
-    CuStream stream = use == StreamUse::batches ? opened_->stream : nullptr;
-    if (stream == nullptr) {
-      const CuResult result = driver.streamCreate(&stream, kCuNonBlockingStream);
-      if (const Result<void> made = opened_->check(result, "making a stream"); !made) return made.error();
-    }
-    CuEvent event = nullptr;
-    const CuResult result = driver.eventCreate(&event, kCuEventBlocks | kCuEventUntimed);
-    if (const Result<void> made = opened_->check(result, "making an event"); !made) {
-      if (stream != opened_->stream) driver.streamDestroy(stream);
-      return made.error();
-    }
-    return std::unique_ptr<Stream>(std::make_unique<DriverStream>(*opened_, stream, event));
-  }
+  Result<std::unique_ptr<Stream>> makeStream(StreamUse use) override { return makeDriverStream(*opened_, use); }
   Result<std::shared_ptr<const ImportedMemory>> import(const SharedBlock& block) override {
-    return DriverImport::make(opened_, block);
+    return importMemory(opened_, block);
   }
 
  private:
@@ -316,6 +37,7 @@ Result<DeviceInfo> describe(const DriverTable& driver, CuDevice device, int vers
     int* value;
   } attributes[] = {{kCuCapabilityMajor, &info.capability_major},
                     {kCuCapabilityMinor, &info.capability_minor},
+                    {kCuClock, &info.clock},
                     {kCuProcessors, &processors},
                     {kCuMemoryPools, &info.memory_pools}};
   CuResult result = driver.deviceGetName(name, static_cast<int>(sizeof name) - 1, device);

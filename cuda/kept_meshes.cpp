@@ -1,6 +1,7 @@
 #include "cuda/kept_meshes.h"
 
 #include <cstring>
+#include <new>
 #include <utility>
 
 namespace sgm::cuda {
@@ -19,7 +20,12 @@ class WaitUnlessKept {
  public:
   explicit WaitUnlessKept(Stream& stream) : stream_(stream) {}
   ~WaitUnlessKept() {
-    if (!kept_) static_cast<void>(stream_.wait());
+    if (kept_) return;
+    try {
+      static_cast<void>(stream_.wait());
+    } catch (const std::bad_alloc&) {
+      // Of its message; it has waited, or the device is lost.
+    }
   }
   WaitUnlessKept(const WaitUnlessKept&) = delete;
   WaitUnlessKept& operator=(const WaitUnlessKept&) = delete;

@@ -137,6 +137,7 @@ DriverTable makeTable() {
     *value = attribute == kCuCapabilityMajor   ? s.capability_major
              : attribute == kCuCapabilityMinor ? s.capability_minor
              : attribute == kCuMemoryPools     ? s.memory_pools
+             : attribute == kCuClock           ? 1'000'000
                                                : 2;
     return before("deviceGetAttribute", false);
   };

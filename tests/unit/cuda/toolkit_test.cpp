@@ -15,6 +15,7 @@ static_assert(kCuSuccess == CUDA_SUCCESS && kCuOutOfMemory == CUDA_ERROR_OUT_OF_
 static_assert(kCuDriverMismatch == CUDA_ERROR_SYSTEM_DRIVER_MISMATCH && kCuNoDevice == CUDA_ERROR_NO_DEVICE);
 static_assert(kCuNoBinary == CUDA_ERROR_NO_BINARY_FOR_GPU && kCuNotReady == CUDA_ERROR_NOT_READY);
 static_assert(kCuUnknownPtx == CUDA_ERROR_UNSUPPORTED_PTX_VERSION);
+static_assert(kCuClock == CU_DEVICE_ATTRIBUTE_CLOCK_RATE);
 static_assert(kCuProcessors == CU_DEVICE_ATTRIBUTE_MULTIPROCESSOR_COUNT);
 static_assert(kCuCapabilityMajor == CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MAJOR);
 static_assert(kCuCapabilityMinor == CU_DEVICE_ATTRIBUTE_COMPUTE_CAPABILITY_MINOR);

@@ -1,0 +1,17 @@
+#pragma once
+// Streams of an opened context, and other APIs' memory in it.
+
+#include <memory>
+
+#include "cuda/driver_context.h"
+
+namespace sgm::cuda {
+
+/// As Device::makeStream. The device outlives it.
+Result<std::unique_ptr<Stream>> makeDriverStream(const Opened& device, StreamUse use);
+
+/// As Device::import.
+Result<std::shared_ptr<const ImportedMemory>> importMemory(std::shared_ptr<const Opened> device,
+                                                           const SharedBlock& block);
+
+}  // namespace sgm::cuda
