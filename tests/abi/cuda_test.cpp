@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <random>
+#include <thread>
 
 #include "cuda_lender.h"
 #include "resident_worlds.h"
@@ -137,6 +138,72 @@ TEST_CASE("meshes outlive the world that they were streamed in, as CUDA's", "[cu
   size_t triangles = 0;
   for (const MeshOwner& mesh : meshes) triangles += checkMesh(mesh);
   CHECK(triangles > 0);
+}
+
+TEST_CASE("two threads mesh on one lent stream, each what it would alone", "[cuda]") {
+  const CudaLender lender(true);
+  const RuntimeOwner runtime = lender.runtime();
+  const GrammarOwner grammar = compile(runtime.get(), kLumps);
+  const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
+  const FieldOwner on_cpu = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CPU);
+  const auto requestsOf = [](int32_t first) {
+    std::vector<sgm_chunk_request> requests;
+    for (int32_t x = 0; x < 6; ++x) {
+      for (int32_t z = 0; z < 6; ++z) requests.push_back(chunkAt({0, first + x, 0, z}, 63));
+    }
+    return requests;
+  };
+  const auto hashesOf = [&](const FieldOwner& of, int32_t first) {
+    std::vector<uint64_t> hashes;
+    for (const MeshOwner& mesh : meshChunks(of.get(), requestsOf(first))) hashes.push_back(viewOf(mesh).hash);
+    return hashes;
+  };
+  for (unsigned round = 0; round < sgm::rounds(4); ++round) {
+    const auto first = static_cast<int32_t>(12 * round);
+    std::vector<uint64_t> left, right;
+    std::thread other([&] { right = hashesOf(field, first + 6); });
+    left = hashesOf(field, first);
+    other.join();
+    CHECK(left == hashesOf(on_cpu, first));
+    CHECK(right == hashesOf(on_cpu, first + 6));
+  }
+  CHECK(infoOf(runtime, SGM_BACKEND_CUDA).chunks_on_cpu == 0);
+}
+
+TEST_CASE("of a lent context that was lost nothing is shown, and the stream goes on", "[cuda]") {
+  const CudaLender lender;
+  const RuntimeOwner runtime = lender.runtime();
+  const GrammarOwner grammar = compile(runtime.get(), kBalls);
+  const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
+  const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
+  look(world.get(), 0, 0);
+  waitIdle(world.get());
+  std::vector<MeshOwner> before = drawnOf(world.get());
+  std::erase_if(before, [](const MeshOwner& mesh) { return viewOf(mesh).index_count == 0; });
+  REQUIRE(!before.empty());
+  sgm::cuda::FakeState& gpu = pretendedGpu();
+  gpu.fail_call = "launchKernel";
+  gpu.fail_nth = 1;
+  gpu.fail_result = 700;
+  gpu.lasts = true;
+  look(world.get(), 300, 0);
+  waitIdle(world.get());
+  CHECK(infoOf(runtime, SGM_BACKEND_CUDA).losses == 1);
+  CHECK(infoOf(runtime, SGM_BACKEND_CUDA).chunks_on_cpu > 0);
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_cuda_mesh_view view = SGM_CUDA_MESH_VIEW_INIT;
+  CHECK(sgm_mesh_get_cuda_view(before[0].get(), &view, &error) == SGM_ERR_DEVICE_LOST);
+  CHECK_THAT(error.message, Catch::Contains("was lost"));
+  size_t since = 0;
+  for (const MeshOwner& mesh : drawnOf(world.get())) {
+    if (viewOf(mesh).index_count == 0) continue;
+    ++since;
+    CHECK(sgm_mesh_get_cuda_view(mesh.get(), &view, &error) == SGM_ERR_NOT_FOUND);
+  }
+  CHECK(since > 0);
+  gpu.fail_call.clear();
+  gpu.fail_nth = 0;
+  gpu.lasts = false;
 }
 
 TEST_CASE("a context that cannot be lent is refused, for a reason, and changes nothing", "[cuda]") {
