@@ -166,10 +166,10 @@ Result<void> Mesher::fit(const Plan& plan, BatchMemory& m, Batch& batch) const {
   return {};
 }
 
-Result<void> Mesher::run(Stream& stream, const Batch& batch) const {
+Mesher::Launches Mesher::launches(const Batch& batch) const {
   const uint32_t items = kBricks * batch.chunk_count + 2 * batch.seam_count;
   const uint32_t of_list = std::min(items, device_.info().processors * kBlocksAProcessor);
-  const std::pair<Kernel, uint32_t> launches[] = {
+  return {{
       {Kernel::Prune, batch.job_count},
       {Kernel::Sample, of_list},
       {Kernel::CensusBody, batch.chunk_count},
@@ -180,11 +180,13 @@ Result<void> Mesher::run(Stream& stream, const Batch& batch) const {
       {Kernel::ListCells, batch.chunk_count},
       {Kernel::BodyTriangles, batch.chunk_count * BodyTriangles::kSlices},
       {Kernel::SeamTriangles, batch.seam_count},
-  };
-  static_assert(std::size(launches) == static_cast<size_t>(Kernel::count));
-  for (const auto& [kernel, blocks] : launches) {
-    if (blocks == 0) continue;
-    if (Result<void> launched = stream.launch(kernel, blocks, batch); !launched) return launched;
+  }};
+}
+
+Result<void> Mesher::run(Stream& stream, const Launches& launches, const Batch& batch) {
+  for (const Launch& launch : launches) {
+    if (launch.blocks == 0) continue;
+    if (Result<void> launched = stream.launch(launch.kernel, launch.blocks, batch); !launched) return launched;
   }
   return {};
 }
@@ -207,21 +209,31 @@ Result<void> Mesher::bring(const Plan& plan, BatchMemory& m, const Batch& batch)
   return {};
 }
 
-Result<void> Mesher::submit(const Plan& plan, BatchMemory& m) {
+Result<Batch> Mesher::load(const Plan& plan, BatchMemory& m) {
   if (!m.stream) {
     Result<std::unique_ptr<Stream>> made = device_.makeStream(StreamUse::batches);
     if (!made) return made.error();
     m.stream = std::move(*made);
   }
   Batch batch = sized(plan);
-  if (Result<void> fits = fit(plan, m, batch); !fits) return fits;
-  Stream& stream = *m.stream;
-  if (Result<void> copied = stream.copyIn(m.input.data(), m.staging.data(), m.input_bytes); !copied) return copied;
-  if (Result<void> cleared = stream.clear(m.scratch.data(), zeroBytes(plan)); !cleared) return cleared;
-  if (Result<void> cleared = stream.clear(m.result.data(), m.result_bytes); !cleared) return cleared;
-  if (Result<void> ran = run(stream, batch); !ran) return ran;
-  if (Result<void> brought = bring(plan, m, batch); !brought) return brought;
-  return stream.mark();
+  if (Result<void> fits = fit(plan, m, batch); !fits) return fits.error();
+  Result<void> copied = m.stream->copyIn(m.input.data(), m.staging.data(), m.input_bytes);
+  if (!copied) return copied.error();
+  return batch;
+}
+
+Result<void> Mesher::clear(const Plan& plan, BatchMemory& m) const {
+  if (Result<void> cleared = m.stream->clear(m.scratch.data(), zeroBytes(plan)); !cleared) return cleared;
+  return m.stream->clear(m.result.data(), m.result_bytes);
+}
+
+Result<void> Mesher::submit(const Plan& plan, BatchMemory& m) {
+  const Result<Batch> batch = load(plan, m);
+  if (!batch) return batch.error();
+  if (Result<void> cleared = clear(plan, m); !cleared) return cleared;
+  if (Result<void> ran = run(*m.stream, launches(*batch), *batch); !ran) return ran;
+  if (Result<void> brought = bring(plan, m, *batch); !brought) return brought;
+  return m.stream->mark();
 }
 
 Result<Stream*> Mesher::reading(BatchMemory& m) {

@@ -1,6 +1,7 @@
 #pragma once
 // A planned batch through all kernels of one stream, and its parts back.
 
+#include <array>
 #include <atomic>
 #include <memory>
 
@@ -24,6 +25,11 @@ struct BatchMemory {
 };
 
 /// Any thread may use it. Outlived by the device.
+///
+/// A batch is ten launches and some copies, given one by one: no CUDA graph. Every batch has other sizes, places and
+/// numbers of blocks, so that a graph's nodes would all be set anew each time, which costs the host what a launch does;
+/// and what a graph saves on the device, a microsecond or two between kernels, is little beside those of up to 256
+/// chunks. sgm_bench_kernels (tests/bench) shows both on a device.
 class Mesher {
  public:
   /// Errors: as Stream's.
@@ -32,6 +38,18 @@ class Mesher {
   /// Gives the batch to the memory's stream, which is made where there is none yet. Plan and memory stay as they are
   /// until its end. Errors: as Stream's; part of the batch may run nevertheless.
   Result<void> submit(const Plan& plan, BatchMemory& memory);
+
+  /// The steps of submit(), for who repeats or measures them: brings the programs to memory on the device, which holds
+  /// them from then on; runs the kernels, as often as one likes; each of them, in order, after its memory was cleared.
+  Result<Batch> load(const Plan& plan, BatchMemory& memory);
+  Result<void> clear(const Plan& plan, BatchMemory& memory) const;
+  struct Launch {
+    Kernel kernel;
+    uint32_t blocks;  ///< 0: nothing to do
+  };
+  using Launches = std::array<Launch, static_cast<size_t>(Kernel::count)>;
+  Launches launches(const Batch& batch) const;
+  static Result<void> run(Stream& stream, const Launches& launches, const Batch& batch);
 
   /// The stream of what is copied after the end. Errors: as Stream's.
   Result<Stream*> reading(BatchMemory& memory);
@@ -49,7 +67,6 @@ class Mesher {
   Result<void> makeTables();
   Batch sized(const Plan& plan) const;
   Result<void> fit(const Plan& plan, BatchMemory& memory, Batch& batch) const;
-  Result<void> run(Stream& stream, const Batch& batch) const;
   Result<void> bring(const Plan& plan, BatchMemory& memory, const Batch& batch) const;
   Result<void> bringRest(const Head& head, BatchMemory& memory);
 
