@@ -104,7 +104,7 @@ struct Memory::Block {
   VkDeviceMemory memory = VK_NULL_HANDLE;
   std::byte* data = nullptr;
   bool coherent = true;
-  std::unique_ptr<ExportedBlock> shared = nullptr;
+  std::unique_ptr<SharedBlock> shared = nullptr;
 };
 
 Memory::Memory(Device& device, const MemoryOptions& options)
@@ -215,18 +215,20 @@ Result<void> Memory::fill(Block& block, MemoryKind kind, VkDeviceSize bytes) {
   exported.handleTypes = kHandleType;
   VkMemoryAllocateInfo allocate{};
   allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  std::unique_ptr<ExportedBlock> shared_block;
   if (options_.shared) {
     const std::optional<SharedMemoryNeeds> shared = sharedMemoryNeeds(device_);
     if (!shared) return Error{Code::unsupported, what + ": " + device_.info().name + " shares none with other APIs"};
     if (shared->dedicated) exported.pNext = &dedicated;
     allocate.pNext = &exported;
-    block.shared = std::make_unique<ExportedBlock>(device_, needs.size, shared->dedicated);
+    shared_block = std::make_unique<ExportedBlock>(device_, needs.size, shared->dedicated);
   }
   allocate.allocationSize = needs.size;
   allocate.memoryTypeIndex = index;
   result = calls.vkAllocateMemory(device_.handle(), &allocate, nullptr, &block.memory);
   if (result != VK_SUCCESS) return errorOf(result, what);
-  if (block.shared) block.shared->setMemory(block.memory);
+  if (shared_block) shared_block->setMemory(block.memory);
+  block.shared = std::move(shared_block);
   result = calls.vkBindBufferMemory(device_.handle(), block.buffer, block.memory, 0);
   const VkMemoryPropertyFlags flags = properties_.memoryTypes[index].propertyFlags;
   block.coherent = (flags & kCoherent) != 0;
