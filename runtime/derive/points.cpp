@@ -164,9 +164,13 @@ void Interpreter::scatter(const StmtNode& s, const Env& env, ShapeList& out) {
 void Interpreter::scatterPoint(const StmtNode& s, const Env& at, ShapeList& out) {
   const ScatterNode& node = program_.ast.scatters[s.extra];
   if (!step(1, s.span, at.activation)) return;
-  if (node.when != kNoId && !evaluate(node.when, at).truth()) return;
+  const auto wanted = [&] { return node.when == kNoId || evaluate(node.when, at).truth(); };
+  // Probes take long; only one that yields a gap decides about the point.
+  const bool asks_gap = node.gap != kNoId;
+  if (!asks_gap && !wanted()) return;
   Env moved = at;
   if (node.probe != 0 && !probe(node, moved)) return;
+  if (asks_gap && !wanted()) return;
   statement(s.body, moved, out);
 }
 
@@ -174,10 +178,18 @@ bool Interpreter::probe(const ScatterNode& node, Env& env) {
   const int32_t distance = toUnits(real(node.distance, env) * env.place.scale);
   if (failed() || distance <= 0) return false;
   if (!step(static_cast<uint64_t>(distance / kProbeStep) + 12, node.span, env.activation)) return false;
+  const int32_t within = node.gap == kNoId ? 0 : toUnits(real(node.within, env) * env.place.scale);
+  if (failed() || !step(static_cast<uint64_t>(std::max(within, 0) / kProbeStep), node.span, env.activation))
+    return false;
   const Vec3 d = env.place.direction({0, node.probe > 0 ? 1.0 : -1.0, 0});
   const Int3 from = env.place.snap({});
   const std::optional<int32_t> hit = lower_.probe(node.layer, from, {d.x, d.y, d.z}, distance);
   if (!hit) return false;
+  if (node.gap != kNoId && env.slots != nullptr && node.slot < env.slots->size()) {
+    const std::optional<int32_t> back = lower_.probe(node.layer, from, {-d.x, -d.y, -d.z}, within - *hit);
+    if (!back) return false;
+    (*env.slots)[node.slot] = Value::number(metres(*hit + *back) / env.place.scale);
+  }
   const Int3 rel = saturatingSub(probePoint(from, {d.x, d.y, d.z}, *hit), env.place.base);
   env.place.offset = {metres(rel.x), metres(rel.y), metres(rel.z)};
   return true;

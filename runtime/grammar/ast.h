@@ -168,7 +168,8 @@ enum class ScatterArea : uint8_t {
 };
 
 /// Points keep the scope's axes. With probe: the point moves to the first surface of the layer within the distance,
-/// and is left out where there is none or where it does not start in the open.
+/// and is left out where there is none or where it does not start in the open. With gap: the body knows how far it is
+/// from there through the open to the next surface the other way; a point where that is farther than `within` is left out.
 struct ScatterNode {
   bool poisson = false;
   ExprId count = kNoId;  ///< a count, or the least distance with poisson
@@ -179,6 +180,9 @@ struct ScatterNode {
   ExprId distance = kNoId;
   NameId layer_name = kNoId;
   uint32_t layer = kNoId;  ///< resolved: Program::layers
+  NameId gap = kNoId;      ///< the name of that length, or none
+  uint32_t slot = kNoId;   ///< its place among the locals
+  ExprId within = kNoId;
   ExprId when = kNoId;     ///< each point draws by itself
   Span span;
 };

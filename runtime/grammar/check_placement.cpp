@@ -72,8 +72,16 @@ void Checker::scatterStatement(const StmtNode& s, bool shrunk) {
                   suggestion.hint());
     probes_.push_back({rule_, s.extra});
   }
+  if (scatter.within != kNoId) demand(scatter.within, ValueKind::number, kLength, "the most that a gap may be");
+  const size_t locals = scope_.locals.size();
+  if (scatter.gap != kNoId) {
+    const uint32_t slot = scope_.next_slot++;
+    program_.ast.scatters[s.extra].slot = slot;
+    declareLocal(scatter.gap, s.span, {scatter.gap, slot, {ValueKind::number, kLength, false, false}, kNoId, 0});
+  }
   if (scatter.when != kNoId) demand(scatter.when, ValueKind::boolean, kRatio, "the `when` of a scatter");
   statement(s.body, shrunk);
+  scope_.locals.resize(std::min(locals, scope_.locals.size()));
 }
 
 bool Checker::xforms(IdRange range, bool copied) {

@@ -226,8 +226,15 @@ StmtId Parser::scatterStatement() {
     expectWord("of");
     scatter.span = here();
     scatter.layer_name = wordName("the name of a layer");
+    if (acceptWord("gap")) {
+      scatter.gap = declaredName("the name of the open length behind a point");
+      expectWord("within");
+      scatter.within = expression();
+    }
   } else {
     scatter.span = points;
+    if (atWord("gap") && peek(1).kind == Tok::word && peek(2).kind == Tok::word)
+      unexpected("`probe up` or `probe down`, which a gap is behind");
   }
   if (acceptWord("when")) scatter.when = expression();
   StmtNode node;

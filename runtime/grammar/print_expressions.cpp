@@ -179,6 +179,10 @@ void LinePrinter::scatter(std::string& out, const ScatterNode& node) const {
     expr(out, node.distance);
     out += join({" of ", program_.text(node.layer_name)});
   }
+  if (node.gap != kNoId) {
+    out += join({" gap ", program_.text(node.gap), " within "});
+    expr(out, node.within);
+  }
   if (node.when != kNoId) {
     out += " when ";
     expr(out, node.when);

@@ -237,6 +237,9 @@ Extent ReachCheck::scattered(const StmtNode& s, RangeFrame& frame) {
     const double far = std::max(0.0, values_.number(scatter.distance, frame).hi);
     at[1] = scatter.probe > 0 ? at[1] + Interval{0, far} : at[1] + Interval{-far, 0};
   }
+  if (scatter.gap != kNoId) {
+    frame.slots[scatter.slot] = RangeValue::number({0, std::max(0.0, values_.number(scatter.within, frame).hi)});
+  }
   const PlaceRange place = frame.place;
   frame.place.move(at);
   Extent e = body(s.body, frame);

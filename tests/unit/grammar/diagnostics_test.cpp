@@ -107,6 +107,19 @@ const Case kCases[] = {
     {"3:45 layer-uses",
      "sgm 1; domain infinite; layer a cell 8m reach 4m { start B; }\nlayer b cell 8m reach 4m { start A; }\n"
      "rule A { scatter poisson(1m) probe up 2m of a { sphere(1m); } } rule B { sphere(1m); }"},
+    {"1:48 syntax", "sgm 1; start A; rule A { scatter 3 on disc(1m) gap h within 2m sphere(1m); }"},
+    {"3:58 syntax",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start B; } layer b cell 8m reach 8m uses a { start A; }\n"
+     "rule B { sphere(1m); }\n"
+     "rule A { scatter poisson(1m) probe up 2m of a gap within 2m { sphere(1m); } }"},
+    {"3:60 unit-mismatch",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start B; } layer b cell 8m reach 8m uses a { start A; }\n"
+     "rule B { sphere(1m); }\n"
+     "rule A { scatter poisson(1m) probe up 2m of a gap h within 2 { sphere(h); } }"},
+    {"3:68 unit-mismatch",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start B; } layer b cell 8m reach 8m uses a { start A; }\n"
+     "rule B { sphere(1m); }\n"
+     "rule A { scatter poisson(1m) probe up 2m of a gap h within 2m when h > 1 { sphere(1m); } }"},
     {"1:38 whole-units", "sgm 1; domain infinite; layer a cell 0.0001m reach 0m { start A; } rule A { }"},
     {"1:47 reach-too-large", "sgm 1; domain infinite; layer a cell 8m reach 80m { start A; } rule A { }"},
     {"2:10 reach", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { sphere(6m); }"},

@@ -185,6 +185,19 @@ TEST_CASE("probes count", "[grammar][reach]") {
   CHECK(with("4m") == "5:51 reach-maybe");
 }
 
+TEST_CASE("a gap counts with the most that it may be", "[grammar][reach]") {
+  const char* text =
+      "sgm 1; domain infinite solid;\nlayer net cell 8m reach 4m { start A; }\nlayer drip cell 8m reach %s uses net { "
+      "start D; }\nrule A { cut { at(cell.center) sphere(2m); } }\n"
+      "rule D { scatter poisson(1m) probe up 1m of net gap h within 3m { at(0m, -h, 0m) sphere(h/2); } }";
+  auto with = [&](const std::string& reach) {
+    std::string out = text;
+    return brief(compileText(out.replace(out.find("%s"), 2, reach)).diagnostics);
+  };
+  CHECK(with("5m").empty());
+  CHECK(with("4m") == "5:82 reach-maybe");
+}
+
 TEST_CASE("a finite grammar without a box gets the bound of its shapes", "[grammar][reach]") {
   const CompileResult result = compileText("sgm 1; start A; rule A { at(3m, 0m, 0m) sphere(2m); }");
   REQUIRE(result.program);
