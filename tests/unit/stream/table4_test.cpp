@@ -2,6 +2,8 @@
 // are closed and connected they say themselves (expect).
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <random>
 
 #include "field/evaluate.h"
@@ -45,7 +47,87 @@ class Rock {
   EvalScratch scratch_;
 };
 
+WorldField cloudOf(double levels, uint64_t seed) {
+  WorldFieldSettings settings = settingsOf(sample("table4/bouthors.sgm"), 1024, seed);
+  REQUIRE(settings.parameters.set(*settings.program, "levels", levels));
+  return {std::move(settings), std::pmr::get_default_resource()};
+}
+
+constexpr IntBox kCloud{{-100 * 1024, 500 * 1024, -100 * 1024}, {900 * 1024, 1400 * 1024, 900 * 1024}};
+
+double distanceOf(Int3 a, Int3 b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
+
 }  // namespace
+
+TEST_CASE("Bouthors: blobs stand upon blobs, each level on the surface of the one before", "[table4]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  const WorldField world = cloudOf(2, seed);
+  const auto heaps = world.instances(ruleNamed(*world.settings().program, "Heap"), kCloud, 10'000);
+  REQUIRE(heaps);
+  std::map<std::string, Int3> places;
+  for (const RuleInstance& heap : *heaps) places[heap.path] = heap.origin;
+  std::map<std::string, std::vector<double>> away;  // of what stands upon each
+  size_t deepest = 0;
+  for (const auto& [path, place] : places) {
+    const std::string below = path.substr(0, path.rfind('/'));
+    const auto parent = places.find(below);
+    if (parent == places.end()) continue;
+    away[below].push_back(distanceOf(place, parent->second));
+    deepest = std::max(deepest, static_cast<size_t>(std::count(path.begin(), path.end(), '/')));
+  }
+  REQUIRE(!away.empty());
+  for (const auto& [path, distances] : away) {
+    CAPTURE(path);
+    CHECK(distances.size() == 6);
+    const auto [least, most] = std::minmax_element(distances.begin(), distances.end());
+    CHECK(*most - *least <= 8);
+    const std::string below = path.substr(0, path.rfind('/'));
+    if (away.count(below) == 0) continue;
+    const double share = distances[0] / away.at(below)[0];
+    CHECK(share > 0.35 - 1e-3);
+    CHECK(share < 0.6 + 1e-3);
+  }
+  // The first, those upon it, and those upon these, which nothing stands upon.
+  CHECK(away.size() == 7);
+}
+
+TEST_CASE("Bouthors: more levels only add, and from afar there are fewer", "[table4]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const WorldField few = cloudOf(1, seed), many = cloudOf(3, seed);
+  const auto less = few.compile(kCloud, 0), more = many.compile(kCloud, 0);
+  REQUIRE(less);
+  REQUIRE(more);
+  std::uniform_int_distribution<int32_t> x(0, 800 * 1024), y(650 * 1024, 1200 * 1024);
+  std::vector<int32_t> at[3];
+  for (unsigned i = 0; i < 1000 * rounds(40); ++i)
+    at[0].push_back(x(random)), at[1].push_back(y(random)), at[2].push_back(x(random));
+  const Points points{at[0].data(), at[1].data(), at[2].data(), at[0].size()};
+  std::vector<int32_t> q_less(points.count), q_more(points.count);
+  EvalScratch scratch;
+  scalarKernels().samples((*less)->view(), points, scratch, q_less.data());
+  scalarKernels().samples((*more)->view(), points, scratch, q_more.data());
+  size_t lost = 0, won = 0;
+  for (size_t i = 0; i < points.count; ++i) {
+    lost += q_less[i] < 0 && q_more[i] >= 0 ? 1u : 0u;
+    won += q_less[i] >= 0 && q_more[i] < 0 ? 1u : 0u;
+  }
+  CHECK(lost == 0);
+  CHECK(won > 0);
+  // One cloud: what else reaches into a box is more from level to level.
+  const WorldField one(many.settings(), *many.cell(0, {0, 0, 0}), std::pmr::get_default_resource());
+  const IntBox all{{-4096 * 1024, -4096 * 1024, -4096 * 1024}, {4096 * 1024, 4096 * 1024, 4096 * 1024}};
+  std::vector<size_t> sizes;
+  for (int level = 0; level <= 7; ++level) {
+    const auto program = one.compile(all, level);
+    REQUIRE(program);
+    sizes.push_back((*program)->instrs.size());
+  }
+  CHECK(std::is_sorted(sizes.rbegin(), sizes.rend()));
+  CHECK(20 * sizes.back() < sizes.front());
+}
 
 TEST_CASE("Cui: what drips hangs from ceilings, stands on floors, and joins the two", "[table4]") {
   const unsigned seed = std::random_device()();
