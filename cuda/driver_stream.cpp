@@ -166,7 +166,8 @@ class DriverImport final : public ImportedMemory {
   explicit DriverImport(std::shared_ptr<const Opened> device) : device_(std::move(device)) {}
   ~DriverImport() override {
     const Current current(device_->driver, device_->context);
-    if (!current) return;
+    // Where nobody can say that copies have ended it is left to the context's end, as memory is.
+    if (!current || device_->lost.load()) return;
     if (memory_ != 0) device_->driver.memFree(memory_);
     if (imported_ != nullptr) device_->driver.destroyExternalMemory(imported_);
   }

@@ -31,20 +31,21 @@ Result<std::unique_ptr<PlacedMeshes>> PlacedMeshes::create(Device& device, std::
   least[0] = {1, 1};
   const std::unique_ptr<Placement> trial = meshes->store_->place({&least, 1});
   for (const PartPlace& part : trial->parts) {
-    const Result<std::byte*> address = meshes->addressOf(*part.block);
-    if (!address) return address.error();
+    const auto imported = meshes->import(*part.block);
+    if (!imported) return imported.error();
   }
   return meshes;
 }
 
-Result<std::byte*> PlacedMeshes::addressOf(SharedBlock& block) {
-  const std::scoped_lock lock(importing_);
+Result<std::shared_ptr<const ImportedMemory>> PlacedMeshes::import(SharedBlock& block) {
+  // After a loss two sessions may be at it, the old one with its last batches.
+  const std::scoped_lock lock(block.importing);
   const auto known = std::static_pointer_cast<const Import>(block.imported);
-  if (known && known->mark == mark_) return known->memory->data();
+  if (known && known->mark == mark_) return known->memory;
   Result<std::shared_ptr<const ImportedMemory>> made = device_.import(block);
   if (!made) return made.error();
   block.imported = std::make_shared<const Import>(Import{mark_, *made});
-  return (*made)->data();
+  return made;
 }
 
 Result<std::unique_ptr<Placement>> PlacedMeshes::keep(Stream& stream, std::span<const PartSources> chunks) {
@@ -53,19 +54,20 @@ Result<std::unique_ptr<Placement>> PlacedMeshes::keep(Stream& stream, std::span<
   std::unique_ptr<Placement> placement = store_->place(sizes);
   placement->writing = true;
   for (const PartPlace& part : placement->parts) {
-    const Result<std::byte*> block = addressOf(*part.block);
-    if (!block) {
+    const Result<std::shared_ptr<const ImportedMemory>> imported = import(*part.block);
+    if (!imported) {
       // As where there is no room.
       placement->chunks[part.chunk] = {};
       continue;
     }
+    if (placement->held.empty() || placement->held.back() != *imported) placement->held.push_back(*imported);
+    std::byte* const block = (*imported)->data();
     const PartSource& source = chunks[part.chunk][part.part];
-    if (Result<void> copied =
-            stream.copy(*block + part.vertices, source.vertices, source.vertex_count * sizeof(Vertex));
+    if (Result<void> copied = stream.copy(block + part.vertices, source.vertices, source.vertex_count * sizeof(Vertex));
         !copied) {
       return copied.error();
     }
-    if (Result<void> copied = stream.copy(*block + part.indices, source.indices, source.index_count * sizeof(uint32_t));
+    if (Result<void> copied = stream.copy(block + part.indices, source.indices, source.index_count * sizeof(uint32_t));
         !copied) {
       return copied.error();
     }

@@ -2,7 +2,6 @@
 // Meshes that stay in memory of another API's, on the device that draws them: copied there out of a batch's memory.
 
 #include <memory>
-#include <mutex>
 #include <span>
 
 #include "backend/mesh_store.h"
@@ -25,14 +24,13 @@ class PlacedMeshes {
 
  private:
   PlacedMeshes(Device& device, std::shared_ptr<MeshStore> store) : device_(device), store_(std::move(store)) {}
-  /// Where the device sees the block.
-  Result<std::byte*> addressOf(SharedBlock& block);
+  /// The block as the device sees it.
+  Result<std::shared_ptr<const ImportedMemory>> import(SharedBlock& block);
 
   Device& device_;
   const std::shared_ptr<MeshStore> store_;
   /// Nobody else's, while anything of ours is imported.
   const std::shared_ptr<const char> mark_ = std::make_shared<const char>();
-  std::mutex importing_;
 };
 
 }  // namespace sgm::cuda

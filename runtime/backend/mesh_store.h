@@ -36,7 +36,9 @@ class Placement {
 
   std::vector<DeviceParts> chunks;  ///< null throughout a chunk that no memory is left for
   std::vector<PartPlace> parts;
-  bool writing = false;  ///< by whoever writes, before the first byte
+  // Of whoever writes:
+  bool writing = false;                           ///< from before the first byte on
+  std::vector<std::shared_ptr<const void>> held;  ///< what it writes through, until that is over
 };
 
 /// Any thread may use it. Outlived by its parts.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 
 #include "base/result.h"
 
@@ -25,8 +26,8 @@ class SharedBlock {
   virtual bool dedicated() const = 0;
   /// A file descriptor of it, the caller's to close. Errors: out_of_memory, unsupported, device_lost.
   virtual Result<int> descriptor() const = 0;
-  /// What the other API has made of it, which ends with the block; of one that writes to it, under a lock of its own.
-  std::shared_ptr<const void> imported;
+  std::mutex importing;                  ///< guards `imported`
+  std::shared_ptr<const void> imported;  ///< what the other API has made of it last; ends with the block
 };
 
 }  // namespace sgm

@@ -45,6 +45,7 @@ class SharedMeshes final : public MeshStore, public std::enable_shared_from_this
   Result<void> publish(Placement& base) noexcept override {
     auto& placement = static_cast<Placed&>(base);
     placement.writing = false;
+    placement.held.clear();
     try {
       return meshes_->acquire(placement.placed);
     } catch (const std::bad_alloc&) {

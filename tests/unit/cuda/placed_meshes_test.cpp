@@ -221,6 +221,31 @@ TEST_CASE("a device opened after a loss imports the memory anew", "[cuda]") {
   gpu.store.reset();
 }
 
+TEST_CASE("two devices may write to one block, each to what was placed for it", "[cuda]") {
+  if (!vulkan::haveDevice()) return;
+  std::mt19937 random(15);
+  OneGpu gpu;
+  {
+    const std::unique_ptr<cuda::Device> old = gpu.openCuda(), anew = gpu.openCuda();
+    const std::unique_ptr<cuda::Stream> first = take(old->makeStream()), second = take(anew->makeStream());
+    const auto before = take(cuda::PlacedMeshes::create(*old, gpu.store));
+    const auto after = take(cuda::PlacedMeshes::create(*anew, gpu.store));
+    const BatchOf one(*first, 3, random), other(*second, 3, random);
+    // Neither has ended when the other begins.
+    std::unique_ptr<Placement> a = take(before->keep(*first, one.sources));
+    std::unique_ptr<Placement> b = take(after->keep(*second, other.sources));
+    std::unique_ptr<Placement> c = take(before->keep(*first, one.sources));
+    REQUIRE(second->wait());
+    REQUIRE(first->wait());
+    for (Placement* placement : {a.get(), b.get(), c.get()}) REQUIRE(gpu.store->publish(*placement));
+    for (const PartPlace& place : a->parts) CHECK(one.arrived(place));
+    for (const PartPlace& place : b->parts) CHECK(other.arrived(place));
+    for (const PartPlace& place : c->parts) CHECK(one.arrived(place));
+  }
+  gpu.store.reset();
+  CHECK(gpu.driver.state().imports == 0);
+}
+
 TEST_CASE("where a block cannot be imported its chunks have no room; at the beginning it is an error", "[cuda]") {
   if (!vulkan::haveDevice()) return;
   std::mt19937 random(14);
