@@ -1,5 +1,7 @@
 #include "cuda/cuda_backend.h"
 
+#include <atomic>
+#include <new>
 #include <utility>
 
 #include "backend/device_batch.h"
@@ -27,7 +29,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
  public:
   static Result<std::shared_ptr<DeviceSession>> open(const CudaBackendOptions& options,
                                                      std::pmr::memory_resource* memory) {
-    auto session = std::make_shared<Session>(options.room, memory);
+    auto session = std::make_shared<Session>(options, memory);
     Result<std::unique_ptr<Device>> device = options.open();
     if (!device) return device.error();
     session->device_ = std::move(*device);
@@ -46,7 +48,8 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     return std::shared_ptr<DeviceSession>(std::move(session));
   }
 
-  Session(const Room& room, std::pmr::memory_resource* memory) : room_(room), memory_(memory) {}
+  Session(const CudaBackendOptions& options, std::pmr::memory_resource* memory)
+      : room_(options.room), warn_(options.warn), memory_(memory) {}
   BackendCapabilities capabilities() const override {
     return {BackendKind::cuda, device_->info().name, true, kMostChunks, false, placed_ || kept_};
   }
@@ -83,7 +86,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     if (Result<void> waited = slot.awaited->wait(); !waited) return waited;
     // Where it fails the meshes are not on the device that draws, which is no loss of this one.
     if (const std::unique_ptr<Placement> placed = std::move(slot.placed)) {
-      static_cast<void>(placed_->store().publish(*placed));
+      if (const Result<void> published = placed_->store().publish(*placed); !published) tell(published.error());
     }
     return {};
   }
@@ -108,9 +111,9 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     if (staying.empty()) return false;
     const Result<Stream*> reading = mesher_->reading(slot.memory);
     if (!reading) return reading.error();
+    slot.awaited = *reading;
     Result<std::vector<DeviceParts>> kept = keep(slot, **reading, sources);
     if (!kept) return kept.error();
-    slot.awaited = *reading;
     for (size_t i = 0; i < staying.size(); ++i) meshes[staying[i]].on_device = std::move((*kept)[i]);
     return true;
   }
@@ -168,7 +171,19 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
         job, [signs](uint32_t row) { return signs[row]; }, made, mesh);
   }
 
+  /// That meshes do not come to the device that draws: once.
+  void tell(const Error& why) noexcept {
+    if (!warn_ || told_.exchange(true)) return;
+    try {
+      warn_("what CUDA meshes does not come to the device that draws: " + why.message);
+    } catch (const std::bad_alloc&) {
+      // Its meshes' views tell as much.
+    }
+  }
+
   const Room room_;
+  const std::function<void(const std::string&)> warn_;
+  std::atomic<bool> told_{false};
   std::pmr::memory_resource* const memory_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<Mesher> mesher_;

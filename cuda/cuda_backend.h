@@ -15,7 +15,7 @@ namespace sgm {
 struct CudaBackendOptions {
   /// Opens the device, anew after a loss; an error then means that the CPU does all. Called by one thread at a time.
   std::function<Result<std::unique_ptr<cuda::Device>>()> open;
-  std::function<void(const std::string&)> warn = nullptr;  ///< as BackendRequest::warn
+  std::function<void(const std::string&)> warn = nullptr;  ///< as BackendRequest::warn; also of a store that is lost
   cuda::Room room;
   std::shared_ptr<MeshStore> store =
       nullptr;                         ///< where meshes stay; null: in a borrowed device's own memory, or nowhere

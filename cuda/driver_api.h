@@ -81,7 +81,7 @@ inline constexpr unsigned kCuEventUntimed = 2;
   SGM_CU(deviceGetName, "cuDeviceGetName", (char* name, int size, CuDevice device))                                \
   SGM_CU(deviceGetAttribute, "cuDeviceGetAttribute", (int* value, int attribute, CuDevice device))                 \
   SGM_CU(deviceTotalMem, "cuDeviceTotalMem_v2", (size_t * bytes, CuDevice device))                                 \
-  SGM_CU(deviceGetUuid, "cuDeviceGetUuid_v2", (CuId * id, CuDevice device))                                        \
+  SGM_CU(deviceGetUuid, "cuDeviceGetUuid", (CuId * id, CuDevice device))                                           \
   SGM_CU(ctxCreate, "cuCtxCreate_v2", (CuContext * context, unsigned flags, CuDevice device))                      \
   SGM_CU(ctxDestroy, "cuCtxDestroy_v2", (CuContext context))                                                       \
   SGM_CU(ctxGetDevice, "cuCtxGetDevice", (CuDevice * device))                                                      \

@@ -42,15 +42,17 @@ Result<DeviceInfo> describe(const DriverTable& driver, CuDevice device, int vers
                     {kCuMemoryPools, &info.memory_pools}};
   CuResult result = driver.deviceGetName(name, static_cast<int>(sizeof name) - 1, device);
   if (result == kCuSuccess) result = driver.deviceTotalMem(&bytes, device);
-  CuId id{};
-  if (result == kCuSuccess) result = driver.deviceGetUuid(&id, device);
   for (const auto& one : attributes) {
     if (result == kCuSuccess) result = driver.deviceGetAttribute(one.value, one.attribute, device);
   }
   if (result != kCuSuccess) return errorOf(driver, result, "asking for the CUDA devices");
   info.name = name;
   info.memory = bytes;
-  std::copy(std::begin(id.bytes), std::end(id.bytes), info.id.begin());
+  // Who draws elsewhere asks for it; one without is no other API's GPU.
+  CuId id{};
+  if (driver.deviceGetUuid(&id, device) == kCuSuccess) {
+    std::copy(std::begin(id.bytes), std::end(id.bytes), info.id.begin());
+  }
   info.processors = static_cast<uint32_t>(processors > 0 ? processors : 1);
   return info;
 }
@@ -147,7 +149,7 @@ Result<std::vector<DeviceInfo>> listDevices() {
 Result<int> findDevice(const DriverTable& driver, const DeviceId& id) {
   const Result<std::vector<DeviceInfo>> infos = listDevices(driver);
   if (!infos) return unusable(infos.error());
-  for (size_t i = 0; i < infos->size(); ++i) {
+  for (size_t i = 0; i < infos->size() && id != DeviceId{}; ++i) {
     if ((*infos)[i].ails.empty() && (*infos)[i].id == id) return static_cast<int>(i);
   }
   return Error{Code::unsupported, "the GPU that draws is none of the CUDA driver's"};

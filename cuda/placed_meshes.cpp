@@ -5,12 +5,35 @@
 
 namespace sgm::cuda {
 
+/// What a block's memory is to one device; to another, after a loss, it is nothing.
+struct PlacedMeshes::Import {
+  std::mutex mutex;        ///< guards what follows
+  const PlacedMeshes* of;  ///< null once that has ended, so that it is nobody's who comes to lie there
+  std::shared_ptr<const ImportedMemory> memory;
+};
+
 namespace {
 
-/// What a block's memory is to one device; to another, after a loss, it is nothing.
-struct Import {
-  std::shared_ptr<const char> mark;
-  std::shared_ptr<const ImportedMemory> memory;
+/// Nobody but us reads and writes what is copied: where something fails, only once the copies have ended.
+class Writing {
+ public:
+  Writing(Stream& stream, Placement& placement) : stream_(stream), placement_(placement) { placement.writing = true; }
+  ~Writing() {
+    if (given_) return;
+    try {
+      if (stream_.wait()) placement_.writing = false;
+    } catch (const std::bad_alloc&) {
+      // Of its message: the device is lost.
+    }
+  }
+  Writing(const Writing&) = delete;
+  Writing& operator=(const Writing&) = delete;
+  void given() { given_ = true; }
+
+ private:
+  Stream& stream_;
+  Placement& placement_;
+  bool given_ = false;
 };
 
 PartSizes sizesOf(const PartSources& sources) {
@@ -30,21 +53,45 @@ Result<std::unique_ptr<PlacedMeshes>> PlacedMeshes::create(Device& device, std::
   PartSizes least{};
   least[0] = {1, 1};
   const std::unique_ptr<Placement> trial = meshes->store_->place({&least, 1});
+  if (trial->parts.empty()) return Error{Code::out_of_memory, "the device that draws has no memory for a single mesh"};
   for (const PartPlace& part : trial->parts) {
     const auto imported = meshes->import(*part.block);
-    if (!imported) return imported.error();
+    if (imported) continue;
+    const Error& why = imported.error();
+    const bool plain = why.code == Code::out_of_memory || why.code == Code::device_lost;
+    return Error{plain ? why.code : Code::unsupported, why.message};
   }
   return meshes;
+}
+
+PlacedMeshes::~PlacedMeshes() {
+  for (const std::weak_ptr<Import>& weak : imports_) {
+    const std::shared_ptr<Import> import = weak.lock();
+    if (!import) continue;
+    const std::scoped_lock lock(import->mutex);
+    import->of = nullptr;
+    import->memory = nullptr;
+  }
 }
 
 Result<std::shared_ptr<const ImportedMemory>> PlacedMeshes::import(SharedBlock& block) {
   // After a loss two sessions may be at it, the old one with its last batches.
   const std::scoped_lock lock(block.importing);
-  const auto known = std::static_pointer_cast<const Import>(block.imported);
-  if (known && known->mark == mark_) return known->memory;
+  if (const auto known = std::static_pointer_cast<Import>(block.imported)) {
+    const std::scoped_lock of_import(known->mutex);
+    if (known->of == this) return known->memory;
+  }
   Result<std::shared_ptr<const ImportedMemory>> made = device_.import(block);
   if (!made) return made.error();
-  block.imported = std::make_shared<const Import>(Import{mark_, *made});
+  auto import = std::make_shared<Import>();
+  import->of = this;
+  import->memory = *made;
+  {
+    const std::scoped_lock of_list(mutex_);
+    std::erase_if(imports_, [](const auto& one) { return one.expired(); });
+    imports_.push_back(import);
+  }
+  block.imported = std::move(import);
   return made;
 }
 
@@ -52,7 +99,7 @@ Result<std::unique_ptr<Placement>> PlacedMeshes::keep(Stream& stream, std::span<
   std::vector<PartSizes> sizes(chunks.size());
   std::transform(chunks.begin(), chunks.end(), sizes.begin(), sizesOf);
   std::unique_ptr<Placement> placement = store_->place(sizes);
-  placement->writing = true;
+  Writing writing(stream, *placement);
   for (const PartPlace& part : placement->parts) {
     const Result<std::shared_ptr<const ImportedMemory>> imported = import(*part.block);
     if (!imported) {
@@ -73,6 +120,7 @@ Result<std::unique_ptr<Placement>> PlacedMeshes::keep(Stream& stream, std::span<
     }
   }
   if (Result<void> marked = stream.mark(); !marked) return marked.error();
+  writing.given();
   return placement;
 }
 

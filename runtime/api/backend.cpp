@@ -133,8 +133,8 @@ Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::Borrowed
     return made.error().code == Code::device_lost ? Error{Code::unsupported, made.error().message} : made.error();
   shared.cuda = std::move(*made);
   shared.lent_context = true;
-  // Of what was lent, the first that is hardware.
-  if (!shared.lent || shared.automatic != shared.vulkan) shared.automatic = shared.cuda;
+  // Of what was lent, the first that is hardware; what meshes for the device that draws before that.
+  if (shared.drawing || !shared.lent || shared.automatic != shared.vulkan) shared.automatic = shared.cuda;
   return {};
 }
 

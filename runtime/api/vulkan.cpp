@@ -71,7 +71,7 @@ sgm_result sgm_mesh_get_vulkan_view(const sgm_mesh* mesh, sgm_vulkan_mesh_view* 
       const auto& placed = static_cast<const sgm::vulkan::VulkanPart&>(*part);
       const sgm::vulkan::Queue& queue = placed.memory().meshes().queue();
       if (queue.lost()) return fail(error, SGM_ERR_DEVICE_LOST, "the Vulkan device was lost, and the mesh with it");
-      if (!placed.memory().there()) {
+      if (!placed.there()) {
         return fail(error, SGM_ERR_NOT_FOUND,
                     "the mesh could not be brought to the lent Vulkan device: upload what sgm_mesh_get_view shows");
       }

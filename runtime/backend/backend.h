@@ -39,6 +39,8 @@ class DevicePart {
  public:
   virtual ~DevicePart() = default;
   virtual BackendKind kind() const = 0;
+  /// Whether it lies there, or will; of one that was made.
+  virtual bool there() const { return true; }
 };
 
 inline constexpr size_t kMeshParts = 7;

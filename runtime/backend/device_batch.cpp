@@ -272,8 +272,12 @@ class DeviceBackend final : public Backend {
   const BackendCapabilities& capabilities() const override { return capabilities_; }
   BackendCounters counters() const override {
     const DeviceCounters& c = shared_.counters;
-    const std::scoped_lock lock(shared_.mutex);
-    const uint64_t resident = shared_.session ? shared_.session->resident() : 0;
+    std::shared_ptr<DeviceSession> session;
+    {
+      const std::scoped_lock lock(shared_.mutex);
+      session = shared_.session;
+    }
+    const uint64_t resident = session ? session->resident() : 0;
     return {c.chunks.load(), c.on_cpu.load(), c.device_lost.load(), c.batches.load(), resident};
   }
   Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk) override {

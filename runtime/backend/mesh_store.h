@@ -46,12 +46,14 @@ class MeshStore {
  public:
   virtual ~MeshStore() = default;
   virtual const DeviceId& device() const = 0;
+  /// Whether the device that draws is lost: nothing is placed any more.
+  virtual bool lost() const = 0;
   /// Throws std::bad_alloc.
   virtual std::unique_ptr<Placement> place(std::span<const PartSizes> chunks) = 0;
   /// Once all content has been written, and the writing been waited for: lets the device that draws read it. Parts of a
   /// placement that could not be published are on no device. Errors: out_of_memory, device_lost.
   virtual Result<void> publish(Placement& placement) noexcept = 0;
-  /// As Backend::upload(): by the device that draws.
+  /// As Backend::upload(): by the device that draws, whose loss is none of the other's (unsupported).
   virtual Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) = 0;
   /// Of parts that have not ended.
   virtual uint64_t bytes() = 0;

@@ -26,8 +26,8 @@ class SharedBlock {
   virtual bool dedicated() const = 0;
   /// A file descriptor of it, the caller's to close. Errors: out_of_memory, unsupported, device_lost.
   virtual Result<int> descriptor() const = 0;
-  std::mutex importing;                  ///< guards `imported`
-  std::shared_ptr<const void> imported;  ///< what the other API has made of it last; ends with the block
+  std::mutex importing;            ///< guards `imported`
+  std::shared_ptr<void> imported;  ///< what the other API has made of it last; ends with the block
 };
 
 }  // namespace sgm

@@ -136,7 +136,7 @@ void bring(Backend& backend, std::span<InWork> all) {
     for (int part = 0; part < kChunkParts && !work.error; ++part) {
       const auto p = static_cast<size_t>(part);
       if (!asksFor(work.request, part) || meshes[p] == nullptr || meshes[p]->indices.empty()) continue;
-      if (work.chunk.mesh.on_device[p]) continue;
+      if (work.chunk.mesh.on_device[p] && work.chunk.mesh.on_device[p]->there()) continue;
       parts.push_back(meshes[p]);
       places.push_back(&work.chunk.mesh.on_device[p]);
     }

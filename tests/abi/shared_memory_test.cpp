@@ -145,6 +145,8 @@ TEST_CASE("so does what comes from the disk, and what was dug", "[shared]") {
     sgm_world_stats stats = SGM_WORLD_STATS_INIT;
     REQUIRE(sgm_world_get_stats(world.get(), &stats, nullptr) == SGM_OK);
     CHECK((stats.cache_hits > 0) == again);
+    if (!again) CHECK(infoOf(runtime, SGM_BACKEND_CUDA).chunks_on_cpu == 0);
+    CHECK(gpu.imports() > 0);
     sgm_brush brush = SGM_BRUSH_INIT;
     for (int32_t& place : brush.from) place = 12 * SGM_UNITS_PER_METRE;
     brush.radius = 3 * SGM_UNITS_PER_METRE;
@@ -171,6 +173,8 @@ TEST_CASE("a lent CUDA context meshes for the Vulkan device, too; meshes outlive
     look(world.get(), 0, 0);
     waitIdle(world.get());
     meshes = drawnOf(world.get());
+    CHECK(infoOf(runtime, SGM_BACKEND_CUDA).chunks > 0);
+    CHECK(infoOf(runtime, SGM_BACKEND_CUDA).chunks_on_cpu == 0);
   }
   size_t triangles = 0;
   for (const MeshOwner& mesh : meshes) triangles += checkMesh(lender, mesh);
@@ -198,6 +202,34 @@ TEST_CASE("what CUDA meshes keeps to the bytes that it may have on the Vulkan de
   CHECK(there > 0);
   CHECK(missing > 0);
   CHECK(infoOf(runtime, SGM_BACKEND_CUDA).resident <= 100000);
+}
+
+TEST_CASE("an engine without a lock has both backends on its queue at once", "[shared]") {
+  if (!vk::haveDevice()) return;
+  Lender lender(true);
+  const OneGpu gpu(lender);
+  const RuntimeOwner runtime = makeRuntime();
+  sgm_vulkan_device_desc desc = lender.lend();
+  desc.lock_queue = desc.unlock_queue = nullptr;
+  REQUIRE(sgm_runtime_lend_vulkan(runtime.get(), &desc, nullptr) == SGM_OK);
+  const GrammarOwner grammar = compile(runtime.get(), kBalls);
+  std::vector<FieldOwner> fields;
+  std::vector<WorldOwner> worlds;
+  for (const sgm_backend backend : {SGM_BACKEND_CUDA, SGM_BACKEND_VULKAN}) {
+    fields.push_back(makeField(runtime.get(), grammar.get(), 256, backend));
+    worlds.push_back(makeWorld(fields.back().get(), SGM_WORLD_RESIDENT));
+  }
+  for (const double x : {0.0, 60.0, 120.0}) {
+    for (const WorldOwner& world : worlds) look(world.get(), x, 0);
+    for (const WorldOwner& world : worlds) REQUIRE(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_OK);
+    for (const WorldOwner& world : worlds) waitIdle(world.get());
+    // The engine uses its queue only now, when nobody else does.
+    for (const WorldOwner& world : worlds) {
+      size_t triangles = 0;
+      for (const MeshOwner& mesh : drawnOf(world.get())) triangles += checkMesh(lender, mesh);
+      CHECK(triangles > 0);
+    }
+  }
 }
 
 TEST_CASE("where CUDA is lost, or must be opened again, all meshes are right where they are", "[shared]") {

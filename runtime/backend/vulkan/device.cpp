@@ -76,6 +76,7 @@ Result<std::unique_ptr<Device>> Device::borrow(const BorrowedDevice& engine) {
   device->readers_ = engine.readers;
   device->memory_budget_ = engine.memory_budget;
   device->external_memory_ = engine.external_memory;
+  if (engine.queue_mutex) device->queue_mutex_ = engine.queue_mutex;
   device->lock_ = engine.lock;
   device->unlock_ = engine.unlock;
   device->user_ = engine.user;

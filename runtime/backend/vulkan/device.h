@@ -43,6 +43,8 @@ struct BorrowedDevice {
   bool memory_budget = false;          ///< the extension VK_EXT_memory_budget
   bool external_memory = false;        ///< the extension VK_KHR_external_memory_fd
   uint64_t resident_cap = UINT64_MAX;  ///< bytes of its memory for meshes that stay there, at most
+  /// Keeps those of ours who borrow the queue apart.
+  std::shared_ptr<std::mutex> queue_mutex = std::make_shared<std::mutex>();
   ReplaceCalls replace_calls = nullptr;
 };
 
@@ -96,7 +98,7 @@ class Device {
   bool external_memory_ = false;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};
-  std::mutex queue_mutex_;
+  std::shared_ptr<std::mutex> queue_mutex_ = std::make_shared<std::mutex>();
   void (*lock_)(void*) = nullptr;
   void (*unlock_)(void*) = nullptr;
   void* user_ = nullptr;
@@ -105,7 +107,7 @@ class Device {
 /// Keeps others of ours, and the engine, from the device's queue for as long as it lives.
 class QueueLock {
  public:
-  explicit QueueLock(Device& device) : device_(device), ours_(device.queue_mutex_) {
+  explicit QueueLock(Device& device) : device_(device), ours_(*device.queue_mutex_) {
     if (device_.lock_) device_.lock_(device_.user_);
   }
   ~QueueLock() {

@@ -73,10 +73,7 @@ VkDrawIndexedIndirectCommand VulkanPart::draw() const {
 }
 
 PlacedParts DeviceMeshes::place(const std::shared_ptr<const void>& owner, std::span<const PartSizes> chunks) {
-  {
-    const std::scoped_lock lock(mutex_);
-    collect();
-  }
+  giveBack();
   PlacedParts placed;
   placed.chunks.resize(chunks.size());
   for (size_t c = 0; c < chunks.size(); ++c) {
@@ -170,25 +167,44 @@ Result<std::vector<std::shared_ptr<const DevicePart>>> DeviceMeshes::upload(cons
 }
 
 uint64_t DeviceMeshes::bytes() {
-  const std::scoped_lock lock(mutex_);
-  collect();
+  giveBack();
   return memory_.statistics().used;
 }
 
-uint64_t DeviceMeshes::collect() noexcept {
+void DeviceMeshes::giveBack() noexcept {
+  Retired ended;
+  const std::scoped_lock lock(mutex_);
+  ended = takeEnded();
+}
+
+uint64_t DeviceMeshes::reached() const noexcept {
   // Of a lost device nothing is in use any more.
   const Result<uint64_t> now = queue_.reached();
-  const uint64_t reached = now ? *now : queue_.lost() ? UINT64_MAX : 0;
-  std::erase_if(retired_, [&](const auto& retired) { return retired.first <= reached; });
-  return reached;
+  return now ? *now : queue_.lost() ? UINT64_MAX : 0;
+}
+
+DeviceMeshes::Retired DeviceMeshes::takeEnded() noexcept {
+  const uint64_t now = reached();
+  Retired ended;
+  for (auto at = retired_.begin(); at != retired_.end();) {
+    const auto next = std::next(at);
+    if (at->first <= now) ended.splice(ended.end(), retired_, at);
+    at = next;
+  }
+  return ended;
 }
 
 void DeviceMeshes::retire(Buffer&& buffer, uint64_t value) noexcept {
   Buffer retired = std::move(buffer);
-  const std::scoped_lock lock(mutex_);
-  if (value <= collect()) return;
+  // Another API may write to it, whatever becomes of this queue.
+  if (value == DeviceMemory::kNever) return retired.forget();
+  giveBack();
+  if (value <= reached()) return;
   try {
-    retired_.emplace_back(value, std::move(retired));
+    Retired one;
+    one.emplace_back(value, std::move(retired));
+    const std::scoped_lock lock(mutex_);
+    retired_.splice(retired_.end(), one);
   } catch (const std::bad_alloc&) {
     queue_.drain();
   }

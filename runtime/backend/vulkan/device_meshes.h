@@ -3,6 +3,7 @@
 // own, where the engine that lent the device draws them.
 
 #include <array>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -47,6 +48,7 @@ class VulkanPart final : public DevicePart {
  public:
   VulkanPart(std::shared_ptr<const DeviceMemory> memory, VkDeviceSize draw, uint32_t vertices, uint32_t indices);
   BackendKind kind() const override { return BackendKind::vulkan; }
+  bool there() const override { return memory_->there(); }
 
   VkBuffer buffer() const { return memory_->buffer().handle(); }
   // Bytes from the beginning of buffer().
@@ -119,15 +121,19 @@ class DeviceMeshes {
   friend class DeviceMemory;
   /// Gives the buffer back once the queue has reached the value.
   void retire(Buffer&& buffer, uint64_t value) noexcept;
-  /// Gives back what may be. Returns the value that the queue has reached. Precondition: the mutex is held.
-  uint64_t collect() noexcept;
+  using Retired = std::list<std::pair<uint64_t, Buffer>>;
+  /// Of the queue, for what is to be given back.
+  uint64_t reached() const noexcept;
+  /// What may be given back, to be ended when the mutex is not held any more. Precondition: it is.
+  Retired takeEnded() noexcept;
+  void giveBack() noexcept;
 
   Queue& queue_;
   Memory& memory_;
   Memory& staging_;
   CommandRing& ring_;
   std::mutex mutex_;
-  std::vector<std::pair<uint64_t, Buffer>> retired_;
+  Retired retired_;
 };
 
 }  // namespace sgm::vulkan

@@ -1,6 +1,7 @@
 #include "backend/vulkan/memory.h"
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 namespace sgm::vulkan {
@@ -168,9 +169,14 @@ Result<Memory::Block*> Memory::addBlock(MemoryKind kind, VkDeviceSize bytes, boo
   auto& blocks = blocks_[static_cast<size_t>(kind)];
   blocks.reserve(blocks.size() + 1);
   auto block = std::make_unique<Block>(Block{Ranges(bytes, granule_), kind, whole});
-  if (auto filled = fill(*block, kind, bytes); !filled) {
+  try {
+    if (auto filled = fill(*block, kind, bytes); !filled) {
+      destroy(*block);
+      return filled.error();
+    }
+  } catch (const std::bad_alloc&) {
     destroy(*block);
-    return filled.error();
+    throw;
   }
   block->size = bytes;
   statistics_.reserved += bytes;
@@ -265,20 +271,31 @@ void Memory::destroy(Block& block) noexcept {
 }
 
 void Memory::give(Buffer& buffer) noexcept {
-  const std::scoped_lock lock(mutex_);
+  // To end what another API has imported may take long.
+  std::unique_ptr<Block> dead;
+  {
+    const std::scoped_lock lock(mutex_);
+    dead = giveRange(buffer);
+  }
+  if (dead) destroy(*dead);
+}
+
+std::unique_ptr<Memory::Block> Memory::giveRange(const Buffer& buffer) noexcept {
   auto& block = *static_cast<Block*>(buffer.block_);
   block.ranges.give(buffer.offset_);
   statistics_.used -= buffer.size_;
   --statistics_.buffers;
-  if (!block.ranges.empty()) return;
+  if (!block.ranges.empty()) return nullptr;
   // One empty block of each kind stays for the next buffer.
   auto& blocks = blocks_[static_cast<size_t>(block.kind)];
   const auto spare = [&](const auto& other) { return other.get() != &block && !other->whole && other->ranges.empty(); };
-  if (!block.whole && std::none_of(blocks.begin(), blocks.end(), spare)) return;
+  if (!block.whole && std::none_of(blocks.begin(), blocks.end(), spare)) return nullptr;
   statistics_.reserved -= block.size;
   --statistics_.blocks;
-  destroy(block);
-  std::erase_if(blocks, [&](const auto& other) { return other.get() == &block; });
+  const auto at = std::find_if(blocks.begin(), blocks.end(), [&](const auto& other) { return other.get() == &block; });
+  std::unique_ptr<Block> dead = std::move(*at);
+  blocks.erase(at);
+  return dead;
 }
 
 MemoryStatistics Memory::statistics() const {

@@ -62,6 +62,7 @@ class Buffer {
   VkDeviceSize offset() const { return offset_; }  ///< in handle(); a multiple of 256
   VkDeviceSize size() const { return size_; }      ///< as asked for
   std::byte* data() const { return data_; }        ///< null where the host does not see it
+  void forget() noexcept { memory_ = nullptr; }    ///< gives nothing back: its bytes are nobody's to the memory's end
   SharedBlock* block() const;                      ///< what it lies in, where MemoryOptions::shared; null: it is not
   /// After the device wrote and before the host reads data(). Nothing to do for memory that the host sees coherently.
   /// Error: out_of_memory.
@@ -102,6 +103,8 @@ class Memory {
   friend class Buffer;
   struct Block;
   void give(Buffer& buffer) noexcept;
+  /// The block, where it is not needed any more: to be destroyed. Precondition: the mutex is held.
+  std::unique_ptr<Block> giveRange(const Buffer& buffer) noexcept;
   Result<Block*> addBlock(MemoryKind kind, VkDeviceSize bytes, bool whole);
   Result<void> fill(Block& block, MemoryKind kind, VkDeviceSize bytes);
   Result<void> checkBudget(uint32_t type, VkDeviceSize bytes) const;

@@ -31,8 +31,14 @@ class SharedMeshes final : public MeshStore, public std::enable_shared_from_this
 
   const DeviceId& device() const override { return device_->info().id; }
 
+  bool lost() const override { return queue_->lost(); }
+
   std::unique_ptr<Placement> place(std::span<const PartSizes> chunks) override {
     auto placement = std::make_unique<Placed>();
+    if (lost()) {
+      placement->chunks.resize(chunks.size());
+      return placement;
+    }
     placement->placed = meshes_->place(shared_from_this(), chunks);
     placement->chunks = placement->placed.chunks;
     for (const PlacedParts::Part& part : placement->placed.parts) {
@@ -54,7 +60,9 @@ class SharedMeshes final : public MeshStore, public std::enable_shared_from_this
   }
 
   Result<std::vector<std::shared_ptr<const DevicePart>>> upload(std::span<const MeshPart* const> parts) override {
-    return meshes_->upload(shared_from_this(), parts);
+    auto brought = meshes_->upload(shared_from_this(), parts);
+    if (brought || brought.error().code != Code::device_lost) return brought;
+    return Error{Code::unsupported, brought.error().message};
   }
   uint64_t bytes() override { return meshes_->bytes(); }
 

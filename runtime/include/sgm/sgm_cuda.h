@@ -32,10 +32,11 @@ struct CUstream_st;
  *
  * The runtime makes the context current around its calls, on whatever thread they are, and leaves every thread the one
  * that it had. Of a stream it waits only for an event behind what it gave it itself. But CUDA may make it wait for the
- * whole device where kernels are loaded or pinned memory is taken or given back: at lending, at the runtime's end, and
- * while batches still grow. A kernel of the engine's that waits for the host must not wait for the runtime's then. Nor
- * may the engine capture a graph meanwhile, but in the mode RELAXED, or CU_STREAM_CAPTURE_MODE_THREAD_LOCAL on threads
- * that do not call the runtime: calls of the runtime's would end the capture. */
+ * whole device where kernels are loaded or pinned memory is taken or given back: at lending, at the runtime's end,
+ * while batches still grow, and where memory of a Vulkan device that draws is taken or given back for meshes. A kernel
+ * of the engine's that waits for the host must not wait for the runtime's then. Nor may the engine capture a graph
+ * meanwhile, but in the mode RELAXED, or CU_STREAM_CAPTURE_MODE_THREAD_LOCAL on threads that do not call the runtime:
+ * calls of the runtime's would end the capture. */
 typedef struct sgm_cuda_device_desc {
   uint32_t struct_size;
   const void* next;
@@ -45,17 +46,19 @@ typedef struct sgm_cuda_device_desc {
                                  thread. NULL: streams of the runtime's own, several at a time, that wait for nothing of
                                  the engine's */
   uint64_t mesh_bytes;        /* the most bytes of the GPU's memory for meshes that stay there; what has no room is not
-                                 there (SGM_ERR_NOT_FOUND). 0: as many as the driver gives */
+                                 there (SGM_ERR_NOT_FOUND). 0: as many as the driver gives. Of no use where meshes stay on a
+                                 Vulkan device, whose own mesh_bytes counts */
 } sgm_cuda_device_desc;
 
 #define SGM_CUDA_DEVICE_DESC_INIT \
   { SGM_SIZEOF(sgm_cuda_device_desc), SGM_NULL, SGM_NULL, SGM_NULL, 0 }
 
 /* From now on the runtime's CUDA backend is in this context, and so is AUTO's, unless a Vulkan device that is hardware
- * was lent before.
+ * was lent before without external_memory.
  *
  * SGM_ERR_INVALID_ARGUMENT: no context, or a stream that is not of it. SGM_ERR_UNSUPPORTED: no kernels in this build,
- * no driver, a GPU that cannot mesh, or a context that takes no calls; the message says which. SGM_ERR_BUSY: the
+ * no driver, a GPU that cannot mesh, or is not the one that draws, or a context that takes no calls; the message says
+ * which. SGM_ERR_BUSY: the
  * runtime has lent one, or a field on a CUDA device of its own. When it fails nothing has changed.
  *
  * A lent context that is lost stays lost, as CUDA's do: the CPU meshes from then on, with the same bytes, and meshes
@@ -94,8 +97,8 @@ typedef struct sgm_cuda_mesh_view {
  * mesh ends: release it only when the GPU has done with it. Meshes of one chunk share what they have in common.
  *
  * SGM_ERR_NOT_FOUND: it is not there, or not all of it: the world is not SGM_WORLD_RESIDENT, no memory was left on the
- * GPU, the context was lost before, or meshes stay on a Vulkan device. Upload what sgm_mesh_get_view shows. SGM_ERR_DEVICE_LOST: the context was lost
- * after it, as far as the runtime has heard. */
+ * GPU, the context was lost before, or meshes stay on a Vulkan device. Upload what sgm_mesh_get_view shows.
+ * SGM_ERR_DEVICE_LOST: the context was lost after it, as far as the runtime has heard. */
 SGM_API sgm_result sgm_mesh_get_cuda_view(const sgm_mesh* mesh, sgm_cuda_mesh_view* view, sgm_error* error);
 
 #if defined(__cplusplus)

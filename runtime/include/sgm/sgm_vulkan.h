@@ -67,7 +67,8 @@ typedef struct sgm_vulkan_device_desc {
  * CUDA backend leaves on the GPU (SGM_WORLD_RESIDENT) lies in this device's buffers: sgm_mesh_get_vulkan_view shows it.
  * Lend it before the runtime's first CUDA field, and before sgm_runtime_lend_cuda. A field with SGM_BACKEND_CUDA is
  * then refused (SGM_ERR_UNSUPPORTED) where CUDA does not run on the same GPU or cannot import its memory;
- * SGM_BACKEND_AUTO takes CUDA where that can be had, and else this device.
+ * SGM_BACKEND_AUTO takes CUDA where that can be had, and else this device. mesh_bytes holds for what either of the two
+ * backends leaves there, each for itself. Where this device is lost CUDA meshes on, and meshes are not on a device.
  *
  * SGM_ERR_INVALID_ARGUMENT: a handle is missing, half a lock, no such queue family. SGM_ERR_UNSUPPORTED: the device
  * lacks something, which the message names. SGM_ERR_BUSY: the runtime has lent one, or a field on a Vulkan device of
@@ -99,11 +100,12 @@ typedef struct sgm_vulkan_mesh_view {
   uint32_t struct_size;
   void* next;
   /* The parts are there from the moment at which the timeline semaphore has this value, which is before the mesh is
-   * READY as a rule, so that waiting takes no time. But it makes them visible: the engine's submission waits for the
-   * value, on the device, at the stages that read them (VERTEX_INPUT, DRAW_INDIRECT for what lies at draw_offset, or
-   * those of its own shaders and copies). What signals it was submitted before, so that a wait on the lent queue itself
-   * ends. The semaphore is the same for all meshes of a backend of the runtime's, and lives as long as any of them; of
-   * several the largest value counts. VK_NULL_HANDLE and 0: no triangles, nothing to wait for. */
+   * READY as a rule, so that waiting takes no time; of what CUDA meshed, as soon as the lent queue gets to it. But it
+   * makes them visible: the engine's submission waits for the value, on the device, at the stages that read them
+   * (VERTEX_INPUT, DRAW_INDIRECT for what lies at draw_offset, or those of its own shaders and copies). What signals it
+   * was submitted before, so that a wait on the lent queue itself ends. The semaphore is the same for all meshes of a
+   * backend of the runtime's, and lives as long as any of them; of several the largest value counts. VK_NULL_HANDLE and
+   * 0: no triangles, nothing to wait for. */
   VkSemaphore semaphore;
   uint64_t value;
   sgm_vulkan_part body;

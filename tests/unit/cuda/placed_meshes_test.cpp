@@ -176,6 +176,53 @@ TEST_CASE("parts that could not be published are not there, and harm nobody", "[
   gpu.store.reset();
 }
 
+TEST_CASE("where the device that draws is lost nothing is placed on it, and CUDA is none the worse", "[cuda]") {
+  if (!vulkan::haveDevice()) return;
+  std::mt19937 random(16);
+  OneGpu gpu;
+  const std::unique_ptr<cuda::Device> device = gpu.openCuda();
+  const std::unique_ptr<cuda::Stream> stream = take(device->makeStream());
+  const auto placed = take(cuda::PlacedMeshes::create(*device, gpu.store));
+  const BatchOf batch(*stream, 3, random);
+  std::unique_ptr<Placement> placement = take(placed->keep(*stream, batch.sources));
+  REQUIRE(stream->wait());
+  gpu.faults.arm("vkQueueSubmit", 1, VK_ERROR_DEVICE_LOST);
+  CHECK(!gpu.store->publish(*placement));
+  gpu.faults.disarm();
+  CHECK(gpu.store->lost());
+  CHECK(!there(placement->chunks[0]));
+  placement = take(placed->keep(*stream, batch.sources));
+  CHECK(placement->chunks.size() == 3);
+  CHECK(placement->parts.empty());
+  MeshPart part(std::pmr::get_default_resource());
+  part.vertices.resize(3);
+  part.indices = {0, 1, 2};
+  const MeshPart* const parts[] = {&part};
+  const auto brought = gpu.store->upload(parts);
+  REQUIRE(!brought);
+  CHECK(brought.error().code == Code::unsupported);
+  CHECK(!device->lost());
+  placement.reset();
+  gpu.store.reset();
+}
+
+TEST_CASE("a copy that fails is waited for, and its memory is the next one's", "[cuda]") {
+  if (!vulkan::haveDevice()) return;
+  std::mt19937 random(17);
+  OneGpu gpu;
+  const std::unique_ptr<cuda::Device> device = gpu.openCuda();
+  const std::unique_ptr<cuda::Stream> stream = take(device->makeStream());
+  const auto placed = take(cuda::PlacedMeshes::create(*device, gpu.store));
+  const BatchOf batch(*stream, 3, random);
+  gpu.driver.state().fail_call = "memcpyDtoDAsync";
+  gpu.driver.state().fail_nth = 4;
+  gpu.driver.state().fail_result = cuda::kCuOutOfMemory;
+  const auto refused = placed->keep(*stream, batch.sources);
+  REQUIRE(!refused);
+  CHECK(take(stream->ended()));
+  CHECK(gpu.store->bytes() == 0);
+}
+
 TEST_CASE("memory that may be written to still is nobody else's before the end", "[cuda]") {
   if (!vulkan::haveDevice()) return;
   std::mt19937 random(12);
@@ -217,6 +264,9 @@ TEST_CASE("a device opened after a loss imports the memory anew", "[cuda]") {
     CHECK(gpu.driver.state().imports == 1);
     before = std::move(placement);
   }
+  // Blocks live on with what lies in them; what was imported does not, nor the device that did.
+  CHECK(there(before->chunks[0]));
+  CHECK(gpu.driver.state().imports + gpu.driver.state().contexts == 0);
   before.reset();
   gpu.store.reset();
 }
