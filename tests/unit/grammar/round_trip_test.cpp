@@ -7,6 +7,7 @@
 
 #include "catch.h"
 #include "compile_text.h"
+#include "grammar/std_library.h"
 #include "random_program.h"
 
 using namespace sgm;
@@ -33,7 +34,7 @@ std::string formatted(std::string_view text) {
 
 TEST_CASE("every sample is canonical and compiles without a word", "[grammar][round]") {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(SGM_SOURCE_DIR "/samples/grammars")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(SGM_SOURCE_DIR "/samples/grammars")) {
     if (entry.path().extension() != ".sgm") continue;
     ++count;
     INFO(entry.path().string());
@@ -46,7 +47,14 @@ TEST_CASE("every sample is canonical and compiles without a word", "[grammar][ro
     CHECK(result.diagnostics.empty());
     if (result.program) CHECK(result.program->canonical == std::string_view(text));
   }
-  CHECK(count >= 9);
+  CHECK(count >= 14);
+}
+
+TEST_CASE("every part of the standard library is canonical", "[grammar][round]") {
+  for (const StdFile& file : stdLibrary()) {
+    INFO(file.path);
+    CHECK(formatted(std::string(file.text)) == file.text);
+  }
 }
 
 TEST_CASE("random programs: printing is a fixed point and keeps the meaning", "[grammar][round]") {
