@@ -129,6 +129,63 @@ TEST_CASE("Bouthors: more levels only add, and from afar there are fewer", "[tab
   CHECK(20 * sizes.back() < sizes.front());
 }
 
+namespace {
+
+/// A deck of clouds, cut by its middle plane along lines: the share that is cloud, and how often they enter or leave
+/// it.
+struct Cut {
+  double share = 0, crossings = 0;
+};
+
+Cut cutOf(double cover, double octaves, uint64_t seed) {
+  WorldFieldSettings settings = settingsOf(sample("table4/birger.sgm"), 4096, seed);
+  REQUIRE(settings.parameters.set(*settings.program, "cover", cover));
+  REQUIRE(settings.parameters.set(*settings.program, "octaves", octaves));
+  const WorldField world(std::move(settings), std::pmr::get_default_resource());
+  // As many patches as it takes to tell the cover from chance, each by a program of its own.
+  constexpr int32_t kPatches = 20, kEdge = 400 * 1024, kStep = 8 * 1024, kLines = 4, kAlong = kEdge / kStep;
+  std::vector<int32_t> x(kAlong), y(kAlong, 900 * 1024), z(kAlong), q(kAlong);
+  EvalScratch scratch;
+  size_t cloud = 0, crossings = 0;
+  for (int32_t patch = 0; patch < kPatches * kPatches; ++patch) {
+    const int32_t left = patch % kPatches * kEdge, front = patch / kPatches * kEdge;
+    const auto program = world.compile({{left, 899 * 1024, front}, {left + kEdge, 901 * 1024, front + kEdge}}, 0);
+    REQUIRE(program);
+    for (int32_t line = 0; line < kLines; ++line) {
+      for (int32_t i = 0; i < kAlong; ++i) {
+        x[static_cast<size_t>(i)] = left + i * kStep;
+        z[static_cast<size_t>(i)] = front + line * (kEdge / kLines);
+      }
+      scalarKernels().samples((*program)->view(), {x.data(), y.data(), z.data(), x.size()}, scratch, q.data());
+      for (size_t i = 0; i < q.size(); ++i) {
+        cloud += q[i] < 0 ? 1u : 0u;
+        crossings += i > 0 && (q[i] < 0) != (q[i - 1] < 0) ? 1u : 0u;
+      }
+    }
+  }
+  const double all = double{kPatches} * kPatches * kLines * kAlong;
+  return {static_cast<double>(cloud) / all, static_cast<double>(crossings) / all};
+}
+
+}  // namespace
+
+TEST_CASE("Birger: noise covers as much of the sky as is asked for, and is as fine as its octaves", "[table4]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  for (const double cover : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+    const Cut cut = cutOf(cover, 5, seed);
+    CAPTURE(cover, cut.share);
+    CHECK(std::fabs(cut.share - cover) < 0.08);
+  }
+  double before = 0;
+  for (const double octaves : {1.0, 2.0, 4.0}) {
+    const Cut cut = cutOf(0.5, octaves, seed);
+    CAPTURE(octaves, cut.share, cut.crossings);
+    CHECK(cut.crossings > 1.08 * before);
+    before = cut.crossings;
+  }
+}
+
 TEST_CASE("Cui: what drips hangs from ceilings, stands on floors, and joins the two", "[table4]") {
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
