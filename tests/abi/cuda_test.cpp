@@ -3,7 +3,6 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <random>
 #include <thread>
 
 #include "cuda_lender.h"
@@ -53,37 +52,16 @@ TEST_CASE("what the CUDA header's macros set is the same in C and in C++", "[cud
 
 TEST_CASE("a mesh lies in the lent context with the bytes that the host sees, wherever the viewer goes", "[cuda]") {
   const bool with_stream = GENERATE(false, true);
+  CAPTURE(with_stream);
   const CudaLender lender(with_stream);
-  const unsigned seed = std::random_device()();
-  CAPTURE(seed, with_stream);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(-40, 40);
   const RuntimeOwner runtime = lender.runtime();
   {
     const GrammarOwner grammar = compile(runtime.get(), kLumps);
     const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
-    const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
-    const RuntimeOwner other = makeRuntime();
-    const GrammarOwner other_grammar = compile(other.get(), kLumps);
-    const FieldOwner other_field = makeField(other.get(), other_grammar.get(), 256, SGM_BACKEND_CPU);
-    const WorldOwner on_cpu = makeWorld(other_field.get(), 0);
-    std::vector<MeshOwner> kept;
-    for (unsigned step = 0; step < sgm::rounds(3); ++step) {
-      const double x = place(random), z = place(random);
-      for (sgm_world* one : {world.get(), on_cpu.get()}) {
-        look(one, x, z);
-        waitIdle(one);
-      }
-      std::vector<MeshOwner> meshes = drawnOf(world.get());
-      CHECK(meshes.size() == drawnOf(on_cpu.get()).size());
-      size_t triangles = 0;
-      for (const MeshOwner& mesh : meshes) triangles += checkMesh(mesh);
-      CHECK(triangles > 0);
-      // What the engine holds is not overwritten by what comes after.
-      for (const MeshOwner& mesh : kept) checkMesh(mesh);
-      kept = std::move(meshes);
-    }
-    CHECK(infoOf(runtime, SGM_BACKEND_CUDA).resident > 0);
+    wanderBeside(field.get(), kLumps, [&](const MeshOwner& mesh) {
+      CHECK(infoOf(runtime, SGM_BACKEND_CUDA).resident > 0);
+      return checkMesh(mesh);
+    });
     CHECK(infoOf(runtime, SGM_BACKEND_CUDA).chunks_on_cpu == 0);
   }
   CHECK(infoOf(runtime, SGM_BACKEND_CUDA).resident == 0);

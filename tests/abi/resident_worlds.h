@@ -1,7 +1,10 @@
 #pragma once
 // Worlds whose meshes stay on a device, for tests of what engines lend.
 
+#include <random>
+
 #include "fixture.h"
+#include "rounds.h"
 
 /// Balls, and lumps around them.
 inline constexpr const char* kLumps =
@@ -67,4 +70,35 @@ inline void pollAll(sgm_world* world) {
 inline void waitIdle(sgm_world* world) {
   REQUIRE(sgm_world_wait_idle(world, nullptr, nullptr, nullptr) == SGM_OK);
   pollAll(world);
+}
+
+/// A viewer who goes about at random in a world of the field's, made of `text`, and in the CPU's. check(mesh) looks at
+/// every mesh of the first where it lies, and says how many triangles it has.
+template <class Check>
+void wanderBeside(sgm_field* field, const char* text, const Check& check) {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> place(-40, 40);
+  const WorldOwner world = makeWorld(field, SGM_WORLD_RESIDENT);
+  const RuntimeOwner other = makeRuntime();
+  const GrammarOwner grammar = compile(other.get(), text);
+  const FieldOwner other_field = makeField(other.get(), grammar.get(), 256, SGM_BACKEND_CPU);
+  const WorldOwner on_cpu = makeWorld(other_field.get(), 0);
+  std::vector<MeshOwner> kept;
+  for (unsigned step = 0; step < sgm::rounds(3); ++step) {
+    const double x = place(random), z = place(random);
+    for (sgm_world* one : {world.get(), on_cpu.get()}) {
+      look(one, x, z);
+      waitIdle(one);
+    }
+    std::vector<MeshOwner> meshes = drawnOf(world.get());
+    CHECK(meshes.size() == drawnOf(on_cpu.get()).size());
+    size_t triangles = 0;
+    for (const MeshOwner& mesh : meshes) triangles += check(mesh);
+    CHECK(triangles > 0);
+    // What the engine holds is not overwritten by what comes after.
+    for (const MeshOwner& mesh : kept) check(mesh);
+    kept = std::move(meshes);
+  }
 }

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "cuda_lender.h"
-#include "rounds.h"
 #include "vulkan/have_device.h"
 #include "vulkan_lender.h"
 
@@ -44,17 +43,6 @@ class OneGpu {
   const int before_;
 };
 
-RuntimeOwner sharingRuntime(Lender& lender, uint64_t mesh_bytes = 0) {
-  RuntimeOwner runtime = makeRuntime();
-  sgm_vulkan_device_desc desc = lender.lend();
-  desc.mesh_bytes = mesh_bytes;
-  sgm_error error = SGM_ERROR_INIT;
-  const sgm_result result = sgm_runtime_lend_vulkan(runtime.get(), &desc, &error);
-  INFO(error.message);
-  REQUIRE(result == SGM_OK);
-  return runtime;
-}
-
 /// What making a field says.
 sgm_result fieldOn(const RuntimeOwner& runtime, sgm_backend backend, sgm_error& error) {
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
@@ -74,47 +62,24 @@ TEST_CASE("what CUDA meshes lies on the Vulkan device that draws, wherever the v
   if (!vk::haveDevice()) return;
   Lender lender(true);
   const OneGpu gpu(lender);
-  const unsigned seed = std::random_device()();
   const sgm_backend backend = GENERATE(SGM_BACKEND_CUDA, SGM_BACKEND_AUTO);
-  CAPTURE(seed, backend);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(-40, 40);
-  const RuntimeOwner runtime = sharingRuntime(lender);
+  CAPTURE(backend);
+  const RuntimeOwner runtime = lentRuntime(lender);
   {
     const GrammarOwner grammar = compile(runtime.get(), kLumps);
     const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, backend);
-    const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
-    const RuntimeOwner other = makeRuntime();
-    const GrammarOwner other_grammar = compile(other.get(), kLumps);
-    const FieldOwner other_field = makeField(other.get(), other_grammar.get(), 256, SGM_BACKEND_CPU);
-    const WorldOwner on_cpu = makeWorld(other_field.get(), 0);
-    std::vector<MeshOwner> kept;
-    for (unsigned step = 0; step < sgm::rounds(3); ++step) {
-      const double x = place(random), z = place(random);
-      for (sgm_world* one : {world.get(), on_cpu.get()}) {
-        look(one, x, z);
-        waitIdle(one);
-      }
-      std::vector<MeshOwner> meshes = drawnOf(world.get());
-      CHECK(meshes.size() == drawnOf(on_cpu.get()).size());
-      size_t triangles = 0;
-      for (const MeshOwner& mesh : meshes) triangles += checkMesh(lender, mesh);
-      CHECK(triangles > 0);
-      // What the engine holds is not overwritten by what comes after.
-      for (const MeshOwner& mesh : kept) checkMesh(lender, mesh);
-      kept = std::move(meshes);
-    }
+    wanderBeside(field.get(), kLumps, [&](const MeshOwner& mesh) {
+      CHECK(infoOf(runtime, backend).resident > 0);
+      sgm_cuda_mesh_view view = SGM_CUDA_MESH_VIEW_INIT;
+      const size_t triangles = checkMesh(lender, mesh);
+      if (triangles > 0) CHECK(sgm_mesh_get_cuda_view(mesh.get(), &view, nullptr) == SGM_ERR_NOT_FOUND);
+      return triangles;
+    });
     const sgm_backend_info info = infoOf(runtime, backend);
     CHECK(info.backend == SGM_BACKEND_CUDA);
-    CHECK(info.resident > 0);
     CHECK(info.chunks > 0);
     CHECK(info.chunks_on_cpu == 0);
     CHECK(gpu.imports() > 0);
-    sgm_cuda_mesh_view view = SGM_CUDA_MESH_VIEW_INIT;
-    const auto there =
-        std::find_if(kept.begin(), kept.end(), [](const auto& mesh) { return viewOf(mesh).index_count; });
-    REQUIRE(there != kept.end());
-    CHECK(sgm_mesh_get_cuda_view(there->get(), &view, nullptr) == SGM_ERR_NOT_FOUND);
   }
   // What was submitted about the last meshes may not have ended yet.
   for (int tries = 0; infoOf(runtime, backend).resident != 0 && tries < 5000; ++tries) {
@@ -129,7 +94,7 @@ TEST_CASE("so does what comes from the disk, and what was dug", "[shared]") {
   const OneGpu gpu(lender);
   const auto folder = std::filesystem::temp_directory_path() / ("sgm_shared_" + std::to_string(getpid()));
   for (const bool again : {false, true}) {
-    const RuntimeOwner runtime = sharingRuntime(lender);
+    const RuntimeOwner runtime = lentRuntime(lender);
     const GrammarOwner grammar = compile(runtime.get(), kBalls);
     const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
     const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT, folder.c_str());
@@ -162,7 +127,7 @@ TEST_CASE("a lent CUDA context meshes for the Vulkan device, too; meshes outlive
   Lender lender(true);
   const OneGpu gpu(lender);
   const CudaLender context(GENERATE(false, true));
-  const RuntimeOwner runtime = sharingRuntime(lender);
+  const RuntimeOwner runtime = lentRuntime(lender);
   const sgm_cuda_device_desc desc = context.lend();
   REQUIRE(sgm_runtime_lend_cuda(runtime.get(), &desc, nullptr) == SGM_OK);
   std::vector<MeshOwner> meshes;
@@ -185,7 +150,7 @@ TEST_CASE("what CUDA meshes keeps to the bytes that it may have on the Vulkan de
   if (!vk::haveDevice()) return;
   Lender lender(true);
   const OneGpu gpu(lender);
-  const RuntimeOwner runtime = sharingRuntime(lender, 100000);
+  const RuntimeOwner runtime = lentRuntime(lender, 100000);
   const GrammarOwner grammar = compile(runtime.get(), kBalls);
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
   const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
@@ -240,7 +205,7 @@ TEST_CASE("where CUDA is lost, or must be opened again, all meshes are right whe
   CAPTURE(seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> place(-40, 40);
-  const RuntimeOwner runtime = sharingRuntime(lender);
+  const RuntimeOwner runtime = lentRuntime(lender);
   const GrammarOwner grammar = compile(runtime.get(), kLumps);
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_CUDA);
   const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
@@ -286,7 +251,7 @@ TEST_CASE("where CUDA cannot share memory with the device that draws it says so"
   sgm_error error = SGM_ERROR_INIT;
   SECTION("another GPU") {
     gpu.state().id[0] ^= 1;
-    const RuntimeOwner runtime = sharingRuntime(lender);
+    const RuntimeOwner runtime = lentRuntime(lender);
     CHECK(fieldOn(runtime, SGM_BACKEND_CUDA, error) == SGM_ERR_UNSUPPORTED);
     CHECK_THAT(error.message, Catch::Contains("the GPU that draws"));
     CHECK(infoOf(runtime, SGM_BACKEND_AUTO).backend != SGM_BACKEND_CUDA);
@@ -299,7 +264,7 @@ TEST_CASE("where CUDA cannot share memory with the device that draws it says so"
     gpu.state().fail_call = GENERATE("importExternalMemory", "externalMemoryGetMappedBuffer");
     gpu.state().fail_nth = 1;
     gpu.state().fail_result = 801;
-    const RuntimeOwner runtime = sharingRuntime(lender);
+    const RuntimeOwner runtime = lentRuntime(lender);
     CHECK(fieldOn(runtime, SGM_BACKEND_CUDA, error) == SGM_ERR_UNSUPPORTED);
     CHECK_THAT(error.message, Catch::Contains("importing the drawing device's memory"));
     CHECK(fieldOn(runtime, SGM_BACKEND_CUDA, error) == SGM_OK);

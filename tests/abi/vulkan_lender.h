@@ -140,9 +140,10 @@ inline size_t checkMesh(Lender& lender, const MeshOwner& mesh) {
   return view.index_count / 3;
 }
 
-inline RuntimeOwner lentRuntime(Lender& lender) {
+inline RuntimeOwner lentRuntime(Lender& lender, uint64_t mesh_bytes = 0) {
   RuntimeOwner runtime = makeRuntime();
-  const sgm_vulkan_device_desc desc = lender.lend();
+  sgm_vulkan_device_desc desc = lender.lend();
+  desc.mesh_bytes = mesh_bytes;
   sgm_error error = SGM_ERROR_INIT;
   const sgm_result result = sgm_runtime_lend_vulkan(runtime.get(), &desc, &error);
   INFO(error.message);

@@ -2,9 +2,7 @@
 
 #include <cstring>
 #include <filesystem>
-#include <random>
 
-#include "rounds.h"
 #include "vulkan/have_device.h"
 #include "vulkan_lender.h"
 
@@ -24,36 +22,11 @@ TEST_CASE("what the Vulkan header's macros set is the same in C and in C++", "[v
 TEST_CASE("a mesh lies on the lent device with the bytes that the host sees, wherever the viewer goes", "[vulkan]") {
   if (!vk::haveDevice()) return;
   Lender lender;
-  const unsigned seed = std::random_device()();
-  CAPTURE(seed);
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> place(-40, 40);
   const char* text = GENERATE(kBalls, kLumps);
   const RuntimeOwner runtime = lentRuntime(lender);
   const GrammarOwner grammar = compile(runtime.get(), text);
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 256, SGM_BACKEND_VULKAN);
-  const WorldOwner world = makeWorld(field.get(), SGM_WORLD_RESIDENT);
-  const RuntimeOwner other = makeRuntime();
-  const GrammarOwner other_grammar = compile(other.get(), text);
-  const FieldOwner other_field = makeField(other.get(), other_grammar.get(), 256, SGM_BACKEND_CPU);
-  const WorldOwner on_cpu = makeWorld(other_field.get(), 0);
-  std::vector<MeshOwner> kept;
-  for (unsigned step = 0; step < sgm::rounds(3); ++step) {
-    const double x = place(random), z = place(random);
-    look(world.get(), x, z);
-    look(on_cpu.get(), x, z);
-    waitIdle(world.get());
-    waitIdle(on_cpu.get());
-    std::vector<MeshOwner> meshes = drawnOf(world.get());
-    const std::vector<MeshOwner> expected = drawnOf(on_cpu.get());
-    CHECK(meshes.size() == expected.size());
-    size_t triangles = 0;
-    for (const MeshOwner& mesh : meshes) triangles += checkMesh(lender, mesh);
-    CHECK(triangles > 0);
-    // What the engine holds is not overwritten by what comes after.
-    for (const MeshOwner& mesh : kept) checkMesh(lender, mesh);
-    kept = std::move(meshes);
-  }
+  wanderBeside(field.get(), text, [&](const MeshOwner& mesh) { return checkMesh(lender, mesh); });
 }
 
 TEST_CASE("what comes from the disk lies on the lent device, too", "[vulkan]") {
@@ -130,10 +103,7 @@ TEST_CASE("meshes outlive the world that they were streamed in", "[vulkan]") {
 TEST_CASE("meshes keep to the bytes that they may have on the device, and the rest is not there", "[vulkan]") {
   if (!vk::haveDevice()) return;
   Lender lender;
-  sgm_vulkan_device_desc desc = lender.lend();
-  desc.mesh_bytes = 100000;
-  const RuntimeOwner runtime = makeRuntime();
-  REQUIRE(sgm_runtime_lend_vulkan(runtime.get(), &desc, nullptr) == SGM_OK);
+  const RuntimeOwner runtime = lentRuntime(lender, 100000);
   const auto residentNow = [&] {
     sgm_backend_info info = SGM_BACKEND_INFO_INIT;
     REQUIRE(sgm_backend_query(runtime.get(), SGM_BACKEND_VULKAN, &info, nullptr) == SGM_OK);

@@ -25,13 +25,7 @@ std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
 std::vector<ChunkJob> jobsAround(const WorldField& world) {
   std::vector<ChunkJob> jobs;
   for (const ChunkRequest& request : bench::aroundViewer(world.settings().finest_cell)) {
-    ChunkJob& job = jobs.emplace_back();
-    job.grid = must(chunkGrid(world, request.key));
-    job.seams = request.seams;
-    job.coarser = request.coarser;
-    const IntBox box = chunkBox(job.grid);
-    job.field = must(world.compile(box, request.key.level));
-    if (request.seams != 0) job.coarse = must(world.compile(box, request.key.level + 1));
+    jobs.push_back(bench::jobOf(world, request));
   }
   return jobs;
 }

@@ -10,6 +10,7 @@
 #include "grammar/compile.h"
 #include "stream/frame.h"
 #include "stream/lod_target.h"
+#include "stream/mesh_chunks.h"
 
 namespace bench {
 
@@ -39,6 +40,17 @@ inline std::vector<sgm::ChunkRequest> aroundViewer(int32_t finest_cell) {
   lod.top = 4;
   lod.view_distance = 150 * 1024.0;
   return sgm::frameRequests(sgm::lodTarget({&viewer, 1}, lod));
+}
+
+inline sgm::ChunkJob jobOf(const sgm::WorldField& world, const sgm::ChunkRequest& request) {
+  sgm::ChunkJob job;
+  job.grid = must(chunkGrid(world, request.key));
+  job.seams = request.seams;
+  job.coarser = request.coarser;
+  const sgm::IntBox box = chunkBox(job.grid);
+  job.field = must(world.compile(box, request.key.level));
+  if (request.seams != 0) job.coarse = must(world.compile(box, request.key.level + 1));
+  return job;
 }
 
 }  // namespace bench

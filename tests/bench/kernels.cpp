@@ -23,7 +23,7 @@
 #include "stream/mesh_chunks.h"
 
 using namespace sgm;
-using bench::must, bench::now;
+using bench::jobOf, bench::must, bench::now;
 
 namespace {
 
@@ -55,17 +55,6 @@ struct Load {
     for (const MeshPart& seam : mesh.seams) addPart(seam);
   }
 };
-
-ChunkJob jobOf(const WorldField& world, const ChunkRequest& request) {
-  ChunkJob job;
-  job.grid = must(chunkGrid(world, request.key));
-  job.seams = request.seams;
-  job.coarser = request.coarser;
-  const IntBox box = chunkBox(job.grid);
-  job.field = must(world.compile(box, request.key.level));
-  if (request.seams != 0) job.coarse = must(world.compile(box, request.key.level + 1));
-  return job;
-}
 
 ChunkMesh meshOnCpu(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& scratch) {
   ChunkMesh mesh(heap);
