@@ -39,15 +39,17 @@ class Mesher {
   /// until its end. Errors: as Stream's; part of the batch may run nevertheless.
   Result<void> submit(const Plan& plan, BatchMemory& memory);
 
-  /// The steps of submit(), for who repeats or measures them: brings the programs to memory on the device, which holds
-  /// them from then on; runs the kernels, as often as one likes; each of them, in order, after its memory was cleared.
+  // The steps of submit(), for who repeats or measures them. Errors: as Stream's.
+  /// Gives the memory's stream the plan's programs to bring to the device, where they stay for any number of runs.
   Result<Batch> load(const Plan& plan, BatchMemory& memory);
+  /// What the kernels find zero at first. Before every run.
   Result<void> clear(const Plan& plan, BatchMemory& memory) const;
   struct Launch {
     Kernel kernel;
     uint32_t blocks;  ///< 0: nothing to do
   };
   using Launches = std::array<Launch, static_cast<size_t>(Kernel::count)>;
+  /// Every kernel, in the order in which they run.
   Launches launches(const Batch& batch) const;
   static Result<void> run(Stream& stream, const Launches& launches, const Batch& batch);
 

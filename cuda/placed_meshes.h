@@ -19,8 +19,8 @@ class PlacedMeshes {
   /// device_lost.
   static Result<std::unique_ptr<PlacedMeshes>> create(Device& device, std::shared_ptr<MeshStore> store);
 
-  /// Copies parts by the stream, in its own time. To be published once that has been waited for; what is not is never
-  /// used again. Errors: as Stream::copy. Throws std::bad_alloc.
+  /// Copies parts by the stream, in its own time. To be published once that has been waited for (Placement).
+  /// Errors: as Stream::copy; nothing is being copied any more then. Throws std::bad_alloc.
   Result<std::unique_ptr<Placement>> keep(Stream& stream, std::span<const PartSources> chunks);
   /// Nothing that it gave is written to any more. Ends what it has imported, though blocks live on: that would keep a
   /// lost device's memory.

@@ -41,7 +41,7 @@ class Placement {
   std::vector<std::shared_ptr<const void>> held;  ///< what it writes through, until that is over
 };
 
-/// Any thread may use it. Outlived by its parts.
+/// Any thread may use it. Its parts keep it alive.
 class MeshStore {
  public:
   virtual ~MeshStore() = default;

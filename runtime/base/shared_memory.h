@@ -24,7 +24,7 @@ class SharedBlock {
   virtual uint64_t bytes() const = 0;
   /// Whether it has to be imported as memory dedicated to one buffer.
   virtual bool dedicated() const = 0;
-  /// A file descriptor of it, the caller's to close. Errors: out_of_memory, unsupported, device_lost.
+  /// A file descriptor of it, the caller's to close. Errors: out_of_memory, limit, unsupported, device_lost.
   virtual Result<int> descriptor() const = 0;
   std::mutex importing;            ///< guards `imported`
   std::shared_ptr<void> imported;  ///< what the other API has made of it last; ends with the block

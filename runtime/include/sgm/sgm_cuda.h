@@ -58,8 +58,8 @@ typedef struct sgm_cuda_device_desc {
  *
  * SGM_ERR_INVALID_ARGUMENT: no context, or a stream that is not of it. SGM_ERR_UNSUPPORTED: no kernels in this build,
  * no driver, a GPU that cannot mesh, or is not the one that draws, or a context that takes no calls; the message says
- * which. SGM_ERR_BUSY: the
- * runtime has lent one, or a field on a CUDA device of its own. When it fails nothing has changed.
+ * which. SGM_ERR_BUSY: the runtime has lent one, or a field on a CUDA device of its own. When it fails nothing has
+ * changed.
  *
  * A lent context that is lost stays lost, as CUDA's do: the CPU meshes from then on, with the same bytes, and meshes
  * are not on the GPU. */
