@@ -1,30 +1,9 @@
 #include "derive/chunk_ops.h"
 
-#include <bit>
+#include "derive/hasher.h"
 
 namespace sgm {
 namespace {
-
-class Hasher {
- public:
-  void add(uint64_t v) { value_ = hashCombine(value_, v); }
-  void add(float v) { add(uint64_t{std::bit_cast<uint32_t>(v)}); }
-  void add(int32_t v) { add(uint64_t{static_cast<uint32_t>(v)}); }
-  void add(uint32_t v) { add(uint64_t{v}); }
-  void add(Int3 p) {
-    add(p.x);
-    add(p.y);
-    add(p.z);
-  }
-  void add(const Frame& f) {
-    add(f.origin);
-    for (float row : f.rows) add(row);
-  }
-  uint64_t value() const { return value_; }
-
- private:
-  uint64_t value_ = 0;
-};
 
 void addShape(Hasher& h, const Shape& s) {
   h.add(uint64_t{static_cast<uint8_t>(s.kind)} | uint64_t{s.material} << 8 | uint64_t{s.tag} << 24);

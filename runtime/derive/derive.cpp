@@ -162,6 +162,7 @@ Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
   collectGroups(layer_cuts_, true, roots);
   out.layer = layer_index_;
   out.cell = cell_;
+  out.parameters = parameters_read_;
   draft_.finish(roots.groups, out);
   out.anchors.assign(anchors_.begin(), anchors_.end());
   if (dropped_notes_ > 0) {

@@ -124,6 +124,7 @@ Value Interpreter::evaluateBinary(const ExprNode& node, const Env& env) {
 Value Interpreter::evaluateName(const ExprNode& node, const Env& env) {
   switch (node.ref) {
     case Ref::parameter:
+      parameters_read_ |= parameterBit(node.id);
       return Value::number(parameters_.values[node.id]);
     case Ref::let:
       return evaluateLet(node, env);

@@ -225,6 +225,7 @@ class Interpreter {
   std::vector<WatchedCall> watched_;
   std::vector<DeriveNote> notes_;
   uint64_t dropped_notes_ = 0;
+  uint64_t parameters_read_ = 0;
   uint64_t steps_ = 0;
   uint32_t depth_ = 0, nesting_ = 0;
   std::optional<Error> error_;

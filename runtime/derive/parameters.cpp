@@ -1,5 +1,6 @@
 #include "derive/parameters.h"
 
+#include <bit>
 #include <cmath>
 #include <cstdio>
 
@@ -39,6 +40,14 @@ Result<void> ParameterValues::set(const Program& program, std::string_view name,
   }
   values[index] = value;
   return {};
+}
+
+uint64_t changedParameters(const ParameterValues& a, const ParameterValues& b) {
+  uint64_t changed = 0;
+  for (uint32_t i = 0; i < a.values.size(); ++i) {
+    if (std::bit_cast<uint64_t>(a.values[i]) != std::bit_cast<uint64_t>(b.values[i])) changed |= parameterBit(i);
+  }
+  return changed;
 }
 
 }  // namespace sgm

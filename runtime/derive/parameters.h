@@ -20,4 +20,10 @@ struct ParameterValues {
   Result<void> set(const Program& program, std::string_view name, double value);
 };
 
+/// Stands for a parameter in a set of them, by its index; a few may share one bit.
+inline uint64_t parameterBit(uint32_t index) { return uint64_t{1} << (index % 64); }
+
+/// The parameters whose values differ. Precondition: both are one program's.
+uint64_t changedParameters(const ParameterValues& a, const ParameterValues& b);
+
 }  // namespace sgm

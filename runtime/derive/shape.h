@@ -136,6 +136,9 @@ struct DeriveNote {
 struct GrammarChunk {
   uint32_t layer = 0;
   Int3 cell;  ///< cell coordinates, in cells
+  /// Whose values were read (parameterBit): with other values of the others alone all of it is the same. What layers
+  /// below have read counts as read here.
+  uint64_t parameters = 0;
   std::pmr::vector<Shape> shapes;
   std::pmr::vector<uint32_t> children;
   std::pmr::vector<Expr> exprs;
