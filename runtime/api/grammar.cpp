@@ -191,6 +191,8 @@ sgm_result sgm_grammar_parameter(const sgm_grammar* grammar, uint32_t index, sgm
     out->default_value = param.value;
     out->minimum = param.has_range ? param.low : -sgm::kInfinity;
     out->maximum = param.has_range ? param.high : sgm::kInfinity;
+    out->animated = param.animated ? 1 : 0;
+    out->reserved = 0;
     return SGM_OK;
   });
 }

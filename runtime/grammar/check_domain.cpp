@@ -96,6 +96,12 @@ void Checker::params() {
     const auto value = constant(param.value_expr, param.dim, "the default of a parameter");
     if (!value) continue;
     param.value = param.low = param.high = *value;
+    if (param.animated && !param.has_range) {
+      sink_.error(param.span, codes::kParamRange,
+                  join({"`", text(param.name), "` is animated, and nothing says between what; write its range: `param ",
+                        text(param.name), " = ... in LOW..HIGH animated`"}));
+      continue;
+    }
     if (param.has_range) {
       const auto low = constant(param.low_expr, param.dim, "the low end of a range");
       const auto high = constant(param.high_expr, param.dim, "the high end of a range");

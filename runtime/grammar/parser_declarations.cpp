@@ -103,6 +103,7 @@ void Parser::paramDeclaration() {
     param.high_expr = expression();
     param.has_range = true;
   }
+  param.animated = acceptWord("animated");
   if (at(Tok::text)) param.doc = textName("a text");
   expect(Tok::semicolon, "`;`");
   if (panic_) return;

@@ -57,6 +57,7 @@ void declarationLine(std::string& out, const Program& program, const ModuleSynta
         out += "..";
         line.expr(out, param.high_expr, kOr);
       }
+      if (param.animated) out += " animated";
       if (param.doc != kNoId) out += join({" ", quoteText(program.text(param.doc))});
       out += ';';
       break;

@@ -33,7 +33,8 @@ struct Param {
   double value = 0;          ///< the default
   double low = 0, high = 0;  ///< the range, both ends allowed; low = high = value where none is written
   bool has_range = false;
-  bool whole = false;  ///< default and range are plain whole numbers: a count
+  bool whole = false;     ///< default and range are plain whole numbers: a count
+  bool animated = false;  ///< meant to be driven through its range while the world is watched
   NameId doc = kNoId;
   ExprId value_expr = kNoId, low_expr = kNoId, high_expr = kNoId;
   Span span;

@@ -32,7 +32,8 @@ using SurfaceOwner = std::unique_ptr<sgm_surface, EndWith<sgm_surface_destroy>>;
 
 /// A ball of 3 m around (4, 4, 4) m.
 inline constexpr const char* kBall =
-    "sgm 1;\nunits m;\nparam radius = 3m in 1m..3.5m \"radius\";\nparam count = 2 in 1..4;\nparam turn = 30deg;\n"
+    "sgm 1;\nunits m;\nparam radius = 3m in 1m..3.5m animated \"radius\";\nparam count = 2 in 1..4;\nparam turn = "
+    "30deg;\n"
     "start Ball;\nrule Ball { at(4m, 4m, 4m) sphere(radius); mat marble; tag \"toy.ball\"; anchor spawn \"top\"; }\n";
 
 inline RuntimeOwner makeRuntime(const sgm_runtime_desc* desc = nullptr) {

@@ -110,9 +110,11 @@ TEST_CASE("parameters are listed, set within their range, and read back") {
   CHECK(info.minimum == 1.0);
   CHECK(info.maximum == 3.5);
   CHECK(info.whole == 0);
+  CHECK(info.animated == 1);
   REQUIRE(sgm_grammar_parameter(grammar.get(), 1, &info) == SGM_OK);
   CHECK(info.quantity == SGM_QUANTITY_NUMBER);
   CHECK(info.whole == 1);
+  CHECK(info.animated == 0);
   REQUIRE(sgm_grammar_parameter(grammar.get(), 2, &info) == SGM_OK);
   CHECK(info.quantity == SGM_QUANTITY_ANGLE);
   CHECK(std::isinf(info.maximum));

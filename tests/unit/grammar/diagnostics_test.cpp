@@ -95,6 +95,7 @@ const Case kCases[] = {
     {"1:13 value-range", "sgm 1; seed -1; start A; rule A { }"},
     {"1:18 param-range", "sgm 1; param a = 3 in 0..2; start A; rule A { }"},
     {"1:23 param-range", "sgm 1; param a = 3 in 4..2; start A; rule A { }"},
+    {"1:14 param-range", "sgm 1; param a = 3 animated; start A; rule A { }"},
     {"2:20 divide-by-zero", "sgm 1; start A;\nrule A { sphere(2m/0); }"},
     // Structure
     {"1:27 recursive-value", "sgm 1; let a = b; let b = a; start A; rule A { sphere(a); }"},
