@@ -59,6 +59,27 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
   }
 }
 
+void CellCache::adopt(const CellCache& other, const std::function<bool(const DerivedCell&)>& take) {
+  std::vector<std::pair<CellKey, std::shared_ptr<const DerivedCell>>> taken;
+  {
+    const std::lock_guard lock(other.mutex_);
+    for (const CellKey& key : other.by_use_) {
+      const std::shared_ptr<const DerivedCell>& cell = other.entries_.at(key).cell;
+      if (take(*cell)) taken.emplace_back(key, cell);
+    }
+  }
+  const std::lock_guard lock(mutex_);
+  for (const auto& [key, cell] : taken) {
+    if (stats_.bytes + cell->bytes > byte_limit_) break;
+    const auto [entry, is_new] = entries_.try_emplace(key);
+    if (!is_new) continue;
+    by_use_.push_back(key);
+    entry->second = {cell, std::prev(by_use_.end())};
+    stats_.bytes += cell->bytes;
+    ++stats_.cells;
+  }
+}
+
 void CellCache::evict() {
   // The cell just made stays, however large: its asker holds it anyway.
   while (stats_.bytes > byte_limit_ && by_use_.size() > 1) {

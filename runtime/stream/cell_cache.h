@@ -45,6 +45,10 @@ class CellCache {
   /// derive runs without any lock held, and may ask for cells of lower layers. A failed cell is not kept.
   Result<std::shared_ptr<const DerivedCell>> get(const CellKey& key, const Derive& derive);
 
+  /// Takes over finished cells of another cache that it does not have itself, the latest used first, as far as there is
+  /// room. take must not call back.
+  void adopt(const CellCache& other, const std::function<bool(const DerivedCell&)>& take);
+
   CellCacheStats stats() const;
 
  private:

@@ -37,6 +37,12 @@ class EditLog {
   EditLog(EditLog&&) = default;
   EditLog& operator=(EditLog&&) = default;
 
+  /// The largest material and tag that a brush may have from now on, as EditSettings has them. What is there stays.
+  void setLabels(uint16_t most_material, uint16_t most_tag) {
+    settings_.most_material = most_material;
+    settings_.most_tag = most_tag;
+  }
+
   /// Lays a brush on top of all that is known here. Errors: checkBrush's; invalid_argument for a material or a tag that
   /// there is not; limit.
   Result<Edited> add(const Brush& brush);

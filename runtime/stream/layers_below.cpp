@@ -13,7 +13,8 @@ const FieldProgram* LayersBelow::program(uint32_t layer, const IntBox& box) cons
   const bool near = around_.contains(box);
   std::shared_ptr<const FieldProgram>& kept = near ? programs_[layer] : elsewhere_;
   if (!near || !kept) {
-    Result<std::shared_ptr<const FieldProgram>> compiled = world_.compileBelow(layer, near ? around_ : box);
+    Result<std::shared_ptr<const FieldProgram>> compiled =
+        world_.compileBelow(layer, near ? around_ : box, &parameters_);
     if (!compiled) {
       error_ = compiled.error();
       return nullptr;

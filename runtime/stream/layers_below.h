@@ -22,6 +22,8 @@ class LayersBelow final : public LowerLayers {
                                int32_t length) const override;
 
   const std::optional<Error>& error() const { return error_; }
+  /// That the layers which were asked have read (GrammarChunk::parameters).
+  uint64_t parameters() const { return parameters_; }
 
  private:
   const FieldProgram* program(uint32_t layer, const IntBox& box) const;
@@ -35,6 +37,7 @@ class LayersBelow final : public LowerLayers {
   mutable PrunedProgram pruned_;
   mutable std::vector<int32_t> x_, y_, z_, q_;
   mutable std::optional<Error> error_;
+  mutable uint64_t parameters_ = 0;
 };
 
 }  // namespace sgm

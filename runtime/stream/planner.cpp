@@ -27,10 +27,11 @@ constexpr uint64_t kPlansToSettle = 20;
 
 }  // namespace
 
-Planner::Planner(const PlannerSettings& settings)
+Planner::Planner(const PlannerSettings& settings, WorldState first)
     : settings_(settings),
       target_(settings.lod.top, settings.lod.finest_cell),
-      applied_(std::make_shared<DrawnFrame>(Octree(settings.lod.top, settings.lod.finest_cell))) {}
+      applied_(std::make_shared<DrawnFrame>(Octree(settings.lod.top, settings.lod.finest_cell))),
+      edits_(std::move(first)) {}
 
 Plan Planner::plan(PlanInput&& input) {
   ++plans_;
@@ -59,6 +60,7 @@ Plan Planner::plan(PlanInput&& input) {
   fillQueue(plan.queue);
   stats_.drawn = applied_->drawn.size();
   stats_.edits_drawn = edits_drawn_;
+  stats_.edits_failed = edits_failed_;
   const bool edits_wait = edits_.number < input.edits.number && edits_failed_ < input.edits.number;
   plan.idle = plan.queue.empty() && plan.step == nullptr && !edits_wait;
   if (plan.idle || plans_ % kPlansToTally == 0) tally();

@@ -54,18 +54,18 @@ struct FrameStep {
 struct PlanInput {
   std::vector<Viewer> viewers;
   std::vector<FinishedChunk> finished;
-  std::vector<ChunkKey> begun;    ///< handed out since the last plan
-  std::vector<ChunkKey> refused;  ///< whose surfaces are too large to be handed to the engine
-  uint64_t applied = 0;           ///< number of the frame that the engine draws
-  EditState edits;                ///< the latest
-  std::vector<EditedBox> edited;  ///< what has changed since Planner::edits()
-  size_t live_bytes = 0;          ///< of all surfaces, the engine's own included
-  size_t collider_bytes = 0;      ///< that come on top
+  std::vector<ChunkKey> begun;      ///< handed out since the last plan
+  std::vector<ChunkKey> refused;    ///< whose surfaces are too large to be handed to the engine
+  uint64_t applied = 0;             ///< number of the frame that the engine draws
+  WorldState edits;                 ///< the latest
+  std::vector<WorldChange> edited;  ///< what has changed since Planner::edits()
+  size_t live_bytes = 0;            ///< of all surfaces, the engine's own included
+  size_t collider_bytes = 0;        ///< that come on top
 };
 
 struct Plan {
   std::vector<WorkItem> queue;            ///< everything to be meshed that is not being meshed, the most urgent last
-  EditState edits;                        ///< to mesh the queue under
+  WorldState edits;                       ///< to mesh the queue under
   std::shared_ptr<const FrameStep> step;  ///< the next frame; null where what is drawn is the best there is
   std::vector<FailedChunk> failed;        ///< since the last plan
   bool idle = false;                      ///< nothing to mesh, nothing to draw: what the viewers want is there
@@ -82,18 +82,20 @@ struct PlannerStats {
   uint64_t meshed = 0;       ///< chunks whose body came back
   uint64_t finest = 0;       ///< of these, those of level 0
   uint64_t seam_jobs = 0;    ///< requests for seams alone that came back
+  uint64_t outdated = 0;     ///< chunks that were there, and that a change had meshed again
   uint64_t edited = 0;       ///< requests that came back after edits had changed their chunk
   uint64_t never_drawn = 0;  ///< meshed chunks that are neither drawn, nor wanted, nor ever were drawn
   uint64_t failed = 0;
-  size_t records = 0;        ///< chunks known
-  size_t drawn = 0;          ///< chunks drawn that have triangles
-  uint64_t edits_drawn = 0;  ///< number of the state of edits that is drawn
-  double detail = 1;         ///< factor on the distances at which detail is wanted: below 1 under pressure of memory
+  size_t records = 0;         ///< chunks known
+  size_t drawn = 0;           ///< chunks drawn that have triangles
+  uint64_t edits_drawn = 0;   ///< number of the state of edits that is drawn
+  uint64_t edits_failed = 0;  ///< of one that cannot be drawn, as a chunk of it cannot be made; 0: none
+  double detail = 1;          ///< factor on the distances at which detail is wanted: below 1 under pressure of memory
 };
 
 class Planner {
  public:
-  explicit Planner(const PlannerSettings& settings);
+  explicit Planner(const PlannerSettings& settings, WorldState first = {});
 
   /// Throws std::bad_alloc; then what it knows is not whole any more, and restart() must come before the next plan.
   Plan plan(PlanInput&& input);
@@ -103,7 +105,7 @@ class Planner {
   const PlannerStats& stats() const { return stats_; }
   const DrawnFrame& applied() const { return *applied_; }
   /// The state of edits that chunks are meshed under now.
-  const EditState& edits() const { return edits_; }
+  const WorldState& edits() const { return edits_; }
 
  private:
   using Rank = WorkItem::Rank;
@@ -122,7 +124,7 @@ class Planner {
   void giveEditsBack();
   /// For want of memory to mesh what is drawn once more: until less detail is drawn.
   void postponeEdits();
-  void invalidate(std::span<const EditedBox> changes);
+  void invalidate(std::span<const WorldChange> changes);
   void findOutdated();
   bool isReady(const ChunkKey& chunk, uint8_t seams) const;
   /// What comes nearest to the target of what is ready; none: what is drawn must stay.
@@ -158,11 +160,11 @@ class Planner {
   std::shared_ptr<const FrameStep> step_;                   ///< the last one offered, not known to be taken
   std::vector<std::shared_ptr<const DrawnFrame>> offered_;  ///< what steps from applied_ lead to, any may be taken
   std::vector<MissingSeams> missing_;
-  EditState edits_;
+  WorldState edits_;
   uint64_t edits_drawn_ = 0;        ///< the state that applied_ shows
   uint64_t oldest_edits_ = 0;       ///< what was meshed under an earlier state is not taken
   std::vector<ChunkKey> outdated_;  ///< leaves of applied_ that are not there as edits_ has them
-  EditState edits_before_;          ///< before edits_ was taken up
+  WorldState edits_before_;         ///< before edits_ was taken up
   bool postponed_ = false;          ///< edits found no room, and wait until less detail is drawn
   double room_beside_ = 0;          ///< the share of memory that this may take then
   uint64_t edits_failed_ = 0;       ///< a state that is not drawn: a chunk of it cannot be made

@@ -37,10 +37,10 @@ void Planner::takeUpEdits(PlanInput& input) {
   changed_ = true;
 }
 
-void Planner::invalidate(std::span<const EditedBox> changes) {
+void Planner::invalidate(std::span<const WorldChange> changes) {
   std::vector<std::vector<IntBox>> reaches(static_cast<size_t>(target_.top()) + 1);
   for (size_t level = 0; level < reaches.size(); ++level) {
-    for (const EditedBox& change : changes) {
+    for (const WorldChange& change : changes) {
       reaches[level].push_back(editReach(change.box, settings_.lod.finest_cell << level));
     }
   }
@@ -52,7 +52,12 @@ void Planner::invalidate(std::span<const EditedBox> changes) {
       box.hi[axis] = saturate((key.at[axis] + int64_t{1}) * edge);
     }
     const std::vector<IntBox>& reach = reaches[static_cast<size_t>(key.level)];
-    if (std::none_of(reach.begin(), reach.end(), [&box](const IntBox& r) { return r.meets(box); })) return;
+    const bool touched =
+        std::any_of(reach.begin(), reach.end(), [&box](const IntBox& r) { return r.meets(box); }) ||
+        std::any_of(changes.begin(), changes.end(),
+                    [&key](const WorldChange& change) { return change.field && change.field->touches(key); });
+    if (!touched) return;
+    if (record.body) ++stats_.outdated;
     // The void's parts stay until the new ones are there: an unknown chunk would count as passable.
     record.surface = nullptr;
     record.body = record.failed = false;

@@ -53,10 +53,22 @@ uint64_t randomAuthor() {
   return (uint64_t{device()} << 32 | device()) | 1;  // never 0
 }
 
+/// What is kept on disk is told from another field's by its identity.
+Result<void> checkHosts(const WorldField& field, const WorldSettings& settings) {
+  if (settings.journal.empty() && settings.cache.empty()) return {};
+  for (const HostField& host : field.settings().hosts) {
+    if (host.identity != 0) continue;
+    return Error{Code::invalid_argument,
+                 "a field of the host's has the identity 0: what is kept on disk could not be told from another's"};
+  }
+  return {};
+}
+
 Result<void> openJournal(WorldCore& core) {
-  const std::optional<std::vector<std::byte>> identity = core.field.identity();
+  const std::shared_ptr<const WorldField> field = core.edits.state().field;
+  const std::optional<std::vector<std::byte>> identity = field->identity();
   if (!identity) return Error{Code::unsupported, "a world without a grammar cannot keep a journal of edits"};
-  const WorldFieldSettings& of = core.field.settings();
+  const WorldFieldSettings& of = field->settings();
   const Result<std::string> opened =
       core.edits.open(core.settings.journal, {checksum(*identity), of.seed, of.finest_cell});
   if (!opened) return opened.error();
@@ -68,7 +80,7 @@ Result<void> openJournal(WorldCore& core) {
 
 World::World(std::unique_ptr<WorldCore> core, JobSystem& jobs) : core_(std::move(core)), jobs_(jobs) {}
 
-Result<std::unique_ptr<World>> World::create(const WorldField& field, Backend& backend, JobSystem& jobs,
+Result<std::unique_ptr<World>> World::create(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs,
                                              const WorldSettings& settings, std::pmr::memory_resource* memory) {
   if (Result<void> good = checkLod(settings.lod); !good) return good.error();
   const size_t least = kLargestChunk * (jobs.concurrency() + 2);
@@ -76,16 +88,10 @@ Result<std::unique_ptr<World>> World::create(const WorldField& field, Backend& b
     return Error{Code::limit, "mesh_bytes is " + std::to_string(settings.mesh_bytes) + ", too small to stream with: " +
                                   std::to_string(jobs.concurrency()) + " threads need " + std::to_string(least)};
   }
-  if (!settings.journal.empty() || !settings.cache.empty()) {
-    for (const HostField& host : field.settings().hosts) {
-      if (host.identity != 0) continue;
-      return Error{Code::invalid_argument,
-                   "a field of the host's has the identity 0: what is kept on disk could not be told from another's"};
-    }
-  }
+  if (Result<void> good = checkHosts(*field, settings); !good) return good.error();
   WorldSettings own = settings;
   if (own.edits.author == 0) own.edits.author = randomAuthor();
-  auto core = std::make_unique<WorldCore>(field, backend, jobs, own, memory);
+  auto core = std::make_unique<WorldCore>(std::move(field), backend, jobs, own, memory);
   if (!own.journal.empty()) {
     if (Result<void> opened = openJournal(*core); !opened) return opened.error();
   }
@@ -152,6 +158,7 @@ void World::advance(size_t bytes) {
     core_->edits_drawn = step->to->edits;
   }
   if (core_->planIsDue()) core_->kickPlanner();
+  core_->kickFieldSwitch();
 }
 
 void World::restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame) {
@@ -264,6 +271,17 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
   return Error{Code::limit, "nothing more fits into mesh_bytes: poll the events, release meshes, or raise it"};
 }
 
+Result<void> World::setField(std::shared_ptr<const WorldField> field) {
+  const double cell = field->settings().finest_cell, own = core_->settings.lod.finest_cell;
+  if (cell != own) {
+    return Error{Code::invalid_argument, "the field's finest cell is " + metres(cell) + ", the world's " + metres(own) +
+                                             ": make the field with the world's cell, or another world"};
+  }
+  if (Result<void> good = checkHosts(*field, core_->settings); !good) return good;
+  core_->fields.want(std::move(field));
+  return {};
+}
+
 void World::cancel() {
   std::vector<WorkItem> dropped;  // freed after the mutex
   const std::lock_guard lock(core_->mutex);
@@ -273,10 +291,10 @@ void World::cancel() {
 }
 
 Result<ContentHash> World::hashBodies(const IntBox& region, int level) const {
+  const WorldState edits = core_->edits.state();
   const Result<std::pmr::vector<ChunkKey>> keys =
-      chunksOfRegion(core_->field, region, level, std::numeric_limits<uint64_t>::max());
+      chunksOfRegion(*edits.field, region, level, std::numeric_limits<uint64_t>::max());
   if (!keys) return keys.error();
-  const EditState edits = core_->edits.state();
   std::shared_ptr<const DrawnFrame> frame;
   {
     const std::lock_guard lock(core_->mutex);
@@ -301,7 +319,7 @@ Result<ContentHash> World::hashBodies(const IntBox& region, int level) const {
   for (size_t first = 0; first < rest.size(); first += kHashedAtOnce) {
     const auto some = std::span(rest).subspan(first, std::min(kHashedAtOnce, rest.size() - first));
     const Result<std::pmr::vector<PlacedChunk>> chunks =
-        meshChunks(core_->field, core_->backend, core_->jobs, some, {}, edits.brushes.get());
+        meshChunks(*edits.field, core_->backend, core_->jobs, some, {}, edits.brushes.get());
     if (!chunks) return chunks.error();
     for (const PlacedChunk& chunk : *chunks) {
       if (!chunk.mesh.body.indices.empty()) add(chunk.mesh.body.hash, chunk.grid);
@@ -324,11 +342,12 @@ uint64_t World::editHash() const { return core_->edits.hash(); }
 
 Result<void> World::flushEdits() { return core_->edits.flush(); }
 
+std::shared_ptr<const WorldField> World::field() const { return core_->edits.state().field; }
+
 QueryField World::queryField() const {
-  return {[field = &core_->field, edits = core_->edits.state()](const IntBox& box) {
-            return field->compile(box, 0, edits.brushes.get());
-          },
-          core_->field.settings().finest_cell, core_->field.memory(), !core_->field.settings().hosts.empty()};
+  const WorldState now = core_->edits.state();
+  return {[now](const IntBox& box) { return now.field->compile(box, 0, now.brushes.get()); },
+          now.field->settings().finest_cell, now.field->memory(), !now.field->settings().hosts.empty()};
 }
 
 WorldStats World::stats() const {

@@ -54,7 +54,7 @@ struct WorldStats {
   size_t stale = 0;                ///< of these, those planned for viewers of before
   uint64_t frame = 0;              ///< number of the frame that is drawn
   uint64_t plans = 0;
-  uint64_t edits = 0, edits_drawn = 0;  ///< EditState::number of now, and of what is drawn
+  uint64_t edits = 0, edits_drawn = 0;  ///< WorldState::number of now, and of what is drawn
   DiskCacheStats cache;
   size_t surface_bytes = 0, peak_surface_bytes = 0;
   size_t collider_bytes = 0;
@@ -70,9 +70,10 @@ class World {
  public:
   /// Reads the journal, where there is to be one. Errors: invalid_argument; limit (mesh_bytes is too small to stream
   /// with, or the distances are too large: the message says what would do); those of WorldEdits::open.
-  /// field, backend, jobs and memory must outlive the world; surfaces may outlive it, but not memory.
-  static Result<std::unique_ptr<World>> create(const WorldField& field, Backend& backend, JobSystem& jobs,
-                                               const WorldSettings& settings, std::pmr::memory_resource* memory);
+  /// backend, jobs and memory must outlive the world; surfaces may outlive it, but not memory.
+  static Result<std::unique_ptr<World>> create(std::shared_ptr<const WorldField> field, Backend& backend,
+                                               JobSystem& jobs, const WorldSettings& settings,
+                                               std::pmr::memory_resource* memory);
   /// Waits for jobs that have begun; those that the job system runs later find nothing to do.
   ~World();
   World(const World&) = delete;
@@ -98,6 +99,13 @@ class World {
   /// Errors: cancelled; limit, where memory does not suffice for that.
   Result<void> waitIdle(const std::function<bool()>& more = {});
 
+  /// Puts another field in the place of the world's: other parameters, a grammar that was edited, other fields of the
+  /// host's. Chunks that the difference reaches (field_change.h) are meshed again, and drawn all at one time; others
+  /// keep their meshes. Fields that come faster than they can be drawn are passed over, but for the last. Edits stay:
+  /// their materials and tags keep their numbers. Never waits.
+  /// Errors, and nothing changes: invalid_argument (another finest cell, or what create() would refuse).
+  Result<void> setField(std::shared_ptr<const WorldField> field);
+
   /// Drops everything that waits to be meshed, and what is being meshed is dropped when it comes back. The next update
   /// begins anew for the viewers there are.
   void cancel();
@@ -115,7 +123,10 @@ class World {
   /// Returns when the disk has every edit of before. Errors: io.
   Result<void> flushEdits();
 
-  /// The field with the edits of now, to be asked at level 0. Must not outlive the world's field.
+  /// The field of now: what chunks are meshed from next. A newer one may be about to follow it.
+  std::shared_ptr<const WorldField> field() const;
+  /// That field with the edits of now, to be asked at level 0. Must not
+  /// outlive its memory.
   QueryField queryField() const;
 
   /// The hash of the set of bodies (hashParts) of a level's chunks that meet lo <= p < hi; chunks that are not drawn

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 constexpr size_t kFinishedToPlan = 64;
 /// How long at least the jobs mesh after a plan, in times that it took, before an update has the next one made.
 constexpr int kMeshingPerPlanning = 2;
-constexpr int kFlushPriority = 3, kPlanPriority = 2, kMeshPriority = 1;
+constexpr int kFlushPriority = 3, kPlanPriority = 2, kComparePriority = 2, kMeshPriority = 1;
 /// Between two plans: some milliseconds' work.
 constexpr size_t kCollidersAtOnce = 128;
 /// With the time that a disk takes: no more than a second's edits are ever lost.
@@ -27,18 +27,18 @@ PlannerSettings plannerSettings(const WorldSettings& settings) {
 
 }  // namespace
 
-WorldCore::WorldCore(const WorldField& field_in, Backend& backend_in, JobSystem& jobs_in,
+WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_in, JobSystem& jobs_in,
                      const WorldSettings& settings_in, std::pmr::memory_resource* memory)
-    : field(field_in),
+    : profiler(field->profiler()),
       backend(backend_in),
       jobs(jobs_in),
       settings(settings_in),
-      edits(settings_in.edits, memory),
+      edits(std::move(field), settings_in.edits, memory),
       drawn(std::make_shared<DrawnFrame>(Octree(settings_in.lod.top, settings_in.lod.finest_cell))),
       memory_(memory),
       gate_(std::make_shared<Gate>(*this)),
       surfaces_(std::make_shared<SurfacePool>(memory)),
-      planner_(plannerSettings(settings_in)),
+      planner_(plannerSettings(settings_in), edits.state()),
       colliders_(settings_in.collider_distance, settings_in.lod.finest_cell) {}
 
 template <void (WorldCore::*work)()>
@@ -81,8 +81,9 @@ void WorldCore::warn(const char* message) const noexcept {
 }
 
 bool WorldCore::settled() const {
-  return idle_ && !planner_lost_ && planned_with_.viewers == viewers_set && planned_with_.applied == applied &&
-         planned_with_.edits == edits.number() && step == nullptr && colliders_done_ && collider_changes.empty();
+  return idle_ && !planner_lost_ && fields.settled() && planned_with_.viewers == viewers_set &&
+         planned_with_.applied == applied && planned_with_.edits == edits.number() && step == nullptr &&
+         colliders_done_ && collider_changes.empty();
 }
 
 WorldCore::Work WorldCore::work() const {
@@ -141,6 +142,33 @@ void WorldCore::flushOnce() {
   if (!first) return;
   const Error& why = flushed.error();
   warn(why.code == Code::out_of_memory ? "out of memory while writing the journal of edits" : why.message.c_str());
+}
+
+void WorldCore::kickFieldSwitch() {
+  FieldSwitch::Progress progress;
+  {
+    const std::lock_guard lock(mutex);
+    if (stopped_) return;
+    progress = {std::max(edits_drawn, planner_stats.edits_failed), !viewers.empty(), idle_};
+  }
+  if (!fields.begin(progress) || submit(run<&WorldCore::compareOnce>, kComparePriority)) return;
+  fields.giveUp();  // the next update tries again
+}
+
+void WorldCore::compareOnce() {
+  std::shared_ptr<const DrawnFrame> frame;
+  {
+    const std::lock_guard lock(mutex);
+    frame = drawn;
+  }
+  try {
+    const ProfileScope scope(profiler, zone::kDerive);
+    if (fields.compare(frame, edits, jobs)) return kickFieldSwitch();
+  } catch (const std::bad_alloc&) {
+    return tellScarce();
+  }
+  const std::lock_guard lock(mutex);
+  changed.notify_all();
 }
 
 void WorldCore::kickPlanner() {
@@ -223,7 +251,7 @@ void WorldCore::planOnce() {
     const Clock::time_point begun_at = Clock::now();
     bool more_colliders = false;
     try {
-      const ProfileScope scope(field.profiler(), zone::kPlan);
+      const ProfileScope scope(profiler, zone::kPlan);
       if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
       Plan plan = planner_.plan(planInput());
       // A step that was offered before a restart may be taken after it: the planner has forgotten where that leads.
@@ -328,7 +356,7 @@ void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
   if (!items.empty()) ++meshing_jobs_;
 }
 
-void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const EditState& under, FinishedChunk& done) const {
+void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, FinishedChunk& done) const {
   if (!chunk) {
     done.error = chunk.error();
     return;
@@ -336,7 +364,7 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const EditState& under, F
   if (chunk->voids) done.voids = std::make_unique<const VoidComponents>(std::move(*chunk->voids));
   if (settings.morph) {
     Result<std::pmr::vector<MorphOffset>> morphs =
-        morphOffsets(field, chunk->surface.mesh, chunk->surface.grid, under.brushes.get(), memory_);
+        morphOffsets(*under.field, chunk->surface.mesh, chunk->surface.grid, under.brushes.get(), memory_);
     if (!morphs) {
       done.error = morphs.error();
       return;
@@ -352,9 +380,9 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const EditState& under, F
   if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
 }
 
-void WorldCore::meshItems(std::span<const WorkItem> items, const EditState& under, const Progress& progress,
+void WorldCore::meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
                           std::span<FinishedChunk> done) const {
-  const ChunkMesher mesher{field, backend, jobs, memory_, cache.get(), settings.resident};
+  const ChunkMesher mesher{*under.field, backend, jobs, memory_, cache.get(), settings.resident};
   const Error out_of_memory{Code::out_of_memory, kOutOfMemory};
   try {
     std::vector<ChunkOrder> orders;
@@ -386,7 +414,7 @@ void WorldCore::meshOnce() {
     --mesh_jobs;
     return;
   }
-  EditState under;
+  WorldState under;
   uint64_t of_generation;
   {
     const std::lock_guard lock(mutex);

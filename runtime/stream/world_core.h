@@ -15,6 +15,7 @@
 #include "backend/backend.h"
 #include "stream/chunk_cache.h"
 #include "stream/collider.h"
+#include "stream/field_switch.h"
 #include "stream/planner.h"
 #include "stream/surface_pool.h"
 #include "stream/world_edits.h"
@@ -28,7 +29,7 @@ inline constexpr size_t kLargestChunk = size_t{5} << 20;
 
 class WorldCore {
  public:
-  WorldCore(const WorldField& field, Backend& backend, JobSystem& jobs, const WorldSettings& settings,
+  WorldCore(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs, const WorldSettings& settings,
             std::pmr::memory_resource* memory);
 
   /// Has the work planned, unless that is being done: then once more after it.
@@ -37,6 +38,8 @@ class WorldCore {
   bool planIsDue() const;
   /// Has the journal written, at most every kBetweenFlushes.
   void kickJournal();
+  /// Has the world go over to the field that is wanted next, when its turn comes.
+  void kickFieldSwitch();
   /// Waits for jobs that have begun: no other will touch the core. Once, before its end. Writes the journal.
   void stop() noexcept;
 
@@ -45,11 +48,12 @@ class WorldCore {
   /// A plan or a chunk is being made. Precondition: the mutex is held.
   bool atWork() const { return planning_ || mesh_jobs > 0; }
 
-  const WorldField& field;
+  const Profiler profiler;  ///< of the first field
   Backend& backend;
   JobSystem& jobs;
   const WorldSettings settings;
   WorldEdits edits;
+  FieldSwitch fields;
   std::unique_ptr<DiskCache> cache;  ///< null: none; set before the first job
 
   mutable std::mutex mutex;  ///< guards what follows; held for the moving of pointers only
@@ -120,10 +124,11 @@ class WorldCore {
   /// As many of the queue's items as one job meshes, at most `batch`, which the vector has room for. Precondition: the
   /// mutex is held.
   void takeItems(size_t batch, std::vector<WorkItem>& items);
-  void surfaceOne(Result<MeshedChunk>& chunk, const EditState& under, FinishedChunk& done) const;
-  void meshItems(std::span<const WorkItem> items, const EditState& under, const Progress& progress,
+  void surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, FinishedChunk& done) const;
+  void meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
                  std::span<FinishedChunk> done) const;
   void flushOnce();
+  void compareOnce();
   /// Memory gave out: the next update tries again, with one job at first.
   void tellScarce() noexcept;
   /// Any thread, without a lock.
@@ -147,7 +152,7 @@ class WorldCore {
     uint64_t viewers = 0, applied = 0, edits = 0;
   };
   Seen planning_with_, planned_with_;  ///< what the plan in the making has seen, and what the published one had
-  EditState queue_edits_;              ///< that the queue is meshed under
+  WorldState queue_edits_;             ///< that the queue is meshed under
   std::vector<ChunkKey> begun_;
   std::vector<FinishedChunk> finished_;
   size_t meshing_before_ = 0;  ///< requests in work when the plan for these viewers came, less as many as have ended

@@ -11,7 +11,9 @@ constexpr size_t kMostChanges = 4096;
 
 }  // namespace
 
-WorldEdits::WorldEdits(const EditSettings& settings, std::pmr::memory_resource* memory) : log_(settings, memory) {}
+WorldEdits::WorldEdits(std::shared_ptr<const WorldField> field, const EditSettings& settings,
+                       std::pmr::memory_resource* memory)
+    : log_(settings, memory), field_(std::move(field)) {}
 
 Result<std::string> WorldEdits::open(const std::filesystem::path& path, const WorldIdentity& world) {
   Result<OpenedJournal> opened = EditJournal::open(path, world);
@@ -29,10 +31,13 @@ Result<std::string> WorldEdits::open(const std::filesystem::path& path, const Wo
 
 // So that a change that was made is told: nothing after the log's own change can fail.
 void WorldEdits::makeRoom(size_t more) {
-  if (changes_.size() + more > kMostChanges && !changes_.empty()) {
-    EditedBox all = changes_.back();
-    for (const EditedBox& change : changes_) all.box = all.box.joined(change.box);
-    changes_.assign(1, all);
+  if (changes_.size() + more > kMostChanges) {
+    WorldChange all;
+    for (const WorldChange& change : changes_) {
+      if (change.field == nullptr) all = {change.number, all.box.joined(change.box), nullptr};
+    }
+    std::erase_if(changes_, [](const WorldChange& change) { return change.field == nullptr; });
+    changes_.push_back(all);
   }
   changes_.reserve(changes_.size() + more);
 }
@@ -42,7 +47,7 @@ void WorldEdits::changed(std::span<const IntBox> boxes) {
   const uint64_t number = number_.load(std::memory_order_relaxed) + 1;
   for (const IntBox& box : boxes) {
     if (box.empty()) continue;
-    changes_.push_back({number, box});
+    changes_.push_back({number, box, nullptr});
     number_.store(number, std::memory_order_release);
   }
 }
@@ -108,23 +113,35 @@ uint64_t WorldEdits::hash() const {
   return log_.hash();
 }
 
-EditState WorldEdits::state() const {
+WorldState WorldEdits::state() const {
   const std::lock_guard lock(mutex_);
   const uint64_t now = number();
-  return {now, now != 0 ? log_.snapshot() : nullptr};
+  return {now, field_, now != 0 ? log_.snapshot() : nullptr};
 }
 
-std::vector<EditedBox> WorldEdits::changedSince(uint64_t number) const {
+uint64_t WorldEdits::setField(std::shared_ptr<const FieldChange> change) {
   const std::lock_guard lock(mutex_);
-  std::vector<EditedBox> since;
+  makeRoom(1);
+  const uint64_t number = number_.load(std::memory_order_relaxed) + 1;
+  field_ = change->to();
+  const Program& program = *field_->settings().program;
+  log_.setLabels(static_cast<uint16_t>(program.materials.size() - 1), static_cast<uint16_t>(program.tags.size() - 1));
+  changes_.push_back({number, {}, std::move(change)});
+  number_.store(number, std::memory_order_release);
+  return number;
+}
+
+std::vector<WorldChange> WorldEdits::changedSince(uint64_t number) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<WorldChange> since;
   std::copy_if(changes_.begin(), changes_.end(), std::back_inserter(since),
-               [number](const EditedBox& change) { return change.number > number; });
+               [number](const WorldChange& change) { return change.number > number; });
   return since;
 }
 
 void WorldEdits::forget(uint64_t number) {
   const std::lock_guard lock(mutex_);
-  std::erase_if(changes_, [number](const EditedBox& change) { return change.number <= number; });
+  std::erase_if(changes_, [number](const WorldChange& change) { return change.number <= number; });
 }
 
 Result<void> WorldEdits::flush() {

@@ -81,11 +81,24 @@ Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& der
   return derived;
 }
 
+void WorldField::adopt(const WorldField& other) const {
+  cache_.adopt(other.cache_, [&](const DerivedCell& cell) { return derivesAlike(other, cell.chunk.parameters); });
+}
+
+bool WorldField::derivesAlike(const WorldField& other, uint64_t parameters) const {
+  const WorldFieldSettings& theirs = other.settings_;
+  return !alone_ && !other.alone_ && settings_.program->hash == theirs.program->hash && settings_.seed == theirs.seed &&
+         settings_.shift == theirs.shift &&
+         (parameters & changedParameters(settings_.parameters, theirs.parameters)) == 0;
+}
+
 Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3 at) const {
   return cache_.get({layer, at}, [&] {
-    Result<GrammarChunk> chunk = overLayersBelow<GrammarChunk>(layer, at, [&](const LowerLayers& below) {
-      return deriveCell(*settings_.program, settings_.parameters, settings_.seed, layer, at, below, DeriveLimits{},
-                        memory_);
+    Result<GrammarChunk> chunk = overLayersBelow<GrammarChunk>(layer, at, [&](const LayersBelow& below) {
+      Result<GrammarChunk> derived = deriveCell(*settings_.program, settings_.parameters, settings_.seed, layer, at,
+                                                below, DeriveLimits{}, memory_);
+      if (derived) derived->parameters |= below.parameters();
+      return derived;
     });
     if (chunk && settings_.shift != Int3{}) translate(*chunk, settings_.shift);
     if (chunk && settings_.on_notes && !chunk->notes.empty()) settings_.on_notes(*chunk);
@@ -163,6 +176,11 @@ Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsOf of
   return {};
 }
 
+Result<void> WorldField::cellsAround(uint32_t layer, const IntBox& box,
+                                     const std::function<Result<void>(Int3 cell)>& visit) const {
+  return walkCells(layer, box, CellsOf::box, [&](const CellKey& key) { return visit(key.cell); });
+}
+
 FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const {
   if (alone_) return {finest_cell, cell, false, 0};
   const Domain& domain = settings_.program->domain;
@@ -172,7 +190,8 @@ FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t layers, const IntBox& box,
                                                                       const FieldSettings& field,
                                                                       std::span<const HostField> hosts,
-                                                                      std::span<const Brush> brushes) const {
+                                                                      std::span<const Brush> brushes,
+                                                                      uint64_t* parameters) const {
   const ProfileScope scope(profiler(), zone::kCompile);
   const IntBox reached = box.grown(influenceMargin(field.cell));
   std::pmr::vector<std::shared_ptr<const DerivedCell>> held(memory_);
@@ -183,6 +202,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
     const Result<void> gathered = walkCells(layer, reached, CellsOf::chunk, [&](const CellKey& key) -> Result<void> {
       Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
       if (!derived) return derived.error();
+      if (parameters != nullptr) *parameters |= (*derived)->chunk.parameters;
       indexed.push_back((*derived)->indexed());
       held.push_back(std::move(*derived));
       return {};
@@ -214,9 +234,10 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level
   return std::shared_ptr<const FieldProgram>(std::make_shared<FieldProgram>(std::move(*program)));
 }
 
-Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box) const {
+Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box,
+                                                                     uint64_t* parameters) const {
   // One unit as the cell: in full detail, and the same whatever cells the world is meshed with.
-  return compileLayers(layer + 1, box, fieldSettings(1, 1), {}, {});
+  return compileLayers(layer + 1, box, fieldSettings(1, 1), {}, {}, parameters);
 }
 
 Result<void> WorldField::forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,

@@ -49,8 +49,20 @@ class WorldField {
   /// grammar do not. None of a world that holds `alone`, whose content has no name.
   std::optional<std::vector<std::byte>> identity() const;
 
+  /// Takes over from another field what that one has derived and this one would derive alike: cells that have read no
+  /// parameter which differs. None where program, seed or shift are others.
+  void adopt(const WorldField& other) const;
+
+  /// Whether this one derives a cell as the other does that has read these parameters (GrammarChunk::parameters).
+  bool derivesAlike(const WorldField& other, uint64_t parameters) const;
+
   /// The cell of a layer, derived or from the cache.
   Result<std::shared_ptr<const DerivedCell>> cell(uint32_t layer, Int3 cell) const;
+
+  /// Visits the cells of a layer whose shapes can reach into the box, in order z, y, x, to the first error.
+  /// limit: more than 2^24 cells.
+  Result<void> cellsAround(uint32_t layer, const IntBox& box,
+                           const std::function<Result<void>(Int3 cell)>& visit) const;
 
   /// The program of all groups that matter in the closed box at a level, of the host's fields above them and the edits
   /// above these; derivation knows nothing of either. limit: more than 2^20 cells of a layer reach into the box, or the
@@ -80,7 +92,9 @@ class WorldField {
   CellCacheStats cacheStats() const { return cache_.stats(); }
 
   /// The program of the layers up to and including `layer`, in full detail: what a derivation above may ask about.
-  Result<std::shared_ptr<const FieldProgram>> compileBelow(uint32_t layer, const IntBox& box) const;
+  /// parameters: those that they have read are added.
+  Result<std::shared_ptr<const FieldProgram>> compileBelow(uint32_t layer, const IntBox& box,
+                                                           uint64_t* parameters = nullptr) const;
 
  private:
   /// What cells are gathered for: one chunk's program, which holds all of them, or a look at each in turn.
@@ -91,7 +105,8 @@ class WorldField {
   Result<std::shared_ptr<const FieldProgram>> compileLayers(uint32_t layers, const IntBox& box,
                                                             const FieldSettings& field,
                                                             std::span<const HostField> hosts,
-                                                            std::span<const Brush> brushes) const;
+                                                            std::span<const Brush> brushes,
+                                                            uint64_t* parameters = nullptr) const;
   /// Visits the cells of all wanted layers that can reach into the box, in order.
   Result<void> forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,
                            const std::function<void(const GrammarChunk&)>& visit) const;

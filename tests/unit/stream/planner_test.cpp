@@ -42,8 +42,8 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
     std::mt19937 random(seed);
     Planner planner(plannerSettings(seed % 2 == 0));
     std::vector<WorkItem> queue;
-    EditState edits, under;
-    std::vector<EditedBox> edited;
+    WorldState edits, under;
+    std::vector<WorldChange> edited;
     std::vector<std::shared_ptr<const FrameStep>> offered;  // that may be taken, however late
     PlanInput input;
     Viewer viewer;
@@ -60,7 +60,7 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
       input.viewers = {viewer};
       input.edits = edits;
       input.edited.clear();
-      for (const EditedBox& box : edited) {
+      for (const WorldChange& box : edited) {
         if (box.number > planner.edits().number) input.edited.push_back(box);
       }
       Plan plan = planner.plan(std::move(input));
@@ -109,7 +109,7 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
 
 TEST_CASE("edits without viewers leave nothing to do") {
   Planner planner(plannerSettings(false));
-  EditState edits;
+  WorldState edits;
   for (int turn = 0; turn < 4; ++turn) {
     PlanInput input;
     input.edits = {++edits.number, nullptr};
@@ -120,8 +120,8 @@ TEST_CASE("edits without viewers leave nothing to do") {
 
 TEST_CASE("an edited chunk that cannot be made keeps the edits back, and nothing else") {
   Planner planner(plannerSettings(false));
-  EditState edits;
-  std::optional<EditedBox> pending;
+  WorldState edits;
+  std::optional<WorldChange> pending;
   bool fails = false;
   Viewer viewer;
   /// Plans and meshes until nothing is left to do.
@@ -149,7 +149,7 @@ TEST_CASE("an edited chunk that cannot be made keeps the edits back, and nothing
     return false;
   };
   REQUIRE(settle());
-  const auto dig = [&] { pending = EditedBox{++edits.number, IntBox{{0, 0, 0}, {1000, 1000, 1000}}}; };
+  const auto dig = [&] { pending = WorldChange{++edits.number, IntBox{{0, 0, 0}, {1000, 1000, 1000}}}; };
   fails = true;
   dig();
   REQUIRE(settle());

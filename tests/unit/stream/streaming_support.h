@@ -101,6 +101,9 @@ class PatientBackend final : public Backend {
   std::unique_ptr<Backend> backend_;
 };
 
+/// Of a field that outlives whoever has it.
+inline std::shared_ptr<const WorldField> lent(const WorldField& field) { return {std::shared_ptr<void>(), &field}; }
+
 struct Scene {
   explicit Scene(std::unique_ptr<JobSystem> jobs_in, const std::string& text = caveText(),
                  WorldSettings settings_in = {}, std::vector<HostField> hosts = {},
@@ -118,7 +121,7 @@ struct Scene {
     Result<std::unique_ptr<Backend>> made = makeBackend(request, *jobs, memory);
     REQUIRE(made);
     backend = std::make_unique<PatientBackend>(std::move(*made));
-    Result<std::unique_ptr<World>> created = World::create(field, *backend, *jobs, settings, memory);
+    Result<std::unique_ptr<World>> created = World::create(lent(field), *backend, *jobs, settings, memory);
     REQUIRE(created);
     world = std::move(*created);
   }
@@ -196,7 +199,8 @@ class Engine {
 using PartHashes = std::map<std::pair<ChunkKey, size_t>, ContentHash>;
 
 /// What the engine draws is, part by part, the frame of the octree; and that frame is closed in every vertex.
-inline void checkFrame(const Scene& scene, const Engine& engine, const EditSnapshot* edits = nullptr) {
+inline void checkFrame(const Scene& scene, const Engine& engine, const EditSnapshot* edits = nullptr,
+                       const WorldField* field = nullptr) {
   const std::shared_ptr<const DrawnFrame> frame = scene.world->drawn();
   PartHashes drawn, wanted;
   for (const auto& [key, shown] : engine.shown) {
@@ -206,7 +210,7 @@ inline void checkFrame(const Scene& scene, const Engine& engine, const EditSnaps
       if (range.index_count > 0) drawn[{key, i}] = range.hash;
     }
   }
-  const std::pmr::vector<PlacedChunk> chunks = meshAll(scene.field, frameRequests(frame->tree), 2, edits);
+  const std::pmr::vector<PlacedChunk> chunks = meshAll(field != nullptr ? *field : scene.field, frameRequests(frame->tree), 2, edits);
   std::vector<const MeshPart*> parts;
   for (const PlacedChunk& chunk : chunks) {
     std::vector<PlacedPart> placed;

@@ -258,7 +258,7 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
     CHECK(scene.world->editHash() == hash);
     CHECK(scene.world->stats().edits > 0);
     const Result<std::unique_ptr<World>> second =
-        World::create(scene.field, *scene.backend, *scene.jobs, scene.settings, scene.field.memory());
+        World::create(lent(scene.field), *scene.backend, *scene.jobs, scene.settings, scene.field.memory());
     REQUIRE_FALSE(second);  // somebody has it open
     CHECK(second.error().code == Code::limit);
   }
@@ -266,7 +266,7 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
   WorldSettings wrong = other.settings;
   wrong.journal = path;
   const Result<std::unique_ptr<World>> refused =
-      World::create(other.field, *other.backend, *other.jobs, wrong, other.field.memory());
+      World::create(lent(other.field), *other.backend, *other.jobs, wrong, other.field.memory());
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == Code::bad_input);
   std::filesystem::remove(path);

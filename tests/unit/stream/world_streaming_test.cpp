@@ -232,7 +232,7 @@ TEST_CASE("a cap too small to stream with is refused, with how much is needed") 
   WorldSettings settings = scene.settings;
   settings.mesh_bytes = size_t{1} << 20;
   const Result<std::unique_ptr<World>> refused =
-      World::create(scene.field, *scene.backend, *scene.jobs, settings, scene.field.memory());
+      World::create(lent(scene.field), *scene.backend, *scene.jobs, settings, scene.field.memory());
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == Code::limit);
 }
@@ -244,7 +244,7 @@ TEST_CASE("distances that would take too many chunks are refused, with what woul
     settings.lod.finest_distance = finest;
     settings.lod.view_distance = view;
     const Result<std::unique_ptr<World>> world =
-        World::create(scene.field, *scene.backend, *scene.jobs, settings, scene.field.memory());
+        World::create(lent(scene.field), *scene.backend, *scene.jobs, settings, scene.field.memory());
     REQUIRE_FALSE(world);
     CHECK(world.error().code == code);
     CHECK(world.error().message.find(says) != std::string::npos);

@@ -1,0 +1,314 @@
+// Another field in a world's place: what it changes is meshed again, and nothing else; every frame shows one field.
+
+#include <set>
+
+#include "catch.h"
+#include "edits_support.h"
+#include "rounds.h"
+#include "streaming_support.h"
+
+using namespace sgm;
+
+namespace {
+
+std::shared_ptr<const WorldField> fieldOf(WorldFieldSettings settings) {
+  return std::make_shared<const WorldField>(std::move(settings), std::pmr::get_default_resource());
+}
+
+std::shared_ptr<const WorldField> fieldOf(const std::string& text, const std::string& parameter = "",
+                                          double value = 0) {
+  WorldFieldSettings settings = settingsOf(text, kStreamedCell, 3);
+  if (!parameter.empty()) REQUIRE(settings.parameters.set(*settings.program, parameter, value));
+  return fieldOf(std::move(settings));
+}
+
+/// The cave with all its layers, and drips that show where cells are half a metre wide.
+std::string drippingText() { return replaced(sample("cave.sgm"), "detail 0.3m", "detail 0.6m"); }
+
+/// Edits of that text as an author makes them.
+struct EditedText {
+  std::string what, text;
+};
+
+std::vector<EditedText> editedTexts() {
+  const std::string cave = drippingText();
+  return {
+      {"layout alone", replaced(cave, "  anchor spawn", "  // here\n     anchor spawn")},
+      {"a rule's number", replaced(cave, "sphere(0.7*r)", "sphere(0.72*r)")},
+      {"an anchor's name", replaced(cave, "anchor spawn \"chamber\"", "anchor spawn \"hall\"")},
+      {"a material's name", replaced(cave, "mat calcite", "mat aragonite")},
+      {"a layer less", replaced(cave, "layer drip cell 24m reach 5m uses net { start Drips; }", "")},
+      {"a layer's cells", replaced(cave, "drip cell 24m", "drip cell 20m")},
+      {"a weight", replaced(cave, "Hall(r) weight 1", "Hall(r) weight 2")},
+      {"the domain", replaced(cave, "solid limestone", "solid granite")},
+      {"what drips", replaced(cave, "scatter poisson(2.2m)", "scatter poisson(2.3m)")},
+  };
+}
+
+/// All that an engine has of a chunk.
+struct Content {
+  std::vector<ContentHash> hashes;
+  std::vector<uint64_t> anchors;
+  friend bool operator==(const Content&, const Content&) = default;
+};
+
+std::vector<Content> contentsOf(const WorldField& field, const std::vector<ChunkRequest>& requests) {
+  std::vector<Content> contents;
+  for (const PlacedChunk& chunk : meshAll(field, requests, 2)) {
+    Content& content = contents.emplace_back();
+    content.hashes.push_back(chunk.mesh.body.hash);
+    for (const MeshPart& seam : chunk.mesh.seams) content.hashes.push_back(seam.hash);
+    for (const MeshPart* part : {&chunk.mesh.body}) {
+      for (const auto& vertex : part->vertices) content.anchors.push_back(vertex.material);
+    }
+    const Program& program = *field.settings().program;
+    for (const Anchor& anchor : chunk.anchors) {
+      content.anchors.push_back(anchor.key.value);
+      content.anchors.push_back(hashText(program.names[anchor.name]));
+    }
+  }
+  return contents;
+}
+
+/// Near halls, where most is.
+std::vector<ChunkRequest> randomChunks(std::mt19937& random, const WorldField& field, int level, size_t count) {
+  const IntBox halls{{-300000, -300000, -300000}, {600000, 600000, 600000}};
+  const Result<std::vector<Anchor>> anchors = field.anchors(halls);
+  REQUIRE(anchors);
+  REQUIRE(!anchors->empty());
+  std::vector<ChunkRequest> requests;
+  for (size_t i = 0; i < count; ++i) {
+    ChunkRequest& request = requests.emplace_back();
+    request.key.level = level;
+    const Int3 hall = (*anchors)[random() % anchors->size()].frame.origin;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int32_t off = static_cast<int32_t>(random() % 60000) - 30000;
+      request.key.at[axis] = (hall[axis] + off) >> level >> 14;  // chunks of level 0 are 2^14 units wide
+    }
+    request.seams = 63;
+    request.anchors = level == 0;
+  }
+  return requests;
+}
+static_assert(kChunkCells * kStreamedCell == 1 << 14);
+
+/// Chunks that must be meshed again of those asked about.
+size_t checkChange(std::mt19937& random, const std::shared_ptr<const WorldField>& from,
+                   const std::shared_ptr<const WorldField>& to) {
+  const FieldChange change(from, to);
+  size_t touched = 0;
+  for (int level = 0; level < 3; ++level) {
+    const std::vector<ChunkRequest> requests = randomChunks(random, *from, level, level == 0 ? 60 : 12);
+    const std::vector<Content> before = contentsOf(*from, requests), after = contentsOf(*to, requests);
+    for (size_t i = 0; i < requests.size(); ++i) {
+      const bool differs = before[i] != after[i];
+      const bool told = change.touches(requests[i].key);
+      touched += told;
+      INFO("level " << level << ", chunk " << requests[i].key.at.x << ' ' << requests[i].key.at.y << ' '
+                    << requests[i].key.at.z);
+      if (differs) CHECK(told);
+    }
+  }
+  return touched;
+}
+
+constexpr size_t kAllChunks = 60 + 2 * 12;
+
+}  // namespace
+
+TEST_CASE("what differs between two fields is told for every chunk that it changes", "[threads]") {
+  for (uint32_t seed = 1; seed <= rounds(2); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const std::string cave = drippingText();
+    const auto from = fieldOf(cave);
+    CHECK(checkChange(random, from, fieldOf(cave)) == 0);
+    const size_t boxy = checkChange(random, from, fieldOf(cave, "boxy", 0.5));
+    CHECK(boxy > 0);
+    CHECK(boxy < kAllChunks);  // passages are not of it
+    const size_t wet = checkChange(random, from, fieldOf(cave, "wet", 0.6));
+    CHECK(wet > 0);
+    CHECK(wet < kAllChunks);
+    for (const EditedText& edited : editedTexts()) {
+      CAPTURE(edited.what);
+      const size_t touched = checkChange(random, from, fieldOf(edited.text));
+      if (edited.what == "layout alone") CHECK(touched == 0);
+      if (edited.what == "the domain") CHECK(touched == kAllChunks);
+      if (edited.what != "layout alone") CHECK(touched > 0);
+    }
+  }
+}
+
+TEST_CASE("cells that have read no parameter that differs are taken over and not derived again") {
+  const std::string cave = drippingText();
+  const auto from = fieldOf(cave);
+  const uint32_t net = 0, drip = 1;
+  for (int32_t x = 0; x < 3; ++x) {
+    REQUIRE(from->cell(net, {x, 0, 0}));
+    REQUIRE(from->cell(drip, {x, 0, 0}));
+  }
+  const size_t cells = from->cacheStats().cells;
+  const auto wetter = fieldOf(cave, "wet", 0.7);
+  wetter->adopt(*from);
+  const auto cellOf = [](const WorldField& field, uint32_t layer, Int3 cell) { return *field.cell(layer, cell); };
+  for (int32_t x = 0; x < 3; ++x) CHECK(cellOf(*wetter, net, {x, 0, 0}) == cellOf(*from, net, {x, 0, 0}));
+  CHECK(wetter->cacheStats().misses == 0);
+  CHECK(wetter->cacheStats().cells < cells);
+  // A drip hangs from the hall that was probed, and so depends on its shape.
+  const auto boxier = fieldOf(cave, "boxy", 0.9);
+  uint64_t probed = 0;
+  for (int32_t x = 0; x < 8; ++x) probed |= cellOf(*from, drip, {x, 2, 2})->chunk.parameters;
+  const Program& program = *from->settings().program;
+  CHECK((probed & parameterBit(program.findParam("boxy"))) != 0);
+  CHECK((cellOf(*from, net, {0, 0, 0})->chunk.parameters & parameterBit(program.findParam("wet"))) == 0);
+}
+
+TEST_CASE("every frame shows one field with one state of the edits, and is closed") {
+  const std::vector<EditedText> texts = editedTexts();
+  for (uint32_t seed = 1; seed <= rounds(3); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    WorldSettings settings;
+    settings.by_reach = seed % 2 == 0;
+    Scene scene(std::make_unique<LateJobs>(seed), caveText(), settings);
+    Engine engine;
+    std::map<uint64_t, std::shared_ptr<const WorldField>> fields;
+    EditLog log{EditSettings{}};
+    std::map<uint64_t, std::shared_ptr<const EditSnapshot>> brushes;
+    const auto remember = [&] {
+      const uint64_t state = scene.world->stats().edits;
+      if (fields.count(state) != 0) return;
+      REQUIRE(log.import(scene.world->exportEdits(log.size())));
+      fields[state] = scene.world->field();
+      brushes[state] = log.snapshot();
+    };
+    remember();
+    std::shared_ptr<const WorldField> last;
+    Viewer viewer = viewerAt(96, 96, 96);
+    for (int turn = 0; turn < 40; ++turn) {
+      viewer = wander(random, viewer);
+      REQUIRE(scene.world->setViewers({&viewer, 1}));
+      if (random() % 3 == 0) {
+        last = random() % 4 == 0 ? fieldOf(texts[random() % texts.size()].text)
+                                 : fieldOf(caveText(), "boxy", static_cast<double>(random() % 101) / 100);
+        REQUIRE(scene.world->setField(last));
+      }
+      if (random() % 4 == 0) {
+        Brush brush = randomBrush(random, IntBox{{60000, 60000, 60000}, {130000, 130000, 130000}}, 8000);
+        brush.material = brush.tag = 0;
+        REQUIRE(scene.world->edit(brush));
+        remember();
+      }
+      for (int update = 0; update < 8; ++update) {
+        REQUIRE(scene.world->update(size_t{1} << 30));
+        engine.take(*scene.world);
+        for (auto jobs = random() % 90; jobs > 0 && scene.jobs->help(); --jobs) remember();
+      }
+      if (turn % 5 == 4) {
+        const uint64_t state = scene.world->drawn()->edits;
+        checkFrame(scene, engine, brushes.at(state).get(), fields.at(state).get());
+      }
+    }
+    REQUIRE(scene.world->waitIdle());
+    engine.take(*scene.world);
+    CHECK(scene.world->field() == last);
+    CHECK(scene.world->stats().edits_drawn == scene.world->stats().edits);
+    REQUIRE(log.import(scene.world->exportEdits(log.size())));
+    checkFrame(scene, engine, log.snapshot().get(), last.get());
+    // A query asks what is drawn.
+    const Result<ContentHash> streamed = scene.world->hashBodies({{60000, 60000, 60000}, {90000, 90000, 90000}}, 0);
+    REQUIRE(streamed);
+  }
+}
+
+TEST_CASE("a parameter changes what depends on it alone, and back again gives the same surfaces", "[threads]") {
+  Scene scene(*makeThreadPool(2), drippingText());
+  Engine engine;
+  const Viewer viewer = viewerAt(96, 96, 96);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  const auto before = engine.shown;
+  const WorldStats first = scene.world->stats();
+  REQUIRE(scene.world->setField(fieldOf(drippingText(), "wet", 0.6)));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  const WorldStats wetter = scene.world->stats();
+  CHECK(wetter.planner.outdated > 0);
+  CHECK(wetter.planner.outdated < first.planner.records);
+  size_t same = 0, other = 0;
+  for (const auto& [key, shown] : engine.shown) {
+    const auto was = before.find(key);
+    if (was == before.end()) continue;
+    ++(was->second.surface == shown.surface ? same : other);
+    // Stalactites are a detail of 0.6 m: no other level has any.
+    if (key.level > 0) CHECK(was->second.surface == shown.surface);
+  }
+  CHECK(same > 0);
+  REQUIRE(scene.world->setField(fieldOf(drippingText())));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  REQUIRE(engine.shown.size() == before.size());
+  for (const auto& [key, shown] : engine.shown) CHECK(shown.surface->hash == before.at(key).surface->hash);
+  // The same field again costs nothing.
+  const uint64_t outdated = scene.world->stats().planner.outdated;
+  REQUIRE(scene.world->setField(fieldOf(drippingText())));
+  REQUIRE(scene.world->waitIdle());
+  CHECK(scene.world->stats().planner.outdated == outdated);
+}
+
+TEST_CASE("a field that cannot be derived leaves what is drawn, and the next one is drawn") {
+  Scene scene(*makeThreadPool(2));
+  Engine engine;
+  engine.fails_may_come = true;
+  const Viewer viewer = viewerAt(96, 96, 96);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  const size_t drawn = engine.shown.size();
+  const std::string endless =
+      replaced(caveText(), "rule Chamber(r) {", "rule Chamber(r) { repeat 1000 { repeat 1000 { sphere(r); } }");
+  REQUIRE(scene.world->setField(fieldOf(endless)));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  CHECK(engine.shown.size() == drawn);
+  CHECK(scene.world->stats().planner.failed > 0);
+  REQUIRE(scene.world->setField(fieldOf(caveText(), "boxy", 0.8)));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  checkFrame(scene, engine, nullptr, scene.world->field().get());
+  CHECK(scene.world->stats().edits_drawn == scene.world->stats().edits);
+}
+
+TEST_CASE("fields with another cell, or that would spoil what is on disk, are refused") {
+  Scene scene(*makeThreadPool(1));
+  const Result<void> cell = scene.world->setField(fieldOf(settingsOf(caveText(), 2 * kStreamedCell)));
+  REQUIRE_FALSE(cell);
+  CHECK(cell.error().message.find("finest cell") != std::string::npos);
+}
+
+TEST_CASE("fields that come faster than they are drawn are passed over, and a moving viewer still comes to see") {
+  Scene scene(*makeThreadPool(2), drippingText());
+  Engine engine;
+  Viewer viewer = viewerAt(96, 96, 96);
+  uint64_t sets = 0;
+  uint64_t meshed = 0;
+  for (int frame = 0; frame < 200; ++frame) {
+    viewer.position[0] += 0.1 * kUnitsPerMetre;
+    REQUIRE(scene.world->setViewers({&viewer, 1}));
+    if (frame % 2 == 0) {
+      REQUIRE(scene.world->setField(fieldOf(drippingText(), "boxy", (frame % 100) / 100.0)));
+      ++sets;
+    }
+    REQUIRE(scene.world->update(size_t{8} << 20));
+    engine.take(*scene.world);
+    workOrWait(scene);
+    meshed = scene.world->stats().planner.meshed;
+  }
+  CHECK(meshed > 0);
+  CHECK(scene.world->stats().edits > 0);
+  CHECK(scene.world->stats().edits < sets);
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  checkFrame(scene, engine, nullptr, scene.world->field().get());
+}
