@@ -30,7 +30,8 @@ sgm_chunk_request requestAt(const sgm_chunks_desc& desc, size_t stride, size_t i
 }
 
 sgm_result checkRequest(const sgm_field& field, const sgm_chunk_request& request, sgm_error* error) {
-  if (sgm_result r = checkLevel(field.content->world, request.key.level, error); r != SGM_OK) return r;
+  if (sgm_result r = checkLevel(field.content->world.settings().finest_cell, request.key.level, error); r != SGM_OK)
+    return r;
   if (request.seams >> SGM_FACE_COUNT != 0)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "a chunk's seams have bits beyond the six faces");
   if ((request.coarser & ~kBlocksAround) != 0)

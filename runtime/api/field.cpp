@@ -5,7 +5,6 @@
 #include "api/backend_request.h"
 #include "api/barrier.h"
 #include "api/host_field.h"
-#include "api/note_log.h"
 #include "stream/mesh_chunks.h"
 
 using namespace sgm::api;
@@ -14,10 +13,10 @@ static_assert(SGM_MAX_LEVEL == sgm::kMaxLevel);
 
 namespace sgm::api {
 
-sgm_result checkLevel(const WorldField& field, int32_t level, sgm_error* error) {
+sgm_result checkLevel(int32_t finest_cell, int32_t level, sgm_error* error) {
   if (level < 0 || level > SGM_MAX_LEVEL)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "level is not 0 to " + std::to_string(SGM_MAX_LEVEL));
-  if (int64_t{field.settings().finest_cell} << level > kLargestCell)
+  if (int64_t{finest_cell} << level > kLargestCell)
     return fail(
         error, SGM_ERR_RANGE,
         "the cells of level " + std::to_string(level) + " are larger than " + std::to_string(kLargestCell) + " units");
@@ -48,8 +47,7 @@ sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sg
     settings.finest_cell = desc->cell_units;
     if (desc->cache_bytes != 0) settings.cache_bytes = desc->cache_bytes;
     if (runtime->sink.write != nullptr)
-      settings.on_notes = [notes = std::make_shared<NoteLog>(*runtime, desc->grammar->program)](
-                              const sgm::GrammarChunk& cell) { notes->tell(cell); };
+      settings.on_notes = [notes = desc->grammar->notes](const sgm::GrammarChunk& cell) { notes->tell(cell); };
     settings.profiler = runtime->profiler;
     if (sgm_result r = takeHosts(error, *desc, *settings.program, settings.hosts); r != SGM_OK) return r;
     sgm::Result<std::shared_ptr<sgm::Backend>> backend = backendFor(*runtime, *request);

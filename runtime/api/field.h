@@ -19,6 +19,11 @@ struct FieldContent {
   std::shared_ptr<Backend> backend;
 };
 
+/// The field, which keeps all that it is made of.
+inline std::shared_ptr<const WorldField> worldField(const std::shared_ptr<FieldContent>& content) {
+  return {content, &content->world};
+}
+
 }  // namespace sgm::api
 
 struct sgm_field {
@@ -35,8 +40,8 @@ inline constexpr int32_t kLargestFinestCell = 1 << 20;
 /// Of any level: what the rounding of vertices to units holds for (mesh/vertex.h).
 inline constexpr int64_t kLargestCell = int64_t{1} << 22;
 
-/// SGM_OK where the field has cells at the level; else INVALID_ARGUMENT (no such level) or RANGE (its cells are too
-/// large).
-sgm_result checkLevel(const WorldField& field, int32_t level, sgm_error* error);
+/// SGM_OK where a field with this finest cell, in units, has cells at the level; else INVALID_ARGUMENT (no such level)
+/// or RANGE (its cells are too large).
+sgm_result checkLevel(int32_t finest_cell, int32_t level, sgm_error* error);
 
 }  // namespace sgm::api

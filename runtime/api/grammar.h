@@ -4,16 +4,20 @@
 #include <memory>
 #include <vector>
 
+#include "api/note_log.h"
 #include "api/runtime.h"
 #include "derive/parameters.h"
 #include "grammar/compile.h"
 
 struct sgm_grammar {
   sgm_grammar(sgm_runtime& runtime_in, std::shared_ptr<const sgm::Program> program_in)
-      : runtime(runtime_in), program(std::move(program_in)) {}
+      : runtime(runtime_in),
+        program(std::move(program_in)),
+        notes(std::make_shared<sgm::api::NoteLog>(runtime, program)) {}
 
   sgm_runtime& runtime;
   std::shared_ptr<const sgm::Program> program;
+  std::shared_ptr<sgm::api::NoteLog> notes;  ///< of all its fields: a parameter may be driven many times a second
 };
 
 struct sgm_diagnostics {

@@ -44,7 +44,8 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
     *out = nullptr;
     if (field == nullptr) return nullArgument(error, "field");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
-    if (sgm_result r = checkLevel(field->content->world, desc->level, error); r != SGM_OK) return r;
+    if (sgm_result r = checkLevel(field->content->world.settings().finest_cell, desc->level, error); r != SGM_OK)
+      return r;
     sgm::IntBox box;
     for (int axis = 0; axis < 3; ++axis) {
       if (desc->minimum[axis] >= desc->maximum[axis])

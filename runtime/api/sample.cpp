@@ -169,7 +169,8 @@ sgm_result sgm_field_sample(sgm_field* field, const sgm_sample_desc* desc, sgm_e
     if (field == nullptr) return nullArgument(error, "field");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (sgm_result r = checkSamples(*desc, error); r != SGM_OK) return r;
-    if (sgm_result r = checkLevel(field->content->world, desc->level, error); r != SGM_OK) return r;
+    if (sgm_result r = checkLevel(field->content->world.settings().finest_cell, desc->level, error); r != SGM_OK)
+      return r;
     for (size_t first = 0; first < desc->count; first += kSlice) {
       const sgm::Result<void> ok = sampleSlice(*field, *desc, first, std::min(desc->count, first + kSlice));
       if (!ok) return fail(error, ok.error());

@@ -68,10 +68,10 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     *out = nullptr;
     if (field == nullptr) return nullArgument(error, "field");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
-    if (sgm_result r = checkLevel(field->content->world, desc->top_level, error); r != SGM_OK) return r;
     sgm::WorldSettings settings;
-    settings.lod.top = desc->top_level;
     settings.lod.finest_cell = field->content->world.settings().finest_cell;
+    if (sgm_result r = checkLevel(settings.lod.finest_cell, desc->top_level, error); r != SGM_OK) return r;
+    settings.lod.top = desc->top_level;
     settings.lod.finest_distance = desc->finest_distance * sgm::kUnitsPerMetre;
     settings.lod.view_distance = desc->view_distance * sgm::kUnitsPerMetre;
     if ((desc->flags & ~static_cast<uint32_t>(SGM_WORLD_BY_DISTANCE | SGM_WORLD_MORPH | SGM_WORLD_RESIDENT)) != 0)
@@ -97,10 +97,10 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     if (desc->cache_bytes != 0) settings.cache_bytes = desc->cache_bytes;
     sgm_runtime& runtime = field->runtime;
     settings.on_warning = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
-    sgm::Result<std::unique_ptr<sgm::World>> world =
-        sgm::World::create(field->content->world, *field->content->backend, *runtime.jobs, settings, &runtime.memory);
+    sgm::Result<std::unique_ptr<sgm::World>> world = sgm::World::create(
+        worldField(field->content), *field->content->backend, *runtime.jobs, settings, &runtime.memory);
     if (!world) return failData(error, world.error());
-    *out = makeHandle<sgm_world>(runtime, field->content, std::move(*world));
+    *out = makeHandle<sgm_world>(runtime, field->content->backend, settings.lod.finest_cell, std::move(*world));
     return SGM_OK;
   });
 }
@@ -218,6 +218,17 @@ sgm_result sgm_world_wait_idle(sgm_world* world, sgm_progress_function progress,
   });
 }
 
+sgm_result sgm_world_set_field(sgm_world* world, sgm_field* field, sgm_error* error) {
+  return guarded(error, [&]() -> sgm_result {
+    if (world == nullptr) return nullArgument(error, "world");
+    if (field == nullptr) return nullArgument(error, "field");
+    if (&field->runtime != &world->runtime)
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "the field is of another runtime than the world");
+    const sgm::Result<void> set = world->world->setField(worldField(field->content));
+    return set ? SGM_OK : failLogged(*world, error, set.error());
+  });
+}
+
 void sgm_world_cancel(sgm_world* world) {
   if (world != nullptr) world->world->cancel();
 }
@@ -229,7 +240,7 @@ sgm_result sgm_world_hash(sgm_world* world, const int32_t minimum[3], const int3
     if (minimum == nullptr) return nullArgument(error, "minimum");
     if (maximum == nullptr) return nullArgument(error, "maximum");
     if (hash == nullptr) return nullArgument(error, "hash");
-    if (sgm_result r = checkLevel(world->field->world, level, error); r != SGM_OK) return r;
+    if (sgm_result r = checkLevel(world->finest_cell, level, error); r != SGM_OK) return r;
     const sgm::IntBox region{{minimum[0], minimum[1], minimum[2]}, {maximum[0], maximum[1], maximum[2]}};
     const sgm::Result<sgm::ContentHash> sum = world->world->hashBodies(region, level);
     if (!sum) return fail(error, sum.error());
@@ -260,6 +271,7 @@ sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, s
     stats->detail = now.planner.detail;
     stats->idle = now.idle ? 1 : 0;
     stats->reserved = 0;
+    stats->chunks_outdated = now.planner.outdated;
     stats->collider_bytes = now.collider_bytes;
     stats->edits = world->world->editCount();
     stats->edits_state = now.edits;

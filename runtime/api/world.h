@@ -1,5 +1,5 @@
 #pragma once
-// The handle of a streamed world, which keeps its field.
+// The handle of a streamed world, which keeps its backend; the world itself keeps the fields that it needs.
 
 #include <memory>
 
@@ -8,13 +8,14 @@
 #include "stream/world.h"
 
 struct sgm_world {
-  sgm_world(sgm_runtime& runtime_in, std::shared_ptr<sgm::api::FieldContent> field_in,
+  sgm_world(sgm_runtime& runtime_in, std::shared_ptr<sgm::Backend> backend_in, int32_t finest_cell_in,
             std::unique_ptr<sgm::World> world_in)
-      : runtime(runtime_in), field(std::move(field_in)), world(std::move(world_in)) {}
+      : runtime(runtime_in), backend(std::move(backend_in)), finest_cell(finest_cell_in), world(std::move(world_in)) {}
 
   sgm_runtime& runtime;
-  std::shared_ptr<sgm::api::FieldContent> field;
-  std::unique_ptr<sgm::World> world;  ///< ends before its field
+  std::shared_ptr<sgm::Backend> backend;
+  const int32_t finest_cell;          ///< of all its fields, units
+  std::unique_ptr<sgm::World> world;  ///< ends before its backend
 };
 
 namespace sgm::api {

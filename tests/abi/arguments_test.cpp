@@ -523,6 +523,8 @@ TEST_CASE("world calls are checked") {
   CHECK(sgm_world_get_drawn(world, &drawn, 5, &count, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_world_wait_idle(nullptr, nullptr, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
   sgm_world_cancel(nullptr);
+  CHECK(sgm_world_set_field(nullptr, fixture.field.get(), &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_set_field(world, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
 
   CHECK(with([](auto& d) { d.collider_distance = -1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.view_distance = 1e7; }) == SGM_ERR_LIMIT);

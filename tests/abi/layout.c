@@ -205,7 +205,7 @@ PLACE(sgm_layer_info, name, 16);
 PLACE(sgm_layer_info, cell_units, 24);
 PLACE(sgm_layer_info, reach_units, 36);
 
-SIZE(sgm_parameter_info, 64);
+SIZE(sgm_parameter_info, 72);
 PLACE(sgm_parameter_info, struct_size, 0);
 PLACE(sgm_parameter_info, next, 8);
 PLACE(sgm_parameter_info, name, 16);
@@ -215,6 +215,8 @@ PLACE(sgm_parameter_info, whole, 36);
 PLACE(sgm_parameter_info, default_value, 40);
 PLACE(sgm_parameter_info, minimum, 48);
 PLACE(sgm_parameter_info, maximum, 56);
+PLACE(sgm_parameter_info, animated, 64);
+PLACE(sgm_parameter_info, reserved, 68);
 
 SIZE(sgm_host_lattice, 28);
 PLACE(sgm_host_lattice, origin, 0);
@@ -493,7 +495,7 @@ PLACE(sgm_drawn_chunk, mesh, 16);
 PLACE(sgm_drawn_chunk, seams, 24);
 PLACE(sgm_drawn_chunk, coarser, 28);
 
-SIZE(sgm_world_stats, 208);
+SIZE(sgm_world_stats, 216);
 PLACE(sgm_world_stats, struct_size, 0);
 PLACE(sgm_world_stats, next, 8);
 PLACE(sgm_world_stats, frame, 16);
@@ -513,14 +515,15 @@ PLACE(sgm_world_stats, peak_mesh_bytes, 120);
 PLACE(sgm_world_stats, detail, 128);
 PLACE(sgm_world_stats, idle, 136);
 PLACE(sgm_world_stats, reserved, 140);
-PLACE(sgm_world_stats, collider_bytes, 144);
-PLACE(sgm_world_stats, edits, 152);
-PLACE(sgm_world_stats, edits_state, 160);
-PLACE(sgm_world_stats, edits_drawn, 168);
-PLACE(sgm_world_stats, cache_hits, 176);
-PLACE(sgm_world_stats, cache_misses, 184);
-PLACE(sgm_world_stats, cache_damaged, 192);
-PLACE(sgm_world_stats, cache_bytes, 200);
+PLACE(sgm_world_stats, chunks_outdated, 144);
+PLACE(sgm_world_stats, collider_bytes, 152);
+PLACE(sgm_world_stats, edits, 160);
+PLACE(sgm_world_stats, edits_state, 168);
+PLACE(sgm_world_stats, edits_drawn, 176);
+PLACE(sgm_world_stats, cache_hits, 184);
+PLACE(sgm_world_stats, cache_misses, 192);
+PLACE(sgm_world_stats, cache_damaged, 200);
+PLACE(sgm_world_stats, cache_bytes, 208);
 
 /* Every _INIT macro fills its struct, in both languages, without a warning. */
 int LAYOUT_INITS(void) {

@@ -191,6 +191,109 @@ TEST_CASE("meshes have morph offsets where they are asked for, to the coarser su
   }
 }
 
+TEST_CASE("another field takes a world's place, and only what it changes is meshed again", "[threads]") {
+  const RuntimeOwner runtime = makeRuntime();
+  // Two layers of balls, of which one has a parameter.
+  const std::string text = std::string(kBalls) +
+                           "param wide = 3m in 1m..4m animated;\n"
+                           "layer rare cell 128m reach 8m detail 2m { start Rare; }\n"
+                           "rule Rare { at(40m, 24m, 24m) sphere(wide); }\n";
+  const GrammarOwner grammar = compile(runtime.get(), text.c_str());
+  const auto fieldWith = [&](double wide, int32_t cell) {
+    sgm_parameters* made = nullptr;
+    REQUIRE(sgm_parameters_create(grammar.get(), &made, nullptr) == SGM_OK);
+    const ParametersOwner parameters(made);
+    REQUIRE(sgm_parameters_set(made, "wide", wide, nullptr) == SGM_OK);
+    sgm_field_desc desc = SGM_FIELD_DESC_INIT;
+    desc.grammar = grammar.get();
+    desc.parameters = made;
+    desc.seed = 7;
+    desc.cell_units = cell;
+    sgm_field* field = nullptr;
+    REQUIRE(sgm_field_create(runtime.get(), &desc, &field, nullptr) == SGM_OK);
+    return FieldOwner(field);
+  };
+  const WorldOwner world = makeWorld(fieldWith(3, 512).get());
+  Engine engine;
+  const auto rest = [&] {
+    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+    engine.poll(world.get());
+    sgm_world_stats stats = SGM_WORLD_STATS_INIT;
+    REQUIRE(sgm_world_get_stats(world.get(), &stats, nullptr) == SGM_OK);
+    CHECK(stats.edits_drawn == stats.edits_state);
+    return stats;
+  };
+  look(world.get(), 0);
+  const sgm_world_stats before = rest();
+  const std::map<Key, Drawn> small = engine.drawn;
+  CHECK(before.chunks_outdated == 0);
+  REQUIRE(sgm_world_set_field(world.get(), fieldWith(4, 512).get(), nullptr) == SGM_OK);
+  const sgm_world_stats after = rest();
+  CHECK(after.chunks_outdated > 0);
+  CHECK(4 * after.chunks_outdated < before.kept);
+  CHECK(engine.drawn != small);
+  // The hash of the world is that of the new field.
+  const int32_t low[3] = {0, 0, 0}, high[3] = {65536, 32768, 32768};
+  uint64_t streamed = 0, alone = 0;
+  REQUIRE(sgm_world_hash(world.get(), low, high, 0, &streamed, nullptr) == SGM_OK);
+  sgm_region_desc region = SGM_REGION_DESC_INIT;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    region.minimum[axis] = low[axis];
+    region.maximum[axis] = high[axis];
+  }
+  sgm_surface* surface = nullptr;
+  REQUIRE(sgm_surface_from_region(fieldWith(4, 512).get(), &region, &surface, nullptr) == SGM_OK);
+  const SurfaceOwner owner(surface);
+  alone = sgm_surface_hash(surface);
+  CHECK(streamed == alone);
+  REQUIRE(sgm_world_set_field(world.get(), fieldWith(3, 512).get(), nullptr) == SGM_OK);
+  rest();
+  CHECK(engine.drawn == small);
+
+  sgm_error error = SGM_ERROR_INIT;
+  CHECK(sgm_world_set_field(world.get(), fieldWith(3, 256).get(), &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(std::string(error.message).find("0.25 m") != std::string::npos);
+  const RuntimeOwner other = makeRuntime();
+  const FieldOwner foreign = makeField(other.get(), compile(other.get(), kBalls).get(), 512);
+  CHECK(sgm_world_set_field(world.get(), foreign.get(), &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(std::string(error.message).find("runtime") != std::string::npos);
+}
+
+TEST_CASE("a grammar that was edited is reloaded into a world that streams", "[threads]") {
+  const RuntimeOwner runtime = makeRuntime();
+  const WorldOwner world = makeWorld(makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512).get());
+  Engine engine;
+  look(world.get(), 0);
+  REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  engine.poll(world.get());
+  const std::map<Key, Drawn> balls = engine.drawn;
+  // Boxes in the balls' place, and a new layer, while the viewer moves on; the last of them counts.
+  for (const char* rule : {"rule Ball { at(8m, 8m, 8m) box(9m); }\n", "rule Ball { at(8m, 8m, 8m) box(11m); }\n"}) {
+    const std::string text =
+        "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n" + std::string(rule);
+    const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), text.c_str()).get(), 512);
+    REQUIRE(sgm_world_set_field(world.get(), field.get(), nullptr) == SGM_OK);
+    REQUIRE(sgm_world_update(world.get(), 1 << 20, nullptr) == SGM_OK);
+    engine.poll(world.get());
+  }
+  REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  engine.poll(world.get());
+  CHECK(engine.drawn != balls);
+  const WorldOwner fresh = makeWorld(
+      makeField(runtime.get(),
+                compile(runtime.get(),
+                        "sgm 1; units m; domain infinite;\nlayer l cell 32m reach 8m detail 2m { start Ball; }\n"
+                        "rule Ball { at(8m, 8m, 8m) box(11m); }\n")
+                    .get(),
+                512)
+          .get());
+  Engine anew;
+  look(fresh.get(), 0);
+  REQUIRE(sgm_world_wait_idle(fresh.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  anew.poll(fresh.get());
+  CHECK(engine.drawn == anew.drawn);
+}
+
 TEST_CASE("a wait can be ended, and a world cancelled, at any time", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);

@@ -421,10 +421,12 @@ typedef struct sgm_parameter_info {
   int32_t whole;           /* 1: only whole numbers */
   double default_value;    /* in the quantity's unit */
   double minimum, maximum; /* both allowed; -infinity and infinity where the grammar gives no range */
+  int32_t animated;  /* 1: meant to be driven through its range while the world is watched (sgm_world_set_field) */
+  uint32_t reserved; /* 0 */
 } sgm_parameter_info;
 
 #define SGM_PARAMETER_INFO_INIT \
-  { SGM_SIZEOF(sgm_parameter_info), SGM_NULL, SGM_NULL, SGM_NULL, SGM_QUANTITY_NUMBER, 0, 0.0, 0.0, 0.0 }
+  { SGM_SIZEOF(sgm_parameter_info), SGM_NULL, SGM_NULL, SGM_NULL, SGM_QUANTITY_NUMBER, 0, 0.0, 0.0, 0.0, 0, 0 }
 
 SGM_API uint32_t sgm_grammar_parameter_count(const sgm_grammar* grammar); /* 0 for NULL */
 /* SGM_ERR_NOT_FOUND: no such index. */
@@ -488,21 +490,21 @@ typedef struct sgm_host_field {
   int32_t minimum[3]; /* units. Its solid must lie within this box: three cells outside of it, and the blend's width,
                          nothing more is asked for, and what is solid there ends where a level's cells say so */
   int32_t maximum[3];
-  float steepness;    /* the most that the value changes over a metre of way, from 0 to 1000; 1 of a distance. Then
-                         chunks far from the surface ask for a single point, and a value counts as far that is over 16 m
-                         and over what it changes by in two cells: wider blends of edits end there. Values farther apart
-                         than this allows fail a chunk. 0: not known */
-  uint32_t flags;     /* of sgm_host_flag */
-  uint16_t material;  /* index for sgm_grammar_material; 0: the default. Of a cut: what it leaves on the surface, 0:
-                         what was there */
-  uint16_t tag;       /* index for sgm_grammar_tag */
-  int32_t smooth;     /* width of the blend with what is there, 0 to 16,384 units; 0: none */
+  float steepness;   /* the most that the value changes over a metre of way, from 0 to 1000; 1 of a distance. Then
+                        chunks far from the surface ask for a single point, and a value counts as far that is over 16 m
+                        and over what it changes by in two cells: wider blends of edits end there. Values farther apart
+                        than this allows fail a chunk. 0: not known */
+  uint32_t flags;    /* of sgm_host_flag */
+  uint16_t material; /* index for sgm_grammar_material; 0: the default. Of a cut: what it leaves on the surface, 0:
+                        what was there */
+  uint16_t tag;      /* index for sgm_grammar_tag */
+  int32_t smooth;    /* width of the blend with what is there, 0 to 16,384 units; 0: none */
 } sgm_host_field;
 
-#define SGM_HOST_FIELD_INIT                                                                                    \
-  {                                                                                                            \
-    SGM_SIZEOF(sgm_host_field), SGM_NULL, SGM_NULL, SGM_NULL, 0, {INT32_MIN, INT32_MIN, INT32_MIN},            \
-        {INT32_MAX, INT32_MAX, INT32_MAX}, 0.0f, 0, 0, 0, 0                                                    \
+#define SGM_HOST_FIELD_INIT                                                                         \
+  {                                                                                                 \
+    SGM_SIZEOF(sgm_host_field), SGM_NULL, SGM_NULL, SGM_NULL, 0, {INT32_MIN, INT32_MIN, INT32_MIN}, \
+        {INT32_MAX, INT32_MAX, INT32_MAX}, 0.0f, 0, 0, 0, 0                                         \
   }
 
 typedef struct sgm_field_desc {
@@ -519,9 +521,11 @@ typedef struct sgm_field_desc {
   size_t host_count;                /* at most 16 */
 } sgm_field_desc;
 
-#define SGM_FIELD_DESC_INIT \
-  { SGM_SIZEOF(sgm_field_desc), SGM_NULL, SGM_NULL, SGM_NULL, 0, SGM_UNITS_PER_METRE / 2, SGM_BACKEND_AUTO, 0, \
-    SGM_NULL, 0, 0 }
+#define SGM_FIELD_DESC_INIT                                                                                    \
+  {                                                                                                            \
+    SGM_SIZEOF(sgm_field_desc), SGM_NULL, SGM_NULL, SGM_NULL, 0, SGM_UNITS_PER_METRE / 2, SGM_BACKEND_AUTO, 0, \
+        SGM_NULL, 0, 0                                                                                         \
+  }
 
 SGM_API sgm_result sgm_field_create(sgm_runtime* runtime, const sgm_field_desc* desc, sgm_field** out,
                                     sgm_error* error);
@@ -1111,6 +1115,18 @@ SGM_API sgm_result sgm_world_get_drawn(sgm_world* world, sgm_drawn_chunk* chunks
 SGM_API sgm_result sgm_world_wait_idle(sgm_world* world, sgm_progress_function progress, void* progress_user,
                                        sgm_error* error);
 
+/* Puts another field in the place of the world's own: with other parameters, or of a grammar that was edited (hot
+ * reload), or with other fields of the engine's. What differs is found on the jobs; only chunks that it reaches are
+ * meshed again (sgm_world_stats.chunks_outdated counts them), and all of them are drawn in one frame of changes. Never
+ * waits, so that a parameter can be driven ten times a second: fields that come faster than they can be drawn are
+ * passed over, but for the last, and half of the jobs' time stays with what the viewers come to see. Edits stay, and
+ * their materials and tags keep their numbers, which are the new grammar's now. The world keeps the backend that it was
+ * created with, and keeps the field as long as it needs it. A journal is of the field that the world was created with:
+ * create it with the same one again, then set the other. What the engine's own fields sample must not change under one
+ * identity; those of identity 0 count as changed. SGM_ERR_INVALID_ARGUMENT: a field of another runtime or with other
+ * cell_units; one of identity 0 where the world keeps anything on disk. */
+SGM_API sgm_result sgm_world_set_field(sgm_world* world, sgm_field* field, sgm_error* error);
+
 /* Drops everything that waits to be meshed; what is being meshed is dropped when it comes back. What is drawn stays.
  * The next update begins anew for the viewers there are: take them away first to stop. */
 SGM_API void sgm_world_cancel(sgm_world* world);
@@ -1208,22 +1224,26 @@ typedef struct sgm_world_stats {
   uint64_t kept;       /* chunks known now, drawn or not, empty or not */
   uint64_t mesh_bytes; /* of all meshes now, the engine's included */
   uint64_t peak_mesh_bytes;
-  double detail;           /* factor on the distances of detail: below 1 where memory is scarce */
-  int32_t idle;            /* 1: what the viewers want is drawn, as far as it can be made, edits and colliders
-                              included */
-  uint32_t reserved;       /* 0 */
-  uint64_t collider_bytes; /* of the colliders that chunks have now */
-  uint64_t edits;          /* known: brushes, undos and redos */
-  uint64_t edits_state;    /* rises with every change that edits make to the world */
-  uint64_t edits_drawn;    /* the edits_state that is drawn now */
-  uint64_t cache_hits;     /* parts of chunks that came from cache_folder */
-  uint64_t cache_misses;  /* parts that are proven to be empty among them: these are not kept */
-  uint64_t cache_damaged; /* of the misses, those where what was there could not be trusted */
-  uint64_t cache_bytes;   /* of the folder's files, as far as they were looked at */
+  double detail;            /* factor on the distances of detail: below 1 where memory is scarce */
+  int32_t idle;             /* 1: what the viewers want is drawn, as far as it can be made, edits and colliders
+                               included */
+  uint32_t reserved;        /* 0 */
+  uint64_t chunks_outdated; /* that were there, and that an edit or another field had meshed again */
+  uint64_t collider_bytes;  /* of the colliders that chunks have now */
+  uint64_t edits;           /* known: brushes, undos and redos */
+  uint64_t edits_state;     /* rises with every change that edits, or another field, make to the world */
+  uint64_t edits_drawn;     /* the edits_state that is drawn now */
+  uint64_t cache_hits;      /* parts of chunks that came from cache_folder */
+  uint64_t cache_misses;    /* parts that are proven to be empty among them: these are not kept */
+  uint64_t cache_damaged;   /* of the misses, those where what was there could not be trusted */
+  uint64_t cache_bytes;     /* of the folder's files, as far as they were looked at */
 } sgm_world_stats;
 
-#define SGM_WORLD_STATS_INIT \
-  { SGM_SIZEOF(sgm_world_stats), SGM_NULL, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+#define SGM_WORLD_STATS_INIT                                                                                         \
+  {                                                                                                                  \
+    SGM_SIZEOF(sgm_world_stats), SGM_NULL, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, \
+        0, 0                                                                                                         \
+  }
 
 SGM_API sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, sgm_error* error);
 
