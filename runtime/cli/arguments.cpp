@@ -246,6 +246,12 @@ Command addFly(CLI::App& root) {
       ->expected(0, 1)
       ->default_str("1")
       ->check(numberIn(0.0, 60.0));
+  CLI::Option* animate =
+      app->add_option("--animate", options->animated,
+                      "Drive these parameters through their ranges, there and back in 10 s, ten times a second. "
+                      "Without a name: those that the grammar declares `animated`")
+          ->type_name("NAME")
+          ->expected(0, -1);
   app->add_flag(
       "--check", options->check,
       "Check every frame's surface for open and non-manifold edges by exact keys, and each 500th frame whole. "
@@ -285,7 +291,11 @@ Command addFly(CLI::App& root) {
       ->excludes(compare);
   app->footer(
       "Example:\n  sgm fly samples/grammars/cave.sgm --cell 0.25 --speed 20 --frames 1200 --png 6 --out flight.png");
-  return [options] { return fly(*options); };
+  return [options, animate] {
+    options->animate = animate->count() > 0;
+    std::erase(options->animated, "");  // what stands for no name
+    return fly(*options);
+  };
 }
 
 Command addBench(CLI::App& root) {

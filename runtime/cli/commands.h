@@ -48,7 +48,9 @@ struct FlyOptions : WorldOptions {
   double speed = 20;
   uint64_t frames = 600;
   uint64_t teleports = 0;
-  double edits = 0;  ///< digs a second of the path
+  double edits = 0;                   ///< digs a second of the path
+  bool animate = false;               ///< drive parameters while flying
+  std::vector<std::string> animated;  ///< these; none: all that the grammar declares animated
   bool check = false, unpaced = false, compare = false;
   int top_level = 6;
   double finest = 24, finest_margin = 6, view = 600;  ///< metres

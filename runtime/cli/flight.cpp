@@ -186,6 +186,10 @@ class Flight {
     if (digger_) {
       if (Result<void> dug = digger_->dig(); !dug) return dug.error();
     }
+    if (settings_.each_frame) {
+      const double seconds = static_cast<double>(times_.size()) / kFramesASecond;
+      if (Result<void> done = settings_.each_frame(seconds); !done) return done.error();
+    }
     if (sgm_world_set_viewers(world_, &viewer, 0, 1, &error) != SGM_OK) return errorOf(error);
     if (sgm_world_update(world_, settings_.frame_bytes, &error) != SGM_OK) return errorOf(error);
     const Result<uint64_t> handed_over = engine_.poll(world_);

@@ -25,12 +25,16 @@ struct FlightSettings {
   bool paced = true;            ///< 60 frames a second; else as fast as they come
   double finest_distance = 24;  ///< metres within which a seen surface should be of level 0, as the world was told
   uint64_t frame_bytes = uint64_t{4} << 20;  ///< most bytes handed over in one frame
+  /// What else an engine does in a frame, so many seconds after the first; its time counts with the frame's. May be
+  /// empty.
+  std::function<Result<void>(double seconds)> each_frame;
 };
 
 struct FlightReport {
   uint64_t frames = 0, commits = 0;
   CheckedFrames checked;    ///< what is drawn at the end, at rest, too; empty without `check`
-  Spread main_thread;       ///< thread CPU time of digging, viewers, update, polling, letting go of meshes; ms
+  Spread main_thread;       ///< thread CPU time of digging, viewers, update, polling, letting go of meshes, and what
+                            ///< FlightSettings::each_frame does; ms
   double walkable_ms = -1;  ///< from the first update until every surface seen within kWalkableDistance is
                             ///< of level 0, and everything drawn there has a collider
   double seconds = 0;       ///< on the wall, without planning of the path and checks where they are apart

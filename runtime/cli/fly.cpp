@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/flight_animation.h"
 #include "cli/fly_pictures.h"
 #include "cli/fly_report.h"
 #include "cli/region.h"
@@ -37,6 +38,7 @@ struct Scene {
   Owner<sgm_field, sgm_field_destroy> field;
   Owner<sgm_world, sgm_world_destroy> world;
   int32_t cell = 0;
+  sgm_field_desc field_desc = SGM_FIELD_DESC_INIT;
 };
 
 Exit complain(const sgm_error& error) {
@@ -88,7 +90,7 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   const Result<int32_t> cell = cellUnits(options);
   if (!cell) return cli::complain(cell.error());
   scene.cell = *cell;
-  sgm_field_desc field_desc = SGM_FIELD_DESC_INIT;
+  sgm_field_desc& field_desc = scene.field_desc;
   field_desc.grammar = grammar;
   field_desc.parameters = parameters;
   field_desc.seed = options.seed;
@@ -164,7 +166,15 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   if (const Exit status = makeScene(options, pictures == nullptr, scene); status != Exit::done) return {{}, status};
   Result<FlightPath> path = pathOf(options, scene);
   if (!path) return {{}, cli::complain(path.error())};
-  const FlightSettings settings = settingsOf(options, scene);
+  FlightSettings settings = settingsOf(options, scene);
+  std::optional<FlightAnimation> animation;
+  if (options.animate) {
+    Result<FlightAnimation> made =
+        FlightAnimation::of(scene.runtime.get(), scene.field_desc, scene.parameters.get(), options.animated);
+    if (!made) return {{}, cli::complain(made.error())};
+    animation = std::move(*made);
+    settings.each_frame = [&](double seconds) { return animation->show(scene.world.get(), seconds); };
+  }
   FlightPlace last;
   std::optional<ProgressBar> bar(std::in_place, "planning");
   FlightWatch watch;
@@ -184,6 +194,7 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   Flown flown;
   flown.report = std::move(*report);
   flown.frame_bytes = settings.frame_bytes;
+  if (animation) flown.fields = animation->fields();
   const Result<uint64_t> hash = hashAround(scene, last);
   if (!hash) return {{}, cli::complain(hash.error())};
   flown.hash = *hash;

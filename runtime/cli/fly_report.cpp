@@ -50,6 +50,8 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
       {"stale_after_2_frames", staleJson(r)},
       {"lod0_coverage", shareOf(r.seen_finest, r.seen)},
       {"lod0_covered_frames", shareOf(r.frames_covered, r.frames_seen)},
+      {"fields", flown.fields},
+      {"chunks_outdated", r.stats.chunks_outdated},
       {"digs", r.digs.digs()},
       {"digs_by_kind", {{"cuts", r.digs.cuts}, {"adds", r.digs.adds}, {"undos", r.digs.undos}}},
       {"dig_frames", toJson(r.digs.frames)},
@@ -112,6 +114,10 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
     const Spread stale = spreadOf(r.stale);
     fmt::print("  leaps     2 frames later {:.1f} % of the work for the old place was left, {:.1f} % in the middle\n",
                100 * stale.max, 100 * stale.p50);
+  }
+  if (flown.fields > 0) {
+    fmt::print("  fields    {} with other parameters; they and digs had {} chunks meshed again, {:.1f} % of all\n",
+               flown.fields, r.stats.chunks_outdated, 100 * shareOf(r.stats.chunks_outdated, r.stats.chunks_meshed));
   }
   if (r.digs.digs() > 0) {
     fmt::print(

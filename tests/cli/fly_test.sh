@@ -47,6 +47,22 @@ expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --path path.json --frames 1 --to
 out_has "over before all that is seen"
 err_empty
 
+# Parameters that are driven while it flies: every frame is closed, and shows one field.
+expect 0 "$SGM" fly "$cave" "${small[@]}" --speed 20 --frames 400 --check --edits 5 --animate boxy wet
+json 'j.fields >= 60 && j.chunks_outdated > 0 && j.chunks_outdated < j.chunks_meshed'
+json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.overlaps === 0 && j.whole_failures === 0'
+expect 1 "$SGM" fly "$cave" "${small[@]}" --frames 10 --animate boxi
+err_has '--animate.*did you mean `boxy`'
+expect 1 "$SGM" fly "$cave" "${small[@]}" --frames 10 --animate
+err_has 'declares no animated parameter'
+sed 's/param boxy = 0.3 in 0..1/param boxy = 0.3 in 0..1 animated/; s/param wet = 50% in 0%..100%/param wet = 50%/' \
+  "$cave" >tide.sgm
+expect 0 "$SGM" fly tide.sgm "${small[@]}" --frames 40 --animate
+json 'j.fields >= 5'
+expect 1 "$SGM" fly tide.sgm "${small[@]}" --frames 10 --animate wet
+err_has 'no range'
+rm tide.sgm
+
 # What was dug and meshed is there for the next flight, and another one digs elsewhere.
 kept=(--path path.json --speed 10 --frames 180 --edits 4 --journal dug)
 left=(bin dug path.json other.json one.json torn.json flat.json)
