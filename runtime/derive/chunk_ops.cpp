@@ -37,10 +37,11 @@ void translate(GrammarChunk& chunk, Int3 offset) {
   for (Shape& s : chunk.shapes) {
     // Combiners have no place of their own.
     if (s.kind < ShapeKind::unite || s.kind == ShapeKind::morph_power) move(s.frame.origin);
+    // A prism's points are local; a sweep's are in the world, here and in expressions.
+    for (uint32_t i = 0; s.kind != ShapeKind::prism && i < s.point_count; ++i) move(chunk.points[s.first_point + i]);
   }
   for (Expr& e : chunk.exprs) {
     if (e.op == ExprOp::coordinate) move(e.anchor);
-    // A prism's points are local; a sweep's are in the world.
     for (uint32_t i = 0; i < e.point_count; ++i) move(chunk.points[e.first_point + i]);
   }
   for (NoiseSpec& n : chunk.noises) move(n.origin);

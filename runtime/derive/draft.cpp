@@ -177,6 +177,11 @@ uint32_t Draft::addPolyline(std::vector<Int3> points) {
   return static_cast<uint32_t>(polyline_first_.size()) - 1;
 }
 
+void Draft::setLine(uint32_t shape, uint32_t polyline) {
+  chunk_.shapes[shape].first_point = polyline_first_[polyline];
+  chunk_.shapes[shape].point_count = polyline_count_[polyline];
+}
+
 uint32_t Draft::addPrismPoints(std::span<const Int3> points) {
   const uint32_t first = static_cast<uint32_t>(chunk_.points.size());
   chunk_.points.insert(chunk_.points.end(), points.begin(), points.end());

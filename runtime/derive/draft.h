@@ -70,6 +70,8 @@ class Draft {
   uint32_t triple(const std::array<Num, 3>& n);
 
   uint32_t addPolyline(std::vector<Int3> points);
+  /// Has the shape know the line that it follows (Shape::first_point).
+  void setLine(uint32_t shape, uint32_t polyline);
   uint32_t addPrismPoints(std::span<const Int3> points);
 
   /// Children are appended here; s.first_child and s.child_count are set.

@@ -190,9 +190,12 @@ void Interpreter::sweptLeaf(bool square, const ExprNode& node, uint32_t ordinal,
     }
   }
   if (failed()) return;
-  const uint32_t whole =
-      pieces.size() == 1 ? pieces[0] : addShape(shapeIn(env, ShapeKind::unite), ordinal, node.span, env, pieces);
-  draft_.setSweep(whole, draft_.addPolyline(corners));
+  Shape joint = shapeIn(env, ShapeKind::unite);
+  joint.size[0] = static_cast<float>(r);
+  const uint32_t whole = pieces.size() == 1 ? pieces[0] : addShape(joint, ordinal, node.span, env, pieces);
+  const uint32_t line = draft_.addPolyline(corners);
+  draft_.setSweep(whole, line);
+  draft_.setLine(whole, line);
   out.push_back(whole);
 }
 

@@ -61,12 +61,14 @@ struct Shape {
   uint16_t tag = 0;       ///< index into the grammar's tags; 0: none
   uint32_t first_child = 0, child_count = 0;  ///< range in GrammarChunk::children
   uint32_t expr = kNone;                      ///< root in GrammarChunk::exprs
-  uint32_t first_point = 0, point_count = 0;  ///< range in GrammarChunk::points (prism)
-  int32_t detail = 0;      ///< drop the shape at levels whose cell edge is larger, in units; 0: never
-  int32_t coarsest = 0;    ///< with lod alternatives: keep only where the cell edge >= this, in units; 0: always
-  float amount = 0;        ///< smooth radius in units, or a constant morph t
-  float inner_radius = 0;  ///< leaves under a sum, in units
-  std::array<float, 6> size{};
+  /// Range in GrammarChunk::points: a prism's corners; of a sweep, a shape of its own or the union of its pieces, the
+  /// line that it follows, for texture coordinates alone.
+  uint32_t first_point = 0, point_count = 0;
+  int32_t detail = 0;           ///< drop the shape at levels whose cell edge is larger, in units; 0: never
+  int32_t coarsest = 0;         ///< with lod alternatives: keep only where the cell edge >= this, in units; 0: always
+  float amount = 0;             ///< smooth radius in units, or a constant morph t
+  float inner_radius = 0;       ///< leaves under a sum, in units
+  std::array<float, 6> size{};  ///< of a sweep's union: its radius in units
   Frame frame;
 };
 

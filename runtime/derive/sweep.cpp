@@ -54,24 +54,35 @@ std::vector<Int3> bentLine(Int3 a, Int3 b, double bend, PathKey key) {
   return corners;
 }
 
-std::vector<BeamPiece> beamAlong(const std::vector<Int3>& corners, double r, Vec3 up) {
-  std::vector<BeamPiece> pieces;
-  Vec3 normal, previous;
+std::vector<LineFrame> framesAlong(std::span<const Int3> corners, Vec3 up) {
+  std::vector<LineFrame> frames;
   for (size_t i = 0; i + 1 < corners.size(); ++i) {
     const Vec3 line = difference(corners[i + 1], corners[i]);
-    const double size = length(line);
-    const Vec3 tangent = (1.0 / size) * line;
+    LineFrame next;
+    next.length = length(line);
+    next.tangent = (1.0 / next.length) * line;
     if (i == 0) {
-      normal = across(tangent, up);
+      next.normal = across(next.tangent, up);
     } else {
       // The least rotation between the tangents is, on vectors across the old one, the reflection in the plane across
       // their sum.
-      const Vec3 sum = previous + tangent;
+      const LineFrame& last = frames.back();
+      const Vec3 sum = last.tangent + next.tangent;
       const double square = dot(sum, sum);
-      if (square > 1e-12) normal = normal - (2.0 * dot(sum, normal) / square) * sum;
-      normal = across(tangent, normal);
+      const Vec3 carried = square > 1e-12 ? last.normal - (2.0 * dot(sum, last.normal) / square) * sum : last.normal;
+      next.normal = across(next.tangent, carried);
     }
-    previous = tangent;
+    frames.push_back(next);
+  }
+  return frames;
+}
+
+std::vector<BeamPiece> beamAlong(const std::vector<Int3>& corners, double r, Vec3 up) {
+  std::vector<BeamPiece> pieces;
+  const std::vector<LineFrame> frames = framesAlong(corners, up);
+  for (size_t i = 0; i < frames.size(); ++i) {
+    const auto& [tangent, normal, size] = frames[i];
+    const Vec3 line = difference(corners[i + 1], corners[i]);
     const Vec3 side = cross(normal, tangent);
     BeamPiece piece;
     piece.frame.origin = offsetBy(corners[i], 0.5 * line);
