@@ -24,8 +24,15 @@ float kernelThreshold() {
 // Emits one grammar chunk's shapes.
 class ShapeCompiler {
  public:
-  ShapeCompiler(const GrammarChunk& chunk, int32_t cell, ProgramBuilder& builder, std::pmr::memory_resource* memory)
-      : chunk_(chunk), cell_(cell), builder_(builder), known_(chunk.exprs.size(), memory) {}
+  /// cell_number: as ShapeLabels::Source has it; shapes: null, or to name shapes by.
+  ShapeCompiler(const GrammarChunk& chunk, uint32_t cell_number, int32_t cell, ShapeLabels* shapes,
+                ProgramBuilder& builder, std::pmr::memory_resource* memory)
+      : chunk_(chunk),
+        cell_number_(cell_number),
+        cell_(cell),
+        shapes_(shapes),
+        builder_(builder),
+        known_(chunk.exprs.size(), memory) {}
 
   /// Nothing where the level drops the whole shape.
   Result<std::optional<Value>> root(uint32_t shape) {
@@ -38,6 +45,13 @@ class ShapeCompiler {
 
   bool dropped(const Shape& s) const {
     return (s.detail != 0 && cell_ > s.detail) || (s.coarsest != 0 && cell_ < s.coarsest);
+  }
+
+  /// Material and tag, or the shape's own number; pieces of one sweep have the number of the whole.
+  uint32_t labelOf(uint32_t index) {
+    const Shape& s = chunk_.shapes[index];
+    if (shapes_ == nullptr) return makeLabel(s.material, s.tag);
+    return sweep_ ? *sweep_ : shapes_->add({cell_number_, index});
   }
 
   std::span<const uint32_t> children(const Shape& s) const {
@@ -146,7 +160,7 @@ class ShapeCompiler {
     if (depth > kMaxShapeDepth) {
       return Error{Code::limit, "shapes are nested more than 256 deep; split the rule into shallower ones"};
     }
-    const uint32_t label = makeLabel(s.material, s.tag);
+    const uint32_t label = s.child_count == 0 ? labelOf(index) : 0;
     const auto& z = s.size;
     switch (s.kind) {
       case ShapeKind::sphere:
@@ -174,8 +188,13 @@ class ShapeCompiler {
         const Value t = s.expr == kNone ? builder_.constant(s.amount) : expr(s.expr);
         return some(builder_.powerMorph(s.frame, z, t, label));
       }
-      case ShapeKind::unite:
-        return chain(s, Op::minimum, depth, false);
+      case ShapeKind::unite: {
+        const std::optional<uint32_t> outer = sweep_;
+        if (s.point_count > 0 && shapes_ != nullptr) sweep_ = labelOf(index);
+        Emitted pieces = chain(s, Op::minimum, depth, false);
+        sweep_ = outer;
+        return pieces;
+      }
       case ShapeKind::meet:
         return chain(s, Op::maximum, depth, true);
       case ShapeKind::subtract:
@@ -260,7 +279,7 @@ class ShapeCompiler {
       const Shape& c = chunk_.shapes[child];
       std::optional<Value> weight;
       if (c.kind == ShapeKind::sphere && !dropped(c)) {
-        weight = builder_.blobWeight(c.frame.origin, c.size[0], makeLabel(c.material, c.tag));
+        weight = builder_.blobWeight(c.frame.origin, c.size[0], labelOf(child));
       } else {
         Emitted v = emit(child, depth + 1);
         if (!v) return v;
@@ -301,7 +320,10 @@ class ShapeCompiler {
   };
 
   const GrammarChunk& chunk_;
+  uint32_t cell_number_;
   int32_t cell_;
+  ShapeLabels* shapes_;
+  std::optional<uint32_t> sweep_;  ///< the label of what is being emitted, where that is a piece of a sweep
   ProgramBuilder& builder_;
   std::pmr::vector<Known> known_;
   uint64_t epochs_ = 0;
@@ -340,11 +362,15 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
     return a.group < b.group;
   });
 
-  ProgramBuilder builder(settings.finest_cell, settings.solid, settings.label, memory);
+  const bool by_shape = settings.shapes != nullptr;
+  ProgramBuilder builder(settings.finest_cell, settings.solid, by_shape ? kNoShape : settings.label, memory);
   std::pmr::vector<std::optional<ShapeCompiler>> compilers(cells.size(), memory);
   for (const Gathered& g : gathered) {
     std::optional<ShapeCompiler>& compiler = compilers[g.cell];
-    if (!compiler) compiler.emplace(*cells[g.cell].chunk, settings.cell, builder, memory);
+    if (!compiler) {
+      compiler.emplace(*cells[g.cell].chunk, static_cast<uint32_t>(g.cell), settings.cell, settings.shapes, builder,
+                       memory);
+    }
     const Group& group = cells[g.cell].chunk->groups[g.group];
     Result<std::optional<Value>> root = compiler->root(group.root);
     if (!root) return root.error();
@@ -356,12 +382,14 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
   uint32_t layer = gathered.empty() ? 0 : gathered.back().layer;
   for (const HostField& host : hosts) {
     if (!host.bounds.grown(host.smooth).grown(margin).meets(box)) continue;
-    if (Result<void> emitted = emitHostField(builder, host, box, settings.cell, ++layer, memory); !emitted) {
+    const uint32_t label = by_shape ? kNoShape : host.label;
+    if (Result<void> emitted = emitHostField(builder, host, box, settings.cell, ++layer, label, memory); !emitted) {
       return emitted.error();
     }
   }
-  for (const Brush& brush : brushes) {
+  for (Brush brush : brushes) {
     if (!brushShows(brush, settings.cell) || !brushBounds(brush).grown(margin).meets(box)) continue;
+    if (by_shape) brush.material = brush.tag = 0xFFFF;
     if (Result<void> emitted = emitBrush(builder, brush, settings.cell, ++layer); !emitted) return emitted.error();
   }
   return builder.finish();

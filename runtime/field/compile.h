@@ -7,6 +7,7 @@
 #include "field/brush.h"
 #include "field/group_index.h"
 #include "field/host_field.h"
+#include "field/shape_labels.h"
 
 namespace sgm {
 
@@ -22,6 +23,8 @@ struct FieldSettings {
   int32_t cell = kUnitsPerMetre / 2;         ///< cell edge of this level in units: drops detail, limits octaves
   bool solid = false;                        ///< the domain's own state
   uint32_t label = 0;                        ///< the domain's own material and tag
+  ShapeLabels* shapes = nullptr;             ///< labels are to name shapes: these; the domain's, hosts' and brushes'
+                                             ///< labels are kNoShape then
 };
 
 /// Compiles all groups whose influence box meets `box`. Cells may come in any order, each once: groups are sorted by

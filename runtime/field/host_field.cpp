@@ -80,7 +80,7 @@ Result<float> farSide(const HostField& field, const SampleLattice& lattice, doub
 }  // namespace
 
 Result<void> emitHostField(ProgramBuilder& builder, const HostField& field, const IntBox& box, int32_t cell,
-                           uint32_t layer, std::pmr::memory_resource* memory) {
+                           uint32_t layer, uint32_t label, std::pmr::memory_resource* memory) {
   const IntBox influence = field.bounds.grown(field.smooth).grown(influenceMargin(cell));
   SampleLattice lattice = latticeAround(box.clipped(influence), cell);
   const double steep = double{field.steepness} * influenceMargin(cell);
@@ -97,7 +97,7 @@ Result<void> emitHostField(ProgramBuilder& builder, const HostField& field, cons
   if (*side == 0) {
     if (Result<void> taken = takeSamples(field, lattice, samples); !taken) return taken;
   }
-  const Value root = builder.lattice(lattice, samples, static_cast<float>(limit), field.label);
+  const Value root = builder.lattice(lattice, samples, static_cast<float>(limit), label);
   return builder.group(root, influence, layer, field.cut, static_cast<float>(field.smooth));
 }
 

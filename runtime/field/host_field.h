@@ -27,10 +27,10 @@ struct HostField {
   float steepness = 0;
 };
 
-/// Emits the field over a box as the only group of a layer, sampled as the level's cells are. Errors: of the samples;
-/// invalid_argument: a sample is not finite, or two are farther apart than the steepness allows; limit: more samples
-/// than an op can have.
+/// Emits the field over a box as the only group of a layer, with `label` in the place of its own, sampled as the
+/// level's cells are. Errors: of the samples; invalid_argument: a sample is not finite, or two are farther apart than
+/// the steepness allows; limit: more samples than an op can have.
 Result<void> emitHostField(ProgramBuilder& builder, const HostField& field, const IntBox& box, int32_t cell,
-                           uint32_t layer, std::pmr::memory_resource* memory);
+                           uint32_t layer, uint32_t label, std::pmr::memory_resource* memory);
 
 }  // namespace sgm
