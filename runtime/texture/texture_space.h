@@ -1,0 +1,75 @@
+#pragma once
+// A shape's own texture coordinates: along and around a passage, over the faces of a box, by the world's axes where no
+// shape makes the surface.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "derive/shape.h"
+
+namespace sgm {
+
+/// A part of a shape's surface that is laid out by itself.
+using Chart = uint16_t;
+
+/// x, y, z.
+using TexturePoint = std::array<double, 3>;
+
+class SweepLine;
+
+struct TextureCoordinates {
+  double u = 0, v = 0;
+};
+
+/// Coordinates count tiles of one edge. Around what is closed a whole number of tiles fits, so that a texture that
+/// repeats meets itself; u x v points into the void, so that nothing is mirrored.
+///
+///   sphere, ellipsoid, superquadric   six charts by the local axis that is largest, as a cube's; equal steps of u and
+///   v
+///                                     are equal angles
+///   box, prism                        a chart for each face
+///   cylinder, truncone                around and along the side; the ends by their plane
+///   capsule, tube, beam               around and along the line: one chart
+///   torus                             around the ring and around the tube: one chart
+///   halfspace                         its plane
+///   what is left                      six charts by the world's axes
+///
+/// Immutable. Positions are world positions in units, exact in double precision.
+class TextureSpace {
+ public:
+  /// By the world's axes, from a base in units. tile: of the edge, units, at least 1. A base that is a multiple of the
+  /// tile puts the tiles of all worlds' parts on one lattice.
+  TextureSpace(Int3 base, int32_t tile);
+  /// Of a leaf, or of the union of a sweep's pieces.
+  TextureSpace(const GrammarChunk& chunk, uint32_t shape, int32_t tile);
+
+  /// The chart that suits a triangle with this middle and this normal (any length, out of the solid).
+  Chart chartOf(const TexturePoint& middle, const TexturePoint& normal) const;
+  /// Of a point, in a chart of any triangle near it.
+  TextureCoordinates at(const TexturePoint& p, Chart chart) const;
+  /// Tiles after which the same place comes again; 0: never. Where it is not 0, at() leaps by it somewhere.
+  TextureCoordinates period(Chart chart) const;
+
+ private:
+  enum class Kind : uint8_t { world, ball, faces, round, line, ring, plane, prism };
+
+  TexturePoint local(const TexturePoint& p) const;
+  TexturePoint turned(const TexturePoint& world) const;
+  TextureCoordinates plane(const TexturePoint& q, int face) const;
+  Chart prismChart(const TexturePoint& q, const TexturePoint& n) const;
+  /// Of the surface without displacement, at a local point.
+  TexturePoint outwardAt(const TexturePoint& q) const;
+  double tilesAround(double radius) const;
+
+  Kind kind_ = Kind::world;
+  double tile_ = 1;
+  TexturePoint origin_{};
+  std::array<TexturePoint, 3> axes_{TexturePoint{1, 0, 0}, TexturePoint{0, 1, 0}, TexturePoint{0, 0, 1}};
+  std::array<double, 3> size_{};  ///< ball: radii; round: bottom, top, half height; line: radius; ring: ring, tube
+  std::shared_ptr<const SweepLine> line_;
+  std::vector<std::array<double, 2>> corners_;  ///< of a prism, local x and z
+};
+
+}  // namespace sgm

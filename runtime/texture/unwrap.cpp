@@ -1,0 +1,118 @@
+#include "texture/unwrap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+#include "base/hash.h"
+
+namespace sgm {
+namespace {
+
+/// What makes two wedges of a vertex the same.
+struct WedgeKey {
+  uint32_t vertex = 0, label = 0;
+  Chart chart = 0;
+  int16_t turns_u = 0, turns_v = 0;
+  friend bool operator==(const WedgeKey&, const WedgeKey&) = default;
+};
+
+struct WedgeKeyHash {
+  size_t operator()(const WedgeKey& key) const {
+    const uint64_t turns = static_cast<uint16_t>(key.turns_u) | uint64_t{static_cast<uint16_t>(key.turns_v)} << 16;
+    const uint64_t place = uint64_t{key.vertex} | uint64_t{key.label} << 32;
+    return static_cast<size_t>(mix64(place * 0x9E3779B97F4A7C15u + (turns | uint64_t{key.chart} << 32)));
+  }
+};
+
+/// Whole turns that bring x next to `to`.
+int16_t turnsTo(double x, double to, double period) {
+  if (!(period > 0)) return 0;
+  return static_cast<int16_t>(std::clamp(std::floor((to - x) / period + 0.5), -1000.0, 1000.0));
+}
+
+TexturePoint difference(const TexturePoint& a, const TexturePoint& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// At right angles to both, as long as their parallelogram is large.
+TexturePoint crossed(const TexturePoint& a, const TexturePoint& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double area(double ax, double ay, double bx, double by) { return std::fabs(ax * by - ay * bx); }
+
+}  // namespace
+
+Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory) {
+  Unwrapped out(memory);
+  out.corners.reserve(mesh.indices.size());
+  std::unordered_map<WedgeKey, uint32_t, WedgeKeyHash> known;
+  known.reserve(mesh.positions.size() * 2);
+  for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+    const std::array<uint32_t, 3> corners{mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]};
+    const TexturePoint &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]],
+                       &c = mesh.positions[corners[2]];
+    TexturePoint middle;
+    for (size_t axis = 0; axis < 3; ++axis) middle[axis] = (a[axis] + b[axis] + c[axis]) / 3;
+    const uint32_t second = mesh.labels[corners[1]];
+    const uint32_t label = second == mesh.labels[corners[2]] ? second : mesh.labels[corners[0]];
+    const TextureSpace& space = mesh.space_of(label);
+    const Chart chart = space.chartOf(middle, crossed(difference(b, a), difference(c, a)));
+    const TextureCoordinates period = space.period(chart);
+    const TextureCoordinates first = space.at(a, chart);
+    for (const uint32_t vertex : corners) {
+      TextureCoordinates at = space.at(mesh.positions[vertex], chart);
+      const int16_t turns_u = turnsTo(at.u, first.u, period.u), turns_v = turnsTo(at.v, first.v, period.v);
+      at.u += turns_u * period.u;
+      at.v += turns_v * period.v;
+      const auto [entry, is_new] =
+          known.try_emplace({vertex, label, chart, turns_u, turns_v}, static_cast<uint32_t>(out.wedges.size()));
+      if (is_new) out.wedges.push_back({vertex, static_cast<float>(at.u), static_cast<float>(at.v)});
+      out.corners.push_back(entry->second);
+    }
+  }
+  return out;
+}
+
+TexelDensity texelDensity(const UnwrapInput& mesh, const Unwrapped& unwrapped, int32_t tile) {
+  struct Part {
+    double density, area;
+  };
+  std::vector<Part> parts;
+  double whole = 0;
+  for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
+    const auto position = [&](size_t i) { return mesh.positions[mesh.indices[t + i]]; };
+    const auto wedge = [&](size_t i) { return unwrapped.wedges[unwrapped.corners[t + i]]; };
+    const TexturePoint normal = crossed(difference(position(1), position(0)), difference(position(2), position(0)));
+    const double on_surface = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    if (!(on_surface > 0)) continue;
+    const Wedge a = wedge(0), b = wedge(1), c = wedge(2);
+    const double on_texture = area(double{b.u} - double{a.u}, double{b.v} - double{a.v}, double{c.u} - double{a.u},
+                                   double{c.v} - double{a.v});
+    parts.push_back({std::sqrt(on_texture * tile * tile / on_surface), on_surface});
+    whole += on_surface;
+  }
+  TexelDensity density;
+  if (parts.empty()) return density;
+  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.density < b.density; });
+  const auto at = [&](double share) {
+    double below = 0;
+    for (const Part& part : parts) {
+      below += part.area;
+      if (below >= share * whole) return part.density;
+    }
+    return parts.back().density;
+  };
+  density.low = at(0.05);
+  density.middle = at(0.5);
+  density.high = at(0.95);
+  std::vector<bool> used(mesh.positions.size());
+  for (const uint32_t index : mesh.indices) used[index] = true;
+  const auto vertices = static_cast<double>(std::count(used.begin(), used.end(), true));
+  density.seams = static_cast<double>(unwrapped.wedges.size()) / vertices - 1;
+  return density;
+}
+
+}  // namespace sgm

@@ -1,0 +1,33 @@
+#pragma once
+// A mesh's vertices with texture coordinates. Where charts meet a vertex has several; triangles and what they share
+// stay as they are.
+
+#include <functional>
+#include <memory_resource>
+#include <span>
+
+#include "texture/texture_space.h"
+#include "texture/unwrapped.h"
+
+namespace sgm {
+
+struct UnwrapInput {
+  std::span<const TexturePoint> positions;  ///< world, units
+  std::span<const uint32_t> labels;         ///< of the shapes that make the surface, one a vertex
+  std::span<const uint32_t> indices;        ///< three a triangle, counter-clockwise seen from the void
+  std::function<const TextureSpace&(uint32_t label)> space_of;
+};
+
+/// A triangle lies in the space of the shape that makes two of its vertices, else of its first one's, and in one chart
+/// of it. Pure. Throws std::bad_alloc.
+Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory);
+
+/// How evenly a texture lies on a mesh: tiles on a tile's length of surface. 1: as it is meant.
+struct TexelDensity {
+  double low = 0, middle = 0, high = 0;  ///< 5 %, half and 95 % of the area have no more
+  double seams = 0;                      ///< wedges beyond one a vertex, as a share of the vertices in triangles
+};
+/// tile: its edge in units. All 0 for a mesh without area.
+TexelDensity texelDensity(const UnwrapInput& mesh, const Unwrapped& unwrapped, int32_t tile);
+
+}  // namespace sgm

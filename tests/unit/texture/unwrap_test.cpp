@@ -1,0 +1,107 @@
+// A mesh and its wedges: the same triangles, charts split only where they must be, every triangle in one piece.
+
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+
+#include "base/math.h"
+#include "catch.h"
+#include "rounds.h"
+#include "texture/unwrap.h"
+
+using namespace sgm;
+
+namespace {
+
+/// A tube along y with its middle at the origin, of rings of vertices.
+struct Tube {
+  std::vector<TexturePoint> positions;
+  std::vector<uint32_t> labels, indices;
+  GrammarChunk chunk;
+  std::vector<TextureSpace> spaces;
+
+  Tube(double radius, double half, uint32_t around, uint32_t rings) {
+    for (uint32_t ring = 0; ring < rings; ++ring) {
+      for (uint32_t i = 0; i < around; ++i) {
+        const double turn = 2 * kPi * (i + 0.3) / around;
+        positions.push_back({radius * std::sin(turn), -half + 2 * half * ring / (rings - 1), radius * std::cos(turn)});
+      }
+    }
+    for (uint32_t ring = 0; ring + 1 < rings; ++ring) {
+      for (uint32_t i = 0; i < around; ++i) {
+        const uint32_t a = ring * around + i, b = ring * around + (i + 1) % around;
+        for (const uint32_t corner : {a, b, b + around, a, b + around, a + around}) indices.push_back(corner);
+      }
+    }
+    Shape shape;
+    shape.kind = ShapeKind::cylinder;
+    shape.size = {static_cast<float>(radius), static_cast<float>(half) * 2, 0, 0, 0, 0};
+    chunk.shapes.push_back(shape);
+    spaces.emplace_back(Int3{}, kUnitsPerMetre);
+    spaces.emplace_back(chunk, 0, kUnitsPerMetre);
+    labels.assign(positions.size(), 1);
+  }
+
+  UnwrapInput input() const {
+    return {positions, labels, indices, [this](uint32_t label) -> const TextureSpace& { return spaces[label]; }};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("triangles keep their corners, and only the cut doubles vertices") {
+  for (uint32_t seed = 1; seed <= rounds(20); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const uint32_t around = static_cast<uint32_t>(12 + random() % 40), rings = static_cast<uint32_t>(3 + random() % 20);
+    const Tube tube(1000.0 + static_cast<double>(random() % 9000), 5000, around, rings);
+    const Unwrapped unwrapped = unwrap(tube.input(), std::pmr::get_default_resource());
+    REQUIRE(unwrapped.corners.size() == tube.indices.size());
+    for (size_t i = 0; i < tube.indices.size(); ++i) {
+      REQUIRE(unwrapped.wedges[unwrapped.corners[i]].vertex == tube.indices[i]);
+    }
+    CHECK(unwrapped.wedges.size() == tube.positions.size() + rings);
+    // No triangle goes back around the tube.
+    for (size_t t = 0; t < unwrapped.corners.size(); t += 3) {
+      for (size_t i = 0; i < 3; ++i) {
+        const Wedge a = unwrapped.wedges[unwrapped.corners[t + i]];
+        const Wedge b = unwrapped.wedges[unwrapped.corners[t + (i + 1) % 3]];
+        CHECK(std::fabs(a.u - b.u) < 0.3f * static_cast<float>(2 * kPi * 10000 / kUnitsPerMetre));
+      }
+    }
+    const TexelDensity density = texelDensity(tube.input(), unwrapped, kUnitsPerMetre);
+    CHECK(density.middle == Approx(1).epsilon(0.1));
+    CHECK(density.high / density.low < 1.01);
+    CHECK(density.seams == Approx(static_cast<double>(rings) / static_cast<double>(tube.positions.size())));
+  }
+}
+
+TEST_CASE("a triangle lies in the space of two of its vertices, and the world's tiles are on one lattice") {
+  Tube tube(3000, 5000, 24, 6);
+  for (size_t i = 72; i < tube.labels.size(); ++i) tube.labels[i] = 0;
+  const Unwrapped unwrapped = unwrap(tube.input(), std::pmr::get_default_resource());
+  std::set<uint32_t> vertices;
+  for (const Wedge& wedge : unwrapped.wedges) vertices.insert(wedge.vertex);
+  CHECK(vertices.size() == tube.positions.size());
+  // The upper part is of no shape: the world's axes, from any base that is a whole number of tiles.
+  Tube moved = tube;
+  moved.spaces[0] = TextureSpace({7 * kUnitsPerMetre, -3 * kUnitsPerMetre, 11 * kUnitsPerMetre}, kUnitsPerMetre);
+  const Unwrapped other = unwrap(moved.input(), std::pmr::get_default_resource());
+  REQUIRE(other.wedges.size() == unwrapped.wedges.size());
+  for (size_t i = 0; i < other.wedges.size(); ++i) {
+    for (const float off : {other.wedges[i].u - unwrapped.wedges[i].u, other.wedges[i].v - unwrapped.wedges[i].v}) {
+      CHECK(std::fabs(off - std::round(off)) < 1e-4f);
+    }
+  }
+}
+
+TEST_CASE("a mesh without triangles has no wedges and no density") {
+  Tube tube(3000, 5000, 24, 6);
+  tube.indices.clear();
+  const Unwrapped unwrapped = unwrap(tube.input(), std::pmr::get_default_resource());
+  CHECK(unwrapped.wedges.empty());
+  const TexelDensity density = texelDensity(tube.input(), unwrapped, kUnitsPerMetre);
+  CHECK(density.middle == 0);
+  CHECK(density.seams == 0);
+}
