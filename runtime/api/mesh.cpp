@@ -14,6 +14,8 @@ static_assert(sizeof(sgm_vertex) == sizeof(sgm::Vertex) &&
               offsetof(sgm_vertex, normal_x) == offsetof(sgm::Vertex, normal_x) &&
               offsetof(sgm_vertex, tag) == offsetof(sgm::Vertex, tag) &&
               offsetof(sgm_vertex, kind) == offsetof(sgm::Vertex, kind));
+static_assert(sizeof(sgm_wedge) == sizeof(sgm::Wedge) && offsetof(sgm_wedge, u) == offsetof(sgm::Wedge, u) &&
+              offsetof(sgm_wedge, v) == offsetof(sgm::Wedge, v));
 static_assert(sizeof(sgm_instance_batch) == sizeof(sgm::InstanceBatch) &&
               offsetof(sgm_instance_batch, name) == offsetof(sgm::InstanceBatch, name) &&
               offsetof(sgm_instance_batch, count) == offsetof(sgm::InstanceBatch, count) &&
@@ -69,6 +71,10 @@ sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_erro
     view->batch_count = static_cast<uint32_t>(surface.batches.size());
     view->transforms = reinterpret_cast<const float*>(surface.transforms.data());
     view->morphs = surface.morphs.empty() ? nullptr : surface.morphs.front().data();
+    view->wedges = reinterpret_cast<const sgm_wedge*>(surface.texture.wedges.data());
+    view->wedge_count = static_cast<uint32_t>(surface.texture.wedges.size());
+    view->wedge_indices = surface.texture.corners.data();
+    view->reserved = 0;
     view->anchor_stride = sizeof(sgm_anchor);
     view->tags = surface.tags.data();
     view->tag_count = static_cast<uint32_t>(surface.tags.size());

@@ -9,6 +9,7 @@
 #include "mesh/packed_mesh.h"
 #include "stream/geomorph.h"
 #include "stream/mesh_chunks.h"
+#include "texture/unwrapped.h"
 
 namespace sgm {
 
@@ -33,17 +34,19 @@ struct ChunkSurface {
   std::vector<InstanceTransform> transforms;  ///< of the anchors
   std::vector<InstanceBatch> batches;         ///< likewise
   std::pmr::vector<MorphOffset> morphs;       ///< one a vertex, where asked for; else none
+  Unwrapped texture;                          ///< of the whole mesh, where asked for; else empty
   DeviceParts on_device;                      ///< where asked for: parts with triangles that the device has, too
   ContentHash hash;                           ///< of body and seams, and where they lie
 
-  explicit ChunkSurface(std::pmr::memory_resource* memory) : mesh(memory), tags(memory), morphs(memory) {}
+  explicit ChunkSurface(std::pmr::memory_resource* memory)
+      : mesh(memory), tags(memory), morphs(memory), texture(memory) {}
 
   /// Nothing to draw, and nothing to place.
   bool empty() const { return mesh.indices.empty() && anchors.empty(); }
   size_t bytes() const {
     return sizeof *this + mesh.bytes() + tags.capacity() * sizeof(uint16_t) + anchors.capacity() * sizeof(Anchor) +
            transforms.capacity() * sizeof(InstanceTransform) + batches.capacity() * sizeof(InstanceBatch) +
-           morphs.capacity() * sizeof(MorphOffset);
+           morphs.capacity() * sizeof(MorphOffset) + texture.bytes();
   }
 };
 

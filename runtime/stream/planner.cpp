@@ -253,9 +253,9 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
     std::shared_ptr<const ChunkSurface> drawn = applied_->find(key);
     const KnownChunk& record = *store_.find(key);
     const bool same =
-        drawn != nullptr &&
-        (record.edited <= edits_drawn_ ||
-         (record.surface != nullptr && record.surface->hash == drawn->hash && record.surface->morphs == drawn->morphs));
+        drawn != nullptr && (record.edited <= edits_drawn_ ||
+                             (record.surface != nullptr && record.surface->hash == drawn->hash &&
+                              record.surface->morphs == drawn->morphs && record.surface->texture == drawn->texture));
     return same && (seams & ~drawn->seams) == 0 ? drawn : record.surface;
   }));
   auto step = std::make_shared<FrameStep>();

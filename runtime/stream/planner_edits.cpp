@@ -52,10 +52,10 @@ void Planner::invalidate(std::span<const WorldChange> changes) {
       box.hi[axis] = saturate((key.at[axis] + int64_t{1}) * edge);
     }
     const std::vector<IntBox>& reach = reaches[static_cast<size_t>(key.level)];
-    const bool touched =
-        std::any_of(reach.begin(), reach.end(), [&box](const IntBox& r) { return r.meets(box); }) ||
-        std::any_of(changes.begin(), changes.end(),
-                    [&key](const WorldChange& change) { return change.field && change.field->touches(key); });
+    const bool touched = std::any_of(reach.begin(), reach.end(), [&box](const IntBox& r) { return r.meets(box); }) ||
+                         std::any_of(changes.begin(), changes.end(), [&key](const WorldChange& change) {
+                           return change.field && change.field->touches(key);
+                         });
     if (!touched) return;
     if (record.body) ++stats_.outdated;
     // The void's parts stay until the new ones are there: an unknown chunk would count as passable.

@@ -10,8 +10,8 @@ namespace {
 constexpr int64_t kPieceUnits = 64 * kUnitsPerMetre, kPieceCells = 128;  // whichever is more shares a program
 constexpr int64_t kMostPieces = 64;
 constexpr int64_t kSampledPieceCells = 32;  // of a field that is sampled for each program
-constexpr int64_t kLeafSteps = 48;  // as many samples cost as much as proving once more that none are needed
-constexpr double kInWorld = 1.0;    // from the world's end, so that rounding stays inside
+constexpr int64_t kLeafSteps = 48;          // as many samples cost as much as proving once more that none are needed
+constexpr double kInWorld = 1.0;            // from the world's end, so that rounding stays inside
 
 /// One ray, in steps of `step`; the last one ends at the ray's length.
 class RayWalk {

@@ -83,7 +83,7 @@ World::World(std::unique_ptr<WorldCore> core, JobSystem& jobs) : core_(std::move
 Result<std::unique_ptr<World>> World::create(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs,
                                              const WorldSettings& settings, std::pmr::memory_resource* memory) {
   if (Result<void> good = checkLod(settings.lod); !good) return good.error();
-  const size_t least = kLargestChunk * (jobs.concurrency() + 2);
+  const size_t least = largestChunk(settings) * (jobs.concurrency() + 2);
   if (settings.mesh_bytes < least) {
     return Error{Code::limit, "mesh_bytes is " + std::to_string(settings.mesh_bytes) + ", too small to stream with: " +
                                   std::to_string(jobs.concurrency()) + " threads need " + std::to_string(least)};

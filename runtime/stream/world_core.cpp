@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "stream/surface_shapes.h"
+
 namespace sgm {
 
 namespace {
@@ -287,7 +289,7 @@ bool WorldCore::makeColliders() {
   }
   // Without viewers everything stays as it is.
   const size_t used = surfaces_->bytes() + colliders_.bytes();
-  const size_t room = used < settings.mesh_bytes ? (settings.mesh_bytes - used) / kLargestChunk : 0;
+  const size_t room = used < settings.mesh_bytes ? (settings.mesh_bytes - used) / largestChunk(settings) : 0;
   const bool done = around.empty() || colliders_.update(*frame, around, std::min(room, kCollidersAtOnce), memory_);
   const std::lock_guard lock(mutex);
   if (collider_changes.empty()) collider_changes.swap(colliders_.changes());
@@ -338,7 +340,8 @@ void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
   const size_t idle = std::max<size_t>(1, mostMeshJobs() - std::min(mostMeshJobs(), meshing_jobs_));
   const auto shareOf = [idle](size_t of) { return (of + idle - 1) / idle; };
   const size_t share = std::max(shareOf(queue.size()), std::min<size_t>(batch, 8));
-  const size_t most = scarce ? 1 : std::min({batch, share, std::max<size_t>(1, shareOf(room() / kLargestChunk))});
+  const size_t most =
+      scarce ? 1 : std::min({batch, share, std::max<size_t>(1, shareOf(room() / largestChunk(settings)))});
   while (items.size() < most && !queue.empty() && hasRoom()) {
     // What is more urgent does not wait for what is less.
     if (!items.empty() && queue.back().rank != items.front().rank) break;
@@ -349,7 +352,7 @@ void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
     }
     ++meshing_;
     ++meshing_of_rank_[static_cast<size_t>(queue.back().rank)];
-    reserved_ += kLargestChunk;
+    reserved_ += largestChunk(settings);
     items.push_back(std::move(queue.back()));
     queue.pop_back();
   }
@@ -371,10 +374,19 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, 
     }
     chunk->surface.morphs = std::move(*morphs);
   }
-  if (const size_t bytes = chunk->surface.bytes(); bytes > kLargestChunk) {
+  if (settings.texture && !chunk->surface.mesh.indices.empty()) {
+    Result<Unwrapped> texture =
+        unwrapChunk(*under.field, chunk->surface.mesh, chunk->surface.grid, under.brushes.get(), kTile, memory_);
+    if (!texture) {
+      done.error = texture.error();
+      return;
+    }
+    chunk->surface.texture = std::move(*texture);
+  }
+  if (const size_t bytes = chunk->surface.bytes(); bytes > largestChunk(settings)) {
     done.error =
         Error{Code::limit, "a chunk's mesh and anchors have " + std::to_string(bytes) + " bytes, more than the " +
-                               std::to_string(kLargestChunk) + " of the largest; place fewer anchors"};
+                               std::to_string(largestChunk(settings)) + " of the largest; place fewer anchors"};
     return;
   }
   if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
@@ -448,7 +460,7 @@ void WorldCore::meshOnce() {
     meshing_ -= items.size();
     const size_t left_of_rank = meshing_of_rank_[static_cast<size_t>(rank)] -= items.size();
     meshing_before_ -= std::min(meshing_before_, items.size());
-    reserved_ -= items.size() * kLargestChunk;
+    reserved_ -= items.size() * largestChunk(settings);
     for (FinishedChunk& chunk : done) {
       if (generation != of_generation) chunk.error = Error{Code::cancelled, "unwanted"};
       out_of_memory = out_of_memory || (chunk.error && chunk.error->code == Code::out_of_memory);

@@ -24,8 +24,9 @@
 
 namespace sgm {
 
-/// What a chunk may come to, in bytes: every cell cut in the worst way, with six seams.
-inline constexpr size_t kLargestChunk = size_t{5} << 20;
+/// What a chunk may come to, in bytes: every cell cut in the worst way, with six seams. Texture coordinates double
+/// that.
+inline size_t largestChunk(const WorldSettings& settings) { return (settings.texture ? size_t{10} : size_t{5}) << 20; }
 
 class WorldCore {
  public:
@@ -96,7 +97,7 @@ class WorldCore {
     const size_t used = surfaces_->bytes() + collider_bytes + reserved_;
     return settings.mesh_bytes - std::min(settings.mesh_bytes, used);
   }
-  bool hasRoom() const { return room() >= kLargestChunk; }
+  bool hasRoom() const { return room() >= largestChunk(settings); }
 
   /// What jobs own.
   struct Gate {

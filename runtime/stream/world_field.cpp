@@ -191,27 +191,45 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
                                                                       const FieldSettings& field,
                                                                       std::span<const HostField> hosts,
                                                                       std::span<const Brush> brushes,
-                                                                      uint64_t* parameters) const {
+                                                                      GatheredCells* gathered_cells) const {
   const ProfileScope scope(profiler(), zone::kCompile);
   const IntBox reached = box.grown(influenceMargin(field.cell));
-  std::pmr::vector<std::shared_ptr<const DerivedCell>> held(memory_);
+  GatheredCells held;
   std::pmr::vector<IndexedCell> indexed(memory_);
-  if (alone_) indexed.push_back(alone_->indexed());
+  if (alone_) {
+    indexed.push_back(alone_->indexed());
+    held.cells.push_back(alone_);
+  }
   for (uint32_t layer = 0; layer < layers && !alone_; ++layer) {
     if (!settings_.program->layers[layer].shows(field.cell)) continue;
     const Result<void> gathered = walkCells(layer, reached, CellsOf::chunk, [&](const CellKey& key) -> Result<void> {
       Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
       if (!derived) return derived.error();
-      if (parameters != nullptr) *parameters |= (*derived)->chunk.parameters;
+      held.parameters |= (*derived)->chunk.parameters;
       indexed.push_back((*derived)->indexed());
-      held.push_back(std::move(*derived));
+      held.cells.push_back(std::move(*derived));
       return {};
     });
     if (!gathered) return gathered.error();
   }
   Result<FieldProgram> program = compileField(indexed, box, field, memory_, hosts, brushes);
   if (!program) return program.error();
+  if (gathered_cells != nullptr) *gathered_cells = std::move(held);
   return std::shared_ptr<const FieldProgram>(std::make_shared<FieldProgram>(std::move(*program)));
+}
+
+Result<ShapeField> WorldField::compileShapes(const IntBox& box, int level, const EditSnapshot* edits) const {
+  ShapeField shapes;
+  FieldSettings settings = fieldSettings(settings_.finest_cell, cellAt(level));
+  settings.shapes = &shapes.labels;
+  GatheredCells gathered;
+  Result<std::shared_ptr<const FieldProgram>> program =
+      compileLayers(static_cast<uint32_t>(settings_.program->layers.size()), box, settings, settings_.hosts,
+                    brushes(box, level, edits), &gathered);
+  if (!program) return program.error();
+  shapes.program = std::move(*program);
+  shapes.cells = std::move(gathered.cells);
+  return shapes;
 }
 
 Result<std::shared_ptr<const FieldProgram>> WorldField::compile(const IntBox& box, int level,
@@ -237,7 +255,11 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box,
                                                                      uint64_t* parameters) const {
   // One unit as the cell: in full detail, and the same whatever cells the world is meshed with.
-  return compileLayers(layer + 1, box, fieldSettings(1, 1), {}, {}, parameters);
+  GatheredCells gathered;
+  Result<std::shared_ptr<const FieldProgram>> program =
+      compileLayers(layer + 1, box, fieldSettings(1, 1), {}, {}, &gathered);
+  if (parameters != nullptr) *parameters |= gathered.parameters;
+  return program;
 }
 
 Result<void> WorldField::forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,

@@ -32,6 +32,13 @@ struct WorldFieldSettings {
   std::vector<HostField> hosts;
 };
 
+/// A field whose labels name the shapes that make its surface.
+struct ShapeField {
+  std::shared_ptr<const FieldProgram> program;
+  std::vector<std::shared_ptr<const DerivedCell>> cells;  ///< as ShapeLabels::Source has them
+  ShapeLabels labels;
+};
+
 /// Thread-safe: what it answers is a pure function of its settings; only its cache has a state.
 class WorldField {
  public:
@@ -70,6 +77,9 @@ class WorldField {
   Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level,
                                                       const EditSnapshot* edits = nullptr) const;
 
+  /// As compile(), but with shapes in the place of materials and tags.
+  Result<ShapeField> compileShapes(const IntBox& box, int level, const EditSnapshot* edits = nullptr) const;
+
   /// The edits that compile() lays above all, in order.
   std::pmr::vector<Brush> brushes(const IntBox& box, int level, const EditSnapshot* edits) const;
 
@@ -102,11 +112,16 @@ class WorldField {
   /// Visits the cells of a layer whose shapes can reach into the box, in order z, y, x, to the first error.
   Result<void> walkCells(uint32_t layer, const IntBox& box, CellsOf of,
                          const std::function<Result<void>(const CellKey&)>& visit) const;
+  /// What a program was compiled of.
+  struct GatheredCells {
+    uint64_t parameters = 0;  ///< that they have read
+    std::vector<std::shared_ptr<const DerivedCell>> cells;
+  };
   Result<std::shared_ptr<const FieldProgram>> compileLayers(uint32_t layers, const IntBox& box,
                                                             const FieldSettings& field,
                                                             std::span<const HostField> hosts,
                                                             std::span<const Brush> brushes,
-                                                            uint64_t* parameters = nullptr) const;
+                                                            GatheredCells* gathered = nullptr) const;
   /// Visits the cells of all wanted layers that can reach into the box, in order.
   Result<void> forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,
                            const std::function<void(const GrammarChunk&)>& visit) const;

@@ -488,7 +488,7 @@ TEST_CASE("world calls are checked") {
   CHECK(with([](auto& d) { d.top_level = -1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.top_level = SGM_MAX_LEVEL + 1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.top_level = 15; }) == SGM_ERR_RANGE);
-  CHECK(with([](auto& d) { d.flags = 8; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.flags = 16; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.flags = SGM_WORLD_RESIDENT; }) == SGM_ERR_UNSUPPORTED);
   CHECK(with([](auto& d) { d.finest_distance = 0; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.view_distance = kNaN; }) == SGM_ERR_INVALID_ARGUMENT);

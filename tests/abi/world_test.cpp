@@ -191,6 +191,37 @@ TEST_CASE("meshes have morph offsets where they are asked for, to the coarser su
   }
 }
 
+TEST_CASE("meshes have texture coordinates where they are asked for, of the same triangles") {
+  const RuntimeOwner runtime = makeRuntime();
+  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
+  for (const uint32_t flags : {0u, uint32_t{SGM_WORLD_TEXTURE}}) {
+    sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+    desc.top_level = 3;
+    desc.finest_distance = 10;
+    desc.view_distance = 60;
+    desc.flags = flags;
+    sgm_world* made = nullptr;
+    REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
+    const WorldOwner world(made);
+    look(world.get(), 0);
+    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+    size_t count = 0;
+    REQUIRE(sgm_world_get_drawn(world.get(), nullptr, 0, &count, nullptr) == SGM_OK);
+    std::vector<sgm_drawn_chunk> chunks(count);
+    REQUIRE(sgm_world_get_drawn(world.get(), chunks.data(), 0, &count, nullptr) == SGM_OK);
+    for (const sgm_drawn_chunk& chunk : chunks) {
+      const MeshOwner mesh(chunk.mesh);
+      const sgm_mesh_view view = viewOf(mesh);
+      CHECK((view.wedges != nullptr) == (flags != 0));
+      CHECK((view.wedge_count >= view.vertex_count) == (flags != 0));
+      for (uint32_t i = 0; view.wedges != nullptr && i < view.index_count; ++i) {
+        REQUIRE(view.wedge_indices[i] < view.wedge_count);
+        REQUIRE(view.wedges[view.wedge_indices[i]].vertex == view.indices[i]);
+      }
+    }
+  }
+}
+
 TEST_CASE("another field takes a world's place, and only what it changes is meshed again", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   // Two layers of balls, of which one has a parameter.

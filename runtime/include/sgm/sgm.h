@@ -798,6 +798,13 @@ typedef struct sgm_instance_batch {
   uint32_t first, count; /* of the mesh's anchors and transforms */
 } sgm_instance_batch;
 
+/* A vertex as one chart of a texture sees it. Coordinates count tiles of 1 m, in floats that repeat a texture: u x v
+ * points out of the solid, so that nothing is mirrored. */
+typedef struct sgm_wedge {
+  uint32_t vertex; /* of the mesh's vertices */
+  float u, v;
+} sgm_wedge;
+
 /* Pointers into a mesh, good until the mesh ends. */
 typedef struct sgm_mesh_view {
   uint32_t struct_size;
@@ -828,6 +835,13 @@ typedef struct sgm_mesh_view {
                             and in seams those vertices have 0 that are the coarser level's or join the two. So nothing
                             opens where b depends on place and level alone, and is 0 where a chunk meets a finer one: it
                             rises from 0 at the near end of a level's range to 1 at its far end */
+  const sgm_wedge* wedges; /* texture coordinates by the own axes of the shape that makes the surface: along and around
+                              a passage, over the faces of a box; by the world's axes where no shape of the grammar
+                              does. Where charts meet a vertex has several. NULL but in worlds with SGM_WORLD_TEXTURE */
+  const uint32_t* wedge_indices; /* index_count of them, into wedges: of the same triangles as indices. An engine that
+                                    draws textures draws wedges by these, each with its vertex's position and normal */
+  uint32_t wedge_count;
+  uint32_t reserved; /* 0 */
 } sgm_mesh_view;
 
 #define SGM_MESH_RANGE_INIT \
@@ -837,7 +851,7 @@ typedef struct sgm_mesh_view {
     SGM_SIZEOF(sgm_mesh_view), SGM_NULL, {0, 0, 0, 0}, {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, SGM_NULL, SGM_NULL, 0, 0, \
         0, 0, SGM_MESH_RANGE_INIT, {SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT,                   \
                                     SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT, SGM_MESH_RANGE_INIT},                  \
-        0, SGM_NULL, 0, 0, SGM_NULL, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL                                              \
+        0, SGM_NULL, 0, 0, SGM_NULL, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, SGM_NULL, 0, 0                    \
   }
 
 SGM_API sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_error* error);
@@ -955,6 +969,8 @@ typedef enum sgm_world_flag {
   SGM_WORLD_RESIDENT = 4,    /* meshes also lie on the device that the engine lent, which draws them from there:
                                 sgm_vulkan.h, sgm_cuda.h. That memory, about as much again, on Vulkan in blocks of 64 MiB
                                 and more, counts for mesh_bytes of what was lent, and not for the world's */
+  SGM_WORLD_TEXTURE = 8,     /* meshes have texture coordinates: sgm_mesh_view.wedges. About twice the memory a mesh, in
+                                mesh_bytes; not on the device */
   SGM_WORLD_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_world_flag;
 

@@ -1,0 +1,177 @@
+// Texture coordinates of worlds: by the shapes that make the surface, the same on both sides of a chunk's border.
+
+#include <cmath>
+#include <map>
+
+#include "catch.h"
+#include "mesh/vertex.h"
+#include "stream/surface_shapes.h"
+#include "streaming_support.h"
+
+using namespace sgm;
+
+namespace {
+
+/// Passages and halls, and a ball in a hall's place for which nothing else stands.
+const char* const kPassages =
+    "sgm 1; units m; domain infinite solid; layer net cell 48m reach 44m { start Node; }\n"
+    "rule Node { cut { at(c()) sphere(6m); for f in cell.links(tree 2) { Way(c(), f); } } }\n"
+    "rule Way(a, f) { tube(a, f.other.point(jitter 0.2), 2m, bend 4m); }\n";
+
+std::string passages() {
+  return replaced(replaced(kPassages, "c()) sphere", "hub(cell)) sphere"), "Way(c(), f)", "Way(hub(cell), f)") +
+         "let hub(c) = c.point(jitter 0.2);\n";
+}
+
+/// Of the chunks from (low, low, low) on, eight of level 0 along each axis.
+std::vector<ChunkSurface> surfacesFrom(const WorldField& field, int level, int32_t low) {
+  std::vector<ChunkRequest> requests;
+  const int32_t first = low >> level, last = (low + 8) >> level;
+  for (int32_t z = first; z < last; ++z) {
+    for (int32_t y = first; y < last; ++y) {
+      for (int32_t x = first; x < last; ++x) requests.emplace_back().key = {level, {x, y, z}};
+    }
+  }
+  std::vector<ChunkSurface> surfaces;
+  std::pmr::vector<PlacedChunk> chunks = meshAll(field, requests, 2);
+  for (size_t i = 0; i < chunks.size(); ++i) {
+    surfaces.push_back(surfaceOf(requests[i], std::move(chunks[i]), nullptr, field.memory()));
+  }
+  return surfaces;
+}
+
+}  // namespace
+
+TEST_CASE("chunks that meet have the same texture coordinates on their border") {
+  for (const char* sampled : {"passages", "cave"}) {
+    CAPTURE(sampled);
+    const bool in_cave = sampled == std::string("cave");
+    const std::string text = in_cave ? caveText() : passages();
+    const WorldField field(settingsOf(text, 512, 3), std::pmr::get_default_resource());
+    for (int level = 0; level < 2; ++level) {
+      // Of each vertex on a border, by its place: the coordinates that it has in either chunk.
+      std::map<std::array<int64_t, 3>, std::map<size_t, std::vector<Wedge>>> shared;
+      size_t chunk = 0, vertices = 0;
+      for (const ChunkSurface& surface : surfacesFrom(field, level, in_cave ? 2 : -4)) {
+        if (surface.mesh.indices.empty()) continue;
+        ++chunk;
+        const Result<Unwrapped> texture =
+            unwrapChunk(field, surface.mesh, surface.grid, nullptr, kTile, std::pmr::get_default_resource());
+        REQUIRE(texture);
+        REQUIRE(texture->corners.size() == surface.mesh.indices.size());
+        vertices += surface.mesh.vertices.size();
+        for (const Wedge& wedge : texture->wedges) {
+          const Vertex& v = surface.mesh.vertices[wedge.vertex];
+          std::array<int64_t, 3> place{};
+          const std::array<uint16_t, 3> at{v.x, v.y, v.z};
+          bool border = false;
+          for (size_t axis = 0; axis < 3; ++axis) {
+            place[axis] =
+                int64_t{surface.grid.origin[static_cast<int>(axis)]} * kSubcell + int64_t{at[axis]} * surface.grid.cell;
+            border = border || at[axis] == 0 || at[axis] == kChunkCells * kSubcell;
+          }
+          if (border) shared[place][chunk].push_back(wedge);
+        }
+        // Once more, and by another thread's cache: the same bytes.
+        const Result<Unwrapped> again =
+            unwrapChunk(field, surface.mesh, surface.grid, nullptr, kTile, std::pmr::get_default_resource());
+        REQUIRE(again);
+        CHECK(*again == *texture);
+      }
+      REQUIRE(vertices > 1000);
+      size_t pairs = 0, same = 0;
+      for (const auto& [place, chunks] : shared) {
+        if (chunks.size() < 2) continue;
+        ++pairs;
+        const auto alike = [](const Wedge& a, const Wedge& b) {
+          const float u = a.u - b.u, v = a.v - b.v;
+          return std::fabs(u - std::round(u)) < 1e-3f && std::fabs(v - std::round(v)) < 1e-3f;
+        };
+        bool meets = false;
+        for (const Wedge& a : chunks.begin()->second) {
+          for (const Wedge& b : std::next(chunks.begin())->second) meets = meets || alike(a, b);
+        }
+        same += meets;
+      }
+      REQUIRE(pairs > 100);
+      // But where two shapes, or two charts, meet right there.
+      CHECK(static_cast<double>(same) > 0.9 * static_cast<double>(pairs));
+    }
+  }
+}
+
+TEST_CASE("a passage is laid out along and around, a dig by the world's axes") {
+  const WorldField field(settingsOf("sgm 1; units m; domain finite solid box(64m, 16m, 16m); start A;\n"
+                                    "rule A { cut { tube((-28m, 0m, 0m), (28m, 0m, 0m), 3m); } }\n",
+                                    256),
+                         std::pmr::get_default_resource());
+  EditLog log{EditSettings{}};
+  Brush brush;
+  brush.cut = true;
+  brush.from = {0, 5000, 0};
+  brush.radius = 3000;
+  REQUIRE(log.add(brush));
+  for (const bool dug : {false, true}) {
+    CAPTURE(dug);
+    const std::shared_ptr<const EditSnapshot> edits = dug ? log.snapshot() : nullptr;
+    SurfaceShapes shapes(field, 0, edits.get(), {}, kTile);
+    const std::vector<Int3> points{{-9000, 3072, 0}, {9000, 3072, 0}, {9000, 0, 3072}, {0, 7990, 0}};
+    std::vector<uint32_t> labels(points.size());
+    REQUIRE(shapes.label(points, labels));
+    CHECK(labels[0] == labels[1]);
+    CHECK(labels[1] == labels[2]);
+    CHECK(labels[0] != 0);
+    if (dug) CHECK(labels[3] == 0);
+    const TextureSpace& tube = shapes.space(labels[0]);
+    const Chart chart = tube.chartOf({9000, 3072, 0}, {0, -1, 0});
+    const TextureCoordinates a = tube.at({-9000, 3072, 0}, chart), b = tube.at({9000, 3072, 0}, chart);
+    CHECK(b.v - a.v == Approx(18000.0 / kTile));
+    CHECK(b.u == Approx(a.u).margin(1e-6));
+    const TextureCoordinates side = tube.at({9000, 0, 3072}, chart);
+    CHECK(std::fabs(side.u - b.u) == Approx(tube.period(chart).u / 4).epsilon(0.01));
+    CHECK(side.v == Approx(b.v));
+  }
+}
+
+TEST_CASE("a world that is asked to has texture coordinates on all that it draws, edits and fields included",
+          "[threads]") {
+  WorldSettings settings;
+  settings.texture = true;
+  Scene scene(*makeThreadPool(2), caveText(), settings);
+  Engine engine;
+  const Viewer viewer = viewerAt(96, 96, 96);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  EditLog log{EditSettings{}};
+  const auto check = [&](const WorldField& field) {
+    REQUIRE(scene.world->waitIdle());
+    engine.take(*scene.world);
+    REQUIRE(log.import(scene.world->exportEdits(log.size())));
+    size_t triangles = 0;
+    for (const auto& [key, shown] : engine.shown) {
+      const ChunkSurface& surface = *shown.surface;
+      REQUIRE(surface.texture.corners.size() == surface.mesh.indices.size());
+      for (size_t i = 0; i < surface.mesh.indices.size(); ++i) {
+        REQUIRE(surface.texture.wedges[surface.texture.corners[i]].vertex == surface.mesh.indices[i]);
+      }
+      const std::shared_ptr<const EditSnapshot> edits = log.snapshot();
+      const Result<Unwrapped> alone =
+          unwrapChunk(field, surface.mesh, surface.grid, edits.get(), kTile, field.memory());
+      REQUIRE(alone);
+      CHECK(*alone == surface.texture);
+      triangles += surface.mesh.indices.size() / 3;
+    }
+    CHECK(triangles > 1000);
+  };
+  check(scene.field);
+  Brush brush;
+  brush.cut = true;
+  brush.from = {96 << 10, 100 << 10, 96 << 10};
+  brush.radius = 12 << 10;
+  REQUIRE(scene.world->edit(brush));
+  check(scene.field);
+  WorldFieldSettings other = settingsOf(caveText(), kStreamedCell, 3);
+  REQUIRE(other.parameters.set(*other.program, "boxy", 0.9));
+  const auto boxy = std::make_shared<const WorldField>(std::move(other), std::pmr::get_default_resource());
+  REQUIRE(scene.world->setField(boxy));
+  check(*boxy);
+}
