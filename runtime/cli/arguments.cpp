@@ -189,6 +189,9 @@ Command addMesh(CLI::App& root) {
                   "Mesh file to write; its ending chooses .glb, .obj (with its materials in a .mtl of the same name "
                   "beside it), .ply or .stl. Without it the mesh is only measured")
       ->check(checkMeshFile);
+  app->add_flag("--uv", options->uv,
+                "Texture coordinates in tiles of 1 m, by the shapes' own axes: along and around a passage. Into .glb "
+                "and .obj, with a chequered texture in .glb, and how even they lie");
   app->footer(
       "Positions in the file are metres from the world's origin. Where the region reaches further than 4096 m from it, "
       "they count from the region's lowest corner instead, which is then printed as the origin.\n"
@@ -203,6 +206,8 @@ Command addRender(CLI::App& root) {
   addRegionOptions(*app, *options);
   addLevelOption(*app, *options);
   app->add_option("--out", options->out, "Picture to write, a .png file")->required()->check(checkPng);
+  app->add_flag("--uv", options->uv,
+                "Show texture coordinates: chequers of half a metre, lines of u red and of v green at whole metres");
   CLI::Option* camera =
       app->add_option("--camera", options->camera,
                       "From where to where to look in metres, x,y,z:x,y,z; without it, a view is chosen")

@@ -56,6 +56,13 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
   fmt::print("  volume   {:.1f} m3 solid, {:.1f} m3 open (equation 8: cubes of one cell, each centred on a sample)\n",
              summary.volume, summary.void_volume);
   fmt::print("  objects  {} (section 7.3: triangles joined by shared vertices)\n", summary.measures.objects);
+  if (region.texture) {
+    const TexelDensity& density = region.texture->density;
+    fmt::print(
+        "  texture  tiles of 1 m lie {:.2f} to {:.2f} times as dense on 90 % of the surface, {:.2f} in the middle; "
+        "{:.1f} % of the vertices are doubled by charts\n",
+        density.low, density.high, density.middle, 100 * density.seams);
+  }
   fmt::print("  hash     {:016x} (seed {}, {} on {})\n", region.meshed.hash.value(), options.seed, region.backend,
              region.device);
 }
@@ -63,6 +70,9 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
 }  // namespace
 
 Exit mesh(const MeshOptions& options) {
+  if (options.uv && !options.out.empty() && !MeshFile::holdsTexture(options.out)) {
+    return complain(Exit::usage, "--uv: only .glb and .obj files have texture coordinates; write one of these");
+  }
   // The file first: meshing may take long, and be for nothing.
   std::optional<MeshFile> file;
   if (!options.out.empty()) {
@@ -83,6 +93,19 @@ Exit mesh(const MeshOptions& options) {
     info.generator = std::string("sgm ") + sgm_version_string();
     info.materials = exportMaterials(*region.program);
     for (const std::pmr::string& tag : region.program->tags) info.tags.emplace_back(tag);
+    ExportTexture texture;
+    std::vector<uint32_t> vertices;
+    std::vector<std::array<float, 2>> coordinates;
+    const Result<std::vector<std::byte>> chequer = chequerPng();
+    if (!chequer) return complain(chequer.error());
+    if (region.texture) {
+      for (const Wedge& wedge : region.texture->unwrapped.wedges) {
+        vertices.push_back(wedge.vertex);
+        coordinates.push_back({wedge.u, wedge.v});
+      }
+      texture = {vertices, coordinates, region.texture->unwrapped.corners, *chequer};
+      info.texture = &texture;
+    }
     if (Result<void> ok = file->write(region.meshed.mesh, info); !ok) return complain(ok.error());
     for (const std::filesystem::path& path : file->paths()) summary.files.push_back(path.string());
     summary.bytes = file->bytes();

@@ -26,7 +26,8 @@ struct WorldOptions {
   std::optional<double> cell;     ///< metres
   std::optional<double> density;  ///< the paper's LD
   uint64_t max_chunks = 65536;
-  int level = 0;  ///< of detail: cells of 2^level times the edge that --cell or --ld say
+  bool uv = false;  ///< with texture coordinates
+  int level = 0;    ///< of detail: cells of 2^level times the edge that --cell or --ld say
 };
 
 /// "x,y,z"; a number too large for a double is an infinity. Nothing where the text is no point.

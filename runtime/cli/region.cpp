@@ -65,7 +65,15 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
 Json toJson(const WorldOptions& options, const Region& region) {
   const IntBox& extent = region.meshed.extent;
   const Int3 origin = region.meshed.mesh.origin;
-  return {{"triangles", region.meshed.mesh.indices.size() / 3},
+  Json texture;
+  if (region.texture) {
+    const TexelDensity& density = region.texture->density;
+    texture = {{"wedges", region.texture->unwrapped.wedges.size()},
+               {"seams", density.seams},
+               {"density", {{"p5", density.low}, {"p50", density.middle}, {"p95", density.high}}}};
+  }
+  return {{"texture", texture},
+          {"triangles", region.meshed.mesh.indices.size() / 3},
           {"vertices", region.meshed.mesh.positions.size()},
           {"chunks", region.meshed.chunks},
           {"seconds", region.seconds},
@@ -134,6 +142,12 @@ RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose)
   if (!meshed) return failure(complain(meshed.error()));
   Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);
   if (!anchors) return failure(complain(anchors.error()));
+  std::optional<TexturedRegion> texture;
+  if (options.uv) {
+    Result<TexturedRegion> unwrapped = unwrapRegion(world, meshed->mesh, options.level, kTile);
+    if (!unwrapped) return failure(complain(unwrapped.error()));
+    texture = std::move(*unwrapped);
+  }
   const double seconds = watch.seconds();
   const Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, *cell << options.level);
   if (!notes) return failure(complain(notes.error()));
@@ -141,7 +155,7 @@ RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose)
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
   return {Region{grammar.program, std::move(*meshed), *cell << options.level, std::move(*anchors),
-                 backendName(capabilities.kind), capabilities.device, seconds},
+                 backendName(capabilities.kind), capabilities.device, seconds, std::move(texture)},
           Exit::done};
 }
 

@@ -11,6 +11,7 @@
 #include "cli/console.h"
 #include "cli/json.h"
 #include "cli/options.h"
+#include "cli/texturing.h"
 #include "sgm/sgm.h"
 
 namespace sgm::cli {
@@ -21,7 +22,8 @@ struct Region {
   int32_t cell = 0;             ///< of the level, units
   std::vector<Anchor> anchors;  ///< in the region
   std::string backend, device;
-  double seconds = 0;  ///< from the compiled grammar to the welded mesh
+  double seconds = 0;                     ///< from the compiled grammar to the welded mesh
+  std::optional<TexturedRegion> texture;  ///< with --uv
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }
 };

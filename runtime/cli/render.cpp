@@ -33,6 +33,23 @@ std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
   return vertices;
 }
 
+/// A mesh as it is drawn: where charts meet a vertex comes several times.
+struct Drawable {
+  std::vector<RenderVertex> vertices;
+  std::span<const uint32_t> indices;
+};
+
+Drawable drawable(const Region& region) {
+  Drawable whole{drawable(region.meshed.mesh), region.meshed.mesh.indices};
+  if (!region.texture) return whole;
+  Drawable textured{{}, region.texture->unwrapped.corners};
+  for (const Wedge& wedge : region.texture->unwrapped.wedges) {
+    textured.vertices.push_back(whole.vertices[wedge.vertex]);
+    textured.vertices.back().texture = {wedge.u, wedge.v};
+  }
+  return textured;
+}
+
 glm::vec3 fromOrigin(const WorldMesh& mesh, const std::array<double, 3>& world) {
   glm::vec3 point;
   for (int axis = 0; axis < 3; ++axis)
@@ -61,7 +78,7 @@ std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) 
 }
 
 /// The view that the options ask for, or the one that finds itself.
-Result<View> viewOf(const RenderOptions& options, const Region& region, std::span<const RenderVertex> vertices) {
+Result<View> viewOf(const RenderOptions& options, const Region& region, const Drawable& drawn) {
   const PictureSize size = *readSize(options.size);
   if (!options.camera.empty()) {
     const Gaze gaze = *readCamera(options.camera);
@@ -73,7 +90,7 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, std::spa
     camera.height = size.height;
     if (camera.position == camera.target)
       return Error{Code::invalid_argument, "--camera looks from a point to the same point"};
-    return viewFrom(vertices, region.meshed.mesh.indices, camera);
+    return viewFrom(drawn.vertices, drawn.indices, camera);
   }
   const std::vector<glm::vec3> anchors = anchorsAt(region, options.at);
   if (!options.at.empty() && anchors.empty())
@@ -85,7 +102,7 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, std::spa
   wish.fov_degrees = static_cast<float>(options.fov);
   wish.anchors = anchors;
   wish.airborne = region.program->domain.density;
-  return chooseCamera(vertices, region.meshed.mesh.indices, wish);
+  return chooseCamera(drawn.vertices, drawn.indices, wish);
 }
 
 /// In metres of the world.
@@ -147,13 +164,13 @@ Exit render(const RenderOptions& options) {
   if (region.meshed.mesh.indices.empty()) return complain(Exit::input, "there is no surface in the region to draw");
 
   const Stopwatch watch;
-  const std::vector<RenderVertex> vertices = drawable(region.meshed.mesh);
-  const Result<View> view = viewOf(options, region, vertices);
+  const Drawable drawn = drawable(region);
+  const Result<View> view = viewOf(options, region, drawn);
   if (!view) return complain(view.error());
   const std::vector<RenderMaterial> materials = renderMaterials(*region.program);
   RenderScene scene;
-  scene.vertices = vertices;
-  scene.indices = region.meshed.mesh.indices;
+  scene.vertices = drawn.vertices;
+  scene.indices = drawn.indices;
   scene.materials = materials;
   scene.origin = region.meshed.mesh.origin;
   lightScene(*view, scene);

@@ -62,6 +62,11 @@ Result<void> exportMesh(const WorldMesh& mesh, const ExportInfo& info, const std
   return file->write(mesh, info);
 }
 
+bool MeshFile::holdsTexture(const std::filesystem::path& path) {
+  const Result<MeshFormat> format = meshFormatOf(path);
+  return format && (*format == MeshFormat::glb || *format == MeshFormat::obj);
+}
+
 Float3 exportedPosition(const WorldMesh& mesh, uint32_t vertex) {
   const std::array<double, 3>& p = mesh.positions[vertex];
   return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};

@@ -2,7 +2,9 @@
 // A welded mesh as a file that other programs read.
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,12 +20,21 @@ struct ExportMaterial {
   float roughness = 0.9f;                         ///< 0..1
 };
 
+/// Where charts meet a vertex has several places on the texture.
+struct ExportTexture {
+  std::span<const uint32_t> vertices;  ///< of the mesh, one a place
+  std::span<const std::array<float, 2>> coordinates;
+  std::span<const uint32_t> corners;  ///< into these, in the place of the mesh's indices
+  std::span<const std::byte> png;     ///< a file that repeats over all of it; empty: none
+};
+
 /// What a file says beside the mesh. Indices beyond the tables are written as a grey material "material N".
 struct ExportInfo {
   std::string name = "mesh";      ///< of the object
   std::string generator = "sgm";  ///< program and version
   std::vector<ExportMaterial> materials;
   std::vector<std::string> tags;
+  const ExportTexture* texture = nullptr;  ///< borrowed; null: none. Not for .ply and .stl, which hold none
 };
 
 enum class MeshFormat { glb, obj, ply, stl };
@@ -34,9 +45,10 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 /// A file for a mesh, opened before there is one, so that what cannot be written shows before the work.
 ///
 /// Positions are in metres from mesh.origin, rounded to float32.
-///  .glb  binary glTF 2.0: one primitive a material with vertices of its own, POSITION, NORMAL and _TAG; the scene's
-///        extras hold the origin in units and metres and the tag names
-///  .obj  text, with normals and usemtl; the materials in a .mtl file of the same name beside it
+///  .glb  binary glTF 2.0: one primitive a material with vertices of its own, POSITION, NORMAL, _TAG, with a texture
+///        TEXCOORD_0; the scene's extras hold the origin in units and metres and the tag names
+///  .obj  text, with normals and usemtl, with a texture's coordinates; the materials in a .mtl file of the same name
+///        beside it
 ///  .ply  binary little-endian: x y z nx ny nz red green blue material tag; origin, materials and tags as comments
 ///  .stl  binary, with facet normals: positions alone, so that a reader welds by position
 /// A triangle takes the material that two of its vertices share, else that of its first. An empty mesh makes a valid
@@ -46,6 +58,8 @@ class MeshFile {
   /// In the format of the path's extension. unfinished: see FileWriter. Errors: Code::io, also where the .mtl of an
   /// .obj was written by others; Code::invalid_argument for the extension.
   static Result<MeshFile> create(const std::filesystem::path& path, UnfinishedFiles* unfinished = nullptr);
+  /// Whether files of the path's format have texture coordinates.
+  static bool holdsTexture(const std::filesystem::path& path);
   /// Once. Errors: Code::io; Code::limit where the format cannot hold the mesh.
   Result<void> write(const WorldMesh& mesh, const ExportInfo& info);
 

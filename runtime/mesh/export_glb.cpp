@@ -11,11 +11,13 @@ namespace {
 
 constexpr uint32_t kNoVertex = std::numeric_limits<uint32_t>::max();
 constexpr size_t kVertexBytes = 28;  // position, normal, tag, two bytes of padding
+constexpr size_t kTextureBytes = 8;  // what a texture adds
 
 /// The triangles of one material. Vertices are renumbered, in the order in which the triangles use them.
 struct Primitive {
   uint16_t material = 0;
-  std::vector<uint32_t> vertices;  // numbers in the whole mesh
+  size_t vertex_size = kVertexBytes;
+  std::vector<uint32_t> vertices;  // numbers in the whole mesh; with a texture, numbers of its coordinates
   std::vector<uint32_t> indices;   // into vertices
   Float3 low{}, high{};
 
@@ -23,10 +25,14 @@ struct Primitive {
   bool shortIndices() const { return vertices.size() <= 65535; }
   size_t indexBytes() const { return indices.size() * (shortIndices() ? 2 : 4); }
   size_t paddedIndexBytes() const { return (indexBytes() + 3) / 4 * 4; }
-  size_t vertexBytes() const { return vertices.size() * kVertexBytes; }
+  size_t vertexBytes() const { return vertices.size() * vertex_size; }
 };
 
-std::vector<Primitive> splitByMaterial(const WorldMesh& mesh) {
+uint32_t vertexOf(const ExportTexture* texture, uint32_t number) {
+  return texture != nullptr ? texture->vertices[number] : number;
+}
+
+std::vector<Primitive> splitByMaterial(const WorldMesh& mesh, const ExportTexture* texture) {
   std::vector<uint32_t> triangles_of(size_t{1} << 16);
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) ++triangles_of[triangleMaterial(mesh, i)];
   std::vector<Primitive> primitives;
@@ -35,16 +41,17 @@ std::vector<Primitive> splitByMaterial(const WorldMesh& mesh) {
     if (triangles_of[m] == 0) continue;
     primitive_of[m] = static_cast<uint32_t>(primitives.size());
     primitives.emplace_back().material = static_cast<uint16_t>(m);
+    if (texture != nullptr) primitives.back().vertex_size += kTextureBytes;
     primitives.back().indices.reserve(size_t{triangles_of[m]} * 3);
   }
-  std::vector<uint32_t> renumbered(mesh.positions.size());
+  std::vector<uint32_t> renumbered(texture != nullptr ? texture->vertices.size() : mesh.positions.size());
   for (size_t p = 0; p < primitives.size(); ++p) {
     Primitive& primitive = primitives[p];
     std::fill(renumbered.begin(), renumbered.end(), kNoVertex);
     for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
       if (primitive_of[triangleMaterial(mesh, i)] != p) continue;
       for (size_t corner = 0; corner < 3; ++corner) {
-        const uint32_t vertex = mesh.indices[i + corner];
+        const uint32_t vertex = texture != nullptr ? texture->corners[i + corner] : mesh.indices[i + corner];
         if (renumbered[vertex] == kNoVertex) {
           renumbered[vertex] = static_cast<uint32_t>(primitive.vertices.size());
           primitive.vertices.push_back(vertex);
@@ -52,9 +59,9 @@ std::vector<Primitive> splitByMaterial(const WorldMesh& mesh) {
         primitive.indices.push_back(renumbered[vertex]);
       }
     }
-    primitive.low = primitive.high = exportedPosition(mesh, primitive.vertices.front());
+    primitive.low = primitive.high = exportedPosition(mesh, vertexOf(texture, primitive.vertices.front()));
     for (uint32_t vertex : primitive.vertices) {
-      const Float3 position = exportedPosition(mesh, vertex);
+      const Float3 position = exportedPosition(mesh, vertexOf(texture, vertex));
       for (size_t axis = 0; axis < 3; ++axis) {
         primitive.low[axis] = std::min(primitive.low[axis], position[axis]);
         primitive.high[axis] = std::max(primitive.high[axis], position[axis]);
@@ -113,7 +120,7 @@ std::string extrasText(const WorldMesh& mesh, const ExportInfo& info) {
 }
 
 /// Buffer views 2p and 2p + 1 are the vertices and indices of primitive p; accessors 4p .. 4p + 3 its position, normal,
-/// tag and indices.
+/// tag and indices. A texture's coordinates are accessors behind all these, its picture the last buffer view.
 std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::vector<Primitive>& primitives,
                       size_t buffer_bytes) {
   std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":" + quoted(info.generator) +
@@ -121,22 +128,36 @@ std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::
   if (primitives.empty()) return json + "}]}";
   json += ",\"nodes\":[0]}],\"nodes\":[{\"name\":" + quoted(info.name) +
           ",\"mesh\":0}],\"meshes\":[{\"name\":" + quoted(info.name) + ",\"primitives\":";
-  json += listOf(primitives.size(), [](size_t p) {
+  const bool textured = info.texture != nullptr, pictured = textured && !info.texture->png.empty();
+  json += listOf(primitives.size(), [&](size_t p) {
     const auto accessor = [&](size_t i) { return std::to_string(4 * p + i); };
+    const std::string coordinates =
+        textured ? ",\"TEXCOORD_0\":" + std::to_string(4 * primitives.size() + p) : std::string();
     return "{\"attributes\":{\"POSITION\":" + accessor(0) + ",\"NORMAL\":" + accessor(1) + ",\"_TAG\":" + accessor(2) +
-           "},\"indices\":" + accessor(3) + ",\"material\":" + std::to_string(p) + '}';
+           coordinates + "},\"indices\":" + accessor(3) + ",\"material\":" + std::to_string(p) + '}';
   });
   json += "}],\"materials\":" + listOf(primitives.size(), [&](size_t p) {
             const ExportMaterial m = materialAt(info, primitives[p].material);
             return "{\"name\":" + quoted(m.name) + ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[" +
                    decimalText(std::clamp(m.colour[0], 0.0f, 1.0f)) + ',' +
                    decimalText(std::clamp(m.colour[1], 0.0f, 1.0f)) + ',' +
-                   decimalText(std::clamp(m.colour[2], 0.0f, 1.0f)) +
-                   ",1],\"metallicFactor\":0,\"roughnessFactor\":" + decimalText(std::clamp(m.roughness, 0.0f, 1.0f)) +
+                   decimalText(std::clamp(m.colour[2], 0.0f, 1.0f)) + ",1]," +
+                   (pictured ? "\"baseColorTexture\":{\"index\":0}," : "") +
+                   "\"metallicFactor\":0,\"roughnessFactor\":" + decimalText(std::clamp(m.roughness, 0.0f, 1.0f)) +
                    "}}";
           });
-  json += ",\"accessors\":" + listOf(primitives.size(), [&](size_t p) {
+  if (pictured) {
+    json += ",\"textures\":[{\"source\":0}],\"images\":[{\"mimeType\":\"image/png\",\"bufferView\":" +
+            std::to_string(2 * primitives.size()) + "}]";
+  }
+  json += ",\"accessors\":" + listOf((textured ? 2 : 1) * primitives.size(), [&](size_t i) {
+            const size_t p = i % primitives.size();
             const Primitive& primitive = primitives[p];
+            if (i >= primitives.size()) {
+              return "{\"bufferView\":" + std::to_string(2 * p) + ",\"byteOffset\":" + std::to_string(kVertexBytes) +
+                     ",\"count\":" + std::to_string(primitive.vertices.size()) +
+                     ",\"componentType\":5126,\"type\":\"VEC2\"}";
+            }
             const auto attribute = [&](size_t offset, const char* rest) {
               return "{\"bufferView\":" + std::to_string(2 * p) + ",\"byteOffset\":" + std::to_string(offset) +
                      ",\"count\":" + std::to_string(primitive.vertices.size()) + rest;
@@ -150,11 +171,15 @@ std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::
                    ",\"componentType\":" + (primitive.shortIndices() ? "5123" : "5125") + ",\"type\":\"SCALAR\"}";
           });
   size_t offset = 0;
-  json += ",\"bufferViews\":" + listOf(primitives.size(), [&](size_t p) {
+  json += ",\"bufferViews\":" + listOf(primitives.size() + (pictured ? 1 : 0), [&](size_t p) {
+            if (p == primitives.size()) {
+              return "{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) +
+                     ",\"byteLength\":" + std::to_string(info.texture->png.size()) + '}';
+            }
             const Primitive& primitive = primitives[p];
             std::string views = "{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) +
                                 ",\"byteLength\":" + std::to_string(primitive.vertexBytes()) +
-                                ",\"byteStride\":" + std::to_string(kVertexBytes) + ",\"target\":34962},";
+                                ",\"byteStride\":" + std::to_string(primitive.vertex_size) + ",\"target\":34962},";
             offset += primitive.vertexBytes();
             views += "{\"buffer\":0,\"byteOffset\":" + std::to_string(offset) +
                      ",\"byteLength\":" + std::to_string(primitive.indexBytes()) + ",\"target\":34963}";
@@ -164,12 +189,18 @@ std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::
   return json + ",\"buffers\":[{\"byteLength\":" + std::to_string(buffer_bytes) + "}]}";
 }
 
-void writePrimitive(const WorldMesh& mesh, const Primitive& primitive, FileWriter& file) {
-  for (uint32_t vertex : primitive.vertices) {
+void writePrimitive(const WorldMesh& mesh, const ExportTexture* texture, const Primitive& primitive, FileWriter& file) {
+  for (uint32_t number : primitive.vertices) {
+    const uint32_t vertex = vertexOf(texture, number);
     const Float3 position = exportedPosition(mesh, vertex), normal = exportedNormal(mesh, vertex);
     file.write(position.data(), sizeof position);
     file.write(normal.data(), sizeof normal);
     file.writeValue(uint32_t{mesh.attributes[vertex].tag});
+    if (texture != nullptr) {
+      const auto& [u, v] = texture->coordinates[number];
+      file.writeValue(u);
+      file.writeValue(-v);  // a picture's rows go down
+    }
   }
   for (uint32_t index : primitive.indices) {
     if (primitive.shortIndices()) {
@@ -184,9 +215,11 @@ void writePrimitive(const WorldMesh& mesh, const Primitive& primitive, FileWrite
 }  // namespace
 
 Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, FileWriter& file) {
-  const std::vector<Primitive> primitives = splitByMaterial(mesh);
+  const std::vector<Primitive> primitives = splitByMaterial(mesh, info.texture);
   size_t buffer_bytes = 0;
   for (const Primitive& p : primitives) buffer_bytes += p.vertexBytes() + p.paddedIndexBytes();
+  const size_t picture = info.texture != nullptr && !primitives.empty() ? info.texture->png.size() : 0;
+  buffer_bytes += (picture + 3) / 4 * 4;
   std::string json = sceneText(mesh, info, primitives, buffer_bytes);
   json.append((4 - json.size() % 4) % 4, ' ');
   const size_t total = 12 + 8 + json.size() + (primitives.empty() ? 0 : 8 + buffer_bytes);
@@ -203,7 +236,9 @@ Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, FileWriter&
   if (!primitives.empty()) {
     file.writeValue(static_cast<uint32_t>(buffer_bytes));
     file.write("BIN\0", 4);
-    for (const Primitive& p : primitives) writePrimitive(mesh, p, file);
+    for (const Primitive& p : primitives) writePrimitive(mesh, info.texture, p, file);
+    if (picture > 0) file.write(info.texture->png.data(), picture);
+    for (size_t i = picture; i % 4 != 0; ++i) file.write("\0", 1);
   }
   return file.commit();
 }

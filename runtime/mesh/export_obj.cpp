@@ -43,6 +43,11 @@ Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::
   file.write(header + "mtllib " + library_name + "\no " + oneLine(info.name) + '\n');
   for (uint32_t i = 0; i < mesh.positions.size(); ++i) writeVector(file, "v ", exportedPosition(mesh, i));
   for (uint32_t i = 0; i < mesh.positions.size(); ++i) writeVector(file, "vn ", exportedNormal(mesh, i));
+  const ExportTexture* texture = info.texture;
+  for (size_t i = 0; texture != nullptr && i < texture->coordinates.size(); ++i) {
+    const auto& [u, v] = texture->coordinates[i];
+    file.write("vt " + decimalText(u) + ' ' + decimalText(v) + '\n');
+  }
   for (uint16_t m : usedMaterials(mesh)) {
     const ExportMaterial material = materialAt(info, m);
     library.write("newmtl " + materialWord(info, m) + '\n');
@@ -54,7 +59,8 @@ Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::
       std::string line = "f";
       for (size_t corner = 0; corner < 3; ++corner) {
         const std::string number = std::to_string(size_t{mesh.indices[i + corner]} + 1);
-        line += ' ' + number + "//" + number;
+        const std::string place = texture != nullptr ? std::to_string(size_t{texture->corners[i + corner]} + 1) : "";
+        line += ' ' + number + '/' + place + '/' + number;
       }
       file.write(line + '\n');
     }

@@ -22,6 +22,18 @@ Surface surfaceAt(uint material, vec3 p, vec3 n, float footprint) {
   }
 }
 
+// Texture coordinates in the place of a material: what surface.frag has found of them.
+Surface chequered(float field, vec3 n) {
+  Surface s;
+  s.albedo = mix(vec3(0.16), vec3(0.55), clamp(field - 1.0, 0.0, 1.0));
+  if (field > 2.5) s.albedo = field > 3.5 ? vec3(0.10, 0.42, 0.12) : vec3(0.50, 0.08, 0.06);
+  s.normal = n;
+  s.roughness = 0.8;
+  s.specular = 0.03;
+  s.translucency = 0.0;
+  return s;
+}
+
 vec3 lamps(Surface s, vec3 p, vec3 n, vec3 to_eye, float open, vec2 turn) {
   vec3 sum = vec3(0.0), bounce = vec3(0.0);
   for (uint i = 0u; i < frame.counts.x; ++i) {
@@ -90,11 +102,13 @@ vec3 sampleAt(ivec2 at) {
   vec4 seen = texelFetch(position_plane, at, 0);
   vec3 turn = random3(ivec3(at, 1));
   if (seen.w == 0.0) return frame.size.w == 1u ? sky(d) : haze(background(d), d, 4.0 * frame.forward.w);
-  vec3 p = seen.xyz, n = normalize(texelFetch(normal_plane, at, 0).xyz);
+  vec4 facing = texelFetch(normal_plane, at, 0);
+  vec3 p = seen.xyz, n = normalize(facing.xyz);
   float t = length(p - frame.eye.xyz);
   // Seen edge-on, a sample covers more of the surface; half of that is what looks sharp without flicker.
   float footprint = t * frame.eye.w / mix(1.0, max(0.25, abs(dot(n, d))), 0.5);
   Surface s = surfaceAt(uint(seen.w) - 1u, p + frame.pattern_offset.xyz, n, footprint);
+  if (facing.w > 0.0) s = chequered(facing.w, n);
   float wide = openness(at, p, n, t, clamp(0.12 * t, 0.5, 40.0), turn.x);
   float fine = openness(at, p, n, t, clamp(0.025 * t, 0.12, 8.0), turn.y);
   float open = wide * fine;

@@ -3,8 +3,21 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) flat in uint material;
+layout(location = 3) in vec2 texture_at;
 layout(location = 0) out vec4 out_position;  // w: material + 1; 0 is the background
-layout(location = 1) out vec4 out_normal;
+layout(location = 1) out vec4 out_normal;    // w: what the chequers show, 0 where there are none
+
+// 1 and 2: the fields; 3: a line along u, 4: along v. Where a field is smaller than a sample it is 1.5.
+float chequers(vec2 at) {
+  vec2 width = fwidth(at);
+  if (width.x + width.y == 0.0) return 0.0;
+  if (max(width.x, width.y) > 0.25) return 1.5;
+  vec2 f = fract(at);
+  const float kLine = 1.0 / 24.0;
+  if (f.y < kLine) return 3.0;
+  if (f.x < kLine) return 4.0;
+  return (f.x < 0.5) != (f.y < 0.5) ? 1.0 : 2.0;
+}
 
 void main() {
   vec3 facet = cross(dFdx(position), dFdy(position));
@@ -14,5 +27,5 @@ void main() {
   // The viewport is turned upside down, and so is the sense of dFdy: the facet's side is settled by the front face.
   vec3 n = length2 > 0.01 ? normal * inversesqrt(length2) : (gl_FrontFacing ? -facet : facet);
   out_position = vec4(position, float(material + 1u));
-  out_normal = vec4(n, 0.0);
+  out_normal = vec4(n, chequers(texture_at));
 }

@@ -5,12 +5,15 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in uint material;
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
+layout(location = 3) in vec2 texture_at;
 layout(location = 2) flat out uint out_material;
+layout(location = 3) out vec2 out_texture;
 layout(push_constant) uniform View { mat4 view_projection; };
 
 void main() {
   out_position = position;
   out_normal = normal;
   out_material = material;
+  out_texture = texture_at;
   gl_Position = view_projection * vec4(position, 1.0);
 }

@@ -19,6 +19,26 @@ for format in obj ply stl GLB; do
 done
 rm -f ball.glb ball.obj ball.mtl ball.ply ball.stl ball.GLB
 
+# Texture coordinates: of the same triangles, and only where a file can have them.
+expect 0 "$SGM" mesh ball.sgm --out plain.glb --json
+json 'j.texture === null'
+plain=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).hash' "$work/.out")
+expect 0 "$SGM" mesh ball.sgm --out ball.glb --uv --json
+json "j.hash === '$plain'"
+json 'j.texture.wedges > j.vertices && j.texture.seams > 0 && j.texture.seams < 0.5'
+json 'j.texture.density.p5 > 0.6 && j.texture.density.p95 < 1.3 && j.texture.density.p50 > 0.8 && j.texture.density.p50 < 1.1'
+grep -q TEXCOORD_0 ball.glb || failed "no TEXCOORD_0"
+grep -q TEXCOORD_0 plain.glb && failed "TEXCOORD_0 without --uv"
+expect 0 "$SGM" mesh ball.sgm --out ball.obj --uv
+out_has 'texture +tiles of 1 m lie [0-9.]+ to [0-9.]+ times'
+grep -q '^vt ' ball.obj && grep -Eq '^f [0-9]+/[0-9]+/[0-9]+ ' ball.obj || failed "no vt in the .obj"
+for format in ply stl; do
+  expect 2 "$SGM" mesh ball.sgm --out "ball.$format" --uv
+  err_has '\.glb and \.obj'
+  one_line
+done
+rm -f plain.glb ball.glb ball.obj ball.mtl
+
 # An .obj brings its materials, and says so; a .mtl of somebody else's is not touched.
 expect 0 "$SGM" mesh ball.sgm --out ball.obj
 out_has '^ball\.obj, ball\.mtl: [0-9]+ triangles'

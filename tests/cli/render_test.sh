@@ -32,6 +32,11 @@ expect 0 "$SGM" render ball.sgm --out looked.png --camera 0,0,8:0,0,0 --size 64x
 json 'j.camera.position.join() === "0,0,8"'
 picture looked.png 64 64
 cmp -s ball.png looked.png && failed "the camera does not matter"
+expect 0 "$SGM" render ball.sgm --out chequered.png --camera 0,0,8:0,0,0 --size 64x64 --uv --json
+json 'j.texture.wedges > j.vertices'
+picture chequered.png 64 64
+cmp -s chequered.png looked.png && failed "chequers are not drawn"
+rm chequered.png
 expect 0 "$SGM" render "$cave" --out at.png --at spawn --region=0,0,0:192,192,192 --cell 2 --size 64x64 --seed 7
 picture at.png 64 64
 expect 0 "$SGM" render "$cave" --out level.png --level 1 --cell 1 --size 64x64 --seed 7 --json

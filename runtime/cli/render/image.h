@@ -1,6 +1,7 @@
 #pragma once
 // A picture in memory, and as a PNG file.
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct Image {
   int height = 0;
   std::vector<uint8_t> rgba;
 };
+
+/// The bytes of a PNG file. Errors: invalid_argument (empty, or sizes that do not match), out_of_memory.
+Result<std::vector<std::byte>> encodePng(const Image& image);
 
 /// Writes a PNG and commits the file. Errors: invalid_argument (empty, or sizes that do not match), out_of_memory, io.
 Result<void> writePng(const Image& image, FileWriter& file);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string_view>
@@ -17,6 +18,8 @@ struct RenderVertex {
   glm::vec3 position{0};
   glm::vec3 normal{0};
   uint32_t material = 0;  ///< index into RenderScene::materials; beyond its end the last one is meant
+  /// Texture coordinates, which are drawn as chequers; the same at all corners of a triangle: none.
+  glm::vec2 texture{0};
 };
 
 /// The procedural pattern that a surface is covered with.
