@@ -18,6 +18,18 @@ Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.
 
 double length(Vec3 a) { return std::sqrt(dot(a, a)); }
 
+Vec3 normalised(Vec3 v) {
+  const double size = length(v);
+  return size > 0 ? (1.0 / size) * v : Vec3{};
+}
+
+Vec3 across(Vec3 tangent, Vec3 wanted) {
+  const Vec3 flat = wanted - dot(wanted, tangent) * tangent;
+  if (length(flat) > 1e-3) return normalised(flat);
+  const Vec3 other = std::fabs(tangent.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
+  return normalised(other - dot(other, tangent) * tangent);
+}
+
 int32_t toUnits(double metres) {
   if (std::isnan(metres)) return 0;
   const double units = detFloor(metres * kUnitsPerMetre + 0.5);

@@ -22,6 +22,9 @@ struct Vec3 {
 double dot(Vec3 a, Vec3 b);
 Vec3 cross(Vec3 a, Vec3 b);
 double length(Vec3 a);
+Vec3 normalised(Vec3 a);  ///< zero stays zero
+/// A unit vector across `tangent` (of length 1), as near to `wanted` as it gets.
+Vec3 across(Vec3 tangent, Vec3 wanted);
 
 /// Metres to units, to nearest, saturating at the ends of the world. Not a number gives 0.
 int32_t toUnits(double metres);

@@ -13,22 +13,9 @@ Vec3 difference(Int3 a, Int3 b) {
           static_cast<double>(int64_t{a.z} - b.z)};
 }
 
-Vec3 normalised(Vec3 v) {
-  const double size = length(v);
-  return size > 0 ? (1.0 / size) * v : Vec3{};
-}
-
 Int3 offsetBy(Int3 p, Vec3 units) {
   const auto along = [](int32_t at, double d) { return saturate(at + static_cast<int64_t>(detFloor(d + 0.5))); };
   return {along(p.x, units.x), along(p.y, units.y), along(p.z, units.z)};
-}
-
-/// A unit vector across `tangent`, as near to `wanted` as it gets.
-Vec3 across(Vec3 tangent, Vec3 wanted) {
-  const Vec3 flat = wanted - dot(wanted, tangent) * tangent;
-  if (length(flat) > 1e-3) return normalised(flat);
-  const Vec3 other = std::fabs(tangent.x) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
-  return normalised(other - dot(other, tangent) * tangent);
 }
 
 }  // namespace
