@@ -17,11 +17,11 @@ namespace sgm {
 
 /// Caps for grammar text that nobody vouches for. Reaching one fails the whole cell; none depends on a clock.
 struct DeriveLimits {
-  uint64_t steps = 4'000'000;       ///< statements, expressions, candidates of point sets and samples of probes
+  uint64_t steps = 4'000'000;       ///< statements, expressions, candidates of point sets, segments, samples of probes
   uint32_t depth = 64;              ///< rules within rules
   uint32_t nesting = 768;           ///< statements within statements, over all rules; bounds the machine's stack
   uint32_t shapes = 200'000;        ///< before unused ones are dropped
-  size_t bytes = size_t{64} << 20;  ///< of the draft, uses of rules, anchors and candidates of a point set
+  size_t bytes = size_t{64} << 20;  ///< of the draft, uses of rules, anchors, segments and candidates of a point set
   uint32_t notes = 64;              ///< further notes are counted, not kept
 };
 

@@ -16,6 +16,10 @@ enum PathSalt : uint64_t {
   kSetSalt = 0x73657473,       ///< plus the hash of the rule's name, for a set of the whole layer
   kAnchorSalt = 0x616E6368,
   kBendSalt = 0x62656E64,
+  kBranchSalt = 0x6272616E,   ///< a skeleton, with the ordinal of its expression
+  kForkSalt = 0x666F726B,     ///< a side branch, with the step that it leaves
+  kSegmentSalt = 0x7365676D,  ///< a segment, with its step
+  kJointSalt = 0x6A6F696E,    ///< the joint behind a segment, likewise
 };
 
 /// Ordinals of the draws that one key gives.
@@ -27,6 +31,11 @@ enum Draw : uint64_t {
   kChoiceDraw = 0x400,  ///< plus 8 times the axis plus the corner
   kKeyedDraw = 0x500,
   kWeightDraw = 0x700,
+  kTurnDraw = 0x800,  ///< of a joint, as the next four
+  kAroundDraw,
+  kForkDraw,
+  kLeaveDraw,
+  kSideDraw,
   kPathDraw = 0x10000,  ///< plus the expression's ordinal
 };
 

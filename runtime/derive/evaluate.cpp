@@ -177,6 +177,10 @@ Value Interpreter::sampleCoordinates(const Env& env, bool local) {
 
 Value Interpreter::evaluateMember(const ExprNode& node, const Env& env) {
   const Value v = evaluate(program_.idAt(node.children, 0), env);
+  // What has failed has given another kind of value.
+  const auto segmentOf = [&](const Value& of) {
+    return of.kind == ValueKind::segment ? segments_[of.first] : Segment{};
+  };
   switch (node.member) {
     case Member::x:
     case Member::y:
@@ -200,6 +204,14 @@ Value Interpreter::evaluateMember(const ExprNode& node, const Env& env) {
           v.kind == ValueKind::face ? lattice_.facePoint(cell_, v.face(), 0) : lattice_.point(cell_, v.cell, 0), env);
     case Member::faces:
       return Value::ofFaces(lattice_.ownedFaces(v.cell));
+    case Member::from:
+      return Value::vector(segmentOf(v).from);
+    case Member::to:
+      return Value::vector(segmentOf(v).to);
+    case Member::along:
+      return Value::number(segmentOf(v).along);
+    case Member::depth:
+      return Value::number(segmentOf(v).depth);
     case Member::none:
       break;
   }
@@ -267,6 +279,7 @@ uint32_t Interpreter::boundAt(const ExprNode& node, uint32_t index) const {
 PathKey Interpreter::keyOf(const Value& v) const {
   if (v.kind == ValueKind::cell) return lattice_.cellKey(v.cell);
   if (v.kind == ValueKind::face) return lattice_.faceKey(v.face());
+  if (v.kind == ValueKind::segment) return segments_[v.first].key;
   PathKey key{seed_};
   for (size_t i = 0; i < partsOf(v); ++i) {
     // -0 and 0 are one number.

@@ -45,6 +45,8 @@ Value Interpreter::evaluateBuiltin(const ExprNode& node, const Env& env) {
     case Builtin::cell_links:
     case Builtin::face_point:
       return evaluateCellular(node, env);
+    case Builtin::branch:
+      return evaluateBranch(node, env);
     default:
       return evaluatePure(node, env);
   }
@@ -165,6 +167,33 @@ Value Interpreter::evaluateCellular(const ExprNode& node, const Env& env) {
     default:
       return {};
   }
+}
+
+Value Interpreter::evaluateBranch(const ExprNode& node, const Env& env) {
+  std::array<double, 4> given{};
+  for (uint32_t i = 0; i < given.size(); ++i) given[i] = realArgument(node, i, env);
+  given[0] = detFloor(given[0] + 0.5);
+  const uint32_t first = static_cast<uint32_t>(segments_.size());
+  if (failed()) return Value::ofSegments(first, 0);
+  for (size_t i = 0; i < given.size(); ++i) {
+    const ValueRange& range = branchRangeTable()[i];
+    if (range.holds(given[i])) continue;
+    note(std::string(range.rule).append(", ").append(range.example).append("; this one is left out"), node.span,
+         env.activation);
+    return Value::ofSegments(first, 0);
+  }
+  const PathKey key = env.key.child(kBranchSalt, node.ordinal);
+  const Skeleton skeleton = grownSkeleton(key, {given[0], given[1], given[2], given[3]});
+  if (!skeleton.whole) {
+    note("this branch has more than " + std::to_string(kMostSegments) +
+             " segments; side branches are left out: take fewer steps, or lower `fork`",
+         node.span, env.activation);
+  }
+  const uint32_t count = static_cast<uint32_t>(skeleton.segments.size());
+  if (!step(count, node.span, env.activation)) return Value::ofSegments(first, 0);
+  segments_.insert(segments_.end(), skeleton.segments.begin(), skeleton.segments.end());
+  withinBytes(node.span, env.activation);
+  return Value::ofSegments(first, count);
 }
 
 }  // namespace sgm

@@ -15,17 +15,19 @@
 #include "derive/draft.h"
 #include "derive/frame.h"
 #include "derive/lattice.h"
+#include "derive/skeleton.h"
 
 namespace sgm {
 
 /// A value of the language. Numbers, vectors and pairs use n; a cell uses `cell`, a face also `axis`; a range uses n[0]
-/// and n[1].
+/// and n[1]; a segment uses `first`, a list of them also `count`.
 struct Value {
   ValueKind kind = ValueKind::number;
   std::array<Num, 3> n{};
   Int3 cell;
   int axis = 0;
   std::vector<FaceId> faces;
+  uint32_t first = 0, count = 0;  ///< of the interpreter's segments
 
   static Value number(Num v) {
     Value result;
@@ -61,6 +63,18 @@ struct Value {
     Value result;
     result.kind = ValueKind::faces;
     result.faces = std::move(list);
+    return result;
+  }
+  static Value ofSegment(uint32_t index) {
+    Value result;
+    result.kind = ValueKind::segment;
+    result.first = index;
+    return result;
+  }
+  static Value ofSegments(uint32_t first, uint32_t count) {
+    Value result = ofSegment(first);
+    result.kind = ValueKind::segments;
+    result.count = count;
     return result;
   }
   double real() const { return n[0].value; }
@@ -135,6 +149,7 @@ class Interpreter {
   Value evaluatePure(const ExprNode& node, const Env& env);      ///< arithmetic
   Value evaluateRandom(const ExprNode& node, const Env& env);    ///< rand, chance
   Value evaluateCellular(const ExprNode& node, const Env& env);  ///< cells, faces, noise
+  Value evaluateBranch(const ExprNode& node, const Env& env);
   Value evaluateLet(const ExprNode& node, const Env& env);
   Value evaluateField(const ExprNode& node, const Env& env);
   Value sampleCoordinates(const Env& env, bool local);
@@ -221,6 +236,7 @@ class Interpreter {
   std::vector<uint32_t> active_;  ///< for each rule: activations on the path
   ShapeList layer_cuts_;
   std::vector<Anchor> anchors_;
+  std::vector<Segment> segments_;  ///< of all skeletons
   uint32_t watched_rule_ = kNone;
   std::vector<WatchedCall> watched_;
   std::vector<DeriveNote> notes_;

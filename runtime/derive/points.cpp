@@ -82,6 +82,13 @@ void Interpreter::forEach(const StmtNode& s, const Env& env, ShapeList& out) {
     }
     return;
   }
+  if (list.kind == ValueKind::segments) {
+    // Likewise: what stands at one segment knows nothing of the others.
+    for (uint32_t i = list.first; i < list.first + list.count; ++i) {
+      if (!body(Value::ofSegment(i), segments_[i].key.value)) return;
+    }
+    return;
+  }
   const double first = detFloor(list.n[0].value + 0.5), last = detFloor(list.n[1].value + 0.5);
   if (!(std::fabs(first) < 1e15)) return;
   for (double i = first; i < last; ++i) {

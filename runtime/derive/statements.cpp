@@ -26,7 +26,8 @@ Shape Interpreter::shapeIn(const Env& env, ShapeKind kind) const {
 }
 
 bool Interpreter::withinBytes(const Span& span, uint32_t activation) {
-  const size_t used = draft_.bytes() + activations_.size() * sizeof(Activation) + anchors_.size() * sizeof(Anchor);
+  const size_t used = draft_.bytes() + activations_.size() * sizeof(Activation) + anchors_.size() * sizeof(Anchor) +
+                      segments_.size() * sizeof(Segment);
   if (used <= limits_.bytes) return true;
   fail("one cell takes more than " + std::to_string(limits_.bytes >> 20) + " MiB", span, activation);
   return false;

@@ -66,7 +66,7 @@ enum class Ref : uint8_t {
   local,      ///< slot of the frame of the rule alternative, let function or field that contains the name
 };
 
-enum class Member : uint8_t { none, x, y, z, other, axis, size, center, faces };
+enum class Member : uint8_t { none, x, y, z, other, axis, size, center, faces, from, to, along, depth };
 
 struct ExprNode {
   ExprKind kind = ExprKind::number;
@@ -109,7 +109,7 @@ enum class StmtKind : uint8_t {
   warp,       ///< expr (vector of lengths), amount: as in displace, for each component; body
   transform,  ///< xforms, applied left to right from the outside in; body
   repeat,     ///< expr: count; xforms: applied i times to copy i; body
-  for_each,   ///< slot: loop variable; expr: a range or faces; body
+  for_each,   ///< slot: loop variable; expr: a range, faces or segments; body
   scatter,    ///< extra: Ast::scatters; body
   let,        ///< slot = expr, from here to the end of the block
   field,      ///< extra: Program::fields, evaluated in this frame where it is used

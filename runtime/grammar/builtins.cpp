@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "base/math.h"
+
 namespace sgm {
 
 namespace {
@@ -40,8 +42,18 @@ constexpr std::array kFractal = {number("period", kLength), option("octaves", kR
 constexpr std::array kPoint = {option("jitter", kRatio, 0.5)};
 constexpr std::array kLinks = {option("tree", kRatio, 3), option("extra", kRatio, 0)};
 constexpr std::array kVec = {any("x"), any("y"), any("z")};
+constexpr std::array kBranch = {number("n", kRatio), named(number("step", kLength)), named(number("turn", kAngle)),
+                                named(option("fork", kRatio, 0))};
 
-constexpr std::array<BuiltinInfo, 25> kBuiltins = {{{"min", Builtin::min, kMin},
+// A millionth of a millimetre: whatever is shorter is 0 in world units many times over. 90deg may round upwards.
+constexpr std::array<ValueRange, 4> kBranchRanges = {
+    {{0, kMostSegments, "a branch takes 0 to 4096 steps", "raise `step` instead"},
+     {1e-9, 1e9, "the `step` of a branch is a length above 0", "such as step 6m"},
+     {0, kPi / 2 * (1 + 1e-12), "the `turn` of a branch is 0deg to 90deg", "such as turn 25deg"},
+     {0, 1, "the `fork` of a branch is 0% to 100%", "such as fork 20%"}}};
+static_assert(kMostSegments == 4096);
+
+constexpr std::array<BuiltinInfo, 26> kBuiltins = {{{"min", Builtin::min, kMin},
                                                     {"max", Builtin::max, kMin},
                                                     {"abs", Builtin::abs, kOne},
                                                     {"floor", Builtin::floor, kOneRatio},
@@ -65,7 +77,8 @@ constexpr std::array<BuiltinInfo, 25> kBuiltins = {{{"min", Builtin::min, kMin},
                                                     {"point", Builtin::cell_point, kPoint},
                                                     {"links", Builtin::cell_links, kLinks},
                                                     {"point", Builtin::face_point, kPoint},
-                                                    {"vec", Builtin::position, kVec}}};
+                                                    {"vec", Builtin::position, kVec},
+                                                    {"branch", Builtin::branch, kBranch}}};
 
 constexpr std::array kRadius = {number("r", kLength)};
 constexpr std::array kBox = {number("x", kLength), number("y", kLength), number("z", kLength)};
@@ -114,6 +127,7 @@ auto find(const Table& table, std::string_view name) -> decltype(table.data()) {
 
 std::span<const BuiltinInfo> builtinTable() { return kBuiltins; }
 std::span<const PrimitiveInfo> primitiveTable() { return kPrimitives; }
+std::span<const ValueRange> branchRangeTable() { return kBranchRanges; }
 const BuiltinInfo* findBuiltin(std::string_view name) { return find(kBuiltins, name); }
 const PrimitiveInfo* findPrimitive(std::string_view name) { return find(kPrimitives, name); }
 

@@ -37,7 +37,8 @@ enum class Builtin : uint8_t {
   pow,           ///< (a, b) ratios, a >= 0, derive time
   length,        ///< (vector), derive time
   rand,          ///< (a, b): uniform in [a, b) by derivation path; derive time
-  rand_keyed,    ///< rand(key, a, b): by the key alone (a cell, a face or a number), the same wherever it is drawn
+  rand_keyed,    ///< rand(key, a, b): by the key alone (a cell, a face, a segment or a number), the same wherever it is
+                 ///< drawn
   chance,        ///< (p): true with probability p, by derivation path
   chance_keyed,  ///< chance(key, p)
   cell_noise,    ///< cellnoise(cell, period, salt = 0): smooth noise 0..1 at the centre of the cell; derive time
@@ -49,7 +50,12 @@ enum class Builtin : uint8_t {
   face_point,    ///< face.point(jitter = 0.5): a point of the face. In a let the receiver may be a cell in one call and
                  ///< a face in another: tell by the value, not by the enumerator
   position,      ///< vec(x, y, z), the same as (x, y, z)
+  branch,  ///< branch(n, step, turn, fork = 0): segments of a branching skeleton from the scope's origin along +y,
+           ///< by derivation path; rules only. derive/skeleton.h says how it grows
 };
+
+/// Of one branch(): further side branches are left out.
+inline constexpr uint32_t kMostSegments = 4096;
 
 /// Terminals. Centred on the scope's origin, axis y, unless said otherwise.
 enum class Primitive : uint8_t {
@@ -93,8 +99,17 @@ struct PrimitiveInfo {
   bool variadic = false;  ///< prism: more pairs may follow
 };
 
+/// What a number may be.
+struct ValueRange {
+  double low, high;
+  std::string_view rule;     ///< "the `step` of a branch must be positive"
+  std::string_view example;  ///< "such as step 6m"
+  bool holds(double value) const { return value >= low && value <= high; }
+};
+
 std::span<const BuiltinInfo> builtinTable();      ///< functions, by enumerator
 std::span<const PrimitiveInfo> primitiveTable();  ///< by enumerator
+std::span<const ValueRange> branchRangeTable();   ///< by parameter of branch()
 // How calls are bound to these parameters: ExprNode::bound has one entry for each parameter (after the receiver of a
 // method). box and ellipsoid with one argument: bound[0] only (an edge or a vector; box(edge) is a cube), bound[1] and
 // bound[2] are kNoId. halfspace: bound[0] is `below`, bound[1] is `above`; exactly one of them is there. prism: corners

@@ -134,7 +134,7 @@ class Checker {
   void offerNames(Suggestion& suggestion, bool calls) const;
   void unknownName(const Span& span, NameId name, bool call);
 
-  // check_expressions.cpp
+  // check_expressions.cpp, check_members.cpp, check_calls.cpp
   Type expression(ExprId id);
   Type name(ExprId id);
   Type member(ExprId id);
@@ -142,6 +142,7 @@ class Checker {
   Type conditional(ExprId id);
   Type callValue(ExprId id);
   Type builtinCall(ExprId id);
+  void branchRanges(const std::vector<uint32_t>& bound);
   Type method(ExprId id);
   Type letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<Type>& args);
   Type localFieldUse(ExprId id, const Local& local);

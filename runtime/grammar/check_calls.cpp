@@ -131,26 +131,45 @@ Type Checker::builtinCall(ExprId id) {
     case Builtin::rand:
     case Builtin::chance:
       if (!scope_.rule)
-        sink_.error(
-            n.span, codes::kRandKey, join({"outside of rules `", info.name, "` needs a key"}),
-            join({"a cell, a face or a number: ", info.name, builtin == Builtin::rand ? "(c, a, b)" : "(c, p)"}));
+        sink_.error(n.span, codes::kRandKey, join({"outside of rules `", info.name, "` needs a key"}),
+                    join({"a cell, a face, a segment or a number: ", info.name,
+                          builtin == Builtin::rand ? "(c, a, b)" : "(c, p)"}));
+      break;
+    case Builtin::branch:
+      if (!scope_.rule)
+        sink_.error(n.span, codes::kWrongUse, "`branch` is known inside rules only",
+                    "it draws by its place in the derivation");
+      branchRanges(bound);
+      out = {ValueKind::segments, kRatio, false, false};
       break;
     default:
       break;
   }
-  const bool draw = builtin == Builtin::rand || builtin == Builtin::rand_keyed || builtin == Builtin::chance ||
-                    builtin == Builtin::chance_keyed;
+  const bool draw = builtin == Builtin::branch || builtin == Builtin::rand || builtin == Builtin::rand_keyed ||
+                    builtin == Builtin::chance || builtin == Builtin::chance_keyed;
   if (draw && scope_.draws != nullptr) n.ordinal = (*scope_.draws)++;
   if (builtin == Builtin::rand_keyed || builtin == Builtin::chance_keyed) {
     const Type key = node(bound[0]).type;
     if (key.kind != ValueKind::cell && key.kind != ValueKind::face && key.kind != ValueKind::number &&
-        key.kind != ValueKind::unknown)
+        key.kind != ValueKind::segment && key.kind != ValueKind::unknown)
       sink_.error(node(bound[0]).span, codes::kTypeMismatch,
-                  join({"a key is a cell, a face or a number, and this is ", withArticle(typeName(key))}));
+                  join({"a key is a cell, a face, a segment or a number, and this is ", withArticle(typeName(key))}));
     deriveOnly(bound[0], "a key");
   }
   if (builtin == Builtin::chance || builtin == Builtin::chance_keyed) return {ValueKind::boolean, kRatio, false, false};
   return out;
+}
+
+/// Constants are judged here, what is known later where it is derived.
+void Checker::branchRanges(const std::vector<uint32_t>& bound) {
+  for (size_t i = 0; i < bound.size(); ++i) {
+    const BuiltinParam& param = builtinTable()[static_cast<size_t>(Builtin::branch)].params[i];
+    if (bound[i] == kNoId || !agrees(node(bound[i]).type, param.kind, param.dim)) continue;
+    const ValueRange& range = branchRangeTable()[i];
+    const std::optional<double> value = fold(bound[i], 0);
+    if (value && !range.holds(*value))
+      sink_.error(node(bound[i]).span, codes::kValueRange, std::string(range.rule), std::string(range.example));
+  }
 }
 
 Type Checker::method(ExprId id) {

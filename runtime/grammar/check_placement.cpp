@@ -14,11 +14,14 @@ void Checker::forEach(StmtId id, const StmtNode& s, bool shrunk) {
     type = {ValueKind::number, kRatio, false, false};
   } else if (source.kind == ValueKind::faces) {
     type.kind = ValueKind::face;
+  } else if (source.kind == ValueKind::segments) {
+    type.kind = ValueKind::segment;
   } else if (source.kind != ValueKind::unknown) {
     sink_.error(node(s.expr).span, codes::kTypeMismatch,
-                join({"`for` goes through a range or faces, and this is a ", typeName(source)}),
-                "such as 0..4, cell.faces or cell.links(tree 3)");
+                join({"`for` goes through a range, faces or segments, and this is a ", typeName(source)}),
+                "such as 0..4, cell.links(tree 3) or branch(12, step 6m, turn 25deg)");
   }
+  deriveOnly(s.expr, "what `for` goes through");
   const uint32_t slot = scope_.next_slot++;
   program_.ast.stmts[id].slot = slot;
   const size_t locals = scope_.locals.size();

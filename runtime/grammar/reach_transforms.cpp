@@ -179,7 +179,7 @@ IntervalVector ReachCheck::stepLengths(IdRange xforms, const RangeFrame& frame) 
 Extent ReachCheck::forEach(const StmtNode& s, RangeFrame& frame) {
   const ExprNode& source = program_.expr(s.expr);
   RangeValue variable = RangeValue::unknown();
-  Interval times{0, 3};  // a cell owns three faces
+  Interval times{0, 3};  // a cell owns three faces at most
   if (source.kind == ExprKind::range) {
     const Interval low = rounded(values_.number(program_.idAt(source.children, 0), frame));
     const Interval high = rounded(values_.number(program_.idAt(source.children, 1), frame));
@@ -188,7 +188,9 @@ Extent ReachCheck::forEach(const StmtNode& s, RangeFrame& frame) {
     times = {std::max(0.0, high.lo - low.hi), high.hi - low.lo};
   } else {
     variable = values_.evaluate(s.expr, frame);
-    variable.kind = ValueKind::face;
+    const bool branch = variable.kind == ValueKind::segments;
+    variable.kind = branch ? ValueKind::segment : ValueKind::face;
+    if (branch) times.hi = kMostSegments;
   }
   frame.slots[s.slot] = variable;
   Extent e = body(s.body, frame);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math.h"
+
 namespace sgm {
 
 namespace {
@@ -233,6 +235,14 @@ RangeValue RangeEvaluator::member(const ExprNode& n, const RangeFrame& frame) {
     }
     case Member::faces:
       return {ValueKind::faces, of.v};
+    case Member::from:
+    case Member::to:
+      if (of.kind != ValueKind::segment) return RangeValue::unknown();
+      return RangeValue::vector({of.v[0], of.v[0], of.v[0]});
+    case Member::along:
+      return RangeValue::number({0, 1});
+    case Member::depth:
+      return RangeValue::number(of.v[1]);
     default:
       return RangeValue::unknown();
   }
@@ -314,6 +324,12 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
       return {ValueKind::faces, evaluate(arg(0), frame).v};
     case Builtin::position:
       return RangeValue::vector({in(0), in(1), in(2)});
+    case Builtin::branch: {
+      // Ends are not farther than all steps in a line, with room for the rounding of each.
+      const double steps = std::floor(std::clamp(in(0).hi + 0.5, 0.0, static_cast<double>(kMostSegments)));
+      const double far = boundProduct(steps, std::max(0.0, in(1).hi)) * (1 + 1e-9);
+      return {ValueKind::segments, {Interval{-far, far}, Interval{0, std::max(0.0, steps - 1)}, Interval{}}};
+    }
   }
   return RangeValue::unknown();
 }

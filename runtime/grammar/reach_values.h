@@ -11,7 +11,7 @@
 namespace sgm {
 
 /// A number or condition is v[0]; a vector or pair v; a cell its offset from the cell being derived, in cells, a face
-/// that of its lower cell.
+/// that of its lower cell; a segment (and a list of them) the coordinates of its ends in v[0] and its depth in v[1].
 struct RangeValue {
   ValueKind kind = ValueKind::unknown;
   IntervalVector v{Interval::everything(), Interval::everything(), Interval::everything()};

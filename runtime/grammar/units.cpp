@@ -40,6 +40,10 @@ std::string typeName(const Type& type) {
       return "face";
     case ValueKind::faces:
       return "list of faces";
+    case ValueKind::segment:
+      return "segment";
+    case ValueKind::segments:
+      return "list of segments";
     case ValueKind::range:
       return "range";
     case ValueKind::text:

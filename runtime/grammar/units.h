@@ -22,12 +22,14 @@ enum class ValueKind : uint8_t {
   unknown,  ///< a parameter of a rule that nothing calls; agrees with everything
   number,   ///< one number of dimension dim
   boolean,
-  vector,  ///< three numbers of dimension dim; a point where dim is length
-  pair,    ///< two numbers of dimension dim (corners of a prism, x and z)
-  cell,    ///< a cell of the layer: `cell`, or `other` of a face
-  face,    ///< a face of a cell, from cell.faces or cell.links
-  faces,   ///< a list of faces, for `for`
-  range,   ///< a..b of whole numbers, for `for`
+  vector,    ///< three numbers of dimension dim; a point where dim is length
+  pair,      ///< two numbers of dimension dim (corners of a prism, x and z)
+  cell,      ///< a cell of the layer: `cell`, or `other` of a face
+  face,      ///< a face of a cell, from cell.faces or cell.links
+  faces,     ///< a list of faces, for `for`
+  segment,   ///< one step of a branching skeleton
+  segments,  ///< a list of segments, for `for`
+  range,     ///< a..b of whole numbers, for `for`
   text,
   axis,  ///< x, y or z as an argument
 };

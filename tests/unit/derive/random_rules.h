@@ -145,7 +145,7 @@ class RandomRules {
 
   std::string statement(int depth) {
     if (depth > 3) return leaf();
-    switch (draw(20)) {
+    switch (draw(21)) {
       case 0:
         return level_ < 2 ? "R" + std::to_string(level_ + 1) + "(" + length() + ");" : "R3(min(r, 3m));";
       case 1:
@@ -182,11 +182,27 @@ class RandomRules {
       case 15:
         return "Deep(" + length() + ");";
       case 16:
+        return "for s" + std::to_string(depth) + " in branch(" + pick({"3", "count", "1.6*count"}) + ", step " +
+               pick({"1m", "0.5*r", "free*1m"}) + ", turn " + pick({"0deg", "30deg", "90deg", "share*90deg"}) +
+               pick({"", ", fork 40%", ", fork share"}) + ") " + segmentBody("s" + std::to_string(depth), depth);
       case 17:
       case 18:
+      case 19:
         return xforms() + block(depth);
       default:
         return leaf();
+    }
+  }
+
+  std::string segmentBody(const std::string& s, int depth) {
+    switch (draw(4)) {
+      case 0:
+        return "{ at(" + s + pick({".from", ".to", ".to + (0m, r, 0m)"}) + ") " + statement(depth + 1) + " }";
+      case 1:
+        return "{ sphere(1m*" + s + pick({".along", ".depth", ".to.y/4m"}) + "); }";
+      default:
+        return "{ " + pick({"capsule", "tube", "beam"}) + "(" + s + ".from, " + s + ".to, rand(" + s + ", 0.2m, 0.6m)" +
+               pick({"*(1 - 0.5*", "*(0.5 + 0.1*"}) + s + pick({".along", ".depth"}) + ")); }";
     }
   }
 

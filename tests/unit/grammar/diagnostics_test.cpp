@@ -97,6 +97,30 @@ const Case kCases[] = {
     {"1:23 param-range", "sgm 1; param a = 3 in 4..2; start A; rule A { }"},
     {"1:14 param-range", "sgm 1; param a = 3 animated; start A; rule A { }"},
     {"2:20 divide-by-zero", "sgm 1; start A;\nrule A { sphere(2m/0); }"},
+    // Branches
+    {"2:34 value-range", "sgm 1; start A;\nrule A { for s in branch(3, step 0m, turn 9deg) { sphere(1m); } }"},
+    {"2:34 value-range", "sgm 1; start A;\nrule A { for s in branch(3, step -2m, turn 9deg) { sphere(1m); } }"},
+    {"2:43 value-range", "sgm 1; start A;\nrule A { for s in branch(3, step 1m, turn 91deg) { sphere(1m); } }"},
+    {"2:55 value-range",
+     "sgm 1; start A;\nrule A { for s in branch(3, step 1m, turn 90deg, fork 20) { sphere(1m); } }"},
+    {"2:26 value-range", "sgm 1; start A;\nrule A { for s in branch(4097, step 1cm, turn 9deg) { sphere(1m); } }"},
+    {"2:34 unit-mismatch", "sgm 1; start A;\nrule A { for s in branch(3, step 2, turn 9deg) { sphere(1m); } }"},
+    {"2:43 unit-mismatch", "sgm 1; start A;\nrule A { for s in branch(3, step 2m, turn 9) { sphere(1m); } }"},
+    {"2:26 type-mismatch", "sgm 1; start A;\nrule A { for s in branch(cell, step 2m, turn 9deg) { sphere(1m); } }"},
+    {"2:34 stage", "sgm 1; start A;\nrule A { for s in branch(3, step p.x, turn 9deg) { sphere(1m); } }"},
+    {"2:29 argument-name", "sgm 1; start A;\nrule A { for s in branch(3, 2m, turn 9deg) { sphere(1m); } }"},
+    {"2:19 argument-count", "sgm 1; start A;\nrule A { for s in branch(3, step 2m) { sphere(1m); } }"},
+    {"2:38 argument-name", "sgm 1; start A;\nrule A { for s in branch(3, step 2m, trun 9deg) { sphere(1m); } }"},
+    {"2:58 unknown-member", "sgm 1; start A;\nrule A { for s in branch(3, step 2m, turn 9deg) { sphere(s.middle); } }"},
+    {"2:17 unknown-member", "sgm 1; start A;\nrule A { sphere(branch(3, step 2m, turn 9deg).along*1m); }"},
+    {"2:58 type-mismatch", "sgm 1; start A;\nrule A { for s in branch(3, step 2m, turn 9deg) { sphere(s); } }"},
+    {"2:58 unit-mismatch", "sgm 1; start A;\nrule A { for s in branch(3, step 2m, turn 9deg) { sphere(s.depth); } }"},
+    {"2:22 stage",
+     "sgm 1; start A;\nrule A { for s in if p.x > 0m then branch(3, step 2m, turn 9deg) else branch(4, step 2m, turn "
+     "9deg) "
+     "{ sphere(1m); } }"},
+    {"2:19 type-mismatch", "sgm 1; start A;\nrule A { for s in 3m { sphere(1m); } }"},
+    {"1:16 wrong-use", "sgm 1; let a = branch(3, step 2m, turn 9deg); start A; rule A { for s in a { sphere(1m); } }"},
     // Structure
     {"1:27 recursive-value", "sgm 1; let a = b; let b = a; start A; rule A { sphere(a); }"},
     {"2:10 unbounded-recursion", "sgm 1; start A;\nrule A { A; }"},
@@ -217,5 +241,14 @@ TEST_CASE("hints name what to write", "[grammar][diagnostics]") {
   CHECK(hintOf("sgm 1; start A; rule A { rot(y, 90) sphere(5m); }") == "write `90deg`");
   CHECK(hintOf("sgm 1; start A; rule A { sphere(5mn); }") == "did you mean `m`?");
   CHECK(hintOf("sgm 1; start A; rule A { sphere(5m) && box(1m); }") == "write `and`");
+  const auto branchHint = [&](const std::string& arguments, const std::string& body) {
+    return hintOf("sgm 1; start A; rule A { for s in branch(" + arguments + ") { " + body + " } }");
+  };
+  CHECK(branchHint("3, step 2m, turn 9deg, fork 20", "sphere(1m);") == "such as fork 20%");
+  CHECK(branchHint("3, step 2, turn 9deg", "sphere(1m);") == "write `2m`");
+  CHECK(branchHint("3, step 2m, turn 9deg", "at(s.form) sphere(1m);") == "did you mean `from`?");
+  CHECK(branchHint("3, step 2m, turn 9deg", "at(s.middle) sphere(1m);") == "it has from, to, along, depth");
+  CHECK(hintOf("sgm 1; start A; rule A { sphere(cell.siez.x); }") == "did you mean `size`?");
+  CHECK(hintOf("sgm 1; start A; rule A { sphere(cell.links); }") == "write `links()` with its arguments");
   CHECK(hintOf("sgm 1; start A; rule A { scater 3 on disc(1m) { sphere(1m); } }") == "did you mean `scatter`?");
 }

@@ -74,7 +74,7 @@ class Writer {
       out_ += "sphere(r);";
       return;
     }
-    switch (draw(16)) {
+    switch (draw(17)) {
       case 0:
         out_ += "sphere(" + length(0) + ");";
         return;
@@ -122,6 +122,11 @@ class Writer {
       case 14:
         out_ += "detail 5cm ";
         return body(depth + 1);
+      case 15:
+        out_ += "for s" + std::to_string(depth) + " in branch(" + pick({"count", "3"}) + ", step r, turn 20deg" +
+                pick({"", ", fork 0.1", ", fork = 30%"}) + ") { capsule(s" + std::to_string(depth) + ".from, s" +
+                std::to_string(depth) + ".to, rand(s" + std::to_string(depth) + ", 0.1m, " + length(2) + ")); }";
+        return;
       default:
         out_ += "meet { sphere(r); halfspace(below " + length(1) + "); }";
         return;

@@ -166,6 +166,21 @@ TEST_CASE("faces are counted from the cell they belong to", "[grammar][reach]") 
              {21, 21, 21});
 }
 
+TEST_CASE("a branch reaches as far as all its steps in a line", "[grammar][reach]") {
+  const std::string tree = "for s in branch(4, step 2m, turn 30deg, fork 50%) ";
+  checkBound(tree + "{ at(s.to) sphere(1m); }", {-9, -9, -9}, {9, 9, 9});
+  checkBound(tree + "{ capsule(s.from, s.to, 1m - 0.5m*s.along); }", {-9, -9, -9}, {9, 9, 9});
+  checkBound(tree + "{ sphere(1m + 1m*s.depth); }", {-4, -4, -4}, {4, 4, 4});
+  checkBound("for s in branch(2.4, step rand(1m, 3m), turn 0deg) { Limb(s); }", {-7, -7, -7}, {7, 7, 7},
+             "rule Limb(s) { at(s.from) sphere(1m); }");
+  checkBound("at(cell.center) rot(z, 90deg) " + tree + "{ at(s.to) sphere(1m); }", {-5, -5, -5}, {13, 13, 13});
+  checkBound("for s in branch(0, step 2m, turn 30deg) { at(s.to) sphere(1m); }", {-1, -1, -1}, {1, 1, 1});
+  // A count without a range is not more than a branch may have.
+  const std::string any = "for s in branch(n, step 5mm, turn 0deg) { at(s.to) sphere(1m); }";
+  CHECK(boundOf(any, "param n = 3;", "22m").proven);
+  CHECK(boundOf(any, "param n = 3;", "21m").brief == "4:61 reach-maybe");
+}
+
 TEST_CASE("the corners of a beam's ends count", "[grammar][reach]") {
   const double r = std::sqrt(3.0);
   checkBound("beam((0m, 0m, 0m), (3m, 0m, 0m), 1m);", {-r, -r, -r}, {3 + r, r, r});
