@@ -349,6 +349,10 @@ void Checker::expectations() {
                   "such as == 1 or in 1..10");
     if (e.of != kNoId && e.measure != Measure::components)
       sink_.error(e.span, codes::kWrongUse, "only components are of air or solid");
+    if (const auto above = e.above == kNoId ? std::nullopt : constant(e.above, kVolume, "the size of a piece")) {
+      e.above_number = *above;
+      if (*above < 0) sink_.error(node(e.above).span, codes::kValueRange, "the size of a piece is 0m3 or more");
+    }
     if (const auto value = e.value == kNoId ? std::nullopt : constant(e.value, dim, "the value to compare with"))
       e.value_number = *value;
     if (const auto low = e.low == kNoId ? std::nullopt : constant(e.low, dim, "the low end of a range"))

@@ -393,6 +393,7 @@ void Parser::expectation(bool expect_it) {
   if (accept(Tok::open_paren)) {
     if (!atWord("air") && !atWord("solid")) unexpected("`air` or `solid`");
     e.of = wordName("`air` or `solid`");
+    if (acceptWord("above")) e.above = expression();
     expect(Tok::close_paren, "`)`");
   }
   const Tok sign = peek().kind;

@@ -17,7 +17,14 @@ constexpr uint32_t kLongestInline = 400;  // longer in the source: not even trie
 
 void measureText(std::string& out, const Program& program, const LinePrinter& line, const Expectation& e) {
   out += measureName(e.measure);
-  if (e.of != kNoId) out += join({"(", program.text(e.of), ")"});
+  if (e.of != kNoId) {
+    out += join({"(", program.text(e.of)});
+    if (e.above != kNoId) {
+      out += " above ";
+      line.expr(out, e.above);
+    }
+    out += ')';
+  }
   if (e.compared) {
     out += binaryText(e.comparison);
     line.expr(out, e.value);

@@ -147,7 +147,9 @@ enum class Measure : uint8_t { watertight, components, volume, area, triangles, 
 struct Expectation {
   bool expect = false;  ///< otherwise a report
   Measure measure = Measure::watertight;
-  NameId of = kNoId;  ///< components(air): "air" or "solid"
+  NameId of = kNoId;        ///< components(air): "air" or "solid"
+  ExprId above = kNoId;     ///< components(solid above 1m3): a constant
+  double above_number = 0;  ///< m3; 0: not written
   bool compared = false;
   BinaryOp comparison = BinaryOp::equal;
   ExprId value = kNoId, low = kNoId, high = kNoId;  ///< comparison, or range; constants

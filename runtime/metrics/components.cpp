@@ -23,7 +23,7 @@ size_t endOfRun(const uint64_t* row, size_t x, size_t nx, bool solid) {
 }  // namespace
 
 ComponentCounter::ComponentCounter(size_t nx, size_t ny, std::pmr::memory_resource* memory)
-    : nx_(nx), ny_(ny), last_(memory), next_(memory), parent_(memory), number_(memory), solid_(memory) {}
+    : nx_(nx), ny_(ny), last_(memory), next_(memory), parent_(memory), number_(memory), pieces_(memory) {}
 
 void ComponentCounter::findRuns(std::span<const uint64_t> signs) {
   next_.runs.clear();
@@ -77,24 +77,27 @@ void ComponentCounter::joinRows(std::span<const Run> a, std::span<const Run> b, 
 void ComponentCounter::retire() {
   number_.assign(parent_.size(), kUnseen);
   uint32_t kept = 0;
-  std::pmr::vector<bool> signs(solid_.get_allocator());
+  std::pmr::vector<Piece> pieces(pieces_.get_allocator());
   for (Run& run : next_.runs) {
     uint32_t& number = number_[rootOf(run.piece)];
     if (number == kUnseen) {
       number = kept++;
-      signs.push_back(run.solid);
+      pieces.push_back({run.solid, 0});
     }
     run.piece = number;
+    pieces[number].samples += run.end - run.begin;
   }
-  // What the new plane has no part of is whole, and counts once.
   for (uint32_t i = 0; i < open_; ++i) {
-    uint32_t& number = number_[rootOf(i)];
-    if (number != kUnseen) continue;
-    number = 0;
-    ++(solid_[i] ? closed_.solid : closed_.air);
+    // Only runs of the new plane join pieces: what it has no part of is whole, and alone.
+    const uint32_t number = number_[rootOf(i)];
+    if (number != kUnseen) {
+      pieces[number].samples += pieces_[i].samples;
+    } else {
+      (pieces_[i].solid ? closed_.solid : closed_.air).push_back(pieces_[i].samples);
+    }
   }
   open_ = kept;
-  solid_ = std::move(signs);
+  pieces_ = std::move(pieces);
   std::swap(last_, next_);
 }
 
@@ -110,10 +113,21 @@ void ComponentCounter::addPlane(std::span<const uint64_t> signs) {
   retire();
 }
 
-Components ComponentCounter::count() const {
-  Components all = closed_;
-  for (bool solid : solid_) ++(solid ? all.solid : all.air);
+PieceSizes ComponentCounter::sizes() const {
+  PieceSizes all = closed_;
+  for (const Piece& piece : pieces_) (piece.solid ? all.solid : all.air).push_back(piece.samples);
+  std::sort(all.solid.begin(), all.solid.end());
+  std::sort(all.air.begin(), all.air.end());
   return all;
+}
+
+Components PieceSizes::above(double samples) const {
+  const auto count = [samples](const std::vector<uint64_t>& sizes) {
+    const auto first = std::partition_point(sizes.begin(), sizes.end(),
+                                            [samples](uint64_t size) { return static_cast<double>(size) <= samples; });
+    return static_cast<uint64_t>(sizes.end() - first);
+  };
+  return {count(solid), count(air)};
 }
 
 }  // namespace sgm

@@ -19,7 +19,16 @@ struct Components {
   friend bool operator==(const Components&, const Components&) = default;
 };
 
-/// Counts plane by plane, and remembers no more than the last plane.
+/// Samples of each piece, rising.
+struct PieceSizes {
+  std::vector<uint64_t> solid, air;
+
+  /// Of those with more samples than that.
+  Components above(double samples) const;
+  friend bool operator==(const PieceSizes&, const PieceSizes&) = default;
+};
+
+/// Counts plane by plane, and remembers no more than the last plane, and how large the pieces before it were.
 class ComponentCounter {
  public:
   /// Of nx by ny samples a plane, at least one each.
@@ -33,7 +42,7 @@ class ComponentCounter {
   void addPlane(std::span<const uint64_t> signs);
 
   /// Of all planes so far.
-  Components count() const;
+  PieceSizes sizes() const;
 
  private:
   /// Equal signs side by side: samples begin <= x < end of one row.
@@ -62,8 +71,12 @@ class ComponentCounter {
   uint32_t open_ = 0;                  ///< pieces that the last plane has
   std::pmr::vector<uint32_t> parent_;  ///< union-find over the pieces of the last plane, then the runs of the next
   std::pmr::vector<uint32_t> number_;
-  std::pmr::vector<bool> solid_;  ///< of the pieces that the last plane has
-  Components closed_;             ///< pieces that the last plane does not have
+  struct Piece {
+    bool solid = false;
+    uint64_t samples = 0;
+  };
+  std::pmr::vector<Piece> pieces_;  ///< that the last plane has
+  PieceSizes closed_;               ///< of those that it does not have, in no order
 };
 
 }  // namespace sgm

@@ -1,6 +1,7 @@
 #include "metrics/expectations.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "metrics/region.h"
 
@@ -51,9 +52,11 @@ Measured read(const Program& program, const Expectation& e, const RegionMeasures
       result.value = region.topology.watertight ? 1 : 0;
       result.why = region.topology.leak;
       break;
-    case Measure::components:
-      result.value = static_cast<double>(program.text(e.of) == "air" ? region.components.air : region.components.solid);
+    case Measure::components: {
+      const Components larger = region.pieces.above(e.above_number / region.sample);
+      result.value = static_cast<double>(program.text(e.of) == "air" ? larger.air : larger.solid);
       break;
+    }
     case Measure::volume:
       result.value = region.volume;
       break;
@@ -235,7 +238,8 @@ class Evaluator {
     RegionMeasures measures;
     measures.topology.watertight = true;
     measures.topology.genus = 0;
-    measures.components.air = 1;
+    measures.pieces.air = {std::numeric_limits<uint64_t>::max()};
+    measures.sample = 1;
     return measures;
   }
 

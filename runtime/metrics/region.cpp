@@ -53,7 +53,7 @@ class PlaneReader {
     }
   }
 
-  Components count() const { return counter_.count(); }
+  PieceSizes sizes() const { return counter_.sizes(); }
 
  private:
   size_t nx_, ny_, words_;
@@ -102,7 +102,8 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
   const int32_t cell = world.settings().finest_cell;
   for (int axis = 0; axis < 3; ++axis) result.extent.hi[axis] += kChunkCells * cell;
   result.volume = cubeVolume(solid_samples, cell);
-  if (planes) result.components = planes->count();
+  result.sample = cubeVolume(1, cell);
+  if (planes) result.pieces = planes->sizes();
   if (!wanted.surface) return result;
 
   std::pmr::vector<PlacedPart> parts(world.memory());

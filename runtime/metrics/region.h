@@ -21,8 +21,9 @@ struct RegionMeasures {
   uint64_t chunks = 0;
   uint64_t triangles = 0;  ///< each once; none of the faces where the border cuts the solid
   double volume = 0;       ///< m3 of the solid: equation 8 of the paper (cubeVolume() in measure.h)
+  double sample = 0;       ///< m3 that one stands for
   double area = 0;         ///< m2, equation 7, of the surface without the cut faces; 0 where not wanted
-  Components components;   ///< of all samples of the region, those on its high faces included; 0 where not wanted
+  PieceSizes pieces;       ///< of all samples of the region, those on its high faces included; none where not wanted
   Topology topology;       ///< empty where not wanted
 };
 

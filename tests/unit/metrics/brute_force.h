@@ -1,7 +1,9 @@
 #pragma once
 // Pieces of solid and air by the rule of the mesh itself, face by face: slow, and plain to see.
 
+#include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace sgm::test {
 
 /// solid(x, y, z) for 0 <= x < nx and so on. On each face of each cell the rule cuts off every maximal run of solid
 /// corners by itself: so the corners of a run are one piece, and all void corners of the face are one.
-inline Components bruteForce(int nx, int ny, int nz, const std::function<bool(int, int, int)>& solid) {
+inline PieceSizes bruteForce(int nx, int ny, int nz, const std::function<bool(int, int, int)>& solid) {
   std::vector<int> parent(static_cast<size_t>(nx) * static_cast<size_t>(ny) * static_cast<size_t>(nz));
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
@@ -46,14 +48,20 @@ inline Components bruteForce(int nx, int ny, int nz, const std::function<bool(in
       }
     }
   }
-  Components found;
+  std::map<int, uint64_t> samples;
+  std::map<int, bool> is_solid;
   for (int z = 0; z < nz; ++z) {
     for (int y = 0; y < ny; ++y) {
       for (int x = 0; x < nx; ++x) {
-        if (root(number(x, y, z)) == number(x, y, z)) ++(solid(x, y, z) ? found.solid : found.air);
+        ++samples[root(number(x, y, z))];
+        is_solid[root(number(x, y, z))] = solid(x, y, z);
       }
     }
   }
+  PieceSizes found;
+  for (const auto& [piece, size] : samples) (is_solid[piece] ? found.solid : found.air).push_back(size);
+  std::sort(found.solid.begin(), found.solid.end());
+  std::sort(found.air.begin(), found.air.end());
   return found;
 }
 
