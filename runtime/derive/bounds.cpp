@@ -196,6 +196,16 @@ WideBox Walker::leaf(const Shape& s, double a) const {
       return halfspace(s.frame, a);
     case ShapeKind::prism:
       return prism(s, a);
+    case ShapeKind::voxels: {
+      // Upright: an axis without an end does not widen the others.
+      WideBox box;
+      for (size_t j = 0; j < 3; ++j) {
+        const double half = size(j) + a + slack(size(j)) + slack(a), at = s.frame.origin[static_cast<int>(j)];
+        box.lo[j] = at - half;
+        box.hi[j] = at + half;
+      }
+      return box;
+    }
     case ShapeKind::morph_power: {
       // The radii at the ends of what the exponent goes through: the six given may lie far outside.
       const Range along = range(s.expr);

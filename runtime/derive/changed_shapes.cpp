@@ -47,6 +47,7 @@ class Signer {
     for (float v : s.size) h.add(v);
     h.add(s.frame);
     addPoints(h, s.first_point, s.point_count);
+    if (s.block != kNone) addVoxels(h, chunk_.blocks[s.block]);
     const uint32_t read = s.expr == kNone ? 0 : s.kind == ShapeKind::warp ? 3 : 1;
     for (uint32_t i = 0; i < read; ++i) h.add(exprs_[s.expr + i]);
     Signature signature;
@@ -87,6 +88,14 @@ class Signer {
   void addPoints(Hasher& h, uint32_t first, uint32_t count) const {
     h.add(count);
     for (uint32_t i = 0; i < count; ++i) h.add(chunk_.points[first + i]);
+  }
+
+  void addVoxels(Hasher& h, const VoxelBlock& block) const {
+    h.add(block.anchor);
+    h.add(block.edge);
+    h.add(block.first);
+    h.add(block.count);
+    for (size_t i = 0; i < block.words(); ++i) h.add(chunk_.voxels[block.first_word + i]);
   }
 
   uint64_t hashOf(const Expr& e) const {

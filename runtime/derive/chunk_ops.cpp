@@ -16,6 +16,7 @@ void addShape(Hasher& h, const Shape& s) {
   h.add(s.inner_radius);
   for (float v : s.size) h.add(v);
   h.add(s.frame);
+  if (s.block != kNone) h.add(s.block);
 }
 
 void addExpr(Hasher& h, const Expr& e) {
@@ -36,10 +37,13 @@ void translate(GrammarChunk& chunk, Int3 offset) {
   const auto move = [&](Int3& p) { p = saturatingAdd(p, offset); };
   for (Shape& s : chunk.shapes) {
     // Combiners have no place of their own.
-    if (s.kind < ShapeKind::unite || s.kind == ShapeKind::morph_power) move(s.frame.origin);
+    if (s.kind < ShapeKind::unite || s.kind == ShapeKind::morph_power || s.kind == ShapeKind::voxels) {
+      move(s.frame.origin);
+    }
     // A prism's points are local; a sweep's are in the world, here and in expressions.
     for (uint32_t i = 0; s.kind != ShapeKind::prism && i < s.point_count; ++i) move(chunk.points[s.first_point + i]);
   }
+  for (VoxelBlock& b : chunk.blocks) move(b.anchor);
   for (Expr& e : chunk.exprs) {
     if (e.op == ExprOp::coordinate) move(e.anchor);
     for (uint32_t i = 0; i < e.point_count; ++i) move(chunk.points[e.first_point + i]);
@@ -68,6 +72,13 @@ uint64_t hashChunk(const GrammarChunk& chunk) {
     h.add(uint64_t{n.octaves} | uint64_t{n.seed} << 32);
   }
   for (const Int3& p : chunk.points) h.add(p);
+  for (const VoxelBlock& b : chunk.blocks) {
+    h.add(b.anchor);
+    h.add(b.edge);
+    h.add(b.first);
+    h.add(b.count);
+  }
+  for (const uint64_t word : chunk.voxels) h.add(word);
   h.add(uint64_t{chunk.groups.size()});
   for (const Group& g : chunk.groups) {
     h.add(uint64_t{g.root} | uint64_t{g.cut ? 1u : 0u} << 32);

@@ -188,6 +188,16 @@ uint32_t Draft::addPrismPoints(std::span<const Int3> points) {
   return first;
 }
 
+uint32_t Draft::addVoxels(VoxelBlock block, std::span<const uint8_t> solid) {
+  block.first_word = static_cast<uint32_t>(chunk_.voxels.size());
+  chunk_.voxels.resize(block.first_word + block.words());
+  for (size_t i = 0; i < solid.size(); ++i) {
+    chunk_.voxels[block.first_word + i / 64] |= uint64_t{solid[i] != 0} << (i % 64);
+  }
+  chunk_.blocks.push_back(block);
+  return static_cast<uint32_t>(chunk_.blocks.size()) - 1;
+}
+
 uint32_t Draft::addShape(Shape s, const Origin& origin, std::span<const uint32_t> children) {
   s.first_child = children.empty() ? 0 : static_cast<uint32_t>(chunk_.children.size());
   s.child_count = static_cast<uint32_t>(children.size());
@@ -205,7 +215,8 @@ uint32_t Draft::addShape(Shape s, const Origin& origin, std::span<const uint32_t
 size_t Draft::bytes() const {
   return chunk_.shapes.size() * (sizeof(Shape) + sizeof(Origin) + sizeof(uint32_t)) +
          chunk_.children.size() * sizeof(uint32_t) + chunk_.exprs.size() * (sizeof(Expr) + 2 * sizeof(ExprKey)) +
-         chunk_.noises.size() * (sizeof(NoiseSpec) + 64) + chunk_.points.size() * sizeof(Int3);
+         chunk_.noises.size() * (sizeof(NoiseSpec) + 64) + chunk_.points.size() * sizeof(Int3) +
+         chunk_.blocks.size() * sizeof(VoxelBlock) + chunk_.voxels.size() * sizeof(uint64_t);
 }
 
 DraftCopier::DraftCopier(const GrammarChunk& from)
@@ -254,6 +265,16 @@ uint32_t DraftCopier::copyPoints(uint32_t first, uint32_t count, GrammarChunk& o
   return count == 0 ? 0 : at;
 }
 
+uint32_t DraftCopier::copyBlock(uint32_t block, GrammarChunk& out) const {
+  if (block == kNone) return kNone;
+  VoxelBlock b = from_.blocks[block];
+  const auto words = std::span(from_.voxels).subspan(b.first_word, b.words());
+  b.first_word = static_cast<uint32_t>(out.voxels.size());
+  out.voxels.insert(out.voxels.end(), words.begin(), words.end());
+  out.blocks.push_back(b);
+  return static_cast<uint32_t>(out.blocks.size()) - 1;
+}
+
 void DraftCopier::copyExprs(GrammarChunk& out) {
   const auto moved = [&](uint32_t i) { return i == kNone ? kNone : expr_at_[i]; };
   for (uint32_t i : exprs_) {
@@ -286,6 +307,7 @@ void DraftCopier::copyShapes(GrammarChunk& out) {
     s.first_child = first;
     s.expr = s.expr == kNone ? kNone : expr_at_[s.expr];
     s.first_point = copyPoints(s.first_point, s.point_count, out);
+    s.block = copyBlock(s.block, out);
     shape_at_[i] = static_cast<uint32_t>(out.shapes.size());
     out.shapes.push_back(s);
   }

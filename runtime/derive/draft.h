@@ -42,6 +42,7 @@ class DraftCopier {
   void copyExprs(GrammarChunk& out);
   void copyShapes(GrammarChunk& out);
   uint32_t copyPoints(uint32_t first, uint32_t count, GrammarChunk& out) const;
+  uint32_t copyBlock(uint32_t block, GrammarChunk& out) const;
 
   const GrammarChunk& from_;
   std::vector<uint32_t> shape_at_, expr_at_, noise_at_;  ///< place in the copy; kNone: not in it
@@ -73,6 +74,8 @@ class Draft {
   /// Has the shape know the line that it follows (Shape::first_point).
   void setLine(uint32_t shape, uint32_t polyline);
   uint32_t addPrismPoints(std::span<const Int3> points);
+  /// solid: block.size() of them, x fastest. block.first_word is set.
+  uint32_t addVoxels(VoxelBlock block, std::span<const uint8_t> solid);
 
   /// Children are appended here; s.first_child and s.child_count are set.
   uint32_t addShape(Shape s, const Origin& origin, std::span<const uint32_t> children = {});

@@ -2,8 +2,8 @@
 // The interpreter of one cell. Internal to derive/: everything outside calls deriveCell() (derive.h).
 //
 // evaluate.cpp: expressions. functions.cpp: the language's functions. statements.cpp: blocks and combiners. morph.cpp:
-// morphs. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets. primitives.cpp: leaves. derive.cpp:
-// the cell as a whole. instances.cpp: the uses of one rule in it.
+// morphs. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets. primitives.cpp: leaves. voxels.cpp:
+// those of cellular automata. derive.cpp: the cell as a whole. instances.cpp: the uses of one rule in it.
 
 #include <array>
 #include <optional>
@@ -199,6 +199,7 @@ class Interpreter {
   void sweptLeaf(bool square, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
   void prismLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
   void halfspaceLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
+  void automatonLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
 
   // Nodes.
   Shape shapeIn(const Env& env, ShapeKind kind) const;

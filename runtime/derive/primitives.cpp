@@ -108,6 +108,8 @@ void Interpreter::primitive(Primitive kind, const ExprNode& node, uint32_t ordin
       return sweptLeaf(true, node, ordinal, env, out);
     case Primitive::prism:
       return prismLeaf(node, ordinal, env, out);
+    case Primitive::ca:
+      return automatonLeaf(node, ordinal, env, out);
   }
 }
 

@@ -4,6 +4,7 @@
 // Everything here is plain data in world units (1/1024 m), so that a grammar chunk can be hashed, cached, moved by an
 // integer offset and compiled into a field program (field/compile.h) without looking at the grammar again.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory_resource>
@@ -50,6 +51,7 @@ enum class ShapeKind : uint8_t {
                 ///< 2 / (1 - t + t/kMaxPower*2): from ellipsoid to box by the exponent
   displace,     ///< one child, plus 1024 * expr (expr in metres)
   warp,         ///< one child, read at p + round(1024 * (expr, expr + 1, expr + 2)) (each in metres)
+  voxels,       ///< no child; size: half extents x y z, upright; max(samples of `block` (field/voxels.h), that box)
 };
 
 inline constexpr float kSumSupport = 1.6f;  ///< support of the sum's kernel, in inner radii
@@ -64,6 +66,7 @@ struct Shape {
   /// Range in GrammarChunk::points: a prism's corners; of a sweep, a shape of its own or the union of its pieces, the
   /// line that it follows, for texture coordinates alone.
   uint32_t first_point = 0, point_count = 0;
+  uint32_t block = kNone;       ///< in GrammarChunk::blocks (voxels)
   int32_t detail = 0;           ///< drop the shape at levels whose cell edge is larger, in units; 0: never
   int32_t coarsest = 0;         ///< with lod alternatives: keep only where the cell edge >= this, in units; 0: always
   float amount = 0;             ///< smooth radius in units, or a constant morph t
@@ -111,6 +114,28 @@ struct NoiseSpec {
   uint32_t seed = 0;
 };
 
+/// Part of a world of voxels, solid or not. That with index i on an axis lies around anchor + i * edge. Bit i of
+/// GrammarChunk::voxels from first_word * 64 on says whether a voxel is solid, x fastest. Along an axis with a count of
+/// 0 all voxels are alike.
+struct VoxelBlock {
+  Int3 anchor;       ///< units; of the whole world's voxels, so that the blocks of neighbours share their places
+  int32_t edge = 0;  ///< units
+  Int3 first;        ///< index of the lowest voxel
+  Int3 count;
+  uint32_t first_word = 0;
+
+  size_t size() const {
+    size_t voxels = 1;
+    for (int axis = 0; axis < 3; ++axis) voxels *= static_cast<size_t>(std::max(count[axis], 1));
+    return voxels;
+  }
+  size_t words() const { return (size() + 63) / 64; }
+};
+
+/// Voxels that a block holds beyond the cell of the grammar whose shape reads it, on every side: as many as decide
+/// about the field where that shape does, at every level (field/voxels.h says how they come together).
+inline constexpr int32_t kVoxelMargin = 12;
+
 /// A top-level node. A group is atomic: it adds or cuts as a whole, by hard min and max against other groups.
 struct Group {
   uint32_t root = 0;  ///< in GrammarChunk::shapes
@@ -146,6 +171,8 @@ struct GrammarChunk {
   std::pmr::vector<Expr> exprs;
   std::pmr::vector<NoiseSpec> noises;
   std::pmr::vector<Int3> points;  ///< world units (sweep), or local xz in units in x and z (prism)
+  std::pmr::vector<VoxelBlock> blocks;
+  std::pmr::vector<uint64_t> voxels;
   std::pmr::vector<Group> groups;
   std::pmr::vector<Anchor> anchors;
   std::pmr::vector<DeriveNote> notes;
@@ -156,6 +183,8 @@ struct GrammarChunk {
         exprs(memory),
         noises(memory),
         points(memory),
+        blocks(memory),
+        voxels(memory),
         groups(memory),
         anchors(memory),
         notes(memory) {}

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "field/voxels.h"
+
 namespace sgm {
 
 namespace {
@@ -24,11 +26,13 @@ float kernelThreshold() {
 // Emits one grammar chunk's shapes.
 class ShapeCompiler {
  public:
-  /// cell_number: as ShapeLabels::Source has it; shapes: null, or to name shapes by.
-  ShapeCompiler(const GrammarChunk& chunk, uint32_t cell_number, int32_t cell, ShapeLabels* shapes,
+  /// box: holds every place that is read; cell_number: as ShapeLabels::Source has it; shapes: null, or to name shapes
+  /// by.
+  ShapeCompiler(const GrammarChunk& chunk, uint32_t cell_number, const IntBox& box, int32_t cell, ShapeLabels* shapes,
                 ProgramBuilder& builder, std::pmr::memory_resource* memory)
       : chunk_(chunk),
         cell_number_(cell_number),
+        read_(box),
         cell_(cell),
         shapes_(shapes),
         builder_(builder),
@@ -44,6 +48,7 @@ class ShapeCompiler {
   using Emitted = Result<std::optional<Value>>;
 
   bool dropped(const Shape& s) const {
+    if (s.kind == ShapeKind::voxels && !voxelsShow(chunk_.blocks[s.block], cell_)) return true;
     return (s.detail != 0 && cell_ > s.detail) || (s.coarsest != 0 && cell_ < s.coarsest);
   }
 
@@ -216,6 +221,8 @@ class ShapeCompiler {
       }
       case ShapeKind::warp:
         return warp(s, depth);
+      case ShapeKind::voxels:
+        return some(voxels(s, label));
     }
     return std::optional<Value>();
   }
@@ -302,13 +309,24 @@ class ShapeCompiler {
     return some(builder_.ternary(Op::morph, **a, **b, t));
   }
 
+  Value voxels(const Shape& s, uint32_t label) {
+    const Value own = builder_.box(s.frame, s.size[0], s.size[1], s.size[2], label);
+    std::pmr::vector<float> samples(known_.get_allocator());
+    const std::optional<SampleLattice> at = sampleVoxels(chunk_, s, read_, cell_, samples);
+    if (!at) return own;
+    return builder_.binary(Op::maximum, builder_.lattice(*at, samples, kFarSample, label), own);
+  }
+
   Emitted warp(const Shape& s, int depth) {
     const Value x = expr(s.expr), y = expr(s.expr + 1), z = expr(s.expr + 2);
     builder_.pushWarp(x, y, z);
     // What was read at the outer place must be read again inside.
     const uint64_t outer = epoch_;
+    const IntBox outer_read = read_;
     epoch_ = ++epochs_;
+    read_ = IntBox::everything();
     Emitted child = emit(children(s)[0], depth + 1);
+    read_ = outer_read;
     epoch_ = outer;
     builder_.popWarp();
     return child;
@@ -321,6 +339,7 @@ class ShapeCompiler {
 
   const GrammarChunk& chunk_;
   uint32_t cell_number_;
+  IntBox read_;  ///< holds every place that is read
   int32_t cell_;
   ShapeLabels* shapes_;
   std::optional<uint32_t> sweep_;  ///< the label of what is being emitted, where that is a piece of a sweep
@@ -368,8 +387,8 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
   for (const Gathered& g : gathered) {
     std::optional<ShapeCompiler>& compiler = compilers[g.cell];
     if (!compiler) {
-      compiler.emplace(*cells[g.cell].chunk, static_cast<uint32_t>(g.cell), settings.cell, settings.shapes, builder,
-                       memory);
+      compiler.emplace(*cells[g.cell].chunk, static_cast<uint32_t>(g.cell), box, settings.cell, settings.shapes,
+                       builder, memory);
     }
     const Group& group = cells[g.cell].chunk->groups[g.group];
     Result<std::optional<Value>> root = compiler->root(group.root);

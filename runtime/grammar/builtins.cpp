@@ -93,8 +93,10 @@ constexpr std::array kTube = {of("a", ValueKind::vector, kLength), of("b", Value
                               number("r", kLength), option("bend", kLength, 0)};
 constexpr std::array kPrism = {number("h", kLength), of("corner", ValueKind::pair, kLength),
                                of("corner", ValueKind::pair, kLength), of("corner", ValueKind::pair, kLength)};
+constexpr std::array kCa = {number("voxel", kLength),         option("fill", kRatio, 0.45), option("rounds", kRatio, 4),
+                            option("threshold", kRatio, 0.5), option("radius", kRatio, 1),  option("salt", kRatio, 0)};
 
-constexpr std::array<PrimitiveInfo, 13> kPrimitives = {{{"sphere", Primitive::sphere, kRadius},
+constexpr std::array<PrimitiveInfo, 14> kPrimitives = {{{"sphere", Primitive::sphere, kRadius},
                                                         {"box", Primitive::box, kBox},
                                                         {"cylinder", Primitive::cylinder, kCylinder},
                                                         {"truncone", Primitive::truncone, kTruncone},
@@ -106,7 +108,8 @@ constexpr std::array<PrimitiveInfo, 13> kPrimitives = {{{"sphere", Primitive::sp
                                                         {"halfspace", Primitive::halfspace, kHalfspace},
                                                         {"tube", Primitive::tube, kTube},
                                                         {"beam", Primitive::beam, kTube},
-                                                        {"prism", Primitive::prism, kPrism, true}}};
+                                                        {"prism", Primitive::prism, kPrism, true},
+                                                        {"ca", Primitive::ca, kCa}}};
 
 template <class Table>
 constexpr bool inEnumeratorOrder(const Table& table) {

@@ -2,6 +2,7 @@
 // Everything the language knows without a declaration, with its signature. The tables are in builtins.cpp.
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -72,6 +73,29 @@ enum class Primitive : uint8_t {
   tube,       ///< (a, b, r, bend = 0): round section from a to b along an arc that leaves the line by at most bend
   beam,       ///< (a, b, r, bend = 0): as tube with a square section of half edge r
   prism,      ///< (h, (x, z), (x, z), (x, z) ...): polygon of 3 to 64 corners, extruded to full height h
+  ca,         ///< (voxel, fill = 45%, rounds = 4, threshold = 50%, radius = 1, salt = 0): a cellular automaton over all
+              ///< the world's voxels, of which the shape is the part in the layer's cell; see AutomatonLimits
+};
+
+/// A voxel starts solid with the chance `fill`. In each of the rounds all become, at once, solid where at least the
+/// share `threshold` of the voxels around them is, themselves among them: a cube of 2 radius + 1 voxels along the axes
+/// that the layer is cut along; along others all voxels are alike. The same arguments give the same voxels in every
+/// cell, rule and layer: neighbours join without a seam; where arguments differ from cell to cell they end at the face.
+/// The field is nowhere farther from 0 than 7/8 of a voxel: displaced by more than that, it is all solid or all void.
+/// Levels whose cells are larger than `coarsest_voxels` leave it out. Johnson, Yannakakis, Togelius 2010.
+struct AutomatonLimits {
+  static constexpr int32_t least_edge = 16;   ///< of a voxel, units
+  static constexpr int32_t most_voxels = 64;  ///< along a cell's edge; the fewest is one
+  static constexpr int32_t most_rounds = 16;  ///< from 0
+  static constexpr int32_t most_radius = 4;   ///< from 1
+  static constexpr int32_t most_halo = 16;    ///< rounds times radius
+  static constexpr int32_t coarsest_voxels = 8;
+
+  /// The largest cell of a level at which voxels of this edge show; both in units.
+  static constexpr int32_t coarsestCell(int32_t edge) {
+    return edge > std::numeric_limits<int32_t>::max() / coarsest_voxels ? std::numeric_limits<int32_t>::max()
+                                                                        : edge * coarsest_voxels;
+  }
 };
 
 /// One parameter of a builtin or a primitive.

@@ -17,9 +17,9 @@ constexpr std::array<std::string_view, 36> kClauseWords = {
     "above",   "air",    "amp",   "animated", "axes", "block", "box",    "cell",  "cm", "density", "disc",   "down",
     "empty",   "finite", "gap",   "infinite", "km",   "lerp",  "m",      "mm",    "of", "on",      "output", "per",
     "poisson", "power",  "probe", "reach",    "sgm",  "shell", "smooth", "solid", "up", "uses",    "weight", "within"};
-constexpr std::array<std::string_view, 14> kUnavailable = {"ca",   "comp",     "extrude", "fit",   "footprint",
-                                                           "link", "override", "portal",  "query", "roof",
-                                                           "set",  "split",    "treemap", "wfc"};
+constexpr std::array<std::string_view, 13> kUnavailable = {"comp",     "extrude", "fit",   "footprint", "link",
+                                                           "override", "portal",  "query", "roof",      "set",
+                                                           "split",    "treemap", "wfc"};
 constexpr std::array<std::string_view, 5> kTransforms = {"at", "rot", "scale", "size", "mirror"};
 constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components", "volume", "area",
                                                        "triangles",  "genus",      "anchors"};

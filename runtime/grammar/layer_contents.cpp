@@ -50,10 +50,12 @@ class RuleContents {
     }
   }
 
-  Contents ofCall(ExprId id) const {
+  Contents ofCall(ExprId id) {
     if (id == kNoId) return {};
     const ExprNode& n = program_.expr(id);
-    return n.ref == Ref::rule ? of_rule_[n.id] : Contents::shape();
+    if (n.ref == Ref::rule) return of_rule_[n.id];
+    if (n.ref != Ref::primitive || static_cast<Primitive>(n.id) != Primitive::ca) return Contents::shape();
+    return {AutomatonLimits::coarsestCell(mostOf(program_.idAt(n.bound, 0))), false};
   }
 
  private:
@@ -120,7 +122,7 @@ class RuleContents {
 }  // namespace
 
 void findLayerContents(Program& program, const CompileLimits& limits) {
-  const RuleContents rules(program, limits.bound_steps);
+  RuleContents rules(program, limits.bound_steps);
   for (Layer& layer : program.layers) {
     const Contents contents = rules.ofCall(layer.start);
     layer.coarsest_cell = std::min(layer.coarsest_cell, contents.coarsest_cell);

@@ -38,6 +38,7 @@ void ReachCheck::layerReach(Layer& layer) {
   for (int axis = 0; axis < 3; ++axis) edges[static_cast<size_t>(axis)] = Interval::exactly(layer.cell[axis] * kUnit);
   if (finite && !boxed) edges.fill({0, kInfinity});  // the shapes' bounds make the box, not the other way round
   centred_ = finite;
+  whole_ = layer.cell_expr == kNoId;
   values_.setCell(edges, finite);
   cell_ = edges;
   known_.clear();

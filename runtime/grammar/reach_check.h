@@ -3,7 +3,7 @@
 // each tuple of argument ranges and remembered, so that recursion costs its depth and not its leaves.
 //
 // reach.cpp: layers and what is said of them. reach_rules.cpp: calls and choice. reach_statements.cpp: statements.
-// reach_transforms.cpp: transforms, loops, point sets.
+// reach_transforms.cpp: transforms, loops, point sets. reach_automaton.cpp: cellular automata.
 
 #include <map>
 #include <set>
@@ -39,6 +39,7 @@ class ReachCheck {
   Extent ruleExtent(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top);
   Extent alternatives(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top);
   Extent alternativeExtent(uint32_t rule, const Alternative& head, RangeFrame& frame);
+  Extent automaton(const ExprNode& n, const RangeFrame& frame);
   bool tooFar();
 
   // Statements.
@@ -65,6 +66,7 @@ class ReachCheck {
   uint32_t steps_;  ///< left, of all layers together
   RangeEvaluator values_;
   IntervalVector cell_{};
+  bool whole_ = false;                             ///< the start has no cells
   bool centred_ = false;                           ///< the cell lies about the origin: a finite domain's
   std::map<Key, Extent> known_, scaled_, placed_;  ///< by what was asked on the way; the latter two with longer keys
   std::set<Key> open_;                             ///< with the scale

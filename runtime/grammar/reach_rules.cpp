@@ -21,7 +21,8 @@ Extent ReachCheck::callExtent(ExprId id, const RangeFrame& frame, Call call) {
   if (id == kNoId) return Extent::nothing();
   const ExprNode& n = program_.expr(id);
   if (n.ref == Ref::primitive) {
-    Extent e = primitiveExtent(program_, n, values_, frame);
+    const bool automaton_of = static_cast<Primitive>(n.id) == Primitive::ca;
+    Extent e = automaton_of ? automaton(n, frame) : primitiveExtent(program_, n, values_, frame);
     e.blame(id);
     return e;
   }

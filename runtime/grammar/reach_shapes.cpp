@@ -193,6 +193,8 @@ Extent Terminal::extent() {
     }
     case Primitive::prism:
       return prism();
+    case Primitive::ca:
+      break;  // of a cell, not of a scope: ReachCheck::automaton()
   }
   return Extent::unbounded();
 }

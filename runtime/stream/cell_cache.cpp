@@ -7,6 +7,7 @@ namespace {
 size_t bytesOf(const GrammarChunk& c) {
   return sizeof(DerivedCell) + c.shapes.size() * sizeof(Shape) + c.children.size() * sizeof(uint32_t) +
          c.exprs.size() * sizeof(Expr) + c.noises.size() * sizeof(NoiseSpec) + c.points.size() * sizeof(Int3) +
+         c.blocks.size() * sizeof(VoxelBlock) + c.voxels.size() * sizeof(uint64_t) +
          c.groups.size() * (sizeof(Group) + 32) + c.anchors.size() * sizeof(Anchor);
 }
 

@@ -32,6 +32,7 @@ Result<void> SurfaceShapes::label(std::span<const Int3> points, std::span<uint32
     label = 0;
     if (!source) continue;
     const GrammarChunk& chunk = shapes->cells[source->cell]->chunk;
+    if (chunk.shapes[source->shape].kind == ShapeKind::voxels) continue;  // they lie in the world as its axes do
     const auto [known, is_new] =
         known_.try_emplace({chunk.layer, chunk.cell, source->shape}, static_cast<uint32_t>(spaces_.size()));
     if (is_new) spaces_.emplace_back(chunk, source->shape, tile_);

@@ -100,6 +100,7 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
       kind_ = Kind::prism;
       for (const Int3& corner : points) corners_.push_back({double(corner.x), double(corner.z)});
       break;
+    case ShapeKind::voxels:
     case ShapeKind::unite:
     case ShapeKind::meet:
     case ShapeKind::subtract:
@@ -110,7 +111,7 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
     case ShapeKind::morph:
     case ShapeKind::displace:
     case ShapeKind::warp:
-      break;  // what is made of others has none of its own
+      break;  // what is made of others, or of samples of the world's, has none of its own
   }
 }
 

@@ -143,6 +143,8 @@ inline double fieldAt(const GrammarChunk& chunk, uint32_t index, Int3 p) {
       return std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z) - size(0);
     case ShapeKind::box:
       return boxDistance(std::fabs(q.x) - size(0), std::fabs(q.y) - size(1), std::fabs(q.z) - size(2));
+    case ShapeKind::voxels:  // never below its box
+      return boxDistance(std::fabs(q.x) - size(0), std::fabs(q.y) - size(1), std::fabs(q.z) - size(2));
     case ShapeKind::cylinder:
       return boxDistance(ring - size(0), std::fabs(q.y) - size(1), -1e300);
     case ShapeKind::truncone:

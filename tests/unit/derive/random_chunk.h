@@ -83,10 +83,12 @@ class RandomChunk {
 
   uint32_t leaf() {
     Shape s;
-    s.kind = static_cast<ShapeKind>(whole(0, 10));
+    s.kind = static_cast<ShapeKind>(whole(0, 11));
+    if (s.kind == ShapeKind::meet) s.kind = ShapeKind::voxels;
     if (s.kind == ShapeKind::halfspace) s.kind = ShapeKind::sphere;
     if (s.kind == ShapeKind::unite) s.kind = ShapeKind::morph_power;
     s.frame = frame();
+    if (s.kind == ShapeKind::voxels) s.frame.rows = Frame{}.rows;
     for (float& v : s.size) v = size();
     s.inner_radius = *std::min_element(s.size.begin(), s.size.end());
     if (s.kind == ShapeKind::superquadric) s.size[3] = static_cast<float>(real(2, 20));

@@ -213,6 +213,33 @@ TEST_CASE("a gap counts with the most that it may be", "[grammar][reach]") {
   CHECK(with("4m") == "5:82 reach-maybe");
 }
 
+TEST_CASE("a cellular automaton reaches one voxel beyond its cell", "[grammar][reach]") {
+  const auto with = [](const std::string& reach, const std::string& rule) {
+    return brief(compileText("sgm 1; param v = 1m in 0.5m..2m; domain infinite; layer a cell 8m reach " + reach +
+                             " { start A; }\nrule A { " + rule + " }")
+                     .diagnostics);
+  };
+  CHECK(with("1m", "ca(1m);").empty());
+  CHECK(with("0.75m", "ca(1m);") == "2:10 reach");
+  CHECK(with("2m", "ca(v);").empty());
+  CHECK(with("1.75m", "ca(v);") == "2:10 reach-maybe");
+  CHECK(with("1.5m", "displace 0.5m*fractal(4m) amp 0.5m { ca(1m); }").empty());
+  CHECK(with("1.25m", "displace 0.5m*fractal(4m) amp 0.5m { ca(1m); }") == "2:47 reach-maybe");
+  CHECK(with("1m", "meet { ca(v); at(4m, 4m, 4m) box(9m); }").empty());
+}
+
+TEST_CASE("a layer of voxels shows where cells are no larger than eight of them", "[grammar][reach]") {
+  const auto coarsest = [](const std::string& rule) {
+    const CompileResult result =
+        compileText("sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { " + rule + " }");
+    REQUIRE(result.program);
+    return result.program->layers[0].coarsest_cell;
+  };
+  CHECK(std::abs(coarsest("ca(1m);") - 8 * 1024) <= 8);
+  CHECK(std::abs(coarsest("detail 2m { ca(1m); }") - 2 * 1024) <= 8);
+  CHECK(coarsest("ca(1m); at(4m, 4m, 4m) sphere(1m);") == std::numeric_limits<int32_t>::max());
+}
+
 TEST_CASE("a finite grammar without a box gets the bound of its shapes", "[grammar][reach]") {
   const CompileResult result = compileText("sgm 1; start A; rule A { at(3m, 0m, 0m) sphere(2m); }");
   REQUIRE(result.program);
