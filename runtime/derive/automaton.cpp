@@ -9,7 +9,7 @@ namespace {
 
 using Counts = std::vector<uint16_t>;  // 31^3 neighbours fit
 
-size_t along(const VoxelBox& box, int axis) { return static_cast<size_t>(box.count[axis]); }
+size_t countAlong(const VoxelBox& box, int axis) { return static_cast<size_t>(box.count[axis]); }
 
 /// The random fill of a box: 16 bits for each voxel by its own indices, four voxels of a row by one hash.
 Counts filled(const Automaton& automaton, const VoxelBox& box) {
@@ -19,7 +19,7 @@ Counts filled(const Automaton& automaton, const VoxelBox& box) {
   };
   const auto least_void = static_cast<uint64_t>(std::clamp(automaton.fill, 0.0, 1.0) * 65536 + 0.5);
   Counts out;
-  out.reserve(along(box, 0) * along(box, 1) * along(box, 2));
+  out.reserve(countAlong(box, 0) * countAlong(box, 1) * countAlong(box, 2));
   for (int32_t z = 0; z < box.count.z; ++z) {
     const uint64_t plane = under(automaton.seed, indexAt(2, z));
     for (int32_t y = 0; y < box.count.y; ++y) {
@@ -38,12 +38,12 @@ Counts filled(const Automaton& automaton, const VoxelBox& box) {
 /// Sums of 2 radius + 1 neighbours along an axis: the box loses `radius` at both ends, where it does not know all.
 Counts summed(const Counts& in, VoxelBox& box, int axis, int32_t radius) {
   size_t inner = 1, outer = 1;
-  for (int a = 0; a < axis; ++a) inner *= along(box, a);
-  for (int a = axis + 1; a < 3; ++a) outer *= along(box, a);
-  const size_t before = along(box, axis) * inner;
+  for (int a = 0; a < axis; ++a) inner *= countAlong(box, a);
+  for (int a = axis + 1; a < 3; ++a) outer *= countAlong(box, a);
+  const size_t before = countAlong(box, axis) * inner;
   box.first[axis] += radius;
   box.count[axis] -= 2 * radius;
-  const size_t after = along(box, axis) * inner;
+  const size_t after = countAlong(box, axis) * inner;
   Counts out(after * outer);
   for (size_t o = 0; o < outer; ++o) {
     const uint16_t* from = in.data() + o * before;
