@@ -34,7 +34,7 @@ PlaceBox movePlaces(const PlaceBox& from, Interval x, Interval y, Interval z) {
 
 }  // namespace
 
-void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch, PrunedProgram& out) {
+void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch, PrunedProgram& out, Uniform uniform) {
   out.instrs.clear();
   out.groups.clear();
   out.params = program.params;
@@ -45,7 +45,7 @@ void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch,
   out.initial = bounds.hidden ? kFar : program.initial;
   out.initial_label = bounds.hidden ? 0 : program.initial_label;
   out.field = bounds.field;
-  if (out.solid() || out.empty()) return;
+  if (uniform == Uniform::drop && (out.solid() || out.empty())) return;
   for (size_t i = 0; i < program.groups.size(); ++i) {
     if (!scratch.bounds[i].live) continue;
     scratch.reversed.clear();

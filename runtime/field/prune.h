@@ -39,7 +39,11 @@ class PruneScratch {
   std::pmr::vector<Instr> reversed;
 };
 
+/// What is left of a program that is proven uniform, solid or empty: nothing, or what its values need.
+enum class Uniform { drop, keep };
+
 /// Prunes `program` to `box` (closed, every position that will be asked for). out must not be the view's own storage.
-void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch, PrunedProgram& out);
+void prune(const ProgramView& program, const IntBox& box, PruneScratch& scratch, PrunedProgram& out,
+           Uniform uniform = Uniform::drop);
 
 }  // namespace sgm

@@ -6,3 +6,4 @@
 #include "lattice.h"
 #include "combine.h"
 #include "attributes.h"
+#include "density.h"

@@ -158,7 +158,7 @@ TEST_CASE("a cut that does not reach a box takes nothing from what lies however 
 }
 
 TEST_CASE("a pruned program keeps every bit of every sample and attribute") {
-  size_t before = 0, after = 0;
+  size_t before = 0, after = 0, uniform = 0;
   for (uint32_t seed = 1; seed <= rounds(600); ++seed) {
     std::mt19937 random(seed);
     RandomProgramOptions options;
@@ -178,6 +178,10 @@ TEST_CASE("a pruned program keeps every bit of every sample and attribute") {
     INFO("seed " << seed);
     if (pruned.solid() || pruned.empty()) {
       for (int32_t q : expected.q) CHECK((q < 0) == pruned.solid());
+      CHECK(pruned.instrs.empty());
+      prune(view, box, scratch, pruned, Uniform::keep);
+      CHECK(differentBits(expected, evaluate(scalarKernels(), pruned.view(), points.points())) == 0);
+      ++uniform;
       continue;
     }
     before += program.instrs.size();
@@ -198,4 +202,5 @@ TEST_CASE("a pruned program keeps every bit of every sample and attribute") {
   }
   std::cout << "pruning kept " << after << " of " << before << " instructions\n";
   CHECK(after * 2 < before);
+  CHECK(uniform > 0);
 }
