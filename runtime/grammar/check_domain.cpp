@@ -10,6 +10,7 @@ namespace sgm {
 namespace {
 
 constexpr size_t kMostLayers = 256;
+constexpr int64_t kWidestEdge = int64_t{16} * 1000 * kUnitsPerMetre;
 
 }  // namespace
 
@@ -147,6 +148,14 @@ void Checker::seedAndDomain() {
   domain.axes = decl.axes;
   domain.solid = decl.solid;
   domain.density = decl.density;
+  if (decl.density_edge != kNoId) {
+    const auto edge = wholeUnits(decl.density_edge, "the edge of a density");
+    if (edge && (*edge < 1 || *edge > kWidestEdge))
+      sink_.error(node(decl.density_edge).span, codes::kValueRange,
+                  "the edge of a density is from one unit to 16 km wide");
+    else if (edge)
+      domain.density_edge = static_cast<int32_t>(*edge);
+  }
   domain.span = decl.span;
   if (decl.material != kNoId) domain.material = tableIndex(program_.materials, decl.material, decl.span);
   if (!decl.box) return;

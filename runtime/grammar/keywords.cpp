@@ -13,10 +13,11 @@ constexpr std::array<std::string_view, 47> kKeywords = {
     "lod",    "mat",    "meet",  "minsize", "mirror", "morph",   "morphic", "not",    "or",       "param",
     "repeat", "report", "rot",   "rule",    "scale",  "scatter", "seed",    "size",   "start",    "sum",
     "tag",    "then",   "true",  "union",   "units",  "warp",    "when"};
-constexpr std::array<std::string_view, 36> kClauseWords = {
-    "above",   "air",    "amp",   "animated", "axes", "block", "box",    "cell",  "cm", "density", "disc",   "down",
-    "empty",   "finite", "gap",   "infinite", "km",   "lerp",  "m",      "mm",    "of", "on",      "output", "per",
-    "poisson", "power",  "probe", "reach",    "sgm",  "shell", "smooth", "solid", "up", "uses",    "weight", "within"};
+constexpr std::array<std::string_view, 37> kClauseWords = {
+    "above", "air",    "amp",   "animated", "axes",   "block",   "box",      "cell",  "cm",    "density",
+    "disc",  "down",   "edge",  "empty",    "finite", "gap",     "infinite", "km",    "lerp",  "m",
+    "mm",    "of",     "on",    "output",   "per",    "poisson", "power",    "probe", "reach", "sgm",
+    "shell", "smooth", "solid", "up",       "uses",   "weight",  "within"};
 constexpr std::array<std::string_view, 13> kUnavailable = {"comp",     "extrude", "fit",   "footprint", "link",
                                                            "override", "portal",  "query", "roof",      "set",
                                                            "split",    "treemap", "wfc"};

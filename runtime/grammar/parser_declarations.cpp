@@ -206,6 +206,7 @@ void Parser::domainDeclaration() {
     } else if (acceptWord("output")) {
       expectWord("density");
       domain.density = true;
+      if (acceptWord("edge")) domain.density_edge = expression();
     } else if (atWord("box")) {
       if (domain.infinite)
         fail(word, codes::kDomain, "an infinite domain has no box", "write `domain finite box(...)`");

@@ -103,6 +103,10 @@ void declarationLine(std::string& out, const Program& program, const ModuleSynta
       if (domain.empty) out += " empty";
       if (domain.material != kNoId) out += join({" ", program.text(domain.material)});
       if (domain.density) out += " output density";
+      if (domain.density_edge != kNoId) {
+        out += " edge ";
+        line.expr(out, domain.density_edge);
+      }
       out += ';';
       break;
     }

@@ -126,11 +126,15 @@ struct Layer {
   explicit Layer(std::pmr::memory_resource* memory) : uses(memory) {}
 };
 
+inline constexpr int32_t kDensityEdge = 10 * kUnitsPerMetre;
+
 struct Domain {
   bool infinite = false;
   std::array<bool, 3> axes{true, true, true};  ///< infinite: axes that are cut into cells
   bool solid = false;
-  bool density = false;   ///< `output density`
+  bool density = false;  ///< `output density`: the solid is meant as fog
+  /// Units from the surface to full density: `output density edge 20m`, or kDensityEdge where that is not written.
+  int32_t density_edge = kDensityEdge;
   uint16_t material = 0;  ///< of a solid domain
   /// Finite: the world's box, centred on the origin, in units; a top-level start derives once, its scope at the origin
   /// with this box as its size (layer "main", cell 0 0 0, whose low corner counts as the origin). Written as

@@ -57,6 +57,7 @@ struct DomainDecl {
   bool infinite = false, solid = false, empty = false, density = false;
   std::array<bool, 3> axes{true, true, true};
   bool axes_written = false;
+  ExprId density_edge = kNoId;
   NameId material = kNoId;
   bool box = false;
   IdRange box_args;  ///< into Ast::args

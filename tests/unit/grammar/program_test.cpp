@@ -98,7 +98,24 @@ TEST_CASE("axes without cells have no cell edge", "[grammar][program]") {
   CHECK(result.program->layers[0].cell == Int3{8192, 0, 8192});
   CHECK(result.program->domain.solid);
   CHECK(result.program->domain.density);
+  CHECK(result.program->domain.density_edge == 10 * 1024);
   CHECK(result.program->materials[result.program->domain.material] == "earth");
+}
+
+TEST_CASE("a density's edge is a constant length, and another meaning", "[grammar][program]") {
+  const auto compiled = [](const std::string& clause) {
+    return compileText("sgm 1; let wide = 4m; domain finite box(8m) output density" + clause +
+                       "; start A; rule A { sphere(1m); }");
+  };
+  const CompileResult plain = compiled(""), wide = compiled(" edge 3*wide"), twelve = compiled(" edge 12m solid rock");
+  REQUIRE(plain.program);
+  REQUIRE(wide.program);
+  REQUIRE(twelve.program);
+  CHECK(wide.program->domain.density_edge == 12 * 1024);
+  CHECK(twelve.program->domain.density_edge == 12 * 1024);
+  CHECK(twelve.program->domain.solid);
+  CHECK(wide.program->hash != plain.program->hash);
+  CHECK(wide.program->canonical.find("domain finite box(8m) output density edge 3*wide;") != std::string::npos);
 }
 
 TEST_CASE("materials and tags hold for their whole block", "[grammar][program]") {
