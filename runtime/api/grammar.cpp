@@ -150,7 +150,7 @@ sgm_result sgm_grammar_domain(const sgm_grammar* grammar, sgm_domain_info* out) 
       out->minimum[axis] = domain.infinite ? 0 : domain.box.lo[axis];
       out->maximum[axis] = domain.infinite ? 0 : domain.box.hi[axis];
     }
-    out->reserved = 0;
+    out->density_edge = domain.density ? static_cast<float>(sgm::metres(domain.density_edge)) : 0.0f;
     return SGM_OK;
   });
 }

@@ -223,6 +223,57 @@ TEST_CASE("field descriptors are checked") {
   CHECK(units == 1 << 20);
 }
 
+TEST_CASE("density calls are checked") {
+  World world;
+  sgm_error error = SGM_ERROR_INIT;
+  std::vector<float> values(64 * 64 * 4, -1.0f);
+  sgm_density_desc good = SGM_DENSITY_DESC_INIT;
+  good.format = SGM_DENSITY_FLOAT32;
+  good.values = values.data();
+  for (uint32_t& size : good.size) size = 4;
+  checkStruct(good, [&](sgm_density_desc* desc) { return sgm_field_sample_density(world.field.get(), desc, &error); });
+  const auto with = [&](auto change) {
+    sgm_density_desc desc = good;
+    change(desc);
+    return sgm_field_sample_density(world.field.get(), &desc, &error);
+  };
+  const sgm_result wrong = SGM_ERR_INVALID_ARGUMENT;
+  CHECK(with([](auto&) {}) == SGM_OK);
+  CHECK(sgm_field_sample_density(nullptr, &good, &error) == wrong);
+  CHECK(with([](auto& d) { d.spacing = 0; }) == wrong);
+  CHECK(with([](auto& d) { d.spacing = -5; }) == wrong);
+  CHECK(with([](auto& d) { d.size[2] = 0; }) == wrong);
+  CHECK(with([](auto& d) { d.size[0] = 16385; }) == wrong);
+  CHECK(with([](auto& d) {
+          for (uint32_t& size : d.size) size = 16384;
+        }) == SGM_ERR_LIMIT);
+  CHECK(with([](auto& d) { d.level = -1; }) == wrong);
+  CHECK(with([](auto& d) { d.level = SGM_MAX_LEVEL + 1; }) == wrong);
+  CHECK(with([](auto& d) { d.level = 15; }) == SGM_ERR_RANGE);
+  CHECK(with([](auto& d) { d.level = 3; }) == SGM_OK);
+  for (const double edge : {-1.0, 0.9 / 1024, 4096.0 * 256 / 1024 + 1, std::nan(""), HUGE_VAL})
+    CHECK(with([&](auto& d) { d.edge = edge; }) == wrong);
+  CHECK(with([](auto& d) { d.edge = 4096.0 * 256 / 1024; }) == SGM_OK);
+  CHECK(with([](auto& d) { d.format = static_cast<sgm_density_format>(2); }) == wrong);
+  CHECK(with([](auto& d) { d.reserved = 1; }) == wrong);
+  CHECK(with([](auto& d) { d.values = nullptr; }) == wrong);
+  CHECK(with([](auto& d) { d.row_pitch = 12; }) == wrong);
+  CHECK(with([](auto& d) { d.row_pitch = 18; }) == wrong);
+  CHECK(with([](auto& d) { d.row_pitch = 20; }) == SGM_OK);
+  CHECK(with([](auto& d) { d.slice_pitch = 60; }) == wrong);
+  CHECK(with([](auto& d) { d.slice_pitch = 68; }) == SGM_OK);
+  CHECK(with([](auto& d) { d.row_pitch = SIZE_MAX - 3; }) == wrong);
+  CHECK(with([](auto& d) { d.slice_pitch = SIZE_MAX - 3; }) == wrong);
+  CHECK(with([](auto& d) { d.origin[1] = std::numeric_limits<int32_t>::max() - 3 * 1024; }) == SGM_OK);
+  CHECK(with([](auto& d) { d.origin[1] = std::numeric_limits<int32_t>::max() - 3 * 1024 + 1; }) == SGM_ERR_RANGE);
+  CHECK(with([](auto& d) { d.progress = [](void*, uint64_t, uint64_t) -> int32_t { return 1; }; }) == SGM_OK);
+  CHECK(with([](auto& d) {
+          d.size[0] = 64;
+          d.size[1] = 64;
+          d.progress = [](void*, uint64_t, uint64_t) -> int32_t { return 1; };
+        }) == SGM_ERR_CANCELLED);
+}
+
 TEST_CASE("sampling calls are checked") {
   World world;
   sgm_error error = SGM_ERROR_INIT;
@@ -569,6 +620,15 @@ TEST_CASE("world calls are checked") {
   CHECK(sgm_world_closest_point(world, &closest, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_world_is_walkable(nullptr, &walk, &walkable, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_world_is_walkable(world, &walk, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  sgm_density_desc density = SGM_DENSITY_DESC_INIT;
+  uint8_t dense = 7;
+  density.values = &dense;
+  for (uint32_t& size : density.size) size = 1;
+  CHECK(sgm_world_sample_density(world, &density, &error) == SGM_OK);
+  CHECK(sgm_world_sample_density(nullptr, &density, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_sample_density(world, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  density.level = 1;
+  CHECK(sgm_world_sample_density(world, &density, &error) == SGM_ERR_UNSUPPORTED);
   sgm_collider_view collider = SGM_COLLIDER_VIEW_INIT;
   CHECK(sgm_collider_get_view(nullptr, &collider, &error) == SGM_ERR_INVALID_ARGUMENT);
 

@@ -210,6 +210,7 @@ TEST_CASE("a grammar says where its world lies") {
   CHECK(info.infinite == 0);
   CHECK(info.solid == 0);
   CHECK(info.density == 0);
+  CHECK(info.density_edge == 0);
   for (size_t axis = 0; axis < 3; ++axis) {
     CHECK(info.cut[axis] == 0);
     // The ball at its largest.
@@ -231,6 +232,7 @@ TEST_CASE("a grammar says where its world lies") {
   REQUIRE(sgm_grammar_domain(fog.get(), &info) == SGM_OK);
   CHECK(info.infinite == 1);
   CHECK(info.density == 1);
+  CHECK(info.density_edge == 10.0f);
   CHECK(info.cut[0] == 1);
   CHECK(info.cut[1] == 0);
   CHECK(info.cut[2] == 1);

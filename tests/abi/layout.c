@@ -22,6 +22,7 @@ CHECK(log_level_size, sizeof(sgm_log_level) == 4);
 CHECK(backend_size, sizeof(sgm_backend) == 4);
 CHECK(quantity_size, sizeof(sgm_quantity) == 4);
 CHECK(face_size, sizeof(sgm_face) == 4);
+CHECK(density_format_size, sizeof(sgm_density_format) == 4);
 
 /* Values that programs have compiled in. */
 CHECK(version_major, SGM_VERSION_MAJOR == 0);
@@ -71,6 +72,10 @@ CHECK(quantity_length, SGM_QUANTITY_LENGTH == 1);
 CHECK(quantity_angle, SGM_QUANTITY_ANGLE == 2);
 CHECK(quantity_other, SGM_QUANTITY_OTHER == 3);
 CHECK(quantity_force, SGM_QUANTITY_FORCE_32_BIT == 0x7FFFFFFF);
+
+CHECK(density_unorm8, SGM_DENSITY_UNORM8 == 0);
+CHECK(density_float32, SGM_DENSITY_FLOAT32 == 1);
+CHECK(density_force, SGM_DENSITY_FORMAT_FORCE_32_BIT == 0x7FFFFFFF);
 
 CHECK(face_x_low, SGM_FACE_X_LOW == 0);
 CHECK(face_x_high, SGM_FACE_X_HIGH == 1);
@@ -197,7 +202,7 @@ PLACE(sgm_domain_info, material, 28);
 PLACE(sgm_domain_info, cut, 32);
 PLACE(sgm_domain_info, minimum, 44);
 PLACE(sgm_domain_info, maximum, 56);
-PLACE(sgm_domain_info, reserved, 68);
+PLACE(sgm_domain_info, density_edge, 68);
 
 SIZE(sgm_layer_info, 40);
 PLACE(sgm_layer_info, struct_size, 0);
@@ -412,6 +417,22 @@ PLACE(sgm_grid_desc, cell, 56);
 PLACE(sgm_grid_desc, normals, 64);
 PLACE(sgm_grid_desc, reserved2, 68);
 
+SIZE(sgm_density_desc, 104);
+PLACE(sgm_density_desc, struct_size, 0);
+PLACE(sgm_density_desc, next, 8);
+PLACE(sgm_density_desc, origin, 16);
+PLACE(sgm_density_desc, spacing, 28);
+PLACE(sgm_density_desc, size, 32);
+PLACE(sgm_density_desc, level, 44);
+PLACE(sgm_density_desc, edge, 48);
+PLACE(sgm_density_desc, format, 56);
+PLACE(sgm_density_desc, reserved, 60);
+PLACE(sgm_density_desc, values, 64);
+PLACE(sgm_density_desc, row_pitch, 72);
+PLACE(sgm_density_desc, slice_pitch, 80);
+PLACE(sgm_density_desc, progress, 88);
+PLACE(sgm_density_desc, progress_user, 96);
+
 SIZE(sgm_surface_view, 160);
 PLACE(sgm_surface_view, struct_size, 0);
 PLACE(sgm_surface_view, next, 8);
@@ -558,6 +579,7 @@ int LAYOUT_INITS(void) {
   const sgm_region_desc region_desc = SGM_REGION_DESC_INIT;
   const sgm_grid_desc grid_desc = SGM_GRID_DESC_INIT;
   const sgm_surface_view surface_view = SGM_SURFACE_VIEW_INIT;
+  const sgm_density_desc density_desc = SGM_DENSITY_DESC_INIT;
   const sgm_host_field host_field = SGM_HOST_FIELD_INIT;
   const sgm_world_desc world_desc = SGM_WORLD_DESC_INIT;
   const sgm_collider_view collider_view = SGM_COLLIDER_VIEW_INIT;
@@ -584,6 +606,7 @@ int LAYOUT_INITS(void) {
          mesh_view.next == SGM_NULL && region_desc.struct_size == sizeof(region_desc) && region_desc.next == SGM_NULL &&
          grid_desc.struct_size == sizeof(grid_desc) && grid_desc.next == SGM_NULL &&
          surface_view.struct_size == sizeof(surface_view) && surface_view.next == SGM_NULL &&
+         density_desc.struct_size == sizeof(density_desc) && density_desc.next == SGM_NULL &&
          collider_view.struct_size == sizeof(collider_view) && collider_view.next == SGM_NULL && brush.cut == 1 &&
          world_desc.struct_size == sizeof(world_desc) && world_desc.next == SGM_NULL && viewer.fov == 0.0f &&
          viewer.weight > 0.5f && world_stats.struct_size == sizeof(world_stats) && world_stats.next == SGM_NULL;

@@ -47,6 +47,11 @@ sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threa
   sample.values = values;
   sample.gradients = gradients;
   if (sgm_result r = sgm_field_sample(h.field, &sample, error); r != SGM_OK) return r;
+  uint8_t fog[27];
+  sgm_density_desc density = SGM_DENSITY_DESC_INIT;
+  density.values = fog;
+  for (uint32_t& size : density.size) size = 3;
+  if (sgm_result r = sgm_field_sample_density(h.field, &density, error); r != SGM_OK) return r;
   sgm_ray_desc ray = SGM_RAY_DESC_INIT;
   sgm_closest_desc closest = SGM_CLOSEST_DESC_INIT;
   ray.from[0] = ray.from[2] = closest.position[0] = closest.position[2] = 4096;

@@ -378,11 +378,12 @@ typedef struct sgm_domain_info {
   int32_t cut[3];                 /* infinite: 1 along axes that are cut into cells, so that the world goes on and on
                                      there; 0 along the others, and where finite */
   int32_t minimum[3], maximum[3]; /* finite: what to mesh, minimum <= p < maximum, units; infinite: all 0 */
-  uint32_t reserved;              /* 0 */
+  float density_edge;             /* how far below its surface the fog is thick, metres: `output density edge 20m`, or
+                                     10 m where that is not written; 0 where density is 0 */
 } sgm_domain_info;
 
 #define SGM_DOMAIN_INFO_INIT \
-  { SGM_SIZEOF(sgm_domain_info), SGM_NULL, 0, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0 }
+  { SGM_SIZEOF(sgm_domain_info), SGM_NULL, 0, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0.0f }
 
 SGM_API sgm_result sgm_grammar_domain(const sgm_grammar* grammar, sgm_domain_info* out);
 
@@ -944,6 +945,56 @@ SGM_API sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_
  * of its positions, normals and triangles, worked out at each call. 0 for NULL. */
 SGM_API uint64_t sgm_surface_hash(const sgm_surface* surface);
 
+/* ---------------------------------------------------------------------------------------------- volumes: density */
+
+/* For a renderer of fog: clouds, smoke, whatever a grammar with `output density` (sgm_domain_info) describes.
+ * shaders/volume has one that works, and says which papers it follows. */
+
+typedef enum sgm_density_format {
+  SGM_DENSITY_UNORM8 = 0, /* uint8_t, to the nearest 255th, as textures of the format R8_UNORM hold it */
+  SGM_DENSITY_FLOAT32 = 1,
+  SGM_DENSITY_FORMAT_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_density_format;
+
+/* The points origin + spacing * (x, y, z), 0 <= x < size[0] and so on: the texels of a 3D texture, each at its centre.
+ * Volumes side by side that share their last and first points are one to a linear filter.
+ * Density is 0 exactly where sgm_sample_desc.q is not below 0, so that a mesh of the same level stands where it begins;
+ * from there it rises with depth and never falls. With t = the depth, -q in units, by the edge: 2 t^2 up to t = 1/2,
+ * then 1 - 2 (1 - t)^2, then 1 from t = 1 on (shaders/common/density.h). Depth is what the field says: a distance near
+ * a surface. A host's field with a steepness counts as deep as can be from 16 m on, or from two cells where these are
+ * more. */
+typedef struct sgm_density_desc {
+  uint32_t struct_size;
+  const void* next;
+  int32_t origin[3];         /* units */
+  int32_t spacing;           /* units, at least 1: from point to point on each axis */
+  uint32_t size[3];          /* points on x, y, z: 1 to 16,384 each; 2^33 together */
+  int32_t level;             /* 0 to SGM_MAX_LEVEL, for a world 0: what coarse chunks leave out is left out here too. For
+                                a volume far away, one whose cells are about as large as the spacing */
+  double edge;               /* metres from the surface to density 1, from a unit to 4,096 cells of level 0. 0: the
+                                grammar's own (sgm_domain_info.density_edge; 10 m where it has none) */
+  sgm_density_format format; /* of values */
+  uint32_t reserved;         /* 0 */
+  void* values;              /* the first point's; x by x, then y by y, then z by z */
+  size_t row_pitch;          /* bytes from (x, y, z) to (x, y + 1, z), as a texture's upload wants it: a multiple of the
+                                value's size, at least size[0] of them; 0: that */
+  size_t slice_pitch;        /* bytes from (x, y, z) to (x, y, z + 1): likewise, at least size[1] * row_pitch; 0: that */
+  sgm_progress_function progress; /* or NULL. Told of blocks of 32^3 points (8^3 where the field has hosts) */
+  void* progress_user;
+} sgm_density_desc;
+
+#define SGM_DENSITY_DESC_INIT                                                                                         \
+  {                                                                                                                   \
+    SGM_SIZEOF(sgm_density_desc), SGM_NULL, {0, 0, 0}, SGM_UNITS_PER_METRE, {0, 0, 0}, 0, 0.0, SGM_DENSITY_UNORM8, 0, \
+        SGM_NULL, 0, 0, SGM_NULL, SGM_NULL                                                                            \
+  }
+
+/* Samples the density at points of a lattice, of any grammar. Blocks; uses the job system, and not the field's backend.
+ * The same values on every machine, however a lattice is cut into volumes; what lies between the rows is not written.
+ * On failure the array holds anything. SGM_ERR_RANGE: a point outside of the world, or as sgm_field_sample.
+ * SGM_ERR_LIMIT: as sgm_field_sample. SGM_ERR_CANCELLED: progress asked for it. */
+SGM_API sgm_result sgm_field_sample_density(sgm_field* field, const sgm_density_desc* desc, sgm_error* error);
+
 /* ---------------------------------------------------------------------------------------------- worlds: streaming */
 
 /* A field, streamed: chunks of every level of detail around moving viewers, meshed on the job system and handed over
@@ -1215,6 +1266,10 @@ SGM_API sgm_result sgm_world_closest_point(sgm_world* world, const sgm_closest_d
                                            sgm_error* error);
 SGM_API sgm_result sgm_world_is_walkable(sgm_world* world, const sgm_walk_desc* desc, sgm_walkable* out,
                                          sgm_error* error);
+
+/* As sgm_field_sample_density, of the world with its edits: what is dug out of a cloud is clear. desc->level must be 0,
+ * else SGM_ERR_UNSUPPORTED. */
+SGM_API sgm_result sgm_world_sample_density(sgm_world* world, const sgm_density_desc* desc, sgm_error* error);
 
 /* The hash of the set of chunk bodies of a level in a region, grown outward to whole chunks: as sgm_surface_hash of the
  * same region where nothing was edited, equal on every machine and whatever was streamed before. Reads what is drawn
