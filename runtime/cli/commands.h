@@ -40,6 +40,7 @@ struct RenderOptions : WorldOptions {
   std::string at;
   std::string size = "1280x720";
   double fov = 68;
+  bool volume = false;  ///< the solid as fog instead of its surface
 };
 Exit render(const RenderOptions& options);
 

@@ -90,7 +90,7 @@ Json toJson(const WorldOptions& options, const Region& region) {
           {"backend", region.backend}};
 }
 
-RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose) {
+RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   // What the command line alone can tell comes before any work.
   std::optional<IntBox> region;
   if (!options.region.empty()) {
@@ -104,10 +104,13 @@ RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose)
   LoadedGrammar grammar = loadGrammar(options.file);
   if (grammar.program == nullptr) return failure(grammar.status);
   const Program& program = *grammar.program;
+  if (plan.check) {
+    if (const Result<void> fits = plan.check(program); !fits) return failure(complain(fits.error()));
+  }
   Result<ParameterValues> parameters = parameterValues(program, options.sets);
   if (!parameters) return failure(complain(parameters.error()));
   if (options.region.empty() && !program.domain.infinite) region = program.domain.box;
-  if (!region && !choose)
+  if (!region && !plan.choose)
     return failure(
         complain(Exit::usage, "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1"));
 
@@ -127,7 +130,7 @@ RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose)
   const WorldField world(std::move(settings), memory);
 
   if (!region) {
-    const Result<IntBox> chosen = choose(world);
+    const Result<IntBox> chosen = plan.choose(world);
     if (!chosen) return failure(complain(chosen.error()));
     region = *chosen;
   }
@@ -154,9 +157,18 @@ RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose)
   warnOfNotes(options.file, *notes);
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
-  return {Region{grammar.program, std::move(*meshed), *cell << options.level, std::move(*anchors),
-                 backendName(capabilities.kind), capabilities.device, seconds, std::move(texture)},
-          Exit::done};
+  Region result{grammar.program,
+                std::move(*meshed),
+                *cell << options.level,
+                std::move(*anchors),
+                backendName(capabilities.kind),
+                capabilities.device,
+                seconds,
+                std::move(texture)};
+  if (plan.after) {
+    if (const Result<void> done = plan.after(world, *jobs, result); !done) return failure(complain(done.error()));
+  }
+  return {std::move(result), Exit::done};
 }
 
 }  // namespace sgm::cli

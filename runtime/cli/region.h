@@ -52,12 +52,19 @@ struct RegionResult {
   Exit status = Exit::done;
 };
 
-/// Says which part of an endless world is meant where no --region does.
-using ChooseRegion = std::function<Result<IntBox>(const WorldField& world)>;
+/// What a command wants beside the mesh; each may be empty.
+struct RegionPlan {
+  /// Refuses a grammar before any work.
+  std::function<Result<void>(const Program& program)> check;
+  /// Says which part of an endless world is meant where no --region does.
+  std::function<Result<IntBox>(const WorldField& world)> choose;
+  /// Asks the world for more, once the region is meshed.
+  std::function<Result<void>(const WorldField& world, JobSystem& jobs, const Region& region)> after;
+};
 
 /// Reads, compiles and meshes what the options say. The region is --region; without it, all of a finite world, or what
-/// `choose` says of an endless one (without it, --region must be given). Messages go to stderr, a progress bar too
-/// where that is a terminal.
-RegionResult meshRegion(const WorldOptions& options, const ChooseRegion& choose = {});
+/// the plan chooses of an endless one (else --region must be given). Messages go to stderr, a progress bar too where
+/// that is a terminal.
+RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan = {});
 
 }  // namespace sgm::cli

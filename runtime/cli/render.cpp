@@ -9,7 +9,7 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/materials.h"
-#include "cli/region.h"
+#include "cli/region_density.h"
 #include "mesh/vertex.h"
 #include "render/camera.h"
 #include "render/renderer.h"
@@ -150,6 +150,40 @@ Result<IntBox> surroundings(const RenderOptions& options, const WorldField& worl
   return around(centre);
 }
 
+Result<Image> drawMesh(const Renderer& renderer, const Drawable& drawn, const Region& region, const View& view) {
+  const std::vector<RenderMaterial> materials = renderMaterials(*region.program);
+  RenderScene scene;
+  scene.vertices = drawn.vertices;
+  scene.indices = drawn.indices;
+  scene.materials = materials;
+  scene.origin = region.meshed.mesh.origin;
+  lightScene(view, scene);
+  return renderer.render(scene);
+}
+
+Result<Image> drawVolume(const Renderer& renderer, const RegionDensity& density, const Region& region,
+                         const View& view) {
+  // A third of the light gets through an edge on the shortest way: whatever its size, it looks soft.
+  constexpr double kEdgeDepth = 1.1;
+  const DensityGrid& grid = density.grid;
+  VolumeScene scene;
+  scene.density = density.values;
+  for (int axis = 0; axis < 3; ++axis) {
+    scene.size[axis] = grid.size[static_cast<size_t>(axis)];
+    scene.corner[axis] = static_cast<float>(metres(grid.origin[axis]) - metres(region.meshed.mesh.origin[axis]));
+  }
+  scene.spacing = static_cast<float>(metres(grid.spacing));
+  // Over its edge density adds up to half the edge's width.
+  scene.medium.extinction = static_cast<float>(2 * kEdgeDepth / (grid.edge / kUnitsPerMetre));
+  scene.camera = view.camera;
+  RenderScene lit;
+  lightScene(view, lit);
+  scene.fog_distance = lit.fog_distance;
+  Result<VolumePicture> picture = renderer.render(scene);
+  if (!picture) return picture.error();
+  return std::move(picture->image);
+}
+
 }  // namespace
 
 Exit render(const RenderOptions& options) {
@@ -158,7 +192,19 @@ Exit render(const RenderOptions& options) {
   if (!renderer) return complain(renderer.error());
   Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);
   if (!file) return complain(file.error());
-  const RegionResult made = meshRegion(options, [&](const WorldField& world) { return surroundings(options, world); });
+  RegionPlan plan;
+  plan.choose = [&](const WorldField& world) { return surroundings(options, world); };
+  std::optional<RegionDensity> density;
+  if (options.volume) {
+    plan.check = checkDensity;
+    plan.after = [&](const WorldField& world, JobSystem& jobs, const Region& region) -> Result<void> {
+      Result<RegionDensity> sampled = sampleRegion(world, jobs, region, options.level);
+      if (!sampled) return sampled.error();
+      density = std::move(*sampled);
+      return {};
+    };
+  }
+  const RegionResult made = meshRegion(options, plan);
   if (!made.region) return made.status;
   const Region& region = *made.region;
   if (region.meshed.mesh.indices.empty()) return complain(Exit::input, "there is no surface in the region to draw");
@@ -167,14 +213,8 @@ Exit render(const RenderOptions& options) {
   const Drawable drawn = drawable(region);
   const Result<View> view = viewOf(options, region, drawn);
   if (!view) return complain(view.error());
-  const std::vector<RenderMaterial> materials = renderMaterials(*region.program);
-  RenderScene scene;
-  scene.vertices = drawn.vertices;
-  scene.indices = drawn.indices;
-  scene.materials = materials;
-  scene.origin = region.meshed.mesh.origin;
-  lightScene(*view, scene);
-  const Result<Image> image = renderer->render(scene);
+  const Result<Image> image =
+      density ? drawVolume(*renderer, *density, region, *view) : drawMesh(*renderer, drawn, region, *view);
   if (!image) return complain(image.error());
   if (Result<void> ok = writePng(*image, *file); !ok) return complain(ok.error());
 
@@ -184,6 +224,7 @@ Exit render(const RenderOptions& options) {
   if (options.json) {
     Json json{{"out", options.out}, {"width", image->width}, {"height", image->height}};
     json.update(toJson(options, region));
+    if (density) json["density"] = toJson(*density);
     json.update({{"draw_seconds", watch.seconds()},
                  {"device", renderer->info().name},
                  {"camera",
@@ -196,6 +237,9 @@ Exit render(const RenderOptions& options) {
     fmt::print("{}: {}x{} pixels, {} triangles meshed in {:.2f} s, drawn in {:.2f} s on {}\n", options.out,
                image->width, image->height, region.meshed.mesh.indices.size() / 3, region.seconds, watch.seconds(),
                renderer->info().name);
+    if (density)
+      fmt::print("  density  at {} points in {:.2f} s, {} of {} bricks proven to be clear or full\n",
+                 density->values.size(), density->seconds, density->figures.uniform, density->figures.bricks);
     fmt::print("  camera   at {:.1f},{:.1f},{:.1f} m{}\n", position[0], position[1], position[2],
                view->enclosed ? ", inside" : "");
   }

@@ -74,7 +74,7 @@ vec3 background(vec3 d) { return frame.size.w == 1u ? sky(d) : vec3(0.0022, 0.00
 
 vec3 haze(vec3 colour, vec3 d, float t) {
   float clear = exp(-t / frame.forward.w);
-  if (frame.size.w == 1u) return mix(mix(vec3(0.48, 0.62, 0.80), sky(d), 0.3), colour, clear);
+  if (frame.size.w == 1u) return mix(hazeIn(d), colour, clear);
   vec3 scattered = vec3(0.0);
   for (uint i = 1u; i < frame.counts.x; ++i) {
     float reach = frame.lamp_position[i].w;

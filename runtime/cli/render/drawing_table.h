@@ -28,7 +28,8 @@ namespace sgm {
   X(vkCmdBindIndexBuffer)         \
   X(vkCmdSetViewport)             \
   X(vkCmdSetScissor)              \
-  X(vkCmdDrawIndexed)
+  X(vkCmdDrawIndexed)             \
+  X(vkCmdCopyBufferToImage)
 
 struct DrawingTable : vulkan::DeviceTable {
 #define SGM_VK_MEMBER(name) PFN_##name name = nullptr;

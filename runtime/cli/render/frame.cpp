@@ -7,6 +7,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
+#include <string>
+
+#include "render/image.h"
 
 namespace sgm {
 namespace {
@@ -14,19 +17,7 @@ namespace {
 constexpr float kNear = 0.05f;                            // metres; nothing nearer than this is drawn
 constexpr int32_t kPatternUnits = 1024 * kUnitsPerMetre;  // patterns repeat here, so that float32 never loses a grain
 
-struct Axes {
-  glm::vec3 forward, right, up;
-};
-
-Axes axesOf(const RenderCamera& camera) {
-  Axes axes;
-  axes.forward = glm::normalize(camera.target - camera.position);
-  // Straight up or down there is no level right: take the world's x.
-  const glm::vec3 level = glm::cross(axes.forward, glm::vec3(0, 1, 0));
-  axes.right = glm::dot(level, level) > 1e-8f ? glm::normalize(level) : glm::vec3(1, 0, 0);
-  axes.up = glm::cross(axes.right, axes.forward);
-  return axes;
-}
+bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 float wrapped(int32_t units) {
   const int32_t rest = ((units % kPatternUnits) + kPatternUnits) % kPatternUnits;
@@ -34,11 +25,12 @@ float wrapped(int32_t units) {
 }
 
 // Infinite reversed depth: floats are densest near 0, which is where distance goes.
-glm::mat4 viewProjection(const RenderCamera& camera, const Axes& axes, float half_width, float half_height) {
+glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   const auto row = [&](glm::vec3 axis, float scale) {
     return glm::vec4(axis * scale, -glm::dot(axis, camera.position) * scale);
   };
-  const glm::vec4 x = row(axes.right, 1 / half_width), y = row(axes.up, 1 / half_height), w = row(axes.forward, 1);
+  const glm::vec4 x = row(axes.right, 1 / axes.half_width), y = row(axes.up, 1 / axes.half_height),
+                  w = row(axes.forward, 1);
   glm::mat4 m;
   for (int column = 0; column < 4; ++column) {
     m[column] = glm::vec4(x[column], y[column], column == 3 ? kNear : 0.0f, w[column]);
@@ -70,21 +62,47 @@ glm::mat4 sunViewProjection(const RenderScene& scene) {
 
 }  // namespace
 
+Result<void> checkCamera(const RenderCamera& camera) {
+  const auto invalid = [](const std::string& message) { return Error{Code::invalid_argument, message}; };
+  if (camera.width < 1 || camera.height < 1 || camera.width > kMaxPicture || camera.height > kMaxPicture) {
+    return invalid("a picture is 1 to " + std::to_string(kMaxPicture) + " pixels wide and high, not " +
+                   std::to_string(camera.width) + " x " + std::to_string(camera.height));
+  }
+  if (!(camera.fov_degrees >= 1 && camera.fov_degrees <= 150)) {
+    return invalid("the camera's field of view is 1 to 150 degrees");
+  }
+  const glm::vec3 view = camera.target - camera.position;
+  if (!finite(camera.position) || !finite(view) || !(glm::dot(view, view) > 0)) {
+    return invalid("the camera needs a finite position and a target elsewhere");
+  }
+  return {};
+}
+
+CameraAxes axesOf(const RenderCamera& camera) {
+  CameraAxes axes{};
+  axes.forward = glm::normalize(camera.target - camera.position);
+  // Straight up or down there is no level right: take the world's x.
+  const glm::vec3 level = glm::cross(axes.forward, glm::vec3(0, 1, 0));
+  axes.right = glm::dot(level, level) > 1e-8f ? glm::normalize(level) : glm::vec3(1, 0, 0);
+  axes.up = glm::cross(axes.right, axes.forward);
+  axes.half_height = std::tan(glm::radians(camera.fov_degrees) / 2);
+  axes.half_width = axes.half_height * static_cast<float>(camera.width) / static_cast<float>(camera.height);
+  return axes;
+}
+
 Frame frameOf(const RenderScene& scene) {
   const RenderCamera& camera = scene.camera;
-  const Axes axes = axesOf(camera);
-  const float half_height = std::tan(glm::radians(camera.fov_degrees) / 2);
-  const float half_width = half_height * static_cast<float>(camera.width) / static_cast<float>(camera.height);
+  const CameraAxes axes = axesOf(camera);
   const float samples = static_cast<float>(camera.height * scene.supersample);
   Frame frame{};
-  frame.view_projection = viewProjection(camera, axes, half_width, half_height);
+  frame.view_projection = viewProjection(camera, axes);
   if (scene.background == Background::sky) frame.sun_view_projection = sunViewProjection(scene);
-  frame.eye = glm::vec4(camera.position, 2 * half_height / samples);
+  frame.eye = glm::vec4(camera.position, 2 * axes.half_height / samples);
   frame.pattern_offset =
       glm::vec4(wrapped(scene.origin.x), wrapped(scene.origin.y), wrapped(scene.origin.z), scene.exposure);
   frame.forward = glm::vec4(axes.forward, scene.fog_distance);
-  frame.right = glm::vec4(axes.right * half_width, 0);
-  frame.up = glm::vec4(axes.up * half_height, 0);
+  frame.right = glm::vec4(axes.right * axes.half_width, 0);
+  frame.up = glm::vec4(axes.up * axes.half_height, 0);
   frame.sun = glm::vec4(glm::normalize(scene.sun_direction), scene.ambient);
   // On the helmet, a hand's breadth off the eye: near enough to light all that is seen, far enough for shadows to show.
   const float off = 0.05f * std::max(scene.headlamp.reach, 1.0f);

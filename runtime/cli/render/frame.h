@@ -5,6 +5,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "base/result.h"
 #include "render/scene.h"
 
 namespace sgm {
@@ -30,6 +31,17 @@ struct FrameMaterial {
   glm::uvec4 pattern;
 };
 static_assert(sizeof(FrameMaterial) == 32);
+
+/// Error: invalid_argument.
+Result<void> checkCamera(const RenderCamera& camera);
+
+/// Where a camera's picture is: unit axes, and half its sides at distance 1.
+struct CameraAxes {
+  glm::vec3 forward, right, up;
+  float half_width, half_height;
+};
+/// camera must have been checked.
+CameraAxes axesOf(const RenderCamera& camera);
 
 /// scene must have been checked.
 Frame frameOf(const RenderScene& scene);

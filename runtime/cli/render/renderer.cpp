@@ -20,21 +20,6 @@ bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && st
 
 Error invalid(const std::string& message) { return {Code::invalid_argument, message}; }
 
-Result<void> checkCamera(const RenderCamera& camera) {
-  if (camera.width < 1 || camera.height < 1 || camera.width > kMaxPicture || camera.height > kMaxPicture) {
-    return invalid("a picture is 1 to " + std::to_string(kMaxPicture) + " pixels wide and high, not " +
-                   std::to_string(camera.width) + " x " + std::to_string(camera.height));
-  }
-  if (!(camera.fov_degrees >= 1 && camera.fov_degrees <= 150)) {
-    return invalid("the camera's field of view is 1 to 150 degrees");
-  }
-  const glm::vec3 view = camera.target - camera.position;
-  if (!finite(camera.position) || !finite(view) || !(glm::dot(view, view) > 0)) {
-    return invalid("the camera needs a finite position and a target elsewhere");
-  }
-  return {};
-}
-
 Result<void> checkMesh(const RenderScene& scene) {
   if (scene.indices.size() % 3 != 0) return invalid("indices come in threes");
   if (scene.vertices.size() > UINT32_MAX || scene.indices.size() > UINT32_MAX / (kMaxLamps + 1)) {

@@ -8,6 +8,7 @@
 #include "base/result.h"
 #include "render/image.h"
 #include "render/scene.h"
+#include "render/volume.h"
 #include "render/vulkan_device.h"
 
 namespace sgm {
@@ -24,6 +25,9 @@ class Renderer {
 
   /// Errors: invalid_argument (a size, an index or a vertex out of range, no material), out_of_memory, unsupported.
   Result<Image> render(const RenderScene& scene) const;
+
+  /// Errors: invalid_argument (a camera, a size or a number out of range), limit, out_of_memory, unsupported.
+  Result<VolumePicture> render(const VolumeScene& scene) const;
 
   const vulkan::DeviceInfo& info() const { return device_->info(); }
   /// What the validation layer had to say; see GpuOptions::validation.

@@ -59,19 +59,34 @@ Result<VulkanBuffer> VulkanScope::buffer(VkDeviceSize bytes, VkBufferUsageFlags 
 
 Result<VulkanImage> VulkanScope::image(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage,
                                        VkImageAspectFlags aspect) {
-  const std::string what =
-      "a GPU image of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) + " pixels";
-  const DrawingTable& calls = device_.calls();
   VkImageCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = format;
   info.extent = {extent.width, extent.height, 1};
+  info.usage = usage;
+  return image(info, VK_IMAGE_VIEW_TYPE_2D, aspect,
+               "a GPU image of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) + " pixels");
+}
+
+Result<VulkanImage> VulkanScope::volume(VkExtent3D extent, VkFormat format, VkImageUsageFlags usage) {
+  VkImageCreateInfo info{};
+  info.imageType = VK_IMAGE_TYPE_3D;
+  info.format = format;
+  info.extent = extent;
+  info.usage = usage;
+  return image(info, VK_IMAGE_VIEW_TYPE_3D, VK_IMAGE_ASPECT_COLOR_BIT,
+               "a GPU volume of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) + " x " +
+                   std::to_string(extent.depth) + " points");
+}
+
+Result<VulkanImage> VulkanScope::image(VkImageCreateInfo info, VkImageViewType view_type, VkImageAspectFlags aspect,
+                                       const std::string& what) {
+  const DrawingTable& calls = device_.calls();
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
   info.mipLevels = 1;
   info.arrayLayers = 1;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
-  info.usage = usage;
   VkImage handle = VK_NULL_HANDLE;
   const VkResult result = calls.vkCreateImage(device_.handle(), &info, nullptr, &handle);
   if (result != VK_SUCCESS) return vulkan::errorOf(result, what);
@@ -85,17 +100,18 @@ Result<VulkanImage> VulkanScope::image(VkExtent2D extent, VkFormat format, VkIma
   VkImageViewCreateInfo view{};
   view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
   view.image = handle;
-  view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-  view.format = format;
+  view.viewType = view_type;
+  view.format = info.format;
   view.subresourceRange = {aspect, 0, 1, 0, 1};
   auto made = make(calls.vkCreateImageView, calls.vkDestroyImageView, view, what);
   if (!made) return made.error();
   return VulkanImage{handle, *made};
 }
 
-Result<VkSampler> VulkanScope::sampler() {
+Result<VkSampler> VulkanScope::sampler(VkFilter filter) {
   VkSamplerCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+  info.magFilter = info.minFilter = filter;
   info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   return make(device_.calls().vkCreateSampler, device_.calls().vkDestroySampler, info, "a sampler");
 }

@@ -36,8 +36,10 @@ class VulkanScope {
   /// bytes > 0.
   Result<VulkanBuffer> buffer(VkDeviceSize bytes, VkBufferUsageFlags usage);
   Result<VulkanImage> image(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect);
-  /// Nearest, clamped to the edge.
-  Result<VkSampler> sampler();
+  /// Of three dimensions, in colour.
+  Result<VulkanImage> volume(VkExtent3D extent, VkFormat format, VkImageUsageFlags usage);
+  /// Clamped to the edge.
+  Result<VkSampler> sampler(VkFilter filter = VK_FILTER_NEAREST);
   Result<VkShaderModule> shader(std::span<const uint32_t> spirv);
   /// One set of one descriptor a binding, numbered from 0, all visible to `stages`.
   Result<VkDescriptorSetLayout> setLayout(std::span<const VkDescriptorType> types, VkShaderStageFlags stages);
@@ -56,6 +58,8 @@ class VulkanScope {
   Result<Handle> make(VkResult (*create)(VkDevice, const Info*, const VkAllocationCallbacks*, Handle*),
                       void (*destroy)(VkDevice, Handle, const VkAllocationCallbacks*), const Info& info,
                       const std::string& what);
+  Result<VulkanImage> image(VkImageCreateInfo info, VkImageViewType view_type, VkImageAspectFlags aspect,
+                            const std::string& what);
   Result<VkDeviceMemory> memory(const VkMemoryRequirements& needs, VkMemoryPropertyFlags wanted,
                                 const std::string& what);
 

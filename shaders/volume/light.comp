@@ -1,0 +1,50 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// Marches from points of the volume towards the sun and the sky, once, so that no ray from the eye needs to.
+#include "volume/volume.glsl"
+
+layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+layout(rgba16f, binding = 3) writeonly uniform image3D lit_volume;  // optical depth to the sun, share of the sky's light
+
+// In steps of a cell, sampled in their middles.
+float opticalDepth(vec3 from, vec3 direction) {
+  vec3 d = withoutZeros(direction);
+  float end = crossing(from, d, vec3(0.0), volumeEnd()).y, depth = 0.0;
+  for (float t = 0.0; t < end;) {
+    float ahead = emptyAhead(from, d, t);
+    if (ahead > 0.0) {
+      t += ahead;
+      continue;
+    }
+    float step_length = min(1.0, end - t);
+    depth += extinctionAt(from + d * (t + 0.5 * step_length)) * step_length;
+    t += max(step_length, 1e-3);
+  }
+  return depth * frame.corner.w;
+}
+
+// What comes down from the sky is scattered so often that it loses its way as slowly as the third octave of scattered().
+// From straight above and four sides, for one direction alone would show as streaks.
+float skyShare(vec3 place) {
+  float sum = 0.0;
+  const vec3 kFrom[] = vec3[](vec3(0, 1, 0), vec3(0.6, 0.8, 0), vec3(-0.6, 0.8, 0), vec3(0, 0.8, 0.6), vec3(0, 0.8, -0.6));
+  for (int i = 0; i < kFrom.length(); ++i) sum += exp(-0.25 * opticalDepth(place, kFrom[i]));
+  return sum / float(kFrom.length());
+}
+
+// Whether a place that has density is lit by this point, alone or between others.
+bool isSeen(vec3 place, vec3 apart) {
+  ivec3 lo = brickAt(place - apart), hi = brickAt(place + apart);
+  for (int i = 0; i < 8; ++i) {
+    if (!isEmpty(ivec3((i & 1) == 0 ? lo.x : hi.x, (i & 2) == 0 ? lo.y : hi.y, (i & 4) == 0 ? lo.z : hi.z))) return true;
+  }
+  return false;
+}
+
+void main() {
+  uvec3 at = gl_GlobalInvocationID;
+  if (any(greaterThanEqual(at, frame.lit_size.xyz))) return;
+  vec3 apart = volumeEnd() / (vec3(frame.lit_size.xyz) - 1.0), place = vec3(at) * apart;
+  if (!isSeen(place, apart)) return;
+  imageStore(lit_volume, ivec3(at), vec4(opticalDepth(place, frame.sun.xyz), skyShare(place), 0.0, 0.0));
+}
