@@ -7,7 +7,9 @@
 
 #include "catch.h"
 #include "conformance/vulkan_compute.h"
+#include "field/density.h"
 #include "random_programs.h"
+#include "spirv/density_comp.h"
 #include "spirv/field_comp.h"
 #include "spirv/field_rte_comp.h"
 
@@ -127,4 +129,35 @@ TEST_CASE("the GLSL of every op gives the scalar evaluator's bits") {
   const std::vector<std::string> messages = (*device)->messages();
   for (const std::string& m : messages) std::cout << m << '\n';
   CHECK(messages.empty());
+}
+
+TEST_CASE("GLSL makes the same density of every sample") {
+  auto compute = VulkanCompute::create(required(), true);
+  INFO((compute ? std::string() : compute.error().message));
+  REQUIRE(compute);
+  if (!*compute) return;
+  const auto shader = (*compute)->shader(spirv::kDensityComp, 2, 8);
+  REQUIRE(shader);
+  std::vector<int32_t> q;
+  for (int32_t i = -70'000; i <= 100; ++i) q.push_back(i);
+  for (int32_t i = 0; i <= 70'000; ++i) q.push_back(-4'194'304 + i * 59);
+  std::mt19937 random(7);
+  for (int round = 0; round < 40; ++round) {
+    const double edge = std::exp2(static_cast<double>(random() % 22'000) / 1000);
+    const DensityEdge rule = densityEdge(edge, 1024);
+    std::vector<float> values(q.size());
+    std::vector<uint8_t> bytes(q.size());
+    densities(q, rule, values.data());
+    densities(q, rule, bytes.data());
+    std::vector<uint32_t> results(2 * q.size());
+    const ComputeBuffer buffers[] = {computeBuffer(std::span(q)), computeBuffer(std::span(results))};
+    const uint32_t push[] = {static_cast<uint32_t>(q.size()), std::bit_cast<uint32_t>(rule.inverse)};
+    REQUIRE(shader->run(buffers, std::as_bytes(std::span(push)), static_cast<uint32_t>(q.size() + 63) / 64));
+    size_t different = 0;
+    for (size_t i = 0; i < q.size(); ++i)
+      different += results[2 * i] != std::bit_cast<uint32_t>(values[i]) || results[2 * i + 1] != bytes[i];
+    INFO("edge " << edge);
+    CHECK(different == 0);
+  }
+  CHECK((*compute)->messages().empty());
 }
