@@ -224,7 +224,7 @@ Exit render(const RenderOptions& options) {
   if (options.json) {
     Json json{{"out", options.out}, {"width", image->width}, {"height", image->height}};
     json.update(toJson(options, region));
-    if (density) json["density"] = toJson(*density);
+    if (density) json["volume"] = toJson(*density);
     json.update({{"draw_seconds", watch.seconds()},
                  {"device", renderer->info().name},
                  {"camera",

@@ -32,9 +32,10 @@ float skyShare(vec3 place) {
   return sum / float(kFrom.length());
 }
 
-// Whether a place that has density is lit by this point, alone or between others.
+// Whether a place that has density is lit by this point, or by others around it with this one: march.comp reads up to a
+// point and a half away.
 bool isSeen(vec3 place, vec3 apart) {
-  ivec3 lo = brickAt(place - apart), hi = brickAt(place + apart);
+  ivec3 lo = brickAt(place - 1.5 * apart), hi = brickAt(place + 1.5 * apart);
   for (int i = 0; i < 8; ++i) {
     if (!isEmpty(ivec3((i & 1) == 0 ? lo.x : hi.x, (i & 2) == 0 ? lo.y : hi.y, (i & 4) == 0 ? lo.z : hi.z))) return true;
   }

@@ -14,24 +14,24 @@ layout(std430, binding = 5) writeonly buffer Light { vec4 light[]; };  // by pix
 const float kStep = 0.7;     // cells
 const float kOpaque = 0.004;  // less than half a step of 8 bits shows through
 
-vec3 sourceAt(vec3 place, float cosine) {
-  vec3 lit_place = place * (vec3(frame.lit_size.xyz) - 1.0) / volumeEnd();
+// turn: random numbers 0..1. Light is read from around the place, half a point of its volume away at most in each
+// direction: else that volume's own cells would show.
+vec3 sourceAt(vec3 place, float cosine, vec3 turn) {
+  vec3 lit_place = place * (vec3(frame.lit_size.xyz) - 1.0) / volumeEnd() + turn - 0.5;
   vec2 lit = textureLod(lit_volume, (lit_place + 0.5) / vec3(frame.lit_size.xyz), 0.0).rg;
   vec3 sun = frame.sun_light.rgb * scattered(cosine, lit.x, frame.sun.w, frame.size.w);
   vec3 around = mix(frame.ground_light.rgb, frame.sky_light.rgb, lit.y);
   return frame.up.w * (sun + around);
 }
 
-void main() {
-  uvec2 pixel = gl_GlobalInvocationID.xy;
-  if (any(greaterThanEqual(pixel, frame.picture.xy))) return;
-  vec2 centre = (vec2(pixel) + 0.5) / vec2(frame.picture.xy) * 2.0 - 1.0;
-  vec3 view = normalize(frame.forward.xyz + centre.x * frame.right.xyz - centre.y * frame.up.xyz);
+// What a ray from the eye meets: light, and the share of what is behind. turn: tells it from other rays.
+vec4 march(vec3 view, ivec2 turn) {
   vec3 d = withoutZeros(view), from = placeOf(frame.eye.xyz);
   vec2 ends = crossing(from, d, vec3(0.0), volumeEnd());
   float cosine = dot(view, frame.sun.xyz), transmittance = 1.0;
-  // Each pixel samples its steps elsewhere: banding becomes noise, finer than what is seen.
-  float jitter = random3(ivec3(pixel, 11)).x;
+  // Each ray samples its steps elsewhere: banding becomes noise, finer than what is seen.
+  float jitter = random3(ivec3(turn, 0)).x;
+  int steps = 0;
   vec3 sum = vec3(0.0), haze = hazeIn(view);
   for (float t = max(ends.x, 0.0); t < ends.y && transmittance > kOpaque;) {
     float ahead = emptyAhead(from, d, t);
@@ -47,10 +47,25 @@ void main() {
       // rendering in Frostbite").
       float passed = exp(-extinction * step_length * frame.corner.w);
       float clear = exp(-t * frame.corner.w / frame.forward.w);
-      sum += transmittance * (1.0 - passed) * mix(haze, sourceAt(place, cosine), clear);
+      vec3 source = sourceAt(place, cosine, random3(ivec3(turn, ++steps)));
+      sum += transmittance * (1.0 - passed) * mix(haze, source, clear);
       transmittance *= passed;
     }
     t += max(step_length, 1e-3);
   }
-  light[pixel.y * frame.picture.x + pixel.x] = vec4(sum, transmittance);
+  return vec4(sum, transmittance);
+}
+
+void main() {
+  uvec2 pixel = gl_GlobalInvocationID.xy;
+  if (any(greaterThanEqual(pixel, frame.picture.xy))) return;
+  // On a grid in the pixel: one ray goes through its middle.
+  int side = int(frame.picture.z);
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < side * side; ++i) {
+    ivec2 sub_pixel = ivec2(pixel) * side + ivec2(i % side, i / side);
+    vec2 at = (vec2(sub_pixel) + 0.5) / vec2(frame.picture.xy * frame.picture.z) * 2.0 - 1.0;
+    sum += march(normalize(frame.forward.xyz + at.x * frame.right.xyz - at.y * frame.up.xyz), sub_pixel);
+  }
+  light[pixel.y * frame.picture.x + pixel.x] = sum / float(side * side);
 }

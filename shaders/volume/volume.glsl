@@ -13,7 +13,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 ground_light;
   uvec4 size;       // points; w: octaves of scattering
   uvec4 lit_size;   // points of the volume of light
-  uvec4 picture;    // width, height
+  uvec4 picture;    // width, height, rays on each side of a pixel
 } frame;
 
 layout(binding = 1) uniform sampler3D density_volume;

@@ -41,7 +41,26 @@ expect 0 "$SGM" render "$cave" --out at.png --at spawn --region=0,0,0:192,192,19
 picture at.png 64 64
 expect 0 "$SGM" render "$cave" --out level.png --level 1 --cell 1 --size 64x64 --seed 7 --json
 json 'j.level === 1 && j.cell === 2'
-rm ./*.png
+# The solid as fog, from the same camera.
+printf 'sgm 1;\nunits m;\ndomain finite box(8m) output density edge 2m;\nstart Puff;\nrule Puff { sphere(3m); }\n' >fog.sgm
+expect 0 "$SGM" render fog.sgm --out solid.png --size 96x64 --json
+camera=$(node -p 'JSON.stringify(JSON.parse(require("fs").readFileSync(process.argv[1])).camera)' "$work/.out")
+json '!("volume" in j)'
+expect 0 "$SGM" render fog.sgm --out fog.png --size 96x64 --volume --json
+json "JSON.stringify(j.camera) === '$camera' && j.volume.edge === 2 && j.volume.points === 65 ** 3"
+json 'j.volume.bricks === 729 && j.volume.uniform > 0 && j.volume.uniform < j.volume.bricks'
+picture fog.png 96 64
+cmp -s fog.png solid.png && failed "fog looks as a wall does"
+expect 0 "$SGM" render fog.sgm --out fog.png --size 96x64 --volume --level 1
+out_has 'density +at 274625 points'
+expect 1 "$SGM" render ball.sgm --out wrong.png --volume
+one_line
+err_has 'output density'
+# An edge deeper than samples tell apart.
+expect 1 "$SGM" render fog.sgm --out wrong.png --volume --cell 0.0004 --region=2.99,0,0:3.01,0.01,0.01
+one_line
+err_has 'edge'
+rm ./*.png fog.sgm
 only ball.sgm
 
 expect 1 "$SGM" render ball.sgm --out wrong.png --at nothing_of_that_name

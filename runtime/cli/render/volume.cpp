@@ -29,8 +29,9 @@ Result<void> check(const VolumeScene& scene, const VkPhysicalDeviceLimits& limit
   if (!std::isfinite(corner)) return invalid("the volume's corner is finite");
   if (!(sun > 0 && std::isfinite(sun))) return invalid("the sun's direction is not 0");
   if (!(scene.fog_distance > 0)) return invalid("the fog's distance is above 0");
-  const uint64_t light_bytes = sizeof(glm::vec4) * static_cast<uint64_t>(scene.camera.width) *
-                               static_cast<uint64_t>(scene.camera.height);
+  if (scene.supersample < 1 || scene.supersample > 3) return invalid("a pixel has 1, 2 or 3 rays on each side");
+  const uint64_t light_bytes =
+      sizeof(glm::vec4) * static_cast<uint64_t>(scene.camera.width) * static_cast<uint64_t>(scene.camera.height);
   if (light_bytes > limits.maxStorageBufferRange)
     return Error{Code::unsupported, "this device cannot draw so many pixels of fog: ask for a smaller picture"};
   const uint32_t side = std::max({scene.size.x, scene.size.y, scene.size.z});

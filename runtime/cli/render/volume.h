@@ -29,9 +29,10 @@ struct VolumeScene {
   glm::vec3 sun_direction{-0.62f, 0.62f, 0.48f};  ///< towards the sun
   glm::vec3 sun_light{26.0f, 24.2f, 21.5f};       ///< irradiance of what faces the sun
   glm::vec3 sky_light{0.34f, 0.45f, 0.64f};       ///< radiance from above
-  glm::vec3 ground_light{0.10f, 0.11f, 0.125f};    ///< and from below
+  glm::vec3 ground_light{0.10f, 0.11f, 0.125f};   ///< and from below
   float fog_distance = 10000;                     ///< as RenderScene's
   float exposure = 0.85f;
+  int supersample = 2;  ///< rays on each side of a pixel, 1..3
 };
 
 struct VolumePicture {

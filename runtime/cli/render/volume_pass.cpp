@@ -38,7 +38,7 @@ VolumeFrame frameOf(const VolumeScene& scene, VkExtent3D lit) {
   frame.ground_light = glm::vec4(scene.ground_light, 0);
   frame.size = glm::uvec4(scene.size, scene.medium.octaves);
   frame.lit_size = glm::uvec4(lit.width, lit.height, lit.depth, 0);
-  frame.picture = glm::uvec4(scene.camera.width, scene.camera.height, 0, 0);
+  frame.picture = glm::uvec4(scene.camera.width, scene.camera.height, scene.supersample, 0);
   return frame;
 }
 
