@@ -9,7 +9,7 @@ using namespace sgm::api;
 namespace {
 
 constexpr uint32_t kMostPoints = 16384;         // on one axis
-constexpr uint64_t kMostTogether = 1ull << 33;  // in a volume
+constexpr uint64_t kMostInVolume = 1ull << 33;  // in a volume
 
 /// A pitch in values instead of bytes; 0 becomes the least.
 sgm_result takePitch(sgm_error* error, size_t bytes, size_t value, size_t least, const char* name, size_t& pitch) {
@@ -32,7 +32,7 @@ sgm_result takeGrid(sgm_error* error, const sgm_density_desc& desc, const sgm::D
                   "desc.size[" + std::to_string(axis) + "] is not 1 to " + std::to_string(kMostPoints));
     grid.size[axis] = desc.size[axis];
   }
-  if (uint64_t{desc.size[0]} * desc.size[1] * desc.size[2] > kMostTogether)
+  if (uint64_t{desc.size[0]} * desc.size[1] * desc.size[2] > kMostInVolume)
     return fail(error, SGM_ERR_LIMIT, "the volume has more than 2^33 points");
   grid.origin = {desc.origin[0], desc.origin[1], desc.origin[2]};
   grid.spacing = desc.spacing;

@@ -17,8 +17,6 @@ namespace {
 constexpr float kNear = 0.05f;                            // metres; nothing nearer than this is drawn
 constexpr int32_t kPatternUnits = 1024 * kUnitsPerMetre;  // patterns repeat here, so that float32 never loses a grain
 
-bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 float wrapped(int32_t units) {
   const int32_t rest = ((units % kPatternUnits) + kPatternUnits) % kPatternUnits;
   return static_cast<float>(rest) / static_cast<float>(kUnitsPerMetre);
@@ -62,6 +60,8 @@ glm::mat4 sunViewProjection(const RenderScene& scene) {
 
 }  // namespace
 
+bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
 Result<void> checkCamera(const RenderCamera& camera) {
   const auto invalid = [](const std::string& message) { return Error{Code::invalid_argument, message}; };
   if (camera.width < 1 || camera.height < 1 || camera.width > kMaxPicture || camera.height > kMaxPicture) {
@@ -72,7 +72,7 @@ Result<void> checkCamera(const RenderCamera& camera) {
     return invalid("the camera's field of view is 1 to 150 degrees");
   }
   const glm::vec3 view = camera.target - camera.position;
-  if (!finite(camera.position) || !finite(view) || !(glm::dot(view, view) > 0)) {
+  if (!isFinite(camera.position) || !isFinite(view) || !(glm::dot(view, view) > 0)) {
     return invalid("the camera needs a finite position and a target elsewhere");
   }
   return {};

@@ -32,6 +32,8 @@ struct FrameMaterial {
 };
 static_assert(sizeof(FrameMaterial) == 32);
 
+bool isFinite(const glm::vec3& v);
+
 /// Error: invalid_argument.
 Result<void> checkCamera(const RenderCamera& camera);
 

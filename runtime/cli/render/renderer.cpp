@@ -16,8 +16,6 @@ namespace {
 
 constexpr uint32_t kGroup = 8;  // shade.comp's workgroup is kGroup * kGroup pixels
 
-bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 Error invalid(const std::string& message) { return {Code::invalid_argument, message}; }
 
 Result<void> checkMesh(const RenderScene& scene) {
@@ -30,7 +28,7 @@ Result<void> checkMesh(const RenderScene& scene) {
     return invalid("index " + std::to_string(*highest) + " is beyond the last vertex");
   }
   for (const RenderVertex& vertex : scene.vertices) {
-    if (!finite(vertex.position) || !finite(vertex.normal)) return invalid("a vertex is not finite");
+    if (!isFinite(vertex.position) || !isFinite(vertex.normal)) return invalid("a vertex is not finite");
   }
   return {};
 }
@@ -40,7 +38,7 @@ Result<void> check(const RenderScene& scene, const VkPhysicalDeviceLimits& limit
   if (auto mesh = checkMesh(scene); !mesh) return mesh.error();
   if (scene.materials.empty()) return invalid("a scene needs a material");
   if (scene.lamps.size() > kMaxLamps) return invalid("a scene has at most " + std::to_string(kMaxLamps) + " lamps");
-  const auto dark = [](const RenderLamp& lamp) { return !(lamp.reach > 0) || !finite(lamp.position); };
+  const auto dark = [](const RenderLamp& lamp) { return !(lamp.reach > 0) || !isFinite(lamp.position); };
   if (dark(scene.headlamp) || std::ranges::any_of(scene.lamps, dark)) {
     return invalid("a lamp has a finite place and a reach above 0");
   }

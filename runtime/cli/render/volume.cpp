@@ -13,7 +13,7 @@
 namespace sgm {
 namespace {
 
-constexpr size_t kMostPoints = size_t{1} << 30;
+constexpr size_t kMostVolumePoints = size_t{1} << 30;
 constexpr uint32_t kMostOctaves = 32;
 
 Result<void> check(const VolumeScene& scene, const VkPhysicalDeviceLimits& limits) {
@@ -25,8 +25,8 @@ Result<void> check(const VolumeScene& scene, const VkPhysicalDeviceLimits& limit
   if (!(std::abs(medium.forward) < 1)) return invalid("a mean cosine is above -1 and below 1");
   if (medium.octaves < 1 || medium.octaves > kMostOctaves) return invalid("there are 1 to 32 octaves of scattering");
   if (!(scene.spacing > 0 && std::isfinite(scene.spacing))) return invalid("the spacing is a number above 0");
-  const float corner = glm::dot(scene.corner, scene.corner), sun = glm::dot(scene.sun_direction, scene.sun_direction);
-  if (!std::isfinite(corner)) return invalid("the volume's corner is finite");
+  const float sun = glm::dot(scene.sun_direction, scene.sun_direction);
+  if (!isFinite(scene.corner)) return invalid("the volume's corner is finite");
   if (!(sun > 0 && std::isfinite(sun))) return invalid("the sun's direction is not 0");
   if (!(scene.fog_distance > 0)) return invalid("the fog's distance is above 0");
   if (scene.supersample < 1 || scene.supersample > 3) return invalid("a pixel has 1, 2 or 3 rays on each side");
@@ -42,7 +42,7 @@ Result<void> check(const VolumeScene& scene, const VkPhysicalDeviceLimits& limit
                                   " points on an axis, not " + std::to_string(side) +
                                   ": choose a smaller region or larger cells"};
   const size_t points = size_t{scene.size.x} * scene.size.y * scene.size.z;
-  if (points > kMostPoints)
+  if (points > kMostVolumePoints)
     return Error{Code::limit, "the volume has more than 2^30 points: choose a smaller region or larger cells"};
   if (points != scene.density.size()) return invalid("a volume has one density a point");
   return {};

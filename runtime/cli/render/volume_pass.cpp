@@ -13,8 +13,8 @@
 namespace sgm {
 namespace {
 
-constexpr uint32_t kBrick = 8;                 // cells, as shaders/volume/volume.glsl has it
-constexpr uint32_t kGroup = 8, kLitGroup = 4;  // points on an edge of a workgroup
+constexpr uint32_t kBrick = 8;                      // cells, as shaders/volume/volume.glsl has it
+constexpr uint32_t kPixelGroup = 8, kLitGroup = 4;  // points on an edge of a workgroup
 
 constexpr VkFormat kLitFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 
@@ -72,10 +72,10 @@ Result<VulkanBuffer> filled(VulkanScope& scope, std::span<const T> values, VkBuf
   return buffer;
 }
 
-constexpr std::array kTypes{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                            VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
-                            VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                            VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+constexpr std::array kBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                               VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_IMAGE,
+                               VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                               VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 /// What is bound, by binding; null where it is of the other kind.
 struct Bound {
@@ -85,10 +85,10 @@ struct Bound {
 };
 
 void bind(const VulkanDevice& device, VkDescriptorSet set, VkSampler sampler,
-          const std::array<Bound, kTypes.size()>& bound) {
-  std::array<VkDescriptorImageInfo, kTypes.size()> images{};
-  std::array<VkDescriptorBufferInfo, kTypes.size()> buffers{};
-  std::array<VkWriteDescriptorSet, kTypes.size()> writes{};
+          const std::array<Bound, kBindings.size()>& bound) {
+  std::array<VkDescriptorImageInfo, kBindings.size()> images{};
+  std::array<VkDescriptorBufferInfo, kBindings.size()> buffers{};
+  std::array<VkWriteDescriptorSet, kBindings.size()> writes{};
   for (uint32_t i = 0; i < writes.size(); ++i) {
     images[i] = {sampler, bound[i].view, bound[i].layout};
     buffers[i] = {bound[i].buffer, 0, VK_WHOLE_SIZE};
@@ -96,7 +96,7 @@ void bind(const VulkanDevice& device, VkDescriptorSet set, VkSampler sampler,
     writes[i].dstSet = set;
     writes[i].dstBinding = i;
     writes[i].descriptorCount = 1;
-    writes[i].descriptorType = kTypes[i];
+    writes[i].descriptorType = kBindings[i];
     if (bound[i].view) writes[i].pImageInfo = &images[i];
     if (bound[i].buffer) writes[i].pBufferInfo = &buffers[i];
   }
@@ -153,7 +153,7 @@ Result<VolumePass> makeVolumePass(VulkanScope& scope, const VolumeScene& scene) 
   pass.density = *density;
   pass.lit = *lit;
 
-  auto set_layout = scope.setLayout(kTypes, VK_SHADER_STAGE_COMPUTE_BIT);
+  auto set_layout = scope.setLayout(kBindings, VK_SHADER_STAGE_COMPUTE_BIT);
   if (!set_layout) return set_layout.error();
   auto layout = scope.pipelineLayout(*set_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0);
   if (!layout) return layout.error();
@@ -167,7 +167,7 @@ Result<VolumePass> makeVolumePass(VulkanScope& scope, const VolumeScene& scene) 
     if (!made) return made.error();
     *pipeline = *made;
   }
-  auto set = scope.descriptorSet(*set_layout, kTypes);
+  auto set = scope.descriptorSet(*set_layout, kBindings);
   if (!set) return set.error();
   pass.set = *set;
   auto sampler = scope.sampler(VK_FILTER_LINEAR);
@@ -215,7 +215,7 @@ void recordVolume(const DrawingTable& calls, VkCommandBuffer commands, const Vol
   calls.vkCmdDispatch(commands, groups(pass.lit_extent.width, kLitGroup), groups(pass.lit_extent.height, kLitGroup),
                       groups(pass.lit_extent.depth, kLitGroup));
   then(VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
-  const uint32_t across = groups(pass.picture.width, kGroup), down = groups(pass.picture.height, kGroup);
+  const uint32_t across = groups(pass.picture.width, kPixelGroup), down = groups(pass.picture.height, kPixelGroup);
   calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass.march);
   calls.vkCmdDispatch(commands, across, down, 1);
   then(VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);

@@ -149,7 +149,7 @@ TEST_CASE("a volume holds the density of each point's own sample, whatever was p
   CHECK(full > 0);
 }
 
-TEST_CASE("a volume is the same for any number of threads, and cut into any boxes", "[density]") {
+TEST_CASE("a volume is the same for any number of threads, and cut into any boxes", "[density][threads]") {
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
   std::mt19937 random(seed);
