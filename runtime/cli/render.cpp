@@ -176,7 +176,9 @@ Result<Image> drawVolume(const Renderer& renderer, const RegionDensity& density,
   // Over its edge density adds up to half the edge's width.
   scene.medium.extinction = static_cast<float>(2 * kEdgeDepth / (grid.edge / kUnitsPerMetre));
   scene.camera = view.camera;
+  const std::array<RenderMaterial, 1> vapour{materialByName("cloud")};
   RenderScene lit;
+  lit.materials = vapour;
   lightScene(view, lit);
   scene.fog_distance = lit.fog_distance;
   Result<VolumePicture> picture = renderer.render(scene);

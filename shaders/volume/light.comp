@@ -4,7 +4,8 @@
 #include "volume/volume.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
-layout(rgba16f, binding = 3) writeonly uniform image3D lit_volume;  // optical depth to the sun, share of the sky's light
+// Optical depth to the sun, share of the sky's light.
+layout(rgba16f, binding = 3) writeonly uniform image3D lit_volume;
 
 // In steps of a cell, sampled in their middles.
 float opticalDepth(vec3 from, vec3 direction) {
@@ -23,11 +24,12 @@ float opticalDepth(vec3 from, vec3 direction) {
   return depth * frame.corner.w;
 }
 
-// What comes down from the sky is scattered so often that it loses its way as slowly as the third octave of scattered().
+// What comes down from the sky is scattered so often that it loses its way as slowly as scattered()'s third octave.
 // From straight above and four sides, for one direction alone would show as streaks.
 float skyShare(vec3 place) {
   float sum = 0.0;
-  const vec3 kFrom[] = vec3[](vec3(0, 1, 0), vec3(0.6, 0.8, 0), vec3(-0.6, 0.8, 0), vec3(0, 0.8, 0.6), vec3(0, 0.8, -0.6));
+  const vec3 kFrom[] =
+      vec3[](vec3(0, 1, 0), vec3(0.6, 0.8, 0), vec3(-0.6, 0.8, 0), vec3(0, 0.8, 0.6), vec3(0, 0.8, -0.6));
   for (int i = 0; i < kFrom.length(); ++i) sum += exp(-0.25 * opticalDepth(place, kFrom[i]));
   return sum / float(kFrom.length());
 }
@@ -37,7 +39,8 @@ float skyShare(vec3 place) {
 bool isSeen(vec3 place, vec3 apart) {
   ivec3 lo = brickAt(place - 1.5 * apart), hi = brickAt(place + 1.5 * apart);
   for (int i = 0; i < 8; ++i) {
-    if (!isEmpty(ivec3((i & 1) == 0 ? lo.x : hi.x, (i & 2) == 0 ? lo.y : hi.y, (i & 4) == 0 ? lo.z : hi.z))) return true;
+    bvec3 high = bvec3((i & 1) != 0, (i & 2) != 0, (i & 4) != 0);
+    if (!isEmpty(mix(lo, hi, high))) return true;
   }
   return false;
 }

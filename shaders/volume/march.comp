@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
-// Marches a ray through the volume for each pixel, front to back: the light that comes to the eye, and the share of what
-// is behind that still shows. An engine lays that over its scene.
+// Marches rays through the volume for each pixel, front to back: the light that comes to the eye, and the share of
+// what is behind that still shows. An engine lays that over its scene.
 #include "volume/volume.glsl"
 #include "volume/scattering.glsl"
 #include "render/noise.glsl"

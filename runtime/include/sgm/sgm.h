@@ -969,8 +969,8 @@ typedef struct sgm_density_desc {
   int32_t origin[3];         /* units */
   int32_t spacing;           /* units, at least 1: from point to point on each axis */
   uint32_t size[3];          /* points on x, y, z: 1 to 16,384 each; 2^33 together */
-  int32_t level;             /* 0 to SGM_MAX_LEVEL, for a world 0: what coarse chunks leave out is left out here too. For
-                                a volume far away, one whose cells are about as large as the spacing */
+  int32_t level;             /* 0 to SGM_MAX_LEVEL, for a world 0: what coarse chunks leave out is left out here too.
+                                For a volume far away, one whose cells are about as large as the spacing */
   double edge;               /* metres from the surface to density 1, from a unit to 4,096 cells of level 0. 0: the
                                 grammar's own (sgm_domain_info.density_edge; 10 m where it has none) */
   sgm_density_format format; /* of values */
@@ -978,7 +978,8 @@ typedef struct sgm_density_desc {
   void* values;              /* the first point's; x by x, then y by y, then z by z */
   size_t row_pitch;          /* bytes from (x, y, z) to (x, y + 1, z), as a texture's upload wants it: a multiple of the
                                 value's size, at least size[0] of them; 0: that */
-  size_t slice_pitch;        /* bytes from (x, y, z) to (x, y, z + 1): likewise, at least size[1] * row_pitch; 0: that */
+  size_t slice_pitch;        /* bytes from (x, y, z) to (x, y, z + 1): likewise, at least size[1] * row_pitch;
+                                0: that */
   sgm_progress_function progress; /* or NULL. Told of blocks of 32^3 points (8^3 where the field has hosts) */
   void* progress_user;
 } sgm_density_desc;
