@@ -86,7 +86,7 @@ sgm_result sgm_field_sample_density(sgm_field* field, const sgm_density_desc* de
     if (field == nullptr) return nullArgument(error, "field");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     const sgm::WorldField& world = field->content->world;
-    if (sgm_result r = checkLevel(world, desc->level, error); r != SGM_OK) return r;
+    if (sgm_result r = checkLevel(world.settings().finest_cell, desc->level, error); r != SGM_OK) return r;
     sgm::QueryField asked = sgm::queryField(world);
     asked.at = [&world, level = desc->level](const sgm::IntBox& box) { return world.compile(box, level); };
     return sampleVolume(error, asked, world, field->runtime, *desc);
@@ -97,8 +97,9 @@ sgm_result sgm_world_sample_density(sgm_world* world, const sgm_density_desc* de
   return guarded(error, [&]() -> sgm_result {
     if (world == nullptr) return nullArgument(error, "world");
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
-    if (desc->level != 0)
-      return fail(error, SGM_ERR_UNSUPPORTED, "desc.level is not 0: a world's density is that of level 0 alone");
-    return sampleVolume(error, world->world->queryField(), world->field->world, world->runtime, *desc);
+    if (sgm_result r = checkLevel(world->finest_cell, desc->level, error); r != SGM_OK) return r;
+    // A field that is set meanwhile does not end this one.
+    const std::shared_ptr<const sgm::WorldField> field = world->world->field();
+    return sampleVolume(error, world->world->queryField(desc->level), *field, world->runtime, *desc);
   });
 }

@@ -344,9 +344,9 @@ Result<void> World::flushEdits() { return core_->edits.flush(); }
 
 std::shared_ptr<const WorldField> World::field() const { return core_->edits.state().field; }
 
-QueryField World::queryField() const {
+QueryField World::queryField(int level) const {
   const WorldState now = core_->edits.state();
-  return {[now](const IntBox& box) { return now.field->compile(box, 0, now.brushes.get()); },
+  return {[now, level](const IntBox& box) { return now.field->compile(box, level, now.brushes.get()); },
           now.field->settings().finest_cell, now.field->memory(), !now.field->settings().hosts.empty()};
 }
 

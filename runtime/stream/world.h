@@ -125,9 +125,8 @@ class World {
 
   /// The field of now: what chunks are meshed from next. A newer one may be about to follow it.
   std::shared_ptr<const WorldField> field() const;
-  /// That field with the edits of now, to be asked at level 0. Must not
-  /// outlive its memory.
-  QueryField queryField() const;
+  /// That field with the edits of now, to be asked at a level. Must not outlive its memory.
+  QueryField queryField(int level = 0) const;
 
   /// The hash of the set of bodies (hashParts) of a level's chunks that meet lo <= p < hi; chunks that are not drawn
   /// are meshed. Errors: those of chunksOfRegion and meshChunks.

@@ -628,7 +628,9 @@ TEST_CASE("world calls are checked") {
   CHECK(sgm_world_sample_density(nullptr, &density, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_world_sample_density(world, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
   density.level = 1;
-  CHECK(sgm_world_sample_density(world, &density, &error) == SGM_ERR_UNSUPPORTED);
+  CHECK(sgm_world_sample_density(world, &density, &error) == SGM_OK);
+  density.level = -1;
+  CHECK(sgm_world_sample_density(world, &density, &error) == SGM_ERR_INVALID_ARGUMENT);
   sgm_collider_view collider = SGM_COLLIDER_VIEW_INIT;
   CHECK(sgm_collider_get_view(nullptr, &collider, &error) == SGM_ERR_INVALID_ARGUMENT);
 

@@ -1268,8 +1268,7 @@ SGM_API sgm_result sgm_world_closest_point(sgm_world* world, const sgm_closest_d
 SGM_API sgm_result sgm_world_is_walkable(sgm_world* world, const sgm_walk_desc* desc, sgm_walkable* out,
                                          sgm_error* error);
 
-/* As sgm_field_sample_density, of the world with its edits: what is dug out of a cloud is clear. desc->level must be 0,
- * else SGM_ERR_UNSUPPORTED. */
+/* As sgm_field_sample_density, of the world with its edits: what is dug out of a cloud is clear. */
 SGM_API sgm_result sgm_world_sample_density(sgm_world* world, const sgm_density_desc* desc, sgm_error* error);
 
 /* The hash of the set of chunk bodies of a level in a region, grown outward to whole chunks: as sgm_surface_hash of the
