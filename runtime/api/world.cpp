@@ -273,6 +273,8 @@ sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, s
     stats->detail = now.planner.detail;
     stats->idle = now.idle ? 1 : 0;
     stats->reserved = 0;
+    stats->fields_set = now.fields.wanted;
+    stats->field_drawn = now.fields.drawn;
     stats->chunks_outdated = now.planner.outdated;
     stats->collider_bytes = now.collider_bytes;
     stats->edits = world->world->editCount();

@@ -60,7 +60,7 @@ Result<void> FlightAnimation::show(sgm_world* world, double seconds) {
   const double part = 1 - std::fabs(1 - 2 * turn);
   sgm_error error = SGM_ERROR_INIT;
   for (const Driven& parameter : driven_) {
-    const double value = parameter.low + part * (parameter.high - parameter.low);
+    const double value = std::min(parameter.low + part * (parameter.high - parameter.low), parameter.high);
     const double shown = parameter.whole ? std::floor(value + 0.5) : value;
     if (sgm_parameters_set(parameters_, parameter.name.c_str(), shown, &error) != SGM_OK) return errorOf(error);
   }

@@ -1,7 +1,6 @@
 #include "derive/changed_shapes.h"
 
 #include <algorithm>
-#include <compare>
 
 #include "derive/hasher.h"
 

@@ -22,6 +22,8 @@ inline constexpr uint32_t kNone = 0xFFFFFFFFu;
 struct Frame {
   Int3 origin;
   std::array<float, 9> rows{1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+  friend bool operator==(const Frame&, const Frame&) = default;
 };
 
 /// Leaves give a distance in units, negative inside; `size` holds what each line says, in units unless noted.
@@ -150,6 +152,8 @@ struct Anchor {
   uint16_t kind = 0, name = 0;  ///< indices into the grammar's names
   uint16_t tag = 0;
   PathKey key;
+
+  friend bool operator==(const Anchor&, const Anchor&) = default;
 };
 
 /// A shape that was left out, and why; the rest of the cell is whole.

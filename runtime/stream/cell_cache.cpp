@@ -72,10 +72,15 @@ void CellCache::adopt(const CellCache& other, const std::function<bool(const Der
   const std::lock_guard lock(mutex_);
   for (const auto& [key, cell] : taken) {
     if (stats_.bytes + cell->bytes > byte_limit_) break;
-    const auto [entry, is_new] = entries_.try_emplace(key);
-    if (!is_new) continue;
+    if (entries_.count(key) != 0) continue;
+    // An entry without a cell would be waited for: whole, or not at all.
     by_use_.push_back(key);
-    entry->second = {cell, std::prev(by_use_.end())};
+    try {
+      entries_.emplace(key, Entry{cell, std::prev(by_use_.end())});
+    } catch (...) {
+      by_use_.pop_back();
+      throw;
+    }
     stats_.bytes += cell->bytes;
     ++stats_.cells;
   }

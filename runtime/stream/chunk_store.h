@@ -18,7 +18,7 @@ struct KnownChunk {
   bool in_work = false;                         ///< a request for it has been handed out and not come back
   bool failed = false;                          ///< its last request; it is not asked for again, until edits change it
   bool ever_drawn = false;
-  uint64_t edited = 0;  ///< the last state of edits (WorldState::number) that changed it
+  uint64_t edited = 0;  ///< the last state (WorldState::number) that changed it
   uint64_t wanted = 0;  ///< the last plan that had a use for it
   uint64_t queued = 0;  ///< the last plan that asked for it
   size_t queue_at = 0;  ///< where in that plan's list

@@ -50,6 +50,11 @@ struct ChunkSurface {
   }
 };
 
+/// Whether an engine that has one of them has all of the other: seams aside, which come on top.
+inline bool sameContent(const ChunkSurface& a, const ChunkSurface& b) {
+  return a.hash == b.hash && a.anchors == b.anchors && a.morphs == b.morphs && a.texture == b.texture;
+}
+
 /// The body, and the seams that there are.
 MeshParts partsOf(const ChunkMesh& mesh);
 

@@ -22,7 +22,7 @@ struct DrawnChunk {
 /// Immutable. The union of its bodies and drawn seams is a closed surface.
 struct DrawnFrame {
   uint64_t number = 0;
-  uint64_t edits = 0;  ///< number of the state of edits (WorldState) that it shows
+  uint64_t edits = 0;  ///< number of the state (WorldState) that it shows
   Octree tree;
   std::vector<DrawnChunk> drawn;  ///< by key
 

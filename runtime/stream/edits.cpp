@@ -38,9 +38,7 @@ bool EditLog::hidden(EditId brush) const {
   return at != sights_.end() && at->second.hidden;
 }
 
-Result<void> EditLog::check(const EditOperation& operation) const {
-  if (Result<void> could = checkEdit(operation); !could || !laysBrush(operation)) return could;
-  const Brush& brush = operation.brush;
+Result<void> EditLog::checkLabels(const Brush& brush) const {
   const auto beyond = [](const char* what, uint16_t has, uint16_t most) {
     return Error{Code::invalid_argument, "a brush's " + std::string(what) + " is " + std::to_string(has) +
                                              "; the last one is " + std::to_string(most)};
@@ -94,13 +92,14 @@ Result<EditLog::Edited> EditLog::make(EditOperation operation) {
   }
   // Whoever sends the last time there is makes equals of all that follow; numbers still order them.
   operation.order = {std::min(latest_ + 1, kMostEditTime), {settings_.author, number_ + 1}};
-  if (Result<void> good = check(operation); !good) return good.error();
+  if (Result<void> good = checkEdit(operation); !good) return good.error();
   makeRoom(1);
   const IntBox box = insert(operation, 0);
   return Edited{operation.order.id, box};
 }
 
 Result<EditLog::Edited> EditLog::add(const Brush& brush) {
+  if (Result<void> named = checkLabels(brush); !named) return named.error();
   EditOperation operation;
   operation.brush = brush;
   return make(operation);
@@ -122,7 +121,7 @@ Result<std::vector<IntBox>> EditLog::merge(std::span<const EditOperation> operat
   std::map<EditId, const EditOperation*> fresh;
   for (const EditOperation& operation : operations) {
     const EditId id = operation.order.id;
-    if (Result<void> good = check(operation); !good) {
+    if (Result<void> good = checkEdit(operation); !good) {
       return Error{Code::bad_input, "edit " + nameOf(id) + ": " + good.error().message};
     }
     const auto at = fresh.find(id);

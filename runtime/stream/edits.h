@@ -20,7 +20,8 @@ struct EditSettings {
   /// Whose operations are made here. Nobody else's, and never used again where operations may have been lost, with a
   /// journal's last second for instance: best drawn at random for each log.
   uint64_t author = 1;
-  uint16_t most_material = 0xFFFF, most_tag = 0xFFFF;  ///< the largest that a brush may have
+  /// The largest that a brush laid here may have. Those from elsewhere may have any: another grammar's, for instance.
+  uint16_t most_material = 0xFFFF, most_tag = 0xFFFF;
   size_t most_operations = size_t{1} << 20;
 };
 
@@ -75,7 +76,7 @@ class EditLog {
 
   const EditOperation* find(EditId id) const;
   bool hidden(EditId brush) const;
-  Result<void> check(const EditOperation& operation) const;
+  Result<void> checkLabels(const Brush& brush) const;
   Result<Edited> make(EditOperation operation);
   void makeRoom(size_t more);
   IntBox insert(const EditOperation& operation, uint64_t batch);

@@ -1,6 +1,7 @@
 #include "stream/field_change.h"
 
 #include <algorithm>
+#include <new>
 
 #include "stream/edits.h"
 #include "stream/mesh_chunks.h"
@@ -89,6 +90,14 @@ bool FieldChange::shows(const LayerPair& pair, int32_t cell_edge) const {
   return shown(*from_, pair.before) || shown(*to_, pair.after);
 }
 
+bool FieldChange::showsOtherwise(const LayerPair& pair, int32_t cell_edge) const {
+  if (!pair.before || !pair.after) return false;
+  const Layer& before = from_->settings().program->layers[*pair.before];
+  const Layer& after = to_->settings().program->layers[*pair.after];
+  // Seams read the next coarser level.
+  return before.shows(cell_edge) != after.shows(cell_edge) || before.shows(2 * cell_edge) != after.shows(2 * cell_edge);
+}
+
 bool FieldChange::touches(const ChunkKey& key) const {
   const Result<ChunkGrid> grid = chunkGrid(*to_, key);
   if (everything_ || !grid) return true;
@@ -101,6 +110,7 @@ bool FieldChange::touches(const ChunkKey& key) const {
   for (uint32_t i = 0; i < layers_.size(); ++i) {
     const LayerPair& pair = layers_[i];
     if (!shows(pair, grid->cell)) continue;
+    if (showsOtherwise(pair, grid->cell)) return true;
     bool touched = false;
     const auto look = [&](Int3 cell) -> Result<void> {
       const std::shared_ptr<const Changes> changes = changesIn(i, cell);
@@ -138,6 +148,8 @@ FieldChange::Changes FieldChange::compare(const LayerPair& pair, Int3 cell) cons
                              std::shared_ptr<const DerivedCell>& held) {
     if (!layer) return true;
     Result<std::shared_ptr<const DerivedCell>> derived = field.cell(*layer, cell);
+    // What memory decides is no answer.
+    if (!derived && derived.error().code == Code::out_of_memory) throw std::bad_alloc();
     if (!derived) return false;
     held = std::move(*derived);
     content.chunk = &held->chunk;

@@ -3,7 +3,7 @@
 // was edited.
 //
 // Cells of both fields are derived and compared, group by group, but those that have read no parameter which differs.
-// So the answer is exact up to bounds: a chunk that no differing group reaches keeps its mesh.
+// So a chunk that no differing group reaches keeps its mesh, and one that a group's bounds reach is meshed again.
 
 #include <cstdint>
 #include <map>
@@ -39,6 +39,8 @@ class FieldChange {
 
   void pairLayers();
   bool shows(const LayerPair& pair, int32_t cell_edge) const;
+  /// One of the two is left out at a level that matters to chunks with cells of this edge: by its own `detail`.
+  bool showsOtherwise(const LayerPair& pair, int32_t cell_edge) const;
   std::shared_ptr<const Changes> changesIn(uint32_t pair, Int3 cell) const;
   Changes compare(const LayerPair& pair, Int3 cell) const;
 

@@ -1,6 +1,7 @@
 #include "stream/field_switch.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sgm {
 
@@ -14,24 +15,43 @@ constexpr size_t kComparedAtOnce = 64;
 void FieldSwitch::want(std::shared_ptr<const WorldField> next) {
   const std::lock_guard lock(mutex_);
   next_.swap(next);
+  ++turn_.wanted;
 }
 
-bool FieldSwitch::settled() const {
+bool FieldSwitch::settled(bool viewed) const {
   const std::lock_guard lock(mutex_);
-  return next_ == nullptr && !comparing_ && (!open_ || state_ != 0);
+  return !comparing_ && (!viewed || (!open_ && next_ == nullptr && back_ == nullptr));
+}
+
+bool FieldSwitch::busy() const {
+  const std::lock_guard lock(mutex_);
+  return comparing_;
+}
+
+FieldSwitch::Turn FieldSwitch::turn() const {
+  const std::lock_guard lock(mutex_);
+  return turn_;
 }
 
 bool FieldSwitch::begin(const Progress& progress) {
   const std::lock_guard lock(mutex_);
-  if (comparing_) return false;
+  if (comparing_ || !progress.viewed) return false;
   if (open_ && state_ != 0) {
-    if (progress.viewed && progress.drawn < state_) return false;
+    const bool failed = progress.failed >= state_;
+    if (progress.drawn < state_ && !failed) return false;
     open_ = false;
     const Clock::time_point now = Clock::now();
     not_before_ = now + (now - begun_);
+    if (progress.drawn >= state_) {
+      turn_.drawn = turn_begun_;
+    } else {
+      back_ = before_;
+    }
+    before_ = nullptr;
   }
   if (!open_) {
-    if (next_ == nullptr || (!progress.at_rest && Clock::now() < not_before_)) return false;
+    const bool waits = !progress.at_rest && Clock::now() < not_before_;
+    if (back_ == nullptr && (next_ == nullptr || waits)) return false;
     open_ = true;
     state_ = 0;
     begun_ = Clock::now();
@@ -54,7 +74,9 @@ bool FieldSwitch::compare(const std::shared_ptr<const DrawnFrame>& drawn, WorldE
   } catch (const std::bad_alloc&) {
     change_ = nullptr;
     const std::lock_guard lock(mutex_);
-    if (next_ == nullptr) next_ = to_;
+    // One that is wanted since is as good, but not as going back.
+    std::shared_ptr<const WorldField>& again = going_back_ ? back_ : next_;
+    if (again == nullptr) again = to_;
     comparing_ = open_ = false;
     throw;
   }
@@ -64,9 +86,12 @@ bool FieldSwitch::compareSome(const DrawnFrame& drawn, WorldEdits& edits, JobSys
   if (change_ == nullptr) {
     {
       const std::lock_guard lock(mutex_);
-      to_ = std::move(next_);
+      going_back_ = back_ != nullptr;
+      to_ = std::exchange(going_back_ ? back_ : next_, nullptr);
+      turn_begun_ = going_back_ ? turn_.drawn : turn_.wanted;
     }
-    change_ = std::make_shared<const FieldChange>(edits.state().field, to_);
+    from_ = edits.state().field;
+    change_ = std::make_shared<const FieldChange>(from_, to_);
     left_.clear();
     for (const ChunkKey& leaf : drawn.tree.leaves()) left_.push_back(leaf);
   }
@@ -79,6 +104,7 @@ bool FieldSwitch::compareSome(const DrawnFrame& drawn, WorldEdits& edits, JobSys
   change_ = nullptr;
   to_ = nullptr;
   const std::lock_guard lock(mutex_);
+  before_ = std::move(from_);
   state_ = state;
   return false;
 }

@@ -252,10 +252,8 @@ std::shared_ptr<const FrameStep> Planner::nextStep() {
     // What an engine has already it keeps, where it holds all that is drawn.
     std::shared_ptr<const ChunkSurface> drawn = applied_->find(key);
     const KnownChunk& record = *store_.find(key);
-    const bool same =
-        drawn != nullptr && (record.edited <= edits_drawn_ ||
-                             (record.surface != nullptr && record.surface->hash == drawn->hash &&
-                              record.surface->morphs == drawn->morphs && record.surface->texture == drawn->texture));
+    const bool same = drawn != nullptr && (record.edited <= edits_drawn_ ||
+                                           (record.surface != nullptr && sameContent(*record.surface, *drawn)));
     return same && (seams & ~drawn->seams) == 0 ? drawn : record.surface;
   }));
   auto step = std::make_shared<FrameStep>();

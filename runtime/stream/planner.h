@@ -32,7 +32,7 @@ struct WorkItem {
 
 struct FinishedChunk {
   ChunkRequest request;
-  uint64_t edits = 0;                           ///< number of the state of edits that it was meshed under
+  uint64_t edits = 0;                           ///< number of the state that it was meshed under
   std::shared_ptr<const ChunkSurface> before;   ///< as in the work item: what `surface` adds to
   std::shared_ptr<const ChunkSurface> surface;  ///< null: no triangles, or an error
   std::unique_ptr<const VoidComponents> voids;  ///< where the request was for the signs
@@ -88,7 +88,7 @@ struct PlannerStats {
   uint64_t failed = 0;
   size_t records = 0;         ///< chunks known
   size_t drawn = 0;           ///< chunks drawn that have triangles
-  uint64_t edits_drawn = 0;   ///< number of the state of edits that is drawn
+  uint64_t edits_drawn = 0;   ///< number of the state that is drawn
   uint64_t edits_failed = 0;  ///< of one that cannot be drawn, as a chunk of it cannot be made; 0: none
   double detail = 1;          ///< factor on the distances at which detail is wanted: below 1 under pressure of memory
 };
@@ -104,7 +104,7 @@ class Planner {
 
   const PlannerStats& stats() const { return stats_; }
   const DrawnFrame& applied() const { return *applied_; }
-  /// The state of edits that chunks are meshed under now.
+  /// The state that chunks are meshed under now.
   const WorldState& edits() const { return edits_; }
 
  private:
@@ -120,7 +120,7 @@ class Planner {
   /// Edits are taken up state by state: the next one when the one before is drawn. So a frame shows one state, a change
   /// waits for two frames of changes at most, and however many there are, what is to be meshed again is what is drawn.
   void takeUpEdits(PlanInput& input);
-  /// Goes back to the state of edits that is drawn.
+  /// Goes back to the state that is drawn.
   void giveEditsBack();
   /// For want of memory to mesh what is drawn once more: until less detail is drawn.
   void postponeEdits();

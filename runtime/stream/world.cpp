@@ -254,7 +254,7 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
     if (events_.size() > events) in_vain = 0;
     std::unique_lock lock(core_->mutex);
     if (core_->settled() && core_->failed.empty()) return {};
-    if ((core_->mesh_jobs > 0 && !core_->scarce) || core_->applied != frame ||
+    if ((core_->mesh_jobs > 0 && !core_->scarce) || core_->fields.busy() || core_->applied != frame ||
         core_->planner_stats.meshed + core_->planner_stats.seam_jobs != finished)
       in_vain = 0;
     frame = core_->applied;
@@ -276,6 +276,9 @@ Result<void> World::setField(std::shared_ptr<const WorldField> field) {
   if (cell != own) {
     return Error{Code::invalid_argument, "the field's finest cell is " + metres(cell) + ", the world's " + metres(own) +
                                              ": make the field with the world's cell, or another world"};
+  }
+  if (field->isAlone() || this->field()->isAlone()) {
+    return Error{Code::unsupported, "a world without a grammar cannot be compared with another"};
   }
   if (Result<void> good = checkHosts(*field, core_->settings); !good) return good;
   core_->fields.want(std::move(field));
@@ -358,6 +361,7 @@ WorldStats World::stats() const {
   const WorldCore::Work work = core_->work();
   stats.queued = work.queued;
   stats.in_work = work.in_work;
+  stats.fields = core_->fields.turn();
   stats.stale = work.stale;
   stats.frame = core_->applied;
   stats.plans = core_->plans;

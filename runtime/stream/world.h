@@ -3,7 +3,7 @@
 //
 //   engine's thread            jobs
 //   setViewers, update  --->   plan (planner.h): which chunks, which frame next
-//   edit                --->   mesh (mesh_chunks.h): one request at a time a job, the most urgent first
+//   edit, setField      --->   mesh (mesh_chunks.h): one request at a time a job, the most urgent first
 //   poll events         <---   write the journal of edits
 //
 // What both sides share lies in a mailbox (world_core.h) behind one mutex that is held for the moving of pointers only.
@@ -18,6 +18,7 @@
 #include "backend/backend.h"
 #include "stream/collider.h"
 #include "stream/disk_cache.h"
+#include "stream/field_switch.h"
 #include "stream/planner.h"
 #include "stream/queries.h"
 #include "stream/world_edits.h"
@@ -55,6 +56,7 @@ struct WorldStats {
   uint64_t frame = 0;              ///< number of the frame that is drawn
   uint64_t plans = 0;
   uint64_t edits = 0, edits_drawn = 0;  ///< WorldState::number of now, and of what is drawn
+  FieldSwitch::Turn fields;             ///< of setField()
   DiskCacheStats cache;
   size_t surface_bytes = 0, peak_surface_bytes = 0;
   size_t collider_bytes = 0;
@@ -101,9 +103,10 @@ class World {
 
   /// Puts another field in the place of the world's: other parameters, a grammar that was edited, other fields of the
   /// host's. Chunks that the difference reaches (field_change.h) are meshed again, and drawn all at one time; others
-  /// keep their meshes. Fields that come faster than they can be drawn are passed over, but for the last. Edits stay:
-  /// their materials and tags keep their numbers. Never waits.
-  /// Errors, and nothing changes: invalid_argument (another finest cell, or what create() would refuse).
+  /// keep their meshes. It waits for its turn while nobody looks. Where a chunk of it cannot be made
+  /// (WorldEvent::failed) the world goes back to the field before. Fields that come faster than they can be drawn are
+  /// passed over, but for the last. Edits stay: their materials and tags keep their numbers. Never waits. Errors, and
+  /// nothing changes: invalid_argument (another finest cell, or what create() would refuse).
   Result<void> setField(std::shared_ptr<const WorldField> field);
 
   /// Drops everything that waits to be meshed, and what is being meshed is dropped when it comes back. The next update

@@ -83,7 +83,7 @@ void WorldCore::warn(const char* message) const noexcept {
 }
 
 bool WorldCore::settled() const {
-  return idle_ && !planner_lost_ && fields.settled() && planned_with_.viewers == viewers_set &&
+  return idle_ && !planner_lost_ && fields.settled(!viewers.empty()) && planned_with_.viewers == viewers_set &&
          planned_with_.applied == applied && planned_with_.edits == edits.number() && step == nullptr &&
          colliders_done_ && collider_changes.empty();
 }
@@ -151,7 +151,7 @@ void WorldCore::kickFieldSwitch() {
   {
     const std::lock_guard lock(mutex);
     if (stopped_) return;
-    progress = {std::max(edits_drawn, planner_stats.edits_failed), !viewers.empty(), idle_};
+    progress = {edits_drawn, planner_stats.edits_failed, !viewers.empty(), idle_};
   }
   if (!fields.begin(progress) || submit(run<&WorldCore::compareOnce>, kComparePriority)) return;
   fields.giveUp();  // the next update tries again
@@ -159,13 +159,16 @@ void WorldCore::kickFieldSwitch() {
 
 void WorldCore::compareOnce() {
   std::shared_ptr<const DrawnFrame> frame;
+  bool at_once;
   {
     const std::lock_guard lock(mutex);
+    at_once = handsOn();
     frame = drawn;
   }
+  if (at_once) return fields.giveUp();  // the next update goes on
   try {
     const ProfileScope scope(profiler, zone::kDerive);
-    if (fields.compare(frame, edits, jobs)) return kickFieldSwitch();
+    if (fields.compare(frame, edits, jobs)) return handOn([this] { kickFieldSwitch(); });
   } catch (const std::bad_alloc&) {
     return tellScarce();
   }
@@ -431,8 +434,7 @@ void WorldCore::meshOnce() {
   {
     const std::lock_guard lock(mutex);
     // A job system that runs what is handed on at once, within submit(), would mesh the whole queue in one call.
-    const bool at_once = std::count(submitting_.begin(), submitting_.end(), std::this_thread::get_id()) > 0;
-    if (!at_once) takeItems(batch, items);
+    if (!handsOn()) takeItems(batch, items);
     if (items.empty()) {
       --mesh_jobs;
       return;
@@ -488,18 +490,28 @@ void WorldCore::meshOnce() {
 }
 
 void WorldCore::meshAgain() {
+  bool submitted = false;
+  handOn([&] { return submitted = submit(run<&WorldCore::meshOnce>, kMeshPriority); });
+  const std::lock_guard lock(mutex);
+  if (!submitted) --mesh_jobs;
+}
+
+bool WorldCore::handsOn() const {
+  return std::count(submitting_.begin(), submitting_.end(), std::this_thread::get_id()) > 0;
+}
+
+template <class Submit>
+void WorldCore::handOn(const Submit& job) {
   const std::thread::id self = std::this_thread::get_id();
-  bool handed_on = false;
   try {
     const std::lock_guard lock(mutex);
     submitting_.push_back(self);
-    handed_on = true;
   } catch (const std::bad_alloc&) {
+    return;
   }
-  const bool submitted = handed_on && submit(run<&WorldCore::meshOnce>, kMeshPriority);
+  job();
   const std::lock_guard lock(mutex);
-  if (handed_on) submitting_.erase(std::find(submitting_.begin(), submitting_.end(), self));
-  if (!submitted) --mesh_jobs;
+  submitting_.erase(std::find(submitting_.begin(), submitting_.end(), self));
 }
 
 }  // namespace sgm

@@ -68,7 +68,7 @@ class WorldCore {
   std::shared_ptr<const FrameStep> step;
   uint64_t applied = 0;
   std::shared_ptr<const DrawnFrame> drawn;  ///< the frame of that number
-  uint64_t edits_drawn = 0;                 ///< the state of edits that it shows
+  uint64_t edits_drawn = 0;                 ///< the state that it shows
   uint64_t generation = 0;                  ///< of requests: those of an earlier one are not wanted any more
   uint64_t plans = 0;
   size_t mesh_jobs = 0;  ///< submitted or running
@@ -122,6 +122,12 @@ class WorldCore {
   bool makeColliders();
   void meshOnce();
   void meshAgain();
+  /// Has `job` submit another of this job's kind: one that the job system runs at once finds handsOn() true and is to
+  /// do nothing, so that no call does more than one job's work. Does nothing where memory is out.
+  template <class Submit>
+  void handOn(const Submit& job);
+  /// Precondition: the mutex is held.
+  bool handsOn() const;
   /// As many of the queue's items as one job meshes, at most `batch`, which the vector has room for. Precondition: the
   /// mutex is held.
   void takeItems(size_t batch, std::vector<WorkItem>& items);

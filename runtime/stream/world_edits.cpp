@@ -140,8 +140,15 @@ std::vector<WorldChange> WorldEdits::changedSince(uint64_t number) const {
 }
 
 void WorldEdits::forget(uint64_t number) {
+  std::vector<WorldChange> forgotten;  // freed after the mutex: a change of field holds much
   const std::lock_guard lock(mutex_);
-  std::erase_if(changes_, [number](const WorldChange& change) { return change.number <= number; });
+  const auto kept = std::stable_partition(changes_.begin(), changes_.end(),
+                                          [number](const WorldChange& change) { return change.number <= number; });
+  if (kept == changes_.begin()) return;
+  std::vector<WorldChange> left(std::make_move_iterator(kept), std::make_move_iterator(changes_.end()));
+  changes_.erase(kept, changes_.end());
+  forgotten.swap(changes_);
+  changes_.swap(left);
 }
 
 Result<void> WorldEdits::flush() {

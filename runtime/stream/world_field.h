@@ -52,6 +52,9 @@ class WorldField {
   std::pmr::memory_resource* memory() const { return memory_; }
   int32_t cellAt(int level) const { return settings_.finest_cell << level; }
 
+  /// It holds `alone`.
+  bool isAlone() const { return alone_ != nullptr; }
+
   /// Bytes that tell the field from every other: what changes any answer changes them, and layout and comments of the
   /// grammar do not. None of a world that holds `alone`, whose content has no name.
   std::optional<std::vector<std::byte>> identity() const;

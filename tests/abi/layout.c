@@ -525,7 +525,7 @@ PLACE(sgm_drawn_chunk, mesh, 16);
 PLACE(sgm_drawn_chunk, seams, 24);
 PLACE(sgm_drawn_chunk, coarser, 28);
 
-SIZE(sgm_world_stats, 216);
+SIZE(sgm_world_stats, 232);
 PLACE(sgm_world_stats, struct_size, 0);
 PLACE(sgm_world_stats, next, 8);
 PLACE(sgm_world_stats, frame, 16);
@@ -545,15 +545,17 @@ PLACE(sgm_world_stats, peak_mesh_bytes, 120);
 PLACE(sgm_world_stats, detail, 128);
 PLACE(sgm_world_stats, idle, 136);
 PLACE(sgm_world_stats, reserved, 140);
-PLACE(sgm_world_stats, chunks_outdated, 144);
-PLACE(sgm_world_stats, collider_bytes, 152);
-PLACE(sgm_world_stats, edits, 160);
-PLACE(sgm_world_stats, edits_state, 168);
-PLACE(sgm_world_stats, edits_drawn, 176);
-PLACE(sgm_world_stats, cache_hits, 184);
-PLACE(sgm_world_stats, cache_misses, 192);
-PLACE(sgm_world_stats, cache_damaged, 200);
-PLACE(sgm_world_stats, cache_bytes, 208);
+PLACE(sgm_world_stats, fields_set, 144);
+PLACE(sgm_world_stats, field_drawn, 152);
+PLACE(sgm_world_stats, chunks_outdated, 160);
+PLACE(sgm_world_stats, collider_bytes, 168);
+PLACE(sgm_world_stats, edits, 176);
+PLACE(sgm_world_stats, edits_state, 184);
+PLACE(sgm_world_stats, edits_drawn, 192);
+PLACE(sgm_world_stats, cache_hits, 200);
+PLACE(sgm_world_stats, cache_misses, 208);
+PLACE(sgm_world_stats, cache_damaged, 216);
+PLACE(sgm_world_stats, cache_bytes, 224);
 
 /* Every _INIT macro fills its struct, in both languages, without a warning. */
 int LAYOUT_INITS(void) {

@@ -464,9 +464,9 @@ typedef struct sgm_host_lattice {
 
 /* Writes the field in metres at each point, solid below 0, and returns SGM_OK; anything else fails the call, or the
  * chunk, that needs it, with SGM_ERR_INVALID_ARGUMENT, LIMIT, RANGE or IO where it is that, else SGM_ERR_UNSUPPORTED. A
- * value that is not finite fails it too. A world does not ask again for a chunk that has failed until an edit changes
- * it: what is still to be loaded must be waited for, or left out. Called from any thread, several at one time; must not
- * call back into the library and lets no C++ exception out. */
+ * value that is not finite fails it too. A world does not ask again for a chunk that has failed until an edit or
+ * another field changes it: what is still to be loaded must be waited for, or left out. Called from any thread, several
+ * at one time; must not call back into the library and lets no C++ exception out. */
 typedef sgm_result (*sgm_host_sample)(void* user, const sgm_host_lattice* lattice, float* values);
 
 typedef enum sgm_host_flag {
@@ -1106,12 +1106,13 @@ typedef enum sgm_event_kind {
   SGM_EVENT_READY = 0,    /* take over `mesh`: it belongs to the engine now, which releases it. Not drawn yet */
   SGM_EVENT_SHOWN = 1,    /* draw the chunk: the body of its mesh, and those of its seams that `seams` names */
   SGM_EVENT_REPLACED = 2, /* draw the mesh that was READY last instead of the one before. Where its body's hash is equal
-                             only seams were added: the body's bytes are the same, at the same place */
+                             the body's bytes are the same, at the same place: seams were added or, after another field
+                             was set, anchors, morph offsets or texture coordinates are others */
   SGM_EVENT_SEAMS = 3,    /* draw other seams of the same mesh; or nothing has changed but `coarser` */
   SGM_EVENT_REMOVED = 4,  /* draw it no more; release its meshes. Also for a mesh that was READY and never shown */
   SGM_EVENT_FAILED = 5,   /* the chunk cannot be made; `result` says why and the log tells more. What is coarser stays
                              in its place. Where edits had changed it, the world is drawn as before them until a
-                             further edit, an undo for instance */
+                             further edit, an undo for instance; where another field had, as before that field */
   SGM_EVENT_COLLIDER = 6, /* collide with `collider` instead of the chunk's earlier one: it belongs to the engine now,
                              which releases it. Comes soon after what is drawn there has changed; not counted in
                              max_bytes */
@@ -1186,13 +1187,23 @@ SGM_API sgm_result sgm_world_wait_idle(sgm_world* world, sgm_progress_function p
 /* Puts another field in the place of the world's own: with other parameters, or of a grammar that was edited (hot
  * reload), or with other fields of the engine's. What differs is found on the jobs; only chunks that it reaches are
  * meshed again (sgm_world_stats.chunks_outdated counts them), and all of them are drawn in one frame of changes. Never
- * waits, so that a parameter can be driven ten times a second: fields that come faster than they can be drawn are
- * passed over, but for the last, and half of the jobs' time stays with what the viewers come to see. Edits stay, and
- * their materials and tags keep their numbers, which are the new grammar's now. The world keeps the backend that it was
- * created with, and keeps the field as long as it needs it. A journal is of the field that the world was created with:
- * create it with the same one again, then set the other. What the engine's own fields sample must not change under one
- * identity; those of identity 0 count as changed. SGM_ERR_INVALID_ARGUMENT: a field of another runtime or with other
- * cell_units; one of identity 0 where the world keeps anything on disk. */
+ * waits, so that a parameter can be set ten times a second: fields that come faster than they can be drawn are passed
+ * over, but for the last, and half of the jobs' time stays with what the viewers come to see. While there are no
+ * viewers it waits for its turn. Where a chunk of it cannot be made (SGM_EVENT_FAILED) the world goes back to the field
+ * before.
+ *
+ * sgm_world_stats.field_drawn tells which of the fields that were set is drawn: until then the names of materials, tags
+ * and anchors are those of the grammar before. Edits stay, and their materials and tags keep their numbers; one that
+ * the new grammar does not have has no name there. The world keeps the backend that it was created with, and the field
+ * for as long as it needs it; up to five may live at one time, each with a cache (sgm_field_desc.cache_bytes) that
+ * shares what they derive alike. What the engine's own fields need must live as long as the world, which may go back,
+ * and what they sample must not change under one identity; those of identity 0 count as changed.
+ *
+ * A journal is of the field that the world was created with: create it with the same one again, then set the other. The
+ * disk cache keeps chunks of every field: give a world none whose parameters are driven all the time.
+ *
+ * SGM_ERR_INVALID_ARGUMENT: a field of another runtime or with other cell_units; one of identity 0 where the world
+ * keeps anything on disk. */
 SGM_API sgm_result sgm_world_set_field(sgm_world* world, sgm_field* field, sgm_error* error);
 
 /* Drops everything that waits to be meshed; what is being meshed is dropped when it comes back. What is drawn stays.
@@ -1299,6 +1310,8 @@ typedef struct sgm_world_stats {
   int32_t idle;             /* 1: what the viewers want is drawn, as far as it can be made, edits and colliders
                                included */
   uint32_t reserved;        /* 0 */
+  uint64_t fields_set;      /* calls of sgm_world_set_field */
+  uint64_t field_drawn;     /* the one of them, counted from 1, whose field is drawn now; 0: the one of creation */
   uint64_t chunks_outdated; /* that were there, and that an edit or another field had meshed again */
   uint64_t collider_bytes;  /* of the colliders that chunks have now */
   uint64_t edits;           /* known: brushes, undos and redos */
@@ -1313,7 +1326,7 @@ typedef struct sgm_world_stats {
 #define SGM_WORLD_STATS_INIT                                                                                         \
   {                                                                                                                  \
     SGM_SIZEOF(sgm_world_stats), SGM_NULL, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, \
-        0, 0                                                                                                         \
+        0, 0, 0, 0                                                                                                   \
   }
 
 SGM_API sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, sgm_error* error);

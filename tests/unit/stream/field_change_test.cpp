@@ -1,6 +1,6 @@
 // Another field in a world's place: what it changes is meshed again, and nothing else; every frame shows one field.
 
-#include <set>
+#include <filesystem>
 
 #include "catch.h"
 #include "edits_support.h"
@@ -40,6 +40,10 @@ std::vector<EditedText> editedTexts() {
       {"a layer less", replaced(cave, "layer drip cell 24m reach 5m uses net { start Drips; }", "")},
       {"a layer's cells", replaced(cave, "drip cell 24m", "drip cell 20m")},
       {"a weight", replaced(cave, "Hall(r) weight 1", "Hall(r) weight 2")},
+      {"a layer's detail", replaced(cave, "reach 176m detail 4m", "reach 176m detail 1m")},
+      {"a layer more", replaced(cave, "rule Node {",
+                                "layer more cell 64m reach 8m { start Pearl; }\n"
+                                "rule Pearl { at(20m, 20m, 20m) sphere(6m); }\nrule Node {")},
       {"the domain", replaced(cave, "solid limestone", "solid granite")},
       {"what drips", replaced(cave, "scatter poisson(2.2m)", "scatter poisson(2.3m)")},
   };
@@ -49,6 +53,7 @@ std::vector<EditedText> editedTexts() {
 struct Content {
   std::vector<ContentHash> hashes;
   std::vector<uint64_t> anchors;
+  std::vector<Frame> frames;
   friend bool operator==(const Content&, const Content&) = default;
 };
 
@@ -65,6 +70,7 @@ std::vector<Content> contentsOf(const WorldField& field, const std::vector<Chunk
     for (const Anchor& anchor : chunk.anchors) {
       content.anchors.push_back(anchor.key.value);
       content.anchors.push_back(hashText(program.names[anchor.name]));
+      content.frames.push_back(anchor.frame);
     }
   }
   return contents;
@@ -92,12 +98,16 @@ std::vector<ChunkRequest> randomChunks(std::mt19937& random, const WorldField& f
 }
 static_assert(kChunkCells * kStreamedCell == 1 << 14);
 
+/// Of 0.5 to 8 m: the cave's passages are left out where cells are larger than 4 m.
+constexpr int kLevels = 5;
+constexpr size_t kAllChunks = 60 + (kLevels - 1) * 12;
+
 /// Chunks that must be meshed again of those asked about.
 size_t checkChange(std::mt19937& random, const std::shared_ptr<const WorldField>& from,
                    const std::shared_ptr<const WorldField>& to) {
   const FieldChange change(from, to);
   size_t touched = 0;
-  for (int level = 0; level < 3; ++level) {
+  for (int level = 0; level < kLevels; ++level) {
     const std::vector<ChunkRequest> requests = randomChunks(random, *from, level, level == 0 ? 60 : 12);
     const std::vector<Content> before = contentsOf(*from, requests), after = contentsOf(*to, requests);
     for (size_t i = 0; i < requests.size(); ++i) {
@@ -111,8 +121,6 @@ size_t checkChange(std::mt19937& random, const std::shared_ptr<const WorldField>
   }
   return touched;
 }
-
-constexpr size_t kAllChunks = 60 + 2 * 12;
 
 }  // namespace
 
@@ -310,5 +318,154 @@ TEST_CASE("fields that come faster than they are drawn are passed over, and a mo
   CHECK(scene.world->stats().edits < sets);
   REQUIRE(scene.world->waitIdle());
   engine.take(*scene.world);
+  checkFrame(scene, engine, nullptr, scene.world->field().get());
+}
+
+TEST_CASE("anchors that change without the surface come to the engine") {
+  Scene scene(*makeThreadPool(2));
+  Engine engine;
+  const Viewer viewer = viewerAt(96, 96, 96);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  const auto anchorsOf = [&] {
+    std::map<ChunkKey, size_t> anchors;
+    for (const auto& [key, shown] : engine.shown) {
+      if (!shown.surface->anchors.empty()) anchors[key] = shown.surface->anchors.size();
+    }
+    return anchors;
+  };
+  const std::map<ChunkKey, size_t> before = anchorsOf();
+  REQUIRE(!before.empty());
+  const auto hashes = [&] {
+    std::map<ChunkKey, ContentHash> all;
+    for (const auto& [key, shown] : engine.shown) all[key] = shown.surface->hash;
+    return all;
+  };
+  const auto surfaces = hashes();
+  const std::string two =
+      replaced(caveText(), "anchor spawn \"chamber\";", "anchor spawn \"chamber\"; anchor loot \"chest\";");
+  REQUIRE(scene.world->setField(fieldOf(two)));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  std::map<ChunkKey, size_t> after = anchorsOf();
+  CHECK(hashes() == surfaces);
+  REQUIRE(after.size() == before.size());
+  for (const auto& [key, count] : before) CHECK(after[key] == 2 * count);
+  CHECK(scene.world->stats().fields.drawn == 1);
+}
+
+TEST_CASE("after a field that fails edits are drawn, and queries are of what is drawn") {
+  Scene scene(*makeThreadPool(2));
+  Engine engine;
+  engine.fails_may_come = true;
+  const Viewer viewer = viewerAt(96, 96, 96);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  const std::string endless =
+      replaced(caveText(), "rule Chamber(r) {", "rule Chamber(r) { repeat 1000 { repeat 1000 { sphere(r); } }");
+  for (int bad = 0; bad < 3; ++bad) {
+    REQUIRE(scene.world->setField(fieldOf(endless)));
+    REQUIRE(scene.world->waitIdle());
+    engine.take(*scene.world);
+  }
+  CHECK(&*scene.world->field() == &scene.field);
+  CHECK(scene.world->stats().fields.wanted == 3);
+  CHECK(scene.world->stats().fields.drawn == 0);
+  EditLog log{EditSettings{}};
+  Brush brush;
+  brush.cut = true;
+  brush.from = {96 << 10, 96 << 10, 96 << 10};
+  brush.radius = 14 << 10;
+  REQUIRE(scene.world->edit(brush));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  REQUIRE(log.import(scene.world->exportEdits()));
+  checkFrame(scene, engine, log.snapshot().get());
+  CHECK(scene.world->stats().edits_drawn == scene.world->stats().edits);
+}
+
+TEST_CASE("without viewers a field waits for its turn, and the last one takes it") {
+  Scene scene(*makeThreadPool(2));
+  Engine engine;
+  std::shared_ptr<const WorldField> last;
+  for (int i = 0; i < 50; ++i) {
+    last = fieldOf(caveText(), "boxy", i / 50.0);
+    REQUIRE(scene.world->setField(last));
+    REQUIRE(scene.world->update(size_t{1} << 30));
+  }
+  REQUIRE(scene.world->waitIdle());
+  CHECK(scene.world->stats().fields.drawn == 0);
+  CHECK(scene.world->stats().edits == 0);
+  const Viewer viewer = viewerAt(96, 96, 96);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  CHECK(scene.world->field() == last);
+  CHECK(scene.world->stats().edits == 1);
+  CHECK(scene.world->stats().fields.drawn == 50);
+  checkFrame(scene, engine, nullptr, last.get());
+}
+
+TEST_CASE("a journal with a later grammar's materials opens with the first one again") {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / "sgm_field_change_journal";
+  std::filesystem::remove(path);
+  WorldSettings settings;
+  settings.journal = path;
+  settings.edits.author = 0;
+  const Viewer viewer = viewerAt(96, 96, 96);
+  const std::string richer = replaced(caveText(), "tag \"cave.hall\";", "tag \"cave.hall\"; mat marble;");
+  Brush brush;
+  brush.from = {96 << 10, 90 << 10, 96 << 10};
+  brush.radius = 3 << 10;
+  uint64_t edits = 0;
+  for (int run = 0; run < 2; ++run) {
+    Scene scene(*makeThreadPool(2), caveText(), settings);
+    CHECK(scene.world->editCount() == edits);
+    REQUIRE(scene.world->setViewers({&viewer, 1}));
+    REQUIRE(scene.world->waitIdle());
+    const auto field = fieldOf(richer);
+    brush.material = static_cast<uint16_t>(field->settings().program->materials.size() - 1);
+    REQUIRE(brush.material >= scene.field.settings().program->materials.size());
+    REQUIRE(scene.world->setField(field));
+    REQUIRE(scene.world->waitIdle());
+    REQUIRE(scene.world->edit(brush));
+    REQUIRE(scene.world->flushEdits());
+    edits = scene.world->editCount();
+  }
+  CHECK(edits == 2);
+  std::filesystem::remove(path);
+}
+
+TEST_CASE("a job system that runs jobs at once compares some chunks an update, without depth") {
+  class AtOnce final : public JobSystem {
+   public:
+    unsigned concurrency() const override { return 1; }
+    void submit(void (*function)(void*), void* argument, int) override {
+      deepest = std::max(deepest, ++depth);
+      function(argument);
+      --depth;
+    }
+    bool help() override { return false; }
+    int depth = 0, deepest = 0;
+  };
+  Scene scene(std::make_unique<AtOnce>(), drippingText());
+  Engine engine;
+  const Viewer viewer = viewerAt(96, 96, 96);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  const auto rest = [&] {
+    int updates = 0;
+    do {
+      REQUIRE(scene.world->update(size_t{1} << 30));
+      engine.take(*scene.world);
+    } while (!scene.world->stats().idle && ++updates < 100'000);
+    return updates;
+  };
+  rest();
+  REQUIRE(scene.world->setField(fieldOf(drippingText(), "boxy", 0.7)));
+  CHECK(rest() > 2);
+  CHECK(static_cast<const AtOnce&>(*scene.jobs).deepest < 8);
+  CHECK(scene.world->stats().fields.drawn == 1);
   checkFrame(scene, engine, nullptr, scene.world->field().get());
 }
