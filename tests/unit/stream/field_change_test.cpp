@@ -25,6 +25,13 @@ std::shared_ptr<const WorldField> fieldOf(const std::string& text, const std::st
 /// The cave with all its layers, and drips that show where cells are half a metre wide.
 std::string drippingText() { return replaced(sample("cave.sgm"), "detail 0.3m", "detail 0.6m"); }
 
+/// The cave with rules that are nested deeper than derivation goes, which is found at once.
+std::string tooDeepText() {
+  return replaced(caveText(), "rule Chamber(r) {",
+                  "rule Deep(n) depth 100 -> Leaf(n) { Deep(n + 1); } rule Leaf(n) { sphere(1m); }\n"
+                  "rule Chamber(r) { Deep(1);");
+}
+
 /// Edits of that text as an author makes them.
 struct EditedText {
   std::string what, text;
@@ -274,9 +281,7 @@ TEST_CASE("a field that cannot be derived leaves what is drawn, and the next one
   REQUIRE(scene.world->waitIdle());
   engine.take(*scene.world);
   const size_t drawn = engine.shown.size();
-  const std::string endless =
-      replaced(caveText(), "rule Chamber(r) {", "rule Chamber(r) { repeat 1000 { repeat 1000 { sphere(r); } }");
-  REQUIRE(scene.world->setField(fieldOf(endless)));
+  REQUIRE(scene.world->setField(fieldOf(tooDeepText())));
   REQUIRE(scene.world->waitIdle());
   engine.take(*scene.world);
   CHECK(engine.shown.size() == drawn);
@@ -363,10 +368,8 @@ TEST_CASE("after a field that fails edits are drawn, and queries are of what is 
   REQUIRE(scene.world->setViewers({&viewer, 1}));
   REQUIRE(scene.world->waitIdle());
   engine.take(*scene.world);
-  const std::string endless =
-      replaced(caveText(), "rule Chamber(r) {", "rule Chamber(r) { repeat 1000 { repeat 1000 { sphere(r); } }");
   for (int bad = 0; bad < 3; ++bad) {
-    REQUIRE(scene.world->setField(fieldOf(endless)));
+    REQUIRE(scene.world->setField(fieldOf(tooDeepText())));
     REQUIRE(scene.world->waitIdle());
     engine.take(*scene.world);
   }
