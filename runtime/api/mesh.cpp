@@ -15,7 +15,10 @@ static_assert(sizeof(sgm_vertex) == sizeof(sgm::Vertex) &&
               offsetof(sgm_vertex, tag) == offsetof(sgm::Vertex, tag) &&
               offsetof(sgm_vertex, kind) == offsetof(sgm::Vertex, kind));
 static_assert(sizeof(sgm_wedge) == sizeof(sgm::Wedge) && offsetof(sgm_wedge, u) == offsetof(sgm::Wedge, u) &&
-              offsetof(sgm_wedge, v) == offsetof(sgm::Wedge, v));
+              offsetof(sgm_wedge, v) == offsetof(sgm::Wedge, v) &&
+              offsetof(sgm_wedge, materials) == offsetof(sgm::Wedge, materials) &&
+              offsetof(sgm_wedge, share) == offsetof(sgm::Wedge, share) &&
+              offsetof(sgm_wedge, plane_shares) == offsetof(sgm::Wedge, plane_shares));
 static_assert(sizeof(sgm_instance_batch) == sizeof(sgm::InstanceBatch) &&
               offsetof(sgm_instance_batch, name) == offsetof(sgm::InstanceBatch, name) &&
               offsetof(sgm_instance_batch, count) == offsetof(sgm::InstanceBatch, count) &&

@@ -192,7 +192,8 @@ Command addMesh(CLI::App& root) {
       ->check(checkMeshFile);
   app->add_flag("--uv", options->uv,
                 "Texture coordinates in tiles of 1 m, by the shapes' own axes: along and around a passage. Into .glb "
-                "and .obj, with a chequered texture in .glb, and how even they lie");
+                "and .obj, and how even they lie; in .glb also a chequered texture, and colours that pass into each "
+                "other where materials meet");
   app->footer(
       "Positions in the file are metres from the world's origin. Where the region reaches further than 4096 m from it, "
       "they count from the region's lowest corner instead, which is then printed as the origin.\n"

@@ -60,7 +60,8 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
     const TexelDensity& density = region.texture->density;
     fmt::print(
         "  texture  tiles of 1 m lie {:.2f} to {:.2f} times as dense on 90 % of the surface, {:.2f} in the middle; "
-        "{:.1f} % of the vertices are doubled by charts\n",
+        "{:.1f} % of the vertices are doubled by charts and "
+        "materials\n",
         density.low, density.high, density.middle, 100 * density.seams);
   }
   fmt::print("  hash     {:016x} (seed {}, {} on {})\n", region.meshed.hash.value(), options.seed, region.backend,
@@ -80,7 +81,9 @@ Exit mesh(const MeshOptions& options) {
     if (!opened) return complain(opened.error());
     file.emplace(std::move(*opened));
   }
-  const RegionResult made = meshRegion(options);
+  RegionPlan plan;
+  plan.texture = options.uv;
+  const RegionResult made = meshRegion(options, plan);
   if (!made.region) return made.status;
   const Region& region = *made.region;
   Summary summary;
@@ -96,14 +99,16 @@ Exit mesh(const MeshOptions& options) {
     ExportTexture texture;
     std::vector<uint32_t> vertices;
     std::vector<std::array<float, 2>> coordinates;
+    std::vector<ExportBlend> blends;
     const Result<std::vector<std::byte>> chequer = chequerPng();
     if (!chequer) return complain(chequer.error());
     if (region.texture) {
       for (const Wedge& wedge : region.texture->unwrapped.wedges) {
         vertices.push_back(wedge.vertex);
         coordinates.push_back({wedge.u, wedge.v});
+        blends.push_back({wedge.materials, wedge.share, wedge.plane_shares});
       }
-      texture = {vertices, coordinates, region.texture->unwrapped.corners, *chequer};
+      texture = {vertices, coordinates, blends, region.texture->unwrapped.corners, *chequer};
       info.texture = &texture;
     }
     if (Result<void> ok = file->write(region.meshed.mesh, info); !ok) return complain(ok.error());

@@ -146,7 +146,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);
   if (!anchors) return failure(complain(anchors.error()));
   std::optional<TexturedRegion> texture;
-  if (options.uv) {
+  if (plan.texture) {
     Result<TexturedRegion> unwrapped = unwrapRegion(world, meshed->mesh, options.level, kTile);
     if (!unwrapped) return failure(complain(unwrapped.error()));
     texture = std::move(*unwrapped);

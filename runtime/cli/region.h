@@ -23,7 +23,7 @@ struct Region {
   std::vector<Anchor> anchors;  ///< in the region
   std::string backend, device;
   double seconds = 0;                     ///< from the compiled grammar to the welded mesh
-  std::optional<TexturedRegion> texture;  ///< with --uv
+  std::optional<TexturedRegion> texture;  ///< where the plan asks for it
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }
 };
@@ -54,6 +54,7 @@ struct RegionResult {
 
 /// What a command wants beside the mesh; each may be empty.
 struct RegionPlan {
+  bool texture = false;  ///< with texture coordinates and blends of materials
   /// Refuses a grammar before any work.
   std::function<Result<void>(const Program& program)> check;
   /// Says which part of an endless world is meant where no --region does.

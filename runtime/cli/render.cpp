@@ -33,21 +33,23 @@ std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
   return vertices;
 }
 
-/// A mesh as it is drawn: where charts meet a vertex comes several times.
+/// A mesh as it is drawn: where charts or pairs of materials meet a vertex comes several times.
 struct Drawable {
   std::vector<RenderVertex> vertices;
   std::span<const uint32_t> indices;
 };
 
-Drawable drawable(const Region& region) {
-  Drawable whole{drawable(region.meshed.mesh), region.meshed.mesh.indices};
-  if (!region.texture) return whole;
-  Drawable textured{{}, region.texture->unwrapped.corners};
+Drawable drawable(const Region& region, bool uv) {
+  const std::vector<RenderVertex> vertices = drawable(region.meshed.mesh);
+  Drawable drawn{{}, region.texture->unwrapped.corners};
   for (const Wedge& wedge : region.texture->unwrapped.wedges) {
-    textured.vertices.push_back(whole.vertices[wedge.vertex]);
-    textured.vertices.back().texture = {wedge.u, wedge.v};
+    RenderVertex& vertex = drawn.vertices.emplace_back(vertices[wedge.vertex]);
+    vertex.material = wedge.materials[0];
+    vertex.second = wedge.materials[1];
+    vertex.share = static_cast<float>(wedge.share) / 255.0f;
+    if (uv) vertex.texture = {wedge.u, wedge.v};
   }
-  return textured;
+  return drawn;
 }
 
 glm::vec3 fromOrigin(const WorldMesh& mesh, const std::array<double, 3>& world) {
@@ -195,6 +197,7 @@ Exit render(const RenderOptions& options) {
   Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);
   if (!file) return complain(file.error());
   RegionPlan plan;
+  plan.texture = true;
   plan.choose = [&](const WorldField& world) { return surroundings(options, world); };
   std::optional<RegionDensity> density;
   if (options.volume) {
@@ -212,7 +215,7 @@ Exit render(const RenderOptions& options) {
   if (region.meshed.mesh.indices.empty()) return complain(Exit::input, "there is no surface in the region to draw");
 
   const Stopwatch watch;
-  const Drawable drawn = drawable(region);
+  const Drawable drawn = drawable(region, options.uv);
   const Result<View> view = viewOf(options, region, drawn);
   if (!view) return complain(view.error());
   const Result<Image> image =

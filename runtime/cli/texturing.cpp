@@ -5,7 +5,9 @@
 #include <map>
 
 #include "mesh/chunk.h"
+#include "mesh/vertex.h"
 #include "render/image.h"
+#include "stream/surface_materials.h"
 
 namespace sgm::cli {
 namespace {
@@ -14,11 +16,13 @@ constexpr int kChequerPixels = 128;
 
 struct Block {
   std::vector<Int3> points;
+  std::vector<TexturePoint> normals;
   std::vector<uint32_t> vertices;
 };
 
 /// Vertices by the chunk that they lie in: what one program holds.
-std::map<Int3, Block> blocksOf(std::span<const TexturePoint> positions, int64_t edge) {
+std::map<Int3, Block> blocksOf(std::span<const TexturePoint> positions, std::span<const TexturePoint> normals,
+                               int64_t edge) {
   std::map<Int3, Block> blocks;
   for (size_t i = 0; i < positions.size(); ++i) {
     Int3 point, block;
@@ -28,6 +32,7 @@ std::map<Int3, Block> blocksOf(std::span<const TexturePoint> positions, int64_t 
     }
     Block& into = blocks[block];
     into.points.push_back(point);
+    into.normals.push_back(normals[i]);
     into.vertices.push_back(static_cast<uint32_t>(i));
   }
   return blocks;
@@ -42,15 +47,28 @@ Result<TexturedRegion> unwrapRegion(const WorldField& world, const WorldMesh& me
     positions.push_back({metres[0] * kUnitsPerMetre + mesh.origin.x, metres[1] * kUnitsPerMetre + mesh.origin.y,
                          metres[2] * kUnitsPerMetre + mesh.origin.z});
   }
+  std::vector<TexturePoint> normals;
+  for (const VertexAttributes& attributes : mesh.attributes) {
+    normals.push_back(unpackNormal(attributes.normal_x, attributes.normal_y));
+  }
   SurfaceShapes shapes(world, level, nullptr, mesh.origin, tile);
+  std::vector<MaterialMix> materials(positions.size());
   std::vector<uint32_t> labels(positions.size());
-  for (const auto& [at, block] : blocksOf(positions, int64_t{kChunkCells} * world.cellAt(level))) {
+  for (const auto& [at, block] : blocksOf(positions, normals, int64_t{kChunkCells} * world.cellAt(level))) {
     std::vector<uint32_t> of_block(block.points.size());
     if (Result<void> labelled = shapes.label(block.points, of_block); !labelled) return labelled.error();
-    for (size_t i = 0; i < of_block.size(); ++i) labels[block.vertices[i]] = of_block[i];
+    std::vector<MaterialMix> around(block.points.size());
+    Result<void> mixed = materialsAround(world, level, nullptr, block.points, block.normals, around);
+    if (!mixed) return mixed.error();
+    for (size_t i = 0; i < of_block.size(); ++i) {
+      labels[block.vertices[i]] = of_block[i];
+      materials[block.vertices[i]] = around[i];
+    }
   }
-  const UnwrapInput input{positions, labels, mesh.indices,
-                          [&shapes](uint32_t label) -> const TextureSpace& { return shapes.space(label); }};
+  const UnwrapInput input{
+      positions,    labels,
+      mesh.indices, [&shapes](uint32_t label) -> const TextureSpace& { return shapes.space(label); },
+      normals,      materials};
   TexturedRegion region{unwrap(input, world.memory()), {}};
   region.density = texelDensity(input, region.unwrapped, tile);
   return region;

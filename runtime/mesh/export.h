@@ -20,11 +20,19 @@ struct ExportMaterial {
   float roughness = 0.9f;                         ///< 0..1
 };
 
-/// Where charts meet a vertex has several places on the texture.
+/// Two materials and how they share a place; all triangles at a place have the same two. Shares in 255ths.
+struct ExportBlend {
+  std::array<uint16_t, 2> materials{};  ///< both the same: one alone
+  uint8_t share = 0;                    ///< of the second
+  std::array<uint8_t, 3> planes{};      ///< of textures laid along x, y and z; all 0: by coordinates
+};
+
+/// Where charts or pairs of materials meet a vertex has several places on the texture.
 struct ExportTexture {
   std::span<const uint32_t> vertices;  ///< of the mesh, one a place
   std::span<const std::array<float, 2>> coordinates;
-  std::span<const uint32_t> corners;  ///< into these, in the place of the mesh's indices
+  std::span<const ExportBlend> blends;  ///< one a place
+  std::span<const uint32_t> corners;    ///< into these, in the place of the mesh's indices
   std::span<const std::byte> png;     ///< a file that repeats over all of it; empty: none
 };
 
@@ -45,8 +53,10 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 /// A file for a mesh, opened before there is one, so that what cannot be written shows before the work.
 ///
 /// Positions are in metres from mesh.origin, rounded to float32.
-///  .glb  binary glTF 2.0: one primitive a material with vertices of its own, POSITION, NORMAL, _TAG, with a texture
-///        TEXCOORD_0; the scene's extras hold the origin in units and metres and the tag names
+///  .glb  binary glTF 2.0: one primitive a material with vertices of its own, POSITION, NORMAL, _TAG; the scene's
+///        extras hold the origin in units and metres and the tag names. With a texture TEXCOORD_0 and _BLEND, the
+///        shares of planes (xyz) and of the second material (w); pairs of materials have primitives of their own,
+///        whose colours COLOR_0 blends
 ///  .obj  text, with normals and usemtl, with a texture's coordinates; the materials in a .mtl file of the same name
 ///        beside it
 ///  .ply  binary little-endian: x y z nx ny nz red green blue material tag; origin, materials and tags as comments

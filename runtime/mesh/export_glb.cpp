@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 #include "base/utf8.h"
 #include "mesh/export_formats.h"
@@ -10,17 +11,20 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kNoVertex = std::numeric_limits<uint32_t>::max();
-constexpr size_t kVertexBytes = 28;  // position, normal, tag, two bytes of padding
-constexpr size_t kTextureBytes = 8;  // what a texture adds
+constexpr size_t kVertexBytes = 28;   // position, normal, tag, two bytes of padding
+constexpr size_t kTextureBytes = 12;  // what a texture adds: coordinates, blend
+constexpr size_t kColourBytes = 8;    // what a pair of materials adds
 
-/// The triangles of one material. Vertices are renumbered, in the order in which the triangles use them.
+/// The triangles of one material, or of one pair of them. Vertices are renumbered, in the order in which the triangles
+/// use them.
 struct Primitive {
-  uint16_t material = 0;
+  std::array<uint16_t, 2> materials{};
   size_t vertex_size = kVertexBytes;
-  std::vector<uint32_t> vertices;  // numbers in the whole mesh; with a texture, numbers of its coordinates
+  std::vector<uint32_t> vertices;  // numbers in the whole mesh; with a texture, numbers of its places
   std::vector<uint32_t> indices;   // into vertices
   Float3 low{}, high{};
 
+  bool blends() const { return materials[0] != materials[1]; }
   // 65535 itself is the primitive restart value.
   bool shortIndices() const { return vertices.size() <= 65535; }
   size_t indexBytes() const { return indices.size() * (shortIndices() ? 2 : 4); }
@@ -33,23 +37,21 @@ uint32_t vertexOf(const ExportTexture* texture, uint32_t number) {
 }
 
 std::vector<Primitive> splitByMaterial(const WorldMesh& mesh, const ExportTexture* texture) {
-  std::vector<uint32_t> triangles_of(size_t{1} << 16);
-  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) ++triangles_of[triangleMaterial(mesh, i)];
-  std::vector<Primitive> primitives;
-  std::vector<uint32_t> primitive_of(triangles_of.size(), kNoVertex);
-  for (size_t m = 0; m < triangles_of.size(); ++m) {
-    if (triangles_of[m] == 0) continue;
-    primitive_of[m] = static_cast<uint32_t>(primitives.size());
-    primitives.emplace_back().material = static_cast<uint16_t>(m);
-    if (texture != nullptr) primitives.back().vertex_size += kTextureBytes;
-    primitives.back().indices.reserve(size_t{triangles_of[m]} * 3);
+  std::map<std::array<uint16_t, 2>, std::vector<size_t>> triangles_of;  // by their first index
+  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    const uint16_t alone = triangleMaterial(mesh, i);
+    const bool blended = texture != nullptr;
+    triangles_of[blended ? texture->blends[texture->corners[i]].materials : std::array{alone, alone}].push_back(i);
   }
-  std::vector<uint32_t> renumbered(texture != nullptr ? texture->vertices.size() : mesh.positions.size());
-  for (size_t p = 0; p < primitives.size(); ++p) {
-    Primitive& primitive = primitives[p];
-    std::fill(renumbered.begin(), renumbered.end(), kNoVertex);
-    for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-      if (primitive_of[triangleMaterial(mesh, i)] != p) continue;
+  std::vector<Primitive> primitives;
+  std::vector<uint32_t> renumbered(texture != nullptr ? texture->vertices.size() : mesh.positions.size(), kNoVertex);
+  for (const auto& [materials, triangles] : triangles_of) {
+    Primitive& primitive = primitives.emplace_back();
+    primitive.materials = materials;
+    if (texture != nullptr) primitive.vertex_size += kTextureBytes;
+    if (primitive.blends()) primitive.vertex_size += kColourBytes;
+    primitive.indices.reserve(triangles.size() * 3);
+    for (const size_t i : triangles) {
       for (size_t corner = 0; corner < 3; ++corner) {
         const uint32_t vertex = texture != nullptr ? texture->corners[i + corner] : mesh.indices[i + corner];
         if (renumbered[vertex] == kNoVertex) {
@@ -61,6 +63,7 @@ std::vector<Primitive> splitByMaterial(const WorldMesh& mesh, const ExportTextur
     }
     primitive.low = primitive.high = exportedPosition(mesh, vertexOf(texture, primitive.vertices.front()));
     for (uint32_t vertex : primitive.vertices) {
+      renumbered[vertex] = kNoVertex;
       const Float3 position = exportedPosition(mesh, vertexOf(texture, vertex));
       for (size_t axis = 0; axis < 3; ++axis) {
         primitive.low[axis] = std::min(primitive.low[axis], position[axis]);
@@ -119,8 +122,22 @@ std::string extrasText(const WorldMesh& mesh, const ExportInfo& info) {
          "],\"tags\":" + listOf(info.tags.size(), [&](size_t i) { return quoted(info.tags[i]); }) + "}}";
 }
 
-/// Buffer views 2p and 2p + 1 are the vertices and indices of primitive p; accessors 4p .. 4p + 3 its position, normal,
-/// tag and indices. A texture's coordinates are accessors behind all these, its picture the last buffer view.
+/// Of a material, or of a pair of them: white then, for the colours are its vertices'.
+std::string materialText(const ExportInfo& info, const Primitive& primitive) {
+  const ExportMaterial first = materialAt(info, primitive.materials[0]);
+  const ExportMaterial second = materialAt(info, primitive.materials[1]);
+  const auto channel = [&](size_t i) {
+    return primitive.blends() ? std::string("1") : decimalText(std::clamp(first.colour[i], 0.0f, 1.0f));
+  };
+  const bool pictured = info.texture != nullptr && !info.texture->png.empty();
+  const float roughness = (std::clamp(first.roughness, 0.0f, 1.0f) + std::clamp(second.roughness, 0.0f, 1.0f)) / 2;
+  return "{\"name\":" + quoted(primitive.blends() ? first.name + " + " + second.name : first.name) +
+         ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[" + channel(0) + ',' + channel(1) + ',' + channel(2) +
+         ",1]," + (pictured ? "\"baseColorTexture\":{\"index\":0}," : "") +
+         "\"metallicFactor\":0,\"roughnessFactor\":" + decimalText(roughness) + "}}";
+}
+
+/// Buffer views 2p and 2p + 1 are the vertices and indices of primitive p, a texture's picture the last one.
 std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::vector<Primitive>& primitives,
                       size_t buffer_bytes) {
   std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":" + quoted(info.generator) +
@@ -129,47 +146,41 @@ std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::
   json += ",\"nodes\":[0]}],\"nodes\":[{\"name\":" + quoted(info.name) +
           ",\"mesh\":0}],\"meshes\":[{\"name\":" + quoted(info.name) + ",\"primitives\":";
   const bool textured = info.texture != nullptr, pictured = textured && !info.texture->png.empty();
+  std::vector<std::string> accessors;
   json += listOf(primitives.size(), [&](size_t p) {
-    const auto accessor = [&](size_t i) { return std::to_string(4 * p + i); };
-    const std::string coordinates =
-        textured ? ",\"TEXCOORD_0\":" + std::to_string(4 * primitives.size() + p) : std::string();
-    return "{\"attributes\":{\"POSITION\":" + accessor(0) + ",\"NORMAL\":" + accessor(1) + ",\"_TAG\":" + accessor(2) +
-           coordinates + "},\"indices\":" + accessor(3) + ",\"material\":" + std::to_string(p) + '}';
+    const Primitive& primitive = primitives[p];
+    const auto accessor = [&](size_t view, size_t offset, size_t count, const std::string& rest) {
+      accessors.push_back("{\"bufferView\":" + std::to_string(view) + ",\"byteOffset\":" + std::to_string(offset) +
+                          ",\"count\":" + std::to_string(count) + ",\"componentType\":" + rest + '}');
+      return std::to_string(accessors.size() - 1);
+    };
+    size_t offset = 0;
+    const auto attribute = [&](const char* name, size_t bytes, const std::string& rest) {
+      const std::string number = accessor(2 * p, offset, primitive.vertices.size(), rest);
+      offset += bytes;
+      return '"' + std::string(name) + "\":" + number;
+    };
+    std::string attributes = attribute(
+        "POSITION", 12,
+        "5126,\"type\":\"VEC3\",\"min\":" + vectorText(primitive.low) + ",\"max\":" + vectorText(primitive.high));
+    attributes += ',' + attribute("NORMAL", 12, "5126,\"type\":\"VEC3\"");
+    attributes += ',' + attribute("_TAG", 4, "5123,\"type\":\"SCALAR\"");
+    if (textured) {
+      attributes += ',' + attribute("TEXCOORD_0", 8, "5126,\"type\":\"VEC2\"");
+      attributes += ',' + attribute("_BLEND", 4, "5121,\"normalized\":true,\"type\":\"VEC4\"");
+    }
+    if (primitive.blends()) attributes += ',' + attribute("COLOR_0", 8, "5123,\"normalized\":true,\"type\":\"VEC4\"");
+    return "{\"attributes\":{" + attributes + "},\"indices\":" +
+           accessor(2 * p + 1, 0, primitive.indices.size(),
+                    primitive.shortIndices() ? "5123,\"type\":\"SCALAR\"" : "5125,\"type\":\"SCALAR\"") +
+           ",\"material\":" + std::to_string(p) + '}';
   });
-  json += "}],\"materials\":" + listOf(primitives.size(), [&](size_t p) {
-            const ExportMaterial m = materialAt(info, primitives[p].material);
-            return "{\"name\":" + quoted(m.name) + ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[" +
-                   decimalText(std::clamp(m.colour[0], 0.0f, 1.0f)) + ',' +
-                   decimalText(std::clamp(m.colour[1], 0.0f, 1.0f)) + ',' +
-                   decimalText(std::clamp(m.colour[2], 0.0f, 1.0f)) + ",1]," +
-                   (pictured ? "\"baseColorTexture\":{\"index\":0}," : "") +
-                   "\"metallicFactor\":0,\"roughnessFactor\":" + decimalText(std::clamp(m.roughness, 0.0f, 1.0f)) +
-                   "}}";
-          });
+  json += "}],\"materials\":" + listOf(primitives.size(), [&](size_t p) { return materialText(info, primitives[p]); });
   if (pictured) {
     json += ",\"textures\":[{\"source\":0}],\"images\":[{\"mimeType\":\"image/png\",\"bufferView\":" +
             std::to_string(2 * primitives.size()) + "}]";
   }
-  json += ",\"accessors\":" + listOf((textured ? 2 : 1) * primitives.size(), [&](size_t i) {
-            const size_t p = i % primitives.size();
-            const Primitive& primitive = primitives[p];
-            if (i >= primitives.size()) {
-              return "{\"bufferView\":" + std::to_string(2 * p) + ",\"byteOffset\":" + std::to_string(kVertexBytes) +
-                     ",\"count\":" + std::to_string(primitive.vertices.size()) +
-                     ",\"componentType\":5126,\"type\":\"VEC2\"}";
-            }
-            const auto attribute = [&](size_t offset, const char* rest) {
-              return "{\"bufferView\":" + std::to_string(2 * p) + ",\"byteOffset\":" + std::to_string(offset) +
-                     ",\"count\":" + std::to_string(primitive.vertices.size()) + rest;
-            };
-            return attribute(0, ",\"componentType\":5126,\"type\":\"VEC3\",\"min\":") + vectorText(primitive.low) +
-                   ",\"max\":" + vectorText(primitive.high) + "}," +
-                   attribute(12, ",\"componentType\":5126,\"type\":\"VEC3\"},") +
-                   attribute(24, ",\"componentType\":5123,\"type\":\"SCALAR\"},") +
-                   "{\"bufferView\":" + std::to_string(2 * p + 1) +
-                   ",\"count\":" + std::to_string(primitive.indices.size()) +
-                   ",\"componentType\":" + (primitive.shortIndices() ? "5123" : "5125") + ",\"type\":\"SCALAR\"}";
-          });
+  json += ",\"accessors\":" + listOf(accessors.size(), [&](size_t i) { return accessors[i]; });
   size_t offset = 0;
   json += ",\"bufferViews\":" + listOf(primitives.size() + (pictured ? 1 : 0), [&](size_t p) {
             if (p == primitives.size()) {
@@ -189,7 +200,18 @@ std::string sceneText(const WorldMesh& mesh, const ExportInfo& info, const std::
   return json + ",\"buffers\":[{\"byteLength\":" + std::to_string(buffer_bytes) + "}]}";
 }
 
-void writePrimitive(const WorldMesh& mesh, const ExportTexture* texture, const Primitive& primitive, FileWriter& file) {
+void writeColour(const Float3& first, const Float3& second, uint8_t share, FileWriter& file) {
+  for (size_t i = 0; i < 3; ++i) {
+    const float mixed = first[i] + (second[i] - first[i]) * (static_cast<float>(share) / 255.0f);
+    file.writeValue(static_cast<uint16_t>(std::clamp(mixed, 0.0f, 1.0f) * 65535.0f + 0.5f));
+  }
+  file.writeValue(uint16_t{65535});
+}
+
+void writePrimitive(const WorldMesh& mesh, const ExportInfo& info, const Primitive& primitive, FileWriter& file) {
+  const ExportTexture* texture = info.texture;
+  const Float3 first = materialAt(info, primitive.materials[0]).colour;
+  const Float3 second = materialAt(info, primitive.materials[1]).colour;
   for (uint32_t number : primitive.vertices) {
     const uint32_t vertex = vertexOf(texture, number);
     const Float3 position = exportedPosition(mesh, vertex), normal = exportedNormal(mesh, vertex);
@@ -200,6 +222,10 @@ void writePrimitive(const WorldMesh& mesh, const ExportTexture* texture, const P
       const auto& [u, v] = texture->coordinates[number];
       file.writeValue(u);
       file.writeValue(-v);  // a picture's rows go down
+      const ExportBlend& blend = texture->blends[number];
+      file.write(blend.planes.data(), blend.planes.size());
+      file.writeValue(blend.share);
+      if (primitive.blends()) writeColour(first, second, blend.share, file);
     }
   }
   for (uint32_t index : primitive.indices) {
@@ -236,7 +262,7 @@ Result<void> writeGlb(const WorldMesh& mesh, const ExportInfo& info, FileWriter&
   if (!primitives.empty()) {
     file.writeValue(static_cast<uint32_t>(buffer_bytes));
     file.write("BIN\0", 4);
-    for (const Primitive& p : primitives) writePrimitive(mesh, info.texture, p, file);
+    for (const Primitive& p : primitives) writePrimitive(mesh, info, p, file);
     if (picture > 0) file.write(info.texture->png.data(), picture);
     for (size_t i = picture; i % 4 != 0; ++i) file.write("\0", 1);
   }

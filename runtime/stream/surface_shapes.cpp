@@ -2,6 +2,7 @@
 
 #include "backend/cpu/instruction_sets.h"
 #include "mesh/vertex.h"
+#include "stream/surface_materials.h"
 
 namespace sgm {
 
@@ -44,18 +45,22 @@ Result<void> SurfaceShapes::label(std::span<const Int3> points, std::span<uint32
 Result<Unwrapped> unwrapChunk(const WorldField& field, const PackedMesh& mesh, const ChunkGrid& grid,
                               const EditSnapshot* edits, int32_t tile, std::pmr::memory_resource* memory) {
   std::vector<Int3> points;
-  std::vector<TexturePoint> positions;
+  std::vector<TexturePoint> positions, normals;
   for (const Vertex& vertex : mesh.vertices) {
     points.push_back(vertexUnits(grid, vertex));
     const auto exact = [&](int32_t origin, uint16_t at) { return origin + double{1} * at * grid.cell / kSubcell; };
     positions.push_back(
         {exact(grid.origin.x, vertex.x), exact(grid.origin.y, vertex.y), exact(grid.origin.z, vertex.z)});
+    normals.push_back(unpackNormal(vertex.normal_x, vertex.normal_y));
   }
   std::vector<uint32_t> labels(points.size());
   SurfaceShapes shapes(field, grid.level, edits, grid.origin, tile);
   if (Result<void> labelled = shapes.label(points, labels); !labelled) return labelled.error();
+  std::vector<MaterialMix> materials(points.size());
+  Result<void> mixed = materialsAround(field, grid.level, edits, points, normals, materials);
+  if (!mixed) return mixed.error();
   const auto space_of = [&shapes](uint32_t label) -> const TextureSpace& { return shapes.space(label); };
-  return unwrap({positions, labels, mesh.indices, space_of}, memory);
+  return unwrap({positions, labels, mesh.indices, space_of, normals, materials}, memory);
 }
 
 }  // namespace sgm

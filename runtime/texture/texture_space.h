@@ -47,6 +47,8 @@ class TextureSpace {
 
   /// The chart that suits a triangle with this middle and this normal (any length, out of the solid).
   Chart chartOf(const TexturePoint& middle, const TexturePoint& normal) const;
+  /// Whether it is the world's axes: three planes that pass into each other look better there than one chart does.
+  bool byWorld() const { return kind_ == Kind::world; }
   /// Of a point, in a chart of any triangle near it.
   TextureCoordinates at(const TexturePoint& p, Chart chart) const;
   /// Tiles after which the same place comes again; 0: never. Where it is not 0, at() leaps by it somewhere.

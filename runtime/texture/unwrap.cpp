@@ -15,6 +15,7 @@ struct WedgeKey {
   uint32_t vertex = 0, label = 0;
   Chart chart = 0;
   int16_t turns_u = 0, turns_v = 0;
+  std::array<uint16_t, 2> materials{};
   friend bool operator==(const WedgeKey&, const WedgeKey&) = default;
 };
 
@@ -22,7 +23,9 @@ struct WedgeKeyHash {
   size_t operator()(const WedgeKey& key) const {
     const uint64_t turns = static_cast<uint16_t>(key.turns_u) | uint64_t{static_cast<uint16_t>(key.turns_v)} << 16;
     const uint64_t place = uint64_t{key.vertex} | uint64_t{key.label} << 32;
-    return static_cast<size_t>(mix64(place * 0x9E3779B97F4A7C15u + (turns | uint64_t{key.chart} << 32)));
+    const uint64_t chart = turns | uint64_t{key.chart} << 32;
+    const uint64_t materials = key.materials[0] | uint64_t{key.materials[1]} << 16;
+    return static_cast<size_t>(mix64((place * 0x9E3779B97F4A7C15u + chart) ^ materials << 48 ^ materials >> 16));
   }
 };
 
@@ -62,14 +65,25 @@ Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory) {
     const Chart chart = space.chartOf(middle, crossed(difference(b, a), difference(c, a)));
     const TextureCoordinates period = space.period(chart);
     const TextureCoordinates first = space.at(a, chart);
-    for (const uint32_t vertex : corners) {
+    const MaterialBlend blend =
+        materialBlend(mesh.materials[corners[0]], mesh.materials[corners[1]], mesh.materials[corners[2]]);
+    for (size_t corner = 0; corner < 3; ++corner) {
+      const uint32_t vertex = corners[corner];
       TextureCoordinates at = space.at(mesh.positions[vertex], chart);
       const int16_t turns_u = turnsTo(at.u, first.u, period.u), turns_v = turnsTo(at.v, first.v, period.v);
       at.u += turns_u * period.u;
       at.v += turns_v * period.v;
-      const auto [entry, is_new] =
-          known.try_emplace({vertex, label, chart, turns_u, turns_v}, static_cast<uint32_t>(out.wedges.size()));
-      if (is_new) out.wedges.push_back({vertex, static_cast<float>(at.u), static_cast<float>(at.v)});
+      const auto [entry, is_new] = known.try_emplace({vertex, label, chart, turns_u, turns_v, blend.materials},
+                                                     static_cast<uint32_t>(out.wedges.size()));
+      if (is_new) {
+        Wedge& wedge = out.wedges.emplace_back();
+        wedge.vertex = vertex;
+        wedge.u = static_cast<float>(at.u);
+        wedge.v = static_cast<float>(at.v);
+        wedge.materials = blend.materials;
+        wedge.share = blend.share[corner];
+        if (space.byWorld()) wedge.plane_shares = planeShares(mesh.normals[vertex]);
+      }
       out.corners.push_back(entry->second);
     }
   }

@@ -6,6 +6,7 @@
 #include <memory_resource>
 #include <span>
 
+#include "texture/material_blend.h"
 #include "texture/texture_space.h"
 #include "texture/unwrapped.h"
 
@@ -16,10 +17,12 @@ struct UnwrapInput {
   std::span<const uint32_t> labels;         ///< of the shapes that make the surface, one a vertex
   std::span<const uint32_t> indices;        ///< three a triangle, counter-clockwise seen from the void
   std::function<const TextureSpace&(uint32_t label)> space_of;
+  std::span<const TexturePoint> normals;   ///< one a vertex, any length
+  std::span<const MaterialMix> materials;  ///< one a vertex
 };
 
 /// A triangle lies in the space of the shape that makes two of its vertices, else of its first one's, and in one chart
-/// of it. Pure. Throws std::bad_alloc.
+/// of it, and shows two materials at most (material_blend.h). Pure. Throws std::bad_alloc.
 Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory);
 
 /// How evenly a texture lies on a mesh: tiles on a tile's length of surface. 1: as it is meant.

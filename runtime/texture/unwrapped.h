@@ -1,16 +1,20 @@
 #pragma once
 // A mesh with texture coordinates, as unwrap.h makes it.
 
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <vector>
 
 namespace sgm {
 
-/// A vertex as one chart sees it.
+/// A vertex as one chart and one pair of materials sees it.
 struct Wedge {
-  uint32_t vertex = 0;  ///< of the mesh: position, normal and label
-  float u = 0, v = 0;   ///< tiles
+  uint32_t vertex = 0;                    ///< of the mesh: position, normal and label
+  float u = 0, v = 0;                     ///< tiles
+  std::array<uint16_t, 2> materials{};    ///< of the triangles that have it, rising; both the same where they have one
+  uint8_t share = 0;                      ///< of the second material here, in 255ths
+  std::array<uint8_t, 3> plane_shares{};  ///< planeShares(), where the world's axes texture it; else all 0
   friend bool operator==(const Wedge&, const Wedge&) = default;
 };
 

@@ -1,9 +1,14 @@
 #version 450
+#extension GL_GOOGLE_include_directive : require
 // What is seen at a sample: where it lies, which way it faces, what it is made of. Lit later, once.
+#include "render/noise.glsl"
+
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) flat in uint material;
 layout(location = 3) in vec2 texture_at;
+layout(location = 4) flat in uint second;
+layout(location = 5) in float share;
 layout(location = 0) out vec4 out_position;  // w: material + 1; 0 is the background
 layout(location = 1) out vec4 out_normal;    // w: what the chequers show, 0 where there are none
 
@@ -26,6 +31,8 @@ void main() {
   float length2 = dot(normal, normal);
   // The viewport is turned upside down, and so is the sense of dFdy: the facet's side is settled by the front face.
   vec3 n = length2 > 0.01 ? normal * inversesqrt(length2) : (gl_FrontFacing ? -facet : facet);
-  out_position = vec4(position, float(material + 1u));
+  // One stone ends where another begins, along a ragged line; only paint would pass over evenly.
+  float ragged = 0.5 + 0.22 * noise(position * 3.1).x + 0.10 * noise(position * 13.0).x;
+  out_position = vec4(position, float((share > ragged ? second : material) + 1u));
   out_normal = vec4(n, chequers(texture_at));
 }

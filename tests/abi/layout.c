@@ -390,10 +390,13 @@ PLACE(sgm_mesh_view, wedges, 336);
 PLACE(sgm_mesh_view, wedge_indices, 344);
 PLACE(sgm_mesh_view, wedge_count, 352);
 PLACE(sgm_mesh_view, reserved, 356);
-SIZE(sgm_wedge, 12);
+SIZE(sgm_wedge, 20);
 PLACE(sgm_wedge, vertex, 0);
 PLACE(sgm_wedge, u, 4);
 PLACE(sgm_wedge, v, 8);
+PLACE(sgm_wedge, materials, 12);
+PLACE(sgm_wedge, share, 16);
+PLACE(sgm_wedge, plane_shares, 17);
 
 SIZE(sgm_region_desc, 72);
 PLACE(sgm_region_desc, struct_size, 0);

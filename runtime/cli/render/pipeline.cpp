@@ -83,11 +83,13 @@ Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass
   }
 
   const VkVertexInputBindingDescription binding{0, sizeof(RenderVertex), VK_VERTEX_INPUT_RATE_VERTEX};
-  const std::array<VkVertexInputAttributeDescription, 4> attributes{
+  const std::array<VkVertexInputAttributeDescription, 6> attributes{
       {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RenderVertex, position)},
        {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RenderVertex, normal)},
        {2, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, material)},
-       {3, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(RenderVertex, texture)}}};
+       {3, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(RenderVertex, texture)},
+       {4, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, second)},
+       {5, 0, VK_FORMAT_R32_SFLOAT, offsetof(RenderVertex, share)}}};
   VkPipelineVertexInputStateCreateInfo input{};
   input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
   input.vertexBindingDescriptionCount = 1;

@@ -18,6 +18,8 @@ struct RenderVertex {
   glm::vec3 position{0};
   glm::vec3 normal{0};
   uint32_t material = 0;  ///< index into RenderScene::materials; beyond its end the last one is meant
+  uint32_t second = 0;    ///< material that it passes into, the same at all corners of a triangle, as is the first
+  float share = 0;        ///< of the second here, 0..1
   /// Texture coordinates, which are drawn as chequers; the same at all corners of a triangle: none.
   glm::vec2 texture{0};
 };

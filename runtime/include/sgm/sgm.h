@@ -799,11 +799,17 @@ typedef struct sgm_instance_batch {
   uint32_t first, count; /* of the mesh's anchors and transforms */
 } sgm_instance_batch;
 
-/* A vertex as one chart of a texture sees it. Coordinates count tiles of 1 m, in floats that repeat a texture: u x v
- * points out of the solid, so that nothing is mirrored. */
+/* A vertex as one chart of a texture and one pair of materials sees it. Coordinates count tiles of 1 m, in floats that
+ * repeat a texture: u x v points out of the solid, so that nothing is mirrored. */
 typedef struct sgm_wedge {
   uint32_t vertex; /* of the mesh's vertices */
   float u, v;
+  uint16_t materials[2];   /* the two that its triangles show most of, rising; one alone stands twice. The same at all
+                              corners of a triangle */
+  uint8_t share;           /* of the second here, in 255ths: to blend by, over about two cells */
+  uint8_t plane_shares[3]; /* where no shape has coordinates for the triangle, so that u and v are by the world's axes:
+                              how much of textures laid along x, y and z to show here (triplanar mapping), together 255;
+                              else all 0 */
 } sgm_wedge;
 
 /* Pointers into a mesh, good until the mesh ends. */

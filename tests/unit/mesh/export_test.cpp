@@ -110,6 +110,75 @@ void addTriangle(std::multiset<Corner3>& triangles, Corner3 t) {
 
 }  // namespace
 
+TEST_CASE("GLB blends pairs of materials by the colours of vertices", "[mesh][export]") {
+  const Folder folder;
+  const WorldMesh mesh = someMesh();
+  // Half of the triangles are of rock alone, the others of rock that passes into wet rock.
+  std::vector<uint32_t> vertices, corners;
+  std::vector<std::array<float, 2>> coordinates;
+  std::vector<ExportBlend> blends;
+  const auto shareOf = [&](uint32_t vertex) { return static_cast<uint8_t>(vertex * 37 % 256); };
+  std::map<std::pair<uint32_t, bool>, uint32_t> known;
+  for (size_t i = 0; i < mesh.indices.size(); ++i) {
+    const uint32_t vertex = mesh.indices[i];
+    const bool pair = i / 3 >= mesh.indices.size() / 6;
+    const auto [entry, is_new] = known.try_emplace({vertex, pair}, static_cast<uint32_t>(vertices.size()));
+    if (is_new) {
+      vertices.push_back(vertex);
+      coordinates.push_back({static_cast<float>(vertex), 0.5f});
+      blends.push_back({{0, static_cast<uint16_t>(pair ? 2 : 0)}, pair ? shareOf(vertex) : uint8_t{0}, {1, 2, 252}});
+    }
+    corners.push_back(entry->second);
+  }
+  const ExportTexture texture{vertices, coordinates, blends, corners, {}};
+  ExportInfo info = someInfo();
+  info.texture = &texture;
+  REQUIRE(exportMesh(mesh, info, folder.path / "ball.glb"));
+  const std::string bytes = readFile(folder.path / "ball.glb");
+  const size_t json_bytes = valueAt<uint32_t>(bytes, 12);
+  const nlohmann::json json = nlohmann::json::parse(bytes.substr(20, json_bytes));
+  const size_t data = 20 + json_bytes + 8;
+  REQUIRE(json["materials"].size() == 2);
+  CHECK(json["materials"][0]["name"] == "rock");
+  CHECK(json["materials"][1]["name"] == "rock + wet rock");
+  CHECK(json["materials"][1]["pbrMetallicRoughness"]["baseColorFactor"] == nlohmann::json({1, 1, 1, 1}));
+  CHECK(json["materials"][1]["pbrMetallicRoughness"]["roughnessFactor"].get<double>() == Approx(0.5));
+  const nlohmann::json& primitives = json["meshes"][0]["primitives"];
+  REQUIRE(primitives.size() == 2);
+  CHECK(!primitives[0]["attributes"].contains("COLOR_0"));
+  size_t triangles = 0, coloured = 0;
+  for (const nlohmann::json& primitive : primitives) {
+    const auto placeOf = [&](const char* name, size_t i) {
+      const nlohmann::json& accessor = json["accessors"][primitive["attributes"][name].get<size_t>()];
+      const nlohmann::json& view = json["bufferViews"][accessor["bufferView"].get<size_t>()];
+      return data + view["byteOffset"].get<size_t>() + accessor["byteOffset"].get<size_t>() +
+             i * view["byteStride"].get<size_t>();
+    };
+    const nlohmann::json& positions = json["accessors"][primitive["attributes"]["POSITION"].get<size_t>()];
+    triangles += json["accessors"][primitive["indices"].get<size_t>()]["count"].get<size_t>() / 3;
+    for (size_t i = 0; i < positions["count"].get<size_t>(); ++i) {
+      const auto vertex = static_cast<uint32_t>(valueAt<float>(bytes, placeOf("TEXCOORD_0", i)));
+      for (size_t axis = 0; axis < 3; ++axis) {
+        CHECK(valueAt<float>(bytes, placeOf("POSITION", i) + 4 * axis) ==
+              static_cast<float>(mesh.positions[vertex][axis]));
+      }
+      const size_t blend = placeOf("_BLEND", i);
+      CHECK(valueAt<uint8_t>(bytes, blend) == 1);
+      CHECK(valueAt<uint8_t>(bytes, blend + 2) == 252);
+      if (!primitive["attributes"].contains("COLOR_0")) continue;
+      ++coloured;
+      CHECK(valueAt<uint8_t>(bytes, blend + 3) == shareOf(vertex));
+      for (size_t channel = 0; channel < 3; ++channel) {
+        const double first = info.materials[0].colour[channel], second = info.materials[2].colour[channel];
+        CHECK(valueAt<uint16_t>(bytes, placeOf("COLOR_0", i) + 2 * channel) / 65535.0 ==
+              Approx(first + (second - first) * shareOf(vertex) / 255).margin(1e-4));
+      }
+    }
+  }
+  CHECK(triangles == mesh.indices.size() / 3);
+  CHECK(coloured > 100);
+}
+
 TEST_CASE("GLB reads back", "[mesh][export]") {
   const Folder folder;
   const WorldMesh mesh = someMesh();

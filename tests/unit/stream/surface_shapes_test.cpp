@@ -1,10 +1,12 @@
 // Texture coordinates of worlds: by the shapes that make the surface, the same on both sides of a chunk's border.
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "catch.h"
 #include "mesh/vertex.h"
+#include "stream/surface_materials.h"
 #include "stream/surface_shapes.h"
 #include "streaming_support.h"
 
@@ -38,6 +40,14 @@ std::vector<ChunkSurface> surfacesFrom(const WorldField& field, int level, int32
     surfaces.push_back(surfaceOf(requests[i], std::move(chunks[i]), nullptr, field.memory()));
   }
   return surfaces;
+}
+
+uint16_t materialNamed(const Program& program, std::string_view name) {
+  for (size_t i = 0; i < program.materials.size(); ++i) {
+    if (std::string_view(program.materials[i]) == name) return static_cast<uint16_t>(i);
+  }
+  FAIL("no such material");
+  return 0;
 }
 
 }  // namespace
@@ -79,7 +89,7 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
         CHECK(*again == *texture);
       }
       REQUIRE(vertices > 1000);
-      size_t pairs = 0, same = 0;
+      size_t pairs = 0, same = 0, blends = 0;
       for (const auto& [place, chunks] : shared) {
         if (chunks.size() < 2) continue;
         ++pairs;
@@ -92,10 +102,52 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
           for (const Wedge& b : std::next(chunks.begin())->second) meets = meets || alike(a, b);
         }
         same += meets;
+        for (const Wedge& a : chunks.begin()->second) {
+          for (const Wedge& b : std::next(chunks.begin())->second) {
+            if (a.materials != b.materials) continue;
+            ++blends;
+            CHECK(a.share == b.share);
+          }
+        }
       }
       REQUIRE(pairs > 100);
+      REQUIRE(blends > 100);
       // But where two shapes, or two charts, meet right there.
       CHECK(static_cast<double>(same) > 0.9 * static_cast<double>(pairs));
+    }
+  }
+}
+
+TEST_CASE("where two materials meet one passes into the other over two cells, on every level") {
+  const WorldField field(settingsOf("sgm 1; units m; domain finite box(48m, 16m, 16m); start A;\n"
+                                    "rule A { at(-10.1m, 0m, 0m) Part; at(10m, 0m, 0m) Half; }\n"
+                                    "rule Part { box(20m, 6m, 6m); mat chalk; }\n"
+                                    "rule Half { box(20.4m, 6m, 6m); mat flint; }\n",
+                                    256),
+                         std::pmr::get_default_resource());
+  const uint16_t chalk = materialNamed(*field.settings().program, "chalk");
+  const uint16_t flint = materialNamed(*field.settings().program, "flint");
+  for (int level = 0; level < 3; ++level) {
+    CAPTURE(level);
+    const double cell = field.cellAt(level);
+    std::vector<Int3> points;
+    std::vector<TexturePoint> normals;
+    for (int i = -40; i <= 40; ++i) {
+      points.push_back({static_cast<int32_t>(-154 + i * cell / 16), 3072, 100});
+      normals.push_back({0, 2, 0});
+    }
+    std::vector<MaterialMix> mixes(points.size());
+    REQUIRE(materialsAround(field, level, nullptr, points, normals, mixes));
+    double before = -1;
+    for (size_t i = 0; i < mixes.size(); ++i) {
+      const auto flints = static_cast<double>(std::count(mixes[i].begin(), mixes[i].end(), flint));
+      CHECK(std::count(mixes[i].begin(), mixes[i].end(), chalk) + static_cast<int>(flints) == kMaterialSamples);
+      CHECK(flints >= before);
+      before = flints;
+      const double away = (points[i].x + 154) / cell;
+      if (away < -1.05) CHECK(flints == 0);
+      if (away > 1.05) CHECK(flints == kMaterialSamples);
+      if (std::fabs(away) < 0.5) CHECK(std::fabs(flints - 4.5) <= 2);
     }
   }
 }

@@ -16,7 +16,8 @@ namespace {
 
 /// A tube along y with its middle at the origin, of rings of vertices.
 struct Tube {
-  std::vector<TexturePoint> positions;
+  std::vector<TexturePoint> positions, normals;
+  std::vector<MaterialMix> materials;
   std::vector<uint32_t> labels, indices;
   GrammarChunk chunk;
   std::vector<TextureSpace> spaces;
@@ -26,6 +27,7 @@ struct Tube {
       for (uint32_t i = 0; i < around; ++i) {
         const double turn = 2 * kPi * (i + 0.3) / around;
         positions.push_back({radius * std::sin(turn), -half + 2 * half * ring / (rings - 1), radius * std::cos(turn)});
+        normals.push_back({std::sin(turn), 0, std::cos(turn)});
       }
     }
     for (uint32_t ring = 0; ring + 1 < rings; ++ring) {
@@ -41,10 +43,12 @@ struct Tube {
     spaces.emplace_back(Int3{}, kUnitsPerMetre);
     spaces.emplace_back(chunk, 0, kUnitsPerMetre);
     labels.assign(positions.size(), 1);
+    materials.resize(positions.size());
   }
 
   UnwrapInput input() const {
-    return {positions, labels, indices, [this](uint32_t label) -> const TextureSpace& { return spaces[label]; }};
+    return {positions, labels,   indices, [this](uint32_t label) -> const TextureSpace& { return spaces[label]; },
+            normals,   materials};
   }
 };
 
@@ -93,6 +97,55 @@ TEST_CASE("a triangle lies in the space of two of its vertices, and the world's 
     for (const float off : {other.wedges[i].u - unwrapped.wedges[i].u, other.wedges[i].v - unwrapped.wedges[i].v}) {
       CHECK(std::fabs(off - std::round(off)) < 1e-4f);
     }
+  }
+}
+
+TEST_CASE("all corners of a triangle have one pair of materials, and only pairs double vertices") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  for (unsigned round = 0; round < rounds(20); ++round) {
+    const uint32_t around = static_cast<uint32_t>(12 + random() % 40),
+                   rings = static_cast<uint32_t>(10 + random() % 20);
+    Tube tube(1000.0 + static_cast<double>(random() % 9000), 5000, around, rings);
+    // Two materials one above the other, with a ring between that has some of both; the lowest rings are of no shape.
+    const size_t border = 5 + random() % (rings - 8);
+    for (size_t i = 0; i < 2 * size_t{around}; ++i) tube.labels[i] = 0;
+    const size_t plain = unwrap(tube.input(), std::pmr::get_default_resource()).wedges.size();
+    for (size_t i = 0; i < tube.materials.size(); ++i) {
+      const size_t ring = i / around;
+      for (size_t k = 0; k < kMaterialSamples; ++k) {
+        tube.materials[i][k] = ring > border || (ring == border && k < 5) ? 4 : 2;
+      }
+    }
+    const Unwrapped unwrapped = unwrap(tube.input(), std::pmr::get_default_resource());
+    REQUIRE(unwrapped.corners.size() == tube.indices.size());
+    std::map<std::pair<uint32_t, std::array<uint16_t, 2>>, std::set<uint8_t>> shares;
+    for (size_t t = 0; t < unwrapped.corners.size(); t += 3) {
+      const Wedge& first = unwrapped.wedges[unwrapped.corners[t]];
+      size_t by_world = 0;
+      for (size_t i = 0; i < 3; ++i) {
+        const Wedge& wedge = unwrapped.wedges[unwrapped.corners[t + i]];
+        REQUIRE(wedge.vertex == tube.indices[t + i]);
+        CHECK(wedge.materials == first.materials);
+        shares[{wedge.vertex, wedge.materials}].insert(wedge.share);
+        const size_t ring = wedge.vertex / around;
+        if (wedge.materials == std::array<uint16_t, 2>{2, 4}) {
+          CHECK(wedge.share == (ring > border ? 255 : ring < border ? 0 : 142));
+        } else {
+          CHECK(wedge.materials[0] == (ring > border ? 4 : 2));
+          CHECK(wedge.share == 0);
+        }
+        const int planes = wedge.plane_shares[0] + wedge.plane_shares[1] + wedge.plane_shares[2];
+        CHECK((planes == 0 || planes == 255));
+        by_world += planes != 0;
+      }
+      CHECK((by_world == 0 || by_world == 3));
+      if (t == 0) CHECK(by_world == 3);
+    }
+    for (const auto& [place, seen] : shares) CHECK(seen.size() == 1);
+    // The rings below and above the border's stand in two pairs each, and so does the cut in them.
+    CHECK(unwrapped.wedges.size() == plain + 2 * (size_t{around} + 1));
   }
 }
 
