@@ -162,6 +162,7 @@ Type Checker::expression(ExprId id) {
                             " and ", withArticle(typeName(t))}),
                       unitHint(part, t, before.dim));
       }
+      if (type.kind == ValueKind::unknown) type.any_dim = true;
       type.kind = n.children.count == 3 ? ValueKind::vector : ValueKind::pair;
       break;
     }

@@ -38,7 +38,7 @@ struct Type {
   ValueKind kind = ValueKind::unknown;
   Dim dim;
   bool sample = false;   ///< known at sample time only (depends on p, q, u or noise)
-  bool any_dim = false;  ///< the literal 0, which fits every dimension
+  bool any_dim = false;  ///< fits every dimension: the literal 0, and vectors of which nothing is known
   friend constexpr bool operator==(const Type&, const Type&) = default;
 };
 

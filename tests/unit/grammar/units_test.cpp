@@ -114,3 +114,17 @@ TEST_CASE("stages are kept apart", "[grammar][units]") {
           "smoothstep(0m, 4m, p.y + f(1m))); } }")
           .program);
 }
+
+TEST_CASE("what a rule that nothing calls makes of its parameters fits every dimension", "[grammar][units]") {
+  // As a library's rules do where a grammar imports it for others.
+  for (const char* statement : {"ellipsoid((r, 0.35*r, r*(1 - 0.2)));", "at((r, r, 2*r) + (r, 0, 0)) sphere(1m);",
+                                "at(-(r, r, r)) box((r, r, r));", "superq((r, r, r), r);"}) {
+    INFO(statement);
+    const CompileResult result =
+        compileText(std::string("sgm 1; start A; rule A { sphere(1m); } rule Spare(r) { ") + statement + " }");
+    CHECK(result.program != nullptr);
+    CHECK(brief(result.diagnostics).find("mismatch") == std::string::npos);
+  }
+  // What is known of a part still counts.
+  CHECK(!compileText("sgm 1; start A; rule A { sphere(1m); } rule Spare(r) { ellipsoid((r, 2, r)); }").program);
+}
