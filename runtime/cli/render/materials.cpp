@@ -14,7 +14,7 @@ constexpr glm::vec3 rgb(float r, float g, float b) { return {r, g, b}; }
 
 using enum SurfacePattern;
 
-constexpr std::array<Named, 24> kTable{{
+constexpr std::array<Named, 25> kTable{{
     {"rock", {rock, rgb(0.40f, 0.36f, 0.31f), 0.78f, 1.0f}},
     {"limestone", {rock, rgb(0.46f, 0.40f, 0.32f), 0.74f, 1.0f}},
     {"dolomite", {rock, rgb(0.44f, 0.41f, 0.38f), 0.78f, 1.0f}},
@@ -31,6 +31,7 @@ constexpr std::array<Named, 24> kTable{{
     {"stalactite", {flow, rgb(0.76f, 0.65f, 0.48f), 0.34f, 1.0f}},
     {"gypsum", {flow, rgb(0.82f, 0.80f, 0.76f), 0.45f, 0.7f}},
     {"ice", {flow, rgb(0.60f, 0.74f, 0.82f), 0.12f, 0.6f}},
+    {"water", {smooth, rgb(0.025f, 0.055f, 0.06f), 0.07f, 0.25f}},
     {"brick", {brick, rgb(0.42f, 0.15f, 0.09f), 0.85f, 1.0f}},
     {"concrete", {smooth, rgb(0.46f, 0.45f, 0.43f), 0.88f, 0.7f}},
     {"plaster", {smooth, rgb(0.74f, 0.70f, 0.62f), 0.92f, 0.4f}},

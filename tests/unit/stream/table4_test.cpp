@@ -14,14 +14,6 @@ using namespace sgm;
 
 namespace {
 
-uint32_t ruleNamed(const Program& program, std::string_view name) {
-  for (uint32_t r = 0; r < program.rules.size(); ++r) {
-    if (program.text(program.rules[r].name) == name) return r;
-  }
-  FAIL("no such rule");
-  return 0;
-}
-
 /// Where each use of a rule stands.
 std::vector<Int3> placesOf(const WorldField& world, std::string_view rule, const IntBox& box) {
   const auto found = world.instances(ruleNamed(*world.settings().program, rule), box, 100'000);

@@ -38,6 +38,14 @@ inline WorldFieldSettings settingsOf(const std::string& text, int32_t cell, uint
   return s;
 }
 
+inline uint32_t ruleNamed(const Program& program, std::string_view name) {
+  for (uint32_t r = 0; r < program.rules.size(); ++r) {
+    if (program.text(program.rules[r].name) == name) return r;
+  }
+  FAIL("no such rule");
+  return 0;
+}
+
 inline std::pmr::vector<PlacedChunk> meshAll(const WorldField& world, const std::vector<ChunkRequest>& requests,
                                              unsigned threads, const EditSnapshot* edits = nullptr) {
   const auto jobs = *makeThreadPool(threads);
