@@ -236,6 +236,37 @@ TEST_CASE("every frame shows one field with one state of the edits, and is close
   }
 }
 
+TEST_CASE("Birger: the sky is edited while it is looked at", "[table4]") {
+  const std::string sky = sample("table4/birger.sgm");
+  Scene scene(*makeThreadPool(2), sky);
+  Engine engine;
+  Viewer viewer = viewerAt(200, 930, 200);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  REQUIRE(scene.world->waitIdle());
+  engine.take(*scene.world);
+  const auto triangles = [&] {
+    size_t count = 0;
+    for (const auto& [key, shown] : engine.shown) count += shown.surface->mesh.ranges[0].index_count / 3;
+    return count;
+  };
+  std::vector<size_t> counts{triangles()};
+  // The author turns two knobs while the viewer goes on; what is drawn is always the sky of one setting.
+  const std::pair<const char*, double> turns[] = {{"cover", 0.3}, {"octaves", 2}};
+  for (const auto& [knob, value] : turns) {
+    const std::shared_ptr<const WorldField> edited = fieldOf(sky, knob, value);
+    REQUIRE(scene.world->setField(edited));
+    viewer.position[0] += 6 * kUnitsPerMetre;
+    REQUIRE(scene.world->setViewers({&viewer, 1}));
+    REQUIRE(scene.world->waitIdle());
+    engine.take(*scene.world);
+    checkFrame(scene, engine, nullptr, edited.get());
+    counts.push_back(triangles());
+    CAPTURE(knob, value, counts);
+    CHECK(counts.back() != counts[counts.size() - 2]);
+  }
+  CHECK(counts[0] > 1000);
+}
+
 TEST_CASE("a parameter changes what depends on it alone, and back again gives the same surfaces", "[threads]") {
   Scene scene(*makeThreadPool(2), drippingText());
   Engine engine;
