@@ -11,9 +11,7 @@
 
 struct sgm_grammar {
   sgm_grammar(sgm_runtime& runtime_in, std::shared_ptr<const sgm::Program> program_in)
-      : runtime(runtime_in),
-        program(std::move(program_in)),
-        notes(std::make_shared<sgm::api::NoteLog>(runtime, program)) {}
+      : runtime(runtime_in), program(std::move(program_in)), notes(std::make_shared<sgm::api::NoteLog>(runtime)) {}
 
   sgm_runtime& runtime;
   std::shared_ptr<const sgm::Program> program;

@@ -32,9 +32,7 @@ void NoteLog::tell(const GrammarChunk& cell) {
       continue;
     }
     runtime_.log(SGM_LOG_WARNING, std::to_string(note.line) + ":" + std::to_string(note.column) + ": " + note.message +
-                                      " (first in " + note.path + ", cell " + std::to_string(cell.cell.x) + " " +
-                                      std::to_string(cell.cell.y) + " " + std::to_string(cell.cell.z) + " of layer " +
-                                      std::string(program_->text(program_->layers[cell.layer].name)) + ")");
+                                      " (first in " + note.path + ")");
   }
 }
 

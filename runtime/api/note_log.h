@@ -1,7 +1,6 @@
 #pragma once
 // What derivation leaves out, told to the runtime's log sink.
 
-#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
@@ -9,7 +8,6 @@
 
 #include "api/runtime.h"
 #include "derive/shape.h"
-#include "grammar/program.h"
 
 namespace sgm::api {
 
@@ -17,8 +15,7 @@ namespace sgm::api {
 /// say the same of every cell. Thread-safe.
 class NoteLog {
  public:
-  NoteLog(const sgm_runtime& runtime, std::shared_ptr<const Program> program)
-      : runtime_(runtime), program_(std::move(program)) {}
+  explicit NoteLog(const sgm_runtime& runtime) : runtime_(runtime) {}
 
   void tell(const GrammarChunk& cell);
 
@@ -27,7 +24,6 @@ class NoteLog {
   bool isNew(const DeriveNote& note, bool& last);
 
   const sgm_runtime& runtime_;
-  std::shared_ptr<const Program> program_;
   std::mutex mutex_;
   std::set<std::tuple<int, int, std::string>> told_;
 };

@@ -103,10 +103,16 @@ void Interpreter::note(const std::string& message, const Span& span, uint32_t ac
 std::string Interpreter::pathText(uint32_t activation) const {
   std::vector<uint32_t> path;
   for (uint32_t i = activation; i != kNone; i = activations_[i].parent) path.push_back(i);
+  if (path.empty()) return {};
   std::string text;
+  if (!isWhole(layer_)) {
+    text.append(program_.text(layer_.name)).append("(").append(std::to_string(cell_.x));
+    text.append(", ").append(std::to_string(cell_.y)).append(", ").append(std::to_string(cell_.z)).append(")");
+  }
   for (size_t i = path.size(); i-- > 0;) {
     const Activation& a = activations_[path[i]];
     if (!text.empty()) text += '/';
+    if (a.qualifier != kNoId) text.append(program_.text(a.qualifier)).append(".");
     text += program_.text(program_.rules[a.rule].name);
     if (a.parent == kNone) continue;
     text += '[';
@@ -168,8 +174,8 @@ Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
   if (dropped_notes_ > 0) {
     // It has no place of its own: that of the cell's start is the nearest.
     const Span& span = program_.expr(layer_.start).span;
-    notes_.push_back({std::to_string(dropped_notes_).append(" more notes on this cell"),
-                      std::string(program_.text(program_.expr(layer_.start).name)), span.line, span.column});
+    notes_.push_back(
+        {std::to_string(dropped_notes_).append(" more notes on this cell"), pathText(0), span.line, span.column});
   }
   for (DeriveNote& n : notes_) out.notes.push_back(std::move(n));
   return out;

@@ -86,6 +86,7 @@ struct Value {
 /// One use of a rule.
 struct Activation {
   uint32_t rule = 0;
+  NameId qualifier = kNoId;            ///< of the rule where it is called: `cave` of cave.Hall
   uint32_t parent = kNone;
   uint32_t index = 0;                  ///< among the parent's uses of the same rule, for the path that a person reads
   Placement start;                     ///< the scope that the rule starts with

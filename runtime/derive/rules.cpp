@@ -86,6 +86,7 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
   }
   Activation activation;
   activation.rule = index;
+  activation.qualifier = node.qualifier;
   activation.parent = env.activation;
   activation.start = env.place;
   if (env.activation != kNone) {

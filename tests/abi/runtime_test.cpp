@@ -189,8 +189,8 @@ TEST_CASE("what a field leaves out is logged as a warning, once a place") {
   REQUIRE(log.warnings.size() == 1);
   CHECK(log.warnings[0].rfind("4:", 0) == 0);
   CHECK(log.warnings[0].find("a scale must be positive") != std::string::npos);
-  CHECK(log.warnings[0].find("first in Blob") != std::string::npos);
-  CHECK(log.warnings[0].find("of layer main") != std::string::npos);
+  CHECK(log.warnings[0].find(")/Blob)") != std::string::npos);
+  CHECK(log.warnings[0].find("first in main(") != std::string::npos);
 }
 
 #if defined(SGM_SCARCE_THREADS)

@@ -206,7 +206,7 @@ TEST_CASE("a morph by power is one superquadric") {
       "rule Main { morph(superq((1m, 1m, 1m), 0.5), superq((2m, 2m, 2m), 0.5), p.y/9m) power; sphere(1m); }");
   CHECK(apart.groups.size() == 1);
   REQUIRE(apart.notes.size() == 1);
-  CHECK(apart.notes[0].path == "Main");
+  CHECK(apart.notes[0].path == "main(0, 0, 0)/Main");
   CHECK(apart.notes[0].line == 2);
 }
 
@@ -309,8 +309,8 @@ TEST_CASE("a shape beyond its reach, or without a bound, is left out whole, and 
   const GrammarChunk chunk = derived(narrow);
   CHECK(chunk.groups.size() == 2);
   REQUIRE(chunk.notes.size() == 2);
-  CHECK(chunk.notes[0].path == "Main/A[0]");
-  CHECK(chunk.notes[1].path == "Main/A[1]");
+  CHECK(chunk.notes[0].path == "main(0, 0, 0)/Main/A[0]");
+  CHECK(chunk.notes[1].path == "main(0, 0, 0)/Main/A[1]");
   CHECK(chunk.notes[0].line == 4);
   CHECK(chunk.notes[0].column == 3);
   CHECK(chunk.notes[0].message.find("4.00 m") != std::string::npos);
@@ -336,14 +336,14 @@ TEST_CASE("caps fail the cell with the place and the path") {
   };
   DeriveLimits shapes;
   shapes.shapes = 10;
-  CHECK(failing(shapes).message == "more than 10 shapes in one cell, in Main/Leaf[10]");
+  CHECK(failing(shapes).message == "more than 10 shapes in one cell, in main(0, 0, 0)/Main/Leaf[10]");
   CHECK(failing(shapes).line == 3);
   DeriveLimits steps;
   steps.steps = 100;
-  CHECK(failing(steps).message.find("100 steps, in Main") != std::string::npos);
+  CHECK(failing(steps).message.find("100 steps, in main(0, 0, 0)/Main") != std::string::npos);
   DeriveLimits depth;
   depth.depth = 1;
-  CHECK(failing(depth).message == "rules are nested more than 1 deep, in Main");
+  CHECK(failing(depth).message == "rules are nested more than 1 deep, in main(0, 0, 0)/Main");
   DeriveLimits bytes;
   bytes.bytes = 1000;
   CHECK(failing(bytes).code == Code::limit);

@@ -242,7 +242,7 @@ TEST_CASE("what a branch cannot be is said, and the rest of the cell is whole") 
     const GrammarChunk chunk = derived(*program);
     CHECK(chunk.groups.size() == 1 + segments);
     REQUIRE(chunk.notes.size() == 1);
-    CHECK(chunk.notes[0].path == "Main/Coral[0]");
+    CHECK(chunk.notes[0].path == "l(0, 0, 0)/Main/Coral[0]");
     CHECK(chunk.notes[0].line == 4);
     return chunk.notes[0].message;
   };
@@ -270,8 +270,8 @@ TEST_CASE("segments are steps and memory of the cell that grows them") {
   CHECK(errorWith({}).empty());
   DeriveLimits limits;
   limits.steps = 9 * 4095;
-  CHECK(errorWith(limits) == "deriving one cell takes more than 36855 steps, in Main");
+  CHECK(errorWith(limits) == "deriving one cell takes more than 36855 steps, in l(0, 0, 0)/Main");
   limits = {};
   limits.bytes = size_t{1} << 20;
-  CHECK(errorWith(limits) == "one cell takes more than 1 MiB, in Main");
+  CHECK(errorWith(limits) == "one cell takes more than 1 MiB, in l(0, 0, 0)/Main");
 }

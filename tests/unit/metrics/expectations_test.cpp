@@ -165,7 +165,7 @@ TEST_CASE("per rule: each use by itself, also inside a cut", "[metrics]") {
   CHECK_FALSE(o[2].holds());
   CHECK(o[2].measured[0].holds);
   CHECK_FALSE(o[2].measured[1].holds);
-  CHECK(o[2].measured[1].path == "A/B[1]");
+  CHECK(o[2].measured[1].path == "l(0, 0, 0)/A/B[1]");
   CHECK(o[2].measured[1].origin == Int3{20 * kMetre, 8 * kMetre, 8 * kMetre});
   const double pi = 3.14159265358979323846;
   CHECK(std::fabs(*o[1].measured[0].value - 4 * pi * 8 / 3) < 3);
