@@ -67,6 +67,7 @@ Interpreter::Interpreter(const Program& program, const ParameterValues& paramete
   lattice_.seed = hashCombine(seed_, hashText(program.text(layer_.name)));
   lattice_.size = layer_.cell;
   for (int a = 0; a < 3; ++a) base_[a] = !isWhole(layer_) && lattice_.hasAxis(a) ? cellBox(layer_, cell).lo[a] : 0;
+  findOverrides();
 }
 
 bool Interpreter::step(uint64_t count, const Span& span, uint32_t activation) {
@@ -112,6 +113,10 @@ std::string Interpreter::pathText(uint32_t activation) const {
   for (size_t i = path.size(); i-- > 0;) {
     const Activation& a = activations_[path[i]];
     if (!text.empty()) text += '/';
+    if (a.edit != kNone) {
+      text += "override";
+      continue;
+    }
     if (a.qualifier != kNoId) text.append(program_.text(a.qualifier)).append(".");
     text += program_.text(program_.rules[a.rule].name);
     if (a.parent == kNone) continue;
@@ -163,6 +168,7 @@ ShapeList Interpreter::start() {
 Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
   const ShapeList adds = start();
   if (failed()) return *error_;
+  noteMissed();
   GrammarChunk roots(memory), out(memory);
   collectGroups(adds, false, roots);
   collectGroups(layer_cuts_, true, roots);

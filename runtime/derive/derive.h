@@ -58,7 +58,7 @@ Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& p
 /// other shapes; where it has nothing but such cuts, what it cuts away counts as its shapes.
 struct RuleInstance {
   Int3 origin;          ///< of the frame that the rule starts with, units
-  std::string path;     ///< derivation path, "net(0, 0, -1)/Node/Chamber[0]"
+  std::string path;     ///< derivation path, "net(0, 0, -1)/Node/Chamber[0]", as overrides name it
   bool bounded = true;  ///< otherwise some shape has no bound, and the chunk holds no group
   GrammarChunk chunk;   ///< with the anchors below the call that the cell owns; without notes
 };

@@ -3,7 +3,8 @@
 //
 // evaluate.cpp: expressions. functions.cpp: the language's functions. statements.cpp: blocks and combiners. morph.cpp:
 // morphs. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets. primitives.cpp: leaves. voxels.cpp:
-// those of cellular automata. derive.cpp: the cell as a whole. instances.cpp: the uses of one rule in it.
+// those of cellular automata. overrides.cpp: blocks in the place of others. derive.cpp: the cell as a whole.
+// instances.cpp: the uses of one rule in it.
 
 #include <array>
 #include <optional>
@@ -83,14 +84,34 @@ struct Value {
   FaceId face() const { return {cell, axis}; }
 };
 
-/// One use of a rule.
+/// One use of a rule, or the block of an override there.
 struct Activation {
   uint32_t rule = 0;
-  NameId qualifier = kNoId;            ///< of the rule where it is called: `cave` of cave.Hall
+  uint32_t edit = kNone;     ///< Program::overrides: its block, below the use that it takes the place of
+  NameId qualifier = kNoId;  ///< of the rule where it is called: `cave` of cave.Hall
   uint32_t parent = kNone;
   uint32_t index = 0;                  ///< among the parent's uses of the same rule, for the path that a person reads
   Placement start;                     ///< the scope that the rule starts with
   std::vector<uint32_t> child_counts;  ///< pairs: rule, uses
+};
+
+struct Env;
+
+/// By which overrides by tag a statement is put there: those in whose own block it stands.
+struct OwnBlock {
+  uint32_t edit = 0;
+  const OwnBlock* outer = nullptr;
+};
+
+/// What overrides take the place of, and of an override's block what its `inner` derives.
+struct UnderEdit {
+  const Rule* rule = nullptr;  ///< a use of it, with these arguments
+  std::vector<Value>* arguments = nullptr;
+  const StmtNode* statement = nullptr;  ///< or a block with a tag
+  const std::vector<uint32_t>& edits;   ///< that hold, as in Program::overrides
+  size_t at = 0;                        ///< whose block it is, into `edits`
+  const Env* env = nullptr;             ///< what that stands in
+  PathKey own_key;                      ///< of the block
 };
 
 /// What a statement or an expression is evaluated in.
@@ -105,6 +126,10 @@ struct Env {
   bool anchors = true;
   bool top = false;  ///< the layer's own use of its start rule, in which a cut takes from the domain
   std::vector<Value>* slots = nullptr;
+  uint16_t forced_material = 0, forced_tag = 0;    ///< of an override around `inner`: hold over what a block says
+  uint16_t written_material = 0, written_tag = 0;  ///< said by a block since the override's began
+  const OwnBlock* within = nullptr;
+  const UnderEdit* under = nullptr;
 };
 
 using ShapeList = std::vector<uint32_t>;
@@ -165,6 +190,7 @@ class Interpreter {
   // Statements. They append to `out` what they add to the block they stand in.
   void statement(StmtId id, const Env& env, ShapeList& out);
   void block(const StmtNode& s, const Env& env, ShapeList& out);
+  void label(const StmtNode& block, Env& env) const;
   void call(ExprId id, uint32_t ordinal, const Env& env, ShapeList& out);
   void cut(const StmtNode& s, const Env& env, ShapeList& out);
   void meet(const StmtNode& s, const Env& env, ShapeList& out);
@@ -189,8 +215,22 @@ class Interpreter {
   void callRule(uint32_t rule, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
   void derive(const Rule& rule, const Alternative& chosen, Env& env, std::vector<Value>& arguments, ShapeList& out);
   bool passes(const Alternative& alternative, Env& env, std::vector<Value>& arguments);
+  void alternatives(const Rule& rule, Env env, std::vector<Value>& arguments, ShapeList& out);
   const Alternative* choose(const std::vector<const Alternative*>& from, Env& env, std::vector<Value>& arguments,
                             uint64_t draw);
+
+  // Overrides.
+  void findOverrides();
+  bool isAt(uint32_t activation, const Override& edit, uint32_t count) const;
+  std::vector<uint32_t> overridesAt(uint32_t activation);
+  std::vector<uint32_t> overridesOf(uint16_t tag, const Env& env) const;
+  /// What the first `below` of the overrides make of it.
+  void use(const UnderEdit& what, size_t below, Env& env, ShapeList& out);
+  void overridden(const UnderEdit& what, size_t at, const Env& env, ShapeList& out);
+  void inner(const StmtNode& s, const Env& env, ShapeList& out);
+  void tagged(const StmtNode& s, uint16_t tag, const Env& env, ShapeList& out);
+  void untagged(const StmtNode& s, const Env& env, ShapeList& out);
+  void noteMissed();
 
   // Leaves.
   void primitive(Primitive kind, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
@@ -234,6 +274,12 @@ class Interpreter {
   Lattice lattice_;
   Int3 base_;  ///< low corner of the cell, units
   Draft draft_;
+  /// Those by path that may hold in this cell.
+  struct PathOverride {
+    uint32_t index = 0;
+    bool found = false;
+  };
+  std::vector<PathOverride> path_overrides_;
   std::vector<Activation> activations_;
   std::vector<uint32_t> active_;  ///< for each rule: activations on the path
   ShapeList layer_cuts_;

@@ -108,8 +108,9 @@ void Interpreter::scatter(const StmtNode& s, const Env& env, ShapeList& out) {
   };
   if (node.area == ScatterArea::cell) {
     // The set is one for the whole layer: its key knows the statement, not the cell.
-    const uint64_t rule = program_.rules[activations_[env.activation].rule].name_hash;
-    const PathKey set = PathKey{lattice_.seed}.child(kSetSalt + rule, s.ordinal);
+    const Activation& use = activations_[env.activation];
+    const uint64_t owner = use.edit == kNone ? program_.rules[use.rule].name_hash : program_.overrides[use.edit].hash;
+    const PathKey set = PathKey{lattice_.seed}.child(kSetSalt + owner, s.ordinal);
     if (!(amount > 0)) {
       note("the distance between points must be positive; no points", s.span, env.activation);
       return;

@@ -108,6 +108,18 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
   const size_t watched = watched_.size();
   if (index == watched_rule_) watched_.push_back({inner.activation, {}, {}, anchors_before, anchors_before});
 
+  const std::vector<uint32_t> edits = overridesAt(inner.activation);
+  if (!step(path_overrides_.size(), node.span, env.activation)) return;
+  use({&rule, &arguments, nullptr, edits, edits.size(), nullptr, {}}, edits.size(), inner, out);
+  if (index != watched_rule_) return;
+  // A rule's block appends to what stands before its call and leaves that alone.
+  WatchedCall& call = watched_[watched];
+  call.shapes.assign(out.begin() + static_cast<std::ptrdiff_t>(before), out.end());
+  call.layer_cuts.assign(layer_cuts_.begin() + static_cast<std::ptrdiff_t>(cuts_before), layer_cuts_.end());
+  call.end_anchor = anchors_.size();
+}
+
+void Interpreter::alternatives(const Rule& rule, Env env, std::vector<Value>& arguments, ShapeList& out) {
   // Alternatives with `lod` stand beside those without, each set for a range of levels of its own.
   std::vector<const Alternative*> plain;
   std::vector<std::pair<int32_t, std::vector<const Alternative*>>> coarse;
@@ -116,9 +128,9 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
       plain.push_back(&a);
       continue;
     }
-    inner.slots = &arguments;
-    const int32_t from = std::max(1, toUnits(real(a.lod, inner)));
-    inner.slots = nullptr;
+    env.slots = &arguments;
+    const int32_t from = std::max(1, toUnits(real(a.lod, env)));
+    env.slots = nullptr;
     auto at = std::find_if(coarse.begin(), coarse.end(), [&](const auto& entry) { return entry.first == from; });
     if (at == coarse.end()) at = coarse.insert(coarse.end(), {from, {}});
     at->second.push_back(&a);
@@ -128,24 +140,18 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
   const auto run = [&](const Alternative* chosen, int32_t coarsest, int32_t detail_edge) {
     if (chosen == nullptr || failed()) return;
     const size_t first = out.size(), first_cut = layer_cuts_.size();
-    derive(rule, *chosen, inner, arguments, out);
+    derive(rule, *chosen, env, arguments, out);
     limitLevels(out, first, coarsest, detail_edge);
     limitLevels(layer_cuts_, first_cut, coarsest, detail_edge);
   };
-  run(choose(plain, inner, arguments, 0), 0, coarse.empty() ? 0 : std::max(1, coarse[0].first - 1));
+  run(choose(plain, env, arguments, 0), 0, coarse.empty() ? 0 : std::max(1, coarse[0].first - 1));
   // Gameplay points are the same at every level: only one set may give them.
-  if (!plain.empty()) inner.anchors = false;
+  if (!plain.empty()) env.anchors = false;
   for (size_t i = 0; i < coarse.size(); ++i) {
     const int32_t end = i + 1 < coarse.size() ? coarse[i + 1].first - 1 : 0;
-    run(choose(coarse[i].second, inner, arguments, i + 1), coarse[i].first, end);
-    inner.anchors = false;
+    run(choose(coarse[i].second, env, arguments, i + 1), coarse[i].first, end);
+    env.anchors = false;
   }
-  if (index != watched_rule_) return;
-  // A rule's block appends to what stands before its call and leaves that alone.
-  WatchedCall& call = watched_[watched];
-  call.shapes.assign(out.begin() + static_cast<std::ptrdiff_t>(before), out.end());
-  call.layer_cuts.assign(layer_cuts_.begin() + static_cast<std::ptrdiff_t>(cuts_before), layer_cuts_.end());
-  call.end_anchor = anchors_.size();
 }
 
 void Interpreter::derive(const Rule& rule, const Alternative& chosen, Env& env, std::vector<Value>& arguments,

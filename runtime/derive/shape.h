@@ -159,7 +159,7 @@ struct Anchor {
 /// A shape that was left out, and why; the rest of the cell is whole.
 struct DeriveNote {
   std::string message;
-  std::string path;  ///< derivation path, "net(0, 0, -1)/Node/Chamber[0]"
+  std::string path;  ///< derivation path, "net(0, 0, -1)/Node/Chamber[0]", as overrides name it
   int line = 0, column = 0;
 };
 

@@ -79,7 +79,10 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
   }
   switch (s.kind) {
     case StmtKind::block:
-      block(s, env, out);
+      if (program_.overridesOf(s.tag).count > 0)
+        tagged(s, s.tag, env, out);
+      else
+        block(s, env, out);
       break;
     case StmtKind::call:
       call(s.expr, s.ordinal, env, out);
@@ -91,7 +94,10 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
       cut(s, env, out);
       break;
     case StmtKind::meet:
-      meet(s, env, out);
+      if (const uint16_t tag = program_.stmt(s.body).tag; program_.overridesOf(tag).count > 0)
+        tagged(s, tag, env, out);
+      else
+        meet(s, env, out);
       break;
     case StmtKind::sum:
       sum(s, env, out);
@@ -129,6 +135,9 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
     case StmtKind::detail:
       detail(s, env, out);
       break;
+    case StmtKind::inner:
+      inner(s, env, out);
+      break;
     case StmtKind::field:  // evaluated where it is used
     case StmtKind::mat:    // the checker has put both on the block
     case StmtKind::tag:
@@ -136,11 +145,17 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
   }
 }
 
+void Interpreter::label(const StmtNode& block, Env& env) const {
+  if (block.material != 0) env.written_material = block.material;
+  if (block.tag != 0) env.written_tag = block.tag;
+  if (block.material != 0 && env.forced_material == 0) env.material = block.material;
+  if (block.tag != 0 && env.forced_tag == 0) env.tag = block.tag;
+}
+
 void Interpreter::block(const StmtNode& s, const Env& env, ShapeList& out) {
   Env inner = env;
   inner.cut_detail = 0;
-  if (s.material != 0) inner.material = s.material;
-  if (s.tag != 0) inner.tag = s.tag;
+  label(s, inner);
   ShapeList own;
   for (uint32_t i = 0; i < s.children.count; ++i) statement(program_.idAt(s.children, i), inner, own);
   out.insert(out.end(), own.begin(), own.end());
@@ -192,8 +207,7 @@ void Interpreter::meet(const StmtNode& s, const Env& env, ShapeList& out) {
   }
   Env inner = env;
   inner.cut_detail = 0;
-  if (body.material != 0) inner.material = body.material;
-  if (body.tag != 0) inner.tag = body.tag;
+  label(body, inner);
   ShapeList operands;
   for (uint32_t i = 0; i < body.children.count && !failed(); ++i) {
     const StmtNode& child = program_.stmt(program_.idAt(body.children, i));

@@ -117,6 +117,7 @@ enum class StmtKind : uint8_t {
   tag,        ///< extra: Program::tags
   anchor,     ///< extra: kind, extra2: name; both Program::names
   detail,     ///< expr: length; body is dropped at levels whose cell edge is larger
+  inner,      ///< in an override's block: what the override takes the place of; extra: its number there
 };
 
 /// Whether a statement adds just what its body adds, elsewhere, several times or not at every level.
@@ -128,7 +129,7 @@ constexpr bool placesBody(StmtKind kind) {
 struct StmtNode {
   StmtKind kind = StmtKind::block;
   bool power = false;        ///< morph: by exponent
-  bool layer_level = false;  ///< resolved, cut: cuts the domain, where its rule runs as a layer's start
+  bool layer_level = false;  ///< resolved, cut and inner: cuts the domain, where its rule runs as a layer's start
   uint16_t material = 0;     ///< resolved, block: Program::materials, 0 inherits
   uint16_t tag = 0;          ///< resolved, block: Program::tags, 0 inherits
   uint32_t ordinal = 0;      ///< resolved: number of this statement within its rule, for path keys

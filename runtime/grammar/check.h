@@ -43,6 +43,9 @@ struct Probe {
   uint32_t scatter = 0;
 };
 
+struct WrittenPath;
+struct WrittenStep;
+
 class Checker {
  public:
   Checker(Program& program, NameTable& names, std::vector<ModuleSyntax>& syntax, const CompileLimits& limits,
@@ -99,6 +102,7 @@ class Checker {
 
   // check_statements.cpp, check_placement.cpp
   void checkRules();
+  void checkWaiting();
   void checkUnusedValues();
   void checkRule(uint32_t rule);
   void checkAlternative(uint32_t rule, uint32_t alternative);
@@ -114,6 +118,19 @@ class Checker {
   void idleCuts(StmtId id, bool first);
   void declareLocal(NameId name, const Span& span, Local local);
   bool sumLeaf(StmtId id);
+
+  // check_overrides.cpp
+  void overrides();
+  void overridePath(Override& edit);
+  bool overrideCell(Override& edit, const WrittenPath& written);
+  uint32_t ruleOfStep(uint32_t module, const WrittenStep& step);
+  void overrideBlock(uint32_t index);
+  void overrideTags();
+  void hiddenOverrides();
+  void holdOverrides();
+  void markOverrides(IdRange overrides, bool cuts);
+  void markOverride(uint32_t index, bool cuts);
+  bool cutsDomain(StmtId id) const;
 
   // check_bind.cpp
   struct FormalView {
@@ -183,13 +200,18 @@ class Checker {
   std::vector<std::vector<Type>> rule_types_;
   std::vector<uint8_t> rule_state_;  ///< 0 not reached, 1 waiting, 2 checked
   std::vector<uint32_t> waiting_;
+  size_t next_waiting_ = 0;
   std::set<uint32_t> checked_;  ///< rules, at least once
   std::vector<RuleCall> calls_;
   std::vector<ScaleAround> scales_;    ///< around the statement that is being checked
   std::map<uint32_t, double> folded_;  ///< of lets
   std::vector<Probe> probes_;
   std::vector<bool> start_rules_;
+  std::vector<std::set<std::pair<uint32_t, NameId>>> callees_;           ///< of each rule: rules, and of what import
+  std::vector<std::vector<uint32_t>> override_calls_, override_probes_;  ///< of each override: rules, scatters
+  std::set<uint32_t> level_overrides_;  ///< those that may stand at the level of a layer
   uint32_t rule_ = 0, alternative_ = 0;
+  uint32_t override_ = kNoId;  ///< whose block is being checked, instead of a rule's
   uint32_t ordinal_ = 0, draws_ = 0;
   int expression_depth_ = 0;
   bool layers_known_ = false;  ///< otherwise what is said of layers would only follow from another error

@@ -99,6 +99,9 @@ void Checker::collect() {
         case ItemKind::start:
           rootOnly(module, item.span, "start");
           break;
+        case ItemKind::overriding:
+          rootOnly(module, item.span, "override");
+          break;
         case ItemKind::expectation:
           rootOnly(module, item.span, program_.expectations[item.index].expect ? "expect" : "report");
           break;

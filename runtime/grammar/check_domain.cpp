@@ -323,8 +323,6 @@ void Checker::keepCalls() {
 /// A rule that probes a layer may be derived only in layers that use it.
 void Checker::probeUses() {
   if (probes_.empty()) return;
-  std::vector<std::vector<uint32_t>> callees(program_.rules.size());
-  for (const RuleCall& call : calls_) callees[call.from].push_back(call.to);
   for (const Layer& layer : program_.layers) {
     if (node(layer.start).ref != Ref::rule) continue;
     std::vector<bool> reached(program_.rules.size(), false);
@@ -334,7 +332,7 @@ void Checker::probeUses() {
       stack.pop_back();
       if (reached[rule]) continue;
       reached[rule] = true;
-      stack.insert(stack.end(), callees[rule].begin(), callees[rule].end());
+      stack.insert(stack.end(), program_.rules[rule].calls.begin(), program_.rules[rule].calls.end());
     }
     for (const Probe& probe : probes_) {
       const ScatterNode& scatter = program_.ast.scatters[probe.scatter];

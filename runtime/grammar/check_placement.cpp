@@ -73,7 +73,10 @@ void Checker::scatterStatement(const StmtNode& s, bool shrunk) {
     if (scatter.layer == kNoId && layers_known_)
       sink_.error(scatter.span, codes::kUnknownName, join({"unknown layer `", text(scatter.layer_name), "`"}),
                   suggestion.hint());
-    probes_.push_back({rule_, s.extra});
+    if (override_ == kNoId)
+      probes_.push_back({rule_, s.extra});
+    else
+      override_probes_[override_].push_back(s.extra);
   }
   if (scatter.within != kNoId) demand(scatter.within, ValueKind::number, kLength, "the most that a gap may be");
   const size_t locals = scope_.locals.size();
@@ -151,8 +154,10 @@ bool Checker::xforms(IdRange range, bool copied) {
 /// A cut that stands directly at the level of a layer's start rule takes from the domain.
 void Checker::markLayerLevel(StmtId id) {
   StmtNode& s = program_.ast.stmts[program_.innermost(id)];
-  if (s.kind == StmtKind::cut) s.layer_level = true;
+  if (s.kind == StmtKind::cut || s.kind == StmtKind::inner) s.layer_level = true;
   if (s.kind != StmtKind::block) return;
+  if (const IdRange edits = program_.overridesOf(s.tag); edits.count > 0)
+    markOverrides(edits, cutsDomain(program_.innermost(id)));
   for (uint32_t i = 0; i < s.children.count; ++i) markLayerLevel(program_.idAt(s.children, i));
 }
 

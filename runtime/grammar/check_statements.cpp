@@ -50,7 +50,8 @@ void Checker::checkRules() {
   rule_ = kNoId;
   if (syntax_[0].start != kNoId) startAt(syntax_[0].start);
   for (const LayerDecl& layer : syntax_[0].layers) startAt(layer.start);
-  for (size_t next = 0; next < waiting_.size() && !sink_.full(); ++next) checkRule(waiting_[next]);
+  checkWaiting();
+  overrides();
   for (uint32_t r = 0; r < program_.rules.size() && !sink_.full(); ++r) {
     if (rule_state_[r] != 0) continue;
     const Rule& rule = program_.rules[r];
@@ -63,9 +64,20 @@ void Checker::checkRules() {
   for (uint32_t r = 0; r < program_.rules.size(); ++r)
     if (start_rules_[r])
       for (const Alternative& a : program_.rules[r].alternatives) markLayerLevel(a.body);
+  for (uint32_t o = 0; o < program_.overrides.size(); ++o) {
+    const IdRange steps = program_.overrides[o].steps;
+    if (steps.count != 1) continue;
+    const auto& heads = program_.rules[program_.path_steps[steps.first].rule].alternatives;
+    markOverride(o, std::any_of(heads.begin(), heads.end(), [&](const Alternative& a) { return cutsDomain(a.body); }));
+  }
   if (sink_.errorCount() > 0) return;  // what is not understood has nothing before it
   for (const Rule& rule : program_.rules)
     for (const Alternative& a : rule.alternatives) idleCuts(a.body, false);
+  for (const Override& edit : program_.overrides) idleCuts(edit.body, false);
+}
+
+void Checker::checkWaiting() {
+  for (; next_waiting_ < waiting_.size() && !sink_.full(); ++next_waiting_) checkRule(waiting_[next_waiting_]);
 }
 
 /// Lets and fields that nothing uses are right or wrong all the same.
@@ -176,6 +188,8 @@ void Checker::callRule(ExprId call, bool escape, bool shrunk) {
   }
   if (!good) return;
   if (rule_ != kNoId) calls_.push_back({rule_, alternative_, rule, call, escape, shrunk, scales_});
+  // It brings no circle of calls: below its own block no override holds again.
+  if (override_ != kNoId) override_calls_[override_].push_back(rule);
   if (rule_state_[rule] == 0) {
     rule_state_[rule] = 1;
     rule_types_[rule] = types;
@@ -290,6 +304,8 @@ void Checker::statement(StmtId id, bool shrunk) {
     case StmtKind::detail:
       demand(copy.expr, ValueKind::number, kLength, "the size of a detail");
       return statement(copy.body, shrunk);
+    case StmtKind::inner:
+      return;
   }
 }
 

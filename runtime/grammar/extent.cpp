@@ -162,6 +162,7 @@ void Extent::merge(const Extent& other) {
   if (why == Unbound::none) why = other.why, allowed = other.allowed;
   if (other.culprit_size > culprit_size) {
     culprit = other.culprit;
+    edit = other.edit;
     culprit_size = other.culprit_size;
   }
 }

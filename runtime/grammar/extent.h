@@ -51,6 +51,7 @@ struct Extent {
   bool partial = false;  ///< some levels may leave it out
 
   ExprId culprit = kNoId;  ///< the outermost call that extends farthest
+  uint32_t edit = kNoId;   ///< the override that puts it there, or none
   double culprit_size = -1;
   Unbound why = Unbound::none;
   double allowed = 0;  ///< Unbound::sum: a displacement must stay below this

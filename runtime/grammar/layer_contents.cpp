@@ -86,6 +86,10 @@ class RuleContents {
       all.add(ofCall(a.depth_call));
       all.add(ofCall(a.minsize_call));
     }
+    for (const uint32_t o : rule.overrides) {
+      frame_.slots.assign(program_.overrides[o].slot_count, RangeValue::unknown());
+      all.add(ofStatement(program_.overrides[o].body));
+    }
     return all;
   }
 

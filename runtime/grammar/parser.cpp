@@ -209,7 +209,7 @@ void Parser::synchronise(bool top_level) {
     if (top_level && token.kind == Tok::word && token.span.column == 1 && token.span.begin > last_.begin) {
       const std::string_view word = textOf(token);
       for (std::string_view starter : {"import", "units", "param", "seed", "let", "field", "domain", "layer", "start",
-                                       "rule", "morphic", "report", "expect"})
+                                       "rule", "morphic", "override", "report", "expect"})
         if (word == starter) return;
     }
     if (token.kind == Tok::open_brace) {

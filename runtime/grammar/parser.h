@@ -88,6 +88,7 @@ class Parser {
   void ruleDeclaration();
   void morphicDeclaration();
   void expectation(bool expect);
+  void overrideDeclaration();
   void item(ItemKind kind, size_t index, const Span& begin, size_t sub = 0);
   IdRange formals();
   uint32_t ruleNamed(NameId name, bool morphic, const Span& span);
@@ -109,6 +110,7 @@ class Parser {
   StmtId fieldStatement();
   StmtId nameStatement(StmtKind kind);
   StmtId detailStatement();
+  StmtId innerStatement();
   StmtId transformStatement();
   StmtId morphOperand();
   bool atXform() const;
@@ -146,6 +148,8 @@ class Parser {
   size_t first_expr_ = 0;
   std::map<NameId, uint32_t> rules_;
   bool lexical_errors_ = false;
+  bool overriding_ = false;  ///< in the block of an override
+  uint32_t inners_ = 0;      ///< in that block so far
 };
 
 }  // namespace sgm

@@ -11,9 +11,9 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> kStarters = {"import",  "units",  "param", "seed",  "let",
-                                                        "field",   "domain", "layer", "start", "rule",
-                                                        "morphic", "report", "expect"};
+constexpr std::array<std::string_view, 14> kStarters = {"import",  "units",    "param",  "seed",  "let",
+                                                        "field",   "domain",   "layer",  "start", "rule",
+                                                        "morphic", "override", "report", "expect"};
 
 }  // namespace
 
@@ -57,6 +57,7 @@ void Parser::declaration() {
   if (acceptWord("start")) return startDeclaration();
   if (acceptWord("rule")) return ruleDeclaration();
   if (acceptWord("morphic")) return morphicDeclaration();
+  if (acceptWord("override")) return overrideDeclaration();
   if (acceptWord("report")) return expectation(false);
   if (acceptWord("expect")) return expectation(true);
   if (at(Tok::close_brace)) {
@@ -371,6 +372,22 @@ void Parser::morphicDeclaration() {
   const uint32_t rule = ruleNamed(name, true, name_span);
   program_.rules[rule].alternatives.push_back(head);
   item(ItemKind::alternative, rule, begin, program_.rules[rule].alternatives.size() - 1);
+}
+
+void Parser::overrideDeclaration() {
+  const Span begin = last_;
+  Override edit;
+  edit.by_tag = acceptWord("tag");
+  edit.address_span = here();
+  edit.address = textName(edit.by_tag ? "a tag in quotes" : "a derivation path in quotes, or `tag`");
+  overriding_ = true;
+  inners_ = 0;
+  edit.body = block();
+  overriding_ = false;
+  if (panic_) return;
+  edit.span = since(begin);
+  program_.overrides.push_back(edit);
+  item(ItemKind::overriding, program_.overrides.size() - 1, begin);
 }
 
 void Parser::expectation(bool expect_it) {

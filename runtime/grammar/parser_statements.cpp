@@ -8,9 +8,9 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 18> kStatements = {"union", "cut",    "meet",   "sum",     "morph",  "displace",
-                                                          "warp",  "repeat", "for",    "scatter", "let",    "field",
-                                                          "mat",   "tag",    "anchor", "detail",  "smooth", "when"};
+constexpr std::array<std::string_view, 19> kStatements = {
+    "union", "cut",   "meet", "sum", "morph",  "displace", "warp",  "repeat", "for", "scatter",
+    "let",   "field", "mat",  "tag", "anchor", "detail",   "inner", "smooth", "when"};
 
 }  // namespace
 
@@ -70,6 +70,7 @@ StmtId Parser::statement() {
   if (atWord("tag")) return nameStatement(StmtKind::tag);
   if (atWord("anchor")) return nameStatement(StmtKind::anchor);
   if (atWord("detail")) return detailStatement();
+  if (atWord("inner")) return innerStatement();
   return callStatement();
 }
 
@@ -293,6 +294,19 @@ StmtId Parser::detailStatement() {
   node.kind = StmtKind::detail;
   node.expr = expression();
   node.body = bodyOf("detail");
+  return panic_ ? kNoId : addStmt(node, begin);
+}
+
+StmtId Parser::innerStatement() {
+  const Span begin = here();
+  take();
+  if (!overriding_)
+    fail(begin, codes::kWrongUse, "`inner` stands in overrides alone",
+         "it derives what an override takes the place of");
+  StmtNode node;
+  node.kind = StmtKind::inner;
+  node.extra = inners_++;
+  expect(Tok::semicolon, "`;`");
   return panic_ ? kNoId : addStmt(node, begin);
 }
 

@@ -292,6 +292,9 @@ void LinePrinter::head(std::string& out, const StmtNode& node) const {
       out += "detail ";
       expr(out, node.expr);
       break;
+    case StmtKind::inner:
+      out += "inner;";
+      break;
   }
 }
 
@@ -329,6 +332,10 @@ void LinePrinter::ruleHead(std::string& out, const Rule& rule, const Alternative
   clause(" depth ", alternative.depth, alternative.depth_call);
   clause(" minsize ", alternative.minsize, alternative.minsize_call);
   clause(" lod ", alternative.lod);
+}
+
+void LinePrinter::overrideHead(std::string& out, const Override& edit) const {
+  out += join({edit.by_tag ? "override tag " : "override ", quoteText(program_.text(edit.address))});
 }
 
 void LinePrinter::morphic(std::string& out, const Rule& rule, const Alternative& alternative) const {

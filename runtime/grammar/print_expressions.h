@@ -26,6 +26,7 @@ class LinePrinter {
   /// The whole statement on one line.
   void statement(std::string& out, StmtId id) const;
   void ruleHead(std::string& out, const Rule& rule, const Alternative& alternative) const;
+  void overrideHead(std::string& out, const Override& edit) const;
   /// `morphic R(a) : A -> B by t power;`
   void morphic(std::string& out, const Rule& rule, const Alternative& alternative) const;
   void field(std::string& out, const Field& field) const;

@@ -39,7 +39,7 @@ void measureText(std::string& out, const Program& program, const LinePrinter& li
   if (e.per_name != kNoId) out += join({" per ", program.text(e.per_name)});
 }
 
-/// Everything but rules with blocks: declarations that always stand on one line.
+/// Any declaration on one line.
 void declarationLine(std::string& out, const Program& program, const ModuleSyntax& syntax, const LinePrinter& line,
                      const Item& item) {
   switch (item.kind) {
@@ -141,6 +141,13 @@ void declarationLine(std::string& out, const Program& program, const ModuleSynta
       line.statement(out, alternative.body);
       break;
     }
+    case ItemKind::overriding: {
+      const Override& edit = program.overrides[item.index];
+      line.overrideHead(out, edit);
+      out += ' ';
+      line.statement(out, edit.body);
+      break;
+    }
     case ItemKind::expectation: {
       const Expectation& e = program.expectations[item.index];
       out += e.expect ? "expect " : "report ";
@@ -163,17 +170,13 @@ class ModulePrinter {
   std::string run() {
     for (const Item& item : syntax_.items) {
       begin(item.span, 0);
-      const bool rule = item.kind == ItemKind::alternative && !program_.rules[item.index].morphic;
+      const StmtId block = blockOf(item);
       std::string text;
-      if (rule && !fitsOneLine(item.span)) {
-        ruleInLines(program_.rules[item.index], program_.rules[item.index].alternatives[item.sub]);
-      } else {
-        declarationLine(text, program_, syntax_, line_, item);
-        if (rule && text.size() > kWidth)
-          ruleInLines(program_.rules[item.index], program_.rules[item.index].alternatives[item.sub]);
-        else
-          out_ += text;
-      }
+      if (block == kNoId || fitsOneLine(item.span)) declarationLine(text, program_, syntax_, line_, item);
+      if (block != kNoId && (text.empty() || text.size() > kWidth))
+        inLines(item, block);
+      else
+        out_ += text;
       end(item.span);
     }
     comments(static_cast<uint32_t>(text_.size()) + 1, 0);
@@ -230,10 +233,22 @@ class ModulePrinter {
 
   bool hasComment(const Span& span) const { return next_ < comments_.size() && comments_[next_].begin < span.end; }
 
-  void ruleInLines(const Rule& rule, const Alternative& alternative) {
-    line_.ruleHead(out_, rule, alternative);
+  /// The block of a declaration that may take several lines, or none.
+  StmtId blockOf(const Item& item) const {
+    if (item.kind == ItemKind::overriding) return program_.overrides[item.index].body;
+    if (item.kind != ItemKind::alternative || program_.rules[item.index].morphic) return kNoId;
+    return program_.rules[item.index].alternatives[item.sub].body;
+  }
+
+  void inLines(const Item& item, StmtId block) {
+    if (item.kind == ItemKind::overriding) {
+      line_.overrideHead(out_, program_.overrides[item.index]);
+    } else {
+      const Rule& rule = program_.rules[item.index];
+      line_.ruleHead(out_, rule, rule.alternatives[item.sub]);
+    }
     out_ += ' ';
-    blockInLines(program_.stmt(alternative.body), 0);
+    blockInLines(program_.stmt(block), 0);
   }
 
   void blockInLines(const StmtNode& block, size_t depth) {

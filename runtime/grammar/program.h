@@ -97,10 +97,35 @@ struct Rule {
   bool morphic = false;
   uint64_t name_hash = 0;  ///< hashText of the name, for path keys
   std::pmr::vector<Alternative> alternatives;
-  std::pmr::vector<uint32_t> calls;  ///< rules that it may call, each once, ascending
-  Span span;                         ///< of the first name
+  std::pmr::vector<uint32_t> calls;      ///< rules that it may call, its overrides included, each once, ascending
+  std::pmr::vector<uint32_t> overrides;  ///< those that may hold in it, each once, ascending
+  Span span;                             ///< of the first name
 
-  explicit Rule(std::pmr::memory_resource* memory) : alternatives(memory), calls(memory) {}
+  explicit Rule(std::pmr::memory_resource* memory) : alternatives(memory), calls(memory), overrides(memory) {}
+};
+
+/// A step of a derivation path: a use of `rule`.
+struct PathStep {
+  uint32_t rule = kNoId;
+  uint32_t index = kNoId;  ///< among its parent's uses of the same rule; kNoId: every one
+
+  friend bool operator==(const PathStep&, const PathStep&) = default;
+};
+
+/// `override "net(0, 0, 0)/Node/Chamber[0]" { ... }` or `override tag "cave.hall" { ... }`: a block that is derived
+/// instead of a use of a rule, or instead of a block that gives itself a tag. Where several hold, the last of them in
+/// Program::overrides is derived, and its `inner` is what the others make of it.
+struct Override {
+  NameId address = kNoId;  ///< as written: a path, or a tag
+  bool by_tag = false;
+  uint32_t layer = kNoId;  ///< by path: kNoId: in every layer
+  bool one_cell = false;
+  Int3 cell;
+  IdRange steps;  ///< by path: into Program::path_steps, from the start on; the last is what it takes the place of
+  StmtId body = kNoId;
+  uint32_t slot_count = 0;  ///< size of the frame, whose first slots are the parameters of the last step's rule
+  uint64_t hash = 0;        ///< of the address, for path keys
+  Span span, address_span;
 };
 
 /// Layers stand in topological order: a layer uses only layers before it.
@@ -178,6 +203,9 @@ class Program {
         tags(memory),
         names(memory),
         expectations(memory),
+        overrides(memory),
+        path_steps(memory),
+        tag_overrides(memory),
         canonical(memory) {}
 
   Ast ast;
@@ -193,8 +221,12 @@ class Program {
   std::pmr::vector<std::pmr::string> tags;       ///< [0] is ""
   std::pmr::vector<std::pmr::string> names;      ///< anchor kinds and names; [0] is ""
   std::pmr::vector<Expectation> expectations;
-  std::pmr::string canonical;  ///< the root as `sgm fmt` writes it
-  uint64_t hash = 0;           ///< of the meaning of all files: blind to layout, comments and superfluous parentheses
+  /// The more special ones behind the others: by tag, by path in every cell, by path in one cell; otherwise as written.
+  std::pmr::vector<Override> overrides;
+  std::pmr::vector<PathStep> path_steps;
+  std::pmr::vector<IdRange> tag_overrides;  ///< for each of `tags`: into Ast::ids, ascending
+  std::pmr::string canonical;               ///< the root as `sgm fmt` writes it
+  uint64_t hash = 0;  ///< of the meaning of all files: blind to layout, comments and superfluous parentheses
 
   std::string_view text(NameId id) const { return id == kNoId ? std::string_view() : std::string_view(ast.names[id]); }
   const ExprNode& expr(ExprId id) const { return ast.exprs[id]; }
@@ -203,6 +235,8 @@ class Program {
   uint32_t idAt(IdRange range, uint32_t i) const { return ast.ids[range.first + i]; }
   /// The statement inside transforms, loops, point sets and details: what a block's child comes down to.
   StmtId innermost(StmtId id) const;
+  /// Into Ast::ids: the overrides of blocks with this tag.
+  IdRange overridesOf(uint16_t tag) const { return tag < tag_overrides.size() ? tag_overrides[tag] : IdRange{}; }
   /// kNoId where there is none.
   uint32_t findParam(std::string_view name) const;
   uint32_t findRule(std::string_view name) const;

@@ -25,13 +25,11 @@ ReachCheck::ReachCheck(Program& program, const CompileLimits& limits, Diagnostic
 }
 
 void ReachCheck::run() {
-  for (Layer& layer : program_.layers) {
-    if (sink_.full()) return;
-    layerReach(layer);
-  }
+  for (uint32_t l = 0; l < program_.layers.size() && !sink_.full(); ++l) layerReach(l);
 }
 
-void ReachCheck::layerReach(Layer& layer) {
+void ReachCheck::layerReach(uint32_t index) {
+  Layer& layer = program_.layers[index];
   const bool finite = !program_.domain.infinite && layer.cell_expr == kNoId;
   const bool boxed = !program_.domain.box.empty();
   IntervalVector edges;
@@ -44,6 +42,7 @@ void ReachCheck::layerReach(Layer& layer) {
   known_.clear();
   scaled_.clear();
   placed_.clear();
+  startOverrides(index);
   RangeFrame frame;
   frame.scope = edges;
   const Extent extent = callExtent(layer.start, frame, Call::start);
@@ -70,9 +69,11 @@ void ReachCheck::layerReach(Layer& layer) {
   if (!layer.proven) report(layer, extent, finite, over_may, over_sure);
 }
 
-std::string ReachCheck::nameOf(ExprId culprit) const {
-  const std::string_view name = program_.text(program_.expr(culprit).name);
-  return name.empty() ? "what this displaces" : join({"`", name, "`"});
+ReachCheck::Culprit ReachCheck::culpritOf(const Layer& layer, const Extent& extent) const {
+  if (extent.edit != kNoId) return {"what this override derives", program_.overrides[extent.edit].address_span};
+  const ExprNode& node = program_.expr(extent.culprit == kNoId ? layer.start : extent.culprit);
+  const std::string_view name = program_.text(node.name);
+  return {name.empty() ? "what this displaces" : join({"`", name, "`"}), node.span};
 }
 
 /// over: by how much the shapes pass their reach.
@@ -91,8 +92,7 @@ std::string ReachCheck::hint(const Extent& extent, bool finite, double reach, do
 }
 
 void ReachCheck::report(const Layer& layer, const Extent& extent, bool finite, double over_may, double over_sure) {
-  const ExprId culprit = extent.culprit == kNoId ? layer.start : extent.culprit;
-  const std::string shape = nameOf(culprit);
+  const auto [shape, span] = culpritOf(layer, extent);
   const std::string name = join({"`", program_.text(layer.name), "`"});
   const double reach = layer.reach * kUnit;
   const bool unbounded = !std::isfinite(over_may) || cut_short_;
@@ -100,7 +100,6 @@ void ReachCheck::report(const Layer& layer, const Extent& extent, bool finite, d
   const std::string extends = unbounded ? "without bound" : metresText(over_may + (finite ? 0 : reach));
   const std::string from = finite ? " beyond the domain's box" : " from its cell";
   const std::string limit = finite ? "" : join({", layer ", name, " declares reach ", metresText(reach)});
-  const Span& span = program_.expr(culprit).span;
   if (unbounded || over_sure > 0) {
     Diagnostic& d =
         sink_.error(span, codes::kReach, join({"cannot prove reach: ", shape, " may extend ", extends, from, limit}),
@@ -117,9 +116,8 @@ void ReachCheck::finiteBox(Layer& layer, const Extent& extent) {
   double largest = 0;
   for (const Interval& side : extent.at.may) largest = std::max(largest, side.magnitude());
   if (!extent.empty && (!std::isfinite(largest) || largest > 1e6 || cut_short_)) {
-    const ExprId culprit = extent.culprit == kNoId ? layer.start : extent.culprit;
-    sink_.error(program_.expr(culprit).span, codes::kReach,
-                join({"cannot prove reach: ", nameOf(culprit), " may extend without bound"}),
+    const auto [shape, span] = culpritOf(layer, extent);
+    sink_.error(span, codes::kReach, join({"cannot prove reach: ", shape, " may extend without bound"}),
                 cut_short_                    ? "the rules are too many or too deep to follow; bound their recursion"
                 : extent.why != Unbound::none ? hint(extent, true, 0, kInfinity)
                                               : "give the domain a box: `domain finite box(x, y, z);`");

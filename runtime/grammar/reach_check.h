@@ -3,7 +3,8 @@
 // each tuple of argument ranges and remembered, so that recursion costs its depth and not its leaves.
 //
 // reach.cpp: layers and what is said of them. reach_rules.cpp: calls and choice. reach_statements.cpp: statements.
-// reach_transforms.cpp: transforms, loops, point sets. reach_automaton.cpp: cellular automata.
+// reach_transforms.cpp: transforms, loops, point sets. reach_automaton.cpp: cellular automata. reach_overrides.cpp:
+// overrides.
 
 #include <map>
 #include <set>
@@ -23,12 +24,37 @@ class ReachCheck {
 
  private:
   /// A rule, whether a cut in it takes from the domain, the ranges of arguments and scope, and those rules with a
-  /// `depth` that are active, each with how often.
-  using Key = std::tuple<uint32_t, bool, std::vector<double>, std::vector<std::pair<uint32_t, uint32_t>>>;
+  /// `depth` that are active, each with how often, and what is known of overrides.
+  using Key = std::tuple<uint32_t, bool, std::vector<double>, std::vector<std::pair<uint32_t, uint32_t>>,
+                         std::vector<uint32_t>>;
+
+  /// Where derivation stands with respect to overrides.
+  struct EditState {
+    std::vector<uint32_t> begun;   ///< by path: those whose first steps lead here, and that lead on
+    uint32_t depth = 0;            ///< how many steps of them
+    std::vector<uint32_t> within;  ///< by tag: those in whose own block this is
+  };
+
+  /// What the `inner` of an override's block stands for: a use of a rule, or a block with a tag.
+  struct UnderEdit {
+    uint32_t rule = 0;
+    const std::vector<RangeValue>& args;
+    const std::vector<uint32_t>& edits;  ///< those that may hold, as in Program::overrides
+    const StmtNode* block = nullptr;     ///< with the tag; null: a use
+    const RangeFrame* frame = nullptr;   ///< of that block
+    size_t at = 0;                       ///< the one whose block this is, into `edits`
+    EditState state;                     ///< of what `inner` derives
+    const UnderEdit* outer = nullptr;
+  };
 
   // Layers.
-  void layerReach(Layer& layer);
-  std::string nameOf(ExprId culprit) const;
+  void layerReach(uint32_t index);
+  /// What extends farthest, and where it is written.
+  struct Culprit {
+    std::string name;
+    Span span;
+  };
+  Culprit culpritOf(const Layer& layer, const Extent& extent) const;
   std::string hint(const Extent& extent, bool finite, double reach, double over) const;
   void report(const Layer& layer, const Extent& extent, bool finite, double over_may, double over_sure);
   void finiteBox(Layer& layer, const Extent& extent);
@@ -37,10 +63,23 @@ class ReachCheck {
   enum class Call : uint8_t { start, instead, written };  ///< a layer's, that of depth and minsize, a statement
   Extent callExtent(ExprId id, const RangeFrame& frame, Call call);
   Extent ruleExtent(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top);
+  Extent remembered(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top,
+                    const std::vector<uint32_t>& edits);
   Extent alternatives(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top);
   Extent alternativeExtent(uint32_t rule, const Alternative& head, RangeFrame& frame);
   Extent automaton(const ExprNode& n, const RangeFrame& frame);
   bool tooFar();
+
+  // Overrides.
+  void startOverrides(uint32_t layer);
+  std::vector<uint32_t> enter(uint32_t rule);
+  std::vector<uint32_t> editKey(const std::vector<uint32_t>& ended) const;
+  /// What the first `below` of the overrides make of it; above: the one whose `inner` asks, by path.
+  Extent use(const UnderEdit& what, size_t below, RangeFrame& frame, const Override* above);
+  Extent overridden(const UnderEdit& what, size_t at, const RangeFrame& place);
+  Extent inner(const StmtNode& s, const RangeFrame& at);
+  Extent tagged(const StmtNode& s, uint16_t tag, RangeFrame& frame);
+  Extent untagged(const StmtNode& s, RangeFrame& frame);
 
   // Statements.
   Extent body(StmtId id, RangeFrame& frame);
@@ -73,6 +112,8 @@ class ReachCheck {
   std::vector<uint32_t> active_;                   ///< activations of each rule on the path
   std::vector<bool> counted_;                      ///< rules whose activations matter
   std::map<uint32_t, uint32_t> counts_;            ///< of those, the active ones
+  EditState edits_;
+  const UnderEdit* under_ = nullptr;  ///< in an override's block: what is there otherwise
   int depth_ = 0;
   bool cut_short_ = false;  ///< the budget or the depth was not enough: nothing is proven
 };

@@ -36,11 +36,20 @@ Extent ReachCheck::callExtent(ExprId id, const RangeFrame& frame, Call call) {
 }
 
 Extent ReachCheck::ruleExtent(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top) {
+  const EditState outside = edits_;
+  const std::vector<uint32_t> edits = enter(rule);
+  const Extent out = remembered(rule, args, caller, top, edits);
+  edits_ = outside;
+  return out;
+}
+
+Extent ReachCheck::remembered(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top,
+                              const std::vector<uint32_t>& edits) {
   const auto note = [](Key& key, Interval i) {
     std::get<2>(key).push_back(i.lo);
     std::get<2>(key).push_back(i.hi);
   };
-  Key key{rule, top, {}, {counts_.begin(), counts_.end()}};
+  Key key{rule, top, {}, {counts_.begin(), counts_.end()}, editKey(edits)};
   for (const RangeValue& arg : args)
     for (const Interval& part : arg.v) note(key, part);
   for (const Interval& edge : caller.scope) note(key, edge);
@@ -68,7 +77,9 @@ Extent ReachCheck::ruleExtent(uint32_t rule, const std::vector<RangeValue>& args
   ++active_[rule];
   if (counted_[rule]) ++counts_[rule];
   ++depth_;
-  const Extent out = alternatives(rule, args, caller, top);
+  RangeFrame frame = caller;
+  frame.top = top;
+  const Extent out = use({rule, args, edits, nullptr, nullptr, 0, edits_, nullptr}, edits.size(), frame, nullptr);
   --depth_;
   if (counted_[rule] && --counts_[rule] == 0) counts_.erase(rule);
   --active_[rule];

@@ -39,7 +39,7 @@ Extent ReachCheck::statement(StmtId id, RangeFrame& frame) {
 Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
   switch (s.kind) {
     case StmtKind::block:
-      return block(s, frame);
+      return tagged(s, s.tag, frame);
     case StmtKind::call:
       return callExtent(s.expr, frame, Call::written);
     case StmtKind::unite:
@@ -49,7 +49,7 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
       return e;
     }
     case StmtKind::meet:
-      return meet(s, frame);
+      return tagged(s, program_.stmt(s.body).kind == StmtKind::block ? program_.stmt(s.body).tag : uint16_t{0}, frame);
     case StmtKind::sum: {
       Extent e = body(s.body, frame);
       e.summed();
@@ -77,6 +77,8 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
       e.partial = true;
       return e;
     }
+    case StmtKind::inner:
+      return inner(s, frame);
     case StmtKind::field:
     case StmtKind::mat:
     case StmtKind::tag:

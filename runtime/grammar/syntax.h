@@ -22,6 +22,7 @@ enum class ItemKind : uint8_t {
   layer,
   start,
   alternative,
+  overriding,
   expectation
 };
 

@@ -16,7 +16,8 @@ class RandomRules {
   std::string program(bool finite) {
     out_ =
         "sgm 1;\nparam size_ = 2m in 1m..3m;\nparam share = 0.5 in 0..1;\nparam free = 3;\nparam count = 2 in 0..3;\n";
-    const std::string start = "start " + pick({"R0", "R0", "Fine"}) + "(2m);";
+    first_ = pick({"R0", "R0", "Fine"});
+    const std::string start = "start " + first_ + "(2m);";
     out_ += finite ? start + "\n" : "domain infinite;\nlayer l cell 256m reach 1000m { " + start + " }\n";
     out_ += "rule Fine(r) { detail " + pick({"30cm", "0.5*size_", "0.2*r"}) + " { R0(r); anchor here; } }\n";
     levels_ = !finite;
@@ -28,7 +29,35 @@ class RandomRules {
     return out_;
   }
 
+  /// Overrides of what program() has written, by path and by tag, to stand behind it.
+  std::string edits() {
+    std::string out = "override tag \"edited\" " + edit("") + "\n";
+    const std::string path = first_ == "R0" ? "R0" : "Fine/R0";
+    level_ = 2;
+    for (const char* below : {"", "/R1", "/R1/R2", "/R1/R2/R3", "/R1/R2/R3/R3[0]", "/R1/R2/Deep/Deep", "/R1/R2/Body[0]",
+                              "/R1[1]/R2", "/R1/R2[0]"})
+      if (chance(40))
+        out += "override \"" + std::string(chance(30) && levels_ ? "l(0, 0, 1)/" : "") + path + below + "\" " +
+               edit("tag \"edited\"; ") + "\n";
+    return out + "override \"" + path + "\" { tag \"edited\"; inner; }\n";
+  }
+
  private:
+  std::string edit(const std::string& tag) {
+    // By tag there are no parameters.
+    const std::string let = tag.empty() ? "{ let r = 1.5m; " : "{ " + tag;
+    switch (draw(4)) {
+      case 0:
+        return let + "}";
+      case 1:
+        return let + xforms() + "{ inner; " + leaf() + " } }";
+      case 2:
+        return let + "displace " + sampled() + " { inner; } " + statement(2) + " }";
+      default:
+        return let + "inner; " + statement(2) + " }";
+    }
+  }
+
   uint64_t draw(uint64_t below) { return hashCombine(key_.value, ++drawn_) % below; }
   bool chance(uint64_t percent) { return draw(100) < percent; }
   std::string pick(std::initializer_list<const char*> list) { return list.begin()[draw(list.size())]; }
@@ -218,7 +247,7 @@ class RandomRules {
   uint64_t drawn_ = 0;
   int level_ = 0;
   bool levels_ = false;
-  std::string out_;
+  std::string out_, first_;
 };
 
 }  // namespace sgm

@@ -42,6 +42,36 @@ TEST_CASE("deep nesting is refused, not followed", "[grammar][caps]") {
   }
 }
 
+TEST_CASE("a path is no deeper than rules are", "[grammar][caps]") {
+  const std::string text =
+      "sgm 1; start A; rule A depth 3 -> sphere(1m) { A; }\noverride \"A" + repeated("/A", 64) + "\" { }";
+  CHECK(brief(compileText(text).diagnostics) == "2:10 too-deep");
+}
+
+TEST_CASE("many overrides of one rule cost what they are", "[grammar][caps]") {
+  const auto begin = std::chrono::steady_clock::now();
+  std::string cells, tags, same;
+  for (int i = 0; i < 2000; ++i) {
+    cells += "override \"a(" + std::to_string(i) + ", 0, 0)/A/B[0]\" { at(1m, 0m, 0m) inner; }\n";
+    same += "override \"A/B\" { inner; }\n";
+    tags += "override tag \"b\" { inner; }\n";
+  }
+  const std::string head =
+      "sgm 1; domain infinite; layer a cell 8m reach 8m { start A; }\nrule A { B; }\nrule B { tag \"b\"; sphere(1m); "
+      "}\n";
+  // Those of other cells are never on top of each other, so that no shape is moved by more than one.
+  const CompileResult apart = compileText(head + cells);
+  INFO(renderDiagnostics(apart));
+  CHECK(apart.program);
+  CHECK(apart.diagnostics.empty());
+  for (const std::string& text : {head + same, head + tags}) {
+    const CompileResult result = compileText(text);
+    CHECK((result.program || mentions(result, "reach")));
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  CHECK(seconds.count() < 5);
+}
+
 TEST_CASE("chains of lets and fields do not explode", "[grammar][caps]") {
   for (const char* kind : {"let", "field"}) {
     std::string text = "sgm 1; start A;\n";

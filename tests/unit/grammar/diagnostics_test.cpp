@@ -47,7 +47,6 @@ const Case kCases[] = {
     {"2:8 syntax", "sgm 1; start A;\nrule A { sphere(2m);"},
     {"2:20 syntax", "sgm 1; start A;\nrule A { let a = 1 < 2 < 3; }"},
     {"2:10 not-available", "sgm 1; start A;\nrule A { split x { 2m: A; } sphere(2m); }"},
-    {"2:1 not-available", "sgm 1;\noverride \"A\" { use B; }\nstart A; rule A { }"},
     {"2:6 reserved-word", "sgm 1; start A;\nrule repeat { } rule A { }"},
     {"1:1 version", "start A; rule A { }"},
     {"1:5 version", "sgm 2; start A; rule A { }"},
@@ -166,8 +165,7 @@ const Case kCases[] = {
      "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, rounds 17); }"},
     {"2:27 value-range",
      "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, threshold 5); }"},
-    {"2:24 value-range",
-     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, radius 5); }"},
+    {"2:24 value-range", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, radius 5); }"},
     {"2:24 value-range",
      "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, rounds 6, radius 3); }"},
     {"2:13 unit-mismatch", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1); }"},
@@ -183,6 +181,91 @@ const Case kCases[] = {
     {"2:10 reach-maybe",
      "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { sphere(rand(1m, 6m)); }"},
     {"2:10 morph-disjoint", "sgm 1; start A;\nrule A { morph({ sphere(1m); }, { at(9m, 0m, 0m) sphere(1m); }, 0.5); }"},
+    // Overrides
+    {"1:8 no-start", "sgm 1; override \"A\" { } let b = 2;"},
+    {"2:10 syntax",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride B { }\nrule A { B; B; } rule B { tag "
+     "\"t\"; sphere(1m); }"},
+    {"2:11 syntax",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"\" { }\nrule A { B; B; } rule B { tag "
+     "\"t\"; sphere(1m); }"},
+    {"2:13 syntax",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A//B\" { }\nrule A { B; B; } rule B { "
+     "tag \"t\"; sphere(1m); }"},
+    {"2:15 syntax",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B[x]\" { }\nrule A { B; B; } rule B "
+     "{ tag \"t\"; sphere(1m); }"},
+    {"2:16 syntax",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B[0\" { }\nrule A { B; B; } rule B { "
+     "tag \"t\"; sphere(1m); }"},
+    {"2:14 syntax",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B \" { }\nrule A { B; B; } rule B { "
+     "tag \"t\"; sphere(1m); }"},
+    {"2:17 syntax",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"a(1, 2)/A\" { }\nrule A { B; B; } rule "
+     "B { tag \"t\"; sphere(1m); }"},
+    {"2:21 syntax",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"a(1, 2, 3)A\" { }\nrule A { B; B; } "
+     "rule B { tag \"t\"; sphere(1m); }"},
+    {"2:11 syntax",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A[0]/B\" { }\nrule A { B; B; } rule B "
+     "{ tag \"t\"; sphere(1m); }"},
+    {"2:11 unknown-name",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"b(0, 0, 0)/A\" { }\nrule A { B; B; } "
+     "rule B { tag \"t\"; sphere(1m); }"},
+    {"2:12 value-range",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"a(0, 300000000, 0)/A\" { }\nrule A { "
+     "B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:11 unknown-name",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"B\" { }\nrule A { B; B; } rule B { tag "
+     "\"t\"; sphere(1m); }"},
+    {"2:22 unknown-name",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"a(0, 0, 0)/B\" { }\nrule A { B; B; } "
+     "rule B { tag \"t\"; sphere(1m); }"},
+    {"2:13 unknown-name",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/C[2]\" { }\nrule A { B; B; } rule B "
+     "{ tag \"t\"; sphere(1m); }"},
+    {"2:13 unknown-name",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/x.B\" { }\nrule A { B; B; } rule B { "
+     "tag \"t\"; sphere(1m); }"},
+    {"2:15 unknown-name",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B/A\" { }\nrule A { B; B; } rule B { "
+     "tag \"t\"; sphere(1m); }"},
+    {"2:14 unknown-name",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride tag \"tt\" { }\nrule A { B; B; } rule B "
+     "{ tag \"t\"; sphere(1m); }"},
+    {"3:10 duplicate",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B\" { inner; }\noverride \"A/B\" { "
+     "}\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"3:14 duplicate",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride tag \"t\" { }\noverride tag \"t\" { "
+     "box(1m); }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:25 unknown-name",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B\" { sphere(r); }\nrule A { B; B; } "
+     "rule B { tag \"t\"; sphere(1m); }"},
+    {"3:10 wrong-use", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\n\nrule A { inner; }"},
+    {"2:24 wrong-use",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A\" { union { inner; } }\nrule A { cut "
+     "{ sphere(1m); } }"},
+    {"2:28 wrong-use",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride tag \"t\" { union { inner; } }\nrule A { "
+     "{ tag \"t\"; cut { sphere(1m); } } }"},
+    {"2:18 idle-cut",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B\" { cut { sphere(1m); } }\nrule A "
+     "{ B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:10 reach",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B\" { sphere(9m); }\nrule A { B; B; "
+     "} rule B { tag \"t\"; sphere(1m); }"},
+    {"2:10 reach",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B[1]\" { sphere(9m); }\nrule A { B; "
+     "B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:10 reach-maybe",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A/B\" { sphere(rand(1m, 9m)); }\nrule "
+     "A { B; } rule B { sphere(1m); }"},
+    {"2:15 value-range", "sgm 1; start A;\noverride \"main(0, 1, 0)/A\" { }\nrule A { sphere(1m); }"},
+    {"2:12 value-range",
+     "sgm 1; domain infinite axes xz; layer a cell 8m reach 4m { start A; }\noverride \"a(0, 1, 0)/A\" { }\nrule A { "
+     "}"},
     {"2:6 guards", "sgm 1; start A;\nrule A else { }"},
 };
 
@@ -282,5 +365,15 @@ TEST_CASE("hints name what to write", "[grammar][diagnostics]") {
   CHECK(branchHint("3, step 2m, turn 9deg", "at(s.middle) sphere(1m);") == "it has from, to, along, depth");
   CHECK(hintOf("sgm 1; start A; rule A { sphere(cell.siez.x); }") == "did you mean `size`?");
   CHECK(hintOf("sgm 1; start A; rule A { sphere(cell.links); }") == "write `links()` with its arguments");
+  const auto pathHint = [&](const std::string& path) {
+    return hintOf("sgm 1; start A; override " + path +
+                  " { } rule A { Hall; Passage; } rule Hall { tag \"hall\"; } rule " + "Passage { }");
+  };
+  CHECK(pathHint("\"A/Hal[2]\"") == "did you mean `Hall`?");
+  CHECK(pathHint("\"A/Shaft\"") == "it derives Hall, Passage");
+  CHECK(pathHint("\"Hall\"") == "it derives A");
+  CHECK(pathHint("\"mian(0, 0, 0)/A\"") == "did you mean `main`?");
+  CHECK(pathHint("tag \"hal\"") == "did you mean `hall`?");
+  CHECK(pathHint("\"A/Hall[a]\"") == "such as \"net(0, 0, -1)/Node/Chamber[0]\", as messages print it");
   CHECK(hintOf("sgm 1; start A; rule A { scater 3 on disc(1m) { sphere(1m); } }") == "did you mean `scatter`?");
 }

@@ -42,6 +42,25 @@ TEST_CASE("imports are relative to the file that names them, and loaded once", "
   CHECK(result.program->findRule("Stone") != kNoId);
 }
 
+TEST_CASE("a path goes through imports as calls do, and an imported file overrides nothing", "[grammar][imports]") {
+  MapResolver resolver;
+  resolver.files["parts/a.sgm"] = "sgm 1; import \"b.sgm\" as b; rule Arch(r) { b.Stone(r); }";
+  resolver.files["parts/b.sgm"] = "sgm 1; rule Stone(r) { sphere(r); }";
+  const auto with = [&](const std::string& path) {
+    return brief(compileText("sgm 1; import \"parts/a.sgm\" as x; start A; rule A { x.Arch(2m); }\noverride \"" + path +
+                                 "\" { box(r); }",
+                             &resolver)
+                     .diagnostics);
+  };
+  CHECK(with("A/x.Arch[0]").empty());
+  CHECK(with("A/x.Arch[0]/b.Stone[0]").empty());
+  CHECK(with("A/Arch[0]") == "2:13 unknown-name");
+  CHECK(with("A/x.Arch[0]/x.Stone[0]") == "2:23 unknown-name");
+  resolver.files["parts/b.sgm"] += "\noverride \"A\" { }";
+  CHECK(brief(compileText("sgm 1; import \"parts/b.sgm\" as b; start A; rule A { b.Stone(1m); }", &resolver)
+                  .diagnostics) == "2:1 import-content");
+}
+
 TEST_CASE("imports have depth, count and size caps", "[grammar][imports]") {
   MapResolver resolver;
   for (int i = 0; i < 40; ++i)

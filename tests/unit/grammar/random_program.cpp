@@ -22,6 +22,7 @@ class Writer {
     for (int r = 0; r < 4; ++r) rule(r);
     out_ += "rule R4(r) { sphere(r); }\nmorphic M(r) : sphere(r) -> box(r, r, 2*r) by 0.5" +
             std::string(pick({"", " power", " lerp"})) + ";\n";
+    for (int i = 0; i < 3; ++i) edit();
     if (chance(50)) out_ += "expect volume in 1m3..2m3 per R0;\nreport area;\n";
     return out_;
   }
@@ -48,6 +49,17 @@ class Writer {
     out_ += "\n";
     if (kind == 1) out_ += head + " else { }\n";
     if (kind == 2) out_ += head + " weight count { M(r); }\n";
+  }
+
+  void edit() {
+    if (chance(30)) comment();
+    out_ += std::string("override ") + pick({"\"R0\"", "tag \"t\"", "\"R0/M[0]\"", "\"main( 0,0, 0)/R0\""});
+    if (chance(30)) {
+      out_ += "{inner;mat ice;{at(1m,0,0)inner;}}\n";
+      return;
+    }
+    block(2);
+    out_ += "\n";
   }
 
   void block(int depth) {

@@ -1,0 +1,40 @@
+#pragma once
+// The text of a derivation path, as messages print it and overrides name it.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sgm {
+
+/// A stretch of the path's text, in bytes.
+struct PathPlace {
+  uint32_t begin = 0, end = 0;
+};
+
+struct WrittenStep {
+  std::string_view qualifier, name;  ///< `cave` and `Hall` of cave.Hall[2]; the qualifier may be empty
+  std::optional<uint32_t> index;     ///< 2
+  PathPlace place;                   ///< of all of it
+};
+
+/// Views into the text that was parsed.
+struct WrittenPath {
+  std::string_view layer;  ///< `net` of net(0, 0, -1)/Node; empty where no cell is named
+  std::array<int32_t, 3> cell{};
+  PathPlace layer_place, cell_place;
+  std::vector<WrittenStep> steps;  ///< at least one
+
+  // Where the text is no path:
+  std::string wanted;  ///< what should stand there instead; empty: the text is a path
+  PathPlace wrong;
+};
+
+/// [ layer "(" int "," int "," int ")" "/" ] step { "/" step }; step: [ name "." ] name [ "[" int "]" ]. Blanks are
+/// allowed within the parentheses of the cell.
+WrittenPath parsePath(std::string_view text);
+
+}  // namespace sgm
