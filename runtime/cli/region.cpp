@@ -57,8 +57,8 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
                  by_place.size() - kMostNotes);
       return;
     }
-    fmt::print(stderr, "{}:{}:{}: warning: {} (left out {} times, first in {})\n", file, line, column, message,
-               found.first, found.second);
+    fmt::print(stderr, "{}:{}:{}: warning: {} ({} times, first in {})\n", file, line, column, message, found.first,
+               found.second);
   }
 }
 
