@@ -42,10 +42,11 @@ std::vector<Documented> documentedIn(std::string_view text) {
 std::string programWith(std::string_view path, const std::string& example) {
   const size_t slash = path.find('/'), dot = path.find('.');
   const std::string module(path.substr(slash + 1, dot - slash - 1));
-  const bool rules = example.rfind("rule ", 0) == 0;
+  const bool rules = example.rfind("rule ", 0) == 0, guarded = example.find(" when ") != std::string::npos;
   return "sgm 1; units m; import \"" + std::string(path) + "\" as " + module +
          ";\ndomain infinite;\nlayer all cell 1000m reach 900m { start A; }\n" +
-         (rules ? example + "\nrule A else { }" : "rule A { at(500m, 500m, 500m) { " + example + " } }");
+         (rules ? example + (guarded ? "\nrule A else { }" : "")
+                : "rule A { at(500m, 500m, 500m) { " + example + " } }");
 }
 
 }  // namespace

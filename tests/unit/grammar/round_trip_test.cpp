@@ -40,7 +40,9 @@ TEST_CASE("every sample is canonical and compiles without a word", "[grammar][ro
     INFO(entry.path().string());
     const std::string text = fileText(entry.path());
     CHECK(formatted(text) == text);
-    CHECK(std::count(text.begin(), text.end(), '\n') <= 40);
+    // A sample is read at a glance; a row of the paper's table has to show all that the row claims.
+    const bool row = entry.path().parent_path().filename() == "table4";
+    CHECK(std::count(text.begin(), text.end(), '\n') <= (row ? 60 : 40));
     const CompileResult result = compileText(text);
     INFO(renderDiagnostics(result));
     CHECK(result.program);
