@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "api/barrier.h"
 #include "api/field.h"
 #include "api/mesh.h"
 #include "stream/chunk_surface.h"
+#include "stream/surface_shapes.h"
 
 using namespace sgm::api;
 
@@ -20,6 +22,9 @@ sgm_result checkRequests(const sgm_chunks_desc& desc, sgm_error* error) {
   if (desc.requests == nullptr) return nullArgument(error, "desc.requests");
   if (desc.count == 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.count is 0");
   if (desc.count > kMostChunks) return fail(error, SGM_ERR_LIMIT, "desc.count is above 2^20");
+  if ((desc.flags & ~static_cast<uint32_t>(SGM_MESHING_TEXTURE)) != 0)
+    return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_meshing_flag");
+  if (desc.reserved != 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.reserved must be 0");
   return SGM_OK;
 }
 
@@ -93,14 +98,27 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
     if (!chunks) return fail(error, chunks.error());
 
     MadeMeshes made(desc->count, memory);
+    std::pmr::vector<std::optional<sgm::Error>> errors(desc->count, memory);
     sgm::parallelFor(*field->runtime.jobs, desc->count, [&](size_t i) {
       // What has been copied goes at once: a batch may be large.
       sgm::PlacedChunk chunk = std::move((*chunks)[i]);
       const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kPack);
       auto surface = std::allocate_shared<sgm::ChunkSurface>(std::pmr::polymorphic_allocator<>(memory),
                                                              surfaceOf(requests[i], std::move(chunk), nullptr, memory));
+      if ((desc->flags & SGM_MESHING_TEXTURE) != 0 && !surface->mesh.indices.empty()) {
+        sgm::Result<sgm::Unwrapped> texture =
+            unwrapChunk(field->content->world, surface->mesh, surface->grid, nullptr, sgm::kTile, memory);
+        if (!texture) {
+          errors[i] = texture.error();
+          return;
+        }
+        surface->texture = std::move(*texture);
+      }
       made[i] = makeHandle<sgm_mesh>(field->runtime, std::move(surface));
     });
+    for (const std::optional<sgm::Error>& one : errors) {
+      if (one) return fail(error, *one);
+    }
     made.handOver(meshes);
     return SGM_OK;
   });

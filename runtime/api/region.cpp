@@ -3,8 +3,10 @@
 #include "api/barrier.h"
 #include "api/field.h"
 #include "api/region_mesh.h"
+#include "api/region_texture.h"
 #include "api/surface.h"
 #include "mesh/vertex.h"
+#include "stream/surface_shapes.h"
 
 using namespace sgm::api;
 
@@ -53,6 +55,8 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
       box.lo[axis] = desc->minimum[axis];
       box.hi[axis] = desc->maximum[axis];
     }
+    if ((desc->flags & ~static_cast<uint32_t>(SGM_MESHING_TEXTURE)) != 0)
+      return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_meshing_flag");
     sgm::Progress progress;
     if (desc->progress != nullptr)
       progress = [desc](uint64_t done, uint64_t total) {
@@ -74,6 +78,12 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
     surface->chunk_count = region->chunks;
     surface->hash = region->hash.value();
     fillSurface(*region, *surface);
+    if ((desc->flags & SGM_MESHING_TEXTURE) != 0) {
+      sgm::Result<TexturedRegion> textured =
+          unwrapRegion(field->content->world, *field->runtime.jobs, region->mesh, desc->level, sgm::kTile);
+      if (!textured) return fail(error, textured.error());
+      surface->texture = std::move(textured->unwrapped);
+    }
     *out = owner.release();
     return SGM_OK;
   });

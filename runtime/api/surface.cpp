@@ -56,6 +56,10 @@ sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_view* vi
     std::copy(surface->bounds_min.begin(), surface->bounds_min.end(), view->bounds_min);
     std::copy(surface->bounds_max.begin(), surface->bounds_max.end(), view->bounds_max);
     view->chunk_count = surface->chunk_count;
+    const sgm::Unwrapped& texture = surface->texture;
+    view->wedges = texture.wedges.empty() ? nullptr : reinterpret_cast<const sgm_wedge*>(texture.wedges.data());
+    view->wedge_indices = texture.corners.empty() ? nullptr : texture.corners.data();
+    view->wedge_count = texture.wedges.size();
     return SGM_OK;
   });
 }

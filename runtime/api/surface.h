@@ -6,6 +6,7 @@
 #include "api/grid_mesh.h"
 #include "api/runtime.h"
 #include "base/fixed.h"
+#include "texture/unwrapped.h"
 
 struct sgm_surface {
   /// Of a grid.
@@ -16,6 +17,7 @@ struct sgm_surface {
         materials(&runtime_in.memory),
         tags(&runtime_in.memory),
         indices(std::move(mesh.indices)),
+        texture(&runtime_in.memory),
         bounds_min(mesh.bounds_min),
         bounds_max(mesh.bounds_max) {}
   /// Of a region; to be filled.
@@ -26,12 +28,14 @@ struct sgm_surface {
         materials(&runtime_in.memory),
         tags(&runtime_in.memory),
         indices(&runtime_in.memory),
+        texture(&runtime_in.memory),
         of_grid(false) {}
 
   sgm_runtime& runtime;
   sgm::api::RawArray<float> positions, normals;  ///< three a vertex
   sgm::api::RawArray<uint16_t> materials, tags;  ///< one a vertex; empty for a grid
   sgm::api::RawArray<uint32_t> indices;          ///< three a triangle
+  sgm::Unwrapped texture;                        ///< empty where not asked for
   std::array<float, 3> bounds_min{}, bounds_max{};
   bool of_grid = true;
   sgm::Int3 origin;

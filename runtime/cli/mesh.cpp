@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "cli/chequer.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/materials.h"

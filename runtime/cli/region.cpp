@@ -8,6 +8,7 @@
 
 #include "api/backend_request.h"
 #include "cli/source.h"
+#include "stream/surface_shapes.h"
 
 namespace sgm::cli {
 namespace {
@@ -145,9 +146,9 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   if (!meshed) return failure(complain(meshed.error()));
   Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);
   if (!anchors) return failure(complain(anchors.error()));
-  std::optional<TexturedRegion> texture;
+  std::optional<api::TexturedRegion> texture;
   if (plan.texture) {
-    Result<TexturedRegion> unwrapped = unwrapRegion(world, meshed->mesh, options.level, kTile);
+    Result<api::TexturedRegion> unwrapped = api::unwrapRegion(world, *jobs, meshed->mesh, options.level, kTile);
     if (!unwrapped) return failure(complain(unwrapped.error()));
     texture = std::move(*unwrapped);
   }

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "api/region_mesh.h"
+#include "api/region_texture.h"
 #include "cli/console.h"
 #include "cli/json.h"
 #include "cli/options.h"
-#include "cli/texturing.h"
 #include "sgm/sgm.h"
 
 namespace sgm::cli {
@@ -22,8 +22,8 @@ struct Region {
   int32_t cell = 0;             ///< of the level, units
   std::vector<Anchor> anchors;  ///< in the region
   std::string backend, device;
-  double seconds = 0;                     ///< from the compiled grammar to the welded mesh
-  std::optional<TexturedRegion> texture;  ///< where the plan asks for it
+  double seconds = 0;                          ///< from the compiled grammar to the welded mesh
+  std::optional<api::TexturedRegion> texture;  ///< where the plan asks for it
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }
 };

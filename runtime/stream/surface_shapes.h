@@ -43,11 +43,10 @@ class SurfaceShapes {
   std::map<ShapeKey, uint32_t> known_;
 };
 
-/// A chunk's mesh with texture coordinates and blends of materials, a pure function of the field, the edits and the mesh: the same bytes on
-/// every machine. Chunks that meet have the same coordinates on their border, but where no shape makes the surface:
-/// there they differ by whole tiles. tile: 1 to kLargestTile. Errors: those of WorldField::compileShapes
-/// and compile. Throws
-/// std::bad_alloc.
+/// A chunk's mesh with texture coordinates and blends of materials, a pure function of the field, the edits and the
+/// mesh: the same bytes on every machine. Chunks that meet have the same coordinates on their border, but where no
+/// shape makes the surface: there they differ by whole tiles. tile: 1 to kLargestTile. Errors: those of
+/// WorldField::compileShapes and compile. Throws std::bad_alloc.
 Result<Unwrapped> unwrapChunk(const WorldField& field, const PackedMesh& mesh, const ChunkGrid& grid,
                               const EditSnapshot* edits, int32_t tile, std::pmr::memory_resource* memory);
 

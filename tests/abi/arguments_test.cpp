@@ -416,6 +416,8 @@ TEST_CASE("chunk calls are checked") {
   CHECK(with([](auto& d) { d.requests = nullptr; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.count = 0; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.count = kTooMany; }) == SGM_ERR_LIMIT);
+  CHECK(with([](auto& d) { d.flags = 2; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.reserved = 1; }) == SGM_ERR_INVALID_ARGUMENT);
   for (const size_t stride : {size_t{1}, sizeof(sgm_chunk_request) - 4, sizeof(sgm_chunk_request) + 2})
     CHECK(with([stride](auto& d) { d.request_stride = stride; }) == SGM_ERR_INVALID_ARGUMENT);
   for (const int32_t level : {-1, SGM_MAX_LEVEL + 1, std::numeric_limits<int32_t>::min()}) {
@@ -480,6 +482,7 @@ TEST_CASE("surface calls are checked") {
   CHECK(sgm_surface_from_region(nullptr, &good, &surface, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_surface_from_region(world.field.get(), &good, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.maximum[1] = 0; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.flags = 2; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.level = SGM_MAX_LEVEL + 1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.level = -1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) {

@@ -77,8 +77,10 @@ inline sgm_chunk_request chunkAt(const sgm_chunk_key& key, uint32_t seams = 0) {
   return request;
 }
 
-inline std::vector<MeshOwner> meshChunks(sgm_field* field, const std::vector<sgm_chunk_request>& requests) {
+inline std::vector<MeshOwner> meshChunks(sgm_field* field, const std::vector<sgm_chunk_request>& requests,
+                                         uint32_t flags = 0) {
   sgm_chunks_desc desc = SGM_CHUNKS_DESC_INIT;
+  desc.flags = flags;
   desc.requests = requests.data();
   desc.count = requests.size();
   std::vector<sgm_mesh*> meshes(requests.size());
@@ -101,4 +103,22 @@ inline sgm_surface_view viewOf(const SurfaceOwner& surface) {
   sgm_surface_view view = SGM_SURFACE_VIEW_INIT;
   REQUIRE(sgm_surface_get_view(surface.get(), &view, nullptr) == SGM_OK);
   return view;
+}
+
+/// A view of a mesh or of a surface has wedges, of the triangles that it has, each with one pair of materials.
+template <class View>
+void checkWedges(const View& view) {
+  REQUIRE(view.wedges != nullptr);
+  REQUIRE(view.wedge_indices != nullptr);
+  CHECK(view.wedge_count >= view.vertex_count);
+  for (uint64_t i = 0; i < view.index_count; ++i) {
+    REQUIRE(view.wedge_indices[i] < view.wedge_count);
+    const sgm_wedge& wedge = view.wedges[view.wedge_indices[i]];
+    const sgm_wedge& first = view.wedges[view.wedge_indices[i - i % 3]];
+    REQUIRE(wedge.vertex == view.indices[i]);
+    CHECK((wedge.materials[0] == first.materials[0] && wedge.materials[1] == first.materials[1]));
+    CHECK(wedge.materials[0] <= wedge.materials[1]);
+    const int planes = wedge.plane_shares[0] + wedge.plane_shares[1] + wedge.plane_shares[2];
+    CHECK((planes == 0 || planes == 255));
+  }
 }

@@ -66,6 +66,7 @@ sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threa
   if (sgm_result r = sgm_field_is_walkable(h.field, &walk, &walkable, error); r != SGM_OK) return r;
   sgm_region_desc region = SGM_REGION_DESC_INIT;
   for (int32_t& v : region.maximum) v = 20000;
+  region.flags = SGM_MESHING_TEXTURE;
   if (sgm_result r = sgm_surface_from_region(h.field, &region, &h.region, error); r != SGM_OK) return r;
   const float grid_values[8] = {-1, 1, 1, 1, 1, 1, 1, 1};
   sgm_grid_desc grid = SGM_GRID_DESC_INIT;

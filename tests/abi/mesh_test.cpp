@@ -228,6 +228,62 @@ TEST_CASE("a region is its chunks, welded: each border vertex once, open only at
   sgm_surface_destroy(made);
 }
 
+TEST_CASE("chunks and regions have texture coordinates where they are asked for, and the same blends") {
+  const RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(runtime.get(),
+                                       "sgm 1; units m; domain infinite;\n"
+                                       "layer main cell 16m reach 9m { start Blob; }\n"
+                                       "rule Blob { at(8m, 8m, 8m) { Low; at(0m, 2m, 0m) High; } }\n"
+                                       "rule Low { box(8m, 8m, 8m); mat chalk; }\n"
+                                       "rule High { sphere(5m); mat flint; }\n");
+  const FieldOwner field = makeField(runtime.get(), grammar.get(), 512);
+  const std::vector<sgm_chunk_request> requests{chunkAt({0, 0, 0, 0}, 63), chunkAt({1, 0, 0, 0}),
+                                                chunkAt({0, 1, 0, 0})};
+  for (const MeshOwner& mesh : meshChunks(field.get(), requests)) CHECK(viewOf(mesh).wedges == nullptr);
+  using Blend = std::tuple<uint16_t, uint16_t, uint8_t>;
+  std::map<Place, std::set<Blend>> of_chunk;
+  for (const MeshOwner& mesh : meshChunks(field.get(), requests, SGM_MESHING_TEXTURE)) {
+    const sgm_mesh_view view = viewOf(mesh);
+    REQUIRE(view.index_count > 100);
+    checkWedges(view);
+    if (view.key.level != 0 || view.key.x != 0) continue;
+    for (uint32_t i = 0; i < view.wedge_count; ++i) {
+      const sgm_wedge& wedge = view.wedges[i];
+      if (view.vertices[wedge.vertex].kind != SGM_VERTEX_OWN) continue;
+      of_chunk[placeOf(view, wedge.vertex)].emplace(wedge.materials[0], wedge.materials[1], wedge.share);
+    }
+  }
+  sgm_region_desc desc = SGM_REGION_DESC_INIT;
+  for (int32_t& v : desc.maximum) v = 16384;
+  for (const uint32_t flags : {0u, uint32_t{SGM_MESHING_TEXTURE}}) {
+    desc.flags = flags;
+    sgm_surface* made = nullptr;
+    REQUIRE(sgm_surface_from_region(field.get(), &desc, &made, nullptr) == SGM_OK);
+    const SurfaceOwner surface(made);
+    const sgm_surface_view view = viewOf(surface);
+    if (flags == 0) {
+      CHECK((view.wedges == nullptr && view.wedge_indices == nullptr && view.wedge_count == 0));
+      continue;
+    }
+    checkWedges(view);
+    size_t same = 0, blended = 0;
+    for (uint64_t i = 0; i < view.wedge_count; ++i) {
+      const sgm_wedge& wedge = view.wedges[i];
+      Place place{};
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double units = static_cast<double>(view.positions[3 * size_t{wedge.vertex} + axis]) * 1024;
+        place[axis] = std::llround(units * 256);
+      }
+      const auto found = of_chunk.find(place);
+      REQUIRE(found != of_chunk.end());
+      same += found->second.count({wedge.materials[0], wedge.materials[1], wedge.share});
+      blended += wedge.materials[0] != wedge.materials[1] && wedge.share > 0 && wedge.share < 255;
+    }
+    CHECK(same == view.wedge_count);
+    CHECK(blended > 20);
+  }
+}
+
 TEST_CASE("requests a stride apart, and blocks around that are coarser") {
   struct Wide {
     sgm_chunk_request request;

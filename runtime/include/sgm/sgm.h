@@ -727,6 +727,12 @@ typedef struct sgm_chunk_request {
  * is meshed, so a stop is not at once. */
 typedef int32_t (*sgm_progress_function)(void* user, uint64_t done, uint64_t total);
 
+/* What meshes have beside their triangles. Worlds have flags of their own: sgm_world_flag. */
+typedef enum sgm_meshing_flag {
+  SGM_MESHING_TEXTURE = 1, /* texture coordinates and blends of materials: wedges, in views of meshes and of surfaces */
+  SGM_MESHING_FLAG_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_meshing_flag;
+
 typedef struct sgm_chunks_desc {
   uint32_t struct_size;
   const void* next;
@@ -735,10 +741,12 @@ typedef struct sgm_chunks_desc {
   size_t count;                   /* requests, 1 to 2^20 */
   sgm_progress_function progress; /* or NULL */
   void* progress_user;
+  uint32_t flags;    /* of sgm_meshing_flag, joined by | */
+  uint32_t reserved; /* 0 */
 } sgm_chunks_desc;
 
 #define SGM_CHUNKS_DESC_INIT \
-  { SGM_SIZEOF(sgm_chunks_desc), SGM_NULL, SGM_NULL, 0, 0, SGM_NULL, SGM_NULL }
+  { SGM_SIZEOF(sgm_chunks_desc), SGM_NULL, SGM_NULL, 0, 0, SGM_NULL, SGM_NULL, 0, 0 }
 
 /* Meshes chunks; meshes[i] is the one of requests[i], an empty mesh where no surface crosses it. Blocks; uses the job
  * system. Give it many chunks at once. All or nothing: on every failure all desc->count entries of meshes are NULL,
@@ -844,7 +852,8 @@ typedef struct sgm_mesh_view {
                             rises from 0 at the near end of a level's range to 1 at its far end */
   const sgm_wedge* wedges; /* texture coordinates by the own axes of the shape that makes the surface: along and around
                               a passage, over the faces of a box; by the world's axes where no shape of the grammar
-                              does. Where charts meet a vertex has several. NULL but in worlds with SGM_WORLD_TEXTURE */
+                              does. Where charts meet a vertex has several. NULL where not asked for: SGM_WORLD_TEXTURE,
+                              SGM_MESHING_TEXTURE */
   const uint32_t* wedge_indices; /* index_count of them, into wedges: of the same triangles as indices. An engine that
                                     draws textures draws wedges by these, each with its vertex's position and normal */
   uint32_t wedge_count;
@@ -879,13 +888,14 @@ typedef struct sgm_region_desc {
   const void* next;
   int32_t minimum[3], maximum[3]; /* units, minimum < maximum; grown outward to whole chunks of the level */
   int32_t level;                  /* 0 to SGM_MAX_LEVEL */
+  uint32_t flags;                 /* of sgm_meshing_flag, joined by | */
   uint64_t max_chunks;            /* SGM_ERR_LIMIT where the region has more; 0: 65,536; never more than 2^24 */
-  sgm_progress_function progress; /* or NULL */
+  sgm_progress_function progress; /* or NULL; counts chunks as they are meshed: what comes after is not counted */
   void* progress_user;
 } sgm_region_desc;
 
 #define SGM_REGION_DESC_INIT \
-  { SGM_SIZEOF(sgm_region_desc), SGM_NULL, {0, 0, 0}, {0, 0, 0}, 0, 0, SGM_NULL, SGM_NULL }
+  { SGM_SIZEOF(sgm_region_desc), SGM_NULL, {0, 0, 0}, {0, 0, 0}, 0, 0, 0, SGM_NULL, SGM_NULL }
 
 /* Meshes a region and welds its chunks by exact keys: no open edge inside the region, open only where its outer faces
  * cut the solid. Blocks; uses the job system. SGM_ERR_RANGE: the grown region leaves the world, or the cells of the
@@ -937,12 +947,16 @@ typedef struct sgm_surface_view {
   uint32_t position_stride, normal_stride, material_stride, tag_stride; /* bytes */
   float bounds_min[3], bounds_max[3]; /* of the positions; all 0 where there is none */
   uint64_t chunk_count;               /* chunks meshed; 1 for a grid */
+  const sgm_wedge* wedges; /* texture coordinates and blends of materials, as sgm_mesh_view.wedges says, in one system
+                              for the whole region. NULL where SGM_MESHING_TEXTURE was not asked for */
+  const uint32_t* wedge_indices; /* index_count of them, into wedges: of the same triangles as indices */
+  uint64_t wedge_count;
 } sgm_surface_view;
 
 #define SGM_SURFACE_VIEW_INIT                                                                                       \
   {                                                                                                                 \
     SGM_SIZEOF(sgm_surface_view), SGM_NULL, {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, \
-        SGM_NULL, SGM_NULL, 0, 0, 0, 0, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0                                   \
+        SGM_NULL, SGM_NULL, 0, 0, 0, 0, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0, SGM_NULL, SGM_NULL, 0            \
   }
 
 SGM_API sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_view* view, sgm_error* error);

@@ -1,0 +1,23 @@
+#pragma once
+// Texture coordinates of a region's mesh: what the C interface's surfaces and the command's files and pictures have.
+
+#include "base/jobs.h"
+#include "base/result.h"
+#include "mesh/weld.h"
+#include "stream/world_field.h"
+#include "texture/unwrap.h"
+
+namespace sgm::api {
+
+/// A region's mesh as its charts and its pairs of materials see it.
+struct TexturedRegion {
+  Unwrapped unwrapped;
+  TexelDensity density;
+};
+
+/// One coordinate system for the whole region, so that a vertex between two chunks has one place in a chart. tile: the
+/// edge that coordinates count, units. Errors: those of WorldField::compileShapes and compile. Throws std::bad_alloc.
+Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh, int level,
+                                    int32_t tile);
+
+}  // namespace sgm::api
