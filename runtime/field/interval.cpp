@@ -90,6 +90,33 @@ Interval distance2(const uint32_t* p, const PlaceBox& b) {
   return {x.lo + y.lo + z.lo, x.hi + y.hi + z.hi};
 }
 
+// No octave's slope passes 15/4 by its period: the largest that any of the twelve directions at the eight corners can
+// give (in the middle of a cell, along an axis).
+constexpr double kNoiseSlope = 3.7501;
+
+// The value in the middle, and what the slope makes of the way to the corners: little in small boxes.
+Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
+  constexpr Interval all{-1, 1};
+  double slope = 0, weight = realAt(p, 5) * kNoiseSlope;
+  for (uint32_t k = 0; k < p[3]; ++k, weight *= 0.5) slope += weight / wholeAt(p, static_cast<int>(6 + 2 * k));
+  double square = 0;
+  Int3 middle;
+  const std::array<Interval, 3> axes{box.x, box.y, box.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Interval side = axes[static_cast<size_t>(axis)];
+    // The lattice wraps around where an offset would leave the integers.
+    const double anchor = wholeAt(p, axis);
+    if (side.lo - anchor < -2147483648.0 || side.hi - anchor > 2147483647.0) return all;
+    middle[axis] = static_cast<int32_t>(std::floor((side.lo + side.hi) / 2));
+    const double away = std::max(side.hi - middle[axis], middle[axis] - side.lo);
+    square += away * away;
+  }
+  const double change = slope * std::sqrt(square);
+  if (!(change < 1)) return all;
+  const double v = referenceNoise(p, middle), error = errorOf(Op::noise);
+  return {std::max(-1.0, v - change - error), std::min(1.0, v + change + error)};
+}
+
 double farthestOffset(const uint32_t* p, const PlaceBox& b) { return std::sqrt(distance2(p, b).hi); }
 
 }  // namespace
@@ -137,7 +164,7 @@ PlaceBox placeBox(const IntBox& box) {
 Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t) {
   switch (op) {
     case Op::noise:
-      return {-1, 1};
+      return noiseBounds(p, box);
     case Op::sweep:
       return {-1e-6, 1 + 1e-6};
     case Op::lattice:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/math.h"
 #include "field/lattice.h"
 
 namespace sgm {
@@ -13,6 +14,9 @@ namespace {
 struct Local {
   double x, y, z;
 };
+
+// Not the C library's hypot and pow: libraries differ in their last bits, and derivation asks for bounds.
+double norm(double x, double y, double z = 0) { return std::sqrt(x * x + y * y + z * z); }
 
 // An offset by axis, as far as an int32 goes: there the evaluators saturate (real.h).
 double minus(double v, double centre) { return std::clamp(v - centre, -2147483648.0, 2147483647.0); }
@@ -30,9 +34,7 @@ Local toLocal(const uint32_t* p, double x, double y, double z) {
 }
 
 // Distance to the planar region {a <= 0 and b <= 0} from its two signed face distances.
-double corner(double a, double b) {
-  return std::hypot(std::max(a, 0.0), std::max(b, 0.0)) + std::min(std::max(a, b), 0.0);
-}
+double corner(double a, double b) { return norm(std::max(a, 0.0), std::max(b, 0.0)) + std::min(std::max(a, b), 0.0); }
 
 double trunconeDistance(double radial, double y, double bottom, double top, double h) {
   // Distance to the trapezoid (0,-h) (bottom,-h) (top,h) (0,h) mirrored at the axis: nearest of its three outer edges.
@@ -43,7 +45,7 @@ double trunconeDistance(double radial, double y, double bottom, double top, doub
     const double wx = radial - corners[i][0], wy = y - corners[i][1];
     const double length2 = ex * ex + ey * ey;
     const double t = length2 > 0 ? std::clamp((wx * ex + wy * ey) / length2, 0.0, 1.0) : 0.0;
-    best = std::min(best, std::hypot(wx - t * ex, wy - t * ey));
+    best = std::min(best, norm(wx - t * ex, wy - t * ey));
   }
   const double width = bottom + (top - bottom) * (y + h) / (2 * h);
   const bool inside = std::abs(y) <= h && radial <= width;
@@ -59,7 +61,7 @@ double prismDistance(const uint32_t* p, const Local& q) {
     const double ax = realAt(p, at), az = realAt(p, at + 1), ex = realAt(p, at + 2), ez = realAt(p, at + 3);
     const double wx = q.x - ax, wz = q.z - az, length2 = ex * ex + ez * ez;
     const double t = length2 > 0 ? std::clamp((wx * ex + wz * ez) / length2, 0.0, 1.0) : 0.0;
-    best = std::min(best, std::hypot(wx - t * ex, wz - t * ez));
+    best = std::min(best, norm(wx - t * ex, wz - t * ez));
     if ((az > q.z) != (az + ez > q.z) && q.x < ax + ex * (q.z - az) / ez) inside = !inside;
   }
   return corner(inside ? -best : best, std::abs(q.y) - realAt(p, 13));
@@ -68,7 +70,7 @@ double prismDistance(const uint32_t* p, const Local& q) {
 double powerNorm(const std::array<double, 3>& u, double n) {
   const double m = std::max({u[0], u[1], u[2]});
   if (m <= 0) return 0;
-  return m * std::pow(std::pow(u[0] / m, n) + std::pow(u[1] / m, n) + std::pow(u[2] / m, n), 1 / n);
+  return m * detPow(detPow(u[0] / m, n) + detPow(u[1] / m, n) + detPow(u[2] / m, n), 1 / n);
 }
 
 double noiseOctave(Int3 o, int64_t period, uint32_t seed) {
@@ -99,16 +101,6 @@ double noiseOctave(Int3 o, int64_t period, uint32_t seed) {
   return sum;
 }
 
-double noiseSum(const uint32_t* p, Int3 at) {
-  auto wrapped = [](int32_t a, uint32_t b) { return static_cast<int32_t>(static_cast<uint32_t>(a) - b); };
-  const Int3 o{wrapped(at.x, p[0]), wrapped(at.y, p[1]), wrapped(at.z, p[2])};
-  double sum = 0, weight = realAt(p, 5);
-  for (uint32_t k = 0; k < p[3]; ++k, weight *= 0.5) {
-    sum += weight * noiseOctave(o, static_cast<int32_t>(p[6 + 2 * k]), p[4] + 0x9E3779B9u * k);
-  }
-  return std::clamp(sum, -1.0, 1.0);
-}
-
 double sweepShare(const uint32_t* p, Int3 at) {
   double best = 1e300, share = 0;
   for (uint32_t k = 0; k < p[0]; ++k) {
@@ -117,7 +109,7 @@ double sweepShare(const uint32_t* p, Int3 at) {
     const double ex = realAt(s, 3), ey = realAt(s, 4), ez = realAt(s, 5);
     const double length2 = ex * ex + ey * ey + ez * ez;
     const double t = length2 > 0 ? std::clamp((dx * ex + dy * ey + dz * ez) / length2, 0.0, 1.0) : 0.0;
-    const double d = std::hypot(dx - t * ex, dy - t * ey, dz - t * ez);
+    const double d = norm(dx - t * ex, dy - t * ey, dz - t * ez);
     if (d < best) {
       best = d;
       share = realAt(s, 7) + t * realAt(s, 8);
@@ -133,7 +125,7 @@ double kernel(double x) {
 
 double roundUnion(double a, double b, double k) {
   const double u = std::clamp(k - a, 0.0, 1e9), v = std::clamp(k - b, 0.0, 1e9), nearest = std::min(a, b);
-  return u > 0 && v > 0 ? std::min(nearest, k - std::hypot(u, v)) : nearest;
+  return u > 0 && v > 0 ? std::min(nearest, k - norm(u, v)) : nearest;
 }
 
 // Of an expression's result: real.h, settleReal.
@@ -141,17 +133,27 @@ double settle(double x) { return std::abs(x) < 1e-30 ? 0.0 : std::clamp(x, -1e18
 
 }  // namespace
 
+double referenceNoise(const uint32_t* p, Int3 at) {
+  auto wrapped = [](int32_t a, uint32_t b) { return static_cast<int32_t>(static_cast<uint32_t>(a) - b); };
+  const Int3 o{wrapped(at.x, p[0]), wrapped(at.y, p[1]), wrapped(at.z, p[2])};
+  double sum = 0, weight = realAt(p, 5);
+  for (uint32_t k = 0; k < p[3]; ++k, weight *= 0.5) {
+    sum += weight * noiseOctave(o, static_cast<int32_t>(p[6 + 2 * k]), p[4] + 0x9E3779B9u * k);
+  }
+  return std::clamp(sum, -1.0, 1.0);
+}
+
 double referencePrimitive(Op op, const uint32_t* p, double x, double y, double z) {
   const Local d = offset(p, x, y, z);
   switch (op) {
     case Op::sphere:
-      return std::hypot(d.x, d.y, d.z) - realAt(p, 4);
+      return norm(d.x, d.y, d.z) - realAt(p, 4);
     case Op::blob:
       return kernel((d.x * d.x + d.y * d.y + d.z * d.z) * realAt(p, 4));
     case Op::capsule: {
       const double ax = realAt(p, 4), ay = realAt(p, 5), az = realAt(p, 6), length2 = ax * ax + ay * ay + az * az;
       const double t = length2 > 0 ? std::clamp((d.x * ax + d.y * ay + d.z * az) / length2, 0.0, 1.0) : 0.0;
-      return std::hypot(d.x - t * ax, d.y - t * ay, d.z - t * az) - realAt(p, 8);
+      return norm(d.x - t * ax, d.y - t * ay, d.z - t * az) - realAt(p, 8);
     }
     default:
       break;
@@ -161,17 +163,16 @@ double referencePrimitive(Op op, const uint32_t* p, double x, double y, double z
     case Op::box: {
       const double ax = std::abs(q.x) - realAt(p, 13), ay = std::abs(q.y) - realAt(p, 14),
                    az = std::abs(q.z) - realAt(p, 15);
-      return std::hypot(std::max(ax, 0.0), std::max(ay, 0.0), std::max(az, 0.0)) +
-             std::min(std::max({ax, ay, az}), 0.0);
+      return norm(std::max(ax, 0.0), std::max(ay, 0.0), std::max(az, 0.0)) + std::min(std::max({ax, ay, az}), 0.0);
     }
     case Op::cylinder:
-      return corner(std::hypot(q.x, q.z) - realAt(p, 13), std::abs(q.y) - realAt(p, 14));
+      return corner(norm(q.x, q.z) - realAt(p, 13), std::abs(q.y) - realAt(p, 14));
     case Op::truncone:
-      return trunconeDistance(std::hypot(q.x, q.z), q.y, realAt(p, 13), realAt(p, 14), realAt(p, 15));
+      return trunconeDistance(norm(q.x, q.z), q.y, realAt(p, 13), realAt(p, 14), realAt(p, 15));
     case Op::torus:
-      return std::hypot(std::hypot(q.x, q.z) - realAt(p, 13), q.y) - realAt(p, 14);
+      return norm(norm(q.x, q.z) - realAt(p, 13), q.y) - realAt(p, 14);
     case Op::ellipsoid:
-      return (std::hypot(q.x * realAt(p, 13), q.y * realAt(p, 14), q.z * realAt(p, 15)) - 1) * realAt(p, 16);
+      return (norm(q.x * realAt(p, 13), q.y * realAt(p, 14), q.z * realAt(p, 15)) - 1) * realAt(p, 16);
     case Op::superquadric:
       return (powerNorm({std::abs(q.x) * realAt(p, 13), std::abs(q.y) * realAt(p, 14), std::abs(q.z) * realAt(p, 15)},
                         realAt(p, 17)) -
@@ -219,7 +220,7 @@ double referenceField(const ProgramView& program, Int3 p) {
           out = referenceLattice(params, at.x, at.y, at.z);
           break;
         case Op::noise:
-          out = noiseSum(params, at);
+          out = referenceNoise(params, at);
           break;
         case Op::sweep:
           out = sweepShare(params, at);

@@ -1,6 +1,6 @@
 #pragma once
-// The judge: every op once more, in double precision and with the C library, from its geometric definition. Close to
-// the float evaluators, never equal; interval bounds take its value at a box's centre.
+// The judge: every op once more, in double precision, from its geometric definition. Close to the float evaluators,
+// never equal; the same bits everywhere. Interval bounds take its value at a box's centre.
 
 #include <bit>
 #include <cstdint>
@@ -15,6 +15,9 @@ inline double wholeAt(const uint32_t* params, int i) { return static_cast<double
 
 /// Value in units of one primitive (sphere to prism; blob: its weight) at a position in units.
 double referencePrimitive(Op op, const uint32_t* params, double x, double y, double z);
+
+/// The noise op at p, -1 to 1.
+double referenceNoise(const uint32_t* params, Int3 p);
 
 /// The power morph at t in 0..1.
 double referencePowerMorph(const uint32_t* params, double t, double x, double y, double z);
