@@ -24,7 +24,10 @@ const FieldProgram* LayersBelow::program(uint32_t layer, const IntBox& box) cons
   return kept.get();
 }
 
-bool LayersBelow::solid(uint32_t layer, Int3 p) const {
+Int3 LayersBelow::shifted(Int3 p) const { return saturatingAdd(p, world_.settings().shift); }
+
+bool LayersBelow::solid(uint32_t layer, Int3 derived) const {
+  const Int3 p = shifted(derived);
   const FieldProgram* field = program(layer, {p, p});
   if (!field) return true;
   int32_t q = 0;
@@ -32,9 +35,10 @@ bool LayersBelow::solid(uint32_t layer, Int3 p) const {
   return q < 0;
 }
 
-std::optional<int32_t> LayersBelow::probe(uint32_t layer, Int3 from, std::array<double, 3> direction,
+std::optional<int32_t> LayersBelow::probe(uint32_t layer, Int3 start, std::array<double, 3> direction,
                                           int32_t length) const {
   if (length < 0) return std::nullopt;
+  const Int3 from = shifted(start);
   const Int3 end = probePoint(from, direction, length);
   IntBox box{{std::min(from.x, end.x), std::min(from.y, end.y), std::min(from.z, end.z)},
              {std::max(from.x, end.x), std::max(from.y, end.y), std::max(from.z, end.z)}};

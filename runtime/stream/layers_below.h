@@ -27,6 +27,8 @@ class LayersBelow final : public LowerLayers {
 
  private:
   const FieldProgram* program(uint32_t layer, const IntBox& box) const;
+  /// Derivation knows nothing of the settings' shift.
+  Int3 shifted(Int3 p) const;
 
   const WorldField& world_;
   IntBox around_;
