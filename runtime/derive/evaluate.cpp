@@ -69,6 +69,8 @@ Value Interpreter::evaluate(ExprId id, const Env& env) {
       return evaluateMember(node, env);
     case ExprKind::call:
       return evaluateCall(node, env);
+    case ExprKind::query:
+      return evaluateQuery(node, env);
   }
   return {};
 }
@@ -119,6 +121,19 @@ Value Interpreter::evaluateBinary(const ExprNode& node, const Env& env) {
       return Value::boolean(draft_.binary(ExprOp::maximum, a.n[0], b.n[0]));
   }
   return {};
+}
+
+Value Interpreter::evaluateQuery(const ExprNode& node, const Env& env) {
+  Ball ball{env.place.snap({}), 0};
+  if (node.children.count > 0) {
+    const double radius = real(program_.idAt(node.children, 0), env);
+    if (failed()) return {};
+    if (!(radius >= 0)) note("the radius of a query is negative; it counts as 0", node.span, env.activation);
+    ball.radius = std::max(0, toUnits(radius * env.place.scale));
+  }
+  const BallProof proof = lower_.prove(node.id, ball, node.inside ? Content::solid : Content::open);
+  if (!step(proof.pieces, node.span, env.activation)) return {};
+  return Value::boolean({proof.holds ? 1.0 : 0.0});
 }
 
 Value Interpreter::evaluateName(const ExprNode& node, const Env& env) {

@@ -176,6 +176,7 @@ class Interpreter {
   Value evaluateRandom(const ExprNode& node, const Env& env);    ///< rand, chance
   Value evaluateCellular(const ExprNode& node, const Env& env);  ///< cells, faces, noise
   Value evaluateBranch(const ExprNode& node, const Env& env);
+  Value evaluateQuery(const ExprNode& node, const Env& env);
   Value evaluateLet(const ExprNode& node, const Env& env);
   Value evaluateField(const ExprNode& node, const Env& env);
   Value sampleCoordinates(const Env& env, bool local);

@@ -36,6 +36,7 @@ enum class ExprKind : uint8_t {
   name,         ///< ref, id
   member,       ///< children[0] . member; resolved away for `module.name` and for calls of methods
   call,         ///< ref, id, bound
+  query,        ///< clear or `inside` [children[0]: radius] of name: a layer; ref, id
 };
 
 enum class BinaryOp : uint8_t {
@@ -63,6 +64,7 @@ enum class Ref : uint8_t {
   primitive,  ///< static_cast<uint32_t>(Primitive); calls only
   builtin,    ///< static_cast<uint32_t>(Builtin); calls; a method's receiver is bound[0]
   value,      ///< static_cast<uint32_t>(BuiltinValue): cell, scope, p, q, u
+  layer,      ///< Program::layers; queries only
   local,      ///< slot of the frame of the rule alternative, let function or field that contains the name
 };
 
@@ -75,6 +77,7 @@ struct ExprNode {
   Member member = Member::none;  ///< resolved
   bool parenthesised = false;    ///< written in parentheses that the printer keeps
   bool shape = false;            ///< call of a rule or terminal: needs no () where it has no arguments
+  bool inside = false;           ///< query: whether all is solid, not whether all is void
   Type type;                     ///< resolved; of let functions and fields: as last instantiated
   double value = 0;              ///< number
   NameId name = kNoId;           ///< name, member, text; number: as written, unit and all; call: last part
@@ -170,7 +173,8 @@ enum class ScatterArea : uint8_t {
 
 /// Points keep the scope's axes. With probe: the point moves to the first surface of the layer within the distance,
 /// and is left out where there is none or where it does not start in the open. With gap: the body knows how far it is
-/// from there through the open to the next surface the other way; a point where that is farther than `within` is left out.
+/// from there through the open to the next surface the other way; a point where that is farther than `within` is left
+/// out.
 struct ScatterNode {
   bool poisson = false;
   ExprId count = kNoId;  ///< a count, or the least distance with poisson
@@ -184,7 +188,7 @@ struct ScatterNode {
   NameId gap = kNoId;      ///< the name of that length, or none
   uint32_t slot = kNoId;   ///< its place among the locals
   ExprId within = kNoId;
-  ExprId when = kNoId;     ///< each point draws by itself
+  ExprId when = kNoId;  ///< each point draws by itself
   Span span;
 };
 

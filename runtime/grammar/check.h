@@ -37,10 +37,12 @@ struct RuleCall {
   std::vector<ScaleAround> scales;
 };
 
-/// A scatter that probes a layer.
-struct Probe {
+/// A probe or a query.
+struct AskedLayer {
   uint32_t rule = 0;
-  uint32_t scatter = 0;
+  uint32_t layer = 0;
+  Span span;
+  std::string_view verb;  ///< what the rule does to the layer: `probes`
 };
 
 struct WrittenPath;
@@ -55,7 +57,6 @@ class Checker {
   void run();
 
   const std::vector<RuleCall>& calls() const { return calls_; }
-  const std::vector<Probe>& probes() const { return probes_; }
 
  private:
   struct Symbol {
@@ -74,7 +75,8 @@ class Checker {
   /// Where an expression stands.
   struct Scope {
     uint32_t module = 0;
-    bool rule = false;  ///< cell and scope are known, rand needs no key
+    bool rule = false;   ///< cell and scope are known, rand needs no key
+    bool field = false;  ///< in the body of a field
     std::vector<Local> locals;
     uint32_t next_slot = 0;
     uint32_t slot_count = 0;
@@ -94,7 +96,6 @@ class Checker {
   void sortLayers();
   void keepCalls();
   void expectations();
-  void probeUses();
   std::optional<double> constant(ExprId id, Dim dim, std::string_view what);
   std::optional<int64_t> wholeUnits(ExprId id, std::string_view what);
 
@@ -118,6 +119,12 @@ class Checker {
   void idleCuts(StmtId id, bool first);
   void declareLocal(NameId name, const Span& span, Local local);
   bool sumLeaf(StmtId id);
+
+  // check_below.cpp
+  /// The layer of that name, asked about by the rule or override that is being checked; kNoId with an error.
+  uint32_t layerBelow(NameId name, const Span& span, std::string_view verb);
+  Type query(ExprId id);
+  void layersAsked();
 
   // check_overrides.cpp
   void overrides();
@@ -205,11 +212,12 @@ class Checker {
   std::vector<RuleCall> calls_;
   std::vector<ScaleAround> scales_;    ///< around the statement that is being checked
   std::map<uint32_t, double> folded_;  ///< of lets
-  std::vector<Probe> probes_;
+  std::vector<AskedLayer> asked_;
   std::vector<bool> start_rules_;
-  std::vector<std::set<std::pair<uint32_t, NameId>>> callees_;           ///< of each rule: rules, and of what import
-  std::vector<std::vector<uint32_t>> override_calls_, override_probes_;  ///< of each override: rules, scatters
-  std::set<uint32_t> level_overrides_;  ///< those that may stand at the level of a layer
+  std::vector<std::set<std::pair<uint32_t, NameId>>> callees_;  ///< of each rule: rules, and of what import
+  std::vector<std::vector<uint32_t>> override_calls_;           ///< of each override: rules
+  std::vector<std::vector<AskedLayer>> override_asked_;         ///< of each override; their rule is not known yet
+  std::set<uint32_t> level_overrides_;                          ///< those that may stand at the level of a layer
   uint32_t rule_ = 0, alternative_ = 0;
   uint32_t override_ = kNoId;  ///< whose block is being checked, instead of a rule's
   uint32_t ordinal_ = 0, draws_ = 0;

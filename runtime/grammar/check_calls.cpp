@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
@@ -236,6 +237,7 @@ Type Checker::letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<T
   const ExprId body = is_let ? program_.lets[index].body : program_.fields[index].body;
   scope_.module = is_let ? program_.lets[index].module : program_.fields[index].module;
   scope_.draws = &draws;
+  scope_.field = !is_let;
   for (uint32_t i = 0; i < formals.count && i < args.size(); ++i)
     scope_.locals.push_back({program_.ast.formals[formals.first + i].name, i, args[i], kNoId, 0});
   Type type = expression(body);
@@ -283,8 +285,10 @@ Type Checker::localFieldUse(ExprId id, const Local& local) {
     const FormalNode& formal = program_.ast.formals[field.formals.first + i];
     scope_.locals.push_back({formal.name, formal.slot, args[i], kNoId, 0});
   }
+  const bool in_field = std::exchange(scope_.field, true);
   Type type = expression(field.body);
   type.sample = true;
+  scope_.field = in_field;
   scope_.locals = std::move(outer);
   open_.pop_back();
   known_local_.emplace(std::move(key), type);

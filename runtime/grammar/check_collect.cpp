@@ -18,7 +18,7 @@ void Checker::run() {
   if (sink_.full()) return;
   checkRules();
   keepCalls();
-  probeUses();
+  layersAsked();
   expectations();
 }
 

@@ -320,31 +320,6 @@ void Checker::keepCalls() {
   }
 }
 
-/// A rule that probes a layer may be derived only in layers that use it.
-void Checker::probeUses() {
-  if (probes_.empty()) return;
-  for (const Layer& layer : program_.layers) {
-    if (node(layer.start).ref != Ref::rule) continue;
-    std::vector<bool> reached(program_.rules.size(), false);
-    std::vector<uint32_t> stack{node(layer.start).id};
-    while (!stack.empty()) {
-      const uint32_t rule = stack.back();
-      stack.pop_back();
-      if (reached[rule]) continue;
-      reached[rule] = true;
-      stack.insert(stack.end(), program_.rules[rule].calls.begin(), program_.rules[rule].calls.end());
-    }
-    for (const Probe& probe : probes_) {
-      const ScatterNode& scatter = program_.ast.scatters[probe.scatter];
-      if (!reached[probe.rule] || scatter.layer == kNoId) continue;
-      if (std::find(layer.uses.begin(), layer.uses.end(), scatter.layer) != layer.uses.end()) continue;
-      sink_.error(scatter.span, codes::kLayerUses,
-                  join({"layer `", text(layer.name), "` probes `", text(scatter.layer_name), "` and does not use it"}),
-                  join({"write `uses ", text(scatter.layer_name), "` in its head"}));
-    }
-  }
-}
-
 void Checker::expectations() {
   for (Expectation& e : program_.expectations) {
     const Dim dim = e.measure == Measure::volume ? kVolume : e.measure == Measure::area ? kArea : kRatio;

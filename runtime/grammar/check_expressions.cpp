@@ -198,6 +198,9 @@ Type Checker::expression(ExprId id) {
     case ExprKind::call:
       type = callValue(id);
       break;
+    case ExprKind::query:
+      type = query(id);
+      break;
   }
   --expression_depth_;
   node(id).type = type;

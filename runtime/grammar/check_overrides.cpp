@@ -68,7 +68,7 @@ void Checker::overrides() {
   std::stable_sort(program_.overrides.begin(), program_.overrides.end(),
                    [](const Override& a, const Override& b) { return rankOf(a) < rankOf(b); });
   override_calls_.assign(program_.overrides.size(), {});
-  override_probes_.assign(program_.overrides.size(), {});
+  override_asked_.assign(program_.overrides.size(), {});
   for (uint32_t o = 0; o < program_.overrides.size() && !sink_.full(); ++o) overrideBlock(o);
   checkWaiting();
   if (sink_.errorCount() > before) return;
@@ -269,7 +269,7 @@ void Checker::hiddenOverrides() {
   }
 }
 
-/// Gives each rule its overrides, what they call, and what they probe.
+/// Gives each rule its overrides, what they call, and the layers they ask about.
 void Checker::holdOverrides() {
   std::vector<std::set<uint16_t>> tags;
   std::vector<std::vector<uint32_t>> by_path(program_.rules.size());
@@ -298,7 +298,7 @@ void Checker::holdOverrides() {
     rule.overrides.assign(held.begin(), held.end());
     for (const uint32_t o : rule.overrides) {
       rule.calls.insert(rule.calls.end(), override_calls_[o].begin(), override_calls_[o].end());
-      for (const uint32_t scatter : override_probes_[o]) probes_.push_back({r, scatter});
+      for (const AskedLayer& asked : override_asked_[o]) asked_.push_back({r, asked.layer, asked.span, asked.verb});
     }
   }
 }

@@ -65,18 +65,7 @@ void Checker::scatterStatement(const StmtNode& s, bool shrunk) {
   scatter.c = out[2];
   if (scatter.probe != 0) {
     demand(scatter.distance, ValueKind::number, kLength, "the length of a probe");
-    Suggestion suggestion(text(scatter.layer_name));
-    for (uint32_t l = 0; l < program_.layers.size(); ++l) {
-      if (program_.layers[l].name == scatter.layer_name) scatter.layer = l;
-      suggestion.offer(text(program_.layers[l].name));
-    }
-    if (scatter.layer == kNoId && layers_known_)
-      sink_.error(scatter.span, codes::kUnknownName, join({"unknown layer `", text(scatter.layer_name), "`"}),
-                  suggestion.hint());
-    if (override_ == kNoId)
-      probes_.push_back({rule_, s.extra});
-    else
-      override_probes_[override_].push_back(s.extra);
+    scatter.layer = layerBelow(scatter.layer_name, scatter.span, "probes");
   }
   if (scatter.within != kNoId) demand(scatter.within, ValueKind::number, kLength, "the most that a gap may be");
   const size_t locals = scope_.locals.size();

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
@@ -99,7 +100,7 @@ void Checker::checkRule(uint32_t rule) {
   // A rule that is checked again, with a dimension found later, leaves its calls once.
   if (!checked_.insert(rule).second) {
     std::erase_if(calls_, [&](const RuleCall& call) { return call.from == rule; });
-    std::erase_if(probes_, [&](const Probe& probe) { return probe.rule == rule; });
+    std::erase_if(asked_, [&](const AskedLayer& asked) { return asked.rule == rule; });
   }
   ordinal_ = draws_ = 0;
   for (uint32_t a = 0; a < program_.rules[rule].alternatives.size(); ++a) checkAlternative(rule, a);
@@ -353,7 +354,9 @@ void Checker::localField(const StmtNode& s) {
   // Without parameters it can be checked where it stands, used or not.
   const size_t locals = scope_.locals.size();
   scope_.locals.resize(local.depth);
+  const bool in_field = std::exchange(scope_.field, true);
   Type type = expression(field.body);
+  scope_.field = in_field;
   if (type.kind != ValueKind::number && type.kind != ValueKind::vector && type.kind != ValueKind::boolean &&
       type.kind != ValueKind::unknown)
     sink_.error(node(field.body).span, codes::kTypeMismatch,

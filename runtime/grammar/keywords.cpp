@@ -7,19 +7,19 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 49> kKeywords = {
-    "anchor",   "and",    "as",     "at",     "by",      "cut",    "depth",  "detail",  "displace", "domain",
-    "else",     "expect", "false",  "field",  "for",     "if",     "import", "in",      "inner",    "layer",
-    "let",      "lod",    "mat",    "meet",   "minsize", "mirror", "morph",  "morphic", "not",      "or",
-    "override", "param",  "repeat", "report", "rot",     "rule",   "scale",  "scatter", "seed",     "size",
-    "start",    "sum",    "tag",    "then",   "true",    "union",  "units",  "warp",    "when"};
-constexpr std::array<std::string_view, 37> kClauseWords = {
-    "above", "air",    "amp",   "animated", "axes",   "block",   "box",      "cell",  "cm",    "density",
-    "disc",  "down",   "edge",  "empty",    "finite", "gap",     "infinite", "km",    "lerp",  "m",
-    "mm",    "of",     "on",    "output",   "per",    "poisson", "power",    "probe", "reach", "sgm",
-    "shell", "smooth", "solid", "up",       "uses",   "weight",  "within"};
-constexpr std::array<std::string_view, 12> kUnavailable = {"comp",  "extrude", "fit", "footprint", "link",    "portal",
-                                                           "query", "roof",    "set", "split",     "treemap", "wfc"};
+constexpr std::array<std::string_view, 50> kKeywords = {
+    "anchor",   "and",    "as",    "at",     "by",      "cut",    "depth",  "detail",  "displace", "domain",
+    "else",     "expect", "false", "field",  "for",     "if",     "import", "in",      "inner",    "layer",
+    "let",      "lod",    "mat",   "meet",   "minsize", "mirror", "morph",  "morphic", "not",      "or",
+    "override", "param",  "query", "repeat", "report",  "rot",    "rule",   "scale",   "scatter",  "seed",
+    "size",     "start",  "sum",   "tag",    "then",    "true",   "union",  "units",   "warp",     "when"};
+constexpr std::array<std::string_view, 39> kClauseWords = {
+    "above",   "air",  "amp",   "animated", "axes",  "block",  "box",  "cell",     "clear",  "cm",
+    "density", "disc", "down",  "edge",     "empty", "finite", "gap",  "infinite", "inside", "km",
+    "lerp",    "m",    "mm",    "of",       "on",    "output", "per",  "poisson",  "power",  "probe",
+    "reach",   "sgm",  "shell", "smooth",   "solid", "up",     "uses", "weight",   "within"};
+constexpr std::array<std::string_view, 11> kUnavailable = {"comp", "extrude", "fit",   "footprint", "link", "portal",
+                                                           "roof", "set",     "split", "treemap",   "wfc"};
 constexpr std::array<std::string_view, 5> kTransforms = {"at", "rot", "scale", "size", "mirror"};
 constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components", "volume", "area",
                                                        "triangles",  "genus",      "anchors"};

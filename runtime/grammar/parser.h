@@ -126,6 +126,7 @@ class Parser {
   ExprId primary();
   ExprId callExpression(std::string_view what);
   ExprId parenthesised();
+  ExprId query();
   std::vector<ArgNode> arguments(std::string_view callee);
   bool namedArgumentAhead(std::string_view callee) const;
   ExprId addExpr(ExprNode node, const Span& begin);

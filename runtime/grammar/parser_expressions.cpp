@@ -194,6 +194,7 @@ ExprId Parser::primary() {
     return addExpr(node, begin);
   }
   if (word == "if") return expression();
+  if (word == "query") return query();
   if (peek().keyword && peek(1).kind != Tok::open_paren) {
     unexpected("an expression");
     return kNoId;
@@ -205,6 +206,29 @@ ExprId Parser::primary() {
   node.kind = ExprKind::name;
   node.name = intern(word);
   take();
+  return addExpr(node, begin);
+}
+
+/// query clear of LAYER, query inside RADIUS of LAYER.
+ExprId Parser::query() {
+  const Span begin = here();
+  take();
+  ExprNode node;
+  node.kind = ExprKind::query;
+  node.inside = atWord("inside");
+  if (!node.inside && !atWord("clear")) {
+    unexpected("`clear` or `inside`");
+    return kNoId;
+  }
+  take();
+  if (!atWord("of")) {
+    const ExprId radius = expression();
+    if (panic_) return kNoId;
+    node.children = store({radius});
+  }
+  expectWord("of");
+  node.name = wordName("the name of a layer");
+  if (panic_) return kNoId;
   return addExpr(node, begin);
 }
 
@@ -238,7 +262,7 @@ ExprId Parser::parenthesised() {
 bool Parser::namedArgumentAhead(std::string_view callee) const {
   if (peek().kind != Tok::word) return false;
   const std::string_view word = textOf(peek());
-  if (word == "if" || word == "not" || word == "true" || word == "false") return false;
+  if (word == "if" || word == "not" || word == "true" || word == "false" || word == "query") return false;
   const Token& next = peek(1);
   switch (next.kind) {
     case Tok::number:

@@ -115,6 +115,14 @@ void LinePrinter::expr(std::string& out, ExprId id, int lowest) const {
       // A rule without arguments is written without parentheses; a value without them would be no call.
       if (node.args.count > 0 || !node.shape) args(out, node.args, program_.text(node.name));
       break;
+    case ExprKind::query:
+      out += node.inside ? "query inside " : "query clear ";
+      if (node.children.count > 0) {
+        child(0, kLoosest);
+        out += ' ';
+      }
+      out += join({"of ", program_.text(node.name)});
+      break;
   }
   if (parentheses) out += ')';
 }

@@ -42,10 +42,13 @@ void ReachCheck::layerReach(uint32_t index) {
   known_.clear();
   scaled_.clear();
   placed_.clear();
+  values_.sight() = {};
   startOverrides(index);
   RangeFrame frame;
   frame.scope = edges;
   const Extent extent = callExtent(layer.start, frame, Call::start);
+  if (sink_.full()) return;
+  seen(layer, values_.sight());
   if (sink_.full()) return;
 
   double over_may = 0, over_sure = 0;
@@ -67,6 +70,18 @@ void ReachCheck::layerReach(uint32_t index) {
   if (finite && !boxed) return finiteBox(layer, extent);
   layer.proven = over_may <= 0 && !cut_short_;
   if (!layer.proven) report(layer, extent, finite, over_may, over_sure);
+}
+
+/// What a cell depends on lies within its reach.
+void ReachCheck::seen(const Layer& layer, const RangeEvaluator::Sight& sight) {
+  const double reach = layer.reach * kUnit;
+  if (sight.query == kNoId || sight.far <= reach) return;
+  const bool bounded = std::isfinite(sight.far);
+  sink_.error(program_.expr(sight.query).span, codes::kReach,
+              join({"cannot prove reach: this query may look ", bounded ? metresText(sight.far) : "without bound",
+                    " from its cell, layer `", program_.text(layer.name), "` declares reach ", metresText(reach)}),
+              bounded ? join({"raise reach to ", metresText(std::ceil(sight.far)), " or ask nearer to the cell"})
+                      : "bound its radius and where it stands: a parameter's range, or clamp()");
 }
 
 ReachCheck::Culprit ReachCheck::culpritOf(const Layer& layer, const Extent& extent) const {

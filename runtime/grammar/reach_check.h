@@ -49,6 +49,7 @@ class ReachCheck {
 
   // Layers.
   void layerReach(uint32_t index);
+  void seen(const Layer& layer, const RangeEvaluator::Sight& sight);
   /// What extends farthest, and where it is written.
   struct Culprit {
     std::string name;

@@ -73,6 +73,7 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
       frame.slots[s.slot] = values_.evaluate(s.expr, frame);
       return Extent::nothing();
     case StmtKind::detail: {
+      values_.number(s.expr, frame);  // a query in it
       Extent e = body(s.body, frame);
       e.partial = true;
       return e;

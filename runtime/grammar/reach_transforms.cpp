@@ -234,7 +234,8 @@ IntervalVector ReachCheck::areaOf(const ScatterNode& scatter, const RangeFrame& 
 
 Extent ReachCheck::scattered(const StmtNode& s, RangeFrame& frame) {
   const ScatterNode& scatter = program_.ast.scatters[s.extra];
-  IntervalVector at = areaOf(scatter, frame);
+  const IntervalVector drawn = areaOf(scatter, frame);
+  IntervalVector at = drawn;
   if (scatter.probe != 0) {
     const double far = std::max(0.0, values_.number(scatter.distance, frame).hi);
     at[1] = scatter.probe > 0 ? at[1] + Interval{0, far} : at[1] + Interval{-far, 0};
@@ -243,11 +244,17 @@ Extent ReachCheck::scattered(const StmtNode& s, RangeFrame& frame) {
     frame.slots[scatter.slot] = RangeValue::number({0, std::max(0.0, values_.number(scatter.within, frame).hi)});
   }
   const PlaceRange place = frame.place;
+  if (scatter.when != kNoId) {
+    frame.place.move(drawn);
+    values_.condition(scatter.when, frame);
+    frame.place = place;
+  }
   frame.place.move(at);
   Extent e = body(s.body, frame);
   frame.place = place;
   Interval times{0, kInfinity};
-  if (!scatter.poisson) times = rounded(values_.number(scatter.count, frame));
+  const Interval count = values_.number(scatter.count, frame);
+  if (!scatter.poisson) times = rounded(count);
   if (scatter.when != kNoId || scatter.probe != 0) times.lo = 0;
   e.repeat(times);
   e.move(at);

@@ -120,12 +120,30 @@ RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
     case ExprKind::member:
       out = member(n, frame);
       break;
+    case ExprKind::query:
+      out = query(id, frame);
+      break;
     case ExprKind::text:
     case ExprKind::range:
       break;
   }
   --depth_;
   return out;
+}
+
+RangeValue RangeEvaluator::query(ExprId id, const RangeFrame& frame) {
+  const ExprNode& n = program_.expr(id);
+  asked_.place = asked_.scale = true;
+  const double radius = n.children.count == 0 ? 0 : std::max(0.0, number(child(n, 0), frame).hi);
+  const double ball = boundProduct(radius, frame.place.scale.magnitude());
+  for (size_t i = 0; i < 3; ++i) {
+    if (cell_[i].hi == 0) continue;
+    const Interval at = frame.place.offset[i];
+    const Interval cell = Interval{low_, low_ + 1} * cell_[i];
+    const double far = std::max(cell.lo - at.lo, at.hi - cell.hi) + ball;
+    if (far > sight_.far) sight_ = {far, id};
+  }
+  return RangeValue::condition(kEither);
 }
 
 RangeValue RangeEvaluator::binary(const ExprNode& n, const RangeFrame& frame) {

@@ -62,6 +62,13 @@ class RangeEvaluator {
   };
   Asked& asked() { return asked_; }
 
+  /// How far from the cell queries look, along the axes that are cut into cells, and which looks farthest.
+  struct Sight {
+    double far = 0;
+    ExprId query = kNoId;
+  };
+  Sight& sight() { return sight_; }
+
   RangeValue evaluate(ExprId id, const RangeFrame& frame);
   Interval number(ExprId id, const RangeFrame& frame);
   IntervalVector vector(ExprId id, const RangeFrame& frame);
@@ -73,6 +80,7 @@ class RangeEvaluator {
   void refine(ExprId condition, bool holds, RangeFrame& frame);
 
  private:
+  RangeValue query(ExprId id, const RangeFrame& frame);
   RangeValue binary(const ExprNode& n, const RangeFrame& frame);
   RangeValue call(const ExprNode& n, const RangeFrame& frame);
   RangeValue builtin(const ExprNode& n, const RangeFrame& frame);
@@ -87,6 +95,7 @@ class RangeEvaluator {
   IntervalVector cell_{};
   double low_ = 0;  ///< of the cell, in cells
   Asked asked_;
+  Sight sight_;
   int depth_ = 0;
 };
 

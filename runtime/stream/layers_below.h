@@ -20,6 +20,7 @@ class LayersBelow final : public LowerLayers {
   bool solid(uint32_t layer, Int3 p) const override;
   std::optional<int32_t> probe(uint32_t layer, Int3 from, std::array<double, 3> direction,
                                int32_t length) const override;
+  BallProof prove(uint32_t layer, const Ball& ball, Content wanted) const override;
 
   const std::optional<Error>& error() const { return error_; }
   /// That the layers which were asked have read (GrammarChunk::parameters).
@@ -36,7 +37,7 @@ class LayersBelow final : public LowerLayers {
   mutable std::shared_ptr<const FieldProgram> elsewhere_;  ///< of a box outside of `around_`
   mutable EvalScratch scratch_;
   mutable PruneScratch prune_scratch_;
-  mutable PrunedProgram pruned_;
+  mutable PrunedProgram pruned_, piece_;
   mutable std::vector<int32_t> x_, y_, z_, q_;
   mutable std::optional<Error> error_;
   mutable uint64_t parameters_ = 0;

@@ -73,7 +73,7 @@ std::optional<std::vector<std::byte>> WorldField::identity() const {
 template <class T, class Derive>
 Result<T> WorldField::overLayersBelow(uint32_t layer, Int3 at, const Derive& derive) const {
   const ProfileScope scope(profiler(), zone::kDerive);
-  // Probes start in the cell and end within its reach.
+  // Probes start in the cell and end within its reach; what queries look at lies within it.
   const IntBox around = moved(cellLimit(*settings_.program, layer, at), settings_.shift);
   LayersBelow below(*this, around);
   Result<T> derived = derive(below);

@@ -18,6 +18,11 @@ struct Case {
   const char* text;
 };
 
+// Void in rock, and a layer that may ask about it.
+#define SGM_NET                                                               \
+  "sgm 1; domain infinite solid; layer net cell 32m reach 16m { start Net; }" \
+  " layer drip cell 16m reach 8m uses net { start D; }\nrule Net { cut { at(cell.center) sphere(8m); } }\n"
+
 const Case kCases[] = {
     // The text
     {"2:17 bad-character", "sgm 1; start A;\nrule A { sphere(#2m); }"},
@@ -169,6 +174,37 @@ const Case kCases[] = {
     {"2:24 value-range",
      "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1m, rounds 6, radius 3); }"},
     {"2:13 unit-mismatch", "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\nrule A { ca(1); }"},
+    // Queries
+    {"3:13 unknown-name", SGM_NET "rule D when query clear 2m of nett { sphere(1m); }"},
+    {"3:13 layer-uses", SGM_NET "rule D when query clear 2m of drip { sphere(1m); }"},
+    {"3:25 unit-mismatch", SGM_NET "rule D when query clear 2 of net { sphere(1m); }"},
+    {"3:25 type-mismatch", SGM_NET "rule D when query clear cell of net { sphere(1m); }"},
+    {"3:25 stage", SGM_NET "rule D when query clear p.x of net { sphere(1m); }"},
+    {"3:25 value-range", SGM_NET "rule D when query clear -2m of net { sphere(1m); }"},
+    {"3:28 syntax", SGM_NET "rule D when query clear 2m net { sphere(1m); }"},
+    {"3:25 syntax", SGM_NET "rule D when query clear { sphere(1m); }"},
+    {"3:19 syntax", SGM_NET "rule D when query 2m of net { sphere(1m); }"},
+    {"3:31 syntax", SGM_NET "rule D when query clear 2m of { sphere(1m); }"},
+    {"3:10 syntax", SGM_NET "rule D { query clear of net; }"},
+    {"3:6 reserved-word", SGM_NET "rule query { }"},
+    {"3:17 type-mismatch", SGM_NET "rule D { sphere(query clear of net); }"},
+    {"3:9 wrong-use", SGM_NET "let f = query clear of net; rule D when f { sphere(1m); }"},
+    {"3:17 stage",
+     SGM_NET "field f(a) = if query clear of net then a else 0m; rule D { displace f(1m) amp 1m { sphere(1m); } }"},
+    {"3:23 stage",
+     SGM_NET "rule D { field f = if query clear of net then 1m else 0m; displace f amp 1m { sphere(1m); } }"},
+    {"3:26 stage",
+     SGM_NET "rule D { field f(a) = if query clear of net then a else 0m; displace f(1m) amp 1m { sphere(1m); } }"},
+    {"3:13 reach", SGM_NET "rule D when query clear 9m of net { sphere(1m); }"},
+    {"3:27 reach", SGM_NET "param r = 1m; rule D when query clear r of net { sphere(1m); }"},
+    {"2:13 layer-uses",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start B; } layer b cell 8m reach 4m { start A; }\n"
+     "rule A when query clear of a { sphere(1m); } rule B { sphere(1m); }"},
+    {"2:37 layer-uses",
+     "sgm 1; domain infinite; layer a cell 8m reach 4m { start B; } layer b cell 8m reach 4m { start A; }\n"
+     "override \"b(0, 0, 0)/A\" { sphere(if query inside of a then 1m else 2m); }\n"
+     "rule A { sphere(1m); } rule B { sphere(1m); }"},
+    {"1:36 unknown-name", "sgm 1; start A; rule A { sphere(if query clear of net then 1m else 2m); }"},
     {"1:38 whole-units", "sgm 1; domain infinite; layer a cell 0.0001m reach 0m { start A; } rule A { }"},
     {"1:47 reach-too-large", "sgm 1; domain infinite; layer a cell 8m reach 80m { start A; } rule A { }"},
     {"1:42 value-range", "sgm 1; domain finite output density edge 0m; start A; rule A { }"},

@@ -18,7 +18,8 @@ class Writer {
     out_ += "import \"std/noise.sgm\" as noise;\n";
     out_ += "param size_ = 2m in 1m..3m \"a \\\"doc\\\"\";\nparam count = 3 in 1..5;\n";
     out_ += "let twice(x) = 2*x;\nfield wave(amp, period = 2m) = amp*fractal(period);\n";
-    out_ += "domain finite box(4000m, 4000m, 4000m);\nstart R0(1m);\n";
+    out_ += "domain finite box(4000m, 4000m, 4000m);\nlayer under cell 4000m reach 4000m { start R4(2m); }\n";
+    out_ += "layer main cell 4000m reach 4000m uses under { start R0(1m); }\n";
     for (int r = 0; r < 4; ++r) rule(r);
     out_ += "rule R4(r) { sphere(r); }\nmorphic M(r) : sphere(r) -> box(r, r, 2*r) by 0.5" +
             std::string(pick({"", " power", " lerp"})) + ";\n";
@@ -157,7 +158,7 @@ class Writer {
       case 3:
         return "min(" + length(depth + 1) + ", " + length(depth + 1) + ")";
       case 4:
-        return "(if " + ratio(depth + 1) + " < 0.5 then r else " + length(depth + 1) + ")";
+        return "(if " + condition(depth + 1) + " then r else " + length(depth + 1) + ")";
       case 5:
         return "rand(0.5m, 1m)";
       case 6:
@@ -178,6 +179,16 @@ class Writer {
         return "-(-" + ratio(depth + 1) + ")";
       default:
         return pick({"0.5", "30%", "0.25"});
+    }
+  }
+
+  std::string condition(int depth) {
+    switch (draw(3)) {
+      case 0:
+        return std::string(pick({"", "not "})) + "query" + pick({" clear ", "  inside "}) +
+               (chance(50) ? length(depth + 1) + " " : "") + "of under" + pick({"", " and r > 1m"});
+      default:
+        return ratio(depth + 1) + " < 0.5";
     }
   }
 

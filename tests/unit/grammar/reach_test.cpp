@@ -240,6 +240,38 @@ TEST_CASE("a layer of voxels shows where cells are no larger than eight of them"
   CHECK(coarsest("ca(1m); at(4m, 4m, 4m) sphere(1m);") == std::numeric_limits<int32_t>::max());
 }
 
+TEST_CASE("what a query looks at counts, wherever it stands", "[grammar][reach]") {
+  auto with = [&](const std::string& reach, const std::string& rule) {
+    return brief(compileText("sgm 1; domain infinite solid;\nlayer net cell 8m reach 4m { start A; }\n"
+                             "layer drip cell 8m reach " +
+                             reach +
+                             " uses net { start D; }\nrule A { cut { at(cell.center) sphere(2m); } }\n"
+                             "param r = 1m in 0m..3m;\n" +
+                             rule)
+                     .diagnostics);
+  };
+  const auto takes = [&](const std::string& enough, const std::string& little, const std::string& rule) {
+    INFO(rule);
+    CHECK(with(enough, rule).empty());
+    CHECK(with(little, rule).find(" reach") != std::string::npos);
+  };
+  takes("3m", "2.75m", "rule D when query clear r of net { anchor spawn; }");
+  takes("7m", "6.75m",
+        "rule D { at(-1m, 0m, 0m) scale(2) Ask; } rule Ask when not query inside r of net { anchor spawn; }");
+  takes("5m", "4.75m",
+        "rule D { at(10m, 0m, 0m) rot(z, 45deg) Ask; } rule Ask when query clear r of net { anchor spawn; }");
+  takes("0.5m", "0.25m", "rule D { at(8.5m, 0m, 0m) Ask; } rule Ask when query clear of net { anchor spawn; }");
+  takes("3m", "2.75m", "rule D { scatter poisson(1m) when query clear r of net { anchor spawn; } }");
+  takes(
+      "5m", "4.75m",
+      "rule D { scatter poisson(1m) probe down 2m of net Ask; } rule Ask when query clear r of net { anchor spawn; }");
+  takes("4m", "3.75m",
+        "rule D { for i in 0..4 { at(-i*1m/3, 0m, 0m) Ask; } } rule Ask when query clear r of net { anchor spawn; }");
+  takes("3m", "2.75m", "rule D { let open = query clear r of net; sphere(if open then 0.1m else 0.2m); }");
+  takes("3m", "2.75m", "rule D { Ask(query clear r of net); } rule Ask(open) when open { anchor spawn; }");
+  takes("3m", "2.75m", "rule D { detail if query clear r of net then 1m else 2m { sphere(1m); } }");
+}
+
 TEST_CASE("a finite grammar without a box gets the bound of its shapes", "[grammar][reach]") {
   const CompileResult result = compileText("sgm 1; start A; rule A { at(3m, 0m, 0m) sphere(2m); }");
   REQUIRE(result.program);
