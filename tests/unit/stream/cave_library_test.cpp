@@ -134,3 +134,32 @@ TEST_CASE("flowstone lies on floors, and is as high as it says", "[std]") {
   }
   CHECK(mounds > 20);
 }
+
+TEST_CASE("what stands in the cave with a lake has rock under it that does not fall away", "[std]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const WorldField world(settingsOf(sample("lake.sgm"), 512, random()), std::pmr::get_default_resource());
+  const IntBox box{{0, -30 * 1024, 0}, {256 * 1024, 30 * 1024, 256 * 1024}};
+  const auto rock = world.compileBelow(0, box.grown(8 * 1024));
+  REQUIRE(rock);
+  // How far below the place, and how much there: two units less than what was asked about, for the rounding of places.
+  const auto bears = [&](const char* rule, int32_t below, int32_t radius) {
+    const auto found = world.instances(ruleNamed(*world.settings().program, rule), box, 100'000);
+    REQUIRE(found);
+    std::vector<Int3> points;
+    std::uniform_int_distribution<int32_t> by(-radius, radius);
+    for (const RuleInstance& stands : *found) {
+      for (int k = 0; k < 60; ++k) {
+        const int32_t x = by(random), y = by(random), z = by(random);
+        if (x * x + y * y + z * z <= radius * radius) points.push_back(saturatingAdd(stands.origin, {x, y - below, z}));
+      }
+    }
+    const std::vector<bool> solid = solidAt(**rock, points);
+    INFO(rule);
+    CHECK(found->size() > 5);
+    CHECK(std::all_of(solid.begin(), solid.end(), [](bool s) { return s; }));
+  };
+  bears("Flowstone", 1024, 819 - 2);
+  bears("Stalagmite", 512, 409 - 2);
+}
