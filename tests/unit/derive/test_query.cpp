@@ -129,6 +129,23 @@ TEST_CASE("a ball proven to hold one thing holds nothing else, and away from the
   CHECK(decided > 0);
 }
 
+TEST_CASE("one position of something else is never missed") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  for (unsigned round = 0; round < rounds(200); ++round) {
+    const Ball ball{around(random, {5, -7, 11}, 100'000), 1 + static_cast<int32_t>(random() % 10'000)};
+    Int3 odd = around(random, ball.centre, ball.radius);
+    while (distance(odd, ball.centre) > ball.radius) odd = around(random, ball.centre, ball.radius);
+    CAPTURE(ball.radius, odd.x, odd.y, odd.z);
+    const auto content = [&](const IntBox& box) {
+      if (box.lo == box.hi) return box.lo == odd ? Content::solid : Content::open;
+      return box.contains(odd) ? Content::unknown : Content::open;
+    };
+    CHECK_FALSE(proveBall(ball, Content::open, content).holds);
+  }
+}
+
 TEST_CASE("a proof costs no more than it may, and what costs more is not proven") {
   // A position at a time: nothing is known of larger boxes.
   const auto single = [](const IntBox& box) { return box.lo == box.hi ? Content::open : Content::unknown; };

@@ -261,6 +261,9 @@ TEST_CASE("what a query looks at counts, wherever it stands", "[grammar][reach]"
   takes("5m", "4.75m",
         "rule D { at(10m, 0m, 0m) rot(z, 45deg) Ask; } rule Ask when query clear r of net { anchor spawn; }");
   takes("0.5m", "0.25m", "rule D { at(8.5m, 0m, 0m) Ask; } rule Ask when query clear of net { anchor spawn; }");
+  takes("6m", "5.75m", "rule D { Ask; at(11m, 0m, 0m) Ask; } rule Ask when query clear r of net { anchor spawn; }");
+  takes("9m", "8.75m", "rule D { Ask; scale(3) Ask; } rule Ask when query clear r of net { anchor spawn; }");
+  takes("8m", "7.75m", "rule D { scatter 3 on disc(5m) when query clear r of net { anchor spawn; } }");
   takes("3m", "2.75m", "rule D { scatter poisson(1m) when query clear r of net { anchor spawn; } }");
   takes(
       "5m", "4.75m",
