@@ -131,7 +131,7 @@ Value Interpreter::evaluateQuery(const ExprNode& node, const Env& env) {
     if (!(radius >= 0)) note("the radius of a query is negative; it counts as 0", node.span, env.activation);
     ball.radius = std::max(0, toUnits(radius * env.place.scale));
   }
-  const BallProof proof = lower_.prove(node.id, ball, node.inside ? Content::solid : Content::open);
+  const BallProof proof = lower_.prove(node.id, ball, node.inside ? BoxContent::solid : BoxContent::open);
   if (!step(proof.pieces, node.span, env.activation)) return {};
   return Value::boolean({proof.holds ? 1.0 : 0.0});
 }

@@ -45,7 +45,7 @@ void halve(const IntBox& box, std::vector<IntBox>& out) {
 
 }  // namespace
 
-BallProof proveBall(const Ball& ball, Content wanted, const std::function<Content(const IntBox&)>& content) {
+BallProof proveBall(const Ball& ball, BoxContent wanted, const std::function<BoxContent(const IntBox&)>& content) {
   BallProof proof;
   if (ball.radius < 0) return proof;
   std::vector<IntBox> pieces{onePosition(ball.centre).grown(ball.radius)}, halves;
@@ -54,9 +54,9 @@ BallProof proveBall(const Ball& ball, Content wanted, const std::function<Conten
     for (const IntBox& piece : pieces) {
       if (!meets(ball, piece)) continue;
       if (++proof.pieces > kMostBallPieces) return proof;
-      const Content found = content(piece);
+      const BoxContent found = content(piece);
       if (found == wanted) continue;
-      if (found != Content::unknown) return proof;
+      if (found != BoxContent::unknown) return proof;
       // One position of another kind ends it early.
       const IntBox middle = onePosition(middleOf(piece));
       if (meets(ball, middle) && content(middle) != wanted) return proof;
@@ -71,10 +71,10 @@ BallProof proveBall(const Ball& ball, Content wanted, const std::function<Conten
   }
 }
 
-BallProof LowerLayers::prove(uint32_t layer, const Ball& ball, Content wanted) const {
+BallProof LowerLayers::prove(uint32_t layer, const Ball& ball, BoxContent wanted) const {
   return proveBall(ball, wanted, [&](const IntBox& box) {
-    if (box.lo != box.hi) return Content::unknown;
-    return solid(layer, box.lo) ? Content::solid : Content::open;
+    if (box.lo != box.hi) return BoxContent::unknown;
+    return solid(layer, box.lo) ? BoxContent::solid : BoxContent::open;
   });
 }
 

@@ -14,7 +14,7 @@ namespace sgm {
 inline constexpr int32_t kProbeStep = 256;  ///< units between the samples of a probe: thinner walls may be missed
 
 /// What every position of a box holds, as far as that is proven.
-enum class Content : uint8_t { open, solid, unknown };
+enum class BoxContent : uint8_t { open, solid, unknown };
 
 /// All positions (whole units) no farther than `radius` units from the centre.
 struct Ball {
@@ -33,7 +33,7 @@ struct BallProof {
 /// Whether the ball is proven to hold `wanted` and nothing else. Its box is halved along each axis until every piece
 /// that meets the ball is proven, one of them is proven to hold something else, or the halvings or pieces are spent.
 /// content: of boxes of positions; it must know boxes of one position.
-BallProof proveBall(const Ball& ball, Content wanted, const std::function<Content(const IntBox&)>& content);
+BallProof proveBall(const Ball& ball, BoxContent wanted, const std::function<BoxContent(const IntBox&)>& content);
 
 /// Thread-safe: called from every deriving thread.
 class LowerLayers {
@@ -50,7 +50,7 @@ class LowerLayers {
                                        int32_t length) const;
 
   /// proveBall() for the world of solid(). This default knows boxes of one position only.
-  virtual BallProof prove(uint32_t layer, const Ball& ball, Content wanted) const;
+  virtual BallProof prove(uint32_t layer, const Ball& ball, BoxContent wanted) const;
 };
 
 /// The point t units from `from` along `direction`, rounded to nearest on each axis.

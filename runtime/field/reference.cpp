@@ -16,7 +16,7 @@ struct Local {
 };
 
 // Not the C library's hypot and pow: libraries differ in their last bits, and derivation asks for bounds.
-double norm(double x, double y, double z = 0) { return std::sqrt(x * x + y * y + z * z); }
+double hypotenuse(double x, double y, double z = 0) { return std::sqrt(x * x + y * y + z * z); }
 
 // An offset by axis, as far as an int32 goes: there the evaluators saturate (real.h).
 double minus(double v, double centre) { return std::clamp(v - centre, -2147483648.0, 2147483647.0); }
@@ -34,7 +34,9 @@ Local toLocal(const uint32_t* p, double x, double y, double z) {
 }
 
 // Distance to the planar region {a <= 0 and b <= 0} from its two signed face distances.
-double corner(double a, double b) { return norm(std::max(a, 0.0), std::max(b, 0.0)) + std::min(std::max(a, b), 0.0); }
+double corner(double a, double b) {
+  return hypotenuse(std::max(a, 0.0), std::max(b, 0.0)) + std::min(std::max(a, b), 0.0);
+}
 
 double trunconeDistance(double radial, double y, double bottom, double top, double h) {
   // Distance to the trapezoid (0,-h) (bottom,-h) (top,h) (0,h) mirrored at the axis: nearest of its three outer edges.
@@ -45,7 +47,7 @@ double trunconeDistance(double radial, double y, double bottom, double top, doub
     const double wx = radial - corners[i][0], wy = y - corners[i][1];
     const double length2 = ex * ex + ey * ey;
     const double t = length2 > 0 ? std::clamp((wx * ex + wy * ey) / length2, 0.0, 1.0) : 0.0;
-    best = std::min(best, norm(wx - t * ex, wy - t * ey));
+    best = std::min(best, hypotenuse(wx - t * ex, wy - t * ey));
   }
   const double width = bottom + (top - bottom) * (y + h) / (2 * h);
   const bool inside = std::abs(y) <= h && radial <= width;
@@ -61,7 +63,7 @@ double prismDistance(const uint32_t* p, const Local& q) {
     const double ax = realAt(p, at), az = realAt(p, at + 1), ex = realAt(p, at + 2), ez = realAt(p, at + 3);
     const double wx = q.x - ax, wz = q.z - az, length2 = ex * ex + ez * ez;
     const double t = length2 > 0 ? std::clamp((wx * ex + wz * ez) / length2, 0.0, 1.0) : 0.0;
-    best = std::min(best, norm(wx - t * ex, wz - t * ez));
+    best = std::min(best, hypotenuse(wx - t * ex, wz - t * ez));
     if ((az > q.z) != (az + ez > q.z) && q.x < ax + ex * (q.z - az) / ez) inside = !inside;
   }
   return corner(inside ? -best : best, std::abs(q.y) - realAt(p, 13));
@@ -109,7 +111,7 @@ double sweepShare(const uint32_t* p, Int3 at) {
     const double ex = realAt(s, 3), ey = realAt(s, 4), ez = realAt(s, 5);
     const double length2 = ex * ex + ey * ey + ez * ez;
     const double t = length2 > 0 ? std::clamp((dx * ex + dy * ey + dz * ez) / length2, 0.0, 1.0) : 0.0;
-    const double d = norm(dx - t * ex, dy - t * ey, dz - t * ez);
+    const double d = hypotenuse(dx - t * ex, dy - t * ey, dz - t * ez);
     if (d < best) {
       best = d;
       share = realAt(s, 7) + t * realAt(s, 8);
@@ -125,7 +127,7 @@ double kernel(double x) {
 
 double roundUnion(double a, double b, double k) {
   const double u = std::clamp(k - a, 0.0, 1e9), v = std::clamp(k - b, 0.0, 1e9), nearest = std::min(a, b);
-  return u > 0 && v > 0 ? std::min(nearest, k - norm(u, v)) : nearest;
+  return u > 0 && v > 0 ? std::min(nearest, k - hypotenuse(u, v)) : nearest;
 }
 
 // Of an expression's result: real.h, settleReal.
@@ -147,13 +149,13 @@ double referencePrimitive(Op op, const uint32_t* p, double x, double y, double z
   const Local d = offset(p, x, y, z);
   switch (op) {
     case Op::sphere:
-      return norm(d.x, d.y, d.z) - realAt(p, 4);
+      return hypotenuse(d.x, d.y, d.z) - realAt(p, 4);
     case Op::blob:
       return kernel((d.x * d.x + d.y * d.y + d.z * d.z) * realAt(p, 4));
     case Op::capsule: {
       const double ax = realAt(p, 4), ay = realAt(p, 5), az = realAt(p, 6), length2 = ax * ax + ay * ay + az * az;
       const double t = length2 > 0 ? std::clamp((d.x * ax + d.y * ay + d.z * az) / length2, 0.0, 1.0) : 0.0;
-      return norm(d.x - t * ax, d.y - t * ay, d.z - t * az) - realAt(p, 8);
+      return hypotenuse(d.x - t * ax, d.y - t * ay, d.z - t * az) - realAt(p, 8);
     }
     default:
       break;
@@ -163,16 +165,17 @@ double referencePrimitive(Op op, const uint32_t* p, double x, double y, double z
     case Op::box: {
       const double ax = std::abs(q.x) - realAt(p, 13), ay = std::abs(q.y) - realAt(p, 14),
                    az = std::abs(q.z) - realAt(p, 15);
-      return norm(std::max(ax, 0.0), std::max(ay, 0.0), std::max(az, 0.0)) + std::min(std::max({ax, ay, az}), 0.0);
+      return hypotenuse(std::max(ax, 0.0), std::max(ay, 0.0), std::max(az, 0.0)) +
+             std::min(std::max({ax, ay, az}), 0.0);
     }
     case Op::cylinder:
-      return corner(norm(q.x, q.z) - realAt(p, 13), std::abs(q.y) - realAt(p, 14));
+      return corner(hypotenuse(q.x, q.z) - realAt(p, 13), std::abs(q.y) - realAt(p, 14));
     case Op::truncone:
-      return trunconeDistance(norm(q.x, q.z), q.y, realAt(p, 13), realAt(p, 14), realAt(p, 15));
+      return trunconeDistance(hypotenuse(q.x, q.z), q.y, realAt(p, 13), realAt(p, 14), realAt(p, 15));
     case Op::torus:
-      return norm(norm(q.x, q.z) - realAt(p, 13), q.y) - realAt(p, 14);
+      return hypotenuse(hypotenuse(q.x, q.z) - realAt(p, 13), q.y) - realAt(p, 14);
     case Op::ellipsoid:
-      return (norm(q.x * realAt(p, 13), q.y * realAt(p, 14), q.z * realAt(p, 15)) - 1) * realAt(p, 16);
+      return (hypotenuse(q.x * realAt(p, 13), q.y * realAt(p, 14), q.z * realAt(p, 15)) - 1) * realAt(p, 16);
     case Op::superquadric:
       return (powerNorm({std::abs(q.x) * realAt(p, 13), std::abs(q.y) * realAt(p, 14), std::abs(q.z) * realAt(p, 15)},
                         realAt(p, 17)) -

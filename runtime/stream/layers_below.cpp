@@ -83,7 +83,7 @@ std::optional<int32_t> LayersBelow::probe(uint32_t layer, Int3 start, std::array
   return closed;
 }
 
-BallProof LayersBelow::prove(uint32_t layer, const Ball& derived, Content wanted) const {
+BallProof LayersBelow::prove(uint32_t layer, const Ball& derived, BoxContent wanted) const {
   const Ball ball{shifted(derived.centre), derived.radius};
   const IntBox box = IntBox{ball.centre, ball.centre}.grown(ball.radius);
   const FieldProgram* field = program(layer, box);
@@ -93,10 +93,10 @@ BallProof LayersBelow::prove(uint32_t layer, const Ball& derived, Content wanted
     if (piece.lo == piece.hi) {
       int32_t q = 0;
       scalarKernels().samples(pruned_.view(), {&piece.lo.x, &piece.lo.y, &piece.lo.z, 1}, scratch_, &q);
-      return q < 0 ? Content::solid : Content::open;
+      return q < 0 ? BoxContent::solid : BoxContent::open;
     }
     prune(pruned_.view(), piece, prune_scratch_, piece_);
-    return piece_.solid() ? Content::solid : piece_.empty() ? Content::open : Content::unknown;
+    return piece_.solid() ? BoxContent::solid : piece_.empty() ? BoxContent::open : BoxContent::unknown;
   });
 }
 

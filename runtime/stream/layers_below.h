@@ -20,7 +20,7 @@ class LayersBelow final : public LowerLayers {
   bool solid(uint32_t layer, Int3 p) const override;
   std::optional<int32_t> probe(uint32_t layer, Int3 from, std::array<double, 3> direction,
                                int32_t length) const override;
-  BallProof prove(uint32_t layer, const Ball& ball, Content wanted) const override;
+  BallProof prove(uint32_t layer, const Ball& ball, BoxContent wanted) const override;
 
   const std::optional<Error>& error() const { return error_; }
   /// That the layers which were asked have read (GrammarChunk::parameters).

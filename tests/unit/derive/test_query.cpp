@@ -27,8 +27,8 @@ class OneSphere {
       : centre_(centre), radius_(radius), hollow_(hollow), slack_(slack) {}
 
   bool solid(Int3 p) const { return (distance(p, centre_) < radius_) != hollow_; }
-  Content content(const IntBox& box) const {
-    if (box.lo == box.hi) return solid(box.lo) ? Content::solid : Content::open;
+  BoxContent content(const IntBox& box) const {
+    if (box.lo == box.hi) return solid(box.lo) ? BoxContent::solid : BoxContent::open;
     Int3 nearest, farthest;
     for (int axis = 0; axis < 3; ++axis) {
       nearest[axis] = std::clamp(centre_[axis], box.lo[axis], box.hi[axis]);
@@ -36,9 +36,9 @@ class OneSphere {
       farthest[axis] = low ? box.lo[axis] : box.hi[axis];
     }
     const double slack = slack_ * distance(box.lo, box.hi);
-    if (distance(nearest, centre_) > radius_ + slack) return hollow_ ? Content::solid : Content::open;
-    if (distance(farthest, centre_) < radius_ - slack) return hollow_ ? Content::open : Content::solid;
-    return Content::unknown;
+    if (distance(nearest, centre_) > radius_ + slack) return hollow_ ? BoxContent::solid : BoxContent::open;
+    if (distance(farthest, centre_) < radius_ - slack) return hollow_ ? BoxContent::open : BoxContent::solid;
+    return BoxContent::unknown;
   }
 
  private:
@@ -53,7 +53,7 @@ class Asked final : public LowerLayers {
  public:
   explicit Asked(uint32_t pieces = 1) : pieces_(pieces) {}
   bool solid(uint32_t, Int3) const override { return false; }
-  BallProof prove(uint32_t layer, const Ball& ball, Content wanted) const override {
+  BallProof prove(uint32_t layer, const Ball& ball, BoxContent wanted) const override {
     layers.push_back(layer);
     balls.push_back(ball);
     contents.push_back(wanted);
@@ -62,7 +62,7 @@ class Asked final : public LowerLayers {
 
   mutable std::vector<uint32_t> layers;
   mutable std::vector<Ball> balls;
-  mutable std::vector<Content> contents;
+  mutable std::vector<BoxContent> contents;
 
  private:
   uint32_t pieces_;
@@ -104,8 +104,8 @@ TEST_CASE("a ball proven to hold one thing holds nothing else, and away from the
     const Ball ball{around(random, middle, 8000), static_cast<int32_t>(random() % 5 == 0 ? 0 : random() % 4000)};
     const auto content = [&](const IntBox& box) { return world.content(box); };
     CAPTURE(round, radius, ball.centre.x, ball.centre.y, ball.centre.z, ball.radius, hollow, slack);
-    const bool open = proveBall(ball, Content::open, content).holds;
-    const bool solid = proveBall(ball, Content::solid, content).holds;
+    const bool open = proveBall(ball, BoxContent::open, content).holds;
+    const bool solid = proveBall(ball, BoxContent::solid, content).holds;
     CHECK_FALSE((open && solid));
     if (open || solid) {
       ++proven;
@@ -139,40 +139,40 @@ TEST_CASE("one position of something else is never missed") {
     while (distance(odd, ball.centre) > ball.radius) odd = around(random, ball.centre, ball.radius);
     CAPTURE(ball.radius, odd.x, odd.y, odd.z);
     const auto content = [&](const IntBox& box) {
-      if (box.lo == box.hi) return box.lo == odd ? Content::solid : Content::open;
-      return box.contains(odd) ? Content::unknown : Content::open;
+      if (box.lo == box.hi) return box.lo == odd ? BoxContent::solid : BoxContent::open;
+      return box.contains(odd) ? BoxContent::unknown : BoxContent::open;
     };
-    CHECK_FALSE(proveBall(ball, Content::open, content).holds);
+    CHECK_FALSE(proveBall(ball, BoxContent::open, content).holds);
   }
 }
 
 TEST_CASE("a proof costs no more than it may, and what costs more is not proven") {
   // A position at a time: nothing is known of larger boxes.
-  const auto single = [](const IntBox& box) { return box.lo == box.hi ? Content::open : Content::unknown; };
-  const BallProof large = proveBall({{}, 5000}, Content::open, single);
+  const auto single = [](const IntBox& box) { return box.lo == box.hi ? BoxContent::open : BoxContent::unknown; };
+  const BallProof large = proveBall({{}, 5000}, BoxContent::open, single);
   CHECK_FALSE(large.holds);
   CHECK(large.pieces <= kMostBallPieces + 1);
-  CHECK(proveBall({{}, 3}, Content::open, single).holds);
-  CHECK(proveBall({{}, 0}, Content::open, single).pieces == 1);
-  CHECK_FALSE(proveBall({{}, 0}, Content::solid, single).holds);
-  CHECK_FALSE(proveBall({{}, -1}, Content::open, single).holds);
+  CHECK(proveBall({{}, 3}, BoxContent::open, single).holds);
+  CHECK(proveBall({{}, 0}, BoxContent::open, single).pieces == 1);
+  CHECK_FALSE(proveBall({{}, 0}, BoxContent::solid, single).holds);
+  CHECK_FALSE(proveBall({{}, -1}, BoxContent::open, single).holds);
 }
 
 TEST_CASE("a ball at the end of the world ends there") {
   const Int3 corner{std::numeric_limits<int32_t>::max(), std::numeric_limits<int32_t>::min(), 0};
   const auto open = [](const IntBox& box) {
-    return box.lo.x > box.hi.x || box.empty() ? Content::solid : Content::open;
+    return box.lo.x > box.hi.x || box.empty() ? BoxContent::solid : BoxContent::open;
   };
-  CHECK(proveBall({corner, std::numeric_limits<int32_t>::max()}, Content::open, open).holds);
+  CHECK(proveBall({corner, std::numeric_limits<int32_t>::max()}, BoxContent::open, open).holds);
 }
 
 TEST_CASE("where nothing is known of boxes, positions decide") {
   const Ceiling rock(100);
-  CHECK(rock.prove(0, {{5, 99, 5}, 0}, Content::open).holds);
-  CHECK(rock.prove(0, {{5, 100, 5}, 0}, Content::solid).holds);
-  CHECK_FALSE(rock.prove(0, {{5, 100, 5}, 0}, Content::open).holds);
-  CHECK(rock.prove(0, {{5, 97, 5}, 2}, Content::open).holds);
-  CHECK_FALSE(rock.prove(0, {{5, 98, 5}, 2}, Content::open).holds);
+  CHECK(rock.prove(0, {{5, 99, 5}, 0}, BoxContent::open).holds);
+  CHECK(rock.prove(0, {{5, 100, 5}, 0}, BoxContent::solid).holds);
+  CHECK_FALSE(rock.prove(0, {{5, 100, 5}, 0}, BoxContent::open).holds);
+  CHECK(rock.prove(0, {{5, 97, 5}, 2}, BoxContent::open).holds);
+  CHECK_FALSE(rock.prove(0, {{5, 98, 5}, 2}, BoxContent::open).holds);
 }
 
 TEST_CASE("a query asks about the scope's own place, in its own lengths") {
@@ -195,7 +195,7 @@ TEST_CASE("a query asks about the scope's own place, in its own lengths") {
     REQUIRE(lower.balls.size() == 1);
     REQUIRE(chunk.anchors.size() == 1);
     CHECK(lower.layers[0] == layerOf(*program, "net"));
-    CHECK(lower.contents[0] == (inside ? Content::solid : Content::open));
+    CHECK(lower.contents[0] == (inside ? BoxContent::solid : BoxContent::open));
     CHECK(lower.balls[0].centre == chunk.anchors[0].frame.origin);
     CHECK(lower.balls[0].radius == static_cast<int32_t>(1.5 * factor * 1024));
   }

@@ -115,16 +115,16 @@ TEST_CASE("what a query proves of a ball holds at every position in it, in any w
     const LayersBelow below(world, cell.grown(16 * 1024)), other(world, cell.grown(9 * 1024)), none(world, cell);
     for (int k = 0; k < 40; ++k) {
       const Ball ball{near(random, {}, 6 * 1024), static_cast<int32_t>(random() % 2048)};
-      const bool clear = below.prove(0, ball, Content::open).holds;
-      const bool inside = below.prove(0, ball, Content::solid).holds;
+      const bool clear = below.prove(0, ball, BoxContent::open).holds;
+      const bool inside = below.prove(0, ball, BoxContent::solid).holds;
       for (const LayersBelow* same : {&other, &none}) {
-        CHECK(same->prove(0, ball, Content::open).holds == clear);
-        CHECK(same->prove(0, ball, Content::solid).holds == inside);
+        CHECK(same->prove(0, ball, BoxContent::open).holds == clear);
+        CHECK(same->prove(0, ball, BoxContent::solid).holds == inside);
       }
       CHECK_FALSE((clear && inside));
       const bool rock = below.solid(0, ball.centre);
-      CHECK(below.prove(0, {ball.centre, 0}, Content::solid).holds == rock);
-      CHECK(below.prove(0, {ball.centre, 0}, Content::open).holds == !rock);
+      CHECK(below.prove(0, {ball.centre, 0}, BoxContent::solid).holds == rock);
+      CHECK(below.prove(0, {ball.centre, 0}, BoxContent::open).holds == !rock);
       if (!clear && !inside) continue;
       (clear ? open : solid) += 1;
       const Sampled field = sampled(world, 0, positionsIn(random, ball));
@@ -153,7 +153,7 @@ TEST_CASE("a ball is decided wherever the field's slope leaves no doubt, also be
     if (std::abs(there) > 1e6) continue;
     if (std::abs(there) < kSlope * kPieces * ball.radius + 8) continue;
     among_crests += std::abs(there) < 1.5 * 1024;
-    const BallProof proof = below.prove(0, ball, there < 0 ? Content::solid : Content::open);
+    const BallProof proof = below.prove(0, ball, there < 0 ? BoxContent::solid : BoxContent::open);
     CHECK(proof.holds);
   }
   CHECK(among_crests > 0);
@@ -214,8 +214,11 @@ TEST_CASE("who asks depends on the parameters of what is asked about") {
 }
 
 TEST_CASE("a world that is moved answers as at home") {
-  for (const char* condition : {"query clear 1m of net", "query inside of net"}) {
-    WorldFieldSettings settings = settingsOf(hall("0.7m", condition), 512);
+  const std::string probing =
+      replaced(hall("0.7m", "true"), "poisson(2m) when true", "poisson(2m) probe down 3m of net");
+  for (const std::string& text :
+       {hall("0.7m", "query clear 1m of net"), hall("0.7m", "query inside of net"), probing}) {
+    WorldFieldSettings settings = settingsOf(text, 512);
     const std::vector<Anchor> home = anchorsIn(WorldField(settings, std::pmr::get_default_resource()), cellsOfHall());
     settings.shift = {1'900'000'000, -1'900'000'000, 12'345};
     const std::vector<Anchor> there = anchorsIn(WorldField(settings, std::pmr::get_default_resource()), cellsOfHall());
