@@ -10,6 +10,7 @@ namespace sgm {
 namespace {
 
 constexpr double kUnit = 1.0 / kUnitsPerMetre;
+constexpr const char* kCutShort = "the rules are too many or too deep to follow; bound their recursion";
 
 }  // namespace
 
@@ -87,15 +88,14 @@ void ReachCheck::seen(const Layer& layer, const RangeEvaluator::Sight& sight) {
 ReachCheck::Culprit ReachCheck::culpritOf(const Layer& layer, const Extent& extent) const {
   if (extent.edit != kNoId) return {"what this override derives", program_.overrides[extent.edit].address_span};
   const ExprNode& node = program_.expr(extent.culprit == kNoId ? layer.start : extent.culprit);
-  const std::string_view name = program_.text(node.name);
-  return {name.empty() ? "what this displaces" : join({"`", name, "`"}), node.span};
+  return {node.shape ? join({"`", program_.text(node.name), "`"}) : "what this displaces", node.span};
 }
 
 /// over: by how much the shapes pass their reach.
 std::string ReachCheck::hint(const Extent& extent, bool finite, double reach, double over) const {
   if (extent.why == Unbound::sum && extent.allowed <= 0)
     return "a sum can be displaced only where its largest shape is sure to have some size: displace the shapes in it";
-  if (extent.why == Unbound::sum)
+  if (extent.why == Unbound::sum && std::isfinite(extent.allowed))
     return join({"displace by less than ", numberText(std::floor(extent.allowed * 100) / 100),
                  " m: a sum's field is no larger far away"});
   if (extent.why == Unbound::radius)
@@ -116,10 +116,8 @@ void ReachCheck::report(const Layer& layer, const Extent& extent, bool finite, d
   const std::string from = finite ? " beyond the domain's box" : " from its cell";
   const std::string limit = finite ? "" : join({", layer ", name, " declares reach ", metresText(reach)});
   if (unbounded || over_sure > 0) {
-    Diagnostic& d =
-        sink_.error(span, codes::kReach, join({"cannot prove reach: ", shape, " may extend ", extends, from, limit}),
-                    hint(extent, finite, reach, unbounded ? kInfinity : over_may));
-    if (cut_short_) d.notes.push_back("the rules are too many to follow all of them; bound their recursion");
+    sink_.error(span, codes::kReach, join({"cannot prove reach: ", shape, " may extend ", extends, from, limit}),
+                cut_short_ ? kCutShort : hint(extent, finite, reach, unbounded ? kInfinity : over_may));
     return;
   }
   sink_.warning(span, codes::kReachMaybe, join({shape, " may extend ", extends, from, limit}),
@@ -133,7 +131,7 @@ void ReachCheck::finiteBox(Layer& layer, const Extent& extent) {
   if (!extent.empty && (!std::isfinite(largest) || largest > 1e6 || cut_short_)) {
     const auto [shape, span] = culpritOf(layer, extent);
     sink_.error(span, codes::kReach, join({"cannot prove reach: ", shape, " may extend without bound"}),
-                cut_short_                    ? "the rules are too many or too deep to follow; bound their recursion"
+                cut_short_                    ? kCutShort
                 : extent.why != Unbound::none ? hint(extent, true, 0, kInfinity)
                                               : "give the domain a box: `domain finite box(x, y, z);`");
     return;
