@@ -156,7 +156,7 @@ class Checker {
                  size_t required, ExprId* out);
   bool resolveCallee(ExprId call, bool shape);
   void offerNames(Suggestion& suggestion, bool calls) const;
-  void unknownName(const Span& span, NameId name, bool call);
+  void unknownName(const Span& span, NameId name, bool call, bool shape);
 
   // check_expressions.cpp, check_members.cpp, check_calls.cpp
   Type expression(ExprId id);
@@ -168,6 +168,7 @@ class Checker {
   Type builtinCall(ExprId id);
   void branchRanges(const std::vector<uint32_t>& bound);
   Type method(ExprId id);
+  bool fitsDeeper(ExprId id);
   Type letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<Type>& args);
   Type localFieldUse(ExprId id, const Local& local);
   void primitiveCall(ExprId id);

@@ -2,9 +2,19 @@
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
-#include "grammar/keywords.h"
 
 namespace sgm {
+
+namespace {
+
+/// "`rot(axis, angle)`".
+std::string signatureOf(std::string_view callee, const std::vector<std::string_view>& names) {
+  std::string out = join({"`", callee, "("});
+  for (size_t i = 0; i < names.size(); ++i) out += join({i > 0 ? ", " : "", names[i]});
+  return out + ")`";
+}
+
+}  // namespace
 
 std::vector<Checker::FormalView> Checker::viewOf(IdRange formals) const {
   std::vector<FormalView> out;
@@ -27,22 +37,25 @@ bool Checker::bind(ExprId call, std::string_view callee, const std::vector<Forma
   bound.assign(formals.size(), kNoId);
   bool good = true, named = false;
   auto signature = [&] {
-    std::string out = join({"`", callee, "("});
-    for (size_t i = 0; i < formals.size(); ++i) {
-      if (i > 0) out += ", ";
-      out += formals[i].name;
-    }
-    return out + ")`";
+    std::vector<std::string_view> names;
+    for (const FormalView& formal : formals) names.push_back(formal.name);
+    if (variadic) names.push_back("...");
+    return signatureOf(callee, names);
   };
   size_t position = 0;
   for (uint32_t i = 0; i < n.args.count; ++i) {
     const ArgNode& arg = program_.ast.args[n.args.first + i];
+    if (arg.name != kNoId && variadic) {
+      sink_.error(arg.span, codes::kArgumentName, join({"the arguments of `", callee, "` have no names"}),
+                  join({"it is ", signature()}));
+      return false;
+    }
     if (arg.name != kNoId) {
       named = true;
       Suggestion suggestion(text(arg.name));
       size_t index = formals.size();
       for (size_t f = 0; f < formals.size(); ++f) {
-        if (formals[f].name == text(arg.name) && !variadic) index = f;
+        if (formals[f].name == text(arg.name)) index = f;
         suggestion.offer(formals[f].name);
       }
       if (index == formals.size()) {
@@ -51,7 +64,8 @@ bool Checker::bind(ExprId call, std::string_view callee, const std::vector<Forma
                     hint.empty() ? join({"it is ", signature()}) : hint);
         good = false;
       } else if (bound[index] != kNoId) {
-        sink_.error(arg.span, codes::kArgumentName, join({"`", text(arg.name), "` is given twice"}));
+        sink_.error(arg.span, codes::kArgumentName, join({"`", text(arg.name), "` is given twice"}),
+                    join({"it is ", signature()}));
         good = false;
       } else {
         bound[index] = arg.value;
@@ -95,6 +109,7 @@ bool Checker::bind(ExprId call, std::string_view callee, const std::vector<Forma
 bool Checker::bindWords(IdRange args, const Span& span, std::string_view callee,
                         std::initializer_list<std::string_view> words, size_t required, ExprId* out) {
   const std::vector<std::string_view> list(words);
+  const std::string hint = join({"it is ", signatureOf(callee, list)});
   size_t position = 0, filled = 0;
   for (size_t w = 0; w < list.size(); ++w) out[w] = kNoId;
   for (uint32_t i = 0; i < args.count; ++i) {
@@ -103,18 +118,20 @@ bool Checker::bindWords(IdRange args, const Span& span, std::string_view callee,
     if (arg.name != kNoId) {
       index = static_cast<size_t>(std::find(list.begin(), list.end(), text(arg.name)) - list.begin());
       if (index == list.size()) {
-        sink_.error(arg.span, codes::kArgumentName, join({"`", callee, "` has no parameter `", text(arg.name), "`"}));
+        sink_.error(arg.span, codes::kArgumentName, join({"`", callee, "` has no parameter `", text(arg.name), "`"}),
+                    hint);
         return false;
       }
     }
     if (index < list.size() && out[index] != kNoId) {
-      sink_.error(arg.span, codes::kArgumentName, join({"`", list[index], "` of `", callee, "` is given twice"}));
+      sink_.error(arg.span, codes::kArgumentName, join({"`", list[index], "` of `", callee, "` is given twice"}), hint);
       return false;
     }
     if (index >= list.size()) {
       sink_.error(arg.span, codes::kArgumentCount,
                   join({"`", callee, "` takes at most ", std::to_string(list.size()),
-                        list.size() == 1 ? " argument" : " arguments"}));
+                        list.size() == 1 ? " argument" : " arguments"}),
+                  hint);
       return false;
     }
     out[index] = arg.value;
@@ -122,7 +139,8 @@ bool Checker::bindWords(IdRange args, const Span& span, std::string_view callee,
   }
   if (filled >= required) return true;
   sink_.error(span, codes::kArgumentCount,
-              join({"`", callee, "` needs ", required == 1 ? "an argument" : std::to_string(required) + " arguments"}));
+              join({"`", callee, "` needs ", required == 1 ? "an argument" : std::to_string(required) + " arguments"}),
+              hint);
   return false;
 }
 
@@ -138,15 +156,14 @@ void Checker::offerNames(Suggestion& suggestion, bool calls) const {
   }
 }
 
-void Checker::unknownName(const Span& span, NameId name, bool call) {
+void Checker::unknownName(const Span& span, NameId name, bool call, bool shape) {
   const std::string_view word = text(name);
-  if (isUnavailable(word)) {
-    sink_.error(span, codes::kNotAvailable, join({"`", word, "` is not available in sgm 1 of this version"}));
-    return;
-  }
   Suggestion suggestion(word);
-  offerNames(suggestion, call);
-  sink_.error(span, codes::kUnknownName, join({"unknown name `", word, "`"}), suggestion.hint());
+  offerNames(suggestion, call || shape);
+  sink_.error(span, codes::kUnknownName, join({"unknown name `", word, "`"}),
+              suggestion.hintOr(shape  ? join({"add `rule ", word, " { ... }`"})
+                                : call ? join({"add `let ", word, "(...) = ...;`"})
+                                       : join({"add `let ", word, " = ...;`, or `param ", word, " = ...;`"})));
 }
 
 /// Fills ref, id and qualifier of a call or a name; a receiver that is a module is taken off.
@@ -178,10 +195,14 @@ bool Checker::resolveCallee(ExprId call, bool shape) {
   Span span = n.span;
   if (qualified) {
     Suggestion suggestion(text(n.name));
-    for (const auto& [name, symbol] : *table)
-      if (!symbol.import) suggestion.offer(text(name));
+    std::string all;
+    for (const auto& [name, symbol] : *table) {
+      if (symbol.import) continue;
+      suggestion.offer(text(name));
+      all += join({all.empty() ? "it has " : ", ", text(name)});
+    }
     sink_.error(span, codes::kUnknownName, join({"`", text(node(child(n, 0)).name), "` has no `", text(n.name), "`"}),
-                suggestion.hint());
+                suggestion.hintOr(all.empty() ? "it declares nothing" : all));
     return true;
   }
   if (const PrimitiveInfo* primitive = findPrimitive(text(n.name))) {
@@ -203,7 +224,7 @@ bool Checker::resolveCallee(ExprId call, bool shape) {
     sink_.error(span, codes::kWrongUse, join({"`", text(n.name), "` is an import"}),
                 join({"name something of it: ", text(n.name), ".name"}));
   } else {
-    unknownName(span, n.name, shape || n.kind == ExprKind::call);
+    unknownName(span, n.name, n.kind == ExprKind::call, shape);
   }
   return true;
 }

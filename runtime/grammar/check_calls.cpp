@@ -53,10 +53,12 @@ Type Checker::callValue(ExprId id) {
     }
     case Ref::rule:
     case Ref::primitive:
-      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is a shape and has no value"}));
+      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is a shape and has no value"}),
+                  "write it as a statement of its own");
       return kUnknownType;
     case Ref::parameter:
-      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is a parameter and takes no arguments"}));
+      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is a parameter and takes no arguments"}),
+                  join({"write `", text(n.name), "`"}));
       return kUnknownType;
     default:
       for (uint32_t i = 0; i < n.args.count; ++i) expression(program_.ast.args[n.args.first + i].value);
@@ -154,7 +156,8 @@ Type Checker::builtinCall(ExprId id) {
     if (key.kind != ValueKind::cell && key.kind != ValueKind::face && key.kind != ValueKind::number &&
         key.kind != ValueKind::segment && key.kind != ValueKind::unknown)
       sink_.error(node(bound[0]).span, codes::kTypeMismatch,
-                  join({"a key is a cell, a face, a segment or a number, and this is ", withArticle(typeName(key))}));
+                  join({"a key is a cell, a face, a segment or a number, and this is ", withArticle(typeName(key))}),
+                  "such as cell or 3");
     deriveOnly(bound[0], "a key");
   }
   if (builtin == Builtin::chance || builtin == Builtin::chance_keyed) return {ValueKind::boolean, kRatio, false, false};
@@ -187,9 +190,14 @@ Type Checker::method(ExprId id) {
     builtin = Builtin::cell_links;
   } else {
     Suggestion suggestion(word);
-    for (std::string_view m : {"point", "links"}) suggestion.offer(m);
+    if (cell || face) suggestion.offer("point");
+    if (cell) suggestion.offer("links");
     sink_.error(n.span, codes::kUnknownMember, join({withArticle(typeName(type)), " has no `", word, "()`"}),
-                word == "faces" ? "write it without parentheses" : suggestion.hint());
+                cell && word == "faces"
+                    ? "write it without parentheses"
+                    : suggestion.hintOr(cell   ? "it has point() and links()"
+                                        : face ? "it has point()"
+                                               : "only cells and faces have functions of their own"));
     return kUnknownType;
   }
   const BuiltinInfo& info = builtinTable()[static_cast<size_t>(builtin)];
@@ -205,6 +213,15 @@ Type Checker::method(ExprId id) {
   }
   if (builtin == Builtin::cell_links) return {ValueKind::faces, kRatio, false, false};
   return {ValueKind::vector, kLength, false, false};
+}
+
+/// False, with an error, where lets and fields are used within each other too deep.
+bool Checker::fitsDeeper(ExprId id) {
+  if (open_.size() < kDeepestCalls) return true;
+  sink_.error(node(id).span, codes::kTooDeep,
+              join({"lets and fields use each other more than ", std::to_string(kDeepestCalls), " deep"}),
+              "put some of them together");
+  return false;
 }
 
 Type Checker::letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<Type>& args) {
@@ -224,11 +241,12 @@ Type Checker::letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<T
     return {ValueKind::unknown, kRatio, sample, false};
   }
   constexpr size_t kMostInstances = 20000;
-  if (open_.size() >= kDeepestCalls || known_.size() > kMostInstances) {
-    sink_.error(node(id).span, codes::kTooDeep,
-                join({"lets and fields use each other more than ", std::to_string(kDeepestCalls), " deep"}));
+  if (known_.size() >= kMostInstances) {
+    sink_.error(node(id).span, codes::kTooLarge, "more than 20000 lets and fields, one for each kind of its arguments",
+                "write fewer of them, or call them with arguments of fewer kinds");
     return {ValueKind::unknown, kRatio, sample, false};
   }
+  if (!fitsDeeper(id)) return {ValueKind::unknown, kRatio, sample, false};
   open_.emplace_back(ref, index);
   const Scope outer = std::move(scope_);
   scope_ = {};
@@ -249,7 +267,8 @@ Type Checker::letOrField(ExprId id, Ref ref, uint32_t index, const std::vector<T
     if (type.kind != ValueKind::number && type.kind != ValueKind::vector && type.kind != ValueKind::unknown &&
         type.kind != ValueKind::boolean)
       sink_.error(node(body).span, codes::kTypeMismatch,
-                  join({"a field gives a number or a vector, not ", withArticle(typeName(type))}));
+                  join({"a field gives a number or a vector, not ", withArticle(typeName(type))}),
+                  "name it with `let` instead");
   }
   scope_ = outer;
   open_.pop_back();
@@ -272,11 +291,7 @@ Type Checker::localFieldUse(ExprId id, const Local& local) {
   }
   const auto known = known_local_.find(key);
   if (known != known_local_.end()) return known->second;
-  if (open_.size() >= kDeepestCalls) {
-    sink_.error(node(id).span, codes::kTooDeep,
-                join({"lets and fields use each other more than ", std::to_string(kDeepestCalls), " deep"}));
-    return {ValueKind::unknown, kRatio, true, false};
-  }
+  if (!fitsDeeper(id)) return {ValueKind::unknown, kRatio, true, false};
   open_.emplace_back(Ref::field, local.field);
   // The body sees what stood before the field, and the field's own parameters.
   std::vector<Local> outer = scope_.locals;
@@ -320,9 +335,7 @@ void Checker::primitiveCall(ExprId id) {
     sink_.error(n.span, codes::kArgumentCount, "`halfspace` takes either `below` or `above`",
                 "such as halfspace(below 2m)");
   if (primitive == Primitive::prism && bound.size() > 65)
-    sink_.error(n.span, codes::kArgumentCount, "a prism has 3 to 64 corners");
-  if (primitive == Primitive::prism && n.args.count > 0 && program_.ast.args[n.args.first].name != kNoId)
-    sink_.error(n.span, codes::kArgumentName, "the arguments of a prism have no names");
+    sink_.error(n.span, codes::kArgumentCount, "a prism has 3 to 64 corners", "put it together of several prisms");
 }
 
 }  // namespace sgm

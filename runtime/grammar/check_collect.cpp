@@ -31,16 +31,18 @@ IdRange Checker::store(const std::vector<uint32_t>& ids) {
 void Checker::declare(ModuleSyntax& module, NameId name, Symbol symbol) {
   const std::string_view word = text(name);
   if (!symbol.import && (findBuiltin(word) != nullptr || findPrimitive(word) != nullptr)) {
-    sink_.error(symbol.span, codes::kShadowsBuiltin, join({"`", word, "` is built in and cannot be declared again"}));
+    sink_.error(symbol.span, codes::kShadowsBuiltin, join({"`", word, "` is built in and cannot be declared again"}),
+                join({"another name, such as `", word, "_`"}));
     return;
   }
   if (word == "cell" || word == "scope" || word == "p" || word == "q" || word == "u") {
-    sink_.error(symbol.span, codes::kShadowsBuiltin, join({"`", word, "` is a value of the language"}));
+    sink_.error(symbol.span, codes::kShadowsBuiltin, join({"`", word, "` is a value of the language"}),
+                join({"another name, such as `", word, "_`"}));
     return;
   }
   const auto [at, fresh] = symbols_[module.module].emplace(name, symbol);
   if (!fresh) {
-    sink_.error(symbol.span, codes::kDuplicate, join({"`", word, "` is declared twice"}))
+    sink_.error(symbol.span, codes::kDuplicate, join({"`", word, "` is declared twice"}), "rename one of them")
         .notes.push_back(join({"first at ", sink_.place(at->second.span)}));
   }
 }
@@ -48,7 +50,8 @@ void Checker::declare(ModuleSyntax& module, NameId name, Symbol symbol) {
 void Checker::collect() {
   for (const FormalNode& formal : program_.ast.formals)
     if (formal.fallback != kNoId && !literal(formal.fallback))
-      sink_.error(node(formal.fallback).span, codes::kNotConstant, "a default is made of numbers alone");
+      sink_.error(node(formal.fallback).span, codes::kNotConstant, "a default is made of numbers alone",
+                  "such as r = 2m or r = 3*0.5m");
   auto rootOnly = [&](const ModuleSyntax& module, const Span& span, std::string_view what) {
     if (module.module != 0)
       sink_.error(span, codes::kImportContent, join({"an imported file has no `", what, "`"}),
@@ -126,7 +129,8 @@ uint16_t Checker::tableIndex(std::pmr::vector<std::pmr::string>& table, NameId n
     if (table[i] == word) return static_cast<uint16_t>(i);
   constexpr size_t kMost = 4096;
   if (table.size() >= kMost) {
-    sink_.error(span, codes::kTooLarge, "more than 4096 different names of one kind");
+    sink_.error(span, codes::kTooLarge, "more than 4096 different names of one kind",
+                "materials, tags and anchors have so many names each; use some of them again");
     return 0;
   }
   table.emplace_back(word);

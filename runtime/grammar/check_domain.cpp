@@ -86,7 +86,7 @@ void Checker::params() {
     const Type type = expression(param.value_expr);
     if (type.kind != ValueKind::number) {
       sink_.error(node(param.value_expr).span, codes::kTypeMismatch,
-                  join({"a parameter is a number, and this is a ", typeName(type)}));
+                  join({"a parameter is a number, and this is a ", typeName(type)}), "such as param a = 2m;");
       continue;
     }
     param.dim = type.dim;
@@ -99,8 +99,8 @@ void Checker::params() {
     param.value = param.low = param.high = *value;
     if (param.animated && !param.has_range) {
       sink_.error(param.span, codes::kParamRange,
-                  join({"`", text(param.name), "` is animated, and nothing says between what; write its range: `param ",
-                        text(param.name), " = ... in LOW..HIGH animated`"}));
+                  join({"`", text(param.name), "` is animated, and nothing says between what"}),
+                  join({"write its range: `param ", text(param.name), " = ... in LOW..HIGH animated`"}));
       continue;
     }
     if (param.has_range) {
@@ -108,12 +108,14 @@ void Checker::params() {
       const auto high = constant(param.high_expr, param.dim, "the high end of a range");
       if (!low || !high) continue;
       if (*low > *high) {
-        sink_.error(node(param.low_expr).span, codes::kParamRange, "the range is upside down");
+        sink_.error(node(param.low_expr).span, codes::kParamRange, "the range is upside down",
+                    "write its low end first");
         continue;
       }
       if (*value < *low || *value > *high) {
         sink_.error(node(param.value_expr).span, codes::kParamRange,
-                    join({"the default of `", text(param.name), "` lies outside of its range"}));
+                    join({"the default of `", text(param.name), "` lies outside of its range"}),
+                    "widen the range, or choose a default within it");
         continue;
       }
       param.low = *low;
@@ -136,7 +138,8 @@ void Checker::seedAndDomain() {
       program_.seed = hashText(text(seed.name));
     } else if (const auto value = constant(root.seed, kRatio, "a seed")) {
       if (*value < 0 || *value != std::floor(*value) || *value > 1e9)
-        sink_.error(seed.span, codes::kValueRange, "a seed is a whole number from 0 or a text");
+        sink_.error(seed.span, codes::kValueRange, "a seed is a whole number from 0 or a text",
+                    "such as seed 7 or seed \"block-17\"");
       else
         program_.seed = static_cast<uint64_t>(*value);
     }
@@ -152,7 +155,7 @@ void Checker::seedAndDomain() {
     const auto edge = wholeUnits(decl.density_edge, "the edge of a density");
     if (edge && (*edge < 1 || *edge > kWidestEdge))
       sink_.error(node(decl.density_edge).span, codes::kValueRange,
-                  "the edge of a density is from one unit to 16 km wide");
+                  "the edge of a density is from one unit to 16 km wide", "such as edge 20m");
     else if (edge)
       domain.density_edge = static_cast<int32_t>(*edge);
   }
@@ -167,7 +170,8 @@ void Checker::seedAndDomain() {
     const auto units = wholeUnits(edge, "an edge of the domain");
     if (!units) return;
     if (*units < 2 || *units > (int64_t{1} << 31) - 4096) {
-      sink_.error(node(edge).span, codes::kValueRange, "an edge of the domain is from 2 units to 2097 km long");
+      sink_.error(node(edge).span, codes::kValueRange, "an edge of the domain is from 2 units to 2097 km long",
+                  "such as box(200m)");
       return;
     }
     domain.box.lo[axis] = static_cast<int32_t>(-*units / 2);
@@ -193,7 +197,8 @@ void Checker::layers() {
     return;
   }
   if (root.start != kNoId && !root.layers.empty())
-    sink_.error(root.start_span, codes::kNoStart, "a grammar starts at the top or in its layers, not both");
+    sink_.error(root.start_span, codes::kNoStart, "a grammar starts at the top or in its layers, not both",
+                "remove this start, or the layers");
   if (root.start != kNoId && decl.infinite)
     sink_.error(root.start_span, codes::kDomain, "an infinite domain is derived by layers",
                 "layer name cell 100m reach 50m { start Rule; }");
@@ -202,7 +207,7 @@ void Checker::layers() {
                 "write `domain infinite;` or `domain finite box(...)`");
   if (root.layers.size() > kMostLayers)
     sink_.error(root.layers[kMostLayers].span, codes::kTooLarge,
-                join({"more than ", std::to_string(kMostLayers), " layers"}));
+                join({"more than ", std::to_string(kMostLayers), " layers"}), "put rules of several layers into one");
   if (sink_.errorCount() > before) return;
   if (root.start != kNoId) {
     Layer main(memory);
@@ -225,9 +230,9 @@ void Checker::layers() {
     layer.reach_expr = l.reach;
     const auto cell = wholeUnits(l.cell, "the cell of a layer"), reach = wholeUnits(l.reach, "the reach of a layer");
     if (cell && (*cell < 1 || *cell > kLargest))
-      sink_.error(node(l.cell).span, codes::kValueRange, "a cell is from one unit to 1048 km long");
+      sink_.error(node(l.cell).span, codes::kValueRange, "a cell is from one unit to 1048 km long", "such as cell 32m");
     else if (reach && (*reach < 0 || *reach > kLargest))
-      sink_.error(node(l.reach).span, codes::kValueRange, "a reach is from 0 to 1048 km long");
+      sink_.error(node(l.reach).span, codes::kValueRange, "a reach is from 0 to 1048 km long", "such as reach 8m");
     else if (cell && reach) {
       // Every chunk asks for all cells within reach: the cost of a sample grows with the cube of this.
       if (*reach > *cell * limits_.neighbours)
@@ -242,13 +247,15 @@ void Checker::layers() {
     if (l.detail != kNoId) {
       const auto detail = wholeUnits(l.detail, "the detail of a layer");
       if (detail && (*detail < 1 || *detail > kLargest))
-        sink_.error(node(l.detail).span, codes::kValueRange, "a detail is from one unit to 1048 km long");
+        sink_.error(node(l.detail).span, codes::kValueRange, "a detail is from one unit to 1048 km long",
+                    "such as detail 4m");
       else if (detail)
         layer.coarsest_cell = static_cast<int32_t>(*detail);
     }
     for (const Layer& other : program_.layers)
       if (other.name == layer.name)
-        sink_.error(l.span, codes::kDuplicate, join({"a second layer `", text(layer.name), "`"}));
+        sink_.error(l.span, codes::kDuplicate, join({"a second layer `", text(layer.name), "`"}),
+                    "give it another name");
     program_.layers.push_back(std::move(layer));
   }
   sortLayers();
@@ -268,7 +275,8 @@ void Checker::sortLayers() {
         if (decls[other].name == use.name) found = other;
       }
       if (found == kNoId)
-        sink_.error(use.span, codes::kUnknownName, join({"unknown layer `", text(use.name), "`"}), suggestion.hint());
+        sink_.error(use.span, codes::kUnknownName, join({"unknown layer `", text(use.name), "`"}),
+                    suggestion.hintOr("name a layer of this file"));
       else if (found == l)
         sink_.error(use.span, codes::kLayerCycle, join({"layer `", text(use.name), "` uses itself"}),
                     "a layer reads lower layers only");
@@ -325,15 +333,18 @@ void Checker::expectations() {
     const Dim dim = e.measure == Measure::volume ? kVolume : e.measure == Measure::area ? kArea : kRatio;
     const bool counts = e.measure != Measure::watertight;
     if (!counts && (e.compared || e.low != kNoId))
-      sink_.error(e.span, codes::kWrongUse, "`watertight` holds or not; it is not compared");
+      sink_.error(e.span, codes::kWrongUse, "`watertight` holds or not; it is not compared",
+                  "write `watertight;` alone");
     if (counts && e.expect && !e.compared && e.low == kNoId)
       sink_.error(e.span, codes::kSyntax, "an `expect` of a number needs something to compare with",
                   "such as == 1 or in 1..10");
     if (e.of != kNoId && e.measure != Measure::components)
-      sink_.error(e.span, codes::kWrongUse, "only components are of air or solid");
+      sink_.error(e.span, codes::kWrongUse, "only components are of air or solid", "leave the parentheses out");
     if (const auto above = e.above == kNoId ? std::nullopt : constant(e.above, kVolume, "the size of a piece")) {
       e.above_number = *above;
-      if (*above < 0) sink_.error(node(e.above).span, codes::kValueRange, "the size of a piece is 0m3 or more");
+      if (*above < 0)
+        sink_.error(node(e.above).span, codes::kValueRange, "the size of a piece is 0m3 or more",
+                    "such as components(solid above 2m3)");
     }
     if (const auto value = e.value == kNoId ? std::nullopt : constant(e.value, dim, "the value to compare with"))
       e.value_number = *value;
@@ -346,7 +357,8 @@ void Checker::expectations() {
     if (found == symbols_[0].end() || found->second.ref != Ref::rule) {
       Suggestion suggestion(text(e.per_name));
       for (const Rule& rule : program_.rules) suggestion.offer(text(rule.name));
-      sink_.error(e.span, codes::kUnknownName, join({"unknown rule `", text(e.per_name), "`"}), suggestion.hint());
+      sink_.error(e.span, codes::kUnknownName, join({"unknown rule `", text(e.per_name), "`"}),
+                  suggestion.hintOr("name a rule of this file"));
     } else {
       e.per = found->second.id;
     }

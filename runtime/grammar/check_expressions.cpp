@@ -26,6 +26,46 @@ std::string_view verb(BinaryOp op) {
   }
 }
 
+constexpr const char* kVectorExample = "such as (1m, 2m, 3m)";
+
+std::string orElse(std::string_view hint, std::string_view other) { return std::string(hint.empty() ? other : hint); }
+
+/// A value of this kind and dimension as it is written.
+std::string_view exampleOf(const Type& type) {
+  switch (type.kind) {
+    case ValueKind::number:
+      return type.dim == kRatio    ? "such as 3 or 40%"
+             : type.dim == kLength ? "such as 2m"
+             : type.dim == kAngle  ? "such as 30deg"
+             : type.dim == kArea   ? "such as 2m2"
+             : type.dim == kVolume ? "such as 2m3"
+                                   : "give it the dimension that it needs";
+    case ValueKind::boolean:
+      return "such as a < b";
+    case ValueKind::pair:
+      return "such as (1m, 2m)";
+    case ValueKind::cell:
+      return "such as cell";
+    default:
+      return kVectorExample;
+  }
+}
+
+/// What both sides of an operator have to be.
+std::string_view ruleOf(BinaryOp op) {
+  switch (op) {
+    case BinaryOp::add:
+    case BinaryOp::subtract:
+      return "both sides are numbers, or both vectors, of one dimension";
+    case BinaryOp::multiply:
+      return "one side is a number, the other a number or a vector";
+    case BinaryOp::divide:
+      return "a number or a vector is divided by a number";
+    default:
+      return "both sides are numbers of one dimension";
+  }
+}
+
 }  // namespace
 
 bool Checker::agrees(const Type& type, ValueKind kind, Dim dim) const {
@@ -81,7 +121,7 @@ void Checker::demandType(ExprId id, const Type& type, ValueKind kind, Dim dim, s
     found.sample = false;
     sink_.error(node(id).span, type.kind == kind ? codes::kUnitMismatch : codes::kTypeMismatch,
                 join({what, " is ", withArticle(typeName(wanted)), ", and this is ", withArticle(typeName(found))}),
-                unitHint(id, type, dim));
+                orElse(kind == ValueKind::number ? unitHint(id, type, dim) : "", exampleOf(wanted)));
     return;
   }
   if (!sample) deriveOnly(id, what);
@@ -147,7 +187,7 @@ Type Checker::expression(ExprId id) {
         const Type t = expression(part);
         if (t.kind != ValueKind::number && t.kind != ValueKind::unknown) {
           sink_.error(node(part).span, codes::kTypeMismatch,
-                      join({"a vector has numbers, and this is ", withArticle(typeName(t))}));
+                      join({"a vector has numbers, and this is ", withArticle(typeName(t))}), kVectorExample);
           continue;
         }
         if (i == 0) {
@@ -160,7 +200,7 @@ Type Checker::expression(ExprId id) {
           sink_.error(node(part).span, codes::kUnitMismatch,
                       join({"the parts of a vector have one dimension, and these are ", withArticle(typeName(before)),
                             " and ", withArticle(typeName(t))}),
-                      unitHint(part, t, before.dim));
+                      orElse(unitHint(part, t, before.dim), kVectorExample));
       }
       if (type.kind == ValueKind::unknown) type.any_dim = true;
       type.kind = n.children.count == 3 ? ValueKind::vector : ValueKind::pair;
@@ -169,7 +209,8 @@ Type Checker::expression(ExprId id) {
     case ExprKind::negate: {
       type = expression(child(n, 0));
       if (type.kind != ValueKind::number && type.kind != ValueKind::vector && type.kind != ValueKind::unknown) {
-        sink_.error(n.span, codes::kTypeMismatch, join({"a minus stands before a number, not a ", typeName(type)}));
+        sink_.error(n.span, codes::kTypeMismatch, join({"a minus stands before a number, not a ", typeName(type)}),
+                    type.kind == ValueKind::boolean ? "write `not`" : "such as -2m");
         type = kUnknownType;
       }
       break;
@@ -230,9 +271,10 @@ Type Checker::binary(ExprId id) {
     }
     return {ValueKind::unknown, kRatio, sample, false};
   }
-  auto wrong = [&] {
+  auto wrong = [&](std::string_view hint = {}) {
     sink_.error(n.span, codes::kTypeMismatch,
-                join({withArticle(typeName(a)), " and ", withArticle(typeName(b)), " cannot be ", verb(op)}));
+                join({withArticle(typeName(a)), " and ", withArticle(typeName(b)), " cannot be ", verb(op)}),
+                orElse(hint, ruleOf(op)));
     return Type{ValueKind::unknown, kRatio, sample, false};
   };
   const bool a_numeric = a.kind == ValueKind::number || a.kind == ValueKind::vector;
@@ -251,9 +293,9 @@ Type Checker::binary(ExprId id) {
     if (b.kind == ValueKind::vector && (op == BinaryOp::divide || a.kind == ValueKind::vector)) return wrong();
     const int sign = op == BinaryOp::multiply ? 1 : -1;
     const int length = a.dim.length + sign * b.dim.length, angle = a.dim.angle + sign * b.dim.angle;
-    if (length < -6 || length > 6 || angle < -6 || angle > 6) return wrong();
+    if (length < -6 || length > 6 || angle < -6 || angle > 6) return wrong("dimensions end at the sixth power");
     if (op == BinaryOp::divide && node(right).kind == ExprKind::number && node(right).value == 0)
-      sink_.error(node(right).span, codes::kDivideByZero, "division by zero");
+      sink_.error(node(right).span, codes::kDivideByZero, "division by zero", "divide by a number other than 0");
     const ValueKind kind =
         a.kind == ValueKind::vector || b.kind == ValueKind::vector ? ValueKind::vector : ValueKind::number;
     return {kind, {static_cast<int8_t>(length), static_cast<int8_t>(angle)}, sample, false};
@@ -268,7 +310,8 @@ Type Checker::binary(ExprId id) {
       if (!other.empty()) hint = other;
     }
     sink_.error(n.span, codes::kUnitMismatch,
-                join({withArticle(typeName(a)), " and ", withArticle(typeName(b)), " cannot be ", verb(op)}), hint);
+                join({withArticle(typeName(a)), " and ", withArticle(typeName(b)), " cannot be ", verb(op)}),
+                orElse(hint, ruleOf(op)));
   }
   return comparison ? condition : both;
 }
@@ -282,7 +325,7 @@ Type Checker::conditional(ExprId id) {
   if (!good)
     sink_.error(node(child(n, 2)).span, a.kind == b.kind ? codes::kUnitMismatch : codes::kTypeMismatch,
                 join({"`then` gives ", withArticle(typeName(a)), " and `else` ", withArticle(typeName(b))}),
-                unitHint(child(n, 2), b, a.dim));
+                orElse(unitHint(child(n, 2), b, a.dim), "both give values of one kind and dimension"));
   out.sample = out.sample || c.sample;
   return out;
 }
@@ -336,10 +379,12 @@ Type Checker::name(ExprId id) {
     }
     case Ref::rule:
     case Ref::primitive:
-      sink_.error(n.span, codes::kWrongUse, join({"`", word, "` is a shape and has no value"}));
+      sink_.error(n.span, codes::kWrongUse, join({"`", word, "` is a shape and has no value"}),
+                  "write it as a statement of its own");
       return kUnknownType;
     case Ref::builtin:
-      sink_.error(n.span, codes::kWrongUse, join({"`", word, "` is a function and needs arguments"}));
+      sink_.error(n.span, codes::kWrongUse, join({"`", word, "` is a function and needs arguments"}),
+                  join({"write `", word, "(...)`"}));
       return kUnknownType;
     default:
       return kUnknownType;

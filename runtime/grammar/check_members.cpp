@@ -51,7 +51,7 @@ std::string memberHint(std::string_view word, ValueKind of) {
   }
   if (of == ValueKind::cell) suggestion.offer("links");
   if (of == ValueKind::cell || of == ValueKind::face) suggestion.offer("point");
-  return suggestion.best().empty() ? all : suggestion.hint();
+  return suggestion.hintOr(all.empty() ? "only vectors, cells, faces and segments have parts" : all);
 }
 
 }  // namespace

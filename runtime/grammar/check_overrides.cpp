@@ -100,7 +100,8 @@ void Checker::overridePath(Override& edit) {
     return;
   }
   if (written.steps.size() > kDeepestPath) {
-    sink_.error(edit.address_span, codes::kTooDeep, "rules within rules end at 64 deep");
+    sink_.error(edit.address_span, codes::kTooDeep, "rules within rules end at 64 deep",
+                "write a path of 64 rules at most");
     return;
   }
   if (!written.layer.empty() && !overrideCell(edit, written)) return;
@@ -118,7 +119,7 @@ void Checker::overridePath(Override& edit) {
     constexpr size_t kMostNamed = 8;
     for (size_t i = 0; suggestion.best().empty() && i < std::min(known.size(), kMostNamed); ++i)
       hint += join({hint.empty() ? "it derives " : ", ", known[i]});
-    sink_.error(spanIn(edit, step.place), codes::kUnknownName, join({who, " no `", textAt(step.place), "`"}), hint);
+    sink_.error(spanIn(edit, step.place), codes::kUnknownName, join({who, " `", textAt(step.place), "`"}), hint);
   };
   std::vector<PathStep> steps;
   uint32_t parent = kNoId;
@@ -133,7 +134,8 @@ void Checker::overridePath(Override& edit) {
         found = found || start.id == rule;
         known.push_back(nameOf(start.id, start.qualifier));
       }
-      if (!found) return unknown(step, edit.layer == kNoId ? "nothing starts with" : "the layer starts with", known);
+      if (!found)
+        return unknown(step, edit.layer == kNoId ? "no layer starts with" : "this layer does not start with", known);
       if (step.index) {
         sink_.error(spanIn(edit, step.place), codes::kSyntax, "a start has no number",
                     join({"write `", nameOf(rule, kNoId), "`"}));
@@ -144,7 +146,7 @@ void Checker::overridePath(Override& edit) {
         found = found || to == rule;
         known.push_back(nameOf(to, qualifier));
       }
-      if (!found) return unknown(step, join({"`", text(program_.rules[parent].name), "` derives"}), known);
+      if (!found) return unknown(step, join({"`", text(program_.rules[parent].name), "` derives no"}), known);
     }
     steps.push_back({rule, step.index.value_or(kNoId)});
     parent = rule;
@@ -161,7 +163,7 @@ bool Checker::overrideCell(Override& edit, const WrittenPath& written) {
   }
   if (edit.layer == kNoId) {
     sink_.error(spanIn(edit, written.layer_place), codes::kUnknownName, join({"unknown layer `", written.layer, "`"}),
-                suggestion.hint());
+                suggestion.hintOr("name a layer of this file"));
     return false;
   }
   const Layer& layer = program_.layers[edit.layer];
@@ -177,7 +179,7 @@ bool Checker::overrideCell(Override& edit, const WrittenPath& written) {
     sink_.error(spanIn(edit, written.cell_place), codes::kValueRange,
                 edge == 0 ? join({"`", text(layer.name), "` has no cells along ", std::string(1, "xyz"[axis])})
                           : "this cell lies beyond the end of the world",
-                edge == 0 ? "its number is 0 there" : "");
+                edge == 0 ? "its number is 0 there" : "the world ends at 2097 km");
     return false;
   }
   return true;
@@ -228,7 +230,8 @@ void Checker::overrideTags() {
     }
     if (tag == 0)
       sink_.error(edit.address_span, codes::kUnknownName,
-                  join({"nothing here has the tag \"", text(edit.address), "\""}), suggestion.hint());
+                  join({"nothing here has the tag \"", text(edit.address), "\""}),
+                  suggestion.hintOr("write `tag` and this text in the block that it replaces"));
     else
       found[tag].push_back(o);
   }

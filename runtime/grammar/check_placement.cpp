@@ -99,7 +99,7 @@ bool Checker::xforms(IdRange range, bool copied) {
         if (!bindWords(x.args, x.span, at ? "at" : "size", {"x", "y", "z"}, 1, out)) break;
         const bool alone = x.args.count == 1 && program_.ast.args[x.args.first].name == kNoId;
         if (alone) {
-          demand(out[0], ValueKind::vector, kLength, at ? "the point of `at`" : "the edges of `size`");
+          demand(out[0], ValueKind::vector, kLength, at ? "the vector of `at`" : "the vector of `size`");
         } else {
           for (ExprId part : out)
             demand(part, ValueKind::number, kLength, at ? "a coordinate of `at`" : "an edge of `size`");
@@ -112,7 +112,8 @@ bool Checker::xforms(IdRange range, bool copied) {
         if (x.axis == 3) {
           const Type axis = expression(out[0]);
           if (axis.kind != ValueKind::vector && axis.kind != ValueKind::unknown)
-            sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `rot` is x, y, z or a vector");
+            sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `rot` is x, y, z or a vector",
+                        "such as rot(y, 30deg)");
           deriveOnly(out[0], "an axis");
         }
         demand(out[1], ValueKind::number, kAngle, "the angle of `rot`");
@@ -130,7 +131,9 @@ bool Checker::xforms(IdRange range, bool copied) {
       case XformKind::mirror:
         if (!bindWords(x.args, x.span, "mirror", {"axis"}, 1, out)) break;
         x.axis = axisOf(out[0]);
-        if (x.axis == 3) sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `mirror` is x, y or z");
+        if (x.axis == 3)
+          sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `mirror` is x, y or z",
+                      "such as mirror(x)");
         break;
     }
     x.a = out[0];

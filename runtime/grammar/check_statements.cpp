@@ -9,6 +9,8 @@ namespace sgm {
 
 namespace {
 
+constexpr const char* kShapeHint = "write a shape such as sphere(2m), or a rule";
+
 bool roundOrBox(Primitive p) {
   return p == Primitive::sphere || p == Primitive::blob || p == Primitive::ellipsoid || p == Primitive::box ||
          p == Primitive::superq;
@@ -32,13 +34,15 @@ void Checker::checkRules() {
             .error(a.span, codes::kArgumentCount,
                    join({"`", text(rule.name), "` has ", std::to_string(rule.alternatives[0].formals.count),
                          rule.alternatives[0].formals.count == 1 ? " parameter" : " parameters",
-                         " in its first head and ", std::to_string(a.formals.count), " in this one"}))
+                         " in its first head and ", std::to_string(a.formals.count), " in this one"}),
+                   "the heads of a rule have the same parameters")
             .notes.push_back(join({"first at ", sink_.place(rule.alternatives[0].span)}));
     }
     const bool lod = std::any_of(rule.alternatives.begin(), rule.alternatives.end(),
                                  [](const Alternative& a) { return a.lod != kNoId; });
     if (otherwise && !when && !lod)
-      sink_.error(rule.span, codes::kGuards, join({"`", text(rule.name), "` has an `else` and no `when`"}));
+      sink_.error(rule.span, codes::kGuards, join({"`", text(rule.name), "` has an `else` and no `when`"}),
+                  "add a head with `when`, or leave `else` out");
   }
   if (sink_.errorCount() > before) return;
 
@@ -57,7 +61,8 @@ void Checker::checkRules() {
     if (rule_state_[r] != 0) continue;
     const Rule& rule = program_.rules[r];
     if (rule.module == 0 && layers_known_ && !program_.layers.empty())
-      sink_.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", text(rule.name), "`"}));
+      sink_.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", text(rule.name), "`"}),
+                    "call it in a rule, or remove it");
     rule_types_[r].assign(rule.alternatives[0].formals.count, Type{});
     checkRule(r);
   }
@@ -143,12 +148,13 @@ void Checker::checkAlternative(uint32_t rule, uint32_t alternative) {
 void Checker::declareLocal(NameId name, const Span& span, Local local) {
   const std::string_view word = text(name);
   if (word == "cell" || word == "scope" || word == "p" || word == "q" || word == "u") {
-    sink_.error(span, codes::kShadowsBuiltin, join({"`", word, "` is a value of the language"}));
+    sink_.error(span, codes::kShadowsBuiltin, join({"`", word, "` is a value of the language"}),
+                join({"another name, such as `", word, "_`"}));
     return;
   }
   for (const Local& known : scope_.locals)
     if (known.name == name) {
-      sink_.error(span, codes::kDuplicate, join({"`", word, "` is declared twice in this rule"}));
+      sink_.error(span, codes::kDuplicate, join({"`", word, "` is declared twice in this rule"}), "rename one of them");
       return;
     }
   scope_.locals.push_back(local);
@@ -158,14 +164,14 @@ void Checker::declareLocal(NameId name, const Span& span, Local local) {
 void Checker::callRule(ExprId call, bool escape, bool shrunk) {
   ExprNode& n = node(call);
   if (n.children.count > 0 && !resolveCallee(call, true)) {
-    sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is no shape"}));
+    sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` is no shape"}), kShapeHint);
     return;
   }
   resolveCallee(call, true);
   if (n.ref == Ref::primitive) return primitiveCall(call);
   if (n.ref != Ref::rule) {
     if (n.ref != Ref::none)
-      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` gives a value and is no shape"}));
+      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` gives a value and is no shape"}), kShapeHint);
     for (uint32_t i = 0; i < n.args.count; ++i) expression(program_.ast.args[n.args.first + i].value);
     return;
   }
@@ -185,7 +191,8 @@ void Checker::callRule(ExprId call, bool escape, bool shrunk) {
         types[i].kind == ValueKind::segment || types[i].kind == ValueKind::unknown)
       continue;
     good = false;
-    sink_.error(node(bound[i]).span, codes::kTypeMismatch, join({what, " cannot be a ", typeName(types[i])}));
+    sink_.error(node(bound[i]).span, codes::kTypeMismatch, join({what, " cannot be a ", typeName(types[i])}),
+                "rules take numbers, vectors, conditions, cells, faces and segments");
   }
   if (!good) return;
   if (rule_ != kNoId) calls_.push_back({rule_, alternative_, rule, call, escape, shrunk, scales_});
@@ -360,7 +367,7 @@ void Checker::localField(const StmtNode& s) {
   if (type.kind != ValueKind::number && type.kind != ValueKind::vector && type.kind != ValueKind::boolean &&
       type.kind != ValueKind::unknown)
     sink_.error(node(field.body).span, codes::kTypeMismatch,
-                join({"a field gives a number or a vector, not a ", typeName(type)}));
+                join({"a field gives a number or a vector, not a ", typeName(type)}), "name it with `let` instead");
   if (locals > local.depth) scope_.locals.push_back(local);
 }
 

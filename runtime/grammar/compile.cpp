@@ -16,7 +16,8 @@ bool fits(std::string_view text, const CompileLimits& limits, DiagnosticSink& si
   if (text.size() <= limit) return true;
   Span span;
   span.line = span.column = span.end_line = span.end_column = 1;
-  sink.error(span, codes::kTooLarge, join({"the text is longer than ", std::to_string(limit), " bytes"}));
+  sink.error(span, codes::kTooLarge, join({"the text is longer than ", std::to_string(limit), " bytes"}),
+             "move rules into a file of their own and import it");
   return false;
 }
 

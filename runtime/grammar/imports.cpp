@@ -58,12 +58,14 @@ class Loader {
     const auto known = modules_.find(path);
     if (known != modules_.end()) return known->second;
     if (program_.modules.size() >= limits.files) {
-      sink_.error(import.path_span, codes::kImportLimit, join({"more than ", std::to_string(limits.files), " files"}));
+      sink_.error(import.path_span, codes::kImportLimit, join({"more than ", std::to_string(limits.files), " files"}),
+                  "put some of them together");
       return kNoId;
     }
     if (depth_[from] + 1 > limits.import_depth) {
       sink_.error(import.path_span, codes::kImportLimit,
-                  join({"imports go more than ", std::to_string(limits.import_depth), " deep"}));
+                  join({"imports go more than ", std::to_string(limits.import_depth), " deep"}),
+                  "put some of the files together");
       return kNoId;
     }
     std::string text;
@@ -71,27 +73,35 @@ class Loader {
       text = standardModule(path);
       if (text.empty()) {
         Suggestion suggestion(path);
-        for (const StdFile& file : stdLibrary()) suggestion.offer(file.path);
+        std::string all;
+        for (const StdFile& file : stdLibrary()) {
+          suggestion.offer(file.path);
+          all += join({all.empty() ? "it has " : ", ", file.path});
+        }
         sink_.error(import.path_span, codes::kImportMissing, join({"the standard library has no `", path, "`"}),
-                    suggestion.hint());
+                    suggestion.hintOr(all));
         return kNoId;
       }
     } else {
       if (options_.resolver == nullptr) {
         sink_.error(import.path_span, codes::kImportMissing,
-                    join({"cannot import `", path, "`: no folder to read from"}));
+                    join({"cannot import `", path, "`: no folder to read from"}),
+                    "only the standard library can be imported here: \"std/rock.sgm\"");
         return kNoId;
       }
       const size_t left = std::min(limits.text_bytes, limits.total_bytes - std::min(limits.total_bytes, total_));
       Result<std::string> read = options_.resolver->read(path, left);
       const bool too_long = read ? read->size() > left : read.error().code == Code::limit;
       if (too_long) {
-        sink_.error(import.path_span, codes::kImportLimit, join({"`", path, "` is too long"}));
+        sink_.error(import.path_span, codes::kImportLimit, join({"`", path, "` is too long"}),
+                    join({"a file has at most ", std::to_string(limits.text_bytes), " bytes, all together ",
+                          std::to_string(limits.total_bytes)}));
         return kNoId;
       }
       if (!read) {
         sink_.error(import.path_span, codes::kImportMissing,
-                    join({"cannot import `", path, "`: ", read.error().message}));
+                    join({"cannot import `", path, "`: ", read.error().message}),
+                    "a path starts at the folder of the file that imports");
         return kNoId;
       }
       text = std::move(*read);
@@ -128,7 +138,8 @@ class Loader {
       if (import.module == kNoId || import.module >= marks.size()) continue;
       if (marks[import.module] == Mark::open)
         sink_.error(import.path_span, codes::kImportCycle,
-                    join({"`", program_.text(import.path), "` imports itself in a circle"}));
+                    join({"`", program_.text(import.path), "` imports itself in a circle"}),
+                    "move what both files need into a third");
       else if (marks[import.module] == Mark::fresh) {
         marks[import.module] = Mark::open;
         stack.emplace_back(import.module, 0);

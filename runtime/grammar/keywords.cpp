@@ -20,6 +20,9 @@ constexpr std::array<std::string_view, 39> kClauseWords = {
     "reach",   "sgm",  "shell", "smooth",   "solid", "up",     "uses", "weight",   "within"};
 constexpr std::array<std::string_view, 11> kUnavailable = {"comp", "extrude", "fit",   "footprint", "link", "portal",
                                                            "roof", "set",     "split", "treemap",   "wfc"};
+constexpr std::array<std::string_view, 14> kDeclarations = {"import",  "units",    "param",  "seed",  "let",
+                                                            "field",   "domain",   "layer",  "start", "rule",
+                                                            "morphic", "override", "report", "expect"};
 constexpr std::array<std::string_view, 5> kTransforms = {"at", "rot", "scale", "size", "mirror"};
 constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components", "volume", "area",
                                                        "triangles",  "genus",      "anchors"};
@@ -33,9 +36,13 @@ static_assert(std::is_sorted(kUnavailable.begin(), kUnavailable.end()));
 std::span<const std::string_view> keywordTable() { return kKeywords; }
 std::span<const std::string_view> clauseWordTable() { return kClauseWords; }
 std::span<const std::string_view> unavailableTable() { return kUnavailable; }
+std::span<const std::string_view> declarationTable() { return kDeclarations; }
 std::span<const std::string_view> transformTable() { return kTransforms; }
 std::span<const std::string_view> measureTable() { return kMeasures; }
 bool isKeyword(std::string_view word) { return std::binary_search(kKeywords.begin(), kKeywords.end(), word); }
+bool startsDeclaration(std::string_view word) {
+  return std::find(kDeclarations.begin(), kDeclarations.end(), word) != kDeclarations.end();
+}
 bool isUnavailable(std::string_view word) { return std::binary_search(kUnavailable.begin(), kUnavailable.end(), word); }
 
 }  // namespace sgm

@@ -14,12 +14,15 @@ std::span<const std::string_view> clauseWordTable();
 /// Words kept for constructs that this version does not have (split, treemap ...), sorted.
 std::span<const std::string_view> unavailableTable();
 
+/// Words that start a declaration.
+std::span<const std::string_view> declarationTable();
 /// Words of the transforms, in the order of XformKind.
 std::span<const std::string_view> transformTable();
 /// Words of the measures, in the order of Measure.
 std::span<const std::string_view> measureTable();
 
 bool isKeyword(std::string_view word);
+bool startsDeclaration(std::string_view word);
 bool isUnavailable(std::string_view word);
 
 }  // namespace sgm

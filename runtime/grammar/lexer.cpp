@@ -59,7 +59,8 @@ class Lexer {
     while (skipBlank() && !sink_.full()) {
       if (out_.tokens.size() >= max_tokens_) {
         const Span here = spanFrom(at_, line_, at_ - line_start_);
-        sink_.error(here, codes::kTooLarge, join({"more than ", std::to_string(max_tokens_), " words and signs"}));
+        sink_.error(here, codes::kTooLarge, join({"more than ", std::to_string(max_tokens_), " words and signs"}),
+                    "loops and rules say the same in fewer");
         break;
       }
       token();
@@ -165,8 +166,8 @@ class Lexer {
     Token& token = out_.tokens.back();
     const std::string_view name = text_.substr(begin, at_ - begin);
     if (name.size() > kLongestName)
-      sink_.error(token.span, codes::kTooLarge,
-                  join({"a name has at most ", std::to_string(kLongestName), " letters"}));
+      sink_.error(token.span, codes::kTooLarge, join({"a name has at most ", std::to_string(kLongestName), " letters"}),
+                  "shorten it");
     token.keyword = isKeyword(name);
     token.unavailable = isUnavailable(name);
   }
@@ -226,7 +227,9 @@ class Lexer {
                                                   : kLargestNumber;
     if (!(value <= largest)) {
       sink_.error(token.span, codes::kNumberRange, "number too large",
-                  token.dim == kLength ? "the world ends at 2097 km" : "");
+                  token.dim == kLength   ? "the world ends at 2097 km"
+                  : token.dim.length > 1 ? "write at most 1e18"
+                                         : "write at most 1e9");
       return;
     }
     token.value = value;
@@ -234,7 +237,7 @@ class Lexer {
 
   void textConstant(size_t begin, size_t column) {
     ++at_;
-    std::string_view complaint;
+    std::string_view complaint, hint;
     bool foreign = false;
     for (;;) {
       const char c = peek();
@@ -244,17 +247,27 @@ class Lexer {
         return;
       }
       if (c == '\\') {
-        if (peek(1) != '"' && peek(1) != '\\') complaint = "a backslash stands before a quote or a backslash only";
+        if (peek(1) != '"' && peek(1) != '\\') {
+          complaint = "a backslash stands before a quote or a backslash only";
+          hint = "write `\\\\` for a backslash";
+        }
         at_ += peek(1) == '"' || peek(1) == '\\' ? size_t{2} : size_t{1};
         continue;
       }
-      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) complaint = "a control character in a text";
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
+        complaint = "a text has no control characters";
+        hint = "write a space";
+      }
       foreign = character(foreign);
       if (c == '"') break;
     }
-    if (at_ - begin > kLongestText + 2) complaint = "a text has at most 1024 bytes";
+    if (at_ - begin > kLongestText + 2) {
+      complaint = "a text has at most 1024 bytes";
+      hint = "shorten it";
+    }
     push(Tok::text, begin, column);
-    if (!complaint.empty()) sink_.error(out_.tokens.back().span, codes::kBadText, std::string(complaint));
+    if (!complaint.empty())
+      sink_.error(out_.tokens.back().span, codes::kBadText, std::string(complaint), std::string(hint));
   }
 
   void sign(size_t begin, size_t column) {
@@ -299,7 +312,7 @@ class Lexer {
     ++at_;
     while (!done() && (static_cast<unsigned char>(peek()) & 0xC0) == 0x80) ++at_;
     const Span span = spanFrom(begin, line_, column);
-    std::string hint;
+    std::string hint = "names are of the letters a to z, digits and `_`";
     if (c == '&') hint = "write `and`";
     if (c == '|') hint = "write `or`";
     if (c == '!') hint = "write `not`";

@@ -175,7 +175,8 @@ Span Parser::since(const Span& begin) const {
 bool Parser::nodeBudget() {
   if (exhausted_) return false;
   if (program_.ast.exprs.size() + program_.ast.stmts.size() < limits_.nodes) return true;
-  fail(here(), codes::kTooLarge, join({"more than ", std::to_string(limits_.nodes), " expressions and statements"}));
+  fail(here(), codes::kTooLarge, join({"more than ", std::to_string(limits_.nodes), " expressions and statements"}),
+       "loops and rules say the same in fewer");
   exhausted_ = true;
   return false;
 }
@@ -195,7 +196,8 @@ IdRange Parser::storeArgs(const std::vector<ArgNode>& args) {
 bool Parser::Deeper::fits() {
   if (parser_.nesting_ <= parser_.limits_.nesting) return true;
   parser_.fail(parser_.here(), codes::kTooDeep,
-               join({"nested more than ", std::to_string(parser_.limits_.nesting), " deep"}));
+               join({"nested more than ", std::to_string(parser_.limits_.nesting), " deep"}),
+               "name a part of it: a value with let, a block with a rule");
   return false;
 }
 
@@ -207,10 +209,7 @@ void Parser::synchronise(bool top_level) {
   while (!at(Tok::end)) {
     const Token& token = peek();
     if (top_level && token.kind == Tok::word && token.span.column == 1 && token.span.begin > last_.begin) {
-      const std::string_view word = textOf(token);
-      for (std::string_view starter : {"import", "units", "param", "seed", "let", "field", "domain", "layer", "start",
-                                       "rule", "morphic", "override", "report", "expect"})
-        if (word == starter) return;
+      if (startsDeclaration(textOf(token))) return;
     }
     if (token.kind == Tok::open_brace) {
       ++open;

@@ -97,7 +97,7 @@ class Parser {
   // parser_statements.cpp
   StmtId block();
   StmtId statement();
-  StmtId bodyOf(std::string_view what);
+  StmtId bodyOf(std::string_view word);
   StmtId addStmt(StmtNode node, const Span& begin);
   StmtId callStatement();
   StmtId combiner(StmtKind kind, bool smooth);

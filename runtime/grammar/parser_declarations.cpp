@@ -11,9 +11,7 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 14> kStarters = {"import",  "units",    "param",  "seed",  "let",
-                                                        "field",   "domain",   "layer",  "start", "rule",
-                                                        "morphic", "override", "report", "expect"};
+constexpr const char* kRemove = "remove one of them";
 
 }  // namespace
 
@@ -35,7 +33,7 @@ void Parser::declaration() {
       fail(word, codes::kUnknownUnit, join({"unknown unit of length `", text, "`"}), "units are m, cm, mm and km");
     expect(Tok::semicolon, "`;`");
     if (panic_) return;
-    if (again) sink_.error(since(begin), codes::kDuplicate, "a second `units`");
+    if (again) sink_.error(since(begin), codes::kDuplicate, "a second `units`", kRemove);
     out_.unit = unit;
     out_.unit_span = begin;
     return item(ItemKind::units, 0, begin);
@@ -45,7 +43,7 @@ void Parser::declaration() {
     const ExprId seed = expression();
     expect(Tok::semicolon, "`;`");
     if (panic_) return;
-    if (out_.seed != kNoId) sink_.error(since(begin), codes::kDuplicate, "a second `seed`");
+    if (out_.seed != kNoId) sink_.error(since(begin), codes::kDuplicate, "a second `seed`", kRemove);
     out_.seed = seed;
     out_.seed_span = since(begin);
     return item(ItemKind::seed, 0, begin);
@@ -61,7 +59,7 @@ void Parser::declaration() {
   if (acceptWord("report")) return expectation(false);
   if (acceptWord("expect")) return expectation(true);
   if (at(Tok::close_brace)) {
-    fail(begin, codes::kSyntax, "a `}` without its `{`");
+    fail(begin, codes::kSyntax, "a `}` without its `{`", "remove it");
     panic_ = false;
     take();
     return;
@@ -69,7 +67,7 @@ void Parser::declaration() {
   std::string hint;
   if (at(Tok::word)) {
     Suggestion suggestion(textOf(peek()));
-    for (std::string_view word : kStarters) suggestion.offer(word);
+    for (std::string_view word : declarationTable()) suggestion.offer(word);
     hint = suggestion.hint();
     if (hint.empty()) hint = "shapes stand in rules: rule Name { ... }";
   }
@@ -124,7 +122,8 @@ IdRange Parser::formals() {
     if (accept(Tok::assign)) formal.fallback = expression();
     formal.span = since(begin);
     list.push_back(formal);
-    if (list.size() > kMostFormals) fail(begin, codes::kTooLarge, "more than 16 parameters");
+    if (list.size() > kMostFormals)
+      fail(begin, codes::kTooLarge, "more than 16 parameters", "a vector holds three numbers in one");
     if (!accept(Tok::comma)) break;
   }
   expect(Tok::close_paren, "`)` or `,`");
@@ -194,15 +193,17 @@ void Parser::domainDeclaration() {
           domain.axes[static_cast<size_t>(c - 'x')] = true;
       }
       if (!good) fail(here(), codes::kSyntax, "expected axes such as xz", "the axes along which there are cells");
-      if (!domain.infinite) fail(word, codes::kDomain, "a finite domain has no axes");
+      if (!domain.infinite)
+        fail(word, codes::kDomain, "a finite domain has no axes", "write `domain infinite axes ...`");
       take();
       domain.axes_written = true;
     } else if (atWord("solid") || atWord("empty")) {
-      if (domain.solid || domain.empty) fail(word, codes::kDuplicate, "`solid` or `empty` once");
+      if (domain.solid || domain.empty) fail(word, codes::kDuplicate, "`solid` or `empty` once", kRemove);
       domain.solid = atWord("solid");
       domain.empty = !domain.solid;
       take();
-      if (domain.solid && at(Tok::word) && !atWord("output") && !atWord("axes") && !atWord("box"))
+      if (domain.solid && at(Tok::word) && !atWord("output") && !atWord("axes") && !atWord("box") && !atWord("solid") &&
+          !atWord("empty"))
         domain.material = declaredName("a material");
     } else if (acceptWord("output")) {
       expectWord("density");
@@ -211,7 +212,7 @@ void Parser::domainDeclaration() {
     } else if (atWord("box")) {
       if (domain.infinite)
         fail(word, codes::kDomain, "an infinite domain has no box", "write `domain finite box(...)`");
-      if (domain.box) fail(word, codes::kDuplicate, "a second box");
+      if (domain.box) fail(word, codes::kDuplicate, "a second box", kRemove);
       take();
       domain.box = true;
       domain.box_args = storeArgs(arguments("box"));
@@ -222,7 +223,7 @@ void Parser::domainDeclaration() {
   expect(Tok::semicolon, "`;`");
   if (panic_) return;
   domain.span = since(begin);
-  if (out_.domain.present) sink_.error(domain.span, codes::kDuplicate, "a second `domain`");
+  if (out_.domain.present) sink_.error(domain.span, codes::kDuplicate, "a second `domain`", kRemove);
   out_.domain = domain;
   item(ItemKind::domain, 0, begin);
 }
@@ -259,7 +260,8 @@ void Parser::startDeclaration() {
   const ExprId start = callExpression("the name of a rule");
   expect(Tok::semicolon, "`;`");
   if (panic_) return;
-  if (out_.start != kNoId) sink_.error(since(begin), codes::kDuplicate, "a second `start`");
+  if (out_.start != kNoId)
+    sink_.error(since(begin), codes::kDuplicate, "a second `start`", "call both rules in one, and start that");
   out_.start = start;
   out_.start_span = since(begin);
   item(ItemKind::start, 0, begin);
@@ -296,15 +298,21 @@ void Parser::ruleDeclaration() {
     const Span clause = here();
     const std::string_view word = textOf(peek());
     auto once = [&](bool there) {
-      if (there) fail(clause, codes::kDuplicate, join({"a second `", word, "`"}));
+      if (there) fail(clause, codes::kDuplicate, join({"a second `", word, "`"}), kRemove);
+      take();
+    };
+    auto guard = [&] {
+      if (head.guard != Guard::none)
+        fail(clause, codes::kDuplicate, "a head has one `when`, or `else`",
+             "join conditions with `and`; `else` stands in a head of its own");
       take();
     };
     if (atWord("when")) {
-      once(head.guard != Guard::none);
+      guard();
       head.guard = Guard::when;
       head.when = expression();
     } else if (atWord("else")) {
-      once(head.guard != Guard::none);
+      guard();
       head.guard = Guard::otherwise;
     } else if (atWord("weight")) {
       once(head.weight != kNoId);
@@ -313,12 +321,12 @@ void Parser::ruleDeclaration() {
       once(head.depth != kNoId);
       head.depth = expression();
       expect(Tok::arrow, "`->` and what to derive instead");
-      head.depth_call = callExpression("what to derive instead");
+      head.depth_call = callExpression("a shape or a rule to derive instead");
     } else if (atWord("minsize")) {
       once(head.minsize != kNoId);
       head.minsize = expression();
       expect(Tok::arrow, "`->` and what to derive instead");
-      head.minsize_call = callExpression("what to derive instead");
+      head.minsize_call = callExpression("a shape or a rule to derive instead");
     } else if (atWord("lod")) {
       once(head.lod != kNoId);
       if (atWord("far") || atWord("mid") || atWord("near"))
@@ -426,7 +434,7 @@ void Parser::expectation(bool expect_it) {
   while (!panic_ && (atWord("in") || atWord("per"))) {
     const bool block = peek(1).kind == Tok::word && textOf(peek(1)) == "block";
     const bool twice = atWord("per") ? e.per_name != kNoId : block ? e.block != 0 : e.low != kNoId;
-    if (twice) return fail(here(), codes::kDuplicate, "this stands here twice");
+    if (twice) return fail(here(), codes::kDuplicate, "this stands here twice", kRemove);
     if (acceptWord("per")) {
       e.span = here();
       e.per_name = wordName("the name of a rule");
@@ -437,7 +445,7 @@ void Parser::expectation(bool expect_it) {
         const Token& cells = peek();
         if (cells.kind != Tok::number || !(cells.dim == kRatio) || cells.value < 1 || cells.value > 64 ||
             cells.value != static_cast<double>(static_cast<int32_t>(cells.value)))
-          fail(here(), codes::kValueRange, "a block has 1 to 64 cells along an edge");
+          fail(here(), codes::kValueRange, "a block has 1 to 64 cells along an edge", "such as block(8)");
         e.block = static_cast<int32_t>(cells.value);
         take();
         expect(Tok::close_paren, "`)`");

@@ -200,7 +200,8 @@ ExprId Parser::primary() {
     return kNoId;
   }
   if (peek().keyword) {
-    fail(here(), codes::kSyntax, join({"`", word, "` starts a statement and gives no value"}));
+    fail(here(), codes::kSyntax, join({"`", word, "` starts a statement and gives no value"}),
+         "a value is a number, a name or a function such as max(a, b)");
     return kNoId;
   }
   node.kind = ExprKind::name;
@@ -247,7 +248,7 @@ ExprId Parser::parenthesised() {
     return parts[0];
   }
   if (parts.size() > 3) {
-    fail(since(begin), codes::kSyntax, "a vector has three parts, a pair two");
+    fail(since(begin), codes::kSyntax, "a vector has three parts, a pair two", "such as (1m, 2m, 3m)");
     return kNoId;
   }
   ExprNode node;
@@ -301,7 +302,8 @@ std::vector<ArgNode> Parser::arguments(std::string_view callee) {
     arg.value = expression();
     arg.span = since(begin);
     args.push_back(arg);
-    if (args.size() > kMostArguments) fail(begin, codes::kTooLarge, "too many arguments");
+    if (args.size() > kMostArguments)
+      fail(begin, codes::kTooLarge, "more than 80 arguments", "give several shapes a part of them each");
     if (!accept(Tok::comma)) break;
   }
   expect(Tok::close_paren, "`)` or `,`");
@@ -321,10 +323,6 @@ ExprId Parser::callExpression(std::string_view what) {
   if (node.kind == ExprKind::call) {
     program_.ast.exprs[callee].shape = true;
     return callee;
-  }
-  if (node.kind != ExprKind::name && node.kind != ExprKind::member) {
-    fail(since(begin), codes::kSyntax, join({"expected ", what}));
-    return kNoId;
   }
   node.kind = ExprKind::call;
   node.shape = true;

@@ -77,8 +77,11 @@ StmtId Parser::statement() {
 StmtId Parser::callStatement() {
   const Span begin = here();
   if (at(Tok::word) && peek().keyword) {
-    Suggestion suggestion(textOf(peek()));
-    unexpected("a statement");
+    if (startsDeclaration(textOf(peek())))
+      fail(begin, codes::kSyntax, join({"expected a statement, found `", textOf(peek()), "`"}),
+           "close the block before it with `}`");
+    else
+      unexpected("a statement");
     return kNoId;
   }
   if (at(Tok::word) && peek(1).kind != Tok::open_paren && peek(1).kind != Tok::semicolon && peek(1).kind != Tok::dot &&
@@ -104,9 +107,9 @@ StmtId Parser::callStatement() {
 }
 
 /// A block, or one statement.
-StmtId Parser::bodyOf(std::string_view what) {
+StmtId Parser::bodyOf(std::string_view word) {
   if (at(Tok::semicolon) || at(Tok::close_brace)) {
-    unexpected(join({"a block or a statement for ", what}));
+    unexpected(join({"a block or a statement for `", word, "`"}));
     return kNoId;
   }
   return statement();
@@ -217,7 +220,7 @@ StmtId Parser::scatterStatement() {
     const std::string_view word = textOf(take());
     scatter.args = storeArgs(arguments(word));
   } else if (!scatter.poisson && !panic_) {
-    unexpected("`on` and where to scatter");
+    unexpected("`on` and where to scatter, such as `on disc(5m)`");
   }
   if (acceptWord("probe")) {
     scatter.probe = atWord("up") ? 1 : atWord("down") ? -1 : 0;
@@ -340,8 +343,9 @@ StmtId Parser::transformStatement() {
   const Span begin = here();
   StmtNode node;
   node.kind = StmtKind::transform;
+  const std::string_view word = textOf(peek());
   node.xforms = xforms();
-  node.body = bodyOf("the transform");
+  node.body = bodyOf(word);
   return panic_ ? kNoId : addStmt(node, begin);
 }
 

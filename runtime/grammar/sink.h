@@ -57,6 +57,8 @@ class Suggestion {
   std::string_view best() const { return best_; }
   /// "did you mean `x`?" or empty.
   std::string hint() const;
+  /// The same, or where it is empty another hint.
+  std::string hintOr(std::string_view other) const { return best_.empty() ? std::string(other) : hint(); }
 
  private:
   std::string_view word_;
