@@ -100,6 +100,10 @@ std::string ReachCheck::hint(const Extent& extent, bool finite, double reach, do
                  " m: a sum's field is no larger far away"});
   if (extent.why == Unbound::radius)
     return "give the smallest radius of what it displaces a bound from below, such as max(r, 1m)";
+  const ExprNode* blamed = extent.culprit == kNoId ? nullptr : &program_.expr(extent.culprit);
+  if (!std::isfinite(over) && blamed != nullptr && blamed->ref == Ref::primitive &&
+      static_cast<Primitive>(blamed->id) == Primitive::halfspace)
+    return "meet it with a box, or cut a shape with it";
   if (!std::isfinite(over))
     return "bound what it depends on: a parameter's range, clamp(), or `amp` of displace and warp";
   if (finite) return "make the box larger or the shape smaller";
