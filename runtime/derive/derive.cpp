@@ -74,7 +74,15 @@ bool Interpreter::step(uint64_t count, const Span& span, uint32_t activation) {
   if (failed()) return false;
   steps_ += std::min(count, limits_.steps + 1);
   if (steps_ <= limits_.steps) return true;
-  fail("deriving one cell takes more than " + std::to_string(limits_.steps) + " steps", span, activation);
+  fail("deriving one cell takes more than " + std::to_string(limits_.steps) +
+           " steps (derive less, or make the cells smaller)",
+       span, activation);
+  return false;
+}
+
+bool Interpreter::withinNesting(const Span& span, uint32_t activation) {
+  if (nesting_ <= limits_.nesting) return true;
+  fail("expressions and statements are nested too deep (let fewer rules call each other)", span, activation);
   return false;
 }
 
@@ -141,8 +149,10 @@ void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& o
     }
     if (!limit.contains(box)) {
       const std::string by = metresText(excess(box, limit) + kReachSlack) + " m";
-      note(!isWhole(layer_) ? "this shape may pass the reach of its cell by " + by + "; it is left out whole"
-                            : "this shape may pass the domain's box by " + by + "; it is left out whole",
+      note(!isWhole(layer_) ? "this shape may pass the reach of its cell by " + by +
+                                  "; it is left out whole: raise `reach` or make it smaller"
+                            : "this shape may pass the domain's box by " + by +
+                                  "; it is left out whole: enlarge the box or make it smaller",
            origin.span, origin.activation);
       continue;
     }
@@ -190,9 +200,11 @@ Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
 namespace {
 
 Result<void> checkArguments(const Program& program, const ParameterValues& parameters, uint32_t layer, Int3 cell) {
-  if (layer >= program.layers.size()) return Error{Code::invalid_argument, "the grammar has no such layer"};
+  if (layer >= program.layers.size())
+    return Error{Code::invalid_argument, "the grammar has no layer " + std::to_string(layer) + "; it has " +
+                                             std::to_string(program.layers.size())};
   if (parameters.values.size() != program.params.size()) {
-    return Error{Code::invalid_argument, "the parameter values belong to another grammar"};
+    return Error{Code::invalid_argument, "the parameter values belong to another grammar; take its defaults"};
   }
   const Layer& info = program.layers[layer];
   if (isWhole(info) && cell != Int3{}) {
@@ -221,7 +233,9 @@ Result<std::vector<RuleInstance>> deriveInstances(const Program& program, const 
                                                   const LowerLayers& lower, const DeriveLimits& limits,
                                                   std::pmr::memory_resource* memory) {
   if (Result<void> ok = checkArguments(program, parameters, layer, cell); !ok) return ok.error();
-  if (rule >= program.rules.size()) return Error{Code::invalid_argument, "the grammar has no such rule"};
+  if (rule >= program.rules.size())
+    return Error{Code::invalid_argument, "the grammar has no rule " + std::to_string(rule) + "; it has " +
+                                             std::to_string(program.rules.size())};
   return Interpreter(program, parameters, world_seed, layer, cell, lower, limits, memory).runInstances(rule, memory);
 }
 

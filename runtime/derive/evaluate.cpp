@@ -21,10 +21,7 @@ Value Interpreter::evaluate(ExprId id, const Env& env) {
   const ExprNode& node = program_.expr(id);
   if (!step(1, node.span, env.activation)) return {};
   const Nested nested(nesting_);
-  if (nesting_ > limits_.nesting) {
-    fail("expressions and statements are nested too deep", node.span, env.activation);
-    return {};
-  }
+  if (!withinNesting(node.span, env.activation)) return {};
   const auto child = [&](uint32_t i) { return evaluate(program_.idAt(node.children, i), env); };
   switch (node.kind) {
     case ExprKind::number:

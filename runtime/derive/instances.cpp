@@ -40,7 +40,7 @@ Result<std::vector<RuleInstance>> Interpreter::runInstances(uint32_t rule, std::
     if (shapes > limits_.shapes) {
       return Error{Code::limit, "the uses of `" + std::string(program_.text(program_.rules[rule].name)) +
                                     "` in one cell have more than " + std::to_string(limits_.shapes) +
-                                    " shapes together"};
+                                    " shapes together; ask for a smaller rule"};
     }
     instances.push_back(std::move(instance));
   }

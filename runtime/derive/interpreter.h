@@ -253,6 +253,7 @@ class Interpreter {
   // Trouble.
   bool step(uint64_t count, const Span& span, uint32_t activation);
   bool withinBytes(const Span& span, uint32_t activation);
+  bool withinNesting(const Span& span, uint32_t activation);
   void fail(const std::string& what, const Span& span, uint32_t activation);
   bool failed() const { return error_.has_value(); }
   void note(const std::string& message, const Span& span, uint32_t activation);

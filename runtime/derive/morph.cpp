@@ -14,7 +14,8 @@ struct Squared {
   bool turns = true;  ///< it has axes
 };
 
-std::optional<Squared> squaredOf(const Shape& s) {
+/// Of a sphere, an ellipsoid, a box or a superquadric.
+Squared squaredOf(const Shape& s) {
   Squared result;
   const bool ball = s.kind == ShapeKind::sphere;
   for (size_t i = 0; i < 3; ++i) result.radii[i] = static_cast<double>(s.size[ball ? 0 : i]);
@@ -22,7 +23,6 @@ std::optional<Squared> squaredOf(const Shape& s) {
   if (ball || s.kind == ShapeKind::ellipsoid) return result;
   result.square = 1;
   if (s.kind == ShapeKind::box) return result;
-  if (s.kind != ShapeKind::superquadric) return std::nullopt;
   const double most = 1.0 - 2.0 / static_cast<double>(kMaxPower);
   result.square = std::clamp((1.0 - 2.0 / static_cast<double>(s.size[3])) / most, 0.0, 1.0);
   return result;
@@ -47,7 +47,8 @@ void Interpreter::morph(const StmtNode& s, const Env& env, ShapeList& out) {
   statement(to, env, b);
   if (failed()) return;
   if (a.empty() || b.empty()) {
-    note("one end of this morph is missing or was left out, so the whole morph is left out", s.span, env.activation);
+    note("one end of this morph is missing or was left out, so the whole morph is left out: let both give shapes",
+         s.span, env.activation);
     return;
   }
   const uint32_t first = united(a, s, env), second = united(b, s, env);
@@ -78,38 +79,27 @@ void Interpreter::morph(const StmtNode& s, const Env& env, ShapeList& out) {
 }
 
 void Interpreter::morphPower(const StmtNode& s, const Env& env, uint32_t a, uint32_t b, Num t, ShapeList& out) {
-  const std::optional<Squared> from = squaredOf(draft_.shape(a)), to = squaredOf(draft_.shape(b));
-  if (!from || !to) {
-    note("morph by power goes between spheres, ellipsoids, superquadrics and boxes only; use lerp here", s.span,
-         env.activation);
-    return;
-  }
-  const Frame& frame = from->turns ? draft_.shape(a).frame : draft_.shape(b).frame;
-  const bool turned = from->turns && to->turns && draft_.shape(a).frame.rows != draft_.shape(b).frame.rows;
-  if (turned || draft_.shape(a).frame.origin != draft_.shape(b).frame.origin) {
-    note("morph by power needs both shapes at the same centre with the same axes; use lerp here", s.span,
-         env.activation);
-    return;
-  }
+  // The checker has seen to it that both are leaves of the same scope: they have one centre and one set of axes.
+  const Squared from = squaredOf(draft_.shape(a)), to = squaredOf(draft_.shape(b));
   const auto mixed = [](double low, double high, double at) { return low + (high - low) * at; };
   Shape node = shapeIn(env, ShapeKind::superquadric);
-  node.frame = frame;
+  node.frame = draft_.shape(from.turns ? a : b).frame;
   if (t.constant()) {
-    for (size_t i = 0; i < 3; ++i) node.size[i] = static_cast<float>(mixed(from->radii[i], to->radii[i], t.value));
-    node.size[3] = static_cast<float>(exponentOfSquare(mixed(from->square, to->square, t.value)));
+    for (size_t i = 0; i < 3; ++i) node.size[i] = static_cast<float>(mixed(from.radii[i], to.radii[i], t.value));
+    node.size[3] = static_cast<float>(exponentOfSquare(mixed(from.square, to.square, t.value)));
     node.inner_radius = std::min({node.size[0], node.size[1], node.size[2]});
     out.push_back(addShape(node, s.ordinal, s.span, env));
     return;
   }
   // The node runs from a square of 0 to 1; ends in between are two points on the way, and the radii go on linearly.
   node.kind = ShapeKind::morph_power;
-  const double step = to->square - from->square;
+  const double step = to.square - from.square;
   for (size_t i = 0; i < 3; ++i) {
-    const double slope = step == 0 ? 0 : (to->radii[i] - from->radii[i]) / step;
-    const double at_round = from->radii[i] - slope * from->square;
+    const double slope = step == 0 ? 0 : (to.radii[i] - from.radii[i]) / step;
+    const double at_round = from.radii[i] - slope * from.square;
     node.size[i] = static_cast<float>(at_round);
     node.size[3 + i] = static_cast<float>(at_round + slope);
-    if (!(node.size[i] > 0 && node.size[3 + i] > 0) || (step == 0 && to->radii[i] != from->radii[i])) {
+    if (!(node.size[i] > 0 && node.size[3 + i] > 0) || (step == 0 && to.radii[i] != from.radii[i])) {
       note("morph by power cannot change the radii so much for so little change of squareness; use lerp here", s.span,
            env.activation);
       return;
@@ -118,7 +108,7 @@ void Interpreter::morphPower(const StmtNode& s, const Env& env, uint32_t a, uint
   node.inner_radius = std::max(draft_.shape(a).inner_radius, draft_.shape(b).inner_radius);
   const Num along = draft_.clamp(t, {0}, {1});
   node.expr =
-      draft_.expression(draft_.binary(ExprOp::add, {from->square}, draft_.binary(ExprOp::multiply, {step}, along)));
+      draft_.expression(draft_.binary(ExprOp::add, {from.square}, draft_.binary(ExprOp::multiply, {step}, along)));
   out.push_back(addShape(node, s.ordinal, s.span, env));
 }
 

@@ -15,6 +15,14 @@ std::string numberText(double v) {
   return text;
 }
 
+/// "; it has boxy, wet".
+std::string namesOf(const Program& program) {
+  std::string list;
+  for (const Param& param : program.params)
+    list.append(list.empty() ? "; it has " : ", ").append(program.text(param.name));
+  return list;
+}
+
 }  // namespace
 
 ParameterValues ParameterValues::defaults(const Program& program) {
@@ -26,7 +34,7 @@ ParameterValues ParameterValues::defaults(const Program& program) {
 Result<void> ParameterValues::set(const Program& program, std::string_view name, double value) {
   const uint32_t index = program.findParam(name);
   if (index == kNoId || index >= values.size()) {
-    return Error{Code::invalid_argument, "the grammar has no parameter " + std::string(name)};
+    return Error{Code::invalid_argument, "the grammar has no parameter " + std::string(name) + namesOf(program)};
   }
   const Param& param = program.params[index];
   const std::string quoted = "parameter " + std::string(name);

@@ -25,7 +25,8 @@ void Interpreter::transform(IdRange xforms, Env& env) {
         if (x.axis < 3) axis[x.axis] = 1;
         const double angle = part(x.b);
         if (!(length(axis) > 0) || !(std::fabs(angle) <= 1e6)) {
-          note("this turn has no axis, or an angle beyond a million radians; it is left out", x.span, env.activation);
+          note("a turn needs an axis longer than 0 and an angle within a million radians; this one is left out", x.span,
+               env.activation);
         } else {
           env.place = env.place.turned(axis, angle);
         }
@@ -120,7 +121,7 @@ void Interpreter::scatter(const StmtNode& s, const Env& env, ShapeList& out) {
     const size_t most = std::min<size_t>(limits_.steps - steps_, limits_.bytes / kCandidate);
     const auto points = poissonInCell(lattice_, cell_, set, toUnits(amount), most);
     if (!points) {
-      fail("more points in one cell than steps allowed", s.span, env.activation);
+      fail("more points in one cell than can be derived (take a larger distance in poisson())", s.span, env.activation);
       return;
     }
     if (!step(points->size() * 27, s.span, env.activation)) return;
@@ -149,7 +150,7 @@ void Interpreter::scatter(const StmtNode& s, const Env& env, ShapeList& out) {
   count = detFloor(count + 0.5);
   if (!(count >= 1)) return;
   if (!(count < 1e6)) {
-    fail("more than a million points in one scatter", s.span, env.activation);
+    fail("more than a million points in one scatter (take fewer, or a larger distance)", s.span, env.activation);
     return;
   }
   const size_t n = static_cast<size_t>(count);
@@ -212,12 +213,14 @@ void Interpreter::anchor(const StmtNode& s, const Env& env) {
   anchor.tag = env.tag;
   anchor.key = env.key.child(kAnchorSalt, s.ordinal);
   if (!cellBox(layer_, cell_).contains(anchor.frame.origin)) {
-    note("this anchor lies outside of the cell that derives it, so no cell owns it; it is left out", s.span,
+    note("an anchor must lie in the cell that derives it, which alone owns it; this one is left out", s.span,
          env.activation);
     return;
   }
   if (anchors_.size() >= limits_.shapes) {
-    fail("more than " + std::to_string(limits_.shapes) + " anchors in one cell", s.span, env.activation);
+    fail("more than " + std::to_string(limits_.shapes) +
+             " anchors in one cell (derive fewer, or make the cells smaller)",
+         s.span, env.activation);
     return;
   }
   anchors_.push_back(anchor);

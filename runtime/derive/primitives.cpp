@@ -25,8 +25,10 @@ void Interpreter::addLeaf(Shape shape, std::initializer_list<double> metres, dou
     const double units = m * scale;
     const bool pointed = shape.kind == ShapeKind::truncone && i < 2 && units == 0;
     if (!(units > 0 && units <= kLargest) && !pointed) {
-      note("a size of this shape is not positive, or larger than the world; the shape is left out", node.span,
-           env.activation);
+      note(
+          "a size of this shape is not positive, or larger than the world; the shape is left out: bound it, such as "
+          "max(r, 0.1m)",
+          node.span, env.activation);
       return;
     }
     shape.size[i++] = static_cast<float>(units);
@@ -74,7 +76,7 @@ void Interpreter::primitive(Primitive kind, const ExprNode& node, uint32_t ordin
     case Primitive::truncone: {
       const double half = 0.5 * number(0), top = number(1), bottom = number(2);
       if (top == 0 && bottom == 0) {
-        return note("a cone with two radii of 0 has no body; it is left out", node.span, env.activation);
+        return note("a cone needs a radius above 0 at one end; this one is left out", node.span, env.activation);
       }
       const double inner = std::min(std::max(top, bottom), half);
       return addLeaf(leaf(ShapeKind::truncone), {bottom, top, half}, inner, node, ordinal, env, out);
@@ -136,7 +138,7 @@ void Interpreter::prismLeaf(const ExprNode& node, uint32_t ordinal, const Env& e
   }
   while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
   if (corners.size() < 3) {
-    return note("fewer than three corners of this prism are apart; it is left out", node.span, env.activation);
+    return note("a prism needs three corners that lie apart; this one is left out", node.span, env.activation);
   }
   Shape shape = shapeIn(env, ShapeKind::prism);
   shape.frame = env.place.frame();
@@ -155,7 +157,7 @@ void Interpreter::sweptLeaf(bool square, const ExprNode& node, uint32_t ordinal,
   const double bend = boundAt(node, 3) == kNoId ? 0.0 : real(boundAt(node, 3), env) * scale;
   if (failed()) return;
   if (!(r > 0 && r <= kLargest && bend >= 0 && bend <= kLargest)) {
-    return note("the radius of this sweep is not positive or its bend negative; it is left out", node.span,
+    return note("a tube or a beam needs a radius above 0 and a bend of 0 or more; this one is left out", node.span,
                 env.activation);
   }
   // By the ends alone, so that a tube and a beam between the same points bend alike.
@@ -165,7 +167,7 @@ void Interpreter::sweptLeaf(bool square, const ExprNode& node, uint32_t ordinal,
   }
   const std::vector<Int3> corners = bentLine(a, b, bend, key);
   if (corners.size() < 2) {
-    return note("both ends of this sweep are the same point; it is left out", node.span, env.activation);
+    return note("a tube or a beam needs ends that lie apart; this one is left out", node.span, env.activation);
   }
   ShapeList pieces;
   if (square) {

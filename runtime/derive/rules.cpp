@@ -81,7 +81,8 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
   if (failed()) return;
   if (!withinBytes(node.span, env.activation)) return;
   if (depth_ >= limits_.depth) {
-    fail("rules are nested more than " + std::to_string(limits_.depth) + " deep", node.span, env.activation);
+    fail("rules are nested more than " + std::to_string(limits_.depth) + " deep (give them a smaller `depth`)",
+         node.span, env.activation);
     return;
   }
   Activation activation;

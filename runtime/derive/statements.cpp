@@ -29,13 +29,17 @@ bool Interpreter::withinBytes(const Span& span, uint32_t activation) {
   const size_t used = draft_.bytes() + activations_.size() * sizeof(Activation) + anchors_.size() * sizeof(Anchor) +
                       segments_.size() * sizeof(Segment);
   if (used <= limits_.bytes) return true;
-  fail("one cell takes more than " + std::to_string(limits_.bytes >> 20) + " MiB", span, activation);
+  fail("one cell takes more than " + std::to_string(limits_.bytes >> 20) +
+           " MiB (derive less, or make the cells smaller)",
+       span, activation);
   return false;
 }
 
 uint32_t Interpreter::addShape(Shape s, uint32_t ordinal, const Span& span, const Env& env, const ShapeList& children) {
   if (draft_.chunk().shapes.size() >= limits_.shapes) {
-    fail("more than " + std::to_string(limits_.shapes) + " shapes in one cell", span, env.activation);
+    fail(
+        "more than " + std::to_string(limits_.shapes) + " shapes in one cell (derive fewer, or make the cells smaller)",
+        span, env.activation);
   } else {
     withinBytes(span, env.activation);
   }
@@ -64,7 +68,7 @@ std::optional<double> Interpreter::smoothRadius(const StmtNode& s, const Env& en
   const double units = real(s.amount, env) * env.place.scale * kUnitsPerMetre;
   if (!(units > 0)) return std::nullopt;
   if (units < 1e9) return units;
-  note("the smooth radius is larger than the world; the edge is left sharp", s.span, env.activation);
+  note("a smooth radius must be smaller than the world; this edge is left sharp", s.span, env.activation);
   return std::nullopt;
 }
 
@@ -73,10 +77,7 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
   const StmtNode& s = program_.stmt(id);
   if (!step(1, s.span, env.activation)) return;
   const Nested nested(nesting_);
-  if (nesting_ > limits_.nesting) {
-    fail("expressions and statements are nested too deep", s.span, env.activation);
-    return;
-  }
+  if (!withinNesting(s.span, env.activation)) return;
   switch (s.kind) {
     case StmtKind::block:
       if (program_.overridesOf(s.tag).count > 0)
@@ -222,8 +223,8 @@ void Interpreter::meet(const StmtNode& s, const Env& env, ShapeList& out) {
     statement(program_.idAt(body.children, i), inner, list);
     if (isSilent(child.kind)) continue;
     if (list.empty()) {
-      note("one operand of this meet is missing or was left out, so the whole meet is left out", child.span,
-           env.activation);
+      note("one operand of this meet is missing or was left out, so the whole meet is left out: let each give a shape",
+           child.span, env.activation);
       return;
     }
     operands.push_back(united(list, child, inner));
@@ -244,8 +245,10 @@ void Interpreter::sum(const StmtNode& s, const Env& env, ShapeList& out) {
   statement(s.body, env, body);
   std::erase_if(body, [&](uint32_t i) {
     if (draft_.shape(i).inner_radius > 0) return false;
-    note("this shape has no inner radius, so it cannot be summed and is left out", draft_.origin(i).span,
-         draft_.origin(i).activation);
+    note(
+        "a sum is of shapes with an inner radius, and a half-space has none; this one is left out: cut or meet the sum "
+        "with it",
+        draft_.origin(i).span, draft_.origin(i).activation);
     return true;
   });
   if (failed() || body.empty()) return;

@@ -336,14 +336,17 @@ TEST_CASE("caps fail the cell with the place and the path") {
   };
   DeriveLimits shapes;
   shapes.shapes = 10;
-  CHECK(failing(shapes).message == "more than 10 shapes in one cell, in main(0, 0, 0)/Main/Leaf[10]");
+  CHECK(failing(shapes).message ==
+        "more than 10 shapes in one cell (derive fewer, or make the cells smaller), in main(0, 0, 0)/Main/Leaf[10]");
   CHECK(failing(shapes).line == 3);
   DeriveLimits steps;
   steps.steps = 100;
-  CHECK(failing(steps).message.find("100 steps, in main(0, 0, 0)/Main") != std::string::npos);
+  CHECK(failing(steps).message.find("100 steps (derive less, or make the cells smaller), in main(0, 0, 0)/Main") !=
+        std::string::npos);
   DeriveLimits depth;
   depth.depth = 1;
-  CHECK(failing(depth).message == "rules are nested more than 1 deep, in main(0, 0, 0)/Main");
+  CHECK(failing(depth).message ==
+        "rules are nested more than 1 deep (give them a smaller `depth`), in main(0, 0, 0)/Main");
   DeriveLimits bytes;
   bytes.bytes = 1000;
   CHECK(failing(bytes).code == Code::limit);

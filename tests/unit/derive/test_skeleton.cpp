@@ -270,8 +270,10 @@ TEST_CASE("segments are steps and memory of the cell that grows them") {
   CHECK(errorWith({}).empty());
   DeriveLimits limits;
   limits.steps = 9 * 4095;
-  CHECK(errorWith(limits) == "deriving one cell takes more than 36855 steps, in l(0, 0, 0)/Main");
+  CHECK(errorWith(limits) ==
+        "deriving one cell takes more than 36855 steps (derive less, or make the cells smaller), in l(0, 0, 0)/Main");
   limits = {};
   limits.bytes = size_t{1} << 20;
-  CHECK(errorWith(limits) == "one cell takes more than 1 MiB, in l(0, 0, 0)/Main");
+  CHECK(errorWith(limits) ==
+        "one cell takes more than 1 MiB (derive less, or make the cells smaller), in l(0, 0, 0)/Main");
 }

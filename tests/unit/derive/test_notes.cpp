@@ -1,0 +1,241 @@
+// What derivation says of a cell, word for word: each note names the path, and the rest of the cell appears.
+
+#include <limits>
+#include <tuple>
+
+#include "derive_fixture.h"
+
+using namespace sgm;
+
+namespace {
+
+struct NoteCase {
+  const char* message;
+  const char* place;    ///< how the part of it starts that is noted
+  const char* faulty;   ///< a statement
+  const char* instead;  ///< what the cell holds in its place: the same statement without its fault, or nothing
+};
+
+const NoteCase kNotes[] = {
+    {"a size of this shape is not positive, or larger than the world; the shape is left out: bound it, such as max(r, "
+     "0.1m)",
+     "", "sphere(rand(-2m, -1m));", ""},
+    {"a cone needs a radius above 0 at one end; this one is left out", "", "truncone(2m, 0m, 0m);", ""},
+    {"a prism needs three corners that lie apart; this one is left out", "",
+     "prism(2m, (0m, 0m), (1m, 0m), (1m, 0m), (0m, 0m));", ""},
+    {"a tube or a beam needs a radius above 0 and a bend of 0 or more; this one is left out", "",
+     "tube((0m, 0m, 0m), (4m, 0m, 0m), rand(-2m, -1m));", ""},
+    {"a tube or a beam needs a radius above 0 and a bend of 0 or more; this one is left out", "",
+     "beam((0m, 0m, 0m), (4m, 0m, 0m), 1m, bend rand(-2m, -1m));", ""},
+    {"a tube or a beam needs ends that lie apart; this one is left out", "", "tube((1m, 0m, 0m), (1m, 0m, 0m), 1m);",
+     ""},
+    {"morph by power cannot change the radii so much for so little change of squareness; use lerp here", "",
+     "morph(superq((1m, 1m, 1m), 0.5), superq((2m, 2m, 2m), 0.5), p.y/9m) power;", ""},
+    {"a turn needs an axis longer than 0 and an angle within a million radians; this one is left out", "",
+     "rot((0, 0, 0), 9deg) box(2m);", "rot(y, 0deg) box(2m);"},
+    {"a turn needs an axis longer than 0 and an angle within a million radians; this one is left out", "",
+     "rot(y, 2000000rad) box(2m);", "rot(y, 0deg) box(2m);"},
+    {"a scale must be positive; it is left out", "", "scale(rand(-2, -1)) box(2m);", "scale(rand(1, 1)) box(2m);"},
+    {"the distance between points must be positive; no points", "", "scatter poisson(rand(-2m, -1m)) { sphere(1m); }",
+     ""},
+    {"the distance between points must be positive; no points", "",
+     "scatter poisson(rand(-2m, -1m)) on disc(4m) { sphere(1m); }", ""},
+    {"an anchor must lie in the cell that derives it, which alone owns it; this one is left out", "anchor",
+     "at(0m, -20m, 0m) anchor spawn;", ""},
+    {"u is 0: nothing is swept around this field; use it on a tube or a beam", "u amp",
+     "displace 0.2m*u amp 1m { sphere(2m); }", "displace 0.2m*0 amp 1m { sphere(2m); }"},
+    {"a smooth radius must be smaller than the world; this edge is left sharp", "union",
+     "meet { box(4m); union smooth rand(1000km, 1001km) { sphere(1m); box(2m); } }",
+     "meet { box(4m); union smooth rand(0m, 0m) { sphere(1m); box(2m); } }"},
+    {"a sum is of shapes with an inner radius, and a half-space has none; this one is left out: cut or meet the sum "
+     "with it",
+     "halfspace", "meet { box(4m); sum { blob(1m); halfspace(below 0m); } }",
+     "meet { box(4m); sum { blob(1m); cylinder(0m, 0m); } }"},
+};
+
+/// Line 3 is the rule Faulty; another that is sound comes before it, and one behind.
+std::string around(std::string_view statement) {
+  return "rule Main { at(9m, 9m, 9m) { Sound; Faulty; Sound; } }\nrule Faulty { " + std::string(statement) +
+         " }\nrule Sound { sphere(rand(1m, 2m)); anchor spawn; }";
+}
+
+}  // namespace
+
+TEST_CASE("a note says what is wrong, where and on which path, and the rest of the cell appears", "[notes]") {
+  for (const NoteCase& c : kNotes) {
+    INFO(c.faulty);
+    const GrammarChunk chunk = derivedRules(around(c.faulty));
+    REQUIRE(chunk.notes.size() == 1);
+    CHECK(chunk.notes[0].message == c.message);
+    CHECK(chunk.notes[0].path == "main(0, 0, 0)/Main/Faulty[0]");
+    CHECK(chunk.notes[0].line == 3);
+    CHECK(chunk.notes[0].column == 15 + static_cast<int>(std::string_view(c.faulty).find(c.place)));
+    GrammarChunk without = derivedRules(around(c.instead));
+    CHECK(without.groups.size() >= 2);
+    CHECK(without.anchors.size() == 2);
+    CHECK(hashChunk(chunk) == hashChunk(without));
+  }
+}
+
+TEST_CASE("a morph or a meet of what was left out is left out whole, and both are said", "[notes]") {
+  const std::string nothing = "; the shape is left out: bound it, such as max(r, 0.1m)";
+  for (const auto& [statement, message, place] :
+       {std::tuple{"morph(sphere(rand(-2m, -1m)), box(2m), 0.5);",
+                   "one end of this morph is missing or was left out, so the whole morph is left out: let both give "
+                   "shapes",
+                   15},
+        std::tuple{"meet { box(2m); sphere(rand(-2m, -1m)); }",
+                   "one operand of this meet is missing or was left out, so the whole meet is left out: let each give "
+                   "a shape",
+                   31}}) {
+    const GrammarChunk chunk = derivedRules(around(statement));
+    REQUIRE(chunk.notes.size() == 2);
+    CHECK(chunk.notes[0].message == "a size of this shape is not positive, or larger than the world" + nothing);
+    CHECK(chunk.notes[1].message == message);
+    CHECK(chunk.notes[1].path == "main(0, 0, 0)/Main/Faulty[0]");
+    CHECK(chunk.notes[1].line == 3);
+    CHECK(chunk.notes[1].column == place);
+    CHECK(hashChunk(chunk) == hashChunk(derivedRules(around(""))));
+  }
+}
+
+TEST_CASE("what passes its reach, its domain or every bound is left out whole", "[notes]") {
+  const auto far = compiled(
+      "sgm 1; domain infinite; layer main cell 64m reach 8m { start Main; }\n"
+      "rule Main { Faulty; Sound; }\nrule Faulty { at(rand(-60m, 60m), 0m, 0m) sphere(1m); }\n"
+      "rule Sound { at(9m, 9m, 9m) sphere(1m); }");
+  int noted = 0;
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    CAPTURE(seed);
+    const GrammarChunk chunk = derived(*far, {}, seed);
+    CHECK(chunk.groups.size() + chunk.notes.size() == 2);
+    for (const DeriveNote& note : chunk.notes) {
+      ++noted;
+      CHECK(note.path == "main(0, 0, 0)/Main/Faulty[0]");
+      CHECK(note.message.starts_with("this shape may pass the reach of its cell by "));
+      CHECK(note.message.ends_with(" m; it is left out whole: raise `reach` or make it smaller"));
+    }
+  }
+  CHECK(noted > 5);
+
+  const auto boxed = compiled(
+      "sgm 1; domain finite box(8m); start Main;\nrule Main { Faulty; sphere(2m); }\n"
+      "rule Faulty { sphere(rand(3m, 9m)); }");
+  noted = 0;
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    CAPTURE(seed);
+    const GrammarChunk chunk = derived(*boxed, {}, seed);
+    CHECK(chunk.groups.size() + chunk.notes.size() == 2);
+    for (const DeriveNote& note : chunk.notes) {
+      ++noted;
+      CHECK(note.path == "Main/Faulty[0]");
+      CHECK(note.message.starts_with("this shape may pass the domain's box by "));
+      CHECK(note.message.ends_with(" m; it is left out whole: enlarge the box or make it smaller"));
+    }
+  }
+  CHECK(noted > 5);
+
+  // The proof of reach refuses what has no bound; what it should ever let pass is left out here.
+  const auto tame = compiled(
+      "sgm 1; domain infinite; layer main cell 64m reach 8m { start Main; }\n"
+      "rule Main { Faulty; sphere(2m); }\nrule Faulty { displace 1m*p.x/1m amp 1m { sphere(1m); } }");
+  Program wild = *tame;
+  for (StmtNode& s : wild.ast.stmts)
+    if (s.kind == StmtKind::displace) s.amount = kNoId;
+  const GrammarChunk chunk = derived(wild);
+  CHECK(chunk.groups.size() == 1);
+  REQUIRE(chunk.notes.size() == 1);
+  CHECK(chunk.notes[0].path == "main(0, 0, 0)/Main/Faulty[0]");
+  CHECK(chunk.notes[0].message ==
+        "this shape has no bound, so no cell can own it; meet it with a box, or give the displacement an amplitude");
+}
+
+TEST_CASE("notes beyond the limit are counted", "[notes]") {
+  const GrammarChunk chunk =
+      derivedRules("rule Main { repeat 70 Faulty; sphere(1m); } rule Faulty { truncone(2m, 0m, 0m); }");
+  CHECK(chunk.groups.size() == 1);
+  REQUIRE(chunk.notes.size() == 65);
+  CHECK(chunk.notes[63].path == "main(0, 0, 0)/Main/Faulty[63]");
+  CHECK(chunk.notes[64].message == "6 more notes on this cell");
+  CHECK(chunk.notes[64].path == "main(0, 0, 0)/Main");
+}
+
+namespace {
+
+Error failure(std::string_view rules, const DeriveLimits& limits) {
+  const auto program =
+      compiled("sgm 1; domain infinite; layer main cell 64m reach 64m { start Main; }\n" + std::string(rules));
+  const auto chunk = deriveCell(*program, ParameterValues::defaults(*program), 7, 0, {}, Ceiling(0), limits);
+  REQUIRE_FALSE(chunk);
+  CHECK(chunk.error().code == Code::limit);
+  return chunk.error();
+}
+
+}  // namespace
+
+TEST_CASE("a cell that is too much says what, on which path, and what to do", "[notes]") {
+  const auto message = [](std::string_view rules, auto change) {
+    DeriveLimits limits;
+    change(limits);
+    return failure(rules, limits).message;
+  };
+  const std::string path = ", in main(0, 0, 0)/Main";
+  const std::string_view many = "rule Main { repeat 1000 Leaf; } rule Leaf { sphere(1m); anchor spawn; }";
+  CHECK(message(many, [](DeriveLimits& l) {
+          l.steps = 100;
+        }).starts_with("deriving one cell takes more than 100 steps (derive less, or make the cells smaller)" + path));
+  CHECK(message(many, [](DeriveLimits& l) { l.depth = 1; }) ==
+        "rules are nested more than 1 deep (give them a smaller `depth`)" + path);
+  CHECK(message(many, [](DeriveLimits& l) { l.shapes = 10; }) ==
+        "more than 10 shapes in one cell (derive fewer, or make the cells smaller)" + path + "/Leaf[10]");
+  CHECK(message(many, [](DeriveLimits& l) {
+          l.bytes = 3000;
+        }).starts_with("one cell takes more than 0 MiB (derive less, or make the cells smaller)" + path));
+  CHECK(message("rule Main { repeat 11 Leaf; } rule Leaf { anchor spawn; }", [](DeriveLimits& l) { l.shapes = 10; }) ==
+        "more than 10 anchors in one cell (derive fewer, or make the cells smaller)" + path + "/Leaf[10]");
+  const std::string deep = "expressions and statements are nested too deep (let fewer rules call each other)" + path;
+  CHECK(message("rule Main { { { { sphere(1m); } } } }", [](DeriveLimits& l) { l.nesting = 4; }) == deep);
+  CHECK(message("rule Main { sphere(1m + (1m + (1m + (1m + 1m)))); }", [](DeriveLimits& l) { l.nesting = 4; }) == deep);
+  CHECK(message("rule Main { scatter poisson(1cm) { sphere(1m); } }", [](DeriveLimits&) {}) ==
+        "more points in one cell than can be derived (take a larger distance in poisson())" + path);
+  CHECK(message("rule Main { scatter 2000000 on disc(4m) { sphere(1m); } }", [](DeriveLimits&) {}) ==
+        "more than a million points in one scatter (take fewer, or a larger distance)" + path);
+}
+
+TEST_CASE("arguments that fit no grammar are refused in words", "[notes]") {
+  const auto program = compiled(
+      "sgm 1; param width = 2m in 1m..3m; param count = 4 in 1..9; domain infinite;\n"
+      "layer main cell 64m reach 64m { start Main; } rule Main { repeat count Leaf; } rule Leaf { sphere(width); }");
+  auto values = ParameterValues::defaults(*program);
+  const auto refused = [&](const ParameterValues& parameters, uint32_t layer, Int3 cell) {
+    return deriveCell(*program, parameters, 7, layer, cell, Ceiling(0)).error().message;
+  };
+  CHECK(refused(values, 9, {}) == "the grammar has no layer 9; it has 1");
+  CHECK(refused({}, 0, {}) == "the parameter values belong to another grammar; take its defaults");
+  CHECK(refused(values, 0, {1 << 28, 0, 0}) == "the cell lies beyond the end of the world");
+  const auto whole = compiled("sgm 1; start Main; rule Main { sphere(1m); }");
+  CHECK(deriveCell(*whole, {}, 7, 0, {1, 0, 0}, Ceiling(0)).error().message ==
+        "a grammar without layers has the cell 0 0 0 alone");
+
+  CHECK(deriveInstances(*program, values, 7, 0, {}, 9, Ceiling(0)).error().message ==
+        "the grammar has no rule 9; it has 2");
+
+  CHECK(values.set(*program, "widht", 2).error().message == "the grammar has no parameter widht; it has width, count");
+  CHECK(values.set(*program, "width", std::numeric_limits<double>::quiet_NaN()).error().message ==
+        "parameter width must be a finite number");
+  CHECK(values.set(*program, "count", 2.5).error().message == "parameter count must be a whole number, not 2.5");
+  CHECK(values.set(*program, "count", 12).error().message == "parameter count must lie in 1..9, not be 12");
+}
+
+TEST_CASE("uses within uses have a limit together", "[notes]") {
+  const auto program = compiled(
+      "sgm 1; domain infinite; layer main cell 64m reach 64m { start Main; } rule Main { Nest(3); }\n"
+      "rule Nest(n) when n > 0 { repeat 3 sphere(1m); Nest(n - 1); } rule Nest(n) else { }");
+  DeriveLimits few;
+  few.shapes = 9;
+  REQUIRE(deriveCell(*program, {}, 7, 0, {}, Ceiling(0), few));
+  const auto uses = deriveInstances(*program, {}, 7, 0, {}, 1, Ceiling(0), few);
+  REQUIRE_FALSE(uses);
+  CHECK(uses.error().message ==
+        "the uses of `Nest` in one cell have more than 9 shapes together; ask for a smaller rule");
+}
