@@ -125,7 +125,7 @@ Value Interpreter::evaluateQuery(const ExprNode& node, const Env& env) {
   if (node.children.count > 0) {
     const double radius = real(program_.idAt(node.children, 0), env);
     if (failed()) return {};
-    if (!(radius >= 0)) note("the radius of a query is negative; it counts as 0", node.span, env.activation);
+    if (!(radius >= 0)) note("the radius of a query is 0m or more; this one counts as 0m: bound it, such as max(r, 0m)", node.span, env.activation);
     ball.radius = std::max(0, toUnits(radius * env.place.scale));
   }
   const BallProof proof = lower_.prove(node.id, ball, node.inside ? BoxContent::solid : BoxContent::open);

@@ -14,8 +14,11 @@ uint32_t Checker::layerBelow(NameId name, const Span& span, std::string_view ver
     if (program_.layers[l].name == name) found = l;
     suggestion.offer(text(program_.layers[l].name));
   }
-  if (found == kNoId && layers_known_)
-    sink_.error(span, codes::kUnknownName, join({"unknown layer `", text(name), "`"}), suggestion.hint());
+  if (found == kNoId && layers_known_) {
+    const std::string hint = suggestion.hint();
+    sink_.error(span, codes::kUnknownName, join({"unknown layer `", text(name), "`"}),
+                hint.empty() ? "name a layer of this file" : hint);
+  }
   if (found == kNoId) return found;
   if (override_ == kNoId)
     asked_.push_back({rule_, found, span, verb});
@@ -31,7 +34,8 @@ Type Checker::query(ExprId id) {
     const ExprId radius = child(n, 0);
     demand(radius, ValueKind::number, kLength, "the radius of a query");
     if (const auto metres = fold(radius, 0); metres && *metres < 0)
-      sink_.error(node(radius).span, codes::kValueRange, "the radius of a query is 0m or more");
+      sink_.error(node(radius).span, codes::kValueRange, "the radius of a query is 0m or more",
+                  "such as `query clear 2m of`");
   }
   if (scope_.field) {
     sink_.error(n.span, codes::kStage, "a query is answered once, where shapes are derived, and a field at every point",
@@ -68,8 +72,8 @@ void Checker::layersAsked() {
       if (std::find(layer.uses.begin(), layer.uses.end(), asked.layer) != layer.uses.end()) continue;
       const NameId name = program_.layers[asked.layer].name;
       if (name == layer.name)
-        sink_.error(asked.span, codes::kLayerUses,
-                    join({"layer `", text(layer.name), "` ", asked.verb, " itself; a layer reads lower layers only"}));
+        sink_.error(asked.span, codes::kLayerUses, join({"layer `", text(layer.name), "` ", asked.verb, " itself"}),
+                    "a layer reads lower layers only: derive what it asks about in a layer of its own");
       else
         sink_.error(asked.span, codes::kLayerUses,
                     join({"layer `", text(layer.name), "` ", asked.verb, " `", text(name), "` and does not use it"}),

@@ -114,9 +114,10 @@ const MessageCase kCells[] = {
      "added before it",
      "rule A { B; } rule B { union { let r = 1m; cut { sphere(r); } } }"},
     {"2:39 unit-mismatch: the length of a probe is a length, and this is a ratio | write `2m`\n2:44 layer-uses: layer "
-     "`a` probes `a` and does not use it | write `uses a` in its head",
+     "`a` probes itself | a layer reads lower layers only: derive what it asks about in a layer of its own",
      "rule A { scatter poisson(1m) probe up 2 of a { sphere(1m); } }"},
-    {"2:45 layer-uses: layer `a` probes `a` and does not use it | write `uses a` in its head\n2:60 unit-mismatch: the "
+    {"2:45 layer-uses: layer `a` probes itself | a layer reads lower layers only: derive what it asks about in a layer "
+     "of its own\n2:60 unit-mismatch: the "
      "most that a gap may be is a length, and this is a ratio | write `2m`",
      "rule A { scatter poisson(1m) probe up 2m of a gap h within 2 { sphere(h); } }"},
     {"2:25 wrong-use: `ca` fills its layer's cell where that stands and cannot be placed | take it out of at, rot, "
