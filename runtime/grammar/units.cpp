@@ -48,8 +48,6 @@ std::string typeName(const Type& type) {
       return "range";
     case ValueKind::text:
       return "text";
-    case ValueKind::axis:
-      return "axis";
   }
   return "value";
 }

@@ -31,7 +31,6 @@ enum class ValueKind : uint8_t {
   segments,  ///< a list of segments, for `for`
   range,     ///< a..b of whole numbers, for `for`
   text,
-  axis,  ///< x, y or z as an argument
 };
 
 struct Type {
