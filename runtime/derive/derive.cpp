@@ -190,8 +190,8 @@ Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
   if (dropped_notes_ > 0) {
     // It has no place of its own: that of the cell's start is the nearest.
     const Span& span = program_.expr(layer_.start).span;
-    notes_.push_back(
-        {std::to_string(dropped_notes_).append(" more notes on this cell"), pathText(0), span.line, span.column});
+    const std::string_view what = dropped_notes_ == 1 ? " more note on this cell" : " more notes on this cell";
+    notes_.push_back({std::to_string(dropped_notes_).append(what), pathText(0), span.line, span.column});
   }
   for (DeriveNote& n : notes_) out.notes.push_back(std::move(n));
   return out;

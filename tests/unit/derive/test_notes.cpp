@@ -239,3 +239,39 @@ TEST_CASE("uses within uses have a limit together", "[notes]") {
   CHECK(uses.error().message ==
         "the uses of `Nest` in one cell have more than 9 shapes together; ask for a smaller rule");
 }
+
+TEST_CASE("what goes wrong in an imported file names that file", "[notes]") {
+  const std::string head =
+      "sgm 1; import \"std/cave.sgm\" as cave; domain infinite; layer main cell 64m reach 64m { start Main; }\n";
+  const auto program = compiled(head + "rule Main { cave.Stalactite(rand(-2m, -1m)); }");
+  const GrammarChunk chunk = derived(*program);
+  REQUIRE_FALSE(chunk.notes.empty());
+  CHECK(chunk.notes[0].path == "main(0, 0, 0)/Main/cave.Stalactite[0]");
+  CHECK(chunk.notes[0].message.ends_with(" (std/cave.sgm)"));
+  DeriveLimits none;
+  none.shapes = 0;
+  const auto sound = compiled(head + "rule Main { cave.Stalactite(2m); }");
+  CHECK(deriveCell(*sound, {}, 7, 0, {}, Ceiling(0), none).error().message ==
+        "more than 0 shapes in one cell (derive fewer, or make the cells smaller), in main(0, 0, "
+        "0)/Main/cave.Stalactite[0] (std/cave.sgm)");
+}
+
+TEST_CASE("an override that finds nothing is counted where notes are full", "[notes]") {
+  const auto program = compiled(
+      "sgm 1; domain infinite; layer main cell 64m reach 64m { start Main; } rule Main { Leaf; truncone(2m, 0m, 0m); "
+      "}\n"
+      "rule Leaf { sphere(1m); } override \"main(0, 0, 0)/Main/Leaf[1]\" { }");
+  for (const uint32_t limit : {0u, 1u, 2u}) {
+    DeriveLimits few;
+    few.notes = limit;
+    const auto chunk = deriveCell(*program, {}, 7, 0, {}, Ceiling(0), few);
+    REQUIRE(chunk);
+    CHECK(chunk->groups.size() == 1);
+    REQUIRE(chunk->notes.size() == (limit == 0 ? 1 : 2));
+    const std::string last = limit == 0   ? "2 more notes on this cell"
+                             : limit == 1 ? "1 more note on this cell"
+                                          : "this override finds nothing: there is only one `Leaf` here";
+    CHECK(chunk->notes.back().message == last);
+    CHECK(chunk->notes.back().path == "main(0, 0, 0)/Main");
+  }
+}
