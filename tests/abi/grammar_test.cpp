@@ -51,7 +51,7 @@ TEST_CASE("a wrong grammar gives its diagnostics, with places and the line") {
   CHECK(d.length == 4);
   CHECK(std::string(d.file) == "toy.sgm");
   CHECK(std::string(d.source_line) == "rule Ball { sphere(3deg); }");
-  CHECK(std::string(d.message) == compiled.error.message);
+  CHECK(std::string(d.message) + " (" + d.hint + ")" == compiled.error.message);
   CHECK(sgm_diagnostics_get(compiled.diagnostics.get(), sgm_diagnostics_count(compiled.diagnostics.get()), &d) ==
         SGM_ERR_NOT_FOUND);
 }
