@@ -86,14 +86,14 @@ Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, co
   }
 
   // One block after the other: shapes are numbered as they are met.
-  SurfaceShapes shapes(world, level, nullptr, mesh.origin, tile);
+  SurfaceShapes shapes(world, nullptr, mesh.origin, tile);
   std::pmr::vector<uint32_t> labels(positions.size(), memory), of_block(memory);
   std::pmr::vector<Int3> points(memory);
   for (size_t b = 0; b < blocks; ++b) {
     points.clear();
     for (size_t i = borders[b]; i < borders[b + 1]; ++i) points.push_back(placed[i].point);
     of_block.resize(points.size());
-    if (Result<void> labelled = shapes.label(points, of_block); !labelled) return labelled.error();
+    if (Result<void> labelled = shapes.label(level, points, of_block); !labelled) return labelled.error();
     for (size_t i = 0; i < points.size(); ++i) labels[placed[borders[b] + i].vertex] = of_block[i];
   }
   const UnwrapInput input{

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/math.h"
 #include "derive/sweep.h"
 
 namespace sgm {
@@ -17,8 +16,8 @@ Vec3 between(Int3 a, Int3 b) {
 
 }  // namespace
 
-SweepLine::SweepLine(std::span<const Int3> points) {
-  const std::vector<LineFrame> frames = framesAlong(points, {0, 1, 0});
+SweepLine::SweepLine(std::span<const Int3> points, Vec3 up) {
+  const std::vector<LineFrame> frames = framesAlong(points, up);
   for (size_t i = 0; i < frames.size(); ++i) {
     const LineFrame& frame = frames[i];
     segments_.push_back({between(points[0], points[i]), frame.tangent, frame.normal, cross(frame.tangent, frame.normal),
@@ -27,7 +26,7 @@ SweepLine::SweepLine(std::span<const Int3> points) {
   }
 }
 
-SweepLine::Place SweepLine::at(Vec3 p) const {
+SweepPlace SweepLine::at(Vec3 p) const {
   const Segment* nearest = nullptr;
   double least = std::numeric_limits<double>::max();
   for (const Segment& segment : segments_) {
@@ -45,10 +44,12 @@ SweepLine::Place SweepLine::at(Vec3 p) const {
   // Beyond a bend the next segment goes on; beyond an end the line itself does.
   if (nearest != &segments_.front()) t = std::max(t, 0.0);
   if (nearest != &segments_.back()) t = std::min(t, nearest->length);
-  Place place;
+  SweepPlace place;
   place.along = nearest->before + t;
   place.outward = off - dot(off, nearest->tangent) * nearest->tangent;
-  place.turn = detAtan2(dot(place.outward, nearest->side), dot(place.outward, nearest->up));
+  place.side = dot(place.outward, nearest->side);
+  place.up = dot(place.outward, nearest->up);
+  place.tangent = nearest->tangent;
   return place;
 }
 

@@ -9,19 +9,23 @@
 
 namespace sgm {
 
-/// A line with a frame that is carried along without twist (framesAlong), and starts with the world's +y up.
+/// Where a point lies by a line.
+struct SweepPlace {
+  double along = 0;         ///< units from the first point; below 0 before it, more than length() behind the last
+  double side = 0, up = 0;  ///< across the line, units: towards tangent x up, and towards up
+  Vec3 outward;             ///< from the line to the point, any length
+  Vec3 tangent;             ///< of length 1
+};
+
+/// A line with a frame that is carried along without twist (framesAlong).
 class SweepLine {
  public:
-  /// At least two points, no two neighbours the same.
-  explicit SweepLine(std::span<const Int3> points);
+  /// At least two points, no two neighbours the same; up: where the frame starts.
+  explicit SweepLine(std::span<const Int3> points, Vec3 up = {0, 1, 0});
 
-  struct Place {
-    double along = 0;  ///< units from the first point; below 0 before it, more than the line has behind the last
-    double turn = 0;   ///< -pi to pi: 0 on the upper side, positive towards tangent x up
-    Vec3 outward;      ///< from the line to the point, any length
-  };
+  double length() const { return length_; }
   /// By the nearest segment, of several the first. p: relative to the first point, units.
-  Place at(Vec3 p) const;
+  SweepPlace at(Vec3 p) const;
 
  private:
   struct Segment {

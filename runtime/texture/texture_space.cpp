@@ -10,9 +10,9 @@
 namespace sgm {
 namespace {
 
-constexpr Chart kMirrored = 0x8000;  ///< of a chart: the void is on the inner side
-constexpr int kSide = 0, kTop = 1, kBottom = 2;
-constexpr Chart kFirstSide = 2;  ///< of a prism, after its two ends
+constexpr Chart kMirrored = 0x8000;              ///< of a chart: the void is on the inner side
+constexpr int kSide = 0, kTop = 1, kBottom = 2;  // of a line: its far end, its near end
+constexpr Chart kFirstSide = 2;                  ///< of a prism, after its two ends
 
 size_t largestAxis(const TexturePoint& v) {
   const double x = std::fabs(v[0]), y = std::fabs(v[1]), z = std::fabs(v[2]);
@@ -48,8 +48,12 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
   if (is_line) {
     kind_ = Kind::line;
     origin_ = pointAt(points[0]);
-    line_ = std::make_shared<const SweepLine>(points);
-    // A beam's piece has half edges.
+    const Shape& piece = s.child_count > 0 ? chunk.shapes[chunk.children[s.first_child]] : s;
+    square_ = piece.kind == ShapeKind::box;
+    // A beam's sides lie as its pieces do, whatever turned the scope.
+    const std::array<float, 9>& rows = piece.frame.rows;
+    const Vec3 up = square_ ? Vec3{double{rows[3]}, double{rows[4]}, double{rows[5]}} : Vec3{0, 1, 0};
+    line_ = std::make_shared<const SweepLine>(points, up);
     sizes(z[0], 0, 0);
     return;
   }
@@ -60,7 +64,6 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
       break;
     case ShapeKind::ellipsoid:
     case ShapeKind::superquadric:
-    case ShapeKind::morph_power:
       kind_ = Kind::ball;
       sizes(z[0], z[1], z[2]);
       break;
@@ -100,6 +103,7 @@ TextureSpace::TextureSpace(const GrammarChunk& chunk, uint32_t index, int32_t ti
       kind_ = Kind::prism;
       for (const Int3& corner : points) corners_.push_back({double(corner.x), double(corner.z)});
       break;
+    case ShapeKind::morph_power:  // its radii are others at every place
     case ShapeKind::voxels:
     case ShapeKind::unite:
     case ShapeKind::meet:
@@ -125,6 +129,19 @@ TexturePoint TextureSpace::local(const TexturePoint& p) const {
 
 double TextureSpace::tilesAround(double radius) const {
   return std::max(1.0, detFloor(2 * kPi * radius / tile_ + 0.5));
+}
+
+double TextureSpace::tilesAroundLine() const {
+  return square_ ? std::max(1.0, detFloor(8 * size_[0] / tile_ + 0.5)) : tilesAround(size_[0]);
+}
+
+double TextureSpace::turnOf(const SweepPlace& place) const {
+  const double side = place.side, up = place.up;
+  if (!square_ || (side == 0 && up == 0)) return detAtan2(side, up) / (2 * kPi);
+  // A quarter a side, by the share of it that lies behind.
+  if (std::fabs(up) < std::fabs(side)) return (side > 0 ? 0.25 : -0.25) - up / side / 8;
+  if (up > 0) return side / up / 8;
+  return side / up / 8 + (side > 0 ? 0.5 : -0.5);
 }
 
 TextureCoordinates TextureSpace::plane(const TexturePoint& q, int face) const {
@@ -163,8 +180,15 @@ TexturePoint TextureSpace::outwardAt(const TexturePoint& q) const {
 Chart TextureSpace::chartOf(const TexturePoint& middle, const TexturePoint& normal) const {
   const auto side = [](int chart, double outward) { return static_cast<Chart>(chart | (outward < 0 ? kMirrored : 0)); };
   if (kind_ == Kind::line) {
-    return side(0, product(line_->at({middle[0] - origin_[0], middle[1] - origin_[1], middle[2] - origin_[2]}).outward,
-                           normal));
+    const SweepPlace place = line_->at({middle[0] - origin_[0], middle[1] - origin_[1], middle[2] - origin_[2]});
+    const double ahead = product(place.tangent, normal);
+    // An end looks ahead or back, and lies there: a rough side may look so, too.
+    const bool far_end = place.along > line_->length() - size_[0] / 2, near_end = place.along < size_[0] / 2;
+    if ((far_end || near_end) && 2 * ahead * ahead > product(normal, normal)) {
+      const bool is_far = far_end && !(near_end && place.along < line_->length() / 2);
+      return side(is_far ? kTop : kBottom, is_far ? ahead : -ahead);
+    }
+    return side(kSide, product(place.outward, normal));
   }
   const TexturePoint q = local(middle), n = turned(normal);
   switch (kind_) {
@@ -213,7 +237,8 @@ Chart TextureSpace::prismChart(const TexturePoint& q, const TexturePoint& n) con
     if (x * x + z * z >= least) continue;
     least = x * x + z * z;
     nearest = i;
-    // Corners go round counter-clockwise seen from +y: the outer side of an edge (dx, dz) is (-dz, dx).
+    // Of corners that go round counter-clockwise seen from +y the outer side of an edge (dx, dz) is (-dz, dx). Of
+    // others it is the inner one, and an edge goes the other way along u: both together mirror nothing.
     outside = -dz * n[0] + dx * n[2] >= 0;
   }
   const size_t chart = kFirstSide + nearest;
@@ -225,8 +250,9 @@ TextureCoordinates TextureSpace::at(const TexturePoint& p, Chart whole_chart) co
   const int chart = whole_chart & ~kMirrored;
   const auto facing = [mirrored](TextureCoordinates c) { return mirrored ? TextureCoordinates{-c.u, c.v} : c; };
   if (kind_ == Kind::line) {
-    const SweepLine::Place place = line_->at({p[0] - origin_[0], p[1] - origin_[1], p[2] - origin_[2]});
-    return facing({place.turn / (2 * kPi) * tilesAround(size_[0]), place.along / tile_});
+    const SweepPlace place = line_->at({p[0] - origin_[0], p[1] - origin_[1], p[2] - origin_[2]});
+    if (chart != kSide) return facing({(chart == kTop ? -place.side : place.side) / tile_, place.up / tile_});
+    return facing({turnOf(place) * tilesAroundLine(), place.along / tile_});
   }
   const TexturePoint q = local(p);
   switch (kind_) {
@@ -271,7 +297,7 @@ TextureCoordinates TextureSpace::period(Chart whole_chart) const {
   const int chart = whole_chart & ~kMirrored;
   switch (kind_) {
     case Kind::line:
-      return {tilesAround(size_[0]), 0};
+      return {chart == kSide ? tilesAroundLine() : 0, 0};
     case Kind::round:
       return {chart == kSide ? tilesAround((size_[0] + size_[1]) / 2) : 0, 0};
     case Kind::ring:

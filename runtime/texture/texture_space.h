@@ -18,6 +18,7 @@ using Chart = uint16_t;
 using TexturePoint = std::array<double, 3>;
 
 class SweepLine;
+struct SweepPlace;
 
 struct TextureCoordinates {
   double u = 0, v = 0;
@@ -26,15 +27,15 @@ struct TextureCoordinates {
 /// Coordinates count tiles of one edge. Around what is closed a whole number of tiles fits, so that a texture that
 /// repeats meets itself; u x v points into the void, so that nothing is mirrored.
 ///
-///   sphere, ellipsoid, superquadric   six charts by the local axis that is largest, as a cube's; equal steps of u and
-///   v
-///                                     are equal angles
+///   sphere, ellipsoid, superquadric   six charts by the local axis that is largest, as a cube's, by equal angles; an
+///                                     ellipsoid seven times as wide as high has 0.5 to 1.4 times as many tiles
 ///   box, prism                        a chart for each face
 ///   cylinder, truncone                around and along the side; the ends by their plane
-///   capsule, tube, beam               around and along the line: one chart
+///   capsule, tube                     around and along the line; the ends by their plane
+///   beam                              the same, around by the way along its four sides
 ///   torus                             around the ring and around the tube: one chart
 ///   halfspace                         its plane
-///   what is left                      six charts by the world's axes
+///   what is left                      none of its own: by the world's axes
 ///
 /// Immutable. Positions are world positions in units, exact in double precision.
 class TextureSpace {
@@ -42,7 +43,7 @@ class TextureSpace {
   /// By the world's axes, from a base in units. tile: of the edge, units, at least 1. A base that is a multiple of the
   /// tile puts the tiles of all worlds' parts on one lattice.
   TextureSpace(Int3 base, int32_t tile);
-  /// Of a leaf, or of the union of a sweep's pieces.
+  /// Of a leaf, or of the union of a sweep's pieces; byWorld() where it has none of its own.
   TextureSpace(const GrammarChunk& chunk, uint32_t shape, int32_t tile);
 
   /// The chart that suits a triangle with this middle and this normal (any length, out of the solid).
@@ -64,6 +65,9 @@ class TextureSpace {
   /// Of the surface without displacement, at a local point.
   TexturePoint outwardAt(const TexturePoint& q) const;
   double tilesAround(double radius) const;
+  double tilesAroundLine() const;
+  /// -1/2 to 1/2 of the way around the line, 0 on the upper side.
+  double turnOf(const SweepPlace& place) const;
 
   Kind kind_ = Kind::world;
   double tile_ = 1;
@@ -71,6 +75,7 @@ class TextureSpace {
   std::array<TexturePoint, 3> axes_{TexturePoint{1, 0, 0}, TexturePoint{0, 1, 0}, TexturePoint{0, 0, 1}};
   std::array<double, 3> size_{};  ///< ball: radii; round: bottom, top, half height; line: radius; ring: ring, tube
   std::shared_ptr<const SweepLine> line_;
+  bool square_ = false;                         ///< line: a beam
   std::vector<std::array<double, 2>> corners_;  ///< of a prism, local x and z
 };
 

@@ -14,25 +14,23 @@ namespace {
 struct WedgeKey {
   uint32_t vertex = 0, label = 0;
   Chart chart = 0;
-  int16_t turns_u = 0, turns_v = 0;
+  int32_t turns_u = 0, turns_v = 0;
   std::array<uint16_t, 2> materials{};
   friend bool operator==(const WedgeKey&, const WedgeKey&) = default;
 };
 
 struct WedgeKeyHash {
   size_t operator()(const WedgeKey& key) const {
-    const uint64_t turns = static_cast<uint16_t>(key.turns_u) | uint64_t{static_cast<uint16_t>(key.turns_v)} << 16;
+    const uint64_t turns = static_cast<uint32_t>(key.turns_u) | uint64_t{static_cast<uint32_t>(key.turns_v)} << 32;
     const uint64_t place = uint64_t{key.vertex} | uint64_t{key.label} << 32;
-    const uint64_t chart = turns | uint64_t{key.chart} << 32;
-    const uint64_t materials = key.materials[0] | uint64_t{key.materials[1]} << 16;
-    return static_cast<size_t>(mix64((place * 0x9E3779B97F4A7C15u + chart) ^ materials << 48 ^ materials >> 16));
+    const uint64_t shown = key.chart | uint64_t{key.materials[0]} << 16 | uint64_t{key.materials[1]} << 32;
+    return static_cast<size_t>(mix64((place * 0x9E3779B97F4A7C15u + turns) * 0x9E3779B97F4A7C15u + shown));
   }
 };
 
-/// Whole turns that bring x next to `to`.
-int16_t turnsTo(double x, double to, double period) {
-  if (!(period > 0)) return 0;
-  return static_cast<int16_t>(std::clamp(std::floor((to - x) / period + 0.5), -1000.0, 1000.0));
+/// Whole steps that bring x next to `to`.
+int32_t stepsTo(double x, double to, double step) {
+  return static_cast<int32_t>(std::clamp(std::floor((to - x) / step + 0.5), -1e9, 1e9));
 }
 
 TexturePoint difference(const TexturePoint& a, const TexturePoint& b) {
@@ -44,6 +42,10 @@ TexturePoint crossed(const TexturePoint& a, const TexturePoint& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+TexturePoint sum(const TexturePoint& a, const TexturePoint& b, const TexturePoint& c) {
+  return {a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]};
+}
+
 double area(double ax, double ay, double bx, double by) { return std::fabs(ax * by - ay * bx); }
 
 }  // namespace
@@ -51,18 +53,22 @@ double area(double ax, double ay, double bx, double by) { return std::fabs(ax * 
 Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory) {
   Unwrapped out(memory);
   out.corners.reserve(mesh.indices.size());
-  std::unordered_map<WedgeKey, uint32_t, WedgeKeyHash> known;
+  std::pmr::unordered_map<WedgeKey, uint32_t, WedgeKeyHash> known(memory);
   known.reserve(mesh.positions.size() * 2);
   for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
     const std::array<uint32_t, 3> corners{mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]};
     const TexturePoint &a = mesh.positions[corners[0]], &b = mesh.positions[corners[1]],
                        &c = mesh.positions[corners[2]];
-    TexturePoint middle;
-    for (size_t axis = 0; axis < 3; ++axis) middle[axis] = (a[axis] + b[axis] + c[axis]) / 3;
+    TexturePoint middle = sum(a, b, c);
+    for (double& part : middle) part /= 3;
     const uint32_t second = mesh.labels[corners[1]];
     const uint32_t label = second == mesh.labels[corners[2]] ? second : mesh.labels[corners[0]];
     const TextureSpace& space = mesh.space_of(label);
-    const Chart chart = space.chartOf(middle, crossed(difference(b, a), difference(c, a)));
+    const bool of_seam = t >= mesh.body_indices;
+    const TexturePoint normal = of_seam
+                                    ? sum(mesh.normals[corners[0]], mesh.normals[corners[1]], mesh.normals[corners[2]])
+                                    : crossed(difference(b, a), difference(c, a));
+    const Chart chart = space.chartOf(middle, normal);
     const TextureCoordinates period = space.period(chart);
     const TextureCoordinates first = space.at(a, chart);
     const MaterialBlend blend =
@@ -70,9 +76,13 @@ Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory) {
     for (size_t corner = 0; corner < 3; ++corner) {
       const uint32_t vertex = corners[corner];
       TextureCoordinates at = space.at(mesh.positions[vertex], chart);
-      const int16_t turns_u = turnsTo(at.u, first.u, period.u), turns_v = turnsTo(at.v, first.v, period.v);
-      at.u += turns_u * period.u;
-      at.v += turns_v * period.v;
+      // What closes stays together within the triangle; what goes on comes near to 0 as a whole.
+      const auto steps = [](double x, double to, double step) {
+        return step > 0 ? stepsTo(x, to, step) : stepsTo(to, 0, kTilesKept);
+      };
+      const int32_t turns_u = steps(at.u, first.u, period.u), turns_v = steps(at.v, first.v, period.v);
+      at.u += turns_u * (period.u > 0 ? period.u : kTilesKept);
+      at.v += turns_v * (period.v > 0 ? period.v : kTilesKept);
       const auto [entry, is_new] = known.try_emplace({vertex, label, chart, turns_u, turns_v, blend.materials},
                                                      static_cast<uint32_t>(out.wedges.size()));
       if (is_new) {
@@ -87,6 +97,7 @@ Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory) {
       out.corners.push_back(entry->second);
     }
   }
+  out.wedges.shrink_to_fit();
   return out;
 }
 
@@ -94,7 +105,8 @@ TexelDensity texelDensity(const UnwrapInput& mesh, const Unwrapped& unwrapped, i
   struct Part {
     double density, area;
   };
-  std::vector<Part> parts;
+  std::pmr::memory_resource* memory = unwrapped.wedges.get_allocator().resource();
+  std::pmr::vector<Part> parts(memory);
   double whole = 0;
   for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
     const auto position = [&](size_t i) { return mesh.positions[mesh.indices[t + i]]; };
@@ -122,7 +134,7 @@ TexelDensity texelDensity(const UnwrapInput& mesh, const Unwrapped& unwrapped, i
   density.low = at(0.05);
   density.middle = at(0.5);
   density.high = at(0.95);
-  std::vector<bool> used(mesh.positions.size());
+  std::pmr::vector<bool> used(mesh.positions.size(), memory);
   for (const uint32_t index : mesh.indices) used[index] = true;
   const auto vertices = static_cast<double>(std::count(used.begin(), used.end(), true));
   density.seams = static_cast<double>(unwrapped.wedges.size()) / vertices - 1;

@@ -19,10 +19,16 @@ struct UnwrapInput {
   std::function<const TextureSpace&(uint32_t label)> space_of;
   std::span<const TexturePoint> normals;   ///< one a vertex, any length
   std::span<const MaterialMix> materials;  ///< one a vertex
+  size_t body_indices = SIZE_MAX;          ///< triangles behind these are of seams, flat in a chunk's face
 };
 
+/// Coordinates that do not come again lie within half of this many tiles of 0, so that floats hold them to a 4,096th:
+/// whole multiples are left out.
+inline constexpr double kTilesKept = 4096;
+
 /// A triangle lies in the space of the shape that makes two of its vertices, else of its first one's, and in one chart
-/// of it, and shows two materials at most (material_blend.h). Pure. Throws std::bad_alloc.
+/// of it: by the way that it faces, or that its vertices do where it is of a seam. It shows two materials at most
+/// (material_blend.h). Pure. Throws std::bad_alloc.
 Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory);
 
 /// How evenly a texture lies on a mesh: tiles on a tile's length of surface. 1: as it is meant.

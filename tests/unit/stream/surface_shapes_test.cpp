@@ -1,9 +1,11 @@
 // Texture coordinates of worlds: by the shapes that make the surface, the same on both sides of a chunk's border.
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 
+#include "base/hash.h"
 #include "catch.h"
 #include "mesh/vertex.h"
 #include "stream/surface_materials.h"
@@ -82,9 +84,10 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
           }
           if (border) shared[place][chunk].push_back(wedge);
         }
-        // Once more, and by another thread's cache: the same bytes.
+        // Once more, of a field that has derived nothing yet: the same bytes.
+        const WorldField fresh(settingsOf(text, 512, 3), std::pmr::get_default_resource());
         const Result<Unwrapped> again =
-            unwrapChunk(field, surface.mesh, surface.grid, nullptr, kTile, std::pmr::get_default_resource());
+            unwrapChunk(fresh, surface.mesh, surface.grid, nullptr, kTile, std::pmr::get_default_resource());
         REQUIRE(again);
         CHECK(*again == *texture);
       }
@@ -116,6 +119,96 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
       CHECK(static_cast<double>(same) > 0.9 * static_cast<double>(pairs));
     }
   }
+}
+
+TEST_CASE("a seam's vertices have the coordinates and blends of the coarser chunks, too") {
+  for (const char* sampled : {"passages", "cave"}) {
+    CAPTURE(sampled);
+    const bool in_cave = sampled == std::string("cave");
+    const WorldField field(settingsOf(in_cave ? caveText() : passages(), 512, 3), std::pmr::get_default_resource());
+    const auto textured = [&](const ChunkRequest& request) {
+      std::pmr::vector<PlacedChunk> chunks = meshAll(field, {request}, 1);
+      ChunkSurface surface = surfaceOf(request, std::move(chunks[0]), nullptr, field.memory());
+      Result<Unwrapped> texture =
+          unwrapChunk(field, surface.mesh, surface.grid, nullptr, kTile, std::pmr::get_default_resource());
+      REQUIRE(texture);
+      surface.texture = std::move(*texture);
+      return surface;
+    };
+    const auto placeOf = [](const ChunkSurface& surface, const Vertex& v) {
+      const std::array<uint16_t, 3> at{v.x, v.y, v.z};
+      std::array<int64_t, 3> place{};
+      for (size_t axis = 0; axis < 3; ++axis) {
+        place[axis] =
+            int64_t{surface.grid.origin[static_cast<int>(axis)]} * kSubcell + int64_t{at[axis]} * surface.grid.cell;
+      }
+      return place;
+    };
+    size_t met = 0, same = 0, blends = 0;
+    const int32_t low = in_cave ? 2 : -4;
+    for (int32_t i = 0; i < 512; ++i) {
+      // Only where the chunk's high x face is one of a chunk of level 1.
+      const Int3 at{low + (i & 7), low + (i >> 3 & 7), low + (i >> 6)};
+      if ((at.x & 1) == 0) continue;
+      ChunkRequest fine;
+      fine.key = {0, at};
+      fine.seams = 1u << static_cast<int>(Face::x_hi);
+      fine.coarser = neighboursAcross(fine.seams);
+      const ChunkSurface seam = textured(fine);
+      if (seam.mesh.ranges[2].index_count == 0) continue;
+      ChunkRequest coarse;
+      coarse.key = {1, {(at.x + 1) >> 1, at.y >> 1, at.z >> 1}};
+      const ChunkSurface beyond = textured(coarse);
+      std::map<std::array<int64_t, 3>, std::vector<Wedge>> theirs;
+      for (const Wedge& wedge : beyond.texture.wedges) {
+        theirs[placeOf(beyond, beyond.mesh.vertices[wedge.vertex])].push_back(wedge);
+      }
+      for (const Wedge& ours : seam.texture.wedges) {
+        const Vertex& v = seam.mesh.vertices[ours.vertex];
+        if (v.kind != kCoarserEdge) continue;
+        const auto found = theirs.find(placeOf(seam, v));
+        REQUIRE(found != theirs.end());
+        ++met;
+        bool alike = false;
+        for (const Wedge& other : found->second) {
+          const float du = ours.u - other.u, dv = ours.v - other.v;
+          alike = alike || (std::fabs(du - std::round(du)) < 1e-3f && std::fabs(dv - std::round(dv)) < 1e-3f);
+          if (ours.materials != other.materials) continue;
+          ++blends;
+          CHECK(ours.share == other.share);
+        }
+        same += alike;
+      }
+    }
+    CAPTURE(met, same, blends);
+    REQUIRE(met > 200);
+    REQUIRE(blends > 200);
+    CHECK(static_cast<double>(same) > 0.9 * static_cast<double>(met));
+  }
+}
+
+TEST_CASE("the wedges of some chunks have the bytes that they had") {
+  const WorldField field(settingsOf(caveText(), 512, 7), std::pmr::get_default_resource());
+  uint64_t sum = 0;
+  size_t wedges = 0;
+  const auto add = [&sum](uint64_t word) { sum = hashCombine(sum, word); };
+  for (int level = 0; level < 2; ++level) {
+    for (const ChunkSurface& surface : surfacesFrom(field, level, 4)) {
+      const Result<Unwrapped> texture =
+          unwrapChunk(field, surface.mesh, surface.grid, nullptr, kTile, std::pmr::get_default_resource());
+      REQUIRE(texture);
+      for (const Wedge& wedge : texture->wedges) {
+        add(wedge.vertex | uint64_t{wedge.share} << 32);
+        add(std::bit_cast<uint32_t>(wedge.u) | uint64_t{std::bit_cast<uint32_t>(wedge.v)} << 32);
+        add(wedge.materials[0] | uint64_t{wedge.materials[1]} << 16 | uint64_t{wedge.plane_shares[0]} << 32 |
+            uint64_t{wedge.plane_shares[1]} << 40 | uint64_t{wedge.plane_shares[2]} << 48);
+      }
+      for (const uint32_t corner : texture->corners) add(corner);
+      wedges += texture->wedges.size();
+    }
+  }
+  CHECK(wedges == 47540);
+  CHECK(sum == 0x5b8c66282a68bbf8u);
 }
 
 TEST_CASE("where two materials meet one passes into the other over two cells, on every level") {
@@ -167,10 +260,10 @@ TEST_CASE("a passage is laid out along and around, a dig by the world's axes") {
   for (const bool dug : {false, true}) {
     CAPTURE(dug);
     const std::shared_ptr<const EditSnapshot> edits = dug ? log.snapshot() : nullptr;
-    SurfaceShapes shapes(field, 0, edits.get(), {}, kTile);
+    SurfaceShapes shapes(field, edits.get(), {}, kTile);
     const std::vector<Int3> points{{-9000, 3072, 0}, {9000, 3072, 0}, {9000, 0, 3072}, {0, 7990, 0}};
     std::vector<uint32_t> labels(points.size());
-    REQUIRE(shapes.label(points, labels));
+    REQUIRE(shapes.label(0, points, labels));
     CHECK(labels[0] == labels[1]);
     CHECK(labels[1] == labels[2]);
     CHECK(labels[0] != 0);

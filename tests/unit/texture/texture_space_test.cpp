@@ -154,6 +154,34 @@ std::vector<Sample> samplesOf(std::mt19937& random) {
     return SurfacePoint{{a.x + t * (b.x - a.x), uniform(g, -y, y), a.z + t * (b.z - a.z)}, n};
   });
   samples.back().chunk.points.assign(corners.begin(), corners.end());
+  const double ring = uniform(random, 7000, 9000), tube = uniform(random, 1000, 2000);
+  // As many tiles around inside as outside.
+  add(leaf(ShapeKind::torus, randomFrame(random), {ring, tube}), 1.45, [=](std::mt19937& g) {
+    const double turn = uniform(g, 0, 2 * kPi), around = uniform(g, 0, 2 * kPi);
+    const TexturePoint n{std::sin(turn) * std::cos(around), std::sin(around), std::cos(turn) * std::cos(around)};
+    return SurfacePoint{TexturePoint{ring * std::sin(turn), 0, ring * std::cos(turn)} + times(tube, n), n};
+  });
+  // A beam's only piece: its line runs along local z, and its ends lie a radius beyond the line's.
+  const double length = uniform(random, 15000, 40000);
+  const Frame frame = randomFrame(random);
+  add(leaf(ShapeKind::box, frame, {r, r, length / 2 + r}), 1.06, [=](std::mt19937& g) {
+    const double side = g() % 2 == 0 ? 1 : -1;
+    if (g() % 3 == 0) {
+      return SurfacePoint{{uniform(g, -r, r), uniform(g, -r, r), side * (length / 2 + r)}, {0, 0, side}};
+    }
+    const size_t across = g() % 2;
+    SurfacePoint s{{0, 0, uniform(g, -length / 2, length / 2)}, {0, 0, 0}};
+    s.place[across] = side * r;
+    s.normal[across] = side;
+    s.place[1 - across] = uniform(g, -0.97 * r, 0.97 * r);
+    return s;
+  });
+  samples.back().chunk.shapes[0].point_count = 2;
+  for (const double end : {-length / 2, length / 2}) {
+    const TexturePoint p = toWorld(frame, {0, 0, end});
+    samples.back().chunk.points.push_back(
+        {static_cast<int32_t>(p[0]), static_cast<int32_t>(p[1]), static_cast<int32_t>(p[2])});
+  }
   return samples;
 }
 
@@ -257,5 +285,14 @@ TEST_CASE("along a bent line the coordinates go on from segment to segment") {
     }
     // As long as the line.
     CHECK(before.v == Approx(10.6 * 4000 * std::hypot(1, climb) / kUnitsPerMetre).epsilon(0.02));
+  }
+}
+
+TEST_CASE("a shape whose radii change with the place is left to the world's axes") {
+  std::mt19937 random(7);
+  GrammarChunk chunk;
+  for (const ShapeKind kind : {ShapeKind::morph_power, ShapeKind::voxels, ShapeKind::morph}) {
+    chunk.shapes = {leaf(kind, randomFrame(random), {2048, 2048, 2048})};
+    CHECK(TextureSpace(chunk, 0, kUnitsPerMetre).byWorld());
   }
 }

@@ -158,3 +158,43 @@ TEST_CASE("a mesh without triangles has no wedges and no density") {
   CHECK(density.middle == 0);
   CHECK(density.seams == 0);
 }
+
+TEST_CASE("far from a shape's origin coordinates are as fine as near it") {
+  GrammarChunk chunk;
+  Shape shape;
+  shape.kind = ShapeKind::box;
+  shape.size = {1e9f, 1e9f, 1e9f, 0, 0, 0};
+  chunk.shapes.push_back(shape);
+  for (const int32_t tile : {kUnitsPerMetre, 64}) {
+    CAPTURE(tile);
+    const std::vector<TextureSpace> spaces{{Int3{}, tile}, {chunk, 0, tile}};
+    // A floor of triangles of 0.1 m, 500 km away.
+    constexpr uint32_t kSide = 60;
+    std::vector<TexturePoint> positions;
+    std::vector<uint32_t> indices;
+    for (uint32_t z = 0; z <= kSide; ++z) {
+      for (uint32_t x = 0; x <= kSide; ++x) positions.push_back({5.12e8 + 102.25 * x, 1e9, -3.3e8 + 102.25 * z});
+    }
+    for (uint32_t z = 0; z < kSide; ++z) {
+      for (uint32_t x = 0; x < kSide; ++x) {
+        const uint32_t a = z * (kSide + 1) + x, c = a + kSide + 1;
+        for (const uint32_t corner : {a, c, c + 1, a, c + 1, a + 1}) indices.push_back(corner);
+      }
+    }
+    const std::vector<TexturePoint> normals(positions.size(), TexturePoint{0, 1, 0});
+    const std::vector<MaterialMix> materials(positions.size());
+    const std::vector<uint32_t> labels(positions.size(), 1);
+    const UnwrapInput input{positions, labels,
+                            indices,   [&](uint32_t label) -> const TextureSpace& { return spaces[label]; },
+                            normals,   materials};
+    const Unwrapped unwrapped = unwrap(input, std::pmr::get_default_resource());
+    for (const Wedge& wedge : unwrapped.wedges) {
+      CHECK(std::fabs(double{wedge.u}) < kTilesKept / 2 + 110);
+      CHECK(std::fabs(double{wedge.v}) < kTilesKept / 2 + 110);
+    }
+    const TexelDensity density = texelDensity(input, unwrapped, tile);
+    CHECK(density.low > 0.99);
+    CHECK(density.high < 1.01);
+    CHECK(density.seams < 0.1);
+  }
+}
