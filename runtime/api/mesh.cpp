@@ -77,7 +77,7 @@ sgm_result sgm_mesh_get_view(const sgm_mesh* mesh, sgm_mesh_view* view, sgm_erro
     view->wedges = reinterpret_cast<const sgm_wedge*>(surface.texture.wedges.data());
     view->wedge_count = static_cast<uint32_t>(surface.texture.wedges.size());
     view->wedge_indices = surface.texture.corners.data();
-    view->reserved = 0;
+    view->wedge_stride = sizeof(sgm_wedge);
     view->anchor_stride = sizeof(sgm_anchor);
     view->tags = surface.tags.data();
     view->tag_count = static_cast<uint32_t>(surface.tags.size());

@@ -60,6 +60,8 @@ sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_view* vi
     view->wedges = texture.wedges.empty() ? nullptr : reinterpret_cast<const sgm_wedge*>(texture.wedges.data());
     view->wedge_indices = texture.corners.empty() ? nullptr : texture.corners.data();
     view->wedge_count = texture.wedges.size();
+    view->wedge_stride = sizeof(sgm_wedge);
+    view->reserved = 0;
     return SGM_OK;
   });
 }

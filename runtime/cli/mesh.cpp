@@ -101,15 +101,17 @@ Exit mesh(const MeshOptions& options) {
     std::vector<uint32_t> vertices;
     std::vector<std::array<float, 2>> coordinates;
     std::vector<ExportBlend> blends;
-    const Result<std::vector<std::byte>> chequer = chequerPng();
-    if (!chequer) return complain(chequer.error());
+    std::vector<std::byte> chequer;
     if (region.texture) {
+      Result<std::vector<std::byte>> drawn = chequerPng();
+      if (!drawn) return complain(drawn.error());
+      chequer = std::move(*drawn);
       for (const Wedge& wedge : region.texture->unwrapped.wedges) {
         vertices.push_back(wedge.vertex);
         coordinates.push_back({wedge.u, wedge.v});
         blends.push_back({wedge.materials, wedge.share, wedge.plane_shares});
       }
-      texture = {vertices, coordinates, blends, region.texture->unwrapped.corners, *chequer};
+      texture = {vertices, coordinates, blends, region.texture->unwrapped.corners, chequer};
       info.texture = &texture;
     }
     if (Result<void> ok = file->write(region.meshed.mesh, info); !ok) return complain(ok.error());

@@ -388,7 +388,8 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, 
   }
   if (const size_t bytes = chunk->surface.bytes(); bytes > largestChunk(settings)) {
     done.error =
-        Error{Code::limit, "a chunk's mesh and anchors have " + std::to_string(bytes) + " bytes, more than the " +
+        Error{Code::limit, "a chunk has " + std::to_string(bytes) +
+                               " bytes with its anchors, morph offsets and texture coordinates, more than the " +
                                std::to_string(largestChunk(settings)) + " of the largest; place fewer anchors"};
     return;
   }

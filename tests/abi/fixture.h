@@ -111,6 +111,7 @@ void checkWedges(const View& view) {
   REQUIRE(view.wedges != nullptr);
   REQUIRE(view.wedge_indices != nullptr);
   CHECK(view.wedge_count >= view.vertex_count);
+  CHECK(view.wedge_stride == sizeof(sgm_wedge));
   for (uint64_t i = 0; i < view.index_count; ++i) {
     REQUIRE(view.wedge_indices[i] < view.wedge_count);
     const sgm_wedge& wedge = view.wedges[view.wedge_indices[i]];

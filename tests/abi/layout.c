@@ -393,7 +393,7 @@ PLACE(sgm_mesh_view, morphs, 328);
 PLACE(sgm_mesh_view, wedges, 336);
 PLACE(sgm_mesh_view, wedge_indices, 344);
 PLACE(sgm_mesh_view, wedge_count, 352);
-PLACE(sgm_mesh_view, reserved, 356);
+PLACE(sgm_mesh_view, wedge_stride, 356);
 SIZE(sgm_wedge, 20);
 PLACE(sgm_wedge, vertex, 0);
 PLACE(sgm_wedge, u, 4);
@@ -441,7 +441,7 @@ PLACE(sgm_density_desc, slice_pitch, 80);
 PLACE(sgm_density_desc, progress, 88);
 PLACE(sgm_density_desc, progress_user, 96);
 
-SIZE(sgm_surface_view, 184);
+SIZE(sgm_surface_view, 192);
 PLACE(sgm_surface_view, struct_size, 0);
 PLACE(sgm_surface_view, next, 8);
 PLACE(sgm_surface_view, origin, 16);
@@ -465,6 +465,8 @@ PLACE(sgm_surface_view, chunk_count, 152);
 PLACE(sgm_surface_view, wedges, 160);
 PLACE(sgm_surface_view, wedge_indices, 168);
 PLACE(sgm_surface_view, wedge_count, 176);
+PLACE(sgm_surface_view, wedge_stride, 184);
+PLACE(sgm_surface_view, reserved, 188);
 
 SIZE(sgm_world_desc, 88);
 PLACE(sgm_world_desc, struct_size, 0);

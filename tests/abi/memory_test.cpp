@@ -38,6 +38,7 @@ sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threa
   sgm_chunks_desc chunks = SGM_CHUNKS_DESC_INIT;
   chunks.requests = requests;
   chunks.count = 2;
+  chunks.flags = SGM_MESHING_TEXTURE;
   if (sgm_result r = sgm_mesh_chunks(h.field, &chunks, h.meshes, error); r != SGM_OK) return r;
   const int32_t points[6] = {0, 0, 0, 4096, 4096, 4096};
   float values[2], gradients[6];

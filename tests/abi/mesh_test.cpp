@@ -232,20 +232,22 @@ TEST_CASE("chunks and regions have texture coordinates where they are asked for,
   const RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compile(runtime.get(),
                                        "sgm 1; units m; domain infinite;\n"
-                                       "layer main cell 16m reach 9m { start Blob; }\n"
-                                       "rule Blob { at(8m, 8m, 8m) { Low; at(0m, 2m, 0m) High; } }\n"
+                                       "layer main cell 24m reach 9m { start Blob; }\n"
+                                       "rule Blob { at(12m, 12m, 12m) { Low; at(0m, 2m, 0m) High; } }\n"
                                        "rule Low { box(8m, 8m, 8m); mat chalk; }\n"
                                        "rule High { sphere(5m); mat flint; }\n");
   const FieldOwner field = makeField(runtime.get(), grammar.get(), 512);
   const std::vector<sgm_chunk_request> requests{chunkAt({0, 0, 0, 0}, 63), chunkAt({1, 0, 0, 0}),
                                                 chunkAt({0, 1, 0, 0})};
   for (const MeshOwner& mesh : meshChunks(field.get(), requests)) CHECK(viewOf(mesh).wedges == nullptr);
+  size_t seam_vertices = 0;
   using Blend = std::tuple<uint16_t, uint16_t, uint8_t>;
   std::map<Place, std::set<Blend>> of_chunk;
   for (const MeshOwner& mesh : meshChunks(field.get(), requests, SGM_MESHING_TEXTURE)) {
     const sgm_mesh_view view = viewOf(mesh);
     REQUIRE(view.index_count > 100);
     checkWedges(view);
+    seam_vertices += view.vertex_count - view.body.vertex_count;
     if (view.key.level != 0 || view.key.x != 0) continue;
     for (uint32_t i = 0; i < view.wedge_count; ++i) {
       const sgm_wedge& wedge = view.wedges[i];
@@ -253,6 +255,7 @@ TEST_CASE("chunks and regions have texture coordinates where they are asked for,
       of_chunk[placeOf(view, wedge.vertex)].emplace(wedge.materials[0], wedge.materials[1], wedge.share);
     }
   }
+  CHECK(seam_vertices > 0);
   sgm_region_desc desc = SGM_REGION_DESC_INIT;
   for (int32_t& v : desc.maximum) v = 16384;
   for (const uint32_t flags : {0u, uint32_t{SGM_MESHING_TEXTURE}}) {

@@ -722,9 +722,9 @@ typedef struct sgm_chunk_request {
 
 /* Long work says how far it is: after every chunk, with done rising by one to total. Called on any thread, one call at
  * a time (work on other chunks goes on meanwhile, so it should be short); must not call back into the library. Returns
- * 0 to go on; anything else stops the work with SGM_ERR_CANCELLED, but for the last call (done == total), after which
- * nothing is left to stop. Chunks that have begun are finished first, and up to 64 are derived before the first of them
- * is meshed, so a stop is not at once. */
+ * 0 to go on; anything else stops the work with SGM_ERR_CANCELLED, but for the last call (done == total): what is left
+ * then, texture coordinates say, is finished. Chunks that have begun are finished first, and up to 64 are derived
+ * before the first of them is meshed, so a stop is not at once. */
 typedef int32_t (*sgm_progress_function)(void* user, uint64_t done, uint64_t total);
 
 /* What meshes have beside their triangles. Worlds have flags of their own: sgm_world_flag. */
@@ -807,8 +807,11 @@ typedef struct sgm_instance_batch {
   uint32_t first, count; /* of the mesh's anchors and transforms */
 } sgm_instance_batch;
 
-/* A vertex as one chart of a texture and one pair of materials sees it. Coordinates count tiles of 1 m, in floats that
- * repeat a texture: u x v points out of the solid, so that nothing is mirrored. */
+/* A vertex as one chart of a texture and one pair of materials sees it. Coordinates count tiles of 1 m, for textures
+ * that repeat: u x v points out of the solid, so that nothing is mirrored. Whole tiles may be left out, so that floats
+ * hold coordinates to a 4,096th wherever a shape lies: chunks that meet agree on coordinates up to whole tiles. They
+ * agree on shares to the bit. A seam's vertices on edges of the coarser level are textured as the coarser chunks are,
+ * but where the two levels have other shapes there. */
 typedef struct sgm_wedge {
   uint32_t vertex; /* of the mesh's vertices */
   float u, v;
@@ -816,8 +819,10 @@ typedef struct sgm_wedge {
                               corners of a triangle */
   uint8_t share;           /* of the second here, in 255ths: to blend by, over about two cells */
   uint8_t plane_shares[3]; /* where no shape has coordinates for the triangle, so that u and v are by the world's axes:
-                              how much of textures laid along x, y and z to show here (triplanar mapping), together 255;
-                              else all 0 */
+                              how much of three textures to show here (triplanar mapping), together 255; else all 0.
+                              They lie across x at (-s z, y), across y at (s x, -z), across z at (s x, y), in metres
+                              from the world's origin, s being the sign of the normal along that axis; u and v are those
+                              of the axis that the triangle faces most */
 } sgm_wedge;
 
 /* Pointers into a mesh, good until the mesh ends. */
@@ -852,12 +857,11 @@ typedef struct sgm_mesh_view {
                             rises from 0 at the near end of a level's range to 1 at its far end */
   const sgm_wedge* wedges; /* texture coordinates by the own axes of the shape that makes the surface: along and around
                               a passage, over the faces of a box; by the world's axes where no shape of the grammar
-                              does. Where charts meet a vertex has several. NULL where not asked for: SGM_WORLD_TEXTURE,
-                              SGM_MESHING_TEXTURE */
+                              does. Where charts meet a vertex has several. NULL where there are none, or they were not
+                              asked for: SGM_WORLD_TEXTURE, SGM_MESHING_TEXTURE */
   const uint32_t* wedge_indices; /* index_count of them, into wedges: of the same triangles as indices. An engine that
                                     draws textures draws wedges by these, each with its vertex's position and normal */
-  uint32_t wedge_count;
-  uint32_t reserved; /* 0 */
+  uint32_t wedge_count, wedge_stride;
 } sgm_mesh_view;
 
 #define SGM_MESH_RANGE_INIT \
@@ -951,12 +955,14 @@ typedef struct sgm_surface_view {
                               for the whole region. NULL where SGM_MESHING_TEXTURE was not asked for */
   const uint32_t* wedge_indices; /* index_count of them, into wedges: of the same triangles as indices */
   uint64_t wedge_count;
+  uint32_t wedge_stride; /* bytes */
+  uint32_t reserved;     /* 0 */
 } sgm_surface_view;
 
 #define SGM_SURFACE_VIEW_INIT                                                                                       \
   {                                                                                                                 \
     SGM_SIZEOF(sgm_surface_view), SGM_NULL, {0, 0, 0}, 0, {0, 0, 0}, {0, 0, 0}, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, \
-        SGM_NULL, SGM_NULL, 0, 0, 0, 0, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0, SGM_NULL, SGM_NULL, 0            \
+        SGM_NULL, SGM_NULL, 0, 0, 0, 0, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0, SGM_NULL, SGM_NULL, 0, 0, 0      \
   }
 
 SGM_API sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_view* view, sgm_error* error);
