@@ -55,10 +55,14 @@ Result<FlightAnimation> FlightAnimation::of(sgm_runtime* runtime, const sgm_fiel
 }
 
 Result<void> FlightAnimation::show(sgm_world* world, double seconds) {
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_world_stats stats = SGM_WORLD_STATS_INIT;
+  if (sgm_world_get_stats(world, &stats, &error) != SGM_OK) return errorOf(error);
+  drawn_ += stats.field_drawn != last_drawn_;
+  last_drawn_ = stats.field_drawn;
   if (seconds * kFieldsASecond < static_cast<double>(fields_ + 1)) return {};
   const double turn = std::fmod(seconds / kSecondsThereAndBack, 1.0);
   const double part = 1 - std::fabs(1 - 2 * turn);
-  sgm_error error = SGM_ERROR_INIT;
   for (const Driven& parameter : driven_) {
     const double value = std::min(parameter.low + part * (parameter.high - parameter.low), parameter.high);
     const double shown = parameter.whole ? std::floor(value + 0.5) : value;

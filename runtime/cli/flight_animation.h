@@ -24,6 +24,8 @@ class FlightAnimation {
   Result<void> show(sgm_world* world, double seconds);
 
   uint64_t fields() const { return fields_; }
+  /// How many of them were drawn, as far as show() has seen.
+  uint64_t drawn() const { return drawn_; }
 
  private:
   struct Driven {
@@ -39,7 +41,7 @@ class FlightAnimation {
   sgm_field_desc field_;
   sgm_parameters* parameters_;
   std::vector<Driven> driven_;
-  uint64_t fields_ = 0;
+  uint64_t fields_ = 0, drawn_ = 0, last_drawn_ = 0;
 };
 
 }  // namespace sgm::cli

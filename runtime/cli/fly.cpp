@@ -194,7 +194,10 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   Flown flown;
   flown.report = std::move(*report);
   flown.frame_bytes = settings.frame_bytes;
-  if (animation) flown.fields = animation->fields();
+  if (animation) {
+    flown.fields = animation->fields();
+    flown.fields_drawn = animation->drawn();
+  }
   const Result<uint64_t> hash = hashAround(scene, last);
   if (!hash) return {{}, cli::complain(hash.error())};
   flown.hash = *hash;

@@ -51,6 +51,7 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
       {"lod0_coverage", shareOf(r.seen_finest, r.seen)},
       {"lod0_covered_frames", shareOf(r.frames_covered, r.frames_seen)},
       {"fields", flown.fields},
+      {"fields_drawn", flown.fields_drawn},
       {"chunks_outdated", r.stats.chunks_outdated},
       {"digs", r.digs.digs()},
       {"digs_by_kind", {{"cuts", r.digs.cuts}, {"adds", r.digs.adds}, {"undos", r.digs.undos}}},
@@ -116,8 +117,11 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
                100 * stale.max, 100 * stale.p50);
   }
   if (flown.fields > 0) {
-    fmt::print("  fields    {} with other parameters; they and digs had {} chunks meshed again, {:.1f} % of all\n",
-               flown.fields, r.stats.chunks_outdated, 100 * shareOf(r.stats.chunks_outdated, r.stats.chunks_meshed));
+    fmt::print(
+        "  fields    {} with other parameters, {} of them drawn; they and digs had {} chunks meshed again, {:.1f} % of "
+        "all\n",
+        flown.fields, flown.fields_drawn, r.stats.chunks_outdated,
+        100 * shareOf(r.stats.chunks_outdated, r.stats.chunks_meshed));
   }
   if (r.digs.digs() > 0) {
     fmt::print(

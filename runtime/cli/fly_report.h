@@ -15,6 +15,7 @@ struct Flown {
   uint64_t runtime_peak_bytes = 0;                   ///< of all that the runtime held at one time
   uint64_t frame_bytes = 0;                          ///< the most that could be handed over in one frame
   uint64_t fields = 0;                               ///< with other parameters, that the world was handed
+  uint64_t fields_drawn = 0;                         ///< of them
   sgm_backend_info backend = SGM_BACKEND_INFO_INIT;  ///< at the end
 };
 

@@ -50,7 +50,8 @@ bool FieldSwitch::begin(const Progress& progress) {
     before_ = nullptr;
   }
   if (!open_) {
-    const bool waits = !progress.at_rest && Clock::now() < not_before_;
+    const bool unseen = !progress.shown && turn_.drawn > 0;
+    const bool waits = !progress.at_rest && (unseen || Clock::now() < not_before_);
     if (back_ == nullptr && (next_ == nullptr || waits)) return false;
     open_ = true;
     state_ = 0;

@@ -6,7 +6,8 @@
 //   then                the change goes to the world's edits, and the planner takes it up as it takes up a brush
 //
 // The next one waits until what came before is drawn; and where chunks are still to be meshed for a viewer that moves,
-// as long again, so that an animation leaves half of the time to them. Of a field that cannot be drawn the world goes
+// as long again, so that an animation leaves half of the time to them. Before anything is drawn only one field takes
+// another's place, or a world that is animated from the start would never show. Of a field that cannot be drawn the world goes
 // back to the one before, so that edits and queries are of what is drawn. Where nobody looks nothing is drawn, and all
 // wait.
 
@@ -43,6 +44,7 @@ class FieldSwitch {
     uint64_t drawn = 0;    ///< the state that is drawn
     uint64_t failed = 0;   ///< one that cannot be
     bool viewed = false;   ///< somebody looks
+    bool shown = false;    ///< something has been drawn
     bool at_rest = false;  ///< all that viewers want is there
   };
   /// Whether a job should call compare(); then no other until it returns.

@@ -151,7 +151,7 @@ void WorldCore::kickFieldSwitch() {
   {
     const std::lock_guard lock(mutex);
     if (stopped_) return;
-    progress = {edits_drawn, planner_stats.edits_failed, !viewers.empty(), idle_};
+    progress = {edits_drawn, planner_stats.edits_failed, !viewers.empty(), applied > 0, idle_};
   }
   if (!fields.begin(progress) || submit(run<&WorldCore::compareOnce>, kComparePriority)) return;
   fields.giveUp();  // the next update tries again

@@ -49,7 +49,7 @@ err_empty
 
 # Parameters that are driven while it flies: every frame is closed, and shows one field.
 expect 0 "$SGM" fly "$cave" "${small[@]}" --speed 20 --frames 400 --check --edits 5 --animate boxy wet
-json 'j.fields >= 60 && j.chunks_outdated > 0 && j.chunks_outdated < j.chunks_meshed'
+json 'j.fields >= 60 && j.fields_drawn > 0 && j.fields_drawn <= j.fields && j.chunks_outdated > 0 && j.chunks_outdated < j.chunks_meshed'
 json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.overlaps === 0 && j.whole_failures === 0'
 expect 1 "$SGM" fly "$cave" "${small[@]}" --frames 10 --animate boxi
 err_has '--animate.*did you mean `boxy`'

@@ -1,6 +1,8 @@
 // Another field in a world's place: what it changes is meshed again, and nothing else; every frame shows one field.
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "catch.h"
 #include "edits_support.h"
@@ -426,6 +428,34 @@ TEST_CASE("after a field that fails edits are drawn, and queries are of what is 
   REQUIRE(log.import(scene.world->exportEdits()));
   checkFrame(scene, engine, log.snapshot().get());
   CHECK(scene.world->stats().edits_drawn == scene.world->stats().edits);
+}
+
+TEST_CASE("before anything is drawn one field takes another's place, and the next one waits") {
+  const std::unique_ptr<JobSystem> jobs = *makeThreadPool(1);
+  WorldEdits edits(fieldOf(caveText()), EditSettings{}, std::pmr::get_default_resource());
+  const auto nothing = std::make_shared<const DrawnFrame>(Octree(3, kStreamedCell));
+  FieldSwitch fields;
+  FieldSwitch::Progress progress;
+  progress.viewed = true;
+  const auto go = [&] {
+    while (fields.compare(nothing, edits, *jobs)) REQUIRE(fields.begin(progress));
+    progress.drawn = edits.number();
+  };
+  fields.want(fieldOf(caveText(), "boxy", 0.1));
+  REQUIRE(fields.begin(progress));
+  go();
+  CHECK_FALSE(fields.begin(progress));
+  CHECK(fields.turn().drawn == 1);
+  // One that comes ten times a second would begin everything anew, for ever.
+  fields.want(fieldOf(caveText(), "boxy", 0.2));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  CHECK_FALSE(fields.begin(progress));
+  SECTION("until something is drawn") { progress.shown = true; }
+  SECTION("or there is nothing to draw") { progress.at_rest = true; }
+  REQUIRE(fields.begin(progress));
+  go();
+  CHECK_FALSE(fields.begin(progress));
+  CHECK(fields.turn().drawn == 2);
 }
 
 TEST_CASE("without viewers a field waits for its turn, and the last one takes it") {
