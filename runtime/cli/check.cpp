@@ -41,6 +41,7 @@ Json describe(const Program& program) {
     Json json{{"name", program.text(param.name)}, {"default", param.value}, {"dimension", dimName(param.dim)}};
     if (param.has_range) json["range"] = {param.low, param.high};
     if (param.whole) json["whole"] = true;
+    if (param.animated) json["animated"] = true;
     if (param.doc != kNoId) json["doc"] = program.text(param.doc);
     parameters.push_back(std::move(json));
   }

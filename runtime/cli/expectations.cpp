@@ -104,7 +104,8 @@ Diagnostic diagnosticOf(const Said& said) {
     const Error& error = *said.outcome.error;
     d.message = fmt::format("`{}` cannot be evaluated: {}", measure, error.message);
     if (error.line > 0) d.notes.push_back(fmt::format("at line {}, column {}", error.line, error.column));
-    d.notes.push_back(said.where());
+    // What cannot be evaluated may have no region, either.
+    if (!said.outcome.region.empty()) d.notes.push_back(said.where());
     return d;
   }
   const std::vector<Measured>& all = said.outcome.measured;

@@ -103,6 +103,8 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
   if (r.walkable_ms >= 0) {
     fmt::print("  start     all that is seen within {} m of level 0, and with colliders, after {:.0f} ms\n",
                kWalkableDistance, r.walkable_ms);
+  } else if (r.commits == 0) {
+    fmt::print("  start     over before anything was drawn: fly longer (--frames), or with larger cells (--cell)\n");
   } else {
     fmt::print("  start     over before all that is seen within {} m was of level 0: fly longer (--frames)\n",
                kWalkableDistance);

@@ -43,8 +43,12 @@ Result<void> ParameterValues::set(const Program& program, std::string_view name,
     return Error{Code::invalid_argument, quoted + " must be a whole number, not " + numberText(value)};
   }
   if (param.has_range && (value < param.low || value > param.high)) {
-    return Error{Code::invalid_argument, quoted + " must lie in " + numberText(param.low) + ".." +
-                                             numberText(param.high) + ", not be " + numberText(value)};
+    const bool percent =
+        param.dim == kRatio && param.high <= 1 && value / 100 >= param.low && value / 100 <= param.high;
+    return Error{Code::invalid_argument,
+                 quoted + " must lie in " + numberText(param.low) + ".." + numberText(param.high) + ", not be " +
+                     numberText(value) +
+                     (percent ? ": " + numberText(value) + " % is " + numberText(value / 100) : "")};
   }
   values[index] = value;
   return {};

@@ -113,9 +113,11 @@ void Checker::params() {
         continue;
       }
       if (*value < *low || *value > *high) {
-        sink_.error(node(param.value_expr).span, codes::kParamRange,
-                    join({"the default of `", text(param.name), "` lies outside of its range"}),
-                    "widen the range, or choose a default within it");
+        const bool percent = param.dim == kRatio && *high <= 1 && *value / 100 >= *low && *value / 100 <= *high;
+        sink_.error(
+            node(param.value_expr).span, codes::kParamRange,
+            join({"the default of `", text(param.name), "` lies outside of its range"}),
+            percent ? join({"write ", numberText(*value), "%"}) : "widen the range, or choose a default within it");
         continue;
       }
       param.low = *low;

@@ -204,7 +204,7 @@ TEST_CASE("a cell that is too much says what, on which path, and what to do", "[
 
 TEST_CASE("arguments that fit no grammar are refused in words", "[notes]") {
   const auto program = compiled(
-      "sgm 1; param width = 2m in 1m..3m; param count = 4 in 1..9; domain infinite;\n"
+      "sgm 1; param width = 2m in 1m..3m; param count = 4 in 1..9; param wet = 60% in 0%..100%; domain infinite;\n"
       "layer main cell 64m reach 64m { start Main; } rule Main { repeat count Leaf; } rule Leaf { sphere(width); }");
   auto values = ParameterValues::defaults(*program);
   const auto refused = [&](const ParameterValues& parameters, uint32_t layer, Int3 cell) {
@@ -220,11 +220,13 @@ TEST_CASE("arguments that fit no grammar are refused in words", "[notes]") {
   CHECK(deriveInstances(*program, values, 7, 0, {}, 9, Ceiling(0)).error().message ==
         "the grammar has no rule 9; it has 2");
 
-  CHECK(values.set(*program, "widht", 2).error().message == "the grammar has no parameter widht; it has width, count");
+  CHECK(values.set(*program, "widht", 2).error().message ==
+        "the grammar has no parameter widht; it has width, count, wet");
   CHECK(values.set(*program, "width", std::numeric_limits<double>::quiet_NaN()).error().message ==
         "parameter width must be a finite number");
   CHECK(values.set(*program, "count", 2.5).error().message == "parameter count must be a whole number, not 2.5");
   CHECK(values.set(*program, "count", 12).error().message == "parameter count must lie in 1..9, not be 12");
+  CHECK(values.set(*program, "wet", 60).error().message == "parameter wet must lie in 0..1, not be 60: 60 % is 0.6");
 }
 
 TEST_CASE("uses within uses have a limit together", "[notes]") {

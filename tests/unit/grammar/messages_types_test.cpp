@@ -237,6 +237,8 @@ const MessageCase kUses[] = {
      "sgm 1; param a = 1m*1m in 0m..2m; start A; rule A { }"},
     {"1:18 param-range: the default of `a` lies outside of its range | widen the range, or choose a default within it",
      "sgm 1; param a = 3 in 0..2; start A; rule A { }"},
+    {"1:18 param-range: the default of `a` lies outside of its range | write 60%",
+     "sgm 1; param a = 60 in 0%..100%; start A; rule A { }"},
     {"1:23 param-range: the range is upside down | write its low end first",
      "sgm 1; param a = 3 in 4..2; start A; rule A { }"},
     {"1:14 param-range: `a` is animated, and nothing says between what | write its range: `param a = ... in LOW..HIGH "
