@@ -2,6 +2,7 @@
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
+#include "grammar/keywords.h"
 
 namespace sgm {
 
@@ -160,6 +161,10 @@ void Checker::unknownName(const Span& span, NameId name, bool call, bool shape) 
   const std::string_view word = text(name);
   Suggestion suggestion(word);
   offerNames(suggestion, call || shape);
+  if (const std::string_view ours = wordFor(word); !ours.empty()) {
+    sink_.error(span, codes::kUnknownName, join({"unknown name `", word, "`"}), join({"write `", ours, "`"}));
+    return;
+  }
   sink_.error(span, codes::kUnknownName, join({"unknown name `", word, "`"}),
               suggestion.hintOr(shape  ? join({"add `rule ", word, " { ... }`"})
                                 : call ? join({"add `let ", word, "(...) = ...;`"})

@@ -21,6 +21,9 @@ std::span<const std::string_view> transformTable();
 /// Words of the measures, in the order of Measure.
 std::span<const std::string_view> measureTable();
 
+/// What another language's word is called here: `at` for `translate`; empty where it is none that is known.
+std::string_view wordFor(std::string_view foreign);
+
 bool isKeyword(std::string_view word);
 bool startsDeclaration(std::string_view word);
 bool isUnavailable(std::string_view word);

@@ -1,5 +1,6 @@
 #include "grammar/lexer.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -335,6 +336,10 @@ class Lexer {
 };
 
 }  // namespace
+
+bool isUnit(std::string_view word) {
+  return std::any_of(kUnits.begin(), kUnits.end(), [word](const Unit& unit) { return unit.name == word; });
+}
 
 LexResult lex(std::string_view text, uint32_t file, uint32_t max_tokens, DiagnosticSink& sink,
               std::pmr::memory_resource* memory) {

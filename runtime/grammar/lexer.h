@@ -55,6 +55,9 @@ struct LexResult {
   std::pmr::vector<Comment> comments;
 };
 
+/// Whether numbers may have it as their unit.
+bool isUnit(std::string_view word);
+
 /// Reports what is wrong and goes on; always gives a stream that ends. At most `max_tokens`, otherwise an error.
 LexResult lex(std::string_view text, uint32_t file, uint32_t max_tokens, DiagnosticSink& sink,
               std::pmr::memory_resource* memory);

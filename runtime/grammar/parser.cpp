@@ -106,6 +106,21 @@ void Parser::fail(const Span& span, std::string_view code, std::string message, 
   sink_.error(span, code, std::move(message), std::move(hint));
 }
 
+std::string Parser::habitHint(std::string_view wanted, const Token& token) const {
+  const std::string_view word = textOf(token);
+  const bool after_number = next_ > 0 && lexed_.tokens[next_ - 1].kind == Tok::number;
+  if (after_number && token.kind == Tok::word && isUnit(word))
+    return join({"write the unit against its number, `", textOf(lexed_.tokens[next_ - 1]), word, "`"});
+  const std::span<const std::string_view> transforms = transformTable();
+  if (wanted == "`;`" && std::find(transforms.begin(), transforms.end(), word) != transforms.end())
+    return "what moves or turns something stands in front of it: `at(1m, 0m, 0m) sphere(2m);`";
+  if (wanted == "a statement" && word == "if")
+    return "give a rule alternatives: `rule A when ... { }` and `rule A else { }`, or `weight`";
+  if (token.kind == Tok::dots)
+    return "a range such as 1m..2m stands behind `in`; a function takes both ends, `rand(1m, 2m)`";
+  return {};
+}
+
 void Parser::unexpected(std::string_view wanted) {
   if (panic_ || exhausted_ || unavailable()) return;
   const Token& token = peek();
@@ -124,6 +139,7 @@ void Parser::unexpected(std::string_view wanted) {
     if (wanted.size() > 2 && wanted.front() == '`') suggestion.offer(wanted.substr(1, wanted.size() - 2));
     hint = suggestion.hint();
   }
+  if (hint.empty()) hint = habitHint(wanted, token);
   if (token.kind == Tok::assign) hint = "`=` names a value only in let, param and field; compare with `==`";
   fail(span, codes::kSyntax, join({"expected ", wanted, ", found ", found}), std::move(hint));
 }

@@ -52,6 +52,8 @@ class Parser {
 
   // parser.cpp: tokens, errors, recovery
   const Token& peek(size_t ahead = 0) const;
+  /// What somebody who writes like this in other languages should write here, or empty.
+  std::string habitHint(std::string_view wanted, const Token& token) const;
   const Token& take();
   bool at(Tok kind) const { return peek().kind == kind; }
   bool atWord(std::string_view word) const;

@@ -94,10 +94,15 @@ StmtId Parser::callStatement() {
       return kNoId;
     }
   }
+  const std::string_view word = textOf(peek());
   StmtNode node;
   node.kind = StmtKind::call;
   node.expr = callExpression("a shape, a rule or a statement");
   if (panic_) return kNoId;
+  if (const std::string_view ours = wordFor(word); !ours.empty() && !at(Tok::semicolon)) {
+    fail(begin, codes::kSyntax, join({"`", word, "` starts no statement"}), join({"write `", ours, "`"}));
+    return kNoId;
+  }
   if (at(Tok::open_brace)) {
     fail(here(), codes::kSyntax, "a call takes no block", "end the call with `;`");
     return kNoId;

@@ -1,0 +1,34 @@
+// What is said to those who write as other languages have it, word for word.
+
+#include "messages.h"
+
+using namespace sgm::test;
+
+namespace {
+
+const MessageCase kHabits[] = {
+    {"2:10 syntax: `translate` starts no statement | write `at`", "rule A { translate(1m, 1m, 1m) sphere(1m); }"},
+    {"2:10 syntax: `rotate` starts no statement | write `rot`", "rule A { rotate(y, 30deg) { sphere(1m); } }"},
+    {"2:10 syntax: `difference` starts no statement | write `cut`", "rule A { difference { sphere(1m); } }"},
+    {"2:10 unknown-name: unknown name `Cube` | write `box`", "rule A { Cube(1m); }"},
+    {"2:10 unknown-name: unknown name `cone` | write `truncone`", "rule A { cone(3m); }"},
+    {"2:10 unknown-name: unknown name `noise` | write `fractal`", "rule A { noise(1m); }"},
+    {"2:21 syntax: expected `;`, found `at` | what moves or turns something stands in front of it: `at(1m, 0m, 0m) "
+     "sphere(2m);`",
+     "rule A { sphere(3m) at(1m, 0m, 0m); }"},
+    {"2:10 syntax: expected a statement, found `if` | give a rule alternatives: `rule A when ... { }` and `rule A else "
+     "{ }`, or `weight`",
+     "rule A { if chance(50%) { sphere(1m); } }"},
+    {"2:19 syntax: expected `)` or `,`, found `m` | write the unit against its number, `3m`",
+     "rule A { sphere(3 m); }"},
+    {"2:24 syntax: expected `)` or `,`, found `..` | a range such as 1m..2m stands behind `in`; a function takes both "
+     "ends, `rand(1m, 2m)`",
+     "rule A { sphere(rand(1m..2m)); }"},
+    {"2:17 unknown-name: unknown name `random` | write `rand`", "rule A { sphere(random(1m, 2m)); }"},
+};
+
+}  // namespace
+
+TEST_CASE("messages: habits from other languages", "[grammar][messages]") {
+  checkMessages(kHabits, {"sgm 1; start A;\n", ""});
+}
