@@ -44,7 +44,7 @@ expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --frames 30 --unpaced --top-leve
 out_has 'changes of what is drawn'
 # Nothing is meshed so soon: such a flight says that it shows nothing.
 expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --path path.json --frames 1 --top-level 3 --view 60
-out_has "over before all that is seen"
+out_has "over before anything was drawn"
 err_empty
 
 # Parameters that are driven while it flies: every frame is closed, and shows one field.
