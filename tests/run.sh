@@ -21,7 +21,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
 variants=(fuzz scalar clang tsan)
-labels=() without=() jobs=$(nproc) timeout=600
+labels=() without=() jobs=$(nproc) timeout=900
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
 die() { echo "tests/run.sh: error: $1" >&2; exit "${2:-1}"; }
 while (($#)); do
