@@ -85,6 +85,11 @@ struct Value {
 };
 
 /// One use of a rule, or the block of an override there.
+/// A stretch of those by path that may hold in the cell, in the order of Program::path_overrides.
+struct PathRange {
+  uint32_t first = 0, end = 0;
+};
+
 struct Activation {
   uint32_t rule = 0;
   uint32_t edit = kNone;     ///< Program::overrides: its block, below the use that it takes the place of
@@ -92,6 +97,8 @@ struct Activation {
   uint32_t parent = kNone;
   uint32_t index = 0;                  ///< among the parent's uses of the same rule, for the path that a person reads
   Placement start;                     ///< the scope that the rule starts with
+  std::vector<PathRange> leads;        ///< the overrides by path whose first steps are those that lead here
+  uint32_t steps = 0;                  ///< how many of them
   std::vector<uint32_t> child_counts;  ///< pairs: rule, uses
 };
 
@@ -223,7 +230,7 @@ class Interpreter {
   // Overrides.
   void findOverrides();
   bool isAt(uint32_t activation, const Override& edit, uint32_t count) const;
-  std::vector<uint32_t> overridesAt(uint32_t activation);
+  std::vector<uint32_t> enterPaths(uint32_t activation);
   std::vector<uint32_t> overridesOf(uint16_t tag, const Env& env) const;
   /// What the first `below` of the overrides make of it.
   void use(const UnderEdit& what, size_t below, Env& env, ShapeList& out);

@@ -7,9 +7,9 @@
 namespace sgm {
 
 void Interpreter::findOverrides() {
-  for (uint32_t o = 0; o < program_.overrides.size(); ++o) {
+  for (const uint32_t o : program_.path_overrides) {
     const Override& edit = program_.overrides[o];
-    if (edit.by_tag || (edit.layer != kNoId && edit.layer != layer_index_)) continue;
+    if (edit.layer != kNoId && edit.layer != layer_index_) continue;
     if (!edit.one_cell || edit.cell == cell_) path_overrides_.push_back({o, false});
   }
 }
@@ -27,14 +27,37 @@ bool Interpreter::isAt(uint32_t activation, const Override& edit, uint32_t count
   return activation == kNone;
 }
 
-std::vector<uint32_t> Interpreter::overridesAt(uint32_t activation) {
-  std::vector<uint32_t> found;
-  for (PathOverride& o : path_overrides_) {
-    const Override& edit = program_.overrides[o.index];
-    if (!isAt(activation, edit, edit.steps.count)) continue;
-    o.found = true;
-    found.push_back(o.index);
+/// Follows paths into a use of a rule. Returns those that end there, as in Program::overrides.
+std::vector<uint32_t> Interpreter::enterPaths(uint32_t activation) {
+  Activation& use = activations_[activation];
+  std::vector<PathRange> before;
+  if (use.parent == kNone) {
+    before.push_back({0, static_cast<uint32_t>(path_overrides_.size())});
+  } else {
+    before = activations_[use.parent].leads;
+    use.steps = activations_[use.parent].steps;
   }
+  const auto stepsOf = [&](const PathOverride& o) { return program_.overrides[o.index].steps; };
+  const auto stepOf = [&](const PathOverride& o) { return program_.path_steps[stepsOf(o).first + use.steps]; };
+  std::vector<uint32_t> found;
+  const auto enter = [&](const PathRange& range, const PathStep& step) {
+    const auto begin = path_overrides_.begin();
+    const auto last = begin + range.end;
+    auto first = std::ranges::lower_bound(begin + range.first, last, step, {}, stepOf);
+    const auto end = std::ranges::upper_bound(first, last, step, {}, stepOf);
+    for (; first != end && stepsOf(*first).count == use.steps + 1; ++first) {
+      first->found = true;
+      found.push_back(first->index);
+    }
+    if (first != end) use.leads.push_back({static_cast<uint32_t>(first - begin), static_cast<uint32_t>(end - begin)});
+  };
+  for (const PathRange& range : before) {
+    if (range.first == range.end) continue;
+    enter(range, {use.rule, use.index});
+    enter(range, {use.rule, kNoId});
+  }
+  ++use.steps;
+  std::sort(found.begin(), found.end());
   return found;
 }
 

@@ -109,8 +109,8 @@ void Interpreter::callRule(uint32_t index, const ExprNode& node, uint32_t ordina
   const size_t watched = watched_.size();
   if (index == watched_rule_) watched_.push_back({inner.activation, {}, {}, anchors_before, anchors_before});
 
-  const std::vector<uint32_t> edits = overridesAt(inner.activation);
-  if (!step(path_overrides_.size(), node.span, env.activation)) return;
+  const std::vector<uint32_t> edits = enterPaths(inner.activation);
+  if (!step(edits.size(), node.span, env.activation)) return;
   use({&rule, &arguments, nullptr, edits, edits.size(), nullptr, {}}, edits.size(), inner, out);
   if (index != watched_rule_) return;
   // A rule's block appends to what stands before its call and leaves that alone.

@@ -131,8 +131,10 @@ class Checker {
   void overridePath(Override& edit);
   bool overrideCell(Override& edit, const WrittenPath& written);
   uint32_t ruleOfStep(uint32_t module, const WrittenStep& step);
+  void headsAgree(const Override& edit, uint32_t rule, uint32_t parameter);
   void overrideBlock(uint32_t index);
   void overrideTags();
+  void orderPaths();
   void hiddenOverrides();
   void holdOverrides();
   void markOverrides(IdRange overrides, bool cuts);
@@ -147,6 +149,7 @@ class Checker {
     bool named_only = false;
   };
   /// Positions and names to one list; false with an error.
+  NameId meantByDifference(const ArgNode& arg, const std::vector<FormalView>& formals) const;
   bool bind(ExprId call, std::string_view callee, const std::vector<FormalView>& formals, bool variadic,
             std::vector<uint32_t>& bound);
   std::vector<FormalView> viewOf(IdRange formals) const;

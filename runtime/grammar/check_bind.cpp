@@ -32,6 +32,17 @@ std::vector<Checker::FormalView> Checker::viewOf(std::span<const BuiltinParam> p
   return out;
 }
 
+/// Of `salt -3`, which is a difference: `salt`, where that is nothing but a parameter of the callee.
+NameId Checker::meantByDifference(const ArgNode& arg, const std::vector<FormalView>& formals) const {
+  const ExprNode& value = node(arg.value);
+  if (arg.name != kNoId || value.kind != ExprKind::binary || value.binary != BinaryOp::subtract) return kNoId;
+  const ExprNode& left = node(child(value, 0));
+  if (left.kind != ExprKind::name || symbols_[scope_.module].contains(left.name)) return kNoId;
+  const bool formal = std::ranges::any_of(formals, [&](const FormalView& f) { return f.name == text(left.name); });
+  const bool local = std::ranges::any_of(scope_.locals, [&](const Local& l) { return l.name == left.name; });
+  return formal && !local ? left.name : kNoId;
+}
+
 bool Checker::bind(ExprId call, std::string_view callee, const std::vector<FormalView>& formals, bool variadic,
                    std::vector<uint32_t>& bound) {
   const ExprNode& n = node(call);
@@ -45,7 +56,15 @@ bool Checker::bind(ExprId call, std::string_view callee, const std::vector<Forma
   };
   size_t position = 0;
   for (uint32_t i = 0; i < n.args.count; ++i) {
-    const ArgNode& arg = program_.ast.args[n.args.first + i];
+    ArgNode& arg = program_.ast.args[n.args.first + i];
+    if (const NameId name = meantByDifference(arg, formals); name != kNoId) {
+      sink_.error(arg.span, codes::kArgumentName, join({"this is `", text(name), "` less something"}),
+                  join({"to give `", text(name), "` a value below 0, write `", text(name), " = -...`"}));
+      arg.value = child(node(arg.value), 1);
+      named = true;
+      good = false;
+      continue;
+    }
     if (arg.name != kNoId && variadic) {
       sink_.error(arg.span, codes::kArgumentName, join({"the arguments of `", callee, "` have no names"}),
                   join({"it is ", signature()}));

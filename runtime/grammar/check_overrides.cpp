@@ -60,8 +60,12 @@ void Checker::overrides() {
   }
   callees_.assign(program_.rules.size(), {});
   for (const RuleCall& call : calls_) callees_[call.from].emplace(call.to, node(call.call).qualifier);
+  // Overrides of one address derive within each other: each has draws of its own.
+  std::map<std::pair<NameId, bool>, uint64_t> same;
   for (Override& edit : program_.overrides) {
     edit.hash = hashCombine(hashText(text(edit.address)), edit.by_tag);
+    if (const uint64_t earlier = same[{edit.address, edit.by_tag}]++; earlier > 0)
+      edit.hash = hashCombine(edit.hash, earlier);
     if (!edit.by_tag && !sink_.full()) overridePath(edit);
   }
   if (sink_.errorCount() > before) return;
@@ -73,6 +77,7 @@ void Checker::overrides() {
   checkWaiting();
   if (sink_.errorCount() > before) return;
   overrideTags();
+  orderPaths();
   hiddenOverrides();
   holdOverrides();
 }
@@ -185,6 +190,22 @@ bool Checker::overrideCell(Override& edit, const WrittenPath& written) {
   return true;
 }
 
+/// The block stands for every head of the rule, and knows its parameters by the names of the first.
+void Checker::headsAgree(const Override& edit, uint32_t rule, uint32_t parameter) {
+  const auto& heads = program_.rules[rule].alternatives;
+  const auto nameIn = [&](const Alternative& head) {
+    return program_.ast.formals[head.formals.first + parameter].name;
+  };
+  for (const Alternative& head : heads) {
+    if (nameIn(head) == nameIn(heads[0])) continue;
+    sink_.warning(edit.address_span, codes::kParameterNames,
+                  join({"the heads of `", text(program_.rules[rule].name), "` call one parameter `",
+                        text(nameIn(heads[0])), "` and `", text(nameIn(head)), "`"}),
+                  join({"here it is `", text(nameIn(heads[0])), "`, as in the first: use one name in all of them"}));
+    return;
+  }
+}
+
 void Checker::overrideBlock(uint32_t index) {
   override_ = index;
   rule_ = kNoId;
@@ -201,6 +222,7 @@ void Checker::overrideBlock(uint32_t index) {
     const IdRange formals = program_.rules[rule].alternatives[0].formals;
     for (uint32_t i = 0; i < formals.count; ++i) {
       const FormalNode formal = program_.ast.formals[formals.first + i];
+      headsAgree(edit, rule, i);
       declareLocal(formal.name, formal.span, {formal.name, i, rule_types_[rule][i], kNoId, 0});
     }
     scope_.next_slot = scope_.slot_count = formals.count;
@@ -240,6 +262,19 @@ void Checker::overrideTags() {
 }
 
 /// An override of the same address that derives nothing of an earlier one leaves that without any effect.
+void Checker::orderPaths() {
+  std::pmr::vector<uint32_t>& order = program_.path_overrides;
+  for (uint32_t o = 0; o < program_.overrides.size(); ++o)
+    if (!program_.overrides[o].by_tag) order.push_back(o);
+  const auto stepsOf = [&](uint32_t o) {
+    const IdRange steps = program_.overrides[o].steps;
+    return std::span(program_.path_steps).subspan(steps.first, steps.count);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return std::ranges::lexicographical_compare(stepsOf(a), stepsOf(b));
+  });
+}
+
 void Checker::hiddenOverrides() {
   const auto same = [&](const Override& a, const Override& b) {
     if (a.by_tag != b.by_tag || a.layer != b.layer || a.one_cell != b.one_cell || a.cell != b.cell) return false;

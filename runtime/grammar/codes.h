@@ -31,6 +31,7 @@ inline constexpr std::string_view kUnknownName = "unknown-name";
 inline constexpr std::string_view kUnknownMember = "unknown-member";
 inline constexpr std::string_view kArgumentCount = "argument-count";
 inline constexpr std::string_view kArgumentName = "argument-name";
+inline constexpr std::string_view kParameterNames = "parameter-names";
 inline constexpr std::string_view kWrongUse = "wrong-use";
 inline constexpr std::string_view kShadowsBuiltin = "shadows-builtin";
 inline constexpr std::string_view kUnusedRule = "unused-rule";

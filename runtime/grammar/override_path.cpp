@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "grammar/ast.h"
+
 namespace sgm {
 
 namespace {
@@ -27,7 +29,12 @@ class PathReader {
         step.name = name();
       }
       if (accept('[')) {
+        const uint32_t begin_number = at_;
         step.index = number<uint32_t>("the number of a use, such as 0");
+        if (step.index == kNoId) {
+          at_ = begin_number;
+          want("the number of a use, such as 0");
+        }
         if (!accept(']')) want("`]`");
       }
       step.place = {begin, at_};

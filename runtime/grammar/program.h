@@ -2,6 +2,7 @@
 // A checked grammar: immutable, shareable between threads, all names resolved. Made by compileGrammar() (compile.h).
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -109,7 +110,7 @@ struct PathStep {
   uint32_t rule = kNoId;
   uint32_t index = kNoId;  ///< among its parent's uses of the same rule; kNoId: every one
 
-  friend bool operator==(const PathStep&, const PathStep&) = default;
+  friend auto operator<=>(const PathStep&, const PathStep&) = default;
 };
 
 /// `override "net(0, 0, 0)/Node/Chamber[0]" { ... }` or `override tag "cave.hall" { ... }`: a block that is derived
@@ -206,6 +207,7 @@ class Program {
         overrides(memory),
         path_steps(memory),
         tag_overrides(memory),
+        path_overrides(memory),
         canonical(memory) {}
 
   Ast ast;
@@ -225,8 +227,10 @@ class Program {
   std::pmr::vector<Override> overrides;
   std::pmr::vector<PathStep> path_steps;
   std::pmr::vector<IdRange> tag_overrides;  ///< for each of `tags`: into Ast::ids, ascending
-  std::pmr::string canonical;               ///< the root as `sgm fmt` writes it
-  uint64_t hash = 0;  ///< of the meaning of all files: blind to layout, comments and superfluous parentheses
+  /// Those by path in the order of their steps, by rule and then by index; a path stands before those it begins.
+  std::pmr::vector<uint32_t> path_overrides;
+  std::pmr::string canonical;  ///< the root as `sgm fmt` writes it
+  uint64_t hash = 0;           ///< of the meaning of all files: blind to layout, comments and superfluous parentheses
 
   std::string_view text(NameId id) const { return id == kNoId ? std::string_view() : std::string_view(ast.names[id]); }
   const ExprNode& expr(ExprId id) const { return ast.exprs[id]; }

@@ -103,6 +103,9 @@ const MessageCase kDeclarations[] = {
     {"3:1 argument-count: `A` has 1 parameter in its first head and 2 in this one | the heads of a rule have the same "
      "parameters | note: first at test.sgm:2:1",
      "sgm 1; start A(1);\nrule A(r) weight 1 { }\nrule A(r, s) weight 1 { }"},
+    {"1:32 argument-name: this is `wide` less something | to give `wide` a value below 0, write `wide = -...`\n"
+     "1:50 warning unused-rule: nothing derives `B` | call it in a rule, or remove it",
+     "sgm 1; start A; rule A { B(3m, wide -2m); } rule B(r, wide = 2m) { box(r + wide); }"},
     {"1:22 guards: `A` has an `else` and no `when` | add a head with `when`, or leave `else` out",
      "sgm 1; start A; rule A else { }"},
     {"1:33 warning unused-rule: nothing derives `B` | call it in a rule, or remove it",

@@ -168,6 +168,13 @@ const MessageCase kOverrides[] = {
     {"2:15 syntax: expected the number of a use, such as 0 in this path | such as \"net(0, 0, -1)/Node/Chamber[0]\", "
      "as messages print it",
      "override \"A/B[x]\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:15 syntax: expected the number of a use, such as 0 in this path | such as \"net(0, 0, -1)/Node/Chamber[0]\", "
+     "as messages print it",
+     "override \"A/B[4294967295]\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:10 warning parameter-names: the heads of `B` call one parameter `r` and `s` | here it is `r`, as in the first: "
+     "use one name in all of them",
+     "override \"A/B\" { sphere(r); }\n"
+     "rule A { B(1m); } rule B(r) weight 1 { sphere(r); } rule B(s) weight 1 { box(s); }"},
     {"2:16 syntax: expected `]` in this path | such as \"net(0, 0, -1)/Node/Chamber[0]\", as messages print it",
      "override \"A/B[0\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
     {"2:14 syntax: expected `/` between two steps, or the end of the path in this path | such as \"net(0, 0, "
