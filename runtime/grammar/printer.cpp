@@ -39,6 +39,17 @@ void measureText(std::string& out, const Program& program, const LinePrinter& li
   if (e.per_name != kNoId) out += join({" per ", program.text(e.per_name)});
 }
 
+/// What a parameter is to the world: what is left of its declaration is for hosts.
+void paramMeaning(std::string& out, const Program& program, const LinePrinter& line, const Param& param) {
+  out += join({"param ", program.text(param.name), " = "});
+  line.expr(out, param.value_expr);
+  if (!param.has_range) return;
+  out += " in ";
+  line.expr(out, param.low_expr, kOr);
+  out += "..";
+  line.expr(out, param.high_expr, kOr);
+}
+
 /// Any declaration on one line.
 void declarationLine(std::string& out, const Program& program, const ModuleSyntax& syntax, const LinePrinter& line,
                      const Item& item) {
@@ -56,14 +67,7 @@ void declarationLine(std::string& out, const Program& program, const ModuleSynta
       break;
     case ItemKind::param: {
       const Param& param = program.params[item.index];
-      out += join({"param ", program.text(param.name), " = "});
-      line.expr(out, param.value_expr);
-      if (param.has_range) {
-        out += " in ";
-        line.expr(out, param.low_expr, kOr);
-        out += "..";
-        line.expr(out, param.high_expr, kOr);
-      }
+      paramMeaning(out, program, line, param);
       if (param.animated) out += " animated";
       if (param.doc != kNoId) out += join({" ", quoteText(program.text(param.doc))});
       out += ';';
@@ -309,7 +313,13 @@ std::string printModule(const Program& program, const ModuleSyntax& syntax) {
 std::string printMeaning(const Program& program, const ModuleSyntax& syntax) {
   const LinePrinter line(program, true);
   std::string out;
-  for (const Item& item : syntax.items) declarationLine(out, program, syntax, line, item);
+  for (const Item& item : syntax.items) {
+    if (item.kind == ItemKind::expectation) continue;
+    if (item.kind == ItemKind::param)
+      paramMeaning(out, program, line, program.params[item.index]);
+    else
+      declarationLine(out, program, syntax, line, item);
+  }
   return out;
 }
 

@@ -183,6 +183,12 @@ TEST_CASE("the hash is of the meaning, not of the layout", "[grammar][program]")
   const uint64_t hash = hashOf("sgm 1; start A; rule A { sphere(0.25m + 1m*2); }");
   CHECK(hash == hashOf("sgm 1;\n// a comment\nstart A;\n\nrule A {\n  sphere((25cm) + (1m*2));  // another\n}\n"));
   CHECK(hash != hashOf("sgm 1; start A; rule A { sphere((0.25m + 1m)*2); }"));
+  // Nor of what a world does not depend on: worlds with edits outlive it.
+  const uint64_t of_param = hashOf("sgm 1; param r = 1m in 1m..2m; start A; rule A { sphere(r); }");
+  CHECK(of_param == hashOf("sgm 1; param r = 1m in 1m..2m animated; start A; rule A { sphere(r); }"));
+  CHECK(of_param == hashOf("sgm 1; param r = 1m in 1m..2m \"wide\"; start A; rule A { sphere(r); }"));
+  CHECK(of_param == hashOf("sgm 1; param r = 1m in 1m..2m; start A; rule A { sphere(r); } expect components == 1;"));
+  CHECK(of_param != hashOf("sgm 1; param r = 1m in 1m..3m; start A; rule A { sphere(r); }"));
   CHECK(hash != hashOf("sgm 1; start A; rule A { sphere(0.26m + 1m*2); }"));
   CHECK(hash != hashOf("sgm 1; start B; rule B { sphere(0.25m + 1m*2); }"));
 

@@ -60,13 +60,12 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
     other = settings;
     other.program = compiled.program;
     CAPTURE(changed.substr(0, end + 8));
-    const bool comment = compiled.program->hash == settings.program->hash;
-    CHECK(changes(other) != comment);
-    if (comment) {
-      const size_t line = text.rfind('\n', end);
-      const size_t slashes = text.find("//", line), quote = text.find('"', line);
-      CHECK((std::min(slashes, quote) < end));
-    }
+    const bool same = compiled.program->hash == settings.program->hash;
+    CHECK(changes(other) != same);
+    // What people read and what is only measured makes no mesh another one.
+    const size_t line = text.rfind('\n', end) + 1;
+    const size_t slashes = text.find("//", line), quote = text.find('"', line);
+    CHECK(same == (std::min(slashes, quote) < end || text.compare(line, 7, "expect ") == 0));
   }
   CHECK(numbers > 20);
 
