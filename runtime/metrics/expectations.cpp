@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "grammar/sink.h"
 #include "metrics/region.h"
 
 namespace sgm {
@@ -53,6 +54,11 @@ Measured read(const Program& program, const Expectation& e, const RegionMeasures
       result.why = region.topology.leak;
       break;
     case Measure::components: {
+      if (e.above != kNoId && e.above_number < region.sample) {
+        result.why = "one sample stands for " + numberText(region.sample) + " m3, which is more than what is asked about: "
+                     "measure with smaller cells";
+        break;
+      }
       const Components larger = region.pieces.above(e.above_number / region.sample);
       result.value = static_cast<double>(program.text(e.of) == "air" ? larger.air : larger.solid);
       break;

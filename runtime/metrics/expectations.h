@@ -3,9 +3,9 @@
 //
 // What is measured
 //   watertight  yes where the surface is a manifold and every open edge lies in the region's outer border
-//   components  connected pieces of the solid (solid, or nothing written) or of the void (air) inside the region,
-//   joined
-//               as the mesh joins them (components.h); `above V`: of those whose samples stand for more than V
+//   components  connected pieces of the solid (solid, or nothing written) or of the void (air) inside the region, joined
+//               as the mesh joins them (components.h); `above V`: of those whose samples stand for more than V, not
+//               measured where one sample does
 //   volume      m3 of the solid inside the region, whatever the domain is made of
 //   area        m2 of the surface inside the region, without the faces where the border cuts the solid
 //   triangles   of that surface

@@ -71,6 +71,11 @@ expect 1 "$SGM" check --expect bar.sgm
 out_has "bar.sgm:5:1: report: genus = not measured: the region's border cuts the surface"
 err_has "bar.sgm:6:1: error: expected genus == 0 in block\(1\), but it is not measured: the region's border cuts"
 
+# Below one sample nothing can be told apart.
+sed 's/^report genus;/report components(solid above 0.01m3);/; s/^expect .*/expect components(solid above 2m3) >= 1;/' bar.sgm >small.sgm
+expect 0 "$SGM" check --expect small.sgm --cell 1 --region=-16,0,0:16,16,16
+out_has 'not measured: one sample stands for 1 m3, which is more than what is asked about: measure with smaller cells'
+
 # Where and how finely: the command line's region and cell, and a cap that says what to do.
 expect 0 "$SGM" check --expect row.sgm --region=-4,-4,-4:20,4,4 --cell 0.25
 out_has 'cells of 0.25 m'
