@@ -51,6 +51,21 @@ IntBox cellLimit(const Program& program, uint32_t layer_index, Int3 cell) {
   return box;
 }
 
+namespace {
+
+/// Whether a box without a bound has none only where a cell at the end of the world has no more room.
+bool endsWithWorld(const Layer& layer, const IntBox& limit, IntBox box) {
+  const IntBox all = IntBox::everything();
+  for (int a = 0; a < 3; ++a) {
+    if (layer.cell[a] <= 0) continue;
+    if (limit.lo[a] == all.lo[a]) box.lo[a] = std::max(box.lo[a], all.lo[a] + 1);
+    if (limit.hi[a] == all.hi[a]) box.hi[a] = std::min(box.hi[a], all.hi[a] - 1);
+  }
+  return isBounded(box);
+}
+
+}  // namespace
+
 Interpreter::Interpreter(const Program& program, const ParameterValues& parameters, uint64_t world_seed, uint32_t layer,
                          Int3 cell, const LowerLayers& lower, const DeriveLimits& limits,
                          std::pmr::memory_resource* memory)
@@ -142,6 +157,11 @@ void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& o
     const Origin& origin = draft_.origin(root);
     const IntBox box = bounds.level(root, 0);
     if (box.empty()) continue;
+    if (!isBounded(box) && endsWithWorld(layer_, limit, box)) {
+      note("this shape may pass the end of the world, about 2,097 km from the origin; it is left out whole",
+           origin.span, origin.activation);
+      continue;
+    }
     if (!isBounded(box)) {
       note("this shape has no bound, so no cell can own it; meet it with a box, or give the displacement an amplitude",
            origin.span, origin.activation);

@@ -158,7 +158,6 @@ void Extent::merge(const Extent& other) {
   turned_spread = std::max(turned_spread, other.turned_spread);
   limit = std::min(limit, other.limit);
   inner = std::max(inner, other.inner);
-  partial = partial || other.partial;
   if (why == Unbound::none) why = other.why, allowed = other.allowed;
   if (other.culprit_size > culprit_size) {
     culprit = other.culprit;

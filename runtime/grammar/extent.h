@@ -48,7 +48,6 @@ struct Extent {
   double inner_low = 0;  ///< the largest is at least this, if there is any
   double count = 0;      ///< at most so many shapes
   bool certain = false;  ///< at least one shape for sure
-  bool partial = false;  ///< some levels may leave it out
 
   ExprId culprit = kNoId;  ///< the outermost call that extends farthest
   uint32_t edit = kNoId;   ///< the override that puts it there, or none

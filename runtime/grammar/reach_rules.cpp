@@ -129,7 +129,6 @@ Extent ReachCheck::alternatives(uint32_t rule, const std::vector<RangeValue>& ar
     first = false;
   }
   if (weighted || levels || !(complete || surely_taken)) out.certain = false;
-  if (levels) out.partial = true;
   return out;
 }
 

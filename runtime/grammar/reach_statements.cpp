@@ -74,9 +74,7 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
       return Extent::nothing();
     case StmtKind::detail: {
       values_.number(s.expr, frame);  // a query in it
-      Extent e = body(s.body, frame);
-      e.partial = true;
-      return e;
+      return body(s.body, frame);
     }
     case StmtKind::inner:
       return inner(s, frame);
@@ -109,8 +107,8 @@ Extent ReachCheck::block(const StmtNode& s, RangeFrame& frame) {
 Extent ReachCheck::meet(const StmtNode& s, RangeFrame& frame) {
   const StmtNode& inner = program_.stmt(s.body);
   if (inner.kind != StmtKind::block) return body(s.body, frame);
-  // What some level leaves out narrows nothing there; where that is so of all operands, one of them is left.
-  Extent met = Extent::nothing(), any = Extent::nothing();
+  Extent out = Extent::nothing();
+  double inner_radius = 0, count = 0;
   bool first = true, missing = false;
   for (uint32_t i = 0; i < inner.children.count; ++i) {
     const StmtId child = program_.idAt(inner.children, i);
@@ -118,21 +116,20 @@ Extent ReachCheck::meet(const StmtNode& s, RangeFrame& frame) {
     if (isSilent(program_.stmt(child).kind)) continue;
     if (program_.stmt(program_.innermost(child)).kind == StmtKind::cut) continue;
     missing = missing || part.empty;
-    any.join(part);
-    if (part.partial) continue;
+    inner_radius = std::max(inner_radius, part.inner);
+    count += part.count;
     if (first)
-      met = part;
+      out = part;
     else
-      met.intersect(part);
+      out.intersect(part);
     first = false;
   }
-  if (missing) return Extent::nothing();
-  Extent& out = first ? any : met;
+  if (missing || first) return Extent::nothing();
   // An operand that is not there leaves the whole meet out.
   out.certain = false;
-  out.inner = std::max(out.inner, any.inner);
+  out.inner = inner_radius;
   out.inner_low = 0;
-  out.count = std::max(1.0, any.count);
+  out.count = std::max(1.0, count);
   out.node();
   return out;
 }

@@ -135,6 +135,19 @@ TEST_CASE("what passes its reach, its domain or every bound is left out whole", 
   }
   CHECK(noted > 5);
 
+  const auto large = compiled(
+      "sgm 1; domain infinite; layer main cell 1024m reach 2100m { start Main; }\n"
+      "rule Main { at(1900m, 0m, 0m) sphere(200m); at(-1900m, 0m, 0m) sphere(200m); }");
+  // Cells lie in -2048 to 2046.
+  for (const Int3 cell : {Int3{2045, 0, 0}, Int3{-2045, 0, 0}}) CHECK(derived(*large, cell).notes.empty());
+  for (const Int3 cell : {Int3{2046, 0, 0}, Int3{-2048, 0, 0}}) {
+    const GrammarChunk outermost = derived(*large, cell);
+    CHECK(outermost.groups.size() == 1);
+    REQUIRE(outermost.notes.size() == 1);
+    CHECK(outermost.notes[0].message ==
+          "this shape may pass the end of the world, about 2,097 km from the origin; it is left out whole");
+  }
+
   // The proof of reach refuses what has no bound; what it should ever let pass is left out here.
   const auto tame = compiled(
       "sgm 1; domain infinite; layer main cell 64m reach 8m { start Main; }\n"
