@@ -136,4 +136,19 @@ std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box) {
   return ranges;
 }
 
+IntBox warpedBox(std::span<const Expr> exprs, uint32_t offset, const IntBox& box) {
+  const std::vector<Range> ranges = exprRanges(exprs, &box);
+  const IntBox all = IntBox::everything();
+  IntBox out;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Range by = ranges[offset + static_cast<uint32_t>(axis)];
+    // Two units for the rounding of places to units.
+    const double lo = std::floor(box.lo[axis] + by.lo * kUnitsPerMetre) - 2;
+    const double hi = std::ceil(box.hi[axis] + by.hi * kUnitsPerMetre) + 2;
+    out.lo[axis] = static_cast<int32_t>(std::max<double>(lo, all.lo[axis]));
+    out.hi[axis] = static_cast<int32_t>(std::min<double>(hi, all.hi[axis]));
+  }
+  return out;
+}
+
 }  // namespace sgm

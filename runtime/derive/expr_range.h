@@ -17,4 +17,7 @@ struct Range {
 /// the float arithmetic of the field. Noise is taken as -1..1, a sweep as 0..1.
 std::vector<Range> exprRanges(std::span<const Expr> exprs, const IntBox* box = nullptr);
 
+/// Holds every place that a warp by the three expressions from `offset` on, metres, leads to from the box. Saturates.
+IntBox warpedBox(std::span<const Expr> exprs, uint32_t offset, const IntBox& box);
+
 }  // namespace sgm

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "derive/expr_range.h"
 #include "field/voxels.h"
 
 namespace sgm {
@@ -324,7 +325,7 @@ class ShapeCompiler {
     const uint64_t outer = epoch_;
     const IntBox outer_read = read_;
     epoch_ = ++epochs_;
-    read_ = IntBox::everything();
+    if (!chunk_.blocks.empty()) read_ = warpedBox(chunk_.exprs, s.expr, read_);
     Emitted child = emit(children(s)[0], depth + 1);
     read_ = outer_read;
     epoch_ = outer;

@@ -273,3 +273,44 @@ TEST_CASE("a warp reads voxels wherever it leads") {
     CHECK(valuesOf({piece}, {p}, 512).value[0] == valuesOf({plain}, {{p.x + 2048, p.y, p.z}}, 512).value[0]);
   }
 }
+
+TEST_CASE("below a warp, what few places read is what many do") {
+  const VoxelWorld world{4, 1024, {}, false};
+  GrammarChunk piece = pieceOf(world, {}, 24 * 1024);
+  // (1.7 n, -0.9 n, n * x) metres, with noise n: of -1 to 1, and some that depends on the place.
+  Expr n, amount, less, x;
+  n.op = ExprOp::noise, n.noise = 0;
+  amount.value = 1.7f, less.value = -0.9f;
+  x.op = ExprOp::coordinate, x.row = {0.5f, 0, 0};
+  const auto product = [](uint32_t a, uint32_t b) {
+    Expr e;
+    e.op = ExprOp::multiply, e.a = a, e.b = b;
+    return e;
+  };
+  piece.exprs = {n, amount, less, x, product(0, 1), product(0, 2), product(0, 3)};
+  NoiseSpec noise;
+  noise.period = 3 * 1024, noise.octaves = 2, noise.seed = 9;
+  piece.noises = {noise};
+  Shape warp;
+  warp.kind = ShapeKind::warp;
+  warp.expr = 4;
+  warp.child_count = 1;
+  piece.children = {0};
+  piece.shapes.push_back(warp);
+  piece.groups[0] = {1, false, levelBounds(piece, 0, 0).grown(16 * 1024), {}};
+  std::mt19937 random(8);
+  std::vector<Int3> places;
+  for (int i = 0; i < 300; ++i)
+    places.push_back({between(random, 0, 20 * 1024), between(random, 0, 20 * 1024), between(random, 0, 20 * 1024)});
+  const Values together = valuesOf({piece}, places, 512);
+  size_t solid = 0;
+  for (size_t i = 0; i < places.size(); ++i) {
+    CAPTURE(i);
+    const Values alone = valuesOf({piece}, {places[i]}, 512);
+    CHECK(alone.value[0] == together.value[i]);
+    CHECK(alone.x[0] == together.x[i]);
+    solid += together.value[i] < 0;
+  }
+  CHECK(solid > 30);
+  CHECK(solid < 270);
+}
