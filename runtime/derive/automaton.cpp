@@ -17,7 +17,7 @@ Counts filled(const Automaton& automaton, const VoxelBox& box) {
   const auto indexAt = [&](int axis, int32_t i) {
     return automaton.axes[static_cast<size_t>(axis)] ? box.first[axis] + i : 0;
   };
-  const auto least_void = static_cast<uint64_t>(std::clamp(automaton.fill, 0.0, 1.0) * 65536 + 0.5);
+  const auto first_void = static_cast<uint64_t>(std::clamp(automaton.fill, 0.0, 1.0) * 65536 + 0.5);
   Counts out;
   out.reserve(countAlong(box, 0) * countAlong(box, 1) * countAlong(box, 2));
   for (int32_t z = 0; z < box.count.z; ++z) {
@@ -28,7 +28,7 @@ Counts filled(const Automaton& automaton, const VoxelBox& box) {
       for (int32_t x = 0; x < box.count.x; ++x) {
         const int32_t index = indexAt(0, x), among = index & 3;
         if (x == 0 || among == 0) draws = under(row, index >> 2);
-        out.push_back((draws >> (16 * among) & 0xFFFF) < least_void ? 1 : 0);
+        out.push_back((draws >> (16 * among) & 0xFFFF) < first_void ? 1 : 0);
       }
     }
   }
