@@ -7,6 +7,7 @@
 #include "backend/cpu/instruction_sets.h"
 #include "field/density.h"
 #include "field/prune.h"
+#include "grammar/sink.h"
 
 namespace sgm {
 
@@ -145,9 +146,11 @@ class BlockFill {
 
 Result<void> check(const QueryField& field, const DensityGrid& grid) {
   if (!(grid.edge >= 1 && grid.edge <= double{kMostEdgeCells} * field.finest_cell)) {
-    return Error{Code::invalid_argument, "the edge of the density is not from 1 unit to " +
-                                             std::to_string(kMostEdgeCells) + " cells of level 0 wide, which is " +
-                                             std::to_string(int64_t{kMostEdgeCells} * field.finest_cell) + " units"};
+    return Error{Code::invalid_argument, "an edge of the density of " + numberText(grid.edge / kUnitsPerMetre) +
+                                             " m cannot be had here: it is " + "at least one unit wide, and at most " +
+                                             std::to_string(kMostEdgeCells) + " cells of level 0, " +
+                                             numberText(double{kMostEdgeCells} * field.finest_cell / kUnitsPerMetre) +
+                                             " m: make the edge narrower, or the cells larger"};
   }
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t steps = int64_t{grid.size[static_cast<size_t>(axis)]} - 1;
