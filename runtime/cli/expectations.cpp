@@ -80,6 +80,18 @@ struct Said {
   }
 };
 
+/// "the smallest: 0.25 m3 in 1,2,3 to 2,3,4 m; ...", of pieces that are counted. Nothing where there are none.
+std::optional<std::string> piecesText(const Measured& measured) {
+  constexpr size_t kMostNamed = 4;
+  const std::vector<MeasuredPiece>& pieces = measured.pieces;
+  if (pieces.empty()) return std::nullopt;
+  std::string text = *measured.value == 1 ? "it is" : "the smallest are";
+  for (size_t i = 0; i < std::min(pieces.size(), kMostNamed); ++i)
+    text += fmt::format("{} {:.4g} m3 in {} to {} m", i > 0 ? ";" : "", pieces[i].volume, metresText(pieces[i].box.lo),
+                        metresText(pieces[i].box.hi));
+  return text;
+}
+
 void print(const Said& said) {
   const Measure measure = said.statement.measure;
   const std::vector<Measured>& measured = said.outcome.measured;
@@ -117,8 +129,16 @@ Diagnostic diagnosticOf(const Said& said) {
     d.notes.push_back(fmt::format("{} of {}", std::count_if(all.begin(), all.end(), failed),
                                   spreadText(said.statement.measure, all)));
   }
+  if (const std::optional<std::string> pieces = piecesText(first)) d.notes.push_back(*pieces);
   d.notes.push_back(said.where());
   return d;
+}
+
+Json piecesJson(const Measured& m) {
+  Json json = Json::array();
+  for (const MeasuredPiece& piece : m.pieces)
+    json.push_back({{"volume", piece.volume}, {"box", {metresJson(piece.box.lo), metresJson(piece.box.hi)}}});
+  return json;
 }
 
 Json valueJson(Measure measure, const Measured& m) {
@@ -146,6 +166,7 @@ Json toJson(const Said& said) {
   } else if (!said.per()) {
     json["value"] = valueJson(e.measure, outcome.measured[0]);
     if (!outcome.measured[0].why.empty()) json["reason"] = outcome.measured[0].why;
+    if (e.measure == Measure::components) json["pieces"] = piecesJson(outcome.measured[0]);
   } else {
     const Spread spread = spreadOf(outcome.measured);
     json["rule"] = said.program.text(e.per_name);
@@ -156,6 +177,7 @@ Json toJson(const Said& said) {
       Json use{{"path", m.path}, {"at", metresJson(m.origin)}, {"value", valueJson(e.measure, m)}};
       if (!m.why.empty()) use["reason"] = m.why;
       if (e.expect) use["holds"] = m.holds;
+      if (e.measure == Measure::components) use["pieces"] = piecesJson(m);
       json["values"].push_back(std::move(use));
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 namespace sgm {
@@ -18,6 +19,17 @@ size_t endOfRun(const uint64_t* row, size_t x, size_t nx, bool solid) {
     x = (x / 64 + 1) * 64;
   }
   return nx;
+}
+
+void add(Piece& piece, const Piece& part) {
+  piece.samples += part.samples;
+  piece.box = piece.box.joined(part.box);
+}
+
+/// The order of Pieces.
+bool before(const Piece& a, const Piece& b) {
+  const Int3 l = a.box.lo, r = b.box.lo;
+  return std::tie(a.samples, l.z, l.y, l.x) < std::tie(b.samples, r.z, r.y, r.x);
 }
 
 }  // namespace
@@ -77,25 +89,32 @@ void ComponentCounter::joinRows(std::span<const Run> a, std::span<const Run> b, 
 void ComponentCounter::retire() {
   number_.assign(parent_.size(), kUnseen);
   uint32_t kept = 0;
-  std::pmr::vector<Piece> pieces(pieces_.get_allocator());
-  for (Run& run : next_.runs) {
-    uint32_t& number = number_[rootOf(run.piece)];
-    if (number == kUnseen) {
-      number = kept++;
-      pieces.push_back({run.solid, 0});
+  std::pmr::vector<Open> pieces(pieces_.get_allocator());
+  for (size_t y = 0; y < ny_; ++y) {
+    for (size_t i = next_.first[y]; i < next_.first[y + 1]; ++i) {
+      Run& run = next_.runs[i];
+      uint32_t& number = number_[rootOf(run.piece)];
+      if (number == kUnseen) {
+        number = kept++;
+        pieces.push_back({run.solid, {}});
+      }
+      run.piece = number;
+      const auto row = static_cast<int32_t>(y);
+      const IntBox box{{static_cast<int32_t>(run.begin), row, planes_},
+                       {static_cast<int32_t>(run.end) - 1, row, planes_}};
+      add(pieces[number].piece, {run.end - run.begin, box});
     }
-    run.piece = number;
-    pieces[number].samples += run.end - run.begin;
   }
   for (uint32_t i = 0; i < open_; ++i) {
     // Only runs of the new plane join pieces: what it has no part of is whole, and alone.
     const uint32_t number = number_[rootOf(i)];
     if (number != kUnseen) {
-      pieces[number].samples += pieces_[i].samples;
+      add(pieces[number].piece, pieces_[i].piece);
     } else {
-      (pieces_[i].solid ? closed_.solid : closed_.air).push_back(pieces_[i].samples);
+      (pieces_[i].solid ? closed_.solid : closed_.air).push_back(pieces_[i].piece);
     }
   }
+  ++planes_;
   open_ = kept;
   pieces_ = std::move(pieces);
   std::swap(last_, next_);
@@ -113,21 +132,23 @@ void ComponentCounter::addPlane(std::span<const uint64_t> signs) {
   retire();
 }
 
-PieceSizes ComponentCounter::sizes() const {
-  PieceSizes all = closed_;
-  for (const Piece& piece : pieces_) (piece.solid ? all.solid : all.air).push_back(piece.samples);
-  std::sort(all.solid.begin(), all.solid.end());
-  std::sort(all.air.begin(), all.air.end());
+Pieces ComponentCounter::pieces() const {
+  Pieces all = closed_;
+  for (const Open& open : pieces_) (open.solid ? all.solid : all.air).push_back(open.piece);
+  std::sort(all.solid.begin(), all.solid.end(), before);
+  std::sort(all.air.begin(), all.air.end(), before);
   return all;
 }
 
-Components PieceSizes::above(double samples) const {
-  const auto count = [samples](const std::vector<uint64_t>& sizes) {
-    const auto first = std::partition_point(sizes.begin(), sizes.end(),
-                                            [samples](uint64_t size) { return static_cast<double>(size) <= samples; });
-    return static_cast<uint64_t>(sizes.end() - first);
-  };
-  return {count(solid), count(air)};
+std::span<const Piece> largerThan(std::span<const Piece> pieces, double samples) {
+  const auto first = std::partition_point(pieces.begin(), pieces.end(), [samples](const Piece& piece) {
+    return static_cast<double>(piece.samples) <= samples;
+  });
+  return {first, pieces.end()};
+}
+
+Components Pieces::above(double samples) const {
+  return {largerThan(solid, samples).size(), largerThan(air, samples).size()};
 }
 
 }  // namespace sgm

@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "base/fixed.h"
+
 namespace sgm {
 
 struct Components {
@@ -19,16 +21,27 @@ struct Components {
   friend bool operator==(const Components&, const Components&) = default;
 };
 
-/// Samples of each piece, rising.
-struct PieceSizes {
-  std::vector<uint64_t> solid, air;
+/// A connected piece, in samples of the block.
+struct Piece {
+  uint64_t samples = 0;
+  IntBox box;  ///< around its samples, which lie on the box's faces
 
-  /// Of those with more samples than that.
-  Components above(double samples) const;
-  friend bool operator==(const PieceSizes&, const PieceSizes&) = default;
+  friend bool operator==(const Piece&, const Piece&) = default;
 };
 
-/// Counts plane by plane, and remembers no more than the last plane, and how large the pieces before it were.
+/// The smallest ones first; of equal ones that with the lowest corner, by z, then y, then x.
+struct Pieces {
+  std::vector<Piece> solid, air;
+
+  /// How many have more samples than that.
+  Components above(double samples) const;
+  friend bool operator==(const Pieces&, const Pieces&) = default;
+};
+
+/// Those with more samples than that. pieces: as Pieces has them.
+std::span<const Piece> largerThan(std::span<const Piece> pieces, double samples);
+
+/// Counts plane by plane, and remembers no more than the last plane, and how large and where the pieces before it were.
 class ComponentCounter {
  public:
   /// Of nx by ny samples a plane, at least one each.
@@ -42,7 +55,7 @@ class ComponentCounter {
   void addPlane(std::span<const uint64_t> signs);
 
   /// Of all planes so far.
-  PieceSizes sizes() const;
+  Pieces pieces() const;
 
  private:
   /// Equal signs side by side: samples begin <= x < end of one row.
@@ -71,12 +84,13 @@ class ComponentCounter {
   uint32_t open_ = 0;                  ///< pieces that the last plane has
   std::pmr::vector<uint32_t> parent_;  ///< union-find over the pieces of the last plane, then the runs of the next
   std::pmr::vector<uint32_t> number_;
-  struct Piece {
+  struct Open {
     bool solid = false;
-    uint64_t samples = 0;
+    Piece piece;
   };
-  std::pmr::vector<Piece> pieces_;  ///< that the last plane has
-  PieceSizes closed_;               ///< of those that it does not have, in no order
+  std::pmr::vector<Open> pieces_;  ///< that the last plane has
+  Pieces closed_;                  ///< of those that it does not have, in no order
+  int32_t planes_ = 0;
 };
 
 }  // namespace sgm

@@ -45,6 +45,18 @@ WantedMeasures wantedFor(const Program& program, std::span<const uint32_t> state
   return wanted;
 }
 
+/// Around the cubes of its samples.
+MeasuredPiece placed(const Piece& piece, const RegionMeasures& region) {
+  MeasuredPiece out;
+  out.volume = static_cast<double>(piece.samples) * region.sample;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t first = int64_t{region.extent.lo[axis]} - region.cell / 2;
+    out.box.lo[axis] = saturate(first + int64_t{piece.box.lo[axis]} * region.cell);
+    out.box.hi[axis] = saturate(first + (int64_t{piece.box.hi[axis]} + 1) * region.cell);
+  }
+  return out;
+}
+
 /// Everything but the anchors.
 Measured read(const Program& program, const Expectation& e, const RegionMeasures& region) {
   Measured result;
@@ -55,12 +67,16 @@ Measured read(const Program& program, const Expectation& e, const RegionMeasures
       break;
     case Measure::components: {
       if (e.above != kNoId && e.above_number < region.sample) {
-        result.why = "one sample stands for " + numberText(region.sample) + " m3, which is more than what is asked about: "
+        result.why = "one sample stands for " + numberText(region.sample) +
+                     " m3, which is more than what is asked about: "
                      "measure with smaller cells";
         break;
       }
-      const Components larger = region.pieces.above(e.above_number / region.sample);
-      result.value = static_cast<double>(program.text(e.of) == "air" ? larger.air : larger.solid);
+      const std::span<const Piece> found = largerThan(
+          program.text(e.of) == "air" ? region.pieces.air : region.pieces.solid, e.above_number / region.sample);
+      result.value = static_cast<double>(found.size());
+      for (const Piece& piece : found.first(std::min(found.size(), kMostPieces)))
+        result.pieces.push_back(placed(piece, region));
       break;
     }
     case Measure::volume:
@@ -244,7 +260,7 @@ class Evaluator {
     RegionMeasures measures;
     measures.topology.watertight = true;
     measures.topology.genus = 0;
-    measures.pieces.air = {std::numeric_limits<uint64_t>::max()};
+    measures.pieces.air = {{std::numeric_limits<uint64_t>::max(), {}}};
     measures.sample = 1;
     return measures;
   }

@@ -3,7 +3,8 @@
 //
 // What is measured
 //   watertight  yes where the surface is a manifold and every open edge lies in the region's outer border
-//   components  connected pieces of the solid (solid, or nothing written) or of the void (air) inside the region, joined
+//   components  connected pieces of the solid (solid, or nothing written) or of the void (air) inside the region,
+//   joined
 //               as the mesh joins them (components.h); `above V`: of those whose samples stand for more than V, not
 //               measured where one sample does
 //   volume      m3 of the solid inside the region, whatever the domain is made of
@@ -42,13 +43,22 @@ struct ExpectationSettings {
   size_t cache_bytes = size_t{64} << 20;
 };
 
+struct MeasuredPiece {
+  double volume = 0;  ///< m3 that its samples stand for
+  IntBox box;         ///< around them, units
+};
+
+/// Pieces that are listed of those that are counted: the smallest.
+inline constexpr size_t kMostPieces = 16;
+
 /// One thing measured: the region as a whole, or one use of a rule.
 struct Measured {
-  std::optional<double> value;  ///< SI; a count; watertight: 1 or 0. Nothing where it cannot be measured
-  std::string why;              ///< it cannot be measured, or is not watertight; else empty
-  std::string path;             ///< of a use of a rule: its derivation path
-  Int3 origin;                  ///< of a use of a rule: its frame, in units
-  bool holds = true;            ///< of a report always
+  std::optional<double> value;          ///< SI; a count; watertight: 1 or 0. Nothing where it cannot be measured
+  std::string why;                      ///< it cannot be measured, or is not watertight; else empty
+  std::string path;                     ///< of a use of a rule: its derivation path
+  Int3 origin;                          ///< of a use of a rule: its frame, in units
+  bool holds = true;                    ///< of a report always
+  std::vector<MeasuredPiece> pieces{};  ///< components: the smallest of those counted, rising; at most kMostPieces
 };
 
 struct Outcome {

@@ -53,7 +53,7 @@ class PlaneReader {
     }
   }
 
-  PieceSizes sizes() const { return counter_.sizes(); }
+  Pieces pieces() const { return counter_.pieces(); }
 
  private:
   size_t nx_, ny_, words_;
@@ -103,7 +103,8 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
   for (int axis = 0; axis < 3; ++axis) result.extent.hi[axis] += kChunkCells * cell;
   result.volume = cubeVolume(solid_samples, cell);
   result.sample = cubeVolume(1, cell);
-  if (planes) result.pieces = planes->sizes();
+  result.cell = cell;
+  if (planes) result.pieces = planes->pieces();
   if (!wanted.surface) return result;
 
   std::pmr::vector<PlacedPart> parts(world.memory());

@@ -22,8 +22,9 @@ struct RegionMeasures {
   uint64_t triangles = 0;  ///< each once; none of the faces where the border cuts the solid
   double volume = 0;       ///< m3 of the solid: equation 8 of the paper (cubeVolume() in measure.h)
   double sample = 0;       ///< m3 that one stands for
+  int32_t cell = 0;        ///< from one sample to the next, units; the first lies at extent.lo
   double area = 0;         ///< m2, equation 7, of the surface without the cut faces; 0 where not wanted
-  PieceSizes pieces;       ///< of all samples of the region, those on its high faces included; none where not wanted
+  Pieces pieces;           ///< of all samples of the region, those on its high faces included; none where not wanted
   Topology topology;       ///< empty where not wanted
 };
 

@@ -71,6 +71,20 @@ expect 1 "$SGM" check --expect bar.sgm
 out_has "bar.sgm:5:1: report: genus = not measured: the region's border cuts the surface"
 err_has "bar.sgm:6:1: error: expected genus == 0 in block\(1\), but it is not measured: the region's border cuts"
 
+# Where pieces lie that should not be: the smallest first, around the cubes of their samples.
+cat >stray.sgm <<'END'
+sgm 1;
+domain finite box(64m);
+start Main;
+rule Main { sphere(9m); at(20m, 0m, 0m) sphere(2.2m); at(-20m, 4m, 0m) box(1.2m); }
+expect components == 1;
+END
+expect 1 "$SGM" check --expect stray.sgm --cell 1
+err_has 'but it is 3'
+err_has 'note: the smallest are 1 m3 in -20.5,3.5,-0.5 to -19.5,4.5,0.5 m; [0-9.]+ m3 in 17.5,-2.5,-2.5 to 22.5,2.5,2.5 m; '
+expect 1 "$SGM" check --expect stray.sgm --cell 1 --json
+out_has '"pieces":'
+
 # Below one sample nothing can be told apart.
 sed 's/^report genus;/report components(solid above 0.01m3);/; s/^expect .*/expect components(solid above 2m3) >= 1;/' bar.sgm >small.sgm
 expect 0 "$SGM" check --expect small.sgm --cell 1 --region=-16,0,0:16,16,16

@@ -14,7 +14,7 @@ namespace sgm::test {
 
 /// solid(x, y, z) for 0 <= x < nx and so on. On each face of each cell the rule cuts off every maximal run of solid
 /// corners by itself: so the corners of a run are one piece, and all void corners of the face are one.
-inline PieceSizes bruteForce(int nx, int ny, int nz, const std::function<bool(int, int, int)>& solid) {
+inline Pieces bruteForce(int nx, int ny, int nz, const std::function<bool(int, int, int)>& solid) {
   std::vector<int> parent(static_cast<size_t>(nx) * static_cast<size_t>(ny) * static_cast<size_t>(nz));
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
@@ -48,20 +48,26 @@ inline PieceSizes bruteForce(int nx, int ny, int nz, const std::function<bool(in
       }
     }
   }
-  std::map<int, uint64_t> samples;
+  std::map<int, Piece> pieces;
   std::map<int, bool> is_solid;
   for (int z = 0; z < nz; ++z) {
     for (int y = 0; y < ny; ++y) {
       for (int x = 0; x < nx; ++x) {
-        ++samples[root(number(x, y, z))];
+        Piece& piece = pieces[root(number(x, y, z))];
+        ++piece.samples;
+        piece.box = piece.box.joined({{x, y, z}, {x, y, z}});
         is_solid[root(number(x, y, z))] = solid(x, y, z);
       }
     }
   }
-  PieceSizes found;
-  for (const auto& [piece, size] : samples) (is_solid[piece] ? found.solid : found.air).push_back(size);
-  std::sort(found.solid.begin(), found.solid.end());
-  std::sort(found.air.begin(), found.air.end());
+  Pieces found;
+  for (const auto& [number_of, piece] : pieces) (is_solid[number_of] ? found.solid : found.air).push_back(piece);
+  const auto before = [](const Piece& a, const Piece& b) {
+    const auto key = [](const Piece& p) { return std::tuple(p.samples, p.box.lo.z, p.box.lo.y, p.box.lo.x); };
+    return key(a) < key(b);
+  };
+  std::sort(found.solid.begin(), found.solid.end(), before);
+  std::sort(found.air.begin(), found.air.end(), before);
   return found;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using Solid = std::function<bool(int, int, int)>;
 
-PieceSizes sized(int nx, int ny, int nz, const Solid& solid) {
+Pieces pieced(int nx, int ny, int nz, const Solid& solid) {
   const auto columns = static_cast<size_t>(nx), rows = static_cast<size_t>(ny);
   const size_t words = ComponentCounter::rowWords(columns);
   ComponentCounter counter(columns, rows);
@@ -29,10 +29,10 @@ PieceSizes sized(int nx, int ny, int nz, const Solid& solid) {
     }
     counter.addPlane(plane);
   }
-  return counter.sizes();
+  return counter.pieces();
 }
 
-Components counted(int nx, int ny, int nz, const Solid& solid) { return sized(nx, ny, nz, solid).above(0); }
+Components counted(int nx, int ny, int nz, const Solid& solid) { return pieced(nx, ny, nz, solid).above(0); }
 
 }  // namespace
 
@@ -73,11 +73,11 @@ TEST_CASE("random blocks have the pieces that a flood fill over the mesh's rule 
     for (size_t i = 0; i < signs.size(); ++i) signs[i] = std::bernoulli_distribution(density)(random);
     const Solid solid = [&](int x, int y, int z) { return signs[static_cast<size_t>(x + nx * (y + ny * z))]; };
     INFO("seed " << seed << ": " << nx << " x " << ny << " x " << nz << ", density " << density);
-    const PieceSizes found = sized(nx, ny, nz, solid), wanted = bruteForce(nx, ny, nz, solid);
+    const Pieces found = pieced(nx, ny, nz, solid), wanted = bruteForce(nx, ny, nz, solid);
     CHECK(found.solid == wanted.solid);
     CHECK(found.air == wanted.air);
     for (const uint64_t least : {uint64_t{0}, uint64_t{1}, uint64_t{5}, uint64_t{100}}) {
-      const auto larger = [least](uint64_t samples) { return samples > least; };
+      const auto larger = [least](const Piece& piece) { return piece.samples > least; };
       CHECK(found.above(static_cast<double>(least)).solid ==
             static_cast<uint64_t>(std::count_if(wanted.solid.begin(), wanted.solid.end(), larger)));
     }
