@@ -88,37 +88,51 @@ Result<void> FlightPlanner::settle(Int3 near, int32_t reach) {
     if (Result<void> ok = findSolids(near); !ok) return ok.error();
     near = waypoint(waypoint_);
   }
-  std::vector<Int3> places{near};
-  if (domain_.solid != 0) {
-    places = anchorsNear(near, reach);
-    // Without anchors, wherever there is void.
-    for (int32_t half = 32 * kUnitsPerMetre; half <= reach; half *= 4) {
-      std::vector<Int3> lattice;
-      for (int i = 0; i < 24 * 24 * 24; ++i) {
-        const std::array<int, 3> at{i % 24, i / 24 % 24, i / 576};
-        Int3 place;
-        for (int axis = 0; axis < 3; ++axis)
-          place[axis] = saturate(near[axis] + int64_t{2 * at[static_cast<size_t>(axis)] - 23} * half / 24);
-        lattice.push_back(place);
-      }
-      std::stable_sort(lattice.begin(), lattice.end(),
-                       [&](Int3 a, Int3 b) { return distanceSquared(a, near) < distanceSquared(b, near); });
-      const Result<std::vector<bool>> solid = solidAt(field_, lattice);
-      if (!solid) return solid.error();
-      size_t found = 0;
-      for (size_t i = 0; i < lattice.size() && found < 16; ++i)
-        if (!(*solid)[i]) places.push_back(lattice[i]), ++found;
+  const auto settleAt = [&](const std::vector<Int3>& places) {
+    for (const Int3 place : places) {
+      const std::optional<Int3> node = grid_->nearestClear(grid_->nodeAt(place), domain_.solid != 0 ? 4 : 24);
+      if (!node || !leadsOn(*node)) continue;
+      node_ = *node;
+      return true;
     }
-  }
-  for (const Int3 place : places) {
-    const std::optional<Int3> node = grid_->nearestClear(grid_->nodeAt(place), domain_.solid != 0 ? 4 : 24);
-    if (!node || !leadsOn(*node)) continue;
-    node_ = *node;
-    return {};
+    return false;
+  };
+  if (settleAt(domain_.solid != 0 ? anchorsNear(near, reach) : std::vector<Int3>{near})) return {};
+  // Without anchors, wherever there is void: farther off only where there is none here, as places cost a derivation.
+  for (int32_t half = 32 * kUnitsPerMetre; domain_.solid != 0 && half <= reach; half *= 4) {
+    const Result<std::vector<Int3>> found = voidsNear(near, half);
+    if (!found) return found.error();
+    if (settleAt(*found)) return {};
   }
   if (grid_->error()) return *grid_->error();
   return noRoom(fmt::format("found no void to fly in, {} m wide, near {:.0f},{:.0f},{:.0f} m", metres(grid_->step()),
                             metres(near.x), metres(near.y), metres(near.z)));
+}
+
+/// The 16 nearest of places up to `half` units away that are in the void.
+Result<std::vector<Int3>> FlightPlanner::voidsNear(Int3 near, int32_t half) {
+  constexpr size_t kMostPlaces = 16;
+  std::vector<Int3> lattice;
+  for (int i = 0; i < 24 * 24 * 24; ++i) {
+    const std::array<int, 3> at{i % 24, i / 24 % 24, i / 576};
+    Int3 place;
+    for (int axis = 0; axis < 3; ++axis)
+      place[axis] = saturate(near[axis] + int64_t{2 * at[static_cast<size_t>(axis)] - 23} * half / 24);
+    lattice.push_back(place);
+  }
+  std::stable_sort(lattice.begin(), lattice.end(),
+                   [&](Int3 a, Int3 b) { return distanceSquared(a, near) < distanceSquared(b, near); });
+  std::vector<Int3> places;
+  // Most often the first ones will do, of which there are not many cells to derive.
+  constexpr size_t kAtOnce = 512;
+  for (size_t first = 0; first < lattice.size() && places.size() < kMostPlaces; first += kAtOnce) {
+    const std::span<const Int3> asked = std::span(lattice).subspan(first, std::min(kAtOnce, lattice.size() - first));
+    const Result<std::vector<bool>> solid = solidAt(field_, asked);
+    if (!solid) return solid.error();
+    for (size_t i = 0; i < asked.size() && places.size() < kMostPlaces; ++i)
+      if (!(*solid)[i]) places.push_back(asked[i]);
+  }
+  return places;
 }
 
 bool FlightPlanner::leadsOn(Int3 node) {

@@ -41,6 +41,7 @@ class FlightPlanner {
   /// Begins near a place; anchors count up to `reach` units away.
   Result<void> settle(Int3 near, int32_t reach);
   std::vector<Int3> anchorsNear(Int3 place, int32_t reach);
+  Result<std::vector<Int3>> voidsNear(Int3 near, int32_t half);
   Result<void> findSolids(Int3 near);
   bool leadsOn(Int3 node);
   Result<std::vector<Int3>> wayOn();
