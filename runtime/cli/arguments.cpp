@@ -139,7 +139,7 @@ void addRegionOptions(CLI::App& app, WorldOptions& options) {
       ->type_name("BOX")
       ->check(checkRegion);
   CLI::Option* cell =
-      app.add_option("--cell", options.cell, "Edge of a sampling cell in metres (0.5)")->type_name("METRES");
+      app.add_option("--cell", options.cell, "Edge of a sampling cell in metres (0.5; larger where a large part of an endless world is chosen)")->type_name("METRES");
   app.add_option("--ld", options.density, "Sampling density of the paper: cells per metre, so a cell edge of 1/N m")
       ->type_name("N")
       ->excludes(cell);

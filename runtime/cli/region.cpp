@@ -2,18 +2,21 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <tuple>
 
 #include "api/backend_request.h"
 #include "cli/source.h"
+#include "metrics/places.h"
 #include "stream/surface_shapes.h"
 
 namespace sgm::cli {
 namespace {
 
 constexpr size_t kMostNotes = 10;
+constexpr uint64_t kChosenChunks = 4096;  // at most, of a region that the user has not chosen
 
 RegionResult failure(Exit status) { return {std::nullopt, status}; }
 
@@ -63,6 +66,22 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
   }
 }
 
+bool isCut(const Region& region) {
+  const IntBox& extent = region.meshed.extent;
+  const Int3 origin = region.meshed.mesh.origin;
+  std::array<double, 3> low{}, high{};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const int a = static_cast<int>(axis);
+    low[axis] = static_cast<double>(int64_t{extent.lo[a]} - origin[a]) / kUnitsPerMetre;
+    high[axis] = static_cast<double>(int64_t{extent.hi[a]} - origin[a]) / kUnitsPerMetre;
+  }
+  return std::ranges::any_of(region.meshed.mesh.positions, [&](const std::array<double, 3>& p) {
+    bool outermost = false;
+    for (size_t axis = 0; axis < 3; ++axis) outermost |= p[axis] == low[axis] || p[axis] == high[axis];
+    return outermost;
+  });
+}
+
 Json toJson(const WorldOptions& options, const Region& region) {
   const IntBox& extent = region.meshed.extent;
   const Int3 origin = region.meshed.mesh.origin;
@@ -85,6 +104,7 @@ Json toJson(const WorldOptions& options, const Region& region) {
           {"cell_units", region.cell},
           {"density", 1 / metres(region.cell)},
           {"region", {metresJson(extent.lo), metresJson(extent.hi)}},
+          {"cut", isCut(region)},
           {"origin", metresJson(origin)},
           {"origin_units", {origin.x, origin.y, origin.z}},
           {"anchors", region.anchors.size()},
@@ -99,8 +119,8 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
     if (!given) return failure(complain(given.error()));
     region = *given;
   }
-  const Result<int32_t> cell = cellUnits(options);
-  if (!cell) return failure(complain(cell.error()));
+  const Result<int32_t> given_cell = cellUnits(options);
+  if (!given_cell) return failure(complain(given_cell.error()));
 
   LoadedGrammar grammar = loadGrammar(options.file);
   if (grammar.program == nullptr) return failure(grammar.status);
@@ -126,15 +146,20 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   settings.program = grammar.program;
   settings.parameters = std::move(*parameters);
   settings.seed = options.seed;
-  settings.finest_cell = *cell;
+  settings.finest_cell = *given_cell;
   settings.cache_bytes = kCacheBytes;
-  const WorldField world(std::move(settings), memory);
-
   if (!region) {
-    const Result<IntBox> chosen = plan.choose(world);
+    const Result<IntBox> chosen = plan.choose(WorldField(settings, memory));
     if (!chosen) return failure(complain(chosen.error()));
     region = *chosen;
+    if (!options.cell && !options.density) {
+      const Result<int32_t> fitting = cellFor(std::span(&*region, 1), std::min(kChosenChunks, options.max_chunks));
+      if (!fitting) return failure(complain(fitting.error()));
+      settings.finest_cell = *fitting;
+    }
   }
+  const int32_t cell = settings.finest_cell;
+  const WorldField world(std::move(settings), memory);
   Result<api::RegionMesh> meshed = [&] {
     ProgressBar bar("meshing");
     return api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks,
@@ -153,14 +178,14 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
     texture = std::move(*unwrapped);
   }
   const double seconds = watch.seconds();
-  const Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, *cell << options.level);
+  const Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, cell << options.level);
   if (!notes) return failure(complain(notes.error()));
   warnOfNotes(options.file, *notes);
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
   Region result{grammar.program,
                 std::move(*meshed),
-                *cell << options.level,
+                cell << options.level,
                 std::move(*anchors),
                 backendName(capabilities.kind),
                 capabilities.device,

@@ -43,6 +43,9 @@ sgm_backend backendNamed(const std::string& name);
 /// What derivation left out, each message once a place in the grammar, to stderr.
 void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes);
 
+/// Whether the region's border cuts the surface, which goes on beyond it.
+bool isCut(const Region& region);
+
 /// What --json says of a region, whatever is done with it.
 Json toJson(const WorldOptions& options, const Region& region);
 
@@ -64,8 +67,8 @@ struct RegionPlan {
 };
 
 /// Reads, compiles and meshes what the options say. The region is --region; without it, all of a finite world, or what
-/// the plan chooses of an endless one (else --region must be given). Messages go to stderr, a progress bar too where
-/// that is a terminal.
+/// the plan chooses of an endless one (else --region must be given), with cells as large as that needs where --cell
+/// does not say. Messages go to stderr, a progress bar too where that is a terminal.
 RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan = {});
 
 }  // namespace sgm::cli

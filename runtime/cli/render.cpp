@@ -4,20 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/materials.h"
 #include "cli/region_density.h"
+#include "cli/surroundings.h"
 #include "mesh/vertex.h"
 #include "render/camera.h"
 #include "render/renderer.h"
 
 namespace sgm::cli {
 namespace {
-
-constexpr int64_t kAroundUnits = int64_t{48} * kUnitsPerMetre;
 
 /// Drawable vertices. The renderer counts from the mesh's origin, as the mesh does.
 std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
@@ -58,13 +56,6 @@ glm::vec3 fromOrigin(const WorldMesh& mesh, const std::array<double, 3>& world) 
     point[axis] =
         static_cast<float>(world[static_cast<size_t>(axis)] - static_cast<double>(mesh.origin[axis]) / kUnitsPerMetre);
   return point;
-}
-
-/// Whether an anchor's name, kind or tag is the one asked for; none asked for is any.
-bool isWanted(const Program& program, const Anchor& anchor, std::string_view wanted) {
-  const std::string_view name = program.names[anchor.name], kind = program.names[anchor.kind];
-  const std::string_view tag = program.tags[anchor.tag];
-  return wanted.empty() || name == wanted || kind == wanted || tag == wanted;
 }
 
 std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) {
@@ -116,42 +107,6 @@ std::array<double, 3> worldPoint(const WorldMesh& mesh, const glm::vec3& point) 
   return world;
 }
 
-IntBox around(const std::array<int64_t, 3>& centre) {
-  IntBox box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lo[axis] = saturate(centre[static_cast<size_t>(axis)] - kAroundUnits);
-    box.hi[axis] = saturate(centre[static_cast<size_t>(axis)] + kAroundUnits);
-  }
-  return box;
-}
-
-/// What is drawn of an endless world without --region: what lies around the camera, else around the anchor asked for
-/// (any, where none is) that is nearest to the world's origin, else around the origin.
-Result<IntBox> surroundings(const RenderOptions& options, const WorldField& world) {
-  std::array<int64_t, 3> centre{};
-  if (!options.camera.empty()) {
-    const std::array<double, 3> from = (*readCamera(options.camera))[0];
-    for (size_t axis = 0; axis < 3; ++axis) centre[axis] = static_cast<int64_t>(from[axis] * kUnitsPerMetre);
-    return around(centre);
-  }
-  for (const int32_t metres : {128, 256, 512}) {
-    const int32_t units = metres * kUnitsPerMetre;
-    const Result<std::vector<Anchor>> anchors = world.anchors({{-units, -units, -units}, {units, units, units}});
-    if (!anchors) return anchors.error();
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Anchor& anchor : *anchors) {
-      if (!isWanted(*world.settings().program, anchor, options.at)) continue;
-      const Int3 p = anchor.frame.origin;
-      const double distance = 1.0 * p.x * p.x + 1.0 * p.y * p.y + 1.0 * p.z * p.z;
-      if (distance >= nearest) continue;
-      nearest = distance;
-      centre = {p.x, p.y, p.z};
-    }
-    if (std::isfinite(nearest)) break;
-  }
-  return around(centre);
-}
-
 Result<Image> drawMesh(const Renderer& renderer, const Drawable& drawn, const Region& region, const View& view) {
   const std::vector<RenderMaterial> materials = renderMaterials(*region.program);
   RenderScene scene;
@@ -198,7 +153,10 @@ Exit render(const RenderOptions& options) {
   if (!file) return complain(file.error());
   RegionPlan plan;
   plan.texture = true;
-  plan.choose = [&](const WorldField& world) { return surroundings(options, world); };
+  plan.choose = [&](const WorldField& world) -> Result<IntBox> {
+    if (!options.camera.empty()) return surroundingsOf((*readCamera(options.camera))[0]);
+    return surroundings(world, options.at);
+  };
   std::optional<RegionDensity> density;
   if (options.volume) {
     plan.check = checkDensity;
@@ -212,7 +170,8 @@ Exit render(const RenderOptions& options) {
   const RegionResult made = meshRegion(options, plan);
   if (!made.region) return made.status;
   const Region& region = *made.region;
-  if (region.meshed.mesh.indices.empty()) return complain(Exit::input, "there is no surface in the region to draw");
+  if (region.meshed.mesh.indices.empty())
+    return complain(Exit::input, "there is no surface in the region to draw: say with --region where there is one");
 
   const Stopwatch watch;
   const Drawable drawn = drawable(region, options.uv);
@@ -245,6 +204,7 @@ Exit render(const RenderOptions& options) {
     if (density)
       fmt::print("  density  at {} points in {:.2f} s, {} of {} bricks proven to be clear or full\n",
                  density->values.size(), density->seconds, density->figures.uniform, density->figures.bricks);
+    if (isCut(region)) fmt::print("  border   cuts the surface, which goes on: --region takes more of it, or less\n");
     fmt::print("  camera   at {:.1f},{:.1f},{:.1f} m{}\n", position[0], position[1], position[2],
                view->enclosed ? ", inside" : "");
   }

@@ -39,6 +39,19 @@ cmp -s chequered.png looked.png && failed "chequers are not drawn"
 rm chequered.png
 expect 0 "$SGM" render "$cave" --out at.png --at spawn --region=0,0,0:192,192,192 --cell 2 --size 64x64 --seed 7
 picture at.png 64 64
+# Of an endless world, what there is nearest to the origin, whole, with cells as large as that needs.
+cat >sky.sgm <<'END'
+sgm 1;
+domain infinite axes xz;
+layer sky cell 2km reach 1km { start Sky; }
+rule Sky { at(1.4km, 1.8km, 900m) sphere(300m); }
+END
+expect 0 "$SGM" render sky.sgm --out sky.png --size 64x64 --json
+json 'j.cut === false && j.cell === 2 && j.triangles > 0'
+expect 0 "$SGM" render sky.sgm --out part.png --size 64x64 --region=1400,1800,900:1800,2200,1200 --cell 8
+out_has 'border +cuts the surface, which goes on'
+rm sky.sgm sky.png part.png
+
 expect 0 "$SGM" render "$cave" --out level.png --level 1 --cell 1 --size 64x64 --seed 7 --json
 json 'j.level === 1 && j.cell === 2'
 # The solid as fog, from the same camera.
