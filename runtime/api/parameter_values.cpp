@@ -44,10 +44,13 @@ Result<void> setFromText(const Program& program, std::string_view name, std::str
 
   const Token& number = lexed.tokens[at];
   const Dim wanted = program.params[*index].dim;
+  const double value = negative ? -number.value : number.value;
+  if (wanted == kLength && number.dim == kRatio && value != 0 && program.unit != kNoId)
+    return setFromText(program, name, join({text, program.text(program.unit)}), values);
   if (!(number.dim == wanted) && !(number.value == 0 && number.dim == kRatio))
     return Error{Code::bad_input, join({"parameter '", name, "' is of dimension ", dimName(wanted), ", and '", text,
                                         "' of dimension ", dimName(number.dim)})};
-  return values.set(program, name, negative ? -number.value : number.value);
+  return values.set(program, name, value);
 }
 
 }  // namespace sgm::api

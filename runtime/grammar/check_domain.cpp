@@ -146,6 +146,7 @@ void Checker::seedAndDomain() {
         program_.seed = static_cast<uint64_t>(*value);
     }
   }
+  program_.unit = root.unit;
   const DomainDecl& decl = root.domain;
   Domain& domain = program_.domain;
   domain.written = decl.present;

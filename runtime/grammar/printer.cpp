@@ -314,7 +314,7 @@ std::string printMeaning(const Program& program, const ModuleSyntax& syntax) {
   const LinePrinter line(program, true);
   std::string out;
   for (const Item& item : syntax.items) {
-    if (item.kind == ItemKind::expectation) continue;
+    if (item.kind == ItemKind::expectation || item.kind == ItemKind::units) continue;
     if (item.kind == ItemKind::param)
       paramMeaning(out, program, line, program.params[item.index]);
     else

@@ -218,6 +218,7 @@ class Program {
   std::pmr::vector<Rule> rules;
   std::pmr::vector<Layer> layers;
   Domain domain;
+  NameId unit = kNoId;                           ///< `units`: of lengths that are given from outside without one
   uint64_t seed = 0;                             ///< from `seed`; combine with the world's seed
   std::pmr::vector<std::pmr::string> materials;  ///< [0] is "" (none)
   std::pmr::vector<std::pmr::string> tags;       ///< [0] is ""

@@ -97,6 +97,28 @@ TEST_CASE("names by index") {
   CHECK(sgm_grammar_layer(grammar.get(), 1, &layer) == SGM_ERR_NOT_FOUND);
 }
 
+TEST_CASE("lengths without a unit are in the grammar's units") {
+  RuntimeOwner runtime = makeRuntime();
+  for (const auto& [units, radius] :
+       {std::pair{"units cm; ", 0.3}, {"units mm; ", 0.03}, {"units m; ", 30.0}, {"", -1.0}}) {
+    CAPTURE(units);
+    const GrammarOwner grammar =
+        compile(runtime.get(), (std::string("sgm 1; ") + units +
+                                "param r = 2m in 1mm..5km; domain finite box(9km); start A; rule A { sphere(r); }")
+                                   .c_str());
+    sgm_parameters* made = nullptr;
+    sgm_error error = SGM_ERROR_INIT;
+    REQUIRE(sgm_parameters_create(grammar.get(), &made, &error) == SGM_OK);
+    const ParametersOwner parameters(made);
+    CHECK(sgm_parameters_set_text(made, "r", "30", &error) == (radius > 0 ? SGM_OK : SGM_ERR_GRAMMAR));
+    double value = -1;
+    CHECK(sgm_parameters_get(made, "r", &value, nullptr) == SGM_OK);
+    CHECK(value == (radius > 0 ? radius : 2.0));
+    CHECK(sgm_parameters_set_text(made, "r", "50%", &error) == SGM_ERR_GRAMMAR);
+    CHECK(sgm_parameters_set_text(made, "r", "4km", &error) == SGM_OK);
+  }
+}
+
 TEST_CASE("parameters are listed, set within their range, and read back") {
   RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compile(runtime.get(), kBall);
@@ -143,7 +165,7 @@ TEST_CASE("parameters are listed, set within their range, and read back") {
     sgm_result result;
   };
   for (const Wrong& wrong :
-       {Wrong{"radius", "2", SGM_ERR_GRAMMAR}, Wrong{"radius", "2deg", SGM_ERR_GRAMMAR},
+       {Wrong{"turn", "2", SGM_ERR_GRAMMAR}, Wrong{"radius", "2deg", SGM_ERR_GRAMMAR},
         Wrong{"radius", "", SGM_ERR_GRAMMAR}, Wrong{"radius", "2m 3m", SGM_ERR_GRAMMAR},
         Wrong{"radius", "wide", SGM_ERR_GRAMMAR}, Wrong{"radius", "9m", SGM_ERR_INVALID_ARGUMENT},
         Wrong{"count", "2.5", SGM_ERR_INVALID_ARGUMENT}, Wrong{"raduis", "2m", SGM_ERR_NOT_FOUND}}) {

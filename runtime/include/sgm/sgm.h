@@ -433,7 +433,15 @@ SGM_API uint32_t sgm_grammar_parameter_count(const sgm_grammar* grammar); /* 0 f
 /* SGM_ERR_NOT_FOUND: no such index. */
 SGM_API sgm_result sgm_grammar_parameter(const sgm_grammar* grammar, uint32_t index, sgm_parameter_info* out);
 
-/* A value for every parameter of one grammar, at first the defaults. A field copies it when it is made. */
+/* A value for every parameter of one grammar, at first the defaults. A field copies it when it is made, so that a world
+ * is given a new field to show other values (sgm_world_set_field); what does not depend on them stays as it is:
+ *
+ *   sgm_parameters_set(parameters, "wet", 0.7, &error);
+ *   field_desc.parameters = parameters;
+ *   sgm_field_create(runtime, &field_desc, &field, &error);
+ *   sgm_world_set_field(world, field, &error);
+ *   sgm_field_destroy(field);    the world keeps it for as long as it needs it
+ */
 typedef struct sgm_parameters sgm_parameters;
 
 SGM_API sgm_result sgm_parameters_create(const sgm_grammar* grammar, sgm_parameters** out, sgm_error* error);
@@ -441,8 +449,8 @@ SGM_API sgm_result sgm_parameters_destroy(sgm_parameters* parameters);
 /* SGM_ERR_NOT_FOUND: no such parameter (the message offers the nearest name). SGM_ERR_INVALID_ARGUMENT: not finite, not
  * whole where it must be, or outside the parameter's range. On failure nothing changes. */
 SGM_API sgm_result sgm_parameters_set(sgm_parameters* parameters, const char* name, double value, sgm_error* error);
-/* As above from a text as the language writes it, "0.3", "50%", "12m"; SGM_ERR_GRAMMAR where it is no number or its
- * unit is wrong. */
+/* As above from a text as the language writes it, "0.3", "50%", "12m"; a length without a unit is in the grammar's
+ * `units`, where it has such a line. SGM_ERR_GRAMMAR where it is no number or its unit is wrong. */
 SGM_API sgm_result sgm_parameters_set_text(sgm_parameters* parameters, const char* name, const char* text,
                                            sgm_error* error);
 SGM_API sgm_result sgm_parameters_get(const sgm_parameters* parameters, const char* name, double* value,
