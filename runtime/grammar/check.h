@@ -136,6 +136,7 @@ class Checker {
   void overrideTags();
   void orderPaths();
   void hiddenOverrides();
+  void usesThatNeverCome();  // check_uses.cpp
   void holdOverrides();
   void markOverrides(IdRange overrides, bool cuts);
   void markOverride(uint32_t index, bool cuts);

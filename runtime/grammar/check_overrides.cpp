@@ -80,6 +80,7 @@ void Checker::overrides() {
   orderPaths();
   hiddenOverrides();
   holdOverrides();
+  usesThatNeverCome();
 }
 
 uint32_t Checker::ruleOfStep(uint32_t module, const WrittenStep& step) {

@@ -57,6 +57,7 @@ inline constexpr std::string_view kReach = "reach";
 inline constexpr std::string_view kReachMaybe = "reach-maybe";
 inline constexpr std::string_view kMorphDisjoint = "morph-disjoint";
 inline constexpr std::string_view kGuards = "guards";
+inline constexpr std::string_view kIdleOverride = "idle-override";
 inline constexpr std::string_view kIdleCut = "idle-cut";
 
 }  // namespace sgm::codes

@@ -115,6 +115,7 @@ const Case kCases[] = {
     {"2:43 unit-mismatch", "sgm 1; start A;\nrule A { for s in branch(3, step 2m, turn 9) { sphere(1m); } }"},
     {"2:26 type-mismatch", "sgm 1; start A;\nrule A { for s in branch(cell, step 2m, turn 9deg) { sphere(1m); } }"},
     {"2:34 stage", "sgm 1; start A;\nrule A { for s in branch(3, step p.x, turn 9deg) { sphere(1m); } }"},
+    {"2:10 idle-override", "sgm 1; start A;\noverride \"A/B[2]\" { }\nrule A { B; B; } rule B { sphere(1m); }"},
     {"2:10 parameter-names",
      "sgm 1; start A(1m);\noverride \"A\" { sphere(r); }\nrule A(r) weight 1 { sphere(r); } rule A(s) weight 1 { "
      "box(s); }"},

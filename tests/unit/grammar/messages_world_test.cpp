@@ -175,6 +175,12 @@ const MessageCase kOverrides[] = {
      "use one name in all of them",
      "override \"A/B\" { sphere(r); }\n"
      "rule A { B(1m); } rule B(r) weight 1 { sphere(r); } rule B(s) weight 1 { box(s); }"},
+    {"2:10 warning idle-override: `A` derives `B` 2 times at most: `B[2]` never comes | the last is `B[1]`",
+     "override \"A/B[2]\" { }\nrule A { B; cut { at(1m, 0m, 0m) B; } } rule B { sphere(1m); }"},
+    {"2:10 warning idle-override: `A` derives `B` once at most: `B[4]` never comes | the last is `B[0]`",
+     "override \"A/B[4]/C\" { }\nrule A weight 1 { B; } rule A weight 2 { B; } rule B { C; } rule C { sphere(1m); }"},
+    {"", "override \"A/B[3]\" { }\nrule A { repeat 3 at(1m, 0m, 0m) { B; } B; } rule B { sphere(1m); }"},
+    {"", "override \"A/B[1]\" { }\noverride \"A\" { inner; inner; }\nrule A { B; } rule B { sphere(1m); }"},
     {"2:16 syntax: expected `]` in this path | such as \"net(0, 0, -1)/Node/Chamber[0]\", as messages print it",
      "override \"A/B[0\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
     {"2:14 syntax: expected `/` between two steps, or the end of the path in this path | such as \"net(0, 0, "
