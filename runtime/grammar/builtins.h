@@ -89,7 +89,7 @@ struct AutomatonLimits {
   static constexpr int32_t most_rounds = 16;  ///< from 0
   static constexpr int32_t most_radius = 4;   ///< from 1
   static constexpr int32_t most_halo = 16;    ///< rounds times radius
-  static constexpr int32_t coarsest_voxels = 8;
+  static constexpr int32_t coarsest_voxels = 4;
 
   /// The largest cell of a level at which voxels of this edge show; both in units.
   static constexpr int32_t coarsestCell(int32_t edge) {
