@@ -2,9 +2,9 @@
 // The interpreter of one cell. Internal to derive/: everything outside calls deriveCell() (derive.h).
 //
 // evaluate.cpp: expressions. functions.cpp: the language's functions. statements.cpp: blocks and combiners. morph.cpp:
-// morphs. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets. primitives.cpp: leaves. voxels.cpp:
-// those of cellular automata. overrides.cpp: blocks in the place of others. derive.cpp: the cell as a whole.
-// instances.cpp: the uses of one rule in it.
+// morphs. split.cpp: parts of scopes. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets.
+// primitives.cpp: leaves. voxels.cpp: those of cellular automata. overrides.cpp: blocks in the place of others.
+// derive.cpp: the cell as a whole. instances.cpp: the uses of one rule in it.
 
 #include <array>
 #include <optional>
@@ -214,6 +214,11 @@ class Interpreter {
   void scatter(const StmtNode& s, const Env& env, ShapeList& out);
   void scatterPoint(const StmtNode& s, const Env& at, ShapeList& out);
   bool probe(const ScatterNode& node, Env& env);
+  void split(const StmtNode& s, const Env& env, ShapeList& out);
+  void comp(const StmtNode& s, const Env& env, ShapeList& out);
+  /// Derives a part as a block of its own in `scope` at `place`; number: of the part, for its key.
+  void part(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope, const Env& env,
+            ShapeList& out);
   void anchor(const StmtNode& s, const Env& env);
   void detail(const StmtNode& s, const Env& env, ShapeList& out);
   void transform(IdRange xforms, Env& env);

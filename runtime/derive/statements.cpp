@@ -127,6 +127,12 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
     case StmtKind::scatter:
       scatter(s, env, out);
       break;
+    case StmtKind::split:
+      split(s, env, out);
+      break;
+    case StmtKind::comp:
+      comp(s, env, out);
+      break;
     case StmtKind::let:
       if (env.slots != nullptr && s.slot < env.slots->size()) (*env.slots)[s.slot] = evaluate(s.expr, env);
       break;

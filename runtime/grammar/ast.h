@@ -119,6 +119,8 @@ enum class StmtKind : uint8_t {
   mat,        ///< extra: Program::materials
   tag,        ///< extra: Program::tags
   anchor,     ///< extra: kind, extra2: name; both Program::names
+  split,      ///< extra: axis 0 1 2; parts: along it, each with its child
+  comp,       ///< parts: faces and edges of the scope's box, each with its child
   detail,     ///< expr: length; body is dropped at levels whose cell edge is larger
   inner,      ///< in an override's block: what the override takes the place of; extra: its number there
 };
@@ -145,6 +147,7 @@ struct StmtNode {
   NameId name2 = kNoId;  ///< as written: anchor name
   IdRange children;      ///< into Ast::ids (StmtId)
   IdRange xforms;        ///< into Ast::xforms
+  IdRange parts;         ///< into Ast::parts: as many as children
   Span span;
 };
 
@@ -192,6 +195,30 @@ struct ScatterNode {
   Span span;
 };
 
+/// What `comp` takes of a box; named as seen from the front, which is +z.
+enum class BoxPart : uint8_t {
+  front,   ///< +z
+  right,   ///< +x
+  back,    ///< -z
+  left,    ///< -x
+  top,     ///< +y
+  bottom,  ///< -y
+  side,    ///< those of the first four that have no part of their own
+  edges,   ///< the four that are parallel to y
+  inside,  ///< the box itself
+};
+
+/// A part of a split or a comp.
+struct PartNode {
+  ExprId size = kNoId;          ///< of a split: a length, or a share of the scope
+  bool flexible = false;        ///< of a split: the length is a weight in what the others leave
+  bool repeated = false;        ///< of a split: in the group that is repeated, which is one run of parts
+  bool relative = false;        ///< resolved, of a split: size is a share
+  BoxPart of = BoxPart::front;  ///< of a comp
+  Span span;
+  Span group;  ///< repeated: of the whole group
+};
+
 /// A parameter of a rule, let function or field.
 struct FormalNode {
   NameId name = kNoId;
@@ -213,6 +240,7 @@ struct Ast {
   std::pmr::vector<StmtNode> stmts;
   std::pmr::vector<XformNode> xforms;
   std::pmr::vector<ScatterNode> scatters;
+  std::pmr::vector<PartNode> parts;
   std::pmr::vector<ArgNode> args;
   std::pmr::vector<FormalNode> formals;
   std::pmr::vector<uint32_t> ids;
@@ -223,6 +251,7 @@ struct Ast {
         stmts(memory),
         xforms(memory),
         scatters(memory),
+        parts(memory),
         args(memory),
         formals(memory),
         ids(memory),

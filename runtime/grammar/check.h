@@ -101,7 +101,7 @@ class Checker {
 
   std::optional<double> fold(ExprId id, int depth);
 
-  // check_statements.cpp, check_placement.cpp
+  // check_statements.cpp, check_placement.cpp, check_split.cpp
   void checkRules();
   void checkWaiting();
   void checkUnusedValues();
@@ -112,6 +112,8 @@ class Checker {
   void morphStatement(const StmtNode& node, bool shrunk);
   void forEach(StmtId id, const StmtNode& node, bool shrunk);
   void scatterStatement(const StmtNode& node, bool shrunk);
+  void splitStatement(const StmtNode& node);
+  void partStatements(const StmtNode& node);
   bool xforms(IdRange range, bool copied);
   void localField(const StmtNode& node);
   void callRule(ExprId call, bool escape, bool shrunk);

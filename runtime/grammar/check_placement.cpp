@@ -177,6 +177,8 @@ void Checker::idleCuts(StmtId id, bool first) {
       return;
     }
     case StmtKind::morph:
+    case StmtKind::split:
+    case StmtKind::comp:
       for (uint32_t i = 0; i < s.children.count; ++i) idleCuts(program_.idAt(s.children, i), true);
       return;
     default:

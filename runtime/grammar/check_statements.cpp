@@ -289,6 +289,10 @@ void Checker::statement(StmtId id, bool shrunk) {
       return forEach(id, copy, shrunk);
     case StmtKind::scatter:
       return scatterStatement(copy, shrunk);
+    case StmtKind::split:
+      return splitStatement(copy);
+    case StmtKind::comp:
+      return partStatements(copy);
     case StmtKind::let: {
       Type type = expression(copy.expr);
       deriveOnly(copy.expr, "a let");

@@ -7,25 +7,28 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 50> kKeywords = {
-    "anchor",   "and",    "as",    "at",     "by",      "cut",    "depth",  "detail",  "displace", "domain",
-    "else",     "expect", "false", "field",  "for",     "if",     "import", "in",      "inner",    "layer",
-    "let",      "lod",    "mat",   "meet",   "minsize", "mirror", "morph",  "morphic", "not",      "or",
-    "override", "param",  "query", "repeat", "report",  "rot",    "rule",   "scale",   "scatter",  "seed",
-    "size",     "start",  "sum",   "tag",    "then",    "true",   "union",  "units",   "warp",     "when"};
+constexpr std::array<std::string_view, 52> kKeywords = {
+    "anchor", "and",    "as",     "at",      "by",     "comp",  "cut",     "depth", "detail", "displace", "domain",
+    "else",   "expect", "false",  "field",   "for",    "if",    "import",  "in",    "inner",  "layer",    "let",
+    "lod",    "mat",    "meet",   "minsize", "mirror", "morph", "morphic", "not",   "or",     "override", "param",
+    "query",  "repeat", "report", "rot",     "rule",   "scale", "scatter", "seed",  "size",   "split",    "start",
+    "sum",    "tag",    "then",   "true",    "union",  "units", "warp",    "when"};
 constexpr std::array<std::string_view, 39> kClauseWords = {
     "above",   "air",  "amp",   "animated", "axes",  "block",  "box",  "cell",     "clear",  "cm",
     "density", "disc", "down",  "edge",     "empty", "finite", "gap",  "infinite", "inside", "km",
     "lerp",    "m",    "mm",    "of",       "on",    "output", "per",  "poisson",  "power",  "probe",
     "reach",   "sgm",  "shell", "smooth",   "solid", "up",     "uses", "weight",   "within"};
-constexpr std::array<std::string_view, 11> kUnavailable = {"comp", "extrude", "fit",   "footprint", "link", "portal",
-                                                           "roof", "set",     "split", "treemap",   "wfc"};
+constexpr std::array<std::string_view, 9> kUnavailable = {"extrude", "fit", "footprint", "link", "portal",
+                                                          "roof",    "set", "treemap",   "wfc"};
 constexpr std::array<std::string_view, 14> kDeclarations = {"import",  "units",    "param",  "seed",  "let",
                                                             "field",   "domain",   "layer",  "start", "rule",
                                                             "morphic", "override", "report", "expect"};
 constexpr std::array<std::string_view, 5> kTransforms = {"at", "rot", "scale", "size", "mirror"};
 constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components", "volume", "area",
                                                        "triangles",  "genus",      "anchors"};
+
+constexpr std::array<std::string_view, 9> kBoxParts = {"front",  "right", "back",  "left",  "top",
+                                                       "bottom", "side",  "edges", "inside"};
 
 /// A word of OpenSCAD, CGA, Blender or a shader, in small letters, and ours.
 struct Foreign {
@@ -63,6 +66,7 @@ std::span<const std::string_view> unavailableTable() { return kUnavailable; }
 std::span<const std::string_view> declarationTable() { return kDeclarations; }
 std::span<const std::string_view> transformTable() { return kTransforms; }
 std::span<const std::string_view> measureTable() { return kMeasures; }
+std::span<const std::string_view> boxPartTable() { return kBoxParts; }
 
 std::string_view wordFor(std::string_view foreign) {
   const auto same = [foreign](const Foreign& word) {

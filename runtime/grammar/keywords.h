@@ -11,7 +11,7 @@ namespace sgm {
 std::span<const std::string_view> keywordTable();
 /// Words that mean something only where a clause expects them, sorted.
 std::span<const std::string_view> clauseWordTable();
-/// Words kept for constructs that this version does not have (split, treemap ...), sorted.
+/// Words kept for constructs that this version does not have (treemap, roof ...), sorted.
 std::span<const std::string_view> unavailableTable();
 
 /// Words that start a declaration.
@@ -20,6 +20,8 @@ std::span<const std::string_view> declarationTable();
 std::span<const std::string_view> transformTable();
 /// Words of the measures, in the order of Measure.
 std::span<const std::string_view> measureTable();
+/// Words of the parts of a box, in the order of BoxPart.
+std::span<const std::string_view> boxPartTable();
 
 /// What another language's word is called here: `at` for `translate`; empty where it is none that is known.
 std::string_view wordFor(std::string_view foreign);

@@ -300,6 +300,8 @@ class Lexer {
         return one(Tok::star);
       case '/':
         return one(Tok::slash);
+      case '~':
+        return one(Tok::tilde);
       case '<':
         return next == '=' ? two(Tok::less_equal) : one(Tok::less);
       case '>':

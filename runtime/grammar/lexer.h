@@ -38,6 +38,7 @@ enum class Tok : uint8_t {
   greater_equal,
   equal,
   not_equal,
+  tilde,
 };
 
 struct Token {

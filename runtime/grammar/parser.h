@@ -114,6 +114,21 @@ class Parser {
   StmtId detailStatement();
   StmtId innerStatement();
   StmtId transformStatement();
+
+  // parser_split.cpp
+  struct Parts {
+    std::vector<PartNode> nodes;
+    std::vector<uint32_t> bodies;
+  };
+  StmtId splitStatement();
+  StmtId compStatement();
+  void splitParts(Parts& parts, bool repeated);
+  void splitPart(Parts& parts, bool repeated);
+  void compPart(Parts& parts);
+  bool partsEnd(const Span& begin);
+  StmtId addParts(StmtNode node, const Parts& parts, const Span& begin);
+
+  // parser_statements.cpp
   StmtId morphOperand();
   bool atXform() const;
   IdRange xforms();

@@ -8,9 +8,9 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 19> kStatements = {
+constexpr std::array<std::string_view, 21> kStatements = {
     "union", "cut",   "meet", "sum", "morph",  "displace", "warp",  "repeat", "for", "scatter",
-    "let",   "field", "mat",  "tag", "anchor", "detail",   "inner", "smooth", "when"};
+    "let",   "field", "mat",  "tag", "anchor", "detail",   "inner", "smooth", "when", "split", "comp"};
 
 }  // namespace
 
@@ -69,6 +69,8 @@ StmtId Parser::statement() {
   if (atWord("mat")) return nameStatement(StmtKind::mat);
   if (atWord("tag")) return nameStatement(StmtKind::tag);
   if (atWord("anchor")) return nameStatement(StmtKind::anchor);
+  if (atWord("split")) return splitStatement();
+  if (atWord("comp")) return compStatement();
   if (atWord("detail")) return detailStatement();
   if (atWord("inner")) return innerStatement();
   return callStatement();

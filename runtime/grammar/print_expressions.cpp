@@ -277,6 +277,12 @@ void LinePrinter::head(std::string& out, const StmtNode& node) const {
     case StmtKind::scatter:
       scatter(out, program_.ast.scatters[node.extra]);
       break;
+    case StmtKind::split:
+      out += join({"split ", std::string_view("xyz").substr(node.extra, 1)});
+      break;
+    case StmtKind::comp:
+      out += "comp";
+      break;
     case StmtKind::let:
       out += join({"let ", program_.text(node.name), " = "});
       expr(out, node.expr);
@@ -318,9 +324,41 @@ void LinePrinter::statement(std::string& out, StmtId id) const {
     return;
   }
   head(out, node);
+  if (node.kind == StmtKind::split || node.kind == StmtKind::comp) {
+    out += " { ";
+    for (uint32_t i = 0; i < node.children.count; ++i) {
+      if (opensGroup(node, i)) out += "{ ";
+      part(out, node, i);
+      statement(out, program_.idAt(node.children, i));
+      out += closesGroup(node, i) ? " }* " : " ";
+    }
+    out += '}';
+    return;
+  }
   if (node.body == kNoId) return;
   out += ' ';
   statement(out, node.body);
+}
+
+bool LinePrinter::opensGroup(const StmtNode& node, uint32_t i) const {
+  const PartNode* parts = &program_.ast.parts[node.parts.first];
+  return parts[i].repeated && (i == 0 || !parts[i - 1].repeated);
+}
+
+bool LinePrinter::closesGroup(const StmtNode& node, uint32_t i) const {
+  const PartNode* parts = &program_.ast.parts[node.parts.first];
+  return parts[i].repeated && (i + 1 == node.parts.count || !parts[i + 1].repeated);
+}
+
+void LinePrinter::part(std::string& out, const StmtNode& node, uint32_t i) const {
+  const PartNode& part = program_.ast.parts[node.parts.first + i];
+  if (node.kind == StmtKind::comp) {
+    out += boxPartTable()[static_cast<size_t>(part.of)];
+  } else {
+    if (part.flexible) out += '~';
+    expr(out, part.size);
+  }
+  out += ": ";
 }
 
 void LinePrinter::ruleHead(std::string& out, const Rule& rule, const Alternative& alternative) const {

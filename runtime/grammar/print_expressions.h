@@ -23,6 +23,11 @@ class LinePrinter {
   void xforms(std::string& out, IdRange range) const;
   /// What stands before a statement's body, without a blank at the end; the whole statement where it has no body.
   void head(std::string& out, const StmtNode& node) const;
+  /// What stands before the statement of part i of a split or comp, with a blank at the end.
+  void part(std::string& out, const StmtNode& node, uint32_t i) const;
+  /// Whether a repeated group begins before part i, or ends behind it.
+  bool opensGroup(const StmtNode& node, uint32_t i) const;
+  bool closesGroup(const StmtNode& node, uint32_t i) const;
   /// The whole statement on one line.
   void statement(std::string& out, StmtId id) const;
   void ruleHead(std::string& out, const Rule& rule, const Alternative& alternative) const;

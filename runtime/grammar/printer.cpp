@@ -276,6 +276,38 @@ class ModulePrinter {
     last_line_ = block.span.end_line;
   }
 
+  /// The parts of a split or comp, each on a line, a repeated group one deeper.
+  void partsInLines(const StmtNode& node, size_t depth) {
+    out_ += " {";
+    trailing(node.span.line);
+    out_ += '\n';
+    last_line_ = 0;
+    for (uint32_t i = 0; i < node.children.count; ++i) {
+      const PartNode& part = program_.ast.parts[node.parts.first + i];
+      if (line_.opensGroup(node, i)) {
+        begin(part.group, depth + 1);
+        out_ += '{';
+        trailing(part.group.line);
+        out_ += '\n';
+        last_line_ = 0;
+      }
+      const size_t inside = depth + (part.repeated ? 2 : 1);
+      begin(part.span, inside);
+      line_.part(out_, node, i);
+      statement(program_.idAt(node.children, i), inside);
+      end(part.span);
+      if (!line_.closesGroup(node, i)) continue;
+      comments(part.group.end, depth + 2);
+      indent(depth + 1);
+      out_ += "}*";
+      end(part.group);
+    }
+    comments(node.span.end, depth + 1);
+    indent(depth);
+    out_ += '}';
+    last_line_ = node.span.end_line;
+  }
+
   void statement(StmtId id, size_t depth) {
     const StmtNode& node = program_.stmt(id);
     if (fitsOneLine(node.span)) {
@@ -289,6 +321,7 @@ class ModulePrinter {
     }
     if (node.kind == StmtKind::block) return blockInLines(node, depth);
     line_.head(out_, node);
+    if (node.kind == StmtKind::split || node.kind == StmtKind::comp) return partsInLines(node, depth);
     if (node.body == kNoId) return;
     out_ += ' ';
     statement(node.body, depth);

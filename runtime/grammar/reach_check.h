@@ -3,8 +3,8 @@
 // each tuple of argument ranges and remembered, so that recursion costs its depth and not its leaves.
 //
 // reach.cpp: layers and what is said of them. reach_rules.cpp: calls and choice. reach_statements.cpp: statements.
-// reach_transforms.cpp: transforms, loops, point sets. reach_automaton.cpp: cellular automata. reach_overrides.cpp:
-// overrides.
+// reach_transforms.cpp: transforms, loops, point sets. reach_split.cpp: parts of scopes. reach_automaton.cpp: cellular
+// automata. reach_overrides.cpp: overrides.
 
 #include <map>
 #include <set>
@@ -95,6 +95,8 @@ class ReachCheck {
   Extent transformed(const StmtNode& s, RangeFrame& frame);
   Extent repeated(const StmtNode& s, RangeFrame& frame);
   Extent scattered(const StmtNode& s, RangeFrame& frame);
+  Extent split(const StmtNode& s, RangeFrame& frame);
+  Extent comp(const StmtNode& s, RangeFrame& frame);
   IntervalVector pointOf(const XformNode& x, const RangeFrame& frame);
   void sized(const XformNode& x, RangeFrame& frame);
   void sizedAgain(IdRange xforms, RangeFrame& frame);

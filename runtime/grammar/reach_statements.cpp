@@ -69,6 +69,10 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
       return forEach(s, frame);
     case StmtKind::scatter:
       return scattered(s, frame);
+    case StmtKind::split:
+      return split(s, frame);
+    case StmtKind::comp:
+      return comp(s, frame);
     case StmtKind::let:
       frame.slots[s.slot] = values_.evaluate(s.expr, frame);
       return Extent::nothing();

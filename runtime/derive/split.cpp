@@ -1,0 +1,123 @@
+// Scopes in parts: split and comp. A scope's box lies about its origin, as box(scope) does.
+
+#include "derive/split_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
+#include "derive/draws.h"
+#include "derive/interpreter.h"
+
+namespace sgm {
+namespace {
+
+constexpr double kMostParts = 1e6;
+
+/// A face of a box: turned so that z points out of it.
+struct Face {
+  BoxPart part;
+  int turn_axis;
+  double quarters;
+  int width, height, depth;  ///< axes of the box that run along its x, y and z
+  double sign;               ///< of the side on which it lies
+};
+
+constexpr Face kFaces[] = {{BoxPart::front, 1, 0, 0, 1, 2, 1}, {BoxPart::right, 1, 1, 2, 1, 0, 1},
+                           {BoxPart::back, 1, 2, 0, 1, 2, -1}, {BoxPart::left, 1, 3, 2, 1, 0, -1},
+                           {BoxPart::top, 0, -1, 0, 2, 1, 1},  {BoxPart::bottom, 0, 1, 0, 2, 1, -1}};
+constexpr size_t kSides = 4;
+
+Placement facePlace(const Face& face, const Placement& box, Vec3 edges) {
+  Vec3 out, axis;
+  out[face.depth] = 0.5 * face.sign * edges[face.depth];
+  axis[face.turn_axis] = 1;
+  return box.moved(out).turned(axis, face.quarters * (kPi / 2));
+}
+
+}  // namespace
+
+void Interpreter::part(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope,
+                       const Env& env, ShapeList& out) {
+  if (!step(1, s.span, env.activation)) return;
+  Env inner = env;
+  inner.cut_detail = 0;
+  inner.place = place;
+  inner.scope = scope;
+  inner.key = env.key.child(kLoopSalt + s.ordinal, number);
+  ShapeList own;
+  statement(program_.idAt(s.children, index), inner, own);
+  out.insert(out.end(), own.begin(), own.end());
+}
+
+void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
+  const int axis = static_cast<int>(s.extra);
+  const double length = env.scope[axis];
+  if (!(length > 0) || !std::isfinite(length)) {
+    note("this scope has no size along " + std::string(1, "xyz"[axis]) + ", so it is not split", s.span,
+         env.activation);
+    return;
+  }
+  std::vector<SplitSize> sizes;
+  double group = 0;
+  const PartNode* repeated = nullptr;
+  for (uint32_t i = 0; i < s.parts.count && !failed(); ++i) {
+    const PartNode& node = program_.ast.parts[s.parts.first + i];
+    double size = real(node.size, env) * (node.relative ? length : 1);
+    if (!(size >= 0) || !std::isfinite(size)) {
+      note("the size of this part is negative; it is left out", node.span, env.activation);
+      size = 0;
+    }
+    sizes.push_back({size, node.flexible, node.repeated});
+    if (!node.repeated) continue;
+    group += size;
+    repeated = &node;
+  }
+  if (failed()) return;
+  if (repeated != nullptr && !(group > 0))
+    note("the parts that are repeated have no size; they are left out", repeated->group, env.activation);
+  const SplitLayout layout = layOut(length, sizes, static_cast<size_t>(kMostParts));
+  if (layout.too_many) return fail("more than a million parts in one split", s.span, env.activation);
+  if (layout.cut_off) note("the parts are longer than the scope; what does not fit is cut off", s.span, env.activation);
+  for (const SplitPlace& place : layout.places) {
+    Vec3 at, scope = env.scope;
+    at[axis] = place.middle - 0.5 * length;
+    scope[axis] = place.size;
+    part(s, place.part, uint64_t{place.repetition} << 32 | place.part, env.place.moved(at), scope, env, out);
+    if (failed()) return;
+  }
+}
+
+void Interpreter::comp(const StmtNode& s, const Env& env, ShapeList& out) {
+  const PartNode* parts = &program_.ast.parts[s.parts.first];
+  const Vec3 edges = env.scope;
+  const auto named = [&](BoxPart of) {
+    return std::any_of(parts, parts + s.parts.count, [&](const PartNode& p) { return p.of == of; });
+  };
+  for (uint32_t i = 0; i < s.parts.count && !failed(); ++i) {
+    const BoxPart of = parts[i].of;
+    if (of == BoxPart::inside) {
+      part(s, i, static_cast<uint64_t>(of), env.place, edges, env, out);
+      continue;
+    }
+    for (size_t f = 0; f < std::size(kFaces) && !failed(); ++f) {
+      const Face& face = kFaces[f];
+      const bool edge = of == BoxPart::edges && f < kSides;
+      if (!edge && of != face.part && !(of == BoxPart::side && f < kSides && !named(face.part))) continue;
+      const double width = edges[face.width], height = edges[face.height];
+      if (!(height > 0) || (!edge && !(width > 0))) {
+        note("this part of the scope's box has no size; it is left out", parts[i].span, env.activation);
+        continue;
+      }
+      const Placement place = facePlace(face, env.place, edges);
+      // Keys know the face alone: what is named beside it changes nothing in it.
+      const uint64_t number = static_cast<uint64_t>(face.part);
+      if (edge)
+        part(s, i, number + 16, place.moved({0.5 * width, 0, 0}), {0, height, 0}, env, out);
+      else
+        part(s, i, number, place, {width, height, 0}, env, out);
+    }
+  }
+}
+
+}  // namespace sgm

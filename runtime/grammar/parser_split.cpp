@@ -1,0 +1,128 @@
+// Scopes in parts: split and comp.
+
+#include <algorithm>
+
+#include "grammar/codes.h"
+#include "grammar/keywords.h"
+#include "grammar/parser.h"
+
+namespace sgm {
+
+StmtId Parser::addParts(StmtNode node, const Parts& parts, const Span& begin) {
+  node.parts = {static_cast<uint32_t>(program_.ast.parts.size()), static_cast<uint32_t>(parts.nodes.size())};
+  program_.ast.parts.insert(program_.ast.parts.end(), parts.nodes.begin(), parts.nodes.end());
+  node.children = store(parts.bodies);
+  return addStmt(node, begin);
+}
+
+bool Parser::partsEnd(const Span& begin) {
+  if (accept(Tok::close_brace)) return true;
+  if (!panic_ && !exhausted_) fail(begin, codes::kSyntax, "these parts are not closed", "a `}` is missing");
+  return false;
+}
+
+StmtId Parser::splitStatement() {
+  const Span begin = here();
+  take();
+  StmtNode node;
+  node.kind = StmtKind::split;
+  const size_t axis = at(Tok::word) ? std::string_view("xyz").find(textOf(peek())) : std::string_view::npos;
+  if (axis == std::string_view::npos) {
+    unexpected("x, y or z to split along");
+    return kNoId;
+  }
+  take();
+  node.extra = static_cast<uint32_t>(axis);
+  const Span open = here();
+  if (!expect(Tok::open_brace, "`{`")) return kNoId;
+  Parts parts;
+  splitParts(parts, false);
+  return partsEnd(open) ? addParts(node, parts, begin) : kNoId;
+}
+
+void Parser::splitParts(Parts& parts, bool repeated) {
+  while (!at(Tok::close_brace) && !at(Tok::end)) {
+    if (accept(Tok::semicolon)) continue;
+    if (!at(Tok::open_brace)) {
+      splitPart(parts, repeated);
+    } else if (repeated) {
+      fail(here(), codes::kSyntax, "a repeated group holds no other group", "split its parts once more instead");
+    } else {
+      const Span group = here();
+      take();
+      const size_t first = parts.nodes.size();
+      if (std::any_of(parts.nodes.begin(), parts.nodes.end(), [](const PartNode& p) { return p.repeated; }))
+        fail(group, codes::kDuplicate, "a second repeated group in this split",
+             "put its parts into the first one, or split a part once more");
+      splitParts(parts, true);
+      if (!partsEnd(group)) return;
+      if (expect(Tok::star, "`*` behind the parts that are repeated")) {
+        for (size_t i = first; i < parts.nodes.size(); ++i) parts.nodes[i].group = since(group);
+        continue;
+      }
+    }
+    if (!panic_) continue;
+    if (exhausted_ || sink_.full()) return;
+    synchronise(false);
+  }
+}
+
+void Parser::splitPart(Parts& parts, bool repeated) {
+  PartNode part;
+  const Span begin = here();
+  part.repeated = repeated;
+  part.flexible = accept(Tok::tilde);
+  part.size = expression();
+  expect(Tok::colon, "`:` and what stands in this part");
+  const StmtId body = bodyOf("this part");
+  if (panic_ || body == kNoId) return;
+  part.span = since(begin);
+  parts.nodes.push_back(part);
+  parts.bodies.push_back(body);
+}
+
+StmtId Parser::compStatement() {
+  const Span begin = here();
+  take();
+  StmtNode node;
+  node.kind = StmtKind::comp;
+  const Span open = here();
+  if (!expect(Tok::open_brace, "`{`")) return kNoId;
+  Parts parts;
+  while (!at(Tok::close_brace) && !at(Tok::end)) {
+    if (accept(Tok::semicolon)) continue;
+    compPart(parts);
+    if (!panic_) continue;
+    if (exhausted_ || sink_.full()) return kNoId;
+    synchronise(false);
+  }
+  return partsEnd(open) ? addParts(node, parts, begin) : kNoId;
+}
+
+void Parser::compPart(Parts& parts) {
+  PartNode part;
+  const Span begin = here();
+  const auto words = boxPartTable();
+  const auto word = std::find(words.begin(), words.end(), at(Tok::word) ? textOf(peek()) : std::string_view());
+  if (word == words.end()) {
+    if (!at(Tok::word) || peek(1).kind != Tok::colon) return unexpected("a part of the box such as `front:`");
+    Suggestion suggestion(textOf(peek()));
+    for (const std::string_view known : words) suggestion.offer(known);
+    return fail(
+        begin, codes::kUnknownName, join({"a box has no part `", textOf(peek()), "`"}),
+        suggestion.best().empty() ? "front, back, left, right, side, top, bottom, edges, inside" : suggestion.hint());
+  }
+  part.of = static_cast<BoxPart>(word - words.begin());
+  if (std::any_of(parts.nodes.begin(), parts.nodes.end(), [&](const PartNode& p) { return p.of == part.of; }))
+    return fail(begin, codes::kDuplicate, join({"`", *word, "` stands twice in this comp"}),
+                "put both into one block behind it");
+  take();
+  expect(Tok::colon, "`:`");
+  const StmtId body = bodyOf("this part");
+  if (panic_ || body == kNoId) return;
+  part.span = since(begin);
+  parts.nodes.push_back(part);
+  parts.bodies.push_back(body);
+}
+
+}  // namespace sgm
