@@ -123,6 +123,7 @@ class Parser {
   StmtId splitStatement();
   StmtId compStatement();
   void splitParts(Parts& parts, bool repeated);
+  void splitGroup(Parts& parts, bool repeated);
   void splitPart(Parts& parts, bool repeated);
   void compPart(Parts& parts);
   bool partsEnd(const Span& begin);

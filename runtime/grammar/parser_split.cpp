@@ -26,7 +26,8 @@ StmtId Parser::splitStatement() {
   take();
   StmtNode node;
   node.kind = StmtKind::split;
-  const size_t axis = at(Tok::word) ? std::string_view("xyz").find(textOf(peek())) : std::string_view::npos;
+  const bool letter = at(Tok::word) && textOf(peek()).size() == 1;
+  const size_t axis = letter ? std::string_view("xyz").find(textOf(peek())) : std::string_view::npos;
   if (axis == std::string_view::npos) {
     unexpected("x, y or z to split along");
     return kNoId;
@@ -43,28 +44,31 @@ StmtId Parser::splitStatement() {
 void Parser::splitParts(Parts& parts, bool repeated) {
   while (!at(Tok::close_brace) && !at(Tok::end)) {
     if (accept(Tok::semicolon)) continue;
-    if (!at(Tok::open_brace)) {
+    if (at(Tok::open_brace))
+      splitGroup(parts, repeated);
+    else
       splitPart(parts, repeated);
-    } else if (repeated) {
-      fail(here(), codes::kSyntax, "a repeated group holds no other group", "split its parts once more instead");
-    } else {
-      const Span group = here();
-      take();
-      const size_t first = parts.nodes.size();
-      if (std::any_of(parts.nodes.begin(), parts.nodes.end(), [](const PartNode& p) { return p.repeated; }))
-        fail(group, codes::kDuplicate, "a second repeated group in this split",
-             "put its parts into the first one, or split a part once more");
-      splitParts(parts, true);
-      if (!partsEnd(group)) return;
-      if (expect(Tok::star, "`*` behind the parts that are repeated")) {
-        for (size_t i = first; i < parts.nodes.size(); ++i) parts.nodes[i].group = since(group);
-        continue;
-      }
-    }
     if (!panic_) continue;
     if (exhausted_ || sink_.full()) return;
     synchronise(false);
   }
+}
+
+void Parser::splitGroup(Parts& parts, bool repeated) {
+  const Span group = here();
+  const size_t first = parts.nodes.size();
+  // What is wrong with it is no reason to misread what follows.
+  if (repeated)
+    sink_.error(group, codes::kSyntax, "a repeated group holds no other group", "split its parts once more instead");
+  else if (std::any_of(parts.nodes.begin(), parts.nodes.end(), [](const PartNode& p) { return p.repeated; }))
+    sink_.error(group, codes::kDuplicate, "a second repeated group in this split",
+                "put its parts into the first one, or split a part once more");
+  Deeper deeper(*this);
+  if (!deeper.fits()) return;
+  take();
+  splitParts(parts, true);
+  if (!partsEnd(group) || !expect(Tok::star, "`*` behind the parts that are repeated")) return;
+  for (size_t i = first; i < parts.nodes.size(); ++i) parts.nodes[i].group = since(group);
 }
 
 void Parser::splitPart(Parts& parts, bool repeated) {

@@ -87,7 +87,7 @@ class Writer {
       out_ += "sphere(r);";
       return;
     }
-    switch (draw(17)) {
+    switch (draw(19)) {
       case 0:
         out_ += "sphere(" + length(0) + ");";
         return;
@@ -139,6 +139,22 @@ class Writer {
         out_ += "for s" + std::to_string(depth) + " in branch(" + pick({"count", "3"}) + ", step r, turn 20deg" +
                 pick({"", ", fork 0.1", ", fork = 30%"}) + ") { capsule(s" + std::to_string(depth) + ".from, s" +
                 std::to_string(depth) + ".to, rand(s" + std::to_string(depth) + ", 0.1m, " + length(2) + ")); }";
+        return;
+      case 16:
+        out_ += std::string("split ") + pick({"x", "y", "z"}) + "{ ";
+        if (chance(50)) out_ += "0.5*r: ", body(depth + 1), blank();
+        if (chance(60)) out_ += "{ ~2m: ", body(depth + 1), out_ += pick({"}*", " 1m: sphere(r); }*;", "; } * "}), blank();
+        out_ += pick({"25%: ", "~size_:", "~(r): "});
+        body(depth + 1);
+        blank();
+        out_ += "}";
+        return;
+      case 17:
+        out_ += "comp { " + std::string(pick({"front: ", "side :", "edges:", "inside: "}));
+        body(depth + 1);
+        blank();
+        out_ += pick({"", "top: { }", "bottom: sphere(r);"});
+        out_ += " }";
         return;
       default:
         out_ += "meet { sphere(r); halfspace(below " + length(1) + "); }";

@@ -1,0 +1,133 @@
+// What the row Mueller of the paper's Table 4 claims, of the sample that stands for it: splits, repeats and parts of
+// boxes, whose rules see their scope, with solids that are cut. That it is closed and connected it says itself
+// (expect).
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "field/evaluate.h"
+#include "rounds.h"
+#include "world_support.h"
+
+using namespace sgm;
+
+namespace {
+
+constexpr double kFloor = 3.2, kGround = 5, kTop = 1.6, kBlind = 0.8;
+
+struct Plan {
+  double floors = 8, wide = 20, deep = 14, bay = 2.6, balconies = 0.3;
+  double height() const { return kGround + kFloor * floors + kTop; }
+  /// The rule of repeats: as often as fits, to the nearest whole number.
+  int bays(double width) const { return static_cast<int>(std::floor((width - 2 * kBlind) / bay + 0.5)); }
+};
+
+WorldField worldOf(const Plan& plan, uint64_t seed) {
+  WorldFieldSettings settings = settingsOf(sample("table4/muller.sgm"), 128, seed);
+  for (const auto& [name, value] : {std::pair{"floors", plan.floors},
+                                    {"wide", plan.wide},
+                                    {"deep", plan.deep},
+                                    {"bay", plan.bay},
+                                    {"balconies", plan.balconies}})
+    REQUIRE(settings.parameters.set(*settings.program, name, value));
+  return {std::move(settings), std::pmr::get_default_resource()};
+}
+
+constexpr IntBox kAll{{-40 * 1024, -80 * 1024, -40 * 1024}, {40 * 1024, 80 * 1024, 40 * 1024}};
+
+std::pmr::vector<RuleInstance> usesOf(const WorldField& world, const char* rule) {
+  auto found = world.instances(ruleNamed(*world.settings().program, rule), kAll, 100'000);
+  REQUIRE(found);
+  std::pmr::vector<RuleInstance> uses;
+  for (RuleInstance& one : *found) uses.push_back(std::move(one));
+  return uses;
+}
+
+bool solidAt(const WorldField& world, double x, double y, double z) {
+  const auto units = [](double metres) { return static_cast<int32_t>(std::lround(metres * kUnitsPerMetre)); };
+  const Int3 p{units(x), units(y), units(z)};
+  const auto program = world.compile({p, p}, 0);
+  REQUIRE(program);
+  int32_t q = 0;
+  EvalScratch scratch;
+  scalarKernels().samples((*program)->view(), {&p.x, &p.y, &p.z, 1}, scratch, &q);
+  return q < 0;
+}
+
+}  // namespace
+
+TEST_CASE("Mueller: a tower of any size has the floors and bays that its rules give it", "[table4]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (unsigned round = 0; round < rounds(6); ++round) {
+    Plan plan{2 + std::floor(14 * unit(random)), 10 + 20 * unit(random), 10 + 20 * unit(random), 2 + 2 * unit(random),
+              unit(random)};
+    CAPTURE(plan.floors, plan.wide, plan.deep, plan.bay, plan.balconies);
+    const WorldField world = worldOf(plan, random());
+    const int front = plan.bays(plan.wide), side = plan.bays(plan.deep);
+    const size_t floors = static_cast<size_t>(plan.floors), bays = static_cast<size_t>(2 * (front + side));
+    CHECK(usesOf(world, "Floor").size() == floors);
+    CHECK(usesOf(world, "Facade").size() == 4 * floors);
+    CHECK(usesOf(world, "Window").size() == floors * bays);
+    CHECK(usesOf(world, "Balcony").size() + usesOf(world, "Sill").size() == floors * bays);
+    CHECK(usesOf(world, "Pillar").size() == 4 * (floors + 2));
+    // Windows cut through the walls, into one hollow; between them there is wall. Of every floor and side, each bay.
+    const double bottom = -0.5 * plan.height();
+    size_t blind = 0, open = 0, hollow = 0, all = 0;
+    for (size_t floor = 0; floor < floors; ++floor) {
+      const double y = bottom + kGround + kFloor * (static_cast<double>(floor) + 0.5) + 0.15;
+      for (int face = 0; face < 4; ++face) {
+        const bool along_x = face % 2 == 0;
+        const double width = along_x ? plan.wide : plan.deep, out = 0.5 * (along_x ? plan.deep : plan.wide);
+        const int count = along_x ? front : side;
+        const double one = (width - 2 * kBlind) / count, sign = face < 2 ? 1 : -1;
+        const auto solid = [&](double along, double depth) {
+          const double a = -0.5 * width + along, d = sign * (out + depth);
+          return along_x ? solidAt(world, a, y, d) : solidAt(world, d, y, a);
+        };
+        for (int i = 0; i < count; ++i) {
+          ++all;
+          open += !solid(kBlind + (i + 0.5) * one, 0);
+          hollow += !solid(kBlind + (i + 0.5) * one, -1.5);
+          blind += solid(kBlind + (i + 0.95) * one, 0);
+        }
+      }
+    }
+    CHECK(all == floors * bays);
+    CHECK(open == all);
+    CHECK(hollow == all);
+    CHECK(blind == all);
+  }
+}
+
+TEST_CASE("Mueller: balconies stand where they are drawn, and only there", "[table4]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  Plan plan;
+  plan.balconies = 0;
+  CHECK(usesOf(worldOf(plan, seed), "Balcony").empty());
+  plan.balconies = 1;
+  const size_t all = usesOf(worldOf(plan, seed), "Balcony").size();
+  CHECK(all == static_cast<size_t>(plan.floors) * 2 * static_cast<size_t>(plan.bays(plan.wide) + plan.bays(plan.deep)));
+  plan.balconies = 0.3;
+  const WorldField world = worldOf(plan, seed);
+  const auto some = usesOf(world, "Balcony");
+  CHECK(static_cast<double>(some.size()) > 0.15 * static_cast<double>(all));
+  CHECK(static_cast<double>(some.size()) < 0.45 * static_cast<double>(all));
+  // Each hangs out of its wall by 1.4 m, on all four sides.
+  std::set<int> sides;
+  for (const RuleInstance& one : some) {
+    const double x = metres(one.origin.x), z = metres(one.origin.z);
+    const bool front = std::fabs(std::fabs(z) - 0.5 * plan.deep) < 0.01;
+    const double out = front ? (z > 0 ? 1 : -1) : (x > 0 ? 1 : -1);
+    sides.insert((front ? 0 : 2) + (out > 0));
+    const double y = metres(one.origin.y) - 0.6;
+    CHECK(solidAt(world, x + (front ? 0 : 0.9 * out), y, z + (front ? 0.9 * out : 0)));
+    CHECK(!solidAt(world, x + (front ? 0 : 1.6 * out), y, z + (front ? 1.6 * out : 0)));
+  }
+  CHECK(sides.size() == 4);
+}
