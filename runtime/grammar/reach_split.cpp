@@ -37,9 +37,10 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
     Sums& sums = parts[i].repeated ? group : others;
     (parts[i].flexible ? sums.wanted : sums.rigid) = (parts[i].flexible ? sums.wanted : sums.rigid) + size;
   }
-  // Rigid parts have their size where nothing is cut off; a group's flexible ones stretch by half a copy at most.
+  // Rigid parts have their size where nothing is cut off; flexible ones of a group
+  // share half a copy more than they would like, or less than the rigid part of one copy that does not fit.
   const bool whole = others.rigid.hi <= length.lo;
-  const double most = group.wanted.lo > 0 ? 1.5 + 0.5 * group.rigid.hi / group.wanted.lo + 1e-6 : kInfinity;
+  const double most = group.wanted.lo > 0 ? 1.5 + group.rigid.hi / group.wanted.lo + 1e-6 : kInfinity;
   const Interval once = group.rigid + group.wanted;
   const double times = once.lo > 0 ? std::max(1.0, length.hi / once.lo + 1) : kInfinity;
   double before = 0, after = 0;  // lengths that surely lie there

@@ -174,7 +174,7 @@ class RandomRules {
 
   std::string statement(int depth) {
     if (depth > 3) return leaf();
-    switch (draw(21)) {
+    switch (draw(24)) {
       case 0:
         return level_ < 2 ? "R" + std::to_string(level_ + 1) + "(" + length() + ");" : "R3(min(r, 3m));";
       case 1:
@@ -218,9 +218,27 @@ class RandomRules {
       case 18:
       case 19:
         return xforms() + block(depth);
+      case 20:
+      case 21:
+        return sized() + "split " + pick({"x", "y", "z"}) + " { " +
+               pick({"", "0.5m: { }", "rand(0.1m, 1m): { }", "20%: box(scope);", "share: box(scope);"}) + " " +
+               pick({"~1m", "1m", "~size_", "~(0.2*r)", "30%"}) + ": " + statement(depth + 1) +
+               pick({"", " { ~0.7m: box(scope); }*", " { 0.2m: { } ~size_: box(scope); }*", " { 0.4m: box(scope); }*",
+                     " { ~0.1m: sphere(3*scope.y); 1m: { } }*",
+                     " { ~0.3m: box(scope); 0.5m: sphere(0.5*scope.x); }*"}) +
+               pick({"", " ~0.5m: box(scope);", " 0.3m: box(scope);"}) + " }";
+      case 22:
+        return sized() + "comp { " + pick({"side", "front", "left", "top", "bottom", "edges", "inside"}) + ": " +
+               statement(depth + 1) +
+               pick({"", " back: size(z 0.3m) box(scope);", " right: at(z 0.5m) size(z 1m) box(scope);"}) + " }";
       default:
         return leaf();
     }
+  }
+
+  std::string sized() {
+    return pick({"", "size(2m, 1m, 3m) ", "size(size_, r, 2m) ", "size(2*size_, 4m*share, rand(1m, 3m)) ",
+                 "size(y 3m*count) "});
   }
 
   std::string segmentBody(const std::string& s, int depth) {

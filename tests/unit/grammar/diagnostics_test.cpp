@@ -54,7 +54,7 @@ const Case kCases[] = {
     {"2:10 not-available", "sgm 1; start A;\nrule A { treemap x { 2m: A; } sphere(2m); }"},
     {"2:16 syntax", "sgm 1; start A;\nrule A { split yz { 2m: sphere(2m); } }"},
     {"2:16 syntax", "sgm 1; start A;\nrule A { split w { 2m: sphere(2m); } }"},
-    {"2:21 syntax", "sgm 1; start A;\nrule A { split x { 2m sphere(2m); } }"},
+    {"2:23 syntax", "sgm 1; start A;\nrule A { split x { 2m sphere(2m); } }"},
     {"2:8 syntax; 2:18 syntax", "sgm 1; start A;\nrule A { split x { 2m: sphere(2m);"},
     {"2:41 syntax", "sgm 1; start A;\nrule A { split x { { ~2m: sphere(2m); } 1m: sphere(1m); } }"},
     {"2:22 syntax", "sgm 1; start A;\nrule A { split x { { { 2m: sphere(2m); }* }* } }"},
