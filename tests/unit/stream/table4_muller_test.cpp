@@ -104,6 +104,23 @@ TEST_CASE("Mueller: a tower of any size has the floors and bays that its rules g
   }
 }
 
+TEST_CASE("Mueller: one bay is changed by its path", "[table4]") {
+  const Plan plan;
+  WorldFieldSettings settings = settingsOf(
+      sample("table4/muller.sgm") + "override \"Lot/Tower/Floor[2]/Facade[0]/Bay[3]\" { split y { 1.2m: Balcony; } }\n",
+      128);
+  REQUIRE(settings.parameters.set(*settings.program, "balconies", 0));
+  const WorldField world{std::move(settings), std::pmr::get_default_resource()};
+  const auto balconies = usesOf(world, "Balcony");
+  REQUIRE(balconies.size() == 1);
+  // The first facade is the front; bays count from its left.
+  const double bay = (plan.wide - 2 * kBlind) / plan.bays(plan.wide);
+  const Int3 at = balconies[0].origin;
+  CHECK(metres(at.x) == Approx(-0.5 * plan.wide + kBlind + 3.5 * bay).margin(0.002));
+  CHECK(metres(at.y) == Approx(-0.5 * plan.height() + kGround + 2 * kFloor + 0.6).margin(0.002));
+  CHECK(metres(at.z) == Approx(0.5 * plan.deep).margin(0.002));
+}
+
 TEST_CASE("Mueller: balconies stand where they are drawn, and only there", "[table4]") {
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
