@@ -36,6 +36,8 @@ enum Draw : uint64_t {
   kForkDraw,
   kLeaveDraw,
   kSideDraw,
+  kOutlineDraw = 0x900,  ///< of a piece of a plan, as the next
+  kAlongDraw,
   kPathDraw = 0x10000,  ///< plus the expression's ordinal
 };
 

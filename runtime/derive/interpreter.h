@@ -3,8 +3,8 @@
 //
 // evaluate.cpp: expressions. functions.cpp: the language's functions. statements.cpp: blocks and combiners. morph.cpp:
 // morphs. split.cpp: parts of scopes. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets.
-// primitives.cpp: leaves. voxels.cpp: those of cellular automata. overrides.cpp: blocks in the place of others.
-// derive.cpp: the cell as a whole. instances.cpp: the uses of one rule in it.
+// primitives.cpp: leaves. voxels.cpp: those of cellular automata. profiles.cpp: footprints and roofs. overrides.cpp:
+// blocks in the place of others. derive.cpp: the cell as a whole. instances.cpp: the uses of one rule in it.
 
 #include <array>
 #include <optional>
@@ -16,19 +16,20 @@
 #include "derive/draft.h"
 #include "derive/frame.h"
 #include "derive/lattice.h"
+#include "derive/plan.h"
 #include "derive/skeleton.h"
 
 namespace sgm {
 
 /// A value of the language. Numbers, vectors and pairs use n; a cell uses `cell`, a face also `axis`; a range uses n[0]
-/// and n[1]; a segment uses `first`, a list of them also `count`.
+/// and n[1]; a segment uses `first`, a list of them and a plan also `count`.
 struct Value {
   ValueKind kind = ValueKind::number;
   std::array<Num, 3> n{};
   Int3 cell;
   int axis = 0;
   std::vector<FaceId> faces;
-  uint32_t first = 0, count = 0;  ///< of the interpreter's segments
+  uint32_t first = 0, count = 0;  ///< of the interpreter's segments or pieces of plans
 
   static Value number(Num v) {
     Value result;
@@ -76,6 +77,11 @@ struct Value {
     Value result = ofSegment(first);
     result.kind = ValueKind::segments;
     result.count = count;
+    return result;
+  }
+  static Value ofPlan(uint32_t first, uint32_t count) {
+    Value result = ofSegments(first, count);
+    result.kind = ValueKind::plan;
     return result;
   }
   double real() const { return n[0].value; }
@@ -219,6 +225,11 @@ class Interpreter {
   /// Derives a part as a block of its own in `scope` at `place`; number: of the part, for its key.
   void part(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope, const Env& env,
             ShapeList& out);
+  void footprint(const StmtNode& s, const Env& env);
+  std::optional<PlanPiece> planPiece(const FootprintNode& node, const Env& env);
+  void extrude(const StmtNode& s, const Env& env, ShapeList& out);
+  void roof(const StmtNode& s, const Env& env, ShapeList& out);
+  void roofOver(const PlanPiece& piece, double floor, const StmtNode& s, const Env& env, ShapeList& out);
   void anchor(const StmtNode& s, const Env& env);
   void detail(const StmtNode& s, const Env& env, ShapeList& out);
   void transform(IdRange xforms, Env& env);
@@ -252,6 +263,13 @@ class Interpreter {
   void boxLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
   void sweptLeaf(bool square, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
   void prismLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
+  /// What stands on y = 0, metres; x, z: edges of its box.
+  struct Profile {
+    std::vector<PlanCorner> corners;
+    double x, z, height;
+  };
+  std::optional<uint32_t> prismShape(const Profile& profile, const Placement& place, uint32_t ordinal, const Span& span,
+                                     const Env& env);
   void halfspaceLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
   void automatonLeaf(const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
 
@@ -299,6 +317,7 @@ class Interpreter {
   ShapeList layer_cuts_;
   std::vector<Anchor> anchors_;
   std::vector<Segment> segments_;  ///< of all skeletons
+  std::vector<PlanPiece> plans_;   ///< of all footprints
   uint32_t watched_rule_ = kNone;
   std::vector<WatchedCall> watched_;
   std::vector<DeriveNote> notes_;

@@ -136,7 +136,7 @@ void Interpreter::inner(const StmtNode& s, const Env& env, ShapeList& out) {
   activations_[below.activation].start = start;
 }
 
-/// A block, or a meet whose block it is, under the overrides of its tag.
+/// A block, or a meet or an extrusion whose block it is, under the overrides of its tag.
 void Interpreter::tagged(const StmtNode& s, uint16_t tag, const Env& env, ShapeList& out) {
   Env inner = env;
   const std::vector<uint32_t> edits = overridesOf(tag, env);
@@ -146,6 +146,7 @@ void Interpreter::tagged(const StmtNode& s, uint16_t tag, const Env& env, ShapeL
 
 void Interpreter::untagged(const StmtNode& s, const Env& env, ShapeList& out) {
   if (s.kind == StmtKind::meet) return meet(s, env, out);
+  if (s.kind == StmtKind::extrude) return extrude(s, env, out);
   block(s, env, out);
 }
 

@@ -12,7 +12,7 @@ namespace {
 /// Statements that put no shape into their block.
 bool isSilent(StmtKind kind) {
   return kind == StmtKind::let || kind == StmtKind::field || kind == StmtKind::mat || kind == StmtKind::tag ||
-         kind == StmtKind::anchor;
+         kind == StmtKind::anchor || kind == StmtKind::footprint;
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ Shape Interpreter::shapeIn(const Env& env, ShapeKind kind) const {
 
 bool Interpreter::withinBytes(const Span& span, uint32_t activation) {
   const size_t used = draft_.bytes() + activations_.size() * sizeof(Activation) + anchors_.size() * sizeof(Anchor) +
-                      segments_.size() * sizeof(Segment);
+                      segments_.size() * sizeof(Segment) + plans_.size() * (sizeof(PlanPiece) + 4 * sizeof(PlanCorner));
   if (used <= limits_.bytes) return true;
   fail("one cell takes more than " + std::to_string(limits_.bytes >> 20) +
            " MiB (derive less, or make the cells smaller)",
@@ -132,6 +132,19 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
       break;
     case StmtKind::comp:
       comp(s, env, out);
+      break;
+    case StmtKind::footprint:
+      footprint(s, env);
+      break;
+    case StmtKind::extrude:
+      if (const uint16_t tag = s.body == kNoId ? uint16_t{0} : program_.stmt(s.body).tag;
+          program_.overridesOf(tag).count > 0)
+        tagged(s, tag, env, out);
+      else
+        extrude(s, env, out);
+      break;
+    case StmtKind::roof:
+      roof(s, env, out);
       break;
     case StmtKind::let:
       if (env.slots != nullptr && s.slot < env.slots->size()) (*env.slots)[s.slot] = evaluate(s.expr, env);

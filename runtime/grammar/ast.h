@@ -122,6 +122,9 @@ enum class StmtKind : uint8_t {
   split,      ///< extra: axis 0 1 2; parts: along it, each with its child
   comp,       ///< parts: faces and edges of the scope's box, each with its child
   detail,     ///< expr: length; body is dropped at levels whose cell edge is larger
+  footprint,  ///< slot: a plan, from here to the end of the block; extra: Ast::footprints
+  extrude,    ///< expr: height; plan; body: a block or kNoId
+  roof,       ///< extra: Ast::roofs; plan, or kNoId: over the scope's box
   inner,      ///< in an override's block: what the override takes the place of; extra: its number there
 };
 
@@ -140,10 +143,11 @@ struct StmtNode {
   uint32_t ordinal = 0;      ///< resolved: number of this statement within its rule, for path keys
   ExprId expr = kNoId;
   ExprId amount = kNoId;  ///< smooth radius (length) or declared amplitude
+  ExprId plan = kNoId;    ///< extrude, roof: a name
   StmtId body = kNoId;
-  uint32_t slot = kNoId;  ///< resolved: let, for_each
+  uint32_t slot = kNoId;  ///< resolved: let, for_each, footprint
   uint32_t extra = kNoId, extra2 = kNoId;
-  NameId name = kNoId;   ///< as written: loop variable, let, mat, tag, anchor kind
+  NameId name = kNoId;   ///< as written: loop variable, let, footprint, mat, tag, anchor kind
   NameId name2 = kNoId;  ///< as written: anchor name
   IdRange children;      ///< into Ast::ids (StmtId)
   IdRange xforms;        ///< into Ast::xforms
@@ -219,6 +223,29 @@ struct PartNode {
   Span group;  ///< repeated: of the whole group
 };
 
+enum class Outline : uint8_t {
+  rect,     ///< bound: edges along x and z
+  regular,  ///< bound: number of corners, radius to them
+  polygon,  ///< bound: corners, pairs of x and z
+};
+
+struct FootprintNode {
+  Outline outline = Outline::rect;
+  ExprId count = kNoId;  ///< merge, or kNoId: one piece
+  IdRange args;          ///< into Ast::args: as written
+  IdRange bound;         ///< resolved, into Ast::ids; drawn for each piece
+  Span span;             ///< of the outline
+};
+
+enum class RoofForm : uint8_t { flat, gable, hip };
+
+struct RoofNode {
+  RoofForm form = RoofForm::flat;
+  ExprId measure = kNoId;   ///< resolved: flat: the height, otherwise the pitch
+  ExprId overhang = kNoId;  ///< resolved, or kNoId: 0
+  IdRange args;             ///< into Ast::args: as written
+};
+
 /// A parameter of a rule, let function or field.
 struct FormalNode {
   NameId name = kNoId;
@@ -241,6 +268,8 @@ struct Ast {
   std::pmr::vector<XformNode> xforms;
   std::pmr::vector<ScatterNode> scatters;
   std::pmr::vector<PartNode> parts;
+  std::pmr::vector<FootprintNode> footprints;
+  std::pmr::vector<RoofNode> roofs;
   std::pmr::vector<ArgNode> args;
   std::pmr::vector<FormalNode> formals;
   std::pmr::vector<uint32_t> ids;
@@ -252,6 +281,8 @@ struct Ast {
         xforms(memory),
         scatters(memory),
         parts(memory),
+        footprints(memory),
+        roofs(memory),
         args(memory),
         formals(memory),
         ids(memory),

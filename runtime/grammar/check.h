@@ -128,6 +128,14 @@ class Checker {
   Type query(ExprId id);
   void layersAsked();
 
+  // check_profiles.cpp
+  void footprint(StmtId id, const StmtNode& node);
+  void extrude(const StmtNode& node, bool shrunk);
+  void roof(const StmtNode& node);
+  void planOf(const StmtNode& node);
+  /// demand() of a number, which must lie in a range if it is constant.
+  void demandRange(ExprId id, Dim dim, std::string_view what, const ValueRange& range);
+
   // check_overrides.cpp
   void overrides();
   void overridePath(Override& edit);

@@ -171,11 +171,18 @@ void Checker::idleCuts(StmtId id, bool first) {
         const StmtId child = program_.idAt(s.children, i);
         idleCuts(child, nothing);
         const StmtKind kind = program_.stmt(program_.innermost(child)).kind;
-        nothing = nothing && (kind == StmtKind::cut || kind == StmtKind::let || kind == StmtKind::field ||
-                              kind == StmtKind::mat || kind == StmtKind::tag || kind == StmtKind::anchor);
+        nothing = nothing &&
+                  (kind == StmtKind::cut || kind == StmtKind::let || kind == StmtKind::field || kind == StmtKind::mat ||
+                   kind == StmtKind::tag || kind == StmtKind::anchor || kind == StmtKind::footprint);
       }
       return;
     }
+    case StmtKind::extrude:
+      // The piece itself stands before them.
+      if (s.body == kNoId) return;
+      for (uint32_t i = 0; i < program_.stmt(s.body).children.count; ++i)
+        idleCuts(program_.idAt(program_.stmt(s.body).children, i), false);
+      return;
     case StmtKind::morph:
     case StmtKind::split:
     case StmtKind::comp:

@@ -316,6 +316,12 @@ void Checker::statement(StmtId id, bool shrunk) {
     case StmtKind::detail:
       demand(copy.expr, ValueKind::number, kLength, "the size of a detail");
       return statement(copy.body, shrunk);
+    case StmtKind::footprint:
+      return footprint(id, copy);
+    case StmtKind::extrude:
+      return extrude(copy, shrunk);
+    case StmtKind::roof:
+      return roof(copy);
     case StmtKind::inner:
       return;
   }
@@ -327,11 +333,13 @@ void Checker::blockStatements(const StmtNode& node, bool shrunk) {
 
 bool Checker::sumLeaf(StmtId id) {
   const StmtNode& s = program_.stmt(id);
-  if (s.kind == StmtKind::cut || s.kind == StmtKind::meet || s.kind == StmtKind::displace || s.kind == StmtKind::warp) {
+  if (s.kind == StmtKind::cut || s.kind == StmtKind::meet || s.kind == StmtKind::displace || s.kind == StmtKind::warp ||
+      s.kind == StmtKind::roof) {
     sink_.error(s.span, codes::kWrongUse, "a sum has leaves only: spheres, blobs and other primitives",
                 "cut, displace or warp the sum as a whole");
     return false;
   }
+  if (s.kind == StmtKind::extrude && s.body != kNoId) return sumLeaf(s.body);
   if (s.kind != StmtKind::block) return true;
   for (uint32_t i = 0; i < s.children.count; ++i)
     if (!sumLeaf(program_.idAt(s.children, i))) return false;

@@ -135,6 +135,12 @@ class Parser {
   IdRange xforms();
   XformNode xform();
 
+  // parser_profiles.cpp
+  StmtId footprintStatement();
+  StmtId extrudeStatement();
+  StmtId roofStatement();
+  ExprId planName();
+
   // parser_expressions.cpp
   ExprId expression();
   ExprId rangeOrExpression();

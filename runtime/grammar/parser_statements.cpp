@@ -8,9 +8,9 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 21> kStatements = {
-    "union", "cut",   "meet", "sum", "morph",  "displace", "warp",  "repeat", "for", "scatter",
-    "let",   "field", "mat",  "tag", "anchor", "detail",   "inner", "smooth", "when", "split", "comp"};
+constexpr std::array<std::string_view, 24> kStatements = {
+    "union", "cut", "meet",   "sum",    "morph", "displace", "warp", "repeat", "for",  "scatter",   "let",     "field",
+    "mat",   "tag", "anchor", "detail", "inner", "smooth",   "when", "split",  "comp", "footprint", "extrude", "roof"};
 
 }  // namespace
 
@@ -72,6 +72,9 @@ StmtId Parser::statement() {
   if (atWord("split")) return splitStatement();
   if (atWord("comp")) return compStatement();
   if (atWord("detail")) return detailStatement();
+  if (atWord("footprint")) return footprintStatement();
+  if (atWord("extrude")) return extrudeStatement();
+  if (atWord("roof")) return roofStatement();
   if (atWord("inner")) return innerStatement();
   return callStatement();
 }

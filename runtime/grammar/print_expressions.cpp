@@ -197,6 +197,30 @@ void LinePrinter::scatter(std::string& out, const ScatterNode& node) const {
   }
 }
 
+void LinePrinter::footprint(std::string& out, const FootprintNode& node) const {
+  out += "footprint ";
+  if (node.count != kNoId) {
+    out += "merge ";
+    expr(out, node.count);
+    out += ' ';
+  }
+  const std::string_view word = node.outline == Outline::rect      ? "rect"
+                                : node.outline == Outline::regular ? "regular"
+                                                                   : "polygon";
+  out += word;
+  args(out, node.args, word);
+}
+
+void LinePrinter::roof(std::string& out, const StmtNode& node) const {
+  const RoofNode& roof = program_.ast.roofs[node.extra];
+  const std::string_view word = roof.form == RoofForm::flat ? "flat" : roof.form == RoofForm::gable ? "gable" : "hip";
+  out += join({"roof ", word});
+  args(out, roof.args, word);
+  if (node.plan == kNoId) return;
+  out += " of ";
+  expr(out, node.plan);
+}
+
 void LinePrinter::field(std::string& out, const Field& field) const {
   out += join({"field ", program_.text(field.name)});
   formals(out, field.formals);
@@ -305,6 +329,21 @@ void LinePrinter::head(std::string& out, const StmtNode& node) const {
     case StmtKind::detail:
       out += "detail ";
       expr(out, node.expr);
+      break;
+    case StmtKind::footprint:
+      footprint(out, program_.ast.footprints[node.extra]);
+      out += join({" as ", program_.text(node.name), ";"});
+      break;
+    case StmtKind::extrude:
+      out += "extrude ";
+      expr(out, node.expr);
+      out += " of ";
+      expr(out, node.plan);
+      if (node.body == kNoId) out += ';';
+      break;
+    case StmtKind::roof:
+      roof(out, node);
+      out += ';';
       break;
     case StmtKind::inner:
       out += "inner;";

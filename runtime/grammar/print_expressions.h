@@ -38,6 +38,8 @@ class LinePrinter {
 
  private:
   void morphOperand(std::string& out, StmtId id) const;
+  void footprint(std::string& out, const FootprintNode& node) const;
+  void roof(std::string& out, const StmtNode& node) const;
   void scatter(std::string& out, const ScatterNode& node) const;
 
   const Program& program_;

@@ -4,7 +4,7 @@
 //
 // reach.cpp: layers and what is said of them. reach_rules.cpp: calls and choice. reach_statements.cpp: statements.
 // reach_transforms.cpp: transforms, loops, point sets. reach_split.cpp: parts of scopes. reach_automaton.cpp: cellular
-// automata. reach_overrides.cpp: overrides.
+// automata. reach_profiles.cpp: footprints, extrusions and roofs. reach_overrides.cpp: overrides.
 
 #include <map>
 #include <set>
@@ -86,7 +86,8 @@ class ReachCheck {
   Extent body(StmtId id, RangeFrame& frame);
   Extent statement(StmtId id, RangeFrame& frame);
   Extent statementKinds(const StmtNode& s, RangeFrame& frame);
-  Extent block(const StmtNode& s, RangeFrame& frame);
+  /// first: what stands before the block's own statements.
+  Extent block(const StmtNode& s, RangeFrame& frame, Extent first = Extent::nothing());
   Extent meet(const StmtNode& s, RangeFrame& frame);
   Extent morph(const StmtNode& s, RangeFrame& frame);
   Extent displaced(const StmtNode& s, RangeFrame& frame);
@@ -97,6 +98,9 @@ class ReachCheck {
   Extent scattered(const StmtNode& s, RangeFrame& frame);
   Extent split(const StmtNode& s, RangeFrame& frame);
   Extent comp(const StmtNode& s, RangeFrame& frame);
+  RangeValue footprint(const FootprintNode& plan, const RangeFrame& frame);
+  Extent extrude(const StmtNode& s, RangeFrame& frame);
+  Extent roof(const StmtNode& s, RangeFrame& frame);
   IntervalVector pointOf(const XformNode& x, const RangeFrame& frame);
   void sized(const XformNode& x, RangeFrame& frame);
   void sizedAgain(IdRange xforms, RangeFrame& frame);

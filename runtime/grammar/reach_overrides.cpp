@@ -136,7 +136,7 @@ Extent ReachCheck::inner(const StmtNode& s, const RangeFrame& at) {
   return out;
 }
 
-/// A block, or a meet, under the overrides of its tag.
+/// A block, a meet or an extrusion, under the overrides of its tag.
 Extent ReachCheck::tagged(const StmtNode& s, uint16_t tag, RangeFrame& frame) {
   std::vector<uint32_t> edits = listOf(program_, program_.overridesOf(tag));
   std::erase_if(edits, [&](uint32_t o) {
@@ -148,6 +148,7 @@ Extent ReachCheck::tagged(const StmtNode& s, uint16_t tag, RangeFrame& frame) {
 }
 
 Extent ReachCheck::untagged(const StmtNode& s, RangeFrame& frame) {
+  if (s.kind == StmtKind::extrude) return extrude(s, frame);
   return s.kind == StmtKind::meet ? meet(s, frame) : block(s, frame);
 }
 

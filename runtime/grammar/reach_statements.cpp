@@ -12,7 +12,7 @@ namespace {
 /// Statements that put no shape into their block.
 bool isSilent(StmtKind kind) {
   return kind == StmtKind::let || kind == StmtKind::field || kind == StmtKind::mat || kind == StmtKind::tag ||
-         kind == StmtKind::anchor;
+         kind == StmtKind::anchor || kind == StmtKind::footprint;
 }
 
 }  // namespace
@@ -80,6 +80,13 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
       values_.number(s.expr, frame);  // a query in it
       return body(s.body, frame);
     }
+    case StmtKind::footprint:
+      frame.slots[s.slot] = footprint(program_.ast.footprints[s.extra], frame);
+      return Extent::nothing();
+    case StmtKind::extrude:
+      return tagged(s, s.body == kNoId ? uint16_t{0} : program_.stmt(s.body).tag, frame);
+    case StmtKind::roof:
+      return roof(s, frame);
     case StmtKind::inner:
       return inner(s, frame);
     case StmtKind::field:
@@ -91,8 +98,8 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
   return Extent::unbounded();
 }
 
-Extent ReachCheck::block(const StmtNode& s, RangeFrame& frame) {
-  Extent out = Extent::nothing();
+Extent ReachCheck::block(const StmtNode& s, RangeFrame& frame, Extent first) {
+  Extent out = std::move(first);
   for (uint32_t i = 0; i < s.children.count; ++i) {
     const StmtId child = program_.idAt(s.children, i);
     const StmtNode& inner = program_.stmt(program_.innermost(child));

@@ -109,7 +109,10 @@ RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
         out = evaluate(child(n, 2), frame);
       } else {
         const RangeValue a = evaluate(child(n, 1), frame), b = evaluate(child(n, 2), frame);
-        if (a.kind == b.kind) out = {a.kind, {hull(a.v[0], b.v[0]), hull(a.v[1], b.v[1]), hull(a.v[2], b.v[2])}};
+        if (a.kind == b.kind) {
+          out.kind = a.kind;
+          for (size_t i = 0; i < 3; ++i) out.v[i] = hull(a.v[i], b.v[i]), out.at[i] = hull(a.at[i], b.at[i]);
+        }
       }
       break;
     }
@@ -346,7 +349,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
       // Ends are not farther than all steps in a line, with room for the rounding of each.
       const double steps = std::floor(std::clamp(in(0).hi + 0.5, 0.0, static_cast<double>(kMostSegments)));
       const double far = boundProduct(steps, std::max(0.0, in(1).hi)) * (1 + 1e-9);
-      return {ValueKind::segments, {Interval{-far, far}, Interval{0, std::max(0.0, steps - 1)}, Interval{}}};
+      return {ValueKind::segments, {Interval{-far, far}, Interval{0, std::max(0.0, steps - 1)}, Interval{}}, {}};
     }
   }
   return RangeValue::unknown();

@@ -11,14 +11,16 @@
 namespace sgm {
 
 /// A number or condition is v[0]; a vector or pair v; a cell its offset from the cell being derived, in cells, a face
-/// that of its lower cell; a segment (and a list of them) the coordinates of its ends in v[0] and its depth in v[1].
+/// that of its lower cell; a segment (and a list of them) the coordinates of its ends in v[0] and its depth in v[1];
+/// a plan the edges of its pieces' boxes, and in `at` where their middles lie.
 struct RangeValue {
   ValueKind kind = ValueKind::unknown;
   IntervalVector v{Interval::everything(), Interval::everything(), Interval::everything()};
+  IntervalVector at{};
 
-  static RangeValue number(Interval i) { return {ValueKind::number, {i, {}, {}}}; }
-  static RangeValue condition(Interval i) { return {ValueKind::boolean, {i, {}, {}}}; }
-  static RangeValue vector(const IntervalVector& v) { return {ValueKind::vector, v}; }
+  static RangeValue number(Interval i) { return {ValueKind::number, {i, {}, {}}, {}}; }
+  static RangeValue condition(Interval i) { return {ValueKind::boolean, {i, {}, {}}, {}}; }
+  static RangeValue vector(const IntervalVector& v) { return {ValueKind::vector, v, {}}; }
   static RangeValue unknown() { return {}; }
 };
 

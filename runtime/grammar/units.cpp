@@ -44,6 +44,8 @@ std::string typeName(const Type& type) {
       return "segment";
     case ValueKind::segments:
       return "list of segments";
+    case ValueKind::plan:
+      return "plan";
     case ValueKind::range:
       return "range";
     case ValueKind::text:

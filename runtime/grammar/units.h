@@ -29,6 +29,7 @@ enum class ValueKind : uint8_t {
   faces,     ///< a list of faces, for `for`
   segment,   ///< one step of a branching skeleton
   segments,  ///< a list of segments, for `for`
+  plan,      ///< a footprint
   range,     ///< a..b of whole numbers, for `for`
   text,
 };

@@ -174,7 +174,7 @@ class RandomRules {
 
   std::string statement(int depth) {
     if (depth > 3) return leaf();
-    switch (draw(24)) {
+    switch (draw(27)) {
       case 0:
         return level_ < 2 ? "R" + std::to_string(level_ + 1) + "(" + length() + ");" : "R3(min(r, 3m));";
       case 1:
@@ -231,6 +231,11 @@ class RandomRules {
         return sized() + "comp { " + pick({"side", "front", "left", "top", "bottom", "edges", "inside"}) + ": " +
                statement(depth + 1) +
                pick({"", " back: size(z 0.3m) box(scope);", " right: at(z 0.5m) size(z 1m) box(scope);"}) + " }";
+      case 23:
+        return "roof " + roof() + ";";
+      case 24:
+      case 25:
+        return profile("plan" + std::to_string(depth), depth);
       default:
         return leaf();
     }
@@ -251,6 +256,21 @@ class RandomRules {
         return "{ " + pick({"capsule", "tube", "beam"}) + "(" + s + ".from, " + s + ".to, rand(" + s + ", 0.2m, 0.6m)" +
                pick({"*(1 - 0.5*", "*(0.5 + 0.1*"}) + s + pick({".along", ".depth"}) + ")); }";
     }
+  }
+
+  std::string roof() {
+    const std::string overhang = pick({"", ", overhang 0.4m", ", 0.2*size_"}) + ")";
+    if (chance(30)) return "flat(" + length() + overhang;
+    return pick({"gable(", "hip("}) + pick({"30deg", "rand(5deg, 80deg)", "60deg*share", "80deg"}) + overhang;
+  }
+
+  std::string profile(const std::string& plan, int depth) {
+    const std::string outline = pick({"merge 3 rect(", "rect(", "merge count regular(5, ", "regular(3 + count, "});
+    std::string out = "{ footprint " + outline + length() + (outline.ends_with("rect(") ? ", " + length() : "");
+    if (chance(20)) out = "{ footprint polygon((0m, 0m), (" + length() + ", 0.3m), (1m, " + length() + ")";
+    out += ") as " + plan + "; extrude " + length() + " of " + plan +
+           (chance(50) ? "; " : " { tag \"edited\"; " + statement(depth + 1) + " } ");
+    return out + (chance(50) ? "at(0m, 1m, 0m) roof " + roof() + " of " + plan + "; }" : "}");
   }
 
   std::string sumBody(int depth) {

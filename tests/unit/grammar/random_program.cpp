@@ -87,7 +87,7 @@ class Writer {
       out_ += "sphere(r);";
       return;
     }
-    switch (draw(19)) {
+    switch (draw(20)) {
       case 0:
         out_ += "sphere(" + length(0) + ");";
         return;
@@ -155,6 +155,15 @@ class Writer {
         blank();
         out_ += pick({"", "top: { }", "bottom: sphere(r);"});
         out_ += " }";
+        return;
+      case 18:
+        out_ += "{ footprint " +
+                std::string(pick({"merge 3 rect(2m, r)", "merge count regular(5, r)", "rect(1m, z r)",
+                                  "polygon((0, 0m), (r, 0m), (1m, 2m))"})) +
+                " as plan; extrude " + length(0) + " of plan" + pick({";", " { sphere(r); mat stone; }"}) + " roof " +
+                pick({"hip(30deg)", "gable(pitch = 40deg, overhang 10cm)", "flat("});
+        out_ += out_.ends_with("flat(") ? length(1) + ")" : "";
+        out_ += std::string(pick({"", " of plan"})) + "; }";
         return;
       default:
         out_ += "meet { sphere(r); halfspace(below " + length(1) + "); }";
