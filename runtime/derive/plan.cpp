@@ -10,7 +10,9 @@
 namespace sgm {
 namespace {
 
-double turn(PlanCorner a, PlanCorner b, PlanCorner c) { return (b.x - a.x) * (c.z - b.z) - (b.z - a.z) * (c.x - b.x); }
+double turnAt(PlanCorner a, PlanCorner b, PlanCorner c) {
+  return (b.x - a.x) * (c.z - b.z) - (b.z - a.z) * (c.x - b.x);
+}
 
 /// Of length 1, out of the polygon; 0 where the corners are one.
 PlanCorner outward(PlanCorner from, PlanCorner to) {
@@ -71,7 +73,7 @@ bool isConvex(const PlanPiece& piece) {
   const size_t count = piece.corners.size();
   const double slack = -1e-9 * piece.x * piece.z;
   for (size_t i = 0; i < count; ++i)
-    if (turn(piece.corners[i], piece.corners[(i + 1) % count], piece.corners[(i + 2) % count]) < slack) return false;
+    if (turnAt(piece.corners[i], piece.corners[(i + 1) % count], piece.corners[(i + 2) % count]) < slack) return false;
   return true;
 }
 

@@ -11,7 +11,7 @@
 namespace sgm {
 namespace {
 
-constexpr double kLargest = 1073741824.0;  ///< units; a quarter of the world's edge
+constexpr double kLargestSolid = 1073741824.0;  ///< units; a quarter of the world's edge
 
 std::string broken(const ValueRange& range) {
   return std::string(range.rule).append(", ").append(range.example).append("; this one is left out");
@@ -21,7 +21,7 @@ std::string broken(const ValueRange& range) {
 
 std::optional<PlanPiece> Interpreter::planPiece(const FootprintNode& node, const Env& env) {
   const auto number = [&](uint32_t i) { return real(program_.idAt(node.bound, i), env); };
-  const auto length = [](double metres) { return metres > 0 && metres * kUnitsPerMetre <= kLargest; };
+  const auto length = [](double metres) { return metres > 0 && metres * kUnitsPerMetre <= kLargestSolid; };
   switch (node.outline) {
     case Outline::rect: {
       const double x = number(0), z = number(1);
@@ -83,7 +83,7 @@ std::optional<uint32_t> Interpreter::prismShape(const Profile& profile, const Pl
     if (corners.empty() || corners.back() != corner) corners.push_back(corner);
   }
   while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
-  if (!(half > 0 && half <= kLargest) || corners.size() < 3) {
+  if (!(half > 0 && half <= kLargestSolid) || corners.size() < 3) {
     note("a size of this solid is not positive, or larger than the world; it is left out", span, env.activation);
     return std::nullopt;
   }

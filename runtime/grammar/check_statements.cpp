@@ -188,7 +188,8 @@ void Checker::callRule(ExprId call, bool escape, bool shrunk) {
     types[i].sample = false;
     if (types[i].kind == ValueKind::boolean || types[i].kind == ValueKind::number ||
         types[i].kind == ValueKind::vector || types[i].kind == ValueKind::cell || types[i].kind == ValueKind::face ||
-        types[i].kind == ValueKind::segment || types[i].kind == ValueKind::unknown)
+        types[i].kind == ValueKind::segment || types[i].kind == ValueKind::plan ||
+        types[i].kind == ValueKind::unknown)
       continue;
     good = false;
     sink_.error(node(bound[i]).span, codes::kTypeMismatch, join({what, " cannot be a ", typeName(types[i])}),

@@ -10,18 +10,18 @@ namespace sgm {
 
 namespace {
 
-constexpr Interval kHalf{0.5, 0.5};
+constexpr Interval kMiddle{0.5, 0.5};
 /// A roof's peak is cut off a little above it, and heights are rounded (derive/profiles.cpp).
 constexpr double kRounding = 4.0 / kUnitsPerMetre;
 
-Interval positive(Interval v) { return {std::max(v.lo, 0.0), std::max(v.hi, 0.0)}; }
-Interval around(Interval v) { return {-v.hi, v.hi}; }
+Interval notBelowZero(Interval v) { return {std::max(v.lo, 0.0), std::max(v.hi, 0.0)}; }
+Interval symmetric(Interval v) { return {-v.hi, v.hi}; }
 
 /// A solid about the middle of a box with these edges, which corners that fall together may leave out.
 Extent solidIn(const IntervalVector& edges) {
   IntervalVector lower, upper;
   for (size_t i = 0; i < 3; ++i) {
-    upper[i] = positive(edges[i] * kHalf);
+    upper[i] = notBelowZero(edges[i] * kMiddle);
     lower[i] = -upper[i];
   }
   Extent e = Extent::leaf(lower, upper);
@@ -36,7 +36,7 @@ Extent solidIn(const IntervalVector& edges) {
 RangeValue ReachCheck::footprint(const FootprintNode& plan, const RangeFrame& frame) {
   RangeValue out;
   out.kind = ValueKind::plan;
-  const auto number = [&](uint32_t i) { return positive(values_.number(program_.idAt(plan.bound, i), frame)); };
+  const auto number = [&](uint32_t i) { return notBelowZero(values_.number(program_.idAt(plan.bound, i), frame)); };
   out.v[1] = out.at[1] = Interval{};
   switch (plan.outline) {
     case Outline::rect:
@@ -57,23 +57,23 @@ RangeValue ReachCheck::footprint(const FootprintNode& plan, const RangeFrame& fr
         }
       }
       for (size_t k = 0; k < 2; ++k) {
-        out.v[2 * k] = positive(high[k] - low[k]);
-        out.at[2 * k] = (low[k] + high[k]) * kHalf;
+        out.v[2 * k] = notBelowZero(high[k] - low[k]);
+        out.at[2 * k] = (low[k] + high[k]) * kMiddle;
       }
       return out;
     }
   }
   const bool merged = plan.count != kNoId && !(values_.number(plan.count, frame).hi < 1.5);
-  for (size_t axis : {size_t{0}, size_t{2}}) out.at[axis] = merged ? around(out.v[axis] * kHalf) : Interval{};
+  for (size_t axis : {size_t{0}, size_t{2}}) out.at[axis] = merged ? symmetric(out.v[axis] * kMiddle) : Interval{};
   return out;
 }
 
 Extent ReachCheck::extrude(const StmtNode& s, RangeFrame& frame) {
   const RangeValue plan = values_.evaluate(s.plan, frame);
-  const Interval height = positive(values_.number(s.expr, frame));
+  const Interval height = notBelowZero(values_.number(s.expr, frame));
   const IntervalVector scope = frame.scope;
   const PlaceRange place = frame.place;
-  const IntervalVector middle{plan.at[0], height * kHalf, plan.at[2]};
+  const IntervalVector middle{plan.at[0], height * kMiddle, plan.at[2]};
   frame.scope = {plan.v[0], height, plan.v[2]};
   frame.place.move(middle);
   Extent e = solidIn(frame.scope);
@@ -89,18 +89,18 @@ Extent ReachCheck::extrude(const StmtNode& s, RangeFrame& frame) {
 Extent ReachCheck::roof(const StmtNode& s, RangeFrame& frame) {
   const RoofNode& roof = program_.ast.roofs[s.extra];
   RangeValue plan = RangeValue::vector(frame.scope);
-  Interval overhang = roof.overhang == kNoId ? Interval{} : positive(values_.number(roof.overhang, frame));
-  Interval floor = -(frame.scope[1] * kHalf);
+  Interval overhang = roof.overhang == kNoId ? Interval{} : notBelowZero(values_.number(roof.overhang, frame));
+  Interval floor = -(frame.scope[1] * kMiddle);
   if (s.plan != kNoId) {
     plan = values_.evaluate(s.plan, frame);
     floor = Interval{};
     overhang = overhang * Interval::exactly(kMostMiter);
   }
   IntervalVector edges = plan.v;
-  for (size_t axis : {size_t{0}, size_t{2}}) edges[axis] = positive(edges[axis]) + overhang + overhang;
+  for (size_t axis : {size_t{0}, size_t{2}}) edges[axis] = notBelowZero(edges[axis]) + overhang + overhang;
   const Interval measure = values_.number(roof.measure, frame);
   if (roof.form == RoofForm::flat) {
-    edges[1] = positive(measure);
+    edges[1] = notBelowZero(measure);
   } else {
     const double pitch = std::clamp(measure.hi, kLeastPitch, kMostPitch);
     const double slope = detSin(pitch) / detCos(pitch) * (1 + 1e-12);
@@ -108,7 +108,7 @@ Extent ReachCheck::roof(const StmtNode& s, RangeFrame& frame) {
   }
   Extent e = solidIn(edges);
   e.repeat({0, kMergeRange.high});
-  e.move({plan.at[0], floor + edges[1] * kHalf, plan.at[2]});
+  e.move({plan.at[0], floor + edges[1] * kMiddle, plan.at[2]});
   if (s.plan != kNoId) e.blame(s.plan);
   return e;
 }

@@ -50,8 +50,10 @@ Extent ReachCheck::remembered(uint32_t rule, const std::vector<RangeValue>& args
     std::get<2>(key).push_back(i.hi);
   };
   Key key{rule, top, {}, {counts_.begin(), counts_.end()}, editKey(edits)};
-  for (const RangeValue& arg : args)
+  for (const RangeValue& arg : args) {
     for (const Interval& part : arg.v) note(key, part);
+    for (const Interval& part : arg.at) note(key, part);
+  }
   for (const Interval& edge : caller.scope) note(key, edge);
   Key scaled = key;
   note(scaled, caller.place.scale);

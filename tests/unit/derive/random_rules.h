@@ -25,6 +25,7 @@ class RandomRules {
     for (level_ = 0; level_ < 3; ++level_) rule();
     out_ += "rule R3(r) minsize 0.8m -> sphere(r) { " + leaf() + " scale(0.7) R3(r); }\n";
     out_ += "rule Deep(r) depth 3 -> sphere(r) { box(r); at(" + length() + ", 1m, 0m) rot(z, 40deg) Deep(0.8*r); }\n";
+    out_ += "rule Stand(plan) { extrude rand(1m, 3m) of plan; at(0m, 2m, 0m) roof hip(40deg) of plan; }\n";
     out_ += "morphic Body(r) : blob(r) -> superq((r, 0.6*r, r), 0.7) by share;\n";
     return out_;
   }
@@ -270,6 +271,7 @@ class RandomRules {
     if (chance(20)) out = "{ footprint polygon((0m, 0m), (" + length() + ", 0.3m), (1m, " + length() + ")";
     out += ") as " + plan + "; extrude " + length() + " of " + plan +
            (chance(50) ? "; " : " { tag \"edited\"; " + statement(depth + 1) + " } ");
+    if (chance(30)) return out + xforms() + "Stand(" + plan + "); }";
     return out + (chance(50) ? "at(0m, 1m, 0m) roof " + roof() + " of " + plan + "; }" : "}");
   }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kUnit = 1.0 / kUnitsPerMetre;
 
-std::string text(double value) { return std::to_string(value); }
+std::string decimal(double value) { return std::to_string(value); }
 
 double random01(std::mt19937& random) { return std::uniform_real_distribution<double>(0, 1)(random); }
 
@@ -116,8 +116,8 @@ TEST_CASE("an extrusion is as high as it says, from y = 0 up", "[derive][profile
     const double height = 0.1 + 40 * random01(random), scale = 0.5 + random01(random);
     CAPTURE(height, scale);
     const GrammarChunk chunk =
-        derivedRules("rule Main { scale(" + text(scale) + ") { footprint rect(8m, 6m) as plan; extrude " +
-                     text(height) + "m of plan { at(0m, 0.5*scope.y, 0m) anchor top; } } }");
+        derivedRules("rule Main { scale(" + decimal(scale) + ") { footprint rect(8m, 6m) as plan; extrude " +
+                     decimal(height) + "m of plan { at(0m, 0.5*scope.y, 0m) anchor top; } } }");
     const std::vector<Shape> solids = shapesOf(chunk, ShapeKind::prism);
     REQUIRE(solids.size() == 1);
     const double half = double{solids[0].size[0]}, middle = solids[0].frame.origin.y;
@@ -145,6 +145,35 @@ TEST_CASE("a block is derived for each piece, and cuts from its own alone", "[de
     CHECK(pieces[i].material == 1);
   }
   CHECK(heights.size() == 4);
+}
+
+TEST_CASE("a plan is handed to rules, and stands in the scope in which it is used", "[derive][profiles]") {
+  const std::string use = "extrude 3m of plan; at(0m, 3m, 0m) roof hip(30deg) of plan;";
+  const std::string plan = "footprint merge 3 rect(rand(5m, 9m), 6m) as plan; ";
+  const GrammarChunk here = derivedRules("rule Main { " + plan + "at(9m, 0m, 0m) { " + use + " } }"),
+                     there = derivedRules("rule Main { " + plan + "at(9m, 0m, 0m) Use(plan); } rule Use(plan) { " +
+                                          use + " }");
+  REQUIRE(here.shapes.size() == there.shapes.size());
+  for (size_t i = 0; i < here.shapes.size(); ++i) {
+    CHECK(here.shapes[i].kind == there.shapes[i].kind);
+    CHECK(here.shapes[i].frame == there.shapes[i].frame);
+    CHECK(here.shapes[i].size == there.shapes[i].size);
+  }
+  CHECK(here.points == there.points);
+  CHECK(shapesOf(here, ShapeKind::prism)[0].frame.origin.x == 9 * kUnitsPerMetre);
+}
+
+TEST_CASE("an override by tag takes the place of all that an extrusion makes", "[derive][profiles]") {
+  const std::string tower =
+      "rule Main { footprint merge 3 rect(rand(5m, 9m), 6m) as plan;\n"
+      "extrude rand(5m, 9m) of plan { tag \"wing\"; cut { box(1m); } } }\n";
+  const GrammarChunk plain = derivedRules(tower), same = derivedRules(tower + "override tag \"wing\" { inner; }"),
+                     other = derivedRules(tower + "override tag \"wing\" { sphere(2m); }");
+  REQUIRE(plain.shapes.size() == 9);
+  REQUIRE(same.shapes.size() == 9);
+  for (size_t i = 0; i < 9; ++i) CHECK(plain.shapes[i].frame == same.shapes[i].frame);
+  REQUIRE(other.shapes.size() == 1);
+  CHECK(other.shapes[0].kind == ShapeKind::sphere);
 }
 
 TEST_CASE("outlines grow by the margin on every side", "[derive][profiles]") {
@@ -187,7 +216,8 @@ TEST_CASE("roofs slope at their pitch, hips on every side and gables along the r
       std::string over;
       size_t slopes;
     };
-    const std::string box = "size(" + text(x) + "m, 0m, " + text(z) + "m) ", angle = "(" + text(pitch) + "deg)";
+    const std::string box = "size(" + decimal(x) + "m, 0m, " + decimal(z) + "m) ",
+                      angle = "(" + decimal(pitch) + "deg)";
     const Case cases[] = {
         {box + "roof hip" + angle + ";", 4},
         {box + "roof gable" + angle + ";", 2},

@@ -32,7 +32,7 @@ std::vector<ChunkRequest> blocksAround(Int3 chunk) {
   return requests;
 }
 
-ContentHash hashOf(const WorldField& world, Int3 chunk) {
+ContentHash cityHash(const WorldField& world, Int3 chunk) {
   std::vector<PlacedPart> parts;
   const auto chunks = meshAll(world, blocksAround(chunk), 2);
   for (const PlacedChunk& one : chunks) appendParts(one, parts);
@@ -40,7 +40,7 @@ ContentHash hashOf(const WorldField& world, Int3 chunk) {
   return hashParts(parts);
 }
 
-std::vector<int32_t> sampled(const WorldField& world, const std::vector<Int3>& at) {
+std::vector<int32_t> samplesAt(const WorldField& world, const std::vector<Int3>& at) {
   std::array<std::vector<int32_t>, 3> axes;
   IntBox box;
   for (const Int3& p : at) {
@@ -57,12 +57,12 @@ std::vector<int32_t> sampled(const WorldField& world, const std::vector<Int3>& a
 }
 
 /// For each place the largest height at which a world is solid, to a unit; solid below, void above, at most 64 m high.
-std::vector<Int3> surfaceOf(const WorldField& world, std::vector<Int3> places) {
+std::vector<Int3> topsOf(const WorldField& world, std::vector<Int3> places) {
   for (Int3& p : places) p.y = 1;
   for (int32_t step = 1 << 15; step > 0; step /= 2) {
     std::vector<Int3> higher = places;
     for (Int3& p : higher) p.y += step;
-    const std::vector<int32_t> q = sampled(world, higher);
+    const std::vector<int32_t> q = samplesAt(world, higher);
     for (size_t i = 0; i < places.size(); ++i)
       if (q[i] < 0) places[i].y = higher[i].y;
   }
@@ -74,9 +74,9 @@ std::vector<double> slopesAlong(const WorldField& world, const std::vector<Int3>
   constexpr int32_t kStep = 24;
   std::vector<Int3> at = places;
   for (Int3& p : at) p[axis] += kStep;
-  const std::vector<int32_t> more = sampled(world, at);
+  const std::vector<int32_t> more = samplesAt(world, at);
   for (Int3& p : at) p[axis] -= 2 * kStep;
-  const std::vector<int32_t> less = sampled(world, at);
+  const std::vector<int32_t> less = samplesAt(world, at);
   std::vector<double> out;
   for (size_t i = 0; i < at.size(); ++i)
     out.push_back((more[i] - less[i]) * (world.cellAt(0) / 1024.0) / (2.0 * kStep));
@@ -102,11 +102,11 @@ TEST_CASE("Greuter: fly any distance, return, and find identical buildings from 
   for (unsigned i = 0; i < rounds(4); ++i)
     places.push_back({within(random, -30'000, 30'000), 0, within(random, -30'000, 30'000)});
   std::vector<ContentHash> first;
-  for (const Int3& place : places) first.push_back(hashOf(world, place));
+  for (const Int3& place : places) first.push_back(cityHash(world, place));
   CHECK(first[0] != first[1]);
   for (size_t i = places.size(); i-- > 0;) {
-    CHECK(hashOf(world, places[i]) == first[i]);
-    CHECK(hashOf(large, places[i]) == first[i]);
+    CHECK(cityHash(world, places[i]) == first[i]);
+    CHECK(cityHash(large, places[i]) == first[i]);
   }
   const CellCacheStats kept = world.cacheStats();
   CHECK(kept.bytes <= room);
@@ -146,7 +146,7 @@ TEST_CASE("Greuter: every point of a roof is as steep as it says, on two sides o
     std::vector<Int3> places;
     for (int i = 0; i < 400; ++i)
       places.push_back({within(random, -512 * x + 4, 512 * x - 4), 0, within(random, -512 * z + 4, 512 * z - 4)});
-    places = surfaceOf(world, places);
+    places = topsOf(world, places);
     const double angle = pitch * kPi / 180, slope = std::tan(angle);
     const std::vector<double> up = slopesAlong(world, places, 1), east = slopesAlong(world, places, 0),
                               south = slopesAlong(world, places, 2);
