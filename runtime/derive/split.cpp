@@ -8,6 +8,7 @@
 #include "base/math.h"
 #include "derive/draws.h"
 #include "derive/interpreter.h"
+#include "grammar/scope_parts.h"
 
 namespace sgm {
 namespace {
@@ -54,8 +55,10 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
   const int axis = static_cast<int>(s.extra);
   const double length = env.scope[axis];
   if (!(length > 0) || !std::isfinite(length)) {
-    note("this scope has no size along " + std::string(1, "xyz"[axis]) + ", so it is not split", s.span,
-         env.activation);
+    const std::string letter(1, "xyz"[axis]);
+    note(
+        "this scope has no size along " + letter + ", so it is not split: give it one, such as size(" + letter + " 3m)",
+        s.span, env.activation);
     return;
   }
   std::vector<SplitSize> sizes;
@@ -77,12 +80,19 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
   if (repeated != nullptr && !(group > 0))
     note("the parts that are repeated have no size; they are left out", repeated->group, env.activation);
   const SplitLayout layout = layOut(length, sizes, static_cast<size_t>(kMostParts));
-  if (layout.too_many) return fail("more than a million parts in one split", s.span, env.activation);
+  if (layout.too_many)
+    return fail("more than a million parts in one split (give them a larger size)", s.span, env.activation);
   if (layout.cut_off) note("the parts are longer than the scope; what does not fit is cut off", s.span, env.activation);
   for (const SplitPlace& place : layout.places) {
+    const double low = std::max(0.0, place.middle - 0.5 * place.size);
+    const double rest = std::max(0.0, length - place.middle - 0.5 * place.size);
+    const double below = std::min(low, kSeamOverlap);
+    // A part is longer by its own seams than what its rigid parts were made for: the last one fills that.
+    const bool last = &place == &layout.places.back();
+    const double above = !last ? std::min(rest, kSeamOverlap) : rest <= 2 * kSeamOverlap ? rest : 0;
     Vec3 at, scope = env.scope;
-    at[axis] = place.middle - 0.5 * length;
-    scope[axis] = place.size;
+    at[axis] = place.middle + 0.5 * (above - below) - 0.5 * length;
+    scope[axis] = place.size + below + above;
     part(s, place.part, uint64_t{place.repetition} << 32 | place.part, env.place.moved(at), scope, env, out);
     if (failed()) return;
   }
@@ -106,7 +116,8 @@ void Interpreter::comp(const StmtNode& s, const Env& env, ShapeList& out) {
       if (!edge && of != face.part && !(of == BoxPart::side && f < kSides && !named(face.part))) continue;
       const double width = edges[face.width], height = edges[face.height];
       if (!(height > 0) || (!edge && !(width > 0))) {
-        note("this part of the scope's box has no size; it is left out", parts[i].span, env.activation);
+        note("this part of the scope's box has no size; it is left out: give the box one, such as size(4m, 3m, 4m)",
+             parts[i].span, env.activation);
         continue;
       }
       const Placement place = facePlace(face, env.place, edges);

@@ -5,6 +5,7 @@
 
 #include "base/math.h"
 #include "grammar/reach_check.h"
+#include "grammar/scope_parts.h"
 
 namespace sgm {
 
@@ -65,10 +66,9 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
       const double end = 0.5 * (length.hi - piece.lo);
       by[axis] = std::isfinite(end) ? Interval{std::min(before - end, end - after), std::max(before - end, end - after)}
                                     : Interval::everything();
-      // Lengths are added up in another order when derived.
-      by[axis] = by[axis] + Interval{-1e-6, 1e-6};
+      by[axis] = by[axis] + Interval{-kSeamOverlap, kSeamOverlap};
       const PlaceRange place = frame.place;
-      frame.scope[axis] = piece;
+      frame.scope[axis] = {piece.lo, std::min(piece.hi + 2 * kSeamOverlap, length.hi)};
       frame.place.move(by);
       Extent e = body(program_.idAt(s.children, i), frame);
       frame.scope = scope;

@@ -15,7 +15,7 @@ using namespace sgm;
 
 namespace {
 
-constexpr double kUnit = 1024;
+constexpr double kOneUnit = 1024;
 
 struct Box {
   Vec3 low, high;  ///< metres from the cell's corner
@@ -32,8 +32,8 @@ std::vector<Box> boxesOf(const GrammarChunk& chunk) {
       double half = 0;
       for (size_t row = 0; row < 3; ++row)
         half += std::fabs(double{shape.frame.rows[3 * row + static_cast<size_t>(axis)]}) * double{shape.size[row]};
-      box.low[axis] = (shape.frame.origin[axis] - half) / kUnit;
-      box.high[axis] = (shape.frame.origin[axis] + half) / kUnit;
+      box.low[axis] = (shape.frame.origin[axis] - half) / kOneUnit;
+      box.high[axis] = (shape.frame.origin[axis] + half) / kOneUnit;
     }
     boxes.push_back(box);
   }
@@ -100,7 +100,8 @@ TEST_CASE("parts of a split lie one after another, and fill it where one of them
   }
 }
 
-TEST_CASE("a split fills its scope with boxes that do not overlap, however it is nested and turned", "[split]") {
+TEST_CASE("a split fills its scope with boxes that overlap by their seams alone, however it is nested and turned",
+          "[split]") {
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
   std::mt19937 random(seed);
@@ -125,15 +126,16 @@ TEST_CASE("a split fills its scope with boxes that do not overlap, however it is
     for (const Box& box : boxes) {
       volume += box.volume();
       for (int axis = 0; axis < 3; ++axis) {
-        REQUIRE(box.low[axis] >= scope.low[axis] - 1 / kUnit);
-        REQUIRE(box.high[axis] <= scope.high[axis] + 1 / kUnit);
+        REQUIRE(box.low[axis] >= scope.low[axis] - 1 / kOneUnit);
+        REQUIRE(box.high[axis] <= scope.high[axis] + 1 / kOneUnit);
       }
     }
-    CHECK(volume == Approx(scope.volume()).epsilon(1e-6));
+    CHECK(volume >= scope.volume());
+    CHECK(volume < 1.15 * scope.volume());
     for (size_t i = 0; i < boxes.size(); ++i)
       for (size_t j = 0; j < i; ++j)
-        // A box's middle is taken to the nearest unit.
-        REQUIRE(overlap(boxes[i], boxes[j]) <= 1.01 / kUnit * std::min(boxes[i].volume(), boxes[j].volume()) / 0.02);
+        // Two units from either side, and half a unit of rounding each.
+        REQUIRE(overlap(boxes[i], boxes[j]) <= 5 / kOneUnit * std::min(boxes[i].volume(), boxes[j].volume()) / 0.02);
   }
 }
 
@@ -227,5 +229,5 @@ TEST_CASE("what cannot be split says so, with its path, and the rest appears", "
       "rule Main { size(60m, 1m, 1m) split x { { 0.00001m: box(1m); }* } }");
   const auto chunk = deriveCell(*program, ParameterValues::defaults(*program), 1, 0, {}, Ceiling(1 << 30));
   REQUIRE(!chunk);
-  CHECK(chunk.error().message.find("more than a million parts") != std::string::npos);
+  CHECK(chunk.error().message.starts_with("more than a million parts in one split (give them a larger size)"));
 }

@@ -148,3 +148,27 @@ TEST_CASE("Mueller: balconies stand where they are drawn, and only there", "[tab
   }
   CHECK(sides.size() == 4);
 }
+
+TEST_CASE("Mueller: solids that fill the parts of a scope are one body, where samples lie in their faces as well",
+          "[table4]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const WorldField world{settingsOf("sgm 1; start Lot; rule Lot { size(8m, 4m, 4m) split x { 3m: Half; ~1m: Half; } }\n"
+                                    "rule Half { split y { 1m: Block; 1m: Block; 2m: Thirds; } }\n"
+                                    "rule Thirds { split z { { ~1.3m: Block; }* } } rule Block { box(scope); }\n",
+                                    128),
+                         std::pmr::get_default_resource()};
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (unsigned round = 0; round < rounds(200); ++round) {
+    const double x = 3.99 * unit(random), y = 1.99 * unit(random), z = 1.99 * unit(random);
+    CAPTURE(x, y, z);
+    CHECK(solidAt(world, -1, y, z));
+    CHECK(solidAt(world, x, -1, z));
+    CHECK(solidAt(world, x, 0, z));
+    CHECK(solidAt(world, x, 1, -2.0 / 3));
+  }
+  CHECK(solidAt(world, -1, 0, 0));
+  CHECK(!solidAt(world, 4.01, 0, 0));
+  CHECK(!solidAt(world, 0, 2.01, 0));
+}
