@@ -51,6 +51,16 @@ const NoteCase kNotes[] = {
      "with it",
      "halfspace", "meet { box(4m); sum { blob(1m); halfspace(below 0m); } }",
      "meet { box(4m); sum { blob(1m); cylinder(0m, 0m); } }"},
+    {"this scope has no size along y, so it is not split: give it one, such as size(y 3m)", "split",
+     "size(4m, 0m, 4m) split y { ~1m: sphere(1m); }", ""},
+    {"the size of this part is negative; it is left out", "rand",
+     "size(4m, 4m, 4m) split x { rand(-2m, -1m): box(9m); }", ""},
+    {"the parts that are repeated have no size; they are left out", "{ 0m",
+     "size(4m, 4m, 4m) split x { { 0m: box(9m); }* }", ""},
+    {"the parts are longer than the scope; what does not fit is cut off", "split",
+     "size(4m, 4m, 4m) split x { 9m: box(2m); }", "size(4m, 4m, 4m) split x { 4m: box(2m); }"},
+    {"this part of the scope's box has no size; it is left out: give the box one, such as size(4m, 3m, 4m)", "front",
+     "size(4m, 0m, 4m) comp { front: sphere(1m); }", ""},
 };
 
 /// Line 3 is the rule Faulty; another that is sound comes before it, and one behind.

@@ -1,0 +1,119 @@
+// What is said about parts of scopes, footprints, extrusions and roofs, word for word.
+
+#include "messages.h"
+
+using namespace sgm::test;
+
+namespace {
+
+const MessageCase kParts[] = {
+    {"3:7 syntax: expected x, y or z to split along, found `q`", "split q { 2m: Part; }"},
+    {"3:9 syntax: expected `{`, found `2m`", "split x 2m: Part;"},
+    {"3:14 syntax: expected `:` and what stands in this part, found `Part`", "split x { 2m Part; }"},
+    {"3:15 syntax: expected a block or a statement for `this part`, found `}`", "split x { 2m: }"},
+    {"3:11 value-range: a part cannot be more than 100% of the scope | write a length, such as 2m, or a share, such as "
+     "25%",
+     "split x { 2: Part; }"},
+    {"3:12 unit-mismatch: a flexible size is a length, and this is a ratio | write `2m`", "split x { ~2: Part; }"},
+    {"3:11 unit-mismatch: the size of a part is a length, and this is an angle | such as 2m",
+     "split x { 2deg: Part; }"},
+    {"3:11 stage: the size of a part is decided when shapes are derived, and `p` is known at sample time only | fields "
+     "serve displace, warp and the t of morph",
+     "split x { p.x: Part; }"},
+    {"3:25 syntax: expected `*` behind the parts that are repeated, found `1m`", "split x { { 2m: Part; } 1m: Part; }"},
+    {"3:13 syntax: a repeated group holds no other group | split its parts once more instead",
+     "split x { { { 2m: Part; }* }* }"},
+    {"3:26 duplicate: a second repeated group in this split | put its parts into the first one, or split a part once "
+     "more",
+     "split x { { 2m: Part; }* { 1m: Part; }* }"},
+    {"3:8 unknown-name: a box has no part `fornt` | did you mean `front`?", "comp { fornt: Part; }"},
+    {"3:8 unknown-name: a box has no part `chimney` | front, back, left, right, side, top, bottom, edges, inside",
+     "comp { chimney: Part; }"},
+    {"3:8 syntax: expected a part of the box such as `front:`, found `2m`", "comp { 2m: Part; }"},
+    {"3:19 duplicate: `top` stands twice in this comp | put both into one block behind it",
+     "comp { top: Part; top: Part; }"},
+    {"3:13 syntax: expected a block or a statement for `this part`, found `}`", "comp { top: }"},
+    {"3:12 syntax: expected `:`, found `Part`", "comp { top Part; }"},
+};
+
+const MessageCase kProfiles[] = {
+    {"3:19 syntax: expected `rect`, `regular` or `polygon`, found `box`", "footprint merge 3 box(2m, 3m) as plan;"},
+    {"3:24 syntax: expected `as`, found `plan`", "footprint rect(2m, 3m) plan;"},
+    {"3:26 syntax: expected the name of a plan, found `;`", "footprint rect(2m, 3m) as;"},
+    {"3:17 unit-mismatch: the number of pieces is a ratio, and this is a length | divide it by a length to make a "
+     "ratio of it",
+     "footprint merge 2m rect(2m, 3m) as plan;"},
+    {"3:17 value-range: a footprint merges 1 to 64 pieces | such as merge 3",
+     "footprint merge 65 rect(2m, 3m) as plan;"},
+    {"3:16 unit-mismatch: an edge of a footprint is a length, and this is a ratio | write `2m`",
+     "footprint rect(2, 3m) as plan;"},
+    {"3:11 argument-count: `rect` needs 2 arguments | it is `rect(x, z)`", "footprint rect(2m) as plan;"},
+    {"3:19 unit-mismatch: the number of corners is a ratio, and this is a length | divide it by a length to make a "
+     "ratio of it",
+     "footprint regular(5m, 3m) as plan;"},
+    {"3:19 value-range: a regular polygon has 3 to 64 corners | such as regular(6, 8m)",
+     "footprint regular(2, 3m) as plan;"},
+    {"3:22 unit-mismatch: the radius of a footprint is a length, and this is a ratio | write `3m`",
+     "footprint regular(5, 3) as plan;"},
+    {"3:11 argument-count: a polygon has 3 to 64 corners | such as polygon((0m, 0m), (8m, 0m), (8m, 6m))",
+     "footprint polygon((2m, 0m), (0m, 2m)) as plan;"},
+    {"3:27 unit-mismatch: a corner of a footprint is a pair of lengths, and this is a pair of ratios | such as (1m, "
+     "2m)\n3:35 unit-mismatch: a corner of a footprint is a pair of lengths, and this is a pair of ratios | such as "
+     "(1m, 2m)",
+     "footprint polygon((0, 0), (2, 0), (0, 2)) as plan;"},
+    {"3:19 argument-name: the corners of a polygon have no names | such as polygon((0m, 0m), (8m, 0m), (8m, 6m))",
+     "footprint polygon(a = (2m, 0m), (0m, 2m), (1m, 3m)) as plan;"},
+    {"3:19 wrong-use: `merge` puts rectangles and regular polygons together | give the polygon the corners of the "
+     "whole outline, or merge `rect` or `regular`",
+     "footprint merge 2 polygon((2m, 0m), (0m, 2m), (1m, 3m)) as plan;"},
+    {"3:12 syntax: expected `of`, found `plan`", "extrude 2m plan;"},
+    {"3:14 syntax: expected the name of a plan, found `;`", "extrude 2m of;"},
+    {"3:15 syntax: expected the name of a plan, found `3m`", "extrude 2m of 3m;"},
+    {"3:15 unknown-name: unknown name `plan` | add `let plan = ...;`, or `param plan = ...;`", "extrude 2m of plan;"},
+    {"3:54 syntax: expected `;` or a block, found `sphere`",
+     "{ footprint rect(2m, 3m) as plan; extrude 2m of plan sphere(1m); }"},
+    {"3:43 unit-mismatch: the height of an extrusion is a length, and this is a ratio | write `2m`",
+     "{ footprint rect(2m, 3m) as plan; extrude 2 of plan; }"},
+    {"3:32 type-mismatch: `of` names a plan, and this is a length | such as `footprint rect(12m, 8m) as plan;` before "
+     "it in the rule",
+     "{ let wide = 2m; extrude 2m of wide; }"},
+    {"3:6 syntax: expected `flat`, `gable` or `hip`, found `dome`", "roof dome(2m);"},
+    {"3:11 unit-mismatch: the height of a flat roof is a length, and this is an angle | such as 2m",
+     "roof flat(30deg);"},
+    {"3:10 unit-mismatch: the pitch of a roof is an angle, and this is a length | such as 30deg", "roof hip(2m);"},
+    {"3:10 value-range: the pitch of a roof is 5deg to 80deg | such as 35deg", "roof hip(2deg);"},
+    {"3:28 unit-mismatch: the overhang of a roof is a length, and this is a ratio | write `2m`",
+     "roof gable(30deg, overhang 2);"},
+    {"3:30 value-range: the overhang of a roof is 0m or more | such as overhang 0.5m",
+     "roof gable(30deg, overhang = -1m);"},
+    {"3:19 syntax: expected the name of a plan, found `;`", "roof hip(30deg) of;"},
+    {"3:42 type-mismatch: `r` of `sphere` is a length, and this is a plan | such as 2m",
+     "{ footprint rect(2m, 3m) as plan; sphere(plan); }"},
+    {"3:7 wrong-use: a sum has leaves only: spheres, blobs and other primitives | cut, displace or warp the sum as a "
+     "whole",
+     "sum { roof flat(1m); }"},
+    {"3:35 duplicate: `plan` is declared twice in this rule | rename one of them",
+     "{ footprint rect(2m, 3m) as plan; footprint rect(2m, 3m) as plan; extrude 2m of plan; }"},
+};
+
+const MessageCase kOpen[] = {
+    {"1:24 syntax: this block is not closed | a `}` is missing\n1:34 syntax: these parts are not closed | a `}` is "
+     "missing",
+     "sgm 1; start A; rule A { split x { 2m: sphere(2m);"},
+    {"1:24 syntax: this block is not closed | a `}` is missing\n1:34 syntax: these parts are not closed | a `}` is "
+     "missing\n1:36 syntax: these parts are not closed | a `}` is missing",
+     "sgm 1; start A; rule A { split x { { 2m: sphere(2m);"},
+};
+
+const Around kInScope{"sgm 1; start A;\nrule A { size(4m, 4m, 4m) {\n", "\n} }\nrule Part { box(1m); }"};
+
+const Around kInRule{kInScope.before, "\n} }"};
+
+}  // namespace
+
+TEST_CASE("messages: parts of scopes", "[grammar][messages]") {
+  checkMessages(kParts, kInScope);
+  checkMessages(kOpen);
+}
+
+TEST_CASE("messages: footprints, extrusions and roofs", "[grammar][messages]") { checkMessages(kProfiles, kInRule); }
