@@ -16,10 +16,12 @@ enum PathSalt : uint64_t {
   kSetSalt = 0x73657473,       ///< plus the hash of the rule's name, for a set of the whole layer
   kAnchorSalt = 0x616E6368,
   kBendSalt = 0x62656E64,
-  kBranchSalt = 0x6272616E,   ///< a skeleton, with the ordinal of its expression
-  kForkSalt = 0x666F726B,     ///< a side branch, with the step that it leaves
-  kSegmentSalt = 0x7365676D,  ///< a segment, with its step
-  kJointSalt = 0x6A6F696E,    ///< the joint behind a segment, likewise
+  kBranchSalt = 0x6272616E,    ///< a skeleton, with the ordinal of its expression
+  kForkSalt = 0x666F726B,      ///< a side branch, with the step that it leaves
+  kSegmentSalt = 0x7365676D,   ///< a segment, with its step
+  kJointSalt = 0x6A6F696E,     ///< the joint behind a segment, likewise
+  kCorridorSalt = 0x636F7272,  ///< a stretch of a treemap's corridor, with its number
+  kFacadeSalt = 0x66616361,    ///< an outer wall of a room, with its number
 };
 
 /// Ordinals of the draws that one key gives.

@@ -3,8 +3,9 @@
 //
 // evaluate.cpp: expressions. functions.cpp: the language's functions. statements.cpp: blocks and combiners. morph.cpp:
 // morphs. split.cpp: parts of scopes. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets.
-// primitives.cpp: leaves. voxels.cpp: those of cellular automata. profiles.cpp: footprints and roofs. overrides.cpp:
-// blocks in the place of others. derive.cpp: the cell as a whole. instances.cpp: the uses of one rule in it.
+// primitives.cpp: leaves. voxels.cpp: those of cellular automata. profiles.cpp: footprints and roofs. rooms.cpp: floors
+// in rooms. overrides.cpp: blocks in the place of others. derive.cpp: the cell as a whole. instances.cpp: the uses of
+// one rule in it.
 
 #include <array>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "derive/bounds.h"
 #include "derive/derive.h"
 #include "derive/draft.h"
+#include "derive/floor_plan.h"
 #include "derive/frame.h"
 #include "derive/lattice.h"
 #include "derive/plan.h"
@@ -225,6 +227,13 @@ class Interpreter {
   /// Derives a part as a block of its own in `scope` at `place`; number: of the part, for its key.
   void part(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope, const Env& env,
             ShapeList& out);
+  void treemap(const StmtNode& s, const Env& env, ShapeList& out);
+  double floorMeasure(ExprId id, double fallback, const ValueRange& range, const Env& env);
+  void planBox(const PlanRect& r, double y, double height, const StmtNode& s, const Env& env, ShapeList& out);
+  /// index: of the part that says what stands there, or kNone.
+  void roomAt(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear, PathKey key, const Env& env,
+              ShapeList& out);
+  void facades(const StmtNode& s, const FloorPlan& plan, std::span<const PathKey> keys, const Env& env, ShapeList& out);
   void footprint(const StmtNode& s, const Env& env);
   std::optional<PlanPiece> planPiece(const FootprintNode& node, const Env& env);
   void extrude(const StmtNode& s, const Env& env, ShapeList& out);

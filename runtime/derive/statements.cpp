@@ -133,6 +133,9 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
     case StmtKind::comp:
       comp(s, env, out);
       break;
+    case StmtKind::treemap:
+      treemap(s, env, out);
+      break;
     case StmtKind::footprint:
       footprint(s, env);
       break;
@@ -161,6 +164,7 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
     case StmtKind::field:  // evaluated where it is used
     case StmtKind::mat:    // the checker has put both on the block
     case StmtKind::tag:
+    case StmtKind::link:  // its treemap has read it
       break;
   }
 }

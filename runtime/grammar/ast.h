@@ -121,6 +121,8 @@ enum class StmtKind : uint8_t {
   anchor,     ///< extra: kind, extra2: name; both Program::names
   split,      ///< extra: axis 0 1 2; parts: along it, each with its child
   comp,       ///< parts: faces and edges of the scope's box, each with its child
+  treemap,    ///< extra: Ast::treemaps; parts: its rooms and what else is derived in it, each with its child
+  link,       ///< of a treemap: name and name2: rooms; extra: Ast::links
   detail,     ///< expr: length; body is dropped at levels whose cell edge is larger
   footprint,  ///< slot: a plan, from here to the end of the block; extra: Ast::footprints
   extrude,    ///< expr: height; plan; body: a block or kNoId
@@ -212,13 +214,24 @@ enum class BoxPart : uint8_t {
   inside,  ///< the box itself
 };
 
-/// A part of a split or a comp.
+/// What stands in a treemap.
+enum class FloorPart : uint8_t {
+  room,
+  corridor,  ///< what is derived in each stretch of it
+  facade,    ///< at each outer wall of a room
+  link,      ///< a statement of that kind
+};
+
+/// A part of a split, a comp or a treemap.
 struct PartNode {
-  ExprId size = kNoId;          ///< of a split: a length, or a share of the scope
+  ExprId size = kNoId;          ///< of a split: a length, or a share of the scope; of a room: the weight of its area
   bool flexible = false;        ///< of a split: the length is a weight in what the others leave
   bool repeated = false;        ///< of a split: in the group that is repeated, which is one run of parts
   bool relative = false;        ///< resolved, of a split: size is a share
   BoxPart of = BoxPart::front;  ///< of a comp
+  FloorPart floor = FloorPart::room;  ///< of a treemap
+  NameId label = kNoId;               ///< of a room
+  uint16_t tag = 0;                   ///< resolved, of a room: Program::tags
   Span span;
   Span group;  ///< repeated: of the whole group
 };
@@ -246,6 +259,18 @@ struct RoofNode {
   IdRange args;             ///< into Ast::args: as written
 };
 
+/// Lengths; resolved, or kNoId.
+struct TreemapNode {
+  IdRange args;  ///< into Ast::args: as written
+  ExprId wall = kNoId, door = kNoId, height = kNoId, corridor = kNoId;
+};
+
+struct LinkNode {
+  IdRange args;                          ///< into Ast::args: as written; none where the treemap says how wide doors are
+  uint32_t a = 0, b = 0;                 ///< resolved: rooms, as numbered among those of the treemap
+  ExprId width = kNoId, height = kNoId;  ///< resolved, or kNoId: as the treemap says
+};
+
 /// A parameter of a rule, let function or field.
 struct FormalNode {
   NameId name = kNoId;
@@ -268,6 +293,8 @@ struct Ast {
   std::pmr::vector<XformNode> xforms;
   std::pmr::vector<ScatterNode> scatters;
   std::pmr::vector<PartNode> parts;
+  std::pmr::vector<TreemapNode> treemaps;
+  std::pmr::vector<LinkNode> links;
   std::pmr::vector<FootprintNode> footprints;
   std::pmr::vector<RoofNode> roofs;
   std::pmr::vector<ArgNode> args;
@@ -281,6 +308,8 @@ struct Ast {
         xforms(memory),
         scatters(memory),
         parts(memory),
+        treemaps(memory),
+        links(memory),
         footprints(memory),
         roofs(memory),
         args(memory),

@@ -114,6 +114,9 @@ class Checker {
   void scatterStatement(const StmtNode& node, bool shrunk);
   void splitStatement(const StmtNode& node);
   void partStatements(const StmtNode& node);
+  // check_treemap.cpp
+  void treemap(const StmtNode& node);
+  void link(const StmtNode& node, const std::vector<NameId>& rooms);
   bool xforms(IdRange range, bool copied);
   void localField(const StmtNode& node);
   void callRule(ExprId call, bool escape, bool shrunk);

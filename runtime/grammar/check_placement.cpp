@@ -183,6 +183,19 @@ void Checker::idleCuts(StmtId id, bool first) {
       for (uint32_t i = 0; i < program_.stmt(s.body).children.count; ++i)
         idleCuts(program_.idAt(program_.stmt(s.body).children, i), false);
       return;
+    case StmtKind::treemap:
+      // Rooms and corridors stand before what their blocks say.
+      for (uint32_t i = 0; i < s.children.count; ++i) {
+        const StmtId child = program_.idAt(s.children, i);
+        const bool open = program_.ast.parts[s.parts.first + i].floor != FloorPart::facade;
+        if (!open || program_.stmt(child).kind != StmtKind::block) {
+          idleCuts(child, !open);
+          continue;
+        }
+        for (uint32_t c = 0; c < program_.stmt(child).children.count; ++c)
+          idleCuts(program_.idAt(program_.stmt(child).children, c), false);
+      }
+      return;
     case StmtKind::morph:
     case StmtKind::split:
     case StmtKind::comp:

@@ -188,8 +188,7 @@ void Checker::callRule(ExprId call, bool escape, bool shrunk) {
     types[i].sample = false;
     if (types[i].kind == ValueKind::boolean || types[i].kind == ValueKind::number ||
         types[i].kind == ValueKind::vector || types[i].kind == ValueKind::cell || types[i].kind == ValueKind::face ||
-        types[i].kind == ValueKind::segment || types[i].kind == ValueKind::plan ||
-        types[i].kind == ValueKind::unknown)
+        types[i].kind == ValueKind::segment || types[i].kind == ValueKind::plan || types[i].kind == ValueKind::unknown)
       continue;
     good = false;
     sink_.error(node(bound[i]).span, codes::kTypeMismatch, join({what, " cannot be a ", typeName(types[i])}),
@@ -294,6 +293,8 @@ void Checker::statement(StmtId id, bool shrunk) {
       return splitStatement(copy);
     case StmtKind::comp:
       return partStatements(copy);
+    case StmtKind::treemap:
+      return treemap(copy);
     case StmtKind::let: {
       Type type = expression(copy.expr);
       deriveOnly(copy.expr, "a let");
@@ -324,6 +325,7 @@ void Checker::statement(StmtId id, bool shrunk) {
     case StmtKind::roof:
       return roof(copy);
     case StmtKind::inner:
+    case StmtKind::link:  // checked by its treemap
       return;
   }
 }

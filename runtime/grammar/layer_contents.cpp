@@ -101,7 +101,8 @@ class RuleContents {
     if (s.kind == StmtKind::call) return ofCall(s.expr);
     if (s.kind == StmtKind::anchor) return {0, true};
     Contents all = ofStatement(s.body);
-    if (s.kind == StmtKind::extrude || s.kind == StmtKind::roof) all.add(Contents::shape());
+    if (s.kind == StmtKind::extrude || s.kind == StmtKind::roof || s.kind == StmtKind::treemap)
+      all.add(Contents::shape());
     for (uint32_t i = 0; i < s.children.count; ++i) all.add(ofStatement(program_.idAt(s.children, i)));
     if (s.kind == StmtKind::detail) all.coarsest_cell = std::min(all.coarsest_cell, mostOf(s.expr));
     return all;

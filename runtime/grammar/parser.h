@@ -127,6 +127,13 @@ class Parser {
   void splitPart(Parts& parts, bool repeated);
   void compPart(Parts& parts);
   bool partsEnd(const Span& begin);
+
+  // parser_treemap.cpp
+  StmtId treemapStatement();
+  void floorPart(Parts& parts);
+  StmtId linkStatement();
+
+  // parser_split.cpp
   StmtId addParts(StmtNode node, const Parts& parts, const Span& begin);
 
   // parser_statements.cpp

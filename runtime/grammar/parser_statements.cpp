@@ -8,9 +8,10 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 24> kStatements = {
-    "union", "cut", "meet",   "sum",    "morph", "displace", "warp", "repeat", "for",  "scatter",   "let",     "field",
-    "mat",   "tag", "anchor", "detail", "inner", "smooth",   "when", "split",  "comp", "footprint", "extrude", "roof"};
+constexpr std::array<std::string_view, 25> kStatements = {
+    "union",   "cut",   "meet",  "sum",     "morph",     "displace", "warp",   "repeat", "for",
+    "scatter", "let",   "field", "mat",     "tag",       "anchor",   "detail", "inner",  "smooth",
+    "when",    "split", "comp",  "treemap", "footprint", "extrude",  "roof"};
 
 }  // namespace
 
@@ -71,6 +72,7 @@ StmtId Parser::statement() {
   if (atWord("anchor")) return nameStatement(StmtKind::anchor);
   if (atWord("split")) return splitStatement();
   if (atWord("comp")) return compStatement();
+  if (atWord("treemap")) return treemapStatement();
   if (atWord("detail")) return detailStatement();
   if (atWord("footprint")) return footprintStatement();
   if (atWord("extrude")) return extrudeStatement();

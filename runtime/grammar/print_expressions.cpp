@@ -307,6 +307,15 @@ void LinePrinter::head(std::string& out, const StmtNode& node) const {
     case StmtKind::comp:
       out += "comp";
       break;
+    case StmtKind::treemap:
+      out += "treemap";
+      if (const IdRange given = program_.ast.treemaps[node.extra].args; given.count > 0) args(out, given, "treemap");
+      break;
+    case StmtKind::link:
+      out += join({"link ", program_.text(node.name), " ", program_.text(node.name2), " by door"});
+      if (const IdRange given = program_.ast.links[node.extra].args; given.count > 0) args(out, given, "door");
+      out += ';';
+      break;
     case StmtKind::let:
       out += join({"let ", program_.text(node.name), " = "});
       expr(out, node.expr);
@@ -363,7 +372,7 @@ void LinePrinter::statement(std::string& out, StmtId id) const {
     return;
   }
   head(out, node);
-  if (node.kind == StmtKind::split || node.kind == StmtKind::comp) {
+  if (hasParts(node)) {
     out += " { ";
     for (uint32_t i = 0; i < node.children.count; ++i) {
       if (opensGroup(node, i)) out += "{ ";
@@ -377,6 +386,10 @@ void LinePrinter::statement(std::string& out, StmtId id) const {
   if (node.body == kNoId) return;
   out += ' ';
   statement(out, node.body);
+}
+
+bool LinePrinter::hasParts(const StmtNode& node) {
+  return node.kind == StmtKind::split || node.kind == StmtKind::comp || node.kind == StmtKind::treemap;
 }
 
 bool LinePrinter::opensGroup(const StmtNode& node, uint32_t i) const {
@@ -393,6 +406,14 @@ void LinePrinter::part(std::string& out, const StmtNode& node, uint32_t i) const
   const PartNode& part = program_.ast.parts[node.parts.first + i];
   if (node.kind == StmtKind::comp) {
     out += boxPartTable()[static_cast<size_t>(part.of)];
+  } else if (node.kind == StmtKind::treemap) {
+    if (part.floor == FloorPart::link) return;
+    if (part.floor == FloorPart::room) {
+      out += join({program_.text(part.label), " "});
+      expr(out, part.size);
+    } else {
+      out += part.floor == FloorPart::corridor ? "corridor" : "facade";
+    }
   } else {
     if (part.flexible) out += '~';
     expr(out, part.size);

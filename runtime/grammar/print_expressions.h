@@ -23,7 +23,9 @@ class LinePrinter {
   void xforms(std::string& out, IdRange range) const;
   /// What stands before a statement's body, without a blank at the end; the whole statement where it has no body.
   void head(std::string& out, const StmtNode& node) const;
-  /// What stands before the statement of part i of a split or comp, with a blank at the end.
+  /// A split, a comp or a treemap.
+  static bool hasParts(const StmtNode& node);
+  /// What stands before the statement of part i of one of these, with a blank at the end.
   void part(std::string& out, const StmtNode& node, uint32_t i) const;
   /// Whether a repeated group begins before part i, or ends behind it.
   bool opensGroup(const StmtNode& node, uint32_t i) const;

@@ -276,7 +276,7 @@ class ModulePrinter {
     last_line_ = block.span.end_line;
   }
 
-  /// The parts of a split or comp, each on a line, a repeated group one deeper.
+  /// The parts of a split, comp or treemap, each on a line, a repeated group one deeper.
   void partsInLines(const StmtNode& node, size_t depth) {
     out_ += " {";
     trailing(node.span.line);
@@ -321,7 +321,7 @@ class ModulePrinter {
     }
     if (node.kind == StmtKind::block) return blockInLines(node, depth);
     line_.head(out_, node);
-    if (node.kind == StmtKind::split || node.kind == StmtKind::comp) return partsInLines(node, depth);
+    if (LinePrinter::hasParts(node)) return partsInLines(node, depth);
     if (node.body == kNoId) return;
     out_ += ' ';
     statement(node.body, depth);

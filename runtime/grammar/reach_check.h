@@ -3,8 +3,9 @@
 // each tuple of argument ranges and remembered, so that recursion costs its depth and not its leaves.
 //
 // reach.cpp: layers and what is said of them. reach_rules.cpp: calls and choice. reach_statements.cpp: statements.
-// reach_transforms.cpp: transforms, loops, point sets. reach_split.cpp: parts of scopes. reach_automaton.cpp: cellular
-// automata. reach_profiles.cpp: footprints, extrusions and roofs. reach_overrides.cpp: overrides.
+// reach_transforms.cpp: transforms, loops, point sets. reach_split.cpp: parts of scopes. reach_treemap.cpp: rooms.
+// reach_automaton.cpp: cellular automata. reach_profiles.cpp: footprints, extrusions and roofs. reach_overrides.cpp:
+// overrides.
 
 #include <map>
 #include <set>
@@ -98,6 +99,8 @@ class ReachCheck {
   Extent scattered(const StmtNode& s, RangeFrame& frame);
   Extent split(const StmtNode& s, RangeFrame& frame);
   Extent comp(const StmtNode& s, RangeFrame& frame);
+  Extent treemap(const StmtNode& s, RangeFrame& frame);
+  Extent inPieces(StmtId child, const IntervalVector& edges, RangeFrame& frame);
   RangeValue footprint(const FootprintNode& plan, const RangeFrame& frame);
   Extent extrude(const StmtNode& s, RangeFrame& frame);
   Extent roof(const StmtNode& s, RangeFrame& frame);

@@ -5,6 +5,7 @@
 #include "base/math.h"
 #include "grammar/profile_limits.h"
 #include "grammar/reach_check.h"
+#include "grammar/reach_shapes.h"
 
 namespace sgm {
 
@@ -17,7 +18,8 @@ constexpr double kRounding = 4.0 / kUnitsPerMetre;
 Interval notBelowZero(Interval v) { return {std::max(v.lo, 0.0), std::max(v.hi, 0.0)}; }
 Interval symmetric(Interval v) { return {-v.hi, v.hi}; }
 
-/// A solid about the middle of a box with these edges, which corners that fall together may leave out.
+}  // namespace
+
 Extent solidIn(const IntervalVector& edges) {
   IntervalVector lower, upper;
   for (size_t i = 0; i < 3; ++i) {
@@ -30,8 +32,6 @@ Extent solidIn(const IntervalVector& edges) {
   e.node();
   return e;
 }
-
-}  // namespace
 
 RangeValue ReachCheck::footprint(const FootprintNode& plan, const RangeFrame& frame) {
   RangeValue out;

@@ -9,4 +9,7 @@ namespace sgm {
 /// The extent of a terminal with its arguments.
 Extent primitiveExtent(const Program& program, const ExprNode& call, RangeEvaluator& values, const RangeFrame& frame);
 
+/// Solids in a box with these edges about the scope's middle, which may be left out.
+Extent solidIn(const IntervalVector& edges);
+
 }  // namespace sgm

@@ -73,6 +73,8 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
       return split(s, frame);
     case StmtKind::comp:
       return comp(s, frame);
+    case StmtKind::treemap:
+      return treemap(s, frame);
     case StmtKind::let:
       frame.slots[s.slot] = values_.evaluate(s.expr, frame);
       return Extent::nothing();
@@ -93,6 +95,7 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
     case StmtKind::mat:
     case StmtKind::tag:
     case StmtKind::anchor:
+    case StmtKind::link:
       return Extent::nothing();
   }
   return Extent::unbounded();

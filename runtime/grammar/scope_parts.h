@@ -2,6 +2,7 @@
 // What the parts of scopes and the proof of where they lie agree upon.
 
 #include "base/fixed.h"
+#include "grammar/builtins.h"
 
 namespace sgm {
 
@@ -9,5 +10,14 @@ namespace sgm {
 /// leave a sheet of void where samples lie in that face: this is more than the rounding of their places and than the
 /// step in which cells of up to 2 m are sampled.
 inline constexpr double kSeamOverlap = 2.0 / kUnitsPerMetre;
+
+/// Metres by which an entrance reaches out of the floor of a treemap, and doors into what they join.
+inline constexpr double kDoorReach = 16.0 / kUnitsPerMetre;
+
+inline constexpr size_t kMostRooms = 32;
+inline constexpr ValueRange kWallRange{0.01, 5, "the walls of a treemap are 1cm to 5m thick", "such as wall 0.2m"};
+inline constexpr ValueRange kDoorRange{0.1, 100, "a door is 0.1m to 100m wide", "such as door 0.9m"};
+inline constexpr ValueRange kDoorHeightRange{0.1, 100, "a door is 0.1m to 100m high", "such as height 2.1m"};
+inline constexpr ValueRange kCorridorRange{0.1, 100, "a corridor is 0.1m to 100m wide", "such as corridor 1.2m"};
 
 }  // namespace sgm

@@ -175,7 +175,7 @@ class RandomRules {
 
   std::string statement(int depth) {
     if (depth > 3) return leaf();
-    switch (draw(27)) {
+    switch (draw(28)) {
       case 0:
         return level_ < 2 ? "R" + std::to_string(level_ + 1) + "(" + length() + ");" : "R3(min(r, 3m));";
       case 1:
@@ -235,7 +235,9 @@ class RandomRules {
       case 23:
         return "roof " + roof() + ";";
       case 24:
+        return sized() + "treemap" + rooms(depth);
       case 25:
+      case 26:
         return profile("plan" + std::to_string(depth), depth);
       default:
         return leaf();
@@ -263,6 +265,16 @@ class RandomRules {
     const std::string overhang = pick({"", ", overhang 0.4m", ", 0.2*size_"}) + ")";
     if (chance(30)) return "flat(" + length() + overhang;
     return pick({"gable(", "hip("}) + pick({"30deg", "rand(5deg, 80deg)", "60deg*share", "80deg"}) + overhang;
+  }
+
+  std::string rooms(int depth) {
+    std::string out = pick({"", "(wall 0.1m)", "(0.3m, door rand(0.4m, 1m), corridor 0.8m)"}) + " { a " +
+                      pick({"4", "rand(1, 6)", "count"}) + ": " + statement(depth + 1) + " b 3: { " + leaf() + " cut " +
+                      leaf() + " } c 0.5*count: " + leaf();
+    out += pick({"", " link a b by door;", " link b c by door(0.6m, 1m);"});
+    if (chance(50)) out += " facade: " + statement(depth + 1);
+    if (chance(50)) out += " corridor: " + leaf();
+    return out + " }";
   }
 
   std::string profile(const std::string& plan, int depth) {

@@ -61,6 +61,21 @@ const NoteCase kNotes[] = {
      "size(4m, 4m, 4m) split x { 9m: box(2m); }", "size(4m, 4m, 4m) split x { 4m: box(2m); }"},
     {"this part of the scope's box has no size; it is left out: give the box one, such as size(4m, 3m, 4m)", "front",
      "size(4m, 0m, 4m) comp { front: sphere(1m); }", ""},
+    {"this scope's box has no size, or one of more than 1 km, so it gets no rooms: give it one, such as size(12m, 3m, "
+     "9m)",
+     "treemap", "size(4m, 0m, 4m) treemap { a 4: { } }", ""},
+    {"this floor has no room for these rooms between their walls; the treemap is left out: fewer rooms, thinner walls "
+     "or "
+     "a larger scope",
+     "treemap", "size(4m, 4m, 4m) treemap(wall 3m) { a 4: { } }", ""},
+    {"the area of this room is not positive; the room is left out", "b rand",
+     "size(9m, 4m, 9m) treemap { a 4: { } b rand(-2, -1): { } }", "size(9m, 4m, 9m) treemap { a 4: { } }"},
+    {"no wall of `b` is wide enough for a door, so nothing leads into it: a narrower door, or a larger room", "b 4",
+     "size(9m, 4m, 7m) treemap(door 8m) { a 4: { } b 4: { } }",
+     "size(9m, 4m, 7m) treemap(door 8m) { a 4: { } b 4: { } }"},
+    {"a door is 0.1m to 100m wide, such as door 0.9m; this one is taken as if left out", "rand",
+     "size(9m, 4m, 7m) treemap(door rand(-2m, -1m)) { a 4: { } b 4: { } }",
+     "size(9m, 4m, 7m) treemap(door rand(0.9m, 0.9m)) { a 4: { } b 4: { } }"},
 };
 
 /// Line 3 is the rule Faulty; another that is sound comes before it, and one behind.

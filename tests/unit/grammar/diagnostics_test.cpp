@@ -51,7 +51,7 @@ const Case kCases[] = {
     {"2:10 syntax", "sgm 1; start A;\nrule A { uinon { sphere(2m); } }"},
     {"2:8 syntax", "sgm 1; start A;\nrule A { sphere(2m);"},
     {"2:20 syntax", "sgm 1; start A;\nrule A { let a = 1 < 2 < 3; }"},
-    {"2:10 not-available", "sgm 1; start A;\nrule A { treemap x { 2m: A; } sphere(2m); }"},
+    {"2:10 not-available", "sgm 1; start A;\nrule A { wfc x { 2m: A; } sphere(2m); }"},
     {"2:16 syntax", "sgm 1; start A;\nrule A { split yz { 2m: sphere(2m); } }"},
     {"2:16 syntax", "sgm 1; start A;\nrule A { split w { 2m: sphere(2m); } }"},
     {"2:23 syntax", "sgm 1; start A;\nrule A { split x { 2m sphere(2m); } }"},

@@ -1,4 +1,4 @@
-// What is said about parts of scopes, footprints, extrusions and roofs, word for word.
+// What is said about parts of scopes, rooms, footprints, extrusions and roofs, word for word.
 
 #include "messages.h"
 
@@ -96,6 +96,65 @@ const MessageCase kProfiles[] = {
      "{ footprint rect(2m, 3m) as plan; footprint rect(2m, 3m) as plan; extrude 2m of plan; }"},
 };
 
+const MessageCase kRooms[] = {
+    {"3:9 syntax: expected `{`, found `wall`", "treemap wall { a 4: Part; }"},
+    {"3:12 syntax: expected the area of the room, such as `living 28:`, found `:`", "treemap { a: Part; }"},
+    {"3:15 syntax: expected `:` and what stands in this room, found `Part`", "treemap { a 4 Part; }"},
+    {"3:16 syntax: expected a block or a statement for `this room`, found `}`", "treemap { a 4: }"},
+    {"3:11 syntax: expected the name of a room, found `4`", "treemap { 4: Part; }"},
+    {"3:11 reserved-word: `let` is a word of the language and cannot be the name of a room | another name, such as "
+     "`let_`",
+     "treemap { let 4: Part; }"},
+    {"3:1 argument-count: a treemap has 1 to 32 rooms | such as `living 28: Room;`\n5:6 warning unused-rule: nothing "
+     "derives `Part` | call it in a rule, or remove it",
+     "treemap { }"},
+    {"3:22 duplicate: a second room `a` in this treemap | give each room a name of its own",
+     "treemap { a 4: Part; a 5: Part; }"},
+    {"3:13 unit-mismatch: the area of a room is a ratio, and this is a length | divide it by a length to make a ratio "
+     "of it",
+     "treemap { a 4m: Part; }"},
+    {"3:14 value-range: the walls of a treemap are 1cm to 5m thick | such as wall 0.2m",
+     "treemap(wall 0m) { a 4: Part; }"},
+    {"3:14 unit-mismatch: the thickness of walls is a length, and this is a ratio | write `2m`",
+     "treemap(wall 2) { a 4: Part; }"},
+    {"3:14 value-range: a door is 0.1m to 100m wide | such as door 0.9m", "treemap(door 10km) { a 4: Part; }"},
+    {"3:14 unit-mismatch: the width of doors is a length, and this is an angle | such as 2m",
+     "treemap(door 30deg) { a 4: Part; }"},
+    {"3:16 value-range: a door is 0.1m to 100m high | such as height 2.1m", "treemap(height 1cm) { a 4: Part; }"},
+    {"3:16 unit-mismatch: the height of doors is a length, and this is a ratio | write `2m`",
+     "treemap(height 2) { a 4: Part; }"},
+    {"3:20 value-range: a corridor is 0.1m to 100m wide | such as corridor 1.2m",
+     "treemap(corridor = 0m) { a 4: Part; }"},
+    {"3:18 unit-mismatch: the width of a corridor is a length, and this is a ratio | write `2m`",
+     "treemap(corridor 2) { a 4: Part; }"},
+    {"3:9 argument-name: `treemap` has no parameter `walls` | it is `treemap(wall, door, height, corridor)`",
+     "treemap(walls 0.2m) { a 4: Part; }"},
+    {"3:38 duplicate: `corridor` stands twice in this treemap | put both into one block behind it",
+     "treemap { a 4: Part; corridor: Part; corridor: Part; }"},
+    {"3:36 duplicate: `facade` stands twice in this treemap | put both into one block behind it",
+     "treemap { a 4: Part; facade: Part; facade: Part; }"},
+    {"3:36 unknown-name: this treemap has no room `bahth` | did you mean `bath`?",
+     "treemap { a 4: Part; bath 4: Part; link a bahth by door; }"},
+    {"3:22 unknown-name: this treemap has no room `kitchen` | name two of its rooms",
+     "treemap { a 4: Part; link a kitchen by door; }"},
+    {"3:22 wrong-use: a door leads from one room to another | name two rooms",
+     "treemap { a 4: Part; link a a by door; }"},
+    {"3:29 syntax: expected the name of a room, found `by`", "treemap { a 4: Part; link a by door; }"},
+    {"3:26 syntax: expected the name of a room, found `;`", "treemap { a 4: Part; link; }"},
+    {"3:41 syntax: expected `by`, found `;`", "treemap { a 4: Part; b 4: Part; link a b; }"},
+    {"3:50 unit-mismatch: the width of a door is a length, and this is a ratio | write `2m`",
+     "treemap { a 4: Part; b 4: Part; link a b by door(2); }"},
+    {"3:56 unit-mismatch: the height of a door is a length, and this is a ratio | write `2m`",
+     "treemap { a 4: Part; b 4: Part; link a b by door(0.9m, 2); }"},
+    {"3:50 value-range: a door is 0.1m to 100m wide | such as door 0.9m",
+     "treemap { a 4: Part; b 4: Part; link a b by door(0m); }"},
+    {"3:45 syntax: expected `door`, found `window`", "treemap { a 4: Part; b 4: Part; link a b by window; }"},
+    {"3:36 warning idle-cut: nothing stands before this cut in its block | a cut takes from what its own block has "
+     "added before it",
+     "treemap { a 4: cut Part; facade: { cut Part; } }"},
+    {"3:1 syntax: expected a statement, found `link`", "link a b by door;"},
+};
+
 const MessageCase kOpen[] = {
     {"1:24 syntax: this block is not closed | a `}` is missing\n1:34 syntax: these parts are not closed | a `}` is "
      "missing",
@@ -117,3 +176,5 @@ TEST_CASE("messages: parts of scopes", "[grammar][messages]") {
 }
 
 TEST_CASE("messages: footprints, extrusions and roofs", "[grammar][messages]") { checkMessages(kProfiles, kInRule); }
+
+TEST_CASE("messages: rooms of treemaps", "[grammar][messages]") { checkMessages(kRooms, kInScope); }

@@ -87,7 +87,7 @@ class Writer {
       out_ += "sphere(r);";
       return;
     }
-    switch (draw(20)) {
+    switch (draw(21)) {
       case 0:
         out_ += "sphere(" + length(0) + ");";
         return;
@@ -143,7 +143,8 @@ class Writer {
       case 16:
         out_ += std::string("split ") + pick({"x", "y", "z"}) + "{ ";
         if (chance(50)) out_ += "0.5*r: ", body(depth + 1), blank();
-        if (chance(60)) out_ += "{ ~2m: ", body(depth + 1), out_ += pick({"}*", " 1m: sphere(r); }*;", "; } * "}), blank();
+        if (chance(60))
+          out_ += "{ ~2m: ", body(depth + 1), out_ += pick({"}*", " 1m: sphere(r); }*;", "; } * "}), blank();
         out_ += pick({"25%: ", "~size_:", "~(r): "});
         body(depth + 1);
         blank();
@@ -157,6 +158,17 @@ class Writer {
         out_ += " }";
         return;
       case 18:
+        out_ += std::string("treemap") + pick({"", "(wall = 0.2m, door 1m)", "( 0.1m)"}) + "{ ";
+        out_ += pick({"hall 2*3: ", "hall (1+2) : "});
+        body(depth + 1);
+        blank();
+        out_ += "bath 4: sphere(r); " +
+                std::string(pick({"", "link hall  bath by door ;", "link bath hall by door(0.9m);"}));
+        if (chance(50)) out_ += "corridor: ", body(depth + 1), blank();
+        out_ += pick({"", "facade :{ box(1m); }"});
+        out_ += " }";
+        return;
+      case 19:
         out_ += "{ footprint " +
                 std::string(pick({"merge 3 rect(2m, r)", "merge count regular(5, r)", "rect(1m, z r)",
                                   "polygon((0, 0m), (r, 0m), (1m, 2m))"})) +

@@ -1,0 +1,23 @@
+#pragma once
+// Squarified treemaps: a rectangle in parts whose areas are as given and whose shapes are near squares. After Bruls,
+// Huizing, van Wijk, Squarified Treemaps, VisSym 2000, section 3.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sgm {
+
+/// A rectangle of the x-z plane, units. low < high.
+struct PlanRect {
+  int32_t x0 = 0, z0 = 0, x1 = 0, z1 = 0;
+  int32_t width() const { return x1 - x0; }
+  int32_t depth() const { return z1 - z0; }
+  friend bool operator==(const PlanRect&, const PlanRect&) = default;
+};
+
+/// The part of each weight, in the order of the weights. All lines between parts lie on multiples of `step` from x0 and
+/// z0, and neighbours share them; parts that are thinner than that come out empty. weights: above 0.
+std::vector<PlanRect> squarifiedTreemap(const PlanRect& whole, std::span<const double> weights, int32_t step);
+
+}  // namespace sgm

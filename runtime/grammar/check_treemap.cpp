@@ -1,0 +1,73 @@
+// Floors in rooms: treemap and the links in it.
+
+#include <algorithm>
+
+#include "grammar/check.h"
+#include "grammar/codes.h"
+#include "grammar/scope_parts.h"
+
+namespace sgm {
+
+void Checker::treemap(const StmtNode& s) {
+  ExprId out[4] = {kNoId, kNoId, kNoId, kNoId};
+  TreemapNode& treemap = program_.ast.treemaps[s.extra];
+  if (bindWords(treemap.args, s.span, "treemap", {"wall", "door", "height", "corridor"}, 0, out)) {
+    demandRange(out[0], kLength, "the thickness of walls", kWallRange);
+    demandRange(out[1], kLength, "the width of doors", kDoorRange);
+    demandRange(out[2], kLength, "the height of doors", kDoorHeightRange);
+    demandRange(out[3], kLength, "the width of a corridor", kCorridorRange);
+    treemap.wall = out[0];
+    treemap.door = out[1];
+    treemap.height = out[2];
+    treemap.corridor = out[3];
+  }
+  std::vector<NameId> rooms;
+  int corridors = 0, facades = 0;
+  for (uint32_t i = 0; i < s.parts.count; ++i) {
+    PartNode& part = program_.ast.parts[s.parts.first + i];
+    if (part.floor == FloorPart::room) {
+      demand(part.size, ValueKind::number, kRatio, "the area of a room");
+      part.tag = tableIndex(program_.tags, part.label, part.span);
+      if (std::find(rooms.begin(), rooms.end(), part.label) != rooms.end())
+        sink_.error(part.span, codes::kDuplicate, join({"a second room `", text(part.label), "` in this treemap"}),
+                    "give each room a name of its own");
+      rooms.push_back(part.label);
+    }
+    if ((part.floor == FloorPart::corridor && corridors++ > 0) || (part.floor == FloorPart::facade && facades++ > 0))
+      sink_.error(
+          part.span, codes::kDuplicate,
+          join({"`", part.floor == FloorPart::corridor ? "corridor" : "facade", "` stands twice in this treemap"}),
+          "put both into one block behind it");
+  }
+  if (rooms.empty() || rooms.size() > kMostRooms)
+    sink_.error(s.span, codes::kArgumentCount, "a treemap has 1 to 32 rooms", "such as `living 28: Room;`");
+  for (uint32_t i = 0; i < s.parts.count; ++i)
+    if (program_.ast.parts[s.parts.first + i].floor == FloorPart::link)
+      link(program_.stmt(program_.idAt(s.children, i)), rooms);
+  partStatements(s);
+}
+
+void Checker::link(const StmtNode& s, const std::vector<NameId>& rooms) {
+  LinkNode& link = program_.ast.links[s.extra];
+  for (const auto& [name, number] : {std::pair{s.name, &link.a}, std::pair{s.name2, &link.b}}) {
+    const auto room = std::find(rooms.begin(), rooms.end(), name);
+    if (room == rooms.end()) {
+      Suggestion suggestion(text(name));
+      for (const NameId known : rooms) suggestion.offer(text(known));
+      sink_.error(s.span, codes::kUnknownName, join({"this treemap has no room `", text(name), "`"}),
+                  suggestion.hintOr("name two of its rooms"));
+      return;
+    }
+    *number = static_cast<uint32_t>(room - rooms.begin());
+  }
+  if (link.a == link.b)
+    sink_.error(s.span, codes::kWrongUse, "a door leads from one room to another", "name two rooms");
+  ExprId out[2] = {kNoId, kNoId};
+  if (!bindWords(link.args, s.span, "door", {"width", "height"}, 0, out)) return;
+  demandRange(out[0], kLength, "the width of a door", kDoorRange);
+  demandRange(out[1], kLength, "the height of a door", kDoorHeightRange);
+  link.width = out[0];
+  link.height = out[1];
+}
+
+}  // namespace sgm
