@@ -112,6 +112,13 @@ struct Activation {
 
 struct Env;
 
+/// Planes that the lines of splits below snap to: across `normal`, every `distance` metres of the cell from `first`.
+struct SnapPlanes {
+  Vec3 normal;
+  double first = 0, distance = 1;
+  const SnapPlanes* outer = nullptr;
+};
+
 /// By which overrides by tag a statement is put there: those in whose own block it stands.
 struct OwnBlock {
   uint32_t edit = 0;
@@ -145,6 +152,7 @@ struct Env {
   uint16_t written_material = 0, written_tag = 0;  ///< said by a block since the override's began
   const OwnBlock* within = nullptr;
   const UnderEdit* under = nullptr;
+  const SnapPlanes* snaps = nullptr;
 };
 
 using ShapeList = std::vector<uint32_t>;
@@ -223,6 +231,7 @@ class Interpreter {
   void scatterPoint(const StmtNode& s, const Env& at, ShapeList& out);
   bool probe(const ScatterNode& node, Env& env);
   void split(const StmtNode& s, const Env& env, ShapeList& out);
+  void snap(const StmtNode& s, const Env& env, ShapeList& out);
   void comp(const StmtNode& s, const Env& env, ShapeList& out);
   /// Derives a part as a block of its own in `scope` at `place`; number: of the part, for its key.
   void part(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope, const Env& env,

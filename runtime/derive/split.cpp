@@ -36,7 +36,65 @@ Placement facePlace(const Face& face, const Placement& box, Vec3 edges) {
   return box.moved(out).turned(axis, face.quarters * (kPi / 2));
 }
 
+/// The nearest plane within `reach` of a point on the axis, as how far to go along it; 0 where there is none.
+double toNearestPlane(const SnapPlanes* planes, const Placement& place, int axis, Vec3 local, double reach) {
+  constexpr double kParallel = 1 - 1e-9;
+  Vec3 along;
+  along[axis] = 1;
+  const Vec3 direction = place.direction(along), at = place.toCell(local);
+  double best = 0, nearest = reach;
+  for (; planes != nullptr; planes = planes->outer) {
+    const double facing = dot(direction, planes->normal);
+    if (std::fabs(facing) < kParallel) continue;
+    const double from = (dot(at, planes->normal) - planes->first) / planes->distance;
+    const double by = (detFloor(from + 0.5) - from) * planes->distance / place.scale;
+    if (!(std::fabs(by) <= nearest)) continue;
+    nearest = std::fabs(by);
+    best = facing > 0 ? by : -by;
+  }
+  return best;
+}
+
+/// Moves the lines between the parts onto planes, where the parts on both sides keep a size.
+void snapLines(std::vector<SplitPlace>& places, double length, const SnapPlanes* planes, const Placement& place,
+               int axis, double reach) {
+  for (size_t i = 0; i + 1 < places.size(); ++i) {
+    SplitPlace& low = places[i];
+    SplitPlace& high = places[i + 1];
+    Vec3 local;
+    local[axis] = low.middle + 0.5 * low.size - 0.5 * length;
+    const double by = toNearestPlane(planes, place, axis, local, reach);
+    if (by == 0 || low.size + by <= kSeamOverlap || high.size - by <= kSeamOverlap) continue;
+    low.middle += 0.5 * by;
+    low.size += by;
+    high.middle += 0.5 * by;
+    high.size -= by;
+  }
+}
+
 }  // namespace
+
+void Interpreter::snap(const StmtNode& s, const Env& env, ShapeList& out) {
+  const int axis = static_cast<int>(s.extra);
+  const double distance = real(s.expr, env), first = s.amount == kNoId ? 0.0 : real(s.amount, env);
+  if (failed()) return;
+  Env inner = env;
+  SnapPlanes planes;
+  if (kSnapRange.holds(distance)) {
+    Vec3 along, low;
+    along[axis] = 1;
+    low[axis] = first - 0.5 * env.scope[axis];
+    planes.normal = env.place.direction(along);
+    planes.first = dot(env.place.toCell(low), planes.normal);
+    planes.distance = distance * env.place.scale;
+    planes.outer = env.snaps;
+    inner.snaps = &planes;
+  } else {
+    note(std::string(kSnapRange.rule).append(", ").append(kSnapRange.example).append("; these are left out"), s.span,
+         env.activation);
+  }
+  statement(s.body, inner, out);
+}
 
 void Interpreter::part(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope,
                        const Env& env, ShapeList& out) {
@@ -79,10 +137,12 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
   if (failed()) return;
   if (repeated != nullptr && !(group > 0))
     note("the parts that are repeated have no size; they are left out", repeated->group, env.activation);
-  const SplitLayout layout = layOut(length, sizes, static_cast<size_t>(kMostParts));
+  SplitLayout layout = layOut(length, sizes, static_cast<size_t>(kMostParts));
   if (layout.too_many)
     return fail("more than a million parts in one split (give them a larger size)", s.span, env.activation);
   if (layout.cut_off) note("the parts are longer than the scope; what does not fit is cut off", s.span, env.activation);
+  if (s.amount != kNoId)
+    snapLines(layout.places, length, env.snaps, env.place, axis, std::max(0.0, real(s.amount, env)));
   for (const SplitPlace& place : layout.places) {
     const double low = std::max(0.0, place.middle - 0.5 * place.size);
     const double rest = std::max(0.0, length - place.middle - 0.5 * place.size);

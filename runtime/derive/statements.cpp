@@ -130,6 +130,9 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
     case StmtKind::split:
       split(s, env, out);
       break;
+    case StmtKind::snap:
+      snap(s, env, out);
+      break;
     case StmtKind::comp:
       comp(s, env, out);
       break;

@@ -119,7 +119,8 @@ enum class StmtKind : uint8_t {
   mat,        ///< extra: Program::materials
   tag,        ///< extra: Program::tags
   anchor,     ///< extra: kind, extra2: name; both Program::names
-  split,      ///< extra: axis 0 1 2; parts: along it, each with its child
+  split,      ///< extra: axis 0 1 2; parts: along it, each with its child; amount: how far its lines snap, or kNoId
+  snap,       ///< extra: axis 0 1 2; expr: distance of the planes; amount: of the first from the low end, or kNoId
   comp,       ///< parts: faces and edges of the scope's box, each with its child
   treemap,    ///< extra: Ast::treemaps; parts: its rooms and what else is derived in it, each with its child
   link,       ///< of a treemap: name and name2: rooms; extra: Ast::links
@@ -133,7 +134,7 @@ enum class StmtKind : uint8_t {
 /// Whether a statement adds just what its body adds, elsewhere, several times or not at every level.
 constexpr bool placesBody(StmtKind kind) {
   return kind == StmtKind::transform || kind == StmtKind::repeat || kind == StmtKind::for_each ||
-         kind == StmtKind::scatter || kind == StmtKind::detail;
+         kind == StmtKind::scatter || kind == StmtKind::detail || kind == StmtKind::snap;
 }
 
 struct StmtNode {

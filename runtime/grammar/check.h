@@ -113,6 +113,7 @@ class Checker {
   void forEach(StmtId id, const StmtNode& node, bool shrunk);
   void scatterStatement(const StmtNode& node, bool shrunk);
   void splitStatement(const StmtNode& node);
+  void snapStatement(const StmtNode& node, bool shrunk);
   void partStatements(const StmtNode& node);
   // check_treemap.cpp
   void treemap(const StmtNode& node);

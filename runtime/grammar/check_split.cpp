@@ -4,10 +4,18 @@
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
+#include "grammar/scope_parts.h"
 
 namespace sgm {
 
+void Checker::snapStatement(const StmtNode& s, bool shrunk) {
+  demandRange(s.expr, kLength, "the distance of snap planes", kSnapRange);
+  demand(s.amount, ValueKind::number, kLength, "the place of the first snap plane");
+  statement(s.body, shrunk);
+}
+
 void Checker::splitStatement(const StmtNode& s) {
+  demand(s.amount, ValueKind::number, kLength, "how far the lines of a split snap");
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     PartNode& part = program_.ast.parts[s.parts.first + i];
     const ExprId size = part.size;

@@ -291,6 +291,8 @@ void Checker::statement(StmtId id, bool shrunk) {
       return scatterStatement(copy, shrunk);
     case StmtKind::split:
       return splitStatement(copy);
+    case StmtKind::snap:
+      return snapStatement(copy, shrunk);
     case StmtKind::comp:
       return partStatements(copy);
     case StmtKind::treemap:

@@ -120,7 +120,9 @@ class Parser {
     std::vector<PartNode> nodes;
     std::vector<uint32_t> bodies;
   };
+  std::optional<uint32_t> axisLetter(std::string_view what);
   StmtId splitStatement();
+  StmtId snapStatement();
   StmtId compStatement();
   void splitParts(Parts& parts, bool repeated);
   void splitGroup(Parts& parts, bool repeated);

@@ -21,24 +21,45 @@ bool Parser::partsEnd(const Span& begin) {
   return false;
 }
 
+std::optional<uint32_t> Parser::axisLetter(std::string_view what) {
+  const bool letter = at(Tok::word) && textOf(peek()).size() == 1;
+  const size_t axis = letter ? std::string_view("xyz").find(textOf(peek())) : std::string_view::npos;
+  if (axis == std::string_view::npos) {
+    unexpected(what);
+    return std::nullopt;
+  }
+  take();
+  return static_cast<uint32_t>(axis);
+}
+
 StmtId Parser::splitStatement() {
   const Span begin = here();
   take();
   StmtNode node;
   node.kind = StmtKind::split;
-  const bool letter = at(Tok::word) && textOf(peek()).size() == 1;
-  const size_t axis = letter ? std::string_view("xyz").find(textOf(peek())) : std::string_view::npos;
-  if (axis == std::string_view::npos) {
-    unexpected("x, y or z to split along");
-    return kNoId;
-  }
-  take();
-  node.extra = static_cast<uint32_t>(axis);
+  const std::optional<uint32_t> axis = axisLetter("x, y or z to split along");
+  if (!axis) return kNoId;
+  node.extra = *axis;
+  if (acceptWord("snap")) node.amount = expression();
   const Span open = here();
-  if (!expect(Tok::open_brace, "`{`")) return kNoId;
+  if (panic_ || !expect(Tok::open_brace, "`{`")) return kNoId;
   Parts parts;
   splitParts(parts, false);
   return partsEnd(open) ? addParts(node, parts, begin) : kNoId;
+}
+
+StmtId Parser::snapStatement() {
+  const Span begin = here();
+  take();
+  StmtNode node;
+  node.kind = StmtKind::snap;
+  const std::optional<uint32_t> axis = axisLetter("x, y or z that the planes stand across");
+  if (!axis) return kNoId;
+  node.extra = *axis;
+  node.expr = expression();
+  if (!panic_ && acceptWord("from")) node.amount = expression();
+  node.body = panic_ ? kNoId : bodyOf("snap");
+  return panic_ ? kNoId : addStmt(node, begin);
 }
 
 void Parser::splitParts(Parts& parts, bool repeated) {

@@ -8,10 +8,10 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 25> kStatements = {
-    "union",   "cut",   "meet",  "sum",     "morph",     "displace", "warp",   "repeat", "for",
-    "scatter", "let",   "field", "mat",     "tag",       "anchor",   "detail", "inner",  "smooth",
-    "when",    "split", "comp",  "treemap", "footprint", "extrude",  "roof"};
+constexpr std::array<std::string_view, 26> kStatements = {
+    "union",   "cut",   "meet",  "sum",  "morph",   "displace",  "warp",    "repeat", "for",
+    "scatter", "let",   "field", "mat",  "tag",     "anchor",    "detail",  "inner",  "smooth",
+    "when",    "split", "snap",  "comp", "treemap", "footprint", "extrude", "roof"};
 
 }  // namespace
 
@@ -71,6 +71,7 @@ StmtId Parser::statement() {
   if (atWord("tag")) return nameStatement(StmtKind::tag);
   if (atWord("anchor")) return nameStatement(StmtKind::anchor);
   if (atWord("split")) return splitStatement();
+  if (atWord("snap")) return snapStatement();
   if (atWord("comp")) return compStatement();
   if (atWord("treemap")) return treemapStatement();
   if (atWord("detail")) return detailStatement();

@@ -40,7 +40,8 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
   }
   // Rigid parts have their size where nothing is cut off; flexible ones of a group
   // share half a copy more than they would like, or less than the rigid part of one copy that does not fit.
-  const bool whole = others.rigid.hi <= length.lo;
+  const double snap = s.amount == kNoId ? 0 : std::max(0.0, values_.number(s.amount, frame).hi);
+  const bool whole = others.rigid.hi <= length.lo && snap == 0;
   const double most = group.wanted.lo > 0 ? 1.5 + group.rigid.hi / group.wanted.lo + 1e-6 : kInfinity;
   const Interval once = group.rigid + group.wanted;
   const double times = once.lo > 0 ? std::max(1.0, length.hi / once.lo + 1) : kInfinity;
@@ -56,6 +57,7 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
     if (!parts[i].flexible) size.hi = std::min(size.hi, sizes[i].hi);
     if (parts[i].flexible) size.hi = std::max(0.0, size.hi - before - after);
     if (parts[i].flexible && parts[i].repeated) size.hi = std::min(size.hi, sizes[i].hi * most);
+    size.hi = std::min(size.hi + 2 * snap, length.hi);
     const bool wide = std::isfinite(size.hi) && size.hi - size.lo > length.hi / 8;
     Extent one = Extent::nothing();
     for (int k = 0; k < (wide ? kPieces : 1); ++k) {

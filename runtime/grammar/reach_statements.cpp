@@ -78,6 +78,10 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
     case StmtKind::let:
       frame.slots[s.slot] = values_.evaluate(s.expr, frame);
       return Extent::nothing();
+    case StmtKind::snap:
+      values_.number(s.expr, frame);  // queries in them
+      if (s.amount != kNoId) values_.number(s.amount, frame);
+      return body(s.body, frame);
     case StmtKind::detail: {
       values_.number(s.expr, frame);  // a query in it
       return body(s.body, frame);

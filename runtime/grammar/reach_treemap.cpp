@@ -15,7 +15,7 @@ namespace {
 /// Rectangles of rooms and corridors, and doors.
 constexpr double kMostBoxes = 1024;
 /// Pieces of a range of edges: a room that is small lies farther out than one that is large.
-constexpr int kPieces = 4;
+constexpr int kPieces = 2;
 
 Interval notNegative(Interval v) { return {std::max(0.0, v.lo), std::max(0.0, v.hi)}; }
 

@@ -11,6 +11,8 @@ namespace sgm {
 /// step in which cells of up to 2 m are sampled.
 inline constexpr double kSeamOverlap = 2.0 / kUnitsPerMetre;
 
+inline constexpr ValueRange kSnapRange{0.01, 1e5, "snap planes are 1cm or more apart", "such as snap y 3.2m"};
+
 /// Metres by which an entrance reaches out of the floor of a treemap, and doors into what they join.
 inline constexpr double kDoorReach = 16.0 / kUnitsPerMetre;
 

@@ -221,7 +221,8 @@ class RandomRules {
         return xforms() + block(depth);
       case 20:
       case 21:
-        return sized() + "split " + pick({"x", "y", "z"}) + " { " +
+        return sized() + pick({"", "", "snap x 0.7m ", "snap y 1m from 0.3*r "}) + "split " + pick({"x", "y", "z"}) +
+               pick({"", "", " snap 0.4m", " snap 0.3*size_"}) + " { " +
                pick({"", "0.5m: { }", "rand(0.1m, 1m): { }", "20%: box(scope);", "share: box(scope);"}) + " " +
                pick({"~1m", "1m", "~size_", "~(0.2*r)", "30%"}) + ": " + statement(depth + 1) +
                pick({"", " { ~0.7m: box(scope); }*", " { 0.2m: { } ~size_: box(scope); }*", " { 0.4m: box(scope); }*",

@@ -53,6 +53,8 @@ const NoteCase kNotes[] = {
      "meet { box(4m); sum { blob(1m); cylinder(0m, 0m); } }"},
     {"this scope has no size along y, so it is not split: give it one, such as size(y 3m)", "split",
      "size(4m, 0m, 4m) split y { ~1m: sphere(1m); }", ""},
+    {"snap planes are 1cm or more apart, such as snap y 3.2m; these are left out", "snap",
+     "snap y rand(-2m, -1m) box(2m);", "snap y rand(1m, 1m) box(2m);"},
     {"the size of this part is negative; it is left out", "rand",
      "size(4m, 4m, 4m) split x { rand(-2m, -1m): box(9m); }", ""},
     {"the parts that are repeated have no size; they are left out", "{ 0m",

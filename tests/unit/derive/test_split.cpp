@@ -231,3 +231,60 @@ TEST_CASE("what cannot be split says so, with its path, and the rest appears", "
   REQUIRE(!chunk);
   CHECK(chunk.error().message.starts_with("more than a million parts in one split (give them a larger size)"));
 }
+
+TEST_CASE("lines of splits go to snap planes, however their scopes lie, and no farther than is said", "[split]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  // Tops of the floors of wings that stand at their own heights, some turned or upside down.
+  const auto tops = [](const std::string& snap, const std::string& wings) {
+    const std::vector<Box> boxes =
+        boxesOf(derivedRules("rule Main { at(20m, 20m, 20m) size(10m, 20m, 10m) " + snap + " { " + wings +
+                             " } }\nrule Wing { split y snap 0.6m { { ~3m: size(y scope.y - 0.5m) box(scope); }* } }"));
+    std::vector<double> lines;
+    for (const Box& box : boxes) lines.push_back(box.high.y + 0.25 - 10);
+    return lines;
+  };
+  int snapped = 0, all = 0;
+  for (unsigned round = 0; round < rounds(100); ++round) {
+    const std::string low = std::to_string(-4 + 3 * unit(random)), tall = std::to_string(8 + 4 * unit(random));
+    const std::string turn = random() % 3 == 0 ? "" : random() % 2 == 0 ? "rot(y, 35deg) " : "rot(x, 180deg) ";
+    const std::string wing = "at(3m, " + low + "m, 0m) " + turn + "size(4m, " + tall + "m, 4m) Wing;";
+    CAPTURE(wing);
+    const std::vector<double> free = tops("", wing), held = tops("snap y 3.2m from 0.7m", wing);
+    REQUIRE(free.size() == held.size());
+    const double top = *std::max_element(free.begin(), free.end()) - 0.01;
+    for (size_t i = 0; i < free.size(); ++i) {
+      if (free[i] > top) continue;
+      const double from = (free[i] - 0.7) / 3.2, nearest = (std::floor(from + 0.5) - from) * 3.2;
+      ++all;
+      if (std::fabs(std::fabs(nearest) - 0.6) < 0.005) continue;  // on the edge: roundings decide
+      const bool near = std::fabs(nearest) < 0.6;
+      snapped += near;
+      CHECK(held[i] == Approx(free[i] + (near ? nearest : 0)).margin(0.006));
+    }
+  }
+  CAPTURE(all);
+  CHECK(snapped > all / 5);
+  CHECK(snapped < all * 4 / 5);
+  // Planes across another axis are none of theirs, and neither are those of a block beside it.
+  const std::string plain = "size(4m, 10m, 4m) Wing;";
+  CHECK(tops("snap x 4.2m", plain) == tops("", plain));
+  CHECK(tops("", "snap y 4.2m { } " + plain) == tops("", plain));
+  CHECK(tops("snap y 4.2m", plain) != tops("", plain));
+  // Of planes within planes the nearest holds.
+  CHECK(tops("snap y 4.2m snap y 4.2m", plain) == tops("snap y 4.2m", plain));
+}
+
+TEST_CASE("a line that snaps leaves the parts on both sides a size", "[split]") {
+  const auto boxes = boxesOf(derivedRules(
+      "rule Main { at(20m, 20m, 20m) size(8m, 2m, 2m) snap x 4m split x snap 9m { { 1m: box(scope); }* } }"));
+  REQUIRE(boxes.size() == 8);
+  double volume = 0;
+  for (const Box& box : boxes) {
+    CHECK(box.high.x > box.low.x);
+    volume += box.volume();
+  }
+  CHECK(volume == Approx(32).epsilon(0.01));
+}

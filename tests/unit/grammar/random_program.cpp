@@ -141,7 +141,8 @@ class Writer {
                 std::to_string(depth) + ".to, rand(s" + std::to_string(depth) + ", 0.1m, " + length(2) + ")); }";
         return;
       case 16:
-        out_ += std::string("split ") + pick({"x", "y", "z"}) + "{ ";
+        out_ += std::string(pick({"", "", "snap x  2m ", "snap y 3m from(r) "})) + "split " + pick({"x", "y", "z"}) +
+                pick({"", "", " snap 0.5*r "}) + "{ ";
         if (chance(50)) out_ += "0.5*r: ", body(depth + 1), blank();
         if (chance(60))
           out_ += "{ ~2m: ", body(depth + 1), out_ += pick({"}*", " 1m: sphere(r); }*;", "; } * "}), blank();
