@@ -109,7 +109,7 @@ std::span<const StageModel> stageModels() {
   static constexpr std::array<StageModel, 3> kModels = {
       {{"cave", "cave.sgm", kCaveGrammar, 7, {64, 64, 112}, 64},
        {"cloud", "cloud.sgm", kCloudGrammar, 3, {0, 768, 0}, 1024},
-       {"building", "building.sgm", kBuildingGrammar, 0, {-16, -8, -16}, 32}}};
+       {"building", "storeys.sgm", kStoreysGrammar, 0, {-16, -8, -16}, 32}}};
   return kModels;
 }
 

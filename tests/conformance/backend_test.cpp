@@ -198,7 +198,7 @@ TEST_CASE("the sample grammars give the scalar backend's bytes on the device") {
     Int3 from, to;  ///< metres
   };
   static constexpr Place kPlaces[] = {{"arches.sgm", 256, {-8, 0, -8}, {8, 8, 8}},
-                                      {"building.sgm", 256, {-8, -2, -8}, {8, 22, 8}},
+                                      {"building.sgm", 256, {-16, -2, -16}, {16, 30, 16}},
                                       {"cave.sgm", 256, {88, 72, 72}, {136, 120, 120}},
                                       {"choice.sgm", 256, {0, 0, 0}, {32, 8, 32}},
                                       {"cloud.sgm", 4096, {0, 800, 0}, {1050, 1800, 1050}},
