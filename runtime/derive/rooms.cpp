@@ -1,7 +1,6 @@
 // Floors in rooms: the statement treemap. Its scope's box lies about its origin; y is up.
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/math.h"
 #include "derive/draws.h"
@@ -13,6 +12,7 @@ namespace sgm {
 namespace {
 
 constexpr double kWidestFloor = 1 << 20;  ///< units
+constexpr double kLargestArea = 1e6;
 
 /// Walls, doors and corridors are laid out in steps of four units, so that their halves are whole even numbers.
 int32_t inSteps(double metres) {
@@ -87,7 +87,8 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
   const double height = floorMeasure(node.height, 2.1, kDoorHeightRange, env);
   const Vec3 edges = env.scope;
   if (failed()) return;
-  if (!(edges.x > 0 && edges.y > 0 && edges.z > 0 && std::max(edges.x, edges.z) * kUnitsPerMetre < kWidestFloor))
+  const double longest = std::max({edges.x, edges.y, edges.z}) * std::max(1.0, env.place.scale);
+  if (!(std::min({edges.x, edges.y, edges.z}) > 0 && longest * kUnitsPerMetre < kWidestFloor))
     return note(
         "this scope's box has no size, or one of more than 1 km, so it gets no rooms: give it one, such as "
         "size(12m, 3m, 9m)",
@@ -101,12 +102,12 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
     if (parts[i].floor != FloorPart::room) continue;
     const double area = real(parts[i].size, env);
     if (failed()) return;
-    if (area > 0 && std::isfinite(area)) {
+    if (area > 0 && area < kLargestArea) {
       number[room] = static_cast<uint32_t>(rooms.size());
       rooms.push_back(i);
       areas.push_back(area);
     } else {
-      note("the area of this room is not positive; the room is left out", parts[i].span, env.activation);
+      note("the area of a room lies above 0 and below a million; this one is left out", parts[i].span, env.activation);
     }
     ++room;
   }

@@ -70,7 +70,7 @@ const NoteCase kNotes[] = {
      "or "
      "a larger scope",
      "treemap", "size(4m, 4m, 4m) treemap(wall 3m) { a 4: { } }", ""},
-    {"the area of this room is not positive; the room is left out", "b rand",
+    {"the area of a room lies above 0 and below a million; this one is left out", "b rand",
      "size(9m, 4m, 9m) treemap { a 4: { } b rand(-2, -1): { } }", "size(9m, 4m, 9m) treemap { a 4: { } }"},
     {"no wall of `b` is wide enough for a door, so nothing leads into it: a narrower door, or a larger room", "b 4",
      "size(9m, 4m, 7m) treemap(door 8m) { a 4: { } b 4: { } }",
