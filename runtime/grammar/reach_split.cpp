@@ -16,7 +16,7 @@ struct Sums {
   Interval rigid{}, wanted{};
 };
 
-Interval positive(Interval v) { return {std::max(0.0, v.lo), std::max(0.0, v.hi)}; }
+Interval notBelow(Interval v) { return {std::max(0.0, v.lo), std::max(0.0, v.hi)}; }
 
 /// Pieces of a range of sizes: a part that is small lies farther out than one that is large.
 constexpr int kPieces = 4;
@@ -26,14 +26,14 @@ constexpr int kPieces = 4;
 Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
   const size_t axis = s.extra;
   const IntervalVector scope = frame.scope;
-  const Interval length = positive(scope[axis]);
+  const Interval length = notBelow(scope[axis]);
   const PartNode* parts = &program_.ast.parts[s.parts.first];
   std::vector<Interval> sizes;
   Sums others, group;
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     Interval size = values_.number(parts[i].size, frame);
     if (parts[i].relative) size = size * length;
-    size = positive(size);
+    size = notBelow(size);
     sizes.push_back(size);
     Sums& sums = parts[i].repeated ? group : others;
     (parts[i].flexible ? sums.wanted : sums.rigid) = (parts[i].flexible ? sums.wanted : sums.rigid) + size;
@@ -89,7 +89,7 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
 }
 
 Extent ReachCheck::comp(const StmtNode& s, RangeFrame& frame) {
-  const IntervalVector scope = {positive(frame.scope[0]), positive(frame.scope[1]), positive(frame.scope[2])};
+  const IntervalVector scope = {notBelow(frame.scope[0]), notBelow(frame.scope[1]), notBelow(frame.scope[2])};
   const IntervalVector written = frame.scope;
   const PlaceRange place = frame.place;
   Extent out = Extent::nothing();

@@ -15,7 +15,7 @@ namespace {
 /// Rectangles of rooms and corridors, and doors.
 constexpr double kMostBoxes = 1024;
 /// Pieces of a range of edges: a room that is small lies farther out than one that is large.
-constexpr int kPieces = 2;
+constexpr int kRoomPieces = 2;
 
 Interval notNegative(Interval v) { return {std::max(0.0, v.lo), std::max(0.0, v.hi)}; }
 
@@ -26,7 +26,7 @@ Extent ReachCheck::inPieces(StmtId child, const IntervalVector& edges, RangeFram
   const IntervalVector scope = frame.scope;
   const PlaceRange place = frame.place;
   const auto bounded = [&](size_t axis) { return edges[axis].hi > 0 && std::isfinite(edges[axis].hi); };
-  const int x_pieces = bounded(0) ? kPieces : 1, z_pieces = bounded(2) ? kPieces : 1;
+  const int x_pieces = bounded(0) ? kRoomPieces : 1, z_pieces = bounded(2) ? kRoomPieces : 1;
   Extent out = Extent::nothing();
   bool first = true;
   for (int x = 0; x < x_pieces; ++x) {
