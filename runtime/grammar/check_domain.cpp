@@ -248,7 +248,9 @@ void Checker::layers() {
         layer.cell[axis] = domain.axes[static_cast<size_t>(axis)] ? static_cast<int32_t>(*cell) : 0;
     }
     if (l.detail != kNoId) {
-      const auto detail = wholeUnits(l.detail, "the detail of a layer");
+      // A threshold, which need not be a whole number of units, as that of statements need not.
+      std::optional<double> detail = constant(l.detail, kLength, "the detail of a layer");
+      if (detail) detail = std::floor(*detail * kUnitsPerMetre + 0.5);
       if (detail && (*detail < 1 || *detail > kLargest))
         sink_.error(node(l.detail).span, codes::kValueRange, "a detail is from one unit to 1048 km long",
                     "such as detail 4m");

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/math.h"
+#include "derive/frame.h"
 #include "derive/split_layout.h"
 #include "derive_fixture.h"
 #include "rounds.h"
