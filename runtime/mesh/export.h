@@ -56,7 +56,7 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 ///  .glb  binary glTF 2.0: one primitive a material with vertices of its own, POSITION, NORMAL, _TAG; the scene's
 ///        extras hold the origin in units and metres and the tag names. With a texture TEXCOORD_0 and _BLEND, the
 ///        shares of planes (xyz) and of the second material (w); pairs of materials have primitives of their own,
-///        whose colours COLOR_0 blends
+///        whose colours COLOR_0 blends and whose material's extras name the two
 ///  .obj  text, with normals and usemtl, with a texture's coordinates; the materials in a .mtl file of the same name
 ///        beside it
 ///  .ply  binary little-endian: x y z nx ny nz red green blue material tag; origin, materials and tags as comments

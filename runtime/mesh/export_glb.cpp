@@ -131,10 +131,14 @@ std::string materialText(const ExportInfo& info, const Primitive& primitive) {
   };
   const bool pictured = info.texture != nullptr && !info.texture->png.empty();
   const float roughness = (std::clamp(first.roughness, 0.0f, 1.0f) + std::clamp(second.roughness, 0.0f, 1.0f)) / 2;
+  // What the vertices' colours show, for importers that have materials of their own.
+  const std::string extras = !primitive.blends() ? ""
+                                                 : ",\"extras\":{\"sgm\":{\"materials\":[" + quoted(first.name) + ',' +
+                                                       quoted(second.name) + "],\"shareOfSecond\":\"_BLEND.w\"}}";
   return "{\"name\":" + quoted(primitive.blends() ? first.name + " + " + second.name : first.name) +
          ",\"pbrMetallicRoughness\":{\"baseColorFactor\":[" + channel(0) + ',' + channel(1) + ',' + channel(2) +
          ",1]," + (pictured ? "\"baseColorTexture\":{\"index\":0}," : "") +
-         "\"metallicFactor\":0,\"roughnessFactor\":" + decimalText(roughness) + "}}";
+         "\"metallicFactor\":0,\"roughnessFactor\":" + decimalText(roughness) + '}' + extras + '}';
 }
 
 /// Buffer views 2p and 2p + 1 are the vertices and indices of primitive p, a texture's picture the last one.

@@ -141,6 +141,8 @@ TEST_CASE("GLB blends pairs of materials by the colours of vertices", "[mesh][ex
   REQUIRE(json["materials"].size() == 2);
   CHECK(json["materials"][0]["name"] == "rock");
   CHECK(json["materials"][1]["name"] == "rock + wet rock");
+  CHECK(!json["materials"][0].contains("extras"));
+  CHECK(json["materials"][1]["extras"]["sgm"]["materials"] == nlohmann::json({"rock", "wet rock"}));
   CHECK(json["materials"][1]["pbrMetallicRoughness"]["baseColorFactor"] == nlohmann::json({1, 1, 1, 1}));
   CHECK(json["materials"][1]["pbrMetallicRoughness"]["roughnessFactor"].get<double>() == Approx(0.5));
   const nlohmann::json& primitives = json["meshes"][0]["primitives"];
