@@ -235,6 +235,10 @@ TEST_CASE("a layer of voxels shows where cells are no larger than eight of them"
     REQUIRE(result.program);
     return result.program->layers[0].coarsest_cell;
   };
+  const CompileResult threshold = compileText(
+      "sgm 1; domain infinite; layer a cell 8m reach 4m detail 0.3m { start A; }\nrule A { sphere(1m); }");
+  REQUIRE(threshold.program);
+  CHECK(threshold.program->layers[0].coarsest_cell == 307);
   CHECK(std::abs(coarsest("ca(1m);") - 4 * 1024) <= 8);
   CHECK(std::abs(coarsest("detail 2m { ca(1m); }") - 2 * 1024) <= 8);
   CHECK(coarsest("ca(1m); at(4m, 4m, 4m) sphere(1m);") == std::numeric_limits<int32_t>::max());
