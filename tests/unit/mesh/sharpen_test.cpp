@@ -1,0 +1,332 @@
+// Sharp features: what boxes at any angle become, and that all else stays.
+
+#include "mesh/sharpen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "catch.h"
+#include "fields.h"
+#include "mesh/check.h"
+#include "mesh/least_squares.h"
+#include "mesh/vertex.h"
+
+using namespace sgm;
+using namespace sgm::test;
+
+namespace {
+
+constexpr int32_t kCell = 256;
+constexpr double kMost = 0.05;  // cells between true edges and those of the mesh
+
+struct Field {
+  virtual ~Field() = default;
+  /// Value in units and gradient at a point in units.
+  virtual double at(const Vector3& p, Vector3& gradient) const = 0;
+};
+
+Vector3 randomDirection(const PathKey& key, uint64_t at) {
+  for (;; at += 3) {
+    const Vector3 v{2 * key.unit(at) - 1, 2 * key.unit(at + 1) - 1, 2 * key.unit(at + 2) - 1};
+    const double length = std::sqrt(dot(v, v));
+    if (length > 0.1 && length < 1) return {v[0] / length, v[1] / length, v[2] / length};
+  }
+}
+
+struct TurnedBox : Field {
+  Vector3 centre, half;
+  std::array<Vector3, 3> axes;
+
+  /// Around the middle of two chunks side by side in x.
+  explicit TurnedBox(uint64_t seed) {
+    const PathKey key{seed};
+    axes[0] = randomDirection(key, 10);
+    Vector3 other = cross(axes[0], randomDirection(key, 100));
+    const double length = std::sqrt(dot(other, other));
+    for (double& x : other) x /= length;
+    axes[1] = other;
+    axes[2] = cross(axes[0], axes[1]);
+    for (size_t k = 0; k < 3; ++k) {
+      centre[k] = (k == 0 ? 32.0 : 16.0) * kCell + (key.unit(k) - 0.5) * 2 * kCell;
+      half[k] = (4 + 3 * key.unit(3 + k)) * kCell;
+    }
+  }
+  double at(const Vector3& p, Vector3& gradient) const override {
+    double value = -1e9;
+    for (size_t k = 0; k < 3; ++k) {
+      const double along = dot(minus(p, centre), axes[k]);
+      if (const double d = std::fabs(along) - half[k]; d > value) {
+        value = d;
+        for (size_t i = 0; i < 3; ++i) gradient[i] = along < 0 ? -axes[k][i] : axes[k][i];
+      }
+    }
+    return value;
+  }
+  /// Points along the twelve edges.
+  std::vector<Vector3> edgePoints() const {
+    constexpr int kSteps = 120;
+    std::vector<Vector3> points;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      for (int side = 0; side < 4; ++side) {
+        for (int step = -kSteps; step <= kSteps; ++step) {
+          Vector3 local{};
+          local[axis] = half[axis] * step / kSteps;
+          local[(axis + 1) % 3] = side & 1 ? half[(axis + 1) % 3] : -half[(axis + 1) % 3];
+          local[(axis + 2) % 3] = side & 2 ? half[(axis + 2) % 3] : -half[(axis + 2) % 3];
+          Vector3 p = centre;
+          for (size_t k = 0; k < 3; ++k) {
+            for (size_t i = 0; i < 3; ++i) p[i] += local[k] * axes[k][i];
+          }
+          points.push_back(p);
+        }
+      }
+    }
+    return points;
+  }
+};
+
+struct Sphere : Field {
+  double radius;
+  explicit Sphere(double r) : radius(r) {}
+  double at(const Vector3& p, Vector3& gradient) const override {
+    const Vector3 d = minus(p, {32.0 * kCell + 17, 16.0 * kCell - 5, 16.0 * kCell + 60});
+    const double length = std::sqrt(dot(d, d));
+    gradient = {d[0] / length, d[1] / length, d[2] / length};
+    return length - radius;
+  }
+};
+
+/// As the runtime's shaders pack normals.
+void packNormal(const Vector3& n, int16_t& x, int16_t& y) {
+  const double sum = std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]);
+  double a = n[0] / sum, b = n[1] / sum;
+  if (n[2] < 0) {
+    const double folded = (1 - std::fabs(b)) * (a < 0 ? -1 : 1);
+    b = (1 - std::fabs(a)) * (b < 0 ? -1 : 1);
+    a = folded;
+  }
+  x = static_cast<int16_t>(std::floor(a * 32767 + 0.5));
+  y = static_cast<int16_t>(std::floor(b * 32767 + 0.5));
+}
+
+Vector3 exact(const Int3& p) {
+  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+}
+
+MeshPart meshChunk(const Field& field, const ChunkGrid& grid) {
+  ChunkSamples samples;
+  Vector3 gradient{};
+  size_t i = 0;
+  for (int32_t z = 0; z < kChunkSamples; ++z) {
+    for (int32_t y = 0; y < kChunkSamples; ++y) {
+      for (int32_t x = 0; x < kChunkSamples; ++x, ++i) {
+        const Int3 p{grid.origin.x + x * kCell, grid.origin.y + y * kCell, grid.origin.z + z * kCell};
+        samples.q[i] = static_cast<int32_t>(std::floor(field.at(exact(p), gradient) * 64));
+        samples.signs[static_cast<size_t>(y + z * kChunkSamples)] |= uint64_t{samples.q[i] < 0} << x;
+      }
+    }
+  }
+  MeshPart part;
+  polygonizeBody(samples, grid, part);
+  for (Vertex& v : part.vertices) {
+    field.at(exact(vertexUnits(grid, v)), gradient);
+    packNormal(gradient, v.normal_x, v.normal_y);
+  }
+  return part;
+}
+
+FieldSampler samplerOf(const Field& field) {
+  return [&field](std::span<const Int3> points, std::span<FieldSample> samples) -> Result<void> {
+    for (size_t i = 0; i < points.size(); ++i) {
+      Vector3 g{};
+      samples[i].value = static_cast<float>(field.at(exact(points[i]), g));
+      samples[i].gradient = {static_cast<float>(g[0]), static_cast<float>(g[1]), static_cast<float>(g[2])};
+      packNormal(g, samples[i].normal_x, samples[i].normal_y);
+    }
+    return {};
+  };
+}
+
+constexpr ChunkGrid kLeft{{0, 0, 0}, kCell, 0}, kRight{{kChunkCells * kCell, 0, 0}, kCell, 0};
+
+struct Meshes {
+  MeshPart left, right;
+  WorldMesh plain;  ///< of both
+  explicit Meshes(const Field& field) : left(meshChunk(field, kLeft)), right(meshChunk(field, kRight)) {
+    const std::array<PlacedPart, 2> parts{{{&left, kLeft, 0}, {&right, kRight, 0}}};
+    plain = *weld(parts, {});
+  }
+};
+
+Vector3 unitsOf(const WorldMesh& mesh, uint32_t v) {
+  const auto& p = mesh.positions[v];
+  return {p[0] * kUnitsPerMetre + mesh.origin.x, p[1] * kUnitsPerMetre + mesh.origin.y,
+          p[2] * kUnitsPerMetre + mesh.origin.z};
+}
+
+Vector3 areaOf(const WorldMesh& mesh, size_t triangle) {
+  const Vector3 a = unitsOf(mesh, mesh.indices[triangle]);
+  return cross(minus(unitsOf(mesh, mesh.indices[triangle + 1]), a), minus(unitsOf(mesh, mesh.indices[triangle + 2]), a));
+}
+
+double distanceToSegment(const Vector3& p, const Vector3& a, const Vector3& b) {
+  const Vector3 ab = minus(b, a), ap = minus(p, a);
+  const double length = dot(ab, ab);
+  const double t = length > 0 ? std::clamp(dot(ab, ap) / length, 0.0, 1.0) : 0;
+  const Vector3 d = minus(ap, {ab[0] * t, ab[1] * t, ab[2] * t});
+  return std::sqrt(dot(d, d));
+}
+
+/// Where a triangle has its middle, in units.
+Vector3 middleOf(const WorldMesh& mesh, size_t triangle) {
+  Vector3 middle{};
+  for (size_t k = 0; k < 3; ++k) {
+    const Vector3 p = unitsOf(mesh, mesh.indices[triangle + k]);
+    for (size_t i = 0; i < 3; ++i) middle[i] += p[i] / 3;
+  }
+  return middle;
+}
+
+/// Mesh edges between triangles on different sides of the field. (Their own normals say little: positions are 256ths of
+/// a cell, which tilts slivers.)
+std::vector<std::array<Vector3, 2>> creasesOf(const WorldMesh& mesh, const Field& field) {
+  std::map<std::pair<uint32_t, uint32_t>, Vector3> other;
+  std::vector<std::array<Vector3, 2>> creases;
+  for (size_t t = 0; t < mesh.indices.size(); t += 3) {
+    Vector3 n{};
+    field.at(middleOf(mesh, t), n);
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t a = mesh.indices[t + k], b = mesh.indices[t + (k + 1) % 3];
+      const auto [it, fresh] = other.try_emplace(std::minmax(a, b), n);
+      if (!fresh && dot(n, it->second) < 0.866) creases.push_back({unitsOf(mesh, a), unitsOf(mesh, b)});
+    }
+  }
+  return creases;
+}
+
+bool sameBytes(const WorldMesh& a, const WorldMesh& b) {
+  return a.positions == b.positions && a.indices == b.indices && a.keys == b.keys && a.attributes == b.attributes;
+}
+
+}  // namespace
+
+TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen]") {
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    INFO("seed " << seed);
+    const TurnedBox box(seed);
+    const Meshes meshes(box);
+    const Result<WorldMesh> sharp = sharpen(meshes.plain, kCell, samplerOf(box));
+    REQUIRE(sharp);
+    const MeshReport report = checkTriangles(sharp->indices, sharp->positions.size());
+    INFO(describe(report));
+    CHECK(report.closed());
+
+    const std::vector<std::array<Vector3, 2>> creases = creasesOf(*sharp, box);
+    const std::vector<Vector3> truth = box.edgePoints();
+    double off_true = 0, off_mesh = 0, off_surface = 0, flipped = 0;
+    for (const auto& [a, b] : creases) {
+      for (const double t : {0.0, 0.5, 1.0}) {
+        const Vector3 p{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+        double nearest = 1e9;
+        for (size_t i = 0; i + 1 < truth.size(); ++i) {
+          if ((i + 1) % 241 != 0) nearest = std::min(nearest, distanceToSegment(p, truth[i], truth[i + 1]));
+        }
+        off_true = std::max(off_true, nearest / kCell);
+      }
+    }
+    for (const Vector3& p : truth) {
+      double nearest = 1e9;
+      for (const auto& [a, b] : creases) nearest = std::min(nearest, distanceToSegment(p, a, b));
+      off_mesh = std::max(off_mesh, nearest / kCell);
+    }
+    Vector3 gradient{};
+    for (uint32_t v = 0; v < sharp->positions.size(); ++v) {
+      off_surface = std::max(off_surface, std::fabs(box.at(unitsOf(*sharp, v), gradient)) / kCell);
+    }
+    for (size_t t = 0; t < sharp->indices.size(); t += 3) {
+      box.at(middleOf(*sharp, t), gradient);
+      flipped = std::max(flipped, -dot(areaOf(*sharp, t), gradient) / (kCell * kCell));
+    }
+    printf("STAT %f %f %f %f\n", off_true, off_mesh, off_surface, flipped);
+    CHECK(off_true <= kMost);
+    CHECK(off_mesh <= kMost);
+    CHECK(off_surface <= kMost);
+    CHECK(flipped <= 1e-3);
+  }
+}
+
+TEST_CASE("chunks sharpened apart agree on their border", "[mesh][sharpen]") {
+  size_t shared_features = 0;
+  for (uint64_t seed = 1; seed <= 60; ++seed) {
+    INFO("seed " << seed);
+    const TurnedBox box(seed);
+    const Meshes meshes(box);
+    std::array<std::map<VertexKey, std::array<double, 3>>, 2> of_chunk;
+    const std::array<PlacedPart, 2> parts{{{&meshes.left, kLeft, 0}, {&meshes.right, kRight, 0}}};
+    for (size_t side = 0; side < 2; ++side) {
+      // From another origin, so that its rounding would show.
+      const WorldMesh apart = *weld({&parts[side], 1}, {7, side == 0 ? -100 : 1000003, 0});
+      const Result<WorldMesh> sharp = sharpen(apart, kCell, samplerOf(box));
+      REQUIRE(sharp);
+      for (uint32_t v = 0; v < sharp->positions.size(); ++v) {
+        const VertexKey& key = sharp->keys[v];
+        const bool in_border = key.corner.x == kRight.origin.x && key.axis != 0 && key.axis != kCellVertex &&
+                               key.axis <= kFaceVertex;
+        if (in_border) CHECK(of_chunk[side].emplace(key, unitsOf(*sharp, v)).second);
+      }
+    }
+    CHECK(of_chunk[0] == of_chunk[1]);
+    for (const auto& [key, place] : of_chunk[0]) shared_features += key.axis == kFaceVertex;
+  }
+  CHECK(shared_features > 100);
+}
+
+TEST_CASE("smooth shapes keep their bytes", "[mesh][sharpen]") {
+  for (const double radius : {4.0, 7.3, 12.0}) {
+    const Sphere sphere(radius * kCell);
+    const Meshes meshes(sphere);
+    const Result<WorldMesh> sharp = sharpen(meshes.plain, kCell, samplerOf(sphere));
+    REQUIRE(sharp);
+    CHECK(sameBytes(*sharp, meshes.plain));
+  }
+}
+
+TEST_CASE("keys of feature vertices are their own", "[mesh][sharpen]") {
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    INFO("seed " << seed);
+    const TurnedBox box(seed);
+    const Result<WorldMesh> sharp = sharpen(Meshes(box).plain, kCell, samplerOf(box));
+    REQUIRE(sharp);
+    const std::set<VertexKey> keys(sharp->keys.begin(), sharp->keys.end());
+    CHECK(keys.size() == sharp->keys.size());
+  }
+}
+
+TEST_CASE("creases are split into sides that face as the field does", "[mesh][sharpen]") {
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    INFO("seed " << seed);
+    const TurnedBox box(seed);
+    const WorldMesh sharp = *sharpen(Meshes(box).plain, kCell, samplerOf(box));
+    const WorldMesh split = splitCreases(sharp);
+    REQUIRE(split.indices.size() == sharp.indices.size());
+    CHECK(split.positions.size() > sharp.positions.size());
+    size_t astray = 0, corners = 0;
+    for (size_t t = 0; t < split.indices.size(); t += 3) {
+      const Vector3 area = areaOf(split, t);
+      const double length = std::sqrt(dot(area, area));
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t v = split.indices[t + k];
+        CHECK(split.positions[v] == sharp.positions[sharp.indices[t + k]]);
+        CHECK(split.keys[v] == sharp.keys[sharp.indices[t + k]]);
+        if (length < 1e-3 * kCell * kCell) continue;
+        const Vector3 n = unpackNormal(split.attributes[v].normal_x, split.attributes[v].normal_y);
+        ++corners;
+        astray += dot(area, n) < 0.95 * length;
+      }
+    }
+    CHECK(astray * 100 < corners);
+  }
+}
