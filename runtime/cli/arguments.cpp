@@ -180,12 +180,19 @@ Command addFmt(CLI::App& root) {
   return [options] { return format(*options); };
 }
 
+/// Of commands that mesh one region as a whole.
+void addSharpOption(CLI::App& app, WorldOptions& options) {
+  app.add_flag("--sharp", options.sharp,
+               "Crisp edges and corners, which cells of a plain mesh cut off; smooth surfaces stay as they are");
+}
+
 Command addMesh(CLI::App& root) {
   CLI::App* app = root.add_subcommand("mesh", "Mesh a region and write it as .glb, .obj, .ply or .stl");
   const auto options = std::make_shared<MeshOptions>();
   addWorldOptions(*app, *options);
   addRegionOptions(*app, *options);
   addLevelOption(*app, *options);
+  addSharpOption(*app, *options);
   app->add_option("--out", options->out,
                   "Mesh file to write; its ending chooses .glb, .obj (with its materials in a .mtl of the same name "
                   "beside it), .ply or .stl. Without it the mesh is only measured")
@@ -207,6 +214,7 @@ Command addRender(CLI::App& root) {
   addWorldOptions(*app, *options);
   addRegionOptions(*app, *options);
   addLevelOption(*app, *options);
+  addSharpOption(*app, *options);
   app->add_option("--out", options->out, "Picture to write, a .png file")->required()->check(checkPng);
   app->add_flag("--uv", options->uv,
                 "Show texture coordinates: chequers of half a metre, lines of u red and of v green at whole metres");

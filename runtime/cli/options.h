@@ -26,7 +26,8 @@ struct WorldOptions {
   std::optional<double> cell;     ///< metres
   std::optional<double> density;  ///< the paper's LD
   uint64_t max_chunks = 65536;
-  bool uv = false;  ///< with texture coordinates
+  bool uv = false;     ///< with texture coordinates
+  bool sharp = false;  ///< with the field's edges and corners
   int level = 0;    ///< of detail: cells of 2^level times the edge that --cell or --ld say
 };
 

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "api/backend_request.h"
+#include "api/region_sharp.h"
 #include "cli/source.h"
 #include "metrics/places.h"
 #include "stream/surface_shapes.h"
@@ -171,6 +172,13 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   if (!meshed) return failure(complain(meshed.error()));
   Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);
   if (!anchors) return failure(complain(anchors.error()));
+  std::optional<WorldMesh> unsplit;
+  if (options.sharp) {
+    Result<WorldMesh> sharp = api::sharpenRegion(world, *jobs, meshed->mesh, options.level);
+    if (!sharp) return failure(complain(sharp.error()));
+    unsplit = std::move(*sharp);
+    meshed->mesh = splitCreases(*unsplit, memory);
+  }
   std::optional<api::TexturedRegion> texture;
   if (plan.texture) {
     Result<api::TexturedRegion> unwrapped = api::unwrapRegion(world, *jobs, meshed->mesh, options.level, kTile);
@@ -190,7 +198,8 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
                 backendName(capabilities.kind),
                 capabilities.device,
                 seconds,
-                std::move(texture)};
+                std::move(texture),
+                std::move(unsplit)};
   if (plan.after) {
     if (const Result<void> done = plan.after(world, *jobs, result); !done) return failure(complain(done.error()));
   }

@@ -24,6 +24,8 @@ struct Region {
   std::string backend, device;
   double seconds = 0;                          ///< from the compiled grammar to the welded mesh
   std::optional<api::TexturedRegion> texture;  ///< where the plan asks for it
+  /// Where options ask for sharp features: the closed mesh, whose vertices at creases meshed.mesh has once a side.
+  std::optional<WorldMesh> unsplit;
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }
 };

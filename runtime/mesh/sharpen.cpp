@@ -189,7 +189,7 @@ class Sharpener {
   }
 
   bool within(const Vector3& place) const {
-    return std::all_of(place.begin(), place.end(), [&](double x) { return x >= -1.0 * cell_ && x <= (1 + 1.0) * cell_; });
+    return std::all_of(place.begin(), place.end(), [&](double x) { return x >= -cell_ && x <= 2.0 * cell_; });
   }
 
   /// The unit vector of a gradient; 0 where it has no length.
@@ -387,7 +387,7 @@ class Sharpener {
         if (isFeature(v)) continue;
         for (size_t k = 0; k < 3; ++k) out[k] += tangent(v).normal[k];
       }
-      if (dot(area, out) < -0.001 * cell_ * cell_) return false;
+      if (dot(area, out) < 0) return false;
     }
     return true;
   }

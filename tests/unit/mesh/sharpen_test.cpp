@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 
@@ -250,7 +249,6 @@ TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen]") {
       box.at(middleOf(*sharp, t), gradient);
       flipped = std::max(flipped, -dot(areaOf(*sharp, t), gradient) / (kCell * kCell));
     }
-    printf("STAT %f %f %f %f\n", off_true, off_mesh, off_surface, flipped);
     CHECK(off_true <= kMost);
     CHECK(off_mesh <= kMost);
     CHECK(off_surface <= kMost);
