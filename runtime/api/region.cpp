@@ -3,6 +3,7 @@
 #include "api/barrier.h"
 #include "api/field.h"
 #include "api/region_mesh.h"
+#include "api/region_sharp.h"
 #include "api/region_texture.h"
 #include "api/surface.h"
 #include "mesh/vertex.h"
@@ -55,7 +56,7 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
       box.lo[axis] = desc->minimum[axis];
       box.hi[axis] = desc->maximum[axis];
     }
-    if ((desc->flags & ~static_cast<uint32_t>(SGM_MESHING_TEXTURE)) != 0)
+    if ((desc->flags & ~static_cast<uint32_t>(SGM_MESHING_TEXTURE | SGM_MESHING_SHARP)) != 0)
       return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_meshing_flag");
     sgm::Progress progress;
     if (desc->progress != nullptr)
@@ -63,10 +64,16 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
         return desc->progress(desc->progress_user, done, total) == 0;
       };
     const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kRegion);
-    const sgm::Result<RegionMesh> region =
+    sgm::Result<RegionMesh> region =
         meshRegion(field->content->world, *field->content->backend, *field->runtime.jobs, box, desc->level,
                    desc->max_chunks != 0 ? desc->max_chunks : kDefaultMostChunks, progress);
     if (!region) return fail(error, region.error());
+    if ((desc->flags & SGM_MESHING_SHARP) != 0) {
+      const sgm::Result<sgm::WorldMesh> sharp =
+          sharpenRegion(field->content->world, *field->runtime.jobs, region->mesh, desc->level);
+      if (!sharp) return fail(error, sharp.error());
+      region->mesh = sgm::splitCreases(*sharp, field->content->world.memory());
+    }
     struct End {
       void operator()(sgm_surface* surface) const { sgm_surface_destroy(surface); }
     };

@@ -65,8 +65,8 @@ class ChunkwiseSampler {
     return box;
   }
 
-  void sample(const FieldProgram& program, std::span<const std::pair<Int3, uint32_t>> own,
-              std::span<const Int3> points, std::span<FieldSample> samples) const {
+  void sample(const FieldProgram& program, std::span<const std::pair<Int3, uint32_t>> own, std::span<const Int3> points,
+              std::span<FieldSample> samples) const {
     const size_t count = own.size();
     std::pmr::memory_resource* memory = world_.memory();
     std::pmr::vector<int32_t> x(count, memory), y(count, memory), z(count, memory);
@@ -78,9 +78,9 @@ class ChunkwiseSampler {
       x[i] = p.x, y[i] = p.y, z[i] = p.z;
     }
     EvalScratch scratch(memory);
-    bestKernels().attributes(program.view(), {x.data(), y.data(), z.data(), count}, scratch,
-                             {value.data(), gx.data(), gy.data(), gz.data(), normal_x.data(), normal_y.data(),
-                              label.data()});
+    bestKernels().attributes(
+        program.view(), {x.data(), y.data(), z.data(), count}, scratch,
+        {value.data(), gx.data(), gy.data(), gz.data(), normal_x.data(), normal_y.data(), label.data()});
     for (size_t i = 0; i < count; ++i) {
       samples[own[i].second] = {value[i], {gx[i], gy[i], gz[i]}, normal_x[i], normal_y[i]};
     }

@@ -28,7 +28,7 @@ struct WorldOptions {
   uint64_t max_chunks = 65536;
   bool uv = false;     ///< with texture coordinates
   bool sharp = false;  ///< with the field's edges and corners
-  int level = 0;    ///< of detail: cells of 2^level times the edge that --cell or --ld say
+  int level = 0;       ///< of detail: cells of 2^level times the edge that --cell or --ld say
 };
 
 /// "x,y,z"; a number too large for a double is an infinity. Nothing where the text is no point.

@@ -11,9 +11,9 @@
 namespace sgm {
 namespace {
 
-constexpr double kSharpCosine = 0.9;       // normals that differ by more than 26 degrees may belong to a feature
-constexpr double kOffSurface = 1.0 / 25;   // of a cell
-constexpr double kSlide = 1.0 / 128;        // of a cell
+constexpr double kSharpCosine = 0.9;      // normals that differ by more than 26 degrees may belong to a feature
+constexpr double kOffSurface = 1.0 / 25;  // of a cell
+constexpr double kSlide = 1.0 / 128;      // of a cell
 constexpr uint32_t kNone = UINT32_MAX;
 
 /// A side of a loop, in the direction in which both cells at its face see it: from the lower key to the higher.
@@ -74,8 +74,7 @@ Int3 cellOf(const VertexKey& a, const VertexKey& b, const VertexKey& c, int32_t 
 class Sharpener {
  public:
   Sharpener(const WorldMesh& mesh, int32_t cell, std::pmr::memory_resource* memory)
-      : mesh_(mesh), cell_(cell), memory_(memory), loops_(memory), sides_(memory), tangents_(memory),
-        made_(memory) {}
+      : mesh_(mesh), cell_(cell), memory_(memory), loops_(memory), sides_(memory), tangents_(memory), made_(memory) {}
 
   Result<WorldMesh> run(const FieldSampler& field) {
     copyVertices();
@@ -89,9 +88,7 @@ class Sharpener {
 
  private:
   bool sharp(uint32_t a, uint32_t b) const { return dot(normal(a), normal(b)) < kSharpCosine; }
-  Vector3 normal(uint32_t v) const {
-    return unpackNormal(made_.attributes[v].normal_x, made_.attributes[v].normal_y);
-  }
+  Vector3 normal(uint32_t v) const { return unpackNormal(made_.attributes[v].normal_x, made_.attributes[v].normal_y); }
   bool isSide(uint32_t a, uint32_t b) const { return sharedFace(mesh_.keys[a], mesh_.keys[b]) >= 0; }
   Int3 cellOfTriangle(size_t first_index) const {
     const uint32_t* v = &mesh_.indices[first_index];
@@ -227,8 +224,8 @@ class Sharpener {
   Result<void> touch(const FieldSampler& field) {
     std::pmr::vector<Int3> points(memory_);
     for (const std::array<double, 3>& metres : made_.positions) {
-      points.push_back(nearest(made_.origin, {metres[0] * kUnitsPerMetre, metres[1] * kUnitsPerMetre,
-                                              metres[2] * kUnitsPerMetre}));
+      points.push_back(
+          nearest(made_.origin, {metres[0] * kUnitsPerMetre, metres[1] * kUnitsPerMetre, metres[2] * kUnitsPerMetre}));
     }
     std::pmr::vector<FieldSample> samples(points.size(), memory_);
     if (Result<void> ok = field(points, samples); !ok) return ok;
@@ -286,8 +283,8 @@ class Sharpener {
   const Tangent& tangent(uint32_t v) const { return tangents_[v]; }
 
   /// The place on the crease of a side's two tangents that is nearest to the side's middle, in units from the face's
-  /// corner. Not where they meet in the face: that may be far away, and out of order with the next one, where the crease
-  /// runs nearly along the face.
+  /// corner. Not where they meet in the face: that may be far away, and out of order with the next one, where the
+  /// crease runs nearly along the face.
   Vector3 nearestOnCrease(const Side& side) const {
     const Tangent &a = tangent(side.from), &b = tangent(side.to);
     const Vector3 pa = between(side.corner, a.point), pb = between(side.corner, b.point);
@@ -317,7 +314,8 @@ class Sharpener {
       Side& side = *found[i];
       const VertexKey& from = mesh_.keys[side.from];
       const int across = 3 - side.axis - from.axis;
-      const uint8_t of_face = static_cast<uint8_t>(from.axis * 2 + (from.corner[across] == side.corner[across] ? 0 : 1));
+      const uint8_t of_face =
+          static_cast<uint8_t>(from.axis * 2 + (from.corner[across] == side.corner[across] ? 0 : 1));
       const VertexKey key{side.corner, from.level, static_cast<uint8_t>(kFaceVertex + side.axis), of_face};
       side.vertex = addVertex(side.corner, places[i], key, mesh_.attributes[side.from]);
     }

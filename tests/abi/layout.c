@@ -88,6 +88,7 @@ CHECK(world_morph, SGM_WORLD_MORPH == 2);
 CHECK(world_resident, SGM_WORLD_RESIDENT == 4);
 CHECK(world_texture, SGM_WORLD_TEXTURE == 8);
 CHECK(meshing_texture, SGM_MESHING_TEXTURE == 1);
+CHECK(meshing_sharp, SGM_MESHING_SHARP == 2);
 CHECK(meshing_flag_width, SGM_MESHING_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(host_cut, SGM_HOST_CUT == 1);
 CHECK(host_width, SGM_HOST_FLAG_FORCE_32_BIT == 0x7FFFFFFF);

@@ -460,3 +460,45 @@ TEST_CASE("parameters and seed reach the mesh") {
   }
   CHECK(hashes.size() == 3);
 }
+
+TEST_CASE("regions have sharp features where they are asked for, and chunks do not") {
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(
+      runtime.get(), "sgm 1; units m; start Box; rule Box { at(4m, 4m, 4m) rot(y, 30deg) rot(x, 20deg) box(4m, 4m, 4m); }");
+  const FieldOwner field = makeField(runtime.get(), grammar.get());
+  // How far the farthest vertex lies from the middle: a corner of the box.
+  const auto farthest = [&](uint32_t flags) {
+    sgm_region_desc desc = SGM_REGION_DESC_INIT;
+    for (int axis = 0; axis < 3; ++axis) desc.maximum[axis] = 8 * SGM_UNITS_PER_METRE;
+    desc.flags = flags;
+    sgm_surface* made = nullptr;
+    REQUIRE(sgm_surface_from_region(field.get(), &desc, &made, nullptr) == SGM_OK);
+    sgm_surface_view view = SGM_SURFACE_VIEW_INIT;
+    REQUIRE(sgm_surface_get_view(made, &view, nullptr) == SGM_OK);
+    double most = 0;
+    for (uint32_t v = 0; v < view.vertex_count; ++v) {
+      double square = 0;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const double from_middle = static_cast<double>(view.positions[3 * v + axis]) - 4;
+        square += from_middle * from_middle;
+      }
+      most = std::max(most, square);
+    }
+    sgm_surface_destroy(made);
+    return std::sqrt(most);
+  };
+  CHECK(farthest(0) < std::sqrt(12.0) - 0.01);
+  CHECK(farthest(SGM_MESHING_SHARP) == Approx(std::sqrt(12.0)).margin(0.002));
+  CHECK(farthest(SGM_MESHING_SHARP | SGM_MESHING_TEXTURE) == farthest(SGM_MESHING_SHARP));
+
+  const sgm_chunk_request request = SGM_CHUNK_REQUEST_INIT;
+  sgm_chunks_desc chunks = SGM_CHUNKS_DESC_INIT;
+  chunks.requests = &request;
+  chunks.count = 1;
+  chunks.flags = SGM_MESHING_SHARP;
+  sgm_mesh* mesh = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  CHECK(sgm_mesh_chunks(field.get(), &chunks, &mesh, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(std::string(error.message) ==
+        "chunks have no sharp features: leave SGM_MESHING_SHARP out, or mesh with sgm_surface_from_region");
+}

@@ -39,6 +39,20 @@ for format in ply stl; do
 done
 rm -f plain.glb ball.glb ball.obj ball.mtl
 
+# Sharp features: more vertices at the edges of a box, the same bytes on any number of threads; a ball stays as it is.
+echo 'sgm 1; units m; start Box; rule Box { rot(y, 30deg) rot(x, 20deg) box(4m, 4m, 4m); }' >box.sgm
+expect 0 "$SGM" mesh box.sgm --out box.ply --region=-4,-4,-4:4,4,4 --cell 0.5 --json
+json 'j.area < 95.5 && j.objects === 1'
+expect 0 "$SGM" mesh box.sgm --out sharp.ply --region=-4,-4,-4:4,4,4 --cell 0.5 --sharp --threads 1 --json
+json 'Math.abs(j.area - 96) < 0.01 && j.objects === 1'
+expect 0 "$SGM" mesh box.sgm --out again.ply --region=-4,-4,-4:4,4,4 --cell 0.5 --sharp --threads 3 --json
+cmp -s sharp.ply again.ply || failed "--sharp depends on threads"
+for sharp in '' --sharp; do
+  expect 0 "$SGM" mesh ball.sgm --out "ball$sharp.ply" --region=-4,-4,-4:4,4,4 --cell 0.25 $sharp
+done
+cmp -s ball.ply ball--sharp.ply || failed "--sharp changes a ball"
+rm -f box.sgm box.ply sharp.ply again.ply ball.ply ball--sharp.ply
+
 # An .obj brings its materials, and says so; a .mtl of somebody else's is not touched.
 expect 0 "$SGM" mesh ball.sgm --out ball.obj
 out_has '^ball\.obj, ball\.mtl: [0-9]+ triangles'
