@@ -482,7 +482,7 @@ TEST_CASE("surface calls are checked") {
   CHECK(sgm_surface_from_region(nullptr, &good, &surface, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_surface_from_region(world.field.get(), &good, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.maximum[1] = 0; }) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(with([](auto& d) { d.flags = 2; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.flags = 4; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.level = SGM_MAX_LEVEL + 1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.level = -1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) {

@@ -463,8 +463,9 @@ TEST_CASE("parameters and seed reach the mesh") {
 
 TEST_CASE("regions have sharp features where they are asked for, and chunks do not") {
   RuntimeOwner runtime = makeRuntime();
-  const GrammarOwner grammar = compile(
-      runtime.get(), "sgm 1; units m; start Box; rule Box { at(4m, 4m, 4m) rot(y, 30deg) rot(x, 20deg) box(4m, 4m, 4m); }");
+  const GrammarOwner grammar =
+      compile(runtime.get(),
+              "sgm 1; units m; start Box; rule Box { at(4m, 4m, 4m) rot(y, 30deg) rot(x, 20deg) box(4m, 4m, 4m); }");
   const FieldOwner field = makeField(runtime.get(), grammar.get());
   // How far the farthest vertex lies from the middle: a corner of the box.
   const auto farthest = [&](uint32_t flags) {
