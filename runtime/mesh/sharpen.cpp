@@ -74,12 +74,20 @@ Int3 cellOf(const VertexKey& a, const VertexKey& b, const VertexKey& c, int32_t 
 class Sharpener {
  public:
   Sharpener(const WorldMesh& mesh, int32_t cell, std::pmr::memory_resource* memory)
-      : mesh_(mesh), cell_(cell), memory_(memory), loops_(memory), sides_(memory), tangents_(memory), made_(memory) {}
+      : mesh_(mesh),
+        cell_(cell),
+        memory_(memory),
+        loops_(memory),
+        sides_(memory),
+        tangents_(memory),
+        normals_(memory),
+        made_(memory) {}
 
   Result<WorldMesh> run(const FieldSampler& field) {
     copyVertices();
     if (Result<void> ok = touch(field); !ok) return ok.error();
     if (Result<void> ok = slide(field); !ok) return ok.error();
+    for (const VertexAttributes& a : made_.attributes) normals_.push_back(unpackNormal(a.normal_x, a.normal_y));
     findLoops();
     if (Result<void> ok = placeFaceVertices(field); !ok) return ok.error();
     if (Result<void> ok = placeCellVertices(field); !ok) return ok.error();
@@ -87,8 +95,7 @@ class Sharpener {
   }
 
  private:
-  bool sharp(uint32_t a, uint32_t b) const { return dot(normal(a), normal(b)) < kSharpCosine; }
-  Vector3 normal(uint32_t v) const { return unpackNormal(made_.attributes[v].normal_x, made_.attributes[v].normal_y); }
+  bool sharp(uint32_t a, uint32_t b) const { return dot(normals_[a], normals_[b]) < kSharpCosine; }
   bool isSide(uint32_t a, uint32_t b) const { return sharedFace(mesh_.keys[a], mesh_.keys[b]) >= 0; }
   Int3 cellOfTriangle(size_t first_index) const {
     const uint32_t* v = &mesh_.indices[first_index];
@@ -449,6 +456,7 @@ class Sharpener {
   std::pmr::vector<Loop> loops_;
   std::pmr::vector<Side> sides_;
   std::pmr::vector<Tangent> tangents_;  ///< by vertex
+  std::pmr::vector<Vector3> normals_;   ///< as packed, by vertex of the first mesh
   WorldMesh made_;
 };
 

@@ -87,6 +87,29 @@ struct TurnedBox : Field {
   }
 };
 
+/// Turned boxes and slabs thinner than a cell, of which every other one is cut away.
+struct JoinedBoxes : Field {
+  std::vector<TurnedBox> boxes;
+  explicit JoinedBoxes(uint64_t seed) {
+    for (uint64_t i = 0; i < 6; ++i) {
+      TurnedBox& box = boxes.emplace_back(seed + i);
+      for (size_t k = 0; k < 3; ++k) box.centre[k] += (PathKey{seed + i}.unit(k + 50) - 0.5) * 8 * kCell;
+      box.half[0] *= i > 2 ? 0.1 : 1;
+    }
+  }
+  double at(const Vector3& p, Vector3& gradient) const override {
+    double value = 1e9;
+    for (size_t i = 0; i < boxes.size(); ++i) {
+      Vector3 own{};
+      const double d = boxes[i].at(p, own);
+      if (i % 2 == 0 ? d >= value : -d <= value) continue;
+      value = i % 2 == 0 ? d : -d;
+      for (size_t k = 0; k < 3; ++k) gradient[k] = i % 2 == 0 ? own[k] : -own[k];
+    }
+    return value;
+  }
+};
+
 struct Sphere : Field {
   double radius;
   explicit Sphere(double r) : radius(r) {}
@@ -280,6 +303,24 @@ TEST_CASE("chunks sharpened apart agree on their border", "[mesh][sharpen]") {
     for (const auto& [key, place] : of_chunk[0]) shared_features += key.axis == kFaceVertex;
   }
   CHECK(shared_features > 100);
+}
+
+TEST_CASE("boxes joined and cut at random stay closed, with keys of their own", "[mesh][sharpen]") {
+  size_t features = 0;
+  for (uint64_t seed = 1; seed <= 40; ++seed) {
+    INFO("seed " << seed);
+    const JoinedBoxes boxes(seed * 100);
+    const Meshes meshes(boxes);
+    const Result<WorldMesh> sharp = sharpen(meshes.plain, kCell, samplerOf(boxes));
+    REQUIRE(sharp);
+    const MeshReport report = checkTriangles(sharp->indices, sharp->positions.size());
+    INFO(describe(report));
+    CHECK(report.closed());
+    const std::set<VertexKey> keys(sharp->keys.begin(), sharp->keys.end());
+    CHECK(keys.size() == sharp->keys.size());
+    features += sharp->positions.size() - meshes.plain.positions.size();
+  }
+  CHECK(features > 10000);
 }
 
 TEST_CASE("smooth shapes keep their bytes", "[mesh][sharpen]") {
