@@ -14,14 +14,14 @@ namespace {
 constexpr double kSharpCosine = 0.9;      // normals that differ by more than 26 degrees may belong to a feature
 constexpr double kOffSurface = 1.0 / 25;  // of a cell
 constexpr double kSlide = 1.0 / 128;      // of a cell
-constexpr uint32_t kNone = UINT32_MAX;
+constexpr uint32_t kNoVertex = UINT32_MAX;
 
 /// A side of a loop, in the direction in which both cells at its face see it: from the lower key to the higher.
 struct Side {
   uint32_t from, to;
   Int3 corner{};  ///< of the face
   int axis = 0;   ///< that the face stands on
-  uint32_t vertex = kNone;
+  uint32_t vertex = kNoVertex;
   friend bool operator<(const Side& a, const Side& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); }
 };
 
@@ -330,7 +330,7 @@ class Sharpener {
   }
 
   uint32_t faceVertex(uint32_t a, uint32_t b) const {
-    if (!sharp(a, b)) return kNone;
+    if (!sharp(a, b)) return kNoVertex;
     const Side wanted = sideOf(a, b);
     return std::lower_bound(sides_.begin(), sides_.end(), wanted)->vertex;
   }
@@ -351,7 +351,7 @@ class Sharpener {
     for (size_t i = 0; i < loop.count; ++i) {
       const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count];
       fan.ring[fan.count++] = a;
-      if (const uint32_t middle = faceVertex(a, b); middle != kNone) fan.ring[fan.count++] = middle;
+      if (const uint32_t middle = faceVertex(a, b); middle != kNoVertex) fan.ring[fan.count++] = middle;
     }
     if (fan.count == loop.count) return fan;
     const Vector3 start = between(made_.origin, loop.corner);

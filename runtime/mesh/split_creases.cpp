@@ -9,7 +9,7 @@ namespace sgm {
 namespace {
 
 constexpr double kSameSide = 0.95;
-constexpr uint32_t kLast = UINT32_MAX;
+constexpr uint32_t kNoCopy = UINT32_MAX;
 
 bool isFeatureKey(const VertexKey& key) { return key.axis >= kFaceVertex; }
 
@@ -23,14 +23,14 @@ WorldMesh splitCreases(const WorldMesh& mesh, std::pmr::memory_resource* memory)
   split.keys = mesh.keys;
   split.indices = mesh.indices;
   // The copies of each vertex, in a chain; unset where a feature vertex has no side yet.
-  std::pmr::vector<uint32_t> next(mesh.positions.size(), kLast, memory);
+  std::pmr::vector<uint32_t> next(mesh.positions.size(), kNoCopy, memory);
   std::pmr::vector<bool> set(mesh.positions.size(), false, memory);
   const auto normalOf = [&](uint32_t v) {
     return unpackNormal(split.attributes[v].normal_x, split.attributes[v].normal_y);
   };
   for (size_t at = 0; at < mesh.indices.size(); at += 3) {
     // A triangle of a fan has a vertex or two on the side that it belongs to.
-    uint32_t side = kLast;
+    uint32_t side = kNoCopy;
     for (size_t k = 0; k < 3; ++k) {
       if (!isFeatureKey(mesh.keys[mesh.indices[at + k]])) side = mesh.indices[at + k];
     }
@@ -44,13 +44,13 @@ WorldMesh splitCreases(const WorldMesh& mesh, std::pmr::memory_resource* memory)
         continue;
       }
       const auto same = [&] { return dot(normalOf(v), normalOf(side)) > kSameSide; };
-      while (!same() && next[v] != kLast) v = next[v];
+      while (!same() && next[v] != kNoCopy) v = next[v];
       if (!same()) {
         const auto added = static_cast<uint32_t>(split.positions.size());
         split.positions.push_back(mesh.positions[mesh.indices[at + k]]);
         split.attributes.push_back(like);
         split.keys.push_back(mesh.keys[mesh.indices[at + k]]);
-        next.push_back(kLast);
+        next.push_back(kNoCopy);
         next[v] = added;
         v = added;
       }
