@@ -104,6 +104,10 @@ expect 0 "$SGM" mesh "$cave" --region 64,64,112:96,96,144 --seed 8 --json
 [[ $(hash) != "$first" ]] || failed "the seed does not matter"
 expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --set radius=2m --json
 json 'Math.abs(j.area - 16 * Math.PI) < 1.5'
+radius_2m=$(hash)
+# The ball's file says `units m`, so a bare 2 is the same 2 m.
+expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --set radius=2 --json
+[[ $(hash) == "$radius_2m" ]] || failed "a bare length is not in the file's units"
 expect 0 "$SGM" mesh ball.sgm --region=-4,-4,-4:4,4,4 --ld 10 --json
 json 'j.cell_units === 102 && Math.abs(j.cell - 0.099609375) < 1e-12'
 # A finite world needs no region.
@@ -146,7 +150,7 @@ wrong --region 4,4,4:-4,-4,-4
 wrong $region --cell 0.01 --max-chunks 10
 wrong --region=-2000000,-2000000,-2000000:2000000,2000000,2000000
 wrong $region --set radius=9m
-wrong $region --set radius=2
+wrong $region --set radius=20
 wrong $region --set radius=2deg
 wrong $region --set radius=
 wrong $region --set raduis=2m
