@@ -3,6 +3,7 @@
 // fills what is marked "resolved": after it no name needs to be looked up again. Indices are kNoId where absent.
 // Numbers are in metres, radians and plain ratios.
 
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <string>
@@ -129,6 +130,8 @@ enum class StmtKind : uint8_t {
   extrude,    ///< expr: height; plan; body: a block or kNoId
   roof,       ///< extra: Ast::roofs; plan, or kNoId: over the scope's box
   inner,      ///< in an override's block: what the override takes the place of; extra: its number there
+  wfc,        ///< expr: a length or a vector, the edges of tiles; extra: Ast::waves; parts: tiles, each with its child
+  border,     ///< of a wfc: extra: Ast::tiles, what its sides have to meet
 };
 
 /// Whether a statement adds just what its body adds, elsewhere, several times or not at every level.
@@ -223,15 +226,16 @@ enum class FloorPart : uint8_t {
   link,      ///< a statement of that kind
 };
 
-/// A part of a split, a comp or a treemap.
+/// A part of a split, a comp, a treemap or a wfc.
 struct PartNode {
-  ExprId size = kNoId;          ///< of a split: a length, or a share of the scope; of a room: the weight of its area
+  ExprId size = kNoId;          ///< of a split: a length, or a share of the scope; of a room or a tile: its weight
   bool flexible = false;        ///< of a split: the length is a weight in what the others leave
   bool repeated = false;        ///< of a split: in the group that is repeated, which is one run of parts
   bool relative = false;        ///< resolved, of a split: size is a share
   BoxPart of = BoxPart::front;  ///< of a comp
   FloorPart floor = FloorPart::room;  ///< of a treemap
-  NameId label = kNoId;               ///< of a room
+  NameId label = kNoId;               ///< of a room or a tile
+  uint32_t tile = kNoId;              ///< of a wfc: Ast::tiles
   uint16_t tag = 0;                   ///< resolved, of a room: Program::tags
   Span span;
   Span group;  ///< repeated: of the whole group
@@ -272,6 +276,36 @@ struct LinkNode {
   ExprId width = kNoId, height = kNoId;  ///< resolved, or kNoId: as the treemap says
 };
 
+/// One side of a tile or of the border, as written.
+struct SocketNode {
+  BoxPart of = BoxPart::front;  ///< front to bottom, or side
+  IdRange labels;               ///< into Ast::ids (NameId): what it is
+  IdRange meets;                ///< likewise, what it meets; none: what it is
+  Span span;
+};
+
+/// What a side is and what it meets, a bit for each label; all bits of a side that is not written.
+struct SideKind {
+  uint64_t labels = ~uint64_t{0}, meets = ~uint64_t{0};
+
+  friend bool operator==(const SideKind&, const SideKind&) = default;
+  bool any() const { return ~labels == 0; }
+  bool fits(const SideKind& other) const { return (labels & other.meets) != 0 && (other.labels & meets) != 0; }
+};
+
+/// A tile of a wfc, or its border.
+struct TileNode {
+  bool turns = false;              ///< stands turned by any number of quarters about y
+  IdRange sockets;                 ///< into Ast::sockets: as written
+  std::array<uint8_t, 6> sides{};  ///< resolved, in the order of BoxPart: numbers of their kinds
+};
+
+/// Resolved.
+struct WaveNode {
+  IdRange labels;  ///< into Ast::ids (NameId): by their bits
+  IdRange kinds;   ///< into Ast::side_kinds
+};
+
 /// A parameter of a rule, let function or field.
 struct FormalNode {
   NameId name = kNoId;
@@ -296,6 +330,10 @@ struct Ast {
   std::pmr::vector<PartNode> parts;
   std::pmr::vector<TreemapNode> treemaps;
   std::pmr::vector<LinkNode> links;
+  std::pmr::vector<SocketNode> sockets;
+  std::pmr::vector<TileNode> tiles;
+  std::pmr::vector<WaveNode> waves;
+  std::pmr::vector<SideKind> side_kinds;
   std::pmr::vector<FootprintNode> footprints;
   std::pmr::vector<RoofNode> roofs;
   std::pmr::vector<ArgNode> args;
@@ -311,6 +349,10 @@ struct Ast {
         parts(memory),
         treemaps(memory),
         links(memory),
+        sockets(memory),
+        tiles(memory),
+        waves(memory),
+        side_kinds(memory),
         footprints(memory),
         roofs(memory),
         args(memory),

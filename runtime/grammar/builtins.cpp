@@ -1,5 +1,6 @@
 #include "grammar/builtins.h"
 
+#include <algorithm>
 #include <array>
 
 #include "base/math.h"
@@ -133,5 +134,16 @@ std::span<const PrimitiveInfo> primitiveTable() { return kPrimitives; }
 std::span<const ValueRange> branchRangeTable() { return kBranchRanges; }
 const BuiltinInfo* findBuiltin(std::string_view name) { return find(kBuiltins, name); }
 const PrimitiveInfo* findPrimitive(std::string_view name) { return find(kPrimitives, name); }
+
+bool namesArgument(std::string_view callee, std::string_view word) {
+  if (callee == "at") return word == "x" || word == "y" || word == "z";
+  const auto has = [&](std::span<const BuiltinParam> params) {
+    return std::any_of(params.begin(), params.end(),
+                       [&](const BuiltinParam& p) { return p.named_only && p.name == word; });
+  };
+  if (const PrimitiveInfo* primitive = findPrimitive(callee)) return has(primitive->params);
+  if (const BuiltinInfo* builtin = findBuiltin(callee)) return has(builtin->params);
+  return false;
+}
 
 }  // namespace sgm

@@ -142,5 +142,7 @@ std::span<const ValueRange> branchRangeTable();   ///< by parameter of branch()
 /// nullptr where there is none. rand and chance give the form without a key.
 const BuiltinInfo* findBuiltin(std::string_view name);
 const PrimitiveInfo* findPrimitive(std::string_view name);
+/// Whether `word -2m` among the arguments of a builtin or of `at` is the argument's name and its value, no difference.
+bool namesArgument(std::string_view callee, std::string_view word);
 
 }  // namespace sgm

@@ -117,7 +117,15 @@ class Checker {
   void partStatements(const StmtNode& node);
   // check_treemap.cpp
   void treemap(const StmtNode& node);
-  void link(const StmtNode& node, const std::vector<NameId>& rooms);
+  /// Whether it names two rooms.
+  bool link(const StmtNode& node, const std::vector<NameId>& rooms);
+  // check_wfc.cpp
+  void wave(const StmtNode& node);
+  void waveSize(ExprId size);
+  void waveSides(const StmtNode& node);
+  void waveAnswers(const StmtNode& node);
+  void unmetSide(const PartNode& part, const SocketNode& socket, size_t side, uint64_t there, const WaveNode& wave);
+  std::string labelsText(IdRange labels) const;
   bool xforms(IdRange range, bool copied);
   void localField(const StmtNode& node);
   void callRule(ExprId call, bool escape, bool shrunk);

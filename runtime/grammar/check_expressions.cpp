@@ -104,10 +104,9 @@ void Checker::deriveOnly(ExprId id, std::string_view what) {
 std::string Checker::unitHint(ExprId id, const Type& type, Dim wanted) const {
   const ExprNode& n = node(id);
   if (type.kind != ValueKind::number) return {};
-  if (n.kind == ExprKind::number && type.dim == kRatio && wanted == kLength)
-    return join({"write `", text(n.name), "m`"});
-  if (n.kind == ExprKind::number && type.dim == kRatio && wanted == kAngle)
-    return join({"write `", text(n.name), "deg`"});
+  const bool bare = n.kind == ExprKind::number && type.dim == kRatio && !text(n.name).ends_with('%');
+  if (bare && wanted == kLength) return join({"write `", text(n.name), "m`"});
+  if (bare && wanted == kAngle) return join({"write `", text(n.name), "deg`"});
   if (type.dim == kRatio && wanted == kLength) return "multiply it by 1m to make a length of it";
   if (type.dim == kLength && wanted == kRatio) return "divide it by a length to make a ratio of it";
   if (type.dim == kRatio && wanted == kAngle) return "multiply it by 1deg or 1rad to make an angle of it";

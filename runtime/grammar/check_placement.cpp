@@ -199,6 +199,7 @@ void Checker::idleCuts(StmtId id, bool first) {
     case StmtKind::morph:
     case StmtKind::split:
     case StmtKind::comp:
+    case StmtKind::wfc:
       for (uint32_t i = 0; i < s.children.count; ++i) idleCuts(program_.idAt(s.children, i), true);
       return;
     default:

@@ -15,7 +15,7 @@ void Checker::snapStatement(const StmtNode& s, bool shrunk) {
 }
 
 void Checker::splitStatement(const StmtNode& s) {
-  demand(s.amount, ValueKind::number, kLength, "how far the lines of a split snap");
+  demandRange(s.amount, kLength, "how far the lines of a split snap", kSnapReachRange);
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     PartNode& part = program_.ast.parts[s.parts.first + i];
     const ExprId size = part.size;

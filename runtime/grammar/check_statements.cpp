@@ -297,6 +297,8 @@ void Checker::statement(StmtId id, bool shrunk) {
       return partStatements(copy);
     case StmtKind::treemap:
       return treemap(copy);
+    case StmtKind::wfc:
+      return wave(copy);
     case StmtKind::let: {
       Type type = expression(copy.expr);
       deriveOnly(copy.expr, "a let");
@@ -327,7 +329,8 @@ void Checker::statement(StmtId id, bool shrunk) {
     case StmtKind::roof:
       return roof(copy);
     case StmtKind::inner:
-    case StmtKind::link:  // checked by its treemap
+    case StmtKind::link:    // checked by its treemap
+    case StmtKind::border:  // by its wfc
       return;
   }
 }

@@ -41,13 +41,23 @@ void Checker::treemap(const StmtNode& s) {
   }
   if (rooms.empty() || rooms.size() > kMostRooms)
     sink_.error(s.span, codes::kArgumentCount, "a treemap has 1 to 32 rooms", "such as `living 28: Room;`");
-  for (uint32_t i = 0; i < s.parts.count; ++i)
-    if (program_.ast.parts[s.parts.first + i].floor == FloorPart::link)
-      link(program_.stmt(program_.idAt(s.children, i)), rooms);
+  std::vector<std::pair<uint32_t, uint32_t>> linked;
+  for (uint32_t i = 0; i < s.parts.count; ++i) {
+    if (program_.ast.parts[s.parts.first + i].floor != FloorPart::link) continue;
+    const StmtNode& door = program_.stmt(program_.idAt(s.children, i));
+    if (!link(door, rooms)) continue;
+    const LinkNode& ends = program_.ast.links[door.extra];
+    const auto pair = std::minmax(ends.a, ends.b);
+    if (std::find(linked.begin(), linked.end(), std::pair<uint32_t, uint32_t>(pair)) != linked.end())
+      sink_.error(door.span, codes::kDuplicate,
+                  join({"`", text(door.name), "` and `", text(door.name2), "` are linked twice"}),
+                  "one door between two rooms, as wide as the widest of these");
+    linked.emplace_back(pair);
+  }
   partStatements(s);
 }
 
-void Checker::link(const StmtNode& s, const std::vector<NameId>& rooms) {
+bool Checker::link(const StmtNode& s, const std::vector<NameId>& rooms) {
   LinkNode& link = program_.ast.links[s.extra];
   for (const auto& [name, number] : {std::pair{s.name, &link.a}, std::pair{s.name2, &link.b}}) {
     const auto room = std::find(rooms.begin(), rooms.end(), name);
@@ -56,18 +66,19 @@ void Checker::link(const StmtNode& s, const std::vector<NameId>& rooms) {
       for (const NameId known : rooms) suggestion.offer(text(known));
       sink_.error(s.span, codes::kUnknownName, join({"this treemap has no room `", text(name), "`"}),
                   suggestion.hintOr("name two of its rooms"));
-      return;
+      return false;
     }
     *number = static_cast<uint32_t>(room - rooms.begin());
   }
-  if (link.a == link.b)
-    sink_.error(s.span, codes::kWrongUse, "a door leads from one room to another", "name two rooms");
+  const bool two = link.a != link.b;
+  if (!two) sink_.error(s.span, codes::kWrongUse, "a door leads from one room to another", "name two rooms");
   ExprId out[2] = {kNoId, kNoId};
-  if (!bindWords(link.args, s.span, "door", {"width", "height"}, 0, out)) return;
+  if (!bindWords(link.args, s.span, "door", {"width", "height"}, 0, out)) return two;
   demandRange(out[0], kLength, "the width of a door", kDoorRange);
   demandRange(out[1], kLength, "the height of a door", kDoorHeightRange);
   link.width = out[0];
   link.height = out[1];
+  return two;
 }
 
 }  // namespace sgm

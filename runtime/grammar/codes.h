@@ -35,6 +35,7 @@ inline constexpr std::string_view kParameterNames = "parameter-names";
 inline constexpr std::string_view kWrongUse = "wrong-use";
 inline constexpr std::string_view kShadowsBuiltin = "shadows-builtin";
 inline constexpr std::string_view kUnusedRule = "unused-rule";
+inline constexpr std::string_view kUnusedValue = "unused-value";
 // Types and stages
 inline constexpr std::string_view kUnitMismatch = "unit-mismatch";
 inline constexpr std::string_view kTypeMismatch = "type-mismatch";
@@ -57,6 +58,7 @@ inline constexpr std::string_view kReach = "reach";
 inline constexpr std::string_view kReachMaybe = "reach-maybe";
 inline constexpr std::string_view kMorphDisjoint = "morph-disjoint";
 inline constexpr std::string_view kGuards = "guards";
+inline constexpr std::string_view kIdleHead = "idle-head";
 inline constexpr std::string_view kIdleOverride = "idle-override";
 inline constexpr std::string_view kIdleCut = "idle-cut";
 

@@ -5,6 +5,7 @@
 #include "grammar/codes.h"
 #include "grammar/imports.h"
 #include "grammar/printer.h"
+#include "grammar/warnings.h"
 
 namespace sgm {
 
@@ -54,7 +55,11 @@ CompileResult compileGrammar(std::string_view text, std::string_view path, const
     checker.run();
     if (sink.errorCount() == 0) checkRecursion(*program, checker.calls(), options.limits, sink);
     if (sink.errorCount() == 0) checkReach(*program, options.limits, sink);
-    if (sink.errorCount() == 0) findLayerContents(*program, options.limits);
+    if (sink.errorCount() == 0) {
+      findLayerContents(*program, options.limits);
+      warnOfUnused(*program, syntax, sink);
+      warnOfOverlaps(*program, sink);
+    }
   }
   if (sink.errorCount() == 0) result.program = std::move(program);
   result.diagnostics = sink.take();

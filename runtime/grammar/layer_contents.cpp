@@ -15,11 +15,13 @@ namespace {
 
 struct Contents {
   int32_t coarsest_cell = 0;  ///< as in Layer; 0: shows nothing
+  bool by_level = false;      ///< as in Layer
   bool anchors = false;
 
-  static Contents shape() { return {std::numeric_limits<int32_t>::max(), false}; }
+  static Contents shape() { return {std::numeric_limits<int32_t>::max(), false, false}; }
   void add(const Contents& other) {
     coarsest_cell = std::max(coarsest_cell, other.coarsest_cell);
+    by_level = by_level || other.by_level;
     anchors = anchors || other.anchors;
   }
   friend bool operator==(const Contents&, const Contents&) = default;
@@ -55,7 +57,7 @@ class RuleContents {
     const ExprNode& n = program_.expr(id);
     if (n.ref == Ref::rule) return of_rule_[n.id];
     if (n.ref != Ref::primitive || static_cast<Primitive>(n.id) != Primitive::ca) return Contents::shape();
-    return {AutomatonLimits::coarsestCell(mostOf(program_.idAt(n.bound, 0))), false};
+    return {AutomatonLimits::coarsestCell(mostOf(program_.idAt(n.bound, 0))), true, false};
   }
 
  private:
@@ -81,6 +83,7 @@ class RuleContents {
   Contents ofRule(const Rule& rule) {
     Contents all;
     for (const Alternative& a : rule.alternatives) {
+      all.by_level = all.by_level || a.lod != kNoId;
       frame_.slots.assign(a.slot_count, RangeValue::unknown());
       all.add(ofStatement(a.body));
       all.add(ofCall(a.depth_call));
@@ -95,16 +98,19 @@ class RuleContents {
 
   Contents ofStatement(StmtId id) {
     if (id == kNoId) return {};
-    if (steps_ == 0) return {std::numeric_limits<int32_t>::max(), true};
+    if (steps_ == 0) return {std::numeric_limits<int32_t>::max(), true, true};
     --steps_;
     const StmtNode& s = program_.stmt(id);
     if (s.kind == StmtKind::call) return ofCall(s.expr);
-    if (s.kind == StmtKind::anchor) return {0, true};
+    if (s.kind == StmtKind::anchor) return {0, false, true};
     Contents all = ofStatement(s.body);
     if (s.kind == StmtKind::extrude || s.kind == StmtKind::roof || s.kind == StmtKind::treemap)
       all.add(Contents::shape());
     for (uint32_t i = 0; i < s.children.count; ++i) all.add(ofStatement(program_.idAt(s.children, i)));
-    if (s.kind == StmtKind::detail) all.coarsest_cell = std::min(all.coarsest_cell, mostOf(s.expr));
+    if (s.kind == StmtKind::detail) {
+      all.coarsest_cell = std::min(all.coarsest_cell, mostOf(s.expr));
+      all.by_level = true;
+    }
     return all;
   }
 
@@ -132,6 +138,7 @@ void findLayerContents(Program& program, const CompileLimits& limits) {
   for (Layer& layer : program.layers) {
     const Contents contents = rules.ofCall(layer.start);
     layer.coarsest_cell = std::min(layer.coarsest_cell, contents.coarsest_cell);
+    layer.by_level = contents.by_level;
     layer.anchors = contents.anchors;
   }
 }

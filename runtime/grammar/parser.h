@@ -135,6 +135,14 @@ class Parser {
   void floorPart(Parts& parts);
   StmtId linkStatement();
 
+  // parser_wfc.cpp
+  StmtId wfcStatement();
+  void wavePart(Parts& parts);
+  std::optional<SocketNode> socket(const std::vector<SocketNode>& before);
+  IdRange socketLabels();
+  uint32_t addTile(bool turns, const std::vector<SocketNode>& sockets);
+  StmtId borderStatement(uint32_t& tile);
+
   // parser_split.cpp
   StmtId addParts(StmtNode node, const Parts& parts, const Span& begin);
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <optional>
 
 #include "grammar/codes.h"
@@ -258,8 +257,7 @@ ExprId Parser::parenthesised() {
 }
 
 /// `name value`: a word before something that starts an expression. Before a minus it is a name only where the callee
-/// is a builtin with such a parameter and the minus touches its operand: `halfspace(below -2m)`; elsewhere `name =
-/// -2m`.
+/// has such a parameter and the minus touches its operand: `halfspace(below -2m)`, `at(y -2m)`; elsewhere `name = -2m`.
 bool Parser::namedArgumentAhead(std::string_view callee) const {
   if (peek().kind != Tok::word) return false;
   const std::string_view word = textOf(peek());
@@ -279,13 +277,7 @@ bool Parser::namedArgumentAhead(std::string_view callee) const {
       return false;
   }
   if (!next.space_before || (next.kind == Tok::minus && peek(2).space_before)) return false;
-  auto has = [&](std::span<const BuiltinParam> params) {
-    return std::any_of(params.begin(), params.end(),
-                       [&](const BuiltinParam& p) { return p.named_only && p.name == word; });
-  };
-  if (const PrimitiveInfo* primitive = findPrimitive(callee)) return has(primitive->params);
-  if (const BuiltinInfo* builtin = findBuiltin(callee)) return has(builtin->params);
-  return false;
+  return namesArgument(callee, word);
 }
 
 std::vector<ArgNode> Parser::arguments(std::string_view callee) {

@@ -44,8 +44,12 @@ StmtId Parser::splitStatement() {
   const Span open = here();
   if (panic_ || !expect(Tok::open_brace, "`{`")) return kNoId;
   Parts parts;
+  const uint32_t errors = sink_.errorCount();
   splitParts(parts, false);
-  return partsEnd(open) ? addParts(node, parts, begin) : kNoId;
+  if (!partsEnd(open)) return kNoId;
+  if (parts.nodes.empty() && sink_.errorCount() == errors)
+    sink_.error(since(begin), codes::kSyntax, "this split has no parts", "such as `split x { ~1m: Wall; }`");
+  return addParts(node, parts, begin);
 }
 
 StmtId Parser::snapStatement() {
@@ -87,8 +91,11 @@ void Parser::splitGroup(Parts& parts, bool repeated) {
   Deeper deeper(*this);
   if (!deeper.fits()) return;
   take();
+  const uint32_t errors = sink_.errorCount();
   splitParts(parts, true);
   if (!partsEnd(group) || !expect(Tok::star, "`*` behind the parts that are repeated")) return;
+  if (parts.nodes.size() == first && sink_.errorCount() == errors)
+    sink_.error(since(group), codes::kSyntax, "this repeated group has no parts", "such as `{ ~2m: Bay; }*`");
   for (size_t i = first; i < parts.nodes.size(); ++i) parts.nodes[i].group = since(group);
 }
 
@@ -113,6 +120,7 @@ StmtId Parser::compStatement() {
   node.kind = StmtKind::comp;
   const Span open = here();
   if (!expect(Tok::open_brace, "`{`")) return kNoId;
+  const uint32_t errors = sink_.errorCount();
   Parts parts;
   while (!at(Tok::close_brace) && !at(Tok::end)) {
     if (accept(Tok::semicolon)) continue;
@@ -121,7 +129,10 @@ StmtId Parser::compStatement() {
     if (exhausted_ || sink_.full()) return kNoId;
     synchronise(false);
   }
-  return partsEnd(open) ? addParts(node, parts, begin) : kNoId;
+  if (!partsEnd(open)) return kNoId;
+  if (parts.nodes.empty() && sink_.errorCount() == errors)
+    sink_.error(since(begin), codes::kSyntax, "this comp names no part of the box", "such as `comp { side: Wall; }`");
+  return addParts(node, parts, begin);
 }
 
 void Parser::compPart(Parts& parts) {

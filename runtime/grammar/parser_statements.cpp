@@ -8,10 +8,11 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 26> kStatements = {
+constexpr std::array<std::string_view, 27> kStatements = {
     "union",   "cut",   "meet",  "sum",  "morph",   "displace",  "warp",    "repeat", "for",
     "scatter", "let",   "field", "mat",  "tag",     "anchor",    "detail",  "inner",  "smooth",
-    "when",    "split", "snap",  "comp", "treemap", "footprint", "extrude", "roof"};
+    "when",    "split", "snap",  "comp", "treemap", "footprint", "extrude", "roof",
+    "wfc"};
 
 }  // namespace
 
@@ -74,6 +75,7 @@ StmtId Parser::statement() {
   if (atWord("snap")) return snapStatement();
   if (atWord("comp")) return compStatement();
   if (atWord("treemap")) return treemapStatement();
+  if (atWord("wfc")) return wfcStatement();
   if (atWord("detail")) return detailStatement();
   if (atWord("footprint")) return footprintStatement();
   if (atWord("extrude")) return extrudeStatement();

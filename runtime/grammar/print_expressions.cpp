@@ -1,6 +1,5 @@
 #include "grammar/print_expressions.h"
 
-#include <algorithm>
 #include <array>
 
 #include "grammar/keywords.h"
@@ -29,16 +28,6 @@ int levelOf(const ExprNode& node) {
     default:
       return kPostfix;
   }
-}
-
-bool namedOnly(std::string_view callee, std::string_view name) {
-  auto has = [&](std::span<const BuiltinParam> params) {
-    return std::any_of(params.begin(), params.end(),
-                       [&](const BuiltinParam& p) { return p.named_only && p.name == name; });
-  };
-  if (const PrimitiveInfo* primitive = findPrimitive(callee)) return has(primitive->params);
-  if (const BuiltinInfo* builtin = findBuiltin(callee)) return has(builtin->params);
-  return false;
 }
 
 }  // namespace
@@ -137,7 +126,7 @@ void LinePrinter::args(std::string& out, IdRange range, std::string_view callee)
       std::string value;
       expr(value, arg.value);
       const bool touching = value.starts_with('-') || value.starts_with('(');
-      out += join({name, touching && !namedOnly(callee, name) ? " = " : " ", value});
+      out += join({name, touching && !namesArgument(callee, name) ? " = " : " ", value});
     } else {
       expr(out, arg.value);
     }

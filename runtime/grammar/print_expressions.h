@@ -23,7 +23,7 @@ class LinePrinter {
   void xforms(std::string& out, IdRange range) const;
   /// What stands before a statement's body, without a blank at the end; the whole statement where it has no body.
   void head(std::string& out, const StmtNode& node) const;
-  /// A split, a comp or a treemap.
+  /// A split, a comp, a treemap or a wfc.
   static bool hasParts(const StmtNode& node);
   /// What stands before the statement of part i of one of these, with a blank at the end.
   void part(std::string& out, const StmtNode& node, uint32_t i) const;
@@ -41,6 +41,8 @@ class LinePrinter {
  private:
   void morphOperand(std::string& out, StmtId id) const;
   void footprint(std::string& out, const FootprintNode& node) const;
+  /// before: what stands before the first of them.
+  void sockets(std::string& out, const TileNode& tile, std::string_view before) const;
   void roof(std::string& out, const StmtNode& node) const;
   void scatter(std::string& out, const ScatterNode& node) const;
 

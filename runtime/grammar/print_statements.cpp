@@ -58,6 +58,16 @@ void LinePrinter::roof(std::string& out, const StmtNode& node) const {
   expr(out, node.plan);
 }
 
+void LinePrinter::sockets(std::string& out, const TileNode& tile, std::string_view before) const {
+  for (uint32_t i = 0; i < tile.sockets.count; ++i) {
+    const SocketNode& socket = program_.ast.sockets[tile.sockets.first + i];
+    out += join({i == 0 ? before : ", ", boxPartTable()[static_cast<size_t>(socket.of)]});
+    for (const auto& [labels, first] : {std::pair{socket.labels, " "}, std::pair{socket.meets, " meets "}})
+      for (uint32_t l = 0; l < labels.count; ++l)
+        out += join({l == 0 ? first : " or ", program_.text(program_.idAt(labels, l))});
+  }
+}
+
 void LinePrinter::morphOperand(std::string& out, StmtId id) const {
   const StmtNode& node = program_.stmt(id);
   if (node.kind == StmtKind::block)
@@ -155,6 +165,15 @@ void LinePrinter::head(std::string& out, const StmtNode& node) const {
       if (const IdRange given = program_.ast.links[node.extra].args; given.count > 0) args(out, given, "door");
       out += ';';
       break;
+    case StmtKind::wfc:
+      out += "wfc ";
+      expr(out, node.expr);
+      break;
+    case StmtKind::border:
+      out += "border";
+      sockets(out, program_.ast.tiles[node.extra], " ");
+      out += ';';
+      break;
     case StmtKind::let:
       out += join({"let ", program_.text(node.name), " = "});
       expr(out, node.expr);
@@ -228,7 +247,8 @@ void LinePrinter::statement(std::string& out, StmtId id) const {
 }
 
 bool LinePrinter::hasParts(const StmtNode& node) {
-  return node.kind == StmtKind::split || node.kind == StmtKind::comp || node.kind == StmtKind::treemap;
+  return node.kind == StmtKind::split || node.kind == StmtKind::comp || node.kind == StmtKind::treemap ||
+         node.kind == StmtKind::wfc;
 }
 
 bool LinePrinter::opensGroup(const StmtNode& node, uint32_t i) const {
@@ -253,6 +273,13 @@ void LinePrinter::part(std::string& out, const StmtNode& node, uint32_t i) const
     } else {
       out += part.floor == FloorPart::corridor ? "corridor" : "facade";
     }
+  } else if (node.kind == StmtKind::wfc) {
+    if (part.label == kNoId) return;
+    out += join({program_.text(part.label), " "});
+    expr(out, part.size);
+    const TileNode& tile = program_.ast.tiles[part.tile];
+    if (tile.turns) out += " turn";
+    sockets(out, tile, ", ");
   } else {
     if (part.flexible) out += '~';
     expr(out, part.size);

@@ -276,7 +276,7 @@ class ModulePrinter {
     last_line_ = block.span.end_line;
   }
 
-  /// The parts of a split, comp or treemap, each on a line, a repeated group one deeper.
+  /// The parts of a split, comp, treemap or wfc, each on a line, a repeated group one deeper.
   void partsInLines(const StmtNode& node, size_t depth) {
     out_ += " {";
     trailing(node.span.line);

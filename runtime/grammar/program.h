@@ -143,7 +143,8 @@ struct Layer {
   /// In units: at levels whose cells have a longer edge the layer shows nothing, whatever its parameters, seed and
   /// cell: by its own `detail`, or as all its shapes stand under one. INT32_MAX: no such edge; 0: it has no shapes.
   int32_t coarsest_cell = std::numeric_limits<int32_t>::max();
-  bool anchors = true;  ///< it may have anchors
+  bool by_level = true;  ///< some of its shapes may show at some levels only, but for its own `detail`
+  bool anchors = true;   ///< it may have anchors
 
   bool shows(int32_t cell_edge) const { return cell_edge <= coarsest_cell; }
 

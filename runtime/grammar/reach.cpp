@@ -20,13 +20,15 @@ ReachCheck::ReachCheck(Program& program, const CompileLimits& limits, Diagnostic
       steps_(limits.bound_steps),
       values_(program, steps_),
       active_(program.rules.size(), 0),
-      counted_(program.rules.size(), false) {
+      counted_(program.rules.size(), false),
+      derived_(program.rules.size()) {
   for (uint32_t r = 0; r < program.rules.size(); ++r)
     for (const Alternative& a : program.rules[r].alternatives) counted_[r] = counted_[r] || a.depth != kNoId;
 }
 
 void ReachCheck::run() {
   for (uint32_t l = 0; l < program_.layers.size() && !sink_.full(); ++l) layerReach(l);
+  if (sink_.errorCount() == 0 && !cut_short_) idleHeads();
 }
 
 void ReachCheck::layerReach(uint32_t index) {

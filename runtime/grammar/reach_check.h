@@ -3,7 +3,7 @@
 // each tuple of argument ranges and remembered, so that recursion costs its depth and not its leaves.
 //
 // reach.cpp: layers and what is said of them. reach_rules.cpp: calls and choice. reach_statements.cpp: statements.
-// reach_transforms.cpp: transforms, loops, point sets. reach_split.cpp: parts of scopes. reach_treemap.cpp: rooms.
+// reach_transforms.cpp: transforms, loops, point sets. reach_split.cpp: parts of scopes. reach_treemap.cpp: rooms. reach_wfc.cpp: tiles.
 // reach_automaton.cpp: cellular automata. reach_profiles.cpp: footprints, extrusions and roofs. reach_overrides.cpp:
 // overrides.
 
@@ -68,6 +68,7 @@ class ReachCheck {
   Extent remembered(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top,
                     const std::vector<uint32_t>& edits);
   Extent alternatives(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top);
+  void idleHeads();
   Extent alternativeExtent(uint32_t rule, const Alternative& head, RangeFrame& frame);
   Extent automaton(const ExprNode& n, const RangeFrame& frame);
   bool tooFar();
@@ -100,6 +101,8 @@ class ReachCheck {
   Extent split(const StmtNode& s, RangeFrame& frame);
   Extent comp(const StmtNode& s, RangeFrame& frame);
   Extent treemap(const StmtNode& s, RangeFrame& frame);
+  Extent wave(const StmtNode& s, RangeFrame& frame);
+  Extent tile(StmtId child, const IntervalVector& edges, const IntervalVector& tile, RangeFrame& frame);
   Extent inPieces(StmtId child, const IntervalVector& edges, RangeFrame& frame);
   RangeValue footprint(const FootprintNode& plan, const RangeFrame& frame);
   Extent extrude(const StmtNode& s, RangeFrame& frame);
@@ -125,7 +128,8 @@ class ReachCheck {
   EditState edits_;
   const UnderEdit* under_ = nullptr;  ///< in an override's block: what is there otherwise
   int depth_ = 0;
-  bool cut_short_ = false;  ///< the budget or the depth was not enough: nothing is proven
+  std::vector<std::vector<bool>> derived_;  ///< of each rule that is used, which heads can be derived
+  bool cut_short_ = false;                  ///< the budget or the depth was not enough: nothing is proven
 };
 
 }  // namespace sgm

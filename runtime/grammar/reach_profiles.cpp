@@ -6,6 +6,7 @@
 #include "grammar/profile_limits.h"
 #include "grammar/reach_check.h"
 #include "grammar/reach_shapes.h"
+#include "grammar/scope_parts.h"
 
 namespace sgm {
 
@@ -93,7 +94,7 @@ Extent ReachCheck::roof(const StmtNode& s, RangeFrame& frame) {
   Interval floor = -(frame.scope[1] * kMiddle);
   if (s.plan != kNoId) {
     plan = values_.evaluate(s.plan, frame);
-    floor = Interval{};
+    floor = Interval::exactly(-kSeamOverlap);
     overhang = overhang * Interval::exactly(kMostMiter);
   }
   IntervalVector edges = plan.v;

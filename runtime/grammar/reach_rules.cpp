@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grammar/codes.h"
 #include "grammar/reach_check.h"
 
 namespace sgm {
@@ -96,7 +97,9 @@ Extent ReachCheck::alternatives(uint32_t rule, const std::vector<RangeValue>& ar
   Extent out = Extent::nothing();
   bool surely_taken = false, first = true, levels = false, complete = false, weighted = false;
   std::vector<ExprId> refused;
-  for (const Alternative& head : program_.rules[rule].alternatives) {
+  const std::pmr::vector<Alternative>& heads = program_.rules[rule].alternatives;
+  derived_[rule].resize(heads.size(), false);
+  for (const Alternative& head : heads) {
     RangeFrame frame;
     frame.scope = caller.scope;
     frame.place = frame.start = caller.place;
@@ -118,6 +121,7 @@ Extent ReachCheck::alternatives(uint32_t rule, const std::vector<RangeValue>& ar
       if (weight.hi <= 0 && head.guard == Guard::none) weighted = true;
       weighted = weighted || !(weight.lo > 0 && weight.bounded());
     }
+    derived_[rule][static_cast<size_t>(&head - heads.data())] = true;
     complete = complete || head.guard != Guard::when;
     levels = levels || head.lod != kNoId;
     const double count = out.count;
@@ -132,6 +136,23 @@ Extent ReachCheck::alternatives(uint32_t rule, const std::vector<RangeValue>& ar
   }
   if (weighted || levels || !(complete || surely_taken)) out.certain = false;
   return out;
+}
+
+/// Heads of the root's rules that no call derives, whatever the parameters are.
+void ReachCheck::idleHeads() {
+  for (uint32_t r = 0; r < program_.rules.size(); ++r) {
+    const Rule& rule = program_.rules[r];
+    if (rule.module != 0) continue;
+    for (size_t h = 0; h < derived_[r].size(); ++h) {
+      if (derived_[r][h]) continue;
+      const Alternative& head = rule.alternatives[h];
+      const bool otherwise = head.guard == Guard::otherwise;
+      sink_.warning(otherwise ? head.span : program_.expr(head.when).span, codes::kIdleHead,
+                    join({"this head of `", program_.text(rule.name),
+                          "` never comes: ", otherwise ? "another one's guard always holds" : "its guard never holds"}),
+                    "whatever the parameters are, within their ranges: mend the guard, or remove the head");
+    }
+  }
 }
 
 Extent ReachCheck::alternativeExtent(uint32_t rule, const Alternative& head, RangeFrame& frame) {

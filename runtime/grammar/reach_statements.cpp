@@ -75,6 +75,8 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
       return comp(s, frame);
     case StmtKind::treemap:
       return treemap(s, frame);
+    case StmtKind::wfc:
+      return wave(s, frame);
     case StmtKind::let:
       frame.slots[s.slot] = values_.evaluate(s.expr, frame);
       return Extent::nothing();
@@ -100,6 +102,7 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
     case StmtKind::tag:
     case StmtKind::anchor:
     case StmtKind::link:
+    case StmtKind::border:
       return Extent::nothing();
   }
   return Extent::unbounded();

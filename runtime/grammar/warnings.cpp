@@ -1,0 +1,200 @@
+#include "grammar/warnings.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include "grammar/codes.h"
+
+namespace sgm {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What the root's text refers to.
+struct Uses {
+  std::set<std::pair<Ref, uint32_t>> values;
+  std::set<NameId> qualifiers;
+  struct Local {
+    NameId name;
+    Span span;
+  };
+  std::vector<Local> locals;
+
+  explicit Uses(const Program& program) {
+    for (const ExprNode& n : program.ast.exprs) {
+      if (n.ref == Ref::parameter || n.ref == Ref::let || n.ref == Ref::field) values.emplace(n.ref, n.id);
+      if (n.ref == Ref::local) locals.push_back({n.name, n.span});
+      if (n.qualifier != kNoId && n.span.file == 0) qualifiers.insert(n.qualifier);
+    }
+  }
+};
+
+bool within(const Span& inner, const Span& outer) {
+  return inner.file == outer.file && inner.begin >= outer.begin && inner.end <= outer.end;
+}
+
+class Unused {
+ public:
+  Unused(const Program& program, DiagnosticSink& sink) : program_(program), sink_(sink), uses_(program) {}
+
+  void values() {
+    for (uint32_t i = 0; i < program_.params.size(); ++i) {
+      const Param& param = program_.params[i];
+      if (param.module == 0 && uses_.values.count({Ref::parameter, i}) == 0)
+        say(param.span, "parameter", param.name, "it changes nothing: use it, or remove it");
+    }
+    for (uint32_t i = 0; i < program_.lets.size(); ++i)
+      if (program_.lets[i].module == 0 && uses_.values.count({Ref::let, i}) == 0)
+        say(program_.lets[i].span, "let", program_.lets[i].name, kRemove);
+    for (uint32_t i = 0; i < program_.fields.size(); ++i)
+      if (program_.fields[i].module == 0 && uses_.values.count({Ref::field, i}) == 0)
+        say(program_.fields[i].span, "field", program_.fields[i].name, kRemove);
+  }
+
+  void imports(const ModuleSyntax& root) {
+    for (const ImportDecl& import : root.imports) {
+      if (uses_.qualifiers.count(import.alias) != 0 || inPaths(import.module)) continue;
+      say(import.alias_span, "import", import.alias, kRemove);
+    }
+  }
+
+  void locals() {
+    for (const Rule& rule : program_.rules)
+      if (rule.module == 0)
+        for (const Alternative& a : rule.alternatives) localsOf(a.body, program_.stmt(a.body).span);
+    for (const Override& edit : program_.overrides) localsOf(edit.body, program_.stmt(edit.body).span);
+  }
+
+ private:
+  static constexpr const char* kRemove = "use it, or remove it";
+
+  void say(const Span& span, std::string_view what, NameId name, const char* hint) {
+    sink_.warning(span, codes::kUnusedValue, join({"nothing uses the ", what, " `", program_.text(name), "`"}), hint);
+  }
+
+  /// Paths of overrides name rules of imports too.
+  bool inPaths(uint32_t module) const {
+    return std::any_of(program_.path_steps.begin(), program_.path_steps.end(),
+                       [&](const PathStep& step) { return program_.rules[step.rule].module == module; });
+  }
+
+  void localsOf(StmtId id, const Span& body) {
+    if (id == kNoId) return;
+    const StmtNode& s = program_.stmt(id);
+    if (s.kind == StmtKind::let) {
+      const bool used = std::any_of(uses_.locals.begin(), uses_.locals.end(), [&](const Uses::Local& use) {
+        return use.name == s.name && within(use.span, body) && use.span.begin >= s.span.end;
+      });
+      if (!used) say(s.span, "let", s.name, kRemove);
+    }
+    localsOf(s.body, body);
+    for (uint32_t i = 0; i < s.children.count; ++i) localsOf(program_.idAt(s.children, i), body);
+  }
+
+  const Program& program_;
+  DiagnosticSink& sink_;
+  const Uses uses_;
+};
+
+/// The values of one expression with which a guard holds: low to high, ends as said.
+struct GuardRange {
+  ExprId asked = kNoId;
+  double low = -kInfinity, high = kInfinity;
+  bool low_open = false, high_open = false;
+};
+
+/// A number as it is written, its unit counted.
+std::optional<double> written(const Program& program, ExprId id) {
+  const ExprNode& n = program.expr(id);
+  if (n.kind == ExprKind::number) return n.value;
+  if (n.kind != ExprKind::negate) return std::nullopt;
+  const std::optional<double> positive = written(program, program.idAt(n.children, 0));
+  return positive ? std::optional(-*positive) : std::nullopt;
+}
+
+std::optional<GuardRange> rangeOf(const Program& program, ExprId guard) {
+  const ExprNode& n = program.expr(guard);
+  if (n.kind != ExprKind::binary) return std::nullopt;
+  const ExprId left = program.idAt(n.children, 0), right = program.idAt(n.children, 1);
+  const std::optional<double> on_left = written(program, left), on_right = written(program, right);
+  if (on_left.has_value() == on_right.has_value()) return std::nullopt;
+  GuardRange range;
+  range.asked = on_left ? right : left;
+  const double number = on_left ? *on_left : *on_right;
+  const auto above = [&](bool open) { range.low = number, range.low_open = open; };
+  const auto below = [&](bool open) { range.high = number, range.high_open = open; };
+  switch (n.binary) {
+    case BinaryOp::less:
+      on_left ? above(true) : below(true);
+      return range;
+    case BinaryOp::less_equal:
+      on_left ? above(false) : below(false);
+      return range;
+    case BinaryOp::greater:
+      on_left ? below(true) : above(true);
+      return range;
+    case BinaryOp::greater_equal:
+      on_left ? below(false) : above(false);
+      return range;
+    case BinaryOp::equal:
+      range.low = range.high = number;
+      return range;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Whether two expressions are the same name, or the same member of the same value. Parameters of a rule are told by
+/// their place: heads may call one parameter by different names.
+bool sameValue(const Program& program, ExprId a, ExprId b) {
+  const ExprNode &l = program.expr(a), &r = program.expr(b);
+  if (l.kind != r.kind || l.ref != r.ref || l.member != r.member) return false;
+  if (l.kind == ExprKind::member)
+    return l.name == r.name && sameValue(program, program.idAt(l.children, 0), program.idAt(r.children, 0));
+  return l.kind == ExprKind::name && l.id == r.id;
+}
+
+bool overlap(const GuardRange& a, const GuardRange& b) {
+  const double low = std::max(a.low, b.low), high = std::min(a.high, b.high);
+  if (low != high) return low < high;
+  const auto holds = [&](const GuardRange& range) {
+    return (low > range.low || !range.low_open) && (low < range.high || !range.high_open);
+  };
+  return holds(a) && holds(b);
+}
+
+}  // namespace
+
+void warnOfUnused(const Program& program, std::span<const ModuleSyntax> syntax, DiagnosticSink& sink) {
+  if (program.layers.empty()) return;
+  Unused unused(program, sink);
+  unused.values();
+  unused.imports(syntax[0]);
+  unused.locals();
+}
+
+void warnOfOverlaps(const Program& program, DiagnosticSink& sink) {
+  for (const Rule& rule : program.rules) {
+    if (rule.module != 0) continue;
+    std::vector<std::pair<const Alternative*, GuardRange>> before;
+    for (const Alternative& head : rule.alternatives) {
+      if (head.guard != Guard::when || head.weight != kNoId || head.lod != kNoId) continue;
+      const std::optional<GuardRange> range = rangeOf(program, head.when);
+      if (!range) continue;
+      for (const auto& [other, theirs] : before) {
+        if (!sameValue(program, range->asked, theirs.asked) || !overlap(*range, theirs)) continue;
+        sink.warning(program.expr(head.when).span, codes::kGuards,
+                     join({"this guard of `", program.text(rule.name), "` and an earlier one can hold together"}),
+                     "one of their heads is drawn then: let one exclude the other, or give both a `weight` if that is "
+                     "meant")
+            .notes.push_back(join({"the earlier one at ", sink.place(program.expr(other->when).span)}));
+        break;
+      }
+      before.emplace_back(&head, *range);
+    }
+  }
+}
+
+}  // namespace sgm

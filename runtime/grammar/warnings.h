@@ -1,0 +1,20 @@
+#pragma once
+// What is right, and yet hardly meant: names that nothing uses, heads of a rule that come together.
+
+#include <span>
+
+#include "grammar/program.h"
+#include "grammar/sink.h"
+#include "grammar/syntax.h"
+
+namespace sgm {
+
+/// Of a checked program without errors: parameters, lets, fields and imports of the root that nothing uses. A root
+/// without layers or start is there to be imported: it is not warned of.
+void warnOfUnused(const Program& program, std::span<const ModuleSyntax> syntax, DiagnosticSink& sink);
+
+/// Of a checked program without errors: heads of a rule without `weight` whose guards ask about the same value, and
+/// that can hold together, so that one of them is drawn by chance. Guards that ask for more are not understood.
+void warnOfOverlaps(const Program& program, DiagnosticSink& sink);
+
+}  // namespace sgm
