@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "base/math.h"
 #include "derive/bounds.h"
+#include "derive/coarse_chunk.h"
 #include "derive/interpreter.h"
 
 namespace sgm {
@@ -195,7 +197,7 @@ ShapeList Interpreter::start() {
   return adds;
 }
 
-Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
+Result<GrammarChunk> Interpreter::derived(std::vector<uint32_t>* from, std::pmr::memory_resource* memory) {
   const ShapeList adds = start();
   if (failed()) return *error_;
   noteMissed();
@@ -205,7 +207,9 @@ Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
   out.layer = layer_index_;
   out.cell = cell_;
   out.parameters = parameters_read_;
-  draft_.finish(roots.groups, out);
+  DraftCopier copier(draft_.chunk());
+  copier.copy(roots.groups, out);
+  if (from != nullptr) from->assign(copier.copied().begin(), copier.copied().end());
   out.anchors.assign(anchors_.begin(), anchors_.end());
   if (dropped_notes_ > 0) {
     // It has no place of its own: that of the cell's start is the nearest.
@@ -215,6 +219,31 @@ Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) {
   }
   for (DeriveNote& n : notes_) out.notes.push_back(std::move(n));
   return out;
+}
+
+Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) { return derived(nullptr, memory); }
+
+Result<TracedCell> Interpreter::runTraced(std::pmr::memory_resource* memory) {
+  std::vector<uint32_t> from;
+  Result<GrammarChunk> chunk = derived(&from, memory);
+  if (!chunk) return chunk.error();
+  TracedCell traced{std::move(*chunk), {}, {}};
+  std::map<uint32_t, uint32_t> use_of;  // activations, to uses in the trace
+  for (const uint32_t shape : from) {
+    const Origin& origin = draft_.origin(shape);
+    const auto [use, fresh] = use_of.try_emplace(origin.activation, static_cast<uint32_t>(traced.uses.size()));
+    if (fresh) traced.uses.push_back(pathText(origin.activation));
+    traced.origins.push_back({use->second, origin.span});
+  }
+  return traced;
+}
+
+Result<GrammarChunk> Interpreter::runCoarse(int32_t cell_edge, std::pmr::memory_resource* memory) {
+  // An override's path counts the uses of a rule, also those in what would be left out.
+  if (path_overrides_.empty()) coarse_edge_ = cell_edge;
+  const Result<GrammarChunk> chunk = run(std::pmr::get_default_resource());
+  if (!chunk) return chunk.error();
+  return coarseChunk(*chunk, cell_edge, memory);
 }
 
 namespace {
@@ -246,6 +275,20 @@ Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& p
                                 std::pmr::memory_resource* memory) {
   if (Result<void> ok = checkArguments(program, parameters, layer, cell); !ok) return ok.error();
   return Interpreter(program, parameters, world_seed, layer, cell, lower, limits, memory).run(memory);
+}
+
+Result<TracedCell> traceCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
+                             uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits,
+                             std::pmr::memory_resource* memory) {
+  if (Result<void> ok = checkArguments(program, parameters, layer, cell); !ok) return ok.error();
+  return Interpreter(program, parameters, world_seed, layer, cell, lower, limits, memory).runTraced(memory);
+}
+
+Result<GrammarChunk> deriveCoarseCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
+                                      uint32_t layer, Int3 cell, int32_t cell_edge, const LowerLayers& lower,
+                                      const DeriveLimits& limits, std::pmr::memory_resource* memory) {
+  if (Result<void> ok = checkArguments(program, parameters, layer, cell); !ok) return ok.error();
+  return Interpreter(program, parameters, world_seed, layer, cell, lower, limits, memory).runCoarse(cell_edge, memory);
 }
 
 Result<std::vector<RuleInstance>> deriveInstances(const Program& program, const ParameterValues& parameters,

@@ -52,6 +52,35 @@ Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& p
                                 uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits = {},
                                 std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
+/// Of the cell what levels show whose cells have this edge, units, or a larger one; without anchors and notes, which
+/// are those of the whole cell. Far levels show little of a cell full of windows, and that is derived many times faster
+/// and kept in a fraction of the memory.
+///
+/// Pure and thread-safe as deriveCell, and with its errors; but what `detail` leaves out counts against no limit. At
+/// these levels the shapes make the field that those of the whole cell make, bit for bit where the field is exact.
+Result<GrammarChunk> deriveCoarseCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
+                                      uint32_t layer, Int3 cell, int32_t cell_edge, const LowerLayers& lower,
+                                      const DeriveLimits& limits = {},
+                                      std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+/// Where a shape of a cell comes from.
+struct ShapeOrigin {
+  uint32_t use = 0;  ///< TracedCell::uses: whose statement it is
+  Span span;         ///< of the statement, or of the call in it
+};
+
+/// A cell, and whence its shapes come.
+struct TracedCell {
+  GrammarChunk chunk;                ///< as deriveCell gives it
+  std::vector<ShapeOrigin> origins;  ///< of each of its shapes
+  std::vector<std::string> uses;     ///< of rules: derivation paths, as in DeriveNote
+};
+
+/// deriveCell, for whoever asks which rule has made a shape. Takes longer and much more memory.
+Result<TracedCell> traceCell(const Program& program, const ParameterValues& parameters, uint64_t world_seed,
+                             uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits = {},
+                             std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
 /// One use of a rule, alone: the shapes derived below the call as groups that add, wherever the call stands. What
 /// encloses the call (a cut, a meet, a sum, a smooth union, a displacement, a warp, a morph) is left out, but for the
 /// levels that an enclosing `detail` or `lod` gives. Where the rule is a layer's start, its cuts of the domain cut the

@@ -314,13 +314,6 @@ void DraftCopier::copyShapes(GrammarChunk& out) {
 }
 
 void DraftCopier::copy(std::span<const Group> groups, GrammarChunk& out) {
-  mark(groups);
-  copyExprs(out);
-  copyShapes(out);
-  for (Group g : groups) {
-    g.root = shape_at_[g.root];
-    out.groups.push_back(g);
-  }
   const auto forget = [](std::vector<uint32_t>& used, std::vector<uint32_t>& at) {
     for (uint32_t i : used) at[i] = kNone;
     used.clear();
@@ -328,6 +321,13 @@ void DraftCopier::copy(std::span<const Group> groups, GrammarChunk& out) {
   forget(shapes_, shape_at_);
   forget(exprs_, expr_at_);
   forget(noises_, noise_at_);
+  mark(groups);
+  copyExprs(out);
+  copyShapes(out);
+  for (Group g : groups) {
+    g.root = shape_at_[g.root];
+    out.groups.push_back(g);
+  }
 }
 
 }  // namespace sgm

@@ -35,6 +35,8 @@ class DraftCopier {
 
   /// Appends to `out`, which was empty; layer, cell, anchors and notes are the caller's.
   void copy(std::span<const Group> groups, GrammarChunk& out);
+  /// Of each shape of the last copy, in its order: its number in the chunk that it is of.
+  std::span<const uint32_t> copied() const { return shapes_; }
 
  private:
   void mark(std::span<const Group> groups);
@@ -90,9 +92,6 @@ class Draft {
 
   /// Bytes that the draft takes, roughly.
   size_t bytes() const;
-
-  /// DraftCopier(chunk()).copy(groups, out), for a single copy.
-  void finish(std::span<const Group> groups, GrammarChunk& out) const { DraftCopier(chunk_).copy(groups, out); }
 
  private:
   using ExprKey = std::array<uint64_t, 6>;

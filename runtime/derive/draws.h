@@ -22,6 +22,7 @@ enum PathSalt : uint64_t {
   kJointSalt = 0x6A6F696E,     ///< the joint behind a segment, likewise
   kCorridorSalt = 0x636F7272,  ///< a stretch of a treemap's corridor, with its number
   kFacadeSalt = 0x66616361,    ///< an outer wall of a room, with its number
+  kWaveSalt = 0x77617665,      ///< the choice of all tiles of a wfc, with its ordinal
 };
 
 /// Ordinals of the draws that one key gives.

@@ -53,6 +53,23 @@ void takeAway(Rects& from, const PlanRect& r) {
   }
 }
 
+/// Whether a square with edges of `width` fits.
+bool admits(const PlanRect& r, int32_t width) { return std::min(r.width(), r.depth()) >= width; }
+
+/// Leaves those between which a square of that width can be moved to the first; they are maximal. What is narrower is
+/// nothing to stand in. False where that takes away any in which the square would fit.
+bool keepWalkable(Rects& room, int32_t width) {
+  std::erase_if(room, [&](const PlanRect& r) { return !admits(r, width); });
+  if (room.empty()) return false;
+  size_t kept = 1;
+  for (size_t from = 0; from < kept; ++from)
+    for (size_t i = kept; i < room.size(); ++i)
+      if (admits(common(room[from], room[i]), width)) std::swap(room[i], room[kept++]);
+  const bool whole = kept == room.size();
+  room.resize(kept);
+  return whole;
+}
+
 /// The widest hole through a wall between the two: `width` of it, in its middle.
 std::optional<PlanRect> holeBetween(const Rects& a, const Rects& b, int32_t wall, int32_t width) {
   std::optional<PlanRect> best;
@@ -76,8 +93,8 @@ std::optional<PlanRect> holeBetween(const Rects& a, const Rects& b, int32_t wall
 struct Carving {
   std::vector<Rects> rooms;
   Rects corridor;
-  std::vector<size_t> part;  ///< of the corridor, for each of its rectangles: those that overlap have one number
-  bool sound = true;         ///< every room that the corridor takes from is at least as wide as a door
+  std::vector<size_t> part;  ///< of the corridor, for each of its rectangles: those that lead into each other have one
+  bool sound = true;         ///< no room that the corridor takes from is cut in two, or narrower than a door
 };
 
 struct Access {
@@ -94,7 +111,7 @@ class FloorLayout {
     floor_ = {-x, -z, x, z};
     middle_ = grown(floor_, -half);
     if (middle_.width() <= 0 || middle_.depth() <= 0) return;
-    cells_ = squarifiedTreemap(middle_, areas, kStep);
+    cells_ = linkedRooms(middle_, areas, links, sizes.wall, kStep);
     // The largest stand in front.
     for (PlanRect& cell : cells_) cell = {cell.x0, -cell.z1, cell.x1, -cell.z0};
     graph_ = wallGraph(middle_, cells_);
@@ -111,7 +128,10 @@ class FloorLayout {
     plan.fits = true;
     while (entered_ < cells_.size() && !hasEntrance(carving)) ++entered_;
     Access access = connected(carving, false);
-    while (access.count < cells_.size() && extend(walls, carving, access)) continue;
+    // Rather a link is lost than a way that leads through another room unasked.
+    while (access.count < cells_.size() &&
+           (extend(walls, carving, access, true) || extend(walls, carving, access, false)))
+      continue;
     access = connected(carving, true);
     finish(plan, carving, access);
     return plan;
@@ -129,8 +149,8 @@ class FloorLayout {
       std::stable_sort(room.begin(), room.end(), [](const PlanRect& a, const PlanRect& b) {
         return int64_t{a.width()} * a.depth() > int64_t{b.width()} * b.depth();
       });
-      const bool whole = room.size() == 1 && room[0] == clear;
-      out.sound = out.sound && (whole || (!room.empty() && std::min(room[0].width(), room[0].depth()) >= sizes_.door));
+      const bool untouched = room.size() == 1 && room[0] == clear;
+      if (!untouched && !keepWalkable(room, sizes_.door)) out.sound = false;
       out.rooms.push_back(std::move(room));
     }
     return out;
@@ -155,11 +175,11 @@ class FloorLayout {
       PlanRect strip = edge.along_x ? PlanRect{a.x - before, a.z - half, b.x + after, b.z + half}
                                     : PlanRect{a.x - half, a.z - before, b.x + half, b.z + after};
       strip = common(strip, grown(middle_, -sizes_.wall / 2));
-      if (strip.width() <= 0 || strip.depth() <= 0) continue;
+      if (!admits(strip, sizes_.door)) continue;
       out.part.push_back(out.corridor.size());
       out.corridor.push_back(strip);
       for (size_t i = 0; i + 1 < out.corridor.size(); ++i) {
-        if (!overlap(out.corridor[i], strip)) continue;
+        if (!admits(common(out.corridor[i], strip), sizes_.door)) continue;
         const size_t one = out.part.back(), other = out.part[i];
         std::replace(out.part.begin(), out.part.end(), std::max(one, other), std::min(one, other));
       }
@@ -223,6 +243,11 @@ class FloorLayout {
     return out;
   }
 
+  static size_t linksMet(const Access& access) {
+    return static_cast<size_t>(std::count_if(access.doors.begin(), access.doors.end(),
+                                             [](const PlanDoor& d) { return d.link != PlanDoor::kNoLink; }));
+  }
+
   /// A path for the corridor, and what it could be worth at most: rooms for its length.
   struct Candidate {
     double most = 0;
@@ -267,8 +292,9 @@ class FloorLayout {
     return near;
   }
 
-  /// Takes the walls of one more path for the corridor: that which reaches most rooms for its length.
-  bool extend(std::vector<bool>& walls, Carving& carving, Access& access) const {
+  /// Takes the walls of one more path for the corridor: that which reaches most rooms for its length. keep_links: of
+  /// those that take no door which a link asks for.
+  bool extend(std::vector<bool>& walls, Carving& carving, Access& access, bool keep_links) const {
     double best = 0;
     std::vector<bool> best_walls;
     for (Candidate& one : candidates(walls, access)) {
@@ -276,7 +302,7 @@ class FloorLayout {
       Carving with = carved(one.walls);
       if (!with.sound || (entered_ < cells_.size() && !hasEntrance(with))) continue;
       Access then = connected(with, false);
-      if (then.count <= access.count) continue;
+      if (then.count <= access.count || (keep_links && linksMet(then) < linksMet(access))) continue;
       const double gain = static_cast<double>(then.count - access.count) / one.length;
       if (gain <= best) continue;
       best = gain;
@@ -333,6 +359,9 @@ class FloorLayout {
       break;
     }
     std::erase_if(plan.facades, [](const PlanFacade& f) { return f.high <= f.low; });
+    for (size_t l = 0; l < links_.size(); ++l)
+      if (std::none_of(access.doors.begin(), access.doors.end(), [&](const PlanDoor& d) { return d.link == l; }))
+        plan.unmet.push_back(l);
     plan.doors.insert(plan.doors.end(), access.doors.begin(), access.doors.end());
   }
 

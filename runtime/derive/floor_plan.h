@@ -8,15 +8,10 @@
 #include <span>
 #include <vector>
 
+#include "derive/linked_rooms.h"
 #include "derive/treemap.h"
 
 namespace sgm {
-
-/// Rooms that a door joins where they share a wall that is wide enough. width: units.
-struct RoomLink {
-  size_t a = 0, b = 0;
-  int32_t width = 0;
-};
 
 /// Units, above 0.
 struct FloorPlanSizes {
@@ -56,11 +51,14 @@ struct FloorPlan {
   std::vector<PlanDoor> doors;     ///< the entrance first, where there is one
   std::vector<PlanFacade> facades;
   std::vector<size_t> closed;  ///< rooms that nothing leads to: no wall of theirs is wide enough
+  std::vector<size_t> unmet;   ///< links whose rooms share no wall that is wide enough
 };
 
-/// areas: above 0, one for each room. The entrance leads into room 0, or into the first that has an outer wall for it.
-/// Every room can be reached from there but those in `closed`: by links; otherwise by a door from the entrance's room
-/// where they share a wall; otherwise by a corridor from it; and by a door from any other room where no corridor fits.
+/// areas: above 0, one for each room; as exact as walls and the corridor leave them, which take their parts from what
+/// they pass. Rooms that are linked come to lie beside each other where a squarified treemap of these areas allows it.
+/// The entrance leads into room 0, or into the first that has an outer wall for it. Every room can be reached from
+/// there but those in `closed`: by links; otherwise by a door from the entrance's room where they share a wall;
+/// otherwise by a corridor from it; and by a door from any other room where no corridor fits.
 FloorPlan layOutFloor(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links);
 
 }  // namespace sgm

@@ -4,8 +4,8 @@
 // evaluate.cpp: expressions. functions.cpp: the language's functions. statements.cpp: blocks and combiners. morph.cpp:
 // morphs. split.cpp: parts of scopes. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets.
 // primitives.cpp: leaves. voxels.cpp: those of cellular automata. profiles.cpp: footprints and roofs. rooms.cpp: floors
-// in rooms. overrides.cpp: blocks in the place of others. derive.cpp: the cell as a whole. instances.cpp: the uses of
-// one rule in it.
+// in rooms. tiles.cpp: lattices of tiles. overrides.cpp: blocks in the place of others. derive.cpp: the cell as a
+// whole. instances.cpp: the uses of one rule in it.
 
 #include <array>
 #include <optional>
@@ -20,6 +20,7 @@
 #include "derive/lattice.h"
 #include "derive/plan.h"
 #include "derive/skeleton.h"
+#include "derive/wave_collapse.h"
 
 namespace sgm {
 
@@ -92,12 +93,12 @@ struct Value {
   FaceId face() const { return {cell, axis}; }
 };
 
-/// One use of a rule, or the block of an override there.
 /// A stretch of those by path that may hold in the cell, in the order of Program::path_overrides.
 struct PathRange {
   uint32_t first = 0, end = 0;
 };
 
+/// One use of a rule, or the block of an override there.
 struct Activation {
   uint32_t rule = 0;
   uint32_t edit = kNone;     ///< Program::overrides: its block, below the use that it takes the place of
@@ -111,6 +112,7 @@ struct Activation {
 };
 
 struct Env;
+struct StandingTiles;
 
 /// Planes that the lines of splits below snap to: across `normal`, every `distance` metres of the cell from `first`.
 struct SnapPlanes {
@@ -146,7 +148,8 @@ struct Env {
   uint32_t sweep = kNone;  ///< the polyline that `u` runs along
   int32_t cut_detail = 0;  ///< of a `detail` that stands directly before a cut
   bool anchors = true;
-  bool top = false;  ///< the layer's own use of its start rule, in which a cut takes from the domain
+  bool whole = false;  ///< no part may be left out: what stands around makes one shape of all of them
+  bool top = false;    ///< the layer's own use of its start rule, in which a cut takes from the domain
   std::vector<Value>* slots = nullptr;
   uint16_t forced_material = 0, forced_tag = 0;    ///< of an override around `inner`: hold over what a block says
   uint16_t written_material = 0, written_tag = 0;  ///< said by a block since the override's began
@@ -173,6 +176,12 @@ class Interpreter {
               const LowerLayers& lower, const DeriveLimits& limits, std::pmr::memory_resource* memory);
 
   Result<GrammarChunk> run(std::pmr::memory_resource* memory);
+
+  /// run(), and whence its shapes come.
+  Result<TracedCell> runTraced(std::pmr::memory_resource* memory);
+
+  /// run(), but without what deriveCoarseCell() leaves out.
+  Result<GrammarChunk> runCoarse(int32_t cell_edge, std::pmr::memory_resource* memory);
   Result<std::vector<RuleInstance>> runInstances(uint32_t rule, std::pmr::memory_resource* memory);
 
  private:
@@ -243,6 +252,11 @@ class Interpreter {
   void roomAt(const StmtNode& s, uint32_t index, std::span<const PlanRect> clear, PathKey key, const Env& env,
               ShapeList& out);
   void facades(const StmtNode& s, const FloorPlan& plan, std::span<const PathKey> keys, const Env& env, ShapeList& out);
+  void wave(const StmtNode& s, const Env& env, ShapeList& out);
+  /// False, with a note, where there is nothing to fill, or nothing to fill it with.
+  bool waveLattice(const StmtNode& s, const Env& env, WaveLattice& lattice);
+  bool waveTiles(const StmtNode& s, const Env& env, StandingTiles& tiles);
+  void noteNoTiles(const StmtNode& s, const WaveLattice& lattice, const WaveResult& result, const Env& env);
   void footprint(const StmtNode& s, const Env& env);
   std::optional<PlanPiece> planPiece(const FootprintNode& node, const Env& env);
   void extrude(const StmtNode& s, const Env& env, ShapeList& out);
@@ -252,6 +266,8 @@ class Interpreter {
   void detail(const StmtNode& s, const Env& env, ShapeList& out);
   void transform(IdRange xforms, Env& env);
   void limitLevels(ShapeList& list, size_t from, int32_t coarsest, int32_t detail);
+  /// Whether no level that this derivation is for shows what has this `detail`, and nothing else depends on it.
+  bool skips(int32_t detail, const Env& env) const { return !env.whole && detail > 0 && coarse_edge_ > detail; }
 
   // Rules.
   void callRule(uint32_t rule, const ExprNode& node, uint32_t ordinal, const Env& env, ShapeList& out);
@@ -307,6 +323,8 @@ class Interpreter {
   void note(const std::string& message, const Span& span, uint32_t activation);
   std::string pathText(uint32_t activation) const;
 
+  /// from: where not null, of each shape its number in the draft.
+  Result<GrammarChunk> derived(std::vector<uint32_t>* from, std::pmr::memory_resource* memory);
   /// Derives the layer's start; gives what it adds.
   ShapeList start();
   void collectGroups(const ShapeList& list, bool cut, GrammarChunk& out);
@@ -336,6 +354,7 @@ class Interpreter {
   std::vector<Anchor> anchors_;
   std::vector<Segment> segments_;  ///< of all skeletons
   std::vector<PlanPiece> plans_;   ///< of all footprints
+  int32_t coarse_edge_ = 0;        ///< derive for levels with cells of this edge or a larger one alone; 0: for all
   uint32_t watched_rule_ = kNone;
   std::vector<WatchedCall> watched_;
   std::vector<DeriveNote> notes_;

@@ -168,9 +168,12 @@ void Interpreter::noteMissed() {
     }
     if (last == kNone) continue;
     const PathStep& step = program_.path_steps[edit.steps.first + known];
+    // Of several places to which that part leads, the one with most.
+    std::vector<uint32_t> uses(activations_.size(), 0);
     uint32_t count = 0;
     for (const Activation& a : activations_)
-      if (a.rule == step.rule && a.edit == kNone && a.parent != kNone && isAt(a.parent, edit, known)) ++count;
+      if (a.rule == step.rule && a.edit == kNone && a.parent != kNone && isAt(a.parent, edit, known))
+        count = std::max(count, ++uses[a.parent]);
     const std::string name(program_.text(program_.rules[step.rule].name));
     const std::string found = count == 0 ? "is no" : count == 1 ? "is only one" : "are only " + std::to_string(count);
     note("this override finds nothing: there " + found + " `" + name + "` here", edit.address_span, last);

@@ -20,6 +20,21 @@ PlanCorner outward(PlanCorner from, PlanCorner to) {
   return {out.x, out.z};
 }
 
+/// Whether two edges that share no corner cross.
+bool crosses(const std::vector<PlanCorner>& at) {
+  const size_t count = at.size();
+  const auto apart = [&](size_t edge, PlanCorner a, PlanCorner b) {
+    const PlanCorner from = at[edge], to = at[(edge + 1) % count];
+    return turnAt(from, to, a) * turnAt(from, to, b) < 0;
+  };
+  for (size_t i = 0; i < count; ++i)
+    for (size_t j = i + 2; j < count; ++j) {
+      if (i == 0 && j + 1 == count) continue;
+      if (apart(i, at[j], at[(j + 1) % count]) && apart(j, at[i], at[(i + 1) % count])) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 PlanPiece rectPiece(double x, double z) {
@@ -75,6 +90,22 @@ bool isConvex(const PlanPiece& piece) {
   for (size_t i = 0; i < count; ++i)
     if (turnAt(piece.corners[i], piece.corners[(i + 1) % count], piece.corners[(i + 2) % count]) < slack) return false;
   return true;
+}
+
+bool isSimple(const PlanPiece& piece) {
+  const std::vector<PlanCorner>& at = piece.corners;
+  double area = 0;
+  for (size_t i = 0; i < at.size(); ++i) area += turnAt(at[0], at[i], at[(i + 1) % at.size()]);
+  return area > 1e-9 * piece.x * piece.z && !crosses(at);
+}
+
+bool isSimple(const PlanPiece& piece, const std::vector<PlanCorner>& grown) {
+  for (size_t i = 0; i < grown.size(); ++i) {
+    const size_t next = (i + 1) % grown.size();
+    const PlanCorner a = piece.corners[i], b = piece.corners[next];
+    if ((b.x - a.x) * (grown[next].x - grown[i].x) + (b.z - a.z) * (grown[next].z - grown[i].z) < 0) return false;
+  }
+  return !crosses(grown);
 }
 
 std::vector<PlanCorner> grownOutline(const PlanPiece& piece, double margin) {

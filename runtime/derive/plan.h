@@ -35,6 +35,12 @@ void putOnOutline(PlanPiece& piece, const PlanPiece& other, PathKey key);
 
 bool isConvex(const PlanPiece& piece);
 
+/// Whether it holds an area, and no two of its edges cross.
+bool isSimple(const PlanPiece& piece);
+/// Whether an outline that grew from the piece's is one still: no edge has been turned about, and none cross. Otherwise
+/// a notch was narrower than what grew into it.
+bool isSimple(const PlanPiece& piece, const std::vector<PlanCorner>& grown);
+
 /// The corners with all edges moved out by `margin`, which is not negative; a corner by at most kMostMiter margins.
 std::vector<PlanCorner> grownOutline(const PlanPiece& piece, double margin);
 

@@ -7,6 +7,7 @@
 #include "derive/draws.h"
 #include "derive/interpreter.h"
 #include "grammar/profile_limits.h"
+#include "grammar/scope_parts.h"
 
 namespace sgm {
 namespace {
@@ -44,12 +45,17 @@ std::optional<PlanPiece> Interpreter::planPiece(const FootprintNode& node, const
         corners.push_back({pair.n[0].value, pair.n[1].value});
       }
       const PlanPiece piece = polygonPiece(corners);
-      if (length(piece.x) && length(piece.z)) return piece;
-      break;
+      if (!length(piece.x) || !length(piece.z)) break;
+      if (isSimple(piece)) return piece;
+      note("the edges of this polygon cross, or hold no area; it is left out: give its corners in order around it",
+           node.span, env.activation);
+      return std::nullopt;
     }
   }
-  note("a size of this footprint is not positive, or larger than the world; the piece is left out", node.span,
-       env.activation);
+  note(
+      "a size of this footprint is not positive, or larger than the world; the piece is left out: bound it, such as "
+      "max(x, 1m)",
+      node.span, env.activation);
   return std::nullopt;
 }
 
@@ -84,7 +90,8 @@ std::optional<uint32_t> Interpreter::prismShape(const Profile& profile, const Pl
   }
   while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
   if (!(half > 0 && half <= kLargestSolid) || corners.size() < 3) {
-    note("a size of this solid is not positive, or larger than the world; it is left out", span, env.activation);
+    note("a size of this solid is not positive, or larger than the world; it is left out: bound it, such as max(h, 1m)",
+         span, env.activation);
     return std::nullopt;
   }
   Shape shape = shapeIn(env, ShapeKind::prism);
@@ -121,7 +128,9 @@ void Interpreter::extrude(const StmtNode& s, const Env& env, ShapeList& out) {
 void Interpreter::roof(const StmtNode& s, const Env& env, ShapeList& out) {
   if (s.plan == kNoId) {
     if (!(env.scope.x > 0 && env.scope.z > 0))
-      return note("this scope's box has no size along x or z, so it gets no roof", s.span, env.activation);
+      return note(
+          "this scope's box has no size along x or z, so it gets no roof: give it one, such as size(8m, 3m, 6m)",
+          s.span, env.activation);
     return roofOver(rectPiece(env.scope.x, env.scope.z), -0.5 * env.scope.y, s, env, out);
   }
   const Value plan = evaluate(s.plan, env);
@@ -129,7 +138,8 @@ void Interpreter::roof(const StmtNode& s, const Env& env, ShapeList& out) {
     if (!step(1, s.span, env.activation)) return;
     Env inner = env;
     inner.key = env.key.child(kLoopSalt + s.ordinal, i);
-    roofOver(plans_[plan.first + i], 0, s, inner, out);
+    // On what was extruded from the plan, not upon its face: see kSeamOverlap.
+    roofOver(plans_[plan.first + i], -kSeamOverlap, s, inner, out);
   }
 }
 
@@ -148,6 +158,11 @@ void Interpreter::roofOver(const PlanPiece& piece, double floor, const StmtNode&
     return note("a hip stands on convex outlines; this roof is left out: merge rectangles, or take `flat`", s.span,
                 env.activation);
   const std::vector<PlanCorner> corners = grownOutline(piece, overhang);
+  if (!isConvex(piece) && !isSimple(piece, corners))
+    return note(
+        "this overhang grows together in a notch of the outline; the roof is left out: a smaller overhang, or merge "
+        "rectangles",
+        s.span, env.activation);
   const auto grown = [&](double edge, double PlanCorner::*axis) {
     for (const PlanCorner& c : corners) edge = std::max(edge, 2 * std::fabs(c.*axis));
     return edge;

@@ -113,12 +113,14 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
   }
   std::vector<RoomLink> links;
   std::vector<double> heights;
+  std::vector<uint32_t> doors;  // parts
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     if (parts[i].floor != FloorPart::link) continue;
     const LinkNode& link = program_.ast.links[program_.stmt(program_.idAt(s.children, i)).extra];
     if (number[link.a] == kNone || number[link.b] == kNone) continue;
     const double width = floorMeasure(link.width, static_cast<double>(sizes.door) / kUnitsPerMetre, kDoorRange, env);
     links.push_back({number[link.a], number[link.b], inSteps(width)});
+    doors.push_back(i);
     heights.push_back(floorMeasure(link.height, height, kDoorHeightRange, env));
   }
   // As much as the search for a corridor may cost.
@@ -150,8 +152,18 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
     if (failed()) return;
   }
   facades(s, plan, keys, env, out);
+  const auto nameOf = [&](size_t room) { return std::string(program_.text(parts[rooms[room]].label)); };
+  for (const size_t link : plan.unmet)
+    note("`" + nameOf(links[link].a) + "` and `" + nameOf(links[link].b) +
+             "` share no wall wide enough for this door, so it is left out: a narrower door, or other areas of rooms",
+         parts[doors[link]].span, env.activation);
+  if (plan.doors.empty() || plan.doors[0].from != PlanDoor::kOutside)
+    note(
+        "no outer wall of these rooms is wide enough for the entrance, so nothing leads in: a narrower door, or a "
+        "larger scope",
+        s.span, env.activation);
   for (const size_t room : plan.closed)
-    note("no wall of `" + std::string(program_.text(parts[rooms[room]].label)) +
+    note("no wall of `" + nameOf(room) +
              "` is wide enough for a door, so nothing leads into it: a narrower door, or a larger room",
          parts[rooms[room]].span, env.activation);
 }

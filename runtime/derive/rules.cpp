@@ -139,7 +139,7 @@ void Interpreter::alternatives(const Rule& rule, Env env, std::vector<Value>& ar
   std::sort(coarse.begin(), coarse.end(), [](const auto& l, const auto& r) { return l.first < r.first; });
 
   const auto run = [&](const Alternative* chosen, int32_t coarsest, int32_t detail_edge) {
-    if (chosen == nullptr || failed()) return;
+    if (chosen == nullptr || failed() || skips(detail_edge, env)) return;
     const size_t first = out.size(), first_cut = layer_cuts_.size();
     derive(rule, *chosen, env, arguments, out);
     limitLevels(out, first, coarsest, detail_edge);

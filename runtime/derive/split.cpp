@@ -126,7 +126,7 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
     const PartNode& node = program_.ast.parts[s.parts.first + i];
     double size = real(node.size, env) * (node.relative ? length : 1);
     if (!(size >= 0) || !std::isfinite(size)) {
-      note("the size of this part is negative; it is left out", node.span, env.activation);
+      note("the size of a part is 0m or more, such as 2m; this one is left out", node.span, env.activation);
       size = 0;
     }
     sizes.push_back({size, node.flexible, node.repeated});
@@ -136,13 +136,22 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
   }
   if (failed()) return;
   if (repeated != nullptr && !(group > 0))
-    note("the parts that are repeated have no size; they are left out", repeated->group, env.activation);
+    note("the parts that are repeated have no size; they are left out: give one of them a size, such as 2m",
+         repeated->group, env.activation);
   SplitLayout layout = layOut(length, sizes, static_cast<size_t>(kMostParts));
   if (layout.too_many)
     return fail("more than a million parts in one split (give them a larger size)", s.span, env.activation);
-  if (layout.cut_off) note("the parts are longer than the scope; what does not fit is cut off", s.span, env.activation);
-  if (s.amount != kNoId)
-    snapLines(layout.places, length, env.snaps, env.place, axis, std::max(0.0, real(s.amount, env)));
+  if (layout.cut_off)
+    note("the parts are longer than the scope; what does not fit is cut off: give a size that may shrink as ~2m",
+         s.span, env.activation);
+  if (s.amount != kNoId) {
+    const double reach = real(s.amount, env);
+    if (kSnapReachRange.holds(reach))
+      snapLines(layout.places, length, env.snaps, env.place, axis, reach);
+    else if (!failed())
+      note(std::string(kSnapReachRange.rule).append(", ").append(kSnapReachRange.example).append("; none snap here"),
+           program_.expr(s.amount).span, env.activation);
+  }
   for (const SplitPlace& place : layout.places) {
     const double low = std::max(0.0, place.middle - 0.5 * place.size);
     const double rest = std::max(0.0, length - place.middle - 0.5 * place.size);

@@ -72,9 +72,24 @@ std::optional<double> Interpreter::smoothRadius(const StmtNode& s, const Env& en
   return std::nullopt;
 }
 
+namespace {
+
+bool blends(const StmtNode& s) {
+  return (s.kind == StmtKind::unite && s.amount != kNoId) || s.kind == StmtKind::meet || s.kind == StmtKind::sum ||
+         s.kind == StmtKind::morph || s.kind == StmtKind::displace || s.kind == StmtKind::warp;
+}
+
+}  // namespace
+
 void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
   if (failed() || id == kNoId) return;
   const StmtNode& s = program_.stmt(id);
+  if (coarse_edge_ > 0 && !env.whole && blends(s)) {
+    Env whole = env;
+    whole.whole = true;
+    statement(id, whole, out);
+    return;
+  }
   if (!step(1, s.span, env.activation)) return;
   const Nested nested(nesting_);
   if (!withinNesting(s.span, env.activation)) return;
@@ -139,6 +154,9 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
     case StmtKind::treemap:
       treemap(s, env, out);
       break;
+    case StmtKind::wfc:
+      wave(s, env, out);
+      break;
     case StmtKind::footprint:
       footprint(s, env);
       break;
@@ -168,6 +186,7 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
     case StmtKind::mat:    // the checker has put both on the block
     case StmtKind::tag:
     case StmtKind::link:  // its treemap has read it
+    case StmtKind::border:
       break;
   }
 }
@@ -343,6 +362,7 @@ void Interpreter::limitLevels(ShapeList& list, size_t from, int32_t coarsest, in
 
 void Interpreter::detail(const StmtNode& s, const Env& env, ShapeList& out) {
   const int32_t edge = std::max(1, toUnits(real(s.expr, env)));
+  if (skips(edge, env)) return;
   const StmtNode& inside = program_.stmt(program_.innermost(s.body));
   if (inside.kind == StmtKind::cut && !(inside.layer_level && env.top)) {
     Env inner = env;

@@ -16,21 +16,63 @@ double worstOf(double least, double most, double sum, double side) {
 
 int32_t snapped(double length, int32_t step) { return static_cast<int32_t>(detFloor(length / step + 0.5)) * step; }
 
-}  // namespace
+/// What rows have not taken yet.
+struct Rest {
+  PlanRect rect;
+  double weight = 0;
+  bool columns() const { return rect.width() >= rect.depth(); }  // rows lie along the shorter side
+  double side() const { return columns() ? rect.depth() : rect.width(); }
+  double across() const { return columns() ? rect.width() : rect.depth(); }
+  /// Area of a weight of one, units squared.
+  double scale() const { return side() * across() / weight; }
+};
 
-std::vector<PlanRect> squarifiedTreemap(const PlanRect& whole, std::span<const double> weights, int32_t step) {
+/// Takes a row from the rest and gives its parts their places.
+void take(Rest& rest, const TreemapRow& row, std::span<const double> weights, int32_t step,
+          std::vector<PlanRect>& out) {
+  const bool columns = rest.columns();
+  const double side = rest.side(), scale = rest.scale();
+  double sum = 0;
+  for (const size_t part : row.parts) sum += weights[part] * scale;
+  const int32_t thick = row.last ? static_cast<int32_t>(rest.across()) : snapped(sum / side, step);
+  PlanRect& r = rest.rect;
+  const int32_t near = columns ? (row.behind ? r.x1 - thick : r.x0) : (row.behind ? r.z1 - thick : r.z0);
+  double before = 0;
+  for (const size_t part : row.parts) {
+    const double after = before + weights[part] * scale;
+    const int32_t low = snapped(before / sum * side, step);
+    const int32_t high = part == row.parts.back() ? static_cast<int32_t>(side) : snapped(after / sum * side, step);
+    out[part] = columns ? PlanRect{near, r.z0 + low, near + thick, r.z0 + high}
+                        : PlanRect{r.x0 + low, near, r.x0 + high, near + thick};
+    before = after;
+  }
+  (columns ? (row.behind ? r.x1 : r.x0) : (row.behind ? r.z1 : r.z0)) += row.behind ? -thick : thick;
+}
+
+std::vector<size_t> largestFirst(std::span<const double> weights) {
   std::vector<size_t> order(weights.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return weights[a] > weights[b]; });
-  std::vector<PlanRect> out(weights.size(), {whole.x0, whole.z0, whole.x0, whole.z0});
-  PlanRect rest = whole;
+  return order;
+}
+
+double weightFrom(std::span<const size_t> order, std::span<const double> weights) {
+  double sum = 0;
+  for (const size_t part : order) sum += weights[part];
+  return sum;
+}
+
+}  // namespace
+
+std::vector<TreemapRow> squarifiedRows(const PlanRect& whole, std::span<const double> weights, int32_t step) {
+  const std::vector<size_t> order = largestFirst(weights);
+  std::vector<PlanRect> places(weights.size());
+  std::vector<TreemapRow> rows;
+  Rest rest{whole};
   for (size_t first = 0; first < order.size();) {
-    const bool column = rest.width() >= rest.depth();  // rows lie along the shorter side
-    const double side = column ? rest.depth() : rest.width(), across = column ? rest.width() : rest.depth();
-    if (!(side > 0 && across > 0)) break;
-    double left = 0;
-    for (size_t i = first; i < order.size(); ++i) left += weights[order[i]];
-    const double scale = side * across / left;
+    rest.weight = weightFrom(std::span(order).subspan(first), weights);
+    const double side = rest.side(), scale = rest.scale();
+    if (!(side > 0 && rest.across() > 0)) break;
     size_t end = first;
     double sum = 0;
     for (; end < order.size(); ++end) {
@@ -40,20 +82,33 @@ std::vector<PlanRect> squarifiedTreemap(const PlanRect& whole, std::span<const d
         break;
       sum += next;
     }
-    const int32_t thick = end == order.size() ? static_cast<int32_t>(across) : snapped(sum / side, step);
-    double before = 0;
-    for (size_t i = first; i < end; ++i) {
-      const double after = before + weights[order[i]] * scale;
-      const int32_t low = snapped(before / sum * side, step);
-      const int32_t high = i + 1 == end ? static_cast<int32_t>(side) : snapped(after / sum * side, step);
-      out[order[i]] = column ? PlanRect{rest.x0, rest.z0 + low, rest.x0 + thick, rest.z0 + high}
-                             : PlanRect{rest.x0 + low, rest.z0, rest.x0 + high, rest.z0 + thick};
-      before = after;
-    }
-    (column ? rest.x0 : rest.z0) += thick;
+    TreemapRow row;
+    row.parts.assign(order.begin() + static_cast<std::ptrdiff_t>(first),
+                     order.begin() + static_cast<std::ptrdiff_t>(end));
+    row.last = end == order.size();
+    take(rest, row, weights, step, places);
+    rows.push_back(std::move(row));
     first = end;
   }
+  return rows;
+}
+
+std::vector<PlanRect> placedRows(const PlanRect& whole, std::span<const double> weights,
+                                 std::span<const TreemapRow> rows, int32_t step) {
+  std::vector<PlanRect> out(weights.size(), {whole.x0, whole.z0, whole.x0, whole.z0});
+  const std::vector<size_t> order = largestFirst(weights);
+  Rest rest{whole};
+  size_t first = 0;
+  for (const TreemapRow& row : rows) {
+    rest.weight = weightFrom(std::span(order).subspan(first), weights);
+    take(rest, row, weights, step, out);
+    first += row.parts.size();
+  }
   return out;
+}
+
+std::vector<PlanRect> squarifiedTreemap(const PlanRect& whole, std::span<const double> weights, int32_t step) {
+  return placedRows(whole, weights, squarifiedRows(whole, weights, step), step);
 }
 
 }  // namespace sgm

@@ -16,6 +16,21 @@ struct PlanRect {
   friend bool operator==(const PlanRect&, const PlanRect&) = default;
 };
 
+/// Parts side by side along the shorter side of what the rows before it have left.
+struct TreemapRow {
+  std::vector<size_t> parts;  ///< from the low end of that side
+  bool behind = false;        ///< at the high end of the longer side
+  bool last = false;          ///< fills what is left
+};
+
+/// Rows of weights that fall, each with as many as keep its parts nearest to squares. Which end of the rest a row lies
+/// at and in which order its parts stand changes no part's shape, to the step. weights: above 0.
+std::vector<TreemapRow> squarifiedRows(const PlanRect& whole, std::span<const double> weights, int32_t step);
+
+/// The places of such rows, of which parts may have changed places within a row, and rows ends.
+std::vector<PlanRect> placedRows(const PlanRect& whole, std::span<const double> weights,
+                                 std::span<const TreemapRow> rows, int32_t step);
+
 /// The part of each weight, in the order of the weights. All lines between parts lie on multiples of `step` from x0 and
 /// z0, and neighbours share them; parts that are thinner than that come out empty. weights: above 0.
 std::vector<PlanRect> squarifiedTreemap(const PlanRect& whole, std::span<const double> weights, int32_t step);
