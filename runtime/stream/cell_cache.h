@@ -27,6 +27,7 @@ struct DerivedCell {
 struct CellKey {
   uint32_t layer = 0;
   Int3 cell;
+  int32_t cell_edge = 0;  ///< what levels with cells of this edge or a larger one have of it, units; 0: all
   friend auto operator<=>(const CellKey&, const CellKey&) = default;
 };
 

@@ -4,6 +4,7 @@
 
 #include "base/bytes.h"
 #include "derive/chunk_ops.h"
+#include "derive/coarse_chunk.h"
 #include "stream/layers_below.h"
 
 namespace sgm {
@@ -92,18 +93,43 @@ bool WorldField::derivesAlike(const WorldField& other, uint64_t parameters) cons
          (parameters & changedParameters(settings_.parameters, theirs.parameters)) == 0;
 }
 
-Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3 at) const {
-  return cache_.get({layer, at}, [&] {
-    Result<GrammarChunk> chunk = overLayersBelow<GrammarChunk>(layer, at, [&](const LayersBelow& below) {
-      Result<GrammarChunk> derived = deriveCell(*settings_.program, settings_.parameters, settings_.seed, layer, at,
-                                                below, DeriveLimits{}, memory_);
-      if (derived) derived->parameters |= below.parameters();
-      return derived;
-    });
-    if (chunk && settings_.shift != Int3{}) translate(*chunk, settings_.shift);
-    if (chunk && settings_.on_notes && !chunk->notes.empty()) settings_.on_notes(*chunk);
-    return chunk;
+Result<GrammarChunk> WorldField::derive(uint32_t layer, Int3 at, int32_t cell_edge) const {
+  Result<GrammarChunk> chunk = overLayersBelow<GrammarChunk>(layer, at, [&](const LayersBelow& below) {
+    const Program& program = *settings_.program;
+    const ParameterValues& parameters = settings_.parameters;
+    const uint64_t seed = settings_.seed;
+    Result<GrammarChunk> derived =
+        cell_edge == 0
+            ? deriveCell(program, parameters, seed, layer, at, below, DeriveLimits{}, memory_)
+            : deriveCoarseCell(program, parameters, seed, layer, at, cell_edge, below, DeriveLimits{}, memory_);
+    if (derived) derived->parameters |= below.parameters();
+    return derived;
   });
+  if (chunk && settings_.shift != Int3{}) translate(*chunk, settings_.shift);
+  if (chunk && settings_.on_notes && !chunk->notes.empty()) settings_.on_notes(*chunk);
+  return chunk;
+}
+
+Result<TracedCell> WorldField::trace(uint32_t layer, Int3 at) const {
+  Result<TracedCell> traced = overLayersBelow<TracedCell>(layer, at, [&](const LayersBelow& below) {
+    return traceCell(*settings_.program, settings_.parameters, settings_.seed, layer, at, below, DeriveLimits{}, memory_);
+  });
+  if (traced && settings_.shift != Int3{}) translate(traced->chunk, settings_.shift);
+  return traced;
+}
+
+Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3 at) const {
+  return cache_.get({layer, at, 0}, [&] { return derive(layer, at, 0); });
+}
+
+Result<std::shared_ptr<const DerivedCell>> WorldField::cellFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
+  // What is kept for a level does for the next one as well. Never made of what is kept for finer levels: what a chunk
+  // shows must not depend on what the cache happens to hold.
+  constexpr int kLevelsTogether = 2;
+  int32_t kept = settings_.finest_cell;
+  while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
+  if (kept == settings_.finest_cell || !settings_.program->layers[layer].by_level) return cell(layer, at);
+  return cache_.get({layer, at, kept}, [&] { return derive(layer, at, kept); });
 }
 
 Result<std::vector<RuleInstance>> WorldField::instances(uint32_t rule, const IntBox& box, size_t most) const {
@@ -203,7 +229,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
   for (uint32_t layer = 0; layer < layers && !alone_; ++layer) {
     if (!settings_.program->layers[layer].shows(field.cell)) continue;
     const Result<void> gathered = walkCells(layer, reached, CellsOf::chunk, [&](const CellKey& key) -> Result<void> {
-      Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
+      Result<std::shared_ptr<const DerivedCell>> derived = cellFor(key.layer, key.cell, field.cell);
       if (!derived) return derived.error();
       held.parameters |= (*derived)->chunk.parameters;
       indexed.push_back((*derived)->indexed());

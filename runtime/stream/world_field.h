@@ -69,6 +69,13 @@ class WorldField {
   /// The cell of a layer, derived or from the cache.
   Result<std::shared_ptr<const DerivedCell>> cell(uint32_t layer, Int3 cell) const;
 
+  /// What levels with cells of this edge, units, have of it: no more than that is kept of cells that only coarse levels
+  /// ask for.
+  Result<std::shared_ptr<const DerivedCell>> cellFor(uint32_t layer, Int3 cell, int32_t cell_edge) const;
+
+  /// The cell, derived anew, and whence its shapes come.
+  Result<TracedCell> trace(uint32_t layer, Int3 cell) const;
+
   /// Visits the cells of a layer whose shapes can reach into the box, in order z, y, x, to the first error.
   /// limit: more than 2^24 cells.
   Result<void> cellsAround(uint32_t layer, const IntBox& box,
@@ -132,6 +139,9 @@ class WorldField {
   /// What `derive` makes of the layers below the cell.
   template <class T, class Derive>
   Result<T> overLayersBelow(uint32_t layer, Int3 cell, const Derive& derive) const;
+
+  /// Not from the cache. cell_edge: as in CellKey.
+  Result<GrammarChunk> derive(uint32_t layer, Int3 cell, int32_t cell_edge) const;
 
   WorldFieldSettings settings_;
   std::shared_ptr<const DerivedCell> alone_;
