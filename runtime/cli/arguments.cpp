@@ -63,6 +63,11 @@ std::string checkSize(const std::string& text) {
   return fmt::format("'{}' is not WIDTHxHEIGHT with 1 to {} pixels each", text, kMaxPicture);
 }
 
+std::string checkPoint(const std::string& text) {
+  if (readPoint(text)) return {};
+  return fmt::format("'{}' is not a point such as 1,2.5,-3", text);
+}
+
 std::string checkCamera(const std::string& text) {
   if (readCamera(text)) return {};
   return fmt::format("'{}' is not x,y,z:x,y,z in metres (from where, and to where)", text);
@@ -178,6 +183,30 @@ Command addFmt(CLI::App& root) {
       ->excludes(write);
   app->footer("Example:\n  sgm fmt --write samples/grammars/cave.sgm");
   return [options] { return format(*options); };
+}
+
+Command addExplain(CLI::App& root) {
+  CLI::App* app = root.add_subcommand("explain", "Say which rules have made a place solid, or left it open");
+  const auto options = std::make_shared<ExplainOptions>();
+  addWorldOptions(*app, *options);
+  app->add_option("--at", options->at, "The place in metres, x,y,z")
+      ->type_name("POINT")
+      ->required()
+      ->check(checkPoint);
+  app->add_option("--cell", options->cell, "Edge of a sampling cell in metres (0.5): `detail` below it is left out")
+      ->type_name("METRES");
+  app->footer(
+      "The paths are what `override` takes, and what messages print.\n"
+      "Example:\n  sgm explain samples/grammars/building.sgm --at 0,-10,6");
+  return [options] { return explain(*options); };
+}
+
+Command addLsp(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "lsp", "Serve editors by the Language Server Protocol: diagnostics, completion, hover, definitions, formatting");
+  app->add_flag("--stdio")->description("Standard input and output, which is what it serves anyway");
+  app->footer("Editors start it; editor_plugin/vscode is one's extension.\nExample:\n  sgm lsp");
+  return [] { return serveLanguage(); };
 }
 
 /// Of commands that mesh one region as a whole.
@@ -369,7 +398,7 @@ Exit runCommandLine(int argc, char** argv) {
       "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
       "be read or written; the highest of several.");
   std::vector<Command> commands;
-  for (const auto add : {addCheck, addFmt, addMesh, addRender, addFly, addBench, addBackends})
+  for (const auto add : {addCheck, addFmt, addExplain, addMesh, addRender, addFly, addLsp, addBench, addBackends})
     commands.push_back(add(app));
 
   try {

@@ -29,6 +29,14 @@ struct FmtOptions {
 };
 Exit format(const FmtOptions& options);
 
+/// The language server: standard input to standard output, until it is told to exit.
+Exit serveLanguage();
+
+struct ExplainOptions : WorldOptions {
+  std::string at;
+};
+Exit explain(const ExplainOptions& options);
+
 struct MeshOptions : WorldOptions {
   std::string out;  ///< empty: measure only
 };

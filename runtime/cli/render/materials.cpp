@@ -48,7 +48,8 @@ RenderMaterial materialByName(std::string_view name) {
   for (const Named& named : kTable) {
     if (named.name == name) return named.material;
   }
-  if (name.empty()) return {};
+  // Shapes that have none are looked at for their form.
+  if (name.empty()) return {smooth, rgb(0.56f, 0.53f, 0.48f), 0.9f, 0.3f};
   uint32_t hash = 2166136261u;  // FNV-1a: the same name, the same tint, everywhere
   for (char c : name) hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
   RenderMaterial material;

@@ -1,0 +1,39 @@
+#pragma once
+// Places of a document as editors count them.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sgm::cli {
+
+/// A line and a character in it, both from 0; characters are UTF-16 code units, as the protocol has it.
+struct TextPosition {
+  uint32_t line = 0, character = 0;
+};
+
+/// A text and where its lines begin.
+class DocumentText {
+ public:
+  explicit DocumentText(std::string text = {});
+
+  const std::string& text() const { return text_; }
+  TextPosition position(uint32_t offset) const;
+  /// Of a line beyond the end: the end; of a character beyond its line: the line's end.
+  uint32_t offset(TextPosition position) const;
+  /// line and column as in Diagnostic: from 1, columns in bytes.
+  uint32_t offsetOf(int line, int column) const;
+
+ private:
+  uint32_t lineEnd(uint32_t line) const;
+
+  std::string text_;
+  std::vector<uint32_t> lines_;
+};
+
+/// "file:///a%20b.sgm" as "/a b.sgm"; empty where it is no file's.
+std::string pathOfUri(std::string_view uri);
+std::string uriOfPath(std::string_view path);
+
+}  // namespace sgm::cli
