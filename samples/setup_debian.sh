@@ -4,7 +4,7 @@
 #   sgm_setup "${SGM_BUILD_PACKAGES[@]}"                              # the library, the command, the samples
 #   sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"    # and everything that the tests need
 #   sgm_need PACKAGE...                                               # installs nothing: fails, and names what is missing
-#   sgm_setup_npm DIRECTORY PACKAGE VERSION                           # an npm package below DIRECTORY
+#   sgm_setup_npm DIRECTORY PACKAGE VERSION [PACKAGE VERSION]...        # npm packages below DIRECTORY, which holds no others
 #
 # Only what is missing is installed, and said. Each function returns non-zero, after one line on stderr that names what
 # could not be had. Nothing here reads standard input.
@@ -73,14 +73,22 @@ sgm_need() {
 }
 
 sgm_setup_npm() {
-  local directory=$1 package=$2 version=$3 log
-  grep -qs "\"version\": \"$version\"" "$directory/node_modules/$package/package.json" && return 0
-  echo "setup: installing npm package $package $version into $directory"
+  local directory=$1 log wanted=() missing=()
+  shift
+  while (($# > 1)); do
+    wanted+=("$1@$2")
+    grep -qs "\"version\": \"$2\"" "$directory/node_modules/$1/package.json" || missing+=("$1 $2")
+    shift 2
+  done
+  ((${#missing[@]} > 0)) || return 0
+  printf -v missing '%s, ' "${missing[@]}"
+  echo "setup: installing npm packages ${missing%, } into $directory"
   mkdir -p "$directory"
   log=$(mktemp)
+  # All of them at once: npm takes away what it is not told of.
   if ! npm install --prefix "$directory" --no-fund --no-audit --no-save --prefer-offline --fetch-retries=1 \
-    --fetch-retry-mintimeout=1000 --loglevel=error "$package@$version" >"$log" 2>&1 </dev/null; then
-    echo "setup: error: could not install npm package $package $version (is the network there? npm's words are in $log)" >&2
+    --fetch-retry-mintimeout=1000 --loglevel=error "${wanted[@]}" >"$log" 2>&1 </dev/null; then
+    echo "setup: error: could not install npm packages ${missing%, } (is the network there? npm's words are in $log)" >&2
     return 1
   fi
   rm -f "$log"
