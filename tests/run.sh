@@ -47,7 +47,8 @@ step() { printf '\n== %s (after %d s)\n' "$1" $((SECONDS - started)); }
 step "packages"
 source samples/setup_debian.sh
 sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"
-sgm_setup_npm build/tools gltf-validator 2.0.0-dev.3.10
+sgm_setup_npm build/tools gltf-validator 2.0.0-dev.3.10 vscode-languageserver-protocol 3.17.5 \
+  vscode-textmate 9.3.2 vscode-oniguruma 2.0.1
 
 # build PRESET: quiet while all is well, the whole story when not.
 build() {

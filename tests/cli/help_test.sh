@@ -2,10 +2,10 @@
 # --help with an example for every command, --version, backends.
 source "$(dirname "$0")/common.sh"
 expect 0 "$SGM" --help
-for command in check fmt mesh render bench backends; do
+for command in check fmt explain lsp mesh render bench backends; do
   out_has "$command"
 done
-for command in check fmt mesh render bench backends; do
+for command in check fmt explain lsp mesh render bench backends; do
   expect 0 "$SGM" $command --help
   out_has "Example:"
   out_has "sgm $command"
@@ -16,7 +16,7 @@ out_has '^sgm [0-9]+\.[0-9]+\.[0-9]+$'
 
 # The examples work as they are printed.
 mkdir -p samples && cp -r "$SOURCE/samples/grammars" samples/
-for command in check fmt backends; do
+for command in check fmt explain backends; do
   expect 0 "$SGM" $command --help
   example=$(sed -n '/^Example:/{n;s/^ *sgm //p}' <<<"$out")
   # shellcheck disable=SC2086

@@ -65,5 +65,5 @@ out=$(sgm_setup_npm "$place/tools" validator 1.0.0)
 if NETWORK=1 sgm_setup_npm "$place/tools" validator 2.0.0 >"$place/out" 2>"$place/err"; then
   fail "no error from npm without network"
 fi
-tail -n 1 "$place/err" | grep -q 'npm package validator 2.0.0' || fail "the npm error was: $(cat "$place/err")"
+tail -n 1 "$place/err" | grep -q 'npm packages validator 2.0.0' || fail "the npm error was: $(cat "$place/err")"
 echo "setup_test: all as it should be"

@@ -175,7 +175,7 @@ class RandomRules {
 
   std::string statement(int depth) {
     if (depth > 3) return leaf();
-    switch (draw(28)) {
+    switch (draw(29)) {
       case 0:
         return level_ < 2 ? "R" + std::to_string(level_ + 1) + "(" + length() + ");" : "R3(min(r, 3m));";
       case 1:
@@ -238,7 +238,11 @@ class RandomRules {
       case 24:
         return sized() + "treemap" + rooms(depth);
       case 25:
+        // So few that what stands in each may be large.
+        return pick({"size(2m, 1m, 3m) ", "size(min(r, 3m), 2m, rand(0.5m, 2m)) "}) + "wfc " +
+               pick({"1m", "(2m, 1m, 1.5m)", "rand(1m, 3m)", "(r, 2m, max(size_, 1m))"}) + tiles(depth);
       case 26:
+      case 27:
         return profile("plan" + std::to_string(depth), depth);
       default:
         return leaf();
@@ -275,6 +279,15 @@ class RandomRules {
     out += pick({"", " link a b by door;", " link b c by door(0.6m, 1m);"});
     if (chance(50)) out += " facade: " + statement(depth + 1);
     if (chance(50)) out += " corridor: " + leaf();
+    return out + " }";
+  }
+
+  std::string tiles(int depth) {
+    std::string out = pick({" { ", " { border side in_; ", " { border top out, left out or in_; "});
+    out += "a " + pick({"2", "count", "rand(0, 2)"}) + pick({"", " turn"}) +
+           ", side in_ or out: " + statement(depth + 1) + " ";
+    if (chance(60)) out += "b 1 turn, front in_, back out, bottom out: { " + leaf() + " box(scope); } ";
+    if (chance(60)) out += "c 3 turn, front out, right in_, top out: at(0.5*scope.x, 0m, 0m) " + statement(depth + 1);
     return out + " }";
   }
 

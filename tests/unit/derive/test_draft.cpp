@@ -50,7 +50,7 @@ TEST_CASE("finish keeps what the groups reach, in order, and nothing else") {
 
   GrammarChunk out;
   const std::vector<Group> groups{{root, false, {}, PathKey{1}}};
-  draft.finish(groups, out);
+  DraftCopier(draft.chunk()).copy(groups, out);
   REQUIRE(out.shapes.size() == 2);
   CHECK(out.groups[0].root == 1);
   CHECK(out.children[out.shapes[1].first_child] == 0);

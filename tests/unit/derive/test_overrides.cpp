@@ -369,6 +369,9 @@ TEST_CASE("a cell that is named and lacks the path says so, and no other", "[ove
           (balls ? "this override finds nothing: there are only 2 `Ball` here in " + cell + "/Main" : none));
     CHECK(message(cell + "/Main/Ball[1]/Fruit[1]", x) ==
           (balls ? "this override finds nothing: there is only one `Fruit` here in " + cell + "/Main/Ball[1]" : none));
+    // Each of the balls has one, not all of them two.
+    CHECK(message(cell + "/Main/Ball/Fruit[1]", x) ==
+          (balls ? "this override finds nothing: there is only one `Fruit` here in " + cell + "/Main/Ball[0]" : none));
     CHECK(message(cell + "/Main/Ball[2]", x + 1).empty());
     CHECK(message("Main/Ball[2]", x).empty());
   }

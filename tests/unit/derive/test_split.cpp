@@ -223,7 +223,7 @@ TEST_CASE("what cannot be split says so, with its path, and the rest appears", "
   noted("size(2m, 2m, 2m) split x { 1.5m: box(scope); 1.5m: box(scope); 1m: box(scope); }", "cut off", 2);
   noted("size(x 0m) split x { ~1m: box(scope); }", "no size along x", 0);
   noted("size(4m, 2m, 2m) split x { 1m: box(scope); { 0m: box(1m); }* }", "repeated have no size", 1);
-  noted("size(4m, 2m, 2m) split x { 1m - 2m: box(1m); ~1m: box(scope); }", "negative", 1);
+  noted("size(4m, 2m, 2m) split x { 1m - 2m: box(1m); ~1m: box(scope); }", "0m or more", 1);
   noted("size(4m, 0m, 2m) comp { front: box(1m); top: box(1m); }", "no size", 1);
   const auto program = compiled(
       "sgm 1; units m; domain infinite; layer main cell 64m reach 64m { start Main; }\n"

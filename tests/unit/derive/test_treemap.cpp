@@ -119,7 +119,7 @@ TEST_CASE("every room of a thousand floors can be reached from outside, through 
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
   std::mt19937 random(seed);
-  int corridors = 0, through = 0;
+  int corridors = 0, through = 0, links = 0, lost = 0;
   for (unsigned round = 0; round < rounds(1000); ++round) {
     const Drawn drawn = drawnPlan(random);
     const FloorPlan& plan = drawn.plan;
@@ -129,6 +129,8 @@ TEST_CASE("every room of a thousand floors can be reached from outside, through 
     REQUIRE(!plan.doors.empty());
     REQUIRE(plan.doors[0].from == PlanDoor::kOutside);
     corridors += !plan.corridor.empty();
+    lost += static_cast<int>(plan.unmet.size());
+    links += static_cast<int>(drawn.links.size());
     // By what is open alone: from the hole of the entrance to whatever overlaps.
     const auto open = openOf(plan);
     std::vector<bool> seen(open.size(), false), reached(plan.rooms.size(), false);
@@ -168,10 +170,66 @@ TEST_CASE("every room of a thousand floors can be reached from outside, through 
         ++through;
     }
   }
-  CAPTURE(corridors, through);
+  CAPTURE(corridors, through, links, lost);
   CHECK(corridors > static_cast<int>(rounds(1000)) / 4);
   // Through another room, unasked, only where no corridor from the entrance fits.
-  CHECK(through <= static_cast<int>(rounds(1000)) / 6);
+  CHECK(through <= static_cast<int>(rounds(1000)) / 8);
+  CHECK(lost <= links / 6);
+}
+
+TEST_CASE("rooms that are linked come to lie beside each other, in the shapes of the treemap", "[treemap]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  size_t links_seen = 0, plain_met = 0, met = 0;
+  for (unsigned round = 0; round < rounds(200); ++round) {
+    const PlanRect whole{-4000, 200, -4000 + 2 * static_cast<int32_t>(4000 + 6000 * unit(random)),
+                         200 + 2 * static_cast<int32_t>(4000 + 6000 * unit(random))};
+    std::vector<double> areas(3 + random() % 10);
+    for (double& area : areas) area = 6 + 34 * unit(random);
+    std::vector<RoomLink> links(1 + random() % 3);
+    for (RoomLink& link : links) {
+      link.a = random() % areas.size();
+      link.b = (link.a + 1 + random() % (areas.size() - 1)) % areas.size();
+      link.width = 920;
+    }
+    CAPTURE(round, areas, links.size());
+    const auto plain = squarifiedTreemap(whole, areas, 2);
+    const auto rooms = linkedRooms(whole, areas, links, 256, 2);
+    double covered = 0;
+    for (size_t i = 0; i < rooms.size(); ++i) {
+      // To the rounding of its lines.
+      REQUIRE(std::abs(rooms[i].width() - plain[i].width()) <= 4);
+      REQUIRE(std::abs(rooms[i].depth() - plain[i].depth()) <= 4);
+      REQUIRE(rooms[i].x0 >= whole.x0);
+      REQUIRE(rooms[i].z0 >= whole.z0);
+      REQUIRE(rooms[i].x1 <= whole.x1);
+      REQUIRE(rooms[i].z1 <= whole.z1);
+      for (size_t j = 0; j < i; ++j) REQUIRE(!touch(rooms[i], rooms[j]));
+      covered += areaOf(rooms[i]);
+    }
+    REQUIRE(covered == areaOf(whole));
+    const auto metIn = [&](const std::vector<PlanRect>& in) {
+      size_t count = 0;
+      for (const RoomLink& link : links) {
+        const PlanRect &a = in[link.a], &b = in[link.b];
+        const auto shared = [&](int32_t x0, int32_t x1, int32_t z0, int32_t z1, int32_t end, int32_t begin) {
+          return end == begin && std::min(x1, z1) - std::max(x0, z0) >= link.width + 256;
+        };
+        count += shared(a.z0, a.z1, b.z0, b.z1, a.x1, b.x0) || shared(a.z0, a.z1, b.z0, b.z1, b.x1, a.x0) ||
+                 shared(a.x0, a.x1, b.x0, b.x1, a.z1, b.z0) || shared(a.x0, a.x1, b.x0, b.x1, b.z1, a.z0);
+      }
+      return count;
+    };
+    REQUIRE(metIn(rooms) >= metIn(plain));
+    if (metIn(plain) == links.size()) REQUIRE(rooms == plain);
+    links_seen += links.size();
+    plain_met += metIn(plain);
+    met += metIn(rooms);
+  }
+  CAPTURE(links_seen, plain_met, met);
+  CHECK(10 * (links_seen - met) < 6 * (links_seen - plain_met));
 }
 
 TEST_CASE("links are doors where rooms share a wall", "[treemap]") {
@@ -191,6 +249,8 @@ TEST_CASE("links are doors where rooms share a wall", "[treemap]") {
   CHECK(doors({{1, 2, 920}, {0, 1, 920}}) == Doors{{1, 2}, {0, 1}});
   // One that is wider than the wall is none: the rooms are reached otherwise.
   CHECK(doors({{1, 2, 5 * 1024}}) == Doors{{0, 1}, {1, 2}});
+  const std::vector<RoomLink> some{{1, 2, 5 * 1024}, {0, 1, 920}, {0, 2, 920}};
+  CHECK(layOutFloor(sizes, areas, some).unmet == std::vector<size_t>{0, 2});
 }
 
 TEST_CASE("walls without windows, rooms without doors and floors without room are known", "[treemap]") {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "grammar/codes.h"
 #include "grammar/compile.h"
 
 namespace sgm::test {
@@ -30,10 +31,12 @@ inline CompileResult compileText(std::string_view text, ImportResolver* resolver
   return compileGrammar(text, "test.sgm", options);
 }
 
-/// "3:17 unit-mismatch; 4:1 syntax" of all diagnostics.
-inline std::string brief(const std::vector<Diagnostic>& diagnostics) {
+/// "3:17 unit-mismatch; 4:1 syntax" of all diagnostics; unless `unused`, without those of names that nothing uses,
+/// which programs with a common beginning have.
+inline std::string brief(const std::vector<Diagnostic>& diagnostics, bool unused = false) {
   std::string out;
   for (const Diagnostic& d : diagnostics) {
+    if (d.code == codes::kUnusedValue && !unused) continue;
     if (!out.empty()) out += "; ";
     out += std::to_string(d.line);
     out += ':';

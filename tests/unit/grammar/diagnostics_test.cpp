@@ -51,7 +51,7 @@ const Case kCases[] = {
     {"2:10 syntax", "sgm 1; start A;\nrule A { uinon { sphere(2m); } }"},
     {"2:8 syntax", "sgm 1; start A;\nrule A { sphere(2m);"},
     {"2:20 syntax", "sgm 1; start A;\nrule A { let a = 1 < 2 < 3; }"},
-    {"2:10 not-available", "sgm 1; start A;\nrule A { wfc x { 2m: A; } sphere(2m); }"},
+    {"2:10 not-available", "sgm 1; start A;\nrule A { fit x { 2m: A; } sphere(2m); }"},
     {"2:16 syntax", "sgm 1; start A;\nrule A { split yz { 2m: sphere(2m); } }"},
     {"2:16 syntax", "sgm 1; start A;\nrule A { split w { 2m: sphere(2m); } }"},
     {"2:23 syntax", "sgm 1; start A;\nrule A { split x { 2m sphere(2m); } }"},
@@ -59,6 +59,10 @@ const Case kCases[] = {
     {"2:41 syntax", "sgm 1; start A;\nrule A { split x { { ~2m: sphere(2m); } 1m: sphere(1m); } }"},
     {"2:22 syntax", "sgm 1; start A;\nrule A { split x { { { 2m: sphere(2m); }* }* } }"},
     {"2:41 duplicate", "sgm 1; start A;\nrule A { split x { { 2m: sphere(2m); }* { 2m: sphere(2m); }* } }"},
+    {"2:10 syntax", "sgm 1; start A;\nrule A { split x { } sphere(2m); }"},
+    {"2:20 syntax", "sgm 1; start A;\nrule A { split x { { }* 1m: sphere(2m); } }"},
+    {"2:10 syntax", "sgm 1; start A;\nrule A { comp { } sphere(2m); }"},
+    {"2:23 value-range", "sgm 1; start A;\nrule A { split x snap -1m { 2m: sphere(2m); } }"},
     {"2:20 value-range", "sgm 1; start A;\nrule A { split x { 2: sphere(2m); } }"},
     {"2:21 unit-mismatch", "sgm 1; start A;\nrule A { split x { ~2: sphere(2m); } }"},
     {"2:20 unit-mismatch", "sgm 1; start A;\nrule A { split x { 2deg: sphere(2m); } }"},
@@ -101,6 +105,10 @@ const Case kCases[] = {
     {"1:16 wrong-use", "sgm 1; let a = cell; start A; rule A { }"},
     {"1:12 shadows-builtin", "sgm 1; let sphere = 2m; start A; rule A { }"},
     {"1:27 shadows-builtin", "sgm 1; start A(1); rule A(p) { }"},
+    {"1:14 unused-value", "sgm 1; param n = 3; start A; rule A { sphere(1m); }"},
+    {"2:16 idle-head", "sgm 1; start A(3);\nrule A(n) when n > 5 { sphere(1m); } rule A(n) else { box(1m); }"},
+    {"2:53 guards",
+     "sgm 1; param n = 3 in 0..9; start A(n);\nrule A(n) when n > 5 { sphere(1m); } rule A(m) when m > 6 { box(1m); }"},
     {"2:6 unused-rule", "sgm 1; start A; rule A { }\nrule B { }"},
     // Types and stages
     {"2:17 unit-mismatch", "sgm 1; start A;\nrule A { sphere(5); }"},
@@ -153,11 +161,13 @@ const Case kCases[] = {
     {"2:26 value-range", "sgm 1; start A;\nrule A { footprint merge 65 rect(1m, 1m) as plan; extrude 1m of plan; }"},
     {"2:28 value-range", "sgm 1; start A;\nrule A { footprint regular(2, 1m) as plan; extrude 1m of plan; }"},
     {"2:20 argument-count", "sgm 1; start A;\nrule A { footprint rect(2m) as plan; extrude 1m of plan; }"},
-    {"2:20 argument-count", "sgm 1; start A;\nrule A { footprint polygon((2m, 0m), (0m, 2m)) as plan; extrude 1m of plan; }"},
+    {"2:20 argument-count",
+     "sgm 1; start A;\nrule A { footprint polygon((2m, 0m), (0m, 2m)) as plan; extrude 1m of plan; }"},
     {"2:28 argument-name",
      "sgm 1; start A;\nrule A { footprint polygon(a = (2m, 0m), (0m, 2m), (1m, 3m)) as plan; extrude 1m of plan; }"},
     {"2:28 wrong-use",
-     "sgm 1; start A;\nrule A { footprint merge 2 polygon((2m, 0m), (0m, 2m), (1m, 3m)) as plan; extrude 1m of plan; }"},
+     "sgm 1; start A;\nrule A { footprint merge 2 polygon((2m, 0m), (0m, 2m), (1m, 3m)) as plan; extrude 1m of plan; "
+     "}"},
     {"2:25 unit-mismatch", "sgm 1; start A;\nrule A { footprint rect(2, 3m) as plan; extrude 1m of plan; }"},
     {"2:50 unit-mismatch", "sgm 1; start A;\nrule A { footprint rect(2m, 3m) as plan; extrude 1 of plan; }"},
     {"2:39 type-mismatch", "sgm 1; start A;\nrule A { let plan = 2m; extrude 1m of plan; }"},
@@ -353,7 +363,7 @@ TEST_CASE("every diagnostic stands where the fault is", "[grammar][diagnostics]"
   for (const Case& c : kCases) {
     const CompileResult result = compileText(c.text);
     INFO(c.text << "\n" << renderDiagnostics(result));
-    CHECK(brief(result.diagnostics) == c.expected);
+    CHECK(brief(result.diagnostics, true) == c.expected);
     for (const Diagnostic& d : result.diagnostics) CHECK(d.end_column > d.column);
   }
 }

@@ -1,4 +1,6 @@
-// What is said about parts of scopes, rooms, footprints, extrusions and roofs, word for word.
+// What is said about parts of scopes, rooms, tiles, footprints, extrusions and roofs, word for word.
+
+#include <array>
 
 #include "messages.h"
 
@@ -14,6 +16,13 @@ const MessageCase kParts[] = {
     {"3:11 value-range: a part cannot be more than 100% of the scope | write a length, such as 2m, or a share, such as "
      "25%",
      "split x { 2: Part; }"},
+    {"3:12 unit-mismatch: a flexible size is a length, and this is a ratio | multiply it by 1m to make a length of it",
+     "split x { ~50%: Part; }"},
+    {"3:3 syntax: this split has no parts | such as `split x { ~1m: Wall; }`", "{ split x { } Part; }"},
+    {"3:11 syntax: this repeated group has no parts | such as `{ ~2m: Bay; }*`", "split x { { }* 1m: Part; }"},
+    {"3:3 syntax: this comp names no part of the box | such as `comp { side: Wall; }`", "{ comp { } Part; }"},
+    {"3:14 value-range: the lines of a split snap by 0m or more | such as snap 0.5m",
+     "split x snap -1m { ~1m: Part; }"},
     {"3:12 unit-mismatch: a flexible size is a length, and this is a ratio | write `2m`", "split x { ~2: Part; }"},
     {"3:11 unit-mismatch: the size of a part is a length, and this is an angle | such as 2m",
      "split x { 2deg: Part; }"},
@@ -148,6 +157,8 @@ const MessageCase kRooms[] = {
      "treemap { a 4: Part; link a kitchen by door; }"},
     {"3:22 wrong-use: a door leads from one room to another | name two rooms",
      "treemap { a 4: Part; link a a by door; }"},
+    {"3:51 duplicate: `b` and `a` are linked twice | one door between two rooms, as wide as the widest of these",
+     "treemap { a 4: Part; b 4: Part; link a b by door; link b a by door(2m); }"},
     {"3:29 syntax: expected the name of a room, found `by`", "treemap { a 4: Part; link a by door; }"},
     {"3:26 syntax: expected the name of a room, found `;`", "treemap { a 4: Part; link; }"},
     {"3:41 syntax: expected `by`, found `;`", "treemap { a 4: Part; b 4: Part; link a b; }"},
@@ -162,6 +173,63 @@ const MessageCase kRooms[] = {
      "added before it",
      "treemap { a 4: cut Part; facade: { cut Part; } }"},
     {"3:1 syntax: expected a statement, found `link`", "link a b by door;"},
+};
+
+const MessageCase kTiles[] = {
+    {"3:5 syntax: expected the size of a tile, such as `wfc 2m`, found `{`", "wfc { a 1: Part; }"},
+    {"3:8 syntax: expected `{`, found `Part`", "wfc 2m Part;"},
+    {"3:11 syntax: expected the weight of the tile, such as `wall 3`, found `:`", "wfc 2m { a: Part; }"},
+    {"3:11 syntax: expected the weight of the tile, such as `wall 3`, found `,`", "wfc 2m { a, side b: Part; }"},
+    {"3:14 syntax: expected `:` and what stands in this tile, found `Part`", "wfc 2m { a 1 Part; }"},
+    {"3:15 syntax: expected a block or a statement for `this tile`, found `}`", "wfc 2m { a 1: }"},
+    {"3:10 syntax: expected the name of a tile, found `4`", "wfc 2m { 4: Part; }"},
+    {"3:10 reserved-word: `let` is a word of the language and cannot be the name of a tile | another name, such as "
+     "`let_`",
+     "wfc 2m { let 4: Part; }"},
+    {"3:15 syntax: expected a side and its label, such as `left wall`, found `Part`", "wfc 2m { a 1, Part: Part; }"},
+    {"3:15 unknown-name: a tile has no side `lfet` | did you mean `left`?", "wfc 2m { a 1, lfet b: Part; }"},
+    {"3:15 unknown-name: a tile has no side `chimney` | front, back, left, right, side, top, bottom",
+     "wfc 2m { a 1, chimney b: Part; }"},
+    {"3:19 syntax: expected the label of a side, found `:`", "wfc 2m { a 1, left: Part; }"},
+    {"3:30 syntax: expected the label of a side, found `:`", "wfc 2m { a 1, left plug meets: Part; }"},
+    {"3:15 unknown-name: nothing has `hole` to meet the left of `a` | give it to the right of a tile, or to the "
+     "border, and let it meet `plug`\n3:37 unknown-name: nothing has `hole` to meet the right of `a` | give it to the "
+     "left of a tile, or to the border",
+     "wfc 2m { a 1, left plug meets hole, right hole: Part; }"},
+    {"3:17 unknown-name: no tile has `hole` on its right, as this border demands | give a tile that label there, and "
+     "let it meet `plug`",
+     "wfc 2m { border right plug meets hole; a 1, right hole: Part; }"},
+    {"3:23 duplicate: `left` stands twice here | join labels with `or`: `left wall or gate`",
+     "wfc 2m { a 1, left b, left c: Part; }"},
+    {"3:20 reserved-word: `cut` is a word of the language and cannot be the label of a side | another name, such as "
+     "`cut_`",
+     "wfc 2m { a 1, left cut: Part; }"},
+    {"3:23 syntax: expected `;`, found `:`", "wfc 2m { border left b: Part; }"},
+    {"3:25 duplicate: a second border in this wfc | put its sides into the first one, with a `,` between them",
+     "wfc 2m { border left b; border right b; a 1, side b: Part; }"},
+    {"3:21 duplicate: a second tile `a` in this wfc | give each tile a name of its own",
+     "wfc 2m { a 1: Part; a 2: Part; }"},
+    {"3:1 argument-count: a wfc has 1 to 64 tiles | such as `wall 3 turn, left brick, right brick: Wall;`\n5:6 warning "
+     "unused-rule: nothing derives `Part` | call it in a rule, or remove it",
+     "wfc 2m { }"},
+    {"3:5 unit-mismatch: the size of a tile is a length, and this is a ratio | write `2m`", "wfc 2 { a 1: Part; }"},
+    {"3:5 unit-mismatch: the size of a tile is a point, and this is a vector of ratios | such as (1m, 2m, 3m)",
+     "wfc (2, 3, 4) { a 1: Part; }"},
+    {"3:5 value-range: a tile is 1cm or more along each axis | such as wfc 2m", "wfc 1mm { a 1: Part; }"},
+    {"3:10 value-range: a tile is 1cm or more along each axis | such as wfc 2m", "wfc (2m, 0m, 2m) { a 1: Part; }"},
+    {"3:12 unit-mismatch: the weight of a tile is a ratio, and this is a length | divide it by a length to make a "
+     "ratio of it",
+     "wfc 2m { a 1m: Part; }"},
+    {"3:12 value-range: the weight of a tile is 0 to a million | such as `wall 3`", "wfc 2m { a -1: Part; }"},
+    {"3:15 unknown-name: nothing has `brick` to meet the left of `a` | did you mean `brik`?\n3:27 unknown-name: "
+     "nothing has `brik` to meet the right of `a` | did you mean `brick`?",
+     "wfc 2m { a 1, left brick, right brik: Part; }"},
+    {"3:17 unknown-name: no tile has `wood` on its left, as this border demands | give a tile that label there\n3:33 "
+     "unknown-name: nothing has `stone` to meet the left of `a` | give it to the right of a tile, or to the border",
+     "wfc 2m { border side wood; a 1, left stone, right wood: Part; }"},
+    {"3:17 unknown-name: no tile has `sky` on its top, as this border demands | give a tile that label there",
+     "wfc 2m { border top sky; a 1, side b, top c: Part; }"},
+    {"3:8 syntax: expected `;`, found `left`", "border left b;"},
 };
 
 const MessageCase kOpen[] = {
@@ -186,4 +254,32 @@ TEST_CASE("messages: parts of scopes", "[grammar][messages]") {
 
 TEST_CASE("messages: footprints, extrusions and roofs", "[grammar][messages]") { checkMessages(kProfiles, kInRule); }
 
+TEST_CASE("messages: tiles of lattices", "[grammar][messages]") { checkMessages(kTiles, kInScope); }
+
 TEST_CASE("messages: rooms of treemaps", "[grammar][messages]") { checkMessages(kRooms, kInScope); }
+
+TEST_CASE("messages: more tiles and labels than there may be", "[grammar][messages]") {
+  const auto diagnosed = [](int tiles, int labels) {
+    std::string text = kInScope.before + "wfc 2m {";
+    for (int i = 0; i < tiles; ++i) text += " t" + std::to_string(i) + " 1, side any: Part;";
+    text += " all 1, side any";
+    for (int i = 1; i < labels; ++i) text += " or l" + std::to_string(i);
+    return sgm::test::inWords(sgm::test::compileText(text + ": Part; }" + kInScope.after));
+  };
+  CHECK(diagnosed(63, 63).empty());
+  CHECK(diagnosed(64, 63) ==
+        "3:1 argument-count: a wfc has 1 to 64 tiles | such as `wall 3 turn, left brick, right brick: Wall;`");
+  std::string kinds = kInScope.before + "wfc 2m { border side l0 or l1;";
+  for (int i = 0; i < 65; ++i) {
+    const std::string one = "l" + std::to_string(i % 8), other = "l" + std::to_string(8 + i / 8);
+    if (i % 4 == 0) kinds += " t" + std::to_string(i) + " 1 turn";
+    kinds += std::string(", ") + std::array{"front", "right", "back", "left"}[static_cast<size_t>(i % 4)] + " " + one +
+             " or " + other;
+    if (i % 4 == 3 || i == 64) kinds += ": Part;";
+  }
+  CHECK(sgm::test::inWords(sgm::test::compileText(kinds + " }" + kInScope.after)) ==
+        "3:1 argument-count: a wfc has at most 64 kinds of sides: of labels and what they meet | give sides that meet "
+        "the same ones the same labels");
+  CHECK(diagnosed(1, 64) ==
+        "3:1 argument-count: the sides of a wfc have at most 63 labels | give sides that meet the same ones one label");
+}

@@ -179,6 +179,22 @@ const MessageCase kOverrides[] = {
      "override \"A/B[2]\" { }\nrule A { B; cut { at(1m, 0m, 0m) B; } } rule B { sphere(1m); }"},
     {"2:10 warning idle-override: `A` derives `B` once at most: `B[4]` never comes | the last is `B[0]`",
      "override \"A/B[4]/C\" { }\nrule A weight 1 { B; } rule A weight 2 { B; } rule B { C; } rule C { sphere(1m); }"},
+    {"2:10 warning idle-override: `A` derives `B` 3 times at most: `B[3]` never comes | the last is `B[2]`",
+     "override \"A/B[3]\" { }\n"
+     "rule A { size(2m, 2m, 2m) { split x { ~1m: B; 25%: B; } comp { front: B; } } } rule B { sphere(1m); }"},
+    {"2:10 warning idle-override: `A` derives `B` 8 times at most: `B[8]` never comes | the last is `B[7]`",
+     "override \"A/B[8]\" { }\n"
+     "rule A { size(2m, 2m, 2m) comp { side: split x { ~1m: B; } edges: B; } } rule B { sphere(1m); }"},
+    {"2:10 warning idle-override: `A` derives `B` once at most: `B[1]` never comes | the last is `B[0]`",
+     "override \"A/B[1]\" { }\nrule A { size(4m, 2m, 4m) treemap { a 4: B; } } rule B { sphere(1m); }"},
+    {"", "override \"A/B[9]\" { }\nrule A { size(2m, 2m, 2m) split x { { 1m: B; }* } } rule B { sphere(1m); }"},
+    {"",
+     "override \"A/B[9]\" { }\nrule A { size(2m, 2m, 2m) treemap { a 4: { } facade: B; } } rule B { sphere(1m); }"},
+    {"2:10 warning idle-override: `A` derives `B` once at most: `B[1]` never comes | the last is `B[0]`",
+     "override \"A/B[1]\" { }\noverride \"A\" { inner; sphere(2m); }\nrule A { B; } rule B { sphere(1m); }"},
+    {"",
+     "override \"A/B[1]\" { }\noverride tag \"t\" { inner; inner; }\n"
+     "rule A { { tag \"t\"; B; } } rule B { sphere(1m); }"},
     {"", "override \"A/B[3]\" { }\nrule A { repeat 3 at(1m, 0m, 0m) { B; } B; } rule B { sphere(1m); }"},
     {"", "override \"A/B[1]\" { }\noverride \"A\" { inner; inner; }\nrule A { B; } rule B { sphere(1m); }"},
     {"2:16 syntax: expected `]` in this path | such as \"net(0, 0, -1)/Node/Chamber[0]\", as messages print it",
@@ -224,6 +240,45 @@ const MessageCase kOverrides[] = {
      "override "
      "\"A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/A/"
      "A/A/A/A/A/A/A/A/A/A\" { }\nrule A { A; }"},
+};
+
+// What is right, and hardly meant.
+const MessageCase kIdle[] = {
+    {"2:7 warning unused-value: nothing uses the parameter `n` | it changes nothing: use it, or remove it",
+     "param n = 3 in 1..5;\nrule A { sphere(1m); }"},
+    {"2:5 warning unused-value: nothing uses the let `n` | use it, or remove it", "let n = 3;\nrule A { sphere(1m); }"},
+    {"2:7 warning unused-value: nothing uses the field `f` | use it, or remove it",
+     "field f = p.y;\nrule A { sphere(1m); }"},
+    {"2:26 warning unused-value: nothing uses the import `rock` | use it, or remove it",
+     "import \"std/rock.sgm\" as rock;\nrule A { sphere(1m); }"},
+    {"2:10 warning unused-value: nothing uses the let `b` | use it, or remove it",
+     "rule A { let b = 2m; let c = 1m; sphere(c); }\n"
+     "rule B(b) { sphere(b); } override \"A\" { inner; let b = 2m; B(b); }"},
+    {"", "param n = 3 in 1..5;\nlet a = n; let b = 2; rule A { let c = a; repeat c sphere(1m*b); }"},
+    {"", "import \"std/rock.sgm\" as rock;\nrule A { displace rock.fbm(period 5m, amp 0.1m) { sphere(1m); } }"},
+    {"3:16 warning idle-head: this head of `B` never comes: its guard never holds | whatever the parameters are, "
+     "within their ranges: mend the guard, or remove the head",
+     "param n = 3 in 1..5; rule A { B(n); B(4); }\nrule B(k) when k > 5 { sphere(1m); } rule B(k) else { box(1m); }"},
+    {"3:38 warning idle-head: this head of `B` never comes: another one's guard always holds | whatever the parameters "
+     "are, within their ranges: mend the guard, or remove the head",
+     "param n = 3 in 1..5; rule A { B(n); B(4); }\nrule B(k) when k > 0 { sphere(1m); } rule B(k) else { box(1m); }"},
+    {"", "param n = 3 in 1..5; rule A { B(n); }\nrule B(k) when k > 4 { sphere(1m); } rule B(k) else { box(1m); }"},
+    {"3:53 warning guards: this guard of `B` and an earlier one can hold together | one of their heads is drawn then: "
+     "let one exclude the other, or give both a `weight` if that is meant | note: the earlier one at test.sgm:3:16",
+     "param n = 3 in 1..5; rule A { B(n); }\n"
+     "rule B(k) when k > 2 { sphere(1m); } rule B(j) when 3 <= j { box(1m); } rule B(k) else { }"},
+    {"3:54 warning guards: this guard of `B` and an earlier one can hold together | one of their heads is drawn then: "
+     "let one exclude the other, or give both a `weight` if that is meant | note: the earlier one at test.sgm:3:13",
+     "rule A { size(3m, 3m, 3m) B; size(1m, 1m, 1m) B; }\n"
+     "rule B when scope.x < 2m { sphere(1m); } rule B when scope.x > 150cm { box(1m); }"},
+    {"",
+     "param n = 3 in 1..5; rule A { B(n); }\nrule B(k) when k > 3 { sphere(1m); } rule B(k) when k <= 3 { box(1m); }"},
+    {"",
+     "param n = 3 in 1..5; rule A { B(n, n); }\n"
+     "rule B(k, j) when k > 3 { sphere(1m); } rule B(k, j) when j <= 3 { box(1m); }"},
+    {"",
+     "param n = 3 in 1..5; rule A { B(n); }\n"
+     "rule B(k) when k > 3 weight 1 { sphere(1m); } rule B(k) when k > 2 weight 2 { box(1m); }"},
 };
 
 const MessageCase kWholes[] = {
@@ -275,6 +330,10 @@ TEST_CASE("messages: what a cell of a layer may hold", "[grammar][messages]") {
 
 TEST_CASE("messages: overrides", "[grammar][messages]") {
   checkMessages(kOverrides, {"sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\n", ""});
+}
+
+TEST_CASE("messages: what is hardly meant", "[grammar][messages]") {
+  checkMessages(kIdle, {"sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\n", ""});
 }
 
 TEST_CASE("messages: grammars as a whole", "[grammar][messages]") { checkMessages(kWholes); }

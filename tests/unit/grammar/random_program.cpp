@@ -87,7 +87,7 @@ class Writer {
       out_ += "sphere(r);";
       return;
     }
-    switch (draw(21)) {
+    switch (draw(22)) {
       case 0:
         out_ += "sphere(" + length(0) + ");";
         return;
@@ -170,6 +170,18 @@ class Writer {
         out_ += " }";
         return;
       case 19:
+        out_ += std::string("wfc ") + pick({"2m", "( r,2m, size_ )", "(0.5*r)"}) + "{ ";
+        out_ += pick({"", "border side sky , top air or sky;", "border bottom ground ;"});
+        out_ += pick(
+            {"wall 2*3 turn,left brick ,right brick: ",
+             "wall 1 , left plug  meets hole or brick, right hole meets plug: ", "wall (1+2), side sky or  brick : "});
+        body(depth + 1);
+        blank();
+        out_ +=
+            pick({"", "grass count: { } ", "gate 1, side brick or sky, bottom ground, top air or ground:{ box(1m); }"});
+        out_ += " }";
+        return;
+      case 20:
         out_ += "{ footprint " +
                 std::string(pick({"merge 3 rect(2m, r)", "merge count regular(5, r)", "rect(1m, z r)",
                                   "polygon((0, 0m), (r, 0m), (1m, 2m))"})) +

@@ -97,6 +97,8 @@ TEST_CASE("layout is canonical", "[grammar][round]") {
         "sgm 1;\nstart A;\n\nrule A(r = 2, s) { sphere(r*(s)); box(1m, 2m, 3m); }\n");
   CHECK(formatted("sgm 1; rule A {\nat(1m,0,0) rot(y,3deg) { sphere(1m);\n} }") ==
         "sgm 1;\nrule A {\n  at(1m, 0, 0) rot(y, 3deg) {\n    sphere(1m);\n  }\n}\n");
+  CHECK(formatted("sgm 1; rule A { at(y -2m, z = -1m) at(0m, y - 2m) box(1m); size(y = (1m)) box(scope); }") ==
+        "sgm 1;\nrule A { at(y -2m, z -1m) at(0m, y - 2m) box(1m); size(y = (1m)) box(scope); }\n");
   CHECK(formatted("sgm 1; rule A { halfspace(below -2m); f(a = -2, b = (1)); }") ==
         "sgm 1;\nrule A { halfspace(below -2m); f(a = -2, b = (1)); }\n");
   CHECK(formatted("sgm 1; let a = not (b < c) and (d or e) ; let f = -(-a)*(b/(c/d)) - (e - f);") ==

@@ -149,6 +149,33 @@ TEST_CASE("Mueller: balconies stand where they are drawn, and only there", "[tab
   CHECK(sides.size() == 4);
 }
 
+TEST_CASE("Mueller: windows open where no neighbour stands, and nowhere else", "[table4]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  size_t open = 0, walled = 0;
+  for (unsigned round = 0; round < rounds(4); ++round) {
+    const WorldField world{settingsOf(sample("terrace.sgm"), 128, random()), std::pmr::get_default_resource()};
+    for (const RuleInstance& light : usesOf(world, "Light")) {
+      const double x = metres(light.origin.x), y = metres(light.origin.y), z = metres(light.origin.z);
+      CAPTURE(round, light.path, x, y, z);
+      // Tall houses stand in the right half of a cell.
+      const double side = x - 24 * std::floor(x / 24) < 18 ? -1 : 1;
+      const bool opens = !solidAt(world, x - 0.3 * side, y, z);
+      const bool beside = solidAt(world, x + 0.3 * side, y, z);
+      CHECK(!(opens && beside));
+      // What shuts a window lies within a metre and its tenth.
+      bool near = opens || beside;
+      for (int i = 0; i < 6 * 13 * 13 && !near; ++i)
+        near = solidAt(world, x + 0.2 * side * (i % 6 + 0.1), y + 0.18 * (i / 6 % 13 - 6), z + 0.18 * (i / 78 - 6));
+      CHECK(near);
+      ++(opens ? open : walled);
+    }
+  }
+  CHECK(open > 20);
+  CHECK(walled > 20);
+}
+
 TEST_CASE("Mueller: solids that fill the parts of a scope are one body, where samples lie in their faces as well",
           "[table4]") {
   const unsigned seed = std::random_device()();

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# sgm lsp: what a client of VS Code's library asks (lsp_client.js), colours (highlighting.js), and bytes that are no
+# messages.
+source "$(dirname "$0")/common.sh"
+here=$SOURCE/tests/cli tools=$3
+
+expect 0 node "$here/lsp_client.js" "$tools" "$SGM" "$SOURCE"
+[[ $status != 77 ]] || exit 77
+out_has 'all passed'
+expect 0 node "$here/highlighting.js" "$tools" "$SOURCE"
+
+# lsp MESSAGE...: each framed, to the server.
+message() { printf 'Content-Length: %d\r\n\r\n%s' "${#1}" "$1"; }
+lsp() { for one in "$@"; do message "$one"; done | "$SGM" lsp; }
+hello='{"jsonrpc":"2.0","id":1,"method":"initialize","params":{}}'
+bye='{"jsonrpc":"2.0","id":2,"method":"shutdown"}'
+leave='{"jsonrpc":"2.0","method":"exit"}'
+
+run lsp "$hello" "$bye" "$leave"
+[[ $status == 0 ]] || failed 'a whole talk ends well'
+out_has '"id":1' && out_has '"id":2,"jsonrpc":"2.0","result":null'
+run lsp "$hello" "$leave"
+[[ $status == 1 ]] || failed 'an exit without shutdown is status 1'
+run lsp '{"jsonrpc":' "$hello" "$bye" "$leave"
+[[ $status == 0 ]] || failed 'what is no JSON ends nothing'
+out_has '"code":-32700' && out_has '"id":1'
+run lsp '[1,2]' '{"id":{}}' '{"method":7}' '{"id":5,"result":{}}' "$hello" '{"id":"x","method":"textDocument/hover","params":[]}' "$bye" "$leave"
+[[ $status == 0 && $(grep -o -- '-32600' <<<"$out" | wc -l) == 3 ]] || failed 'messages that are none are refused'
+out_has '"code":-32602'
+{ printf 'Content-Type: x\r\ncontent-length: %d\r\n\r\n%s' "${#hello}" "$hello"; message "$bye"; message "$leave"; } >talk
+run bash -c '"$1" lsp <talk' - "$SGM"
+[[ $status == 0 ]] || failed 'headers are in any case and order'
+{ printf 'Content-Length: 99999999999\r\n\r\n'; head -c 1000 /dev/zero; } >talk
+run bash -c '"$1" lsp <talk' - "$SGM"
+[[ $status == 1 ]] || failed 'a message that is too large'
+out_has 'a message has 1 to'
+printf 'GET / HTTP/1.1\r\n\r\n' >talk
+run bash -c '"$1" lsp <talk' - "$SGM"
+[[ $status == 1 ]] || failed 'another protocol'
+err_has 'no message of the Language Server Protocol'
+one_line
+finish

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# The manual of the language, samples/grammars/README.md: its examples are right, in the one layout, and keep what they
+# expect; each has a picture of just this text; every word, shape and function stands in one; its grammar is the parser's.
+source "$(dirname "$0")/common.sh"
+manual=$SOURCE/samples/grammars/README.md
+
+bash "$SOURCE/samples/manual.sh" extract examples || failed 'the examples cannot be taken out'
+count=0
+for file in examples/*.sgm; do
+  count=$((count + 1))
+  expect 0 "$SGM" fmt --check "$file"
+  expect 0 "$SGM" check --expect --max-chunks 1000000 "$file"
+  ! grep -qE 'warning|error|note' <<<"$err" || failed "$file is not without a word"
+  name=$(basename "$file" .sgm)
+  grep -qx "!\[$name\](../images/manual/$name.png)" "$manual" || failed "$name has no picture in the manual"
+done
+((count >= 30)) || failed "only $count examples"
+run bash "$SOURCE/samples/manual.sh" changed
+[[ $status == 0 ]] || failed 'pictures are of other texts: samples/manual.sh draw SGM draws them'
+
+# A text that changes wants another picture.
+mkdir -p copy/samples && cp -r "$SOURCE/samples/grammars" "$SOURCE/samples/manual.sh" "$SOURCE/samples/images" copy/samples/ 2>/dev/null
+sed -i 's/^  cylinder(1m, 2m);/  cylinder(1m, 3m);/' copy/samples/grammars/README.md
+run bash copy/samples/manual.sh changed
+[[ $status == 1 && $out == first ]] || failed 'a changed example is not seen'
+
+words() { sed -n "/ $1 = {/,/};/p" "$SOURCE/runtime/grammar/keywords.cpp" | grep -o '"[a-z]*"' | tr -d '"'; }
+names() { grep -o "{\"[a-z0-9]*\", $1::" "$SOURCE/runtime/grammar/builtins.cpp" | grep -o '"[a-z0-9]*"' | tr -d '"' | sort -u; }
+text=$(sed 's#//.*##' examples/*.sgm)
+for word in $(words kKeywords) $(words kMeasures) $(words kBoxParts) $(names Primitive) $(names Builtin); do
+  grep -qw "$word" <<<"$text" || failed "no example has the word $word"
+done
+# Units and ends of words that only tables have are no words of an example.
+for word in $(words kClauseWords); do
+  grep -qE "(^|[^a-z])$word([^a-z]|$)" "$manual" || failed "the manual has not the word $word"
+done
+for part in "$SOURCE"/runtime/grammar/std/*.sgm; do
+  module=$(basename "$part" .sgm)
+  for name in $(sed -n 's#^// Example: .*[ ({]'"$module"'\.\([A-Za-z]*\).*#\1#p' "$part" | sort -u); do
+    grep -q "$module\.$name" <<<"$text" || failed "no example has $module.$name"
+  done
+done
+sed -n '/^```ebnf$/,/^```$/p' "$manual" | sed '1d;$d' | cmp -s - "$SOURCE/runtime/grammar/grammar.ebnf" ||
+  failed 'the grammar in the manual is not runtime/grammar/grammar.ebnf'
+finish

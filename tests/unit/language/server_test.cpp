@@ -1,0 +1,129 @@
+// The language server with messages of every kind, right and wrong: each request has one answer, and nothing ends it.
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "catch.h"
+#include "cli/lsp_server.h"
+#include "rounds.h"
+
+using namespace sgm::cli;
+using Json = nlohmann::json;
+
+namespace {
+
+std::vector<std::string> sampleTexts() {
+  std::vector<std::string> texts;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(SGM_SAMPLE_GRAMMARS)) {
+    if (entry.path().extension() != ".sgm") continue;
+    std::stringstream text;
+    text << std::ifstream(entry.path()).rdbuf();
+    texts.push_back(text.str());
+  }
+  return texts;
+}
+
+Json request(int id, const std::string& method, Json params = Json::object()) {
+  return {{"jsonrpc", "2.0"}, {"id", id}, {"method", method}, {"params", std::move(params)}};
+}
+
+/// Any value with the shape of JSON.
+Json anything(std::mt19937& random, int depth = 0) {
+  switch (random() % (depth < 3 ? 7u : 5u)) {
+    case 0:
+      return nullptr;
+    case 1:
+      return static_cast<int>(random() % 2000) - 1000;
+    case 2:
+      return random() % 2 == 0;
+    case 3:
+      return "file:///tmp/a.sgm";
+    case 4:
+      return 0.5;
+    case 5:
+      return Json::array({anything(random, depth + 1)});
+    default:
+      return {
+          {std::array{"textDocument", "position", "uri", "line", "character", "contentChanges", "text"}[random() % 7],
+           anything(random, depth + 1)}};
+  }
+}
+
+constexpr std::array kMethods = {"textDocument/completion",     "textDocument/hover",      "textDocument/definition",
+                                 "textDocument/documentSymbol", "textDocument/formatting", "sgm/standardText"};
+
+}  // namespace
+
+TEST_CASE("each request has one answer, and diagnostics lie in their text, whatever is sent") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const std::vector<std::string> texts = sampleTexts();
+  LanguageServer server;
+  REQUIRE(server.handle(request(0, "initialize")).size() == 1);
+  const std::string uri = "file:///tmp/a.sgm";
+  int id = 0;
+  size_t answered = 0, refused = 0;
+  for (unsigned round = 0; round < sgm::rounds(60); ++round) {
+    std::string text = texts[random() % texts.size()];
+    for (unsigned edits = static_cast<unsigned>(random() % 3); edits > 0; --edits)
+      text.insert(random() % text.size(), 1, "{}()\";/.\n\xC3x"[random() % 11]);
+    if (random() % 3 == 0) text.resize(random() % text.size());
+    const DocumentText document(text);
+    const std::string method = round == 0 ? "textDocument/didOpen" : "textDocument/didChange";
+    const auto published = server.handle(
+        {{"jsonrpc", "2.0"},
+         {"method", method},
+         {"params",
+          {{"textDocument", {{"uri", uri}, {"text", text}}}, {"contentChanges", Json::array({{{"text", text}}})}}}});
+    REQUIRE_FALSE(published.empty());
+    for (const Json& message : published) {
+      if (message["params"]["uri"] != uri) continue;
+      for (const Json& diagnostic : message["params"]["diagnostics"])
+        for (const char* end : {"start", "end"}) {
+          const TextPosition place{diagnostic["range"][end]["line"], diagnostic["range"][end]["character"]};
+          const TextPosition back = document.position(document.offset(place));
+          CHECK((back.line == place.line && back.character == place.character));
+        }
+    }
+    for (int k = 0; k < 20; ++k) {
+      Json params{{"textDocument", {{"uri", uri}}},
+                  {"position", {{"line", random() % 60}, {"character", random() % 120}}},
+                  {"uri", "sgm-std:/rock.sgm"}};
+      if (random() % 4 == 0) params = anything(random);
+      const auto answers = server.handle(request(++id, kMethods[random() % kMethods.size()], params));
+      REQUIRE(answers.size() == 1);
+      CHECK(answers[0]["id"] == id);
+      CHECK(answers[0].contains("result") != answers[0].contains("error"));
+      (answers[0].contains("result") ? answered : refused) += 1;
+    }
+    CHECK(server.handle(anything(random)).size() <= 1);
+  }
+  CHECK(answered > 0);
+  CHECK(refused > 0);
+  CHECK_FALSE(server.ended());
+}
+
+TEST_CASE("places of a text go to lines and UTF-16 units and back") {
+  const DocumentText text("a\xC3\xA4\xF0\x9F\x98\x80z\n\nend");
+  CHECK(text.position(0).character == 0);
+  CHECK(text.position(3).character == 2);
+  CHECK(text.position(7).character == 4);
+  CHECK(text.offset({0, 4}) == 7);
+  CHECK(text.offset({0, 99}) == 8);
+  CHECK(text.offset({1, 5}) == 9);
+  CHECK(text.offset({2, 1}) == 11);
+  CHECK(text.offset({9, 0}) == text.text().size());
+  CHECK(text.offsetOf(3, 2) == 11);
+  for (uint32_t offset : {0u, 1u, 3u, 7u, 8u, 9u, 10u, 12u}) CHECK(text.offset(text.position(offset)) == offset);
+}
+
+TEST_CASE("paths go to URIs and back") {
+  for (const char* path : {"/a/b.sgm", "/a b/\xC3\xA4#?%.sgm", "/"}) CHECK(pathOfUri(uriOfPath(path)) == path);
+  CHECK(uriOfPath("/a b.sgm") == "file:///a%20b.sgm");
+  CHECK(pathOfUri("file://localhost/a%2Fb") == "/a/b");
+  CHECK(pathOfUri("untitled:1").empty());
+}

@@ -1,0 +1,122 @@
+// Coarse levels derive only what they show of a cell: nobody can tell from their meshes.
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <random>
+
+#include "catch.h"
+#include "derive/derive.h"
+#include "derive/random_rules.h"
+#include "field/compile.h"
+#include "rounds.h"
+#include "stream/layers_below.h"
+#include "stream/mesh_chunks.h"
+#include "world_support.h"
+
+using namespace sgm;
+
+namespace {
+
+constexpr int32_t kFinest = 128;
+
+/// A chunk's program from whole cells, derived anew.
+FieldProgram fromWholeCells(const WorldField& world, const IntBox& box, int level) {
+  const WorldFieldSettings& s = world.settings();
+  const int32_t cell_edge = world.cellAt(level);
+  std::vector<std::unique_ptr<GrammarChunk>> chunks;
+  std::vector<std::unique_ptr<GroupIndex>> indices;
+  std::vector<IndexedCell> cells;
+  const Result<void> visited =
+      world.cellsAround(0, box.grown(influenceMargin(cell_edge)), [&](Int3 at) -> Result<void> {
+        const LayersBelow none(world, box);
+        Result<GrammarChunk> chunk = deriveCell(*s.program, s.parameters, s.seed, 0, at, none);
+        if (!chunk) return chunk.error();
+        chunks.push_back(std::make_unique<GrammarChunk>(std::move(*chunk)));
+        indices.push_back(std::make_unique<GroupIndex>(*chunks.back()));
+        cells.push_back({chunks.back().get(), indices.back().get()});
+        return {};
+      });
+  REQUIRE(visited);
+  const Domain& domain = s.program->domain;
+  Result<FieldProgram> program =
+      compileField(cells, box, {s.finest_cell, cell_edge, domain.solid, makeLabel(domain.material, 0), nullptr});
+  REQUIRE(program);
+  return *std::move(program);
+}
+
+/// The rules with `detail` before many of their shapes: in blends, meets, sums and cuts.
+std::string withDetails(const std::string& text, std::mt19937& random) {
+  std::string out;
+  for (size_t at = 0; at < text.size(); ++at) {
+    for (const char* shape : {"{ sphere(", "{ box(", "{ capsule(", "{ ellipsoid(", "; sphere(", "; box("}) {
+      if (text.compare(at, std::strlen(shape), shape) != 0 || random() % 2 == 0) continue;
+      out += text.substr(at, 2) + std::array{"detail 30cm ", "detail 1m ", "detail 4m "}[random() % 3];
+      at += 2;
+      break;
+    }
+    out += text[at];
+  }
+  return out;
+}
+
+bool sameMesh(const ChunkMesh& a, const ChunkMesh& b) {
+  return a.body.hash == b.body.hash && a.solid_samples == b.solid_samples && a.signs == b.signs &&
+         a.body.indices == b.body.indices;
+}
+
+}  // namespace
+
+TEST_CASE("chunks of coarse levels are those of whole cells, in whatever order levels are asked for") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto jobs = *makeThreadPool(1);
+  const auto backend = *makeBackend({}, *jobs, std::pmr::get_default_resource());
+  size_t surfaces = 0, smaller = 0;
+  // Few random grammars have something that a far level leaves out: it goes on until one had.
+  for (unsigned round = 0; round < rounds(120) || (smaller == 0 && round < 1000); ++round) {
+    const auto rules = static_cast<uint32_t>(random());
+    RandomRules made(rules);
+    std::string text = withDetails(made.program(false), random);
+    if (round % 3 == 0) text += made.edits();
+    const CompileResult compiled = compileGrammar(text, "test.sgm");
+    if (!compiled.program) continue;
+    CAPTURE(round, text);
+    const WorldField world(settingsOf(text, kFinest, rules), std::pmr::get_default_resource());
+    std::vector<int> levels{0, 1, 2, 3, 4, 5, 6};
+    std::shuffle(levels.begin(), levels.end(), random);
+    for (const int level : levels) {
+      const ChunkKey key{level, {static_cast<int32_t>(random() % 2) - 1, 0, static_cast<int32_t>(random() % 2) - 1}};
+      const ChunkGrid grid = *chunkGrid(world, key);
+      const IntBox box = chunkBox(grid);
+      const auto whole = std::make_shared<const FieldProgram>(fromWholeCells(world, box, level));
+      const auto coarse = *world.compile(box, level);
+      smaller += coarse->instrs.size() < whole->instrs.size();
+      std::vector<ChunkJob> pair(2);
+      for (ChunkJob& job : pair) job.grid = grid, job.signs = true;
+      pair[0].field = whole, pair[1].field = coarse;
+      const auto batch = *backend->submit(std::move(pair), {});
+      batch->wait();
+      const std::vector<ChunkMesh> meshes = *batch->take();
+      CAPTURE(level);
+      CHECK(sameMesh(meshes[0], meshes[1]));
+      surfaces += !meshes[0].body.indices.empty();
+    }
+  }
+  CHECK(smaller > 0);
+  CHECK(surfaces > 0);
+}
+
+TEST_CASE("of a city block far levels derive and keep a fraction") {
+  const WorldFieldSettings s = settingsOf(sample("city.sgm"), 512);
+  const WorldField world(s, std::pmr::get_default_resource());
+  const LayersBelow none(world, {{0, 0, 0}, {1, 1, 1}});
+  size_t whole = 0, far = 0;
+  for (int32_t x = 0; x < 4; ++x) {
+    whole += deriveCell(*s.program, s.parameters, s.seed, 1, {x, 0, 0}, none)->shapes.size();
+    far += deriveCoarseCell(*s.program, s.parameters, s.seed, 1, {x, 0, 0}, 16 * 1024, none)->shapes.size();
+  }
+  CHECK(far > 0);
+  CHECK(far * 20 < whole);
+}

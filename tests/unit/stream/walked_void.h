@@ -1,0 +1,88 @@
+#pragma once
+// Where someone can walk, asked of the field itself: a flood of the void by a box, sample by sample.
+
+#include <vector>
+
+#include "field/evaluate.h"
+#include "world_support.h"
+
+namespace sgm {
+
+/// Samples `step` units apart in a box; a walker of some of them a side, who fits where none is solid.
+class WalkedVoid {
+ public:
+  /// Walks from the lowest corner, which lies outside of what is asked about. size, walker: samples along each axis.
+  WalkedVoid(const WorldField& world, Int3 low, Int3 size, int32_t step, Int3 walker)
+      : low_(low), size_(size), step_(step), walker_(walker) {
+    std::vector<bool> closed = solidIn(world);
+    for (const auto& [stride, count, wide] : {std::tuple{1, size.x, walker.x}, std::tuple{size.x, size.y, walker.y},
+                                              std::tuple{size.x * size.y, size.z, walker.z}})
+      closed = widened(closed, stride, count, wide);
+    flood(closed);
+  }
+
+  /// Whether a walker whose middle is there, to half a sample, has come from outside.
+  bool reaches(Int3 p) const {
+    const auto first = [&](int32_t at, int32_t low, int32_t wide) {
+      return (2 * (at - low) + step_ - (wide - 1) * step_) / (2 * step_);
+    };
+    return walked_[index(first(p.x, low_.x, walker_.x), first(p.y, low_.y, walker_.y), first(p.z, low_.z, walker_.z))];
+  }
+
+ private:
+  size_t index(int32_t x, int32_t y, int32_t z) const { return static_cast<size_t>(x + size_.x * (y + size_.y * z)); }
+
+  std::vector<bool> solidIn(const WorldField& world) const {
+    const auto program =
+        world.compile({low_, {low_.x + size_.x * step_, low_.y + size_.y * step_, low_.z + size_.z * step_}}, 0);
+    REQUIRE(program);
+    EvalScratch scratch;
+    std::vector<int32_t> x, y, z;
+    for (int32_t k = 0; k < size_.z; ++k)
+      for (int32_t j = 0; j < size_.y; ++j)
+        for (int32_t i = 0; i < size_.x; ++i) {
+          x.push_back(low_.x + i * step_);
+          y.push_back(low_.y + j * step_);
+          z.push_back(low_.z + k * step_);
+        }
+    std::vector<int32_t> q(x.size());
+    scalarKernels().samples((*program)->view(), {x.data(), y.data(), z.data(), x.size()}, scratch, q.data());
+    std::vector<bool> solid(q.size());
+    for (size_t i = 0; i < q.size(); ++i) solid[i] = q[i] < 0;
+    return solid;
+  }
+
+  /// Closed where one of `wide` samples from there on is; as is what passes the box.
+  static std::vector<bool> widened(const std::vector<bool>& closed, int32_t stride, int32_t count, int32_t wide) {
+    std::vector<bool> out(closed.size());
+    for (int32_t i = 0; i < static_cast<int32_t>(closed.size()); ++i) {
+      bool any = i / stride % count + wide > count;
+      for (int32_t k = 0; k < wide && !any; ++k) any = closed[static_cast<size_t>(i + k * stride)];
+      out[static_cast<size_t>(i)] = any;
+    }
+    return out;
+  }
+
+  void flood(const std::vector<bool>& closed) {
+    walked_.assign(closed.size(), false);
+    std::vector<int32_t> open{0};
+    while (!open.empty()) {
+      const int32_t i = open.back();
+      open.pop_back();
+      if (walked_[static_cast<size_t>(i)] || closed[static_cast<size_t>(i)]) continue;
+      walked_[static_cast<size_t>(i)] = true;
+      for (const auto& [stride, count] :
+           {std::pair{1, size_.x}, std::pair{size_.x, size_.y}, std::pair{size_.x * size_.y, size_.z}}) {
+        if (i / stride % count > 0) open.push_back(i - stride);
+        if (i / stride % count + 1 < count) open.push_back(i + stride);
+      }
+    }
+  }
+
+  Int3 low_, size_;
+  int32_t step_;
+  Int3 walker_;
+  std::vector<bool> walked_;  ///< by the walker's lowest sample
+};
+
+}  // namespace sgm
