@@ -83,9 +83,9 @@ struct SeamVertices {
     at[u] = edge.a * step * kSubcell + (lateral || edge.along_v ? 0 : t * step);
     at[v] = edge.b * step * kSubcell + (lateral || !edge.along_v ? 0 : t * step);
     Vertex vertex{};
-    vertex.x = static_cast<uint16_t>(at[0]);
-    vertex.y = static_cast<uint16_t>(at[1]);
-    vertex.z = static_cast<uint16_t>(at[2]);
+    vertex.x = static_cast<int16_t>(at[0]);
+    vertex.y = static_cast<int16_t>(at[1]);
+    vertex.z = static_cast<int16_t>(at[2]);
     vertex.kind = step == 1 ? kOwnEdge : lateral ? kLateralEdge : kCoarserEdge;
     return vertex;
   }

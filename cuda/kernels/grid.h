@@ -85,7 +85,8 @@ struct PartSum {
     b += h * (2 * place + 1);
   }
   SGM_KERNEL void add(const Vertex& v, uint32_t number) {
-    const uint32_t words[4] = {v.x | uint32_t{v.y} << 16, v.z | uint32_t{v.material} << 16,
+    const uint32_t words[4] = {static_cast<uint16_t>(v.x) | uint32_t{static_cast<uint16_t>(v.y)} << 16,
+                               static_cast<uint16_t>(v.z) | uint32_t{v.material} << 16,
                                static_cast<uint16_t>(v.normal_x) | uint32_t{static_cast<uint16_t>(v.normal_y)} << 16,
                                v.tag | uint32_t{v.kind} << 16};
     for (uint32_t w = 0; w < 4; ++w) add(words[w], 4 * number + w);

@@ -22,10 +22,7 @@ sgm_result checkRequests(const sgm_chunks_desc& desc, sgm_error* error) {
   if (desc.requests == nullptr) return nullArgument(error, "desc.requests");
   if (desc.count == 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.count is 0");
   if (desc.count > kMostChunks) return fail(error, SGM_ERR_LIMIT, "desc.count is above 2^20");
-  if ((desc.flags & SGM_MESHING_SHARP) != 0)
-    return fail(error, SGM_ERR_INVALID_ARGUMENT,
-                "chunks have no sharp features: leave SGM_MESHING_SHARP out, or mesh with sgm_surface_from_region");
-  if ((desc.flags & ~static_cast<uint32_t>(SGM_MESHING_TEXTURE)) != 0)
+  if ((desc.flags & ~static_cast<uint32_t>(SGM_MESHING_TEXTURE | SGM_MESHING_SHARP)) != 0)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_meshing_flag");
   if (desc.reserved != 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.reserved must be 0");
   return SGM_OK;
@@ -90,6 +87,7 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
       const auto seams = static_cast<uint8_t>(request.seams);
       const sgm::Neighbourhood coarser = request.coarser != 0 ? request.coarser : sgm::neighboursAcross(seams);
       requests.push_back({keyOf(request.key), seams, coarser, false, true});
+      requests.back().sharp = (desc->flags & SGM_MESHING_SHARP) != 0;
     }
     sgm::Progress progress;
     if (desc->progress != nullptr)

@@ -3,9 +3,9 @@
 #include "api/barrier.h"
 #include "api/field.h"
 #include "api/region_mesh.h"
-#include "api/region_sharp.h"
 #include "api/region_texture.h"
 #include "api/surface.h"
+#include "mesh/split_creases.h"
 #include "mesh/vertex.h"
 #include "stream/surface_shapes.h"
 
@@ -63,17 +63,13 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
       progress = [desc](uint64_t done, uint64_t total) {
         return desc->progress(desc->progress_user, done, total) == 0;
       };
+    const bool sharp = (desc->flags & SGM_MESHING_SHARP) != 0;
     const sgm::ProfileScope scope(field->runtime.profiler, sgm::zone::kRegion);
     sgm::Result<RegionMesh> region =
         meshRegion(field->content->world, *field->content->backend, *field->runtime.jobs, box, desc->level,
-                   desc->max_chunks != 0 ? desc->max_chunks : kDefaultMostChunks, progress);
+                   desc->max_chunks != 0 ? desc->max_chunks : kDefaultMostChunks, sharp, progress);
     if (!region) return fail(error, region.error());
-    if ((desc->flags & SGM_MESHING_SHARP) != 0) {
-      const sgm::Result<sgm::WorldMesh> sharp =
-          sharpenRegion(field->content->world, *field->runtime.jobs, region->mesh, desc->level);
-      if (!sharp) return fail(error, sharp.error());
-      region->mesh = sgm::splitCreases(*sharp, field->content->world.memory());
-    }
+    if (sharp) region->mesh = sgm::splitCreases(region->mesh, field->content->world.memory());
     struct End {
       void operator()(sgm_surface* surface) const { sgm_surface_destroy(surface); }
     };

@@ -17,12 +17,15 @@ Int3 originFor(const IntBox& extent) {
 }  // namespace
 
 Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
-                              int level, uint64_t max_chunks, const Progress& progress) {
+                              int level, uint64_t max_chunks, bool sharp, const Progress& progress) {
   const Result<std::pmr::vector<ChunkKey>> keys = chunksOfRegion(world, region, level, max_chunks);
   if (!keys) return keys.error();
   std::pmr::vector<ChunkRequest> requests(world.memory());
   requests.reserve(keys->size());
-  for (const ChunkKey& key : *keys) requests.push_back({key, 0, Neighbourhood{}});
+  for (const ChunkKey& key : *keys) {
+    requests.push_back({key, 0, Neighbourhood{}});
+    requests.back().sharp = sharp;
+  }
   const Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, requests, progress);
   if (!chunks) return chunks.error();
 

@@ -18,8 +18,9 @@ struct RegionMesh {
 
 /// Meshes lo <= p < hi, grown outward to whole chunks. Positions count from the world's origin where the extent lies
 /// within 4,096 m of it (float32 then keeps them to 1/4,096 m or better), else from the extent's lowest corner.
-/// Errors: range where the extent leaves the world; limit; those of meshChunks and weld.
+/// sharp: with sharp features, each once (mesh/split_creases.h makes what is drawn). Errors: range where the extent
+/// leaves the world; limit; those of meshChunks and weld.
 Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
-                              int level, uint64_t max_chunks, const Progress& progress = {});
+                              int level, uint64_t max_chunks, bool sharp, const Progress& progress = {});
 
 }  // namespace sgm::api

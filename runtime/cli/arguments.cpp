@@ -144,7 +144,9 @@ void addRegionOptions(CLI::App& app, WorldOptions& options) {
       ->type_name("BOX")
       ->check(checkRegion);
   CLI::Option* cell =
-      app.add_option("--cell", options.cell, "Edge of a sampling cell in metres (0.5; larger where a large part of an endless world is chosen)")->type_name("METRES");
+      app.add_option("--cell", options.cell,
+                     "Edge of a sampling cell in metres (0.5; larger where a large part of an endless world is chosen)")
+          ->type_name("METRES");
   app.add_option("--ld", options.density, "Sampling density of the paper: cells per metre, so a cell edge of 1/N m")
       ->type_name("N")
       ->excludes(cell);
@@ -189,10 +191,7 @@ Command addExplain(CLI::App& root) {
   CLI::App* app = root.add_subcommand("explain", "Say which rules have made a place solid, or left it open");
   const auto options = std::make_shared<ExplainOptions>();
   addWorldOptions(*app, *options);
-  app->add_option("--at", options->at, "The place in metres, x,y,z")
-      ->type_name("POINT")
-      ->required()
-      ->check(checkPoint);
+  app->add_option("--at", options->at, "The place in metres, x,y,z")->type_name("POINT")->required()->check(checkPoint);
   app->add_option("--cell", options->cell, "Edge of a sampling cell in metres (0.5): `detail` below it is left out")
       ->type_name("METRES");
   app->footer(
@@ -209,7 +208,6 @@ Command addLsp(CLI::App& root) {
   return [] { return serveLanguage(); };
 }
 
-/// Of commands that mesh one region as a whole.
 void addSharpOption(CLI::App& app, WorldOptions& options) {
   app.add_flag("--sharp", options.sharp,
                "Crisp edges and corners, which cells of a plain mesh cut off; smooth surfaces stay as they are");
@@ -304,6 +302,7 @@ Command addFly(CLI::App& root) {
       "Status 1 where one is not closed");
   app->add_flag("--unpaced", options->unpaced,
                 "As soon as there is something new to draw, instead of 60 frames a second");
+  addSharpOption(*app, *options);
   CLI::Option* compare =
       app->add_flag("--compare", options->compare, "Fly a second time with level 0 by distance alone, to compare");
   app->add_option("--top-level", options->top_level, "Coarsest level of detail")

@@ -50,7 +50,7 @@ struct PictureMesh {
     const double unit = static_cast<double>(mesh.cell_units) / kSubcell;
     for (uint32_t i = 0; i < range.vertex_count; ++i) {
       const sgm_vertex v = packedAt(mesh.vertices, mesh.vertex_stride, range.first_vertex + i);
-      const std::array<uint16_t, 3> local{v.x, v.y, v.z};
+      const std::array<int16_t, 3> local{v.x, v.y, v.z};
       const std::array<double, 3> normal = unpackNormal(v.normal_x, v.normal_y);
       RenderVertex vertex;
       for (int axis = 0; axis < 3; ++axis) {

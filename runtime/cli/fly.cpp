@@ -110,7 +110,8 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   if (!options.journal.empty()) world_desc.journal = options.journal.c_str();
   // A flight to compare with meshes for itself.
   if (!options.cache.empty() && !by_distance) world_desc.cache_folder = options.cache.c_str();
-  if (by_distance) world_desc.flags = SGM_WORLD_BY_DISTANCE;
+  if (by_distance) world_desc.flags |= SGM_WORLD_BY_DISTANCE;
+  if (options.sharp) world_desc.flags |= SGM_WORLD_SHARP;
   sgm_world* world = nullptr;
   if (sgm_world_create(field, &world_desc, &world, &error) != SGM_OK) return complain(error);
   scene.world.reset(world);

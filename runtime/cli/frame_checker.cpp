@@ -13,10 +13,36 @@ constexpr int kChunkEdge = kChunkCells * kSubcell;
 
 ChunkKey keyOf(const sgm_chunk_key& key) { return {key.level, {key.x, key.y, key.z}}; }
 
-/// Whether no other chunk can have the vertex: no face of the chunk holds it.
+bool isFeature(const VertexPlace& v) { return (v.kind & SGM_VERTEX_FEATURE) != 0; }
+
+/// Whether no other chunk can have the vertex: no face of the chunk holds it. Features may lie off theirs.
 bool isInside(const VertexPlace& v) {
-  const auto inner = [](uint16_t at) { return at != 0 && at != kChunkEdge; };
-  return inner(v.x) && inner(v.y) && inner(v.z);
+  const auto inner = [](int16_t at) { return at != 0 && at != kChunkEdge; };
+  return !isFeature(v) && inner(v.x) && inner(v.y) && inner(v.z);
+}
+
+/// Of a feature in a body, or in the seam over a face; nothing where it is none that these have.
+std::optional<VertexKey> featureKey(const ChunkGrid& grid, const VertexPlace& vertex, const SeamOf* seam) {
+  const bool of_cell = (vertex.kind >> 14 & 1) != 0, coarser = (vertex.kind >> 13 & 1) != 0;
+  if (seam == nullptr ? coarser : of_cell) return {};
+  const int step = (coarser ? 2 : 1) * kSubcell;
+  const int32_t cell = grid.cell * (coarser ? 2 : 1);
+  VertexKey key;
+  key.level = static_cast<uint8_t>(grid.level + (coarser ? 1 : 0));
+  key.axis = static_cast<uint8_t>(of_cell ? 7 : 4 + (vertex.kind >> 6 & 3));
+  key.fan = static_cast<uint8_t>(of_cell ? vertex.kind >> 6 & 15 : vertex.kind >> 8 & 7);
+  const std::array<int, 3> at{vertex.x, vertex.y, vertex.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t corner = floorDiv(at[static_cast<size_t>(axis)], step) - ((vertex.kind >> 2 * axis & 3) - 1);
+    if (corner < 0 || corner * step > kChunkEdge) return {};
+    key.corner[axis] = saturate(grid.origin[axis] + corner * cell);
+  }
+  if (!of_cell && key.axis == 7) return {};
+  if (seam == nullptr) return key;
+  const int axis = faceAxis(seam->face);
+  const int64_t plane = grid.origin[axis] + (faceIsHigh(seam->face) ? int64_t{kChunkCells} * grid.cell : 0);
+  if (key.axis != 4 + axis || key.corner[axis] != plane) return {};
+  return key;
 }
 
 Error malformed(const ChunkKey& key, const std::string& what) {
@@ -60,6 +86,7 @@ T elementAt(const T* first, uint32_t stride, uint32_t i) {
 }  // namespace
 
 std::optional<VertexKey> vertexKey(const ChunkGrid& grid, const VertexPlace& vertex, const SeamOf* seam) {
+  if (isFeature(vertex)) return featureKey(grid, vertex, seam);
   const std::array<int, 3> at{vertex.x, vertex.y, vertex.z};
   if (vertex.kind > SGM_VERTEX_LATERAL || (vertex.kind != SGM_VERTEX_OWN && seam == nullptr)) return {};
   const int step = vertex.kind == SGM_VERTEX_OWN ? kSubcell : 2 * kSubcell;
@@ -69,7 +96,7 @@ std::optional<VertexKey> vertexKey(const ChunkGrid& grid, const VertexPlace& ver
   int axes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const int local = at[static_cast<size_t>(axis)];
-    if (local > kChunkEdge) return {};
+    if (local < 0 || local > kChunkEdge) return {};
     if (local % step != 0) {
       key.axis = static_cast<uint8_t>(axis);
       ++axes;
@@ -144,18 +171,25 @@ void FrameChecker::forEachDrawn(ChunkOrConst& chunk, const Visit& visit) {
 }
 
 void FrameChecker::numberByEdge(const Part& part, std::vector<uint32_t>& first) {
-  std::vector<uint64_t> edges;  // within the chunk; then the vertex's number
+  std::vector<std::pair<uint64_t, uint32_t>> edges;  // within the chunk; then the vertex's number
   edges.reserve(part.vertices.size());
   for (const VertexPlace& v : part.vertices) {
+    const auto number = static_cast<uint32_t>(edges.size());
+    const auto word = [](int16_t at) { return uint64_t{static_cast<uint16_t>(at)}; };
+    if (isFeature(v)) {
+      edges.push_back({word(v.x) << 48 | word(v.y) << 32 | word(v.z) << 16 | v.kind, number});
+      continue;
+    }
     const uint64_t axis = v.x % kSubcell != 0 ? 0 : v.y % kSubcell != 0 ? 1 : 2;
-    const uint64_t cell = (uint64_t{v.x} / kSubcell << 16) | (uint64_t{v.y} / kSubcell << 8) | v.z / kSubcell;
-    edges.push_back((cell << 2 | axis) << 32 | edges.size());
+    const uint64_t cell = (word(v.x) / kSubcell << 16) | (word(v.y) / kSubcell << 8) | word(v.z) / kSubcell;
+    // Below a feature's bit.
+    edges.push_back({(cell << 2 | axis) << 16, number});
   }
   std::sort(edges.begin(), edges.end());
   first.resize(edges.size());
   for (size_t i = 0, lowest = 0; i < edges.size(); ++i) {
-    if (edges[i] >> 32 != edges[lowest] >> 32) lowest = i;
-    first[static_cast<uint32_t>(edges[i])] = static_cast<uint32_t>(edges[lowest]);
+    if (edges[i].first != edges[lowest].first) lowest = i;
+    first[edges[i].second] = edges[lowest].second;
   }
 }
 

@@ -30,7 +30,8 @@ struct DrawnParts {
 
 /// The words of an sgm_vertex that say which vertex it is.
 struct VertexPlace {
-  uint16_t x = 0, y = 0, z = 0, kind = 0;
+  int16_t x = 0, y = 0, z = 0;
+  uint16_t kind = 0;
 };
 
 /// The seam that a vertex belongs to.

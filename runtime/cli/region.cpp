@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "api/backend_request.h"
-#include "api/region_sharp.h"
 #include "cli/source.h"
+#include "mesh/split_creases.h"
 #include "metrics/places.h"
 #include "stream/surface_shapes.h"
 
@@ -163,7 +163,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   const WorldField world(std::move(settings), memory);
   Result<api::RegionMesh> meshed = [&] {
     ProgressBar bar("meshing");
-    return api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks,
+    return api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks, options.sharp,
                            [&bar](uint64_t done, uint64_t total) {
                              bar.show(done, total);
                              return true;
@@ -174,9 +174,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   if (!anchors) return failure(complain(anchors.error()));
   std::optional<WorldMesh> unsplit;
   if (options.sharp) {
-    Result<WorldMesh> sharp = api::sharpenRegion(world, *jobs, meshed->mesh, options.level);
-    if (!sharp) return failure(complain(sharp.error()));
-    unsplit = std::move(*sharp);
+    unsplit = std::move(meshed->mesh);
     meshed->mesh = splitCreases(*unsplit, memory);
   }
   std::optional<api::TexturedRegion> texture;

@@ -100,9 +100,9 @@ uint32_t writeVertices(const ChunkSamples& samples, const ChunkGrid& grid, size_
       const auto add = [&](uint8_t axis, size_t step) {
         const uint32_t t = crossing(q[x], q[x + step]);
         Vertex v{};
-        v.x = static_cast<uint16_t>(x * kSubcell + (axis == 0 ? t : 0));
-        v.y = static_cast<uint16_t>(y * kSubcell + (axis == 1 ? t : 0));
-        v.z = static_cast<uint16_t>(z * kSubcell + (axis == 2 ? t : 0));
+        v.x = static_cast<int16_t>(x * kSubcell + (axis == 0 ? t : 0));
+        v.y = static_cast<int16_t>(y * kSubcell + (axis == 1 ? t : 0));
+        v.z = static_cast<int16_t>(z * kSubcell + (axis == 2 ? t : 0));
         part.vertices[number] = v;
         part.keys[number] = {corner, level, axis, 0};
         numbers[(y * kSide + x) * 3 + axis] = number++;

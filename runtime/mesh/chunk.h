@@ -40,7 +40,7 @@ struct ChunkSamples {
 };
 
 /// Which crossed edge a vertex stands for; the word that tells it is part of the vertex, so that whoever sees only
-/// positions can form exact keys (VertexKey).
+/// positions can form exact keys (VertexKey). Feature vertices have kinds of their own (mesh/feature_kind.h).
 enum VertexKind : uint16_t {
   kOwnEdge = 0,      ///< of the chunk's own level: one coordinate is no multiple of kSubcell, the edge's axis
   kCoarserEdge = 1,  ///< of the level above, in seams alone: one coordinate is no multiple of 2 * kSubcell
@@ -49,11 +49,12 @@ enum VertexKind : uint16_t {
 
 /// A packed vertex, 16 bytes, the same on every backend.
 struct Vertex {
-  uint16_t x, y, z;            ///< 1/256 of the chunk's cell edge, from the chunk's origin: 0..8192
+  int16_t x, y, z;             ///< 1/256 of the chunk's cell edge, from the chunk's origin: 0..8192, and of feature
+                               ///< vertices -512..8704, since one may lie a cell beyond its own
   uint16_t material;           ///< index into the grammar's materials
   int16_t normal_x, normal_y;  ///< octahedral, 1/32767; points out of the solid
   uint16_t tag;                ///< index into the grammar's tags
-  uint16_t kind;               ///< a VertexKind; 0 throughout a body
+  uint16_t kind;               ///< a VertexKind, 0 throughout a body; or a feature vertex's
 };
 static_assert(sizeof(Vertex) == 16);
 
@@ -71,6 +72,10 @@ struct VertexKey {
   friend auto operator<=>(const VertexKey&, const VertexKey&) = default;
 };
 inline constexpr uint8_t kLateral = 3;
+/// Axes of feature vertices (mesh/sharpen.h). kFaceVertex + the axis that its face stands on, with the face's lowest
+/// corner; kCellVertex with the cell's. `fan` tells the sides of a face, and the loops of a cell, apart.
+inline constexpr uint8_t kFaceVertex = 4;
+inline constexpr uint8_t kCellVertex = 7;
 
 /// Two 32-bit sums of mixed words, keyed by their index: equal on any device, in any order of addition.
 struct ContentHash {

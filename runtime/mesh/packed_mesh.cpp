@@ -53,10 +53,11 @@ PackedMesh packMesh(const MeshParts& parts, const PackedMesh* before, std::pmr::
 
 IntBox boundsOf(const ChunkGrid& grid, std::span<const Vertex> vertices) {
   if (vertices.empty()) return {{0, 0, 0}, {0, 0, 0}};
-  std::array<uint32_t, 3> lo, hi{};
-  lo.fill(std::numeric_limits<uint32_t>::max());
+  std::array<int64_t, 3> lo, hi;
+  lo.fill(std::numeric_limits<int16_t>::max());
+  hi.fill(std::numeric_limits<int16_t>::min());
   for (const Vertex& v : vertices) {
-    const std::array<uint32_t, 3> p{v.x, v.y, v.z};
+    const std::array<int64_t, 3> p{v.x, v.y, v.z};
     for (size_t axis = 0; axis < 3; ++axis) {
       lo[axis] = std::min(lo[axis], p[axis]);
       hi[axis] = std::max(hi[axis], p[axis]);
@@ -66,8 +67,8 @@ IntBox boundsOf(const ChunkGrid& grid, std::span<const Vertex> vertices) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<size_t>(axis);
     const int64_t cell = grid.cell;
-    box.lo[axis] = saturate(grid.origin[axis] + lo[i] * cell / kSubcell);
-    box.hi[axis] = saturate(grid.origin[axis] + (hi[i] * cell + kSubcell - 1) / kSubcell);
+    box.lo[axis] = saturate(grid.origin[axis] + floorDiv(lo[i] * cell, kSubcell));
+    box.hi[axis] = saturate(grid.origin[axis] + floorDiv(hi[i] * cell + kSubcell - 1, kSubcell));
   }
   return box;
 }

@@ -116,9 +116,9 @@ class SeamBuilder {
       at[i] = at[i] * kSubcell + (i == edge_axis ? static_cast<int32_t>(t) * step : 0);
     }
     Vertex v{};
-    v.x = static_cast<uint16_t>(at.x);
-    v.y = static_cast<uint16_t>(at.y);
-    v.z = static_cast<uint16_t>(at.z);
+    v.x = static_cast<int16_t>(at.x);
+    v.y = static_cast<int16_t>(at.y);
+    v.z = static_cast<int16_t>(at.z);
     v.kind = step == 1 ? kOwnEdge : edge_axis == kLateral ? kLateralEdge : kCoarserEdge;
     const int level = grid_.level + (v.kind == kCoarserEdge ? 1 : 0);
     part_.vertices.push_back(v);

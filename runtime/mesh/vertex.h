@@ -22,8 +22,8 @@ SGM_KERNEL uint32_t crossing(int32_t q0, int32_t q1) {
 /// A local position in 1/256 of a cell, in whole units: round(position * cell / 256), halves up. In 32 bits for a cell
 /// of at most 2^22 units. Equal for all chunks that meet in a vertex, of whatever level, since the exact position is
 /// equal.
-SGM_KERNEL int32_t localUnits(uint32_t position, int32_t cell) {
-  return static_cast<int32_t>(position >> 8) * cell + ((static_cast<int32_t>(position & 255) * cell + 128) >> 8);
+SGM_KERNEL int32_t localUnits(int32_t position, int32_t cell) {
+  return (position >> 8) * cell + (((position & 255) * cell + 128) >> 8);
 }
 
 /// The vertex of a body or of a seam in world units, by the rounding of localUnits: where its attributes are evaluated.

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "mesh/feature_kind.h"
+
 namespace sgm {
 
 namespace {
@@ -26,6 +28,10 @@ void deriveKeys(const ChunkGrid& grid, int number, Neighbourhood coarser, MeshPa
   part.keys.resize(part.vertices.size());
   for (size_t i = 0; i < part.vertices.size(); ++i) {
     const Vertex& vertex = part.vertices[i];
+    if (isFeature(vertex.kind)) {
+      part.keys[i] = featureKey(grid, vertex);
+      continue;
+    }
     const std::array<int, 3> at{vertex.x, vertex.y, vertex.z};
     const int step = vertex.kind == kOwnEdge ? kSubcell : kCoarseStep;
     VertexKey key;

@@ -5,13 +5,16 @@
 #include <limits>
 #include <tuple>
 
+#include "mesh/feature_kind.h"
 #include "mesh/key_order.h"
 
 namespace sgm {
 namespace {
 
-/// Parts meet only in the faces of their chunks: a vertex inside its chunk is in no other part.
-bool onBorder(const Vertex& v) {
+/// Parts meet only in the faces of their chunks: a vertex on an edge inside its chunk is in no other part. Feature
+/// vertices may lie off their faces, and a part may have one several times.
+bool mayBeOneOfMany(const Vertex& v) {
+  if (isFeature(v.kind)) return true;
   constexpr int kEnd = kChunkCells * kSubcell;
   return v.x == 0 || v.x == kEnd || v.y == 0 || v.y == kEnd || v.z == 0 || v.z == kEnd;
 }
@@ -23,14 +26,14 @@ std::pmr::vector<OrderedKey> sortedBorder(std::span<const PlacedPart> parts, std
   for (const PlacedPart& part : parts) {
     const MeshPart& mesh = *part.mesh;
     for (size_t i = 0; i < mesh.vertices.size(); ++i, ++place)
-      if (onBorder(mesh.vertices[i])) border.emplace_back(mesh.keys[i], place);
+      if (mayBeOneOfMany(mesh.vertices[i])) border.emplace_back(mesh.keys[i], place);
   }
   std::sort(border.begin(), border.end());
   return border;
 }
 
 /// Multiples of 1/256 unit, at most 2^41 of them: exact in a double.
-double metres(int32_t chunk_origin, int32_t mesh_origin, uint16_t position, int32_t cell) {
+double metres(int32_t chunk_origin, int32_t mesh_origin, int16_t position, int32_t cell) {
   const int64_t steps = (int64_t{chunk_origin} - mesh_origin) * kSubcell + int64_t{position} * cell;
   return static_cast<double>(steps) * (1.0 / (kSubcell * kUnitsPerMetre));
 }

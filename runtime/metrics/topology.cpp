@@ -15,6 +15,8 @@ uint32_t bordersOf(const VertexKey& key, const IntBox& extent) {
   uint32_t planes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (key.axis == axis) continue;  // strictly between two samples of this axis
+    // A feature belongs to one face, or to none.
+    if (key.axis >= kFaceVertex && key.axis != kFaceVertex + axis) continue;
     if (key.corner[axis] == extent.lo[axis]) planes |= 1u << 2 * axis;
     if (key.corner[axis] == extent.hi[axis]) planes |= 2u << 2 * axis;
   }

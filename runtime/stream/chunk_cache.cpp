@@ -61,11 +61,12 @@ struct InWork {
   VoidComponents voids;
   std::optional<Error> error;
 
-  InWork(const ChunkOrder& order, std::pmr::memory_resource* memory)
+  InWork(const ChunkOrder& order, bool sharp, std::pmr::memory_resource* memory)
       : request(order.request),
         before(order.before),
         chunk{order.request.key, {}, ChunkMesh(memory), {}},
         voids(memory) {
+    request.sharp = sharp;
     if (!request.body) request.signs = request.anchors = false;
     rest = request;
   }
@@ -178,7 +179,7 @@ std::vector<Result<MeshedChunk>> ChunkMesher::mesh(std::span<const ChunkOrder> o
                                                    const Progress& progress) const {
   std::vector<InWork> work;
   work.reserve(orders.size());
-  for (const ChunkOrder& order : orders) work.emplace_back(order, memory);
+  for (const ChunkOrder& order : orders) work.emplace_back(order, sharp, memory);
   forEach(jobs, work, [&](size_t i) { lookUp(*this, edits, work[i]); });
   std::vector<size_t> to_mesh;
   for (size_t i = 0; i < work.size(); ++i) {

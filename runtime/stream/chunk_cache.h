@@ -31,6 +31,7 @@ struct ChunkMesher {
   std::pmr::memory_resource* memory;  ///< of what it gives
   DiskCache* cache = nullptr;         ///< null: everything is meshed
   bool resident = false;              ///< also has what it gives on the backend's device, as far as there is room
+  bool sharp = false;                 ///< with sharp features
 
   /// As surfaceOf makes it of what meshChunks gives, equal in every byte wherever it comes from. Signs and anchors come
   /// with the body only. What the cache has is not derived, so that notes of its cells may never be told. Of a backend

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "mesh/feature_kind.h"
+
 namespace sgm {
 namespace {
 
@@ -19,7 +21,7 @@ struct RecordHeader {
 };
 static_assert(sizeof(RecordHeader) == (6 + 7 * 6) * sizeof(uint32_t) && std::is_trivially_copyable_v<RecordHeader>);
 
-constexpr uint32_t kMostPosition = kChunkCells * kSubcell;
+constexpr int kMostPosition = kChunkCells * kSubcell;
 constexpr uint32_t kMostSolid = kChunkCells * kChunkCells * kChunkCells;
 
 /// Writes the records' words by column; where the next ones go.
@@ -127,7 +129,10 @@ Result<ChunkRecord> decodeChunk(std::span<const std::byte> bytes, std::pmr::memo
   from = joinColumns<uint32_t, 3>(from, header.indices / 3, record.mesh.indices.data());
   record.extra.assign(from, from + header.extra);
 
-  const auto outside = [](const Vertex& v) { return std::max({v.x, v.y, v.z}) > kMostPosition; };
+  const auto outside = [](const Vertex& v) {
+    const int beyond = isFeature(v.kind) ? 2 * kSubcell : 0;
+    return std::max({v.x, v.y, v.z}) > kMostPosition + beyond || std::min({v.x, v.y, v.z}) < -beyond;
+  };
   if (std::any_of(record.mesh.vertices.begin(), record.mesh.vertices.end(), outside)) {
     return badRecord("a vertex lies outside of it");
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/bytes.h"
+#include "mesh/feature_kind.h"
 #include "stream/chunk_codec.h"
 
 namespace sgm {
@@ -35,6 +36,11 @@ Anchor getAnchor(ByteReader& in) {
   anchor.tag = in.get<uint16_t>();
   anchor.key.value = in.get<uint64_t>();
   return anchor;
+}
+
+bool isKindOf(int part, bool sharp, uint16_t kind) {
+  if (isFeature(kind)) return sharp && (part != 0 || !isOfCoarserLevel(kind));
+  return kind <= (part == 0 ? kOwnEdge : kLateralEdge);
 }
 
 /// What follows the mesh of a body.
@@ -78,10 +84,13 @@ ChunkPartInputs::ChunkPartInputs(const WorldField& world, const ChunkRequest& re
       box_(chunkBox(*chunkGrid(world, request.key))),
       program_(world.settings().program),
       identity_(std::move(identity)),
-      brushes_(world.brushes(box_, request.key.level, edits)),
+      brushes_(world.memory()),
       coarser_(world.memory()) {
+  const ChunkGrid grid = *chunkGrid(world, request.key);
+  const auto around = [&](int level) { return world.brushes(sampledBox(grid, level, request.sharp), level, edits); };
+  brushes_ = around(grid.level);
   // No brush reaches beyond the drawn world.
-  if (request.seams != 0 && !request.outermost) coarser_ = world.brushes(box_, request.key.level + 1, edits);
+  if (request.seams != 0 && !request.outermost) coarser_ = around(grid.level + 1);
 }
 
 std::vector<std::byte> ChunkPartInputs::bytes(int part) const {
@@ -94,7 +103,8 @@ std::vector<std::byte> ChunkPartInputs::bytes(int part) const {
   for (int axis = 0; axis < 3; ++axis) out.put(request_.key.at[axis]);
   out.put(part);
   // Not which blocks around are coarser: that decides the keys of vertices, which are not kept.
-  for (const bool asked : {body && request_.signs, body && request_.anchors, !body && request_.outermost}) {
+  for (const bool asked :
+       {body && request_.signs, body && request_.anchors, !body && request_.outermost, request_.sharp}) {
     out.put(static_cast<uint8_t>(asked));
   }
   putBrushes(brushes_, bytes);
@@ -143,9 +153,8 @@ std::optional<ChunkPart> decodeChunkPart(std::span<const std::byte> bytes, int p
   PackedMesh& mesh = record->mesh;
   const PackedRange& range = mesh.ranges[static_cast<size_t>(part)];
   if (range.vertex_count != mesh.vertices.size() || range.index_count != mesh.indices.size()) return std::nullopt;
-  const int most_kind = part == 0 ? kOwnEdge : kLateralEdge;
   const auto sound = [&](const Vertex& v) {
-    return v.kind <= most_kind && inputs.isMaterial(v.material) && inputs.isTag(v.tag);
+    return isKindOf(part, inputs.request().sharp, v.kind) && inputs.isMaterial(v.material) && inputs.isTag(v.tag);
   };
   if (!std::all_of(mesh.vertices.begin(), mesh.vertices.end(), sound)) return std::nullopt;
   ChunkPart found(memory);

@@ -36,7 +36,7 @@ Collider colliderOf(const ChunkSurface& surface, uint8_t seams, std::pmr::memory
     if (numbers[i] == kUnused) {
       numbers[i] = static_cast<uint32_t>(collider.positions.size() / 3);
       const Vertex& v = mesh.vertices[i];
-      for (const uint16_t p : {v.x, v.y, v.z}) collider.positions.push_back(static_cast<float>(p * metres));
+      for (const int16_t p : {v.x, v.y, v.z}) collider.positions.push_back(static_cast<float>(p * metres));
     }
     collider.indices.push_back(numbers[i]);
   };

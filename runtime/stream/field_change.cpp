@@ -47,8 +47,8 @@ bool touchesChunk(const ChangedShape& change, const ChunkGrid& grid, const IntBo
 
 }  // namespace
 
-FieldChange::FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_ptr<const WorldField> to_in)
-    : from_(std::move(from_in)), to_(std::move(to_in)) {
+FieldChange::FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_ptr<const WorldField> to_in, bool sharp)
+    : from_(std::move(from_in)), to_(std::move(to_in)), sharp_(sharp) {
   to_->adopt(*from_);
   pairLayers();
   const auto keepOthers = [this](std::span<const HostField> of, std::span<const HostField> other) {
@@ -101,7 +101,7 @@ bool FieldChange::showsOtherwise(const LayerPair& pair, int32_t cell_edge) const
 bool FieldChange::touches(const ChunkKey& key) const {
   const Result<ChunkGrid> grid = chunkGrid(*to_, key);
   if (everything_ || !grid) return true;
-  const IntBox box = chunkBox(*grid);
+  const IntBox box = sampledBox(*grid, grid->level + 1, sharp_);
   for (const HostField& host : hosts_) {
     const IntBox reached = host.bounds.grown(saturate(int64_t{host.smooth} + influenceMargin(grid->cell)));
     if (editReach(reached, grid->cell).meets(box)) return true;

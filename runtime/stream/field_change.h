@@ -21,8 +21,9 @@ namespace sgm {
 /// Thread-safe: a pure function of the two fields, which keeps what it has found.
 class FieldChange {
  public:
-  /// Of two fields with one finest cell. `to` takes over what `from` has derived (WorldField::adopt).
-  FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_ptr<const WorldField> to_in);
+  /// Of two fields with one finest cell. `to` takes over what `from` has derived (WorldField::adopt). sharp: chunks
+  /// have sharp features.
+  FieldChange(std::shared_ptr<const WorldField> from_in, std::shared_ptr<const WorldField> to_in, bool sharp = false);
 
   const std::shared_ptr<const WorldField>& to() const { return to_; }
 
@@ -46,6 +47,7 @@ class FieldChange {
 
   const std::shared_ptr<const WorldField> from_;
   const std::shared_ptr<const WorldField> to_;
+  const bool sharp_;
   bool everything_ = false;  ///< the domain itself differs, or layers that have changed places
   std::vector<LayerPair> layers_;
   std::vector<HostField> hosts_;  ///< of either, that the other does not have

@@ -92,7 +92,7 @@ bool FieldSwitch::compareSome(const DrawnFrame& drawn, WorldEdits& edits, JobSys
       turn_begun_ = going_back_ ? turn_.drawn : turn_.wanted;
     }
     from_ = edits.state().field;
-    change_ = std::make_shared<const FieldChange>(from_, to_);
+    change_ = std::make_shared<const FieldChange>(from_, to_, sharp_);
     left_.clear();
     for (const ChunkKey& leaf : drawn.tree.leaves()) left_.push_back(leaf);
   }

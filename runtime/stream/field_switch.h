@@ -7,9 +7,9 @@
 //
 // The next one waits until what came before is drawn; and where chunks are still to be meshed for a viewer that moves,
 // as long again, so that an animation leaves half of the time to them. Before anything is drawn only one field takes
-// another's place, or a world that is animated from the start would never show. Of a field that cannot be drawn the world goes
-// back to the one before, so that edits and queries are of what is drawn. Where nobody looks nothing is drawn, and all
-// wait.
+// another's place, or a world that is animated from the start would never show. Of a field that cannot be drawn the
+// world goes back to the one before, so that edits and queries are of what is drawn. Where nobody looks nothing is
+// drawn, and all wait.
 
 #include <chrono>
 #include <memory>
@@ -26,6 +26,9 @@ namespace sgm {
 /// Thread-safe; one compare() at a time.
 class FieldSwitch {
  public:
+  /// sharp: the world's chunks have sharp features.
+  explicit FieldSwitch(bool sharp = false) : sharp_(sharp) {}
+
   /// Of several that have not been begun the last one counts.
   void want(std::shared_ptr<const WorldField> next);
 
@@ -57,6 +60,8 @@ class FieldSwitch {
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  const bool sharp_;
 
   bool compareSome(const DrawnFrame& drawn, WorldEdits& edits, JobSystem& jobs);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "backend/cpu/instruction_sets.h"
+#include "mesh/feature_kind.h"
 #include "mesh/vertex.h"
 #include "stream/chunk_key.h"
 
@@ -38,7 +39,8 @@ Result<std::pmr::vector<MorphOffset>> morphOffsets(const WorldField& world, cons
   std::pmr::vector<int32_t> x(memory), y(memory), z(memory);
   std::pmr::vector<size_t> moving(memory);
   for (size_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (mesh.vertices[i].kind != kOwnEdge) continue;
+    const uint16_t kind = mesh.vertices[i].kind;
+    if (kind == kLateralEdge || isOfCoarserLevel(kind)) continue;
     const Int3 p = vertexUnits(grid, mesh.vertices[i]);
     x.push_back(p.x);
     y.push_back(p.y);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <mutex>
 
+#include "stream/sharpen_chunk.h"
+
 namespace sgm {
 
 namespace {
@@ -25,25 +27,40 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   job.coarser = request.coarser;
   job.signs = request.signs;
   job.body = request.body;
-  job.resident = request.resident;
+  job.resident = request.resident && !request.sharp;
   job.prompt = request.prompt;
-  const IntBox box = chunkBox(*grid);
-  Result<std::shared_ptr<const FieldProgram>> field = world.compile(box, request.key.level, edits);
+  Result<std::shared_ptr<const FieldProgram>> field =
+      world.compile(sampledBox(*grid, grid->level, request.sharp), grid->level, edits);
   if (!field) return field.error();
   job.field = std::move(*field);
   if (request.seams != 0) {
-    const int above = request.key.level + 1;
+    const int above = grid->level + 1;
     Result<std::shared_ptr<const FieldProgram>> coarse =
-        request.outermost ? world.compileOutside(above) : world.compile(box, above, edits);
+        request.outermost ? world.compileOutside(above)
+                          : world.compile(sampledBox(*grid, above, request.sharp), above, edits);
     if (!coarse) return coarse.error();
     job.coarse = std::move(*coarse);
   }
   if (request.anchors) {
-    Result<std::vector<Anchor>> anchors = world.anchors(box);
+    Result<std::vector<Anchor>> anchors = world.anchors(chunkBox(*grid));
     if (!anchors) return anchors.error();
     chunk.anchors = std::move(*anchors);
   }
   return {};
+}
+
+/// What sharp chunks are sampled with after the backend has had their jobs; of others nothing.
+struct SampledPrograms {
+  std::shared_ptr<const FieldProgram> field, coarse;
+};
+using Programs = std::vector<SampledPrograms>;
+
+Programs programsOf(std::span<const ChunkRequest> requests, std::span<const ChunkJob> jobs) {
+  Programs programs(jobs.size());
+  for (size_t i = 0; i < jobs.size(); ++i) {
+    if (requests[i].sharp) programs[i] = {jobs[i].field, jobs[i].coarse};
+  }
+  return programs;
 }
 
 /// Counts chunks over all batches, and asks after each whether to go on.
@@ -96,6 +113,11 @@ IntBox chunkBox(const ChunkGrid& grid) {
   return box;
 }
 
+IntBox sampledBox(const ChunkGrid& grid, int level, bool sharp) {
+  const IntBox box = chunkBox(grid);
+  return sharp ? box.grown((grid.cell << (level - grid.level)) + kSampledBeyond) : box;
+}
+
 Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,
                                                  std::span<const ChunkRequest> requests, const Progress& progress,
                                                  const EditSnapshot* edits) {
@@ -121,6 +143,7 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
       }
     });
     if (error) return *error;
+    const Programs programs = programsOf(batch, chunk_jobs);
 
     Result<std::unique_ptr<ChunkBatch>> submitted =
         backend.submit(std::move(chunk_jobs), progress ? [&counter] { return counter.one(); } : AfterChunk{});
@@ -130,6 +153,11 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     if (!meshes) return meshes.error();
     if (counter.stopped()) return Error{Code::cancelled, "meshing was cancelled"};
     for (size_t i = 0; i < meshes->size(); ++i) chunks[first + i].mesh = std::move((*meshes)[i]);
+    parallelFor(jobs, batch.size(), [&](size_t i) {
+      if (!batch[i].sharp) return;
+      PlacedChunk& chunk = chunks[first + i];
+      sharpenChunk(chunk.grid, *programs[i].field, programs[i].coarse.get(), chunk.mesh, world.memory());
+    });
   }
   return chunks;
 }

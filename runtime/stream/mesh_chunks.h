@@ -20,6 +20,7 @@ struct ChunkRequest {
   bool resident = false;      ///< also leave the parts on the backend's device (ChunkJob::resident)
   bool prompt = false;        ///< do not wait for a device to be ready (ChunkJob::prompt)
   bool outermost = false;     ///< seams lead to virtual neighbours, whose field is the domain's own state (octree.h)
+  bool sharp = false;         ///< with sharp features (sharpen_chunk.h)
 };
 
 /// A finished chunk and where it lies.
@@ -51,6 +52,12 @@ Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key);
 
 /// The chunk with its borders: lo <= p <= hi. Precondition: chunkGrid gave the grid.
 IntBox chunkBox(const ChunkGrid& grid);
+
+/// How far from a chunk the field of a level is sampled for sharp features, in units beyond one of its cells.
+inline constexpr int32_t kSampledBeyond = 1;
+
+/// Where the field of a level decides what becomes of a chunk: its own, or the one above, which its seams read.
+IntBox sampledBox(const ChunkGrid& grid, int level, bool sharp);
 
 /// One mesh a request, in order, in the world's memory. edits: laid on the world, or null. Errors: those of chunkGrid,
 /// derivation and compilation, out_of_memory, cancelled.

@@ -76,6 +76,7 @@ struct PlannerSettings {
   size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces
   double all_around = 0;                  ///< as urgency()'s: where colliders are wanted
   bool by_reach = true;                   ///< level 0 only where a viewer's void leads to (reachability.h)
+  bool sharp = false;                     ///< chunks have sharp features
 };
 
 struct PlannerStats {

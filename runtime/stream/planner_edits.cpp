@@ -45,12 +45,13 @@ void Planner::invalidate(std::span<const WorldChange> changes) {
     }
   }
   store_.forEach([&](const ChunkKey& key, KnownChunk& record) {
-    const int64_t edge = int64_t{kChunkCells} * settings_.lod.finest_cell << key.level;
+    const int64_t cell = int64_t{settings_.lod.finest_cell} << key.level, edge = kChunkCells * cell;
     IntBox box;
     for (int axis = 0; axis < 3; ++axis) {
       box.lo[axis] = saturate(key.at[axis] * edge);
       box.hi[axis] = saturate((key.at[axis] + int64_t{1}) * edge);
     }
+    if (settings_.sharp) box = box.grown(saturate(2 * cell + kSampledBeyond));
     const std::vector<IntBox>& reach = reaches[static_cast<size_t>(key.level)];
     const bool touched = std::any_of(reach.begin(), reach.end(), [&box](const IntBox& r) { return r.meets(box); }) ||
                          std::any_of(changes.begin(), changes.end(), [&key](const WorldChange& change) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "backend/cpu/instruction_sets.h"
+#include "mesh/feature_kind.h"
 #include "mesh/vertex.h"
 #include "stream/surface_materials.h"
 
@@ -57,7 +58,7 @@ Result<Unwrapped> unwrapChunk(const WorldField& field, const PackedMesh& mesh, c
   positions.reserve(count);
   normals.reserve(count);
   for (const Vertex& vertex : mesh.vertices) {
-    const auto exact = [&](int32_t origin, uint16_t at) { return origin + double{1} * at * grid.cell / kSubcell; };
+    const auto exact = [&](int32_t origin, int16_t at) { return origin + double{1} * at * grid.cell / kSubcell; };
     positions.push_back(
         {exact(grid.origin.x, vertex.x), exact(grid.origin.y, vertex.y), exact(grid.origin.z, vertex.z)});
     normals.push_back(unpackNormal(vertex.normal_x, vertex.normal_y));
@@ -68,7 +69,7 @@ Result<Unwrapped> unwrapChunk(const WorldField& field, const PackedMesh& mesh, c
   for (const bool coarser : {false, true}) {
     std::pmr::vector<uint32_t> asked(memory);
     for (uint32_t v = 0; v < count; ++v) {
-      if ((mesh.vertices[v].kind == kCoarserEdge) == coarser) asked.push_back(v);
+      if (isOfCoarserLevel(mesh.vertices[v].kind) == coarser) asked.push_back(v);
     }
     const int level = grid.level + (coarser ? 1 : 0);
     std::pmr::vector<Int3> points(memory);

@@ -98,7 +98,8 @@ class WalkGrid {
           if (!mixed || (here >> x & 1) == 0 || (above >> x & 1) != 0) continue;
           const size_t at = row * kChunkSamples + static_cast<size_t>(x);
           const uint32_t share = crossing(scratch.samples.q[at], scratch.samples.q[at + kChunkSamples]);
-          const Int3 p{grid.origin.x + x * cell_, grid.origin.y + y * cell_ + localUnits(share, cell_),
+          const Int3 p{grid.origin.x + x * cell_,
+                       grid.origin.y + y * cell_ + localUnits(static_cast<int32_t>(share), cell_),
                        grid.origin.z + z * cell_};
           if (!box_.contains(p)) continue;
           found.push_back({static_cast<int32_t>(gx), static_cast<int32_t>(gz), static_cast<int32_t>(gy),

@@ -24,7 +24,7 @@ constexpr auto kBetweenFlushes = 250ms;
 constexpr const char* kOutOfMemory = "out of memory";
 
 PlannerSettings plannerSettings(const WorldSettings& settings) {
-  return {settings.lod, settings.mesh_bytes, settings.collider_distance, settings.by_reach};
+  return {settings.lod, settings.mesh_bytes, settings.collider_distance, settings.by_reach, settings.sharp};
 }
 
 }  // namespace
@@ -36,6 +36,7 @@ WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_i
       jobs(jobs_in),
       settings(settings_in),
       edits(std::move(field), settings_in.edits, memory),
+      fields(settings_in.sharp),
       drawn(std::make_shared<DrawnFrame>(Octree(settings_in.lod.top, settings_in.lod.finest_cell))),
       memory_(memory),
       gate_(std::make_shared<Gate>(*this)),
@@ -398,7 +399,7 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, 
 
 void WorldCore::meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
                           std::span<FinishedChunk> done) const {
-  const ChunkMesher mesher{*under.field, backend, jobs, memory_, cache.get(), settings.resident};
+  const ChunkMesher mesher{*under.field, backend, jobs, memory_, cache.get(), settings.resident, settings.sharp};
   const Error out_of_memory{Code::out_of_memory, kOutOfMemory};
   try {
     std::vector<ChunkOrder> orders;

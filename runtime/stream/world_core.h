@@ -25,8 +25,10 @@
 namespace sgm {
 
 /// What a chunk may come to, in bytes: every cell cut in the worst way, with six seams. Texture coordinates double
-/// that.
-inline size_t largestChunk(const WorldSettings& settings) { return (settings.texture ? size_t{10} : size_t{5}) << 20; }
+/// that; so do sharp features in every second cell, and one with more fails.
+inline size_t largestChunk(const WorldSettings& settings) {
+  return size_t{5} << (20 + (settings.texture ? 1 : 0) + (settings.sharp ? 1 : 0));
+}
 
 class WorldCore {
  public:

@@ -1,7 +1,7 @@
 #version 450
 // A vertex of the library's to the picture. Integers up to the last step: chunks that share a vertex, of whatever level,
 // come to the same three numbers, and so nothing shows between them.
-layout(location = 0) in uvec4 place;       // x, y, z in 1/256 of the chunk's cell edge, from its origin; material
+layout(location = 0) in ivec4 place;       // x, y, z in 1/256 of the chunk's cell edge, from its origin; material
 layout(location = 1) in vec2 octahedral;   // the normal
 layout(location = 2) in ivec4 chunk;       // its origin less the camera's place, and its cell edge, in units
 layout(location = 0) out vec3 position;    // metres from the camera's place
@@ -16,9 +16,9 @@ vec3 unpackNormal(vec2 n) {
 }
 
 void main() {
-  const ivec3 steps = chunk.xyz * 256 + ivec3(place.xyz) * chunk.w;
+  const ivec3 steps = chunk.xyz * 256 + place.xyz * chunk.w;
   position = vec3(steps) * (1.0 / (256.0 * 1024.0));
   normal = unpackNormal(octahedral);
-  material = place.w;
+  material = uint(place.w) & 0xFFFFu;
   gl_Position = view_projection * vec4(position, 1.0);
 }

@@ -106,7 +106,7 @@ class ChunkPipeline {
     const VkVertexInputBindingDescription bindings[] = {{0, sizeof(sgm_vertex), VK_VERTEX_INPUT_RATE_VERTEX},
                                                         {1, sizeof(ChunkRecord), VK_VERTEX_INPUT_RATE_INSTANCE}};
     const VkVertexInputAttributeDescription attributes[] = {
-        {0, 0, VK_FORMAT_R16G16B16A16_UINT, offsetof(sgm_vertex, x)},  // x, y, z, material
+        {0, 0, VK_FORMAT_R16G16B16A16_SINT, offsetof(sgm_vertex, x)},  // x, y, z, material
         {1, 0, VK_FORMAT_R16G16_SNORM, offsetof(sgm_vertex, normal_x)},
         {2, 1, VK_FORMAT_R32G32B32A32_SINT, 0}};
     static_assert(offsetof(sgm_vertex, material) == offsetof(sgm_vertex, x) + 6 && sizeof(ChunkRecord) == 16);

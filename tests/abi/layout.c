@@ -87,6 +87,7 @@ CHECK(world_by_distance, SGM_WORLD_BY_DISTANCE == 1);
 CHECK(world_morph, SGM_WORLD_MORPH == 2);
 CHECK(world_resident, SGM_WORLD_RESIDENT == 4);
 CHECK(world_texture, SGM_WORLD_TEXTURE == 8);
+CHECK(world_sharp, SGM_WORLD_SHARP == 16);
 CHECK(meshing_texture, SGM_MESHING_TEXTURE == 1);
 CHECK(meshing_sharp, SGM_MESHING_SHARP == 2);
 CHECK(meshing_flag_width, SGM_MESHING_FLAG_FORCE_32_BIT == 0x7FFFFFFF);

@@ -41,7 +41,7 @@ void evaluateAttributes(const FieldKernels& kernels, const ProgramView& field, c
 }
 
 size_t brickOf(const Vertex& v) {
-  auto at = [](uint16_t position) {
+  auto at = [](int16_t position) {
     return std::min<size_t>(static_cast<size_t>(position) / (kSubcell * kBrickSamples), kBricks - 1);
   };
   return at(v.x) + kBricks * (at(v.y) + kBricks * at(v.z));

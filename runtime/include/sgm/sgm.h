@@ -738,9 +738,10 @@ typedef int32_t (*sgm_progress_function)(void* user, uint64_t done, uint64_t tot
 /* What meshes have beside their triangles. Worlds have flags of their own: sgm_world_flag. */
 typedef enum sgm_meshing_flag {
   SGM_MESHING_TEXTURE = 1, /* texture coordinates and blends of materials: wedges, in views of meshes and of surfaces */
-  SGM_MESHING_SHARP = 2,   /* crisp edges and corners, of regions alone (sgm_surface_from_region): feature vertices from
-                              the field's gradients, once for each side of their crease with that side's normal, at the
-                              same position. Smooth surfaces keep their triangles */
+  SGM_MESHING_SHARP = 2,   /* crisp edges and corners: feature vertices from the field's gradients, once for each side
+                              of their crease with that side's normal, at the same position. Smooth surfaces keep their
+                              triangles. Chunks agree on their faces, as without; seams join sharp chunks to sharp
+                              ones, so that all chunks of one surface are to be asked for alike */
   SGM_MESHING_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_meshing_flag;
 
@@ -784,23 +785,31 @@ SGM_API sgm_result sgm_mesh_release(sgm_mesh* mesh);
  *            numbered 4 * (axis of the normal) + (high side on the lower of the other axes) + 2 * (on the higher one).
  *            Those with a block of the chunk's size on one side and a coarser chunk on the other carry seams, and seams
  *            that touch in a half axis from the corner share the vertex: fan is the lowest number of those joined to
- *            this vertex's own seam. Which blocks are coarser is what sgm_chunk_request.coarser says. */
+ *            this vertex's own seam. Which blocks are coarser is what sgm_chunk_request.coarser says.
+ *   feature  where sharp features were asked for: a point of an edge or a corner of the surface, in a face of the grid
+ * or in a cell. A part has it once for each side of its crease: those with equal keys are one vertex. level is the
+ * chunk's own, or with bit 13 of kind, in seams alone, that above; axis is 7 in a cell (bit 14), else 4 + bits 6 and 7.
+ * fan is bits 6 to 9 in a cell, else bits 8 to 10. corner is, on each axis, the position rounded down to multiples of
+ * the level's cell, less as many of these cells as the two bits from 2 * axis say, less one: it may lie a cell beyond
+ * its own, and beyond its chunk */
 typedef enum sgm_vertex_kind {
-  SGM_VERTEX_OWN = 0,     /* on an edge of the chunk's own level; every vertex of a body */
-  SGM_VERTEX_COARSER = 1, /* on an edge of the level above; in seams alone */
-  SGM_VERTEX_LATERAL = 2, /* on a corner, joins the two levels; in seams alone */
+  SGM_VERTEX_OWN = 0,          /* on an edge of the chunk's own level; every vertex of a body that is no feature */
+  SGM_VERTEX_COARSER = 1,      /* on an edge of the level above; in seams alone */
+  SGM_VERTEX_LATERAL = 2,      /* on a corner, joins the two levels; in seams alone */
+  SGM_VERTEX_FEATURE = 0x8000, /* a bit: the others say which feature */
   SGM_VERTEX_KIND_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_vertex_kind;
 
 /* A packed vertex, 16 bytes, the same on every backend. */
 typedef struct sgm_vertex {
-  uint16_t x, y, z;           /* 0 to 8,192 in 1/256 of the chunk's cell edge, from the chunk's origin */
+  int16_t x, y, z;            /* 0 to 8,192 in 1/256 of the chunk's cell edge, from the chunk's origin; of features -512
+                                 to 8,704 */
   uint16_t material;          /* index for sgm_grammar_material */
   int16_t normal_x, normal_y; /* octahedral, +-32,767: with n = normal / 32767 and w = 1 - |n.x| - |n.y|, the normal is
                                  (n.x, n.y, w) where w >= 0, else ((1 - |n.y|) * sign(n.x), (1 - |n.x|) * sign(n.y), w),
                                  then made one long; sign(0) is 1 */
   uint16_t tag;               /* index for sgm_grammar_tag */
-  uint16_t kind;              /* an sgm_vertex_kind */
+  uint16_t kind;              /* an sgm_vertex_kind, with the bits of a feature */
 } sgm_vertex;
 
 /* The body of a chunk or one of its seams: draw the body always, and a seam where the neighbour across its face is one
@@ -1060,6 +1069,8 @@ typedef enum sgm_world_flag {
                                 and more, counts for mesh_bytes of what was lent, and not for the world's */
   SGM_WORLD_TEXTURE = 8,     /* meshes have texture coordinates: sgm_mesh_view.wedges. About twice the memory a mesh, in
                                 mesh_bytes; not on the device */
+  SGM_WORLD_SHARP = 16, /* crisp edges and corners: as SGM_MESHING_SHARP, at every level, closed in every frame. About
+                           half again the time a chunk; twice the room is set aside for each that is in work */
   SGM_WORLD_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_world_flag;
 

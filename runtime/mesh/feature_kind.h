@@ -1,0 +1,52 @@
+#pragma once
+// The word that tells which feature vertex a packed vertex is (Vertex::kind), so that its key follows from it and its
+// place alone.
+//
+//   bit 15     1: a feature vertex
+//   bit 14     0: of a side in a face, 1: of a loop in a cell
+//   bit 13     0: of the chunk's own level, 1: of the level above, in seams alone
+//   bits 6-10  of a face: bits 6 and 7 the axis that it stands on, 8 to 10 VertexKey::fan; of a cell: VertexKey::fan
+//   bits 0-5   for each axis two bits: 1 + how many of its level's cells the vertex lies above the corner, rounded down
+
+#include "mesh/chunk.h"
+
+namespace sgm {
+
+inline constexpr uint16_t kFeature = 1 << 15, kFeatureOfCell = 1 << 14, kFeatureOfCoarser = 1 << 13;
+
+constexpr bool isFeature(uint16_t kind) { return (kind & kFeature) != 0; }
+
+/// Whether the vertex's attributes come from the field of the level above its chunk's.
+constexpr bool isOfCoarserLevel(uint16_t kind) {
+  return isFeature(kind) ? (kind & kFeatureOfCoarser) != 0 : kind == kCoarserEdge;
+}
+
+/// place: from the key's corner, in 1/256 of its level's cell, -256..512.
+constexpr uint16_t featureKind(const VertexKey& key, const Int3& place, int chunk_level) {
+  uint32_t kind = kFeature;
+  if (key.axis == kCellVertex) {
+    kind |= kFeatureOfCell | uint32_t{key.fan} << 6;
+  } else {
+    kind |= static_cast<uint32_t>(key.axis - kFaceVertex) << 6 | uint32_t{key.fan} << 8;
+  }
+  if (key.level != chunk_level) kind |= kFeatureOfCoarser;
+  for (int axis = 0; axis < 3; ++axis) kind |= static_cast<uint32_t>(1 + (place[axis] >> 8)) << 2 * axis;
+  return static_cast<uint16_t>(kind);
+}
+
+/// Precondition: isFeature(vertex.kind).
+constexpr VertexKey featureKey(const ChunkGrid& grid, const Vertex& vertex) {
+  const bool coarser = isOfCoarserLevel(vertex.kind), of_cell = (vertex.kind & kFeatureOfCell) != 0;
+  const Int3 at{vertex.x, vertex.y, vertex.z};
+  VertexKey key;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int32_t above = (vertex.kind >> 2 * axis & 3) - 1;
+    key.corner[axis] = grid.origin[axis] + (((at[axis] >> (coarser ? 9 : 8)) - above) * grid.cell << (coarser ? 1 : 0));
+  }
+  key.level = static_cast<uint8_t>(grid.level + (coarser ? 1 : 0));
+  key.axis = static_cast<uint8_t>(of_cell ? kCellVertex : kFaceVertex + (vertex.kind >> 6 & 3));
+  key.fan = static_cast<uint8_t>(of_cell ? vertex.kind >> 6 & 15 : vertex.kind >> 8 & 7);
+  return key;
+}
+
+}  // namespace sgm
