@@ -416,7 +416,7 @@ TEST_CASE("chunk calls are checked") {
   CHECK(with([](auto& d) { d.requests = nullptr; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.count = 0; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.count = kTooMany; }) == SGM_ERR_LIMIT);
-  CHECK(with([](auto& d) { d.flags = 2; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.flags = 4; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.reserved = 1; }) == SGM_ERR_INVALID_ARGUMENT);
   for (const size_t stride : {size_t{1}, sizeof(sgm_chunk_request) - 4, sizeof(sgm_chunk_request) + 2})
     CHECK(with([stride](auto& d) { d.request_stride = stride; }) == SGM_ERR_INVALID_ARGUMENT);
@@ -542,7 +542,7 @@ TEST_CASE("world calls are checked") {
   CHECK(with([](auto& d) { d.top_level = -1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.top_level = SGM_MAX_LEVEL + 1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.top_level = 15; }) == SGM_ERR_RANGE);
-  CHECK(with([](auto& d) { d.flags = 16; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.flags = 32; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.flags = SGM_WORLD_RESIDENT; }) == SGM_ERR_UNSUPPORTED);
   CHECK(with([](auto& d) { d.finest_distance = 0; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.view_distance = kNaN; }) == SGM_ERR_INVALID_ARGUMENT);

@@ -38,7 +38,7 @@ sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threa
   sgm_chunks_desc chunks = SGM_CHUNKS_DESC_INIT;
   chunks.requests = requests;
   chunks.count = 2;
-  chunks.flags = SGM_MESHING_TEXTURE;
+  chunks.flags = SGM_MESHING_TEXTURE | SGM_MESHING_SHARP;
   if (sgm_result r = sgm_mesh_chunks(h.field, &chunks, h.meshes, error); r != SGM_OK) return r;
   const int32_t points[6] = {0, 0, 0, 4096, 4096, 4096};
   float values[2], gradients[6];
@@ -67,7 +67,7 @@ sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threa
   if (sgm_result r = sgm_field_is_walkable(h.field, &walk, &walkable, error); r != SGM_OK) return r;
   sgm_region_desc region = SGM_REGION_DESC_INIT;
   for (int32_t& v : region.maximum) v = 20000;
-  region.flags = SGM_MESHING_TEXTURE;
+  region.flags = SGM_MESHING_TEXTURE | SGM_MESHING_SHARP;
   if (sgm_result r = sgm_surface_from_region(h.field, &region, &h.region, error); r != SGM_OK) return r;
   const float grid_values[8] = {-1, 1, 1, 1, 1, 1, 1, 1};
   sgm_grid_desc grid = SGM_GRID_DESC_INIT;

@@ -14,7 +14,7 @@ using Place = std::array<int64_t, 3>;
 /// A vertex's place in 1/256 units of the world, exact.
 Place placeOf(const sgm_mesh_view& view, uint32_t index) {
   const sgm_vertex& v = view.vertices[index];
-  const std::array<uint16_t, 3> p{v.x, v.y, v.z};
+  const std::array<int16_t, 3> p{v.x, v.y, v.z};
   Place place{};
   for (size_t axis = 0; axis < 3; ++axis)
     place[axis] = int64_t{view.origin[axis]} * 256 + int64_t{p[axis]} * view.cell_units;
@@ -461,7 +461,7 @@ TEST_CASE("parameters and seed reach the mesh") {
   CHECK(hashes.size() == 3);
 }
 
-TEST_CASE("regions have sharp features where they are asked for, and chunks do not") {
+TEST_CASE("regions and chunks have sharp features where they are asked for") {
   RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar =
       compile(runtime.get(),
@@ -492,14 +492,26 @@ TEST_CASE("regions have sharp features where they are asked for, and chunks do n
   CHECK(farthest(SGM_MESHING_SHARP) == Approx(std::sqrt(12.0)).margin(0.002));
   CHECK(farthest(SGM_MESHING_SHARP | SGM_MESHING_TEXTURE) == farthest(SGM_MESHING_SHARP));
 
-  const sgm_chunk_request request = SGM_CHUNK_REQUEST_INIT;
-  sgm_chunks_desc chunks = SGM_CHUNKS_DESC_INIT;
-  chunks.requests = &request;
-  chunks.count = 1;
-  chunks.flags = SGM_MESHING_SHARP;
-  sgm_mesh* mesh = nullptr;
-  sgm_error error = SGM_ERROR_INIT;
-  CHECK(sgm_mesh_chunks(field.get(), &chunks, &mesh, &error) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(std::string(error.message) ==
-        "chunks have no sharp features: leave SGM_MESHING_SHARP out, or mesh with sgm_surface_from_region");
+  const auto featuresOf = [&](uint32_t flags, double& most) {
+    size_t features = 0;
+    for (const MeshOwner& mesh : meshChunks(field.get(), {chunkAt({0, 0, 0, 0}, 63)}, flags)) {
+      const sgm_mesh_view view = viewOf(mesh);
+      for (uint32_t v = 0; v < view.vertex_count; ++v) {
+        const sgm_vertex& vertex = view.vertices[v];
+        features += (vertex.kind & SGM_VERTEX_FEATURE) != 0;
+        double square = 0;
+        for (const int16_t at : {vertex.x, vertex.y, vertex.z}) {
+          const double from_middle = static_cast<double>(at) * view.cell_units / (256 * 1024) - 4;
+          square += from_middle * from_middle;
+        }
+        most = std::max(most, std::sqrt(square));
+      }
+    }
+    return features;
+  };
+  double plain = 0, sharp = 0;
+  CHECK(featuresOf(0, plain) == 0);
+  CHECK(plain < std::sqrt(12.0) - 0.01);
+  CHECK(featuresOf(SGM_MESHING_SHARP, sharp) > 100);
+  CHECK(sharp == Approx(std::sqrt(12.0)).margin(0.002));
 }

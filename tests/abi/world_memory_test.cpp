@@ -117,7 +117,7 @@ struct Folder {
 sgm_world_desc troubledWorld(const Folder& folder, bool by_distance) {
   sgm_world_desc desc = SGM_WORLD_DESC_INIT;
   desc.top_level = 2;
-  desc.flags = by_distance ? SGM_WORLD_BY_DISTANCE : SGM_WORLD_TEXTURE;
+  desc.flags = by_distance ? SGM_WORLD_BY_DISTANCE : SGM_WORLD_TEXTURE | SGM_WORLD_SHARP;
   desc.finest_distance = 5;
   desc.view_distance = 25;
   desc.collider_distance = 6;

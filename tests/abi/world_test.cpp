@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "fixture.h"
@@ -215,6 +216,41 @@ TEST_CASE("meshes have texture coordinates where they are asked for, of the same
       CHECK((view.wedges != nullptr) == (flags != 0));
       if (view.wedges != nullptr) checkWedges(view);
     }
+  }
+}
+
+TEST_CASE("worlds have sharp features where they are asked for, at every level") {
+  const RuntimeOwner runtime = makeRuntime();
+  const FieldOwner field = makeField(runtime.get(),
+                                     compile(runtime.get(),
+                                             "sgm 1; units m; domain finite box(160m, 160m, 160m) empty; start Box;\n"
+                                             "rule Box { rot(y, 30deg) rot(x, 20deg) box(50m, 40m, 60m); }")
+                                         .get(),
+                                     512);
+  for (const uint32_t flags : {0u, uint32_t{SGM_WORLD_SHARP}}) {
+    sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+    desc.top_level = 3;
+    desc.finest_distance = 10;
+    desc.view_distance = 60;
+    desc.flags = flags | SGM_WORLD_BY_DISTANCE;
+    sgm_world* made = nullptr;
+    REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
+    const WorldOwner world(made);
+    look(world.get(), 0);
+    REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+    size_t count = 0;
+    REQUIRE(sgm_world_get_drawn(world.get(), nullptr, 0, &count, nullptr) == SGM_OK);
+    std::vector<sgm_drawn_chunk> chunks(count);
+    REQUIRE(sgm_world_get_drawn(world.get(), chunks.data(), 0, &count, nullptr) == SGM_OK);
+    std::set<int32_t> levels;
+    for (const sgm_drawn_chunk& chunk : chunks) {
+      const MeshOwner mesh(chunk.mesh);
+      const sgm_mesh_view view = viewOf(mesh);
+      for (uint32_t v = 0; v < view.vertex_count; ++v)
+        if ((view.vertices[v].kind & SGM_VERTEX_FEATURE) != 0) levels.insert(view.key.level);
+    }
+    CHECK((levels.size() > 1) == (flags != 0));
+    CHECK((!levels.empty()) == (flags != 0));
   }
 }
 

@@ -47,6 +47,12 @@ expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --path path.json --frames 1 --to
 out_has "over before anything was drawn"
 err_empty
 
+# Crisp edges at every level, dug into.
+expect 0 "$SGM" fly "$SOURCE/samples/grammars/city.sgm" --sharp --cell 0.5 --seed 3 --speed 30 --frames 200 --finest 24 \
+  --top-level 4 --view 120 --check --edits 5 --unpaced --json
+json 'j.commits > 3 && j.chunks_meshed > 50 && j.digs > 5'
+json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.degenerate_triangles === 0 && j.whole_failures === 0'
+
 # Parameters that are driven while it flies: every frame is closed, and shows one field.
 expect 0 "$SGM" fly "$cave" "${small[@]}" --speed 20 --frames 400 --check --edits 5 --animate boxy wet
 json 'j.fields >= 60 && j.fields_drawn > 0 && j.fields_drawn <= j.fields && j.chunks_outdated > 0 && j.chunks_outdated < j.chunks_meshed'

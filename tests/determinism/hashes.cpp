@@ -2,8 +2,8 @@
 //
 //   sgm_hashes GRAMMARS GOLDEN [--record | --threads N]
 //
-// Each line of GOLDEN is: grammar seed cell level x y z edge hash. The cube's lowest corner and its edge are in chunks
-// of that level, cells in units. Every piece is meshed with 1, 2 and 8 threads, or with N alone.
+// Each line of GOLDEN is: grammar seed cell level x y z edge [sharp] hash. The cube's lowest corner and its edge are in
+// chunks of that level, cells in units. Every piece is meshed with 1, 2 and 8 threads, or with N alone.
 // --record writes the hashes of today.
 
 #include <sgm/sgm.h>
@@ -24,6 +24,7 @@ struct Piece {
   std::string grammar;
   uint64_t seed = 0;
   int32_t cell = 0, level = 0, corner[3] = {0, 0, 0}, edge = 0;
+  bool sharp = false;
 };
 
 void check(sgm_result result, const sgm_error& error, const Piece& piece) {
@@ -76,6 +77,7 @@ uint64_t hashOf(const Piece& piece, const std::string& folder, uint32_t threads)
 
   sgm_region_desc region = SGM_REGION_DESC_INIT;
   region.level = piece.level;
+  region.flags = piece.sharp ? SGM_MESHING_SHARP : 0;
   const int32_t chunk = (piece.cell << piece.level) * SGM_CHUNK_CELLS;
   for (int axis = 0; axis < 3; ++axis) {
     region.minimum[axis] = piece.corner[axis] * chunk;
@@ -117,6 +119,8 @@ int main(int argc, char** argv) try {
     words >> p.grammar >> p.seed >> p.cell >> p.level >> p.corner[0] >> p.corner[1] >> p.corner[2] >> p.edge;
     if (!words) throw std::runtime_error("not understood: " + line);
     words >> expected;
+    p.sharp = expected == "sharp";
+    if (p.sharp) words >> expected;
     ++pieces;
     char first[17] = "";
     for (const uint32_t threads : thread_counts) {
@@ -130,7 +134,7 @@ int main(int argc, char** argv) try {
       }
     }
     out << p.grammar << ' ' << p.seed << ' ' << p.cell << ' ' << p.level << ' ' << p.corner[0] << ' ' << p.corner[1]
-        << ' ' << p.corner[2] << ' ' << p.edge << ' ' << first << '\n';
+        << ' ' << p.corner[2] << ' ' << p.edge << (p.sharp ? " sharp " : " ") << first << '\n';
   }
   golden.close();
   if (record && !wrong) std::ofstream(argv[2]) << out.str();

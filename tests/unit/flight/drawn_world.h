@@ -24,6 +24,12 @@ inline constexpr const char* kClosedWorlds[] = {
     "    tube((4m, -3m, 5m), (0m, 6m, 46m), 3m, bend 6m);\n"
     "    tube((4m, -3m, 5m), (-40m, -14m, -24m), 2m, bend 9m);\n  }\n"
     "  repeat 8 at(2m, 1m, 1m) detail 1m { at(-8m, -6m, -4m) sphere(0.9m); }\n}\n"};
+/// One of turned boxes, with pebbles that coarse levels have lost.
+inline constexpr const char* kBoxWorld =
+    "sgm 1;\nunits m;\ndomain finite box(120m, 120m, 120m) empty;\nstart Heap;\nrule Heap {\n"
+    "  at(4m, -3m, 5m) rot(y, 25deg) rot(x, 35deg) box(34m, 21m, 27m);\n"
+    "  at(-20m, 5m, -15m) rot(y, 45deg) { box(24m, 30m, 16m); cut { rot(x, 15deg) box(9m, 40m, 9m); } }\n"
+    "  repeat 9 at(3m, 4m, 2m) detail 1m { at(0m, 0m, -35m) rot(y, 30deg) box(1.2m, 2m, 0.7m); }\n}\n";
 inline constexpr int kTop = 3;
 inline constexpr int32_t kFinestCell = 256;
 
@@ -58,8 +64,10 @@ inline Drawing drawingOf(const Octree& tree) {
 /// A closed world's field, and the meshes asked for so far, with all seams.
 class MeshedWorld {
  public:
-  explicit MeshedWorld(const char* grammar)
-      : runtime_(makeRuntime()),
+  /// flags: of sgm_meshing_flag.
+  explicit MeshedWorld(const char* grammar, uint32_t flags = 0)
+      : flags_(flags),
+        runtime_(makeRuntime()),
         grammar_(compile(runtime_.get(), grammar)),
         field_(makeField(runtime_.get(), grammar_.get(), kFinestCell)) {}
 
@@ -71,7 +79,7 @@ class MeshedWorld {
       requests.back().coarser = parts.coarser;
     }
     if (requests.empty()) return;
-    std::vector<MeshOwner> made = meshChunks(field_.get(), requests);
+    std::vector<MeshOwner> made = meshChunks(field_.get(), requests, flags_);
     for (size_t i = 0; i < made.size(); ++i) {
       const sgm_chunk_key& key = requests[i].key;
       meshes_.emplace(ChunkKey{key.level, {key.x, key.y, key.z}}, std::move(made[i]));
@@ -82,6 +90,7 @@ class MeshedWorld {
   bool empty(const ChunkKey& key) const { return view(key).index_count == 0; }
 
  private:
+  uint32_t flags_;
   RuntimeOwner runtime_;
   GrammarOwner grammar_;
   FieldOwner field_;

@@ -42,8 +42,8 @@ WholeReport agreed(const FrameChecker& checker) {
 }  // namespace
 
 TEST_CASE("what an octree draws is closed, and stays so as octrees follow each other") {
-  for (const char* grammar : kClosedWorlds) {
-    MeshedWorld world(grammar);
+  for (const char* grammar : {kClosedWorlds[0], kClosedWorlds[1], kBoxWorld}) {
+    MeshedWorld world(grammar, grammar == kBoxWorld ? SGM_MESHING_SHARP : 0);
     FrameChecker checker;
     Drawing drawn;
     uint64_t triangles = 0, redrawn = 0, half_done = 0;
@@ -212,12 +212,16 @@ TEST_CASE("wrong blocks that join two surfaces in a point are seen in that verte
 }
 
 TEST_CASE("keys follow from packed vertices and the blocks around") {
+  const bool sharp = GENERATE(false, true);
+  CAPTURE(sharp);
+  const char* grammar = sharp ? kBoxWorld : kClosedWorlds[1];
   std::mt19937 random(9);
-  const std::vector<ChunkRequest> requests = frameRequests(randomTree(random));
-  const WorldField field(settingsOf(kClosedWorlds[1], kFinestCell), std::pmr::get_default_resource());
+  std::vector<ChunkRequest> requests = frameRequests(randomTree(random));
+  for (ChunkRequest& request : requests) request.sharp = sharp;
+  const WorldField field(settingsOf(grammar, kFinestCell), std::pmr::get_default_resource());
   const std::pmr::vector<PlacedChunk> chunks = meshAll(field, requests, 2);
-  MeshedWorld world(kClosedWorlds[1]);
-  std::array<size_t, 3> kinds{};
+  MeshedWorld world(grammar, sharp ? SGM_MESHING_SHARP : 0);
+  std::array<size_t, 4> kinds{};
   size_t fans = 0, wrong = 0;
   for (size_t i = 0; i < requests.size(); ++i) {
     const ChunkRequest& request = requests[i];
@@ -236,14 +240,18 @@ TEST_CASE("keys follow from packed vertices and the blocks around") {
         const std::optional<VertexKey> key =
             cli::vertexKey(chunks[i].grid, {vertex.x, vertex.y, vertex.z, vertex.kind}, face < 0 ? nullptr : &seam);
         wrong += !key || *key != part.keys[v];
-        ++kinds[vertex.kind];
+        ++kinds[(vertex.kind & SGM_VERTEX_FEATURE) != 0 ? 3 : vertex.kind];
         fans += key && key->fan != 0;
       }
     }
   }
   CHECK(wrong == 0);
-  for (const size_t count : kinds) CHECK(count > 10);
-  CHECK(fans > 0);
+  if (sharp) {
+    CHECK(std::min({kinds[0], kinds[1], kinds[3]}) > 10);
+  } else {
+    CHECK(std::min({kinds[0], kinds[1], kinds[2]}) > 10);
+    CHECK(fans > 0);
+  }
 }
 
 TEST_CASE("a mesh that is not well formed is refused, and changes nothing") {
@@ -274,6 +282,10 @@ TEST_CASE("a mesh that is not well formed is refused, and changes nothing") {
   CHECK(refused([](auto&, auto& v, auto&) { v[0].x = 8300; }));
   CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = SGM_VERTEX_COARSER; }));
   CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = 3; }));
+  CHECK(refused([](auto&, auto& v, auto&) { v[0].x = -1; }));
+  // Features: of the level above in a body, and of a cell outside the chunk.
+  CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = SGM_VERTEX_FEATURE | 1 << 13 | 0x15; }));
+  CHECK(refused([](auto&, auto& v, auto&) { v[0].kind = SGM_VERTEX_FEATURE | 1 << 14 | 0x15, v[0].x = -200; }));
   CHECK(refused([](auto& m, auto&, auto& i) { i[0] = m.body.vertex_count; }));
   CHECK(refused([](auto& m, auto&, auto&) { m.body.index_count -= 1; }));
   CHECK(refused([](auto& m, auto&, auto&) { m.vertex_count = m.body.vertex_count - 1; }));

@@ -49,9 +49,9 @@ MeshPart referenceBody(const ChunkSamples& s, const ChunkGrid& grid) {
           std::array<int, 3> at{x * kSubcell, y * kSubcell, z * kSubcell};
           at[static_cast<size_t>(axis)] += static_cast<int>(t);
           Vertex v{};
-          v.x = static_cast<uint16_t>(at[0]);
-          v.y = static_cast<uint16_t>(at[1]);
-          v.z = static_cast<uint16_t>(at[2]);
+          v.x = static_cast<int16_t>(at[0]);
+          v.y = static_cast<int16_t>(at[1]);
+          v.z = static_cast<int16_t>(at[2]);
           number[{x, y, z, axis}] = static_cast<uint32_t>(part.vertices.size());
           part.vertices.push_back(v);
           part.keys.push_back(
@@ -171,7 +171,7 @@ TEST_CASE("a ball is closed, faces the void and has about its volume", "[mesh][b
   CHECK(std::fabs(signedVolume(ball) / (4.18879 * 11.3 * 11.3 * 11.3) - 1) < 0.01);
   for (const Vertex& v : ball.vertices) {
     const SampleEdge edge = edgeOfBodyVertex(v);
-    const std::array<uint16_t, 3> at{v.x, v.y, v.z};
+    const std::array<int16_t, 3> at{v.x, v.y, v.z};
     REQUIRE(at[static_cast<size_t>(edge.axis)] % 256 != 0);
     REQUIRE(edge.sample() < size_t{kChunkSamples} * kChunkSamples * kChunkSamples);
   }

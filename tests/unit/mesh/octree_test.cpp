@@ -117,7 +117,7 @@ TEST_CASE("copies of a vertex in different parts lie in one place, to the bit", 
   const auto visit = [&](const MeshPart& part, const ChunkGrid& grid) {
     for (size_t i = 0; i < part.vertices.size(); ++i) {
       const Vertex& v = part.vertices[i];
-      const auto place = [&](int32_t origin, uint16_t local) {
+      const auto place = [&](int32_t origin, int16_t local) {
         return int64_t{origin} * kSubcell + int64_t{local} * grid.cell;
       };
       const std::array<int64_t, 3> at{place(grid.origin.x, v.x), place(grid.origin.y, v.y), place(grid.origin.z, v.z)};

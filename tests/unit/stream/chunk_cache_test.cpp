@@ -4,6 +4,7 @@
 
 #include "base/checksum.h"
 #include "chunk_cache_support.h"
+#include "mesh/feature_kind.h"
 
 using namespace sgm;
 
@@ -63,6 +64,37 @@ TEST_CASE("a chunk comes out of the cache as it was meshed", "[stream][disk]") {
   CHECK(proven >= 3);
   CHECK(voids > rounds(30) / 3);
   CHECK(edited >= std::max(rounds(30) / 10, 1u));
+}
+
+TEST_CASE("sharp chunks come out of the cache as they were meshed, and never for plain ones", "[stream][disk]") {
+  const auto seed = GENERATE(take(2, random(0, 1 << 30)));
+  CAPTURE(seed);
+  std::mt19937 random(static_cast<uint32_t>(seed));
+  const Machine machine;
+  const CacheFolder folder;
+  const auto cache = openCache(folder, kAmple);
+  const Excerpt scene{"combine.sgm", 256, around(0, 0, 0, 12)};
+  const std::string boxes =
+      "sgm 1; units m; domain finite box(80m, 80m, 80m) empty; start Pair; rule Pair {\n"
+      "  rot(y, 25deg) rot(x, 35deg) box(17m, 11m, 13m); at(9m, 4m, 3m) rot(z, 20deg) box(14m, 7m, 12m); }\n";
+  const WorldField world(settingsOf(boxes, 256, 3), std::pmr::get_default_resource());
+  size_t features = 0, differ = 0;
+  for (unsigned i = 0; i < rounds(40); ++i) {
+    const auto edits = i % 2 ? randomEdits(random, scene, 12) : nullptr;
+    const ChunkRequest request = randomRequest(random, scene);
+    ChunkMesher sharp = machine.mesher(world, nullptr), kept = machine.mesher(world, cache.get());
+    sharp.sharp = kept.sharp = true;
+    const MeshedChunk made = meshed(sharp, request, nullptr, edits.get());
+    for (int again = 0; again < 2; ++again) CHECK(same(made, meshed(kept, request, nullptr, edits.get())));
+    const MeshedChunk plain = meshed(machine.mesher(world, nullptr), request, nullptr, edits.get());
+    CHECK(same(plain, meshed(machine.mesher(world, cache.get()), request, nullptr, edits.get())));
+    differ += plain.surface.hash != made.surface.hash;
+    for (const Vertex& v : made.surface.mesh.vertices) features += isFeature(v.kind);
+  }
+  CHECK(cache->stats().damaged + cache->stats().errors == 0);
+  CHECK(cache->stats().hits > 0);
+  CHECK(features > 100);
+  CHECK(differ > 2);
 }
 
 TEST_CASE("anchors come out of the cache as they were derived", "[stream][disk]") {

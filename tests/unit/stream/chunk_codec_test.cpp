@@ -2,9 +2,11 @@
 
 #include "stream/chunk_codec.h"
 
+#include <algorithm>
 #include <cstring>
 #include <random>
 
+#include "mesh/feature_kind.h"
 #include "mesh/hash.h"
 #include "rounds.h"
 #include "stream/chunk_surface.h"
@@ -37,7 +39,10 @@ uint32_t below(std::mt19937& random, uint32_t end) { return static_cast<uint32_t
 ChunkRecord randomRecord(std::mt19937& random, uint32_t most) {
   ChunkRecord record;
   PackedMesh& mesh = record.mesh;
-  const auto position = [&] { return static_cast<uint16_t>(below(random, 8193)); };
+  const auto position = [&](uint16_t kind) {
+    return static_cast<int16_t>(isFeature(kind) ? static_cast<int>(below(random, 9217)) - 512
+                                                : static_cast<int>(below(random, 8193)));
+  };
   const auto word = [&] { return static_cast<uint16_t>(random()); };
   const auto normal = [&] { return static_cast<int16_t>(random()); };
   for (PackedRange& range : mesh.ranges) {
@@ -48,7 +53,9 @@ ChunkRecord randomRecord(std::mt19937& random, uint32_t most) {
     range.index_count = 3 * below(random, most);
     range.hash = {static_cast<uint32_t>(random()), static_cast<uint32_t>(random())};
     for (uint32_t i = 0; i < range.vertex_count; ++i) {
-      mesh.vertices.push_back({position(), position(), position(), word(), normal(), normal(), word(), word()});
+      const uint16_t kind = word();
+      mesh.vertices.push_back(
+          {position(kind), position(kind), position(kind), word(), normal(), normal(), word(), kind});
     }
     for (uint32_t i = 0; i < range.index_count; ++i) {
       mesh.indices.push_back(range.first_vertex + below(random, range.vertex_count));
@@ -81,7 +88,8 @@ bool canBeDrawn(const ChunkRecord& record) {
     if (index >= mesh.vertices.size() || index_owner[i] == -1 || vertex_owner[index] != index_owner[i]) return false;
   }
   for (const Vertex& v : mesh.vertices) {
-    if (v.x > 8192 || v.y > 8192 || v.z > 8192) return false;
+    const int beyond = isFeature(v.kind) ? 512 : 0;
+    if (std::max({v.x, v.y, v.z}) > 8192 + beyond || std::min({v.x, v.y, v.z}) < -beyond) return false;
   }
   return std::find(vertex_owner.begin(), vertex_owner.end(), -1) == vertex_owner.end() && record.seams < 64 &&
          record.solid_samples <= 32 * 32 * 32;
@@ -178,7 +186,7 @@ TEST_CASE("every check of the decoder is one that can fail", "[stream][codec]") 
     const auto first = static_cast<uint32_t>(good.mesh.vertices.size());
     good.mesh.ranges[r] = {first, 3, first, 3, {}};
     for (uint32_t i = 0; i < 3; ++i) {
-      good.mesh.vertices.push_back({8192, 0, static_cast<uint16_t>(i), 0, 0, 0, 0, 0});
+      good.mesh.vertices.push_back({8192, 0, static_cast<int16_t>(i), 0, 0, 0, 0, 0});
       good.mesh.indices.push_back(first + i);
     }
   }
@@ -193,7 +201,9 @@ TEST_CASE("every check of the decoder is one that can fail", "[stream][codec]") 
   };
   refused("outside", [](ChunkRecord& r) { r.mesh.vertices[4].x = 8193; });
   refused("outside", [](ChunkRecord& r) { r.mesh.vertices[5].y = 8193; });
-  refused("outside", [](ChunkRecord& r) { r.mesh.vertices[0].z = 65535; });
+  refused("outside", [](ChunkRecord& r) { r.mesh.vertices[0].z = -1; });
+  refused("outside", [](ChunkRecord& r) { r.mesh.vertices[0].kind = kFeature, r.mesh.vertices[0].z = -513; });
+  refused("outside", [](ChunkRecord& r) { r.mesh.vertices[0].kind = kFeature, r.mesh.vertices[0].y = 8705; });
   refused("ranges", [](ChunkRecord& r) { r.mesh.indices[0] = 3; });
   refused("ranges", [](ChunkRecord& r) { r.mesh.indices[5] = 2; });
   refused("ranges", [](ChunkRecord& r) { r.mesh.indices[5] = 6; });

@@ -210,7 +210,9 @@ inline void checkFrame(const Scene& scene, const Engine& engine, const EditSnaps
       if (range.index_count > 0) drawn[{key, i}] = range.hash;
     }
   }
-  const std::pmr::vector<PlacedChunk> chunks = meshAll(field != nullptr ? *field : scene.field, frameRequests(frame->tree), 2, edits);
+  std::vector<ChunkRequest> requests = frameRequests(frame->tree);
+  for (ChunkRequest& request : requests) request.sharp = scene.settings.sharp;
+  const std::pmr::vector<PlacedChunk> chunks = meshAll(field != nullptr ? *field : scene.field, requests, 2, edits);
   std::vector<const MeshPart*> parts;
   for (const PlacedChunk& chunk : chunks) {
     std::vector<PlacedPart> placed;

@@ -75,7 +75,7 @@ TEST_CASE("chunks that meet have the same texture coordinates on their border") 
         for (const Wedge& wedge : texture->wedges) {
           const Vertex& v = surface.mesh.vertices[wedge.vertex];
           std::array<int64_t, 3> place{};
-          const std::array<uint16_t, 3> at{v.x, v.y, v.z};
+          const std::array<int16_t, 3> at{v.x, v.y, v.z};
           bool border = false;
           for (size_t axis = 0; axis < 3; ++axis) {
             place[axis] =
@@ -136,7 +136,7 @@ TEST_CASE("a seam's vertices have the coordinates and blends of the coarser chun
       return surface;
     };
     const auto placeOf = [](const ChunkSurface& surface, const Vertex& v) {
-      const std::array<uint16_t, 3> at{v.x, v.y, v.z};
+      const std::array<int16_t, 3> at{v.x, v.y, v.z};
       std::array<int64_t, 3> place{};
       for (size_t axis = 0; axis < 3; ++axis) {
         place[axis] =

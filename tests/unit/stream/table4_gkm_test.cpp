@@ -66,7 +66,7 @@ TexelDensity textureOf(const WorldField& world, const PlacedChunk& chunk) {
   const MeshPart& body = chunk.mesh.body;
   std::vector<TexturePoint> positions;
   for (const Vertex& vertex : body.vertices) {
-    const auto at = [&](int axis, uint16_t local) {
+    const auto at = [&](int axis, int16_t local) {
       return chunk.grid.origin[axis] + double{1} * local * chunk.grid.cell / kSubcell;
     };
     positions.push_back({at(0, vertex.x), at(1, vertex.y), at(2, vertex.z)});
