@@ -41,6 +41,9 @@ done
 [[ " ${without[*]-} " == *" vulkan "* ]] || export SGM_REQUIRE_VULKAN=1
 [[ $jobs =~ ^[1-9][0-9]*$ ]] || die "--jobs needs a number, not '$jobs'" 2
 
+# Paths within the checkout are hashed as relative ones, so that a clone elsewhere finds what another has compiled.
+export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
+
 started=$SECONDS
 step() { printf '\n== %s (after %d s)\n' "$1" $((SECONDS - started)); }
 
