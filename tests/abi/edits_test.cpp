@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "fixture.h"
+#include "temporary_folder.h"
 
 namespace {
 
@@ -183,9 +184,8 @@ TEST_CASE("worlds exchange edits as bytes, and are equal then", "[threads]") {
 
 TEST_CASE("a journal and a folder of chunks outlast the world", "[threads]") {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "sgm_abi_world";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const sgm::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path;
   const std::string journal = (folder / "edits").string(), cache = (folder / "chunks").string();
   sgm_world_desc desc = smallWorld();
   desc.journal = journal.c_str();
@@ -233,5 +233,4 @@ TEST_CASE("a journal and a folder of chunks outlast the world", "[threads]") {
   desc.journal = wrong.c_str();
   CHECK(sgm_world_create(field, &desc, &world, &error) == SGM_ERR_DATA);
   CHECK(fs::file_size(folder / "other") == 38);
-  fs::remove_all(folder);
 }

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "fixture.h"
+#include "temporary_folder.h"
 
 namespace {
 
@@ -183,7 +184,8 @@ TEST_CASE("parameters are listed, set within their range, and read back") {
 TEST_CASE("imports come from the callback, from the folder, and from nowhere else") {
   RuntimeOwner runtime = makeRuntime();
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / ("sgm_abi_" + std::to_string(std::rand()));
+  const sgm::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path;
   fs::create_directories(folder / "inner");
   std::ofstream(folder / "inner" / "part.sgm") << "sgm 1; let width() = 2m;";
   std::ofstream(folder / "secret.sgm") << "sgm 1; let width() = 2m;";
@@ -221,7 +223,6 @@ TEST_CASE("imports come from the callback, from the folder, and from nowhere els
   CHECK(asked == "part.sgm");
   desc.import_text = [](void*, const char*, const char**, size_t*) -> int32_t { return 0; };
   CHECK(tryCompile(runtime.get(), desc).result == SGM_ERR_GRAMMAR);
-  fs::remove_all(folder);
 }
 
 TEST_CASE("a grammar says where its world lies") {

@@ -3,13 +3,13 @@
 
 #include <chrono>
 #include <cstring>
-#include <filesystem>
 #include <random>
 #include <thread>
 
 #include "failing_memory.h"
 #include "fixture.h"
 #include "rounds.h"
+#include "temporary_folder.h"
 
 namespace {
 
@@ -103,15 +103,8 @@ struct Session {
 };
 
 /// A folder of its own for each session's journal and chunks.
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / "sgm_world_memory_test";
+struct Folder : sgm::TemporaryFolder {
   std::string journal = (path / "edits").string(), cache = (path / "chunks").string();
-
-  Folder() {
-    std::filesystem::remove_all(path);
-    std::filesystem::create_directories(path);
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
 };
 
 sgm_world_desc troubledWorld(const Folder& folder, bool by_distance) {

@@ -1,13 +1,13 @@
 // Another field in a world's place: what it changes is meshed again, and nothing else; every frame shows one field.
 
 #include <chrono>
-#include <filesystem>
 #include <thread>
 
 #include "catch.h"
 #include "edits_support.h"
 #include "rounds.h"
 #include "streaming_support.h"
+#include "temporary_folder.h"
 
 using namespace sgm;
 
@@ -481,10 +481,9 @@ TEST_CASE("without viewers a field waits for its turn, and the last one takes it
 }
 
 TEST_CASE("a journal with a later grammar's materials opens with the first one again") {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / "sgm_field_change_journal";
-  std::filesystem::remove(path);
+  const TemporaryFolder folder;
   WorldSettings settings;
-  settings.journal = path;
+  settings.journal = folder.path / "journal";
   settings.edits.author = 0;
   const Viewer viewer = viewerAt(96, 96, 96);
   const std::string richer = replaced(caveText(), "tag \"cave.hall\";", "tag \"cave.hall\"; mat marble;");
@@ -507,7 +506,6 @@ TEST_CASE("a journal with a later grammar's materials opens with the first one a
     edits = scene.world->editCount();
   }
   CHECK(edits == 2);
-  std::filesystem::remove(path);
 }
 
 TEST_CASE("a job system that runs jobs at once compares some chunks an update, without depth") {

@@ -1,15 +1,14 @@
 // A world with a folder for what it has meshed.
 
-#include "catch.h"
+#include "disk_cache_support.h"
 #include "streaming_support.h"
 
 using namespace sgm;
 
 TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and draws the same", "[threads]") {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "sgm_world_cache_test";
-  std::filesystem::remove_all(folder);
+  const CacheFolder folder;
   WorldSettings settings;
-  settings.cache = folder;
+  settings.cache = folder.path;
   const Viewer viewer = viewerAt(96, 96, 96);
   const IntBox region{{64 * 1024, 64 * 1024, 64 * 1024}, {128 * 1024, 128 * 1024, 128 * 1024}};
   ContentHash first;
@@ -34,5 +33,4 @@ TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and
     CHECK(cache.damaged == 0);
     CHECK(cache.errors == 0);
   }
-  std::filesystem::remove_all(folder);
 }

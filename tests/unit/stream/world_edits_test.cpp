@@ -8,6 +8,7 @@
 #include "edits_support.h"
 #include "rounds.h"
 #include "streaming_support.h"
+#include "temporary_folder.h"
 
 using namespace sgm;
 
@@ -230,8 +231,8 @@ TEST_CASE("worlds that have exchanged their edits are equal", "[threads]") {
 }
 
 TEST_CASE("a journal brings the edits back, and a world of another kind does not take it", "[threads]") {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / "sgm_world_edits_test.journal";
-  std::filesystem::remove(path);
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path / "journal";
   WorldSettings settings;
   settings.journal = path;
   const Viewer viewer = viewerAt(96, 96, 96);
@@ -269,5 +270,4 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
       World::create(lent(other.field), *other.backend, *other.jobs, wrong, other.field.memory());
   REQUIRE_FALSE(refused);
   CHECK(refused.error().code == Code::bad_input);
-  std::filesystem::remove(path);
 }
