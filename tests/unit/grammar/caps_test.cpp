@@ -1,7 +1,6 @@
 // Hostile texts: deep, long, endless; each must end quickly and with a diagnostic.
 
 #include <algorithm>
-#include <chrono>
 #include <ctime>
 
 #include "catch.h"
@@ -17,6 +16,9 @@ std::string repeated(std::string_view text, int times) {
   for (int i = 0; i < times; ++i) out += text;
   return out;
 }
+
+/// Of processor time: the machine may be busy.
+double secondsSince(std::clock_t begin) { return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; }
 
 bool mentions(const CompileResult& result, std::string_view code) {
   for (const Diagnostic& d : result.diagnostics)
@@ -49,7 +51,7 @@ TEST_CASE("a path is no deeper than rules are", "[grammar][caps]") {
 }
 
 TEST_CASE("many overrides of one rule cost what they are", "[grammar][caps]") {
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   std::string cells, tags, same;
   for (int i = 0; i < 2000; ++i) {
     cells += "override \"a(" + std::to_string(i) + ", 0, 0)/A/B[0]\" { at(1m, 0m, 0m) inner; }\n";
@@ -68,8 +70,7 @@ TEST_CASE("many overrides of one rule cost what they are", "[grammar][caps]") {
     const CompileResult result = compileText(text);
     CHECK((result.program || mentions(result, "reach")));
   }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-  CHECK(seconds.count() < 5);
+  CHECK(secondsSince(begin) < 5);
 }
 
 TEST_CASE("chains of lets and fields do not explode", "[grammar][caps]") {
@@ -81,11 +82,10 @@ TEST_CASE("chains of lets and fields do not explode", "[grammar][caps]") {
       text += std::string(kind) + " f" + std::to_string(i) + "(x) = f" + std::to_string(i - 1) + "(f" +
               std::to_string(i - 1) + "(x));\n";
     text += "rule A { displace clamp(f39(0.001m), -1m, 1m) { sphere(1m); } }\n";
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     const CompileResult result = compileText(text);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     INFO(renderDiagnostics(result));
-    CHECK(seconds.count() < 2);
+    CHECK(secondsSince(begin) < 2);
   }
 }
 
@@ -95,11 +95,10 @@ TEST_CASE("rules that multiply are bounded once a range, not once a leaf", "[gra
     text += "rule R" + std::to_string(i) + " { R" + std::to_string(i + 1) + "; at(1cm, 0m, 0m) R" +
             std::to_string(i + 1) + "; }\n";
   text += "rule R100 { sphere(1m); }\n";
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   const CompileResult result = compileText(text);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   INFO(renderDiagnostics(result));
-  CHECK(seconds.count() < 2);
+  CHECK(secondsSince(begin) < 2);
   REQUIRE(result.program);
   CHECK(result.program->layers[0].bound.hi.x <= 2 * kUnitsPerMetre + 1);
 }
@@ -114,11 +113,10 @@ TEST_CASE("a megabyte of noise ends", "[grammar][caps]") {
   for (std::string_view piece :
        {"rule A { sphere(1m); }\n", "}", "{", "\"", "1", "a ", "// c\n", "\xFF", "rule\n", "; "}) {
     std::string text = "sgm 1;\n" + repeated(piece, static_cast<int>(1000000 / piece.size()));
-    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t begin = std::clock();
     compileText(text);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     INFO(piece);
-    CHECK(seconds.count() < 5);
+    CHECK(secondsSince(begin) < 5);
   }
 }
 
