@@ -82,7 +82,7 @@ TEST_CASE("what CUDA meshes lies on the Vulkan device that draws, wherever the v
     CHECK(gpu.imports() > 0);
   }
   // What was submitted about the last meshes may not have ended yet.
-  for (int tries = 0; infoOf(runtime, backend).resident != 0 && tries < 5000; ++tries) {
+  for (int tries = 0; infoOf(runtime, backend).resident != 0 && tries < 60'000; ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   CHECK(infoOf(runtime, backend).resident == 0);

@@ -77,7 +77,7 @@ struct Session {
   }
 
   void settle() {
-    for (int i = 0; i < 20'000 && !atRest(); ++i) frame();
+    for (int i = 0; i < 100'000 && !atRest(); ++i) frame();
     REQUIRE(atRest());
   }
 

@@ -97,7 +97,7 @@ encoder() {
   chmod +x bin/ffmpeg
 }
 video=(--cell 1 --seed 3 --path path.json --top-level 2 --view 40 --unpaced --json --levels --video flight.mp4)
-expect 3 timeout 20 env PATH="$work/none" "$SGM" fly "$cave" "${video[@]}" --frames 99999999
+expect 3 timeout 120 env PATH="$work/none" "$SGM" fly "$cave" "${video[@]}" --frames 99999999
 err_has 'ffmpeg'
 one_line
 expect 0 "$SGM" backends --json
@@ -122,7 +122,7 @@ if node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1]))
   [[ $(<flight.mp4) == "$((2 * 640 * 360 * 4))"*' -s 640x360 -r 30 '* ]] || failed "the video is not two pictures"
   rm flight.mp4
   encoder 'head -c 1000000 >"$file"; echo "first words" >&2; echo "no room for a film" >&2; exit 7'
-  expect 4 timeout 60 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 99999999
+  expect 4 timeout 120 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 99999999
   err_has 'status 7: no room for a film'
   one_line
   # All was taken, and still it failed; or nothing was written.
@@ -161,7 +161,7 @@ expect 2 "$SGM" fly "$cave" --compare --journal dug
 unwritable=("--png 2 --out nowhere/flight.png" "--video nowhere/flight.mp4" "--journal nowhere/dug")
 [[ ${SGM_TEST_DISK_CACHE:-1} == 1 ]] && unwritable+=("--cache path.json")
 for wrong in "${unwritable[@]}"; do
-  expect 4 timeout 20 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" --frames 99999999 --unpaced $wrong
+  expect 4 timeout 120 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" --frames 99999999 --unpaced $wrong
   one_line
 done
 expect 1 "$SGM" fly "$cave" --seed 4 --frames 10 --journal dug

@@ -236,7 +236,7 @@ done
 trap - XFSZ
 
 # A name that cannot be written is said before the work, which would take minutes here.
-expect 4 timeout 20 "$SGM" mesh "$cave" --region=-512,-512,-512:512,512,512 --cell 0.1 --max-chunks 99999999 \
+expect 4 timeout 120 "$SGM" mesh "$cave" --region=-512,-512,-512:512,512,512 --cell 0.1 --max-chunks 99999999 \
   --out nowhere/cave.glb
 one_line
 

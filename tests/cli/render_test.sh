@@ -91,7 +91,7 @@ expect 4 "$SGM" render ball.sgm --out nowhere/ball.png --size 64x64
 one_line
 expect 4 "$SGM" render none.sgm --out wrong.png
 # A name that cannot be written is said before the work.
-expect 4 timeout 20 "$SGM" render "$cave" --out nowhere/cave.png --region=-512,-512,-512:512,512,512 --cell 0.1 \
+expect 4 timeout 120 "$SGM" render "$cave" --out nowhere/cave.png --region=-512,-512,-512:512,512,512 --cell 0.1 \
   --max-chunks 99999999
 one_line
 printf 'what was here before' >ball.png

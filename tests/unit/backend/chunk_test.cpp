@@ -375,7 +375,7 @@ TEST_CASE("N threads mesh N chunks at one time, whether or not anyone waits", "[
       });
       REQUIRE(batch);
       if (waits) (*batch)->wait();
-      for (int i = 0; i < 20'000 && !(*batch)->poll(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      for (int i = 0; i < 100'000 && !(*batch)->poll(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       REQUIRE((*batch)->poll());
       INFO(threads << " threads");
       CHECK(most <= threads);

@@ -161,7 +161,7 @@ class Strikes {
  private:
   /// What was being copied when a wait failed is given back once the copying has ended.
   BackendCounters countersOnceOnlyThese(uint64_t bytes) const {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
     while (counters().resident != bytes && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
     return counters();
   }

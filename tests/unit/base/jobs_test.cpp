@@ -67,7 +67,7 @@ TEST_CASE("who waits for a loop helps the job system meanwhile", "[threads]") {
     ++begun;
     while (begun < 2) std::this_thread::yield();
     if (std::this_thread::get_id() == caller) return;
-    for (int i = 0; i < 5000 && !jobs.helped; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int i = 0; i < 60'000 && !jobs.helped; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     in_time = jobs.helped;
   });
   CHECK(in_time);

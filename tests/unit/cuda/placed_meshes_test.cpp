@@ -117,7 +117,7 @@ bool there(const DeviceParts& parts) { return static_cast<const vulkan::VulkanPa
 
 /// What is given back is free once the device that draws has done with what was submitted about it.
 uint64_t bytesAtRest(MeshStore& store) {
-  for (int tries = 0; store.bytes() != 0 && tries < 5000; ++tries) {
+  for (int tries = 0; store.bytes() != 0 && tries < 60'000; ++tries) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return store.bytes();

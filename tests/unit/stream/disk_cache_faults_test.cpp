@@ -76,7 +76,7 @@ TEST_CASE("processes share a folder", "[stream][disk]") {
       if (!cache) return 100;
       // Together they store more than there is room for, however slow the machine.
       const auto enough = [&] { return (*cache)->stats().stored > 100; };
-      const int wrong = useCache(**cache, i, 300, [&] { return late(0s) && (enough() || late(30s)); });
+      const int wrong = useCache(**cache, i, 300, [&] { return late(0s) && (enough() || late(120s)); });
       return wrong != 0 || enough() ? wrong : 101;
     }));
   }

@@ -175,7 +175,7 @@ TEST_CASE("an edit larger than all that is drawn finds room under a small cap", 
   const Viewer viewer = viewerAt(96, 96, 96);
   REQUIRE(scene.world->setViewers({&viewer, 1}));
   const auto settle = [&] {
-    for (int updates = 0; updates < 20'000 && !scene.world->stats().idle; ++updates) {
+    for (int updates = 0; updates < 100'000 && !scene.world->stats().idle; ++updates) {
       REQUIRE(scene.world->update(size_t{1} << 30));
       engine.take(*scene.world);
       workOrWait(scene);
@@ -244,7 +244,7 @@ TEST_CASE("a journal brings the edits back, and a world of another kind does not
     REQUIRE(scene.world->setViewers({&viewer, 1}));
     // Written by the world's jobs alone.
     const auto size = std::filesystem::file_size(path);
-    for (int updates = 0; updates < 10'000 && std::filesystem::file_size(path) == size; ++updates) {
+    for (int updates = 0; updates < 100'000 && std::filesystem::file_size(path) == size; ++updates) {
       REQUIRE(scene.world->update(size_t{1} << 30));
       scene.world->poll([](const WorldEvent&) { return true; });
       workOrWait(scene);

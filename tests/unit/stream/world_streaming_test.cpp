@@ -189,7 +189,7 @@ TEST_CASE("what is drawn stays drawn where its next surface is too large to be h
       viewer = wander(random, viewer);
       REQUIRE(scene.world->setViewers({&viewer, 1}));
       const size_t bytes = turn % 2 == 0 ? size_t{1} << 30 : 15'000;
-      for (int updates = 0; updates < 20'000 && !scene.world->stats().idle; ++updates) {
+      for (int updates = 0; updates < 100'000 && !scene.world->stats().idle; ++updates) {
         REQUIRE(scene.world->update(bytes));
         engine.take(*scene.world);
         workOrWait(scene);
@@ -261,7 +261,7 @@ TEST_CASE("viewers of great weight see as far as can be planned, and too many ar
   viewer.weight = 100;
   viewer.fov = 0.05;
   REQUIRE(scene.world->setViewers({&viewer, 1}));
-  for (int updates = 0; updates < 20'000 && scene.world->stats().plans == 0; ++updates) {
+  for (int updates = 0; updates < 100'000 && scene.world->stats().plans == 0; ++updates) {
     REQUIRE(scene.world->update(size_t{1} << 30));
     scene.world->poll([](const WorldEvent&) { return true; });
     workOrWait(scene);
