@@ -107,10 +107,10 @@ TEST_CASE("GK-M: clouds, towers and caves follow their parameters", "[table4]") 
       }
     }
   }
-  // The sky has as many clouds as its cover says.
+  // The sky has as many clouds as its cover says. In the same worlds every time: a cloud has neighbours, and so eight
+  // worlds drawn anew are out of these bounds once in some thousand runs.
   size_t none = 0, some = 0, all = 0;
-  for (unsigned world = 0; world < 8; ++world) {
-    const uint64_t of = random();
+  for (uint64_t of = 1; of <= 8; ++of) {
     none += placesOf(worldOf(of, "cover", 0), "Cumulus").size();
     some += placesOf(worldOf(of, "cover", 0.5), "Cumulus").size();
     all += placesOf(worldOf(of, "cover", 1), "Cumulus").size();

@@ -125,6 +125,7 @@ TEST_CASE("Mueller: balconies stand where they are drawn, and only there", "[tab
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
   Plan plan;
+  plan.floors = 15;  // of so many windows the share that is drawn lies six deviations within the bounds below
   plan.balconies = 0;
   CHECK(usesOf(worldOf(plan, seed), "Balcony").empty());
   plan.balconies = 1;
@@ -154,7 +155,8 @@ TEST_CASE("Mueller: windows open where no neighbour stands, and nowhere else", "
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t open = 0, walled = 0;
-  for (unsigned round = 0; round < rounds(4); ++round) {
+  // In one terrace alone there may be too few of either.
+  for (unsigned round = 0; round < std::max(rounds(4), 4u); ++round) {
     const WorldField world{settingsOf(sample("terrace.sgm"), 128, random()), std::pmr::get_default_resource()};
     for (const RuleInstance& light : usesOf(world, "Light")) {
       const double x = metres(light.origin.x), y = metres(light.origin.y), z = metres(light.origin.z);

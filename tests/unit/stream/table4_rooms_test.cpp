@@ -52,8 +52,9 @@ TEST_CASE("rooms: a person walks from outside into every room of a random floor,
   CAPTURE(seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
-  size_t walked = 0, corridors = 0;
-  for (unsigned round = 0; round < rounds(30); ++round) {
+  size_t walked = 0, all = 0, corridors = 0;
+  // Not every floor has a corridor: it goes on until one had.
+  for (unsigned round = 0; round < rounds(30) || (corridors == 0 && round < 60); ++round) {
     const double x = 8 + 10 * unit(random), z = 8 + 8 * unit(random);
     const auto drawn = random();
     std::mt19937 open(drawn), shut(drawn);
@@ -76,9 +77,10 @@ TEST_CASE("rooms: a person walks from outside into every room of a random floor,
       CHECK(inside.reaches(room.frame.origin) == (told.find("no wall of `" + name + "`") == std::string::npos));
       CHECK(!outside.reaches(room.frame.origin));
       walked += inside.reaches(room.frame.origin);
+      ++all;
       corridors += name == "corridor";
     }
   }
-  CHECK(walked > 3 * rounds(30));
+  CHECK(2 * walked > all);
   CHECK(corridors > 0);
 }

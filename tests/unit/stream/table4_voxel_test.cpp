@@ -283,7 +283,7 @@ TEST_CASE("Voxel: in a layer without height the automaton is that of the paper, 
       CHECK_FALSE(map.rock({x, 12, z}));
       rock += wall;
     }
-  CHECK(rock > 48 * 48 / 10);
+  CHECK(rock > 48 * 48 / 20);
   CHECK(rock < 48 * 48 * 9 / 10);
   const std::pmr::vector<PlacedChunk> chunks = meshAll(world, frameRequests([] {
                                                          Octree tree(1, 512);
