@@ -49,11 +49,12 @@ Int3 moved(Int3 p, double x, double y, double z) {
   return {p.x + units(x), p.y + units(y), p.z + units(z)};
 }
 
-/// Chunks around the tower of the world's origin, from the caves to the clouds.
+/// Chunks around the tower of the world's origin, from the caves to the clouds; half of them under a sanitizer, for
+/// which they are most of what these tests do.
 std::pmr::vector<PlacedChunk> chunksOf(const WorldField& world, int level) {
   std::vector<ChunkRequest> requests;
   const int32_t edge = kChunkCells * world.cellAt(level) / kUnitsPerMetre;
-  for (int32_t z = -64 / edge; z < 64 / edge; ++z) {
+  for (int32_t z = rounds(4) < 4 ? 0 : -64 / edge; z < 64 / edge; ++z) {
     for (int32_t y = -64 / edge; y < 128 / edge; ++y) {
       for (int32_t x = -64 / edge; x < 64 / edge; ++x) requests.emplace_back().key = {level, {x, y, z}};
     }
