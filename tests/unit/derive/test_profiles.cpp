@@ -98,13 +98,16 @@ TEST_CASE("merged plans hang together, and every piece is a draw of its own", "[
     REQUIRE(pieces.size() == static_cast<size_t>(count));
     REQUIRE(chunk.notes.empty());
     const std::vector<PlanCorner> first = outlineOf(chunk, pieces[0]);
-    std::set<std::pair<double, double>> places;
+    // All corners: of two pieces one alone may come to lie in the same unit.
+    std::set<std::vector<std::pair<double, double>>> outlines;
     for (const Shape& piece : pieces) {
       const std::vector<PlanCorner> corners = outlineOf(chunk, piece);
       REQUIRE(overlap(corners, first));
-      places.emplace(corners[0].x, corners[0].z);
+      std::vector<std::pair<double, double>> places;
+      for (const PlanCorner& c : corners) places.emplace_back(c.x, c.z);
+      outlines.insert(places);
     }
-    CHECK(places.size() == pieces.size());
+    CHECK(outlines.size() == pieces.size());
   }
 }
 
@@ -254,7 +257,9 @@ TEST_CASE("roofs slope at their pitch, hips on every side and gables along the r
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(60); ++round) {
-    const double pitch = 5 + 75 * random01(random), x = 2 + 12 * random01(random), z = 2 + 12 * random01(random);
+    // As they are written: which of two edges is the longer must not be a matter of digits that are not.
+    const auto edge = [&] { return std::stod(decimal(2 + 12 * random01(random))); };
+    const double pitch = 5 + 75 * random01(random), x = edge(), z = edge();
     const int corners = 3 + static_cast<int>(random() % 9);
     struct Case {
       std::string over;

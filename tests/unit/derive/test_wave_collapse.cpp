@@ -134,7 +134,9 @@ TEST_CASE("large lattices of drawn tiles are filled so that every side fits, or 
   CAPTURE(seed);
   std::mt19937 random(seed);
   unsigned solved = 0;
-  for (unsigned round = 0; round < rounds(100); ++round) {
+  // As many in every build: of twenty it happens that a quarter alone is solved.
+  const unsigned lattices = std::max(rounds(100), 100u);
+  for (unsigned round = 0; round < lattices; ++round) {
     const DrawnWave wave = drawnWave(random, 24, 12);
     CAPTURE(round, wave.tiles.size());
     const WaveResult result = collapseWave(wave.tiles, wave.lattice, wave.key, 200'000);
@@ -143,7 +145,7 @@ TEST_CASE("large lattices of drawn tiles are filled so that every side fits, or 
     checkSolution(wave, result);
     ++solved;
   }
-  CHECK(solved > rounds(100) / 4);
+  CHECK(solved > lattices / 4);
 }
 
 TEST_CASE("a wave collapses to the same tiles every time, and to others by another key", "[wfc]") {
