@@ -100,7 +100,8 @@ TEST_CASE("of random grammars explain() finds the shape that decides") {
   CAPTURE(seed);
   std::mt19937 random(seed);
   Count count;
-  for (unsigned round = 0; round < rounds(40); ++round) {
+  // A quarter of them does not compile, and others have no surface where it looks: it goes on until enough had.
+  for (unsigned round = 0; round < rounds(40) || (count.told <= 20 && round < 400); ++round) {
     const uint64_t rules = random();
     const std::string text = RandomRules(rules).program(false);
     if (!compileGrammar(text, "test.sgm").program) continue;
