@@ -181,7 +181,7 @@ TEST_CASE("what is asked decides about shapes: the same in any order, and as the
                       [&](const Anchor& b) { return b.frame.origin == a.frame.origin; }));
   }
   CHECK(far > 50);
-  for (int round = 0; round < 3; ++round) {
+  for (unsigned round = 0; round < rounds(3); ++round) {
     std::vector<Int3> order = cells;
     std::shuffle(order.begin(), order.end(), random);
     WorldFieldSettings settings = settingsOf(hall("0.7m", "query clear 1m of net"), 512);
