@@ -1069,8 +1069,9 @@ typedef enum sgm_world_flag {
                                 and more, counts for mesh_bytes of what was lent, and not for the world's */
   SGM_WORLD_TEXTURE = 8,     /* meshes have texture coordinates: sgm_mesh_view.wedges. About twice the memory a mesh, in
                                 mesh_bytes; not on the device */
-  SGM_WORLD_SHARP = 16, /* crisp edges and corners: as SGM_MESHING_SHARP, at every level, closed in every frame. About
-                           half again the time a chunk; twice the room is set aside for each that is in work */
+  SGM_WORLD_SHARP = 16, /* crisp edges and corners: as SGM_MESHING_SHARP, at every level, closed in every frame. A chunk
+                           takes longer, by a tenth in a cave and three times as long where all of it is edges;
+                           twice the room is set aside for each that is in work */
   SGM_WORLD_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_world_flag;
 
