@@ -48,9 +48,9 @@ out_has "over before anything was drawn"
 err_empty
 
 # Crisp edges at every level, dug into.
-expect 0 "$SGM" fly "$SOURCE/samples/grammars/city.sgm" --sharp --cell 0.5 --seed 3 --speed 30 --frames 200 --finest 24 \
-  --top-level 4 --view 120 --check --edits 5 --unpaced --json
-json 'j.commits > 3 && j.chunks_meshed > 50 && j.digs > 5'
+expect 0 "$SGM" fly "$SOURCE/samples/grammars/building.sgm" --sharp --cell 0.5 --seed 3 --speed 20 --frames 1000 \
+  --finest 12 --top-level 3 --view 60 --check --edits 5 --unpaced --json
+json 'j.commits > 5 && j.chunks_meshed > 100 && j.digs > 2'
 json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.degenerate_triangles === 0 && j.whole_failures === 0'
 
 # Parameters that are driven while it flies: every frame is closed, and shows one field.
