@@ -75,6 +75,7 @@ class Draft {
   uint32_t addPolyline(std::vector<Int3> points);
   /// Has the shape know the line that it follows (Shape::first_point).
   void setLine(uint32_t shape, uint32_t polyline);
+  /// Corners in any order: they go round counter-clockwise seen from +y, as ProgramBuilder::prism takes them.
   uint32_t addPrismPoints(std::span<const Int3> points);
   /// solid: block.size() of them, x fastest. block.first_word is set.
   uint32_t addVoxels(VoxelBlock block, std::span<const uint8_t> solid);

@@ -38,7 +38,7 @@ enum class ShapeKind : uint8_t {
   ellipsoid,        ///< size: radii x y z; field (|q/radii| - 1) * min(radii)
   superquadric,     ///< size: radii x y z, exponent n >= 2 (no unit); field (||q/radii||_n - 1) * min(radii)
   halfspace,        ///< solid below the plane local y = 0
-  prism,            ///< polygon in local xz, extruded along y; size: half height; polygon: first, count
+  prism,            ///< polygon in local xz, counter-clockwise seen from +y, extruded along y; size: half height
   unite,            ///< hard union of the children
   meet,             ///< hard intersection
   subtract,         ///< the first child without all the others

@@ -28,10 +28,10 @@ std::vector<Shape> shapesOf(const GrammarChunk& chunk, ShapeKind kind) {
   return out;
 }
 
-/// Corners of an upright prism in the world, metres.
+/// Corners of an upright prism in the world, metres, from x towards z.
 std::vector<PlanCorner> outlineOf(const GrammarChunk& chunk, const Shape& prism) {
   std::vector<PlanCorner> out;
-  for (uint32_t i = 0; i < prism.point_count; ++i) {
+  for (uint32_t i = prism.point_count; i-- > 0;) {
     const Int3 p = chunk.points[prism.first_point + i];
     out.push_back({(prism.frame.origin.x + p.x) * kUnit, (prism.frame.origin.z + p.z) * kUnit});
   }
