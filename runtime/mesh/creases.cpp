@@ -48,9 +48,6 @@ Creases::Creases(const ChunkGrid& grid, int level, const FieldSampler& field, Me
 void Creases::settle(std::span<const uint32_t> vertices) {
   touch(vertices);
   slide(vertices);
-  for (const uint32_t v : vertices) {
-    normals_[v] = unpackNormal(part_.vertices[v].normal_x, part_.vertices[v].normal_y);
-  }
 }
 
 void Creases::touch(std::span<const uint32_t> vertices) {
@@ -58,8 +55,11 @@ void Creases::touch(std::span<const uint32_t> vertices) {
   points.reserve(vertices.size());
   for (const uint32_t v : vertices) points.push_back(vertexUnits(grid_, part_.vertices[v]));
   std::pmr::vector<FieldSample> samples(points.size(), memory_);
-  field_(points, samples);
-  for (size_t i = 0; i < points.size(); ++i) tangents_[vertices[i]] = tangentAt(points[i], samples[i]);
+  field_(points, samples, Sampled::all);
+  for (size_t i = 0; i < points.size(); ++i) {
+    tangents_[vertices[i]] = tangentAt(points[i], samples[i]);
+    normals_[vertices[i]] = unpackNormal(samples[i].normal_x, samples[i].normal_y);
+  }
 }
 
 /// The point of a vertex's edge at `step` 256ths of it.
@@ -70,13 +70,13 @@ Int3 Creases::pointOnEdge(uint32_t vertex, int32_t step) const {
 }
 
 /// Samples the field at one place on each of these vertices' edges.
-std::pmr::vector<FieldSample> Creases::sampleEdges(std::span<const uint32_t> vertices,
-                                                   std::span<const int32_t> steps) const {
+std::pmr::vector<FieldSample> Creases::sampleEdges(std::span<const uint32_t> vertices, std::span<const int32_t> steps,
+                                                   Sampled what) const {
   std::pmr::vector<Int3> points(memory_);
   points.reserve(vertices.size());
   for (size_t i = 0; i < vertices.size(); ++i) points.push_back(pointOnEdge(vertices[i], steps[i]));
   std::pmr::vector<FieldSample> samples(points.size(), memory_);
-  field_(points, samples);
+  field_(points, samples, what);
   return samples;
 }
 
@@ -103,7 +103,7 @@ void Creases::slide(std::span<const uint32_t> vertices) {
   step.resize(moving.size());
   for (int width = kSubcell; width > 1; width /= 2) {
     for (size_t i = 0; i < moving.size(); ++i) step[i] = (lo[i] + hi[i]) / 2;
-    const std::pmr::vector<FieldSample> middle = sampleEdges(moving, step);
+    const std::pmr::vector<FieldSample> middle = sampleEdges(moving, step, Sampled::value);
     for (size_t i = 0; i < moving.size(); ++i) ((middle[i].value < 0) == solid[i] ? lo[i] : hi[i]) = step[i];
   }
   for (int32_t& at : lo) at = std::max(at, 1);
@@ -116,6 +116,7 @@ void Creases::slide(std::span<const uint32_t> vertices) {
     vertex.normal_x = settled[i].normal_x;
     vertex.normal_y = settled[i].normal_y;
     tangents_[moving[i]] = tangentAt(pointOnEdge(moving[i], lo[i]), settled[i]);
+    normals_[moving[i]] = unpackNormal(vertex.normal_x, vertex.normal_y);
   }
 }
 
@@ -139,11 +140,9 @@ std::optional<Int3> Creases::nearestOnCrease(const Side& side) const {
   const Tangent &a = tangents_[side.from], &b = tangents_[side.to];
   const Vector3 pa = between(side.corner, a.point), pb = between(side.corner, b.point);
   const Vector3 middle{(pa[0] + pb[0]) / 2, (pa[1] + pb[1]) / 2, (pa[2] + pb[2]) / 2};
-  PlaneSum planes;
-  planes.add(a.normal, a.distance + dot(a.normal, minus(pa, middle)));
-  planes.add(b.normal, b.distance + dot(b.normal, minus(pb, middle)));
-  const Vector3 step = stepToPlanes(planes, 2);
-  return onGrid({middle[0] + step[0], middle[1] + step[1], middle[2] + step[2]});
+  const Vector3 step = stepToBoth(a.normal, a.distance + dot(a.normal, minus(pa, middle)), b.normal,
+                                  b.distance + dot(b.normal, minus(pb, middle)));
+  return onGrid(side.corner, {middle[0] + step[0], middle[1] + step[1], middle[2] + step[2]}, side.axis);
 }
 
 void Creases::place() {
@@ -160,7 +159,7 @@ void Creases::place() {
     points.push_back(sampledAt(side.corner, *place));
   }
   std::pmr::vector<FieldSample> samples(points.size(), memory_);
-  if (!points.empty()) field_(points, samples);
+  if (!points.empty()) field_(points, samples, Sampled::all);
   for (size_t i = 0; i < found.size(); ++i) {
     if (!isOnSurface(samples[i])) continue;
     Side& side = *found[i];
@@ -178,19 +177,21 @@ uint32_t Creases::faceVertex(uint32_t a, uint32_t b) const {
   return at != sides_.end() && at->sameEnds(wanted) ? at->vertex : kNoVertex;
 }
 
-std::optional<Int3> Creases::onGrid(const Vector3& units) const {
+std::optional<Int3> Creases::onGrid(const Int3& corner, const Vector3& units, int across) const {
   Int3 place;
-  for (size_t k = 0; k < 3; ++k) {
-    const double at = std::floor(units[k] / cell_ * kSubcell + 0.5);
-    if (!(at >= -kSubcell && at <= 2 * kSubcell)) return std::nullopt;
-    place[static_cast<int>(k)] = static_cast<int32_t>(at);
+  for (int k = 0; k < 3; ++k) {
+    const double at = std::floor(units[static_cast<size_t>(k)] / cell_ * kSubcell + 0.5);
+    if (!(at >= -kSubcell && at <= (k == across ? 1 : 2) * kSubcell)) return std::nullopt;
+    place[k] = static_cast<int32_t>(at);
+    const int64_t point = int64_t{corner[k]} + localUnits(place[k], cell_);
+    if (point != saturate(point)) return std::nullopt;
   }
   return place;
 }
 
 Int3 Creases::sampledAt(const Int3& corner, const Int3& place) const {
   Int3 point;
-  for (int k = 0; k < 3; ++k) point[k] = saturate(int64_t{corner[k]} + localUnits(place[k], cell_));
+  for (int k = 0; k < 3; ++k) point[k] = corner[k] + localUnits(place[k], cell_);
   return point;
 }
 

@@ -24,8 +24,11 @@ struct FieldSample {
   int16_t normal_x = 0, normal_y = 0;
 };
 
-/// Samples the field of one level at points in units, with many points at each call.
-using FieldSampler = std::function<void(std::span<const Int3> points, std::span<FieldSample> samples)>;
+enum class Sampled { value, all };
+
+/// Samples the field of one level at points in units, with many points at each call; only values where no more is
+/// asked for.
+using FieldSampler = std::function<void(std::span<const Int3> points, std::span<FieldSample> samples, Sampled what)>;
 
 /// The plane that touches the surface near a vertex: normal . (x - point) = distance.
 struct Tangent {
@@ -65,8 +68,9 @@ class Creases {
   /// The face vertex of a side that was asked for; kNoVertex where none lies on the surface.
   uint32_t faceVertex(uint32_t a, uint32_t b) const;
 
-  /// A place from a corner of the level's grid, in 1/256 of its cell; none where it lies a cell beyond the corner's.
-  std::optional<Int3> onGrid(const Vector3& units) const;
+  /// A place from a corner of the level's grid, in 1/256 of its cell; none where it lies farther than a cell beyond the
+  /// corner's cell, or its face across `across`, or outside of the world.
+  std::optional<Int3> onGrid(const Int3& corner, const Vector3& units, int across = -1) const;
   /// Where the field is sampled for such a place.
   Int3 sampledAt(const Int3& corner, const Int3& place) const;
   /// Units. A unit is for sampling at whole ones.
@@ -91,7 +95,8 @@ class Creases {
   void touch(std::span<const uint32_t> vertices);
   void slide(std::span<const uint32_t> vertices);
   Int3 pointOnEdge(uint32_t vertex, int32_t step) const;
-  std::pmr::vector<FieldSample> sampleEdges(std::span<const uint32_t> vertices, std::span<const int32_t> steps) const;
+  std::pmr::vector<FieldSample> sampleEdges(std::span<const uint32_t> vertices, std::span<const int32_t> steps,
+                                            Sampled what = Sampled::all) const;
   std::optional<Int3> nearestOnCrease(const Side& side) const;
   Side withOrderedEnds(uint32_t a, uint32_t b) const;
 
@@ -102,7 +107,7 @@ class Creases {
   MeshPart& part_;
   std::pmr::memory_resource* memory_;
   std::pmr::vector<Tangent> tangents_;  ///< by vertex
-  std::pmr::vector<Vector3> normals_;   ///< as packed, by vertex
+  std::pmr::vector<Vector3> normals_;   ///< as packed from samples, by vertex
   std::pmr::vector<Side> sides_;
 };
 

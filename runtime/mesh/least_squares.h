@@ -30,46 +30,80 @@ struct PlaneSum {
   }
 };
 
-/// The step from the sum's start to the nearest point, along the `rank` directions that the planes tell most of and in
-/// no direction that they tell less than 1/1000 of the first about.
-inline Vector3 stepToPlanes(const PlaneSum& planes, size_t rank) {
-  std::array<Vector3, 3> a = planes.squares, axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  constexpr int kSweeps = 8;  // the iteration converges quadratically: five are enough for doubles
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (const auto& [p, q] : {std::pair<size_t, size_t>{0, 1}, {0, 2}, {1, 2}}) {
-      if (a[p][q] == 0) continue;
-      const double ratio = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-      const double tangent = (ratio < 0 ? -1 : 1) / (std::fabs(ratio) + std::sqrt(ratio * ratio + 1));
-      const double cosine = 1 / std::sqrt(tangent * tangent + 1), sine = tangent * cosine;
-      for (size_t k = 0; k < 3; ++k) {
-        const double kp = a[k][p], kq = a[k][q];
-        a[k][p] = cosine * kp - sine * kq;
-        a[k][q] = sine * kp + cosine * kq;
+/// What planes tell of the nearest point, by direction.
+class PlaneAxes {
+ public:
+  explicit PlaneAxes(const PlaneSum& planes) : right_(planes.right) {
+    std::array<Vector3, 3> a = planes.squares;
+    constexpr int kSweeps = 8;  // the iteration converges quadratically: five are enough for doubles
+    constexpr double kSettled = 1e-30;
+    const double all = a[0][0] * a[0][0] + a[1][1] * a[1][1] + a[2][2] * a[2][2];
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      const double left = a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2];
+      if (left <= kSettled * all) break;
+      for (const auto& [p, q] : {std::pair<size_t, size_t>{0, 1}, {0, 2}, {1, 2}}) {
+        if (a[p][q] != 0) rotate(p, q, a);
       }
-      for (size_t k = 0; k < 3; ++k) {
-        const double pk = a[p][k], qk = a[q][k];
-        a[p][k] = cosine * pk - sine * qk;
-        a[q][k] = sine * pk + cosine * qk;
-        const double x = axes[p][k], y = axes[q][k];
-        axes[p][k] = cosine * x - sine * y;
-        axes[q][k] = sine * x + cosine * y;
-      }
-      a[p][q] = a[q][p] = 0;
     }
+    for (const auto& [i, j] : {std::pair<size_t, size_t>{0, 1}, {1, 2}, {0, 1}}) {
+      if (a[order_[i]][order_[i]] < a[order_[j]][order_[j]]) std::swap(order_[i], order_[j]);
+    }
+    for (size_t k = 0; k < 3; ++k) told_[k] = a[k][k];
   }
-  std::array<size_t, 3> order{0, 1, 2};
-  for (const auto& [i, j] : {std::pair<size_t, size_t>{0, 1}, {1, 2}, {0, 1}}) {
-    if (a[order[i]][order[i]] < a[order[j]][order[j]]) std::swap(order[i], order[j]);
+
+  /// The step from the sum's start to the nearest point, along the `rank` directions that the planes tell most of and
+  /// in no direction that they tell less than 1/1000 of the first about.
+  Vector3 step(size_t rank) const {
+    constexpr double kTold = 1e-3;
+    Vector3 step{};
+    for (size_t i = 0; i < rank; ++i) {
+      const double value = told_[order_[i]];
+      if (!(value > kTold * told_[order_[0]])) break;
+      const Vector3& axis = axes_[order_[i]];
+      const double along = dot(axis, right_) / value;
+      for (size_t k = 0; k < 3; ++k) step[k] += along * axis[k];
+    }
+    return step;
   }
-  constexpr double kTold = 1e-3;
-  const double largest = a[order[0]][order[0]];
-  Vector3 step{};
-  for (size_t i = 0; i < rank; ++i) {
-    const double value = a[order[i]][order[i]];
-    if (!(value > kTold * largest)) break;
-    const Vector3& axis = axes[order[i]];
-    const double along = dot(axis, planes.right) / value;
-    for (size_t k = 0; k < 3; ++k) step[k] += along * axis[k];
+
+ private:
+  void rotate(size_t p, size_t q, std::array<Vector3, 3>& a) {
+    const double ratio = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+    const double tangent = (ratio < 0 ? -1 : 1) / (std::fabs(ratio) + std::sqrt(ratio * ratio + 1));
+    const double cosine = 1 / std::sqrt(tangent * tangent + 1), sine = tangent * cosine;
+    for (size_t k = 0; k < 3; ++k) {
+      const double kp = a[k][p], kq = a[k][q];
+      a[k][p] = cosine * kp - sine * kq;
+      a[k][q] = sine * kp + cosine * kq;
+    }
+    for (size_t k = 0; k < 3; ++k) {
+      const double pk = a[p][k], qk = a[q][k];
+      a[p][k] = cosine * pk - sine * qk;
+      a[q][k] = sine * pk + cosine * qk;
+      const double x = axes_[p][k], y = axes_[q][k];
+      axes_[p][k] = cosine * x - sine * y;
+      axes_[q][k] = sine * x + cosine * y;
+    }
+    a[p][q] = a[q][p] = 0;
+  }
+
+  std::array<Vector3, 3> axes_{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  Vector3 right_, told_{};
+  std::array<size_t, 3> order_{0, 1, 2};
+};
+
+/// The shortest step that meets two planes normal . step = distance, with normals of length one, or 0 of one that is
+/// none. Of planes that nearly face each other the step to their middle.
+inline Vector3 stepToBoth(const Vector3& a, double to_a, const Vector3& b, double to_b) {
+  constexpr double kFacing = 1e-3;
+  const double cosine = dot(a, b), square = 1 - cosine * cosine;
+  Vector3 step;
+  if (1 + cosine > kFacing) {
+    const double along_a = (to_a - cosine * to_b) / square, along_b = (to_b - cosine * to_a) / square;
+    for (size_t k = 0; k < 3; ++k) step[k] = along_a * a[k] + along_b * b[k];
+  } else {
+    const double along = (to_a - to_b) / (2 * (1 - cosine));
+    for (size_t k = 0; k < 3; ++k) step[k] = along * (a[k] - b[k]);
   }
   return step;
 }

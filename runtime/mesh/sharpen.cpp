@@ -49,7 +49,8 @@ Int3 cellOf(const VertexKey& a, const VertexKey& b, const VertexKey& c, int32_t 
   for (int axis = 0; axis < 3; ++axis) {
     int32_t lo = INT32_MIN;
     for (const VertexKey* key : {&a, &b, &c}) {
-      lo = std::max(lo, key->corner[axis] - (key->axis == axis ? 0 : cell));
+      // No cell lies below the world's lowest corner.
+      lo = std::max(lo, saturate(int64_t{key->corner[axis]} - (key->axis == axis ? 0 : cell)));
     }
     corner[axis] = lo;
   }
@@ -157,11 +158,13 @@ class BodySharpener {
       const Tangent& t = creases_.tangent(loop.vertices[i]);
       planes.add(t.normal, t.distance + dot(t.normal, minus(between(loop.corner, t.point), middle)));
     }
+    const PlaneAxes axes(planes);
     for (size_t choice = 0; choice < 2; ++choice) {
-      const Vector3 step = stepToPlanes(planes, 3 - choice);
-      fan.choices[choice] = creases_.onGrid({middle[0] + step[0], middle[1] + step[1], middle[2] + step[2]});
+      const Vector3 step = axes.step(3 - choice);
+      fan.choices[choice] =
+          creases_.onGrid(loop.corner, {middle[0] + step[0], middle[1] + step[1], middle[2] + step[2]});
     }
-    fan.choices[2] = creases_.onGrid(middle);
+    fan.choices[2] = creases_.onGrid(loop.corner, middle);
     return fan;
   }
 
@@ -200,7 +203,7 @@ class BodySharpener {
     }
     if (fans.empty()) return;
     std::pmr::vector<FieldSample> samples(points.size(), memory_);
-    field_(points, samples);
+    field_(points, samples, Sampled::all);
     std::pmr::vector<uint32_t> indices(memory_);
     indices.reserve(body_.indices.size() + 15 * fans.size());
     size_t copied = 0;

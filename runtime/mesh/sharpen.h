@@ -11,11 +11,11 @@
 namespace sgm {
 
 /// Adds feature vertices behind the others, and hashes the part anew. A feature vertex lies at most 1/25 cell and a
-/// unit off the surface, and a cell beyond its face or cell; a cell vertex that finds no such place lies amid its loop.
-/// Slivers of a fan may fold, by less than 1/50 of a cell's face; and where a corner lies beyond the loop that sees it,
-/// part of a flat side lies upon itself. Pure: the same bytes for the same part and
-/// field, with doubles and + - * / sqrt alone. The field is sampled up to a cell and a unit beyond the chunk. Throws
-/// std::bad_alloc.
+/// unit off the surface, and a cell beyond its face or cell; a cell vertex that finds no such place, as on noise as
+/// fine as the cells, lies amid its loop, and triangles may fold there. Else slivers of a fan may fold, by less than
+/// 1/50 of a cell's face; and where a corner lies beyond the loop that sees it, part of a flat side lies upon itself.
+/// Pure: the same bytes for the same part and field, with doubles and + - * / sqrt alone. The field is sampled up to a
+/// cell and a unit beyond the chunk. Throws std::bad_alloc.
 void sharpenBody(const ChunkGrid& grid, const FieldSampler& field, MeshPart& body,
                  std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

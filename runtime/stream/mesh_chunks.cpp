@@ -144,9 +144,12 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     });
     if (error) return *error;
     const Programs programs = programsOf(batch, chunk_jobs);
+    // A chunk counts when all is done to it.
+    const bool sharp =
+        std::any_of(batch.begin(), batch.end(), [](const ChunkRequest& request) { return request.sharp; });
 
     Result<std::unique_ptr<ChunkBatch>> submitted =
-        backend.submit(std::move(chunk_jobs), progress ? [&counter] { return counter.one(); } : AfterChunk{});
+        backend.submit(std::move(chunk_jobs), progress ? [&] { return sharp || counter.one(); } : AfterChunk{});
     if (!submitted) return submitted.error();
     (*submitted)->wait();
     Result<std::vector<ChunkMesh>> meshes = (*submitted)->take();
@@ -154,10 +157,14 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     if (counter.stopped()) return Error{Code::cancelled, "meshing was cancelled"};
     for (size_t i = 0; i < meshes->size(); ++i) chunks[first + i].mesh = std::move((*meshes)[i]);
     parallelFor(jobs, batch.size(), [&](size_t i) {
-      if (!batch[i].sharp) return;
+      if (!sharp || counter.stopped()) return;
       PlacedChunk& chunk = chunks[first + i];
-      sharpenChunk(chunk.grid, *programs[i].field, programs[i].coarse.get(), chunk.mesh, world.memory());
+      if (batch[i].sharp) {
+        sharpenChunk(chunk.grid, *programs[i].field, programs[i].coarse.get(), chunk.mesh, world.memory());
+      }
+      if (progress) counter.one();
     });
+    if (counter.stopped()) return Error{Code::cancelled, "meshing was cancelled"};
   }
   return chunks;
 }

@@ -25,7 +25,7 @@ class BrickSampler {
         scratch_(memory),
         bricks_(memory) {}
 
-  void operator()(std::span<const Int3> points, std::span<FieldSample> samples) {
+  void operator()(std::span<const Int3> points, std::span<FieldSample> samples, Sampled what) {
     std::pmr::vector<std::pair<Int3, uint32_t>> placed(memory_);
     placed.reserve(points.size());
     for (uint32_t i = 0; i < points.size(); ++i) {
@@ -38,7 +38,7 @@ class BrickSampler {
     std::sort(placed.begin(), placed.end());
     for (size_t first = 0, end = 0; first < placed.size(); first = end) {
       while (end < placed.size() && placed[end].first == placed[first].first) ++end;
-      sample(programOf(placed[first].first), std::span(placed).subspan(first, end - first), points, samples);
+      sample(programOf(placed[first].first), std::span(placed).subspan(first, end - first), points, samples, what);
     }
   }
 
@@ -57,7 +57,7 @@ class BrickSampler {
   }
 
   void sample(const ProgramView& program, std::span<const std::pair<Int3, uint32_t>> own, std::span<const Int3> points,
-              std::span<FieldSample> samples) {
+              std::span<FieldSample> samples, Sampled what) {
     const size_t count = own.size();
     std::pmr::vector<int32_t> x(count, memory_), y(count, memory_), z(count, memory_);
     std::pmr::vector<float> value(count, memory_), gx(count, memory_), gy(count, memory_), gz(count, memory_);
@@ -68,11 +68,13 @@ class BrickSampler {
     }
     Attributes attributes;
     attributes.value = value.data();
-    attributes.gradient_x = gx.data();
-    attributes.gradient_y = gy.data();
-    attributes.gradient_z = gz.data();
-    attributes.normal_x = normal_x.data();
-    attributes.normal_y = normal_y.data();
+    if (what == Sampled::all) {
+      attributes.gradient_x = gx.data();
+      attributes.gradient_y = gy.data();
+      attributes.gradient_z = gz.data();
+      attributes.normal_x = normal_x.data();
+      attributes.normal_y = normal_y.data();
+    }
     bestKernels().attributes(program, {x.data(), y.data(), z.data(), count}, scratch_, attributes);
     for (size_t i = 0; i < count; ++i) {
       samples[own[i].second] = {value[i], {gx[i], gy[i], gz[i]}, normal_x[i], normal_y[i]};

@@ -314,6 +314,7 @@ Result<ContentHash> World::hashBodies(const IntBox& region, int level) const {
     const std::shared_ptr<const ChunkSurface> surface = frame ? frame->find(key) : nullptr;
     if (surface == nullptr) {
       rest.emplace_back().key = key;
+      rest.back().sharp = core_->settings.sharp;
     } else if (surface->mesh.ranges[0].index_count > 0) {
       add(surface->mesh.ranges[0].hash, surface->grid);
     }

@@ -739,9 +739,10 @@ typedef int32_t (*sgm_progress_function)(void* user, uint64_t done, uint64_t tot
 typedef enum sgm_meshing_flag {
   SGM_MESHING_TEXTURE = 1, /* texture coordinates and blends of materials: wedges, in views of meshes and of surfaces */
   SGM_MESHING_SHARP = 2,   /* crisp edges and corners: feature vertices from the field's gradients, once for each side
-                              of their crease with that side's normal, at the same position. Smooth surfaces keep their
-                              triangles. Chunks agree on their faces, as without; seams join sharp chunks to sharp
-                              ones, so that all chunks of one surface are to be asked for alike */
+                              of their crease with that side's normal, at the same position. Where a surface
+                              bends less than 26 degrees within a cell it keeps its triangles. Chunks agree on their
+                              faces, as without; seams join sharp chunks to sharp ones, so that all chunks of one
+                              surface are to be asked for alike */
   SGM_MESHING_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_meshing_flag;
 
@@ -786,12 +787,12 @@ SGM_API sgm_result sgm_mesh_release(sgm_mesh* mesh);
  *            Those with a block of the chunk's size on one side and a coarser chunk on the other carry seams, and seams
  *            that touch in a half axis from the corner share the vertex: fan is the lowest number of those joined to
  *            this vertex's own seam. Which blocks are coarser is what sgm_chunk_request.coarser says.
- *   feature  where sharp features were asked for: a point of an edge or a corner of the surface, in a face of the grid
- * or in a cell. A part has it once for each side of its crease: those with equal keys are one vertex. level is the
- * chunk's own, or with bit 13 of kind, in seams alone, that above; axis is 7 in a cell (bit 14), else 4 + bits 6 and 7.
- * fan is bits 6 to 9 in a cell, else bits 8 to 10. corner is, on each axis, the position rounded down to multiples of
- * the level's cell, less as many of these cells as the two bits from 2 * axis say, less one: it may lie a cell beyond
- * its own, and beyond its chunk */
+ *   feature  where sharp features were asked for: a point of an edge or a corner of the surface, in a face of the
+ *            grid or in a cell. A body has it once for each side of its crease, a seam once: those with equal keys are
+ *            one vertex. level is the chunk's own, or with bit 13 of kind, in seams alone, that above; axis is 7 in a
+ *            cell (bit 14), else 4 + bits 6 and 7. fan is bits 6 to 9 in a cell, else bits 8 to 10. corner is, on each
+ *            axis, the position rounded down to multiples of the level's cell, less (b - 1) of these cells, b being the
+ *            two bits from 2 * axis: a feature may lie up to a cell beyond its face or cell, and so beyond its chunk */
 typedef enum sgm_vertex_kind {
   SGM_VERTEX_OWN = 0,          /* on an edge of the chunk's own level; every vertex of a body that is no feature */
   SGM_VERTEX_COARSER = 1,      /* on an edge of the level above; in seams alone */

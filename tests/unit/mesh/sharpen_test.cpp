@@ -163,7 +163,7 @@ MeshPart meshChunk(const Field& field, const ChunkGrid& grid) {
 }
 
 FieldSampler samplerOf(const Field& field) {
-  return [&field](std::span<const Int3> points, std::span<FieldSample> samples) {
+  return [&field](std::span<const Int3> points, std::span<FieldSample> samples, Sampled) {
     for (size_t i = 0; i < points.size(); ++i) {
       Vector3 g{};
       samples[i].value = static_cast<float>(field.at(exact(points[i]), g));
@@ -391,4 +391,31 @@ TEST_CASE("creases are split into sides that face as the field does", "[mesh][sh
     CHECK(again.indices == sharp.indices);
     CHECK(again.keys == sharp.keys);
   }
+}
+
+TEST_CASE("a box that crosses the world's lowest border is sharpened like any other", "[mesh][sharpen]") {
+  struct Moved : Field {
+    TurnedBox box;
+    double by = double{INT32_MIN} - 32.0 * kCell;
+    explicit Moved(uint64_t seed) : box(seed) {}
+    double at(const Vector3& p, Vector3& gradient) const override { return box.at({p[0] - by, p[1], p[2]}, gradient); }
+  };
+  size_t features = 0;
+  for (uint64_t seed = 1; seed <= 40; ++seed) {
+    INFO("seed " << seed);
+    const Moved field(seed);
+    const ChunkGrid grid{{INT32_MIN, 0, 0}, kCell, 0};
+    MeshPart part = meshChunk(field, grid);
+    const size_t plain = part.vertices.size();
+    sharpenBody(grid, samplerOf(field), part);
+    features += part.vertices.size() - plain;
+    const std::pmr::vector<VertexKey> keys = part.keys;
+    for (const VertexKey& key : keys) CHECK(key.corner.x <= INT32_MIN + kChunkCells * kCell);
+    for (const Vertex& v : part.vertices) CHECK(v.x >= 0);
+    deriveKeys(grid, 0, {}, part);
+    CHECK(part.keys == keys);
+    const std::array<const MeshPart*, 1> parts{&part};
+    CHECK(checkParts(parts).manifold());
+  }
+  CHECK(features > 1000);
 }

@@ -232,3 +232,50 @@ TEST_CASE("every frame of a sharp world is the closed frame of its octree, dug o
     CHECK(features > 100);
   }
 }
+
+TEST_CASE("a sharp world has the hash of its chunks, whatever was streamed before") {
+  WorldSettings settings;
+  settings.sharp = true;
+  settings.by_reach = false;
+  Scene scene(std::make_unique<LateJobs>(1), kBoxes, settings);
+  const IntBox region{{-30000, -30000, -30000}, {30000, 30000, 30000}};
+  const Result<ContentHash> before = scene.world->hashBodies(region, 0);
+  REQUIRE(before);
+  const Viewer viewer = viewerAt(0, 0, 0);
+  REQUIRE(scene.world->setViewers({&viewer, 1}));
+  REQUIRE(scene.world->waitIdle());
+  const Result<ContentHash> after = scene.world->hashBodies(region, 0);
+  REQUIRE(after);
+  CHECK(*before == *after);
+  const auto keys = chunksOfRegion(scene.field, region, 0, 4096);
+  REQUIRE(keys);
+  std::vector<ChunkRequest> requests;
+  for (const ChunkKey& key : *keys) requests.push_back({key, 0, Neighbourhood{}}), requests.back().sharp = true;
+  std::vector<PlacedPart> parts;
+  const std::pmr::vector<PlacedChunk> chunks = meshAll(scene.field, requests, 2);
+  for (const PlacedChunk& chunk : chunks) appendParts(chunk, parts);
+  CHECK(*before == hashParts(parts));
+}
+
+TEST_CASE("progress counts sharp chunks when all is done to them, and stops them") {
+  const WorldField world(settingsOf(kBoxes, kFinest, 3), std::pmr::get_default_resource());
+  std::mt19937 random(2);
+  const std::vector<ChunkRequest> requests = sharpRequests(randomTree(random));
+  const auto jobs = *makeThreadPool(2);
+  const auto backend = *makeBackend({}, *jobs, world.memory());
+  uint64_t calls = 0;
+  const auto stopAt = [&](uint64_t last) {
+    calls = 0;
+    return meshChunks(world, *backend, *jobs, requests, [&](uint64_t done, uint64_t total) {
+      CHECK(done == ++calls);
+      CHECK(total == requests.size());
+      return done < last;
+    });
+  };
+  CHECK(stopAt(requests.size() + 1));
+  CHECK(calls == requests.size());
+  const auto stopped = stopAt(3);
+  REQUIRE(!stopped);
+  CHECK(stopped.error().code == Code::cancelled);
+  CHECK(calls == 3);
+}
