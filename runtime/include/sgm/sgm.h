@@ -1071,8 +1071,8 @@ typedef enum sgm_world_flag {
   SGM_WORLD_TEXTURE = 8,     /* meshes have texture coordinates: sgm_mesh_view.wedges. About twice the memory a mesh, in
                                 mesh_bytes; not on the device */
   SGM_WORLD_SHARP = 16, /* crisp edges and corners: as SGM_MESHING_SHARP, at every level, closed in every frame. A chunk
-                           takes longer, by a tenth in a cave and three times as long where all of it is edges;
-                           twice the room is set aside for each that is in work */
+                           takes longer: by a fifth in a cave, two to five times as long where edges are everywhere, and
+                           more on noise as fine as the cells. Twice the room is set aside for each that is in work */
   SGM_WORLD_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_world_flag;
 
