@@ -1,0 +1,253 @@
+#include "asset/constrained_fit.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "asset/least_squares_solver.h"
+
+namespace sgm::asset {
+
+namespace {
+
+constexpr double kShortest = 0.01;  ///< of an edge's own length
+constexpr double kParallel = 1e-4;  ///< determinants of normals below it tell nothing of where a corner is
+constexpr double kPlaceWeight =
+    1e-4;  ///< of where corners want to be, against the lengths of edges: for parts that hang on nothing
+
+/// A corner as a function of its faces' moves along their normals.
+struct Corner {
+  std::vector<uint32_t> faces;   ///< all that meet in it
+  std::array<uint32_t, 3> by{};  ///< three of them that tell where it is
+  std::array<Point, 3> moves{};  ///< how it moves as each of these does
+  bool sharp = false;            ///< there are three such
+};
+
+class FaceMover {
+ public:
+  FaceMover(const Polyhedron& solid, const std::array<AxisMap, 3>& maps)
+      : solid_(solid), maps_(maps), edge_(solid.longestEdge()), tolerance_(solid.tolerance()) {}
+
+  std::optional<Polyhedron> run() {
+    for (const AxisMap& map : maps_)
+      if (!map.rises()) return std::nullopt;
+    for (const Point& p : solid_.points) wanted_.push_back({maps_[0](p.x), maps_[1](p.y), maps_[2](p.z)});
+    if (std::optional<Polyhedron> straight = byMaps()) return straight;
+    findCorners();
+    findEdges();
+    return bySolving();
+  }
+
+ private:
+  /// The maps themselves, where they keep every face's normal: without slanted faces they always do.
+  std::optional<Polyhedron> byMaps() const {
+    Polyhedron out = solid_;
+    out.points = wanted_;
+    std::vector<bool> known(out.faces.size(), false);
+    for (size_t t = 0; t < out.triangles.size(); ++t)
+      for (const uint32_t corner : out.triangles[t]) {
+        const uint32_t f = out.face_of[t];
+        // A corner lies in its plane up to the tolerance of the file: what counts is that it comes to lie no farther
+        // off.
+        const double was = solid_.faces[f].plane.distance(solid_.points[corner]);
+        const double offset = dot(out.faces[f].plane.normal, out.points[corner]) - was;
+        if (known[f] && std::fabs(out.faces[f].plane.offset - offset) > 4 * tolerance_) return std::nullopt;
+        if (!known[f]) out.faces[f].plane.offset = offset;
+        known[f] = true;
+      }
+    out.findBox();
+    return out;
+  }
+
+  void findCorners() {
+    corners_.resize(solid_.points.size());
+    for (size_t t = 0; t < solid_.triangles.size(); ++t)
+      for (const uint32_t corner : solid_.triangles[t]) {
+        std::vector<uint32_t>& faces = corners_[corner].faces;
+        if (std::find(faces.begin(), faces.end(), solid_.face_of[t]) == faces.end()) faces.push_back(solid_.face_of[t]);
+      }
+    for (Corner& corner : corners_) {
+      std::sort(corner.faces.begin(), corner.faces.end());
+      findBasis(corner);
+    }
+  }
+
+  Point normalOf(uint32_t face) const { return solid_.faces[face].plane.normal; }
+
+  void findBasis(Corner& corner) const {
+    double most = kParallel;
+    const auto& f = corner.faces;
+    for (size_t i = 0; i < f.size(); ++i)
+      for (size_t j = i + 1; j < f.size(); ++j)
+        for (size_t k = j + 1; k < f.size(); ++k) {
+          const double volume = dot(normalOf(f[i]), cross(normalOf(f[j]), normalOf(f[k])));
+          if (std::fabs(volume) <= most) continue;
+          most = std::fabs(volume);
+          corner.sharp = true;
+          corner.by = {f[i], f[j], f[k]};
+          const double inverse = 1 / volume;
+          corner.moves = {inverse * cross(normalOf(f[j]), normalOf(f[k])),
+                          inverse * cross(normalOf(f[k]), normalOf(f[i])),
+                          inverse * cross(normalOf(f[i]), normalOf(f[j]))};
+        }
+  }
+
+  /// How far a corner moves in a direction.
+  LinearForm moveOf(uint32_t corner, Point direction, double times = 1) const {
+    LinearForm form;
+    for (size_t m = 0; m < 3; ++m)
+      form.emplace_back(corners_[corner].by[m], times * dot(corners_[corner].moves[m], direction));
+    return form;
+  }
+
+  /// Edges between two faces, from sharp corner to sharp corner.
+  void findEdges() {
+    using Half = std::pair<std::pair<uint32_t, uint32_t>, uint32_t>;
+    std::vector<Half> halves;
+    for (size_t t = 0; t < solid_.triangles.size(); ++t)
+      for (size_t k = 0; k < 3; ++k)
+        halves.push_back({{solid_.triangles[t][k], solid_.triangles[t][(k + 1) % 3]}, solid_.face_of[t]});
+    std::sort(halves.begin(), halves.end());
+    // next[a]: where the border of a face goes on from a corner that is not sharp.
+    std::vector<std::pair<std::pair<uint32_t, uint32_t>, uint32_t>> next;  // (corner, face), corner
+    for (const Half& half : halves) {
+      const auto& [ends, face] = half;
+      const std::pair back{ends.second, ends.first};
+      bool border = false;
+      for (auto other = std::lower_bound(halves.begin(), halves.end(), Half{back, 0});
+           other != halves.end() && other->first == back; ++other)
+        border = border || other->second != face;
+      if (border) next.push_back({{ends.first, face}, ends.second});
+    }
+    std::sort(next.begin(), next.end());
+    for (const auto& [from, to] : next) {
+      const auto& [a, face] = from;
+      if (!corners_[a].sharp) continue;
+      const Point along = normalised(solid_.points[to] - solid_.points[a]);
+      uint32_t b = to;
+      for (size_t steps = 0; !corners_[b].sharp && steps < next.size(); ++steps) {
+        const auto on = std::lower_bound(next.begin(), next.end(), std::pair{std::pair{b, face}, 0u});
+        if (on == next.end() || on->first != std::pair{b, face}) break;
+        b = on->second;
+      }
+      // Each edge once: it is on the border of two faces, the other way round.
+      if (corners_[b].sharp && a < b && dot(normalised(solid_.points[b] - solid_.points[a]), along) > 0.999)
+        edges_.emplace_back(a, b);
+    }
+    std::sort(edges_.begin(), edges_.end());
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+  }
+
+  std::optional<Polyhedron> bySolving() const {
+    LeastSquares system(solid_.faces.size());
+    for (uint32_t c = 0; c < corners_.size(); ++c) {
+      const Corner& corner = corners_[c];
+      if (!corner.sharp) continue;
+      for (const uint32_t f : corner.faces) {
+        if (std::find(corner.by.begin(), corner.by.end(), f) != corner.by.end()) continue;
+        LinearForm stays = moveOf(c, normalOf(f));
+        stays.emplace_back(f, -1);
+        if (!system.demand(stays, 0, tolerance_)) return std::nullopt;
+      }
+    }
+    for (uint32_t c = 0; c < corners_.size(); ++c)
+      for (int axis = 0; axis < 3 && corners_[c].sharp; ++axis) {
+        Point along;
+        along[axis] = 1;
+        const double moved = wanted_[c][axis] - solid_.points[c][axis];
+        if (maps_[static_cast<size_t>(axis)].isStiff(solid_.points[c][axis], tolerance_)) {
+          if (!system.demand(moveOf(c, along), moved, 8 * tolerance_)) return std::nullopt;
+        } else {
+          system.wish(moveOf(c, along), moved, kPlaceWeight / (edge_ * edge_));
+        }
+      }
+    for (const auto& [a, b] : edges_) {
+      const Point way = solid_.points[b] - solid_.points[a];
+      const double size = length(way);
+      LinearForm longer = moveOf(b, (1 / size) * way);
+      for (const auto& [face, times] : moveOf(a, (1 / size) * way)) longer.emplace_back(face, -times);
+      const double wish = dot((1 / size) * way, wanted_[b] - wanted_[a]) - size;
+      system.wish(longer, wish, 1 / (size * size));
+    }
+    return moved(system.solve());
+  }
+
+  std::optional<Polyhedron> moved(const std::vector<double>& by) const {
+    Polyhedron out = solid_;
+    for (size_t f = 0; f < out.faces.size(); ++f) out.faces[f].plane.offset += by[f];
+    for (size_t c = 0; c < corners_.size(); ++c) {
+      Point& p = out.points[c];
+      if (corners_[c].sharp)
+        for (size_t m = 0; m < 3; ++m) p = p + by[corners_[c].by[m]] * corners_[c].moves[m];
+      else
+        p = onto(corners_[c].faces, out, wanted_[c]);
+    }
+    for (const auto& [a, b] : edges_) {
+      const Point way = solid_.points[b] - solid_.points[a];
+      if (dot(way, out.points[b] - out.points[a]) < kShortest * dot(way, way)) return std::nullopt;
+    }
+    for (int axis = 0; axis < 3; ++axis)
+      for (size_t c = 0; c < corners_.size(); ++c)
+        if (corners_[c].sharp &&
+            !maps_[static_cast<size_t>(axis)].keeps(solid_.points[c][axis], out.points[c][axis], 16 * tolerance_))
+          return std::nullopt;
+    out.findBox();
+    return out;
+  }
+
+  /// A point of an edge or a face, no corner: in their planes, wherever along them.
+  static Point onto(const std::vector<uint32_t>& faces, const Polyhedron& out, Point p) {
+    Point first;
+    for (const uint32_t f : faces) {
+      const Plane& plane = out.faces[f].plane;
+      Point way = plane.normal;
+      if (f != faces.front()) way = way - dot(way, first) * first;
+      const double along = dot(way, plane.normal);
+      if (along < 1e-6) continue;
+      p = p - (plane.distance(p) / along) * way;
+      if (f != faces.front()) break;
+      first = plane.normal;
+    }
+    return p;
+  }
+
+  const Polyhedron& solid_;
+  const std::array<AxisMap, 3>& maps_;
+  double edge_, tolerance_;
+  std::vector<Point> wanted_;  ///< of each point
+  std::vector<Corner> corners_;
+  std::vector<std::pair<uint32_t, uint32_t>> edges_;
+};
+
+}  // namespace
+
+double AxisMap::operator()(double at) const {
+  size_t i = 0;
+  while (i + 2 < knots.size() && at > knots[i + 1].from) ++i;
+  const Knot &a = knots[i], &b = knots[i + 1];
+  return a.to + (at - a.from) * ((b.to - a.to) / (b.from - a.from));
+}
+
+bool AxisMap::isStiff(double at, double tolerance) const {
+  if (at <= knots.front().from + tolerance || at >= knots.back().from - tolerance) return true;
+  for (size_t i = 0; i + 1 < knots.size(); ++i)
+    if (stiff[i] && at >= knots[i].from - tolerance && at <= knots[i + 1].from + tolerance) return true;
+  return false;
+}
+
+bool AxisMap::keeps(double from, double to, double tolerance) const {
+  size_t i = 0;
+  while (i + 2 < knots.size() && from > knots[i + 1].from) ++i;
+  return to >= knots[i].to - tolerance && to <= knots[i + 1].to + tolerance;
+}
+
+bool AxisMap::rises() const {
+  for (size_t i = 0; i + 1 < knots.size(); ++i)
+    if (!(knots[i + 1].to - knots[i].to >= kShortest * (knots[i + 1].from - knots[i].from))) return false;
+  return true;
+}
+
+std::optional<Polyhedron> fitConstrained(const Polyhedron& solid, const std::array<AxisMap, 3>& maps) {
+  return FaceMover(solid, maps).run();
+}
+
+}  // namespace sgm::asset

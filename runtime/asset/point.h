@@ -1,0 +1,39 @@
+#pragma once
+// Places and directions of assets, metres in double precision. + - * / and sqrt alone, so that every machine computes
+// the same.
+
+#include <cmath>
+
+namespace sgm::asset {
+
+struct Point {
+  double x = 0, y = 0, z = 0;
+
+  double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+  double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+
+  friend bool operator==(const Point&, const Point&) = default;
+  friend Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Point operator*(double s, Point a) { return {s * a.x, s * a.y, s * a.z}; }
+};
+
+inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Point cross(Point a, Point b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+inline double length(Point a) { return std::sqrt(dot(a, a)); }
+/// Zero stays zero.
+inline Point normalised(Point a) {
+  const double size = length(a);
+  return size > 0 ? (1.0 / size) * a : Point{};
+}
+
+/// Behind it, where the distance is negative, lies the solid.
+struct Plane {
+  Point normal;
+  double offset = 0;
+
+  double distance(Point p) const { return dot(normal, p) - offset; }
+  Plane turned() const { return {-1.0 * normal, -offset}; }
+};
+
+}  // namespace sgm::asset
