@@ -3,11 +3,13 @@
 //
 // evaluate.cpp: expressions. functions.cpp: the language's functions. statements.cpp: blocks and combiners. morph.cpp:
 // morphs. split.cpp: parts of scopes. rules.cpp: choice and calls. points.cpp: transforms, loops, point sets.
-// primitives.cpp: leaves. voxels.cpp: those of cellular automata. profiles.cpp: footprints and roofs. rooms.cpp: floors
-// in rooms. tiles.cpp: lattices of tiles. overrides.cpp: blocks in the place of others. derive.cpp: the cell as a
-// whole. instances.cpp: the uses of one rule in it.
+// primitives.cpp: leaves. voxels.cpp: those of cellular automata. profiles.cpp: footprints and roofs. assets.cpp: what
+// is fitted into scopes. rooms.cpp: floors in rooms. tiles.cpp: lattices of tiles. overrides.cpp: blocks in the place
+// of others. derive.cpp: the cell as a whole. instances.cpp: the uses of one rule in it.
 
 #include <array>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -112,6 +114,7 @@ struct Activation {
 };
 
 struct Env;
+struct FittedAsset;
 struct StandingTiles;
 
 /// Planes that the lines of splits below snap to: across `normal`, every `distance` metres of the cell from `first`.
@@ -262,6 +265,8 @@ class Interpreter {
   void extrude(const StmtNode& s, const Env& env, ShapeList& out);
   void roof(const StmtNode& s, const Env& env, ShapeList& out);
   void roofOver(const PlanPiece& piece, double floor, const StmtNode& s, const Env& env, ShapeList& out);
+  void fit(const StmtNode& s, const Env& env, ShapeList& out);
+  const FittedAsset& fittedAsset(const FitNode& node, const Env& env, const Span& span);
   void anchor(const StmtNode& s, const Env& env);
   void detail(const StmtNode& s, const Env& env, ShapeList& out);
   void transform(IdRange xforms, Env& env);
@@ -354,7 +359,9 @@ class Interpreter {
   std::vector<Anchor> anchors_;
   std::vector<Segment> segments_;  ///< of all skeletons
   std::vector<PlanPiece> plans_;   ///< of all footprints
-  int32_t coarse_edge_ = 0;        ///< derive for levels with cells of this edge or a larger one alone; 0: for all
+  /// Assets in the sizes that they have been fitted into so far, by asset, size and zones.
+  std::map<std::vector<uint64_t>, std::shared_ptr<const FittedAsset>> fitted_;
+  int32_t coarse_edge_ = 0;  ///< derive for levels with cells of this edge or a larger one alone; 0: for all
   uint32_t watched_rule_ = kNone;
   std::vector<WatchedCall> watched_;
   std::vector<DeriveNote> notes_;

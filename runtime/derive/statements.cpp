@@ -170,6 +170,9 @@ void Interpreter::statement(StmtId id, const Env& env, ShapeList& out) {
     case StmtKind::roof:
       roof(s, env, out);
       break;
+    case StmtKind::fit:
+      fit(s, env, out);
+      break;
     case StmtKind::let:
       if (env.slots != nullptr && s.slot < env.slots->size()) (*env.slots)[s.slot] = evaluate(s.expr, env);
       break;

@@ -130,6 +130,7 @@ enum class StmtKind : uint8_t {
   extrude,    ///< expr: height; plan; body: a block or kNoId
   roof,       ///< extra: Ast::roofs; plan, or kNoId: over the scope's box
   inner,      ///< in an override's block: what the override takes the place of; extra: its number there
+  fit,        ///< name: an import of an asset; extra: Ast::fits
   wfc,        ///< expr: a length or a vector, the edges of tiles; extra: Ast::waves; parts: tiles, each with its child
   border,     ///< of a wfc: extra: Ast::tiles, what its sides have to meet
 };
@@ -264,6 +265,20 @@ struct RoofNode {
   IdRange args;             ///< into Ast::args: as written
 };
 
+/// Part of an asset, along an axis from the low end of its box.
+struct FitZoneNode {
+  uint8_t axis = 0;      ///< 0 1 2
+  bool repeats = false;  ///< otherwise it stretches
+  ExprId from = kNoId, to = kNoId;
+  Span span;
+};
+
+struct FitNode {
+  uint32_t asset = kNoId;  ///< resolved: Program::assets
+  IdRange zones;           ///< into Ast::fit_zones
+  Span name_span;
+};
+
 /// Lengths; resolved, or kNoId.
 struct TreemapNode {
   IdRange args;  ///< into Ast::args: as written
@@ -336,6 +351,8 @@ struct Ast {
   std::pmr::vector<SideKind> side_kinds;
   std::pmr::vector<FootprintNode> footprints;
   std::pmr::vector<RoofNode> roofs;
+  std::pmr::vector<FitNode> fits;
+  std::pmr::vector<FitZoneNode> fit_zones;
   std::pmr::vector<ArgNode> args;
   std::pmr::vector<FormalNode> formals;
   std::pmr::vector<uint32_t> ids;
@@ -355,6 +372,8 @@ struct Ast {
         side_kinds(memory),
         footprints(memory),
         roofs(memory),
+        fits(memory),
+        fit_zones(memory),
         args(memory),
         formals(memory),
         ids(memory),

@@ -62,8 +62,9 @@ class Checker {
   struct Symbol {
     Ref ref = Ref::none;
     uint32_t id = 0;
-    bool import = false;
+    bool import = false;  ///< of a file: id is its module
     Span span;
+    bool asset = false;  ///< id: Program::assets
   };
   struct Local {
     NameId name = kNoId;
@@ -139,6 +140,11 @@ class Checker {
   uint32_t layerBelow(NameId name, const Span& span, std::string_view verb);
   Type query(ExprId id);
   void layersAsked();
+
+  // check_fit.cpp
+  void assetMaterials();
+  void assetMisused(const Span& span, NameId name);
+  void fit(const StmtNode& node);
 
   // check_profiles.cpp
   void footprint(StmtId id, const StmtNode& node);

@@ -202,11 +202,19 @@ bool Checker::resolveCallee(ExprId call, bool shape) {
     const auto module = table->find(receiver.name);
     const bool hidden = std::any_of(scope_.locals.begin(), scope_.locals.end(),
                                     [&](const Local& local) { return local.name == receiver.name; });
+    if (!hidden && module != table->end() && module->second.asset) {
+      assetMisused(receiver.span, receiver.name);
+      return true;
+    }
     if (hidden || module == table->end() || !module->second.import) return false;
     table = &symbols_[module->second.id];
     qualified = true;
   }
   const auto found = table->find(n.name);
+  if (found != table->end() && found->second.asset) {
+    assetMisused(n.span, n.name);
+    return true;
+  }
   if (found != table->end() && !found->second.import) {
     n.ref = found->second.ref;
     n.id = found->second.id;
@@ -221,7 +229,7 @@ bool Checker::resolveCallee(ExprId call, bool shape) {
     Suggestion suggestion(text(n.name));
     std::string all;
     for (const auto& [name, symbol] : *table) {
-      if (symbol.import) continue;
+      if (symbol.import || symbol.asset) continue;
       suggestion.offer(text(name));
       all += join({all.empty() ? "it has " : ", ", text(name)});
     }

@@ -11,6 +11,7 @@ Checker::Checker(Program& program, NameTable& names, std::vector<ModuleSyntax>& 
 
 void Checker::run() {
   collect();
+  assetMaterials();
   if (sink_.errorCount() > 0) return;
   params();
   seedAndDomain();
@@ -30,7 +31,7 @@ IdRange Checker::store(const std::vector<uint32_t>& ids) {
 
 void Checker::declare(ModuleSyntax& module, NameId name, Symbol symbol) {
   const std::string_view word = text(name);
-  if (!symbol.import && (findBuiltin(word) != nullptr || findPrimitive(word) != nullptr)) {
+  if (!symbol.import && !symbol.asset && (findBuiltin(word) != nullptr || findPrimitive(word) != nullptr)) {
     sink_.error(symbol.span, codes::kShadowsBuiltin, join({"`", word, "` is built in and cannot be declared again"}),
                 join({"another name, such as `", word, "_`"}));
     return;
@@ -64,7 +65,10 @@ void Checker::collect() {
           break;
         case ItemKind::import: {
           const ImportDecl& import = module.imports[item.index];
-          declare(module, import.alias, {Ref::none, import.module, true, import.alias_span});
+          if (import.asset == kNoId)
+            declare(module, import.alias, {Ref::none, import.module, true, import.alias_span});
+          else
+            declare(module, import.alias, {Ref::none, import.asset, false, import.alias_span, true});
           break;
         }
         case ItemKind::units:

@@ -66,7 +66,7 @@ Type Checker::member(ExprId id) {
     const auto found = symbols_[scope_.module].find(receiver);
     const bool hidden = std::any_of(scope_.locals.begin(), scope_.locals.end(),
                                     [&](const Local& local) { return local.name == receiver; });
-    if (!hidden && found != symbols_[scope_.module].end() && found->second.import) {
+    if (!hidden && found != symbols_[scope_.module].end() && (found->second.import || found->second.asset)) {
       n.kind = ExprKind::name;
       resolveCallee(id, false);
       return n.ref == Ref::none ? kUnknownType : name(id);

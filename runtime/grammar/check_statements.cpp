@@ -328,6 +328,8 @@ void Checker::statement(StmtId id, bool shrunk) {
       return extrude(copy, shrunk);
     case StmtKind::roof:
       return roof(copy);
+    case StmtKind::fit:
+      return fit(copy);
     case StmtKind::inner:
     case StmtKind::link:    // checked by its treemap
     case StmtKind::border:  // by its wfc
@@ -342,7 +344,7 @@ void Checker::blockStatements(const StmtNode& node, bool shrunk) {
 bool Checker::sumLeaf(StmtId id) {
   const StmtNode& s = program_.stmt(id);
   if (s.kind == StmtKind::cut || s.kind == StmtKind::meet || s.kind == StmtKind::displace || s.kind == StmtKind::warp ||
-      s.kind == StmtKind::roof) {
+      s.kind == StmtKind::roof || s.kind == StmtKind::fit) {
     sink_.error(s.span, codes::kWrongUse, "a sum has leaves only: spheres, blobs and other primitives",
                 "cut, displace or warp the sum as a whole");
     return false;

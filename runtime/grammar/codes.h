@@ -26,6 +26,7 @@ inline constexpr std::string_view kImportMissing = "import-missing";
 inline constexpr std::string_view kImportCycle = "import-cycle";
 inline constexpr std::string_view kImportLimit = "import-limit";
 inline constexpr std::string_view kImportContent = "import-content";
+inline constexpr std::string_view kAsset = "asset";
 // Names and arguments
 inline constexpr std::string_view kUnknownName = "unknown-name";
 inline constexpr std::string_view kUnknownMember = "unknown-member";

@@ -51,6 +51,7 @@ CompileResult compileGrammar(std::string_view text, std::string_view path, const
     program->hash = hashText("sgm 1");
     for (const ModuleSyntax& module : syntax)
       program->hash = hashCombine(program->hash, hashText(printMeaning(*program, module)));
+    for (const Asset& asset : program->assets) program->hash = hashCombine(program->hash, asset.hash);
     Checker checker(*program, names, syntax, options.limits, sink);
     checker.run();
     if (sink.errorCount() == 0) checkRecursion(*program, checker.calls(), options.limits, sink);

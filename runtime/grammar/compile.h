@@ -16,9 +16,10 @@
 
 namespace sgm {
 
-/// Gives the text of an import. Paths are already checked: relative to the root file's folder, forward slashes, no
-/// empty part, no "." or "..", no drive, nothing absolute, ending in ".sgm", at most 255 bytes. A resolver that reads a
-/// disk must also refuse links that leave the folder. Called on the compiling thread only.
+/// Gives the text of an import, or the bytes of an asset. Paths are already checked: relative to the root file's
+/// folder, forward slashes, no empty part, no "." or "..", no drive, nothing absolute, ending in ".sgm" or ".glb", at
+/// most 255 bytes. A resolver that reads a disk must also refuse links that leave the folder. Called on the compiling
+/// thread only.
 class ImportResolver {
  public:
   virtual ~ImportResolver() = default;
@@ -27,9 +28,11 @@ class ImportResolver {
 };
 
 struct CompileLimits {
-  size_t text_bytes = 1u << 20;   ///< of one file
-  size_t total_bytes = 4u << 20;  ///< of all files
-  uint32_t files = 64;
+  size_t text_bytes = 1u << 20;          ///< of one file
+  size_t total_bytes = 4u << 20;         ///< of all files
+  size_t asset_bytes = 16u << 20;        ///< of one asset
+  size_t total_asset_bytes = 64u << 20;  ///< of all assets
+  uint32_t files = 64;                   ///< and as many assets
   uint32_t import_depth = 16;
   uint32_t nesting = 64;            ///< of blocks and of expressions
   uint32_t nodes = 1u << 20;        ///< tokens, expressions and statements together

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
+#include "grammar/assets.h"
 #include "grammar/codes.h"
 #include "grammar/std_library.h"
 
@@ -31,6 +33,11 @@ class Loader {
     for (uint32_t m = 0; m < syntax_.size() && !sink_.full(); ++m)
       for (size_t i = 0; i < syntax_[m].imports.size(); ++i) {
         const ImportDecl import = syntax_[m].imports[i];
+        if (isAssetPath(program_.text(import.path))) {
+          const uint32_t asset = loadAsset(m, import);
+          syntax_[m].imports[i].asset = asset;
+          continue;
+        }
         const uint32_t module = load(m, import);
         syntax_[m].imports[i].module = module;
       }
@@ -41,20 +48,73 @@ class Loader {
  private:
   void parse(uint32_t module) { syntax_.push_back(Parser(program_, names_, module, options_.limits, sink_).run()); }
 
-  uint32_t load(uint32_t from, const ImportDecl& import) {
-    const CompileLimits& limits = options_.limits;
-    const std::string written(program_.text(import.path));
-    const std::string complaint = importPathComplaint(written);
-    if (!complaint.empty()) {
+  bool pathIsGood(const ImportDecl& import) {
+    const std::string complaint = importPathComplaint(program_.text(import.path));
+    if (!complaint.empty())
       sink_.error(import.path_span, codes::kImportPath, complaint,
                   "imports are relative: \"std/rock.sgm\", \"parts/arch.sgm\"");
+    return complaint.empty();
+  }
+
+  /// The bytes of a file that is not the library's, at most `left` of them. Nothing, with an error, where there are
+  /// none; most, most_of_all: of one and of all of its kind, for messages.
+  std::optional<std::string> read(const std::string& path, const ImportDecl& import, size_t left, size_t most,
+                                  size_t most_of_all) {
+    if (options_.resolver == nullptr) {
+      sink_.error(import.path_span, codes::kImportMissing, join({"cannot import `", path, "`: no folder to read from"}),
+                  "only the standard library can be imported here: \"std/rock.sgm\"");
+      return std::nullopt;
+    }
+    Result<std::string> bytes = options_.resolver->read(path, left);
+    if (bytes ? bytes->size() > left : bytes.error().code == Code::limit) {
+      sink_.error(
+          import.path_span, codes::kImportLimit, join({"`", path, "` is too long"}),
+          join({"a file has at most ", std::to_string(most), " bytes, all together ", std::to_string(most_of_all)}));
+      return std::nullopt;
+    }
+    if (!bytes) {
+      sink_.error(import.path_span, codes::kImportMissing,
+                  join({"cannot import `", path, "`: ", bytes.error().message}),
+                  "a path starts at the folder of the file that imports");
+      return std::nullopt;
+    }
+    return std::move(*bytes);
+  }
+
+  /// Where a file's imports start from.
+  std::string_view pathOf(uint32_t module) const {
+    return module == 0 ? std::string_view() : std::string_view(program_.modules[module].path);
+  }
+
+  uint32_t loadAsset(uint32_t from, const ImportDecl& import) {
+    const CompileLimits& limits = options_.limits;
+    if (!pathIsGood(import)) return kNoId;
+    const std::string path = importedPath(pathOf(from), program_.text(import.path));
+    const auto known = assets_.find(path);
+    if (known != assets_.end()) return known->second;
+    if (program_.assets.size() >= limits.files) {
+      sink_.error(import.path_span, codes::kImportLimit, join({"more than ", std::to_string(limits.files), " assets"}),
+                  "put some of them together");
       return kNoId;
     }
+    const size_t left = std::min(limits.asset_bytes, limits.total_asset_bytes - asset_bytes_);
+    const auto bytes = read(path, import, left, limits.asset_bytes, limits.total_asset_bytes);
+    if (!bytes) return kNoId;
+    asset_bytes_ += bytes->size();
+    const std::optional<uint32_t> asset = addAsset(program_, path, *bytes, import.path_span, sink_);
+    if (!asset) return kNoId;
+    assets_.emplace(path, *asset);
+    return *asset;
+  }
+
+  uint32_t load(uint32_t from, const ImportDecl& import) {
+    const CompileLimits& limits = options_.limits;
+    if (!pathIsGood(import)) return kNoId;
+    const std::string written(program_.text(import.path));
     const bool inside_std = program_.modules[from].path.starts_with("std/") && from != 0;
     const bool standard = written.starts_with("std/") || inside_std;
     const std::string path =
-        standard ? (written.starts_with("std/") ? written : "std/" + written)
-                 : importedPath(from == 0 ? "" : std::string_view(program_.modules[from].path), written);
+        standard ? (written.starts_with("std/") ? written : "std/" + written) : importedPath(pathOf(from), written);
     const auto known = modules_.find(path);
     if (known != modules_.end()) return known->second;
     if (program_.modules.size() >= limits.files) {
@@ -83,28 +143,10 @@ class Loader {
         return kNoId;
       }
     } else {
-      if (options_.resolver == nullptr) {
-        sink_.error(import.path_span, codes::kImportMissing,
-                    join({"cannot import `", path, "`: no folder to read from"}),
-                    "only the standard library can be imported here: \"std/rock.sgm\"");
-        return kNoId;
-      }
       const size_t left = std::min(limits.text_bytes, limits.total_bytes - std::min(limits.total_bytes, total_));
-      Result<std::string> read = options_.resolver->read(path, left);
-      const bool too_long = read ? read->size() > left : read.error().code == Code::limit;
-      if (too_long) {
-        sink_.error(import.path_span, codes::kImportLimit, join({"`", path, "` is too long"}),
-                    join({"a file has at most ", std::to_string(limits.text_bytes), " bytes, all together ",
-                          std::to_string(limits.total_bytes)}));
-        return kNoId;
-      }
-      if (!read) {
-        sink_.error(import.path_span, codes::kImportMissing,
-                    join({"cannot import `", path, "`: ", read.error().message}),
-                    "a path starts at the folder of the file that imports");
-        return kNoId;
-      }
-      text = std::move(*read);
+      std::optional<std::string> bytes = read(path, import, left, limits.text_bytes, limits.total_bytes);
+      if (!bytes) return kNoId;
+      text = std::move(*bytes);
     }
     total_ += text.size();
     const uint32_t module = static_cast<uint32_t>(program_.modules.size());
@@ -156,6 +198,8 @@ class Loader {
   std::map<std::string, uint32_t, std::less<>> modules_;
   std::vector<uint32_t> depth_{0};
   size_t total_ = 0;
+  std::map<std::string, uint32_t, std::less<>> assets_;
+  size_t asset_bytes_ = 0;
 };
 
 }  // namespace
@@ -176,9 +220,12 @@ std::string importPathComplaint(std::string_view path) {
     if (slash == std::string_view::npos) break;
     rest.remove_prefix(slash + 1);
   }
-  if (!path.ends_with(".sgm") || rest == ".sgm") return "an import ends in .sgm";
+  if (!(path.ends_with(".sgm") || isAssetPath(path)) || rest == ".sgm" || rest == ".glb")
+    return "an import ends in .sgm, or an asset in .glb";
   return {};
 }
+
+bool isAssetPath(std::string_view path) { return path.ends_with(".glb"); }
 
 std::string importedPath(std::string_view from, std::string_view import) {
   const size_t slash = from.rfind('/');

@@ -1,5 +1,6 @@
 #pragma once
-// Loads a file and what it imports, within the sandbox: below the root's folder, or the embedded standard library.
+// Loads a file and what it imports, other files and assets, within the sandbox: below the root's folder, or the
+// embedded standard library.
 
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@ namespace sgm {
 /// Why a path may not be imported; empty where it may. The rule is ImportResolver::read's.
 std::string importPathComplaint(std::string_view path);
 
+/// Whether a good path is an asset's.
+bool isAssetPath(std::string_view path);
+
 /// The path of `import`, written in the file `from`, as seen from the root's folder. Both are good paths.
 std::string importedPath(std::string_view from, std::string_view import);
 
@@ -21,7 +25,7 @@ std::string importedPath(std::string_view from, std::string_view import);
 std::string_view standardModule(std::string_view path);
 
 /// Parses the root (program.modules[0], text already there) and all it imports. Modules come out in the order in which
-/// they are first named; a module that two files import is loaded once.
+/// they are first named; a module or an asset that two files import is loaded once.
 std::vector<ModuleSyntax> loadModules(Program& program, NameTable& names, const CompileOptions& options,
                                       DiagnosticSink& sink, std::vector<SourceFile>& files);
 

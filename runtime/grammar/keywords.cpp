@@ -7,20 +7,20 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 59> kKeywords = {
-    "anchor", "and",     "as",      "at",      "by",       "comp",  "cut",       "depth",  "detail",  "displace",
-    "domain", "else",    "expect",  "extrude", "false",    "field", "footprint", "for",    "if",      "import",
-    "in",     "inner",   "layer",   "let",     "link",     "lod",   "mat",       "meet",   "minsize", "mirror",
-    "morph",  "morphic", "not",     "or",      "override", "param", "query",     "repeat", "report",  "roof",
-    "rot",    "rule",    "scale",   "scatter", "seed",     "size",  "snap",      "split",  "start",   "sum",
-    "tag",    "then",    "treemap", "true",    "union",    "units", "warp",      "wfc",    "when"};
-constexpr std::array<std::string_view, 53> kClauseWords = {
+constexpr std::array<std::string_view, 60> kKeywords = {
+    "anchor", "and",   "as",      "at",      "by",      "comp",     "cut",   "depth",     "detail", "displace",
+    "domain", "else",  "expect",  "extrude", "false",   "field",    "fit",   "footprint", "for",    "if",
+    "import", "in",    "inner",   "layer",   "let",     "link",     "lod",   "mat",       "meet",   "minsize",
+    "mirror", "morph", "morphic", "not",     "or",      "override", "param", "query",     "repeat", "report",
+    "roof",   "rot",   "rule",    "scale",   "scatter", "seed",     "size",  "snap",      "split",  "start",
+    "sum",    "tag",   "then",    "treemap", "true",    "union",    "units", "warp",      "wfc",    "when"};
+constexpr std::array<std::string_view, 54> kClauseWords = {
     "above",    "air",     "amp",    "animated", "axes",    "block",   "border", "box",    "cell",   "clear", "cm",
     "corridor", "density", "disc",   "door",     "down",    "edge",    "empty",  "facade", "finite", "flat",  "from",
     "gable",    "gap",     "hip",    "infinite", "inside",  "km",      "lerp",   "m",      "meets",  "merge", "mm",
     "of",       "on",      "output", "per",      "poisson", "polygon", "power",  "probe",  "reach",  "rect",  "regular",
-    "sgm",      "shell",   "smooth", "solid",    "turn",    "up",      "uses",   "weight", "within"};
-constexpr std::array<std::string_view, 3> kUnavailable = {"fit", "portal", "set"};
+    "sgm",      "shell",   "smooth", "solid",    "stretch", "turn",    "up",     "uses",   "weight", "within"};
+constexpr std::array<std::string_view, 2> kUnavailable = {"portal", "set"};
 constexpr std::array<std::string_view, 14> kDeclarations = {"import",  "units",    "param",  "seed",  "let",
                                                             "field",   "domain",   "layer",  "start", "rule",
                                                             "morphic", "override", "report", "expect"};

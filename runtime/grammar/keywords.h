@@ -11,7 +11,7 @@ namespace sgm {
 std::span<const std::string_view> keywordTable();
 /// Words that mean something only where a clause expects them, sorted.
 std::span<const std::string_view> clauseWordTable();
-/// Words kept for constructs that this version does not have (treemap, roof ...), sorted.
+/// Words kept for constructs that this version does not have (portal ...), sorted.
 std::span<const std::string_view> unavailableTable();
 
 /// Words that start a declaration.

@@ -104,7 +104,8 @@ class RuleContents {
     if (s.kind == StmtKind::call) return ofCall(s.expr);
     if (s.kind == StmtKind::anchor) return {0, false, true};
     Contents all = ofStatement(s.body);
-    if (s.kind == StmtKind::extrude || s.kind == StmtKind::roof || s.kind == StmtKind::treemap)
+    if (s.kind == StmtKind::extrude || s.kind == StmtKind::roof || s.kind == StmtKind::treemap ||
+        s.kind == StmtKind::fit)
       all.add(Contents::shape());
     for (uint32_t i = 0; i < s.children.count; ++i) all.add(ofStatement(program_.idAt(s.children, i)));
     if (s.kind == StmtKind::detail) {

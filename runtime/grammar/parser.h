@@ -143,6 +143,9 @@ class Parser {
   uint32_t addTile(bool turns, const std::vector<SocketNode>& sockets);
   StmtId borderStatement(uint32_t& tile);
 
+  // parser_fit.cpp
+  StmtId fitStatement();
+
   // parser_split.cpp
   StmtId addParts(StmtNode node, const Parts& parts, const Span& begin);
 

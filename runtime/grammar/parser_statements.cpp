@@ -8,11 +8,10 @@ namespace sgm {
 
 namespace {
 
-constexpr std::array<std::string_view, 27> kStatements = {
-    "union",   "cut",   "meet",  "sum",  "morph",   "displace",  "warp",    "repeat", "for",
-    "scatter", "let",   "field", "mat",  "tag",     "anchor",    "detail",  "inner",  "smooth",
-    "when",    "split", "snap",  "comp", "treemap", "footprint", "extrude", "roof",
-    "wfc"};
+constexpr std::array<std::string_view, 28> kStatements = {
+    "union", "cut",   "meet",    "sum",       "morph",   "displace", "warp",  "repeat", "for",  "scatter",
+    "let",   "field", "mat",     "tag",       "anchor",  "detail",   "inner", "smooth", "when", "split",
+    "snap",  "comp",  "treemap", "footprint", "extrude", "roof",     "wfc",   "fit"};
 
 }  // namespace
 
@@ -80,6 +79,7 @@ StmtId Parser::statement() {
   if (atWord("footprint")) return footprintStatement();
   if (atWord("extrude")) return extrudeStatement();
   if (atWord("roof")) return roofStatement();
+  if (atWord("fit")) return fitStatement();
   if (atWord("inner")) return innerStatement();
   return callStatement();
 }

@@ -37,6 +37,7 @@ class LinePrinter {
   /// `morphic R(a) : A -> B by t power;`
   void morphic(std::string& out, const Rule& rule, const Alternative& alternative) const;
   void field(std::string& out, const Field& field) const;
+  void fitZone(std::string& out, const FitZoneNode& zone) const;
 
  private:
   void morphOperand(std::string& out, StmtId id) const;
@@ -44,6 +45,7 @@ class LinePrinter {
   /// before: what stands before the first of them.
   void sockets(std::string& out, const TileNode& tile, std::string_view before) const;
   void roof(std::string& out, const StmtNode& node) const;
+  void fit(std::string& out, const StmtNode& node) const;
   void scatter(std::string& out, const ScatterNode& node) const;
 
   const Program& program_;

@@ -2,6 +2,7 @@
 
 #include "grammar/keywords.h"
 #include "grammar/lexer.h"
+#include "grammar/precedence.h"
 #include "grammar/print_expressions.h"
 #include "grammar/sink.h"
 
@@ -56,6 +57,23 @@ void LinePrinter::roof(std::string& out, const StmtNode& node) const {
   if (node.plan == kNoId) return;
   out += " of ";
   expr(out, node.plan);
+}
+
+void LinePrinter::fitZone(std::string& out, const FitZoneNode& zone) const {
+  out += join({zone.repeats ? "repeat " : "stretch ", std::string_view("xyz").substr(zone.axis, 1), " "});
+  expr(out, zone.from, kOr);
+  out += "..";
+  expr(out, zone.to, kOr);
+}
+
+void LinePrinter::fit(std::string& out, const StmtNode& node) const {
+  const FitNode& fit = program_.ast.fits[node.extra];
+  out += join({"fit ", program_.text(node.name)});
+  for (uint32_t i = 0; i < fit.zones.count; ++i) {
+    out += ' ';
+    fitZone(out, program_.ast.fit_zones[fit.zones.first + i]);
+  }
+  out += ';';
 }
 
 void LinePrinter::sockets(std::string& out, const TileNode& tile, std::string_view before) const {
@@ -211,6 +229,9 @@ void LinePrinter::head(std::string& out, const StmtNode& node) const {
     case StmtKind::roof:
       roof(out, node);
       out += ';';
+      break;
+    case StmtKind::fit:
+      fit(out, node);
       break;
     case StmtKind::inner:
       out += "inner;";

@@ -308,6 +308,19 @@ class ModulePrinter {
     last_line_ = node.span.end_line;
   }
 
+  /// A fit with each of its zones on a line.
+  void zonesInLines(const StmtNode& node, size_t depth) {
+    const FitNode& fit = program_.ast.fits[node.extra];
+    out_ += join({"fit ", program_.text(node.name)});
+    for (uint32_t i = 0; i < fit.zones.count; ++i) {
+      out_ += '\n';
+      indent(depth + 1);
+      line_.fitZone(out_, program_.ast.fit_zones[fit.zones.first + i]);
+    }
+    out_ += ';';
+    last_line_ = node.span.end_line;
+  }
+
   void statement(StmtId id, size_t depth) {
     const StmtNode& node = program_.stmt(id);
     if (fitsOneLine(node.span)) {
@@ -320,6 +333,7 @@ class ModulePrinter {
       }
     }
     if (node.kind == StmtKind::block) return blockInLines(node, depth);
+    if (node.kind == StmtKind::fit) return zonesInLines(node, depth);
     line_.head(out_, node);
     if (LinePrinter::hasParts(node)) return partsInLines(node, depth);
     if (node.body == kNoId) return;

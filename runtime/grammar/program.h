@@ -15,6 +15,10 @@
 #include "grammar/ast.h"
 #include "grammar/diagnostics.h"
 
+namespace sgm::asset {
+struct Polyhedron;
+}
+
 namespace sgm {
 
 /// One source file: the root (index 0), an import, or a part of the standard library.
@@ -24,6 +28,17 @@ struct Module {
   std::pmr::vector<Comment> comments;
 
   explicit Module(std::pmr::memory_resource* memory) : path(memory), text(memory), comments(memory) {}
+};
+
+/// A mesh that the grammar's text brings in, to be fitted into scopes: `import "bay.glb" as bay;`.
+struct Asset {
+  std::pmr::string path;  ///< relative to the root's folder
+  std::shared_ptr<const asset::Polyhedron> solid;
+  std::pmr::vector<std::pmr::string> material_names;  ///< as its faces count them
+  std::pmr::vector<uint16_t> materials;               ///< resolved: of each name, Program::materials; 0 inherits
+  uint64_t hash = 0;                                  ///< of its shape and its materials
+
+  explicit Asset(std::pmr::memory_resource* memory) : path(memory), material_names(memory), materials(memory) {}
 };
 
 /// A value that the host sets; a number.
@@ -196,6 +211,7 @@ class Program {
   explicit Program(std::pmr::memory_resource* memory)
       : ast(memory),
         modules(memory),
+        assets(memory),
         params(memory),
         lets(memory),
         fields(memory),
@@ -213,6 +229,7 @@ class Program {
 
   Ast ast;
   std::pmr::vector<Module> modules;  ///< modules[0] is the root
+  std::pmr::vector<Asset> assets;
   std::pmr::vector<Param> params;
   std::pmr::vector<Let> lets;
   std::pmr::vector<Field> fields;
@@ -232,7 +249,9 @@ class Program {
   /// Those by path in the order of their steps, by rule and then by index; a path stands before those it begins.
   std::pmr::vector<uint32_t> path_overrides;
   std::pmr::string canonical;  ///< the root as `sgm fmt` writes it
-  uint64_t hash = 0;           ///< of the meaning of all files: blind to layout, comments and superfluous parentheses
+  /// Of the meaning of all files: blind to layout, comments and superfluous parentheses, and to what assets have
+  /// besides their shape and their materials.
+  uint64_t hash = 0;
 
   std::string_view text(NameId id) const { return id == kNoId ? std::string_view() : std::string_view(ast.names[id]); }
   const ExprNode& expr(ExprId id) const { return ast.exprs[id]; }

@@ -3,9 +3,9 @@
 // each tuple of argument ranges and remembered, so that recursion costs its depth and not its leaves.
 //
 // reach.cpp: layers and what is said of them. reach_rules.cpp: calls and choice. reach_statements.cpp: statements.
-// reach_transforms.cpp: transforms, loops, point sets. reach_split.cpp: parts of scopes. reach_treemap.cpp: rooms. reach_wfc.cpp: tiles.
-// reach_automaton.cpp: cellular automata. reach_profiles.cpp: footprints, extrusions and roofs. reach_overrides.cpp:
-// overrides.
+// reach_transforms.cpp: transforms, loops, point sets. reach_split.cpp: parts of scopes. reach_treemap.cpp: rooms.
+// reach_wfc.cpp: tiles. reach_automaton.cpp: cellular automata. reach_profiles.cpp: footprints, extrusions, roofs,
+// assets. reach_overrides.cpp: overrides.
 
 #include <map>
 #include <set>
@@ -107,6 +107,7 @@ class ReachCheck {
   RangeValue footprint(const FootprintNode& plan, const RangeFrame& frame);
   Extent extrude(const StmtNode& s, RangeFrame& frame);
   Extent roof(const StmtNode& s, RangeFrame& frame);
+  Extent fit(const StmtNode& s, RangeFrame& frame);
   IntervalVector pointOf(const XformNode& x, const RangeFrame& frame);
   void sized(const XformNode& x, RangeFrame& frame);
   void sizedAgain(IdRange xforms, RangeFrame& frame);

@@ -1,4 +1,4 @@
-// Footprints, what is extruded from them, and roofs in the proof of reach.
+// Footprints, what is extruded from them, roofs and fitted assets in the proof of reach.
 
 #include <algorithm>
 
@@ -112,6 +112,16 @@ Extent ReachCheck::roof(const StmtNode& s, RangeFrame& frame) {
   e.move({plan.at[0], floor + edges[1] * kMiddle, plan.at[2]});
   if (s.plan != kNoId) e.blame(s.plan);
   return e;
+}
+
+/// An asset fills the scope's box, and no more, or is left out.
+Extent ReachCheck::fit(const StmtNode& s, RangeFrame& frame) {
+  const FitNode& fit = program_.ast.fits[s.extra];
+  for (uint32_t i = 0; i < fit.zones.count; ++i) {
+    const FitZoneNode& zone = program_.ast.fit_zones[fit.zones.first + i];
+    for (const ExprId end : {zone.from, zone.to}) values_.number(end, frame);  // queries in them
+  }
+  return solidIn(frame.scope);
 }
 
 }  // namespace sgm

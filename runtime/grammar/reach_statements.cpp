@@ -95,6 +95,8 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
       return tagged(s, s.body == kNoId ? uint16_t{0} : program_.stmt(s.body).tag, frame);
     case StmtKind::roof:
       return roof(s, frame);
+    case StmtKind::fit:
+      return fit(s, frame);
     case StmtKind::inner:
       return inner(s, frame);
     case StmtKind::field:

@@ -35,7 +35,8 @@ struct Item {
 
 struct ImportDecl {
   NameId path = kNoId, alias = kNoId;
-  uint32_t module = kNoId;  ///< once loaded
+  uint32_t module = kNoId;  ///< once loaded; of an asset none
+  uint32_t asset = kNoId;   ///< Program::assets, once loaded
   Span path_span, alias_span;
 };
 

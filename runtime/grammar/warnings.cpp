@@ -28,6 +28,8 @@ struct Uses {
       if (n.ref == Ref::local) locals.push_back({n.name, n.span});
       if (n.qualifier != kNoId && n.span.file == 0) qualifiers.insert(n.qualifier);
     }
+    for (const StmtNode& s : program.ast.stmts)
+      if (s.kind == StmtKind::fit && s.span.file == 0) qualifiers.insert(s.name);
   }
 };
 

@@ -13,7 +13,7 @@ struct Help {
   std::string_view word, text;
 };
 
-constexpr std::array<Help, 152> kHelp = {{
+constexpr std::array<Help, 154> kHelp = {{
     {"above", "of halfspace: solid above this height; of components: only pieces above this volume"},
     {"abs", "without its sign"},
     {"air", "of components: of the void"},
@@ -65,6 +65,7 @@ constexpr std::array<Help, 152> kHelp = {{
     {"false", "a condition that never holds"},
     {"field", "a value that varies from point to point: `field t = smoothstep(0m, 20m, p.y);`"},
     {"finite", "a domain of one piece"},
+    {"fit", "an asset in the scope's size, its angles kept: `fit bay stretch x 1m..2m repeat y 1m..4m;`"},
     {"flat", "a roof of this height, or a base"},
     {"floor", "the whole number below"},
     {"footprint", "a plan of merged pieces: `footprint merge 3 rect(12m, 9m) as plan;`"},
@@ -77,7 +78,9 @@ constexpr std::array<Help, 152> kHelp = {{
     {"halfspace", "all below, or all above, a height; meet it with something, or cut with it"},
     {"hip", "a roof with slopes on all sides, of this pitch"},
     {"if", "one of two values: `if a > 2m then a else 2m`"},
-    {"import", "another file's rules and functions: `import \"std/rock.sgm\" as rock;`"},
+    {"import",
+     "another file's rules and functions, `import \"std/rock.sgm\" as rock;`, or an asset, `import \"bay.glb\" as "
+     "bay;`"},
     {"in", "the range of a parameter or of a loop"},
     {"infinite", "a domain without end, in cells"},
     {"inner", "in an override's block: what it takes the place of"},
@@ -128,7 +131,8 @@ constexpr std::array<Help, 152> kHelp = {{
     {"reach", "how far shapes of a layer may leave their cell"},
     {"rect", "a plan: a rectangle"},
     {"regular", "a plan: a regular polygon"},
-    {"repeat", "n copies, each moved on by the transforms: `repeat 4 at(2m, 0m, 0m) sphere(1m);`"},
+    {"repeat",
+     "n copies, each moved on by the transforms: `repeat 4 at(2m, 0m, 0m) sphere(1m);`; of fit: a zone that is copied"},
     {"report", "a measure that `sgm check --expect` prints"},
     {"roof", "over a scope or a plan: `roof flat(1m)`, `roof gable(40deg)`, `roof hip(30deg, overhang 0.5m) of plan`"},
     {"rot", "turns what follows: `rot(y, 45deg)`, right-handed"},
@@ -149,6 +153,7 @@ constexpr std::array<Help, 152> kHelp = {{
     {"split", "shares a scope among parts along an axis: `split x { 2m: A; { ~1.6m: B; }* 25%: C; }`"},
     {"sqrt", "the square root"},
     {"start", "the rule that derivation begins with"},
+    {"stretch", "of fit: a zone that takes what the size is more or less: `fit bay stretch x 1m..2m;`"},
     {"sum", "a sum of blobs that flow together"},
     {"superq", "from ellipsoid (square 0) to nearly a box (square 1)"},
     {"tag", "a word for all that is in this block, for games, pictures and overrides"},

@@ -303,10 +303,11 @@ typedef struct sgm_grammar sgm_grammar;
 /* The messages of one compilation, errors and warnings, in text order. */
 typedef struct sgm_diagnostics sgm_diagnostics;
 
-/* Finds the text of `import "path" as name;`. `path` is as written, made relative to the root: segments joined by '/',
- * never absolute, never with "..". Returns non-zero and sets text and size (bytes), or returns 0 where there is no such
- * text. The text must stay as it is until sgm_grammar_compile returns. Called on the compiling thread only.
- * Paths that begin with "std/" are built in and never asked for. */
+/* Finds the text of `import "path" as name;`, or the bytes of an asset where the path ends in ".glb". `path` is as
+ * written, made relative to the root: segments joined by '/', never absolute, never with "..". Returns non-zero and
+ * sets text and size (bytes), or returns 0 where there is no such text. The text must stay as it is until
+ * sgm_grammar_compile returns. Called on the compiling thread only. Paths that begin with "std/" are built in and never
+ * asked for. */
 typedef int32_t (*sgm_import_function)(void* user, const char* path, const char** text, size_t* size);
 
 typedef struct sgm_grammar_desc {

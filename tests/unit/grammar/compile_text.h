@@ -1,7 +1,10 @@
 #pragma once
 // Short ways to compile a text in tests.
 
+#include <filesystem>
+#include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -30,6 +33,23 @@ inline CompileResult compileText(std::string_view text, ImportResolver* resolver
   options.resolver = resolver;
   return compileGrammar(text, "test.sgm", options);
 }
+
+/// What stands in a folder.
+class FolderResolver : public ImportResolver {
+ public:
+  explicit FolderResolver(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  Result<std::string> read(std::string_view path, size_t) override {
+    std::ifstream file(folder_ / path, std::ios::binary);
+    if (!file) return Error{Code::io, "no such file"};
+    std::stringstream bytes;
+    bytes << file.rdbuf();
+    return bytes.str();
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
 
 /// "3:17 unit-mismatch; 4:1 syntax" of all diagnostics; unless `unused`, without those of names that nothing uses,
 /// which programs with a common beginning have.

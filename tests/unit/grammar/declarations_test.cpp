@@ -18,13 +18,14 @@ using namespace sgm::test;
 
 namespace {
 
-std::vector<std::string> sampleTexts() {
-  std::vector<std::string> texts;
+/// Texts, and the folders that they stand in.
+std::vector<std::pair<std::string, std::filesystem::path>> sampleTexts() {
+  std::vector<std::pair<std::string, std::filesystem::path>> texts;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(SGM_SOURCE_DIR "/samples/grammars")) {
     if (entry.path().extension() != ".sgm") continue;
     std::stringstream text;
     text << std::ifstream(entry.path()).rdbuf();
-    texts.push_back(text.str());
+    texts.emplace_back(text.str(), entry.path().parent_path());
   }
   return texts;
 }
@@ -62,8 +63,9 @@ void checkRanges(const Declarations& declarations, std::string_view text) {
 
 TEST_CASE("names of the samples are declared where the compiler finds them", "[grammar][editor]") {
   size_t checked = 0;
-  for (const std::string& text : sampleTexts()) {
-    const CompileResult compiled = compileText(text);
+  for (const auto& [text, folder] : sampleTexts()) {
+    FolderResolver files(folder);
+    const CompileResult compiled = compileText(text, &files);
     REQUIRE(compiled.program);
     const Declarations declarations = declarationsOf(text);
     checkRanges(declarations, text);
@@ -88,9 +90,9 @@ TEST_CASE("texts that are not done have declarations too", "[grammar][editor]") 
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
   std::mt19937 random(seed);
-  const std::vector<std::string> texts = sampleTexts();
+  const auto texts = sampleTexts();
   for (unsigned round = 0; round < rounds(400); ++round) {
-    std::string text = texts[random() % texts.size()];
+    std::string text = texts[random() % texts.size()].first;
     for (unsigned edit = static_cast<unsigned>(random() % 4); edit > 0; --edit) {
       const size_t at = random() % text.size();
       if (random() % 2 == 0)

@@ -51,7 +51,7 @@ const Case kCases[] = {
     {"2:10 syntax", "sgm 1; start A;\nrule A { uinon { sphere(2m); } }"},
     {"2:8 syntax", "sgm 1; start A;\nrule A { sphere(2m);"},
     {"2:20 syntax", "sgm 1; start A;\nrule A { let a = 1 < 2 < 3; }"},
-    {"2:10 not-available", "sgm 1; start A;\nrule A { fit x { 2m: A; } sphere(2m); }"},
+    {"2:10 not-available", "sgm 1; start A;\nrule A { set x { 2m: A; } sphere(2m); }"},
     {"2:16 syntax", "sgm 1; start A;\nrule A { split yz { 2m: sphere(2m); } }"},
     {"2:16 syntax", "sgm 1; start A;\nrule A { split w { 2m: sphere(2m); } }"},
     {"2:23 syntax", "sgm 1; start A;\nrule A { split x { 2m sphere(2m); } }"},
@@ -376,6 +376,7 @@ std::vector<std::pair<std::string, CompileResult>> cappedCases() {
   auto add = [&](std::string expected, std::string_view text, auto change) {
     MapResolver resolver;
     resolver.files["domain.sgm"] = "sgm 1;\ndomain infinite;";
+    resolver.files["text.glb"] = "sgm 1;";
     resolver.files["loop.sgm"] = "sgm 1;\nimport \"loop.sgm\" as me;";
     CompileOptions options;
     options.resolver = &resolver;
@@ -390,6 +391,7 @@ std::vector<std::pair<std::string, CompileResult>> cappedCases() {
       [](CompileLimits& l) { l.diagnostics = 2; });
   add("1:15 import-limit", "sgm 1; import \"domain.sgm\" as d; start A; rule A { }",
       [](CompileLimits& l) { l.files = 1; });
+  add("1:15 asset", "sgm 1; import \"text.glb\" as d; start A; rule A { }", none);
   add("2:1 import-content", "sgm 1; import \"domain.sgm\" as d; start A; rule A { }", none);
   add("2:8 import-cycle", "sgm 1; import \"loop.sgm\" as d; start A; rule A { }", none);
   return out;

@@ -8,12 +8,13 @@ using namespace sgm;
 using namespace sgm::test;
 
 TEST_CASE("an import stays below the root's folder", "[grammar][imports]") {
-  for (const char* path : {"a.sgm", "parts/a.sgm", "std/rock.sgm", "a b.sgm", "\xC3\xA4.sgm", "...x.sgm"})
+  for (const char* path :
+       {"a.sgm", "parts/a.sgm", "std/rock.sgm", "a b.sgm", "a.glb", "parts/bay.glb", "\xC3\xA4.sgm", "...x.sgm"})
     CHECK(importPathComplaint(path).empty());
   for (const char* path :
-       {"",         "/a.sgm",   "../a.sgm",     "a/../b.sgm", "./a.sgm", "a//b.sgm", "C:/a.sgm",
-        "c:a.sgm",  "a\\b.sgm", "\\\\h\\a.sgm", "a.txt",      ".sgm",    "a/.sgm",   "http://a/b.sgm",
-        "a\nb.sgm", "a/..",     "a/.../b.sgm",  "a /b.sgm",   "~*.sgm",  "%2e.sgm"}) {
+       {"",         "/a.sgm",       "../a.sgm",    "a/../b.sgm", "./a.sgm", "a//b.sgm", "C:/a.sgm", "c:a.sgm",
+        "a\\b.sgm", "\\\\h\\a.sgm", "a.txt",       ".sgm",       ".glb",    "a.gltf",   "a/.sgm",   "http://a/b.sgm",
+        "a\nb.sgm", "a/..",         "a/.../b.sgm", "a /b.sgm",   "~*.sgm",  "%2e.sgm"}) {
     INFO(path);
     CHECK_FALSE(importPathComplaint(path).empty());
   }

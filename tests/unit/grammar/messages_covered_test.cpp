@@ -99,12 +99,12 @@ std::vector<Literal> untested(const std::string& source, const std::string& test
 
 TEST_CASE("every message stands word for word in a test", "[grammar][messages]") {
   std::string tests;
-  for (const char* folder : {"tests/unit/grammar", "tests/unit/derive"})
+  for (const char* folder : {"tests/unit/grammar", "tests/unit/derive", "tests/unit/asset"})
     for (const auto& path : filesIn(folder, {".cpp", ".h"}))
       for (const Literal& literal : literalsOf(textOf(path))) tests += literal.text + "\n";
   for (const auto& path : filesIn("tests/cli", {".sh"})) tests += textOf(path);
   int sources = 0;
-  for (const char* folder : {"runtime/grammar", "runtime/derive"})
+  for (const char* folder : {"runtime/grammar", "runtime/derive", "runtime/asset"})
     for (const auto& path : filesIn(folder, {".cpp", ".h"})) {
       // Descriptions of words, which say nothing about a text.
       if (path.filename() == "word_help.cpp") continue;

@@ -149,7 +149,8 @@ const MessageCase kDeclarations[] = {
     {"1:15 import-path: a part of the path that is no name | imports are relative: \"std/rock.sgm\", "
      "\"parts/arch.sgm\"",
      "sgm 1; import \"a//b.sgm\" as a;"},
-    {"1:15 import-path: an import ends in .sgm | imports are relative: \"std/rock.sgm\", \"parts/arch.sgm\"",
+    {"1:15 import-path: an import ends in .sgm, or an asset in .glb | imports are relative: \"std/rock.sgm\", "
+     "\"parts/arch.sgm\"",
      "sgm 1; import \"a.txt\" as a;"},
     {"1:15 import-path: the path is too long | imports are relative: \"std/rock.sgm\", \"parts/arch.sgm\"",
      "sgm 1; import "

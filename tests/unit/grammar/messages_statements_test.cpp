@@ -64,10 +64,10 @@ const MessageCase kStatements[] = {
     {"2:26 syntax: expected `)` or `,`, found `=` | `=` names a value only in let, param and field; compare with `==`",
      "sphere(1m == 2m = 3m);"},
     {"2:20 syntax: comparisons do not chain | join two comparisons with `and`", "let a = 1 < 2 < 3;"},
-    {"2:10 not-available: `fit` is not available in sgm 1 of this version | the word is kept for a later one",
-     "fit x { 2m: A; }"},
-    {"2:17 not-available: `fit` is not available in sgm 1 of this version | the word is kept for a later one",
-     "sphere(fit);"},
+    {"2:10 not-available: `set` is not available in sgm 1 of this version | the word is kept for a later one",
+     "set x { 2m: A; }"},
+    {"2:17 not-available: `set` is not available in sgm 1 of this version | the word is kept for a later one",
+     "sphere(set);"},
     {"2:10 syntax: expected a statement, found `rule` | close the block before it with `}`", "rule B { }"},
 };
 

@@ -47,8 +47,8 @@ const MessageCase kTexts[] = {
     {"1:24 syntax: this block is not closed | a `}` is missing\n2:1 syntax: expected a statement, found `rule` | close "
      "the block before it with `}`",
      "sgm 1; start A; rule A { sphere(2m);\nrule B { }"},
-    {"1:8 not-available: `fit` is not available in sgm 1 of this version | the word is kept for a later one",
-     "sgm 1; fit x { }"},
+    {"1:8 not-available: `set` is not available in sgm 1 of this version | the word is kept for a later one",
+     "sgm 1; set x { }"},
     {"1:22 reserved-word: `repeat` is a word of the language and cannot be the name of a rule | another name, such as "
      "`repeat_`",
      "sgm 1; start A; rule repeat { }"},

@@ -87,7 +87,7 @@ class Writer {
       out_ += "sphere(r);";
       return;
     }
-    switch (draw(22)) {
+    switch (draw(23)) {
       case 0:
         out_ += "sphere(" + length(0) + ");";
         return;
@@ -180,6 +180,10 @@ class Writer {
         out_ +=
             pick({"", "grass count: { } ", "gate 1, side brick or sky, bottom ground, top air or ground:{ box(1m); }"});
         out_ += " }";
+        return;
+      case 21:
+        out_ += "fit bay" + std::string(pick({"", " stretch x 0m..1m", " repeat  y (r)..2*r"})) +
+                pick({"", " stretch z size_..if r > 1m then 2m else 3m"}) + ";";
         return;
       case 20:
         out_ += "{ footprint " +

@@ -13,8 +13,10 @@ namespace sgm::test {
 
 inline constexpr int32_t kMetre = kUnitsPerMetre;
 
-inline std::shared_ptr<const Program> compiled(const std::string& text) {
-  const CompileResult result = compileGrammar(text, "test.sgm");
+inline std::shared_ptr<const Program> compiled(const std::string& text, ImportResolver* resolver = nullptr) {
+  CompileOptions options;
+  options.resolver = resolver;
+  const CompileResult result = compileGrammar(text, "test.sgm", options);
   INFO(text << '\n' << renderDiagnostics(result));
   REQUIRE(result.program);
   return result.program;
@@ -23,7 +25,7 @@ inline std::shared_ptr<const Program> compiled(const std::string& text) {
 /// A grammar, and the threads and the backend that measure it.
 class World {
  public:
-  explicit World(const std::string& text) : program_(compiled(text)) {
+  explicit World(const std::string& text, ImportResolver* resolver = nullptr) : program_(compiled(text, resolver)) {
     Result<std::unique_ptr<JobSystem>> threads = makeThreadPool(2);
     REQUIRE(threads);
     jobs_ = std::move(*threads);
