@@ -9,7 +9,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 manual=$root/samples/grammars/README.md images=$root/samples/images/manual
 
 extract() {
-  mkdir -p "$1"
+  mkdir -p "$1/table4"
+  cp -r "$root/samples/grammars/table4/assets" "$1/table4"
   awk -v folder="$1" '
     /^```sgm / { name = $2; file = folder "/" name ".sgm"; options = $0; sub(/^```sgm [^ ]+ ?/, "", options)
                  print options > (folder "/" name ".options"); printf "" > file; inside = 1; next }

@@ -12,6 +12,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -63,7 +64,8 @@ uint64_t hashOf(const Piece& piece, const std::string& folder, uint32_t threads)
   sgm_grammar_desc desc = SGM_GRAMMAR_DESC_INIT;
   desc.text = source.data();
   desc.text_size = source.size();
-  desc.import_folder = folder.c_str();
+  const std::string own_folder = std::filesystem::path(folder + "/" + piece.grammar).parent_path().string();
+  desc.import_folder = own_folder.c_str();
   sgm_grammar* grammar = nullptr;
   check(sgm_grammar_compile(runtime, &desc, &grammar, nullptr, &error), error, piece);
   const std::unique_ptr<sgm_grammar, decltype(&sgm_grammar_destroy)> grammar_owner(grammar, sgm_grammar_destroy);
