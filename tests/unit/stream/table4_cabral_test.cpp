@@ -45,7 +45,7 @@ TexelDensity densityOf(const WorldField& world) {
     if (body.indices.empty()) continue;
     const uint32_t first = static_cast<uint32_t>(positions.size());
     for (const Vertex& vertex : body.vertices) {
-      const auto at = [&](int axis, uint16_t local) {
+      const auto at = [&](int axis, int16_t local) {
         return chunk.grid.origin[axis] + double{1} * local * chunk.grid.cell / kSubcell;
       };
       positions.push_back({at(0, vertex.x), at(1, vertex.y), at(2, vertex.z)});
