@@ -110,6 +110,7 @@ class Checker {
   void checkAlternative(uint32_t rule, uint32_t alternative);
   void statement(StmtId id, bool shrunk);
   void blockStatements(const StmtNode& node, bool shrunk);
+  void detail(const StmtNode& s, bool shrunk);
   void morphStatement(const StmtNode& node, bool shrunk);
   void forEach(StmtId id, const StmtNode& node, bool shrunk);
   void scatterStatement(const StmtNode& node, bool shrunk);

@@ -7,6 +7,18 @@
 
 namespace sgm {
 
+/// Coarse cells skip a detail: a name that is known behind it would have no value there.
+void Checker::detail(const StmtNode& s, bool shrunk) {
+  demand(s.expr, ValueKind::number, kLength, "the size of a detail");
+  const size_t known = scope_.locals.size();
+  const uint32_t before = sink_.errorCount();
+  statement(s.body, shrunk);
+  if (scope_.locals.size() > known && sink_.errorCount() == before)
+    sink_.error(s.span, codes::kWrongUse,
+                join({"`", text(scope_.locals[known].name), "` would have no value where this detail is left out"}),
+                "declare it before the detail, or within a block of the detail, with what uses it");
+}
+
 void Checker::forEach(StmtId id, const StmtNode& s, bool shrunk) {
   const Type source = expression(s.expr);
   Type type;

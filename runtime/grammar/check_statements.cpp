@@ -320,8 +320,7 @@ void Checker::statement(StmtId id, bool shrunk) {
       program_.ast.stmts[id].extra2 = copy.name2 == kNoId ? 0 : tableIndex(program_.names, copy.name2, copy.span);
       return;
     case StmtKind::detail:
-      demand(copy.expr, ValueKind::number, kLength, "the size of a detail");
-      return statement(copy.body, shrunk);
+      return detail(copy, shrunk);
     case StmtKind::footprint:
       return footprint(id, copy);
     case StmtKind::extrude:

@@ -52,6 +52,16 @@ const MessageCase kStatements[] = {
      "mat rock; mat clay;"},
     {"2:19 duplicate: a second `tag` in this block | it holds for the whole block; open another block for the other",
      "tag \"a\"; tag \"b\";"},
+    {"2:10 wrong-use: `a` would have no value where this detail is left out | declare it before the detail, or within "
+     "a block of the detail, with what uses it",
+     "detail 0.3m let a = 4m; box(a);"},
+    {"2:10 wrong-use: `a` would have no value where this detail is left out | declare it before the detail, or within "
+     "a block of the detail, with what uses it",
+     "detail 0.3m at(x 1m) field a = p.x; displace a amp 1m { box(2m); }"},
+    {"2:43 wrong-use: `a` would have no value where this detail is left out | declare it before the detail, or within "
+     "a block of the detail, with what uses it",
+     "detail 2m at(x 1m) { } detail 2m detail 1m footprint rect(2m, 3m) as a;"},
+    {"", "detail 0.3m { let a = 4m; box(a); footprint rect(a, a) as b; extrude 2m of b; }"},
     {"2:17 syntax: a vector has three parts, a pair two | such as (1m, 2m, 3m)", "sphere((1m, 2m, 3m, 4m));"},
     {"2:17 syntax: `union` starts a statement and gives no value | a value is a number, a name or a function such as "
      "max(a, b)",
