@@ -11,7 +11,6 @@
 namespace sgm {
 namespace {
 
-constexpr uint32_t kNowhere = 0xFFFFFFFFu;
 /// Wrong choices that the first search may take back.
 constexpr uint64_t kFirstRetreats = 32;
 
@@ -79,6 +78,10 @@ class Search {
     uint64_t retreats = 0, most_retreats = kFirstRetreats;
     bool sound = begin();
     while (true) {
+      if (spent_) {
+        out.end = WaveEnd::gave_up;
+        break;
+      }
       if (!sound) {
         if (choices_.empty()) {
           out.end = WaveEnd::impossible;
@@ -102,12 +105,8 @@ class Search {
         sound = narrow(wrong.place, rest) && propagate();
         continue;
       }
-      if (visits_ >= most_visits_) {
-        out.end = WaveEnd::gave_up;
-        break;
-      }
       const uint32_t place = next();
-      if (place == kNowhere) break;
+      if (place == kNoPlace) break;
       const size_t tile = draw(place);
       choices_.push_back({changes_.size(), place, static_cast<uint16_t>(tile)});
       Tiles one;
@@ -156,8 +155,10 @@ class Search {
     }
   }
 
-  /// Fits every place to the border, and then to its neighbours.
+  /// Fits every place to the border, and then to its neighbours. Each is looked at once at the least.
   bool begin() {
+    spent_ = most_visits_ < domains_.size();
+    if (spent_) return false;
     for (uint32_t place = 0; place < domains_.size(); ++place) {
       Tiles fits = domains_[place];
       for (size_t side = 0; side < kWaveSides; ++side) {
@@ -203,7 +204,7 @@ class Search {
     for (const uint32_t other : asked_) waits_[other] = false;
     asked_.clear();
     failures_[place] = std::min(failures_[place] + 1, 0xFFFFu);
-    if (hardest_ != kNowhere && failures_[place] < failures_[hardest_]) return;
+    if (hardest_ != kNoPlace && failures_[place] < failures_[hardest_]) return;
     hardest_ = place;
     for (size_t side = 0; side < kWaveSides; ++side) {
       const std::optional<uint32_t> other = neighbour(place, side);
@@ -217,6 +218,10 @@ class Search {
   /// Sides share single labels, so it is enough to know which labels a place still offers: no table of pairs of tiles.
   bool propagate() {
     for (size_t next_asked = 0; next_asked < asked_.size(); ++next_asked) {
+      if (visits_ == most_visits_) {
+        spent_ = true;
+        return false;
+      }
       const uint32_t place = asked_[next_asked];
       waits_[place] = false;
       ++visits_;
@@ -252,7 +257,7 @@ class Search {
       waiting_.pop();
       if (domains_[place].count() > 1 && urgent == urgency(place)) return place;
     }
-    return kNowhere;
+    return kNoPlace;
   }
 
   size_t draw(uint32_t place) const {
@@ -273,6 +278,7 @@ class Search {
   const WaveLattice& lattice_;
   uint64_t key_, most_visits_;
   uint64_t attempt_ = 0, visits_ = 0;
+  bool spent_ = false;                                  ///< all visits that it may make
   std::vector<uint8_t> labels_;                         ///< that tiles have
   std::array<std::array<Tiles, 64>, kWaveSides> with_;  ///< for each side and label: the tiles that have it there
   std::vector<Tiles> domains_;
@@ -282,7 +288,7 @@ class Search {
   std::vector<Change> changes_;
   std::vector<Choice> choices_;
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> waiting_;
-  uint32_t hardest_ = kNowhere;
+  uint32_t hardest_ = kNoPlace;
   std::array<WaveLabels, kWaveSides> wanted_{};
 };
 

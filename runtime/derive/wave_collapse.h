@@ -23,6 +23,8 @@ struct WaveTile {
   uint32_t weight = 1;  ///< 1 to 2^24: how often it is drawn among those that fit
 };
 
+inline constexpr uint32_t kNoPlace = 0xFFFFFFFFu;
+
 struct WaveLattice {
   std::array<uint32_t, 3> size{1, 1, 1};        ///< places along x, y, z; their product is below 2^24
   std::array<WaveLabels, kWaveSides> border{};  ///< what stands outside of each side of the lattice
@@ -31,15 +33,15 @@ struct WaveLattice {
 enum class WaveEnd : uint8_t {
   solved,
   impossible,  ///< proven: no choice of tiles fits
-  gave_up,     ///< after most_visits
+  gave_up,     ///< after most_visits, or at once where these are fewer than the places
 };
 
 struct WaveResult {
   WaveEnd end = WaveEnd::solved;
   std::vector<uint16_t> tiles;  ///< solved: for each place, x first, then y, then z
-  uint64_t visits = 0;          ///< places whose neighbours were looked at: the measure of the work
+  uint64_t visits = 0;  ///< places whose neighbours were looked at: the measure of the work; most_visits at most
   /// Not solved: where no tile fitted, most often if there were several such places, and what each side of it would
-  /// have had to meet, any of it.
+  /// have had to meet, any of it. kNoPlace: given up before there was one.
   uint32_t place = 0;
   std::array<WaveLabels, kWaveSides> wanted{};
 };

@@ -233,6 +233,33 @@ TEST_CASE("an override by tag changes what stands in a tile, wherever that stand
   CHECK(walls > 0);
 }
 
+TEST_CASE("what is searched for in vain leaves the tiles beside it as they are", "[wfc]") {
+  const std::string field =
+      "rule Field { size(20m, 1m, 20m) wfc 1m { a 1: { box(0.5m); mat a; } b 1: { box(0.5m); mat b; } } }";
+  // No way is found, and none is proven not to be.
+  const std::string vain =
+      "rule Vain { size(9m, 1m, 9m) wfc 1m { border side edge; half 1 turn, front pair, side edge: box(scope); } }";
+  const auto alone = ofTiles("rule Main { repeat 0 Vain; Field; }" + vain + field);
+  const auto beside = ofTiles("rule Main { repeat 12 Vain; Field; }" + vain + field);
+  DeriveLimits few;
+  few.steps = 100'000;
+  const auto tiles = [&](const Program& program) {
+    const auto chunk = deriveCell(program, {}, 7, 0, {}, Ceiling(0), few);
+    INFO((chunk ? std::string() : chunk.error().message));
+    REQUIRE(chunk);
+    return tilesOf(program, *chunk);
+  };
+  CHECK(tiles(*alone).size() == 400);
+  CHECK(tiles(*beside) == tiles(*alone));
+}
+
+TEST_CASE("as many tiles as there may be are found where they fit easily", "[wfc]") {
+  const GrammarChunk chunk = derivedRules(
+      "rule Main { size(32m, 32m, 32m) wfc 1m { none 9, side lawn, top lawn, bottom lawn: { } wall 1 turn, left wall, "
+      "right wall, side lawn, top lawn, bottom lawn: { } } }");
+  CHECK(chunk.notes.empty());
+}
+
 TEST_CASE("each tile draws for itself", "[wfc]") {
   const auto program =
       ofTiles("rule Main { size(8m, 2m, 8m) wfc 2m { a 1: A; } }\nrule A { sphere(rand(0.2m, 0.9m)); }");
