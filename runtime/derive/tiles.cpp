@@ -65,6 +65,14 @@ WaveLabels sideLabels(std::span<const SideKind> kinds, size_t kind, bool high) {
 }  // namespace
 
 void Interpreter::noteNoTiles(const StmtNode& s, const WaveLattice& lattice, const WaveResult& result, const Env& env) {
+  const auto triple = [](uint32_t x, uint32_t y, uint32_t z) {
+    return "(" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ")";
+  };
+  const auto& n = lattice.size;
+  if (result.place == kNoPlace)
+    return note("to fill the " + triple(n[0], n[1], n[2]) +
+                    " places of this scope takes too long, and it is left empty: larger tiles, or a smaller scope",
+                s.span, env.activation);
   const WaveNode& node = program_.ast.waves[s.extra];
   const std::span<const SideKind> kinds = sideKinds(program_, s);
   std::string met;
@@ -89,10 +97,6 @@ void Interpreter::noteNoTiles(const StmtNode& s, const WaveLattice& lattice, con
         names += std::string(names.empty() ? "`" : " or `").append(program_.text(program_.idAt(node.labels, l))) + '`';
     met += std::string(met.empty() ? "" : " and ").append(names).append(" on its ").append(boxPartTable()[side]);
   }
-  const auto triple = [](uint32_t x, uint32_t y, uint32_t z) {
-    return "(" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ")";
-  };
-  const auto& n = lattice.size;
   const std::string place = triple(result.place % n[0], result.place / n[0] % n[1], result.place / n[0] / n[1]);
   note((result.end == WaveEnd::impossible ? "these tiles cannot fill the " : "no way was found to fill the ") +
            triple(n[0], n[1], n[2]) + " places of this scope, and it is left empty: place " + place +

@@ -228,6 +228,21 @@ TEST_CASE("what passes its reach, its domain or every bound is left out whole", 
         "this shape has no bound, so no cell can own it; meet it with a box, or give the displacement an amplitude");
 }
 
+TEST_CASE("tiles that no search has the time for are left out alone, and it is said", "[notes]") {
+  const auto program = compiled(
+      "sgm 1; domain infinite; layer main cell 64m reach 64m { start Main; }\n"
+      "rule Main { sphere(1m); size(9m, 1m, 9m) wfc 1m { a 1: box(scope); } sphere(2m); }");
+  DeriveLimits few;
+  few.steps = 600;
+  const auto chunk = deriveCell(*program, {}, 7, 0, {}, Ceiling(0), few);
+  REQUIRE(chunk);
+  CHECK(chunk->shapes.size() == 2);
+  REQUIRE(chunk->notes.size() == 1);
+  CHECK(chunk->notes[0].message ==
+        "to fill the (9, 1, 9) places of this scope takes too long, and it is left empty: larger tiles, or a smaller "
+        "scope");
+}
+
 TEST_CASE("notes beyond the limit are counted", "[notes]") {
   const GrammarChunk chunk =
       derivedRules("rule Main { repeat 70 Faulty; sphere(1m); } rule Faulty { truncone(2m, 0m, 0m); }");
