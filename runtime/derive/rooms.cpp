@@ -12,7 +12,6 @@ namespace sgm {
 namespace {
 
 constexpr double kWidestFloor = 1 << 20;  ///< units
-constexpr double kLargestArea = 1e6;
 
 /// Walls, doors and corridors are laid out in steps of four units, so that their halves are whole even numbers.
 int32_t inSteps(double metres) {
@@ -102,12 +101,14 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
     if (parts[i].floor != FloorPart::room) continue;
     const double area = real(parts[i].size, env);
     if (failed()) return;
-    if (area > 0 && area < kLargestArea) {
+    if (kRoomAreaRange.holds(area)) {
       number[room] = static_cast<uint32_t>(rooms.size());
       rooms.push_back(i);
       areas.push_back(area);
     } else {
-      note("the area of a room lies above 0 and below a million; this one is left out", parts[i].span, env.activation);
+      note(
+          std::string(kRoomAreaRange.rule).append(", ").append(kRoomAreaRange.example).append("; this one is left out"),
+          parts[i].span, env.activation);
     }
     ++room;
   }

@@ -24,7 +24,7 @@ struct TreemapRow {
 };
 
 /// Rows of weights that fall, each with as many as keep its parts nearest to squares. Which end of the rest a row lies
-/// at and in which order its parts stand changes no part's shape, to the step. weights: above 0.
+/// at and in which order its parts stand changes no part's shape, to the step. weights: 1e-6 to 1e6.
 std::vector<TreemapRow> squarifiedRows(const PlanRect& whole, std::span<const double> weights, int32_t step);
 
 /// The places of such rows, of which parts may have changed places within a row, and rows ends.
@@ -32,7 +32,7 @@ std::vector<PlanRect> placedRows(const PlanRect& whole, std::span<const double> 
                                  std::span<const TreemapRow> rows, int32_t step);
 
 /// The part of each weight, in the order of the weights. All lines between parts lie on multiples of `step` from x0 and
-/// z0, and neighbours share them; parts that are thinner than that come out empty. weights: above 0.
+/// z0, and neighbours share them; parts that are thinner than that come out empty. weights: 1e-6 to 1e6.
 std::vector<PlanRect> squarifiedTreemap(const PlanRect& whole, std::span<const double> weights, int32_t step);
 
 }  // namespace sgm

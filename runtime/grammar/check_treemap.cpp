@@ -26,7 +26,7 @@ void Checker::treemap(const StmtNode& s) {
   for (uint32_t i = 0; i < s.parts.count; ++i) {
     PartNode& part = program_.ast.parts[s.parts.first + i];
     if (part.floor == FloorPart::room) {
-      demand(part.size, ValueKind::number, kRatio, "the area of a room");
+      demandRange(part.size, kRatio, "the area of a room", kRoomAreaRange);
       part.tag = tableIndex(program_.tags, part.label, part.span);
       if (std::find(rooms.begin(), rooms.end(), part.label) != rooms.end())
         sink_.error(part.span, codes::kDuplicate, join({"a second room `", text(part.label), "` in this treemap"}),

@@ -19,6 +19,8 @@ inline constexpr ValueRange kSnapReachRange{0, 1e5, "the lines of a split snap b
 inline constexpr double kDoorReach = 16.0 / kUnitsPerMetre;
 
 inline constexpr size_t kMostRooms = 32;
+inline constexpr ValueRange kRoomAreaRange{1e-6, 1e6, "the area of a room is a millionth to a million",
+                                           "such as `living 28`"};
 inline constexpr ValueRange kWallRange{0.01, 5, "the walls of a treemap are 1cm to 5m thick", "such as wall 0.2m"};
 inline constexpr ValueRange kDoorRange{0.1, 100, "a door is 0.1m to 100m wide", "such as door 0.9m"};
 inline constexpr ValueRange kDoorHeightRange{0.1, 100, "a door is 0.1m to 100m high", "such as height 2.1m"};

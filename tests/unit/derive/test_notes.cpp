@@ -77,8 +77,10 @@ const NoteCase kNotes[] = {
      "or "
      "a larger scope",
      "treemap", "size(4m, 4m, 4m) treemap(wall 3m) { a 4: { } }", ""},
-    {"the area of a room lies above 0 and below a million; this one is left out", "b rand",
+    {"the area of a room is a millionth to a million, such as `living 28`; this one is left out", "b rand",
      "size(9m, 4m, 9m) treemap { a 4: { } b rand(-2, -1): { } }", "size(9m, 4m, 9m) treemap { a 4: { } }"},
+    {"the area of a room is a millionth to a million, such as `living 28`; this one is left out", "b rand",
+     "size(9m, 4m, 9m) treemap { a 4: { } b rand(1/1e9, 1/1e9): { } }", "size(9m, 4m, 9m) treemap { a 4: { } }"},
     {"no wall of `b` is wide enough for a door, so nothing leads into it: a narrower door, or a larger room", "b 4",
      "size(12m, 4m, 4m) treemap(door 5m) { a 4: { } b 4: { } }",
      "size(12m, 4m, 4m) treemap(door 5m) { a 4: { } b 4: { } }"},

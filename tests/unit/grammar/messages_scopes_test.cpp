@@ -131,6 +131,8 @@ const MessageCase kRooms[] = {
     {"3:13 unit-mismatch: the area of a room is a ratio, and this is a length | divide it by a length to make a ratio "
      "of it",
      "treemap { a 4m: Part; }"},
+    {"3:13 value-range: the area of a room is a millionth to a million | such as `living 28`",
+     "treemap { a 1/1e9: Part; }"},
     {"3:14 value-range: the walls of a treemap are 1cm to 5m thick | such as wall 0.2m",
      "treemap(wall 0m) { a 4: Part; }"},
     {"3:14 unit-mismatch: the thickness of walls is a length, and this is a ratio | write `2m`",
