@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,29 @@ namespace sgm::cli {
 namespace {
 
 constexpr uint64_t kMostBytes = uint64_t{64} << 20;  // of a message
+constexpr size_t kMostHeaderBytes = 64 << 10;        // of all lines before a message
+constexpr int kDeepest = 256;                        // arrays and objects within each other
+
+/// Whether arrays and objects are nested deeper than any message has them. The library copies and prints values by
+/// recursion, and its stack ends. Of text that is no JSON it says something.
+bool isTooDeep(std::string_view json) {
+  int depth = 0;
+  bool in_text = false;
+  for (size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_text) {
+      if (c == '\\') ++i;
+      in_text = c != '"';
+    } else if (c == '"') {
+      in_text = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kDeepest) return true;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return false;
+}
 
 /// Reads messages: headers, an empty line, as many bytes as they say. Nothing at the end of the input.
 class MessageReader {
@@ -44,7 +68,8 @@ class MessageReader {
     std::optional<uint64_t> length;
     std::string line;
     bool any = false;
-    while (std::getline(in_, line)) {
+    size_t left = kMostHeaderBytes;
+    while (headerLine(line, left)) {
       if (!line.empty() && line.back() == '\r') line.pop_back();
       if (line.empty()) {
         lost_ = !length;
@@ -58,10 +83,21 @@ class MessageReader {
       const size_t digits = std::min(line.find_first_not_of(' ', kLength.size()), line.size());
       uint64_t value = 0;
       const auto [end, error] = std::from_chars(line.data() + digits, line.data() + line.size(), value);
-      if (error == std::errc() && end == line.data() + line.size()) length = value;
+      constexpr auto kLongest = static_cast<uint64_t>(std::numeric_limits<std::streamsize>::max());
+      if (error == std::errc() && end == line.data() + line.size() && value < kLongest) length = value;
     }
-    lost_ = any;
+    lost_ = any || left == 0;
     return std::nullopt;
+  }
+
+  /// False at the end of the input, or of the bytes that headers may have.
+  bool headerLine(std::string& line, size_t& left) {
+    line.clear();
+    for (char c = 0; left > 0 && in_.get(c); --left) {
+      if (c == '\n') return true;
+      line += c;
+    }
+    return left > 0 && !line.empty();
   }
 
   std::istream& in_;
@@ -83,10 +119,13 @@ Exit serveLanguage() {
   while (!server.ended()) {
     const std::optional<std::string> bytes = reader.next();
     if (!bytes) break;
-    const nlohmann::json message = nlohmann::json::parse(*bytes, nullptr, false);
+    const bool too_deep = isTooDeep(*bytes);
+    const nlohmann::json message =
+        too_deep ? nlohmann::json(nlohmann::json::value_t::discarded) : nlohmann::json::parse(*bytes, nullptr, false);
     if (message.is_discarded()) {
-      const std::string why =
-          bytes->empty() ? fmt::format("a message has 1 to {} bytes", kMostBytes) : "this is no JSON";
+      const std::string why = bytes->empty() ? fmt::format("a message has 1 to {} bytes", kMostBytes)
+                              : too_deep     ? fmt::format("arrays and objects are at most {} deep", kDeepest)
+                                             : "this is no JSON";
       if (!send(LanguageServer::answerToGarbage(why))) return Exit::file;
       continue;
     }

@@ -34,6 +34,28 @@ run bash -c '"$1" lsp <talk' - "$SGM"
 run bash -c '"$1" lsp <talk' - "$SGM"
 [[ $status == 1 ]] || failed 'a message that is too large'
 out_has 'a message has 1 to'
+# Each deeper than a stack is large: in the parameters, and where nothing else is.
+deep=$(head -c 1000000 /dev/zero | tr '\0' '[')
+shut=$(tr '[' ']' <<<"$deep")
+{ message "$hello"
+  message "$deep"
+  message "{\"jsonrpc\":\"2.0\",\"id\":3,\"method\":\"textDocument/hover\",\"params\":$deep$shut}"
+  message "$bye"; message "$leave"; } >talk
+run bash -c '"$1" lsp <talk' - "$SGM"
+[[ $status == 0 && $(grep -o 'at most 256 deep' <<<"$out" | wc -l) == 2 ]] || failed 'messages that are nested too deep'
+out_has '"id":2,"jsonrpc":"2.0","result":null'
+run lsp "$hello" '{"jsonrpc":"2.0","id":3,"method":"no/such","params":["\"[[","'"${deep:0:300}"'"]}' "$bye" "$leave"
+[[ $status == 0 ]] && out_has '"code":-32601' || failed 'brackets in texts are none'
+# Headers without an end, and lengths that no stream has.
+run bash -c 'yes Content-Type: | tr -d "\n" | "$1" lsp' - "$SGM"
+[[ $status == 1 ]] || failed 'a header without an end'
+err_has 'no message of the Language Server Protocol'
+for length in 9223372036854775807 9223372036854775808 18446744073709551615 99999999999999999999 -5; do
+  { message "$hello"; printf 'Content-Length: %s\r\n\r\n' "$length"; message "$bye"; } >talk
+  run bash -c '"$1" lsp <talk' - "$SGM"
+  [[ $status == 1 ]] || failed "a length of $length"
+  err_has 'no message of the Language Server Protocol'
+done
 printf 'GET / HTTP/1.1\r\n\r\n' >talk
 run bash -c '"$1" lsp <talk' - "$SGM"
 [[ $status == 1 ]] || failed 'another protocol'
