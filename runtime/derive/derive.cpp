@@ -223,6 +223,14 @@ Result<GrammarChunk> Interpreter::derived(std::vector<uint32_t>* from, std::pmr:
 
 Result<GrammarChunk> Interpreter::run(std::pmr::memory_resource* memory) { return derived(nullptr, memory); }
 
+/// The use of a rule that a path can name: what the blocks of overrides derive has none that overrides take.
+uint32_t Interpreter::outsideOfEdits(uint32_t activation) const {
+  uint32_t outside = activation;
+  for (uint32_t i = activation; i != kNone; i = activations_[i].parent)
+    if (activations_[i].edit != kNone) outside = activations_[i].parent;
+  return outside;
+}
+
 Result<TracedCell> Interpreter::runTraced(std::pmr::memory_resource* memory) {
   std::vector<uint32_t> from;
   Result<GrammarChunk> chunk = derived(&from, memory);
@@ -231,8 +239,9 @@ Result<TracedCell> Interpreter::runTraced(std::pmr::memory_resource* memory) {
   std::map<uint32_t, uint32_t> use_of;  // activations, to uses in the trace
   for (const uint32_t shape : from) {
     const Origin& origin = draft_.origin(shape);
-    const auto [use, fresh] = use_of.try_emplace(origin.activation, static_cast<uint32_t>(traced.uses.size()));
-    if (fresh) traced.uses.push_back(pathText(origin.activation));
+    const uint32_t activation = outsideOfEdits(origin.activation);
+    const auto [use, fresh] = use_of.try_emplace(activation, static_cast<uint32_t>(traced.uses.size()));
+    if (fresh) traced.uses.push_back(pathText(activation));
     traced.origins.push_back({use->second, origin.span});
   }
   return traced;

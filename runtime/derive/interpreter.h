@@ -327,6 +327,7 @@ class Interpreter {
   bool failed() const { return error_.has_value(); }
   void note(const std::string& message, const Span& span, uint32_t activation);
   std::string pathText(uint32_t activation) const;
+  uint32_t outsideOfEdits(uint32_t activation) const;
 
   /// from: where not null, of each shape its number in the draft.
   Result<GrammarChunk> derived(std::vector<uint32_t>* from, std::pmr::memory_resource* memory);

@@ -117,6 +117,12 @@ void Checker::overridePath(Override& edit) {
                               : join({text(qualifier), ".", text(program_.rules[rule].name)});
   };
   const auto unknown = [&](const WrittenStep& step, std::string_view who, const std::vector<std::string>& known) {
+    // Messages name what is derived within an override by such a step.
+    if (step.name == "override") {
+      sink_.error(spanIn(edit, step.place), codes::kUnknownName, join({who, " `override`"}),
+                  "edit the block of that override");
+      return;
+    }
     Suggestion suggestion(
         textAt({step.place.begin, step.place.begin + static_cast<uint32_t>(step.name.size() + step.qualifier.size() +
                                                                            (step.qualifier.empty() ? 0 : 1))}));

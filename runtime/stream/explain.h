@@ -17,7 +17,8 @@ struct ExplainedNode {
   double measure = 0;  ///< smooth unions, cuts and meets: their radius, units; morphs: t; displacements: by how much,
                        ///< units; warps: how far, units
   size_t others = 0;   ///< parts of it that do not decide, and are not listed
-  std::string path;    ///< of the use of a rule whose statement made it: what an override names
+  std::string path;    ///< of the use of a rule whose statement made it, what an override names: where an override made
+                       ///< it, of the use whose block that takes the place of
   Span span;           ///< of that statement
 };
 

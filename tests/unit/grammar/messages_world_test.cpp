@@ -220,6 +220,8 @@ const MessageCase kOverrides[] = {
      "override \"a(0, 0, 0)/B\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
     {"2:13 unknown-name: `A` derives no `Bb` | did you mean `B`?",
      "override \"A/Bb\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:13 unknown-name: `A` derives no `override` | edit the block of that override",
+     "override \"A/override/B[0]\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
     {"2:13 unknown-name: `A` derives no `x.Cave` | it derives B",
      "override \"A/x.Cave\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
     {"2:14 unknown-name: nothing here has the tag \"stone\" | write `tag` and this text in the block that it replaces",

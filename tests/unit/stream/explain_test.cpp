@@ -63,9 +63,14 @@ void checkWorld(const std::string& text, uint64_t seed, int32_t cell, double ext
       CHECK(std::fabs(leaf.value) == std::fabs(found->value));
       ++count.exact;
     }
-    if (leaf.path.find("override") != std::string::npos) continue;
+    CHECK(leaf.path.find("override") == std::string::npos);
     const CompileResult edited = compileGrammar(text + "\noverride \"" + leaf.path + "\" { }\n", "test.sgm");
     INFO(renderDiagnostics(edited));
+    // One that has an override already takes another that derives it.
+    if (!edited.program && edited.diagnostics[0].code == "duplicate") {
+      CHECK(compileGrammar(text + "\noverride \"" + leaf.path + "\" { inner; }\n", "test.sgm").program);
+      continue;
+    }
     // A sum that is displaced must keep its largest shape.
     if (!edited.program && text.find("sum") != std::string::npos) continue;
     REQUIRE(edited.program);
@@ -110,6 +115,26 @@ TEST_CASE("of random grammars explain() finds the shape that decides") {
   }
   CHECK(count.told > 20);
   CHECK(count.edited * 2 > count.told);
+}
+
+TEST_CASE("what an override has made is told by the path that the override takes") {
+  const std::string head =
+      "sgm 1; units m; domain infinite; layer net cell 16m reach 8m { start N; }\n"
+      "rule N { at(8m, 8m, 8m) M; }\nrule M { box(2m); tag \"m\"; }\nrule D { at(y 1m) E; }\nrule E { sphere(1m); }\n";
+  for (const char* edit :
+       {"override \"N/M[0]\" { D; }", "override tag \"m\" { inner; D; }", "override \"net(0, 0, 0)/N/M[0]\" { D; }"}) {
+    CAPTURE(edit);
+    std::mt19937 random(1);
+    Count count;
+    const std::string text = head + edit;
+    const WorldField world(settingsOf(text, 512), std::pmr::get_default_resource());
+    const Result<Explanation> found = explain(world, {8 * 1024, 9 * 1024 + 1020, 8 * 1024});
+    REQUIRE(found);
+    REQUIRE_FALSE(found->nodes.empty());
+    CHECK(found->nodes[found->leaf].kind == ShapeKind::sphere);
+    CHECK(found->nodes[found->leaf].path == "net(0, 0, 0)/N/M[0]");
+    checkWorld(text, 0, 512, 14, random, 2, count);
+  }
 }
 
 TEST_CASE("a trace is the cell, and each shape has a use of a rule and a place in the text") {
