@@ -1,7 +1,9 @@
 #include "grammar/warnings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -158,6 +160,99 @@ bool sameValue(const Program& program, ExprId a, ExprId b) {
   return l.kind == ExprKind::name && l.id == r.id;
 }
 
+/// Which values are whole numbers, whatever the parameters are and wherever rules are called.
+class WholeNumbers {
+ public:
+  explicit WholeNumbers(const Program& program) : program_(program) {
+    for (uint32_t r = 0; r < program.rules.size(); ++r)
+      for (const Alternative& a : program.rules[r].alternatives)
+        frames_.push_back({r, a.span, a.body, a.formals.count});
+    for (const Override& edit : program.overrides) {
+      const uint32_t steps = edit.steps.count;
+      const uint32_t rule = steps == 0 ? kNoId : program.path_steps[edit.steps.first + steps - 1].rule;
+      const uint32_t formals = rule == kNoId ? 0 : program.rules[rule].alternatives[0].formals.count;
+      frames_.push_back({rule, edit.span, edit.body, formals});
+    }
+    for (uint32_t e = 0; e < program.ast.exprs.size(); ++e)
+      if (program.expr(e).ref == Ref::rule) calls_[program.expr(e).id].push_back(e);
+  }
+
+  bool holds(ExprId id) {
+    formals_.clear();
+    return isWhole(id);
+  }
+
+ private:
+  /// What the locals of an expression are slots of.
+  struct Frame {
+    uint32_t rule;
+    Span head;
+    StmtId body;
+    uint32_t formals;
+  };
+
+  bool isWhole(ExprId id) {
+    if (id == kNoId) return false;
+    const ExprNode& n = program_.expr(id);
+    switch (n.kind) {
+      case ExprKind::number:
+        return n.value == std::floor(n.value);
+      case ExprKind::negate:
+        return isWhole(program_.idAt(n.children, 0));
+      case ExprKind::binary:
+        return (n.binary == BinaryOp::add || n.binary == BinaryOp::subtract || n.binary == BinaryOp::multiply) &&
+               isWhole(program_.idAt(n.children, 0)) && isWhole(program_.idAt(n.children, 1));
+      case ExprKind::name:
+        return n.ref == Ref::parameter ? program_.params[n.id].whole : n.ref == Ref::local && isWholeLocal(n);
+      default:
+        return false;
+    }
+  }
+
+  bool isWholeLocal(const ExprNode& n) {
+    for (const Frame& frame : frames_) {
+      if (!within(n.span, frame.head) && !within(n.span, program_.stmt(frame.body).span)) continue;
+      return n.id < frame.formals ? isWholeFormal(frame.rule, n.id) : isWholeIn(frame.body, n.id);
+    }
+    return false;
+  }
+
+  /// Of a rule that calls itself: whole unless another call says otherwise.
+  bool isWholeFormal(uint32_t rule, uint32_t formal) {
+    if (!formals_.emplace(rule, formal).second) return true;
+    const std::vector<ExprId>& calls = calls_[rule];
+    return !calls.empty() && std::all_of(calls.begin(), calls.end(), [&](ExprId call) {
+      const IdRange bound = program_.expr(call).bound;
+      return formal < bound.count && isWhole(program_.idAt(bound, formal));
+    });
+  }
+
+  /// The variable of a loop, or a let, with that slot.
+  bool isWholeIn(StmtId id, uint32_t slot) {
+    if (id == kNoId) return false;
+    const StmtNode& s = program_.stmt(id);
+    if (s.kind == StmtKind::for_each && s.slot == slot) return program_.expr(s.expr).kind == ExprKind::range;
+    if (s.kind == StmtKind::let && s.slot == slot) return isWhole(s.expr);
+    if (isWholeIn(s.body, slot)) return true;
+    for (uint32_t i = 0; i < s.children.count; ++i)
+      if (isWholeIn(program_.idAt(s.children, i), slot)) return true;
+    return false;
+  }
+
+  const Program& program_;
+  std::vector<Frame> frames_;
+  std::map<uint32_t, std::vector<ExprId>> calls_;    ///< by rule
+  std::set<std::pair<uint32_t, uint32_t>> formals_;  ///< that are being asked about
+};
+
+/// The whole numbers of a range.
+GuardRange wholeOf(GuardRange range) {
+  range.low = range.low_open ? std::floor(range.low) + 1 : std::ceil(range.low);
+  range.high = range.high_open ? std::ceil(range.high) - 1 : std::floor(range.high);
+  range.low_open = range.high_open = false;
+  return range;
+}
+
 bool overlap(const GuardRange& a, const GuardRange& b) {
   const double low = std::max(a.low, b.low), high = std::min(a.high, b.high);
   if (low != high) return low < high;
@@ -178,13 +273,15 @@ void warnOfUnused(const Program& program, std::span<const ModuleSyntax> syntax, 
 }
 
 void warnOfOverlaps(const Program& program, DiagnosticSink& sink) {
+  WholeNumbers whole(program);
   for (const Rule& rule : program.rules) {
     if (rule.module != 0) continue;
     std::vector<std::pair<const Alternative*, GuardRange>> before;
     for (const Alternative& head : rule.alternatives) {
       if (head.guard != Guard::when || head.weight != kNoId || head.lod != kNoId) continue;
-      const std::optional<GuardRange> range = rangeOf(program, head.when);
+      std::optional<GuardRange> range = rangeOf(program, head.when);
       if (!range) continue;
+      if (whole.holds(range->asked)) range = wholeOf(*range);
       for (const auto& [other, theirs] : before) {
         if (!sameValue(program, range->asked, theirs.asked) || !overlap(*range, theirs)) continue;
         sink.warning(program.expr(head.when).span, codes::kGuards,

@@ -188,8 +188,7 @@ const MessageCase kOverrides[] = {
     {"2:10 warning idle-override: `A` derives `B` once at most: `B[1]` never comes | the last is `B[0]`",
      "override \"A/B[1]\" { }\nrule A { size(4m, 2m, 4m) treemap { a 4: B; } } rule B { sphere(1m); }"},
     {"", "override \"A/B[9]\" { }\nrule A { size(2m, 2m, 2m) split x { { 1m: B; }* } } rule B { sphere(1m); }"},
-    {"",
-     "override \"A/B[9]\" { }\nrule A { size(2m, 2m, 2m) treemap { a 4: { } facade: B; } } rule B { sphere(1m); }"},
+    {"", "override \"A/B[9]\" { }\nrule A { size(2m, 2m, 2m) treemap { a 4: { } facade: B; } } rule B { sphere(1m); }"},
     {"2:10 warning idle-override: `A` derives `B` once at most: `B[1]` never comes | the last is `B[0]`",
      "override \"A/B[1]\" { }\noverride \"A\" { inner; sphere(2m); }\nrule A { B; } rule B { sphere(1m); }"},
     {"",
@@ -273,6 +272,16 @@ const MessageCase kIdle[] = {
      "let one exclude the other, or give both a `weight` if that is meant | note: the earlier one at test.sgm:3:13",
      "rule A { size(3m, 3m, 3m) B; size(1m, 1m, 1m) B; }\n"
      "rule B when scope.x < 2m { sphere(1m); } rule B when scope.x > 150cm { box(1m); }"},
+    // Between whole numbers there is nothing.
+    {"",
+     "param n = 3 in 1..5; rule A { B(n); }\nrule B(k) when k < 3 { sphere(1m); } rule B(k) when k > 2 { box(1m); }"},
+    {"",
+     "rule A { for i in 0..4 { let j = 2*i - 1; B(j); } }\n"
+     "rule B(k) when k < 1 { box(1m); } rule B(k) when k > 0 { B(k - 1); }"},
+    {"3:53 warning guards: this guard of `B` and an earlier one can hold together | one of their heads is drawn then: "
+     "let one exclude the other, or give both a `weight` if that is meant | note: the earlier one at test.sgm:3:16",
+     "rule A { for i in 0..4 { B(i); B(i/2); } }\n"
+     "rule B(k) when k < 3 { sphere(1m); } rule B(k) when k > 2 { box(1m); }"},
     {"",
      "param n = 3 in 1..5; rule A { B(n); }\nrule B(k) when k > 3 { sphere(1m); } rule B(k) when k <= 3 { box(1m); }"},
     {"",
