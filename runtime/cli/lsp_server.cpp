@@ -185,20 +185,25 @@ void LanguageServer::notify(const std::string& method, const Json& params, std::
     const Json& document = params.at("textDocument");
     const std::string uri = document.at("uri");
     documents_[uri] = DocumentText(document.at("text").get<std::string>());
-    diagnose(uri, out);
+    diagnoseAll(out);
   } else if (method == "textDocument/didChange") {
     const std::string uri = params.at("textDocument").at("uri");
     const Json& changes = params.at("contentChanges");
     if (!documents_.contains(uri) || changes.empty()) return;
     documents_[uri] = DocumentText(changes.back().at("text").get<std::string>());
-    // Those that import it may be right or wrong now.
-    for (const auto& [open, text] : documents_) diagnose(open, out);
+    diagnoseAll(out);
   } else if (method == "textDocument/didClose") {
     const std::string uri = params.at("textDocument").at("uri");
     if (documents_.erase(uri) == 0) return;
     for (const std::string& about : diagnosed_[uri]) publish(about, Json::array(), out);
     diagnosed_.erase(uri);
+    diagnoseAll(out);
   }
+}
+
+/// Those that import what was opened, changed or closed may be right or wrong now.
+void LanguageServer::diagnoseAll(std::vector<Json>& out) {
+  for (const auto& [open, text] : documents_) diagnose(open, out);
 }
 
 void LanguageServer::publish(const std::string& uri, const Json& diagnostics, std::vector<Json>& out) const {

@@ -54,6 +54,7 @@ class LanguageServer {
   Answer answer(const std::string& method, const Json& params);
   void notify(const std::string& method, const Json& params, std::vector<Json>& out);
   void diagnose(const std::string& uri, std::vector<Json>& out);
+  void diagnoseAll(std::vector<Json>& out);
   void publish(const std::string& uri, const Json& diagnostics, std::vector<Json>& out) const;
 
   Answer completion(const Json& params) const;

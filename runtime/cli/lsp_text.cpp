@@ -21,9 +21,12 @@ int hexDigit(char c) {
 
 }  // namespace
 
-DocumentText::DocumentText(std::string text) : text_(std::move(text)), lines_{0} {
-  for (uint32_t i = 0; i < text_.size(); ++i)
-    if (text_[i] == '\n') lines_.push_back(i + 1);
+DocumentText::DocumentText(std::string text) : text_(std::move(text)), lines_{0}, rows_{0} {
+  for (uint32_t i = 0; i < text_.size(); ++i) {
+    if (text_[i] == '\n') rows_.push_back(i + 1);
+    const bool pair = text_[i] == '\r' && i + 1 < text_.size() && text_[i + 1] == '\n';
+    if (text_[i] == '\n' || (text_[i] == '\r' && !pair)) lines_.push_back(i + 1);
+  }
 }
 
 TextPosition DocumentText::position(uint32_t offset) const {
@@ -38,14 +41,16 @@ TextPosition DocumentText::position(uint32_t offset) const {
   return position;
 }
 
-uint32_t DocumentText::lineEnd(uint32_t line) const {
-  return line + 1 < lines_.size() ? lines_[line + 1] - 1 : static_cast<uint32_t>(text_.size());
+uint32_t DocumentText::endOf(const std::vector<uint32_t>& lines, uint32_t line) const {
+  if (line + 1 >= lines.size()) return static_cast<uint32_t>(text_.size());
+  const uint32_t end = lines[line + 1] - 1;
+  return end > lines[line] && text_[end] == '\n' && text_[end - 1] == '\r' ? end - 1 : end;
 }
 
 uint32_t DocumentText::offset(TextPosition position) const {
   if (position.line >= lines_.size()) return static_cast<uint32_t>(text_.size());
   uint32_t at = lines_[position.line];
-  const uint32_t end = lineEnd(position.line);
+  const uint32_t end = endOf(lines_, position.line);
   for (uint32_t character = 0; at < end && character < position.character;) {
     const uint32_t bytes = bytesOf(std::string_view(text_).substr(at));
     character += bytes == 4 ? 2 : 1;
@@ -57,8 +62,8 @@ uint32_t DocumentText::offset(TextPosition position) const {
 uint32_t DocumentText::offsetOf(int line, int column) const {
   if (line < 1) return 0;
   const auto row = static_cast<uint32_t>(line - 1);
-  if (row >= lines_.size()) return static_cast<uint32_t>(text_.size());
-  return std::min(lines_[row] + static_cast<uint32_t>(std::max(column - 1, 0)), lineEnd(row));
+  if (row >= rows_.size()) return static_cast<uint32_t>(text_.size());
+  return std::min(rows_[row] + static_cast<uint32_t>(std::max(column - 1, 0)), endOf(rows_, row));
 }
 
 std::string pathOfUri(std::string_view uri) {

@@ -26,10 +26,11 @@ class DocumentText {
   uint32_t offsetOf(int line, int column) const;
 
  private:
-  uint32_t lineEnd(uint32_t line) const;
+  uint32_t endOf(const std::vector<uint32_t>& lines, uint32_t line) const;
 
   std::string text_;
-  std::vector<uint32_t> lines_;
+  std::vector<uint32_t> lines_;  ///< as editors count them: a \r alone ends one, too
+  std::vector<uint32_t> rows_;   ///< as the compiler counts them
 };
 
 /// "file:///a%20b.sgm" as "/a b.sgm"; empty where it is no file's.

@@ -121,6 +121,42 @@ TEST_CASE("places of a text go to lines and UTF-16 units and back") {
   for (uint32_t offset : {0u, 1u, 3u, 7u, 8u, 9u, 10u, 12u}) CHECK(text.offset(text.position(offset)) == offset);
 }
 
+TEST_CASE("lines end with either of their ends, or with both") {
+  const DocumentText text("a\rbc\r\nd\n\re\r");
+  CHECK(text.position(2).line == 1);
+  CHECK(text.position(6).line == 2);
+  CHECK(text.position(8).line == 3);
+  CHECK(text.position(9).line == 4);
+  CHECK(text.position(11).line == 5);
+  CHECK(text.offset({0, 9}) == 1);
+  CHECK(text.offset({1, 9}) == 4);
+  CHECK(text.offset({4, 1}) == 10);
+  // The compiler's lines end with \n alone.
+  CHECK(text.offsetOf(1, 4) == 3);
+  CHECK(text.offsetOf(2, 1) == 6);
+  CHECK(text.offsetOf(3, 2) == 9);
+}
+
+TEST_CASE("what is opened or closed counts for those that import it") {
+  LanguageServer server;
+  server.handle(request(0, "initialize"));
+  const std::string importer = "file:///tmp/importer.sgm", imported = "file:///tmp/sgm-no-such.sgm";
+  /// What is published about the importer, last.
+  const auto verdict = [&](const std::string& method, const std::string& uri, const std::string& text) {
+    Json about;
+    for (const Json& message : server.handle(
+             {{"jsonrpc", "2.0"}, {"method", method}, {"params", {{"textDocument", {{"uri", uri}, {"text", text}}}}}}))
+      if (message["params"]["uri"] == importer) about = message["params"]["diagnostics"];
+    return about;
+  };
+  const std::string open = "textDocument/didOpen";
+  CHECK(verdict(open, importer, "sgm 1; import \"sgm-no-such.sgm\" as b; start A; rule A { b.B; }").size() == 1);
+  const Json right = verdict(open, imported, "sgm 1; rule B { sphere(1m); }");
+  CHECK(right.is_array());
+  CHECK(right.empty());
+  CHECK(verdict("textDocument/didClose", imported, "").size() == 1);
+}
+
 TEST_CASE("paths go to URIs and back") {
   for (const char* path : {"/a/b.sgm", "/a b/\xC3\xA4#?%.sgm", "/"}) CHECK(pathOfUri(uriOfPath(path)) == path);
   CHECK(uriOfPath("/a b.sgm") == "file:///a%20b.sgm");
