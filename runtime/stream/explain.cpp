@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "derive/draft.h"
 #include "field/evaluate.h"
@@ -65,20 +66,33 @@ class NodeReader {
 
   /// Of an expression: by how much it displaces a ball.
   double number(uint32_t expr, Int3 p) {
-    GrammarChunk chunk(chunk_);
-    Shape ball, displaced;
-    ball.frame.origin = p;
-    ball.size[0] = 1;
-    displaced.kind = ShapeKind::displace;
-    displaced.expr = expr;
-    displaced.first_child = static_cast<uint32_t>(chunk.children.size());
-    displaced.child_count = 1;
-    chunk.children.push_back(static_cast<uint32_t>(chunk.shapes.size()));
-    chunk.shapes.push_back(ball);
-    chunk.shapes.push_back(displaced);
-    DraftCopier copier(chunk);
-    return (valueBy(copier, static_cast<uint32_t>(chunk.shapes.size()) - 1, p) + 1) / kUnitsPerMetre;
+    if (!ball_) ball_.emplace(chunk_);
+    std::pmr::vector<Shape>& shapes = ball_->chunk.shapes;
+    shapes[shapes.size() - 2].frame.origin = p;
+    shapes.back().expr = expr;
+    return (valueBy(ball_->copier, static_cast<uint32_t>(shapes.size()) - 1, p) + 1) / kUnitsPerMetre;
   }
+
+  /// The cell and, behind its shapes, a ball and what displaces it: made once, for all expressions.
+  struct DisplacedBall {
+    GrammarChunk chunk;
+    DraftCopier copier;
+
+    explicit DisplacedBall(const GrammarChunk& cell) : chunk(with(cell)), copier(chunk) {}
+
+    static GrammarChunk with(const GrammarChunk& cell) {
+      GrammarChunk chunk(cell);
+      Shape ball, displaced;
+      ball.size[0] = 1;
+      displaced.kind = ShapeKind::displace;
+      displaced.first_child = static_cast<uint32_t>(chunk.children.size());
+      displaced.child_count = 1;
+      chunk.children.push_back(static_cast<uint32_t>(chunk.shapes.size()));
+      chunk.shapes.push_back(ball);
+      chunk.shapes.push_back(displaced);
+      return chunk;
+    }
+  };
 
   uint32_t child(const Shape& s, uint32_t i) const { return chunk_.children[s.first_child + i]; }
 
@@ -168,6 +182,7 @@ class NodeReader {
   DraftCopier copier_;
   int32_t cell_edge_;
   const TracedCell* traced_ = nullptr;
+  std::optional<DisplacedBall> ball_;
   std::vector<ExplainedNode> nodes_;
   size_t leaf_ = 0;
   std::optional<Error> error_;
