@@ -112,6 +112,7 @@ CHECK(face_force, SGM_FACE_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(vertex_own, SGM_VERTEX_OWN == 0);
 CHECK(vertex_coarser, SGM_VERTEX_COARSER == 1);
 CHECK(vertex_lateral, SGM_VERTEX_LATERAL == 2);
+CHECK(vertex_feature, SGM_VERTEX_FEATURE == 0x8000);
 CHECK(vertex_force, SGM_VERTEX_KIND_FORCE_32_BIT == 0x7FFFFFFF);
 
 SIZE(sgm_error, 512);

@@ -20,6 +20,6 @@ json 'j.peak_bytes.meshes <= 256 * 2 ** 20 && j.peak_bytes.handed_over_per_frame
 expect 0 "$SGM" fly "$city" --path stand.json --frames 400 --speed 60 --cell 0.5 --seed 1 --json
 [[ $(hash_of) != "$stood" ]] || failed 'another seed shows the same city'
 
-expect 0 "$SGM" fly "$city" --path back.json --frames 300 --speed 60 --cell 0.5 --check --json
+expect 0 "$SGM" fly "$city" --path back.json --frames "$frames" --speed 60 --cell 0.5 --check --json
 json 'j.checked && j.commits > 3 && j.open_edges === 0 && j.nonmanifold_edges === 0 && j.overlaps === 0 && j.whole_failures === 0'
 finish
