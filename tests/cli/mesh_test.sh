@@ -249,6 +249,8 @@ for signal in TERM INT HUP; do
     # A background job of a script ignores SIGINT unless it is told otherwise.
     env --default-signal=INT "$SGM" mesh "$cave" --region=-192,-192,-192:192,192,192 --cell 0.1 --max-chunks 99999999 \
       --out cave.obj >"$work/.out" 2>"$work/.err" </dev/null &
+    # A busy machine may take longer to begin it than the shortest delay.
+    until [[ $(readlink "/proc/$!/exe") == "$(readlink -f "$SGM")" || ! -d /proc/$! ]]; do sleep 0.01; done
     sleep $delay
     kill -$signal $!
     wait $! 2>/dev/null
