@@ -76,12 +76,16 @@ class Counter {
     if (!stopped_ && !progress_(done_, total_) && done_ < total_) stopped_ = true;
     return !stopped_;
   }
-  bool stopped() const { return stopped_; }
+  /// Any thread.
+  bool stopped() const {
+    const std::lock_guard lock(mutex_);
+    return stopped_;
+  }
 
  private:
   const Progress& progress_;
   const uint64_t total_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   uint64_t done_ = 0;
   bool stopped_ = false;
 };
@@ -156,8 +160,9 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     if (!meshes) return meshes.error();
     if (counter.stopped()) return Error{Code::cancelled, "meshing was cancelled"};
     for (size_t i = 0; i < meshes->size(); ++i) chunks[first + i].mesh = std::move((*meshes)[i]);
+    if (!sharp) continue;
     parallelFor(jobs, batch.size(), [&](size_t i) {
-      if (!sharp || counter.stopped()) return;
+      if (counter.stopped()) return;
       PlacedChunk& chunk = chunks[first + i];
       if (batch[i].sharp) {
         sharpenChunk(chunk.grid, *programs[i].field, programs[i].coarse.get(), chunk.mesh, world.memory());
