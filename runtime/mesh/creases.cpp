@@ -36,7 +36,6 @@ int16_t& coordinate(Vertex& v, int axis) { return axis == 0 ? v.x : axis == 1 ? 
 Creases::Creases(const ChunkGrid& grid, int level, const FieldSampler& field, MeshPart& part,
                  std::pmr::memory_resource* memory)
     : grid_(grid),
-      level_(level),
       cell_(grid.cell << (level - grid.level)),
       field_(field),
       part_(part),

@@ -101,7 +101,6 @@ class Creases {
   Side withOrderedEnds(uint32_t a, uint32_t b) const;
 
   const ChunkGrid grid_;
-  const int level_;
   const int32_t cell_;  ///< of the level
   const FieldSampler& field_;
   MeshPart& part_;

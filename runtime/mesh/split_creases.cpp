@@ -15,7 +15,7 @@ constexpr uint32_t kNoCopy = UINT32_MAX;
 
 bool isFeatureKey(const VertexKey& key) { return key.axis >= kFaceVertex; }
 
-/// Mesh: size() vertices; normal(v); give(v, like): v gets like's attributes; copy(v): appended; keys and indices.
+/// Mesh: keys, one a vertex, and indices; normal(v); give(v, like): v gets like's attributes; copy(v): appended.
 template <class Mesh>
 void split(Mesh&& mesh, std::pmr::memory_resource* memory) {
   // The copies of each vertex, in a chain; unset where a feature vertex has no side yet.
