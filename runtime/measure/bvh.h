@@ -1,0 +1,102 @@
+#pragma once
+// A tree of boxes over triangles, to find those that may meet.
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/jobs.h"
+#include "measure/triangles.h"
+
+namespace sgm::measure {
+
+/// A complete binary tree over the triangles in the order of a space-filling curve (Morton), one a leaf. Node n has the
+/// children 2 n and 2 n + 1; node 1 is the root.
+class Bvh {
+ public:
+  /// In single precision, rounded outwards. One around nothing overlaps none.
+  struct Box {
+    float low[3], high[3];
+
+    bool overlaps(const Box& other) const {
+      return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1] &&
+             low[2] <= other.high[2] && other.low[2] <= high[2];
+    }
+  };
+
+  /// Contract: the coordinates are finite. About 50 bytes a triangle.
+  Bvh(const Triangles& mesh, JobSystem& jobs);
+
+  size_t leaves() const { return boxes_.size() / 2; }
+  const Box& box(size_t node) const { return boxes_[node]; }
+  bool isLeaf(size_t node) const { return node >= leaves(); }
+  /// Of a leaf that has one: those at the end of the last row may have none, and their boxes overlap nothing.
+  uint32_t triangle(size_t leaf) const { return order_[leaf - leaves()]; }
+
+  /// Two nodes whose leaves may meet each other; the same one twice: whose leaves may meet among themselves.
+  using Pair = std::pair<uint32_t, uint32_t>;
+  /// Pairs that hold all pairs of leaves whose boxes overlap, each in one of them, at least about `parts` where there are
+  /// as many: what several threads then walk.
+  std::vector<Pair> parts(size_t parts) const;
+
+  /// Calls visit(a, b) with the triangles of each two leaves under the pair whose boxes overlap, until it says false.
+  template <class Visit>
+  void visitPairs(Pair pair, Visit&& visit) const {
+    std::vector<Pair> waiting{pair};
+    while (!waiting.empty()) {
+      const auto [a, b] = waiting.back();
+      waiting.pop_back();
+      if (a != b && isLeaf(a) && isLeaf(b)) {
+        if (!visit(triangle(a), triangle(b))) return;
+      } else {
+        split({a, b}, waiting);
+      }
+    }
+  }
+
+  /// Calls visit(triangle) for each whose box reaches over or to the place, along z.
+  template <class Visit>
+  void visitAbove(Point at, Visit&& visit) const {
+    std::vector<uint32_t> waiting{1};
+    while (!waiting.empty()) {
+      const uint32_t node = waiting.back();
+      waiting.pop_back();
+      const Box& box = boxes_[node];
+      const auto reaches = [&](int axis) {
+        return static_cast<double>(box.low[axis]) <= at[axis] && at[axis] <= static_cast<double>(box.high[axis]);
+      };
+      if (!reaches(0) || !reaches(1) || static_cast<double>(box.high[2]) < at.z) continue;
+      if (isLeaf(node)) {
+        visit(triangle(node));
+      } else {
+        waiting.insert(waiting.end(), {2 * node, 2 * node + 1});
+      }
+    }
+  }
+
+ private:
+  /// The pairs of children that overlap.
+  void split(Pair pair, std::vector<Pair>& into) const {
+    const auto [a, b] = pair;
+    const auto push = [&](uint32_t first, uint32_t second) {
+      if (boxes_[first].overlaps(boxes_[second])) into.push_back({first, second});
+    };
+    if (a == b) {
+      if (isLeaf(a)) return;
+      push(2 * a, 2 * a);
+      push(2 * a + 1, 2 * a + 1);
+      push(2 * a, 2 * a + 1);
+      return;
+    }
+    // Both stand in one row of the tree.
+    push(2 * a, 2 * b);
+    push(2 * a, 2 * b + 1);
+    push(2 * a + 1, 2 * b);
+    push(2 * a + 1, 2 * b + 1);
+  }
+
+  std::vector<Box> boxes_;
+  std::vector<uint32_t> order_;
+};
+
+}  // namespace sgm::measure

@@ -1,0 +1,61 @@
+#pragma once
+// The paper's histogram of how a surface bends along its edges (section 7.4, equations 9 to 14).
+//
+// An edge e from V1 to V2 with unit normals n1, n2 at its ends has a1 = acos(e . n1 / |e|), a2 = acos(e . n2 / |e|) and
+// d = a2 - a1: with outward normals d < 0 where the surface is convex, which the paper has the other way round.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "base/jobs.h"
+#include "base/result.h"
+#include "measure/edges.h"
+
+namespace sgm::measure {
+
+enum class HistogramMode {
+  /// As printed: d = a2 - a1 by whatever normals there are, v = d / (2 (pi + 1)) from -0.38 to 0.38, bin
+  /// floor(v R) + 1, which is as often 0 or less as more.
+  printed,
+  /// v = 1/2 - d / (2 pi), from 0 to 1: flat at 1/2, more where convex; bin min(floor(v R), R - 1) + 1.
+  corrected,
+  /// v = 1/2 - atan(L d / |e|) / pi: of the curvature d / |e| and not of the angle, so that it does not narrow as the
+  /// mesh becomes finer. A ball of radius L is at 3/4.
+  curvature,
+};
+
+std::string_view nameOf(HistogramMode mode);
+
+struct HistogramSettings {
+  HistogramMode mode = HistogramMode::corrected;
+  /// R. Odd numbers have flat edges in the middle of a bin; with an even one they lie on the wall of two. 1..4096
+  uint32_t bins = 33;
+  double length = 1;          ///< L of HistogramMode::curvature, in the mesh's unit; > 0 and finite
+  bool unique_edges = false;  ///< each edge once; otherwise once a triangle, as the paper has it
+};
+
+struct Histogram {
+  HistogramSettings settings;
+  int32_t first_bin = 1;       ///< the number of shares[0], by equation 14: 1, in mode `printed` less
+  std::vector<double> shares;  ///< of the edges counted; they add up to 1, or are all 0 where there is none
+  uint64_t edges = 0;          ///< counted
+  uint64_t left_out = 0;       ///< without length, or with a normal that is none
+  uint64_t below_first = 0;    ///< in bins of number 0 or less: places before the array that the paper describes
+  /// Shares of edges with |d| at most kFlatAngle, and with d below and above it.
+  double flat = 0, convex = 0, concave = 0;
+};
+
+inline constexpr double kFlatAngle = 1e-4;  ///< radians
+
+/// normals: one a point, of any length above 0, outward. triangles: whose corners index points and normals alike.
+/// edges: needed where unique_edges is set; null otherwise.
+/// Errors: invalid_argument for settings out of range. The same bits for any number of threads.
+Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> normals, const Edges* edges,
+                              const HistogramSettings& settings, JobSystem& jobs);
+
+/// At each point the sum of its triangles' cross products, of length 1; zero where that is nothing.
+std::vector<Point> smoothNormals(const Triangles& mesh);
+
+}  // namespace sgm::measure

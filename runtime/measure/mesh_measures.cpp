@@ -1,0 +1,132 @@
+#include "measure/mesh_measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/triangle_pair.h"
+#include "measure/weld_points.h"
+
+namespace sgm::measure {
+namespace {
+
+bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// The triangles whose corners are finite.
+std::vector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
+  std::vector<Triangle> kept;
+  kept.reserve(mesh.triangles.size());
+  std::vector<bool> used(mesh.points.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (const uint32_t v : t) used[v] = true;
+    if (std::all_of(t.begin(), t.end(), [&](uint32_t v) { return finite(mesh.points[v]); })) {
+      kept.push_back(t);
+    } else {
+      if (!result.first_non_finite) result.first_non_finite = static_cast<uint32_t>(&t - mesh.triangles.data());
+      ++result.non_finite;
+    }
+  }
+  result.unused_points = static_cast<size_t>(std::count(used.begin(), used.end(), false));
+  return kept;
+}
+
+double qualityOf(Point a, Point b, Point c) {
+  const double squares = dot(b - a, b - a) + dot(c - b, c - b) + dot(a - c, a - c);
+  return squares > 0 ? 2 * std::sqrt(3.0) * length(crossOf(a, b, c)) / squares : 0;
+}
+
+void countShapes(const Triangles& mesh, JobSystem& jobs, MeshMeasures& result) {
+  struct Counts {
+    size_t flat = 0, slivers = 0;
+  };
+  const size_t count = mesh.triangles.size();
+  std::vector<Counts> counts((count + kBlock - 1) / kBlock);
+  parallelFor(jobs, counts.size(), [&](size_t block) {
+    for (size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+      const Triangle& t = mesh.triangles[i];
+      const double quality = qualityOf(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
+      counts[block].slivers += quality < kSliver;
+      // What is far from flat needs no exact answer.
+      const bool corner_twice = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+      counts[block].flat += quality < 1e-6 && !corner_twice && isFlat(mesh.points, t);
+    }
+  });
+  for (const Counts& c : counts) {
+    result.flat_triangles += c.flat;
+    result.slivers += c.slivers;
+  }
+}
+
+}  // namespace
+
+int64_t MeshMeasures::euler() const {
+  int64_t sum = 0;
+  for (const Shell& shell : parts.shells) sum += shell.euler();
+  return sum;
+}
+
+std::optional<uint64_t> MeshMeasures::genus() const {
+  uint64_t sum = 0;
+  for (const Shell& shell : parts.shells) {
+    const std::optional<uint64_t> genus = shell.genus();
+    if (!genus) return std::nullopt;
+    sum += *genus;
+  }
+  return sum;
+}
+
+bool MeshMeasures::valid() const {
+  return watertight() && flat_triangles == 0 && nesting.inside_out == 0 && nesting.nested == 0 &&
+         (!self_intersections || (self_intersections->pairs == 0 && self_intersections->complete));
+}
+
+Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& settings, JobSystem& jobs) {
+  if (mesh.triangles.size() > kNoShell / 3 || mesh.points.size() > kNoShell) {
+    return Error{Code::limit, "a mesh that is measured has at most 1,431,655,765 triangles and 4,294,967,295 points"};
+  }
+  MeshMeasures result;
+  result.points = mesh.points.size();
+  result.triangles = mesh.triangles.size();
+  std::vector<Triangle> kept = finiteOf(mesh, result);
+  const WeldedPoints welded = weldPoints({mesh.points, kept}, settings.weld);
+  kept = {};
+  result.welded_points = welded.merged;
+  const Triangles clean{welded.points, welded.triangles};
+  result.sums = areaVolume(clean, jobs);
+
+  const Bvh tree(clean, jobs);
+  std::optional<Error> failed;
+  // Each of the three fills what the others do not touch.
+  const std::array<std::function<void()>, 3> works{
+      [&] {
+        if (!settings.self_intersections) return;
+        const uint64_t tests = settings.tests_a_triangle * clean.triangles.size();
+        result.self_intersections = selfIntersections(clean, tree, tests, jobs);
+      },
+      [&] {
+        const Edges edges(clean.triangles, clean.points.size());
+        result.parts = shellsOf(clean, edges, result.sums.centre);
+        const Result<Histogram> histogram =
+            histogramOf(clean, smoothNormals(clean), &edges, settings.histogram, jobs);
+        if (histogram) {
+          result.histogram = *histogram;
+        } else {
+          failed = histogram.error();
+        }
+        result.nesting = nestingOf(clean, tree, result.parts, jobs);
+        countShapes(clean, jobs, result);
+      },
+      [&] {
+        const uint32_t* corners = clean.triangles.empty() ? nullptr : clean.triangles.front().data();
+        result.identity = checkTriangles({corners, 3 * clean.triangles.size()}, clean.points.size());
+      }};
+  parallelFor(jobs, works.size(), [&](size_t work) { works[work](); });
+  if (failed) return *failed;
+  if (settings.cubes) {
+    const Result<CubeVolumes> cubes = cubeVolumes(clean, result.sums.low, result.sums.high, *settings.cubes);
+    if (!cubes) return cubes.error();
+    result.cubes = *cubes;
+  }
+  return result;
+}
+
+}  // namespace sgm::measure

@@ -1,0 +1,62 @@
+#pragma once
+// All that is measured of one triangle mesh.
+
+#include <optional>
+#include <string>
+
+#include "measure/area_volume.h"
+#include "measure/cube_volume.h"
+#include "measure/histogram.h"
+#include "measure/nesting.h"
+#include "measure/self_intersection.h"
+#include "measure/shells.h"
+#include "mesh/check.h"
+
+namespace sgm::measure {
+
+struct MeshSettings {
+  double weld = 0;  ///< weldPoints()'s tolerance, in the mesh's unit
+  HistogramSettings histogram;
+  bool self_intersections = true;
+  /// Of pairs of triangles whose boxes overlap, for each triangle: where a mesh has more, only some are looked at.
+  uint64_t tests_a_triangle = 2000;
+  std::optional<double> cubes;  ///< the edge of the cubes that are counted; nothing: none are
+};
+
+struct MeshMeasures {
+  size_t points = 0, triangles = 0;  ///< as given
+  size_t unused_points = 0;          ///< that no triangle has
+  size_t welded_points = 0;          ///< that fell on others
+  size_t non_finite = 0;             ///< triangles with a corner that is infinite or NaN: left out of all that follows
+  std::optional<uint32_t> first_non_finite;
+
+  /// Of the welded mesh, by vertices. `degenerate_triangles` have a corner twice.
+  MeshReport identity;
+  size_t flat_triangles = 0;  ///< whose corners are three places on a line, exactly
+  size_t slivers = 0;         ///< of quality below kSliver, those without area included
+  AreaVolume sums;
+  Shells parts;
+  Nesting nesting;
+  std::optional<SelfIntersections> self_intersections;
+  Histogram histogram;
+  std::optional<CubeVolumes> cubes;
+
+  size_t degenerate() const { return identity.degenerate_triangles + flat_triangles; }
+  int64_t euler() const;                  ///< summed over shells
+  std::optional<uint64_t> genus() const;  ///< likewise; nothing where one has none
+  /// Every edge has two triangles that go along it in opposite directions, every vertex one fan.
+  bool watertight() const { return identity.closed() && non_finite == 0; }
+  /// A solid's surface: watertight, facing outward, covered once, without triangles that have no area or that cut each
+  /// other (where that was asked).
+  bool valid() const;
+};
+
+/// 4 sqrt(3) area / (sum of the squared edges): 1 for equal edges.
+inline constexpr double kSliver = 0.05;
+
+/// normals of `mesh` are not asked: the histogram's are smoothNormals() of the welded mesh, which any file has.
+/// Contract: that of Triangles. Pure; the same for any number of threads.
+/// Errors: limit for more than 2^32 / 3 triangles or points; those of histogramOf and cubeVolumes.
+Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& settings, JobSystem& jobs);
+
+}  // namespace sgm::measure

@@ -1,0 +1,26 @@
+#pragma once
+// Triangles of a mesh that meet each other where they should not.
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/jobs.h"
+#include "measure/bvh.h"
+
+namespace sgm::measure {
+
+struct SelfIntersections {
+  uint64_t pairs = 0;  ///< of triangles that meetWrongly(); at least so many where not all were looked at
+  /// Not where more than `most_tests` pairs lie close to each other.
+  bool complete = true;
+  std::vector<std::pair<uint32_t, uint32_t>> examples;  ///< the lower triangle first; at most kMostExamples
+};
+
+inline constexpr size_t kMostExamples = 16;
+
+/// Exact (triangle_pair.h). tree: of the same triangles. most_tests: of pairs whose boxes overlap, shared out evenly
+/// over a fixed number of parts of the mesh. The same for any number of threads.
+SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t most_tests, JobSystem& jobs);
+
+}  // namespace sgm::measure

@@ -1,0 +1,35 @@
+#pragma once
+// Which of n things belong together.
+
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace sgm::measure {
+
+/// The root of a group is its lowest member.
+class UnionFind {
+ public:
+  explicit UnionFind(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+  uint32_t rootOf(uint32_t v) {
+    while (parent_[v] != v) {
+      parent_[v] = parent_[parent_[v]];
+      v = parent_[v];
+    }
+    return v;
+  }
+  void join(uint32_t a, uint32_t b) {
+    a = rootOf(a);
+    b = rootOf(b);
+    if (a < b) std::swap(a, b);
+    parent_[a] = b;
+  }
+  size_t size() const { return parent_.size(); }
+
+ private:
+  std::vector<uint32_t> parent_;
+};
+
+}  // namespace sgm::measure

@@ -1,0 +1,118 @@
+#include "measure/weld_points.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace sgm::measure {
+namespace {
+
+constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+
+struct Cell {
+  uint64_t x, y, z;
+  friend bool operator==(const Cell&, const Cell&) = default;
+};
+
+uint64_t mixed(uint64_t h) {
+  h ^= h >> 32;
+  h *= 0x9E3779B97F4A7C15u;
+  return h ^ h >> 29;
+}
+
+uint64_t hashOf(const Cell& cell) { return mixed(cell.x + mixed(cell.y + mixed(cell.z + 0x2545F4914F6CDD1Du))); }
+
+/// Heads of lists of kept points by cell: open addressing over their numbers, at most half full.
+class Cells {
+ public:
+  explicit Cells(size_t points) : slots_(std::bit_ceil(std::max<size_t>(2 * points, 16)), kNone) {}
+
+  /// The slot of the cell, or the empty one where it would be. cellOf: of a kept point.
+  template <class CellOf>
+  uint32_t& slot(const Cell& cell, CellOf&& cellOf) {
+    size_t at = hashOf(cell) & (slots_.size() - 1);
+    while (slots_[at] != kNone && !(cellOf(slots_[at]) == cell)) at = (at + 1) & (slots_.size() - 1);
+    return slots_[at];
+  }
+
+ private:
+  std::vector<uint32_t> slots_;
+};
+
+Cell bitsOf(Point p) {
+  // Adding 0 makes 0 of -0.
+  return {std::bit_cast<uint64_t>(p.x + 0.0), std::bit_cast<uint64_t>(p.y + 0.0), std::bit_cast<uint64_t>(p.z + 0.0)};
+}
+
+/// Of a grid with that edge, in edges.
+Point gridOf(Point p, double edge) { return {std::floor(p.x / edge), std::floor(p.y / edge), std::floor(p.z / edge)}; }
+
+class Welder {
+ public:
+  Welder(size_t points, double tolerance) : tolerance_(tolerance), cells_(points) {}
+
+  uint32_t add(Point p) {
+    const uint32_t found = tolerance_ > 0 ? near(p) : kNone;
+    if (found != kNone) return found;
+    const auto number = static_cast<uint32_t>(kept_.size());
+    uint32_t& head = headOf(cellOf(p));
+    if (tolerance_ == 0 && head != kNone) return head;
+    kept_.push_back(p);
+    if (tolerance_ > 0) next_.push_back(head);
+    head = number;
+    return number;
+  }
+
+  std::vector<Point> take() { return std::move(kept_); }
+
+ private:
+  Cell cellOf(Point p) const { return bitsOf(tolerance_ > 0 ? gridOf(p, tolerance_) : p); }
+  uint32_t& headOf(const Cell& cell) {
+    return cells_.slot(cell, [this](uint32_t kept) { return cellOf(kept_[kept]); });
+  }
+
+  /// The kept point of lowest number within the tolerance.
+  uint32_t near(Point p) {
+    uint32_t best = kNone;
+    const Point grid = gridOf(p, tolerance_);
+    for (int n = 0; n < 27; ++n) {
+      const Point offset{n % 3 - 1.0, n / 3 % 3 - 1.0, n / 9 - 1.0};
+      for (uint32_t v = headOf(bitsOf(grid + offset)); v != kNone; v = next_[v])
+        if (v < best && length(kept_[v] - p) <= tolerance_) best = v;
+    }
+    return best;
+  }
+
+  double tolerance_;
+  Cells cells_;
+  std::vector<Point> kept_;
+  std::vector<uint32_t> next_;  ///< of the same cell; with a tolerance alone
+};
+
+}  // namespace
+
+WeldedPoints weldPoints(const Triangles& mesh, double tolerance) {
+  WeldedPoints result;
+  result.triangles.reserve(mesh.triangles.size());
+  std::vector<uint32_t> place(mesh.points.size(), kNone);
+  size_t used = 0;
+  Welder welder(std::min(mesh.points.size(), 3 * mesh.triangles.size()), tolerance);
+  for (const Triangle& t : mesh.triangles) {
+    Triangle welded{};
+    for (size_t k = 0; k < 3; ++k) {
+      uint32_t& at = place[t[k]];
+      if (at == kNone) {
+        at = welder.add(mesh.points[t[k]]);
+        ++used;
+      }
+      welded[k] = at;
+    }
+    result.triangles.push_back(welded);
+  }
+  result.points = welder.take();
+  result.merged = used - result.points.size();
+  return result;
+}
+
+}  // namespace sgm::measure

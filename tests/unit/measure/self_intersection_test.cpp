@@ -1,0 +1,229 @@
+// Triangles that meet: hand-made cases, random ones against exact rational clipping, and meshes against all pairs.
+
+#include "measure/self_intersection.h"
+
+#include <memory>
+#include <utility>
+
+#include "../catch.h"
+#include "../rounds.h"
+#include "measure/triangle_pair.h"
+#include "shapes.h"
+
+namespace sgm::measure {
+namespace {
+
+std::unique_ptr<JobSystem> workers(unsigned n) { return std::move(*makeThreadPool(n)); }
+
+SelfIntersections found(const Mesh& mesh, uint64_t tests = uint64_t{1} << 40) {
+  const auto jobs = workers(2);
+  return selfIntersections(mesh, Bvh(mesh, *jobs), tests, *jobs);
+}
+
+uint64_t allPairs(const Mesh& mesh) {
+  uint64_t pairs = 0;
+  for (size_t a = 0; a < mesh.triangles.size(); ++a)
+    for (size_t b = a + 1; b < mesh.triangles.size(); ++b)
+      pairs += meetWrongly(mesh.points, mesh.triangles[a], mesh.triangles[b]);
+  return pairs;
+}
+
+__extension__ using Int128 = __int128;
+
+/// A place with whole coordinates over a common denominator above 0.
+struct Ratio3 {
+  Int128 x, y, z, w;
+};
+
+Int128 commonDivisor(Int128 a, Int128 b) {
+  while (b != 0) a = std::exchange(b, a % b);
+  return a < 0 ? -a : a;
+}
+
+Int128 planeAt(const std::array<Int128, 4>& plane, const Ratio3& p) {
+  return plane[0] * p.x + plane[1] * p.y + plane[2] * p.z + plane[3] * p.w;
+}
+
+/// What of the polygon lies where the plane's value is at least 0, exactly.
+std::vector<Ratio3> clipped(const std::vector<Ratio3>& polygon, const std::array<Int128, 4>& plane) {
+  std::vector<Ratio3> kept;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Ratio3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const Int128 a = planeAt(plane, p), b = planeAt(plane, q);
+    if (a >= 0) kept.push_back(p);
+    if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
+      // Homogeneous coordinates: the values are of p.w and q.w.
+      const Ratio3 cut{b * p.x - a * q.x, b * p.y - a * q.y, b * p.z - a * q.z, b * p.w - a * q.w};
+      Int128 divisor = commonDivisor(commonDivisor(cut.x, cut.y), commonDivisor(cut.z, cut.w));
+      if (cut.w < 0) divisor = -divisor;
+      kept.push_back({cut.x / divisor, cut.y / divisor, cut.z / divisor, cut.w / divisor});
+    }
+  }
+  return kept;
+}
+
+/// Whether two triangles of small whole coordinates, each with an area, have a point in common: one is clipped by the
+/// plane of the other, from both sides, and by the three planes through its edges.
+bool meetExactly(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
+  const auto whole = [](double v) { return static_cast<Int128>(static_cast<int64_t>(v)); };
+  std::vector<Ratio3> polygon;
+  for (const Point p : a) polygon.push_back({whole(p.x), whole(p.y), whole(p.z), 1});
+  const Point normal = cross(b[1] - b[0], b[2] - b[0]);
+  const auto plane = [&](Point n, Point through, double side) {
+    std::array<Int128, 4> result{whole(side * n.x), whole(side * n.y), whole(side * n.z),
+                                whole(-side * dot(n, through))};
+    const Int128 divisor =
+        commonDivisor(commonDivisor(result[0], result[1]), commonDivisor(result[2], result[3]));
+    for (Int128& part : result) part /= divisor;
+    return result;
+  };
+  polygon = clipped(polygon, plane(normal, b[0], 1));
+  polygon = clipped(polygon, plane(normal, b[0], -1));
+  for (size_t k = 0; k < 3; ++k) polygon = clipped(polygon, plane(cross(normal, b[(k + 1) % 3] - b[k]), b[k], 1));
+  return !polygon.empty();
+}
+
+}  // namespace
+
+TEST_CASE("pairs of triangles, one by one", "[self_intersection]") {
+  const std::vector<Point> p{{0, 0, 0}, {4, 0, 0}, {0, 4, 0},   // 0 1 2: in z = 0
+                             {1, 1, -1}, {1, 1, 1}, {5, 5, 0},  // 3 4 5: through it
+                             {1, 1, 0}, {2, 1, 0}, {1, 2, 0},   // 6 7 8: in it, inside
+                             {0, 0, 4}, {4, 4, 0}, {8, 0, 0}};  // 9 10 11
+  const Triangle flat{0, 1, 2};
+  CHECK(meetWrongly(p, flat, {3, 4, 5}));
+  CHECK(meetWrongly(p, {3, 4, 5}, flat));
+  CHECK(meetWrongly(p, flat, {6, 7, 8}));
+  CHECK(meetWrongly(p, flat, {6, 9, 4}));  // touches it with a corner
+  CHECK_FALSE(meetWrongly(p, flat, {0, 9, 4}));   // a corner in common, no more
+  CHECK(meetWrongly(p, flat, {0, 3, 4}));         // a corner in common, and through
+  CHECK(meetWrongly(p, flat, {0, 6, 9}));         // a corner in common, and an edge in the other's plane
+  CHECK_FALSE(meetWrongly(p, flat, {0, 1, 9}));   // an edge in common
+  CHECK_FALSE(meetWrongly(p, flat, {1, 2, 10}));  // in one plane, on both sides of the edge
+  CHECK(meetWrongly(p, flat, {0, 1, 6}));         // in one plane, on the same side
+  CHECK_FALSE(meetWrongly(p, flat, {2, 1, 0}));   // the same
+  CHECK_FALSE(meetWrongly(p, flat, {0, 1, 11}));  // no area
+  CHECK(isFlat(p, {0, 1, 11}));
+  CHECK(isFlat(p, {0, 0, 11}));
+  CHECK_FALSE(isFlat(p, flat));
+}
+
+TEST_CASE("triangles on a small lattice meet where exact clipping says", "[self_intersection]") {
+  int met = 0, apart = 0;
+  for (unsigned seed = 0; seed < std::max(rounds(30000), 30000u); ++seed) {
+    std::mt19937 random(seed);
+    // So few places that corners on edges, edges on edges and common planes are frequent.
+    const auto n = 2 + static_cast<uint32_t>(random() % 4);
+    std::vector<Point> points;
+    for (int i = 0; i < 6; ++i) {
+      points.push_back({static_cast<double>(random() % n), static_cast<double>(random() % n),
+                        static_cast<double>(random() % n)});
+    }
+    const Triangle a{0, 1, 2}, b{3, 4, 5};
+    if (isFlat(points, a) || isFlat(points, b)) {
+      CHECK_FALSE(meetWrongly(points, a, b));
+      continue;
+    }
+    CAPTURE(seed, n);
+    const bool expected = meetExactly({points[0], points[1], points[2]}, {points[3], points[4], points[5]});
+    CHECK(meetWrongly(points, a, b) == expected);
+    CHECK(meetWrongly(points, b, a) == expected);
+    met += expected;
+    apart += !expected;
+
+    // With a corner in common: they meet elsewhere exactly where they do once it is taken a little inward in both.
+    std::vector<Point> common = points;
+    common[3] = common[0];
+    const Triangle c{0, 4, 5};
+    if (isFlat(points, c)) continue;
+    // A thin slice at the common corner is taken off each by moving along its two edges, in whole numbers.
+    const double k = 16;
+    const auto scaled = [&](Point q) { return k * q; };
+    const auto inward = [&](Point from, Point to) { return (k - 1) * from + to; };
+    const Point o = common[0];
+    bool meet = false;
+    // The rest of a triangle without the slice is two triangles; with k so large the slice holds no more than the corner.
+    const auto rest = [&](Point q, Point r) {
+      return std::array<std::array<Point, 3>, 2>{{{inward(o, q), scaled(q), scaled(r)},
+                                                  {inward(o, q), scaled(r), inward(o, r)}}};
+    };
+    for (const auto& first : rest(points[1], points[2]))
+      for (const auto& second : {std::array<Point, 3>{scaled(o), scaled(points[4]), scaled(points[5])}})
+        meet = meet || meetExactly(first, second);
+    for (const auto& second : rest(points[4], points[5]))
+      for (const auto& first : {std::array<Point, 3>{scaled(o), scaled(points[1]), scaled(points[2])}})
+        meet = meet || meetExactly(first, second);
+    CHECK(meetWrongly(points, a, c) == meet);
+  }
+  CHECK(met > 2000);
+  CHECK(apart > 2000);
+}
+
+TEST_CASE("the tree finds all pairs that meet", "[self_intersection]") {
+  uint64_t pairs = 0;
+  for (unsigned seed = 0; seed < rounds(40); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    Mesh mesh;
+    const auto place = [&](double reach) {
+      return Point{between(random, -reach, reach), between(random, -reach, reach), between(random, -reach, reach)};
+    };
+    const auto count = static_cast<uint32_t>(random() % 200);
+    for (uint32_t i = 0; i < count; ++i) {
+      const Point at = place(10);
+      const double size = random() % 10 == 0 ? 10 : 1.5;
+      for (int k = 0; k < 3; ++k) mesh.points.push_back(at + place(size));
+      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const SelfIntersections here = found(mesh);
+    CHECK(here.pairs == allPairs(mesh));
+    CHECK(here.complete);
+    CHECK(here.examples.size() == std::min<size_t>(here.pairs, kMostExamples));
+    for (const auto& [a, b] : here.examples) {
+      CHECK(a < b);
+      CHECK(meetWrongly(mesh.points, mesh.triangles[a], mesh.triangles[b]));
+    }
+    pairs += here.pairs;
+  }
+  CHECK(pairs > 100);
+}
+
+TEST_CASE("surfaces of a field do not cut themselves; two balls do", "[self_intersection]") {
+  for (unsigned seed = 0; seed < rounds(20); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    CHECK(found(placed(randomSurface(random, 7), random, 1, 10)).pairs == 0);
+  }
+  CHECK(found(ball(3)).pairs == 0);
+  CHECK(found(torus(40)).pairs == 0);
+  CHECK(found(box({1, 2, 3}, 5)).pairs == 0);
+  Mesh two = ball(2);
+  two.add(ball(2).at({1, 0, 0}));
+  CHECK(found(two).pairs == allPairs(two));
+  CHECK(found(two).pairs > 20);
+}
+
+TEST_CASE("a mesh with more pairs than may be tested says so, and the same for any number of threads",
+          "[self_intersection]") {
+  Mesh mesh;
+  for (uint32_t i = 0; i < 400; ++i) {
+    const double u = 2 * std::numbers::pi * i / 400;
+    mesh.points.insert(mesh.points.end(), {{std::cos(u), std::sin(u), -1}, {-std::cos(u), -std::sin(u), 0.1}, {0, 0, 1}});
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const SelfIntersections whole = found(mesh);
+  CHECK(whole.complete);
+  std::optional<uint64_t> pairs;
+  for (const unsigned n : {1u, 2u, 5u}) {
+    const auto jobs = workers(n);
+    const SelfIntersections some = selfIntersections(mesh, Bvh(mesh, *jobs), 5000, *jobs);
+    CHECK_FALSE(some.complete);
+    CHECK(some.pairs > 0);
+    CHECK(some.pairs < whole.pairs);
+    CHECK(pairs.value_or(some.pairs) == some.pairs);
+    pairs = some.pairs;
+  }
+  CHECK(found({}).pairs == 0);
+}
+
+}  // namespace sgm::measure
