@@ -132,6 +132,7 @@ class PlyBodyReader {
     const bool vertex = element.name == "vertex", face = element.name == "face";
     points_read_ = points_read_ || vertex;
     faces_read_ = faces_read_ || face;
+    values_.beginElement();
     if (!element.properties.empty() && element.count > values_.most(element))
       return values_.wrong("it says that it has " + std::to_string(element.count) + " of the element " +
                            shown(element.name) + ", and has bytes for " + std::to_string(values_.most(element)) +
