@@ -2,6 +2,7 @@
 // The numbers in a GLB file's binary part, as its accessors describe them. Nothing of what the file says of itself is
 // believed before it is compared with the bytes that are there.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -28,6 +29,11 @@ class GlbAccessors {
   GlbAccessors(const JsonValue& root, std::span<const std::byte> binary, size_t binary_at);
 
   size_t size() const { return accessors_.size(); }
+  size_t bytes() const { return binary_.size(); }
+  /// As many elements as accessor a says that it holds, but no more than there are bytes; 0 where it is none of them.
+  size_t countAtMost(size_t a) const {
+    return a < accessors_.size() ? std::min(accessors_[a].count.value_or(0), binary_.size()) : 0;
+  }
 
   // Each appends what accessor a, one of them, holds, and leaves `out` as it likes where it refuses. Errors: bad_input,
   // with the JSON pointer or the byte in the message; limit.

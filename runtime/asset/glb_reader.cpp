@@ -102,6 +102,7 @@ class SceneReader {
       std::vector<GlbPrimitive>& primitives = meshes_.emplace_back();
       for (const JsonValue& primitive : mesh.list("primitives")) primitives.emplace_back(primitive);
     }
+    makeRoom();
     if (nodes_.size() > limits_.nodes) return overLimit(limits_.nodes, "nodes");
     seen_.assign(nodes_.size(), false);
     if (Result<void> found = roots(); !found) return found.error();
@@ -122,6 +123,29 @@ class SceneReader {
     GlbTransform place;
     size_t parent;  ///< a node, or as many as there are: the scene
   };
+
+  /// For each mesh shown once, all at once: what grows step by step is there twice. Never for more than the bytes that
+  /// are there can hold.
+  void makeRoom() {
+    size_t points = 0, corners = 0;
+    bool normals = false, coordinates = false;
+    for (const std::vector<GlbPrimitive>& mesh : meshes_) {
+      for (const GlbPrimitive& p : mesh) {
+        const size_t own = accessors_.countAtMost(p.position);
+        points += own;
+        corners += p.indices == GlbPrimitive::kAbsent ? own : accessors_.countAtMost(p.indices);
+        normals = normals || p.normal != GlbPrimitive::kAbsent;
+        coordinates = coordinates || p.coordinates != GlbPrimitive::kAbsent;
+      }
+    }
+    points = std::min({points, limits_.mostPoints(), accessors_.bytes() / 12});
+    const size_t triangles = std::min({corners / 3, limits_.triangles, accessors_.bytes() / 3});
+    mesh_.points.reserve(points);
+    if (normals) mesh_.normals.values.reserve(points);
+    if (coordinates) mesh_.coordinates.values.reserve(points);
+    mesh_.triangles.reserve(triangles);
+    mesh_.materials.reserve(triangles);
+  }
 
   /// Puts the scene's nodes on the list, the first one last.
   Result<void> roots() {

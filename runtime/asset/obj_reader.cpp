@@ -1,7 +1,6 @@
 #include "asset/obj_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <optional>
 #include <utility>
@@ -186,10 +185,14 @@ class ObjReader {
 
   /// A number from 1, or from -1 backwards from what is `there` so far.
   bool number(const char*& at, const char* end, size_t there, Reach& reach, uint32_t& out) {
+    // By hand: half of a file is such numbers. Longer ones than any that fits in 32 bits end as too large.
+    const bool backwards = at < end && *at == '-';
+    if (backwards) ++at;
+    const char* const digits = at;
     int64_t given = 0;
-    const auto [stop, error] = std::from_chars(at, end, given);
-    if (error != std::errc()) return false;
-    at = stop;
+    for (; at < end && *at >= '0' && *at <= '9'; ++at) given = std::min<int64_t>(10 * given + (*at - '0'), kNoValue);
+    if (at == digits) return false;
+    if (backwards) given = -given;
     if (given < 0) given += static_cast<int64_t>(there) + 1;
     if (given <= 0 || given >= int64_t{kNoValue}) return false;
     out = static_cast<uint32_t>(given - 1);

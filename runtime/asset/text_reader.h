@@ -18,7 +18,7 @@ class TextReader {
   std::string_view word() {
     skipBlanks();
     const char* const from = at_;
-    while (at_ < end_ && !isBlank(*at_) && !isLineEnd(*at_)) ++at_;
+    while (at_ < end_ && (static_cast<unsigned char>(*at_) > ' ' || (!isBlank(*at_) && !isLineEnd(*at_)))) ++at_;
     if (continued_ && at_ - from > 1 && at_[-1] == '\\' && at_ < end_) --at_;
     return {from, static_cast<size_t>(at_ - from)};
   }
