@@ -1,12 +1,16 @@
 #include "asset/glb_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "asset/glb_accessor.h"
+#include "asset/glb_transform.h"
 #include "asset/json_reader.h"
+#include "asset/text_reader.h"
 
 namespace sgm::asset {
 
@@ -17,8 +21,6 @@ constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 constexpr size_t kTriangles = 4;  ///< a primitive's mode
 constexpr size_t kDeepestNode = 64;
 
-Error refuse(std::string message) { return {Code::bad_input, std::move(message), 0, 0}; }
-
 uint32_t wordAt(std::span<const std::byte> bytes, size_t at) {
   uint32_t word = 0;
   std::memcpy(&word, bytes.data() + at, sizeof word);
@@ -28,204 +30,240 @@ uint32_t wordAt(std::span<const std::byte> bytes, size_t at) {
 struct Chunks {
   std::string_view json;
   std::span<const std::byte> binary;
+  size_t binary_at = 0;
 };
 
 Result<Chunks> chunksOf(std::span<const std::byte> bytes) {
   if (bytes.size() < kHeaderBytes + kChunkHeaderBytes || wordAt(bytes, 0) != kMagic)
-    return refuse("it is no GLB file: it does not begin with `glTF`");
-  if (wordAt(bytes, 4) != 2) return refuse("it is glTF of version " + std::to_string(wordAt(bytes, 4)) + ", not 2");
+    return Error{Code::bad_input, "it is no GLB file: it does not begin with `glTF`", 0, 0};
+  if (wordAt(bytes, 4) != 2)
+    return wrongAtByte("it is glTF of version " + std::to_string(wordAt(bytes, 4)) + ", not 2", 4);
   if (wordAt(bytes, 8) != bytes.size())
-    return refuse("it says that it has " + std::to_string(wordAt(bytes, 8)) + " bytes, and has " +
-                  std::to_string(bytes.size()));
+    return wrongAtByte(
+        "it says that it has " + std::to_string(wordAt(bytes, 8)) + " bytes, and has " + std::to_string(bytes.size()),
+        8);
   Chunks out;
   size_t at = kHeaderBytes;
   for (size_t number = 0; bytes.size() - at >= kChunkHeaderBytes; ++number) {
     const size_t size = wordAt(bytes, at);
     const uint32_t kind = wordAt(bytes, at + 4);
+    if (size > bytes.size() - at - kChunkHeaderBytes) return wrongAtByte("a part of it reaches beyond its end", at);
+    if (number == 0 && kind != kJsonChunk) return wrongAtByte("its first part is not JSON", at + 4);
     at += kChunkHeaderBytes;
-    if (size > bytes.size() - at) return refuse("a part of it reaches beyond its end");
     const auto part = bytes.subspan(at, size);
-    if (number == 0 && kind != kJsonChunk) return refuse("its first part is not JSON");
     if (number == 0) out.json = {reinterpret_cast<const char*>(part.data()), part.size()};
-    if (number == 1 && kind == kBinaryChunk) out.binary = part;
+    if (number == 1 && kind == kBinaryChunk) {
+      out.binary = part;
+      out.binary_at = at;
+    }
     // Parts are padded to four bytes.
     at += std::min((size + 3) / 4 * 4, bytes.size() - at);
   }
   return out;
 }
 
-/// p -> columns * p + origin.
-struct Transform {
-  std::array<Point, 3> columns{Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}};
-  Point origin;
+std::optional<size_t> wholeOf(const JsonValue& value) {
+  if (value.kind != JsonValue::Kind::number || !(value.number >= 0 && value.number < 1e9)) return std::nullopt;
+  return static_cast<size_t>(value.number);
+}
 
-  Point turned(Point p) const { return p.x * columns[0] + p.y * columns[1] + p.z * columns[2]; }
-  Point operator()(Point p) const { return turned(p) + origin; }
-  Transform after(const Transform& inner) const {
-    return {{turned(inner.columns[0]), turned(inner.columns[1]), turned(inner.columns[2])}, (*this)(inner.origin)};
+/// A primitive as the file says: numbers of accessors.
+struct GlbPrimitive {
+  static constexpr size_t kAbsent = SIZE_MAX, kWrong = SIZE_MAX - 1;
+  size_t mode = kTriangles, material = kAbsent;
+  size_t position = kAbsent, normal = kAbsent, coordinates = kAbsent, indices = kAbsent;
+
+  explicit GlbPrimitive(const JsonValue& value) {
+    const auto number = [](const JsonValue* of, std::string_view name) {
+      return of == nullptr || of->find(name) == nullptr ? kAbsent : of->count(name).value_or(kWrong);
+    };
+    const JsonValue* attributes = value.find("attributes");
+    mode = value.find("mode") == nullptr ? kTriangles : number(&value, "mode");
+    material = number(&value, "material");
+    position = number(attributes, "POSITION");
+    normal = number(attributes, "NORMAL");
+    coordinates = number(attributes, "TEXCOORD_0");
+    indices = number(&value, "indices");
   }
-  bool mirrors() const { return dot(cross(columns[0], columns[1]), columns[2]) < 0; }
 };
-
-/// As many numbers as there are in `out`; false where the member is something else. A missing one leaves them be.
-template <size_t N>
-bool readNumbers(const JsonValue& node, std::string_view name, std::array<double, N>& out) {
-  if (node.find(name) == nullptr) return true;
-  const auto list = node.list(name);
-  if (list.size() != N) return false;
-  for (size_t i = 0; i < N; ++i) {
-    if (list[i].kind != JsonValue::Kind::number || !(std::fabs(list[i].number) <= 1e9)) return false;
-    out[i] = list[i].number;
-  }
-  return true;
-}
-
-Result<Transform> transformOf(const JsonValue& node, size_t number) {
-  const std::string name = "node " + std::to_string(number);
-  std::array<double, 16> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-  std::array<double, 3> moved{}, scaled{1, 1, 1};
-  std::array<double, 4> q{0, 0, 0, 1};
-  if (!readNumbers(node, "matrix", m) || !readNumbers(node, "translation", moved) ||
-      !readNumbers(node, "scale", scaled) || !readNumbers(node, "rotation", q))
-    return refuse(name + " is moved by what are not numbers, or not as many as it takes");
-  Transform out;
-  if (node.find("matrix") != nullptr) {
-    out.columns = {Point{m[0], m[1], m[2]}, Point{m[4], m[5], m[6]}, Point{m[8], m[9], m[10]}};
-    out.origin = {m[12], m[13], m[14]};
-    return out;
-  }
-  const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (!(size > 0)) return refuse(name + " is turned by a quaternion without a length");
-  const double x = q[0] / size, y = q[1] / size, z = q[2] / size, w = q[3] / size;
-  out.columns[0] = scaled[0] * Point{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
-  out.columns[1] = scaled[1] * Point{2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
-  out.columns[2] = scaled[2] * Point{2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
-  out.origin = {moved[0], moved[1], moved[2]};
-  return out;
-}
 
 class SceneReader {
  public:
-  SceneReader(const JsonValue& root, std::span<const std::byte> binary, const GlbLimits& limits)
-      : root_(root), accessors_(root, binary), limits_(limits) {}
+  SceneReader(const JsonValue& root, const Chunks& chunks, const MeshLimits& limits)
+      : root_(root), nodes_(root.list("nodes")), accessors_(root, chunks.binary, chunks.binary_at), limits_(limits) {}
 
   Result<TriangleMesh> run() {
     for (const JsonValue& material : root_.list("materials")) {
       const JsonValue* name = material.find("name");
       mesh_.material_names.push_back(name != nullptr ? name->text : std::string());
     }
-    const auto nodes = root_.list("nodes");
-    if (nodes.size() > limits_.nodes)
-      return Error{Code::limit, "it has more than " + std::to_string(limits_.nodes) + " nodes", 0, 0};
-    seen_.assign(nodes.size(), false);
+    // Read once: nodes may show one mesh many times.
+    for (const JsonValue& mesh : root_.list("meshes")) {
+      std::vector<GlbPrimitive>& primitives = meshes_.emplace_back();
+      for (const JsonValue& primitive : mesh.list("primitives")) primitives.emplace_back(primitive);
+    }
+    makeRoom();
+    if (nodes_.size() > limits_.nodes) return overLimit(limits_.nodes, "nodes");
+    seen_.assign(nodes_.size(), false);
     if (Result<void> found = roots(); !found) return found.error();
     while (!open_.empty()) {
       const Open next = std::move(open_.back());
       open_.pop_back();
       if (Result<void> read = node(next); !read) return read.error();
     }
-    if (mesh_.triangles.empty()) return refuse("it shows no triangles");
+    if (mesh_.triangles.empty()) return Error{Code::bad_input, "it shows no triangles", 0, 0};
+    if (!mesh_.normals.empty()) mesh_.normals.values.resize(mesh_.points.size());
+    if (!mesh_.coordinates.empty()) mesh_.coordinates.values.resize(mesh_.points.size());
     return std::move(mesh_);
   }
 
  private:
   struct Open {
     size_t node, depth;
-    Transform place;
+    GlbTransform place;
+    size_t parent;  ///< a node, or as many as there are: the scene
   };
+
+  /// For each mesh shown once, all at once: what grows step by step is there twice. Never for more than the bytes that
+  /// are there can hold.
+  void makeRoom() {
+    size_t points = 0, corners = 0;
+    bool normals = false, coordinates = false;
+    for (const std::vector<GlbPrimitive>& mesh : meshes_) {
+      for (const GlbPrimitive& p : mesh) {
+        const size_t own = accessors_.countAtMost(p.position);
+        points += own;
+        corners += p.indices == GlbPrimitive::kAbsent ? own : accessors_.countAtMost(p.indices);
+        normals = normals || p.normal != GlbPrimitive::kAbsent;
+        coordinates = coordinates || p.coordinates != GlbPrimitive::kAbsent;
+      }
+    }
+    points = std::min({points, limits_.mostPoints(), accessors_.bytes() / 12});
+    const size_t triangles = std::min({corners / 3, limits_.triangles, accessors_.bytes() / 3});
+    mesh_.points.reserve(points);
+    if (normals) mesh_.normals.values.reserve(points);
+    if (coordinates) mesh_.coordinates.values.reserve(points);
+    mesh_.triangles.reserve(triangles);
+    mesh_.materials.reserve(triangles);
+  }
 
   /// Puts the scene's nodes on the list, the first one last.
   Result<void> roots() {
-    const auto nodes = root_.list("nodes"), scenes = root_.list("scenes");
+    const auto scenes = root_.list("scenes");
     std::vector<size_t> first;
     if (scenes.empty()) {
-      std::vector<bool> child(nodes.size(), false);
-      for (const JsonValue& node : nodes)
+      std::vector<bool> child(nodes_.size(), false);
+      for (const JsonValue& node : nodes_)
         for (const JsonValue& below : node.list("children"))
-          if (const auto i = whole(below); i && *i < nodes.size()) child[*i] = true;
-      for (size_t i = 0; i < nodes.size(); ++i)
+          if (const auto i = wholeOf(below); i && *i < nodes_.size()) child[*i] = true;
+      for (size_t i = 0; i < nodes_.size(); ++i)
         if (!child[i]) first.push_back(i);
     } else {
-      const size_t scene = root_.count("scene").value_or(0);
-      if (scene >= scenes.size()) return refuse("its scene is not there");
-      for (const JsonValue& node : scenes[scene].list("nodes")) first.push_back(whole(node).value_or(nodes.size()));
+      const size_t scene = root_.find("scene") == nullptr ? 0 : root_.count("scene").value_or(scenes.size());
+      if (scene >= scenes.size()) return wrongInJson("its scene is not there", "/scene");
+      scene_ = "/scenes/" + std::to_string(scene) + "/nodes";
+      for (const JsonValue& node : scenes[scene].list("nodes")) first.push_back(wholeOf(node).value_or(nodes_.size()));
     }
-    for (size_t i = first.size(); i-- > 0;) open_.push_back({first[i], 0, {}});
+    for (size_t i = first.size(); i-- > 0;) open_.push_back({first[i], 0, {}, nodes_.size()});
     return {};
   }
 
-  static std::optional<size_t> whole(const JsonValue& value) {
-    if (value.kind != JsonValue::Kind::number || !(value.number >= 0 && value.number < 1e9)) return std::nullopt;
-    return static_cast<size_t>(value.number);
-  }
+  static std::string nodePointer(size_t node) { return "/nodes/" + std::to_string(node); }
 
   Result<void> node(const Open& at) {
-    const auto nodes = root_.list("nodes");
-    if (at.node >= nodes.size()) return refuse("a node that is named is not there");
-    if (seen_[at.node] || at.depth > kDeepestNode)
-      return refuse("node " + std::to_string(at.node) + " stands below two others, or too deep");
+    const auto wrongHere = [&](std::string_view what) {
+      return wrongInJson(what, at.parent < nodes_.size() ? nodePointer(at.parent) + "/children" : scene_);
+    };
+    if (at.node >= nodes_.size()) return wrongHere("a node that is named is not there");
+    const std::string name = "node " + std::to_string(at.node);
+    if (seen_[at.node] || at.depth > kDeepestNode) return wrongHere(name + " stands below two others, or too deep");
     seen_[at.node] = true;
-    const JsonValue& value = nodes[at.node];
-    const Result<Transform> own = transformOf(value, at.node);
+    const JsonValue& value = nodes_[at.node];
+    const Result<GlbTransform> own = glbTransformOf(value, at.node);
     if (!own) return own.error();
-    const Transform place = at.place.after(*own);
+    const GlbTransform place = at.place.after(*own);
     if (value.find("mesh") != nullptr) {
-      const auto meshes = root_.list("meshes");
       const auto number = value.count("mesh");
-      if (!number || *number >= meshes.size())
-        return refuse("node " + std::to_string(at.node) + " shows a mesh that is not there");
-      for (const JsonValue& primitive : meshes[*number].list("primitives"))
-        if (Result<void> read = this->primitive(primitive, *number, place); !read) return read;
+      if (!number || *number >= meshes_.size())
+        return wrongInJson(name + " shows a mesh that is not there", nodePointer(at.node) + "/mesh");
+      for (size_t i = 0; i < meshes_[*number].size(); ++i)
+        if (Result<void> read = primitive(*number, i, place); !read) return read;
     }
     const auto children = value.list("children");
     for (size_t i = children.size(); i-- > 0;)
-      open_.push_back({whole(children[i]).value_or(nodes.size()), at.depth + 1, place});
+      open_.push_back({wholeOf(children[i]).value_or(nodes_.size()), at.depth + 1, place, at.node});
     return {};
   }
 
-  Result<void> primitive(const JsonValue& value, size_t mesh, const Transform& place) {
-    const std::string name = "mesh " + std::to_string(mesh);
-    if (value.count("mode").value_or(kTriangles) != kTriangles) return refuse(name + " is not made of triangles");
-    const JsonValue* attributes = value.find("attributes");
-    const auto position = attributes != nullptr ? attributes->count("POSITION") : std::nullopt;
-    if (!position) return refuse(name + " has no positions");
+  Result<void> primitive(size_t mesh, size_t number, const GlbTransform& place) {
+    const GlbPrimitive& p = meshes_[mesh][number];
+    const auto wrong = [&](std::string_view what, std::string_view member) {
+      return wrongInJson(
+          what, "/meshes/" + std::to_string(mesh) + "/primitives/" + std::to_string(number) + std::string(member));
+    };
+    const auto named = [&](std::string_view what) { return "mesh " + std::to_string(mesh) + std::string(what); };
+    const auto missing = [&](size_t accessor) {
+      return accessor != GlbPrimitive::kAbsent && accessor >= accessors_.size();
+    };
+    const auto notThere = [&](std::string_view what, std::string_view member) {
+      return wrong(named(" has ") + std::string(what) + " that are not there", member);
+    };
+    if (p.mode != kTriangles) return wrong(named(" is not made of triangles"), "/mode");
+    if (p.position == GlbPrimitive::kAbsent) return wrong(named(" has no positions"), "/attributes");
+    if (missing(p.position)) return notThere("positions", "/attributes/POSITION");
+    if (missing(p.normal)) return notThere("normals", "/attributes/NORMAL");
+    if (missing(p.coordinates)) return notThere("texture coordinates", "/attributes/TEXCOORD_0");
+    if (missing(p.indices)) return notThere("indices", "/indices");
     const size_t first = mesh_.points.size();
-    const Result<std::vector<Point>> points = accessors_.points(*position, limits_.points - first);
-    if (!points) return points.error();
-    for (const Point& p : *points) mesh_.points.push_back(place(p));
-    std::vector<uint32_t> corners;
-    const size_t most = 3 * (limits_.triangles - mesh_.triangles.size());
-    if (value.find("indices") != nullptr) {
-      const auto accessor = value.count("indices");
-      if (!accessor) return refuse(name + " has indices that are not there");
-      Result<std::vector<uint32_t>> indices = accessors_.indices(*accessor, most);
-      if (!indices) return indices.error();
-      corners = std::move(*indices);
-    } else if (points->size() > most) {
-      return Error{Code::limit, "it has more than " + std::to_string(limits_.triangles) + " triangles", 0, 0};
+    if (Result<void> read = points(p, place); !read) return read;
+    // Each node's numbers are small, and yet a row of them leads anywhere.
+    for (size_t i = first; !place.rests() && i < mesh_.points.size(); ++i)
+      if (const Point& at = mesh_.points[i]; !limits_.isPlace(at.x, at.y, at.z))
+        return wrong(named(" has a position ") + noPlaceWithin(limits_) + ", once it is moved", "");
+    const GlbCorners corners{mesh_.points.size() - first, static_cast<uint32_t>(first), place.mirrors()};
+    if (p.indices != GlbPrimitive::kAbsent) {
+      if (Result<void> read = accessors_.triangles(p.indices, corners, limits_, mesh_.triangles); !read) return read;
+    } else if (corners.points % 3 != 0) {
+      return wrong(named(" ends within a triangle"), "/attributes/POSITION");
+    } else if (corners.points / 3 > limits_.triangles - mesh_.triangles.size()) {
+      return overLimit(limits_.triangles, "triangles");
     } else {
-      for (uint32_t i = 0; i < points->size(); ++i) corners.push_back(i);
+      for (uint32_t i = corners.first; i < mesh_.points.size(); i += 3)
+        mesh_.triangles.push_back(corners.mirrored ? std::array{i, i + 2, i + 1} : std::array{i, i + 1, i + 2});
     }
-    if (corners.size() % 3 != 0) return refuse(name + " ends within a triangle");
-    const size_t material = value.count("material").value_or(mesh_.material_names.size());
-    const bool named = material < mesh_.material_names.size() && !mesh_.material_names[material].empty();
-    const bool mirrored = place.mirrors();
-    for (size_t i = 0; i < corners.size(); i += 3) {
-      std::array<uint32_t, 3> triangle{};
-      for (size_t k = 0; k < 3; ++k) {
-        if (corners[i + k] >= points->size()) return refuse(name + " has a triangle with a corner that is not there");
-        triangle[k] = static_cast<uint32_t>(first + corners[i + k]);
-      }
-      if (mirrored) std::swap(triangle[1], triangle[2]);
-      mesh_.triangles.push_back(triangle);
-      mesh_.materials.push_back(named ? static_cast<uint32_t>(material) : kNoMaterial);
-    }
+    const bool known = p.material < mesh_.material_names.size() && !mesh_.material_names[p.material].empty();
+    mesh_.materials.resize(mesh_.triangles.size(), known ? static_cast<uint32_t>(p.material) : kNoMaterial);
     return {};
+  }
+
+  /// With normals and texture coordinates.
+  Result<void> points(const GlbPrimitive& p, const GlbTransform& place) {
+    const size_t first = mesh_.points.size();
+    if (Result<void> read = accessors_.points(p.position, limits_, mesh_.points); !read) return read;
+    const std::span<Point> added = std::span(mesh_.points).subspan(first);
+    if (!place.rests())
+      for (Point& one : added) one = place(one);
+    if (p.normal != GlbPrimitive::kAbsent) {
+      std::vector<Normal>& normals = mesh_.normals.values;
+      normals.resize(first);
+      if (Result<void> read = accessors_.normals(p.normal, added.size(), normals); !read) return read;
+      const GlbTransform turn{place.forNormals(), {}};
+      for (Normal& n : std::span(normals).subspan(first)) {
+        const Point moved = turn.turned({double{n[0]}, double{n[1]}, double{n[2]}});
+        n = unitNormal(moved.x, moved.y, moved.z);
+      }
+    }
+    if (p.coordinates == GlbPrimitive::kAbsent) return {};
+    mesh_.coordinates.values.resize(first);
+    return accessors_.coordinates(p.coordinates, added.size(), mesh_.coordinates.values);
   }
 
   const JsonValue& root_;
+  std::span<const JsonValue> nodes_;
   GlbAccessors accessors_;
-  const GlbLimits& limits_;
+  const MeshLimits& limits_;
+  std::vector<std::vector<GlbPrimitive>> meshes_;
+  std::string scene_ = "/nodes";
   TriangleMesh mesh_;
   std::vector<bool> seen_;
   std::vector<Open> open_;
@@ -239,16 +277,16 @@ bool harmless(std::string_view extension) {
 
 }  // namespace
 
-Result<TriangleMesh> readGlb(std::span<const std::byte> bytes, const GlbLimits& limits) {
+Result<TriangleMesh> readGlb(std::span<const std::byte> bytes, const MeshLimits& limits) {
   const Result<Chunks> chunks = chunksOf(bytes);
   if (!chunks) return chunks.error();
-  if (chunks->json.size() > limits.json_bytes)
-    return Error{Code::limit, "its JSON has more than " + std::to_string(limits.json_bytes) + " bytes", 0, 0};
+  if (chunks->json.size() > limits.json_bytes) return overLimit(limits.json_bytes, "bytes of JSON");
   const Result<JsonValue> root = readJson(chunks->json);
   if (!root) return root.error();
   for (const JsonValue& extension : root->list("extensionsRequired"))
-    if (!harmless(extension.text)) return refuse("it needs the extension `" + extension.text + "`");
-  return SceneReader(*root, chunks->binary, limits).run();
+    if (!harmless(extension.text))
+      return wrongInJson("it needs the extension " + shown(extension.text), "/extensionsRequired");
+  return SceneReader(*root, *chunks, limits).run();
 }
 
 }  // namespace sgm::asset

@@ -6,24 +6,18 @@
 #include <span>
 #include <string_view>
 
+#include "asset/mesh_limits.h"
 #include "asset/triangle_mesh.h"
-#include "base/result.h"
 
 namespace sgm::asset {
-
-struct GlbLimits {
-  size_t json_bytes = 1u << 20;
-  size_t points = 1u << 22;  ///< of all primitives, each as often as nodes show it
-  size_t triangles = 1u << 22;
-  size_t nodes = 1u << 16;
-};
 
 /// What to do about a file that readGlb refuses.
 inline constexpr std::string_view kGlbAdvice =
     "save it as binary glTF 2.0 (.glb), all in one file, as triangles, uncompressed";
 
-/// The triangles of the file's scene (of all nodes, where it has none), moved as its nodes say; of materials their
-/// names. Skins, morph targets, cameras and lights are left out. Errors: bad_input, limit.
-Result<TriangleMesh> readGlb(std::span<const std::byte> bytes, const GlbLimits& limits = {});
+/// The triangles of the file's scene (of all nodes, where it has none), moved as its nodes say, with NORMAL and
+/// TEXCOORD_0 (zero for primitives that have none, where others have); of materials their names. Skins, morph targets,
+/// cameras and lights are left out. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
+Result<TriangleMesh> readGlb(std::span<const std::byte> bytes, const MeshLimits& limits = {});
 
 }  // namespace sgm::asset

@@ -15,11 +15,11 @@ using namespace sgm::asset;
 
 namespace {
 
-Result<TriangleMesh> read(const std::string& bytes, const GlbLimits& limits = {}) {
+Result<TriangleMesh> read(const std::string& bytes, const MeshLimits& limits = {}) {
   return readGlb(std::as_bytes(std::span(bytes)), limits);
 }
 
-std::string refusal(const std::string& bytes, const GlbLimits& limits = {}) {
+std::string refusal(const std::string& bytes, const MeshLimits& limits = {}) {
   const auto mesh = read(bytes, limits);
   return mesh ? "" : mesh.error().message;
 }
@@ -107,56 +107,90 @@ TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]
   CHECK(refusal("sgm 1; start Ball; rule Ball { sphere(1m); }") == "it is no GLB file: it does not begin with `glTF`");
   std::string bytes = triangleFile();
   bytes[4] = 1;
-  CHECK(refusal(bytes) == "it is glTF of version 1, not 2");
+  CHECK(refusal(bytes) == "it is glTF of version 1, not 2, at byte 4");
   bytes = triangleFile();
-  CHECK(refusal(bytes.substr(0, bytes.size() - 1)) ==
-        "it says that it has " + std::to_string(bytes.size()) + " bytes, and has " + std::to_string(bytes.size() - 1));
+  CHECK(refusal(bytes.substr(0, bytes.size() - 1)) == "it says that it has " + std::to_string(bytes.size()) +
+                                                          " bytes, and has " + std::to_string(bytes.size() - 1) +
+                                                          ", at byte 8");
   bytes[12] = '\xFF', bytes[13] = '\xFF', bytes[14] = '\xFF', bytes[15] = '\xFF';
-  CHECK(refusal(bytes) == "a part of it reaches beyond its end");
+  CHECK(refusal(bytes) == "a part of it reaches beyond its end, at byte 12");
   bytes = triangleFile();
   bytes[16] = 'X';
-  CHECK(refusal(bytes) == "its first part is not JSON");
+  CHECK(refusal(bytes) == "its first part is not JSON, at byte 16");
   struct Case {
     const char *from, *to, *message;
   };
   const Case cases[] = {
       {R"("asset")", R"("asset)", "`:` is missing at byte 10 of its JSON"},
       {R"("asset":{"version":"2.0"})", R"("extensionsRequired":["KHR_draco_mesh_compression"])",
-       "it needs the extension `KHR_draco_mesh_compression`"},
-      {R"("scene":0)", R"("scene":1)", "its scene is not there"},
-      {R"("scenes":[{"nodes":[0]}])", R"("scenes":[{"nodes":[7]}])", "a node that is named is not there"},
+       "it needs the extension `KHR_draco_mesh_compression`, at /extensionsRequired of its JSON"},
+      {R"("scene":0)", R"("scene":1)", "its scene is not there, at /scene of its JSON"},
+      {R"("scenes":[{"nodes":[0]}])", R"("scenes":[{"nodes":[7]}])",
+       "a node that is named is not there, at /scenes/0/nodes of its JSON"},
       {R"("nodes":[{"mesh":0}])", R"("nodes":[{"mesh":0,"children":[0]}])",
-       "node 0 stands below two others, or too deep"},
-      {R"({"mesh":0})", R"({"mesh":4})", "node 0 shows a mesh that is not there"},
+       "node 0 stands below two others, or too deep, at /nodes/0/children of its JSON"},
+      {R"({"mesh":0})", R"({"mesh":4})", "node 0 shows a mesh that is not there, at /nodes/0/mesh of its JSON"},
       {R"({"mesh":0})", R"({"mesh":0,"scale":[1,2]})",
-       "node 0 is moved by what are not numbers, or not as many as it takes"},
-      {R"({"mesh":0})", R"({"mesh":0,"rotation":[0,0,0,0]})", "node 0 is turned by a quaternion without a length"},
+       "node 0 is moved by what are not numbers, or not as many as it takes, at /nodes/0 of its JSON"},
+      {R"({"mesh":0})", R"({"mesh":0,"rotation":[0,0,0,0]})",
+       "node 0 is turned by a quaternion without a length, at /nodes/0 of its JSON"},
       {R"({"mesh":0})", R"({"name":"empty"})", "it shows no triangles"},
-      {R"("indices":1)", R"("indices":1,"mode":1)", "mesh 0 is not made of triangles"},
-      {R"("POSITION":0)", R"("NORMAL":0)", "mesh 0 has no positions"},
-      {R"("indices":1)", R"("indices":-1)", "mesh 0 has indices that are not there"},
-      {R"("indices":1)", R"("indices":2)", "accessor 2 is not there"},
-      {R"("componentType":5123,"count":3)", R"("componentType":5123,"count":2)", "mesh 0 ends within a triangle"},
-      {R"("count":3,"type":"VEC3")", R"("count":2,"type":"VEC3")",
-       "mesh 0 has a triangle with a corner that is not there"},
-      {R"("type":"VEC3")", R"("type":"VEC2")", "accessor 0 is not of type VEC3"},
-      {R"("componentType":5126)", R"("componentType":5123)", "accessor 0 does not hold floats"},
-      {R"("componentType":5123)", R"("componentType":5122)", "accessor 1 does not hold unsigned whole numbers"},
-      {R"("count":3,"type":"VEC3")", R"("count":0,"type":"VEC3")", "accessor 0 holds nothing"},
+      {R"("indices":1)", R"("indices":1,"mode":1)",
+       "mesh 0 is not made of triangles, at /meshes/0/primitives/0/mode of its JSON"},
+      {R"("POSITION":0)", R"("NORMAL":0)", "mesh 0 has no positions, at /meshes/0/primitives/0/attributes of its JSON"},
+      {R"("indices":1)", R"("indices":-1)",
+       "mesh 0 has indices that are not there, at /meshes/0/primitives/0/indices of its JSON"},
+      {R"("indices":1)", R"("indices":2)",
+       "mesh 0 has indices that are not there, at /meshes/0/primitives/0/indices of its JSON"},
+      {R"("componentType":5123,"count":3)", R"("componentType":5123,"count":2)",
+       "accessor 1 ends within a triangle, at /accessors/1/count of its JSON"},
+      {R"({"mesh":0})", R"({"mesh":0,"translation":[0,1000001,0]})",
+       "mesh 0 has a position that is no place within 1000 km, once it is moved, at /meshes/0/primitives/0 of its "
+       "JSON"},
+      {R"({"mesh":0})", R"({"mesh":0,"scale":[1e9,1e9,1e9],"children":[0]})",
+       "mesh 0 has a position that is no place within 1000 km, once it is moved, at /meshes/0/primitives/0 of its "
+       "JSON"},
+      {R"(,"indices":1,"material":0)", R"(,"material":0)", ""},
+      {R"("POSITION":0})", R"("POSITION":0,"NORMAL":7})",
+       "mesh 0 has normals that are not there, at /meshes/0/primitives/0/attributes/NORMAL of its JSON"},
+      {R"("POSITION":0})", R"("POSITION":0,"TEXCOORD_0":-1})",
+       "mesh 0 has texture coordinates that are not there, at /meshes/0/primitives/0/attributes/TEXCOORD_0 of its "
+       "JSON"},
+      {R"("POSITION":0})", R"("POSITION":9})",
+       "mesh 0 has positions that are not there, at /meshes/0/primitives/0/attributes/POSITION of its JSON"},
+      {R"("POSITION":0})", R"("POSITION":0,"NORMAL":1})",
+       "accessor 1 is not of type VEC3, at /accessors/1/type of its JSON"},
+      {R"("POSITION":0})", R"("POSITION":0,"TEXCOORD_0":0})",
+       "accessor 0 is not of type VEC2, at /accessors/0/type of its JSON"},
+      {R"("count":3,"type":"VEC3")", R"("byteOffset":-4,"count":3,"type":"VEC3")",
+       "accessor 0 reaches beyond the end of its buffer view, at /accessors/0 of its JSON"},
+      {R"("byteOffset":40,"byteLength":6)", R"("byteOffset":40,"byteLength":6,"byteStride":4)",
+       "accessor 1 reaches beyond the end of its buffer view, at /accessors/1 of its JSON"},
+      {R"("byteOffset":40,"byteLength":6)", R"("byteOffset":40,"byteLength":12,"byteStride":4)",
+       "indices have a stride of their own, at /bufferViews/1/byteStride of its JSON"},
+      {R"("type":"VEC3")", R"("type":"VEC2")", "accessor 0 is not of type VEC3, at /accessors/0/type of its JSON"},
+      {R"("componentType":5126)", R"("componentType":5123)",
+       "accessor 0 does not hold floats, at /accessors/0/componentType of its JSON"},
+      {R"("componentType":5123)", R"("componentType":5122)",
+       "accessor 1 does not hold unsigned whole numbers, at /accessors/1/componentType of its JSON"},
+      {R"("count":3,"type":"VEC3")", R"("count":0,"type":"VEC3")",
+       "accessor 0 holds nothing, at /accessors/0/count of its JSON"},
       {R"("count":3,"type":"VEC3")", R"("count":4,"type":"VEC3")",
-       "accessor 0 reaches beyond the end of its buffer view"},
+       "accessor 0 reaches beyond the end of its buffer view, at /accessors/0 of its JSON"},
       {R"("count":3,"type":"VEC3")", R"("count":3,"byteOffset":9007199254740992,"type":"VEC3")",
-       "accessor 0 reaches beyond the end of its buffer view"},
-      {R"("count":3,"type":"VEC3")", R"("count":3,"sparse":{},"type":"VEC3")", "accessor 0 is sparse"},
-      {R"("bufferView":0,)", R"("bufferView":9,)", "accessor 0 has no buffer view"},
+       "accessor 0 reaches beyond the end of its buffer view, at /accessors/0 of its JSON"},
+      {R"("count":3,"type":"VEC3")", R"("count":3,"sparse":{},"type":"VEC3")",
+       "accessor 0 is sparse, at /accessors/0/sparse of its JSON"},
+      {R"("bufferView":0,)", R"("bufferView":9,)",
+       "accessor 0 has no buffer view, at /accessors/0/bufferView of its JSON"},
       {R"("buffer":0,"byteOffset":0)", R"("buffer":1,"byteOffset":0)",
-       "buffer view 0 is not of the file's own binary part"},
+       "buffer view 0 is not of the file's own binary part, at /bufferViews/0/buffer of its JSON"},
       {R"("byteLength":36)", R"("byteLength":9007199254740992)",
-       "buffer view 0 reaches beyond the end of the binary part"},
+       "buffer view 0 reaches beyond the end of the binary part, at /bufferViews/0 of its JSON"},
       {R"("byteLength":36)", R"("byteLength":36,"byteStride":8)",
-       "buffer view 0 has a stride that its elements do not fit into"},
+       "buffer view 0 has a stride that its elements do not fit into, at /bufferViews/0/byteStride of its JSON"},
       {R"("byteLength":36)", R"("byteLength":36,"byteStride":24)",
-       "accessor 0 reaches beyond the end of its buffer view"},
+       "accessor 0 reaches beyond the end of its buffer view, at /accessors/0 of its JSON"},
   };
   for (const Case& one : cases) {
     INFO(one.to);
@@ -165,15 +199,77 @@ TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]
   std::string nan = triangleFile();
   const float not_a_number = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(nan.data() + nan.size() - 60, &not_a_number, 4);
-  CHECK(refusal(nan) == "accessor 0 has a position that is no place within 1,000 km");
+  const std::string first_byte = std::to_string(nan.size() - 60);
+  CHECK(refusal(nan) == "accessor 0 has a position that is no place within 1000 km, at byte " + first_byte);
+  std::string beyond = triangleFile();
+  beyond[beyond.size() - 16] = 3;
+  CHECK(refusal(beyond) == "accessor 1 has a corner that is none of the primitive's 3 points, at byte " +
+                               std::to_string(beyond.size() - 16));
 }
 
 TEST_CASE("what a file may ask for is capped", "[asset][glb]") {
-  CHECK(refusal(triangleFile(), {.json_bytes = 10}) == "its JSON has more than 10 bytes");
-  CHECK(refusal(triangleFile(), {.points = 2}) == "accessor 0 holds more than 2 elements");
-  CHECK(refusal(triangleFile(), {.triangles = 0}) == "accessor 1 holds more than 0 elements");
+  CHECK(refusal(triangleFile(), {.json_bytes = 10}) == "it has more than 10 bytes of JSON");
+  CHECK(refusal(triangleFile(), {.points = 2}) == "it has more than 2 points");
+  CHECK(refusal(triangleFile(), {.triangles = 0}) == "it has more than 0 triangles");
   CHECK(refusal(triangleFile(R"(,"indices":1)", ""), {.triangles = 0}) == "it has more than 0 triangles");
   CHECK(refusal(triangleFile(), {.nodes = 0}) == "it has more than 0 nodes");
+}
+
+TEST_CASE("normals and texture coordinates come as the nodes turn them", "[asset][glb]") {
+  // Two primitives of one triangle; the first alone has normals, and texture coordinates as shorts.
+  const float points[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, normals[9] = {1, 1, 0, 0, 0, 2, 0, 0, 0};
+  const uint16_t places[6] = {0, 65535, 65535, 0, 0, 0};
+  std::string binary(reinterpret_cast<const char*>(points), sizeof points);
+  binary.append(reinterpret_cast<const char*>(normals), sizeof normals);
+  binary.append(reinterpret_cast<const char*>(places), sizeof places);
+  const auto file = [&](const std::string& how) {
+    return glbOf(R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0)" + how +
+                     R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}},)"
+                     R"({"attributes":{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2}}]}],)"
+                     R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                     R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"},)"
+                     R"({"bufferView":0,"byteOffset":72,"componentType":5123,"normalized":true,"count":3,)"
+                     R"("type":"VEC2"}],"bufferViews":[{"buffer":0,"byteLength":84}],"buffers":[{"byteLength":84}]})",
+                 binary);
+  };
+  const auto near = [](const Normal& a, const Normal& b) {
+    return std::fabs(a[0] - b[0]) + std::fabs(a[1] - b[1]) + std::fabs(a[2] - b[2]) < 1e-6f;
+  };
+  const auto mesh = read(file(R"(,"scale":[2,1,-1])"));
+  REQUIRE(mesh);
+  REQUIRE(mesh->normals.values.size() == 6);
+  REQUIRE(mesh->coordinates.values.size() == 6);
+  CHECK(mesh->normals.corners.empty());
+  CHECK(mesh->normals.values[0] == Normal{});
+  // Across a surface that is stretched along x: less along x, and mirrored along z as the surface is.
+  CHECK(near(mesh->normals.values[3], unitNormal(0.5, 1, 0)));
+  CHECK(near(mesh->normals.values[4], {0, 0, -1}));
+  CHECK(mesh->normals.values[5] == Normal{});
+  CHECK(mesh->triangles[1] == std::array<uint32_t, 3>{3, 5, 4});
+  CHECK(near(mesh->normalAt(1, 2), {0, 0, -1}));
+  CHECK(mesh->coordinatesAt(1, 0) == TextureCoordinates{0, 0});
+  CHECK(mesh->coordinatesAt(1, 2) == TextureCoordinates{1, 1});
+  CHECK(mesh->coordinatesAt(0, 2) == TextureCoordinates{});
+  // Flattened to nothing, it has no normals.
+  CHECK(read(file(R"(,"scale":[0,0,0])"))->normals.values[4] == Normal{});
+  binary[36] = binary[37] = binary[38] = binary[39] = '\xFF';
+  const std::string nan = file("");
+  CHECK(refusal(nan) == "accessor 1 has a normal that is not finite, at byte " + std::to_string(nan.size() - 48));
+}
+
+TEST_CASE("a small file that names much takes little time", "[asset][glb]") {
+  // An accessor of many members, shown by many primitives of many nodes.
+  std::string members, primitives, nodes;
+  for (int i = 0; i < 30000; ++i) members += "\"\":0,";
+  for (int i = 0; i < 400; ++i) primitives += std::string(i > 0 ? "," : "") + R"({"attributes":{"POSITION":0}})";
+  for (int i = 0; i < 2000; ++i) nodes += std::string(i > 0 ? "," : "") + R"({"mesh":0})";
+  const std::string json = R"({"asset":{},"nodes":[)" + nodes + R"(],"meshes":[{"primitives":[)" + primitives +
+                           R"(]}],"accessors":[{)" + members +
+                           R"("bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],)"
+                           R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36}]})";
+  const auto mesh = read(glbOf(json, triangleBytes()));
+  REQUIRE(mesh);
+  CHECK(mesh->triangles.size() == 800000);
 }
 
 TEST_CASE("no damage to a file does any harm", "[asset][glb]") {

@@ -1,0 +1,50 @@
+#pragma once
+// Files of triangles for tests, and what their readers say of them.
+
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "asset/mesh_file.h"
+#include "catch.h"
+
+namespace sgm::asset {
+
+inline std::span<const std::byte> bytesOf(const std::string& file) { return std::as_bytes(std::span(file)); }
+
+inline TriangleMesh meshIn(const std::string& file, MeshFileKind kind) {
+  auto mesh = readMesh(bytesOf(file), kind);
+  INFO((mesh ? "" : mesh.error().message));
+  REQUIRE(mesh);
+  return std::move(*mesh);
+}
+
+/// What is wrong, without what to do; empty where nothing is.
+inline std::string refusalOf(const std::string& file, MeshFileKind kind, const MeshLimits& limits = {}) {
+  const auto mesh = readMesh(bytesOf(file), kind, limits);
+  if (mesh) return "";
+  const std::string& message = mesh.error().message;
+  const size_t advice = message.rfind("; ");
+  CHECK(advice != std::string::npos);
+  if (mesh.error().code != Code::limit) CHECK(message.substr(advice + 2) == meshFileAdvice(kind));
+  if (mesh.error().line != 0)
+    CHECK(message.substr(0, advice).ends_with(", at line " + std::to_string(mesh.error().line)));
+  return message.substr(0, advice);
+}
+
+/// A number's bytes, as this machine has them or the other way round.
+template <class T>
+void putNumber(std::string& out, T value, bool turned = false) {
+  char bytes[sizeof value];
+  std::memcpy(bytes, &value, sizeof value);
+  for (size_t i = 0; i < sizeof value; ++i) out += bytes[turned ? sizeof value - 1 - i : i];
+}
+
+inline std::string replacedIn(std::string text, const std::string& from, const std::string& to) {
+  const size_t at = text.find(from);
+  INFO(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace sgm::asset

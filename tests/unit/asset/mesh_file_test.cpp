@@ -1,0 +1,200 @@
+// What we export reads back as it was, in every format, and no damage to it does any harm.
+
+#include "asset/mesh_file.h"
+
+#include <algorithm>
+#include <random>
+
+#include "asset/glb_reader.h"
+#include "catch.h"
+#include "mesh/export.h"
+#include "mesh/vertex.h"
+#include "mesh_bytes.h"
+#include "rounds.h"
+#include "temporary_folder.h"
+
+using namespace sgm;
+using namespace sgm::asset;
+
+namespace {
+
+/// Triangles that close nothing, in floats, so that no format loses anything of them.
+WorldMesh randomWorldMesh(std::mt19937& random) {
+  WorldMesh mesh;
+  const size_t points = 3 + random() % 60, triangles = 1 + random() % 120;
+  const auto number = [&] { return static_cast<double>(static_cast<float>(random()) / 65536.0f - 32768.0f); };
+  for (size_t i = 0; i < points; ++i) {
+    mesh.positions.push_back({number(), number(), number()});
+    const auto packed = [&] { return static_cast<int16_t>(static_cast<int>(random() % 65535) - 32767); };
+    mesh.attributes.push_back({packed(), packed(), static_cast<uint16_t>(random() % 3), 0});
+  }
+  for (size_t i = 0; i < 3 * triangles; ++i) mesh.indices.push_back(static_cast<uint32_t>(random() % points));
+  return mesh;
+}
+
+std::string exported(const WorldMesh& mesh, const ExportInfo& info, const std::string& kind) {
+  const TemporaryFolder folder;
+  const auto path = folder.path / ("mesh." + kind);
+  REQUIRE(exportMesh(mesh, info, path));
+  return contentOf(path);
+}
+
+/// A text's decimals read back as the number in doubles that is nearest to them.
+Point roundedToFloat(Point p) {
+  for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<double>(static_cast<float>(p[axis]));
+  return p;
+}
+
+Point pointAt(const WorldMesh& mesh, uint32_t index) {
+  const auto& p = mesh.positions[index];
+  return {p[0], p[1], p[2]};
+}
+
+/// Corners as the exporter orders them: by material, but for formats that have none.
+std::vector<size_t> exportedOrder(const WorldMesh& mesh, bool by_material) {
+  std::vector<size_t> order;
+  const auto material = [&](size_t t) {
+    const auto at = [&](size_t k) { return mesh.attributes[mesh.indices[3 * t + k]].material; };
+    return at(1) == at(2) ? at(1) : at(0);
+  };
+  for (size_t t = 0; t < mesh.indices.size() / 3; ++t) order.push_back(t);
+  if (by_material)
+    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return material(a) < material(b); });
+  return order;
+}
+
+const char* const kKinds[] = {"glb", "obj", "ply", "stl"};
+
+}  // namespace
+
+TEST_CASE("what is exported reads back as it was", "[asset][mesh_file]") {
+  ExportInfo info;
+  info.materials.resize(3);
+  for (size_t i = 0; i < 3; ++i) info.materials[i].name = "stone_" + std::to_string(i);
+  for (unsigned seed = 0; seed < rounds(60); ++seed) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const WorldMesh mesh = randomWorldMesh(random);
+    for (const std::string kind : kKinds) {
+      INFO(kind);
+      const std::string file = exported(mesh, info, kind);
+      REQUIRE(meshFileKind("a/b." + kind));
+      const TriangleMesh read = meshIn(file, *meshFileKind("a/b." + kind));
+      CHECK(meshFileKind(bytesOf(file)) == *meshFileKind("a/b." + kind));
+      const bool materials = kind == "glb" || kind == "obj";
+      const std::vector<size_t> order = exportedOrder(mesh, materials);
+      REQUIRE(read.triangles.size() == order.size());
+      REQUIRE(read.materials.size() == order.size());
+      REQUIRE(read.normals.empty() == (kind == "stl"));
+      double error = 0;
+      bool same = true;
+      for (size_t t = 0; t < order.size(); ++t) {
+        for (size_t k = 0; k < 3; ++k) {
+          const uint32_t corner = mesh.indices[3 * order[t] + k];
+          same = same && roundedToFloat(read.points[read.triangles[t][k]]) == pointAt(mesh, corner);
+          if (kind == "obj" || kind == "ply") same = same && read.triangles[t][k] == corner;
+          if (kind == "stl") continue;
+          const auto n = unpackNormal(mesh.attributes[corner].normal_x, mesh.attributes[corner].normal_y);
+          const Normal& m = read.normalAt(t, k);
+          for (size_t axis = 0; axis < 3; ++axis) error = std::max(error, std::fabs(n[axis] - double{m[axis]}));
+        }
+        if (materials) {
+          const uint32_t corner = mesh.indices[3 * order[t]];
+          const auto material = [&](size_t c) { return mesh.attributes[mesh.indices[3 * order[t] + c]].material; };
+          const uint16_t expected = material(1) == material(2) ? material(1) : mesh.attributes[corner].material;
+          same = same && read.material_names[read.materials[t]] == info.materials[expected].name;
+        } else {
+          same = same && read.materials[t] == kNoMaterial;
+        }
+      }
+      CHECK(same);
+      CHECK(error < 2e-7);
+    }
+  }
+}
+
+TEST_CASE("texture coordinates that are exported read back, with points that stay what they were",
+          "[asset][mesh_file]") {
+  // Two triangles that share an edge, in two charts: six places of four points.
+  WorldMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.attributes.resize(4);
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  const uint32_t vertices[] = {0, 1, 2, 0, 2, 3}, corners[] = {0, 1, 2, 3, 4, 5};
+  const std::array<float, 2> places[] = {{0, 0}, {0.5f, 0}, {0.5f, 1}, {2, 0.25f}, {3, 1}, {2, 1}};
+  const ExportBlend blends[6] = {};
+  const ExportTexture texture{vertices, places, blends, corners, {}};
+  ExportInfo info;
+  info.texture = &texture;
+  const TriangleMesh obj = meshIn(exported(mesh, info, "obj"), MeshFileKind::obj);
+  const TriangleMesh glb = meshIn(exported(mesh, info, "glb"), MeshFileKind::glb);
+  CHECK(obj.points.size() == 4);
+  CHECK(obj.normals.corners.empty());
+  CHECK(obj.coordinates.corners.size() == 2);
+  CHECK(glb.points.size() == 6);
+  for (size_t i = 0; i < 6; ++i) {
+    CHECK(obj.coordinatesAt(i / 3, i % 3) == places[i]);
+    // glTF counts a picture's rows from its other end, which is the same place where the picture repeats.
+    CHECK(glb.coordinatesAt(i / 3, i % 3) == TextureCoordinates{places[i][0], places[i][1] + 1});
+  }
+}
+
+TEST_CASE("a file's kind is told by its name or by its beginning", "[asset][mesh_file]") {
+  CHECK(*meshFileKind("a.b/House.GLB") == MeshFileKind::glb);
+  CHECK(*meshFileKind("x.obj") == MeshFileKind::obj);
+  CHECK(*meshFileKind("x.Ply") == MeshFileKind::ply);
+  CHECK(*meshFileKind(".stl") == MeshFileKind::stl);
+  for (const char* path : {"x.gltf", "glb", "", "a.obj/b", "x.obj.zip"}) {
+    const auto kind = meshFileKind(path);
+    REQUIRE(!kind);
+    CHECK(kind.error().message ==
+          std::string(path) + ": no mesh format that we can read; .glb, .obj, .ply and .stl are");
+  }
+  const auto of = [](const std::string& bytes) { return meshFileKind(bytesOf(bytes)); };
+  CHECK(of("glTF") == MeshFileKind::glb);
+  CHECK(of("ply\r\n") == MeshFileKind::ply);
+  CHECK(of("solid x\n") == MeshFileKind::stl);
+  CHECK(of("# comment\n\nmtllib a.mtl\n") == MeshFileKind::obj);
+  CHECK(of(std::string(84, '\0')) == MeshFileKind::stl);
+  for (const char* bytes : {"", "\n#", "{\"asset\":{}}", "PK\x03\x04", "volume"}) CHECK(of(bytes) == std::nullopt);
+}
+
+TEST_CASE("what is refused says what to do", "[asset][mesh_file]") {
+  const std::string none = "?";
+  const auto message = [&](MeshFileKind kind) { return readMesh(bytesOf(none), kind).error().message; };
+  CHECK(message(MeshFileKind::glb) ==
+        "it is no GLB file: it does not begin with `glTF`; save it as binary glTF 2.0 (.glb), all in one file, as "
+        "triangles, uncompressed");
+  CHECK(message(MeshFileKind::obj) ==
+        "`?` begins no line of an OBJ file, at line 1; save it again as Wavefront OBJ, with its faces as `f` lines");
+  CHECK(message(MeshFileKind::ply) ==
+        "it is no PLY file: it does not begin with `ply`, at line 1; save it again as PLY 1.0, with the elements "
+        "`vertex` and `face`");
+  CHECK(message(MeshFileKind::stl) ==
+        "it is no STL file: it ends within its header, at byte 1; save it again as binary STL");
+  CHECK(readMesh(bytesOf("v 0 0 0\n"), MeshFileKind::obj, {.points = 0}).error().message ==
+        "it has more than 0 points; simplify it, or split it into several files");
+}
+
+TEST_CASE("no damage to a mesh file does any harm", "[asset][mesh_file]") {
+  std::mt19937 random(5);
+  const WorldMesh mesh = randomWorldMesh(random);
+  for (const std::string kind : kKinds) {
+    const std::string good = exported(mesh, {}, kind);
+    for (unsigned round = 0; round < rounds(1000); ++round) {
+      std::string bytes = good.substr(0, random() % 8 == 0 ? random() % good.size() : good.size());
+      for (size_t k = 0; k < random() % 4 && !bytes.empty(); ++k)
+        bytes[random() % bytes.size()] = static_cast<char>(random() % 2 == 0 ? random() : '0' + random() % 10);
+      const auto read = readMesh(bytesOf(bytes), *meshFileKind("x." + kind), {.triangles = 1000});
+      if (!read) {
+        CHECK(!read.error().message.empty());
+        continue;
+      }
+      CHECK(read->materials.size() == read->triangles.size());
+      bool within = true;
+      for (const auto& t : read->triangles)
+        for (const uint32_t corner : t) within = within && corner < read->points.size();
+      CHECK(within);
+    }
+  }
+}

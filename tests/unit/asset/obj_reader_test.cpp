@@ -1,0 +1,135 @@
+// OBJ files as tools write them, and files that are wrong.
+
+#include "asset/obj_reader.h"
+
+#include <clocale>
+
+#include "catch.h"
+#include "mesh_bytes.h"
+
+using namespace sgm;
+using namespace sgm::asset;
+
+namespace {
+
+using Triangles = std::vector<std::array<uint32_t, 3>>;
+
+TriangleMesh objOf(const std::string& file) { return meshIn(file, MeshFileKind::obj); }
+std::string objRefusal(const std::string& file, const MeshLimits& limits = {}) {
+  return refusalOf(file, MeshFileKind::obj, limits);
+}
+
+const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+}  // namespace
+
+TEST_CASE("an OBJ file's faces become triangles, polygons as fans", "[asset][obj]") {
+  CHECK(objOf(kSquare + "f 1 2 3\n").triangles == Triangles{{0, 1, 2}});
+  CHECK(objOf(kSquare + "f 1 2 3 4").triangles == Triangles{{0, 1, 2}, {0, 2, 3}});
+  CHECK(objOf(kSquare + "f -4 -3 -2 -1\nv 5 5 5\nf -1 1 2\n").triangles == Triangles{{0, 1, 2}, {0, 2, 3}, {4, 0, 1}});
+  // Faces may come before what they name.
+  CHECK(objOf("f 1 2 3\n" + kSquare).triangles == Triangles{{0, 1, 2}});
+  CHECK(objOf(kSquare + "f 1 2 3\n").points[2] == Point{1, 1, 0});
+  CHECK(objOf("v +1.5e0 -2.E1 .25 1 # the weight\nv 0 0 0 0.1 0.2 0.3\nv 1e-999 0 0\nf 1 2 3\n").points ==
+        std::vector<Point>{{1.5, -20, 0.25}, {0, 0, 0}, {0, 0, 0}});
+}
+
+TEST_CASE("an OBJ file's lines end, go on and are commented in every way", "[asset][obj]") {
+  const Triangles two{{0, 1, 2}, {0, 2, 3}};
+  std::string file = "\xEF\xBB\xBF# by hand \\\n\n" + kSquare +
+                     "o house\ng a b \\\n c\ns off\nmtllib a.mtl\nl 1 2\nf 1 2 \\\n 3\\\n 4 # all\n";
+  CHECK(objOf(file).triangles == two);
+  for (const std::string end : {"\r\n", "\r"}) {
+    std::string other;
+    for (const char c : file) other += c == '\n' ? end : std::string(1, c);
+    CHECK(objOf(other).triangles == two);
+    CHECK(objRefusal(other + "f 1 2") == "a face has fewer than three corners, at line 16");
+  }
+}
+
+TEST_CASE("an OBJ file's numbers are read in any locale", "[asset][obj]") {
+  const std::string before = std::setlocale(LC_NUMERIC, nullptr);
+  std::setlocale(LC_NUMERIC, "de_DE.UTF-8");  // where it is installed
+  const TriangleMesh mesh = objOf("v 1.5 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  std::setlocale(LC_NUMERIC, before.c_str());
+  CHECK(mesh.points[0].x == 1.5);
+}
+
+TEST_CASE("an OBJ file's materials are those of usemtl", "[asset][obj]") {
+  const TriangleMesh mesh = objOf(kSquare +
+                                  "f 1 2 3\nusemtl red brick \nf 1 2 3 4\nusemtl\nf 1 2 3\nusemtl w\x01\xFFood\n"
+                                  "f 1 2 3\nusemtl red brick\nf 1 2 3\n");
+  CHECK(mesh.material_names == std::vector<std::string>{"red brick", "w??ood"});
+  CHECK(mesh.materials == std::vector<uint32_t>{kNoMaterial, 0, 0, kNoMaterial, 1, 0});
+}
+
+TEST_CASE("an OBJ file's normals and coordinates leave its points alone", "[asset][obj]") {
+  const std::string values = kSquare + "vn 0 0 2\nvn 0 0 1\nvn 1 0 0\nvt 0 1\nvt 0.5\nvt 1 0 7\n";
+  // The same at all corners of each point: one a point, zero for the one that no face has.
+  TriangleMesh mesh = objOf(values + "f 1/1/1 2/2/2 3/3/1\nf 1/1/2 3/3/2 2/2/1\n");
+  CHECK(mesh.points.size() == 4);
+  CHECK(mesh.normals.corners.empty());
+  CHECK(mesh.normals.values == std::vector<Normal>{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {}});
+  CHECK(mesh.coordinates.corners.empty());
+  CHECK(mesh.coordinates.values == std::vector<TextureCoordinates>{{0, 1}, {0.5f, 0}, {1, 0}, {}});
+  // They differ at the first point: corners number them.
+  mesh = objOf(values + "f 1//1 2//2 3//1\nf 1//3 3//2 4//1\n");
+  CHECK(mesh.points.size() == 4);
+  CHECK(mesh.normals.corners == Triangles{{0, 1, 0}, {2, 1, 0}});
+  CHECK(mesh.normalAt(1, 0) == Normal{1, 0, 0});
+  CHECK(mesh.coordinates.empty());
+  // Some faces have none, be it at first or later.
+  mesh = objOf(values + "f 1 2 3\nf 1/-1 3/-2 4/-3\nf 2 3 4\n");
+  CHECK(mesh.normals.empty());
+  CHECK(mesh.coordinatesAt(0, 0) == TextureCoordinates{});
+  CHECK(mesh.coordinatesAt(1, 0) == TextureCoordinates{1, 0});
+  CHECK(mesh.coordinatesAt(2, 2) == TextureCoordinates{});
+}
+
+TEST_CASE("what is wrong with an OBJ file is said with its line", "[asset][obj]") {
+  const std::pair<std::string, std::string> cases[] = {
+      {"", "it has no faces"},
+      {kSquare, "it has no faces"},
+      {"sgm 1;\nstart Ball;\n", "it has no faces"},
+      {std::string("\x7F"
+                   "ELF\0\1\2",
+                   7),
+       "`?ELF???` begins no line of an OBJ file, at line 1"},
+      {"v 0 0\n", "a `v` has fewer than 3 numbers, at line 1"},
+      {"v 0 0 # 1\n", "a `v` has fewer than 3 numbers, at line 1"},
+      {"\nvn 0 0\n", "a `vn` has fewer than 3 numbers, at line 2"},
+      {"vt\n", "a `vt` has fewer than 1 numbers, at line 1"},
+      {"v 0 0 1,5\n", "`1,5` is no number, at line 1"},
+      {"v 0 0 0x1p3\n", "`0x1p3` is no number, at line 1"},
+      {"v 0 0 +-1\n", "`+-1` is no number, at line 1"},
+      {"v 0 0 --1\n", "`--1` is no number, at line 1"},
+      {"v 0 nan 0\n", "a point that is no place within 1000 km, at line 1"},
+      {"v 0 0 -inf\n", "a point that is no place within 1000 km, at line 1"},
+      {"v 0 0 1e999\n", "a point that is no place within 1000 km, at line 1"},
+      {"v 0 0 1000001\n", "a point that is no place within 1000 km, at line 1"},
+      {"vn 0 0 nan\n", "a normal that is not finite, at line 1"},
+      {"vt 1e39\n", "texture coordinates that are not finite, at line 1"},
+      {kSquare + "f 1 2\n", "a face has fewer than three corners, at line 5"},
+      {kSquare + "f 1 2 # 3\n", "a face has fewer than three corners, at line 5"},
+      {kSquare + "f 1 2 0\n", "`0` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 -5\n", "`-5` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 3.5\n", "`3.5` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 3/\n", ""},
+      {kSquare + "f 1 2 3//\n", "`3//` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 3/1/1/1\n", "`3/1/1/1` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 99999999999999999999\n", "`99999999999999999999` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 4294967295\n", "`4294967295` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 5\nf 1 2 3\n", "a face names point 5, and the file has 4, at line 5"},
+      {kSquare + "f 1 2 3\nf 1//1 2//2 3//3\n", "a face names normal 3, and the file has 0, at line 6"},
+      {kSquare + "vt 0 0\nf 1/1 2/1 3/2\n", "a face names texture coordinates 2, and the file has 1, at line 6"},
+  };
+  for (const auto& [file, message] : cases) {
+    INFO(file);
+    CHECK(objRefusal(file) == message);
+  }
+  CHECK(objRefusal(kSquare + "f 1 2 3 4", {.points = 3}) == "it has more than 3 points");
+  CHECK(objRefusal(kSquare + "f 1 2 3 4", {.triangles = 1}) == "it has more than 1 triangles");
+  CHECK(readMesh(bytesOf(kSquare + "f 1 2 9"), MeshFileKind::obj).error().message ==
+        "a face names point 9, and the file has 4, at line 5; save it again as Wavefront OBJ, with its faces as `f` "
+        "lines");
+}

@@ -1,0 +1,94 @@
+// STL files as tools write them, and files that are wrong.
+
+#include "asset/stl_reader.h"
+
+#include <limits>
+
+#include "catch.h"
+#include "mesh_bytes.h"
+
+using namespace sgm;
+using namespace sgm::asset;
+
+namespace {
+
+/// Two triangles; the header says `count`.
+std::string binaryStl(const std::string& header = "binary", uint32_t count = 2) {
+  std::string out = header;
+  out.resize(80, '\0');
+  putNumber(out, count);
+  for (int t = 0; t < 2; ++t) {
+    for (const float v : {0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.5f}) putNumber(out, v);
+    putNumber(out, uint16_t{0});
+  }
+  return out;
+}
+
+const std::string kStlFacet =
+    "  facet normal nan 0 1\n    outer loop\n      vertex 0 0 0\n      vertex 1 0 0\n      vertex 0 1 5.0e-1\n"
+    "    endloop\n  endfacet\n";
+const std::string kStlText = "solid a ball\n" + kStlFacet + kStlFacet + "endsolid a ball\n";
+
+std::string stlRefusal(const std::string& file, const MeshLimits& limits = {}) {
+  return refusalOf(file, MeshFileKind::stl, limits);
+}
+
+std::string inCapitals(std::string text) {
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("an STL file's triangles have points of their own, binary and as text", "[asset][stl]") {
+  for (const std::string& file :
+       {binaryStl(), binaryStl("solid as text is, and yet binary"), kStlText, "\n " + inCapitals(kStlText),
+        "solid\n" + kStlFacet + "endsolid\nsolid two\n" + kStlFacet + "endsolid two"}) {
+    const TriangleMesh mesh = meshIn(file, MeshFileKind::stl);
+    CHECK(mesh.triangles == std::vector<std::array<uint32_t, 3>>{{0, 1, 2}, {3, 4, 5}});
+    CHECK(mesh.materials == std::vector<uint32_t>{kNoMaterial, kNoMaterial});
+    REQUIRE(mesh.points.size() == 6);
+    CHECK(mesh.points[1] == Point{1, 0, 0});
+    CHECK(mesh.points[5] == Point{0, 1, 0.5});
+    CHECK(mesh.normals.empty());
+  }
+}
+
+TEST_CASE("what is wrong with an STL file is said with its line or its byte", "[asset][stl]") {
+  const std::string size = std::to_string(binaryStl().size());
+  const std::pair<std::string, std::string> cases[] = {
+      {"", "it is no STL file: it ends within its header, at byte 0"},
+      {"facet", "it is no STL file: it ends within its header, at byte 5"},
+      {binaryStl("b", 3), "it says that it has 3 triangles, which take 234 bytes, and has 184 bytes, at byte 80"},
+      {binaryStl("solid", 4294967295u),
+       "it says that it has 4294967295 triangles, which take 214748364834 bytes, and has 184 bytes, at byte 80"},
+      {binaryStl() + "x", "it says that it has 2 triangles, which take 184 bytes, and has 185 bytes, at byte 80"},
+      {binaryStl("b", 0).substr(0, 84), "it has no triangles"},
+      {"solid\nendsolid\n", "it has no triangles"},
+      {"solid\n", "it ends where `facet` is due, at line 2"},
+      {replacedIn(kStlText, "outer", "inner"), "`inner` stands where `outer` is due, at line 3"},
+      {replacedIn(kStlText, "loop", "lop"), "`lop` stands where `loop` is due, at line 3"},
+      {replacedIn(kStlText, "normal", "norm"), "`norm` stands where `normal` is due, at line 2"},
+      {replacedIn(kStlText, "endloop", "vertex 0 0 0"), "`vertex` stands where `endloop` is due, at line 7"},
+      {replacedIn(kStlText, "endfacet", "facet"), "`facet` stands where `endfacet` is due, at line 8"},
+      {replacedIn(kStlText, "  endfacet", ""), "`facet` stands where `endfacet` is due, at line 9"},
+      {replacedIn(kStlText, "vertex 1", "vertex a"), "`a` is no number, at line 5"},
+      {replacedIn(kStlText, "vertex 1", "vertex inf"),
+       "a triangle has a corner that is no place within 1000 km, at line 5"},
+      {kStlText.substr(0, kStlText.find("0 1 5")), "it ends within a triangle, at line 6"},
+      {kStlText + "solids", "`solids` stands where `solid` is due, at line 17"},
+  };
+  for (const auto& [file, message] : cases) {
+    INFO(file);
+    CHECK(stlRefusal(file) == message);
+  }
+  std::string nan = binaryStl();
+  const float not_a_number = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(nan.data() + 134 + 12 + 12 + 4, &not_a_number, 4);
+  CHECK(stlRefusal(nan) == "a triangle has a corner that is no place within 1000 km, at byte 158");
+  for (const std::string& file : {binaryStl(), kStlText}) {
+    CHECK(stlRefusal(file, {.triangles = 1}) == "it has more than 1 triangles");
+    CHECK(stlRefusal(file, {.points = 5}) == "it has more than 1 triangles");
+  }
+}
