@@ -235,6 +235,55 @@ Command addMesh(CLI::App& root) {
   return [options] { return mesh(*options); };
 }
 
+Command addMeasure(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "measure", "Measure a mesh file, or a region of a grammar, and say whether it is the closed surface of a solid");
+  const auto options = std::make_shared<MeasureOptions>();
+  app->add_option("FILE", options->file, "A .glb, .obj, .ply or .stl file, or a .sgm grammar")->required();
+  app->add_flag("--json", options->json, "Print the result as one JSON object on standard output");
+  app->add_option("--weld", options->weld,
+                  "Points at most so far apart are one; 0: those with equal coordinates, which is right for files that "
+                  "a program wrote")
+      ->type_name("LENGTH")
+      ->check(numberIn(0.0, 1e9))
+      ->capture_default_str();
+  app->add_option("--mode", options->mode,
+                  "Histogram of bends along edges: as the paper prints it, as it means it, or by curvature")
+      ->check(CLI::IsMember({"printed", "corrected", "curvature"}))
+      ->capture_default_str();
+  app->add_option("--bins", options->bins, "Of the histogram; an odd number keeps flat edges together")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  app->add_option("--curvature-length", options->curvature_length,
+                  "Of --mode curvature: a ball of this radius is at 3/4 of the range")
+      ->type_name("LENGTH")
+      ->check(numberIn(1e-9, 1e9))
+      ->capture_default_str();
+  app->add_flag("--unique-edges", options->unique_edges, "Count each edge once, not once a triangle");
+  app->add_option("--cubes", options->cubes,
+                  "Count cubes of this edge too, by the three rules for what lies inside (equation 8)")
+      ->type_name("LENGTH")
+      ->check(numberIn(1e-9, 1e9));
+  app->add_flag("--no-self-intersections", options->no_self_intersections,
+                "Do not look for triangles that cut each other: about half of the time");
+  app->add_option("--memory", options->memory, "Megabytes (2^20 bytes) that a mesh file's reading and measuring may take")
+      ->check(CLI::Range(uint64_t{64}, uint64_t{1} << 24))
+      ->capture_default_str();
+  app->add_option("--seconds", options->seconds, "Seconds that it may take")
+      ->check(numberIn(0.1, 1e6))
+      ->capture_default_str();
+  addDerivationOptions(*app, *options);
+  addRegionOptions(*app, *options);
+  addLevelOption(*app, *options);
+  addSharpOption(*app, *options);
+  app->footer(
+      "Lengths are in the file's unit, metres in .glb files and grammars. A mesh file is read and measured in a process\n"
+      "of its own, which --memory and --seconds limit. --seed to --sharp are for grammars.\n"
+      "Exit status 0 also where the mesh is not valid: \"valid\" and \"problems\" in --json say so.\n"
+      "Example:\n  sgm measure cave.glb --json\n  sgm measure samples/grammars/sphere.sgm --cell 0.25");
+  return [options] { return measureMesh(*options); };
+}
+
 Command addRender(CLI::App& root) {
   CLI::App* app = root.add_subcommand("render", "Draw a picture of a region, off-screen");
   const auto options = std::make_shared<RenderOptions>();
@@ -397,7 +446,7 @@ Exit runCommandLine(int argc, char** argv) {
       "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
       "be read or written; the highest of several.");
   std::vector<Command> commands;
-  for (const auto add : {addCheck, addFmt, addExplain, addMesh, addRender, addFly, addLsp, addBench, addBackends})
+  for (const auto add : {addCheck, addFmt, addExplain, addMesh, addMeasure, addRender, addFly, addLsp, addBench, addBackends})
     commands.push_back(add(app));
 
   try {

@@ -42,6 +42,19 @@ struct MeshOptions : WorldOptions {
 };
 Exit mesh(const MeshOptions& options);
 
+struct MeasureOptions : WorldOptions {
+  double weld = 0;  ///< metres
+  uint32_t bins = 33;
+  std::string mode = "corrected";
+  double curvature_length = 1;  ///< metres
+  bool unique_edges = false;
+  std::optional<double> cubes;  ///< metres
+  bool no_self_intersections = false;
+  uint64_t memory = 4096;  ///< MB
+  double seconds = 300;
+};
+Exit measureMesh(const MeasureOptions& options);
+
 struct RenderOptions : WorldOptions {
   std::string out;
   std::string camera;
