@@ -76,7 +76,7 @@ std::string_view meshFileAdvice(MeshFileKind kind) {
 
 Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, MeshFileKind kind, const MeshLimits& limits) {
   Result<TriangleMesh> mesh = readKind(bytes, kind, limits);
-  if (mesh) return mesh;
+  if (mesh || mesh.error().code == Code::invalid_argument) return mesh;
   Error error = mesh.error();
   error.message.append("; ").append(error.code == Code::limit ? "simplify it, or split it into several files"
                                                               : meshFileAdvice(kind));

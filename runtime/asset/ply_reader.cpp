@@ -270,15 +270,10 @@ Result<TriangleMesh> readPly(std::span<const std::byte> bytes, const MeshLimits&
   const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const Result<PlyHeader> header = readPlyHeader(file);
   if (!header) return header.error();
-  switch (header->format) {
-    case PlyFormat::ascii:
-      return PlyBodyReader<PlyTextValues>(file, *header, limits).run();
-    case PlyFormat::binary_little_endian:
-      return PlyBodyReader<PlyBinaryValues<false>>(file, *header, limits).run();
-    case PlyFormat::binary_big_endian:
-      return PlyBodyReader<PlyBinaryValues<true>>(file, *header, limits).run();
-  }
-  return Error{Code::bad_input, "it has a format that there is not", 0, 0};
+  if (header->format == PlyFormat::ascii) return PlyBodyReader<PlyTextValues>(file, *header, limits).run();
+  if (header->format == PlyFormat::binary_big_endian)
+    return PlyBodyReader<PlyBinaryValues<true>>(file, *header, limits).run();
+  return PlyBodyReader<PlyBinaryValues<false>>(file, *header, limits).run();
 }
 
 }  // namespace sgm::asset

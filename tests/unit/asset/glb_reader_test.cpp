@@ -162,6 +162,7 @@ TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]
        "accessor 1 is not of type VEC3, at /accessors/1/type of its JSON"},
       {R"("POSITION":0})", R"("POSITION":0,"TEXCOORD_0":0})",
        "accessor 0 is not of type VEC2, at /accessors/0/type of its JSON"},
+      {R"("indices":1)", R"("indices":0)", "accessor 0 is not of type SCALAR, at /accessors/0/type of its JSON"},
       {R"("count":3,"type":"VEC3")", R"("byteOffset":-4,"count":3,"type":"VEC3")",
        "accessor 0 reaches beyond the end of its buffer view, at /accessors/0 of its JSON"},
       {R"("byteOffset":40,"byteLength":6)", R"("byteOffset":40,"byteLength":6,"byteStride":4)",
@@ -250,6 +251,19 @@ TEST_CASE("normals and texture coordinates come as the nodes turn them", "[asset
   CHECK(mesh->coordinatesAt(1, 0) == TextureCoordinates{0, 0});
   CHECK(mesh->coordinatesAt(1, 2) == TextureCoordinates{1, 1});
   CHECK(mesh->coordinatesAt(0, 2) == TextureCoordinates{});
+  const auto wrongly = [&](const std::string& from, const std::string& to) {
+    std::string changed = file("");
+    const size_t at = changed.find(from);
+    REQUIRE(at != std::string::npos);
+    REQUIRE(from.size() == to.size());
+    return refusal(changed.replace(at, from.size(), to));
+  };
+  CHECK(wrongly(R"("componentType":5123)", R"("componentType":5125)") ==
+        "accessor 2 does not hold floats, or whole numbers that are normalized, at /accessors/2/componentType of its "
+        "JSON");
+  CHECK(wrongly(R"("byteOffset":36,"componentType":5126,"count":3)",
+                R"("byteOffset":36,"componentType":5126,"count":2)") ==
+        "accessor 1 does not hold as many elements as there are positions, at /accessors/1/count of its JSON");
   // Flattened to nothing, it has no normals.
   CHECK(read(file(R"(,"scale":[0,0,0])"))->normals.values[4] == Normal{});
   binary[36] = binary[37] = binary[38] = binary[39] = '\xFF';

@@ -172,6 +172,7 @@ TEST_CASE("what is refused says what to do", "[asset][mesh_file]") {
         "`vertex` and `face`");
   CHECK(message(MeshFileKind::stl) ==
         "it is no STL file: it ends within its header, at byte 1; save it again as binary STL");
+  CHECK(message(static_cast<MeshFileKind>(9)) == "no such kind of mesh file");
   CHECK(readMesh(bytesOf("v 0 0 0\n"), MeshFileKind::obj, {.points = 0}).error().message ==
         "it has more than 0 points; simplify it, or split it into several files");
 }
