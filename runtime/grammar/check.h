@@ -134,6 +134,7 @@ class Checker {
   void markLayerLevel(StmtId id);
   void idleCuts(StmtId id, bool first);
   void declareLocal(NameId name, const Span& span, Local local);
+  void idleCutsIn(StmtId block);
   bool sumLeaf(StmtId id);
 
   // check_below.cpp
@@ -159,6 +160,7 @@ class Checker {
   void overrides();
   void overridePath(Override& edit);
   bool overrideCell(Override& edit, const WrittenPath& written);
+  std::string tagMeant(std::string_view path) const;
   uint32_t ruleOfStep(uint32_t module, const WrittenStep& step);
   void headsAgree(const Override& edit, uint32_t rule, uint32_t parameter);
   void overrideBlock(uint32_t index);
@@ -166,6 +168,7 @@ class Checker {
   void orderPaths();
   void hiddenOverrides();
   void usesThatNeverCome();  // check_uses.cpp
+  void tagRooms();
   void holdOverrides();
   void markOverrides(IdRange overrides, bool cuts);
   void markOverride(uint32_t index, bool cuts);
@@ -256,6 +259,7 @@ class Checker {
   uint32_t override_ = kNoId;  ///< whose block is being checked, instead of a rule's
   uint32_t ordinal_ = 0, draws_ = 0;
   int expression_depth_ = 0;
+  std::set<uint32_t> room_overrides_;                           ///< those that may stand in a treemap's room
   bool layers_known_ = false;  ///< otherwise what is said of layers would only follow from another error
 };
 

@@ -180,6 +180,12 @@ void Checker::idleCuts(StmtId id, bool first) {
     case StmtKind::block: {
       bool nothing = true;
       for (uint32_t i = 0; i < s.children.count; ++i) {
+/// Of a block that something stands before: what it adds to.
+void Checker::idleCutsIn(StmtId block) {
+  const IdRange children = program_.stmt(block).children;
+  for (uint32_t i = 0; i < children.count; ++i) idleCuts(program_.idAt(children, i), false);
+}
+
         const StmtId child = program_.idAt(s.children, i);
         idleCuts(child, nothing);
         const StmtKind kind = program_.stmt(program_.innermost(child)).kind;
@@ -191,9 +197,7 @@ void Checker::idleCuts(StmtId id, bool first) {
     }
     case StmtKind::extrude:
       // The piece itself stands before them.
-      if (s.body == kNoId) return;
-      for (uint32_t i = 0; i < program_.stmt(s.body).children.count; ++i)
-        idleCuts(program_.idAt(program_.stmt(s.body).children, i), false);
+      if (s.body != kNoId) idleCutsIn(s.body);
       return;
     case StmtKind::treemap:
       // Rooms and corridors stand before what their blocks say.
@@ -204,8 +208,7 @@ void Checker::idleCuts(StmtId id, bool first) {
           idleCuts(child, !open);
           continue;
         }
-        for (uint32_t c = 0; c < program_.stmt(child).children.count; ++c)
-          idleCuts(program_.idAt(program_.stmt(child).children, c), false);
+        idleCutsIn(child);
       }
       return;
     case StmtKind::morph:

@@ -79,7 +79,10 @@ void Checker::checkRules() {
   if (sink_.errorCount() > 0) return;  // what is not understood has nothing before it
   for (const Rule& rule : program_.rules)
     for (const Alternative& a : rule.alternatives) idleCuts(a.body, false);
-  for (const Override& edit : program_.overrides) idleCuts(edit.body, false);
+  for (uint32_t o = 0; o < program_.overrides.size(); ++o) {
+    const StmtId body = program_.overrides[o].body;
+    room_overrides_.contains(o) ? idleCutsIn(body) : idleCuts(body, false);
+  }
 }
 
 void Checker::checkWaiting() {

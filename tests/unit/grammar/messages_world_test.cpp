@@ -225,6 +225,13 @@ const MessageCase kOverrides[] = {
      "override \"A/x.Cave\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
     {"2:14 unknown-name: nothing here has the tag \"stone\" | write `tag` and this text in the block that it replaces",
      "override tag \"stone\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:14 unknown-name: nothing here has the tag \"kitchn\" | did you mean `kitchen`?",
+     "override tag \"kitchn\" { }\nrule A { size(3m, 3m, 3m) treemap { kitchen 3: { } } }"},
+    {"2:10 syntax: \"tag:t\" is no path of rules | write `override tag \"t\"` for the blocks with that tag",
+     "override \"tag:t\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:10 syntax: \"t\" is no path of rules | write `override tag \"t\"` for the blocks with that tag",
+     "override \"t\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"", "override tag \"hall\" { cut sphere(1m); }\nrule A { size(3m, 3m, 3m) treemap { hall 3: sphere(1m); } }"},
     {"2:36 duplicate: this has an override already, which this one leaves out | derive it with `inner;`, or remove one "
      "of them | note: first at test.sgm:2:10",
      "override \"A/B\" { inner; } override \"A/B\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
