@@ -355,6 +355,8 @@ const Case kCases[] = {
      "sgm 1; domain infinite axes xz; layer a cell 8m reach 4m { start A; }\noverride \"a(0, 1, 0)/A\" { }\nrule A { "
      "}"},
     {"2:6 guards", "sgm 1; start A;\nrule A else { }"},
+    {"2:43 flat-scope", "sgm 1; start A;\nrule A { size(2m, 2m, 2m) comp { front: { box(scope); } side: box(1m); } }"},
+    {"2:48 near-name", "sgm 1; start A;\nrule A { { box(1m); mat brick; } { sphere(1m); mat bric; } }"},
 };
 
 }  // namespace
