@@ -91,7 +91,7 @@ const Case kCases[] = {
     // Names and arguments
     {"2:10 unknown-name", "sgm 1; start A;\nrule A { shpere(2m); }"},
     {"2:17 unknown-name", "sgm 1; start A;\nrule A { sphere(radius); }"},
-    {"1:14 unknown-name; 1:22 unused-rule", "sgm 1; start B; rule A { }"},
+    {"1:14 unknown-name", "sgm 1; start B; rule A { }"},
     {"2:19 unknown-name", "sgm 1; import \"std/rock.sgm\" as rock; start A;\nrule A { displace rock.fmb(1m, 1m) { } }"},
     {"2:8 unknown-name", "sgm 1; start A; rule A { }\nexpect watertihgt;"},
     {"2:17 unknown-member", "sgm 1; start A;\nrule A { sphere(cell.q); }"},
