@@ -77,6 +77,13 @@ rm ./*.png fog.sgm
 only ball.sgm
 
 expect 1 "$SGM" render ball.sgm --out wrong.png --at nothing_of_that_name
+err_has "no anchor of the name, kind or tag 'nothing_of_that_name'; it has no anchor at all"
+printf 'sgm 1; start A; rule A { sphere(2m); anchor spawn "camp"; }\n' >named.sgm
+expect 1 "$SGM" render named.sgm --out wrong.png --at spwan
+err_has "no anchor of the name, kind or tag 'spwan'; did you mean 'spawn'\\?"
+expect 1 "$SGM" render named.sgm --out wrong.png --at treasure
+err_has "no anchor of the name, kind or tag 'treasure'; it has camp, spawn"
+rm named.sgm
 one_line
 expect 1 "$SGM" render ball.sgm --out wrong.png --cell 0
 expect 2 "$SGM" render ball.sgm
