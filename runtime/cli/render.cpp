@@ -74,7 +74,8 @@ std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) 
   std::vector<Int3> origins;
   for (const Anchor& anchor : region.anchors)
     if (isWanted(*region.program, anchor, wanted)) origins.push_back(anchor.frame.origin);
-  std::ranges::stable_partition(origins, [&](Int3 at) { return !isByBorder(region.meshed.extent, at); });
+  const auto by_border = [&](Int3 at) { return isByBorder(region.meshed.extent, at); };
+  if (!std::ranges::all_of(origins, by_border)) std::erase_if(origins, by_border);
   std::vector<glm::vec3> places;
   for (const Int3 at : origins)
     places.push_back(fromOrigin(region.meshed.mesh, {metres(at.x), metres(at.y), metres(at.z)}));
