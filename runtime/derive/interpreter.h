@@ -139,6 +139,7 @@ struct UnderEdit {
   size_t at = 0;                        ///< whose block it is, into `edits`
   const Env* env = nullptr;             ///< what that stands in
   PathKey own_key;                      ///< of the block
+  bool room = false;                    ///< the block is that of a room, which it adds to and cuts from
 };
 
 /// What a statement or an expression is evaluated in.
@@ -226,6 +227,8 @@ class Interpreter {
   // Statements. They append to `out` what they add to the block they stand in.
   void statement(StmtId id, const Env& env, ShapeList& out);
   void block(const StmtNode& s, const Env& env, ShapeList& out);
+  /// The statements of a block as if they stood in that of `out`.
+  void contents(const StmtNode& s, const Env& env, ShapeList& out);
   void label(const StmtNode& block, Env& env) const;
   void call(ExprId id, uint32_t ordinal, const Env& env, ShapeList& out);
   void cut(const StmtNode& s, const Env& env, ShapeList& out);
@@ -291,7 +294,7 @@ class Interpreter {
   void use(const UnderEdit& what, size_t below, Env& env, ShapeList& out);
   void overridden(const UnderEdit& what, size_t at, const Env& env, ShapeList& out);
   void inner(const StmtNode& s, const Env& env, ShapeList& out);
-  void tagged(const StmtNode& s, uint16_t tag, const Env& env, ShapeList& out);
+  void tagged(const StmtNode& s, uint16_t tag, const Env& env, ShapeList& out, bool room = false);
   void untagged(const StmtNode& s, const Env& env, ShapeList& out);
   void noteMissed();
 

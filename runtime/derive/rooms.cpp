@@ -68,10 +68,12 @@ void Interpreter::roomAt(const StmtNode& s, uint32_t index, std::span<const Plan
   if (said) {
     inner.place = env.place.moved(middleOf(clear[0], 0));
     inner.scope = edgesOf(clear[0], env.scope.y);
-    if (body->kind == StmtKind::block && program_.overridesOf(body->tag).count == 0)
-      for (uint32_t c = 0; c < body->children.count; ++c) statement(program_.idAt(body->children, c), inner, own);
-    else
+    if (body->kind != StmtKind::block)
       statement(program_.idAt(s.children, index), inner, own);
+    else if (program_.overridesOf(body->tag).count > 0)
+      tagged(*body, body->tag, inner, own, true);
+    else
+      contents(*body, inner, own);
   }
   out.insert(out.end(), own.begin(), own.end());
 }

@@ -20,6 +20,9 @@ const NoteCase kNotes[] = {
     {"a size of this shape is not positive, or larger than the world; the shape is left out: bound it, such as max(r, "
      "0.1m)",
      "", "sphere(rand(-2m, -1m));", ""},
+    {"this box has an edge of 0, as the scope of a face has; it is left out: give it a depth, such as size(z 0.2m) "
+     "box(scope)",
+     "box", "size(2m, 2m, 0m) box(scope);", ""},
     {"a cone needs a radius above 0 at one end; this one is left out", "", "truncone(2m, 0m, 0m);", ""},
     {"a prism needs three corners that lie apart; this one is left out", "",
      "prism(2m, (0m, 0m), (1m, 0m), (1m, 0m), (0m, 0m));", ""},
