@@ -334,6 +334,8 @@ class Interpreter {
   /// Derives the layer's start; gives what it adds.
   ShapeList start();
   void collectGroups(const ShapeList& list, bool cut, GrammarChunk& out);
+  /// Of a shape that is left out, since its box is beyond what the cell may own.
+  void noteBeyond(uint32_t shape, const IntBox& box);
   /// False where a shape has no bound.
   bool collectAlone(const ShapeBounds& bounds, const ShapeList& list, bool cut, std::vector<Group>& out) const;
 
