@@ -249,6 +249,8 @@ class Interpreter {
   void part(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope, const Env& env,
             ShapeList& out);
   void treemap(const StmtNode& s, const Env& env, ShapeList& out);
+  FloorPlan floorPlan(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
+                      const Span& span, const Env& env);
   double floorMeasure(ExprId id, double fallback, const ValueRange& range, const Env& env);
   void planBox(const PlanRect& r, double y, double height, const StmtNode& s, const Env& env, ShapeList& out);
   /// index: of the part that says what stands there, or kNone.
@@ -364,6 +366,8 @@ class Interpreter {
   std::vector<PlanPiece> plans_;   ///< of all footprints
   /// Assets in the sizes that they have been fitted into so far, by asset, size and zones.
   std::map<std::vector<uint64_t>, std::shared_ptr<const FittedAsset>> fitted_;
+  /// Some of those laid out so far, by all that they depend on.
+  std::map<std::vector<uint64_t>, FloorPlan> floor_plans_;
   int32_t coarse_edge_ = 0;  ///< derive for levels with cells of this edge or a larger one alone; 0: for all
   uint32_t watched_rule_ = kNone;
   std::vector<WatchedCall> watched_;
