@@ -50,6 +50,7 @@ class ReachCheck {
 
   // Layers.
   void layerReach(uint32_t index);
+  Extent startExtent(uint32_t index);
   void seen(const Layer& layer, const RangeEvaluator::Sight& sight);
   /// What extends farthest, and where it is written.
   struct Culprit {
@@ -116,7 +117,11 @@ class ReachCheck {
 
   Program& program_;
   DiagnosticSink& sink_;
+  const uint32_t most_steps_;
   uint32_t steps_;  ///< left, of all layers together
+  /// Ranges of sizes are taken in pieces in the outermost splits alone: pieces of pieces of pieces take all steps.
+  bool few_pieces_ = false;
+  int splits_ = 0;  ///< that this stands in
   RangeEvaluator values_;
   IntervalVector cell_{};
   bool whole_ = false;                             ///< the start has no cells
