@@ -111,7 +111,7 @@ class ReachCheck {
   Extent fit(const StmtNode& s, RangeFrame& frame);
   IntervalVector pointOf(const XformNode& x, const RangeFrame& frame);
   void sized(const XformNode& x, RangeFrame& frame);
-  void sizedAgain(IdRange xforms, RangeFrame& frame);
+  void sizedAgain(IdRange xforms, double times, RangeFrame& frame);
   IntervalVector stepLengths(IdRange xforms, const RangeFrame& frame);
   IntervalVector areaOf(const ScatterNode& scatter, const RangeFrame& frame);
 

@@ -151,6 +151,15 @@ TEST_CASE("counts are rounded as derivation rounds them", "[grammar][reach]") {
              "rule B { box((min(scope.x, 32m), 32m, 32m)); }");
 }
 
+TEST_CASE("copies have sizes of which each follows from the one before", "[grammar][reach]") {
+  checkBound("repeat 3 size(2*scope) box(scope);", {-16, -16, -16}, {16, 16, 16});
+  checkBound("repeat 3 size(0.5*scope) box(scope);", {-4, -4, -4}, {4, 4, 4});
+  checkBound("repeat 900 size(0.9*scope) box(scope);", {-4, -4, -4}, {4, 4, 4});
+  checkBound("repeat 3 size(scope.x + 2m, 1m, 2*scope.z) box(scope);", {-6, -4, -16}, {6, 4, 16});
+  checkBound("repeat 900 size(2m, 1m, 3m) box(scope);", {-4, -4, -4}, {4, 4, 4});
+  CHECK_FALSE(boundOf("repeat 900 size(2*scope) box(scope);").compiled);
+}
+
 TEST_CASE("splits in splits are followed as deep as blocks may stand", "[grammar][reach]") {
   for (const int deep : {4, 8, 12, 16}) {
     CAPTURE(deep);
