@@ -261,7 +261,8 @@ class Interpreter {
   /// False, with a note, where there is nothing to fill, or nothing to fill it with.
   bool waveLattice(const StmtNode& s, const Env& env, WaveLattice& lattice);
   bool waveTiles(const StmtNode& s, const Env& env, StandingTiles& tiles);
-  void noteNoTiles(const StmtNode& s, const WaveLattice& lattice, const WaveResult& result, const Env& env);
+  void noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLattice& lattice,
+                   const WaveResult& result, const Env& env);
   void footprint(const StmtNode& s, const Env& env);
   std::optional<PlanPiece> planPiece(const FootprintNode& node, const Env& env);
   void extrude(const StmtNode& s, const Env& env, ShapeList& out);

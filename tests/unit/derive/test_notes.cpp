@@ -104,6 +104,13 @@ const NoteCase kNotes[] = {
      "size(9m, 3m, 3m) wfc 3m { border left a, right a; a 1, left a, right b: box(scope); b 1, left b, right a: "
      "box(scope); }",
      ""},
+    // Of sides that every tile fits to it says nothing.
+    {"these tiles cannot fill the (3, 1, 1) places of this scope, and it is left empty: place (2, 0, 0) would "
+     "need a tile with `a` on its right and `a` on its left; add one, or join labels of a side with `or`",
+     "wfc",
+     "size(9m, 3m, 3m) wfc 3m { border left a, right a, front c, back c; a 1, left a, right b, front c, back c: "
+     "box(scope); b 1, left b, right a, front c, back c: box(scope); }",
+     ""},
     {"no way was found to fill the (9, 1, 9) places of this scope, and it is left empty: place (6, 0, 1) would need a "
      "tile with `edge` on its front and `edge` on its right and `pair` on its back and `pair` on its left; add one, or "
      "join labels of a side with `or`",
