@@ -28,7 +28,7 @@ namespace {
 constexpr double kFullWeight = 1 << 20;
 /// For each place, and for so many more: how often it may be looked at.
 constexpr uint64_t kMostVisits = 128;
-/// The share of a cell's steps that one search may look at places, and how many looks are a step.
+/// The share of a cell's steps that one search may look at places, and how many looks among few tiles are a step.
 constexpr uint64_t kSearchShare = 8, kVisitsOfStep = 16;
 
 /// The part of an edge that a place has, reaching over into its neighbours like the parts of a split.
@@ -185,9 +185,9 @@ void Interpreter::wave(const StmtNode& s, const Env& env, ShapeList& out) {
   const uint64_t places = uint64_t{lattice.size[0]} * lattice.size[1] * lattice.size[2];
   const uint64_t most = std::min(kMostVisits * (places + kMostVisits), limits_.steps / kSearchShare);
   const PathKey key = env.key.child(kWaveSalt + s.ordinal, 0);
-  const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most);
+  const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, limits_.bytes);
   // Looks are cheap steps: rather no tiles in a hundred scopes than no cell at all.
-  if (!step(result.visits / kVisitsOfStep, s.span, env.activation)) return;
+  if (!step(result.work / kVisitsOfStep, s.span, env.activation)) return;
   if (result.end != WaveEnd::solved) return noteNoTiles(s, standing, lattice, result, env);
   uint64_t number = 0;
   for (uint32_t z = 0; z < lattice.size[2]; ++z) {
