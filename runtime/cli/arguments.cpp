@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "grammar/sink.h"
 #include "mesh/export.h"
 #include "sgm/sgm.h"
 #include "stream/mesh_chunks.h"
@@ -435,6 +436,29 @@ Command addBackends(CLI::App& root) {
   return [json] { return listBackends(*json); };
 }
 
+/// Of a word that stands where a command should: what is wrong with it; else the parser's own message.
+std::string complaintOf(const CLI::App& root, const CLI::ParseError& error, int argc, char** argv) {
+  std::vector<const CLI::App*> commands = root.get_subcommands(nullptr);
+  for (int i = 1; i < argc && !commands.empty() && argv[i][0] != '-'; ++i) {
+    const std::string word = argv[i];
+    const auto known = std::ranges::find(commands, word, [](const CLI::App* command) { return command->get_name(); });
+    if (known != commands.end()) {
+      commands = (*known)->get_subcommands(nullptr);
+      continue;
+    }
+    Suggestion suggestion(word);
+    std::string all;
+    for (const CLI::App* command : commands) {
+      suggestion.offer(command->get_name());
+      all += (all.empty() ? "" : ", ") + command->get_name();
+    }
+    const std::string_view best = suggestion.best();
+    return fmt::format("there is no command '{}': {}", word,
+                       best.empty() ? "write one of " + all : fmt::format("did you mean '{}'?", best));
+  }
+  return error.what();
+}
+
 }  // namespace
 
 Exit runCommandLine(int argc, char** argv) {
@@ -453,7 +477,7 @@ Exit runCommandLine(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(e), Exit::done;
-    fmt::print(stderr, "sgm: usage: {}\nRun sgm --help, or sgm COMMAND --help.\n", e.what());
+    fmt::print(stderr, "sgm: usage: {}\nRun sgm --help, or sgm COMMAND --help.\n", complaintOf(app, e, argc, argv));
     return Exit::usage;
   }
   const std::vector<CLI::App*> all = app.get_subcommands([](CLI::App*) { return true; });

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <nlohmann/json.hpp>
+
+#include "api/import.h"
 
 namespace sgm::cli {
 namespace {
@@ -69,13 +68,11 @@ Result<PathPoints> readPathPoints(std::string_view text) {
 }
 
 Result<FlightPath> FlightPath::ofFile(const std::string& file) {
-  std::error_code none;
-  if (std::filesystem::is_directory(file, none)) return Error{Code::io, "cannot read " + file + ": it is a folder"};
-  std::ifstream in(file, std::ios::binary);
-  std::string text;
-  if (in) text.assign(std::istreambuf_iterator<char>(in), {});
-  if (!in || in.bad()) return Error{Code::io, "cannot read " + file};
-  if (text.size() > kMostPathBytes) return Error{Code::limit, file + ": a path is a file of 64 MiB at most"};
+  const Result<std::string> read = api::readTextFile(file, kMostPathBytes);
+  if (!read && read.error().code == Code::limit)
+    return Error{Code::limit, file + ": a path is a file of 64 MiB at most"};
+  if (!read) return read.error();
+  const std::string& text = *read;
   const Result<PathPoints> path = readPathPoints(text);
   if (path) return through(*path);
   Error error = path.error();

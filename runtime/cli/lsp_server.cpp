@@ -104,6 +104,13 @@ std::string hoverText(const DeclaredName& name) {
   return text;
 }
 
+/// Without the library's own name and number of the error.
+std::string reasonOf(const Json::exception& error) {
+  const std::string_view text = error.what();
+  const size_t end = text.starts_with('[') ? text.find("] ") : std::string_view::npos;
+  return std::string(end == std::string_view::npos ? text : text.substr(end + 2));
+}
+
 }  // namespace
 
 Json LanguageServer::errorAnswer(const Json& id, const Refusal& refusal) {
@@ -139,7 +146,7 @@ std::vector<Json> LanguageServer::handle(const Json& message) {
     else
       out.push_back({{"jsonrpc", "2.0"}, {"id", id}, {"result", std::get<Json>(answered)}});
   } catch (const Json::exception& e) {
-    if (request) out.push_back(errorAnswer(id, {kInvalidParams, std::string("params: ") + e.what()}));
+    if (request) out.push_back(errorAnswer(id, {kInvalidParams, "params: " + reasonOf(e)}));
   }
   return out;
 }

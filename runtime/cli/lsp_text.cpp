@@ -12,6 +12,8 @@ uint32_t bytesOf(std::string_view rest) {
   return std::min(bytes, static_cast<uint32_t>(rest.size()));
 }
 
+constexpr uint32_t kBetweenMarks = 256;  // bytes
+
 int hexDigit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -27,18 +29,31 @@ DocumentText::DocumentText(std::string text) : text_(std::move(text)), lines_{0}
     const bool pair = text_[i] == '\r' && i + 1 < text_.size() && text_[i + 1] == '\n';
     if (text_[i] == '\n' || (text_[i] == '\r' && !pair)) lines_.push_back(i + 1);
   }
+  for (size_t line = 0; line < lines_.size(); ++line) {
+    const size_t end = line + 1 < lines_.size() ? lines_[line + 1] : text_.size();
+    Mark here{lines_[line], 0};
+    marks_.push_back(here);
+    while (here.at < end) {
+      step(here.at, here.character);
+      if (here.at >= marks_.back().at + kBetweenMarks && here.at < end) marks_.push_back(here);
+    }
+  }
+}
+
+void DocumentText::step(uint32_t& at, uint32_t& character) const {
+  const uint32_t bytes = bytesOf(std::string_view(text_).substr(at));
+  character += bytes == 4 ? 2 : 1;
+  at += bytes;
 }
 
 TextPosition DocumentText::position(uint32_t offset) const {
   offset = std::min(offset, static_cast<uint32_t>(text_.size()));
   const auto line = static_cast<uint32_t>(std::upper_bound(lines_.begin(), lines_.end(), offset) - lines_.begin() - 1);
-  TextPosition position{line, 0};
-  for (uint32_t at = lines_[line]; at < offset;) {
-    const uint32_t bytes = bytesOf(std::string_view(text_).substr(at));
-    position.character += bytes == 4 ? 2 : 1;
-    at += bytes;
-  }
-  return position;
+  const auto behind = std::upper_bound(marks_.begin(), marks_.end(), offset,
+                                       [](uint32_t place, const Mark& mark) { return place < mark.at; });
+  Mark here = *(behind - 1);
+  while (here.at < offset) step(here.at, here.character);
+  return {line, here.character};
 }
 
 uint32_t DocumentText::endOf(const std::vector<uint32_t>& lines, uint32_t line) const {
@@ -49,14 +64,10 @@ uint32_t DocumentText::endOf(const std::vector<uint32_t>& lines, uint32_t line) 
 
 uint32_t DocumentText::offset(TextPosition position) const {
   if (position.line >= lines_.size()) return static_cast<uint32_t>(text_.size());
-  uint32_t at = lines_[position.line];
   const uint32_t end = endOf(lines_, position.line);
-  for (uint32_t character = 0; at < end && character < position.character;) {
-    const uint32_t bytes = bytesOf(std::string_view(text_).substr(at));
-    character += bytes == 4 ? 2 : 1;
-    at += bytes;
-  }
-  return std::min(at, end);
+  Mark here{lines_[position.line], 0};
+  while (here.at < end && here.character < position.character) step(here.at, here.character);
+  return std::min(here.at, end);
 }
 
 uint32_t DocumentText::offsetOf(int line, int column) const {

@@ -27,8 +27,17 @@ class DocumentText {
 
  private:
   uint32_t endOf(const std::vector<uint32_t>& lines, uint32_t line) const;
+  /// One character on.
+  void step(uint32_t& at, uint32_t& character) const;
+
+  /// A place in the text and its character in the line; one at the start of each line, and more in long ones, so that
+  /// no question costs a walk along all of a line.
+  struct Mark {
+    uint32_t at, character;
+  };
 
   std::string text_;
+  std::vector<Mark> marks_;      ///< by place
   std::vector<uint32_t> lines_;  ///< as editors count them: a \r alone ends one, too
   std::vector<uint32_t> rows_;   ///< as the compiler counts them
 };

@@ -118,6 +118,7 @@ Exit mesh(const MeshOptions& options) {
     for (const std::filesystem::path& path : file->paths()) summary.files.push_back(path.string());
     summary.bytes = file->bytes();
   }
+  if (!region.empty_because.empty()) fmt::print(stderr, "sgm: warning: no triangles: {}\n", region.empty_because);
   if (options.json) {
     printJson(options, region, summary);
   } else {

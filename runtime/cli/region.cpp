@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "api/backend_request.h"
+#include "cli/region_notes.h"
 #include "cli/source.h"
 #include "mesh/split_creases.h"
 #include "metrics/places.h"
@@ -197,7 +198,14 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
                 capabilities.device,
                 seconds,
                 std::move(texture),
-                std::move(unsplit)};
+                std::move(unsplit),
+                {}};
+  warnOfThinWalls(options.file, program, result.cell);
+  if (result.meshed.mesh.indices.empty()) {
+    Result<std::string> why = whyEmpty(world, result);
+    if (!why) return failure(complain(why.error()));
+    result.empty_because = std::move(*why);
+  }
   if (plan.after) {
     if (const Result<void> done = plan.after(world, *jobs, result); !done) return failure(complain(done.error()));
   }

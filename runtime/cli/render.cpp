@@ -1,15 +1,18 @@
 // sgm render: a picture of a region of a grammar's world.
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/materials.h"
 #include "cli/region_density.h"
 #include "cli/surroundings.h"
+#include "grammar/sink.h"
 #include "mesh/vertex.h"
 #include "render/camera.h"
 #include "render/renderer.h"
@@ -58,16 +61,40 @@ glm::vec3 fromOrigin(const WorldMesh& mesh, const std::array<double, 3>& world) 
   return point;
 }
 
-std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) {
-  std::vector<glm::vec3> places;
-  for (const Anchor& anchor : region.anchors) {
-    if (!isWanted(*region.program, anchor, wanted)) continue;
-    std::array<double, 3> world{};
-    for (int axis = 0; axis < 3; ++axis)
-      world[static_cast<size_t>(axis)] = static_cast<double>(anchor.frame.origin[axis]) / kUnitsPerMetre;
-    places.push_back(fromOrigin(region.meshed.mesh, world));
+/// Whether a place stands where the region's border hides what is around it.
+bool isByBorder(const IntBox& extent, Int3 place) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t margin = (int64_t{extent.hi[axis]} - extent.lo[axis]) / 8;
+    if (place[axis] < extent.lo[axis] + margin || place[axis] > extent.hi[axis] - margin) return true;
   }
+  return false;
+}
+
+std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) {
+  std::vector<Int3> origins;
+  for (const Anchor& anchor : region.anchors)
+    if (isWanted(*region.program, anchor, wanted)) origins.push_back(anchor.frame.origin);
+  const auto by_border = [&](Int3 at) { return isByBorder(region.meshed.extent, at); };
+  if (!std::ranges::all_of(origins, by_border)) std::erase_if(origins, by_border);
+  std::vector<glm::vec3> places;
+  for (const Int3 at : origins)
+    places.push_back(fromOrigin(region.meshed.mesh, {metres(at.x), metres(at.y), metres(at.z)}));
   return places;
+}
+
+/// What to say where the region has no such anchor.
+std::string noAnchor(const Region& region, const std::string& wanted) {
+  const Program& program = *region.program;
+  Suggestion suggestion(wanted);
+  std::set<std::string> known;
+  for (const Anchor& anchor : region.anchors)
+    for (const auto& name : {program.names[anchor.name], program.names[anchor.kind], program.tags[anchor.tag]})
+      if (!name.empty()) known.emplace(name);
+  for (const std::string& name : known) suggestion.offer(name);
+  const std::string hint = known.empty()               ? "it has no anchor at all"
+                           : suggestion.best().empty() ? fmt::format("it has {}", fmt::join(known, ", "))
+                                                       : fmt::format("did you mean '{}'?", suggestion.best());
+  return fmt::format("--at: the region has no anchor of the name, kind or tag '{}'; {}", wanted, hint);
 }
 
 /// The view that the options ask for, or the one that finds itself.
@@ -86,9 +113,6 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, const Dr
     return viewFrom(drawn.vertices, drawn.indices, camera);
   }
   const std::vector<glm::vec3> anchors = anchorsAt(region, options.at);
-  if (!options.at.empty() && anchors.empty())
-    return Error{Code::invalid_argument,
-                 fmt::format("--at: the region has no anchor of the name, kind or tag '{}'", options.at)};
   CameraWish wish;
   wish.width = size.width;
   wish.height = size.height;
@@ -170,8 +194,10 @@ Exit render(const RenderOptions& options) {
   const RegionResult made = meshRegion(options, plan);
   if (!made.region) return made.status;
   const Region& region = *made.region;
+  if (!options.at.empty() && anchorsAt(region, options.at).empty())
+    return complain(Exit::input, noAnchor(region, options.at));
   if (region.meshed.mesh.indices.empty())
-    return complain(Exit::input, "there is no surface in the region to draw: say with --region where there is one");
+    return complain(Exit::input, "there is no surface to draw: " + region.empty_because);
 
   const Stopwatch watch;
   const Drawable drawn = drawable(region, options.uv);

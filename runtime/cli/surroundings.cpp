@@ -54,26 +54,6 @@ Result<std::optional<Int3>> nearestAnchor(const WorldField& world, std::string_v
   return std::optional<Int3>();
 }
 
-/// The boxes of what differs from the domain's own state: of shapes in air, of what is cut in rock.
-Result<std::vector<IntBox>> shapesIn(const WorldField& world, const IntBox& box) {
-  const Program& program = *world.settings().program;
-  std::vector<IntBox> found;
-  for (uint32_t layer = 0; layer < program.layers.size(); ++layer) {
-    uint64_t cells = 0;
-    const Result<void> visited = world.cellsAround(layer, box, [&](Int3 at) -> Result<void> {
-      if (++cells > kMostCells) return {};
-      const Result<std::shared_ptr<const DerivedCell>> cell = world.cell(layer, at);
-      if (!cell) return cell.error();
-      for (const Group& group : (*cell)->chunk.groups) {
-        if (group.cut == program.domain.solid && group.bounds.meets(box)) found.push_back(group.bounds);
-      }
-      return {};
-    });
-    if (!visited) return visited.error();
-  }
-  return found;
-}
-
 bool isLarge(const IntBox& box) {
   bool large = false;
   for (int axis = 0; axis < 3; ++axis) large |= int64_t{box.hi[axis]} - box.lo[axis] > kMostAcross;
@@ -99,6 +79,25 @@ IntBox nearestShapes(const std::vector<IntBox>& shapes) {
 }
 
 }  // namespace
+
+Result<std::vector<IntBox>> shapesIn(const WorldField& world, const IntBox& box) {
+  const Program& program = *world.settings().program;
+  std::vector<IntBox> found;
+  for (uint32_t layer = 0; layer < program.layers.size(); ++layer) {
+    uint64_t cells = 0;
+    const Result<void> visited = world.cellsAround(layer, box, [&](Int3 at) -> Result<void> {
+      if (++cells > kMostCells) return {};
+      const Result<std::shared_ptr<const DerivedCell>> cell = world.cell(layer, at);
+      if (!cell) return cell.error();
+      for (const Group& group : (*cell)->chunk.groups) {
+        if (group.cut == program.domain.solid && group.bounds.meets(box)) found.push_back(group.bounds);
+      }
+      return {};
+    });
+    if (!visited) return visited.error();
+  }
+  return found;
+}
 
 bool isWanted(const Program& program, const Anchor& anchor, std::string_view wanted) {
   const std::string_view name = program.names[anchor.name], kind = program.names[anchor.kind];

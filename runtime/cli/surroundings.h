@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string_view>
+#include <vector>
 
 #include "stream/world_field.h"
 
@@ -10,6 +11,9 @@ namespace sgm::cli {
 
 /// Whether an anchor's name, kind or tag is the one asked for; none asked for is any.
 bool isWanted(const Program& program, const Anchor& anchor, std::string_view wanted);
+
+/// The boxes, in the region, of what differs from the domain's own state: of shapes in air, of what is cut in rock.
+Result<std::vector<IntBox>> shapesIn(const WorldField& world, const IntBox& region);
 
 /// 48 m to each side of a place in metres.
 IntBox surroundingsOf(const std::array<double, 3>& place);

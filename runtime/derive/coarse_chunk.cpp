@@ -1,6 +1,8 @@
 #include "derive/coarse_chunk.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "derive/draft.h"
 #include "grammar/builtins.h"
@@ -11,17 +13,16 @@ namespace {
 /// Decides shape by shape, children before those that they are part of, and takes hidden children out.
 class CoarseShapes {
  public:
-  CoarseShapes(GrammarChunk& chunk, int32_t cell_edge)
+  CoarseShapes(GrammarChunk& chunk, int32_t cell_edge, const std::vector<bool>& left_out)
       : chunk_(chunk), cell_edge_(cell_edge), shows_(chunk.shapes.size(), false) {
-    for (uint32_t i = 0; i < chunk.shapes.size(); ++i) shows_[i] = decide(chunk_.shapes[i]);
+    for (uint32_t i = 0; i < chunk.shapes.size(); ++i) shows_[i] = !left_out[i] && decide(chunk_.shapes[i]);
   }
 
-  bool shows(uint32_t shape) const { return shows_[shape]; }
+  std::vector<bool> shows() && { return std::move(shows_); }
 
  private:
   bool decide(Shape& s) {
-    if (s.detail != 0 && cell_edge_ > s.detail) return false;
-    if (s.kind == ShapeKind::voxels) return cell_edge_ <= AutomatonLimits::coarsestCell(chunk_.blocks[s.block].edge);
+    if (cell_edge_ > coarsestOf(chunk_, s)) return false;
     if (s.child_count == 0) return true;
     const auto first = chunk_.children.begin() + static_cast<std::ptrdiff_t>(s.first_child);
     const auto shown = [&](uint32_t child) { return shows_[child]; };
@@ -56,10 +57,25 @@ class CoarseShapes {
 
 }  // namespace
 
+std::vector<bool> hideShapes(GrammarChunk& chunk, int32_t cell_edge, const std::vector<bool>& left_out) {
+  return CoarseShapes(chunk, cell_edge, left_out).shows();
+}
+
+int32_t coarsestOf(const GrammarChunk& chunk, const Shape& s) {
+  const int32_t own = s.detail != 0 ? s.detail : std::numeric_limits<int32_t>::max();
+  if (s.kind != ShapeKind::voxels) return own;
+  return std::min(own, AutomatonLimits::coarsestCell(chunk.blocks[s.block].edge));
+}
+
+bool isFreePart(ShapeKind of, uint32_t operand) {
+  if (of == ShapeKind::subtract || of == ShapeKind::subtract_smooth) return operand > 0;
+  return of == ShapeKind::unite || of == ShapeKind::unite_smooth;
+}
+
 GrammarChunk coarseChunk(const GrammarChunk& chunk, int32_t cell_edge, std::pmr::memory_resource* memory) {
   GrammarChunk whole(chunk);
-  const CoarseShapes shapes(whole, cell_edge);
-  std::erase_if(whole.groups, [&](const Group& group) { return !shapes.shows(group.root); });
+  const std::vector<bool> shows = hideShapes(whole, cell_edge, std::vector<bool>(whole.shapes.size(), false));
+  std::erase_if(whole.groups, [&](const Group& group) { return !shows[group.root]; });
   GrammarChunk out(memory);
   DraftCopier(whole).copy(whole.groups, out);
   out.layer = chunk.layer;

@@ -7,6 +7,7 @@
 #include "base/math.h"
 #include "derive/bounds.h"
 #include "derive/coarse_chunk.h"
+#include "derive/group_parts.h"
 #include "derive/interpreter.h"
 
 namespace sgm {
@@ -152,34 +153,62 @@ std::string Interpreter::pathText(uint32_t activation) const {
   return text;
 }
 
+void Interpreter::noteBeyond(uint32_t shape, const IntBox& box) {
+  const IntBox limit = cellLimit(program_, layer_index_, cell_);
+  const Origin& origin = draft_.origin(shape);
+  const std::string by = isBounded(box) ? metresText(excess(box, limit) + kReachSlack) + " m" : std::string();
+  note(!isBounded(box) && endsWithWorld(layer_, limit, box)
+           ? "this shape may pass the end of the world, about 2,097 km from the origin; it is left out whole"
+       : !isBounded(box)
+           ? "this shape has no bound, so no cell can own it; meet it with a box, or give the displacement an amplitude"
+       : !isWhole(layer_) ? "this shape may pass the reach of its cell by " + by +
+                                "; it is left out whole: raise `reach` or make it smaller"
+                          : "this shape may pass the domain's box by " + by +
+                                "; it is left out whole: enlarge the box or make it smaller",
+       origin.span, origin.activation);
+}
+
 void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& out) {
   const ShapeBounds bounds(draft_.chunk());
   const IntBox limit = cellLimit(program_, layer_index_, cell_);
+  std::optional<DraftCopier> copier;
+  std::vector<std::pair<uint32_t, std::vector<uint32_t>>> parted;
   for (uint32_t root : list) {
-    const Origin& origin = draft_.origin(root);
     const IntBox box = bounds.level(root, 0);
     if (box.empty()) continue;
-    if (!isBounded(box) && endsWithWorld(layer_, limit, box)) {
-      note("this shape may pass the end of the world, about 2,097 km from the origin; it is left out whole",
-           origin.span, origin.activation);
+    Group group{root, cut, box, draft_.origin(root).key};
+    if (isWithin(box, limit)) {
+      out.groups.push_back(group);
       continue;
     }
-    if (!isBounded(box)) {
-      note("this shape has no bound, so no cell can own it; meet it with a box, or give the displacement an amplitude",
-           origin.span, origin.activation);
+    if (!copier) copier.emplace(draft_.chunk());
+    GrammarChunk alone;
+    copier->copy({&group, 1}, alone);
+    const std::vector<uint32_t> from(copier->copied().begin(), copier->copied().end());
+    const Origin& origin = draft_.origin(root);
+    const auto parts =
+        partsWithin(alone, limit, [&](uint64_t work) { return step(work, origin.span, origin.activation); });
+    if (!parts) return;
+    if (!parts->any) {
+      noteBeyond(root, box);
       continue;
     }
-    if (!limit.contains(box)) {
-      const std::string by = metresText(excess(box, limit) + kReachSlack) + " m";
-      note(!isWhole(layer_) ? "this shape may pass the reach of its cell by " + by +
-                                  "; it is left out whole: raise `reach` or make it smaller"
-                            : "this shape may pass the domain's box by " + by +
-                                  "; it is left out whole: enlarge the box or make it smaller",
-           origin.span, origin.activation);
-      continue;
+    std::vector<bool> gone(from.size(), false);
+    for (const LeftOutPart& part : parts->left_out) {
+      noteBeyond(from[part.shape], part.bounds);
+      gone[part.shape] = true;
     }
-    out.groups.push_back({root, cut, box, origin.key});
+    for (uint32_t i = 0; i < from.size(); ++i) {
+      const Shape& s = alone.shapes[i];
+      std::vector<uint32_t> kept;
+      for (uint32_t k = 0; k < s.child_count; ++k)
+        if (const uint32_t child = alone.children[s.first_child + k]; !gone[child]) kept.push_back(from[child]);
+      if (kept.size() < s.child_count) parted.emplace_back(from[i], std::move(kept));
+    }
+    group.bounds = parts->bounds;
+    if (!group.bounds.empty()) out.groups.push_back(group);
   }
+  for (const auto& [shape, kept] : parted) draft_.keepChildren(shape, kept);
 }
 
 ShapeList Interpreter::start() {
@@ -204,6 +233,7 @@ Result<GrammarChunk> Interpreter::derived(std::vector<uint32_t>* from, std::pmr:
   GrammarChunk roots(memory), out(memory);
   collectGroups(adds, false, roots);
   collectGroups(layer_cuts_, true, roots);
+  if (failed()) return *error_;
   out.layer = layer_index_;
   out.cell = cell_;
   out.parameters = parameters_read_;

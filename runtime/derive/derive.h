@@ -43,7 +43,8 @@ IntBox cellLimit(const Program& program, uint32_t layer, Int3 cell);
 
 /// Pure: a value of the arguments and of what `lower` answers for layers that this one uses. Thread-safe.
 ///
-/// Shapes whose bounds are not within cellLimit(), or that have no bound, are left out whole, with a note; so are
+/// Shapes whose bounds are not within cellLimit(), or that have no bound, are left out whole, with a note: of a shape
+/// of several parts, those parts alone that `detail` or `lod` sets levels for, where the rest is within it. So are
 /// shapes with sizes that are not positive, and anchors outside of the cell (another cell owns those points).
 ///
 /// Errors: invalid_argument (no such layer, a cell beyond the world, as many parameter values as there are not);

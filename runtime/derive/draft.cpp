@@ -220,6 +220,12 @@ uint32_t Draft::addShape(Shape s, const Origin& origin, std::span<const uint32_t
   return static_cast<uint32_t>(chunk_.shapes.size()) - 1;
 }
 
+void Draft::keepChildren(uint32_t shape, std::span<const uint32_t> children) {
+  Shape& s = chunk_.shapes[shape];
+  std::copy(children.begin(), children.end(), chunk_.children.begin() + static_cast<std::ptrdiff_t>(s.first_child));
+  s.child_count = static_cast<uint32_t>(children.size());
+}
+
 size_t Draft::bytes() const {
   return chunk_.shapes.size() * (sizeof(Shape) + sizeof(Origin) + sizeof(uint32_t)) +
          chunk_.children.size() * sizeof(uint32_t) + chunk_.exprs.size() * (sizeof(Expr) + 2 * sizeof(ExprKey)) +

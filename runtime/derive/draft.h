@@ -82,6 +82,8 @@ class Draft {
 
   /// Children are appended here; s.first_child and s.child_count are set.
   uint32_t addShape(Shape s, const Origin& origin, std::span<const uint32_t> children = {});
+  /// No more children than it has, and in their order.
+  void keepChildren(uint32_t shape, std::span<const uint32_t> children);
 
   Shape& shape(uint32_t i) { return chunk_.shapes[i]; }
   const Shape& shape(uint32_t i) const { return chunk_.shapes[i]; }

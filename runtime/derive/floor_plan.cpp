@@ -2,99 +2,21 @@
 
 #include <algorithm>
 #include <bit>
-#include <optional>
+#include <unordered_set>
 
+#include "derive/plan_rects.h"
 #include "derive/wall_graph.h"
-#include "grammar/scope_parts.h"
 
 namespace sgm {
 namespace {
-
-constexpr int32_t kReach = static_cast<int32_t>(kDoorReach * kUnitsPerMetre);
-/// Units. Middles and halves of all that is laid out are whole numbers.
-constexpr int32_t kStep = 2;
-
-using Rects = std::vector<PlanRect>;
-
-PlanRect grown(const PlanRect& r, int32_t by) { return {r.x0 - by, r.z0 - by, r.x1 + by, r.z1 + by}; }
-
-bool holds(const PlanRect& a, const PlanRect& b) {
-  return a.x0 <= b.x0 && a.z0 <= b.z0 && a.x1 >= b.x1 && a.z1 >= b.z1;
-}
-
-PlanRect common(const PlanRect& a, const PlanRect& b) {
-  return {std::max(a.x0, b.x0), std::max(a.z0, b.z0), std::min(a.x1, b.x1), std::min(a.z1, b.z1)};
-}
-
-bool overlap(const PlanRect& a, const PlanRect& b) {
-  const PlanRect both = common(a, b);
-  return both.x0 < both.x1 && both.z0 < both.z1;
-}
-
-/// What is left: all rectangles that no other one holds.
-void takeAway(Rects& from, const PlanRect& r) {
-  Rects left;
-  for (const PlanRect& f : from) {
-    if (!overlap(f, r)) {
-      left.push_back(f);
-      continue;
-    }
-    if (f.x0 < r.x0) left.push_back({f.x0, f.z0, r.x0, f.z1});
-    if (r.x1 < f.x1) left.push_back({r.x1, f.z0, f.x1, f.z1});
-    if (f.z0 < r.z0) left.push_back({f.x0, f.z0, f.x1, r.z0});
-    if (r.z1 < f.z1) left.push_back({f.x0, r.z1, f.x1, f.z1});
-  }
-  from.clear();
-  for (size_t i = 0; i < left.size(); ++i) {
-    bool held = false;
-    for (size_t j = 0; j < left.size() && !held; ++j)
-      held = i != j && holds(left[j], left[i]) && (left[i] != left[j] || j < i);
-    if (!held) from.push_back(left[i]);
-  }
-}
-
-/// Whether a square with edges of `width` fits.
-bool admits(const PlanRect& r, int32_t width) { return std::min(r.width(), r.depth()) >= width; }
-
-/// Leaves those between which a square of that width can be moved to the first; they are maximal. What is narrower is
-/// nothing to stand in. False where that takes away any in which the square would fit.
-bool keepWalkable(Rects& room, int32_t width) {
-  std::erase_if(room, [&](const PlanRect& r) { return !admits(r, width); });
-  if (room.empty()) return false;
-  size_t kept = 1;
-  for (size_t from = 0; from < kept; ++from)
-    for (size_t i = kept; i < room.size(); ++i)
-      if (admits(common(room[from], room[i]), width)) std::swap(room[i], room[kept++]);
-  const bool whole = kept == room.size();
-  room.resize(kept);
-  return whole;
-}
-
-/// The widest hole through a wall between the two: `width` of it, in its middle.
-std::optional<PlanRect> holeBetween(const Rects& a, const Rects& b, int32_t wall, int32_t width) {
-  std::optional<PlanRect> best;
-  int32_t widest = width - 1;
-  for (const PlanRect& p : a) {
-    for (const PlanRect& q : b) {
-      const PlanRect both = common(p, q);
-      const bool beside = both.x0 - both.x1 == wall, behind = both.z0 - both.z1 == wall;
-      const int32_t span = beside ? both.depth() : both.width();
-      if (beside == behind || span <= widest) continue;
-      widest = span;
-      const int32_t low = (beside ? both.z0 : both.x0) + (span - width) / 2 / kStep * kStep;
-      best = beside ? PlanRect{both.x1 - kReach, low, both.x0 + kReach, low + width}
-                    : PlanRect{low, both.z1 - kReach, low + width, both.z0 + kReach};
-    }
-  }
-  return best;
-}
 
 /// Rooms and the corridor along some of the walls.
 struct Carving {
   std::vector<Rects> rooms;
   Rects corridor;
   std::vector<size_t> part;  ///< of the corridor, for each of its rectangles: those that lead into each other have one
-  bool sound = true;         ///< no room that the corridor takes from is cut in two, or narrower than a door
+  /// No room that the corridor takes from is cut in two, or narrower than a door: otherwise that one is the last here.
+  bool sound = true;
 };
 
 struct Access {
@@ -105,13 +27,15 @@ struct Access {
 
 class FloorLayout {
  public:
-  FloorLayout(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links)
-      : sizes_(sizes), links_(links) {
-    const int32_t x = sizes.x / 2 / kStep * kStep, z = sizes.z / 2 / kStep * kStep, half = sizes.wall / 2;
+  FloorLayout(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
+              uint64_t most_work)
+      : sizes_(sizes), links_(links), work_{most_work} {
+    const int32_t x = sizes.x / 2 / kPlanStep * kPlanStep, z = sizes.z / 2 / kPlanStep * kPlanStep,
+                  half = sizes.wall / 2;
     floor_ = {-x, -z, x, z};
     middle_ = grown(floor_, -half);
     if (middle_.width() <= 0 || middle_.depth() <= 0) return;
-    cells_ = linkedRooms(middle_, areas, links, sizes.wall, kStep);
+    cells_ = linkedRooms(middle_, areas, links, sizes.wall, kPlanStep, work_);
     // The largest stand in front.
     for (PlanRect& cell : cells_) cell = {cell.x0, -cell.z1, cell.x1, -cell.z0};
     graph_ = wallGraph(middle_, cells_);
@@ -123,19 +47,19 @@ class FloorLayout {
     std::vector<bool> walls(graph_.edges.size(), false);
     Carving carving = carved(walls);
     for (const Rects& room : carving.rooms)
-      if (room.empty() || std::min(room[0].width(), room[0].depth()) < 2 * kReach) return plan;
+      if (room.empty() || std::min(room[0].width(), room[0].depth()) < 2 * kDoorReachUnits) return plan;
     if (carving.rooms.empty()) return plan;
     plan.fits = true;
     while (entered_ < cells_.size() && !hasEntrance(carving)) ++entered_;
     Access access = connected(carving, false);
-    // Rather a link is lost than a way that leads through another room unasked.
-    while (access.count < cells_.size() &&
-           (extend(walls, carving, access, true) || extend(walls, carving, access, false)))
-      continue;
+    while (access.count < cells_.size() && extend(walls, carving, access)) continue;
+    if (work_.spent()) return plan;
     access = connected(carving, true);
     finish(plan, carving, access);
     return plan;
   }
+
+  uint64_t work() const { return work_.done; }
 
  private:
   Carving carved(const std::vector<bool>& walls) const {
@@ -150,8 +74,9 @@ class FloorLayout {
         return int64_t{a.width()} * a.depth() > int64_t{b.width()} * b.depth();
       });
       const bool untouched = room.size() == 1 && room[0] == clear;
-      if (!untouched && !keepWalkable(room, sizes_.door)) out.sound = false;
+      out.sound = untouched || keepWalkable(room, sizes_.door);
       out.rooms.push_back(std::move(room));
+      if (!out.sound) break;
     }
     return out;
   }
@@ -292,24 +217,42 @@ class FloorLayout {
     return near;
   }
 
-  /// Takes the walls of one more path for the corridor: that which reaches most rooms for its length. keep_links: of
-  /// those that take no door which a link asks for.
-  bool extend(std::vector<bool>& walls, Carving& carving, Access& access, bool keep_links) const {
-    double best = 0;
-    std::vector<bool> best_walls;
+  /// The best of the candidates seen so far, of which none that follows is worth more than it promises.
+  struct Best {
+    double gain = 0;
+    bool found = false;  ///< and no other can be better
+    std::vector<bool> walls;
+
+    bool takes(double other) const { return !found && other > gain; }
+  };
+
+  /// Takes the walls of one more path for the corridor: that which reaches most rooms for its length. Rather a link is
+  /// lost than a way that leads through another room unasked, but those come first that take no door which a link asks
+  /// for.
+  bool extend(std::vector<bool>& walls, Carving& carving, Access& access) {
+    Best keeping, any;
+    const size_t corners = graph_.corners.size();
+    work_.done += corners * corners * (1 + corners / 256);
+    std::unordered_set<std::vector<bool>> seen;
     for (Candidate& one : candidates(walls, access)) {
-      if (one.most <= best) break;
+      keeping.found = keeping.found || one.most <= keeping.gain;
+      any.found = any.found || one.most <= any.gain;
+      if (keeping.found) break;
+      // Ways along the corridor that is there come to the same walls.
+      if (!seen.insert(one.walls).second) continue;
       Carving with = carved(one.walls);
+      work_.done += cells_.size() + with.corridor.size();
+      if (work_.spent()) return false;
       if (!with.sound || (entered_ < cells_.size() && !hasEntrance(with))) continue;
       Access then = connected(with, false);
-      if (then.count <= access.count || (keep_links && linksMet(then) < linksMet(access))) continue;
+      if (then.count <= access.count) continue;
       const double gain = static_cast<double>(then.count - access.count) / one.length;
-      if (gain <= best) continue;
-      best = gain;
-      best_walls = std::move(one.walls);
+      if (any.takes(gain)) any.gain = gain, any.walls = one.walls;
+      if (keeping.takes(gain) && linksMet(then) >= linksMet(access)) keeping.gain = gain, keeping.walls = one.walls;
     }
-    if (!(best > 0)) return false;
-    walls = std::move(best_walls);
+    Best& best = keeping.gain > 0 ? keeping : any;
+    if (!(best.gain > 0)) return false;
+    walls = std::move(best.walls);
     carving = carved(walls);
     access = connected(carving, false);
     return true;
@@ -346,9 +289,9 @@ class FloorLayout {
     for (size_t i = 0; i < plan.facades.size(); ++i) {
       const PlanFacade f = plan.facades[i];
       if (f.room != entered_ || f.high - f.low < sizes_.door) continue;
-      const int32_t low = f.low + (f.high - f.low - sizes_.door) / 2 / kStep * kStep, high = low + sizes_.door;
+      const int32_t low = f.low + (f.high - f.low - sizes_.door) / 2 / kPlanStep * kPlanStep, high = low + sizes_.door;
       const int32_t sign = f.side < 2 ? 1 : -1, outer = f.side % 2 == 0 ? floor_.z1 : floor_.x1;
-      const int32_t a = sign * (outer + kReach), b = sign * (outer - sizes_.wall - kReach);
+      const int32_t a = sign * (outer + kDoorReachUnits), b = sign * (outer - sizes_.wall - kDoorReachUnits);
       const PlanRect hole = f.side % 2 == 0 ? PlanRect{low, std::min(a, b), high, std::max(a, b)}
                                             : PlanRect{std::min(a, b), low, std::max(a, b), high};
       plan.doors.push_back({hole, PlanDoor::kOutside, f.room, PlanDoor::kNoLink});
@@ -371,13 +314,18 @@ class FloorLayout {
   std::vector<PlanRect> cells_;
   WallGraph graph_;
   std::vector<uint64_t> near_;  ///< a bit for each room
-  size_t entered_ = 0;          ///< the room that the entrance leads into; past the last where none has a wall for it
+  PlanWork work_;
+  size_t entered_ = 0;  ///< the room that the entrance leads into; past the last where none has a wall for it
 };
 
 }  // namespace
 
-FloorPlan layOutFloor(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links) {
-  return FloorLayout(sizes, areas, links).run();
+FloorPlan layOutFloor(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
+                      uint64_t most_work) {
+  FloorLayout layout(sizes, areas, links, most_work);
+  FloorPlan plan = layout.run();
+  plan.work = layout.work();
+  return plan;
 }
 
 }  // namespace sgm

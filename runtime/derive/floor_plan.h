@@ -51,6 +51,7 @@ struct FloorPlan {
   std::vector<PlanDoor> doors;     ///< the entrance first, where there is one
   std::vector<PlanFacade> facades;
   std::vector<size_t> closed;  ///< rooms that nothing leads to: no wall of theirs is wide enough
+  uint64_t work = 0;           ///< as PlanWork counts it
   std::vector<size_t> unmet;   ///< links whose rooms share no wall that is wide enough
 };
 
@@ -58,7 +59,9 @@ struct FloorPlan {
 /// they pass. Rooms that are linked come to lie beside each other where a squarified treemap of these areas allows it.
 /// The entrance leads into room 0, or into the first that has an outer wall for it. Every room can be reached from
 /// there but those in `closed`: by links; otherwise by a door from the entrance's room where they share a wall;
-/// otherwise by a corridor from it; and by a door from any other room where no corridor fits.
-FloorPlan layOutFloor(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links);
+/// otherwise by a corridor from it; and by a door from any other room where no corridor fits. Where that takes more
+/// than most_work, nothing is to be made of what comes out but how much that was.
+FloorPlan layOutFloor(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
+                      uint64_t most_work = UINT64_MAX);
 
 }  // namespace sgm

@@ -139,6 +139,7 @@ struct UnderEdit {
   size_t at = 0;                        ///< whose block it is, into `edits`
   const Env* env = nullptr;             ///< what that stands in
   PathKey own_key;                      ///< of the block
+  bool room = false;                    ///< the block is that of a room, which it adds to and cuts from
 };
 
 /// What a statement or an expression is evaluated in.
@@ -226,6 +227,8 @@ class Interpreter {
   // Statements. They append to `out` what they add to the block they stand in.
   void statement(StmtId id, const Env& env, ShapeList& out);
   void block(const StmtNode& s, const Env& env, ShapeList& out);
+  /// The statements of a block as if they stood in that of `out`.
+  void contents(const StmtNode& s, const Env& env, ShapeList& out);
   void label(const StmtNode& block, Env& env) const;
   void call(ExprId id, uint32_t ordinal, const Env& env, ShapeList& out);
   void cut(const StmtNode& s, const Env& env, ShapeList& out);
@@ -249,6 +252,8 @@ class Interpreter {
   void part(const StmtNode& s, uint32_t index, uint64_t number, const Placement& place, Vec3 scope, const Env& env,
             ShapeList& out);
   void treemap(const StmtNode& s, const Env& env, ShapeList& out);
+  FloorPlan floorPlan(const FloorPlanSizes& sizes, std::span<const double> areas, std::span<const RoomLink> links,
+                      const Span& span, const Env& env);
   double floorMeasure(ExprId id, double fallback, const ValueRange& range, const Env& env);
   void planBox(const PlanRect& r, double y, double height, const StmtNode& s, const Env& env, ShapeList& out);
   /// index: of the part that says what stands there, or kNone.
@@ -259,7 +264,8 @@ class Interpreter {
   /// False, with a note, where there is nothing to fill, or nothing to fill it with.
   bool waveLattice(const StmtNode& s, const Env& env, WaveLattice& lattice);
   bool waveTiles(const StmtNode& s, const Env& env, StandingTiles& tiles);
-  void noteNoTiles(const StmtNode& s, const WaveLattice& lattice, const WaveResult& result, const Env& env);
+  void noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLattice& lattice,
+                   const WaveResult& result, const Env& env);
   void footprint(const StmtNode& s, const Env& env);
   std::optional<PlanPiece> planPiece(const FootprintNode& node, const Env& env);
   void extrude(const StmtNode& s, const Env& env, ShapeList& out);
@@ -291,7 +297,7 @@ class Interpreter {
   void use(const UnderEdit& what, size_t below, Env& env, ShapeList& out);
   void overridden(const UnderEdit& what, size_t at, const Env& env, ShapeList& out);
   void inner(const StmtNode& s, const Env& env, ShapeList& out);
-  void tagged(const StmtNode& s, uint16_t tag, const Env& env, ShapeList& out);
+  void tagged(const StmtNode& s, uint16_t tag, const Env& env, ShapeList& out, bool room = false);
   void untagged(const StmtNode& s, const Env& env, ShapeList& out);
   void noteMissed();
 
@@ -334,6 +340,8 @@ class Interpreter {
   /// Derives the layer's start; gives what it adds.
   ShapeList start();
   void collectGroups(const ShapeList& list, bool cut, GrammarChunk& out);
+  /// Of a shape that is left out, since its box is beyond what the cell may own.
+  void noteBeyond(uint32_t shape, const IntBox& box);
   /// False where a shape has no bound.
   bool collectAlone(const ShapeBounds& bounds, const ShapeList& list, bool cut, std::vector<Group>& out) const;
 
@@ -362,6 +370,8 @@ class Interpreter {
   std::vector<PlanPiece> plans_;   ///< of all footprints
   /// Assets in the sizes that they have been fitted into so far, by asset, size and zones.
   std::map<std::vector<uint64_t>, std::shared_ptr<const FittedAsset>> fitted_;
+  /// Some of those laid out so far, by all that they depend on.
+  std::map<std::vector<uint64_t>, FloorPlan> floor_plans_;
   int32_t coarse_edge_ = 0;  ///< derive for levels with cells of this edge or a larger one alone; 0: for all
   uint32_t watched_rule_ = kNone;
   std::vector<WatchedCall> watched_;

@@ -46,8 +46,8 @@ std::vector<TreemapRow> choicesOf(const TreemapRow& row, bool first) {
 class Search {
  public:
   Search(const PlanRect& whole, std::span<const double> areas, std::span<const RoomLink> links, int32_t wall,
-         int32_t step)
-      : whole_(whole), areas_(areas), links_(links), wall_(wall), step_(step) {
+         int32_t step, PlanWork& work)
+      : whole_(whole), areas_(areas), links_(links), wall_(wall), step_(step), work_(work) {
     rows_ = squarifiedRows(whole, areas, step);
     best_ = placedRows(whole, areas, rows_, step);
     met_ = linksMet(best_, links, wall);
@@ -69,6 +69,7 @@ class Search {
           for (size_t c = 0; c < (s == r ? 1 : choices_[s].size()); ++c) {
             if (s != r) tried[s] = choices_[s][c];
             if (takes(tried)) return true;
+            if (work_.spent()) return false;
           }
         }
       }
@@ -76,6 +77,7 @@ class Search {
   }
 
   bool takes(const std::vector<TreemapRow>& rows) {
+    work_.done += areas_.size() + links_.size() / 8;
     std::vector<PlanRect> rooms = placedRows(whole_, areas_, rows, step_);
     const size_t met = linksMet(rooms, links_, wall_);
     if (met <= met_) return false;
@@ -93,13 +95,14 @@ class Search {
   std::vector<TreemapRow> rows_;
   std::vector<PlanRect> best_;
   size_t met_ = 0;
+  PlanWork& work_;
 };
 
 }  // namespace
 
 std::vector<PlanRect> linkedRooms(const PlanRect& whole, std::span<const double> areas, std::span<const RoomLink> links,
-                                  int32_t wall, int32_t step) {
-  return Search(whole, areas, links, wall, step).run();
+                                  int32_t wall, int32_t step, PlanWork& work) {
+  return Search(whole, areas, links, wall, step, work).run();
 }
 
 }  // namespace sgm

@@ -77,7 +77,7 @@ void Interpreter::use(const UnderEdit& what, size_t below, Env& env, ShapeList& 
   if (below > 0) {
     overridden(what, below - 1, env, out);
   } else if (what.statement != nullptr) {
-    untagged(*what.statement, env, out);
+    what.room ? contents(*what.statement, env, out) : untagged(*what.statement, env, out);
   } else {
     alternatives(*what.rule, env, *what.arguments, out);
   }
@@ -102,11 +102,11 @@ void Interpreter::overridden(const UnderEdit& what, size_t at, const Env& env, S
   own.slots = &slots;
   own.written_material = own.written_tag = 0;
   if (edit.by_tag) own.within = &own_block;
-  const UnderEdit inside{what.rule, what.arguments, what.statement, what.edits, at, &env, own.key};
+  const UnderEdit inside{what.rule, what.arguments, what.statement, what.edits, at, &env, own.key, what.room};
   own.under = &inside;
   activations_.push_back(std::move(activation));
   const size_t first = out.size();
-  statement(edit.body, own, out);
+  what.room ? contents(program_.stmt(edit.body), own, out) : statement(edit.body, own, out);
   // A morphic rule stands for one node.
   if (what.rule == nullptr || !what.rule->morphic || out.size() <= first + 1 || failed()) return;
   const ShapeList parts(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
@@ -137,11 +137,11 @@ void Interpreter::inner(const StmtNode& s, const Env& env, ShapeList& out) {
 }
 
 /// A block, or a meet or an extrusion whose block it is, under the overrides of its tag.
-void Interpreter::tagged(const StmtNode& s, uint16_t tag, const Env& env, ShapeList& out) {
+void Interpreter::tagged(const StmtNode& s, uint16_t tag, const Env& env, ShapeList& out, bool room) {
   Env inner = env;
   const std::vector<uint32_t> edits = overridesOf(tag, env);
   if (!step(edits.size(), s.span, env.activation)) return;
-  use({nullptr, nullptr, &s, edits, edits.size(), nullptr, {}}, edits.size(), inner, out);
+  use({nullptr, nullptr, &s, edits, edits.size(), nullptr, {}, room}, edits.size(), inner, out);
 }
 
 void Interpreter::untagged(const StmtNode& s, const Env& env, ShapeList& out) {

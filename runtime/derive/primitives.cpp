@@ -24,6 +24,13 @@ void Interpreter::addLeaf(Shape shape, std::initializer_list<double> metres, dou
   for (double m : metres) {
     const double units = m * scale;
     const bool pointed = shape.kind == ShapeKind::truncone && i < 2 && units == 0;
+    if (units == 0 && shape.kind == ShapeKind::box && std::min({env.scope.x, env.scope.y, env.scope.z}) == 0) {
+      note(
+          "this box has an edge of 0, as the scope of a face has; it is left out: give it a depth, such as "
+          "size(z 0.2m) box(scope)",
+          node.span, env.activation);
+      return;
+    }
     if (!(units > 0 && units <= kLargest) && !pointed) {
       note(
           "a size of this shape is not positive, or larger than the world; the shape is left out: bound it, such as "

@@ -1,6 +1,7 @@
 // Floors in rooms: the statement treemap. Its scope's box lies about its origin; y is up.
 
 #include <algorithm>
+#include <bit>
 
 #include "base/math.h"
 #include "derive/draws.h"
@@ -12,6 +13,8 @@ namespace sgm {
 namespace {
 
 constexpr double kWidestFloor = 1 << 20;  ///< units
+constexpr size_t kMostPlansKept = 64;
+constexpr uint64_t kLooksOfStep = 2;
 
 /// Walls, doors and corridors are laid out in steps of four units, so that their halves are whole even numbers.
 int32_t inSteps(double metres) {
@@ -68,12 +71,29 @@ void Interpreter::roomAt(const StmtNode& s, uint32_t index, std::span<const Plan
   if (said) {
     inner.place = env.place.moved(middleOf(clear[0], 0));
     inner.scope = edgesOf(clear[0], env.scope.y);
-    if (body->kind == StmtKind::block && program_.overridesOf(body->tag).count == 0)
-      for (uint32_t c = 0; c < body->children.count; ++c) statement(program_.idAt(body->children, c), inner, own);
-    else
+    if (body->kind != StmtKind::block)
       statement(program_.idAt(s.children, index), inner, own);
+    else if (program_.overridesOf(body->tag).count > 0)
+      tagged(*body, body->tag, inner, own, true);
+    else
+      contents(*body, inner, own);
   }
   out.insert(out.end(), own.begin(), own.end());
+}
+
+/// Storeys of a tower are laid out alike: what is known of one is not searched for again.
+FloorPlan Interpreter::floorPlan(const FloorPlanSizes& sizes, std::span<const double> areas,
+                                 std::span<const RoomLink> links, const Span& span, const Env& env) {
+  const auto word = [](int32_t v) { return static_cast<uint64_t>(static_cast<uint32_t>(v)); };
+  std::vector<uint64_t> key{word(sizes.x), word(sizes.z), word(sizes.wall), word(sizes.door), word(sizes.corridor)};
+  for (const double area : areas) key.push_back(std::bit_cast<uint64_t>(area));
+  for (const RoomLink& link : links) key.insert(key.end(), {~uint64_t{0}, link.a, link.b, word(link.width)});
+  if (!step(key.size(), span, env.activation)) return {};
+  if (const auto known = floor_plans_.find(key); known != floor_plans_.end()) return known->second;
+  FloorPlan plan = layOutFloor(sizes, areas, links, kLooksOfStep * (limits_.steps - steps_ + 1));
+  if (step(plan.work / kLooksOfStep, span, env.activation) && floor_plans_.size() < kMostPlansKept)
+    floor_plans_.emplace(std::move(key), plan);
+  return plan;
 }
 
 void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
@@ -124,9 +144,9 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
     doors.push_back(i);
     heights.push_back(floorMeasure(link.height, height, kDoorHeightRange, env));
   }
-  // As much as the search for a corridor may cost.
-  if (failed() || !step(areas.size() * areas.size() * areas.size(), s.span, env.activation)) return;
-  const FloorPlan plan = layOutFloor(sizes, areas, links);
+  if (failed()) return;
+  const FloorPlan plan = floorPlan(sizes, areas, links, s.span, env);
+  if (failed()) return;
   if (!plan.fits)
     return note(
         "this floor has no room for these rooms between their walls; the treemap is left out: fewer rooms, "

@@ -202,12 +202,16 @@ void Interpreter::label(const StmtNode& block, Env& env) const {
 }
 
 void Interpreter::block(const StmtNode& s, const Env& env, ShapeList& out) {
+  ShapeList own;
+  contents(s, env, own);
+  out.insert(out.end(), own.begin(), own.end());
+}
+
+void Interpreter::contents(const StmtNode& s, const Env& env, ShapeList& out) {
   Env inner = env;
   inner.cut_detail = 0;
   label(s, inner);
-  ShapeList own;
-  for (uint32_t i = 0; i < s.children.count; ++i) statement(program_.idAt(s.children, i), inner, own);
-  out.insert(out.end(), own.begin(), own.end());
+  for (uint32_t i = 0; i < s.children.count; ++i) statement(program_.idAt(s.children, i), inner, out);
 }
 
 void Interpreter::uniteSmooth(const StmtNode& s, const Env& env, ShapeList& out) {

@@ -28,7 +28,7 @@ namespace {
 constexpr double kFullWeight = 1 << 20;
 /// For each place, and for so many more: how often it may be looked at.
 constexpr uint64_t kMostVisits = 128;
-/// The share of a cell's steps that one search may look at places, and how many looks are a step.
+/// The share of a cell's steps that one search may look at places, and how many looks among few tiles are a step.
 constexpr uint64_t kSearchShare = 8, kVisitsOfStep = 16;
 
 /// The part of an edge that a place has, reaching over into its neighbours like the parts of a split.
@@ -64,7 +64,8 @@ WaveLabels sideLabels(std::span<const SideKind> kinds, size_t kind, bool high) {
 
 }  // namespace
 
-void Interpreter::noteNoTiles(const StmtNode& s, const WaveLattice& lattice, const WaveResult& result, const Env& env) {
+void Interpreter::noteNoTiles(const StmtNode& s, const StandingTiles& standing, const WaveLattice& lattice,
+                              const WaveResult& result, const Env& env) {
   const auto triple = [](uint32_t x, uint32_t y, uint32_t z) {
     return "(" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + ")";
   };
@@ -83,14 +84,13 @@ void Interpreter::noteNoTiles(const StmtNode& s, const WaveLattice& lattice, con
       for (size_t k = 0; k < kinds.size(); ++k)
         if ((result.wanted[side] >> k & 1) != 0) fit |= kindsThatFit(kinds, k);
     }
+    // A side that every tile would fit to asks for nothing.
+    if (std::all_of(standing.tiles.begin(), standing.tiles.end(),
+                    [&](const WaveTile& tile) { return (tile.sides[side] & result.wanted[side]) != 0; }))
+      continue;
     uint64_t labels = 0;
-    bool all = true;
-    for (size_t k = 0; k < kinds.size(); ++k) {
-      const bool fits = (fit >> k & 1) != 0;
-      all = all && fits;
-      if (fits && !kinds[k].any()) labels |= kinds[k].labels;
-    }
-    if (all) continue;
+    for (size_t k = 0; k < kinds.size(); ++k)
+      if ((fit >> k & 1) != 0 && !kinds[k].any()) labels |= kinds[k].labels;
     std::string names;
     for (uint32_t l = 0; l < node.labels.count; ++l)
       if ((labels >> l & 1) != 0)
@@ -185,10 +185,10 @@ void Interpreter::wave(const StmtNode& s, const Env& env, ShapeList& out) {
   const uint64_t places = uint64_t{lattice.size[0]} * lattice.size[1] * lattice.size[2];
   const uint64_t most = std::min(kMostVisits * (places + kMostVisits), limits_.steps / kSearchShare);
   const PathKey key = env.key.child(kWaveSalt + s.ordinal, 0);
-  const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most);
+  const WaveResult result = collapseWave(standing.tiles, lattice, key.value, most, limits_.bytes);
   // Looks are cheap steps: rather no tiles in a hundred scopes than no cell at all.
-  if (!step(result.visits / kVisitsOfStep, s.span, env.activation)) return;
-  if (result.end != WaveEnd::solved) return noteNoTiles(s, lattice, result, env);
+  if (!step(result.work / kVisitsOfStep, s.span, env.activation)) return;
+  if (result.end != WaveEnd::solved) return noteNoTiles(s, standing, lattice, result, env);
   uint64_t number = 0;
   for (uint32_t z = 0; z < lattice.size[2]; ++z) {
     const Stretch along_z = stretchOf(edges.z, lattice.size[2], z);

@@ -13,6 +13,8 @@ namespace {
 
 /// Wrong choices that the first search may take back.
 constexpr uint64_t kFirstRetreats = 32;
+/// Labels, of up to 64 tiles each, that a look at a place goes through for what it counts.
+constexpr uint64_t kLabelsOfVisit = 8;
 
 constexpr size_t facing(size_t side) { return side < 4 ? (side + 2) % 4 : 9 - side; }
 
@@ -54,8 +56,9 @@ class Search {
   using Tiles = TileSet<kWords>;
 
  public:
-  Search(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits)
-      : tiles_(tiles), lattice_(lattice), key_(key), most_visits_(most_visits) {
+  Search(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits,
+         size_t most_bytes)
+      : tiles_(tiles), lattice_(lattice), key_(key), most_visits_(most_visits), most_bytes_(most_bytes) {
     WaveLabels used = 0;
     for (const WaveTile& tile : tiles)
       for (const WaveLabels labels : tile.sides) used |= labels;
@@ -114,6 +117,7 @@ class Search {
       sound = narrow(place, one) && propagate();
     }
     out.visits = visits_;
+    out.work = visits_ * std::max<uint64_t>(1, labels_.size() * kWords / kLabelsOfVisit);
     if (out.end != WaveEnd::solved) {
       out.place = hardest_;
       out.wanted = wanted_;
@@ -174,6 +178,8 @@ class Search {
     return propagate();
   }
 
+  size_t bytes() const { return changes_.size() * sizeof(Change) + waiting_.size() * sizeof(Waiting); }
+
   void ask(uint32_t place) {
     if (waits_[place]) return;
     waits_[place] = true;
@@ -218,7 +224,7 @@ class Search {
   /// Sides share single labels, so it is enough to know which labels a place still offers: no table of pairs of tiles.
   bool propagate() {
     for (size_t next_asked = 0; next_asked < asked_.size(); ++next_asked) {
-      if (visits_ == most_visits_) {
+      if (visits_ == most_visits_ || bytes() > most_bytes_) {
         spent_ = true;
         return false;
       }
@@ -277,6 +283,7 @@ class Search {
   std::span<const WaveTile> tiles_;
   const WaveLattice& lattice_;
   uint64_t key_, most_visits_;
+  size_t most_bytes_;
   uint64_t attempt_ = 0, visits_ = 0;
   bool spent_ = false;                                  ///< all visits that it may make
   std::vector<uint8_t> labels_;                         ///< that tiles have
@@ -294,11 +301,11 @@ class Search {
 
 }  // namespace
 
-WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key,
-                        uint64_t most_visits) {
+WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits,
+                        size_t most_bytes) {
   // Most sets of tiles fit one word.
-  if (tiles.size() <= 64) return Search<1>(tiles, lattice, key, most_visits).run();
-  return Search<4>(tiles, lattice, key, most_visits).run();
+  if (tiles.size() <= 64) return Search<1>(tiles, lattice, key, most_visits, most_bytes).run();
+  return Search<4>(tiles, lattice, key, most_visits, most_bytes).run();
 }
 
 }  // namespace sgm

@@ -33,13 +33,14 @@ struct WaveLattice {
 enum class WaveEnd : uint8_t {
   solved,
   impossible,  ///< proven: no choice of tiles fits
-  gave_up,     ///< after most_visits, or at once where these are fewer than the places
+  gave_up,     ///< after most_visits, at once where these are fewer than the places, or for want of memory
 };
 
 struct WaveResult {
   WaveEnd end = WaveEnd::solved;
   std::vector<uint16_t> tiles;  ///< solved: for each place, x first, then y, then z
   uint64_t visits = 0;  ///< places whose neighbours were looked at: the measure of the work; most_visits at most
+  uint64_t work = 0;    ///< what these cost: a visit counts for more where there are many labels and tiles
   /// Not solved: where no tile fitted, most often if there were several such places, and what each side of it would
   /// have had to meet, any of it. kNoPlace: given up before there was one.
   uint32_t place = 0;
@@ -48,8 +49,8 @@ struct WaveResult {
 
 /// tiles: 1 to 256. Finds a choice wherever there is one and the visits allow it; one that is not proven impossible is
 /// searched for several times, for twice as long each, and places that were hard go first. key: draws; equal input
-/// gives equal output.
-WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key,
-                        uint64_t most_visits);
+/// gives equal output. most_bytes: of what the search notes to take its choices back.
+WaveResult collapseWave(std::span<const WaveTile> tiles, const WaveLattice& lattice, uint64_t key, uint64_t most_visits,
+                        size_t most_bytes = SIZE_MAX);
 
 }  // namespace sgm

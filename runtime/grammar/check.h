@@ -129,10 +129,12 @@ class Checker {
   void unmetSide(const PartNode& part, const SocketNode& socket, size_t side, uint64_t there, const WaveNode& wave);
   std::string labelsText(IdRange labels) const;
   bool xforms(IdRange range, bool copied);
+  bool unknownAxis(ExprId axis);
   void localField(const StmtNode& node);
   void callRule(ExprId call, bool escape, bool shrunk);
   void markLayerLevel(StmtId id);
   void idleCuts(StmtId id, bool first);
+  void idleCutsIn(StmtId block);
   void declareLocal(NameId name, const Span& span, Local local);
   bool sumLeaf(StmtId id);
 
@@ -152,17 +154,20 @@ class Checker {
   void extrude(const StmtNode& node, bool shrunk);
   void roof(const StmtNode& node);
   void planOf(const StmtNode& node);
+  bool planUnknown(ExprId plan);
   /// demand() of a number, which must lie in a range if it is constant.
   void demandRange(ExprId id, Dim dim, std::string_view what, const ValueRange& range);
 
   // check_overrides.cpp
   void overrides();
+  std::string tagMeant(std::string_view path) const;
   void overridePath(Override& edit);
   bool overrideCell(Override& edit, const WrittenPath& written);
   uint32_t ruleOfStep(uint32_t module, const WrittenStep& step);
   void headsAgree(const Override& edit, uint32_t rule, uint32_t parameter);
   void overrideBlock(uint32_t index);
   void overrideTags();
+  void tagRooms();
   void orderPaths();
   void hiddenOverrides();
   void usesThatNeverCome();  // check_uses.cpp
@@ -188,6 +193,7 @@ class Checker {
   bool bindWords(IdRange args, const Span& span, std::string_view callee, std::initializer_list<std::string_view> words,
                  size_t required, ExprId* out);
   bool resolveCallee(ExprId call, bool shape);
+  bool notImported(const ExprNode& receiver, bool shape);
   void offerNames(Suggestion& suggestion, bool calls) const;
   void unknownName(const Span& span, NameId name, bool call, bool shape);
 
@@ -252,6 +258,7 @@ class Checker {
   std::vector<std::vector<uint32_t>> override_calls_;           ///< of each override: rules
   std::vector<std::vector<AskedLayer>> override_asked_;         ///< of each override; their rule is not known yet
   std::set<uint32_t> level_overrides_;                          ///< those that may stand at the level of a layer
+  std::set<uint32_t> room_overrides_;                           ///< those that may stand in a treemap's room
   uint32_t rule_ = 0, alternative_ = 0;
   uint32_t override_ = kNoId;  ///< whose block is being checked, instead of a rule's
   uint32_t ordinal_ = 0, draws_ = 0;

@@ -2,6 +2,7 @@
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
+#include "grammar/imports.h"
 #include "grammar/keywords.h"
 
 namespace sgm {
@@ -190,6 +191,22 @@ void Checker::unknownName(const Span& span, NameId name, bool call, bool shape) 
                                        : join({"add `let ", word, " = ...;`, or `param ", word, " = ...;`"})));
 }
 
+/// Whether something is asked of an import that is missing: an error then.
+bool Checker::notImported(const ExprNode& receiver, bool shape) {
+  const std::string_view word = text(receiver.name);
+  if (isValueWord(word)) return false;
+  const std::string path = join({"std/", word, ".sgm"});
+  const bool standard = !standardModule(path).empty();
+  if (!standard && !shape) return false;
+  Suggestion suggestion(word);
+  for (const auto& [name, symbol] : symbols_[scope_.module])
+    if (symbol.import) suggestion.offer(text(name));
+  sink_.error(
+      receiver.span, codes::kUnknownName, join({"nothing is imported as `", word, "` here"}),
+      suggestion.hintOr(join({"add `import \"", standard ? path : join({word, ".sgm"}), "\" as ", word, ";`"})));
+  return true;
+}
+
 /// Fills ref, id and qualifier of a call or a name; a receiver that is a module is taken off.
 bool Checker::resolveCallee(ExprId call, bool shape) {
   ExprNode& n = node(call);
@@ -206,6 +223,7 @@ bool Checker::resolveCallee(ExprId call, bool shape) {
       assetMisused(receiver.span, receiver.name);
       return true;
     }
+    if (!hidden && module == table->end() && notImported(receiver, shape)) return true;
     if (hidden || module == table->end() || !module->second.import) return false;
     table = &symbols_[module->second.id];
     qualified = true;

@@ -3,6 +3,7 @@
 #include "base/hash.h"
 #include "grammar/check.h"
 #include "grammar/codes.h"
+#include "grammar/lexer.h"
 #include "grammar/override_path.h"
 
 namespace sgm {
@@ -34,10 +35,23 @@ void forEachStatement(const Program& program, StmtId id, const Visit& visit) {
   for (uint32_t i = 0; i < s.children.count; ++i) forEachStatement(program, program.idAt(s.children, i), visit);
 }
 
+/// What stands in each room of a treemap: its place in Ast::ids, and its tag, which is the room's name unless a block
+/// says another.
+template <class Visit>
+void forEachRoom(const Program& program, const StmtNode& s, const Visit& visit) {
+  for (uint32_t i = 0; s.kind == StmtKind::treemap && i < s.parts.count; ++i) {
+    const PartNode& part = program.ast.parts[s.parts.first + i];
+    if (part.floor != FloorPart::room) continue;
+    const StmtNode& body = program.stmt(program.idAt(s.children, i));
+    visit(s.children.first + i, body.kind == StmtKind::block && body.tag != 0 ? body.tag : part.tag);
+  }
+}
+
 std::set<uint16_t> tagsIn(const Program& program, StmtId body) {
   std::set<uint16_t> tags;
   forEachStatement(program, body, [&](const StmtNode& s) {
     if (s.kind == StmtKind::block && s.tag != 0) tags.insert(s.tag);
+    forEachRoom(program, s, [&](uint32_t, uint16_t tag) { tags.insert(tag); });
   });
   return tags;
 }
@@ -94,8 +108,25 @@ uint32_t Checker::ruleOfStep(uint32_t module, const WrittenStep& step) {
   return rule != table->end() && rule->second.ref == Ref::rule ? rule->second.id : kNoId;
 }
 
+/// The tag that a path which leads nowhere most likely means; or empty.
+std::string Checker::tagMeant(std::string_view path) const {
+  constexpr std::string_view kTag = "tag";
+  if (path.starts_with(kTag) && path.size() > kTag.size() + 1 && (path[3] == ':' || path[3] == ' ' || path[3] == '='))
+    return std::string(path.substr(std::min(path.find_first_not_of(": =", kTag.size()), path.size())));
+  const auto isRule = [&](const Rule& rule) { return text(rule.name) == path; };
+  if (std::any_of(program_.rules.begin(), program_.rules.end(), isRule)) return {};
+  for (const std::pmr::string& tag : program_.tags)
+    if (!tag.empty() && std::string_view(tag) == path) return std::string(path);
+  return {};
+}
+
 void Checker::overridePath(Override& edit) {
   const std::string path(text(edit.address));
+  if (const std::string tag = tagMeant(path); !tag.empty()) {
+    sink_.error(edit.address_span, codes::kSyntax, join({"\"", path, "\" is no path of rules"}),
+                join({"write `override tag ", quoteText(tag), "` for the blocks with that tag"}));
+    return;
+  }
   const WrittenPath written = parsePath(path);
   const auto textAt = [&](const PathPlace& place) {
     return std::string_view(path).substr(place.begin, place.end - place.begin);
@@ -266,6 +297,32 @@ void Checker::overrideTags() {
   }
   program_.tag_overrides.assign(program_.tags.size(), IdRange{});
   for (const auto& [tag, list] : found) program_.tag_overrides[tag] = store(list);
+  if (!found.empty()) tagRooms();
+}
+
+/// What stands in a room whose name an override has becomes a block with that tag, as if it had been written.
+void Checker::tagRooms() {
+  std::vector<std::pair<uint32_t, uint16_t>> rooms;  // places in Ast::ids
+  for (const StmtNode& s : program_.ast.stmts) {
+    forEachRoom(program_, s, [&](uint32_t place, uint16_t tag) {
+      if (program_.overridesOf(tag).count > 0) rooms.emplace_back(place, tag);
+    });
+  }
+  for (const auto& [place, tag] : rooms) {
+    StmtId body = program_.ast.ids[place];
+    if (program_.stmt(body).kind != StmtKind::block) {
+      StmtNode block;
+      block.kind = StmtKind::block;
+      block.span = program_.stmt(body).span;
+      block.children = store({body});
+      program_.ast.stmts.push_back(block);
+      body = static_cast<StmtId>(program_.ast.stmts.size() - 1);
+      program_.ast.ids[place] = body;
+    }
+    program_.ast.stmts[body].tag = tag;
+    const IdRange edits = program_.overridesOf(tag);
+    for (uint32_t i = 0; i < edits.count; ++i) room_overrides_.insert(program_.idAt(edits, i));
+  }
 }
 
 /// An override of the same address that derives nothing of an earlier one leaves that without any effect.

@@ -4,6 +4,7 @@
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
+#include "grammar/keywords.h"
 
 namespace sgm {
 
@@ -91,6 +92,19 @@ void Checker::scatterStatement(const StmtNode& s, bool shrunk) {
   scope_.locals.resize(std::min(locals, scope_.locals.size()));
 }
 
+/// Whether an axis is a name of nothing: an error then.
+bool Checker::unknownAxis(ExprId axis) {
+  const NameId name = node(axis).name;
+  const auto named = [name](const Local& local) { return local.name == name; };
+  if (isValueWord(text(name)) || symbols_[scope_.module].contains(name) ||
+      std::any_of(scope_.locals.begin(), scope_.locals.end(), named))
+    return false;
+  sink_.error(node(axis).span, codes::kUnknownName,
+              join({"the axis of `rot` is x, y, z or a vector, and `", text(name), "` is none"}),
+              "such as rot(y, 30deg)");
+  return true;
+}
+
 bool Checker::xforms(IdRange range, bool copied) {
   bool shrinks = false;
   for (uint32_t i = 0; i < range.count; ++i) {
@@ -122,6 +136,7 @@ bool Checker::xforms(IdRange range, bool copied) {
         if (!bindWords(x.args, x.span, "rot", {"axis", "angle"}, 2, out)) break;
         x.axis = axisOf(out[0]);
         if (x.axis == 3) {
+          if (node(out[0]).kind == ExprKind::name && unknownAxis(out[0])) break;
           const Type axis = expression(out[0]);
           if (axis.kind != ValueKind::vector && axis.kind != ValueKind::unknown)
             sink_.error(node(out[0]).span, codes::kTypeMismatch, "the axis of `rot` is x, y, z or a vector",
@@ -165,6 +180,12 @@ void Checker::markLayerLevel(StmtId id) {
   for (uint32_t i = 0; i < s.children.count; ++i) markLayerLevel(program_.idAt(s.children, i));
 }
 
+/// Of a block that something stands before: what it adds to.
+void Checker::idleCutsIn(StmtId block) {
+  const IdRange children = program_.stmt(block).children;
+  for (uint32_t i = 0; i < children.count; ++i) idleCuts(program_.idAt(children, i), false);
+}
+
 /// A cut takes from what stands before it in its block; where nothing does, it does nothing. `first`: nothing has been
 /// added yet to the block that this statement adds to.
 void Checker::idleCuts(StmtId id, bool first) {
@@ -191,9 +212,7 @@ void Checker::idleCuts(StmtId id, bool first) {
     }
     case StmtKind::extrude:
       // The piece itself stands before them.
-      if (s.body == kNoId) return;
-      for (uint32_t i = 0; i < program_.stmt(s.body).children.count; ++i)
-        idleCuts(program_.idAt(program_.stmt(s.body).children, i), false);
+      if (s.body != kNoId) idleCutsIn(s.body);
       return;
     case StmtKind::treemap:
       // Rooms and corridors stand before what their blocks say.
@@ -204,8 +223,7 @@ void Checker::idleCuts(StmtId id, bool first) {
           idleCuts(child, !open);
           continue;
         }
-        for (uint32_t c = 0; c < program_.stmt(child).children.count; ++c)
-          idleCuts(program_.idAt(program_.stmt(child).children, c), false);
+        idleCutsIn(child);
       }
       return;
     case StmtKind::morph:

@@ -1,5 +1,7 @@
 // Footprints, what is extruded from them, and roofs.
 
+#include <algorithm>
+
 #include "grammar/check.h"
 #include "grammar/codes.h"
 #include "grammar/profile_limits.h"
@@ -55,8 +57,37 @@ void Checker::footprint(StmtId id, const StmtNode& s) {
   declareLocal(s.name, s.span, {s.name, slot, {ValueKind::plan, kRatio, false, false}, kNoId, 0});
 }
 
+/// Whether there is nothing of the plan's name here: an error then.
+bool Checker::planUnknown(ExprId id) {
+  const ExprNode& plan = node(id);
+  const auto named = [&](const Local& local) { return local.name == plan.name; };
+  if (std::any_of(scope_.locals.begin(), scope_.locals.end(), named) || symbols_[scope_.module].contains(plan.name))
+    return false;
+  const std::string_view word = text(plan.name);
+  std::string hint = join({"write `footprint rect(12m, 8m) as ", word, ";` before it in the rule"});
+  const StmtId body =
+      override_ != kNoId ? program_.overrides[override_].body : program_.rules[rule_].alternatives[alternative_].body;
+  const Span& here = program_.stmt(body).span;
+  for (const StmtNode& s : program_.ast.stmts) {
+    if (s.kind != StmtKind::footprint || s.name != plan.name || s.span.file != plan.span.file) continue;
+    if (s.span.begin >= here.begin && s.span.end <= here.end) {
+      hint = s.span.begin > plan.span.begin
+                 ? "it is known behind its footprint: put that first"
+                 : "it is known in the block of its footprint: put that into a block around both";
+      break;
+    }
+    hint = join({"the one of another rule is known here where it is handed over: `rule Name(", word,
+                 ") { ... }` and `Name(", word, ");`"});
+  }
+  Suggestion suggestion(word);
+  for (const Local& local : scope_.locals)
+    if (local.type.kind == ValueKind::plan) suggestion.offer(text(local.name));
+  sink_.error(plan.span, codes::kUnknownName, join({"there is no plan `", word, "` here"}), suggestion.hintOr(hint));
+  return true;
+}
+
 void Checker::planOf(const StmtNode& s) {
-  if (s.plan == kNoId) return;
+  if (s.plan == kNoId || planUnknown(s.plan)) return;
   const Type type = expression(s.plan);
   if (type.kind != ValueKind::plan && type.kind != ValueKind::unknown)
     sink_.error(node(s.plan).span, codes::kTypeMismatch,

@@ -170,15 +170,28 @@ class RecursionCheck {
     return false;
   }
 
+  /// What to write instead.
+  std::string remedy(const RuleCall& call, const std::string& name) const {
+    if (call.from != call.to) return join({"bound it: `rule ", name, " ... depth 8 -> Leaf`"});
+    const Alternative& head = program_.rules[call.from].alternatives[call.alternative];
+    if (head.minsize == kNoId || call.escape)
+      return join({"bound it: `rule ", name,
+                   " ... depth 8 -> Leaf`, `minsize 1m -> Leaf`, or a guard `when n > 0` with n - 1"});
+    if (head.size_slot == kNoId)
+      return "`minsize` ends it where the scope becomes smaller with each call: put it into a part of a split, or "
+             "behind `size` or `scale(0.7)`; else bound it by `depth 8 -> Leaf`";
+    const std::string_view size = program_.text(program_.ast.formals[head.formals.first + head.size_slot].name);
+    return join({"`minsize` ends it where `", size, "` becomes smaller with each call, such as 0.7*", size,
+                 "; else bound it by `depth 8 -> Leaf`"});
+  }
+
   void report(const RuleCall& call) {
     const std::string name(program_.text(program_.rules[call.to].name));
-    Diagnostic& d =
-        sink_.error(program_.expr(call.call).span, codes::kUnboundedRecursion,
-                    call.from == call.to ? join({"`", name, "` may call itself without end"})
-                                         : join({"`", program_.text(program_.rules[call.from].name), "` and `", name,
-                                                 "` may call each other without end"}),
-                    join({"bound it: `rule ", name,
-                          " ... depth 8 -> Leaf`, `minsize 1m -> Leaf`, or a guard `when n > 0` with n - 1"}));
+    Diagnostic& d = sink_.error(program_.expr(call.call).span, codes::kUnboundedRecursion,
+                                call.from == call.to ? join({"`", name, "` may call itself without end"})
+                                                     : join({"`", program_.text(program_.rules[call.from].name),
+                                                             "` and `", name, "` may call each other without end"}),
+                                remedy(call, name));
     if (call.from != call.to)
       d.notes.push_back("only `depth` bounds rules that call each other");
     else if (call.escape)

@@ -31,11 +31,44 @@ void Checker::splitStatement(const StmtNode& s) {
   partStatements(s);
 }
 
+namespace {
+
+/// The first `box(scope)` of a statement that stands in the scope around it.
+ExprId boxOfScope(const Program& program, StmtId id) {
+  const StmtNode& s = program.stmt(id);
+  if (s.kind == StmtKind::block || s.kind == StmtKind::cut || s.kind == StmtKind::unite) {
+    ExprId found = s.body == kNoId ? kNoId : boxOfScope(program, s.body);
+    for (uint32_t i = 0; found == kNoId && i < s.children.count; ++i)
+      found = boxOfScope(program, program.idAt(s.children, i));
+    return found;
+  }
+  if (s.kind != StmtKind::call) return kNoId;
+  const ExprNode& call = program.expr(s.expr);
+  if (call.ref != Ref::primitive || static_cast<Primitive>(call.id) != Primitive::box || call.args.count != 1)
+    return kNoId;
+  const ExprNode& edges = program.expr(program.ast.args[call.args.first].value);
+  const bool scope = edges.ref == Ref::value && static_cast<BuiltinValue>(edges.id) == BuiltinValue::scope;
+  return scope ? s.expr : kNoId;
+}
+
+/// The face of a box, or the outer wall of a room.
+bool isFlat(const StmtNode& s, const PartNode& part) {
+  if (s.kind == StmtKind::treemap) return part.floor == FloorPart::facade;
+  return s.kind == StmtKind::comp && part.of != BoxPart::edges && part.of != BoxPart::inside;
+}
+
+}  // namespace
+
 void Checker::partStatements(const StmtNode& s) {
   for (uint32_t i = 0; i < s.children.count; ++i) {
     const size_t locals = scope_.locals.size();
-    statement(program_.idAt(s.children, i), true);
+    const StmtId child = program_.idAt(s.children, i);
+    statement(child, true);
     scope_.locals.resize(std::min(locals, scope_.locals.size()));
+    if (i >= s.parts.count || !isFlat(s, program_.ast.parts[s.parts.first + i])) continue;
+    if (const ExprId box = boxOfScope(program_, child); box != kNoId)
+      sink_.warning(node(box).span, codes::kFlatScope, "the scope of a face has no depth, so this box is left out",
+                    "give it one: `size(z 0.2m) box(scope)`");
   }
 }
 

@@ -57,10 +57,12 @@ void Checker::checkRules() {
   for (const LayerDecl& layer : syntax_[0].layers) startAt(layer.start);
   checkWaiting();
   overrides();
+  // What a statement with an error would have called is not known.
+  const bool calls_known = sink_.errorCount() == 0;
   for (uint32_t r = 0; r < program_.rules.size() && !sink_.full(); ++r) {
     if (rule_state_[r] != 0) continue;
     const Rule& rule = program_.rules[r];
-    if (rule.module == 0 && layers_known_ && !program_.layers.empty())
+    if (rule.module == 0 && calls_known && layers_known_ && !program_.layers.empty())
       sink_.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", text(rule.name), "`"}),
                     "call it in a rule, or remove it");
     rule_types_[r].assign(rule.alternatives[0].formals.count, Type{});
@@ -79,7 +81,10 @@ void Checker::checkRules() {
   if (sink_.errorCount() > 0) return;  // what is not understood has nothing before it
   for (const Rule& rule : program_.rules)
     for (const Alternative& a : rule.alternatives) idleCuts(a.body, false);
-  for (const Override& edit : program_.overrides) idleCuts(edit.body, false);
+  for (uint32_t o = 0; o < program_.overrides.size(); ++o) {
+    const StmtId body = program_.overrides[o].body;
+    room_overrides_.contains(o) ? idleCutsIn(body) : idleCuts(body, false);
+  }
 }
 
 void Checker::checkWaiting() {

@@ -62,5 +62,7 @@ inline constexpr std::string_view kGuards = "guards";
 inline constexpr std::string_view kIdleHead = "idle-head";
 inline constexpr std::string_view kIdleOverride = "idle-override";
 inline constexpr std::string_view kIdleCut = "idle-cut";
+inline constexpr std::string_view kFlatScope = "flat-scope";
+inline constexpr std::string_view kNearName = "near-name";
 
 }  // namespace sgm::codes

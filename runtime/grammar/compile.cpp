@@ -60,6 +60,7 @@ CompileResult compileGrammar(std::string_view text, std::string_view path, const
       findLayerContents(*program, options.limits);
       warnOfUnused(*program, syntax, sink);
       warnOfOverlaps(*program, sink);
+      warnOfMaterials(*program, sink);
     }
   }
   if (sink.errorCount() == 0) result.program = std::move(program);

@@ -79,6 +79,9 @@ std::string_view wordFor(std::string_view foreign) {
   return found == kForeign.end() ? std::string_view() : found->ours;
 }
 
+bool isValueWord(std::string_view word) {
+  return word == "cell" || word == "scope" || word == "p" || word == "q" || word == "u";
+}
 bool isKeyword(std::string_view word) { return std::binary_search(kKeywords.begin(), kKeywords.end(), word); }
 bool startsDeclaration(std::string_view word) {
   return std::find(kDeclarations.begin(), kDeclarations.end(), word) != kDeclarations.end();

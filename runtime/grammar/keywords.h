@@ -26,6 +26,8 @@ std::span<const std::string_view> boxPartTable();
 /// What another language's word is called here: `at` for `translate`; empty where it is none that is known.
 std::string_view wordFor(std::string_view foreign);
 
+/// cell, scope, p, q and u: values that every text has.
+bool isValueWord(std::string_view word);
 bool isKeyword(std::string_view word);
 bool startsDeclaration(std::string_view word);
 bool isUnavailable(std::string_view word);

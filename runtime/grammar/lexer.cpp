@@ -271,6 +271,20 @@ class Lexer {
       sink_.error(out_.tokens.back().span, codes::kBadText, std::string(complaint), std::string(hint));
   }
 
+  /// Skipped whole, so that its words are not misread.
+  void foreignComment(size_t begin, size_t column) {
+    at_ += 2;
+    sink_.error(spanFrom(begin, line_, column), codes::kBadCharacter, "`/*` begins no comment here",
+                "comments start with // and end with their line");
+    while (!done() && !(peek() == '*' && peek(1) == '/')) {
+      if (peek() == '\n')
+        newLine();
+      else
+        ++at_;
+    }
+    at_ = std::min(at_ + 2, text_.size());
+  }
+
   void sign(size_t begin, size_t column) {
     const char c = peek(), next = peek(1);
     auto one = [&](Tok kind) { ++at_, push(kind, begin, column); };
@@ -299,7 +313,7 @@ class Lexer {
       case '*':
         return one(Tok::star);
       case '/':
-        return one(Tok::slash);
+        return next == '*' ? foreignComment(begin, column) : one(Tok::slash);
       case '~':
         return one(Tok::tilde);
       case '<':
@@ -341,6 +355,10 @@ class Lexer {
 
 bool isUnit(std::string_view word) {
   return std::any_of(kUnits.begin(), kUnits.end(), [word](const Unit& unit) { return unit.name == word; });
+}
+
+bool isName(std::string_view text) {
+  return !text.empty() && isLetter(text[0]) && std::all_of(text.begin(), text.end(), isWordChar);
 }
 
 LexResult lex(std::string_view text, uint32_t file, uint32_t max_tokens, DiagnosticSink& sink,

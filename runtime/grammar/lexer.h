@@ -58,6 +58,8 @@ struct LexResult {
 
 /// Whether numbers may have it as their unit.
 bool isUnit(std::string_view word);
+/// Whether the text is spelt like a name; it may be a word of the language.
+bool isName(std::string_view text);
 
 /// Reports what is wrong and goes on; always gives a stream that ends. At most `max_tokens`, otherwise an error.
 LexResult lex(std::string_view text, uint32_t file, uint32_t max_tokens, DiagnosticSink& sink,

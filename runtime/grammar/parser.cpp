@@ -116,6 +116,12 @@ std::string Parser::habitHint(std::string_view wanted, const Token& token) const
     return "what moves or turns something stands in front of it: `at(1m, 0m, 0m) sphere(2m);`";
   if (wanted == "a statement" && word == "if")
     return "give a rule alternatives: `rule A when ... { }` and `rule A else { }`, or `weight`";
+  if (wanted.starts_with("a text") && token.kind == Tok::word) return join({"write it in quotes, \"", word, "\""});
+  if (wanted.starts_with("the name of ") || wanted.starts_with("the kind of ")) {
+    const std::string name = token.kind == Tok::text ? textContent(word) : std::string();
+    if (isName(name)) return join({"write it without quotes, `", name, "`"});
+    if (!name.empty()) return "names are of the letters a to z, digits and `_`, and stand without quotes";
+  }
   if (token.kind == Tok::dots)
     return "a range such as 1m..2m stands behind `in`; a function takes both ends, `rand(1m, 2m)`";
   return {};
@@ -136,7 +142,12 @@ void Parser::unexpected(std::string_view wanted) {
   std::string hint;
   if (token.kind == Tok::word) {
     Suggestion suggestion(textOf(token));
-    if (wanted.size() > 2 && wanted.front() == '`') suggestion.offer(wanted.substr(1, wanted.size() - 2));
+    // "`flat`, `gable` or `hip`"
+    for (size_t open = wanted.find('`'); open < wanted.size(); open = wanted.find('`', open)) {
+      const size_t close = std::min(wanted.find('`', open + 1), wanted.size());
+      suggestion.offer(wanted.substr(open + 1, close - open - 1));
+      open = close + 1;
+    }
     hint = suggestion.hint();
   }
   if (hint.empty()) hint = habitHint(wanted, token);

@@ -39,6 +39,10 @@ void Parser::declaration() {
   }
   if (acceptWord("param")) return paramDeclaration();
   if (acceptWord("seed")) {
+    if (at(Tok::word) && peek(1).kind == Tok::semicolon)
+      fail(here(), codes::kSyntax,
+           join({"a seed is a whole number from 0 or a text, and `", textOf(peek()), "` is a name"}),
+           join({"write it in quotes, \"", textOf(peek()), "\""}));
     const ExprId seed = expression();
     expect(Tok::semicolon, "`;`");
     if (panic_) return;

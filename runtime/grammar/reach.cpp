@@ -17,6 +17,7 @@ constexpr const char* kCutShort = "the rules are too many or too deep to follow;
 ReachCheck::ReachCheck(Program& program, const CompileLimits& limits, DiagnosticSink& sink)
     : program_(program),
       sink_(sink),
+      most_steps_(limits.bound_steps),
       steps_(limits.bound_steps),
       values_(program, steps_),
       active_(program.rules.size(), 0),
@@ -42,14 +43,13 @@ void ReachCheck::layerReach(uint32_t index) {
   whole_ = layer.cell_expr == kNoId;
   values_.setCell(edges, finite);
   cell_ = edges;
-  known_.clear();
-  scaled_.clear();
-  placed_.clear();
-  values_.sight() = {};
-  startOverrides(index);
-  RangeFrame frame;
-  frame.scope = edges;
-  const Extent extent = callExtent(layer.start, frame, Call::start);
+  Extent extent = startExtent(index);
+  if (cut_short_ && !few_pieces_) {
+    few_pieces_ = true;
+    cut_short_ = false;
+    steps_ = most_steps_;
+    extent = startExtent(index);
+  }
   if (sink_.full()) return;
   seen(layer, values_.sight());
   if (sink_.full()) return;
@@ -73,6 +73,17 @@ void ReachCheck::layerReach(uint32_t index) {
   if (finite && !boxed) return finiteBox(layer, extent);
   layer.proven = over_may <= 0 && !cut_short_;
   if (!layer.proven) report(layer, extent, finite, over_may, over_sure);
+}
+
+Extent ReachCheck::startExtent(uint32_t index) {
+  known_.clear();
+  scaled_.clear();
+  placed_.clear();
+  values_.sight() = {};
+  startOverrides(index);
+  RangeFrame frame;
+  frame.scope = cell_;
+  return callExtent(program_.layers[index].start, frame, Call::start);
 }
 
 /// What a cell depends on lies within its reach.

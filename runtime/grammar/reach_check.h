@@ -50,6 +50,7 @@ class ReachCheck {
 
   // Layers.
   void layerReach(uint32_t index);
+  Extent startExtent(uint32_t index);
   void seen(const Layer& layer, const RangeEvaluator::Sight& sight);
   /// What extends farthest, and where it is written.
   struct Culprit {
@@ -110,13 +111,17 @@ class ReachCheck {
   Extent fit(const StmtNode& s, RangeFrame& frame);
   IntervalVector pointOf(const XformNode& x, const RangeFrame& frame);
   void sized(const XformNode& x, RangeFrame& frame);
-  void sizedAgain(IdRange xforms, RangeFrame& frame);
+  void sizedAgain(IdRange xforms, double times, RangeFrame& frame);
   IntervalVector stepLengths(IdRange xforms, const RangeFrame& frame);
   IntervalVector areaOf(const ScatterNode& scatter, const RangeFrame& frame);
 
   Program& program_;
   DiagnosticSink& sink_;
+  const uint32_t most_steps_;
   uint32_t steps_;  ///< left, of all layers together
+  /// Ranges of sizes are taken in pieces in the outermost splits alone: pieces of pieces of pieces take all steps.
+  bool few_pieces_ = false;
+  int splits_ = 0;  ///< that this stands in
   RangeEvaluator values_;
   IntervalVector cell_{};
   bool whole_ = false;                             ///< the start has no cells

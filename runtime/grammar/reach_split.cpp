@@ -20,6 +20,7 @@ Interval notBelow(Interval v) { return {std::max(0.0, v.lo), std::max(0.0, v.hi)
 
 /// Pieces of a range of sizes: a part that is small lies farther out than one that is large.
 constexpr int kPieces = 4;
+constexpr int kSplitsInPieces = 4;
 
 }  // namespace
 
@@ -58,7 +59,8 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
     if (parts[i].flexible) size.hi = std::max(0.0, size.hi - before - after);
     if (parts[i].flexible && parts[i].repeated) size.hi = std::min(size.hi, sizes[i].hi * most);
     size.hi = std::min(size.hi + 2 * snap, length.hi);
-    const bool wide = std::isfinite(size.hi) && size.hi - size.lo > length.hi / 8;
+    const bool wide =
+        std::isfinite(size.hi) && size.hi - size.lo > length.hi / 8 && (!few_pieces_ || splits_ < kSplitsInPieces);
     Extent one = Extent::nothing();
     for (int k = 0; k < (wide ? kPieces : 1); ++k) {
       const double step = (size.hi - size.lo) / kPieces;
@@ -72,7 +74,9 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
       const PlaceRange place = frame.place;
       frame.scope[axis] = {piece.lo, std::min(piece.hi + 2 * kSeamOverlap, length.hi)};
       frame.place.move(by);
+      ++splits_;
       Extent e = body(program_.idAt(s.children, i), frame);
+      --splits_;
       frame.scope = scope;
       frame.place = place;
       e.move(by);

@@ -11,6 +11,9 @@ namespace {
 /// Counts and the ends of loops are taken to the nearest whole number.
 Interval rounded(Interval v) { return floorOf({v.lo + 0.5, v.hi + 0.5}); }
 
+/// Copies of which each has a size by that of the one before, followed one by one.
+constexpr double kSizedCopies = 64;
+
 /// Of a scale, with room for the rounding of the products that it stands for.
 Interval powerOf(Interval base, double times) {
   if (times == 0 || base == Interval{1, 1}) return {1, 1};
@@ -88,8 +91,9 @@ Extent ReachCheck::transformed(const StmtNode& s, RangeFrame& frame) {
   return e;
 }
 
-/// The scopes of copies, each made from the one before: the start's and what follows from it, if that says it all.
-void ReachCheck::sizedAgain(IdRange xforms, RangeFrame& frame) {
+/// The scopes of copies, each made from the one before: those of the first few one by one, and of all where these say
+/// it all. times: copies behind the first, at most.
+void ReachCheck::sizedAgain(IdRange xforms, double times, RangeFrame& frame) {
   const auto step = [&](const IntervalVector& scope) {
     RangeFrame next = frame;
     next.scope = scope;
@@ -99,11 +103,23 @@ void ReachCheck::sizedAgain(IdRange xforms, RangeFrame& frame) {
     }
     return next.scope;
   };
-  const IntervalVector once = step(frame.scope);
-  for (size_t k = 0; k < 3; ++k) frame.scope[k] = hull(frame.scope[k], once[k]);
-  const IntervalVector twice = step(frame.scope);
-  for (size_t k = 0; k < 3; ++k)
-    if (hull(frame.scope[k], twice[k]) != frame.scope[k]) frame.scope[k] = Interval::everything();
+  const auto joined = [](const IntervalVector& a, const IntervalVector& b) {
+    return IntervalVector{hull(a[0], b[0]), hull(a[1], b[1]), hull(a[2], b[2])};
+  };
+  IntervalVector all = frame.scope, last = frame.scope;
+  for (int copy = 0; copy < std::min(times, kSizedCopies); ++copy) {
+    last = step(last);
+    all = joined(all, last);
+    if (joined(all, step(all)) == all) times = 0;
+  }
+  if (times > kSizedCopies) {
+    // What only shrinks comes near to nothing.
+    for (Interval& edge : all) edge.lo = std::min(edge.lo, 0.0);
+    const IntervalVector next = step(all);
+    for (size_t k = 0; k < 3; ++k)
+      if (hull(all[k], next[k]) != all[k]) all[k] = Interval::everything();
+  }
+  frame.scope = all;
 }
 
 /// Copy i stands where i steps lead: exactly so where the steps only move or only turn about one axis.
@@ -116,7 +132,7 @@ Extent ReachCheck::repeated(const StmtNode& s, RangeFrame& frame) {
   IntervalVector by{};
   Interval angle{}, scale{1, 1};
   int turns = 0, axis = 3, mirrors = 0, mirror = 0;
-  if (times.hi > 0) sizedAgain(s.xforms, frame);
+  if (times.hi > 0) sizedAgain(s.xforms, times.hi, frame);
   for (uint32_t i = 0; i < s.xforms.count && times.hi > 0; ++i) {
     const XformNode& x = program_.ast.xforms[s.xforms.first + i];
     switch (x.kind) {

@@ -272,6 +272,50 @@ void warnOfUnused(const Program& program, std::span<const ModuleSyntax> syntax, 
   unused.locals();
 }
 
+namespace {
+
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// Whether one has a letter more than the other, or two neighbours the other way round: `bric` and `brick`. Another
+/// letter alone may be another word, such as glass and grass.
+bool misspelt(std::string_view a, std::string_view b) {
+  if (a.size() > b.size()) std::swap(a, b);
+  if (a.size() < 4 || b.size() > a.size() + 1) return false;
+  const auto [in_a, in_b] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  if (b.size() > a.size()) return isLetter(*in_b) && std::equal(in_a, a.end(), in_b + 1, b.end());
+  if (a.end() - in_a < 2 || !isLetter(*in_a) || !isLetter(*in_b)) return false;
+  return in_a[0] == in_b[1] && in_a[1] == in_b[0] && std::equal(in_a + 2, a.end(), in_b + 2, b.end());
+}
+
+}  // namespace
+
+void warnOfMaterials(const Program& program, DiagnosticSink& sink) {
+  std::vector<size_t> uses(program.materials.size(), 0);
+  std::map<uint32_t, Span> first;
+  for (const StmtNode& s : program.ast.stmts) {
+    if (s.kind != StmtKind::mat || s.extra >= uses.size()) continue;
+    ++uses[s.extra];
+    if (s.span.file == 0) first.emplace(s.extra, s.span);
+  }
+  // What imports, assets and the domain say is right; of two that are used as often, the earlier one in the text.
+  const auto rank = [&](uint32_t material) {
+    const auto place = first.find(material);
+    return place == first.end() ? std::pair(SIZE_MAX, int64_t{0})
+                                : std::pair(uses[material], -int64_t{place->second.begin});
+  };
+  for (const auto& [material, span] : first) {
+    if (material == 0) continue;  // of a rule that nothing derives
+    for (uint32_t other = 1; other < program.materials.size(); ++other) {
+      const std::string_view name(program.materials[material]), theirs(program.materials[other]);
+      if (!misspelt(name, theirs) || rank(material) > rank(other)) continue;
+      sink.warning(span, codes::kNearName,
+                   join({"the material `", name, "` is spelt almost as `", theirs, "`, which is here as well"}),
+                   join({"did you mean `", theirs, "`?"}));
+      break;
+    }
+  }
+}
+
 void warnOfOverlaps(const Program& program, DiagnosticSink& sink) {
   WholeNumbers whole(program);
   for (const Rule& rule : program.rules) {

@@ -17,4 +17,8 @@ void warnOfUnused(const Program& program, std::span<const ModuleSyntax> syntax, 
 /// that can hold together, so that one of them is drawn by chance. Guards that ask for more are not understood.
 void warnOfOverlaps(const Program& program, DiagnosticSink& sink);
 
+/// Of a checked program without errors: materials of the root that are spelt almost as another one is, which is used as
+/// often or more. Materials have no list: they are what the host makes of their names.
+void warnOfMaterials(const Program& program, DiagnosticSink& sink);
+
 }  // namespace sgm

@@ -148,6 +148,8 @@ for path in one torn flat missing; do
   [[ $status == 1 || $status == 4 ]] || failed "status 1 or 4 expected"
   one_line
 done
+expect 4 "$SGM" fly "$cave" --path nowhere.json --frames 10
+err_has 'cannot read nowhere.json: no such file'
 expect 2 "$SGM" fly "$cave" --path path.json --teleports 2
 err_has 'usage'
 expect 2 "$SGM" fly "$cave" --frames 0

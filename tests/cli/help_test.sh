@@ -33,4 +33,14 @@ json 'j.vulkan_devices.every(d => d.name && d.type && (d.usable ? typeof d.exact
 json '!j.backends[1].usable || j.vulkan_devices.some(d => d.usable)'
 json 'Array.isArray(j.vulkan_devices) && j.version && j.build.includes(j.version)'
 expect 2 "$SGM" backends extra
+
+# A command that is not there, and what was meant.
+expect 2 "$SGM" meshh ball.sgm
+err_has "^sgm: usage: there is no command 'meshh': did you mean 'mesh'\\?"
+expect 2 "$SGM" bench papr
+err_has "there is no command 'papr': did you mean 'paper'\\?"
+expect 2 "$SGM" photograph
+err_has "there is no command 'photograph': write one of check, fmt, explain, mesh, render, fly, lsp, bench, backends"
+expect 2 "$SGM" bench paper extra
+err_has 'argument was not expected: extra'
 finish

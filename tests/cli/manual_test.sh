@@ -34,6 +34,14 @@ done
 for word in $(words kClauseWords); do
   grep -qE "(^|[^a-z])$word([^a-z]|$)" "$manual" || failed "the manual has not the word $word"
 done
+# Its lists are those of the compiler and of the pictures: nothing is missing, and nothing else stands there.
+same() { [[ $(sort -u <<<"$2") == "$(sort -u <<<"$3")" ]] || failed "the manual's list of $1 is another: $(diff <(sort -u <<<"$2") <(sort -u <<<"$3"))"; }
+section() { sed -n "/^## $1\$/,/^## /p" "$manual"; }
+same words "$(section Words | sed -n '/^```text$/,/^```$/p' | grep -v '`' | tr ' ' '\n')" "$(words kKeywords; words kUnavailable)"
+same shapes "$(section Shapes | sed -n 's/^| \(`.*`\) |.*/\1/p' | grep -o '`[a-z]*(' | tr -d '`(')" "$(names Primitive)"
+same functions "$(section Values | sed -n 's/^| \(`.*`\) |.*/\1/p' | grep -oE '`(c\.)?[a-z0-9]+\(' | sed 's/[`(]//g; s/^c\.//')" "$(names Builtin)"
+same materials "$(section Rules | sed -n '/know these looks:/,/; any other name/p' | grep -o '`[a-z]*`' | tr -d '`')" \
+  "$(grep -o '^    {"[a-z]*", {' "$SOURCE/runtime/cli/render/materials.cpp" | grep -o '[a-z]*')"
 for part in "$SOURCE"/runtime/grammar/std/*.sgm; do
   module=$(basename "$part" .sgm)
   for name in $(sed -n 's#^// Example: .*[ ({]'"$module"'\.\([A-Za-z]*\).*#\1#p' "$part" | sort -u); do

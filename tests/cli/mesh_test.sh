@@ -75,6 +75,39 @@ json 'j.out === "b\ufffdll.glb"'
 [[ -s $name ]] || failed "no file of that name"
 rm "$name"
 
+# Nothing to see: why that may be, and what to try.
+empty() {
+  local why=$1
+  shift
+  printf '%s\n' "$1" >empty.sgm
+  shift
+  expect 0 "$SGM" mesh empty.sgm "$@"
+  out_has '^0 triangles'
+  [[ $err == "sgm: warning: no triangles: $why" ]] || failed "another reason is expected: $why"
+  expect 0 "$SGM" mesh empty.sgm "$@" --json
+  json 'j.triangles === 0'
+}
+empty 'no shape lies in this region: what is derived may lie elsewhere, which --region takes, or be left out, as warnings say' \
+  'sgm 1; start A; rule A { sphere(2m); }' --region 90,0,0:99,9,9
+empty 'nothing is cut from the rock in this region: what is derived may lie elsewhere, which --region takes, or be left out, as warnings say' \
+  'sgm 1; domain infinite solid rock; layer a cell 64m reach 9m { start A; } rule A { cut sphere(2m); }' --region 20,20,20:30,30,30
+empty 'this region lies all within the solid: take more of the world with --region' \
+  'sgm 1; start A; rule A { box(300m); }' --region 9,9,9:10,10,10
+empty 'what is here is thinner than a cell of 1 m: take smaller ones with --cell' \
+  'sgm 1; start A; rule A { at(30cm, 30cm, 30cm) sphere(5cm); }' --cell 1
+empty 'all is carved away here, or is thinner than a cell of 0.5 m: look at the cuts, or take smaller cells with --cell' \
+  'sgm 1; start A; rule A { sphere(2m); cut box(9m); }'
+empty 'what is cut is filled again here, or is thinner than a cell of 0.5 m: look at the cuts, or take smaller cells with --cell' \
+  'sgm 1; domain infinite solid rock; layer a cell 64m reach 9m { start A; } rule A { cut { sphere(2m); cut box(9m); } }' --region=-4,-4,-4:4,4,4
+rm empty.sgm
+echo 'sgm 1; start A; rule A { size(9m, 3m, 9m) { box(scope); cut treemap(wall 0.15m) { a 3: { } b 4: { } } } }' >rooms.sgm
+expect 0 "$SGM" mesh rooms.sgm --cell 0.25
+[[ ${err%%$'\n'*} == 'rooms.sgm:1:61: warning: the walls of this treemap, 0.15 m, are thinner than a cell of 0.25 m, and may have holes or be gone: take smaller cells, such as --cell 0.075' ]] ||
+  failed 'nothing is said of thin walls'
+expect 0 "$SGM" mesh rooms.sgm --cell 0.125
+err_empty
+rm rooms.sgm
+
 # Coarser levels: cells of twice the edge, chunks of twice the size.
 expect 0 "$SGM" mesh ball.sgm --cell 0.25 --level 1 --json
 json 'j.level === 1 && j.cell === 0.5 && j.cell_units === 512 && j.region[0].join() === "-16,-16,-16"'

@@ -76,7 +76,21 @@ err_has 'edge'
 rm ./*.png fog.sgm
 only ball.sgm
 
+# Of anchors by the border and inside, one inside.
+printf '%s\n' 'sgm 1; domain infinite solid rock; layer a cell 32m reach 9m { start A; }' \
+  'rule A { cut at(3m, 16m, 16m) sphere(8m); at(3m, 16m, 16m) anchor spawn; }' >row.sgm
+expect 0 "$SGM" render row.sgm --out row.png --at spawn --region 0,0,0:96,32,32 --cell 1 --size 32x32 --json
+json 'j.camera.position[0] > 12'
+rm row.sgm row.png
+
 expect 1 "$SGM" render ball.sgm --out wrong.png --at nothing_of_that_name
+err_has "no anchor of the name, kind or tag 'nothing_of_that_name'; it has no anchor at all"
+printf 'sgm 1; start A; rule A { sphere(2m); anchor spawn "camp"; }\n' >named.sgm
+expect 1 "$SGM" render named.sgm --out wrong.png --at spwan
+err_has "no anchor of the name, kind or tag 'spwan'; did you mean 'spawn'\\?"
+expect 1 "$SGM" render named.sgm --out wrong.png --at treasure
+err_has "no anchor of the name, kind or tag 'treasure'; it has camp, spawn"
+rm named.sgm
 one_line
 expect 1 "$SGM" render ball.sgm --out wrong.png --cell 0
 expect 2 "$SGM" render ball.sgm

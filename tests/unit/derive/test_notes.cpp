@@ -3,6 +3,7 @@
 #include <limits>
 #include <tuple>
 
+#include "derive/coarse_chunk.h"
 #include "derive_fixture.h"
 
 using namespace sgm;
@@ -20,6 +21,9 @@ const NoteCase kNotes[] = {
     {"a size of this shape is not positive, or larger than the world; the shape is left out: bound it, such as max(r, "
      "0.1m)",
      "", "sphere(rand(-2m, -1m));", ""},
+    {"this box has an edge of 0, as the scope of a face has; it is left out: give it a depth, such as size(z 0.2m) "
+     "box(scope)",
+     "box", "size(2m, 2m, 0m) box(scope);", ""},
     {"a cone needs a radius above 0 at one end; this one is left out", "", "truncone(2m, 0m, 0m);", ""},
     {"a prism needs three corners that lie apart; this one is left out", "",
      "prism(2m, (0m, 0m), (1m, 0m), (1m, 0m), (0m, 0m));", ""},
@@ -102,6 +106,13 @@ const NoteCase kNotes[] = {
      "wfc",
      "size(9m, 3m, 3m) wfc 3m { border left a, right a; a 1, left a, right b: box(scope); b 1, left b, right a: "
      "box(scope); }",
+     ""},
+    // Of sides that every tile fits to it says nothing.
+    {"these tiles cannot fill the (3, 1, 1) places of this scope, and it is left empty: place (2, 0, 0) would "
+     "need a tile with `a` on its right and `a` on its left; add one, or join labels of a side with `or`",
+     "wfc",
+     "size(9m, 3m, 3m) wfc 3m { border left a, right a, front c, back c; a 1, left a, right b, front c, back c: "
+     "box(scope); b 1, left b, right a, front c, back c: box(scope); }",
      ""},
     {"no way was found to fill the (9, 1, 9) places of this scope, and it is left empty: place (6, 0, 1) would need a "
      "tile with `edge` on its front and `edge` on its right and `pair` on its back and `pair` on its left; add one, or "
@@ -228,6 +239,34 @@ TEST_CASE("what passes its reach, its domain or every bound is left out whole", 
   CHECK(chunk.notes[0].path == "main(0, 0, 0)/Main/Faulty[0]");
   CHECK(chunk.notes[0].message ==
         "this shape has no bound, so no cell can own it; meet it with a box, or give the displacement an amplitude");
+}
+
+TEST_CASE("of what passes its reach, parts that levels leave out go alone, at each level that would show them",
+          "[notes]") {
+  const char* const near[] = {
+      "union smooth 1m { sphere(2m); detail 30cm at(90m, 0m, 0m) sphere(1m); detail 30cm box(1m); }",
+      "{ sphere(2m); detail 30cm at(90m, 0m, 0m) sphere(1m); detail 30cm box(1m); cut box(1m); }",
+      "displace 0.1m*fractal(1m) { sphere(2m); detail 30cm at(90m, 0m, 0m) sphere(1m); }",
+      "displace 0.1m*fractal(1m) { sphere(2m); Part(1); }",
+  };
+  for (const char* statement : near) {
+    INFO(statement);
+    Program program = *compiled(
+        "sgm 1; domain infinite; layer main cell 64m reach 64m { start Main; }\nrule Main { Faulty; }\nrule Faulty { " +
+        std::string(statement) +
+        " }\nrule Part(r) { at(90m*r, 0m, 0m) sphere(1m); }\nrule Part(r) lod 1m { sphere(1m); }");
+    program.layers[0].reach = 8 * kUnitsPerMetre;
+    const GrammarChunk chunk = derived(program);
+    REQUIRE(chunk.notes.size() == 1);
+    CHECK(chunk.notes[0].message.starts_with("this shape may pass the reach of its cell by "));
+    CHECK(chunk.notes[0].message.ends_with(" m; it is left out whole: raise `reach` or make it smaller"));
+    REQUIRE(chunk.groups.size() == 1);
+    CHECK(chunk.groups[0].bounds.hi.x < 4 * kUnitsPerMetre);
+    Result<GrammarChunk> far = deriveCoarseCell(program, {}, 7, 0, {}, 2 * kUnitsPerMetre, Ceiling(1 << 30));
+    REQUIRE(far);
+    CHECK(far->groups.size() == 1);
+    CHECK(coarseChunk(chunk, 2 * kUnitsPerMetre).groups.size() == 1);
+  }
 }
 
 TEST_CASE("tiles that no search has the time for are left out alone, and it is said", "[notes]") {

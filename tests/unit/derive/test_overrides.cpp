@@ -1,5 +1,6 @@
 // Blocks in the place of what rules derive: nothing else changes, and they stay where they are.
 
+#include <map>
 #include <set>
 
 #include "derive/changed_shapes.h"
@@ -238,6 +239,44 @@ TEST_CASE("overrides stand on each other, the more special and then the later ou
   CHECK(kinds(*compiled(text + in_cell + "override \"Main/Ball\" { box(3m); }\n")) == Kinds{b, b});
   CHECK(kinds(*compiled(text + by_tag + "override \"Main/Ball\" { box(3m); }\n")) == Kinds{b});
   CHECK(kinds(*compiled(text + everywhere + "override \"Main/Ball\" { inner; box(3m); }\n")) == Kinds{s, t, b});
+}
+
+TEST_CASE("an override by a room's name takes the place of what stands in the room, not of the room", "[override]") {
+  const std::string rules =
+      "rule Main { at(20m, 20m, 20m) size(12m, 3m, 9m) { box(scope); cut treemap { hall 8: { sphere(1m); cut box(2m); "
+      "}\n"
+      "  den 20: Den; bed 9: { tag \"quiet\"; torus(2m, 1m); } bath 7: anchor room; } } }\n"
+      "rule Den { sphere(1m); anchor room; }";
+  const auto shapesOf = [&](const std::string& edit) {
+    const auto program = compiled(inLayer(rules) + edit);
+    std::map<ShapeKind, int> count;
+    const GrammarChunk chunk = derived(*program, {});
+    for (const Shape& s : chunk.shapes) ++count[s.kind];
+    return std::pair(count, chunk.anchors.size());
+  };
+  auto plain = shapesOf("");
+  for (const char* name : {"hall", "den", "quiet", "bath"}) {
+    INFO(name);
+    const auto same = shapesOf(std::string("override tag \"") + name + "\" { inner; }\n");
+    CHECK(same == plain);
+    CHECK(hashChunk(derived(*compiled(inLayer(rules)), {})) ==
+          hashChunk(derived(*compiled(inLayer(rules) + "override tag \"" + name + "\" { inner; }\n"), {})));
+  }
+  auto more = plain;
+  ++more.first[ShapeKind::capsule];
+  CHECK(shapesOf("override tag \"den\" { inner; capsule((0m, 0m, 0m), (1m, 0m, 0m), 1m); }") == more);
+  // The room is there still, and its block cuts from it as the one that it replaces did.
+  auto other = plain;
+  --other.first[ShapeKind::sphere];
+  --other.second;
+  ++other.first[ShapeKind::subtract];
+  ++other.first[ShapeKind::capsule];
+  CHECK(shapesOf("override tag \"den\" { cut capsule((0m, 0m, 0m), (1m, 0m, 0m), 1m); }") == other);
+  auto bare = plain;
+  --bare.second;
+  CHECK(shapesOf("override tag \"bath\" { }") == bare);
+  // The word that a room's block says stands in the place of its name.
+  CHECK(compileGrammar(inLayer(rules) + "override tag \"bed\" { }", "test.sgm").program == nullptr);
 }
 
 TEST_CASE("an override by tag takes the place of every block with the tag, wherever that stands", "[override]") {

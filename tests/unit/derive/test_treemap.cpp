@@ -209,7 +209,8 @@ TEST_CASE("rooms that are linked come to lie beside each other, in the shapes of
     }
     CAPTURE(round, areas, links.size());
     const auto plain = squarifiedTreemap(whole, areas, 2);
-    const auto rooms = linkedRooms(whole, areas, links, 256, 2);
+    PlanWork work;
+    const auto rooms = linkedRooms(whole, areas, links, 256, 2, work);
     double covered = 0;
     for (size_t i = 0; i < rooms.size(); ++i) {
       // To the rounding of its lines.
@@ -243,6 +244,52 @@ TEST_CASE("rooms that are linked come to lie beside each other, in the shapes of
   }
   CAPTURE(links_seen, plain_met, met);
   CHECK(10 * (links_seen - met) < 6 * (links_seen - plain_met));
+}
+
+TEST_CASE("what a floor costs is known, and a search that may cost less ends in time", "[treemap]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (unsigned round = 0; round < rounds(4); ++round) {
+    const FloorPlanSizes sizes{40 * 1024, 30 * 1024, 256, 920, 1332};
+    std::vector<double> areas(24 + random() % 9);
+    for (double& area : areas) area = 6 + 34 * unit(random);
+    std::vector<RoomLink> links(random() % 40);
+    for (RoomLink& link : links) {
+      link.a = random() % areas.size();
+      link.b = (link.a + 1 + random() % (areas.size() - 1)) % areas.size();
+      link.width = 1024;
+    }
+    const FloorPlan whole = layOutFloor(sizes, areas, links);
+    CAPTURE(round, areas.size(), links.size(), whole.work);
+    CHECK(whole.work >= areas.size() * areas.size());
+    CHECK(layOutFloor(sizes, areas, links, whole.work).doors.size() == whole.doors.size());
+    const uint64_t most = random() % whole.work;
+    const uint64_t cut = layOutFloor(sizes, areas, links, most).work;
+    CHECK(cut > most);
+    // No further than what one step of it costs.
+    CHECK(cut <= most + 40000);
+  }
+}
+
+TEST_CASE("floors that are alike are laid out once, and others end with the cell's budget", "[treemap]") {
+  const auto tower = [](const std::string& width, const DeriveLimits& limits) {
+    std::string rooms;
+    for (int i = 0; i < 32; ++i) rooms += "r" + std::to_string(i) + " " + std::to_string(6 + 7 * i % 11) + ": { } ";
+    for (int i = 0; i < 16; ++i) rooms += "link r" + std::to_string(i) + " r" + std::to_string(i + 16) + " by door; ";
+    const auto program = compiled(
+        "sgm 1; domain infinite; layer main cell 256m reach 256m { start Main; }\nrule Main { for i in 0..80 { at(y "
+        "3m*i) size(" +
+        width + ", 3m, 30m) treemap { " + rooms + "} } }");
+    return deriveCell(*program, {}, 7, 0, {}, Ceiling(0), limits);
+  };
+  CHECK(tower("40m", {}));
+  const auto unlike = tower("40m + 10cm*i", {});
+  REQUIRE_FALSE(unlike);
+  CHECK(unlike.error().message ==
+        "deriving one cell takes more than 4000000 steps (derive less, or make the cells smaller), in "
+        "main(0, 0, 0)/Main");
 }
 
 TEST_CASE("links are doors where rooms share a wall", "[treemap]") {

@@ -236,3 +236,22 @@ TEST_CASE("a search is given up within one choice, however far that reaches", "[
   CHECK(result.visits == 8000);
   CHECK(result.place == kNoPlace);
 }
+
+TEST_CASE("visits count for more among many labels and tiles, and memory has an end", "[wfc]") {
+  for (const size_t labels : {2u, 8u, 16u, 64u}) {
+    for (const size_t count : {64u, 256u}) {
+      std::vector<WaveTile> tiles(count);
+      for (size_t t = 0; t < count; ++t) tiles[t].sides.fill(WaveLabels{1} << t % labels);
+      WaveLattice lattice;
+      lattice.size = {5, 3, 4};
+      lattice.border.fill(~WaveLabels{0});
+      const WaveResult result = collapseWave(tiles, lattice, 7, 100'000);
+      CAPTURE(labels, count);
+      CHECK(result.end == WaveEnd::solved);
+      CHECK(result.work == result.visits * std::max<size_t>(1, labels * (count / 64) / 8));
+      const WaveResult poor = collapseWave(tiles, lattice, 7, 100'000, 64);
+      CHECK(poor.end == WaveEnd::gave_up);
+      CHECK(poor.visits < result.visits);
+    }
+  }
+}

@@ -91,7 +91,7 @@ const Case kCases[] = {
     // Names and arguments
     {"2:10 unknown-name", "sgm 1; start A;\nrule A { shpere(2m); }"},
     {"2:17 unknown-name", "sgm 1; start A;\nrule A { sphere(radius); }"},
-    {"1:14 unknown-name; 1:22 unused-rule", "sgm 1; start B; rule A { }"},
+    {"1:14 unknown-name", "sgm 1; start B; rule A { }"},
     {"2:19 unknown-name", "sgm 1; import \"std/rock.sgm\" as rock; start A;\nrule A { displace rock.fmb(1m, 1m) { } }"},
     {"2:8 unknown-name", "sgm 1; start A; rule A { }\nexpect watertihgt;"},
     {"2:17 unknown-member", "sgm 1; start A;\nrule A { sphere(cell.q); }"},
@@ -355,6 +355,8 @@ const Case kCases[] = {
      "sgm 1; domain infinite axes xz; layer a cell 8m reach 4m { start A; }\noverride \"a(0, 1, 0)/A\" { }\nrule A { "
      "}"},
     {"2:6 guards", "sgm 1; start A;\nrule A else { }"},
+    {"2:43 flat-scope", "sgm 1; start A;\nrule A { size(2m, 2m, 2m) comp { front: { box(scope); } side: box(1m); } }"},
+    {"2:48 near-name", "sgm 1; start A;\nrule A { { box(1m); mat brick; } { sphere(1m); mat bric; } }"},
 };
 
 }  // namespace

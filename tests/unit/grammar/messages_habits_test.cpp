@@ -24,6 +24,20 @@ const MessageCase kHabits[] = {
     {"2:24 syntax: expected `)` or `,`, found `..` | a range such as 1m..2m stands behind `in`; a function takes both "
      "ends, `rand(1m, 2m)`",
      "rule A { sphere(rand(1m..2m)); }"},
+    {"2:27 syntax: expected a text in quotes, found `fire` | write it in quotes, \"fire\"",
+     "rule A { sphere(1m); tag  fire; }"},
+    {"2:26 syntax: expected the name of a material, found `\"brick\"` | write it without quotes, `brick`",
+     "rule A { sphere(1m); mat \"brick\"; }"},
+    {"2:29 syntax: expected the kind of an anchor, found `\"camp fire\"` | names are of the letters a to z, digits and "
+     "`_`, and stand without quotes",
+     "rule A { sphere(1m); anchor \"camp fire\"; }"},
+    {"2:1 bad-character: `/*` begins no comment here | comments start with // and end with their line",
+     "/* a ball\n { of ours */ rule A { sphere(1m); }"},
+    {"2:1 bad-character: `/*` begins no comment here | comments start with // and end with their line", "/* a ball"},
+    {"2:15 syntax: expected `flat`, `gable` or `hip`, found `gabel` | did you mean `gable`?",
+     "rule A { roof gabel(30deg); }"},
+    {"2:6 syntax: a seed is a whole number from 0 or a text, and `orchard` is a name | write it in quotes, \"orchard\"",
+     "seed orchard; rule A { sphere(1m); }"},
     {"2:17 unknown-name: unknown name `random` | write `rand`", "rule A { sphere(random(1m, 2m)); }"},
 };
 

@@ -71,7 +71,14 @@ const MessageCase kNames[] = {
     {"2:10 shadows-builtin: `p` is a value of the language | another name, such as `p_`", "let p = 2m;"},
     {"2:10 shadows-builtin: `cell` is a value of the language | another name, such as `cell_`", "for cell in 0..3 { }"},
     {"2:10 wrong-use: `B` is no shape | write a shape such as sphere(2m), or a rule", "A.B();"},
-    {"2:10 wrong-use: `B` is no shape | write a shape such as sphere(2m), or a rule", "Tunnel.B(2m);"},
+    {"2:10 unknown-name: nothing is imported as `Tunnel` here | add `import \"Tunnel.sgm\" as Tunnel;`",
+     "Tunnel.B(2m);"},
+    {"2:10 unknown-name: nothing is imported as `cave` here | add `import \"std/cave.sgm\" as cave;`",
+     "cave.Hall(3m);"},
+    {"2:19 unknown-name: nothing is imported as `noise` here | add `import \"std/noise.sgm\" as noise;`",
+     "displace noise.fbm(period 1m, amp 1m) { sphere(2m); }"},
+    {"2:14 unknown-name: the axis of `rot` is x, y, z or a vector, and `w` is none | such as rot(y, 30deg)",
+     "rot(w, 30deg) sphere(1m);"},
     {"2:10 wrong-use: `point` is no shape | write a shape such as sphere(2m), or a rule", "cell.point();"},
     {"2:10 wrong-use: `sqrt` gives a value and is no shape | write a shape such as sphere(2m), or a rule", "sqrt(2);"},
     {"2:17 wrong-use: `A` is a shape and has no value | write it as a statement of its own", "sphere(A);"},
@@ -103,16 +110,13 @@ const MessageCase kDeclarations[] = {
     {"3:1 argument-count: `A` has 1 parameter in its first head and 2 in this one | the heads of a rule have the same "
      "parameters | note: first at test.sgm:2:1",
      "sgm 1; start A(1);\nrule A(r) weight 1 { }\nrule A(r, s) weight 1 { }"},
-    {"1:32 argument-name: this is `wide` less something | to give `wide` a value below 0, write `wide = -...`\n"
-     "1:50 warning unused-rule: nothing derives `B` | call it in a rule, or remove it",
+    {"1:32 argument-name: this is `wide` less something | to give `wide` a value below 0, write `wide = -...`",
      "sgm 1; start A; rule A { B(3m, wide -2m); } rule B(r, wide = 2m) { box(r + wide); }"},
     {"1:22 guards: `A` has an `else` and no `when` | add a head with `when`, or leave `else` out",
      "sgm 1; start A; rule A else { }"},
     {"1:33 warning unused-rule: nothing derives `B` | call it in a rule, or remove it",
      "sgm 1; start A; rule A { } rule B { }"},
-    {"1:14 unknown-name: unknown name `B` | add `rule B { ... }`\n1:22 warning unused-rule: nothing derives `A` | call "
-     "it in a rule, or remove it",
-     "sgm 1; start B; rule A { }"},
+    {"1:14 unknown-name: unknown name `B` | add `rule B { ... }`", "sgm 1; start B; rule A { }"},
     {"1:47 wrong-use: `a` is a parameter and takes no arguments | write `a`",
      "sgm 1; param a = 2m; start A; rule A { sphere(a(3)); }"},
     {"1:40 wrong-use: `a` gives a value and is no shape | write a shape such as sphere(2m), or a rule",
@@ -170,12 +174,25 @@ const MessageCase kDeclarations[] = {
     {"1:26 unbounded-recursion: `A` may call itself without end | bound it: `rule A ... depth 8 -> Leaf`, `minsize 1m "
      "-> Leaf`, or a guard `when n > 0` with n - 1",
      "sgm 1; start A; rule A { A; }"},
-    {"1:40 unbounded-recursion: `B` and `A` may call each other without end | bound it: `rule A ... depth 8 -> Leaf`, "
-     "`minsize 1m -> Leaf`, or a guard `when n > 0` with n - 1 | note: only `depth` bounds rules that call each other",
+    {"1:40 unbounded-recursion: `B` and `A` may call each other without end | bound it: `rule A ... depth 8 -> Leaf` | "
+     "note: only `depth` bounds rules that call each other",
      "sgm 1; start A; rule A { B; } rule B { A; }"},
     {"1:35 unbounded-recursion: `A` may call itself without end | bound it: `rule A ... depth 8 -> Leaf`, `minsize 1m "
      "-> Leaf`, or a guard `when n > 0` with n - 1 | note: what stands behind `->` must not lead back",
      "sgm 1; start A; rule A depth 4 -> A { A; }"},
+    {"1:109 unknown-name: there is no plan `plan` here | the one of another rule is known here where it is handed "
+     "over: "
+     "`rule Name(plan) { ... }` and `Name(plan);`",
+     "sgm 1; start A; rule A { footprint rect(2m, 3m) as plan; extrude 1m of plan; B; } rule B { roof flat(1m) of "
+     "plan; }"},
+    {"1:58 unbounded-recursion: `A` may call itself without end | `minsize` ends it where `r` becomes smaller with "
+     "each "
+     "call, such as 0.7*r; else bound it by `depth 8 -> Leaf`",
+     "sgm 1; start A(2m); rule A(r) minsize 1m -> sphere(1m) { A(r); }"},
+    {"1:51 unbounded-recursion: `A` may call itself without end | `minsize` ends it where the scope becomes smaller "
+     "with "
+     "each call: put it into a part of a split, or behind `size` or `scale(0.7)`; else bound it by `depth 8 -> Leaf`",
+     "sgm 1; start A; rule A minsize 1m -> sphere(1m) { A; }"},
 };
 
 }  // namespace

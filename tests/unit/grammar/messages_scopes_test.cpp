@@ -87,7 +87,16 @@ const MessageCase kProfiles[] = {
     {"3:12 syntax: expected `of`, found `plan`", "extrude 2m plan;"},
     {"3:14 syntax: expected the name of a plan, found `;`", "extrude 2m of;"},
     {"3:15 syntax: expected the name of a plan, found `3m`", "extrude 2m of 3m;"},
-    {"3:15 unknown-name: unknown name `plan` | add `let plan = ...;`, or `param plan = ...;`", "extrude 2m of plan;"},
+    {"3:15 unknown-name: there is no plan `plan` here | write `footprint rect(12m, 8m) as plan;` before it in the rule",
+     "extrude 2m of plan;"},
+    {"3:15 unknown-name: there is no plan `plan` here | it is known behind its footprint: put that first",
+     "extrude 2m of plan; footprint rect(2m, 3m) as plan;"},
+    {"3:54 unknown-name: there is no plan `plan` here | it is known in the block of its footprint: put that into a "
+     "block "
+     "around both",
+     "{ footprint rect(2m, 3m) as plan; } roof flat(1m) of plan;"},
+    {"3:47 unknown-name: there is no plan `plan` here | did you mean `plam`?",
+     "footprint rect(2m, 3m) as plam; extrude 2m of plan;"},
     {"3:54 syntax: expected `;` or a block, found `sphere`",
      "{ footprint rect(2m, 3m) as plan; extrude 2m of plan sphere(1m); }"},
     {"3:43 unit-mismatch: the height of an extrusion is a length, and this is a ratio | write `2m`",
@@ -123,9 +132,7 @@ const MessageCase kRooms[] = {
     {"3:11 reserved-word: `let` is a word of the language and cannot be the name of a room | another name, such as "
      "`let_`",
      "treemap { let 4: Part; }"},
-    {"3:1 argument-count: a treemap has 1 to 32 rooms | such as `living 28: Room;`\n5:6 warning unused-rule: nothing "
-     "derives `Part` | call it in a rule, or remove it",
-     "treemap { }"},
+    {"3:1 argument-count: a treemap has 1 to 32 rooms | such as `living 28: Room;`", "treemap { }"},
     {"3:22 duplicate: a second room `a` in this treemap | give each room a name of its own",
      "treemap { a 4: Part; a 5: Part; }"},
     {"3:13 unit-mismatch: the area of a room is a ratio, and this is a length | divide it by a length to make a ratio "
@@ -211,8 +218,7 @@ const MessageCase kTiles[] = {
      "wfc 2m { border left b; border right b; a 1, side b: Part; }"},
     {"3:21 duplicate: a second tile `a` in this wfc | give each tile a name of its own",
      "wfc 2m { a 1: Part; a 2: Part; }"},
-    {"3:1 argument-count: a wfc has 1 to 64 tiles | such as `wall 3 turn, left brick, right brick: Wall;`\n5:6 warning "
-     "unused-rule: nothing derives `Part` | call it in a rule, or remove it",
+    {"3:1 argument-count: a wfc has 1 to 64 tiles | such as `wall 3 turn, left brick, right brick: Wall;`",
      "wfc 2m { }"},
     {"3:5 unit-mismatch: the size of a tile is a length, and this is a ratio | write `2m`", "wfc 2 { a 1: Part; }"},
     {"3:5 unit-mismatch: the size of a tile is a point, and this is a vector of ratios | such as (1m, 2m, 3m)",

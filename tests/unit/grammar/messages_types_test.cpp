@@ -201,10 +201,10 @@ const MessageCase kUses[] = {
      "type-mismatch: a displacement is a length, and this is a cell | such as 2m",
      "sgm 1; field f(c) = c; start A; rule A { displace f(cell) { sphere(1m); } }"},
     {"1:28 type-mismatch: an argument of `B` cannot be a list of faces | rules take numbers, vectors, conditions, "
-     "cells, faces and segments\n1:48 warning unused-rule: nothing derives `B` | call it in a rule, or remove it",
+     "cells, faces and segments",
      "sgm 1; start A; rule A { B(cell.faces); } rule B(r) { }"},
     {"1:28 type-mismatch: an argument of `B` cannot be a text | rules take numbers, vectors, conditions, cells, faces "
-     "and segments\n1:41 warning unused-rule: nothing derives `B` | call it in a rule, or remove it",
+     "and segments",
      "sgm 1; start A; rule A { B(\"a\"); } rule B(r) { }"},
     {"1:35 unit-mismatch: `r` of `B` is a length, and this is a ratio | write `3m`",
      "sgm 1; start A; rule A { B(2m); B(3); } rule B(r) { sphere(1m); }"},

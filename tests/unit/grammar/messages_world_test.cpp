@@ -225,6 +225,13 @@ const MessageCase kOverrides[] = {
      "override \"A/x.Cave\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
     {"2:14 unknown-name: nothing here has the tag \"stone\" | write `tag` and this text in the block that it replaces",
      "override tag \"stone\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:14 unknown-name: nothing here has the tag \"kitchn\" | did you mean `kitchen`?",
+     "override tag \"kitchn\" { }\nrule A { size(3m, 3m, 3m) treemap { kitchen 3: { } } }"},
+    {"2:10 syntax: \"tag:t\" is no path of rules | write `override tag \"t\"` for the blocks with that tag",
+     "override \"tag:t\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"2:10 syntax: \"t\" is no path of rules | write `override tag \"t\"` for the blocks with that tag",
+     "override \"t\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
+    {"", "override tag \"hall\" { cut sphere(1m); }\nrule A { size(3m, 3m, 3m) treemap { hall 3: sphere(1m); } }"},
     {"2:36 duplicate: this has an override already, which this one leaves out | derive it with `inner;`, or remove one "
      "of them | note: first at test.sgm:2:10",
      "override \"A/B\" { inner; } override \"A/B\" { }\nrule A { B; B; } rule B { tag \"t\"; sphere(1m); }"},
@@ -255,6 +262,19 @@ const MessageCase kIdle[] = {
     {"2:10 warning unused-value: nothing uses the let `b` | use it, or remove it",
      "rule A { let b = 2m; let c = 1m; sphere(c); }\n"
      "rule B(b) { sphere(b); } override \"A\" { inner; let b = 2m; B(b); }"},
+    {"2:60 warning near-name: the material `bric` is spelt almost as `brick`, which is here as well | did you mean "
+     "`brick`?",
+     "rule A { { sphere(1m); mat brick; } at(x 1m) { sphere(1m); mat bric; } }"},
+    {"2:24 warning near-name: the material `birck` is spelt almost as `brick`, which is here as well | did you mean "
+     "`brick`?",
+     "rule A { { sphere(1m); mat birck; } { box(1m); mat brick; } { box(2m); mat brick; } }"},
+    {"",
+     "rule A { { sphere(1m); mat glass; } { box(1m); mat grass; } { box(2m); mat wall1; } { box(2m); mat wall2; } }"},
+    {"", "rule A { { sphere(1m); mat clay; } { box(1m); mat clays1; } { box(1m); mat tin; } { box(2m); mat tine; } }"},
+    {"2:43 warning flat-scope: the scope of a face has no depth, so this box is left out | give it one: `size(z 0.2m) "
+     "box(scope)`",
+     "rule A { size(2m, 2m, 2m) comp { front: { box(scope); } edges: box(scope); } }"},
+    {"", "rule A { size(2m, 2m, 2m) comp { front: size(z 0.2m) box(scope); inside: box(scope); } }"},
     {"", "param n = 3 in 1..5;\nlet a = n; let b = 2; rule A { let c = a; repeat c sphere(1m*b); }"},
     {"", "import \"std/rock.sgm\" as rock;\nrule A { displace rock.fbm(period 5m, amp 0.1m) { sphere(1m); } }"},
     {"3:16 warning idle-head: this head of `B` never comes: its guard never holds | whatever the parameters are, "

@@ -151,6 +151,29 @@ TEST_CASE("counts are rounded as derivation rounds them", "[grammar][reach]") {
              "rule B { box((min(scope.x, 32m), 32m, 32m)); }");
 }
 
+TEST_CASE("copies have sizes of which each follows from the one before", "[grammar][reach]") {
+  checkBound("repeat 3 size(2*scope) box(scope);", {-16, -16, -16}, {16, 16, 16});
+  checkBound("repeat 3 size(0.5*scope) box(scope);", {-4, -4, -4}, {4, 4, 4});
+  checkBound("repeat 900 size(0.9*scope) box(scope);", {-4, -4, -4}, {4, 4, 4});
+  checkBound("repeat 3 size(scope.x + 2m, 1m, 2*scope.z) box(scope);", {-6, -4, -16}, {6, 4, 16});
+  checkBound("repeat 900 size(2m, 1m, 3m) box(scope);", {-4, -4, -4}, {4, 4, 4});
+  CHECK_FALSE(boundOf("repeat 900 size(2*scope) box(scope);").compiled);
+}
+
+TEST_CASE("splits in splits are followed as deep as blocks may stand", "[grammar][reach]") {
+  for (const int deep : {4, 8, 12, 16}) {
+    CAPTURE(deep);
+    std::string body = "box(scope);";
+    for (int i = 0; i < deep; ++i)
+      body = std::string("split ") + "xyz"[i % 3] + " { ~1m: box(scope); ~1m: { " + body + " } ~1m: box(scope); }";
+    const Bound bound = boundOf(body);
+    INFO(bound.messages);
+    CHECK(bound.proven);
+    CHECK(bound.hi[0] >= 4);
+    CHECK(bound.hi[0] <= 30);
+  }
+}
+
 TEST_CASE("sizes are those that come out, and scopes those of the moment", "[grammar][reach]") {
   checkBound("B(4m);", {-4, -4, -4}, {4, 4, 4}, "rule B(r) minsize 1m -> box(r) { sphere(r); scale(0.5) B(r); }");
   checkBound("size(2m, 2m, 2m) at(scope.x, 0m, 0m) sphere(1m);", {1, -1, -1}, {3, 1, 1});
@@ -235,8 +258,8 @@ TEST_CASE("a layer of voxels shows where cells are no larger than eight of them"
     REQUIRE(result.program);
     return result.program->layers[0].coarsest_cell;
   };
-  const CompileResult threshold = compileText(
-      "sgm 1; domain infinite; layer a cell 8m reach 4m detail 0.3m { start A; }\nrule A { sphere(1m); }");
+  const CompileResult threshold =
+      compileText("sgm 1; domain infinite; layer a cell 8m reach 4m detail 0.3m { start A; }\nrule A { sphere(1m); }");
   REQUIRE(threshold.program);
   CHECK(threshold.program->layers[0].coarsest_cell == 307);
   CHECK(std::abs(coarsest("ca(1m);") - 4 * 1024) <= 8);

@@ -121,6 +121,48 @@ TEST_CASE("places of a text go to lines and UTF-16 units and back") {
   for (uint32_t offset : {0u, 1u, 3u, 7u, 8u, 9u, 10u, 12u}) CHECK(text.offset(text.position(offset)) == offset);
 }
 
+TEST_CASE("places in a long line are those that a walk along it finds") {
+  std::string line = "\n";
+  for (int i = 0; line.size() < 3000; ++i) line += i % 7 == 0 ? "\xF0\x9F\x98\x80" : i % 3 == 0 ? "\xC3\xA4" : "z";
+  const DocumentText text(line + "\r\nend");
+  for (uint32_t at = 1, character = 0; at < line.size();) {
+    CHECK(text.position(at).line == 1);
+    CHECK(text.position(at).character == character);
+    const uint32_t bytes = line[at] == 'z' ? 1 : line[at] == '\xC3' ? 2 : 4;
+    character += bytes == 4 ? 2 : 1;
+    at += bytes;
+  }
+}
+
+TEST_CASE("the symbols of a line that is all of a large text do not take its length each") {
+  std::string text = "sgm 1; start R0;";
+  for (int i = 0; i < 40000; ++i) text += " rule R" + std::to_string(i) + " { }";
+  LanguageServer server;
+  REQUIRE(server.handle(request(0, "initialize")).size() == 1);
+  server.handle({{"jsonrpc", "2.0"},
+                 {"method", "textDocument/didOpen"},
+                 {"params", {{"textDocument", {{"uri", "file:///tmp/a.sgm"}, {"text", text}}}}}});
+  const auto answers =
+      server.handle(request(1, "textDocument/documentSymbol", {{"textDocument", {{"uri", "file:///tmp/a.sgm"}}}}));
+  REQUIRE(answers.size() == 1);
+  const Json& symbols = answers[0]["result"];
+  REQUIRE(symbols.size() == 40000);
+  CHECK(symbols.back()["selectionRange"]["end"]["character"] == text.size() - 4);
+}
+
+TEST_CASE("a request without what it needs is told what that is, in the protocol's words alone") {
+  LanguageServer server;
+  REQUIRE(server.handle(request(0, "initialize")).size() == 1);
+  for (const char* method : {"textDocument/hover", "textDocument/completion", "textDocument/documentSymbol"}) {
+    const Json error = server.handle({{"jsonrpc", "2.0"}, {"id", 1}, {"method", method}}).at(0)["error"];
+    CHECK(error["code"] == -32602);
+    CHECK(error["message"] == "params: key 'textDocument' not found");
+  }
+  const Json error = server.handle(request(2, "textDocument/hover", "what")).at(0)["error"];
+  CHECK(error["code"] == -32602);
+  CHECK(error["message"].get<std::string>().find("json.exception") == std::string::npos);
+}
+
 TEST_CASE("lines end with either of their ends, or with both") {
   const DocumentText text("a\rbc\r\nd\n\re\r");
   CHECK(text.position(2).line == 1);

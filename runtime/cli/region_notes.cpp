@@ -1,0 +1,64 @@
+#include "cli/region_notes.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "cli/surroundings.h"
+
+namespace sgm::cli {
+namespace {
+
+constexpr double kTreemapWall = 0.2;  ///< metres, where the treemap does not say
+
+int32_t thinnest(const IntBox& box) {
+  int64_t edge = std::numeric_limits<int32_t>::max();
+  for (int axis = 0; axis < 3; ++axis) edge = std::min(edge, int64_t{box.hi[axis]} - box.lo[axis]);
+  return static_cast<int32_t>(edge);
+}
+
+/// Metres, as it is written; nothing where it is computed.
+std::optional<double> wallOf(const Program& program, const StmtNode& s) {
+  const ExprId wall = program.ast.treemaps[s.extra].wall;
+  if (wall == kNoId) return kTreemapWall;
+  const ExprNode& n = program.expr(wall);
+  return n.kind == ExprKind::number ? std::optional(n.value) : std::nullopt;
+}
+
+}  // namespace
+
+Result<std::string> whyEmpty(const WorldField& world, const Region& region) {
+  const bool solid = region.program->domain.solid;
+  const Result<std::vector<IntBox>> shapes = shapesIn(world, region.meshed.extent);
+  if (!shapes) return shapes.error();
+  if (shapes->empty())
+    return std::string(solid ? "nothing is cut from the rock in this region" : "no shape lies in this region") +
+           ": what is derived may lie elsewhere, which --region takes, or be left out, as warnings say";
+  if (!solid && region.meshed.solid_samples == region.samples())
+    return std::string("this region lies all within the solid: take more of the world with --region");
+  const bool thin = std::ranges::all_of(*shapes, [&](const IntBox& box) { return thinnest(box) < region.cell; });
+  if (thin)
+    return fmt::format("what is here is thinner than a cell of {} m: take smaller ones with --cell",
+                       metres(region.cell));
+  return fmt::format("{} here, or is thinner than a cell of {} m: look at the cuts, or take smaller cells with --cell",
+                     solid ? "what is cut is filled again" : "all is carved away", metres(region.cell));
+}
+
+void warnOfThinWalls(const std::string& file, const Program& program, int32_t cell) {
+  for (const StmtNode& s : program.ast.stmts) {
+    if (s.kind != StmtKind::treemap) continue;
+    const std::optional<double> wall = wallOf(program, s);
+    if (!wall || *wall >= metres(cell)) continue;
+    fmt::print(
+        stderr,
+        "{}:{}:{}: warning: the walls of this treemap, {} m, are thinner than a cell of {} m, and may have holes "
+        "or be gone: take smaller cells, such as --cell {:.2g}\n",
+        s.span.file == 0 ? file : std::string(program.modules[s.span.file].path), s.span.line, s.span.column, *wall,
+        metres(cell), *wall / 2);
+  }
+}
+
+}  // namespace sgm::cli

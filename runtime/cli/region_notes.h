@@ -1,0 +1,17 @@
+#pragma once
+// What a person should know of a region's mesh that is not as they may expect it.
+
+#include <string>
+
+#include "cli/region.h"
+#include "stream/world_field.h"
+
+namespace sgm::cli {
+
+/// Why a region has no triangle, and what to try; in one sentence. Errors: those of derivation.
+Result<std::string> whyEmpty(const WorldField& world, const Region& region);
+
+/// Of treemaps whose walls are thinner than a cell, to stderr.
+void warnOfThinWalls(const std::string& file, const Program& program, int32_t cell);
+
+}  // namespace sgm::cli
