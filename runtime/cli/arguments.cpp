@@ -267,7 +267,8 @@ Command addMeasure(CLI::App& root) {
       ->check(numberIn(1e-9, 1e9));
   app->add_flag("--no-self-intersections", options->no_self_intersections,
                 "Do not look for triangles that cut each other: about half of the time");
-  app->add_option("--memory", options->memory, "Megabytes (2^20 bytes) that a mesh file's reading and measuring may take")
+  app->add_option("--memory", options->memory,
+                  "Megabytes (2^20 bytes) that a mesh file's reading and measuring may take")
       ->check(CLI::Range(uint64_t{64}, uint64_t{1} << 24))
       ->capture_default_str();
   app->add_option("--seconds", options->seconds, "Seconds that it may take")
@@ -278,7 +279,8 @@ Command addMeasure(CLI::App& root) {
   addLevelOption(*app, *options);
   addSharpOption(*app, *options);
   app->footer(
-      "Lengths are in the file's unit, metres in .glb files and grammars. A mesh file is read and measured in a process\n"
+      "Lengths are in the file's unit, metres in .glb files and grammars. A mesh file is read and measured in a "
+      "process\n"
       "of its own, which --memory and --seconds limit. --seed to --sharp are for grammars.\n"
       "Exit status 0 also where the mesh is not valid: \"valid\" and \"problems\" in --json say so.\n"
       "Example:\n  sgm measure cave.glb --json\n  sgm measure samples/grammars/sphere.sgm --cell 0.25");
@@ -470,7 +472,8 @@ Exit runCommandLine(int argc, char** argv) {
       "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
       "be read or written; the highest of several.");
   std::vector<Command> commands;
-  for (const auto add : {addCheck, addFmt, addExplain, addMesh, addMeasure, addRender, addFly, addLsp, addBench, addBackends})
+  for (const auto add :
+       {addCheck, addFmt, addExplain, addMesh, addMeasure, addRender, addFly, addLsp, addBench, addBackends})
     commands.push_back(add(app));
 
   try {

@@ -121,7 +121,8 @@ Result<std::string> runLimited(const std::function<Result<std::string>()>& work,
   if (!said) kill(child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  const bool out_of_time = !said || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL));
+  const bool out_of_time =
+      !said || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL));
   if (out_of_time) {
     return Error{Code::limit, fmt::format("it takes more than {} s: give it more with --seconds, or a smaller file",
                                           limits.seconds)};

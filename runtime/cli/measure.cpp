@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "asset/mesh_file.h"
 #include "cli/commands.h"
@@ -14,7 +15,7 @@
 namespace sgm::cli {
 namespace {
 
-Result<measure::MeshSettings> settingsOf(const MeasureOptions& options) {
+measure::MeshSettings settingsOf(const MeasureOptions& options) {
   measure::MeshSettings settings;
   settings.weld = options.weld;
   settings.self_intersections = !options.no_self_intersections;
@@ -46,9 +47,7 @@ Result<std::vector<std::byte>> readBytes(const std::string& path) {
 Result<std::string> reportOf(const measure::Triangles& mesh, const MeasureOptions& options, JobSystem& jobs,
                              const std::string& what, Json json, double seconds) {
   const Stopwatch watch;
-  const Result<measure::MeshSettings> settings = settingsOf(options);
-  if (!settings) return settings.error();
-  const Result<measure::MeshMeasures> measures = measure::measureMesh(mesh, *settings, jobs);
+  const Result<measure::MeshMeasures> measures = measure::measureMesh(mesh, settingsOf(options), jobs);
   if (!measures) return measures.error();
   if (options.json) {
     json.update(toJson(*measures));
@@ -64,7 +63,13 @@ Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKi
   const Stopwatch watch;
   Result<std::vector<std::byte>> bytes = readBytes(options.file);
   if (!bytes) return bytes.error();
-  Result<asset::TriangleMesh> mesh = asset::readMesh(*bytes, kind);
+  // What a file may hold is limited by the process's memory alone.
+  asset::MeshLimits limits;
+  limits.points = limits.triangles = std::numeric_limits<uint32_t>::max();
+  limits.farthest = 1e12;
+  limits.json_bytes = size_t{64} << 20;
+  limits.nodes = size_t{1} << 20;
+  Result<asset::TriangleMesh> mesh = asset::readMesh(*bytes, kind, limits);
   if (!mesh) return Error{mesh.error().code, options.file + ": " + mesh.error().message};
   *bytes = {};
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);

@@ -151,9 +151,8 @@ std::string textOf(const MeshMeasures& m) {
                               c.volumeOf(c.all), c.volumeOf(c.any), c.volumeOf(c.centre), c.edge));
   }
   line("parts", fmt::format("{} (section 7.3), {}, Euler characteristic {}, genus {}",
-                            many(m.parts.objects, "object", "objects"),
-                            many(m.parts.shells.size(), "shell", "shells"), m.euler(),
-                            m.genus() ? std::to_string(*m.genus()) : "not defined"));
+                            many(m.parts.objects, "object", "objects"), many(m.parts.shells.size(), "shell", "shells"),
+                            m.euler(), m.genus() ? std::to_string(*m.genus()) : "not defined"));
   line("bends", fmt::format("{:.1f} % of the edges flat, {:.1f} % convex, {:.1f} % concave", 100 * m.histogram.flat,
                             100 * m.histogram.convex, 100 * m.histogram.concave));
   if (m.slivers > 0) line("slivers", fmt::format("{} (quality below {})", m.slivers, measure::kSliver));

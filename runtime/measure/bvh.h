@@ -35,8 +35,8 @@ class Bvh {
 
   /// Two nodes whose leaves may meet each other; the same one twice: whose leaves may meet among themselves.
   using Pair = std::pair<uint32_t, uint32_t>;
-  /// Pairs that hold all pairs of leaves whose boxes overlap, each in one of them, at least about `parts` where there are
-  /// as many: what several threads then walk.
+  /// Pairs that hold all pairs of leaves whose boxes overlap, each in one of them, at least about `parts` where there
+  /// are as many: what several threads then walk.
   std::vector<Pair> parts(size_t parts) const;
 
   /// Calls visit(a, b) with the triangles of each two leaves under the pair whose boxes overlap, until it says false.

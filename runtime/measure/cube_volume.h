@@ -10,10 +10,10 @@ namespace sgm::measure {
 
 /// Cubes of one edge that fill a box; equation 8 multiplies their number by edge^3.
 struct CubeVolumes {
-  double edge = 0;         ///< C_E = 1 / LD, in the mesh's unit
-  uint64_t all = 0;        ///< cubes with all eight corners inside: too few by about half of those that the surface cuts
-  uint64_t any = 0;        ///< with one corner inside or more: too many by as much
-  uint64_t centre = 0;     ///< with their centre inside
+  double edge = 0;      ///< C_E = 1 / LD, in the mesh's unit
+  uint64_t all = 0;     ///< cubes with all eight corners inside: too few by about half of those that the surface cuts
+  uint64_t any = 0;     ///< with one corner inside or more: too many by as much
+  uint64_t centre = 0;  ///< with their centre inside
   double volumeOf(uint64_t cubes) const { return static_cast<double>(cubes) * edge * edge * edge; }
 };
 

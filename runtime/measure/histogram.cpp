@@ -30,9 +30,12 @@ std::optional<Bend> bendOf(Point v1, Point v2, Point n1, Point n2) {
 /// Equation 13.
 double valueOf(const Bend& bend, const HistogramSettings& settings) {
   switch (settings.mode) {
-    case HistogramMode::printed: return bend.angle / (2 * (kPi + 1));
-    case HistogramMode::corrected: return 0.5 - bend.angle / (2 * kPi);
-    case HistogramMode::curvature: return 0.5 - std::atan(settings.length * bend.angle / bend.edge) / kPi;
+    case HistogramMode::printed:
+      return bend.angle / (2 * (kPi + 1));
+    case HistogramMode::corrected:
+      return 0.5 - bend.angle / (2 * kPi);
+    case HistogramMode::curvature:
+      return 0.5 - std::atan(settings.length * bend.angle / bend.edge) / kPi;
   }
   return 0;
 }
@@ -46,9 +49,12 @@ struct Counts {
 
 std::string_view nameOf(HistogramMode mode) {
   switch (mode) {
-    case HistogramMode::printed: return "printed";
-    case HistogramMode::corrected: return "corrected";
-    case HistogramMode::curvature: return "curvature";
+    case HistogramMode::printed:
+      return "printed";
+    case HistogramMode::corrected:
+      return "corrected";
+    case HistogramMode::curvature:
+      return "curvature";
   }
   return "";
 }

@@ -105,8 +105,7 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
       [&] {
         const Edges edges(clean.triangles, clean.points.size());
         result.parts = shellsOf(clean, edges, result.sums.centre);
-        const Result<Histogram> histogram =
-            histogramOf(clean, smoothNormals(clean), &edges, settings.histogram, jobs);
+        const Result<Histogram> histogram = histogramOf(clean, smoothNormals(clean), &edges, settings.histogram, jobs);
         if (histogram) {
           result.histogram = *histogram;
         } else {

@@ -15,8 +15,8 @@ struct Nesting {
   uint64_t nested = 0;      ///< closed shells that face outward, in a solid: what they hold counts twice
 };
 
-/// How often the triangles of the other shells go round the point: 0 outside of them, 1 inside one. Exact; of open shells
-/// it says little. tree: of the mesh's triangles.
+/// How often the triangles of the other shells go round the point: 0 outside of them, 1 inside one. Exact; of open
+/// shells it says little. tree: of the mesh's triangles.
 int depthAt(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint32_t all_but, Point at);
 
 /// Each shell is judged by its first corner.

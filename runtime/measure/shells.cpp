@@ -105,9 +105,8 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
 
   std::vector<uint32_t> order(result.shells.size()), rank(result.shells.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return result.shells[a].triangles > result.shells[b].triangles;
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return result.shells[a].triangles > result.shells[b].triangles; });
   std::vector<Shell> sorted(order.size());
   for (uint32_t i = 0; i < order.size(); ++i) {
     sorted[i] = result.shells[order[i]];

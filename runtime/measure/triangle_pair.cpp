@@ -9,7 +9,9 @@ namespace {
 
 using Corners = std::array<Point, 3>;
 
-Corners cornersOf(std::span<const Point> points, const Triangle& t) { return {points[t[0]], points[t[1]], points[t[2]]}; }
+Corners cornersOf(std::span<const Point> points, const Triangle& t) {
+  return {points[t[0]], points[t[1]], points[t[2]]};
+}
 
 /// The axis along which a triangle is seen largest; -1 where its corners lie on a line.
 int dropOf(const Corners& t) {
@@ -71,7 +73,9 @@ std::array<int, 3> sidesOf(const Corners& plane, const Corners& t) {
   return sides;
 }
 
-bool allOnOneSide(const std::array<int, 3>& sides) { return sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2]; }
+bool allOnOneSide(const std::array<int, 3>& sides) {
+  return sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2];
+}
 
 bool anyEdgeMeets(const Corners& a, const std::array<int, 3>& a_sides, const Corners& b, int b_drop) {
   for (size_t k = 0; k < 3; ++k) {
@@ -130,10 +134,14 @@ bool meetWrongly(std::span<const Point> points, const Triangle& a, const Triangl
   }
   const Corners first = cornersOf(points, ordered_a), second = cornersOf(points, ordered_b);
   switch (common) {
-    case 0: return meetApart(first, second);
-    case 1: return meetBesideCorner(first, second);
-    case 2: return foldBack(first, second);
-    default: return false;
+    case 0:
+      return meetApart(first, second);
+    case 1:
+      return meetBesideCorner(first, second);
+    case 2:
+      return foldBack(first, second);
+    default:
+      return false;
   }
 }
 

@@ -15,11 +15,11 @@ struct WeldedPoints {
   size_t merged = 0;                ///< points that fell on another
 };
 
-/// tolerance 0: points with equal coordinates (0 and -0 are equal) are one. Otherwise each point, in order, falls on the
-/// first kept one that is at most so far off; the tolerance is more than 0 and finite.
-/// Equal coordinates are the right rule for what a program wrote: meshes of ours have vertices a 128th of a cell apart
-/// that are not one, which the usual millionth of the diagonal merges in a region of a kilometre.
-/// Contract: the coordinates of points that triangles use are finite. Points that none uses are left out.
+/// tolerance 0: points with equal coordinates (0 and -0 are equal) are one. Otherwise each point, in order, falls on
+/// the first kept one that is at most so far off; the tolerance is more than 0 and finite. Equal coordinates are the
+/// right rule for what a program wrote: meshes of ours have vertices a 128th of a cell apart that are not one, which
+/// the usual millionth of the diagonal merges in a region of a kilometre. Contract: the coordinates of points that
+/// triangles use are finite. Points that none uses are left out.
 WeldedPoints weldPoints(const Triangles& mesh, double tolerance = 0);
 
 }  // namespace sgm::measure

@@ -520,6 +520,70 @@ TEST_CASE("surface calls are checked") {
   CHECK(sgm_surface_get_view(nullptr, &view, &error) == SGM_ERR_INVALID_ARGUMENT);
 }
 
+TEST_CASE("measuring is checked") {
+  World world;
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_measures measures = SGM_MEASURES_INIT;
+  const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const double doubles[9] = {};
+  const uint32_t indices[3] = {0, 1, 2};
+  double histogram[33];
+  sgm_measure_desc good = SGM_MEASURE_DESC_INIT;
+  good.positions = positions;
+  good.position_count = 3;
+  good.indices = indices;
+  good.index_count = 3;
+  const auto with = [&](const sgm_measure_desc* desc) {
+    return sgm_measure(world.runtime.get(), desc, &measures, &error);
+  };
+  checkStruct(good, with);
+  checkStruct(sgm_measures SGM_MEASURES_INIT,
+              [&](sgm_measures* out) { return sgm_measure(world.runtime.get(), &good, out, &error); });
+  CHECK(sgm_measure(nullptr, &good, &measures, &error) == SGM_ERR_INVALID_ARGUMENT);
+  REQUIRE(with(&good) == SGM_OK);
+  CHECK(measures.open_edges == 3);
+
+  const auto refused = [&](auto&& change) {
+    sgm_measure_desc desc = good;
+    change(desc);
+    CHECK(with(&desc) == SGM_ERR_INVALID_ARGUMENT);
+    return std::string(error.message);
+  };
+  CHECK(refused([&](sgm_measure_desc& d) { d.position_count = uint64_t{1} << 32; }) ==
+        "desc.position_count is more than 2^32 - 1");
+  CHECK(refused([&](sgm_measure_desc& d) { d.index_count = 2; }) ==
+        "desc.index_count is no multiple of 3 up to 2^32 - 1");
+  CHECK(refused([&](sgm_measure_desc& d) { d.positions = nullptr; }) ==
+        "one of desc.positions and desc.positions_double must be given, and one alone");
+  CHECK(refused([&](sgm_measure_desc& d) { d.positions_double = doubles; }) ==
+        "one of desc.positions and desc.positions_double must be given, and one alone");
+  CHECK(refused([&](sgm_measure_desc& d) { d.position_stride = 8; }) ==
+        "desc.position_stride is below three numbers, or no multiple of one");
+  CHECK(refused([&](sgm_measure_desc& d) { d.position_stride = uint64_t{1} << 63; }) ==
+        "desc.position_stride is too large");
+  CHECK(refused([&](sgm_measure_desc& d) { d.indices = nullptr; }) == "desc.indices is NULL");
+  CHECK(refused([&](sgm_measure_desc& d) { d.position_count = 2; }) == "desc.indices[2] is 2, and there are 2 points");
+  CHECK(refused([&](sgm_measure_desc& d) { d.weld = -1; }) == "desc.weld is not a finite number from 0");
+  CHECK(refused([&](sgm_measure_desc& d) { d.weld = std::nan(""); }) == "desc.weld is not a finite number from 0");
+  CHECK(refused([&](sgm_measure_desc& d) { d.cubes = HUGE_VAL; }) == "desc.cubes is not a finite number from 0");
+  CHECK(refused([&](sgm_measure_desc& d) { d.histogram_mode = 3; }) == "desc.histogram_mode is no sgm_histogram_mode");
+  CHECK(refused([&](sgm_measure_desc& d) { d.histogram_bins = 0; }) ==
+        "a histogram has 1 to 4096 bins, not 0: an odd number is best");
+  CHECK(refused([&](sgm_measure_desc& d) { d.curvature_length = 0; }) ==
+        "the length that curvature is scaled by must be more than 0");
+  CHECK(refused([&](sgm_measure_desc& d) { d.flags = 4; }) == "desc.flags has a bit that is no sgm_measure_flag");
+  CHECK(refused([&](sgm_measure_desc& d) { d.histogram_capacity = 3; }) == "desc.histogram is NULL");
+
+  sgm_measure_desc small = good;
+  small.histogram = histogram;
+  small.histogram_capacity = 3;
+  CHECK(with(&small) == SGM_INCOMPLETE);
+  small.histogram_capacity = 33;
+  CHECK(with(&small) == SGM_OK);
+  small.cubes = 1e-6;
+  CHECK(with(&small) == SGM_ERR_LIMIT);
+}
+
 TEST_CASE("world calls are checked") {
   World fixture;
   sgm_error error = SGM_ERROR_INIT;

@@ -77,6 +77,14 @@ CHECK(density_unorm8, SGM_DENSITY_UNORM8 == 0);
 CHECK(density_float32, SGM_DENSITY_FLOAT32 == 1);
 CHECK(density_force, SGM_DENSITY_FORMAT_FORCE_32_BIT == 0x7FFFFFFF);
 
+CHECK(histogram_corrected, SGM_HISTOGRAM_CORRECTED == 0);
+CHECK(histogram_printed, SGM_HISTOGRAM_PRINTED == 1);
+CHECK(histogram_curvature, SGM_HISTOGRAM_CURVATURE == 2);
+CHECK(histogram_mode_force, SGM_HISTOGRAM_MODE_FORCE_32_BIT == 0x7FFFFFFF);
+CHECK(measure_unique_edges, SGM_MEASURE_UNIQUE_EDGES == 1);
+CHECK(measure_no_self_intersections, SGM_MEASURE_NO_SELF_INTERSECTIONS == 2);
+CHECK(measure_flag_force, SGM_MEASURE_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
+
 CHECK(face_x_low, SGM_FACE_X_LOW == 0);
 CHECK(face_x_high, SGM_FACE_X_HIGH == 1);
 CHECK(face_y_low, SGM_FACE_Y_LOW == 2);
@@ -428,6 +436,66 @@ PLACE(sgm_grid_desc, cell, 56);
 PLACE(sgm_grid_desc, normals, 64);
 PLACE(sgm_grid_desc, reserved2, 68);
 
+SIZE(sgm_measure_desc, 112);
+PLACE(sgm_measure_desc, struct_size, 0);
+PLACE(sgm_measure_desc, next, 8);
+PLACE(sgm_measure_desc, positions, 16);
+PLACE(sgm_measure_desc, positions_double, 24);
+PLACE(sgm_measure_desc, position_count, 32);
+PLACE(sgm_measure_desc, position_stride, 40);
+PLACE(sgm_measure_desc, indices, 48);
+PLACE(sgm_measure_desc, index_count, 56);
+PLACE(sgm_measure_desc, weld, 64);
+PLACE(sgm_measure_desc, cubes, 72);
+PLACE(sgm_measure_desc, histogram_mode, 80);
+PLACE(sgm_measure_desc, histogram_bins, 84);
+PLACE(sgm_measure_desc, curvature_length, 88);
+PLACE(sgm_measure_desc, flags, 96);
+PLACE(sgm_measure_desc, histogram_capacity, 100);
+PLACE(sgm_measure_desc, histogram, 104);
+
+SIZE(sgm_measures, 352);
+PLACE(sgm_measures, struct_size, 0);
+PLACE(sgm_measures, next, 8);
+PLACE(sgm_measures, watertight, 16);
+PLACE(sgm_measures, valid, 20);
+PLACE(sgm_measures, triangles, 24);
+PLACE(sgm_measures, points, 32);
+PLACE(sgm_measures, welded_points, 40);
+PLACE(sgm_measures, non_finite_triangles, 48);
+PLACE(sgm_measures, area, 56);
+PLACE(sgm_measures, volume, 64);
+PLACE(sgm_measures, area_vector, 72);
+PLACE(sgm_measures, bounds_min, 96);
+PLACE(sgm_measures, bounds_max, 120);
+PLACE(sgm_measures, objects, 144);
+PLACE(sgm_measures, shells, 152);
+PLACE(sgm_measures, euler, 160);
+PLACE(sgm_measures, genus, 168);
+PLACE(sgm_measures, edges, 176);
+PLACE(sgm_measures, open_edges, 184);
+PLACE(sgm_measures, turned_edges, 192);
+PLACE(sgm_measures, nonmanifold_edges, 200);
+PLACE(sgm_measures, nonmanifold_vertices, 208);
+PLACE(sgm_measures, degenerate_triangles, 216);
+PLACE(sgm_measures, duplicate_triangles, 224);
+PLACE(sgm_measures, sliver_triangles, 232);
+PLACE(sgm_measures, inside_out_shells, 240);
+PLACE(sgm_measures, cavity_shells, 248);
+PLACE(sgm_measures, nested_shells, 256);
+PLACE(sgm_measures, self_intersections, 264);
+PLACE(sgm_measures, self_intersections_complete, 272);
+PLACE(sgm_measures, histogram_first, 276);
+PLACE(sgm_measures, histogram_bins, 280);
+PLACE(sgm_measures, histogram_edges, 288);
+PLACE(sgm_measures, histogram_left_out, 296);
+PLACE(sgm_measures, flat, 304);
+PLACE(sgm_measures, convex, 312);
+PLACE(sgm_measures, concave, 320);
+PLACE(sgm_measures, cubes_all, 328);
+PLACE(sgm_measures, cubes_any, 336);
+PLACE(sgm_measures, cubes_centre, 344);
+
 SIZE(sgm_density_desc, 104);
 PLACE(sgm_density_desc, struct_size, 0);
 PLACE(sgm_density_desc, next, 8);
@@ -596,6 +664,8 @@ int LAYOUT_INITS(void) {
   const sgm_mesh_view mesh_view = SGM_MESH_VIEW_INIT;
   const sgm_region_desc region_desc = SGM_REGION_DESC_INIT;
   const sgm_grid_desc grid_desc = SGM_GRID_DESC_INIT;
+  const sgm_measure_desc measure_desc = SGM_MEASURE_DESC_INIT;
+  const sgm_measures measures = SGM_MEASURES_INIT;
   const sgm_surface_view surface_view = SGM_SURFACE_VIEW_INIT;
   const sgm_density_desc density_desc = SGM_DENSITY_DESC_INIT;
   const sgm_host_field host_field = SGM_HOST_FIELD_INIT;
@@ -623,6 +693,8 @@ int LAYOUT_INITS(void) {
          chunks_desc.next == SGM_NULL && mesh_range.hash == 0 && mesh_view.struct_size == sizeof(mesh_view) &&
          mesh_view.next == SGM_NULL && region_desc.struct_size == sizeof(region_desc) && region_desc.next == SGM_NULL &&
          grid_desc.struct_size == sizeof(grid_desc) && grid_desc.next == SGM_NULL &&
+         measure_desc.struct_size == sizeof(measure_desc) && measure_desc.next == SGM_NULL &&
+         measure_desc.histogram_bins == 33 && measures.struct_size == sizeof(measures) && measures.next == SGM_NULL &&
          surface_view.struct_size == sizeof(surface_view) && surface_view.next == SGM_NULL &&
          density_desc.struct_size == sizeof(density_desc) && density_desc.next == SGM_NULL &&
          collider_view.struct_size == sizeof(collider_view) && collider_view.next == SGM_NULL && brush.cut == 1 &&

@@ -2,10 +2,10 @@
 # --help with an example for every command, --version, backends.
 source "$(dirname "$0")/common.sh"
 expect 0 "$SGM" --help
-for command in check fmt explain lsp mesh render bench backends; do
+for command in check fmt explain lsp mesh measure render bench backends; do
   out_has "$command"
 done
-for command in check fmt explain lsp mesh render bench backends; do
+for command in check fmt explain lsp mesh measure render bench backends; do
   expect 0 "$SGM" $command --help
   out_has "Example:"
   out_has "sgm $command"

@@ -993,6 +993,99 @@ SGM_API sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_
  * of its positions, normals and triangles, worked out at each call. 0 for NULL. */
 SGM_API uint64_t sgm_surface_hash(const sgm_surface* surface);
 
+/* ------------------------------------------------------------------------------------------ measures: of any mesh */
+
+/* The histogram of bends along edges, section 7.4 of the paper: an edge from V1 to V2 with outward unit normals n1, n2
+ * has d = acos(e.n2) - acos(e.n1), below 0 where the surface is convex. Normals are those of the welded triangles,
+ * averaged at each point by area. */
+typedef enum sgm_histogram_mode {
+  SGM_HISTOGRAM_CORRECTED = 0, /* v = 1/2 - d / (2 pi): flat at 1/2, convex above */
+  SGM_HISTOGRAM_PRINTED = 1,   /* v = d / (2 (pi + 1)), as equation 13 has it: bins of number 0 and less are many */
+  SGM_HISTOGRAM_CURVATURE = 2, /* v = 1/2 - atan(L d / |e|) / pi: does not narrow as the mesh becomes finer */
+  SGM_HISTOGRAM_MODE_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_histogram_mode;
+
+typedef enum sgm_measure_flag {
+  SGM_MEASURE_UNIQUE_EDGES = 1,          /* the histogram counts each edge once, not once a triangle as the paper */
+  SGM_MEASURE_NO_SELF_INTERSECTIONS = 2, /* they are about half of the work */
+  SGM_MEASURE_FLAG_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_measure_flag;
+
+/* Triangles of the caller's, in any unit: areas come in its square, volumes in its cube. */
+typedef struct sgm_measure_desc {
+  uint32_t struct_size;
+  const void* next;
+  const float* positions;         /* three a point; or NULL, and positions_double. May be infinite or not a number */
+  const double* positions_double; /* three a point; or NULL, and positions */
+  uint64_t position_count;        /* at most 2^32 - 1 */
+  uint64_t position_stride;       /* bytes from one point to the next; 0: three numbers */
+  const uint32_t* indices;        /* three a triangle, counter-clockwise seen from outside, below position_count */
+  uint64_t index_count;           /* a multiple of 3, at most 2^32 - 1 */
+  double weld;                    /* points at most so far apart are one; 0: those with equal coordinates. Finite */
+  double cubes;                   /* edge of the cubes that are counted (equation 8); 0: none are */
+  int32_t histogram_mode;         /* sgm_histogram_mode */
+  uint32_t histogram_bins;        /* R: 1 to 4,096; an odd number keeps flat edges in one bin */
+  double curvature_length;        /* L, above 0: a ball of that radius is at 3/4 */
+  uint32_t flags;                 /* of sgm_measure_flag, joined by | */
+  uint32_t histogram_capacity;    /* elements of histogram */
+  double* histogram;              /* or NULL: the shares of the edges by bin, from histogram_first on */
+} sgm_measure_desc;
+
+#define SGM_MEASURE_DESC_INIT                                                                                         \
+  {                                                                                                                   \
+    SGM_SIZEOF(sgm_measure_desc), SGM_NULL, SGM_NULL, SGM_NULL, 0, 0, SGM_NULL, 0, 0.0, 0.0, SGM_HISTOGRAM_CORRECTED, \
+        33, 1.0, 0, 0, SGM_NULL                                                                                       \
+  }
+
+typedef struct sgm_measures {
+  uint32_t struct_size;
+  void* next;
+  int32_t watertight; /* 1: every edge has two triangles that go along it in opposite directions, every point one fan */
+  int32_t valid; /* 1: and it faces outward, covers nothing twice, and no triangle is without area or cuts another */
+  uint64_t triangles, points;
+  uint64_t welded_points;        /* that fell on others */
+  uint64_t non_finite_triangles; /* left out of all that follows */
+  double area;                   /* equation 7 */
+  double volume;                 /* by the divergence theorem, about the middle of the bounds: of a closed mesh */
+  double area_vector[3];         /* 0 for a closed mesh, up to rounding */
+  double bounds_min[3], bounds_max[3];
+  uint64_t objects;              /* section 7.3: connected through points */
+  uint64_t shells;               /* connected across edges */
+  int64_t euler;                 /* Euler characteristic, summed over shells */
+  int64_t genus;                 /* likewise; -1 where a shell is no manifold */
+  uint64_t edges, open_edges;    /* open: of one triangle alone */
+  uint64_t turned_edges;         /* whose triangles face different ways */
+  uint64_t nonmanifold_edges;    /* of three triangles or more */
+  uint64_t nonmanifold_vertices; /* that hang several fans together */
+  uint64_t degenerate_triangles; /* without area, exactly */
+  uint64_t duplicate_triangles;
+  uint64_t sliver_triangles;           /* 4 sqrt(3) area / (sum of squared edges) below 0.05 */
+  uint64_t inside_out_shells;          /* closed, facing inward, in no solid */
+  uint64_t cavity_shells;              /* closed, facing inward, in a solid */
+  uint64_t nested_shells;              /* closed, facing outward, in a solid: what they hold counts twice */
+  uint64_t self_intersections;         /* pairs of triangles that meet beside common corners and edges, exactly */
+  int32_t self_intersections_complete; /* 0: not looked for, or too many lie close together: there may be more */
+  int32_t histogram_first;             /* number of the first bin by equation 14: 1, in mode PRINTED less */
+  uint64_t histogram_bins;             /* that there are; SGM_INCOMPLETE where histogram_capacity is less */
+  uint64_t histogram_edges;            /* counted */
+  uint64_t histogram_left_out;         /* without length or normal */
+  double flat, convex, concave;        /* shares of the edges */
+  double cubes_all, cubes_any,
+      cubes_centre; /* equation 8: volume by all corners, any corner, the centre; 0: not asked */
+} sgm_measures;
+
+#define SGM_MEASURES_INIT                                                                                              \
+  {                                                                                                                    \
+    SGM_SIZEOF(sgm_measures), SGM_NULL, 0, 0, 0, 0, 0, 0, 0.0, 0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, \
+        0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0                    \
+  }
+
+/* Measures any mesh, and judges whether it is the closed surface of a solid. Blocks; uses the job system; the same
+ * numbers for any number of threads. Works in the C++ heap, with about 250 bytes a triangle. Whatever is wrong with the
+ * mesh is in `out`, not an error. SGM_INCOMPLETE: the histogram holds what fits, all else is whole.
+ * SGM_ERR_INVALID_ARGUMENT also for an index that is not below position_count. SGM_ERR_LIMIT: more than 2^30 cubes. */
+SGM_API sgm_result sgm_measure(sgm_runtime* runtime, const sgm_measure_desc* desc, sgm_measures* out, sgm_error* error);
+
 /* ---------------------------------------------------------------------------------------------- volumes: density */
 
 /* For a renderer of fog: clouds, smoke, whatever a grammar with `output density` (sgm_domain_info) describes.

@@ -97,7 +97,9 @@ TEST_CASE("as printed, half of the bins have numbers of 0 and less", "[histogram
     }
     // An edge that lies on a bin's wall to the last digit may fall on either side of it.
     CHECK(differ <= edges / 1000);
-    if (edges > 0) CHECK(std::fabs(static_cast<double>(h.below_first) - static_cast<double>(below)) <= static_cast<double>(edges) / 1000);
+    if (edges > 0)
+      CHECK(std::fabs(static_cast<double>(h.below_first) - static_cast<double>(below)) <=
+            static_cast<double>(edges) / 1000);
   }
   CHECK(of(ball(2), {HistogramMode::printed, 10}).first_bin == -3);
   CHECK(of(ball(2), {HistogramMode::printed, 10}).shares.size() == 8);

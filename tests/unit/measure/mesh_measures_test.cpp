@@ -27,9 +27,15 @@ Mesh goodMesh(std::mt19937& random) {
       for (uint32_t i = 0; i < 1 + random() % 3; ++i) {
         const Point at{8.0 * i, 0, 0};
         switch (random() % 3) {
-          case 0: mesh.add(ball(1 + static_cast<int>(random() % 2)).at(at)); break;
-          case 1: mesh.add(torus(6 + static_cast<uint32_t>(random() % 8)).at(at)); break;
-          case 2: mesh.add(box({1, 2, 3}, 1 + static_cast<uint32_t>(random() % 4)).at(at)); break;
+          case 0:
+            mesh.add(ball(1 + static_cast<int>(random() % 2)).at(at));
+            break;
+          case 1:
+            mesh.add(torus(6 + static_cast<uint32_t>(random() % 8)).at(at));
+            break;
+          case 2:
+            mesh.add(box({1, 2, 3}, 1 + static_cast<uint32_t>(random() % 4)).at(at));
+            break;
         }
       }
     }
@@ -69,8 +75,8 @@ const std::vector<Defect>& defects() {
          Triangle& t = mesh.triangles[any(random, mesh.triangles.size())];
          uint32_t& corner = t[any(random, 3)];
          // By a hundredth of an edge: closed to the eye.
-         const Point moved = mesh.points[corner] + 0.01 * (mesh.points[t[0]] + mesh.points[t[1]] -
-                                                           2.0 * mesh.points[t[2]]);
+         const Point moved =
+             mesh.points[corner] + 0.01 * (mesh.points[t[0]] + mesh.points[t[1]] - 2.0 * mesh.points[t[2]]);
          corner = static_cast<uint32_t>(mesh.points.size());
          mesh.points.push_back(moved);
        },
@@ -146,7 +152,8 @@ TEST_CASE("a thousand good meshes raise no alarm", "[measures]") {
     std::mt19937 random(seed);
     const Mesh mesh = goodMesh(random);
     const MeshMeasures found = measured(mesh);
-    CAPTURE(seed, mesh.triangles.size(), describe(found.identity), found.self_intersections->pairs, found.nesting.inside_out);
+    CAPTURE(seed, mesh.triangles.size(), describe(found.identity), found.self_intersections->pairs,
+            found.nesting.inside_out);
     CHECK(found.watertight());
     CHECK(found.valid());
     CHECK(found.degenerate() == 0);

@@ -71,9 +71,8 @@ bool meetExactly(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
   const Point normal = cross(b[1] - b[0], b[2] - b[0]);
   const auto plane = [&](Point n, Point through, double side) {
     std::array<Int128, 4> result{whole(side * n.x), whole(side * n.y), whole(side * n.z),
-                                whole(-side * dot(n, through))};
-    const Int128 divisor =
-        commonDivisor(commonDivisor(result[0], result[1]), commonDivisor(result[2], result[3]));
+                                 whole(-side * dot(n, through))};
+    const Int128 divisor = commonDivisor(commonDivisor(result[0], result[1]), commonDivisor(result[2], result[3]));
     for (Int128& part : result) part /= divisor;
     return result;
   };
@@ -86,15 +85,15 @@ bool meetExactly(const std::array<Point, 3>& a, const std::array<Point, 3>& b) {
 }  // namespace
 
 TEST_CASE("pairs of triangles, one by one", "[self_intersection]") {
-  const std::vector<Point> p{{0, 0, 0}, {4, 0, 0}, {0, 4, 0},   // 0 1 2: in z = 0
-                             {1, 1, -1}, {1, 1, 1}, {5, 5, 0},  // 3 4 5: through it
-                             {1, 1, 0}, {2, 1, 0}, {1, 2, 0},   // 6 7 8: in it, inside
-                             {0, 0, 4}, {4, 4, 0}, {8, 0, 0}};  // 9 10 11
+  const std::vector<Point> p{{0, 0, 0},  {4, 0, 0}, {0, 4, 0},   // 0 1 2: in z = 0
+                             {1, 1, -1}, {1, 1, 1}, {5, 5, 0},   // 3 4 5: through it
+                             {1, 1, 0},  {2, 1, 0}, {1, 2, 0},   // 6 7 8: in it, inside
+                             {0, 0, 4},  {4, 4, 0}, {8, 0, 0}};  // 9 10 11
   const Triangle flat{0, 1, 2};
   CHECK(meetWrongly(p, flat, {3, 4, 5}));
   CHECK(meetWrongly(p, {3, 4, 5}, flat));
   CHECK(meetWrongly(p, flat, {6, 7, 8}));
-  CHECK(meetWrongly(p, flat, {6, 9, 4}));  // touches it with a corner
+  CHECK(meetWrongly(p, flat, {6, 9, 4}));         // touches it with a corner
   CHECK_FALSE(meetWrongly(p, flat, {0, 9, 4}));   // a corner in common, no more
   CHECK(meetWrongly(p, flat, {0, 3, 4}));         // a corner in common, and through
   CHECK(meetWrongly(p, flat, {0, 6, 9}));         // a corner in common, and an edge in the other's plane
@@ -116,8 +115,8 @@ TEST_CASE("triangles on a small lattice meet where exact clipping says", "[self_
     const auto n = 2 + static_cast<uint32_t>(random() % 4);
     std::vector<Point> points;
     for (int i = 0; i < 6; ++i) {
-      points.push_back({static_cast<double>(random() % n), static_cast<double>(random() % n),
-                        static_cast<double>(random() % n)});
+      points.push_back(
+          {static_cast<double>(random() % n), static_cast<double>(random() % n), static_cast<double>(random() % n)});
     }
     const Triangle a{0, 1, 2}, b{3, 4, 5};
     if (isFlat(points, a) || isFlat(points, b)) {
@@ -142,10 +141,11 @@ TEST_CASE("triangles on a small lattice meet where exact clipping says", "[self_
     const auto inward = [&](Point from, Point to) { return (k - 1) * from + to; };
     const Point o = common[0];
     bool meet = false;
-    // The rest of a triangle without the slice is two triangles; with k so large the slice holds no more than the corner.
+    // The rest of a triangle without the slice is two triangles; with k so large the slice holds no more than the
+    // corner.
     const auto rest = [&](Point q, Point r) {
-      return std::array<std::array<Point, 3>, 2>{{{inward(o, q), scaled(q), scaled(r)},
-                                                  {inward(o, q), scaled(r), inward(o, r)}}};
+      return std::array<std::array<Point, 3>, 2>{
+          {{inward(o, q), scaled(q), scaled(r)}, {inward(o, q), scaled(r), inward(o, r)}}};
     };
     for (const auto& first : rest(points[1], points[2]))
       for (const auto& second : {std::array<Point, 3>{scaled(o), scaled(points[4]), scaled(points[5])}})
@@ -208,7 +208,8 @@ TEST_CASE("a mesh with more pairs than may be tested says so, and the same for a
   Mesh mesh;
   for (uint32_t i = 0; i < 400; ++i) {
     const double u = 2 * std::numbers::pi * i / 400;
-    mesh.points.insert(mesh.points.end(), {{std::cos(u), std::sin(u), -1}, {-std::cos(u), -std::sin(u), 0.1}, {0, 0, 1}});
+    mesh.points.insert(mesh.points.end(),
+                       {{std::cos(u), std::sin(u), -1}, {-std::cos(u), -std::sin(u), 0.1}, {0, 0, 1}});
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   const SelfIntersections whole = found(mesh);

@@ -48,11 +48,21 @@ inline double between(std::mt19937& random, double low, double high) {
 /// A ball of radius 1 about 0: an icosahedron whose triangles are cut in four so often.
 inline Mesh ball(int cuts) {
   const double g = (1 + std::sqrt(5.0)) / 2;
-  Mesh mesh{{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g}, {g, 0, -1},
-             {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
-            {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6},
-             {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10},
-             {8, 6, 7}, {9, 8, 1}}};
+  Mesh mesh{{{-1, g, 0},
+             {1, g, 0},
+             {-1, -g, 0},
+             {1, -g, 0},
+             {0, -1, g},
+             {0, 1, g},
+             {0, -1, -g},
+             {0, 1, -g},
+             {g, 0, -1},
+             {g, 0, 1},
+             {-g, 0, -1},
+             {-g, 0, 1}},
+            {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+             {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+             {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
   for (int cut = 0; cut < cuts; ++cut) {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
     const auto middle = [&](uint32_t a, uint32_t b) {
@@ -159,7 +169,8 @@ inline Mesh randomSurface(std::mt19937& random, uint32_t n, double solid = 0.5) 
     } else {
       loop = {crossing(in[0], out[0]), crossing(in[0], out[1]), crossing(in[1], out[1]), crossing(in[1], out[0])};
     }
-    const Point normal = cross(mesh.points[loop[1]] - mesh.points[loop[0]], mesh.points[loop[2]] - mesh.points[loop[0]]);
+    const Point normal =
+        cross(mesh.points[loop[1]] - mesh.points[loop[0]], mesh.points[loop[2]] - mesh.points[loop[0]]);
     if (dot(normal, place(out[0]) - place(in[0])) < 0) std::reverse(loop.begin(), loop.end());
     for (size_t k = 2; k < loop.size(); ++k) mesh.triangles.push_back({loop[0], loop[k - 1], loop[k]});
   };

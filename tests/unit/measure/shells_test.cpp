@@ -11,9 +11,7 @@
 namespace sgm::measure {
 namespace {
 
-Shells shellsIn(const Mesh& mesh) {
-  return shellsOf(mesh, Edges(mesh.triangles, mesh.points.size()), Point{});
-}
+Shells shellsIn(const Mesh& mesh) { return shellsOf(mesh, Edges(mesh.triangles, mesh.points.size()), Point{}); }
 
 MeshReport identityOf(const Mesh& mesh) {
   std::vector<uint32_t> indices;
@@ -151,9 +149,15 @@ TEST_CASE("the two ways to count agree on random surfaces, whole and damaged", "
     for (uint32_t n = random() % 4; n > 0 && !mesh.triangles.empty(); --n) {
       const size_t at = random() % mesh.triangles.size();
       switch (random() % 3) {
-        case 0: mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(at)); break;
-        case 1: std::swap(mesh.triangles[at][0], mesh.triangles[at][1]); break;
-        case 2: mesh.triangles[at][random() % 3] = static_cast<uint32_t>(random() % mesh.points.size()); break;
+        case 0:
+          mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(at));
+          break;
+        case 1:
+          std::swap(mesh.triangles[at][0], mesh.triangles[at][1]);
+          break;
+        case 2:
+          mesh.triangles[at][random() % 3] = static_cast<uint32_t>(random() % mesh.points.size());
+          break;
       }
     }
     const MeshReport identity = identityOf(mesh);

@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# sgm measure: of files in four formats and of a grammar; what is damaged, and what is no mesh.
+source "$(dirname "$0")/common.sh"
+
+ball >ball.sgm
+expect 0 "$SGM" measure ball.sgm --cell 0.25 --json
+json 'j.valid && j.watertight && j.problems.length === 0 && j.genus === 0 && j.euler === 2 && j.objects === 1 && j.shells === 1'
+json 'Math.abs(j.area / (4 * Math.PI * 9) - 1) < 0.005 && Math.abs(j.volume / (36 * Math.PI) - 1) < 0.005'
+json 'j.self_intersections === 0 && j.open_edges === 0 && j.nonmanifold_edges === 0 && j.degenerate === 0 && j.duplicates === 0'
+json 'Math.abs(j.histogram.shares.reduce((a, b) => a + b) - 1) < 1e-12 && j.histogram.bins === 33 && j.histogram.convex > 0.9'
+json 'j.seed === 0 && j.cell === 0.25 && j.hash.length === 16'
+grammar_area=$(node -e 'console.log(JSON.parse(require("fs").readFileSync(process.argv[1], "utf8")).area)' .out)
+
+# The same in every format: positions there are of single precision.
+for format in glb obj ply stl; do
+  expect 0 "$SGM" mesh ball.sgm --cell 0.25 --out ball.$format
+  expect 0 "$SGM" measure ball.$format --json
+  json "j.valid && j.genus === 0 && Math.abs(j.area / $grammar_area - 1) < 1e-6 && j.file === 'ball.$format'"
+done
+json 'j.welded_points === j.points - j.triangles / 2 - 2'
+expect 0 "$SGM" measure ball.glb
+out_has '^ball.glb: [0-9]+ triangles, [0-9]+ points, '
+out_has 'verdict +valid'
+err_empty
+
+expect 0 "$SGM" measure ball.ply --json --mode printed --bins 10 --cubes 0.2
+json 'j.histogram.mode === "printed" && j.histogram.first_bin === -3 && j.histogram.shares.length === 8 && j.histogram.entries_index_le_0 > 0'
+json 'j.cubes.all_corners < j.volume && j.cubes.any_corner > j.volume'
+expect 0 "$SGM" measure ball.ply --json --mode curvature --unique-edges --curvature-length 3 --no-self-intersections --weld 0.001
+json 'j.histogram.edges === j.edges && j.self_intersections === null && j.histogram.shares.slice(22, 28).reduce((a, b) => a + b) > 0.99'
+
+# Damaged, but a mesh: told, and no error.
+grep -v '^f' ball.obj >holes.obj
+grep '^f' ball.obj | tail -n +4 >>holes.obj
+expect 0 "$SGM" measure holes.obj
+out_has 'not the surface of a solid'
+out_has 'edges have one triangle alone: there are holes'
+expect 0 "$SGM" measure holes.obj --json
+json '!j.valid && !j.watertight && j.open_edges > 3 && j.problems.length === 1'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n' >inverted.obj
+expect 0 "$SGM" measure inverted.obj --json
+json '!j.valid && j.watertight && j.inside_out === 1 && j.volume < 0 && Math.abs(j.volume + 1 / 6) < 1e-12'
+
+# No mesh: one line with the place, status 1.
+head -c 2000 ball.glb >cut.glb
+expect 1 "$SGM" measure cut.glb
+err_has 'cut.glb: .*at byte'
+one_line
+out_empty
+printf 'v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n' >nan.obj
+expect 1 "$SGM" measure nan.obj
+err_has 'nan.obj: .*at line 3'
+one_line
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n' >index.obj
+expect 1 "$SGM" measure index.obj
+err_has 'index.obj: .*at line 4'
+one_line
+expect 4 "$SGM" measure nothing.glb
+err_has 'cannot read nothing.glb'
+one_line
+mkdir folder.glb
+expect 4 "$SGM" measure folder.glb
+one_line
+expect 2 "$SGM" measure ball.txt
+err_has 'glb'
+one_line
+expect 2 "$SGM" measure ball.ply --bins 0
+expect 2 "$SGM" measure ball.ply --weld=-1
+
+# Limits hold whatever the file asks for.
+if [[ $("$SGM" --version; nm -D "$SGM" 2>/dev/null) != *__asan* ]]; then
+  node -e '
+    const n = 700000, bytes = Buffer.alloc(84 + 50 * n);
+    bytes.writeUInt32LE(n, 80);
+    for (let i = 0; i < n; ++i) for (let k = 0; k < 9; ++k) bytes.writeFloatLE(Math.fround(i + (k * 7919 % 13)), 84 + 50 * i + 12 + 4 * k);
+    require("fs").writeFileSync("large.stl", bytes);'
+  expect 1 "$SGM" measure large.stl --memory 64
+  err_has 'it takes more than 64 MB of memory'
+  one_line
+  expect 1 "$SGM" measure large.stl --seconds 0.1
+  err_has 'it takes more than 0.1 s'
+  one_line
+fi
+finish
