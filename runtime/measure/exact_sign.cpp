@@ -23,6 +23,19 @@ void twoSum(double a, double b, double& sum, double& error) {
   error = (a - (sum - bb)) + (b - bb);
 }
 
+/// The upper half of the digits; the rest is a double of half as many.
+double upperHalf(double v) {
+  const double large = 134217729 * v;
+  return large - (large - v);
+}
+
+/// a * b, and what rounding took from it, which is itself a double (Dekker, 1971; without a fused operation).
+void twoProduct(double a, double b, double& product, double& error) {
+  product = a * b;
+  const double a_high = upperHalf(a), b_high = upperHalf(b), a_low = a - a_high, b_low = b - b_high;
+  error = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
+}
+
 void add(Expansion& sum, double term) {
   Expansion grown;
   grown.reserve(sum.size() + 1);
@@ -46,9 +59,9 @@ Expansion product(const Expansion& a, const Expansion& b) {
   Expansion result;
   for (const double x : a) {
     for (const double y : b) {
-      const double high = x * y;
-      // The error of a product is itself a double, which std::fma computes.
-      add(result, std::fma(x, y, -high));
+      double high = 0, error = 0;
+      twoProduct(x, y, high, error);
+      add(result, error);
       add(result, high);
     }
   }
