@@ -17,7 +17,7 @@ SGM_BUILD_PACKAGES=(
   libcli11-dev libfmt-dev libstb-dev nlohmann-json3-dev
 )
 SGM_TEST_PACKAGES=(
-  catch2 clang libclang-rt-14-dev vulkan-validationlayers valgrind
+  catch2 libcgal-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind
   git=git ca-certificates nodejs=node npm=npm
 )
 # Only for AVX-512 where no processor has it: tests/scripts/avx512_emulated.sh.

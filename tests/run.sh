@@ -5,7 +5,7 @@
 #
 #   --long          run property tests and fuzzers far longer, and AVX-512 under emulation (label emulated;
 #                   installs an emulator; without --long that test is skipped, and named so in the summary)
-#   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, consumers, style, gltf, threads, fuzz, ...)
+#   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, judges, style, gltf, threads, fuzz, ...)
 #   --without NAME  leave out a build (fuzz, scalar, clang, tsan) or a label; each is named in the summary
 #   --require-cuda  nvcc and an NVIDIA GPU must be there, for the tests of label cuda that run on one; without it those are
 #                   skipped, and named so in the summary
@@ -50,7 +50,7 @@ step() { printf '\n== %s (after %d s)\n' "$1" $((SECONDS - started)); }
 step "packages"
 source samples/setup_debian.sh
 sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"
-sgm_setup_npm build/tools gltf-validator 2.0.0-dev.3.10 vscode-languageserver-protocol 3.17.5 \
+sgm_setup_npm build/tools gltf-validator 2.0.0-dev.3.10 manifold-3d 3.5.4 vscode-languageserver-protocol 3.17.5 \
   vscode-textmate 9.3.2 vscode-oniguruma 2.0.1
 
 # build PRESET: quiet while all is well, the whole story when not.

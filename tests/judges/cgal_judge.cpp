@@ -1,0 +1,150 @@
+// What CGAL says of the meshes of a file (meshes.h): a line each.
+//
+//   sgm_judge_cgal FILE
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+namespace {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Surface = CGAL::Surface_mesh<Point>;
+using Corners = std::array<std::size_t, 3>;
+
+struct Soup {
+  std::vector<Point> points;
+  std::vector<Corners> triangles;
+};
+
+template <class T>
+bool read(std::ifstream& file, T* values, std::size_t count) {
+  return static_cast<bool>(file.read(reinterpret_cast<char*>(values), static_cast<std::streamsize>(count * sizeof(T))));
+}
+
+bool collinear(const Soup& soup, const Corners& t) {
+  return CGAL::collinear(soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]);
+}
+
+/// CGAL::Polygon_mesh_processing has none of a soup before 6.0: its rule for two faces (do_faces_intersect), by
+/// numbers.
+bool meet(const Soup& soup, const Corners& a, const Corners& b) {
+  const auto point = [&](std::size_t v) { return soup.points[v]; };
+  const auto has = [](const Corners& t, std::size_t v) { return std::find(t.begin(), t.end(), v) != t.end(); };
+  const auto common = std::count_if(a.begin(), a.end(), [&](std::size_t v) { return has(b, v); });
+  const Kernel::Triangle_3 first(point(a[0]), point(a[1]), point(a[2])), second(point(b[0]), point(b[1]), point(b[2]));
+  if (common == 0) return CGAL::do_intersect(first, second);
+  if (common == 3) return false;
+  if (common == 2) {
+    const Corners *one = &a, *other = &b;
+    std::array<std::size_t, 4> v{};  // the two of a alone and of b alone last
+    std::size_t shared = 0;
+    for (const std::size_t w : *one) (has(*other, w) ? v[shared++] : v[2]) = w;
+    for (const std::size_t w : *other)
+      if (!has(*one, w)) v[3] = w;
+    return CGAL::coplanar(point(v[0]), point(v[1]), point(v[2]), point(v[3])) &&
+           CGAL::coplanar_orientation(point(v[0]), point(v[1]), point(v[2]), point(v[3])) == CGAL::POSITIVE;
+  }
+  const auto opposite = [&](const Corners& t, const Corners& other) {
+    std::size_t k = 0;
+    while (!has(other, t[k])) ++k;
+    return Kernel::Segment_3(point(t[(k + 1) % 3]), point(t[(k + 2) % 3]));
+  };
+  return CGAL::do_intersect(first, opposite(b, a)) || CGAL::do_intersect(second, opposite(a, b));
+}
+
+std::size_t pairsOf(const Soup& soup) {
+  std::vector<CGAL::Bbox_3> boxes;
+  for (const Corners& t : soup.triangles)
+    boxes.push_back(soup.points[t[0]].bbox() + soup.points[t[1]].bbox() + soup.points[t[2]].bbox());
+  std::size_t pairs = 0;
+  for (std::size_t a = 0; a < boxes.size(); ++a) {
+    if (collinear(soup, soup.triangles[a])) continue;
+    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+      if (!CGAL::do_overlap(boxes[a], boxes[b]) || collinear(soup, soup.triangles[b])) continue;
+      pairs += meet(soup, soup.triangles[a], soup.triangles[b]);
+    }
+  }
+  return pairs;
+}
+
+void judge(Soup& soup, bool weld, bool count_soup) {
+  const bool finite = std::all_of(soup.triangles.begin(), soup.triangles.end(), [&](const Corners& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::size_t v) {
+      const Point& p = soup.points[v];
+      return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+    });
+  });
+  if (!finite) {
+    std::puts("0 0 0 0 0 0 0 0 0 0 0");
+    return;
+  }
+  if (weld) PMP::merge_duplicate_points_in_polygon_soup(soup.points, soup.triangles);
+  PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.triangles);
+  const auto flat = static_cast<std::size_t>(std::count_if(soup.triangles.begin(), soup.triangles.end(),
+                                                           [&](const Corners& t) { return collinear(soup, t); }));
+  const std::size_t soup_pairs = count_soup ? pairsOf(soup) : 0;
+  const bool manifold = PMP::is_polygon_soup_a_polygon_mesh(soup.triangles);
+  bool closed = false, outward = false, bounds = false;
+  std::size_t components = 0, pairs = 0;
+  double area = 0, volume = 0;
+  if (manifold) {
+    Surface mesh;
+    PMP::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, mesh);
+    closed = CGAL::is_closed(mesh);
+    std::vector<std::pair<Surface::Face_index, Surface::Face_index>> found;
+    PMP::self_intersections(mesh, std::back_inserter(found));
+    // A face without area is reported as one that meets itself.
+    pairs = found.size() - flat;
+    area = PMP::area(mesh);
+    const auto part = mesh.add_property_map<Surface::Face_index, std::size_t>("part", 0).first;
+    components = PMP::connected_components(mesh, part);
+    if (closed) {
+      volume = PMP::volume(mesh);
+      // Of meshes that cut themselves neither is defined.
+      if (found.empty()) {
+        outward = PMP::is_outward_oriented(mesh);
+        bounds = PMP::does_bound_a_volume(mesh);
+      }
+    }
+  }
+  std::printf("1 %d %d %d %d %zu %zu %zu %zu %.17g %.17g\n", manifold, closed, outward, bounds, components, flat, pairs,
+              soup_pairs, area, volume);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::ifstream file(argc == 2 ? argv[1] : "", std::ios::binary);
+  std::uint32_t head[3];
+  while (read(file, head, 3)) {
+    std::vector<double> places(std::size_t{3} * head[1]);
+    std::vector<std::uint32_t> corners(std::size_t{3} * head[2]);
+    if (!read(file, places.data(), places.size()) || !read(file, corners.data(), corners.size())) return 1;
+    Soup soup;
+    for (std::size_t i = 0; i < places.size(); i += 3)
+      soup.points.emplace_back(places[i], places[i + 1], places[i + 2]);
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+      soup.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+    judge(soup, (head[0] & 1) != 0, (head[0] & 2) != 0);
+  }
+  return file.eof() ? 0 : 1;
+}

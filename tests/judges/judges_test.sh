@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# The cases of one judge (cgal, manifold), or what there is to install where it is missing.
+#
+#   judges_test.sh JUDGE TEST_PROGRAM
+set -euo pipefail
+judge=$1 program=$2
+case $judge in
+  cgal) missing=$([[ -n ${SGM_JUDGE_CGAL:-} ]] || echo "CGAL: install the package libcgal-dev, and configure again") ;;
+  manifold) missing=$([[ -e $SGM_TOOLS/manifold-3d ]] || echo "manifold-3d in $SGM_TOOLS: tests/run.sh installs it") ;;
+esac
+if [[ -n $missing ]]; then
+  echo "SKIPPED: no $missing"
+  [[ -z ${SGM_REQUIRE_ALL:-} ]] && exit 77
+  exit 1
+fi
+exec "$program" "[$judge]"
