@@ -40,7 +40,7 @@ err_has "^sgm: usage: there is no command 'meshh': did you mean 'mesh'\\?"
 expect 2 "$SGM" bench papr
 err_has "there is no command 'papr': did you mean 'paper'\\?"
 expect 2 "$SGM" photograph
-err_has "there is no command 'photograph': write one of check, fmt, explain, mesh, render, fly, lsp, bench, backends"
+err_has "there is no command 'photograph': write one of check, fmt, explain, mesh, measure, render, fly, lsp, bench, backends"
 expect 2 "$SGM" bench paper extra
 err_has 'argument was not expected: extra'
 finish
