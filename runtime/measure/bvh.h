@@ -1,11 +1,13 @@
 #pragma once
 // A tree of boxes over triangles, to find those that may meet.
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "base/jobs.h"
+#include "measure/large_vector.h"
 #include "measure/triangles.h"
 
 namespace sgm::measure {
@@ -18,9 +20,13 @@ class Bvh {
   struct Box {
     float low[3], high[3];
 
+    /// Without a branch: which comparison fails is anyone's guess.
     bool overlaps(const Box& other) const {
-      return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1] &&
-             low[2] <= other.high[2] && other.low[2] <= high[2];
+      int all = 1;
+      for (int axis = 0; axis < 3; ++axis) {
+        all &= static_cast<int>(low[axis] <= other.high[axis]) & static_cast<int>(other.low[axis] <= high[axis]);
+      }
+      return all != 0;
     }
   };
 
@@ -35,21 +41,23 @@ class Bvh {
 
   /// Two nodes whose leaves may meet each other; the same one twice: whose leaves may meet among themselves.
   using Pair = std::pair<uint32_t, uint32_t>;
-  /// Pairs that hold all pairs of leaves whose boxes overlap, each in one of them, at least about `parts` where there are
-  /// as many: what several threads then walk.
+  /// Pairs that hold all pairs of leaves whose boxes overlap, each in one of them, at least about `parts` where there
+  /// are as many: what several threads then walk.
   std::vector<Pair> parts(size_t parts) const;
 
   /// Calls visit(a, b) with the triangles of each two leaves under the pair whose boxes overlap, until it says false.
   template <class Visit>
   void visitPairs(Pair pair, Visit&& visit) const {
-    std::vector<Pair> waiting{pair};
-    while (!waiting.empty()) {
-      const auto [a, b] = waiting.back();
-      waiting.pop_back();
-      if (a != b && isLeaf(a) && isLeaf(b)) {
+    // Each row of the tree leaves three pairs at most behind.
+    std::array<Pair, 3 * 32 + 4> waiting;
+    waiting[0] = pair;
+    size_t count = 1;
+    while (count > 0) {
+      const auto [a, b] = waiting[--count];
+      if (a != b && isLeaf(a)) {
         if (!visit(triangle(a), triangle(b))) return;
       } else {
-        split({a, b}, waiting);
+        count += split({a, b}, &waiting[count]);
       }
     }
   }
@@ -75,28 +83,31 @@ class Bvh {
   }
 
  private:
-  /// The pairs of children that overlap.
-  void split(Pair pair, std::vector<Pair>& into) const {
+  /// Writes the pairs of children that overlap, four at most, and returns how many they are. into: room for four.
+  size_t split(Pair pair, Pair* into) const {
     const auto [a, b] = pair;
+    size_t count = 0;
     const auto push = [&](uint32_t first, uint32_t second) {
-      if (boxes_[first].overlaps(boxes_[second])) into.push_back({first, second});
+      into[count] = {first, second};
+      count += static_cast<size_t>(boxes_[first].overlaps(boxes_[second]));
     };
     if (a == b) {
-      if (isLeaf(a)) return;
+      if (isLeaf(a)) return 0;
       push(2 * a, 2 * a);
       push(2 * a + 1, 2 * a + 1);
       push(2 * a, 2 * a + 1);
-      return;
+      return count;
     }
     // Both stand in one row of the tree.
     push(2 * a, 2 * b);
     push(2 * a, 2 * b + 1);
     push(2 * a + 1, 2 * b);
     push(2 * a + 1, 2 * b + 1);
+    return count;
   }
 
-  std::vector<Box> boxes_;
-  std::vector<uint32_t> order_;
+  LargeVector<Box> boxes_;
+  LargeVector<uint32_t> order_;
 };
 
 }  // namespace sgm::measure

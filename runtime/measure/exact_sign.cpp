@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace sgm::measure {
 namespace {
@@ -13,8 +12,13 @@ constexpr double kHalfUlp = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kSpaceError = (7 + 56 * kHalfUlp) * kHalfUlp;
 constexpr double kPlaneError = (3 + 16 * kHalfUlp) * kHalfUlp;
 
-/// A sum of doubles that do not overlap, the smallest first: the exact value of an expression.
-using Expansion = std::vector<double>;
+/// A sum of doubles that do not overlap, the smallest first: the exact value of an expression. On the stack: on flat
+/// ground every pair of neighbours needs some.
+template <size_t kMost>
+struct Expansion {
+  double parts[kMost];
+  size_t size = 0;
+};
 
 /// a + b, and what rounding took from it.
 void twoSum(double a, double b, double& sum, double& error) {
@@ -36,57 +40,58 @@ void twoProduct(double a, double b, double& product, double& error) {
   error = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
 }
 
-void add(Expansion& sum, double term) {
-  Expansion grown;
-  grown.reserve(sum.size() + 1);
-  for (const double part : sum) {
+template <size_t kMost>
+void add(Expansion<kMost>& sum, double term) {
+  size_t kept = 0;
+  for (size_t i = 0; i < sum.size; ++i) {
     double rest = 0;
-    twoSum(term, part, term, rest);
-    if (rest != 0) grown.push_back(rest);
+    twoSum(term, sum.parts[i], term, rest);
+    if (rest != 0) sum.parts[kept++] = rest;
   }
-  if (term != 0) grown.push_back(term);
-  sum = std::move(grown);
+  if (term != 0) sum.parts[kept++] = term;
+  sum.size = kept;
 }
 
-Expansion difference(double a, double b) {
-  Expansion result;
+Expansion<2> difference(double a, double b) {
+  Expansion<2> result;
   add(result, a);
   add(result, -b);
   return result;
 }
 
-Expansion product(const Expansion& a, const Expansion& b) {
-  Expansion result;
-  for (const double x : a) {
-    for (const double y : b) {
+/// sum + sign * a * b
+template <size_t kMost, size_t kA, size_t kB>
+void addProduct(Expansion<kMost>& sum, const Expansion<kA>& a, const Expansion<kB>& b, double sign) {
+  for (size_t i = 0; i < a.size; ++i) {
+    for (size_t j = 0; j < b.size; ++j) {
       double high = 0, error = 0;
-      twoProduct(x, y, high, error);
-      add(result, error);
-      add(result, high);
+      twoProduct(a.parts[i], b.parts[j], high, error);
+      add(sum, sign * error);
+      add(sum, sign * high);
     }
   }
-  return result;
-}
-
-void addProduct(Expansion& sum, const Expansion& a, const Expansion& b, double sign) {
-  for (const double part : product(a, b)) add(sum, sign * part);
 }
 
 int signOf(double v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
 /// The largest part decides.
-int signOf(const Expansion& e) { return e.empty() ? 0 : signOf(e.back()); }
+template <size_t kMost>
+int signOf(const Expansion<kMost>& e) {
+  return e.size == 0 ? 0 : signOf(e.parts[e.size - 1]);
+}
 
 int exactOrientation(Point a, Point b, Point c, Point d) {
-  Expansion u[3], v[3], w[3];
+  Expansion<2> u[3], v[3], w[3];
   for (int axis = 0; axis < 3; ++axis) {
     u[axis] = difference(a[axis], d[axis]);
     v[axis] = difference(b[axis], d[axis]);
     w[axis] = difference(c[axis], d[axis]);
   }
-  Expansion determinant;
+  // Each product of two parts adds two.
+  Expansion<192> determinant;
   for (int axis = 0; axis < 3; ++axis) {
     const int y = (axis + 1) % 3, z = (axis + 2) % 3;
-    Expansion minor = product(v[y], w[z]);
+    Expansion<16> minor;
+    addProduct(minor, v[y], w[z], 1);
     addProduct(minor, v[z], w[y], -1);
     addProduct(determinant, u[axis], minor, 1);
   }
@@ -112,7 +117,8 @@ int orientationAlong(int drop, Point a, Point b, Point c) {
   const double left = (a[x] - c[x]) * (b[y] - c[y]), right = (a[y] - c[y]) * (b[x] - c[x]);
   const double determinant = left - right;
   if (std::fabs(determinant) > kPlaneError * (std::fabs(left) + std::fabs(right))) return signOf(determinant);
-  Expansion exact = product(difference(a[x], c[x]), difference(b[y], c[y]));
+  Expansion<16> exact;
+  addProduct(exact, difference(a[x], c[x]), difference(b[y], c[y]), 1);
   addProduct(exact, difference(a[y], c[y]), difference(b[x], c[x]), -1);
   return signOf(exact);
 }

@@ -118,8 +118,8 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
   return result;
 }
 
-std::vector<Point> smoothNormals(const Triangles& mesh) {
-  std::vector<Point> normals(mesh.points.size());
+LargeVector<Point> smoothNormals(const Triangles& mesh) {
+  LargeVector<Point> normals(mesh.points.size());
   for (const Triangle& t : mesh.triangles) {
     const Point cross = crossOf(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
     for (const uint32_t v : t) normals[v] = normals[v] + cross;

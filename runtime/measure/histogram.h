@@ -12,6 +12,7 @@
 #include "base/jobs.h"
 #include "base/result.h"
 #include "measure/edges.h"
+#include "measure/large_vector.h"
 
 namespace sgm::measure {
 
@@ -56,6 +57,6 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
                               const HistogramSettings& settings, JobSystem& jobs);
 
 /// At each point the sum of its triangles' cross products, of length 1; zero where that is nothing.
-std::vector<Point> smoothNormals(const Triangles& mesh);
+LargeVector<Point> smoothNormals(const Triangles& mesh);
 
 }  // namespace sgm::measure

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "measure/triangle_pair.h"
 #include "measure/weld_points.h"
@@ -11,21 +12,21 @@ namespace {
 
 bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-/// The triangles whose corners are finite.
+/// Counts the triangles with a corner that is not finite, and returns the others where there are any such.
 std::vector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
-  std::vector<Triangle> kept;
-  kept.reserve(mesh.triangles.size());
   std::vector<bool> used(mesh.points.size());
+  const auto good = [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return finite(mesh.points[v]); });
+  };
   for (const Triangle& t : mesh.triangles) {
     for (const uint32_t v : t) used[v] = true;
-    if (std::all_of(t.begin(), t.end(), [&](uint32_t v) { return finite(mesh.points[v]); })) {
-      kept.push_back(t);
-    } else {
-      if (!result.first_non_finite) result.first_non_finite = static_cast<uint32_t>(&t - mesh.triangles.data());
-      ++result.non_finite;
-    }
+    if (good(t)) continue;
+    if (!result.first_non_finite) result.first_non_finite = static_cast<uint32_t>(&t - mesh.triangles.data());
+    ++result.non_finite;
   }
   result.unused_points = static_cast<size_t>(std::count(used.begin(), used.end(), false));
+  std::vector<Triangle> kept;
+  if (result.non_finite > 0) std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(kept), good);
   return kept;
 }
 
@@ -87,7 +88,8 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
   result.points = mesh.points.size();
   result.triangles = mesh.triangles.size();
   std::vector<Triangle> kept = finiteOf(mesh, result);
-  const WeldedPoints welded = weldPoints({mesh.points, kept}, settings.weld);
+  const std::span<const Triangle> all_finite = result.non_finite > 0 ? std::span<const Triangle>(kept) : mesh.triangles;
+  const WeldedPoints welded = weldPoints({mesh.points, all_finite}, settings.weld);
   kept = {};
   result.welded_points = welded.merged;
   const Triangles clean{welded.points, welded.triangles};
