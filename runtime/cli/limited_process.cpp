@@ -1,11 +1,16 @@
 #include "cli/limited_process.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
+#if defined(__linux__)
+#include <sys/prctl.h>
+#endif
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -34,6 +39,8 @@ constexpr bool kMapsWithoutEnd = false;
 
 /// What the child says begins with this, or with kFailed and the error's code.
 constexpr char kDone = 'd', kFailed = 'f';
+/// Statuses that it ends with where it could not say anything.
+constexpr int kNoMemory = 3, kLost = 4;
 
 void limit(decltype(RLIMIT_AS) what, uint64_t most) {
   rlimit now{};
@@ -52,24 +59,37 @@ Result<std::string> guarded(const std::function<Result<std::string>()>& work) {
   }
 }
 
-[[noreturn]] void beChild(int to, const std::function<Result<std::string>()>& work, const ProcessLimits& limits) {
-  // Neither a core file nor a signal handler of the parent's: what the parent has begun is the parent's.
-  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) std::signal(signal, SIG_DFL);
+std::string saidOf(const std::function<Result<std::string>()>& work) {
+  const Result<std::string> result = guarded(work);
+  if (result) return kDone + *result;
+  return std::string{kFailed, static_cast<char>(result.error().code)} + result.error().message;
+}
+
+[[noreturn]] void beChild(int to, pid_t parent, const std::function<Result<std::string>()>& work,
+                          const ProcessLimits& limits) {
+  // What the parent has begun is the parent's to remove. What it ignores (under nohup) stays ignored.
+  for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGTERM}) {
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+  std::signal(SIGXCPU, SIG_DFL);
+#if defined(__linux__)
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+  if (getppid() != parent) _exit(kLost);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<uint64_t>(std::ceil(limits.seconds)));
   if (!kMapsWithoutEnd) limit(RLIMIT_AS, limits.memory);
-  const Result<std::string> result = guarded(work);
-  std::string said;
-  if (result) {
-    said = kDone + *result;
-  } else {
-    said = std::string{kFailed, static_cast<char>(result.error().code)} + result.error().message;
-  }
-  for (size_t sent = 0; sent < said.size();) {
-    const ssize_t more = write(to, said.data() + sent, said.size() - sent);
-    if (more < 0 && errno == EINTR) continue;
-    if (more <= 0) break;
-    sent += static_cast<size_t>(more);
+  // Nothing may unwind into what the parent was doing.
+  try {
+    const std::string said = saidOf(work);
+    for (size_t sent = 0; sent < said.size();) {
+      const ssize_t more = write(to, said.data() + sent, said.size() - sent);
+      if (more < 0 && errno == EINTR) continue;
+      if (more <= 0) _exit(kLost);
+      sent += static_cast<size_t>(more);
+    }
+  } catch (...) {
+    _exit(kNoMemory);
   }
   std::fflush(stderr);
   _exit(0);
@@ -84,7 +104,9 @@ std::optional<std::string> readAll(int from, double seconds) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
     if (left.count() <= 0) return std::nullopt;
     pollfd ready{from, POLLIN, 0};
-    if (poll(&ready, 1, static_cast<int>(std::min<int64_t>(left.count(), 1000))) <= 0) continue;
+    const int found = poll(&ready, 1, static_cast<int>(std::min<int64_t>(left.count(), 1000)));
+    if (found < 0 && errno != EINTR) return said;
+    if (found <= 0) continue;
     const ssize_t more = read(from, piece.data(), piece.size());
     if (more < 0 && errno == EINTR) continue;
     if (more <= 0) return said;
@@ -101,39 +123,54 @@ Error tooMuchMemory(const ProcessLimits& limits) {
 
 Result<std::string> runLimited(const std::function<Result<std::string>()>& work, const ProcessLimits& limits) {
   std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) return Error{Code::io, fmt::format("cannot open a pipe: {}", std::strerror(errno))};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    return Error{Code::io, fmt::format("cannot open a pipe: {}", std::strerror(errno))};
   // What is buffered would come out of both processes.
   std::fflush(nullptr);
-  const pid_t child = fork();
+  // Where children are not waited for, how one ended is not told.
+  const auto before = std::signal(SIGCHLD, SIG_DFL);
+  const pid_t parent = getpid(), child = fork();
   if (child < 0) {
     const int why = errno;
     close(ends[0]);
     close(ends[1]);
+    std::signal(SIGCHLD, before);
     return Error{Code::io, fmt::format("cannot start a process: {}", std::strerror(why))};
   }
   if (child == 0) {
     close(ends[0]);
-    beChild(ends[1], work, limits);
+    beChild(ends[1], parent, work, limits);
   }
   close(ends[1]);
   const std::optional<std::string> said = readAll(ends[0], limits.seconds);
   close(ends[0]);
   if (!said) kill(child, SIGKILL);
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  const bool out_of_time =
-      !said || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL));
-  if (out_of_time) {
+  rusage used{};
+  pid_t ended = 0;
+  do ended = wait4(child, &status, 0, &used);
+  while (ended < 0 && errno == EINTR);
+  std::signal(SIGCHLD, before);
+  if (ended < 0) return Error{Code::io, fmt::format("a process was lost: {}", std::strerror(errno))};
+
+  const double processor = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1;
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (!said || signal == SIGXCPU || (signal == SIGKILL && processor >= limits.seconds)) {
     return Error{Code::limit, fmt::format("it takes more than {} s: give it more with --seconds, or a smaller file",
                                           limits.seconds)};
   }
-  if (WIFSIGNALED(status)) {
+  if (signal == SIGSEGV || signal == SIGABRT || signal == SIGBUS || signal == SIGFPE || signal == SIGILL) {
     return Error{Code::limit, fmt::format("the process that read it was ended by signal {}: this is a bug of sgm's, "
                                           "please send us the file",
-                                          WTERMSIG(status))};
+                                          signal)};
+  }
+  if (signal != 0) {
+    return Error{Code::limit, fmt::format("the process that read it was ended from outside, by signal {}{}", signal,
+                                          signal == SIGKILL ? ": perhaps the machine has no memory left" : "")};
   }
   if (!said->empty() && said->front() == kDone) return said->substr(1);
-  if (said->size() < 2) return tooMuchMemory(limits);
+  if (WEXITSTATUS(status) == kNoMemory) return tooMuchMemory(limits);
+  if (said->size() < 2) return Error{Code::io, "the process that read it ended without a word"};
   const auto code = static_cast<Code>((*said)[1]);
   if (code == Code::out_of_memory) return tooMuchMemory(limits);
   return Error{code, said->substr(2)};

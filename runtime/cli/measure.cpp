@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -31,15 +33,21 @@ measure::MeshSettings settingsOf(const MeasureOptions& options) {
 }
 
 Result<std::vector<std::byte>> readBytes(const std::string& path) {
+  const auto failed = [&](const std::string& why) {
+    return Error{Code::io, fmt::format("cannot read {}: {}", path, why)};
+  };
   std::error_code why;
-  const uintmax_t size = std::filesystem::is_regular_file(path, why) ? std::filesystem::file_size(path, why) : 0;
+  const std::filesystem::file_status status = std::filesystem::status(path, why);
+  // Whatever else it may be, a pipe say, would be waited for.
+  if (why && !std::filesystem::exists(status)) return failed(why.message());
+  if (!std::filesystem::exists(status)) return failed("no such file");
+  if (!std::filesystem::is_regular_file(status)) return failed("it is no file of bytes");
+  const uintmax_t size = std::filesystem::file_size(path, why);
   std::ifstream file(path, std::ios::binary);
-  if (why || !file || !std::filesystem::is_regular_file(path, why)) {
-    return Error{Code::io, fmt::format("cannot read {}", path)};
-  }
+  if (why || !file) return failed(why ? why.message() : std::strerror(errno));
   std::vector<std::byte> bytes(size);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (file.gcount() != static_cast<std::streamsize>(size)) return Error{Code::io, fmt::format("cannot read {}", path)};
+  if (file.gcount() != static_cast<std::streamsize>(size)) return failed("it ended before its size");
   return bytes;
 }
 

@@ -74,25 +74,37 @@ std::vector<std::string> problemsOf(const MeshMeasures& m) {
   say(m.nesting.inside_out, "closed part is inside out", "closed parts are inside out");
   say(m.nesting.nested, "closed part stands in the solid of another", "closed parts stand in the solid of others");
   if (m.self_intersections) {
-    say(m.self_intersections->pairs, "pair of triangles cut or touch each other",
+    say(m.self_intersections->pairs, "pair of triangles cuts or touches each other",
         "pairs of triangles cut or touch each other");
-    if (!m.self_intersections->complete) {
-      problems.push_back("too many triangles lie close to each other to look at all pairs: there may be more that cut");
-    }
   }
   return problems;
+}
+
+std::vector<std::string> unknownsOf(const MeshMeasures& m) {
+  std::vector<std::string> unknowns;
+  if (m.self_intersections && !m.self_intersections->complete) {
+    unknowns.push_back("too many triangles lie close to each other to look at all pairs: more of them may cut");
+  }
+  if (m.nesting.not_judged > 0) {
+    unknowns.push_back(many(m.nesting.not_judged, "closed part has", "closed parts have") +
+                       " too much above to say what they stand in");
+  }
+  return unknowns;
 }
 
 Json toJson(const MeshMeasures& m) {
   const MeshReport& i = m.identity;
   Json json = {{"valid", m.valid()},
                {"watertight", m.watertight()},
+               {"complete", m.complete()},
                {"problems", problemsOf(m)},
+               {"unknowns", unknownsOf(m)},
                {"triangles", m.triangles},
                {"points", m.points},
                {"welded_points", m.welded_points},
                {"unused_points", m.unused_points},
                {"non_finite", m.non_finite},
+               {"first_non_finite", orNull(m.first_non_finite)},
                {"area", m.sums.area},
                {"volume", m.sums.volume},
                {"area_vector", pointJson(m.sums.area_vector)},
@@ -112,7 +124,8 @@ Json toJson(const MeshMeasures& m) {
                {"slivers", m.slivers},
                {"inside_out", m.nesting.inside_out},
                {"cavities", m.nesting.cavities},
-               {"nested", m.nesting.nested}};
+               {"nested", m.nesting.nested},
+               {"not_judged", m.nesting.not_judged}};
   if (m.self_intersections) {
     json["self_intersections"] = m.self_intersections->pairs;
     json["self_intersections_complete"] = m.self_intersections->complete;
@@ -143,8 +156,9 @@ std::string textOf(const MeshMeasures& m) {
   line("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, from {:.6g},{:.6g},{:.6g}", size.x, size.y, size.z, m.sums.low.x,
                            m.sums.low.y, m.sums.low.z));
   line("area", fmt::format("{:.9g} (equation 7)", m.sums.area));
-  line("volume", m.watertight() ? fmt::format("{:.9g} (divergence theorem)", m.sums.volume)
-                                : fmt::format("{:.9g}, which means little: the surface is not closed", m.sums.volume));
+  const bool closed = m.identity.unmatched_edges == 0 && m.non_finite == 0;
+  line("volume", closed ? fmt::format("{:.9g} (divergence theorem)", m.sums.volume)
+                        : fmt::format("{:.9g}, which means little: the surface is not closed", m.sums.volume));
   if (m.cubes) {
     const measure::CubeVolumes& c = *m.cubes;
     line("cubes", fmt::format("{:.9g} by all corners, {:.9g} by any, {:.9g} by centres (equation 8, edge {:.6g})",
@@ -156,9 +170,15 @@ std::string textOf(const MeshMeasures& m) {
   line("bends", fmt::format("{:.1f} % of the edges flat, {:.1f} % convex, {:.1f} % concave", 100 * m.histogram.flat,
                             100 * m.histogram.convex, 100 * m.histogram.concave));
   if (m.slivers > 0) line("slivers", fmt::format("{} (quality below {})", m.slivers, measure::kSliver));
-  const std::vector<std::string> problems = problemsOf(m);
-  line("verdict", problems.empty() ? "valid: the closed surface of a solid" : "not the surface of a solid:");
-  for (const std::string& problem : problems) text += fmt::format("               {}\n", problem);
+  const std::vector<std::string> problems = problemsOf(m), unknowns = unknownsOf(m);
+  line("verdict", !problems.empty()   ? "not the surface of a solid:"
+                  : !unknowns.empty() ? "not known:"
+                  : m.triangles == 0  ? "empty: there are no triangles"
+                  : !m.self_intersections
+                      ? "the closed surface of a solid, unless it cuts itself, which was not looked for"
+                      : "valid: the closed surface of a solid");
+  for (const auto& lines : {problems, unknowns})
+    for (const std::string& what : lines) text += fmt::format("               {}\n", what);
   return text;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 // A tree of boxes over triangles, to find those that may meet.
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "base/jobs.h"
+#include "measure/large_vector.h"
 #include "measure/triangles.h"
 
 namespace sgm::measure {
@@ -18,13 +20,17 @@ class Bvh {
   struct Box {
     float low[3], high[3];
 
+    /// Without a branch: which comparison fails is anyone's guess.
     bool overlaps(const Box& other) const {
-      return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1] &&
-             low[2] <= other.high[2] && other.low[2] <= high[2];
+      int all = 1;
+      for (int axis = 0; axis < 3; ++axis) {
+        all &= static_cast<int>(low[axis] <= other.high[axis]) & static_cast<int>(other.low[axis] <= high[axis]);
+      }
+      return all != 0;
     }
   };
 
-  /// Contract: the coordinates are finite. About 50 bytes a triangle.
+  /// Contract: the coordinates are at most kFarthest. 60 to 110 bytes a triangle.
   Bvh(const Triangles& mesh, JobSystem& jobs);
 
   size_t leaves() const { return boxes_.size() / 2; }
@@ -39,28 +45,43 @@ class Bvh {
   /// are as many: what several threads then walk.
   std::vector<Pair> parts(size_t parts) const;
 
-  /// Calls visit(a, b) with the triangles of each two leaves under the pair whose boxes overlap, until it says false.
+  /// Where a walk over the leaves under a pair stands: it goes on where it stopped.
+  struct Walk {
+    // Each row of the tree leaves three pairs at most behind.
+    std::array<Pair, 3 * 32 + 4> waiting;
+    size_t count = 0;
+
+    explicit Walk(Pair pair) : waiting{pair}, count(1) {}
+    bool ended() const { return count == 0; }
+  };
+
+  /// Calls visit(a, b) with the triangles of each two leaves of the walk whose boxes overlap, and stops after so many
+  /// steps: a call, or a look at two nodes. Returns how many it took.
   template <class Visit>
-  void visitPairs(Pair pair, Visit&& visit) const {
-    std::vector<Pair> waiting{pair};
-    while (!waiting.empty()) {
-      const auto [a, b] = waiting.back();
-      waiting.pop_back();
-      if (a != b && isLeaf(a) && isLeaf(b)) {
-        if (!visit(triangle(a), triangle(b))) return;
+  uint64_t visitPairs(Walk& walk, uint64_t most_steps, Visit&& visit) const {
+    uint64_t steps = 0;
+    for (; walk.count > 0 && steps < most_steps; ++steps) {
+      const auto [a, b] = walk.waiting[--walk.count];
+      if (a != b && isLeaf(a)) {
+        visit(triangle(a), triangle(b));
       } else {
-        split({a, b}, waiting);
+        walk.count += split({a, b}, &walk.waiting[walk.count]);
       }
     }
+    return steps;
   }
 
-  /// Calls visit(triangle) for each whose box reaches over or to the place, along z.
+  /// Calls visit(triangle) for each whose box reaches over or to the place, along z. Returns whether it came to the end
+  /// within so many steps, each a look at a node.
   template <class Visit>
-  void visitAbove(Point at, Visit&& visit) const {
-    std::vector<uint32_t> waiting{1};
-    while (!waiting.empty()) {
-      const uint32_t node = waiting.back();
-      waiting.pop_back();
+  bool visitAbove(Point at, uint64_t most_steps, Visit&& visit) const {
+    // Each row of the tree leaves one node at most behind.
+    std::array<uint32_t, 34> waiting;
+    waiting[0] = 1;
+    size_t count = 1;
+    for (uint64_t steps = 0; count > 0; ++steps) {
+      if (steps == most_steps) return false;
+      const uint32_t node = waiting[--count];
       const Box& box = boxes_[node];
       const auto reaches = [&](int axis) {
         return static_cast<double>(box.low[axis]) <= at[axis] && at[axis] <= static_cast<double>(box.high[axis]);
@@ -69,34 +90,39 @@ class Bvh {
       if (isLeaf(node)) {
         visit(triangle(node));
       } else {
-        waiting.insert(waiting.end(), {2 * node, 2 * node + 1});
+        waiting[count++] = 2 * node;
+        waiting[count++] = 2 * node + 1;
       }
     }
+    return true;
   }
 
  private:
-  /// The pairs of children that overlap.
-  void split(Pair pair, std::vector<Pair>& into) const {
+  /// Writes the pairs of children that overlap, four at most, and returns how many they are. into: room for four.
+  size_t split(Pair pair, Pair* into) const {
     const auto [a, b] = pair;
+    size_t count = 0;
     const auto push = [&](uint32_t first, uint32_t second) {
-      if (boxes_[first].overlaps(boxes_[second])) into.push_back({first, second});
+      into[count] = {first, second};
+      count += static_cast<size_t>(boxes_[first].overlaps(boxes_[second]));
     };
     if (a == b) {
-      if (isLeaf(a)) return;
+      if (isLeaf(a)) return 0;
       push(2 * a, 2 * a);
       push(2 * a + 1, 2 * a + 1);
       push(2 * a, 2 * a + 1);
-      return;
+      return count;
     }
     // Both stand in one row of the tree.
     push(2 * a, 2 * b);
     push(2 * a, 2 * b + 1);
     push(2 * a + 1, 2 * b);
     push(2 * a + 1, 2 * b + 1);
+    return count;
   }
 
-  std::vector<Box> boxes_;
-  std::vector<uint32_t> order_;
+  LargeVector<Box> boxes_;
+  LargeVector<uint32_t> order_;
 };
 
 }  // namespace sgm::measure

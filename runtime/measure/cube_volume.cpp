@@ -96,10 +96,23 @@ Result<CubeVolumes> cubeVolumes(const Triangles& mesh, Point low, Point high, do
   }
   std::array<double, 3> cubes{};
   for (int axis = 0; axis < 3; ++axis) {
-    cubes[static_cast<size_t>(axis)] = std::floor(high[axis] / edge - low[axis] / edge) + 3;
+    cubes[static_cast<size_t>(axis)] = std::floor((high[axis] - low[axis]) / edge) + 3;
   }
-  if (!(cubes[0] * cubes[1] * cubes[2] <= static_cast<double>(kMostCubes))) {
+  if (!(cubes[0] * cubes[1] * std::max(cubes[2], 64.0) <= static_cast<double>(kMostCubes))) {
     return Error{Code::limit, "the mesh's box holds more than 2^30 cubes: choose larger ones"};
+  }
+  double looks = 0;
+  for (const Triangle& t : mesh.triangles) {
+    double columns = 1;
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto [least, most] =
+          std::minmax({mesh.points[t[0]][axis], mesh.points[t[1]][axis], mesh.points[t[2]][axis]});
+      columns *= (most - least) / edge + 2;
+    }
+    looks += columns;
+  }
+  if (!(looks <= static_cast<double>(kMostLooks))) {
+    return Error{Code::limit, "the mesh's triangles lie over more than 2^27 columns of cubes: choose larger ones"};
   }
   Lattice corners;
   corners.edge = edge;

@@ -18,11 +18,14 @@ struct CubeVolumes {
 };
 
 inline constexpr uint64_t kMostCubes = uint64_t{1} << 30;
+/// Looks at columns of cubes for a triangle, all together: a surface that is no folded sheet takes few a column.
+inline constexpr uint64_t kMostLooks = uint64_t{1} << 27;
 
 /// The cubes lie on a grid that starts `edge` before `low` and ends `edge` behind `high`. Inside is where the triangles
 /// go round a place more often forward than backward, as seen along z; of an open mesh that says little.
-/// Contract: the coordinates are finite and lie within low..high. About a bit of memory a cube.
-/// Errors: invalid_argument for an edge that is not above 0; limit beyond kMostCubes.
+/// Contract: the coordinates lie within low..high. Memory: a bit a cube, 8 bytes at least a column of cubes, 24 bytes a
+/// place where a column crosses a triangle. Errors: invalid_argument for an edge that is not above 0; limit beyond
+/// kMostCubes (columns of less than 64 counted as that many) or kMostLooks.
 Result<CubeVolumes> cubeVolumes(const Triangles& mesh, Point low, Point high, double edge);
 
 }  // namespace sgm::measure

@@ -10,7 +10,7 @@ Edges::Edges(std::span<const Triangle> triangles, size_t vertex_count) {
     HalfEdge half;
     bool operator<(const Entry& other) const { return high != other.high ? high < other.high : half < other.half; }
   };
-  std::vector<uint32_t> first(vertex_count + 1);
+  LargeVector<uint32_t> first(vertex_count + 1);
   const auto each = [&](auto&& visit) {
     for (size_t i = 0; i < triangles.size(); ++i) {
       const Triangle& t = triangles[i];
@@ -23,8 +23,8 @@ Edges::Edges(std::span<const Triangle> triangles, size_t vertex_count) {
   };
   each([&](uint32_t low, uint32_t, HalfEdge) { ++first[low + 1]; });
   for (size_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
-  std::vector<Entry> entries(first.back());
-  std::vector<uint32_t> next(first.begin(), first.end() - 1);
+  LargeVector<Entry> entries(first.back());
+  LargeVector<uint32_t> next(first.begin(), first.end() - 1);
   each([&](uint32_t low, uint32_t high, HalfEdge half) { entries[next[low]++] = {high, half}; });
 
   halves_.resize(entries.size());

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "measure/large_vector.h"
 #include "measure/triangles.h"
 
 namespace sgm::measure {
@@ -32,8 +32,8 @@ class Edges {
   }
 
  private:
-  std::vector<HalfEdge> halves_;
-  std::vector<uint32_t> start_;  ///< of each edge, and the end
+  LargeVector<HalfEdge> halves_;
+  LargeVector<uint32_t> start_;  ///< of each edge, and the end
 };
 
 }  // namespace sgm::measure

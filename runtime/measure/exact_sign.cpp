@@ -1,7 +1,6 @@
 #include "measure/exact_sign.h"
 
 #include <cmath>
-#include <cstddef>
 #include <limits>
 
 namespace sgm::measure {
@@ -13,80 +12,90 @@ constexpr double kHalfUlp = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kSpaceError = (7 + 56 * kHalfUlp) * kHalfUlp;
 constexpr double kPlaneError = (3 + 16 * kHalfUlp) * kHalfUlp;
 
+/// A sum of doubles that do not overlap, the smallest first: the exact value of an expression. On the stack: on flat
+/// ground every pair of neighbours needs some.
+template <size_t kMost>
+struct Expansion {
+  double parts[kMost];
+  size_t size = 0;
+};
+
+/// a + b, and what rounding took from it.
+void twoSum(double a, double b, double& sum, double& error) {
+  sum = a + b;
+  const double bb = sum - a;
+  error = (a - (sum - bb)) + (b - bb);
+}
+
 /// The upper half of the digits; the rest is a double of half as many.
 double upperHalf(double v) {
   const double large = 134217729 * v;
   return large - (large - v);
 }
 
-/// What rounding takes from a * b, which is itself a double (Dekker, 1971; without a fused operation).
-double productError(double a, double b) {
+/// a * b, and what rounding took from it, which is itself a double (Dekker, 1971; without a fused operation).
+void twoProduct(double a, double b, double& product, double& error) {
+  product = a * b;
   const double a_high = upperHalf(a), b_high = upperHalf(b), a_low = a - a_high, b_low = b - b_high;
-  return a_low * b_low - (((a * b - a_high * b_high) - a_low * b_high) - a_high * b_low);
+  error = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
 }
 
-/// A sum of doubles that do not overlap, the smallest first: the exact value of an expression. Small ones are the rule:
-/// faces that lie in one plane are asked again and again.
-class Expansion {
- public:
-  /// Of the largest expression here: 3 products of 2 and 16 parts, each of which has two.
-  static constexpr size_t kMost = 192;
-
-  const double* begin() const { return parts_; }
-  const double* end() const { return parts_ + size_; }
-
-  void add(double term) {
-    size_t kept = 0;
-    for (size_t i = 0; i < size_; ++i) {
-      // What rounding takes from the sum stays behind as a part of its own.
-      const double part = parts_[i], sum = term + part, taken = sum - term;
-      const double rest = (term - (sum - taken)) + (part - taken);
-      if (rest != 0) parts_[kept++] = rest;
-      term = sum;
-    }
-    if (term != 0) parts_[kept++] = term;
-    size_ = kept;
+template <size_t kMost>
+void add(Expansion<kMost>& sum, double term) {
+  size_t kept = 0;
+  for (size_t i = 0; i < sum.size; ++i) {
+    double rest = 0;
+    twoSum(term, sum.parts[i], term, rest);
+    if (rest != 0) sum.parts[kept++] = rest;
   }
-  void addProduct(const Expansion& a, const Expansion& b, double sign) {
-    for (const double x : a) {
-      for (const double y : b) {
-        add(sign * productError(x, y));
-        add(sign * (x * y));
-      }
-    }
-  }
-  /// The largest part decides.
-  int sign() const { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
+  if (term != 0) sum.parts[kept++] = term;
+  sum.size = kept;
+}
 
- private:
-  double parts_[kMost];
-  size_t size_ = 0;
-};
-
-Expansion difference(double a, double b) {
-  Expansion result;
-  result.add(a);
-  result.add(-b);
+Expansion<2> difference(double a, double b) {
+  Expansion<2> result;
+  add(result, a);
+  add(result, -b);
   return result;
 }
 
+/// sum + sign * a * b
+template <size_t kMost, size_t kA, size_t kB>
+void addProduct(Expansion<kMost>& sum, const Expansion<kA>& a, const Expansion<kB>& b, double sign) {
+  for (size_t i = 0; i < a.size; ++i) {
+    for (size_t j = 0; j < b.size; ++j) {
+      double high = 0, error = 0;
+      twoProduct(a.parts[i], b.parts[j], high, error);
+      add(sum, sign * error);
+      add(sum, sign * high);
+    }
+  }
+}
+
 int signOf(double v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
+/// The largest part decides.
+template <size_t kMost>
+int signOf(const Expansion<kMost>& e) {
+  return e.size == 0 ? 0 : signOf(e.parts[e.size - 1]);
+}
+
 int exactOrientation(Point a, Point b, Point c, Point d) {
-  Expansion u[3], v[3], w[3];
+  Expansion<2> u[3], v[3], w[3];
   for (int axis = 0; axis < 3; ++axis) {
     u[axis] = difference(a[axis], d[axis]);
     v[axis] = difference(b[axis], d[axis]);
     w[axis] = difference(c[axis], d[axis]);
   }
-  Expansion determinant;
+  // Each product of two parts adds two.
+  Expansion<192> determinant;
   for (int axis = 0; axis < 3; ++axis) {
     const int y = (axis + 1) % 3, z = (axis + 2) % 3;
-    Expansion minor;
-    minor.addProduct(v[y], w[z], 1);
-    minor.addProduct(v[z], w[y], -1);
-    determinant.addProduct(u[axis], minor, 1);
+    Expansion<16> minor;
+    addProduct(minor, v[y], w[z], 1);
+    addProduct(minor, v[z], w[y], -1);
+    addProduct(determinant, u[axis], minor, 1);
   }
-  return determinant.sign();
+  return signOf(determinant);
 }
 
 }  // namespace
@@ -100,6 +109,7 @@ int orientation(Point a, Point b, Point c, Point d) {
                       std::fabs(u.y) * (std::fabs(vw_y) + std::fabs(wv_y)) +
                       std::fabs(u.z) * (std::fabs(vw_z) + std::fabs(wv_z));
   if (std::fabs(determinant) > kSpaceError * size) return signOf(determinant);
+  if (size == 0) return 0;  // every term is: so in planes across an axis
   return exactOrientation(a, b, c, d);
 }
 
@@ -108,10 +118,11 @@ int orientationAlong(int drop, Point a, Point b, Point c) {
   const double left = (a[x] - c[x]) * (b[y] - c[y]), right = (a[y] - c[y]) * (b[x] - c[x]);
   const double determinant = left - right;
   if (std::fabs(determinant) > kPlaneError * (std::fabs(left) + std::fabs(right))) return signOf(determinant);
-  Expansion exact;
-  exact.addProduct(difference(a[x], c[x]), difference(b[y], c[y]), 1);
-  exact.addProduct(difference(a[y], c[y]), difference(b[x], c[x]), -1);
-  return exact.sign();
+  if (left == 0 && right == 0) return 0;
+  Expansion<16> exact;
+  addProduct(exact, difference(a[x], c[x]), difference(b[y], c[y]), 1);
+  addProduct(exact, difference(a[y], c[y]), difference(b[x], c[x]), -1);
+  return signOf(exact);
 }
 
 }  // namespace sgm::measure

@@ -1,5 +1,5 @@
 #pragma once
-// On which side? Answered exactly, for any double coordinates.
+// On which side? Answered exactly.
 //
 // A determinant is computed in double first; where its rounding error could change the sign (error bounds of Shewchuk,
 // Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997) it is computed again as a

@@ -59,8 +59,7 @@ std::string_view nameOf(HistogramMode mode) {
   return "";
 }
 
-Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> normals, const Edges* edges,
-                              const HistogramSettings& settings, JobSystem& jobs) {
+Result<void> checkHistogram(const HistogramSettings& settings) {
   if (settings.bins < 1 || settings.bins > 4096) {
     return Error{Code::invalid_argument,
                  "a histogram has 1 to 4096 bins, not " + std::to_string(settings.bins) + ": an odd number is best"};
@@ -68,6 +67,12 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
   if (!(settings.length > 0) || !std::isfinite(settings.length)) {
     return Error{Code::invalid_argument, "the length that curvature is scaled by must be more than 0"};
   }
+  return {};
+}
+
+Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> normals, const Edges* edges,
+                              const HistogramSettings& settings, JobSystem& jobs) {
+  if (Result<void> ok = checkHistogram(settings); !ok) return ok.error();
   if (normals.size() != mesh.points.size() || (settings.unique_edges && !edges)) {
     return Error{Code::invalid_argument, "a histogram needs a normal for each point, and edges to count each once"};
   }
@@ -88,6 +93,8 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
     c.bins.resize(slots);
     for (size_t i = block * kBlock; i < std::min(halves, (block + 1) * kBlock); ++i) {
       const HalfEdge half = settings.unique_edges ? edges->around(i)[0] : static_cast<HalfEdge>(i);
+      const Triangle& t = mesh.triangles[half / 3];
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
       const uint32_t a = beginOf(mesh.triangles, half), b = endOf(mesh.triangles, half);
       const std::optional<Bend> bend = bendOf(mesh.points[a], mesh.points[b], normals[a], normals[b]);
       if (!bend) {
@@ -124,8 +131,8 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
   return result;
 }
 
-std::vector<Point> smoothNormals(const Triangles& mesh) {
-  std::vector<Point> normals(mesh.points.size());
+LargeVector<Point> smoothNormals(const Triangles& mesh) {
+  LargeVector<Point> normals(mesh.points.size());
   for (const Triangle& t : mesh.triangles) {
     const Point cross = crossOf(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
     for (const uint32_t v : t) normals[v] = normals[v] + cross;

@@ -12,6 +12,7 @@
 #include "base/jobs.h"
 #include "base/result.h"
 #include "measure/edges.h"
+#include "measure/large_vector.h"
 
 namespace sgm::measure {
 
@@ -40,7 +41,7 @@ struct Histogram {
   HistogramSettings settings;
   int32_t first_bin = 1;       ///< the number of shares[0], by equation 14: 1, in mode `printed` less
   std::vector<double> shares;  ///< of the edges counted; they add up to 1, or are all 0 where there is none
-  uint64_t edges = 0;          ///< counted
+  uint64_t edges = 0;          ///< counted; those of triangles with a corner twice are not
   uint64_t left_out = 0;       ///< without length, or with a normal that is none
   uint64_t below_first = 0;    ///< in bins of number 0 or less: places before the array that the paper describes
   /// Shares of edges with |d| at most kFlatAngle, and with d below and above it.
@@ -49,6 +50,9 @@ struct Histogram {
 
 inline constexpr double kFlatAngle = 1e-4;  ///< radians
 
+/// Errors: invalid_argument for settings out of range.
+Result<void> checkHistogram(const HistogramSettings& settings);
+
 /// normals: one a point, of any length above 0, outward. triangles: whose corners index points and normals alike.
 /// edges: needed where unique_edges is set; null otherwise.
 /// Errors: invalid_argument for settings out of range. The same bits for any number of threads.
@@ -56,6 +60,6 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
                               const HistogramSettings& settings, JobSystem& jobs);
 
 /// At each point the sum of its triangles' cross products, of length 1; zero where that is nothing.
-std::vector<Point> smoothNormals(const Triangles& mesh);
+LargeVector<Point> smoothNormals(const Triangles& mesh);
 
 }  // namespace sgm::measure

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "measure/triangle_pair.h"
 #include "measure/weld_points.h"
@@ -9,24 +10,44 @@
 namespace sgm::measure {
 namespace {
 
-bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool measurable(Point p) {
+  return std::fabs(p.x) <= kFarthest && std::fabs(p.y) <= kFarthest && std::fabs(p.z) <= kFarthest;
+}
 
-/// The triangles whose corners are finite.
+/// Counts the triangles with a corner that cannot be measured, and returns the others where there are any such.
 std::vector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
-  std::vector<Triangle> kept;
-  kept.reserve(mesh.triangles.size());
   std::vector<bool> used(mesh.points.size());
+  const auto good = [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return measurable(mesh.points[v]); });
+  };
   for (const Triangle& t : mesh.triangles) {
     for (const uint32_t v : t) used[v] = true;
-    if (std::all_of(t.begin(), t.end(), [&](uint32_t v) { return finite(mesh.points[v]); })) {
-      kept.push_back(t);
-    } else {
-      if (!result.first_non_finite) result.first_non_finite = static_cast<uint32_t>(&t - mesh.triangles.data());
-      ++result.non_finite;
-    }
+    if (good(t)) continue;
+    if (!result.first_non_finite) result.first_non_finite = static_cast<uint32_t>(&t - mesh.triangles.data());
+    ++result.non_finite;
   }
   result.unused_points = static_cast<size_t>(std::count(used.begin(), used.end(), false));
+  std::vector<Triangle> kept;
+  if (result.non_finite > 0) std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(kept), good);
   return kept;
+}
+
+/// Undoes that finiteOf() left out triangles.
+void numberAsGiven(const Triangles& mesh, MeshMeasures& result) {
+  std::vector<uint32_t> given;
+  for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Triangle& t = mesh.triangles[i];
+    if (std::all_of(t.begin(), t.end(), [&](uint32_t v) { return measurable(mesh.points[v]); })) given.push_back(i);
+  }
+  for (Shell& shell : result.parts.shells) shell.first = given[shell.first];
+  std::vector<uint32_t> shells(mesh.triangles.size(), kNoShell);
+  for (size_t i = 0; i < given.size(); ++i) shells[given[i]] = result.parts.of_triangle[i];
+  result.parts.of_triangle = std::move(shells);
+  if (!result.self_intersections) return;
+  for (auto& [a, b] : result.self_intersections->examples) {
+    a = given[a];
+    b = given[b];
+  }
 }
 
 double qualityOf(Point a, Point b, Point c) {
@@ -76,31 +97,45 @@ std::optional<uint64_t> MeshMeasures::genus() const {
 
 bool MeshMeasures::valid() const {
   return watertight() && flat_triangles == 0 && nesting.inside_out == 0 && nesting.nested == 0 &&
-         (!self_intersections || (self_intersections->pairs == 0 && self_intersections->complete));
+         (!self_intersections || self_intersections->pairs == 0) && complete();
+}
+
+bool MeshMeasures::complete() const {
+  return nesting.not_judged == 0 && (!self_intersections || self_intersections->complete);
 }
 
 Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& settings, JobSystem& jobs) {
   if (mesh.triangles.size() > kNoShell / 3 || mesh.points.size() > kNoShell) {
-    return Error{Code::limit, "a mesh that is measured has at most 1,431,655,765 triangles and 4,294,967,295 points"};
+    return Error{
+        Code::limit,
+        "a mesh of more than 1,431,655,765 triangles or 4,294,967,295 points cannot be measured: cut it in parts"};
   }
+  if (Result<void> ok = checkHistogram(settings.histogram); !ok) return ok.error();
   MeshMeasures result;
   result.points = mesh.points.size();
   result.triangles = mesh.triangles.size();
   std::vector<Triangle> kept = finiteOf(mesh, result);
-  const WeldedPoints welded = weldPoints({mesh.points, kept}, settings.weld);
+  const std::span<const Triangle> all_finite = result.non_finite > 0 ? std::span<const Triangle>(kept) : mesh.triangles;
+  const WeldedPoints welded = weldPoints({mesh.points, all_finite}, settings.weld);
   kept = {};
   result.welded_points = welded.merged;
   const Triangles clean{welded.points, welded.triangles};
   result.sums = areaVolume(clean, jobs);
 
+  if (settings.cubes) {
+    const Result<CubeVolumes> cubes = cubeVolumes(clean, result.sums.low, result.sums.high, *settings.cubes);
+    if (!cubes) return cubes.error();
+    result.cubes = *cubes;
+  }
+
   const Bvh tree(clean, jobs);
+  const uint64_t steps = settings.steps_a_triangle * clean.triangles.size();
   std::optional<Error> failed;
   // Each of the three fills what the others do not touch.
   const std::array<std::function<void()>, 3> works{
       [&] {
         if (!settings.self_intersections) return;
-        const uint64_t tests = settings.tests_a_triangle * clean.triangles.size();
-        result.self_intersections = selfIntersections(clean, tree, tests, jobs);
+        result.self_intersections = selfIntersections(clean, tree, steps, jobs);
       },
       [&] {
         const Edges edges(clean.triangles, clean.points.size());
@@ -111,7 +146,7 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
         } else {
           failed = histogram.error();
         }
-        result.nesting = nestingOf(clean, tree, result.parts, jobs);
+        result.nesting = nestingOf(clean, tree, result.parts, steps, jobs);
         countShapes(clean, jobs, result);
       },
       [&] {
@@ -120,11 +155,7 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
       }};
   parallelFor(jobs, works.size(), [&](size_t work) { works[work](); });
   if (failed) return *failed;
-  if (settings.cubes) {
-    const Result<CubeVolumes> cubes = cubeVolumes(clean, result.sums.low, result.sums.high, *settings.cubes);
-    if (!cubes) return cubes.error();
-    result.cubes = *cubes;
-  }
+  if (result.non_finite > 0) numberAsGiven(mesh, result);
   return result;
 }
 

@@ -18,8 +18,9 @@ struct MeshSettings {
   double weld = 0;  ///< weldPoints()'s tolerance, in the mesh's unit
   HistogramSettings histogram;
   bool self_intersections = true;
-  /// Of pairs of triangles whose boxes overlap, for each triangle: where a mesh has more, only some are looked at.
-  uint64_t tests_a_triangle = 2000;
+  /// For what lies close together or above each other, times the number of triangles: where a mesh needs more steps
+  /// than that, MeshMeasures::complete() is false. A solid of our own takes about 30.
+  uint64_t steps_a_triangle = 5000;
   std::optional<double> cubes;  ///< the edge of the cubes that are counted; nothing: none are
 };
 
@@ -27,7 +28,7 @@ struct MeshMeasures {
   size_t points = 0, triangles = 0;  ///< as given
   size_t unused_points = 0;          ///< that no triangle has
   size_t welded_points = 0;          ///< that fell on others
-  size_t non_finite = 0;             ///< triangles with a corner that is infinite or NaN: left out of all that follows
+  size_t non_finite = 0;             ///< triangles with a corner beyond kFarthest or NaN: left out of all that follows
   std::optional<uint32_t> first_non_finite;
 
   /// Of the welded mesh, by vertices. `degenerate_triangles` have a corner twice.
@@ -44,11 +45,14 @@ struct MeshMeasures {
   size_t degenerate() const { return identity.degenerate_triangles + flat_triangles; }
   int64_t euler() const;                  ///< summed over shells
   std::optional<uint64_t> genus() const;  ///< likewise; nothing where one has none
-  /// Every edge has two triangles that go along it in opposite directions, every vertex one fan.
+  /// Every edge has two triangles that go along it in opposite directions, every vertex one fan, and none is there
+  /// twice or has a corner twice. True of a mesh without triangles.
   bool watertight() const { return identity.closed() && non_finite == 0; }
   /// A solid's surface: watertight, facing outward, covered once, without triangles that have no area or that cut each
-  /// other (where that was asked).
+  /// other (where that was asked), and all of it was looked at. True of a mesh without triangles.
   bool valid() const;
+  /// Whether all that was asked was looked at: `valid` may be false for want of that alone.
+  bool complete() const;
 };
 
 /// 4 sqrt(3) area / (sum of the squared edges): 1 for equal edges.
@@ -56,7 +60,9 @@ inline constexpr double kSliver = 0.05;
 
 /// normals of `mesh` are not asked: the histogram's are smoothNormals() of the welded mesh, which any file has.
 /// Contract: that of Triangles. Pure; the same for any number of threads.
-/// Errors: limit for more than 2^32 / 3 triangles or points; those of histogramOf and cubeVolumes.
+/// Triangles are numbered as given, whatever was left out. Memory: 250 bytes a triangle of a closed mesh, up to 700
+/// where each is alone. Errors: limit for more than 2^32 / 3 triangles or 2^32 points; those of histogramOf and
+/// cubeVolumes.
 Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& settings, JobSystem& jobs);
 
 }  // namespace sgm::measure

@@ -2,6 +2,7 @@
 // Which closed shells face the right way, by what they stand in.
 
 #include <cstdint>
+#include <optional>
 
 #include "base/jobs.h"
 #include "measure/bvh.h"
@@ -9,17 +10,21 @@
 
 namespace sgm::measure {
 
+/// Of shells that are closed and manifold: others have no inside.
 struct Nesting {
-  uint64_t cavities = 0;    ///< closed shells that face inward, in a solid
-  uint64_t inside_out = 0;  ///< closed shells that face inward, in the open
-  uint64_t nested = 0;      ///< closed shells that face outward, in a solid: what they hold counts twice
+  uint64_t cavities = 0;    ///< that face inward, in a solid
+  uint64_t inside_out = 0;  ///< that face inward, in the open
+  uint64_t nested = 0;      ///< that face outward, in a solid: what they hold counts twice
+  uint64_t not_judged = 0;  ///< with so much above them that the steps did not suffice
 };
 
-/// How often the triangles of the other shells go round the point: 0 outside of them, 1 inside one. Exact; of open
-/// shells it says little. tree: of the mesh's triangles.
-int depthAt(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint32_t all_but, Point at);
+/// How often the closed, manifold shells but one go round the point: 0 outside of them, 1 inside one. Exact. tree: of
+/// the mesh's triangles. Nothing where that takes more than so many looks at its nodes.
+std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint32_t all_but, Point at,
+                           uint64_t most_steps);
 
-/// Each shell is judged by its first corner.
-Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, JobSystem& jobs);
+/// Each shell is judged by its first corner. most_steps: looks at nodes of the tree, shared out evenly over the shells.
+/// The same for any number of threads.
+Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint64_t most_steps, JobSystem& jobs);
 
 }  // namespace sgm::measure

@@ -6,30 +6,38 @@
 
 namespace sgm::measure {
 
-SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t most_tests, JobSystem& jobs) {
+SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t most_steps, JobSystem& jobs) {
   constexpr size_t kParts = 256;
-  const std::vector<Bvh::Pair> parts = tree.parts(kParts);
-  const uint64_t most = std::max<uint64_t>(most_tests / parts.size(), 1);
-  std::vector<SelfIntersections> found(parts.size());
-  parallelFor(jobs, parts.size(), [&](size_t part) {
-    SelfIntersections& here = found[part];
-    uint64_t tests = 0;
-    tree.visitPairs(parts[part], [&](uint32_t a, uint32_t b) {
-      here.complete = tests < most;
-      ++tests;
-      if (!here.complete) return false;
-      if (meetWrongly(mesh.points, mesh.triangles[a], mesh.triangles[b])) {
-        ++here.pairs;
-        if (here.examples.size() < kMostExamples) here.examples.push_back(std::minmax(a, b));
-      }
-      return true;
+  struct Part {
+    Bvh::Walk walk;
+    SelfIntersections found;
+    uint64_t steps = 0;
+  };
+  std::vector<Part> parts;
+  for (const Bvh::Pair& pair : tree.parts(kParts)) parts.push_back({Bvh::Walk(pair), {}, 0});
+  // What some parts leave of their shares the others have in the next round, whichever thread was quick.
+  uint64_t left = most_steps;
+  for (;;) {
+    std::vector<Part*> open;
+    for (Part& part : parts)
+      if (!part.walk.ended()) open.push_back(&part);
+    const uint64_t share = open.empty() ? 0 : left / open.size();
+    if (share == 0) break;
+    parallelFor(jobs, open.size(), [&](size_t i) {
+      Part& part = *open[i];
+      part.steps = tree.visitPairs(part.walk, share, [&](uint32_t a, uint32_t b) {
+        if (!meetWrongly(mesh.points, mesh.triangles[a], mesh.triangles[b])) return;
+        ++part.found.pairs;
+        if (part.found.examples.size() < kMostExamples) part.found.examples.push_back(std::minmax(a, b));
+      });
     });
-  });
+    for (const Part* part : open) left -= part->steps;
+  }
   SelfIntersections all;
-  for (const SelfIntersections& part : found) {
-    all.pairs += part.pairs;
-    all.complete = all.complete && part.complete;
-    all.examples.insert(all.examples.end(), part.examples.begin(), part.examples.end());
+  for (const Part& part : parts) {
+    all.pairs += part.found.pairs;
+    all.complete = all.complete && part.walk.ended();
+    all.examples.insert(all.examples.end(), part.found.examples.begin(), part.found.examples.end());
   }
   std::sort(all.examples.begin(), all.examples.end());
   all.examples.resize(std::min(all.examples.size(), kMostExamples));

@@ -12,15 +12,15 @@ namespace sgm::measure {
 
 struct SelfIntersections {
   uint64_t pairs = 0;  ///< of triangles that meetWrongly(); at least so many where not all were looked at
-  /// Not where more than `most_tests` pairs lie close to each other.
+  /// Not where so many triangles lie close to each other that the steps did not suffice.
   bool complete = true;
   std::vector<std::pair<uint32_t, uint32_t>> examples;  ///< the lower triangle first; at most kMostExamples
 };
 
 inline constexpr size_t kMostExamples = 16;
 
-/// Exact (triangle_pair.h). tree: of the same triangles. most_tests: of pairs whose boxes overlap, shared out evenly
-/// over a fixed number of parts of the mesh. The same for any number of threads.
-SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t most_tests, JobSystem& jobs);
+/// Exact (triangle_pair.h). tree: of the same triangles. most_steps: looks at two nodes of it or at two triangles. The
+/// same for any number of threads.
+SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t most_steps, JobSystem& jobs);
 
 }  // namespace sgm::measure

@@ -69,7 +69,6 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
     shell.volume += dot(a, cross) / 6;
   }
 
-  UnionFind borders(fans.size());
   std::vector<HalfEdge> border_halves;
   for (size_t e = 0; e < edges.count(); ++e) {
     const std::span<const HalfEdge> around = edges.around(e);
@@ -78,18 +77,21 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
     if (around.size() == 1) {
       ++shell.border_edges;
       border_halves.push_back(around[0]);
-      borders.join(fans.rootOf(around[0]), fans.rootOf(nextHalf(around[0])));
     } else if (around.size() > 2 || beginOf(triangles, around[0]) == beginOf(triangles, around[1])) {
       shell.manifold = false;
     }
   }
-  std::vector<bool> seen(fans.size());
+  // Most meshes have none, and need no memory for it.
+  const size_t border_fans = border_halves.empty() ? 0 : fans.size();
+  UnionFind borders(border_fans);
+  for (const HalfEdge half : border_halves) borders.join(fans.rootOf(half), fans.rootOf(nextHalf(half)));
+  std::vector<bool> seen(border_fans);
   for (const HalfEdge half : border_halves) {
     const uint32_t root = borders.rootOf(fans.rootOf(half));
     if (!seen[root]) ++result.shells[number[half / 3]].borders;
     seen[root] = true;
   }
-  std::vector<uint32_t> fan_at(mesh.points.size(), kNoShell);
+  LargeVector<uint32_t> fan_at(mesh.points.size(), kNoShell);
   for (uint32_t corner = 0; corner < fans.size(); ++corner) {
     if (number[corner / 3] == kNoShell || fans.rootOf(corner) != corner) continue;
     Shell& shell = result.shells[number[corner / 3]];

@@ -13,7 +13,7 @@ namespace sgm::measure {
 struct Shell {
   uint64_t triangles = 0;
   uint64_t edges = 0;
-  uint64_t vertices = 0;      ///< one that several fans of the shell meet in counts once a fan
+  uint64_t vertices = 0;      ///< one that several fans meet in counts once a fan, and once a shell
   uint64_t border_edges = 0;  ///< of one triangle
   uint64_t borders = 0;       ///< that these make: closed lines of them
   uint32_t first = 0;         ///< its lowest triangle

@@ -13,11 +13,15 @@ using asset::Point;
 using Triangle = std::array<uint32_t, 3>;  ///< counter-clockwise seen from outside
 
 /// Lengths are in one unit, which is the caller's: areas come in its square, volumes in its cube.
-/// Contract: every index is below points.size(). Coordinates may be anything, also infinite or NaN.
+/// Contract: every index is below points.size(). Coordinates may be anything, also infinite or NaN, for measureMesh()
+/// alone: all else asks that none is beyond kFarthest.
 struct Triangles {
   std::span<const Point> points;
   std::span<const Triangle> triangles;
 };
+
+/// Beyond it products of coordinates leave the range of a double, and coordinates that of a float.
+inline constexpr double kFarthest = 1e37;
 
 /// Triangles that one job takes at a time. Sums are made block by block and these added in order, so that their last
 /// bit does not depend on the number of threads.

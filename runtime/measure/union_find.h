@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <numeric>
 #include <utility>
-#include <vector>
+
+#include "measure/large_vector.h"
 
 namespace sgm::measure {
 
@@ -29,7 +30,7 @@ class UnionFind {
   size_t size() const { return parent_.size(); }
 
  private:
-  std::vector<uint32_t> parent_;
+  LargeVector<uint32_t> parent_;
 };
 
 }  // namespace sgm::measure

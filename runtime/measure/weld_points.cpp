@@ -37,7 +37,7 @@ class Cells {
   }
 
  private:
-  std::vector<uint32_t> slots_;
+  LargeVector<uint32_t> slots_;
 };
 
 Cell bitsOf(Point p) {
@@ -50,7 +50,8 @@ Point gridOf(Point p, double edge) { return {std::floor(p.x / edge), std::floor(
 
 class Welder {
  public:
-  Welder(size_t points, double tolerance) : tolerance_(tolerance), cells_(points) {}
+  /// Room for all points takes no memory before it is used; to grow would copy them.
+  Welder(size_t points, double tolerance) : tolerance_(tolerance), cells_(points) { kept_.reserve(points); }
 
   uint32_t add(Point p) {
     const uint32_t found = tolerance_ > 0 ? near(p) : kNone;
@@ -64,7 +65,7 @@ class Welder {
     return number;
   }
 
-  std::vector<Point> take() { return std::move(kept_); }
+  LargeVector<Point> take() { return std::move(kept_); }
 
  private:
   Cell cellOf(Point p) const { return bitsOf(tolerance_ > 0 ? gridOf(p, tolerance_) : p); }
@@ -86,16 +87,23 @@ class Welder {
 
   double tolerance_;
   Cells cells_;
-  std::vector<Point> kept_;
-  std::vector<uint32_t> next_;  ///< of the same cell; with a tolerance alone
+  LargeVector<Point> kept_;
+  LargeVector<uint32_t> next_;  ///< of the same cell; with a tolerance alone
 };
 
 }  // namespace
 
 WeldedPoints weldPoints(const Triangles& mesh, double tolerance) {
+  // Where the next number is further off than the tolerance, only equal ones are near.
+  double farthest = 0;
+  for (const Point& p : mesh.points) {
+    for (const double v : {p.x, p.y, p.z})
+      if (std::fabs(v) <= kFarthest) farthest = std::max(farthest, std::fabs(v));
+  }
+  if (tolerance < farthest * std::numeric_limits<double>::epsilon()) tolerance = 0;
   WeldedPoints result;
   result.triangles.reserve(mesh.triangles.size());
-  std::vector<uint32_t> place(mesh.points.size(), kNone);
+  LargeVector<uint32_t> place(mesh.points.size(), kNone);
   size_t used = 0;
   Welder welder(std::min(mesh.points.size(), 3 * mesh.triangles.size()), tolerance);
   for (const Triangle& t : mesh.triangles) {

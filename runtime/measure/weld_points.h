@@ -3,15 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "measure/large_vector.h"
 #include "measure/triangles.h"
 
 namespace sgm::measure {
 
 struct WeldedPoints {
-  std::vector<Point> points;
-  std::vector<Triangle> triangles;  ///< as many as before, in their order
+  LargeVector<Point> points;
+  LargeVector<Triangle> triangles;  ///< as many as before, in their order
   size_t merged = 0;                ///< points that fell on another
 };
 

@@ -60,6 +60,10 @@ err_has 'cannot read nothing.glb'
 one_line
 mkdir folder.glb
 expect 4 "$SGM" measure folder.glb
+err_has 'cannot read folder.glb: it is no file of bytes'
+one_line
+mkfifo pipe.obj
+expect 4 "$SGM" measure pipe.obj
 one_line
 expect 2 "$SGM" measure ball.txt
 err_has 'glb'
@@ -80,5 +84,16 @@ if [[ $("$SGM" --version; nm -D "$SGM" 2>/dev/null) != *__asan* ]]; then
   expect 1 "$SGM" measure large.stl --seconds 0.1
   err_has 'it takes more than 0.1 s'
   one_line
+fi
+# A caller that goes takes the reader with it.
+if [[ -e large.stl ]]; then
+  "$SGM" measure large.stl >/dev/null 2>&1 &
+  sleep 0.3
+  reader=$(pgrep -P $! || true)
+  kill -TERM $! 2>/dev/null
+  wait $! 2>/dev/null
+  sleep 0.3
+  # One that has ended may wait to be asked how.
+  [[ -z $reader || $(ps -o stat= -p "$reader") != [^Z]* ]] || failed 'the process that reads outlives its caller'
 fi
 finish

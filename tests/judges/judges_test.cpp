@@ -74,8 +74,8 @@ Mesh cave(double cell) {
   const std::string bytes = contentOf(file);
   const Result<asset::TriangleMesh> read = asset::readMesh(std::as_bytes(std::span(bytes)), asset::MeshFileKind::glb);
   REQUIRE(read);
-  WeldedPoints welded = weldPoints({read->points, read->triangles});
-  Mesh mesh{std::move(welded.points), std::move(welded.triangles)};
+  const WeldedPoints welded = weldPoints({read->points, read->triangles});
+  Mesh mesh{{welded.points.begin(), welded.points.end()}, {welded.triangles.begin(), welded.triangles.end()}};
   closeBorders(mesh);
   return mesh;
 }

@@ -1040,38 +1040,41 @@ typedef struct sgm_measure_desc {
 typedef struct sgm_measures {
   uint32_t struct_size;
   void* next;
-  int32_t watertight; /* 1: every edge has two triangles that go along it in opposite directions, every point one fan */
-  int32_t valid; /* 1: and it faces outward, covers nothing twice, and no triangle is without area or cuts another */
+  int32_t watertight; /* 1: every edge has two triangles that go along it in opposite directions, every point one fan,
+                         and no triangle is there twice or has a corner twice; also without any triangle */
+  int32_t valid;      /* 1: and it faces outward, covers nothing twice, no triangle is without area or (where that was
+                         looked for) cuts another, and all of it was looked at */
   uint64_t triangles, points;
   uint64_t welded_points;        /* that fell on others */
-  uint64_t non_finite_triangles; /* left out of all that follows */
+  uint64_t non_finite_triangles; /* with a corner beyond 1e37 or not a number: left out of all that follows */
   double area;                   /* equation 7 */
   double volume;                 /* by the divergence theorem, about the middle of the bounds: of a closed mesh */
   double area_vector[3];         /* 0 for a closed mesh, up to rounding */
   double bounds_min[3], bounds_max[3];
-  uint64_t objects;              /* section 7.3: connected through points */
-  uint64_t shells;               /* connected across edges */
-  int64_t euler;                 /* Euler characteristic, summed over shells */
-  int64_t genus;                 /* likewise; -1 where a shell is no manifold */
+  uint64_t objects; /* section 7.3: connected through points */
+  uint64_t shells;  /* connected across edges */
+  int64_t euler;    /* Euler characteristic, summed over shells; a point of several fans counts once in each */
+  int64_t genus;    /* likewise; -1 where a shell is no manifold, or has one side alone */
   uint64_t edges, open_edges;    /* open: of one triangle alone */
   uint64_t turned_edges;         /* whose triangles face different ways */
   uint64_t nonmanifold_edges;    /* of three triangles or more */
   uint64_t nonmanifold_vertices; /* that hang several fans together */
   uint64_t degenerate_triangles; /* without area, exactly */
   uint64_t duplicate_triangles;
-  uint64_t sliver_triangles;           /* 4 sqrt(3) area / (sum of squared edges) below 0.05 */
-  uint64_t inside_out_shells;          /* closed, facing inward, in no solid */
-  uint64_t cavity_shells;              /* closed, facing inward, in a solid */
-  uint64_t nested_shells;              /* closed, facing outward, in a solid: what they hold counts twice */
-  uint64_t self_intersections;         /* pairs of triangles that meet beside common corners and edges, exactly */
+  uint64_t sliver_triangles;   /* 4 sqrt(3) area / (sum of squared edges) below 0.05 */
+  uint64_t inside_out_shells;  /* closed, facing inward, in no solid */
+  uint64_t cavity_shells;      /* closed, facing inward, in a solid */
+  uint64_t nested_shells;      /* closed, facing outward, in a solid: what they hold counts twice */
+  uint64_t self_intersections; /* pairs of triangles that meet beside common corners and edges, exactly; at least so
+                                  many where the next is 0 */
   int32_t self_intersections_complete; /* 0: not looked for, or too many lie close together: there may be more */
   int32_t histogram_first;             /* number of the first bin by equation 14: 1, in mode PRINTED less */
   uint64_t histogram_bins;             /* that there are; SGM_INCOMPLETE where histogram_capacity is less */
   uint64_t histogram_edges;            /* counted */
   uint64_t histogram_left_out;         /* without length or normal */
   double flat, convex, concave;        /* shares of the edges */
-  double cubes_all, cubes_any,
-      cubes_centre; /* equation 8: volume by all corners, any corner, the centre; 0: not asked */
+  /* Equation 8: volume by all corners, by any corner, by the centre. 0 where cubes were not asked for. */
+  double cubes_all, cubes_any, cubes_centre;
 } sgm_measures;
 
 #define SGM_MEASURES_INIT                                                                                              \
@@ -1081,9 +1084,11 @@ typedef struct sgm_measures {
   }
 
 /* Measures any mesh, and judges whether it is the closed surface of a solid. Blocks; uses the job system; the same
- * numbers for any number of threads. Works in the C++ heap, with about 250 bytes a triangle. Whatever is wrong with the
+ * numbers for any number of threads. Works in the C++ heap, with 250 bytes a triangle of a closed mesh, and up to 700
+ * where triangles share no points. Exact for coordinates that are 0 or of 1e-70 to 1e37. Whatever is wrong with the
  * mesh is in `out`, not an error. SGM_INCOMPLETE: the histogram holds what fits, all else is whole.
- * SGM_ERR_INVALID_ARGUMENT also for an index that is not below position_count. SGM_ERR_LIMIT: more than 2^30 cubes. */
+ * SGM_ERR_INVALID_ARGUMENT also for an index that is not below position_count. SGM_ERR_LIMIT: more than 2^30 cubes, or
+ * triangles over more than 2^27 columns of them. */
 SGM_API sgm_result sgm_measure(sgm_runtime* runtime, const sgm_measure_desc* desc, sgm_measures* out, sgm_error* error);
 
 /* ---------------------------------------------------------------------------------------------- volumes: density */

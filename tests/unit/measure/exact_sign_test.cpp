@@ -49,7 +49,7 @@ TEST_CASE("the side of a plane is exact", "[exact_sign]") {
     const auto whole = [&] { return Whole{along(), along(), along()}; };
     const Whole a = whole(), b = whole(), c = whole();
     const Whole d = random() % 4 == 0 ? whole() : nearPlane(random, a, b, c);
-    const double scale = std::ldexp(1, static_cast<int>(random() % 60) - 30);
+    const double scale = std::ldexp(1, static_cast<int>(random() % 520) - 232);  // 1e-70 to 1e86, times up to 1e11
     const int expected = exactly(a, b, c, d);
     CHECK(orientation(a.scaled(scale), b.scaled(scale), c.scaled(scale), d.scaled(scale)) == expected);
     CHECK(orientation(b.scaled(scale), a.scaled(scale), c.scaled(scale), d.scaled(scale)) == -expected);

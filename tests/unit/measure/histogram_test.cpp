@@ -61,7 +61,7 @@ TEST_CASE("as printed, half of the bins have numbers of 0 and less", "[histogram
     CAPTURE(seed);
     std::mt19937 random(seed);
     const Mesh mesh = randomSurface(random, 6);
-    const std::vector<Point> normals = smoothNormals(mesh);
+    const LargeVector<Point> normals = smoothNormals(mesh);
     const uint32_t bins = 1 + static_cast<uint32_t>(random() % 64);
     const Histogram h = of(mesh, {HistogramMode::printed, bins});
     // Word by word from equations 9 to 14, in more digits.

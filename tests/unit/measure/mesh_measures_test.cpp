@@ -23,7 +23,8 @@ TEST_CASE("a thousand good meshes raise no alarm", "[measures]") {
     std::mt19937 random(seed);
     const Mesh mesh = goodMesh(random);
     const MeshMeasures found = measured(mesh);
-    CAPTURE(seed, mesh.triangles.size(), describe(found.identity), found.self_intersections->pairs, found.nesting.inside_out);
+    CAPTURE(seed, mesh.triangles.size(), describe(found.identity), found.self_intersections->pairs,
+            found.nesting.inside_out);
     CHECK(found.watertight());
     CHECK(found.valid());
     CHECK(found.degenerate() == 0);
@@ -94,6 +95,146 @@ TEST_CASE("nothing is measured as nothing", "[measures]") {
   CHECK(found.histogram.edges == 0);
 }
 
+namespace {
+
+/// A corner of a cube, facing outward.
+Mesh tetrahedron(double size = 1) {
+  return Mesh{{{0, 0, 0}, {size, 0, 0}, {0, size, 0}, {0, 0, size}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+}
+
+}  // namespace
+
+TEST_CASE("only closed manifold shells make a place lie in a solid", "[measures]") {
+  Mesh mesh = tetrahedron();
+  SECTION("two that touch in a corner do not stand in each other") {
+    mesh.add(tetrahedron().moved([](Point p) { return -1.0 * p; }));
+    for (size_t i = 4; i < 8; ++i) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+    const MeshMeasures found = measured(mesh);
+    CHECK(found.nesting.nested == 0);
+    CHECK(found.identity.pinched_vertices == 1);
+    CHECK_FALSE(found.valid());
+  }
+  SECTION("a roof over a body is no solid") {
+    mesh.add(Mesh{{{-5, -5, 9}, {5, -5, 9}, {5, 5, 9}, {-5, 5, 9}}, {{0, 1, 2}, {0, 2, 3}}});
+    CHECK(measured(mesh).nesting.nested == 0);
+    std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
+    std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
+    CHECK(measured(mesh).nesting.nested == 0);
+  }
+  SECTION("a body in a cavity in a body is well") {
+    Mesh cavity = ball(2).moved([](Point p) { return 5.0 * p; });
+    cavity.invert();
+    mesh.add(cavity);
+    mesh.add(ball(2).moved([](Point p) { return 8.0 * p; }));
+    const MeshMeasures found = measured(mesh);
+    CHECK(found.nesting.cavities == 1);
+    CHECK(found.nesting.nested == 0);
+    CHECK(found.valid());
+  }
+}
+
+TEST_CASE("no number is too large or too small to be told from a good mesh", "[measures]") {
+  for (const double size : {1e-60, 1e-30, 1e-3, 1e10, 1e30, 9e36}) {
+    CAPTURE(size);
+    Mesh mesh = ball(2).moved([size](Point p) { return size * p; });
+    CHECK(measured(mesh).valid());
+    mesh.invert();
+    CHECK_FALSE(measured(mesh).valid());
+  }
+  for (const double size : {1.1e37, 1e80, 1e120, 1e300}) {
+    CAPTURE(size);
+    const MeshMeasures found = measured(tetrahedron(size));
+    CHECK(found.non_finite == 4);
+    CHECK(found.first_non_finite == 0u);
+    CHECK_FALSE(found.valid());
+  }
+  Mesh part = ball(1);
+  part.points.push_back({1e38, 0, 0});
+  part.triangles.insert(part.triangles.begin(), {0, 1, static_cast<uint32_t>(part.points.size() - 1)});
+  part.add(ball(1).at({0.5, 0, 0}));
+  const MeshMeasures found = measured(part);
+  CHECK(found.non_finite == 1);
+  REQUIRE(found.self_intersections->pairs > 0);
+  // Triangles keep their numbers.
+  for (const auto& [a, b] : found.self_intersections->examples) {
+    CHECK(a >= 1);
+    CHECK(a < 81);
+    CHECK(b >= 81);
+  }
+  CHECK(found.parts.of_triangle.size() == part.triangles.size());
+  CHECK(found.parts.of_triangle[0] == kNoShell);
+}
+
+TEST_CASE("meshes that were made to take long are measured, or said not to be", "[measures]") {
+  SECTION("fans whose triangles all lie around one point") {
+    Mesh mesh;
+    constexpr uint32_t kSides = 3000;
+    mesh.points = {{0, 0, 0}, {0, 0, 1}};
+    for (uint32_t i = 0; i < kSides; ++i) {
+      const double u = 2 * std::numbers::pi * i / kSides;
+      for (const double z : {0.0, 1.0}) mesh.points.push_back({std::cos(u), std::sin(u), z});
+    }
+    for (uint32_t i = 0; i < kSides; ++i) {
+      const uint32_t a = 2 + 2 * i, b = 2 + 2 * ((i + 1) % kSides);
+      mesh.triangles.insert(mesh.triangles.end(), {{0, b, a}, {1, a + 1, b + 1}, {a, b, b + 1}, {a, b + 1, a + 1}});
+    }
+    CHECK(measured(mesh).valid());
+  }
+  SECTION("many bodies above each other") {
+    Mesh mesh;
+    for (uint32_t i = 0; i < 2000; ++i) mesh.add(tetrahedron(0.5).at({0, 0, static_cast<double>(i)}));
+    MeshSettings settings;
+    const MeshMeasures found = measured(mesh, settings);
+    CHECK(found.nesting.nested == 0);
+    CHECK(found.complete());
+    settings.steps_a_triangle = 10;
+    const MeshMeasures hasty = measured(mesh, settings);
+    CHECK(hasty.nesting.not_judged > 0);
+    CHECK_FALSE(hasty.complete());
+    CHECK_FALSE(hasty.valid());
+  }
+  SECTION("one triangle far from many small ones in disorder") {
+    std::mt19937 random(1);
+    Mesh mesh;
+    std::vector<Point> places;
+    for (uint32_t i = 0; i < 20000; ++i) places.push_back({between(random, 0, 1), between(random, 0, 1), 0});
+    for (const Point& at : places) mesh.add(tetrahedron(0.001).at(at));
+    mesh.add(tetrahedron().at({9e5, 0, 0}));
+    const MeshMeasures found = measured(mesh);
+    CHECK(found.complete());
+    CHECK(found.parts.shells.size() == 20001);
+  }
+  SECTION("a tolerance below the distance from one number to the next") {
+    Mesh mesh;
+    for (uint32_t i = 0; i < 5000; ++i) mesh.add(tetrahedron().at({2.0 * i, 0, 0}));
+    MeshSettings settings;
+    settings.weld = 1e-310;
+    CHECK(measured(mesh, settings).valid());
+  }
+  SECTION("more columns of cubes than may be looked at") {
+    const Mesh mesh{{{0, 0, 0}, {20000, 0, 0}, {0, 20000, 0}}, {{0, 1, 2}}};
+    MeshSettings settings;
+    settings.cubes = 1;
+    const auto jobs = std::move(*makeThreadPool(1));
+    CHECK(measureMesh(mesh, settings, *jobs).error().message ==
+          "the mesh's box holds more than 2^30 cubes: choose larger ones");
+    settings.cubes = 8;
+    Mesh many;
+    for (int i = 0; i < 200; ++i) many.add(mesh.at({0, 0, static_cast<double>(i)}));
+    CHECK(measureMesh(many, settings, *jobs).error().message ==
+          "the mesh's triangles lie over more than 2^27 columns of cubes: choose larger ones");
+  }
+}
+
+TEST_CASE("sides of triangles with a corner twice are no edges", "[measures]") {
+  Mesh mesh = tetrahedron();
+  mesh.triangles.push_back({0, 1, 1});
+  const MeshMeasures found = measured(mesh);
+  CHECK(found.histogram.edges == 12);
+  CHECK(found.histogram.left_out == 0);
+  CHECK_FALSE(found.watertight());
+}
+
 TEST_CASE("measures are the same for any number of threads", "[measures]") {
   std::mt19937 random(5);
   Mesh mesh = torus(60);
@@ -110,6 +251,12 @@ TEST_CASE("measures are the same for any number of threads", "[measures]") {
     CHECK(other.self_intersections->pairs == one.self_intersections->pairs);
     CHECK(other.self_intersections->examples == one.self_intersections->examples);
     CHECK(other.cubes->centre == one.cubes->centre);
+    CHECK(other.cubes->all == one.cubes->all);
+    CHECK(other.cubes->any == one.cubes->any);
+    CHECK(other.slivers == one.slivers);
+    CHECK(other.parts.of_triangle == one.parts.of_triangle);
+    CHECK(other.nesting.nested == one.nesting.nested);
+    CHECK(other.euler() == one.euler());
   }
   CHECK(one.self_intersections->pairs > 0);
 }

@@ -203,7 +203,8 @@ TEST_CASE("how deep a place lies is what the winding number says", "[shells]") {
       const double winding = windingNumber(mesh, at);
       if (std::fabs(winding - std::round(winding)) > 1e-6) continue;  // on a surface
       CAPTURE(seed, n, at.x, at.y, at.z);
-      CHECK(depthAt(mesh, tree, parts, kNoShell, at) == static_cast<int>(std::round(winding)));
+      CHECK(depthAt(mesh, tree, parts, kNoShell, at, 1u << 20) == static_cast<int>(std::round(winding)));
+      CHECK(depthAt(mesh, tree, parts, kNoShell, at, 0) == std::nullopt);
       inside += winding > 0.5;
     }
   }
