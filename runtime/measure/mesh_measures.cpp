@@ -56,11 +56,11 @@ double qualityOf(Point a, Point b, Point c) {
 }
 
 void countShapes(const Triangles& mesh, JobSystem& jobs, MeshMeasures& result) {
-  struct Counts {
+  struct ShapeCounts {
     size_t flat = 0, slivers = 0;
   };
   const size_t count = mesh.triangles.size();
-  std::vector<Counts> counts((count + kBlock - 1) / kBlock);
+  std::vector<ShapeCounts> counts((count + kBlock - 1) / kBlock);
   parallelFor(jobs, counts.size(), [&](size_t block) {
     for (size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
       const Triangle& t = mesh.triangles[i];
@@ -71,7 +71,7 @@ void countShapes(const Triangles& mesh, JobSystem& jobs, MeshMeasures& result) {
       counts[block].flat += quality < 1e-6 && !corner_twice && isFlat(mesh.points, t);
     }
   });
-  for (const Counts& c : counts) {
+  for (const ShapeCounts& c : counts) {
     result.flat_triangles += c.flat;
     result.slivers += c.slivers;
   }

@@ -205,7 +205,7 @@ TEST_CASE("CGAL counts as many pairs that meet in soups, on a lattice and off it
     CAPTURE(seed);
     CHECK(ours[seed] == verdicts[seed].soup_pairs);
   }
-  CHECK(all > 10000);
+  CHECK(all > 30 * verdicts.size());
   CHECK(shared > verdicts.size() / 2);
 }
 
@@ -253,8 +253,8 @@ TEST_CASE("CGAL counts as many pairs that meet in damaged surfaces", "[cgal]") {
     all += ours[seed].pairs;
     flat_found += verdicts[seed].flat;
   }
-  CHECK(all > 1000);
-  CHECK(flat_found > 100);
+  CHECK(all > 10 * verdicts.size());
+  CHECK(flat_found > verdicts.size());
 }
 
 TEST_CASE("CGAL finds the same good meshes good, and the same damaged ones bad", "[cgal]") {
