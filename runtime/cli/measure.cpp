@@ -3,13 +3,11 @@
 #include <fmt/core.h>
 
 #include <filesystem>
-#include <fstream>
 
-#include "asset/mesh_file.h"
 #include "cli/commands.h"
 #include "cli/limited_process.h"
 #include "cli/measure_report.h"
-#include "cli/region.h"
+#include "cli/measured_mesh.h"
 
 namespace sgm::cli {
 namespace {
@@ -27,19 +25,6 @@ Result<measure::MeshSettings> settingsOf(const MeasureOptions& options) {
     if (measure::nameOf(mode) == options.mode) settings.histogram.mode = mode;
   }
   return settings;
-}
-
-Result<std::vector<std::byte>> readBytes(const std::string& path) {
-  std::error_code why;
-  const uintmax_t size = std::filesystem::is_regular_file(path, why) ? std::filesystem::file_size(path, why) : 0;
-  std::ifstream file(path, std::ios::binary);
-  if (why || !file || !std::filesystem::is_regular_file(path, why)) {
-    return Error{Code::io, fmt::format("cannot read {}", path)};
-  }
-  std::vector<std::byte> bytes(size);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (file.gcount() != static_cast<std::streamsize>(size)) return Error{Code::io, fmt::format("cannot read {}", path)};
-  return bytes;
 }
 
 /// What is printed of a mesh; of what: the line above it.
@@ -62,11 +47,8 @@ Result<std::string> reportOf(const measure::Triangles& mesh, const MeasureOption
 
 Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKind kind) {
   const Stopwatch watch;
-  Result<std::vector<std::byte>> bytes = readBytes(options.file);
-  if (!bytes) return bytes.error();
-  Result<asset::TriangleMesh> mesh = asset::readMesh(*bytes, kind);
-  if (!mesh) return Error{mesh.error().code, options.file + ": " + mesh.error().message};
-  *bytes = {};
+  const Result<asset::TriangleMesh> mesh = readMeshFile(options.file, kind);
+  if (!mesh) return mesh.error();
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return jobs.error();
   return reportOf({mesh->points, mesh->triangles}, options, **jobs, options.file, {{"file", options.file}},
@@ -77,21 +59,13 @@ Exit measureGrammar(const MeasureOptions& options) {
   const RegionResult made = meshRegion(options);
   if (!made.region) return made.status;
   const Region& region = *made.region;
-  const WorldMesh& mesh = region.unsplit ? *region.unsplit : region.meshed.mesh;
-  std::vector<measure::Point> points;
-  points.reserve(mesh.positions.size());
-  for (const std::array<double, 3>& p : mesh.positions) points.push_back({p[0], p[1], p[2]});
-  std::vector<measure::Triangle> triangles;
-  triangles.reserve(mesh.indices.size() / 3);
-  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    triangles.push_back({mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
-  }
+  const asset::TriangleMesh mesh = trianglesOf(region);
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return complain(jobs.error());
   Json json = toJson(options, region);
   json["file"] = options.file;
   const Result<std::string> report =
-      reportOf({points, triangles}, options, **jobs, options.file, std::move(json), region.seconds);
+      reportOf({mesh.points, mesh.triangles}, options, **jobs, options.file, std::move(json), region.seconds);
   if (!report) return complain(report.error());
   fmt::print("{}", *report);
   return Exit::done;
