@@ -55,6 +55,29 @@ struct MeasureOptions : WorldOptions {
 };
 Exit measureMesh(const MeasureOptions& options);
 
+struct ClassifyOptions : WorldOptions {
+  std::string masters;  ///< a base; empty: the one at its own place, or those that are built in
+  std::string mode = "curvature";
+  uint64_t memory = 4096;  ///< MB
+  double seconds = 300;
+};
+Exit classifyMesh(const ClassifyOptions& options);
+
+struct MastersBuildOptions {
+  std::string out;   ///< empty: its own place, unless `emit` is there
+  std::string emit;  ///< a source file; empty: none
+  uint64_t models = 12;
+  uint64_t seed = 1;
+  unsigned threads = 0;
+};
+Exit buildMasters(const MastersBuildOptions& options);
+
+struct MastersListOptions {
+  std::string file;  ///< as ClassifyOptions::masters
+  bool json = false;
+};
+Exit listMasters(const MastersListOptions& options);
+
 struct RenderOptions : WorldOptions {
   std::string out;
   std::string camera;

@@ -2,17 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <limits>
 
-#include "asset/mesh_file.h"
 #include "cli/commands.h"
 #include "cli/limited_process.h"
 #include "cli/measure_report.h"
-#include "cli/region.h"
+#include "cli/measured_mesh.h"
 
 namespace sgm::cli {
 namespace {
@@ -30,25 +25,6 @@ measure::MeshSettings settingsOf(const MeasureOptions& options) {
     if (measure::nameOf(mode) == options.mode) settings.histogram.mode = mode;
   }
   return settings;
-}
-
-Result<std::vector<std::byte>> readBytes(const std::string& path) {
-  const auto failed = [&](const std::string& why) {
-    return Error{Code::io, fmt::format("cannot read {}: {}", path, why)};
-  };
-  std::error_code why;
-  const std::filesystem::file_status status = std::filesystem::status(path, why);
-  // Whatever else it may be, a pipe say, would be waited for.
-  if (why && !std::filesystem::exists(status)) return failed(why.message());
-  if (!std::filesystem::exists(status)) return failed("no such file");
-  if (!std::filesystem::is_regular_file(status)) return failed("it is no file of bytes");
-  const uintmax_t size = std::filesystem::file_size(path, why);
-  std::ifstream file(path, std::ios::binary);
-  if (why || !file) return failed(why ? why.message() : std::strerror(errno));
-  std::vector<std::byte> bytes(size);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (file.gcount() != static_cast<std::streamsize>(size)) return failed("it ended before its size");
-  return bytes;
 }
 
 /// What is printed of a mesh; of what: the line above it.
@@ -69,17 +45,8 @@ Result<std::string> reportOf(const measure::Triangles& mesh, const MeasureOption
 
 Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKind kind) {
   const Stopwatch watch;
-  Result<std::vector<std::byte>> bytes = readBytes(options.file);
-  if (!bytes) return bytes.error();
-  // What a file may hold is limited by the process's memory alone.
-  asset::MeshLimits limits;
-  limits.points = limits.triangles = std::numeric_limits<uint32_t>::max();
-  limits.farthest = 1e12;
-  limits.json_bytes = size_t{64} << 20;
-  limits.nodes = size_t{1} << 20;
-  Result<asset::TriangleMesh> mesh = asset::readMesh(*bytes, kind, limits);
-  if (!mesh) return Error{mesh.error().code, options.file + ": " + mesh.error().message};
-  *bytes = {};
+  const Result<asset::TriangleMesh> mesh = readMeshFile(options.file, kind);
+  if (!mesh) return mesh.error();
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return jobs.error();
   return reportOf({mesh->points, mesh->triangles}, options, **jobs, options.file, {{"file", options.file}},
@@ -90,21 +57,13 @@ Exit measureGrammar(const MeasureOptions& options) {
   const RegionResult made = meshRegion(options);
   if (!made.region) return made.status;
   const Region& region = *made.region;
-  const WorldMesh& mesh = region.unsplit ? *region.unsplit : region.meshed.mesh;
-  std::vector<measure::Point> points;
-  points.reserve(mesh.positions.size());
-  for (const std::array<double, 3>& p : mesh.positions) points.push_back({p[0], p[1], p[2]});
-  std::vector<measure::Triangle> triangles;
-  triangles.reserve(mesh.indices.size() / 3);
-  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    triangles.push_back({mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
-  }
+  const asset::TriangleMesh mesh = trianglesOf(region);
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return complain(jobs.error());
   Json json = toJson(options, region);
   json["file"] = options.file;
   const Result<std::string> report =
-      reportOf({points, triangles}, options, **jobs, options.file, std::move(json), region.seconds);
+      reportOf({mesh.points, mesh.triangles}, options, **jobs, options.file, std::move(json), region.seconds);
   if (!report) return complain(report.error());
   fmt::print("{}", *report);
   return Exit::done;

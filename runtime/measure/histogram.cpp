@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "measure/area_volume.h"
+#include "measure/weld_points.h"
 
 namespace sgm::measure {
 namespace {
@@ -59,6 +60,12 @@ std::string_view nameOf(HistogramMode mode) {
   return "";
 }
 
+size_t binsOf(const HistogramSettings& settings) {
+  if (settings.mode != HistogramMode::printed) return settings.bins;
+  const double reach = kPrintedReach * settings.bins;
+  return static_cast<size_t>(std::floor(reach) - std::floor(-reach)) + 1;
+}
+
 Result<void> checkHistogram(const HistogramSettings& settings) {
   if (settings.bins < 1 || settings.bins > 4096) {
     return Error{Code::invalid_argument,
@@ -81,9 +88,8 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
   Histogram result;
   result.settings = settings;
   result.first_bin = printed ? static_cast<int32_t>(std::floor(-kPrintedReach * bins)) + 1 : 1;
-  const int32_t last_bin =
-      printed ? static_cast<int32_t>(std::floor(kPrintedReach * bins)) + 1 : static_cast<int32_t>(settings.bins);
-  const auto slots = static_cast<size_t>(last_bin - result.first_bin + 1);
+  const size_t slots = binsOf(settings);
+  const int32_t last_bin = result.first_bin + static_cast<int32_t>(slots) - 1;
 
   const size_t halves = settings.unique_edges ? edges->count() : 3 * mesh.triangles.size();
   const size_t blocks = (halves + kBlock - 1) / kBlock;
@@ -129,6 +135,20 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
   result.convex = static_cast<double>(convex) * each;
   result.concave = static_cast<double>(concave) * each;
   return result;
+}
+
+Result<Histogram> innerHistogram(const Triangles& mesh, const HistogramSettings& settings, JobSystem& jobs) {
+  const WeldedPoints welded = weldPoints(mesh);
+  const Triangles clean{welded.points, welded.triangles};
+  const Edges edges(clean.triangles, clean.points.size());
+  LargeVector<Point> normals = smoothNormals(clean);
+  for (size_t i = 0; i < edges.count(); ++i) {
+    const std::span<const HalfEdge> around = edges.around(i);
+    if (around.size() > 1) continue;
+    normals[beginOf(clean.triangles, around[0])] = {};
+    normals[endOf(clean.triangles, around[0])] = {};
+  }
+  return histogramOf(clean, normals, &edges, settings, jobs);
 }
 
 LargeVector<Point> smoothNormals(const Triangles& mesh) {

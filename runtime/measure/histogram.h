@@ -48,6 +48,9 @@ struct Histogram {
   double flat = 0, convex = 0, concave = 0;
 };
 
+/// How many shares a histogram of these settings has: `bins`, in mode `printed` those that equation 13 reaches.
+size_t binsOf(const HistogramSettings& settings);
+
 inline constexpr double kFlatAngle = 1e-4;  ///< radians
 
 /// Errors: invalid_argument for settings out of range.
@@ -58,6 +61,11 @@ Result<void> checkHistogram(const HistogramSettings& settings);
 /// Errors: invalid_argument for settings out of range. The same bits for any number of threads.
 Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> normals, const Edges* edges,
                               const HistogramSettings& settings, JobSystem& jobs);
+
+/// Of what the mesh is without its borders, as classes are told apart by (classify.h): points with equal coordinates are
+/// welded, normals are smoothNormals(), and edges that touch a border are left out: there a region of a world is cut
+/// off, and what of the surface would bend the normal is missing. Errors: those of histogramOf.
+Result<Histogram> innerHistogram(const Triangles& mesh, const HistogramSettings& settings, JobSystem& jobs);
 
 /// At each point the sum of its triangles' cross products, of length 1; zero where that is nothing.
 LargeVector<Point> smoothNormals(const Triangles& mesh);

@@ -129,7 +129,7 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
   }
 
   const Bvh tree(clean, jobs);
-  const uint64_t steps = settings.steps_a_triangle * clean.triangles.size();
+  const uint64_t steps = settings.steps_a_triangle * (clean.triangles.size() + 1);
   std::optional<Error> failed;
   // Each of the three fills what the others do not touch.
   const std::array<std::function<void()>, 3> works{

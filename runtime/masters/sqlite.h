@@ -1,0 +1,55 @@
+#pragma once
+// SQLite's C interface, with owners and with our errors.
+
+#include <sqlite3.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+
+namespace sgm::masters {
+
+struct CloseDatabase {
+  void operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+};
+using Database = std::unique_ptr<sqlite3, CloseDatabase>;
+
+/// One statement, run row by row. After a step that is neither row nor done, code() says why, and every later step does
+/// nothing.
+class Statement {
+ public:
+  Statement(const Database& database, const char* text);
+  ~Statement() { sqlite3_finalize(statement_); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  Statement& bind(int64_t value);
+  Statement& bind(double value);
+  Statement& bind(std::string_view text);
+  Statement& bind(std::span<const std::byte> blob);
+  /// Whether there is a row.
+  bool step();
+  /// As step, then as new, with nothing bound.
+  void run();
+
+  int64_t whole(int column) const { return sqlite3_column_int64(statement_, column); }
+  double real(int column) const { return sqlite3_column_double(statement_, column); }
+  std::string text(int column) const;
+  std::span<const std::byte> blob(int column) const;
+
+  int code() const { return code_; }
+
+ private:
+  sqlite3_stmt* statement_ = nullptr;
+  int bound_ = 0;
+  int code_ = SQLITE_OK;  // the first failure
+};
+
+/// Runs statements that give no rows. SQLite's code.
+int execute(const Database& database, const char* text);
+
+}  // namespace sgm::masters

@@ -1,0 +1,124 @@
+#!/usr/bin/env bash
+# sgm classify and sgm masters: the classes of grammars and of mesh files, what is unknown, and the base of masters.
+source "$(dirname "$0")/common.sh"
+export XDG_DATA_HOME=$work/.data
+grammars=$SOURCE/samples/grammars
+only_here() { [[ ! -e $XDG_DATA_HOME ]] || failed "something was written to the base's place"; }
+
+for command in classify masters 'masters build' 'masters list'; do
+  expect 0 "$SGM" $command --help
+  out_has 'Example:'
+done
+
+# Grammars, and nothing is written where no base is.
+classes() {  # classes CLASS GRAMMAR OPTIONS...
+  expect 0 "$SGM" classify "$grammars/$2" --json "${@:3}"
+  err_empty
+  json "j.class === '$1' && j.reason === null && j.margin > 0 && j.margin <= 1 && j.second_opinion.length > 0"
+}
+classes building storeys.sgm --cell 0.5 --seed 77
+json 'j.classes.length === 4 && j.classes[0].class === "building" && j.classes[0].mse <= j.classes[1].mse'
+json 'j.classes.every(c => c.mse >= 0 && c.emd >= 0 && c.emd <= 1 && c.nearest.startsWith(c.class))'
+json 'j.masters === "built in" && j.key.mode === "curvature" && j.key.density === null && j.key.normals === "smooth, outward"'
+json 'j.shares.length === j.key.bins && Math.abs(j.shares.reduce((a, b) => a + b) - 1) < 1e-12 && j.edges > 1000'
+classes cave cave.sgm --region 64,64,64:160,160,160 --cell 1 --seed 77
+classes cloud table4/bouthors.sgm --cell 8 --seed 77
+expect 0 "$SGM" classify "$grammars/storeys.sgm" --set floors=11 --set convex=0.9
+out_has 'storeys\.sgm: building, by a margin of 0\.[0-9]+'
+out_has 'cloud +0\.[0-9]+ +0\.[0-9]+  cloud [0-9], most like '
+out_has 'masters: built in, for mode curvature, 65 bins, curvature length 1 m, any density'
+only_here
+
+# Mesh files say what their grammar says, in whatever format, but for the float32 of their positions.
+expect 0 "$SGM" mesh "$grammars/storeys.sgm" --cell 0.5 --out storeys.glb
+for format in obj ply stl; do expect 0 "$SGM" mesh "$grammars/storeys.sgm" --cell 0.5 --out storeys.$format; done
+expect 0 "$SGM" classify "$grammars/storeys.sgm" --cell 0.5 --json
+error=$(node -p 'JSON.parse(require("fs").readFileSync(".out")).classes[0].mse')
+for format in glb obj ply stl; do
+  expect 0 "$SGM" classify storeys.$format --json
+  json "j.class === 'building' && Math.abs(j.classes[0].mse - $error) < 1e-6"
+done
+
+# The paper's modes know their density.
+for mode in printed corrected; do
+  classes building storeys.sgm --cell 0.5 --mode $mode
+  json 'j.key.density === 2 && j.key.curvature_length === null'
+  expect 0 "$SGM" classify storeys.glb --mode $mode --ld 2 --json
+  json 'j.class === "building"'
+  expect 1 "$SGM" classify storeys.glb --mode $mode
+  one_line
+  err_has '--ld'
+  expect 1 "$SGM" classify storeys.glb --mode $mode --ld 3
+  one_line
+  err_has 'no masters for mode .* at 3 cells per metre, but for: '
+done
+
+# Noise, and what has no edge to measure.
+cat >noise.sgm <<'END'
+sgm 1;
+units m;
+domain infinite solid limestone;
+layer maze cell 32m reach 1m { start Maze; }
+rule Maze { cut { ca(1m, fill 50%, rounds 0, threshold 50%, radius 1); } }
+END
+expect 0 "$SGM" classify noise.sgm --region 0,0,0:32,32,32 --cell 0.5 --json
+json 'j.class === "unknown" && /most like noise|more than/.test(j.reason)'
+expect 0 "$SGM" classify noise.sgm --region 0,0,0:32,32,32 --cell 0.5
+out_has 'noise\.sgm: unknown: (the|it is most like) '
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
+expect 0 "$SGM" classify one.obj --json
+json 'j.class === "unknown" && /no edge/.test(j.reason) && j.edges === 0'
+
+# What cannot be classified.
+expect 4 "$SGM" classify none.glb
+one_line
+expect 2 "$SGM" classify letter.txt
+one_line
+printf 'glTF and nothing else' >bad.glb
+expect 1 "$SGM" classify bad.glb
+one_line
+expect 2 "$SGM" classify storeys.glb --mode other
+only_here
+
+# A base of our own.
+expect 0 "$SGM" masters list --json
+json 'j.masters === "built in" && j.keys.length === 5 && j.keys.every(k => new Set(k.masters.map(m => m.class)).size === 4)'
+json 'j.keys.every(k => k.limits.mse > 0 && k.limits.emd > 0)'
+json 'j.keys.every(k => k.masters.every(m => Math.abs(m.shares.reduce((a, b) => a + b) - 1) < 1e-9))'
+expect 0 "$SGM" masters list
+out_has 'built in: [0-9]+ masters'
+expect 0 "$SGM" masters build --help
+only_here
+expect 0 "$SGM" masters build --models 2 --out base.db --emit base.inc
+out_has 'base\.inc: base\.db: [0-9]+ masters of [0-9]+ models'
+expect 0 "$SGM" masters list base.db --json
+json 'j.masters === "base.db" && j.keys.length === 5'
+expect 0 "$SGM" classify storeys.glb --masters base.db --json
+json 'j.class === "building" && j.masters === "base.db"'
+[[ $(stat -c %s base.inc) -gt 10000 ]] || failed 'base.inc is short'
+[[ -z $(ls base.db-* 2>/dev/null) ]] || failed 'logs of the base are left'
+
+# What is named is not moved; what is no base is not written over.
+head -c 5000 base.db >cut.db
+for command in "classify storeys.glb --masters cut.db" "masters list cut.db" "masters build --out cut.db"; do
+  expect 1 "$SGM" $command
+  one_line
+done
+[[ $(stat -c %s cut.db) == 5000 ]] || failed 'cut.db was changed'
+expect 4 "$SGM" masters list none.db
+expect 4 "$SGM" classify storeys.glb --masters none.db
+
+# The one at its own place is moved aside where it is damaged, and that is said, once.
+mkdir -p "$XDG_DATA_HOME/sgm"
+base=$XDG_DATA_HOME/sgm/masters.db
+cp cut.db "$base"
+expect 0 "$SGM" classify storeys.glb --json
+err_has 'warning: .*masters\.db was damaged \(.*\): it is .*masters\.db\.damaged-1 now'
+json 'j.class === "building" && j.masters.endsWith("/sgm/masters.db")'
+cmp -s cut.db "$base.damaged-1" || failed 'the damaged base is lost'
+expect 0 "$SGM" classify storeys.glb --json
+err_empty
+cp base.db "$base"
+expect 0 "$SGM" masters list --json
+json 'j.masters.endsWith("/sgm/masters.db")'
+finish
