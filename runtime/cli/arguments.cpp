@@ -242,7 +242,7 @@ void addProcessLimits(CLI::App& app, Options& options) {
   app.add_option("--memory", options.memory, "Megabytes (2^20 bytes) that a mesh file's reading and measuring may take")
       ->check(CLI::Range(uint64_t{64}, uint64_t{1} << 24))
       ->capture_default_str();
-  app.add_option("--seconds", options.seconds, "Seconds that it may take")
+  app.add_option("--seconds", options.seconds, "Seconds that it may take, of the clock and of all threads together")
       ->check(numberIn(0.1, 1e6))
       ->capture_default_str();
 }

@@ -30,7 +30,7 @@ class Bvh {
     }
   };
 
-  /// Contract: the coordinates are at most kFarthest. 60 to 110 bytes a triangle.
+  /// Contract: the coordinates are at most kFarthest. At most 120 bytes a triangle.
   Bvh(const Triangles& mesh, JobSystem& jobs);
 
   size_t leaves() const { return boxes_.size() / 2; }

@@ -19,7 +19,7 @@ struct MeshSettings {
   HistogramSettings histogram;
   bool self_intersections = true;
   /// For what lies close together or above each other, times the number of triangles: where a mesh needs more steps
-  /// than that, MeshMeasures::complete() is false. A solid of our own takes about 30.
+  /// than that, MeshMeasures::complete() is false.
   uint64_t steps_a_triangle = 5000;
   std::optional<double> cubes;  ///< the edge of the cubes that are counted; nothing: none are
 };
