@@ -20,10 +20,7 @@ measure::MeshSettings settingsOf(const MeasureOptions& options) {
   settings.histogram.bins = options.bins;
   settings.histogram.length = options.curvature_length;
   settings.histogram.unique_edges = options.unique_edges;
-  for (const measure::HistogramMode mode :
-       {measure::HistogramMode::printed, measure::HistogramMode::corrected, measure::HistogramMode::curvature}) {
-    if (measure::nameOf(mode) == options.mode) settings.histogram.mode = mode;
-  }
+  settings.histogram.mode = measure::modeNamed(options.mode).value_or(settings.histogram.mode);
   return settings;
 }
 

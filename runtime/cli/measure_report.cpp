@@ -62,8 +62,8 @@ std::vector<std::string> problemsOf(const MeshMeasures& m) {
     if (count > 0) problems.push_back(many(count, one, several));
   };
   const MeshReport& i = m.identity;
-  say(m.non_finite, "triangle has a corner that is infinite or no number",
-      "triangles have corners that are infinite or no numbers");
+  say(m.non_finite, "triangle has a corner that is no number, or beyond 1e37",
+      "triangles have corners that are no numbers, or beyond 1e37");
   say(i.open_edges, "edge has one triangle alone: there is a hole", "edges have one triangle alone: there are holes");
   say(i.unmatched_edges - i.open_edges, "edge has triangles that face different ways",
       "edges have triangles that face different ways");

@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "cli/surroundings.h"
+#include "derive/floor_plan.h"
 
 namespace sgm::cli {
 namespace {
-
-constexpr double kTreemapWall = 0.2;  ///< metres, where the treemap does not say
 
 int32_t thinnest(const IntBox& box) {
   int64_t edge = std::numeric_limits<int32_t>::max();

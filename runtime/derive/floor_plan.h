@@ -13,6 +13,9 @@
 
 namespace sgm {
 
+/// Metres: of walls where a treemap does not say.
+inline constexpr double kTreemapWall = 0.2;
+
 /// Units, above 0.
 struct FloorPlanSizes {
   int32_t x = 0, z = 0;  ///< of the floor, outer walls included

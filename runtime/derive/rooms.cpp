@@ -100,7 +100,7 @@ void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
   const TreemapNode& node = program_.ast.treemaps[s.extra];
   const PartNode* parts = &program_.ast.parts[s.parts.first];
   FloorPlanSizes sizes;
-  sizes.wall = inSteps(floorMeasure(node.wall, 0.2, kWallRange, env));
+  sizes.wall = inSteps(floorMeasure(node.wall, kTreemapWall, kWallRange, env));
   sizes.door = inSteps(floorMeasure(node.door, 0.9, kDoorRange, env));
   sizes.corridor = std::max(sizes.door, inSteps(floorMeasure(node.corridor, 1.2, kCorridorRange, env)));
   const double height = floorMeasure(node.height, 2.1, kDoorHeightRange, env);

@@ -80,13 +80,6 @@ uint64_t sumOf(int64_t key, const Master& master) {
   return sum.value();
 }
 
-std::optional<HistogramMode> modeNamed(std::string_view name) {
-  for (const HistogramMode mode : {HistogramMode::printed, HistogramMode::corrected, HistogramMode::curvature}) {
-    if (measure::nameOf(mode) == name) return mode;
-  }
-  return std::nullopt;
-}
-
 ReadBase failed(int code, const std::string& message) {
   const int primary = code & 0xFF;
   if (primary == SQLITE_NOTADB) return {{}, Damage::damaged, "it is not a database"};
@@ -183,7 +176,7 @@ ReadBase readRows(const Database& database) {
       database,
       "SELECT id, bins, mode, length, density, version, limit_mse, limit_emd, checksum FROM keys ORDER BY id");
   while (keys.step()) {
-    const std::optional<HistogramMode> mode = modeNamed(keys.text(2));
+    const std::optional<HistogramMode> mode = measure::modeNamed(keys.text(2));
     const int64_t bins = keys.whole(1);
     if (!mode || bins < 1 || bins > 4096) return damaged("a key is none");
     MasterLimits limits;

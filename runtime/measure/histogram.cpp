@@ -60,6 +60,13 @@ std::string_view nameOf(HistogramMode mode) {
   return "";
 }
 
+std::optional<HistogramMode> modeNamed(std::string_view name) {
+  for (const HistogramMode mode : {HistogramMode::printed, HistogramMode::corrected, HistogramMode::curvature}) {
+    if (nameOf(mode) == name) return mode;
+  }
+  return std::nullopt;
+}
+
 size_t binsOf(const HistogramSettings& settings) {
   if (settings.mode != HistogramMode::printed) return settings.bins;
   const double reach = kPrintedReach * settings.bins;

@@ -5,6 +5,7 @@
 // d = a2 - a1: with outward normals d < 0 where the surface is convex, which the paper has the other way round.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,8 @@ enum class HistogramMode {
 };
 
 std::string_view nameOf(HistogramMode mode);
+/// Nothing where no mode has that name.
+std::optional<HistogramMode> modeNamed(std::string_view name);
 
 struct HistogramSettings {
   HistogramMode mode = HistogramMode::corrected;
@@ -62,9 +65,9 @@ Result<void> checkHistogram(const HistogramSettings& settings);
 Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> normals, const Edges* edges,
                               const HistogramSettings& settings, JobSystem& jobs);
 
-/// Of what the mesh is without its borders, as classes are told apart by (classify.h): points with equal coordinates are
-/// welded, normals are smoothNormals(), and edges that touch a border are left out: there a region of a world is cut
-/// off, and what of the surface would bend the normal is missing. Errors: those of histogramOf.
+/// Of what the mesh is without its borders, as classes are told apart by (classify.h): points with equal coordinates
+/// are welded, normals are smoothNormals(), and edges that touch a border are left out: there a region of a world is
+/// cut off, and what of the surface would bend the normal is missing. Errors: those of histogramOf.
 Result<Histogram> innerHistogram(const Triangles& mesh, const HistogramSettings& settings, JobSystem& jobs);
 
 /// At each point the sum of its triangles' cross products, of length 1; zero where that is nothing.
