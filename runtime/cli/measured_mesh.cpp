@@ -8,6 +8,8 @@
 #include <fstream>
 #include <limits>
 
+#include "measure/world_triangles.h"
+
 namespace sgm::cli {
 namespace {
 
@@ -46,15 +48,7 @@ Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFil
 }
 
 asset::TriangleMesh trianglesOf(const Region& region) {
-  const WorldMesh& mesh = region.unsplit ? *region.unsplit : region.meshed.mesh;
-  asset::TriangleMesh triangles;
-  triangles.points.reserve(mesh.positions.size());
-  for (const std::array<double, 3>& p : mesh.positions) triangles.points.push_back({p[0], p[1], p[2]});
-  triangles.triangles.reserve(mesh.indices.size() / 3);
-  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    triangles.triangles.push_back({mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
-  }
-  return triangles;
+  return measure::trianglesOf(region.unsplit ? *region.unsplit : region.meshed.mesh);
 }
 
 }  // namespace sgm::cli

@@ -88,7 +88,7 @@ Exit mesh(const MeshOptions& options) {
   if (!made.region) return made.status;
   const Region& region = *made.region;
   Summary summary;
-  summary.measures = measure(region.unsplit ? *region.unsplit : region.meshed.mesh);
+  summary.measures = measuresOf(region.unsplit ? *region.unsplit : region.meshed.mesh);
   summary.volume = cubeVolume(region.meshed.solid_samples, region.cell);
   summary.void_volume = cubeVolume(region.samples() - region.meshed.solid_samples, region.cell);
   if (file) {

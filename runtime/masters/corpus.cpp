@@ -10,6 +10,7 @@
 #include "grammar/compile.h"
 #include "masters/sample_grammars.h"
 #include "measure/classify.h"
+#include "measure/world_triangles.h"
 #include "metrics/places.h"
 
 namespace sgm::masters {
@@ -87,9 +88,8 @@ constexpr std::array kFamilies{
 IntBox cubeAround(const measure::Point& p, double edge) {
   IntBox cube;
   for (int axis = 0; axis < 3; ++axis) {
-    const double middle = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-    cube.lo[axis] = static_cast<int32_t>(std::floor((middle - edge / 2) * kUnitsPerMetre));
-    cube.hi[axis] = static_cast<int32_t>(std::floor((middle + edge / 2) * kUnitsPerMetre));
+    cube.lo[axis] = static_cast<int32_t>(std::floor((p[axis] - edge / 2) * kUnitsPerMetre));
+    cube.hi[axis] = static_cast<int32_t>(std::floor((p[axis] + edge / 2) * kUnitsPerMetre));
   }
   return cube;
 }
@@ -124,16 +124,11 @@ ModelMesh randomGrid(double edge, const PathKey& key) {
   return mesh;
 }
 
+/// Metres from the world's origin.
 ModelMesh modelOf(const WorldMesh& mesh) {
-  ModelMesh model;
-  model.points.reserve(mesh.positions.size());
-  for (const std::array<double, 3>& p : mesh.positions) {
-    model.points.push_back({p[0] + metres(mesh.origin.x), p[1] + metres(mesh.origin.y), p[2] + metres(mesh.origin.z)});
-  }
-  model.triangles.reserve(mesh.indices.size() / 3);
-  for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-    model.triangles.push_back({mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
-  }
+  ModelMesh model = measure::trianglesOf(mesh);
+  const measure::Point origin{metres(mesh.origin.x), metres(mesh.origin.y), metres(mesh.origin.z)};
+  for (measure::Point& p : model.points) p = p + origin;
   return model;
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "asset/triangle_mesh.h"
 #include "backend/backend.h"
 #include "grammar/program.h"
 #include "measure/triangles.h"
@@ -24,10 +25,7 @@ struct Family {
 };
 std::span<const Family> families();
 
-struct ModelMesh {
-  std::vector<measure::Point> points;
-  std::vector<measure::Triangle> triangles;
-};
+using ModelMesh = asset::TriangleMesh;
 
 /// A family's grammar, compiled.
 class ModelMaker {

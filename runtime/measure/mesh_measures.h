@@ -60,8 +60,8 @@ inline constexpr double kSliver = 0.05;
 
 /// normals of `mesh` are not asked: the histogram's are smoothNormals() of the welded mesh, which any file has.
 /// Contract: that of Triangles. Pure; the same for any number of threads.
-/// Triangles are numbered as given, whatever was left out. Memory: 250 bytes a triangle of a closed mesh, up to 700
-/// where each is alone. Errors: limit for more than 2^32 / 3 triangles or 2^32 points; those of histogramOf and
+/// Triangles are numbered as given, whatever was left out. Memory: some 200 bytes a triangle of a closed mesh,
+/// 500 where each is alone. Errors: limit for more than 2^32 / 3 triangles or 2^32 points; those of histogramOf and
 /// cubeVolumes.
 Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& settings, JobSystem& jobs);
 

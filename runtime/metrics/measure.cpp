@@ -1,41 +1,26 @@
 #include "metrics/measure.h"
 
-#include <cmath>
-#include <utility>
 #include <vector>
 
+#include "measure/area_volume.h"
+#include "measure/union_find.h"
+#include "measure/world_triangles.h"
+
 namespace sgm {
-namespace {
 
-/// Union-find with path halving.
-uint32_t rootOf(std::vector<uint32_t>& parent, uint32_t v) {
-  while (parent[v] != v) {
-    parent[v] = parent[parent[v]];
-    v = parent[v];
-  }
-  return v;
-}
-
-}  // namespace
-
-Measures measure(const WorldMesh& mesh) {
+Measures measuresOf(const WorldMesh& mesh) {
   Measures result;
-  std::vector<uint32_t> parent(mesh.positions.size());
-  for (uint32_t v = 0; v < parent.size(); ++v) parent[v] = v;
+  measure::UnionFind objects(mesh.positions.size());
   std::vector<bool> used(mesh.positions.size(), false);
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const uint32_t* t = mesh.indices.data() + i;
-    const std::array<double, 3>&a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
-    const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
-    const double vx = c[0] - a[0], vy = c[1] - a[1], vz = c[2] - a[2];
-    const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    result.area += 0.5 * std::sqrt(x * x + y * y + z * z);
-    for (int k = 0; k < 3; ++k) used[t[k]] = true;
-    const uint32_t root = rootOf(parent, t[0]);
-    parent[rootOf(parent, t[1])] = root;
-    parent[rootOf(parent, t[2])] = root;
+    const auto corner = [&](size_t k) { return measure::pointOf(mesh.positions[t[k]]); };
+    result.area += 0.5 * length(measure::crossOf(corner(0), corner(1), corner(2)));
+    for (size_t k = 0; k < 3; ++k) used[t[k]] = true;
+    objects.join(t[0], t[1]);
+    objects.join(t[0], t[2]);
   }
-  for (uint32_t v = 0; v < parent.size(); ++v) result.objects += used[v] && parent[v] == v ? 1u : 0u;
+  for (uint32_t v = 0; v < used.size(); ++v) result.objects += used[v] && objects.rootOf(v) == v;
   return result;
 }
 

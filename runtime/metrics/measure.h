@@ -13,7 +13,7 @@ struct Measures {
 };
 
 /// Vertices are one where they are one by key, without any tolerance.
-Measures measure(const WorldMesh& mesh);
+Measures measuresOf(const WorldMesh& mesh);
 
 /// m3, equation 8: N_C * C_E^3. A cube of edge C_E (the cell's) is centred on each sample and is inside where its
 /// sample is inside; a region's samples are those on its low faces and between, so that regions side by side add up.

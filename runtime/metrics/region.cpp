@@ -112,7 +112,7 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
   const Result<WorldMesh> mesh = weld(parts, result.extent.lo, world.memory());
   if (!mesh) return mesh.error();
   surface.clear();
-  result.area = measure(*mesh).area;
+  result.area = measuresOf(*mesh).area;
   result.topology = topologyOf(*mesh, result.extent);
   return result;
 }

@@ -61,7 +61,7 @@ Topology topologyOf(const WorldMesh& mesh, const IntBox& extent) {
   } else {
     // V - E + F = 2 (shells - genus), and a closed surface has 3 F = 2 E.
     const auto euler = static_cast<int64_t>(report.vertices) - static_cast<int64_t>(report.triangles / 2);
-    result.genus = static_cast<uint64_t>(static_cast<int64_t>(measure(mesh).objects) - euler / 2);
+    result.genus = static_cast<uint64_t>(static_cast<int64_t>(measuresOf(mesh).objects) - euler / 2);
   }
   return result;
 }

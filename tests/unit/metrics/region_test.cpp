@@ -123,7 +123,7 @@ TEST_CASE("every shell parts one piece of solid from one of air", "[metrics]") {
     const Result<WorldMesh> mesh = weld({&placed, 1}, {});
     REQUIRE(mesh);
     const Components pieces = measured(field, {{0, 0, 0}, {kChunkCells, kChunkCells, kChunkCells}}).pieces.above(0);
-    CHECK(measure(*mesh).objects == pieces.solid + pieces.air - 1);
+    CHECK(measuresOf(*mesh).objects == pieces.solid + pieces.air - 1);
   }
 }
 
