@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory_resource>
 #include <string>
 #include <vector>
@@ -356,7 +357,7 @@ struct Ast {
   std::pmr::vector<ArgNode> args;
   std::pmr::vector<FormalNode> formals;
   std::pmr::vector<uint32_t> ids;
-  std::pmr::vector<std::pmr::string> names;
+  std::pmr::deque<std::pmr::string> names;  ///< a deque: views of them outlive later names
 
   explicit Ast(std::pmr::memory_resource* memory)
       : exprs(memory),

@@ -31,6 +31,17 @@ TEST_CASE("parameters have dimension, range and doc", "[grammar][program]") {
   CHECK(p.findParam("x") == kNoId);
 }
 
+TEST_CASE("a call keeps its name while its arguments bring many new ones", "[grammar][program]") {
+  std::string height = "1m";
+  for (int i = 1; i < 60; ++i) height += " + 0.0" + std::to_string(100 + i) + "m";
+  for (const char* second : {"top -0.5m*(-2)", "bottom -1m*(-1)"}) {
+    const CompileResult result = compileText("sgm 1; start A; rule A { truncone(h " + height + ", " + second +
+                                             ", 1m); truncone(" + height + ", 1m, 1m); }");
+    INFO(brief(result.diagnostics));
+    CHECK(result.program);
+  }
+}
+
 TEST_CASE("layers are sorted so that each uses lower ones", "[grammar][program]") {
   const CompileResult result = compileText(
       "sgm 1; domain infinite;\nlayer c cell 8m reach 4m uses b, a { start A; }\nlayer b cell 16m reach 4m uses a { "
