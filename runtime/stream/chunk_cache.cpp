@@ -149,7 +149,14 @@ void bring(Backend& backend, std::span<InWork> all) {
 
 MeshedChunk surfaced(const ChunkMesher& mesher, InWork& work) {
   const ProfileScope scope(mesher.world.profiler(), zone::kPack);
-  MeshedChunk result{surfaceOf(work.request, std::move(work.chunk), work.before, mesher.memory), std::nullopt};
+  std::optional<measure::ChunkMeasures> measures;
+  MadeMeasures measured;
+  if (mesher.measuring != nullptr) {
+    measures = measureParts(work.request, work.chunk, work.before, *mesher.measuring, measured);
+  }
+  MeshedChunk result{surfaceOf(work.request, std::move(work.chunk), work.before, mesher.memory), std::nullopt,
+                     measured};
+  result.surface.measures = measures;
   if (work.request.signs) result.voids = std::move(work.voids);
   return result;
 }

@@ -9,6 +9,7 @@
 #include "mesh/void_components.h"
 #include "stream/chunk_surface.h"
 #include "stream/disk_cache.h"
+#include "stream/world_measures.h"
 
 namespace sgm {
 
@@ -16,6 +17,7 @@ namespace sgm {
 struct MeshedChunk {
   ChunkSurface surface;                 ///< may be without triangles
   std::optional<VoidComponents> voids;  ///< where signs were asked for
+  MadeMeasures measured;                ///< of the parts that were asked for, without the time to mesh them
 };
 
 struct ChunkOrder {
@@ -28,10 +30,11 @@ struct ChunkMesher {
   const WorldField& world;
   Backend& backend;
   JobSystem& jobs;
-  std::pmr::memory_resource* memory;  ///< of what it gives
-  DiskCache* cache = nullptr;         ///< null: everything is meshed
-  bool resident = false;              ///< also has what it gives on the backend's device, as far as there is room
-  bool sharp = false;                 ///< with sharp features
+  std::pmr::memory_resource* memory;   ///< of what it gives
+  DiskCache* cache = nullptr;          ///< null: everything is meshed
+  bool resident = false;               ///< also has what it gives on the backend's device, as far as there is room
+  bool sharp = false;                  ///< with sharp features
+  MeasuringPool* measuring = nullptr;  ///< ChunkSurface::measures, of `before`, too; null: nothing is measured
 
   /// As surfaceOf makes it of what meshChunks gives, equal in every byte wherever it comes from. Signs and anchors come
   /// with the body only. What the cache has is not derived, so that notes of its cells may never be told. Of a backend

@@ -4,8 +4,10 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "measure/chunk_measures.h"
 #include "mesh/packed_mesh.h"
 #include "stream/geomorph.h"
 #include "stream/mesh_chunks.h"
@@ -37,6 +39,8 @@ struct ChunkSurface {
   Unwrapped texture;                          ///< of the whole mesh, where asked for; else empty
   DeviceParts on_device;                      ///< where asked for: parts with triangles that the device has, too
   ContentHash hash;                           ///< of body and seams, and where they lie
+  /// Of body and seams, where asked for.
+  std::optional<measure::ChunkMeasures> measures;
 
   explicit ChunkSurface(std::pmr::memory_resource* memory)
       : mesh(memory), tags(memory), morphs(memory), texture(memory) {}

@@ -354,6 +354,18 @@ QueryField World::queryField(int level) const {
           now.field->settings().finest_cell, now.field->memory(), !now.field->settings().hosts.empty()};
 }
 
+WorldMeasures World::measures() const {
+  WorldMeasures measures;
+  std::shared_ptr<const DrawnFrame> frame;
+  {
+    const std::lock_guard lock(core_->mutex);
+    measures.made = core_->made;
+    frame = core_->drawn;
+  }
+  measures.drawn = measuresOf(*frame);
+  return measures;
+}
+
 WorldStats World::stats() const {
   WorldStats stats;
   if (core_->cache != nullptr) stats.cache = core_->cache->stats();

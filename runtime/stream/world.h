@@ -23,6 +23,7 @@
 #include "stream/queries.h"
 #include "stream/world_edits.h"
 #include "stream/world_field.h"
+#include "stream/world_measures.h"
 #include "stream/world_settings.h"
 
 namespace sgm {
@@ -136,6 +137,9 @@ class World {
   Result<ContentHash> hashBodies(const IntBox& region, int level) const;
 
   WorldStats stats() const;
+
+  /// Of now; all zero where the settings do not ask for it. Takes some microseconds a hundred drawn chunks.
+  WorldMeasures measures() const;
 
  private:
   World(std::unique_ptr<WorldCore> core, JobSystem& jobs);

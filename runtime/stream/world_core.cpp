@@ -41,6 +41,7 @@ WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_i
       memory_(memory),
       gate_(std::make_shared<Gate>(*this)),
       surfaces_(std::make_shared<SurfacePool>(memory)),
+      measuring_(settings_in.measure ? std::make_unique<MeasuringPool>(memory) : nullptr),
       planner_(plannerSettings(settings_in), edits.state()),
       colliders_(settings_in.collider_distance, settings_in.lod.finest_cell) {}
 
@@ -397,14 +398,22 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, 
   if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
 }
 
-void WorldCore::meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
-                          std::span<FinishedChunk> done) const {
-  const ChunkMesher mesher{*under.field, backend, jobs, memory_, cache.get(), settings.resident, settings.sharp};
+MadeMeasures WorldCore::meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
+                                  std::span<FinishedChunk> done) const {
+  const ChunkMesher mesher{*under.field, backend,           jobs,           memory_,
+                           cache.get(),  settings.resident, settings.sharp, measuring_.get()};
+  const Clock::time_point begun_at = Clock::now();
+  MadeMeasures measured;
   const Error out_of_memory{Code::out_of_memory, kOutOfMemory};
   try {
     std::vector<ChunkOrder> orders;
     for (const WorkItem& item : items) orders.push_back({item.request, item.before.get()});
     std::vector<Result<MeshedChunk>> chunks = mesher.mesh(orders, under.brushes.get(), progress);
+    for (const Result<MeshedChunk>& chunk : chunks) {
+      if (chunk) measured.add(chunk->measured);
+    }
+    const double seconds = std::chrono::duration<double>(Clock::now() - begun_at).count();
+    measured.meshing = std::max(0.0, seconds - measured.measuring);
     parallelFor(jobs, items.size(), [&](size_t i) {
       try {
         surfaceOne(chunks[i], under, done[i]);
@@ -417,6 +426,7 @@ void WorldCore::meshItems(std::span<const WorkItem> items, const WorldState& und
       if (chunk.surface == nullptr) chunk.error = out_of_memory;
     }
   }
+  return measured;
 }
 
 void WorldCore::meshOnce() {
@@ -455,11 +465,12 @@ void WorldCore::meshOnce() {
     const std::lock_guard lock(mutex);
     return !stopped_ && generation == of_generation;
   };
-  meshItems(items, under, items.size() > 1 ? Progress(wanted) : Progress(), done);
+  const MadeMeasures measured = meshItems(items, under, items.size() > 1 ? Progress(wanted) : Progress(), done);
   bool plan, more, out_of_memory = false;
   {
     const std::lock_guard lock(mutex);
     const WorkItem::Rank rank = items.front().rank;
+    if (settings.measure) made.add(measured);
     --meshing_jobs_;
     meshing_ -= items.size();
     const size_t left_of_rank = meshing_of_rank_[static_cast<size_t>(rank)] -= items.size();

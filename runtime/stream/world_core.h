@@ -20,6 +20,7 @@
 #include "stream/surface_pool.h"
 #include "stream/world_edits.h"
 #include "stream/world_field.h"
+#include "stream/world_measures.h"
 #include "stream/world_settings.h"
 
 namespace sgm {
@@ -76,6 +77,7 @@ class WorldCore {
   size_t mesh_jobs = 0;  ///< submitted or running
   bool scarce = false;   ///< memory gave out, and no chunk could be made since
   PlannerStats planner_stats;
+  MadeMeasures made;  ///< where the settings ask for it
   size_t collider_bytes = 0;
 
   struct Work {
@@ -134,8 +136,9 @@ class WorldCore {
   /// mutex is held.
   void takeItems(size_t batch, std::vector<WorkItem>& items);
   void surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, FinishedChunk& done) const;
-  void meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
-                 std::span<FinishedChunk> done) const;
+  /// What was measured of them.
+  MadeMeasures meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
+                         std::span<FinishedChunk> done) const;
   void flushOnce();
   void compareOnce();
   /// Memory gave out: the next update tries again, with one job at first.
@@ -150,8 +153,9 @@ class WorldCore {
   std::pmr::memory_resource* memory_;
   const std::shared_ptr<Gate> gate_;
   std::shared_ptr<SurfacePool> surfaces_;
-  Planner planner_;      ///< of the planning job alone, which never runs twice at one time
-  Colliders colliders_;  ///< likewise
+  const std::unique_ptr<MeasuringPool> measuring_;  ///< null: nothing is measured
+  Planner planner_;                                 ///< of the planning job alone, which never runs twice at one time
+  Colliders colliders_;                             ///< likewise
 
   // Guarded by the mutex.
   bool scarce_told_ = false;   ///< since the world was at rest

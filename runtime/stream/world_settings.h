@@ -21,6 +21,7 @@ struct WorldSettings {
   bool resident = false;                  ///< surfaces are on the backend's device, too (ChunkSurface::on_device)
   bool morph = false;                     ///< surfaces have morph offsets (geomorph.h)
   bool sharp = false;                     ///< surfaces have sharp features (sharpen_chunk.h)
+  bool measure = false;                   ///< chunks are measured (world_measures.h)
   bool texture = false;                   ///< surfaces have texture coordinates, in tiles of kTile (surface_shapes.h)
   EditSettings edits{0};                  ///< author 0: drawn at random
   std::filesystem::path journal;          ///< of the edits; empty: they are not kept

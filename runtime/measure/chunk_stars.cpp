@@ -1,0 +1,151 @@
+#include "measure/chunk_stars.h"
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+namespace sgm::measure {
+namespace {
+
+class StarCounter {
+ public:
+  StarCounter(std::span<const uint32_t> indices, std::span<const uint8_t> planes, StarScratch& scratch)
+      : planes_(planes),
+        first_(scratch.first),
+        corners_(scratch.corners),
+        seen_(scratch.seen),
+        nodes_(scratch.first.get_allocator()),
+        opposite_(scratch.first.get_allocator()) {
+    first_.assign(planes.size() + 1, 0);
+    seen_.assign(planes.size(), {kNobody, 0});
+    if (corners_.size() < indices.size()) corners_.resize(indices.size());
+    sortCorners(indices);
+  }
+
+  StarCounts run() {
+    size_t ends = 0;
+    for (uint32_t v = 0; v < planes_.size(); ++v) {
+      const std::span star(corners_.data() + first_[v], corners_.data() + first_[v + 1]);
+      if (star.empty()) continue;
+      ++counts_.vertices;
+      ends += isCycle(v, star) ? star.size() : countStar(v, star);
+    }
+    // Each edge was met at both of its ends.
+    counts_.edges = static_cast<uint32_t>(ends / 2);
+    return counts_;
+  }
+
+ private:
+  static constexpr uint32_t kNobody = UINT32_MAX;
+  using Seen = StarScratch::Seen;
+  /// An edge from the vertex in question, as a node of its link.
+  struct Node {
+    uint32_t vertex, parent, out, in;
+  };
+
+  /// By the vertex that they are at, in the order of triangles.
+  void sortCorners(std::span<const uint32_t> indices) {
+    for (const uint32_t v : indices) ++first_[v];
+    uint32_t sum = 0;
+    for (uint32_t& first : first_) first = sum += first;
+    // From the last to the first, so that each ends where it begins.
+    for (size_t at = indices.size(); at != 0; at -= 3) {
+      const uint32_t a = indices[at - 3], b = indices[at - 2], c = indices[at - 1];
+      corners_[--first_[a]] = {b, c};
+      corners_[--first_[b]] = {c, a};
+      corners_[--first_[c]] = {a, b};
+    }
+  }
+
+  /// Whether the star is one closed fan, each edge with two triangles in opposite directions: nearly all of them.
+  bool isCycle(uint32_t v, std::span<const Corner> star) {
+    bool once = star.size() >= 3;
+    for (uint32_t i = 0; i < star.size(); ++i) {
+      Seen& seen = seen_[star[i].next];
+      once &= seen.by != v;
+      seen = {v, i};
+    }
+    if (!once) return false;
+    uint32_t at = 0;
+    for (size_t steps = star.size(); steps != 0; --steps) {
+      const Seen seen = seen_[star[at].previous];
+      if (seen.by != v) return false;
+      at = seen.place;
+      if (at == 0) return steps == 1;
+    }
+    return false;
+  }
+
+  uint32_t rootOf(uint32_t node) {
+    while (nodes_[node].parent != node) node = nodes_[node].parent = nodes_[nodes_[node].parent].parent;
+    return node;
+  }
+
+  uint32_t nodeOf(uint32_t v, uint32_t other) {
+    Seen& seen = seen_[other];
+    const uint32_t mark = v | uint32_t{1} << 31;  // not that of isCycle
+    if (seen.by != mark) {
+      seen = {mark, static_cast<uint32_t>(nodes_.size())};
+      nodes_.push_back({other, seen.place, 0, 0});
+    }
+    return seen.place;
+  }
+
+  /// Any star; how many edges it has.
+  size_t countStar(uint32_t v, std::span<const Corner> star) {
+    nodes_.clear();
+    opposite_.clear();
+    size_t joined = 0;
+    for (const Corner& corner : star) {
+      const uint32_t a = nodeOf(v, corner.next), b = nodeOf(v, corner.previous);
+      ++nodes_[a].out;
+      ++nodes_[b].in;
+      const uint32_t root_a = rootOf(a), root_b = rootOf(b);
+      nodes_[root_a].parent = root_b;
+      joined += root_a != root_b;
+      if (corner.next > v && corner.previous > v) {
+        opposite_.push_back(uint64_t{std::min(corner.next, corner.previous)} << 32 |
+                            std::max(corner.next, corner.previous));
+      }
+    }
+    counts_.pinched_vertices += nodes_.size() - joined > 1;
+    for (const Node& node : nodes_) {
+      if (node.vertex > v) countEdge(v, node);
+    }
+    std::sort(opposite_.begin(), opposite_.end());
+    for (size_t i = 1; i < opposite_.size(); ++i) counts_.duplicate_triangles += opposite_[i] == opposite_[i - 1];
+    return nodes_.size();
+  }
+
+  void countEdge(uint32_t v, const Node& node) {
+    const uint32_t triangles = node.out + node.in;
+    if (triangles == 1) {
+      const uint32_t shared = planes_[v] & planes_[node.vertex] & 63u;
+      if (shared != 0) {
+        ++counts_.border_edges[static_cast<size_t>(std::countr_zero(shared))];
+      } else {
+        ++counts_.open_edges;
+      }
+    } else if (triangles == 2) {
+      counts_.turned_edges += node.out != 1;
+    } else {
+      ++counts_.nonmanifold_edges;
+    }
+  }
+
+  std::span<const uint8_t> planes_;
+  std::pmr::vector<uint32_t>& first_;
+  std::pmr::vector<Corner>& corners_;
+  std::pmr::vector<Seen>& seen_;
+  std::pmr::vector<Node> nodes_;
+  std::pmr::vector<uint64_t> opposite_;
+  StarCounts counts_;
+};
+
+}  // namespace
+
+StarCounts countStars(std::span<const uint32_t> indices, std::span<const uint8_t> planes, StarScratch& scratch) {
+  return indices.empty() ? StarCounts{} : StarCounter(indices, planes, scratch).run();
+}
+
+}  // namespace sgm::measure

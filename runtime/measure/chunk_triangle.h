@@ -1,0 +1,81 @@
+#pragma once
+// What one packed triangle adds to a chunk's measures, in integers alone: equal for every backend, order of addition
+// and machine, and written so that a GPU can compute it from packed vertices. Lengths are in 1/256 of the chunk's cell.
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/kernel.h"
+#include "mesh/chunk.h"
+
+namespace sgm::measure {
+
+/// Vertices that are measured lie within these on each axis: feature vertices may be a cell and a bit beyond the chunk.
+inline constexpr int kLeastPosition = -2 * kSubcell, kMostPosition = kChunkCells * kSubcell + 2 * kSubcell;
+
+/// A direction in integers: components below 2^15, their absolute values add up to 32767.
+struct PackedDirection {
+  int16_t x, y, z;
+};
+
+/// The packed octahedral normal, unfolded as unpackNormal (mesh/vertex.h) does, but not brought to length one.
+SGM_KERNEL PackedDirection unfoldNormal(int32_t x, int32_t y) {
+  const int32_t ax = x < 0 ? -x : x, ay = y < 0 ? -y : y, z = 32767 - ax - ay;
+  const int32_t folded_x = x < 0 ? ay - 32767 : 32767 - ay, folded_y = y < 0 ? ax - 32767 : 32767 - ax;
+  return {static_cast<int16_t>(z < 0 ? folded_x : x), static_cast<int16_t>(z < 0 ? folded_y : y),
+          static_cast<int16_t>(z)};
+}
+
+/// The square root, rounded to the nearest integer. x < 2^62.
+SGM_KERNEL uint64_t roundedRoot(uint64_t x) {
+  // The double is at most one off, in either direction.
+  auto root = static_cast<uint64_t>(std::sqrt(static_cast<double>(static_cast<int64_t>(x))));
+  root -= root * root > x ? 1 : 0;
+  root += (root + 1) * (root + 1) <= x ? 1 : 0;
+  return root + (x - root * root > root ? 1 : 0);
+}
+
+inline constexpr int kLengthBits = 12;
+
+/// sqrt(square) in 1/4096, each step rounded to nearest: to 1/8192 below 2^38, where all triangles of a few cells are.
+SGM_KERNEL uint64_t fixedRoot(uint64_t square) {
+  const int bits = square < uint64_t{1} << 38 ? kLengthBits : square < uint64_t{1} << 50 ? kLengthBits / 2 : 0;
+  return roundedRoot(square << 2 * bits) << (kLengthBits - bits);
+}
+
+struct TriangleTerms {
+  int32_t x, y, z;      ///< the cross product of two sides: twice the area along the normal
+  uint64_t square;      ///< of its length
+  uint32_t sides;       ///< sum of the squared sides
+  int64_t six_volumes;  ///< of the tetrahedron with the chunk's origin
+};
+
+/// Precondition: all within kLeastPosition..kMostPosition.
+SGM_KERNEL TriangleTerms termsOf(const Vertex& a, const Vertex& b, const Vertex& c) {
+  const int32_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+  const int32_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+  const int32_t wx = vx - ux, wy = vy - uy, wz = vz - uz;
+  TriangleTerms t;
+  t.x = uy * vz - uz * vy;
+  t.y = uz * vx - ux * vz;
+  t.z = ux * vy - uy * vx;
+  t.square = static_cast<uint64_t>(int64_t{t.x} * t.x + int64_t{t.y} * t.y + int64_t{t.z} * t.z);
+  t.sides = static_cast<uint32_t>(ux * ux + uy * uy + uz * uz) + static_cast<uint32_t>(vx * vx + vy * vy + vz * vz) +
+            static_cast<uint32_t>(wx * wx + wy * wy + wz * wz);
+  t.six_volumes = int64_t{a.x} * t.x + int64_t{a.y} * t.y + int64_t{a.z} * t.z;
+  return t;
+}
+
+/// Whether its quality, 4 sqrt(3) area / sides, is below 0.05 (kSliver in mesh_measures.h): 4800 square < sides^2.
+SGM_KERNEL bool isSliver(const TriangleTerms& t) {
+  // Both by 64, so that the products fit.
+  return 75 * t.square < (uint64_t{t.sides} * t.sides + 63) >> 6;
+}
+
+/// Whether it faces where its corners' normals point, all together.
+SGM_KERNEL bool facesAlong(const TriangleTerms& t, const PackedDirection& a, const PackedDirection& b,
+                           const PackedDirection& c) {
+  return int64_t{t.x} * (a.x + b.x + c.x) + int64_t{t.y} * (a.y + b.y + c.y) + int64_t{t.z} * (a.z + b.z + c.z) > 0;
+}
+
+}  // namespace sgm::measure

@@ -1,0 +1,122 @@
+// What measuring chunks takes beside meshing them, each right after it was meshed, as a streamed world does: on one
+// thread, around a place of a sample grammar, three levels, each chunk with a seam to its coarser neighbour below.
+//
+//   sgm_bench_chunk_measures FOLDER-OF-SAMPLE-GRAMMARS [RUNS]
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "grammar/compile.h"
+#include "measure.h"
+#include "measure/chunk_measures.h"
+#include "stream/mesh_chunks.h"
+
+namespace {
+
+using namespace sgm;
+using namespace sgm::measure;
+
+struct Place {
+  const char* grammar;
+  int32_t cell;
+  Int3 at;  ///< metres
+  bool sharp;
+};
+constexpr int kAround = 2;  ///< chunks to each side
+
+struct Times {
+  double meshing = 0, measuring = 0;
+  SurfaceSums sums;
+};
+
+Result<Times> run(const WorldField& world, Backend& backend, JobSystem& jobs, const Place& place) {
+  Times times;
+  MeasureScratch scratch(world.memory());
+  for (int level = 0; level < 3; ++level) {
+    const int64_t edge = int64_t{kChunkCells} * place.cell << level;
+    for (int i = 0; i < (2 * kAround) * (2 * kAround) * (2 * kAround); ++i) {
+      ChunkRequest request;
+      request.key.level = level;
+      for (int axis = 0; axis < 3; ++axis) {
+        const int step = (axis == 0 ? i : axis == 1 ? i / (2 * kAround) : i / (4 * kAround * kAround)) % (2 * kAround);
+        request.key.at[axis] =
+            static_cast<int32_t>(floorDiv(int64_t{place.at[axis]} * kUnitsPerMetre, edge)) + step - kAround;
+      }
+      request.seams = 1 << static_cast<int>(Face::y_lo);
+      request.signs = level == 0;
+      request.sharp = place.sharp;
+      const double start = bench::now();
+      const auto chunks = meshChunks(world, backend, jobs, {&request, 1});
+      if (!chunks) return chunks.error();
+      const double meshed = bench::now();
+      const PlacedChunk& chunk = chunks->front();
+      ChunkMeasures measures;
+      measureBody(viewOf(chunk.mesh.body), chunk.mesh.signs, scratch, measures);
+      for (size_t face = 0; face < chunk.mesh.seams.size(); ++face) {
+        measures.parts[1 + face] = measureSeam(viewOf(chunk.mesh.seams[face]));
+      }
+      times.measuring += bench::now() - meshed;
+      times.meshing += meshed - start;
+      times.sums.add(measures, chunk.grid, true, request.seams);
+    }
+  }
+  return times;
+}
+
+int fail(const std::string& message) {
+  std::fprintf(stderr, "sgm_bench_chunk_measures: %s\n", message.c_str());
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) return fail("usage: sgm_bench_chunk_measures FOLDER-OF-SAMPLE-GRAMMARS [RUNS]");
+  const int runs = argc > 2 ? std::max(1, std::atoi(argv[2])) : 3;
+  bench::pin(1);
+  const auto jobs = makeThreadPool(1);
+  if (!jobs) return fail(jobs.error().message);
+  const auto backend = makeBackend({}, **jobs, std::pmr::get_default_resource());
+  if (!backend) return fail(backend.error().message);
+  const Place places[] = {{"cave.sgm", 256, {112, 96, 96}, false},
+                          {"city.sgm", 256, {40, 8, 40}, false},
+                          {"terrain.sgm", 256, {0, 0, 0}, false},
+                          {"cloud.sgm", 4096, {450, 1200, 450}, false},
+                          {"building.sgm", 256, {0, 8, 0}, true}};
+  std::printf("%-14s %9s %10s %10s %10s %7s %9s\n", "grammar", "chunks", "triangles", "meshing ms", "measure ms",
+              "share", "ns/triangle");
+  for (const Place& place : places) {
+    std::ifstream file(std::string(argv[1]) + "/" + place.grammar);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const CompileResult compiled = compileGrammar(text, place.grammar);
+    if (!file || !compiled.program) return fail(std::string("cannot read or compile ") + place.grammar);
+    WorldFieldSettings settings;
+    settings.program = compiled.program;
+    settings.parameters = ParameterValues::defaults(*compiled.program);
+    settings.seed = 3;
+    settings.finest_cell = place.cell;
+    Times best;
+    for (int i = 0; i < runs; ++i) {
+      const WorldField world(settings, std::pmr::get_default_resource());
+      Result<Times> times = run(world, **backend, **jobs, place);
+      if (!times) return fail(times.error().message);
+      if (i == 0 || times->measuring < best.measuring) best = *times;
+    }
+    const SurfaceSums& sums = best.sums;
+    std::printf("%-14s %9llu %10llu %10.1f %10.2f %6.2f%% %9.1f\n", place.grammar,
+                static_cast<unsigned long long>(sums.bodies), static_cast<unsigned long long>(sums.triangles),
+                best.meshing, best.measuring, 100 * best.measuring / best.meshing,
+                1e6 * best.measuring / static_cast<double>(sums.triangles));
+    for (size_t kind = 0; kind < kDefects; ++kind) {
+      if (sums.defects[kind] == 0) continue;
+      std::printf("  %llu %s\n", static_cast<unsigned long long>(sums.defects[kind]),
+                  defectName(static_cast<Defect>(kind)));
+    }
+  }
+  return 0;
+}
