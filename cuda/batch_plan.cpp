@@ -110,6 +110,7 @@ class Planner {
     const auto at = static_cast<uint32_t>(plan_.chunks.size());
     Plan::Parts& parts = plan_.chunks_of.emplace_back();
     parts.job = number;
+    (job.sums_only ? plan_.sums : plan_.meshes) = true;
     parts.body = job.body ? plan_.part_count++ : kNone;
     parts.seams.fill(kNone);
     Chunk chunk{};

@@ -53,7 +53,8 @@ struct Plan {
   std::pmr::vector<Parts> chunks_of;   ///< as chunks
   std::pmr::vector<uint32_t> uniform;  ///< numbers of jobs whose programs have no group: nothing is to be done
   uint32_t part_count = 0;
-  uint64_t marks = 0, bounds = 0;  ///< entries: an instruction, or group, of one box
+  bool meshes = false, sums = false;  ///< whether a job wants its mesh; whether one wants sums alone
+  uint64_t marks = 0, bounds = 0;     ///< entries: an instruction, or group, of one box
 };
 
 /// How much pruning may leave in all boxes, in instructions and groups: all of them, as far as there is room.

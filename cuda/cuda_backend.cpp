@@ -102,7 +102,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
       const Plan::Parts& parts = slot.plan.chunks_of[c];
       if (!haveRoom(*output, parts)) continue;
       readMesh(*output, parts, output->signs + c * kRows, jobs[parts.job], meshes[parts.job]);
-      if ((placed_ || kept_) && jobs[parts.job].resident) {
+      if ((placed_ || kept_) && jobs[parts.job].resident && !jobs[parts.job].sums_only) {
         staying.push_back(parts.job);
         sources.push_back(sourcesOf(*output, parts, slot.memory));
       }
@@ -155,17 +155,28 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
     return sources;
   }
 
+  static PartSums sumsOf(const Part& part, const Sums& made) {
+    PartSums sums;
+    sums.triangles = part.indices / 3;
+    sums.area = made.area;
+    for (size_t axis = 0; axis < 3; ++axis) sums.cross[axis] = static_cast<int64_t>(made.cross[axis]);
+    sums.six_volumes = static_cast<int64_t>(made.six_volumes);
+    return sums;
+  }
+
   static void readMesh(const Mesher::Output& output, const Plan::Parts& parts, const uint64_t* signs,
                        const ChunkJob& job, ChunkMesh& mesh) {
     const auto made = [&](size_t p) -> MadePart {
       const uint32_t number = partOf(parts, p);
       if (number == kNone) return {};
       const Part& part = output.parts[number];
+      if (job.sums_only) return {nullptr, nullptr, 0, 0, {}, sumsOf(part, output.sums[number])};
       return {output.vertices + part.first_vertex,
               output.indices + part.first_index,
               part.vertices,
               part.indices,
-              {part.hash[0], part.hash[1]}};
+              {part.hash[0], part.hash[1]},
+              {}};
     };
     readChunk(
         job, [signs](uint32_t row) { return signs[row]; }, made, mesh);

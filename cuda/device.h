@@ -25,6 +25,7 @@ enum class Kernel : uint8_t {
   ListCells,
   BodyTriangles,
   SeamTriangles,
+  SumTriangles,
   count
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cuda/kernels/emit_body.h"
+#include "cuda/kernels/sums.h"
 
 namespace sgm::cuda {
 
@@ -29,10 +30,11 @@ class Places {
   size_t used_ = 0;
 };
 
-size_t placeResult(std::byte* begin, uint32_t parts, Head*& head, Part*& first_part) {
+size_t placeResult(const Plan& plan, std::byte* begin, Head*& head, Part*& parts, Sums*& sums) {
   Places places(begin);
   places.put(head, 1);
-  places.put(first_part, parts);
+  places.put(parts, plan.part_count);
+  if (plan.sums) places.put(sums, plan.part_count);
   return places.used();
 }
 
@@ -125,6 +127,7 @@ Batch Mesher::sized(const Plan& plan) const {
   batch.seam_count = static_cast<uint32_t>(plan.seams.size());
   batch.job_count = static_cast<uint32_t>(plan.jobs.size());
   batch.part_count = plan.part_count;
+  batch.meshes = plan.meshes;
   const PoolSize pool = poolOf(plan.marks, plan.bounds, room_);
   batch.pool_instrs_room = static_cast<uint32_t>(pool.instrs);
   batch.pool_groups_room = static_cast<uint32_t>(pool.groups);
@@ -136,9 +139,12 @@ Batch Mesher::sized(const Plan& plan) const {
 /// Memory for it all, and the input in its place.
 Result<void> Mesher::fit(const Plan& plan, BatchMemory& m, Batch& batch) const {
   m.input_bytes = placeInput(plan, nullptr, nullptr, batch);
-  m.result_bytes = placeResult(nullptr, plan.part_count, batch.head, batch.parts);
-  m.brought_vertices = std::min<uint64_t>(usual_vertices_.load(), batch.vertices_room * uint64_t{sizeof(Vertex)});
-  m.brought_indices = std::min<uint64_t>(usual_indices_.load(), batch.indices_room * uint64_t{sizeof(uint32_t)});
+  m.result_bytes = placeResult(plan, nullptr, batch.head, batch.parts, batch.sums);
+  m.brought_vertices = m.brought_indices = 0;
+  if (plan.meshes) {
+    m.brought_vertices = std::min<uint64_t>(usual_vertices_.load(), batch.vertices_room * uint64_t{sizeof(Vertex)});
+    m.brought_indices = std::min<uint64_t>(usual_indices_.load(), batch.indices_room * uint64_t{sizeof(uint32_t)});
+  }
   const struct {
     Memory& memory;
     MemoryKind kind;
@@ -160,7 +166,7 @@ Result<void> Mesher::fit(const Plan& plan, BatchMemory& m, Batch& batch) const {
   }
   placeInput(plan, m.staging.data(), m.input.data(), batch);
   placeScratch(plan, m.scratch.data(), batch);
-  placeResult(m.result.data(), plan.part_count, batch.head, batch.parts);
+  placeResult(plan, m.result.data(), batch.head, batch.parts, batch.sums);
   batch.vertices = reinterpret_cast<Vertex*>(m.vertices.data());
   batch.indices = reinterpret_cast<uint32_t*>(m.indices.data());
   return {};
@@ -180,6 +186,7 @@ Mesher::Launches Mesher::launches(const Batch& batch) const {
       {Kernel::ListCells, batch.chunk_count},
       {Kernel::BodyTriangles, batch.chunk_count * BodyTriangles::kSlices},
       {Kernel::SeamTriangles, batch.seam_count},
+      {Kernel::SumTriangles, batch.sums != nullptr ? batch.part_count * SumTriangles::kSlices : 0},
   }};
 }
 
@@ -248,9 +255,12 @@ Result<Stream*> Mesher::reading(BatchMemory& m) {
 Result<Mesher::Output> Mesher::read(const Plan& plan, BatchMemory& m) {
   Head* head = nullptr;
   Part* parts = nullptr;
-  placeResult(m.result_back.data(), plan.part_count, head, parts);
-  if (Result<void> brought = bringRest(*head, m); !brought) return brought.error();
-  return Output{parts, reinterpret_cast<const Vertex*>(m.vertices_back.data()),
+  Sums* sums = nullptr;
+  placeResult(plan, m.result_back.data(), head, parts, sums);
+  if (plan.meshes) {
+    if (Result<void> brought = bringRest(*head, m); !brought) return brought.error();
+  }
+  return Output{parts, sums, reinterpret_cast<const Vertex*>(m.vertices_back.data()),
                 reinterpret_cast<const uint32_t*>(m.indices_back.data()),
                 reinterpret_cast<const uint64_t*>(m.signs_back.data())};
 }

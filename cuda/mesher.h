@@ -26,7 +26,7 @@ struct BatchMemory {
 
 /// Any thread may use it. Outlived by the device.
 ///
-/// A batch is ten launches and some copies, given one by one: no CUDA graph. Every batch has other sizes, places and
+/// A batch is eleven launches and some copies, given one by one: no CUDA graph. Every batch has other sizes, places and
 /// numbers of blocks, so that a graph's nodes would all be set anew each time, which costs the host what a launch does;
 /// and what a graph saves on the device, a microsecond or two between kernels, is little beside those of up to 256
 /// chunks. sgm_bench_kernels (tests/bench) shows both on a device.
@@ -58,6 +58,7 @@ class Mesher {
   /// After the end: what the host reads, valid until the next submission. Waits where more must be brought.
   struct Output {
     const Part* parts = nullptr;
+    const Sums* sums = nullptr;  ///< one a part, where a chunk asks for them
     const Vertex* vertices = nullptr;
     const uint32_t* indices = nullptr;
     const uint64_t* signs = nullptr;  ///< kRows a chunk

@@ -91,6 +91,11 @@ struct Part {
   uint32_t hash[2];
 };
 
+/// Over a part's triangles, as mesh/part_sums.h has them.
+struct Sums {
+  uint64_t area, cross[3], six_volumes;
+};
+
 struct Head {
   uint32_t sampled;                   ///< entries of the list of items that are sampled
   uint32_t pool_instrs, pool_groups;  ///< taken, or asked for in vain
@@ -139,6 +144,8 @@ struct Batch {
   // What comes of it.
   Head* head;   ///< zero at first
   Part* parts;  ///< likewise
+  Sums* sums;   ///< likewise, one a part; null where no chunk wants sums alone
+  bool meshes;  ///< whether a chunk wants its mesh: attributes are of nothing else
   Vertex* vertices;
   uint32_t* indices;
 };

@@ -27,6 +27,15 @@ SGM_KERNEL uint32_t addTo(uint32_t& sum, uint32_t by) {
 #endif
 }
 
+/// As two's complement words, of whatever sign.
+SGM_KERNEL void addTo(uint64_t& sum, uint64_t by) {
+#ifdef __CUDA_ARCH__
+  atomicAdd(reinterpret_cast<unsigned long long*>(&sum), static_cast<unsigned long long>(by));
+#else
+  sum += by;
+#endif
+}
+
 SGM_KERNEL void raiseTo(uint32_t& most, uint32_t value) {
 #ifdef __CUDA_ARCH__
   atomicMax(&most, value);

@@ -76,7 +76,7 @@ struct BodyVertices {
     v.x = static_cast<int16_t>(x * kSubcell + (axis == 0 ? t : 0));
     v.y = static_cast<int16_t>(static_cast<uint32_t>(y) * kSubcell + (axis == 1 ? t : 0));
     v.z = static_cast<int16_t>(static_cast<uint32_t>(z) * kSubcell + (axis == 2 ? t : 0));
-    giveAttributes(view, vertexUnits(gridOf(chunk), v), v);
+    if (b.meshes) giveAttributes(view, vertexUnits(gridOf(chunk), v), v);
     const uint32_t number = b.rows[size_t{kRows} * chunk_number + rowOf(y, z)].vertices + edges.before(x, axis);
     b.vertices[part.first_vertex + number] = v;
     sum.add(v, number);

@@ -115,7 +115,7 @@ struct SeamVertices {
       v = vertexAt(face, {lowestOf(left), row, false}, 2, 0, true);
     }
     const Item& item = b.items[planeItem(b, seam_number, coarse)];
-    giveAttributes(viewOf(b, item), vertexUnits(gridOf(b.chunks[seam.chunk]), v), v);
+    if (b.meshes) giveAttributes(viewOf(b, item), vertexUnits(gridOf(b.chunks[seam.chunk]), v), v);
     b.vertices[b.parts[seam.part].first_vertex + number] = v;
     sum.add(v, number);
   }

@@ -6,6 +6,7 @@
 #include "cuda/kernels/emit_seam.h"
 #include "cuda/kernels/prune.h"
 #include "cuda/kernels/sample.h"
+#include "cuda/kernels/sums.h"
 
 /// SGM_CUDA_KERNEL(class)
 #define SGM_CUDA_KERNELS         \
@@ -18,4 +19,5 @@
   SGM_CUDA_KERNEL(SeamVertices)  \
   SGM_CUDA_KERNEL(ListCells)     \
   SGM_CUDA_KERNEL(BodyTriangles) \
-  SGM_CUDA_KERNEL(SeamTriangles)
+  SGM_CUDA_KERNEL(SeamTriangles) \
+  SGM_CUDA_KERNEL(SumTriangles)

@@ -17,6 +17,7 @@
 #include "field/program.h"
 #include "mesh/chunk.h"
 #include "mesh/fans.h"
+#include "mesh/part_sums.h"
 
 namespace sgm {
 
@@ -56,6 +57,7 @@ struct ChunkJob {
   Neighbourhood coarser = 0;  ///< which blocks around are of a coarser level; decides only the fans in seam keys
   bool signs = false;         ///< also give the signs of the samples
   bool body = true;           ///< false: only the seams; body, signs and counts stay empty
+  bool sums_only = false;     ///< give the sums over the meshes, and not the meshes: a device keeps these to itself
   bool resident = false;      ///< also leave vertices and indices on the device, where it is the engine's
   bool prompt = false;        ///< rather by the CPU than wait until the device is ready for work
 };
@@ -68,6 +70,7 @@ struct ChunkMesh {
   bool uniform = false;         ///< proven without a sample: no body
   /// Where asked for and not uniform: as ChunkSamples::signs. Of a uniform chunk solid_samples says the one sign.
   std::pmr::vector<uint64_t> signs;
+  std::array<PartSums, kMeshParts> sums;  ///< of ChunkJob::sums_only: the body's, then the seams' by Face
   DeviceParts on_device;  ///< of ChunkJob::resident, as far as the device meshed them and has the memory
 
   explicit ChunkMesh(std::pmr::memory_resource* memory = std::pmr::get_default_resource())

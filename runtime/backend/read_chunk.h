@@ -15,6 +15,7 @@ struct MadePart {
   const uint32_t* indices = nullptr;
   uint32_t vertex_count = 0, index_count = 0;
   ContentHash hash;
+  PartSums sums = {};  ///< of ChunkJob::sums_only, in place of the rest
 };
 
 /// signsOfRow(y + 33 z): the signs of 33 samples, x from bit 0 on; only asked where a body is wanted. partOf(p): by
@@ -24,6 +25,7 @@ void readChunk(const ChunkJob& job, const SignsOfRow& signsOfRow, const PartOf& 
   constexpr uint32_t kRows = uint32_t{kChunkSamples} * kChunkSamples;
   const auto fill = [&](size_t number, MeshPart& part) {
     const MadePart made = partOf(number);
+    if (job.sums_only) mesh.sums[number] = made.sums;
     if (made.vertex_count == 0) return;
     part.vertices.assign(made.vertices, made.vertices + made.vertex_count);
     part.indices.assign(made.indices, made.indices + made.index_count);

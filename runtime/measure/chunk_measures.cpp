@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "measure/chunk_stars.h"
-#include "measure/chunk_triangle.h"
 #include "mesh/feature_kind.h"
 #include "mesh/vertex.h"
 

@@ -11,8 +11,8 @@
 #include <span>
 
 #include "measure/chunk_stars.h"
-#include "measure/chunk_triangle.h"
 #include "mesh/packed_mesh.h"
+#include "mesh/triangle_terms.h"
 
 namespace sgm::measure {
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "measure/chunk_measures.h"
-#include "measure/chunk_triangle.h"
 
 namespace sgm::measure {
 namespace {

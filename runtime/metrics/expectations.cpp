@@ -39,7 +39,7 @@ WantedMeasures wantedFor(const Program& program, std::span<const uint32_t> state
   WantedMeasures wanted;
   for (uint32_t s : statements) {
     const Measure measure = program.expectations[s].measure;
-    wanted.surface |= measure == Measure::watertight || measure == Measure::area || measure == Measure::genus;
+    wanted.topology |= measure == Measure::watertight || measure == Measure::genus;
     wanted.components |= measure == Measure::components;
   }
   return wanted;

@@ -79,6 +79,7 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
   for (size_t z = 0; z < counts[2]; ++z) {
     std::pmr::vector<ChunkRequest> requests(world.memory());
     for (size_t i = 0; i < in_layer; ++i) requests.push_back({(*keys)[z * in_layer + i], 0, 0, wanted.components});
+    for (ChunkRequest& request : requests) request.sums_only = !wanted.topology;
     bool stopped = false;
     const Progress layer_progress = [&](uint64_t done, uint64_t) {
       stopped = progress && !progress(z * in_layer + done, keys->size());
@@ -92,9 +93,12 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
     if (z == 0) result.extent.lo = chunks->front().grid.origin;
     result.extent.hi = chunks->back().grid.origin;
     for (PlacedChunk& chunk : *chunks) {
-      result.triangles += chunk.mesh.body.indices.size() / 3;
+      const MeshPart& body = chunk.mesh.body;
+      const PartSums sums = wanted.topology ? sumsOf(body.vertices, body.indices) : chunk.mesh.sums[0];
+      result.triangles += sums.triangles;
+      result.area += areaOf(sums, chunk.grid.cell);
       solid_samples += chunk.mesh.solid_samples;
-      if (!wanted.surface || chunk.mesh.body.indices.empty()) continue;
+      if (body.indices.empty()) continue;
       chunk.mesh.signs = {};
       surface.push_back(std::move(chunk));
     }
@@ -105,14 +109,13 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
   result.sample = cubeVolume(1, cell);
   result.cell = cell;
   if (planes) result.pieces = planes->pieces();
-  if (!wanted.surface) return result;
+  if (!wanted.topology) return result;
 
   std::pmr::vector<PlacedPart> parts(world.memory());
   for (const PlacedChunk& chunk : surface) appendParts(chunk, parts);
   const Result<WorldMesh> mesh = weld(parts, result.extent.lo, world.memory());
   if (!mesh) return mesh.error();
   surface.clear();
-  result.area = measuresOf(*mesh).area;
   result.topology = topologyOf(*mesh, result.extent);
   return result;
 }

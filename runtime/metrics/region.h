@@ -9,10 +9,10 @@
 
 namespace sgm {
 
-/// What costs more than counting: the surface needs all of the region's meshes at one time, pieces a walk over all
-/// signs.
+/// What costs more than sums, which a device makes without giving its meshes away: topology needs all of the region's
+/// meshes at one time, pieces a walk over all signs.
 struct WantedMeasures {
-  bool surface = false;     ///< area and topology
+  bool topology = false;
   bool components = false;  ///< pieces of solid and air
 };
 
@@ -23,7 +23,7 @@ struct RegionMeasures {
   double volume = 0;       ///< m3 of the solid: equation 8 of the paper (cubeVolume() in measure.h)
   double sample = 0;       ///< m3 that one stands for
   int32_t cell = 0;        ///< from one sample to the next, units; the first lies at extent.lo
-  double area = 0;         ///< m2, equation 7, of the surface without the cut faces; 0 where not wanted
+  double area = 0;         ///< m2, equation 7, of the surface without the cut faces (areaOf() in part_sums.h)
   Pieces pieces;           ///< of all samples of the region, those on its high faces included; none where not wanted
   Topology topology;       ///< empty where not wanted
 };

@@ -29,6 +29,7 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   job.body = request.body;
   job.resident = request.resident && !request.sharp;
   job.prompt = request.prompt;
+  job.sums_only = request.sums_only;
   Result<std::shared_ptr<const FieldProgram>> field =
       world.compile(sampledBox(*grid, grid->level, request.sharp), grid->level, edits);
   if (!field) return field.error();

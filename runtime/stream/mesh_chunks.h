@@ -21,6 +21,7 @@ struct ChunkRequest {
   bool prompt = false;        ///< do not wait for a device to be ready (ChunkJob::prompt)
   bool outermost = false;     ///< seams lead to virtual neighbours, whose field is the domain's own state (octree.h)
   bool sharp = false;         ///< with sharp features (sharpen_chunk.h)
+  bool sums_only = false;     ///< in place of the mesh the sums over it (ChunkJob::sums_only); not of sharp chunks
 };
 
 /// A finished chunk and where it lies.

@@ -77,5 +77,9 @@ const uint kPartCells = 6u;        // a body: its active cells. A seam: its vert
 const uint kPartMiddle = 7u;       // a body: kNoRoom, once allocated its first place in the list of active cells.
                                    // A seam: its vertices on coarse edges
 
+// Behind the parts' records, where sums are asked for: for each part twice its area, its cross product's three and six
+// times its volume, a low and a high word each (sums.comp). Zero at first.
+const uint kSumWords = 10u;
+
 // An active cell in scratch, packed (cells.glsl).
 const uint kCellWords = 4u;

@@ -101,6 +101,36 @@ TEST_CASE("random programs give the scalar backend's bytes on the device, seams,
   CHECK(machine().silent());
 }
 
+TEST_CASE("sums alone are those over the meshes, in batches of their own and beside meshes") {
+  if (!ready()) return;
+  const OnDevice device;
+  std::vector<NamedJob> jobs = jobsOfEveryOp(seedOfAll(), 1);
+  for (uint32_t i = 0; i < rounds(60); ++i) jobs.push_back(randomJob(seedOfAll() + 9000 + i, static_cast<int>(i % 5)));
+  for (const size_t every : {size_t{1}, size_t{3}}) {
+    std::vector<NamedJob> asked = jobs;
+    for (size_t i = 0; i < asked.size(); i += every) asked[i].job.sums_only = true;
+    const std::vector<ChunkMesh> meshes = meshesOf(*machine().scalar, jobsOf(jobs));
+    const std::vector<ChunkMesh> expected = meshesOf(*machine().scalar, jobsOf(asked));
+    const std::vector<ChunkMesh> found = meshesOf(machine().device(), jobsOf(asked));
+    size_t triangles = 0;
+    for (size_t i = 0; i < jobs.size(); ++i) {
+      INFO(asked[i].name << ", sums of every " << every);
+      CHECK(differenceOf(expected[i], found[i]) == "");
+      if (!asked[i].job.sums_only) continue;
+      CHECK(found[i].body.vertices.empty());
+      CHECK(found[i].sums[0] == sumsOf(meshes[i].body.vertices, meshes[i].body.indices));
+      for (size_t face = 0; face < meshes[i].seams.size(); ++face) {
+        CHECK(found[i].seams[face].vertices.empty());
+        CHECK(found[i].sums[1 + face] == sumsOf(meshes[i].seams[face].vertices, meshes[i].seams[face].indices));
+      }
+      triangles += found[i].sums[0].triangles;
+    }
+    CHECK(triangles > 300 * jobs.size() / every);
+  }
+  CHECK(device.byCpu() < jobs.size() / 4);
+  CHECK(machine().silent());
+}
+
 TEST_CASE("a prism of a thousand corners is meshed by the device, or by the CPU and counted") {
   if (!ready()) return;
   const OnDevice device;

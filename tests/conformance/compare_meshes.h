@@ -55,6 +55,7 @@ inline std::string differenceOf(const ChunkMesh& expected, const ChunkMesh& foun
     const std::string seam = differenceOf(expected.seams[face], found.seams[face]);
     if (!seam.empty()) return "seam " + std::to_string(face) + ": " + seam;
   }
+  if (expected.sums != found.sums) return "the sums";
   if (expected.solid_samples != found.solid_samples) return "the count of solid samples";
   if (expected.uniform == found.uniform) return expected.signs == found.signs ? std::string() : "the signs";
   return ofOneSign(expected) && ofOneSign(found) ? std::string() : "whether it is uniform";

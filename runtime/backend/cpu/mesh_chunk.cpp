@@ -104,7 +104,7 @@ void meshSeam(const FieldKernels& kernels, const ChunkJob& job, Face face, Chunk
     coarse.signs.fill((1u << kCoarseSamples) - 1);
   }
   polygonizeSeam(face, s.samples, coarse, job.grid, job.coarser, seam);
-  if (seam.vertices.empty()) return;
+  if (seam.vertices.empty() || job.sums_only) return;
 
   // Each vertex by the field of its own level. All lie in the face's plane, lateral ones as well, so what pruning to it
   // keeps is all that they need; of a plane proven uniform it keeps nothing, and then a lateral one takes the whole.
@@ -141,13 +141,22 @@ void fillOwn(const FieldKernels& kernels, const ChunkJob& job, bool uniform, Chu
   if (uniform) return;
   if (job.signs) mesh.signs = s.samples.signs;
   polygonizeBody(s.samples, job.grid, mesh.body);
+  if (job.sums_only) return;
   fillBody(kernels, job.grid, s, mesh.body);
   hashPart(mesh.body);
 }
 
-}  // namespace
+/// Replaces the meshes by their sums.
+void keepSums(ChunkMesh& mesh) {
+  const auto keep = [&](MeshPart& part, PartSums& sums) {
+    sums = sumsOf(part.vertices, part.indices);
+    part = MeshPart(part.vertices.get_allocator().resource());
+  };
+  keep(mesh.body, mesh.sums[0]);
+  for (size_t face = 0; face < mesh.seams.size(); ++face) keep(mesh.seams[face], mesh.sums[1 + face]);
+}
 
-void meshChunk(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& s, ChunkMesh& mesh) {
+void meshParts(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& s, ChunkMesh& mesh) {
   const bool uniform = !sampleChunk(kernels, job.field->view(), job.grid, s, job.body ? uint8_t{0} : job.seams);
   if (job.body) fillOwn(kernels, job, uniform, s, mesh);
   if (job.seams == 0) return;
@@ -156,6 +165,13 @@ void meshChunk(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& s
     mesh.seams.emplace_back(mesh.body.vertices.get_allocator().resource());
     if (job.seams >> f & 1) meshSeam(kernels, job, static_cast<Face>(f), s, mesh.seams.back());
   }
+}
+
+}  // namespace
+
+void meshChunk(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& s, ChunkMesh& mesh) {
+  meshParts(kernels, job, s, mesh);
+  if (job.sums_only) keepSums(mesh);
 }
 
 }  // namespace sgm

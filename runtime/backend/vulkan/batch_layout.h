@@ -47,6 +47,12 @@ struct Part {
 };
 static_assert(sizeof(Part) == 8 * sizeof(uint32_t));
 
+/// Behind all parts, where sums are asked for.
+struct Sums {
+  uint32_t area[2], cross[3][2], six_volumes[2];  ///< low words first
+};
+static_assert(sizeof(Sums) == 10 * sizeof(uint32_t));
+
 /// The push constants (shaders/mesher/sizes.glsl). The list of active cells has kCellWords for each of max_cells.
 struct Sizes {
   uint32_t part_count, seam_records, cell_list, max_vertices, max_indices, max_cells;

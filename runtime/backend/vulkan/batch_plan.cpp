@@ -62,6 +62,7 @@ class Planner {
     plan.refused.clear();
     plan.seam_count = plan.plane_jobs = 0;
     plan.kinds = 0;
+    plan.meshes = plan.sums = false;
   }
 
   /// Takes up job i; false, and nothing has changed, where scratch would not hold it as well.
@@ -88,6 +89,7 @@ class Planner {
       return false;
     }
     plan_.kinds |= field.kinds | coarse.kinds;
+    (job.sums_only ? plan_.sums : plan_.meshes) = true;
     return true;
   }
 
@@ -96,6 +98,7 @@ class Planner {
     const uint32_t bricks = chunks * batch::kBricks, planes = 2 * plan_.seam_count;
     batch::Sizes& s = plan_.sizes;
     s.part_count = part_count_;
+    if (plan_.sums) plan_.parts.resize(plan_.parts.size() + size_t{part_count_} * (sizeof(batch::Sums) / 4), 0u);
     plan_.plane_jobs_at = s.jobs + static_cast<uint32_t>(jobs_.size()) * kJobWords;
     s.chunk_count = chunks;
     s.max_vertices = room_.vertices * std::max(chunks, 8u);

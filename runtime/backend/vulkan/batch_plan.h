@@ -50,7 +50,8 @@ struct BatchPlan {
   uint32_t plane_jobs = 0;     ///< of pruning, behind one for each chunk's bricks,
   uint32_t plane_jobs_at = 0;  ///< from here on in words
   uint32_t scratch_words = 0;
-  uint64_t kinds = 0;  ///< of all tapes, as Tape::kinds
+  uint64_t kinds = 0;                 ///< of all tapes, as Tape::kinds
+  bool meshes = false, sums = false;  ///< whether a job wants its mesh; whether one wants sums alone
   TapeScratch tape_scratch;
   PruneScratch prune_scratch;
   PrunedProgram pruned;

@@ -22,6 +22,7 @@
 #include "spirv/sample_rte_comp.h"
 #include "spirv/seam_triangles_comp.h"
 #include "spirv/seam_vertices_comp.h"
+#include "spirv/sums_comp.h"
 #include "spirv/triangles_comp.h"
 
 namespace sgm::vulkan {
@@ -111,6 +112,7 @@ Result<std::shared_ptr<const Pipeline>> Kernels::makePipeline(Kernel kernel, uin
       {"list_cells", spirv::kListCellsComp},
       {"triangles", spirv::kTrianglesComp},
       {"seam_triangles", spirv::kSeamTrianglesComp},
+      {"sums", spirv::kSumsComp},
   }};
   const bool wide = interprets(kernel) || kernel == fill_signs || kernel == body_vertices || kernel == plane_units;
   const std::array<uint32_t, 3> constants{width(), static_cast<uint32_t>(kinds), static_cast<uint32_t>(kinds >> 32)};

@@ -31,6 +31,7 @@ enum Kernel : uint8_t {
   list_cells,
   triangles,
   seam_triangles,
+  sums,
   kernels
 };
 

@@ -11,6 +11,7 @@ namespace sgm::vulkan {
 namespace {
 
 constexpr uint32_t kHeadSize = sizeof(batch::Head);
+constexpr uint32_t kSumSlices = 4;  // workgroups that share a part's triangles
 
 /// A buffer of at least so many bytes, the old one where it has them.
 Result<void> grow(Memory& memory, MemoryKind kind, uint64_t bytes, Buffer& buffer) {
@@ -63,8 +64,11 @@ Result<void> Mesher::fit(const BatchPlan& plan, BatchBuffers& b) {
 }
 
 Result<void> Mesher::fitBack(const BatchPlan& plan, BatchBuffers& b) {
-  b.brought_vertices = std::min<uint64_t>(usual_vertices_.load(), plan.sizes.max_vertices * uint64_t{sizeof(Vertex)});
-  b.brought_indices = std::min<uint64_t>(usual_indices_.load(), plan.sizes.max_indices * uint64_t{sizeof(uint32_t)});
+  b.brought_vertices = b.brought_indices = 0;
+  if (plan.meshes) {
+    b.brought_vertices = std::min<uint64_t>(usual_vertices_.load(), plan.sizes.max_vertices * uint64_t{sizeof(Vertex)});
+    b.brought_indices = std::min<uint64_t>(usual_indices_.load(), plan.sizes.max_indices * uint64_t{sizeof(uint32_t)});
+  }
   const struct {
     uint64_t bytes;
     Buffer* buffer;
@@ -116,11 +120,14 @@ Result<void> Mesher::record(Commands& commands, const Pipelines& pipelines, cons
   direct(allocate, 1);
   indirect(body_vertices, sampled);
   direct(seam_vertices, plan.seam_count);
-  direct(plane_units, plan.seam_count);
-  indirect(attributes, units);
+  if (plan.meshes) {
+    direct(plane_units, plan.seam_count);
+    indirect(attributes, units);
+  }
   direct(list_cells, chunks);
   indirect(triangles, cells);
   direct(seam_triangles, plan.seam_count);
+  if (plan.sums) direct(sums, plan.sizes.part_count, kSumSlices);
   return bound;
 }
 
@@ -163,13 +170,14 @@ Result<uint64_t> Mesher::submit(const BatchPlan& plan, BatchBuffers& b) {
   return ring_.submit(std::move(*commands));
 }
 
-Result<Mesher::Output> Mesher::read(BatchBuffers& b) {
+Result<Mesher::Output> Mesher::read(const BatchPlan& plan, BatchBuffers& b) {
   Output out;
   const bool seen = b.words.data() != nullptr;
   const Buffer& parts = seen ? b.parts : b.parts_back;
   if (Result<void> ready = parts.beforeRead(); !ready) return ready.error();
   out.head = reinterpret_cast<const batch::Head*>(parts.data());
   out.parts = reinterpret_cast<const batch::Part*>(parts.data() + kHeadSize);
+  out.sums = reinterpret_cast<const batch::Sums*>(out.parts + plan.sizes.part_count);
   if (seen) {
     for (const Buffer* buffer : {&b.scratch, &b.vertices, &b.indices}) {
       if (Result<void> ready = buffer->beforeRead(); !ready) return ready.error();
@@ -182,7 +190,7 @@ Result<Mesher::Output> Mesher::read(BatchBuffers& b) {
   }
   if (Result<void> ready = b.signs_back.beforeRead(); !ready) return ready.error();
   out.signs = reinterpret_cast<const uint32_t*>(b.signs_back.data());
-  if (out.head->vertices == 0 || out.head->indices == 0) return out;
+  if (!plan.meshes || out.head->vertices == 0 || out.head->indices == 0) return out;
   if (Result<void> brought = bringLater(*out.head, b); !brought) return brought.error();
   for (const Buffer* buffer : {&b.vertices_back, &b.indices_back}) {
     if (Result<void> ready = buffer->beforeRead(); !ready) return ready.error();

@@ -34,17 +34,19 @@ class Mesher {
   /// out_of_memory, limit, unsupported. Throws std::bad_alloc.
   Result<uint64_t> submit(const BatchPlan& plan, BatchBuffers& buffers);
 
-  /// After the end: what the host reads, valid until the next submission with these buffers. Where vertices and indices
-  /// must be brought to the host first it waits for that. Errors: as submit.
+  /// After the end of what was submitted with these two: what the host reads, valid until the next submission. Where
+  /// vertices and indices must be brought to the host first it waits for that; where no chunk wants them there are
+  /// none. Errors: as submit.
   struct Output {
     const batch::Head* head = nullptr;
     const batch::Part* parts = nullptr;
+    const batch::Sums* sums = nullptr;  ///< of the parts of chunks that ask for them
     const Vertex* vertices = nullptr;
     const uint32_t* indices = nullptr;
     const uint32_t* signs = nullptr;  ///< of the plan's chunks behind each other, batch::kSignWords each
     bool signs_in_place = false;      ///< signs is scratch, where each chunk's own place counts
   };
-  Result<Output> read(BatchBuffers& buffers);
+  Result<Output> read(const BatchPlan& plan, BatchBuffers& buffers);
 
   uint32_t mostScratchWords() const;
 

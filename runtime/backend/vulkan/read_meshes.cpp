@@ -14,6 +14,17 @@ uint32_t partOf(const BatchPlan::Chunk& planned, size_t number) {
   return number == 0 ? planned.body : planned.seams[number - 1];
 }
 
+uint64_t wideOf(const uint32_t (&words)[2]) { return words[0] | uint64_t{words[1]} << 32; }
+
+PartSums sumsOf(const batch::Part& part, const batch::Sums& made) {
+  PartSums sums;
+  sums.triangles = part.indices / 3;
+  sums.area = wideOf(made.area);
+  for (size_t axis = 0; axis < 3; ++axis) sums.cross[axis] = static_cast<int64_t>(wideOf(made.cross[axis]));
+  sums.six_volumes = static_cast<int64_t>(wideOf(made.six_volumes));
+  return sums;
+}
+
 }  // namespace
 
 bool readMesh(const BatchPlan& plan, const Mesher::Output& output, size_t chunk, const ChunkJob& job, ChunkMesh& mesh) {
@@ -27,11 +38,13 @@ bool readMesh(const BatchPlan& plan, const Mesher::Output& output, size_t chunk,
     const uint32_t number = partOf(planned, p);
     if (number == batch::kNoRoom) return {};
     const batch::Part& part = output.parts[number];
+    if (job.sums_only) return {nullptr, nullptr, 0, 0, {}, sumsOf(part, output.sums[number])};
     return {output.vertices + part.first_vertex,
             output.indices + part.first_index,
             part.vertices,
             part.indices,
-            {part.hash[0], part.hash[1]}};
+            {part.hash[0], part.hash[1]},
+            {}};
   };
   readChunk(job, signsOfRow, made, mesh);
   return true;

@@ -83,14 +83,14 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   Result<bool> read(DeviceSlot& base, std::span<const ChunkJob> jobs, std::span<ChunkMesh> meshes,
                     const std::function<bool(size_t)>& done) override {
     auto& slot = static_cast<Slot&>(base);
-    const Result<Mesher::Output> output = mesher_->read(slot.buffers);
+    const Result<Mesher::Output> output = mesher_->read(slot.plan, slot.buffers);
     if (!output) return output.error();
     std::vector<size_t> staying;
     std::vector<PartSources> sources;
     for (size_t c = 0; c < slot.plan.chunks.size(); ++c) {
       const size_t job = slot.plan.chunks[c].job;
       if (!readMesh(slot.plan, *output, c, jobs[job], meshes[job])) continue;
-      if (kept_ && jobs[job].resident) {
+      if (kept_ && jobs[job].resident && !jobs[job].sums_only) {
         staying.push_back(job);
         sources.push_back(sourcesOf(slot.plan, *output, c, slot.buffers));
       }

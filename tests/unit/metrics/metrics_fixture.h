@@ -38,13 +38,13 @@ class World {
   Backend& backend() const { return *backend_; }
   JobSystem& jobs() const { return *jobs_; }
 
-  RegionMeasures measured(double cell, const IntBox& region) const {
+  RegionMeasures measured(double cell, const IntBox& region, const WantedMeasures& wanted = {true, true}) const {
     WorldFieldSettings settings;
     settings.program = program_;
     settings.parameters = ParameterValues::defaults(*program_);
     settings.finest_cell = static_cast<int32_t>(cell * kUnitsPerMetre);
     const WorldField world(settings, std::pmr::get_default_resource());
-    const Result<RegionMeasures> result = measureRegion(world, *backend_, *jobs_, region, 65536, {true, true});
+    const Result<RegionMeasures> result = measureRegion(world, *backend_, *jobs_, region, 65536, wanted);
     INFO((result ? "" : result.error().message));
     REQUIRE(result);
     return *result;

@@ -1,6 +1,7 @@
 #pragma once
-// What one packed triangle adds to a chunk's measures, in integers alone: equal for every backend, order of addition
-// and machine, and written so that a GPU can compute it from packed vertices. Lengths are in 1/256 of the chunk's cell.
+// What one packed triangle adds to the sums over a mesh, in integers alone: equal for every backend, order of addition
+// and machine. CUDA's kernels run this source, those of Vulkan say the same (shaders/mesher/sums.comp). Lengths are in
+// 1/256 of the chunk's cell.
 
 #include <cmath>
 #include <cstdint>
@@ -8,7 +9,7 @@
 #include "base/kernel.h"
 #include "mesh/chunk.h"
 
-namespace sgm::measure {
+namespace sgm {
 
 /// Vertices that are measured lie within these on each axis: feature vertices may be a cell and a bit beyond the chunk.
 inline constexpr int kLeastPosition = -2 * kSubcell, kMostPosition = kChunkCells * kSubcell + 2 * kSubcell;
@@ -78,4 +79,4 @@ SGM_KERNEL bool facesAlong(const TriangleTerms& t, const PackedDirection& a, con
   return int64_t{t.x} * (a.x + b.x + c.x) + int64_t{t.y} * (a.y + b.y + c.y) + int64_t{t.z} * (a.z + b.z + c.z) > 0;
 }
 
-}  // namespace sgm::measure
+}  // namespace sgm

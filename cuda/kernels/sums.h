@@ -1,0 +1,56 @@
+#pragma once
+// The sums over the triangles of parts, for chunks whose meshes nobody wants.
+
+#include "cuda/kernels/batch.h"
+#include "cuda/kernels/block.h"
+#include "mesh/triangle_terms.h"
+
+namespace sgm::cuda {
+
+/// kSlices blocks a part, which share its triangles.
+struct SumTriangles {
+  static constexpr uint32_t kThreads = 128;
+  static constexpr uint32_t kSlices = 4;
+  struct Shared {
+    Sums sums;
+  };
+
+  template <class Block>
+  SGM_KERNEL static void run(Block& block, const Batch& b, Shared& shared) {
+    const uint32_t number = block.number() / kSlices, slice = block.number() % kSlices;
+    const Part& part = b.parts[number];
+    if (part.indices == 0 || part.first_index == kNone) return;
+    block.each([&](uint32_t thread) {
+      if (thread == 0) shared.sums = {};
+    });
+    block.each([&](uint32_t thread) {
+      Sums own{};
+      for (uint32_t i = kThreads * slice + thread; i < part.indices / 3; i += kThreads * kSlices) {
+        add(b.vertices + part.first_vertex, b.indices + part.first_index + 3 * i, own);
+      }
+      give(own, shared.sums);
+    });
+    block.each([&](uint32_t thread) {
+      if (thread == 0) give(shared.sums, b.sums[number]);
+    });
+  }
+
+  SGM_KERNEL static void add(const Vertex* vertices, const uint32_t* corners, Sums& sums) {
+    const TriangleTerms terms = termsOf(vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]);
+    sums.area += fixedRoot(terms.square);
+    sums.cross[0] += wordOf(terms.x);
+    sums.cross[1] += wordOf(terms.y);
+    sums.cross[2] += wordOf(terms.z);
+    sums.six_volumes += wordOf(terms.six_volumes);
+  }
+
+  SGM_KERNEL static uint64_t wordOf(int64_t value) { return static_cast<uint64_t>(value); }
+
+  SGM_KERNEL static void give(const Sums& from, Sums& to) {
+    addTo(to.area, from.area);
+    for (int axis = 0; axis < 3; ++axis) addTo(to.cross[axis], from.cross[axis]);
+    addTo(to.six_volumes, from.six_volumes);
+  }
+};
+
+}  // namespace sgm::cuda

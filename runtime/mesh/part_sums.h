@@ -1,0 +1,28 @@
+#pragma once
+// The sums over one part's triangles that area and volume are made of, in integers: equal on every backend.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "mesh/chunk.h"
+
+namespace sgm {
+
+/// Lengths are in 1/256 of the chunk's cell, from the chunk's origin.
+struct PartSums {
+  uint32_t triangles = 0;
+  uint64_t area = 0;               ///< sum of twice the areas, each in 1/4096 (fixedRoot in triangle_terms.h)
+  std::array<int64_t, 3> cross{};  ///< sum of the cross products: twice the area vector
+  int64_t six_volumes = 0;         ///< six times the flux of x / 3 about the chunk's origin
+
+  friend bool operator==(const PartSums&, const PartSums&) = default;
+};
+
+/// Precondition: indices are below vertices.size(), and positions where triangle_terms.h wants them.
+PartSums sumsOf(std::span<const Vertex> vertices, std::span<const uint32_t> indices);
+
+/// Square metres. cell: the chunk's, units.
+double areaOf(const PartSums& sums, int32_t cell);
+
+}  // namespace sgm
