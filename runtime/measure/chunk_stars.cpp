@@ -17,7 +17,7 @@ class StarCounter {
         nodes_(scratch.first.get_allocator()),
         opposite_(scratch.first.get_allocator()) {
     first_.assign(planes.size() + 1, 0);
-    seen_.assign(planes.size(), {kNobody, 0});
+    seen_.assign(planes.size(), kNobody);
     if (corners_.size() < indices.size()) corners_.resize(indices.size());
     sortCorners(indices);
   }
@@ -36,8 +36,9 @@ class StarCounter {
   }
 
  private:
-  static constexpr uint32_t kNobody = UINT32_MAX;
-  using Seen = StarScratch::Seen;
+  static constexpr uint64_t kNobody = UINT64_MAX;
+  /// One word, since what is written in two is slow to read as one.
+  static uint64_t seenBy(uint32_t v, uint32_t place) { return uint64_t{v} << 32 | place; }
   /// An edge from the vertex in question, as a node of its link.
   struct Node {
     uint32_t vertex, parent, out, in;
@@ -61,16 +62,16 @@ class StarCounter {
   bool isCycle(uint32_t v, std::span<const Corner> star) {
     bool once = star.size() >= 3;
     for (uint32_t i = 0; i < star.size(); ++i) {
-      Seen& seen = seen_[star[i].next];
-      once &= seen.by != v;
-      seen = {v, i};
+      uint64_t& seen = seen_[star[i].next];
+      once &= seen >> 32 != v;
+      seen = seenBy(v, i);
     }
     if (!once) return false;
     uint32_t at = 0;
     for (size_t steps = star.size(); steps != 0; --steps) {
-      const Seen seen = seen_[star[at].previous];
-      if (seen.by != v) return false;
-      at = seen.place;
+      const uint64_t seen = seen_[star[at].previous];
+      if (seen >> 32 != v) return false;
+      at = static_cast<uint32_t>(seen);
       if (at == 0) return steps == 1;
     }
     return false;
@@ -82,13 +83,14 @@ class StarCounter {
   }
 
   uint32_t nodeOf(uint32_t v, uint32_t other) {
-    Seen& seen = seen_[other];
+    uint64_t& seen = seen_[other];
     const uint32_t mark = v | uint32_t{1} << 31;  // not that of isCycle
-    if (seen.by != mark) {
-      seen = {mark, static_cast<uint32_t>(nodes_.size())};
-      nodes_.push_back({other, seen.place, 0, 0});
+    if (seen >> 32 != mark) {
+      const auto place = static_cast<uint32_t>(nodes_.size());
+      seen = seenBy(mark, place);
+      nodes_.push_back({other, place, 0, 0});
     }
-    return seen.place;
+    return static_cast<uint32_t>(seen);
   }
 
   /// Any star; how many edges it has.
@@ -136,7 +138,7 @@ class StarCounter {
   std::span<const uint8_t> planes_;
   std::pmr::vector<uint32_t>& first_;
   std::pmr::vector<Corner>& corners_;
-  std::pmr::vector<Seen>& seen_;
+  std::pmr::vector<uint64_t>& seen_;
   std::pmr::vector<Node> nodes_;
   std::pmr::vector<uint64_t> opposite_;
   StarCounts counts_;
