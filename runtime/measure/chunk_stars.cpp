@@ -28,7 +28,14 @@ class StarCounter {
       const std::span star(corners_.data() + first_[v], corners_.data() + first_[v + 1]);
       if (star.empty()) continue;
       ++counts_.vertices;
-      ends += isCycle(v, star) ? star.size() : countStar(v, star);
+      const bool simple = meet(v, star);
+      if (simple && isCycle(v, star)) {
+        ends += star.size();
+      } else if (simple && isPath(v, star)) {
+        ends += star.size() + 1;
+      } else {
+        ends += countStar(v, star);
+      }
     }
     // Each edge was met at both of its ends.
     counts_.edges = static_cast<uint32_t>(ends / 2);
@@ -58,15 +65,21 @@ class StarCounter {
     }
   }
 
-  /// Whether the star is one closed fan, each edge with two triangles in opposite directions: nearly all of them.
-  bool isCycle(uint32_t v, std::span<const Corner> star) {
-    bool once = star.size() >= 3;
+  /// Notes who comes next at each corner; whether each does so once.
+  bool meet(uint32_t v, std::span<const Corner> star) {
+    bool once = true;
     for (uint32_t i = 0; i < star.size(); ++i) {
       uint64_t& seen = seen_[star[i].next];
       once &= seen >> 32 != v;
       seen = seenBy(v, i);
     }
-    if (!once) return false;
+    return once;
+  }
+
+  /// Whether the star is one closed fan, each edge with two triangles in opposite directions: nearly all of them.
+  /// Precondition: meet().
+  bool isCycle(uint32_t v, std::span<const Corner> star) {
+    if (star.size() < 3) return false;
     uint32_t at = 0;
     for (size_t steps = star.size(); steps != 0; --steps) {
       const uint64_t seen = seen_[star[at].previous];
@@ -75,6 +88,31 @@ class StarCounter {
       if (at == 0) return steps == 1;
     }
     return false;
+  }
+
+  /// Whether the star is one open fan; then the edges at its ends are counted. Precondition: meet().
+  bool isPath(uint32_t v, std::span<const Corner> star) {
+    // The one that nobody leads to is what the others' places lack to the sum of all.
+    size_t start = star.size() * (star.size() - 1) / 2, matched = 0;
+    for (const Corner& corner : star) {
+      const uint64_t seen = seen_[corner.previous];
+      if (seen >> 32 != v) continue;
+      start -= static_cast<uint32_t>(seen);
+      ++matched;
+    }
+    if (matched + 1 != star.size() || start >= star.size()) return false;
+    size_t at = start;
+    for (size_t steps = 1; steps < star.size(); ++steps) {
+      const uint64_t seen = seen_[star[at].previous];
+      if (seen >> 32 != v) return false;
+      at = static_cast<uint32_t>(seen);
+    }
+    // Who comes to an end has met none twice.
+    if (seen_[star[at].previous] >> 32 == v) return false;
+    for (const uint32_t end : {star[start].next, star[at].previous}) {
+      if (end > v) countOpen(v, end);
+    }
+    return true;
   }
 
   uint32_t rootOf(uint32_t node) {
@@ -119,15 +157,19 @@ class StarCounter {
     return nodes_.size();
   }
 
+  void countOpen(uint32_t v, uint32_t other) {
+    const uint32_t shared = planes_[v] & planes_[other] & 63u;
+    if (shared != 0) {
+      ++counts_.border_edges[static_cast<size_t>(std::countr_zero(shared))];
+    } else {
+      ++counts_.open_edges;
+    }
+  }
+
   void countEdge(uint32_t v, const Node& node) {
     const uint32_t triangles = node.out + node.in;
     if (triangles == 1) {
-      const uint32_t shared = planes_[v] & planes_[node.vertex] & 63u;
-      if (shared != 0) {
-        ++counts_.border_edges[static_cast<size_t>(std::countr_zero(shared))];
-      } else {
-        ++counts_.open_edges;
-      }
+      countOpen(v, node.vertex);
     } else if (triangles == 2) {
       counts_.turned_edges += node.out != 1;
     } else {
