@@ -158,7 +158,7 @@ class Session final : public DeviceSession, public std::enable_shared_from_this<
   static PartSums sumsOf(const Part& part, const Sums& made) {
     PartSums sums;
     sums.triangles = part.indices / 3;
-    sums.area = made.area;
+    sums.area = static_cast<int64_t>(made.area);
     for (size_t axis = 0; axis < 3; ++axis) sums.cross[axis] = static_cast<int64_t>(made.cross[axis]);
     sums.six_volumes = static_cast<int64_t>(made.six_volumes);
     return sums;

@@ -37,7 +37,7 @@ struct SumTriangles {
 
   SGM_KERNEL static void add(const Vertex* vertices, const uint32_t* corners, Sums& sums) {
     const TriangleTerms terms = termsOf(vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]);
-    sums.area += fixedRoot(terms.square);
+    sums.area += wordOf(fixedRoot(terms.square));
     sums.cross[0] += wordOf(terms.x);
     sums.cross[1] += wordOf(terms.y);
     sums.cross[2] += wordOf(terms.z);

@@ -74,12 +74,13 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     settings.lod.top = desc->top_level;
     settings.lod.finest_distance = desc->finest_distance * sgm::kUnitsPerMetre;
     settings.lod.view_distance = desc->view_distance * sgm::kUnitsPerMetre;
-    constexpr uint32_t kFlags =
-        SGM_WORLD_BY_DISTANCE | SGM_WORLD_MORPH | SGM_WORLD_RESIDENT | SGM_WORLD_TEXTURE | SGM_WORLD_SHARP;
+    constexpr uint32_t kFlags = SGM_WORLD_BY_DISTANCE | SGM_WORLD_MORPH | SGM_WORLD_RESIDENT | SGM_WORLD_TEXTURE |
+                                SGM_WORLD_SHARP | SGM_WORLD_MEASURE;
     if ((desc->flags & ~kFlags) != 0)
       return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_world_flag");
     settings.morph = (desc->flags & SGM_WORLD_MORPH) != 0;
     settings.sharp = (desc->flags & SGM_WORLD_SHARP) != 0;
+    settings.measure = (desc->flags & SGM_WORLD_MEASURE) != 0;
     settings.texture = (desc->flags & SGM_WORLD_TEXTURE) != 0;
     settings.resident = (desc->flags & SGM_WORLD_RESIDENT) != 0;
     if (settings.resident && !field->content->backend->capabilities().lends_meshes)

@@ -418,6 +418,9 @@ Command addFly(CLI::App& root) {
       "--check", options->check,
       "Check every frame's surface for open and non-manifold edges by exact keys, and each 500th frame whole. "
       "Status 1 where one is not closed");
+  app->add_flag("--measure", options->measure,
+                "Measure every chunk as soon as it is meshed: what is wrong with it, area, volume. Status 1 where "
+                "anything is wrong");
   app->add_flag("--unpaced", options->unpaced,
                 "As soon as there is something new to draw, instead of 60 frames a second");
   addSharpOption(*app, *options);

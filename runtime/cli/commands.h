@@ -97,6 +97,7 @@ struct FlyOptions : WorldOptions {
   bool animate = false;               ///< drive parameters while flying
   std::vector<std::string> animated;  ///< these; none: all that the grammar declares animated
   bool check = false, unpaced = false, compare = false;
+  bool measure = false;  ///< every chunk that is meshed
   int top_level = 6;
   double finest = 24, finest_margin = 6, view = 600;  ///< metres
   uint64_t mesh_mb = 256;

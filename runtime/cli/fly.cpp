@@ -112,6 +112,8 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   if (!options.cache.empty() && !by_distance) world_desc.cache_folder = options.cache.c_str();
   if (by_distance) world_desc.flags |= SGM_WORLD_BY_DISTANCE;
   if (options.sharp) world_desc.flags |= SGM_WORLD_SHARP;
+  // A flight to compare with is not reported.
+  if (options.measure && !by_distance) world_desc.flags |= SGM_WORLD_MEASURE;
   sgm_world* world = nullptr;
   if (sgm_world_create(field, &world_desc, &world, &error) != SGM_OK) return complain(error);
   scene.world.reset(world);
@@ -204,6 +206,10 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   flown.hash = *hash;
   sgm_runtime_memory(scene.runtime.get(), nullptr, &flown.runtime_peak_bytes);
   sgm_error error = SGM_ERROR_INIT;
+  if (options.measure && pictures != nullptr) {
+    flown.measures = SGM_WORLD_MEASURES_INIT;
+    if (sgm_world_get_measures(scene.world.get(), &*flown.measures, &error) != SGM_OK) return {{}, complain(error)};
+  }
   if (sgm_backend_query(scene.runtime.get(), backendNamed(options.backend), &flown.backend, &error) != SGM_OK)
     return {{}, complain(error)};
   return {std::move(flown), Exit::done};
@@ -228,7 +234,7 @@ Exit fly(const FlyOptions& options) {
   } else {
     print(options, *flight.flown, by_distance);
   }
-  const std::optional<std::string> defect = defectOf(flight.flown->report);
+  const std::optional<std::string> defect = defectOf(*flight.flown);
   return defect ? cli::complain(Exit::input, *defect) : Exit::done;
 }
 

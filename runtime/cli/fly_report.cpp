@@ -79,6 +79,7 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
         {"losses", flown.backend.losses}}},
       {"world_hash", fmt::format("{:016x}", flown.hash)},
       {"seconds", r.seconds}};
+  if (flown.measures) json["measures"] = toJson(*flown.measures);
   if (by_distance) {
     json["finest_meshed_by_distance"] = by_distance->stats.finest_meshed;
     json["finest_saved"] = 1 - shareOf(r.stats.finest_meshed, by_distance->stats.finest_meshed);
@@ -151,14 +152,17 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
                flown.backend.device, flown.backend.chunks - flown.backend.chunks_on_cpu, flown.backend.chunks_on_cpu,
                flown.backend.losses);
   }
+  if (flown.measures) print(*flown.measures);
   fmt::print("  hash      {:016x} (level 0 within 32 m of the end, seed {})\n", flown.hash, options.seed);
 }
 
-std::optional<std::string> defectOf(const FlightReport& report) {
+std::optional<std::string> defectOf(const Flown& flown) {
+  const FlightReport& report = flown.report;
   if (!report.checked.worst.closed() || report.checked.whole_failures > 0) return "a frame's surface was not closed";
   if (!report.colliders.fit()) return "colliders are not those of what is drawn";
   if (report.digs.frames.max > kMostDigFrames)
     return fmt::format("a dig was drawn {} frames of changes later", report.digs.frames.max);
+  if (flown.measures) return defectOf(*flown.measures);
   return {};
 }
 

@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/flight.h"
+#include "cli/fly_measures.h"
 #include "cli/json.h"
 
 namespace sgm::cli {
@@ -17,6 +18,7 @@ struct Flown {
   uint64_t fields = 0;                               ///< with other parameters, that the world was handed
   uint64_t fields_drawn = 0;                         ///< of them
   sgm_backend_info backend = SGM_BACKEND_INFO_INIT;  ///< at the end
+  std::optional<sgm_world_measures> measures;        ///< at the end, where they were asked for
 };
 
 /// by_distance: of a second flight, with level 0 by distance alone.
@@ -24,6 +26,6 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
 void print(const FlyOptions& options, const Flown& flown, const std::optional<FlightReport>& by_distance);
 
 /// What was not as it is promised; nothing where all was.
-std::optional<std::string> defectOf(const FlightReport& report);
+std::optional<std::string> defectOf(const Flown& flown);
 
 }  // namespace sgm::cli

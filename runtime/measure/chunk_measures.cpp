@@ -1,216 +1,30 @@
 #include "measure/chunk_measures.h"
 
 #include <algorithm>
-#include <bit>
-#include <vector>
 
-#include "measure/chunk_stars.h"
-#include "mesh/feature_kind.h"
-#include "mesh/vertex.h"
+#include "mesh/triangle_terms.h"
 
 namespace sgm::measure {
 namespace {
 
-constexpr int kEnd = kChunkCells * kSubcell;
-constexpr uint8_t kLeftOut = 1 << 6, kIsFeature = 1 << 7;  // beside a vertex's border planes
-
-bool isWithin(const Vertex& v, int lo, int hi) {
-  return std::min({v.x, v.y, v.z}) >= lo && std::max({v.x, v.y, v.z}) <= hi;
+void addPart(const PartMeasures& part, const ChunkGrid& grid, SurfaceSums& sums) {
+  sums.triangles += part.triangles;
+  sums.bytes += part.vertices * sizeof(Vertex) + part.triangles * 3 * sizeof(uint32_t);
+  sums.slivers += part.slivers;
+  sums.against_gradient += part.against_gradient;
+  for (size_t kind = 0; kind < kDefects; ++kind) sums.defects[kind] += part.defects[kind];
+  // A step is a 256th of a cell; all sums of steps are exact in a double, but those of chunks that are full to the
+  // brim.
+  const double step = static_cast<double>(grid.cell) / (kSubcell * kUnitsPerMetre), square = step * step;
+  sums.area += static_cast<double>(part.area) / (2.0 * (1 << kLengthBits)) * square;
+  double about_origin = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double cross = static_cast<double>(part.cross[axis]) * square;
+    sums.area_vector[axis] += cross / 2;
+    about_origin += static_cast<double>(grid.origin[static_cast<int>(axis)]) / kUnitsPerMetre * cross;
+  }
+  sums.flux += (static_cast<double>(part.six_volumes) * square * step + about_origin) / 6;
 }
-
-uint8_t planesOfEdge(const Vertex& v) {
-  return static_cast<uint8_t>((v.x == 0) | (v.x == kEnd) << 1 | (v.y == 0) << 2 | (v.y == kEnd) << 3 | (v.z == 0) << 4 |
-                              (v.z == kEnd) << 5);
-}
-
-/// That of the face which a face vertex belongs to, which it may lie off.
-uint8_t planesOfFeature(const Vertex& v) {
-  if ((v.kind & kFeatureOfCell) != 0) return 0;
-  const int axis = v.kind >> 6 & 3, at = axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-  const int cell = (at >> 8) - ((v.kind >> 2 * axis & 3) - 1);
-  return static_cast<uint8_t>(((cell == 0) | (cell == kChunkCells) << 1) << 2 * axis);
-}
-
-/// Adds one triangle's terms to a part.
-void addTerms(const TriangleTerms& terms, PartMeasures& part) {
-  part.area += fixedRoot(terms.square);
-  part.cross[0] += terms.x;
-  part.cross[1] += terms.y;
-  part.cross[2] += terms.z;
-  part.six_volumes += terms.six_volumes;
-  part.slivers += isSliver(terms);
-}
-
-class BodyMeasurer {
- public:
-  BodyMeasurer(const PartView& body, std::span<const uint64_t> signs, MeasureScratch& scratch, ChunkMeasures& measures)
-      : body_(body),
-        signs_(signs),
-        scratch_(scratch),
-        part_(measures.parts[0]),
-        topology_(measures.topology),
-        planes_(scratch.planes),
-        directions_(scratch.directions),
-        indices_(scratch.indices) {
-    planes_.resize(body.vertices.size());
-    directions_.resize(body.vertices.size());
-    part_ = {};
-    topology_ = {};
-    part_.vertices = static_cast<uint32_t>(body.vertices.size());
-    part_.triangles = static_cast<uint32_t>(body.indices.size() / 3);
-  }
-
-  void run() {
-    lookAtVertices();
-    if (!signs_.empty()) compareWithSamples();
-    addTriangles();
-    if (features_ > 0) joinFeatures();
-    const StarCounts stars = countStars(indices_, planes_, scratch_.stars);
-    topology_.vertices = stars.vertices;
-    topology_.edges = stars.edges;
-    topology_.triangles = static_cast<uint32_t>(indices_.size() / 3);
-    topology_.border_edges = stars.border_edges;
-    count(Defect::duplicate) = stars.duplicate_triangles;
-    count(Defect::open_edge) = stars.open_edges;
-    count(Defect::turned_edge) = stars.turned_edges;
-    count(Defect::nonmanifold_edge) = stars.nonmanifold_edges;
-    count(Defect::pinched_vertex) = stars.pinched_vertices;
-  }
-
- private:
-  uint32_t& count(Defect kind) { return part_.defects[static_cast<size_t>(kind)]; }
-
-  void lookAtVertices() {
-    int last_edge = -1;
-    for (size_t i = 0; i < body_.vertices.size(); ++i) {
-      const Vertex& v = body_.vertices[i];
-      directions_[i] = unfoldNormal(v.normal_x, v.normal_y);
-      if (isFeature(v.kind)) {
-        const bool within = isWithin(v, kLeastPosition, kMostPosition);
-        count(Defect::outside) += !within;
-        planes_[i] = static_cast<uint8_t>(kIsFeature | (within ? planesOfFeature(v) : kLeftOut));
-        ++features_;
-      } else if (isWithin(v, 0, kEnd)) {
-        const bool off_x = (v.x & 255) != 0, off_y = (v.y & 255) != 0, off_z = (v.z & 255) != 0;
-        const int edge = (((v.z >> 8) * kChunkSamples + (v.y >> 8)) * kChunkSamples + (v.x >> 8)) * 3 + (off_x   ? 0
-                                                                                                         : off_y ? 1
-                                                                                                                 : 2);
-        count(Defect::misplaced) += off_x + off_y + off_z != 1 || v.kind != kOwnEdge || edge <= last_edge;
-        last_edge = edge;
-        planes_[i] = planesOfEdge(v);
-      } else {
-        ++count(Defect::outside);
-        planes_[i] = kLeftOut;
-      }
-    }
-  }
-
-  /// Of the edges that start in a row of samples, those whose ends differ, one word an axis.
-  std::array<uint64_t, 3> crossedEdges(size_t row) const {
-    constexpr size_t kSide = kChunkSamples;
-    const bool y_ends = row % kSide == kChunkCells, z_ends = row / kSide == kChunkCells;
-    const uint64_t signs = signs_[row], cells = (uint64_t{1} << kChunkCells) - 1;
-    return {(signs ^ signs >> 1) & cells, y_ends ? 0 : signs ^ signs_[row + 1],
-            z_ends ? 0 : signs ^ signs_[row + kSide]};
-  }
-
-  void compareWithSamples() {
-    uint32_t on_crossed = 0, crossed = 0;
-    for (size_t i = 0; i < body_.vertices.size(); ++i) {
-      if ((planes_[i] & (kLeftOut | kIsFeature)) != 0) continue;
-      const SampleEdge edge = edgeOfBodyVertex(body_.vertices[i]);
-      const auto row = static_cast<size_t>(edge.y + kChunkSamples * edge.z);
-      on_crossed += (crossedEdges(row)[static_cast<size_t>(edge.axis)] >> edge.x & 1) != 0;
-      ++topology_.compared;
-    }
-    for (size_t row = 0; row < signs_.size(); ++row) {
-      for (const uint64_t edges : crossedEdges(row)) crossed += static_cast<uint32_t>(std::popcount(edges));
-    }
-    // Vertices on crossed edges are one an edge, or misplaced.
-    count(Defect::unlike_samples) = topology_.compared - on_crossed + (crossed > on_crossed ? crossed - on_crossed : 0);
-  }
-
-  void addTriangles() {
-    indices_.resize(3 * size_t{part_.triangles});
-    uint32_t* kept = indices_.data();
-    for (size_t at = 0; at + 3 <= body_.indices.size(); at += 3) {
-      const uint32_t a = body_.indices[at] - body_.first_vertex, b = body_.indices[at + 1] - body_.first_vertex,
-                     c = body_.indices[at + 2] - body_.first_vertex;
-      if (std::max({a, b, c}) >= part_.vertices) {
-        ++count(Defect::index);
-        continue;
-      }
-      const unsigned planes = planes_[a] | planes_[b] | planes_[c];
-      if ((planes & kLeftOut) != 0) continue;
-      const TriangleTerms terms = termsOf(body_.vertices[a], body_.vertices[b], body_.vertices[c]);
-      addTerms(terms, part_);
-      if (terms.square == 0) {
-        if (a == b || b == c || c == a) {
-          ++count(Defect::degenerate);
-          continue;
-        }
-        count(Defect::flat) += (planes & kIsFeature) == 0;
-      } else {
-        part_.against_gradient += !facesAlong(terms, directions_[a], directions_[b], directions_[c]);
-      }
-      kept[0] = a;
-      kept[1] = b;
-      kept[2] = c;
-      kept += 3;
-    }
-    indices_.resize(static_cast<size_t>(kept - indices_.data()));
-  }
-
-  /// Feature vertices that a crease has split are one again: of equal place and kind, and so of equal key.
-  void joinFeatures() {
-    const size_t slots = std::bit_ceil(2 * features_);
-    constexpr uint32_t kFree = UINT32_MAX;
-    std::pmr::vector<uint32_t>&table = scratch_.table, &first = scratch_.first;
-    table.assign(slots, kFree);
-    first.resize(body_.vertices.size());
-    const auto word = [&](size_t i) {
-      const Vertex& v = body_.vertices[i];
-      return uint64_t{static_cast<uint16_t>(v.x)} | uint64_t{static_cast<uint16_t>(v.y)} << 16 |
-             uint64_t{static_cast<uint16_t>(v.z)} << 32 | uint64_t{v.kind} << 48;
-    };
-    for (uint32_t i = 0; i < first.size(); ++i) {
-      first[i] = i;
-      if ((planes_[i] & kIsFeature) == 0) continue;
-      // Fibonacci hashing: the product's upper bits are well mixed.
-      size_t slot = static_cast<size_t>((word(i) * 0x9E3779B97F4A7C15u) >> 32) & (slots - 1);
-      while (table[slot] != kFree && word(table[slot]) != word(i)) slot = (slot + 1) & (slots - 1);
-      if (table[slot] == kFree) table[slot] = i;
-      first[i] = table[slot];
-    }
-    for (uint32_t& index : indices_) index = first[index];
-    dropDegenerate();
-  }
-
-  void dropDegenerate() {
-    size_t kept = 0;
-    for (size_t at = 0; at < indices_.size(); at += 3) {
-      const uint32_t a = indices_[at], b = indices_[at + 1], c = indices_[at + 2];
-      if (a == b || b == c || c == a) {
-        ++count(Defect::degenerate);
-        continue;
-      }
-      indices_[kept++] = a;
-      indices_[kept++] = b;
-      indices_[kept++] = c;
-    }
-    indices_.resize(kept);
-  }
-
-  const PartView body_;
-  const std::span<const uint64_t> signs_;
-  MeasureScratch& scratch_;
-  PartMeasures& part_;
-  BodyTopology& topology_;
-  std::pmr::vector<uint8_t>& planes_;
-  std::pmr::vector<PackedDirection>& directions_;
-  std::pmr::vector<uint32_t>& indices_;
-  size_t features_ = 0;
-};
 
 }  // namespace
 
@@ -242,39 +56,37 @@ const char* defectName(Defect defect) {
   return "";
 }
 
-PartView viewOf(const PackedMesh& mesh, size_t part) {
-  const PackedRange& range = mesh.ranges[part];
-  return {std::span(mesh.vertices).subspan(range.first_vertex, range.vertex_count),
-          std::span(mesh.indices).subspan(range.first_index, range.index_count), range.first_vertex};
-}
-
-void measureBody(const PartView& body, std::span<const uint64_t> signs, MeasureScratch& scratch,
-                 ChunkMeasures& measures) {
-  BodyMeasurer(body, signs, scratch, measures).run();
-}
-
-PartMeasures measureSeam(const PartView& seam) {
-  PartMeasures part;
-  part.vertices = static_cast<uint32_t>(seam.vertices.size());
-  part.triangles = static_cast<uint32_t>(seam.indices.size() / 3);
-  const auto outside = [](const Vertex& v) {
-    return isFeature(v.kind) ? !isWithin(v, kLeastPosition, kMostPosition) : !isWithin(v, 0, kEnd);
-  };
-  part.defects[static_cast<size_t>(Defect::outside)] =
-      static_cast<uint32_t>(std::count_if(seam.vertices.begin(), seam.vertices.end(), outside));
-  for (size_t at = 0; at + 3 <= seam.indices.size(); at += 3) {
-    const uint32_t a = seam.indices[at] - seam.first_vertex, b = seam.indices[at + 1] - seam.first_vertex,
-                   c = seam.indices[at + 2] - seam.first_vertex;
-    if (std::max({a, b, c}) >= part.vertices) {
-      ++part.defects[static_cast<size_t>(Defect::index)];
-      continue;
-    }
-    const Vertex &u = seam.vertices[a], &v = seam.vertices[b], &w = seam.vertices[c];
-    if (outside(u) || outside(v) || outside(w)) continue;
-    part.defects[static_cast<size_t>(Defect::degenerate)] += a == b || b == c || c == a;
-    addTerms(termsOf(u, v, w), part);
+void SurfaceSums::add(const ChunkMeasures& chunk, const ChunkGrid& grid, bool body, uint8_t seam_faces) {
+  if (body) {
+    bodies += chunk.parts[0].triangles != 0;
+    for (const uint32_t edges : chunk.topology.border_edges) border_edges += edges;
+    compared += chunk.topology.compared;
+    addPart(chunk.parts[0], grid, *this);
   }
-  return part;
+  for (size_t face = 0; face < 6; ++face) {
+    if (!(seam_faces >> face & 1)) continue;
+    seams += chunk.parts[1 + face].triangles != 0;
+    addPart(chunk.parts[1 + face], grid, *this);
+  }
+}
+
+void SurfaceSums::add(const SurfaceSums& other) {
+  bodies += other.bodies;
+  seams += other.seams;
+  triangles += other.triangles;
+  bytes += other.bytes;
+  slivers += other.slivers;
+  against_gradient += other.against_gradient;
+  border_edges += other.border_edges;
+  compared += other.compared;
+  for (size_t kind = 0; kind < kDefects; ++kind) defects[kind] += other.defects[kind];
+  area += other.area;
+  for (size_t axis = 0; axis < 3; ++axis) area_vector[axis] += other.area_vector[axis];
+  flux += other.flux;
+}
+
+bool SurfaceSums::sound() const {
+  return std::all_of(defects.begin(), defects.end(), [](uint64_t count) { return count == 0; });
 }
 
 }  // namespace sgm::measure

@@ -7,12 +7,8 @@
 
 #include <array>
 #include <cstdint>
-#include <memory_resource>
-#include <span>
 
-#include "measure/chunk_stars.h"
-#include "mesh/packed_mesh.h"
-#include "mesh/triangle_terms.h"
+#include "mesh/chunk.h"
 
 namespace sgm::measure {
 
@@ -44,10 +40,11 @@ struct PartMeasures {
   Defects defects{};
   uint32_t slivers = 0;            ///< triangles of quality below 0.05, flat ones included
   uint32_t against_gradient = 0;   ///< triangles with an area that do not face along their corners' normals
-  uint64_t area = 0;               ///< sum of twice the areas, each rounded to 1/4096 (fixedRoot)
+  int64_t area = 0;                ///< sum of twice the areas, each rounded to 1/4096 (fixedRoot)
   std::array<int64_t, 3> cross{};  ///< sum of the cross products: twice the area vector
   int64_t six_volumes = 0;         ///< six times the flux of x / 3 about the chunk's origin
 
+  friend bool operator==(const PartMeasures&, const PartMeasures&) = default;
   uint32_t defect(Defect kind) const { return defects[static_cast<size_t>(kind)]; }
 };
 
@@ -56,42 +53,15 @@ struct BodyTopology {
   uint32_t vertices = 0, edges = 0, triangles = 0;  ///< of triangles that are neither left out nor degenerate
   std::array<uint32_t, 6> border_edges{};           ///< with one triangle, by the Face that they lie in
   uint32_t compared = 0;                            ///< vertices that were compared with samples
+  friend bool operator==(const BodyTopology&, const BodyTopology&) = default;
   int64_t euler() const { return int64_t{vertices} - edges + triangles; }
 };
 
 struct ChunkMeasures {
   std::array<PartMeasures, 7> parts{};  ///< the body, then the seams by Face; zero where there is none
   BodyTopology topology;
+  friend bool operator==(const ChunkMeasures&, const ChunkMeasures&) = default;
 };
-
-/// A part's vertices, and its triangles, whose indices count from first_vertex.
-struct PartView {
-  std::span<const Vertex> vertices;
-  std::span<const uint32_t> indices;
-  uint32_t first_vertex = 0;
-};
-inline PartView viewOf(const MeshPart& part) { return {part.vertices, part.indices}; }
-PartView viewOf(const PackedMesh& mesh, size_t part);
-
-/// Memory that goes from chunk to chunk: as much as the largest needs, some 40 bytes a triangle. One thread at a time.
-struct MeasureScratch {
-  StarScratch stars;
-  std::pmr::vector<uint8_t> planes;              ///< by vertex: bit (1 << Face), and what else the measurer notes
-  std::pmr::vector<PackedDirection> directions;  ///< by vertex
-  std::pmr::vector<uint32_t> indices;            ///< of triangles that are not left out
-  std::pmr::vector<uint32_t> first, table;       ///< of feature vertices that stand for one
-
-  explicit MeasureScratch(std::pmr::memory_resource* memory)
-      : stars(memory), planes(memory), directions(memory), indices(memory), first(memory), table(memory) {}
-};
-
-/// Measures the body into parts[0] and topology. signs: those of its samples (ChunkSamples::signs), or empty. Fewer
-/// than 2^20 triangles, so that no sum overflows, whatever they are. Some 20 ns a triangle. Throws std::bad_alloc.
-void measureBody(const PartView& body, std::span<const uint64_t> signs, MeasureScratch& scratch,
-                 ChunkMeasures& measures);
-
-/// Likewise a seam, of which only the first two defects, degenerate triangles, area and flux are measured.
-PartMeasures measureSeam(const PartView& seam);
 
 /// Chunks of one or of several levels together.
 struct SurfaceSums {
@@ -109,6 +79,7 @@ struct SurfaceSums {
   void add(const ChunkMeasures& chunk, const ChunkGrid& grid, bool body, uint8_t seam_faces);
   void add(const SurfaceSums& other);
   bool sound() const;  ///< without a defect
+  friend bool operator==(const SurfaceSums&, const SurfaceSums&) = default;
 };
 
 }  // namespace sgm::measure

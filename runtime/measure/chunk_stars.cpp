@@ -17,7 +17,7 @@ class StarCounter {
         nodes_(scratch.first.get_allocator()),
         opposite_(scratch.first.get_allocator()) {
     first_.assign(planes.size() + 1, 0);
-    seen_.assign(planes.size(), {kNobody, 0});
+    seen_.assign(planes.size(), kNobody);
     if (corners_.size() < indices.size()) corners_.resize(indices.size());
     sortCorners(indices);
   }
@@ -28,7 +28,14 @@ class StarCounter {
       const std::span star(corners_.data() + first_[v], corners_.data() + first_[v + 1]);
       if (star.empty()) continue;
       ++counts_.vertices;
-      ends += isCycle(v, star) ? star.size() : countStar(v, star);
+      const bool simple = meet(v, star);
+      if (simple && isCycle(v, star)) {
+        ends += star.size();
+      } else if (simple && isPath(v, star)) {
+        ends += star.size() + 1;
+      } else {
+        ends += countStar(v, star);
+      }
     }
     // Each edge was met at both of its ends.
     counts_.edges = static_cast<uint32_t>(ends / 2);
@@ -36,8 +43,9 @@ class StarCounter {
   }
 
  private:
-  static constexpr uint32_t kNobody = UINT32_MAX;
-  using Seen = StarScratch::Seen;
+  static constexpr uint64_t kNobody = UINT64_MAX;
+  /// One word, since what is written in two is slow to read as one.
+  static uint64_t seenBy(uint32_t v, uint32_t place) { return uint64_t{v} << 32 | place; }
   /// An edge from the vertex in question, as a node of its link.
   struct Node {
     uint32_t vertex, parent, out, in;
@@ -57,23 +65,54 @@ class StarCounter {
     }
   }
 
-  /// Whether the star is one closed fan, each edge with two triangles in opposite directions: nearly all of them.
-  bool isCycle(uint32_t v, std::span<const Corner> star) {
-    bool once = star.size() >= 3;
+  /// Notes who comes next at each corner; whether each does so once.
+  bool meet(uint32_t v, std::span<const Corner> star) {
+    bool once = true;
     for (uint32_t i = 0; i < star.size(); ++i) {
-      Seen& seen = seen_[star[i].next];
-      once &= seen.by != v;
-      seen = {v, i};
+      uint64_t& seen = seen_[star[i].next];
+      once &= seen >> 32 != v;
+      seen = seenBy(v, i);
     }
-    if (!once) return false;
+    return once;
+  }
+
+  /// Whether the star is one closed fan, each edge with two triangles in opposite directions: nearly all of them.
+  /// Precondition: meet().
+  bool isCycle(uint32_t v, std::span<const Corner> star) {
+    if (star.size() < 3) return false;
     uint32_t at = 0;
     for (size_t steps = star.size(); steps != 0; --steps) {
-      const Seen seen = seen_[star[at].previous];
-      if (seen.by != v) return false;
-      at = seen.place;
+      const uint64_t seen = seen_[star[at].previous];
+      if (seen >> 32 != v) return false;
+      at = static_cast<uint32_t>(seen);
       if (at == 0) return steps == 1;
     }
     return false;
+  }
+
+  /// Whether the star is one open fan; then the edges at its ends are counted. Precondition: meet().
+  bool isPath(uint32_t v, std::span<const Corner> star) {
+    // The one that nobody leads to is what the others' places lack to the sum of all.
+    size_t start = star.size() * (star.size() - 1) / 2, matched = 0;
+    for (const Corner& corner : star) {
+      const uint64_t seen = seen_[corner.previous];
+      if (seen >> 32 != v) continue;
+      start -= static_cast<uint32_t>(seen);
+      ++matched;
+    }
+    if (matched + 1 != star.size() || start >= star.size()) return false;
+    size_t at = start;
+    for (size_t steps = 1; steps < star.size(); ++steps) {
+      const uint64_t seen = seen_[star[at].previous];
+      if (seen >> 32 != v) return false;
+      at = static_cast<uint32_t>(seen);
+    }
+    // Who comes to an end has met none twice.
+    if (seen_[star[at].previous] >> 32 == v) return false;
+    for (const uint32_t end : {star[start].next, star[at].previous}) {
+      if (end > v) countOpen(v, end);
+    }
+    return true;
   }
 
   uint32_t rootOf(uint32_t node) {
@@ -82,13 +121,14 @@ class StarCounter {
   }
 
   uint32_t nodeOf(uint32_t v, uint32_t other) {
-    Seen& seen = seen_[other];
+    uint64_t& seen = seen_[other];
     const uint32_t mark = v | uint32_t{1} << 31;  // not that of isCycle
-    if (seen.by != mark) {
-      seen = {mark, static_cast<uint32_t>(nodes_.size())};
-      nodes_.push_back({other, seen.place, 0, 0});
+    if (seen >> 32 != mark) {
+      const auto place = static_cast<uint32_t>(nodes_.size());
+      seen = seenBy(mark, place);
+      nodes_.push_back({other, place, 0, 0});
     }
-    return seen.place;
+    return static_cast<uint32_t>(seen);
   }
 
   /// Any star; how many edges it has.
@@ -117,15 +157,19 @@ class StarCounter {
     return nodes_.size();
   }
 
+  void countOpen(uint32_t v, uint32_t other) {
+    const uint32_t shared = planes_[v] & planes_[other] & 63u;
+    if (shared != 0) {
+      ++counts_.border_edges[static_cast<size_t>(std::countr_zero(shared))];
+    } else {
+      ++counts_.open_edges;
+    }
+  }
+
   void countEdge(uint32_t v, const Node& node) {
     const uint32_t triangles = node.out + node.in;
     if (triangles == 1) {
-      const uint32_t shared = planes_[v] & planes_[node.vertex] & 63u;
-      if (shared != 0) {
-        ++counts_.border_edges[static_cast<size_t>(std::countr_zero(shared))];
-      } else {
-        ++counts_.open_edges;
-      }
+      countOpen(v, node.vertex);
     } else if (triangles == 2) {
       counts_.turned_edges += node.out != 1;
     } else {
@@ -136,7 +180,7 @@ class StarCounter {
   std::span<const uint8_t> planes_;
   std::pmr::vector<uint32_t>& first_;
   std::pmr::vector<Corner>& corners_;
-  std::pmr::vector<Seen>& seen_;
+  std::pmr::vector<uint64_t>& seen_;
   std::pmr::vector<Node> nodes_;
   std::pmr::vector<uint64_t> opposite_;
   StarCounts counts_;

@@ -27,13 +27,9 @@ struct Corner {
 
 /// Memory that goes from chunk to chunk: fresh pages would take longer than what is done in them. One thread at a time.
 struct StarScratch {
-  /// Which vertex has met this one last, and where in its star.
-  struct Seen {
-    uint32_t by, place;
-  };
   std::pmr::vector<uint32_t> first;  ///< of a vertex's corners
   std::pmr::vector<Corner> corners;
-  std::pmr::vector<Seen> seen;
+  std::pmr::vector<uint64_t> seen;  ///< by vertex: which other has met it last, and below where in its star
 
   explicit StarScratch(std::pmr::memory_resource* memory) : first(memory), corners(memory), seen(memory) {}
 };

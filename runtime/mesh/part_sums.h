@@ -12,7 +12,7 @@ namespace sgm {
 /// Lengths are in 1/256 of the chunk's cell, from the chunk's origin.
 struct PartSums {
   uint32_t triangles = 0;
-  uint64_t area = 0;               ///< sum of twice the areas, each in 1/4096 (fixedRoot in triangle_terms.h)
+  int64_t area = 0;                ///< sum of twice the areas, each in 1/4096 (fixedRoot in triangle_terms.h)
   std::array<int64_t, 3> cross{};  ///< sum of the cross products: twice the area vector
   int64_t six_volumes = 0;         ///< six times the flux of x / 3 about the chunk's origin
 

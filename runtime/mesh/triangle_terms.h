@@ -27,26 +27,25 @@ SGM_KERNEL PackedDirection unfoldNormal(int32_t x, int32_t y) {
           static_cast<int16_t>(z)};
 }
 
-/// The square root, rounded to the nearest integer. x < 2^62.
-SGM_KERNEL uint64_t roundedRoot(uint64_t x) {
+/// The square root, rounded to the nearest integer. 0 <= x < 2^62.
+SGM_KERNEL int64_t roundedRoot(int64_t x) {
   // The double is at most one off, in either direction.
-  auto root = static_cast<uint64_t>(std::sqrt(static_cast<double>(static_cast<int64_t>(x))));
-  root -= root * root > x ? 1 : 0;
-  root += (root + 1) * (root + 1) <= x ? 1 : 0;
-  return root + (x - root * root > root ? 1 : 0);
+  const auto root = static_cast<int64_t>(std::sqrt(static_cast<double>(x)) + 0.5);
+  const int64_t square = root * root;
+  return root + (x > square + root ? 1 : 0) - (x <= square - root && root != 0 ? 1 : 0);
 }
 
 inline constexpr int kLengthBits = 12;
 
 /// sqrt(square) in 1/4096, each step rounded to nearest: to 1/8192 below 2^38, where all triangles of a few cells are.
-SGM_KERNEL uint64_t fixedRoot(uint64_t square) {
-  const int bits = square < uint64_t{1} << 38 ? kLengthBits : square < uint64_t{1} << 50 ? kLengthBits / 2 : 0;
+SGM_KERNEL int64_t fixedRoot(int64_t square) {
+  const int bits = square < int64_t{1} << 38 ? kLengthBits : square < int64_t{1} << 50 ? kLengthBits / 2 : 0;
   return roundedRoot(square << 2 * bits) << (kLengthBits - bits);
 }
 
 struct TriangleTerms {
   int32_t x, y, z;      ///< the cross product of two sides: twice the area along the normal
-  uint64_t square;      ///< of its length
+  int64_t square;       ///< of its length
   uint32_t sides;       ///< sum of the squared sides
   int64_t six_volumes;  ///< of the tetrahedron with the chunk's origin
 };
@@ -60,7 +59,7 @@ SGM_KERNEL TriangleTerms termsOf(const Vertex& a, const Vertex& b, const Vertex&
   t.x = uy * vz - uz * vy;
   t.y = uz * vx - ux * vz;
   t.z = ux * vy - uy * vx;
-  t.square = static_cast<uint64_t>(int64_t{t.x} * t.x + int64_t{t.y} * t.y + int64_t{t.z} * t.z);
+  t.square = int64_t{t.x} * t.x + int64_t{t.y} * t.y + int64_t{t.z} * t.z;
   t.sides = static_cast<uint32_t>(ux * ux + uy * uy + uz * uz) + static_cast<uint32_t>(vx * vx + vy * vy + vz * vz) +
             static_cast<uint32_t>(wx * wx + wy * wy + wz * wz);
   t.six_volumes = int64_t{a.x} * t.x + int64_t{a.y} * t.y + int64_t{a.z} * t.z;
@@ -70,7 +69,7 @@ SGM_KERNEL TriangleTerms termsOf(const Vertex& a, const Vertex& b, const Vertex&
 /// Whether its quality, 4 sqrt(3) area / sides, is below 0.05 (kSliver in mesh_measures.h): 4800 square < sides^2.
 SGM_KERNEL bool isSliver(const TriangleTerms& t) {
   // Both by 64, so that the products fit.
-  return 75 * t.square < (uint64_t{t.sides} * t.sides + 63) >> 6;
+  return 75 * t.square < (int64_t{t.sides} * t.sides + 63) >> 6;
 }
 
 /// Whether it faces where its corners' normals point, all together.

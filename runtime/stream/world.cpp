@@ -354,7 +354,8 @@ QueryField World::queryField(int level) const {
           now.field->settings().finest_cell, now.field->memory(), !now.field->settings().hosts.empty()};
 }
 
-WorldMeasures World::measures() const {
+std::optional<WorldMeasures> World::measures() const {
+  if (!core_->settings.measure) return std::nullopt;
   WorldMeasures measures;
   std::shared_ptr<const DrawnFrame> frame;
   {

@@ -138,8 +138,8 @@ class World {
 
   WorldStats stats() const;
 
-  /// Of now; all zero where the settings do not ask for it. Takes some microseconds a hundred drawn chunks.
-  WorldMeasures measures() const;
+  /// Of now; nothing where the settings do not ask for it. Takes some microseconds a hundred drawn chunks.
+  std::optional<WorldMeasures> measures() const;
 
  private:
   World(std::unique_ptr<WorldCore> core, JobSystem& jobs);

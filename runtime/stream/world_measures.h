@@ -5,7 +5,7 @@
 #include <mutex>
 #include <vector>
 
-#include "measure/chunk_measures.h"
+#include "measure/measure_chunk.h"
 #include "stream/chunk_surface.h"
 #include "stream/drawn_frame.h"
 

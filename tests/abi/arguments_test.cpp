@@ -452,6 +452,11 @@ TEST_CASE("chunk calls are checked") {
               [&](sgm_mesh_view* view) { return sgm_mesh_get_view(mesh, view, &error); });
   sgm_mesh_view view = SGM_MESH_VIEW_INIT;
   CHECK(sgm_mesh_get_view(nullptr, &view, &error) == SGM_ERR_INVALID_ARGUMENT);
+  checkStruct(sgm_mesh_measures SGM_MESH_MEASURES_INIT,
+              [&](sgm_mesh_measures* measures) { return sgm_mesh_get_measures(mesh, 0, measures, &error); });
+  sgm_mesh_measures measures = SGM_MESH_MEASURES_INIT;
+  CHECK(sgm_mesh_get_measures(nullptr, 0, &measures, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_mesh_get_measures(mesh, 0, &measures, &error) == SGM_ERR_UNSUPPORTED);
   size_t vertices = 0, indices = 0;
   CHECK(sgm_mesh_copy(nullptr, nullptr, 0, &vertices, nullptr, 0, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_mesh_copy(mesh, nullptr, 0, nullptr, nullptr, 0, &indices, &error) == SGM_ERR_INVALID_ARGUMENT);
@@ -606,7 +611,7 @@ TEST_CASE("world calls are checked") {
   CHECK(with([](auto& d) { d.top_level = -1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.top_level = SGM_MAX_LEVEL + 1; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.top_level = 15; }) == SGM_ERR_RANGE);
-  CHECK(with([](auto& d) { d.flags = 32; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.flags = 64; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.flags = SGM_WORLD_RESIDENT; }) == SGM_ERR_UNSUPPORTED);
   CHECK(with([](auto& d) { d.finest_distance = 0; }) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(with([](auto& d) { d.view_distance = kNaN; }) == SGM_ERR_INVALID_ARGUMENT);
@@ -713,4 +718,9 @@ TEST_CASE("world calls are checked") {
               [&](sgm_world_stats* stats) { return sgm_world_get_stats(world, stats, &error); });
   sgm_world_stats stats = SGM_WORLD_STATS_INIT;
   CHECK(sgm_world_get_stats(nullptr, &stats, &error) == SGM_ERR_INVALID_ARGUMENT);
+  checkStruct(sgm_world_measures SGM_WORLD_MEASURES_INIT,
+              [&](sgm_world_measures* measures) { return sgm_world_get_measures(world, measures, &error); });
+  sgm_world_measures measures = SGM_WORLD_MEASURES_INIT;
+  CHECK(sgm_world_get_measures(nullptr, &measures, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_get_measures(world, &measures, &error) == SGM_ERR_UNSUPPORTED);
 }

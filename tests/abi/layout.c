@@ -101,6 +101,19 @@ CHECK(meshing_sharp, SGM_MESHING_SHARP == 2);
 CHECK(meshing_flag_width, SGM_MESHING_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(host_cut, SGM_HOST_CUT == 1);
 CHECK(host_width, SGM_HOST_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
+CHECK(defect_index, SGM_DEFECT_INDEX == 0);
+CHECK(defect_outside, SGM_DEFECT_OUTSIDE == 1);
+CHECK(defect_misplaced, SGM_DEFECT_MISPLACED == 2);
+CHECK(defect_samples, SGM_DEFECT_SAMPLES == 3);
+CHECK(defect_degenerate, SGM_DEFECT_DEGENERATE == 4);
+CHECK(defect_flat, SGM_DEFECT_FLAT == 5);
+CHECK(defect_duplicate, SGM_DEFECT_DUPLICATE == 6);
+CHECK(defect_open_edge, SGM_DEFECT_OPEN_EDGE == 7);
+CHECK(defect_turned_edge, SGM_DEFECT_TURNED_EDGE == 8);
+CHECK(defect_nonmanifold_edge, SGM_DEFECT_NONMANIFOLD_EDGE == 9);
+CHECK(defect_pinched_vertex, SGM_DEFECT_PINCHED_VERTEX == 10);
+CHECK(defect_force_32_bit, SGM_DEFECT_FORCE_32_BIT == 0x7FFFFFFF);
+CHECK(world_measure, SGM_WORLD_MEASURE == 32);
 CHECK(world_flag_force_32_bit, SGM_WORLD_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(event_ready, SGM_EVENT_READY == 0);
 CHECK(event_shown, SGM_EVENT_SHOWN == 1);
@@ -641,6 +654,37 @@ PLACE(sgm_world_stats, cache_misses, 208);
 PLACE(sgm_world_stats, cache_damaged, 216);
 PLACE(sgm_world_stats, cache_bytes, 224);
 
+SIZE(sgm_chunk_sums, 232);
+PLACE(sgm_chunk_sums, bodies, 0);
+PLACE(sgm_chunk_sums, seams, 8);
+PLACE(sgm_chunk_sums, triangles, 16);
+PLACE(sgm_chunk_sums, bytes, 24);
+PLACE(sgm_chunk_sums, sliver_triangles, 32);
+PLACE(sgm_chunk_sums, against_normals, 40);
+PLACE(sgm_chunk_sums, border_edges, 48);
+PLACE(sgm_chunk_sums, compared, 56);
+PLACE(sgm_chunk_sums, defects, 64);
+PLACE(sgm_chunk_sums, area, 192);
+PLACE(sgm_chunk_sums, area_vector, 200);
+PLACE(sgm_chunk_sums, flux, 224);
+
+SIZE(sgm_world_measures, 496);
+PLACE(sgm_world_measures, struct_size, 0);
+PLACE(sgm_world_measures, next, 8);
+PLACE(sgm_world_measures, drawn, 16);
+PLACE(sgm_world_measures, made, 248);
+PLACE(sgm_world_measures, measuring_seconds, 480);
+PLACE(sgm_world_measures, meshing_seconds, 488);
+
+SIZE(sgm_mesh_measures, 320);
+PLACE(sgm_mesh_measures, struct_size, 0);
+PLACE(sgm_mesh_measures, next, 8);
+PLACE(sgm_mesh_measures, sums, 16);
+PLACE(sgm_mesh_measures, vertices, 248);
+PLACE(sgm_mesh_measures, edges, 256);
+PLACE(sgm_mesh_measures, euler, 264);
+PLACE(sgm_mesh_measures, border_edges, 272);
+
 /* Every _INIT macro fills its struct, in both languages, without a warning. */
 int LAYOUT_INITS(void) {
   const sgm_error error = SGM_ERROR_INIT;
@@ -674,6 +718,9 @@ int LAYOUT_INITS(void) {
   const sgm_brush brush = SGM_BRUSH_INIT;
   const sgm_viewer viewer = SGM_VIEWER_INIT;
   const sgm_world_stats world_stats = SGM_WORLD_STATS_INIT;
+  const sgm_chunk_sums chunk_sums = SGM_CHUNK_SUMS_INIT;
+  const sgm_world_measures world_measures = SGM_WORLD_MEASURES_INIT;
+  const sgm_mesh_measures mesh_measures = SGM_MESH_MEASURES_INIT;
   return error.code == SGM_OK && runtime_desc.struct_size == sizeof(runtime_desc) && runtime_desc.next == SGM_NULL &&
          backend_info.struct_size == sizeof(backend_info) && backend_info.next == SGM_NULL &&
          grammar_desc.struct_size == sizeof(grammar_desc) && grammar_desc.next == SGM_NULL &&
@@ -699,5 +746,8 @@ int LAYOUT_INITS(void) {
          density_desc.struct_size == sizeof(density_desc) && density_desc.next == SGM_NULL &&
          collider_view.struct_size == sizeof(collider_view) && collider_view.next == SGM_NULL && brush.cut == 1 &&
          world_desc.struct_size == sizeof(world_desc) && world_desc.next == SGM_NULL && viewer.fov == 0.0f &&
-         viewer.weight > 0.5f && world_stats.struct_size == sizeof(world_stats) && world_stats.next == SGM_NULL;
+         viewer.weight > 0.5f && world_stats.struct_size == sizeof(world_stats) && world_stats.next == SGM_NULL &&
+         chunk_sums.defects[15] == 0 && world_measures.struct_size == sizeof(world_measures) &&
+         world_measures.next == SGM_NULL && mesh_measures.struct_size == sizeof(mesh_measures) &&
+         mesh_measures.next == SGM_NULL;
 }

@@ -1,5 +1,6 @@
 // A streamed world through the C interface alone, as an engine uses it.
 
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -252,6 +253,60 @@ TEST_CASE("worlds have sharp features where they are asked for, at every level")
     CHECK((levels.size() > 1) == (flags != 0));
     CHECK((!levels.empty()) == (flags != 0));
   }
+}
+
+TEST_CASE("a world that measures gives sums of what it draws, and each chunk's own measures", "[threads]") {
+  const RuntimeOwner runtime = makeRuntime();
+  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
+  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+  desc.top_level = 3;
+  desc.finest_distance = 10;
+  desc.view_distance = 60;
+  desc.flags = SGM_WORLD_MEASURE;
+  sgm_world* made = nullptr;
+  REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
+  const WorldOwner world(made);
+  look(world.get(), 0);
+  REQUIRE(sgm_world_wait_idle(world.get(), nullptr, nullptr, nullptr) == SGM_OK);
+  sgm_world_measures measures = SGM_WORLD_MEASURES_INIT;
+  REQUIRE(sgm_world_get_measures(world.get(), &measures, nullptr) == SGM_OK);
+
+  size_t count = 0;
+  REQUIRE(sgm_world_get_drawn(world.get(), nullptr, 0, &count, nullptr) == SGM_OK);
+  std::vector<sgm_drawn_chunk> chunks(count);
+  REQUIRE(sgm_world_get_drawn(world.get(), chunks.data(), 0, &count, nullptr) == SGM_OK);
+  double area = 0, flux = 0;
+  uint64_t triangles = 0;
+  for (const sgm_drawn_chunk& chunk : chunks) {
+    const MeshOwner mesh(chunk.mesh);
+    sgm_mesh_measures of_chunk = SGM_MESH_MEASURES_INIT;
+    REQUIRE(sgm_mesh_get_measures(chunk.mesh, chunk.seams, &of_chunk, nullptr) == SGM_OK);
+    const sgm_mesh_view view = viewOf(mesh);
+    CHECK(of_chunk.vertices == view.body.vertex_count);
+    uint64_t border = 0;
+    for (const uint64_t edges : of_chunk.border_edges) border += edges;
+    CHECK(of_chunk.sums.border_edges == border);
+    // Each triangle has three ends of edges, and an edge in the border one triangle.
+    CHECK(2 * of_chunk.edges == view.body.index_count + border);
+    area += of_chunk.sums.area;
+    flux += of_chunk.sums.flux;
+    triangles += of_chunk.sums.triangles;
+    for (const uint64_t defects : of_chunk.sums.defects) CHECK(defects == 0);
+    CHECK(sgm_mesh_get_measures(chunk.mesh, 64, &of_chunk, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+  }
+  CHECK(triangles > 1000);
+  CHECK(measures.drawn.triangles == triangles);
+  CHECK(std::fabs(measures.drawn.area - area) < 1e-9 * area);
+  CHECK(std::fabs(measures.drawn.flux - flux) < 1e-9 * flux);
+  // Balls of 7 m, at levels where these are rough: the area and the volume of whole ones.
+  CHECK(measures.drawn.flux > 0);
+  CHECK(measures.drawn.area / measures.drawn.flux > 3.0 / 7 * 0.9);
+  CHECK(measures.drawn.area / measures.drawn.flux < 3.0 / 7 * 1.4);
+  for (const double component : measures.drawn.area_vector) CHECK(std::fabs(component) < 1e-9 * area);
+  CHECK(measures.made.triangles >= triangles);
+  for (const uint64_t defects : measures.made.defects) CHECK(defects == 0);
+  CHECK(measures.measuring_seconds > 0);
+  CHECK(measures.meshing_seconds > 0);
 }
 
 TEST_CASE("another field takes a world's place, and only what it changes is meshed again", "[threads]") {

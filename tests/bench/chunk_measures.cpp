@@ -13,7 +13,7 @@
 
 #include "grammar/compile.h"
 #include "measure.h"
-#include "measure/chunk_measures.h"
+#include "measure/measure_chunk.h"
 #include "stream/mesh_chunks.h"
 
 namespace {

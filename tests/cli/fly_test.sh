@@ -47,6 +47,19 @@ expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --path path.json --frames 1 --to
 out_has "over before anything was drawn"
 err_empty
 
+# Every chunk measured, of a cave that is dug into and of crisp edges: nothing is wrong, and what is drawn is closed.
+sound='Object.values(j.measures.made.defects).length === 11'
+sound+=' && Object.values(j.measures.made.defects).every((n) => n === 0)'
+sound+=' && j.measures.made.bodies >= j.measures.drawn.bodies && j.measures.drawn.bodies > 10'
+sound+=' && j.measures.drawn.area > 100 && j.measures.drawn.area_vector.every((a) => Math.abs(a) < 1e-6)'
+sound+=' && j.measures.measuring_seconds > 0 && j.measures.meshing_seconds > 0'
+expect 0 "$SGM" fly "$cave" "${small[@]}" --speed 20 --frames 200 --edits 5 --measure
+json "$sound && j.measures.made.compared > 0"
+expect 0 "$SGM" fly "$SOURCE/samples/grammars/building.sgm" --sharp "${small[@]}" --speed 20 --frames 200 --measure
+json "$sound"
+expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --frames 100 --unpaced --top-level 3 --view 60 --measure
+out_has 'nothing wrong'
+
 # Crisp edges at every level, dug into.
 expect 0 "$SGM" fly "$SOURCE/samples/grammars/building.sgm" --sharp --cell 0.5 --seed 3 --speed 20 --frames 1000 \
   --finest 12 --top-level 3 --view 60 --check --edits 5 --unpaced --json

@@ -14,14 +14,14 @@ uint32_t partOf(const BatchPlan::Chunk& planned, size_t number) {
   return number == 0 ? planned.body : planned.seams[number - 1];
 }
 
-uint64_t wideOf(const uint32_t (&words)[2]) { return words[0] | uint64_t{words[1]} << 32; }
+int64_t wideOf(const uint32_t (&words)[2]) { return static_cast<int64_t>(words[0] | uint64_t{words[1]} << 32); }
 
 PartSums sumsOf(const batch::Part& part, const batch::Sums& made) {
   PartSums sums;
   sums.triangles = part.indices / 3;
   sums.area = wideOf(made.area);
-  for (size_t axis = 0; axis < 3; ++axis) sums.cross[axis] = static_cast<int64_t>(wideOf(made.cross[axis]));
-  sums.six_volumes = static_cast<int64_t>(wideOf(made.six_volumes));
+  for (size_t axis = 0; axis < 3; ++axis) sums.cross[axis] = wideOf(made.cross[axis]);
+  sums.six_volumes = wideOf(made.six_volumes);
   return sums;
 }
 

@@ -1,0 +1,44 @@
+#pragma once
+// Measures a chunk as it is meshed (chunk_measures.h).
+
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "measure/chunk_measures.h"
+#include "measure/chunk_stars.h"
+#include "mesh/packed_mesh.h"
+#include "mesh/triangle_terms.h"
+
+namespace sgm::measure {
+
+/// A part's vertices, and its triangles, whose indices count from first_vertex.
+struct PartView {
+  std::span<const Vertex> vertices;
+  std::span<const uint32_t> indices;
+  uint32_t first_vertex = 0;
+};
+inline PartView viewOf(const MeshPart& part) { return {part.vertices, part.indices}; }
+PartView viewOf(const PackedMesh& mesh, size_t part);
+
+/// Memory that goes from chunk to chunk: as much as the largest needs, some 40 bytes a triangle. One thread at a time.
+struct MeasureScratch {
+  StarScratch stars;
+  std::pmr::vector<uint8_t> planes;              ///< by vertex: bit (1 << Face), and what else the measurer notes
+  std::pmr::vector<PackedDirection> directions;  ///< by vertex
+  std::pmr::vector<uint32_t> indices;            ///< of triangles that are not left out
+  std::pmr::vector<uint32_t> first, table;       ///< of feature vertices that stand for one
+
+  explicit MeasureScratch(std::pmr::memory_resource* memory)
+      : stars(memory), planes(memory), directions(memory), indices(memory), first(memory), table(memory) {}
+};
+
+/// Measures the body into parts[0] and topology. signs: those of its samples (ChunkSamples::signs), or empty. Fewer
+/// than 2^20 triangles, so that no sum overflows, whatever they are. Some 20 ns a triangle. Throws std::bad_alloc.
+void measureBody(const PartView& body, std::span<const uint64_t> signs, MeasureScratch& scratch,
+                 ChunkMeasures& measures);
+
+/// Likewise a seam, of which only the first two defects, degenerate triangles, area and flux are measured.
+PartMeasures measureSeam(const PartView& seam);
+
+}  // namespace sgm::measure
