@@ -117,12 +117,18 @@ Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell) 
                        {"beyond_bound", d.atLeast() > bound},
                        {"triangles", {found.fine_triangles, found.coarse_triangles}},
                        {"left_out", {found.fine_left_out, found.coarse_left_out}}});
+  const std::string pair = fmt::format("{} and {}: ", fine, fine + 1);
+  if (found.fine_triangles + found.coarse_triangles == 0) {
+    section.text = lineOf("levels", pair + "no triangle is away from the region's cut: take a larger region");
+    return section;
+  }
   section.text = lineOf(
-      "levels", fmt::format("{} and {}: {:.4g} to {:.4g} m apart, {:.3g} to {:.3g} cells of {} m{}", fine, fine + 1,
-                            d.atLeast(), d.atMost(), d.atLeast() / cell, d.atMost() / cell, cell,
-                            d.atLeast() > bound
-                                ? fmt::format(": more than the {:.3g} of a field without detail by level", kLevelBound)
-                                : ""));
+      "levels",
+      pair + fmt::format("{:.4g} to {:.4g} m apart, {:.3g} to {:.3g} cells of {} m{}", d.atLeast(), d.atMost(),
+                         d.atLeast() / cell, d.atMost() / cell, cell,
+                         d.atLeast() > bound
+                             ? fmt::format(": more than the {:.3g} of a field without detail by level", kLevelBound)
+                             : ""));
   section.text += lineOf("", "to the coarse one " + oneSidedText(d.there));
   section.text += lineOf("", "to the fine one " + oneSidedText(d.back));
   if (found.fine_left_out + found.coarse_left_out > 0) {

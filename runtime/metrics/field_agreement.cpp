@@ -24,8 +24,8 @@ constexpr double kBend = 0.25;
 /// Of a field that a distance could be read from.
 constexpr double kLeastGradient = 1e-6;
 
-/// A sixteenth of a cell; not so little that the whole units in which warped places are counted would show in it.
-int32_t stepFor(int32_t cell) { return std::max(cell / 16, std::min(8, std::max(cell / 2, 1))); }
+/// An eighth of a cell; not so little that the whole units in which warped places are counted would show in it.
+int32_t stepFor(int32_t cell) { return std::max(cell / 8, std::min(16, std::max(cell / 2, 1))); }
 
 /// A vertex in units, and the whole place beside it.
 struct Place {

@@ -33,7 +33,7 @@ json 'j.histogram.edges === j.edges && j.self_intersections === null && Math.abs
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --field --json
 json 'j.valid && j.field.vertices === j.points && j.field.normals.count === j.points && j.field.in_creases === 0'
 json 'j.field.normals.inward === 0 && j.field.normals.outward === 1 && j.field.normals.p99 < 0.1 && j.field.faces.median < 5'
-json 'j.field.step === 1 / 64 && j.field.residual.max < 0.25 * 0.25 / 8 / 3 + 0.25 / 256'
+json 'j.field.step === 1 / 32 && j.field.residual.max < 0.25 * 0.25 / 8 / 3 + 0.25 / 256'
 json 'Math.abs(j.field.residual.max / 0.25 - j.field.residual.max_cells) < 1e-9 && j.field.residual.p99 <= j.field.residual.max'
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --field
 out_has 'normals +0 of [0-9]+ inward'

@@ -72,7 +72,7 @@ TEST_CASE("normals are the gradient, and vertices lie on the surface") {
                              "union smooth 2m { sphere(4m); at(5m, 1m, 0) sphere(3m); }"}) {
     const FieldAgreement found = agreementOf(shapes, 0.125);
     CAPTURE(shapes, found.normals.p99, found.normals.greatest, found.faces.p99, found.residual_max);
-    CHECK(found.step == 8);
+    CHECK(found.step == 16);
     CHECK(found.vertices > 10'000);
     CHECK(found.flat == 0);
     CHECK(found.bent == 0);
@@ -199,7 +199,7 @@ TEST_CASE("coarse levels and places far out are measured by their own field and 
       const WorldMesh mesh = meshed.meshed(cube(64 * std::floor(at / 64), 64 * std::floor(at / 64) + 64), level).mesh;
       const FieldAgreement found = agreementOf(meshed, mesh, level);
       CAPTURE(at, level, found.normals.greatest, found.residual_max);
-      CHECK(found.step == (level == 0 ? 16 : 64));
+      CHECK(found.step == (level == 0 ? 32 : 128));
       CHECK(found.vertices > 500);
       CHECK(found.normals.inward == 0);
       CHECK(found.normals.greatest < 0.1);
