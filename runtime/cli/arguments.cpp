@@ -278,6 +278,22 @@ Command addMeasure(CLI::App& root) {
       ->check(numberIn(1e-9, 1e9));
   app->add_flag("--no-self-intersections", options->no_self_intersections,
                 "Do not look for triangles that cut each other: about half of the time");
+  app->add_option("--against", options->against,
+                  "Also how far this mesh file's surface lies from it, both ways (Hausdorff distance)")
+      ->type_name("FILE");
+  app->add_option("--texels", options->texels,
+                  "Also how many texels of a texture of this resolution (1024) lie on a unit of length, and how "
+                  "evenly; a grammar's tiles are of 1 m")
+      ->type_name("TEXELS")
+      ->expected(0, 1)
+      ->default_str("1024")
+      ->check(numberIn(1.0, 1e6));
+  app->add_flag("--field", options->field,
+                "Also the angles of normals to the field's gradient, and the field at the vertices; of a grammar");
+  app->add_option("--levels", options->levels,
+                  "Also how far so many levels, from --level on, lie from the next coarser ones; of a grammar")
+      ->type_name("N")
+      ->check(CLI::Range(1, kMaxLevel));
   addProcessLimits(*app, *options);
   addDerivationOptions(*app, *options);
   addRegionOptions(*app, *options);
@@ -287,8 +303,15 @@ Command addMeasure(CLI::App& root) {
       "Lengths are in the file's unit, metres in .glb files and grammars. A mesh file is read and measured in a "
       "process\n"
       "of its own, which --memory and --seconds limit. --seed to --sharp are for grammars.\n"
+      "Distances are bounded from both sides: from vertices and four places a triangle, and by cutting triangles until "
+      "no\n"
+      "part may be farther. Of levels, triangles near the cut of a region are left out. Where the field has no detail "
+      "by\n"
+      "level and nothing thinner than a cell, levels are at most 2.6 coarse cells apart, smooth ones far less.\n"
+      "Gradients are differences of the field in double precision; vertices in its creases have no angle.\n"
       "Exit status 0 also where the mesh is not valid: \"valid\" and \"problems\" in --json say so.\n"
-      "Example:\n  sgm measure cave.glb --json\n  sgm measure samples/grammars/sphere.sgm --cell 0.25");
+      "Example:\n  sgm measure cave.glb --json\n  sgm measure samples/grammars/sphere.sgm --cell 0.25 --field --levels "
+      "3");
   return [options] { return measureMesh(*options); };
 }
 

@@ -50,7 +50,11 @@ struct MeasureOptions : WorldOptions {
   bool unique_edges = false;
   std::optional<double> cubes;  ///< metres
   bool no_self_intersections = false;
-  uint64_t memory = 4096;  ///< MB
+  bool field = false;            ///< also against the grammar's field
+  int levels = 0;                ///< also so many pairs of levels, from `level` on
+  std::optional<double> texels;  ///< also the texels of a texture of this resolution
+  std::string against;           ///< also the distance to this file's mesh; empty: none
+  uint64_t memory = 4096;        ///< MB
   double seconds = 300;
 };
 Exit measureMesh(const MeasureOptions& options);

@@ -3,11 +3,13 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "cli/commands.h"
-#include "cli/limited_process.h"
 #include "cli/measure_report.h"
 #include "cli/measured_mesh.h"
+#include "cli/sampled_report.h"
 
 namespace sgm::cli {
 namespace {
@@ -24,43 +26,121 @@ measure::MeshSettings settingsOf(const MeasureOptions& options) {
   return settings;
 }
 
-/// What is printed of a mesh; of what: the line above it.
-Result<std::string> reportOf(const measure::Triangles& mesh, const MeasureOptions& options, JobSystem& jobs,
-                             const std::string& what, Json json, double seconds) {
-  const Stopwatch watch;
+/// What is printed of a mesh; of what: the line above it; sections: what stands below, by their names in JSON.
+Result<std::string> reportOf(const measure::Triangles& mesh, const MeasureOptions& options, JobSystem& jobs, Json json,
+                             const std::vector<std::pair<std::string, Section>>& sections, const Stopwatch& watch) {
   const Result<measure::MeshMeasures> measures = measure::measureMesh(mesh, settingsOf(options), jobs);
   if (!measures) return measures.error();
   if (options.json) {
     json.update(toJson(*measures));
-    json["seconds"] = seconds + watch.seconds();
+    for (const auto& [name, section] : sections) json[name] = section.json;
+    json["seconds"] = watch.seconds();
     return json.text() + "\n";
   }
-  return fmt::format("{}: {} triangles, {} points, {:.2f} s\n", what, measures->triangles, measures->points,
-                     seconds + watch.seconds()) +
-         textOf(*measures);
+  std::string text = fmt::format("{}: {} triangles, {} points, {:.2f} s\n", options.file, measures->triangles,
+                                 measures->points, watch.seconds()) +
+                     textOf(*measures);
+  for (const auto& [name, section] : sections) text += section.text;
+  return text;
 }
 
-Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKind kind) {
+/// other: of the file that --against names.
+Result<Section> against(const measure::Triangles& mesh, const asset::TriangleMesh& other, const MeasureOptions& options,
+                        JobSystem& jobs) {
+  const measure::AreaVolume sums = measure::areaVolume(mesh, jobs);
+  measure::HausdorffSettings settings;
+  settings.tolerance = 1e-4 * length(sums.high - sums.low);
+  const Result<measure::Hausdorff> found = hausdorff(mesh, {other.points, other.triangles}, settings, jobs);
+  if (!found) return Error{found.error().code, "--against: " + found.error().message};
+  return distanceSection(*found, options.against, other.triangles.size());
+}
+
+Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKind kind,
+                                asset::MeshFileKind against_kind) {
   const Stopwatch watch;
   const Result<asset::TriangleMesh> mesh = readMeshFile(options.file, kind);
   if (!mesh) return mesh.error();
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return jobs.error();
-  return reportOf({mesh->points, mesh->triangles}, options, **jobs, options.file, {{"file", options.file}},
-                  watch.seconds());
+  std::vector<std::pair<std::string, Section>> sections;
+  if (options.texels) sections.emplace_back("texels", texelSection(*mesh, *options.texels));
+  if (!options.against.empty()) {
+    const Result<asset::TriangleMesh> other = readMeshFile(options.against, against_kind);
+    if (!other) return other.error();
+    Result<Section> section = against({mesh->points, mesh->triangles}, *other, options, **jobs);
+    if (!section) return section.error();
+    sections.emplace_back("against", std::move(*section));
+  }
+  return reportOf({mesh->points, mesh->triangles}, options, **jobs, {{"file", options.file}}, sections, watch);
 }
 
-Exit measureGrammar(const MeasureOptions& options) {
-  const RegionResult made = meshRegion(options);
+/// Each level of the region, and of what it grows to, against the next one.
+Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world, Backend& backend, JobSystem& jobs,
+                         const Region& region) {
+  Section all;
+  all.json = Json::array();
+  const WorldMesh* fine = region.unsplit ? &*region.unsplit : &region.meshed.mesh;
+  IntBox extent = region.meshed.extent;
+  api::RegionMesh held(world.memory());
+  for (int level = options.level; level < options.level + options.levels; ++level) {
+    Result<api::RegionMesh> coarse =
+        api::meshRegion(world, backend, jobs, extent, level + 1, options.max_chunks, options.sharp);
+    if (!coarse) return coarse.error();
+    const int32_t cell = world.cellAt(level + 1);
+    measure::HausdorffSettings settings;
+    settings.tolerance = 0.01 * metres(cell);
+    const Result<LevelDistance> found = levelDistance(*fine, extent, coarse->mesh, cell, settings, jobs);
+    if (!found)
+      return Error{found.error().code, fmt::format("--levels: {} and {}: {}", level, level + 1, found.error().message)};
+    Section section = levelSection(*found, level, cell);
+    all.json.push_back(std::move(section.json));
+    all.text += section.text;
+    held = std::move(*coarse);
+    fine = &held.mesh;
+    extent = held.extent;
+  }
+  return all;
+}
+
+Exit measureGrammar(const MeasureOptions& options, asset::MeshFileKind against_kind, const ProcessLimits& limits) {
+  std::optional<asset::TriangleMesh> other;
+  if (!options.against.empty()) {
+    Result<asset::TriangleMesh> read = readMeshFileApart(options.against, against_kind, limits);
+    if (!read) return complain(read.error());
+    other = std::move(*read);
+  }
+  std::vector<std::pair<std::string, Section>> sections;
+  RegionPlan plan;
+  plan.texture = options.texels.has_value();
+  plan.after = [&](const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region) -> Result<void> {
+    if (options.field) {
+      const Result<FieldAgreement> found = fieldAgreement(world, jobs, region.meshed.mesh, options.level);
+      if (!found) return found.error();
+      sections.emplace_back("field", fieldSection(*found, region.cell, region.meshed.mesh.origin));
+    }
+    if (options.texels) sections.emplace_back("texels", texelSection(region, *options.texels));
+    if (options.levels > 0) {
+      Result<Section> section = levelsOf(options, world, backend, jobs, region);
+      if (!section) return section.error();
+      sections.emplace_back("levels", std::move(*section));
+    }
+    return {};
+  };
+  const Stopwatch watch;
+  const RegionResult made = meshRegion(options, plan);
   if (!made.region) return made.status;
-  const Region& region = *made.region;
-  const asset::TriangleMesh mesh = trianglesOf(region);
+  const asset::TriangleMesh mesh = trianglesOf(*made.region);
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return complain(jobs.error());
-  Json json = toJson(options, region);
+  if (other) {
+    Result<Section> section = against({mesh.points, mesh.triangles}, *other, options, **jobs);
+    if (!section) return complain(section.error());
+    sections.emplace_back("against", std::move(*section));
+  }
+  Json json = toJson(options, *made.region);
   json["file"] = options.file;
   const Result<std::string> report =
-      reportOf({mesh.points, mesh.triangles}, options, **jobs, options.file, std::move(json), region.seconds);
+      reportOf({mesh.points, mesh.triangles}, options, **jobs, std::move(json), sections, watch);
   if (!report) return complain(report.error());
   fmt::print("{}", *report);
   return Exit::done;
@@ -69,13 +149,21 @@ Exit measureGrammar(const MeasureOptions& options) {
 }  // namespace
 
 Exit measureMesh(const MeasureOptions& options) {
-  if (std::filesystem::path(options.file).extension() == ".sgm") return measureGrammar(options);
-  const Result<asset::MeshFileKind> kind = asset::meshFileKind(std::string_view(options.file));
-  if (!kind) return complain(Exit::usage, kind.error().message + "; or a grammar, .sgm");
   ProcessLimits limits;
   limits.memory = options.memory << 20;
   limits.seconds = options.seconds;
-  const Result<std::string> report = runLimited([&] { return measureFile(options, *kind); }, limits);
+  const auto kindOf = [](const std::string& file) { return asset::meshFileKind(std::string_view(file)); };
+  Result<asset::MeshFileKind> against_kind = asset::MeshFileKind{};
+  if (!options.against.empty()) against_kind = kindOf(options.against);
+  if (!against_kind) return complain(Exit::usage, "--against: " + against_kind.error().message);
+  if (std::filesystem::path(options.file).extension() == ".sgm") return measureGrammar(options, *against_kind, limits);
+  const Result<asset::MeshFileKind> kind = kindOf(options.file);
+  if (!kind) return complain(Exit::usage, kind.error().message + "; or a grammar, .sgm");
+  if (options.field || options.levels > 0) {
+    return complain(Exit::usage, fmt::format("{} is for grammars: a mesh file has no field and no levels",
+                                             options.field ? "--field" : "--levels"));
+  }
+  const Result<std::string> report = runLimited([&] { return measureFile(options, *kind, *against_kind); }, limits);
   if (!report) return complain(report.error());
   fmt::print("{}", *report);
   return Exit::done;

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string_view>
+#include <type_traits>
 
 #include "measure/world_triangles.h"
 
@@ -31,6 +33,22 @@ Result<std::vector<std::byte>> readBytes(const std::string& path) {
   return bytes;
 }
 
+template <class T>
+void append(std::string& bytes, const std::vector<T>& values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  if (!values.empty()) bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+/// Fills the values from the front of the bytes. False where these are too few.
+template <class T>
+bool take(std::string_view& bytes, std::vector<T>& values) {
+  const size_t size = values.size() * sizeof(T);
+  if (bytes.size() < size) return false;
+  if (size > 0) std::memcpy(values.data(), bytes.data(), size);
+  bytes.remove_prefix(size);
+  return true;
+}
+
 }  // namespace
 
 Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind) {
@@ -44,6 +62,36 @@ Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFil
   limits.nodes = size_t{1} << 20;
   Result<asset::TriangleMesh> mesh = asset::readMesh(*bytes, kind, limits);
   if (!mesh) return Error{mesh.error().code, file + ": " + mesh.error().message};
+  return mesh;
+}
+
+Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, asset::MeshFileKind kind,
+                                              const ProcessLimits& limits) {
+  const Result<std::string> said = runLimited(
+      [&]() -> Result<std::string> {
+        const Result<asset::TriangleMesh> mesh = readMeshFile(file, kind);
+        if (!mesh) return mesh.error();
+        std::string bytes;
+        append(bytes, std::vector<uint64_t>{mesh->points.size(), mesh->triangles.size()});
+        append(bytes, mesh->points);
+        append(bytes, mesh->triangles);
+        return bytes;
+      },
+      limits);
+  if (!said) return said.error();
+  // Whatever the file has made of the other process, this one reads no further than what came.
+  std::string_view left = *said;
+  std::vector<uint64_t> counts(2);
+  asset::TriangleMesh mesh;
+  bool whole = take(left, counts) && counts[0] <= left.size() && counts[1] <= left.size();
+  if (whole) {
+    mesh.points.resize(counts[0]);
+    mesh.triangles.resize(counts[1]);
+    whole = take(left, mesh.points) && take(left, mesh.triangles) && left.empty();
+  }
+  for (const auto& triangle : mesh.triangles)
+    for (const uint32_t corner : triangle) whole = whole && corner < mesh.points.size();
+  if (!whole) return Error{Code::io, "the process that read " + file + " has said something else than a mesh"};
   return mesh;
 }
 

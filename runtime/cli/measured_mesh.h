@@ -4,12 +4,18 @@
 #include <string>
 
 #include "asset/mesh_file.h"
+#include "cli/limited_process.h"
 #include "cli/region.h"
 
 namespace sgm::cli {
 
 /// Errors: io; those of readMesh, with the file's name in front.
 Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind);
+
+/// The same in a process of its own; points and triangles alone come out of it. To be called before this process has
+/// threads. Errors: those of readMeshFile and runLimited.
+Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, asset::MeshFileKind kind,
+                                              const ProcessLimits& limits);
 
 /// Positions in metres from the mesh's origin; the mesh before its creases are split, where it has been.
 asset::TriangleMesh trianglesOf(const Region& region);

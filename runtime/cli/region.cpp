@@ -207,7 +207,8 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
     result.empty_because = std::move(*why);
   }
   if (plan.after) {
-    if (const Result<void> done = plan.after(world, *jobs, result); !done) return failure(complain(done.error()));
+    const Result<void> done = plan.after(world, **backend, *jobs, result);
+    if (!done) return failure(complain(done.error()));
   }
   return {std::move(result), Exit::done};
 }

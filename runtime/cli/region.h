@@ -66,7 +66,7 @@ struct RegionPlan {
   /// Says which part of an endless world is meant where no --region does.
   std::function<Result<IntBox>(const WorldField& world)> choose;
   /// Asks the world for more, once the region is meshed.
-  std::function<Result<void>(const WorldField& world, JobSystem& jobs, const Region& region)> after;
+  std::function<Result<void>(const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region)> after;
 };
 
 /// Reads, compiles and meshes what the options say. The region is --region; without it, all of a finite world, or what

@@ -184,7 +184,7 @@ Exit render(const RenderOptions& options) {
   std::optional<RegionDensity> density;
   if (options.volume) {
     plan.check = checkDensity;
-    plan.after = [&](const WorldField& world, JobSystem& jobs, const Region& region) -> Result<void> {
+    plan.after = [&](const WorldField& world, Backend&, JobSystem& jobs, const Region& region) -> Result<void> {
       Result<RegionDensity> sampled = sampleRegion(world, jobs, region, options.level);
       if (!sampled) return sampled.error();
       density = std::move(*sampled);

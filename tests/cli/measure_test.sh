@@ -29,6 +29,83 @@ json 'j.cubes.all_corners < j.volume && j.cubes.any_corner > j.volume'
 expect 0 "$SGM" measure ball.ply --json --mode curvature --unique-edges --curvature-length 3 --no-self-intersections --weld 0.001
 json 'j.histogram.edges === j.edges && j.self_intersections === null && Math.abs(j.histogram.shares.reduce((a, v, i) => a + i * v, 0) - 24) < 1.5'
 
+# Against the field: normals outward and near the gradient, vertices near the surface.
+expect 0 "$SGM" measure ball.sgm --cell 0.25 --field --json
+json 'j.valid && j.field.vertices === j.points && j.field.normals.count === j.points && j.field.in_creases === 0'
+json 'j.field.normals.inward === 0 && j.field.normals.outward === 1 && j.field.normals.p99 < 0.1 && j.field.faces.median < 5'
+json 'j.field.step === 1 / 32 && j.field.residual.max < 0.25 * 0.25 / 8 / 3 + 0.25 / 256'
+json 'Math.abs(j.field.residual.max / 0.25 - j.field.residual.max_cells) < 1e-9 && j.field.residual.p99 <= j.field.residual.max'
+expect 0 "$SGM" measure ball.sgm --cell 0.25 --field
+out_has 'normals +0 of [0-9]+ inward'
+out_has 'residual +0.0'
+err_empty
+
+# Levels against each other: nearer than the bound, farther the coarser they are.
+expect 0 "$SGM" measure ball.sgm --cell 0.125 --levels 3 --level 1 --json
+json 'j.level === 1 && j.levels.length === 3 && j.levels.every((l, i) => l.level === i + 1 && l.coarse_level === i + 2)'
+json 'j.levels.every((l) => l.coarse_cell === 0.125 * 2 ** l.coarse_level && l.at_least <= l.at_most && l.at_most < l.bound)'
+json 'j.levels.every((l) => !l.beyond_bound && Math.abs(l.bound / l.coarse_cell - 1.5 * Math.sqrt(3)) < 1e-9)'
+json 'j.levels[1].at_least > 2 * j.levels[0].at_least && j.levels[0].left_out[0] + j.levels[0].left_out[1] === 0'
+# Half of the ball: what lies at the cut is left out.
+expect 0 "$SGM" measure ball.sgm --cell 0.125 --region -4,-4,-4:0,4,4 --levels 1 --json
+json 'j.cut && j.levels[0].left_out[0] > 0 && j.levels[0].at_least < 0.05'
+expect 0 "$SGM" measure ball.sgm --cell 0.125 --region -4,-4,-4:0,4,4 --levels 1
+out_has 'levels +0 and 1: 0.0'
+out_has 'left out, at the region.s cut'
+
+# Against another mesh, of which there are both: a copy, and one that is 0.1 m larger.
+expect 0 "$SGM" measure ball.glb --against ball.ply --json
+json 'j.valid && j.against.file === "ball.ply" && j.against.at_most < 1e-6 && j.against.triangles === j.triangles'
+expect 0 "$SGM" mesh ball.sgm --cell 0.25 --set radius=3.1m --out larger.glb
+expect 0 "$SGM" measure ball.obj --against larger.glb --json
+json 'Math.abs(j.against.at_least - 0.1) < 0.01 && Math.abs(j.against.there.mean - 0.1) < 0.002 && j.against.at_most < 0.12'
+json 'j.against.at_least === Math.max(j.against.there.at_least, j.against.back.at_least)'
+expect 0 "$SGM" measure ball.sgm --cell 0.25 --against larger.glb
+out_has 'distance +0\.(09|10)[0-9]* to 0\.1[0-9]* between this and larger.glb'
+err_empty
+
+# Texels: of files with coordinates, without, and of a grammar; the three planes have one density.
+expect 0 "$SGM" mesh ball.sgm --cell 0.25 --uv --out textured.glb
+expect 0 "$SGM" measure textured.glb --texels 512 --json
+json 'j.texels.resolution === 512 && j.texels.triangles === j.triangles && j.texels.min >= 500 && j.texels.ratio < 1.3'
+expect 0 "$SGM" measure ball.sgm --cell 0.25 --texels --json
+json 'j.texels.resolution === 1024 && j.texels.triangles > 0 && j.texels.min > 1000 && j.texels.triplanar_share === 0'
+expect 0 "$SGM" measure textured.glb --texels
+out_has 'texels +1[0-9.e+]* a unit of length at the median, .* of a texture of 1024'
+expect 0 "$SGM" measure ball.stl --texels --json
+json 'j.texels === null'
+expect 0 "$SGM" measure ball.stl --texels
+out_has 'texels +none: the file has no texture coordinates'
+# Samples of a cellular automaton have no axes of their own.
+expect 0 "$SGM" measure "$SOURCE/samples/grammars/table4/voxel.sgm" --region 0,0,0:16,16,16 --texels --json
+json 'j.triangles > 100 && j.texels.triplanar_share === 1 && j.texels.triangles === 0 && j.texels.triplanar_density === 1024'
+expect 0 "$SGM" measure "$SOURCE/samples/grammars/table4/voxel.sgm" --region 0,0,0:16,16,16 --texels
+out_has 'texels +1024 everywhere on the 100.0 % of the area that three planes texture'
+
+# What a file does not have, and what is no file.
+expect 2 "$SGM" measure ball.glb --field
+err_has '--field is for grammars'
+one_line
+expect 2 "$SGM" measure ball.glb --levels 2
+err_has '--levels is for grammars'
+one_line
+expect 2 "$SGM" measure ball.sgm --levels 0
+expect 2 "$SGM" measure ball.sgm --levels 17
+expect 1 "$SGM" measure ball.sgm --levels 2 --level 16
+err_has 'level'
+one_line
+expect 2 "$SGM" measure ball.glb --texels 0
+expect 2 "$SGM" measure ball.glb --texels nan
+expect 2 "$SGM" measure ball.glb --against ball.txt
+err_has '--against: .*glb'
+one_line
+for subject in ball.glb ball.sgm; do
+  expect 4 "$SGM" measure $subject --against nothing.glb
+  err_has 'cannot read nothing.glb'
+  one_line
+  out_empty
+done
+
 # Damaged, but a mesh: told, and no error.
 grep -v '^f' ball.obj >holes.obj
 grep '^f' ball.obj | tail -n +4 >>holes.obj
@@ -55,6 +132,13 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 7\n' >index.obj
 expect 1 "$SGM" measure index.obj
 err_has 'index.obj: .*at line 4'
 one_line
+expect 1 "$SGM" measure ball.sgm --against index.obj
+err_has 'index.obj: .*at line 4'
+one_line
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >points.obj
+expect 1 "$SGM" measure ball.sgm --against points.obj
+one_line
+out_empty
 expect 4 "$SGM" measure nothing.glb
 err_has 'cannot read nothing.glb'
 one_line

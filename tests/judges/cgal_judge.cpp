@@ -2,7 +2,6 @@
 //
 //   sgm_judge_cgal FILE
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
@@ -15,30 +14,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
 #include <utility>
 #include <vector>
 
+#include "soup_file.h"
+
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Point = Kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point>;
-using Corners = std::array<std::size_t, 3>;
-
-struct Soup {
-  std::vector<Point> points;
-  std::vector<Corners> triangles;
-};
-
-template <class T>
-bool read(std::ifstream& file, T* values, std::size_t count) {
-  return static_cast<bool>(file.read(reinterpret_cast<char*>(values), static_cast<std::streamsize>(count * sizeof(T))));
-}
 
 bool collinear(const Soup& soup, const Corners& t) {
   return CGAL::collinear(soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]);
@@ -134,17 +120,6 @@ void judge(Soup& soup, bool weld, bool count_soup) {
 
 int main(int argc, char** argv) {
   std::ifstream file(argc == 2 ? argv[1] : "", std::ios::binary);
-  std::uint32_t head[3];
-  while (read(file, head, 3)) {
-    std::vector<double> places(std::size_t{3} * head[1]);
-    std::vector<std::uint32_t> corners(std::size_t{3} * head[2]);
-    if (!read(file, places.data(), places.size()) || !read(file, corners.data(), corners.size())) return 1;
-    Soup soup;
-    for (std::size_t i = 0; i < places.size(); i += 3)
-      soup.points.emplace_back(places[i], places[i + 1], places[i + 2]);
-    for (std::size_t i = 0; i < corners.size(); i += 3)
-      soup.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
-    judge(soup, (head[0] & 1) != 0, (head[0] & 2) != 0);
-  }
-  return file.eof() ? 0 : 1;
+  const bool whole = forSoups(file, [](Soup& soup) { judge(soup, (soup.asked & 1) != 0, (soup.asked & 2) != 0); });
+  return whole ? 0 : 1;
 }

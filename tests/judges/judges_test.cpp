@@ -8,6 +8,7 @@
 #include "../unit/measure/defects.h"
 #include "../unit/rounds.h"
 #include "asset/mesh_file.h"
+#include "measure/hausdorff.h"
 #include "measure/self_intersection.h"
 #include "measure/weld_points.h"
 #include "meshes.h"
@@ -334,6 +335,58 @@ TEST_CASE("CGAL finds the same nests of shells good and bad", "[cgal]") {
   }
   CHECK(good > ours.size() / 4);
   CHECK(good < ours.size() * 3 / 4);
+}
+
+TEST_CASE("CGAL's distances lie between our bounds", "[cgal]") {
+  constexpr double kError = 1e-3;
+  const uint32_t seed = 11;
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  std::vector<std::pair<Mesh, Mesh>> pairs{{ball(2), ball(3)},
+                                           {ball(2), ball(2).moved([](Point p) { return 1.2 * p; })},
+                                           {torus(16), torus(24).at({0.1, 0.05, 0})},
+                                           {box({1, 2, 3}, 3), box({1.1, 2, 3}, 2)},
+                                           {box({1, 1, 1}, 2), box({1, 1, 1}, 2).at({5, 0, 0})},
+                                           {cave(2), cave(4)}};
+  for (unsigned round = 0; round < rounds(100); ++round) {
+    const Mesh first = goodMesh(random);
+    const double size = between(random, 0.01, 0.3);
+    const Mesh second = round % 2 == 0 ? goodMesh(random) : first.moved([&](Point p) {
+      return p + size * Point{between(random, -1, 1), between(random, -1, 1), between(random, -1, 1)};
+    });
+    pairs.emplace_back(first, second);
+  }
+  JudgedMeshes meshes;
+  std::vector<double> sizes;
+  for (auto& [first, second] : pairs) {
+    // The same error is as large a part of each.
+    double size = 0;
+    for (const Point p : first.points) size = std::max(size, length(p - first.points[0]));
+    for (Mesh* mesh : {&first, &second}) {
+      const Point from = first.points[0];
+      const Mesh moved = mesh->moved([&](Point p) { return 1 / size * (p - from); });
+      if (mesh == &first) sizes.push_back(size);
+      meshes.add(moved);
+    }
+  }
+  const std::vector<CgalDistance> judged =
+      meshes.judge<CgalDistance>("'" + setting("SGM_JUDGE_DISTANCE") + "' " + std::to_string(kError));
+  const auto jobs = std::move(*makeThreadPool(2));
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const double size = sizes[i];
+    HausdorffSettings settings;
+    settings.tolerance = kError * size;
+    settings.refinements = uint64_t{1} << 18;
+    const Result<Hausdorff> ours = hausdorff(pairs[i].first, pairs[i].second, settings, *jobs);
+    REQUIRE(ours);
+    for (const auto& [mine, theirs] :
+         {std::pair{ours->there, judged[2 * i].distance}, {ours->back, judged[2 * i + 1].distance}}) {
+      CAPTURE(i, size, mine.at_least / size, mine.at_most / size, theirs);
+      CHECK(theirs >= mine.at_least / size - kError);
+      CHECK(theirs <= mine.at_most / size + kError);
+      CHECK(mine.at_most - mine.at_least < 20 * settings.tolerance);
+    }
+  }
 }
 
 TEST_CASE("where CGAL's count of pairs is another", "[cgal]") {

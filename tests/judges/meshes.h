@@ -80,6 +80,13 @@ struct CgalVerdict {
   }
 };
 
+/// From the mesh to the other one of its pair.
+struct CgalDistance {
+  double distance = 0;
+
+  friend std::istream& operator>>(std::istream& in, CgalDistance& v) { return in >> v.distance; }
+};
+
 struct ManifoldVerdict {
   std::string status;
   uint64_t parts = 0;

@@ -1,0 +1,189 @@
+#include "measure/hausdorff.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "measure/area_volume.h"
+#include "measure/nearest.h"
+
+namespace sgm::measure {
+namespace {
+
+constexpr uint32_t kMostCuts = 64;
+
+using Part = std::array<Point, 3>;
+
+Point middleOf(const Part& part) { return (1.0 / 3) * (part[0] + part[1] + part[2]); }
+
+/// Part `number` of the cuts^2 alike of a triangle: row by row from the side opposite to its first corner.
+Part partOf(const Part& whole, uint32_t cuts, uint32_t number) {
+  const auto at = [&](uint32_t i, uint32_t j) {
+    const double u = static_cast<double>(i) / cuts, v = static_cast<double>(j) / cuts;
+    return whole[0] + u * (whole[1] - whole[0]) + v * (whole[2] - whole[0]);
+  };
+  uint32_t i = 0;
+  while (number >= 2 * (cuts - i) - 1) number -= 2 * (cuts - i++) - 1;
+  const uint32_t j = number / 2;
+  if (number % 2 == 0) return {at(i, j), at(i + 1, j), at(i, j + 1)};
+  return {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+}
+
+/// The distance of a surface's places to another one.
+class Distances {
+ public:
+  Distances(const Triangles& to, JobSystem& jobs) : to_(to), tree_(to, jobs) {}
+
+  Nearest from(Point place, uint32_t guess) const { return nearestOf(to_, tree_, place, guess); }
+
+  /// What no place of the part is farther than. The distance changes by no more than one moves; and the distance to one
+  /// triangle, which is convex, is largest in a corner of the part.
+  double atMost(const Part& part, const Nearest& of_middle) const {
+    const Point middle = middleOf(part);
+    const Triangle& t = to_.triangles[of_middle.triangle];
+    const Part nearest{to_.points[t[0]], to_.points[t[1]], to_.points[t[2]]};
+    double reach = 0, from_corners = 0;
+    for (const Point corner : part) {
+      reach = std::max(reach, length(corner - middle));
+      from_corners = std::max(from_corners, length(nearestOn(nearest, corner) - corner));
+    }
+    return std::min(of_middle.distance + reach, from_corners);
+  }
+
+ private:
+  const Triangles& to_;
+  Bvh tree_;
+};
+
+/// What one job has found.
+struct Found {
+  double at_least = -1;
+  Point farthest;
+  double area = 0, sum = 0, squares = 0;
+
+  void offer(double distance, Point place) {
+    if (distance <= at_least) return;
+    at_least = distance;
+    farthest = place;
+  }
+};
+
+/// A part that may hold the farthest place.
+struct Candidate {
+  double at_most = 0;
+  Part part;
+
+  friend bool operator<(const Candidate& a, const Candidate& b) { return a.at_most < b.at_most; }
+};
+
+/// Cuts the part with the highest bound until it is no longer worth it, and returns that bound.
+double refine(const Distances& distances, std::vector<Candidate> candidates, const HausdorffSettings& settings,
+              Found& found) {
+  std::priority_queue<Candidate> open({}, std::move(candidates));
+  uint32_t guess = 0;
+  for (uint64_t step = 0; step < settings.refinements && !open.empty(); ++step) {
+    const Candidate top = open.top();
+    if (top.at_most <= found.at_least + settings.tolerance) break;
+    open.pop();
+    for (uint32_t k = 0; k < 4; ++k) {
+      const Part part = partOf(top.part, 2, k);
+      const Nearest nearest = distances.from(middleOf(part), guess);
+      guess = nearest.triangle;
+      found.offer(nearest.distance, middleOf(part));
+      const double at_most = std::min(top.at_most, distances.atMost(part, nearest));
+      if (at_most > found.at_least) open.push({at_most, part});
+    }
+  }
+  return open.empty() ? found.at_least : std::max(found.at_least, open.top().at_most);
+}
+
+Error wrong(const char* message) { return {Code::invalid_argument, message}; }
+
+}  // namespace
+
+Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const HausdorffSettings& settings,
+                              JobSystem& jobs) {
+  if (settings.cuts < 1 || settings.cuts > kMostCuts) return wrong("triangles are cut into 1 to 64 along an edge");
+  if (!(settings.tolerance >= 0)) return wrong("the tolerance is not a number from 0");
+  OneSided result;
+  if (from.triangles.empty()) return result;
+  if (to.triangles.empty()) return wrong("a mesh without triangles has no distance");
+
+  const Distances distances(to, jobs);
+  const size_t count = from.triangles.size();
+  const uint32_t parts = settings.cuts * settings.cuts;
+  const auto wholeOf = [&](size_t i) {
+    const Triangle& t = from.triangles[i];
+    return Part{from.points[t[0]], from.points[t[1]], from.points[t[2]]};
+  };
+  std::vector<Found> blocks((count + kBlock - 1) / kBlock);
+  LargeVector<double> bounds(count * parts);
+  parallelFor(jobs, blocks.size(), [&](size_t block) {
+    Found& found = blocks[block];
+    uint32_t guess = 0;
+    for (size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+      const Part whole = wholeOf(i);
+      const double area = 0.5 / parts * length(crossOf(whole[0], whole[1], whole[2]));
+      for (uint32_t k = 0; k < parts; ++k) {
+        const Part part = partOf(whole, settings.cuts, k);
+        const Nearest nearest = distances.from(middleOf(part), guess);
+        guess = nearest.triangle;
+        found.offer(nearest.distance, middleOf(part));
+        found.area += area;
+        found.sum += area * nearest.distance;
+        found.squares += area * nearest.distance * nearest.distance;
+        bounds[i * parts + k] = distances.atMost(part, nearest);
+      }
+    }
+  });
+
+  std::vector<bool> used(from.points.size());
+  for (const Triangle& t : from.triangles)
+    for (const uint32_t v : t) used[v] = true;
+  const size_t points = from.points.size();
+  std::vector<Found> of_points((points + kBlock - 1) / kBlock);
+  parallelFor(jobs, of_points.size(), [&](size_t block) {
+    uint32_t guess = 0;
+    for (size_t v = block * kBlock; v < std::min(points, (block + 1) * kBlock); ++v) {
+      if (!used[v]) continue;
+      const Nearest nearest = distances.from(from.points[v], guess);
+      guess = nearest.triangle;
+      of_points[block].offer(nearest.distance, from.points[v]);
+    }
+  });
+
+  Found all;
+  for (const std::vector<Found>& some : {blocks, of_points}) {
+    for (const Found& found : some) {
+      all.offer(found.at_least, found.farthest);
+      all.area += found.area;
+      all.sum += found.sum;
+      all.squares += found.squares;
+    }
+  }
+  std::vector<Candidate> candidates;
+  for (size_t i = 0; i < bounds.size(); ++i) {
+    if (bounds[i] <= all.at_least) continue;
+    candidates.push_back({bounds[i], partOf(wholeOf(i / parts), settings.cuts, static_cast<uint32_t>(i % parts))});
+  }
+  result.samples = count * parts + static_cast<uint64_t>(std::count(used.begin(), used.end(), true));
+  result.at_most = refine(distances, std::move(candidates), settings, all);
+  result.at_least = all.at_least;
+  result.farthest = all.farthest;
+  result.mean = all.area > 0 ? all.sum / all.area : 0;
+  result.rms = all.area > 0 ? std::sqrt(all.squares / all.area) : 0;
+  return result;
+}
+
+Result<Hausdorff> hausdorff(const Triangles& first, const Triangles& second, const HausdorffSettings& settings,
+                            JobSystem& jobs) {
+  const Result<OneSided> there = distanceFrom(first, second, settings, jobs);
+  if (!there) return there.error();
+  const Result<OneSided> back = distanceFrom(second, first, settings, jobs);
+  if (!back) return back.error();
+  return Hausdorff{*there, *back};
+}
+
+}  // namespace sgm::measure

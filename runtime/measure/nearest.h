@@ -1,0 +1,23 @@
+#pragma once
+// The place on a mesh that is nearest to a point.
+
+#include <array>
+
+#include "measure/bvh.h"
+
+namespace sgm::measure {
+
+/// The nearest place of a triangle, which may have no area. What is returned lies in the triangle, up to rounding.
+Point nearestOn(const std::array<Point, 3>& triangle, Point to);
+
+struct Nearest {
+  double distance = 0;
+  Point place;
+  uint32_t triangle = 0;
+};
+
+/// tree: of the same triangles, of which there is at least one. guess: any of them; the nearer it lies, the sooner the
+/// search ends. Which of several that are equally near is found depends on it. Pure.
+Nearest nearestOf(const Triangles& mesh, const Bvh& tree, Point to, uint32_t guess = 0);
+
+}  // namespace sgm::measure
