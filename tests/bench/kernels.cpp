@@ -206,9 +206,9 @@ double floatRate(const cuda::DeviceInfo& info) {
   return lanes * info.processors * info.clock * 1e3;
 }
 
-constexpr const char* kKernelNames[] = {"prune",          "sample",        "census of bodies", "census of seams",
-                                        "allocate",       "body vertices", "seam vertices",    "list cells",
-                                        "body triangles", "seam triangles"};
+constexpr const char* kKernelNames[] = {
+    "prune",         "sample",     "census of bodies", "census of seams", "allocate", "body vertices",
+    "seam vertices", "list cells", "body triangles",   "seam triangles",  "sums"};
 static_assert(std::size(kKernelNames) == static_cast<size_t>(cuda::Kernel::count));
 
 /// What meshing cannot do without: samples read once and indices written, and beside vertices' normals, which are the
