@@ -18,6 +18,7 @@ bool isWithin(const Vertex& v, int lo, int hi) {
 }
 
 uint8_t planesOfEdge(const Vertex& v) {
+  if (v.x % kEnd != 0 && v.y % kEnd != 0 && v.z % kEnd != 0) return 0;
   return static_cast<uint8_t>((v.x == 0) | (v.x == kEnd) << 1 | (v.y == 0) << 2 | (v.y == kEnd) << 3 | (v.z == 0) << 4 |
                               (v.z == kEnd) << 5);
 }
@@ -30,14 +31,11 @@ uint8_t planesOfFeature(const Vertex& v) {
   return static_cast<uint8_t>(((cell == 0) | (cell == kChunkCells) << 1) << 2 * axis);
 }
 
-/// Adds one triangle's terms to a part.
-void addTerms(const TriangleTerms& terms, PartMeasures& part) {
-  part.area += fixedRoot(terms.square);
-  part.cross[0] += terms.x;
-  part.cross[1] += terms.y;
-  part.cross[2] += terms.z;
-  part.six_volumes += terms.six_volumes;
-  part.slivers += isSliver(terms);
+void store(const TermSums& sums, PartMeasures& part) {
+  part.area = sums.area;
+  part.cross = {sums.x, sums.y, sums.z};
+  part.six_volumes = sums.six_volumes;
+  part.slivers = sums.slivers;
 }
 
 class BodyMeasurer {
@@ -131,26 +129,33 @@ class BodyMeasurer {
 
   void addTriangles() {
     indices_.resize(3 * size_t{part_.triangles});
+    // What is written here cannot be mistaken for what is read, so that sums stay in registers.
+    TermSums sums;
+    uint32_t against = 0, flat = 0;
     uint32_t* kept = indices_.data();
+    const Vertex* const vertices = body_.vertices.data();
+    const uint8_t* const planes = planes_.data();
+    const PackedDirection* const directions = directions_.data();
+    const uint32_t first_vertex = body_.first_vertex, count_vertices = part_.vertices;
     for (size_t at = 0; at + 3 <= body_.indices.size(); at += 3) {
-      const uint32_t a = body_.indices[at] - body_.first_vertex, b = body_.indices[at + 1] - body_.first_vertex,
-                     c = body_.indices[at + 2] - body_.first_vertex;
-      if (std::max({a, b, c}) >= part_.vertices) {
+      const uint32_t a = body_.indices[at] - first_vertex, b = body_.indices[at + 1] - first_vertex,
+                     c = body_.indices[at + 2] - first_vertex;
+      if (std::max({a, b, c}) >= count_vertices) {
         ++count(Defect::index);
         continue;
       }
-      const unsigned planes = planes_[a] | planes_[b] | planes_[c];
-      if ((planes & kLeftOut) != 0) continue;
-      const TriangleTerms terms = termsOf(body_.vertices[a], body_.vertices[b], body_.vertices[c]);
-      addTerms(terms, part_);
+      const unsigned marks = planes[a] | planes[b] | planes[c];
+      if ((marks & kLeftOut) != 0) continue;
+      const TriangleTerms terms = termsOf(vertices[a], vertices[b], vertices[c]);
+      addTerms(terms, sums);
       if (terms.square == 0) {
         if (a == b || b == c || c == a) {
           ++count(Defect::degenerate);
           continue;
         }
-        count(Defect::flat) += (planes & kIsFeature) == 0;
+        flat += (marks & kIsFeature) == 0;
       } else {
-        part_.against_gradient += !facesAlong(terms, directions_[a], directions_[b], directions_[c]);
+        against += !facesAlong(terms, directions[a], directions[b], directions[c]);
       }
       kept[0] = a;
       kept[1] = b;
@@ -158,6 +163,9 @@ class BodyMeasurer {
       kept += 3;
     }
     indices_.resize(static_cast<size_t>(kept - indices_.data()));
+    store(sums, part_);
+    part_.against_gradient = against;
+    count(Defect::flat) = flat;
   }
 
   /// Feature vertices that a crease has split are one again: of equal place and kind, and so of equal key.
@@ -233,6 +241,7 @@ PartMeasures measureSeam(const PartView& seam) {
   };
   part.defects[static_cast<size_t>(Defect::outside)] =
       static_cast<uint32_t>(std::count_if(seam.vertices.begin(), seam.vertices.end(), outside));
+  TermSums sums;
   for (size_t at = 0; at + 3 <= seam.indices.size(); at += 3) {
     const uint32_t a = seam.indices[at] - seam.first_vertex, b = seam.indices[at + 1] - seam.first_vertex,
                    c = seam.indices[at + 2] - seam.first_vertex;
@@ -243,8 +252,9 @@ PartMeasures measureSeam(const PartView& seam) {
     const Vertex &u = seam.vertices[a], &v = seam.vertices[b], &w = seam.vertices[c];
     if (outside(u) || outside(v) || outside(w)) continue;
     part.defects[static_cast<size_t>(Defect::degenerate)] += a == b || b == c || c == a;
-    addTerms(termsOf(u, v, w), part);
+    addTerms(termsOf(u, v, w), sums);
   }
+  store(sums, part);
   return part;
 }
 

@@ -1,11 +1,13 @@
 // What measuring chunks takes beside meshing them, each right after it was meshed, as a streamed world does: on one
 // thread, around a place of a sample grammar, three levels, each chunk with a seam to its coarser neighbour below.
+// Processor time, since others may be at work; medians over runs.
 //
 //   sgm_bench_chunk_measures FOLDER-OF-SAMPLE-GRAMMARS [RUNS]
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -29,6 +31,13 @@ struct Place {
 };
 constexpr int kAround = 2;  ///< chunks to each side
 
+/// Milliseconds of all threads of the process.
+double processorTime() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
 struct Times {
   double meshing = 0, measuring = 0;
   SurfaceSums sums;
@@ -50,17 +59,17 @@ Result<Times> run(const WorldField& world, Backend& backend, JobSystem& jobs, co
       request.seams = 1 << static_cast<int>(Face::y_lo);
       request.signs = level == 0;
       request.sharp = place.sharp;
-      const double start = bench::now();
+      const double start = processorTime();
       const auto chunks = meshChunks(world, backend, jobs, {&request, 1});
       if (!chunks) return chunks.error();
-      const double meshed = bench::now();
+      const double meshed = processorTime();
       const PlacedChunk& chunk = chunks->front();
       ChunkMeasures measures;
       measureBody(viewOf(chunk.mesh.body), chunk.mesh.signs, scratch, measures);
       for (size_t face = 0; face < chunk.mesh.seams.size(); ++face) {
         measures.parts[1 + face] = measureSeam(viewOf(chunk.mesh.seams[face]));
       }
-      times.measuring += bench::now() - meshed;
+      times.measuring += processorTime() - meshed;
       times.meshing += meshed - start;
       times.sums.add(measures, chunk.grid, true, request.seams);
     }
@@ -100,18 +109,22 @@ int main(int argc, char** argv) {
     settings.parameters = ParameterValues::defaults(*compiled.program);
     settings.seed = 3;
     settings.finest_cell = place.cell;
-    Times best;
+    std::vector<double> meshing, measuring, shares;
+    SurfaceSums sums;
     for (int i = 0; i < runs; ++i) {
       const WorldField world(settings, std::pmr::get_default_resource());
-      Result<Times> times = run(world, **backend, **jobs, place);
+      const Result<Times> times = run(world, **backend, **jobs, place);
       if (!times) return fail(times.error().message);
-      if (i == 0 || times->measuring < best.measuring) best = *times;
+      meshing.push_back(times->meshing);
+      measuring.push_back(times->measuring);
+      shares.push_back(100 * times->measuring / times->meshing);
+      sums = times->sums;
     }
-    const SurfaceSums& sums = best.sums;
+    const double median = bench::statistics(measuring).median;
     std::printf("%-14s %9llu %10llu %10.1f %10.2f %6.2f%% %9.1f\n", place.grammar,
                 static_cast<unsigned long long>(sums.bodies), static_cast<unsigned long long>(sums.triangles),
-                best.meshing, best.measuring, 100 * best.measuring / best.meshing,
-                1e6 * best.measuring / static_cast<double>(sums.triangles));
+                bench::statistics(meshing).median, median, bench::statistics(shares).median,
+                1e6 * median / static_cast<double>(sums.triangles));
     for (size_t kind = 0; kind < kDefects; ++kind) {
       if (sums.defects[kind] == 0) continue;
       std::printf("  %llu %s\n", static_cast<unsigned long long>(sums.defects[kind]),
