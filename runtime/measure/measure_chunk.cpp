@@ -11,6 +11,7 @@ namespace sgm::measure {
 namespace {
 
 constexpr int kEnd = kChunkCells * kSubcell;
+constexpr size_t kSide = kChunkSamples;
 constexpr uint8_t kLeftOut = 1 << 6, kIsFeature = 1 << 7;  // beside a vertex's border planes
 
 bool isWithin(const Vertex& v, int lo, int hi) {
@@ -102,27 +103,33 @@ class BodyMeasurer {
     }
   }
 
-  /// Of the edges that start in a row of samples, those whose ends differ, one word an axis.
-  std::array<uint64_t, 3> crossedEdges(size_t row) const {
-    constexpr size_t kSide = kChunkSamples;
+  /// Of the edges that start in a row of samples, how many have ends that differ.
+  uint32_t crossedEdges(size_t row) const {
     const bool y_ends = row % kSide == kChunkCells, z_ends = row / kSide == kChunkCells;
     const uint64_t signs = signs_[row], cells = (uint64_t{1} << kChunkCells) - 1;
-    return {(signs ^ signs >> 1) & cells, y_ends ? 0 : signs ^ signs_[row + 1],
-            z_ends ? 0 : signs ^ signs_[row + kSide]};
+    const uint64_t x = (signs ^ signs >> 1) & cells, y = y_ends ? 0 : signs ^ signs_[row + 1],
+                   z = z_ends ? 0 : signs ^ signs_[row + kSide];
+    return (x | y | z) == 0 ? 0 : static_cast<uint32_t>(std::popcount(x) + std::popcount(y) + std::popcount(z));
+  }
+
+  bool isOnCrossed(const SampleEdge& edge) const {
+    if (edge.axis == 2 && edge.z == kChunkCells) return false;  // a misplaced one, on a corner
+    const auto row = static_cast<size_t>(edge.y) + kSide * static_cast<size_t>(edge.z);
+    const uint64_t from = signs_[row] >> edge.x;
+    const uint64_t to = edge.axis == 0   ? from >> 1
+                        : edge.axis == 1 ? signs_[row + 1] >> edge.x
+                                         : signs_[row + kSide] >> edge.x;
+    return ((from ^ to) & 1) != 0;
   }
 
   void compareWithSamples() {
     uint32_t on_crossed = 0, crossed = 0;
     for (size_t i = 0; i < body_.vertices.size(); ++i) {
       if ((planes_[i] & (kLeftOut | kIsFeature)) != 0) continue;
-      const SampleEdge edge = edgeOfBodyVertex(body_.vertices[i]);
-      const auto row = static_cast<size_t>(edge.y + kChunkSamples * edge.z);
-      on_crossed += (crossedEdges(row)[static_cast<size_t>(edge.axis)] >> edge.x & 1) != 0;
+      on_crossed += isOnCrossed(edgeOfBodyVertex(body_.vertices[i]));
       ++topology_.compared;
     }
-    for (size_t row = 0; row < signs_.size(); ++row) {
-      for (const uint64_t edges : crossedEdges(row)) crossed += static_cast<uint32_t>(std::popcount(edges));
-    }
+    for (size_t row = 0; row < signs_.size(); ++row) crossed += crossedEdges(row);
     // Vertices on crossed edges are one an edge, or misplaced.
     count(Defect::unlike_samples) = topology_.compared - on_crossed + (crossed > on_crossed ? crossed - on_crossed : 0);
   }

@@ -1,13 +1,12 @@
 // What measuring chunks takes beside meshing them, each right after it was meshed, as a streamed world does: on one
 // thread, around a place of a sample grammar, three levels, each chunk with a seam to its coarser neighbour below.
-// Processor time, since others may be at work; medians over runs.
+// Medians over runs.
 //
 //   sgm_bench_chunk_measures FOLDER-OF-SAMPLE-GRAMMARS [RUNS]
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -31,21 +30,14 @@ struct Place {
 };
 constexpr int kAround = 2;  ///< chunks to each side
 
-/// Milliseconds of all threads of the process.
-double processorTime() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
 struct Times {
   double meshing = 0, measuring = 0;
   SurfaceSums sums;
 };
 
-Result<Times> run(const WorldField& world, Backend& backend, JobSystem& jobs, const Place& place) {
+Result<Times> run(const WorldField& world, Backend& backend, JobSystem& jobs, const Place& place,
+                  MeasureScratch& scratch) {
   Times times;
-  MeasureScratch scratch(world.memory());
   for (int level = 0; level < 3; ++level) {
     const int64_t edge = int64_t{kChunkCells} * place.cell << level;
     for (int i = 0; i < (2 * kAround) * (2 * kAround) * (2 * kAround); ++i) {
@@ -59,17 +51,17 @@ Result<Times> run(const WorldField& world, Backend& backend, JobSystem& jobs, co
       request.seams = 1 << static_cast<int>(Face::y_lo);
       request.signs = level == 0;
       request.sharp = place.sharp;
-      const double start = processorTime();
+      const double start = bench::now();
       const auto chunks = meshChunks(world, backend, jobs, {&request, 1});
       if (!chunks) return chunks.error();
-      const double meshed = processorTime();
+      const double meshed = bench::now();
       const PlacedChunk& chunk = chunks->front();
       ChunkMeasures measures;
       measureBody(viewOf(chunk.mesh.body), chunk.mesh.signs, scratch, measures);
       for (size_t face = 0; face < chunk.mesh.seams.size(); ++face) {
         measures.parts[1 + face] = measureSeam(viewOf(chunk.mesh.seams[face]));
       }
-      times.measuring += processorTime() - meshed;
+      times.measuring += bench::now() - meshed;
       times.meshing += meshed - start;
       times.sums.add(measures, chunk.grid, true, request.seams);
     }
@@ -97,6 +89,7 @@ int main(int argc, char** argv) {
                           {"terrain.sgm", 256, {0, 0, 0}, false},
                           {"cloud.sgm", 4096, {450, 1200, 450}, false},
                           {"building.sgm", 256, {0, 8, 0}, true}};
+  MeasureScratch scratch(std::pmr::get_default_resource());
   std::printf("%-14s %9s %10s %10s %10s %7s %9s\n", "grammar", "chunks", "triangles", "meshing ms", "measure ms",
               "share", "ns/triangle");
   for (const Place& place : places) {
@@ -113,7 +106,7 @@ int main(int argc, char** argv) {
     SurfaceSums sums;
     for (int i = 0; i < runs; ++i) {
       const WorldField world(settings, std::pmr::get_default_resource());
-      const Result<Times> times = run(world, **backend, **jobs, place);
+      const Result<Times> times = run(world, **backend, **jobs, place, scratch);
       if (!times) return fail(times.error().message);
       meshing.push_back(times->meshing);
       measuring.push_back(times->measuring);
