@@ -44,7 +44,7 @@ class StarCounter {
 
  private:
   static constexpr uint64_t kNobody = UINT64_MAX;
-  /// One word, since what is written in two is slow to read as one.
+  /// One word, as a Corner.
   static uint64_t seenBy(uint32_t v, uint32_t place) { return uint64_t{v} << 32 | place; }
   /// An edge from the vertex in question, as a node of its link.
   struct Node {
@@ -59,9 +59,9 @@ class StarCounter {
     // From the last to the first, so that each ends where it begins.
     for (size_t at = indices.size(); at != 0; at -= 3) {
       const uint32_t a = indices[at - 3], b = indices[at - 2], c = indices[at - 1];
-      corners_[--first_[a]] = {b, c};
-      corners_[--first_[b]] = {c, a};
-      corners_[--first_[c]] = {a, b};
+      corners_[--first_[a]] = Corner::of(b, c);
+      corners_[--first_[b]] = Corner::of(c, a);
+      corners_[--first_[c]] = Corner::of(a, b);
     }
   }
 
@@ -69,7 +69,7 @@ class StarCounter {
   bool meet(uint32_t v, std::span<const Corner> star) {
     bool once = true;
     for (uint32_t i = 0; i < star.size(); ++i) {
-      uint64_t& seen = seen_[star[i].next];
+      uint64_t& seen = seen_[star[i].next()];
       once &= seen >> 32 != v;
       seen = seenBy(v, i);
     }
@@ -82,7 +82,7 @@ class StarCounter {
     if (star.size() < 3) return false;
     uint32_t at = 0;
     for (size_t steps = star.size(); steps != 0; --steps) {
-      const uint64_t seen = seen_[star[at].previous];
+      const uint64_t seen = seen_[star[at].previous()];
       if (seen >> 32 != v) return false;
       at = static_cast<uint32_t>(seen);
       if (at == 0) return steps == 1;
@@ -95,7 +95,7 @@ class StarCounter {
     // The one that nobody leads to is what the others' places lack to the sum of all.
     size_t start = star.size() * (star.size() - 1) / 2, matched = 0;
     for (const Corner& corner : star) {
-      const uint64_t seen = seen_[corner.previous];
+      const uint64_t seen = seen_[corner.previous()];
       if (seen >> 32 != v) continue;
       start -= static_cast<uint32_t>(seen);
       ++matched;
@@ -103,13 +103,13 @@ class StarCounter {
     if (matched + 1 != star.size() || start >= star.size()) return false;
     size_t at = start;
     for (size_t steps = 1; steps < star.size(); ++steps) {
-      const uint64_t seen = seen_[star[at].previous];
+      const uint64_t seen = seen_[star[at].previous()];
       if (seen >> 32 != v) return false;
       at = static_cast<uint32_t>(seen);
     }
     // Who comes to an end has met none twice.
-    if (seen_[star[at].previous] >> 32 == v) return false;
-    for (const uint32_t end : {star[start].next, star[at].previous}) {
+    if (seen_[star[at].previous()] >> 32 == v) return false;
+    for (const uint32_t end : {star[start].next(), star[at].previous()}) {
       if (end > v) countOpen(v, end);
     }
     return true;
@@ -137,15 +137,15 @@ class StarCounter {
     opposite_.clear();
     size_t joined = 0;
     for (const Corner& corner : star) {
-      const uint32_t a = nodeOf(v, corner.next), b = nodeOf(v, corner.previous);
+      const uint32_t a = nodeOf(v, corner.next()), b = nodeOf(v, corner.previous());
       ++nodes_[a].out;
       ++nodes_[b].in;
       const uint32_t root_a = rootOf(a), root_b = rootOf(b);
       nodes_[root_a].parent = root_b;
       joined += root_a != root_b;
-      if (corner.next > v && corner.previous > v) {
-        opposite_.push_back(uint64_t{std::min(corner.next, corner.previous)} << 32 |
-                            std::max(corner.next, corner.previous));
+      if (corner.next() > v && corner.previous() > v) {
+        opposite_.push_back(uint64_t{std::min(corner.next(), corner.previous())} << 32 |
+                            std::max(corner.next(), corner.previous()));
       }
     }
     counts_.pinched_vertices += nodes_.size() - joined > 1;

@@ -20,9 +20,13 @@ struct StarCounts {
   std::array<uint32_t, 6> border_edges = {};  ///< with one triangle, in a border plane, by Face
 };
 
-/// A triangle's corner as its vertex sees it: the vertices that come next and before.
+/// A triangle's corner as its vertex sees it: the vertices that come next and before. One word, since what is written
+/// in two is slow to read as one.
 struct Corner {
-  uint32_t next, previous;
+  uint64_t word;
+  static Corner of(uint32_t next, uint32_t previous) { return {uint64_t{previous} << 32 | next}; }
+  uint32_t next() const { return static_cast<uint32_t>(word); }
+  uint32_t previous() const { return static_cast<uint32_t>(word >> 32); }
 };
 
 /// Memory that goes from chunk to chunk: fresh pages would take longer than what is done in them. One thread at a time.

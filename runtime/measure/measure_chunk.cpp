@@ -11,6 +11,7 @@ namespace sgm::measure {
 namespace {
 
 constexpr int kEnd = kChunkCells * kSubcell;
+constexpr size_t kSide = kChunkSamples;
 constexpr uint8_t kLeftOut = 1 << 6, kIsFeature = 1 << 7;  // beside a vertex's border planes
 
 bool isWithin(const Vertex& v, int lo, int hi) {
@@ -18,6 +19,7 @@ bool isWithin(const Vertex& v, int lo, int hi) {
 }
 
 uint8_t planesOfEdge(const Vertex& v) {
+  if (v.x % kEnd != 0 && v.y % kEnd != 0 && v.z % kEnd != 0) return 0;
   return static_cast<uint8_t>((v.x == 0) | (v.x == kEnd) << 1 | (v.y == 0) << 2 | (v.y == kEnd) << 3 | (v.z == 0) << 4 |
                               (v.z == kEnd) << 5);
 }
@@ -30,14 +32,11 @@ uint8_t planesOfFeature(const Vertex& v) {
   return static_cast<uint8_t>(((cell == 0) | (cell == kChunkCells) << 1) << 2 * axis);
 }
 
-/// Adds one triangle's terms to a part.
-void addTerms(const TriangleTerms& terms, PartMeasures& part) {
-  part.area += fixedRoot(terms.square);
-  part.cross[0] += terms.x;
-  part.cross[1] += terms.y;
-  part.cross[2] += terms.z;
-  part.six_volumes += terms.six_volumes;
-  part.slivers += isSliver(terms);
+void store(const TermSums& sums, PartMeasures& part) {
+  part.area = sums.area;
+  part.cross = {sums.x, sums.y, sums.z};
+  part.six_volumes = sums.six_volumes;
+  part.slivers = sums.slivers;
 }
 
 class BodyMeasurer {
@@ -104,53 +103,66 @@ class BodyMeasurer {
     }
   }
 
-  /// Of the edges that start in a row of samples, those whose ends differ, one word an axis.
-  std::array<uint64_t, 3> crossedEdges(size_t row) const {
-    constexpr size_t kSide = kChunkSamples;
+  /// Of the edges that start in a row of samples, how many have ends that differ.
+  uint32_t crossedEdges(size_t row) const {
     const bool y_ends = row % kSide == kChunkCells, z_ends = row / kSide == kChunkCells;
     const uint64_t signs = signs_[row], cells = (uint64_t{1} << kChunkCells) - 1;
-    return {(signs ^ signs >> 1) & cells, y_ends ? 0 : signs ^ signs_[row + 1],
-            z_ends ? 0 : signs ^ signs_[row + kSide]};
+    const uint64_t x = (signs ^ signs >> 1) & cells, y = y_ends ? 0 : signs ^ signs_[row + 1],
+                   z = z_ends ? 0 : signs ^ signs_[row + kSide];
+    return (x | y | z) == 0 ? 0 : static_cast<uint32_t>(std::popcount(x) + std::popcount(y) + std::popcount(z));
+  }
+
+  bool isOnCrossed(const SampleEdge& edge) const {
+    if (edge.axis == 2 && edge.z == kChunkCells) return false;  // a misplaced one, on a corner
+    const auto row = static_cast<size_t>(edge.y) + kSide * static_cast<size_t>(edge.z);
+    const uint64_t from = signs_[row] >> edge.x;
+    const uint64_t to = edge.axis == 0   ? from >> 1
+                        : edge.axis == 1 ? signs_[row + 1] >> edge.x
+                                         : signs_[row + kSide] >> edge.x;
+    return ((from ^ to) & 1) != 0;
   }
 
   void compareWithSamples() {
     uint32_t on_crossed = 0, crossed = 0;
     for (size_t i = 0; i < body_.vertices.size(); ++i) {
       if ((planes_[i] & (kLeftOut | kIsFeature)) != 0) continue;
-      const SampleEdge edge = edgeOfBodyVertex(body_.vertices[i]);
-      const auto row = static_cast<size_t>(edge.y + kChunkSamples * edge.z);
-      on_crossed += (crossedEdges(row)[static_cast<size_t>(edge.axis)] >> edge.x & 1) != 0;
+      on_crossed += isOnCrossed(edgeOfBodyVertex(body_.vertices[i]));
       ++topology_.compared;
     }
-    for (size_t row = 0; row < signs_.size(); ++row) {
-      for (const uint64_t edges : crossedEdges(row)) crossed += static_cast<uint32_t>(std::popcount(edges));
-    }
+    for (size_t row = 0; row < signs_.size(); ++row) crossed += crossedEdges(row);
     // Vertices on crossed edges are one an edge, or misplaced.
     count(Defect::unlike_samples) = topology_.compared - on_crossed + (crossed > on_crossed ? crossed - on_crossed : 0);
   }
 
   void addTriangles() {
     indices_.resize(3 * size_t{part_.triangles});
+    // What is written here cannot be mistaken for what is read, so that sums stay in registers.
+    TermSums sums;
+    uint32_t against = 0, flat = 0;
     uint32_t* kept = indices_.data();
+    const Vertex* const vertices = body_.vertices.data();
+    const uint8_t* const planes = planes_.data();
+    const PackedDirection* const directions = directions_.data();
+    const uint32_t first_vertex = body_.first_vertex, count_vertices = part_.vertices;
     for (size_t at = 0; at + 3 <= body_.indices.size(); at += 3) {
-      const uint32_t a = body_.indices[at] - body_.first_vertex, b = body_.indices[at + 1] - body_.first_vertex,
-                     c = body_.indices[at + 2] - body_.first_vertex;
-      if (std::max({a, b, c}) >= part_.vertices) {
+      const uint32_t a = body_.indices[at] - first_vertex, b = body_.indices[at + 1] - first_vertex,
+                     c = body_.indices[at + 2] - first_vertex;
+      if (std::max({a, b, c}) >= count_vertices) {
         ++count(Defect::index);
         continue;
       }
-      const unsigned planes = planes_[a] | planes_[b] | planes_[c];
-      if ((planes & kLeftOut) != 0) continue;
-      const TriangleTerms terms = termsOf(body_.vertices[a], body_.vertices[b], body_.vertices[c]);
-      addTerms(terms, part_);
+      const unsigned marks = planes[a] | planes[b] | planes[c];
+      if ((marks & kLeftOut) != 0) continue;
+      const TriangleTerms terms = termsOf(vertices[a], vertices[b], vertices[c]);
+      addTerms(terms, sums);
       if (terms.square == 0) {
         if (a == b || b == c || c == a) {
           ++count(Defect::degenerate);
           continue;
         }
-        count(Defect::flat) += (planes & kIsFeature) == 0;
+        flat += (marks & kIsFeature) == 0;
       } else {
-        part_.against_gradient += !facesAlong(terms, directions_[a], directions_[b], directions_[c]);
+        against += !facesAlong(terms, directions[a], directions[b], directions[c]);
       }
       kept[0] = a;
       kept[1] = b;
@@ -158,6 +170,9 @@ class BodyMeasurer {
       kept += 3;
     }
     indices_.resize(static_cast<size_t>(kept - indices_.data()));
+    store(sums, part_);
+    part_.against_gradient = against;
+    count(Defect::flat) = flat;
   }
 
   /// Feature vertices that a crease has split are one again: of equal place and kind, and so of equal key.
@@ -233,6 +248,7 @@ PartMeasures measureSeam(const PartView& seam) {
   };
   part.defects[static_cast<size_t>(Defect::outside)] =
       static_cast<uint32_t>(std::count_if(seam.vertices.begin(), seam.vertices.end(), outside));
+  TermSums sums;
   for (size_t at = 0; at + 3 <= seam.indices.size(); at += 3) {
     const uint32_t a = seam.indices[at] - seam.first_vertex, b = seam.indices[at + 1] - seam.first_vertex,
                    c = seam.indices[at + 2] - seam.first_vertex;
@@ -243,8 +259,9 @@ PartMeasures measureSeam(const PartView& seam) {
     const Vertex &u = seam.vertices[a], &v = seam.vertices[b], &w = seam.vertices[c];
     if (outside(u) || outside(v) || outside(w)) continue;
     part.defects[static_cast<size_t>(Defect::degenerate)] += a == b || b == c || c == a;
-    addTerms(termsOf(u, v, w), part);
+    addTerms(termsOf(u, v, w), sums);
   }
+  store(sums, part);
   return part;
 }
 

@@ -72,6 +72,22 @@ SGM_KERNEL bool isSliver(const TriangleTerms& t) {
   return 75 * t.square < (int64_t{t.sides} * t.sides + 63) >> 6;
 }
 
+/// What triangles add up to.
+struct TermSums {
+  int64_t area = 0;  ///< twice, in 1/4096 (fixedRoot)
+  int64_t x = 0, y = 0, z = 0, six_volumes = 0;
+  uint32_t slivers = 0;
+};
+
+SGM_KERNEL void addTerms(const TriangleTerms& t, TermSums& sums) {
+  sums.area += fixedRoot(t.square);
+  sums.x += t.x;
+  sums.y += t.y;
+  sums.z += t.z;
+  sums.six_volumes += t.six_volumes;
+  sums.slivers += isSliver(t) ? 1u : 0u;
+}
+
 /// Whether it faces where its corners' normals point, all together.
 SGM_KERNEL bool facesAlong(const TriangleTerms& t, const PackedDirection& a, const PackedDirection& b,
                            const PackedDirection& c) {

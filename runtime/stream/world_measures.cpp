@@ -2,7 +2,12 @@
 
 #include <chrono>
 
+#include "measure/measure_chunk.h"
+
 namespace sgm {
+
+MeasuringPool::MeasuringPool(std::pmr::memory_resource* memory) : memory_(memory) {}
+MeasuringPool::~MeasuringPool() = default;
 
 std::unique_ptr<measure::MeasureScratch> MeasuringPool::take() {
   {

@@ -5,11 +5,15 @@
 #include <mutex>
 #include <vector>
 
-#include "measure/measure_chunk.h"
+#include "measure/chunk_measures.h"
 #include "stream/chunk_surface.h"
 #include "stream/drawn_frame.h"
 
 namespace sgm {
+
+namespace measure {
+struct MeasureScratch;
+}
 
 /// Of what jobs have made.
 struct MadeMeasures {
@@ -32,7 +36,8 @@ struct WorldMeasures {
 /// Scratch memory for as many threads as measure at one time. Thread-safe.
 class MeasuringPool {
  public:
-  explicit MeasuringPool(std::pmr::memory_resource* memory) : memory_(memory) {}
+  explicit MeasuringPool(std::pmr::memory_resource* memory);
+  ~MeasuringPool();
   std::unique_ptr<measure::MeasureScratch> take();
   void give(std::unique_ptr<measure::MeasureScratch> scratch);
 

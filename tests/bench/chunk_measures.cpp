@@ -1,5 +1,6 @@
 // What measuring chunks takes beside meshing them, each right after it was meshed, as a streamed world does: on one
 // thread, around a place of a sample grammar, three levels, each chunk with a seam to its coarser neighbour below.
+// Medians over runs.
 //
 //   sgm_bench_chunk_measures FOLDER-OF-SAMPLE-GRAMMARS [RUNS]
 
@@ -34,9 +35,9 @@ struct Times {
   SurfaceSums sums;
 };
 
-Result<Times> run(const WorldField& world, Backend& backend, JobSystem& jobs, const Place& place) {
+Result<Times> run(const WorldField& world, Backend& backend, JobSystem& jobs, const Place& place,
+                  MeasureScratch& scratch) {
   Times times;
-  MeasureScratch scratch(world.memory());
   for (int level = 0; level < 3; ++level) {
     const int64_t edge = int64_t{kChunkCells} * place.cell << level;
     for (int i = 0; i < (2 * kAround) * (2 * kAround) * (2 * kAround); ++i) {
@@ -88,6 +89,7 @@ int main(int argc, char** argv) {
                           {"terrain.sgm", 256, {0, 0, 0}, false},
                           {"cloud.sgm", 4096, {450, 1200, 450}, false},
                           {"building.sgm", 256, {0, 8, 0}, true}};
+  MeasureScratch scratch(std::pmr::get_default_resource());
   std::printf("%-14s %9s %10s %10s %10s %7s %9s\n", "grammar", "chunks", "triangles", "meshing ms", "measure ms",
               "share", "ns/triangle");
   for (const Place& place : places) {
@@ -100,18 +102,22 @@ int main(int argc, char** argv) {
     settings.parameters = ParameterValues::defaults(*compiled.program);
     settings.seed = 3;
     settings.finest_cell = place.cell;
-    Times best;
+    std::vector<double> meshing, measuring, shares;
+    SurfaceSums sums;
     for (int i = 0; i < runs; ++i) {
       const WorldField world(settings, std::pmr::get_default_resource());
-      Result<Times> times = run(world, **backend, **jobs, place);
+      const Result<Times> times = run(world, **backend, **jobs, place, scratch);
       if (!times) return fail(times.error().message);
-      if (i == 0 || times->measuring < best.measuring) best = *times;
+      meshing.push_back(times->meshing);
+      measuring.push_back(times->measuring);
+      shares.push_back(100 * times->measuring / times->meshing);
+      sums = times->sums;
     }
-    const SurfaceSums& sums = best.sums;
+    const double median = bench::statistics(measuring).median;
     std::printf("%-14s %9llu %10llu %10.1f %10.2f %6.2f%% %9.1f\n", place.grammar,
                 static_cast<unsigned long long>(sums.bodies), static_cast<unsigned long long>(sums.triangles),
-                best.meshing, best.measuring, 100 * best.measuring / best.meshing,
-                1e6 * best.measuring / static_cast<double>(sums.triangles));
+                bench::statistics(meshing).median, median, bench::statistics(shares).median,
+                1e6 * median / static_cast<double>(sums.triangles));
     for (size_t kind = 0; kind < kDefects; ++kind) {
       if (sums.defects[kind] == 0) continue;
       std::printf("  %llu %s\n", static_cast<unsigned long long>(sums.defects[kind]),
