@@ -50,7 +50,9 @@ struct MeasureOptions : WorldOptions {
   bool unique_edges = false;
   std::optional<double> cubes;  ///< metres
   bool no_self_intersections = false;
-  uint64_t memory = 4096;  ///< MB
+  std::string from, to;          ///< of a way through the void, points in metres; both or neither
+  std::optional<double> radius;  ///< metres: of who is to go there; given, or with a way, the void is measured
+  uint64_t memory = 4096;        ///< MB
   double seconds = 300;
 };
 Exit measureMesh(const MeasureOptions& options);

@@ -7,6 +7,7 @@
 #include "cli/commands.h"
 #include "cli/limited_process.h"
 #include "cli/measure_report.h"
+#include "cli/measure_void.h"
 #include "cli/measured_mesh.h"
 
 namespace sgm::cli {
@@ -69,7 +70,12 @@ Exit measureGrammar(const MeasureOptions& options) {
 }  // namespace
 
 Exit measureMesh(const MeasureOptions& options) {
-  if (std::filesystem::path(options.file).extension() == ".sgm") return measureGrammar(options);
+  const bool grammar = std::filesystem::path(options.file).extension() == ".sgm";
+  if (asksForVoid(options)) {
+    if (grammar) return measureVoid(options);
+    return complain(Exit::usage, "--from, --to and --radius ask for the void of a grammar: a mesh file has none");
+  }
+  if (grammar) return measureGrammar(options);
   const Result<asset::MeshFileKind> kind = asset::meshFileKind(std::string_view(options.file));
   if (!kind) return complain(Exit::usage, kind.error().message + "; or a grammar, .sgm");
   ProcessLimits limits;
