@@ -156,6 +156,13 @@ void addRegionOptions(CLI::App& app, WorldOptions& options) {
       ->capture_default_str();
 }
 
+/// All options but these.
+std::vector<CLI::Option*> optionsBeside(CLI::App& app, const std::vector<CLI::Option*>& others) {
+  std::vector<CLI::Option*> options = app.get_options([](const CLI::Option*) { return true; });
+  std::erase_if(options, [&](CLI::Option* o) { return std::find(others.begin(), others.end(), o) != others.end(); });
+  return options;
+}
+
 Command addCheck(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "check", "Check grammars and say what is wrong, with line and column; with --expect, evaluate report and expect");
@@ -164,15 +171,13 @@ Command addCheck(CLI::App& root) {
   app->add_flag("--json", options->json, "Print messages, parameters and layers as JSON on standard output");
   CLI::Option* expect =
       app->add_flag("--expect", options->expect, "Derive and mesh what the report and expect statements are about");
-  const std::vector<CLI::Option*> plain = app->get_options([](const CLI::Option*) { return true; });
+  const std::vector<CLI::Option*> plain = optionsBeside(*app, {});
   addDerivationOptions(*app, *options);
   addRegionOptions(*app, *options);
   app->add_option("--seeds", options->seeds, "Evaluate this many seeds, from --seed on, and name those that fail")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1000000}))
       ->capture_default_str();
-  for (CLI::Option* option : app->get_options([](const CLI::Option*) { return true; })) {
-    if (std::find(plain.begin(), plain.end(), option) == plain.end()) option->needs(expect);
-  }
+  for (CLI::Option* option : optionsBeside(*app, plain)) option->needs(expect);
   app->footer(kCheckFooter);
   return [options] { return check(*options); };
 }
@@ -247,12 +252,33 @@ void addProcessLimits(CLI::App& app, Options& options) {
       ->capture_default_str();
 }
 
+/// --from, --to, --radius, which `excluded` says nothing to.
+void addVoidOptions(CLI::App& app, MeasureOptions& options, const std::vector<CLI::Option*>& excluded) {
+  CLI::Option* from =
+      app.add_option("--from", options.from, "Look for a way through the void from this point, in metres")
+          ->type_name("X,Y,Z")
+          ->check(checkPoint);
+  CLI::Option* to =
+      app.add_option("--to", options.to, "And to this one")->type_name("X,Y,Z")->check(checkPoint)->needs(from);
+  from->needs(to);
+  CLI::Option* radius =
+      app.add_option(
+             "--radius", options.radius,
+             "Of the agent that goes there, below 32 cells (0: a point); without --from measure the voids alone")
+          ->type_name("METRES")
+          ->check(numberIn(0.0, 1e6));
+  for (CLI::Option* option : {from, to, radius}) {
+    for (CLI::Option* other : excluded) option->excludes(other);
+  }
+}
+
 Command addMeasure(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "measure", "Measure a mesh file, or a region of a grammar, and say whether it is the closed surface of a solid");
   const auto options = std::make_shared<MeasureOptions>();
   app->add_option("FILE", options->file, "A .glb, .obj, .ply or .stl file, or a .sgm grammar")->required();
   app->add_flag("--json", options->json, "Print the result as one JSON object on standard output");
+  const std::vector<CLI::Option*> of_all = optionsBeside(*app, {});
   app->add_option("--weld", options->weld,
                   "Points at most so far apart are one; 0: those with equal coordinates, which is right for files that "
                   "a program wrote")
@@ -295,23 +321,48 @@ Command addMeasure(CLI::App& root) {
       ->type_name("N")
       ->check(CLI::Range(1, kMaxLevel));
   addProcessLimits(*app, *options);
-  addDerivationOptions(*app, *options);
-  addRegionOptions(*app, *options);
   addLevelOption(*app, *options);
   addSharpOption(*app, *options);
+  const std::vector<CLI::Option*> of_surfaces = optionsBeside(*app, of_all);
+  addDerivationOptions(*app, *options);
+  addRegionOptions(*app, *options);
+  addVoidOptions(*app, *options, of_surfaces);
   app->footer(
       "Lengths are in the file's unit, metres in .glb files and grammars. A mesh file is read and measured in a "
       "process\n"
-      "of its own, which --memory and --seconds limit. --seed to --sharp are for grammars.\n"
+      "of its own, which --memory and --seconds limit. --level to --radius are for grammars.
+      "
       "Distances are bounded from both sides: from vertices and four places a triangle, and by cutting triangles until "
-      "no\n"
+      "no
+      "
       "part may be farther. Of levels, triangles near the cut of a region are left out. Where the field has no detail "
-      "by\n"
-      "level and nothing thinner than a cell, levels are at most 2.6 coarse cells apart, smooth ones far less.\n"
-      "Gradients are differences of the field in double precision; vertices in its creases have no angle.\n"
-      "Exit status 0 also where the mesh is not valid: \"valid\" and \"problems\" in --json say so.\n"
-      "Example:\n  sgm measure cave.glb --json\n  sgm measure samples/grammars/sphere.sgm --cell 0.25 --field --levels "
-      "3");
+      "by
+      "
+      "level and nothing thinner than a cell, levels are at most 2.6 coarse cells apart, smooth ones far less.
+      "
+      "Gradients are differences of the field in double precision; vertices in its creases have no angle.
+      "
+      "Exit status 0 also where the mesh is not valid: \"valid\" and \"problems\" in --json say so.
+
+      "
+      "With --radius or --from and --to it is the void that is measured: how many separate voids an agent, a ball,
+      "
+      "finds in the region, and the way from one place to another. Exit status 1 where there is none: it says why,
+      "
+      "and how large an agent may be. An agent fits at a sample where no solid sample, a cell apart, is as near as
+      "
+      "its radius; the surface may come nearer to the way than that by 2.5 cells, as a rule by one.
+      "
+      "Example:
+      sgm measure cave.glb-- json sgm measure samples /
+      grammars /
+      sphere.sgm-- cell 0.25 --field-- levels
+      "
+      "3
+      "
+      "  sgm measure samples/grammars/cave.sgm --seed 3 --region 96,-192,0:320,-32,192 --from 108,-72,72 \
+"
+      "    --to 296,-104,104 --radius 0.5");
   return [options] { return measureMesh(*options); };
 }
 

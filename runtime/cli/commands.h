@@ -54,6 +54,8 @@ struct MeasureOptions : WorldOptions {
   int levels = 0;                ///< also so many pairs of levels, from `level` on
   std::optional<double> texels;  ///< also the texels of a texture of this resolution
   std::string against;           ///< also the distance to this file's mesh; empty: none
+  std::string from, to;          ///< of a way through the void, points in metres; both or neither
+  std::optional<double> radius;  ///< metres: of who is to go there; given, or with a way, the void is measured
   uint64_t memory = 4096;        ///< MB
   double seconds = 300;
 };

@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/measure_report.h"
+#include "cli/measure_void.h"
 #include "cli/measured_mesh.h"
 #include "cli/sampled_report.h"
 
@@ -149,6 +150,11 @@ Exit measureGrammar(const MeasureOptions& options, asset::MeshFileKind against_k
 }  // namespace
 
 Exit measureMesh(const MeasureOptions& options) {
+  const bool grammar = std::filesystem::path(options.file).extension() == ".sgm";
+  if (asksForVoid(options)) {
+    if (grammar) return measureVoid(options);
+    return complain(Exit::usage, "--from, --to and --radius ask for the void of a grammar: a mesh file has none");
+  }
   ProcessLimits limits;
   limits.memory = options.memory << 20;
   limits.seconds = options.seconds;
@@ -156,7 +162,7 @@ Exit measureMesh(const MeasureOptions& options) {
   Result<asset::MeshFileKind> against_kind = asset::MeshFileKind{};
   if (!options.against.empty()) against_kind = kindOf(options.against);
   if (!against_kind) return complain(Exit::usage, "--against: " + against_kind.error().message);
-  if (std::filesystem::path(options.file).extension() == ".sgm") return measureGrammar(options, *against_kind, limits);
+  if (grammar) return measureGrammar(options, *against_kind, limits);
   const Result<asset::MeshFileKind> kind = kindOf(options.file);
   if (!kind) return complain(Exit::usage, kind.error().message + "; or a grammar, .sgm");
   if (options.field || options.levels > 0) {

@@ -113,29 +113,49 @@ Json toJson(const WorldOptions& options, const Region& region) {
           {"backend", region.backend}};
 }
 
-RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
+OpenedWorld openWorld(const WorldOptions& options, const RegionPlan& plan) {
+  OpenedWorld opened;
+  const auto failed = [&](Exit status) {
+    opened.program = nullptr;
+    opened.status = status;
+    return opened;
+  };
   // What the command line alone can tell comes before any work.
-  std::optional<IntBox> region;
   if (!options.region.empty()) {
     const Result<IntBox> given = parseRegion(options.region);
-    if (!given) return failure(complain(given.error()));
-    region = *given;
+    if (!given) return failed(complain(given.error()));
+    opened.region = *given;
   }
-  const Result<int32_t> given_cell = cellUnits(options);
-  if (!given_cell) return failure(complain(given_cell.error()));
+  const Result<int32_t> cell = cellUnits(options);
+  if (!cell) return failed(complain(cell.error()));
 
-  LoadedGrammar grammar = loadGrammar(options.file);
-  if (grammar.program == nullptr) return failure(grammar.status);
+  const LoadedGrammar grammar = loadGrammar(options.file);
+  if (grammar.program == nullptr) return failed(grammar.status);
   const Program& program = *grammar.program;
   if (plan.check) {
-    if (const Result<void> fits = plan.check(program); !fits) return failure(complain(fits.error()));
+    if (const Result<void> fits = plan.check(program); !fits) return failed(complain(fits.error()));
   }
   Result<ParameterValues> parameters = parameterValues(program, options.sets);
-  if (!parameters) return failure(complain(parameters.error()));
-  if (options.region.empty() && !program.domain.infinite) region = program.domain.box;
-  if (!region && !plan.choose)
-    return failure(
+  if (!parameters) return failed(complain(parameters.error()));
+  if (options.region.empty() && !program.domain.infinite) opened.region = program.domain.box;
+  if (!opened.region && !plan.choose)
+    return failed(
         complain(Exit::usage, "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1"));
+  opened.program = grammar.program;
+  opened.settings.program = grammar.program;
+  opened.settings.parameters = std::move(*parameters);
+  opened.settings.seed = options.seed;
+  opened.settings.finest_cell = *cell;
+  opened.settings.cache_bytes = kCacheBytes;
+  return opened;
+}
+
+RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
+  OpenedWorld opened = openWorld(options, plan);
+  if (opened.program == nullptr) return failure(opened.status);
+  const Program& program = *opened.program;
+  WorldFieldSettings& settings = opened.settings;
+  std::optional<IntBox>& region = opened.region;
 
   const Stopwatch watch;
   const Result<std::unique_ptr<JobSystem>> pool = makeThreadPool(options.threads);
@@ -144,12 +164,6 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
   const Result<std::unique_ptr<Backend>> backend = backendOf(options, *jobs);
   if (!backend) return failure(complain(backend.error()));
-  WorldFieldSettings settings;
-  settings.program = grammar.program;
-  settings.parameters = std::move(*parameters);
-  settings.seed = options.seed;
-  settings.finest_cell = *given_cell;
-  settings.cache_bytes = kCacheBytes;
   if (!region) {
     const Result<IntBox> chosen = plan.choose(WorldField(settings, memory));
     if (!chosen) return failure(complain(chosen.error()));
@@ -190,7 +204,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   warnOfNotes(options.file, *notes);
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
-  Region result{grammar.program,
+  Region result{opened.program,
                 std::move(*meshed),
                 cell << options.level,
                 std::move(*anchors),

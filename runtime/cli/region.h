@@ -69,6 +69,17 @@ struct RegionPlan {
   std::function<Result<void>(const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region)> after;
 };
 
+/// A grammar's world and a region of it, as the options say, before any work.
+struct OpenedWorld {
+  std::shared_ptr<const Program> program;  ///< null where something is wrong; it has been said
+  Exit status = Exit::done;                ///< to end with then
+  WorldFieldSettings settings;
+  std::optional<IntBox> region;  ///< --region, else all of a finite world; none of an endless one, if that may be
+};
+
+/// Of an endless world there must be a --region, unless the plan chooses one. Messages go to stderr.
+OpenedWorld openWorld(const WorldOptions& options, const RegionPlan& plan = {});
+
 /// Reads, compiles and meshes what the options say. The region is --region; without it, all of a finite world, or what
 /// the plan chooses of an endless one (else --region must be given), with cells as large as that needs where --cell
 /// does not say. Messages go to stderr, a progress bar too where that is a terminal.

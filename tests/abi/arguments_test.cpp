@@ -382,6 +382,38 @@ TEST_CASE("questions to the field are checked") {
   }
   CHECK(stand([](auto& d) { d.minimum[0] = std::numeric_limits<int32_t>::min(); }) == SGM_ERR_RANGE);
   CHECK(stand([](auto& d) { d.minimum[0] = -1'000'000'000; }) == SGM_ERR_LIMIT);
+
+  sgm_way_desc way_desc = SGM_WAY_DESC_INIT;
+  for (int32_t& v : way_desc.maximum) v = 4096;
+  sgm_way way = SGM_WAY_INIT;
+  checkStruct(way_desc, [&](sgm_way_desc* desc) { return sgm_field_find_way(field, desc, &way, &error); });
+  checkStruct(way, [&](sgm_way* out) { return sgm_field_find_way(field, &way_desc, out, &error); });
+  CHECK(sgm_field_find_way(nullptr, &way_desc, &way, &error) == SGM_ERR_INVALID_ARGUMENT);
+  const auto seek = [&](auto change) {
+    sgm_way_desc desc = way_desc;
+    change(desc);
+    error = SGM_ERROR_INIT;
+    way.verdict = 77;
+    const sgm_result result = sgm_field_find_way(field, &desc, &way, &error);
+    CHECK((result == SGM_OK) == (error.message[0] == 0));
+    CHECK((result == SGM_OK) == (way.verdict != 77));
+    return result;
+  };
+  CHECK(seek([](auto&) {}) == SGM_OK);
+  CHECK(seek([](auto& d) { d.minimum[1] = d.maximum[1]; }) == SGM_ERR_INVALID_ARGUMENT);
+  for (const double bad : {nan, infinite, -1.0}) {
+    CHECK(seek([&](auto& d) { d.radius = bad; }) == SGM_ERR_INVALID_ARGUMENT);
+    CHECK(seek([&](auto& d) { d.from[0] = bad; }) == SGM_ERR_INVALID_ARGUMENT);
+    CHECK(seek([&](auto& d) { d.to[2] = bad; }) == SGM_ERR_INVALID_ARGUMENT);
+  }
+  CHECK(seek([](auto& d) { d.flags = 2; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(seek([](auto& d) { d.reserved = 1; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(seek([](auto& d) { d.minimum[0] = std::numeric_limits<int32_t>::min(); }) == SGM_ERR_RANGE);
+  CHECK(seek([](auto& d) { d.minimum[0] = -1'000'000'000; }) == SGM_ERR_LIMIT);
+  CHECK(seek([](auto& d) {
+          d.maximum[0] = 100'000;
+          d.max_chunks = 2;
+        }) == SGM_ERR_LIMIT);
 }
 
 TEST_CASE("chunk calls are checked") {
@@ -692,6 +724,10 @@ TEST_CASE("world calls are checked") {
   CHECK(sgm_world_closest_point(world, &closest, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_world_is_walkable(nullptr, &walk, &walkable, &error) == SGM_ERR_INVALID_ARGUMENT);
   CHECK(sgm_world_is_walkable(world, &walk, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  const sgm_way_desc way_desc = SGM_WAY_DESC_INIT;
+  sgm_way way = SGM_WAY_INIT;
+  CHECK(sgm_world_find_way(nullptr, &way_desc, &way, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_find_way(world, &way_desc, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
   sgm_density_desc density = SGM_DENSITY_DESC_INIT;
   uint8_t dense = 7;
   density.values = &dense;

@@ -101,6 +101,35 @@ void settle(sgm_world* world, Engine& engine) {
 
 }  // namespace
 
+TEST_CASE("what is dug joins two hollows, and its undo parts them again") {
+  const RuntimeOwner runtime = makeRuntime();
+  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kRock).get(), 512);
+  const WorldOwner world = makeWorld(field.get(), smallWorld());
+  sgm_way_desc desc = SGM_WAY_DESC_INIT;
+  desc.minimum[0] = desc.minimum[1] = desc.minimum[2] = -16 * 1024;
+  desc.maximum[0] = desc.maximum[1] = desc.maximum[2] = 16 * 1024;
+  desc.from[0] = -4 * 1024;
+  desc.to[0] = 4 * 1024;
+  sgm_way way = SGM_WAY_INIT;
+  const auto verdict = [&] {
+    REQUIRE(sgm_world_find_way(world.get(), &desc, &way, nullptr) == SGM_OK);
+    return way.verdict;
+  };
+  CHECK(verdict() == SGM_WAY_FROM_IN_ROCK);
+  dig(world.get(), -4 * 1024, 0, 0, 2 * 1024);
+  CHECK(verdict() == SGM_WAY_TO_IN_ROCK);
+  dig(world.get(), 4 * 1024, 0, 0, 2 * 1024);
+  CHECK(verdict() == SGM_WAY_APART);
+  CHECK(way.from_volume == way.to_volume);
+  const sgm_edit_id id = dig(world.get(), 0, 0, 0, 3 * 1024);
+  CHECK(verdict() == SGM_WAY_FOUND);
+  CHECK(way.length == 8.0);
+  REQUIRE(sgm_world_undo(world.get(), &id, nullptr, nullptr) == SGM_OK);
+  CHECK(verdict() == SGM_WAY_APART);
+  REQUIRE(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_OK);
+  CHECK(way.verdict == SGM_WAY_FROM_IN_ROCK);
+}
+
 TEST_CASE("a dig is drawn, collided with and asked about, and its undo takes all of that back", "[threads]") {
   const RuntimeOwner runtime = makeRuntime();
   const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kRock).get(), 512);

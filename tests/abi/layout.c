@@ -99,6 +99,15 @@ CHECK(world_sharp, SGM_WORLD_SHARP == 16);
 CHECK(meshing_texture, SGM_MESHING_TEXTURE == 1);
 CHECK(meshing_sharp, SGM_MESHING_SHARP == 2);
 CHECK(meshing_flag_width, SGM_MESHING_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
+CHECK(way_found, SGM_WAY_FOUND == 0);
+CHECK(way_from_in_rock, SGM_WAY_FROM_IN_ROCK == 1);
+CHECK(way_to_in_rock, SGM_WAY_TO_IN_ROCK == 2);
+CHECK(way_from_too_narrow, SGM_WAY_FROM_TOO_NARROW == 3);
+CHECK(way_to_too_narrow, SGM_WAY_TO_TOO_NARROW == 4);
+CHECK(way_apart, SGM_WAY_APART == 5);
+CHECK(way_verdict_width, SGM_WAY_VERDICT_FORCE_32_BIT == 0x7FFFFFFF);
+CHECK(way_widest, SGM_WAY_WIDEST == 1);
+CHECK(way_flag_width, SGM_WAY_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(host_cut, SGM_HOST_CUT == 1);
 CHECK(host_width, SGM_HOST_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(defect_index, SGM_DEFECT_INDEX == 0);
@@ -347,6 +356,38 @@ PLACE(sgm_walkable, walkable, 16);
 PLACE(sgm_walkable, sides, 20);
 PLACE(sgm_walkable, standing, 24);
 PLACE(sgm_walkable, largest, 32);
+
+SIZE(sgm_way_desc, 144);
+PLACE(sgm_way_desc, struct_size, 0);
+PLACE(sgm_way_desc, next, 8);
+PLACE(sgm_way_desc, from, 16);
+PLACE(sgm_way_desc, to, 40);
+PLACE(sgm_way_desc, minimum, 64);
+PLACE(sgm_way_desc, maximum, 76);
+PLACE(sgm_way_desc, radius, 88);
+PLACE(sgm_way_desc, flags, 96);
+PLACE(sgm_way_desc, reserved, 100);
+PLACE(sgm_way_desc, max_chunks, 104);
+PLACE(sgm_way_desc, places, 112);
+PLACE(sgm_way_desc, place_room, 120);
+PLACE(sgm_way_desc, progress, 128);
+PLACE(sgm_way_desc, progress_user, 136);
+
+SIZE(sgm_way, 104);
+PLACE(sgm_way, struct_size, 0);
+PLACE(sgm_way, next, 8);
+PLACE(sgm_way, verdict, 16);
+PLACE(sgm_way, reserved, 20);
+PLACE(sgm_way, place_count, 24);
+PLACE(sgm_way, length, 32);
+PLACE(sgm_way, from_clearance, 40);
+PLACE(sgm_way, to_clearance, 48);
+PLACE(sgm_way, widest, 56);
+PLACE(sgm_way, from_volume, 64);
+PLACE(sgm_way, to_volume, 72);
+PLACE(sgm_way, largest_volume, 80);
+PLACE(sgm_way, void_count, 88);
+PLACE(sgm_way, sealed_count, 96);
 
 SIZE(sgm_chunk_key, 16);
 PLACE(sgm_chunk_key, level, 0);
@@ -702,6 +743,8 @@ int LAYOUT_INITS(void) {
   const sgm_closest_desc closest_desc = SGM_CLOSEST_DESC_INIT;
   const sgm_walk_desc walk_desc = SGM_WALK_DESC_INIT;
   const sgm_walkable walkable = SGM_WALKABLE_INIT;
+  const sgm_way_desc way_desc = SGM_WAY_DESC_INIT;
+  const sgm_way way = SGM_WAY_INIT;
   const sgm_chunk_request chunk_request = SGM_CHUNK_REQUEST_INIT;
   const sgm_chunks_desc chunks_desc = SGM_CHUNKS_DESC_INIT;
   const sgm_mesh_range mesh_range = SGM_MESH_RANGE_INIT;
@@ -735,7 +778,9 @@ int LAYOUT_INITS(void) {
          ray_desc.struct_size == sizeof(ray_desc) && ray_desc.next == SGM_NULL &&
          closest_desc.struct_size == sizeof(closest_desc) && closest_desc.next == SGM_NULL &&
          walk_desc.struct_size == sizeof(walk_desc) && walk_desc.next == SGM_NULL &&
-         walkable.struct_size == sizeof(walkable) && walkable.next == SGM_NULL && chunk_request.coarser == 0 &&
+         walkable.struct_size == sizeof(walkable) && walkable.next == SGM_NULL &&
+         way_desc.struct_size == sizeof(way_desc) && way_desc.next == SGM_NULL && way.struct_size == sizeof(way) &&
+         way.next == SGM_NULL && chunk_request.coarser == 0 &&
          chunk_request.reserved[1] == 0 && chunks_desc.struct_size == sizeof(chunks_desc) &&
          chunks_desc.next == SGM_NULL && mesh_range.hash == 0 && mesh_view.struct_size == sizeof(mesh_view) &&
          mesh_view.next == SGM_NULL && region_desc.struct_size == sizeof(region_desc) && region_desc.next == SGM_NULL &&

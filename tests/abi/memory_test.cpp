@@ -65,6 +65,11 @@ sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threa
   for (int32_t& v : walk.maximum) v = 8192;
   sgm_walkable walkable = SGM_WALKABLE_INIT;
   if (sgm_result r = sgm_field_is_walkable(h.field, &walk, &walkable, error); r != SGM_OK) return r;
+  sgm_way_desc way_desc = SGM_WAY_DESC_INIT;
+  for (int32_t& v : way_desc.maximum) v = 8192;
+  way_desc.to[0] = 8000;
+  sgm_way way = SGM_WAY_INIT;
+  if (sgm_result r = sgm_field_find_way(h.field, &way_desc, &way, error); r != SGM_OK) return r;
   sgm_region_desc region = SGM_REGION_DESC_INIT;
   for (int32_t& v : region.maximum) v = 20000;
   region.flags = SGM_MESHING_TEXTURE | SGM_MESHING_SHARP;

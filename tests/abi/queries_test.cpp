@@ -1,5 +1,6 @@
 // Questions to the field through C: a ball's surface, a floor, and the same from many threads.
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -92,6 +93,66 @@ TEST_CASE("a box is walkable on a floor, and not beside it") {
   CHECK(walkable.walkable == 0);
   CHECK(walkable.standing == 0);
   CHECK(walkable.sides == 0);
+}
+
+TEST_CASE(
+    "a way leads round the ball, as wide as there is room in the region, and its places come in the caller's array") {
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(runtime.get(), kBall);
+  const FieldOwner field = makeField(runtime.get(), grammar.get());
+  // From one side of 3 m around (4, 4, 4) m to the other, in cells of 0.25 m.
+  sgm_way_desc desc = SGM_WAY_DESC_INIT;
+  for (int32_t& v : desc.maximum) v = 8 * 1024;
+  desc.from[0] = 0.25 * 1024;
+  desc.to[0] = 7.75 * 1024;
+  desc.from[1] = desc.from[2] = desc.to[1] = desc.to[2] = 4 * 1024;
+  std::vector<int32_t> places(3 * 4096, 77);
+  desc.places = places.data();
+  desc.place_room = places.size() / 3;
+  desc.flags = SGM_WAY_WIDEST;
+  sgm_way way = SGM_WAY_INIT;
+  REQUIRE(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_OK);
+  CHECK(way.verdict == SGM_WAY_FOUND);
+  CHECK(way.length > 7.5);
+  CHECK(way.length < 16);
+  CHECK(way.from_clearance == Approx(0.75).margin(0.26));
+  CHECK(way.widest == way.from_clearance);  // round the corners there is more room than at the ends
+  CHECK(way.void_count == 1);
+  CHECK(way.sealed_count == 0);
+  CHECK(way.from_volume == way.largest_volume);
+  CHECK(way.largest_volume == Approx(8.25 * 8.25 * 8.25 - 4.0 / 3 * 3.14159 * 27).epsilon(0.05));
+  REQUIRE(way.place_count > 30);
+  CHECK((places[0] == 256 && places[1] == 4096));
+  CHECK(places[3 * way.place_count - 3] == 7.75 * 1024);
+  CHECK(places[3 * way.place_count] == 77);
+  for (size_t i = 0; i < way.place_count; ++i) {
+    const int32_t* p = places.data() + 3 * i;
+    const double square =
+        (p[0] - 4096.0) * (p[0] - 4096.0) + (p[1] - 4096.0) * (p[1] - 4096.0) + (p[2] - 4096.0) * (p[2] - 4096.0);
+    REQUIRE(square > (3 * 1024.0) * (3 * 1024.0));
+  }
+
+  const std::vector<int32_t> all = places;
+  places.assign(places.size(), 77);
+  desc.place_room = 2;
+  sgm_way again = SGM_WAY_INIT;
+  CHECK(sgm_field_find_way(field.get(), &desc, &again, nullptr) == SGM_INCOMPLETE);
+  CHECK(again.place_count == way.place_count);
+  CHECK((std::equal(all.begin(), all.begin() + 6, places.begin()) && places[6] == 77));
+
+  desc.places = nullptr;
+  desc.radius = 1.2;
+  REQUIRE(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_OK);
+  CHECK(way.verdict == SGM_WAY_FROM_TOO_NARROW);
+  CHECK((way.place_count == 0 && way.length == 0 && way.widest == again.widest && way.from_volume == 0));
+  desc.from[0] = 4096;
+  desc.flags = 0;
+  REQUIRE(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_OK);
+  CHECK(way.verdict == SGM_WAY_FROM_IN_ROCK);
+  CHECK((way.from_clearance == 0 && way.widest == 0));
+  desc.progress = [](void*, uint64_t, uint64_t) -> int32_t { return 1; };
+  for (int32_t& v : desc.maximum) v = 16 * 1024;
+  CHECK(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_ERR_CANCELLED);
 }
 
 TEST_CASE("many threads ask one field", "[threads]") {

@@ -169,6 +169,64 @@ if [[ $("$SGM" --version; nm -D "$SGM" 2>/dev/null) != *__asan* ]]; then
   err_has 'it takes more than 0.1 s'
   one_line
 fi
+# Of the void: two rooms in rock, a corridor 1 m wide between them, and a third room that is sealed.
+cat >rooms.sgm <<'END'
+sgm 1;
+domain finite box(40m, 16m, 16m) solid;
+start Rooms;
+rule Rooms {
+  cut {
+    at(-14m, 0m, 0m) box(6m, 6m, 6m);
+    at(2m, 0m, 0m) box(6m, 6m, 6m);
+    at(-6m, 0m, 0m) box(16m, 1m, 1m);
+    at(14m, 0m, 0m) box(4m, 4m, 4m);
+  }
+}
+END
+from_to=(--from -13.9,0,0 --to 2,0.2,0)
+expect 0 "$SGM" measure rooms.sgm --cell 0.25 "${from_to[@]}"
+out_has 'voids +2, .* 2 of them sealed'
+out_has 'way +1[5-7]\.?[0-9]* m, [0-9]+ places'
+out_has 'widest +agents of radius below 0\.[5-9][0-9]* m pass'
+err_empty
+expect 0 "$SGM" measure rooms.sgm --cell 0.25 "${from_to[@]}" --radius 0.4 --json --threads 3
+json 'j.way.found && j.way.verdict === "found" && j.way.why === null && j.radius === 0.4 && j.cell === 0.25'
+json 'j.way.length >= 15.8 && j.way.length < 18 && j.way.places.length > 50 && j.way.widest > 0.4 && j.way.widest < 1'
+json 'Math.abs(j.way.places[0][0] + 13.9) <= 0.25 && Math.abs(j.way.places.at(-1)[0] - 2) <= 0.25'
+json 'j.way.places.every((p, i) => i === 0 || Math.hypot(...p.map((x, a) => x - j.way.places[i - 1][a])) < 0.36)'
+json 'j.voids.count === 2 && j.voids.sealed === 2 && j.voids.largest.length === 2 && j.voids.sealed_volume === j.voids.volume'
+expect 1 "$SGM" measure rooms.sgm --cell 0.25 "${from_to[@]}" --radius 1
+out_has 'voids +3'
+err_has 'there is no way in the region: --from lies in a void of .* agents of radius below 0\.[5-9]'
+one_line
+expect 1 "$SGM" measure rooms.sgm --cell 0.25 --from -14,0,0 --to 14,0,0 --json
+json '!j.way.found && j.way.verdict === "apart" && j.way.widest === 0 && j.way.length === null && j.way.places.length === 0'
+json '/no agent passes/.test(j.way.why) && j.way.from_volume > j.way.to_volume'
+err_empty
+expect 1 "$SGM" measure rooms.sgm --cell 0.25 --from -19,-7,-7 --to 14,0,0
+err_has 'error: --from lies in rock'
+expect 1 "$SGM" measure rooms.sgm --cell 0.25 --from -14,0,0 --to -6,0,0 --radius 0.8
+err_has 'does not fit at --to: rock is 0\.[5-9]'
+expect 0 "$SGM" measure rooms.sgm --cell 0.25 --radius 0 --json
+json 'j.way === null && j.voids.count === 2 && Math.abs(j.voids.volume / (2 * 216 + 10 + 64) - 1) < 0.15'
+expect 2 "$SGM" measure rooms.sgm --from -14,0,0
+expect 2 "$SGM" measure rooms.sgm --from -14,0,0 --to 1,2
+expect 2 "$SGM" measure rooms.sgm --radius=-1
+expect 2 "$SGM" measure rooms.sgm --radius nan
+expect 2 "$SGM" measure rooms.sgm --radius 0 --bins 9
+expect 2 "$SGM" measure ball.ply --radius 0
+err_has 'a mesh file has none'
+one_line
+expect 1 "$SGM" measure rooms.sgm --cell 0.25 --radius 8
+err_has 'less than 32 cells, 8 m'
+one_line
+expect 1 "$SGM" measure rooms.sgm --from -14,0,0 --to 1e9,8,8
+err_has 'an end of the way lies outside of the region'
+one_line
+expect 2 "$SGM" measure "$SOURCE/samples/grammars/cave.sgm" --radius 0
+err_has 'endless: say which part with --region'
+one_line
+
 # A caller that goes takes the reader with it.
 if [[ -e large.stl ]]; then
   "$SGM" measure large.stl >/dev/null 2>&1 &

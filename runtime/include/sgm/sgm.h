@@ -993,6 +993,83 @@ SGM_API sgm_result sgm_surface_get_view(const sgm_surface* surface, sgm_surface_
  * of its positions, normals and triangles, worked out at each call. 0 for NULL. */
 SGM_API uint64_t sgm_surface_hash(const sgm_surface* surface);
 
+/* ----------------------------------------------------------------------------- voids: is there a way from A to B? */
+
+/* Whether an agent, a ball, comes from one place to another through the void of a region, and how. What counts is the
+ * samples of level 0, a cell apart: one is free for the agent where no solid sample is as near as its radius or nearer;
+ * with radius 0 all of the void is free. Free samples join along the axes and across the diagonals of faces, as meshes
+ * join their voids. So a way stands for the ball to within cells: between two of its places solid samples may be nearer
+ * by 0.71 cells, and the surface lies up to 1.74 cells before them, as a rule less than one. A place stands for the
+ * nearest of the eight samples around it that are void; with none it lies in rock. */
+
+typedef enum sgm_way_verdict {
+  SGM_WAY_FOUND = 0,
+  SGM_WAY_FROM_IN_ROCK = 1,
+  SGM_WAY_TO_IN_ROCK = 2,
+  SGM_WAY_FROM_TOO_NARROW = 3, /* `from` is in the void, but the agent does not fit there */
+  SGM_WAY_TO_TOO_NARROW = 4,
+  SGM_WAY_APART = 5, /* the agent fits at both, and there is no way between them in the region */
+  SGM_WAY_VERDICT_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_way_verdict;
+
+typedef enum sgm_way_flag {
+  SGM_WAY_WIDEST = 1, /* also find how large an agent may be: takes up to three times as long */
+  SGM_WAY_FLAG_FORCE_32_BIT = 0x7FFFFFFF
+} sgm_way_flag;
+
+typedef struct sgm_way_desc {
+  uint32_t struct_size;
+  const void* next;
+  double from[3], to[3];          /* units, in the region */
+  int32_t minimum[3], maximum[3]; /* units, minimum < maximum; the region, grown outward to whole chunks. Ways do not
+                                     leave it; what is solid beyond it counts, so that with one chunk around it, it must
+                                     lie in the world */
+  double radius;                  /* of the agent, metres: 0 to less than 32 cells */
+  uint32_t flags;                 /* of sgm_way_flag, joined by | */
+  uint32_t reserved;              /* 0 */
+  uint64_t max_chunks;            /* SGM_ERR_LIMIT where the region has more; 0: 65,536; never more than 2^24 */
+  int32_t* places;                /* takes the way's places, x y z each, in units; or NULL */
+  size_t place_room;              /* places that it has room for */
+  sgm_progress_function progress; /* or NULL; counts chunks, from 1 on again each time that the region is looked at */
+  void* progress_user;
+} sgm_way_desc;
+
+#define SGM_WAY_DESC_INIT                                                                                     \
+  {                                                                                                           \
+    SGM_SIZEOF(sgm_way_desc), SGM_NULL, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0, 0, 0}, {0, 0, 0}, 0.3, 0, 0, 0, \
+        SGM_NULL, 0, SGM_NULL, SGM_NULL                                                                       \
+  }
+
+/* Filled by sgm_field_find_way. Lengths in metres, volumes in cubic metres. */
+typedef struct sgm_way {
+  uint32_t struct_size;
+  void* next;
+  int32_t verdict;       /* an sgm_way_verdict */
+  uint32_t reserved;     /* 0 */
+  uint64_t place_count;  /* of the way; 0 where there is none */
+  double length;         /* of the way */
+  double from_clearance; /* from each end's sample to the nearest solid one, at most 32 cells; 0 in rock */
+  double to_clearance;
+  double widest;      /* with SGM_WAY_WIDEST, else 0: there is a way for every radius below this, and for none from
+                         it on; 32 cells stand for all that is larger; 0: for no agent at all */
+  double from_volume; /* of the voids that the ends lie in, for this radius; 0 where an end is not free */
+  double to_volume;
+  double largest_volume; /* of the region's voids */
+  uint64_t void_count;   /* separate voids of the region, for this radius */
+  uint64_t sealed_count; /* of those the ones that do not touch the region's border */
+} sgm_way;
+
+#define SGM_WAY_INIT \
+  { SGM_SIZEOF(sgm_way), SGM_NULL, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0 }
+
+/* The way's places are samples of level 0, the next always joined with the one before, from the sample of `from` to
+ * that of `to`: a short way, though not always the shortest. Memory grows with the voids of the region's chunks and the
+ * faces of a layer of them, not with its samples. The same answer on every machine and with any number of threads.
+ * Blocks; uses the job system. SGM_OK also where there is no way: the verdict says why. SGM_INCOMPLETE: the places did
+ * not all fit; the first ones were written. SGM_ERR_RANGE: the region, with one chunk around it, leaves the world. On
+ * failure `out` stays as it was. */
+SGM_API sgm_result sgm_field_find_way(sgm_field* field, const sgm_way_desc* desc, sgm_way* out, sgm_error* error);
+
 /* ------------------------------------------------------------------------------------------ measures: of any mesh */
 
 /* The histogram of bends along edges, section 7.4 of the paper: an edge from V1 to V2 with outward unit normals n1, n2
@@ -1422,13 +1499,14 @@ SGM_API sgm_result sgm_world_flush_edits(sgm_world* world, sgm_error* error);
 SGM_API uint64_t sgm_world_edits_hash(const sgm_world* world);
 
 /* As the queries of a field, asked of the world with its edits: sgm_field_ray_cast, sgm_field_closest_point,
- * sgm_field_is_walkable. Edits that were just made count, drawn or not. */
+ * sgm_field_is_walkable, sgm_field_find_way. Edits that were just made count, drawn or not. */
 SGM_API sgm_result sgm_world_ray_cast(sgm_world* world, const sgm_ray_desc* desc, sgm_surface_point* out,
                                       sgm_error* error);
 SGM_API sgm_result sgm_world_closest_point(sgm_world* world, const sgm_closest_desc* desc, sgm_surface_point* out,
                                            sgm_error* error);
 SGM_API sgm_result sgm_world_is_walkable(sgm_world* world, const sgm_walk_desc* desc, sgm_walkable* out,
                                          sgm_error* error);
+SGM_API sgm_result sgm_world_find_way(sgm_world* world, const sgm_way_desc* desc, sgm_way* out, sgm_error* error);
 
 /* As sgm_field_sample_density, of the world with its edits: what is dug out of a cloud is clear. */
 SGM_API sgm_result sgm_world_sample_density(sgm_world* world, const sgm_density_desc* desc, sgm_error* error);

@@ -1,0 +1,123 @@
+#pragma once
+// The voids of a block of a chunk's samples, labelled run by run: what voidComponents() and exact searches share.
+//
+// Void samples join along the axes and across the diagonal of a face: mesh/void_components.h says why.
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "mesh/chunk.h"
+
+namespace sgm {
+
+inline constexpr size_t kVoidRows = size_t{kChunkSamples} * kChunkSamples;  ///< of a chunk, number y + 33 z
+
+/// The runs of void samples of each row, labelled by what they touch among the rows before; labels that meet later are
+/// united. A run at a time instead of a sample: a cave has one or two a row, and few labels.
+class VoidRuns {
+ public:
+  VoidRuns(std::span<const uint64_t> signs, std::pmr::memory_resource* memory)
+      : open_(kVoidRows, memory),
+        starts_(kVoidRows, memory),
+        first_(kVoidRows, memory),
+        labels_(memory),
+        parents_(memory),
+        touches_(memory) {
+    for (size_t row = 0; row < kVoidRows; ++row) {
+      open_[row] = ~signs[row] & kRowBits;
+      starts_[row] = open_[row] & ~(open_[row] << 1);
+    }
+    labels_.reserve(2 * kVoidRows);
+    for (size_t z = 0, row = 0; z < kChunkSamples; ++z) {
+      for (size_t y = 0; y < kChunkSamples; ++y, ++row) label(row, y, z);
+    }
+  }
+
+  size_t labels() const { return parents_.size(); }
+  /// The lowest label of the same void.
+  size_t rootOf(size_t label) {
+    while (parents_[label] != label) {
+      parents_[label] = parents_[parents_[label]];
+      label = parents_[label];
+    }
+    return label;
+  }
+
+  /// Whether a run of that very label touches a face.
+  uint8_t touchesFace(size_t label) const { return touches_[label]; }
+
+  /// visit(label, first sample, last sample, y, z), in order.
+  template <class Visit>
+  void forEach(const Visit& visit) const {
+    size_t run = 0;
+    for (size_t z = 0, row = 0; z < kChunkSamples; ++z) {
+      for (size_t y = 0; y < kChunkSamples; ++y, ++row) {
+        for (uint64_t open = open_[row]; open != 0; ++run) {
+          const int begin = std::countr_zero(open), end = begin + std::countr_one(open >> begin);
+          visit(labels_[run], static_cast<size_t>(begin), static_cast<size_t>(end - 1), y, z);
+          open &= ~uint64_t{0} << end;
+        }
+      }
+    }
+  }
+
+ private:
+  static constexpr uint16_t kNone = 0xFFFF;
+  static constexpr int kLast = kChunkSamples - 1;
+  static constexpr uint64_t kRowBits = (uint64_t{1} << kChunkSamples) - 1;
+  static constexpr uint64_t kEnds = uint64_t{1} << kLast | 1;
+
+  uint16_t labelAt(size_t row, int x) const {
+    const uint64_t before = starts_[row] & ((uint64_t{2} << x) - 1);
+    // Counting bits costs where the processor has no instruction for it, and most rows have one run.
+    const size_t at = (before & (before - 1)) == 0 ? 0 : static_cast<size_t>(std::popcount(before)) - 1;
+    return labels_[first_[row] + at];
+  }
+
+  void label(size_t row, size_t y, size_t z) {
+    first_[row] = static_cast<uint16_t>(labels_.size());
+    for (uint64_t open = open_[row]; open != 0;) {
+      const uint64_t rest = open & (open + (open & -open)), run = open ^ rest;
+      const uint64_t around = run | run << 1 | run >> 1;
+      uint16_t label = kNone;
+      if (y > 0) join(label, row - 1, around);
+      if (z > 0) {
+        const size_t below = row - kChunkSamples;
+        join(label, below, around);
+        // Where one of the other two corners is void the axes have joined, or will.
+        if (y > 0) join(label, below - 1, run & ~open_[row - 1] & ~open_[below]);
+        if (y < kLast) join(label, below + 1, run & ~open_[row + 1] & ~open_[below]);
+      }
+      if (label == kNone) {
+        label = static_cast<uint16_t>(parents_.size());
+        parents_.push_back(label);
+        touches_.push_back(0);
+      }
+      labels_.push_back(label);
+      touches_[label] |= y % kLast == 0 || z % kLast == 0 || (run & kEnds) != 0;
+      open = rest;
+    }
+  }
+
+  /// Joins with the runs of a row that have one of the samples.
+  void join(uint16_t& label, size_t row, uint64_t samples) {
+    for (uint64_t touched = samples & open_[row]; touched != 0; touched &= touched + (touched & -touched)) {
+      const uint16_t other = labelAt(row, std::countr_zero(touched));
+      if (label == kNone) label = other;
+      if (label == other) continue;
+      const size_t a = rootOf(label), b = rootOf(other);
+      parents_[std::max(a, b)] = static_cast<uint16_t>(std::min(a, b));
+    }
+  }
+
+  std::pmr::vector<uint64_t> open_, starts_;
+  std::pmr::vector<uint16_t> first_, labels_;  ///< of each row its first run; of each run its label
+  std::pmr::vector<uint16_t> parents_;         ///< union-find over labels; a set's root is its lowest
+  std::pmr::vector<uint8_t> touches_;
+};
+
+}  // namespace sgm
