@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -156,7 +155,7 @@ Exit measureMesh(const MeasureOptions& options) {
   Result<asset::MeshFileKind> against_kind = asset::MeshFileKind{};
   if (!options.against.empty()) against_kind = kindOf(options.against);
   if (!against_kind) return complain(Exit::usage, "--against: " + against_kind.error().message);
-  if (std::filesystem::path(options.file).extension() == ".sgm") return measureGrammar(options, *against_kind, limits);
+  if (isGrammarFile(options.file)) return measureGrammar(options, *against_kind, limits);
   const Result<asset::MeshFileKind> kind = kindOf(options.file);
   if (!kind) return complain(Exit::usage, kind.error().message + "; or a grammar, .sgm");
   if (options.field || options.levels > 0) {
