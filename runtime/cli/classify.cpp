@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
-
 #include "cli/commands.h"
 #include "cli/limited_process.h"
 #include "cli/master_key.h"
@@ -123,7 +121,7 @@ Result<masters::OpenedBase> mastersOf(const std::string& file) {
 }
 
 Exit classifyMesh(const ClassifyOptions& options) {
-  const bool grammar = std::filesystem::path(options.file).extension() == ".sgm";
+  const bool grammar = isGrammarFile(options.file);
   const Result<asset::MeshFileKind> kind =
       grammar ? asset::MeshFileKind{} : asset::meshFileKind(std::string_view(options.file));
   if (!kind) return complain(Exit::usage, kind.error().message + "; or a grammar, .sgm");

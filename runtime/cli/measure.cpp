@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -150,7 +149,7 @@ Exit measureGrammar(const MeasureOptions& options, asset::MeshFileKind against_k
 }  // namespace
 
 Exit measureMesh(const MeasureOptions& options) {
-  const bool grammar = std::filesystem::path(options.file).extension() == ".sgm";
+  const bool grammar = isGrammarFile(options.file);
   if (asksForVoid(options)) {
     if (grammar) return measureVoid(options);
     return complain(Exit::usage, "--from, --to and --radius ask for the void of a grammar: a mesh file has none");

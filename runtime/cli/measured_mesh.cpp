@@ -51,6 +51,12 @@ bool take(std::string_view& bytes, std::vector<T>& values) {
 
 }  // namespace
 
+bool isGrammarFile(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return ending == ".sgm";
+}
+
 Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind) {
   const Result<std::vector<std::byte>> bytes = readBytes(file);
   if (!bytes) return bytes.error();

@@ -9,6 +9,9 @@
 
 namespace sgm::cli {
 
+/// Whether the path's name ends in .sgm, in letters of any case, as meshFileKind() has it of meshes.
+bool isGrammarFile(const std::string& path);
+
 /// Errors: io; those of readMesh, with the file's name in front.
 Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind);
 

@@ -88,18 +88,28 @@ Section fieldSection(const FieldAgreement& found, int32_t cell, Int3 origin) {
                     {"max_cells", found.residual_max * in_cells},
                     {"p99_cells", found.residual_p99 * in_cells},
                     {"mean_cells", found.residual_mean * in_cells},
-                    {"farthest", {at[0], at[1], at[2]}}}}};
+                    {"farthest", {at[0], at[1], at[2]}}}},
+                  {"offset",
+                   {{"max", found.offset_max * in_metres},
+                    {"p99", found.offset_p99 * in_metres},
+                    {"mean", found.offset_mean * in_metres},
+                    {"max_cells", found.offset_max * in_cells},
+                    {"p99_cells", found.offset_p99 * in_cells},
+                    {"mean_cells", found.offset_mean * in_cells}}}};
   section.text = lineOf("normals", anglesText(found.normals)) + lineOf("faces", anglesText(found.faces));
   if (found.bent + found.flat > 0) {
     section.text += lineOf("creases", fmt::format("hold {} of {} vertices, {} with their normal inward, plateaus {}: "
                                                   "left out of the angles",
                                                   found.bent, found.vertices, found.bent_inward, found.flat));
   }
-  section.text +=
-      lineOf("residual", fmt::format("{:.4g} m at most ({:.3g} cells, at {:.6g},{:.6g},{:.6g}), {:.4g} m at the 99th "
-                                     "percentile, {:.4g} m on the average",
-                                     found.residual_max * in_metres, found.residual_max * in_cells, at[0], at[1], at[2],
-                                     found.residual_p99 * in_metres, found.residual_mean * in_metres));
+  section.text += lineOf(
+      "residual", fmt::format("|f| {:.4g} m at most ({:.3g} cells, at {:.6g},{:.6g},{:.6g}), {:.4g} m at the 99th "
+                              "percentile, {:.4g} m on the average",
+                              found.residual_max * in_metres, found.residual_max * in_cells, at[0], at[1], at[2],
+                              found.residual_p99 * in_metres, found.residual_mean * in_metres));
+  section.text += lineOf("", fmt::format("by the gradient's length {:.4g} m at most ({:.3g} cells), {:.4g} m, {:.4g} m",
+                                         found.offset_max * in_metres, found.offset_max * in_cells,
+                                         found.offset_p99 * in_metres, found.offset_mean * in_metres));
   return section;
 }
 

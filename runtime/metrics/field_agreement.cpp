@@ -4,6 +4,7 @@
 #include <cmath>
 #include <mutex>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -127,6 +128,10 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted[std::clamp<size_t>(rank, 1, sorted.size()) - 1];
 }
 
+double meanOf(const std::vector<double>& values) {
+  return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
 class AngleCounter {
  public:
   /// Neither has the length 0.
@@ -156,7 +161,7 @@ Result<FieldAgreement> fieldAgreement(const WorldField& world, JobSystem& jobs, 
   const std::vector<Sample>& samples = *sampled;
 
   AngleCounter normals, faces;
-  std::vector<double> residuals;
+  std::vector<double> residuals, offsets;
   residuals.reserve(samples.size());
   for (size_t v = 0; v < samples.size(); ++v) {
     const VertexAttributes& packed = mesh.attributes[v];
@@ -166,9 +171,9 @@ Result<FieldAgreement> fieldAgreement(const WorldField& world, JobSystem& jobs, 
       result.residual_max = residuals.back();
       result.farthest = mesh.positions[v];
     }
-    result.residual_mean += residuals.back() / static_cast<double>(samples.size());
     if (samples[v].hasNormal()) {
       normals.add(normal, samples[v].gradient);
+      offsets.push_back(residuals.back() / length(samples[v].gradient));
     } else if (samples[v].flat) {
       ++result.flat;
     } else {
@@ -176,8 +181,13 @@ Result<FieldAgreement> fieldAgreement(const WorldField& world, JobSystem& jobs, 
       result.bent_inward += !(dot(normal, samples[v].gradient) > 0);
     }
   }
+  result.residual_mean = meanOf(residuals);
+  result.offset_mean = meanOf(offsets);
   std::sort(residuals.begin(), residuals.end());
+  std::sort(offsets.begin(), offsets.end());
   result.residual_p99 = quantile(residuals, 0.99);
+  result.offset_p99 = quantile(offsets, 0.99);
+  result.offset_max = quantile(offsets, 1);
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const auto corner = [&](size_t k) { return measure::pointOf(mesh.positions[mesh.indices[i + k]]); };
     const Point normal = measure::crossOf(corner(0), corner(1), corner(2));

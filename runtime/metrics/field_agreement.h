@@ -33,6 +33,8 @@ struct FieldAgreement {
   /// |f| at the vertices, units: how far off they are where the field is a distance.
   double residual_mean = 0, residual_p99 = 0, residual_max = 0;
   std::array<double, 3> farthest{};  ///< where that is, metres from the mesh's origin
+  /// |f| / |grad f|, units: how far off they are, to first order, whatever the field is steep. Of those with an angle.
+  double offset_mean = 0, offset_p99 = 0, offset_max = 0;
 };
 
 /// mesh: of one level of the world, by whatever backend, without edits. The same bits for any number of threads.

@@ -35,9 +35,10 @@ json 'j.valid && j.field.vertices === j.points && j.field.normals.count === j.po
 json 'j.field.normals.inward === 0 && j.field.normals.outward === 1 && j.field.normals.p99 < 0.1 && j.field.faces.median < 5'
 json 'j.field.step === 1 / 32 && j.field.residual.max < 0.25 * 0.25 / 8 / 3 + 0.25 / 256'
 json 'Math.abs(j.field.residual.max / 0.25 - j.field.residual.max_cells) < 1e-9 && j.field.residual.p99 <= j.field.residual.max'
+json 'Math.abs(j.field.offset.max - j.field.residual.max) < 1e-4 && j.field.offset.mean_cells < j.field.offset.p99_cells'
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --field
 out_has 'normals +0 of [0-9]+ inward'
-out_has 'residual +0.0'
+out_has 'residual +.f. 0.0'
 err_empty
 
 # Levels against each other: nearer than the bound, farther the coarser they are.
@@ -152,6 +153,13 @@ one_line
 expect 2 "$SGM" measure ball.txt
 err_has 'glb'
 one_line
+# Endings count in letters of any case.
+cp ball.sgm CAPITALS.SGM
+cp ball.glb CAPITALS.GLB
+for subject in CAPITALS.SGM CAPITALS.GLB; do
+  expect 0 "$SGM" measure $subject --cell 0.25 --json
+  json "j.valid && Math.abs(j.area / $grammar_area - 1) < 1e-6 && j.file === '$subject'"
+done
 expect 2 "$SGM" measure ball.ply --bins 0
 expect 2 "$SGM" measure ball.ply --weld=-1
 

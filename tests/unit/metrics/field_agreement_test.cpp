@@ -8,6 +8,7 @@
 
 #include "field/reference.h"
 #include "mesh/split_creases.h"
+#include "mesh/vertex.h"
 #include "meshed_world.h"
 
 using namespace sgm;
@@ -171,6 +172,23 @@ TEST_CASE("vertices that are off are found, with how far") {
   CHECK(shifted.residual_max * metres(1) > 0.095);
   CHECK(shifted.residual_max * metres(1) < 0.105 + before * metres(1));
   CHECK(shifted.normals.greatest > 0.9);  // atan(0.1 / 5) = 1.1 degrees
+}
+
+TEST_CASE("where the field is no distance, offsets are one") {
+  // An ellipsoid's field grows half as fast along its long axes as along the short one.
+  const World world("sgm 1; start A; rule A { ellipsoid(6m, 3m, 6m); }");
+  const MeshedWorld meshed(world, 0.25);
+  WorldMesh mesh = meshed.meshed().mesh;
+  for (size_t v = 0; v < mesh.positions.size(); ++v) {
+    const std::array<double, 3> normal = unpackNormal(mesh.attributes[v].normal_x, mesh.attributes[v].normal_y);
+    for (size_t axis = 0; axis < 3; ++axis) mesh.positions[v][axis] += 0.05 * normal[axis];
+  }
+  const FieldAgreement found = agreementOf(meshed, mesh);
+  CAPTURE(found.offset_mean, found.offset_p99, found.residual_mean);
+  CHECK(found.offset_mean == Approx(0.05 * kMetre).epsilon(0.1));
+  CHECK(found.offset_p99 < 0.06 * kMetre);
+  CHECK(found.residual_mean < 0.9 * found.offset_mean);
+  CHECK(found.offset_p99 <= found.offset_max);
 }
 
 TEST_CASE("what lies in a crease is counted apart") {
