@@ -18,6 +18,8 @@ namespace sgm::cli {
 namespace {
 
 constexpr size_t kMostNotes = 10;
+constexpr const char* kEndless =
+    "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1";
 constexpr uint64_t kChosenChunks = 4096;  // at most, of a region that the user has not chosen
 
 RegionResult failure(Exit status) { return {std::nullopt, status}; }
@@ -113,66 +115,61 @@ Json toJson(const WorldOptions& options, const Region& region) {
           {"backend", region.backend}};
 }
 
-RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
-  // What the command line alone can tell comes before any work.
+Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldOptions& options,
+                           const RegionPlan& plan) {
+  const Program& program = *compiled;
   std::optional<IntBox> region;
   if (!options.region.empty()) {
     const Result<IntBox> given = parseRegion(options.region);
-    if (!given) return failure(complain(given.error()));
+    if (!given) return given.error();
     region = *given;
   }
   const Result<int32_t> given_cell = cellUnits(options);
-  if (!given_cell) return failure(complain(given_cell.error()));
-
-  LoadedGrammar grammar = loadGrammar(options.file);
-  if (grammar.program == nullptr) return failure(grammar.status);
-  const Program& program = *grammar.program;
+  if (!given_cell) return given_cell.error();
   if (plan.check) {
-    if (const Result<void> fits = plan.check(program); !fits) return failure(complain(fits.error()));
+    if (const Result<void> fits = plan.check(program); !fits) return fits.error();
   }
   Result<ParameterValues> parameters = parameterValues(program, options.sets);
-  if (!parameters) return failure(complain(parameters.error()));
+  if (!parameters) return parameters.error();
   if (options.region.empty() && !program.domain.infinite) region = program.domain.box;
-  if (!region && !plan.choose)
-    return failure(
-        complain(Exit::usage, "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1"));
+  if (!region && !plan.choose) return Error{Code::invalid_argument, kEndless};
 
   const Stopwatch watch;
   const Result<std::unique_ptr<JobSystem>> pool = makeThreadPool(options.threads);
-  if (!pool) return failure(complain(pool.error()));
+  if (!pool) return pool.error();
   const std::unique_ptr<JobSystem>& jobs = *pool;
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
   const Result<std::unique_ptr<Backend>> backend = backendOf(options, *jobs);
-  if (!backend) return failure(complain(backend.error()));
+  if (!backend) return backend.error();
   WorldFieldSettings settings;
-  settings.program = grammar.program;
+  settings.program = compiled;
   settings.parameters = std::move(*parameters);
   settings.seed = options.seed;
   settings.finest_cell = *given_cell;
   settings.cache_bytes = kCacheBytes;
   if (!region) {
     const Result<IntBox> chosen = plan.choose(WorldField(settings, memory));
-    if (!chosen) return failure(complain(chosen.error()));
+    if (!chosen) return chosen.error();
     region = *chosen;
     if (!options.cell && !options.density) {
       const Result<int32_t> fitting = cellFor(std::span(&*region, 1), std::min(kChosenChunks, options.max_chunks));
-      if (!fitting) return failure(complain(fitting.error()));
+      if (!fitting) return fitting.error();
       settings.finest_cell = *fitting;
     }
   }
   const int32_t cell = settings.finest_cell;
   const WorldField world(std::move(settings), memory);
   Result<api::RegionMesh> meshed = [&] {
-    ProgressBar bar("meshing");
+    ProgressBar bar(plan.doing);
     return api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks, options.sharp,
                            [&bar](uint64_t done, uint64_t total) {
                              bar.show(done, total);
                              return true;
                            });
   }();
-  if (!meshed) return failure(complain(meshed.error()));
+  if (!meshed) return meshed.error();
   Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);
-  if (!anchors) return failure(complain(anchors.error()));
+  if (!anchors) return anchors.error();
   std::optional<WorldMesh> unsplit;
   if (options.sharp) {
     unsplit = std::move(meshed->mesh);
@@ -181,16 +178,15 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   std::optional<api::TexturedRegion> texture;
   if (plan.texture) {
     Result<api::TexturedRegion> unwrapped = api::unwrapRegion(world, *jobs, meshed->mesh, options.level, kTile);
-    if (!unwrapped) return failure(complain(unwrapped.error()));
+    if (!unwrapped) return unwrapped.error();
     texture = std::move(*unwrapped);
   }
   const double seconds = watch.seconds();
-  const Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, cell << options.level);
-  if (!notes) return failure(complain(notes.error()));
-  warnOfNotes(options.file, *notes);
+  Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, cell << options.level);
+  if (!notes) return notes.error();
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
-  Region result{grammar.program,
+  Region result{std::move(compiled),
                 std::move(*meshed),
                 cell << options.level,
                 std::move(*anchors),
@@ -199,17 +195,36 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
                 seconds,
                 std::move(texture),
                 std::move(unsplit),
-                {}};
-  warnOfThinWalls(options.file, program, result.cell);
+                {},
+                std::move(*notes)};
   if (result.meshed.mesh.indices.empty()) {
     Result<std::string> why = whyEmpty(world, result);
-    if (!why) return failure(complain(why.error()));
+    if (!why) return why.error();
     result.empty_because = std::move(*why);
   }
   if (plan.after) {
-    if (const Result<void> done = plan.after(world, *jobs, result); !done) return failure(complain(done.error()));
+    if (const Result<void> done = plan.after(world, *jobs, result); !done) return done.error();
   }
-  return {std::move(result), Exit::done};
+  return result;
+}
+
+RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
+  // What the command line alone can tell comes before any work.
+  if (!options.region.empty()) {
+    const Result<IntBox> given = parseRegion(options.region);
+    if (!given) return failure(complain(given.error()));
+  }
+  const Result<int32_t> cell = cellUnits(options);
+  if (!cell) return failure(complain(cell.error()));
+  const LoadedGrammar grammar = loadGrammar(options.file);
+  if (grammar.program == nullptr) return failure(grammar.status);
+  if (options.region.empty() && grammar.program->domain.infinite && !plan.choose)
+    return failure(complain(Exit::usage, kEndless));
+  Result<Region> made = meshProgram(grammar.program, options, plan);
+  if (!made) return failure(complain(made.error()));
+  warnOfNotes(options.file, made->notes);
+  warnOfThinWalls(options.file, *grammar.program, made->cell);
+  return {std::move(*made), Exit::done};
 }
 
 }  // namespace sgm::cli
