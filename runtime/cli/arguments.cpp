@@ -377,7 +377,7 @@ Command addRender(CLI::App& root) {
       ->capture_default_str();
   app->add_flag("--volume", options->volume,
                 "Draw the solid as fog, by its density at the cells' corners; for grammars that say `output density`")
-      ->excludes(app->add_flag("--wires", options->wires, "Draw the mesh's edges on it"));
+      ->excludes(app->add_flag("--wires", options->wires, "Draw the mesh's edges, on a surface without materials"));
   app->footer("Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7");
   return [options] { return render(*options); };
 }
@@ -499,14 +499,16 @@ Command addBench(CLI::App& root) {
 
 Command addPaper(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
-      "paper", "Reproduce the paper that the language comes from: one HTML report of its figures and tables, ours beside");
+      "paper",
+      "Reproduce the paper that the language comes from: one HTML report of its figures and tables, ours beside");
   const auto options = std::make_shared<PaperOptions>();
   app->add_option("--out", options->out, "Folder to write: a new or an empty one, or one with an earlier report")
       ->type_name("DIR")
       ->required();
-  app->add_option("--only", options->only,
-                  "Make this part alone (repeatable): speedup, cloud, cave, architecture, density, objects, histograms, "
-                  "time, comparison")
+  app->add_option(
+         "--only", options->only,
+         "Make this part alone (repeatable): speedup, cloud, cave, architecture, density, objects, histograms, "
+         "time, comparison")
       ->type_name("PART")
       ->allow_extra_args(false)
       ->check(CLI::IsMember(paperParts()));

@@ -85,7 +85,7 @@ struct RenderOptions : WorldOptions {
   std::string size = "1280x720";
   double fov = 68;
   bool volume = false;  ///< the solid as fog instead of its surface
-  bool wires = false;   ///< the mesh's edges on it
+  bool wires = false;   ///< the mesh's edges, without materials
 };
 Exit render(const RenderOptions& options);
 

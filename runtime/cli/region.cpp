@@ -18,8 +18,7 @@ namespace sgm::cli {
 namespace {
 
 constexpr size_t kMostNotes = 10;
-constexpr const char* kEndless =
-    "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1";
+constexpr const char* kEndless = "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1";
 constexpr uint64_t kChosenChunks = 4096;  // at most, of a region that the user has not chosen
 
 RegionResult failure(Exit status) { return {std::nullopt, status}; }

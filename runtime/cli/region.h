@@ -26,7 +26,7 @@ struct Region {
   std::optional<api::TexturedRegion> texture;  ///< where the plan asks for it
   /// Where options ask for sharp features: the closed mesh, whose vertices at creases meshed.mesh has once a side.
   std::optional<WorldMesh> unsplit;
-  std::string empty_because;  ///< where the mesh has no triangle: why that may be, and what to try
+  std::string empty_because;      ///< where the mesh has no triangle: why that may be, and what to try
   std::vector<DeriveNote> notes;  ///< what derivation left out
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }

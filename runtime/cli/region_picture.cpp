@@ -1,14 +1,13 @@
 #include "cli/region_picture.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "cli/materials.h"
 #include "cli/surroundings.h"
 #include "mesh/vertex.h"
-
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
-#include <cmath>
 
 namespace sgm::cli {
 namespace {
@@ -89,12 +88,13 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, const Dr
   return chooseCamera(drawn.vertices, drawn.indices, wish);
 }
 
-/// Lies behind the program's own, as what its vertices have.
+/// Without a pattern, which would hide the edges.
+constexpr RenderMaterial kUnderWires{SurfacePattern::smooth, {0.55f, 0.55f, 0.52f}, 0.9f, 0.0f};
 constexpr RenderMaterial kWire{SurfacePattern::smooth, {0.01f, 0.02f, 0.05f}, 1.0f, 0.0f};
 
 /// Adds the mesh's edges as ribbons that face the camera, of one width in the picture whatever their distance.
 void addWires(const Region& region, const RenderCamera& camera, Drawable& drawn) {
-  constexpr float kWide = 0.5f, kLifted = 1.5f;  // pixels: to each side, and towards the camera
+  constexpr float kWide = 0.55f, kLifted = 1.5f;  // pixels: to each side, and towards the camera
   const WorldMesh& mesh = region.meshed.mesh;
   std::vector<std::array<uint32_t, 2>> edges;
   for (size_t i = 0; i < mesh.indices.size(); ++i) {
@@ -129,8 +129,13 @@ void addWires(const Region& region, const RenderCamera& camera, Drawable& drawn)
   }
 }
 
-Result<Image> drawMesh(const Renderer& renderer, const Drawable& drawn, const Region& region, const View& view) {
-  const std::vector<RenderMaterial> materials = renderMaterials(*region.program);
+Result<Image> drawMesh(const Renderer& renderer, const Drawable& drawn, const Region& region, const View& view,
+                       bool wires) {
+  std::vector<RenderMaterial> materials = renderMaterials(*region.program);
+  if (wires) {
+    materials.assign(materials.size(), kUnderWires);
+    materials.push_back(kWire);
+  }
   RenderScene scene;
   scene.vertices = drawn.vertices;
   scene.indices = drawn.indices;
@@ -205,7 +210,7 @@ Result<RegionPicture> drawRegion(const Renderer& renderer, const RenderOptions& 
   if (!view) return view.error();
   if (options.wires) addWires(region, view->camera, drawn);
   Result<Image> image =
-      density ? drawVolume(renderer, *density, region, *view) : drawMesh(renderer, drawn, region, *view);
+      density ? drawVolume(renderer, *density, region, *view) : drawMesh(renderer, drawn, region, *view, options.wires);
   if (!image) return image.error();
   return RegionPicture{std::move(*image), std::move(*view)};
 }

@@ -77,8 +77,8 @@ Exit render(const RenderOptions& options) {
                    {"enclosed", view.enclosed}}}});
     fmt::print("{}\n", json.text());
   } else {
-    fmt::print("{}: {}x{} pixels, {} triangles meshed in {:.2f} s, drawn in {:.2f} s on {}\n", options.out,
-               image.width, image.height, region.meshed.mesh.indices.size() / 3, region.seconds, watch.seconds(),
+    fmt::print("{}: {}x{} pixels, {} triangles meshed in {:.2f} s, drawn in {:.2f} s on {}\n", options.out, image.width,
+               image.height, region.meshed.mesh.indices.size() / 3, region.seconds, watch.seconds(),
                renderer->info().name);
     if (density)
       fmt::print("  density  at {} points in {:.2f} s, {} of {} bricks proven to be clear or full\n",

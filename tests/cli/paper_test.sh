@@ -121,7 +121,7 @@ only report
 json 'Object.keys(j.exhibits).join() === "figure-1,figure-2,figure-7,figure-8,figure-9,figure-10,figure-11,figure-12,figure-14,figure-15,figure-16,table-1,table-2,table-3,table-4"'
 json 'j.exhibits["figure-1"].nodes_a_point === 3 && j.exhibits["figure-2"].nodes_a_point === 1'
 json 'j.exhibits["figure-9"].houses.length === 6 && j.exhibits["figure-9"].houses.every(h => h.watertight && h.volume > 100)'
-json 'j.exhibits["figure-12"].kinds.map(k => k.kind).join() === "architecture,caves,clouds" && j.exhibits["figure-12"].sky_seed !== null'
+json 'j.exhibits["figure-12"].kinds.map(k => k.kind).join() === "architecture,caves,clouds" && j.exhibits["figure-12"].cloud_of_ten_seed !== null'
 json 'j.exhibits["figure-14"].densities.map(d => d.ld).join() === "2,5,10" && j.exhibits["figure-14"].densities.every(d => d.class === "building")'
 # The paper's own remark: by angle the largest bar grows with the density.
 json 'j.exhibits["figure-14"].densities.every((d, i, all) => i === 0 || d.largest_share.corrected > all[i - 1].largest_share.corrected)'

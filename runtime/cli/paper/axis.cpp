@@ -58,12 +58,18 @@ Axis::Axis(const AxisStyle& style, std::span<const double> values, int most) : l
     low /= 2;
     high *= 2;
   } else if (!logarithmic_ && high - low < 1e-9 * size + kLeast) {
-    low -= size == 0 ? 1 : size / 2;
-    high += size == 0 ? 1 : size / 2;
+    low -= size < kLeast ? 1 : size / 2;
+    high += size < kLeast ? 1 : size / 2;
   }
   low_ = low;
   high_ = high;
-  if (logarithmic_) {
+  if (!style.marks.empty()) {
+    const size_t every = (style.marks.size() - 1) / static_cast<size_t>(std::max(most, 2)) + 1;
+    for (size_t i = 0; i < style.marks.size(); i += every) {
+      const double value = style.marks[i];
+      if (shows(value) && value >= low_ && value <= high_) marks_.push_back({value, shortNumber(value)});
+    }
+  } else if (logarithmic_) {
     markLogarithmic(std::max(most, 2));
   } else {
     markLinear(std::max(most, 2), !style.low, !style.high);

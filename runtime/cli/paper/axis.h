@@ -14,6 +14,7 @@ struct AxisStyle {
   bool from_zero = false;  ///< of a linear axis: 0 belongs to it
   /// Ends that are kept to; without them the values' own, which are widened to the next mark where it is linear.
   std::optional<double> low, high;
+  std::vector<double> marks{};  ///< where marks stand, rising, as far as there is room; none: at round numbers
 };
 
 struct Mark {

@@ -22,8 +22,8 @@ Markup label(double x, double y, std::string_view anchor, std::string_view what)
 }
 
 Markup line(double x0, double y0, double x1, double y1, std::string_view style) {
-  return emptyElement(
-      "line", {{"x1", at(x0)}, {"y1", at(y0)}, {"x2", at(x1)}, {"y2", at(y1)}, {"class", std::string(style)}});
+  return emptyElement("line",
+                      {{"x1", at(x0)}, {"y1", at(y0)}, {"x2", at(x1)}, {"y2", at(y1)}, {"class", std::string(style)}});
 }
 
 /// A form of its own for each series: colour alone does not tell them apart, on paper say.
@@ -190,8 +190,8 @@ Markup drawn(const LineChart& chart) {
     const std::string_view style = series.style == Series::Style::steps    ? "steps "
                                    : series.style == Series::Style::dashed ? "law "
                                                                            : "line ";
-    content += emptyElement("path", {{"d", pathOf(places, series.style, frame.bottom)},
-                                     {"class", std::string(style) + colour(i)}});
+    content += emptyElement(
+        "path", {{"d", pathOf(places, series.style, frame.bottom)}, {"class", std::string(style) + colour(i)}});
     if (series.style != Series::Style::line) continue;
     for (const auto& [at_x, at_y] : places) content += pointMark(at_x, at_y, i);
   }
@@ -226,7 +226,8 @@ Markup drawn(const BarChart& chart) {
                                        {"class", "bar " + colour(s)}});
       // What would touch its neighbours is left to the marks.
       const std::string number = shortNumber(value, 3);
-      if (textWidth(number) <= bar_width && top - 5 > frame.top) content += label(x + 0.47 * bar_width, top - 5, "middle", number);
+      if (textWidth(number) <= bar_width && top - 5 > frame.top)
+        content += label(x + 0.47 * bar_width, top - 5, "middle", number);
     }
     content += label(begin + 0.38 * group_width, frame.bottom + 18, "middle", chart.groups[g]);
   }

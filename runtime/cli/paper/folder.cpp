@@ -106,8 +106,10 @@ Result<void> writeFile(const fs::path& path, const std::string& bytes) {
 /// The new folder takes the target's name.
 Result<void> takePlace(Beside& made, const fs::path& target) {
   std::error_code why;
-  fs::permissions(made.path(), fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
-                                   fs::perms::others_read | fs::perms::others_exec, why);
+  fs::permissions(made.path(),
+                  fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
+                      fs::perms::others_exec,
+                  why);
   if (why) return failure(target, why.message());
   // An empty folder is replaced by renaming alone.
   fs::rename(made.path(), target, why);

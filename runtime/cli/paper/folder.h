@@ -10,7 +10,7 @@
 namespace sgm::cli {
 
 struct FolderFile {
-  std::string path;   ///< relative, forward slashes
+  std::string path;  ///< relative, forward slashes
   std::string bytes;
 };
 

@@ -56,9 +56,11 @@ Result<Finding> classified(const Workshop& workshop, const asset::TriangleMesh& 
   const Result<measure::Histogram> histogram =
       measure::innerHistogram({mesh.points, mesh.triangles}, key.settings(), workshop.jobs());
   if (!histogram) return histogram.error();
-  const Result<measure::Classification> said = measure::classify(histogram->shares, key, set.of(key), *set.limitsOf(key));
+  const Result<measure::Classification> said =
+      measure::classify(histogram->shares, key, set.of(key), *set.limitsOf(key));
   if (!said) return said.error();
-  return finding(said->verdict == expected, fmt::format("classified as {}", said->verdict), commandOf("classify", options));
+  return finding(said->verdict == expected, fmt::format("classified as {}", said->verdict),
+                 commandOf("classify", options));
 }
 
 Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& system) {
@@ -91,10 +93,10 @@ Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& syst
   coarse.level = 1;
   const Result<Region> far = workshop.mesh(coarse);
   if (!far) return far.error();
-  found[kDetail] = finding(trianglesOf(far->meshed.mesh) < trianglesOf(mesh),
-                           fmt::format("level 0: {} triangles, level 1: {}", trianglesOf(mesh),
-                                       trianglesOf(far->meshed.mesh)),
-                           commandOf("mesh", coarse));
+  found[kDetail] =
+      finding(trianglesOf(far->meshed.mesh) < trianglesOf(mesh),
+              fmt::format("level 0: {} triangles, level 1: {}", trianglesOf(mesh), trianglesOf(far->meshed.mesh)),
+              commandOf("mesh", coarse));
   Result<Finding> control = changedBy(workshop, options, *region, system.control);
   if (!control) return control.error();
   found[kControl] = std::move(*control);
@@ -108,17 +110,22 @@ Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& syst
   WorldOptions unwrapped = options;
   unwrapped.uv = true;
   const double density = region->texture->density.middle;
-  found[kTexture] = finding(density > 0, fmt::format("coordinates in tiles of 1 m, of {:.2f} of their length in the middle", density),
-                            commandOf("mesh", unwrapped));
+  found[kTexture] =
+      finding(density > 0, fmt::format("coordinates in tiles of 1 m, of {:.2f} of their length in the middle", density),
+              commandOf("mesh", unwrapped));
   MeasureOptions judged = workshop.on<MeasureOptions>(system.grammar);
   static_cast<WorldOptions&>(judged) = options;
   judged.no_self_intersections = true;
-  found[kHidden] = finding(measured->nesting.nested == 0, fmt::format("{} closed parts in the solid of others", measured->nesting.nested),
-                           commandOf(judged));
-  found[kOverlapping] = finding(measured->welded_points == 0, fmt::format("{} of {} vertices at the place of another", measured->welded_points, measured->points),
-                                commandOf(judged));
+  found[kHidden] =
+      finding(measured->nesting.nested == 0,
+              fmt::format("{} closed parts in the solid of others", measured->nesting.nested), commandOf(judged));
+  found[kOverlapping] =
+      finding(measured->welded_points == 0,
+              fmt::format("{} of {} vertices at the place of another", measured->welded_points, measured->points),
+              commandOf(judged));
   const Topology topology = topologyOf(mesh, region->meshed.extent);
-  found[kHoles] = finding(topology.watertight, topology.watertight ? "watertight" : topology.leak, commandOf("check --expect", options));
+  found[kHoles] = finding(topology.watertight, topology.watertight ? "watertight" : topology.leak,
+                          commandOf("check --expect", options));
   return found;
 }
 
@@ -166,7 +173,8 @@ Result<Markup> pictureOf(Workshop& workshop, const ComparedSystem& system) {
   Result<Markup> picture = workshop.picture(options, "table4-" + stem, system.alt, system.alt, command);
   if (!picture) return picture.error();
   for (const std::string& line : command)
-    *picture += element("details", element("summary", "Command of the picture") + element("pre", element("code", line)));
+    *picture +=
+        element("details", element("summary", "Command of the picture") + element("pre", element("code", line)));
   return picture;
 }
 
@@ -177,7 +185,8 @@ Exhibits comparisonPart(Workshop& workshop) {
   exhibit.id = "table-4";
   exhibit.title = "Table 4. Comparison of methods";
   exhibit.printed = {
-      "“Table 4. Comparison of methods”: for ten methods, which geometry they make, how they are steered, and how correct "
+      "“Table 4. Comparison of methods”: for ten methods, which geometry they make, how they are steered, and how "
+      "correct "
       "their meshes are. “LOD: mesh (M), noise (SZ), Simple shapes (P)”.",
       "Its “Removing high surfaces” is read as hidden surfaces, its “Removing overlapping verticals” as vertices."};
   std::vector<std::vector<std::string>> summary{{"paper / ours"}};

@@ -44,15 +44,15 @@ Result<Sampled> sample(Workshop& workshop, const Model& model, int steps, std::v
     options.cell = model.coarsest / (1 << i);
     const Result<Region> region = workshop.mesh(options);
     if (!region) return region.error();
-    sampled.samples.push_back({*options.cell, measuresOf(region->meshed.mesh).area,
-                               cubeVolume(region->meshed.solid_samples, region->cell)});
+    sampled.samples.push_back(
+        {*options.cell, measuresOf(region->meshed.mesh).area, cubeVolume(region->meshed.solid_samples, region->cell)});
     if (i + 1 == steps) commands.push_back(commandOf("mesh", options));
   }
   return sampled;
 }
 
-/// log2 of how much smaller the last change is than the one before: 2 for convergence with the square of the cell, 0 for
-/// a logarithm, whose changes are all equal. Nothing where the changes are none, or of two directions.
+/// log2 of how much smaller the last change is than the one before: 2 for convergence with the square of the cell, 0
+/// for a logarithm, whose changes are all equal. Nothing where the changes are none, or of two directions.
 std::optional<double> observedOrder(std::span<const double> values) {
   if (values.size() < 3) return std::nullopt;
   const double a = values[values.size() - 3], b = values[values.size() - 2], c = values.back();
@@ -81,6 +81,7 @@ void compare(const std::vector<Sampled>& all, double Sample::*of, const std::str
   chart.x = {"LD, as a multiple of the coarsest", true, false, {}, {}};
   chart.y.title = fmt::format("{}, % of the finest", what);
   const std::vector<Sample>& any = all.front().samples;
+  for (size_t i = 0; i < any.size(); ++i) chart.x.marks.push_back(static_cast<double>(1 << i));
   std::vector<std::vector<std::string>> rows{{what + ", " + unit}};
   for (size_t i = 0; i < any.size(); ++i) rows[0].push_back(i == 0 ? "coarsest" : fmt::format("LD times {}", 1 << i));
   rows[0].insert(rows[0].end(), {"last change", "observed order"});
@@ -106,9 +107,10 @@ void compare(const std::vector<Sampled>& all, double Sample::*of, const std::str
                       {"values", values},
                       {"order", orNull(order)}});
   }
-  exhibit.ours += drawn(chart) + table("Each column has cells of half the edge; a logarithm would have equal changes "
-                                       "(order 0), a limit approached with the cell's square order 2",
-                                       rows);
+  exhibit.ours += drawn(chart) + table(
+                                     "Each column has cells of half the edge; a logarithm would have equal changes "
+                                     "(order 0), a limit approached with the cell's square order 2",
+                                     rows);
   exhibit.numbers["models"] = std::move(models);
 }
 
@@ -151,6 +153,7 @@ Markup ballChart(const std::vector<BallErrors>& errors, std::span<const Measured
   chart.title = title;
   chart.x = {"LD, cells per metre", true, false, {}, {}};
   chart.y = {"error, % of what is exact", true, false, {}, {}};
+  for (const BallErrors& e : errors) chart.x.marks.push_back(1 / e.cell);
   for (const Measured& m : measured) {
     Series series{m.name, {}, Series::Style::line};
     for (const BallErrors& e : errors) series.points.push_back({1 / e.cell, 100 * std::abs(e.*m.of)});
@@ -158,7 +161,8 @@ Markup ballChart(const std::vector<BallErrors>& errors, std::span<const Measured
   }
   Series law{"order 2", {}, Series::Style::dashed};
   const double first = 100 * std::abs(errors[0].*measured[0].of);
-  for (const BallErrors& e : errors) law.points.push_back({1 / e.cell, first * (e.cell / errors[0].cell) * (e.cell / errors[0].cell)});
+  for (const BallErrors& e : errors)
+    law.points.push_back({1 / e.cell, first * (e.cell / errors[0].cell) * (e.cell / errors[0].cell)});
   chart.series.push_back(std::move(law));
   return drawn(chart);
 }
@@ -181,7 +185,8 @@ Exhibit areaExhibit(const std::vector<Sampled>& models, const std::vector<Sample
   exhibit.id = "figure-10";
   exhibit.title = "Figure 10. Area against the density of the mesh";
   exhibit.printed = {
-      "“Comparison of surface vs. mesh density examples: top - cave, middle - cloud, bottom - building (LD, represented "
+      "“Comparison of surface vs. mesh density examples: top - cave, middle - cloud, bottom - building (LD, "
+      "represented "
       "by sampling density).”",
       "“The relationship between the parameters of sampling density and the surface of the resulting structures "
       "possesses logarithmic characteristics (Fig 22).”"};
@@ -195,6 +200,7 @@ Exhibit areaExhibit(const std::vector<Sampled>& models, const std::vector<Sample
   chart.title = "Area of two tunnels through rock over the density, smooth and rough";
   chart.x = {"LD, cells per metre", true, false, {}, {}};
   chart.y.title = "area, m²";
+  for (const Sample& s : roughness[0].samples) chart.x.marks.push_back(1 / s.cell);
   Json rough = Json::array();
   for (const Sampled& sampled : roughness) {
     Series series{sampled.model->name, {}, Series::Style::line};
@@ -225,7 +231,8 @@ Exhibit volumeExhibit(const std::vector<Sampled>& models, const std::vector<Ball
   exhibit.id = "figure-11";
   exhibit.title = "Figure 11. Volume against the density of the mesh";
   exhibit.printed = {
-      "“Comparison of volume vs mesh density examples: top - cave, middle - cloud, bottom - building (LD, represented by "
+      "“Comparison of volume vs mesh density examples: top - cave, middle - cloud, bottom - building (LD, represented "
+      "by "
       "the sampling density).”",
       "“V_M = N_C · (C_E)³ (8) … C_E – the cube edge (C_E = 1/grid density), N_C – numbers of cubes inside.”"};
   compare(models, &Sample::volume, "Volume", "m³", exhibit);
@@ -236,11 +243,13 @@ Exhibit volumeExhibit(const std::vector<Sampled>& models, const std::vector<Ball
   exhibit.ours += element("h3", "What “inside” means") +
                   ballChart(ball, kVolumes, "Error of the volume of a ball over the density, by four rules") +
                   ballTable(ball, kVolumes) +
-                  element("p", "Equation 8 does not say which cubes are inside. By corners its error falls with the "
-                               "cell's edge, by centres faster but by fits and starts; the divergence theorem over the "
-                               "mesh has order 2.");
+                  element("p",
+                          "Equation 8 does not say which cubes are inside. By corners its error falls with the "
+                          "cell's edge, by centres faster but by fits and starts; the divergence theorem over the "
+                          "mesh has order 2.");
   exhibit.measured =
-      "Equation 8 with a cube around each sample, inside where the sample is. Of the ball also by the mesh: cubes of the "
+      "Equation 8 with a cube around each sample, inside where the sample is. Of the ball also by the mesh: cubes of "
+      "the "
       "cell's edge by three rules, and the divergence theorem. The cave's volume is that of its rock.";
   exhibit.numbers["ball_order"] = lastOrder(ball, &BallErrors::volume);
   exhibit.numbers["ball_order_all_corners"] = lastOrder(ball, &BallErrors::all);

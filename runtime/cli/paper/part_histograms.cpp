@@ -113,22 +113,23 @@ Result<Exhibit> densityExhibit(Workshop& workshop) {
   Exhibit exhibit;
   exhibit.id = "figure-14";
   exhibit.title = "Figure 14. Levels of detail 2, 5 and 10";
-  exhibit.printed = {"“Level of detail (LD), from left LD=2, LD=5, LD=10.”",
-                     "“The verification of the correctness of the model depends on the density of the grid. The best "
-                     "results are obtained for LD = 10 (Fig. 14).”",
-                     "“When density is large, the histogram is reduced to a single bar, the most common value of angle.”"};
+  exhibit.printed = {
+      "“Level of detail (LD), from left LD=2, LD=5, LD=10.”",
+      "“The verification of the correctness of the model depends on the density of the grid. The best "
+      "results are obtained for LD = 10 (Fig. 14).”",
+      "“When density is large, the histogram is reduced to a single bar, the most common value of angle.”"};
   Markup row;
   for (const int ld : {2, 5, 10}) {
     RenderOptions options = workshop.on<RenderOptions>(kHouse);
     options.sets = kHouseSets;
     options.density = ld;
     options.wires = true;
-    options.camera = "12.5,8.5,13.5:5.2,5,5.6";
+    options.camera = "10.6,6.6,11.4:6.3,4.9,6.8";
     options.fov = 40;
     options.size = workshop.pick("560x560", "360x360");
-    const Result<Markup> picture =
-        workshop.picture(options, fmt::format("detail-{}", ld), fmt::format("A house's corner as a mesh with LD = {}", ld),
-                         fmt::format("LD = {}", ld), exhibit.commands);
+    const Result<Markup> picture = workshop.picture(options, fmt::format("detail-{}", ld),
+                                                    fmt::format("A house's corner as a mesh with LD = {}", ld),
+                                                    fmt::format("LD = {}", ld), exhibit.commands);
     if (!picture) return picture.error();
     row += *picture;
   }
@@ -140,7 +141,8 @@ Result<Exhibit> densityExhibit(Workshop& workshop) {
   for (const Density& density : *densities) rows[0].push_back(fmt::format("LD = {}", density.ld));
   for (size_t m = 0; m < std::size(kModes); ++m) {
     LineChart chart = histogramChart(kModes[m], "a house at LD = 2, 5 and 10");
-    std::vector<std::string>& cells = rows.emplace_back(std::vector<std::string>{fmt::format("mode {}", measure::nameOf(kModes[m]))});
+    std::vector<std::string>& cells =
+        rows.emplace_back(std::vector<std::string>{fmt::format("mode {}", measure::nameOf(kModes[m]))});
     for (const Density& density : *densities) {
       const Histogram& h = density.by_mode[m];
       chart.series.push_back(stepsOf(fmt::format("LD = {}", density.ld), h.shares, h.first_bin, h.settings.bins));
@@ -151,7 +153,8 @@ Result<Exhibit> densityExhibit(Workshop& workshop) {
   std::vector<std::string> below{"printed: entries below the array"}, verdicts{"classified as"}, triangles{"triangles"};
   for (const Density& density : *densities) {
     const Histogram& printed = density.by_mode[0];
-    below.push_back(fmt::format("{:.1f} %", 100 * static_cast<double>(printed.below_first) / static_cast<double>(printed.edges)));
+    below.push_back(
+        fmt::format("{:.1f} %", 100 * static_cast<double>(printed.below_first) / static_cast<double>(printed.edges)));
     verdicts.push_back(density.verdict);
     triangles.push_back(fmt::format("{}", density.triangles));
     Json of{{"ld", density.ld}, {"triangles", density.triangles}, {"class", density.verdict}};
@@ -162,11 +165,13 @@ Result<Exhibit> densityExhibit(Workshop& workshop) {
   }
   rows.insert(rows.end(), {below, triangles, verdicts});
   exhibit.ours = Workshop::row(row) + Workshop::row(charts) + table("One house at three densities", rows) +
-                 element("p", "By angle, printed or corrected, the bars run together as the mesh becomes finer, for an "
-                              "edge half as long turns by half the angle: the paper's own remark. Curvature, the angle "
-                              "by the edge's length, keeps its form. As printed, equation 13 gives v from −0.38 to 0.38, "
-                              "never the 0.5 of a flat edge, and equation 14 numbers of bins down to −12, in front of the "
-                              "array that the paper describes.");
+                 element("p",
+                         "By angle, printed or corrected, the bars run together as the mesh becomes finer, for an "
+                         "edge half as long turns by half the angle: the paper's own remark. Curvature, the angle "
+                         "by the edge's length, keeps what bends where it is; its largest bar grows as well, since "
+                         "much of a house is flat and its corners have an ever smaller share of the edges. As "
+                         "printed, equation 13 gives v from −0.38 to 0.38, never the 0.5 of a flat edge, and "
+                         "equation 14 numbers of bins down to −12, in front of the array that the paper describes.");
   exhibit.measured =
       "storeys.sgm with three convex storeys. R = 33 bins, odd so that flat edges lie inside one; smooth normals that "
       "point outward; every edge once a triangle. Classified by curvature with the built-in masters.";
@@ -206,9 +211,9 @@ Result<std::vector<masters::Specimen>> specimens(Workshop& workshop, std::span<c
 /// How models of known class are classified by one key's masters.
 struct Judged {
   measure::MasterKey key;
-  std::map<std::string, std::map<std::string, int>> verdicts;     ///< by true class
-  std::map<std::string, std::map<std::string, double>> mse;       ///< sums of the smallest of each class
-  std::map<std::string, std::vector<double>> mean;                ///< histogram by true class
+  std::map<std::string, std::map<std::string, int>> verdicts;  ///< by true class
+  std::map<std::string, std::map<std::string, double>> mse;    ///< sums of the smallest of each class
+  std::map<std::string, std::vector<double>> mean;             ///< histogram by true class
   std::map<std::string, int> models;
   int right = 0, all = 0;  ///< without noise
 };
@@ -219,7 +224,8 @@ Result<Judged> judge(std::span<const masters::Specimen> specimens, size_t key_nu
   for (const masters::Specimen& specimen : specimens) {
     const std::vector<double>& shares = specimen.shares[key_number];
     if (shares.empty()) continue;
-    const Result<measure::Classification> said = measure::classify(shares, judged.key, masters, *set.limitsOf(judged.key));
+    const Result<measure::Classification> said =
+        measure::classify(shares, judged.key, masters, *set.limitsOf(judged.key));
     if (!said) return said.error();
     const std::string is(specimen.family->class_name);
     ++judged.verdicts[is][said->verdict];
@@ -246,7 +252,9 @@ Markup confusion(const Judged& judged) {
       row.push_back(fmt::format("{}", found == verdicts.end() ? 0 : found->second));
     }
   }
-  return table(fmt::format("{}: {} of {} right; of noise, unknown is right", textOf(judged.key), judged.right, judged.all), rows);
+  return table(
+      fmt::format("{}: {} of {} right; of noise, unknown is right", textOf(judged.key), judged.right, judged.all),
+      rows);
 }
 
 Markup errorTable(const Judged& judged) {
@@ -265,9 +273,10 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
   Exhibit exhibit;
   exhibit.id = "figure-15";
   exhibit.title = "Figure 15. Histograms of the main classes";
-  exhibit.printed = {"“Histograms for the main classes of results.”",
-                     "“The classification is based on the generation of a class histogram for new objects and its "
-                     "comparison to the master-histogram from the base, for which the mean square error is the smallest.”"};
+  exhibit.printed = {
+      "“Histograms for the main classes of results.”",
+      "“The classification is based on the generation of a class histogram for new objects and its "
+      "comparison to the master-histogram from the base, for which the mean square error is the smallest.”"};
   const std::vector<masters::Family> families = familiesFor(workshop);
   const Result<std::vector<masters::Specimen>> models = specimens(workshop, families);
   if (!models) return models.error();
@@ -277,9 +286,8 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
   Json judgements = Json::array();
   for (const HistogramMode mode : kModes) {
     // Of the paper's own modes those of one cell a metre, which models of every class have.
-    const auto key = std::ranges::find_if(keys, [mode](const measure::MasterKey& k) {
-      return k.mode == mode && (k.density == 0 || k.density == 1);
-    });
+    const auto key = std::ranges::find_if(
+        keys, [mode](const measure::MasterKey& k) { return k.mode == mode && (k.density == 0 || k.density == 1); });
     const Result<Judged> judged = judge(*models, static_cast<size_t>(key - keys.begin()), set);
     if (!judged) return judged.error();
     LineChart chart = histogramChart(mode, "caves, clouds and buildings");
@@ -287,18 +295,22 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
     const auto bins = static_cast<int32_t>(measure::binsOf(settings));
     const int32_t first = mode == HistogramMode::printed ? 1 - bins / 2 : 1;
     for (const char* name : kClasses)
-      if (judged->mean.contains(name)) chart.series.push_back(stepsOf(name, judged->mean.at(name), first, settings.bins));
+      if (judged->mean.contains(name))
+        chart.series.push_back(stepsOf(name, judged->mean.at(name), first, settings.bins));
     charts += drawn(chart);
     tables += confusion(*judged);
     if (*key == masters::defaultKey()) tables += errorTable(*judged);
     Json mean;
     for (const auto& [name, shares] : judged->mean) mean[name] = shares;
-    judgements.push_back({{"key", toJson(*key)}, {"right", judged->right}, {"models", judged->all}, {"mean", std::move(mean)}});
+    judgements.push_back(
+        {{"key", toJson(*key)}, {"right", judged->right}, {"models", judged->all}, {"mean", std::move(mean)}});
   }
   exhibit.ours = Workshop::row(charts) + element("h3", "Classification") + tables;
   exhibit.measured = fmt::format(
-      "{} models of caves, clouds, buildings and noise, by {} grammars and densities, with parameters drawn from their whole ranges and seeds of which the "
-      "built-in masters know none. Masters by clusters, eight a class, since caves of halls and caves of dripstone have no "
+      "{} models of caves, clouds, buildings and noise, by {} grammars and densities, with parameters drawn from their "
+      "whole ranges and seeds of which the "
+      "built-in masters know none. Masters by clusters, eight a class, since caves of halls and caves of dripstone "
+      "have no "
       "common mean; past a limit, or nearest to noise, the answer is unknown, where the paper always answers.",
       models->size(), families.size());
   exhibit.commands = {commandOfPart(workshop.options(), "histograms"), "sgm masters list --json",

@@ -24,8 +24,8 @@ Exhibits cloudPart(Workshop& workshop) {
   RenderOptions options = workshop.on<RenderOptions>("cloud.sgm");
   options.seed = 3;
   options.region = "0,768,0:900,1668,900";
-  options.camera = "977,1187,965:474,1366,332";
-  options.fov = 40;
+  options.camera = "977,1187,965:440,1366,332";
+  options.fov = 46;
   options.size = workshop.pick("640x560", "400x350");
   Markup row;
   struct Panel {
@@ -34,13 +34,12 @@ Exhibits cloudPart(Workshop& workshop) {
     bool wires, volume;
   };
   const double cell = workshop.pick(4.0, 8.0);
-  for (const Panel& panel :
-       {Panel{"cloud-surface", "Left: its surface, lit.", "A cumulus as a white surface under a blue sky", cell, false,
-              false},
-        Panel{"cloud-mesh", "Middle: its mesh, with cells of 16 m.",
-              "The same cumulus as a mesh whose triangles can be told", 16, true, false},
-        Panel{"cloud-fog", "Right: its density as fog, with scattered light.", "The same cumulus as soft fog", cell,
-              false, true}}) {
+  for (const Panel& panel : {Panel{"cloud-surface", "Left: its surface, lit.",
+                                   "A cumulus as a white surface under a blue sky", cell, false, false},
+                             Panel{"cloud-mesh", "Middle: its mesh, with cells of 16 m.",
+                                   "The same cumulus as a mesh whose triangles can be told", 16, true, false},
+                             Panel{"cloud-fog", "Right: its density as fog, with scattered light.",
+                                   "The same cumulus as soft fog", cell, false, true}}) {
     RenderOptions view = options;
     view.cell = panel.cell;
     view.wires = panel.wires;
@@ -121,13 +120,12 @@ Exhibits cavePart(Workshop& workshop) {
     row += *picture;
   }
   Markup whole;
-  options.camera = "-14,18,62:1,-3,-6";
-  options.fov = 50;
-  options.cell = workshop.pick(0.125, 0.25);
-  options.size = workshop.pick("1120x460", "720x300");
-  const Result<Markup> all = workshop.picture(
-      options, "cave-row", "A block of rock with five tunnels, the left square, the right round",
-      "All in one block: the parameter goes from 0 on the left to 1 on the right.", exhibit.commands);
+  options.camera = "-14,20,70:0.5,-1,-6";
+  options.fov = 23;
+  options.size = workshop.pick("1120x400", "720x260");
+  const Result<Markup> all =
+      workshop.picture(options, "cave-row", "A block of rock with five tunnels, the left square, the right round",
+                       "All in one block: the parameter goes from 0 on the left to 1 on the right.", exhibit.commands);
   if (!all) return all.error();
 
   const Result<std::vector<Morphed>> linear = morphSeries(workshop, false, exhibit.commands);
@@ -156,8 +154,7 @@ Exhibits cavePart(Workshop& workshop) {
                                "whose edges a mesh rounds off) to {:.1f} m³ ({:.1f} of the ball in it). Both ways are "
                                "monotone, and neither leaves the cube.",
                                linear->front().volume, cube, linear->back().volume, ball));
-  exhibit.measured =
-      fmt::format("Volumes by the divergence theorem, cells of {} m.", workshop.pick(0.125, 0.25));
+  exhibit.measured = fmt::format("Volumes by the divergence theorem, cells of {} m.", workshop.pick(0.125, 0.25));
   exhibit.numbers = {{"cube", cube}, {"ball", ball}, {"series", std::move(points)}};
   return std::vector<Exhibit>{std::move(exhibit)};
 }
@@ -167,7 +164,8 @@ Exhibits architecturePart(Workshop& workshop) {
   exhibit.id = "figure-9";
   exhibit.title = "Figure 9. Architecture of several widths, heights and convexities";
   exhibit.printed = {
-      "“The obtained structures of various architecture objects types for LD = 10 and various settings for width, height "
+      "“The obtained structures of various architecture objects types for LD = 10 and various settings for width, "
+      "height "
       "and convexity for floors.”"};
   struct House {
     const char *name, *sets[3], *caption;
@@ -191,9 +189,8 @@ Exhibits architecturePart(Workshop& workshop) {
     options.sets.assign(std::begin(house.sets), std::end(house.sets));
     options.fov = 40;
     options.size = workshop.pick("480x480", "320x320");
-    const Result<Markup> picture =
-        workshop.picture(options, house.name, "A house with balconies: " + std::string(house.caption), house.caption,
-                         exhibit.commands);
+    const Result<Markup> picture = workshop.picture(
+        options, house.name, "A house with balconies: " + std::string(house.caption), house.caption, exhibit.commands);
     if (!picture) return picture.error();
     row += *picture;
     MeasureOptions measured = workshop.on<MeasureOptions>("building.sgm");

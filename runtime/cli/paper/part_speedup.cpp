@@ -22,7 +22,8 @@ std::vector<std::string> backendsOf(const PaperOptions& options) {
 
 std::string whoIs(const StageRow& row) {
   if (row.name == "sequential") return "sequential";
-  return row.workers == 0 ? row.name : fmt::format("{}, {} worker{}", row.name, row.workers, row.workers == 1 ? "" : "s");
+  return row.workers == 0 ? row.name
+                          : fmt::format("{}, {} worker{}", row.name, row.workers, row.workers == 1 ? "" : "s");
 }
 
 // Figures 1 and 2.
@@ -57,9 +58,9 @@ Result<void> countNodes(PointsRun& run, bool hybrid) {
 }
 
 Result<std::vector<PointsRun>> measurePoints(Workshop& workshop, bool hybrid) {
-  const Result<std::vector<Contender>> contenders =
-      makeContenders(workshop.options().backend == "auto" ? std::vector<std::string>{"cpu"} : backendsOf(workshop.options()),
-                     workshop.options().threads);
+  const Result<std::vector<Contender>> contenders = makeContenders(
+      workshop.options().backend == "auto" ? std::vector<std::string>{"cpu"} : backendsOf(workshop.options()),
+      workshop.options().threads);
   if (!contenders) return contenders.error();
   const std::vector<int> counts =
       workshop.pick(std::vector{5, 25, 50, 100, 200, 300, 400, 500, 600, 700}, std::vector{5, 50, 200, 450, 700});
@@ -93,9 +94,10 @@ Exhibit pointsExhibit(Workshop& workshop, bool hybrid, const std::vector<PointsR
   exhibit.id = hybrid ? "figure-2" : "figure-1";
   exhibit.title = hybrid ? "Figure 2. Speedup of the hybrid system" : "Figure 1. Speedup of the shape morphing system";
   exhibit.printed = {
-      hybrid ? "“… in Figure 2 shape hybrid system speedup as a function of the number of measurements of α (α is set of "
-               "the position points).”"
-             : "“Figure 1. Speedup of the parallel shape morphing system”",
+      hybrid
+          ? "“… in Figure 2 shape hybrid system speedup as a function of the number of measurements of α (α is set of "
+            "the position points).”"
+          : "“Figure 1. Speedup of the parallel shape morphing system”",
       "“The points were changed from 5 to 700 and the run time for the sequential shape morphing system and the shape "
       "hybrid system and their parallel versions were measured.”",
       hybrid ? "“Computational complexity of the hybrid system shapes: O(α) = 14P(r + r0 + ab)[a + r(b + a)]²”"
@@ -142,7 +144,8 @@ Exhibit pointsExhibit(Workshop& workshop, bool hybrid, const std::vector<PointsR
   }
   exhibit.ours = Workshop::row(drawn(speedups) + drawn(times)) + table("By the number of position points", rows);
   exhibit.measured = fmt::format(
-      "At each point a ball on its way into a cube, {}. Medians of {} warm runs from derived cells to packed meshes, 64 "
+      "At each point a ball on its way into a cube, {}. Medians of {} warm runs from derived cells to packed meshes, "
+      "64 "
       "m in cells of {} m; every run and every contender made the same meshes, by hash.",
       hybrid ? "collapsed by a morphic rule into one shape" : "both of them sampled and then blended",
       runs.front().result.rows[0].seconds.size(), kCell);
@@ -223,12 +226,13 @@ Exhibit speedupTable(const std::vector<StageResult>& results) {
   exhibit.title = "Table 1. Speedup";
   exhibit.printed = {"“Table 1. Evaluation of the parallel algorithm - speedup for m = 255”",
                      "Parallel: A 0.096 s, B 0.125 s, C 0.069 s. Sequential: A 0.81 s, B 0.62 s, C 0.54 s."};
-  exhibit.ours = stageTable(results, "Seconds",
-                            {paperRow("paper, sequential", [](const PaperStage& s) { return fmt::format("{}", s.sequential); }),
-                             paperRow("paper, parallel", [](const PaperStage& s) { return fmt::format("{}", s.parallel); })},
-                            [](const StageResult& result, const StageRow& row) {
-                              return fmt::format("{:.4f}", figuresOf(result, row).seconds);
-                            });
+  exhibit.ours =
+      stageTable(results, "Seconds",
+                 {paperRow("paper, sequential", [](const PaperStage& s) { return fmt::format("{}", s.sequential); }),
+                  paperRow("paper, parallel", [](const PaperStage& s) { return fmt::format("{}", s.parallel); })},
+                 [](const StageResult& result, const StageRow& row) {
+                   return fmt::format("{:.4f}", figuresOf(result, row).seconds);
+                 });
   exhibit.ours += stageTable(
       results, "Speedup (equation 2)",
       {paperRow("paper, by its times", [](const PaperStage& s) { return fmt::format("{:.2f}", s.speedup()); })},
@@ -256,7 +260,8 @@ Exhibit efficiencyTable(const std::vector<StageResult>& results) {
   Exhibit exhibit;
   exhibit.id = "table-2";
   exhibit.title = "Table 2. Efficiency";
-  exhibit.printed = {"“Table 2. Evaluation of the parallel algorithm – efficiency for m = 255”: A 0.028, B 0.015, C 0.027."};
+  exhibit.printed = {
+      "“Table 2. Evaluation of the parallel algorithm – efficiency for m = 255”: A 0.028, B 0.015, C 0.027."};
   exhibit.ours = stageTable(
       results, "Efficiency (equation 3): speedup over workers",
       {paperRow("paper, printed", [](const PaperStage& s) { return fmt::format("{}", s.efficiency); }),
@@ -274,16 +279,19 @@ Exhibit throughputTable(const std::vector<StageResult>& results) {
   exhibit.id = "table-3";
   exhibit.title = "Table 3. Throughput";
   exhibit.printed = {
-      "“Table 3. Evaluation of the parallel algorithm – throughput for m = 255”: sequential 0.8 Gflop/s, parallel 20.61 "
+      "“Table 3. Evaluation of the parallel algorithm – throughput for m = 255”: sequential 0.8 Gflop/s, parallel "
+      "20.61 "
       "Gflop/s, for all stages."};
-  exhibit.ours = stageTable(results, "Throughput (equation 4): 10⁹ field operations a second; the paper counts Gflop/s",
-                            {paperRow("paper, sequential", [](const PaperStage&) { return fmt::format("{}", kPaperSequentialThroughput); }),
-                             paperRow("paper, parallel", [](const PaperStage&) { return fmt::format("{}", kPaperParallelThroughput); })},
-                            [](const StageResult& result, const StageRow& row) {
-                              return fmt::format("{:.3f}", figuresOf(result, row).throughput / 1e9);
-                            });
-  exhibit.ours += element("p", "A field operation is one instruction of a field program, pruned to where it matters, at "
-                               "one sample: a distance, a minimum, an octave of noise; many flop each.");
+  exhibit.ours = stageTable(
+      results, "Throughput (equation 4): 10⁹ field operations a second; the paper counts Gflop/s",
+      {paperRow("paper, sequential", [](const PaperStage&) { return fmt::format("{}", kPaperSequentialThroughput); }),
+       paperRow("paper, parallel", [](const PaperStage&) { return fmt::format("{}", kPaperParallelThroughput); })},
+      [](const StageResult& result, const StageRow& row) {
+        return fmt::format("{:.3f}", figuresOf(result, row).throughput / 1e9);
+      });
+  exhibit.ours += element("p",
+                          "A field operation is one instruction of a field program, pruned to where it matters, at "
+                          "one sample: a distance, a minimum, an octave of noise; many flop each.");
   return exhibit;
 }
 
@@ -304,11 +312,12 @@ Exhibits speedupPart(Workshop& workshop) {
   options.threads = workshop.options().threads;
   const Result<std::vector<StageResult>> results = measureStages(workshop, options);
   if (!results) return results.error();
-  std::string measured = fmt::format("Medians of {} warm runs of each stage from derived cells to packed meshes:", options.runs);
+  std::string measured =
+      fmt::format("Medians of {} warm runs of each stage from derived cells to packed meshes:", options.runs);
   for (const StageResult& result : *results) {
-    measured += fmt::format(" {} m of {} with the seed {} in cells of {} m, {} triangles, hash {:016x};",
-                            result.model->edge, result.model->file, result.model->seed, metres(result.cell),
-                            result.triangles, result.hash.value());
+    measured +=
+        fmt::format(" {} m of {} with the seed {} in cells of {} m, {} triangles, hash {:016x};", result.model->edge,
+                    result.model->file, result.model->seed, metres(result.cell), result.triangles, result.hash.value());
   }
   measured.back() = '.';
   for (const StageRow& row : results->front().rows)

@@ -27,9 +27,9 @@ struct Part {
   Exhibits (*make)(Workshop& workshop);
 };
 inline constexpr Part kParts[] = {
-    {"speedup", speedupPart}, {"cloud", cloudPart},     {"cave", cavePart},
+    {"speedup", speedupPart},           {"cloud", cloudPart},     {"cave", cavePart},
     {"architecture", architecturePart}, {"density", densityPart}, {"objects", objectsPart},
-    {"histograms", histogramsPart}, {"time", timePart}, {"comparison", comparisonPart},
+    {"histograms", histogramsPart},     {"time", timePart},       {"comparison", comparisonPart},
 };
 
 }  // namespace sgm::cli

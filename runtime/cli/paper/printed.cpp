@@ -23,13 +23,14 @@ std::vector<Contradiction> contradictions() {
       std::minmax_element(kPaperStages.begin(), kPaperStages.end(),
                           [](const PaperStage& a, const PaperStage& b) { return a.speedup() < b.speedup(); });
   return {
-      {fmt::format("Table 2 does not follow from table 1. Its times give speedups of {}, and over {} workers "
-                   "efficiencies of {}; printed are {}, which is more than rounding. They would take {} workers: no one "
-                   "number fits.",
-                   speedups, kPaperWorkers,
-                   ofEach(4, [](const PaperStage& s) { return efficiency(s.speedup(), kPaperWorkers); }),
-                   ofEach(3, [](const PaperStage& s) { return s.efficiency; }),
-                   ofEach(0, [](const PaperStage& s) { return s.speedup() / s.efficiency; })),
+      {fmt::format(
+           "Table 2 does not follow from table 1. Its times give speedups of {}, and over {} workers "
+           "efficiencies of {}; printed are {}, which is more than rounding. They would take {} workers: no one "
+           "number fits.",
+           speedups, kPaperWorkers,
+           ofEach(4, [](const PaperStage& s) { return efficiency(s.speedup(), kPaperWorkers); }),
+           ofEach(3, [](const PaperStage& s) { return s.efficiency; }),
+           ofEach(0, [](const PaperStage& s) { return s.speedup() / s.efficiency; })),
        {"table-1", "table-2"},
        true},
       {fmt::format(
@@ -54,7 +55,8 @@ std::vector<Contradiction> contradictions() {
        "the work they time, nor how large the models are.",
        {"table-1", "figure-1", "figure-2"},
        true},
-      {"The complexities of section 8 for morphing and for the hybrid differ by the factors 41 and 14 alone, digits the "
+      {"The complexities of section 8 for morphing and for the hybrid differ by the factors 41 and 14 alone, digits "
+       "the "
        "other way round, and factors do not belong into an O. What they are functions of, alpha, does not stand on "
        "their right side; r0 is not defined; and the sum that they are said to bound, T_ABC, is of a lower degree in a "
        "and b.",
@@ -70,7 +72,8 @@ std::vector<Contradiction> contradictions() {
       {"The best classification is said to be at LD = 10, and a large density to reduce the histogram to a single bar: "
        "angles along edges vanish with the edges' length, and with them what a histogram of angles tells apart.",
        {"figure-14", "figure-15", "equation-12"}},
-      {"Figures 18, 22 and 28 are cited, and the last one is 16. Table 4 does not say what LOD of kind S is, nor N/O; it "
+      {"Figures 18, 22 and 28 are cited, and the last one is 16. Table 4 does not say what LOD of kind S is, nor N/O; "
+       "it "
        "calls the system GK-M, which is SG+M elsewhere, denies it texture mapping, and no YES in it comes with a "
        "measurement.",
        {"figure-10", "figure-15", "figure-16", "table-4"}},

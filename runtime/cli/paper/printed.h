@@ -1,6 +1,6 @@
 #pragma once
-// What the paper prints: tables 1 to 3, the formulas that they are said to follow from, and where it does not agree with
-// itself. Nothing here measures.
+// What the paper prints: tables 1 to 3, the formulas that they are said to follow from, and where it does not agree
+// with itself. Nothing here measures.
 
 #include <array>
 #include <string>

@@ -48,8 +48,8 @@ Markup sectionOf(const Exhibit& exhibit) {
   for (size_t i = 0; i < all.size(); ++i) {
     if (!isAt(all[i], exhibit.id)) continue;
     const Markup number = link(numberId(i + 1), fmt::format("Contradiction {}", i + 1));
-    content += element("div", {{"class", "contradiction"}}, element("p", number + text(". " + all[i].text))) +
-               Markup{"\n"};
+    content +=
+        element("div", {{"class", "contradiction"}}, element("p", number + text(". " + all[i].text))) + Markup{"\n"};
   }
   content += element("h3", "Ours") + Markup{"\n"} + exhibit.ours;
   content += element("h3", "How it was measured") + Markup{"\n"} + paragraph(exhibit.measured);
@@ -90,8 +90,9 @@ std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibi
 
   Markup body = element("h1", kTitle) + Markup{"\n"};
   body += element("p", text("Figures and tables of ") +
-                           element("cite", "Shape Metamorphosis – Automatic 3D Mesh Generation, Topology Verification "
-                                           "and Analysis") +
+                           element("cite",
+                                   "Shape Metamorphosis – Automatic 3D Mesh Generation, Topology Verification "
+                                   "and Analysis") +
                            text(", beside what this runtime makes of them. Every picture, chart and number of ours was "
                                 "made by the run that wrote this page. The paper's are quoted: what its captions, text "
                                 "and tables say."));
@@ -100,9 +101,9 @@ std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibi
                              text("larger cells, fewer runs and models and smaller pictures than without --quick."));
   if (!facts.pictures) body += paragraph("Made without pictures, as --no-pictures asks.");
   if (!facts.whole) body += paragraph("Some parts alone, as --only asks.");
-  std::vector<std::vector<std::string>> machine{{"Made by", ""}};
-  for (const auto& [name, what] : facts.machine) machine.push_back({name, what});
-  body += element("div", {{"class", "words"}}, table("What made it", machine));
+  Markup machine;
+  for (const auto& [name, what] : facts.machine) machine += element("dt", name) + element("dd", what);
+  body += element("dl", machine) + Markup{"\n"};
   body += element("p", text("Commands are for this page's folder, where ") + element("code", "grammars") +
                            text(" holds what they read. All but times, and what follows from them, comes out the same "
                                 "again."));

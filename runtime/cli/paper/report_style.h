@@ -33,6 +33,9 @@ pre { background: var(--panel); border: 1px solid var(--edge); border-radius: 4p
   font-size: .82rem; line-height: 1.5; white-space: pre-wrap; overflow-wrap: anywhere; }
 code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: .92em; }
 details > summary { cursor: pointer; color: var(--soft); }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: .15rem 1rem; font-size: .92rem; }
+dt { color: var(--soft); }
+dd { margin: 0; }
 .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(15rem, 1fr)); gap: 1rem; align-items: start; margin: 1rem 0; }
 figure { margin: 0 0 .5rem; break-inside: avoid; }
 figure img { display: block; width: 100%; height: auto; border-radius: 4px; }

@@ -21,8 +21,8 @@ struct StageModel {
   std::string_view name;
   std::string_view file;  ///< of the bundle
   uint64_t seed = 0;
-  Int3 low;          ///< metres
-  int32_t edge = 0;  ///< metres
+  Int3 low;                                                           ///< metres
+  int32_t edge = 0;                                                   ///< metres
   std::span<const std::pair<std::string_view, double>> parameters{};  ///< that differ from their defaults, SI
 };
 /// Cave, cloud and building, in the order of kPaperStages.

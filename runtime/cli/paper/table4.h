@@ -21,9 +21,16 @@ enum Criterion : size_t {
   kHoles,
   kCriteria
 };
-inline constexpr std::array<const char*, kCriteria> kCriterionNames = {
-    "Clouds",          "Architecture",          "Caves",  "Level of detail", "Controls", "Shape morphing",
-    "Texture mapping", "High surfaces removed", "Overlapping vertices removed", "No holes"};
+inline constexpr std::array<const char*, kCriteria> kCriterionNames = {"Clouds",
+                                                                       "Architecture",
+                                                                       "Caves",
+                                                                       "Level of detail",
+                                                                       "Controls",
+                                                                       "Shape morphing",
+                                                                       "Texture mapping",
+                                                                       "High surfaces removed",
+                                                                       "Overlapping vertices removed",
+                                                                       "No holes"};
 
 struct ComparedSystem {
   const char* name;  ///< as printed

@@ -12,6 +12,7 @@
 #include "rounds.h"
 
 using namespace sgm::cli;
+using sgm::rounds;
 
 namespace {
 
@@ -21,7 +22,8 @@ std::string unescaped(const std::string& html) {
       {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&#39;", '\''}};
   std::string out;
   for (size_t i = 0; i < html.size();) {
-    const auto name = std::ranges::find_if(kNames, [&](const auto& n) { return html.compare(i, std::strlen(n.first), n.first) == 0; });
+    const auto name = std::ranges::find_if(
+        kNames, [&](const auto& n) { return html.compare(i, std::strlen(n.first), n.first) == 0; });
     if (name == std::end(kNames)) {
       out += html[i++];
     } else {
