@@ -84,7 +84,8 @@ void compare(const std::vector<Sampled>& all, double Sample::*of, const std::str
   for (size_t i = 0; i < any.size(); ++i) chart.x.marks.push_back(static_cast<double>(1 << i));
   std::vector<std::vector<std::string>> rows{{what + ", " + unit}};
   for (size_t i = 0; i < any.size(); ++i) rows[0].push_back(i == 0 ? "coarsest" : fmt::format("LD times {}", 1 << i));
-  rows[0].insert(rows[0].end(), {"last change", "observed order"});
+  rows[0].emplace_back("last change");
+  rows[0].emplace_back("observed order");
   Json models = Json::array();
   for (const Sampled& sampled : all) {
     const std::vector<double> values = valuesOf(sampled, of);

@@ -103,8 +103,8 @@ Exhibits objectsPart(Workshop& workshop) {
   if (!cloud) return cloud.error();
   if (*cloud) {
     RenderOptions options = **cloud;
-    options.camera = "250,-80,620:0,10,0";
-    options.fov = 40;
+    options.camera = "120,-150,820:0,20,0";
+    options.fov = 34;
     options.size = workshop.pick("1120x560", "720x360");
     const Result<Markup> picture =
         workshop.picture(options, "cloud-of-ten", "A scattered cloud of ten separate parts",

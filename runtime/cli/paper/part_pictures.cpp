@@ -120,8 +120,8 @@ Exhibits cavePart(Workshop& workshop) {
     row += *picture;
   }
   Markup whole;
-  options.camera = "-14,20,70:0.5,-1,-6";
-  options.fov = 23;
+  options.camera = "-14,20,72:-2.5,-1,-6";
+  options.fov = 26;
   options.size = workshop.pick("1120x400", "720x260");
   const Result<Markup> all =
       workshop.picture(options, "cave-row", "A block of rock with five tunnels, the left square, the right round",

@@ -46,7 +46,7 @@ caption { text-align: left; color: var(--soft); padding-bottom: .4rem; }
 th, td { padding: .3rem .7rem; border-bottom: 1px solid var(--edge); text-align: right; vertical-align: top; }
 th { font-weight: 600; }
 thead th { border-bottom-width: 2px; vertical-align: bottom; }
-th:first-child, .words td { text-align: left; }
+th:first-child, .words td, .words th { text-align: left; }
 svg { display: block; width: 100%; height: auto; }
 svg text { font: 12px system-ui, "DejaVu Sans", sans-serif; fill: var(--ink); }
 svg .axis { fill: var(--soft); }
