@@ -450,7 +450,8 @@ Command addRender(CLI::App& root) {
       ->check(numberIn(1.0, 150.0))
       ->capture_default_str();
   app->add_flag("--volume", options->volume,
-                "Draw the solid as fog, by its density at the cells' corners; for grammars that say `output density`");
+                "Draw the solid as fog, by its density at the cells' corners; for grammars that say `output density`")
+      ->excludes(app->add_flag("--wires", options->wires, "Draw the mesh's edges, on a surface without materials"));
   app->footer("Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7");
   return [options] { return render(*options); };
 }
@@ -573,6 +574,42 @@ Command addBench(CLI::App& root) {
   return [options] { return benchPaper(*options); };
 }
 
+Command addPaper(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "paper",
+      "Reproduce the paper that the language comes from: one HTML report of its figures and tables, ours beside");
+  const auto options = std::make_shared<PaperOptions>();
+  app->add_option("--out", options->out, "Folder to write: a new or an empty one, or one with an earlier report")
+      ->type_name("DIR")
+      ->required();
+  app->add_option(
+         "--only", options->only,
+         "Make this part alone (repeatable): speedup, cloud, cave, architecture, density, objects, histograms, "
+         "time, comparison")
+      ->type_name("PART")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(paperParts()));
+  app->add_flag("--quick", options->quick, "Larger cells, fewer runs and models, smaller pictures");
+  app->add_flag("--no-pictures", options->no_pictures,
+                "Leave the pictures out, and do without a Vulkan device to draw them with; charts and tables stay");
+  app->add_option("--backend", options->backend, "What computes")
+      ->check(CLI::IsMember({"auto", "cpu", "vulkan", "cuda"}))
+      ->capture_default_str();
+  app->add_option("--threads", options->threads, "Threads to use; 0: one for each processor")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app->add_option("--seed", options->seed, "Of what is drawn by chance: models to be classified, and skies")
+      ->check(checkWhole)
+      ->capture_default_str();
+  app->add_flag("--json", options->json, "Print the report's numbers as one JSON object on standard output");
+  app->footer(
+      "Takes a few minutes on two cores. The folder is there when all is done, or not at all. Pictures are drawn\n"
+      "off-screen, on a Vulkan device, software too. But for times and what follows from them, the same options give\n"
+      "the same report.\n"
+      "Example:\n  sgm paper --out paper --quick");
+  return [options] { return reproducePaper(*options); };
+}
+
 Command addBackends(CLI::App& root) {
   CLI::App* app = root.add_subcommand("backends", "List what can compute and draw on this machine, and why not");
   const auto json = std::make_shared<bool>(false);
@@ -616,7 +653,7 @@ Exit runCommandLine(int argc, char** argv) {
       "be read or written; the highest of several.");
   std::vector<Command> commands;
   for (const auto add : {addCheck, addFmt, addExplain, addMesh, addMeasure, addClassify, addMasters, addRender, addFly,
-                         addLsp, addBench, addBackends})
+                         addLsp, addBench, addPaper, addBackends})
     commands.push_back(add(app));
 
   try {

@@ -2,9 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <optional>
-
-#include "cli/paper.h"
+#include "cli/paper/printed.h"
 
 namespace sgm::cli {
 namespace {
@@ -20,19 +18,12 @@ constexpr const char* kCounted =
     "flop is counted";
 constexpr const char* kNoWorkers = "the device does not tell how many processors it has";
 
-/// The four figures of a contender, one formula each.
-struct Figures {
-  double seconds = 0, speedup = 0, throughput = 0;
-  std::optional<double> efficiency;
-};
-
-Figures figuresOf(const StageResult& result, const StageRow& row) {
-  Figures figures;
-  figures.seconds = row.median();
-  figures.speedup = speedup(result.rows[0].median(), figures.seconds);
-  figures.throughput = throughput(static_cast<double>(result.operations), figures.seconds);
-  if (row.workers > 0) figures.efficiency = efficiency(figures.speedup, row.workers);
-  return figures;
+/// Of those that `sgm bench paper` is about.
+std::vector<std::string> inconsistencies() {
+  std::vector<std::string> texts;
+  for (const Contradiction& found : contradictions())
+    if (found.of_tables) texts.push_back(found.text);
+  return texts;
 }
 
 std::string hexHash(const StageResult& result) { return fmt::format("{:016x}", result.hash.value()); }
@@ -43,7 +34,7 @@ Json rowJson(const StageResult& result, const StageRow& row) {
     json["reason"] = row.reason;
     return json;
   }
-  const Figures figures = figuresOf(result, row);
+  const StageFigures figures = figuresOf(result, row);
   json.update({{"device", row.device},
                {"workers", row.workers > 0 ? Json(row.workers) : Json()},
                {"first_seconds", row.first},
@@ -72,7 +63,7 @@ void printRow(const BenchOptions& options, const StageResult& result, const Stag
     fmt::print("  {:<17}not measured: {}\n", row.name, row.reason);
     return;
   }
-  const Figures figures = figuresOf(result, row);
+  const StageFigures figures = figuresOf(result, row);
   fmt::print("  {:<17}{:>7}{:>10.4f}{:>10.4f}{:>9.2f}{:>12}{:>9.3f}{:>12}  {}\n", row.name,
              row.workers > 0 ? fmt::format("{}", row.workers) : "-", row.first, figures.seconds, figures.speedup,
              figures.efficiency ? fmt::format("{:.3f}", *figures.efficiency) : "-", figures.throughput / 1e9,
@@ -127,7 +118,7 @@ Json toJson(const BenchOptions& options, std::span<const StageResult> results) {
            {{"workers", kPaperWorkers},
             {"sequential_gflops", kPaperSequentialThroughput},
             {"parallel_gflops", kPaperParallelThroughput},
-            {"inconsistencies", paperInconsistencies()}}}};
+            {"inconsistencies", inconsistencies()}}}};
 }
 
 void print(const BenchOptions& options, std::span<const StageResult> results) {
@@ -143,7 +134,7 @@ void print(const BenchOptions& options, std::span<const StageResult> results) {
   fmt::print("Hash:       of a stage's meshes, the same in every run and on every backend, or the benchmark fails.\n");
   fmt::print("\nThe paper's figures are no baseline. What does not agree in them:\n");
   size_t number = 0;
-  for (const std::string& text : paperInconsistencies()) fmt::print("  {}. {}\n", ++number, text);
+  for (const std::string& text : inconsistencies()) fmt::print("  {}. {}\n", ++number, text);
 }
 
 }  // namespace sgm::cli

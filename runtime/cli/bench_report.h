@@ -5,7 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/json.h"
-#include "cli/paper_stage.h"
+#include "cli/paper/stage.h"
 
 namespace sgm::cli {
 

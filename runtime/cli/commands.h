@@ -91,6 +91,7 @@ struct RenderOptions : WorldOptions {
   std::string size = "1280x720";
   double fov = 68;
   bool volume = false;  ///< the solid as fog instead of its surface
+  bool wires = false;   ///< the mesh's edges, without materials
 };
 Exit render(const RenderOptions& options);
 
@@ -124,6 +125,20 @@ struct BenchOptions {
   bool json = false;
 };
 Exit benchPaper(const BenchOptions& options);
+
+struct PaperOptions {
+  std::string out;
+  std::vector<std::string> only;  ///< parts of the report; none: all
+  bool quick = false;
+  bool no_pictures = false;
+  std::string backend = "auto";
+  unsigned threads = 0;
+  uint64_t seed = 1;
+  bool json = false;
+};
+/// What --only may name, in the order of the report.
+std::vector<std::string> paperParts();
+Exit reproducePaper(const PaperOptions& options);
 
 Exit listBackends(bool json);
 

@@ -161,7 +161,7 @@ bool asksForVoid(const MeasureOptions& options) { return options.radius || !opti
 Exit measureVoid(const MeasureOptions& options) {
   OpenedWorld opened = openWorld(options);
   if (opened.program == nullptr) return opened.status;
-  const Result<VoidQuestion> question = questionOf(options, *opened.region);
+  const Result<VoidQuestion> question = questionOf(options, opened.region);
   if (!question) return complain(question.error());
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return complain(jobs.error());

@@ -18,9 +18,60 @@ namespace sgm::cli {
 namespace {
 
 constexpr size_t kMostNotes = 10;
+constexpr const char* kEndless = "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1";
 constexpr uint64_t kChosenChunks = 4096;  // at most, of a region that the user has not chosen
 
 RegionResult failure(Exit status) { return {std::nullopt, status}; }
+
+struct ChosenWorld {
+  WorldFieldSettings settings;
+  std::optional<IntBox> region;  ///< none of an endless world where the plan chooses
+};
+
+/// What the options say of a grammar that is compiled.
+Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, const WorldOptions& options,
+                                const RegionPlan& plan) {
+  ChosenWorld chosen;
+  if (!options.region.empty()) {
+    const Result<IntBox> given = parseRegion(options.region);
+    if (!given) return given.error();
+    chosen.region = *given;
+  }
+  const Result<int32_t> cell = cellUnits(options);
+  if (!cell) return cell.error();
+  if (plan.check) {
+    if (const Result<void> fits = plan.check(*program); !fits) return fits.error();
+  }
+  Result<ParameterValues> parameters = parameterValues(*program, options.sets);
+  if (!parameters) return parameters.error();
+  if (options.region.empty() && !program->domain.infinite) chosen.region = program->domain.box;
+  if (!chosen.region && !plan.choose) return Error{Code::invalid_argument, kEndless};
+  chosen.settings.program = program;
+  chosen.settings.parameters = std::move(*parameters);
+  chosen.settings.seed = options.seed;
+  chosen.settings.finest_cell = *cell;
+  chosen.settings.cache_bytes = kCacheBytes;
+  return chosen;
+}
+
+/// The grammar, once what the command line alone can tell is right; what is wrong has been said.
+LoadedGrammar loadForWorld(const WorldOptions& options, const RegionPlan& plan) {
+  const auto refused = [](Exit status) {
+    LoadedGrammar none;
+    none.status = status;
+    return none;
+  };
+  if (!options.region.empty()) {
+    const Result<IntBox> given = parseRegion(options.region);
+    if (!given) return refused(complain(given.error()));
+  }
+  const Result<int32_t> cell = cellUnits(options);
+  if (!cell) return refused(complain(cell.error()));
+  LoadedGrammar grammar = loadGrammar(options.file);
+  if (grammar.program != nullptr && options.region.empty() && grammar.program->domain.infinite && !plan.choose)
+    return refused(complain(Exit::usage, kEndless));
+  return grammar;
+}
 
 }  // namespace
 
@@ -113,80 +164,44 @@ Json toJson(const WorldOptions& options, const Region& region) {
           {"backend", region.backend}};
 }
 
-OpenedWorld openWorld(const WorldOptions& options, const RegionPlan& plan) {
-  OpenedWorld opened;
-  const auto failed = [&](Exit status) {
-    opened.program = nullptr;
-    opened.status = status;
-    return opened;
-  };
-  // What the command line alone can tell comes before any work.
-  if (!options.region.empty()) {
-    const Result<IntBox> given = parseRegion(options.region);
-    if (!given) return failed(complain(given.error()));
-    opened.region = *given;
-  }
-  const Result<int32_t> cell = cellUnits(options);
-  if (!cell) return failed(complain(cell.error()));
-
-  const LoadedGrammar grammar = loadGrammar(options.file);
-  if (grammar.program == nullptr) return failed(grammar.status);
-  const Program& program = *grammar.program;
-  if (plan.check) {
-    if (const Result<void> fits = plan.check(program); !fits) return failed(complain(fits.error()));
-  }
-  Result<ParameterValues> parameters = parameterValues(program, options.sets);
-  if (!parameters) return failed(complain(parameters.error()));
-  if (options.region.empty() && !program.domain.infinite) opened.region = program.domain.box;
-  if (!opened.region && !plan.choose)
-    return failed(
-        complain(Exit::usage, "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1"));
-  opened.program = grammar.program;
-  opened.settings.program = grammar.program;
-  opened.settings.parameters = std::move(*parameters);
-  opened.settings.seed = options.seed;
-  opened.settings.finest_cell = *cell;
-  opened.settings.cache_bytes = kCacheBytes;
-  return opened;
-}
-
-RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
-  OpenedWorld opened = openWorld(options, plan);
-  if (opened.program == nullptr) return failure(opened.status);
-  const Program& program = *opened.program;
-  WorldFieldSettings& settings = opened.settings;
-  std::optional<IntBox>& region = opened.region;
+Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldOptions& options,
+                           const RegionPlan& plan) {
+  const Program& program = *compiled;
+  Result<ChosenWorld> chosen_world = chooseWorld(compiled, options, plan);
+  if (!chosen_world) return chosen_world.error();
+  WorldFieldSettings& settings = chosen_world->settings;
+  std::optional<IntBox>& region = chosen_world->region;
 
   const Stopwatch watch;
   const Result<std::unique_ptr<JobSystem>> pool = makeThreadPool(options.threads);
-  if (!pool) return failure(complain(pool.error()));
+  if (!pool) return pool.error();
   const std::unique_ptr<JobSystem>& jobs = *pool;
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
   const Result<std::unique_ptr<Backend>> backend = backendOf(options, *jobs);
-  if (!backend) return failure(complain(backend.error()));
+  if (!backend) return backend.error();
   if (!region) {
     const Result<IntBox> chosen = plan.choose(WorldField(settings, memory));
-    if (!chosen) return failure(complain(chosen.error()));
+    if (!chosen) return chosen.error();
     region = *chosen;
     if (!options.cell && !options.density) {
       const Result<int32_t> fitting = cellFor(std::span(&*region, 1), std::min(kChosenChunks, options.max_chunks));
-      if (!fitting) return failure(complain(fitting.error()));
+      if (!fitting) return fitting.error();
       settings.finest_cell = *fitting;
     }
   }
   const int32_t cell = settings.finest_cell;
   const WorldField world(std::move(settings), memory);
   Result<api::RegionMesh> meshed = [&] {
-    ProgressBar bar("meshing");
+    ProgressBar bar(plan.doing);
     return api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks, options.sharp,
                            [&bar](uint64_t done, uint64_t total) {
                              bar.show(done, total);
                              return true;
                            });
   }();
-  if (!meshed) return failure(complain(meshed.error()));
+  if (!meshed) return meshed.error();
   Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);
-  if (!anchors) return failure(complain(anchors.error()));
+  if (!anchors) return anchors.error();
   std::optional<WorldMesh> unsplit;
   if (options.sharp) {
     unsplit = std::move(meshed->mesh);
@@ -195,16 +210,15 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   std::optional<api::TexturedRegion> texture;
   if (plan.texture) {
     Result<api::TexturedRegion> unwrapped = api::unwrapRegion(world, *jobs, meshed->mesh, options.level, kTile);
-    if (!unwrapped) return failure(complain(unwrapped.error()));
+    if (!unwrapped) return unwrapped.error();
     texture = std::move(*unwrapped);
   }
   const double seconds = watch.seconds();
-  const Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, cell << options.level);
-  if (!notes) return failure(complain(notes.error()));
-  warnOfNotes(options.file, *notes);
+  Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, cell << options.level);
+  if (!notes) return notes.error();
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
-  Region result{opened.program,
+  Region result{std::move(compiled),
                 std::move(*meshed),
                 cell << options.level,
                 std::move(*anchors),
@@ -213,18 +227,43 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
                 seconds,
                 std::move(texture),
                 std::move(unsplit),
-                {}};
-  warnOfThinWalls(options.file, program, result.cell);
+                {},
+                std::move(*notes)};
   if (result.meshed.mesh.indices.empty()) {
     Result<std::string> why = whyEmpty(world, result);
-    if (!why) return failure(complain(why.error()));
+    if (!why) return why.error();
     result.empty_because = std::move(*why);
   }
   if (plan.after) {
-    const Result<void> done = plan.after(world, **backend, *jobs, result);
-    if (!done) return failure(complain(done.error()));
+    if (const Result<void> done = plan.after(world, **backend, *jobs, result); !done) return done.error();
   }
-  return {std::move(result), Exit::done};
+  return result;
+}
+
+OpenedWorld openWorld(const WorldOptions& options) {
+  OpenedWorld opened;
+  const LoadedGrammar grammar = loadForWorld(options, {});
+  opened.status = grammar.status;
+  if (grammar.program == nullptr) return opened;
+  Result<ChosenWorld> chosen = chooseWorld(grammar.program, options, {});
+  if (!chosen) {
+    opened.status = complain(chosen.error());
+    return opened;
+  }
+  opened.program = grammar.program;
+  opened.settings = std::move(chosen->settings);
+  opened.region = *chosen->region;
+  return opened;
+}
+
+RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
+  const LoadedGrammar grammar = loadForWorld(options, plan);
+  if (grammar.program == nullptr) return failure(grammar.status);
+  Result<Region> made = meshProgram(grammar.program, options, plan);
+  if (!made) return failure(complain(made.error()));
+  warnOfNotes(options.file, made->notes);
+  warnOfThinWalls(options.file, *grammar.program, made->cell);
+  return {std::move(*made), Exit::done};
 }
 
 }  // namespace sgm::cli

@@ -26,7 +26,8 @@ struct Region {
   std::optional<api::TexturedRegion> texture;  ///< where the plan asks for it
   /// Where options ask for sharp features: the closed mesh, whose vertices at creases meshed.mesh has once a side.
   std::optional<WorldMesh> unsplit;
-  std::string empty_because;  ///< where the mesh has no triangle: why that may be, and what to try
+  std::string empty_because;      ///< where the mesh has no triangle: why that may be, and what to try
+  std::vector<DeriveNote> notes;  ///< what derivation left out
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }
 };
@@ -60,7 +61,8 @@ struct RegionResult {
 
 /// What a command wants beside the mesh; each may be empty.
 struct RegionPlan {
-  bool texture = false;  ///< with texture coordinates and blends of materials
+  std::string doing = "meshing";  ///< beside the progress bar
+  bool texture = false;           ///< with texture coordinates and blends of materials
   /// Refuses a grammar before any work.
   std::function<Result<void>(const Program& program)> check;
   /// Says which part of an endless world is meant where no --region does.
@@ -74,11 +76,16 @@ struct OpenedWorld {
   std::shared_ptr<const Program> program;  ///< null where something is wrong; it has been said
   Exit status = Exit::done;                ///< to end with then
   WorldFieldSettings settings;
-  std::optional<IntBox> region;  ///< --region, else all of a finite world; none of an endless one, if that may be
+  IntBox region;  ///< --region, else all of a finite world
 };
 
-/// Of an endless world there must be a --region, unless the plan chooses one. Messages go to stderr.
-OpenedWorld openWorld(const WorldOptions& options, const RegionPlan& plan = {});
+/// Of an endless world there must be a --region. Messages go to stderr.
+OpenedWorld openWorld(const WorldOptions& options);
+
+/// Meshes what the options say of a grammar that is compiled. The region is as meshRegion() has it. A progress bar goes
+/// to stderr where that is a terminal, and no message. Errors: invalid_argument, for what the options say; those of
+/// meshing and of the plan.
+Result<Region> meshProgram(std::shared_ptr<const Program> program, const WorldOptions& options, const RegionPlan& plan);
 
 /// Reads, compiles and meshes what the options say. The region is --region; without it, all of a finite world, or what
 /// the plan chooses of an endless one (else --region must be given), with cells as large as that needs where --cell

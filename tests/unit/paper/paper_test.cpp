@@ -5,8 +5,8 @@
 
 #include "backend/cpu/cpu_backend.h"
 #include "catch.h"
-#include "cli/paper.h"
-#include "cli/paper_stage.h"
+#include "cli/paper/printed.h"
+#include "cli/paper/stage.h"
 #include "rounds.h"
 
 using namespace sgm;
@@ -170,10 +170,11 @@ TEST_CASE("the median is the middle of the times, in any order") {
 }
 
 TEST_CASE("what is inconsistent in the paper's tables is told in numbers") {
-  const std::vector<std::string> texts = paperInconsistencies();
-  const auto said = [&texts](const char* what) {
-    return std::any_of(texts.begin(), texts.end(),
-                       [what](const std::string& text) { return text.find(what) != std::string::npos; });
+  const std::vector<Contradiction> found = contradictions();
+  CHECK(found.size() == 12);
+  const auto said = [&found](const char* what) {
+    return std::any_of(found.begin(), found.end(),
+                       [what](const Contradiction& c) { return c.text.find(what) != std::string::npos; });
   };
   CHECK(said("8.44, 4.96 and 7.83"));
   CHECK(said("0.0331, 0.0195 and 0.0307"));

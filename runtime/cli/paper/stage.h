@@ -3,9 +3,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "backend/backend.h"
@@ -17,11 +19,11 @@ namespace sgm::cli {
 /// What is generated: a cube of a grammar's world.
 struct StageModel {
   std::string_view name;
-  std::string_view file;  ///< of samples/grammars
-  std::string_view text;
+  std::string_view file;  ///< of the bundle
   uint64_t seed = 0;
-  Int3 low;          ///< metres
-  int32_t edge = 0;  ///< metres
+  Int3 low;                                                           ///< metres
+  int32_t edge = 0;                                                   ///< metres
+  std::span<const std::pair<std::string_view, double>> parameters{};  ///< that differ from their defaults, SI
 };
 /// Cave, cloud and building, in the order of kPaperStages.
 std::span<const StageModel> stageModels();
@@ -60,6 +62,16 @@ struct StageResult {
   ContentHash hash;            ///< of the set of chunk meshes, the same in every run of every contender
   std::vector<StageRow> rows;  ///< by contender
 };
+
+/// The figures that follow from a row's times, one formula of the paper each.
+struct StageFigures {
+  double seconds = 0;                ///< the median
+  double speedup = 0;                ///< equation 2, against the first row
+  std::optional<double> efficiency;  ///< equation 3; nothing where the workers are not known
+  double throughput = 0;             ///< equation 4: operations a second
+};
+/// Precondition: the row is measured, and so is the result's first.
+StageFigures figuresOf(const StageResult& result, const StageRow& row);
 
 /// Generates the stage once with each contender, and then so many times with all of them in turn: from derived cells
 /// to packed meshes, each in a world of its own. `step` is told of every run. Errors: those of meshing; bad_input where

@@ -1,4 +1,4 @@
-#include "cli/paper_stage.h"
+#include "cli/paper/stage.h"
 
 #include <fmt/core.h>
 
@@ -10,8 +10,8 @@
 
 #include "backend/cpu/mesh_chunk.h"
 #include "cli/console.h"
-#include "cli/paper_grammars.h"
-#include "grammar/compile.h"
+#include "cli/paper/bundle.h"
+#include "cli/paper/printed.h"
 #include "stream/mesh_chunks.h"
 
 namespace sgm::cli {
@@ -38,11 +38,15 @@ struct StageRun {
 };
 
 Result<StageScene> makeStage(const StageModel& model, int32_t cell) {
-  const CompileResult compiled = compileGrammar(model.text, model.file);
+  const CompileResult compiled = compileBundled(model.file);
   if (!compiled.program) return Error{Code::bad_input, renderDiagnostics(compiled)};
   StageScene scene;
   scene.settings.program = compiled.program;
   scene.settings.parameters = ParameterValues::defaults(*compiled.program);
+  for (const auto& [name, value] : model.parameters) {
+    const Result<void> set = scene.settings.parameters.set(*compiled.program, name, value);
+    if (!set) return set.error();
+  }
   scene.settings.seed = model.seed;
   scene.settings.finest_cell = cell;
   scene.settings.cache_bytes = kDerivedBytes;
@@ -106,10 +110,9 @@ std::string outcomeOf(const Contender& contender, const StageRun& run) {
 }  // namespace
 
 std::span<const StageModel> stageModels() {
-  static constexpr std::array<StageModel, 3> kModels = {
-      {{"cave", "cave.sgm", kCaveGrammar, 7, {64, 64, 112}, 64},
-       {"cloud", "cloud.sgm", kCloudGrammar, 3, {0, 768, 0}, 1024},
-       {"building", "storeys.sgm", kStoreysGrammar, 0, {-16, -8, -16}, 32}}};
+  static constexpr std::array<StageModel, 3> kModels = {{{"cave", "cave.sgm", 7, {64, 64, 112}, 64},
+                                                         {"cloud", "cloud.sgm", 3, {0, 768, 0}, 1024},
+                                                         {"building", "storeys.sgm", 0, {-16, -8, -16}, 32}}};
   return kModels;
 }
 
@@ -118,6 +121,15 @@ double StageRow::median() const {
   std::sort(sorted.begin(), sorted.end());
   const size_t half = sorted.size() / 2;
   return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+}
+
+StageFigures figuresOf(const StageResult& result, const StageRow& row) {
+  StageFigures figures;
+  figures.seconds = row.median();
+  figures.speedup = speedup(result.rows[0].median(), figures.seconds);
+  figures.throughput = throughput(static_cast<double>(result.operations), figures.seconds);
+  if (row.workers > 0) figures.efficiency = efficiency(figures.speedup, row.workers);
+  return figures;
 }
 
 Result<StageResult> measureStage(const StageModel& model, int32_t cell, uint64_t runs,

@@ -1,6 +1,6 @@
 #pragma once
-// Tables 1 to 3 of the paper, as they are printed, the formulas that they are said to follow from, and where they do
-// not. Nothing here measures.
+// What the paper prints: tables 1 to 3, the formulas that they are said to follow from, and where it does not agree
+// with itself. Nothing here measures.
 
 #include <array>
 #include <string>
@@ -30,7 +30,13 @@ inline constexpr double kPaperWorkers = 255;
 /// Table 3, one figure for all stages: Gflop/s.
 inline constexpr double kPaperSequentialThroughput = 0.8, kPaperParallelThroughput = 20.61;
 
-/// What does not agree in the tables and in what is said of them, a sentence or two each.
-std::vector<std::string> paperInconsistencies();
+/// Where the paper contradicts itself, or leaves open what it means.
+struct Contradiction {
+  std::string text;                 ///< a sentence or two
+  std::vector<const char*> places;  ///< "figure-10", "table-1", "equation-7", "section-8"
+  bool of_tables = false;           ///< of what `sgm bench paper` measures
+};
+/// All that were found, in one order for good: their numbers are their places in it, from 1 on.
+std::vector<Contradiction> contradictions();
 
 }  // namespace sgm::cli

@@ -1,0 +1,218 @@
+#include "cli/region_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "cli/materials.h"
+#include "cli/surroundings.h"
+#include "mesh/vertex.h"
+
+namespace sgm::cli {
+namespace {
+
+/// Drawable vertices. The renderer counts from the mesh's origin, as the mesh does.
+std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
+  std::vector<RenderVertex> vertices(mesh.positions.size());
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    const std::array<double, 3>& p = mesh.positions[i];
+    const VertexAttributes& attributes = mesh.attributes[i];
+    const std::array<double, 3> n = unpackNormal(attributes.normal_x, attributes.normal_y);
+    vertices[i] = {{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])},
+                   {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])},
+                   attributes.material};
+  }
+  return vertices;
+}
+
+/// A mesh as it is drawn: where charts or pairs of materials meet a vertex comes several times.
+struct Drawable {
+  std::vector<RenderVertex> vertices;
+  std::vector<uint32_t> indices;
+};
+
+Drawable drawable(const Region& region, bool uv) {
+  const std::vector<RenderVertex> vertices = drawable(region.meshed.mesh);
+  const auto& corners = region.texture->unwrapped.corners;
+  Drawable drawn{{}, {corners.begin(), corners.end()}};
+  for (const Wedge& wedge : region.texture->unwrapped.wedges) {
+    RenderVertex& vertex = drawn.vertices.emplace_back(vertices[wedge.vertex]);
+    vertex.material = wedge.materials[0];
+    vertex.second = wedge.materials[1];
+    vertex.share = static_cast<float>(wedge.share) / 255.0f;
+    if (uv) vertex.texture = {wedge.u, wedge.v};
+  }
+  return drawn;
+}
+
+glm::vec3 fromOrigin(const WorldMesh& mesh, const std::array<double, 3>& world) {
+  glm::vec3 point;
+  for (int axis = 0; axis < 3; ++axis)
+    point[axis] =
+        static_cast<float>(world[static_cast<size_t>(axis)] - static_cast<double>(mesh.origin[axis]) / kUnitsPerMetre);
+  return point;
+}
+
+/// Whether a place stands where the region's border hides what is around it.
+bool isByBorder(const IntBox& extent, Int3 place) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t margin = (int64_t{extent.hi[axis]} - extent.lo[axis]) / 8;
+    if (place[axis] < extent.lo[axis] + margin || place[axis] > extent.hi[axis] - margin) return true;
+  }
+  return false;
+}
+
+/// The view that the options ask for, or the one that finds itself.
+Result<View> viewOf(const RenderOptions& options, const Region& region, const Drawable& drawn) {
+  const PictureSize size = *readSize(options.size);
+  if (!options.camera.empty()) {
+    const Gaze gaze = *readCamera(options.camera);
+    RenderCamera camera;
+    camera.position = fromOrigin(region.meshed.mesh, gaze[0]);
+    camera.target = fromOrigin(region.meshed.mesh, gaze[1]);
+    camera.fov_degrees = static_cast<float>(options.fov);
+    camera.width = size.width;
+    camera.height = size.height;
+    if (camera.position == camera.target)
+      return Error{Code::invalid_argument, "--camera looks from a point to the same point"};
+    return viewFrom(drawn.vertices, drawn.indices, camera);
+  }
+  const std::vector<glm::vec3> anchors = anchorsAt(region, options.at);
+  CameraWish wish;
+  wish.width = size.width;
+  wish.height = size.height;
+  wish.fov_degrees = static_cast<float>(options.fov);
+  wish.anchors = anchors;
+  wish.airborne = region.program->domain.density;
+  return chooseCamera(drawn.vertices, drawn.indices, wish);
+}
+
+/// Without a pattern, which would hide the edges.
+constexpr RenderMaterial kUnderWires{SurfacePattern::smooth, {0.55f, 0.55f, 0.52f}, 0.9f, 0.0f};
+constexpr RenderMaterial kWire{SurfacePattern::smooth, {0.01f, 0.02f, 0.05f}, 1.0f, 0.0f};
+
+/// Adds the mesh's edges as ribbons that face the camera, of one width in the picture whatever their distance.
+void addWires(const Region& region, const RenderCamera& camera, Drawable& drawn) {
+  constexpr float kWide = 0.55f, kLifted = 1.5f;  // pixels: to each side, and towards the camera
+  const WorldMesh& mesh = region.meshed.mesh;
+  std::vector<std::array<uint32_t, 2>> edges;
+  for (size_t i = 0; i < mesh.indices.size(); ++i) {
+    const uint32_t from = mesh.indices[i], to = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
+    edges.push_back({std::min(from, to), std::max(from, to)});
+  }
+  std::ranges::sort(edges);
+  const auto repeated = std::ranges::unique(edges);
+  edges.erase(repeated.begin(), repeated.end());
+
+  const float pixel = 2 * std::tan(glm::radians(camera.fov_degrees) / 2) / static_cast<float>(camera.height);
+  RenderVertex vertex;
+  vertex.material = vertex.second = static_cast<uint32_t>(renderMaterials(*region.program).size());
+  const auto place = [&](uint32_t index) {
+    const std::array<double, 3>& p = mesh.positions[index];
+    return glm::vec3(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
+  };
+  for (const auto& [a, b] : edges) {
+    const glm::vec3 ends[] = {place(a), place(b)};
+    const glm::vec3 side = glm::cross(ends[1] - ends[0], camera.position - ends[0]);
+    if (glm::length(side) == 0) continue;  // seen along its length
+    const auto first = static_cast<uint32_t>(drawn.vertices.size());
+    for (const glm::vec3& end : ends) {
+      const float wide = pixel * glm::distance(camera.position, end);
+      vertex.normal = glm::normalize(camera.position - end);
+      for (const float to : {-kWide, kWide}) {
+        vertex.position = end + wide * (to * glm::normalize(side) + kLifted * vertex.normal);
+        drawn.vertices.push_back(vertex);
+      }
+    }
+    for (const uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) drawn.indices.push_back(first + corner);
+  }
+}
+
+Result<Image> drawMesh(const Renderer& renderer, const Drawable& drawn, const Region& region, const View& view,
+                       bool wires) {
+  std::vector<RenderMaterial> materials = renderMaterials(*region.program);
+  if (wires) {
+    materials.assign(materials.size(), kUnderWires);
+    materials.push_back(kWire);
+  }
+  RenderScene scene;
+  scene.vertices = drawn.vertices;
+  scene.indices = drawn.indices;
+  scene.materials = materials;
+  scene.origin = region.meshed.mesh.origin;
+  lightScene(view, scene);
+  return renderer.render(scene);
+}
+
+Result<Image> drawVolume(const Renderer& renderer, const RegionDensity& density, const Region& region,
+                         const View& view) {
+  // A third of the light gets through an edge on the shortest way: whatever its size, it looks soft.
+  constexpr double kEdgeDepth = 1.1;
+  const DensityGrid& grid = density.grid;
+  VolumeScene scene;
+  scene.density = density.values;
+  for (int axis = 0; axis < 3; ++axis) {
+    scene.size[axis] = grid.size[static_cast<size_t>(axis)];
+    scene.corner[axis] = static_cast<float>(metres(grid.origin[axis]) - metres(region.meshed.mesh.origin[axis]));
+  }
+  scene.spacing = static_cast<float>(metres(grid.spacing));
+  // Over its edge density adds up to half the edge's width.
+  scene.medium.extinction = static_cast<float>(2 * kEdgeDepth / (grid.edge / kUnitsPerMetre));
+  scene.camera = view.camera;
+  const std::array<RenderMaterial, 1> vapour{materialByName("cloud")};
+  RenderScene lit;
+  lit.materials = vapour;
+  lightScene(view, lit);
+  scene.fog_distance = lit.fog_distance;
+  Result<VolumePicture> picture = renderer.render(scene);
+  if (!picture) return picture.error();
+  return std::move(picture->image);
+}
+
+}  // namespace
+
+std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) {
+  std::vector<Int3> origins;
+  for (const Anchor& anchor : region.anchors)
+    if (isWanted(*region.program, anchor, wanted)) origins.push_back(anchor.frame.origin);
+  const auto by_border = [&](Int3 at) { return isByBorder(region.meshed.extent, at); };
+  if (!std::ranges::all_of(origins, by_border)) std::erase_if(origins, by_border);
+  std::vector<glm::vec3> places;
+  for (const Int3 at : origins)
+    places.push_back(fromOrigin(region.meshed.mesh, {metres(at.x), metres(at.y), metres(at.z)}));
+  return places;
+}
+
+RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity>& density) {
+  RegionPlan plan;
+  plan.texture = true;
+  plan.choose = [&options](const WorldField& world) -> Result<IntBox> {
+    if (!options.camera.empty()) return surroundingsOf((*readCamera(options.camera))[0]);
+    return surroundings(world, options.at);
+  };
+  if (options.volume) {
+    plan.check = checkDensity;
+    plan.after = [&](const WorldField& world, Backend&, JobSystem& jobs, const Region& region) -> Result<void> {
+      Result<RegionDensity> sampled = sampleRegion(world, jobs, region, options.level);
+      if (!sampled) return sampled.error();
+      density = std::move(*sampled);
+      return {};
+    };
+  }
+  return plan;
+}
+
+Result<RegionPicture> drawRegion(const Renderer& renderer, const RenderOptions& options, const Region& region,
+                                 const std::optional<RegionDensity>& density) {
+  Drawable drawn = drawable(region, options.uv);
+  Result<View> view = viewOf(options, region, drawn);
+  if (!view) return view.error();
+  if (options.wires) addWires(region, view->camera, drawn);
+  Result<Image> image =
+      density ? drawVolume(renderer, *density, region, *view) : drawMesh(renderer, drawn, region, *view, options.wires);
+  if (!image) return image.error();
+  return RegionPicture{std::move(*image), std::move(*view)};
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,33 @@
+#pragma once
+// A meshed region as a picture: what `sgm render` writes, and what `sgm paper` shows.
+
+#include <optional>
+#include <string_view>
+
+#include "cli/commands.h"
+#include "cli/region.h"
+#include "cli/region_density.h"
+#include "render/camera.h"
+#include "render/renderer.h"
+
+namespace sgm::cli {
+
+struct RegionPicture {
+  Image image;
+  View view;
+};
+
+/// Places of the region's anchors of that name, kind or tag, metres from its mesh's origin; of those that its border
+/// does not hide where there are such.
+std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted);
+
+/// What the mesh must be made with for a picture: the part of an endless world that the options mean, and the density
+/// where they ask for fog, which goes to `density`. Both must outlive the plan.
+RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity>& density);
+
+/// The region from where the options look, or from where most of it is seen. Contract: it was meshed by picturePlan()
+/// and has a triangle. Errors: invalid_argument for a camera that looks nowhere; those of Renderer.
+Result<RegionPicture> drawRegion(const Renderer& renderer, const RenderOptions& options, const Region& region,
+                                 const std::optional<RegionDensity>& density);
+
+}  // namespace sgm::cli

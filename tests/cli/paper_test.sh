@@ -1,0 +1,138 @@
+#!/usr/bin/env bash
+# sgm paper: every figure and table is there, the page is well formed, its pictures are pictures, its numbers plausible;
+# and what it refuses leaves nothing behind.
+source "$(dirname "$0")/common.sh"
+
+# Refused before any work.
+wrong() {
+  expect "$@"
+  out_empty
+  one_line
+}
+expect 0 "$SGM" paper --help
+out_has 'Example:'
+expect 2 "$SGM" paper
+expect 2 "$SGM" paper --out report --only everything
+expect 2 "$SGM" paper --out report --backend opencl
+echo mine >file
+wrong 4 "$SGM" paper --out file
+err_has '^sgm: error: cannot write file: '
+mkdir full && echo mine >full/mine.txt
+wrong 4 "$SGM" paper --out full
+err_has 'not empty'
+wrong 4 "$SGM" paper --out missing/report
+if [[ $(id -u) != 0 ]]; then
+  mkdir locked && chmod 555 locked
+  wrong 4 "$SGM" paper --out locked/report
+  rmdir locked
+fi
+[[ $(<file) == mine && $(<full/mine.txt) == mine ]] || failed "what was there has changed"
+rm -r file full
+only
+
+# page FOLDER: the page is well-formed XML, its links lead somewhere, all its pictures are there, are PNGs of more than
+# one colour, and nothing else is in the folder of pictures.
+page() {
+  node - "$1" <<'JS' || failed "the page in $1"
+const fs = require("fs"), zlib = require("zlib"), path = require("path");
+const folder = process.argv[2], html = fs.readFileSync(path.join(folder, "index.html"), "utf8");
+const fail = (what) => { console.error(what); process.exitCode = 1; };
+if (!html.startsWith("<!DOCTYPE html>\n<html lang=\"en\">")) fail("no HTML");
+const open = [], ids = new Set(), links = [], images = [];
+const body = html.slice(html.indexOf("\n"));
+const token = /<(\/?)([a-zA-Z][a-zA-Z0-9]*)((?:\s+[a-zA-Z-]+="[^"<>]*")*)\s*(\/?)>|([^<]+)|(<)/g;
+for (const m of body.matchAll(token)) {
+  if (m[6]) fail("a stray < at " + body.slice(m.index, m.index + 60));
+  if (m[5]) {
+    if (open.at(-1) !== "style" && (m[5].includes(">") || /&(?!(amp|lt|gt|quot|#39);)/.test(m[5]))) fail("bad text " + m[5].slice(0, 60));
+    continue;
+  }
+  const attributes = Object.fromEntries([...(m[3] || "").matchAll(/([a-zA-Z-]+)="([^"]*)"/g)].map((a) => [a[1], a[2]]));
+  if (m[1]) { if (open.pop() !== m[2]) fail("closed out of order: " + m[2]); continue; }
+  if (!m[4]) open.push(m[2]);
+  if (attributes.id) { if (ids.has(attributes.id)) fail("twice: " + attributes.id); ids.add(attributes.id); }
+  if (m[2] === "a") links.push(attributes.href);
+  if (m[2] === "img") { images.push(attributes); if (!attributes.alt) fail("no alt text: " + attributes.src); }
+  if (m[2] === "script") fail("a script");
+  if (/https?:/.test(attributes.src || attributes.href || "")) fail("needs a network: " + m[0]);
+}
+if (open.length) fail("not closed: " + open);
+for (const link of links) if (!ids.has(link.slice(1))) fail("leads nowhere: " + link);
+for (const { src, width, height } of images) {
+  const png = fs.readFileSync(path.join(folder, src));
+  if (png.readUInt32BE(0) !== 0x89504e47) fail(src + " is no PNG");
+  if (png.readUInt32BE(16) !== +width || png.readUInt32BE(20) !== +height) fail(src + " has another size");
+  const parts = [];
+  for (let at = 8; at < png.length; ) {
+    const size = png.readUInt32BE(at);
+    if (png.toString("latin1", at + 4, at + 8) === "IDAT") parts.push(png.subarray(at + 8, at + 8 + size));
+    at += size + 12;
+  }
+  const rows = zlib.inflateSync(Buffer.concat(parts));
+  if (rows.length !== height * (4 * width + 1)) fail(src + " does not decode");
+  if (new Set(rows).size < 64) fail(src + " is of one colour");
+}
+const there = fs.existsSync(path.join(folder, "pictures")) ? fs.readdirSync(path.join(folder, "pictures")) : [];
+if (there.length !== new Set(images.map((i) => i.src)).size) fail("pictures that nothing shows");
+JS
+}
+
+# Without pictures, one part: no device is needed. Two runs give the same bytes.
+expect 0 "$SGM" paper --out part --only density --quick --no-pictures --json
+json 'Object.keys(j.exhibits).join() === "figure-10,figure-11" && j.quick'
+json 'Math.abs(j.exhibits["figure-10"].ball_order - 2) < 0.1 && Math.abs(j.exhibits["figure-11"].ball_order - 2) < 0.1'
+json 'Math.abs(j.exhibits["figure-11"].ball_order_all_corners - 1) < 0.3 && Math.abs(j.exhibits["figure-11"].ball_order_any_corner - 1) < 0.3'
+json 'j.exhibits["figure-10"].models.map(m => m.model).join() === "cave,cloud,building"'
+page part
+expect 0 "$SGM" paper --out again --only density --quick --no-pictures
+cmp -s part/index.html again/index.html || failed "two runs differ"
+# An earlier report is replaced, one with something else in it is not.
+expect 0 "$SGM" paper --out again --only cave --quick --no-pictures --json
+json 'Object.keys(j.exhibits).join() === "figure-8"'
+json 'j.exhibits["figure-8"].series.every((s, i, all) => i === 0 || all[i - 1].morph !== s.morph || s.volume < all[i - 1].volume)'
+json 'j.exhibits["figure-8"].series.filter(s => s.t === 1).every(s => Math.abs(s.volume / j.exhibits["figure-8"].ball - 1) < 0.01)'
+touch again/mine.txt
+wrong 4 "$SGM" paper --out again --only cave --quick --no-pictures
+err_has 'mine.txt'
+# The report's own commands work in its folder.
+(cd part && "$SGM" check grammars/*.sgm grammars/*/*.sgm >/dev/null) || failed "the report's grammars do not compile"
+rm -r again
+# No room for it: nothing is left.
+expect 4 bash -c 'ulimit -f 8; "$1" paper --out large --only density --quick --no-pictures' _ "$SGM"
+only part
+rm -r part
+
+expect 0 "$SGM" backends --json
+if ! node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).vulkan_devices.length ? 0 : 1)' "$work/.out"; then
+  wrong 3 "$SGM" paper --out report --quick
+  err_has '--no-pictures'
+  only
+  [[ -z ${SGM_REQUIRE_ALL:-} ]] || { echo "a Vulkan device is required here" >&2; exit 1; }
+  echo "SKIPPED: no Vulkan device"
+  exit 77
+fi
+wrong 3 env VK_DRIVER_FILES=/nowhere.json VK_ICD_FILENAMES=/nowhere.json "$SGM" paper --out report --quick
+err_has '--no-pictures'
+
+# All of it.
+expect 0 "$SGM" paper --out report --quick --json
+page report
+only report
+json 'Object.keys(j.exhibits).join() === "figure-1,figure-2,figure-7,figure-8,figure-9,figure-10,figure-11,figure-12,figure-14,figure-15,figure-16,table-1,table-2,table-3,table-4"'
+json 'j.exhibits["figure-1"].nodes_a_point === 3 && j.exhibits["figure-2"].nodes_a_point === 1'
+json 'j.exhibits["figure-9"].houses.length === 6 && j.exhibits["figure-9"].houses.every(h => h.watertight && h.volume > 100)'
+json 'j.exhibits["figure-12"].kinds.map(k => k.kind).join() === "architecture,caves,clouds" && j.exhibits["figure-12"].cloud_of_ten_seed !== null'
+json 'j.exhibits["figure-14"].densities.map(d => d.ld).join() === "2,5,10" && j.exhibits["figure-14"].densities.every(d => d.class === "building")'
+# The paper's own remark: by angle the largest bar grows with the density.
+json 'j.exhibits["figure-14"].densities.every((d, i, all) => i === 0 || d.largest_share.corrected > all[i - 1].largest_share.corrected)'
+json 'j.exhibits["figure-15"].modes.every(m => Object.values(m.mean).every(h => Math.abs(h.reduce((a, b) => a + b) - 1) < 1e-9))'
+json 'j.exhibits["figure-15"].modes[2].right > 0.8 * j.exhibits["figure-15"].modes[2].models'
+json 'j.exhibits["figure-16"].points.every(p => p.seconds > 0 && p.triangles > 0)'
+json 'j.exhibits["table-1"].stages.length === 3 && j.exhibits["table-1"].stages.every(s => s.rows[0].speedup === 1)'
+json 'j.exhibits["table-4"].systems.length === 10'
+# Every YES of the paper's about meshes is measured to be so here.
+json 'j.exhibits["table-4"].systems.every(s => ["No holes", "Overlapping vertices removed", "Level of detail", "Controls", "Texture mapping"].every(c => s.criteria[c].ours === "yes"))'
+for id in figure-{1,2,7,8,9,10,11,12,14,15,16} table-{1,2,3,4} contradictions contradiction-{1,2,3,4,5,6,7,8,9,10,11,12}; do
+  grep -q "id=\"$id\"" report/index.html || failed "the page lacks $id"
+done
+finish
