@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "mesh/triangle_terms.h"
-
 namespace sgm::measure {
 namespace {
 
@@ -16,7 +14,7 @@ void addPart(const PartMeasures& part, const ChunkGrid& grid, SurfaceSums& sums)
   // A step is a 256th of a cell; all sums of steps are exact in a double, but those of chunks that are full to the
   // brim.
   const double step = static_cast<double>(grid.cell) / (kSubcell * kUnitsPerMetre), square = step * step;
-  sums.area += static_cast<double>(part.area) / (2.0 * (1 << kLengthBits)) * square;
+  sums.area += areaOf(part, grid.cell);
   double about_origin = 0;
   for (size_t axis = 0; axis < 3; ++axis) {
     const double cross = static_cast<double>(part.cross[axis]) * square;

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "mesh/chunk.h"
+#include "mesh/part_sums.h"
 
 namespace sgm::measure {
 
@@ -34,15 +35,13 @@ const char* defectName(Defect defect);
 
 using Defects = std::array<uint32_t, kDefects>;
 
-/// Of a body or a seam. Lengths are in 1/256 of the chunk's cell, from the chunk's origin.
-struct PartMeasures {
-  uint32_t vertices = 0, triangles = 0;  ///< as given
+/// Of a body or a seam: what PartSums has, of triangles that are not left out but for the count of all, and what is
+/// wrong. Lengths are in 1/256 of the chunk's cell.
+struct PartMeasures : PartSums {
+  uint32_t vertices = 0;
   Defects defects{};
-  uint32_t slivers = 0;            ///< triangles of quality below 0.05, flat ones included
-  uint32_t against_gradient = 0;   ///< triangles with an area that do not face along their corners' normals
-  int64_t area = 0;                ///< sum of twice the areas, each rounded to 1/4096 (fixedRoot)
-  std::array<int64_t, 3> cross{};  ///< sum of the cross products: twice the area vector
-  int64_t six_volumes = 0;         ///< six times the flux of x / 3 about the chunk's origin
+  uint32_t slivers = 0;           ///< triangles of quality below 0.05, flat ones included
+  uint32_t against_gradient = 0;  ///< triangles with an area that do not face along their corners' normals
 
   friend bool operator==(const PartMeasures&, const PartMeasures&) = default;
   uint32_t defect(Defect kind) const { return defects[static_cast<size_t>(kind)]; }
