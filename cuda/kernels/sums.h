@@ -24,24 +24,17 @@ struct SumTriangles {
       if (thread == 0) shared.sums = {};
     });
     block.each([&](uint32_t thread) {
-      Sums own{};
+      TermSums own;
       for (uint32_t i = kThreads * slice + thread; i < part.indices / 3; i += kThreads * kSlices) {
-        add(b.vertices + part.first_vertex, b.indices + part.first_index + 3 * i, own);
+        const Vertex* const vertices = b.vertices + part.first_vertex;
+        const uint32_t* const corners = b.indices + part.first_index + 3 * i;
+        addTerms(termsOf(vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]), own);
       }
-      give(own, shared.sums);
+      give({wordOf(own.area), {wordOf(own.x), wordOf(own.y), wordOf(own.z)}, wordOf(own.six_volumes)}, shared.sums);
     });
     block.each([&](uint32_t thread) {
       if (thread == 0) give(shared.sums, b.sums[number]);
     });
-  }
-
-  SGM_KERNEL static void add(const Vertex* vertices, const uint32_t* corners, Sums& sums) {
-    const TriangleTerms terms = termsOf(vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]);
-    sums.area += wordOf(fixedRoot(terms.square));
-    sums.cross[0] += wordOf(terms.x);
-    sums.cross[1] += wordOf(terms.y);
-    sums.cross[2] += wordOf(terms.z);
-    sums.six_volumes += wordOf(terms.six_volumes);
   }
 
   SGM_KERNEL static uint64_t wordOf(int64_t value) { return static_cast<uint64_t>(value); }
