@@ -330,38 +330,21 @@ Command addMeasure(CLI::App& root) {
   app->footer(
       "Lengths are in the file's unit, metres in .glb files and grammars. A mesh file is read and measured in a "
       "process\n"
-      "of its own, which --memory and --seconds limit. --level to --radius are for grammars.
-      "
-      "Distances are bounded from both sides: from vertices and four places a triangle, and by cutting triangles until "
-      "no
-      "
-      "part may be farther. Of levels, triangles near the cut of a region are left out. Where the field has no detail "
-      "by
-      "
-      "level and nothing thinner than a cell, levels are at most 2.6 coarse cells apart, smooth ones far less.
-      "
-      "Gradients are differences of the field in double precision; vertices in its creases have no angle.
-      "
-      "Exit status 0 also where the mesh is not valid: \"valid\" and \"problems\" in --json say so.
-
-      "
-      "With --radius or --from and --to it is the void that is measured: how many separate voids an agent, a ball,
-      "
-      "finds in the region, and the way from one place to another. Exit status 1 where there is none: it says why,
-      "
-      "and how large an agent may be. An agent fits at a sample where no solid sample, a cell apart, is as near as
-      "
-      "its radius; the surface may come nearer to the way than that by 2.5 cells, as a rule by one.
-      "
-      "Example:
-      sgm measure cave.glb-- json sgm measure samples /
-      grammars /
-      sphere.sgm-- cell 0.25 --field-- levels
-      "
-      "3
-      "
-      "  sgm measure samples/grammars/cave.sgm --seed 3 --region 96,-192,0:320,-32,192 --from 108,-72,72 \
-"
+      "of its own, which --memory and --seconds limit. --level to --radius are for grammars.\n"
+      "Distances are bounded from both sides: from vertices and four places a triangle, and by cutting triangles "
+      "until\n"
+      "no part may be farther. Of levels, triangles near the cut of a region are left out. Where the field has no\n"
+      "detail by level and nothing thinner than a cell, levels are at most 2.6 coarse cells apart, smooth ones far "
+      "less.\n"
+      "Gradients are differences of the field in double precision; vertices in its creases have no angle.\n"
+      "Exit status 0 also where the mesh is not valid: \"valid\" and \"problems\" in --json say so.\n\n"
+      "With --radius or --from and --to it is the void that is measured: how many separate voids an agent, a ball,\n"
+      "finds in the region, and the way from one place to another. Exit status 1 where there is none: it says why,\n"
+      "and how large an agent may be. An agent fits at a sample where no solid sample, a cell apart, is as near as\n"
+      "its radius; the surface may come nearer to the way than that by 2.5 cells, as a rule by one.\n"
+      "Example:\n  sgm measure cave.glb --json\n"
+      "  sgm measure samples/grammars/sphere.sgm --cell 0.25 --field --levels 3\n"
+      "  sgm measure samples/grammars/cave.sgm --seed 3 --region 96,-192,0:320,-32,192 --from 108,-72,72 \\\n"
       "    --to 296,-104,104 --radius 0.5");
   return [options] { return measureMesh(*options); };
 }
