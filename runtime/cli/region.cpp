@@ -166,7 +166,6 @@ Json toJson(const WorldOptions& options, const Region& region) {
 
 Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldOptions& options,
                            const RegionPlan& plan) {
-  const Program& program = *compiled;
   Result<ChosenWorld> chosen_world = chooseWorld(compiled, options, plan);
   if (!chosen_world) return chosen_world.error();
   WorldFieldSettings& settings = chosen_world->settings;
