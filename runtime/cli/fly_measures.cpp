@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "measure/chunk_measures.h"
 
 namespace sgm::cli {
@@ -53,7 +55,8 @@ void print(const sgm_world_measures& measures) {
   const sgm_chunk_sums &made = measures.made, &drawn = measures.drawn;
   fmt::print("  measures  {} bodies and {} seams, {} triangles: {}; {} slivers\n", made.bodies, made.seams,
              made.triangles, defectOf(measures).value_or("nothing wrong"), made.sliver_triangles);
-  fmt::print("            drawn at the end: {:.1f} m2, {:.1f} m3 inside\n", drawn.area, drawn.flux);
+  fmt::print("            drawn at the end: {:.1f} m2 around {:.1f} m3 of {}\n", drawn.area, std::fabs(drawn.flux),
+             drawn.flux < 0 ? "void" : "solid");
   fmt::print("            took {:.0f} ms, {:.1f} % of the {:.0f} of meshing\n", 1e3 * measures.measuring_seconds,
              100 * shareOf(measures), 1e3 * measures.meshing_seconds);
 }

@@ -39,7 +39,7 @@ struct StarScratch {
 };
 
 /// indices: three a triangle, all below planes.size(), no two of a triangle equal. planes, one a vertex: bit (1 <<
-/// Face) of a vertex in that border plane; bits above are not read. Some 10 ns a triangle. Throws std::bad_alloc.
+/// Face) of a vertex in that border plane; bits above are not read. Throws std::bad_alloc.
 StarCounts countStars(std::span<const uint32_t> indices, std::span<const uint8_t> planes, StarScratch& scratch);
 
 }  // namespace sgm::measure

@@ -1249,8 +1249,8 @@ typedef enum sgm_world_flag {
   SGM_WORLD_SHARP = 16, /* crisp edges and corners: as SGM_MESHING_SHARP, at every level, closed in every frame. A chunk
                            takes longer: by a fifth in a cave, two to five times as long where edges are everywhere, and
                            more on noise as fine as the cells. Twice the room is set aside for each that is in work */
-  SGM_WORLD_MEASURE = 32, /* every chunk is measured as soon as it is meshed, or read from cache_folder, in the same job:
-                             sgm_world_get_measures, sgm_mesh_get_measures. Takes some 5 % of the time of meshing */
+  SGM_WORLD_MEASURE = 32, /* every chunk is measured as soon as it is meshed or read from cache_folder, in the same job:
+                             sgm_world_get_measures, sgm_mesh_get_measures. Takes 2 to 8 % of the time of meshing */
   SGM_WORLD_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_world_flag;
 
@@ -1560,22 +1560,22 @@ typedef struct sgm_world_stats {
 
 SGM_API sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, sgm_error* error);
 
-/* What can be wrong with a chunk. All counts are expected to be 0: another is a fault of this library, or of the memory or
- * the driver that it ran on. All but the first two, and SGM_DEFECT_DEGENERATE, are of bodies alone: seams lie flat in
- * their faces, and close with their neighbours. */
+/* What can be wrong with a chunk. All counts are expected to be 0: another is a fault of this library, or of the memory
+ * or the driver that it ran on. All but the first two, and SGM_DEFECT_DEGENERATE, are of bodies alone: seams lie flat
+ * in their faces, and close with their neighbours. */
 typedef enum sgm_defect {
-  SGM_DEFECT_INDEX = 0,            /* triangles with an index beyond the vertices: left out of all that follows */
-  SGM_DEFECT_OUTSIDE = 1,          /* vertices beyond the chunk, feature vertices beyond a cell around it; their triangles
-                                      are left out of all that follows */
-  SGM_DEFECT_MISPLACED = 2,        /* vertices on no edge of the grid of samples, on one that has another, or out of order */
-  SGM_DEFECT_SAMPLES = 3,          /* vertices on an edge whose samples do not differ in sign, edges without one whose
-                                      samples do: level 0, where the chunk was meshed, not read; not with
-                                      SGM_WORLD_BY_DISTANCE */
-  SGM_DEFECT_DEGENERATE = 4,       /* triangles with a corner twice: left out of what follows */
-  SGM_DEFECT_FLAT = 5,             /* triangles whose corners lie on a line, none of them a feature vertex */
-  SGM_DEFECT_DUPLICATE = 6,        /* triangles with the corners of another */
-  SGM_DEFECT_OPEN_EDGE = 7,        /* edges of one triangle that do not lie in a face of the chunk */
-  SGM_DEFECT_TURNED_EDGE = 8,      /* edges that two triangles pass in one direction */
+  SGM_DEFECT_INDEX = 0,       /* triangles with an index beyond the vertices: left out of all that follows */
+  SGM_DEFECT_OUTSIDE = 1,     /* vertices beyond the chunk, feature vertices beyond a cell around it; their triangles
+                                 are left out of all that follows */
+  SGM_DEFECT_MISPLACED = 2,   /* vertices on no edge of the grid of samples, on one that has another, or out of order */
+  SGM_DEFECT_SAMPLES = 3,     /* vertices on an edge whose samples do not differ in sign, edges without one whose
+                                 samples do: level 0, where the chunk was meshed, not read; not with
+                                 SGM_WORLD_BY_DISTANCE */
+  SGM_DEFECT_DEGENERATE = 4,  /* triangles with a corner twice: left out of what follows */
+  SGM_DEFECT_FLAT = 5,        /* triangles whose corners lie on a line, none of them a feature vertex */
+  SGM_DEFECT_DUPLICATE = 6,   /* triangles with the corners of another */
+  SGM_DEFECT_OPEN_EDGE = 7,   /* edges of one triangle that do not lie in a face of the chunk */
+  SGM_DEFECT_TURNED_EDGE = 8, /* edges that two triangles pass in one direction */
   SGM_DEFECT_NONMANIFOLD_EDGE = 9, /* edges of more than two triangles */
   SGM_DEFECT_PINCHED_VERTEX = 10,  /* vertices whose triangles are more than one fan */
   SGM_DEFECT_FORCE_32_BIT = 0x7FFFFFFF
@@ -1609,13 +1609,11 @@ typedef struct sgm_world_measures {
   sgm_chunk_sums made;      /* of every body and seam once each time that it was meshed or read, since creation. Its
                                area and flux are of no surface that is anywhere */
   double measuring_seconds; /* on the wall, added up over jobs, to measure what was made */
-  double meshing_seconds;   /* likewise, to mesh, read and pack it; jobs that wait for each other count more than once */
+  double meshing_seconds; /* likewise, to mesh, read and pack it; jobs that wait for each other count more than once */
 } sgm_world_measures;
 
-#define SGM_CHUNK_SUMS_INIT                                                                                       \
-  {                                                                                                               \
-    0, 0, 0, 0, 0, 0, 0, 0, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 0.0, {0.0, 0.0, 0.0}, 0.0           \
-  }
+#define SGM_CHUNK_SUMS_INIT \
+  { 0, 0, 0, 0, 0, 0, 0, 0, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 0.0, {0.0, 0.0, 0.0}, 0.0 }
 #define SGM_WORLD_MEASURES_INIT \
   { SGM_SIZEOF(sgm_world_measures), SGM_NULL, SGM_CHUNK_SUMS_INIT, SGM_CHUNK_SUMS_INIT, 0.0, 0.0 }
 
@@ -1627,14 +1625,16 @@ SGM_API sgm_result sgm_world_get_measures(const sgm_world* world, sgm_world_meas
 typedef struct sgm_mesh_measures {
   uint32_t struct_size;
   void* next;
-  sgm_chunk_sums sums;         /* of the body and the seams that were asked for */
-  uint64_t vertices, edges;    /* of the body, as triangles have them: vertices that a crease has split are one */
-  int64_t euler;               /* of the body, which is open in the chunk's faces: vertices - edges + triangles */
-  uint64_t border_edges[6];    /* of the body, by sgm_face */
+  sgm_chunk_sums sums;      /* of the body and the seams that were asked for */
+  uint64_t vertices, edges; /* of the body, as triangles have them: vertices that a crease has split are one */
+  int64_t euler;            /* of the body, which is open in the chunk's faces: vertices - edges + triangles */
+  uint64_t border_edges[6]; /* of the body, by sgm_face */
 } sgm_mesh_measures;
 
-#define SGM_MESH_MEASURES_INIT \
-  { SGM_SIZEOF(sgm_mesh_measures), SGM_NULL, SGM_CHUNK_SUMS_INIT, 0, 0, 0, { 0, 0, 0, 0, 0, 0 } }
+#define SGM_MESH_MEASURES_INIT                                                                  \
+  {                                                                                             \
+    SGM_SIZEOF(sgm_mesh_measures), SGM_NULL, SGM_CHUNK_SUMS_INIT, 0, 0, 0, { 0, 0, 0, 0, 0, 0 } \
+  }
 
 /* Of one chunk that a world with SGM_WORLD_MEASURE has handed over. seams: bit (1 << sgm_face) of those to add, as
  * sgm_drawn_chunk.seams; what the mesh does not have adds nothing. Any thread. SGM_ERR_UNSUPPORTED: the mesh is of
