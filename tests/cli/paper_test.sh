@@ -40,14 +40,14 @@ const fail = (what) => { console.error(what); process.exitCode = 1; };
 if (!html.startsWith("<!DOCTYPE html>\n<html lang=\"en\">")) fail("no HTML");
 const open = [], ids = new Set(), links = [], images = [];
 const body = html.slice(html.indexOf("\n"));
-const token = /<(\/?)([a-zA-Z][a-zA-Z0-9]*)((?:\s+[a-zA-Z-]+="[^"<>]*")*)\s*(\/?)>|([^<]+)|(<)/g;
+const token = /<(\/?)([a-zA-Z][a-zA-Z0-9]*)((?:\s+[a-zA-Z][a-zA-Z0-9-]*="[^"<>]*")*)\s*(\/?)>|([^<]+)|(<)/g;
 for (const m of body.matchAll(token)) {
   if (m[6]) fail("a stray < at " + body.slice(m.index, m.index + 60));
   if (m[5]) {
     if (open.at(-1) !== "style" && (m[5].includes(">") || /&(?!(amp|lt|gt|quot|#39);)/.test(m[5]))) fail("bad text " + m[5].slice(0, 60));
     continue;
   }
-  const attributes = Object.fromEntries([...(m[3] || "").matchAll(/([a-zA-Z-]+)="([^"]*)"/g)].map((a) => [a[1], a[2]]));
+  const attributes = Object.fromEntries([...(m[3] || "").matchAll(/([a-zA-Z][a-zA-Z0-9-]*)="([^"]*)"/g)].map((a) => [a[1], a[2]]));
   if (m[1]) { if (open.pop() !== m[2]) fail("closed out of order: " + m[2]); continue; }
   if (!m[4]) open.push(m[2]);
   if (attributes.id) { if (ids.has(attributes.id)) fail("twice: " + attributes.id); ids.add(attributes.id); }

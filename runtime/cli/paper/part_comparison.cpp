@@ -165,7 +165,8 @@ Result<Markup> pictureOf(Workshop& workshop, const ComparedSystem& system) {
   options.seed = system.view_seed;
   if (system.view_set != nullptr) options.sets.emplace_back(system.view_set);
   options.sharp = system.sharp;
-  options.fov = 48;
+  // From inside more is to be seen.
+  options.fov = saysYes(system.printed[kCaves]) && !saysYes(system.printed[kClouds]) ? 68 : 48;
   options.size = workshop.pick("720x440", "400x250");
   const std::string file = Workshop::grammarOf(options);
   const std::string stem = file.substr(file.find('/') + 1, file.rfind('.') - file.find('/') - 1);

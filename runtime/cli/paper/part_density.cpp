@@ -193,6 +193,9 @@ Exhibit areaExhibit(const std::vector<Sampled>& models, const std::vector<Sample
       "possesses logarithmic characteristics (Fig 22).”"};
   compare(models, &Sample::area, "Area", "m²", exhibit);
   constexpr Measured kArea[] = {{"area (equation 7)", &BallErrors::area}};
+  exhibit.ours += element("p",
+                          "Over a few densities growth may look like a logarithm, an order near 0: while windows, "
+                          "ledges or noise are still being found. Once they are, it ends.");
   exhibit.ours += element("h3", "A smooth surface has a limit") +
                   ballChart(ball, kArea, "Error of the area of a ball over the density: it falls with its square") +
                   ballTable(ball, kArea);

@@ -203,7 +203,7 @@ constexpr std::array<const char*, 3> kStageNames = {"A – cave", "B – cloud",
 Markup stageTable(const std::vector<StageResult>& results, const std::string& caption,
                   std::vector<std::vector<std::string>> rows,
                   const std::function<std::string(const StageResult&, const StageRow&)>& figure) {
-  rows.insert(rows.begin(), {""});
+  rows.insert(rows.begin(), std::vector<std::string>{""});
   for (const char* name : kStageNames) rows[0].emplace_back(name);
   for (size_t r = 0; r < results[0].rows.size(); ++r) {
     if (!results[0].rows[r].measured()) continue;
