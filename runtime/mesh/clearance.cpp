@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kLast = kChunkSamples - 1;
 constexpr size_t kPitch = 40;  // of a row of values: whole vectors
-constexpr uint64_t kCellBits = (uint64_t{1} << kChunkCells) - 1;
+constexpr uint64_t kOwnSamples = (uint64_t{1} << kChunkCells) - 1;
 
 /// Squares of the distances to what is solid, one axis after the other: the nearest of a plane's is among the nearest
 /// of its rows (Felzenszwalb and Huttenlocher, Distance Transforms of Sampled Functions). Within a chunk a window of
@@ -58,7 +58,7 @@ class SquaredDistances {
     };
     const uint64_t own = row(1);
     // Samples of the lower chunk but the shared one; of the upper one likewise.
-    const uint64_t low = reach_ > 0 ? row(0) & kCellBits : 0, high = reach_ > 0 ? row(2) >> 1 : 0;
+    const uint64_t low = reach_ > 0 ? row(0) & kOwnSamples : 0, high = reach_ > 0 ? row(2) >> 1 : 0;
     if ((own | low | high) == 0) return;
     int away = low != 0 ? std::countl_zero(low) - (64 - kChunkCells) : 2 * kChunkCells;
     std::array<int, kChunkSamples> least{};
