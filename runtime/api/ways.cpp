@@ -23,7 +23,7 @@ sgm_result takeQuestion(sgm_error* error, const sgm_way_desc& desc, sgm::VoidQue
   if ((desc.flags & ~static_cast<uint32_t>(SGM_WAY_WIDEST)) != 0)
     return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.flags has bits that are no sgm_way_flag");
   if (desc.reserved != 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.reserved must be 0");
-  question.ends.emplace();
+  question.ends = sgm::VoidQuestion::Ends();
   for (int axis = 0; axis < 3; ++axis) {
     if (desc.minimum[axis] >= desc.maximum[axis])
       return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.minimum does not lie below desc.maximum on each axis");

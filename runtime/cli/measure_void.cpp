@@ -145,7 +145,7 @@ Result<VoidQuestion> questionOf(const MeasureOptions& options, const IntBox& reg
   if (options.from.empty()) return question;
   const auto from = readPoint(options.from), to = readPoint(options.to);
   if (!from || !to) return Error{Code::invalid_argument, "--from and --to are points, x,y,z in metres"};
-  question.ends.emplace();
+  question.ends = VoidQuestion::Ends();
   for (size_t axis = 0; axis < 3; ++axis) {
     question.ends->from[axis] = (*from)[axis] * kUnitsPerMetre;
     question.ends->to[axis] = (*to)[axis] * kUnitsPerMetre;

@@ -142,9 +142,9 @@ std::vector<uint32_t> VoidGraph::chunksOfWay(uint32_t a, Int3 from, uint32_t b, 
   const std::vector<std::vector<uint32_t>> portals = portalsByVoid();
   // A step is a portal, and which of its sides it leads to; A* by the straight line to the end (Hart, Nilsson,
   // Raphael).
-  constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+  constexpr uint32_t kFirstStep = std::numeric_limits<uint32_t>::max();
   std::vector<double> cost(2 * portals_.size(), std::numeric_limits<double>::infinity());
-  std::vector<uint32_t> before(2 * portals_.size(), kNone);
+  std::vector<uint32_t> before(2 * portals_.size(), kFirstStep);
   using Entry = std::tuple<double, double, uint32_t>;  // cost and what is left of it at least, cost, step
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto leave = [&](uint32_t inside, const Place& place, double so_far, uint32_t step) {
@@ -160,8 +160,8 @@ std::vector<uint32_t> VoidGraph::chunksOfWay(uint32_t a, Int3 from, uint32_t b, 
   };
   // The end is a step of its own: it is reached when the void that holds it is left for it at the least cost.
   double best = a == b ? between(start, end) : std::numeric_limits<double>::infinity();
-  uint32_t last = kNone;
-  leave(a, start, 0, kNone);
+  uint32_t last = kFirstStep;
+  leave(a, start, 0, kFirstStep);
   while (!queue.empty()) {
     const auto [estimate, so_far, step] = queue.top();
     queue.pop();
@@ -176,7 +176,7 @@ std::vector<uint32_t> VoidGraph::chunksOfWay(uint32_t a, Int3 from, uint32_t b, 
     leave(inside, portal.middle, so_far, step);
   }
   std::vector<uint32_t> chunks;
-  for (uint32_t step = last; step != kNone; step = before[step])
+  for (uint32_t step = last; step != kFirstStep; step = before[step])
     chunks.push_back(chunkOf(portals_[step / 2].sides[step % 2]));
   chunks.push_back(chunkOf(a));
   std::reverse(chunks.begin(), chunks.end());

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint64_t kMostChunks = uint64_t{1} << 24;  // whatever the caller allows
 constexpr int kMostNeed = kMostClearance * kMostClearance;
-constexpr int kTogether = 16;           // sizes of agents that one look at the region tells apart
+constexpr int kRadiiTogether = 16;      // sizes of agents that one look at the region tells apart
 constexpr size_t kChunksTogether = 64;  // chunks whose voids are there before they are joined
 
 /// An end of a way: its sample, if it has one, and how far that is from what is solid.
@@ -155,7 +155,7 @@ class VoidSearch {
 
   /// Needs between the last that is known to have a way and the first that is known to have none, evenly, ascending.
   std::vector<int> between() const {
-    const int open = first_failing_ - last_holding_ - 1, picked = std::min(open, kTogether);
+    const int open = first_failing_ - last_holding_ - 1, picked = std::min(open, kRadiiTogether);
     std::vector<int> needs;
     for (int i = 1; i <= picked; ++i) needs.push_back(last_holding_ + static_cast<int>(int64_t{open} * i / picked));
     return needs;
