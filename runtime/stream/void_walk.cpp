@@ -15,7 +15,7 @@ constexpr int kSide = kChunkSamples;
 constexpr size_t kSamples = size_t{kSide} * kSide * kSide;
 constexpr uint32_t kUnreached = std::numeric_limits<uint32_t>::max();
 constexpr uint8_t kStart = 27;                         // no step leads here: it is where a walk enters the chunk
-constexpr size_t kChunksTogether = 64;                 // chunks that are looked at together
+constexpr size_t kChunksAtOnce = 64;                   // chunks that are looked at together
 constexpr uint32_t kAlongAxis = 70, kAcrossFace = 99;  // their ratio is the root of 2, to 5 in 100,000
 
 Int3 stepOf(int number) { return {number % 3 - 1, number / 3 % 3 - 1, number / 9 - 1}; }
@@ -98,8 +98,8 @@ Result<std::vector<Int3>> shortestWalk(SignWindow& window, JobSystem& jobs, std:
                                        Int3 to, int need, std::pmr::memory_resource* memory) {
   std::vector<std::pmr::vector<uint8_t>> steps;
   std::vector<Reached> entries{{0, from}};
-  for (size_t first = 0; first < chunks.size(); first += kChunksTogether) {
-    const std::span<const Int3> some = chunks.subspan(first, std::min(kChunksTogether, chunks.size() - first));
+  for (size_t first = 0; first < chunks.size(); first += kChunksAtOnce) {
+    const std::span<const Int3> some = chunks.subspan(first, std::min(kChunksAtOnce, chunks.size() - first));
     std::vector<Int3> seen;
     for (const Int3 chunk : some) {
       const std::vector<Int3> around = chunksAround(chunk, need > 1 ? 1 : 0);
