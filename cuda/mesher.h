@@ -26,10 +26,10 @@ struct BatchMemory {
 
 /// Any thread may use it. Outlived by the device.
 ///
-/// A batch is eleven launches and some copies, given one by one: no CUDA graph. Every batch has other sizes, places and
-/// numbers of blocks, so that a graph's nodes would all be set anew each time, which costs the host what a launch does;
-/// and what a graph saves on the device, a microsecond or two between kernels, is little beside those of up to 256
-/// chunks. sgm_bench_kernels (tests/bench) shows both on a device.
+/// A batch is ten or eleven launches and some copies, given one by one: no CUDA graph. Every batch has other sizes,
+/// places and numbers of blocks, so that a graph's nodes would all be set anew each time, which costs the host what a
+/// launch does; and what a graph saves on the device, a microsecond or two between kernels, is little beside those of
+/// up to 256 chunks. sgm_bench_kernels (tests/bench) shows both on a device.
 class Mesher {
  public:
   /// Errors: as Stream's.

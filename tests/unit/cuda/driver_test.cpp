@@ -55,10 +55,15 @@ struct FakeMachine {
 
 TEST_CASE("chunks are meshed through the driver, and nothing is left behind", "[cuda]") {
   FakeMachine machine;
-  const std::vector<ChunkJob> jobs = spheres(21, 20);
+  std::vector<ChunkJob> jobs = spheres(21, 20);
   checkSame(meshesOf(*machine.scalar, jobs), meshesOf(*machine.cuda, jobs));
   CHECK(machine.cuda->counters().on_cpu == 0);
-  CHECK(machine.driver.state().launches == static_cast<uint64_t>(cuda::Kernel::count));
+  // Every kernel, but the one for chunks of which sums alone are asked for.
+  constexpr auto kAll = static_cast<uint64_t>(cuda::Kernel::count);
+  CHECK(machine.driver.state().launches == kAll - 1);
+  jobs[3].sums_only = true;
+  CHECK(meshesOf(*machine.cuda, jobs)[3].sums == meshesOf(*machine.scalar, jobs)[3].sums);
+  CHECK(machine.driver.state().launches == 2 * kAll - 1);
   CHECK(machine.cuda->capabilities().device == "a GPU that pretends");
 }
 
