@@ -43,9 +43,10 @@ Result<Finding> changedBy(const Workshop& workshop, const WorldOptions& options,
   changed.sets.emplace_back(set);
   const Result<Region> region = workshop.mesh(changed);
   if (!region) return region.error();
-  return finding(region->meshed.hash != base.meshed.hash,
-                 fmt::format("{}: {} triangles become {}, the hash another", set, trianglesOf(base.meshed.mesh),
-                             trianglesOf(region->meshed.mesh)),
+  const bool another = region->meshed.hash != base.meshed.hash;
+  return finding(another,
+                 fmt::format("{}: {} triangles become {}, the hash {}", set, trianglesOf(base.meshed.mesh),
+                             trianglesOf(region->meshed.mesh), another ? "another" : "the same"),
                  commandOf("mesh", changed));
 }
 

@@ -48,7 +48,7 @@ constexpr ComparedSystem kSystems[] = {
      "table4/cui.sgm",
      "0,0,0:96,96,96",
      0.25,
-     0.5,
+     0.3,
      "long=1m",
      "square=1",
      "0,0,0:96,96,96",
