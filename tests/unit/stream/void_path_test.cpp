@@ -385,7 +385,7 @@ TEST_CASE("a way that winds through every chunk of a spiral is walked to its end
   CHECK(answer.voids.size() == 1);
 }
 
-TEST_CASE("any number of threads answers the same") {
+TEST_CASE("any number of threads answers the same", "[threads]") {
   for (uint32_t seed = 1; seed <= rounds(10); ++seed) {
     CAPTURE(seed);
     Random random(seed);
