@@ -416,7 +416,7 @@ TEST_CASE("roots are rounded to the nearest, and normals unfold as they are unpa
   }
 }
 
-TEST_CASE("a streamed world sums the measures of what it draws, and of what it reads from the disk", "[threads]") {
+TEST_CASE("a streamed world sums the measures of what it draws", "[threads]") {
   WorldSettings settings;
   settings.measure = true;
   Scene scene(*makeThreadPool(2), caveText(), settings);

@@ -34,3 +34,32 @@ TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and
     CHECK(cache.errors == 0);
   }
 }
+
+TEST_CASE("what is read from the disk measures as what was meshed, but for the samples", "[threads]") {
+  const CacheFolder folder;
+  WorldSettings settings;
+  settings.cache = folder.path;
+  settings.measure = true;
+  const Viewer viewer = viewerAt(96, 96, 96);
+  measure::SurfaceSums meshed;
+  for (const bool again : {false, true}) {
+    CAPTURE(again);
+    sgm::Scene scene(*makeThreadPool(2), caveText(), settings);
+    REQUIRE(scene.world->setViewers({&viewer, 1}));
+    REQUIRE(scene.world->waitIdle());
+    std::optional<WorldMeasures> measures = scene.world->measures();
+    REQUIRE(measures);
+    CHECK(measures->made.sums.sound());
+    CHECK(measures->made.sums.triangles >= measures->drawn.triangles);
+    if (!again) {
+      meshed = measures->drawn;
+      CHECK(meshed.triangles > 1000);
+      CHECK(meshed.compared > 0);
+      continue;
+    }
+    CHECK(scene.world->stats().cache.hits > 50);
+    CHECK(measures->drawn.compared < meshed.compared);
+    measures->drawn.compared = meshed.compared;
+    CHECK(measures->drawn == meshed);
+  }
+}
