@@ -1,16 +1,17 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <vector>
 
 #include "api/barrier.h"
 #include "api/runtime.h"
+#include "measure/large_vector.h"
 #include "measure/mesh_measures.h"
 
 using namespace sgm::api;
 
 namespace {
 
+using sgm::measure::LargeVector;
 using sgm::measure::MeshMeasures;
 using sgm::measure::Point;
 using sgm::measure::Triangle;
@@ -41,7 +42,7 @@ sgm_result checkMeasure(const sgm_measure_desc& desc, sgm_error* error) {
 }
 
 template <class Number>
-void readPoints(const Number* first, uint64_t stride, std::vector<Point>& points) {
+void readPoints(const Number* first, uint64_t stride, LargeVector<Point>& points) {
   const auto* at = reinterpret_cast<const std::byte*>(first);
   for (Point& p : points) {
     Number v[3];
@@ -115,7 +116,7 @@ sgm_result sgm_measure(sgm_runtime* runtime, const sgm_measure_desc* desc, sgm_m
     if (sgm_result r = checkDesc(error, out, "out"); r != SGM_OK) return r;
     if (sgm_result r = checkMeasure(*desc, error); r != SGM_OK) return r;
 
-    std::vector<Triangle> triangles(desc->index_count / 3);
+    LargeVector<Triangle> triangles(desc->index_count / 3, &runtime->memory);
     for (uint64_t i = 0; i < desc->index_count; ++i) {
       if (desc->indices[i] >= desc->position_count)
         return fail(error, SGM_ERR_INVALID_ARGUMENT,
@@ -123,7 +124,7 @@ sgm_result sgm_measure(sgm_runtime* runtime, const sgm_measure_desc* desc, sgm_m
                         ", and there are " + std::to_string(desc->position_count) + " points");
       triangles[i / 3][i % 3] = desc->indices[i];
     }
-    std::vector<Point> points(desc->position_count);
+    LargeVector<Point> points(desc->position_count, &runtime->memory);
     if (desc->positions_double != nullptr) {
       readPoints(desc->positions_double, desc->position_stride, points);
     } else if (desc->positions != nullptr) {
@@ -135,7 +136,8 @@ sgm_result sgm_measure(sgm_runtime* runtime, const sgm_measure_desc* desc, sgm_m
     settings.histogram = {modeOf(desc->histogram_mode), desc->histogram_bins, desc->curvature_length,
                           (desc->flags & SGM_MEASURE_UNIQUE_EDGES) != 0};
     settings.self_intersections = (desc->flags & SGM_MEASURE_NO_SELF_INTERSECTIONS) == 0;
-    const sgm::Result<MeshMeasures> measures = sgm::measure::measureMesh({points, triangles}, settings, *runtime->jobs);
+    const sgm::Result<MeshMeasures> measures =
+        sgm::measure::measureMesh({points, triangles, &runtime->memory}, settings, *runtime->jobs);
     if (!measures) return fail(error, measures.error());
     fill(*out, *measures);
     const std::vector<double>& shares = measures->histogram.shares;

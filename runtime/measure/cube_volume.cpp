@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <vector>
 
 #include "measure/column.h"
+#include "measure/large_vector.h"
 
 namespace sgm::measure {
 namespace {
@@ -40,7 +40,7 @@ std::pair<size_t, size_t> samplesIn(double low, double high, double first, doubl
   return {static_cast<size_t>(a), static_cast<size_t>(b)};
 }
 
-void crossingsOf(const std::array<Point, 3>& t, const Lattice& lattice, std::vector<Crossing>& crossings) {
+void crossingsOf(const std::array<Point, 3>& t, const Lattice& lattice, LargeVector<Crossing>& crossings) {
   const auto [low_x, high_x] = std::minmax({t[0].x, t[1].x, t[2].x});
   const auto [low_y, high_y] = std::minmax({t[0].y, t[1].y, t[2].y});
   const auto [low_z, high_z] = std::minmax({t[0].z, t[1].z, t[2].z});
@@ -59,13 +59,13 @@ void crossingsOf(const std::array<Point, 3>& t, const Lattice& lattice, std::vec
   }
 }
 
-std::vector<uint64_t> insideOf(const Triangles& mesh, const Lattice& lattice) {
-  std::vector<Crossing> crossings;
+LargeVector<uint64_t> insideOf(const Triangles& mesh, const Lattice& lattice) {
+  LargeVector<Crossing> crossings(mesh.memory);
   for (const Triangle& t : mesh.triangles) {
     crossingsOf({mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]}, lattice, crossings);
   }
   std::sort(crossings.begin(), crossings.end());
-  std::vector<uint64_t> inside(lattice.nx * lattice.ny * lattice.words());
+  LargeVector<uint64_t> inside(lattice.nx * lattice.ny * lattice.words(), mesh.memory);
   for (size_t c = 0; c < crossings.size();) {
     const uint64_t column = crossings[c].column;
     uint64_t* bits = inside.data() + column * lattice.words();
@@ -82,7 +82,7 @@ std::vector<uint64_t> insideOf(const Triangles& mesh, const Lattice& lattice) {
   return inside;
 }
 
-uint64_t countOf(const std::vector<uint64_t>& bits) {
+uint64_t countOf(const LargeVector<uint64_t>& bits) {
   uint64_t count = 0;
   for (const uint64_t word : bits) count += static_cast<uint64_t>(std::popcount(word));
   return count;
@@ -127,10 +127,10 @@ Result<CubeVolumes> cubeVolumes(const Triangles& mesh, Point low, Point high, do
   CubeVolumes result;
   result.edge = edge;
   result.centre = countOf(insideOf(mesh, centres));
-  const std::vector<uint64_t> inside = insideOf(mesh, corners);
+  const LargeVector<uint64_t> inside = insideOf(mesh, corners);
   const size_t words = corners.words();
   const auto column = [&](size_t x, size_t y) { return inside.data() + (x + corners.nx * y) * words; };
-  std::vector<uint64_t> all(words + 1), any(words + 1);
+  LargeVector<uint64_t> all(words + 1, mesh.memory), any(words + 1, mesh.memory);
   for (size_t y = 0; y + 1 < corners.ny; ++y) {
     for (size_t x = 0; x + 1 < corners.nx; ++x) {
       const uint64_t *a = column(x, y), *b = column(x + 1, y), *c = column(x, y + 1), *d = column(x + 1, y + 1);

@@ -4,13 +4,15 @@
 
 namespace sgm::measure {
 
-Edges::Edges(std::span<const Triangle> triangles, size_t vertex_count) {
+Edges::Edges(const Triangles& mesh) : halves_(mesh.memory), start_(mesh.memory) {
+  const std::span<const Triangle> triangles = mesh.triangles;
+  const size_t vertex_count = mesh.points.size();
   struct Entry {
     uint32_t high;
     HalfEdge half;
     bool operator<(const Entry& other) const { return high != other.high ? high < other.high : half < other.half; }
   };
-  LargeVector<uint32_t> first(vertex_count + 1);
+  LargeVector<uint32_t> first(vertex_count + 1, mesh.memory);
   const auto each = [&](auto&& visit) {
     for (size_t i = 0; i < triangles.size(); ++i) {
       const Triangle& t = triangles[i];
@@ -23,8 +25,8 @@ Edges::Edges(std::span<const Triangle> triangles, size_t vertex_count) {
   };
   each([&](uint32_t low, uint32_t, HalfEdge) { ++first[low + 1]; });
   for (size_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
-  LargeVector<Entry> entries(first.back());
-  LargeVector<uint32_t> next(first.begin(), first.end() - 1);
+  LargeVector<Entry> entries(first.back(), mesh.memory);
+  LargeVector<uint32_t> next(first.begin(), first.end() - 1, mesh.memory);
   each([&](uint32_t low, uint32_t high, HalfEdge half) { entries[next[low]++] = {high, half}; });
 
   halves_.resize(entries.size());

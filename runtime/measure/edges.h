@@ -24,7 +24,7 @@ inline uint32_t endOf(std::span<const Triangle> triangles, HalfEdge half) {
 class Edges {
  public:
   /// Contract: at most 2^32 / 3 triangles. About 12 bytes a half edge.
-  explicit Edges(std::span<const Triangle> triangles, size_t vertex_count);
+  explicit Edges(const Triangles& mesh);
 
   size_t count() const { return start_.size() - 1; }
   std::span<const HalfEdge> around(size_t edge) const {

@@ -119,7 +119,7 @@ Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const 
     return Part{from.points[t[0]], from.points[t[1]], from.points[t[2]]};
   };
   std::vector<Found> blocks((count + kBlock - 1) / kBlock);
-  LargeVector<double> bounds(count * parts);
+  LargeVector<double> bounds(count * parts, from.memory);
   parallelFor(jobs, blocks.size(), [&](size_t block) {
     Found& found = blocks[block];
     uint32_t guess = 0;
@@ -139,7 +139,7 @@ Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const 
     }
   });
 
-  std::vector<bool> used(from.points.size());
+  LargeVector<uint8_t> used(from.points.size(), from.memory);
   for (const Triangle& t : from.triangles)
     for (const uint32_t v : t) used[v] = true;
   const size_t points = from.points.size();
@@ -168,7 +168,7 @@ Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const 
     if (bounds[i] <= all.at_least) continue;
     candidates.push_back({bounds[i], partOf(wholeOf(i / parts), settings.cuts, static_cast<uint32_t>(i % parts))});
   }
-  result.samples = count * parts + static_cast<uint64_t>(std::count(used.begin(), used.end(), true));
+  result.samples = count * parts + static_cast<uint64_t>(std::count(used.begin(), used.end(), uint8_t{1}));
   result.at_most = refine(distances, std::move(candidates), settings, all);
   result.at_least = all.at_least;
   result.farthest = all.farthest;

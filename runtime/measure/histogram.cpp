@@ -146,8 +146,8 @@ Result<Histogram> histogramOf(const Triangles& mesh, std::span<const Point> norm
 
 Result<Histogram> innerHistogram(const Triangles& mesh, const HistogramSettings& settings, JobSystem& jobs) {
   const WeldedPoints welded = weldPoints(mesh);
-  const Triangles clean{welded.points, welded.triangles};
-  const Edges edges(clean.triangles, clean.points.size());
+  const Triangles clean{welded.points, welded.triangles, mesh.memory};
+  const Edges edges(clean);
   LargeVector<Point> normals = smoothNormals(clean);
   for (size_t i = 0; i < edges.count(); ++i) {
     const std::span<const HalfEdge> around = edges.around(i);
@@ -159,7 +159,7 @@ Result<Histogram> innerHistogram(const Triangles& mesh, const HistogramSettings&
 }
 
 LargeVector<Point> smoothNormals(const Triangles& mesh) {
-  LargeVector<Point> normals(mesh.points.size());
+  LargeVector<Point> normals(mesh.points.size(), mesh.memory);
   for (const Triangle& t : mesh.triangles) {
     const Point cross = crossOf(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
     for (const uint32_t v : t) normals[v] = normals[v] + cross;

@@ -2,7 +2,9 @@
 // Vectors of what a mesh has millions of.
 
 #include <cstddef>
+#include <memory_resource>
 #include <new>
+#include <type_traits>
 #include <vector>
 
 #ifdef __linux__
@@ -11,38 +13,43 @@
 
 namespace sgm::measure {
 
-/// Asks for pages of 2 MB: to touch small ones for the first time takes longer than most that is measured, on a virtual
-/// machine ten times as long. Elsewhere, and where the system has none left, as std::allocator.
+/// Memory of a resource, which outlives it. Asks for pages of 2 MB: to touch small ones for the first time takes longer
+/// than most that is measured, on a virtual machine ten times as long. Elsewhere, and where the system has none left,
+/// as std::pmr::polymorphic_allocator; but what is moved keeps its memory.
 template <class T>
-struct LargePages {
+class LargePages {
+ public:
   using value_type = T;
+  using propagate_on_container_move_assignment = std::true_type;
+  using propagate_on_container_swap = std::true_type;
 
-  LargePages() = default;
+  LargePages(std::pmr::memory_resource* memory = std::pmr::new_delete_resource()) : memory_(memory) {}
   template <class U>
-  LargePages(const LargePages<U>&) {}
+  LargePages(const LargePages<U>& other) : memory_(other.resource()) {}
 
   T* allocate(size_t count) {
     if (count > static_cast<size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
     const size_t bytes = count * sizeof(T);
-    if (bytes < kLeast) return static_cast<T*>(::operator new(bytes));
-    void* const memory = ::operator new (bytes, std::align_val_t{kPage});
+    void* const memory = memory_->allocate(bytes, alignmentOf(bytes));
 #ifdef MADV_HUGEPAGE
     // The end keeps small pages: a whole one there would be memory that nobody uses. Refused, nothing is lost.
-    (void)madvise(memory, bytes / kPage * kPage, MADV_HUGEPAGE);
+    if (bytes >= kPage) (void)madvise(memory, bytes / kPage * kPage, MADV_HUGEPAGE);
 #endif
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, size_t count) {
-    if (count * sizeof(T) < kLeast) {
-      ::operator delete(memory);
-    } else {
-      ::operator delete (memory, std::align_val_t{kPage});
-    }
+    memory_->deallocate(memory, count * sizeof(T), alignmentOf(count * sizeof(T)));
   }
-  friend bool operator==(LargePages, LargePages) { return true; }
+
+  std::pmr::memory_resource* resource() const { return memory_; }
+  friend bool operator==(LargePages a, LargePages b) { return *a.memory_ == *b.memory_; }
 
  private:
-  static constexpr size_t kPage = size_t{1} << 21, kLeast = kPage;
+  static constexpr size_t kPage = size_t{1} << 21;
+
+  static size_t alignmentOf(size_t bytes) { return bytes >= kPage ? kPage : alignof(T); }
+
+  std::pmr::memory_resource* memory_;
 };
 
 template <class T>

@@ -15,8 +15,8 @@ bool measurable(Point p) {
 }
 
 /// Counts the triangles with a corner that cannot be measured, and returns the others where there are any such.
-std::vector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
-  std::vector<bool> used(mesh.points.size());
+LargeVector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
+  LargeVector<uint8_t> used(mesh.points.size(), mesh.memory);
   const auto good = [&](const Triangle& t) {
     return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return measurable(mesh.points[v]); });
   };
@@ -26,21 +26,21 @@ std::vector<Triangle> finiteOf(const Triangles& mesh, MeshMeasures& result) {
     if (!result.first_non_finite) result.first_non_finite = static_cast<uint32_t>(&t - mesh.triangles.data());
     ++result.non_finite;
   }
-  result.unused_points = static_cast<size_t>(std::count(used.begin(), used.end(), false));
-  std::vector<Triangle> kept;
+  result.unused_points = static_cast<size_t>(std::count(used.begin(), used.end(), uint8_t{0}));
+  LargeVector<Triangle> kept(mesh.memory);
   if (result.non_finite > 0) std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(kept), good);
   return kept;
 }
 
 /// Undoes that finiteOf() left out triangles.
 void numberAsGiven(const Triangles& mesh, MeshMeasures& result) {
-  std::vector<uint32_t> given;
+  LargeVector<uint32_t> given(mesh.memory);
   for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
     if (std::all_of(t.begin(), t.end(), [&](uint32_t v) { return measurable(mesh.points[v]); })) given.push_back(i);
   }
   for (Shell& shell : result.parts.shells) shell.first = given[shell.first];
-  std::vector<uint32_t> shells(mesh.triangles.size(), kNoShell);
+  LargeVector<uint32_t> shells(mesh.triangles.size(), kNoShell, mesh.memory);
   for (size_t i = 0; i < given.size(); ++i) shells[given[i]] = result.parts.of_triangle[i];
   result.parts.of_triangle = std::move(shells);
   if (!result.self_intersections) return;
@@ -114,12 +114,12 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
   MeshMeasures result;
   result.points = mesh.points.size();
   result.triangles = mesh.triangles.size();
-  std::vector<Triangle> kept = finiteOf(mesh, result);
+  LargeVector<Triangle> kept = finiteOf(mesh, result);
   const std::span<const Triangle> all_finite = result.non_finite > 0 ? std::span<const Triangle>(kept) : mesh.triangles;
-  const WeldedPoints welded = weldPoints({mesh.points, all_finite}, settings.weld);
-  kept = {};
+  const WeldedPoints welded = weldPoints({mesh.points, all_finite, mesh.memory}, settings.weld);
+  kept = LargeVector<Triangle>(mesh.memory);
   result.welded_points = welded.merged;
-  const Triangles clean{welded.points, welded.triangles};
+  const Triangles clean{welded.points, welded.triangles, mesh.memory};
   result.sums = areaVolume(clean, jobs);
 
   if (settings.cubes) {
@@ -138,7 +138,7 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
         result.self_intersections = selfIntersections(clean, tree, steps, jobs);
       },
       [&] {
-        const Edges edges(clean.triangles, clean.points.size());
+        const Edges edges(clean);
         result.parts = shellsOf(clean, edges, result.sums.centre);
         const Result<Histogram> histogram = histogramOf(clean, smoothNormals(clean), &edges, settings.histogram, jobs);
         if (histogram) {
@@ -151,7 +151,7 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
       },
       [&] {
         const uint32_t* corners = clean.triangles.empty() ? nullptr : clean.triangles.front().data();
-        result.identity = checkTriangles({corners, 3 * clean.triangles.size()}, clean.points.size());
+        result.identity = checkTriangles({corners, 3 * clean.triangles.size()}, clean.points.size(), mesh.memory);
       }};
   parallelFor(jobs, works.size(), [&](size_t work) { works[work](); });
   if (failed) return *failed;

@@ -14,8 +14,8 @@ uint32_t cornerAt(std::span<const Triangle> triangles, HalfEdge half, uint32_t v
 }
 
 uint64_t objectsOf(const Triangles& mesh) {
-  UnionFind vertices(mesh.points.size());
-  std::vector<bool> used(mesh.points.size());
+  UnionFind vertices(mesh.points.size(), mesh.memory);
+  LargeVector<uint8_t> used(mesh.points.size(), mesh.memory);
   for (const Triangle& t : mesh.triangles) {
     for (const uint32_t v : t) used[v] = true;
     vertices.join(t[0], t[1]);
@@ -36,7 +36,7 @@ std::optional<uint64_t> Shell::genus() const {
 
 Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
   const std::span<const Triangle> triangles = mesh.triangles;
-  UnionFind parts(triangles.size()), fans(3 * triangles.size());
+  UnionFind parts(triangles.size(), mesh.memory), fans(3 * triangles.size(), mesh.memory);
   for (size_t e = 0; e < edges.count(); ++e) {
     const std::span<const HalfEdge> around = edges.around(e);
     const uint32_t a = beginOf(triangles, around[0]), b = endOf(triangles, around[0]);
@@ -48,8 +48,8 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
 
   Shells result;
   result.objects = objectsOf(mesh);
-  result.of_triangle.assign(triangles.size(), kNoShell);
-  std::vector<uint32_t>& number = result.of_triangle;
+  result.of_triangle = LargeVector<uint32_t>(triangles.size(), kNoShell, mesh.memory);
+  LargeVector<uint32_t>& number = result.of_triangle;
   // Triangles with a corner twice are in no edge, and stay alone.
   const auto degenerate = [&](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
   for (uint32_t i = 0; i < triangles.size(); ++i) {
@@ -69,7 +69,7 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
     shell.volume += dot(a, cross) / 6;
   }
 
-  std::vector<HalfEdge> border_halves;
+  LargeVector<HalfEdge> border_halves(mesh.memory);
   for (size_t e = 0; e < edges.count(); ++e) {
     const std::span<const HalfEdge> around = edges.around(e);
     Shell& shell = result.shells[number[around[0] / 3]];
@@ -83,15 +83,15 @@ Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre) {
   }
   // Most meshes have none, and need no memory for it.
   const size_t border_fans = border_halves.empty() ? 0 : fans.size();
-  UnionFind borders(border_fans);
+  UnionFind borders(border_fans, mesh.memory);
   for (const HalfEdge half : border_halves) borders.join(fans.rootOf(half), fans.rootOf(nextHalf(half)));
-  std::vector<bool> seen(border_fans);
+  LargeVector<uint8_t> seen(border_fans, mesh.memory);
   for (const HalfEdge half : border_halves) {
     const uint32_t root = borders.rootOf(fans.rootOf(half));
     if (!seen[root]) ++result.shells[number[half / 3]].borders;
     seen[root] = true;
   }
-  LargeVector<uint32_t> fan_at(mesh.points.size(), kNoShell);
+  LargeVector<uint32_t> fan_at(mesh.points.size(), kNoShell, mesh.memory);
   for (uint32_t corner = 0; corner < fans.size(); ++corner) {
     if (number[corner / 3] == kNoShell || fans.rootOf(corner) != corner) continue;
     Shell& shell = result.shells[number[corner / 3]];

@@ -37,7 +37,7 @@ struct Shells {
   /// "Independent objects", section 7.3 of the paper: groups of triangles connected through vertices. Two cubes that
   /// touch in a corner are one object and two shells.
   uint64_t objects = 0;
-  std::vector<uint32_t> of_triangle;  ///< into shells; kNoShell of triangles with a corner twice
+  LargeVector<uint32_t> of_triangle;  ///< into shells; kNoShell of triangles with a corner twice
 };
 
 inline constexpr uint32_t kNoShell = 0xFFFFFFFFu;

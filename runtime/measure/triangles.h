@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 
 #include "asset/point.h"
@@ -18,6 +19,8 @@ using Triangle = std::array<uint32_t, 3>;  ///< counter-clockwise seen from outs
 struct Triangles {
   std::span<const Point> points;
   std::span<const Triangle> triangles;
+  /// Where work on it keeps what grows with it, results too, from any thread; outlives them.
+  std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
 };
 
 /// Beyond it products of coordinates leave the range of a double, and coordinates that of a float.

@@ -12,7 +12,9 @@ namespace sgm::measure {
 /// The root of a group is its lowest member.
 class UnionFind {
  public:
-  explicit UnionFind(size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  UnionFind(size_t count, std::pmr::memory_resource* memory) : parent_(count, memory) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
 
   uint32_t rootOf(uint32_t v) {
     while (parent_[v] != v) {

@@ -26,7 +26,8 @@ uint64_t hashOf(const Cell& cell) { return mixed(cell.x + mixed(cell.y + mixed(c
 /// Heads of lists of kept points by cell: open addressing over their numbers, at most half full.
 class Cells {
  public:
-  explicit Cells(size_t points) : slots_(std::bit_ceil(std::max<size_t>(2 * points, 16)), kNone) {}
+  Cells(size_t points, std::pmr::memory_resource* memory)
+      : slots_(std::bit_ceil(std::max<size_t>(2 * points, 16)), kNone, memory) {}
 
   /// The slot of the cell, or the empty one where it would be. cellOf: of a kept point.
   template <class CellOf>
@@ -51,7 +52,10 @@ Point gridOf(Point p, double edge) { return {std::floor(p.x / edge), std::floor(
 class Welder {
  public:
   /// Room for all points takes no memory before it is used; to grow would copy them.
-  Welder(size_t points, double tolerance) : tolerance_(tolerance), cells_(points) { kept_.reserve(points); }
+  Welder(size_t points, double tolerance, std::pmr::memory_resource* memory)
+      : tolerance_(tolerance), cells_(points, memory), kept_(memory), next_(memory) {
+    kept_.reserve(points);
+  }
 
   uint32_t add(Point p) {
     const uint32_t found = tolerance_ > 0 ? near(p) : kNone;
@@ -101,11 +105,11 @@ WeldedPoints weldPoints(const Triangles& mesh, double tolerance) {
       if (std::fabs(v) <= kFarthest) farthest = std::max(farthest, std::fabs(v));
   }
   if (tolerance < farthest * std::numeric_limits<double>::epsilon()) tolerance = 0;
-  WeldedPoints result;
+  WeldedPoints result{LargeVector<Point>(mesh.memory), LargeVector<Triangle>(mesh.memory)};
   result.triangles.reserve(mesh.triangles.size());
-  LargeVector<uint32_t> place(mesh.points.size(), kNone);
+  LargeVector<uint32_t> place(mesh.points.size(), kNone, mesh.memory);
   size_t used = 0;
-  Welder welder(std::min(mesh.points.size(), 3 * mesh.triangles.size()), tolerance);
+  Welder welder(std::min(mesh.points.size(), 3 * mesh.triangles.size()), tolerance, mesh.memory);
   for (const Triangle& t : mesh.triangles) {
     Triangle welded{};
     for (size_t k = 0; k < 3; ++k) {

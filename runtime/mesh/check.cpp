@@ -17,11 +17,12 @@ struct Corner {
 
 /// The corners of all triangles that are not degenerate, grouped by vertex.
 struct CornersByVertex {
-  std::vector<size_t> start;
-  std::vector<Corner> corners;
+  std::pmr::vector<size_t> start;
+  std::pmr::vector<Corner> corners;
 
-  CornersByVertex(std::span<const uint32_t> indices, size_t vertex_count, size_t& degenerate)
-      : start(vertex_count + 1) {
+  CornersByVertex(std::span<const uint32_t> indices, size_t vertex_count, size_t& degenerate,
+                  std::pmr::memory_resource* memory)
+      : start(vertex_count + 1, memory), corners(memory) {
     const auto each = [&](auto&& visit) {
       for (size_t i = 0; i + 2 < indices.size(); i += 3) {
         const uint32_t a = indices[i], b = indices[i + 1], c = indices[i + 2];
@@ -36,7 +37,7 @@ struct CornersByVertex {
     degenerate = indices.size() / 3 - count / 3;
     for (size_t v = 0; v < vertex_count; ++v) start[v + 1] += start[v];
     corners.resize(count);
-    std::vector<size_t> next(start.begin(), start.end() - 1);
+    std::pmr::vector<size_t> next(start.begin(), start.end() - 1, start.get_allocator());
     each([&](uint32_t v, uint32_t b, uint32_t c) { corners[next[v]++] = {b, c}; });
   }
 
@@ -110,10 +111,10 @@ Link classifyLink(std::vector<Corner>& link) {
 
 }  // namespace
 
-MeshReport checkTriangles(std::span<const uint32_t> indices, size_t vertex_count) {
+MeshReport checkTriangles(std::span<const uint32_t> indices, size_t vertex_count, std::pmr::memory_resource* memory) {
   MeshReport report;
   report.triangles = indices.size() / 3;
-  const CornersByVertex mesh(indices, vertex_count, report.degenerate_triangles);
+  const CornersByVertex mesh(indices, vertex_count, report.degenerate_triangles, memory);
   std::vector<uint32_t> out, in;
   std::vector<std::pair<uint32_t, uint32_t>> opposite;
   std::vector<Corner> link;

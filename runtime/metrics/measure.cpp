@@ -10,7 +10,7 @@ namespace sgm {
 
 Measures measuresOf(const WorldMesh& mesh) {
   Measures result;
-  measure::UnionFind objects(mesh.positions.size());
+  measure::UnionFind objects(mesh.positions.size(), std::pmr::new_delete_resource());
   std::vector<bool> used(mesh.positions.size(), false);
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const uint32_t* t = mesh.indices.data() + i;

@@ -1,7 +1,9 @@
 // Measures of meshes by the C interface: one of ours, and ones that are damaged.
 
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <numeric>
 #include <vector>
 
@@ -50,6 +52,24 @@ sgm_measures measured(sgm_runtime* runtime, const sgm_measure_desc& desc) {
   REQUIRE(result == SGM_OK);
   return measures;
 }
+
+/// Memory of the system, counted.
+struct Counting {
+  std::atomic<int64_t> live{0}, most{0};
+
+  static void* allocate(void* user, size_t size, size_t alignment) {
+    auto& c = *static_cast<Counting*>(user);
+    const int64_t now = c.live.fetch_add(static_cast<int64_t>(size)) + static_cast<int64_t>(size);
+    int64_t most = c.most;
+    while (now > most && !c.most.compare_exchange_weak(most, now)) {
+    }
+    return ::operator new (size, std::align_val_t{alignment}, std::nothrow);
+  }
+  static void release(void* user, void* memory, size_t size, size_t alignment) {
+    static_cast<Counting*>(user)->live.fetch_sub(static_cast<int64_t>(size));
+    ::operator delete (memory, std::align_val_t{alignment});
+  }
+};
 
 }  // namespace
 
@@ -143,4 +163,37 @@ TEST_CASE("what is wrong with a mesh is told, and is no error", "[measure]") {
     CHECK(measure().area == 0);
     CHECK(measure().valid == 1);
   }
+}
+
+TEST_CASE("what is measured keeps to the runtime's memory", "[measure]") {
+  Counting counting;
+  const sgm_allocator allocator{Counting::allocate, Counting::release, &counting};
+  const RuntimeOwner plain = makeRuntime();
+  const Ball ball(plain.get(), 96, 40.3);
+  const auto runtimeWith = [&](uint64_t limit) {
+    sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+    desc.allocator = &allocator;
+    desc.threads = 2;
+    desc.memory_limit = limit;
+    sgm_runtime* made = nullptr;
+    REQUIRE(sgm_runtime_create(&desc, &made, nullptr) == SGM_OK);
+    return RuntimeOwner(made);
+  };
+  const sgm_measure_desc desc = ball.desc();
+  const auto triangles = static_cast<int64_t>(desc.index_count / 3);
+  {
+    const RuntimeOwner runtime = runtimeWith(0);
+    const int64_t before = counting.live;
+    CHECK(measured(runtime.get(), desc).valid == 1);
+    CHECK(counting.live == before);
+    INFO(counting.most << " bytes for " << triangles << " triangles");
+    CHECK(counting.most - before > 100 * triangles);
+    CHECK(counting.most - before < 300 * triangles);
+  }
+  const RuntimeOwner runtime = runtimeWith(static_cast<uint64_t>(50 * triangles));
+  const int64_t before = counting.live;
+  sgm_measures measures = SGM_MEASURES_INIT;
+  sgm_error error = SGM_ERROR_INIT;
+  CHECK(sgm_measure(runtime.get(), &desc, &measures, &error) == SGM_ERR_OUT_OF_MEMORY);
+  CHECK(counting.live == before);
 }

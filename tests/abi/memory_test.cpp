@@ -78,7 +78,17 @@ sgm_result everything(Handles& h, const sgm_allocator& allocator, uint32_t threa
   sgm_grid_desc grid = SGM_GRID_DESC_INIT;
   grid.values = grid_values;
   for (uint32_t& size : grid.size) size = 2;
-  return sgm_surface_from_grid(h.runtime, &grid, &h.grid, error);
+  if (sgm_result r = sgm_surface_from_grid(h.runtime, &grid, &h.grid, error); r != SGM_OK) return r;
+  const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const uint32_t sides[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  sgm_measure_desc tetrahedron = SGM_MEASURE_DESC_INIT;
+  tetrahedron.positions = corners;
+  tetrahedron.position_count = 4;
+  tetrahedron.indices = sides;
+  tetrahedron.index_count = 12;
+  tetrahedron.cubes = 0.25;
+  sgm_measures measures = SGM_MEASURES_INIT;
+  return sgm_measure(h.runtime, &tetrahedron, &measures, error);
 }
 
 void endAll(Handles& h) {

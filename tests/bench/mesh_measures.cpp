@@ -66,7 +66,7 @@ void parts(const char* name, const Mesh& mesh, JobSystem& jobs) {
   SelfIntersections crossings;
   row("selfIntersections", [&] { crossings = selfIntersections(clean, *tree, uint64_t{1} << 40, jobs); });
   std::optional<Edges> edges;
-  row("Edges", [&] { edges.emplace(clean.triangles, clean.points.size()); });
+  row("Edges", [&] { edges.emplace(clean); });
   Shells shells;
   row("shellsOf", [&] { shells = shellsOf(clean, *edges, sums.centre); });
   row("smoothNormals, histogram", [&] { (void)histogramOf(clean, smoothNormals(clean), &*edges, {}, jobs); });

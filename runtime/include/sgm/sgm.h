@@ -1161,8 +1161,8 @@ typedef struct sgm_measures {
   }
 
 /* Measures any mesh, and judges whether it is the closed surface of a solid. Blocks; uses the job system; the same
- * numbers for any number of threads. Works in the C++ heap, with some 200 bytes a triangle of a closed mesh and 500
- * where triangles share no points. Exact for coordinates that are 0 or of 1e-70 to 1e37. Whatever is wrong with the
+ * numbers for any number of threads. Takes some 200 bytes a triangle of a closed mesh from the runtime's allocator while
+ * it works, and 500 where triangles share no points. Exact for coordinates that are 0 or of 1e-70 to 1e37. Whatever is wrong with the
  * mesh is in `out`, not an error. SGM_INCOMPLETE: the histogram holds what fits, all else is whole.
  * SGM_ERR_INVALID_ARGUMENT also for an index that is not below position_count. SGM_ERR_LIMIT: more than 2^30 cubes, or
  * triangles over more than 2^27 columns of them. */

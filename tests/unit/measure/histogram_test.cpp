@@ -14,7 +14,7 @@ namespace {
 
 Histogram of(const Mesh& mesh, const HistogramSettings& settings, unsigned threads = 2) {
   const auto jobs = std::move(*makeThreadPool(threads));
-  const Edges edges(mesh.triangles, mesh.points.size());
+  const Edges edges(mesh);
   return *histogramOf(mesh, smoothNormals(mesh), &edges, settings, *jobs);
 }
 
@@ -47,8 +47,7 @@ TEST_CASE("shares add up to one, in every mode and for any number of bins", "[hi
                                  random() % 2 == 0};
       const Histogram h = of(mesh, settings);
       CAPTURE(nameOf(mode), settings.bins);
-      CHECK(h.edges + h.left_out ==
-            (settings.unique_edges ? Edges(mesh.triangles, mesh.points.size()).count() : 3 * mesh.triangles.size()));
+      CHECK(h.edges + h.left_out == (settings.unique_edges ? Edges(mesh).count() : 3 * mesh.triangles.size()));
       CHECK(sumOf(h) == Approx(h.edges > 0 ? 1 : 0).margin(1e-12));
       CHECK(h.flat + h.convex + h.concave == Approx(h.edges > 0 ? 1 : 0).margin(1e-12));
       CHECK(of(mesh, settings, 1).shares == h.shares);

@@ -11,7 +11,7 @@
 namespace sgm::measure {
 namespace {
 
-Shells shellsIn(const Mesh& mesh) { return shellsOf(mesh, Edges(mesh.triangles, mesh.points.size()), Point{}); }
+Shells shellsIn(const Mesh& mesh) { return shellsOf(mesh, Edges(mesh), Point{}); }
 
 MeshReport identityOf(const Mesh& mesh) {
   std::vector<uint32_t> indices;
