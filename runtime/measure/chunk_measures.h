@@ -20,7 +20,7 @@ enum class Defect : uint8_t {
   outside,           ///< vertices beyond the chunk, feature vertices beyond a cell around it: so are their triangles
   misplaced,         ///< vertices on no edge of the grid, or not in the order of these edges, one each
   unlike_samples,    ///< vertices on an edge whose samples have one sign, crossed edges without a vertex
-  degenerate,        ///< triangles with a corner twice: left out of what follows
+  degenerate,        ///< triangles with a corner twice: left out of what follows, not of the sums
   flat,              ///< triangles whose corners are three places on a line, where no feature vertex is among them
   duplicate,         ///< triangles with the corners of another
   open_edge,         ///< edges with one triangle that are not in the chunk's border

@@ -43,6 +43,7 @@ void numberAsGiven(const Triangles& mesh, MeshMeasures& result) {
   LargeVector<uint32_t> shells(mesh.triangles.size(), kNoShell, mesh.memory);
   for (size_t i = 0; i < given.size(); ++i) shells[given[i]] = result.parts.of_triangle[i];
   result.parts.of_triangle = std::move(shells);
+  for (DefectPlace& place : result.places) place.triangle = given[place.triangle];
   if (!result.self_intersections) return;
   for (auto& [a, b] : result.self_intersections->examples) {
     a = given[a];
@@ -95,9 +96,11 @@ std::optional<uint64_t> MeshMeasures::genus() const {
   return sum;
 }
 
-bool MeshMeasures::valid() const {
-  return watertight() && flat_triangles == 0 && nesting.inside_out == 0 && nesting.nested == 0 &&
-         (!self_intersections || self_intersections->pairs == 0) && complete();
+bool MeshMeasures::valid() const { return watertight() && validButForCut(); }
+
+bool MeshMeasures::validButForCut() const {
+  return identity.manifold() && identity.open_edges == cut_edges && non_finite == 0 && flat_triangles == 0 &&
+         !overlaps() && complete();
 }
 
 bool MeshMeasures::complete() const {
@@ -130,6 +133,7 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
 
   const Bvh tree(clean, jobs);
   const uint64_t steps = settings.steps_a_triangle * (clean.triangles.size() + 1);
+  std::optional<Edges> edges;
   std::optional<Error> failed;
   // Each of the three fills what the others do not touch.
   const std::array<std::function<void()>, 3> works{
@@ -138,9 +142,9 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
         result.self_intersections = selfIntersections(clean, tree, steps, jobs);
       },
       [&] {
-        const Edges edges(clean);
-        result.parts = shellsOf(clean, edges, result.sums.centre);
-        const Result<Histogram> histogram = histogramOf(clean, smoothNormals(clean), &edges, settings.histogram, jobs);
+        edges.emplace(clean);
+        result.parts = shellsOf(clean, *edges, result.sums.centre);
+        const Result<Histogram> histogram = histogramOf(clean, smoothNormals(clean), &*edges, settings.histogram, jobs);
         if (histogram) {
           result.histogram = *histogram;
         } else {
@@ -155,6 +159,12 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
       }};
   parallelFor(jobs, works.size(), [&](size_t work) { works[work](); });
   if (failed) return *failed;
+  const Cut* const cut = settings.cut ? &*settings.cut : nullptr;
+  if (cut != nullptr && result.identity.open_edges > 0) result.cut_edges = cutEdges(clean, *edges, *cut);
+  if (!result.validButForCut()) {
+    const SelfIntersections* const crossing = result.self_intersections ? &*result.self_intersections : nullptr;
+    result.places = defectPlaces(clean, *edges, result.parts, result.nesting, crossing, cut);
+  }
   if (result.non_finite > 0) numberAsGiven(mesh, result);
   return result;
 }

@@ -6,6 +6,7 @@
 
 #include "measure/area_volume.h"
 #include "measure/cube_volume.h"
+#include "measure/defect_places.h"
 #include "measure/histogram.h"
 #include "measure/nesting.h"
 #include "measure/self_intersection.h"
@@ -22,6 +23,7 @@ struct MeshSettings {
   /// than that, MeshMeasures::complete() is false.
   uint64_t steps_a_triangle = 5000;
   std::optional<double> cubes;  ///< the edge of the cubes that are counted; nothing: none are
+  std::optional<Cut> cut;       ///< where the mesh was cut from a larger one
 };
 
 struct MeshMeasures {
@@ -41,6 +43,8 @@ struct MeshMeasures {
   std::optional<SelfIntersections> self_intersections;
   Histogram histogram;
   std::optional<CubeVolumes> cubes;
+  uint64_t cut_edges = 0;           ///< of identity.open_edges: those in MeshSettings::cut
+  std::vector<DefectPlace> places;  ///< what is wrong, by kind
 
   size_t degenerate() const { return identity.degenerate_triangles + flat_triangles; }
   int64_t euler() const;                  ///< summed over shells
@@ -51,6 +55,12 @@ struct MeshMeasures {
   /// A solid's surface: watertight, facing outward, covered once, without triangles that have no area or that cut each
   /// other (where that was asked), and all of it was looked at. True of a mesh without triangles.
   bool valid() const;
+  /// The same of a mesh that was cut: every open edge lies in the cut, and nothing else is wrong. True where valid.
+  bool validButForCut() const;
+  /// Whether the volume counts some places several times, or not as what they are.
+  bool overlaps() const {
+    return nesting.nested > 0 || nesting.inside_out > 0 || (self_intersections && self_intersections->pairs > 0);
+  }
   /// Whether all that was asked was looked at: `valid` may be false for want of that alone.
   bool complete() const;
 };

@@ -43,10 +43,14 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, u
       const std::optional<int> depth = shells > 1 ? depthAt(mesh, tree, parts, static_cast<uint32_t>(s), at, share) : 0;
       if (!depth) {
         ++here.not_judged;
+      } else if (shell.volume < 0 && *depth > 0) {
+        ++here.cavities;
       } else if (shell.volume < 0) {
-        ++(*depth > 0 ? here.cavities : here.inside_out);
+        ++here.inside_out;
+        here.first_inside_out.push_back(static_cast<uint32_t>(s));
       } else if (*depth > 0) {
         ++here.nested;
+        here.first_nested.push_back(static_cast<uint32_t>(s));
       }
     }
   });
@@ -56,6 +60,10 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, u
     all.inside_out += block.inside_out;
     all.nested += block.nested;
     all.not_judged += block.not_judged;
+    for (const auto list : {&Nesting::first_inside_out, &Nesting::first_nested}) {
+      for (const uint32_t shell : block.*list)
+        if ((all.*list).size() < kMostExamples) (all.*list).push_back(shell);
+    }
   }
   return all;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "base/jobs.h"
 #include "measure/bvh.h"
@@ -12,10 +13,11 @@ namespace sgm::measure {
 
 /// Of shells that are closed and manifold: others have no inside.
 struct Nesting {
-  uint64_t cavities = 0;    ///< that face inward, in a solid
-  uint64_t inside_out = 0;  ///< that face inward, in the open
-  uint64_t nested = 0;      ///< that face outward, in a solid: what they hold counts twice
-  uint64_t not_judged = 0;  ///< with so much above them that the steps did not suffice
+  uint64_t cavities = 0;                                 ///< that face inward, in a solid
+  uint64_t inside_out = 0;                               ///< that face inward, in the open
+  uint64_t nested = 0;                                   ///< that face outward, in a solid: what they hold counts twice
+  std::vector<uint32_t> first_inside_out, first_nested;  ///< shells: at most kMostExamples of each
+  uint64_t not_judged = 0;                               ///< with so much above them that the steps did not suffice
 };
 
 /// How often the closed, manifold shells but one go round the point: 0 outside of them, 1 inside one. Exact. tree: of

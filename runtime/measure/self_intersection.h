@@ -7,6 +7,7 @@
 
 #include "base/jobs.h"
 #include "measure/bvh.h"
+#include "measure/shells.h"
 
 namespace sgm::measure {
 
@@ -16,8 +17,6 @@ struct SelfIntersections {
   bool complete = true;
   std::vector<std::pair<uint32_t, uint32_t>> examples;  ///< the lower triangle first; at most kMostExamples
 };
-
-inline constexpr size_t kMostExamples = 16;
 
 /// Exact (triangle_pair.h). tree: of the same triangles. most_steps: looks at two nodes of it or at two triangles. The
 /// same for any number of threads.

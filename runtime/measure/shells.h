@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "measure/edges.h"
@@ -37,10 +38,15 @@ struct Shells {
   /// "Independent objects", section 7.3 of the paper: groups of triangles connected through vertices. Two cubes that
   /// touch in a corner are one object and two shells.
   uint64_t objects = 0;
+  /// Vertices where several fans meet, and a triangle at each: at most kMostExamples.
+  std::vector<std::pair<uint32_t, uint32_t>> pinched;
   LargeVector<uint32_t> of_triangle;  ///< into shells; kNoShell of triangles with a corner twice
 };
 
 inline constexpr uint32_t kNoShell = 0xFFFFFFFFu;
+
+/// Of what is wrong in a mesh, so many are named: a million would say no more.
+inline constexpr size_t kMostExamples = 16;
 
 /// edges: of these triangles. Triangles with a corner twice belong to no shell, and connect objects.
 Shells shellsOf(const Triangles& mesh, const Edges& edges, Point centre);

@@ -4,6 +4,7 @@ namespace sgm::measure {
 
 asset::TriangleMesh trianglesOf(const WorldMesh& mesh) {
   asset::TriangleMesh out;
+  for (int axis = 0; axis < 3; ++axis) out.origin[axis] = metres(mesh.origin[axis]);
   out.points.reserve(mesh.positions.size());
   for (const std::array<double, 3>& p : mesh.positions) out.points.push_back(pointOf(p));
   out.triangles.reserve(mesh.indices.size() / 3);

@@ -2,6 +2,7 @@
 
 #include "measure/mesh_measures.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "../catch.h"
@@ -14,6 +15,46 @@ namespace {
 MeshMeasures measured(const Mesh& mesh, const MeshSettings& settings = {}) {
   const auto jobs = std::move(*makeThreadPool(2));
   return *measureMesh(mesh, settings, *jobs);
+}
+
+size_t placesOf(const MeshMeasures& m, DefectKind kind) {
+  return static_cast<size_t>(
+      std::count_if(m.places.begin(), m.places.end(), [&](const DefectPlace& p) { return p.kind == kind; }));
+}
+
+/// What is counted is shown, and lies at the triangle that is named.
+void checkPlaces(const Mesh& mesh, const MeshMeasures& m) {
+  const auto shown = [&](DefectKind kind, uint64_t count) {
+    CAPTURE(nameOf(kind));
+    CHECK(placesOf(m, kind) == std::min<uint64_t>(count, kMostExamples));
+  };
+  shown(DefectKind::open_edge, m.identity.open_edges - m.cut_edges);
+  shown(DefectKind::nonmanifold_edge, m.identity.non_manifold_edges);
+  if (m.identity.non_manifold_edges == 0) {
+    shown(DefectKind::turned_edge, m.identity.unmatched_edges - m.identity.open_edges);
+    if (m.identity.unmatched_edges == m.identity.open_edges)
+      shown(DefectKind::pinched_vertex, m.identity.pinched_vertices);
+  }
+  shown(DefectKind::degenerate, m.degenerate());
+  shown(DefectKind::duplicate, m.identity.duplicate_triangles);
+  shown(DefectKind::inside_out, m.nesting.inside_out);
+  shown(DefectKind::nested, m.nesting.nested);
+  shown(DefectKind::self_intersection, m.self_intersections->pairs);
+  for (const DefectPlace& place : m.places) {
+    const Triangle& t = mesh.triangles[place.triangle];
+    Point low = mesh.points[t[0]], high = low;
+    for (const uint32_t v : t) {
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], mesh.points[v][axis]);
+        high[axis] = std::max(high[axis], mesh.points[v][axis]);
+      }
+    }
+    const double rounding = 1e-12 * (length(low) + length(high));
+    for (int axis = 0; axis < 3; ++axis) {
+      CHECK(place.at[axis] >= low[axis] - rounding);
+      CHECK(place.at[axis] <= high[axis] + rounding);
+    }
+  }
 }
 
 }  // namespace
@@ -46,8 +87,39 @@ TEST_CASE("each kind of damage is found in each of a hundred meshes", "[measures
       CAPTURE(defect.name, seed, mesh.triangles.size(), describe(found.identity));
       CHECK(told);
       missed += !told;
+      checkPlaces(mesh, found);
     }
     CHECK(missed == 0);
+  }
+}
+
+TEST_CASE("open edges in the faces of the box that a mesh was cut from are no holes", "[measures]") {
+  for (unsigned seed = 0; seed < rounds(100); ++seed) {
+    std::mt19937 random(seed);
+    Mesh mesh = box({4, 4, 4}, 4);
+    // Its top is cut away: what is left is open at y = 4 alone.
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+      return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return mesh.points[v].y == 4; });
+    });
+    MeshSettings settings;
+    settings.cut = Cut{{-10, -10, -10}, {10, 4, 10}};
+    MeshMeasures found = measured(mesh, settings);
+    CHECK(found.identity.open_edges == 16);
+    CHECK(found.cut_edges == 16);
+    CHECK(found.validButForCut());
+    CHECK_FALSE(found.valid());
+    CHECK(found.places.empty());
+    CHECK_FALSE(measured(mesh).validButForCut());
+    // A hole elsewhere is one.
+    const Triangle lost = mesh.triangles[random() % mesh.triangles.size()];
+    std::erase(mesh.triangles, lost);
+    const uint64_t at_top = static_cast<uint64_t>(
+        std::count_if(lost.begin(), lost.end(), [&](uint32_t v) { return mesh.points[v].y == 4; }));
+    found = measured(mesh, settings);
+    CAPTURE(seed, at_top);
+    CHECK_FALSE(found.validButForCut());
+    CHECK(found.identity.open_edges - found.cut_edges == (at_top >= 2 ? 2u : 3u));
+    checkPlaces(mesh, found);
   }
 }
 
