@@ -34,8 +34,9 @@ struct Chunks {
 };
 
 Result<Chunks> chunksOf(std::span<const std::byte> bytes) {
-  if (bytes.size() < kHeaderBytes + kChunkHeaderBytes || wordAt(bytes, 0) != kMagic)
+  if (bytes.size() < sizeof kMagic || wordAt(bytes, 0) != kMagic)
     return Error{Code::bad_input, "it is no GLB file: it does not begin with `glTF`", 0, 0};
+  if (bytes.size() < kHeaderBytes + kChunkHeaderBytes) return wrongAtByte("it ends within its header", bytes.size());
   if (wordAt(bytes, 4) != 2)
     return wrongAtByte("it is glTF of version " + std::to_string(wordAt(bytes, 4)) + ", not 2", 4);
   if (wordAt(bytes, 8) != bytes.size())

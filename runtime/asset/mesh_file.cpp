@@ -5,6 +5,7 @@
 #include <string>
 
 #include "asset/glb_reader.h"
+#include "asset/mesh_origin.h"
 #include "asset/obj_reader.h"
 #include "asset/ply_reader.h"
 #include "asset/stl_reader.h"
@@ -76,6 +77,7 @@ std::string_view meshFileAdvice(MeshFileKind kind) {
 
 Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, MeshFileKind kind, const MeshLimits& limits) {
   Result<TriangleMesh> mesh = readKind(bytes, kind, limits);
+  if (mesh) mesh->origin = originOf(bytes);
   if (mesh || mesh.error().code == Code::invalid_argument) return mesh;
   Error error = mesh.error();
   error.message.append("; ").append(error.code == Code::limit ? "simplify it, or split it into several files"

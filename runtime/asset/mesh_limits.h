@@ -28,7 +28,8 @@ struct MeshLimits {
 };
 
 inline std::string noPlaceWithin(const MeshLimits& limits) {
-  return "that is no place within " + std::to_string(static_cast<long long>(limits.farthest / 1000)) + " km";
+  const std::string farthest = std::to_string(static_cast<long long>(limits.farthest));
+  return "that is no number from -" + farthest + " to " + farthest;
 }
 
 /// Whether a number from a file is one that attributes hold.

@@ -36,6 +36,7 @@ struct TriangleMesh {
   std::vector<std::string> material_names;
   CornerValues<Normal> normals;
   CornerValues<TextureCoordinates> coordinates;
+  Point origin;  ///< where the points count from in their world, where that is known; metres
 
   /// Of corner k of a triangle, where there are any.
   const Normal& normalAt(size_t triangle, size_t k) const { return at(normals, triangle, k); }

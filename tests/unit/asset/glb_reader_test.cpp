@@ -145,10 +145,10 @@ TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]
       {R"("componentType":5123,"count":3)", R"("componentType":5123,"count":2)",
        "accessor 1 ends within a triangle, at /accessors/1/count of its JSON"},
       {R"({"mesh":0})", R"({"mesh":0,"translation":[0,1000001,0]})",
-       "mesh 0 has a position that is no place within 1000 km, once it is moved, at /meshes/0/primitives/0 of its "
+       "mesh 0 has a position that is no number from -1000000 to 1000000, once it is moved, at /meshes/0/primitives/0 of its "
        "JSON"},
       {R"({"mesh":0})", R"({"mesh":0,"scale":[1e9,1e9,1e9],"children":[0]})",
-       "mesh 0 has a position that is no place within 1000 km, once it is moved, at /meshes/0/primitives/0 of its "
+       "mesh 0 has a position that is no number from -1000000 to 1000000, once it is moved, at /meshes/0/primitives/0 of its "
        "JSON"},
       {R"(,"indices":1,"material":0)", R"(,"material":0)", ""},
       {R"("POSITION":0})", R"("POSITION":0,"NORMAL":7})",
@@ -201,7 +201,7 @@ TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]
   const float not_a_number = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(nan.data() + nan.size() - 60, &not_a_number, 4);
   const std::string first_byte = std::to_string(nan.size() - 60);
-  CHECK(refusal(nan) == "accessor 0 has a position that is no place within 1000 km, at byte " + first_byte);
+  CHECK(refusal(nan) == "accessor 0 has a position that is no number from -1000000 to 1000000, at byte " + first_byte);
   std::string beyond = triangleFile();
   beyond[beyond.size() - 16] = 3;
   CHECK(refusal(beyond) == "accessor 1 has a corner that is none of the primitive's 3 points, at byte " +

@@ -135,7 +135,7 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
       {with("255 -0.5", "255 x"),
        "it has `x`, which is no number, within 2 of 4 of the element `vertex`, counted from "
        "0, at line 31"},
-      {with("255 -0.5", "255 nan"), "vertex 2 has a position that is no place within 1000 km, at line 31"},
+      {with("255 -0.5", "255 nan"), "vertex 2 has a position that is no number from -1000000 to 1000000, at line 31"},
       {with("0 2 0 0\n", "0 inf 0 0\n"), "vertex 0 has a normal that is not finite, at line 29"},
       {with("0 2 0 0\n", "0 2 0 nan\n"), "vertex 0 has texture coordinates that are not finite, at line 29"},
       {with("-1 4 0 1 2 3", "-1 4 0 1 2 4"), "face 0 has a corner that is none of the file's 4 vertices, at line 33"},

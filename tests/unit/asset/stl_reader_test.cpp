@@ -75,7 +75,7 @@ TEST_CASE("what is wrong with an STL file is said with its line or its byte", "[
       {replacedIn(kStlText, "  endfacet", ""), "`facet` stands where `endfacet` is due, at line 9"},
       {replacedIn(kStlText, "vertex 1", "vertex a"), "`a` is no number, at line 5"},
       {replacedIn(kStlText, "vertex 1", "vertex inf"),
-       "a triangle has a corner that is no place within 1000 km, at line 5"},
+       "a triangle has a corner that is no number from -1000000 to 1000000, at line 5"},
       {kStlText.substr(0, kStlText.find("0 1 5")), "it ends within a triangle, at line 6"},
       {kStlText + "solids", "`solids` stands where `solid` is due, at line 17"},
   };
@@ -86,7 +86,7 @@ TEST_CASE("what is wrong with an STL file is said with its line or its byte", "[
   std::string nan = binaryStl();
   const float not_a_number = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(nan.data() + 134 + 12 + 12 + 4, &not_a_number, 4);
-  CHECK(stlRefusal(nan) == "a triangle has a corner that is no place within 1000 km, at byte 158");
+  CHECK(stlRefusal(nan) == "a triangle has a corner that is no number from -1000000 to 1000000, at byte 158");
   for (const std::string& file : {binaryStl(), kStlText}) {
     CHECK(stlRefusal(file, {.triangles = 1}) == "it has more than 1 triangles");
     CHECK(stlRefusal(file, {.points = 5}) == "it has more than 1 triangles");
