@@ -68,6 +68,7 @@ Result<LevelDistance> levelDistance(const WorldMesh& fine, const IntBox& extent,
   result.coarse_triangles = back.size();
   result.coarse_left_out = second.triangles.size() - back.size();
 
+  if ((!there.empty() && second.triangles.empty()) || (!back.empty() && first.triangles.empty())) return result;
   // What is near may lie in the border: all of the other mesh is looked at.
   Result<measure::OneSided> one =
       measure::distanceFrom({first.points, there}, {second.points, second.triangles}, settings, jobs);
@@ -75,7 +76,7 @@ Result<LevelDistance> levelDistance(const WorldMesh& fine, const IntBox& extent,
   Result<measure::OneSided> other =
       measure::distanceFrom({second.points, back}, {first.points, first.triangles}, settings, jobs);
   if (!other) return other.error();
-  result.distance = {*one, *other};
+  result.distance = measure::Hausdorff{*one, *other};
   return result;
 }
 

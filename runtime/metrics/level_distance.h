@@ -1,6 +1,8 @@
 #pragma once
 // How far the meshes of two levels of detail lie from each other.
 
+#include <optional>
+
 #include "measure/hausdorff.h"
 #include "mesh/weld.h"
 
@@ -15,8 +17,9 @@ namespace sgm {
 inline constexpr double kLevelBound = 2.598076211353316;
 
 struct LevelDistance {
-  /// From the fine mesh to the coarse one and back, metres.
-  measure::Hausdorff distance;
+  /// From the fine mesh to the coarse one and back, metres. Nothing where one of them has triangles to be looked at and
+  /// the other is empty: as far as its level is coarse, all that is there is too thin for it.
+  std::optional<measure::Hausdorff> distance;
   uint64_t fine_triangles = 0, coarse_triangles = 0;  ///< that were looked at
   /// Triangles with a corner outside of the region, or less than kBorderCells coarse cells inside of a face of it where
   /// the surface is cut: what is nearest to them may lie beyond.
@@ -26,8 +29,7 @@ struct LevelDistance {
 inline constexpr int32_t kBorderCells = 3;
 
 /// extent: the box that the fine mesh is of, hi included; the coarse one's holds it. coarse_cell: its edge, units.
-/// The same bits for any number of threads. Errors: those of measure::hausdorff; bad_input where one level has
-/// triangles to be looked at and the other has none.
+/// The same bits for any number of threads. Errors: those of measure::hausdorff.
 Result<LevelDistance> levelDistance(const WorldMesh& fine, const IntBox& extent, const WorldMesh& coarse,
                                     int32_t coarse_cell, const measure::HausdorffSettings& settings, JobSystem& jobs);
 
