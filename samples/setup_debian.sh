@@ -14,7 +14,7 @@ SGM_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config
   libhwy-dev libzstd-dev libxxhash-dev
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
-  libcli11-dev libfmt-dev libstb-dev nlohmann-json3-dev libsqlite3-dev
+  libcli11-dev libfmt-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libsqlite3-dev
 )
 SGM_TEST_PACKAGES=(
   catch2 libcgal-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind

@@ -22,15 +22,14 @@ namespace {
 /// What to run when a subcommand is the one given.
 using Command = std::function<Exit()>;
 
-/// CLI::Range, which lets what is not a number pass.
+/// As CLI::Range, which lets what is not a number pass, and says that 0 is not within 0.000000 and more.
 CLI::Validator numberIn(double low, double high) {
-  const CLI::Validator range = CLI::Range(low, high);
-  const auto check = [range](std::string& text) {
+  const auto check = [low, high](std::string& text) {
     double value = 0;
-    const bool number = CLI::detail::lexical_cast(text, value) && !std::isnan(value);
-    return number ? range(text) : fmt::format("'{}' is not a number", text);
+    if (!CLI::detail::lexical_cast(text, value) || std::isnan(value)) return fmt::format("'{}' is not a number", text);
+    return value >= low && value <= high ? std::string() : fmt::format("{} is not from {:g} to {:g}", text, low, high);
   };
-  return {check, range.get_description()};
+  return {check, fmt::format("FLOAT in [{:g} - {:g}]", low, high)};
 }
 
 // Checks for CLI11: "" or what is wrong.
@@ -279,6 +278,9 @@ Command addMeasure(CLI::App& root) {
   app->add_option("FILE", options->file, "A .glb, .obj, .ply or .stl file, or a .sgm grammar")->required();
   app->add_flag("--json", options->json, "Print the result as one JSON object on standard output");
   const std::vector<CLI::Option*> of_all = optionsBeside(*app, {});
+  app->add_flag("--strict", options->strict,
+                "Exit with status 1 where it is not the closed surface of a solid, not all of it was looked at, or "
+                "there are no triangles; of a grammar's region, the border may cut it");
   app->add_option("--weld", options->weld,
                   "Points at most so far apart are one; 0: those with equal coordinates, which is right for files that "
                   "a program wrote")
@@ -307,6 +309,8 @@ Command addMeasure(CLI::App& root) {
   app->add_option("--against", options->against,
                   "Also how far this mesh file's surface lies from it, both ways (Hausdorff distance)")
       ->type_name("FILE");
+  app->add_flag("--drawing", options->drawing,
+                "Also what a GPU pays to draw it as its triangles are ordered: vertices transformed, pixels shaded");
   app->add_option("--texels", options->texels,
                   "Also how many texels of a texture of this resolution (1024) lie on a unit of length, and how "
                   "evenly; a grammar's tiles are of 1 m")
@@ -320,24 +324,33 @@ Command addMeasure(CLI::App& root) {
                   "Also how far so many levels, from --level on, lie from the next coarser ones; of a grammar")
       ->type_name("N")
       ->check(CLI::Range(1, kMaxLevel));
+  const std::vector<CLI::Option*> before_limits = optionsBeside(*app, {});
   addProcessLimits(*app, *options);
+  const std::vector<CLI::Option*> of_files = optionsBeside(*app, before_limits), shared = optionsBeside(*app, {});
   addLevelOption(*app, *options);
   addSharpOption(*app, *options);
   const std::vector<CLI::Option*> of_surfaces = optionsBeside(*app, of_all);
   addDerivationOptions(*app, *options);
   addRegionOptions(*app, *options);
   addVoidOptions(*app, *options, of_surfaces);
+  const std::vector<CLI::Option*> of_grammars = optionsBeside(*app, shared);
   app->footer(
       "Lengths are in the file's unit, metres in .glb files and grammars. A mesh file is read and measured in a "
       "process\n"
-      "of its own, which --memory and --seconds limit. --level to --radius are for grammars.\n"
+      "of its own, which --memory and --seconds limit; of a grammar they limit the reading of --against's file alone.\n"
+      "--level to --radius are for grammars. Places are told from the world's origin, also in files of sgm's whose\n"
+      "positions count from another one.\n"
+      "Open edges in the border of a grammar's region are no holes: the region cuts the surface there, and the volume\n"
+      "says little. Bends are measured between normals averaged at the points, so that a cube's faces are not flat;\n"
+      "their histogram is in --json, where runtime/cli/README.md explains every key.\n"
       "Distances are bounded from both sides: from vertices and four places a triangle, and by cutting triangles "
       "until\n"
       "no part may be farther. Of levels, triangles near the cut of a region are left out. Where the field has no\n"
       "detail by level and nothing thinner than a cell, levels are at most 2.6 coarse cells apart, smooth ones far "
       "less.\n"
       "Gradients are differences of the field in double precision; vertices in its creases have no angle.\n"
-      "Exit status 0 also where the mesh is not valid: \"valid\" and \"problems\" in --json say so.\n\n"
+      "Exit status 0 also where the mesh is not valid, but with --strict: \"valid\" and \"problems\" in --json say "
+      "so.\n\n"
       "With --radius or --from and --to it is the void that is measured: how many separate voids an agent, a ball,\n"
       "finds in the region, and the way from one place to another. Exit status 1 where there is none: it says why,\n"
       "and how large an agent may be. An agent fits at a sample where no solid sample, a cell apart, is as near as\n"
@@ -346,7 +359,17 @@ Command addMeasure(CLI::App& root) {
       "  sgm measure samples/grammars/sphere.sgm --cell 0.25 --field --levels 3\n"
       "  sgm measure samples/grammars/cave.sgm --seed 3 --region 96,-192,0:320,-32,192 --from 108,-72,72 \\\n"
       "    --to 296,-104,104 --radius 0.5");
-  return [options] { return measureMesh(*options); };
+  const auto given = [](const std::vector<CLI::Option*>& among) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : among)
+      if (option->count() > 0 && !option->check_lname("threads")) names.push_back(option->get_name());
+    return names;
+  };
+  return [options, of_grammars, of_files, given] {
+    options->of_grammars = given(of_grammars);
+    options->of_files = given(of_files);
+    return measureMesh(*options);
+  };
 }
 
 Command addClassify(CLI::App& root) {

@@ -26,33 +26,60 @@ measure::MeshSettings settingsOf(const MeasureOptions& options) {
   return settings;
 }
 
-/// What is printed of a mesh; of what: the line above it; sections: what stands below, by their names in JSON.
-Result<std::string> reportOf(const measure::Triangles& mesh, const MeasureOptions& options, JobSystem& jobs, Json json,
-                             const std::vector<std::pair<std::string, Section>>& sections, const Stopwatch& watch) {
-  const Result<measure::MeshMeasures> measures = measure::measureMesh(mesh, settingsOf(options), jobs);
+/// What is to be measured.
+struct Subject {
+  const asset::TriangleMesh& mesh;
+  std::optional<measure::Cut> cut;                        ///< of a region
+  Json json;                                              ///< what is known of it by itself
+  std::string text;                                       ///< the same, behind its name
+  std::string_view unit;                                  ///< as textOf() has it
+  std::vector<std::pair<std::string, Section>> sections;  ///< what stands below, by their names in JSON
+};
+
+constexpr char kSound = '+', kUnsound = '-';
+
+/// What is printed, behind kSound or kUnsound.
+Result<std::string> reportOf(const Subject& subject, const MeasureOptions& options, JobSystem& jobs,
+                             const Stopwatch& watch) {
+  measure::MeshSettings settings = settingsOf(options);
+  settings.cut = subject.cut;
+  const asset::TriangleMesh& mesh = subject.mesh;
+  const Result<measure::MeshMeasures> measures = measure::measureMesh({mesh.points, mesh.triangles}, settings, jobs);
   if (!measures) return measures.error();
+  const char verdict = measures->validButForCut() && measures->triangles > 0 ? kSound : kUnsound;
   if (options.json) {
-    json.update(toJson(*measures));
-    for (const auto& [name, section] : sections) json[name] = section.json;
+    Json json = subject.json;
+    json["file"] = options.file;
+    json["origin"] = {mesh.origin.x, mesh.origin.y, mesh.origin.z};
+    json.update(toJson(*measures, mesh.origin));
+    for (const auto& [name, section] : subject.sections) json[name] = section.json;
     json["seconds"] = watch.seconds();
-    return json.text() + "\n";
+    return verdict + json.text() + "\n";
   }
-  std::string text = fmt::format("{}: {} triangles, {} points, {:.2f} s\n", options.file, measures->triangles,
-                                 measures->points, watch.seconds()) +
-                     textOf(*measures);
-  for (const auto& [name, section] : sections) text += section.text;
+  std::string text = fmt::format("{}{}: {} triangles, {} points{}, {:.2f} s\n", verdict, options.file,
+                                 measures->triangles, measures->points, subject.text, watch.seconds()) +
+                     textOf(*measures, mesh.origin, subject.unit);
+  for (const auto& [name, section] : subject.sections) text += section.text;
   return text;
 }
 
+Exit printed(const Result<std::string>& report, bool strict) {
+  if (!report) return complain(report.error());
+  fmt::print("{}", std::string_view(*report).substr(1));
+  return strict && report->front() == kUnsound ? Exit::input : Exit::done;
+}
+
 /// other: of the file that --against names.
-Result<Section> against(const measure::Triangles& mesh, const asset::TriangleMesh& other, const MeasureOptions& options,
+Result<Section> against(const asset::TriangleMesh& mesh, asset::TriangleMesh other, const MeasureOptions& options,
                         JobSystem& jobs) {
-  const measure::AreaVolume sums = measure::areaVolume(mesh, jobs);
+  for (measure::Point& p : other.points) p = p + (other.origin - mesh.origin);
+  const measure::Triangles triangles{mesh.points, mesh.triangles};
+  const measure::AreaVolume sums = measure::areaVolume(triangles, jobs);
   measure::HausdorffSettings settings;
   settings.tolerance = 1e-4 * length(sums.high - sums.low);
-  const Result<measure::Hausdorff> found = hausdorff(mesh, {other.points, other.triangles}, settings, jobs);
+  const Result<measure::Hausdorff> found = hausdorff(triangles, {other.points, other.triangles}, settings, jobs);
   if (!found) return Error{found.error().code, "--against: " + found.error().message};
-  return distanceSection(*found, options.against, other.triangles.size());
+  return distanceSection(*found, options.against, other.triangles.size(), mesh.origin);
 }
 
 Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKind kind,
@@ -62,16 +89,18 @@ Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKi
   if (!mesh) return mesh.error();
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return jobs.error();
-  std::vector<std::pair<std::string, Section>> sections;
+  Subject subject{*mesh, {}, {}, {}, kind == asset::MeshFileKind::glb ? " m" : "", {}};
+  auto& sections = subject.sections;
   if (options.texels) sections.emplace_back("texels", texelSection(*mesh, *options.texels));
+  if (options.drawing) sections.emplace_back("drawing", drawingSection(drawingCost({mesh->points, mesh->triangles})));
   if (!options.against.empty()) {
     const Result<asset::TriangleMesh> other = readMeshFile(options.against, against_kind);
     if (!other) return other.error();
-    Result<Section> section = against({mesh->points, mesh->triangles}, *other, options, **jobs);
+    Result<Section> section = against(*mesh, *other, options, **jobs);
     if (!section) return section.error();
     sections.emplace_back("against", std::move(*section));
   }
-  return reportOf({mesh->points, mesh->triangles}, options, **jobs, {{"file", options.file}}, sections, watch);
+  return reportOf(subject, options, **jobs, watch);
 }
 
 /// Each level of the region, and of what it grows to, against the next one.
@@ -92,7 +121,7 @@ Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world,
     const Result<LevelDistance> found = levelDistance(*fine, extent, coarse->mesh, cell, settings, jobs);
     if (!found)
       return Error{found.error().code, fmt::format("--levels: {} and {}: {}", level, level + 1, found.error().message)};
-    Section section = levelSection(*found, level, cell);
+    Section section = levelSection(*found, level, cell, fine->origin);
     all.json.push_back(std::move(section.json));
     all.text += section.text;
     held = std::move(*coarse);
@@ -100,6 +129,25 @@ Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world,
     extent = held.extent;
   }
   return all;
+}
+
+/// The box that was meshed, from the mesh's origin.
+measure::Cut cutOf(const Region& region) {
+  measure::Cut cut;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t origin = region.meshed.mesh.origin[axis];
+    cut.low[axis] = static_cast<double>(region.meshed.extent.lo[axis] - origin) / kUnitsPerMetre;
+    cut.high[axis] = static_cast<double>(region.meshed.extent.hi[axis] - origin) / kUnitsPerMetre;
+  }
+  return cut;
+}
+
+/// Of what the region's mesh was made.
+std::string textOf(const WorldOptions& options, const Region& region) {
+  const IntBox& extent = region.meshed.extent;
+  return fmt::format(", seed {}, cells of {} m, region {},{},{}:{},{},{} m", options.seed, metres(region.cell),
+                     metres(extent.lo.x), metres(extent.lo.y), metres(extent.lo.z), metres(extent.hi.x),
+                     metres(extent.hi.y), metres(extent.hi.z));
 }
 
 Exit measureGrammar(const MeasureOptions& options, asset::MeshFileKind against_kind, const ProcessLimits& limits) {
@@ -132,18 +180,16 @@ Exit measureGrammar(const MeasureOptions& options, asset::MeshFileKind against_k
   const asset::TriangleMesh mesh = trianglesOf(*made.region);
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return complain(jobs.error());
+  if (options.drawing) sections.emplace_back("drawing", drawingSection(drawingCost({mesh.points, mesh.triangles})));
   if (other) {
-    Result<Section> section = against({mesh.points, mesh.triangles}, *other, options, **jobs);
+    Result<Section> section = against(mesh, *other, options, **jobs);
     if (!section) return complain(section.error());
     sections.emplace_back("against", std::move(*section));
   }
-  Json json = toJson(options, *made.region);
-  json["file"] = options.file;
-  const Result<std::string> report =
-      reportOf({mesh.points, mesh.triangles}, options, **jobs, std::move(json), sections, watch);
-  if (!report) return complain(report.error());
-  fmt::print("{}", *report);
-  return Exit::done;
+  return printed(reportOf({mesh, cutOf(*made.region), toJson(options, *made.region), textOf(options, *made.region),
+                           " m", std::move(sections)},
+                          options, **jobs, watch),
+                 options.strict);
 }
 
 }  // namespace
@@ -161,6 +207,11 @@ Exit measureMesh(const MeasureOptions& options) {
   Result<asset::MeshFileKind> against_kind = asset::MeshFileKind{};
   if (!options.against.empty()) against_kind = kindOf(options.against);
   if (!against_kind) return complain(Exit::usage, "--against: " + against_kind.error().message);
+  if (grammar && options.against.empty() && !options.of_files.empty())
+    return complain(Exit::usage, options.of_files.front() + " is for mesh files, and for a grammar's --against");
+  if (grammar && options.level + options.levels > kMaxLevel)
+    return complain(Exit::usage, fmt::format("--level and --levels reach level {}, and {} is the coarsest",
+                                             options.level + options.levels, kMaxLevel));
   if (grammar) return measureGrammar(options, *against_kind, limits);
   const Result<asset::MeshFileKind> kind = kindOf(options.file);
   if (!kind) return complain(Exit::usage, kind.error().message + "; or a grammar, .sgm");
@@ -168,10 +219,10 @@ Exit measureMesh(const MeasureOptions& options) {
     return complain(Exit::usage, fmt::format("{} is for grammars: a mesh file has no field and no levels",
                                              options.field ? "--field" : "--levels"));
   }
+  if (!options.of_grammars.empty())
+    return complain(Exit::usage, options.of_grammars.front() + " is for grammars: a mesh file is measured as it is");
   const Result<std::string> report = runLimited([&] { return measureFile(options, *kind, *against_kind); }, limits);
-  if (!report) return complain(report.error());
-  fmt::print("{}", *report);
-  return Exit::done;
+  return printed(report, options.strict);
 }
 
 }  // namespace sgm::cli

@@ -56,26 +56,37 @@ std::string many(uint64_t count, std::string_view one, std::string_view several)
 
 }  // namespace
 
-std::vector<std::string> problemsOf(const MeshMeasures& m) {
+std::vector<std::string> problemsOf(const MeshMeasures& m, Point origin) {
+  using measure::DefectKind;
   std::vector<std::string> problems;
-  const auto say = [&](uint64_t count, std::string_view one, std::string_view several) {
-    if (count > 0) problems.push_back(many(count, one, several));
+  const auto say = [&](uint64_t count, std::string_view one, std::string_view several,
+                       std::optional<DefectKind> kind = {}) {
+    if (count == 0) return;
+    problems.push_back(many(count, one, several));
+    const auto first = std::ranges::find_if(m.places, [&](const auto& place) { return place.kind == kind; });
+    if (first == m.places.end()) return;
+    const Point at = first->at + origin;
+    problems.back() += fmt::format("{}at {:.6g},{:.6g},{:.6g}", count == 1 ? ", " : ", the first ", at.x, at.y, at.z);
   };
   const MeshReport& i = m.identity;
   say(m.non_finite, "triangle has a corner that is no number, or beyond 1e37",
       "triangles have corners that are no numbers, or beyond 1e37");
-  say(i.open_edges, "edge has one triangle alone: there is a hole", "edges have one triangle alone: there are holes");
+  say(i.open_edges - m.cut_edges, "edge has one triangle alone: there is a hole",
+      "edges have one triangle alone: there are holes", DefectKind::open_edge);
   say(i.unmatched_edges - i.open_edges, "edge has triangles that face different ways",
-      "edges have triangles that face different ways");
-  say(i.non_manifold_edges, "edge has three triangles or more", "edges have three triangles or more");
-  say(i.pinched_vertices, "point hangs several parts together", "points hang several parts together");
-  say(i.duplicate_triangles, "triangle is there twice", "triangles are there twice");
-  say(m.degenerate(), "triangle has no area", "triangles have no area");
-  say(m.nesting.inside_out, "closed part is inside out", "closed parts are inside out");
-  say(m.nesting.nested, "closed part stands in the solid of another", "closed parts stand in the solid of others");
+      "edges have triangles that face different ways", DefectKind::turned_edge);
+  say(i.non_manifold_edges, "edge has three triangles or more", "edges have three triangles or more",
+      DefectKind::nonmanifold_edge);
+  say(i.pinched_vertices, "point hangs several parts together", "points hang several parts together",
+      DefectKind::pinched_vertex);
+  say(i.duplicate_triangles, "triangle is there twice", "triangles are there twice", DefectKind::duplicate);
+  say(m.degenerate(), "triangle has no area", "triangles have no area", DefectKind::degenerate);
+  say(m.nesting.inside_out, "closed part is inside out", "closed parts are inside out", DefectKind::inside_out);
+  say(m.nesting.nested, "closed part stands in the solid of another, or cuts it",
+      "closed parts stand in the solid of others, or cut it", DefectKind::nested);
   if (m.self_intersections) {
     say(m.self_intersections->pairs, "pair of triangles cuts or touches each other",
-        "pairs of triangles cut or touch each other");
+        "pairs of triangles cut or touch each other", DefectKind::self_intersection);
   }
   return problems;
 }
@@ -92,12 +103,19 @@ std::vector<std::string> unknownsOf(const MeshMeasures& m) {
   return unknowns;
 }
 
-Json toJson(const MeshMeasures& m) {
+Json toJson(const MeshMeasures& m, Point origin) {
   const MeshReport& i = m.identity;
+  Json places = Json::array();
+  for (const measure::DefectPlace& place : m.places) {
+    places.push_back(
+        {{"kind", measure::nameOf(place.kind)}, {"triangle", place.triangle}, {"at", pointJson(place.at + origin)}});
+  }
   Json json = {{"valid", m.valid()},
+               {"valid_but_for_cut", m.validButForCut()},
                {"watertight", m.watertight()},
                {"complete", m.complete()},
-               {"problems", problemsOf(m)},
+               {"problems", problemsOf(m, origin)},
+               {"places", places},
                {"unknowns", unknownsOf(m)},
                {"triangles", m.triangles},
                {"points", m.points},
@@ -107,8 +125,9 @@ Json toJson(const MeshMeasures& m) {
                {"first_non_finite", orNull(m.first_non_finite)},
                {"area", m.sums.area},
                {"volume", m.sums.volume},
+               {"volume_counts_once", !m.overlaps()},
                {"area_vector", pointJson(m.sums.area_vector)},
-               {"bounds", {pointJson(m.sums.low), pointJson(m.sums.high)}},
+               {"bounds", {pointJson(m.sums.low + origin), pointJson(m.sums.high + origin)}},
                {"objects", m.parts.objects},
                {"shells", m.parts.shells.size()},
                {"euler", m.euler()},
@@ -116,6 +135,7 @@ Json toJson(const MeshMeasures& m) {
                {"edges", i.edges},
                {"vertices", i.vertices},
                {"open_edges", i.open_edges},
+               {"cut_edges", m.cut_edges},
                {"turned_edges", i.unmatched_edges - i.open_edges},
                {"nonmanifold_edges", i.non_manifold_edges},
                {"nonmanifold_vertices", i.pinched_vertices},
@@ -147,37 +167,58 @@ Json toJson(const MeshMeasures& m) {
   return json;
 }
 
-std::string textOf(const MeshMeasures& m) {
+namespace {
+
+std::string volumeText(const MeshMeasures& m, std::string_view unit) {
+  const std::string volume = fmt::format("{:.9g}{}", m.sums.volume, unit.empty() ? "" : fmt::format("{}3", unit));
+  if (m.identity.unmatched_edges > 0 || m.non_finite > 0) {
+    const bool cut_alone = m.cut_edges > 0 && m.cut_edges == m.identity.unmatched_edges && m.non_finite == 0;
+    return volume + fmt::format(", which means little: the surface is {}", cut_alone ? "cut" : "not closed");
+  }
+  return volume + (m.overlaps() ? " (divergence theorem), which counts what lies in several parts several times"
+                                : " (divergence theorem)");
+}
+
+std::string verdictText(const MeshMeasures& m) {
+  if (!problemsOf(m).empty()) return "not the surface of a solid:";
+  if (!unknownsOf(m).empty()) return "not known:";
+  if (m.triangles == 0) return "empty: there are no triangles";
+  const std::string_view unless = m.self_intersections ? "" : ", unless it cuts itself, which was not looked for";
+  if (m.cut_edges > 0) {
+    return fmt::format("whole but for the region's border, which cuts it along {}{}",
+                       many(m.cut_edges, "edge", "edges"), unless);
+  }
+  return fmt::format("{}the closed surface of a solid{}", m.self_intersections ? "valid: " : "", unless);
+}
+
+}  // namespace
+
+std::string textOf(const MeshMeasures& m, Point origin, std::string_view unit) {
   std::string text;
   const auto line = [&](std::string_view name, const std::string& what) {
     text += fmt::format("  {:<11}{}\n", name, what);
   };
   const Point size = m.sums.high - m.sums.low;
-  line("size", fmt::format("{:.6g} x {:.6g} x {:.6g}, from {:.6g},{:.6g},{:.6g}", size.x, size.y, size.z, m.sums.low.x,
-                           m.sums.low.y, m.sums.low.z));
-  line("area", fmt::format("{:.9g} (equation 7)", m.sums.area));
-  const bool closed = m.identity.unmatched_edges == 0 && m.non_finite == 0;
-  line("volume", closed ? fmt::format("{:.9g} (divergence theorem)", m.sums.volume)
-                        : fmt::format("{:.9g}, which means little: the surface is not closed", m.sums.volume));
+  const Point low = m.sums.low + origin;
+  line("size", fmt::format("{:.6g} x {:.6g} x {:.6g}{}, from {:.8g},{:.8g},{:.8g}", size.x, size.y, size.z, unit, low.x,
+                           low.y, low.z));
+  line("area",
+       fmt::format("{:.9g}{} (the paper's equation 7)", m.sums.area, unit.empty() ? "" : fmt::format("{}2", unit)));
+  line("volume", volumeText(m, unit));
   if (m.cubes) {
     const measure::CubeVolumes& c = *m.cubes;
     line("cubes", fmt::format("{:.9g} by all corners, {:.9g} by any, {:.9g} by centres (equation 8, edge {:.6g})",
                               c.volumeOf(c.all), c.volumeOf(c.any), c.volumeOf(c.centre), c.edge));
   }
-  line("parts", fmt::format("{} (section 7.3), {}, Euler characteristic {}, genus {}",
+  line("parts", fmt::format("{} (the paper's section 7.3), {}, Euler characteristic {}, genus {}",
                             many(m.parts.objects, "object", "objects"), many(m.parts.shells.size(), "shell", "shells"),
                             m.euler(), m.genus() ? std::to_string(*m.genus()) : "not defined"));
-  line("bends", fmt::format("{:.1f} % of the edges flat, {:.1f} % convex, {:.1f} % concave", 100 * m.histogram.flat,
-                            100 * m.histogram.convex, 100 * m.histogram.concave));
+  line("bends",
+       fmt::format("{:.1f} % of the edges flat, {:.1f} % convex, {:.1f} % concave, by normals averaged at points",
+                   100 * m.histogram.flat, 100 * m.histogram.convex, 100 * m.histogram.concave));
   if (m.slivers > 0) line("slivers", fmt::format("{} (quality below {})", m.slivers, measure::kSliver));
-  const std::vector<std::string> problems = problemsOf(m), unknowns = unknownsOf(m);
-  line("verdict", !problems.empty()   ? "not the surface of a solid:"
-                  : !unknowns.empty() ? "not known:"
-                  : m.triangles == 0  ? "empty: there are no triangles"
-                  : !m.self_intersections
-                      ? "the closed surface of a solid, unless it cuts itself, which was not looked for"
-                      : "valid: the closed surface of a solid");
-  for (const auto& lines : {problems, unknowns})
+  line("verdict", verdictText(m));
+  for (const auto& lines : {problemsOf(m, origin), unknownsOf(m)})
     for (const std::string& what : lines) text += fmt::format("               {}\n", what);
   return text;
 }

@@ -2,6 +2,7 @@
 // What `sgm measure` says of a mesh.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/json.h"
@@ -9,12 +10,12 @@
 
 namespace sgm::cli {
 
-/// Everything, in the mesh's unit.
-Json toJson(const measure::MeshMeasures& measures);
-/// The same in lines for people, below a line that names the mesh.
-std::string textOf(const measure::MeshMeasures& measures);
-/// What is wrong with it as a solid's surface, one sentence each.
-std::vector<std::string> problemsOf(const measure::MeshMeasures& measures);
+/// Everything, in the mesh's unit. origin: where its points count from; places are told from 0.
+Json toJson(const measure::MeshMeasures& measures, measure::Point origin = {});
+/// The same in lines for people, below a line that names the mesh. unit: " m", or nothing where it is not known.
+std::string textOf(const measure::MeshMeasures& measures, measure::Point origin = {}, std::string_view unit = "");
+/// What is wrong with it as a solid's surface, one sentence each, with the first place where there is one.
+std::vector<std::string> problemsOf(const measure::MeshMeasures& measures, measure::Point origin = {});
 /// What could not be looked at, likewise. A mesh is valid where both are empty.
 std::vector<std::string> unknownsOf(const measure::MeshMeasures& measures);
 

@@ -79,6 +79,7 @@ Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, asset::Me
         if (!mesh) return mesh.error();
         std::string bytes;
         append(bytes, std::vector<uint64_t>{mesh->points.size(), mesh->triangles.size()});
+        append(bytes, std::vector<asset::Point>{mesh->origin});
         append(bytes, mesh->points);
         append(bytes, mesh->triangles);
         return bytes;
@@ -88,9 +89,11 @@ Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, asset::Me
   // Whatever the file has made of the other process, this one reads no further than what came.
   std::string_view left = *said;
   std::vector<uint64_t> counts(2);
+  std::vector<asset::Point> origin(1);
   asset::TriangleMesh mesh;
-  bool whole = take(left, counts) && counts[0] <= left.size() && counts[1] <= left.size();
+  bool whole = take(left, counts) && take(left, origin) && counts[0] <= left.size() && counts[1] <= left.size();
   if (whole) {
+    mesh.origin = origin.front();
     mesh.points.resize(counts[0]);
     mesh.triangles.resize(counts[1]);
     whole = take(left, mesh.points) && take(left, mesh.triangles) && left.empty();

@@ -15,12 +15,12 @@ bool isGrammarFile(const std::string& path);
 /// Errors: io; those of readMesh, with the file's name in front.
 Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind);
 
-/// The same in a process of its own; points and triangles alone come out of it. To be called before this process has
-/// threads. Errors: those of readMeshFile and runLimited.
+/// The same in a process of its own; points, triangles and the origin alone come out of it. To be called before this
+/// process has threads. Errors: those of readMeshFile and runLimited.
 Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, asset::MeshFileKind kind,
                                               const ProcessLimits& limits);
 
-/// Positions in metres from the mesh's origin; the mesh before its creases are split, where it has been.
+/// Positions in metres from its origin; the mesh before its creases are split, where it has been.
 asset::TriangleMesh trianglesOf(const Region& region);
 
 }  // namespace sgm::cli

@@ -20,28 +20,31 @@ Json anglesJson(const NormalAngles& a) {
           {"median", a.median}, {"p99", a.p99},       {"max", a.greatest}};
 }
 
-std::string anglesText(const NormalAngles& a) {
+std::string anglesText(const NormalAngles& a, std::string_view of_what) {
   return fmt::format(
-      "{} of {} inward; {:.3g} degrees from the gradient at the median, {:.3g} at the 99th percentile, {:.3g} at most",
-      a.inward, a.count, a.median, a.p99, a.greatest);
+      "{} of {} {} inward; {:.3g} degrees from the gradient at the median, {:.3g} at the 99th percentile, {:.3g} at "
+      "most",
+      a.inward, a.count, of_what, a.median, a.p99, a.greatest);
 }
 
-Json oneSidedJson(const measure::OneSided& d) {
+Json oneSidedJson(const measure::OneSided& d, measure::Point origin) {
+  const measure::Point at = d.farthest + origin;
   return {{"at_least", d.at_least}, {"at_most", d.at_most}, {"mean", d.mean},
-          {"rms", d.rms},           {"samples", d.samples}, {"farthest", {d.farthest.x, d.farthest.y, d.farthest.z}}};
+          {"rms", d.rms},           {"samples", d.samples}, {"farthest", {at.x, at.y, at.z}}};
 }
 
 /// Both ways, and the larger of them.
-Json distanceJson(const measure::Hausdorff& d) {
+Json distanceJson(const measure::Hausdorff& d, measure::Point origin) {
   return {{"at_least", d.atLeast()},
           {"at_most", d.atMost()},
-          {"there", oneSidedJson(d.there)},
-          {"back", oneSidedJson(d.back)}};
+          {"there", oneSidedJson(d.there, origin)},
+          {"back", oneSidedJson(d.back, origin)}};
 }
 
-std::string oneSidedText(const measure::OneSided& d) {
-  return fmt::format("{:.4g} to {:.4g}, mean {:.4g}, farthest at {:.6g},{:.6g},{:.6g}", d.at_least, d.at_most, d.mean,
-                     d.farthest.x, d.farthest.y, d.farthest.z);
+std::string oneSidedText(const measure::OneSided& d, measure::Point origin) {
+  const measure::Point at = d.farthest + origin;
+  return fmt::format("{:.4g} to {:.4g}, mean {:.4g}, farthest at {:.8g},{:.8g},{:.8g}", d.at_least, d.at_most, d.mean,
+                     at.x, at.y, at.z);
 }
 
 Json texelJson(const measure::TexelDensities& d, double resolution) {
@@ -96,7 +99,8 @@ Section fieldSection(const FieldAgreement& found, int32_t cell, Int3 origin) {
                     {"max_cells", found.offset_max * in_cells},
                     {"p99_cells", found.offset_p99 * in_cells},
                     {"mean_cells", found.offset_mean * in_cells}}}};
-  section.text = lineOf("normals", anglesText(found.normals)) + lineOf("faces", anglesText(found.faces));
+  section.text = lineOf("normals", anglesText(found.normals, "vertices")) +
+                 lineOf("faces", anglesText(found.faces, "triangles' corners"));
   if (found.bent + found.flat > 0) {
     section.text += lineOf("creases", fmt::format("hold {} of {} vertices, {} with their normal inward, plateaus {}: "
                                                   "left out of the angles",
@@ -113,23 +117,33 @@ Section fieldSection(const FieldAgreement& found, int32_t cell, Int3 origin) {
   return section;
 }
 
-Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell) {
+Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell, Int3 origin) {
   const double cell = metres(coarse_cell), bound = kLevelBound * cell;
-  const measure::Hausdorff& d = found.distance;
   Section section;
-  section.json = distanceJson(d);
-  section.json.update({{"level", fine},
-                       {"coarse_level", fine + 1},
-                       {"coarse_cell", cell},
-                       {"at_least_cells", d.atLeast() / cell},
-                       {"at_most_cells", d.atMost() / cell},
-                       {"bound", bound},
-                       {"beyond_bound", d.atLeast() > bound},
-                       {"triangles", {found.fine_triangles, found.coarse_triangles}},
-                       {"left_out", {found.fine_left_out, found.coarse_left_out}}});
+  section.json = {{"level", fine},
+                  {"coarse_level", fine + 1},
+                  {"coarse_cell", cell},
+                  {"bound", bound},
+                  {"vanished", !found.distance.has_value()},
+                  {"triangles", {found.fine_triangles, found.coarse_triangles}},
+                  {"left_out", {found.fine_left_out, found.coarse_left_out}}};
   const std::string pair = fmt::format("{} and {}: ", fine, fine + 1);
+  if (!found.distance) {
+    section.text = lineOf("levels", pair + fmt::format("one has a surface here and the other none: detail is declared "
+                                                       "for one alone, or is thinner than a cell of {} m",
+                                                       cell));
+    return section;
+  }
+  const measure::Hausdorff& d = *found.distance;
+  const measure::Point from{metres(origin.x), metres(origin.y), metres(origin.z)};
+  section.json.update(distanceJson(d, from));
+  section.json.update({{"at_least_cells", d.atLeast() / cell},
+                       {"at_most_cells", d.atMost() / cell},
+                       {"beyond_bound", d.atLeast() > bound}});
   if (found.fine_triangles + found.coarse_triangles == 0) {
-    section.text = lineOf("levels", pair + "no triangle is away from the region's cut: take a larger region");
+    const bool empty = found.fine_left_out + found.coarse_left_out == 0;
+    section.text = lineOf("levels", pair + (empty ? "neither has a surface here"
+                                                  : "no triangle is away from the region's cut: take a larger region"));
     return section;
   }
   section.text = lineOf(
@@ -139,8 +153,8 @@ Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell) 
                          d.atLeast() > bound
                              ? fmt::format(": more than the {:.3g} of a field without detail by level", kLevelBound)
                              : ""));
-  section.text += lineOf("", "to the coarse one " + oneSidedText(d.there));
-  section.text += lineOf("", "to the fine one " + oneSidedText(d.back));
+  section.text += lineOf("", "to the coarse one " + oneSidedText(d.there, from));
+  section.text += lineOf("", "to the fine one " + oneSidedText(d.back, from));
   if (found.fine_left_out + found.coarse_left_out > 0) {
     section.text += lineOf("", fmt::format("{} of {} and {} of {} triangles left out, at the region's cut or beyond",
                                            found.fine_left_out, found.fine_triangles + found.fine_left_out,
@@ -149,13 +163,30 @@ Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell) 
   return section;
 }
 
-Section distanceSection(const measure::Hausdorff& found, const std::string& with, size_t triangles) {
+Section distanceSection(const measure::Hausdorff& found, const std::string& with, size_t triangles,
+                        measure::Point origin) {
   Section section;
-  section.json = distanceJson(found);
+  section.json = distanceJson(found, origin);
   section.json.update({{"file", with}, {"triangles", triangles}});
   section.text =
       lineOf("distance", fmt::format("{:.6g} to {:.6g} between this and {}", found.atLeast(), found.atMost(), with)) +
-      lineOf("", "from this " + oneSidedText(found.there)) + lineOf("", "from the other " + oneSidedText(found.back));
+      lineOf("", "from this " + oneSidedText(found.there, origin)) +
+      lineOf("", "from the other " + oneSidedText(found.back, origin));
+  return section;
+}
+
+Section drawingSection(const DrawingCost& found) {
+  Section section;
+  section.json = {{"triangles", found.triangles},
+                  {"vertex_cache", kVertexCache},
+                  {"acmr", found.acmr},
+                  {"atvr", found.atvr},
+                  {"overdraw", found.overdraw}};
+  section.text = lineOf(
+      "drawing", found.triangles == 0 ? "no triangle that could be drawn"
+                                      : fmt::format("{:.3f} vertices a triangle (ACMR), each {:.3f} times (ATVR), with "
+                                                    "a cache of {}; each pixel {:.3f} times (overdraw)",
+                                                    found.acmr, found.atvr, kVertexCache, found.overdraw));
   return section;
 }
 

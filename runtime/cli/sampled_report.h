@@ -4,6 +4,7 @@
 #include <string>
 
 #include "asset/triangle_mesh.h"
+#include "cli/drawing_cost.h"
 #include "cli/json.h"
 #include "cli/region.h"
 #include "measure/texel_density.h"
@@ -21,11 +22,15 @@ struct Section {
 /// cell: the mesh's, units. origin: where its positions count from.
 Section fieldSection(const FieldAgreement& found, int32_t cell, Int3 origin);
 
-/// One pair of levels: fine and fine + 1. coarse_cell: units.
-Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell);
+/// One pair of levels: fine and fine + 1. coarse_cell: units. origin: where the fine one's positions count from.
+Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell, Int3 origin);
 
-/// with: the name of the other mesh. triangles: how many that has.
-Section distanceSection(const measure::Hausdorff& found, const std::string& with, size_t triangles);
+/// with: the name of the other mesh. triangles: how many that has. origin: where both count from.
+Section distanceSection(const measure::Hausdorff& found, const std::string& with, size_t triangles,
+                        measure::Point origin);
+
+/// What drawing it costs.
+Section drawingSection(const DrawingCost& found);
 
 /// Of a file. resolution: texels on the edge of its texture.
 Section texelSection(const asset::TriangleMesh& mesh, double resolution);
