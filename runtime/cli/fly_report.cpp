@@ -106,12 +106,16 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
                kWalkableDistance, r.walkable_ms);
   } else if (r.commits == 0) {
     fmt::print("  start     over before anything was drawn: fly longer (--frames), or with larger cells (--cell)\n");
-  } else {
+  } else if (r.seen > 0) {
     fmt::print("  start     over before all that is seen within {} m was of level 0: fly longer (--frames)\n",
                kWalkableDistance);
   }
-  fmt::print("  level 0   {:.2f} % of the surfaces seen within {} m, all of them in {:.2f} % of frames\n",
-             100 * shareOf(r.seen_finest, r.seen), options.finest, 100 * shareOf(r.frames_covered, r.frames_seen));
+  if (r.seen > 0) {
+    fmt::print("  level 0   {:.2f} % of the surfaces seen within {} m, all of them in {:.2f} % of frames\n",
+               100 * shareOf(r.seen_finest, r.seen), options.finest, 100 * shareOf(r.frames_covered, r.frames_seen));
+  } else {
+    fmt::print("  level 0   no surface was seen within {} m of the way: --path takes another\n", options.finest);
+  }
   fmt::print("  chunks    {} meshed ({} of level 0), {} given further seams, {:.1f} % in vain\n", r.stats.chunks_meshed,
              r.stats.finest_meshed, r.stats.seam_jobs, 100 * shareOf(r.stats.chunks_in_vain, r.stats.chunks_meshed));
   if (!r.stale.empty()) {
