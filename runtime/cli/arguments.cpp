@@ -323,8 +323,9 @@ Command addMeasure(CLI::App& root) {
   addProcessLimits(*app, *options);
   addLevelOption(*app, *options);
   addSharpOption(*app, *options);
-  const std::vector<CLI::Option*> of_surfaces = optionsBeside(*app, of_all);
+  std::vector<CLI::Option*> of_surfaces = optionsBeside(*app, of_all);
   addDerivationOptions(*app, *options);
+  of_surfaces.push_back(app->get_option("--backend"));  // voids are looked at on the CPU
   addRegionOptions(*app, *options);
   addVoidOptions(*app, *options, of_surfaces);
   app->footer(
