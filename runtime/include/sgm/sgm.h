@@ -1067,14 +1067,14 @@ typedef struct sgm_way {
   { SGM_SIZEOF(sgm_way), SGM_NULL, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0 }
 
 /* The way's places are samples of level 0, the next always joined with the one before, from the sample of `from` to
- * that of `to`: a short way, though not always the shortest. The region is looked at across its longest axis. Memory: of
- * about two layers of chunks across that axis, with one chunk around them, the signs of the samples (8.7 KB a chunk that
- * the surface crosses); of one layer the faces (2.2 KB each that a void touches, 17 times that with SGM_WAY_WIDEST); of
- * the whole region some 300 bytes for each void of each chunk (450 with SGM_WAY_WIDEST), and what the field keeps of what it derived; of the way
- * 12 bytes a place and up to 300 a chunk, and up to 20 MB while it is walked. The same answer on every machine and with any number of threads.
- * Blocks; uses the job system. SGM_OK also where there is no way: the verdict says why. SGM_INCOMPLETE: the places did
- * not all fit; the first ones were written. SGM_ERR_RANGE: the region, with one chunk around it, leaves the world. On
- * failure `out` stays as it was. */
+ * that of `to`: a short way, though not always the shortest. The region is looked at across its longest axis. Memory:
+ * of about two layers of chunks across that axis, with one chunk around them, the signs of the samples (8.7 KB a chunk
+ * that the surface crosses); of one layer the faces (2.2 KB each that a void touches, 17 times that with
+ * SGM_WAY_WIDEST); of the whole region some 300 bytes for each void of each chunk (450 with SGM_WAY_WIDEST), and what
+ * the field keeps of what it derived; of the way 12 bytes a place and up to 300 a chunk, and up to 20 MB while it is
+ * walked. The same answer on every machine and with any number of threads. Blocks; uses the job system. SGM_OK also
+ * where there is no way: the verdict says why. SGM_INCOMPLETE: the places did not all fit; the first ones were written.
+ * SGM_ERR_RANGE: the region, with one chunk around it, leaves the world. On failure `out` stays as it was. */
 SGM_API sgm_result sgm_field_find_way(sgm_field* field, const sgm_way_desc* desc, sgm_way* out, sgm_error* error);
 
 /* ------------------------------------------------------------------------------------------ measures: of any mesh */
@@ -1168,11 +1168,11 @@ typedef struct sgm_measures {
   }
 
 /* Measures any mesh, and judges whether it is the closed surface of a solid. Blocks; uses the job system; the same
- * numbers for any number of threads. Takes some 200 bytes a triangle of a closed mesh from the runtime's allocator while
- * it works, and 500 where triangles share no points. Exact for coordinates that are 0 or of 1e-70 to 1e37. Whatever is wrong with the
- * mesh is in `out`, not an error. SGM_INCOMPLETE: the histogram holds what fits, all else is whole.
- * SGM_ERR_INVALID_ARGUMENT also for an index that is not below position_count. SGM_ERR_LIMIT: more than 2^30 cubes, or
- * triangles over more than 2^27 columns of them. */
+ * numbers for any number of threads. Takes some 200 bytes a triangle of a closed mesh from the runtime's allocator
+ * while it works, and 500 where triangles share no points. Exact for coordinates that are 0 or of 1e-70 to 1e37.
+ * Whatever is wrong with the mesh is in `out`, not an error. SGM_INCOMPLETE: the histogram holds what fits, all else is
+ * whole. SGM_ERR_INVALID_ARGUMENT also for an index that is not below position_count. SGM_ERR_LIMIT: more than 2^30
+ * cubes, or triangles over more than 2^27 columns of them. */
 SGM_API sgm_result sgm_measure(sgm_runtime* runtime, const sgm_measure_desc* desc, sgm_measures* out, sgm_error* error);
 
 /* ---------------------------------------------------------------------------------------------- volumes: density */
