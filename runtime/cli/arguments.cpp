@@ -329,8 +329,9 @@ Command addMeasure(CLI::App& root) {
   const std::vector<CLI::Option*> of_files = optionsBeside(*app, before_limits), shared = optionsBeside(*app, {});
   addLevelOption(*app, *options);
   addSharpOption(*app, *options);
-  const std::vector<CLI::Option*> of_surfaces = optionsBeside(*app, of_all);
+  std::vector<CLI::Option*> of_surfaces = optionsBeside(*app, of_all);
   addDerivationOptions(*app, *options);
+  of_surfaces.push_back(app->get_option("--backend"));  // voids are looked at on the CPU
   addRegionOptions(*app, *options);
   addVoidOptions(*app, *options, of_surfaces);
   const std::vector<CLI::Option*> of_grammars = optionsBeside(*app, shared);

@@ -134,6 +134,8 @@ std::string textOf(const VoidAnswer& answer, const MeasureOptions& options, int3
   const VoidWay& way = *answer.way;
   if (way.verdict == WayVerdict::found)
     text += fmt::format("  way        {:.6g} m, {} places\n", inMetres(way.length), way.places.size());
+  // Where rock is at an end, that is why no agent passes, and the error says so.
+  if (way.verdict == WayVerdict::from_in_rock || way.verdict == WayVerdict::to_in_rock) return text;
   return text + fmt::format("  widest     {}\n", widestText(way, cell));
 }
 
@@ -151,6 +153,7 @@ Result<VoidQuestion> questionOf(const MeasureOptions& options, const IntBox& reg
     question.ends->to[axis] = (*to)[axis] * kUnitsPerMetre;
   }
   question.ends->widest = true;
+  question.ends->tell_metres = true;
   return question;
 }
 

@@ -1,6 +1,7 @@
 #include "measure/hausdorff.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 #include <utility>
@@ -13,6 +14,10 @@ namespace sgm::measure {
 namespace {
 
 constexpr uint32_t kMostCuts = 64;
+// What one job takes. Fixed, so that results do not depend on the number of threads; small, since one search may look
+// at much of the other surface where all of that is equally far.
+constexpr size_t kSampledTogether = 128;  // triangles, or points
+constexpr size_t kRefinedTogether = 64;   // parts
 
 using Part = std::array<Point, 3>;
 
@@ -38,18 +43,22 @@ class Distances {
 
   Nearest from(Point place, uint32_t guess) const { return nearestOf(to_, tree_, place, guess); }
 
-  /// What no place of the part is farther than. The distance changes by no more than one moves; and the distance to one
-  /// triangle, which is convex, is largest in a corner of the part.
+  /// What no place of the part is farther than. The distance changes by no more than one moves.
   double atMost(const Part& part, const Nearest& of_middle) const {
     const Point middle = middleOf(part);
-    const Triangle& t = to_.triangles[of_middle.triangle];
-    const Part nearest{to_.points[t[0]], to_.points[t[1]], to_.points[t[2]]};
-    double reach = 0, from_corners = 0;
-    for (const Point corner : part) {
-      reach = std::max(reach, length(corner - middle));
-      from_corners = std::max(from_corners, length(nearestOn(nearest, corner) - corner));
-    }
-    return std::min(of_middle.distance + reach, from_corners);
+    double reach = 0;
+    for (const Point corner : part) reach = std::max(reach, length(corner - middle));
+    return std::min(of_middle.distance + reach, atMost(part, of_middle.triangle));
+  }
+
+  /// The same by one triangle alone, whichever: the distance to it, which is convex, is largest in a corner of the
+  /// part.
+  double atMost(const Part& part, uint32_t triangle) const {
+    const Triangle& t = to_.triangles[triangle];
+    const Part corners{to_.points[t[0]], to_.points[t[1]], to_.points[t[2]]};
+    double farthest = 0;
+    for (const Point corner : part) farthest = std::max(farthest, length(nearestOn(corners, corner) - corner));
+    return farthest;
   }
 
  private:
@@ -74,29 +83,58 @@ struct Found {
 struct Candidate {
   double at_most = 0;
   Part part;
+  uint32_t triangle = 0;  ///< the one that is nearest to its middle
 
   friend bool operator<(const Candidate& a, const Candidate& b) { return a.at_most < b.at_most; }
 };
 
-/// Cuts the part with the highest bound until it is no longer worth it, and returns that bound.
+/// A quarter of a candidate. Where it cannot be farther than what is enough, its middle was not looked at.
+struct Quarter {
+  Candidate rest;
+  double distance = -1;  ///< of its middle
+};
+
+/// Cuts the parts with the highest bounds, some at a time, until none is worth it, and returns the highest bound.
 double refine(const Distances& distances, std::vector<Candidate> candidates, const HausdorffSettings& settings,
-              Found& found) {
+              JobSystem& jobs, Found& found) {
   std::priority_queue<Candidate> open({}, std::move(candidates));
-  uint32_t guess = 0;
-  for (uint64_t step = 0; step < settings.refinements && !open.empty(); ++step) {
-    const Candidate top = open.top();
-    if (top.at_most <= found.at_least + settings.tolerance) break;
-    open.pop();
-    for (uint32_t k = 0; k < 4; ++k) {
-      const Part part = partOf(top.part, 2, k);
-      const Nearest nearest = distances.from(middleOf(part), guess);
-      guess = nearest.triangle;
-      found.offer(nearest.distance, middleOf(part));
-      const double at_most = std::min(top.at_most, distances.atMost(part, nearest));
-      if (at_most > found.at_least) open.push({at_most, part});
+  double settled = found.at_least;  // the highest bound of the parts that are no longer open
+  uint64_t left = settings.refinements;
+  std::vector<Candidate> cut;
+  std::vector<std::array<Quarter, 4>> quarters(kRefinedTogether);
+  for (;;) {
+    const double enough = found.at_least + settings.tolerance;
+    cut.clear();
+    for (; cut.size() < kRefinedTogether && left > 0 && !open.empty() && open.top().at_most > enough; --left) {
+      cut.push_back(open.top());
+      open.pop();
+    }
+    if (cut.empty()) break;
+    parallelFor(jobs, cut.size(), [&](size_t i) {
+      for (uint32_t k = 0; k < 4; ++k) {
+        const Part part = partOf(cut[i].part, 2, k);
+        Quarter& quarter = quarters[i][k];
+        quarter = {{std::min(cut[i].at_most, distances.atMost(part, cut[i].triangle)), part, cut[i].triangle}};
+        if (quarter.rest.at_most <= enough) continue;
+        const Nearest nearest = distances.from(middleOf(part), cut[i].triangle);
+        quarter.distance = nearest.distance;
+        quarter.rest.triangle = nearest.triangle;
+        quarter.rest.at_most = std::min(quarter.rest.at_most, distances.atMost(part, nearest));
+      }
+    });
+    for (size_t i = 0; i < cut.size(); ++i) {
+      for (const Quarter& quarter : quarters[i]) {
+        found.offer(quarter.distance, middleOf(quarter.rest.part));
+        if (quarter.rest.at_most > found.at_least + settings.tolerance) {
+          open.push(quarter.rest);
+        } else {
+          settled = std::max(settled, quarter.rest.at_most);
+        }
+      }
     }
   }
-  return open.empty() ? found.at_least : std::max(found.at_least, open.top().at_most);
+  if (!open.empty()) settled = std::max(settled, open.top().at_most);
+  return std::max(settled, found.at_least);
 }
 
 Error wrong(const char* message) { return {Code::invalid_argument, message}; }
@@ -118,12 +156,13 @@ Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const 
     const Triangle& t = from.triangles[i];
     return Part{from.points[t[0]], from.points[t[1]], from.points[t[2]]};
   };
-  std::vector<Found> blocks((count + kBlock - 1) / kBlock);
+  std::vector<Found> blocks((count + kSampledTogether - 1) / kSampledTogether);
   LargeVector<double> bounds(count * parts, from.memory);
+  LargeVector<uint32_t> nearest_to(count * parts, from.memory);
   parallelFor(jobs, blocks.size(), [&](size_t block) {
     Found& found = blocks[block];
     uint32_t guess = 0;
-    for (size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+    for (size_t i = block * kSampledTogether; i < std::min(count, (block + 1) * kSampledTogether); ++i) {
       const Part whole = wholeOf(i);
       const double area = 0.5 / parts * length(crossOf(whole[0], whole[1], whole[2]));
       for (uint32_t k = 0; k < parts; ++k) {
@@ -135,6 +174,7 @@ Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const 
         found.sum += area * nearest.distance;
         found.squares += area * nearest.distance * nearest.distance;
         bounds[i * parts + k] = distances.atMost(part, nearest);
+        nearest_to[i * parts + k] = nearest.triangle;
       }
     }
   });
@@ -143,10 +183,10 @@ Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const 
   for (const Triangle& t : from.triangles)
     for (const uint32_t v : t) used[v] = true;
   const size_t points = from.points.size();
-  std::vector<Found> of_points((points + kBlock - 1) / kBlock);
+  std::vector<Found> of_points((points + kSampledTogether - 1) / kSampledTogether);
   parallelFor(jobs, of_points.size(), [&](size_t block) {
     uint32_t guess = 0;
-    for (size_t v = block * kBlock; v < std::min(points, (block + 1) * kBlock); ++v) {
+    for (size_t v = block * kSampledTogether; v < std::min(points, (block + 1) * kSampledTogether); ++v) {
       if (!used[v]) continue;
       const Nearest nearest = distances.from(from.points[v], guess);
       guess = nearest.triangle;
@@ -166,10 +206,11 @@ Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const 
   std::vector<Candidate> candidates;
   for (size_t i = 0; i < bounds.size(); ++i) {
     if (bounds[i] <= all.at_least) continue;
-    candidates.push_back({bounds[i], partOf(wholeOf(i / parts), settings.cuts, static_cast<uint32_t>(i % parts))});
+    candidates.push_back(
+        {bounds[i], partOf(wholeOf(i / parts), settings.cuts, static_cast<uint32_t>(i % parts)), nearest_to[i]});
   }
   result.samples = count * parts + static_cast<uint64_t>(std::count(used.begin(), used.end(), uint8_t{1}));
-  result.at_most = refine(distances, std::move(candidates), settings, all);
+  result.at_most = refine(distances, std::move(candidates), settings, jobs, all);
   result.at_least = all.at_least;
   result.farthest = all.farthest;
   result.mean = all.area > 0 ? all.sum / all.area : 0;

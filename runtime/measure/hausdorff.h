@@ -13,7 +13,8 @@ struct HausdorffSettings {
   uint32_t cuts = 2;
   /// Where the bounds of the farthest place lie so close together, in the mesh's unit, no more is looked at. >= 0
   double tolerance = 0;
-  /// At most so many of the parts that may hold the farthest place are cut in four again.
+  /// At most so many of the parts that may hold the farthest place are cut in four again; what is left then has its
+  /// bound in at_most.
   uint64_t refinements = uint64_t{1} << 16;
 };
 
@@ -34,7 +35,7 @@ struct Hausdorff {
 };
 
 /// Contract: the coordinates are at most kFarthest. All 0 where `from` has no triangle. Pure; the same bits for any
-/// number of threads. Memory: that of a Bvh of `to`, and 8 bytes a part of `from`, 88 where it may hold the farthest
+/// number of threads. Memory: that of a Bvh of `to`, and 12 bytes a part of `from`, 100 where it may hold the farthest
 /// place.
 /// Errors: invalid_argument where `to` has no triangle and `from` has one, or for settings out of range.
 Result<OneSided> distanceFrom(const Triangles& from, const Triangles& to, const HausdorffSettings& settings,

@@ -18,8 +18,8 @@ double between(const std::array<double, 3>& a, const std::array<double, 3>& b) {
 
 }  // namespace
 
-VoidGraph::VoidGraph(Int3 chunks, bool ways, std::pmr::memory_resource* memory)
-    : chunks_(chunks),
+VoidGraph::VoidGraph(const ChunkOrder& order, bool ways, std::pmr::memory_resource* memory)
+    : order_(order),
       ways_(ways),
       memory_(memory),
       first_(memory),
@@ -29,16 +29,10 @@ VoidGraph::VoidGraph(Int3 chunks, bool ways, std::pmr::memory_resource* memory)
       portals_(memory),
       awaiting_{std::pmr::vector<OpenFace>(memory), std::pmr::vector<OpenFace>(memory),
                 std::pmr::vector<OpenFace>(memory)} {
-  const auto x = static_cast<size_t>(chunks.x), y = static_cast<size_t>(chunks.y);
-  const std::array<size_t, 3> faces{1, x, x * y};
-  for (size_t axis = 0; axis < 3; ++axis) {
-    for (size_t i = 0; i < faces[axis]; ++i) awaiting_[axis].push_back({FaceVoids(memory), 0});
+  for (int axis = 0; axis < 3; ++axis) {
+    for (uint64_t i = 0; i < order.stride(axis); ++i)
+      awaiting_[static_cast<size_t>(axis)].push_back({FaceVoids(memory), 0});
   }
-}
-
-Int3 VoidGraph::chunkAt(uint32_t number) const {
-  const auto x = static_cast<uint32_t>(chunks_.x), y = static_cast<uint32_t>(chunks_.y);
-  return {static_cast<int32_t>(number % x), static_cast<int32_t>(number / x % y), static_cast<int32_t>(number / x / y)};
 }
 
 uint32_t VoidGraph::chunkOf(uint32_t number) const {
@@ -53,11 +47,12 @@ uint32_t VoidGraph::rootOf(uint32_t number) {
 bool VoidGraph::add(ChunkVoids chunk) {
   const size_t first = parent_.size();
   if (first + chunk.voids.size() > std::numeric_limits<uint32_t>::max()) return false;
-  const Int3 at = chunkAt(static_cast<uint32_t>(first_.size()));
+  const size_t number = first_.size();
+  const Int3 at = order_.at(number), counts = order_.counts();
   uint8_t border = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (at[axis] == 0) border |= static_cast<uint8_t>(1 << 2 * axis);
-    if (at[axis] + 1 == chunks_[axis]) border |= static_cast<uint8_t>(2 << 2 * axis);
+    if (at[axis] + 1 == counts[axis]) border |= static_cast<uint8_t>(2 << 2 * axis);
   }
   first_.push_back(static_cast<uint32_t>(first));
   for (const ChunkVoids::Void& v : chunk.voids) {
@@ -66,10 +61,9 @@ bool VoidGraph::add(ChunkVoids chunk) {
     open_.push_back((v.faces & border) != 0);
   }
   const Int3 corner{at.x * kChunkCells, at.y * kChunkCells, at.z * kChunkCells};
-  const std::array<size_t, 3> places{0, static_cast<size_t>(at.x), static_cast<size_t>(at.x + chunks_.x * at.y)};
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
-    OpenFace& before = awaiting_[a][places[a]];
+    OpenFace& before = awaiting_[a][number % awaiting_[a].size()];
     if (at[axis] > 0) join(before, chunk.faces[2 * a], axis, corner);
     before = {std::move(chunk.faces[2 * a + 1]), static_cast<uint32_t>(first)};
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "stream/chunk_order.h"
 #include "stream/chunk_voids.h"
 
 namespace sgm {
@@ -19,13 +20,13 @@ struct RegionVoid {
 };
 
 /// Takes in chunks one by one, and keeps of each its voids and how they touch those of its neighbours; of samples no
-/// more than the faces of the last layer.
+/// more than the faces of the last layer: two bytes for each of the 1,089 of a face.
 class VoidGraph {
  public:
-  /// chunks: of the region, on each axis. ways: keep what chunksOfWay() needs.
-  VoidGraph(Int3 chunks, bool ways, std::pmr::memory_resource* memory);
+  /// order: of the region's chunks. ways: keep what chunksOfWay() needs.
+  VoidGraph(const ChunkOrder& order, bool ways, std::pmr::memory_resource* memory);
 
-  /// The next chunk: x fastest, then y, then z. False where the region has more voids than 32 bits can number.
+  /// The next chunk of the order. False where the region has more voids than 32 bits can number.
   bool add(ChunkVoids chunk);
 
   /// The number of a void of the chunk that was added last.
@@ -39,7 +40,7 @@ class VoidGraph {
   /// Of the region, the largest ones first.
   std::vector<RegionVoid> voids();
 
-  /// Chunks that a way from a to b leads through, by number in the order of add(): those at the shortest sum of
+  /// Chunks that a way from a to b leads through, by their numbers in the order: those at the shortest sum of
   /// straight lines through the middles of the faces' parts that the voids share. A chunk comes once each time that the
   /// way enters it; each shares a face with the one before. from, to: samples of the two, counted from the region's
   /// lowest. Preconditions: joined(a, b), and ways were asked for.
@@ -59,13 +60,12 @@ class VoidGraph {
     uint32_t first = 0;  ///< of the chunk's voids
   };
 
-  Int3 chunkAt(uint32_t number) const;
   uint32_t chunkOf(uint32_t number) const;
   uint32_t rootOf(uint32_t number);
   void join(const OpenFace& low, const FaceVoids& high, int axis, Int3 corner);
   std::vector<std::vector<uint32_t>> portalsByVoid() const;
 
-  Int3 chunks_;
+  ChunkOrder order_;
   bool ways_;
   std::pmr::memory_resource* memory_;
   std::pmr::vector<uint32_t> first_;    ///< of each chunk's voids
@@ -73,8 +73,8 @@ class VoidGraph {
   std::pmr::vector<uint32_t> samples_;  ///< of each void in its chunk
   std::pmr::vector<uint8_t> open_;      ///< 1: touches the region's border
   std::pmr::vector<Portal> portals_;    ///< where ways are asked for
-  std::array<std::pmr::vector<OpenFace>, 3>
-      awaiting_;  ///< by axis: high faces of the row, the layer and the block before
+  /// By axis: high faces of the last chunks, as many as come before the neighbour along it.
+  std::array<std::pmr::vector<OpenFace>, 3> awaiting_;
 };
 
 }  // namespace sgm

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "grammar/sink.h"
 #include "stream/void_walk.h"
@@ -44,7 +46,7 @@ class VoidSearch {
     answer.sample = edge * edge * edge;
     if (question_.ends) {
       for (size_t i = 0; i < 2; ++i) {
-        const Result<End> end = endAt(i == 0 ? question_.ends->from : question_.ends->to);
+        const Result<End> end = i == 0 ? endAt("from", question_.ends->from) : endAt("to", question_.ends->to);
         if (!end) return end.error();
         ends_[i] = *end;
       }
@@ -62,7 +64,7 @@ class VoidSearch {
     if (!way) return way.error();
     if (question_.ends->widest) {
       if (const Result<void> ok = narrow(*looks); !ok) return ok.error();
-      way->widest = std::sqrt(static_cast<double>(last_holding_)) * field_.cell;
+      way->widest = leastAsFar(last_holding_);
     }
     answer.way = std::move(*way);
     return answer;
@@ -113,16 +115,32 @@ class VoidSearch {
     return {sample.x - first.x, sample.y - first.y, sample.z - first.z};
   }
 
-  Result<End> endAt(const std::array<double, 3>& place) {
+  /// x, y, z as the caller counts.
+  std::string told(const std::array<double, 3>& place) const {
+    const double unit = question_.ends->tell_metres ? kUnitsPerMetre : 1;
+    return numberText(place[0] / unit) + ", " + numberText(place[1] / unit) + ", " + numberText(place[2] / unit);
+  }
+
+  Result<End> endAt(const char* name, const std::array<double, 3>& place) {
+    std::array<double, 3> first{}, last{};
+    bool finite = true, inside = true;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      first[axis] = double{kChunkCells} * field_.cell * low_[static_cast<int>(axis)];
+      last[axis] = double{kChunkCells} * field_.cell * high_[static_cast<int>(axis)];
+      finite = finite && std::isfinite(place[axis]);
+      inside = inside && place[axis] >= first[axis] && place[axis] <= last[axis];
+    }
+    const std::string end_of = std::string("the end `") + name + "` of the way ";
+    if (!finite) return Error{Code::invalid_argument, end_of + "is not finite"};
+    if (!inside) {
+      return Error{Code::invalid_argument, end_of + "lies outside of the region: it is at (" + told(place) +
+                                               "), and the region goes from (" + told(first) + ") to (" + told(last) +
+                                               "), in " +
+                                               (question_.ends->tell_metres ? "metres" : "units of 1/1024 m")};
+    }
     Int3 low;
     for (int axis = 0; axis < 3; ++axis) {
-      const double units = place[static_cast<size_t>(axis)];
-      if (!std::isfinite(units)) return Error{Code::invalid_argument, "an end of the way is not finite"};
-      const double first = double{kChunkCells} * field_.cell * low_[axis];
-      const double last = double{kChunkCells} * field_.cell * high_[axis];
-      if (!(units >= first && units <= last))
-        return Error{Code::invalid_argument, "an end of the way lies outside of the region"};
-      const double sample = std::floor(units / field_.cell);
+      const double sample = std::floor(place[static_cast<size_t>(axis)] / field_.cell);
       low[axis] = std::min(static_cast<int32_t>(sample), high_[axis] * kChunkCells - 1);
     }
     // All eight lie in one chunk.
@@ -147,10 +165,24 @@ class VoidSearch {
     return end;
   }
 
+  /// Whether something this far away, squared and in cells, is as near as the length or nearer. Exact: the square of
+  /// the length is not rounded before it is compared.
+  bool isAsNear(int square, double length) const {
+    const double squared = static_cast<double>(field_.cell) * field_.cell * square;
+    return std::fma(length, length, -squared) >= 0;
+  }
+
   /// The least square that is more than the radius's: what is as near as that is in the way.
   int needed() const {
-    const double cells = question_.radius / field_.cell;
-    return std::min(static_cast<int>(std::floor(cells * cells)) + 1, kMostNeed);
+    int need = 1;
+    while (need < kMostNeed && isAsNear(need, question_.radius)) ++need;
+    return need;
+  }
+
+  /// The least length that what is this far away, squared and in cells, is as near as: the root, rounded up.
+  double leastAsFar(int square) const {
+    const double root = std::sqrt(static_cast<double>(field_.cell) * field_.cell * square);
+    return isAsNear(square, root) ? root : std::nextafter(root, std::numeric_limits<double>::infinity());
   }
 
   /// Needs between the last that is known to have a way and the first that is known to have none, evenly, ascending.
@@ -165,49 +197,51 @@ class VoidSearch {
   Result<std::vector<Look>> look(std::vector<int> needs, int way) {
     std::sort(needs.begin(), needs.end());
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
+    const ChunkOrder order(count_);
     std::vector<Look> looks;
-    for (const int need : needs) looks.push_back({need, VoidGraph(count_, need == way, field_.memory)});
+    for (const int need : needs) looks.push_back({need, VoidGraph(order, need == way, field_.memory)});
     const int rings = needs.back() > 1 ? 1 : 0;
-    const uint64_t in_layer = static_cast<uint64_t>(count_.x) * static_cast<uint64_t>(count_.y);
-    for (int32_t z = low_.z; z < high_.z; ++z) {
-      window_.dropUnless([&](Int3 chunk) { return std::abs(chunk.z - z) <= rings; });
-      std::vector<Int3> seen, layer;
-      for (int32_t dz = -rings; dz <= rings; ++dz) {
-        for (int32_t y = low_.y - rings; y < high_.y + rings; ++y) {
-          for (int32_t x = low_.x - rings; x < high_.x + rings; ++x) seen.push_back({x, y, z + dz});
-        }
+    for (uint64_t first = 0; first < order.size(); first += kChunksTogether) {
+      std::vector<Int3> some, seen;
+      for (uint64_t number = first; number < std::min(first + kChunksTogether, order.size()); ++number) {
+        some.push_back(chunkNumber(order, number));
+        const std::vector<Int3> around = chunksAround(some.back(), rings);
+        seen.insert(seen.end(), around.begin(), around.end());
       }
+      window_.dropUnless([&](Int3 chunk) {
+        Int3 last;  // of those that see it
+        for (int axis = 0; axis < 3; ++axis)
+          last[axis] = std::clamp(chunk[axis] + rings - low_[axis], 0, count_[axis] - 1);
+        return order.numberOf(last) >= first;
+      });
       if (const Result<void> added = window_.add(seen, jobs_); !added) return added.error();
-      for (int32_t y = low_.y; y < high_.y; ++y) {
-        for (int32_t x = low_.x; x < high_.x; ++x) layer.push_back({x, y, z});
-      }
-      const uint64_t done = in_layer * static_cast<uint64_t>(z - low_.z);
-      if (const Result<void> ok = addLayer(layer, looks, done); !ok) return ok.error();
+      if (const Result<void> ok = addChunks(some, looks, first, order.size()); !ok) return ok.error();
     }
     return looks;
   }
 
-  Result<void> addLayer(std::span<const Int3> layer, std::vector<Look>& looks, uint64_t done) {
-    const uint64_t total = static_cast<uint64_t>(count_.z) * layer.size();
-    for (size_t first = 0; first < layer.size(); first += kChunksTogether) {
-      const std::span<const Int3> some = layer.subspan(first, std::min(kChunksTogether, layer.size() - first));
-      std::vector<std::vector<ChunkVoids>> voids(some.size());
-      parallelFor(jobs_, some.size(), [&](size_t i) { voids[i] = voidsOf(some[i], looks); });
-      for (size_t i = 0; i < some.size(); ++i) {
-        for (size_t l = 0; l < looks.size(); ++l) {
-          const std::vector<std::optional<uint32_t>> marked = voids[i][l].marked;
-          if (!looks[l].graph.add(std::move(voids[i][l])))
-            return Error{Code::limit, "the region has more than 2^32 voids; ask in parts"};
-          size_t mark = 0;
-          for (size_t end = 0; end < 2; ++end) {
-            if (!owns(some[i], end)) continue;
-            const std::optional<uint32_t> v = marked[mark++];
-            if (v) looks[l].ends[end] = looks[l].graph.numberOf(*v);
-          }
+  Int3 chunkNumber(const ChunkOrder& order, uint64_t number) const {
+    const Int3 chunk = order.at(number);
+    return {low_.x + chunk.x, low_.y + chunk.y, low_.z + chunk.z};
+  }
+
+  Result<void> addChunks(std::span<const Int3> some, std::vector<Look>& looks, uint64_t done, uint64_t total) {
+    std::vector<std::vector<ChunkVoids>> voids(some.size());
+    parallelFor(jobs_, some.size(), [&](size_t i) { voids[i] = voidsOf(some[i], looks); });
+    for (size_t i = 0; i < some.size(); ++i) {
+      for (size_t l = 0; l < looks.size(); ++l) {
+        const std::vector<std::optional<uint32_t>> marked = voids[i][l].marked;
+        if (!looks[l].graph.add(std::move(voids[i][l])))
+          return Error{Code::limit, "the region has more than 2^32 voids; ask in parts"};
+        size_t mark = 0;
+        for (size_t end = 0; end < 2; ++end) {
+          if (!owns(some[i], end)) continue;
+          const std::optional<uint32_t> v = marked[mark++];
+          if (v) looks[l].ends[end] = looks[l].graph.numberOf(*v);
         }
-        if (progress_ && !progress_(++done, total) && done < total)
-          return Error{Code::cancelled, "the search for voids was cancelled"};
       }
+      if (progress_ && !progress_(++done, total) && done < total)
+        return Error{Code::cancelled, "the search for voids was cancelled"};
     }
     return {};
   }
@@ -250,8 +284,8 @@ class VoidSearch {
 
   Result<VoidWay> wayIn(Look& asked) {
     VoidWay way;
-    way.from_clearance = std::sqrt(static_cast<double>(ends_[0].clearance)) * field_.cell;
-    way.to_clearance = std::sqrt(static_cast<double>(ends_[1].clearance)) * field_.cell;
+    way.from_clearance = leastAsFar(ends_[0].clearance);
+    way.to_clearance = leastAsFar(ends_[1].clearance);
     if (asked.ends[0]) way.from_samples = asked.graph.samplesOf(*asked.ends[0]);
     if (asked.ends[1]) way.to_samples = asked.graph.samplesOf(*asked.ends[1]);
     way.verdict = !ends_[0].sample   ? WayVerdict::from_in_rock
@@ -262,14 +296,13 @@ class VoidSearch {
                                      : WayVerdict::apart;
     if (way.verdict != WayVerdict::found) return way;
     const Int3 from = *ends_[0].sample, to = *ends_[1].sample;
+    const ChunkOrder order(count_);
     std::vector<Int3> chunks;
     for (const uint32_t number :
-         asked.graph.chunksOfWay(*asked.ends[0], localIn(low_, from), *asked.ends[1], localIn(low_, to))) {
-      const auto x = static_cast<uint32_t>(count_.x), y = static_cast<uint32_t>(count_.y);
-      chunks.push_back({low_.x + static_cast<int32_t>(number % x), low_.y + static_cast<int32_t>(number / x % y),
-                        low_.z + static_cast<int32_t>(number / x / y)});
-    }
-    Result<std::vector<Int3>> walk = shortestWalk(window_, jobs_, chunks, from, to, asked.need, field_.memory);
+         asked.graph.chunksOfWay(*asked.ends[0], localIn(low_, from), *asked.ends[1], localIn(low_, to)))
+      chunks.push_back(chunkNumber(order, number));
+    Result<std::vector<Int3>> walk =
+        shortestWalk(window_, jobs_, chunks, from, to, asked.need, field_.memory, progress_);
     if (!walk) return walk.error();
     way.length = lengthOf(*walk) * field_.cell;
     way.places = std::move(*walk);

@@ -25,6 +25,7 @@ struct VoidQuestion {
   struct Ends {
     std::array<double, 3> from{}, to{};  ///< units, in the region
     bool widest = false;                 ///< also find how large an agent may be
+    bool tell_metres = false;            ///< errors tell places in metres, not in units
   };
   std::optional<Ends> ends;     ///< none: no way is asked for
   uint64_t max_chunks = 65536;  ///< of the region; never more than 2^24
@@ -46,10 +47,12 @@ struct VoidWay {
   /// chunks that VoidGraph::chunksOfWay() chooses. Empty where there is none.
   std::vector<Int3> places;
   double length = 0;
-  /// From each place's sample to the nearest solid one, at most kMostClearance cells; 0 in rock.
+  /// From each place's sample to the nearest solid one, at most kMostClearance cells; 0 in rock. Rounded up, so that an
+  /// agent of this radius does not fit there.
   double from_clearance = 0, to_clearance = 0;
   /// Where it was asked for: there is a way for every radius below this, and for none from it on; 0: for no agent at
-  /// all. Exact, up to kMostClearance cells, from which on it stands for any larger value too.
+  /// all. Exact, up to kMostClearance cells, from which on it stands for any larger value too: asked with this radius
+  /// there is no way, with the next number below there is one.
   double widest = 0;
   /// Samples of the voids that the two places lie in, for this radius; 0 where one is not free.
   uint64_t from_samples = 0, to_samples = 0;
@@ -63,8 +66,11 @@ struct VoidAnswer {
   std::optional<VoidWay> way;     ///< where ends are given
 };
 
-/// Looks at the region's chunks layer by layer, and keeps of them their voids and what these share. To find the widest
-/// agent it looks again, at most twice. The same answer whatever the job system does. progress: of each look by itself.
+/// Looks at the region's chunks one after the other, across its longest axis, and keeps their voids and what these
+/// share; of samples the signs (a bit each, 8.7 KB a chunk that is not all solid or all void) of about two layers of
+/// chunks with one around them, and the faces of one (void_graph.h). A way takes 12 bytes a place, and up to 300 a
+/// chunk (void_walk.h). To find the widest agent it looks again, at most twice. The same answer whatever the job system
+/// does. progress: counts chunks, of each look by itself, and of the walk that finds the way.
 /// Errors: invalid_argument (the region is empty; the radius; an end outside of the region, or not finite), range (the
 /// region, with one chunk around it, leaves the world), limit (more than max_chunks chunks, or 2^32 voids), cancelled,
 /// and those of compiling the field.

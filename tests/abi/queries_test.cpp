@@ -1,7 +1,9 @@
 // Questions to the field through C: a ball's surface, a floor, and the same from many threads.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 #include <thread>
 
 #include "fixture.h"
@@ -150,9 +152,123 @@ TEST_CASE(
   REQUIRE(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_OK);
   CHECK(way.verdict == SGM_WAY_FROM_IN_ROCK);
   CHECK((way.from_clearance == 0 && way.widest == 0));
-  desc.progress = [](void*, uint64_t, uint64_t) -> int32_t { return 1; };
-  for (int32_t& v : desc.maximum) v = 16 * 1024;
-  CHECK(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_ERR_CANCELLED);
+}
+
+TEST_CASE("the radius that a way is widest for has none, and the number before it has one") {
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(runtime.get(), kBall);
+  const FieldOwner field = makeField(runtime.get(), grammar.get());
+  sgm_way_desc desc = SGM_WAY_DESC_INIT;
+  for (int32_t& v : desc.maximum) v = 8 * 1024;
+  desc.to[0] = 7.75 * 1024;
+  // Places about the ball, whose nearest samples lie at all kinds of distances.
+  size_t odd = 0;
+  for (int place = 0; place < 24; ++place) {
+    CAPTURE(place);
+    for (int axis = 0; axis < 3; ++axis) desc.to[axis] = desc.from[axis] = axis == place % 3 ? 256.0 : 256.0 * place;
+    desc.radius = 0;
+    desc.flags = SGM_WAY_WIDEST;
+    sgm_way way = SGM_WAY_INIT;
+    REQUIRE(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_OK);
+    if (way.widest == 0) continue;
+    const double cells = way.widest * 4;
+    odd += cells != std::floor(cells);
+    desc.flags = 0;
+    desc.radius = way.widest;
+    sgm_way again = SGM_WAY_INIT;
+    REQUIRE(sgm_field_find_way(field.get(), &desc, &again, nullptr) == SGM_OK);
+    CHECK(again.verdict == SGM_WAY_FROM_TOO_NARROW);
+    desc.radius = std::nextafter(way.widest, 0);
+    REQUIRE(sgm_field_find_way(field.get(), &desc, &again, nullptr) == SGM_OK);
+    CHECK(again.verdict == SGM_WAY_FOUND);
+  }
+  CHECK(odd > 3);
+}
+
+namespace {
+
+/// What a callback of progress was told: of each run that begins with 1, how far it came and its total.
+struct Told {
+  std::vector<std::array<uint64_t, 2>> runs;
+  size_t calls = 0, stop_at = 0;  ///< at this call the work is to stop; 0: at none
+  bool steady = true;             ///< done rose by one, to a total that stayed
+};
+
+int32_t tell(void* user, uint64_t done, uint64_t total) {
+  Told& told = *static_cast<Told*>(user);
+  if (done == 1) told.runs.push_back({0, total});
+  told.steady = told.steady && !told.runs.empty() && done == told.runs.back()[0] + 1 && total == told.runs.back()[1] &&
+                done <= total;
+  if (!told.runs.empty()) told.runs.back()[0] = done;
+  return ++told.calls == told.stop_at ? 1 : 0;
+}
+
+}  // namespace
+
+TEST_CASE("a way tells of each look at its region and of its walk, in a flat region too, and stops in any of them") {
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(runtime.get(), kBall);
+  const FieldOwner field = makeField(runtime.get(), grammar.get());
+  for (const int flat : {0, 1, 2}) {
+    CAPTURE(flat);
+    // 9 by 9 chunks of 8 m, and one.
+    sgm_way_desc desc = SGM_WAY_DESC_INIT;
+    for (int axis = 0; axis < 3; ++axis) {
+      desc.maximum[axis] = (axis == flat ? 8 : 72) * 1024;
+      desc.from[axis] = 256;
+      desc.to[axis] = axis == flat ? 256 : 70 * 1024;
+    }
+    desc.flags = SGM_WAY_WIDEST;
+    Told told;
+    desc.progress = tell;
+    desc.progress_user = &told;
+    sgm_way way = SGM_WAY_INIT;
+    REQUIRE(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_OK);
+    REQUIRE(way.verdict == SGM_WAY_FOUND);
+    CHECK(told.steady);
+    // A look, the walk, and at most two looks more for the widest agent.
+    REQUIRE((told.runs.size() >= 3 && told.runs.size() <= 4));
+    for (size_t run = 0; run < told.runs.size(); ++run) {
+      CAPTURE(run);
+      CHECK(told.runs[run][0] == told.runs[run][1]);
+      if (run != 1) CHECK(told.runs[run][1] == 81);
+    }
+    CHECK((told.runs[1][1] >= 9 && told.runs[1][1] < 81));
+
+    const size_t walk = 81 + told.runs[1][1];
+    for (const size_t stop : {size_t{1}, size_t{50}, size_t{82}, walk + 1, walk + 80}) {
+      CAPTURE(stop);
+      Told stopped;
+      stopped.stop_at = stop;
+      desc.progress_user = &stopped;
+      way.verdict = 77;
+      CHECK(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_ERR_CANCELLED);
+      CHECK((stopped.calls == stop && stopped.steady && way.verdict == 77));
+    }
+    // The last call of a run does not stop it.
+    desc.flags = 0;
+    Told last;
+    last.stop_at = walk;
+    desc.progress_user = &last;
+    CHECK(sgm_field_find_way(field.get(), &desc, &way, nullptr) == SGM_OK);
+    CHECK((last.calls == walk && last.runs.size() == 2));
+  }
+}
+
+TEST_CASE("an end outside of the region is told by its name, in units") {
+  RuntimeOwner runtime = makeRuntime();
+  const GrammarOwner grammar = compile(runtime.get(), kBall);
+  const FieldOwner field = makeField(runtime.get(), grammar.get());
+  sgm_way_desc desc = SGM_WAY_DESC_INIT;
+  for (int32_t& v : desc.maximum) v = 8 * 1024;
+  desc.to[1] = 9000.5;
+  sgm_way way = SGM_WAY_INIT;
+  sgm_error error = SGM_ERROR_INIT;
+  CHECK(sgm_field_find_way(field.get(), &desc, &way, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(
+      std::string(error.message) ==
+      "the end `to` of the way lies outside of the region: it is at (0, 9000.5, 0), and the region goes from (0, 0, 0) "
+      "to (8192, 8192, 8192), in units of 1/1024 m");
 }
 
 TEST_CASE("many threads ask one field", "[threads]") {

@@ -293,8 +293,20 @@ expect 1 "$SGM" measure rooms.sgm --cell 0.25 --from -14,0,0 --to 14,0,0 --json
 json '!j.way.found && j.way.verdict === "apart" && j.way.widest === 0 && j.way.length === null && j.way.places.length === 0'
 json '/no agent passes/.test(j.way.why) && j.way.from_volume > j.way.to_volume'
 err_empty
+expect 1 "$SGM" measure rooms.sgm --cell 0.25 --from -14,0,0 --to 14,0,0
+out_has 'widest +no agent passes, however small'
 expect 1 "$SGM" measure rooms.sgm --cell 0.25 --from -19,-7,-7 --to 14,0,0
 err_has 'error: --from lies in rock'
+out_has 'voids +2'
+[[ $out != *widest* ]] || failed "rock at an end is told as a width"
+expect 1 "$SGM" measure rooms.sgm --cell 0.25 --from -14,0,0 --to 19,7,7
+err_has 'error: --to lies in rock'
+[[ $out != *widest* ]] || failed "rock at an end is told as a width"
+# An agent as large as the widest is told to be is too large by the last bit.
+expect 0 "$SGM" measure rooms.sgm --cell 0.25 "${from_to[@]}" --json
+widest=$(node -p 'JSON.parse(require("fs").readFileSync(".out")).way.widest')
+expect 1 "$SGM" measure rooms.sgm --cell 0.25 "${from_to[@]}" --radius "$widest" --json
+json "j.radius === j.way.widest && j.radius === $widest"
 expect 1 "$SGM" measure rooms.sgm --cell 0.25 --from -14,0,0 --to -6,0,0 --radius 0.8
 err_has 'does not fit at --to: rock is 0\.[5-9]'
 expect 0 "$SGM" measure rooms.sgm --cell 0.25 --radius 0 --json
@@ -304,6 +316,9 @@ expect 2 "$SGM" measure rooms.sgm --from -14,0,0 --to 1,2
 expect 2 "$SGM" measure rooms.sgm --radius=-1
 expect 2 "$SGM" measure rooms.sgm --radius nan
 expect 2 "$SGM" measure rooms.sgm --radius 0 --bins 9
+expect 2 "$SGM" measure rooms.sgm --radius 0 --backend cuda
+expect 2 "$SGM" measure rooms.sgm "${from_to[@]}" --backend cpu
+err_has '--backend excludes --from'
 expect 2 "$SGM" measure ball.ply --radius 0
 err_has 'a mesh file has none'
 one_line
@@ -311,7 +326,7 @@ expect 1 "$SGM" measure rooms.sgm --cell 0.25 --radius 8
 err_has 'less than 32 cells, 8 m'
 one_line
 expect 1 "$SGM" measure rooms.sgm --from -14,0,0 --to 1e9,8,8
-err_has 'an end of the way lies outside of the region'
+err_has 'the end `to` of the way lies outside of the region: it is at \(1e\+09, 8, 8\), and the region goes from \(-32, -16, -16\) to \(32, 16, 16\), in metres'
 one_line
 expect 2 "$SGM" measure "$SOURCE/samples/grammars/cave.sgm" --radius 0
 err_has 'endless: say which part with --region'

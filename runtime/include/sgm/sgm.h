@@ -14,7 +14,8 @@
  *
  * Conventions, true of every declaration unless it says otherwise
  *   Space      Right-handed, Y up. World positions are int32_t in units of 1/1024 m on each axis
- *              (SGM_UNITS_PER_METRE), about +-2,097 km. Lengths given as double or float are metres.
+ *              (SGM_UNITS_PER_METRE), about +-2,097 km; so are those given as double, which may also lie between
+ *              units. Lengths (a radius, a distance, a height) given as double or float are metres.
  *   Solid      The field is negative inside the solid. Normals point out of the solid; front faces run
  *              counter-clockwise seen from the void (as in glTF and Godot).
  *   Handles    Opaque. A function that makes one writes it through its `out` parameter, and writes NULL there when it
@@ -1020,7 +1021,8 @@ typedef enum sgm_way_flag {
 typedef struct sgm_way_desc {
   uint32_t struct_size;
   const void* next;
-  double from[3], to[3];          /* units, in the region */
+  double from[3], to[3];          /* positions: units (metres times SGM_UNITS_PER_METRE), not metres as `radius` is; in
+                                     the region */
   int32_t minimum[3], maximum[3]; /* units, minimum < maximum; the region, grown outward to whole chunks. Ways do not
                                      leave it; what is solid beyond it counts, so that with one chunk around it, it must
                                      lie in the world */
@@ -1030,7 +1032,8 @@ typedef struct sgm_way_desc {
   uint64_t max_chunks;            /* SGM_ERR_LIMIT where the region has more; 0: 65,536; never more than 2^24 */
   int32_t* places;                /* takes the way's places, x y z each, in units; or NULL */
   size_t place_room;              /* places that it has room for */
-  sgm_progress_function progress; /* or NULL; counts chunks, from 1 on again each time that the region is looked at */
+  sgm_progress_function progress; /* or NULL; counts chunks: of the region, from 1 on again each time that it is looked
+                                     at; and of the way, where there is one, from 1 on with a total of its own */
   void* progress_user;
 } sgm_way_desc;
 
@@ -1048,10 +1051,11 @@ typedef struct sgm_way {
   uint32_t reserved;     /* 0 */
   uint64_t place_count;  /* of the way; 0 where there is none */
   double length;         /* of the way */
-  double from_clearance; /* from each end's sample to the nearest solid one, at most 32 cells; 0 in rock */
+  double from_clearance; /* from each end's sample to the nearest solid one, at most 32 cells; 0 in rock. As a radius
+                            it is the least that does not fit there */
   double to_clearance;
   double widest;      /* with SGM_WAY_WIDEST, else 0: there is a way for every radius below this, and for none from
-                         it on; 32 cells stand for all that is larger; 0: for no agent at all */
+                         it on, itself included; 32 cells stand for all that is larger; 0: for no agent at all */
   double from_volume; /* of the voids that the ends lie in, for this radius; 0 where an end is not free */
   double to_volume;
   double largest_volume; /* of the region's voids */
@@ -1063,11 +1067,14 @@ typedef struct sgm_way {
   { SGM_SIZEOF(sgm_way), SGM_NULL, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0 }
 
 /* The way's places are samples of level 0, the next always joined with the one before, from the sample of `from` to
- * that of `to`: a short way, though not always the shortest. Memory grows with the voids of the region's chunks and the
- * faces of a layer of them, not with its samples. The same answer on every machine and with any number of threads.
- * Blocks; uses the job system. SGM_OK also where there is no way: the verdict says why. SGM_INCOMPLETE: the places did
- * not all fit; the first ones were written. SGM_ERR_RANGE: the region, with one chunk around it, leaves the world. On
- * failure `out` stays as it was. */
+ * that of `to`: a short way, though not always the shortest. The region is looked at across its longest axis. Memory:
+ * of about two layers of chunks across that axis, with one chunk around them, the signs of the samples (8.7 KB a chunk
+ * that the surface crosses); of one layer the faces (2.2 KB each that a void touches, 17 times that with
+ * SGM_WAY_WIDEST); of the whole region some 300 bytes for each void of each chunk (450 with SGM_WAY_WIDEST), and what
+ * the field keeps of what it derived; of the way 12 bytes a place and up to 300 a chunk, and up to 20 MB while it is
+ * walked. The same answer on every machine and with any number of threads. Blocks; uses the job system. SGM_OK also
+ * where there is no way: the verdict says why. SGM_INCOMPLETE: the places did not all fit; the first ones were written.
+ * SGM_ERR_RANGE: the region, with one chunk around it, leaves the world. On failure `out` stays as it was. */
 SGM_API sgm_result sgm_field_find_way(sgm_field* field, const sgm_way_desc* desc, sgm_way* out, sgm_error* error);
 
 /* ------------------------------------------------------------------------------------------ measures: of any mesh */
@@ -1161,11 +1168,11 @@ typedef struct sgm_measures {
   }
 
 /* Measures any mesh, and judges whether it is the closed surface of a solid. Blocks; uses the job system; the same
- * numbers for any number of threads. Takes some 200 bytes a triangle of a closed mesh from the runtime's allocator while
- * it works, and 500 where triangles share no points. Exact for coordinates that are 0 or of 1e-70 to 1e37. Whatever is wrong with the
- * mesh is in `out`, not an error. SGM_INCOMPLETE: the histogram holds what fits, all else is whole.
- * SGM_ERR_INVALID_ARGUMENT also for an index that is not below position_count. SGM_ERR_LIMIT: more than 2^30 cubes, or
- * triangles over more than 2^27 columns of them. */
+ * numbers for any number of threads. Takes some 200 bytes a triangle of a closed mesh from the runtime's allocator
+ * while it works, and 500 where triangles share no points. Exact for coordinates that are 0 or of 1e-70 to 1e37.
+ * Whatever is wrong with the mesh is in `out`, not an error. SGM_INCOMPLETE: the histogram holds what fits, all else is
+ * whole. SGM_ERR_INVALID_ARGUMENT also for an index that is not below position_count. SGM_ERR_LIMIT: more than 2^30
+ * cubes, or triangles over more than 2^27 columns of them. */
 SGM_API sgm_result sgm_measure(sgm_runtime* runtime, const sgm_measure_desc* desc, sgm_measures* out, sgm_error* error);
 
 /* ---------------------------------------------------------------------------------------------- volumes: density */

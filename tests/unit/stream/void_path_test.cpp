@@ -2,7 +2,10 @@
 
 #include "stream/void_path.h"
 
+#include <atomic>
 #include <limits>
+#include <memory_resource>
+#include <mutex>
 #include <random>
 
 #include "flooded_voids.h"
@@ -232,6 +235,29 @@ void compare(const SignField& field, const Cave& cave, Random& random, double ra
   seen.shortest += shortest;
 }
 
+/// The most bytes that were taken at one time.
+class MostBytes : public std::pmr::memory_resource {
+ public:
+  size_t most() const { return most_; }
+
+ private:
+  void* do_allocate(size_t bytes, size_t alignment) override {
+    const std::lock_guard lock(mutex_);
+    now_ += bytes;
+    most_ = std::max(most_, now_);
+    return std::pmr::new_delete_resource()->allocate(bytes, alignment);
+  }
+  void do_deallocate(void* place, size_t bytes, size_t alignment) override {
+    const std::lock_guard lock(mutex_);
+    now_ -= bytes;
+    std::pmr::new_delete_resource()->deallocate(place, bytes, alignment);
+  }
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+
+  std::mutex mutex_;
+  size_t now_ = 0, most_ = 0;
+};
+
 }  // namespace
 
 TEST_CASE("random caves: voids and verdicts are those of a flood of all samples, and ways hold") {
@@ -305,17 +331,47 @@ TEST_CASE("the widest agent's radius parts those that pass from those that do no
     CHECK(widest <= std::min(asked.from_clearance, asked.to_clearance) / kCell);
     ++passed;
     wide += widest > 1.5;
-    const double below = widest * (1 - 1e-9), above = widest * (1 + 1e-9);
-    CHECK(FloodedVoids(cave.lattice, cave.region(), below).joined(from, to));
-    CHECK_FALSE(FloodedVoids(cave.lattice, cave.region(), above).joined(from, to));
-    CHECK(answered(field, questionOf(cave, from, to, below)).way->verdict == WayVerdict::found);
-    CHECK(answered(field, questionOf(cave, from, to, above)).way->verdict != WayVerdict::found);
+    // The flood's squares round where those of the search do not.
+    CHECK(FloodedVoids(cave.lattice, cave.region(), widest * (1 - 1e-9)).joined(from, to));
+    CHECK_FALSE(FloodedVoids(cave.lattice, cave.region(), widest * (1 + 1e-9)).joined(from, to));
+    CHECK(answered(field, questionOf(cave, from, to, std::nextafter(widest, 0))).way->verdict == WayVerdict::found);
+    CHECK(answered(field, questionOf(cave, from, to, widest)).way->verdict != WayVerdict::found);
     // Whatever was asked first.
     for (const double radius : {0.0, widest / 2, 30.0})
       CHECK(answered(field, questionOf(cave, from, to, radius, true)).way->widest == asked.widest);
   }
   WARN(passed << " pairs of places have a way, " << none << " have none; " << wide << " ways are wider than a sample");
   CHECK((passed > 0 && none > 0 && wide > 0));
+}
+
+TEST_CASE("the widest agent's radius itself is too wide by the last bit, for every distance between samples") {
+  // The nearest solid sample is (a, b, c) away from the one place that is asked about, in cells of odd sizes too.
+  size_t rounded_down = 0;
+  for (const int32_t cell : {256, 333}) {
+    for (int a = 1; a <= 5; ++a) {
+      for (int b = 0; b <= a; ++b) {
+        for (int c = 0; c <= b; ++c) {
+          CAPTURE(cell, a, b, c);
+          Cave cave({1, 1, 1});
+          digBall(cave, {16, 16, 16}, 12);
+          cave.lattice.set({16 + a, 16 + b, 16 + c}, true);
+          const SignField field = cave.lattice.field(cell);
+          VoidQuestion question = questionOf(cave, {16, 16, 16}, {16, 16, 16}, 0, true, cell);
+          const VoidWay asked = *answered(field, question).way;
+          CHECK(asked.widest == asked.from_clearance);
+          question.ends->widest = false;
+          question.radius = asked.widest;
+          CHECK(answered(field, question).way->verdict == WayVerdict::from_too_narrow);
+          question.radius = std::nextafter(asked.widest, 0);
+          CHECK(answered(field, question).way->verdict == WayVerdict::found);
+          const double square = a * a + b * b + c * c, root = std::sqrt(square);
+          CHECK(asked.widest == Approx(root * cell).epsilon(1e-15));
+          rounded_down += root * root < square;
+        }
+      }
+    }
+  }
+  CHECK(rounded_down > 2 * 5);
 }
 
 TEST_CASE("a hall wide enough has its agent told exactly, up to 32 cells") {
@@ -480,22 +536,142 @@ TEST_CASE("questions that have no answer are errors that say why") {
   CHECK(failed.error().message == "too many shapes");
 }
 
-TEST_CASE("progress counts chunks, and stops the search") {
-  Cave cave({2, 2, 3});
-  const auto jobs = *makeThreadPool(2);
+TEST_CASE("the error of an end outside of the region says which, where it is, and where the region is") {
+  Cave cave({1, 1, 1});
   const SignField field = cave.lattice.field(kCell);
+  const auto jobs = *makeThreadPool(1);
   VoidQuestion question = questionOf(cave, {1, 1, 1}, {2, 2, 2}, 0);
-  uint64_t last = 0;
-  const Progress count = [&](uint64_t done, uint64_t total) {
-    CHECK((done == last + 1 && total == 12));
-    last = done;
-    return true;
-  };
-  CHECK(findVoids(field, *jobs, question, count));
-  CHECK(last == 12);
-  const Result<VoidAnswer> stopped =
-      findVoids(field, *jobs, question, [](uint64_t done, uint64_t) { return done < 5; });
-  REQUIRE_FALSE(stopped);
-  CHECK(stopped.error().code == Code::cancelled);
-  CHECK(findVoids(field, *jobs, question, [](uint64_t done, uint64_t total) { return done < total; }));
+  question.ends->to = {512.5, -1024, 0};
+  CHECK(findVoids(field, *jobs, question).error().message ==
+        "the end `to` of the way lies outside of the region: it is at (512.5, -1024, 0), and the region goes from "
+        "(0, 0, 0) to (16384, 16384, 16384), in units of 1/1024 m");
+  question.ends->tell_metres = true;
+  CHECK(findVoids(field, *jobs, question).error().message ==
+        "the end `to` of the way lies outside of the region: it is at (0.50048828125, -1, 0), and the region goes from "
+        "(0, 0, 0) to (16, 16, 16), in metres");
+  question.ends->from[2] = 1e300;
+  CHECK_THAT(findVoids(field, *jobs, question).error().message, Catch::StartsWith("the end `from` of the way lies"));
+  question.ends->from[2] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(findVoids(field, *jobs, question).error().message == "the end `from` of the way is not finite");
+}
+
+/// What a search tells of its progress: the counts of each look or walk.
+class Told {
+ public:
+  Progress counter() {
+    return [this](uint64_t done, uint64_t total) {
+      if (done == 1) runs_.push_back({0, total});
+      REQUIRE_FALSE(runs_.empty());
+      CHECK((done == runs_.back().first + 1 && total == runs_.back().second && done <= total));
+      runs_.back().first = done;
+      return true;
+    };
+  }
+  /// Of the runs, each of which has come to its end.
+  std::vector<uint64_t> totals() const {
+    std::vector<uint64_t> all;
+    for (const auto& [done, total] : runs_) {
+      CHECK(done == total);
+      all.push_back(total);
+    }
+    return all;
+  }
+
+ private:
+  std::vector<std::pair<uint64_t, uint64_t>> runs_;
+};
+
+TEST_CASE("progress counts the chunks of each look and of the walk, and stops each of them") {
+  // A duct that winds through 5 by 20 chunks in one layer: 100 of them, more than are walked at one time.
+  Cave cave({5, 20, 1});
+  for (int column = 0; column < 5; ++column) {
+    for (int y = 4; y <= 636; ++y) digBall(cave, {16 + 32 * column, y, 16}, 2);
+    if (column == 4) break;
+    for (int x = 0; x <= 32; ++x) digBall(cave, {16 + 32 * column + x, column % 2 == 0 ? 636 : 4, 16}, 2);
+  }
+  const SignField field = cave.lattice.field(kCell);
+  const auto jobs = *makeThreadPool(2);
+  VoidQuestion question = questionOf(cave, {16, 4, 16}, {144, 636, 16}, 1.5, true);
+  Told told;
+  const Result<VoidAnswer> answer = findVoids(field, *jobs, question, told.counter());
+  REQUIRE(answer);
+  CHECK(isWay(*answer->way, FloodedVoids(cave.lattice, cave.region(), 1.5), {16, 4, 16}, {144, 636, 16}, kCell));
+  // The walk comes after the first look; its first 64 chunks are looked at twice.
+  const std::vector<uint64_t> totals = told.totals();
+  REQUIRE(totals.size() >= 2);
+  CHECK((totals[0] == 100 && totals[1] == 164));
+  CHECK(std::all_of(totals.begin() + 2, totals.end(), [](uint64_t total) { return total == 100; }));
+  CHECK(totals.size() <= 4);
+
+  uint64_t calls = 0;
+  for (const uint64_t last : {1u, 40u, 101u, 180u, 200u, 265u}) {
+    CAPTURE(last);
+    calls = 0;
+    const Result<VoidAnswer> stopped =
+        findVoids(field, *jobs, question, [&](uint64_t, uint64_t) { return ++calls < last; });
+    if (last == 265 && totals.size() == 2) continue;
+    REQUIRE_FALSE(stopped);
+    CHECK(stopped.error().code == Code::cancelled);
+    CHECK(calls == last);
+  }
+}
+
+TEST_CASE("the first progress comes long before a flat region is looked at, whichever way it is flat") {
+  for (int axis = 0; axis < 3; ++axis) {
+    CAPTURE(axis);
+    Int3 size{24, 24, 24};
+    size[axis] = 1;
+    VoidQuestion question;
+    for (int i = 0; i < 3; ++i) question.region.hi[i] = size[i] * 32 * kCell;
+    question.radius = kCell;
+    std::atomic<uint64_t> sampled{0};
+    uint64_t before_first = 0;
+    SignField field;
+    field.cell = kCell;
+    field.signs = [&](Int3) -> Result<ChunkSigns> {
+      ++sampled;
+      return ChunkSigns{};
+    };
+    const auto jobs = *makeThreadPool(2);
+    REQUIRE(findVoids(field, *jobs, question, [&](uint64_t done, uint64_t total) {
+      CHECK(total == 576);
+      if (done == 1) before_first = sampled;
+      return true;
+    }));
+    // Every chunk once, those around the region too: no look comes back to what it has dropped.
+    CHECK(sampled == 26 * 26 * 3);
+    // 64 chunks of three rows, and what is around them.
+    CHECK(before_first <= 5 * 26 * 3);
+  }
+}
+
+TEST_CASE("of a long region a search keeps little at one time") {
+  // 3 by 3 by 300 chunks that all have a surface, whichever axis is the long one.
+  for (int axis = 0; axis < 3; ++axis) {
+    CAPTURE(axis);
+    VoidQuestion question;
+    question.region.hi = {3 * 32 * kCell, 3 * 32 * kCell, 3 * 32 * kCell};
+    question.region.hi[axis] = 300 * 32 * kCell;
+    question.radius = 2 * kCell;
+    question.ends = VoidQuestion::Ends{placeOf({40, 40, 40}), placeOf({40, 40, 40}), false};
+    question.ends->to[static_cast<size_t>(axis)] = 9560.0 * kCell;
+    MostBytes memory;
+    SignField field;
+    field.cell = kCell;
+    field.memory = &memory;
+    // What is solid is the chunks' corners.
+    field.signs = [&](Int3) -> Result<ChunkSigns> {
+      ChunkSigns signs{std::pmr::vector<uint64_t>(33 * 33, 0, &memory), false};
+      for (const size_t row : {0u, 32u, 32u * 33, 32u * 34}) signs.rows[row] = uint64_t{1} << 32 | 1;
+      return signs;
+    };
+    const auto jobs = *makeThreadPool(1);
+    const Result<VoidAnswer> answer = findVoids(field, *jobs, question);
+    REQUIRE(answer);
+    REQUIRE(answer->way->verdict == WayVerdict::found);
+    CHECK(answer->way->length >= 9520.0 * kCell);
+    // 2,700 chunks have 23 MB of signs, and the steps in the 300 of the way are 11 MB.
+    WARN(memory.most() << " bytes");
+    CHECK(memory.most() < 10u << 20);
+  }
 }

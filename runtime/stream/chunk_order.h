@@ -1,0 +1,48 @@
+#pragma once
+// The chunks of a box one after the other.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "base/fixed.h"
+
+namespace sgm {
+
+/// Counts along the shortest axis first and along the longest one last, so that layers are as small as they can be;
+/// of axes as long as each other x comes before y, and y before z. A chunk's number grows with each of its coordinates.
+class ChunkOrder {
+ public:
+  /// counts: chunks on each axis, above 0.
+  explicit ChunkOrder(Int3 counts) : counts_(counts) {
+    std::stable_sort(axes_.begin(), axes_.end(), [&](int a, int b) { return counts[a] < counts[b]; });
+  }
+
+  Int3 counts() const { return counts_; }
+  uint64_t size() const { return along(0) * along(1) * along(2); }
+  /// From the lowest chunk on.
+  Int3 at(uint64_t number) const {
+    Int3 chunk;
+    for (const int axis : axes_) {
+      const auto count = static_cast<uint64_t>(counts_[axis]);
+      chunk[axis] = static_cast<int32_t>(number % count);
+      number /= count;
+    }
+    return chunk;
+  }
+  uint64_t numberOf(Int3 chunk) const {
+    return place(chunk, 0) + along(0) * (place(chunk, 1) + along(1) * place(chunk, 2));
+  }
+
+  /// How many chunks come from one to its neighbour along this axis.
+  uint64_t stride(int axis) const { return axis == axes_[0] ? 1 : axis == axes_[1] ? along(0) : along(0) * along(1); }
+
+ private:
+  uint64_t along(size_t i) const { return static_cast<uint64_t>(counts_[axes_[i]]); }
+  uint64_t place(Int3 chunk, size_t i) const { return static_cast<uint64_t>(chunk[axes_[i]]); }
+
+  Int3 counts_;
+  std::array<int, 3> axes_{0, 1, 2};  ///< the shortest one first
+};
+
+}  // namespace sgm
