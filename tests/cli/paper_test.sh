@@ -97,9 +97,27 @@ expect 0 "$SGM" paper --out again --only cave --quick --no-pictures --json
 json 'Object.keys(j.exhibits).join() === "figure-8"'
 json 'j.exhibits["figure-8"].series.every((s, i, all) => i === 0 || all[i - 1].morph !== s.morph || s.volume < all[i - 1].volume)'
 json 'j.exhibits["figure-8"].series.filter(s => s.t === 1).every(s => Math.abs(s.volume / j.exhibits["figure-8"].ball - 1) < 0.01)'
-touch again/mine.txt
+for mine in mine.txt grammars/mine.sgm; do
+  touch "again/$mine"
+  wrong 4 "$SGM" paper --out again --only cave --quick --no-pictures
+  err_has "$mine"
+  [[ -e again/$mine ]] || failed "$mine is gone"
+  rm "again/$mine"
+done
+echo '// mine' >>again/grammars/cave.sgm
 wrong 4 "$SGM" paper --out again --only cave --quick --no-pictures
-err_has 'mine.txt'
+err_has 'grammars/cave.sgm in it was changed'
+rm -r again
+# A signal while a report takes an earlier one's place: it waits, and the place holds one whole.
+expect 0 "$SGM" paper --out again --only cave --quick --no-pictures
+"$SGM" paper --out again --only density --quick --no-pictures >.out 2>.err &
+process=$!
+until compgen -G 'again.sgm-part*/*' >/dev/null || ! kill -0 $process 2>/dev/null; do :; done
+kill -TERM $process || failed "it had ended before"
+wait $process
+[[ $? == 143 ]] || failed "it did not end by the signal"
+only part again
+cmp -s part/index.html again/index.html || failed "what is there is not the report that was being written"
 # The report's own commands work in its folder.
 (cd part && "$SGM" check grammars/*.sgm grammars/*/*.sgm >/dev/null) || failed "the report's grammars do not compile"
 rm -r again
