@@ -113,6 +113,7 @@ Exit measureGrammar(const MeasureOptions& options, asset::MeshFileKind against_k
   RegionPlan plan;
   plan.texture = options.texels.has_value();
   plan.after = [&](const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region) -> Result<void> {
+    sections.emplace_back("border", borderSection(region));
     if (options.field) {
       const Result<FieldAgreement> found = fieldAgreement(world, jobs, region.meshed.mesh, options.level);
       if (!found) return found.error();

@@ -8,6 +8,7 @@
 
 #include "measure/area_volume.h"
 #include "measure/world_triangles.h"
+#include "metrics/topology.h"
 #include "stream/surface_shapes.h"
 
 namespace sgm::cli {
@@ -110,6 +111,20 @@ Section fieldSection(const FieldAgreement& found, int32_t cell, Int3 origin) {
   section.text += lineOf("", fmt::format("by the gradient's length {:.4g} m at most ({:.3g} cells), {:.4g} m, {:.4g} m",
                                          found.offset_max * in_metres, found.offset_max * in_cells,
                                          found.offset_p99 * in_metres, found.offset_mean * in_metres));
+  return section;
+}
+
+Section borderSection(const Region& region) {
+  const WorldMesh& mesh = region.unsplit ? *region.unsplit : region.meshed.mesh;
+  const Topology topology = topologyOf(mesh, region.meshed.extent);
+  Section section;
+  section.json = {{"cut", isCut(region)},
+                  {"watertight", topology.watertight},
+                  {"leak", topology.watertight ? Json(nullptr) : Json(topology.leak)}};
+  if (isCut(region)) {
+    section.text = lineOf("border", "cuts the surface, which goes on: open edges there are no holes; " +
+                                        (topology.watertight ? "there is none elsewhere" : topology.leak));
+  }
   return section;
 }
 

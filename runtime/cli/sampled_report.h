@@ -21,6 +21,9 @@ struct Section {
 /// cell: the mesh's, units. origin: where its positions count from.
 Section fieldSection(const FieldAgreement& found, int32_t cell, Int3 origin);
 
+/// Whether the region's surface is watertight but for the border, where the world is cut.
+Section borderSection(const Region& region);
+
 /// One pair of levels: fine and fine + 1. coarse_cell: units.
 Section levelSection(const LevelDistance& found, int fine, int32_t coarse_cell);
 

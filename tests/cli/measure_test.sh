@@ -29,6 +29,14 @@ json 'j.cubes.all_corners < j.volume && j.cubes.any_corner > j.volume'
 expect 0 "$SGM" measure ball.ply --json --mode curvature --unique-edges --curvature-length 3 --no-self-intersections --weld 0.001
 json 'j.histogram.edges === j.edges && j.self_intersections === null && Math.abs(j.histogram.shares.reduce((a, v, i) => a + i * v, 0) - 24) < 1.5'
 
+# The border of a region that is cut is no hole, though its edges are open.
+expect 0 "$SGM" measure ball.sgm --cell 0.25 --json
+json 'j.watertight && !j.border.cut && j.border.watertight && j.border.leak === null'
+expect 0 "$SGM" measure ball.sgm --cell 0.25 --region=0,0,0:3,3,3 --json
+json '!j.watertight && j.cut && j.border.cut && j.border.watertight && j.border.leak === null'
+expect 0 "$SGM" measure ball.sgm --cell 0.25 --region=0,0,0:3,3,3
+out_has 'border +cuts the surface, which goes on: open edges there are no holes; there is none elsewhere'
+
 # Against the field: normals outward and near the gradient, vertices near the surface.
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --field --json
 json 'j.valid && j.field.vertices === j.points && j.field.normals.count === j.points && j.field.in_creases === 0'

@@ -105,7 +105,8 @@ std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibi
   for (const auto& [name, what] : facts.machine) machine += element("dt", name) + element("dd", what);
   body += element("dl", machine) + Markup{"\n"};
   body += element("p", text("Commands are for this page's folder, where ") + element("code", "grammars") +
-                           text(" holds what they read. All but times, and what follows from them, comes out the same "
+                           text(" holds what they read; what they write goes beside it. All but times, and what "
+                                "follows from them, comes out the same "
                                 "again."));
   body += contents(exhibits);
   for (const Exhibit& exhibit : exhibits) body += sectionOf(exhibit);
