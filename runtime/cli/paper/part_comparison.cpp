@@ -136,8 +136,8 @@ Result<Findings> findingsOf(const Workshop& workshop, const ComparedSystem& syst
               fmt::format("{} of {} vertices at the place of another", measured->welded_points, measured->points),
               commandOf(judged));
   const Topology topology = topologyOf(mesh, region->meshed.extent);
-  found[kHoles] = finding(topology.watertight, topology.watertight ? "watertight but for the border" : topology.leak,
-                          commandOf(judged));
+  const char* closed = isCut(*region) ? "watertight but for the border" : "watertight";
+  found[kHoles] = finding(topology.watertight, topology.watertight ? closed : topology.leak, commandOf(judged));
   return found;
 }
 
