@@ -231,7 +231,8 @@ Exhibits comparisonPart(Workshop& workshop) {
       "half to twice what it should be in the middle; surfaces, vertices and holes by sgm measure, as nested, "
       "welded_points and the border's watertight: where the region cuts an endless world its border is no hole. A "
       "dash: "
-      "nothing was measured, or there is nothing to measure.";
+      "nothing was measured, or there is nothing to measure. What a mesh is classified as depends on its cells: finer "
+      "than those of the built-in masters, a cave may be unknown, and a house a cloud.";
   exhibit.commands = {commandOfPart(workshop.options(), "comparison")};
   exhibit.numbers = {{"systems", std::move(systems)}};
   return std::vector<Exhibit>{std::move(exhibit)};
