@@ -586,7 +586,9 @@ Command addPaper(CLI::App& root) {
       "paper",
       "Reproduce the paper that the language comes from: one HTML report of its figures and tables, ours beside");
   const auto options = std::make_shared<PaperOptions>();
-  app->add_option("--out", options->out, "Folder to write: a new or an empty one, or one with an earlier report")
+  app->add_option(
+         "--out", options->out,
+         "Folder to write: a new or an empty one, or that of an earlier report, in which nothing was added or changed")
       ->type_name("DIR")
       ->required();
   app->add_option(

@@ -8,12 +8,14 @@
 
 #include "base/file_writer.h"
 #include "cli/console.h"
+#include "cli/ending_signals.h"
 #include "cli/options.h"
 
 namespace sgm::cli {
 
 /// Of this process: a signal handler has nothing else to hold on to. In main.cpp.
 extern UnfinishedFiles unfinished_files;
+extern EndingSignals ending_signals;
 
 struct CheckOptions : WorldOptions {
   std::vector<std::string> files;

@@ -8,14 +8,16 @@
 #include "cli/commands.h"
 
 constinit sgm::UnfinishedFiles sgm::cli::unfinished_files;
+constinit sgm::cli::EndingSignals sgm::cli::ending_signals;
 
 namespace {
 
 using sgm::cli::Exit;
 
 /// Ends the process by the signal, as if it were not handled (a shell reports 128 + the signal), in whatever it is
-/// doing; but no unfinished file stays behind.
+/// doing; but no unfinished file stays behind, and what has to be done whole is done first.
 void endBy(int signal) {
+  if (sgm::cli::ending_signals.waits(signal)) return;
   sgm::cli::unfinished_files.remove();
   std::signal(signal, SIG_DFL);
   std::raise(signal);

@@ -95,6 +95,7 @@ constexpr RenderMaterial kWire{SurfacePattern::smooth, {0.01f, 0.02f, 0.05f}, 1.
 /// Adds the mesh's edges as ribbons that face the camera, of one width in the picture whatever their distance.
 void addWires(const Region& region, const RenderCamera& camera, Drawable& drawn) {
   constexpr float kWide = 0.55f, kLifted = 1.5f;  // pixels: to each side, and towards the camera
+  constexpr float kShare = 0.035f;                // to each side, of the edge as it is seen: small triangles stay light
   const WorldMesh& mesh = region.meshed.mesh;
   std::vector<std::array<uint32_t, 2>> edges;
   for (size_t i = 0; i < mesh.indices.size(); ++i) {
@@ -116,12 +117,14 @@ void addWires(const Region& region, const RenderCamera& camera, Drawable& drawn)
     const glm::vec3 ends[] = {place(a), place(b)};
     const glm::vec3 side = glm::cross(ends[1] - ends[0], camera.position - ends[0]);
     if (glm::length(side) == 0) continue;  // seen along its length
+    const float seen = glm::length(side) / glm::distance(camera.position, ends[0]);
     const auto first = static_cast<uint32_t>(drawn.vertices.size());
     for (const glm::vec3& end : ends) {
-      const float wide = pixel * glm::distance(camera.position, end);
+      const float one = pixel * glm::distance(camera.position, end);
+      const float wide = std::min(kWide * one, kShare * seen);
       vertex.normal = glm::normalize(camera.position - end);
-      for (const float to : {-kWide, kWide}) {
-        vertex.position = end + wide * (to * glm::normalize(side) + kLifted * vertex.normal);
+      for (const float to : {-wide, wide}) {
+        vertex.position = end + to * glm::normalize(side) + kLifted * one * vertex.normal;
         drawn.vertices.push_back(vertex);
       }
     }

@@ -54,6 +54,44 @@ rm sky.sgm sky.png part.png
 
 expect 0 "$SGM" render "$cave" --out level.png --level 1 --cell 1 --size 64x64 --seed 7 --json
 json 'j.level === 1 && j.cell === 2'
+# The mesh's edges, dark: more of them with finer cells.
+dark() {
+  node -e '
+    const fs = require("fs"), zlib = require("zlib"), png = fs.readFileSync(process.argv[1]), parts = [];
+    for (let at = 8; at < png.length; ) {
+      const size = png.readUInt32BE(at);
+      if (png.toString("latin1", at + 4, at + 8) === "IDAT") parts.push(png.subarray(at + 8, at + 8 + size));
+      at += size + 12;
+    }
+    const wide = png.readUInt32BE(16), high = png.readUInt32BE(20), rows = zlib.inflateSync(Buffer.concat(parts));
+    const line = 4 * wide, pixels = Buffer.alloc(line * high);
+    const paeth = (a, b, c) => {
+      const p = a + b - c, pa = Math.abs(p - a), pb = Math.abs(p - b), pc = Math.abs(p - c);
+      return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
+    };
+    for (let y = 0; y < high; ++y) {
+      const filter = rows[y * (line + 1)];
+      for (let x = 0; x < line; ++x) {
+        const a = x < 4 ? 0 : pixels[y * line + x - 4], b = y ? pixels[(y - 1) * line + x] : 0;
+        const c = x < 4 || !y ? 0 : pixels[(y - 1) * line + x - 4];
+        pixels[y * line + x] = rows[y * (line + 1) + 1 + x] + [0, a, b, (a + b) >> 1, paeth(a, b, c)][filter];
+      }
+    }
+    let count = 0;
+    for (let i = 0; i < pixels.length; i += 4) count += pixels[i] + pixels[i + 1] + pixels[i + 2] < 240;
+    console.log(count);' "$1"
+}
+look=(--camera 0,2,9:0,0,0 --size 256x256)
+expect 0 "$SGM" render ball.sgm --out plain.png --cell 1 "${look[@]}"
+expect 0 "$SGM" render ball.sgm --out coarse.png --cell 1 --wires "${look[@]}"
+expect 0 "$SGM" render ball.sgm --out fine.png --cell 0.5 --wires "${look[@]}"
+picture coarse.png 256 256
+plain=$(dark plain.png) coarse=$(dark coarse.png) fine=$(dark fine.png)
+((coarse > plain + 300 && fine > coarse + 300)) || failed "dark pixels: $plain, with wires $coarse, finer $fine"
+expect 2 "$SGM" render ball.sgm --out wrong.png --wires --volume
+err_has 'excludes'
+err_has '--wires'
+[[ ! -e wrong.png ]] || failed "a picture was written"
 # The solid as fog, from the same camera.
 printf 'sgm 1;\nunits m;\ndomain finite box(8m) output density edge 2m;\nstart Puff;\nrule Puff { sphere(3m); }\n' >fog.sgm
 expect 0 "$SGM" render fog.sgm --out solid.png --size 96x64 --json

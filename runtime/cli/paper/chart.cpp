@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLineHeight = 18, kGap = 10, kLetter = 6.6;
 constexpr double kRoomAMark = 56;  // along x
+constexpr double kOverBar = 5;     // of its number
 constexpr double kRight = 18;
 
 std::string at(double value) { return fmt::format("{:.2f}", value); }
@@ -226,8 +227,14 @@ Markup drawn(const BarChart& chart) {
                                        {"class", "bar " + colour(s)}});
       // What would touch its neighbours is left to the marks.
       const std::string number = shortNumber(value, 3);
-      if (textWidth(number) <= bar_width && top - 5 > frame.top)
-        content += label(x + 0.47 * bar_width, top - 5, "middle", number);
+      if (textWidth(number) > bar_width) continue;
+      const bool above = top - kOverBar > frame.top;
+      content += element("text",
+                         {{"x", at(x + 0.47 * bar_width)},
+                          {"y", at(above ? top - kOverBar : top + 15)},
+                          {"text-anchor", "middle"},
+                          {"class", above ? "" : "in"}},
+                         text(number));
     }
     content += label(begin + 0.38 * group_width, frame.bottom + 18, "middle", chart.groups[g]);
   }

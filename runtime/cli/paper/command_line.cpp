@@ -17,6 +17,7 @@ std::string commandOf(const std::string& name, const WorldOptions& options) {
   if (options.uv) line += " --uv";
   if (options.backend != WorldOptions{}.backend) line += " --backend " + options.backend;
   if (options.threads != 0) line += fmt::format(" --threads {}", options.threads);
+  if (options.json) line += " --json";
   return line;
 }
 

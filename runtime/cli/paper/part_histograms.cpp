@@ -100,8 +100,11 @@ Result<std::vector<Density>> measureDensities(Workshop& workshop, std::vector<st
     measured.sets = kHouseSets;
     measured.density = ld;
     measured.no_self_intersections = true;
-    measured.mode = "printed";
-    commands.push_back(commandOf(measured));
+    measured.json = true;
+    for (const HistogramMode mode : kModes) {
+      measured.mode = measure::nameOf(mode);
+      commands.push_back(commandOf(measured));
+    }
     commands.push_back(commandOf("classify", options));
   }
   return densities;
@@ -252,8 +255,13 @@ Markup confusion(const Judged& judged) {
       row.push_back(fmt::format("{}", found == verdicts.end() ? 0 : found->second));
     }
   }
+  const std::string noise(measure::kNoise);
+  const auto unknown = judged.verdicts.contains(noise) ? judged.verdicts.at(noise) : std::map<std::string, int>{};
   return table(
-      fmt::format("{}: {} of {} right; of noise, unknown is right", textOf(judged.key), judged.right, judged.all),
+      fmt::format("{}: {} of {} caves, clouds and buildings right; {} of {} of noise, of which unknown is right{}",
+                  textOf(judged.key), judged.right, judged.all, unknown.contains("unknown") ? unknown.at("unknown") : 0,
+                  judged.models.contains(noise) ? judged.models.at(noise) : 0,
+                  judged.key.density == 0 ? "" : "; models with that many cells a metre alone"),
       rows);
 }
 
@@ -306,13 +314,16 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
         {{"key", toJson(*key)}, {"right", judged->right}, {"models", judged->all}, {"mean", std::move(mean)}});
   }
   exhibit.ours = Workshop::row(charts) + element("h3", "Classification") + tables;
+  const auto noise = std::ranges::count_if(
+      *models, [](const masters::Specimen& s) { return s.family->class_name == measure::kNoise; });
   exhibit.measured = fmt::format(
-      "{} models of caves, clouds, buildings and noise, by {} grammars and densities, with parameters drawn from their "
+      "{} models, {} of them noise, the others caves, clouds and buildings, by {} grammars and densities, with "
+      "parameters drawn from their "
       "whole ranges and seeds of which the "
       "built-in masters know none. Masters by clusters, eight a class, since caves of halls and caves of dripstone "
       "have no "
       "common mean; past a limit, or nearest to noise, the answer is unknown, where the paper always answers.",
-      models->size(), families.size());
+      models->size(), noise, families.size());
   exhibit.commands = {commandOfPart(workshop.options(), "histograms"), "sgm masters list --json",
                       "sgm classify grammars/table4/muller.sgm"};
   exhibit.numbers = {{"models", models->size()}, {"modes", std::move(judgements)}};

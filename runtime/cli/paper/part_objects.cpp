@@ -106,11 +106,11 @@ Exhibits objectsPart(Workshop& workshop) {
     options.camera = "120,-150,820:0,20,0";
     options.fov = 34;
     options.size = workshop.pick("1120x560", "720x360");
-    const Result<Markup> picture =
-        workshop.picture(options, "cloud-of-ten", "A scattered cloud of ten separate parts",
-                         fmt::format("Right: a distributed cloud of {} separate objects, seed {} of scattered.sgm.",
-                                     kWanted, options.seed),
-                         exhibit.commands);
+    const Result<Markup> picture = workshop.picture(
+        options, "cloud-of-ten", "A scattered cloud of ten separate parts",
+        fmt::format("What is right in the paper: a distributed cloud of {} separate objects, seed {} of scattered.sgm.",
+                    kWanted, options.seed),
+        exhibit.commands);
     if (!picture) return picture.error();
     exhibit.ours += *picture;
   } else {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "cli/paper/folder.h"
 #include "cli/paper/printed.h"
 #include "cli/paper/report_style.h"
 
@@ -84,7 +83,8 @@ Markup contents(std::span<const Exhibit> exhibits) {
 }  // namespace
 
 std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibits) {
-  Markup head = emptyElement("meta", {{"charset", "utf-8"}}) + Markup{kReportSign};
+  Markup head = emptyElement("meta", {{"charset", "utf-8"}});
+  head += emptyElement("meta", {{"name", "generator"}, {"content", "sgm paper"}});
   head += emptyElement("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   head += element("title", kTitle) + element("style", Markup{kReportStyle});
 
@@ -105,7 +105,8 @@ std::string reportPage(const ReportFacts& facts, std::span<const Exhibit> exhibi
   for (const auto& [name, what] : facts.machine) machine += element("dt", name) + element("dd", what);
   body += element("dl", machine) + Markup{"\n"};
   body += element("p", text("Commands are for this page's folder, where ") + element("code", "grammars") +
-                           text(" holds what they read. All but times, and what follows from them, comes out the same "
+                           text(" holds what they read; what they write goes beside it. All but times, and what "
+                                "follows from them, comes out the same "
                                 "again."));
   body += contents(exhibits);
   for (const Exhibit& exhibit : exhibits) body += sectionOf(exhibit);

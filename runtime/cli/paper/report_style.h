@@ -30,7 +30,7 @@ blockquote p { margin: .35rem 0; }
 .contradiction { background: var(--warn); border-left: 4px solid var(--warn-edge); margin: .75rem 0; padding: .5rem 1rem; }
 .contradiction p { margin: .25rem 0; }
 pre { background: var(--panel); border: 1px solid var(--edge); border-radius: 4px; padding: .6rem .8rem; margin: .35rem 0;
-  font-size: .82rem; line-height: 1.5; white-space: pre-wrap; overflow-wrap: anywhere; }
+  font-size: .82rem; line-height: 1.5; white-space: pre; overflow-x: auto; }
 code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: .92em; }
 details > summary { cursor: pointer; color: var(--soft); }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .15rem 1rem; font-size: .92rem; }
@@ -50,6 +50,7 @@ th:first-child, .words td, .words th { text-align: left; }
 svg { display: block; width: 100%; height: auto; }
 svg text { font: 12px system-ui, "DejaVu Sans", sans-serif; fill: var(--ink); }
 svg .axis { fill: var(--soft); }
+svg .in { fill: var(--paper); }
 svg .grid { stroke: var(--edge); stroke-width: 1; }
 svg .base, svg .tick { stroke: var(--soft); stroke-width: 1; }
 svg .line { fill: none; stroke: var(--c); stroke-width: 2; }
@@ -62,6 +63,7 @@ svg .s3 { --c: var(--s3); } svg .s4 { --c: var(--s4); } svg .s5 { --c: var(--s5)
 @media print {
   body { max-width: none; font-size: 10pt; padding: 0; }
   section { break-inside: auto; }
+  pre { white-space: pre-wrap; overflow-wrap: anywhere; }
   pre, .table, svg { break-inside: avoid; }
 }
 )css";

@@ -68,7 +68,8 @@ std::vector<std::string> paperParts() {
 Exit reproducePaper(const PaperOptions& options) {
   const Stopwatch watch;
   // What may be wrong is found out before minutes of work.
-  if (const Result<void> writable = checkReportFolder(options.out); !writable) return complain(writable.error());
+  if (const Result<void> writable = checkReportFolder(options.out, &ending_signals); !writable)
+    return complain(writable.error());
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return complain(jobs.error());
   const Result<std::string> device = meshingDevice(options, **jobs);
@@ -100,7 +101,8 @@ Exit reproducePaper(const PaperOptions& options) {
   for (const BundledFile& file : bundledFiles())
     files.push_back({fmt::format("grammars/{}", file.path), std::string(file.bytes)});
   files.push_back({kReportPage, reportPage(facts, *exhibits)});
-  if (const Result<void> written = writeReportFolder(options.out, files); !written) return complain(written.error());
+  if (const Result<void> written = writeReportFolder(options.out, std::move(files), &ending_signals); !written)
+    return complain(written.error());
   if (options.json) {
     fmt::print("{}\n", numbersOf(facts, *exhibits).text());
   } else {

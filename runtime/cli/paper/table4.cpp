@@ -180,7 +180,12 @@ constexpr ComparedSystem kSystems[] = {
      nullptr,
      false,
      "Caves under ground, towers on it and clouds above",
-     "Texture mapping, the paper's own NO, is there."},
+     "Texture mapping, the paper's own NO, is there. Each kind is classified by an excerpt of its own: the sky, a "
+     "tower, "
+     "the caves. What a few objects are classified as depends on the cells: the caves are told at 1 m, and taken for a "
+     "cloud at half of it; the clouds, of 20 m where those that the masters are made of have hundreds, are told at 4 m "
+     "alone, where all three look like clouds, and are taken for buildings at 1 m.",
+     {{{"-48,36,-48:48,100,48", 1}, {"-16,-2,-16:16,34,16", 0.25}, {"-48,-64,-48:48,-6,48", 1}}}},
 };
 
 }  // namespace

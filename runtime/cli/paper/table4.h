@@ -32,6 +32,12 @@ inline constexpr std::array<const char*, kCriteria> kCriterionNames = {"Clouds",
                                                                        "Overlapping vertices removed",
                                                                        "No holes"};
 
+/// What is classified as one kind of a world that has several.
+struct Excerpt {
+  const char* region = nullptr;  ///< null: what is measured otherwise too
+  double cell = 0;
+};
+
 struct ComparedSystem {
   const char* name;  ///< as printed
   std::array<const char*, kCriteria> printed;
@@ -47,7 +53,8 @@ struct ComparedSystem {
   const char* view_set;  ///< null: none
   bool sharp;
   const char* alt;
-  const char* without;  ///< of what the paper says NO to: what is so here
+  const char* without;                ///< of what the paper says NO to, and of what is NO here: why
+  std::array<Excerpt, 3> excerpts{};  ///< by the first three criteria
 };
 
 std::span<const ComparedSystem> comparedSystems();

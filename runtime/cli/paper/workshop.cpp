@@ -46,7 +46,8 @@ Result<measure::MeshMeasures> Workshop::measure(const MeasureOptions& options) c
 Result<Markup> Workshop::picture(RenderOptions options, const std::string& name, const std::string& alt,
                                  const std::string& caption, std::vector<std::string>& commands) {
   if (renderer_ == nullptr) return Markup{};
-  options.out = name + ".png";
+  // Beside the report, which nothing else may be in.
+  options.out = "../" + name + ".png";
   std::optional<RegionDensity> density;
   RegionPlan plan = picturePlan(options, density);
   plan.doing = doing_;
@@ -67,8 +68,9 @@ Result<Markup> Workshop::picture(RenderOptions options, const std::string& name,
 }
 
 std::string commandOfPart(const PaperOptions& options, const std::string& part) {
-  std::string line = fmt::format("sgm paper --only {} --out {}", part, part);
+  std::string line = fmt::format("sgm paper --only {} --out ../{}", part, part);
   if (options.quick) line += " --quick";
+  if (options.no_pictures) line += " --no-pictures";
   if (options.backend != PaperOptions{}.backend) line += " --backend " + options.backend;
   if (options.threads != 0) line += fmt::format(" --threads {}", options.threads);
   if (options.seed != PaperOptions{}.seed) line += fmt::format(" --seed {}", options.seed);

@@ -236,3 +236,16 @@ TEST_CASE("what is drawn stands where its values are") {
   CHECK(std::abs(heights[2] * 2 - heights[3]) < 0.1);
   CHECK(std::abs(heights[2] * 3 - heights[4]) < 0.1);
 }
+
+TEST_CASE("every bar that is wide enough has its number, also one as high as its frame") {
+  for (double value = 30.25; value < 51; value += 0.5) {
+    CAPTURE(value);
+    BarChart bars;
+    bars.groups = {"one", "two"};
+    bars.series = {{"a", {value, 12.25}}};
+    const std::string html = drawn(bars).html;
+    const std::vector<std::string> texts = textsOf(html);
+    CHECK(std::ranges::count(texts, shortNumber(value, 3)) == 1);
+    CHECK(std::ranges::count(texts, shortNumber(12.25, 3)) == 1);
+  }
+}

@@ -1,12 +1,21 @@
 // The report's folder: whole or not at all, and nobody's files are lost.
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
+#include <thread>
 
 #include "catch.h"
+#include "cli/ending_signals.h"
 #include "cli/paper/bundle.h"
 #include "cli/paper/folder.h"
+#include "rounds.h"
 #include "temporary_folder.h"
 
 using namespace sgm;
@@ -20,13 +29,30 @@ void write(const fs::path& file, const std::string& content) {
   std::ofstream(file, std::ios::binary) << content;
 }
 
-std::vector<FolderFile> report(const std::string& page) {
-  return {{kReportPage, kReportSign + page}, {"pictures/a.png", page}};
-}
+std::vector<FolderFile> report(const std::string& page) { return {{kReportPage, page}, {"pictures/a.png", page}}; }
 
 /// What stands beside each other in a folder.
 size_t entriesOf(const fs::path& folder) {
   return static_cast<size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+constinit EndingSignals signals;
+
+void endBy(int signal) {
+  if (signals.waits(signal)) return;
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+/// Replaces reports until it is ended; beside it are threads that take signals.
+[[noreturn]] void replaceForever(const fs::path& target) {
+  std::signal(SIGTERM, endBy);
+  const auto idle = [] {
+    for (;;) pause();
+  };
+  const std::thread one(idle), another(idle);
+  for (char c = 'a';; c = c == 'z' ? 'a' : static_cast<char>(c + 1))
+    if (!writeReportFolder(target, report(std::string(1, c)), &signals)) _exit(1);
 }
 
 }  // namespace
@@ -37,11 +63,11 @@ TEST_CASE("a report takes the place of nothing, of an empty folder and of an ear
   REQUIRE(checkReportFolder(target));
   CHECK(entriesOf(folder.path) == 0);
   REQUIRE(writeReportFolder(target, report("one")));
-  CHECK(contentOf(target / kReportPage) == kReportSign + std::string("one"));
+  CHECK(contentOf(target / kReportPage) == "one");
   CHECK(contentOf(target / "pictures/a.png") == "one");
   REQUIRE(checkReportFolder(target));
-  REQUIRE(writeReportFolder(target / "", {{kReportPage, kReportSign + std::string("two")}}));
-  CHECK(contentOf(target / kReportPage) == kReportSign + std::string("two"));
+  REQUIRE(writeReportFolder(target / "", {{kReportPage, "two"}}));
+  CHECK(contentOf(target / kReportPage) == "two");
   CHECK_FALSE(fs::exists(target / "pictures"));
   fs::remove_all(target);
   fs::create_directory(target);
@@ -67,13 +93,61 @@ TEST_CASE("what is no report stays as it was") {
   CHECK(contentOf(target / "mine.txt") == "mine");
   fs::remove_all(target);
   REQUIRE(writeReportFolder(target, report("old")));
-  write(target / "mine.txt", "mine");
+  for (const char* mine : {"mine.txt", "pictures/mine.txt", "grammars/mine.sgm", "pictures/deep/er/mine"}) {
+    CAPTURE(mine);
+    write(target / mine, "mine");
+    refused();
+    CHECK(contentOf(target / mine) == "mine");
+    fs::remove(target / mine);
+    while (fs::remove(target / "pictures/deep/er") || fs::remove(target / "pictures/deep")) {
+    }
+    fs::remove(target / "grammars");
+  }
+  CHECK(checkReportFolder(target));
+  // An edit that keeps the size, a link to the same bytes, a folder of nothing.
+  write(target / "pictures/a.png", "OLD");
   refused();
-  CHECK(contentOf(target / "mine.txt") == "mine");
-  fs::remove_all(target);
-  write(target / kReportPage, "<html>another page</html>");
+  CHECK(contentOf(target / "pictures/a.png") == "OLD");
+  write(folder.path / "elsewhere", "old");
+  fs::remove(target / "pictures/a.png");
+  fs::create_symlink(folder.path / "elsewhere", target / "pictures/a.png");
   refused();
+  fs::remove(target / "pictures/a.png");
+  fs::remove(folder.path / "elsewhere");
+  CHECK(checkReportFolder(target));
+  fs::create_directory(target / "mine");
+  refused();
+  fs::remove(target / "mine");
+  // Without its manifest, or with another's, it is anybody's.
+  write(target / kReportManifest, "mine");
+  refused();
+  fs::remove(target / kReportManifest);
+  refused();
+  CHECK(contentOf(target / kReportPage) == "old");
   CHECK(entriesOf(folder.path) == 1);
+}
+
+TEST_CASE("a signal at any time leaves a whole report and nothing else") {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> wait(0, 20'000);
+  for (unsigned i = 0; i < rounds(40); ++i) {
+    CAPTURE(i);
+    const TemporaryFolder folder;
+    const fs::path target = folder.path / "report";
+    REQUIRE(writeReportFolder(target, report("old")));
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) replaceForever(target);
+    while (contentOf(target / kReportPage) == "old") std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::this_thread::sleep_for(std::chrono::microseconds(wait(random)));
+    REQUIRE(kill(child, SIGTERM) == 0);
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK((WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM));
+    CHECK(contentOf(target / kReportPage) == contentOf(target / "pictures/a.png"));
+    CHECK(checkReportFolder(target));
+    CHECK(entriesOf(folder.path) == 1);
+  }
 }
 
 TEST_CASE("what cannot be written leaves nothing behind") {
@@ -83,7 +157,7 @@ TEST_CASE("what cannot be written leaves nothing behind") {
   REQUIRE(writeReportFolder(target, report("old")));
   // A file that stands where a folder is wanted.
   CHECK_FALSE(writeReportFolder(target, {{"pictures", "a file"}, {"pictures/a.png", "b"}}));
-  CHECK(contentOf(target / kReportPage) == kReportSign + std::string("old"));
+  CHECK(contentOf(target / kReportPage) == "old");
   CHECK(entriesOf(folder.path) == 1);
 }
 
