@@ -230,7 +230,8 @@ Exhibits comparisonPart(Workshop& workshop) {
       "have twice the edge; control and morphing by another value of a parameter; texture by the coordinates' density, "
       "half to twice what it should be in the middle; surfaces, vertices and holes by sgm measure, as nested, "
       "welded_points, and open_edges beyond cut_edges: where the region cuts an endless world its border is no hole. A "
-      "dash: nothing was measured, or there is nothing to measure. What a mesh is classified as depends on its cells: finer "
+      "dash: nothing was measured, or there is nothing to measure. What a mesh is classified as depends on its cells: "
+      "finer "
       "than those of the built-in masters, a cave may be unknown, and a house a cloud.";
   exhibit.commands = {commandOfPart(workshop.options(), "comparison")};
   exhibit.numbers = {{"systems", std::move(systems)}};
