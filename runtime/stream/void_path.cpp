@@ -165,12 +165,10 @@ class VoidSearch {
     return end;
   }
 
-  /// Whether something this far away, squared and in cells, is as near as the length or nearer. Exact: the square of
-  /// the length is not rounded before it is compared.
-  bool isAsNear(int square, double length) const {
-    const double squared = static_cast<double>(field_.cell) * field_.cell * square;
-    return std::fma(length, length, -squared) >= 0;
-  }
+  /// Whether something this far away, squared and in cells, is as near as the length or nearer. One comparison for all
+  /// that asks, so that a length that was told is understood again.
+  bool isAsNear(int square, double length) const { return length * length >= squaredOf(square); }
+  double squaredOf(int square) const { return static_cast<double>(field_.cell) * field_.cell * square; }
 
   /// The least square that is more than the radius's: what is as near as that is in the way.
   int needed() const {
@@ -179,10 +177,14 @@ class VoidSearch {
     return need;
   }
 
-  /// The least length that what is this far away, squared and in cells, is as near as: the root, rounded up.
+  /// The least length that what is this far away, squared and in cells, is as near as: the root, or the number beside.
   double leastAsFar(int square) const {
-    const double root = std::sqrt(static_cast<double>(field_.cell) * field_.cell * square);
-    return isAsNear(square, root) ? root : std::nextafter(root, std::numeric_limits<double>::infinity());
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    double least = std::sqrt(squaredOf(square));
+    while (!isAsNear(square, least)) least = std::nextafter(least, kInfinity);
+    for (double less = least; square > 0 && isAsNear(square, less); less = std::nextafter(less, -kInfinity))
+      least = less;
+    return least;
   }
 
   /// Needs between the last that is known to have a way and the first that is known to have none, evenly, ascending.

@@ -14,22 +14,26 @@ class WalkedVoid {
   /// Walks from the lowest corner, which lies outside of what is asked about. size, walker: samples along each axis.
   WalkedVoid(const WorldField& world, Int3 low, Int3 size, int32_t step, Int3 walker)
       : low_(low), size_(size), step_(step), walker_(walker) {
-    std::vector<bool> closed = solidIn(world);
+    closed_ = solidIn(world);
     for (const auto& [stride, count, wide] : {std::tuple{1, size.x, walker.x}, std::tuple{size.x, size.y, walker.y},
                                               std::tuple{size.x * size.y, size.z, walker.z}})
-      closed = widened(closed, stride, count, wide);
-    flood(closed);
+      closed_ = widened(closed_, stride, count, wide);
+    flood();
   }
 
   /// Whether a walker whose middle is there, to half a sample, has come from outside.
-  bool reaches(Int3 p) const {
+  bool reaches(Int3 p) const { return walked_[firstOf(p)]; }
+  /// Whether there is room for one, who may have come or not.
+  bool fits(Int3 p) const { return !closed_[firstOf(p)]; }
+
+ private:
+  /// The lowest sample of a walker whose middle is there.
+  size_t firstOf(Int3 p) const {
     const auto first = [&](int32_t at, int32_t low, int32_t wide) {
       return (2 * (at - low) + step_ - (wide - 1) * step_) / (2 * step_);
     };
-    return walked_[index(first(p.x, low_.x, walker_.x), first(p.y, low_.y, walker_.y), first(p.z, low_.z, walker_.z))];
+    return index(first(p.x, low_.x, walker_.x), first(p.y, low_.y, walker_.y), first(p.z, low_.z, walker_.z));
   }
-
- private:
   size_t index(int32_t x, int32_t y, int32_t z) const { return static_cast<size_t>(x + size_.x * (y + size_.y * z)); }
 
   std::vector<bool> solidIn(const WorldField& world) const {
@@ -63,13 +67,13 @@ class WalkedVoid {
     return out;
   }
 
-  void flood(const std::vector<bool>& closed) {
-    walked_.assign(closed.size(), false);
+  void flood() {
+    walked_.assign(closed_.size(), false);
     std::vector<int32_t> open{0};
     while (!open.empty()) {
       const int32_t i = open.back();
       open.pop_back();
-      if (walked_[static_cast<size_t>(i)] || closed[static_cast<size_t>(i)]) continue;
+      if (walked_[static_cast<size_t>(i)] || closed_[static_cast<size_t>(i)]) continue;
       walked_[static_cast<size_t>(i)] = true;
       for (const auto& [stride, count] :
            {std::pair{1, size_.x}, std::pair{size_.x, size_.y}, std::pair{size_.x * size_.y, size_.z}}) {
@@ -82,7 +86,7 @@ class WalkedVoid {
   Int3 low_, size_;
   int32_t step_;
   Int3 walker_;
-  std::vector<bool> walked_;  ///< by the walker's lowest sample
+  std::vector<bool> closed_, walked_;  ///< by the walker's lowest sample
 };
 
 }  // namespace sgm
