@@ -94,9 +94,9 @@ Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKi
   if (options.texels) sections.emplace_back("texels", texelSection(*mesh, *options.texels));
   if (options.drawing) sections.emplace_back("drawing", drawingSection(drawingCost({mesh->points, mesh->triangles})));
   if (!options.against.empty()) {
-    const Result<asset::TriangleMesh> other = readMeshFile(options.against, against_kind);
+    Result<asset::TriangleMesh> other = readMeshFile(options.against, against_kind);
     if (!other) return other.error();
-    Result<Section> section = against(*mesh, *other, options, **jobs);
+    Result<Section> section = against(*mesh, std::move(*other), options, **jobs);
     if (!section) return section.error();
     sections.emplace_back("against", std::move(*section));
   }
@@ -182,7 +182,7 @@ Exit measureGrammar(const MeasureOptions& options, asset::MeshFileKind against_k
   if (!jobs) return complain(jobs.error());
   if (options.drawing) sections.emplace_back("drawing", drawingSection(drawingCost({mesh.points, mesh.triangles})));
   if (other) {
-    Result<Section> section = against(mesh, *other, options, **jobs);
+    Result<Section> section = against(mesh, std::move(*other), options, **jobs);
     if (!section) return complain(section.error());
     sections.emplace_back("against", std::move(*section));
   }
