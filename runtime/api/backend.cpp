@@ -164,6 +164,22 @@ void copyText(char (&to)[SGM_NAME_SIZE], std::string_view text) {
 
 }  // namespace
 
+void sgm::api::fillInfo(const sgm::Backend& backend, sgm_backend_info& info) {
+  const sgm::BackendCapabilities& capabilities = backend.capabilities();
+  const sgm::BackendCounters counters = backend.counters();
+  info.backend = backendOf(capabilities.kind);
+  info.usable = 1;
+  info.exact = capabilities.exact ? 1 : 0;
+  info.concurrency = capabilities.concurrency;
+  info.chunks = counters.chunks;
+  info.chunks_on_cpu = counters.on_cpu;
+  info.losses = counters.device_lost;
+  info.resident = counters.resident;
+  copyText(info.name, sgm::backendName(capabilities.kind));
+  copyText(info.device, capabilities.device);
+  copyText(info.reason, "");
+}
+
 sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_backend_info* info, sgm_error* error) {
   return guarded(error, [&]() -> sgm_result {
     if (runtime == nullptr) return nullArgument(error, "runtime");
@@ -173,26 +189,16 @@ sgm_result sgm_backend_query(sgm_runtime* runtime, sgm_backend backend, sgm_back
     const sgm::Result<std::shared_ptr<sgm::Backend>> made = backendFor(*runtime, *request);
     if (!made && made.error().code != sgm::Code::unsupported) return fail(error, made.error());
     info->backend = backend;
-    info->usable = made ? 1 : 0;
-    info->exact = 0;
+    if (made) {
+      fillInfo(**made, *info);
+      return SGM_OK;
+    }
+    info->usable = info->exact = 0;
     info->concurrency = 0;
     info->chunks = info->chunks_on_cpu = info->losses = info->resident = 0;
     copyText(info->name, sgm::backendName(request->kind));
     copyText(info->device, "");
-    copyText(info->reason, made ? "" : made.error().message);
-    if (made) {
-      const sgm::BackendCapabilities& capabilities = (*made)->capabilities();
-      info->backend = backendOf(capabilities.kind);
-      info->exact = capabilities.exact ? 1 : 0;
-      info->concurrency = capabilities.concurrency;
-      const sgm::BackendCounters counters = (*made)->counters();
-      info->chunks = counters.chunks;
-      info->chunks_on_cpu = counters.on_cpu;
-      info->losses = counters.device_lost;
-      info->resident = counters.resident;
-      copyText(info->name, sgm::backendName(capabilities.kind));
-      copyText(info->device, capabilities.device);
-    }
+    copyText(info->reason, made.error().message);
     return SGM_OK;
   });
 }

@@ -23,4 +23,7 @@ Result<void> lendCuda(sgm_runtime& runtime, std::shared_ptr<const cuda::Borrowed
 /// found none it is not looked for again. Errors: as makeBackend.
 Result<std::shared_ptr<Backend>> backendFor(sgm_runtime& runtime, const BackendRequest& request);
 
+/// What sgm_backend_query says of a backend that there is; the struct's head stays as it is.
+void fillInfo(const Backend& backend, sgm_backend_info& info);
+
 }  // namespace sgm::api

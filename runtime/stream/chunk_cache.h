@@ -18,6 +18,7 @@ struct MeshedChunk {
   ChunkSurface surface;                 ///< may be without triangles
   std::optional<VoidComponents> voids;  ///< where signs were asked for
   MadeMeasures measured;                ///< of the parts that were asked for, without the time to mesh them
+  bool from_disk = false;               ///< all that was asked for
 };
 
 struct ChunkOrder {

@@ -36,6 +36,7 @@ struct FinishedChunk {
   std::shared_ptr<const ChunkSurface> before;   ///< as in the work item: what `surface` adds to
   std::shared_ptr<const ChunkSurface> surface;  ///< null: no triangles, or an error
   std::unique_ptr<const VoidComponents> voids;  ///< where the request was for the signs
+  bool from_disk = false;                       ///< all that the request asks for came from the disk cache
   std::optional<Error> error;                   ///< cancelled: it was never begun, and may be asked for again
 };
 

@@ -22,6 +22,25 @@ constexpr ptrdiff_t kFailedAtOnce = 64;
 constexpr int kLooksInVain = 2000;
 constexpr auto kBetweenLooks = std::chrono::milliseconds(2);
 
+/// Counts how long a call takes.
+class TimedCall {
+ public:
+  TimedCall(WorldCore& core, TimeHistogram WorldTimes::*of) : core_(core), of_(of) {}
+  ~TimedCall() {
+    const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+    const std::lock_guard lock(core_.mutex);
+    (core_.times.*of_).add(seconds);
+  }
+  TimedCall(const TimedCall&) = delete;
+  TimedCall& operator=(const TimedCall&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  WorldCore& core_;
+  TimeHistogram WorldTimes::*of_;
+  Clock::time_point begun_ = Clock::now();
+};
+
 std::string metres(double units) {
   char text[32];
   std::snprintf(text, sizeof text, "%g m", units / kUnitsPerMetre);
@@ -120,6 +139,7 @@ Result<void> World::setViewers(std::span<const Viewer> viewers) {
 }
 
 bool World::update(size_t bytes) {
+  const TimedCall timed(*core_, &WorldTimes::update);
   const std::lock_guard front(front_);
   core_->kickJournal();
   if (polled_ < events_.size()) return false;
@@ -232,6 +252,7 @@ bool World::stage(const std::shared_ptr<const FrameStep>& step, size_t bytes) {
 }
 
 void World::poll(const std::function<bool(const WorldEvent&)>& take) {
+  const TimedCall timed(*core_, &WorldTimes::poll);
   const std::lock_guard front(front_);
   for (; polled_ < events_.size() && take(events_[polled_]); ++polled_) {
     events_[polled_].surface = nullptr;
@@ -366,6 +387,19 @@ std::optional<WorldMeasures> World::measures() const {
   measures.drawn = measuresOf(*frame);
   return measures;
 }
+
+std::vector<Viewer> World::viewers() const {
+  const std::lock_guard lock(core_->mutex);
+  return core_->viewers;
+}
+
+WorldTimes World::times() const {
+  const std::lock_guard lock(core_->mutex);
+  core_->countWork();
+  return core_->times;
+}
+
+const WorldSettings& World::settings() const { return core_->settings; }
 
 WorldStats World::stats() const {
   WorldStats stats;

@@ -25,6 +25,7 @@
 #include "stream/world_field.h"
 #include "stream/world_measures.h"
 #include "stream/world_settings.h"
+#include "stream/world_times.h"
 
 namespace sgm {
 
@@ -137,6 +138,11 @@ class World {
   Result<ContentHash> hashBodies(const IntBox& region, int level) const;
 
   WorldStats stats() const;
+
+  /// As setViewers() was told last.
+  std::vector<Viewer> viewers() const;
+  WorldTimes times() const;
+  const WorldSettings& settings() const;
 
   /// Of now; nothing where the settings do not ask for it. Takes some microseconds a hundred drawn chunks.
   std::optional<WorldMeasures> measures() const;

@@ -95,6 +95,14 @@ WorldCore::Work WorldCore::work() const {
   return {queue.size(), meshing_, planned_with_.viewers != viewers_set ? all : std::min(meshing_, meshing_before_)};
 }
 
+void WorldCore::countWork() {
+  const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - counted_at_).count();
+  counted_at_ = now;
+  if (meshing_jobs_ > 0) times.clock_seconds += seconds;
+  times.job_seconds += seconds * static_cast<double>(meshing_jobs_);
+}
+
 bool WorldCore::submit(void (*function)(void*), int priority) noexcept {
   try {
     auto owner = std::make_unique<std::shared_ptr<Gate>>(gate_);
@@ -361,7 +369,9 @@ void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
     items.push_back(std::move(queue.back()));
     queue.pop_back();
   }
-  if (!items.empty()) ++meshing_jobs_;
+  if (items.empty()) return;
+  countWork();
+  ++meshing_jobs_;
 }
 
 void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, FinishedChunk& done) const {
@@ -369,6 +379,7 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, 
     done.error = chunk.error();
     return;
   }
+  done.from_disk = chunk->from_disk;
   if (chunk->voids) done.voids = std::make_unique<const VoidComponents>(std::move(*chunk->voids));
   if (settings.morph) {
     Result<std::pmr::vector<MorphOffset>> morphs =
@@ -465,18 +476,24 @@ void WorldCore::meshOnce() {
     const std::lock_guard lock(mutex);
     return !stopped_ && generation == of_generation;
   };
+  const Clock::time_point begun_at = Clock::now();
   const MadeMeasures measured = meshItems(items, under, items.size() > 1 ? Progress(wanted) : Progress(), done);
+  const double share =
+      std::chrono::duration<double>(Clock::now() - begun_at).count() / static_cast<double>(items.size());
   bool plan, more, out_of_memory = false;
   {
     const std::lock_guard lock(mutex);
     const WorkItem::Rank rank = items.front().rank;
     if (settings.measure) made.add(measured);
+    countWork();
     --meshing_jobs_;
     meshing_ -= items.size();
     const size_t left_of_rank = meshing_of_rank_[static_cast<size_t>(rank)] -= items.size();
     meshing_before_ -= std::min(meshing_before_, items.size());
     reserved_ -= items.size() * largestChunk(settings);
     for (FinishedChunk& chunk : done) {
+      if (!chunk.error && chunk.request.body)
+        (chunk.from_disk ? times.read : times.mesh[static_cast<size_t>(chunk.request.key.level)]).add(share);
       if (generation != of_generation) chunk.error = Error{Code::cancelled, "unwanted"};
       out_of_memory = out_of_memory || (chunk.error && chunk.error->code == Code::out_of_memory);
       if (!chunk.error) scarce = false;

@@ -22,6 +22,7 @@
 #include "stream/world_field.h"
 #include "stream/world_measures.h"
 #include "stream/world_settings.h"
+#include "stream/world_times.h"
 
 namespace sgm {
 
@@ -78,6 +79,7 @@ class WorldCore {
   bool scarce = false;   ///< memory gave out, and no chunk could be made since
   PlannerStats planner_stats;
   MadeMeasures made;  ///< where the settings ask for it
+  WorldTimes times;
   size_t collider_bytes = 0;
 
   struct Work {
@@ -86,6 +88,8 @@ class WorldCore {
   };
   /// Precondition: the mutex is held.
   Work work() const;
+  /// Brings times.clock_seconds and job_seconds up to now. Precondition: the mutex is held.
+  void countWork();
   const SurfacePool& surfaces() const { return *surfaces_; }
 
  private:
@@ -171,10 +175,11 @@ class WorldCore {
   size_t meshing_before_ = 0;  ///< requests in work when the plan for these viewers came, less as many as have ended
   size_t meshing_ = 0;         ///< requests in work
   size_t meshing_jobs_ = 0;    ///< jobs at work on them
-  std::array<size_t, 3> meshing_of_rank_{};  ///< likewise, by WorkItem::Rank
-  size_t reserved_ = 0;                      ///< bytes that these may come to
-  std::vector<std::thread::id> submitting_;  ///< threads that are handing on a mesh job
-  bool planning_ = false;                    ///< submitted or running
+  Clock::time_point counted_at_ = Clock::now();  ///< by countWork(), which comes before meshing_jobs_ changes
+  std::array<size_t, 3> meshing_of_rank_{};      ///< likewise, by WorkItem::Rank
+  size_t reserved_ = 0;                          ///< bytes that these may come to
+  std::vector<std::thread::id> submitting_;      ///< threads that are handing on a mesh job
+  bool planning_ = false;                        ///< submitted or running
   bool plan_again_ = false;
   bool flushing_ = false;  ///< likewise
   bool stopped_ = false;

@@ -754,6 +754,19 @@ TEST_CASE("world calls are checked") {
               [&](sgm_world_stats* stats) { return sgm_world_get_stats(world, stats, &error); });
   sgm_world_stats stats = SGM_WORLD_STATS_INIT;
   CHECK(sgm_world_get_stats(nullptr, &stats, &error) == SGM_ERR_INVALID_ARGUMENT);
+  checkStruct(sgm_world_info SGM_WORLD_INFO_INIT,
+              [&](sgm_world_info* info) { return sgm_world_get_info(world, info, &error); });
+  sgm_world_info info = SGM_WORLD_INFO_INIT;
+  CHECK(sgm_world_get_info(nullptr, &info, &error) == SGM_ERR_INVALID_ARGUMENT);
+  checkStruct(sgm_world_times SGM_WORLD_TIMES_INIT,
+              [&](sgm_world_times* times) { return sgm_world_get_times(world, times, &error); });
+  sgm_world_times times = SGM_WORLD_TIMES_INIT;
+  CHECK(sgm_world_get_times(nullptr, &times, &error) == SGM_ERR_INVALID_ARGUMENT);
+  size_t viewer_count = 0;
+  CHECK(sgm_world_get_viewers(nullptr, nullptr, 0, &viewer_count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_get_viewers(world, nullptr, 0, nullptr, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_get_viewers(world, nullptr, 3, &viewer_count, &error) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(sgm_world_get_viewers(world, nullptr, 0, &viewer_count, &error) == SGM_OK);
   checkStruct(sgm_world_measures SGM_WORLD_MEASURES_INIT,
               [&](sgm_world_measures* measures) { return sgm_world_get_measures(world, measures, &error); });
   sgm_world_measures measures = SGM_WORLD_MEASURES_INIT;

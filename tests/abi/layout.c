@@ -35,6 +35,8 @@ CHECK(subcell, SGM_SUBCELL == 256);
 CHECK(max_level, SGM_MAX_LEVEL == 16);
 CHECK(message_size, SGM_MESSAGE_SIZE == 500);
 CHECK(name_size, SGM_NAME_SIZE == 256);
+CHECK(time_buckets, SGM_TIME_BUCKETS == 21);
+CHECK(time_first_exponent, SGM_TIME_FIRST_EXPONENT == -16);
 
 CHECK(ok, SGM_OK == 0);
 CHECK(incomplete, SGM_INCOMPLETE == 1);
@@ -695,6 +697,34 @@ PLACE(sgm_world_stats, cache_misses, 208);
 PLACE(sgm_world_stats, cache_damaged, 216);
 PLACE(sgm_world_stats, cache_bytes, 224);
 
+SIZE(sgm_world_info, 896);
+PLACE(sgm_world_info, struct_size, 0);
+PLACE(sgm_world_info, next, 8);
+PLACE(sgm_world_info, backend, 16);
+PLACE(sgm_world_info, cell_units, 848);
+PLACE(sgm_world_info, top_level, 852);
+PLACE(sgm_world_info, flags, 856);
+PLACE(sgm_world_info, threads, 860);
+PLACE(sgm_world_info, finest_distance, 864);
+PLACE(sgm_world_info, view_distance, 872);
+PLACE(sgm_world_info, collider_distance, 880);
+PLACE(sgm_world_info, mesh_bytes, 888);
+
+SIZE(sgm_time_histogram, 184);
+PLACE(sgm_time_histogram, counts, 0);
+PLACE(sgm_time_histogram, sum, 168);
+PLACE(sgm_time_histogram, longest, 176);
+
+SIZE(sgm_world_times, 3712);
+PLACE(sgm_world_times, struct_size, 0);
+PLACE(sgm_world_times, next, 8);
+PLACE(sgm_world_times, update, 16);
+PLACE(sgm_world_times, poll, 200);
+PLACE(sgm_world_times, read, 384);
+PLACE(sgm_world_times, mesh, 568);
+PLACE(sgm_world_times, clock_seconds, 3696);
+PLACE(sgm_world_times, job_seconds, 3704);
+
 SIZE(sgm_chunk_sums, 232);
 PLACE(sgm_chunk_sums, bodies, 0);
 PLACE(sgm_chunk_sums, seams, 8);
@@ -761,6 +791,9 @@ int LAYOUT_INITS(void) {
   const sgm_brush brush = SGM_BRUSH_INIT;
   const sgm_viewer viewer = SGM_VIEWER_INIT;
   const sgm_world_stats world_stats = SGM_WORLD_STATS_INIT;
+  const sgm_world_info world_info = SGM_WORLD_INFO_INIT;
+  const sgm_time_histogram time_histogram = SGM_TIME_HISTOGRAM_INIT;
+  const sgm_world_times world_times = SGM_WORLD_TIMES_INIT;
   const sgm_chunk_sums chunk_sums = SGM_CHUNK_SUMS_INIT;
   const sgm_world_measures world_measures = SGM_WORLD_MEASURES_INIT;
   const sgm_mesh_measures mesh_measures = SGM_MESH_MEASURES_INIT;
@@ -792,6 +825,10 @@ int LAYOUT_INITS(void) {
          collider_view.struct_size == sizeof(collider_view) && collider_view.next == SGM_NULL && brush.cut == 1 &&
          world_desc.struct_size == sizeof(world_desc) && world_desc.next == SGM_NULL && viewer.fov == 0.0f &&
          viewer.weight > 0.5f && world_stats.struct_size == sizeof(world_stats) && world_stats.next == SGM_NULL &&
+         world_info.struct_size == sizeof(world_info) && world_info.next == SGM_NULL &&
+         world_info.backend.struct_size == sizeof(world_info.backend) && world_info.mesh_bytes == 0 &&
+         time_histogram.counts[SGM_TIME_BUCKETS - 1] == 0 && world_times.struct_size == sizeof(world_times) &&
+         world_times.next == SGM_NULL && world_times.mesh[SGM_MAX_LEVEL].counts[0] == 0 &&
          chunk_sums.defects[15] == 0 && world_measures.struct_size == sizeof(world_measures) &&
          world_measures.next == SGM_NULL && mesh_measures.struct_size == sizeof(mesh_measures) &&
          mesh_measures.next == SGM_NULL;

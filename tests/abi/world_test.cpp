@@ -1,9 +1,13 @@
 // A streamed world through the C interface alone, as an engine uses it.
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <map>
+#include <numeric>
 #include <set>
+#include <thread>
 #include <tuple>
 
 #include "fixture.h"
@@ -253,6 +257,86 @@ TEST_CASE("worlds have sharp features where they are asked for, at every level")
     CHECK((levels.size() > 1) == (flags != 0));
     CHECK((!levels.empty()) == (flags != 0));
   }
+}
+
+TEST_CASE("a world tells what it is, who looks, and how long its work takes", "[threads]") {
+  const RuntimeOwner runtime = makeRuntime();
+  const FieldOwner field = makeField(runtime.get(), compile(runtime.get(), kBalls).get(), 512);
+  sgm_world_desc desc = SGM_WORLD_DESC_INIT;
+  desc.top_level = 3;
+  desc.finest_distance = 10;
+  desc.view_distance = 60;
+  desc.collider_distance = 5;
+  desc.flags = SGM_WORLD_BY_DISTANCE | SGM_WORLD_MEASURE;
+  sgm_world* made = nullptr;
+  REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
+  const WorldOwner world(made);
+  sgm_world_info info = SGM_WORLD_INFO_INIT;
+  REQUIRE(sgm_world_get_info(made, &info, nullptr) == SGM_OK);
+  CHECK(info.cell_units == 512);
+  CHECK(info.top_level == 3);
+  CHECK(info.flags == desc.flags);
+  CHECK(info.threads >= 1);
+  CHECK(info.finest_distance == 10);
+  CHECK(info.view_distance == 60);
+  CHECK(info.collider_distance == 5);
+  CHECK(info.mesh_bytes == uint64_t{256} << 20);
+  CHECK(info.backend.usable == 1);
+  CHECK(std::string(info.backend.name) == "cpu");
+  CHECK(std::strlen(info.backend.device) > 0);
+
+  sgm_viewer two[2] = {SGM_VIEWER_INIT, SGM_VIEWER_INIT};
+  two[0].position[0] = 1.25;
+  two[0].direction[2] = 1;
+  two[1].velocity[1] = 3;
+  two[1].weight = 2;
+  REQUIRE(sgm_world_set_viewers(made, two, 0, 2, nullptr) == SGM_OK);
+  sgm_viewer back[2] = {SGM_VIEWER_INIT, SGM_VIEWER_INIT};
+  size_t count = 1;
+  CHECK(sgm_world_get_viewers(made, back, 0, &count, nullptr) == SGM_INCOMPLETE);
+  REQUIRE(count == 2);
+  CHECK(back[0].position[0] == 0);
+  REQUIRE(sgm_world_get_viewers(made, back, 0, &count, nullptr) == SGM_OK);
+  CHECK(std::memcmp(two, back, sizeof two) == 0);
+
+  uint64_t updates = 0, polls = 0;
+  sgm_world_stats stats = SGM_WORLD_STATS_INIT;
+  std::vector<sgm_mesh*> meshes;
+  do {
+    REQUIRE(sgm_world_update(made, 1 << 20, nullptr) == SGM_OK);
+    ++updates;
+    sgm_world_event events[64];
+    for (size_t taken = 1; taken > 0; ++polls) {
+      taken = std::size(events);
+      REQUIRE(sgm_world_poll(made, events, 0, &taken, nullptr) == SGM_OK);
+      for (size_t i = 0; i < taken; ++i) {
+        sgm_mesh_release(events[i].mesh);
+        sgm_collider_release(events[i].collider);
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    REQUIRE(sgm_world_get_stats(made, &stats, nullptr) == SGM_OK);
+  } while (stats.idle == 0);
+  sgm_world_times times = SGM_WORLD_TIMES_INIT;
+  REQUIRE(sgm_world_get_times(made, &times, nullptr) == SGM_OK);
+  const auto sum = [](const sgm_time_histogram& of) {
+    return std::accumulate(std::begin(of.counts), std::end(of.counts), uint64_t{0});
+  };
+  CHECK(sum(times.update) == updates);
+  CHECK(sum(times.poll) == polls);
+  CHECK(sum(times.read) == 0);
+  uint64_t meshed = 0;
+  double seconds = 0;
+  for (const sgm_time_histogram& level : times.mesh) {
+    meshed += sum(level);
+    seconds += level.sum;
+    CHECK(level.longest <= level.sum);
+  }
+  CHECK(meshed == stats.chunks_meshed);
+  CHECK(sum(times.mesh[0]) == stats.finest_meshed);
+  CHECK(sum(times.mesh[4]) == 0);
+  CHECK(seconds > 0);
+  CHECK(times.update.longest > 0);
 }
 
 TEST_CASE("a world that measures gives sums of what it draws, and each chunk's own measures", "[threads]") {

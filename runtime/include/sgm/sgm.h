@@ -1568,6 +1568,76 @@ typedef struct sgm_world_stats {
 
 SGM_API sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, sgm_error* error);
 
+/* Filled by sgm_world_get_info: what a world was created with, and what works for it. Of all that, only the counts in
+ * `backend` change. */
+typedef struct sgm_world_info {
+  uint32_t struct_size;
+  void* next;
+  sgm_backend_info backend; /* the world's own, as sgm_backend_query would fill it at this moment. Of a device's memory
+                               it knows `resident`; what the driver and the device's scratch take is not known */
+  int32_t cell_units;       /* of level 0 */
+  int32_t top_level;
+  uint32_t flags;                                           /* of sgm_world_flag */
+  uint32_t threads;                                         /* that may work for it at one time */
+  double finest_distance, view_distance, collider_distance; /* metres */
+  uint64_t mesh_bytes;                                      /* the cap, which is never 0 */
+} sgm_world_info;
+
+#define SGM_WORLD_INFO_INIT \
+  { SGM_SIZEOF(sgm_world_info), SGM_NULL, SGM_BACKEND_INFO_INIT, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0 }
+
+/* Never waits for a job or a device. */
+SGM_API sgm_result sgm_world_get_info(const sgm_world* world, sgm_world_info* info, sgm_error* error);
+
+/* The viewers that sgm_world_set_viewers was given last; *count and SGM_INCOMPLETE as sgm_world_get_drawn has them.
+ * Never waits for a job. */
+SGM_API sgm_result sgm_world_get_viewers(const sgm_world* world, sgm_viewer* viewers, size_t viewer_stride,
+                                         size_t* count, sgm_error* error);
+
+#define SGM_TIME_BUCKETS 21
+#define SGM_TIME_FIRST_EXPONENT (-16) /* counts[0] is of times up to 2^-16 s */
+
+/* How long something took, on the wall, each time since the world's creation. counts[i] are those above
+ * 2^(i - 17) s and up to 2^(i - 16) s; the first ones also what took less, the last ones what took more than 8 s. */
+typedef struct sgm_time_histogram {
+  uint64_t counts[SGM_TIME_BUCKETS];
+  double sum;     /* seconds, all together */
+  double longest; /* seconds */
+} sgm_time_histogram;
+
+#define SGM_TIME_HISTOGRAM_INIT \
+  { {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, 0.0, 0.0 }
+
+/* Filled by sgm_world_get_times. */
+typedef struct sgm_world_times {
+  uint32_t struct_size;
+  void* next;
+  sgm_time_histogram update;                  /* of sgm_world_update, on the engine's thread */
+  sgm_time_histogram poll;                    /* of sgm_world_poll */
+  sgm_time_histogram read;                    /* bodies that came from cache_folder, in jobs */
+  sgm_time_histogram mesh[SGM_MAX_LEVEL + 1]; /* by level: bodies that were meshed, in jobs, from the grammar to what
+                                                 sgm_mesh_get_view shows. Of those that a device meshed together each
+                                                 has an equal share of the time */
+  double clock_seconds;                       /* up to now, in which jobs meshed or read chunks, seams alone included */
+  double job_seconds; /* likewise, times how many jobs they were: divided by clock_seconds, how many worked at one time
+                         on average. A job that waits and helps another one counts for both */
+} sgm_world_times;
+
+#define SGM_WORLD_TIMES_INIT                                                                                          \
+  {                                                                                                                   \
+    SGM_SIZEOF(sgm_world_times), SGM_NULL, SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT, \
+        {SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT,          \
+         SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT,          \
+         SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT,          \
+         SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT, SGM_TIME_HISTOGRAM_INIT,          \
+         SGM_TIME_HISTOGRAM_INIT},                                                                                    \
+        0.0, 0.0                                                                                                      \
+  }
+
+/* Always counted: it costs two looks at the clock a call and a chunk, and a lock a call that is held for the moving of
+ * pointers alone. Never waits for a job. */
+SGM_API sgm_result sgm_world_get_times(const sgm_world* world, sgm_world_times* times, sgm_error* error);
+
 /* What can be wrong with a chunk. All counts are expected to be 0: another is a fault of this library, or of the memory
  * or the driver that it ran on. All but the first two, and SGM_DEFECT_DEGENERATE, are of bodies alone: seams lie flat
  * in their faces, and close with their neighbours. */
