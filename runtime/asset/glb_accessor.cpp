@@ -90,8 +90,11 @@ GlbAccessors::GlbAccessors(const JsonValue& root, std::span<const std::byte> bin
                           .normalized = normalized != nullptr && normalized->number == 1,
                           .sparse = value.find("sparse") != nullptr});
   }
+  // The first buffer is the file's own binary part, unless it says that it lies elsewhere.
+  const std::span<const JsonValue> buffers = root.list("buffers");
+  const bool elsewhere = !buffers.empty() && buffers.front().find("uri") != nullptr;
   for (const JsonValue& value : root.list("bufferViews")) {
-    views_.push_back({.own = value.count("buffer") == 0u,
+    views_.push_back({.own = value.count("buffer") == 0u && !elsewhere,
                       .offset = offsetIn(value),
                       .length = value.count("byteLength").value_or(0),
                       .stride = value.find("byteStride") == nullptr

@@ -45,6 +45,12 @@ inline Error wrongAtLine(std::string_view what, size_t line) {
 inline Error wrongInJson(std::string_view what, std::string_view pointer) {
   return {Code::bad_input, std::string(what) + ", at " + std::string(pointer) + " of its JSON", 0, 0};
 }
+/// The pointer in a message of wrongInJson(), whatever stands around it; empty where there is none.
+inline std::string_view pointerIn(std::string_view message) {
+  const size_t end = message.find(" of its JSON");
+  const size_t begin = message.substr(0, end).rfind(", at /");
+  return begin == message.npos || end == message.npos ? std::string_view() : message.substr(begin + 5, end - begin - 5);
+}
 /// "it has more than 4 points"
 inline Error overLimit(size_t most, std::string_view of_what) {
   return {Code::limit, "it has more than " + std::to_string(most) + " " + std::string(of_what), 0, 0};

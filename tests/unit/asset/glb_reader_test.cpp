@@ -186,6 +186,8 @@ TEST_CASE("what a file says wrongly of itself is one clear error", "[asset][glb]
        "accessor 0 has no buffer view, at /accessors/0/bufferView of its JSON"},
       {R"("buffer":0,"byteOffset":0)", R"("buffer":1,"byteOffset":0)",
        "buffer view 0 is not of the file's own binary part, at /bufferViews/0/buffer of its JSON"},
+      {R"("buffers":[{)", R"("buffers":[{"uri":"file:///a.bin",)",
+       "buffer view 0 is not of the file's own binary part, at /bufferViews/0/buffer of its JSON"},
       {R"("byteLength":36)", R"("byteLength":9007199254740992)",
        "buffer view 0 reaches beyond the end of the binary part, at /bufferViews/0 of its JSON"},
       {R"("byteLength":36)", R"("byteLength":36,"byteStride":8)",
