@@ -11,6 +11,8 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/inspect_arguments.h"
+#include "cli/service_arguments.h"
 #include "grammar/sink.h"
 #include "mesh/export.h"
 #include "sgm/sgm.h"
@@ -537,6 +539,13 @@ Command addFly(CLI::App& root) {
   app->add_option("--journal", options->journal, "File that keeps what is dug from one flight to the next")
       ->type_name("FILE")
       ->excludes(compare);
+  CLI::Option* serve =
+      app->add_flag("--serve", options->serve,
+                    "Show the flight on a page and in metrics over HTTP, as sgm serve does, while it goes on");
+  app->add_flag("--keep-serving", options->keep_serving,
+                "Serve on when the flight has ended, until SIGINT, SIGTERM or SIGHUP; the report comes then")
+      ->needs(serve);
+  addServingOptions(*app, options->serving, serve);
   app->footer(
       "Example:\n  sgm fly samples/grammars/cave.sgm --cell 0.25 --speed 20 --frames 1200 --png 6 --out flight.png");
   return [options, animate] {
@@ -640,6 +649,7 @@ std::string complaintOf(const CLI::App& root, const CLI::ParseError& error, int 
     Suggestion suggestion(word);
     std::string all;
     for (const CLI::App* command : commands) {
+      if (command->get_group().empty()) continue;  // not for people
       suggestion.offer(command->get_name());
       all += (all.empty() ? "" : ", ") + command->get_name();
     }
@@ -662,7 +672,7 @@ Exit runCommandLine(int argc, char** argv) {
       "be read or written; the highest of several.");
   std::vector<Command> commands;
   for (const auto add : {addCheck, addFmt, addExplain, addMesh, addMeasure, addClassify, addMasters, addRender, addFly,
-                         addLsp, addBench, addPaper, addBackends})
+                         addServe, addInspect, addLsp, addBench, addPaper, addBackends})
     commands.push_back(add(app));
 
   try {

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "cli/classification.h"
 #include "cli/commands.h"
 #include "cli/limited_process.h"
 #include "cli/master_key.h"
@@ -12,76 +13,15 @@
 namespace sgm::cli {
 namespace {
 
-using measure::ClassDistance;
-using measure::Classification;
-using measure::MasterKey;
-
-/// The key that masters have for the mode that is asked for; density: cells per metre of the mesh, 0 where it is not
-/// known.
-Result<MasterKey> keyFor(const ClassifyOptions& options, const masters::MasterSet& set, double density) {
-  std::string there;
-  for (const measure::MasterLimits& limits : set.limits) {
-    const MasterKey& key = limits.key;
-    there += fmt::format("{}{}", there.empty() ? "" : "; ", textOf(key));
-    if (measure::nameOf(key.mode) != options.mode) continue;
-    if (key.density == 0 || key.density == density) return key;
-  }
-  if (options.mode != measure::nameOf(measure::HistogramMode::curvature) && density == 0) {
-    return Error{
-        Code::invalid_argument,
-        "mode " + options.mode + " depends on the density: say with --ld how many cells per metre the mesh has"};
-  }
-  return Error{Code::invalid_argument,
-               fmt::format("there are no masters for mode {} at {:.6g} cells per metre, but for: {}", options.mode,
-                           density, there)};
-}
-
-std::string lines(const Classification& said, const MasterKey& key, const std::string& what, const std::string& from) {
-  std::string text = said.reason.empty()
-                         ? fmt::format("{}: {}, by a margin of {:.2f}\n", what, said.verdict, said.margin)
-                         : fmt::format("{}: {}: {}\n", what, said.verdict, said.reason);
-  text += fmt::format("  {:<12}{:>10}{:>9}  nearest master\n", "class", "MSE", "EMD");
-  for (const ClassDistance& of : said.classes) {
-    text += fmt::format("  {:<12}{:>10.6f}{:>9.4f}  {}\n", of.class_name, of.mse, of.emd, of.nearest);
-  }
-  text += fmt::format("  the earth mover's distance says {}\n", said.second_opinion);
-  return text + fmt::format("  masters: {}, for {}\n", from, textOf(key));
-}
-
-Json jsonOf(const Classification& said, const MasterKey& key, const measure::MasterLimits& limits,
-            const measure::Histogram& histogram, const std::string& from) {
-  Json classes = Json::array();
-  for (const ClassDistance& of : said.classes) {
-    classes.push_back({{"class", of.class_name}, {"mse", of.mse}, {"emd", of.emd}, {"nearest", of.nearest}});
-  }
-  return {{"class", said.verdict},
-          {"reason", said.reason.empty() ? Json(nullptr) : Json(said.reason)},
-          {"margin", said.margin},
-          {"second_opinion", said.second_opinion},
-          {"classes", classes},
-          {"limits", {{"mse", limits.mse}, {"emd", limits.emd}}},
-          {"key", toJson(key)},
-          {"masters", from},
-          {"shares", histogram.shares},
-          {"edges", histogram.edges},
-          {"left_out", histogram.left_out}};
-}
-
 /// What is printed of a mesh.
-Result<std::string> classified(const asset::TriangleMesh& mesh, const ClassifyOptions& options,
-                               const masters::OpenedBase& base, double density, Json json) {
-  const Result<MasterKey> key = keyFor(options, base.set, density);
-  if (!key) return key.error();
+Result<std::string> reportOf(const asset::TriangleMesh& mesh, const ClassifyOptions& options,
+                             const masters::OpenedBase& base, double density, Json json) {
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return jobs.error();
-  const Result<measure::Histogram> histogram =
-      measure::innerHistogram({mesh.points, mesh.triangles}, key->settings(), **jobs);
-  if (!histogram) return histogram.error();
-  const measure::MasterLimits& limits = *base.set.limitsOf(*key);
-  const Result<Classification> said = measure::classify(histogram->shares, *key, base.set.of(*key), limits);
-  if (!said) return said.error();
-  if (!options.json) return lines(*said, *key, options.file, base.from);
-  json.update(jsonOf(*said, *key, limits, *histogram, base.from));
+  const Result<Classified> classified = classifyTriangles(mesh, options.mode, density, base, **jobs);
+  if (!classified) return classified.error();
+  if (!options.json) return textOf(*classified, options.file);
+  json.update(toJson(*classified));
   return json.text() + "\n";
 }
 
@@ -99,7 +39,7 @@ Exit classifyGrammar(const ClassifyOptions& options, const masters::OpenedBase& 
   Json json = toJson(options, *made.region);
   json["file"] = options.file;
   return printOrComplain(
-      classified(trianglesOf(*made.region), options, base, 1 / metres(made.region->cell), std::move(json)));
+      reportOf(trianglesOf(*made.region), options, base, 1 / metres(made.region->cell), std::move(json)));
 }
 
 }  // namespace
@@ -135,7 +75,7 @@ Exit classifyMesh(const ClassifyOptions& options) {
       [&]() -> Result<std::string> {
         const Result<asset::TriangleMesh> mesh = readMeshFile(options.file, *kind);
         if (!mesh) return mesh.error();
-        return classified(*mesh, options, *base, options.density.value_or(0), {{"file", options.file}});
+        return reportOf(*mesh, options, *base, options.density.value_or(0), {{"file", options.file}});
       },
       limits));
 }

@@ -10,6 +10,7 @@
 #include "cli/console.h"
 #include "cli/ending_signals.h"
 #include "cli/options.h"
+#include "cli/serving.h"
 
 namespace sgm::cli {
 
@@ -74,6 +75,19 @@ struct ClassifyOptions : WorldOptions {
 };
 Exit classifyMesh(const ClassifyOptions& options);
 
+struct InspectOptions {
+  std::string kind;        ///< "glb", "obj", "ply", "stl" or "sgm"
+  std::string name;        ///< a client's, for people; may be anything
+  std::string masters;     ///< a base; empty: those that are built in
+  uint64_t memory = 2048;  ///< MB
+  uint64_t seconds = 60;
+  bool list_masters = false, store_masters = false;  ///< instead of all else
+  std::string region, cell, seed;                    ///< of a grammar, as they were sent; empty: not at all
+  std::vector<std::string> sets;
+};
+/// Standard input to standard output: uint64 size of the JSON, the JSON, uint64 size of the preview, the preview.
+Exit inspect(const InspectOptions& options);
+
 struct MastersBuildOptions {
   std::string out;   ///< empty: its own place, unless `emit` is there
   std::string emit;  ///< a source file; empty: none
@@ -118,6 +132,8 @@ struct FlyOptions : WorldOptions {
   bool levels = false;
   std::string video;           ///< an .mp4 file; empty: none
   std::string journal, cache;  ///< a file and a folder of the world's; empty: none
+  bool serve = false, keep_serving = false;
+  ServingOptions serving;  ///< where `serve` is set
 };
 Exit fly(const FlyOptions& options);
 
@@ -144,6 +160,12 @@ struct PaperOptions {
 /// What --only may name, in the order of the report.
 std::vector<std::string> paperParts();
 Exit reproducePaper(const PaperOptions& options);
+
+struct ServeOptions {
+  ServingOptions serving;
+  bool json = false;
+};
+Exit serve(const ServeOptions& options);
 
 Exit listBackends(bool json);
 

@@ -64,6 +64,8 @@ Error errorOf(const sgm_error& error) {
   const Code code = error.code == SGM_ERR_RANGE           ? Code::range
                     : error.code == SGM_ERR_LIMIT         ? Code::limit
                     : error.code == SGM_ERR_OUT_OF_MEMORY ? Code::out_of_memory
+                    : error.code == SGM_ERR_IO            ? Code::io
+                    : error.code == SGM_ERR_UNSUPPORTED   ? Code::unsupported
                                                           : Code::invalid_argument;
   return {code, error.message, error.line, error.column};
 }

@@ -163,10 +163,29 @@ struct FlightResult {
   Exit status = Exit::done;
 };
 
+/// A service that watches the scene's world, and says on stderr where: standard output is the report's.
+Result<Serving> serveWorld(const FlyOptions& options, const Scene& scene) {
+  Result<Serving> serving = Serving::start(options.serving);
+  if (!serving) return serving;
+  const std::string name = std::filesystem::path(options.file).stem().string();
+  if (Result<void> watched = serving->watch(worldName(name), scene.world.get()); !watched) return watched.error();
+  fmt::print(stderr, "page {}/\nmetrics {}/metrics\n", serving->work(), serving->operations());
+  return serving;
+}
+
 /// pictures: null where the flight is by distance, to compare.
 FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   Scene scene;
+  const bool serves = options.serve && pictures != nullptr;
+  std::optional<AwaitedSignals> signals;
+  if (serves && options.keep_serving) signals.emplace();
   if (const Exit status = makeScene(options, pictures == nullptr, scene); status != Exit::done) return {{}, status};
+  std::optional<Serving> serving;
+  if (serves) {
+    Result<Serving> started = serveWorld(options, scene);
+    if (!started) return {{}, cli::complain(started.error())};
+    serving = std::move(*started);
+  }
   Result<FlightPath> path = pathOf(options, scene);
   if (!path) return {{}, cli::complain(path.error())};
   FlightSettings settings = settingsOf(options, scene);
@@ -181,15 +200,23 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   FlightPlace last;
   std::optional<ProgressBar> bar(std::in_place, "planning");
   FlightWatch watch;
-  watch.planned = [&](uint64_t frame) { bar->show(frame + 1, options.frames); };
+  watch.planned = [&](uint64_t frame) {
+    if (signals && signals->came()) signals->pass();
+    bar->show(frame + 1, options.frames);
+  };
   watch.flown = [&](uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn) {
     if (frame == 0) bar.emplace(pictures == nullptr ? "by distance" : "flying");
     bar->show(frame + 1, options.frames);
     last = place;
+    if (signals && signals->came()) return false;
     return pictures == nullptr || pictures->take(scene.grammar.get(), frame, place, drawn);
   };
   Result<FlightReport> report = sgm::cli::fly(scene.world.get(), *path, settings, watch);
   bar.reset();
+  if (signals && signals->came() && !report) {
+    fmt::print(stderr, "ended before the flight was over: there is no report\n");
+    return {{}, Exit::done};
+  }
   if (!report && report.error().code != Code::cancelled) return {{}, cli::complain(report.error())};
   if (pictures != nullptr) {
     if (Result<void> drawn = pictures->finish(); !drawn) return {{}, cli::complain(drawn.error())};
@@ -212,6 +239,7 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   }
   if (sgm_backend_query(scene.runtime.get(), backendNamed(options.backend), &flown.backend, &error) != SGM_OK)
     return {{}, complain(error)};
+  if (signals) signals->wait();
   return {std::move(flown), Exit::done};
 }
 

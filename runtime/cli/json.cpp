@@ -40,9 +40,11 @@ void writeNumber(std::string& out, T value) {
   out.append(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
-void newLine(std::string& out, size_t indent) {
+/// indent: nothing for all on one line.
+void newLine(std::string& out, std::optional<size_t> indent) {
+  if (!indent) return;
   out += '\n';
-  out.append(indent, ' ');
+  out.append(*indent, ' ');
 }
 
 }  // namespace
@@ -69,6 +71,12 @@ Json Json::array() {
   return json;
 }
 
+Json Json::object() {
+  Json json;
+  json.value_ = Object();
+  return json;
+}
+
 Json& Json::operator[](std::string_view key) {
   if (std::holds_alternative<std::nullptr_t>(value_)) value_ = Object();
   Object& object = std::get<Object>(value_);
@@ -88,11 +96,18 @@ void Json::update(Json object) {
 
 std::string Json::text() const {
   std::string out;
-  write(out, 0);
+  write(out, size_t{0});
   return out;
 }
 
-void Json::write(std::string& out, size_t indent) const {
+std::string Json::line() const {
+  std::string out;
+  write(out, std::nullopt);
+  return out;
+}
+
+void Json::write(std::string& out, std::optional<size_t> indent) const {
+  const std::optional<size_t> inner = indent ? std::optional(*indent + 2) : std::nullopt;
   if (const bool* truth = std::get_if<bool>(&value_)) {
     out += *truth ? "true" : "false";
   } else if (const int64_t* whole = std::get_if<int64_t>(&value_)) {
@@ -107,8 +122,8 @@ void Json::write(std::string& out, size_t indent) const {
     out += '[';
     for (size_t i = 0; i < array->size(); ++i) {
       if (i > 0) out += ',';
-      newLine(out, indent + 2);
-      (*array)[i].write(out, indent + 2);
+      newLine(out, inner);
+      (*array)[i].write(out, inner);
     }
     if (!array->empty()) newLine(out, indent);
     out += ']';
@@ -116,10 +131,10 @@ void Json::write(std::string& out, size_t indent) const {
     out += '{';
     for (size_t i = 0; i < object->size(); ++i) {
       if (i > 0) out += ',';
-      newLine(out, indent + 2);
+      newLine(out, inner);
       writeText(out, (*object)[i].first);
-      out += ": ";
-      (*object)[i].second.write(out, indent + 2);
+      out += indent ? ": " : ":";
+      (*object)[i].second.write(out, inner);
     }
     if (!object->empty()) newLine(out, indent);
     out += '}';

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -39,6 +40,7 @@ class Json {
   Json(std::initializer_list<Json> values);
 
   static Json array();
+  static Json object();
 
   /// A member of an object, added where it is not there. Nothing becomes an object with it.
   Json& operator[](std::string_view key);
@@ -50,9 +52,12 @@ class Json {
   /// On several lines, indented by two spaces; always UTF-8: U+FFFD stands for what is not. Numbers that JSON does not
   /// have are null.
   std::string text() const;
+  /// The same on one line, without spaces.
+  std::string line() const;
 
  private:
-  void write(std::string& out, size_t indent) const;
+  /// indent: nothing for all on one line.
+  void write(std::string& out, std::optional<size_t> indent) const;
 
   std::variant<std::nullptr_t, bool, int64_t, uint64_t, double, std::string, Array, Object> value_;
 };

@@ -42,9 +42,11 @@ constexpr char kDone = 'd', kFailed = 'f';
 /// Statuses that it ends with where it could not say anything.
 constexpr int kNoMemory = 3, kLost = 4;
 
-void limit(decltype(RLIMIT_AS) what, uint64_t most) {
+/// Not to be raised again. `beyond`: what the process has left to end by the limit's signal.
+void limit(decltype(RLIMIT_AS) what, uint64_t most, uint64_t beyond = 0) {
   rlimit now{};
   if (getrlimit(what, &now) != 0) return;
+  now.rlim_max = std::min<rlim_t>(most + beyond, now.rlim_max);
   now.rlim_cur = std::min<rlim_t>(most, now.rlim_max);
   setrlimit(what, &now);
 }
@@ -76,9 +78,7 @@ std::string saidOf(const std::function<Result<std::string>()>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
   if (getppid() != parent) _exit(kLost);
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, static_cast<uint64_t>(std::ceil(limits.seconds)));
-  if (!kMapsWithoutEnd) limit(RLIMIT_AS, limits.memory);
+  limitThisProcess(limits);
   // Nothing may unwind into what the parent was doing.
   try {
     const std::string said = saidOf(work);
@@ -120,6 +120,12 @@ Error tooMuchMemory(const ProcessLimits& limits) {
 }
 
 }  // namespace
+
+void limitThisProcess(const ProcessLimits& limits) {
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, static_cast<uint64_t>(std::ceil(limits.seconds)), 1);
+  if (!kMapsWithoutEnd) limit(RLIMIT_AS, limits.memory);
+}
 
 Result<std::string> runLimited(const std::function<Result<std::string>()>& work, const ProcessLimits& limits) {
   std::array<int, 2> ends{};

@@ -14,6 +14,10 @@ struct ProcessLimits {
   double seconds = 300;  ///< of processor time, all threads together, rounded up to whole ones; and of the clock
 };
 
+/// Holds this process to its limits from now on, for good, those of its threads together, and lets it leave no core
+/// file.
+void limitThisProcess(const ProcessLimits& limits);
+
 /// Runs work() in a child process and returns what it returns. To be called before this process has threads.
 /// Errors: those of work(); limit where the child takes more than it may, or ends in any other way than by returning;
 /// io where there is no child. A caller that is ended takes the child with it.

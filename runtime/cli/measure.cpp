@@ -48,10 +48,7 @@ Result<std::string> reportOf(const Subject& subject, const MeasureOptions& optio
   if (!measures) return measures.error();
   const char verdict = measures->validButForCut() && measures->triangles > 0 ? kSound : kUnsound;
   if (options.json) {
-    Json json = subject.json;
-    json["file"] = options.file;
-    json["origin"] = {mesh.origin.x, mesh.origin.y, mesh.origin.z};
-    json.update(toJson(*measures, mesh.origin));
+    Json json = reportJson(subject.json, options.file, *measures, mesh.origin);
     for (const auto& [name, section] : subject.sections) json[name] = section.json;
     json["seconds"] = watch.seconds();
     return verdict + json.text() + "\n";
@@ -129,17 +126,6 @@ Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world,
     extent = held.extent;
   }
   return all;
-}
-
-/// The box that was meshed, from the mesh's origin.
-measure::Cut cutOf(const Region& region) {
-  measure::Cut cut;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int64_t origin = region.meshed.mesh.origin[axis];
-    cut.low[axis] = static_cast<double>(region.meshed.extent.lo[axis] - origin) / kUnitsPerMetre;
-    cut.high[axis] = static_cast<double>(region.meshed.extent.hi[axis] - origin) / kUnitsPerMetre;
-  }
-  return cut;
 }
 
 /// Of what the region's mesh was made.

@@ -167,6 +167,13 @@ Json toJson(const MeshMeasures& m, Point origin) {
   return json;
 }
 
+Json reportJson(Json known, const std::string& file, const MeshMeasures& measures, Point origin) {
+  known["file"] = file;
+  known["origin"] = pointJson(origin);
+  known.update(toJson(measures, origin));
+  return known;
+}
+
 namespace {
 
 std::string volumeText(const MeshMeasures& m, std::string_view unit) {

@@ -12,7 +12,10 @@ namespace sgm::cli {
 
 /// Everything, in the mesh's unit. origin: where its points count from; places are told from 0.
 Json toJson(const measure::MeshMeasures& measures, measure::Point origin = {});
-/// The same in lines for people, below a line that names the mesh. unit: " m", or nothing where it is not known.
+/// The whole report, but for the time that it took: what is `known` of the mesh by itself, the file's name, and
+/// everything.
+Json reportJson(Json known, const std::string& file, const measure::MeshMeasures& measures, measure::Point origin);
+/// Everything in lines for people, below a line that names the mesh. unit: " m", or nothing where it is not known.
 std::string textOf(const measure::MeshMeasures& measures, measure::Point origin = {}, std::string_view unit = "");
 /// What is wrong with it as a solid's surface, one sentence each, with the first place where there is one.
 std::vector<std::string> problemsOf(const measure::MeshMeasures& measures, measure::Point origin = {});

@@ -57,16 +57,20 @@ bool isGrammarFile(const std::string& path) {
   return ending == ".sgm";
 }
 
-Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind) {
-  const Result<std::vector<std::byte>> bytes = readBytes(file);
-  if (!bytes) return bytes.error();
+Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, asset::MeshFileKind kind) {
   // What a file may hold is limited by the process's memory alone.
   asset::MeshLimits limits;
   limits.points = limits.triangles = std::numeric_limits<uint32_t>::max();
   limits.farthest = 1e12;
   limits.json_bytes = size_t{64} << 20;
   limits.nodes = size_t{1} << 20;
-  Result<asset::TriangleMesh> mesh = asset::readMesh(*bytes, kind, limits);
+  return asset::readMesh(bytes, kind, limits);
+}
+
+Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind) {
+  const Result<std::vector<std::byte>> bytes = readBytes(file);
+  if (!bytes) return bytes.error();
+  Result<asset::TriangleMesh> mesh = readMeshBytes(*bytes, kind);
   if (!mesh) return Error{mesh.error().code, file + ": " + mesh.error().message};
   return mesh;
 }
@@ -102,6 +106,16 @@ Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, asset::Me
     for (const uint32_t corner : triangle) whole = whole && corner < mesh.points.size();
   if (!whole) return Error{Code::io, "the process that read " + file + " has said something else than a mesh"};
   return mesh;
+}
+
+measure::Cut cutOf(const Region& region) {
+  measure::Cut cut;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t origin = region.meshed.mesh.origin[axis];
+    cut.low[axis] = static_cast<double>(region.meshed.extent.lo[axis] - origin) / kUnitsPerMetre;
+    cut.high[axis] = static_cast<double>(region.meshed.extent.hi[axis] - origin) / kUnitsPerMetre;
+  }
+  return cut;
 }
 
 asset::TriangleMesh trianglesOf(const Region& region) {

@@ -1,16 +1,22 @@
 #pragma once
 // The triangles that `measure` and `classify` look at, from a file or from a grammar's region.
 
+#include <cstddef>
+#include <span>
 #include <string>
 
 #include "asset/mesh_file.h"
 #include "cli/limited_process.h"
 #include "cli/region.h"
+#include "measure/defect_places.h"
 
 namespace sgm::cli {
 
 /// Whether the path's name ends in .sgm, in letters of any case, as meshFileKind() has it of meshes.
 bool isGrammarFile(const std::string& path);
+
+/// The triangles of a file that is in memory, however many. Errors: those of readMesh.
+Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, asset::MeshFileKind kind);
 
 /// Errors: io; those of readMesh, with the file's name in front.
 Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind);
@@ -19,6 +25,9 @@ Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFil
 /// process has threads. Errors: those of readMeshFile and runLimited.
 Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, asset::MeshFileKind kind,
                                               const ProcessLimits& limits);
+
+/// The box that was meshed, from the mesh's origin.
+measure::Cut cutOf(const Region& region);
 
 /// Positions in metres from its origin; the mesh before its creases are split, where it has been.
 asset::TriangleMesh trianglesOf(const Region& region);

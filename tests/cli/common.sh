@@ -9,7 +9,7 @@ cd "$work"
 # What the command keeps for its user is not the user's here; what the driver keeps is, for it takes long to make.
 export MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-${XDG_CACHE_HOME:-${HOME:-}/.cache}} XDG_CACHE_HOME=$work/.cache
 failures=0
-status=0 out= err=
+status=0 out= err= last=
 
 # run COMMAND...: its status, standard output and standard error in `status`, `out`, `err`.
 run() {

@@ -1,0 +1,74 @@
+#include "cli/service_arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <vector>
+
+namespace sgm::cli {
+
+void addServingOptions(CLI::App& app, ServingOptions& options, CLI::Option* needs) {
+  const std::vector<CLI::Option*> all{
+      app.add_option("--listen", options.listen,
+                     "Address to listen on, in numbers. One that others can reach needs --token-file")
+          ->type_name("ADDRESS")
+          ->capture_default_str(),
+      app.add_option("--port", options.port, "Of the page and /api/v1; 0: any that is free")
+          ->check(CLI::Range(0, 65535))
+          ->capture_default_str(),
+      app.add_option("--operations-port", options.operations_port,
+                     "Of /metrics, /healthz and /readyz; 0: any that is free")
+          ->check(CLI::Range(0, 65535))
+          ->capture_default_str(),
+      app.add_option("--token-file", options.token_file,
+                     "Ask for the token in this file's first line, 16 characters or more, as Authorization: Bearer")
+          ->type_name("FILE"),
+      app.add_option("--host", options.hosts,
+                     "A name of this machine that clients may use, beside localhost and the address (repeatable)")
+          ->type_name("NAME")
+          ->allow_extra_args(false),
+      app.add_option("--masters", options.masters,
+                     "A base of masters, from `sgm masters build`, which PUT /api/v1/masters replaces; without it the "
+                     "masters that are built in")
+          ->type_name("FILE"),
+      app.add_option("--upload-folder", options.upload_folder,
+                     "Where uploads lie while they are judged, without a name; without it in the machine's own folder "
+                     "for temporary files")
+          ->type_name("FOLDER"),
+      app.add_option("--upload-mb", options.upload_mb, "Megabytes of one upload, at most")
+          ->check(CLI::Range(uint64_t{1}, uint64_t{4096}))
+          ->capture_default_str(),
+      app.add_option("--inspect-mb", options.memory_mb, "Megabytes of memory to judge one upload, at most")
+          ->check(CLI::Range(uint64_t{64}, uint64_t{1} << 20))
+          ->capture_default_str(),
+      app.add_option("--inspect-seconds", options.seconds, "Seconds to judge one upload, at most")
+          ->check(CLI::Range(1, 86400))
+          ->capture_default_str(),
+      app.add_option("--inspect-jobs", options.jobs, "Uploads that are judged at one time")
+          ->check(CLI::Range(1, 64))
+          ->capture_default_str(),
+      app.add_option("--inspect-waiting", options.waiting,
+                     "Uploads that may wait beside those; more are told to come again")
+          ->check(CLI::Range(1, 4096))
+          ->capture_default_str(),
+  };
+  for (CLI::Option* option : all)
+    if (needs != nullptr) option->needs(needs);
+}
+
+std::function<Exit()> addServe(CLI::App& root) {
+  CLI::App* app =
+      root.add_subcommand("serve", "Judge meshes over HTTP, with a page for people and metrics for Prometheus");
+  const auto options = std::make_shared<ServeOptions>();
+  addServingOptions(*app, options->serving, nullptr);
+  app->add_flag("--json", options->json, "Print where it listens as one line of JSON on standard output");
+  app->footer(
+      "Serves until SIGINT, SIGTERM or SIGHUP; then answers what was asked, for 5 s at most, and ends with status 0.\n"
+      "To see a world stream: sgm fly GRAMMAR --serve. What the interface takes and answers says "
+      "/api/v1/openapi.json.\n"
+      "Example:\n"
+      "  sgm serve\n"
+      "  curl --data-binary @cave.glb -H 'Content-Type: model/gltf-binary' http://127.0.0.1:8464/api/v1/validate");
+  return [options] { return serve(*options); };
+}
+
+}  // namespace sgm::cli
