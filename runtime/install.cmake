@@ -46,8 +46,10 @@ install(EXPORT sgmTargets NAMESPACE sgm:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cm
 # Whoever links the shared library needs nothing else; a static one takes our dependencies along.
 if(NOT SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
   unset(SGM_CONFIG_DEPENDENCIES)
+  unset(SGM_SERVICE_CONFIG_DEPENDENCIES)
   unset(SGM_PC_REQUIRES)
 else()
+  set(SGM_SERVICE_CONFIG_DEPENDENCIES "find_dependency(prometheus-cpp CONFIG)")
   string(APPEND SGM_CONFIG_AFTER "# A project in C alone does not link what the library needs of C++.\n"
     "get_property(_sgm_languages GLOBAL PROPERTY ENABLED_LANGUAGES)\n"
     "if(NOT \"CXX\" IN_LIST _sgm_languages)\n"

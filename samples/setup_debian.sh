@@ -15,10 +15,11 @@ SGM_BUILD_PACKAGES=(
   libhwy-dev libzstd-dev libxxhash-dev
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
   libcli11-dev libfmt-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libsqlite3-dev
+  libboost-dev prometheus-cpp-dev
 )
 SGM_TEST_PACKAGES=(
   catch2 libcgal-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind
-  git=git ca-certificates nodejs=node npm=npm
+  git=git ca-certificates nodejs=node npm=npm curl=curl prometheus chromium
 )
 # Only for AVX-512 where no processor has it: tests/scripts/avx512_emulated.sh.
 SGM_EMULATION_PACKAGES=(bochs bochs-term bochsbios vgabios isolinux syslinux-common xorriso busybox-static)

@@ -51,7 +51,8 @@ step "packages"
 source samples/setup_debian.sh
 sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"
 sgm_setup_npm build/tools gltf-validator 2.0.0-dev.3.10 manifold-3d 3.5.4 vscode-languageserver-protocol 3.17.5 \
-  vscode-textmate 9.3.2 vscode-oniguruma 2.0.1
+  vscode-textmate 9.3.2 vscode-oniguruma 2.0.1 playwright-core 1.65.1 ajv 8.20.0 ajv-formats 3.0.1 \
+  @seriousme/openapi-schema-validator 2.11.0
 
 # build PRESET: quiet while all is well, the whole story when not.
 build() {

@@ -1,15 +1,26 @@
 #!/usr/bin/env bash
-# The library shows what its headers declare and nothing else.
+# The libraries show what their headers declare and nothing else.
 #
-#   bash exported_symbols.sh LIBRARY INCLUDE_FOLDER
+#   bash exported_symbols.sh LIBRARY INCLUDE_FOLDER [SERVICE_LIBRARY]
 set -euo pipefail
 export LC_ALL=C
-library=$1 include=$2
-exported=$(nm -D --defined-only --format=posix "$library" | awk '{ print $1 }' | sort)
-declared=$(sed -n 's/^SGM_API .*\b\(sgm_[a-z0-9_]*\)(.*/\1/p' "$include"/*.h | sort)
-diff <(echo "$declared") <(echo "$exported") >/dev/null && { wc -l <<<"$exported"; exit 0; }
-echo "declared only:" >&2
-comm -23 <(echo "$declared") <(echo "$exported") >&2
-echo "exported only:" >&2
-comm -13 <(echo "$declared") <(echo "$exported") >&2
-exit 1
+different=0
+
+# compare LIBRARY HEADER...
+compare() {
+  local exported declared
+  exported=$(nm -D --defined-only --format=posix "$1" | awk '{ print $1 }' | sort)
+  declared=$(sed -n 's/^SGM_API .*\b\(sgm_[a-z0-9_]*\)(.*/\1/p' "${@:2}" | sort)
+  diff <(echo "$declared") <(echo "$exported") >/dev/null && { wc -l <<<"$exported"; return; }
+  different=1
+  echo "declared only:" >&2
+  comm -23 <(echo "$declared") <(echo "$exported") >&2
+  echo "exported only:" >&2
+  comm -13 <(echo "$declared") <(echo "$exported") >&2
+}
+
+service=$2/sgm_service.h
+headers=("$2"/*.h)
+compare "$1" "${headers[@]/$service/\/dev\/null}"
+[[ -z ${3-} ]] || compare "$3" "$service"
+exit $different

@@ -1,0 +1,49 @@
+// Elements from names and values. Text goes in as text alone: names of uploads are whatever their sender wished.
+
+function build(node, options, children) {
+  for (const [key, value] of Object.entries(options)) {
+    if (value === undefined || value === null || value === false) continue;
+    if (key === 'text') node.textContent = value;
+    else if (key === 'on') for (const [type, listener] of Object.entries(value)) node.addEventListener(type, listener);
+    else node.setAttribute(key, value === true ? '' : value);
+  }
+  node.append(...children.filter((child) => child !== null && child !== undefined));
+  return node;
+}
+
+/** options: attributes by name; `text`, `on` {event: listener}; those that are null or false are left out. */
+export function element(tag, options = {}, ...children) {
+  return build(document.createElement(tag), options, children);
+}
+
+export function svg(tag, options = {}, ...children) {
+  return build(document.createElementNS('http://www.w3.org/2000/svg', tag), options, children);
+}
+
+export const byId = (id) => document.getElementById(id);
+
+/** A number as people read it, with the whole of it for programs. */
+export function datum(value, text, options = {}) {
+  return element('data', { value: String(value), text, ...options });
+}
+
+const icons = {
+  ok: 'M3 8.5 6.5 12 13 4.5',
+  attention: 'M8 2 14.5 13.5H1.5Z M8 6.2V9.6 M8 11.6V11.7',
+  defect: 'M4 4 12 12 M12 4 4 12',
+  unknown: 'M5.4 6A2.6 2.6 0 1 1 8 8.6V9.8 M8 12.4V12.5',
+  waiting: 'M8 1.8A6.2 6.2 0 1 0 8.01 1.8 M8 4.5V8L10.6 9.8',
+  info: 'M8 7V12 M8 4V4.1',
+};
+
+/** A verdict: a sign and a word beside its colour. kind: ok, attention, defect, unknown, waiting, info. */
+export function verdict(kind, text) {
+  return element(
+    'span',
+    { class: `verdict ${kind}` },
+    svg('svg', { viewBox: '0 0 16 16', class: 'sign', 'aria-hidden': 'true' }, svg('path', { d: icons[kind] })),
+    element('span', { text }),
+  );
+}
+
+export const reducedMotion = () => matchMedia('(prefers-reduced-motion: reduce)').matches;

@@ -1,0 +1,18 @@
+// What was seen of a world in the last minutes.
+
+export const historySeconds = 300;
+
+export class History {
+  #samples = [];
+
+  /** sample.time: seconds, growing; what is older than the history goes. */
+  add(sample) {
+    this.#samples.push(sample);
+    const first = this.#samples.findIndex((old) => old.time >= sample.time - historySeconds - 2);
+    if (first > 0) this.#samples.splice(0, first);
+  }
+
+  get samples() {
+    return this.#samples;
+  }
+}

@@ -1,0 +1,32 @@
+// Asks whoever looks at the page for the service's token.
+
+import { byId } from './element.js';
+
+/** A promise of what was written, or of null. wrong: that the last one was not accepted. */
+export function askToken(wrong) {
+  const dialog = byId('token-dialog'),
+    form = byId('token-form'),
+    input = byId('token-input');
+  byId('token-wrong').hidden = !wrong;
+  input.value = '';
+  dialog.showModal();
+  input.focus();
+  return new Promise((resolve) => {
+    let token = null;
+    const cancel = () => dialog.close();
+    const use = (event) => {
+      event.preventDefault();
+      token = input.value.trim();
+      if (token !== '') dialog.close();
+    };
+    const closed = () => {
+      form.removeEventListener('submit', use);
+      byId('token-cancel').removeEventListener('click', cancel);
+      input.value = '';
+      resolve(token);
+    };
+    form.addEventListener('submit', use);
+    byId('token-cancel').addEventListener('click', cancel);
+    dialog.addEventListener('close', closed, { once: true });
+  });
+}

@@ -1,0 +1,135 @@
+// Files on their way to the service: one is sent at a time, each may be cancelled until it is there.
+
+import { bytes } from './format.js';
+
+const types = { glb: 'model/gltf-binary', obj: 'model/obj', stl: 'model/stl', ply: 'model/ply', sgm: 'text/x-sgm' };
+export const endings = Object.keys(types);
+
+const endingOf = (name) => name.slice(name.lastIndexOf('.') + 1).toLowerCase();
+const pause = (milliseconds) =>
+  new Promise((resolve) => {
+    setTimeout(resolve, milliseconds);
+  });
+
+/** The part of a name that the service takes: 255 bytes of UTF-8, with its ending. */
+function shortName(name) {
+  let kept = name;
+  while (new TextEncoder().encode(kept).length > 255) kept = kept.slice(1);
+  return kept;
+}
+
+/** A file. state: queued, sending, judging, done, failed, cancelled; sent: bytes; problem: why it failed. */
+export class Upload {
+  constructor(file, options) {
+    this.file = file;
+    this.options = options;
+    this.state = 'queued';
+    this.sent = 0;
+    this.problem = null;
+    this.report = null;
+    this.abort = new AbortController();
+  }
+
+  get over() {
+    return ['done', 'failed', 'cancelled'].includes(this.state);
+  }
+}
+
+export class Uploads {
+  #api;
+  #told;
+  #queue = [];
+  #sending = false;
+  #mostBytes = Infinity;
+
+  /** told(upload): something about it is new. */
+  constructor(api, told) {
+    this.#api = api;
+    this.#told = told;
+  }
+
+  /** Files of more bytes than the service takes are not sent at all. */
+  limit(most_bytes) {
+    this.#mostBytes = most_bytes;
+  }
+
+  /** options: of grammars, [[name, value]]. */
+  add(files, options) {
+    for (const file of files) {
+      const upload = new Upload(file, endingOf(file.name) === 'sgm' ? options : []);
+      this.#queue.push(upload);
+      this.#told(upload);
+    }
+    this.#run();
+  }
+
+  /** Does nothing once all of the file is there: what is judged then is judged to its end. */
+  cancel(upload) {
+    if (upload.state === 'queued') this.#set(upload, 'cancelled');
+    if (upload.state === 'sending') upload.abort.abort();
+  }
+
+  #set(upload, state) {
+    upload.state = state;
+    this.#told(upload);
+  }
+
+  /** Why the service would not take a file, where that can be told before it is sent. */
+  #whyNot({ name, size }) {
+    if (!(endingOf(name) in types))
+      return `This file cannot be validated: the service takes ${endings.map((ending) => `.${ending}`).join(', ')}`;
+    if (size > this.#mostBytes)
+      return `This file is too large: ${bytes(size)}, and the service takes ${bytes(this.#mostBytes)} at most`;
+    return null;
+  }
+
+  async #run() {
+    if (this.#sending) return;
+    this.#sending = true;
+    while (this.#queue.length > 0) {
+      const upload = this.#queue.shift();
+      if (upload.state === 'queued') await this.#send(upload);
+    }
+    this.#sending = false;
+  }
+
+  async #send(upload) {
+    const { file } = upload;
+    this.#set(upload, 'sending');
+    try {
+      const why_not = this.#whyNot(file);
+      if (why_not) throw new Error(why_not);
+      const query = new URLSearchParams([['name', shortName(file.name)], ...upload.options]);
+      const type = types[endingOf(file.name)];
+      upload.report = await this.#api.upload(
+        `/api/v1/validate?${query}`,
+        file,
+        type,
+        (sent) => {
+          upload.sent = sent;
+          this.#told(upload);
+        },
+        upload.abort.signal,
+      );
+      this.#set(upload, 'judging');
+      this.#follow(upload);
+    } catch (error) {
+      upload.problem = error;
+      this.#set(upload, error.name === 'AbortError' ? 'cancelled' : 'failed');
+    }
+  }
+
+  /** Until the report is done; the next file goes out meanwhile. */
+  async #follow(upload) {
+    try {
+      for (let wait = 100; ['waiting', 'running'].includes(upload.report.state); wait = Math.min(wait * 1.5, 1000)) {
+        await pause(wait);
+        upload.report = await this.#api.json(`/api/v1/reports/${encodeURIComponent(upload.report.id)}`);
+      }
+      this.#set(upload, upload.report.state);
+    } catch (error) {
+      upload.problem = error;
+      this.#set(upload, 'failed');
+    }
+  }
+}
