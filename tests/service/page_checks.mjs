@@ -1,0 +1,65 @@
+// Checks that print what they have found, and count.
+
+export const pause = (milliseconds) =>
+  new Promise((resolve) => {
+    setTimeout(resolve, milliseconds);
+  });
+
+export class Checks {
+  passed = 0;
+  failed = 0;
+
+  check(name, holds, detail = '') {
+    if (holds) ++this.passed;
+    else ++this.failed;
+    console.log(`${holds ? 'ok    ' : 'FAILED'} ${name}${detail !== '' ? `: ${detail}` : ''}`);
+    return holds;
+  }
+
+  equal(name, found, wanted) {
+    const [a, b] = [JSON.stringify(found), JSON.stringify(wanted)];
+    return this.check(name, a === b, a === b ? a.slice(0, 120) : `${a}, not ${b}`);
+  }
+
+  /** What a scenario throws fails it, and no other. */
+  async scenario(name, run) {
+    console.log(`-- ${name}`);
+    try {
+      await run();
+    } catch (error) {
+      this.check(name, false, String(error.stack ?? error).slice(0, 1500));
+    }
+  }
+}
+
+/** The first true answer of ask(), or its last one after so many seconds. */
+export async function until(ask, seconds = 20) {
+  const end = Date.now() + 1000 * seconds;
+  for (;;) {
+    const answer = await ask();
+    if (answer || Date.now() > end) return answer;
+    await pause(100);
+  }
+}
+
+/** Samples of Prometheus' text: [{name, labels, value}]. */
+export function readMetrics(text) {
+  return text
+    .split('\n')
+    .filter((line) => line && !line.startsWith('#'))
+    .map((line) => {
+      const [, name, inner, value] = /^([a-zA-Z0-9_:]+)(?:\{(.*)\})? (\S+)/.exec(line);
+      const labels = Object.fromEntries(
+        [...(inner ?? '').matchAll(/([a-z_]+)="((?:[^"\\]|\\.)*)"/g)].map((m) => [m[1], m[2]]),
+      );
+      return { name, labels, value: Number(value.replace('Inf', 'Infinity')) };
+    });
+}
+
+/** The sum over all series of a name that have these labels; null where there are none. */
+export function sumOf(samples, name, labels) {
+  const found = samples.filter(
+    (one) => one.name === name && Object.entries(labels).every(([key, value]) => one.labels[key] === value),
+  );
+  return found.length === 0 ? null : found.reduce((sum, one) => sum + one.value, 0);
+}
