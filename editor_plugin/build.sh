@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Builds the Godot plugin from the installed package, into demo/addons/sgm/bin, and imports the demo project.
+#
+#   bash editor_plugin/build.sh [PREFIX]
+#
+#   PREFIX  where libsgm is installed; without it build/release is installed into build/godot/prefix
+#
+# The engine's headers come from the Godot that get_godot.sh finds. All else goes below build/godot.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(dirname "$here")
+out=$root/build/godot
+die() { echo "editor_plugin/build.sh: error: $1" >&2; exit 1; }
+
+mkdir -p "$out"
+# quietly WHAT COMMAND...: its words only where it fails.
+quietly() {
+  local what=$1
+  shift
+  "$@" >"$out/build.log" 2>&1 </dev/null || { cat "$out/build.log" >&2; die "$what failed"; }
+}
+
+prefix=${1:-$out/prefix}
+if (($# == 0)); then
+  [[ -e $root/build/release/runtime/cmake_install.cmake ]] ||
+    die "build/release is not built: cmake --preset release && cmake --build --preset release, or name a PREFIX"
+  quietly "installing build/release" cmake --install "$root/build/release" --prefix "$prefix"
+fi
+godot=$(bash "$here/get_godot.sh")
+
+# The headers are the engine's own: once a version.
+api=$out/api
+version=$("$godot" --headless --version 2>/dev/null </dev/null | tail -n 1)
+if [[ $(cat "$api/version" 2>/dev/null) != "$version" ]]; then
+  rm -rf "$api"
+  mkdir -p "$api"
+  (cd "$api" && quietly "writing the engine's headers" "$godot" --headless --dump-gdextension-interface)
+  [[ -s $api/gdextension_interface.h ]] || die "$godot wrote no gdextension_interface.h"
+  echo "$version" >"$api/version"
+fi
+
+options=()
+! command -v ccache >/dev/null || options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+quietly "configuring" cmake -S "$here" -B "$out/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DSGM_GODOT_API="$api" \
+  ${options[@]+"${options[@]}"}
+quietly "building" cmake --build "$out/build"
+# So that the project also runs without having been opened in the editor. An engine that finds a library only while it
+# imports crashes when it quits (godotengine/godot#111048): it is told of it before.
+[[ -e $here/demo/.godot/extension_list.cfg ]] ||
+  { mkdir -p "$here/demo/.godot" && echo "res://addons/sgm/sgm.gdextension" >"$here/demo/.godot/extension_list.cfg"; }
+HOME=$out/home quietly "importing the demo project" timeout 300 "$godot" --headless --path "$here/demo" --import
+! grep -E '^(ERROR|SCRIPT ERROR)' "$out/build.log" >&2 || die "the demo project was imported with errors"
+echo "the plugin is in editor_plugin/demo/addons/sgm, built with the headers of Godot $version"

@@ -1,0 +1,70 @@
+#pragma once
+// C++ types as arguments and results of methods that the engine calls.
+
+#include "instance.h"
+
+namespace sgm_godot {
+
+/// A dictionary, an array, or a packed array of numbers or strings: what a Variant cannot tell by its C++ type.
+template <GDExtensionVariantType type>
+struct Typed {
+  Variant value = Variant::ofType(type);
+};
+using Dictionary = Typed<GDEXTENSION_VARIANT_TYPE_DICTIONARY>;
+using Array = Typed<GDEXTENSION_VARIANT_TYPE_ARRAY>;
+using Strings = Typed<GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY>;
+using Bytes = Typed<GDEXTENSION_VARIANT_TYPE_PACKED_BYTE_ARRAY>;
+using Integers = Typed<GDEXTENSION_VARIANT_TYPE_PACKED_INT64_ARRAY>;
+using Points = Typed<GDEXTENSION_VARIANT_TYPE_PACKED_VECTOR3_ARRAY>;
+
+template <class T>
+struct Conversion {
+  static constexpr int type = VariantType<T>::value;
+  static T from(const Variant& value) { return value.to<T>(); }
+  static Variant into(const T& value) { return Variant(value); }
+};
+#define SGM_GODOT_CONVERSION(T, TYPE)                              \
+  template <>                                                      \
+  struct Conversion<T> {                                           \
+    static constexpr int type = GDEXTENSION_VARIANT_TYPE_##TYPE;   \
+    static T from(const Variant& value) { return value.to<T>(); }  \
+    static Variant into(const T& value) { return Variant(value); } \
+  };
+SGM_GODOT_CONVERSION(bool, BOOL)
+SGM_GODOT_CONVERSION(int64_t, INT)
+SGM_GODOT_CONVERSION(double, FLOAT)
+SGM_GODOT_CONVERSION(std::string, STRING)
+#undef SGM_GODOT_CONVERSION
+template <GDExtensionVariantType number>
+struct Conversion<Typed<number>> {
+  static constexpr int type = number;
+  static Typed<number> from(const Variant& value) { return {value.type() == number ? value : Variant::ofType(number)}; }
+  static Variant into(const Typed<number>& value) { return value.value; }
+};
+/// Text that comes as the engine's StringName.
+struct NameText {
+  std::string text;
+};
+template <>
+struct Conversion<NameText> {
+  static constexpr int type = GDEXTENSION_VARIANT_TYPE_STRING_NAME;
+  static NameText from(const Variant& value) { return {value.to<std::string>()}; }
+  static Variant into(const NameText& value) { return Variant(Name(value.text)); }
+};
+template <>
+struct Conversion<Variant> {
+  static constexpr int type = GDEXTENSION_VARIANT_TYPE_NIL;  // anything
+  static Variant from(const Variant& value) { return value; }
+  static Variant into(const Variant& value) { return value; }
+};
+template <>
+struct Conversion<Object> {
+  static constexpr int type = GDEXTENSION_VARIANT_TYPE_OBJECT;
+  static Object from(const Variant& value) { return value.object(); }
+  static Variant into(Object value) { return Variant(value); }
+};
+
+template <class T>
+using Bare = std::remove_cv_t<std::remove_reference_t<T>>;
+
+}  // namespace sgm_godot

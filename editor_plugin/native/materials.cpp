@@ -1,0 +1,98 @@
+#include "materials.h"
+
+#include <cmath>
+
+#include "godot/log.h"
+#include "palette.h"
+
+namespace sgm_godot {
+namespace {
+
+constexpr const char* kShaders[] = {"res://addons/sgm/shaders/triplanar.gdshader",
+                                    "res://addons/sgm/shaders/uv.gdshader"};
+constexpr size_t kMostColors = 64, kMostViewers = 4;  // of the shaders' arrays
+constexpr int kPatternMetres = 1024;                  // after which the shaders' patterns repeat
+
+Variant singleton(const char* name) { return Variant(engine().global_get_singleton(Name(name).get())); }
+
+Variant make(const char* class_name) { return Variant(engine().classdb_construct_object(Name(class_name).get())); }
+
+Variant ownMaterial(int64_t mapping) {
+  const char* path = kShaders[mapping == 1 ? 1 : 0];
+  const Variant loader = singleton("ResourceLoader");
+  if (loader.call("exists", path).truth()) {
+    const Variant shader = loader.call("load", path);
+    if (shader.object() != nullptr) {
+      const Variant material = make("ShaderMaterial");
+      material.call("set_shader", shader);
+      return material;
+    }
+  }
+  logWarning(std::string(path) + " is missing: surfaces are drawn plainly; copy the whole folder addons/sgm");
+  return make("StandardMaterial3D");
+}
+
+}  // namespace
+
+void Materials::rebuild(const std::vector<std::string>& names, const Settings& settings) {
+  materials_.assign(1, {"", Variant(), ownMaterial(settings.mapping)});
+  slots_.assign(names.size(), 0);
+  palette_.clear();
+  for (size_t i = 0; i < names.size(); ++i) {
+    const auto color = settings.colors.find(names[i]);
+    palette_.push_back(color != settings.colors.end() ? color->second : colorOf(names[i]));
+    const auto chosen = settings.materials.find(names[i]);
+    if (chosen == settings.materials.end() || chosen->second.object() == nullptr) continue;
+    slots_[i] = static_cast<uint16_t>(materials_.size());
+    materials_.push_back({names[i], chosen->second, chosen->second});
+  }
+  sent_ = false;
+}
+
+std::vector<Rid> Materials::rids() const {
+  std::vector<Rid> result;
+  for (const Slot& slot : materials_) result.push_back(slot.used.call("get_rid").to<Rid>());
+  return result;
+}
+
+// To the server and not to the material, which may be a file that an editor would save then.
+void Materials::send(const char* parameter, const Variant& value) const {
+  const Variant server = singleton("RenderingServer");
+  const Name set("material_set_param"), name(parameter);
+  for (const Slot& slot : materials_) server.call(set, slot.used.call("get_rid"), name, value);
+}
+
+void Materials::update(const std::vector<Vector3>& viewers, const MorphRanges& ranges, double cell_size,
+                       const Placement& placement) {
+  if (!sent_) {
+    // The engine pads arrays that are too short, but not silently in all versions.
+    Packed<Color> colors(kMostColors);
+    for (size_t i = 0; i < kMostColors; ++i) colors.data()[i] = i < palette_.size() ? palette_[i] : Color{};
+    send("material_colors", colors.take());
+    send("cell_size", cell_size);
+    const auto wrapped = [](int32_t metres) { return static_cast<float>(metres % kPatternMetres); };
+    send("pattern_offset",
+         Vector3{wrapped(placement.origin.x), wrapped(placement.origin.y), wrapped(placement.origin.z)} -
+             placement.node.origin);
+  }
+  const bool moved = viewers.size() != viewers_.size() ||
+                     std::memcmp(viewers.data(), viewers_.data(), viewers.size() * sizeof(Vector3)) != 0;
+  if (moved || !sent_) {
+    Packed<Vector3> places(kMostViewers);
+    for (size_t i = 0; i < kMostViewers; ++i) places.data()[i] = i < viewers.size() ? viewers[i] : Vector3{};
+    send("viewers", places.take());
+    send("viewer_count", static_cast<int64_t>(std::min(viewers.size(), kMostViewers)));
+    viewers_ = viewers;
+  }
+  if (!(ranges == ranges_) || !sent_) {
+    Packed<float> begin(ranges.begin.size()), end(ranges.end.size());
+    std::copy(ranges.begin.begin(), ranges.begin.end(), begin.data());
+    std::copy(ranges.end.begin(), ranges.end.end(), end.data());
+    send("morph_begin", begin.take());
+    send("morph_end", end.take());
+    ranges_ = ranges;
+  }
+  sent_ = true;
+}
+
+}  // namespace sgm_godot

@@ -1,0 +1,57 @@
+#include "morph_ranges.h"
+
+#include <cmath>
+
+namespace sgm_godot {
+namespace {
+
+constexpr float kNever = 1e9f;
+
+/// How far the box of a chunk is from the nearest viewer, at its nearest and at its farthest point: metres.
+std::pair<float, float> distances(const sgm_chunk_key& key, const std::vector<Units>& viewers, int32_t cell_units) {
+  const double edge = std::ldexp(static_cast<double>(cell_units) * SGM_CHUNK_CELLS, key.level);
+  const double corner[3] = {key.x * edge, key.y * edge, key.z * edge};
+  double nearest = INFINITY, farthest = INFINITY;
+  for (const Units& viewer : viewers) {
+    double near = 0, far = 0;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double low = corner[axis] - viewer[axis], high = low + edge;
+      const double inside = std::max({low, -high, 0.0}), outside = std::max(std::abs(low), std::abs(high));
+      near += inside * inside;
+      far += outside * outside;
+    }
+    nearest = std::min(nearest, near);
+    farthest = std::min(farthest, far);
+  }
+  return {static_cast<float>(std::sqrt(nearest) / SGM_UNITS_PER_METRE),
+          static_cast<float>(std::sqrt(farthest) / SGM_UNITS_PER_METRE)};
+}
+
+}  // namespace
+
+MorphRanges morphRanges(const std::vector<Picture::Shown>& shown, const std::vector<Units>& viewers, int32_t cell_units,
+                        int32_t top_level) {
+  MorphRanges ranges;
+  ranges.begin.fill(kNever);
+  ranges.end.fill(kNever);
+  if (viewers.empty()) return ranges;
+  std::array<float, SGM_MAX_LEVEL + 2> finer_ends{};
+  for (const Picture::Shown& chunk : shown) {
+    if (chunk.seams == 0) continue;
+    const auto [near, far] = distances(chunk.key, viewers, cell_units);
+    const auto level = static_cast<size_t>(chunk.key.level);
+    ranges.end[level] = std::min(ranges.end[level], far);
+    finer_ends[level + 1] = std::max(finer_ends[level + 1], far);
+  }
+  for (size_t level = 0; level < ranges.begin.size(); ++level) {
+    if (static_cast<int32_t>(level) >= top_level || ranges.end[level] == kNever) {
+      ranges.begin[level] = ranges.end[level] = kNever;
+      continue;
+    }
+    // Half of the way stands still, so that near surfaces do not swim.
+    ranges.begin[level] = std::max(finer_ends[level], ranges.end[level] / 2);
+  }
+  return ranges;
+}
+
+}  // namespace sgm_godot

@@ -1,0 +1,45 @@
+#pragma once
+// Where the runtime's world lies in the scene.
+
+#include <sgm/sgm.h>
+
+#include <array>
+
+#include "godot/variant.h"
+
+namespace sgm_godot {
+
+using Units = std::array<double, 3>;
+
+/// The node's transform, and the place of the world (metres) that lies at the node's own origin: a game moves that
+/// along with its player, so that the engine's floats stay near 0 in an endless world.
+struct Placement {
+  Transform node;
+  Vector3i origin;
+
+  Units toUnits(Vector3 global) const { return localUnits(node.inverse().apply(global)); }
+  Units localUnits(Vector3 local) const {
+    return {(double{local.x} + origin.x) * SGM_UNITS_PER_METRE, (double{local.y} + origin.y) * SGM_UNITS_PER_METRE,
+            (double{local.z} + origin.z) * SGM_UNITS_PER_METRE};
+  }
+  Vector3 local(const double units[3]) const {
+    return {static_cast<float>(units[0] / SGM_UNITS_PER_METRE - origin.x),
+            static_cast<float>(units[1] / SGM_UNITS_PER_METRE - origin.y),
+            static_cast<float>(units[2] / SGM_UNITS_PER_METRE - origin.z)};
+  }
+  Vector3 local(const int32_t units[3]) const {
+    const double exact[3] = {double(units[0]), double(units[1]), double(units[2])};
+    return local(exact);
+  }
+  Vector3 toGlobal(const double units[3]) const { return node.apply(local(units)); }
+  /// Of a chunk's or collider's own coordinates, metres from its corner.
+  Transform ofCorner(const int32_t units[3]) const {
+    Transform corner;
+    corner.origin = local(units);
+    return node.after(corner);
+  }
+  /// The box of the world around a box in the scene.
+  void box(const Aabb& global, int32_t minimum[3], int32_t maximum[3]) const;
+};
+
+}  // namespace sgm_godot

@@ -1,0 +1,60 @@
+#pragma once
+// A field and the world that streams it, as an SgmWorld3D's settings ask for them.
+
+#include <memory>
+#include <optional>
+
+#include "grammar.h"
+#include "settings.h"
+
+namespace sgm_godot {
+
+struct Plugin;
+
+/// A message for the user, where something failed.
+using Failure = std::optional<std::string>;
+
+/// Shared, so that measuring on another thread may outlive a restart. Ends on the background thread: the runtime waits
+/// there for chunks in work.
+class Session {
+ public:
+  /// Null, and why, where it cannot be made.
+  static std::shared_ptr<Session> create(Plugin& plugin, const GrammarOwner& grammar, const Settings& settings,
+                                         std::string& failure);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// Shows another grammar, seed or parameters, chunk by chunk, in place of what is there.
+  Failure set(const GrammarOwner& grammar, const Settings& settings);
+
+  sgm_world* world() const { return world_.get(); }
+  sgm_field* field() const { return field_.get(); }
+  const GrammarOwner& grammar() const { return grammar_; }
+  int32_t cellUnits() const { return cell_units_; }
+  int32_t topLevel() const { return top_level_; }
+  const std::string& backend() const { return backend_name_; }
+  const std::string& device() const { return device_; }
+
+  /// Updates the world, and adds all events there are.
+  Failure update(uint64_t max_bytes, std::vector<sgm_world_event>& events);
+  Failure poll(std::vector<sgm_world_event>& events);
+  /// Everything that is drawn; the caller releases the meshes. Any thread.
+  std::vector<sgm_drawn_chunk> drawn() const;
+
+ private:
+  explicit Session(Plugin& plugin) : plugin_(plugin) {}
+  Failure makeField(const GrammarOwner& grammar, const Settings& settings, FieldOwner& field) const;
+  Failure makeWorld(const Settings& settings);
+  void chooseBackend(int64_t wanted);
+
+  Plugin& plugin_;
+  GrammarOwner grammar_;
+  FieldOwner field_;
+  WorldOwner world_;
+  int32_t cell_units_ = 0, top_level_ = 0;
+  sgm_backend backend_ = SGM_BACKEND_CPU;
+  std::string backend_name_, device_;
+};
+
+}  // namespace sgm_godot

@@ -1,0 +1,265 @@
+#include "world.h"
+
+#include "godot/log.h"
+#include "plugin.h"
+
+namespace sgm_godot {
+namespace {
+
+// The engine's notifications.
+constexpr int32_t kEnterTree = 10, kExitTree = 11, kInternalProcess = 25, kInternalPhysicsProcess = 26,
+                  kVisibilityChanged = 43, kTransformChanged = 2000;
+
+}  // namespace
+
+World::~World() { stopSession(); }
+
+void World::notify(int32_t what) {
+  switch (what) {
+    case kEnterTree:
+      enter();
+      break;
+    case kExitTree:
+      leave();
+      break;
+    case kInternalProcess:
+      frame();
+      break;
+    case kInternalPhysicsProcess:
+      physicsFrame();
+      break;
+    case kVisibilityChanged:
+      dirty_ |= kLook;
+      break;
+    case kTransformChanged:
+      dirty_ |= kPlacement;
+      break;
+    default:
+      break;
+  }
+}
+
+void World::enter() {
+  in_tree_ = true;
+  if (plugin().rendering == nullptr) plugin().rendering = std::make_unique<Rendering>();
+  if (plugin().physics == nullptr) plugin().physics = std::make_unique<Physics>();
+  own("set_notify_transform", true);
+  own("set_process_internal", true);
+  own("set_physics_process_internal", true);
+  addMonitors();
+  restart();
+}
+
+void World::leave() {
+  in_tree_ = false;
+  removeMonitors();
+  stopSession();
+  own("set_process_internal", false);
+  own("set_physics_process_internal", false);
+  viewers_.clear();
+  watched_.clear();
+}
+
+void World::setGrammar(Object grammar) {
+  const Name changed("changed");
+  const Variant heard = Variant::callable(self(), Name("_grammar_changed"));
+  if (!grammar_.isNil() && grammar_.call("is_connected", changed, heard).truth()) {
+    grammar_.call("disconnect", changed, heard);
+  }
+  grammar_ = instanceOf<Grammar>(grammar) != nullptr ? Variant(grammar) : Variant();
+  if (!grammar_.isNil()) grammar_.call("connect", changed, heard);
+  restart();
+  own("notify_property_list_changed");
+}
+
+void World::setAnchorScenes(const Dictionary& scenes) {
+  settings_.anchor_scenes = scenes.value;
+  restart();
+}
+
+void World::grammarChanged() {
+  const auto* grammar = instanceOf<Grammar>(grammar_);
+  if (grammar == nullptr) return;
+  dirty_ |= kField;
+  own("notify_property_list_changed");
+  const std::string error = Variant(grammar_).call("get_error_text").to<std::string>();
+  if (!error.empty()) {
+    fail(error);
+  } else {
+    error_.clear();
+  }
+}
+
+bool World::ready() {
+  if (session_ == nullptr && (dirty_ & kRestart)) followChanges();
+  return session_ != nullptr;
+}
+
+void World::fail(const std::string& message) {
+  error_ = message;
+  emit("failed", message);
+}
+
+Placement World::placement() const {
+  return {in_tree_ ? own("get_global_transform").to<Transform>() : Transform(), settings_.origin};
+}
+
+Look World::look() const {
+  Look look;
+  look.scenario = own("get_world_3d").call("get_scenario").to<Rid>();
+  look.placement = placement();
+  look.slots = materials_.slots();
+  look.materials = materials_.rids();
+  look.shadow = settings_.cast_shadow;
+  look.visible = own("is_visible_in_tree").truth();
+  look.layers = settings_.render_layers;
+  look.owner = self();
+  return look;
+}
+
+std::vector<std::string> World::materialNames() const {
+  std::vector<std::string> names;
+  const auto* grammar = instanceOf<Grammar>(grammar_);
+  if (grammar == nullptr) return names;
+  const sgm_grammar* compiled = grammar->compiled().get();
+  for (uint32_t i = 0; i < sgm_grammar_material_count(compiled); ++i) {
+    const std::string name = sgm_grammar_material(compiled, i);
+    names.push_back(name.empty() ? "default" : name);
+  }
+  return names;
+}
+
+void World::setSession(std::shared_ptr<Session> session) {
+  {
+    const std::lock_guard lock(session_mutex_);
+    session_.swap(session);
+  }
+  // What was there before ends here, outside of the lock.
+}
+
+std::shared_ptr<Session> World::session() const {
+  const std::lock_guard lock(session_mutex_);
+  return session_;
+}
+
+void World::stopSession() {
+  picture_.reset();
+  retired_.reset();
+  colliders_.reset();
+  for (const uint64_t key : anchors_.clear()) {
+    removeScene(key);
+    if (in_tree_) emit("anchor_removed", key);
+  }
+  unplaced_.clear();
+  setSession(nullptr);
+}
+
+void World::startSession() {
+  const auto* grammar = instanceOf<Grammar>(grammar_);
+  if (!in_tree_ || grammar == nullptr || grammar->compiled() == nullptr || (plugin().in_editor && !settings_.preview)) {
+    stopSession();
+    if (grammar != nullptr && grammar->compiled() == nullptr && error_.empty()) {
+      fail(Variant(grammar_).call("get_error_text").to<std::string>());
+    }
+    return;
+  }
+  // A journal, or a cache, is one world's at a time: the one before has to end first.
+  const bool exclusive = !settings_.journal.empty();
+  std::unique_ptr<Picture> before = picture_ != nullptr ? std::move(picture_) : std::move(retired_);
+  if (exclusive) {
+    stopSession();
+    plugin().background->finish();
+  }
+  std::string failure;
+  std::shared_ptr<Session> session = Session::create(plugin(), grammar->compiled(), settings_, failure);
+  if (session == nullptr) {
+    // What could be seen stays as it is.
+    if (!exclusive) picture_ = std::move(before);
+    logError("SgmWorld3D: " + failure);
+    fail(failure);
+    return;
+  }
+  stopSession();
+  retired_ = std::move(before);
+  setSession(std::move(session));
+  grammar_version_ = grammar->version();
+  retired_materials_ = materials_;
+  materials_.rebuild(materialNames(), settings_);
+  picture_ = std::make_unique<Picture>(plugin(), look());
+  if (settings_.collision && !plugin().in_editor) {
+    colliders_ = std::make_unique<Colliders>(
+        plugin(), Colliders::Space{own("get_world_3d").call("get_space").to<Rid>(), placement(), self(),
+                                   settings_.collision_layer, settings_.collision_mask});
+  }
+  for (auto& [id, watched] : watched_) watched.walkable = false;
+  was_idle_ = false;
+  error_.clear();
+  emit("restarted");
+}
+
+namespace {
+
+/// Whether the numbers that vertices carry mean the same in both.
+bool sameNames(const sgm_grammar* a, const sgm_grammar* b) {
+  const auto same = [&](auto count, auto name) {
+    if (count(a) != count(b)) return false;
+    for (uint32_t i = 0; i < count(a); ++i) {
+      if (std::string_view(name(a, i)) != name(b, i)) return false;
+    }
+    return true;
+  };
+  return same(sgm_grammar_material_count, sgm_grammar_material) && same(sgm_grammar_tag_count, sgm_grammar_tag) &&
+         same(sgm_grammar_name_count, sgm_grammar_name);
+}
+
+}  // namespace
+
+void World::followChanges() {
+  unsigned dirty = std::exchange(dirty_, kNothing);
+  if (dirty == kNothing) return;
+  const auto* grammar = instanceOf<Grammar>(grammar_);
+  const bool compiled = grammar != nullptr && grammar->compiled() != nullptr;
+  if ((dirty & kField) && session_ != nullptr && compiled &&
+      !sameNames(session_->grammar().get(), grammar->compiled().get())) {
+    dirty |= kRestart;
+  }
+  if ((dirty & kField) && session_ == nullptr) dirty |= kRestart;
+  if (dirty & kRestart) {
+    startSession();
+    return;
+  }
+  if (session_ == nullptr) return;
+  if ((dirty & kField) && compiled) {
+    if (Failure failure = session_->set(grammar->compiled(), settings_)) {
+      logError("SgmWorld3D: " + *failure);
+      fail(*failure);
+    } else {
+      grammar_version_ = grammar->version();
+    }
+  }
+  if (dirty & (kPaint | kRepack)) {
+    if (dirty & kRepack) retired_materials_ = materials_;
+    materials_.rebuild(materialNames(), settings_);
+    if (dirty & kRepack) {
+      retired_ = std::move(picture_);
+      picture_ = std::make_unique<Picture>(plugin(), look());
+      picture_->takeDrawn(session_->drawn(), *retired_);
+    } else {
+      picture_->setMaterials(materials_.rids());
+    }
+  }
+  if (dirty & kLook) {
+    const Look seen = look();
+    picture_->setLook(seen.shadow, seen.visible, seen.layers);
+  }
+  if (dirty & kPlacement) {
+    const Placement place = placement();
+    picture_->setPlacement(place);
+    if (retired_) retired_->setPlacement(place);
+    if (colliders_) colliders_->setPlacement(place);
+    materials_.resend();
+  }
+  if ((dirty & kBodies) && colliders_) colliders_->setLayers(settings_.collision_layer, settings_.collision_mask);
+}
+
+}  // namespace sgm_godot

@@ -1,0 +1,162 @@
+#pragma once
+// SgmWorld3D: a grammar's world in the scene, streamed around viewers.
+
+#include <mutex>
+#include <unordered_map>
+
+#include "anchors.h"
+#include "colliders.h"
+#include "frame_times.h"
+#include "godot/conversion.h"
+#include "materials.h"
+#include "session.h"
+
+namespace sgm_godot {
+
+struct ClassRecord;
+
+class World : public Instance {
+ public:
+  World(Plugin& plugin, Object self) : Instance(plugin, self) {}
+  ~World() override;
+  static void registerClass(ClassRecord& record);
+
+  void notify(int32_t what) override;
+  bool set(const std::string& name, const Variant& value) override;
+  bool get(const std::string& name, Variant& value) const override;
+  std::vector<Property> properties() const override;
+  Variant revertsTo(const std::string& name) const override;
+
+ private:
+  // What a change of a setting has to be followed by, in the next frame. A later one includes the work of none before
+  // it.
+  enum Effect : unsigned {
+    kNothing = 0,
+    kField = 1,    // another field for the same world
+    kRestart = 2,  // another world
+    kPaint = 4,    // other materials
+    kRepack = 8,   // other slots
+    kLook = 16,    // visibility, shadows, layers
+    kPlacement = 32,
+    kBodies = 64,  // collision layers
+  };
+  template <auto member>
+  using SettingType = std::remove_reference_t<decltype(std::declval<Settings&>().*member)>;
+  template <auto member, Effect effect>
+  void change(SettingType<member> value) {
+    settings_.*member = std::move(value);
+    dirty_ |= effect;
+  }
+  template <auto member>
+  SettingType<member> setting() const {
+    return settings_.*member;
+  }
+
+  // world.cpp: from the tree's beginning to its end
+  void enter();
+  void leave();
+  void followChanges();
+  void startSession();
+  void stopSession();
+  void setSession(std::shared_ptr<Session> session);
+  std::shared_ptr<Session> session() const;  // any thread
+  void setGrammar(Object grammar);
+  Object grammar() const { return grammar_.object(); }
+  void grammarChanged();
+  void setAnchorScenes(const Dictionary& scenes);
+  Dictionary anchorScenes() const { return {settings_.anchor_scenes}; }
+  void restart() { dirty_ |= kRestart; }
+  /// For calls from scripts: a world that has just been put into the scene begins at once.
+  bool ready();
+  bool running() const { return session_ != nullptr; }
+  std::string errorText() const { return error_; }
+  void fail(const std::string& message);
+  Placement placement() const;
+  Look look() const;
+  std::vector<std::string> materialNames() const;
+
+  // world_frame.cpp: what every frame does
+  void frame();
+  void physicsFrame();
+  void gatherViewers(double delta);
+  void addViewer(uint64_t id, const Transform& place, double fov, double weight, bool directional, double delta);
+  void receive(std::vector<sgm_world_event>&& events);
+  void tell(std::vector<Picture::Change>&& changes);
+  void tellOfAnchors(const std::vector<Picture::Change>& changes);
+  void placeScenes(double seconds);
+  void removeScene(uint64_t key);
+  void followFile(double delta);
+  bool standsOnCollider(Object viewer, Vector3 position);
+  void setEditorView(const Transform& view, double fov);
+  bool waitUntilIdle(double seconds);
+  bool isIdle() const;
+
+  // world_edits.cpp
+  Integers dig(const Vector3& position, double radius, double smooth);
+  Integers build(const Vector3& position, double radius, const std::string& material, double smooth);
+  Integers edit(const Dictionary& brush);
+  Integers lay(const sgm_brush& brush);
+  Integers undo(const Integers& id);
+  int64_t editCount() const;
+  Bytes exportEdits(int64_t since);
+  int64_t importEdits(const Bytes& bytes);
+  int64_t flushEdits();
+  int64_t editsHash() const;
+  std::optional<uint16_t> materialNumber(const std::string& name) const;
+  std::optional<uint16_t> tagNumber(const std::string& name) const;
+
+  // world_queries.cpp
+  Dictionary rayCast(const Vector3& from, const Vector3& direction, double length);
+  Dictionary closestPoint(const Vector3& position, double max_distance);
+  Dictionary described(const sgm_surface_point& point) const;
+  Points findWay(const Vector3& from, const Vector3& to, double radius);
+  Array anchors(const Aabb& box);
+  Aabb bounds() const;
+  int64_t worldHash(const Aabb& box, int64_t level);
+  Dictionary statistics() const;
+  double monitor(const std::string& name) const;
+  void addMonitors();
+  void removeMonitors();
+
+  // world_measures.cpp
+  Dictionary measures() const;
+  Dictionary measureDrawn(int64_t bins) const;
+  Array bakeChunks() const;
+
+  Settings settings_;
+  Variant grammar_;
+  unsigned dirty_ = kNothing;
+  bool in_tree_ = false;
+  std::string error_;
+
+  std::shared_ptr<Session> session_;
+  mutable std::mutex session_mutex_;  // held to change session_, and to copy it on other threads
+  uint64_t grammar_version_ = 0;      // that the session has
+  Materials materials_;
+  Materials retired_materials_;  // that retired_ is drawn with
+  std::unique_ptr<Picture> picture_;
+  std::unique_ptr<Picture> retired_;  // of the session before, until this one has something to show
+  std::unique_ptr<Colliders> colliders_;
+  Anchors anchors_;
+  std::deque<sgm_anchor> unplaced_;                // whose scenes are still to be made
+  std::unordered_map<uint64_t, uint64_t> scenes_;  // anchor's key -> id of the node there
+
+  std::vector<sgm_viewer> viewers_;
+  std::vector<Vector3> viewer_places_;  // in the scene
+  std::vector<Units> viewer_units_;
+  struct Watched {
+    Vector3 position;
+    bool walkable = false;
+    bool seen = false;
+  };
+  std::unordered_map<uint64_t, Watched> watched_;  // by the id of the viewer's node
+  std::optional<Transform> editor_view_;
+  double editor_fov_ = 70;
+
+  FrameTimes times_;
+  double since_file_ = 0;
+  bool was_idle_ = false;
+  std::vector<std::string> monitors_;
+};
+
+}  // namespace sgm_godot

@@ -1,0 +1,191 @@
+// Digging and building in an SgmWorld3D.
+
+#include <cmath>
+
+#include "godot/log.h"
+#include "world.h"
+
+namespace sgm_godot {
+namespace {
+
+constexpr int64_t kOk = 0, kFailed = 1, kErrorUnconfigured = 3, kErrorInvalidData = 30;
+
+int32_t wholeUnits(double units) {
+  return static_cast<int32_t>(std::clamp(std::round(units), double{INT32_MIN}, double{INT32_MAX}));
+}
+int32_t lengthUnits(double metres) { return wholeUnits(metres * SGM_UNITS_PER_METRE); }
+
+void place(const Placement& placement, const Vector3& position, int32_t units[3]) {
+  const Units exact = placement.toUnits(position);
+  for (size_t axis = 0; axis < 3; ++axis) units[axis] = wholeUnits(exact[axis]);
+}
+
+Integers idOf(const sgm_edit_id& id) {
+  Packed<int64_t> numbers(2);
+  numbers.data()[0] = static_cast<int64_t>(id.author);
+  numbers.data()[1] = static_cast<int64_t>(id.number);
+  return {numbers.take()};
+}
+
+}  // namespace
+
+std::optional<uint16_t> World::materialNumber(const std::string& name) const {
+  if (name.empty()) return uint16_t{0};
+  const std::vector<std::string> names = materialNames();
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) return static_cast<uint16_t>(i);
+  }
+  std::string known;
+  for (const std::string& other : names) known += (known.empty() ? "" : ", ") + other;
+  logError("SgmWorld3D: the grammar has no material '" + name + "'; it has " + known);
+  return std::nullopt;
+}
+
+std::optional<uint16_t> World::tagNumber(const std::string& name) const {
+  if (name.empty()) return uint16_t{0};
+  const sgm_grammar* grammar = session_->grammar().get();
+  for (uint32_t i = 0; i < sgm_grammar_tag_count(grammar); ++i) {
+    if (name == sgm_grammar_tag(grammar, i)) return static_cast<uint16_t>(i);
+  }
+  logError("SgmWorld3D: the grammar has no tag '" + name + "'");
+  return std::nullopt;
+}
+
+Integers World::lay(const sgm_brush& brush) {
+  sgm_edit_id id{};
+  sgm_error error = SGM_ERROR_INIT;
+  if (sgm_world_edit(session_->world(), &brush, &id, &error) < SGM_OK) {
+    logError(std::string("SgmWorld3D: ") + error.message);
+    return {};
+  }
+  const Integers made = idOf(id);
+  emit("edited", made.value);
+  return made;
+}
+
+Integers World::dig(const Vector3& position, double radius, double smooth) {
+  if (!ready()) return {};
+  sgm_brush brush = SGM_BRUSH_INIT;
+  place(placement(), position, brush.from);
+  brush.radius = lengthUnits(radius);
+  brush.smooth = lengthUnits(smooth);
+  return lay(brush);
+}
+
+Integers World::build(const Vector3& position, double radius, const std::string& material, double smooth) {
+  if (!ready()) return {};
+  const std::optional<uint16_t> number = materialNumber(material);
+  if (!number) return {};
+  sgm_brush brush = SGM_BRUSH_INIT;
+  brush.cut = 0;
+  brush.material = *number;
+  place(placement(), position, brush.from);
+  brush.radius = lengthUnits(radius);
+  brush.smooth = lengthUnits(smooth);
+  return lay(brush);
+}
+
+Integers World::edit(const Dictionary& given) {
+  if (!ready()) return {};
+  const auto value = [&](const char* key, const Variant& otherwise) {
+    const Variant v = given.value.get(key);
+    return v.isNil() ? otherwise : v;
+  };
+  const std::string shape = value("shape", "sphere").to<std::string>();
+  sgm_brush brush = SGM_BRUSH_INIT;
+  if (shape == "sphere") {
+    brush.shape = SGM_BRUSH_SPHERE;
+  } else if (shape == "box") {
+    brush.shape = SGM_BRUSH_BOX;
+  } else if (shape == "capsule") {
+    brush.shape = SGM_BRUSH_CAPSULE;
+  } else {
+    logError("SgmWorld3D.edit: the brush has the shape '" + shape + "'; use sphere, box or capsule");
+    return {};
+  }
+  const std::optional<uint16_t> material = materialNumber(value("material", "").to<std::string>());
+  const std::optional<uint16_t> tag = tagNumber(value("tag", "").to<std::string>());
+  if (!material || !tag) return {};
+  const Placement here = placement();
+  brush.cut = value("cut", true).truth() ? 1 : 0;
+  brush.material = *material;
+  brush.tag = *tag;
+  place(here, value("position", Vector3{}).to<Vector3>(), brush.from);
+  place(here, value("to", Vector3{}).to<Vector3>(), brush.to);
+  const Vector3 half = value("size", Vector3{1, 1, 1}).to<Vector3>();
+  brush.half[0] = lengthUnits(double{half.x});
+  brush.half[1] = lengthUnits(double{half.y});
+  brush.half[2] = lengthUnits(double{half.z});
+  const Quaternion turn = value("rotation", Quaternion{}).to<Quaternion>();
+  brush.turn[0] = turn.x;
+  brush.turn[1] = turn.y;
+  brush.turn[2] = turn.z;
+  brush.turn[3] = turn.w;
+  brush.radius = lengthUnits(value("radius", 1.0).to<double>());
+  brush.smooth = lengthUnits(value("smooth", 0.0).to<double>());
+  return lay(brush);
+}
+
+Integers World::undo(const Integers& id) {
+  const std::vector<int64_t> numbers = elements<int64_t>(id.value);
+  if (!ready() || numbers.size() != 2) return {};
+  const sgm_edit_id known{static_cast<uint64_t>(numbers[0]), static_cast<uint64_t>(numbers[1])};
+  sgm_edit_id made{};
+  sgm_error error = SGM_ERROR_INIT;
+  if (sgm_world_undo(session_->world(), &known, &made, &error) < SGM_OK) {
+    logError(std::string("SgmWorld3D: ") + error.message);
+    return {};
+  }
+  const Integers named = idOf(made);
+  emit("edited", named.value);
+  return named;
+}
+
+int64_t World::editCount() const {
+  sgm_world_stats stats = SGM_WORLD_STATS_INIT;
+  if (session_ == nullptr || sgm_world_get_stats(session_->world(), &stats, nullptr) != SGM_OK) return 0;
+  return static_cast<int64_t>(stats.edits);
+}
+
+Bytes World::exportEdits(int64_t since) {
+  if (!ready() || since < 0) return {};
+  std::vector<uint8_t> bytes;
+  size_t count = 0;
+  sgm_error error = SGM_ERROR_INIT;
+  sgm_result result;
+  // Edits may come from another thread between the two calls.
+  do {
+    bytes.resize(count);
+    result = sgm_world_export_edits(session_->world(), static_cast<uint64_t>(since), bytes.data(), &count, &error);
+  } while (result == SGM_INCOMPLETE || (result == SGM_OK && count > bytes.size()));
+  if (result < SGM_OK) {
+    logError(std::string("SgmWorld3D: ") + error.message);
+    return {};
+  }
+  Packed<uint8_t> packed(count);
+  if (count != 0) std::memcpy(packed.data(), bytes.data(), count);
+  return {packed.take()};
+}
+
+int64_t World::importEdits(const Bytes& given) {
+  if (!ready()) return kErrorUnconfigured;
+  const std::vector<uint8_t> bytes = elements<uint8_t>(given.value);
+  sgm_error error = SGM_ERROR_INIT;
+  if (sgm_world_import_edits(session_->world(), bytes.data(), bytes.size(), &error) >= SGM_OK) return kOk;
+  logError(std::string("SgmWorld3D: ") + error.message);
+  return error.code == SGM_ERR_DATA ? kErrorInvalidData : kFailed;
+}
+
+int64_t World::flushEdits() {
+  if (!ready()) return kErrorUnconfigured;
+  sgm_error error = SGM_ERROR_INIT;
+  if (sgm_world_flush_edits(session_->world(), &error) >= SGM_OK) return kOk;
+  logError(std::string("SgmWorld3D: ") + error.message);
+  return kFailed;
+}
+
+int64_t World::editsHash() const {
+  return session_ == nullptr ? 0 : static_cast<int64_t>(sgm_world_edits_hash(session_->world()));
+}
+
+}  // namespace sgm_godot
