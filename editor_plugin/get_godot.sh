@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# Prints the path of a Godot that the plugin can be built for and tested in; its version goes to stderr.
+#
+#   bash editor_plugin/get_godot.sh
+#
+# The first of these that is there: $GODOT; godot4 or godot in PATH, from 4.3 on; one that was unpacked before, below
+# build/tools/godot (or $SGM_GODOT_CACHE); else it is unpacked there, with its libraries and a software Vulkan device,
+# from a newer suite of Debian (amd64; about 900 MB; nothing is installed). Exit status: 0, or 1 after one line that
+# says what to do.
+set -euo pipefail
+[[ ${1:-} != --help ]] || { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; exit 0; }
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cache=${SGM_GODOT_CACHE:-$root/build/tools/godot}
+suite=sid
+
+die() { echo "get_godot: error: $1" >&2; exit 1; }
+
+# version PROGRAM: "4.6.3.stable...", or nothing where it does not run.
+version() { timeout 60 "$1" --headless --version 2>/dev/null </dev/null | tail -n 1 | tr -d '\r' || true; }
+new_enough() { [[ $1 =~ ^4\.([0-9]+) ]] && ((BASH_REMATCH[1] >= 3)); }
+found() { echo "get_godot: $2 ($1)" >&2; echo "$1"; exit 0; }
+
+if [[ -n ${GODOT:-} ]]; then
+  program=$(command -v "$GODOT" || true)
+  [[ -n $program ]] || die "GODOT names '$GODOT', which is no program"
+  is=$(version "$program")
+  new_enough "$is" || die "GODOT names '$GODOT', which is '${is:-no Godot that runs}'; the plugin needs Godot 4.3 or newer"
+  found "$program" "$is"
+fi
+for name in godot4 godot; do
+  program=$(command -v "$name" || true)
+  [[ -n $program ]] || continue
+  is=$(version "$program")
+  new_enough "$is" && found "$program" "$is"
+  echo "get_godot: $program is '${is:-no Godot that runs}': not used" >&2
+done
+
+unpacked() {
+  [[ -x $cache/godot ]] || return 1
+  local is
+  is=$(version "$cache/godot")
+  new_enough "$is" && found "$cache/godot" "$is"
+  return 1
+}
+unpacked || true
+help="set GODOT to a Godot 4.3 or newer (from godotengine.org), or leave its tests out: tests/run.sh --without godot"
+[[ $(dpkg --print-architecture 2>/dev/null) == amd64 ]] && command -v apt-get >/dev/null ||
+  die "there is no Godot here, and it can be unpacked on Debian amd64 alone; $help"
+
+mkdir -p "$(dirname "$cache")"
+exec 9>"$cache.lock"
+flock -w 900 9 || die "another run has been unpacking Godot for 15 minutes; $help"
+unpacked || true
+
+sources=(/etc/apt/sources.list /etc/apt/sources.list.d/*)
+mirror=$(cat "${sources[@]}" 2>/dev/null | sed -n 's/^URIs: *\([^ ]*\).*/\1/p; s/^deb  *\(\[[^]]*\] *\)\{0,1\}\([^ ]*\).*/\2/p' |
+  grep debian | grep -v security | head -n 1 || true)
+[[ -n $mirror ]] || die "apt's sources name no mirror of Debian; $help"
+new=$cache.unfinished
+trap 'rm -rf "$new"' EXIT
+rm -rf "$new"
+mkdir -p "$new"/apt/lists/partial "$new"/apt/cache/archives/partial "$new"/root
+echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror $suite main" >"$new/apt/sources.list"
+: >"$new/apt/status"
+apt() {
+  apt-get -qq -o "Dir::State::Lists=$new/apt/lists" -o "Dir::Etc::SourceList=$new/apt/sources.list" \
+    -o Dir::Etc::SourceParts=/dev/null -o "Dir::Cache=$new/apt/cache" -o "Dir::State::status=$new/apt/status" \
+    -o APT::Sandbox::User=root -o Acquire::Retries=2 -o Acquire::http::Timeout=30 "$@" >"$new/apt/log" 2>&1 </dev/null
+}
+echo "get_godot: unpacking Godot below $cache" >&2
+apt update && apt install --no-install-recommends --download-only -y godot mesa-vulkan-drivers libgl1-mesa-dri ||
+  die "Godot could not be fetched (is the network there? apt's last words: $(tail -n 1 "$new/apt/log")); $help"
+for package in "$new"/apt/cache/archives/*.deb; do
+  dpkg-deb -x "$package" "$new/root" || die "a package could not be unpacked (is the disk full?); $help"
+done
+rm -rf "$new/apt"
+
+# It runs with the loader and the libraries that belong to it, wherever the folder is.
+cat >"$new/godot" <<'WRAPPER'
+#!/bin/sh
+here=$(dirname "$(readlink -f "$0")")
+lib=$here/root/usr/lib/x86_64-linux-gnu
+sed "s#\"library_path\": *\"[^\"]*#\"library_path\": \"$lib/libvulkan_lvp.so#" \
+  "$here/root/usr/share/vulkan/icd.d/"lvp_icd*.json >"$here/lavapipe.json.$$" &&
+  mv "$here/lavapipe.json.$$" "$here/lavapipe.json"
+[ -n "$SGM_GODOT_GPU" ] || export VK_DRIVER_FILES="$here/lavapipe.json"
+exec "$lib/ld-linux-x86-64.so.2" --library-path "$lib:$lib/pulseaudio:$lib/blas:$lib/lapack" \
+  "$here/root/usr/bin/godot" --audio-driver Dummy "$@"
+WRAPPER
+chmod +x "$new/godot"
+is=$(version "$new/godot")
+new_enough "$is" || die "what was unpacked is '${is:-no Godot that runs}'; $help"
+rm -rf "$cache"
+mv "$new" "$cache"
+found "$cache/godot" "$is"
