@@ -1,0 +1,124 @@
+@tool
+extends EditorNode3DGizmoPlugin
+## Shows the bounds of what an SgmWorld3D draws, and its anchors around the editor's camera.
+
+const Preview := preload("preview.gd")
+## Metres from the camera within which anchors are shown.
+const REACH := 64.0
+## How many of the nearest anchors have their names beside them.
+const MOST_NAMES := 48
+const NAME_HEIGHT := 0.4
+const ICON_SCALE := 0.05
+## Metres from the middle of an anchor's cross to its ends.
+const ARM := 0.5
+const ICON := "../icons/SgmWorld3DGizmo.svg"
+const AXES: Array[String] = ["anchor_x", "anchor_y", "anchor_z"]
+
+var _names := {}
+
+
+func _init() -> void:
+	create_material("bounds", Color(0.45, 0.78, 0.6, 0.6))
+	create_material(AXES[0], Color(0.96, 0.33, 0.42))
+	create_material(AXES[1], Color(0.55, 0.84, 0.18))
+	create_material(AXES[2], Color(0.24, 0.58, 0.96))
+	create_icon_material("icon", load((get_script() as Script).resource_path.get_base_dir().path_join(ICON)))
+	var ink := StandardMaterial3D.new()
+	ink.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
+	ink.billboard_mode = BaseMaterial3D.BILLBOARD_ENABLED
+	ink.no_depth_test = true
+	add_material("name", ink)
+
+
+func _get_gizmo_name() -> String:
+	return "SgmWorld3D"
+
+
+func _has_gizmo(node: Node3D) -> bool:
+	return node is SgmWorld3D
+
+
+func _redraw(gizmo: EditorNode3DGizmo) -> void:
+	gizmo.clear()
+	var world := gizmo.get_node_3d() as SgmWorld3D
+	var box := bounds_lines(world)
+	if not box.is_empty():
+		gizmo.add_lines(box, get_material("bounds", gizmo))
+	gizmo.add_unscaled_billboard(get_material("icon", gizmo), ICON_SCALE)
+	var anchors := named_near_camera(world)
+	for axis in 3:
+		var lines := anchor_lines(_places(anchors), axis)
+		if not lines.is_empty():
+			gizmo.add_lines(lines, get_material(AXES[axis], gizmo))
+	for anchor in anchors.slice(0, MOST_NAMES):
+		var place := (anchor.transform as Transform3D).origin + Vector3.UP * (ARM + NAME_HEIGHT)
+		gizmo.add_mesh(_name_mesh(anchor.title), get_material("name", gizmo), Transform3D(Basis.IDENTITY, place))
+
+
+## The edges of the bounds of what is drawn, two points for each, in the world's own space.
+static func bounds_lines(world: SgmWorld3D) -> PackedVector3Array:
+	var lines := PackedVector3Array()
+	var box := world.get_bounds()
+	if not box.has_surface():
+		return lines
+	for corner in 8:
+		for axis in 3:
+			# Endpoints' bits are z, y, x from the lowest on; each edge starts where its own bit is off.
+			var bit := 4 >> axis
+			if corner & bit == 0:
+				lines.append(box.get_endpoint(corner))
+				lines.append(box.get_endpoint(corner | bit))
+	return lines
+
+
+## Places of the anchors within [constant REACH] of the editor's camera, in the world's own space.
+static func anchors_near_camera(world: SgmWorld3D) -> Array[Transform3D]:
+	return _places(named_near_camera(world))
+
+
+## As [method anchors_near_camera], the nearest first, each with its transform and its title.
+static func named_near_camera(world: SgmWorld3D) -> Array[Dictionary]:
+	var found: Array[Dictionary] = []
+	var camera := Preview.editor_camera()
+	if camera == null or not world.running:
+		return found
+	var middle := camera.global_position
+	var to_local := world.global_transform.affine_inverse()
+	for anchor: Dictionary in world.get_anchors(AABB(middle, Vector3.ZERO).grow(REACH)):
+		var place: Transform3D = anchor.transform
+		var distance := place.origin.distance_to(middle)
+		if distance <= REACH:
+			var title: String = anchor.kind
+			if not anchor.name.is_empty() and anchor.name != title:
+				title += " " + anchor.name
+			found.append({distance = distance, title = title, transform = to_local * place})
+	found.sort_custom(func(a: Dictionary, b: Dictionary) -> bool: return a.distance < b.distance)
+	return found
+
+
+## One stroke of each anchor's cross, two points for each.
+static func anchor_lines(places: Array[Transform3D], axis: int) -> PackedVector3Array:
+	var lines := PackedVector3Array()
+	for place in places:
+		var arm := place.basis[axis].normalized() * ARM
+		lines.append(place.origin - arm)
+		lines.append(place.origin + arm)
+	return lines
+
+
+static func _places(anchors: Array[Dictionary]) -> Array[Transform3D]:
+	var places: Array[Transform3D] = []
+	for anchor in anchors:
+		places.append(anchor.transform)
+	return places
+
+
+func _name_mesh(title: String) -> TextMesh:
+	if title not in _names:
+		var mesh := TextMesh.new()
+		mesh.text = title
+		mesh.font_size = 32
+		mesh.pixel_size = NAME_HEIGHT / mesh.font_size
+		mesh.depth = 0.0
+		_names[title] = mesh
+	return _names[title]

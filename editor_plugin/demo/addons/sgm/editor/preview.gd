@@ -1,0 +1,71 @@
+@tool
+extends Node
+## Streams the worlds of the edited scene around the camera of the 3D editor, and keeps their gizmos fresh.
+
+## Seconds between two looks at which worlds there are, and two drawings of a gizmo.
+const PACE := 0.5
+## Metres that the camera moves before a gizmo shows other anchors.
+const STEP := 4.0
+
+## The worlds of the edited scene.
+var worlds: Array[SgmWorld3D] = []
+
+var _root: Node
+var _rest := 0.0
+## What each world's gizmo was last drawn for, by the world's instance.
+var _drawn := {}
+
+
+func _process(delta: float) -> void:
+	_rest -= delta
+	var root := EditorInterface.get_edited_scene_root()
+	if _rest <= 0.0 or root != _root:
+		_rest = PACE
+		_root = root
+		_find_worlds()
+		_refresh_gizmos()
+	var camera := editor_camera()
+	if camera == null:
+		return
+	for world in worlds:
+		if is_instance_valid(world):
+			world.set_editor_view(camera.global_transform, camera.fov)
+
+
+## The camera of the first viewport of the 3D editor.
+static func editor_camera() -> Camera3D:
+	var viewport := EditorInterface.get_editor_viewport_3d(0)
+	return viewport.get_camera_3d() if viewport != null else null
+
+
+## The world that the dock speaks of: the selected one, or the only one; null where neither is clear.
+func chosen_world() -> SgmWorld3D:
+	for node in EditorInterface.get_selection().get_selected_nodes():
+		if node is SgmWorld3D and node.is_inside_tree():
+			return node
+	if worlds.size() != 1 or not is_instance_valid(worlds[0]) or not worlds[0].is_inside_tree():
+		return null
+	return worlds[0]
+
+
+func _find_worlds() -> void:
+	worlds.clear()
+	if _root == null:
+		return
+	if _root is SgmWorld3D:
+		worlds.append(_root)
+	for node in _root.find_children("*", "SgmWorld3D", true, false):
+		worlds.append(node)
+
+
+func _refresh_gizmos() -> void:
+	var camera := editor_camera()
+	var place := camera.global_position.snappedf(STEP) if camera != null else Vector3.ZERO
+	var drawn := {}
+	for world in worlds:
+		var id := world.get_instance_id()
+		drawn[id] = [world.is_idle(), world.get_bounds(), world.global_transform, place]
+		# While a world streams, its anchors change even where its bounds do not.
+		if not world.is_idle() or drawn[id] != _drawn.get(id):
+			world.update_gizmos()
+	_drawn = drawn
