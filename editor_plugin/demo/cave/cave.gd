@@ -1,0 +1,143 @@
+class_name DemoCave
+extends DemoPlace
+## An endless cave to walk in, to dig in, and to grow anew from other seeds. What is dug lies in a journal for each
+## seed.
+
+## The journal of the digs in a seed's cave.
+const JOURNAL := "user://cave_%d.journal"
+## Metres from the eyes in which one can dig and build.
+const REACH := 14.0
+const DIG_RADIUS := 1.4
+const BUILD_RADIUS := 1.1
+const SMOOTH := 0.35
+const BUILD_MATERIAL := "calcite"
+## Seconds between two digs while the button is held.
+const PACE := 0.16
+## Seconds after which the curtain opens even where no ground has come.
+const LONGEST_WAIT := 20.0
+
+## Whether the air shows the lamp's light. At first only machines with a graphics card of their own have it.
+var fog := false:
+	set(value):
+		fog = value
+		environment.environment.volumetric_fog_enabled = value
+
+var _edits: Array[PackedInt64Array] = []
+var _rest := 0.0
+var _growing := false
+## The click that captures the mouse does not dig.
+var _armed := false
+
+
+func _ready() -> void:
+	world.journal = JOURNAL % world.seed
+	super()
+	fog = DemoQuality.is_fast()
+	var save_button := Button.new()
+	save_button.text = "Save digs"
+	save_button.focus_mode = Control.FOCUS_NONE
+	save_button.pressed.connect(save)
+	overlay.panel.add_extra(save_button)
+
+
+func _process(delta: float) -> void:
+	_rest -= delta
+	var digs := Input.is_action_pressed("dig")
+	var builds := Input.is_action_pressed("build")
+	if Input.mouse_mode != Input.MOUSE_MODE_CAPTURED:
+		_armed = false
+	elif not digs and not builds:
+		_armed = true
+	elif _armed and not _growing and _rest <= 0.0:
+		_rest = PACE
+		if digs:
+			dig()
+		else:
+			build()
+
+
+func _unhandled_input(event: InputEvent) -> void:
+	if event.is_action_pressed("undo", true):
+		undo()
+	elif event.is_action_pressed("next_seed"):
+		grow(world.seed + 1)
+	elif event.is_action_pressed("previous_seed"):
+		grow(world.seed - 1)
+	elif event.is_action_pressed("save"):
+		save()
+	elif event.is_action_pressed("toggle_fog"):
+		fog = not fog
+		overlay.say("Fog on" if fog else "Fog off")
+	else:
+		super(event)
+
+
+func find_start() -> Transform3D:
+	return DemoGround.start(world, "spawn", Vector3.ZERO)
+
+
+func welcome() -> String:
+	return "What you dug here is back. " + WELCOME if world.get_edit_count() > 0 else WELCOME
+
+
+## Digs where the player looks; whether there is rock in reach.
+func dig() -> bool:
+	var hit := world.ray_cast(player.eye(), player.gaze(), REACH)
+	return not hit.is_empty() and _keep(world.dig(hit.position, DIG_RADIUS, SMOOTH))
+
+
+## Builds where the player looks, but never around the player; whether it has.
+func build() -> bool:
+	var hit := world.ray_cast(player.eye(), player.gaze(), REACH)
+	if hit.is_empty():
+		return false
+	var middle := player.global_position + Vector3.UP * 0.9
+	if middle.distance_to(hit.position) < BUILD_RADIUS + 1.4:
+		overlay.say("Too near to build: step back")
+		return false
+	return _keep(world.build(hit.position, BUILD_RADIUS, BUILD_MATERIAL, SMOOTH))
+
+
+## Takes the last dig or building back; whether there was one.
+func undo() -> bool:
+	if _edits.is_empty():
+		overlay.say("Nothing to undo")
+		return false
+	return not world.undo(_edits.pop_back()).is_empty()
+
+
+## Makes the digs safe. They are loaded again when this seed's cave is next entered.
+func save() -> void:
+	if world.flush_edits() == OK:
+		overlay.say("Saved: they are here again when you come back")
+	else:
+		overlay.say("The digs cannot be saved: see whether the disk has room", 6.0)
+
+
+## Grows the cave of another seed behind a curtain; await it.
+func grow(new_seed: int) -> void:
+	if _growing:
+		return
+	_growing = true
+	player.held = true
+	await overlay.fade(true)
+	_edits.clear()
+	world.seed = new_seed
+	world.journal = JOURNAL % new_seed
+	# The new cave is there from the next frame on, and only then knows its anchors.
+	await world.restarted
+	go_to_start()
+	var limit := Time.get_ticks_msec() + roundi(LONGEST_WAIT * 1000.0)
+	while not player.ground_ready and Time.get_ticks_msec() < limit:
+		await get_tree().process_frame
+	await overlay.fade(false)
+	overlay.say("Seed %d" % new_seed)
+	player.held = false
+	_growing = false
+
+
+func _keep(id: PackedInt64Array) -> bool:
+	if id.is_empty():
+		return false
+	_edits.append(id)
+	return true

@@ -1,0 +1,12 @@
+class_name DemoCity
+extends DemoPlace
+## An endless city of blocks and towers, to walk in and to fly over.
+
+## A crossing of two streets: the grammar has one at every corner of its cells.
+const CROSSING := Vector3(0.0, 40.0, 0.0)
+## Along one of them, radians.
+const LOOK := -0.2
+
+
+func find_start() -> Transform3D:
+	return DemoGround.looking(DemoGround.below(world, CROSSING), LOOK)

@@ -1,0 +1,113 @@
+class_name DemoGround
+extends RefCounted
+## Where in a world there is room to stand. It asks the world's field, so that nothing has to be drawn for it.
+
+## Half the edge of the box that is searched for anchors first; it is doubled until some are found.
+const FIRST_REACH := 400.0
+const LAST_REACH := 3200.0
+## Room that a person needs above the feet, metres.
+const HEADROOM := 2.2
+## Directions that are tried for the widest view.
+const DIRECTIONS := 24
+## Ground deeper below than this is a hall's, not a passage's.
+const PASSAGE_HEIGHT := 5.5
+## How far into a passage one begins, metres.
+const MOUTH := 4.0
+const STEP := 0.5
+## How far from the middle of a hall its ground is tried, metres.
+const BESIDE := 6.0
+
+
+## Whether a place lies inside the solid. Within [param depth] metres of the surface the answer is exact.
+static func is_inside(world: SgmWorld3D, place: Vector3, depth := 64.0) -> bool:
+	var point := world.closest_point(place, depth)
+	return not point.is_empty() and point.inside
+
+
+## The ground below a place, or the place itself where there is none within [param length] metres.
+static func below(world: SgmWorld3D, place: Vector3, length := 64.0) -> Vector3:
+	var hit := world.ray_cast(place, Vector3.DOWN, length)
+	return place if hit.is_empty() or hit.inside else hit.position
+
+
+## Where to begin, looking ahead, for whatever seed and parameters the world has: at the anchor of [param kind] that
+## is nearest to [param around], in the mouth of the longest passage that leads away from it, or else on its ground.
+## Without such an anchor it is the ground below [param around].
+static func start(world: SgmWorld3D, kind: String, around: Vector3) -> Transform3D:
+	var reach := FIRST_REACH
+	while reach <= LAST_REACH:
+		var box := AABB(around - Vector3.ONE * reach, Vector3.ONE * reach * 2.0)
+		var places: Array[Vector3] = []
+		for anchor: Dictionary in world.get_anchors(box):
+			if anchor.kind == kind:
+				places.append(anchor.transform.origin)
+		places.sort_custom(func(a: Vector3, b: Vector3) -> bool:
+			return a.distance_squared_to(around) < b.distance_squared_to(around))
+		for place in places:
+			if not is_inside(world, place):
+				return _mouth(world, place)
+		reach *= 2.0
+	return looking(below(world, around), 0.0)
+
+
+## A place to stand at, and the angle to look at from there.
+static func looking(feet: Vector3, yaw: float) -> Transform3D:
+	return Transform3D(Basis(Vector3.UP, yaw), feet)
+
+
+## The angle to turn the head by so that it looks farthest from a place, level; radians.
+static func widest_view(world: SgmWorld3D, eye: Vector3, length := 80.0) -> float:
+	var best := 0.0
+	var farthest := -1.0
+	for step in DIRECTIONS:
+		var yaw := TAU * step / DIRECTIONS
+		var hit := world.ray_cast(eye, Vector3.FORWARD.rotated(Vector3.UP, yaw), length)
+		var free: float = length if hit.is_empty() else eye.distance_to(hit.position)
+		if free > farthest:
+			farthest = free
+			best = yaw
+	return best
+
+
+## The lowest free place at or above [param feet], which may have been buried when the world changed; [param otherwise]
+## where there is none within [param height] metres.
+static func dug_out(world: SgmWorld3D, feet: Vector3, otherwise: Vector3, height := 12.0) -> Vector3:
+	var lift := 0.0
+	while lift <= height:
+		var place := feet + Vector3.UP * lift
+		if _has_room(world, place):
+			return place
+		lift += STEP
+	return otherwise
+
+
+static func _mouth(world: SgmWorld3D, middle: Vector3) -> Transform3D:
+	var yaw := widest_view(world, middle)
+	var ahead := Vector3.FORWARD.rotated(Vector3.UP, yaw)
+	var hit := world.ray_cast(middle, ahead, 80.0)
+	var free: float = 80.0 if hit.is_empty() else middle.distance_to(hit.position)
+	var way := 0.0
+	while way < free - MOUTH:
+		if middle.y - below(world, middle + ahead * way).y < PASSAGE_HEIGHT:
+			var feet := below(world, middle + ahead * (way + MOUTH))
+			if middle.y - feet.y < PASSAGE_HEIGHT and _has_room(world, feet):
+				return looking(feet, yaw)
+		way += STEP
+	return looking(_ground_around(world, middle), yaw)
+
+
+## The highest ground near the middle of a hall: a shaft may open right below it.
+static func _ground_around(world: SgmWorld3D, middle: Vector3) -> Vector3:
+	var best := below(world, middle)
+	for step in 8:
+		var place := middle + Vector3.FORWARD.rotated(Vector3.UP, TAU * step / 8.0) * BESIDE
+		if is_inside(world, place):
+			continue
+		var feet := below(world, place)
+		if feet.y > best.y and feet.y < place.y and _has_room(world, feet):
+			best = feet
+	return best
+
+
+static func _has_room(world: SgmWorld3D, feet: Vector3) -> bool:
+	return not is_inside(world, feet + Vector3.UP * 0.3) and not is_inside(world, feet + Vector3.UP * HEADROOM)

@@ -1,0 +1,25 @@
+class_name DemoSky
+extends DemoPlace
+## Cumulus clouds over an endless plain, and a slow flight among them.
+
+const HEIGHT := 1230.0
+const DRIFT_SPEED := 14.0
+## Metres of the drift that are known at a time.
+const LEG := 2000.0
+
+
+func _ready() -> void:
+	super()
+	player.arrived.connect(drift)
+	drift()
+
+
+func find_start() -> Transform3D:
+	return DemoGround.looking(Vector3(0.0, HEIGHT, 0.0), 0.0)
+
+
+## Flies on ahead, level, until the player moves by hand.
+func drift() -> void:
+	var ahead := player.gaze() * Vector3(1.0, 0.0, 1.0)
+	ahead = ahead.normalized() if ahead.length() > 0.01 else Vector3.FORWARD
+	player.fly_to(PackedVector3Array([player.global_position + ahead * LEG]), DRIFT_SPEED)
