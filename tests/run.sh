@@ -5,13 +5,14 @@
 #
 #   --long          run property tests and fuzzers far longer, and AVX-512 under emulation (label emulated;
 #                   installs an emulator; without --long that test is skipped, and named so in the summary)
-#   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, judges, style, gltf, threads, fuzz, ...)
+#   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, judges, style, gltf, threads, fuzz, godot, ...)
 #   --without NAME  leave out a build (fuzz, scalar, clang, tsan) or a label; each is named in the summary
 #   --require-cuda  nvcc and an NVIDIA GPU must be there, for the tests of label cuda that run on one; without it those are
 #                   skipped, and named so in the summary
 #   --jobs N        at most N compilers and tests at one time (default: one for each processor)
 #
-# A Vulkan device must be there (software Vulkan is installed, and will do), unless --without vulkan leaves it out.
+# The Godot plugin is tested in a real Godot, which editor_plugin/get_godot.sh finds or unpacks, unless --without godot
+# leaves it out. A Vulkan device must be there (software Vulkan is installed, and will do), unless --without vulkan leaves it out.
 #
 # Five builds: release has every test; fuzz (clang++, both sanitizers) runs the unit tests again, and the fuzzers; scalar
 # (no vector unit) and clang (another compiler; also the static package) those that compare bits; tsan those with threads. --long adds dev (both
@@ -53,6 +54,11 @@ sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"
 sgm_setup_npm build/tools gltf-validator 2.0.0-dev.3.10 manifold-3d 3.5.4 vscode-languageserver-protocol 3.17.5 \
   vscode-textmate 9.3.2 vscode-oniguruma 2.0.1 playwright-core 1.65.1 ajv 8.20.0 ajv-formats 3.0.1 \
   @seriousme/openapi-schema-validator 2.11.0
+
+if [[ " ${without[*]-} " != *" godot "* ]]; then
+  step "Godot"
+  bash editor_plugin/get_godot.sh >/dev/null || die "the plugin cannot be tested; --without godot leaves its tests out"
+fi
 
 # build PRESET: quiet while all is well, the whole story when not.
 build() {

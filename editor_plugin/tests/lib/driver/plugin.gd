@@ -1,0 +1,25 @@
+@tool
+extends EditorPlugin
+## Runs the script that SGM_EDITOR_TEST names, once the editor has settled; the test quits the editor by its checks.
+
+## Frames in which the editor lays out its docks and scans its files.
+const SETTLING := 30
+
+
+func _enter_tree() -> void:
+	_run.call_deferred()
+
+
+func _run() -> void:
+	for i in SETTLING:
+		await get_tree().process_frame
+	while EditorInterface.get_resource_filesystem().is_scanning():
+		await get_tree().process_frame
+	var path := OS.get_environment("SGM_EDITOR_TEST")
+	var script: GDScript = load(path) if ResourceLoader.exists(path) else null
+	if script == null or not script.can_instantiate():
+		printerr("ERROR: the editor's test cannot be loaded: ", path)
+		get_tree().quit(1)
+		return
+	var test: RefCounted = script.new()
+	await test.call("run", self)

@@ -1,0 +1,87 @@
+extends SceneTree
+## Pictures of the demo's places, as a player sees them: they show the world, in many tones, and nothing of it is
+## missing.
+
+const Checks := preload("res://tests/lib/checks.gd")
+
+var _checks := Checks.new()
+
+
+func _initialize() -> void:
+	await _cave()
+	await _sky()
+	await _city()
+	await _checks.finish(self)
+
+
+func _cave() -> void:
+	var place := await _enter("res://cave/cave.tscn")
+	await _settle(place)
+	var start := place.player.global_position + Vector3.UP * 1.6
+	place.player.teleport(start)
+	_shoot_ready(place)
+	await _shoot("cave")
+	# A dig, lit from where it was made.
+	place.world.dig(place.player.eye() + place.player.gaze() * 4.0, 1.5, 0.3)
+	await _settle(place)
+	await _shoot("cave_dug")
+	await _leave(place)
+
+
+func _sky() -> void:
+	var place := await _enter("res://sky/sky.tscn")
+	await _settle(place)
+	_shoot_ready(place)
+	await _shoot("sky")
+	await _leave(place)
+
+
+func _city() -> void:
+	var place := await _enter("res://city/city.tscn")
+	await _settle(place)
+	_shoot_ready(place)
+	await _shoot("city")
+	await _leave(place)
+
+
+func _enter(path: String) -> DemoPlace:
+	var place := (load(path) as PackedScene).instantiate() as DemoPlace
+	root.add_child(place)
+	await process_frame
+	return place
+
+
+func _settle(place: DemoPlace) -> void:
+	var limit := Time.get_ticks_msec() + 240_000
+	while not place.world.is_idle() and Time.get_ticks_msec() < limit:
+		await process_frame
+	_checks.check(place.world.is_idle(), place.name + " comes to rest")
+
+
+func _shoot_ready(place: DemoPlace) -> void:
+	place.overlay.visible = false
+
+
+func _leave(place: DemoPlace) -> void:
+	place.queue_free()
+	for i in 2:
+		await process_frame
+
+
+func _shoot(picture: String) -> void:
+	for i in 4:
+		await process_frame
+	await RenderingServer.frame_post_draw
+	var image := root.get_texture().get_image()
+	_checks.equal(image.save_png(OS.get_environment("SGM_PICTURES") + "/" + picture + ".png"), OK, picture + " is saved")
+	var tones := {}
+	var brightness := 0.0
+	var small := image.duplicate() as Image
+	small.resize(160, 90)
+	for y in 90:
+		for x in 160:
+			var pixel := small.get_pixel(x, y)
+			tones[pixel.to_rgba32() >> 8 & 0xF8F8F8] = true
+			brightness += pixel.get_luminance() / (160 * 90)
+	_checks.check(tones.size() > 40, "%s has many tones: %d" % [picture, tones.size()])
+	_checks.check(brightness > 0.02 and brightness < 0.9, "%s is neither dark nor white: %.3f" % [picture, brightness])

@@ -1,0 +1,95 @@
+#!/usr/bin/env bash
+# Runs the plugin's tests in the real engine, after editor_plugin/build.sh.
+#
+#   bash editor_plugin/tests/run.sh [FOLDER/NAME...]     headless/flight, rendered/pictures, ...; none: all of them
+#
+# Tests are scripts of a copy of the demo project, build/godot/project, so that nothing in the checkout changes:
+# headless/ run without a display, rendered/ under a virtual one on software Vulkan, editor/ in the editor there.
+# Pictures go to $SGM_PICTURES (build/godot/pictures).
+#
+# A test has passed when it ends with status 0 and its marker `SGM TEST PASSED: N checks`, and the engine's log has no
+# error, no leak, but those that the test announced (`SGM TEST EXPECTS: REGEX`), each of which must have come.
+set -euo pipefail
+tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$tests/../.." && pwd)
+out=${SGM_GODOT_OUT:-$root/build/godot}
+demo=${SGM_GODOT_DEMO:-$root/editor_plugin/demo}
+die() { echo "editor_plugin/tests/run.sh: error: $1" >&2; exit 2; }
+godot=$(bash "$root/editor_plugin/get_godot.sh" 2>/dev/null) || die "no Godot (bash editor_plugin/get_godot.sh says why)"
+
+names=("$@")
+if ((${#names[@]} == 0)); then
+  mapfile -t names < <(cd "$tests" && ls headless/*.gd rendered/*.gd editor/*.gd 2>/dev/null | sed 's/\.gd$//')
+fi
+mkdir -p "$out/home" "$out/tests" "${SGM_PICTURES:=$out/pictures}"
+export GODOT=$godot SGM_PICTURES HOME=$out/home
+export XDG_DATA_HOME=$HOME/data XDG_CONFIG_HOME=$HOME/config XDG_CACHE_HOME=$HOME/cache
+
+# One copy for each test, so that they may run at one time: files by hard links, where the disk lets them.
+project_of() {
+  local project=$out/projects/$1
+  rm -rf "$project"
+  mkdir -p "$project"
+  cp -a "$demo/." "$project/"
+  mkdir -p "$project/tests"
+  cp -a "$tests"/lib "$tests"/headless "$tests"/rendered "$tests"/editor "$project/tests/" 2>/dev/null || true
+  echo "$project"
+}
+
+failures='^((USER |SCRIPT |USER SCRIPT |SHADER )?ERROR|Parse Error)|[Ll]eaked|still in use at exit|Orphan|ObjectDB instances'
+
+# judge LOG STATUS: prints what is wrong with a run; nothing where it passed.
+judge() {
+  local log=$1 status=$2 expected=() line pattern
+  grep -q '^SGM TEST PASSED: [1-9][0-9]* checks$' "$log" || echo "there is no marker: the test did not come to its end"
+  ((status == 0)) || echo "it ended with status $status"
+  mapfile -t expected < <(sed -n 's/^SGM TEST EXPECTS: //p' "$log")
+  while IFS= read -r line; do
+    for pattern in ${expected[@]+"${expected[@]}"}; do
+      [[ $line =~ $pattern ]] && continue 2
+    done
+    echo "the engine's log: $line"
+  done < <(grep -E "$failures" "$log")
+  for pattern in ${expected[@]+"${expected[@]}"}; do
+    grep -v '^SGM TEST EXPECTS: ' "$log" | grep -qE "^(ERROR|WARNING|SCRIPT ERROR|USER).*($pattern)" ||
+      echo "it was to provoke an error, which did not come: $pattern"
+  done
+}
+
+run_one() {
+  local name=$1 kind=${1%%/*} project log status=0 command
+  [[ -e $tests/$name.gd ]] || die "there is no test $name"
+  project=$(project_of "${name//\//_}")
+  log=$out/tests/${name//\//_}.log
+  case $kind in
+    headless) command=("$godot" --headless --path "$project" --script "tests/$name.gd") ;;
+    rendered) command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution 1280x720
+      --path "$project" --script "tests/$name.gd") ;;
+    editor)
+      # A plugin of the copy's own loads the test into the editor, and quits.
+      cp -a "$tests/lib/driver" "$project/addons/sgm_test"
+      sed -i "s#^enabled=PackedStringArray(#&\"res://addons/sgm_test/plugin.cfg\", #" "$project/project.godot"
+      export SGM_EDITOR_TEST="res://tests/$name.gd"
+      command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution 1600x900 --editor
+        --path "$project")
+      ;;
+    *) die "tests lie in headless, rendered and editor, not in '$kind'" ;;
+  esac
+  timeout 300 "$godot" --headless --path "$project" --import >"$log.import" 2>&1 </dev/null || true
+  timeout "${SGM_GODOT_TIMEOUT:-600}" "${command[@]}" >"$log" 2>&1 </dev/null || status=$?
+  local wrong
+  wrong=$(judge "$log" "$status")
+  if [[ -z $wrong ]]; then
+    grep -E '^(SGM TEST PASSED|main thread|resident|SGM NOTE)' "$log" | sed "s#^#$name: #"
+    rm -rf "$project"
+    return 0
+  fi
+  echo "$name FAILED (its log: $log)"
+  sed 's/^/  /' <<<"$wrong" | head -n 30
+  grep '^SGM CHECK FAILED' "$log" | sed 's/^/  /' || true
+  return 1
+}
+
+failed=0
+for name in "${names[@]}"; do run_one "$name" || failed=1; done
+exit "$failed"
