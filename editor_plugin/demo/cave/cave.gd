@@ -3,6 +3,8 @@ extends DemoPlace
 ## An endless cave to walk in, to dig in, and to grow anew from other seeds. What is dug lies in a journal for each
 ## seed.
 
+## Around it one begins: so deep, the grammar's passages are round; farther up they turn square.
+const DEPTHS := Vector3(0.0, -240.0, 0.0)
 ## The journal of the digs in a seed's cave.
 const JOURNAL := "user://cave_%d.journal"
 ## Metres from the eyes in which one can dig and build.
@@ -73,7 +75,7 @@ func _unhandled_input(event: InputEvent) -> void:
 
 
 func find_start() -> Transform3D:
-	return DemoGround.start(world, "spawn", Vector3.ZERO)
+	return DemoGround.start(world, "spawn", DEPTHS)
 
 
 func welcome() -> String:

@@ -25,6 +25,15 @@ func _cave() -> void:
 	place.world.dig(place.player.eye() + place.player.gaze() * 4.0, 1.5, 0.3)
 	await _settle(place)
 	await _shoot("cave_dug")
+	# In the middle of the hall.
+	var hall := place.start_place
+	for anchor: Dictionary in place.world.get_anchors(AABB(hall - Vector3.ONE * 60, Vector3.ONE * 120)):
+		hall = (anchor.transform as Transform3D).origin
+	place.player.flying = true
+	place.player.teleport(hall)
+	place.player.look(DemoGround.widest_view(place.world, hall) + 0.6, 0.1)
+	await _settle(place)
+	await _shoot("cave_hall")
 	await _leave(place)
 
 
