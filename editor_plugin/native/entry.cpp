@@ -2,6 +2,7 @@
 
 #include <deque>
 
+#include "class_reference.h"
 #include "godot/class_binder.h"
 #include "grammar.h"
 #include "grammar_files.h"
@@ -104,8 +105,19 @@ void stop(Loaded& loaded) {
   plugin.runtime = nullptr;
 }
 
+/// For the editor's help. The engine forgets it together with the classes.
+void document() {
+  if (engine().load_help == nullptr) return;
+  for (const std::string_view xml : classReference()) {
+    engine().load_help(xml.data(), static_cast<GDExtensionInt>(xml.size()));
+  }
+}
+
 void initialise(void* userdata, GDExtensionInitializationLevel level) {
-  if (level == GDEXTENSION_INITIALIZATION_SCENE) start(*static_cast<Loaded*>(userdata));
+  auto& loaded = *static_cast<Loaded*>(userdata);
+  if (level == GDEXTENSION_INITIALIZATION_SCENE) start(loaded);
+  // The level that editors alone reach; without a runtime there are no classes to describe.
+  if (level == GDEXTENSION_INITIALIZATION_EDITOR && loaded.plugin.runtime != nullptr) document();
 }
 
 void deinitialise(void* userdata, GDExtensionInitializationLevel level) {

@@ -32,7 +32,8 @@ project_of() {
   mkdir -p "$project"
   cp -a "$demo/." "$project/"
   mkdir -p "$project/tests"
-  cp -a "$tests"/lib "$tests"/headless "$tests"/rendered "$tests"/editor "$project/tests/" 2>/dev/null || true
+  cp -a "$tests"/lib "$tests"/headless "$tests"/rendered "$tests"/editor "$tests"/../native/doc "$project/tests/" \
+    2>/dev/null || true
   echo "$project"
 }
 

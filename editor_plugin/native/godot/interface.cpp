@@ -20,6 +20,8 @@ const char* loadInterface(GDExtensionInterfaceGetProcAddress address, GDExtensio
   if (table.name == nullptr) return #name;
   SGM_GODOT_FUNCTIONS(SGM_GODOT_LOAD)
 #undef SGM_GODOT_LOAD
+  table.load_help = reinterpret_cast<decltype(table.load_help)>(
+      reinterpret_cast<void*>(address("editor_help_load_xml_from_utf8_chars_and_len")));
   for (int i = GDEXTENSION_VARIANT_TYPE_BOOL; i < GDEXTENSION_VARIANT_TYPE_VARIANT_MAX; ++i) {
     const auto type = static_cast<GDExtensionVariantType>(i);
     table.from_type[i] = table.get_variant_from_type_constructor(type);

@@ -56,6 +56,8 @@ struct Interface {
 #define SGM_GODOT_DECLARE(type, name) GDExtensionInterface##type name = nullptr;
   SGM_GODOT_FUNCTIONS(SGM_GODOT_DECLARE)
 #undef SGM_GODOT_DECLARE
+  /// editor_help_load_xml_from_utf8_chars_and_len; null where the engine is no editor.
+  void (*load_help)(const char* xml, GDExtensionInt size) = nullptr;
   GDExtensionClassLibraryPtr library = nullptr;
   GDExtensionVariantFromTypeConstructorFunc from_type[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX] = {};
   GDExtensionTypeFromVariantConstructorFunc to_type[GDEXTENSION_VARIANT_TYPE_VARIANT_MAX] = {};

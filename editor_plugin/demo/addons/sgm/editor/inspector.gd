@@ -1,8 +1,14 @@
 @tool
 extends EditorInspectorPlugin
-## Shows what is wrong with a grammar above it in the inspector, and above the property of a world that has it.
+## Shows what is wrong with a grammar above it in the inspector, and above the property of a world that has it; tells
+## over a world's parameters what the grammar says of them.
 
 const Diagnostics := preload("diagnostics.gd")
+const RowTip := preload("row_tip.gd")
+const PARAMETERS := "parameters/"
+
+# The engine asks this plugin, too, when it is to make a row of its own.
+var _makes_row := false
 
 
 func _can_handle(object: Object) -> bool:
@@ -14,8 +20,55 @@ func _parse_begin(object: Object) -> void:
 		add_custom_control(Diagnostics.new(object as SgmGrammar))
 
 
-func _parse_property(object: Object, _type: Variant.Type, name: String, _hint: PropertyHint, _text: String,
-		_usage: int, _wide: bool) -> bool:
-	if object is SgmWorld3D and name == "grammar" and (object as SgmWorld3D).grammar != null:
-		add_custom_control(Diagnostics.new((object as SgmWorld3D).grammar))
-	return false
+func _parse_property(object: Object, type: Variant.Type, name: String, hint: PropertyHint, text: String, usage: int,
+		wide: bool) -> bool:
+	var world := object as SgmWorld3D
+	if world == null or world.grammar == null or _makes_row:
+		return false
+	if name == "grammar":
+		add_custom_control(Diagnostics.new(world.grammar))
+	if not name.begins_with(PARAMETERS):
+		return false
+	var tip := tip_of(world.grammar, name.trim_prefix(PARAMETERS))
+	# Before Godot 4.4 nobody but the engine can make its rows: they stay without the grammar's words.
+	if tip.is_empty() or not ClassDB.class_has_method(&"EditorInspector", &"instantiate_property_editor"):
+		return false
+	_makes_row = true
+	var row: EditorProperty = EditorInterface.get_inspector().call(
+			&"instantiate_property_editor", object, type, name, hint, text, usage, wide)
+	_makes_row = false
+	if row == null:
+		return false
+	row.add_child(RowTip.new(row, tip), false, Node.INTERNAL_MODE_FRONT)
+	add_property_editor(name, row)
+	return true
+
+
+## What the grammar says of a parameter, and its range. Empty where it has no such parameter.
+static func tip_of(grammar: SgmGrammar, name: String) -> String:
+	for parameter: Dictionary in grammar.get_parameters():
+		if parameter.name == name:
+			var doc: String = parameter.doc
+			return (doc + "\n" if doc != "" else "") + _range_of(parameter)
+	return ""
+
+
+static func _range_of(parameter: Dictionary) -> String:
+	var text := "%s by default" % _value_of(parameter, parameter.default)
+	if is_finite(parameter.minimum) and is_finite(parameter.maximum):
+		text = "%s to %s, " % [_value_of(parameter, parameter.minimum), _value_of(parameter, parameter.maximum)] + text
+	elif is_finite(parameter.minimum):
+		text = "%s or more, " % _value_of(parameter, parameter.minimum) + text
+	elif is_finite(parameter.maximum):
+		text = "%s or less, " % _value_of(parameter, parameter.maximum) + text
+	return text
+
+
+# As the row shows it: angles in degrees.
+static func _value_of(parameter: Dictionary, value: float) -> String:
+	match parameter.quantity:
+		"length":
+			return String.num(value, 3) + " m"
+		"angle":
+			return String.num(rad_to_deg(value), 3) + "°"
+	return String.num(value, 3)
