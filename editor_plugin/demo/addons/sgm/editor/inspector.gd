@@ -68,7 +68,11 @@ static func _range_of(parameter: Dictionary) -> String:
 static func _value_of(parameter: Dictionary, value: float) -> String:
 	match parameter.quantity:
 		"length":
-			return String.num(value, 3) + " m"
+			return _number(value) + " m"
 		"angle":
-			return String.num(rad_to_deg(value), 3) + "°"
-	return String.num(value, 3)
+			return _number(rad_to_deg(value)) + "°"
+	return _number(value)
+
+
+static func _number(value: float) -> String:
+	return String.num(value, 3).trim_suffix(".0")
