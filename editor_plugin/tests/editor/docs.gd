@@ -126,6 +126,16 @@ func _check_help(type: StringName, reference: Dictionary) -> void:
 		_checks.check(start.length() < 5 or start in page, "the help of %s has '%s'" % [type, start])
 		_checks.check(entry == "" or entry.get_slice(" ", 1) in page, "the help of %s names '%s'" % [type, entry])
 	_checks.check(not "There is currently no description" in page, "the help of %s leaves out nothing" % type)
+	_check_example(type, reference[""].text, page)
+
+
+# An example whose lines have lost their indentation cannot be copied.
+func _check_example(type: StringName, words: String, page: String) -> void:
+	var lines := words.get_slice("[codeblock]", 1).get_slice("[/codeblock]", 0).split("\n", false)
+	var margin := lines[0].length() - lines[0].dedent().length()
+	for line in lines:
+		var code := line.substr(margin)
+		_checks.check("\n" + code in page, "the help of %s has the line '%s' of its example" % [type, code])
 
 
 func _help_text() -> String:
