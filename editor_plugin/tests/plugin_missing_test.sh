@@ -54,4 +54,19 @@ other=$(project_of other)
 sed -i 's/^version=.*/version="99.0.0"/' "$other/addons/sgm/plugin.cfg"
 check other "$other" '.*the plugin of version 99\.0\.0; run editor_plugin/build\.sh, or copy' 1
 check fitting "$(project_of fitting)" '' 0
-echo "the editor plugin says what to do without its native library, and with one of another version"
+
+# A libsgm of another version than the one that the plugin was built for: this one, whose function that tells the version
+# (2000: 0.2.0) is changed to tell another.
+mixed=$(project_of mixed)
+library=$mixed/addons/sgm/bin/libsgm.so.0.2
+mapfile -t places < <(LC_ALL=C grep -obUaP '\xb8\xd0\x07\x00\x00\xc3' "$library" | cut -d: -f1)
+((${#places[@]} == 1)) || { echo "mixed: sgm_version is not found in $library" >&2; exit 1; }
+printf '\xd1' | dd of="$library" bs=1 seek="$((places[0] + 1))" conv=notrunc status=none
+found='is not loaded: the plugin was built for libsgm [0-9.]* and found .*; copy the whole folder'
+timeout 120 "$godot" --headless --editor --path "$mixed" --quit-after 30 >"$folder/mixed.log" 2>&1 </dev/null || true
+grep -qE "SG\+M $found" "$folder/mixed.log" || {
+  echo "mixed: wanted a line 'SG+M $found':" >&2
+  cat "$folder/mixed.log" >&2
+  exit 1
+}
+echo "the editor plugin says what to do without its native library, and with one, or a libsgm, of another version"
