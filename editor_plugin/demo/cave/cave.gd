@@ -5,8 +5,8 @@ extends DemoPlace
 
 ## Around it one begins: so deep, the grammar's passages are round; farther up they turn square.
 const DEPTHS := Vector3(0.0, -240.0, 0.0)
-## The journal of the digs in a seed's cave.
-const JOURNAL := "user://cave_%d.journal"
+## The journal of the digs in a seed's cave, which is one with cells of so many millimetres.
+const JOURNAL := "user://cave_%d_%dmm.journal"
 ## Metres from the eyes in which one can dig and build.
 const REACH := 14.0
 const DIG_RADIUS := 1.4
@@ -32,7 +32,7 @@ var _armed := false
 
 
 func _ready() -> void:
-	world.journal = JOURNAL % world.seed
+	world.journal = _journal()
 	super()
 	fog = DemoQuality.is_fast()
 	var save_button := Button.new()
@@ -72,6 +72,11 @@ func _unhandled_input(event: InputEvent) -> void:
 		overlay.say("Fog on" if fog else "Fog off")
 	else:
 		super(event)
+
+
+func refine() -> void:
+	super()
+	world.journal = _journal()
 
 
 func find_start() -> Transform3D:
@@ -125,7 +130,7 @@ func grow(new_seed: int) -> void:
 	await overlay.fade(true)
 	_edits.clear()
 	world.seed = new_seed
-	world.journal = JOURNAL % new_seed
+	world.journal = _journal()
 	# The new cave is there from the next frame on, and only then knows its anchors.
 	await world.restarted
 	go_to_start()
@@ -136,6 +141,10 @@ func grow(new_seed: int) -> void:
 	overlay.say("Seed %d" % new_seed)
 	player.held = false
 	_growing = false
+
+
+func _journal() -> String:
+	return JOURNAL % [world.seed, roundi(world.cell_size * 1000.0)]
 
 
 func _keep(id: PackedInt64Array) -> bool:

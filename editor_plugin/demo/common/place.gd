@@ -41,7 +41,9 @@ func _ready() -> void:
 	overlay.parameter_changed.connect(func(_name: String) -> void: _watch = 0.0)
 	player.flight_changed.connect(_on_flight_changed)
 	go_to_start()
-	_refine()
+	var figures := world.get_statistics()
+	if not figures.is_empty() and figures.backend != "cpu":
+		refine()
 
 
 func _notification(what: int) -> void:
@@ -99,6 +101,12 @@ func bring_to(feet: Vector3) -> void:
 	player.teleport(feet)
 
 
+## Takes the settings for machines with a graphics card.
+func refine() -> void:
+	for setting: String in fine:
+		world.set(setting, fine[setting])
+
+
 ## Back to the menu.
 func leave() -> void:
 	get_tree().change_scene_to_file(MENU)
@@ -107,14 +115,6 @@ func leave() -> void:
 ## What is said when the world can be seen first.
 func welcome() -> String:
 	return WELCOME
-
-
-func _refine() -> void:
-	var figures := world.get_statistics()
-	if figures.is_empty() or figures.backend == "cpu":
-		return
-	for setting: String in fine:
-		world.set(setting, fine[setting])
 
 
 func _on_first_chunk(_key: Vector4i) -> void:

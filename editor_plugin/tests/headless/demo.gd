@@ -93,6 +93,16 @@ func _cave(cave: DemoCave) -> void:
 	cave.fog = true
 	_checks.check(cave.environment.environment.volumetric_fog_enabled, "fog")
 
+	# As with a graphics card: cells of another size are another world, with digs of its own.
+	cave.player.flying = false
+	cave.refine()
+	cave.world.view_distance = 64.0
+	await cave.world.restarted
+	_checks.equal(cave.world.cell_size, float(cave.fine.cell_size), "the finer cave's cells")
+	_checks.equal(cave.world.get_edit_count(), 0, "digs in the finer cave")
+	cave.go_to_start()
+	await _stands(cave, "the finer cave")
+
 
 func _sky(sky: DemoSky) -> void:
 	var from := sky.player.global_position

@@ -15,25 +15,16 @@ func _initialize() -> void:
 
 
 func _cave() -> void:
+	for file in DirAccess.get_files_at("user://"):
+		DirAccess.remove_absolute("user://" + file)
 	var place := await _enter("res://cave/cave.tscn")
 	await _settle(place)
-	var start := place.player.global_position + Vector3.UP * 1.6
-	place.player.teleport(start)
 	_shoot_ready(place)
 	await _shoot("cave")
 	# A dig, lit from where it was made.
-	place.world.dig(place.player.eye() + place.player.gaze() * 4.0, 1.5, 0.3)
+	place.world.dig(place.player.eye() + place.player.gaze() * 5.0 + Vector3.DOWN * 1.5, 1.5, 0.3)
 	await _settle(place)
 	await _shoot("cave_dug")
-	# In the middle of the hall.
-	var hall := place.start_place
-	for anchor: Dictionary in place.world.get_anchors(AABB(hall - Vector3.ONE * 60, Vector3.ONE * 120)):
-		hall = (anchor.transform as Transform3D).origin
-	place.player.flying = true
-	place.player.teleport(hall)
-	place.player.look(DemoGround.widest_view(place.world, hall) + 0.6, 0.1)
-	await _settle(place)
-	await _shoot("cave_hall")
 	await _leave(place)
 
 
