@@ -7,6 +7,7 @@
 
 #include "base/hash.h"
 #include "catch.h"
+#include "mesh/feature_kind.h"
 #include "mesh/vertex.h"
 #include "stream/surface_materials.h"
 #include "stream/surface_shapes.h"
@@ -243,6 +244,34 @@ TEST_CASE("where two materials meet one passes into the other over two cells, on
       if (away > 1.05) CHECK(flints == kMaterialSamples);
       if (std::fabs(away) < 0.5) CHECK(std::fabs(flints - 4.5) <= 2);
     }
+  }
+}
+
+TEST_CASE("surfaces of shapes finer than a cell are of the shapes' material") {
+  const WorldField field(
+      settingsOf("sgm 1; units m; domain infinite; layer l cell 16m reach 8m { start A; }\n"
+                 "rule A { at(cell.point(jitter 0.4)) scatter 6 on shell(3m) { B(rand(0.3m, 2m)); } }\n"
+                 "rule B(r) { sum { blob(r); } mat chalk; }\n",
+                 256),
+      std::pmr::get_default_resource());
+  const uint16_t chalk = materialNamed(*field.settings().program, "chalk");
+  for (int level = 0; level < 4; ++level) {
+    CAPTURE(level);
+    size_t vertices = 0;
+    for (const ChunkSurface& surface : surfacesFrom(field, level, 0)) {
+      std::vector<Int3> points;
+      std::vector<TexturePoint> normals;
+      for (const Vertex& vertex : surface.mesh.vertices) {
+        if (isOfCoarserLevel(vertex.kind)) continue;
+        points.push_back(vertexUnits(surface.grid, vertex));
+        normals.push_back(unpackNormal(vertex.normal_x, vertex.normal_y));
+      }
+      std::vector<MaterialMix> mixes(points.size());
+      REQUIRE(materialsAround(field, level, nullptr, points, normals, mixes));
+      for (const MaterialMix& mix : mixes) CHECK(std::count(mix.begin(), mix.end(), chalk) == int{kMaterialSamples});
+      vertices += points.size();
+    }
+    CHECK(vertices > 20);
   }
 }
 
