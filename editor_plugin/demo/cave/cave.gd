@@ -5,8 +5,8 @@ extends DemoPlace
 
 ## Around it one begins: so deep, the grammar's passages are round; farther up they turn square.
 const DEPTHS := Vector3(0.0, -240.0, 0.0)
-## The journal of the digs in a seed's cave, which is one with cells of so many millimetres.
-const JOURNAL := "user://cave_%d_%dmm.journal"
+## The journal of the digs in a seed's cave. Cells of another size (here in mm) and other parameters are other caves.
+const JOURNAL := "user://cave_%d_%dmm_%08x.journal"
 ## Metres from the eyes in which one can dig and build.
 const REACH := 14.0
 const DIG_RADIUS := 1.4
@@ -144,7 +144,10 @@ func grow(new_seed: int) -> void:
 
 
 func _journal() -> String:
-	return JOURNAL % [world.seed, roundi(world.cell_size * 1000.0)]
+	var values := []
+	for parameter: Dictionary in world.grammar.get_parameters():
+		values.append(world.get("parameters/" + parameter.name))
+	return JOURNAL % [world.seed, roundi(world.cell_size * 1000.0), hash(values)]
 
 
 func _keep(id: PackedInt64Array) -> bool:

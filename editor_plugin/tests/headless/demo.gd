@@ -86,6 +86,14 @@ func _cave(cave: DemoCave) -> void:
 	_checks.equal(cave.world.get_edit_count(), edits, "digs that are loaded again")
 	_checks.equal(cave.world.get_edits_hash(), state, "what was dug is loaded again")
 
+	# Sliders that were moved make other caves of the seeds that are entered later.
+	cave.world.set("parameters/wet", 0.9)
+	await cave.grow(2)
+	await _stands(cave, "seed 2 with other parameters")
+	cave.world.set("parameters/wet", 0.5)
+	await cave.grow(0)
+	_checks.equal(cave.world.get_edits_hash(), state, "what was dug is loaded when the parameters are back")
+
 	var points := PackedVector3Array([from + Vector3.UP, from + Vector3(0.0, 1.0, 4.0)])
 	cave.player.fly_to(points, 20.0)
 	await _until(func() -> bool: return not cave.player.is_on_route(), 5.0)
