@@ -7,24 +7,25 @@ namespace sgm_godot {
 namespace {
 
 // The engine's Mesh.ArrayFormat.
-constexpr uint64_t kVertex = 1, kNormal = 2, kUv = 16, kCustom0 = 64, kCustom1 = 128, kCustom2 = 256, kIndex = 4096;
-constexpr uint64_t kRgba8Unorm = 0, kRgbaHalf = 3;
-constexpr int kCustomShift = 13, kCustomBits = 3, kVersionShift = 35;
-constexpr uint64_t kFormat = kVertex | kNormal | kUv | kCustom0 | kCustom1 | kCustom2 | kIndex |
-                             kRgba8Unorm << kCustomShift | kRgba8Unorm << (kCustomShift + kCustomBits) |
-                             kRgbaHalf << (kCustomShift + 2 * kCustomBits) | uint64_t{1} << kVersionShift;
+constexpr uint64_t kVertex = 1, kNormal = 2, kUv = 16, kCustom0 = 64, kIndex = 4096;
+constexpr uint64_t kRgbaFloat = 7;
+constexpr int kCustomShift = 13, kVersionShift = 35;
+constexpr uint64_t kFormat =
+    kVertex | kNormal | kUv | kCustom0 | kIndex | kRgbaFloat << kCustomShift | uint64_t{1} << kVersionShift;
 constexpr int64_t kTriangles = 3;
 
 /// What the engine keeps of a vertex beside its position and normal, in its order.
 struct Attributes {
   float uv[2];
-  uint8_t materials[2], share, level;
-  uint8_t planes[3], unused;
-  uint16_t morph[3], unused_half;
+  float words[4];  // whole numbers below 2^24, as surface.gdshaderinc takes them apart
 };
 static_assert(sizeof(Attributes) == 24);
 
 constexpr uint32_t kNone = UINT32_MAX;
+
+// Morphing moves vertices by up to four cells, in 1/256 of one.
+constexpr int kMostMorph = 1024, kMorphBits = 12;
+constexpr uint32_t kMorphZero = 2048;
 
 /// Triangles of one slot, by corners: wedges of the mesh, or vertices where it has none.
 struct Corners {
@@ -89,15 +90,9 @@ std::vector<Corners> collect(const Reader& reader, Part part, const std::vector<
   return result;
 }
 
-/// A whole number up to 2,048 as a half float, exactly.
-uint16_t half(int value) {
-  if (value == 0) return 0;
-  const unsigned magnitude = static_cast<unsigned>(std::abs(value));
-  unsigned exponent = 0;
-  while ((magnitude >> (exponent + 1)) != 0) ++exponent;
-  const unsigned mantissa = (magnitude << 10 >> exponent) & 0x3FF;
-  return static_cast<uint16_t>((value < 0 ? 0x8000u : 0u) | (exponent + 15) << 10 | mantissa);
-}
+/// Three bytes in a float, exactly. OpenGL gets channels of bytes or half floats cut short from the engine (4.6),
+/// floats whole.
+float word(uint32_t low, uint32_t middle, uint32_t high) { return static_cast<float>(low | middle << 8 | high << 16); }
 
 uint16_t unsignedNormal(int16_t coordinate) {
   return static_cast<uint16_t>(((coordinate + 32767) * 65535 + 32767) / 65534);
@@ -117,21 +112,26 @@ Vector3 normalOf(const sgm_vertex& v) {
 
 Attributes attributesOf(const Reader& reader, uint32_t corner) {
   Attributes a{};
-  a.level = static_cast<uint8_t>(reader.mesh.key.level);
+  const auto byte = [](uint16_t material) { return std::min<uint32_t>(material, 255); };
   if (reader.wedges) {
     const sgm_wedge& w = reader.wedge(corner);
     a.uv[0] = w.u;
     a.uv[1] = w.v;
-    for (int i = 0; i < 2; ++i) a.materials[i] = static_cast<uint8_t>(std::min<int>(w.materials[i], 255));
-    a.share = w.share;
-    std::copy_n(w.plane_shares, 3, a.planes);
+    a.words[2] = word(byte(w.materials[0]), byte(w.materials[1]), w.share);
+    a.words[3] = word(w.plane_shares[0], w.plane_shares[1], w.plane_shares[2]);
   } else {
-    a.materials[0] = a.materials[1] = static_cast<uint8_t>(std::min<int>(reader.vertex(corner).material, 255));
+    const uint32_t material = byte(reader.vertex(corner).material);
+    a.words[2] = word(material, material, 0);
   }
+  uint32_t morph[3] = {kMorphZero, kMorphZero, kMorphZero};
   if (reader.mesh.morphs != nullptr) {
     const int16_t* offset = reader.mesh.morphs + size_t{reader.vertexOf(corner)} * 3;
-    for (int i = 0; i < 3; ++i) a.morph[i] = half(offset[i]);
+    for (int i = 0; i < 3; ++i) {
+      morph[i] = static_cast<uint32_t>(std::clamp<int>(offset[i], -kMostMorph, kMostMorph) + int{kMorphZero});
+    }
   }
+  a.words[0] = static_cast<float>(morph[0] | morph[1] << kMorphBits);
+  a.words[1] = static_cast<float>(morph[2] | static_cast<uint32_t>(reader.mesh.key.level) << kMorphBits);
   return a;
 }
 
@@ -162,8 +162,7 @@ Variant surfaceOf(const Reader& reader, const Corners& corners) {
       std::memcpy(indices.data() + i * 4, &corners.indices[i], 4);
     }
   }
-  // Morphing moves vertices by up to four cells.
-  const float room = reader.mesh.morphs != nullptr ? reader.scale() * 1024 : 0;
+  const float room = reader.mesh.morphs != nullptr ? reader.scale() * kMostMorph : 0;
   const Vector3 grow{room, room, room};
   Variant surface = Variant::dictionary();
   surface.set("primitive", kTriangles);

@@ -4,7 +4,8 @@
 #   bash editor_plugin/tests/run.sh [FOLDER/NAME...]     headless/flight, rendered/pictures, ...; none: all of them
 #
 # Tests are scripts of a copy of the demo project, build/godot/project, so that nothing in the checkout changes:
-# headless/ run without a display, rendered/ under a virtual one on software Vulkan, editor/ in the editor there.
+# headless/ run without a display, rendered/ under a virtual one on software Vulkan, opengl/ there by OpenGL, editor/ in
+# the editor there.
 # Pictures go to $SGM_PICTURES (build/godot/pictures).
 #
 # A test has passed when it ends with status 0 and its marker `SGM TEST PASSED: N checks`, and the engine's log has no
@@ -19,7 +20,7 @@ godot=$(bash "$root/editor_plugin/get_godot.sh" 2>/dev/null) || die "no Godot (b
 
 names=("$@")
 if ((${#names[@]} == 0)); then
-  mapfile -t names < <(cd "$tests" && ls headless/*.gd rendered/*.gd editor/*.gd 2>/dev/null | sed 's/\.gd$//')
+  mapfile -t names < <(cd "$tests" && ls {headless,rendered,opengl,editor}/*.gd 2>/dev/null | sed 's/\.gd$//')
 fi
 mkdir -p "$out/home" "$out/tests" "${SGM_PICTURES:=$out/pictures}"
 export GODOT=$godot SGM_PICTURES HOME=$out/home
@@ -32,8 +33,7 @@ project_of() {
   mkdir -p "$project"
   cp -a "$demo/." "$project/"
   mkdir -p "$project/tests"
-  cp -a "$tests"/lib "$tests"/headless "$tests"/rendered "$tests"/editor "$tests"/../native/doc "$project/tests/" \
-    2>/dev/null || true
+  cp -a "$tests"/{lib,headless,rendered,opengl,editor} "$tests"/../native/doc "$project/tests/" 2>/dev/null || true
   echo "$project"
 }
 
@@ -66,6 +66,8 @@ run_one() {
     headless) command=("$godot" --headless --path "$project" --script "tests/$name.gd") ;;
     rendered) command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution 1280x720
       --path "$project" --script "tests/$name.gd") ;;
+    opengl) command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-method gl_compatibility
+      --rendering-driver opengl3 --resolution 1280x720 --path "$project" --script "tests/$name.gd") ;;
     editor)
       # A plugin of the copy's own loads the test into the editor, and quits.
       cp -a "$tests/lib/driver" "$project/addons/sgm_test"
@@ -74,7 +76,7 @@ run_one() {
       command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution 1600x900 --editor
         --path "$project")
       ;;
-    *) die "tests lie in headless, rendered and editor, not in '$kind'" ;;
+    *) die "tests lie in headless, rendered, opengl and editor, not in '$kind'" ;;
   esac
   timeout 300 "$godot" --headless --path "$project" --import >"$log.import" 2>&1 </dev/null || true
   timeout "${SGM_GODOT_TIMEOUT:-600}" "${command[@]}" >"$log" 2>&1 </dev/null || status=$?

@@ -15,7 +15,7 @@ set_tests_properties(godot_editor_restart PROPERTIES LABELS godot FIXTURES_REQUI
 add_test(NAME godot_plugin_missing COMMAND bash ${plugin}/tests/plugin_missing_test.sh)
 set_tests_properties(godot_plugin_missing PROPERTIES LABELS godot FIXTURES_REQUIRED godot_plugin)
 file(GLOB scripts CONFIGURE_DEPENDS RELATIVE ${plugin}/tests
-  ${plugin}/tests/headless/*.gd ${plugin}/tests/rendered/*.gd ${plugin}/tests/editor/*.gd)
+  ${plugin}/tests/headless/*.gd ${plugin}/tests/rendered/*.gd ${plugin}/tests/opengl/*.gd ${plugin}/tests/editor/*.gd)
 foreach(script IN LISTS scripts)
   string(REGEX REPLACE "\\.gd$" "" test ${script})
   string(REPLACE "/" "_" name ${test})
