@@ -86,7 +86,7 @@ class World : public Instance {
   void placeScenes(double seconds);
   void removeScene(uint64_t key);
   void followFile(double delta);
-  bool standsOnCollider(Object viewer, Vector3 position);
+  bool standsOnCollider(Vector3 position);
   void setEditorView(const Transform& view, double fov);
   bool waitUntilIdle(double seconds);
   bool isIdle() const;

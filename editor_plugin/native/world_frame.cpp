@@ -204,7 +204,7 @@ void World::followFile(double delta) {
 }
 
 // The engine's own ray is what decides: whatever else is known, a viewer must not fall.
-bool World::standsOnCollider(Object viewer, Vector3 position) {
+bool World::standsOnCollider(Vector3 position) {
   const Aabb below{position - Vector3{1, kGroundBelow, 1}, {2, kGroundBelow, 2}};
   if (colliders_->waitsIn(below)) return false;
   const Variant query = Variant(engine().classdb_construct_object(Name("PhysicsRayQueryParameters3D").get()));
@@ -212,7 +212,6 @@ bool World::standsOnCollider(Object viewer, Vector3 position) {
   query.call("set_to", position - Vector3{0, kGroundBelow, 0});
   query.call("set_collision_mask", settings_.collision_layer);
   const Variant hit = own("get_world_3d").call("get_direct_space_state").call("intersect_ray", query);
-  static_cast<void>(viewer);
   if (hit.size() == 0 || hit.get("collider").object() != self()) return false;
   // What is hit is the ground that the world has there, and nothing deeper.
   const Vector3 ground = hit.get("position").to<Vector3>();
@@ -236,7 +235,7 @@ void World::physicsFrame() {
   for (auto& [id, watched] : watched_) {
     if (watched.walkable) continue;
     const Object viewer = engine().object_get_instance_from_id(id);
-    if (viewer == nullptr || !standsOnCollider(viewer, watched.position)) continue;
+    if (viewer == nullptr || !standsOnCollider(watched.position)) continue;
     watched.walkable = true;
     emit("walkable", viewer);
     return;  // the others in the next frame

@@ -1,0 +1,34 @@
+@tool
+extends RefCounted
+## A scene with a world is packed, as the editor does to save it, and read again: it keeps what was set, and nothing of
+## what is drawn goes into the file. (The editor of 4.6 logs an error of its own where a script has it save any scene.)
+
+const Checks := preload("res://tests/lib/checks.gd")
+const SCENE := "res://cave/cave.tscn"
+const SAVED := "res://saved.tscn"
+
+var _checks := Checks.new()
+
+
+func run(plugin: EditorPlugin) -> void:
+	var tree := plugin.get_tree()
+	EditorInterface.open_scene_from_path(SCENE)
+	await tree.create_timer(3.0).timeout
+	var world: SgmWorld3D = EditorInterface.get_edited_scene_root().get_node("World")
+	_checks.check(int(world.get_statistics().get("triangles", 0)) > 0, "the world is drawn")
+	world.seed = 41
+	world.set("parameters/wet", 0.25)
+	var packed := PackedScene.new()
+	_checks.equal(packed.pack(EditorInterface.get_edited_scene_root()), OK, "the scene is packed")
+	_checks.equal(ResourceSaver.save(packed, SAVED), OK, "and saved")
+	var before := FileAccess.get_file_as_string(SCENE)
+	var after := FileAccess.get_file_as_string(SAVED)
+	_checks.check("seed = 41" in after and "parameters/wet = 0.25" in after, "what was set is in the file")
+	_checks.equal(after.count("[node "), before.count("[node "), "nodes in the file")
+	_checks.equal(after.count("[sub_resource "), before.count("[sub_resource "), "resources in the file")
+	var again := (ResourceLoader.load(SAVED, "", ResourceLoader.CACHE_MODE_IGNORE) as PackedScene).instantiate()
+	world = again.get_node("World")
+	_checks.equal(world.seed, 41, "the seed that is read")
+	_checks.near(world.get("parameters/wet"), 0.25, 1e-6, "the parameter that is read")
+	again.free()
+	await _checks.finish(tree)
