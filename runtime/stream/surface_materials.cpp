@@ -81,14 +81,14 @@ struct Made {
 
 /// Where the solid behind a place in the air is looked for, in this order: half a cell and a whole one against the
 /// vertex's normal, then the corners of the vertex's cell, of which one at least is solid.
-constexpr size_t kBehind = 2, kBehindAndCorners = kBehind + 8;
+constexpr size_t kStepsBehind = 2, kPlacesBehind = kStepsBehind + 8;
 
-std::array<Int3, kBehindAndCorners> placesBehind(const Int3& place, const Int3& vertex, const TexturePoint& normal,
-                                                 int64_t cell) {
-  std::array<Int3, kBehindAndCorners> places;
+std::array<Int3, kPlacesBehind> placesBehind(const Int3& place, const Int3& vertex, const TexturePoint& normal,
+                                             int64_t cell) {
+  std::array<Int3, kPlacesBehind> places;
   const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-  for (size_t i = 0; i < kBehind; ++i) {
-    const double way = static_cast<double>(cell) * static_cast<double>(i + 1) / kBehind;
+  for (size_t i = 0; i < kStepsBehind; ++i) {
+    const double way = static_cast<double>(cell) * static_cast<double>(i + 1) / kStepsBehind;
     for (int a = 0; a < 3; ++a) {
       places[i][a] =
           saturate(place[a] - static_cast<int64_t>(std::floor(way * normal[static_cast<size_t>(a)] / length + 0.5)));
@@ -97,7 +97,7 @@ std::array<Int3, kBehindAndCorners> placesBehind(const Int3& place, const Int3& 
   for (size_t i = 0; i < 8; ++i) {
     for (int a = 0; a < 3; ++a) {
       const int64_t low = floorDiv(vertex[a], cell) * cell;
-      places[kBehind + i][a] = saturate((i >> a & 1) != 0 && low != vertex[a] ? low + cell : low);
+      places[kStepsBehind + i][a] = saturate((i >> a & 1) != 0 && low != vertex[a] ? low + cell : low);
     }
   }
   return places;
@@ -105,10 +105,10 @@ std::array<Int3, kBehindAndCorners> placesBehind(const Int3& place, const Int3& 
 
 /// The material of the first that is solid behind a place, or else of the deepest corner.
 uint16_t materialBehind(const Made& made, size_t first) {
-  for (size_t i = first; i < first + kBehind; ++i) {
+  for (size_t i = first; i < first + kStepsBehind; ++i) {
     if (made.isSolid(i)) return made.material(i);
   }
-  const auto corners = made.values.begin() + static_cast<std::ptrdiff_t>(first + kBehind);
+  const auto corners = made.values.begin() + static_cast<std::ptrdiff_t>(first + kStepsBehind);
   return made.material(static_cast<size_t>(std::min_element(corners, corners + 8) - made.values.begin()));
 }
 
@@ -146,7 +146,7 @@ Result<void> materialsAround(const WorldField& field, int level, const EditSnaps
   if (in_air.empty()) return {};
   const Made made((*program)->view(), behind, scratch, field.memory());
   for (size_t i = 0; i < in_air.size(); ++i) {
-    materials[in_air[i] / kMaterialSamples][in_air[i] % kMaterialSamples] = materialBehind(made, i * kBehindAndCorners);
+    materials[in_air[i] / kMaterialSamples][in_air[i] % kMaterialSamples] = materialBehind(made, i * kPlacesBehind);
   }
   return {};
 }
