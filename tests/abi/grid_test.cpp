@@ -5,6 +5,8 @@
 #include <map>
 #include <random>
 
+#include <sys/mman.h>
+
 #include "fixture.h"
 #include "rounds.h"
 
@@ -221,4 +223,31 @@ TEST_CASE("wrong grids are refused") {
     grid.at(3, 3, 3) = value;
     CHECK(with([](auto&) {}) == SGM_ERR_INVALID_ARGUMENT);
   }
+}
+
+TEST_CASE("rows that lie gigabytes apart give the mesh of dense ones") {
+  RuntimeOwner runtime = makeRuntime();
+  constexpr size_t kStride = 750'000'000;
+  const size_t bytes = kStride * 3 * 2 * sizeof(float);
+  void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED) {
+    WARN("not tested: there is no address space for it");
+    return;
+  }
+  Grid dense(20, 3, 2);
+  dense.fill([](double x, double y, double z) { return ball(x, y, z, 2.0, 1.7); });
+  auto* values = static_cast<float*>(memory);
+  for (size_t z = 0; z < 2; ++z)
+    for (size_t y = 0; y < 3; ++y) std::memcpy(values + (z * 3 + y) * kStride, &dense.at(0, y, z), 20 * sizeof(float));
+  sgm_grid_desc apart = dense.desc();
+  apart.values = values;
+  apart.stride_y = kStride;
+  apart.stride_z = 3 * kStride;
+  const SurfaceOwner a = mesh(runtime.get(), dense.desc()), b = mesh(runtime.get(), apart);
+  const sgm_surface_view one = viewOf(a), other = viewOf(b);
+  REQUIRE(one.index_count > 0);
+  REQUIRE(one.index_count == other.index_count);
+  CHECK(std::memcmp(one.indices, other.indices, one.index_count * sizeof(uint32_t)) == 0);
+  CHECK(std::memcmp(one.positions, other.positions, one.vertex_count * 3 * sizeof(float)) == 0);
+  munmap(memory, bytes);
 }
