@@ -69,7 +69,7 @@ void Colliders::take(const std::vector<sgm_world_event>& events) {
         faces->arrays = packFaces(view, kTrianglesPerShape);
       } catch (const std::bad_alloc&) {
         faces->arrays.clear();
-        logError("out of memory: a chunk has no collider");
+        logOutOfMemory("out of memory: a chunk has no collider");
       }
       float reach = 0;
       for (uint32_t i = 0; i < view.vertex_count * 3; ++i) reach = std::max(reach, std::abs(view.positions[i]));

@@ -133,7 +133,8 @@ int64_t Grammar::reload() {
     return kErrorFileCannotOpen;
   }
   file_time_ = time;
-  adopt(*text);  // also where the text is as before: what it imports may have changed
+  const Variant kept(self());  // who hears of the change may let go of it
+  adopt(*text);                // also where the text is as before: what it imports may have changed
   return valid_ ? kOk : kErrorParse;
 }
 

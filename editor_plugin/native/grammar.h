@@ -16,7 +16,6 @@ class Grammar : public Instance {
   /// What the last text that compiled became: null before there is one. Shared by worlds, which may keep it.
   const GrammarOwner& compiled() const { return compiled_; }
   /// Rises with every compilation that succeeded.
-  uint64_t version() const { return version_; }
 
   /// Reads a file and compiles it under its name. False where it cannot be read; a wrong text is no such failure.
   bool load(const std::string& path);

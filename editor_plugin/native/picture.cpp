@@ -59,7 +59,7 @@ Picture::UploadOwner Picture::submit(const std::shared_ptr<sgm_mesh>& mesh, Part
         made->surfaces = packSurfaces(view, made->part, made->slots);
       } catch (const std::bad_alloc&) {
         made->surfaces.clear();
-        logError("out of memory: a chunk is not drawn");
+        logOutOfMemory("out of memory: a chunk is not drawn");
       }
       std::copy_n(view.origin, 3, made->origin);
     }
@@ -121,6 +121,12 @@ void Picture::takeDrawn(const std::vector<sgm_drawn_chunk>& chunks, const Pictur
     known_.emplace(chunk.key, mesh);  // a mesh that is to replace it stays the one that was READY last
     frame.push_back(
         {SGM_EVENT_SHOWN, chunk.key, mesh, submit(mesh, {true, 0}), submit(mesh, {false, chunk.seams}), chunk.seams});
+  }
+  for (const auto& [key, chunk] : before.chunks_) {
+    const auto is = [&key](const sgm_drawn_chunk& drawn) {
+      return !KeyLess()(drawn.key, key) && !KeyLess()(key, drawn.key);
+    };
+    if (std::none_of(chunks.begin(), chunks.end(), is)) gone_.push_back(key);
   }
   if (!frame.empty()) frames_.push_back(std::move(frame));
 }
@@ -196,6 +202,7 @@ void Picture::apply(Frame& frame, std::vector<Change>& changes) {
 std::vector<Picture::Change> Picture::advance(double seconds) {
   const Clock::time_point start = Clock::now();
   std::vector<Change> changes;
+  for (const sgm_chunk_key& key : std::exchange(gone_, {})) changes.push_back({Change::kRemoved, key, nullptr});
   bool one = false;
   while (!uploads_.empty()) {
     Upload& next = *uploads_.front();

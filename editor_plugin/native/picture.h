@@ -106,6 +106,7 @@ class Picture {
   std::map<sgm_chunk_key, UploadOwner, KeyLess> ready_;                // bodies of these that are not drawn yet
   std::deque<UploadOwner> uploads_;
   std::deque<Frame> frames_;
+  std::vector<sgm_chunk_key> gone_;  // that the picture before has shown, and this one will not
   size_t triangles_ = 0;
 };
 

@@ -56,7 +56,8 @@ Session::~Session() {
 void Session::chooseBackend(int64_t wanted) {
   sgm_backend_info info = SGM_BACKEND_INFO_INIT;
   sgm_error error = SGM_ERROR_INIT;
-  backend_ = static_cast<sgm_backend>(std::clamp<int64_t>(wanted, SGM_BACKEND_AUTO, SGM_BACKEND_CUDA));
+  wanted = std::clamp<int64_t>(wanted, SGM_BACKEND_AUTO, SGM_BACKEND_CUDA);
+  backend_ = static_cast<sgm_backend>(wanted);
   if (sgm_backend_query(plugin_.runtime, backend_, &info, &error) < SGM_OK || info.usable == 0) {
     const std::string reason = info.reason[0] != 0 ? info.reason : error.message;
     backend_ = SGM_BACKEND_AUTO;

@@ -12,7 +12,10 @@ constexpr int32_t kEnterTree = 10, kExitTree = 11, kInternalProcess = 25, kInter
 
 }  // namespace
 
-World::~World() { stopSession(); }
+World::~World() {
+  *alive_ = false;
+  stopSession();
+}
 
 void World::notify(int32_t what) {
   switch (what) {
@@ -30,9 +33,11 @@ void World::notify(int32_t what) {
       break;
     case kVisibilityChanged:
       dirty_ |= kLook;
+      followPlace();
       break;
     case kTransformChanged:
       dirty_ |= kPlacement;
+      followPlace();
       break;
     default:
       break;
@@ -61,6 +66,7 @@ void World::leave() {
 }
 
 void World::setGrammar(Object grammar) {
+  if (grammar == grammar_.object()) return;
   const Name changed("changed");
   const Variant heard = Variant::callable(self(), Name("_grammar_changed"));
   if (!grammar_.isNil() && grammar_.call("is_connected", changed, heard).truth()) {
@@ -88,6 +94,7 @@ void World::grammarChanged() {
   } else {
     error_.clear();
   }
+  emitAnnounced();
 }
 
 bool World::ready() {
@@ -97,7 +104,17 @@ bool World::ready() {
 
 void World::fail(const std::string& message) {
   error_ = message;
-  emit("failed", message);
+  announce("failed", message);
+}
+
+void World::emitAnnounced() {
+  const std::shared_ptr<bool> alive = alive_;
+  while (*alive && !announced_.empty()) {
+    const auto [signal, arguments] = std::move(announced_.front());
+    announced_.pop_front();
+    const Variant named{Name(signal)};
+    arguments.empty() ? own("emit_signal", named) : own("emit_signal", named, arguments.front());
+  }
 }
 
 Placement World::placement() const {
@@ -146,11 +163,11 @@ void World::stopSession() {
   picture_.reset();
   retired_.reset();
   colliders_.reset();
+  unplaced_.clear();
   for (const uint64_t key : anchors_.clear()) {
     removeScene(key);
-    if (in_tree_) emit("anchor_removed", key);
+    if (in_tree_) announce("anchor_removed", key);
   }
-  unplaced_.clear();
   setSession(nullptr);
 }
 
@@ -163,9 +180,10 @@ void World::startSession() {
     }
     return;
   }
-  // A journal, or a cache, is one world's at a time: the one before has to end first.
+  // A journal is one world's at a time: the one before has to end first.
   const bool exclusive = !settings_.journal.empty();
-  std::unique_ptr<Picture> before = picture_ != nullptr ? std::move(picture_) : std::move(retired_);
+  const bool empty = picture_ == nullptr || picture_->counts().chunks == 0;
+  std::unique_ptr<Picture> before = empty && retired_ != nullptr ? std::move(retired_) : std::move(picture_);
   if (exclusive) {
     stopSession();
     plugin().background->finish();
@@ -182,7 +200,6 @@ void World::startSession() {
   stopSession();
   retired_ = std::move(before);
   setSession(std::move(session));
-  grammar_version_ = grammar->version();
   retired_materials_ = materials_;
   materials_.rebuild(materialNames(), settings_);
   picture_ = std::make_unique<Picture>(plugin(), look());
@@ -194,7 +211,7 @@ void World::startSession() {
   for (auto& [id, watched] : watched_) watched.walkable = false;
   was_idle_ = false;
   error_.clear();
-  emit("restarted");
+  announce("restarted");
 }
 
 namespace {
@@ -233,33 +250,42 @@ void World::followChanges() {
     if (Failure failure = session_->set(grammar->compiled(), settings_)) {
       logError("SgmWorld3D: " + *failure);
       fail(*failure);
-    } else {
-      grammar_version_ = grammar->version();
     }
   }
   if (dirty & (kPaint | kRepack)) {
     if (dirty & kRepack) retired_materials_ = materials_;
     materials_.rebuild(materialNames(), settings_);
     if (dirty & kRepack) {
-      retired_ = std::move(picture_);
-      picture_ = std::make_unique<Picture>(plugin(), look());
-      picture_->takeDrawn(session_->drawn(), *retired_);
+      auto next = std::make_unique<Picture>(plugin(), look());
+      next->takeDrawn(session_->drawn(), *picture_);
+      if (retired_ == nullptr || picture_->counts().chunks != 0) retired_ = std::move(picture_);
+      picture_ = std::move(next);
     } else {
       picture_->setMaterials(materials_.rids());
     }
   }
+  dirty_ |= dirty & (kLook | kPlacement);
+  followPlace();
+  if ((dirty & kBodies) && colliders_) colliders_->setLayers(settings_.collision_layer, settings_.collision_mask);
+}
+
+void World::followPlace() {
+  if (session_ == nullptr || picture_ == nullptr || !in_tree_) return;
+  const unsigned dirty = dirty_ & (kLook | kPlacement);
+  dirty_ &= ~dirty;
   if (dirty & kLook) {
     const Look seen = look();
     picture_->setLook(seen.shadow, seen.visible, seen.layers);
+    if (retired_) retired_->setLook(seen.shadow, seen.visible, seen.layers);
   }
   if (dirty & kPlacement) {
     const Placement place = placement();
     picture_->setPlacement(place);
     if (retired_) retired_->setPlacement(place);
     if (colliders_) colliders_->setPlacement(place);
+    moveScenes();
     materials_.resend();
   }
-  if ((dirty & kBodies) && colliders_) colliders_->setLayers(settings_.collision_layer, settings_.collision_mask);
 }
 
 }  // namespace sgm_godot

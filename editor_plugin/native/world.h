@@ -1,6 +1,8 @@
 #pragma once
 // SgmWorld3D: a grammar's world in the scene, streamed around viewers.
 
+#include <deque>
+#include <functional>
 #include <mutex>
 #include <unordered_map>
 
@@ -44,8 +46,11 @@ class World : public Instance {
   using SettingType = std::remove_reference_t<decltype(std::declval<Settings&>().*member)>;
   template <auto member, Effect effect>
   void change(SettingType<member> value) {
+    if (settings_.*member == value) return;
     settings_.*member = std::move(value);
     dirty_ |= effect;
+    // What is drawn follows at once: the frame that the world sees may come later than the player's, or be paused.
+    if constexpr (effect == kPlacement || effect == kLook) followPlace();
   }
   template <auto member>
   SettingType<member> setting() const {
@@ -56,6 +61,7 @@ class World : public Instance {
   void enter();
   void leave();
   void followChanges();
+  void followPlace();
   void startSession();
   void stopSession();
   void setSession(std::shared_ptr<Session> session);
@@ -71,12 +77,20 @@ class World : public Instance {
   bool running() const { return session_ != nullptr; }
   std::string errorText() const { return error_; }
   void fail(const std::string& message);
+  /// Signals wait until the work that they tell of is done: who hears one may end this world, or begin another.
+  template <class... Arguments>
+  void announce(const char* signal, const Arguments&... arguments) {
+    announced_.emplace_back(signal, std::vector<Variant>{Variant(arguments)...});
+  }
+  /// The last thing that a call does: this object may be gone afterwards.
+  void emitAnnounced();
   Placement placement() const;
   Look look() const;
   std::vector<std::string> materialNames() const;
 
   // world_frame.cpp: what every frame does
   void frame();
+  void stream(double delta, const std::function<double()>& left);
   void physicsFrame();
   void gatherViewers(double delta);
   void addViewer(uint64_t id, const Transform& place, double fov, double weight, bool directional, double delta);
@@ -84,6 +98,7 @@ class World : public Instance {
   void tell(std::vector<Picture::Change>&& changes);
   void tellOfAnchors(const std::vector<Picture::Change>& changes);
   void placeScenes(double seconds);
+  void moveScenes();
   void removeScene(uint64_t key);
   void followFile(double delta);
   bool standsOnCollider(Vector3 position);
@@ -131,15 +146,18 @@ class World : public Instance {
 
   std::shared_ptr<Session> session_;
   mutable std::mutex session_mutex_;  // held to change session_, and to copy it on other threads
-  uint64_t grammar_version_ = 0;      // that the session has
   Materials materials_;
   Materials retired_materials_;  // that retired_ is drawn with
   std::unique_ptr<Picture> picture_;
   std::unique_ptr<Picture> retired_;  // of the session before, until this one has something to show
   std::unique_ptr<Colliders> colliders_;
   Anchors anchors_;
-  std::deque<sgm_anchor> unplaced_;                // whose scenes are still to be made
-  std::unordered_map<uint64_t, uint64_t> scenes_;  // anchor's key -> id of the node there
+  std::deque<sgm_anchor> unplaced_;  // whose scenes are still to be made
+  struct Placed {
+    uint64_t node;  // its id
+    sgm_anchor anchor;
+  };
+  std::unordered_map<uint64_t, Placed> scenes_;  // by the anchor's key
 
   std::vector<sgm_viewer> viewers_;
   std::vector<Vector3> viewer_places_;  // in the scene
@@ -153,9 +171,12 @@ class World : public Instance {
   std::optional<Transform> editor_view_;
   double editor_fov_ = 70;
 
+  std::deque<std::pair<const char*, std::vector<Variant>>> announced_;
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);
   FrameTimes times_;
   double since_file_ = 0;
   bool was_idle_ = false;
+  bool colliders_first_ = false;
   std::vector<std::string> monitors_;
 };
 

@@ -59,7 +59,8 @@ Integers World::lay(const sgm_brush& brush) {
     return {};
   }
   const Integers made = idOf(id);
-  emit("edited", made.value);
+  announce("edited", made.value);
+  emitAnnounced();
   return made;
 }
 
@@ -137,7 +138,8 @@ Integers World::undo(const Integers& id) {
     return {};
   }
   const Integers named = idOf(made);
-  emit("edited", named.value);
+  announce("edited", named.value);
+  emitAnnounced();
   return named;
 }
 

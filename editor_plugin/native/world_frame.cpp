@@ -17,6 +17,7 @@ constexpr uint64_t kBytesAFrame = 4 << 20;
 constexpr size_t kMostWaiting = 512;  // parts of chunks; then the runtime waits for the engine
 constexpr double kFastest = 200;      // metres a second; faster is a leap
 constexpr double kFileSeconds = 0.5;  // between looks at the grammar's file
+constexpr int kMostInTheWay = 8;      // bodies between a viewer and its ground
 constexpr float kGroundBelow = 32;    // metres below a viewer in which its ground is looked for
 constexpr float kLeap = 16;           // metres in a frame from which on a viewer's ground is another one
 
@@ -48,7 +49,7 @@ void World::addViewer(uint64_t id, const Transform& place, double fov, double we
   }
   watched.position = place.origin;
   watched.seen = true;
-  viewer.fov = static_cast<float>(fov * 3.14159265358979 / 180);
+  viewer.fov = fov > 0 ? static_cast<float>(std::min(fov, 170.0) * 3.14159265358979 / 180) : 0;
   viewer.weight = static_cast<float>(std::clamp(weight, 0.01, 100.0));
   viewers_.push_back(viewer);
   viewer_places_.push_back(place.origin);
@@ -92,13 +93,22 @@ void World::gatherViewers(double delta) {
 
 void World::frame() {
   times_.nextFrame();
-  const FrameTimes::Span span(times_);
-  const Clock::time_point start = Clock::now();
-  const double delta = own("get_process_delta_time").to<double>();
-  followFile(delta);
-  followChanges();
-  if (session_ == nullptr) return;
+  {
+    const FrameTimes::Span span(times_);
+    const Clock::time_point start = Clock::now();
+    const double delta = own("get_process_delta_time").to<double>();
+    followFile(delta);
+    followChanges();
+    if (session_ != nullptr) {
+      stream(delta, [&] {
+        return settings_.frame_budget / 1000 - std::chrono::duration<double>(Clock::now() - start).count();
+      });
+    }
+  }
+  emitAnnounced();
+}
 
+void World::stream(double delta, const std::function<double()>& left) {
   gatherViewers(delta);
   sgm_error error = SGM_ERROR_INIT;
   if (sgm_world_set_viewers(session_->world(), viewers_.data(), 0, viewers_.size(), &error) < SGM_OK &&
@@ -111,20 +121,27 @@ void World::frame() {
     if (Failure failure = session_->update(kBytesAFrame, events)) fail(*failure);
     receive(std::move(events));
   }
-  const auto left = [&] {
-    return settings_.frame_budget / 1000 - std::chrono::duration<double>(Clock::now() - start).count();
-  };
+  // Where the budget has not been enough for both, bodies come first in the next frame: what is drawn must hold, too.
+  const bool first = std::exchange(colliders_first_, false);
+  if (first && colliders_) colliders_->advance(left(), viewer_places_);
   tell(picture_->advance(left()));
-  if (colliders_ && left() > 0) colliders_->advance(left(), viewer_places_);
-  placeScenes(left());
+  if (!first && colliders_) {
+    if (left() > 0) {
+      colliders_->advance(left(), viewer_places_);
+    } else {
+      colliders_first_ = true;
+    }
+  }
   materials_.update(viewer_places_,
                     settings_.morph
                         ? morphRanges(picture_->shown(), viewer_units_, session_->cellUnits(), session_->topLevel())
                         : MorphRanges(),
                     settings_.cell_size, placement());
   const bool idle = isIdle();
-  if (idle && !was_idle_) emit("became_idle");
+  if (idle) retired_.reset();  // also where nothing of the new world is in view
+  if (idle && !was_idle_) announce("became_idle");
   was_idle_ = idle;
+  placeScenes(left());
 }
 
 void World::receive(std::vector<sgm_world_event>&& events) {
@@ -147,10 +164,11 @@ void World::receive(std::vector<sgm_world_event>&& events) {
 
 void World::tell(std::vector<Picture::Change>&& changes) {
   if (changes.empty()) return;
-  retired_.reset();
+  const auto shows = [](const Picture::Change& change) { return change.kind != Picture::Change::kRemoved; };
+  if (std::any_of(changes.begin(), changes.end(), shows)) retired_.reset();
   for (const Picture::Change& change : changes) {
     const Vector4i key{change.key.x, change.key.y, change.key.z, change.key.level};
-    emit(change.kind == Picture::Change::kRemoved ? "chunk_removed" : "chunk_ready", key);
+    announce(change.kind == Picture::Change::kRemoved ? "chunk_removed" : "chunk_ready", key);
   }
   tellOfAnchors(changes);
 }
@@ -159,30 +177,45 @@ void World::tellOfAnchors(const std::vector<Picture::Change>& changes) {
   const Anchors::News news = anchors_.follow(changes);
   for (const uint64_t key : news.gone) {
     removeScene(key);
-    emit("anchor_removed", key);
+    announce("anchor_removed", key);
   }
   const Placement here = placement();
   for (const sgm_anchor& anchor : news.come) {
     const Variant described = anchorOf(session_->grammar().get(), anchor, here);
-    emit("anchor_ready", described);
+    announce("anchor_ready", described);
     if (settings_.anchor_scenes.has(described.get("kind"))) unplaced_.push_back(anchor);
   }
 }
 
+// Scenes may do anything as they enter the tree, such as end this world.
 void World::placeScenes(double seconds) {
   const Clock::time_point start = Clock::now();
-  while (!unplaced_.empty()) {
+  const std::shared_ptr<Session> session = session_;
+  const std::shared_ptr<bool> alive = alive_;
+  while (*alive && session_ == session && !unplaced_.empty()) {
     const sgm_anchor anchor = unplaced_.front();
     unplaced_.pop_front();
-    const Variant described = anchorOf(session_->grammar().get(), anchor, {Transform(), settings_.origin});
+    const Variant described = anchorOf(session->grammar().get(), anchor, {Transform(), settings_.origin});
     const Variant scene = settings_.anchor_scenes.get(described.get("kind"));
     const Variant node = scene.object() != nullptr ? scene.call("instantiate") : Variant();
-    if (node.object() != nullptr) {
-      own("add_child", node, false, int64_t{1});  // among the internal ones, which no scene keeps
+    if (node.object() != nullptr && !node.call("is_class", "Node3D").truth()) {
+      logWarning("SgmWorld3D: the root of a scene in anchor_scenes is no Node3D: it stays out");
+      node.call("free");
+    } else if (node.object() != nullptr) {
       node.call("set_transform", described.get("transform"));
-      scenes_[anchor.key] = engine().object_get_instance_id(node.object());
+      scenes_[anchor.key] = {engine().object_get_instance_id(node.object()), anchor};
+      own("add_child", node, false, int64_t{1});  // among the internal ones, which no scene keeps
     }
     if (std::chrono::duration<double>(Clock::now() - start).count() > seconds) return;
+  }
+}
+
+void World::moveScenes() {
+  for (const auto& [key, placed] : scenes_) {
+    const Object node = engine().object_get_instance_from_id(placed.node);
+    if (node == nullptr) continue;
+    const Variant described = anchorOf(session_->grammar().get(), placed.anchor, {Transform(), settings_.origin});
+    Variant(node).call("set_transform", described.get("transform"));
   }
 }
 
@@ -190,7 +223,7 @@ void World::removeScene(uint64_t key) {
   std::erase_if(unplaced_, [&](const sgm_anchor& anchor) { return anchor.key == key; });
   const auto found = scenes_.find(key);
   if (found == scenes_.end()) return;
-  const Object node = engine().object_get_instance_from_id(found->second);
+  const Object node = engine().object_get_instance_from_id(found->second.node);
   scenes_.erase(found);
   if (node != nullptr) Variant(node).call("queue_free");
 }
@@ -211,7 +244,15 @@ bool World::standsOnCollider(Vector3 position) {
   query.call("set_from", position);
   query.call("set_to", position - Vector3{0, kGroundBelow, 0});
   query.call("set_collision_mask", settings_.collision_layer);
-  const Variant hit = own("get_world_3d").call("get_direct_space_state").call("intersect_ray", query);
+  const Variant space = own("get_world_3d").call("get_direct_space_state");
+  Variant hit = space.call("intersect_ray", query);
+  // The viewer's own body, or what it stands on, may be in the way.
+  const Variant others = Variant::ofType(GDEXTENSION_VARIANT_TYPE_ARRAY);
+  for (int i = 0; i < kMostInTheWay && hit.size() != 0 && hit.get("collider").object() != self(); ++i) {
+    others.call("push_back", hit.get("rid"));
+    query.call("set_exclude", others);
+    hit = space.call("intersect_ray", query);
+  }
   if (hit.size() == 0 || hit.get("collider").object() != self()) return false;
   // What is hit is the ground that the world has there, and nothing deeper.
   const Vector3 ground = hit.get("position").to<Vector3>();
@@ -231,15 +272,17 @@ bool World::standsOnCollider(Vector3 position) {
 
 void World::physicsFrame() {
   if (!colliders_ || session_ == nullptr) return;
-  const FrameTimes::Span span(times_);
-  for (auto& [id, watched] : watched_) {
-    if (watched.walkable) continue;
-    const Object viewer = engine().object_get_instance_from_id(id);
-    if (viewer == nullptr || !standsOnCollider(watched.position)) continue;
-    watched.walkable = true;
-    emit("walkable", viewer);
-    return;  // the others in the next frame
+  {
+    const FrameTimes::Span span(times_);
+    for (auto& [id, watched] : watched_) {
+      if (watched.walkable) continue;
+      const Object viewer = engine().object_get_instance_from_id(id);
+      if (viewer == nullptr || !standsOnCollider(watched.position)) continue;
+      watched.walkable = true;
+      announce("walkable", viewer);
+    }
   }
+  emitAnnounced();
 }
 
 void World::setEditorView(const Transform& view, double fov) {
@@ -259,25 +302,28 @@ bool World::waitUntilIdle(double seconds) {
   if (session_ == nullptr) return false;
   gatherViewers(0);
   sgm_error error = SGM_ERROR_INIT;
+  bool idle = false, failed = false;
   if (sgm_world_set_viewers(session_->world(), viewers_.data(), 0, viewers_.size(), &error) < SGM_OK) {
     fail(error.message);
-    return false;
+    failed = true;
   }
   const Clock::time_point limit = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                      std::chrono::duration<double>(std::clamp(seconds, 0.0, 1e6)));
-  do {
+  while (!failed) {
     std::vector<sgm_world_event> events;
     if (Failure failure = session_->update(kBytesAFrame, events)) {
       fail(*failure);
-      return false;
+      break;
     }
     receive(std::move(events));
     tell(picture_->finish());
     if (colliders_) colliders_->advance(0.01, viewer_places_);
-    if (isIdle()) return true;
+    idle = isIdle();
+    if (idle || Clock::now() >= limit) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  } while (Clock::now() < limit);
-  return false;
+  }
+  emitAnnounced();
+  return idle;
 }
 
 }  // namespace sgm_godot

@@ -39,8 +39,10 @@ std::string number(double value) {
 /// A slider over the parameter's range, in its unit; a field without bounds where the grammar gives none.
 std::string rangeOf(const sgm_parameter_info& info) {
   const bool bounded = std::isfinite(info.minimum) && std::isfinite(info.maximum);
-  const double low = std::isfinite(info.minimum) ? info.minimum : -1e6;
-  const double high = std::isfinite(info.maximum) ? info.maximum : 1e6;
+  // The engine shows angles in degrees, and takes the range of what it shows.
+  const double unit = info.quantity == SGM_QUANTITY_ANGLE ? 180 / 3.14159265358979323846 : 1;
+  const double low = std::isfinite(info.minimum) ? info.minimum * unit : -1e6;
+  const double high = std::isfinite(info.maximum) ? info.maximum * unit : 1e6;
   const double step = info.whole != 0 ? 1 : bounded ? (high - low) / 1000 : 0.001;
   std::string text = number(low) + "," + number(high) + "," + number(step);
   if (!std::isfinite(info.minimum)) text += ",or_less";
@@ -122,6 +124,17 @@ std::vector<Instance::Property> World::properties() const {
     list.push_back(
         {std::string(kColors) + name, GDEXTENSION_VARIANT_TYPE_COLOR, "", kColorNoAlpha, "", kStored | kShown});
   }
+  // What was chosen for names that the grammar lacks now, while it has an error say, stays in the scene.
+  const auto keep = [&](std::string_view prefix, const std::string& name, GDExtensionVariantType type) {
+    const std::string whole = std::string(prefix) + name;
+    if (std::none_of(list.begin(), list.end(), [&](const Property& p) { return p.name == whole; }))
+      list.push_back({whole, type, "", 0, "", kStored});
+  };
+  for (const auto& [name, value] : settings_.parameters) keep(kParameters, name, GDEXTENSION_VARIANT_TYPE_FLOAT);
+  for (const auto& [name, material] : settings_.materials) {
+    if (material.object() != nullptr) keep(kMaterials, name, GDEXTENSION_VARIANT_TYPE_OBJECT);
+  }
+  for (const auto& [name, color] : settings_.colors) keep(kColors, name, GDEXTENSION_VARIANT_TYPE_COLOR);
   return list;
 }
 

@@ -40,24 +40,41 @@ std::string textOf(const void* name) {
   return Variant::fromTyped(GDEXTENSION_VARIANT_TYPE_STRING_NAME, name).to<std::string>();
 }
 
+/// What the engine calls: it knows no exceptions.
+template <class Function>
+auto guarded(const Function& function) noexcept -> decltype(function()) {
+  try {
+    return function();
+  } catch (const std::bad_alloc&) {
+    logOutOfMemory("out of memory");
+  } catch (const std::exception& e) {
+    logOutOfMemory(e.what());
+  }
+  return decltype(function())();
+}
+
 GDExtensionBool setProperty(void* instance, const void* name, const void* value) {
-  Variant copy;
-  engine().variant_new_copy(copy.raw(), value);
-  return of(instance).set(textOf(name), copy);
+  return guarded([&]() -> GDExtensionBool {
+    Variant copy;
+    engine().variant_new_copy(copy.raw(), value);
+    return of(instance).set(textOf(name), copy);
+  });
 }
 
 GDExtensionBool getProperty(void* instance, const void* name, void* result) {
-  Variant value;
-  if (!of(instance).get(textOf(name), value)) return 0;
-  *static_cast<Variant*>(result) = value;
-  return 1;
+  return guarded([&]() -> GDExtensionBool {
+    Variant value;
+    if (!of(instance).get(textOf(name), value)) return 0;
+    *static_cast<Variant*>(result) = value;
+    return 1;
+  });
 }
 
 using Descriptions = std::vector<std::unique_ptr<Description>>;
 
 // The engine gives back only the pointer to the list: what the list points to is found by an element before its first.
-const GDExtensionPropertyInfo* listProperties(void* instance, uint32_t* count) {
-  const std::vector<Instance::Property> properties = of(instance).properties();
+const GDExtensionPropertyInfo* describe(const Instance& instance, uint32_t* count) {
+  const std::vector<Instance::Property> properties = instance.properties();
   auto described = std::make_unique<Descriptions>();
   auto list = std::make_unique<GDExtensionPropertyInfo[]>(properties.size() + 1);
   for (size_t i = 0; i < properties.size(); ++i) {
@@ -70,6 +87,11 @@ const GDExtensionPropertyInfo* listProperties(void* instance, uint32_t* count) {
   return list.release() + 1;
 }
 
+const GDExtensionPropertyInfo* listProperties(void* instance, uint32_t* count) {
+  *count = 0;
+  return guarded([&] { return describe(of(instance), count); });
+}
+
 void freeProperties(void*, const GDExtensionPropertyInfo* list, uint32_t) {
   if (list == nullptr) return;
   const GDExtensionPropertyInfo* first = list - 1;
@@ -77,16 +99,22 @@ void freeProperties(void*, const GDExtensionPropertyInfo* list, uint32_t) {
   delete[] first;
 }
 
-GDExtensionBool canRevert(void* instance, const void* name) { return !of(instance).revertsTo(textOf(name)).isNil(); }
-
-GDExtensionBool revert(void* instance, const void* name, void* result) {
-  const Variant value = of(instance).revertsTo(textOf(name));
-  if (value.isNil()) return 0;
-  *static_cast<Variant*>(result) = value;
-  return 1;
+GDExtensionBool canRevert(void* instance, const void* name) {
+  return guarded([&]() -> GDExtensionBool { return !of(instance).revertsTo(textOf(name)).isNil(); });
 }
 
-void notify(void* instance, int32_t what, GDExtensionBool) { of(instance).notify(what); }
+GDExtensionBool revert(void* instance, const void* name, void* result) {
+  return guarded([&]() -> GDExtensionBool {
+    const Variant value = of(instance).revertsTo(textOf(name));
+    if (value.isNil()) return 0;
+    *static_cast<Variant*>(result) = value;
+    return 1;
+  });
+}
+
+void notify(void* instance, int32_t what, GDExtensionBool) {
+  guarded([&] { of(instance).notify(what); });
+}
 
 Object createInstance(void* userdata) {
   const ClassRecord& record = *static_cast<ClassRecord*>(userdata);

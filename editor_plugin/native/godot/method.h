@@ -34,7 +34,7 @@ struct MethodParts {
         (object.*method)(Conversion<Bare<A>>::from(arguments[I])...);
       }
     } catch (const std::bad_alloc&) {
-      logError("out of memory");
+      logOutOfMemory("out of memory");
     }
     return {};
   }

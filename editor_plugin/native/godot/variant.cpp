@@ -209,6 +209,7 @@ Packed<T>::Packed(size_t size) : size_(size) {
   {
     const Variant array = Variant::ofType(PackedType<T>::type);
     array.call("resize", static_cast<int64_t>(size));
+    if (array.size() != static_cast<int64_t>(size)) throw std::bad_alloc();
     engine().to_type[PackedType<T>::type](bytes_, const_cast<void*>(array.raw()));
   }
   // Only now is this the array's one owner, so that writing does not copy it.

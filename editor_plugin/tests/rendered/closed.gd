@@ -8,6 +8,9 @@ const BEHIND := Color(1, 0, 1)
 const SIZE := Vector2i(320, 240)
 const STEP := 1.5
 
+## Of the flight.
+var metres := 150.0
+
 var _checks := Checks.new()
 var _camera := Camera3D.new()
 var _view := SubViewport.new()
@@ -39,7 +42,7 @@ func _initialize() -> void:
 	var open := await _look_around()
 	_checks.equal(open, 0, "pixels of what lies behind, at rest")
 
-	var way := cave.passages(150)
+	var way := cave.passages(metres)
 	var moving := 0
 	var looks := 0
 	var rest := 0.0
