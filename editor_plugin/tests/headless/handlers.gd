@@ -51,7 +51,7 @@ func _ends(signal_name: String, how: String) -> void:
 	else:
 		world.connect(signal_name, heard_by)
 		await cave.enter()
-	var limit := Time.get_ticks_msec() + 30_000
+	var limit := Time.get_ticks_msec() + 60_000
 	while heard[0] == 0 and Time.get_ticks_msec() < limit:
 		await process_frame
 	for i in 5:
@@ -87,7 +87,7 @@ func _scene_ends() -> void:
 	var cave := Cave.new(self)
 	cave.world.anchor_scenes = {"spawn": scene}
 	await cave.enter()
-	var limit := Time.get_ticks_msec() + 30_000
+	var limit := Time.get_ticks_msec() + 60_000
 	while cave.world.is_inside_tree() and Time.get_ticks_msec() < limit:
 		await process_frame
 	_checks.check(not cave.world.is_inside_tree(), "a scene at an anchor has ended the world")
