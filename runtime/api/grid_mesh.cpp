@@ -127,12 +127,8 @@ Result<GridMesh> GridMesher::run() {
   // A few slabs a thread: each pays for one plane twice and for two planes of scratch.
   const size_t planes = grid_.size[2], slabs = std::min<size_t>(planes, size_t{jobs_.concurrency()} * 4);
   const size_t thick = (planes + slabs - 1) / slabs;
-  // The last planes first: they are in cache yet.
-  const size_t count = (planes + thick - 1) / thick;
-  parallelFor(jobs_, count, [&](size_t i) {
-    const size_t slab = count - 1 - i;
-    meshPlanes(slab * thick, std::min(planes, (slab + 1) * thick), mesh);
-  });
+  parallelFor(jobs_, (planes + thick - 1) / thick,
+              [&](size_t slab) { meshPlanes(slab * thick, std::min(planes, (slab + 1) * thick), mesh); });
   return mesh;
 }
 

@@ -3,6 +3,7 @@
 //
 //   sgm_bench [--cells N] [--runs N] [--threads N] [--scene NAME] [--csv FILE] [--vtk PROGRAM]
 
+#include <bit>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -29,15 +30,13 @@ struct Row {
 
 double megatriangles(const Row& row) { return static_cast<double>(row.shape.triangles) / row.times.median / 1e3; }
 
-// A pass that reads every sample once and keeps its sign: no extraction can be faster than this.
+// A pass that reads every sample's sign once, as fast as the memory gives them: no extraction can be faster than this.
 Times signPass(const Grid& grid, int runs) {
-  std::vector<uint64_t> signs(grid.values.size() / 64);
+  volatile uint32_t solid = 0;
   return timed(2, runs, [&] {
-    for (size_t w = 0; w < signs.size(); ++w) {
-      uint64_t word = 0;
-      for (size_t i = 0; i < 64; ++i) word |= uint64_t{grid.values[w * 64 + i] < 0.0f} << i;
-      signs[w] = word;
-    }
+    uint32_t count = 0;
+    for (const float value : grid.values) count += std::bit_cast<uint32_t>(value) >> 31;
+    solid = count;
   });
 }
 

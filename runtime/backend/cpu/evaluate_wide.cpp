@@ -24,16 +24,7 @@ using std::memcpy;
 #include "backend/cpu/wide.h"
 #include "common/common.h"
 #include "field/evaluate_blocks.inl"
-#undef FN
-#undef PRECISE
-#undef PI
-#undef PU
-#undef PF
-#undef QF
-#undef QI
-#undef RF
-#undef RI
-#undef SGM_WIDE
+#include "backend/cpu/wide_end.h"
 
 }  // namespace HWY_NAMESPACE
 }  // namespace sgm

@@ -1,5 +1,6 @@
 // The grid's passes of every instruction set against the scalar ones, bit by bit.
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -7,6 +8,7 @@
 
 #include "backend/cpu/grid/grid_kernels.h"
 #include "catch.h"
+#include "mesh/body.h"
 #include "rounds.h"
 
 using namespace sgm;
@@ -70,7 +72,58 @@ std::vector<float> someValues(std::mt19937& random, size_t count) {
   return values;
 }
 
+/// A chunk of the same values, as its own polygonizer takes them.
+ChunkSamples chunkOf(const GridJob& job) {
+  ChunkSamples samples;
+  for (size_t z = 0; z < kChunkSamples; ++z) {
+    for (size_t y = 0; y < kChunkSamples; ++y) {
+      const size_t row = y + z * kChunkSamples;
+      for (size_t x = 0; x < kChunkSamples; ++x) {
+        const float scaled = std::clamp(job.row(y, z)[x] * job.scale, -float{kMaxQ}, float{kMaxQ});
+        const auto q = static_cast<int32_t>(std::floor(scaled + 0.5f));
+        samples.q[row * kChunkSamples + x] = q;
+        samples.signs[row] |= uint64_t{q < 0} << x;
+      }
+    }
+  }
+  return samples;
+}
+
 }  // namespace
+
+TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
+  const uint32_t seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  for (unsigned round = 0; round < rounds(12); ++round) {
+    CAPTURE(round);
+    GridJob job;
+    job.size = {kChunkSamples, kChunkSamples, kChunkSamples};
+    job.stride_y = kChunkSamples;
+    job.stride_z = size_t{kChunkSamples} * kChunkSamples;
+    const std::vector<float> values = someValues(random, job.stride_z * kChunkSamples);
+    job.values = values.data();
+    job.scale = 1024;
+    job.step = 1.0 / kSubcell;
+    MeshPart part{std::pmr::get_default_resource()};
+    polygonizeBody(chunkOf(job), ChunkGrid{}, part);
+    for (const char* name : {"scalar", "sse4.2", "avx2", "avx512"}) {
+      CAPTURE(name);
+      const GridKernels* kernels = findGridKernels(name);
+      if (kernels == nullptr) continue;
+      const Meshed mesh = meshed(*kernels, job, 1 + random() % 5, false);
+      CHECK(mesh.indices == std::vector<uint32_t>(part.indices.begin(), part.indices.end()));
+      REQUIRE(mesh.positions.size() == part.vertices.size() * 3);
+      bool same = true;
+      for (size_t i = 0; i < part.vertices.size(); ++i) {
+        const Vertex& v = part.vertices[i];
+        const float* at = &mesh.positions[3 * i];
+        same = same && at[0] * kSubcell == v.x && at[1] * kSubcell == v.y && at[2] * kSubcell == v.z;
+      }
+      CHECK(same);
+    }
+  }
+}
 
 TEST_CASE("every instruction set meshes a grid as the scalar one does") {
   const uint32_t seed = std::random_device{}();

@@ -96,9 +96,9 @@ inline bool isUniform(const uint64_t* const rows[4], size_t word, size_t words) 
   if (some != every || (some != 0 && some != ~uint64_t{0})) return false;
   if (word + 1 == words) return true;
   const uint64_t next = some & 1;
-  return ((rows[0][word + 1] ^ next) & 1) + ((rows[1][word + 1] ^ next) & 1) + ((rows[2][word + 1] ^ next) & 1) +
-             ((rows[3][word + 1] ^ next) & 1) ==
-         0;
+  const size_t after = word + 1;
+  return (((rows[0][after] ^ next) | (rows[1][after] ^ next) | (rows[2][after] ^ next) | (rows[3][after] ^ next)) &
+          1) == 0;
 }
 
 inline GridCounts countPlane(const GridJob& job, size_t z) {
@@ -321,6 +321,7 @@ inline Int absolute(Int a) { return sel(a < broadcastInt(0), wrapSub(broadcastIn
 /// triangulateLoopOf of mesh/triangulate.h for kLanes loops at a time.
 template <size_t N>
 void triangulateLanes(LoopQueue<N>& queue) {
+  if (queue.count == 0) return;
   using triangulation::firstWay;
   using triangulation::kWays;
   struct Cross {

@@ -49,16 +49,7 @@ FN bool all(Bool b) { return hn::AllTrue(RealTag(), b.m); }
 
 #include "backend/cpu/grid/grid_kernels.inl"
 
-#undef FN
-#undef PRECISE
-#undef PI
-#undef PU
-#undef PF
-#undef QF
-#undef QI
-#undef RF
-#undef RI
-#undef SGM_WIDE
+#include "backend/cpu/wide_end.h"
 
 }  // namespace grid
 }  // namespace HWY_NAMESPACE

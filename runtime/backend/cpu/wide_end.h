@@ -1,0 +1,12 @@
+// Takes back what wide.h and shaders/common have defined, before the next instruction set's turn. No guard, as wide.h.
+
+#undef FN
+#undef PRECISE
+#undef PI
+#undef PU
+#undef PF
+#undef QF
+#undef QI
+#undef RF
+#undef RI
+#undef SGM_WIDE
