@@ -1,6 +1,7 @@
 #include "files.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "godot/variant.h"
 
@@ -65,6 +66,12 @@ std::string systemPath(const std::string& path) {
   if (path.find("://") == std::string::npos) return path;
   const Name settings("ProjectSettings");
   return Variant(engine().global_get_singleton(settings.get())).call("globalize_path", path).to<std::string>();
+}
+
+void makeFolderOf(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(systemPath(path)).parent_path();
+  std::error_code ignored;
+  if (!folder.empty()) std::filesystem::create_directories(folder, ignored);
 }
 
 }  // namespace sgm_godot

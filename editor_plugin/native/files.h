@@ -14,5 +14,7 @@ bool fileExists(const std::string& path);
 int64_t modifiedTime(const std::string& path);
 /// The path for the operating system; as it is where it already is one.
 std::string systemPath(const std::string& path);
+/// Makes the folder that a file is to lie in. Where it cannot, who makes the file will say so.
+void makeFolderOf(const std::string& path);
 
 }  // namespace sgm_godot

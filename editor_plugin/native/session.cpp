@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "files.h"
 #include "godot/log.h"
@@ -18,18 +19,37 @@ int32_t topLevelFor(double view_distance, int32_t cell_units) {
   return static_cast<int32_t>(std::clamp(std::floor(std::log2(view_distance / chunk)), 0.0, double{SGM_MAX_LEVEL}));
 }
 
+/// Distances that cannot be; empty where all can.
+std::string wrongDistances(const Settings& settings) {
+  std::string wrong;
+  const auto look = [&](const char* name, double metres) {
+    if (std::isfinite(metres) && metres > 0) return;
+    char text[80];
+    std::snprintf(text, sizeof text, "%s is %g m", name, metres);
+    wrong += std::string(wrong.empty() ? "" : ", ") + text;
+  };
+  look("cell_size", settings.cell_size);
+  look("finest_distance", settings.finest_distance);
+  look("view_distance", settings.view_distance);
+  if (settings.collision) look("collision_distance", settings.collision_distance);
+  return wrong.empty() ? wrong : wrong + ": distances have to be above 0";
+}
+
 }  // namespace
 
 std::shared_ptr<Session> Session::create(Plugin& plugin, const GrammarOwner& grammar, const Settings& settings,
                                          std::string& failure) {
   std::shared_ptr<Session> session(new Session(plugin));
   sgm_error error = SGM_ERROR_INIT;
+  failure = wrongDistances(settings);
+  if (!failure.empty()) return nullptr;
   if (sgm_cell_from_metres(settings.cell_size, &session->cell_units_, &error) < SGM_OK) {
     failure = std::string("cell_size: ") + error.message;
     return nullptr;
   }
   session->grammar_ = grammar;
   session->chooseBackend(settings.backend);
+  session->tellOfParameters(grammar, settings);
   Failure failed = session->makeField(grammar, settings, session->field_);
   if (!failed) failed = session->makeWorld(settings);
   if (failed) {
@@ -69,6 +89,26 @@ void Session::chooseBackend(int64_t wanted) {
   backend_ = info.backend;
   backend_name_ = info.name;
   device_ = info.device;
+}
+
+void Session::tellOfParameters(const GrammarOwner& grammar, const Settings& settings) {
+  for (const auto& [name, value] : settings.parameters) {
+    std::string known, message;
+    bool found = false;
+    for (uint32_t i = 0; i < sgm_grammar_parameter_count(grammar.get()) && !found; ++i) {
+      sgm_parameter_info info = SGM_PARAMETER_INFO_INIT;
+      if (sgm_grammar_parameter(grammar.get(), i, &info) != SGM_OK) continue;
+      known += (known.empty() ? "" : ", ") + std::string(info.name);
+      found = name == info.name;
+      if (!found || (value >= info.minimum && value <= info.maximum)) continue;
+      char text[120];
+      std::snprintf(text, sizeof text, " is %g; it may be from %g to %g, and the nearest counts", value, info.minimum,
+                    info.maximum);
+      message = "the parameter " + name + text;
+    }
+    if (!found) message = "the grammar has no parameter '" + name + "'; it has " + (known.empty() ? "none" : known);
+    if (!message.empty() && told_.insert(message).second) logWarning("SgmWorld3D: " + message);
+  }
 }
 
 Failure Session::makeField(const GrammarOwner& grammar, const Settings& settings, FieldOwner& field) const {
@@ -112,6 +152,7 @@ Failure Session::makeWorld(const Settings& settings) {
   desc.view_distance = settings.view_distance;
   desc.mesh_bytes = static_cast<uint64_t>(std::max<int64_t>(settings.mesh_memory, 1)) << 20;
   desc.collider_distance = settings.collision ? settings.collision_distance : 0;
+  makeFolderOf(settings.journal);
   const std::string journal = systemPath(settings.journal), cache = systemPath(settings.cache_folder);
   if (!journal.empty()) desc.journal = journal.c_str();
   if (!cache.empty()) desc.cache_folder = cache.c_str();
@@ -123,6 +164,7 @@ Failure Session::makeWorld(const Settings& settings) {
 }
 
 Failure Session::set(const GrammarOwner& grammar, const Settings& settings) {
+  tellOfParameters(grammar, settings);
   FieldOwner next;
   if (Failure failed = makeField(grammar, settings, next)) return failed;
   sgm_error error = SGM_ERROR_INIT;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "grammar.h"
 #include "settings.h"
@@ -44,6 +45,7 @@ class Session {
 
  private:
   explicit Session(Plugin& plugin) : plugin_(plugin) {}
+  void tellOfParameters(const GrammarOwner& grammar, const Settings& settings);
   Failure makeField(const GrammarOwner& grammar, const Settings& settings, FieldOwner& field) const;
   Failure makeWorld(const Settings& settings);
   void chooseBackend(int64_t wanted);
@@ -55,6 +57,7 @@ class Session {
   int32_t cell_units_ = 0, top_level_ = 0;
   sgm_backend backend_ = SGM_BACKEND_CPU;
   std::string backend_name_, device_;
+  std::set<std::string> told_;  // warnings of parameters: each once
 };
 
 }  // namespace sgm_godot

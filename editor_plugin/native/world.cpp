@@ -1,5 +1,7 @@
 #include "world.h"
 
+#include <cmath>
+
 #include "godot/log.h"
 #include "plugin.h"
 
@@ -211,6 +213,7 @@ void World::startSession() {
   for (auto& [id, watched] : watched_) watched.walkable = false;
   was_idle_ = false;
   error_.clear();
+  tellOfScale();
   announce("restarted");
 }
 
@@ -269,6 +272,20 @@ void World::followChanges() {
   if ((dirty & kBodies) && colliders_) colliders_->setLayers(settings_.collision_layer, settings_.collision_mask);
 }
 
+void World::tellOfScale() {
+  const Transform node = placement().node;
+  bool scaled = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 column = node.column(axis);
+    scaled = scaled || std::abs(std::hypot(column.x, column.y, column.z) - 1) > 1e-3f;
+  }
+  if (scaled && !told_of_scale_) {
+    logWarning("SgmWorld3D: " + own("get_name").to<std::string>() +
+               " is scaled, by itself or by its parents: a world may be moved and turned, but its lengths are metres");
+  }
+  told_of_scale_ = scaled;
+}
+
 void World::followPlace() {
   if (session_ == nullptr || picture_ == nullptr || !in_tree_) return;
   const unsigned dirty = dirty_ & (kLook | kPlacement);
@@ -280,6 +297,7 @@ void World::followPlace() {
   }
   if (dirty & kPlacement) {
     const Placement place = placement();
+    tellOfScale();
     picture_->setPlacement(place);
     if (retired_) retired_->setPlacement(place);
     if (colliders_) colliders_->setPlacement(place);

@@ -30,8 +30,8 @@ class World : public Instance {
   Variant revertsTo(const std::string& name) const override;
 
  private:
-  // What a change of a setting has to be followed by, in the next frame. A later one includes the work of none before
-  // it.
+  // What a change of a setting has to be followed by: kLook and kPlacement at once, the others in the next frame. A
+  // later one includes the work of none before it.
   enum Effect : unsigned {
     kNothing = 0,
     kField = 1,    // another field for the same world
@@ -62,6 +62,7 @@ class World : public Instance {
   void leave();
   void followChanges();
   void followPlace();
+  void tellOfScale();
   void startSession();
   void stopSession();
   void setSession(std::shared_ptr<Session> session);
@@ -176,6 +177,7 @@ class World : public Instance {
   FrameTimes times_;
   double since_file_ = 0;
   bool was_idle_ = false;
+  bool told_of_scale_ = false;
   bool colliders_first_ = false;
   std::vector<std::string> monitors_;
 };

@@ -1,6 +1,8 @@
 // Digging and building in an SgmWorld3D.
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "godot/log.h"
 #include "world.h"
@@ -18,6 +20,60 @@ int32_t lengthUnits(double metres) { return wholeUnits(metres * SGM_UNITS_PER_ME
 void place(const Placement& placement, const Vector3& position, int32_t units[3]) {
   const Units exact = placement.toUnits(position);
   for (size_t axis = 0; axis < 3; ++axis) units[axis] = wholeUnits(exact[axis]);
+}
+
+/// A length of a brush, told where it is out of its range: the runtime counts in units.
+bool isLength(const char* what, double metres, double least) {
+  constexpr double kMost = 1024;
+  if (metres >= least && metres <= kMost) return true;
+  char text[160];
+  std::snprintf(text, sizeof text, "SgmWorld3D: a brush's %s is %g m; it may be from %s to 1,024 m", what, metres,
+                least > 0 ? "1/1,024" : "0");
+  logError(text);
+  return false;
+}
+constexpr double kLeast = 1.0 / SGM_UNITS_PER_METRE;
+
+/// What a brush may have, and as what.
+struct Key {
+  const char* name;
+  GDExtensionVariantType type, other;
+  const char* described;
+};
+constexpr Key kKeys[] = {
+    {"shape", GDEXTENSION_VARIANT_TYPE_STRING, GDEXTENSION_VARIANT_TYPE_STRING_NAME, "a text"},
+    {"cut", GDEXTENSION_VARIANT_TYPE_BOOL, GDEXTENSION_VARIANT_TYPE_BOOL, "true or false"},
+    {"position", GDEXTENSION_VARIANT_TYPE_VECTOR3, GDEXTENSION_VARIANT_TYPE_VECTOR3I, "a Vector3"},
+    {"to", GDEXTENSION_VARIANT_TYPE_VECTOR3, GDEXTENSION_VARIANT_TYPE_VECTOR3I, "a Vector3"},
+    {"radius", GDEXTENSION_VARIANT_TYPE_FLOAT, GDEXTENSION_VARIANT_TYPE_INT, "a number"},
+    {"size", GDEXTENSION_VARIANT_TYPE_VECTOR3, GDEXTENSION_VARIANT_TYPE_VECTOR3I, "a Vector3"},
+    {"rotation", GDEXTENSION_VARIANT_TYPE_QUATERNION, GDEXTENSION_VARIANT_TYPE_QUATERNION, "a Quaternion"},
+    {"smooth", GDEXTENSION_VARIANT_TYPE_FLOAT, GDEXTENSION_VARIANT_TYPE_INT, "a number"},
+    {"material", GDEXTENSION_VARIANT_TYPE_STRING, GDEXTENSION_VARIANT_TYPE_STRING_NAME, "a text"},
+    {"tag", GDEXTENSION_VARIANT_TYPE_STRING, GDEXTENSION_VARIANT_TYPE_STRING_NAME, "a text"},
+};
+
+/// Whether a brush has nothing but what it may have; an error says what else.
+bool hasOnlyKeys(const Variant& brush) {
+  const Variant names = brush.call("keys");
+  const int64_t count = names.size();
+  for (int64_t i = 0; i < count; ++i) {
+    const Variant name = names.get(i);
+    const std::string text = name.to<std::string>();
+    const auto* key = std::find_if(std::begin(kKeys), std::end(kKeys), [&](const Key& k) { return text == k.name; });
+    if (key == std::end(kKeys)) {
+      std::string known;
+      for (const Key& k : kKeys) known += std::string(known.empty() ? "" : ", ") + k.name;
+      logError("SgmWorld3D.edit: a brush has no '" + text + "'; it may have " + known);
+      return false;
+    }
+    const GDExtensionVariantType type = brush.get(name).type();
+    if (type != key->type && type != key->other) {
+      logError(std::string("SgmWorld3D.edit: the brush's ") + key->name + " has to be " + key->described);
+      return false;
+    }
+  }
+  return true;
 }
 
 Integers idOf(const sgm_edit_id& id) {
@@ -65,7 +121,7 @@ Integers World::lay(const sgm_brush& brush) {
 }
 
 Integers World::dig(const Vector3& position, double radius, double smooth) {
-  if (!ready()) return {};
+  if (!ready() || !isLength("radius", radius, kLeast) || !isLength("smooth", smooth, 0)) return {};
   sgm_brush brush = SGM_BRUSH_INIT;
   place(placement(), position, brush.from);
   brush.radius = lengthUnits(radius);
@@ -74,7 +130,7 @@ Integers World::dig(const Vector3& position, double radius, double smooth) {
 }
 
 Integers World::build(const Vector3& position, double radius, const std::string& material, double smooth) {
-  if (!ready()) return {};
+  if (!ready() || !isLength("radius", radius, kLeast) || !isLength("smooth", smooth, 0)) return {};
   const std::optional<uint16_t> number = materialNumber(material);
   if (!number) return {};
   sgm_brush brush = SGM_BRUSH_INIT;
@@ -87,7 +143,7 @@ Integers World::build(const Vector3& position, double radius, const std::string&
 }
 
 Integers World::edit(const Dictionary& given) {
-  if (!ready()) return {};
+  if (!ready() || !hasOnlyKeys(given.value)) return {};
   const auto value = [&](const char* key, const Variant& otherwise) {
     const Variant v = given.value.get(key);
     return v.isNil() ? otherwise : v;
@@ -114,6 +170,11 @@ Integers World::edit(const Dictionary& given) {
   place(here, value("position", Vector3{}).to<Vector3>(), brush.from);
   place(here, value("to", Vector3{}).to<Vector3>(), brush.to);
   const Vector3 half = value("size", Vector3{1, 1, 1}).to<Vector3>();
+  const double radius = value("radius", 1.0).to<double>(), smooth = value("smooth", 0.0).to<double>();
+  const bool box = brush.shape == SGM_BRUSH_BOX;
+  if (!isLength("smooth", smooth, 0) || (!box && !isLength("radius", radius, kLeast))) return {};
+  if (box && !isLength("size.x", double{half.x}, kLeast)) return {};
+  if (box && (!isLength("size.y", double{half.y}, kLeast) || !isLength("size.z", double{half.z}, kLeast))) return {};
   brush.half[0] = lengthUnits(double{half.x});
   brush.half[1] = lengthUnits(double{half.y});
   brush.half[2] = lengthUnits(double{half.z});
@@ -122,14 +183,18 @@ Integers World::edit(const Dictionary& given) {
   brush.turn[1] = turn.y;
   brush.turn[2] = turn.z;
   brush.turn[3] = turn.w;
-  brush.radius = lengthUnits(value("radius", 1.0).to<double>());
-  brush.smooth = lengthUnits(value("smooth", 0.0).to<double>());
+  brush.radius = lengthUnits(radius);
+  brush.smooth = lengthUnits(smooth);
   return lay(brush);
 }
 
 Integers World::undo(const Integers& id) {
   const std::vector<int64_t> numbers = elements<int64_t>(id.value);
-  if (!ready() || numbers.size() != 2) return {};
+  if (!ready()) return {};
+  if (numbers.size() != 2) {
+    logError("SgmWorld3D.undo: this is no edit's id; use what dig, build, edit or undo returned");
+    return {};
+  }
   const sgm_edit_id known{static_cast<uint64_t>(numbers[0]), static_cast<uint64_t>(numbers[1])};
   sgm_edit_id made{};
   sgm_error error = SGM_ERROR_INIT;

@@ -13,8 +13,11 @@ var _checks := Checks.new()
 func run(plugin: EditorPlugin) -> void:
 	var tree := plugin.get_tree()
 	EditorInterface.open_scene_from_path(SCENE)
-	await tree.create_timer(3.0).timeout
+	await tree.process_frame
 	var world: SgmWorld3D = EditorInterface.get_edited_scene_root().get_node("World")
+	var limit := Time.get_ticks_msec() + 60_000
+	while int(world.get_statistics().get("triangles", 0)) == 0 and Time.get_ticks_msec() < limit:
+		await tree.process_frame
 	_checks.check(int(world.get_statistics().get("triangles", 0)) > 0, "the world is drawn")
 	world.seed = 41
 	world.set("parameters/wet", 0.25)

@@ -4,7 +4,7 @@ extends SceneTree
 
 const Checks := preload("res://tests/lib/checks.gd")
 const Cave := preload("res://tests/lib/cave.gd")
-const JOURNAL := "user://edits_test.journal"
+const JOURNAL := "user://edits_test/of/a/game.journal"
 
 var _checks := Checks.new()
 
@@ -42,6 +42,18 @@ func _initialize() -> void:
 	var box := cave.world.edit({"shape": "box", "position": floor_hit.position, "size": Vector3(3, 6, 3), "smooth": 0.5})
 	_checks.equal(box.size(), 2, "a box")
 	_checks.equal(cave.world.undo(box).size(), 2, "undoing it")
+	_checks.expect_error("no edit's id")
+	_checks.equal(cave.world.undo(PackedInt64Array()).size(), 0, "undoing what is no id")
+	_checks.expect_error("radius is -1 m")
+	_checks.equal(cave.world.dig(floor_hit.position, -1.0).size(), 0, "a radius below 0")
+	_checks.expect_error("no 'shpe'")
+	_checks.equal(cave.world.edit({"shpe": "box"}).size(), 0, "a key that is misspelled")
+	_checks.expect_error("no ''")
+	_checks.equal(cave.world.edit({7: "box"}).size(), 0, "a key that is no text")
+	_checks.expect_error("radius has to be a number")
+	_checks.equal(cave.world.edit({"radius": "x"}).size(), 0, "a value of another type")
+	_checks.expect_error("size.y is 0 m")
+	_checks.equal(cave.world.edit({"shape": "box", "size": Vector3(1, 0, 1)}).size(), 0, "a box without height")
 	_checks.expect_error("edit")
 	_checks.equal(cave.world.undo(PackedInt64Array([1, 2])).size(), 0, "undoing what was never done")
 

@@ -19,6 +19,7 @@ func _initialize() -> void:
 	await _kept_settings()
 	await _origin()
 	await _backend()
+	await _wrong_settings()
 	await _checks.finish(self)
 
 
@@ -74,16 +75,22 @@ func _arguments(signal_name: String) -> int:
 	return 0
 
 
-## A scene at an anchor may end the world while it is put there.
-func _scene_ends() -> void:
+## A scene of one node with a script.
+func _scene_of(code: String) -> PackedScene:
 	var script := GDScript.new()
-	script.source_code = "extends Node3D\nfunc _ready() -> void:\n\tvar world := get_parent()\n\tworld.get_parent().remove_child.call_deferred(world)\n\tworld.set(\"cell_size\", 0.75)\n\tworld.restart()\n\tworld.wait_until_idle(0.0)\n"
+	script.source_code = code
 	script.reload()
 	var node := Node3D.new()
 	node.set_script(script)
 	var scene := PackedScene.new()
 	scene.pack(node)
 	node.free()
+	return scene
+
+
+## A scene at an anchor may end the world while it is put there.
+func _scene_ends() -> void:
+	var scene := _scene_of("extends Node3D\nfunc _ready() -> void:\n\tvar world := get_parent()\n\tworld.get_parent().remove_child.call_deferred(world)\n\tworld.set(\"cell_size\", 0.75)\n\tworld.restart()\n\tworld.wait_until_idle(0.0)\n")
 	var cave := Cave.new(self)
 	cave.world.anchor_scenes = {"spawn": scene}
 	await cave.enter()
@@ -159,14 +166,7 @@ func _property(object: Object, name: String) -> Dictionary:
 
 ## What stands at anchors goes with the world's origin, and is there when it enters the tree.
 func _origin() -> void:
-	var script := GDScript.new()
-	script.source_code = "extends Node3D\nvar entered_at: Vector3\nfunc _enter_tree() -> void:\n\tentered_at = global_position\n"
-	script.reload()
-	var node := Node3D.new()
-	node.set_script(script)
-	var scene := PackedScene.new()
-	scene.pack(node)
-	node.free()
+	var scene := _scene_of("extends Node3D\nvar entered_at: Vector3\nfunc _enter_tree() -> void:\n\tentered_at = global_position\n")
 	var cave := Cave.new(self)
 	cave.world.anchor_scenes = {"spawn": scene}
 	await cave.enter()
@@ -187,4 +187,29 @@ func _backend() -> void:
 	cave.world.backend = 4
 	await cave.enter()
 	_checks.check(cave.world.is_running(), "a number that is no backend's")
+	await cave.leave()
+
+
+## Each is told in one message, and the world before stays.
+func _wrong_settings() -> void:
+	var cave := Cave.new(self)
+	var messages: Array[String] = []
+	cave.world.failed.connect(func(message: String) -> void: messages.append(message))
+	_checks.expect_error("no parameter 'widht'")
+	_checks.expect_error("the parameter boxy is 9")
+	cave.world.set("parameters/widht", 3.0)
+	cave.world.set("parameters/boxy", 9.0)
+	await cave.enter()
+	_checks.check(cave.world.is_running(), "parameters that are not there, or out of their range, are warned of")
+	_checks.expect_error("cell_size is 0 m, view_distance is -5 m")
+	cave.world.cell_size = 0.0
+	cave.world.view_distance = -5.0
+	for i in 3:
+		await process_frame
+	_checks.equal(messages.size(), 1, "distances that cannot be, told once")
+	_checks.check(cave.world.is_running(), "the world before stays")
+	_checks.expect_error("is scaled")
+	cave.world.scale = Vector3.ONE * 2.0
+	await process_frame
+	cave.world.scale = Vector3.ONE
 	await cave.leave()
