@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <memory_resource>
 
-#include "api/raw_array.h"
+#include "base/raw_array.h"
 #include "base/jobs.h"
 #include "base/result.h"
 

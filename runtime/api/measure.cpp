@@ -4,14 +4,14 @@
 
 #include "api/barrier.h"
 #include "api/runtime.h"
-#include "measure/large_vector.h"
+#include "base/large_pages.h"
 #include "measure/mesh_measures.h"
 
 using namespace sgm::api;
 
 namespace {
 
-using sgm::measure::LargeVector;
+using sgm::LargeVector;
 using sgm::measure::MeshMeasures;
 using sgm::measure::Point;
 using sgm::measure::Triangle;

@@ -9,13 +9,6 @@ namespace {
 
 constexpr uint32_t kMostThreads = 1024;
 
-void* systemAllocate(void*, size_t size, size_t alignment) {
-  return ::operator new (size, std::align_val_t{alignment}, std::nothrow);
-}
-void systemRelease(void*, void* memory, size_t, size_t alignment) {
-  ::operator delete (memory, std::align_val_t{alignment});
-}
-
 sgm_result checkVersion(uint32_t version, sgm_error* error) {
   const uint32_t major = version / 1'000'000, minor = version / 1'000 % 1'000;
   const bool same_minor = minor == SGM_VERSION_MINOR;
@@ -120,15 +113,15 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
     if (sgm_result r = checkDesc(error, desc, "desc"); r != SGM_OK) return r;
     if (sgm_result r = checkRuntimeDesc(*desc, error); r != SGM_OK) return r;
 
-    const sgm_allocator allocator =
-        desc->allocator != nullptr ? *desc->allocator : sgm_allocator{systemAllocate, systemRelease, nullptr};
+    const bool own_memory = desc->allocator == nullptr;
+    const sgm_allocator allocator = own_memory ? systemAllocator() : *desc->allocator;
     void* memory = allocator.allocate(allocator.user, sizeof(sgm_runtime), alignof(sgm_runtime));
     if (memory == nullptr) return fail(error, SGM_ERR_OUT_OF_MEMORY, "out of memory");
     auto release = [&allocator](sgm_runtime* runtime) {
       runtime->~sgm_runtime();
       allocator.release(allocator.user, runtime, sizeof(sgm_runtime), alignof(sgm_runtime));
     };
-    std::unique_ptr<sgm_runtime, decltype(release)> runtime(new (memory) sgm_runtime(allocator, desc->memory_limit),
+    std::unique_ptr<sgm_runtime, decltype(release)> runtime(new (memory) sgm_runtime(allocator, desc->memory_limit, own_memory),
                                                             release);
     if (desc->log != nullptr) runtime->sink = *desc->log;
     if (const sgm_profiler* p = desc->profiler; p != nullptr)

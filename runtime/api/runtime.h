@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "api/ended_handles.h"
+#include "api/kept_blocks.h"
 #include "backend/backend.h"
 #include "base/jobs.h"
 #include "base/profile.h"
@@ -81,8 +82,8 @@ struct DeviceBackends {
 }  // namespace sgm::api
 
 struct sgm_runtime {
-  sgm_runtime(const sgm_allocator& allocator_in, uint64_t limit)
-      : allocator(allocator_in), memory(allocator_in, limit) {}
+  sgm_runtime(const sgm_allocator& allocator_in, uint64_t limit, bool keeps_blocks)
+      : allocator(allocator_in), memory(keeps_blocks ? kept.allocator() : allocator_in, limit) {}
 
   void log(sgm_log_level level, const char* message) const {
     if (sink.write != nullptr) sink.write(sink.user, level, message);
@@ -90,6 +91,7 @@ struct sgm_runtime {
   void log(sgm_log_level level, const std::string& message) const { log(level, message.c_str()); }
 
   sgm_allocator allocator;  ///< frees the runtime itself, which `memory` lies within
+  sgm::api::KeptBlocks kept;  ///< where the caller gave no allocator
   sgm::api::CallerMemory memory;
   sgm::api::EndedHandles ended{&memory};
   sgm_log_sink sink{};

@@ -32,9 +32,9 @@ struct sgm_surface {
         of_grid(false) {}
 
   sgm_runtime& runtime;
-  sgm::api::RawArray<float> positions, normals;  ///< three a vertex
-  sgm::api::RawArray<uint16_t> materials, tags;  ///< one a vertex; empty for a grid
-  sgm::api::RawArray<uint32_t> indices;          ///< three a triangle
+  sgm::RawArray<float> positions, normals;  ///< three a vertex
+  sgm::RawArray<uint16_t> materials, tags;  ///< one a vertex; empty for a grid
+  sgm::RawArray<uint32_t> indices;          ///< three a triangle
   sgm::Unwrapped texture;                        ///< empty where not asked for
   std::array<float, 3> bounds_min{}, bounds_max{};
   bool of_grid = true;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/jobs.h"
-#include "measure/large_vector.h"
+#include "base/large_pages.h"
 #include "measure/triangles.h"
 
 namespace sgm::measure {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "measure/column.h"
-#include "measure/large_vector.h"
+#include "base/large_pages.h"
 
 namespace sgm::measure {
 namespace {

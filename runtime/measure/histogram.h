@@ -13,7 +13,7 @@
 #include "base/jobs.h"
 #include "base/result.h"
 #include "measure/edges.h"
-#include "measure/large_vector.h"
+#include "base/large_pages.h"
 
 namespace sgm::measure {
 

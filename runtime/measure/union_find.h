@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "measure/large_vector.h"
+#include "base/large_pages.h"
 
 namespace sgm::measure {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "measure/large_vector.h"
+#include "base/large_pages.h"
 #include "measure/triangles.h"
 
 namespace sgm::measure {

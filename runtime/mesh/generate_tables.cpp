@@ -20,21 +20,26 @@ void writeArray(std::ofstream& out, const std::string& declaration, const std::v
 /// For each case: where its bytes start, its bytes (length, edges, length, edges, ...), and how many triangles it
 /// makes.
 void writeCell(std::ofstream& out, const Cell& cell, const std::string& name, const std::string& start_type) {
-  std::vector<size_t> starts{0}, bytes, triangles, faces;
+  std::vector<size_t> starts{0}, bytes, triangles, faces, first;
   for (uint32_t solid = 0; solid < 1u << cell.corners; ++solid) {
     size_t count = 0;
+    const size_t begin = bytes.size();
     for (const std::vector<int>& loop : sgm::loopsOfCase(cell, solid)) {
       bytes.push_back(loop.size());
       for (int e : loop) bytes.push_back(static_cast<size_t>(e));
       count += loop.size() - 2;
     }
     starts.push_back(bytes.size());
+    const size_t length = begin == bytes.size() ? 0 : bytes[begin];
+    const size_t more = begin + 1 + length < bytes.size() ? 1 : 0;
+    first.push_back((begin + 1) | length << 16 | more << 24);
     triangles.push_back(count);
   }
   for (size_t e = 0; e < cell.edges.size(); ++e) faces.push_back(cell.facesOfEdge(static_cast<int>(e)));
   const std::string cases = std::to_string(1u << cell.corners);
   writeArray(out, "const " + start_type + " k" + name + "LoopStart[" + cases + " + 1]", starts);
   writeArray(out, "const uint8_t k" + name + "Loops[k" + name + "LoopBytes]", bytes);
+  if (name == "Cube") writeArray(out, "const uint32_t kCubeFirstLoop[" + cases + "]", first);
   writeArray(out, "const uint8_t k" + name + "Triangles[" + cases + "]", triangles);
   writeArray(out, "const uint16_t k" + name + "EdgeFaces[" + std::to_string(cell.edges.size()) + "]", faces);
   out << "static_assert(" << bytes.size() << " == k" << name << "LoopBytes);\n\n";

@@ -37,6 +37,8 @@ inline constexpr int kLongestLoop = 12;
 extern const uint16_t kCubeLoopStart[256 + 1];
 extern const uint8_t kCubeLoops[kCubeLoopBytes];
 extern const uint8_t kCubeTriangles[256];  ///< triangles that a case makes
+/// What kCubeLoops says of a case's first loop: where its edges begin, its length << 16, and 1 << 24 if others follow.
+extern const uint32_t kCubeFirstLoop[256];
 extern const uint16_t kCubeEdgeFaces[kCubeEdges];
 
 extern const uint32_t kSeamLoopStart[8192 + 1];

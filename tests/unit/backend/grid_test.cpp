@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "backend/cpu/grid/grid_kernels.h"
+#include "backend/cpu/extract/extract_kernels.h"
 #include "catch.h"
 #include "mesh/body.h"
 #include "rounds.h"
@@ -16,7 +16,7 @@ using namespace sgm;
 namespace {
 
 struct Meshed {
-  std::vector<uint64_t> signs;
+  std::vector<uint64_t> signs, uniform;
   std::vector<float> positions, normals;
   std::vector<uint32_t> indices;
   bool finite = true;
@@ -24,25 +24,43 @@ struct Meshed {
     const auto same = [](const auto& a, const auto& b) {
       return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
     };
-    return finite == other.finite && signs == other.signs && same(positions, other.positions) &&
+    return finite == other.finite && signs == other.signs && uniform == other.uniform && same(positions, other.positions) &&
            same(normals, other.normals) && indices == other.indices;
   }
 };
 
-Meshed meshed(const GridKernels& kernels, GridJob job, size_t slabs, bool normals) {
+Meshed meshed(const ExtractKernels& kernels, GridJob job, size_t slabs, bool normals) {
   Meshed result;
-  job.words = (job.size[0] + 63) / 64;
-  result.signs.resize(job.words * job.size[1] * job.size[2]);
-  job.signs = result.signs.data();
-  const size_t planes = job.size[2];
+  job.lattice.words = (job.lattice.size[0] + 63) / 64;
+  result.signs.resize(job.lattice.words * job.lattice.size[1] * job.lattice.size[2]);
+  result.uniform.resize(2 * job.lattice.size[1] * job.lattice.size[2]);
+  job.lattice.signs = result.signs.data();
+  job.lattice.uniform = result.uniform.data();
+  const size_t planes = job.lattice.size[2];
   for (size_t z = 0; z < planes; ++z)
-    for (size_t y = 0; y < job.size[1]; ++y) result.finite = kernels.signs(job, y, z) && result.finite;
+    for (size_t y = 0; y < job.lattice.size[1]; ++y) {
+      uint64_t* row = result.signs.data() + (z * job.lattice.size[1] + y) * job.lattice.words;
+      result.finite =
+          kernels.signs(job, y, z, row, &result.uniform[(z * job.lattice.size[1] + y) * 2]) && result.finite;
+    }
   if (!result.finite) return result;
-  std::vector<uint64_t> vertices(planes + 1), triangles(planes + 1);
+  const size_t size_x = job.lattice.size[0], size_y = job.lattice.size[1];
+  std::vector<uint64_t> vertices(planes + 1), cells(planes + 1), triangles(planes + 1), listed_cells;
+  std::vector<uint32_t> listed_edges;
   for (size_t z = 0; z < planes; ++z) {
-    const GridCounts counts = kernels.count(job, z);
-    vertices[z + 1] = vertices[z] + counts.vertices;
-    triangles[z + 1] = triangles[z] + counts.triangles;
+    std::vector<uint32_t> edges(edgeRoom(size_x, size_y));
+    std::vector<uint64_t> active(cellRoom(size_x, size_y));
+    const size_t half = size_y / 2;
+    const ListCounts low = kernels.list(job.lattice, z, 0, half, edges.data(), active.data());
+    const ListCounts high =
+        kernels.list(job.lattice, z, half, size_y, edges.data() + low.vertices, active.data() + low.cells);
+    vertices[z + 1] = vertices[z] + low.vertices + high.vertices;
+    cells[z + 1] = cells[z] + low.cells + high.cells;
+    triangles[z + 1] = triangles[z] + low.triangles + high.triangles;
+    edges.resize(low.vertices + high.vertices);
+    active.resize(low.cells + high.cells);
+    listed_edges.insert(listed_edges.end(), edges.begin(), edges.end());
+    listed_cells.insert(listed_cells.end(), active.begin(), active.end());
   }
   result.positions.resize(vertices.back() * 3);
   if (normals) result.normals.resize(vertices.back() * 3);
@@ -50,12 +68,15 @@ Meshed meshed(const GridKernels& kernels, GridJob job, size_t slabs, bool normal
   job.positions = result.positions.data();
   job.normals = normals ? result.normals.data() : nullptr;
   job.indices = result.indices.data();
-  std::vector<uint32_t> numbers(2 * job.size[0] * job.size[1]), edges(6 * gridEdgeRoom(job.size[0]));
-  std::vector<uint8_t> crossings(vertices.back() + 1);
+  std::vector<uint32_t> numbers(2 * size_x * size_y), offsets(vertices.back() + kMostLanes);
   const size_t thick = (planes + slabs - 1) / slabs;
-  for (size_t first = 0; first < planes; first += thick)
-    kernels.mesh(job, {first, std::min(planes, first + thick), vertices.data(), triangles.data()},
-                 {numbers.data(), edges.data(), crossings.data()});
+  for (size_t first = 0; first < planes; first += thick) {
+    const size_t last = std::min(planes, first + thick);
+    kernels.mesh(job,
+                 {first, last, vertices.data(), cells.data(), triangles[first], listed_edges.data() + vertices[first],
+                  listed_edges.data() + vertices[last], listed_cells.data() + cells[first]},
+                 {numbers.data(), offsets.data()});
+  }
   return result;
 }
 
@@ -98,7 +119,7 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
   for (unsigned round = 0; round < rounds(12); ++round) {
     CAPTURE(round);
     GridJob job;
-    job.size = {kChunkSamples, kChunkSamples, kChunkSamples};
+    job.lattice.size = {kChunkSamples, kChunkSamples, kChunkSamples};
     job.stride_y = kChunkSamples;
     job.stride_z = size_t{kChunkSamples} * kChunkSamples;
     const std::vector<float> values = someValues(random, job.stride_z * kChunkSamples);
@@ -109,7 +130,7 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
     polygonizeBody(chunkOf(job), ChunkGrid{}, part);
     for (const char* name : {"scalar", "sse4.2", "avx2", "avx512"}) {
       CAPTURE(name);
-      const GridKernels* kernels = findGridKernels(name);
+      const ExtractKernels* kernels = findExtractKernels(name);
       if (kernels == nullptr) continue;
       const Meshed mesh = meshed(*kernels, job, 1 + random() % 5, false);
       CHECK(mesh.indices == std::vector<uint32_t>(part.indices.begin(), part.indices.end()));
@@ -132,21 +153,21 @@ TEST_CASE("every instruction set meshes a grid as the scalar one does") {
   for (unsigned round = 0; round < rounds(40); ++round) {
     CAPTURE(round);
     GridJob job;
-    for (size_t& size : job.size) size = 2 + random() % 20;
-    job.size[0] = 2 + random() % (round % 2 == 0 ? 20 : 200);
-    job.stride_y = job.size[0] + random() % 4;
-    job.stride_z = job.stride_y * job.size[1] + random() % 9;
-    std::vector<float> values = someValues(random, job.stride_z * job.size[2]);
-    if (round % 10 == 9) values[random() % job.size[0]] = round % 20 == 9 ? INFINITY : NAN;
+    for (size_t& size : job.lattice.size) size = 2 + random() % 20;
+    job.lattice.size[0] = 2 + random() % (round % 2 == 0 ? 20 : 200);
+    job.stride_y = job.lattice.size[0] + random() % 4;
+    job.stride_z = job.stride_y * job.lattice.size[1] + random() % 9;
+    std::vector<float> values = someValues(random, job.stride_z * job.lattice.size[2]);
+    if (round % 10 == 9) values[random() % job.lattice.size[0]] = round % 20 == 9 ? INFINITY : NAN;
     job.values = values.data();
     job.scale = round % 3 == 0 ? 1024.0f : 900.0f;
     job.step = round % 3 == 0 ? 1.0 / 256 : 0.37 / 256;
     const bool normals = round % 4 != 0;
-    const Meshed expected = meshed(scalarGridKernels(), job, 1, normals);
+    const Meshed expected = meshed(scalarExtractKernels(), job, 1, normals);
     CHECK(expected.finite == (round % 10 != 9));
     for (const char* name : {"scalar", "sse4.2", "avx2", "avx512"}) {
       CAPTURE(name);
-      if (const GridKernels* kernels = findGridKernels(name))
+      if (const ExtractKernels* kernels = findExtractKernels(name))
         CHECK(meshed(*kernels, job, 1 + random() % 5, normals) == expected);
     }
   }

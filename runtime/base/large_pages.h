@@ -1,5 +1,5 @@
 #pragma once
-// Vectors of what a mesh has millions of.
+// Memory for what a mesh has millions of.
 
 #include <cstddef>
 #include <memory_resource>
@@ -11,7 +11,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace sgm::measure {
+namespace sgm {
 
 /// Memory of a resource, which outlives it. Asks for pages of 2 MB: to touch small ones for the first time takes longer
 /// than most that is measured, on a virtual machine ten times as long. Elsewhere, and where the system has none left,
@@ -55,4 +55,4 @@ class LargePages {
 template <class T>
 using LargeVector = std::vector<T, LargePages<T>>;
 
-}  // namespace sgm::measure
+}  // namespace sgm

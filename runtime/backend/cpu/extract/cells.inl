@@ -1,0 +1,260 @@
+// From active cells to triangles, a vector of loops at a time. An includer of the .inl files here defines before them:
+// the types and functions of shaders/common/real.h; kLanes; loadValues and loadLanes, which read lanes behind each
+// other, and storeLanes; storeBytes, the lowest byte of each lane; storeThree and storeFour, lanes in turn; loadAt, a
+// gather; squareRoot and quotient, as IEEE 754 has them, and scaledDouble, Int times double rounded to float; maskOf, a
+// bit a lane, and all; spreadBits<n>, which makes of n words 64 bytes, bit i of word k being bit k of byte i; and
+// addSteps, see there.
+
+/// Where a cube's edge begins in its cell, in 256ths: 9 bits an axis. How far along it a vertex lies is added there.
+struct CubePlaces {
+  uint32_t of_edge[kCubeEdges];
+};
+constexpr CubePlaces makeCubePlaces() {
+  CubePlaces places{};
+  for (int e = 0; e < kCubeEdges; ++e) {
+    const int axis = e / 4, lower = axis == 0 ? 1 : 0, upper = axis == 2 ? 1 : 2;
+    places.of_edge[e] = static_cast<uint32_t>((e & 1) * kSubcell) << 9 * lower |
+                        static_cast<uint32_t>((e >> 1 & 1) * kSubcell) << 9 * upper;
+  }
+  return places;
+}
+inline constexpr CubePlaces kCubePlaces = makeCubePlaces();
+
+/// Whether some loop of N edges has a chord that lies in a face. Of the cube's, those of 6 and 7 (tests/unit/backend).
+template <size_t N>
+inline constexpr bool kForbids = N >= 6;
+
+/// kLanes loops of one length: their vertices; and by point its place, and the faces that its edge lies in.
+template <size_t N>
+struct LoopLanes {
+  alignas(64) uint32_t vertex[kLanes][8];
+  alignas(64) uint32_t place[N][kLanes], faces[kForbids<N> ? N : 1][kLanes];
+};
+
+inline Int absolute(Int a) { return sel(a < broadcastInt(0), wrapSub(broadcastInt(0), a), a); }
+
+/// triangulateLoopOf of mesh/triangulate.h for kLanes loops at a time: the number of each one's triangulation.
+template <size_t N>
+void triangulateLanes(const LoopLanes<N>& loops, int32_t* ways) {
+  using triangulation::firstWay;
+  using triangulation::kWays;
+  struct Cross {
+    Int x, y, z;
+  };
+  const auto norm = [](const Cross& c) { return wrapAdd(wrapAdd(absolute(c.x), absolute(c.y)), absolute(c.z)); };
+  Int x[N], y[N], z[N], faces[N], best[N][N], way[N][N];
+  Cross cross[N][N];  // of the points' positions relative to point 0
+#pragma GCC unroll 8
+  for (size_t i = 0; i < N; ++i) {
+    const Uint place = toUintBits(loadLanes(loops.place[i]));
+    x[i] = toIntBits(place & Uint(511u));
+    y[i] = toIntBits(place >> 9 & Uint(511u));
+    z[i] = toIntBits(place >> 18);
+    if constexpr (kForbids<N>) faces[i] = loadLanes(loops.faces[i]);
+    if (i > 0) {
+      x[i] = wrapSub(x[i], x[0]);
+      y[i] = wrapSub(y[i], y[0]);
+      z[i] = wrapSub(z[i], z[0]);
+#pragma GCC unroll 8
+      for (size_t j = 1; j < i; ++j) {
+        cross[j][i] = {wrapSub(wrapMul(y[j], z[i]), wrapMul(z[j], y[i])),
+                       wrapSub(wrapMul(z[j], x[i]), wrapMul(x[j], z[i])),
+                       wrapSub(wrapMul(x[j], y[i]), wrapMul(y[j], x[i]))};
+      }
+    }
+    if (i + 1 < N) {
+      best[i][i + 1] = broadcastInt(std::numeric_limits<int32_t>::max());
+      way[i][i + 1] = broadcastInt(0);
+    }
+  }
+#pragma GCC unroll 8
+  for (size_t span = 2; span < N; ++span) {
+#pragma GCC unroll 8
+    for (size_t i = 0; i + span < N; ++i) {
+      const size_t j = i + span;
+      Int largest = broadcastInt(-1), chosen = broadcastInt(0);
+#pragma GCC unroll 8
+      for (size_t k = i + 1; k < j; ++k) {
+        Cross c = cross[k][j];
+        if (i > 0) {
+          const Cross &a = cross[i][k], &b = cross[k][j], &d = cross[i][j];
+          c = {wrapSub(wrapAdd(a.x, b.x), d.x), wrapSub(wrapAdd(a.y, b.y), d.y), wrapSub(wrapAdd(a.z, b.z), d.z)};
+        }
+        const Int measure = norm(c);
+        Int smallest = sel(best[i][k] < best[k][j], best[i][k], best[k][j]);
+        smallest = sel(smallest < measure, smallest, measure);
+        const Bool better = smallest > largest;
+        largest = sel(better, smallest, largest);
+        const Int own = wrapAdd(
+            wrapAdd(broadcastInt(firstWay(span + 1, k - i)), wrapMul(way[i][k], broadcastInt(kWays[j - k + 1]))),
+            way[k][j]);
+        chosen = sel(better, own, chosen);
+      }
+      best[i][j] = largest;
+      if constexpr (kForbids<N>) {
+        const Bool allowed = (faces[i] & faces[j]) == broadcastInt(0);
+        if (span < N - 1) best[i][j] = sel(allowed, largest, broadcastInt(-1));
+      }
+      way[i][j] = chosen;
+    }
+  }
+  storeLanes(way[0][N - 1], ways);
+}
+
+/// A loop that waits: the vertices of its cell by edge of the cube, its own edges, and where its triangles go.
+struct alignas(64) WaitingLoop {
+  uint32_t number[kCubeEdges];
+  const uint8_t* edges;
+  uint32_t* out;
+};
+
+/// Loops by length, until there are enough for a vector. Which length comes next cannot be foreseen, so that cells are
+/// added without a branch on it.
+class LoopQueues {
+ public:
+  /// offsets[v - first]: placeOffset of vertex v. Triangles go to `out` and behind it.
+  LoopQueues(const uint32_t* offsets, size_t first, uint32_t* out) : offsets_(offsets), first_(first), out_(out) {
+    for (size_t n = 0; n < kLengths; ++n) {
+      next_[kShortest + n] = waiting_[n];
+      full_[kShortest + n] = waiting_[n] + kMostWaiting;
+    }
+  }
+
+  /// The loops of a cell. `place(number)` writes the vertices of the cell's edges.
+  template <class Place>
+  FN void add(uint64_t cell_case, const Place& place) {
+    const uint32_t loop = kCubeFirstLoop[cell_case];
+    const uint8_t* edges = kCubeLoops + (loop & 0xFFFF);
+    size_t length = loop >> 16 & 0xFF;
+    push(place, edges, length);
+    if (loop >> 24 == 0) return;
+    const uint8_t* end = kCubeLoops + kCubeLoopStart[cell_case + 1];
+    for (edges += length; edges != end; edges += length) {
+      length = *edges++;
+      push(place, edges, length);
+    }
+  }
+
+  void finish() {
+    for (size_t n = kShortest; n <= kLongestCubeLoop; ++n) write(n);
+  }
+
+ private:
+  static constexpr size_t kShortest = 3, kLengths = kLongestCubeLoop - kShortest + 1;
+  static constexpr size_t kMostWaiting = 32;
+  static_assert(kMostWaiting % kLanes == 0);
+
+  template <class Place>
+  FN void push(const Place& place, const uint8_t* edges, size_t length) {
+    WaitingLoop* slot = next_[length];
+    place(slot->number);
+    slot->edges = edges;
+    slot->out = out_;
+    out_ += 3 * (length - 2);
+    next_[length] = slot + 1;
+    if (slot + 1 == full_[length]) write(length);
+  }
+
+  void write(size_t n) {
+    WaitingLoop* loops = waiting_[n - kShortest];
+    const auto count = static_cast<size_t>(next_[n] - loops);
+    next_[n] = loops;
+    switch (n) {
+      case 3:
+        for (size_t i = 0; i < count; ++i) {
+          for (size_t k = 0; k < 3; ++k) loops[i].out[k] = loops[i].number[loops[i].edges[k]];
+        }
+        return;
+      case 4:
+        return writeLoops<4>(loops, count);
+      case 5:
+        return writeLoops<5>(loops, count);
+      case 6:
+        return writeLoops<6>(loops, count);
+      default:
+        return writeLoops<7>(loops, count);
+    }
+  }
+
+  template <size_t N>
+  void writeLoops(const WaitingLoop* loops, size_t count) {
+    LoopLanes<N> lanes;
+    alignas(64) int32_t ways[kLanes];
+    const WaitingLoop* const end = loops + count;
+    for (; loops != end; loops += std::min<size_t>(kLanes, static_cast<size_t>(end - loops))) {
+      const auto some = std::min<size_t>(kLanes, static_cast<size_t>(end - loops));
+      for (size_t lane = 0; lane < some; ++lane) {
+        const WaitingLoop& loop = loops[lane];
+#pragma GCC unroll 8
+        for (size_t i = 0; i < N; ++i) {
+          const uint8_t e = loop.edges[i];
+          const size_t number = loop.number[e];
+          lanes.vertex[lane][i] = static_cast<uint32_t>(number);
+          lanes.place[i][lane] = kCubePlaces.of_edge[e] + offsets_[number - first_];
+          if constexpr (kForbids<N>) lanes.faces[i][lane] = kCubeEdgeFaces[e];
+        }
+      }
+      // Lanes behind the last loop hold another: any will do.
+      for (size_t lane = some; lane < kLanes; ++lane) {
+        for (size_t i = 0; i < N; ++i) {
+          lanes.place[i][lane] = lanes.place[i][0];
+          if constexpr (kForbids<N>) lanes.faces[i][lane] = lanes.faces[i][0];
+        }
+      }
+      triangulateLanes<N>(lanes, ways);
+      for (size_t lane = 0; lane < some; ++lane) {
+        const uint8_t* triangles = triangulation::kTriangles<N>[static_cast<size_t>(ways[lane])].data();
+        const uint32_t* vertex = lanes.vertex[lane];
+        uint32_t* out = loops[lane].out;
+#pragma GCC unroll 16
+        for (size_t i = 0; i < 3 * (N - 2); ++i) out[i] = vertex[triangles[i]];
+      }
+    }
+  }
+
+  const uint32_t* offsets_;
+  size_t first_;
+  uint32_t* out_;
+  WaitingLoop *next_[kShortest + kLengths], *full_[kShortest + kLengths];  ///< by length
+  WaitingLoop waiting_[kLengths][kMostWaiting];
+};
+static_assert(kLongestCubeLoop == 7);
+
+/// What is added to the number of a sample's first vertex for that of a cube's edge: bytes for the edges 4 to 11, since
+/// those of 0 to 3 are the first of their samples. By a case, whose samples' own edges they follow; and by what lies
+/// beyond the cell, for a sample whose edge along x (bits 0 to 2: rows 0 to 2 at high x) or y (3, 4: row 1 at low and
+/// high x) leaves the cell.
+struct CellSteps {
+  uint64_t of_case[256], of_high[32];
+};
+constexpr CellSteps makeCellSteps() {
+  CellSteps steps{};
+  const auto pack = [](const int (&bytes)[8]) {
+    uint64_t packed = 0;
+    for (int i = 0; i < 8; ++i) packed |= static_cast<uint64_t>(bytes[i]) << 8 * i;
+    return packed;
+  };
+  for (int c = 0; c < 256; ++c) {
+    const auto crossed = [c](int a, int b) { return (c >> a ^ c >> b) & 1; };
+    const int x0 = crossed(0, 1), x2 = crossed(2, 3), x4 = crossed(4, 5), y0 = crossed(0, 2), y1 = crossed(1, 3);
+    steps.of_case[c] = pack({x0, 0, x4, 0, x0 + y0, y1, x2, 0});
+  }
+  for (int h = 0; h < 32; ++h) {
+    const int x0 = h & 1, x1 = h >> 1 & 1, x2 = h >> 2 & 1, y0 = h >> 3 & 1, y1 = h >> 4 & 1;
+    steps.of_high[h] = pack({0, x0, 0, x2, 0, x0, y0, x1 + y1});
+  }
+  return steps;
+}
+inline constexpr CellSteps kCellSteps = makeCellSteps();
+
+/// The triangles of a layer's cells. `low` and `high` number the owners of the planes below and above.
+inline void meshCells(const uint64_t* cells, size_t count, size_t size_x, const uint32_t* low, const uint32_t* high,
+                      LoopQueues& queues) {
+  const uint32_t *const low1 = low + size_x, *const high1 = high + size_x;
+  for (size_t i = 0; i < count; ++i) {
+    const uint64_t cell = cells[i], at = cell >> 16, cell_case = cell & 0xFF;
+    const uint64_t steps = kCellSteps.of_case[cell_case] + kCellSteps.of_high[cell >> 8 & 0xFF];
+    queues.add(cell_case,
+               [&](uint32_t* number) { addSteps(low + at, low1 + at, high + at, high1 + at, steps, number); });
+  }
+}

@@ -1,0 +1,105 @@
+#pragma once
+// Marching cubes in bits: which edges cross the surface and which cells it passes is read from signs, 64 samples a word;
+// vertices and loops are then taken a vector at a time. For a caller's grid of floats, and for the samples of a chunk.
+// Made from one source for each instruction set (the .inl files here); all give the same bits.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+
+#include "base/raw_array.h"
+#include "mesh/chunk.h"
+
+namespace sgm {
+
+/// Signs of a lattice of samples: by z, y and word, bit 1 where a sample is solid. Bits behind the last sample of a row
+/// are 0. Owns nothing.
+struct SignLattice {
+  std::array<size_t, 3> size{};  ///< samples: at least 2 and at most 2^14 on each axis
+  size_t words = 0;              ///< of a row: size[0] / 64, rounded up
+  const uint64_t* signs = nullptr;
+  /// Two words a row: bit g is set where all samples of the row's words g * group..(g + 1) * group - 1 are void, in the
+  /// first, or solid, in the second. Null: not known.
+  const uint64_t* uniform = nullptr;
+
+  size_t group() const { return (words + 63) / 64; }
+  const uint64_t* row(size_t y, size_t z) const { return signs + (z * size[1] + y) * words; }
+  const uint64_t* uniformRow(size_t y, size_t z) const { return uniform + (z * size[1] + y) * 2; }
+};
+
+/// What the passes over a grid read and write. Owns nothing.
+struct GridJob {
+  const float* values = nullptr;
+  SignLattice lattice;
+  size_t stride_y = 0, stride_z = 0;  ///< floats; stride_y * size[1] and 4 * stride_z are below 2^31
+  float scale = 0;                    ///< Q by unit of the values
+  double step = 0;                    ///< a 256th of a cell in the unit of the positions
+
+  float* positions = nullptr;   ///< three a vertex
+  float* normals = nullptr;     ///< three a vertex; null where not wanted
+  uint32_t* indices = nullptr;  ///< three a triangle
+
+  const float* row(size_t y, size_t z) const { return values + y * stride_y + z * stride_z; }
+};
+
+/// Of rows of a plane: the crossed edges that they own, which become vertices, and the active cells of the layer above.
+struct ListCounts {
+  uint64_t vertices = 0, cells = 0, triangles = 0;
+};
+
+/// Where a list of `rows` rows goes: edges (packed as signs.inl says) and cells need this room.
+constexpr size_t edgeRoom(size_t size_x, size_t rows) { return 3 * size_x * rows + 2; }
+constexpr size_t cellRoom(size_t size_x, size_t rows) { return size_x * rows + 1; }
+
+/// The planes first..last - 1 with the layers of cells above them: what is listed of them, and what comes before them.
+struct GridSlab {
+  size_t first = 0, last = 0;
+  const uint64_t* first_vertex = nullptr;  ///< by plane, one more than there are
+  const uint64_t* first_cell = nullptr;    ///< by layer, likewise
+  uint64_t first_triangle = 0;             ///< of the slab
+  const uint32_t* edges = nullptr;         ///< of the slab
+  const uint32_t* edges_above = nullptr;   ///< of plane `last`; null where there is none
+  const uint64_t* cells = nullptr;         ///< of the slab
+};
+
+/// Lanes of the widest vector: passes may write as much behind the end of scratch.
+inline constexpr size_t kMostLanes = 16;
+
+/// Scratch of one slab: raw memory, nothing of it has to be cleared.
+struct GridScratch {
+  uint32_t* numbers = nullptr;  ///< 2 * size[0] * size[1]
+  uint32_t* offsets = nullptr;  ///< one for each vertex of the slab and of the plane above it, and kMostLanes
+};
+
+/// Scratch of one chunk.
+struct ChunkExtractScratch {
+  explicit ChunkExtractScratch(std::pmr::memory_resource* memory)
+      : numbers(memory), edges(memory), offsets(memory), cells(memory) {}
+
+  RawArray<uint32_t> numbers, edges, offsets;
+  RawArray<uint64_t> cells;
+};
+
+/// Pure but for what their arguments point at, which no two calls that run at a time share.
+struct ExtractKernels {
+  const char* name;
+  /// Signs of a row of the grid, into `signs`, and what is uniform of them. False where a value is not finite.
+  bool (*signs)(const GridJob&, size_t y, size_t z, uint64_t* signs, uint64_t* uniform);
+  /// Lists what the rows first..last - 1 of plane z own.
+  ListCounts (*list)(const SignLattice&, size_t z, size_t first, size_t last, uint32_t* edges, uint64_t* cells);
+  /// Vertices and triangles of a slab.
+  void (*mesh)(const GridJob&, const GridSlab&, const GridScratch&);
+  /// polygonizeBody of mesh/body.h.
+  void (*polygonize)(const ChunkSamples&, const ChunkGrid&, ChunkExtractScratch&, MeshPart&);
+};
+
+const ExtractKernels& scalarExtractKernels();
+/// Without scalar; not there in a scalar build.
+const ExtractKernels* findWideExtractKernels(const char* name);
+/// Those of findKernels' names that this build and this processor have; else null.
+const ExtractKernels* findExtractKernels(const char* name);
+/// Of the instruction set of bestKernels().
+const ExtractKernels& bestExtractKernels();
+
+}  // namespace sgm

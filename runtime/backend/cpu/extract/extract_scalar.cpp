@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "backend/cpu/extract/extract_kernels.h"
+#include "backend/cpu/instruction_sets.h"
+#include "base/kernel.h"
+#include "mesh/body.h"
+#include "mesh/tables.h"
+#include "mesh/triangulate.h"
+
+namespace sgm {
+
+namespace scalar_extract {
+
+using std::memcpy;
+
+#include "common/portable.h"
+#include "common/real.h"
+
+inline constexpr size_t kLanes = 1;
+FN Real loadValues(const float* p) { return *p; }
+FN Int loadLanes(const uint32_t* p) { return static_cast<Int>(*p); }
+FN Real loadAt(const float* p, Int i) { return p[i]; }
+FN void loadFour(const float* p, Real& a, Real& b, Real& c, Real& d) { a = p[0], b = p[1], c = p[2], d = p[3]; }
+FN void storeLanes(Int i, int32_t* p) { *p = i; }
+FN void storeLanes(Int i, uint32_t* p) { *p = static_cast<uint32_t>(i); }
+FN void storeThree(Real a, Real b, Real c, float* p) { p[0] = a, p[1] = b, p[2] = c; }
+FN Real squareRoot(Real r) { return std::sqrt(r); }
+FN Real quotient(Real a, Real b) { return a / b; }
+FN Real scaledDouble(Int i, double scale) { return static_cast<float>(i * scale); }
+FN uint64_t maskOf(Bool b) { return b ? 1 : 0; }
+FN bool all(Bool b) { return b; }
+
+// Eight bytes at a time: a product puts a bit into each of them, a mask keeps the one that is meant.
+template <size_t kCount>
+FN void spreadBits(const uint64_t* words, uint8_t* out) {
+  for (int at = 0; at < 64; at += 8) {
+    uint64_t sum = 0;
+    for (size_t k = 0; k < kCount; ++k) {
+      const uint64_t copies = (words[k] >> at & 0xFF) * 0x0101010101010101u & 0x8040201008040201u;
+      sum |= (((copies + 0x7F7F7F7F7F7F7F7Fu) | copies) >> 7 & 0x0101010101010101u) << k;
+    }
+    memcpy(out + at, &sum, 8);
+  }
+}
+
+FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, const uint32_t* r3, uint64_t steps,
+                 uint32_t* number) {
+  const uint32_t first[12] = {r0[0], r1[0], r2[0], r3[0], r0[0], r0[1], r2[0], r2[1], r0[0], r0[1], r1[0], r1[1]};
+  for (size_t e = 0; e < 4; ++e) number[e] = first[e];
+  for (size_t e = 4; e < 12; ++e) number[e] = first[e] + static_cast<uint32_t>(steps >> 8 * (e - 4) & 0xFF);
+}
+
+#include "backend/cpu/extract/signs.inl"
+#include "backend/cpu/extract/cells.inl"
+#include "backend/cpu/extract/edges.inl"
+#include "backend/cpu/extract/grid_passes.inl"
+
+void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, ChunkExtractScratch&, MeshPart& part) {
+  polygonizeBody(samples, grid, part);
+}
+
+}  // namespace scalar_extract
+
+const ExtractKernels& scalarExtractKernels() {
+  static constexpr ExtractKernels kernels{"scalar", scalar_extract::signsOfRow, scalar_extract::listRows,
+                                          scalar_extract::meshSlab, scalar_extract::polygonizeChunk};
+  return kernels;
+}
+
+const ExtractKernels* findExtractKernels(const char* name) {
+  if (std::strcmp(name, scalarExtractKernels().name) == 0) return &scalarExtractKernels();
+#ifdef SGM_SCALAR
+  return nullptr;
+#else
+  return findWideExtractKernels(name);
+#endif
+}
+
+const ExtractKernels& bestExtractKernels() {
+  static const ExtractKernels& best = []() -> const ExtractKernels& {
+    const ExtractKernels* found = findExtractKernels(bestKernels().name);
+    return found != nullptr ? *found : scalarExtractKernels();
+  }();
+  return best;
+}
+
+}  // namespace sgm

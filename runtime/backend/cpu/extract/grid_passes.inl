@@ -1,0 +1,234 @@
+// The passes over a caller's grid of floats. See extract_kernels.h; an includer defines what cells.inl says.
+
+// The same sign as floor(clamp(v * scale) + 0.5).
+inline bool isSolid(float value, float scale) { return value * scale + 0.5f < 0.0f; }
+inline bool isFinite(float value) { return std::fabs(value) <= std::numeric_limits<float>::max(); }
+
+inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, uint64_t* uniform) {
+  const float* values = job.row(y, z);
+  const size_t count = job.lattice.size[0];
+  const Real scale = broadcast(job.scale), half = broadcast(0.5f), zero = broadcast(0.0f);
+  const Real most = broadcast(std::numeric_limits<float>::max());
+  Bool finite = zero <= zero;
+  size_t at = 0;
+  for (; at + 64 <= count; at += 64) {
+    uint64_t word = 0;
+    for (size_t lane = 0; lane < 64; lane += kLanes) {
+      const Real v = loadValues(values + at + lane);
+      PRECISE Real q = v * scale;
+      q = q + half;
+      word |= maskOf(q < zero) << lane;
+      finite = finite && (absReal(v) <= most);
+    }
+    words[at / 64] = word;
+  }
+  bool good = all(finite);
+  if (at < count) {
+    uint64_t word = 0;
+    for (size_t i = at; i < count; ++i) {
+      word |= uint64_t{isSolid(values[i], job.scale)} << (i - at);
+      good = good && isFinite(values[i]);
+    }
+    words[at / 64] = word;
+  }
+  uint64_t some = 0, lacking = 0;  // of a group: whether a sample is solid, and whether one is void
+  const size_t group = job.lattice.group();
+  for (size_t word = 0; word < job.lattice.words; ++word) {
+    some |= uint64_t{words[word] != 0} << word / group;
+    lacking |= uint64_t{words[word] != wordMask(word, count)} << word / group;
+  }
+  uniform[0] = ~some;
+  uniform[1] = ~lacking;
+  return good;
+}
+
+struct Vector {
+  Real x, y, z;
+};
+
+/// The value in 1024ths of a cell, within the range of Q.
+FN Real scaledOf(const GridJob& job, Real value) {
+  PRECISE Real v = value * broadcast(job.scale);
+  return clampReal(v, -static_cast<float>(kMaxQ), static_cast<float>(kMaxQ));
+}
+FN Real scaledAt(const GridJob& job, const float* plane, Int at) { return scaledOf(job, loadAt(plane, at)); }
+
+FN Int quantised(Real scaled) {
+  PRECISE Real v = scaled + 0.5f;
+  return toInt(floorReal(v));
+}
+
+/// The difference along an axis whose next sample is `step` floats away: at the grid's border to one side, else half of
+/// that to both. `at` is the coordinate of `size`.
+FN Real slopeAt(const GridJob& job, const float* plane, Int index, Int at, size_t size, size_t step) {
+  const Int by = broadcastInt(static_cast<int32_t>(step)), next = wrapAdd(index, by), before = wrapSub(index, by);
+  const Bool low = at > broadcastInt(0), high = at < broadcastInt(static_cast<int32_t>(size) - 1);
+  PRECISE Real d = scaledAt(job, plane, sel(high, next, index)) - scaledAt(job, plane, sel(low, before, index));
+  return d * sel(low && high, broadcast(0.5f), broadcast(1.0f));
+}
+
+FN Vector gradientAt(const GridJob& job, const float* plane, Int index, Int x, Int y, Int z) {
+  return {slopeAt(job, plane, index, x, job.lattice.size[0], 1),
+          slopeAt(job, plane, index, y, job.lattice.size[1], job.stride_y),
+          slopeAt(job, plane, index, z, job.lattice.size[2], job.stride_z)};
+}
+
+/// What a lane's edge sees of a grid's inside: four samples of a row, from the one before the edge's end on, and those
+/// beside the end along y and z. Copied value by value, which is faster than gathers are.
+struct Surroundings {
+  alignas(64) float row[4 * kLanes];
+  alignas(64) float y0[kLanes], y1[kLanes], z0[kLanes], z1[kLanes];
+};
+
+FN void look(const GridJob& job, const float* at, size_t lane, Surroundings& around) {
+  memcpy(around.row + 4 * lane, at - 1, 4 * sizeof(float));
+  around.y0[lane] = *(at - job.stride_y);
+  around.y1[lane] = at[job.stride_y];
+  around.z0[lane] = *(at - job.stride_z);
+  around.z1[lane] = at[job.stride_z];
+}
+
+/// The gradient at an edge's end, and the sample there.
+FN Vector gradientOf(const GridJob& job, const Surroundings& around, Real& scaled) {
+  Real before, here, after, unused;
+  loadFour(around.row, before, here, after, unused);
+  const auto half = [&](Real high, Real low) {
+    PRECISE Real d = scaledOf(job, high) - scaledOf(job, low);
+    return d * broadcast(0.5f);
+  };
+  scaled = scaledOf(job, here);
+  return {half(after, before), half(loadValues(around.y1), loadValues(around.y0)),
+          half(loadValues(around.z1), loadValues(around.z0))};
+}
+
+/// The gradient between an edge's ends, one long. Where it vanishes between samples whose signs differ: `own`, the
+/// edge's direction from solid to void.
+FN Vector normalBetween(const Vector& g0, const Vector& g1, Int t, const Vector& own) {
+  const Real part = toReal(t) * broadcast(1.0f / kSubcell);
+  const auto between = [&](Real a, Real b) {
+    PRECISE Real d = b - a;
+    d = d * part;
+    PRECISE Real sum = a + d;
+    return sum;
+  };
+  const Real x = between(g0.x, g1.x), y = between(g0.y, g1.y), z = between(g0.z, g1.z);
+  PRECISE Real xx = x * x;
+  PRECISE Real yy = y * y;
+  PRECISE Real zz = z * z;
+  PRECISE Real square = xx + yy;
+  square = square + zz;
+  const Bool some = square > broadcast(0.0f);
+  const Real length = quotient(broadcast(1.0f), squareRoot(sel(some, square, broadcast(1.0f))));
+  return {sel(some, x * length, own.x), sel(some, y * length, own.y), sel(some, z * length, own.z)};
+}
+
+/// Three numbers for each lane, of which the first `count` are stored.
+FN void storeSome(Real x, Real y, Real z, size_t count, float* out) {
+  if (count >= kLanes) return storeThree(x, y, z, out);
+  float all_lanes[3 * kLanes];
+  storeThree(x, y, z, all_lanes);
+  std::copy_n(all_lanes, 3 * count, out);
+}
+
+/// From solid to void along the edges.
+FN Vector ownDirection(const EdgeLanes& e, Int q0) {
+  const Real side = sel(q0 < broadcastInt(0), broadcast(1.0f), broadcast(-1.0f)), none = broadcast(0.0f);
+  return {sel(e.along_x, side, none), sel(e.along_y, side, none), sel(e.along_z, side, none)};
+}
+
+/// Crossings and normals of edges whose surroundings lie within the grid.
+FN Vector insideNormals(const GridJob& job, const float* plane, const uint32_t* edges, const EdgeLanes& e, Int& t) {
+  Surroundings start, end;
+  const size_t step[3] = {1, job.stride_y, job.stride_z};
+  for (size_t lane = 0; lane < kLanes; ++lane) {
+    const uint32_t edge = edges[lane];
+    const float* at = plane + (edge >> kPlaceBits & kPlaceMask) * job.stride_y + (edge & kPlaceMask);
+    look(job, at, lane, start);
+    look(job, at + step[edge >> 2 * kPlaceBits], lane, end);
+  }
+  Real s0, s1;
+  const Vector g0 = gradientOf(job, start, s0), g1 = gradientOf(job, end, s1);
+  const Int q0 = quantised(s0);
+  t = crossingOf(q0, quantised(s1));
+  return normalBetween(g0, g1, t, ownDirection(e, q0));
+}
+
+/// A vector of edges of plane z: where they are crossed, and with `write` positions and normals of the first `count`,
+/// from vertex number `vertex` on.
+inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, size_t count, size_t vertex,
+                       uint32_t* offsets, bool write) {
+  const EdgeLanes e = unpackEdges(edges, z);
+  const float* plane = job.row(0, z);
+  const Int zero = broadcastInt(0), one = broadcastInt(1);
+  const Int end_x = wrapAdd(e.x, sel(e.along_x, one, zero)), end_y = wrapAdd(e.y, sel(e.along_y, one, zero)),
+            end_z = wrapAdd(e.z, sel(e.along_z, one, zero));
+  const auto inside = [&](Int low, Int high, size_t axis) {
+    return low > zero && high < broadcastInt(static_cast<int32_t>(job.lattice.size[axis]) - 1);
+  };
+  const bool normals = write && job.normals != nullptr;
+  Int t;
+  Vector n{};
+  if (normals && all(inside(e.x, wrapAdd(e.x, one), 0) && inside(e.y, end_y, 1) && inside(e.z, end_z, 2))) {
+    n = insideNormals(job, plane, edges, e, t);
+  } else {
+    const Int stride_y = broadcastInt(static_cast<int32_t>(job.stride_y)),
+              stride_z = broadcastInt(static_cast<int32_t>(job.stride_z));
+    const Int start = wrapAdd(wrapMul(e.y, stride_y), e.x);
+    const Int end = wrapAdd(start, sel(e.along_x, one, sel(e.along_y, stride_y, stride_z)));
+    const Int q0 = quantised(scaledAt(job, plane, start));
+    t = crossingOf(q0, quantised(scaledAt(job, plane, end)));
+    if (normals)
+      n = normalBetween(gradientAt(job, plane, start, e.x, e.y, e.z), gradientAt(job, plane, end, end_x, end_y, end_z),
+                        t, ownDirection(e, q0));
+  }
+  storeLanes(placeOffset(e, t), offsets);
+  if (!write) return;
+  const auto placed = [&](Int at, Bool along) {
+    return scaledDouble(wrapAdd(wrapMul(at, broadcastInt(kSubcell)), sel(along, t, zero)), job.step);
+  };
+  storeSome(placed(e.x, e.along_x), placed(e.y, e.along_y), placed(e.z, e.along_z), count, job.positions + vertex * 3);
+  if (normals) storeSome(n.x, n.y, n.z, count, job.normals + vertex * 3);
+}
+
+/// The vertices of plane z, whose edges are listed; without `write` only where they lie on their edges.
+inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size_t count, size_t vertex,
+                       uint32_t* offsets, bool write) {
+  // The planes above have not been read for long. What lies farther ahead in the list is fetched while this is worked on.
+  constexpr size_t kAhead = 128;
+  const float* beyond[2] = {job.row(0, std::min(z + 1, job.lattice.size[2] - 1)),
+                            job.row(0, std::min(z + 2, job.lattice.size[2] - 1))};
+  size_t at = 0;
+  for (; at + kLanes <= count; at += kLanes) {
+    for (size_t i = at + kAhead; i < std::min(at + kAhead + kLanes, count); ++i) {
+      const size_t place = (edges[i] >> kPlaceBits & kPlaceMask) * job.stride_y + (edges[i] & kPlaceMask);
+      __builtin_prefetch(beyond[0] + place);
+      __builtin_prefetch(beyond[1] + place);
+    }
+    writeEdges(job, z, edges + at, kLanes, vertex + at, offsets + at, write);
+  }
+  if (at == count) return;
+  uint32_t rest[kLanes];
+  std::fill(std::copy(edges + at, edges + count, rest), rest + kLanes, edges[at]);
+  writeEdges(job, z, rest, count - at, vertex + at, offsets + at, write);
+}
+
+inline void meshSlab(const GridJob& job, const GridSlab& slab, const GridScratch& scratch) {
+  const size_t size_x = job.lattice.size[0], first_vertex = slab.first_vertex[slab.first];
+  uint32_t* low = scratch.numbers;
+  uint32_t* high = scratch.numbers + size_x * job.lattice.size[1];
+  LoopQueues queues(scratch.offsets, first_vertex, job.indices + slab.first_triangle * 3);
+  // The plane above the last belongs to another slab, which writes its vertices; their numbers and places are needed
+  // here, too.
+  for (size_t z = slab.first; z <= slab.last && z < job.lattice.size[2]; ++z) {
+    const size_t vertex = slab.first_vertex[z], count = slab.first_vertex[z + 1] - vertex;
+    const uint32_t* edges = z == slab.last ? slab.edges_above : slab.edges + (vertex - first_vertex);
+    numberOwners(edges, count, vertex, size_x, high);
+    writePlane(job, z, edges, count, vertex, scratch.offsets + (vertex - first_vertex), z < slab.last);
+    if (z > slab.first) {
+      const uint64_t begin = slab.first_cell[z - 1];
+      meshCells(slab.cells + (begin - slab.first_cell[slab.first]), slab.first_cell[z] - begin, size_x, low, high, queues);
+    }
+    std::swap(low, high);
+  }
+  queues.finish();
+}

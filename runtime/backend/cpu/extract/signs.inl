@@ -1,0 +1,154 @@
+// What is read from signs alone: crossed edges, active cells and their cases, how much there will be. See
+// extract_kernels.h; an includer defines what cells.inl says.
+
+FN uint64_t wordMask(size_t word, size_t count) {
+  const size_t first = word * 64;
+  return count >= first + 64 ? ~uint64_t{0} : count <= first ? 0 : (uint64_t{1} << (count - first)) - 1;
+}
+
+/// Calls f(bit, mask) for the bits that are set, then perhaps f(64, 0): how many are set cannot be foreseen, so that a
+/// branch for each costs more than a call in vain.
+template <class F>
+FN void forBits(uint64_t bits, F&& f) {
+  do {
+    for (int i = 0; i < 2; ++i) {
+      f(static_cast<size_t>(std::countr_zero(bits)), bits & (~bits + 1));
+      bits &= bits - 1;
+    }
+  } while (bits != 0);
+}
+
+/// Signs of a row at a word's samples, and at those one further: behind the row's last sample that one again, so that
+/// no edge begins there.
+struct RowSigns {
+  uint64_t low, high;
+};
+
+FN RowSigns signsOf(const SignLattice& lattice, const uint64_t* row, size_t word) {
+  const uint64_t low = row[word];
+  if (word + 1 < lattice.words) return {low, low >> 1 | row[word + 1] << 63};
+  return {low, low >> 1 | (low & uint64_t{1} << (lattice.size[0] - 1) % 64)};
+}
+
+/// Calls f(word) for the words of four rows in turn, but for those that their uniform groups prove to be without
+/// crossed edges and active cells. A word's last cells end in the next one.
+template <class F>
+FN void forWords(const SignLattice& lattice, const size_t (&y)[2], const size_t (&z)[2], F&& f) {
+  uint64_t wanted = ~uint64_t{0};
+  if (lattice.uniform != nullptr) {
+    uint64_t empty = ~uint64_t{0}, solid = ~uint64_t{0};
+    for (size_t i = 0; i < 4; ++i) {
+      const uint64_t* row = lattice.uniformRow(y[i & 1], z[i >> 1]);
+      empty &= row[0];
+      solid &= row[1];
+    }
+    constexpr uint64_t kLast = uint64_t{1} << 63;
+    wanted = ~((empty & (empty >> 1 | kLast)) | (solid & (solid >> 1 | kLast)));
+  }
+  const size_t group = lattice.group(), groups = (lattice.words + group - 1) / group;
+  // Groups behind the last are uniform in both ways; whatever a row ends with, nothing begins there.
+  for (wanted &= wordMask(0, groups); wanted != 0; wanted &= wanted - 1) {
+    const size_t first = static_cast<size_t>(std::countr_zero(wanted)) * group;
+    for (size_t word = first; word < std::min(first + group, lattice.words); ++word) f(word);
+  }
+}
+
+/// A crossed edge of a plane: its axis, then the y and x of the sample that owns it.
+inline constexpr int kPlaceBits = 14;
+inline constexpr uint32_t kPlaceMask = (1u << kPlaceBits) - 1;
+
+/// An active cell of a layer: the place of its lowest sample in the plane, what goes on beyond it (CellSteps), its case.
+constexpr uint64_t packedCell(size_t place, uint32_t beyond, uint32_t cell_case) {
+  return uint64_t{place} << 16 | beyond << 8 | cell_case;
+}
+
+/// By case, bits 0 to 2: whether an edge along x is crossed in the rows (y, z), (y + 1, z), (y, z + 1).
+struct CaseEdges {
+  uint8_t along_x[256];
+};
+constexpr CaseEdges makeCaseEdges() {
+  CaseEdges edges{};
+  for (unsigned c = 0; c < 256; ++c) {
+    const unsigned crossed = c ^ c >> 1;
+    edges.along_x[c] = static_cast<uint8_t>((crossed & 1) | (crossed >> 2 & 1) << 1 | (crossed >> 4 & 1) << 2);
+  }
+  return edges;
+}
+inline constexpr CaseEdges kCaseEdges = makeCaseEdges();
+
+/// Lists what rows of plane z own: crossed edges, sample by sample and axis by axis, which is the order of vertices; and
+/// the active cells of the layer above, in their order.
+inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size_t last_row, uint32_t* edges,
+                           uint64_t* cells) {
+  ListCounts counts;
+  const bool above = z + 1 < lattice.size[2];
+  const size_t zs[2] = {z, above ? z + 1 : z};
+  for (size_t y = first_row; y < last_row; ++y) {
+    const bool has_cells = above && y + 1 < lattice.size[1];
+    const size_t ys[2] = {y, y + 1 < lattice.size[1] ? y + 1 : y};
+    const uint64_t* const rows[4] = {lattice.row(ys[0], zs[0]), lattice.row(ys[1], zs[0]), lattice.row(ys[0], zs[1]),
+                                     lattice.row(ys[1], zs[1])};
+    const uint64_t* beyond_row = y + 2 < lattice.size[1] ? lattice.row(y + 2, z) : rows[1];
+    forWords(lattice, ys, zs, [&](size_t word) {
+      uint64_t corner[8 + 1];  // in the order of a case's bits; spreadBits may read one more
+      uint64_t some = 0, every = ~uint64_t{0};
+      for (size_t i = 0; i < 4; ++i) {
+        const RowSigns s = signsOf(lattice, rows[i], word);
+        corner[2 * i] = s.low;
+        corner[2 * i + 1] = s.high;
+        some |= s.low | s.high;
+        every &= s.low & s.high;
+      }
+      corner[8] = 0;
+      // A sample that owns a crossed edge begins a cell whose corners differ, if not one beyond the lattice.
+      if ((some & ~every) == 0) return;
+      const uint64_t x = corner[0] ^ corner[1], y_edges = corner[0] ^ corner[2], z_edges = corner[0] ^ corner[4];
+      if (const uint64_t owners = x | y_edges | z_edges; owners != 0) {
+        const auto first = static_cast<uint32_t>(y << kPlaceBits | word * 64);
+        forBits(owners, [&](size_t bit, uint64_t mask) {
+          const uint32_t sample = first + static_cast<uint32_t>(bit);
+          uint32_t* next = edges + counts.vertices;
+          const int along_x = std::popcount(x & mask), along_y = std::popcount(y_edges & mask);
+          next[0] = sample;
+          next += along_x;
+          next[0] = sample | 1u << 2 * kPlaceBits;
+          next += along_y;
+          next[0] = sample | 2u << 2 * kPlaceBits;
+          counts.vertices += static_cast<uint64_t>(along_x + along_y + std::popcount(z_edges & mask));
+        });
+      }
+      const uint64_t active = has_cells ? some & ~every & wordMask(word, lattice.size[0] - 1) : 0;
+      if (active == 0) return;
+      uint8_t cases[64 + 1];
+      spreadBits<8>(corner, cases);
+      cases[64] = 0;
+      if (active >> 63 != 0 && word + 1 < lattice.words) {
+        for (size_t i = 0; i < 4; ++i) {
+          const RowSigns s = signsOf(lattice, rows[i], word + 1);
+          cases[64] = static_cast<uint8_t>(cases[64] | (s.low & 1) << 2 * i | (s.high & 1) << (2 * i + 1));
+        }
+      }
+      const RowSigns beyond = signsOf(lattice, beyond_row, word);
+      const uint64_t beyond_low = corner[2] ^ beyond.low, beyond_high = corner[3] ^ beyond.high;
+      const size_t place = y * lattice.size[0] + word * 64;
+      uint64_t* next = cells + counts.cells;
+      uint64_t triangles = 0;
+      forBits(active, [&](size_t bit, uint64_t mask) {
+        const uint32_t cell_case = cases[bit];
+        const auto along_y = static_cast<uint32_t>((beyond_low >> (bit & 63) & 1) + (beyond_high >> (bit & 63) & 1) * 2);
+        *next++ = packedCell(place + bit, kCaseEdges.along_x[cases[std::min<size_t>(bit, 63) + 1]] | along_y << 3, cell_case);
+        triangles += mask != 0 ? kCubeTriangles[cell_case] : 0;
+      });
+      counts.triangles += triangles;
+      counts.cells += static_cast<uint64_t>(std::popcount(active));
+    });
+  }
+  return counts;
+}
+
+/// The number of the first vertex of each sample that owns some: `edges` are a plane's, and the first has number `first`.
+inline void numberOwners(const uint32_t* edges, size_t count, size_t first, size_t size_x, uint32_t* numbers) {
+  // From the last to the first, so that what a sample's first edge writes stays.
+  for (size_t i = count; i-- > 0;)
+    numbers[(edges[i] >> kPlaceBits & kPlaceMask) * size_x + (edges[i] & kPlaceMask)] = static_cast<uint32_t>(first + i);
+}
