@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "backend/cpu/extract/extract_kernels.h"
+#include "backend/cpu/extract/mesh_kernels.h"
 #include "mesh/chunk.h"
 
 namespace sgm::api {
@@ -61,7 +61,7 @@ class GridMesher {
   const GridSamples& grid_;
   JobSystem& jobs_;
   std::pmr::memory_resource* memory_;
-  const ExtractKernels& kernels_ = bestExtractKernels();
+  const MeshKernels& kernels_ = bestMeshKernels();
   GridJob job_;
   RawArray<uint64_t> signs_, uniform_;
   std::vector<Slab> slabs_;

@@ -21,7 +21,7 @@ SignField signField(QueryField field) {
             const Result<std::shared_ptr<const FieldProgram>> program = field.at(chunkBox(grid));
             if (!program) return program.error();
             ChunkScratch scratch(field.memory);
-            const bool mixed = sampleChunk(bestKernels(), (*program)->view(), grid, scratch);
+            const bool mixed = sampleChunk(bestChunkKernels(), (*program)->view(), grid, scratch);
             if (mixed) return ChunkSigns{std::move(scratch.samples.signs), false};
             return ChunkSigns{std::pmr::vector<uint64_t>(field.memory), (scratch.samples.signs[0] & 1) != 0};
           },

@@ -84,7 +84,7 @@ class WalkGrid {
     }
     Result<std::shared_ptr<const FieldProgram>> program = field_.at(box);
     if (!program) return program.error();
-    const bool mixed = sampleChunk(bestKernels(), (*program)->view(), grid, scratch);
+    const bool mixed = sampleChunk(bestChunkKernels(), (*program)->view(), grid, scratch);
     std::pmr::vector<Floor> found(field_.memory);
     std::pmr::vector<int32_t> px(field_.memory), py(field_.memory), pz(field_.memory);
     for (int z = 0; z < kChunkCells; ++z) {

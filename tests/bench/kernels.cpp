@@ -58,7 +58,7 @@ struct Load {
 
 ChunkMesh meshOnCpu(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& scratch) {
   ChunkMesh mesh(heap);
-  meshChunk(kernels, job, scratch, mesh);
+  meshChunk({kernels, bestMeshKernels()}, job, scratch, mesh);
   return mesh;
 }
 

@@ -35,7 +35,7 @@ class ScratchPool {
 
 // Shared by the batch and the jobs that it has submitted: the last of them ends it.
 struct BatchState {
-  BatchState(const FieldKernels& kernels_in, std::shared_ptr<ScratchPool> pool_in, std::vector<ChunkJob> jobs_in,
+  BatchState(const ChunkKernels& kernels_in, std::shared_ptr<ScratchPool> pool_in, std::vector<ChunkJob> jobs_in,
              AfterChunk after_chunk_in, unsigned workers_in, std::pmr::memory_resource* memory_in,
              const Profiler& profiler_in)
       : kernels(kernels_in),
@@ -85,7 +85,7 @@ struct BatchState {
     }
   }
 
-  const FieldKernels& kernels;
+  const ChunkKernels kernels;
   const Profiler profiler;
   std::shared_ptr<ScratchPool> pool;
   std::vector<ChunkJob> jobs;
@@ -144,13 +144,13 @@ class CpuBatch final : public ChunkBatch {
 
 class CpuBackend final : public Backend {
  public:
-  CpuBackend(const FieldKernels& kernels, JobSystem& jobs, std::pmr::memory_resource* memory, const Profiler& profiler)
+  CpuBackend(const ChunkKernels& kernels, JobSystem& jobs, std::pmr::memory_resource* memory, const Profiler& profiler)
       : kernels_(kernels),
         jobs_(jobs),
         memory_(memory),
         profiler_(profiler),
         pool_(std::make_shared<ScratchPool>(memory)) {
-    capabilities_ = {BackendKind::cpu, kernels.name, true, jobs.concurrency()};
+    capabilities_ = {BackendKind::cpu, kernels.field.name, true, jobs.concurrency()};
   }
   const BackendCapabilities& capabilities() const override { return capabilities_; }
   Result<std::unique_ptr<ChunkBatch>> submit(std::vector<ChunkJob> jobs, AfterChunk after_chunk) override {
@@ -172,7 +172,7 @@ class CpuBackend final : public Backend {
   }
 
  private:
-  const FieldKernels& kernels_;
+  const ChunkKernels kernels_;
   JobSystem& jobs_;
   std::pmr::memory_resource* memory_;
   const Profiler profiler_;
@@ -193,7 +193,7 @@ Result<std::unique_ptr<Backend>> makeCpuBackend(std::string_view instruction_set
     return Error{Code::unsupported,
                  "the CPU backend has no instruction set '" + std::string(instruction_set) + "' here; it has " + known};
   }
-  return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(*kernels, jobs, memory, profiler));
+  return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(ChunkKernels{*kernels, *findMeshKernels(kernels->name)}, jobs, memory, profiler));
 }
 
 }  // namespace sgm

@@ -9,7 +9,7 @@
 namespace sgm {
 
 struct InstructionSet {
-  const FieldKernels* kernels;
+  const FieldKernels* kernels;  ///< meshes are made by findMeshKernels(kernels->name) (extract/mesh_kernels.h)
   bool runs_here;
 };
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "mesh/body.h"
-#include "mesh/hash.h"
 #include "mesh/seam.h"
 #include "mesh/vertex.h"
 
@@ -12,83 +10,60 @@ namespace sgm {
 
 namespace {
 
-// Attributes of the vertices listed in scratch.order[first..last), evaluated together and packed in place.
-void evaluateAttributes(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, MeshPart& part,
-                        size_t first, size_t last, ChunkScratch& s) {
-  const size_t count = last - first;
-  if (count == 0) return;
-  s.x.resize(count);
-  s.y.resize(count);
-  s.z.resize(count);
-  s.normal_x.resize(count);
-  s.normal_y.resize(count);
-  s.label.resize(count);
-  for (size_t i = 0; i < count; ++i) {
-    const Int3 p = vertexUnits(grid, part.vertices[s.order[first + i]]);
-    s.x[i] = p.x;
-    s.y[i] = p.y;
-    s.z[i] = p.z;
-  }
-  kernels.attributes(field, {s.x.data(), s.y.data(), s.z.data(), count}, s.evaluation,
-                     {nullptr, nullptr, nullptr, nullptr, s.normal_x.data(), s.normal_y.data(), s.label.data()});
-  for (size_t i = 0; i < count; ++i) {
-    Vertex& v = part.vertices[s.order[first + i]];
-    v.normal_x = s.normal_x[i];
-    v.normal_y = s.normal_y[i];
-    v.material = static_cast<uint16_t>(s.label[i]);
-    v.tag = static_cast<uint16_t>(s.label[i] >> 16);
-  }
+/// Normals and labels at scratch.mesh's points first..last - 1, into the same places.
+void evaluateAttributes(const FieldKernels& kernels, const ProgramView& field, size_t first, size_t last,
+                        ChunkScratch& scratch) {
+  if (first == last) return;
+  MeshScratch& s = scratch.mesh;
+  kernels.attributes(field, {s.x.data() + first, s.y.data() + first, s.z.data() + first, last - first},
+                     scratch.evaluation,
+                     {nullptr, nullptr, nullptr, nullptr, s.normal_x.data() + first, s.normal_y.data() + first,
+                      s.label.data() + first});
 }
 
-size_t brickOf(const Vertex& v) {
-  auto at = [](int16_t position) {
-    return std::min<size_t>(static_cast<size_t>(position) / (kSubcell * kBrickSamples), kBricks - 1);
-  };
-  return at(v.x) + kBricks * (at(v.y) + kBricks * at(v.z));
+void growAttributes(MeshScratch& s, size_t count) {
+  s.normal_x.grow(0, count);
+  s.normal_y.grow(0, count);
+  s.label.grow(0, count);
 }
 
 // A vertex lies on an edge that begins at a sample of its brick, so the brick's own program holds all that matters
 // there.
-void fillBody(const FieldKernels& kernels, const ChunkGrid& grid, ChunkScratch& s, MeshPart& body) {
-  std::array<uint32_t, kBrickCount + 1> start{};
-  for (const Vertex& v : body.vertices) ++start[brickOf(v) + 1];
-  for (size_t b = 0; b < kBrickCount; ++b) start[b + 1] += start[b];
-  s.order.resize(body.vertices.size());
-  std::array<uint32_t, kBrickCount> next{};
-  std::copy(start.begin(), start.end() - 1, next.begin());
-  for (size_t i = 0; i < body.vertices.size(); ++i)
-    s.order[next[brickOf(body.vertices[i])]++] = static_cast<uint32_t>(i);
-  for (size_t b = 0; b < kBrickCount; ++b) {
-    evaluateAttributes(kernels, s.bricks[b].view(), grid, body, start[b], start[b + 1], s);
-  }
+void fillBody(const ChunkKernels& kernels, const ChunkGrid& grid, ChunkScratch& s, MeshPart& body) {
+  std::array<uint32_t, kBrickCount + 1> start;
+  kernels.mesh.sort(grid, body, s.mesh, start);
+  growAttributes(s.mesh, body.vertices.size());
+  for (size_t b = 0; b < kBrickCount; ++b)
+    evaluateAttributes(kernels.field, s.bricks[b].view(), start[b], start[b + 1], s);
+  kernels.mesh.attribute(s.mesh, body.vertices.size(), body);
 }
 
 CoarseFace sampleCoarseFace(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, Face face,
-                            ChunkScratch& s) {
+                            ChunkScratch& scratch) {
   constexpr size_t count = size_t{kCoarseSamples} * kCoarseSamples;
-  s.x.resize(count);
-  s.y.resize(count);
-  s.z.resize(count);
-  s.q.resize(count);
+  MeshScratch& s = scratch.mesh;
+  for (RawArray<int32_t>* array : {&s.x, &s.y, &s.z, &s.q}) array->grow(0, count);
+  int32_t *x = s.x.data(), *y = s.y.data(), *z = s.z.data();
   for (int b = 0; b < kCoarseSamples; ++b) {
     for (int a = 0; a < kCoarseSamples; ++a) {
       const Int3 p = coarseFacePoint(grid, face, a, b);
       const size_t i = static_cast<size_t>(a + b * kCoarseSamples);
-      s.x[i] = p.x;
-      s.y[i] = p.y;
-      s.z[i] = p.z;
+      x[i] = p.x;
+      y[i] = p.y;
+      z[i] = p.z;
     }
   }
-  kernels.samples(field, {s.x.data(), s.y.data(), s.z.data(), count}, s.evaluation, s.q.data());
+  kernels.samples(field, {x, y, z, count}, scratch.evaluation, s.q.data());
+  const int32_t* q = s.q.data();
   CoarseFace coarse;
   for (size_t i = 0; i < count; ++i) {
-    coarse.q[i] = s.q[i];
-    if (s.q[i] < 0) coarse.signs[i / kCoarseSamples] |= 1u << (i % kCoarseSamples);
+    coarse.q[i] = q[i];
+    if (q[i] < 0) coarse.signs[i / kCoarseSamples] |= 1u << (i % kCoarseSamples);
   }
   return coarse;
 }
 
-void meshSeam(const FieldKernels& kernels, const ChunkJob& job, Face face, ChunkScratch& s, MeshPart& seam) {
+void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, ChunkScratch& s, MeshPart& seam) {
   const int axis = faceAxis(face);
   IntBox plane{job.grid.origin, job.grid.origin};
   for (int a = 0; a < 3; ++a) plane.hi[a] += kChunkCells * job.grid.cell;
@@ -99,7 +74,7 @@ void meshSeam(const FieldKernels& kernels, const ChunkJob& job, Face face, Chunk
   const bool coarse_uniform = s.octant.solid() || s.octant.empty();
   CoarseFace coarse;
   if (!coarse_uniform) {
-    coarse = sampleCoarseFace(kernels, s.octant.view(), job.grid, face, s);
+    coarse = sampleCoarseFace(kernels.field, s.octant.view(), job.grid, face, s);
   } else if (s.octant.solid()) {
     coarse.signs.fill((1u << kCoarseSamples) - 1);
   }
@@ -109,18 +84,30 @@ void meshSeam(const FieldKernels& kernels, const ChunkJob& job, Face face, Chunk
   // Each vertex by the field of its own level. All lie in the face's plane, lateral ones as well, so what pruning to it
   // keeps is all that they need; of a plane proven uniform it keeps nothing, and then a lateral one takes the whole.
   auto attributesOf = [&](bool own_level, const FieldProgram& field, PrunedProgram& pruned, bool pruned_already) {
-    s.order.clear();
-    for (size_t i = 0; i < seam.vertices.size(); ++i) {
-      if ((seam.keys[i].level == job.grid.level) == own_level) s.order.push_back(static_cast<uint32_t>(i));
+    MeshScratch& m = s.mesh;
+    const size_t most = seam.vertices.size();
+    m.order.grow(0, most);
+    for (RawArray<int32_t>* array : {&m.x, &m.y, &m.z}) array->grow(0, most);
+    size_t count = 0;
+    for (size_t i = 0; i < most; ++i) {
+      if ((seam.keys[i].level == job.grid.level) != own_level) continue;
+      const Int3 p = vertexUnits(job.grid, seam.vertices[i]);
+      m.order.data()[count] = static_cast<uint32_t>(i);
+      m.x.data()[count] = p.x;
+      m.y.data()[count] = p.y;
+      m.z.data()[count] = p.z;
+      ++count;
     }
-    if (s.order.empty()) return;
+    if (count == 0) return;
     if (!pruned_already) prune(field.view(), plane, s.pruning, pruned);
     const bool uniform = pruned.solid() || pruned.empty();
-    evaluateAttributes(kernels, uniform ? field.view() : pruned.view(), job.grid, seam, 0, s.order.size(), s);
+    growAttributes(m, count);
+    evaluateAttributes(kernels.field, uniform ? field.view() : pruned.view(), 0, count, s);
+    kernels.mesh.attribute(m, count, seam);
   };
   attributesOf(true, *job.field, s.whole, false);
   attributesOf(false, *job.coarse, s.octant, true);
-  hashPart(seam);
+  kernels.mesh.hash(seam);
 }
 
 uint32_t countSolid(const ChunkSamples& samples) {
@@ -135,15 +122,15 @@ uint32_t countSolid(const ChunkSamples& samples) {
 }
 
 /// All of a chunk but its seams.
-void fillOwn(const FieldKernels& kernels, const ChunkJob& job, bool uniform, ChunkScratch& s, ChunkMesh& mesh) {
+void fillOwn(const ChunkKernels& kernels, const ChunkJob& job, bool uniform, ChunkScratch& s, ChunkMesh& mesh) {
   mesh.uniform = uniform;
   mesh.solid_samples = countSolid(s.samples);
   if (uniform) return;
   if (job.signs) mesh.signs = s.samples.signs;
-  polygonizeBody(s.samples, job.grid, mesh.body);
+  kernels.mesh.polygonize(s.samples, job.grid, s.mesh, mesh.body);
   if (job.sums_only) return;
   fillBody(kernels, job.grid, s, mesh.body);
-  hashPart(mesh.body);
+  kernels.mesh.hash(mesh.body);
 }
 
 /// Replaces the meshes by their sums.
@@ -156,7 +143,7 @@ void keepSums(ChunkMesh& mesh) {
   for (size_t face = 0; face < mesh.seams.size(); ++face) keep(mesh.seams[face], mesh.sums[1 + face]);
 }
 
-void meshParts(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& s, ChunkMesh& mesh) {
+void meshParts(const ChunkKernels& kernels, const ChunkJob& job, ChunkScratch& s, ChunkMesh& mesh) {
   const bool uniform = !sampleChunk(kernels, job.field->view(), job.grid, s, job.body ? uint8_t{0} : job.seams);
   if (job.body) fillOwn(kernels, job, uniform, s, mesh);
   if (job.seams == 0) return;
@@ -169,7 +156,7 @@ void meshParts(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& s
 
 }  // namespace
 
-void meshChunk(const FieldKernels& kernels, const ChunkJob& job, ChunkScratch& s, ChunkMesh& mesh) {
+void meshChunk(const ChunkKernels& kernels, const ChunkJob& job, ChunkScratch& s, ChunkMesh& mesh) {
   meshParts(kernels, job, s, mesh);
   if (job.sums_only) keepSums(mesh);
 }

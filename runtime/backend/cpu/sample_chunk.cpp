@@ -6,11 +6,6 @@ namespace sgm {
 
 namespace {
 
-// Samples first..last on each axis, both included.
-struct SampleBox {
-  std::array<int, 3> first{}, last{};
-};
-
 IntBox boxOf(const ChunkGrid& grid, const SampleBox& b, int margin) {
   auto at = [&](int axis, int sample) { return grid.origin[axis] + std::clamp(sample, 0, kChunkCells) * grid.cell; };
   IntBox box;
@@ -31,43 +26,6 @@ void fillSigns(ChunkSamples& samples, const SampleBox& b) {
   }
 }
 
-void sampleBrick(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, const SampleBox& b,
-                 ChunkScratch& scratch) {
-  const size_t nx = static_cast<size_t>(b.last[0] - b.first[0] + 1);
-  const size_t ny = static_cast<size_t>(b.last[1] - b.first[1] + 1);
-  const size_t nz = static_cast<size_t>(b.last[2] - b.first[2] + 1);
-  const size_t count = nx * ny * nz;
-  scratch.x.resize(count);
-  scratch.y.resize(count);
-  scratch.z.resize(count);
-  scratch.q.resize(count);
-  size_t i = 0;
-  for (int z = b.first[2]; z <= b.last[2]; ++z) {
-    for (int y = b.first[1]; y <= b.last[1]; ++y) {
-      for (int x = b.first[0]; x <= b.last[0]; ++x, ++i) {
-        scratch.x[i] = grid.origin.x + x * grid.cell;
-        scratch.y[i] = grid.origin.y + y * grid.cell;
-        scratch.z[i] = grid.origin.z + z * grid.cell;
-      }
-    }
-  }
-  kernels.samples(field, {scratch.x.data(), scratch.y.data(), scratch.z.data(), count}, scratch.evaluation,
-                  scratch.q.data());
-  i = 0;
-  for (int z = b.first[2]; z <= b.last[2]; ++z) {
-    for (int y = b.first[1]; y <= b.last[1]; ++y) {
-      const size_t row = static_cast<size_t>(y + z * kChunkSamples);
-      int32_t* q = scratch.samples.q.data() + row * kChunkSamples + b.first[0];
-      uint64_t signs = 0;
-      for (size_t x = 0; x < nx; ++x, ++i) {
-        q[x] = scratch.q[i];
-        signs |= uint64_t{scratch.q[i] < 0} << x;
-      }
-      scratch.samples.signs[row] |= signs << b.first[0];
-    }
-  }
-}
-
 /// Whether samples of the box lie in one of the faces.
 bool touches(const SampleBox& b, uint8_t faces) {
   for (int f = 0; f < 6; ++f) {
@@ -79,7 +37,7 @@ bool touches(const SampleBox& b, uint8_t faces) {
 
 }  // namespace
 
-bool sampleChunk(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, ChunkScratch& scratch,
+bool sampleChunk(const ChunkKernels& kernels, const ProgramView& field, const ChunkGrid& grid, ChunkScratch& scratch,
                  uint8_t faces) {
   ChunkSamples& samples = scratch.samples;
   std::fill(samples.signs.begin(), samples.signs.end(), 0);
@@ -115,7 +73,7 @@ bool sampleChunk(const FieldKernels& kernels, const ProgramView& field, const Ch
       prune(scratch.octant.view(), boxOf(grid, brick, 1), scratch.pruning, program);
       if (program.solid()) fillSigns(samples, brick);
       if (program.solid() || program.empty()) continue;
-      sampleBrick(kernels, program.view(), grid, brick, scratch);
+      kernels.mesh.sample(kernels.field, program.view(), grid, brick, scratch.evaluation, scratch.mesh, samples);
     }
   }
   return true;

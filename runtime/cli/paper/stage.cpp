@@ -94,7 +94,7 @@ Result<uint64_t> countOperations(const StageScene& scene, const WorldField& worl
     job.field = std::move(*field);
     ChunkScratch scratch(std::pmr::new_delete_resource());
     ChunkMesh mesh(std::pmr::new_delete_resource());
-    meshChunk(countingKernels(), job, scratch, mesh);
+    meshChunk({countingKernels(), scalarMeshKernels()}, job, scratch, mesh);
     operations += scratch.evaluation.operations;
   });
   for (const std::optional<Error>& error : errors)

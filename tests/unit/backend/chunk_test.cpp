@@ -51,7 +51,7 @@ std::shared_ptr<const FieldProgram> programAround(uint32_t seed, Int3 centre, in
 ChunkMesh meshOf(const FieldKernels& kernels, const ChunkJob& job) {
   ChunkScratch scratch(std::pmr::get_default_resource());
   ChunkMesh mesh;
-  meshChunk(kernels, job, scratch, mesh);
+  meshChunk({kernels, *findMeshKernels(kernels.name)}, job, scratch, mesh);
   return mesh;
 }
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "backend/cpu/extract/extract_kernels.h"
+#include "backend/cpu/extract/mesh_kernels.h"
 #include "catch.h"
 #include "mesh/body.h"
 #include "rounds.h"
@@ -29,7 +29,7 @@ struct Meshed {
   }
 };
 
-Meshed meshed(const ExtractKernels& kernels, GridJob job, size_t slabs, bool normals) {
+Meshed meshed(const MeshKernels& kernels, GridJob job, size_t slabs, bool normals) {
   Meshed result;
   job.lattice.words = (job.lattice.size[0] + 63) / 64;
   result.signs.resize(job.lattice.words * job.lattice.size[1] * job.lattice.size[2]);
@@ -130,7 +130,7 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
     polygonizeBody(chunkOf(job), ChunkGrid{}, part);
     for (const char* name : {"scalar", "sse4.2", "avx2", "avx512"}) {
       CAPTURE(name);
-      const ExtractKernels* kernels = findExtractKernels(name);
+      const MeshKernels* kernels = findMeshKernels(name);
       if (kernels == nullptr) continue;
       const Meshed mesh = meshed(*kernels, job, 1 + random() % 5, false);
       CHECK(mesh.indices == std::vector<uint32_t>(part.indices.begin(), part.indices.end()));
@@ -163,11 +163,11 @@ TEST_CASE("every instruction set meshes a grid as the scalar one does") {
     job.scale = round % 3 == 0 ? 1024.0f : 900.0f;
     job.step = round % 3 == 0 ? 1.0 / 256 : 0.37 / 256;
     const bool normals = round % 4 != 0;
-    const Meshed expected = meshed(scalarExtractKernels(), job, 1, normals);
+    const Meshed expected = meshed(scalarMeshKernels(), job, 1, normals);
     CHECK(expected.finite == (round % 10 != 9));
     for (const char* name : {"scalar", "sse4.2", "avx2", "avx512"}) {
       CAPTURE(name);
-      if (const ExtractKernels* kernels = findExtractKernels(name))
+      if (const MeshKernels* kernels = findMeshKernels(name))
         CHECK(meshed(*kernels, job, 1 + random() % 5, normals) == expected);
     }
   }

@@ -4,12 +4,14 @@
 #include <cstring>
 #include <limits>
 
-#include "backend/cpu/extract/extract_kernels.h"
+#include "backend/cpu/extract/mesh_kernels.h"
 #include "backend/cpu/instruction_sets.h"
 #include "base/kernel.h"
 #include "mesh/body.h"
+#include "mesh/hash.h"
 #include "mesh/tables.h"
 #include "mesh/triangulate.h"
+#include "mesh/vertex.h"
 
 namespace sgm {
 
@@ -59,31 +61,34 @@ FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, con
 #include "backend/cpu/extract/edges.inl"
 #include "backend/cpu/extract/grid_passes.inl"
 
-void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, ChunkExtractScratch&, MeshPart& part) {
+#include "backend/cpu/extract/chunk_passes.inl"
+
+void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScratch&, MeshPart& part) {
   polygonizeBody(samples, grid, part);
 }
 
 }  // namespace scalar_extract
 
-const ExtractKernels& scalarExtractKernels() {
-  static constexpr ExtractKernels kernels{"scalar", scalar_extract::signsOfRow, scalar_extract::listRows,
-                                          scalar_extract::meshSlab, scalar_extract::polygonizeChunk};
+const MeshKernels& scalarMeshKernels() {
+  static constexpr MeshKernels kernels{"scalar", scalar_extract::signsOfRow, scalar_extract::listRows,
+                                          scalar_extract::meshSlab, scalar_extract::sampleBox, scalar_extract::polygonizeChunk,
+                                          scalar_extract::sortVertices, scalar_extract::attributeVertices, hashPart};
   return kernels;
 }
 
-const ExtractKernels* findExtractKernels(const char* name) {
-  if (std::strcmp(name, scalarExtractKernels().name) == 0) return &scalarExtractKernels();
+const MeshKernels* findMeshKernels(const char* name) {
+  if (std::strcmp(name, scalarMeshKernels().name) == 0) return &scalarMeshKernels();
 #ifdef SGM_SCALAR
   return nullptr;
 #else
-  return findWideExtractKernels(name);
+  return findWideMeshKernels(name);
 #endif
 }
 
-const ExtractKernels& bestExtractKernels() {
-  static const ExtractKernels& best = []() -> const ExtractKernels& {
-    const ExtractKernels* found = findExtractKernels(bestKernels().name);
-    return found != nullptr ? *found : scalarExtractKernels();
+const MeshKernels& bestMeshKernels() {
+  static const MeshKernels& best = []() -> const MeshKernels& {
+    const MeshKernels* found = findMeshKernels(bestKernels().name);
+    return found != nullptr ? *found : scalarMeshKernels();
   }();
   return best;
 }

@@ -8,10 +8,12 @@
 #include <cstring>
 #include <limits>
 
-#include "backend/cpu/extract/extract_kernels.h"
+#include "backend/cpu/extract/mesh_kernels.h"
 #include "base/kernel.h"
+#include "mesh/hash.h"
 #include "mesh/tables.h"
 #include "mesh/triangulate.h"
+#include "mesh/vertex.h"
 
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
@@ -100,7 +102,8 @@ FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, con
 #include "backend/cpu/extract/cells.inl"
 #include "backend/cpu/extract/edges.inl"
 #include "backend/cpu/extract/grid_passes.inl"
-#include "backend/cpu/extract/chunk_pass.inl"
+#include "backend/cpu/extract/chunk_body.inl"
+#include "backend/cpu/extract/chunk_passes.inl"
 
 #include "backend/cpu/wide_end.h"
 
@@ -115,23 +118,27 @@ namespace sgm {
 
 // A set's passes. The namespaces of the sets are all there is to tell them apart by.
 #define SGM_EXTRACT(name, set) \
-  { name, set::extract::signsOfRow, set::extract::listRows, set::extract::meshSlab, set::extract::polygonizeChunk }
+  {                                                                                                                    \
+    name, set::extract::signsOfRow, set::extract::listRows, set::extract::meshSlab, set::extract::sampleBox,           \
+        set::extract::polygonizeChunk, set::extract::sortVertices, set::extract::attributeVertices,                    \
+        set::extract::hashMesh                                                                                         \
+  }
 
-const ExtractKernels* findWideExtractKernels(const char* name) {
+const MeshKernels* findWideMeshKernels(const char* name) {
   const int64_t here = hwy::SupportedTargets();
-  const auto is = [&](const ExtractKernels& kernels, int64_t target) {
+  const auto is = [&](const MeshKernels& kernels, int64_t target) {
     return std::strcmp(kernels.name, name) == 0 && (here & target) != 0;
   };
 #if HWY_TARGETS & HWY_SSE4
-  static constexpr ExtractKernels kSse4 SGM_EXTRACT("sse4.2", N_SSE4);
+  static constexpr MeshKernels kSse4 SGM_EXTRACT("sse4.2", N_SSE4);
   if (is(kSse4, HWY_SSE4)) return &kSse4;
 #endif
 #if HWY_TARGETS & HWY_AVX2
-  static constexpr ExtractKernels kAvx2 SGM_EXTRACT("avx2", N_AVX2);
+  static constexpr MeshKernels kAvx2 SGM_EXTRACT("avx2", N_AVX2);
   if (is(kAvx2, HWY_AVX2)) return &kAvx2;
 #endif
 #if HWY_TARGETS & HWY_AVX3
-  static constexpr ExtractKernels kAvx512 SGM_EXTRACT("avx512", N_AVX3);
+  static constexpr MeshKernels kAvx512 SGM_EXTRACT("avx512", N_AVX3);
   if (is(kAvx512, HWY_AVX3)) return &kAvx512;
 #endif
   return nullptr;

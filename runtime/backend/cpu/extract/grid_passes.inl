@@ -1,4 +1,4 @@
-// The passes over a caller's grid of floats. See extract_kernels.h; an includer defines what cells.inl says.
+// The passes over a caller's grid of floats. See mesh_kernels.h; an includer defines what cells.inl says.
 
 // The same sign as floor(clamp(v * scale) + 0.5).
 inline bool isSolid(float value, float scale) { return value * scale + 0.5f < 0.0f; }

@@ -1,5 +1,5 @@
 // What is read from signs alone: crossed edges, active cells and their cases, how much there will be. See
-// extract_kernels.h; an includer defines what cells.inl says.
+// mesh_kernels.h; an includer defines what cells.inl says.
 
 FN uint64_t wordMask(size_t word, size_t count) {
   const size_t first = word * 64;

@@ -1,7 +1,8 @@
 #pragma once
 // Marching cubes in bits: which edges cross the surface and which cells it passes is read from signs, 64 samples a word;
-// vertices and loops are then taken a vector at a time. For a caller's grid of floats, and for the samples of a chunk.
-// Made from one source for each instruction set (the .inl files here); all give the same bits.
+// vertices and loops are then taken a vector at a time. For a caller's grid of floats, and for the samples of a chunk,
+// with all else of a chunk that is not the field's. Made from one source for each instruction set (the .inl files here);
+// all give the same bits.
 
 #include <array>
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <memory_resource>
 
 #include "base/raw_array.h"
+#include "field/evaluate.h"
 #include "mesh/chunk.h"
 
 namespace sgm {
@@ -72,17 +74,40 @@ struct GridScratch {
   uint32_t* offsets = nullptr;  ///< one for each vertex of the slab and of the plane above it, and kMostLanes
 };
 
-/// Scratch of one chunk.
-struct ChunkExtractScratch {
-  explicit ChunkExtractScratch(std::pmr::memory_resource* memory)
-      : numbers(memory), edges(memory), offsets(memory), cells(memory) {}
+/// Samples first..last of a chunk on each axis, both included.
+struct SampleBox {
+  std::array<int, 3> first{}, last{};
+};
+
+inline constexpr int kBrickSamples = 8;                      ///< on each axis; the last brick has one more
+inline constexpr int kBricks = kChunkCells / kBrickSamples;  ///< on each axis
+inline constexpr int kBrickCount = kBricks * kBricks * kBricks;
+
+/// Scratch of one chunk; grows once.
+struct MeshScratch {
+  explicit MeshScratch(std::pmr::memory_resource* memory)
+      : numbers(memory),
+        edges(memory),
+        offsets(memory),
+        cells(memory),
+        order(memory),
+        label(memory),
+        x(memory),
+        y(memory),
+        z(memory),
+        q(memory),
+        normal_x(memory),
+        normal_y(memory) {}
 
   RawArray<uint32_t> numbers, edges, offsets;
   RawArray<uint64_t> cells;
+  RawArray<uint32_t> order, label;
+  RawArray<int32_t> x, y, z, q;
+  RawArray<int16_t> normal_x, normal_y;
 };
 
 /// Pure but for what their arguments point at, which no two calls that run at a time share.
-struct ExtractKernels {
+struct MeshKernels {
   const char* name;
   /// Signs of a row of the grid, into `signs`, and what is uniform of them. False where a value is not finite.
   bool (*signs)(const GridJob&, size_t y, size_t z, uint64_t* signs, uint64_t* uniform);
@@ -90,16 +115,26 @@ struct ExtractKernels {
   ListCounts (*list)(const SignLattice&, size_t z, size_t first, size_t last, uint32_t* edges, uint64_t* cells);
   /// Vertices and triangles of a slab.
   void (*mesh)(const GridJob&, const GridSlab&, const GridScratch&);
+  /// Evaluates the samples of a chunk that a box holds.
+  void (*sample)(const FieldKernels&, const ProgramView&, const ChunkGrid&, const SampleBox&, EvalScratch&, MeshScratch&,
+                 ChunkSamples&);
   /// polygonizeBody of mesh/body.h.
-  void (*polygonize)(const ChunkSamples&, const ChunkGrid&, ChunkExtractScratch&, MeshPart&);
+  void (*polygonize)(const ChunkSamples&, const ChunkGrid&, MeshScratch&, MeshPart&);
+  /// Puts a body's vertices into the order of their bricks: scratch.order, and x, y and z in units. start[b] is where
+  /// brick b begins.
+  void (*sort)(const ChunkGrid&, const MeshPart&, MeshScratch&, std::array<uint32_t, kBrickCount + 1>& start);
+  /// Gives the vertices scratch.order[0..count) the attributes at the same places of scratch.
+  void (*attribute)(MeshScratch&, size_t count, MeshPart&);
+  /// hashPart of mesh/hash.h.
+  void (*hash)(MeshPart&);
 };
 
-const ExtractKernels& scalarExtractKernels();
+const MeshKernels& scalarMeshKernels();
 /// Without scalar; not there in a scalar build.
-const ExtractKernels* findWideExtractKernels(const char* name);
+const MeshKernels* findWideMeshKernels(const char* name);
 /// Those of findKernels' names that this build and this processor have; else null.
-const ExtractKernels* findExtractKernels(const char* name);
+const MeshKernels* findMeshKernels(const char* name);
 /// Of the instruction set of bestKernels().
-const ExtractKernels& bestExtractKernels();
+const MeshKernels& bestMeshKernels();
 
 }  // namespace sgm

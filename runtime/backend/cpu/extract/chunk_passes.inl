@@ -1,0 +1,108 @@
+// What a chunk needs beside its triangles: loops that the compiler makes vectors of by itself.
+
+inline void sampleBox(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, const SampleBox& box,
+                      EvalScratch& evaluation, MeshScratch& scratch, ChunkSamples& samples) {
+  size_t size[3], count = 1;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    size[axis] = static_cast<size_t>(box.last[axis] - box.first[axis] + 1);
+    count *= size[axis];
+  }
+  for (RawArray<int32_t>* array : {&scratch.x, &scratch.y, &scratch.z, &scratch.q}) array->grow(0, count);
+  int32_t *x = scratch.x.data(), *y = scratch.y.data(), *z = scratch.z.data();
+  const int32_t from = grid.origin.x + box.first[0] * grid.cell;
+  for (int k = box.first[2]; k <= box.last[2]; ++k) {
+    for (int j = box.first[1]; j <= box.last[1]; ++j) {
+      for (size_t i = 0; i < size[0]; ++i) {
+        x[i] = from + static_cast<int32_t>(i) * grid.cell;
+        y[i] = grid.origin.y + j * grid.cell;
+        z[i] = grid.origin.z + k * grid.cell;
+      }
+      x += size[0];
+      y += size[0];
+      z += size[0];
+    }
+  }
+  kernels.samples(field, {scratch.x.data(), scratch.y.data(), scratch.z.data(), count}, evaluation, scratch.q.data());
+  const int32_t* q = scratch.q.data();
+  for (int k = box.first[2]; k <= box.last[2]; ++k) {
+    for (int j = box.first[1]; j <= box.last[1]; ++j) {
+      const auto row = static_cast<size_t>(j + k * kChunkSamples);
+      int32_t* out = samples.q.data() + row * kChunkSamples + box.first[0];
+      uint64_t signs = 0;
+      for (size_t i = 0; i < size[0]; ++i) {
+        out[i] = q[i];
+        signs |= uint64_t{static_cast<uint32_t>(q[i]) >> 31} << i;
+      }
+      q += size[0];
+      samples.signs[row] |= signs << box.first[0];
+    }
+  }
+}
+
+inline size_t brickOf(const Vertex& v) {
+  const auto at = [](int16_t position) {
+    return std::min<size_t>(static_cast<size_t>(position) / (kSubcell * kBrickSamples), kBricks - 1);
+  };
+  return at(v.x) + kBricks * (at(v.y) + kBricks * at(v.z));
+}
+
+inline void sortVertices(const ChunkGrid& grid, const MeshPart& body, MeshScratch& scratch,
+                         std::array<uint32_t, kBrickCount + 1>& start) {
+  const Vertex* vertices = body.vertices.data();
+  const size_t count = body.vertices.size();
+  scratch.order.grow(0, count);
+  for (RawArray<int32_t>* array : {&scratch.x, &scratch.y, &scratch.z}) array->grow(0, count);
+  start.fill(0);
+  for (size_t i = 0; i < count; ++i) ++start[brickOf(vertices[i]) + 1];
+  for (size_t b = 0; b < kBrickCount; ++b) start[b + 1] += start[b];
+  std::array<uint32_t, kBrickCount> next;
+  std::copy_n(start.begin(), kBrickCount, next.begin());
+  uint32_t* order = scratch.order.data();
+  int32_t *x = scratch.x.data(), *y = scratch.y.data(), *z = scratch.z.data();
+  for (size_t i = 0; i < count; ++i) {
+    const size_t at = next[brickOf(vertices[i])]++;
+    const Int3 p = vertexUnits(grid, vertices[i]);
+    order[at] = static_cast<uint32_t>(i);
+    x[at] = p.x;
+    y[at] = p.y;
+    z[at] = p.z;
+  }
+}
+
+inline void attributeVertices(MeshScratch& scratch, size_t count, MeshPart& part) {
+  const uint32_t *order = scratch.order.data(), *label = scratch.label.data();
+  const int16_t *x = scratch.normal_x.data(), *y = scratch.normal_y.data();
+  Vertex* vertices = part.vertices.data();
+  for (size_t i = 0; i < count; ++i) {
+    Vertex& v = vertices[order[i]];
+    v.normal_x = x[i];
+    v.normal_y = y[i];
+    v.material = static_cast<uint16_t>(label[i]);
+    v.tag = static_cast<uint16_t>(label[i] >> 16);
+  }
+}
+
+inline void hashWords(const uint32_t* words, size_t count, uint32_t place, ContentHash& sum) {
+  uint32_t a = 0, b = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t at = place + static_cast<uint32_t>(i), h = mixWord(words[i], at);
+    a += h;
+    b += h * (2 * at + 1);
+  }
+  sum.a += a;
+  sum.b += b;
+}
+
+inline void hashMesh(MeshPart& part) {
+  static_assert(std::endian::native == std::endian::little, "a vertex in memory is its four words only then");
+  ContentHash sum;
+  constexpr size_t kBlock = 64;
+  uint32_t words[4 * kBlock];
+  for (size_t first = 0; first < part.vertices.size(); first += kBlock) {
+    const size_t count = std::min(kBlock, part.vertices.size() - first);
+    memcpy(words, part.vertices.data() + first, count * sizeof(Vertex));
+    hashWords(words, 4 * count, static_cast<uint32_t>(4 * first), sum);
+  }
+  hashWords(part.indices.data(), part.indices.size(), 1u << 31, sum);
+  part.hash = sum;
+}
