@@ -1,8 +1,9 @@
 #include "api/kept_blocks.h"
 
-#include <algorithm>
 #include <bit>
 #include <new>
+
+#include "base/large_pages.h"
 
 #if __has_include(<sanitizer/asan_interface.h>)
 #include <sanitizer/asan_interface.h>
@@ -21,62 +22,80 @@ void systemRelease(void*, void* memory, size_t, size_t alignment) {
   ::operator delete (memory, std::align_val_t{alignment});
 }
 
-/// What is taken for a size, so that nearly equal ones can follow each other: up to an eighth more. Pages that nobody
-/// touches cost nothing.
-size_t capacityOf(size_t size) {
-  const size_t step = std::bit_floor(size) / 8;
-  return (size + step - 1) / step * step;
-}
-
 }  // namespace
 
 sgm_allocator systemAllocator() { return {systemAllocate, systemRelease, nullptr}; }
 
+/// Eighths of powers of two: nearly equal sizes can follow each other, and pages that nobody touches cost nothing.
+size_t KeptBlocks::numberOf(size_t size) {
+  const auto octave = static_cast<size_t>(std::bit_width(size - 1)) - 1;  // 2^octave < size <= 2^(octave + 1)
+  const size_t step = (size_t{1} << octave) / kSteps;
+  const size_t steps = (size - (size_t{1} << octave) + step - 1) / step;
+  return (octave - static_cast<size_t>(std::countr_zero(kSmallest))) * kSteps + steps;
+}
+size_t KeptBlocks::capacityOf(size_t number) {
+  const size_t octave = kSmallest << number / kSteps;
+  return octave + octave / kSteps * (number % kSteps);
+}
+size_t KeptBlocks::alignmentOf(size_t capacity) { return capacity >= kLargePage ? kLargePage : 64; }
+bool KeptBlocks::keeps(size_t size, size_t alignment) {
+  return size > kSmallest && size <= kLargest && alignment <= alignmentOf(capacityOf(numberOf(size)));
+}
+
+void KeptBlocks::drop(Shelf& shelf, size_t capacity) {
+  void* memory = shelf.blocks.back();
+  shelf.blocks.pop_back();
+  bytes_ -= capacity;
+  ASAN_UNPOISON_MEMORY_REGION(memory, capacity);
+  systemRelease(nullptr, memory, capacity, alignmentOf(capacity));
+}
+
+void KeptBlocks::makeRoom() {
+  while (bytes_ > kMost) {
+    size_t oldest = kSizes;
+    for (size_t i = 0; i < kSizes; ++i) {
+      if (!shelves_[i].blocks.empty() && (oldest == kSizes || shelves_[i].used < shelves_[oldest].used)) oldest = i;
+    }
+    drop(shelves_[oldest], capacityOf(oldest));
+  }
+}
+
 KeptBlocks::~KeptBlocks() {
-  for (const Block& block : kept_) {
-    ASAN_UNPOISON_MEMORY_REGION(block.memory, block.capacity);
-    systemRelease(nullptr, block.memory, block.capacity, block.alignment);
+  for (size_t i = 0; i < kSizes; ++i) {
+    while (!shelves_[i].blocks.empty()) drop(shelves_[i], capacityOf(i));
   }
 }
 
 void* KeptBlocks::allocate(size_t size, size_t alignment) {
-  if (size < kSmallest || size > kMost) return systemAllocate(nullptr, size, alignment);
-  const size_t capacity = capacityOf(size);
+  if (!keeps(size, alignment)) return systemAllocate(nullptr, size, alignment);
+  const size_t number = numberOf(size), capacity = capacityOf(number);
   {
     const std::lock_guard lock(mutex_);
-    // The newest is the likeliest to be in cache.
-    const auto at = std::find_if(kept_.rbegin(), kept_.rend(), [&](const Block& block) {
-      return block.capacity == capacity && block.alignment == alignment;
-    });
-    if (at != kept_.rend()) {
-      void* memory = at->memory;
-      kept_.erase(std::next(at).base());
+    Shelf& shelf = shelves_[number];
+    shelf.used = ++clock_;
+    if (!shelf.blocks.empty()) {
+      void* memory = shelf.blocks.back();
+      shelf.blocks.pop_back();
       bytes_ -= capacity;
       ASAN_UNPOISON_MEMORY_REGION(memory, capacity);
       return memory;
     }
   }
-  return systemAllocate(nullptr, capacity, alignment);
+  return systemAllocate(nullptr, capacity, alignmentOf(capacity));
 }
 
 void KeptBlocks::release(void* memory, size_t size, size_t alignment) {
-  const size_t capacity = size < kSmallest || size > kMost ? 0 : capacityOf(size);
-  if (capacity == 0 || capacity > kMost) return systemRelease(nullptr, memory, size, alignment);
+  if (!keeps(size, alignment)) return systemRelease(nullptr, memory, size, alignment);
+  const size_t number = numberOf(size), capacity = capacityOf(number);
   const std::lock_guard lock(mutex_);
   try {
-    kept_.push_back({memory, capacity, alignment});
+    shelves_[number].blocks.push_back(memory);
   } catch (const std::bad_alloc&) {
-    return systemRelease(nullptr, memory, size, alignment);
+    return systemRelease(nullptr, memory, capacity, alignmentOf(capacity));
   }
   ASAN_POISON_MEMORY_REGION(memory, capacity);
   bytes_ += capacity;
-  while (bytes_ > kMost) {
-    const Block oldest = kept_.front();
-    kept_.erase(kept_.begin());
-    bytes_ -= oldest.capacity;
-    ASAN_UNPOISON_MEMORY_REGION(oldest.memory, oldest.capacity);
-    systemRelease(nullptr, oldest.memory, oldest.capacity, oldest.alignment);
-  }
+  makeRoom();
 }
 
 sgm_allocator KeptBlocks::allocator() {

@@ -1,6 +1,7 @@
 #pragma once
-// The system's memory with its large blocks kept: what a runtime has without an allocator of the caller's.
+// The system's memory with its larger blocks kept: what a runtime has without an allocator of the caller's.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -11,8 +12,8 @@
 namespace sgm::api {
 
 /// malloc gives large blocks back to the system and takes fresh ones from it, page by page: for a mesh of a million
-/// triangles that takes as long as half of the meshing. So large blocks that are released wait here for the next of
-/// their size. Thread-safe.
+/// triangles that takes as long as half of the meshing, and threads wait for each other there. So blocks that are
+/// released wait here for the next of their size. Thread-safe.
 class KeptBlocks {
  public:
   KeptBlocks() = default;
@@ -20,8 +21,9 @@ class KeptBlocks {
   KeptBlocks& operator=(const KeptBlocks&) = delete;
   ~KeptBlocks();
 
-  static constexpr size_t kSmallest = size_t{1} << 18;  ///< bytes of a block that is kept
-  static constexpr size_t kMost = size_t{1} << 27;      ///< bytes that are kept in all: the oldest blocks go first
+  static constexpr size_t kSmallest = size_t{1} << 14;  ///< bytes of a block that is kept
+  static constexpr size_t kLargest = size_t{1} << 26;
+  static constexpr size_t kMost = size_t{1} << 27;  ///< bytes that are kept in all: of the size unused for longest first
 
   /// As sgm_allocator's functions.
   void* allocate(size_t size, size_t alignment);
@@ -31,14 +33,27 @@ class KeptBlocks {
   sgm_allocator allocator();
 
  private:
-  struct Block {
-    void* memory;
-    size_t capacity, alignment;
+  static constexpr size_t kSteps = 8;  ///< sizes between a power of two and the next
+  static constexpr size_t kSizes = 12 * kSteps + 1;
+  static_assert(kSmallest << (kSizes / kSteps) == kLargest);
+
+  /// Blocks of one size, the newest last: that is the likeliest to be in cache.
+  struct Shelf {
+    std::vector<void*> blocks;
+    uint64_t used = 0;  ///< when, by clock_
   };
 
+  static size_t numberOf(size_t size);
+  static size_t capacityOf(size_t number);
+  static size_t alignmentOf(size_t capacity);
+  static bool keeps(size_t size, size_t alignment);
+  void drop(Shelf& shelf, size_t capacity);
+  void makeRoom();
+
   std::mutex mutex_;
-  std::vector<Block> kept_;  ///< the oldest first
-  size_t bytes_ = 0;         ///< of them
+  std::array<Shelf, kSizes> shelves_;
+  uint64_t clock_ = 0;
+  size_t bytes_ = 0;  ///< of all that are kept
 };
 
 /// malloc and free.

@@ -13,6 +13,8 @@
 
 namespace sgm {
 
+inline constexpr size_t kLargePage = size_t{1} << 21;
+
 /// Memory of a resource, which outlives it. Asks for pages of 2 MB: to touch small ones for the first time takes longer
 /// than most that is measured, on a virtual machine ten times as long. Elsewhere, and where the system has none left,
 /// as std::pmr::polymorphic_allocator; but what is moved keeps its memory.
@@ -33,7 +35,7 @@ class LargePages {
     void* const memory = memory_->allocate(bytes, alignmentOf(bytes));
 #ifdef MADV_HUGEPAGE
     // The end keeps small pages: a whole one there would be memory that nobody uses. Refused, nothing is lost.
-    if (bytes >= kPage) (void)madvise(memory, bytes / kPage * kPage, MADV_HUGEPAGE);
+    if (bytes >= kLargePage) (void)madvise(memory, bytes / kLargePage * kLargePage, MADV_HUGEPAGE);
 #endif
     return static_cast<T*>(memory);
   }
@@ -45,9 +47,7 @@ class LargePages {
   friend bool operator==(LargePages a, LargePages b) { return *a.memory_ == *b.memory_; }
 
  private:
-  static constexpr size_t kPage = size_t{1} << 21;
-
-  static size_t alignmentOf(size_t bytes) { return bytes >= kPage ? kPage : alignof(T); }
+  static size_t alignmentOf(size_t bytes) { return bytes >= kLargePage ? kLargePage : alignof(T); }
 
   std::pmr::memory_resource* memory_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "mesh/hash.h"
 
@@ -44,24 +45,30 @@ PackedMesh packMesh(const MeshParts& parts, const PackedMesh* before, std::pmr::
   for (size_t i = 0; i < parts.size(); ++i) {
     const RangeSource& source = sources[i];
     mesh.vertices.insert(mesh.vertices.end(), source.vertices.begin(), source.vertices.end());
+    mesh.indices.insert(mesh.indices.end(), source.indices.begin(), source.indices.end());
     const uint32_t by = mesh.ranges[i].first_vertex - source.first;
-    std::transform(source.indices.begin(), source.indices.end(), std::back_inserter(mesh.indices),
-                   [by](uint32_t index) { return index + by; });
+    for (uint32_t& index : std::span(mesh.indices).subspan(mesh.ranges[i].first_index)) index += by;
   }
+  return mesh;
+}
+
+PackedMesh packBody(MeshPart&& body, std::pmr::memory_resource* memory) {
+  PackedMesh mesh(memory);
+  mesh.vertices = std::move(body.vertices);
+  mesh.indices = std::move(body.indices);
+  mesh.ranges[0] = {0, static_cast<uint32_t>(mesh.vertices.size()), 0, static_cast<uint32_t>(mesh.indices.size()),
+                    body.hash};
   return mesh;
 }
 
 IntBox boundsOf(const ChunkGrid& grid, std::span<const Vertex> vertices) {
   if (vertices.empty()) return {{0, 0, 0}, {0, 0, 0}};
-  std::array<int64_t, 3> lo, hi;
+  std::array<int16_t, 3> lo, hi;
   lo.fill(std::numeric_limits<int16_t>::max());
   hi.fill(std::numeric_limits<int16_t>::min());
   for (const Vertex& v : vertices) {
-    const std::array<int64_t, 3> p{v.x, v.y, v.z};
-    for (size_t axis = 0; axis < 3; ++axis) {
-      lo[axis] = std::min(lo[axis], p[axis]);
-      hi[axis] = std::max(hi[axis], p[axis]);
-    }
+    lo = {std::min(lo[0], v.x), std::min(lo[1], v.y), std::min(lo[2], v.z)};
+    hi = {std::max(hi[0], v.x), std::max(hi[1], v.y), std::max(hi[2], v.z)};
   }
   IntBox box;
   for (int axis = 0; axis < 3; ++axis) {

@@ -33,6 +33,9 @@ using MeshParts = std::array<const MeshPart*, 7>;
 /// a mesh: its body then comes out with the same bytes at the same place. Throws std::bad_alloc.
 PackedMesh packMesh(const MeshParts& parts, const PackedMesh* before, std::pmr::memory_resource* memory);
 
+/// A body alone, whose arrays are taken over where their memory is `memory`. Throws std::bad_alloc.
+PackedMesh packBody(MeshPart&& body, std::pmr::memory_resource* memory);
+
 /// Bounds in units that hold every vertex, seams included; all 0 where there is none.
 IntBox boundsOf(const ChunkGrid& grid, std::span<const Vertex> vertices);
 

@@ -53,7 +53,9 @@ ChunkSurface surfaceOf(const ChunkRequest& request, PlacedChunk&& chunk, const C
   ChunkSurface surface(memory);
   surface.key = chunk.key;
   surface.grid = chunk.grid;
-  surface.mesh = packMesh(parts, before != nullptr ? &before->mesh : nullptr, memory);
+  surface.mesh = before == nullptr && request.body && request.seams == 0
+                     ? packBody(std::move(chunk.mesh.body), memory)
+                     : packMesh(parts, before != nullptr ? &before->mesh : nullptr, memory);
   for (size_t p = 0; p < parts.size(); ++p) {
     if (parts[p] != nullptr) {
       surface.on_device[p] = std::move(chunk.mesh.on_device[p]);
