@@ -287,6 +287,8 @@ class ShapeCompiler {
       const Shape& c = chunk_.shapes[child];
       std::optional<Value> weight;
       if (c.kind == ShapeKind::sphere && !dropped(c)) {
+        if (!acc) acc = builder_.beginSum();
+        if (weighsNothing(c)) continue;
         weight = builder_.blobWeight(c.frame.origin, c.size[0], labelOf(child));
       } else {
         Emitted v = emit(child, depth + 1);
@@ -299,6 +301,22 @@ class ShapeCompiler {
     }
     if (!acc) return std::optional<Value>();
     return some(builder_.endSum(*acc, kernelThreshold(), static_cast<float>(double{largest} / kernelSlope())));
+  }
+
+  /// Whether a ball's weight is 0 at every place that is read: adding it changes no bit. Under a warp, where places lie
+  /// elsewhere, none is left out.
+  bool weighsNothing(const Shape& ball) const {
+    if (warps_ > 0) return false;
+    double squared = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = ball.frame.origin[axis];
+      const double away = std::max({read_.lo[axis] - at, at - read_.hi[axis], 0.0});
+      squared += away * away;
+    }
+    // The rounding of its float distance is far below this.
+    constexpr double kSafely = 1 + 1e-4;
+    const double support = double{ball.size[0]} * double{kSumSupport} * kSafely;
+    return squared > support * support;
   }
 
   Emitted morph(const Shape& s, int depth) {
@@ -326,7 +344,9 @@ class ShapeCompiler {
     const IntBox outer_read = read_;
     epoch_ = ++epochs_;
     if (!chunk_.blocks.empty()) read_ = warpedBox(chunk_.exprs, s.expr, read_);
+    ++warps_;
     Emitted child = emit(children(s)[0], depth + 1);
+    --warps_;
     read_ = outer_read;
     epoch_ = outer;
     builder_.popWarp();
@@ -341,6 +361,7 @@ class ShapeCompiler {
   const GrammarChunk& chunk_;
   uint32_t cell_number_;
   IntBox read_;  ///< holds every place that is read
+  int warps_ = 0;  ///< around what is being emitted
   int32_t cell_;
   ShapeLabels* shapes_;
   std::optional<uint32_t> sweep_;  ///< the label of what is being emitted, where that is a piece of a sweep

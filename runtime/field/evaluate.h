@@ -1,6 +1,7 @@
 #pragma once
 // Evaluators of field programs. Every one gives the same bits: the scalar one here is the measure of the others.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -35,6 +36,22 @@ struct Points {
   size_t count = 0;
 };
 
+/// Points of a lattice: origin + step * (i, j, k) in units, i fastest. size[0] * size[1] is at most kEvalBlock.
+struct LatticeBox {
+  Int3 origin;
+  int32_t step = 1;
+  std::array<size_t, 3> size{};
+};
+
+/// Where a box's samples go: Q of (i, j, k) to q[i + j * row + k * plane]; and of a negative one bit first_bit + i of
+/// signs[j + k * sign_plane] is set.
+struct LatticeSamples {
+  int32_t* q = nullptr;
+  size_t row = 0, plane = 0;
+  uint64_t* signs = nullptr;
+  size_t sign_plane = 0, first_bit = 0;
+};
+
 /// Where attributes go, each `count` long; null where not wanted.
 struct Attributes {
   float* value = nullptr;  ///< units
@@ -51,6 +68,7 @@ struct FieldKernels {
   const char* name;
   void (*samples)(const ProgramView&, const Points&, EvalScratch&, int32_t* q);
   void (*attributes)(const ProgramView&, const Points&, EvalScratch&, const Attributes&);
+  void (*box)(const ProgramView&, const LatticeBox&, EvalScratch&, const LatticeSamples&);
 };
 
 /// Plain float, one point at a time.

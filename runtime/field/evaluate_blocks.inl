@@ -1,6 +1,8 @@
 // Arrays of points through the interpreter, in blocks; included where evaluate_kernel.inl would be.
 
+#define SGM_LISTS
 #include "field/evaluate_kernel.inl"
+#undef SGM_LISTS
 
 #define SGM_EACH for (size_t i = 0; i < n; i += kLanes)
 
@@ -36,6 +38,61 @@ inline void evaluateSamples(const ProgramView& program, const Points& points, Ev
     uint32_t* out = f.registers;
     SGM_EACH storeInt(quantise(loadDual<false>(f, kFoldRegister, i).v, program.q_scale), out + i);
     memcpy(q + first, out, count * sizeof(int32_t));
+  }
+}
+
+/// The x and y of slices of a box, as many as `padded` points hold.
+inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded) {
+  uint32_t *x = f.places, *y = f.places + kEvalBlock, row[kEvalBlock];
+  const size_t width = box.size[0];
+  for (size_t i = 0; i < width; ++i) row[i] = static_cast<uint32_t>(box.origin.x + static_cast<int32_t>(i) * box.step);
+  size_t at = 0;
+  for (size_t j = 0; at + width <= padded; j = j + 1 == box.size[1] ? 0 : j + 1, at += width) {
+    const auto height = static_cast<uint32_t>(box.origin.y + static_cast<int32_t>(j) * box.step);
+    if (width == 8) {  // most boxes: of a length that the compiler knows
+      memcpy(x + at, row, 8 * sizeof(uint32_t));
+      for (size_t i = 0; i < 8; ++i) y[at + i] = height;
+    } else {
+      memcpy(x + at, row, width * sizeof(uint32_t));
+      for (size_t i = 0; i < width; ++i) y[at + i] = height;
+    }
+  }
+  for (; at < padded; ++at) {
+    x[at] = row[0];
+    y[at] = y[0];
+  }
+}
+
+inline void evaluateBox(const ProgramView& program, const LatticeBox& box, EvalScratch& scratch,
+                        const LatticeSamples& out) {
+  const BlockFrame f = makeFrame<false>(scratch);
+  const size_t width = box.size[0], slice = width * box.size[1], most = kEvalBlock / slice;
+  size_t loaded = 0;
+  for (size_t first = 0; first < box.size[2]; first += most) {
+    const size_t slices = box.size[2] - first < most ? box.size[2] - first : most;
+    const size_t count = slices * slice, n = (count + kLanes - 1) / kLanes * kLanes;
+    if (loaded < n) loadSlices(f, box, n);
+    loaded = loaded < n ? n : loaded;
+    uint32_t* z = f.places + 2 * kEvalBlock;
+    for (size_t k = 0; k < slices; ++k) {
+      const auto at = static_cast<uint32_t>(box.origin.z + static_cast<int32_t>(first + k) * box.step);
+      const size_t end = k + 1 == slices ? n : (k + 1) * slice;
+      for (size_t i = k * slice; i < end; ++i) z[i] = at;
+    }
+    runBlock<false>(program, f, n);
+    uint32_t* q = f.registers;
+    SGM_EACH storeInt(quantise(loadDual<false>(f, kFoldRegister, i).v, program.q_scale), q + i);
+    for (size_t k = first; k < first + slices; ++k) {
+      for (size_t j = 0; j < box.size[1]; ++j, q += width) {
+        int32_t* to = out.q + j * out.row + k * out.plane;
+        if (width == 8) {
+          memcpy(to, q, 8 * sizeof(int32_t));
+        } else {
+          memcpy(to, q, width * sizeof(int32_t));
+        }
+        out.signs[j + k * out.sign_plane] |= signMask(q, width) << out.first_bit;
+      }
+    }
   }
 }
 

@@ -1,5 +1,7 @@
 // The interpreter, once for every instruction set and device: included into a namespace in which shaders/common/common.h,
-// kLanes, kEvalBlock and the loads and stores of Real and Int are defined.
+// kLanes, kEvalBlock and the loads and stores of Real and Int are defined. Where SGM_LISTS is defined, too, lists of
+// primitives pass through evaluate_lists.inl, which keeps in registers what goes from one to the next; elsewhere, as on a
+// GPU, whose register file holds them anyway, through one instruction after the other.
 
 struct BlockFrame {
   uint32_t* registers;
@@ -126,9 +128,9 @@ FN void warpPlace(const BlockFrame& f, const Instr& in, size_t i) {
   SGM_EACH storeDual<kGradient>(f, in.dst, i, \
                                 opRoundEnd(loadDual<kGradient>(f, in.a, i), loadDual<kGradient>(f, in.b, i), P));
 #define SGM_FORM_SUM_BEGIN(FUNCTION)                    \
-  SGM_EACH {                                            \
-    storeDual<kGradient>(f, in.dst, i, nothing());   \
-    storeDual<kGradient>(f, in.b, i, nothing());     \
+  SGM_EACH {                                                          \
+    if constexpr (kGradient) storeDual<kGradient>(f, in.dst, i, nothing()); \
+    storeDual<kGradient>(f, in.b, i, nothing());                      \
   }
 #define SGM_FORM_SUM_ADD(FUNCTION)                                                                      \
   SGM_EACH {                                                                                            \
@@ -180,6 +182,19 @@ SGM_KERNEL void foldGroup(const BlockFrame& f, const ProgramGroup& g, size_t n) 
   }
 }
 
+#ifdef SGM_LISTS
+#include "field/evaluate_lists.inl"
+#else
+template <bool kGradient>
+SGM_KERNEL bool runAlone(const ProgramView&, const BlockFrame&, const ProgramGroup&, size_t) {
+  return false;
+}
+template <bool kGradient>
+SGM_KERNEL size_t runList(const ProgramView&, const BlockFrame&, std::span<const Instr>, size_t) {
+  return 0;
+}
+#endif
+
 // One block of n points, n a multiple of kLanes; place 0 is already filled.
 template <bool kGradient>
 SGM_KERNEL void runBlock(const ProgramView& program, const BlockFrame& f, size_t n) {
@@ -198,10 +213,18 @@ SGM_KERNEL void runBlock(const ProgramView& program, const BlockFrame& f, size_t
     const bool cuts = g.cut && g.smooth == 0;
     const bool first_cut = cuts && (k == 0 || !program.groups[k - 1].cut || program.groups[k - 1].layer != g.layer);
     if (first_cut) SGM_EACH storeDual<kGradient>(f, kCutRegister, i, farAway());
-    for (const Instr& in : program.instrs.subspan(g.first, g.count)) {
-      runInstr<kGradient>(f, in, program.params.data() + in.params, n);
+    if (!runAlone<kGradient>(program, f, g, n)) {
+      const std::span<const Instr> instrs = program.instrs.subspan(g.first, g.count);
+      for (size_t at = 0; at < instrs.size();) {
+        if (const size_t done = runList<kGradient>(program, f, instrs.subspan(at), n); done > 0) {
+          at += done;
+          continue;
+        }
+        runInstr<kGradient>(f, instrs[at], program.params.data() + instrs[at].params, n);
+        ++at;
+      }
+      foldGroup<kGradient>(f, g, n);
     }
-    foldGroup<kGradient>(f, g, n);
     const bool last_cut = cuts && (k + 1 == program.groups.size() || program.groups[k + 1].layer != g.layer);
     if (last_cut) {
       SGM_EACH storeDual<kGradient>(

@@ -143,6 +143,11 @@ FN void storeInt(Int i, uint32_t* p) {
   trace().keep(i.node);
   *p = bitsOf(i);
 }
+FN uint64_t signMask(const uint32_t* p, size_t count) {
+  uint64_t mask = 0;
+  for (size_t i = 0; i < count; ++i) mask |= uint64_t{p[i] >> 31} << i;
+  return mask;
+}
 
 #define SGM_WIDE
 #include "common/common.h"
@@ -153,6 +158,10 @@ void samples(const ProgramView& program, const Points& points, EvalScratch& scra
   trace().reset();
   evaluateSamples(program, points, scratch, q);
 }
+void box(const ProgramView& program, const LatticeBox& lattice, EvalScratch& scratch, const LatticeSamples& out) {
+  trace().reset();
+  evaluateBox(program, lattice, scratch, out);
+}
 
 }  // namespace sgm::counted
 
@@ -161,7 +170,8 @@ namespace bench {
 OperationCount takeOperationCount() { return sgm::counted::trace().take(); }
 
 const sgm::FieldKernels& floatCountingKernels() {
-  static const sgm::FieldKernels kernels{"counting floats", sgm::counted::samples, sgm::scalarKernels().attributes};
+  static const sgm::FieldKernels kernels{"counting floats", sgm::counted::samples, sgm::scalarKernels().attributes,
+                                        sgm::counted::box};
   return kernels;
 }
 

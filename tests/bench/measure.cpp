@@ -1,6 +1,7 @@
 #include "measure.h"
 
 #include <sched.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -21,7 +22,7 @@ bool inOuterFace(const float* a, const float* b, double extent) {
 }  // namespace
 
 Shape measure(const Mesh& mesh, double extent) {
-  Shape shape{mesh.positions.size() / 3, mesh.indices.size() / 3, 0, 0};
+  Shape shape{mesh.positions.size() / 3, mesh.indices.size() / 3, 0, 0, 0};
   std::vector<uint64_t> edges, opposite;
   edges.reserve(mesh.indices.size());
   for (size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
@@ -41,6 +42,15 @@ Shape measure(const Mesh& mesh, double extent) {
   for (const uint64_t e : edges) opposite.push_back(e << 32 | e >> 32);
   std::sort(edges.begin(), edges.end());
   std::sort(opposite.begin(), opposite.end());
+  std::vector<bool> used(mesh.positions.size() / 3);
+  for (const uint32_t i : mesh.indices) used[i] = true;
+  // An edge counts once, whichever way its triangles walk it.
+  std::vector<uint64_t> undirected;
+  undirected.reserve(edges.size());
+  for (const uint64_t e : edges) undirected.push_back(std::min(e, e << 32 | e >> 32));
+  std::sort(undirected.begin(), undirected.end());
+  const auto edge_count = std::unique(undirected.begin(), undirected.end()) - undirected.begin();
+  shape.euler = std::count(used.begin(), used.end(), true) - edge_count + static_cast<long>(shape.triangles);
   std::vector<uint64_t> open;
   std::set_difference(edges.begin(), edges.end(), opposite.begin(), opposite.end(), std::back_inserter(open));
   for (const uint64_t e : open) {
@@ -49,6 +59,21 @@ Shape measure(const Mesh& mesh, double extent) {
     shape.open_edges += inOuterFace(a, b, extent) ? 0u : 1u;
   }
   return shape;
+}
+
+double processorTime() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto milliseconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_usec) * 1e-3;
+  };
+  return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
+}
+
+double peakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
 double now() {
@@ -60,7 +85,7 @@ Times statistics(std::vector<double> all) {
   std::sort(all.begin(), all.end());
   const size_t n = all.size(), half = n / 2;
   const double median = n % 2 ? all[half] : 0.5 * (all[half - 1] + all[half]);
-  return {median, all.front(), all.back(), static_cast<int>(n)};
+  return {median, all.front(), all.back(), static_cast<int>(n), 0};
 }
 
 void pin(int threads) {

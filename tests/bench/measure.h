@@ -18,6 +18,7 @@ struct Shape {
   size_t vertices = 0, triangles = 0;
   double area = 0;        ///< square cells
   size_t open_edges = 0;  ///< directed edges without their opposite, but for those in the cube's outer faces
+  long euler = 0;         ///< vertices that triangles use, less edges, plus triangles
 };
 
 /// extent: cells on an edge of the cube that the mesh lies in.
@@ -26,7 +27,14 @@ Shape measure(const Mesh& mesh, double extent);
 struct Times {
   double median = 0, least = 0, most = 0;  ///< milliseconds
   int runs = 0;
+  double processor = 0;  ///< time of all threads by the clock's, over all runs; of timed() alone
 };
+
+/// Milliseconds of processor time that this process's threads have taken.
+double processorTime();
+
+/// Most memory that this process has had resident, MB.
+double peakMemory();
 
 /// `runs` timed calls of work after `warm_up` untimed ones.
 template <class Work>
@@ -44,12 +52,16 @@ template <class Work>
 Times timed(int warm_up, int runs, Work&& work) {
   for (int i = 0; i < warm_up; ++i) work();
   std::vector<double> all;
+  const double begin = now(), processor = processorTime();
   for (int i = 0; i < runs; ++i) {
     const double start = now();
     work();
     all.push_back(now() - start);
   }
-  return statistics(std::move(all));
+  const double took = now() - begin, busy = processorTime() - processor;
+  Times times = statistics(std::move(all));
+  times.processor = busy / took;
+  return times;
 }
 
 }  // namespace bench

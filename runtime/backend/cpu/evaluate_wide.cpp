@@ -36,13 +36,13 @@ namespace sgm {
 namespace {
 
 #if HWY_TARGETS & HWY_SSE4
-constexpr FieldKernels kSse4{"sse4.2", N_SSE4::evaluateSamples, N_SSE4::evaluateAttributes};
+constexpr FieldKernels kSse4{"sse4.2", N_SSE4::evaluateSamples, N_SSE4::evaluateAttributes, N_SSE4::evaluateBox};
 #endif
 #if HWY_TARGETS & HWY_AVX2
-constexpr FieldKernels kAvx2{"avx2", N_AVX2::evaluateSamples, N_AVX2::evaluateAttributes};
+constexpr FieldKernels kAvx2{"avx2", N_AVX2::evaluateSamples, N_AVX2::evaluateAttributes, N_AVX2::evaluateBox};
 #endif
 #if HWY_TARGETS & HWY_AVX3
-constexpr FieldKernels kAvx512{"avx512", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes};
+constexpr FieldKernels kAvx512{"avx512", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes, N_AVX3::evaluateBox};
 #endif
 
 }  // namespace

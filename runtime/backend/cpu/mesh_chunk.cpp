@@ -1,7 +1,6 @@
 #include "backend/cpu/mesh_chunk.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "mesh/seam.h"
 #include "mesh/vertex.h"
@@ -110,21 +109,10 @@ void meshSeam(const ChunkKernels& kernels, const ChunkJob& job, Face face, Chunk
   kernels.mesh.hash(seam);
 }
 
-uint32_t countSolid(const ChunkSamples& samples) {
-  constexpr uint64_t lower = (uint64_t{1} << kChunkCells) - 1;
-  uint32_t solid = 0;
-  for (int z = 0; z < kChunkCells; ++z) {
-    for (int y = 0; y < kChunkCells; ++y) {
-      solid += static_cast<uint32_t>(std::popcount(samples.signs[static_cast<size_t>(y + z * kChunkSamples)] & lower));
-    }
-  }
-  return solid;
-}
-
 /// All of a chunk but its seams.
 void fillOwn(const ChunkKernels& kernels, const ChunkJob& job, bool uniform, ChunkScratch& s, ChunkMesh& mesh) {
   mesh.uniform = uniform;
-  mesh.solid_samples = countSolid(s.samples);
+  mesh.solid_samples = kernels.mesh.count(s.samples);
   if (uniform) return;
   if (job.signs) mesh.signs = s.samples.signs;
   kernels.mesh.polygonize(s.samples, job.grid, s.mesh, mesh.body);

@@ -6,6 +6,11 @@ namespace sgm {
 
 namespace {
 
+// Samples first..last on each axis, both included.
+struct SampleBox {
+  std::array<int, 3> first{}, last{};
+};
+
 IntBox boxOf(const ChunkGrid& grid, const SampleBox& b, int margin) {
   auto at = [&](int axis, int sample) { return grid.origin[axis] + std::clamp(sample, 0, kChunkCells) * grid.cell; };
   IntBox box;
@@ -24,6 +29,22 @@ void fillSigns(ChunkSamples& samples, const SampleBox& b) {
       samples.signs[static_cast<size_t>(y + z * kChunkSamples)] |= run;
     }
   }
+}
+
+void sampleBrick(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, const SampleBox& b,
+                 ChunkScratch& scratch) {
+  LatticeBox box;
+  for (size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a);
+    box.origin[axis] = grid.origin[axis] + b.first[a] * grid.cell;
+    box.size[a] = static_cast<size_t>(b.last[a] - b.first[a] + 1);
+  }
+  box.step = grid.cell;
+  constexpr size_t kSide = kChunkSamples;
+  const auto row = static_cast<size_t>(b.first[1] + b.first[2] * kChunkSamples), first = static_cast<size_t>(b.first[0]);
+  kernels.box(field, box, scratch.evaluation,
+              {scratch.samples.q.data() + row * kSide + first, kSide, kSide * kSide, scratch.samples.signs.data() + row,
+               kSide, first});
 }
 
 /// Whether samples of the box lie in one of the faces.
@@ -73,7 +94,7 @@ bool sampleChunk(const ChunkKernels& kernels, const ProgramView& field, const Ch
       prune(scratch.octant.view(), boxOf(grid, brick, 1), scratch.pruning, program);
       if (program.solid()) fillSigns(samples, brick);
       if (program.solid() || program.empty()) continue;
-      kernels.mesh.sample(kernels.field, program.view(), grid, brick, scratch.evaluation, scratch.mesh, samples);
+      sampleBrick(kernels.field, program.view(), grid, brick, scratch);
     }
   }
   return true;

@@ -89,3 +89,17 @@ FN Real loadReal(const uint32_t* p) { return hn::BitCast(RealTag(), hn::Load(Uin
 FN Int loadInt(const uint32_t* p) { return hn::BitCast(IntTag(), hn::Load(UintTag(), p)); }
 FN void storeReal(Real r, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), r.v), UintTag(), p); }
 FN void storeInt(Int i, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), i.v), UintTag(), p); }
+FN uint64_t maskOf(Bool b) {
+  uint8_t bytes[8] = {};
+  hn::StoreMaskBits(RealTag(), b.m, bytes);
+  uint64_t bits;
+  memcpy(&bits, bytes, 8);
+  return bits;
+}
+// Bit i: whether the i-th of `count` integers is negative. Reads whole vectors.
+FN uint64_t signMask(const uint32_t* p, size_t count) {
+  uint64_t mask = 0;
+  for (size_t i = 0; i < count; i += kLanes)
+    mask |= maskOf(Int(hn::BitCast(IntTag(), hn::LoadU(UintTag(), p + i))) < Int(0)) << i;
+  return mask & ((uint64_t{1} << count) - 1);
+}

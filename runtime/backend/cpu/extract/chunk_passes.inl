@@ -1,42 +1,11 @@
 // What a chunk needs beside its triangles: loops that the compiler makes vectors of by itself.
 
-inline void sampleBox(const FieldKernels& kernels, const ProgramView& field, const ChunkGrid& grid, const SampleBox& box,
-                      EvalScratch& evaluation, MeshScratch& scratch, ChunkSamples& samples) {
-  size_t size[3], count = 1;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    size[axis] = static_cast<size_t>(box.last[axis] - box.first[axis] + 1);
-    count *= size[axis];
-  }
-  for (RawArray<int32_t>* array : {&scratch.x, &scratch.y, &scratch.z, &scratch.q}) array->grow(0, count);
-  int32_t *x = scratch.x.data(), *y = scratch.y.data(), *z = scratch.z.data();
-  const int32_t from = grid.origin.x + box.first[0] * grid.cell;
-  for (int k = box.first[2]; k <= box.last[2]; ++k) {
-    for (int j = box.first[1]; j <= box.last[1]; ++j) {
-      for (size_t i = 0; i < size[0]; ++i) {
-        x[i] = from + static_cast<int32_t>(i) * grid.cell;
-        y[i] = grid.origin.y + j * grid.cell;
-        z[i] = grid.origin.z + k * grid.cell;
-      }
-      x += size[0];
-      y += size[0];
-      z += size[0];
-    }
-  }
-  kernels.samples(field, {scratch.x.data(), scratch.y.data(), scratch.z.data(), count}, evaluation, scratch.q.data());
-  const int32_t* q = scratch.q.data();
-  for (int k = box.first[2]; k <= box.last[2]; ++k) {
-    for (int j = box.first[1]; j <= box.last[1]; ++j) {
-      const auto row = static_cast<size_t>(j + k * kChunkSamples);
-      int32_t* out = samples.q.data() + row * kChunkSamples + box.first[0];
-      uint64_t signs = 0;
-      for (size_t i = 0; i < size[0]; ++i) {
-        out[i] = q[i];
-        signs |= uint64_t{static_cast<uint32_t>(q[i]) >> 31} << i;
-      }
-      q += size[0];
-      samples.signs[row] |= signs << box.first[0];
-    }
-  }
+inline uint32_t countSolid(const ChunkSamples& samples) {
+  constexpr uint64_t lower = (uint64_t{1} << kChunkCells) - 1;
+  int solid = 0;
+  for (size_t z = 0; z < kChunkCells; ++z)
+    for (size_t y = 0; y < kChunkCells; ++y) solid += std::popcount(samples.signs[y + z * kChunkSamples] & lower);
+  return static_cast<uint32_t>(solid);
 }
 
 inline size_t brickOf(const Vertex& v) {

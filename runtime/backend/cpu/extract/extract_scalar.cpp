@@ -71,7 +71,7 @@ void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScr
 
 const MeshKernels& scalarMeshKernels() {
   static constexpr MeshKernels kernels{"scalar", scalar_extract::signsOfRow, scalar_extract::listRows,
-                                          scalar_extract::meshSlab, scalar_extract::sampleBox, scalar_extract::polygonizeChunk,
+                                          scalar_extract::meshSlab, scalar_extract::countSolid, scalar_extract::polygonizeChunk,
                                           scalar_extract::sortVertices, scalar_extract::attributeVertices, hashPart};
   return kernels;
 }

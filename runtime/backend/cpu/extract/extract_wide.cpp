@@ -59,13 +59,6 @@ FN Real scaledDouble(Int i, double scale) {
   const auto high = hn::DemoteTo(half_real, hn::Mul(hn::PromoteTo(wide, hn::UpperHalf(half, i.v)), by));
   return hn::Combine(RealTag(), high, low);
 }
-FN uint64_t maskOf(Bool b) {
-  uint8_t bytes[8] = {};
-  hn::StoreMaskBits(RealTag(), b.m, bytes);
-  uint64_t bits;
-  memcpy(&bits, bytes, 8);
-  return bits;
-}
 FN bool all(Bool b) { return hn::AllTrue(RealTag(), b.m); }
 
 template <size_t kCount>
@@ -119,8 +112,8 @@ namespace sgm {
 // A set's passes. The namespaces of the sets are all there is to tell them apart by.
 #define SGM_EXTRACT(name, set) \
   {                                                                                                                    \
-    name, set::extract::signsOfRow, set::extract::listRows, set::extract::meshSlab, set::extract::sampleBox,           \
-        set::extract::polygonizeChunk, set::extract::sortVertices, set::extract::attributeVertices,                    \
+    name, set::extract::signsOfRow, set::extract::listRows, set::extract::meshSlab,                                    \
+        set::extract::countSolid, set::extract::polygonizeChunk, set::extract::sortVertices, set::extract::attributeVertices,                    \
         set::extract::hashMesh                                                                                         \
   }
 

@@ -74,11 +74,6 @@ struct GridScratch {
   uint32_t* offsets = nullptr;  ///< one for each vertex of the slab and of the plane above it, and kMostLanes
 };
 
-/// Samples first..last of a chunk on each axis, both included.
-struct SampleBox {
-  std::array<int, 3> first{}, last{};
-};
-
 inline constexpr int kBrickSamples = 8;                      ///< on each axis; the last brick has one more
 inline constexpr int kBricks = kChunkCells / kBrickSamples;  ///< on each axis
 inline constexpr int kBrickCount = kBricks * kBricks * kBricks;
@@ -115,9 +110,8 @@ struct MeshKernels {
   ListCounts (*list)(const SignLattice&, size_t z, size_t first, size_t last, uint32_t* edges, uint64_t* cells);
   /// Vertices and triangles of a slab.
   void (*mesh)(const GridJob&, const GridSlab&, const GridScratch&);
-  /// Evaluates the samples of a chunk that a box holds.
-  void (*sample)(const FieldKernels&, const ProgramView&, const ChunkGrid&, const SampleBox&, EvalScratch&, MeshScratch&,
-                 ChunkSamples&);
+  /// Solid samples of a chunk, without those of its high faces.
+  uint32_t (*count)(const ChunkSamples&);
   /// polygonizeBody of mesh/body.h.
   void (*polygonize)(const ChunkSamples&, const ChunkGrid&, MeshScratch&, MeshPart&);
   /// Puts a body's vertices into the order of their bricks: scratch.order, and x, y and z in units. start[b] is where

@@ -53,6 +53,12 @@ FN void forWords(const SignLattice& lattice, const size_t (&y)[2], const size_t 
   }
 }
 
+/// Whether four rows of one word each are all void or all solid.
+FN bool isUniform(const uint64_t* const rows[4], size_t size_x) {
+  const uint64_t some = *rows[0] | *rows[1] | *rows[2] | *rows[3], every = *rows[0] & *rows[1] & *rows[2] & *rows[3];
+  return some == 0 || every == wordMask(0, size_x);
+}
+
 /// A crossed edge of a plane: its axis, then the y and x of the sample that owns it.
 inline constexpr int kPlaceBits = 14;
 inline constexpr uint32_t kPlaceMask = (1u << kPlaceBits) - 1;
@@ -90,6 +96,7 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
                                      lattice.row(ys[1], zs[1])};
     const uint64_t* beyond_row = y + 2 < lattice.size[1] ? lattice.row(y + 2, z) : rows[1];
     forWords(lattice, ys, zs, [&](size_t word) {
+      if (lattice.words == 1 && isUniform(rows, lattice.size[0])) return;
       uint64_t corner[8 + 1];  // in the order of a case's bits; spreadBits may read one more
       uint64_t some = 0, every = ~uint64_t{0};
       for (size_t i = 0; i < 4; ++i) {

@@ -14,11 +14,11 @@ void check(sgm_result result, const sgm_error& error) {
 
 using Surface = std::unique_ptr<sgm_surface, decltype(&sgm_surface_destroy)>;
 
-Surface fromGrid(sgm_runtime* runtime, const Grid& grid) {
+Surface fromGrid(sgm_runtime* runtime, const Grid& grid, bool normals) {
   sgm_grid_desc desc = SGM_GRID_DESC_INIT;
   desc.values = grid.values.data();
   for (int axis = 0; axis < 3; ++axis) desc.size[axis] = static_cast<uint32_t>(grid.size[axis]);
-  desc.normals = 1;
+  desc.normals = normals ? 1 : 0;
   sgm_surface* surface = nullptr;
   sgm_error error = SGM_ERROR_INIT;
   check(sgm_surface_from_grid(runtime, &desc, &surface, &error), error);
@@ -46,12 +46,17 @@ Mesh copied(const sgm_surface_view& view, double scale) {
 
 }  // namespace
 
-Ours::Ours(const Scene& scene, int cells, int threads) : scene_(scene), cells_(cells) {
+Ours::Ours(int threads) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime_desc runtime = SGM_RUNTIME_DESC_INIT;
   runtime.threads = static_cast<uint32_t>(threads);
   check(sgm_runtime_create(&runtime, &runtime_, &error), error);
+}
 
+Ours::Ours(const Scene& scene, int cells, int threads) : Ours(threads) {
+  scene_ = scene;
+  cells_ = cells;
+  sgm_error error = SGM_ERROR_INIT;
   sgm_grammar_desc text = SGM_GRAMMAR_DESC_INIT;
   text.text = scene_.text.c_str();
   text.text_size = scene_.text.size();
@@ -81,6 +86,27 @@ std::string Ours::device() const {
 }
 
 size_t Ours::meshChunks() {
+  const std::vector<sgm_chunk_request> requests = allRequests();
+  std::vector<sgm_mesh*> meshes(requests.size());
+  mesh(requests.data(), requests.size(), meshes.data());
+  size_t triangles = 0;
+  for (sgm_mesh* made : meshes) triangles += release(made);
+  return triangles;
+}
+
+std::vector<double> Ours::surfaceChunks() {
+  std::vector<double> times;
+  for (const sgm_chunk_request& request : allRequests()) {
+    sgm_mesh* made = nullptr;
+    const double start = now();
+    mesh(&request, 1, &made);
+    const double took = now() - start;
+    if (release(made) > 0) times.push_back(took);
+  }
+  return times;
+}
+
+std::vector<sgm_chunk_request> Ours::allRequests() const {
   const int32_t edge = SGM_CHUNK_CELLS * scene_.cell_units;
   std::vector<sgm_chunk_request> requests;
   const int32_t count = cells_ / SGM_CHUNK_CELLS;
@@ -91,20 +117,23 @@ size_t Ours::meshChunks() {
         request.key = {0, scene_.origin[0] / edge + x, scene_.origin[1] / edge + y, scene_.origin[2] / edge + z};
         requests.push_back(request);
       }
+  return requests;
+}
+
+void Ours::mesh(const sgm_chunk_request* requests, size_t count, sgm_mesh** meshes) {
   sgm_chunks_desc desc = SGM_CHUNKS_DESC_INIT;
-  desc.requests = requests.data();
-  desc.count = requests.size();
-  std::vector<sgm_mesh*> meshes(requests.size());
+  desc.requests = requests;
+  desc.count = count;
   sgm_error error = SGM_ERROR_INIT;
-  check(sgm_mesh_chunks(field_, &desc, meshes.data(), &error), error);
-  size_t indices = 0;
-  for (sgm_mesh* mesh : meshes) {
-    sgm_mesh_view view = SGM_MESH_VIEW_INIT;
-    check(sgm_mesh_get_view(mesh, &view, &error), error);
-    indices += view.index_count;
-    sgm_mesh_release(mesh);
-  }
-  return indices / 3;
+  check(sgm_mesh_chunks(field_, &desc, meshes, &error), error);
+}
+
+size_t Ours::release(sgm_mesh* mesh) {
+  sgm_mesh_view view = SGM_MESH_VIEW_INIT;
+  sgm_error error = SGM_ERROR_INIT;
+  check(sgm_mesh_get_view(mesh, &view, &error), error);
+  sgm_mesh_release(mesh);
+  return view.index_count / 3;
 }
 
 Mesh Ours::welded() {
@@ -152,10 +181,12 @@ Grid Ours::sample() {
   return grid;
 }
 
-size_t Ours::meshGrid(const Grid& grid) { return viewOf(fromGrid(runtime_, grid)).index_count / 3; }
+size_t Ours::meshGrid(const Grid& grid, bool normals) {
+  return viewOf(fromGrid(runtime_, grid, normals)).index_count / 3;
+}
 
 Mesh Ours::gridMesh(const Grid& grid) {
-  const Surface surface = fromGrid(runtime_, grid);
+  const Surface surface = fromGrid(runtime_, grid, true);
   return copied(viewOf(surface), 1.0);
 }
 

@@ -1,0 +1,104 @@
+// Lists of primitives under one combination, which most programs consist of: what goes from one to the next stays in
+// registers. The same operations in the same order as one instruction after the other, so the same bits. Included by
+// evaluate_kernel.inl.
+
+template <Op kOp>
+FN Dual primitiveAt(Int px, Int py, Int pz, Params P) {
+  if constexpr (kOp == Op::sphere) return opSphere(px, py, pz, P);
+  if constexpr (kOp == Op::box) return opBox(px, py, pz, P);
+  if constexpr (kOp == Op::capsule) return opCapsule(px, py, pz, P);
+  if constexpr (kOp == Op::truncone) return opTruncone(px, py, pz, P);
+  if constexpr (kOp == Op::blob) return opBlob(px, py, pz, P);
+}
+
+/// How many pairs of a primitive and what adds it to the combination of `add` stand at the beginning. Primitives after
+/// the first share its register, so that nobody reads what the earlier ones leave there.
+SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Instr& add) {
+  size_t pairs = 0;
+  for (; 2 * pairs + 1 < instrs.size(); ++pairs) {
+    const Instr &p = instrs[2 * pairs], &a = instrs[2 * pairs + 1];
+    if (p.op != primitive || p.place != 0 || p.dst != instrs[0].dst) break;
+    if (a.op != add.op || a.a != p.dst || a.dst != add.dst || a.b != add.b) break;
+  }
+  return pairs;
+}
+
+template <bool kGradient, Op kPrimitive, Op kAdd>
+SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
+  const Instr& add = instrs[1];
+  const size_t pairs = pairsOf(instrs, kPrimitive, add);
+  SGM_EACH {
+    const Int px = loadPlace(f, 0, 0, i), py = loadPlace(f, 0, 1, i), pz = loadPlace(f, 0, 2, i);
+    // The heaviest of a sum only gives its label.
+    constexpr bool kFirst = kGradient || kAdd != Op::sum_add;
+    Dual first = nothing(), second = loadDual<kGradient>(f, add.b, i), d = first;
+    if constexpr (kFirst) first = loadDual<kGradient>(f, add.dst, i);
+    for (size_t pair = 0; pair < pairs; ++pair) {
+      d = primitiveAt<kPrimitive>(px, py, pz, program.params.data() + instrs[2 * pair].params);
+      if constexpr (kAdd == Op::sum_add) {
+        if constexpr (kFirst) first = sumHeaviest(first, d);
+        second = opAdd(second, d);
+      } else {
+        first = opMinimum(first, d);
+        second = roundAccumulate(second, d, PF((program.params.data() + instrs[2 * pair + 1].params), 0));
+      }
+    }
+    if constexpr (kFirst) storeDual<kGradient>(f, add.dst, i, first);
+    storeDual<kGradient>(f, add.b, i, second);
+    storeDual<kGradient>(f, instrs[0].dst, i, d);
+  }
+  return 2 * pairs;
+}
+
+/// Runs the list that `instrs` begin with; returns its length, 0 where it is none.
+template <bool kGradient>
+SGM_KERNEL size_t runList(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
+  if (instrs.size() < 2 || instrs[0].place != 0 || instrs[1].a != instrs[0].dst) return 0;
+  if (instrs[1].op == Op::sum_add && instrs[0].op == Op::blob)
+    return addPairs<kGradient, Op::blob, Op::sum_add>(program, f, instrs, n);
+  if (instrs[1].op != Op::round_add) return 0;
+  switch (instrs[0].op) {
+    case Op::sphere:
+      return addPairs<kGradient, Op::sphere, Op::round_add>(program, f, instrs, n);
+    case Op::box:
+      return addPairs<kGradient, Op::box, Op::round_add>(program, f, instrs, n);
+    case Op::capsule:
+      return addPairs<kGradient, Op::capsule, Op::round_add>(program, f, instrs, n);
+    case Op::truncone:
+      return addPairs<kGradient, Op::truncone, Op::round_add>(program, f, instrs, n);
+    default:
+      return 0;
+  }
+}
+
+template <bool kGradient, Op kPrimitive>
+SGM_KERNEL void foldPrimitive(const ProgramView& program, const BlockFrame& f, const ProgramGroup& g, size_t n) {
+  const size_t into = g.cut ? kCutRegister : kFoldRegister;
+  const Params params = program.params.data() + program.instrs[g.first].params;
+  SGM_EACH {
+    const Dual own = primitiveAt<kPrimitive>(loadPlace(f, 0, 0, i), loadPlace(f, 0, 1, i), loadPlace(f, 0, 2, i), params);
+    storeDual<kGradient>(f, into, i, opMinimum(loadDual<kGradient>(f, into, i), own));
+  }
+}
+
+/// Runs and folds a group that is one primitive wherever it is asked for; false where it is another.
+template <bool kGradient>
+SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const ProgramGroup& g, size_t n) {
+  if (g.count != 1 || g.guarded || g.smooth > 0 || program.instrs[g.first].place != 0) return false;
+  switch (program.instrs[g.first].op) {
+    case Op::sphere:
+      foldPrimitive<kGradient, Op::sphere>(program, f, g, n);
+      return true;
+    case Op::box:
+      foldPrimitive<kGradient, Op::box>(program, f, g, n);
+      return true;
+    case Op::capsule:
+      foldPrimitive<kGradient, Op::capsule>(program, f, g, n);
+      return true;
+    case Op::truncone:
+      foldPrimitive<kGradient, Op::truncone>(program, f, g, n);
+      return true;
+    default:
+      return false;
+  }
+}

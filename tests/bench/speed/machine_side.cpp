@@ -1,0 +1,144 @@
+// What this machine can do, measured in the same run as everything else: the floors that ratios are printed beside.
+//
+//   sgm_bench_machine signs GRID THREADS RUNS     a pass that reads every sample's sign
+//   sgm_bench_machine output BYTES THREADS RUNS   writing so many bytes once
+//   sgm_bench_machine float THREADS RUNS          products and sums of floats without fused ones, as the contract has them
+//   sgm_bench_machine brute CELLS THREADS RUNS    every blob at every sample of the scene blobs, by the compiler's vectors
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+#include <vector>
+
+#include "answer.h"
+#include "grid_file.h"
+#include "scene.h"
+
+namespace {
+
+using namespace bench;
+
+/// work(first, last) for equal shares of 0..count, each on a thread of its own, the caller's among them.
+template <class Work>
+void shared(int threads, size_t count, const Work& work) {
+  std::vector<std::thread> others;
+  const auto t = static_cast<size_t>(threads);
+  for (size_t i = 1; i < t; ++i) others.emplace_back(work, count * i / t, count * (i + 1) / t);
+  work(size_t{0}, count / t);
+  for (std::thread& other : others) other.join();
+}
+
+Times signs(const Grid& grid, int threads, int runs) {
+  volatile uint32_t kept = 0;
+  return timed(2, runs, [&] {
+    shared(threads, grid.values.size(), [&](size_t first, size_t last) {
+      uint32_t count = 0;
+      for (size_t i = first; i < last; ++i) count += std::bit_cast<uint32_t>(grid.values[i]) >> 31;
+      kept = count;
+    });
+  });
+}
+
+Times output(size_t bytes, int threads, int runs) {
+  std::vector<char> memory(bytes);
+  char value = 0;
+  return timed(2, runs, [&] {
+    ++value;
+    shared(threads, bytes, [&](size_t first, size_t last) { std::memset(memory.data() + first, value, last - first); });
+  });
+}
+
+constexpr size_t kChains = 128;  // independent ones, so that no operation waits for another
+constexpr size_t kRounds = 200000;
+
+Times floats(int threads, int runs) {
+  volatile float kept = 0;
+  return timed(1, runs, [&] {
+    shared(threads, static_cast<size_t>(threads), [&](size_t, size_t) {
+      float x[kChains];
+      for (size_t i = 0; i < kChains; ++i) x[i] = static_cast<float>(i);
+      for (size_t round = 0; round < kRounds; ++round)
+        for (size_t i = 0; i < kChains; ++i) x[i] = x[i] * 0.999f + 0.5f;
+      float sum = 0;
+      for (const float value : x) sum += value;
+      kept = sum;
+    });
+  });
+}
+
+/// What somebody would write who knows the scene: the sum of (1 - d^2 / R^2)^3 within R = 2 r of each
+/// blob, whose surface lies at r where it is alone.
+Times brute(int cells, int threads, int runs, double& solid) {
+  std::vector<float> cx, cy, cz, inverse;
+  const float cell = 65536.0f / static_cast<float>(cells);
+  for (uint64_t i = 0; i < kBlobs; ++i) {
+    const Ball b = blobAt(i);
+    const float r = 2.0f * static_cast<float>(b.radius) / cell;
+    cx.push_back(static_cast<float>(b.centre[0]) / cell);
+    cy.push_back(static_cast<float>(b.centre[1]) / cell);
+    cz.push_back(static_cast<float>(b.centre[2]) / cell);
+    inverse.push_back(1.0f / (r * r));
+  }
+  const auto side = static_cast<size_t>(cells) + 1;
+  std::vector<float> values(side * side * side);
+  const Times times = timed(1, runs, [&] {
+    shared(threads, side, [&](size_t first, size_t last) {
+      const float low = -0.5f * static_cast<float>(cells);
+      std::vector<float> row(side);
+      for (size_t z = first; z < last; ++z) {
+        for (size_t y = 0; y < side; ++y) {
+          for (size_t x = 0; x < side; ++x) row[x] = 0.421875f;
+          for (size_t k = 0; k < cx.size(); ++k) {
+            const float dy = low + static_cast<float>(y) - cy[k], dz = low + static_cast<float>(z) - cz[k];
+            const float rest = dy * dy + dz * dz, from = low - cx[k], scale = inverse[k];
+            for (size_t x = 0; x < side; ++x) {
+              const float dx = from + static_cast<float>(static_cast<int>(x));
+              const float t = 1.0f - (dx * dx + rest) * scale, inside = t > 0 ? t : 0;
+              row[x] -= inside * inside * inside;
+            }
+          }
+          std::memcpy(values.data() + (z * side + y) * side, row.data(), side * sizeof(float));
+        }
+      }
+    });
+  });
+  size_t count = 0;
+  for (const float v : values) count += v < 0;
+  solid = static_cast<double>(count) / static_cast<double>(values.size());
+  return times;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  const auto is = [&](const char* what, int arguments) {
+    return argc == 2 + arguments && std::strcmp(argv[1], what) == 0;
+  };
+  const int threads = argc > 3 ? std::atoi(argv[argc - 2]) : 1, runs = argc > 3 ? std::atoi(argv[argc - 1]) : 1;
+  pin(threads);
+  if (is("signs", 3)) {
+    const Grid grid = readGrid(argv[2]);
+    printTimes("signs", signs(grid, threads, runs));
+  } else if (is("output", 3)) {
+    printTimes("output", output(std::strtoull(argv[2], nullptr, 10), threads, runs));
+  } else if (is("float", 2)) {
+    const Times times = floats(threads, runs);
+    printTimes("float", times);
+    std::printf(" gflops=%.2f", 2e-6 * static_cast<double>(kChains * kRounds * static_cast<size_t>(threads)) / times.median);
+  } else if (is("brute", 3)) {
+    double solid = 0;
+    printTimes("brute", brute(std::atoi(argv[2]), threads, runs, solid));
+    std::printf(" solid=%.6f", solid);
+  } else {
+    std::fprintf(stderr, "usage: the head of tests/bench/speed/machine_side.cpp\n");
+    return 2;
+  }
+  std::printf("\n");
+  return 0;
+} catch (const std::exception& e) {
+  std::fprintf(stderr, "sgm_bench_machine: error: %s\n", e.what());
+  return 1;
+}

@@ -1,0 +1,106 @@
+#include "scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace bench {
+namespace {
+
+constexpr int32_t kUnits = 1024;
+constexpr int32_t kEdge = 64 * kUnits;  // of the cube that the synthetic scenes fill, centred on the origin
+
+// A counter-based draw (the finaliser of splitmix64), so that no library's generator enters the scenes.
+uint64_t draw(uint64_t counter) {
+  uint64_t x = counter * 0x9E3779B97F4A7C15u;
+  x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+  x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+  return x ^ (x >> 31);
+}
+int32_t within(uint64_t counter, int32_t lo, int32_t hi) {
+  return lo + static_cast<int32_t>(draw(counter) % static_cast<uint64_t>(hi - lo + 1));
+}
+
+// Units as metres, exactly: 1/1024 has ten decimals.
+std::string metres(int32_t units) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.10fm", units / double{kUnits});
+  return text;
+}
+
+Ball ball(uint64_t seed, uint64_t index, int32_t least, int32_t most) {
+  const uint64_t counter = seed * 1000003u + index * 4u;
+  Ball made{};
+  made.radius = within(counter, least, most);
+  const int32_t far = kEdge / 2 - 2 * made.radius - kUnits;
+  for (uint64_t axis = 0; axis < 3; ++axis) made.centre[axis] = within(counter + 1 + axis, -far, far);
+  return made;
+}
+
+std::string point(const int32_t (&p)[3]) { return metres(p[0]) + ", " + metres(p[1]) + ", " + metres(p[2]); }
+std::string text(const Ball& b) { return "  at(" + point(b.centre) + ") sphere(" + metres(b.radius) + ");\n"; }
+
+std::string capsules(uint64_t count) {
+  std::string lines;
+  for (uint64_t i = 0; i < count; ++i) {
+    const uint64_t counter = 3 * 1000003u + i * 8u;
+    int32_t from[3], to[3];
+    for (uint64_t axis = 0; axis < 3; ++axis) {
+      from[axis] = within(counter + axis, -27 * kUnits, 27 * kUnits);
+      to[axis] = std::clamp(from[axis] + within(counter + 3 + axis, -9 * kUnits, 9 * kUnits), -27 * kUnits, 27 * kUnits);
+    }
+    lines += "    capsule((" + point(from) + "), (" + point(to) + "), " +
+             metres(within(counter + 6, kUnits, 2 * kUnits)) + ");\n";
+  }
+  return lines;
+}
+
+std::string scene(const std::string& body) { return "sgm 1;\nunits m;\nstart Scene;\nrule Scene {\n" + body + "}\n"; }
+
+std::string readText(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error("cannot read " + path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+Ball blobAt(uint64_t i) { return ball(1, i, 2 * kUnits, 4 * kUnits); }
+
+Scene makeScene(const std::string& name, int cells, const std::string& cave_path) {
+  // The cave has its own scale: half a metre a cell at 256 cells, so that every size sees the same 128 m, with a chamber.
+  if (name == "cave") return {name, readText(cave_path), 128 * kUnits / cells, {kEdge, kEdge, kEdge}};
+  std::string body;
+  if (name == "sphere") {
+    body = "  sphere(25m);\n";
+  } else if (name == "blobs") {
+    body = "  sum {\n";
+    for (uint64_t i = 0; i < kBlobs; ++i) body += text(blobAt(i));
+    body += "  }\n";
+  } else if (name == "caves") {
+    const std::string cut = "  displace rock.fbm(period 5m, amp 0.5m) {\n   union smooth 1m {\n" + capsules(300) + "   }\n  }\n";
+    const int32_t low = -kEdge / 2;
+    return {name,
+            "sgm 1;\nimport \"std/rock.sgm\" as rock;\nunits m;\nstart Scene;\nrule Scene {\n" + cut + "}\n",
+            kEdge / cells,
+            {low, low, low}};
+  } else if (name.starts_with("spheres")) {
+    const uint64_t count = name == "spheres" ? 1000 : std::strtoull(name.c_str() + std::strlen("spheres:"), nullptr, 10);
+    if (count < 1 || (name != "spheres" && name[7] != ':')) throw std::runtime_error("no scene is called " + name);
+    const double scale = std::cbrt(1000.0 / static_cast<double>(count));
+    const auto radius = [&](double units) { return static_cast<int32_t>(std::lround(units * scale)); };
+    for (uint64_t i = 0; i < count; ++i) body += text(ball(2, i, radius(kUnits), radius(2.5 * kUnits)));
+  } else {
+    throw std::runtime_error("no scene is called " + name + "; there are sphere, blobs, caves, spheres, spheres:N, cave");
+  }
+  const int32_t low = -kEdge / 2;
+  return {name, scene(body), kEdge / cells, {low, low, low}};
+}
+
+}  // namespace bench
