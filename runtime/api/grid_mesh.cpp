@@ -162,9 +162,10 @@ void GridMesher::meshSlab(size_t number, GridMesh& mesh) {
 
 Result<GridMesh> GridMesher::run() {
   if (!findSigns()) return Error{Code::invalid_argument, "a value of the grid is not finite", 0, 0};
-  // A few slabs a thread: each pays for one plane twice and for two planes of scratch.
-  const size_t planes = grid_.size[2], count = std::min<size_t>(planes, size_t{jobs_.concurrency()} * 4);
-  const size_t thick = (planes + count - 1) / count;
+  // A few slabs a thread, since each may have more or less to do, but thick ones: each pays for one plane twice.
+  constexpr size_t kThinnest = 16;
+  const size_t planes = grid_.size[2], threads = jobs_.concurrency(), count = threads == 1 ? 1 : threads * 4;
+  const size_t thick = std::max(kThinnest, (planes + count - 1) / count);
   for (size_t first = 0; first < planes; first += thick)
     slabs_.emplace_back(first, std::min(planes, first + thick), memory_);
   parallelFor(jobs_, slabs_.size(), [&](size_t slab) { list(slabs_[slab]); });

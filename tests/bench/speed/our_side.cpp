@@ -4,7 +4,9 @@
 //   sgm_bench_ours grid FILE THREADS RUNS            sgm_surface_from_grid, with normals
 //   sgm_bench_ours grid-plain FILE THREADS RUNS      without
 //   sgm_bench_ours mesh SCENE CELLS THREADS RUNS     sgm_mesh_chunks, cells derived before
-//   sgm_bench_ours chunk SCENE CELLS RUNS            one surface chunk of it after the other
+//   sgm_bench_ours region SCENE CELLS THREADS RUNS   sgm_surface_from_region: one welded mesh
+//   sgm_bench_ours chunk SCENE CELLS RUNS LEVEL      one surface chunk of it after the other, from derived cells to packed
+//   sgm_bench_ours grid-chunks FILE RUNS             32^3 cells of a grid, in cache, after the other, without normals
 //
 // SGM_BENCH_SET=avx2 (or sse4.2) keeps the library from wider vectors.
 
@@ -38,13 +40,36 @@ void limitVectors() {
 }
 
 
+/// Squares between samples whose signs are equal across both diagonals alone: there each rule joins what it chooses, and
+/// a genus may differ by one.
+size_t ambiguousFaces(const Grid& grid) {
+  size_t count = 0;
+  const auto nx = static_cast<size_t>(grid.size[0]), ny = static_cast<size_t>(grid.size[1]);
+  const size_t steps[3] = {1, nx, nx * ny};
+  for (int32_t z = 0; z < grid.size[2]; ++z) {
+    for (int32_t y = 0; y < grid.size[1]; ++y) {
+      for (int32_t x = 0; x < grid.size[0]; ++x) {
+        const int32_t place[3] = {x, y, z};
+        const float* at = &grid.values[static_cast<size_t>(x) + nx * (static_cast<size_t>(y) + ny * static_cast<size_t>(z))];
+        for (size_t u = 0; u < 3; ++u) {
+          const size_t v = (u + 1) % 3;
+          if (place[u] + 1 == grid.size[u] || place[v] + 1 == grid.size[v]) continue;
+          const bool a = at[0] < 0, b = at[steps[u]] < 0, c = at[steps[v]] < 0, d = at[steps[u] + steps[v]] < 0;
+          count += a == d && b == c && a != b;
+        }
+      }
+    }
+  }
+  return count;
+}
+
 int gridStage(const char* file, int threads, int runs, bool normals) {
   const Grid grid = readGrid(file);
   Ours ours(threads);
   const Times times = timed(2, runs, [&] { ours.meshGrid(grid, normals); });
   printTimes(normals ? "grid" : "grid-plain", times);
   printShape(measure(ours.gridMesh(grid), grid.size[0] - 1));
-  std::printf(" set=%s\n", ours.device().c_str());
+  std::printf(" ambiguous=%zu set=%s\n", ambiguousFaces(grid), ours.device().c_str());
   return 0;
 }
 
@@ -61,18 +86,28 @@ int meshStage(const Scene& scene, int cells, int threads, int runs) {
   return 0;
 }
 
-int chunkStage(const Scene& scene, int cells, int runs) {
-  Ours ours(scene, cells, 1);
-  ours.meshChunks();
+int regionStage(const Scene& scene, int cells, int threads, int runs) {
+  Ours ours(scene, cells, threads);
+  const Times times = timed(1, runs, [&] { ours.meshRegion(); });
+  printTimes("region", times);
+  std::printf(" set=%s\n", ours.device().c_str());
+  return 0;
+}
+
+/// The median over chunks, of each run: `chunks()` gives the milliseconds of one after the other.
+template <class Chunks>
+int medianChunk(const char* stage, Ours& ours, int runs, const Chunks& chunks) {
+  chunks();
   std::vector<double> medians;
-  size_t chunks = 0;
+  size_t count = 0;
   for (int i = 0; i < runs; ++i) {
-    const std::vector<double> times = ours.surfaceChunks();
-    chunks = times.size();
+    const std::vector<double> times = chunks();
+    if (times.empty()) throw std::runtime_error("no chunk has a surface");
+    count = times.size();
     medians.push_back(statistics(times).median);
   }
-  printTimes("chunk", statistics(medians));
-  std::printf(" chunks=%zu set=%s\n", chunks, ours.device().c_str());
+  printTimes(stage, statistics(medians));
+  std::printf(" chunks=%zu set=%s\n", count, ours.device().c_str());
   return 0;
 }
 
@@ -98,10 +133,22 @@ int main(int argc, char** argv) try {
     pin(threads);
     return meshStage(makeScene(argv[2], cells, SGM_BENCH_CAVE), cells, threads, std::atoi(argv[5]));
   }
-  if (is("chunk", 3)) {
-    const int cells = std::atoi(argv[3]);
+  if (is("region", 4)) {
+    const int cells = std::atoi(argv[3]), threads = std::atoi(argv[4]);
+    pin(threads);
+    return regionStage(makeScene(argv[2], cells, SGM_BENCH_CAVE), cells, threads, std::atoi(argv[5]));
+  }
+  if (is("chunk", 4)) {
     pin(1);
-    return chunkStage(makeScene(argv[2], cells, SGM_BENCH_CAVE), cells, std::atoi(argv[4]));
+    const int cells = std::atoi(argv[3]), level = std::atoi(argv[5]);
+    Ours ours(makeScene(argv[2], cells, SGM_BENCH_CAVE), cells, 1);
+    return medianChunk("chunk", ours, std::atoi(argv[4]), [&] { return ours.surfaceChunks(level); });
+  }
+  if (is("grid-chunks", 2)) {
+    pin(1);
+    const Grid grid = readGrid(argv[2]);
+    Ours ours(1);
+    return medianChunk("grid-chunks", ours, std::atoi(argv[3]), [&] { return ours.gridChunks(grid); });
   }
   std::fprintf(stderr, "usage: the head of tests/bench/speed/our_side.cpp\n");
   return 2;

@@ -14,15 +14,19 @@ void check(sgm_result result, const sgm_error& error) {
 
 using Surface = std::unique_ptr<sgm_surface, decltype(&sgm_surface_destroy)>;
 
+Surface fromGrid(sgm_runtime* runtime, const sgm_grid_desc& desc) {
+  sgm_surface* surface = nullptr;
+  sgm_error error = SGM_ERROR_INIT;
+  check(sgm_surface_from_grid(runtime, &desc, &surface, &error), error);
+  return {surface, sgm_surface_destroy};
+}
+
 Surface fromGrid(sgm_runtime* runtime, const Grid& grid, bool normals) {
   sgm_grid_desc desc = SGM_GRID_DESC_INIT;
   desc.values = grid.values.data();
   for (int axis = 0; axis < 3; ++axis) desc.size[axis] = static_cast<uint32_t>(grid.size[axis]);
   desc.normals = normals ? 1 : 0;
-  sgm_surface* surface = nullptr;
-  sgm_error error = SGM_ERROR_INIT;
-  check(sgm_surface_from_grid(runtime, &desc, &surface, &error), error);
-  return {surface, sgm_surface_destroy};
+  return fromGrid(runtime, desc);
 }
 
 sgm_surface_view viewOf(const Surface& surface) {
@@ -86,7 +90,7 @@ std::string Ours::device() const {
 }
 
 size_t Ours::meshChunks() {
-  const std::vector<sgm_chunk_request> requests = allRequests();
+  const std::vector<sgm_chunk_request> requests = allRequests(0);
   std::vector<sgm_mesh*> meshes(requests.size());
   mesh(requests.data(), requests.size(), meshes.data());
   size_t triangles = 0;
@@ -94,9 +98,9 @@ size_t Ours::meshChunks() {
   return triangles;
 }
 
-std::vector<double> Ours::surfaceChunks() {
+std::vector<double> Ours::surfaceChunks(int level) {
   std::vector<double> times;
-  for (const sgm_chunk_request& request : allRequests()) {
+  for (const sgm_chunk_request& request : allRequests(level)) {
     sgm_mesh* made = nullptr;
     const double start = now();
     mesh(&request, 1, &made);
@@ -106,7 +110,7 @@ std::vector<double> Ours::surfaceChunks() {
   return times;
 }
 
-std::vector<sgm_chunk_request> Ours::allRequests() const {
+std::vector<sgm_chunk_request> Ours::allRequests(int level) const {
   const int32_t edge = SGM_CHUNK_CELLS * scene_.cell_units;
   std::vector<sgm_chunk_request> requests;
   const int32_t count = cells_ / SGM_CHUNK_CELLS;
@@ -114,7 +118,8 @@ std::vector<sgm_chunk_request> Ours::allRequests() const {
     for (int32_t y = 0; y < count; ++y)
       for (int32_t x = 0; x < count; ++x) {
         sgm_chunk_request request = SGM_CHUNK_REQUEST_INIT;
-        request.key = {0, scene_.origin[0] / edge + x, scene_.origin[1] / edge + y, scene_.origin[2] / edge + z};
+        request.key = {level, (scene_.origin[0] / edge >> level) + x, (scene_.origin[1] / edge >> level) + y,
+                       (scene_.origin[2] / edge >> level) + z};
         requests.push_back(request);
       }
   return requests;
@@ -136,7 +141,7 @@ size_t Ours::release(sgm_mesh* mesh) {
   return view.index_count / 3;
 }
 
-Mesh Ours::welded() {
+sgm_surface* Ours::makeRegion() {
   sgm_region_desc region = SGM_REGION_DESC_INIT;
   for (int axis = 0; axis < 3; ++axis) {
     region.minimum[axis] = scene_.origin[axis];
@@ -145,11 +150,17 @@ Mesh Ours::welded() {
   sgm_surface* made = nullptr;
   sgm_error error = SGM_ERROR_INIT;
   check(sgm_surface_from_region(field_, &region, &made, &error), error);
-  const Surface surface(made, sgm_surface_destroy);
+  return made;
+}
+
+size_t Ours::meshRegion() { return viewOf({makeRegion(), sgm_surface_destroy}).index_count / 3; }
+
+Mesh Ours::welded() {
+  const Surface surface(makeRegion(), sgm_surface_destroy);
   const sgm_surface_view view = viewOf(surface);
   Mesh mesh = copied(view, double{SGM_UNITS_PER_METRE} / scene_.cell_units);
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
-    const int32_t from = view.origin[i % 3] - region.minimum[i % 3];
+    const int32_t from = view.origin[i % 3] - scene_.origin[i % 3];
     mesh.positions[i] += static_cast<float>(from / static_cast<double>(scene_.cell_units));
   }
   return mesh;
@@ -183,6 +194,32 @@ Grid Ours::sample() {
 
 size_t Ours::meshGrid(const Grid& grid, bool normals) {
   return viewOf(fromGrid(runtime_, grid, normals)).index_count / 3;
+}
+
+std::vector<double> Ours::gridChunks(const Grid& grid) {
+  std::vector<double> times;
+  const auto width = static_cast<size_t>(grid.size[0]), height = static_cast<size_t>(grid.size[1]);
+  const int32_t count = (grid.size[0] - 1) / SGM_CHUNK_CELLS;
+  for (int32_t i = 0; i < count * count * count; ++i) {
+    const int32_t at[3] = {i % count, i / count % count, i / count / count};
+    // Copied, so that it lies in cache as what has just been sampled does.
+    std::vector<float> block;
+    for (int32_t z = 0; z <= SGM_CHUNK_CELLS; ++z) {
+      for (int32_t y = 0; y <= SGM_CHUNK_CELLS; ++y) {
+        const auto plane = static_cast<size_t>(at[2] * SGM_CHUNK_CELLS + z), row = static_cast<size_t>(at[1] * SGM_CHUNK_CELLS + y);
+        const float* first = &grid.values[(plane * height + row) * width + static_cast<size_t>(at[0]) * SGM_CHUNK_CELLS];
+        block.insert(block.end(), first, first + SGM_CHUNK_CELLS + 1);
+      }
+    }
+    sgm_grid_desc desc = SGM_GRID_DESC_INIT;
+    for (uint32_t& size : desc.size) size = SGM_CHUNK_CELLS + 1;
+    desc.values = block.data();
+    const double start = now();
+    const Surface surface = fromGrid(runtime_, desc);
+    const double took = now() - start;
+    if (viewOf(surface).index_count > 0) times.push_back(took);
+  }
+  return times;
 }
 
 Mesh Ours::gridMesh(const Grid& grid) {

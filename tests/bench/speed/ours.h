@@ -13,6 +13,7 @@ struct sgm_chunk_request;
 struct sgm_field;
 struct sgm_mesh;
 struct sgm_runtime;
+struct sgm_surface;
 
 namespace bench {
 
@@ -30,8 +31,11 @@ class Ours {
 
   /// Evaluates and meshes every chunk of the cube: what an engine would ask for. Returns the triangles.
   size_t meshChunks();
-  /// Milliseconds of one chunk after the other, from derived cells to packed meshes: of those that have a surface.
-  std::vector<double> surfaceChunks();
+  /// Milliseconds of one chunk of a level after the other, from derived cells to packed meshes: of those that have a
+  /// surface. At each level as many chunks on an axis as the cube has at level 0, or fewer.
+  std::vector<double> surfaceChunks(int level);
+  /// Evaluates and meshes the cube as one welded mesh. Returns the triangles.
+  size_t meshRegion();
   /// The same surface as one welded mesh, in cells from the cube's lowest corner.
   Mesh welded();
   /// The scene's field on the corners of all cells, in cells.
@@ -39,9 +43,12 @@ class Ours {
   /// Meshes a grid, with normals from its gradient where they are wanted. Returns the triangles.
   size_t meshGrid(const Grid& grid, bool normals);
   Mesh gridMesh(const Grid& grid);
+  /// Milliseconds of one block of 32^3 cells of a grid after the other, without normals: of those that have a surface.
+  std::vector<double> gridChunks(const Grid& grid);
 
  private:
-  std::vector<sgm_chunk_request> allRequests() const;
+  std::vector<sgm_chunk_request> allRequests(int level) const;
+  sgm_surface* makeRegion();
   void mesh(const sgm_chunk_request* requests, size_t count, sgm_mesh** meshes);
   /// Lets go of a mesh; returns its triangles.
   static size_t release(sgm_mesh* mesh);

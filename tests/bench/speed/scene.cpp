@@ -76,6 +76,7 @@ Ball blobAt(uint64_t i) { return ball(1, i, 2 * kUnits, 4 * kUnits); }
 Scene makeScene(const std::string& name, int cells, const std::string& cave_path) {
   // The cave has its own scale: half a metre a cell at 256 cells, so that every size sees the same 128 m, with a chamber.
   if (name == "cave") return {name, readText(cave_path), 128 * kUnits / cells, {kEdge, kEdge, kEdge}};
+  if (name == "world") return {name, readText(cave_path), kUnits / 2, {kEdge, kEdge, kEdge}};
   std::string body;
   if (name == "sphere") {
     body = "  sphere(25m);\n";
@@ -90,14 +91,19 @@ Scene makeScene(const std::string& name, int cells, const std::string& cave_path
             "sgm 1;\nimport \"std/rock.sgm\" as rock;\nunits m;\nstart Scene;\nrule Scene {\n" + cut + "}\n",
             kEdge / cells,
             {low, low, low}};
-  } else if (name.starts_with("spheres")) {
-    const uint64_t count = name == "spheres" ? 1000 : std::strtoull(name.c_str() + std::strlen("spheres:"), nullptr, 10);
-    if (count < 1 || (name != "spheres" && name[7] != ':')) throw std::runtime_error("no scene is called " + name);
+  } else if (name == "spheres") {
+    for (uint64_t i = 0; i < 1000; ++i) body += text(ball(2, i, kUnits, 5 * kUnits / 2));
+  } else if (name.starts_with("spheres:")) {
+    const uint64_t count = std::strtoull(name.c_str() + std::strlen("spheres:"), nullptr, 10);
+    if (count < 1) throw std::runtime_error("spheres:N needs a number from 1 on");
     const double scale = std::cbrt(1000.0 / static_cast<double>(count));
-    const auto radius = [&](double units) { return static_cast<int32_t>(std::lround(units * scale)); };
-    for (uint64_t i = 0; i < count; ++i) body += text(ball(2, i, radius(kUnits), radius(2.5 * kUnits)));
+    const auto units = [&](double metres) { return static_cast<int32_t>(std::lround(metres * scale * kUnits)); };
+    const int32_t far = std::max(kUnits, kEdge / 2 - 2 * units(2.5) - kUnits);
+    const std::string anywhere = "rand(-" + metres(far) + ", " + metres(far) + ")";
+    body = "  for i in 1.." + std::to_string(count) + " { at(" + anywhere + ", " + anywhere + ", " + anywhere +
+           ") sphere(rand(" + metres(units(1)) + ", " + metres(units(2.5)) + ")); }\n";
   } else {
-    throw std::runtime_error("no scene is called " + name + "; there are sphere, blobs, caves, spheres, spheres:N, cave");
+    throw std::runtime_error("no scene is called " + name + "; there are sphere, blobs, caves, spheres, spheres:N, cave, world");
   }
   const int32_t low = -kEdge / 2;
   return {name, scene(body), kEdge / cells, {low, low, low}};

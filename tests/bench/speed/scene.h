@@ -15,7 +15,8 @@ struct Scene {
 };
 
 /// sphere; blobs, a sum of 200; caves, 300 tunnels and noise cut out of rock; spheres, a union of 1,000, or of N as
-/// spheres:N, with radii that leave as much filled; and cave, 128 m of the sample that cave_path names. Each fills a cube
+/// spheres:N, with radii that leave as much filled; and cave, 128 m of the sample that cave_path names; and
+/// world, as much of it as `cells` of half a metre make. Each fills a cube
 /// of `cells` cells (64 and its doubles) on an edge. The same numbers give the same scenes on every machine. Throws
 /// std::runtime_error for an unknown name.
 Scene makeScene(const std::string& name, int cells, const std::string& cave_path);

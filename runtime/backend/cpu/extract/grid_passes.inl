@@ -10,27 +10,25 @@ inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, 
   const Real scale = broadcast(job.scale), half = broadcast(0.5f), zero = broadcast(0.0f);
   const Real most = broadcast(std::numeric_limits<float>::max());
   Bool finite = zero <= zero;
-  size_t at = 0;
-  for (; at + 64 <= count; at += 64) {
+  bool good = true;
+  for (size_t first = 0; first < count; first += 64) {
+    const size_t size = std::min<size_t>(64, count - first);
     uint64_t word = 0;
-    for (size_t lane = 0; lane < 64; lane += kLanes) {
-      const Real v = loadValues(values + at + lane);
+    size_t lane = 0;
+    for (; lane + kLanes <= size; lane += kLanes) {
+      const Real v = loadValues(values + first + lane);
       PRECISE Real q = v * scale;
       q = q + half;
       word |= maskOf(q < zero) << lane;
       finite = finite && (absReal(v) <= most);
     }
-    words[at / 64] = word;
-  }
-  bool good = all(finite);
-  if (at < count) {
-    uint64_t word = 0;
-    for (size_t i = at; i < count; ++i) {
-      word |= uint64_t{isSolid(values[i], job.scale)} << (i - at);
-      good = good && isFinite(values[i]);
+    for (; lane < size; ++lane) {
+      word |= uint64_t{isSolid(values[first + lane], job.scale)} << lane;
+      good = good && isFinite(values[first + lane]);
     }
-    words[at / 64] = word;
+    words[first / 64] = word;
   }
+  good = good && all(finite);
   uint64_t some = 0, lacking = 0;  // of a group: whether a sample is solid, and whether one is void
   const size_t group = job.lattice.group();
   for (size_t word = 0; word < job.lattice.words; ++word) {
