@@ -57,6 +57,9 @@ PackedMesh packBody(MeshPart&& body, std::pmr::memory_resource* memory) {
   PackedMesh mesh(memory);
   mesh.vertices = std::move(body.vertices);
   mesh.indices = std::move(body.indices);
+  // Sharpening has let them grow; a mesh is kept long.
+  mesh.vertices.shrink_to_fit();
+  mesh.indices.shrink_to_fit();
   mesh.ranges[0] = {0, static_cast<uint32_t>(mesh.vertices.size()), 0, static_cast<uint32_t>(mesh.indices.size()),
                     body.hash};
   return mesh;

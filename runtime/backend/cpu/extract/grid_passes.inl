@@ -71,11 +71,17 @@ FN Vector gradientAt(const GridJob& job, const float* plane, Int index, Int x, I
           slopeAt(job, plane, index, z, job.lattice.size[2], job.stride_z)};
 }
 
-/// What a lane's edge sees of a grid's inside: four samples of a row, from the one before the edge's end on, and those
-/// beside the end along y and z. Copied value by value, which is faster than gathers are.
+/// What an edge's end sees of a grid's inside, by lane: four samples of its row, from the one before it on, and those
+/// beside it along y and z. Copied value by value, which is faster than gathers are.
 struct Surroundings {
   alignas(64) float row[4 * kLanes];
   alignas(64) float y0[kLanes], y1[kLanes], z0[kLanes], z1[kLanes];
+};
+
+/// Of a vector of edges. Not there where one of them lies at the grid's border, or no normals are wanted.
+struct EdgeSurroundings {
+  bool there;
+  Surroundings start, end;
 };
 
 FN void look(const GridJob& job, const float* at, size_t lane, Surroundings& around) {
@@ -134,55 +140,60 @@ FN Vector ownDirection(const EdgeLanes& e, Int q0) {
   return {sel(e.along_x, side, none), sel(e.along_y, side, none), sel(e.along_z, side, none)};
 }
 
-/// Crossings and normals of edges whose surroundings lie within the grid.
-FN Vector insideNormals(const GridJob& job, const float* plane, const uint32_t* edges, const EdgeLanes& e, Int& t) {
-  Surroundings start, end;
+inline void lookAround(const GridJob& job, size_t z, const uint32_t* edges, EdgeSurroundings& around) {
+  const EdgeLanes e = unpackEdges(edges, z);
+  const Int zero = broadcastInt(0), one = broadcastInt(1);
+  const auto inside = [&](Int at, Int end, size_t axis) {
+    return at > zero && end < broadcastInt(static_cast<int32_t>(job.lattice.size[axis]) - 1);
+  };
+  around.there = all(inside(e.x, wrapAdd(e.x, one), 0) && inside(e.y, wrapAdd(e.y, sel(e.along_y, one, zero)), 1) &&
+                     inside(e.z, wrapAdd(e.z, sel(e.along_z, one, zero)), 2));
+  if (!around.there) return;
+  const float* plane = job.row(0, z);
   const size_t step[3] = {1, job.stride_y, job.stride_z};
   for (size_t lane = 0; lane < kLanes; ++lane) {
     const uint32_t edge = edges[lane];
     const float* at = plane + (edge >> kPlaceBits & kPlaceMask) * job.stride_y + (edge & kPlaceMask);
-    look(job, at, lane, start);
-    look(job, at + step[edge >> 2 * kPlaceBits], lane, end);
+    look(job, at, lane, around.start);
+    look(job, at + step[edge >> 2 * kPlaceBits], lane, around.end);
   }
-  Real s0, s1;
-  const Vector g0 = gradientOf(job, start, s0), g1 = gradientOf(job, end, s1);
-  const Int q0 = quantised(s0);
-  t = crossingOf(q0, quantised(s1));
-  return normalBetween(g0, g1, t, ownDirection(e, q0));
+}
+
+/// Where edges are crossed, and their normals; of what was seen around them, or of the grid.
+FN Vector normalsOf(const GridJob& job, const EdgeLanes& e, const float* plane, const EdgeSurroundings& around,
+                    bool normals, Int& t) {
+  if (around.there) {
+    Real s0, s1;
+    const Vector g0 = gradientOf(job, around.start, s0), g1 = gradientOf(job, around.end, s1);
+    const Int q0 = quantised(s0);
+    t = crossingOf(q0, quantised(s1));
+    return normalBetween(g0, g1, t, ownDirection(e, q0));
+  }
+  const Int stride_y = broadcastInt(static_cast<int32_t>(job.stride_y)),
+            stride_z = broadcastInt(static_cast<int32_t>(job.stride_z)), zero = broadcastInt(0), one = broadcastInt(1);
+  const Int start = wrapAdd(wrapMul(e.y, stride_y), e.x);
+  const Int end = wrapAdd(start, sel(e.along_x, one, sel(e.along_y, stride_y, stride_z)));
+  const Int q0 = quantised(scaledAt(job, plane, start));
+  t = crossingOf(q0, quantised(scaledAt(job, plane, end)));
+  if (!normals) return {};
+  const Int end_x = wrapAdd(e.x, sel(e.along_x, one, zero)), end_y = wrapAdd(e.y, sel(e.along_y, one, zero)),
+            end_z = wrapAdd(e.z, sel(e.along_z, one, zero));
+  return normalBetween(gradientAt(job, plane, start, e.x, e.y, e.z), gradientAt(job, plane, end, end_x, end_y, end_z), t,
+                       ownDirection(e, q0));
 }
 
 /// A vector of edges of plane z: where they are crossed, and with `write` positions and normals of the first `count`,
 /// from vertex number `vertex` on.
-inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, size_t count, size_t vertex,
-                       uint32_t* offsets, bool write) {
+inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, const EdgeSurroundings& around, size_t count,
+                       size_t vertex, uint32_t* offsets, bool write) {
   const EdgeLanes e = unpackEdges(edges, z);
-  const float* plane = job.row(0, z);
-  const Int zero = broadcastInt(0), one = broadcastInt(1);
-  const Int end_x = wrapAdd(e.x, sel(e.along_x, one, zero)), end_y = wrapAdd(e.y, sel(e.along_y, one, zero)),
-            end_z = wrapAdd(e.z, sel(e.along_z, one, zero));
-  const auto inside = [&](Int low, Int high, size_t axis) {
-    return low > zero && high < broadcastInt(static_cast<int32_t>(job.lattice.size[axis]) - 1);
-  };
   const bool normals = write && job.normals != nullptr;
   Int t;
-  Vector n{};
-  if (normals && all(inside(e.x, wrapAdd(e.x, one), 0) && inside(e.y, end_y, 1) && inside(e.z, end_z, 2))) {
-    n = insideNormals(job, plane, edges, e, t);
-  } else {
-    const Int stride_y = broadcastInt(static_cast<int32_t>(job.stride_y)),
-              stride_z = broadcastInt(static_cast<int32_t>(job.stride_z));
-    const Int start = wrapAdd(wrapMul(e.y, stride_y), e.x);
-    const Int end = wrapAdd(start, sel(e.along_x, one, sel(e.along_y, stride_y, stride_z)));
-    const Int q0 = quantised(scaledAt(job, plane, start));
-    t = crossingOf(q0, quantised(scaledAt(job, plane, end)));
-    if (normals)
-      n = normalBetween(gradientAt(job, plane, start, e.x, e.y, e.z), gradientAt(job, plane, end, end_x, end_y, end_z),
-                        t, ownDirection(e, q0));
-  }
+  const Vector n = normalsOf(job, e, job.row(0, z), around, normals, t);
   storeLanes(placeOffset(e, t), offsets);
   if (!write) return;
   const auto placed = [&](Int at, Bool along) {
-    return scaledDouble(wrapAdd(wrapMul(at, broadcastInt(kSubcell)), sel(along, t, zero)), job.step);
+    return scaledDouble(wrapAdd(wrapMul(at, broadcastInt(kSubcell)), sel(along, t, broadcastInt(0))), job.step);
   };
   storeSome(placed(e.x, e.along_x), placed(e.y, e.along_y), placed(e.z, e.along_z), count, job.positions + vertex * 3);
   if (normals) storeSome(n.x, n.y, n.z, count, job.normals + vertex * 3);
@@ -191,23 +202,31 @@ inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, size
 /// The vertices of plane z, whose edges are listed; without `write` only where they lie on their edges.
 inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size_t count, size_t vertex,
                        uint32_t* offsets, bool write) {
-  // The planes above have not been read for long. What lies farther ahead in the list is fetched while this is worked on.
-  constexpr size_t kAhead = 128;
+  // Vectors are taken in batches, so that values have long been written when they are read as vectors. The planes above
+  // have not been read for long: what lies farther ahead in the list is fetched while this is worked on.
+  constexpr size_t kBatch = 2, kAhead = 128;
   const float* beyond[2] = {job.row(0, std::min(z + 1, job.lattice.size[2] - 1)),
                             job.row(0, std::min(z + 2, job.lattice.size[2] - 1))};
-  size_t at = 0;
-  for (; at + kLanes <= count; at += kLanes) {
-    for (size_t i = at + kAhead; i < std::min(at + kAhead + kLanes, count); ++i) {
+  EdgeSurroundings around[kBatch];
+  for (EdgeSurroundings& one : around) one.there = false;
+  for (size_t first = 0; first < count; first += kBatch * kLanes) {
+    const size_t some = std::min(kBatch * kLanes, count - first);
+    const uint32_t* block = edges + first;
+    uint32_t last[kBatch * kLanes];
+    if (some < kBatch * kLanes) {
+      std::fill(std::copy_n(block, some, last), last + kBatch * kLanes, block[0]);
+      block = last;
+    }
+    for (size_t i = first + kAhead; i < std::min(first + kAhead + kBatch * kLanes, count); ++i) {
       const size_t place = (edges[i] >> kPlaceBits & kPlaceMask) * job.stride_y + (edges[i] & kPlaceMask);
       __builtin_prefetch(beyond[0] + place);
       __builtin_prefetch(beyond[1] + place);
     }
-    writeEdges(job, z, edges + at, kLanes, vertex + at, offsets + at, write);
+    if (write && job.normals != nullptr)
+      for (size_t at = 0; at < some; at += kLanes) lookAround(job, z, block + at, around[at / kLanes]);
+    for (size_t at = 0; at < some; at += kLanes)
+      writeEdges(job, z, block + at, around[at / kLanes], some - at, vertex + first + at, offsets + first + at, write);
   }
-  if (at == count) return;
-  uint32_t rest[kLanes];
-  std::fill(std::copy(edges + at, edges + count, rest), rest + kLanes, edges[at]);
-  writeEdges(job, z, rest, count - at, vertex + at, offsets + at, write);
 }
 
 inline void meshSlab(const GridJob& job, const GridSlab& slab, const GridScratch& scratch) {
