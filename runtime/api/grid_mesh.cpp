@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "backend/cpu/extract/mesh_kernels.h"
 #include "mesh/chunk.h"
 
 namespace sgm::api {
@@ -16,10 +15,11 @@ namespace {
 
 class GridMesher {
  public:
-  GridMesher(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory)
+  GridMesher(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory, const MeshKernels& kernels)
       : grid_(grid),
         jobs_(jobs),
         memory_(memory),
+        kernels_(kernels),
         signs_(memory),
         uniform_(memory),
         first_vertex_(grid.size[2] + 1, 0, memory),
@@ -61,7 +61,7 @@ class GridMesher {
   const GridSamples& grid_;
   JobSystem& jobs_;
   std::pmr::memory_resource* memory_;
-  const MeshKernels& kernels_ = bestMeshKernels();
+  const MeshKernels& kernels_;
   GridJob job_;
   RawArray<uint64_t> signs_, uniform_;
   std::vector<Slab> slabs_;
@@ -195,12 +195,13 @@ Result<GridMesh> GridMesher::run() {
 
 }  // namespace
 
-Result<GridMesh> meshGrid(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory) {
+Result<GridMesh> meshGrid(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory,
+                          const MeshKernels& kernels) {
   // Places in a plane and its neighbours are counted in 32 bits. Only rows that lie very far from each other do not
   // allow that.
   constexpr size_t kFarthest = std::numeric_limits<int32_t>::max();
   if (grid.stride_y <= kFarthest / grid.size[1] && grid.stride_z <= kFarthest / 4)
-    return GridMesher(grid, jobs, memory).run();
+    return GridMesher(grid, jobs, memory, kernels).run();
   RawArray<float> dense(memory);
   dense.allocate(grid.size[0] * grid.size[1] * grid.size[2]);
   for (size_t row = 0; row < grid.size[1] * grid.size[2]; ++row) {
@@ -211,7 +212,7 @@ Result<GridMesh> meshGrid(const GridSamples& grid, JobSystem& jobs, std::pmr::me
   copy.values = dense.data();
   copy.stride_y = grid.size[0];
   copy.stride_z = grid.size[0] * grid.size[1];
-  return GridMesher(copy, jobs, memory).run();
+  return GridMesher(copy, jobs, memory, kernels).run();
 }
 
 }  // namespace sgm::api

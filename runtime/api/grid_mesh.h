@@ -8,6 +8,7 @@
 #include <memory_resource>
 
 #include "base/raw_array.h"
+#include "backend/cpu/extract/mesh_kernels.h"
 #include "base/jobs.h"
 #include "base/result.h"
 
@@ -34,6 +35,7 @@ struct GridMesh {
 /// whole 256th of the cell; the normal there is the gradient interpolated between the edge's two samples.
 /// Errors: invalid_argument where a value is not finite, limit where the mesh passes 2^32 - 1 vertices or 2^32 - 1
 /// indices.
-Result<GridMesh> meshGrid(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory);
+Result<GridMesh> meshGrid(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory,
+                          const MeshKernels& kernels = bestMeshKernels());
 
 }  // namespace sgm::api

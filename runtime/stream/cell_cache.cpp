@@ -1,5 +1,7 @@
 #include "stream/cell_cache.h"
 
+#include <algorithm>
+
 namespace sgm {
 
 namespace {
@@ -17,21 +19,27 @@ DerivedCell::DerivedCell(GrammarChunk&& c, std::pmr::memory_resource* memory)
     : chunk(std::move(c)), index(chunk, memory), bytes(bytesOf(chunk)) {}
 
 Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, const Derive& derive) {
+  const auto hit = [this](Entry& entry) {
+    hits_.fetch_add(1, std::memory_order_relaxed);
+    entry.used.store(clock_.fetch_add(1, std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    return entry.cell;
+  };
+  {
+    const std::shared_lock lock(mutex_);
+    const auto found = entries_.find(key);
+    if (found != entries_.end() && found->second.cell) return hit(found->second);
+  }
   {
     std::unique_lock lock(mutex_);
     for (;;) {
       const auto found = entries_.find(key);
       if (found == entries_.end()) break;
-      if (found->second.cell) {
-        ++stats_.hits;
-        by_use_.splice(by_use_.begin(), by_use_, found->second.used);
-        return found->second.cell;
-      }
+      if (found->second.cell) return hit(found->second);
       // Layers only ask downwards, so whoever derives this cell never waits for us.
       derived_.wait(lock);
     }
     ++stats_.misses;
-    entries_.emplace(key, Entry{});
+    entries_.try_emplace(key);
   }
 
   auto forget = [&] {
@@ -48,7 +56,10 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
     auto cell = std::make_shared<const DerivedCell>(std::move(*chunk), memory_);
     std::lock_guard lock(mutex_);
     by_use_.push_front(key);
-    entries_[key] = {cell, by_use_.begin()};
+    Entry& entry = entries_[key];
+    entry.cell = cell;
+    entry.listed = by_use_.begin();
+    entry.used = entry.listed_as = ++clock_;
     stats_.bytes += cell->bytes;
     ++stats_.cells;
     evict();
@@ -61,22 +72,30 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
 }
 
 void CellCache::adopt(const CellCache& other, const std::function<bool(const DerivedCell&)>& take) {
-  std::vector<std::pair<CellKey, std::shared_ptr<const DerivedCell>>> taken;
+  struct Taken {
+    uint64_t used;
+    CellKey key;
+    std::shared_ptr<const DerivedCell> cell;
+  };
+  std::vector<Taken> taken;
   {
     const std::lock_guard lock(other.mutex_);
     for (const CellKey& key : other.by_use_) {
-      const std::shared_ptr<const DerivedCell>& cell = other.entries_.at(key).cell;
-      if (take(*cell)) taken.emplace_back(key, cell);
+      const Entry& entry = other.entries_.at(key);
+      if (take(*entry.cell)) taken.push_back({entry.used, key, entry.cell});
     }
   }
+  std::sort(taken.begin(), taken.end(), [](const Taken& a, const Taken& b) { return a.used > b.used; });
   const std::lock_guard lock(mutex_);
-  for (const auto& [key, cell] : taken) {
+  for (const auto& [used, key, cell] : taken) {
     if (stats_.bytes + cell->bytes > byte_limit_) break;
     if (entries_.count(key) != 0) continue;
-    // An entry without a cell would be waited for: whole, or not at all.
+    // An entry without a cell would be waited for: whole, or not at all. Its use, 0, is before all others.
     by_use_.push_back(key);
     try {
-      entries_.emplace(key, Entry{cell, std::prev(by_use_.end())});
+      Entry& entry = entries_.try_emplace(key).first->second;
+      entry.cell = cell;
+      entry.listed = std::prev(by_use_.end());
     } catch (...) {
       by_use_.pop_back();
       throw;
@@ -86,21 +105,35 @@ void CellCache::adopt(const CellCache& other, const std::function<bool(const Der
   }
 }
 
+void CellCache::relist(Entry& entry) {
+  entry.listed_as = entry.used;
+  auto at = by_use_.begin();
+  while (entries_.at(*at).listed_as > entry.listed_as) ++at;
+  by_use_.splice(at, by_use_, entry.listed);
+}
+
 void CellCache::evict() {
   // The cell just made stays, however large: its asker holds it anyway.
   while (stats_.bytes > byte_limit_ && by_use_.size() > 1) {
-    const auto oldest = entries_.find(by_use_.back());
-    stats_.bytes -= oldest->second.cell->bytes;
+    const auto last = entries_.find(by_use_.back());
+    // All others were used no earlier than they are listed as, and that is no earlier than this one is.
+    if (last->second.used != last->second.listed_as) {
+      relist(last->second);
+      continue;
+    }
+    stats_.bytes -= last->second.cell->bytes;
     --stats_.cells;
     ++stats_.evicted;
-    entries_.erase(oldest);
     by_use_.pop_back();
+    entries_.erase(last);
   }
 }
 
 CellCacheStats CellCache::stats() const {
-  std::lock_guard lock(mutex_);
-  return stats_;
+  const std::shared_lock lock(mutex_);
+  CellCacheStats stats = stats_;
+  stats.hits = hits_;
+  return stats;
 }
 
 }  // namespace sgm

@@ -2,12 +2,14 @@
 // Derived cells, kept by use up to a number of bytes. What a cell derives to is a pure function of its key, so losing
 // one costs time only.
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <list>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <shared_mutex>
 
 #include "base/result.h"
 #include "field/compile.h"
@@ -55,17 +57,24 @@ class CellCache {
  private:
   struct Entry {
     std::shared_ptr<const DerivedCell> cell;  ///< null while it is being derived
-    std::list<CellKey>::iterator used;
+    std::atomic<uint64_t> used{0};            ///< by clock_, when it was last asked for
+    std::list<CellKey>::iterator listed;
+    uint64_t listed_as = 0;  ///< what `used` was when it got its place in the list
   };
   void evict();
+  /// Puts it where it belongs in the list by its last use.
+  void relist(Entry& entry);
 
   const size_t byte_limit_;
   std::pmr::memory_resource* memory_;
-  mutable std::mutex mutex_;
-  std::condition_variable derived_;
+  // Cells that are there are found by many threads at one time, and only note when; the list is brought up to date as far
+  // as an eviction needs it.
+  mutable std::shared_mutex mutex_;
+  std::condition_variable_any derived_;
   std::map<CellKey, Entry> entries_;
-  std::list<CellKey> by_use_;  ///< latest first; only finished cells
-  CellCacheStats stats_;
+  std::list<CellKey> by_use_;  ///< by listed_as, the latest first; only finished cells
+  std::atomic<uint64_t> clock_{0}, hits_{0};
+  CellCacheStats stats_;  ///< but for the hits
 };
 
 }  // namespace sgm

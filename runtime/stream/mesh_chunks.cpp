@@ -11,9 +11,9 @@ namespace sgm {
 
 namespace {
 
-// Enough to keep every thread busy, few enough that the programs of a batch stay in cache and memory; a device may want
-// more.
-constexpr size_t kBatchChunks = 64;
+// Threads wait for each other at a batch's end, and chunks differ: enough that this matters little, few enough that the
+// programs of a batch take little memory. A device may want more.
+constexpr size_t kBatchChunks = 256;
 // Of a region: what a machine holds with half a kilobyte and more a chunk, before any mesh.
 constexpr uint64_t kMostChunks = uint64_t{1} << 24;
 

@@ -7,13 +7,13 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
-#include "backend/cpu/instruction_sets.h"
+#include "api/grid_mesh.h"
+#include "backend/cpu/mesh_chunk.h"
 #include "field/compile.h"
 #include "field/prune.h"
-#include "mesh/body.h"
-#include "mesh/hash.h"
 
 namespace {
 
@@ -81,8 +81,16 @@ GrammarChunk makeField() {
   return chunk;
 }
 
+/// This thread alone.
+struct Alone final : JobSystem {
+  unsigned concurrency() const override { return 1; }
+  void submit(void (*function)(void*), void* argument, int) override { function(argument); }
+  bool help() override { return false; }
+};
+
 struct Work {
   const FieldKernels* kernels = nullptr;
+  const MeshKernels* mesh_kernels = nullptr;
   GrammarChunk chunk = makeField();
   FieldProgram program;
   std::vector<int32_t> x, y, z;
@@ -92,7 +100,9 @@ struct Work {
   EvalScratch eval;
   PruneScratch pruning;
   PrunedProgram pruned;
+  ChunkScratch scratch{std::pmr::get_default_resource()};
   uint64_t kept = 0;
+  size_t grid_triangles = 0;
 
   bool compile() {
     const GroupIndex index(chunk);
@@ -146,8 +156,28 @@ struct Work {
     kernels->attributes(program.view(), points(count), eval, out);
   }
   void mesh() {
-    polygonizeBody(samples, grid, part);
-    hashPart(part);
+    mesh_kernels->polygonize(samples, grid, scratch.mesh, part);
+    mesh_kernels->hash(part);
+  }
+  /// As a backend does: from a compiled program to a chunk's mesh.
+  void meshWhole() {
+    ChunkJob job;
+    job.grid = grid;
+    job.field = std::make_shared<const FieldProgram>(program);
+    ChunkMesh made;
+    meshChunk({*kernels, *mesh_kernels}, job, scratch, made);
+    part = std::move(made.body);
+  }
+  /// A caller's grid of floats, with normals.
+  void meshGrid() {
+    constexpr size_t side = kChunkSamples;
+    std::vector<float> values(samples.q.size());
+    for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(samples.q[i]) / 1024;
+    Alone jobs;
+    const auto made =
+        api::meshGrid({values.data(), {side, side, side}, side, side * side, 1, true}, jobs, std::pmr::get_default_resource(),
+                      *mesh_kernels);
+    grid_triangles = made ? made->indices.size() / 3 : 0;
   }
 
  private:
@@ -162,6 +192,8 @@ const std::map<std::string, Piece> kWork = {
     {"samples", [](Work& w) { w.sample(); }},
     {"attributes", [](Work& w) { w.attributes(); }},
     {"mesh", [](Work& w) { w.mesh(); }},
+    {"chunk", [](Work& w) { w.meshWhole(); }},
+    {"grid", [](Work& w) { w.meshGrid(); }},
 };
 
 }  // namespace
@@ -180,7 +212,8 @@ int main(int argc, char** argv) {
   }
   Work work;
   work.kernels = findKernels(argv[1]);
-  if (!work.kernels) {
+  work.mesh_kernels = findMeshKernels(argv[1]);
+  if (!work.kernels || !work.mesh_kernels) {
     std::fprintf(stderr, "no evaluator is called %s here\n", argv[1]);
     return 1;
   }
@@ -194,7 +227,7 @@ int main(int argc, char** argv) {
   const auto& piece = kWork.at(argv[2]);
   piece(work);  // storage grows here, once
   measured(piece, work);
-  std::printf("%zu vertices, %zu triangles, %llu instructions kept\n", work.part.vertices.size(),
-              work.part.indices.size() / 3, static_cast<unsigned long long>(work.kept));
+  std::printf("%zu vertices, %zu triangles, %zu of a grid, %llu instructions kept\n", work.part.vertices.size(),
+              work.part.indices.size() / 3, work.grid_triangles, static_cast<unsigned long long>(work.kept));
   return 0;
 }
