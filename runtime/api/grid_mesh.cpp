@@ -149,12 +149,13 @@ void GridMesher::giveScratch(std::unique_ptr<Scratch> scratch) {
 
 void GridMesher::meshSlab(size_t number, GridMesh& mesh) {
   const Slab& slab = slabs_[number];
-  GridSlab listed{slab.first,        slab.last,         first_vertex_.data(), first_cell_.data(), slab.triangles,
-                  slab.edges.data(), nullptr, slab.cells.data()};
+  GridSlab listed{slab.first,        slab.last, first_vertex_.data(), first_cell_.data(), slab.triangles,
+                  slab.edges.data(), nullptr,   slab.cells.data()};
   if (number + 1 < slabs_.size()) listed.edges_above = slabs_[number + 1].edges.data();
   std::unique_ptr<Scratch> scratch = takeScratch();
   scratch->numbers.grow(0, 2 * grid_.size[0] * grid_.size[1]);
-  scratch->offsets.grow(0, first_vertex_[std::min(slab.last + 1, grid_.size[2])] - first_vertex_[slab.first] + kMostLanes);
+  scratch->offsets.grow(0,
+                        first_vertex_[std::min(slab.last + 1, grid_.size[2])] - first_vertex_[slab.first] + kMostLanes);
   kernels_.mesh(job_, listed, {scratch->numbers.data(), scratch->offsets.data()});
   giveScratch(std::move(scratch));
   growBounds(slab.first, slab.last, mesh);

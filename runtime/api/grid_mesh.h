@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <memory_resource>
 
-#include "base/raw_array.h"
 #include "backend/cpu/extract/mesh_kernels.h"
 #include "base/jobs.h"
+#include "base/raw_array.h"
 #include "base/result.h"
 
 namespace sgm::api {

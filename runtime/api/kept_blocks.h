@@ -23,7 +23,8 @@ class KeptBlocks {
 
   static constexpr size_t kSmallest = size_t{1} << 14;  ///< bytes of a block that is kept
   static constexpr size_t kLargest = size_t{1} << 26;
-  static constexpr size_t kMost = size_t{1} << 27;  ///< bytes that are kept in all: of the size unused for longest first
+  static constexpr size_t kMost = size_t{1}
+                                  << 27;  ///< bytes that are kept in all: of the size unused for longest first
 
   /// As sgm_allocator's functions.
   void* allocate(size_t size, size_t alignment);

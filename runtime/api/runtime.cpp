@@ -121,8 +121,8 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
       runtime->~sgm_runtime();
       allocator.release(allocator.user, runtime, sizeof(sgm_runtime), alignof(sgm_runtime));
     };
-    std::unique_ptr<sgm_runtime, decltype(release)> runtime(new (memory) sgm_runtime(allocator, desc->memory_limit, own_memory),
-                                                            release);
+    std::unique_ptr<sgm_runtime, decltype(release)> runtime(
+        new (memory) sgm_runtime(allocator, desc->memory_limit, own_memory), release);
     if (desc->log != nullptr) runtime->sink = *desc->log;
     if (const sgm_profiler* p = desc->profiler; p != nullptr)
       runtime->profiler = {p->begin, p->end, p->thread, p->plot, p->user};

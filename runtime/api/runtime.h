@@ -90,7 +90,7 @@ struct sgm_runtime {
   }
   void log(sgm_log_level level, const std::string& message) const { log(level, message.c_str()); }
 
-  sgm_allocator allocator;  ///< frees the runtime itself, which `memory` lies within
+  sgm_allocator allocator;    ///< frees the runtime itself, which `memory` lies within
   sgm::api::KeptBlocks kept;  ///< where the caller gave no allocator
   sgm::api::CallerMemory memory;
   sgm::api::EndedHandles ended{&memory};

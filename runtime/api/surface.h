@@ -35,7 +35,7 @@ struct sgm_surface {
   sgm::RawArray<float> positions, normals;  ///< three a vertex
   sgm::RawArray<uint16_t> materials, tags;  ///< one a vertex; empty for a grid
   sgm::RawArray<uint32_t> indices;          ///< three a triangle
-  sgm::Unwrapped texture;                        ///< empty where not asked for
+  sgm::Unwrapped texture;                   ///< empty where not asked for
   std::array<float, 3> bounds_min{}, bounds_max{};
   bool of_grid = true;
   sgm::Int3 origin;

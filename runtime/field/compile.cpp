@@ -360,7 +360,7 @@ class ShapeCompiler {
 
   const GrammarChunk& chunk_;
   uint32_t cell_number_;
-  IntBox read_;  ///< holds every place that is read
+  IntBox read_;    ///< holds every place that is read
   int warps_ = 0;  ///< around what is being emitted
   int32_t cell_;
   ShapeLabels* shapes_;

@@ -76,7 +76,8 @@ SGM_KERNEL void foldPrimitive(const ProgramView& program, const BlockFrame& f, c
   const size_t into = g.cut ? kCutRegister : kFoldRegister;
   const Params params = program.params.data() + program.instrs[g.first].params;
   SGM_EACH {
-    const Dual own = primitiveAt<kPrimitive>(loadPlace(f, 0, 0, i), loadPlace(f, 0, 1, i), loadPlace(f, 0, 2, i), params);
+    const Dual own =
+        primitiveAt<kPrimitive>(loadPlace(f, 0, 0, i), loadPlace(f, 0, 1, i), loadPlace(f, 0, 2, i), params);
     storeDual<kGradient>(f, into, i, opMinimum(loadDual<kGradient>(f, into, i), own));
   }
 }

@@ -40,7 +40,8 @@ FN uint64_t signMask(const uint32_t* p, size_t count) {
 }  // namespace scalar
 
 const FieldKernels& scalarKernels() {
-  static constexpr FieldKernels kernels{"scalar", scalar::evaluateSamples, scalar::evaluateAttributes, scalar::evaluateBox};
+  static constexpr FieldKernels kernels{"scalar", scalar::evaluateSamples, scalar::evaluateAttributes,
+                                        scalar::evaluateBox};
   return kernels;
 }
 

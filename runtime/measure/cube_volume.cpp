@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "measure/column.h"
 #include "base/large_pages.h"
+#include "measure/column.h"
 
 namespace sgm::measure {
 namespace {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "base/jobs.h"
+#include "base/large_pages.h"
 #include "base/result.h"
 #include "measure/edges.h"
-#include "base/large_pages.h"
 
 namespace sgm::measure {
 

@@ -67,8 +67,8 @@ class CellCache {
 
   const size_t byte_limit_;
   std::pmr::memory_resource* memory_;
-  // Cells that are there are found by many threads at one time, and only note when; the list is brought up to date as far
-  // as an eviction needs it.
+  // Cells that are there are found by many threads at one time, and only note when; the list is brought up to date as
+  // far as an eviction needs it.
   mutable std::shared_mutex mutex_;
   std::condition_variable_any derived_;
   std::map<CellKey, Entry> entries_;

@@ -171,7 +171,7 @@ OperationCount takeOperationCount() { return sgm::counted::trace().take(); }
 
 const sgm::FieldKernels& floatCountingKernels() {
   static const sgm::FieldKernels kernels{"counting floats", sgm::counted::samples, sgm::scalarKernels().attributes,
-                                        sgm::counted::box};
+                                         sgm::counted::box};
   return kernels;
 }
 

@@ -174,9 +174,8 @@ struct Work {
     std::vector<float> values(samples.q.size());
     for (size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(samples.q[i]) / 1024;
     Alone jobs;
-    const auto made =
-        api::meshGrid({values.data(), {side, side, side}, side, side * side, 1, true}, jobs, std::pmr::get_default_resource(),
-                      *mesh_kernels);
+    const auto made = api::meshGrid({values.data(), {side, side, side}, side, side * side, 1, true}, jobs,
+                                    std::pmr::get_default_resource(), *mesh_kernels);
     grid_triangles = made ? made->indices.size() / 3 : 0;
   }
 
@@ -188,12 +187,9 @@ struct Work {
 using Piece = std::function<void(Work&)>;
 
 const std::map<std::string, Piece> kWork = {
-    {"prune", [](Work& w) { w.pruneBricks(); }},
-    {"samples", [](Work& w) { w.sample(); }},
-    {"attributes", [](Work& w) { w.attributes(); }},
-    {"mesh", [](Work& w) { w.mesh(); }},
-    {"chunk", [](Work& w) { w.meshWhole(); }},
-    {"grid", [](Work& w) { w.meshGrid(); }},
+    {"prune", [](Work& w) { w.pruneBricks(); }},     {"samples", [](Work& w) { w.sample(); }},
+    {"attributes", [](Work& w) { w.attributes(); }}, {"mesh", [](Work& w) { w.mesh(); }},
+    {"chunk", [](Work& w) { w.meshWhole(); }},       {"grid", [](Work& w) { w.meshGrid(); }},
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ namespace sgm {
 
 const FieldKernels& contractedKernels() {
   static constexpr FieldKernels kernels{"contracted", contracted::evaluateSamples, contracted::evaluateAttributes,
-                                         contracted::evaluateBox};
+                                        contracted::evaluateBox};
   return kernels;
 }
 

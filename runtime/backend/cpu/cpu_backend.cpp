@@ -193,7 +193,8 @@ Result<std::unique_ptr<Backend>> makeCpuBackend(std::string_view instruction_set
     return Error{Code::unsupported,
                  "the CPU backend has no instruction set '" + std::string(instruction_set) + "' here; it has " + known};
   }
-  return std::unique_ptr<Backend>(std::make_unique<CpuBackend>(ChunkKernels{*kernels, *findMeshKernels(kernels->name)}, jobs, memory, profiler));
+  return std::unique_ptr<Backend>(
+      std::make_unique<CpuBackend>(ChunkKernels{*kernels, *findMeshKernels(kernels->name)}, jobs, memory, profiler));
 }
 
 }  // namespace sgm

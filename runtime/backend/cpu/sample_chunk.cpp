@@ -41,7 +41,8 @@ void sampleBrick(const FieldKernels& kernels, const ProgramView& field, const Ch
   }
   box.step = grid.cell;
   constexpr size_t kSide = kChunkSamples;
-  const auto row = static_cast<size_t>(b.first[1] + b.first[2] * kChunkSamples), first = static_cast<size_t>(b.first[0]);
+  const auto row = static_cast<size_t>(b.first[1] + b.first[2] * kChunkSamples),
+             first = static_cast<size_t>(b.first[0]);
   kernels.box(field, box, scratch.evaluation,
               {scratch.samples.q.data() + row * kSide + first, kSide, kSide * kSide, scratch.samples.signs.data() + row,
                kSide, first});

@@ -229,8 +229,8 @@ typedef struct sgm_runtime_desc {
   uint32_t threads;               /* where jobs is NULL: threads that may work on one call at one time, the calling one
                                      among them; 1 to 1,024; 0: one a processor. What the machine does not let start is
                                      done without, and logged as a warning */
-  const sgm_allocator* allocator; /* NULL: malloc and free, with up to 128 MiB of released blocks kept for the next ones:
-                                     those count neither for sgm_runtime_memory nor for memory_limit */
+  const sgm_allocator* allocator; /* NULL: malloc and free, with up to 128 MiB of released blocks kept for the next
+                                     ones: those count neither for sgm_runtime_memory nor for memory_limit */
   const sgm_job_system* jobs;     /* NULL: a thread pool of the runtime's own */
   const sgm_log_sink* log;        /* NULL: no messages */
   uint64_t memory_limit;          /* most bytes to hold from the allocator at one time; 0: no limit */

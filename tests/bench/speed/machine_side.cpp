@@ -2,8 +2,9 @@
 //
 //   sgm_bench_machine signs GRID THREADS RUNS     a pass that reads every sample's sign
 //   sgm_bench_machine output BYTES THREADS RUNS   writing so many bytes once
-//   sgm_bench_machine float THREADS RUNS          products and sums of floats without fused ones, as the contract has them
-//   sgm_bench_machine brute CELLS THREADS RUNS    every blob at every sample of the scene blobs, by the compiler's vectors
+//   sgm_bench_machine float THREADS RUNS          products and sums of floats without fused ones, as the contract has
+//   them sgm_bench_machine brute CELLS THREADS RUNS    every blob at every sample of the scene blobs, by the compiler's
+//   vectors
 
 #include <bit>
 #include <cmath>
@@ -127,7 +128,8 @@ int main(int argc, char** argv) try {
   } else if (is("float", 2)) {
     const Times times = floats(threads, runs);
     printTimes("float", times);
-    std::printf(" gflops=%.2f", 2e-6 * static_cast<double>(kChains * kRounds * static_cast<size_t>(threads)) / times.median);
+    std::printf(" gflops=%.2f",
+                2e-6 * static_cast<double>(kChains * kRounds * static_cast<size_t>(threads)) / times.median);
   } else if (is("brute", 3)) {
     double solid = 0;
     printTimes("brute", brute(std::atoi(argv[2]), threads, runs, solid));

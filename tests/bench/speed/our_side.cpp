@@ -5,8 +5,9 @@
 //   sgm_bench_ours grid-plain FILE THREADS RUNS      without
 //   sgm_bench_ours mesh SCENE CELLS THREADS RUNS     sgm_mesh_chunks, cells derived before
 //   sgm_bench_ours region SCENE CELLS THREADS RUNS   sgm_surface_from_region: one welded mesh
-//   sgm_bench_ours chunk SCENE CELLS RUNS LEVEL      one surface chunk of it after the other, from derived cells to packed
-//   sgm_bench_ours grid-chunks FILE RUNS             32^3 cells of a grid, in cache, after the other, without normals
+//   sgm_bench_ours chunk SCENE CELLS RUNS LEVEL      one surface chunk of it after the other, from derived cells to
+//   packed sgm_bench_ours grid-chunks FILE RUNS             32^3 cells of a grid, in cache, after the other, without
+//   normals
 //
 // SGM_BENCH_SET=avx2 (or sse4.2) keeps the library from wider vectors.
 
@@ -39,9 +40,8 @@ void limitVectors() {
   throw std::runtime_error(std::string("SGM_BENCH_SET knows no ") + set + " here");
 }
 
-
-/// Squares between samples whose signs are equal across both diagonals alone: there each rule joins what it chooses, and
-/// a genus may differ by one.
+/// Squares between samples whose signs are equal across both diagonals alone: there each rule joins what it chooses,
+/// and a genus may differ by one.
 size_t ambiguousFaces(const Grid& grid) {
   size_t count = 0;
   const auto nx = static_cast<size_t>(grid.size[0]), ny = static_cast<size_t>(grid.size[1]);
@@ -50,7 +50,8 @@ size_t ambiguousFaces(const Grid& grid) {
     for (int32_t y = 0; y < grid.size[1]; ++y) {
       for (int32_t x = 0; x < grid.size[0]; ++x) {
         const int32_t place[3] = {x, y, z};
-        const float* at = &grid.values[static_cast<size_t>(x) + nx * (static_cast<size_t>(y) + ny * static_cast<size_t>(z))];
+        const float* at =
+            &grid.values[static_cast<size_t>(x) + nx * (static_cast<size_t>(y) + ny * static_cast<size_t>(z))];
         for (size_t u = 0; u < 3; ++u) {
           const size_t v = (u + 1) % 3;
           if (place[u] + 1 == grid.size[u] || place[v] + 1 == grid.size[v]) continue;

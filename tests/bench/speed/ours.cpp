@@ -198,22 +198,26 @@ size_t Ours::meshGrid(const Grid& grid, bool normals) {
 
 std::vector<double> Ours::gridChunks(const Grid& grid) {
   std::vector<double> times;
+  std::vector<float> block;
   const auto width = static_cast<size_t>(grid.size[0]), height = static_cast<size_t>(grid.size[1]);
   const int32_t count = (grid.size[0] - 1) / SGM_CHUNK_CELLS;
   for (int32_t i = 0; i < count * count * count; ++i) {
     const int32_t at[3] = {i % count, i / count % count, i / count / count};
     // Copied, so that it lies in cache as what has just been sampled does.
-    std::vector<float> block;
+    block.clear();
     for (int32_t z = 0; z <= SGM_CHUNK_CELLS; ++z) {
       for (int32_t y = 0; y <= SGM_CHUNK_CELLS; ++y) {
-        const auto plane = static_cast<size_t>(at[2] * SGM_CHUNK_CELLS + z), row = static_cast<size_t>(at[1] * SGM_CHUNK_CELLS + y);
-        const float* first = &grid.values[(plane * height + row) * width + static_cast<size_t>(at[0]) * SGM_CHUNK_CELLS];
+        const auto plane = static_cast<size_t>(at[2] * SGM_CHUNK_CELLS + z),
+                   row = static_cast<size_t>(at[1] * SGM_CHUNK_CELLS + y);
+        const float* first =
+            &grid.values[(plane * height + row) * width + static_cast<size_t>(at[0]) * SGM_CHUNK_CELLS];
         block.insert(block.end(), first, first + SGM_CHUNK_CELLS + 1);
       }
     }
     sgm_grid_desc desc = SGM_GRID_DESC_INIT;
     for (uint32_t& size : desc.size) size = SGM_CHUNK_CELLS + 1;
     desc.values = block.data();
+    desc.normals = 0;
     const double start = now();
     const Surface surface = fromGrid(runtime_, desc);
     const double took = now() - start;

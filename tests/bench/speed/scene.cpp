@@ -51,7 +51,8 @@ std::string capsules(uint64_t count) {
     int32_t from[3], to[3];
     for (uint64_t axis = 0; axis < 3; ++axis) {
       from[axis] = within(counter + axis, -27 * kUnits, 27 * kUnits);
-      to[axis] = std::clamp(from[axis] + within(counter + 3 + axis, -9 * kUnits, 9 * kUnits), -27 * kUnits, 27 * kUnits);
+      to[axis] =
+          std::clamp(from[axis] + within(counter + 3 + axis, -9 * kUnits, 9 * kUnits), -27 * kUnits, 27 * kUnits);
     }
     lines += "    capsule((" + point(from) + "), (" + point(to) + "), " +
              metres(within(counter + 6, kUnits, 2 * kUnits)) + ");\n";
@@ -74,7 +75,8 @@ std::string readText(const std::string& path) {
 Ball blobAt(uint64_t i) { return ball(1, i, 2 * kUnits, 4 * kUnits); }
 
 Scene makeScene(const std::string& name, int cells, const std::string& cave_path) {
-  // The cave has its own scale: half a metre a cell at 256 cells, so that every size sees the same 128 m, with a chamber.
+  // The cave has its own scale: half a metre a cell at 256 cells, so that every size sees the same 128 m, with a
+  // chamber.
   if (name == "cave") return {name, readText(cave_path), 128 * kUnits / cells, {kEdge, kEdge, kEdge}};
   if (name == "world") return {name, readText(cave_path), kUnits / 2, {kEdge, kEdge, kEdge}};
   std::string body;
@@ -85,7 +87,8 @@ Scene makeScene(const std::string& name, int cells, const std::string& cave_path
     for (uint64_t i = 0; i < kBlobs; ++i) body += text(blobAt(i));
     body += "  }\n";
   } else if (name == "caves") {
-    const std::string cut = "  displace rock.fbm(period 5m, amp 0.5m) {\n   union smooth 1m {\n" + capsules(300) + "   }\n  }\n";
+    const std::string cut =
+        "  displace rock.fbm(period 5m, amp 0.5m) {\n   union smooth 1m {\n" + capsules(300) + "   }\n  }\n";
     const int32_t low = -kEdge / 2;
     return {name,
             "sgm 1;\nimport \"std/rock.sgm\" as rock;\nunits m;\nstart Scene;\nrule Scene {\n" + cut + "}\n",
@@ -103,7 +106,8 @@ Scene makeScene(const std::string& name, int cells, const std::string& cave_path
     body = "  for i in 1.." + std::to_string(count) + " { at(" + anywhere + ", " + anywhere + ", " + anywhere +
            ") sphere(rand(" + metres(units(1)) + ", " + metres(units(2.5)) + ")); }\n";
   } else {
-    throw std::runtime_error("no scene is called " + name + "; there are sphere, blobs, caves, spheres, spheres:N, cave, world");
+    throw std::runtime_error("no scene is called " + name +
+                             "; there are sphere, blobs, caves, spheres, spheres:N, cave, world");
   }
   const int32_t low = -kEdge / 2;
   return {name, scene(body), kEdge / cells, {low, low, low}};

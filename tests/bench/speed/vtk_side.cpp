@@ -61,7 +61,8 @@ void run(Filter* filter, const char* name, vtkImageData* image, int runs) {
 int main(int argc, char** argv) try {
   const std::string name = argc == 5 ? argv[1] : "";
   if (name != "flying-edges" && name != "flying-edges-plain" && name != "marching-cubes" && name != "contour") {
-    std::fprintf(stderr, "usage: sgm_bench_vtk flying-edges|flying-edges-plain|marching-cubes|contour GRID THREADS RUNS\n");
+    std::fprintf(stderr,
+                 "usage: sgm_bench_vtk flying-edges|flying-edges-plain|marching-cubes|contour GRID THREADS RUNS\n");
     return 2;
   }
   const int threads = std::atoi(argv[3]), runs = std::atoi(argv[4]);

@@ -24,8 +24,8 @@ struct Meshed {
     const auto same = [](const auto& a, const auto& b) {
       return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
     };
-    return finite == other.finite && signs == other.signs && uniform == other.uniform && same(positions, other.positions) &&
-           same(normals, other.normals) && indices == other.indices;
+    return finite == other.finite && signs == other.signs && uniform == other.uniform &&
+           same(positions, other.positions) && same(normals, other.normals) && indices == other.indices;
   }
 };
 

@@ -1,9 +1,10 @@
 // From active cells to triangles, a vector of loops at a time. An includer of the .inl files here defines before them:
 // the types and functions of shaders/common/real.h; kLanes; loadValues and loadLanes, which read lanes behind each
-// other, and storeLanes; storeBytes, the lowest byte of each lane; storeThree and storeFour, lanes in turn; loadAt, a
-// gather; squareRoot and quotient, as IEEE 754 has them, and scaledDouble, Int times double rounded to float; maskOf, a
-// bit a lane, and all; spreadBits<n>, which makes of n words 64 bytes, bit i of word k being bit k of byte i; and
-// addSteps, see there.
+// other, loadFour, four numbers of each lane, and loadAt, a gather; storeLanes; storeThree and storeFour, the lanes'
+// numbers in turn; squareRoot and quotient, as IEEE 754 has them, clamped and floorInt; scaledDouble, Int times double
+// rounded to float; maskOf, a bit a lane, and all; spreadBits<n>, which makes of n words 64 bytes, bit i of word k
+// being bit k of byte i; and addSteps, the vertices of a cell's edges: the numbers of its samples that its edges begin
+// at, with `steps`, a byte each, added to those of the edges 4 to 11.
 
 /// Where a cube's edge begins in its cell, in 256ths: 9 bits an axis. How far along it a vertex lies is added there.
 struct CubePlaces {
@@ -229,7 +230,7 @@ struct CellSteps {
 };
 constexpr CellSteps makeCellSteps() {
   CellSteps steps{};
-  const auto pack = [](const int (&bytes)[8]) {
+  const auto pack = [](const int(&bytes)[8]) {
     uint64_t packed = 0;
     for (int i = 0; i < 8; ++i) packed |= static_cast<uint64_t>(bytes[i]) << 8 * i;
     return packed;

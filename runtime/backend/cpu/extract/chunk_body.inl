@@ -1,6 +1,7 @@
 // The body of a chunk, as mesh/body.h has it. See mesh_kernels.h; an includer defines what cells.inl says.
 
-/// A vector of edges of plane z: where they are crossed, and the first `count` vertices and keys, from number `vertex` on.
+/// A vector of edges of plane z: where they are crossed, and the first `count` vertices and keys, from number `vertex`
+/// on.
 inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, const uint32_t* edges,
                             size_t count, size_t vertex, uint32_t* offsets, MeshPart& part) {
   constexpr int32_t kSide = kChunkSamples;
@@ -40,8 +41,7 @@ inline void writeChunkPlane(const ChunkSamples& samples, const ChunkGrid& grid, 
   writeChunkEdges(samples, grid, z, rest, count - at, vertex + at, offsets + at, part);
 }
 
-inline void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScratch& scratch,
-                            MeshPart& part) {
+inline void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScratch& scratch, MeshPart& part) {
   constexpr size_t kSide = kChunkSamples, kPlane = kSide * kSide;
   const SignLattice lattice{{kSide, kSide, kSide}, 1, samples.signs.data(), nullptr};
   size_t first_vertex[kSide + 1] = {}, first_cell[kSide + 1] = {}, triangles = 0;

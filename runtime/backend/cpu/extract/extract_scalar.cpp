@@ -31,6 +31,8 @@ FN void storeLanes(Int i, int32_t* p) { *p = i; }
 FN void storeLanes(Int i, uint32_t* p) { *p = static_cast<uint32_t>(i); }
 FN void storeThree(Real a, Real b, Real c, float* p) { p[0] = a, p[1] = b, p[2] = c; }
 FN Real squareRoot(Real r) { return std::sqrt(r); }
+FN Real clamped(Real r, float most) { return clampReal(r, -most, most); }
+FN Int floorInt(Real r) { return toInt(std::floor(r)); }
 FN Real quotient(Real a, Real b) { return a / b; }
 FN Real scaledDouble(Int i, double scale) { return static_cast<float>(i * scale); }
 FN uint64_t maskOf(Bool b) { return b ? 1 : 0; }
@@ -57,8 +59,11 @@ FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, con
 }
 
 #include "backend/cpu/extract/signs.inl"
+
 #include "backend/cpu/extract/cells.inl"
+
 #include "backend/cpu/extract/edges.inl"
+
 #include "backend/cpu/extract/grid_passes.inl"
 
 #include "backend/cpu/extract/chunk_passes.inl"
@@ -70,9 +75,15 @@ void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScr
 }  // namespace scalar_extract
 
 const MeshKernels& scalarMeshKernels() {
-  static constexpr MeshKernels kernels{"scalar", scalar_extract::signsOfRow, scalar_extract::listRows,
-                                          scalar_extract::meshSlab, scalar_extract::countSolid, scalar_extract::polygonizeChunk,
-                                          scalar_extract::sortVertices, scalar_extract::attributeVertices, hashPart};
+  static constexpr MeshKernels kernels{"scalar",
+                                       scalar_extract::signsOfRow,
+                                       scalar_extract::listRows,
+                                       scalar_extract::meshSlab,
+                                       scalar_extract::countSolid,
+                                       scalar_extract::polygonizeChunk,
+                                       scalar_extract::sortVertices,
+                                       scalar_extract::attributeVertices,
+                                       hashPart};
   return kernels;
 }
 

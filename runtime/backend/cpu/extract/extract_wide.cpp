@@ -49,6 +49,10 @@ FN void storeFour(Uint a, Uint b, Uint c, Uint e, uint32_t* p) {
   hn::StoreInterleaved4(a.v, b.v, c.v, e.v, UintTag(), p);
 }
 FN Real squareRoot(Real r) { return hn::Sqrt(r.v); }
+FN Real clamped(Real r, float most) {
+  return hn::Min(hn::Max(r.v, hn::Set(RealTag(), -most)), hn::Set(RealTag(), most));
+}
+FN Int floorInt(Real r) { return hn::ConvertTo(IntTag(), hn::Floor(r.v)); }
 FN Real quotient(Real a, Real b) { return hn::Div(a.v, b.v); }
 FN Real scaledDouble(Int i, double scale) {
   const hn::RepartitionToWide<RealTag> wide;
@@ -92,10 +96,15 @@ FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, con
 }
 
 #include "backend/cpu/extract/signs.inl"
+
 #include "backend/cpu/extract/cells.inl"
+
 #include "backend/cpu/extract/edges.inl"
+
 #include "backend/cpu/extract/grid_passes.inl"
+
 #include "backend/cpu/extract/chunk_body.inl"
+
 #include "backend/cpu/extract/chunk_passes.inl"
 
 #include "backend/cpu/wide_end.h"
@@ -110,11 +119,11 @@ HWY_AFTER_NAMESPACE();
 namespace sgm {
 
 // A set's passes. The namespaces of the sets are all there is to tell them apart by.
-#define SGM_EXTRACT(name, set) \
-  {                                                                                                                    \
-    name, set::extract::signsOfRow, set::extract::listRows, set::extract::meshSlab,                                    \
-        set::extract::countSolid, set::extract::polygonizeChunk, set::extract::sortVertices, set::extract::attributeVertices,                    \
-        set::extract::hashMesh                                                                                         \
+#define SGM_EXTRACT(name, set)                                                                                \
+  {                                                                                                           \
+    name, set::extract::signsOfRow, set::extract::listRows, set::extract::meshSlab, set::extract::countSolid, \
+        set::extract::polygonizeChunk, set::extract::sortVertices, set::extract::attributeVertices,           \
+        set::extract::hashMesh                                                                                \
   }
 
 const MeshKernels* findWideMeshKernels(const char* name) {

@@ -47,13 +47,13 @@ struct Vector {
 /// The value in 1024ths of a cell, within the range of Q.
 FN Real scaledOf(const GridJob& job, Real value) {
   PRECISE Real v = value * broadcast(job.scale);
-  return clampReal(v, -static_cast<float>(kMaxQ), static_cast<float>(kMaxQ));
+  return clamped(v, static_cast<float>(kMaxQ));
 }
 FN Real scaledAt(const GridJob& job, const float* plane, Int at) { return scaledOf(job, loadAt(plane, at)); }
 
 FN Int quantised(Real scaled) {
   PRECISE Real v = scaled + 0.5f;
-  return toInt(floorReal(v));
+  return floorInt(v);
 }
 
 /// The difference along an axis whose next sample is `step` floats away: at the grid's border to one side, else half of
@@ -178,14 +178,14 @@ FN Vector normalsOf(const GridJob& job, const EdgeLanes& e, const float* plane, 
   if (!normals) return {};
   const Int end_x = wrapAdd(e.x, sel(e.along_x, one, zero)), end_y = wrapAdd(e.y, sel(e.along_y, one, zero)),
             end_z = wrapAdd(e.z, sel(e.along_z, one, zero));
-  return normalBetween(gradientAt(job, plane, start, e.x, e.y, e.z), gradientAt(job, plane, end, end_x, end_y, end_z), t,
-                       ownDirection(e, q0));
+  return normalBetween(gradientAt(job, plane, start, e.x, e.y, e.z), gradientAt(job, plane, end, end_x, end_y, end_z),
+                       t, ownDirection(e, q0));
 }
 
 /// A vector of edges of plane z: where they are crossed, and with `write` positions and normals of the first `count`,
 /// from vertex number `vertex` on.
-inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, const EdgeSurroundings& around, size_t count,
-                       size_t vertex, uint32_t* offsets, bool write) {
+inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, const EdgeSurroundings& around,
+                       size_t count, size_t vertex, uint32_t* offsets, bool write) {
   const EdgeLanes e = unpackEdges(edges, z);
   const bool normals = write && job.normals != nullptr;
   Int t;
@@ -243,7 +243,8 @@ inline void meshSlab(const GridJob& job, const GridSlab& slab, const GridScratch
     writePlane(job, z, edges, count, vertex, scratch.offsets + (vertex - first_vertex), z < slab.last);
     if (z > slab.first) {
       const uint64_t begin = slab.first_cell[z - 1];
-      meshCells(slab.cells + (begin - slab.first_cell[slab.first]), slab.first_cell[z] - begin, size_x, low, high, queues);
+      meshCells(slab.cells + (begin - slab.first_cell[slab.first]), slab.first_cell[z] - begin, size_x, low, high,
+                queues);
     }
     std::swap(low, high);
   }

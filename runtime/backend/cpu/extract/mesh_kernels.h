@@ -1,8 +1,8 @@
 #pragma once
-// Marching cubes in bits: which edges cross the surface and which cells it passes is read from signs, 64 samples a word;
-// vertices and loops are then taken a vector at a time. For a caller's grid of floats, and for the samples of a chunk,
-// with all else of a chunk that is not the field's. Made from one source for each instruction set (the .inl files here);
-// all give the same bits.
+// Marching cubes in bits: which edges cross the surface and which cells it passes is read from signs, 64 samples a
+// word; vertices and loops are then taken a vector at a time. For a caller's grid of floats, and for the samples of a
+// chunk, with all else of a chunk that is not the field's. Made from one source for each instruction set (the .inl
+// files here); all give the same bits.
 
 #include <array>
 #include <cstddef>

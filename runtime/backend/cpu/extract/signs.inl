@@ -35,7 +35,7 @@ FN RowSigns signsOf(const SignLattice& lattice, const uint64_t* row, size_t word
 template <class F>
 FN void forWords(const SignLattice& lattice, const size_t (&y)[2], const size_t (&z)[2], F&& f) {
   uint64_t wanted = ~uint64_t{0};
-  if (lattice.uniform != nullptr) {
+  if (lattice.words > 1 && lattice.uniform != nullptr) {
     uint64_t empty = ~uint64_t{0}, solid = ~uint64_t{0};
     for (size_t i = 0; i < 4; ++i) {
       const uint64_t* row = lattice.uniformRow(y[i & 1], z[i >> 1]);
@@ -63,7 +63,8 @@ FN bool isUniform(const uint64_t* const rows[4], size_t size_x) {
 inline constexpr int kPlaceBits = 14;
 inline constexpr uint32_t kPlaceMask = (1u << kPlaceBits) - 1;
 
-/// An active cell of a layer: the place of its lowest sample in the plane, what goes on beyond it (CellSteps), its case.
+/// An active cell of a layer: the place of its lowest sample in the plane, what goes on beyond it (CellSteps), its
+/// case.
 constexpr uint64_t packedCell(size_t place, uint32_t beyond, uint32_t cell_case) {
   return uint64_t{place} << 16 | beyond << 8 | cell_case;
 }
@@ -82,8 +83,8 @@ constexpr CaseEdges makeCaseEdges() {
 }
 inline constexpr CaseEdges kCaseEdges = makeCaseEdges();
 
-/// Lists what rows of plane z own: crossed edges, sample by sample and axis by axis, which is the order of vertices; and
-/// the active cells of the layer above, in their order.
+/// Lists what rows of plane z own: crossed edges, sample by sample and axis by axis, which is the order of vertices;
+/// and the active cells of the layer above, in their order.
 inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size_t last_row, uint32_t* edges,
                            uint64_t* cells) {
   ListCounts counts;
@@ -142,8 +143,10 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
       uint64_t triangles = 0;
       forBits(active, [&](size_t bit, uint64_t mask) {
         const uint32_t cell_case = cases[bit];
-        const auto along_y = static_cast<uint32_t>((beyond_low >> (bit & 63) & 1) + (beyond_high >> (bit & 63) & 1) * 2);
-        *next++ = packedCell(place + bit, kCaseEdges.along_x[cases[std::min<size_t>(bit, 63) + 1]] | along_y << 3, cell_case);
+        const auto along_y =
+            static_cast<uint32_t>((beyond_low >> (bit & 63) & 1) + (beyond_high >> (bit & 63) & 1) * 2);
+        *next++ =
+            packedCell(place + bit, kCaseEdges.along_x[cases[std::min<size_t>(bit, 63) + 1]] | along_y << 3, cell_case);
         triangles += mask != 0 ? kCubeTriangles[cell_case] : 0;
       });
       counts.triangles += triangles;
@@ -153,9 +156,11 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
   return counts;
 }
 
-/// The number of the first vertex of each sample that owns some: `edges` are a plane's, and the first has number `first`.
+/// The number of the first vertex of each sample that owns some: `edges` are a plane's, and the first has number
+/// `first`.
 inline void numberOwners(const uint32_t* edges, size_t count, size_t first, size_t size_x, uint32_t* numbers) {
   // From the last to the first, so that what a sample's first edge writes stays.
   for (size_t i = count; i-- > 0;)
-    numbers[(edges[i] >> kPlaceBits & kPlaceMask) * size_x + (edges[i] & kPlaceMask)] = static_cast<uint32_t>(first + i);
+    numbers[(edges[i] >> kPlaceBits & kPlaceMask) * size_x + (edges[i] & kPlaceMask)] =
+        static_cast<uint32_t>(first + i);
 }
