@@ -98,6 +98,11 @@ void KeptBlocks::release(void* memory, size_t size, size_t alignment) {
   makeRoom();
 }
 
+size_t KeptBlocks::bytes() {
+  const std::lock_guard lock(mutex_);
+  return bytes_;
+}
+
 sgm_allocator KeptBlocks::allocator() {
   return {[](void* user, size_t size, size_t alignment) {
             return static_cast<KeptBlocks*>(user)->allocate(size, alignment);

@@ -30,6 +30,9 @@ class KeptBlocks {
   void* allocate(size_t size, size_t alignment);
   void release(void* memory, size_t size, size_t alignment);
 
+  /// Kept now.
+  size_t bytes();
+
   /// These functions as a table; the object must outlive its use.
   sgm_allocator allocator();
 

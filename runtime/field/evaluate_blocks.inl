@@ -1,6 +1,9 @@
-// Arrays of points through the interpreter, in blocks; included where evaluate_kernel.inl would be.
+// Arrays of points through the interpreter, in blocks; included where evaluate_kernel.inl would be. An includer defines
+// signMask(p, count), too: bit i is the sign of the i-th integer at p, of which it may read whole vectors.
 
+#ifndef SGM_ONE_BY_ONE  // as tests define it, which compare
 #define SGM_LISTS
+#endif
 #include "field/evaluate_kernel.inl"
 #undef SGM_LISTS
 

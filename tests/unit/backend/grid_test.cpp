@@ -9,6 +9,7 @@
 #include "backend/cpu/extract/mesh_kernels.h"
 #include "catch.h"
 #include "mesh/body.h"
+#include "mesh/tables.h"
 #include "rounds.h"
 
 using namespace sgm;
@@ -144,6 +145,24 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
       CHECK(same);
     }
   }
+}
+
+TEST_CASE("no chord of a cube's loop of up to five edges lies in a face") {
+  // What cells.inl relies on (kForbids).
+  size_t short_loops = 0, forbidden = 0;
+  for (size_t at = 0; at < kCubeLoopBytes; at += size_t{kCubeLoops[at]} + 1) {
+    const size_t n = kCubeLoops[at];
+    for (size_t i = 0; i < n; ++i) {
+      for (size_t j = i + 2; j < n - (i == 0 ? 1 : 0); ++j) {
+        const bool in_a_face = (kCubeEdgeFaces[kCubeLoops[at + 1 + i]] & kCubeEdgeFaces[kCubeLoops[at + 1 + j]]) != 0;
+        if (n <= 5) CHECK_FALSE(in_a_face);
+        forbidden += in_a_face;
+      }
+    }
+    short_loops += n == 4 || n == 5;
+  }
+  CHECK(short_loops > 100);
+  CHECK(forbidden > 0);
 }
 
 TEST_CASE("every instruction set meshes a grid as the scalar one does") {
