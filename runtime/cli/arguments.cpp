@@ -555,10 +555,25 @@ Command addFly(CLI::App& root) {
   };
 }
 
-Command addBench(CLI::App& root) {
-  CLI::App* group = root.add_subcommand("bench", "Measure this machine: sgm bench paper");
-  group->require_subcommand(1);
-  CLI::App* app = group->add_subcommand(
+Command addBenchChunks(CLI::App& group) {
+  CLI::App* app = group.add_subcommand(
+      "chunks", "How fast this machine's processor meshes a region of a grammar's world, by each instruction set");
+  const auto options = std::make_shared<BenchChunksOptions>();
+  addWorldOptions(*app, *options);
+  addRegionOptions(*app, *options);
+  addLevelOption(*app, *options);
+  app->add_option("--runs", options->runs, "Runs that count, after the first; the time is their median")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1000}))
+      ->capture_default_str();
+  app->footer(
+      "Rows for one thread, and for --threads. Exit status 1 where two sets, or two numbers of threads, make different "
+      "meshes.\n"
+      "Example:\n  sgm bench chunks samples/grammars/cave.sgm --region 0,0,0:128,128,128");
+  return [options] { return benchChunks(*options); };
+}
+
+Command addBenchPaper(CLI::App& group) {
+  CLI::App* app = group.add_subcommand(
       "paper",
       "The paper's tables 1 to 3 of this runtime: speedup, efficiency and throughput of cave, cloud, building");
   const auto options = std::make_shared<BenchOptions>();
@@ -586,8 +601,15 @@ Command addBench(CLI::App& root) {
   app->footer(
       "Exit status 1 where two backends, or two runs, make different meshes.\n"
       "Example:\n  sgm bench paper --size 64 --runs 3");
-  group->footer("Example:\n  sgm bench paper --size 64 --runs 3");
   return [options] { return benchPaper(*options); };
+}
+
+Command addBench(CLI::App& root) {
+  CLI::App* group = root.add_subcommand("bench", "Measure this machine: sgm bench chunks, sgm bench paper");
+  group->require_subcommand(1);
+  const Command chunks = addBenchChunks(*group), paper = addBenchPaper(*group);
+  group->footer("Example:\n  sgm bench paper --size 64 --runs 3");
+  return [group, chunks, paper] { return group->got_subcommand("chunks") ? chunks() : paper(); };
 }
 
 Command addPaper(CLI::App& root) {

@@ -147,6 +147,11 @@ struct BenchOptions {
 };
 Exit benchPaper(const BenchOptions& options);
 
+struct BenchChunksOptions : WorldOptions {
+  uint64_t runs = 5;
+};
+Exit benchChunks(const BenchChunksOptions& options);
+
 struct PaperOptions {
   std::string out;
   std::vector<std::string> only;  ///< parts of the report; none: all
