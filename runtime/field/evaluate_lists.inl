@@ -23,30 +23,56 @@ SGM_KERNEL size_t pairsOf(std::span<const Instr> instrs, Op primitive, const Ins
   return pairs;
 }
 
-template <bool kGradient, Op kPrimitive, Op kAdd>
-SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
+/// The points of kTogether vectors, from i on: each addition waits for the one before it, so that vectors side by side
+/// pass through in little more time than one.
+template <bool kGradient, Op kPrimitive, Op kAdd, size_t kTogether>
+FN void addPairsAt(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t pairs,
+                   size_t i) {
   const Instr& add = instrs[1];
-  const size_t pairs = pairsOf(instrs, kPrimitive, add);
-  SGM_EACH {
-    const Int px = loadPlace(f, 0, 0, i), py = loadPlace(f, 0, 1, i), pz = loadPlace(f, 0, 2, i);
-    // The heaviest of a sum only gives its label.
-    constexpr bool kFirst = kGradient || kAdd != Op::sum_add;
-    Dual first = nothing(), second = loadDual<kGradient>(f, add.b, i), d = first;
-    if constexpr (kFirst) first = loadDual<kGradient>(f, add.dst, i);
-    for (size_t pair = 0; pair < pairs; ++pair) {
-      d = primitiveAt<kPrimitive>(px, py, pz, program.params.data() + instrs[2 * pair].params);
+  // The heaviest of a sum only gives its label.
+  constexpr bool kFirst = kGradient || kAdd != Op::sum_add;
+  Int px[kTogether], py[kTogether], pz[kTogether];
+  Dual first[kTogether], second[kTogether], d[kTogether];
+  for (size_t v = 0; v < kTogether; ++v) {
+    const size_t at = i + v * kLanes;
+    px[v] = loadPlace(f, 0, 0, at);
+    py[v] = loadPlace(f, 0, 1, at);
+    pz[v] = loadPlace(f, 0, 2, at);
+    second[v] = loadDual<kGradient>(f, add.b, at);
+    first[v] = d[v] = nothing();
+    if constexpr (kFirst) first[v] = loadDual<kGradient>(f, add.dst, at);
+  }
+  for (size_t pair = 0; pair < pairs; ++pair) {
+    const Params own = program.params.data() + instrs[2 * pair].params;
+    for (size_t v = 0; v < kTogether; ++v) {
+      d[v] = primitiveAt<kPrimitive>(px[v], py[v], pz[v], own);
       if constexpr (kAdd == Op::sum_add) {
-        if constexpr (kFirst) first = sumHeaviest(first, d);
-        second = opAdd(second, d);
+        if constexpr (kFirst) first[v] = sumHeaviest(first[v], d[v]);
+        second[v] = opAdd(second[v], d[v]);
       } else {
-        first = opMinimum(first, d);
-        second = roundAccumulate(second, d, PF((program.params.data() + instrs[2 * pair + 1].params), 0));
+        first[v] = opMinimum(first[v], d[v]);
+        second[v] = roundAccumulate(second[v], d[v], PF((program.params.data() + instrs[2 * pair + 1].params), 0));
       }
     }
-    if constexpr (kFirst) storeDual<kGradient>(f, add.dst, i, first);
-    storeDual<kGradient>(f, add.b, i, second);
-    storeDual<kGradient>(f, instrs[0].dst, i, d);
   }
+  for (size_t v = 0; v < kTogether; ++v) {
+    const size_t at = i + v * kLanes;
+    if constexpr (kFirst) storeDual<kGradient>(f, add.dst, at, first[v]);
+    storeDual<kGradient>(f, add.b, at, second[v]);
+    storeDual<kGradient>(f, instrs[0].dst, at, d[v]);
+  }
+}
+
+template <bool kGradient, Op kPrimitive, Op kAdd>
+SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
+  const size_t pairs = pairsOf(instrs, kPrimitive, instrs[1]);
+  size_t i = 0;
+  if constexpr (!kGradient) {  // a gradient's registers are many already
+    constexpr size_t kTogether = 2;
+    for (; i + kTogether * kLanes <= n; i += kTogether * kLanes)
+      addPairsAt<kGradient, kPrimitive, kAdd, kTogether>(program, f, instrs, pairs, i);
+  }
+  for (; i < n; i += kLanes) addPairsAt<kGradient, kPrimitive, kAdd, 1>(program, f, instrs, pairs, i);
   return 2 * pairs;
 }
 

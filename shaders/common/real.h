@@ -2,8 +2,10 @@
 
 // Which zero comes of a zero and its negative is not told: compilers make one instruction of these, and nothing that
 // follows lets a zero's sign through (unsignedZero).
+#ifndef SGM_VECTOR_FORMS  // the CPU's vectors have these in instructions of their own, with the same bits (wide.h)
 FN Real minReal(Real a, Real b) { return sel(a < b, a, b); }
 FN Real maxReal(Real a, Real b) { return sel(a > b, a, b); }
+#endif
 FN Real absReal(Real a) { return sel(a < 0.0f, -a, a); }
 FN Real clampReal(Real x, float lo, float hi) { return minReal(maxReal(x, broadcast(lo)), broadcast(hi)); }
 FN Real signOf(Real a) { return sel(a < 0.0f, broadcast(-1.0f), broadcast(1.0f)); }
@@ -65,12 +67,14 @@ FN Real holdReal(Real x) { return clampReal(x, -1.0e18f, 1.0e18f); }
 FN Real flushReal(Real x) { return sel((x < -1.0e-30f) || (x > 1.0e-30f), x, broadcast(0.0f)); }
 FN Real settleReal(Real x) { return flushReal(holdReal(x)); }
 
-// Largest whole number <= x, for |x| < 2^31.
+#ifndef SGM_VECTOR_FORMS
+// Largest whole number <= x, for |x| < 2^31; no negative zero.
 FN Real floorReal(Real x) {
   PRECISE Real r = toReal(toInt(x));
   PRECISE Real lower = r - 1.0f;
   return sel(r > x, lower, r);
 }
+#endif
 
 // 2^x, x clamped to [-126, 126]: relative error under 3e-7.
 FN Real exp2Real(Real x) {
@@ -130,6 +134,7 @@ FN Real powReal(Real a, Real n) {
   return exp2Real(e);
 }
 
+#ifndef SGM_VECTOR_FORMS
 // p - c, saturating: a half-space or a domain may be farther away than an int32 holds.
 FN Int saturatingSub(Int p, Int c) {
   Int d = wrapSub(p, c);
@@ -137,6 +142,7 @@ FN Int saturatingSub(Int p, Int c) {
   Int limit = sel(p < 0, broadcastInt(-2147483647 - 1), broadcastInt(2147483647));
   return sel(overflow, limit, d);
 }
+#endif
 
 // floor(f * scale + 0.5), clamped to +-2^22 (rule 3).
 FN Int quantise(Real f, float scale) {

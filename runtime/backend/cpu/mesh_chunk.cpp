@@ -28,9 +28,9 @@ void growAttributes(MeshScratch& s, size_t count) {
 
 // A vertex lies on an edge that begins at a sample of its brick, so the brick's own program holds all that matters
 // there.
-void fillBody(const ChunkKernels& kernels, const ChunkGrid& grid, ChunkScratch& s, MeshPart& body) {
+void fillBody(const ChunkKernels& kernels, ChunkScratch& s, MeshPart& body) {
   std::array<uint32_t, kBrickCount + 1> start;
-  kernels.mesh.sort(grid, body, s.mesh, start);
+  kernels.mesh.sort(s.mesh, body.vertices.size(), start);
   growAttributes(s.mesh, body.vertices.size());
   for (size_t b = 0; b < kBrickCount; ++b)
     evaluateAttributes(kernels.field, s.bricks[b].view(), start[b], start[b + 1], s);
@@ -117,7 +117,7 @@ void fillOwn(const ChunkKernels& kernels, const ChunkJob& job, bool uniform, Chu
   if (job.signs) mesh.signs = s.samples.signs;
   kernels.mesh.polygonize(s.samples, job.grid, s.mesh, mesh.body);
   if (job.sums_only) return;
-  fillBody(kernels, job.grid, s, mesh.body);
+  fillBody(kernels, s, mesh.body);
   kernels.mesh.hash(mesh.body);
 }
 

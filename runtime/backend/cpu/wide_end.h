@@ -9,4 +9,5 @@
 #undef QI
 #undef RF
 #undef RI
+#undef SGM_VECTOR_FORMS
 #undef SGM_WIDE

@@ -1,7 +1,7 @@
 // From active cells to triangles, a vector of loops at a time. An includer of the .inl files here defines before them:
 // the types and functions of shaders/common/real.h; kLanes; loadValues and loadLanes, which read lanes behind each
 // other, loadFour, four numbers of each lane, and loadAt, a gather; storeLanes; storeThree and storeFour, the lanes'
-// numbers in turn; squareRoot and quotient, as IEEE 754 has them, clamped and floorInt; scaledDouble, Int times double
+// numbers in turn; squareRoot and quotient, as IEEE 754 has them; scaledDouble, Int times double
 // rounded to float; maskOf, a bit a lane, and all; spreadBits<n>, which makes of n words 64 bytes, bit i of word k
 // being bit k of byte i; and addSteps, the vertices of a cell's edges: the numbers of its samples that its edges begin
 // at, with `steps`, a byte each, added to those of the edges 4 to 11.

@@ -3,7 +3,7 @@
 /// A vector of edges of plane z: where they are crossed, and the first `count` vertices and keys, from number `vertex`
 /// on.
 inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, const uint32_t* edges,
-                            size_t count, size_t vertex, uint32_t* offsets, MeshPart& part) {
+                            size_t count, size_t vertex, MeshScratch& scratch, MeshPart& part) {
   constexpr int32_t kSide = kChunkSamples;
   const EdgeLanes e = unpackEdges(edges, z);
   const Int zero = broadcastInt(0);
@@ -11,7 +11,7 @@ inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, 
   const Int start = wrapAdd(wrapMul(e.y, broadcastInt(kSide)), e.x);
   const Int step = sel(e.along_x, broadcastInt(1), sel(e.along_y, broadcastInt(kSide), broadcastInt(kSide * kSide)));
   const Int t = crossingOf(loadIntAt(plane, start), loadIntAt(plane, wrapAdd(start, step)));
-  storeLanes(placeOffset(e, t), offsets);
+  storeLanes(placeOffset(e, t), scratch.offsets.data() + vertex);
 
   const auto placed = [&](Int at, Bool along) {
     return toUintBits(wrapAdd(wrapMul(at, broadcastInt(kSubcell)), sel(along, t, zero)));
@@ -21,24 +21,38 @@ inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, 
   storeFour(placed(e.x, e.along_x) | placed(e.y, e.along_y) << 16, placed(e.z, e.along_z), Uint(0u), Uint(0u), words);
   memcpy(part.vertices.data() + vertex, words, some * sizeof(Vertex));
 
-  const auto corner = [&](int32_t origin, Int at) {
-    return toUintBits(wrapAdd(broadcastInt(origin), wrapMul(at, broadcastInt(grid.cell))));
-  };
+  const Int cell = broadcastInt(grid.cell);
+  const auto corner = [&](int32_t origin, Int at) { return wrapAdd(broadcastInt(origin), wrapMul(at, cell)); };
+  const Int corner_x = corner(grid.origin.x, e.x), corner_y = corner(grid.origin.y, e.y),
+            corner_z = corner(grid.origin.z, e.z);
   static_assert(sizeof(VertexKey) == 16 && offsetof(VertexKey, level) == 12 && offsetof(VertexKey, axis) == 13);
-  storeFour(corner(grid.origin.x, e.x), corner(grid.origin.y, e.y), corner(grid.origin.z, e.z),
+  storeFour(toUintBits(corner_x), toUintBits(corner_y), toUintBits(corner_z),
             toUintBits(e.axis) << 8 | Uint(static_cast<uint32_t>(grid.level)), words);
   memcpy(static_cast<void*>(part.keys.data() + vertex), words, some * sizeof(VertexKey));
+
+  // As vertexUnits has it: at most one coordinate lies between samples.
+  const Int along = toIntBits(toUintBits(wrapAdd(wrapMul(t, cell), broadcastInt(kSubcell / 2))) >> 8);
+  storeLanes(wrapAdd(corner_x, sel(e.along_x, along, zero)), scratch.place_x.data() + vertex);
+  storeLanes(wrapAdd(corner_y, sel(e.along_y, along, zero)), scratch.place_y.data() + vertex);
+  storeLanes(wrapAdd(corner_z, sel(e.along_z, along, zero)), scratch.place_z.data() + vertex);
+  static_assert(kBrickSamples == 8);
+  const auto brick = [](Int at) {
+    const Int b = toIntBits(toUintBits(at) >> 3), last = broadcastInt(kBricks - 1);
+    return sel(b > last, last, b);
+  };
+  const Int row = wrapAdd(brick(e.y), wrapMul(brick(e.z), broadcastInt(kBricks)));
+  storeLanes(wrapAdd(brick(e.x), wrapMul(row, broadcastInt(kBricks))), scratch.brick.data() + vertex);
 }
 
 inline void writeChunkPlane(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, const uint32_t* edges,
-                            size_t count, size_t vertex, uint32_t* offsets, MeshPart& part) {
+                            size_t count, size_t vertex, MeshScratch& scratch, MeshPart& part) {
   size_t at = 0;
   for (; at + kLanes <= count; at += kLanes)
-    writeChunkEdges(samples, grid, z, edges + at, kLanes, vertex + at, offsets + at, part);
+    writeChunkEdges(samples, grid, z, edges + at, kLanes, vertex + at, scratch, part);
   if (at == count) return;
   uint32_t rest[kLanes];
   std::fill(std::copy(edges + at, edges + count, rest), rest + kLanes, edges[at]);
-  writeChunkEdges(samples, grid, z, rest, count - at, vertex + at, offsets + at, part);
+  writeChunkEdges(samples, grid, z, rest, count - at, vertex + at, scratch, part);
 }
 
 inline void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScratch& scratch, MeshPart& part) {
@@ -63,6 +77,7 @@ inline void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, 
   if (vertices == 0) return;
 
   scratch.offsets.grow(0, vertices + kMostLanes);
+  scratch.growPlaces(vertices + kMostLanes);
   scratch.numbers.grow(0, 2 * kPlane);
   uint32_t* const numbers[2] = {scratch.numbers.data(), scratch.numbers.data() + kPlane};
   LoopQueues queues(scratch.offsets.data(), 0, part.indices.data());
@@ -70,7 +85,7 @@ inline void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, 
     const uint32_t* edges = scratch.edges.data() + first_vertex[z];
     const size_t count = first_vertex[z + 1] - first_vertex[z];
     numberOwners(edges, count, first_vertex[z], kSide, numbers[z & 1]);
-    writeChunkPlane(samples, grid, z, edges, count, first_vertex[z], scratch.offsets.data() + first_vertex[z], part);
+    writeChunkPlane(samples, grid, z, edges, count, first_vertex[z], scratch, part);
     if (z == 0) continue;
     meshCells(scratch.cells.data() + first_cell[z - 1], first_cell[z] - first_cell[z - 1], kSide, numbers[(z - 1) & 1],
               numbers[z & 1], queues);

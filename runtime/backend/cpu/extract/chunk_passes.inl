@@ -8,33 +8,29 @@ inline uint32_t countSolid(const ChunkSamples& samples) {
   return static_cast<uint32_t>(solid);
 }
 
-inline size_t brickOf(const Vertex& v) {
-  const auto at = [](int16_t position) {
-    return std::min<size_t>(static_cast<size_t>(position) / (kSubcell * kBrickSamples), kBricks - 1);
-  };
-  return at(v.x) + kBricks * (at(v.y) + kBricks * at(v.z));
+inline size_t brickOf(int x, int y, int z) {
+  const auto at = [](int sample) { return static_cast<size_t>(std::min(sample / kBrickSamples, kBricks - 1)); };
+  return at(x) + kBricks * (at(y) + kBricks * at(z));
 }
 
-inline void sortVertices(const ChunkGrid& grid, const MeshPart& body, MeshScratch& scratch,
-                         std::array<uint32_t, kBrickCount + 1>& start) {
-  const Vertex* vertices = body.vertices.data();
-  const size_t count = body.vertices.size();
+inline void sortVertices(MeshScratch& scratch, size_t count, std::array<uint32_t, kBrickCount + 1>& start) {
   scratch.order.grow(0, count);
   for (RawArray<int32_t>* array : {&scratch.x, &scratch.y, &scratch.z}) array->grow(0, count);
+  const uint32_t* brick = scratch.brick.data();
   start.fill(0);
-  for (size_t i = 0; i < count; ++i) ++start[brickOf(vertices[i]) + 1];
+  for (size_t i = 0; i < count; ++i) ++start[brick[i] + 1];
   for (size_t b = 0; b < kBrickCount; ++b) start[b + 1] += start[b];
   std::array<uint32_t, kBrickCount> next;
   std::copy_n(start.begin(), kBrickCount, next.begin());
+  const int32_t *from_x = scratch.place_x.data(), *from_y = scratch.place_y.data(), *from_z = scratch.place_z.data();
   uint32_t* order = scratch.order.data();
   int32_t *x = scratch.x.data(), *y = scratch.y.data(), *z = scratch.z.data();
   for (size_t i = 0; i < count; ++i) {
-    const size_t at = next[brickOf(vertices[i])]++;
-    const Int3 p = vertexUnits(grid, vertices[i]);
+    const size_t at = next[brick[i]]++;
     order[at] = static_cast<uint32_t>(i);
-    x[at] = p.x;
-    y[at] = p.y;
-    z[at] = p.z;
+    x[at] = from_x[i];
+    y[at] = from_y[i];
+    z[at] = from_z[i];
   }
 }
 

@@ -31,8 +31,6 @@ FN void storeLanes(Int i, int32_t* p) { *p = i; }
 FN void storeLanes(Int i, uint32_t* p) { *p = static_cast<uint32_t>(i); }
 FN void storeThree(Real a, Real b, Real c, float* p) { p[0] = a, p[1] = b, p[2] = c; }
 FN Real squareRoot(Real r) { return std::sqrt(r); }
-FN Real clamped(Real r, float most) { return clampReal(r, -most, most); }
-FN Int floorInt(Real r) { return toInt(std::floor(r)); }
 FN Real quotient(Real a, Real b) { return a / b; }
 FN Real scaledDouble(Int i, double scale) { return static_cast<float>(i * scale); }
 FN uint64_t maskOf(Bool b) { return b ? 1 : 0; }
@@ -68,8 +66,18 @@ FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, con
 
 #include "backend/cpu/extract/chunk_passes.inl"
 
-void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScratch&, MeshPart& part) {
+void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScratch& scratch, MeshPart& part) {
   polygonizeBody(samples, grid, part);
+  const size_t count = part.vertices.size();
+  scratch.growPlaces(count);
+  for (size_t i = 0; i < count; ++i) {
+    const Vertex& v = part.vertices[i];
+    const Int3 p = vertexUnits(grid, v);
+    scratch.place_x.data()[i] = p.x;
+    scratch.place_y.data()[i] = p.y;
+    scratch.place_z.data()[i] = p.z;
+    scratch.brick.data()[i] = static_cast<uint32_t>(brickOf(v.x >> 8, v.y >> 8, v.z >> 8));
+  }
 }
 
 }  // namespace scalar_extract

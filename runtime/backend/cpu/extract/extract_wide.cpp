@@ -49,10 +49,6 @@ FN void storeFour(Uint a, Uint b, Uint c, Uint e, uint32_t* p) {
   hn::StoreInterleaved4(a.v, b.v, c.v, e.v, UintTag(), p);
 }
 FN Real squareRoot(Real r) { return hn::Sqrt(r.v); }
-FN Real clamped(Real r, float most) {
-  return hn::Min(hn::Max(r.v, hn::Set(RealTag(), -most)), hn::Set(RealTag(), most));
-}
-FN Int floorInt(Real r) { return hn::ConvertTo(IntTag(), hn::Floor(r.v)); }
 FN Real quotient(Real a, Real b) { return hn::Div(a.v, b.v); }
 FN Real scaledDouble(Int i, double scale) {
   const hn::RepartitionToWide<RealTag> wide;

@@ -47,13 +47,13 @@ struct Vector {
 /// The value in 1024ths of a cell, within the range of Q.
 FN Real scaledOf(const GridJob& job, Real value) {
   PRECISE Real v = value * broadcast(job.scale);
-  return clamped(v, static_cast<float>(kMaxQ));
+  return clampReal(v, -static_cast<float>(kMaxQ), static_cast<float>(kMaxQ));
 }
 FN Real scaledAt(const GridJob& job, const float* plane, Int at) { return scaledOf(job, loadAt(plane, at)); }
 
 FN Int quantised(Real scaled) {
   PRECISE Real v = scaled + 0.5f;
-  return floorInt(v);
+  return toInt(floorReal(v));
 }
 
 /// The difference along an axis whose next sample is `step` floats away: at the grid's border to one side, else half of

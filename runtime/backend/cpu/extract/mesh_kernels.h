@@ -85,6 +85,10 @@ struct MeshScratch {
         edges(memory),
         offsets(memory),
         cells(memory),
+        brick(memory),
+        place_x(memory),
+        place_y(memory),
+        place_z(memory),
         order(memory),
         label(memory),
         x(memory),
@@ -96,9 +100,18 @@ struct MeshScratch {
 
   RawArray<uint32_t> numbers, edges, offsets;
   RawArray<uint64_t> cells;
+  /// Of a body's vertices: the brick of the sample that owns each one's edge, x fastest, and its place in units.
+  RawArray<uint32_t> brick;
+  RawArray<int32_t> place_x, place_y, place_z;
+  /// Of the vertices that are evaluated, in their order.
   RawArray<uint32_t> order, label;
   RawArray<int32_t> x, y, z, q;
   RawArray<int16_t> normal_x, normal_y;
+
+  void growPlaces(size_t count) {
+    brick.grow(0, count);
+    for (RawArray<int32_t>* array : {&place_x, &place_y, &place_z}) array->grow(0, count);
+  }
 };
 
 /// Pure but for what their arguments point at, which no two calls that run at a time share.
@@ -112,11 +125,11 @@ struct MeshKernels {
   void (*mesh)(const GridJob&, const GridSlab&, const GridScratch&);
   /// Solid samples of a chunk, without those of its high faces.
   uint32_t (*count)(const ChunkSamples&);
-  /// polygonizeBody of mesh/body.h.
+  /// polygonizeBody of mesh/body.h; also fills scratch.brick and scratch.place_x, y, z.
   void (*polygonize)(const ChunkSamples&, const ChunkGrid&, MeshScratch&, MeshPart&);
-  /// Puts a body's vertices into the order of their bricks: scratch.order, and x, y and z in units. start[b] is where
-  /// brick b begins.
-  void (*sort)(const ChunkGrid&, const MeshPart&, MeshScratch&, std::array<uint32_t, kBrickCount + 1>& start);
+  /// Puts the vertices that were polygonized last into the order of their bricks: scratch.order, and x, y and z in
+  /// units. start[b] is where brick b begins.
+  void (*sort)(MeshScratch&, size_t count, std::array<uint32_t, kBrickCount + 1>& start);
   /// Gives the vertices scratch.order[0..count) the attributes at the same places of scratch.
   void (*attribute)(MeshScratch&, size_t count, MeshPart&);
   /// hashPart of mesh/hash.h.
