@@ -53,8 +53,7 @@ class GridMesher {
 
   bool findSigns();
   void list(Slab& slab);
-  void meshSlab(size_t number, GridMesh& mesh);
-  void growBounds(size_t begin, size_t end, GridMesh& mesh);
+  void meshSlab(size_t number);
   std::unique_ptr<Scratch> takeScratch();
   void giveScratch(std::unique_ptr<Scratch> scratch);
 
@@ -67,7 +66,7 @@ class GridMesher {
   std::vector<Slab> slabs_;
   std::pmr::vector<uint64_t> first_vertex_, first_cell_;  ///< by plane and by layer of cells; counts, then sums
   std::mutex mutex_;                                      ///< of what slabs share, which is all below
-  bool bounded_ = false;                                  ///< some slab has set the bounds
+  GridBounds bounds_;
   std::vector<std::unique_ptr<Scratch>> free_scratch_;
 };
 
@@ -112,28 +111,6 @@ void GridMesher::list(Slab& slab) {
   }
 }
 
-/// Takes in the vertices that the planes own, while they are in cache.
-void GridMesher::growBounds(size_t begin, size_t end, GridMesh& mesh) {
-  const size_t first = first_vertex_[begin], last = first_vertex_[end];
-  if (first == last) return;
-  std::array<float, 3> lo, hi;
-  lo.fill(std::numeric_limits<float>::max());
-  hi.fill(std::numeric_limits<float>::lowest());
-  for (size_t v = first; v < last; ++v) {
-    for (size_t i = 0; i < 3; ++i) {
-      const float x = mesh.positions.data()[v * 3 + i];
-      lo[i] = std::min(lo[i], x);
-      hi[i] = std::max(hi[i], x);
-    }
-  }
-  const std::lock_guard lock(mutex_);
-  for (size_t i = 0; i < 3; ++i) {
-    mesh.bounds_min[i] = bounded_ ? std::min(mesh.bounds_min[i], lo[i]) : lo[i];
-    mesh.bounds_max[i] = bounded_ ? std::max(mesh.bounds_max[i], hi[i]) : hi[i];
-  }
-  bounded_ = true;
-}
-
 std::unique_ptr<GridMesher::Scratch> GridMesher::takeScratch() {
   const std::lock_guard lock(mutex_);
   if (free_scratch_.empty()) return std::make_unique<Scratch>(memory_);
@@ -147,7 +124,7 @@ void GridMesher::giveScratch(std::unique_ptr<Scratch> scratch) {
   free_scratch_.push_back(std::move(scratch));
 }
 
-void GridMesher::meshSlab(size_t number, GridMesh& mesh) {
+void GridMesher::meshSlab(size_t number) {
   const Slab& slab = slabs_[number];
   GridSlab listed{slab.first,        slab.last, first_vertex_.data(), first_cell_.data(), slab.triangles,
                   slab.edges.data(), nullptr,   slab.cells.data()};
@@ -156,9 +133,13 @@ void GridMesher::meshSlab(size_t number, GridMesh& mesh) {
   scratch->numbers.grow(0, 2 * grid_.size[0] * grid_.size[1]);
   scratch->offsets.grow(0,
                         first_vertex_[std::min(slab.last + 1, grid_.size[2])] - first_vertex_[slab.first] + kMostLanes);
-  kernels_.mesh(job_, listed, {scratch->numbers.data(), scratch->offsets.data()});
+  const GridBounds bounds = kernels_.mesh(job_, listed, {scratch->numbers.data(), scratch->offsets.data()});
   giveScratch(std::move(scratch));
-  growBounds(slab.first, slab.last, mesh);
+  const std::lock_guard lock(mutex_);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    bounds_.lo[axis] = std::min(bounds_.lo[axis], bounds.lo[axis]);
+    bounds_.hi[axis] = std::max(bounds_.hi[axis], bounds.hi[axis]);
+  }
 }
 
 Result<GridMesh> GridMesher::run() {
@@ -190,7 +171,12 @@ Result<GridMesh> GridMesher::run() {
   job_.normals = mesh.normals.data();
   job_.indices = mesh.indices.data();
 
-  parallelFor(jobs_, slabs_.size(), [&](size_t slab) { meshSlab(slab, mesh); });
+  parallelFor(jobs_, slabs_.size(), [&](size_t slab) { meshSlab(slab); });
+  for (size_t axis = 0; axis < 3; ++axis) {
+    // As vertices are placed: rounding keeps their order.
+    mesh.bounds_min[axis] = static_cast<float>(bounds_.lo[axis] * job_.step);
+    mesh.bounds_max[axis] = static_cast<float>(bounds_.hi[axis] * job_.step);
+  }
   return mesh;
 }
 

@@ -11,7 +11,7 @@ function page(width, height, body) {
 
 /// rows: { name, reached, asked, unit, atMost }. A bar is how far beyond what was asked: 1 is the line.
 export function bars(title, rows) {
-  const left = 430, unit = 150, height = 24, top = 44, most = 3.2;
+  const left = 500, unit = 150, height = 24, top = 44, most = 3.2;
   const drawn = rows.map((row, i) => {
     const share = row.atMost ? row.asked / row.reached : row.reached / row.asked;
     const y = top + i * height;
@@ -36,7 +36,8 @@ export function curves(panels) {
     const range = (k) => {
       const values = all.map((p) => Math.log10(p[k]));
       const lo = Math.min(...values), hi = Math.max(...values), pad = Math.max(0.08, 0.06 * (hi - lo));
-      return [lo - pad, hi + pad];
+      // Above, room for what the lines are called.
+      return [lo - pad, hi + pad + (k === 1 ? (0.14 + 0.09 * panel.lines.length) * Math.max(0.3, hi - lo) : 0)];
     };
     const [x0, x1] = range(0), [y0, y1] = range(1);
     const px = (x) => ox + left + (Math.log10(x) - x0) / (x1 - x0) * (wide - left - 12);
@@ -44,14 +45,14 @@ export function curves(panels) {
     const ticks = (lo, hi) => {
       const found = [];
       for (let e = Math.floor(lo); e <= hi; ++e)
-        for (const m of hi - lo > 2.5 ? [1] : [1, 2, 5]) if (Math.log10(m) + e >= lo && Math.log10(m) + e <= hi) found.push(m * 10 ** e);
+        for (const m of hi - lo > 2.5 ? [1] : hi - lo > 1 ? [1, 2, 5] : [1, 1.5, 2, 3, 4, 5, 7]) if (Math.log10(m) + e >= lo && Math.log10(m) + e <= hi) found.push(m * 10 ** e);
       return found;
     };
     const xs = [...new Set(all.map((p) => p[0]))].sort((a, b) => a - b);
     const grid = ticks(y0, y1).map((y) => `<path d="M${ox + left} ${py(y)}H${ox + wide - 12}" stroke="#ddd"/>` +
       `<text x="${ox + left - 6}" y="${py(y) + 4}" text-anchor="end">${short(y)}</text>`).join('') +
       xs.map((x) => `<path d="M${px(x)} ${oy + top}V${oy + tall - bottom}" stroke="#eee"/>` +
-        `<text x="${px(x)}" y="${oy + tall - bottom + 16}" text-anchor="middle">${x >= 1e4 ? x.toExponential(0).replace('+', '') : x}</text>`).join('');
+        `<text x="${px(x)}" y="${oy + tall - bottom + 16}" text-anchor="middle">${x >= 1e5 ? x.toExponential(0).replace('+', '') : x}</text>`).join('');
     const lines = panel.lines.map((line, i) => {
       const colour = colours[i % colours.length];
       const path = line.points.map((p, k) => `${k ? 'L' : 'M'}${px(p[0]).toFixed(1)} ${py(p[1]).toFixed(1)}`).join('');

@@ -3,8 +3,9 @@
 // other, loadFour, four numbers of each lane, and loadAt, a gather; storeLanes; storeThree and storeFour, the lanes'
 // numbers in turn; squareRoot and quotient, as IEEE 754 has them; scaledDouble, Int times double
 // rounded to float; maskOf, a bit a lane, and all; spreadBits<n>, which makes of n words 64 bytes, bit i of word k
-// being bit k of byte i; and addSteps, the vertices of a cell's edges: the numbers of its samples that its edges begin
-// at, with `steps`, a byte each, added to those of the edges 4 to 11.
+// being bit k of byte i; writeTriangles<n>(way, vertices, out), which
+// writes the triangles of a loop's triangulation; and addSteps, the vertices of a cell's edges: the numbers of its
+// samples that its edges begin at, with `steps`, a byte each, added to those of the edges 4 to 11.
 
 /// Where a cube's edge begins in its cell, in 256ths: 9 bits an axis. How far along it a vertex lies is added there.
 struct CubePlaces {
@@ -204,11 +205,7 @@ class LoopQueues {
       }
       triangulateLanes<N>(lanes, ways);
       for (size_t lane = 0; lane < some; ++lane) {
-        const uint8_t* triangles = triangulation::kTriangles<N>[static_cast<size_t>(ways[lane])].data();
-        const uint32_t* vertex = lanes.vertex[lane];
-        uint32_t* out = loops[lane].out;
-#pragma GCC unroll 16
-        for (size_t i = 0; i < 3 * (N - 2); ++i) out[i] = vertex[triangles[i]];
+        writeTriangles<N>(static_cast<size_t>(ways[lane]), lanes.vertex[lane], loops[lane].out);
       }
     }
   }

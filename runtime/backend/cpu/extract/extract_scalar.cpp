@@ -49,6 +49,12 @@ FN void spreadBits(const uint64_t* words, uint8_t* out) {
   }
 }
 
+template <size_t N>
+FN void writeTriangles(size_t way, const uint32_t* vertex, uint32_t* out) {
+  const uint8_t* triangles = triangulation::kTriangles<N>[way].data();
+  for (size_t i = 0; i < 3 * (N - 2); ++i) out[i] = vertex[triangles[i]];
+}
+
 FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, const uint32_t* r3, uint64_t steps,
                  uint32_t* number) {
   const uint32_t first[12] = {r0[0], r1[0], r2[0], r3[0], r0[0], r0[1], r2[0], r2[1], r0[0], r0[1], r1[0], r1[1]};

@@ -75,6 +75,47 @@ FN void spreadBits(const uint64_t* words, uint8_t* out) {
   }
 }
 
+// Corners of a way's triangles, each a lane: those of 8, and then those of the rest.
+template <size_t N>
+struct TriangleLanes {
+  alignas(64) uint32_t corner[static_cast<size_t>(triangulation::kWays[N])][16];
+};
+template <size_t N>
+constexpr TriangleLanes<N> makeTriangleLanes() {
+  TriangleLanes<N> lanes{};
+  for (size_t way = 0; way < triangulation::kTriangles<N>.size(); ++way)
+    for (size_t i = 0; i < 3 * (N - 2); ++i) lanes.corner[way][i] = triangulation::kTriangles<N>[way][i];
+  return lanes;
+}
+template <size_t N>
+inline constexpr TriangleLanes<N> kTriangleLanes = makeTriangleLanes<N>();
+
+// Stores end with the loop's last corner: what lies behind it may have been written before.
+template <size_t N>
+FN void writeTriangles(size_t way, const uint32_t* vertex, uint32_t* out) {
+  const uint32_t* corners = kTriangleLanes<N>.corner[way];
+#if HWY_TARGET == HWY_SSE4
+  for (size_t i = 0; i < 3 * (N - 2); ++i) out[i] = vertex[corners[i]];
+#else
+  const hn::FixedTag<uint32_t, 8> d;
+  const hn::FixedTag<uint32_t, 4> four;
+  const hn::FixedTag<uint32_t, 2> two;
+  const auto of = hn::LoadU(d, vertex);
+  const auto permuted = [&](size_t first) {
+    return hn::TableLookupLanes(of, hn::IndicesFromVec(d, hn::LoadU(d, corners + first)));
+  };
+  const auto begin = permuted(0);
+  if constexpr (N == 4) {
+    hn::StoreU(hn::LowerHalf(four, begin), four, out);
+    hn::StoreU(hn::LowerHalf(two, hn::UpperHalf(four, begin)), two, out + 4);
+  } else {
+    hn::StoreU(begin, d, out);
+    if constexpr (N > 5) hn::StoreU(hn::LowerHalf(four, permuted(8)), four, out + 8);
+    for (size_t i = N > 5 ? 12 : 8; i < 3 * (N - 2); ++i) out[i] = vertex[corners[i]];
+  }
+#endif
+}
+
 FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, const uint32_t* r3, uint64_t steps,
                  uint32_t* number) {
   const hn::FixedTag<uint32_t, 4> d;

@@ -182,26 +182,41 @@ FN Vector normalsOf(const GridJob& job, const EdgeLanes& e, const float* plane, 
                        t, ownDirection(e, q0));
 }
 
+/// The least and the most of what vertices' coordinates are in 256ths of a cell, by lane.
+struct BoundsLanes {
+  Int lo[3], hi[3];
+};
+
+FN void growBounds(BoundsLanes& bounds, size_t axis, Int at) {
+  bounds.lo[axis] = sel(at < bounds.lo[axis], at, bounds.lo[axis]);
+  bounds.hi[axis] = sel(at > bounds.hi[axis], at, bounds.hi[axis]);
+}
+
 /// A vector of edges of plane z: where they are crossed, and with `write` positions and normals of the first `count`,
 /// from vertex number `vertex` on.
 inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, const EdgeSurroundings& around,
-                       size_t count, size_t vertex, uint32_t* offsets, bool write) {
+                       size_t count, size_t vertex, uint32_t* offsets, bool write, BoundsLanes& bounds) {
   const EdgeLanes e = unpackEdges(edges, z);
   const bool normals = write && job.normals != nullptr;
   Int t;
   const Vector n = normalsOf(job, e, job.row(0, z), around, normals, t);
   storeLanes(placeOffset(e, t), offsets);
   if (!write) return;
-  const auto placed = [&](Int at, Bool along) {
-    return scaledDouble(wrapAdd(wrapMul(at, broadcastInt(kSubcell)), sel(along, t, broadcastInt(0))), job.step);
-  };
-  storeSome(placed(e.x, e.along_x), placed(e.y, e.along_y), placed(e.z, e.along_z), count, job.positions + vertex * 3);
+  const Int at[3] = {e.x, e.y, e.z};
+  const Bool along[3] = {e.along_x, e.along_y, e.along_z};
+  Real position[3];
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const Int fixed = wrapAdd(wrapMul(at[axis], broadcastInt(kSubcell)), sel(along[axis], t, broadcastInt(0)));
+    growBounds(bounds, axis, fixed);
+    position[axis] = scaledDouble(fixed, job.step);
+  }
+  storeSome(position[0], position[1], position[2], count, job.positions + vertex * 3);
   if (normals) storeSome(n.x, n.y, n.z, count, job.normals + vertex * 3);
 }
 
 /// The vertices of plane z, whose edges are listed; without `write` only where they lie on their edges.
 inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size_t count, size_t vertex,
-                       uint32_t* offsets, bool write) {
+                       uint32_t* offsets, bool write, BoundsLanes& bounds) {
   // Vectors are taken in batches, so that values have long been written when they are read as vectors. The planes above
   // have not been read for long: what lies farther ahead in the list is fetched while this is worked on.
   constexpr size_t kBatch = 2, kAhead = 128;
@@ -225,11 +240,17 @@ inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size
     if (write && job.normals != nullptr)
       for (size_t at = 0; at < some; at += kLanes) lookAround(job, z, block + at, around[at / kLanes]);
     for (size_t at = 0; at < some; at += kLanes)
-      writeEdges(job, z, block + at, around[at / kLanes], some - at, vertex + first + at, offsets + first + at, write);
+      writeEdges(job, z, block + at, around[at / kLanes], some - at, vertex + first + at, offsets + first + at, write,
+                 bounds);
   }
 }
 
-inline void meshSlab(const GridJob& job, const GridSlab& slab, const GridScratch& scratch) {
+inline GridBounds meshSlab(const GridJob& job, const GridSlab& slab, const GridScratch& scratch) {
+  BoundsLanes bounds;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    bounds.lo[axis] = broadcastInt(GridBounds{}.lo[axis]);
+    bounds.hi[axis] = broadcastInt(GridBounds{}.hi[axis]);
+  }
   const size_t size_x = job.lattice.size[0], first_vertex = slab.first_vertex[slab.first];
   uint32_t* low = scratch.numbers;
   uint32_t* high = scratch.numbers + size_x * job.lattice.size[1];
@@ -240,7 +261,7 @@ inline void meshSlab(const GridJob& job, const GridSlab& slab, const GridScratch
     const size_t vertex = slab.first_vertex[z], count = slab.first_vertex[z + 1] - vertex;
     const uint32_t* edges = z == slab.last ? slab.edges_above : slab.edges + (vertex - first_vertex);
     numberOwners(edges, count, vertex, size_x, high);
-    writePlane(job, z, edges, count, vertex, scratch.offsets + (vertex - first_vertex), z < slab.last);
+    writePlane(job, z, edges, count, vertex, scratch.offsets + (vertex - first_vertex), z < slab.last, bounds);
     if (z > slab.first) {
       const uint64_t begin = slab.first_cell[z - 1];
       meshCells(slab.cells + (begin - slab.first_cell[slab.first]), slab.first_cell[z] - begin, size_x, low, high,
@@ -249,4 +270,14 @@ inline void meshSlab(const GridJob& job, const GridSlab& slab, const GridScratch
     std::swap(low, high);
   }
   queues.finish();
+
+  GridBounds result;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    alignas(64) int32_t lo[kLanes], hi[kLanes];
+    storeLanes(bounds.lo[axis], lo);
+    storeLanes(bounds.hi[axis], hi);
+    result.lo[axis] = *std::min_element(lo, lo + kLanes);
+    result.hi[axis] = *std::max_element(hi, hi + kLanes);
+  }
+  return result;
 }

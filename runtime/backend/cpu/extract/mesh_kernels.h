@@ -54,6 +54,11 @@ struct ListCounts {
 constexpr size_t edgeRoom(size_t size_x, size_t rows) { return 3 * size_x * rows + 2; }
 constexpr size_t cellRoom(size_t size_x, size_t rows) { return size_x * rows + 1; }
 
+/// What a slab's own vertices lie between, in 256ths of a cell; lo above hi where there is none.
+struct GridBounds {
+  std::array<int32_t, 3> lo{INT32_MAX, INT32_MAX, INT32_MAX}, hi{INT32_MIN, INT32_MIN, INT32_MIN};
+};
+
 /// The planes first..last - 1 with the layers of cells above them: what is listed of them, and what comes before them.
 struct GridSlab {
   size_t first = 0, last = 0;
@@ -122,7 +127,7 @@ struct MeshKernels {
   /// Lists what the rows first..last - 1 of plane z own.
   ListCounts (*list)(const SignLattice&, size_t z, size_t first, size_t last, uint32_t* edges, uint64_t* cells);
   /// Vertices and triangles of a slab.
-  void (*mesh)(const GridJob&, const GridSlab&, const GridScratch&);
+  GridBounds (*mesh)(const GridJob&, const GridSlab&, const GridScratch&);
   /// Solid samples of a chunk, without those of its high faces.
   uint32_t (*count)(const ChunkSamples&);
   /// polygonizeBody of mesh/body.h; also fills scratch.brick and scratch.place_x, y, z.
