@@ -18,23 +18,43 @@ size_t bytesOf(const GrammarChunk& c) {
 DerivedCell::DerivedCell(GrammarChunk&& c, std::pmr::memory_resource* memory)
     : chunk(std::move(c)), index(chunk, memory), bytes(bytesOf(chunk)) {}
 
+std::shared_ptr<const DerivedCell> CellCache::use(Entry& entry) {
+  const uint64_t now = clock_.load(std::memory_order_relaxed);
+  if (entry.used.load(std::memory_order_relaxed) != now) entry.used.store(now, std::memory_order_relaxed);
+  return entry.cell;
+}
+
+void CellCache::find(std::span<const CellKey> keys, std::vector<std::shared_ptr<const DerivedCell>>& found) {
+  found.assign(keys.size(), nullptr);
+  uint64_t hits = 0;
+  const std::shared_lock lock(mutex_);
+  for (size_t i = 0; i < keys.size(); ++i) {
+    const auto entry = entries_.find(keys[i]);
+    if (entry == entries_.end() || !entry->second.cell) continue;
+    found[i] = use(entry->second);
+    ++hits;
+  }
+  hits_.fetch_add(hits, std::memory_order_relaxed);
+}
+
 Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, const Derive& derive) {
-  const auto hit = [this](Entry& entry) {
-    hits_.fetch_add(1, std::memory_order_relaxed);
-    entry.used.store(clock_.fetch_add(1, std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-    return entry.cell;
-  };
   {
     const std::shared_lock lock(mutex_);
     const auto found = entries_.find(key);
-    if (found != entries_.end() && found->second.cell) return hit(found->second);
+    if (found != entries_.end() && found->second.cell) {
+      hits_.fetch_add(1, std::memory_order_relaxed);
+      return use(found->second);
+    }
   }
   {
     std::unique_lock lock(mutex_);
     for (;;) {
       const auto found = entries_.find(key);
       if (found == entries_.end()) break;
-      if (found->second.cell) return hit(found->second);
+      if (found->second.cell) {
+        hits_.fetch_add(1, std::memory_order_relaxed);
+        return use(found->second);
+      }
       // Layers only ask downwards, so whoever derives this cell never waits for us.
       derived_.wait(lock);
     }

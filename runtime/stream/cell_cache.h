@@ -10,6 +10,8 @@
 #include <memory>
 #include <mutex>
 #include <shared_mutex>
+#include <span>
+#include <vector>
 
 #include "base/result.h"
 #include "field/compile.h"
@@ -48,6 +50,9 @@ class CellCache {
   /// derive runs without any lock held, and may ask for cells of lower layers. A failed cell is not kept.
   Result<std::shared_ptr<const DerivedCell>> get(const CellKey& key, const Derive& derive);
 
+  /// The finished cells among those of the keys, in their order, null for each other: found[i] is that of keys[i].
+  void find(std::span<const CellKey> keys, std::vector<std::shared_ptr<const DerivedCell>>& found);
+
   /// Takes over finished cells of another cache that it does not have itself, the latest used first, as far as there is
   /// room. take must not call back.
   void adopt(const CellCache& other, const std::function<bool(const DerivedCell&)>& take);
@@ -57,10 +62,12 @@ class CellCache {
  private:
   struct Entry {
     std::shared_ptr<const DerivedCell> cell;  ///< null while it is being derived
-    std::atomic<uint64_t> used{0};            ///< by clock_, when it was last asked for
+    std::atomic<uint64_t> used{0};            ///< what clock_ was when it was last asked for
     std::list<CellKey>::iterator listed;
     uint64_t listed_as = 0;  ///< what `used` was when it got its place in the list
   };
+  /// Under the lock, shared or not.
+  std::shared_ptr<const DerivedCell> use(Entry& entry);
   void evict();
   /// Puts it where it belongs in the list by its last use.
   void relist(Entry& entry);
@@ -73,7 +80,10 @@ class CellCache {
   std::condition_variable_any derived_;
   std::map<CellKey, Entry> entries_;
   std::list<CellKey> by_use_;  ///< by listed_as, the latest first; only finished cells
-  std::atomic<uint64_t> clock_{0}, hits_{0};
+  // Counts the cells that have come: between two of them nothing can have to go, so that no order is needed, and who
+  // finds a cell in use has nothing to write.
+  std::atomic<uint64_t> clock_{0};
+  std::atomic<uint64_t> hits_{0};
   CellCacheStats stats_;  ///< but for the hits
 };
 

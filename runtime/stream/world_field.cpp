@@ -112,7 +112,8 @@ Result<GrammarChunk> WorldField::derive(uint32_t layer, Int3 at, int32_t cell_ed
 
 Result<TracedCell> WorldField::trace(uint32_t layer, Int3 at) const {
   Result<TracedCell> traced = overLayersBelow<TracedCell>(layer, at, [&](const LayersBelow& below) {
-    return traceCell(*settings_.program, settings_.parameters, settings_.seed, layer, at, below, DeriveLimits{}, memory_);
+    return traceCell(*settings_.program, settings_.parameters, settings_.seed, layer, at, below, DeriveLimits{},
+                     memory_);
   });
   if (traced && settings_.shift != Int3{}) translate(traced->chunk, settings_.shift);
   return traced;
@@ -122,14 +123,19 @@ Result<std::shared_ptr<const DerivedCell>> WorldField::cell(uint32_t layer, Int3
   return cache_.get({layer, at, 0}, [&] { return derive(layer, at, 0); });
 }
 
-Result<std::shared_ptr<const DerivedCell>> WorldField::cellFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
+CellKey WorldField::keyFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
   // What is kept for a level does for the next one as well. Never made of what is kept for finer levels: what a chunk
   // shows must not depend on what the cache happens to hold.
   constexpr int kLevelsTogether = 2;
   int32_t kept = settings_.finest_cell;
   while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
-  if (kept == settings_.finest_cell || !settings_.program->layers[layer].by_level) return cell(layer, at);
-  return cache_.get({layer, at, kept}, [&] { return derive(layer, at, kept); });
+  if (kept == settings_.finest_cell || !settings_.program->layers[layer].by_level) kept = 0;
+  return {layer, at, kept};
+}
+
+Result<std::shared_ptr<const DerivedCell>> WorldField::cellFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
+  const CellKey key = keyFor(layer, at, cell_edge);
+  return cache_.get(key, [&] { return derive(layer, at, key.cell_edge); });
 }
 
 Result<std::vector<RuleInstance>> WorldField::instances(uint32_t rule, const IntBox& box, size_t most) const {
@@ -222,21 +228,31 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
   const IntBox reached = box.grown(influenceMargin(field.cell));
   GatheredCells held;
   std::pmr::vector<IndexedCell> indexed(memory_);
+  std::vector<CellKey> keys;
+  std::vector<std::shared_ptr<const DerivedCell>> found;
   if (alone_) {
     indexed.push_back(alone_->indexed());
     held.cells.push_back(alone_);
   }
   for (uint32_t layer = 0; layer < layers && !alone_; ++layer) {
     if (!settings_.program->layers[layer].shows(field.cell)) continue;
-    const Result<void> gathered = walkCells(layer, reached, CellsOf::chunk, [&](const CellKey& key) -> Result<void> {
-      Result<std::shared_ptr<const DerivedCell>> derived = cellFor(key.layer, key.cell, field.cell);
-      if (!derived) return derived.error();
-      held.parameters |= (*derived)->chunk.parameters;
-      indexed.push_back((*derived)->indexed());
-      held.cells.push_back(std::move(*derived));
+    keys.clear();
+    const Result<void> walked = walkCells(layer, reached, CellsOf::chunk, [&](const CellKey& key) -> Result<void> {
+      keys.push_back(keyFor(key.layer, key.cell, field.cell));
       return {};
     });
-    if (!gathered) return gathered.error();
+    if (!walked) return walked.error();
+    cache_.find(keys, found);
+    for (size_t i = 0; i < keys.size(); ++i) {
+      if (!found[i]) {
+        Result<std::shared_ptr<const DerivedCell>> derived = cellFor(keys[i].layer, keys[i].cell, field.cell);
+        if (!derived) return derived.error();
+        found[i] = std::move(*derived);
+      }
+      held.parameters |= found[i]->chunk.parameters;
+      indexed.push_back(found[i]->indexed());
+      held.cells.push_back(std::move(found[i]));
+    }
   }
   Result<FieldProgram> program = compileField(indexed, box, field, memory_, hosts, brushes);
   if (!program) return program.error();

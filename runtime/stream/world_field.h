@@ -117,6 +117,8 @@ class WorldField {
                                                            uint64_t* parameters = nullptr) const;
 
  private:
+  /// What the cache keeps a cell as for levels with cells of this edge.
+  CellKey keyFor(uint32_t layer, Int3 at, int32_t cell_edge) const;
   /// What cells are gathered for: one chunk's program, which holds all of them, or a look at each in turn.
   enum class CellsOf { chunk, box };
   /// Visits the cells of a layer whose shapes can reach into the box, in order z, y, x, to the first error.
