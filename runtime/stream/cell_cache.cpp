@@ -125,23 +125,18 @@ void CellCache::adopt(const CellCache& other, const std::function<bool(const Der
   }
 }
 
-void CellCache::relist(Entry& entry) {
-  entry.listed_as = entry.used;
-  auto at = by_use_.begin();
-  while (entries_.at(*at).listed_as > entry.listed_as) ++at;
-  by_use_.splice(at, by_use_, entry.listed);
-}
-
 void CellCache::evict() {
   // The cell just made stays, however large: its asker holds it anyway.
   while (stats_.bytes > byte_limit_ && by_use_.size() > 1) {
     const auto last = entries_.find(by_use_.back());
-    // All others were used no earlier than they are listed as, and that is no earlier than this one is.
-    if (last->second.used != last->second.listed_as) {
-      relist(last->second);
+    Entry& entry = last->second;
+    if (entry.used != entry.listed_as) {
+      // A second chance: it was asked for since it got its place.
+      entry.listed_as = entry.used;
+      by_use_.splice(by_use_.begin(), by_use_, entry.listed);
       continue;
     }
-    stats_.bytes -= last->second.cell->bytes;
+    stats_.bytes -= entry.cell->bytes;
     --stats_.cells;
     ++stats_.evicted;
     by_use_.pop_back();

@@ -69,17 +69,15 @@ class CellCache {
   /// Under the lock, shared or not.
   std::shared_ptr<const DerivedCell> use(Entry& entry);
   void evict();
-  /// Puts it where it belongs in the list by its last use.
-  void relist(Entry& entry);
 
   const size_t byte_limit_;
   std::pmr::memory_resource* memory_;
-  // Cells that are there are found by many threads at one time, and only note when; the list is brought up to date as
-  // far as an eviction needs it.
+  // Cells that are there are found by many threads at one time, and only note when. Who has been asked for since it got
+  // its place in the list gets one at the beginning when its turn to go has come.
   mutable std::shared_mutex mutex_;
   std::condition_variable_any derived_;
   std::map<CellKey, Entry> entries_;
-  std::list<CellKey> by_use_;  ///< by listed_as, the latest first; only finished cells
+  std::list<CellKey> by_use_;  ///< by use, about the latest first; only finished cells
   // Counts the cells that have come: between two of them nothing can have to go, so that no order is needed, and who
   // finds a cell in use has nothing to write.
   std::atomic<uint64_t> clock_{0};
