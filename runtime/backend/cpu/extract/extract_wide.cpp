@@ -94,7 +94,7 @@ inline constexpr TriangleLanes<N> kTriangleLanes = makeTriangleLanes<N>();
 template <size_t N>
 FN void writeTriangles(size_t way, const uint32_t* vertex, uint32_t* out) {
   const uint32_t* corners = kTriangleLanes<N>.corner[way];
-#if HWY_TARGET == HWY_SSE4
+#if HWY_MAX_BYTES < 32
   for (size_t i = 0; i < 3 * (N - 2); ++i) out[i] = vertex[corners[i]];
 #else
   const hn::FixedTag<uint32_t, 8> d;
