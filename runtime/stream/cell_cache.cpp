@@ -75,6 +75,9 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
     }
     auto cell = std::make_shared<const DerivedCell>(std::move(*chunk), memory_);
     std::lock_guard lock(mutex_);
+    // Before it has a place, or second chances of all others would make it the one to go. It comes, however large: its
+    // asker holds it anyway.
+    makeRoom(cell->bytes);
     by_use_.push_front(key);
     Entry& entry = entries_[key];
     entry.cell = cell;
@@ -82,7 +85,6 @@ Result<std::shared_ptr<const DerivedCell>> CellCache::get(const CellKey& key, co
     entry.used = entry.listed_as = ++clock_;
     stats_.bytes += cell->bytes;
     ++stats_.cells;
-    evict();
     derived_.notify_all();
     return std::shared_ptr<const DerivedCell>(cell);
   } catch (...) {
@@ -105,7 +107,7 @@ void CellCache::adopt(const CellCache& other, const std::function<bool(const Der
       if (take(*entry.cell)) taken.push_back({entry.used, key, entry.cell});
     }
   }
-  std::sort(taken.begin(), taken.end(), [](const Taken& a, const Taken& b) { return a.used > b.used; });
+  std::stable_sort(taken.begin(), taken.end(), [](const Taken& a, const Taken& b) { return a.used > b.used; });
   const std::lock_guard lock(mutex_);
   for (const auto& [used, key, cell] : taken) {
     if (stats_.bytes + cell->bytes > byte_limit_) break;
@@ -125,9 +127,8 @@ void CellCache::adopt(const CellCache& other, const std::function<bool(const Der
   }
 }
 
-void CellCache::evict() {
-  // The cell just made stays, however large: its asker holds it anyway.
-  while (stats_.bytes > byte_limit_ && by_use_.size() > 1) {
+void CellCache::makeRoom(size_t bytes) {
+  while (stats_.bytes + bytes > byte_limit_ && !by_use_.empty()) {
     const auto last = entries_.find(by_use_.back());
     Entry& entry = last->second;
     if (entry.used != entry.listed_as) {

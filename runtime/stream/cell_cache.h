@@ -68,7 +68,8 @@ class CellCache {
   };
   /// Under the lock, shared or not.
   std::shared_ptr<const DerivedCell> use(Entry& entry);
-  void evict();
+  /// So that so many bytes more are within the limit, or no cell is left.
+  void makeRoom(size_t bytes);
 
   const size_t byte_limit_;
   std::pmr::memory_resource* memory_;
@@ -79,8 +80,8 @@ class CellCache {
   std::map<CellKey, Entry> entries_;
   std::list<CellKey> by_use_;  ///< by use, about the latest first; only finished cells
   // Counts the cells that have come: between two of them nothing can have to go, so that no order is needed, and who
-  // finds a cell in use has nothing to write.
-  std::atomic<uint64_t> clock_{0};
+  // finds a cell in use has nothing to write. 0 is before all uses: adopted cells have it.
+  std::atomic<uint64_t> clock_{1};
   std::atomic<uint64_t> hits_{0};
   CellCacheStats stats_;  ///< but for the hits
 };

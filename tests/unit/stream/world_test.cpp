@@ -157,26 +157,6 @@ TEST_CASE("a probe in one go answers as the probe step by step") {
   CHECK(hits > 0);
 }
 
-TEST_CASE("a cell asked for by many threads is derived once, and a failed one is not kept", "[threads]") {
-  CellCache cache(1 << 20, std::pmr::get_default_resource());
-  const auto jobs = *makeThreadPool(8);
-  std::atomic<int> derived{0};
-  parallelFor(*jobs, 64, [&](size_t i) {
-    const auto cell = cache.get({0, {static_cast<int32_t>(i % 4), 0, 0}}, [&]() -> Result<GrammarChunk> {
-      ++derived;
-      return GrammarChunk{};
-    });
-    if (!cell) throw std::runtime_error("no cell");
-  });
-  CHECK(derived == 4);
-  CHECK(cache.stats().cells == 4);
-
-  const CellKey bad{1, {}};
-  CHECK_FALSE(cache.get(bad, []() -> Result<GrammarChunk> { return Error{Code::limit, "too much"}; }));
-  CHECK_THROWS(cache.get(bad, []() -> Result<GrammarChunk> { throw std::bad_alloc(); }));
-  CHECK(cache.get(bad, []() -> Result<GrammarChunk> { return GrammarChunk{}; }));
-}
-
 TEST_CASE("chunks and regions outside of the world are refused with a reason") {
   const WorldField world(settingsOf(sample("sphere.sgm"), 512), std::pmr::get_default_resource());
   CHECK(chunkGrid(world, {0, {131'070, 0, 0}}));
