@@ -42,12 +42,30 @@ bool KeptBlocks::keeps(size_t size, size_t alignment) {
   return size > kSmallest && size <= kLargest && alignment <= alignmentOf(capacityOf(numberOf(size)));
 }
 
+void* KeptBlocks::fromSystem(size_t size, size_t alignment) {
+  if (void* memory = system_.allocate(system_.user, size, alignment)) return memory;
+  // What is kept for speed alone must not be what somebody lacks.
+  dropAll();
+  return system_.allocate(system_.user, size, alignment);
+}
+
+void KeptBlocks::toSystem(void* memory, size_t size, size_t alignment) {
+  system_.release(system_.user, memory, size, alignment);
+}
+
 void KeptBlocks::drop(Shelf& shelf, size_t capacity) {
   void* memory = shelf.blocks.back();
   shelf.blocks.pop_back();
   bytes_ -= capacity;
   ASAN_UNPOISON_MEMORY_REGION(memory, capacity);
-  systemRelease(nullptr, memory, capacity, alignmentOf(capacity));
+  toSystem(memory, capacity, alignmentOf(capacity));
+}
+
+void KeptBlocks::dropAll() {
+  const std::lock_guard lock(mutex_);
+  for (size_t i = 0; i < kSizes; ++i) {
+    while (!shelves_[i].blocks.empty()) drop(shelves_[i], capacityOf(i));
+  }
 }
 
 void KeptBlocks::makeRoom() {
@@ -60,14 +78,10 @@ void KeptBlocks::makeRoom() {
   }
 }
 
-KeptBlocks::~KeptBlocks() {
-  for (size_t i = 0; i < kSizes; ++i) {
-    while (!shelves_[i].blocks.empty()) drop(shelves_[i], capacityOf(i));
-  }
-}
+KeptBlocks::~KeptBlocks() { dropAll(); }
 
 void* KeptBlocks::allocate(size_t size, size_t alignment) {
-  if (!keeps(size, alignment)) return systemAllocate(nullptr, size, alignment);
+  if (!keeps(size, alignment)) return fromSystem(size, alignment);
   const size_t number = numberOf(size), capacity = capacityOf(number);
   {
     const std::lock_guard lock(mutex_);
@@ -81,17 +95,17 @@ void* KeptBlocks::allocate(size_t size, size_t alignment) {
       return memory;
     }
   }
-  return systemAllocate(nullptr, capacity, alignmentOf(capacity));
+  return fromSystem(capacity, alignmentOf(capacity));
 }
 
 void KeptBlocks::release(void* memory, size_t size, size_t alignment) {
-  if (!keeps(size, alignment)) return systemRelease(nullptr, memory, size, alignment);
+  if (!keeps(size, alignment)) return toSystem(memory, size, alignment);
   const size_t number = numberOf(size), capacity = capacityOf(number);
   const std::lock_guard lock(mutex_);
   try {
     shelves_[number].blocks.push_back(memory);
   } catch (const std::bad_alloc&) {
-    return systemRelease(nullptr, memory, capacity, alignmentOf(capacity));
+    return toSystem(memory, capacity, alignmentOf(capacity));
   }
   ASAN_POISON_MEMORY_REGION(memory, capacity);
   bytes_ += capacity;

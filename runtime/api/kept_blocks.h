@@ -11,20 +11,24 @@
 
 namespace sgm::api {
 
+/// malloc and free.
+sgm_allocator systemAllocator();
+
 /// malloc gives large blocks back to the system and takes fresh ones from it, page by page: for a mesh of a million
 /// triangles that takes as long as half of the meshing, and threads wait for each other there. So blocks that are
-/// released wait here for the next of their size. Thread-safe.
+/// released wait here for the next of their size; all go where the system has no memory left. Thread-safe.
 class KeptBlocks {
  public:
-  KeptBlocks() = default;
+  /// Of memory from `system`, whose user outlives the object.
+  explicit KeptBlocks(const sgm_allocator& system = systemAllocator()) : system_(system) {}
   KeptBlocks(const KeptBlocks&) = delete;
   KeptBlocks& operator=(const KeptBlocks&) = delete;
   ~KeptBlocks();
 
   static constexpr size_t kSmallest = size_t{1} << 14;  ///< bytes of a block that is kept
   static constexpr size_t kLargest = size_t{1} << 26;
-  static constexpr size_t kMost = size_t{1}
-                                  << 27;  ///< bytes that are kept in all: of the size unused for longest first
+  /// Bytes that are kept in all: of the size unused for longest first.
+  static constexpr size_t kMost = size_t{1} << 27;
 
   /// As sgm_allocator's functions.
   void* allocate(size_t size, size_t alignment);
@@ -51,16 +55,17 @@ class KeptBlocks {
   static size_t capacityOf(size_t number);
   static size_t alignmentOf(size_t capacity);
   static bool keeps(size_t size, size_t alignment);
+  void* fromSystem(size_t size, size_t alignment);
+  void toSystem(void* memory, size_t size, size_t alignment);
   void drop(Shelf& shelf, size_t capacity);
+  void dropAll();
   void makeRoom();
 
+  const sgm_allocator system_;
   std::mutex mutex_;
   std::array<Shelf, kSizes> shelves_;
   uint64_t clock_ = 0;
   size_t bytes_ = 0;  ///< of all that are kept
 };
-
-/// malloc and free.
-sgm_allocator systemAllocator();
 
 }  // namespace sgm::api

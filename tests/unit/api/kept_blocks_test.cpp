@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstring>
+#include <map>
 #include <random>
 #include <thread>
 
@@ -21,7 +22,7 @@ struct Held {
   unsigned char mark;
 };
 
-/// Takes and gives back blocks of all sizes, each marked from end to end; counts the marks that are gone.
+/// Takes and gives back blocks of all sizes, each marked at its ends and in its middle; counts the marks that are gone.
 size_t useBlocks(KeptBlocks& blocks, uint32_t seed, unsigned steps) {
   std::mt19937 random(seed);
   std::vector<Held> held;
@@ -101,4 +102,48 @@ TEST_CASE("what is kept stays below its bound") {
   void* other = blocks.allocate(kSize / 2, 64);
   blocks.release(other, kSize / 2, 64);
   CHECK(blocks.bytes() <= KeptBlocks::kMost);
+}
+
+TEST_CASE("where the system has no memory left, all that is kept goes before anybody is refused") {
+  struct Scarce {
+    size_t left = size_t{40} << 20;
+    std::map<void*, size_t> given;
+  } scarce;
+  const sgm_allocator system{[](void* user, size_t size, size_t alignment) -> void* {
+                               auto& s = *static_cast<Scarce*>(user);
+                               if (size > s.left) return nullptr;
+                               void* memory = sgm::api::systemAllocator().allocate(nullptr, size, alignment);
+                               s.left -= size;
+                               s.given[memory] = size;
+                               return memory;
+                             },
+                             [](void* user, void* memory, size_t size, size_t alignment) {
+                               auto& s = *static_cast<Scarce*>(user);
+                               CHECK(s.given.at(memory) == size);
+                               s.given.erase(memory);
+                               s.left += size;
+                               sgm::api::systemAllocator().release(nullptr, memory, size, alignment);
+                             },
+                             &scarce};
+  {
+    KeptBlocks blocks(system);
+    constexpr size_t kHalf = size_t{16} << 20, kMore = size_t{24} << 20, kUnkept = size_t{5000} << 13;
+    void* half = blocks.allocate(kHalf, 64);
+    REQUIRE(half != nullptr);
+    void* other = blocks.allocate(kHalf, 64);
+    CHECK(blocks.allocate(kMore, 64) == nullptr);  // both are held
+    blocks.release(half, kHalf, 64);
+    CHECK(blocks.bytes() == kHalf);
+    void* more = blocks.allocate(kMore, 64);
+    CHECK(more != nullptr);
+    CHECK(blocks.bytes() == 0);
+    blocks.release(other, kHalf, 64);
+    blocks.release(more, kMore, 64);
+    // Of a size that is not kept itself.
+    CHECK(blocks.allocate(kUnkept * 2, 64) == nullptr);
+    void* whole = blocks.allocate(10000, 64);
+    CHECK(whole != nullptr);
+    blocks.release(whole, 10000, 64);
+  }
+  CHECK(scarce.given.empty());
 }
