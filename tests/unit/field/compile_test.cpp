@@ -1,4 +1,5 @@
-// From derived cells to programs: which groups are found, and that the order of the cells changes nothing.
+// From derived cells to programs: which groups are found, that the order of the cells changes nothing, and that neither
+// does what is left out.
 
 #include <algorithm>
 #include <cstring>
@@ -6,6 +7,7 @@
 
 #include "catch.h"
 #include "field/compile.h"
+#include "random_programs.h"
 
 using namespace sgm;
 
@@ -37,6 +39,43 @@ GrammarChunk cellOf(std::mt19937& random, Int3 cell, uint32_t layers, uint32_t m
     group.key.value = random() % 8;
     chunk.groups.push_back(group);
   }
+  return chunk;
+}
+
+// A cell whose one group is a sum of balls, read elsewhere by up to `shift` metres.
+GrammarChunk sumOf(std::mt19937& random, uint32_t balls, int32_t extent, int32_t shift) {
+  GrammarChunk chunk;
+  for (uint32_t i = 0; i < balls; ++i) {
+    Shape ball;
+    ball.size[0] = ball.inner_radius = static_cast<float>(1 + random() % 3000);
+    ball.frame.origin = {within(random, extent), within(random, extent), within(random, extent)};
+    chunk.children.push_back(i);
+    chunk.shapes.push_back(ball);
+  }
+  Shape sum;
+  sum.kind = ShapeKind::sum;
+  sum.child_count = balls;
+  chunk.shapes.push_back(sum);
+  Group group;
+  group.root = balls;
+  if (shift > 0) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Expr constant;
+      constant.op = ExprOp::constant;
+      constant.value = static_cast<float>(within(random, shift));
+      chunk.exprs.push_back(constant);
+    }
+    Shape warp;
+    warp.kind = ShapeKind::warp;
+    warp.first_child = balls;
+    warp.child_count = 1;
+    warp.expr = 0;
+    chunk.children.push_back(balls);
+    chunk.shapes.push_back(warp);
+    ++group.root;
+  }
+  group.bounds = IntBox::everything();
+  chunk.groups.push_back(group);
   return chunk;
 }
 
@@ -114,4 +153,35 @@ TEST_CASE("cells may come in any order") {
       CHECK((before.layer < after.layer || (before.layer == after.layer && before.cut <= after.cut)));
     }
   }
+}
+
+TEST_CASE("balls of a sum that weigh nothing where a field is read change no bit of it") {
+  const uint32_t seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  size_t left_out = 0, shown = 0;
+  for (int round = 0; round < 60; ++round) {
+    constexpr int32_t kExtent = 16 * 1024;
+    const int32_t shift = round % 3 == 0 ? 20 : 0;
+    const GrammarChunk chunk = sumOf(random, 60, kExtent, shift);
+    const GroupIndex index(chunk);
+    const IndexedCell cells[] = {{&chunk, &index}};
+    const Int3 at{within(random, kExtent), within(random, kExtent), within(random, kExtent)};
+    const int32_t half = 1 << (9 + random() % 5);
+    const Result<FieldProgram> near = compileField(cells, IntBox{at, at}.grown(half), {});
+    const Result<FieldProgram> whole = compileField(cells, IntBox::everything(), {});
+    REQUIRE(near);
+    REQUIRE(whole);
+    REQUIRE(near->instrs.size() <= whole->instrs.size());
+    // Places under a warp lie elsewhere.
+    if (shift > 0) CHECK(near->instrs.size() == whole->instrs.size());
+    left_out += whole->instrs.size() - near->instrs.size();
+    const PointSet points = randomPoints(random, at, half, 500);
+    const Evaluated expected = evaluate(scalarKernels(), whole->view(), points.points());
+    shown += shows(expected);
+    INFO("round " << round);
+    CHECK(differentBits(expected, evaluate(scalarKernels(), near->view(), points.points())) == 0);
+  }
+  CHECK(left_out > 1000);
+  CHECK(shown > 20);
 }
