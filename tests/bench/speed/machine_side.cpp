@@ -2,9 +2,8 @@
 //
 //   sgm_bench_machine signs GRID THREADS RUNS     a pass that reads every sample's sign
 //   sgm_bench_machine output BYTES THREADS RUNS   writing so many bytes once
-//   sgm_bench_machine float THREADS RUNS          products and sums of floats without fused ones, as the contract has
-//   them sgm_bench_machine brute CELLS THREADS RUNS    every blob at every sample of the scene blobs, by the compiler's
-//   vectors
+//   sgm_bench_machine float THREADS RUNS          products and sums without fused ones, as the contract has them
+//   sgm_bench_machine brute CELLS THREADS RUNS    every blob at every sample of the scene blobs
 
 #include <bit>
 #include <cmath>
@@ -70,39 +69,57 @@ Times floats(int threads, int runs) {
   });
 }
 
-/// What somebody would write who knows the scene: the sum of (1 - d^2 / R^2)^3 within R = 2 r of each
-/// blob, whose surface lies at r where it is alone.
-Times brute(int cells, int threads, int runs, double& solid) {
-  std::vector<float> cx, cy, cz, inverse;
+/// The scene blobs as somebody would write it who knows it: the sum of (1 - d^2 / R^2)^3 within R = 2 r of each blob,
+/// whose surface lies at r where it is alone. In cells, the centres from the cube's middle.
+struct Blobs {
+  std::vector<float> x, y, z, scale;  ///< scale: 1 / R^2
+};
+Blobs blobsIn(int cells) {
+  Blobs blobs;
   const float cell = 65536.0f / static_cast<float>(cells);
   for (uint64_t i = 0; i < kBlobs; ++i) {
     const Ball b = blobAt(i);
-    const float r = 2.0f * static_cast<float>(b.radius) / cell;
-    cx.push_back(static_cast<float>(b.centre[0]) / cell);
-    cy.push_back(static_cast<float>(b.centre[1]) / cell);
-    cz.push_back(static_cast<float>(b.centre[2]) / cell);
-    inverse.push_back(1.0f / (r * r));
+    const float support = 2.0f * static_cast<float>(b.radius) / cell;
+    blobs.x.push_back(static_cast<float>(b.centre[0]) / cell);
+    blobs.y.push_back(static_cast<float>(b.centre[1]) / cell);
+    blobs.z.push_back(static_cast<float>(b.centre[2]) / cell);
+    blobs.scale.push_back(1.0f / (support * support));
   }
+  return blobs;
+}
+
+/// N samples of a row, from x on, all in registers while the blobs pass by.
+template <size_t N>
+void samplesOf(const Blobs& blobs, float x, float y, float z, float* out) {
+  float place[N], sum[N];
+  for (size_t i = 0; i < N; ++i) {
+    place[i] = x + static_cast<float>(static_cast<int>(i));
+    sum[i] = 0;
+  }
+  for (size_t k = 0; k < blobs.x.size(); ++k) {
+    const float dy = y - blobs.y[k], dz = z - blobs.z[k], scale = -blobs.scale[k];
+    const float rest = std::fma(std::fma(dy, dy, dz * dz), scale, 1.0f);
+    for (size_t i = 0; i < N; ++i) {
+      const float dx = place[i] - blobs.x[k], t = std::fma(dx * dx, scale, rest), inside = t > 0 ? t : 0;
+      sum[i] = std::fma(inside * inside, inside, sum[i]);
+    }
+  }
+  for (size_t i = 0; i < N; ++i) out[i] = 0.421875f - sum[i];
+}
+
+Times brute(int cells, int threads, int runs, double& solid) {
+  const Blobs blobs = blobsIn(cells);
   const auto side = static_cast<size_t>(cells) + 1;
   std::vector<float> values(side * side * side);
   const Times times = timed(1, runs, [&] {
     shared(threads, side, [&](size_t first, size_t last) {
       const float low = -0.5f * static_cast<float>(cells);
-      std::vector<float> row(side);
-      for (size_t z = first; z < last; ++z) {
-        for (size_t y = 0; y < side; ++y) {
-          for (size_t x = 0; x < side; ++x) row[x] = 0.421875f;
-          for (size_t k = 0; k < cx.size(); ++k) {
-            const float dy = low + static_cast<float>(y) - cy[k], dz = low + static_cast<float>(z) - cz[k];
-            const float rest = dy * dy + dz * dz, from = low - cx[k], scale = inverse[k];
-            for (size_t x = 0; x < side; ++x) {
-              const float dx = from + static_cast<float>(static_cast<int>(x));
-              const float t = 1.0f - (dx * dx + rest) * scale, inside = t > 0 ? t : 0;
-              row[x] -= inside * inside * inside;
-            }
-          }
-          std::memcpy(values.data() + (z * side + y) * side, row.data(), side * sizeof(float));
-        }
+      for (size_t row = first * side; row < last * side; ++row) {
+        const float y = low + static_cast<float>(row % side), z = low + static_cast<float>(row / side);
+        float* out = values.data() + row * side;
+        size_t x = 0;
+        for (; x + 64 <= side; x += 64) samplesOf<64>(blobs, low + static_cast<float>(x), y, z, out + x);
+        for (; x < side; ++x) samplesOf<1>(blobs, low + static_cast<float>(x), y, z, out + x);
       }
     });
   });

@@ -3,7 +3,9 @@
 //   sgm_bench_openvdb GRID THREADS RUNS
 
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/Activate.h>
 #include <openvdb/tools/Dense.h>
+#include <openvdb/tools/Prune.h>
 #include <openvdb/tools/VolumeToMesh.h>
 #include <tbb/global_control.h>
 
@@ -31,6 +33,8 @@ int main(int argc, char** argv) try {
   for (float& value : samples.values) value = std::min(std::max(value, -kBand), kBand);
   openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(kBand);
   openvdb::tools::copyFromDense(dense, *grid, 0.0f);
+  openvdb::tools::deactivate(grid->tree(), -kBand);
+  openvdb::tools::pruneLevelSet(grid->tree());
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
 
   std::vector<openvdb::Vec3s> points;

@@ -5,9 +5,8 @@
 //   sgm_bench_ours grid-plain FILE THREADS RUNS      without
 //   sgm_bench_ours mesh SCENE CELLS THREADS RUNS     sgm_mesh_chunks, cells derived before
 //   sgm_bench_ours region SCENE CELLS THREADS RUNS   sgm_surface_from_region: one welded mesh
-//   sgm_bench_ours chunk SCENE CELLS RUNS LEVEL      one surface chunk of it after the other, from derived cells to
-//   packed sgm_bench_ours grid-chunks FILE RUNS             32^3 cells of a grid, in cache, after the other, without
-//   normals
+//   sgm_bench_ours chunk SCENE CELLS RUNS LEVEL      its surface chunks one by one, from derived cells to packed meshes
+//   sgm_bench_ours grid-chunks FILE RUNS             32^3 cells of a grid after the other, in cache, without normals
 //
 // SGM_BENCH_SET=avx2 (or sse4.2) keeps the library from wider vectors.
 

@@ -32,7 +32,7 @@ class Ours {
   /// Evaluates and meshes every chunk of the cube: what an engine would ask for. Returns the triangles.
   size_t meshChunks();
   /// Milliseconds of one chunk of a level after the other, from derived cells to packed meshes: of those that have a
-  /// surface. At each level as many chunks on an axis as the cube has at level 0, or fewer.
+  /// surface. At each level as many chunks on an axis as the cube has at level 0.
   std::vector<double> surfaceChunks(int level);
   /// Evaluates and meshes the cube as one welded mesh. Returns the triangles.
   size_t meshRegion();

@@ -1,6 +1,7 @@
 #include "scene.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -75,6 +76,10 @@ std::string readText(const std::string& path) {
 Ball blobAt(uint64_t i) { return ball(1, i, 2 * kUnits, 4 * kUnits); }
 
 Scene makeScene(const std::string& name, int cells, const std::string& cave_path) {
+  const bool power = cells >= 32 && cells <= 2048 && std::has_single_bit(static_cast<unsigned>(cells));
+  if (!power && !(name == "world" && cells >= 32 && cells % 32 == 0))
+    throw std::runtime_error("no cube of " + name + " has " + std::to_string(cells) +
+                             " cells on an edge; give a power of two from 32 to 2048 (of world a multiple of 32)");
   // The cave has its own scale: half a metre a cell at 256 cells, so that every size sees the same 128 m, with a
   // chamber.
   if (name == "cave") return {name, readText(cave_path), 128 * kUnits / cells, {kEdge, kEdge, kEdge}};

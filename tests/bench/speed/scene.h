@@ -15,10 +15,10 @@ struct Scene {
 };
 
 /// sphere; blobs, a sum of 200; caves, 300 tunnels and noise cut out of rock; spheres, a union of 1,000, or of N as
-/// spheres:N, with radii that leave as much filled; and cave, 128 m of the sample that cave_path names; and
-/// world, as much of it as `cells` of half a metre make. Each fills a cube
-/// of `cells` cells (64 and its doubles) on an edge. The same numbers give the same scenes on every machine. Throws
-/// std::runtime_error for an unknown name.
+/// spheres:N, with radii that leave as much filled; cave, 128 m of the sample that cave_path names; and world, as much
+/// of it as `cells` of half a metre make. Each fills a cube of `cells` cells on an edge: whole chunks, and of all but
+/// world one of 32, 64, ... 2048. The same numbers give the same scenes on every machine. Throws std::runtime_error for
+/// an unknown name and for other cells.
 Scene makeScene(const std::string& name, int cells, const std::string& cave_path);
 
 /// Blob i of the scene blobs: its centre and radius in units.

@@ -14,17 +14,23 @@ import { bars, curves, exponent, short } from './chart.mjs';
 
 const [bin, out, ...rest] = process.argv.slice(2);
 const options = { cells: 256, runs: 7, rounds: 3, threads: '1,2', growth: true };
+const valid = { cells: /^(64|128|256|512)$/, runs: /^[1-9]\d*$/, rounds: /^[1-9]\d*$/, threads: /^[1-9]\d*(,[1-9]\d*)*$/ };
 for (let i = 0; i < rest.length; ++i) {
   const name = rest[i].replace(/^--/, '');
   if (rest[i] === '--no-growth') options.growth = false;
-  else if (['cells', 'runs', 'rounds'].includes(name) && Number(rest[i + 1]) > 0) options[name] = Number(rest[++i]);
-  else if (name === 'threads' && /^\d+(,\d+)*$/.test(rest[i + 1] ?? '')) options.threads = rest[++i];
+  else if (valid[name]?.test(rest[i + 1] ?? '')) options[name] = name === 'threads' ? rest[++i] : Number(rest[++i]);
   else fail(`unknown option or value: ${rest.slice(i).join(' ')}`);
 }
-if (!bin || !out) fail('usage: node speed.mjs BIN OUT [--cells N] [--runs N] [--rounds N] [--threads 1,2] [--no-growth]');
+if (!bin || !out) fail('usage: node speed.mjs BIN OUT [--cells 64|128|256|512] [--runs N] [--rounds N] [--threads 1,2] [--no-growth]');
 const threadCounts = options.threads.split(',').map(Number);
 const here = path.dirname(new URL(import.meta.url).pathname);
-fs.mkdirSync(out, { recursive: true });
+for (const side of ['sgm_bench_ours', 'sgm_bench_machine'])
+  if (!fs.existsSync(path.join(bin, side))) fail(`there is no ${side} in ${bin}: build the project with its benchmarks`);
+try {
+  fs.mkdirSync(out, { recursive: true });
+} catch (error) {
+  fail(`${out} cannot be made: ${error.message}`);
+}
 
 function fail(message) {
   console.error(`speed: error: ${message}`);
@@ -179,7 +185,7 @@ for (const threads of threadCounts) {
 }
 ask('1,000 spheres at 128³, evaluate and mesh, 1 thread',
   median(rounds(() => mesh('spheres', 128, 1).median)) / 1000, { asked: 0.03, aim: 0.01, unit: ' s', atMost: true });
-ask('32³ cells with a surface, extraction only, caves',
+ask('32³ cells with a surface, extraction only without normals, caves',
   median(rounds(() => note({ scene: 'caves', side: 'ours: 32^3 of a grid' },
     ours('', 'grid-chunks', path.join(out, 'caves.grid'), options.runs)).median)), { asked: 0.06, aim: 0.03, unit: ' ms', atMost: true });
 ask('a surface chunk of cave.sgm, from cells to packed mesh',
