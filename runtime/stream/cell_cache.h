@@ -35,6 +35,10 @@ struct CellKey {
   friend auto operator<=>(const CellKey&, const CellKey&) = default;
 };
 
+/// Finished cells that one piece of work has found: it finds them again without a word that other threads write, as
+/// the count of a cell's owners is. Not thread-safe.
+using CellsAtHand = std::map<CellKey, std::shared_ptr<const DerivedCell>>;
+
 struct CellCacheStats {
   uint64_t hits = 0, misses = 0, evicted = 0;
   size_t bytes = 0, cells = 0;

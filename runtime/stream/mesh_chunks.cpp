@@ -14,12 +14,14 @@ namespace {
 // Threads wait for each other at a batch's end, and chunks differ: enough that this matters little, few enough that the
 // programs of a batch take little memory. A device may want more.
 constexpr size_t kBatchChunks = 256;
+// What one thread prepares in a row at most: requests behind each other mostly ask for the same cells.
+constexpr size_t kPreparedTogether = 16;
 // Of a region: what a machine holds with half a kilobyte and more a chunk, before any mesh.
 constexpr uint64_t kMostChunks = uint64_t{1} << 24;
 
 /// What the backend needs to mesh a chunk, and what is known of it without meshing.
-Result<void> prepare(const WorldField& world, const ChunkRequest& request, const EditSnapshot* edits, ChunkJob& job,
-                     PlacedChunk& chunk) {
+Result<void> prepare(const WorldField& world, const ChunkRequest& request, const EditSnapshot* edits,
+                     CellsAtHand& at_hand, ChunkJob& job, PlacedChunk& chunk) {
   const Result<ChunkGrid> grid = chunkGrid(world, request.key);
   if (!grid) return grid.error();
   chunk.grid = job.grid = *grid;
@@ -31,19 +33,19 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   job.prompt = request.prompt;
   job.sums_only = request.sums_only;
   Result<std::shared_ptr<const FieldProgram>> field =
-      world.compile(sampledBox(*grid, grid->level, request.sharp), grid->level, edits);
+      world.compile(sampledBox(*grid, grid->level, request.sharp), grid->level, edits, &at_hand);
   if (!field) return field.error();
   job.field = std::move(*field);
   if (request.seams != 0) {
     const int above = grid->level + 1;
     Result<std::shared_ptr<const FieldProgram>> coarse =
         request.outermost ? world.compileOutside(above)
-                          : world.compile(sampledBox(*grid, above, request.sharp), above, edits);
+                          : world.compile(sampledBox(*grid, above, request.sharp), above, edits, &at_hand);
     if (!coarse) return coarse.error();
     job.coarse = std::move(*coarse);
   }
   if (request.anchors) {
-    Result<std::vector<Anchor>> anchors = world.anchors(chunkBox(*grid));
+    Result<std::vector<Anchor>> anchors = world.anchors(chunkBox(*grid), &at_hand);
     if (!anchors) return anchors.error();
     chunk.anchors = std::move(*anchors);
   }
@@ -137,12 +139,15 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     std::mutex mutex;
     std::optional<Error> error;
     size_t error_at = 0;
-    parallelFor(jobs, batch.size(), [&](size_t i) {
-      const Result<void> prepared = prepare(world, batch[i], edits, chunk_jobs[i], chunks[first + i]);
-      if (prepared) return;
-      // Of several the first request's error, whichever thread was faster.
-      std::lock_guard lock(mutex);
-      if (!error || i < error_at) {
+    const size_t together = std::clamp<size_t>(batch.size() / (4 * jobs.concurrency()), 1, kPreparedTogether);
+    parallelFor(jobs, (batch.size() + together - 1) / together, [&](size_t run) {
+      CellsAtHand at_hand;
+      for (size_t i = run * together; i < std::min((run + 1) * together, batch.size()); ++i) {
+        const Result<void> prepared = prepare(world, batch[i], edits, at_hand, chunk_jobs[i], chunks[first + i]);
+        if (prepared) continue;
+        // Of several the first request's error, whichever thread was faster.
+        std::lock_guard lock(mutex);
+        if (error && error_at <= i) continue;
         error = prepared.error();
         error_at = i;
       }

@@ -219,21 +219,41 @@ FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const
   return {finest_cell, cell, domain.solid, makeLabel(domain.material, 0)};
 }
 
-Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t layers, const IntBox& box,
-                                                                      const FieldSettings& field,
-                                                                      std::span<const HostField> hosts,
-                                                                      std::span<const Brush> brushes,
-                                                                      GatheredCells* gathered_cells) const {
+Result<void> WorldField::bring(std::span<const CellKey> keys, CellsAtHand& at_hand) const {
+  std::vector<CellKey> missing;
+  for (const CellKey& key : keys) {
+    if (at_hand.count(key) == 0) missing.push_back(key);
+  }
+  if (missing.empty()) return {};
+  std::vector<std::shared_ptr<const DerivedCell>> found;
+  cache_.find(missing, found);
+  for (size_t i = 0; i < missing.size(); ++i) {
+    const CellKey& key = missing[i];
+    if (!found[i]) {
+      Result<std::shared_ptr<const DerivedCell>> derived =
+          cache_.get(key, [&] { return derive(key.layer, key.cell, key.cell_edge); });
+      if (!derived) return derived.error();
+      found[i] = std::move(*derived);
+    }
+    at_hand.emplace(key, std::move(found[i]));
+  }
+  return {};
+}
+
+Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(
+    uint32_t layers, const IntBox& box, const FieldSettings& field, std::span<const HostField> hosts,
+    std::span<const Brush> brushes, CellsAtHand& at_hand, GatheredCells* gathered) const {
   const ProfileScope scope(profiler(), zone::kCompile);
   const IntBox reached = box.grown(influenceMargin(field.cell));
-  GatheredCells held;
-  std::pmr::vector<IndexedCell> indexed(memory_);
+  std::vector<IndexedCell> indexed;
+  const auto use = [&](const std::shared_ptr<const DerivedCell>& cell) {
+    indexed.push_back(cell->indexed());
+    if (gathered == nullptr) return;
+    gathered->parameters |= cell->chunk.parameters;
+    gathered->cells.push_back(cell);
+  };
+  if (alone_) use(alone_);
   std::vector<CellKey> keys;
-  std::vector<std::shared_ptr<const DerivedCell>> found;
-  if (alone_) {
-    indexed.push_back(alone_->indexed());
-    held.cells.push_back(alone_);
-  }
   for (uint32_t layer = 0; layer < layers && !alone_; ++layer) {
     if (!settings_.program->layers[layer].shows(field.cell)) continue;
     keys.clear();
@@ -242,21 +262,11 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(uint32_t l
       return {};
     });
     if (!walked) return walked.error();
-    cache_.find(keys, found);
-    for (size_t i = 0; i < keys.size(); ++i) {
-      if (!found[i]) {
-        Result<std::shared_ptr<const DerivedCell>> derived = cellFor(keys[i].layer, keys[i].cell, field.cell);
-        if (!derived) return derived.error();
-        found[i] = std::move(*derived);
-      }
-      held.parameters |= found[i]->chunk.parameters;
-      indexed.push_back(found[i]->indexed());
-      held.cells.push_back(std::move(found[i]));
-    }
+    if (const Result<void> brought = bring(keys, at_hand); !brought) return brought.error();
+    for (const CellKey& key : keys) use(at_hand.at(key));
   }
   Result<FieldProgram> program = compileField(indexed, box, field, memory_, hosts, brushes);
   if (!program) return program.error();
-  if (gathered_cells != nullptr) *gathered_cells = std::move(held);
   return std::shared_ptr<const FieldProgram>(std::make_shared<FieldProgram>(std::move(*program)));
 }
 
@@ -264,21 +274,23 @@ Result<ShapeField> WorldField::compileShapes(const IntBox& box, int level, const
   ShapeField shapes;
   FieldSettings settings = fieldSettings(settings_.finest_cell, cellAt(level));
   settings.shapes = &shapes.labels;
+  CellsAtHand at_hand;
   GatheredCells gathered;
   Result<std::shared_ptr<const FieldProgram>> program =
       compileLayers(static_cast<uint32_t>(settings_.program->layers.size()), box, settings, settings_.hosts,
-                    brushes(box, level, edits), &gathered);
+                    brushes(box, level, edits), at_hand, &gathered);
   if (!program) return program.error();
   shapes.program = std::move(*program);
   shapes.cells = std::move(gathered.cells);
   return shapes;
 }
 
-Result<std::shared_ptr<const FieldProgram>> WorldField::compile(const IntBox& box, int level,
-                                                                const EditSnapshot* edits) const {
+Result<std::shared_ptr<const FieldProgram>> WorldField::compile(const IntBox& box, int level, const EditSnapshot* edits,
+                                                                CellsAtHand* at_hand) const {
+  CellsAtHand own;
   return compileLayers(static_cast<uint32_t>(settings_.program->layers.size()), box,
-                       fieldSettings(settings_.finest_cell, cellAt(level)), settings_.hosts,
-                       brushes(box, level, edits));
+                       fieldSettings(settings_.finest_cell, cellAt(level)), settings_.hosts, brushes(box, level, edits),
+                       at_hand != nullptr ? *at_hand : own);
 }
 
 std::pmr::vector<Brush> WorldField::brushes(const IntBox& box, int level, const EditSnapshot* edits) const {
@@ -297,19 +309,25 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileOutside(int level
 Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t layer, const IntBox& box,
                                                                      uint64_t* parameters) const {
   // One unit as the cell: in full detail, and the same whatever cells the world is meshed with.
+  CellsAtHand at_hand;
   GatheredCells gathered;
   Result<std::shared_ptr<const FieldProgram>> program =
-      compileLayers(layer + 1, box, fieldSettings(1, 1), {}, {}, &gathered);
+      compileLayers(layer + 1, box, fieldSettings(1, 1), {}, {}, at_hand, &gathered);
   if (parameters != nullptr) *parameters |= gathered.parameters;
   return program;
 }
 
 Result<void> WorldField::forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,
-                                     const std::function<void(const GrammarChunk&)>& visit) const {
+                                     const std::function<void(const GrammarChunk&)>& visit,
+                                     const CellsAtHand* at_hand) const {
   if (alone_) return visit(alone_->chunk), Result<void>{};
   for (uint32_t layer = 0; layer < settings_.program->layers.size(); ++layer) {
     if (!wanted(settings_.program->layers[layer])) continue;
     const Result<void> walked = walkCells(layer, box, CellsOf::box, [&](const CellKey& key) -> Result<void> {
+      if (at_hand != nullptr) {
+        if (const auto found = at_hand->find(key); found != at_hand->end())
+          return visit(found->second->chunk), Result<void>{};
+      }
       Result<std::shared_ptr<const DerivedCell>> derived = cell(key.layer, key.cell);
       if (!derived) return derived.error();
       visit((*derived)->chunk);
@@ -320,14 +338,15 @@ Result<void> WorldField::forEachCell(const IntBox& box, const std::function<bool
   return {};
 }
 
-Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box) const {
+Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box, const CellsAtHand* at_hand) const {
   std::vector<Anchor> found;
   const auto wanted = [](const Layer& layer) { return layer.anchors; };
-  const Result<void> visited = forEachCell(box, wanted, [&](const GrammarChunk& chunk) {
+  const auto visit = [&](const GrammarChunk& chunk) {
     for (const Anchor& a : chunk.anchors) {
       if (holds(box, a.frame.origin)) found.push_back(a);
     }
-  });
+  };
+  const Result<void> visited = forEachCell(box, wanted, visit, at_hand);
   if (!visited) return visited.error();
   return found;
 }

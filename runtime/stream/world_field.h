@@ -83,9 +83,10 @@ class WorldField {
 
   /// The program of all groups that matter in the closed box at a level, of the host's fields above them and the edits
   /// above these; derivation knows nothing of either. limit: more than 2^20 cells of a layer reach into the box, or the
-  /// box is too large to sample a host's field; errors of derivation and of these fields.
-  Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level,
-                                                      const EditSnapshot* edits = nullptr) const;
+  /// box is too large to sample a host's field; errors of derivation and of these fields. at_hand: cells are looked for
+  /// there first, and all that are used are there afterwards; only of this field.
+  Result<std::shared_ptr<const FieldProgram>> compile(const IntBox& box, int level, const EditSnapshot* edits = nullptr,
+                                                      CellsAtHand* at_hand = nullptr) const;
 
   /// As compile(), but with shapes in the place of materials and tags.
   Result<ShapeField> compileShapes(const IntBox& box, int level, const EditSnapshot* edits = nullptr) const;
@@ -97,8 +98,9 @@ class WorldField {
   Result<std::shared_ptr<const FieldProgram>> compileOutside(int level) const;
 
   /// Anchors in the box lo <= p < hi, by layer, cell and key.
-  /// limit: more than 2^24 cells of a layer reach into the box; errors of derivation.
-  Result<std::vector<Anchor>> anchors(const IntBox& box) const;
+  /// limit: more than 2^24 cells of a layer reach into the box; errors of derivation. at_hand: cells are looked for
+  /// there first.
+  Result<std::vector<Anchor>> anchors(const IntBox& box, const CellsAtHand* at_hand = nullptr) const;
 
   /// What derivation had to leave out in the cells that reach into the box, of layers that show where cells have this
   /// edge or may have anchors; each cell's notes once. Errors: as anchors.
@@ -132,11 +134,14 @@ class WorldField {
   Result<std::shared_ptr<const FieldProgram>> compileLayers(uint32_t layers, const IntBox& box,
                                                             const FieldSettings& field,
                                                             std::span<const HostField> hosts,
-                                                            std::span<const Brush> brushes,
+                                                            std::span<const Brush> brushes, CellsAtHand& at_hand,
                                                             GatheredCells* gathered = nullptr) const;
   /// Visits the cells of all wanted layers that can reach into the box, in order.
   Result<void> forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,
-                           const std::function<void(const GrammarChunk&)>& visit) const;
+                           const std::function<void(const GrammarChunk&)>& visit,
+                           const CellsAtHand* at_hand = nullptr) const;
+  /// Takes those of the keys that are not at hand from the cache, or derives them.
+  Result<void> bring(std::span<const CellKey> keys, CellsAtHand& at_hand) const;
   FieldSettings fieldSettings(int32_t finest_cell, int32_t cell) const;
   /// What `derive` makes of the layers below the cell.
   template <class T, class Derive>
