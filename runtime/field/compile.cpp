@@ -1,7 +1,10 @@
 #include "field/compile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <memory_resource>
 #include <optional>
 
 #include "derive/expr_range.h"
@@ -384,9 +387,12 @@ struct Gathered {
 Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntBox& box, const FieldSettings& settings,
                                   std::pmr::memory_resource* memory, std::span<const HostField> hosts,
                                   std::span<const Brush> brushes) {
+  // What grows does so here: each request to `memory` counts there, where other threads count, too.
+  std::array<std::byte, 8192> room;
+  std::pmr::monotonic_buffer_resource scratch(room.data(), room.size(), memory);
   const int32_t margin = influenceMargin(settings.cell);
-  std::pmr::vector<Gathered> gathered(memory);
-  std::pmr::vector<uint32_t> found(memory);
+  std::pmr::vector<Gathered> gathered(&scratch);
+  std::pmr::vector<uint32_t> found(&scratch);
   for (size_t i = 0; i < cells.size(); ++i) {
     found.clear();
     cells[i].index->query(box.grown(margin), found);
@@ -404,13 +410,13 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
   });
 
   const bool by_shape = settings.shapes != nullptr;
-  ProgramBuilder builder(settings.finest_cell, settings.solid, by_shape ? kNoShape : settings.label, memory);
-  std::pmr::vector<std::optional<ShapeCompiler>> compilers(cells.size(), memory);
+  ProgramBuilder builder(settings.finest_cell, settings.solid, by_shape ? kNoShape : settings.label, &scratch);
+  std::pmr::vector<std::optional<ShapeCompiler>> compilers(cells.size(), &scratch);
   for (const Gathered& g : gathered) {
     std::optional<ShapeCompiler>& compiler = compilers[g.cell];
     if (!compiler) {
       compiler.emplace(*cells[g.cell].chunk, static_cast<uint32_t>(g.cell), box, settings.cell, settings.shapes,
-                       builder, memory);
+                       builder, &scratch);
     }
     const Group& group = cells[g.cell].chunk->groups[g.group];
     Result<std::optional<Value>> root = compiler->root(group.root);
@@ -424,7 +430,7 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
   for (const HostField& host : hosts) {
     if (!host.bounds.grown(host.smooth).grown(margin).meets(box)) continue;
     const uint32_t label = by_shape ? kNoShape : host.label;
-    if (Result<void> emitted = emitHostField(builder, host, box, settings.cell, ++layer, label, memory); !emitted) {
+    if (Result<void> emitted = emitHostField(builder, host, box, settings.cell, ++layer, label, &scratch); !emitted) {
       return emitted.error();
     }
   }
@@ -433,7 +439,7 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
     if (by_shape) brush.material = brush.tag = 0xFFFF;
     if (Result<void> emitted = emitBrush(builder, brush, settings.cell, ++layer); !emitted) return emitted.error();
   }
-  return builder.finish();
+  return FieldProgram(builder.finish(), memory);
 }
 
 }  // namespace sgm

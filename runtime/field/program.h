@@ -71,6 +71,14 @@ struct FieldProgram {
 
   explicit FieldProgram(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : instrs(memory), params(memory), groups(memory) {}
+  /// The same one in other memory.
+  FieldProgram(const FieldProgram& other, std::pmr::memory_resource* memory)
+      : instrs(other.instrs, memory),
+        params(other.params, memory),
+        groups(other.groups, memory),
+        initial(other.initial),
+        initial_label(other.initial_label),
+        q_scale(other.q_scale) {}
 
   ProgramView view() const { return {instrs, params, groups, initial, initial_label, q_scale}; }
 };
