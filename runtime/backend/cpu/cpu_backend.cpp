@@ -77,6 +77,9 @@ struct BatchState {
         meshChunk(kernels, jobs[i], *scratch, meshes[i]);
       }
       pool->give(std::move(scratch));
+      // Here, and not by one thread for all of them in the end.
+      jobs[i].field.reset();
+      jobs[i].coarse.reset();
       if (after_chunk && !after_chunk()) cancelled.store(true);
     } catch (...) {
       std::lock_guard lock(mutex);
