@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/fixed.h"
+#include "base/raw_vector.h"
 
 namespace sgm {
 
@@ -86,10 +87,10 @@ struct ContentHash {
 
 /// A part of a chunk that is drawn as a whole: the body, or one seam. Triangles index this part's own vertices.
 struct MeshPart {
-  std::pmr::vector<Vertex> vertices;
-  std::pmr::vector<uint32_t> indices;  ///< three a triangle, counter-clockwise seen from the void
-  std::pmr::vector<VertexKey> keys;    ///< one a vertex
-  ContentHash hash;                    ///< of vertices and indices
+  RawVector<Vertex> vertices;
+  RawVector<uint32_t> indices;  ///< three a triangle, counter-clockwise seen from the void
+  RawVector<VertexKey> keys;    ///< one a vertex
+  ContentHash hash;             ///< of vertices and indices
 
   explicit MeshPart(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : vertices(memory), indices(memory), keys(memory) {}

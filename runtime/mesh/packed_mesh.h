@@ -16,8 +16,8 @@ struct PackedRange {
 };
 
 struct PackedMesh {
-  std::pmr::vector<Vertex> vertices;    ///< body first, then the seams by face
-  std::pmr::vector<uint32_t> indices;   ///< into vertices, from the array's beginning; three a triangle
+  RawVector<Vertex> vertices;           ///< body first, then the seams by face
+  RawVector<uint32_t> indices;          ///< into vertices, from the array's beginning; three a triangle
   std::array<PackedRange, 7> ranges{};  ///< body, then seams by Face; empty where there is none
 
   explicit PackedMesh(std::pmr::memory_resource* memory = std::pmr::get_default_resource())

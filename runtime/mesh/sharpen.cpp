@@ -204,7 +204,7 @@ class BodySharpener {
     if (fans.empty()) return;
     std::pmr::vector<FieldSample> samples(points.size(), memory_);
     field_(points, samples, Sampled::all);
-    std::pmr::vector<uint32_t> indices(memory_);
+    RawVector<uint32_t> indices(memory_);
     indices.reserve(body_.indices.size() + 15 * fans.size());
     size_t copied = 0;
     const auto copyTo = [&](size_t end) {

@@ -22,7 +22,7 @@ std::optional<Int3> sharedSquare(const VertexKey& a, const VertexKey& b, int axi
 
 /// The triangles of a polygon whose corners are a triangle's and, behind each, perhaps the middle of its side.
 void divide(const std::array<uint32_t, 3>& corners, const std::array<uint32_t, 3>& middles,
-            std::pmr::vector<uint32_t>& indices) {
+            RawVector<uint32_t>& indices) {
   std::array<uint32_t, 6> ring;
   size_t count = 0, middle = 0;
   for (size_t k = 0; k < 3; ++k) {
@@ -67,7 +67,7 @@ void sharpenSeam(const ChunkGrid& grid, Face face, const FieldSampler& field, co
     }
     creases.place();
   }
-  std::pmr::vector<uint32_t> indices(memory);
+  RawVector<uint32_t> indices(memory);
   indices.reserve(triangles_end);
   for (size_t i = 0; i < triangles_end; i += 3) {
     std::array<uint32_t, 3> corners, middles;

@@ -68,9 +68,9 @@ struct SplitWorldMesh {
 };
 
 struct SplitPart {
-  std::pmr::vector<Vertex>& vertices;
-  std::pmr::vector<VertexKey>& keys;
-  std::pmr::vector<uint32_t>& indices;
+  RawVector<Vertex>& vertices;
+  RawVector<VertexKey>& keys;
+  RawVector<uint32_t>& indices;
 
   Vector3 normal(uint32_t v) const { return unpackNormal(vertices[v].normal_x, vertices[v].normal_y); }
   void give(uint32_t v, uint32_t like) {

@@ -347,7 +347,7 @@ TEST_CASE("keys of feature vertices follow from what is packed", "[mesh][sharpen
     Meshes meshes = sharpened(JoinedBoxes(seed * 100));
     for (MeshPart* part : {&meshes.left, &meshes.right}) {
       splitCreases(*part);
-      const std::pmr::vector<VertexKey> keys = part->keys;
+      const RawVector<VertexKey> keys = part->keys;
       deriveKeys(part == &meshes.left ? kLeft : kRight, 0, {}, *part);
       CHECK(part->keys == keys);
       for (const Vertex& v : part->vertices) {
@@ -409,7 +409,7 @@ TEST_CASE("a box that crosses the world's lowest border is sharpened like any ot
     const size_t plain = part.vertices.size();
     sharpenBody(grid, samplerOf(field), part);
     features += part.vertices.size() - plain;
-    const std::pmr::vector<VertexKey> keys = part.keys;
+    const RawVector<VertexKey> keys = part.keys;
     for (const VertexKey& key : keys) CHECK(key.corner.x <= INT32_MIN + kChunkCells * kCell);
     for (const Vertex& v : part.vertices) CHECK(v.x >= 0);
     deriveKeys(grid, 0, {}, part);

@@ -80,7 +80,7 @@ TEST_CASE("a frame without one of its seams is seen to be open") {
   for (PlacedChunk& chunk : chunks) {
     for (MeshPart& seam : chunk.mesh.seams) {
       if (seam.indices.empty() || left_out == 5) continue;
-      const std::pmr::vector<uint32_t> kept = seam.indices;
+      const RawVector<uint32_t> kept = seam.indices;
       seam.indices.clear();
       CHECK_FALSE(checkParts(drawnParts(chunks)).closed());
       seam.indices = kept;

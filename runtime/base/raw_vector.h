@@ -1,0 +1,37 @@
+#pragma once
+// Vectors whose new elements are not cleared first: those that are filled behind each other after one resize().
+
+#include <memory_resource>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace sgm {
+
+/// Takes its memory as std::pmr::polymorphic_allocator does, but leaves elements that are made of nothing as they are.
+template <class T>
+class RawAllocator : public std::pmr::polymorphic_allocator<T> {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  using std::pmr::polymorphic_allocator<T>::polymorphic_allocator;
+  template <class Other>
+  RawAllocator(const RawAllocator<Other>& other) noexcept : std::pmr::polymorphic_allocator<T>(other.resource()) {}
+  template <class Other>
+  struct rebind {
+    using other = RawAllocator<Other>;
+  };
+  /// As theirs: a copy's memory comes from the default resource.
+  RawAllocator select_on_container_copy_construction() const { return {}; }
+
+  template <class... Arguments>
+  void construct(T* at, Arguments&&... arguments) {
+    if constexpr (sizeof...(Arguments) > 0) ::new (static_cast<void*>(at)) T(std::forward<Arguments>(arguments)...);
+  }
+};
+
+/// resize() leaves what is new unwritten: write it before it is read.
+template <class T>
+using RawVector = std::vector<T, RawAllocator<T>>;
+
+}  // namespace sgm
