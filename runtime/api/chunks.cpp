@@ -86,8 +86,13 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
       if (sgm_result r = checkRequest(*field, request, error); r != SGM_OK) return r;
       const auto seams = static_cast<uint8_t>(request.seams);
       const sgm::Neighbourhood coarser = request.coarser != 0 ? request.coarser : sgm::neighboursAcross(seams);
-      requests.push_back({keyOf(request.key), seams, coarser, false, true});
-      requests.back().sharp = (desc->flags & SGM_MESHING_SHARP) != 0;
+      sgm::ChunkRequest& own = requests.emplace_back();
+      own.key = keyOf(request.key);
+      own.seams = seams;
+      own.coarser = coarser;
+      own.keys = false;
+      own.anchors = true;
+      own.sharp = (desc->flags & SGM_MESHING_SHARP) != 0;
     }
     sgm::Progress progress;
     if (desc->progress != nullptr)

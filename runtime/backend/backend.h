@@ -56,6 +56,7 @@ struct ChunkJob {
   uint8_t seams = 0;                           ///< bit (1 << Face): make this seam
   Neighbourhood coarser = 0;  ///< which blocks around are of a coarser level; decides only the fans in seam keys
   bool signs = false;         ///< also give the signs of the samples
+  bool keys = true;           ///< false: the parts need no keys (MeshPart::keys), and may be without
   bool body = true;           ///< false: only the seams; body, signs and counts stay empty
   bool sums_only = false;     ///< give the sums over the meshes, and not the meshes: a device keeps these to itself
   bool resident = false;      ///< also leave vertices and indices on the device, where it is the engine's
@@ -135,7 +136,8 @@ struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
   bool automatic = false;  ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
   int device = -1;  ///< of its kind, in the order in which they are listed; -1: the first, or fastest, that can be used
-  std::string instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512"; empty: the widest that runs here
+  std::string
+      instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"; empty: the widest that runs here
   std::shared_ptr<const vulkan::BorrowedDevice> lent =
       nullptr;  ///< Vulkan: the engine's; null: one of our own. CUDA: where meshes stay, lent with external_memory; or
                 ///< null

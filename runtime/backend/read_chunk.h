@@ -30,7 +30,7 @@ void readChunk(const ChunkJob& job, const SignsOfRow& signsOfRow, const PartOf& 
     part.vertices.assign(made.vertices, made.vertices + made.vertex_count);
     part.indices.assign(made.indices, made.indices + made.index_count);
     part.hash = made.hash;
-    deriveKeys(job.grid, static_cast<int>(number), job.coarser, part);
+    if (job.keys) deriveKeys(job.grid, static_cast<int>(number), job.coarser, part);
   };
   if (job.body) {
     constexpr uint64_t kLower = (uint64_t{1} << kChunkCells) - 1;

@@ -97,6 +97,7 @@ void meshRest(const ChunkMesher& mesher, const EditSnapshot* edits, std::span<co
   std::vector<ChunkRequest> requests;
   for (const size_t i : numbers) {
     requests.push_back(work[i].rest);
+    requests.back().keys = false;
     requests.back().resident = mesher.resident;
     requests.back().prompt = true;
   }

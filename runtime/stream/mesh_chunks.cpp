@@ -28,6 +28,7 @@ Result<void> prepare(const WorldField& world, const ChunkRequest& request, const
   job.seams = request.seams;
   job.coarser = request.coarser;
   job.signs = request.signs;
+  job.keys = request.keys || request.sharp;
   job.body = request.body;
   job.resident = request.resident && !request.sharp;
   job.prompt = request.prompt;

@@ -15,6 +15,7 @@ struct ChunkRequest {
   uint8_t seams = 0;          ///< bit (1 << Face)
   Neighbourhood coarser = 0;  ///< of the blocks around; decides the fans in seam keys (mesh/fans.h)
   bool signs = false;         ///< also give the signs of the samples (ChunkMesh::signs)
+  bool keys = true;           ///< false: parts may be without their keys, which welding and checks ask for
   bool anchors = false;       ///< also give the anchors in the chunk
   bool body = true;           ///< false: seams alone, of a chunk whose body is there already
   bool resident = false;      ///< also leave the parts on the backend's device (ChunkJob::resident)

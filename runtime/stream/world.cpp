@@ -336,6 +336,7 @@ Result<ContentHash> World::hashBodies(const IntBox& region, int level) const {
     if (surface == nullptr) {
       rest.emplace_back().key = key;
       rest.back().sharp = core_->settings.sharp;
+      rest.back().keys = false;
     } else if (surface->mesh.ranges[0].index_count > 0) {
       add(surface->mesh.ranges[0].hash, surface->grid);
     }

@@ -156,7 +156,7 @@ struct Work {
     kernels->attributes(program.view(), points(count), eval, out);
   }
   void mesh() {
-    mesh_kernels->polygonize(samples, grid, scratch.mesh, part);
+    mesh_kernels->polygonize(samples, grid, true, scratch.mesh, part);
     mesh_kernels->hash(part);
   }
   /// As a backend does: from a compiled program to a chunk's mesh.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/kernel.h"
+#include "backend/cpu/extract/list_vbmi2.h"
 #include "backend/cpu/instruction_sets.h"
 
 // Between those that are offered below; without one of its own a processor takes the next lower.
@@ -43,6 +44,8 @@ constexpr FieldKernels kAvx2{"avx2", N_AVX2::evaluateSamples, N_AVX2::evaluateAt
 #endif
 #if HWY_TARGETS & HWY_AVX3
 constexpr FieldKernels kAvx512{"avx512", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes, N_AVX3::evaluateBox};
+// Evaluates alike; what it lists, it lists by other instructions (extract/list_vbmi2.h).
+constexpr FieldKernels kVbmi2{"avx512-vbmi2", N_AVX3::evaluateSamples, N_AVX3::evaluateAttributes, N_AVX3::evaluateBox};
 #endif
 
 }  // namespace
@@ -58,6 +61,7 @@ std::vector<InstructionSet> wideInstructionSets() {
 #endif
 #if HWY_TARGETS & HWY_AVX3
   sets.push_back({&kAvx512, (here & HWY_AVX3) != 0});
+  sets.push_back({&kVbmi2, (here & HWY_AVX3) != 0 && vbmi2RunsHere()});
 #endif
   return sets;
 }

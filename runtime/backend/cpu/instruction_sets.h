@@ -19,7 +19,7 @@ std::vector<InstructionSet> instructionSets();
 /// The widest that runs here; all give the same bits.
 const FieldKernels& bestKernels();
 
-/// By name ("scalar", "sse4.2", "avx2", "avx512"); null where it is not built or does not run here.
+/// By name ("scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"); null where it is not built or does not run here.
 const FieldKernels* findKernels(std::string_view name);
 
 /// Without scalar; empty in a scalar build.

@@ -115,7 +115,7 @@ void fillOwn(const ChunkKernels& kernels, const ChunkJob& job, bool uniform, Chu
   mesh.solid_samples = kernels.mesh.count(s.samples);
   if (uniform) return;
   if (job.signs) mesh.signs = s.samples.signs;
-  kernels.mesh.polygonize(s.samples, job.grid, s.mesh, mesh.body);
+  kernels.mesh.polygonize(s.samples, job.grid, job.keys, s.mesh, mesh.body);
   if (job.sums_only) return;
   fillBody(kernels, s, mesh.body);
   kernels.mesh.hash(mesh.body);

@@ -129,7 +129,7 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
     job.step = 1.0 / kSubcell;
     MeshPart part{std::pmr::get_default_resource()};
     polygonizeBody(chunkOf(job), ChunkGrid{}, part);
-    for (const char* name : {"scalar", "sse4.2", "avx2", "avx512"}) {
+    for (const char* name : {"scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"}) {
       CAPTURE(name);
       const MeshKernels* kernels = findMeshKernels(name);
       if (kernels == nullptr) continue;
@@ -184,7 +184,7 @@ TEST_CASE("every instruction set meshes a grid as the scalar one does") {
     const bool normals = round % 4 != 0;
     const Meshed expected = meshed(scalarMeshKernels(), job, 1, normals);
     CHECK(expected.finite == (round % 10 != 9));
-    for (const char* name : {"scalar", "sse4.2", "avx2", "avx512"}) {
+    for (const char* name : {"scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"}) {
       CAPTURE(name);
       if (const MeshKernels* kernels = findMeshKernels(name))
         CHECK(meshed(*kernels, job, 1 + random() % 5, normals) == expected);

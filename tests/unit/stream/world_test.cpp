@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstring>
 #include <iostream>
 #include <random>
 #include <stdexcept>
@@ -66,6 +67,60 @@ TEST_CASE("the world's hash does not depend on visiting order, threads or the ca
     WorldFieldSettings other = settingsOf(text, cell, seed + 1);
     CHECK(hashOf(meshAll(WorldField(other, std::pmr::get_default_resource()), requests, 2)) != expected);
   }
+}
+
+TEST_CASE("chunks that need no keys are the same but for these") {
+  const WorldField world(settingsOf(sample("cave.sgm"), 1024), std::pmr::get_default_resource());
+  std::vector<ChunkRequest> requests = requestsOf(world, kHall);
+  for (ChunkRequest& request : requests) request.seams = 1u << 2;
+  const auto keyed = meshAll(world, requests, 2);
+  for (ChunkRequest& request : requests) request.keys = false;
+  const auto plain = meshAll(world, requests, 2);
+  CHECK(hashOf(plain) == hashOf(keyed));
+  size_t vertices = 0;
+  for (size_t i = 0; i < keyed.size(); ++i) {
+    const MeshPart &a = keyed[i].mesh.body, &b = plain[i].mesh.body;
+    vertices += a.vertices.size();
+    CHECK(a.keys.size() == a.vertices.size());
+    REQUIRE(a.vertices.size() == b.vertices.size());
+    CHECK(std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(Vertex)) == 0);
+    CHECK(a.indices == b.indices);
+  }
+  CHECK(vertices > 1000);
+  // Sharpening reads keys, whatever the request says.
+  for (ChunkRequest& request : requests) {
+    request.seams = 0;
+    request.sharp = true;
+  }
+  const auto sharp = meshAll(world, requests, 2);
+  for (ChunkRequest& request : requests) request.keys = true;
+  CHECK(hashOf(meshAll(world, requests, 2)) == hashOf(sharp));
+}
+
+TEST_CASE("cells at hand give the same programs and anchors, and are not asked for again") {
+  const WorldField world(settingsOf(sample("cave.sgm"), 1024), std::pmr::get_default_resource());
+  CellsAtHand at_hand;
+  const std::vector<ChunkRequest> requests = requestsOf(world, kHall);
+  for (const ChunkRequest& request : requests) {
+    const Result<ChunkGrid> grid = chunkGrid(world, request.key);
+    REQUIRE(grid);
+    const IntBox box = chunkBox(*grid);
+    const auto program = world.compile(box, 0), same = world.compile(box, 0, nullptr, &at_hand);
+    REQUIRE((program && same));
+    CHECK((*program)->params == (*same)->params);
+    REQUIRE((*program)->instrs.size() == (*same)->instrs.size());
+    CHECK((*program)->groups.size() == (*same)->groups.size());
+    const auto anchors = world.anchors(box), these = world.anchors(box, &at_hand);
+    REQUIRE((anchors && these));
+    CHECK(anchors->size() == these->size());
+  }
+  CHECK_FALSE(at_hand.empty());
+  const CellCacheStats before = world.cacheStats();
+  for (const ChunkRequest& request : requests)
+    CHECK(world.compile(chunkBox(*chunkGrid(world, request.key)), 0, nullptr, &at_hand));
+  const CellCacheStats after = world.cacheStats();
+  CHECK(after.hits == before.hits);
+  CHECK(after.misses == before.misses);
 }
 
 TEST_CASE("doubling every reach changes nothing") {

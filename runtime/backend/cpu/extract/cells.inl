@@ -1,11 +1,18 @@
-// From active cells to triangles, a vector of loops at a time. An includer of the .inl files here defines before them:
-// the types and functions of shaders/common/real.h; kLanes; loadValues and loadLanes, which read lanes behind each
-// other, loadFour, four numbers of each lane, and loadAt, a gather; storeLanes; storeThree and storeFour, the lanes'
-// numbers in turn; squareRoot and quotient, as IEEE 754 has them; scaledDouble, Int times double
-// rounded to float; maskOf, a bit a lane, and all; spreadBits<n>, which makes of n words 64 bytes, bit i of word k
-// being bit k of byte i; writeTriangles<n>(way, vertices, out), which
-// writes the triangles of a loop's triangulation; and addSteps, the vertices of a cell's edges: the numbers of its
-// samples that its edges begin at, with `steps`, a byte each, added to those of the edges 4 to 11.
+// From active cells to triangles, a vector of loops at a time. An includer of the .inl files here defines before them
+// the types and functions of shaders/common/real.h, and
+//   kLanes                     lanes of a vector
+//   loadValues, loadLanes      lanes that lie behind each other
+//   loadFour                   four numbers of each lane
+//   loadAt, loadIntAt          gathers
+//   storeLanes                 lanes behind each other
+//   storeThree, storeFour      the lanes' numbers in turn
+//   squareRoot, quotient       as IEEE 754 has them
+//   scaledDouble               Int times double, rounded to float
+//   maskOf, all                a bit a lane; whether all are true
+//   spreadBits<n>              64 bytes of n words: bit i of word k becomes bit k of byte i
+//   writeTriangles<n>          the triangles of a loop's triangulation
+//   addSteps                   the vertices of a cell's edges: the numbers of the samples that these begin at, with
+//                              `steps`, a byte each, added to those of the edges 4 to 11
 
 /// Where a cube's edge begins in its cell, in 256ths: 9 bits an axis. How far along it a vertex lies is added there.
 struct CubePlaces {

@@ -3,7 +3,7 @@
 /// A vector of edges of plane z: where they are crossed, and the first `count` vertices and keys, from number `vertex`
 /// on.
 inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, const uint32_t* edges,
-                            size_t count, size_t vertex, MeshScratch& scratch, MeshPart& part) {
+                            size_t count, size_t vertex, bool keys, MeshScratch& scratch, MeshPart& part) {
   constexpr int32_t kSide = kChunkSamples;
   const EdgeLanes e = unpackEdges(edges, z);
   const Int zero = broadcastInt(0);
@@ -26,9 +26,11 @@ inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, 
   const Int corner_x = corner(grid.origin.x, e.x), corner_y = corner(grid.origin.y, e.y),
             corner_z = corner(grid.origin.z, e.z);
   static_assert(sizeof(VertexKey) == 16 && offsetof(VertexKey, level) == 12 && offsetof(VertexKey, axis) == 13);
-  storeFour(toUintBits(corner_x), toUintBits(corner_y), toUintBits(corner_z),
-            toUintBits(e.axis) << 8 | Uint(static_cast<uint32_t>(grid.level)), words);
-  memcpy(static_cast<void*>(part.keys.data() + vertex), words, some * sizeof(VertexKey));
+  if (keys) {
+    storeFour(toUintBits(corner_x), toUintBits(corner_y), toUintBits(corner_z),
+              toUintBits(e.axis) << 8 | Uint(static_cast<uint32_t>(grid.level)), words);
+    memcpy(static_cast<void*>(part.keys.data() + vertex), words, some * sizeof(VertexKey));
+  }
 
   // As vertexUnits has it: at most one coordinate lies between samples.
   const Int along = toIntBits(toUintBits(wrapAdd(wrapMul(t, cell), broadcastInt(kSubcell / 2))) >> 8);
@@ -45,17 +47,20 @@ inline void writeChunkEdges(const ChunkSamples& samples, const ChunkGrid& grid, 
 }
 
 inline void writeChunkPlane(const ChunkSamples& samples, const ChunkGrid& grid, size_t z, const uint32_t* edges,
-                            size_t count, size_t vertex, MeshScratch& scratch, MeshPart& part) {
+                            size_t count, size_t vertex, bool keys, MeshScratch& scratch, MeshPart& part) {
   size_t at = 0;
   for (; at + kLanes <= count; at += kLanes)
-    writeChunkEdges(samples, grid, z, edges + at, kLanes, vertex + at, scratch, part);
+    writeChunkEdges(samples, grid, z, edges + at, kLanes, vertex + at, keys, scratch, part);
   if (at == count) return;
   uint32_t rest[kLanes];
   std::fill(std::copy(edges + at, edges + count, rest), rest + kLanes, edges[at]);
-  writeChunkEdges(samples, grid, z, rest, count - at, vertex + at, scratch, part);
+  writeChunkEdges(samples, grid, z, rest, count - at, vertex + at, keys, scratch, part);
 }
 
-inline void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScratch& scratch, MeshPart& part) {
+/// kList: MeshKernels::list.
+template <auto kList>
+void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, bool keys, MeshScratch& scratch,
+                     MeshPart& part) {
   constexpr size_t kSide = kChunkSamples, kPlane = kSide * kSide;
   const SignLattice lattice{{kSide, kSide, kSide}, 1, samples.signs.data(), nullptr};
   size_t first_vertex[kSide + 1] = {}, first_cell[kSide + 1] = {}, triangles = 0;
@@ -64,14 +69,14 @@ inline void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, 
     scratch.edges.grow(vertices, vertices + edgeRoom(kSide, kSide));
     scratch.cells.grow(cells, cells + cellRoom(kSide, kSide));
     const ListCounts counts =
-        listRows(lattice, z, 0, kSide, scratch.edges.data() + vertices, scratch.cells.data() + cells);
+        kList(lattice, z, 0, kSide, scratch.edges.data() + vertices, scratch.cells.data() + cells);
     first_vertex[z + 1] = vertices + counts.vertices;
     first_cell[z + 1] = cells + counts.cells;
     triangles += counts.triangles;
   }
   const size_t vertices = first_vertex[kSide];
   part.vertices.resize(vertices);
-  part.keys.resize(vertices);
+  part.keys.resize(keys ? vertices : 0);
   part.indices.resize(triangles * 3);
   part.hash = {};
   if (vertices == 0) return;
@@ -85,7 +90,7 @@ inline void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, 
     const uint32_t* edges = scratch.edges.data() + first_vertex[z];
     const size_t count = first_vertex[z + 1] - first_vertex[z];
     numberOwners(edges, count, first_vertex[z], kSide, numbers[z & 1]);
-    writeChunkPlane(samples, grid, z, edges, count, first_vertex[z], scratch, part);
+    writeChunkPlane(samples, grid, z, edges, count, first_vertex[z], keys, scratch, part);
     if (z == 0) continue;
     meshCells(scratch.cells.data() + first_cell[z - 1], first_cell[z] - first_cell[z - 1], kSide, numbers[(z - 1) & 1],
               numbers[z & 1], queues);

@@ -72,7 +72,8 @@ FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, con
 
 #include "backend/cpu/extract/chunk_passes.inl"
 
-void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScratch& scratch, MeshPart& part) {
+void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, bool /*keys*/, MeshScratch& scratch,
+                     MeshPart& part) {
   polygonizeBody(samples, grid, part);
   const size_t count = part.vertices.size();
   scratch.growPlaces(count);
@@ -91,7 +92,7 @@ void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, MeshScr
 const MeshKernels& scalarMeshKernels() {
   static constexpr MeshKernels kernels{"scalar",
                                        scalar_extract::signsOfRow,
-                                       scalar_extract::listRows,
+                                       scalar_extract::listRows<scalar_extract::OneByOne>,
                                        scalar_extract::meshSlab,
                                        scalar_extract::countSolid,
                                        scalar_extract::polygonizeChunk,

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "backend/cpu/extract/list_vbmi2.h"
 #include "backend/cpu/extract/mesh_kernels.h"
 #include "base/kernel.h"
 #include "mesh/hash.h"
@@ -156,12 +157,13 @@ HWY_AFTER_NAMESPACE();
 namespace sgm {
 
 // A set's passes. The namespaces of the sets are all there is to tell them apart by.
-#define SGM_EXTRACT(name, set)                                                                                \
-  {                                                                                                           \
-    name, set::extract::signsOfRow, set::extract::listRows, set::extract::meshSlab, set::extract::countSolid, \
-        set::extract::polygonizeChunk, set::extract::sortVertices, set::extract::attributeVertices,           \
-        set::extract::hashMesh                                                                                \
+#define SGM_EXTRACT(name, set, list)                                                                      \
+  {                                                                                                       \
+    name, set::extract::signsOfRow, list, set::extract::meshSlab, set::extract::countSolid,               \
+        set::extract::polygonizeChunk<list>, set::extract::sortVertices, set::extract::attributeVertices, \
+        set::extract::hashMesh                                                                            \
   }
+#define SGM_EXTRACT_ONE_BY_ONE(name, set) SGM_EXTRACT(name, set, set::extract::listRows<set::extract::OneByOne>)
 
 const MeshKernels* findWideMeshKernels(const char* name) {
   const int64_t here = hwy::SupportedTargets();
@@ -169,16 +171,18 @@ const MeshKernels* findWideMeshKernels(const char* name) {
     return std::strcmp(kernels.name, name) == 0 && (here & target) != 0;
   };
 #if HWY_TARGETS & HWY_SSE4
-  static constexpr MeshKernels kSse4 SGM_EXTRACT("sse4.2", N_SSE4);
+  static constexpr MeshKernels kSse4 SGM_EXTRACT_ONE_BY_ONE("sse4.2", N_SSE4);
   if (is(kSse4, HWY_SSE4)) return &kSse4;
 #endif
 #if HWY_TARGETS & HWY_AVX2
-  static constexpr MeshKernels kAvx2 SGM_EXTRACT("avx2", N_AVX2);
+  static constexpr MeshKernels kAvx2 SGM_EXTRACT_ONE_BY_ONE("avx2", N_AVX2);
   if (is(kAvx2, HWY_AVX2)) return &kAvx2;
 #endif
 #if HWY_TARGETS & HWY_AVX3
-  static constexpr MeshKernels kAvx512 SGM_EXTRACT("avx512", N_AVX3);
+  static constexpr MeshKernels kAvx512 SGM_EXTRACT_ONE_BY_ONE("avx512", N_AVX3);
   if (is(kAvx512, HWY_AVX3)) return &kAvx512;
+  static constexpr MeshKernels kVbmi2 SGM_EXTRACT("avx512-vbmi2", N_AVX3, listRowsVbmi2);
+  if (is(kVbmi2, HWY_AVX3) && vbmi2RunsHere()) return &kVbmi2;
 #endif
   return nullptr;
 }

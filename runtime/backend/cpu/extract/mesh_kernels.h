@@ -50,9 +50,12 @@ struct ListCounts {
   uint64_t vertices = 0, cells = 0, triangles = 0;
 };
 
+/// Lanes of the widest vector: passes may write as much behind the end of scratch.
+inline constexpr size_t kMostLanes = 16;
+
 /// Where a list of `rows` rows goes: edges (packed as signs.inl says) and cells need this room.
-constexpr size_t edgeRoom(size_t size_x, size_t rows) { return 3 * size_x * rows + 2; }
-constexpr size_t cellRoom(size_t size_x, size_t rows) { return size_x * rows + 1; }
+constexpr size_t edgeRoom(size_t size_x, size_t rows) { return 3 * size_x * rows + kMostLanes; }
+constexpr size_t cellRoom(size_t size_x, size_t rows) { return size_x * rows + kMostLanes; }
 
 /// What a slab's own vertices lie between, in 256ths of a cell; lo above hi where there is none.
 struct GridBounds {
@@ -69,9 +72,6 @@ struct GridSlab {
   const uint32_t* edges_above = nullptr;   ///< of plane `last`; null where there is none
   const uint64_t* cells = nullptr;         ///< of the slab
 };
-
-/// Lanes of the widest vector: passes may write as much behind the end of scratch.
-inline constexpr size_t kMostLanes = 16;
 
 /// Scratch of one slab: raw memory, nothing of it has to be cleared.
 struct GridScratch {
@@ -125,13 +125,14 @@ struct MeshKernels {
   /// Signs of a row of the grid, into `signs`, and what is uniform of them. False where a value is not finite.
   bool (*signs)(const GridJob&, size_t y, size_t z, uint64_t* signs, uint64_t* uniform);
   /// Lists what the rows first..last - 1 of plane z own.
-  ListCounts (*list)(const SignLattice&, size_t z, size_t first, size_t last, uint32_t* edges, uint64_t* cells);
+  using List = ListCounts(const SignLattice&, size_t z, size_t first, size_t last, uint32_t* edges, uint64_t* cells);
+  List* list;
   /// Vertices and triangles of a slab.
   GridBounds (*mesh)(const GridJob&, const GridSlab&, const GridScratch&);
   /// Solid samples of a chunk, without those of its high faces.
   uint32_t (*count)(const ChunkSamples&);
-  /// polygonizeBody of mesh/body.h; also fills scratch.brick and scratch.place_x, y, z.
-  void (*polygonize)(const ChunkSamples&, const ChunkGrid&, MeshScratch&, MeshPart&);
+  /// polygonizeBody of mesh/body.h, with or without the keys; also fills scratch.brick and scratch.place_x, y, z.
+  void (*polygonize)(const ChunkSamples&, const ChunkGrid&, bool keys, MeshScratch&, MeshPart&);
   /// Puts the vertices that were polygonized last into the order of their bricks: scratch.order, and x, y and z in
   /// units. start[b] is where brick b begins.
   void (*sort)(MeshScratch&, size_t count, std::array<uint32_t, kBrickCount + 1>& start);

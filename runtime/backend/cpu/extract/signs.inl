@@ -6,18 +6,6 @@ FN uint64_t wordMask(size_t word, size_t count) {
   return count >= first + 64 ? ~uint64_t{0} : count <= first ? 0 : (uint64_t{1} << (count - first)) - 1;
 }
 
-/// Calls f(bit, mask) for the bits that are set, then perhaps f(64, 0): how many are set cannot be foreseen, so that a
-/// branch for each costs more than a call in vain.
-template <class F>
-FN void forBits(uint64_t bits, F&& f) {
-  do {
-    for (int i = 0; i < 2; ++i) {
-      f(static_cast<size_t>(std::countr_zero(bits)), bits & (~bits + 1));
-      bits &= bits - 1;
-    }
-  } while (bits != 0);
-}
-
 /// Signs of a row at a word's samples, and at those one further: behind the row's last sample that one again, so that
 /// no edge begins there.
 struct RowSigns {
@@ -53,10 +41,17 @@ FN void forWords(const SignLattice& lattice, const size_t (&y)[2], const size_t 
   }
 }
 
-/// Whether four rows of one word each are all void or all solid.
-FN bool isUniform(const uint64_t* const rows[4], size_t size_x) {
-  const uint64_t some = *rows[0] | *rows[1] | *rows[2] | *rows[3], every = *rows[0] & *rows[1] & *rows[2] & *rows[3];
-  return some == 0 || every == wordMask(0, size_x);
+/// Of the rows first..last - 1, 64 at most and of one word each, bit i: whether row first + i, the next one and those
+/// above both are not all void, nor all solid.
+FN uint64_t mixedRows(const SignLattice& lattice, size_t z, size_t z_above, size_t first, size_t last) {
+  const uint64_t *low = lattice.row(0, z), *high = lattice.row(0, z_above), solid = wordMask(0, lattice.size[0]);
+  uint64_t mixed = 0;
+  for (size_t y = first; y < last; ++y) {
+    const size_t next = y + 1 < lattice.size[1] ? y + 1 : y;
+    const uint64_t some = low[y] | low[next] | high[y] | high[next], every = low[y] & low[next] & high[y] & high[next];
+    mixed |= static_cast<uint64_t>((some != 0) & (every != solid)) << (y - first);
+  }
+  return mixed;
 }
 
 /// A crossed edge of a plane: its axis, then the y and x of the sample that owns it.
@@ -83,22 +78,79 @@ constexpr CaseEdges makeCaseEdges() {
 }
 inline constexpr CaseEdges kCaseEdges = makeCaseEdges();
 
+/// The active cells of a word, and what is needed to tell their cases.
+struct WordCells {
+  const uint64_t* corner;  ///< signs at the cells' corners in the order of a case's bits, and a word more
+  uint32_t next_case;      ///< of the cell behind the word's last; 0 where there is none
+  uint64_t along_y[2];     ///< whether an edge along y goes on beyond the cell, at its low and its high x
+  uint64_t active;
+  size_t place;  ///< of the word's first cell in the plane
+};
+
+/// Calls f(bit, mask) for the bits that are set, then perhaps f(64, 0): how many are set cannot be foreseen, so that a
+/// branch for each costs more than a call in vain.
+template <class F>
+FN void forBits(uint64_t bits, F&& f) {
+  do {
+    for (int i = 0; i < 2; ++i) {
+      f(static_cast<size_t>(std::countr_zero(bits)), bits & (~bits + 1));
+      bits &= bits - 1;
+    }
+  } while (bits != 0);
+}
+
+/// How a word's crossed edges and active cells are listed: one bit after the other.
+struct OneByOne {
+  /// Of samples from `first` on, packed: whether their edges along x, y and z are crossed. Returns how many are.
+  FN static size_t edges(uint64_t x, uint64_t y, uint64_t z, uint32_t first, uint32_t* out) {
+    uint32_t* next = out;
+    forBits(x | y | z, [&](size_t bit, uint64_t mask) {
+      const uint32_t sample = first + static_cast<uint32_t>(bit);
+      const int along_x = std::popcount(x & mask), along_y = std::popcount(y & mask);
+      next[0] = sample;
+      next += along_x;
+      next[0] = sample | 1u << 2 * kPlaceBits;
+      next += along_y;
+      next[0] = sample | 2u << 2 * kPlaceBits;
+      next += std::popcount(z & mask);
+    });
+    return static_cast<size_t>(next - out);
+  }
+
+  /// Returns the triangles that the cells make.
+  FN static uint64_t cells(const WordCells& word, uint64_t* out) {
+    uint8_t cases[64 + 1];
+    spreadBits<8>(word.corner, cases);
+    cases[64] = static_cast<uint8_t>(word.next_case);
+    uint64_t triangles = 0;
+    forBits(word.active, [&](size_t bit, uint64_t mask) {
+      const uint32_t cell_case = cases[bit];
+      const auto along_y =
+          static_cast<uint32_t>((word.along_y[0] >> (bit & 63) & 1) + (word.along_y[1] >> (bit & 63) & 1) * 2);
+      *out++ = packedCell(word.place + bit, kCaseEdges.along_x[cases[std::min<size_t>(bit, 63) + 1]] | along_y << 3,
+                          cell_case);
+      triangles += mask != 0 ? kCubeTriangles[cell_case] : 0;
+    });
+    return triangles;
+  }
+};
+
 /// Lists what rows of plane z own: crossed edges, sample by sample and axis by axis, which is the order of vertices;
 /// and the active cells of the layer above, in their order.
-inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size_t last_row, uint32_t* edges,
-                           uint64_t* cells) {
+template <class Lists>
+ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size_t last_row, uint32_t* edges,
+                    uint64_t* cells) {
   ListCounts counts;
   const bool above = z + 1 < lattice.size[2];
   const size_t zs[2] = {z, above ? z + 1 : z};
-  for (size_t y = first_row; y < last_row; ++y) {
+  const auto listRow = [&](size_t y) {
     const bool has_cells = above && y + 1 < lattice.size[1];
     const size_t ys[2] = {y, y + 1 < lattice.size[1] ? y + 1 : y};
     const uint64_t* const rows[4] = {lattice.row(ys[0], zs[0]), lattice.row(ys[1], zs[0]), lattice.row(ys[0], zs[1]),
                                      lattice.row(ys[1], zs[1])};
     const uint64_t* beyond_row = y + 2 < lattice.size[1] ? lattice.row(y + 2, z) : rows[1];
     forWords(lattice, ys, zs, [&](size_t word) {
-      if (lattice.words == 1 && isUniform(rows, lattice.size[0])) return;
-      uint64_t corner[8 + 1];  // in the order of a case's bits; spreadBits may read one more
+      uint64_t corner[8 + 1];  // spreadBits may read one more
       uint64_t some = 0, every = ~uint64_t{0};
       for (size_t i = 0; i < 4; ++i) {
         const RowSigns s = signsOf(lattice, rows[i], word);
@@ -111,47 +163,36 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
       // A sample that owns a crossed edge begins a cell whose corners differ, if not one beyond the lattice.
       if ((some & ~every) == 0) return;
       const uint64_t x = corner[0] ^ corner[1], y_edges = corner[0] ^ corner[2], z_edges = corner[0] ^ corner[4];
-      if (const uint64_t owners = x | y_edges | z_edges; owners != 0) {
+      if ((x | y_edges | z_edges) != 0) {
         const auto first = static_cast<uint32_t>(y << kPlaceBits | word * 64);
-        forBits(owners, [&](size_t bit, uint64_t mask) {
-          const uint32_t sample = first + static_cast<uint32_t>(bit);
-          uint32_t* next = edges + counts.vertices;
-          const int along_x = std::popcount(x & mask), along_y = std::popcount(y_edges & mask);
-          next[0] = sample;
-          next += along_x;
-          next[0] = sample | 1u << 2 * kPlaceBits;
-          next += along_y;
-          next[0] = sample | 2u << 2 * kPlaceBits;
-          counts.vertices += static_cast<uint64_t>(along_x + along_y + std::popcount(z_edges & mask));
-        });
+        counts.vertices += Lists::edges(x, y_edges, z_edges, first, edges + counts.vertices);
       }
       const uint64_t active = has_cells ? some & ~every & wordMask(word, lattice.size[0] - 1) : 0;
       if (active == 0) return;
-      uint8_t cases[64 + 1];
-      spreadBits<8>(corner, cases);
-      cases[64] = 0;
+      uint32_t next_case = 0;
       if (active >> 63 != 0 && word + 1 < lattice.words) {
         for (size_t i = 0; i < 4; ++i) {
           const RowSigns s = signsOf(lattice, rows[i], word + 1);
-          cases[64] = static_cast<uint8_t>(cases[64] | (s.low & 1) << 2 * i | (s.high & 1) << (2 * i + 1));
+          next_case |= static_cast<uint32_t>((s.low & 1) << 2 * i | (s.high & 1) << (2 * i + 1));
         }
       }
       const RowSigns beyond = signsOf(lattice, beyond_row, word);
-      const uint64_t beyond_low = corner[2] ^ beyond.low, beyond_high = corner[3] ^ beyond.high;
-      const size_t place = y * lattice.size[0] + word * 64;
-      uint64_t* next = cells + counts.cells;
-      uint64_t triangles = 0;
-      forBits(active, [&](size_t bit, uint64_t mask) {
-        const uint32_t cell_case = cases[bit];
-        const auto along_y =
-            static_cast<uint32_t>((beyond_low >> (bit & 63) & 1) + (beyond_high >> (bit & 63) & 1) * 2);
-        *next++ =
-            packedCell(place + bit, kCaseEdges.along_x[cases[std::min<size_t>(bit, 63) + 1]] | along_y << 3, cell_case);
-        triangles += mask != 0 ? kCubeTriangles[cell_case] : 0;
-      });
-      counts.triangles += triangles;
+      counts.triangles += Lists::cells({corner,
+                                        next_case,
+                                        {corner[2] ^ beyond.low, corner[3] ^ beyond.high},
+                                        active,
+                                        y * lattice.size[0] + word * 64},
+                                       cells + counts.cells);
       counts.cells += static_cast<uint64_t>(std::popcount(active));
     });
+  };
+  if (lattice.words > 1) {
+    for (size_t y = first_row; y < last_row; ++y) listRow(y);
+    return counts;
+  }
+  for (size_t first = first_row; first < last_row; first += 64) {
+    uint64_t mixed = mixedRows(lattice, z, zs[1], first, std::min(first + 64, last_row));
+    for (; mixed != 0; mixed &= mixed - 1) listRow(first + static_cast<size_t>(std::countr_zero(mixed)));
   }
   return counts;
 }
