@@ -4,9 +4,10 @@
 
 #if HWY_ARCH_X86_64
 
+#if !HWY_COMPILER_CLANG
 // GCC takes what its own header leaves undefined on purpose for a mistake.
-HWY_DIAGNOSTICS(push)
-HWY_DIAGNOSTICS_OFF(disable : 4701, ignored "-Wmaybe-uninitialized")
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 #include <immintrin.h>
 
@@ -151,6 +152,5 @@ ListCounts listRowsVbmi2(const SignLattice& lattice, size_t z, size_t first, siz
 
 }  // namespace sgm
 HWY_POP_ATTRIBUTES
-HWY_DIAGNOSTICS(pop)
 
 #endif
