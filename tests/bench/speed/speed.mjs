@@ -51,7 +51,7 @@ function run(program, args, env = {}) {
   }
   return answer;
 }
-const ours = (set, ...args) => run(path.join(bin, 'sgm_bench_ours'), args, set ? { SGM_BENCH_SET: set } : {});
+const ours = (set, ...args) => run(path.join(bin, 'sgm_bench_ours'), args, set && set !== best ? { SGM_BENCH_SET: set } : {});
 const machine = (...args) => run(path.join(bin, 'sgm_bench_machine'), args);
 
 const vtk = path.join(bin, 'sgm_bench_vtk'), openvdb = path.join(bin, 'sgm_bench_openvdb'), python = '/usr/bin/python3';
@@ -112,7 +112,7 @@ const ask = (name, reached, what) => {
 const scenes = ['sphere', 'blobs', 'caves'];
 const best = ours('', 'write', 'sphere', 64, path.join(out, 'probe.grid')) && ours('', 'grid', path.join(out, 'probe.grid'), 1, 1).set;
 fs.rmSync(path.join(out, 'probe.grid'));
-const sets = best === 'avx512' ? ['avx512', 'avx2'] : [best];
+const sets = best.startsWith('avx512') ? [best, 'avx2'] : [best];
 const gridTimes = {};
 console.log(`${options.cells}^3 cells, ${options.rounds} rounds of ${options.runs} runs, milliseconds; ` +
   `${machine('float', 1, 5).gflops} GFLOP/s without fused operations on one thread`);
