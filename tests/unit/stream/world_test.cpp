@@ -83,6 +83,7 @@ TEST_CASE("chunks that need no keys are the same but for these") {
     vertices += a.vertices.size();
     CHECK(a.keys.size() == a.vertices.size());
     REQUIRE(a.vertices.size() == b.vertices.size());
+    if (a.vertices.empty()) continue;
     CHECK(std::memcmp(a.vertices.data(), b.vertices.data(), a.vertices.size() * sizeof(Vertex)) == 0);
     CHECK(a.indices == b.indices);
   }
