@@ -136,8 +136,8 @@ struct BackendRequest {
   BackendKind kind = BackendKind::cpu;
   bool automatic = false;  ///< kind is ignored: CUDA, then a hardware Vulkan device, then the CPU
   int device = -1;  ///< of its kind, in the order in which they are listed; -1: the first, or fastest, that can be used
-  std::string
-      instruction_set;  ///< CPU: "scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"; empty: the widest that runs here
+  /// CPU: "scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"; empty: the widest that runs here.
+  std::string instruction_set;
   std::shared_ptr<const vulkan::BorrowedDevice> lent =
       nullptr;  ///< Vulkan: the engine's; null: one of our own. CUDA: where meshes stay, lent with external_memory; or
                 ///< null

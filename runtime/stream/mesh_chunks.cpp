@@ -16,6 +16,8 @@ namespace {
 constexpr size_t kBatchChunks = 256;
 // What one thread prepares in a row at most: requests behind each other mostly ask for the same cells.
 constexpr size_t kPreparedTogether = 16;
+// Cells that one thread holds beyond the chunk that asked for them, whatever the cache's limit is.
+constexpr size_t kMostAtHand = 1024;
 // Of a region: what a machine holds with half a kilobyte and more a chunk, before any mesh.
 constexpr uint64_t kMostChunks = uint64_t{1} << 24;
 
@@ -144,6 +146,7 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     parallelFor(jobs, (batch.size() + together - 1) / together, [&](size_t run) {
       CellsAtHand at_hand;
       for (size_t i = run * together; i < std::min((run + 1) * together, batch.size()); ++i) {
+        if (at_hand.size() > kMostAtHand) at_hand.clear();
         const Result<void> prepared = prepare(world, batch[i], edits, at_hand, chunk_jobs[i], chunks[first + i]);
         if (prepared) continue;
         // Of several the first request's error, whichever thread was faster.
