@@ -11,7 +11,7 @@
 namespace sgm {
 namespace {
 
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
 
 // Looks from `eye` along one axis; x and y of the tile are the other two axes, as shadow.glsl has them.
 glm::mat4 lookAlong(glm::vec3 eye, int face) {
@@ -68,12 +68,12 @@ ShadowPlan planShadows(const RenderScene& scene, const Frame& frame, std::pmr::m
 Result<ShadowPass> makeShadowPass(VulkanScope& scope, VkExtent2D extent) {
   ShadowPass pass;
   auto depth =
-      scope.image(extent, kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+      scope.image(extent, kShadowFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                   VK_IMAGE_ASPECT_DEPTH_BIT);
   if (!depth) return depth.error();
   pass.depth = *depth;
   const VkAttachmentDescription attachment =
-      clearedAttachment(kDepthFormat, VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
+      clearedAttachment(kShadowFormat, VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL);
   const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
   VkSubpassDescription subpass{};
   subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
