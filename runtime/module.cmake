@@ -23,9 +23,6 @@ function(sgm_target_flags target)
       $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)  # instrumentation makes them cry wolf
     target_link_options(${target} PUBLIC -fsanitize=${SGM_SANITIZE})
   endif()
-  if(SGM_BUILD_FUZZERS)
-    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
-  endif()
 endfunction()
 
 # sgm_module(NAME [AS path] SOURCES ... [LINK private libraries ...] [PUBLIC libraries whose headers ours include ...])
