@@ -205,7 +205,8 @@ int32_t tell(void* user, uint64_t done, uint64_t total) {
 
 }  // namespace
 
-TEST_CASE("a way tells of each look at its region and of its walk, in a flat region too, and stops in any of them") {
+TEST_CASE("a way tells of each look at its region and of its walk, in a flat region too, and stops in any of them",
+          "[costly]") {
   RuntimeOwner runtime = makeRuntime();
   const GrammarOwner grammar = compile(runtime.get(), kBall);
   const FieldOwner field = makeField(runtime.get(), grammar.get());

@@ -19,7 +19,8 @@ TEST_CASE("what the Vulkan header's macros set is the same in C and in C++", "[v
   CHECK(sgm_vulkan_inits_cpp() == 1);
 }
 
-TEST_CASE("a mesh lies on the lent device with the bytes that the host sees, wherever the viewer goes", "[vulkan]") {
+TEST_CASE("a mesh lies on the lent device with the bytes that the host sees, wherever the viewer goes",
+          "[vulkan][costly]") {
   if (!vk::haveDevice()) return;
   Lender lender;
   const char* text = GENERATE(kBalls, kLumps);
@@ -29,7 +30,7 @@ TEST_CASE("a mesh lies on the lent device with the bytes that the host sees, whe
   wanderBeside(field.get(), text, [&](const MeshOwner& mesh) { return checkMesh(lender, mesh); });
 }
 
-TEST_CASE("what comes from the disk lies on the lent device, too", "[vulkan]") {
+TEST_CASE("what comes from the disk lies on the lent device, too", "[vulkan][costly]") {
   if (!vk::haveDevice()) return;
   Lender lender;
   const auto folder = std::filesystem::temp_directory_path() / ("sgm_resident_" + std::to_string(getpid()));
@@ -100,7 +101,7 @@ TEST_CASE("meshes outlive the world that they were streamed in", "[vulkan]") {
   CHECK(triangles > 0);
 }
 
-TEST_CASE("meshes keep to the bytes that they may have on the device, and the rest is not there", "[vulkan]") {
+TEST_CASE("meshes keep to the bytes that they may have on the device, and the rest is not there", "[vulkan][costly]") {
   if (!vk::haveDevice()) return;
   Lender lender;
   const RuntimeOwner runtime = lentRuntime(lender, 100000);

@@ -212,7 +212,7 @@ TEST_CASE("a streamed world outlives an allocator that gives out, and is right o
   });
 }
 
-TEST_CASE("a streamed world outlives a heap that gives out, and is right once memory is back") {
+TEST_CASE("a streamed world outlives a heap that gives out, and is right once memory is back", "[costly]") {
   Failing failing;
   everLater([&](bool by_distance, int64_t n, int64_t failures) {
     bool reached = false;

@@ -212,7 +212,7 @@ FieldProgram lonely(Op op, std::mt19937& random, Int3 centre) {
 
 }  // namespace
 
-TEST_CASE("no op's float error is more than the relative error that ops.def states") {
+TEST_CASE("no op's float error is more than the relative error that ops.def states", "[costly]") {
   for (int o = 0; o < static_cast<int>(Op::count); ++o) {
     const Op op = static_cast<Op>(o);
     // A warp gives no value, and what begins and adds is measured where it ends.

@@ -247,7 +247,7 @@ ContentHash hashOf(MeshPart part) {
 
 }  // namespace
 
-TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen]") {
+TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
   // One box in fifty has a corner beyond the cell that sees it.
   for (uint64_t seed = 1; seed <= rounds(200); ++seed) {
     INFO("seed " << seed);

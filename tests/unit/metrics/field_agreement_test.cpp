@@ -95,7 +95,7 @@ TEST_CASE("normals are the gradient, and vertices lie on the surface") {
   }
 }
 
-TEST_CASE("normals of triangles converge with the cell, and vertices with its square") {
+TEST_CASE("normals of triangles converge with the cell, and vertices with its square", "[costly]") {
   for (const char* shape : {"sphere(20m);", "torus(20m, 10m);"}) {
     std::vector<double> normals, residuals, means;
     for (const double cell : {4.0, 2.0, 1.0, 0.5, 0.25}) {

@@ -21,7 +21,7 @@ LevelDistance distanceOf(const MeshedWorld& world, const IntBox& region, int lev
 
 }  // namespace
 
-TEST_CASE("levels of a smooth surface come together with the square of the cell") {
+TEST_CASE("levels of a smooth surface come together with the square of the cell", "[costly]") {
   const World world("sgm 1; start A; rule A { torus(20m, 10m); }");
   const MeshedWorld meshed(world, 0.5);
   double before = 0;
@@ -42,7 +42,7 @@ TEST_CASE("levels of a smooth surface come together with the square of the cell"
   }
 }
 
-TEST_CASE("what lies at the cut is left out, and what does not is all there") {
+TEST_CASE("what lies at the cut is left out, and what does not is all there", "[costly]") {
   const World world(
       "sgm 1; domain infinite; layer l cell 64m reach 30m { start A; } "
       "rule A { at(32m, 32m, 32m) sphere(28m); }");
@@ -71,7 +71,7 @@ TEST_CASE("detail that a level leaves out is found to be missing") {
   CHECK(found.distance->back.at_least < 2);
 }
 
-TEST_CASE("a coarse mesh that is off is found, wherever either counts from") {
+TEST_CASE("a coarse mesh that is off is found, wherever either counts from", "[costly]") {
   const World world("sgm 1; start A; rule A { sphere(10m); }");
   const MeshedWorld meshed(world, 0.5);
   const LevelMesh fine = meshed.meshed(world.program().domain.box, 0);
@@ -95,8 +95,7 @@ TEST_CASE("a coarse mesh that is off is found, wherever either counts from") {
   CHECK(moved.back.at_least < 0.5 + before);
   // And one that is not there at all.
   coarse.mesh.indices.clear();
-  const Result<LevelDistance> vanished =
-      levelDistance(fine.mesh, fine.extent, coarse.mesh, kMetre, {}, meshed.jobs());
+  const Result<LevelDistance> vanished = levelDistance(fine.mesh, fine.extent, coarse.mesh, kMetre, {}, meshed.jobs());
   REQUIRE(vanished);
   CHECK_FALSE(vanished->distance);
   CHECK(vanished->fine_triangles > 0);

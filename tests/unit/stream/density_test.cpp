@@ -187,7 +187,7 @@ TEST_CASE("a volume is the same for any number of threads, and cut into any boxe
   }
 }
 
-TEST_CASE("the mesh lies where density begins", "[density]") {
+TEST_CASE("the mesh lies where density begins", "[density][costly]") {
   const unsigned seed = 11;
   CAPTURE(seed);
   constexpr int32_t kCell = 4096;  // as clouds() has it

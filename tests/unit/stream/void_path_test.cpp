@@ -344,7 +344,8 @@ TEST_CASE("the widest agent's radius parts those that pass from those that do no
   CHECK((passed > 0 && none > 0 && wide > 0));
 }
 
-TEST_CASE("the widest agent's radius itself is too wide by the last bit, for every distance between samples") {
+TEST_CASE("the widest agent's radius itself is too wide by the last bit, for every distance between samples",
+          "[costly]") {
   // The nearest solid sample is (a, b, c) away from the one place that is asked about, in cells of odd sizes too.
   size_t rounded_down = 0;
   for (const int32_t cell : {256, 333}) {
@@ -400,7 +401,7 @@ TEST_CASE("a hall wide enough has its agent told exactly, up to 32 cells") {
   CHECK(way.from_clearance == 32.0 * kCell);
 }
 
-TEST_CASE("a way for a radius is one for all that are smaller") {
+TEST_CASE("a way for a radius is one for all that are smaller", "[costly]") {
   size_t changed = 0;
   for (uint32_t seed = 1; seed <= rounds(40); ++seed) {
     CAPTURE(seed);
@@ -645,7 +646,7 @@ TEST_CASE("the first progress comes long before a flat region is looked at, whic
   }
 }
 
-TEST_CASE("of a long region a search keeps little at one time") {
+TEST_CASE("of a long region a search keeps little at one time", "[costly]") {
   // 3 by 3 by 300 chunks that all have a surface, whichever axis is the long one; sanitizers take minutes for each.
   const int axes = std::min(3, static_cast<int>(rounds(5)));
   for (int axis = 3 - axes; axis < 3; ++axis) {

@@ -201,7 +201,7 @@ TEST_CASE("what is drawn stays drawn where its next surface is too large to be h
   }
 }
 
-TEST_CASE("surfaces stay below their cap, and detail comes nearer instead") {
+TEST_CASE("surfaces stay below their cap, and detail comes nearer instead", "[costly]") {
   WorldSettings settings;
   settings.lod.finest_distance = 60.0 * kUnitsPerMetre;
   settings.mesh_bytes = size_t{21} << 20;

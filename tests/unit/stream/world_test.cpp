@@ -279,7 +279,7 @@ TEST_CASE("what a layer of anchors alone leaves out is noted") {
   CHECK_FALSE(notes->empty());
 }
 
-TEST_CASE("anchors are found in more cells than one chunk may have") {
+TEST_CASE("anchors are found in more cells than one chunk may have", "[costly]") {
   // A chunk's program may be made of 2^20.
   const IntBox box{{-530'000 * 1024, 0, 0}, {530'000 * 1024, 1024, 1024}};
   const WorldField world(settingsOf("sgm 1; units m;\ndomain infinite axes x;\n"
