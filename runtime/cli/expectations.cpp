@@ -35,7 +35,7 @@ struct MeasuredSpread {
   double least = 0, mean = 0, most = 0;
 };
 
-MeasuredSpread spreadOf(const std::vector<Measured>& measured) {
+MeasuredSpread measuredSpread(const std::vector<Measured>& measured) {
   MeasuredSpread spread;
   double sum = 0;
   for (const Measured& m : measured) {
@@ -50,7 +50,7 @@ MeasuredSpread spreadOf(const std::vector<Measured>& measured) {
 }
 
 std::string spreadText(Measure measure, const std::vector<Measured>& measured) {
-  const MeasuredSpread spread = spreadOf(measured);
+  const MeasuredSpread spread = measuredSpread(measured);
   std::string text = measured.size() == 1 ? "1 use" : fmt::format("{} uses", measured.size());
   if (spread.count < measured.size()) text += fmt::format(", {} not measured", measured.size() - spread.count);
   if (spread.count == 0) return text;
@@ -168,7 +168,7 @@ Json toJson(const Said& said) {
     if (!outcome.measured[0].why.empty()) json["reason"] = outcome.measured[0].why;
     if (e.measure == Measure::components) json["pieces"] = piecesJson(outcome.measured[0]);
   } else {
-    const MeasuredSpread spread = spreadOf(outcome.measured);
+    const MeasuredSpread spread = measuredSpread(outcome.measured);
     json["rule"] = said.program.text(e.per_name);
     json["count"] = outcome.measured.size();
     if (spread.count > 0) json.update({{"minimum", spread.least}, {"mean", spread.mean}, {"maximum", spread.most}});
