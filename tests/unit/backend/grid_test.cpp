@@ -1,9 +1,12 @@
 // The grid's passes of every instruction set against the scalar ones, bit by bit.
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "backend/cpu/extract/mesh_kernels.h"
@@ -15,6 +18,39 @@
 using namespace sgm;
 
 namespace {
+
+/// Of the instruction sets those that are here; a set that is not is named.
+std::vector<std::pair<const char*, const MeshKernels*>> kernelSets() {
+  std::vector<std::pair<const char*, const MeshKernels*>> sets;
+  for (const char* name : {"scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"}) {
+    if (const MeshKernels* kernels = findMeshKernels(name))
+      sets.emplace_back(name, kernels);
+    else
+      WARN("SKIPPED: this build or this processor has no " << name);
+  }
+  return sets;
+}
+
+/// Rows of 1,024 floats, with memory behind each that nobody may touch.
+class GuardedRows {
+ public:
+  static constexpr size_t kRow = 1024, kStride = 2 * kRow;
+  explicit GuardedRows(size_t rows) : bytes_(rows * kStride * sizeof(float)) {
+    void* memory = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    REQUIRE(memory != MAP_FAILED);
+    values_ = static_cast<float*>(memory);
+    for (size_t row = 0; row < rows; ++row)
+      REQUIRE(mprotect(values_ + row * kStride + kRow, (kStride - kRow) * sizeof(float), PROT_NONE) == 0);
+  }
+  GuardedRows(const GuardedRows&) = delete;
+  GuardedRows& operator=(const GuardedRows&) = delete;
+  ~GuardedRows() { munmap(values_, bytes_); }
+  float* row(size_t number) { return values_ + number * kStride; }
+
+ private:
+  size_t bytes_;
+  float* values_ = nullptr;
+};
 
 struct Meshed {
   std::vector<uint64_t> signs, uniform;
@@ -117,6 +153,7 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
   const uint32_t seed = std::random_device{}();
   CAPTURE(seed);
   std::mt19937 random(seed);
+  const auto sets = kernelSets();
   for (unsigned round = 0; round < rounds(12); ++round) {
     CAPTURE(round);
     GridJob job;
@@ -129,10 +166,8 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
     job.step = 1.0 / kSubcell;
     MeshPart part{std::pmr::get_default_resource()};
     polygonizeBody(chunkOf(job), ChunkGrid{}, part);
-    for (const char* name : {"scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"}) {
+    for (const auto& [name, kernels] : sets) {
       CAPTURE(name);
-      const MeshKernels* kernels = findMeshKernels(name);
-      if (kernels == nullptr) continue;
       const Meshed mesh = meshed(*kernels, job, 1 + random() % 5, false);
       CHECK(mesh.indices == std::vector<uint32_t>(part.indices.begin(), part.indices.end()));
       REQUIRE(mesh.positions.size() == part.vertices.size() * 3);
@@ -169,6 +204,7 @@ TEST_CASE("every instruction set meshes a grid as the scalar one does") {
   const uint32_t seed = std::random_device{}();
   CAPTURE(seed);
   std::mt19937 random(seed);
+  const auto sets = kernelSets();
   for (unsigned round = 0; round < rounds(40); ++round) {
     CAPTURE(round);
     GridJob job;
@@ -184,10 +220,31 @@ TEST_CASE("every instruction set meshes a grid as the scalar one does") {
     const bool normals = round % 4 != 0;
     const Meshed expected = meshed(scalarMeshKernels(), job, 1, normals);
     CHECK(expected.finite == (round % 10 != 9));
-    for (const char* name : {"scalar", "sse4.2", "avx2", "avx512", "avx512-vbmi2"}) {
+    for (const auto& [name, kernels] : sets) {
       CAPTURE(name);
-      if (const MeshKernels* kernels = findMeshKernels(name))
-        CHECK(meshed(*kernels, job, 1 + random() % 5, normals) == expected);
+      CHECK(meshed(*kernels, job, 1 + random() % 5, normals) == expected);
     }
+  }
+}
+
+TEST_CASE("nothing is read behind the rows of a grid") {
+  constexpr size_t kSide = 4;
+  GuardedRows rows(kSide * kSide);
+  // Every edge along x is crossed, until the last that has both its neighbours.
+  for (size_t row = 0; row < kSide * kSide; ++row)
+    for (size_t x = 0; x < GuardedRows::kRow; ++x)
+      rows.row(row)[x] = (x % 2 == 0 ? 1.0f : -1.0f) + 0.1f * static_cast<float>(row);
+  GridJob job;
+  job.values = rows.row(0);
+  job.lattice.size = {GuardedRows::kRow, kSide, kSide};
+  job.stride_y = GuardedRows::kStride;
+  job.stride_z = GuardedRows::kStride * kSide;
+  job.scale = 1024;
+  job.step = 1.0 / kSubcell;
+  const Meshed expected = meshed(scalarMeshKernels(), job, 1, true);
+  CHECK(expected.positions.size() > 3 * kSide * kSide * (GuardedRows::kRow - 1) / 2);
+  for (const auto& [name, kernels] : kernelSets()) {
+    CAPTURE(name);
+    CHECK(meshed(*kernels, job, 1, true) == expected);
   }
 }

@@ -146,7 +146,8 @@ inline void lookAround(const GridJob& job, size_t z, const uint32_t* edges, Edge
   const auto inside = [&](Int at, Int end, size_t axis) {
     return at > zero && end < broadcastInt(static_cast<int32_t>(job.lattice.size[axis]) - 1);
   };
-  around.there = all(inside(e.x, wrapAdd(e.x, one), 0) && inside(e.y, wrapAdd(e.y, sel(e.along_y, one, zero)), 1) &&
+  // Of a row four samples are read, the last for nothing: it must not be behind the row's end.
+  around.there = all(inside(e.x, wrapAdd(e.x, sel(e.along_x, broadcastInt(2), one)), 0) && inside(e.y, wrapAdd(e.y, sel(e.along_y, one, zero)), 1) &&
                      inside(e.z, wrapAdd(e.z, sel(e.along_z, one, zero)), 2));
   if (!around.there) return;
   const float* plane = job.row(0, z);
