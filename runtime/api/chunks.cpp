@@ -122,10 +122,10 @@ sgm_result sgm_mesh_chunks(sgm_field* field, const sgm_chunks_desc* desc, sgm_me
       }
       made[i] = makeHandle<sgm_mesh>(field->runtime, std::move(surface));
     };
-    // Some in a row: most chunks of most requests are empty, and take less time than it takes to hand them out.
-    constexpr size_t kInARow = 8;
-    sgm::parallelFor(*field->runtime.jobs, (desc->count + kInARow - 1) / kInARow, [&](size_t row) {
-      for (size_t i = row * kInARow; i < std::min<size_t>((row + 1) * kInARow, desc->count); ++i) finish(i);
+    // Of many requests some in a row: most chunks are empty, and take less time than it takes to hand them out.
+    const size_t in_a_row = std::clamp<size_t>(desc->count / (4 * field->runtime.jobs->concurrency()), 1, 8);
+    sgm::parallelFor(*field->runtime.jobs, (desc->count + in_a_row - 1) / in_a_row, [&](size_t row) {
+      for (size_t i = row * in_a_row; i < std::min<size_t>((row + 1) * in_a_row, desc->count); ++i) finish(i);
     });
     for (const std::optional<sgm::Error>& one : errors) {
       if (one) return fail(error, *one);

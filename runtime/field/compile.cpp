@@ -390,6 +390,8 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
   // What grows does so here: each request to `memory` counts there, where other threads count, too.
   std::array<std::byte, 8192> room;
   std::pmr::monotonic_buffer_resource scratch(room.data(), room.size(), memory);
+  // A host's samples can be large, and what has outgrown its room in scratch stays there.
+  std::pmr::memory_resource* large = hosts.empty() ? &scratch : memory;
   const int32_t margin = influenceMargin(settings.cell);
   std::pmr::vector<Gathered> gathered(&scratch);
   std::pmr::vector<uint32_t> found(&scratch);
@@ -410,7 +412,7 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
   });
 
   const bool by_shape = settings.shapes != nullptr;
-  ProgramBuilder builder(settings.finest_cell, settings.solid, by_shape ? kNoShape : settings.label, &scratch);
+  ProgramBuilder builder(settings.finest_cell, settings.solid, by_shape ? kNoShape : settings.label, large);
   std::pmr::vector<std::optional<ShapeCompiler>> compilers(cells.size(), &scratch);
   for (const Gathered& g : gathered) {
     std::optional<ShapeCompiler>& compiler = compilers[g.cell];
@@ -430,7 +432,7 @@ Result<FieldProgram> compileField(std::span<const IndexedCell> cells, const IntB
   for (const HostField& host : hosts) {
     if (!host.bounds.grown(host.smooth).grown(margin).meets(box)) continue;
     const uint32_t label = by_shape ? kNoShape : host.label;
-    if (Result<void> emitted = emitHostField(builder, host, box, settings.cell, ++layer, label, &scratch); !emitted) {
+    if (Result<void> emitted = emitHostField(builder, host, box, settings.cell, ++layer, label, memory); !emitted) {
       return emitted.error();
     }
   }

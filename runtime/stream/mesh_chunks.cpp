@@ -16,10 +16,19 @@ namespace {
 constexpr size_t kBatchChunks = 256;
 // What one thread prepares in a row at most: requests behind each other mostly ask for the same cells.
 constexpr size_t kPreparedTogether = 16;
-// Cells that one thread holds beyond the chunk that asked for them, whatever the cache's limit is.
+// Cells that one thread holds beyond the chunk that asked for them, whatever the cache lets go of.
 constexpr size_t kMostAtHand = 1024;
 // Of a region: what a machine holds with half a kilobyte and more a chunk, before any mesh.
 constexpr uint64_t kMostChunks = uint64_t{1} << 24;
+
+/// Whether the cells are more than one thread may hold between chunks: their number, and its share of the cache's
+/// bytes.
+bool tooMany(const CellsAtHand& cells, size_t byte_limit) {
+  if (cells.size() > kMostAtHand) return true;
+  size_t bytes = 0;
+  for (const auto& [key, cell] : cells) bytes += cell->bytes;
+  return bytes > byte_limit;
+}
 
 /// What the backend needs to mesh a chunk, and what is known of it without meshing.
 Result<void> prepare(const WorldField& world, const ChunkRequest& request, const EditSnapshot* edits,
@@ -143,10 +152,11 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
     std::optional<Error> error;
     size_t error_at = 0;
     const size_t together = std::clamp<size_t>(batch.size() / (4 * jobs.concurrency()), 1, kPreparedTogether);
+    const size_t at_hand_limit = world.settings().cache_bytes / jobs.concurrency();
     parallelFor(jobs, (batch.size() + together - 1) / together, [&](size_t run) {
       CellsAtHand at_hand;
       for (size_t i = run * together; i < std::min((run + 1) * together, batch.size()); ++i) {
-        if (at_hand.size() > kMostAtHand) at_hand.clear();
+        if (tooMany(at_hand, at_hand_limit)) at_hand.clear();
         const Result<void> prepared = prepare(world, batch[i], edits, at_hand, chunk_jobs[i], chunks[first + i]);
         if (prepared) continue;
         // Of several the first request's error, whichever thread was faster.

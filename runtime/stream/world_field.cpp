@@ -220,7 +220,7 @@ FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const
 }
 
 Result<void> WorldField::bring(std::span<const CellKey> keys, CellsAtHand& at_hand) const {
-  std::vector<CellKey> missing;
+  std::pmr::vector<CellKey> missing(memory_);
   for (const CellKey& key : keys) {
     if (at_hand.count(key) == 0) missing.push_back(key);
   }
@@ -245,7 +245,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(
     std::span<const Brush> brushes, CellsAtHand& at_hand, GatheredCells* gathered) const {
   const ProfileScope scope(profiler(), zone::kCompile);
   const IntBox reached = box.grown(influenceMargin(field.cell));
-  std::vector<IndexedCell> indexed;
+  std::pmr::vector<IndexedCell> indexed(memory_);
   const auto use = [&](const std::shared_ptr<const DerivedCell>& cell) {
     indexed.push_back(cell->indexed());
     if (gathered == nullptr) return;
@@ -253,7 +253,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(
     gathered->cells.push_back(cell);
   };
   if (alone_) use(alone_);
-  std::vector<CellKey> keys;
+  std::pmr::vector<CellKey> keys(memory_);
   for (uint32_t layer = 0; layer < layers && !alone_; ++layer) {
     if (!settings_.program->layers[layer].shows(field.cell)) continue;
     keys.clear();
