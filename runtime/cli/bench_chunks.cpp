@@ -51,7 +51,7 @@ class Contest {
     backend_ = std::move(*backend);
     const Result<std::pmr::vector<ChunkKey>> keys = chunksOfRegion(world_, region, options_.level, options_.max_chunks);
     if (!keys) return keys.error();
-    for (const ChunkKey& key : *keys) requests_.push_back({key, 0, Neighbourhood{}});
+    for (const ChunkKey& key : *keys) requests_.push_back({key, 0, Neighbourhood{}, false, false});  // as a world asks
 
     Result<double> took = meshAll();
     if (!took) return took.error();
@@ -130,10 +130,10 @@ void print(const BenchChunksOptions& options, const std::vector<Row>& rows) {
   fmt::print("{}: {} chunks, {} with a surface, {} triangles, hash {:016x}; medians of {} warm run{}, milliseconds\n",
              options.file, first.chunks, first.surfaces, first.triangles, first.hash.value(), options.runs,
              options.runs == 1 ? "" : "s");
-  fmt::print("  {:<10} {:>7} {:>10} {:>10} {:>8} {:>11} {:>16} {:>10}\n", "set", "threads", "first", "warm", "Mtri/s",
+  fmt::print("  {:<12} {:>7} {:>10} {:>10} {:>8} {:>11} {:>16} {:>10}\n", "set", "threads", "first", "warm", "Mtri/s",
              "chunks/s", "surface chunk", "longest");
   for (const Row& row : rows) {
-    fmt::print("  {:<10} {:>7} {:>10.2f} {:>10.2f} {:>8.2f} {:>11.0f}", row.set, row.threads, row.first, row.median,
+    fmt::print("  {:<12} {:>7} {:>10.2f} {:>10.2f} {:>8.2f} {:>11.0f}", row.set, row.threads, row.first, row.median,
                perSecond(static_cast<double>(row.triangles), row.median) * 1e-6,
                perSecond(static_cast<double>(row.chunks), row.median));
     if (row.threads == 1 && row.surfaces > 0) fmt::print(" {:>16.3f} {:>10.3f}", row.chunk_median, row.chunk_most);

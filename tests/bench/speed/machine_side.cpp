@@ -5,6 +5,7 @@
 //   sgm_bench_machine float THREADS RUNS          products and sums without fused ones, as the contract has them
 //   sgm_bench_machine brute CELLS THREADS RUNS    every blob at every sample of the scene blobs
 
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -32,12 +33,12 @@ void shared(int threads, size_t count, const Work& work) {
 }
 
 Times signs(const Grid& grid, int threads, int runs) {
-  volatile uint32_t kept = 0;
+  std::atomic<uint32_t> kept = 0;
   return timed(2, runs, [&] {
     shared(threads, grid.values.size(), [&](size_t first, size_t last) {
       uint32_t count = 0;
       for (size_t i = first; i < last; ++i) count += std::bit_cast<uint32_t>(grid.values[i]) >> 31;
-      kept = count;
+      kept.store(count, std::memory_order_relaxed);
     });
   });
 }
@@ -55,7 +56,7 @@ constexpr size_t kChains = 128;  // independent ones, so that no operation waits
 constexpr size_t kRounds = 200000;
 
 Times floats(int threads, int runs) {
-  volatile float kept = 0;
+  std::atomic<float> kept = 0;
   return timed(1, runs, [&] {
     shared(threads, static_cast<size_t>(threads), [&](size_t, size_t) {
       float x[kChains];
@@ -64,7 +65,7 @@ Times floats(int threads, int runs) {
         for (size_t i = 0; i < kChains; ++i) x[i] = x[i] * 0.999f + 0.5f;
       float sum = 0;
       for (const float value : x) sum += value;
-      kept = sum;
+      kept.store(sum, std::memory_order_relaxed);
     });
   });
 }
