@@ -111,11 +111,17 @@ FN Int loadInt(const uint32_t* p) { return hn::BitCast(IntTag(), hn::Load(UintTa
 FN void storeReal(Real r, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), r.v), UintTag(), p); }
 FN void storeInt(Int i, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), i.v), UintTag(), p); }
 FN uint64_t maskOf(Bool b) {
+#if HWY_TARGET == HWY_AVX3
+  return b.m.raw;
+#elif HWY_TARGET == HWY_AVX2
+  return static_cast<uint32_t>(_mm256_movemask_ps(hn::VecFromMask(RealTag(), b.m).raw));
+#else
   uint8_t bytes[8] = {};
   hn::StoreMaskBits(RealTag(), b.m, bytes);
   uint64_t bits;
   memcpy(&bits, bytes, 8);
   return bits;
+#endif
 }
 // Bit i: whether the i-th of `count` integers is negative. Reads whole vectors.
 FN uint64_t signMask(const uint32_t* p, size_t count) {

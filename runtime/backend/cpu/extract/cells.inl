@@ -8,7 +8,8 @@
 //   storeThree, storeFour      the lanes' numbers in turn
 //   squareRoot, quotient       as IEEE 754 has them
 //   scaledDouble               Int times double, rounded to float
-//   maskOf, all                a bit a lane; whether all are true
+//   minInt, maxInt             of integers
+//   maskOf, all, any           a bit a lane; whether all are true, whether one is
 //   spreadBits<n>              64 bytes of n words: bit i of word k becomes bit k of byte i
 //   writeTriangles<n>          the triangles of a loop's triangulation
 //   addSteps                   the vertices of a cell's edges: the numbers of the samples that these begin at, with

@@ -35,6 +35,9 @@ FN Real quotient(Real a, Real b) { return a / b; }
 FN Real scaledDouble(Int i, double scale) { return static_cast<float>(i * scale); }
 FN uint64_t maskOf(Bool b) { return b ? 1 : 0; }
 FN bool all(Bool b) { return b; }
+FN bool any(Bool b) { return b; }
+FN Int minInt(Int a, Int b) { return std::min(a, b); }
+FN Int maxInt(Int a, Int b) { return std::max(a, b); }
 
 // Eight bytes at a time: a product puts a bit into each of them, a mask keeps the one that is meant.
 template <size_t kCount>
@@ -62,7 +65,9 @@ FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, con
   for (size_t e = 4; e < 12; ++e) number[e] = first[e] + static_cast<uint32_t>(steps >> 8 * (e - 4) & 0xFF);
 }
 
-#include "backend/cpu/extract/signs.inl"
+#include "backend/cpu/extract/lattice.inl"
+
+#include "backend/cpu/extract/list.inl"
 
 #include "backend/cpu/extract/cells.inl"
 
@@ -92,7 +97,7 @@ void polygonizeChunk(const ChunkSamples& samples, const ChunkGrid& grid, bool /*
 const MeshKernels& scalarMeshKernels() {
   static constexpr MeshKernels kernels{"scalar",
                                        scalar_extract::signsOfRow,
-                                       scalar_extract::listRows<scalar_extract::OneByOne>,
+                                       scalar_extract::listRows,
                                        scalar_extract::meshSlab,
                                        scalar_extract::countSolid,
                                        scalar_extract::polygonizeChunk,

@@ -61,6 +61,9 @@ FN Real scaledDouble(Int i, double scale) {
   return hn::Combine(RealTag(), high, low);
 }
 FN bool all(Bool b) { return hn::AllTrue(RealTag(), b.m); }
+FN bool any(Bool b) { return !hn::AllFalse(RealTag(), b.m); }
+FN Int minInt(Int a, Int b) { return hn::Min(a.v, b.v); }
+FN Int maxInt(Int a, Int b) { return hn::Max(a.v, b.v); }
 
 template <size_t kCount>
 FN void spreadBits(const uint64_t* words, uint8_t* out) {
@@ -133,7 +136,9 @@ FN void addSteps(const uint32_t* r0, const uint32_t* r1, const uint32_t* r2, con
   hn::StoreU(hn::Add(low, widened(steps >> 32)), d, number + 8);
 }
 
-#include "backend/cpu/extract/signs.inl"
+#include "backend/cpu/extract/lattice.inl"
+
+#include "backend/cpu/extract/list.inl"
 
 #include "backend/cpu/extract/cells.inl"
 
@@ -163,7 +168,7 @@ namespace sgm {
         set::extract::polygonizeChunk<list>, set::extract::sortVertices, set::extract::attributeVertices, \
         set::extract::hashMesh                                                                            \
   }
-#define SGM_EXTRACT_ONE_BY_ONE(name, set) SGM_EXTRACT(name, set, set::extract::listRows<set::extract::OneByOne>)
+#define SGM_EXTRACT_ONE_BY_ONE(name, set) SGM_EXTRACT(name, set, set::extract::listRows)
 
 const MeshKernels* findWideMeshKernels(const char* name) {
   const int64_t here = hwy::SupportedTargets();

@@ -7,6 +7,7 @@
 #if !HWY_COMPILER_CLANG
 // GCC takes what its own header leaves undefined on purpose for a mistake.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
 #endif
 
 #include <immintrin.h>
@@ -21,32 +22,20 @@ namespace sgm {
 
 bool vbmi2RunsHere() {
   static const bool can = __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vbmi") &&
-                          __builtin_cpu_supports("avx512vbmi2") && __builtin_cpu_supports("bmi2") &&
-                          __builtin_cpu_supports("popcnt");
+                          __builtin_cpu_supports("avx512vbmi2") && __builtin_cpu_supports("gfni") &&
+                          __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("popcnt");
   return can;
 }
 
 }  // namespace sgm
 
-HWY_PUSH_ATTRIBUTES("avx512f,avx512vl,avx512bw,avx512dq,avx512vbmi,avx512vbmi2,avx2,bmi,bmi2,popcnt,lzcnt")
+HWY_PUSH_ATTRIBUTES("avx512f,avx512vl,avx512bw,avx512dq,avx512vbmi,avx512vbmi2,gfni,avx2,bmi,bmi2,popcnt,lzcnt")
 namespace sgm {
 namespace {
 
 #define FN HWY_INLINE
 
-template <size_t kCount>
-FN __m512i spreadBits(const uint64_t* words) {
-  __m512i sum = _mm512_setzero_si512();
-  for (size_t k = 0; k < kCount; ++k)
-    sum = _mm512_or_si512(sum, _mm512_maskz_set1_epi8(words[k], static_cast<char>(1u << k)));
-  return sum;
-}
-template <size_t kCount>
-FN void spreadBits(const uint64_t* words, uint8_t* out) {
-  _mm512_storeu_si512(out, spreadBits<kCount>(words));
-}
-
-#include "backend/cpu/extract/signs.inl"
+#include "backend/cpu/extract/lattice.inl"
 
 /// Of the edges of 64 samples, x, y and z of each in turn, those of one vector of bytes: which samples they begin at,
 /// as bits of an axis' word from `shift` on, and which bytes are theirs.
@@ -54,100 +43,238 @@ struct TurnOfAxis {
   int shift;
   uint64_t bytes;
 };
-struct Turns {
-  TurnOfAxis axis[3][3];           ///< by vector and axis
-  alignas(64) uint8_t number[64];  ///< of a byte in its vector
+struct Tables {
+  TurnOfAxis turns[3][3];              ///< by vector and axis
+  alignas(64) uint8_t edge[3][64];     ///< by vector and byte: the axis, two bits, and the sample, six
+  alignas(64) uint8_t number[64];      ///< of a byte in its vector
+  alignas(64) uint8_t following[64];   ///< the number of the byte behind it
+  alignas(64) uint8_t by_samples[64];  ///< where bytes of 8 words go so that those of 8 samples lie together
 };
-constexpr Turns makeTurns() {
-  Turns turns{};
+constexpr Tables makeTables() {
+  Tables tables{};
   for (int vector = 0; vector < 3; ++vector) {
     for (int axis = 0; axis < 3; ++axis) {
-      TurnOfAxis& turn = turns.axis[vector][axis];
+      TurnOfAxis& turn = tables.turns[vector][axis];
       turn.shift = (64 * vector - axis + 2) / 3;
       for (int i = 0; i < 64; ++i) turn.bytes |= static_cast<uint64_t>((64 * vector + i) % 3 == axis) << i;
     }
+    for (int i = 0; i < 64; ++i) {
+      const int turn = 64 * vector + i;
+      tables.edge[vector][i] = static_cast<uint8_t>(turn % 3 << 6 | turn / 3);
+    }
   }
-  for (size_t i = 0; i < 64; ++i) turns.number[i] = static_cast<uint8_t>(i);
-  return turns;
+  for (int i = 0; i < 64; ++i) {
+    tables.number[i] = static_cast<uint8_t>(i);
+    tables.following[i] = static_cast<uint8_t>(i < 63 ? i + 1 : i);
+    tables.by_samples[i] = static_cast<uint8_t>(8 * (7 - i % 8) + i / 8);
+  }
+  return tables;
 }
-constexpr Turns kTurns = makeTurns();
+constexpr Tables kTables = makeTables();
 
-/// As OneByOne of signs.inl, all of a word at once: which bytes are wanted is a mask, and no branch depends on how
-/// many.
-struct Compressed {
-  FN static size_t edges(uint64_t x, uint64_t y, uint64_t z, uint32_t first, uint32_t* out) {
-    const uint64_t words[3] = {x, y, z};
-    const __m512i numbers = _mm512_load_si512(kTurns.number);
-    uint32_t* next = out;
-    for (int vector = 0; vector < 3; ++vector) {
-      uint64_t wanted = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        const TurnOfAxis& turn = kTurns.axis[vector][axis];
-        wanted |= _pdep_u64(words[axis] >> turn.shift, turn.bytes);
-      }
-      if (wanted == 0) continue;
-      alignas(64) uint8_t bytes[64];
-      _mm512_store_si512(bytes, _mm512_maskz_compress_epi8(wanted, numbers));
-      const auto count = static_cast<size_t>(std::popcount(wanted));
-      for (size_t i = 0; i < count; i += 16) {
-        const __m512i turn =
-            _mm512_add_epi32(_mm512_cvtepu8_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(bytes + i))),
-                             _mm512_set1_epi32(64 * vector));
-        // A third, exact below 256.
-        const __m512i sample = _mm512_srli_epi32(_mm512_mullo_epi32(turn, _mm512_set1_epi32(171)), 9);
-        const __m512i axis = _mm512_sub_epi32(turn, _mm512_mullo_epi32(sample, _mm512_set1_epi32(3)));
-        _mm512_storeu_si512(next + i,
-                            _mm512_or_si512(_mm512_add_epi32(sample, _mm512_set1_epi32(static_cast<int>(first))),
-                                            _mm512_slli_epi32(axis, 2 * kPlaceBits)));
-      }
-      next += count;
-    }
-    return static_cast<size_t>(next - out);
-  }
+FN __m512i bytesOf(const uint8_t* bytes) { return _mm512_load_si512(bytes); }
 
-  FN static uint64_t cells(const WordCells& word, uint64_t* out) {
-    const auto alongX = [&](size_t corner) { return (word.corner[corner] ^ word.corner[corner + 1]) >> 1; };
-    const uint64_t beyond[5] = {alongX(0) | uint64_t{kCaseEdges.along_x[word.next_case] & 1u} << 63,
-                                alongX(2) | uint64_t{kCaseEdges.along_x[word.next_case] >> 1 & 1u} << 63,
-                                alongX(4) | uint64_t{kCaseEdges.along_x[word.next_case] >> 2 & 1u} << 63,
-                                word.along_y[0], word.along_y[1]};
-    const __m512i cases = spreadBits<8>(word.corner);
-    alignas(64) uint8_t of_case[64], of_beyond[64], bits[64];
-    _mm512_store_si512(of_case, _mm512_maskz_compress_epi8(word.active, cases));
-    _mm512_store_si512(of_beyond, _mm512_maskz_compress_epi8(word.active, spreadBits<5>(beyond)));
-    _mm512_store_si512(bits, _mm512_maskz_compress_epi8(word.active, _mm512_load_si512(kTurns.number)));
-    const auto count = static_cast<size_t>(std::popcount(word.active));
-    for (size_t i = 0; i < count; i += 8) {
-      const __m512i place = _mm512_add_epi64(widened(bits + i), _mm512_set1_epi64(static_cast<int64_t>(word.place)));
-      _mm512_storeu_si512(out + i, _mm512_or_si512(_mm512_slli_epi64(place, 16),
-                                                   _mm512_or_si512(_mm512_slli_epi64(widened(of_beyond + i), 8),
-                                                                   widened(of_case + i))));
-    }
-    return trianglesOf(cases, word.active);
-  }
+/// Bit i of word k becomes bit k of byte i: bytes are brought together by samples, and each eight of them transposed as
+/// a matrix of bits.
+FN __m512i spreadBits(__m512i words) {
+  return _mm512_gf2p8affine_epi64_epi8(_mm512_set1_epi64(static_cast<int64_t>(0x8040201008040201u)),
+                                       _mm512_permutexvar_epi8(bytesOf(kTables.by_samples), words), 0);
+}
 
- private:
-  /// Eight bytes as words.
-  FN static __m512i widened(const uint8_t* bytes) {
-    return _mm512_cvtepu8_epi64(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(bytes)));
-  }
-  FN static __m512i trianglesFrom(size_t first_case) { return _mm512_loadu_si512(kCubeTriangles + first_case); }
-  FN static uint64_t trianglesOf(__m512i cases, uint64_t active) {
-    const __m512i low = _mm512_permutex2var_epi8(trianglesFrom(0), cases, trianglesFrom(64)),
-                  high = _mm512_permutex2var_epi8(trianglesFrom(128), cases, trianglesFrom(192));
-    const __m512i triangles = _mm512_mask_mov_epi8(low, _mm512_movepi8_mask(cases), high);
-    const __m512i sums = _mm512_sad_epu8(_mm512_maskz_mov_epi8(active, triangles), _mm512_setzero_si512());
-    return static_cast<uint64_t>(_mm512_reduce_add_epi64(sums));
-  }
+/// What is listed goes behind what there is. As much as two vectors may be written behind its end.
+struct Listing {
+  uint32_t* edges;
+  uint64_t* cells;
+  __m512i triangles;  ///< in eight sums
 };
+
+/// Of samples from `first` on, packed: whether their edges along x, y and z are crossed. How many are cannot be
+/// foreseen, so that a vector is written whether there are some or not.
+FN void listEdges(const uint64_t (&crossed)[3], uint32_t first, Listing& out) {
+  constexpr uint32_t kSample = 63, kAxis = 3u << 2 * kPlaceBits;
+  const auto packed = [&](__m128i edges) {
+    const __m512i edge = _mm512_cvtepu8_epi32(edges);
+    const __m512i both = _mm512_or_si512(edge, _mm512_slli_epi32(edge, 2 * kPlaceBits - 6));
+    return _mm512_add_epi32(_mm512_and_si512(both, _mm512_set1_epi32(static_cast<int32_t>(kSample | kAxis))),
+                            _mm512_set1_epi32(static_cast<int32_t>(first)));
+  };
+  for (int vector = 0; vector < 3; ++vector) {
+    uint64_t wanted = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const TurnOfAxis& turn = kTables.turns[vector][axis];
+      wanted |= _pdep_u64(crossed[axis] >> turn.shift, turn.bytes);
+    }
+    const __m512i edges = _mm512_maskz_compress_epi8(wanted, bytesOf(kTables.edge[vector]));
+    const auto count = static_cast<size_t>(std::popcount(wanted));
+    _mm512_storeu_si512(out.edges, packed(_mm512_castsi512_si128(edges)));
+    if (count > 16) {
+      alignas(64) uint8_t bytes[64];
+      _mm512_store_si512(bytes, edges);
+      for (size_t i = 16; i < count; i += 16)
+        _mm512_storeu_si512(out.edges + i, packed(_mm_load_si128(reinterpret_cast<const __m128i*>(bytes + i))));
+    }
+    out.edges += count;
+  }
+}
+
+FN __m512i trianglesOf(__m512i cases) {
+  const uint8_t* const of = kCubeTriangles;
+  const __m512i low = _mm512_permutex2var_epi8(_mm512_loadu_si512(of), cases, _mm512_loadu_si512(of + 64)),
+                high = _mm512_permutex2var_epi8(_mm512_loadu_si512(of + 128), cases, _mm512_loadu_si512(of + 192));
+  return _mm512_mask_mov_epi8(low, _mm512_movepi8_mask(cases), high);
+}
+
+/// The cells of a word that are active: `place` is that of its first, `beyond` as packedCell says.
+FN void listCells(uint64_t active, __m512i cases, __m512i beyond, size_t place, Listing& out) {
+  const __m512i base = _mm512_set1_epi64(static_cast<int64_t>(place << 16));
+  const auto packed = [&](__m128i case_and_beyond, __m128i number) {
+    return _mm512_add_epi64(_mm512_add_epi64(_mm512_cvtepu16_epi64(case_and_beyond), base),
+                            _mm512_slli_epi64(_mm512_cvtepu8_epi64(number), 16));
+  };
+  const __m512i of_case = _mm512_maskz_compress_epi8(active, cases),
+                of_beyond = _mm512_maskz_compress_epi8(active, beyond),
+                numbers = _mm512_maskz_compress_epi8(active, bytesOf(kTables.number));
+  const auto count = static_cast<size_t>(std::popcount(active));
+  const auto write = [&](__m128i a, __m128i b, __m128i number, uint64_t* to) {
+    _mm512_storeu_si512(to, packed(_mm_unpacklo_epi8(a, b), number));
+    _mm512_storeu_si512(to + 8, packed(_mm_unpackhi_epi8(a, b), _mm_srli_si128(number, 8)));
+  };
+  write(_mm512_castsi512_si128(of_case), _mm512_castsi512_si128(of_beyond), _mm512_castsi512_si128(numbers), out.cells);
+  if (count > 16) {
+    alignas(64) uint8_t bytes[3][64];
+    _mm512_store_si512(bytes[0], of_case);
+    _mm512_store_si512(bytes[1], of_beyond);
+    _mm512_store_si512(bytes[2], numbers);
+    const auto part = [&](size_t k, size_t i) {
+      return _mm_load_si128(reinterpret_cast<const __m128i*>(bytes[k] + i));
+    };
+    for (size_t i = 16; i < count; i += 16) write(part(0, i), part(1, i), part(2, i), out.cells + i);
+  }
+  out.cells += count;
+  out.triangles = _mm512_add_epi64(
+      out.triangles, _mm512_sad_epu8(_mm512_maskz_mov_epi8(active, trianglesOf(cases)), _mm512_setzero_si512()));
+}
+
+/// Four rows of samples around a row of cells, in the order of a case's bits, and the one that follows along y.
+struct RowsOfCells {
+  const uint64_t *rows[4], *following;
+};
+
+/// What a word of samples lists.
+FN void listWord(const SignLattice& lattice, const RowsOfCells& around, bool has_cells, size_t y, size_t word,
+                 Listing& out) {
+  const bool goes_on = word + 1 < lattice.words;
+  const uint64_t last = goes_on ? 0 : uint64_t{1} << (lattice.size[0] - 1) % 64, going = goes_on ? ~uint64_t{0} : 0;
+  uint64_t next[4], low[4], high[4];
+  // The last sample is followed by itself, so that no edge begins there.
+  const auto highOf = [&](uint64_t signs, uint64_t following) { return signs >> 1 | following << 63 | (signs & last); };
+  uint64_t some = 0, every = ~uint64_t{0};
+  for (size_t i = 0; i < 4; ++i) {
+    low[i] = around.rows[i][word];
+    next[i] = around.rows[i][word + goes_on] & going;
+    high[i] = highOf(low[i], next[i]);
+    some |= low[i] | high[i];
+    every &= low[i] & high[i];
+  }
+  listEdges({low[0] ^ high[0], low[0] ^ low[1], low[0] ^ low[2]}, static_cast<uint32_t>(y << kPlaceBits | word * 64),
+            out);
+  if (!has_cells) return;
+
+  const uint64_t active = some & ~every & wordMask(word, lattice.size[0] - 1);
+  const __m512i cases = spreadBits(_mm512_set_epi64(static_cast<int64_t>(high[3]), static_cast<int64_t>(low[3]),
+                                                    static_cast<int64_t>(high[2]), static_cast<int64_t>(low[2]),
+                                                    static_cast<int64_t>(high[1]), static_cast<int64_t>(low[1]),
+                                                    static_cast<int64_t>(high[0]), static_cast<int64_t>(low[0])));
+  // Beyond the word's last cell: whether the next word's first samples differ, if it has two.
+  const bool has_two = (word + 1) * 64 + 1 < lattice.size[0];
+  const uint64_t behind = (next[0] & 3) | (next[1] & 3) << 2 | (next[2] & 3) << 4;
+  const __m512i following = _mm512_mask_set1_epi8(_mm512_permutexvar_epi8(bytesOf(kTables.following), cases),
+                                                  uint64_t{1} << 63, static_cast<char>(has_two ? behind : 0));
+  // Of a case bits 0 and 1, 2 and 3, 4 and 5 are the ends of edges along x.
+  const __m512i along_x =
+      _mm512_gf2p8affine_epi64_epi8(following, _mm512_set1_epi64(static_cast<int64_t>(0x030C300000000000u)), 0);
+  const uint64_t far = around.following[word], far_next = around.following[word + goes_on] & going;
+  const __m512i along_y = _mm512_or_si512(_mm512_maskz_set1_epi8(low[1] ^ far, 8),
+                                          _mm512_maskz_set1_epi8(high[1] ^ highOf(far, far_next), 16));
+  listCells(active, cases, _mm512_or_si512(along_x, along_y), y * lattice.size[0] + word * 64, out);
+}
+
+/// The signs one sample further.
+FN __m512i highOf(__m512i low, __m512i behind) {
+  return _mm512_or_si512(_mm512_srli_epi64(low, 1), _mm512_slli_epi64(behind, 63));
+}
+
+/// Appends the words of a row that have crossed edges or active cells, as row * 256 + word. Returns how many there are.
+FN size_t wordsOf(const SignLattice& lattice, const RowsOfCells& around, size_t y, uint32_t* out) {
+  static_assert((size_t{1} << kPlaceBits) / 64 <= 256);
+  uint32_t* next = out;
+  const __m256i numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  for (size_t first = 0; first < lattice.words; first += 8) {
+    const size_t left = lattice.words - first;
+    const auto here = static_cast<__mmask8>(left >= 8 ? 0xFF : (1u << left) - 1),
+               further = static_cast<__mmask8>(left > 8 ? 0xFF : (1u << (left - 1)) - 1);
+    __m512i some = _mm512_setzero_si512(), some_next = some, every = _mm512_set1_epi64(-1), every_next = every;
+    for (const uint64_t* row : around.rows) {
+      const __m512i signs = _mm512_maskz_loadu_epi64(here, row + first),
+                    next_signs = _mm512_maskz_loadu_epi64(further, row + first + 1);
+      some = _mm512_or_si512(some, signs);
+      every = _mm512_and_si512(every, signs);
+      some_next = _mm512_or_si512(some_next, next_signs);
+      every_next = _mm512_and_si512(every_next, next_signs);
+    }
+    // The last sample has no cell, but edges along y and z.
+    const __m512i cells =
+        left > 8 ? _mm512_set1_epi64(-1)
+                 : _mm512_mask_set1_epi64(_mm512_set1_epi64(-1), static_cast<__mmask8>(1u << (left - 1)),
+                                          static_cast<int64_t>(wordMask(lattice.words - 1, lattice.size[0] - 1)));
+    const __m512i across = _mm512_andnot_si512(every, some);
+    const __m512i around_cells = _mm512_andnot_si512(_mm512_and_si512(every, highOf(every, every_next)),
+                                                     _mm512_or_si512(some, highOf(some, some_next)));
+    const __m512i mixed = _mm512_or_si512(across, _mm512_and_si512(around_cells, cells));
+    const __mmask8 wanted = _mm512_test_epi64_mask(mixed, mixed);
+    _mm256_storeu_si256(
+        reinterpret_cast<__m256i*>(next),
+        _mm256_maskz_compress_epi32(
+            wanted, _mm256_add_epi32(numbers, _mm256_set1_epi32(static_cast<int32_t>(y << 8 | first)))));
+    next += std::popcount(wanted);
+  }
+  return static_cast<size_t>(next - out);
+}
 
 #undef FN
 
 }  // namespace
 
+/// As listRows of list.inl, a word at a time: no branch depends on how many of its edges and cells there are, and which
+/// words have some is found before.
 ListCounts listRowsVbmi2(const SignLattice& lattice, size_t z, size_t first, size_t last, uint32_t* edges,
                          uint64_t* cells) {
-  return listRows<Compressed>(lattice, z, first, last, edges, cells);
+  const bool above = z + 1 < lattice.size[2];
+  const auto rowsAt = [&](size_t y) {
+    const size_t next = y + 1 < lattice.size[1] ? y + 1 : y, high = above ? z + 1 : z;
+    return RowsOfCells{{lattice.row(y, z), lattice.row(next, z), lattice.row(y, high), lattice.row(next, high)},
+                       lattice.row(y + 2 < lattice.size[1] ? y + 2 : next, z)};
+  };
+  Listing out{edges, cells, _mm512_setzero_si512()};
+  constexpr size_t kWords = 256;
+  uint32_t words[2 * kWords + 8];
+  for (size_t y = first; y < last;) {
+    size_t count = 0;
+    if (lattice.words == 1) {
+      uint64_t mixed = mixedRows(lattice, z, above ? z + 1 : z, y, std::min(y + 64, last));
+      for (; mixed != 0; mixed &= mixed - 1)
+        words[count++] = static_cast<uint32_t>(y + static_cast<size_t>(std::countr_zero(mixed))) << 8;
+      y = std::min(y + 64, last);
+    } else {
+      for (; y < last && count <= kWords; ++y) count += wordsOf(lattice, rowsAt(y), y, words + count);
+    }
+    for (size_t i = 0; i < count; ++i) {
+      const size_t row = words[i] >> 8;
+      listWord(lattice, rowsAt(row), above && row + 1 < lattice.size[1], row, words[i] & 255, out);
+    }
+  }
+  return {static_cast<uint64_t>(out.edges - edges), static_cast<uint64_t>(out.cells - cells),
+          static_cast<uint64_t>(_mm512_reduce_add_epi64(out.triangles))};
 }
 
 }  // namespace sgm

@@ -1,11 +1,6 @@
 // What is read from signs alone: crossed edges, active cells and their cases, how much there will be. See
 // mesh_kernels.h; an includer defines what cells.inl says.
 
-FN uint64_t wordMask(size_t word, size_t count) {
-  const size_t first = word * 64;
-  return count >= first + 64 ? ~uint64_t{0} : count <= first ? 0 : (uint64_t{1} << (count - first)) - 1;
-}
-
 /// Signs of a row at a word's samples, and at those one further: behind the row's last sample that one again, so that
 /// no edge begins there.
 struct RowSigns {
@@ -39,29 +34,6 @@ FN void forWords(const SignLattice& lattice, const size_t (&y)[2], const size_t 
     const size_t first = static_cast<size_t>(std::countr_zero(wanted)) * group;
     for (size_t word = first; word < std::min(first + group, lattice.words); ++word) f(word);
   }
-}
-
-/// Of the rows first..last - 1, 64 at most and of one word each, bit i: whether row first + i, the next one and those
-/// above both are not all void, nor all solid.
-FN uint64_t mixedRows(const SignLattice& lattice, size_t z, size_t z_above, size_t first, size_t last) {
-  const uint64_t *low = lattice.row(0, z), *high = lattice.row(0, z_above), solid = wordMask(0, lattice.size[0]);
-  uint64_t mixed = 0;
-  for (size_t y = first; y < last; ++y) {
-    const size_t next = y + 1 < lattice.size[1] ? y + 1 : y;
-    const uint64_t some = low[y] | low[next] | high[y] | high[next], every = low[y] & low[next] & high[y] & high[next];
-    mixed |= static_cast<uint64_t>((some != 0) & (every != solid)) << (y - first);
-  }
-  return mixed;
-}
-
-/// A crossed edge of a plane: its axis, then the y and x of the sample that owns it.
-inline constexpr int kPlaceBits = 14;
-inline constexpr uint32_t kPlaceMask = (1u << kPlaceBits) - 1;
-
-/// An active cell of a layer: the place of its lowest sample in the plane, what goes on beyond it (CellSteps), its
-/// case.
-constexpr uint64_t packedCell(size_t place, uint32_t beyond, uint32_t cell_case) {
-  return uint64_t{place} << 16 | beyond << 8 | cell_case;
 }
 
 /// By case, bits 0 to 2: whether an edge along x is crossed in the rows (y, z), (y + 1, z), (y, z + 1).
@@ -137,9 +109,8 @@ struct OneByOne {
 
 /// Lists what rows of plane z own: crossed edges, sample by sample and axis by axis, which is the order of vertices;
 /// and the active cells of the layer above, in their order.
-template <class Lists>
-ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size_t last_row, uint32_t* edges,
-                    uint64_t* cells) {
+inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size_t last_row, uint32_t* edges,
+                           uint64_t* cells) {
   ListCounts counts;
   const bool above = z + 1 < lattice.size[2];
   const size_t zs[2] = {z, above ? z + 1 : z};
@@ -165,7 +136,7 @@ ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size
       const uint64_t x = corner[0] ^ corner[1], y_edges = corner[0] ^ corner[2], z_edges = corner[0] ^ corner[4];
       if ((x | y_edges | z_edges) != 0) {
         const auto first = static_cast<uint32_t>(y << kPlaceBits | word * 64);
-        counts.vertices += Lists::edges(x, y_edges, z_edges, first, edges + counts.vertices);
+        counts.vertices += OneByOne::edges(x, y_edges, z_edges, first, edges + counts.vertices);
       }
       const uint64_t active = has_cells ? some & ~every & wordMask(word, lattice.size[0] - 1) : 0;
       if (active == 0) return;
@@ -177,12 +148,12 @@ ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size
         }
       }
       const RowSigns beyond = signsOf(lattice, beyond_row, word);
-      counts.triangles += Lists::cells({corner,
-                                        next_case,
-                                        {corner[2] ^ beyond.low, corner[3] ^ beyond.high},
-                                        active,
-                                        y * lattice.size[0] + word * 64},
-                                       cells + counts.cells);
+      counts.triangles += OneByOne::cells({corner,
+                                           next_case,
+                                           {corner[2] ^ beyond.low, corner[3] ^ beyond.high},
+                                           active,
+                                           y * lattice.size[0] + word * 64},
+                                          cells + counts.cells);
       counts.cells += static_cast<uint64_t>(std::popcount(active));
     });
   };
@@ -195,13 +166,4 @@ ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_row, size
     for (; mixed != 0; mixed &= mixed - 1) listRow(first + static_cast<size_t>(std::countr_zero(mixed)));
   }
   return counts;
-}
-
-/// The number of the first vertex of each sample that owns some: `edges` are a plane's, and the first has number
-/// `first`.
-inline void numberOwners(const uint32_t* edges, size_t count, size_t first, size_t size_x, uint32_t* numbers) {
-  // From the last to the first, so that what a sample's first edge writes stays.
-  for (size_t i = count; i-- > 0;)
-    numbers[(edges[i] >> kPlaceBits & kPlaceMask) * size_x + (edges[i] & kPlaceMask)] =
-        static_cast<uint32_t>(first + i);
 }

@@ -1,0 +1,39 @@
+// What lists of crossed edges and active cells are made from, and how they are packed. See mesh_kernels.h; an includer
+// defines what cells.inl says.
+
+FN uint64_t wordMask(size_t word, size_t count) {
+  const size_t first = word * 64;
+  return count >= first + 64 ? ~uint64_t{0} : count <= first ? 0 : (uint64_t{1} << (count - first)) - 1;
+}
+
+/// Of the rows first..last - 1, 64 at most and of one word each, bit i: whether row first + i, the next one and those
+/// above both are not all void, nor all solid.
+FN uint64_t mixedRows(const SignLattice& lattice, size_t z, size_t z_above, size_t first, size_t last) {
+  const uint64_t *low = lattice.row(0, z), *high = lattice.row(0, z_above), solid = wordMask(0, lattice.size[0]);
+  uint64_t mixed = 0;
+  for (size_t y = first; y < last; ++y) {
+    const size_t next = y + 1 < lattice.size[1] ? y + 1 : y;
+    const uint64_t some = low[y] | low[next] | high[y] | high[next], every = low[y] & low[next] & high[y] & high[next];
+    mixed |= static_cast<uint64_t>((some != 0) & (every != solid)) << (y - first);
+  }
+  return mixed;
+}
+
+/// A crossed edge of a plane: its axis, then the y and x of the sample that owns it.
+inline constexpr int kPlaceBits = 14;
+inline constexpr uint32_t kPlaceMask = (1u << kPlaceBits) - 1;
+
+/// An active cell of a layer: the place of its lowest sample in the plane, what goes on beyond it (CellSteps), its
+/// case.
+constexpr uint64_t packedCell(size_t place, uint32_t beyond, uint32_t cell_case) {
+  return uint64_t{place} << 16 | beyond << 8 | cell_case;
+}
+
+/// The number of the first vertex of each sample that owns some: `edges` are a plane's, and the first has number
+/// `first`.
+inline void numberOwners(const uint32_t* edges, size_t count, size_t first, size_t size_x, uint32_t* numbers) {
+  // From the last to the first, so that what a sample's first edge writes stays.
+  for (size_t i = count; i-- > 0;)
+    numbers[(edges[i] >> kPlaceBits & kPlaceMask) * size_x + (edges[i] & kPlaceMask)] =
+        static_cast<uint32_t>(first + i);
+}
