@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -13,6 +14,44 @@
 namespace sgm::api {
 namespace {
 
+/// At most so many vertices, and indices, can be numbered.
+constexpr uint64_t kMostNumbers = std::numeric_limits<uint32_t>::max();
+
+/// What is listed of a slab.
+struct Lists {
+  explicit Lists(std::pmr::memory_resource* memory) : edges(memory), cells(memory) {}
+  RawArray<uint32_t> edges;
+  RawArray<uint64_t> cells;
+};
+
+/// What one thread needs; goes from slab to slab, since memory that is fresh, or that another processor has written,
+/// costs more than the work in it.
+struct Worker {
+  explicit Worker(std::pmr::memory_resource* memory) : numbers(memory), offsets(memory) {}
+  RawArray<uint32_t> numbers, offsets;
+  std::vector<std::unique_ptr<Lists>> free;  ///< under the mesher's lock
+};
+
+/// The planes first..last - 1, and the layers above them.
+struct Slab {
+  size_t first, last;
+  Worker* worker = nullptr;
+  std::unique_ptr<Lists> lists{};
+  int readers;  ///< of the lists: itself and the slab above, until they are meshed
+  bool listed = false, meshed = false;
+};
+
+/// Planes of a slab. Of thin ones each pays more for the plane that it shares with the one below; of thick ones the
+/// samples have left the cache when vertices are placed.
+size_t thicknessOf(const std::array<size_t, 3>& size, size_t threads) {
+  constexpr size_t kThinnest = 4, kSamples = size_t{1} << 19, kWorthSharing = 8;
+  const size_t in_cache = std::max(kThinnest, kSamples / (size[0] * size[1]));
+  return threads == 1 ? in_cache : std::min(in_cache, std::max(kWorthSharing, size[2] / (threads * 4) + 1));
+}
+
+/// Meshes a grid slab by slab, so that samples are still in cache when vertices are placed between them. A slab is
+/// listed, and meshed when all those below it have been listed, too, which tells where its part of the mesh begins:
+/// that is what `settled_` counts.
 class GridMesher {
  public:
   GridMesher(const GridSamples& grid, JobSystem& jobs, std::pmr::memory_resource* memory, const MeshKernels& kernels)
@@ -22,8 +61,11 @@ class GridMesher {
         kernels_(kernels),
         signs_(memory),
         uniform_(memory),
+        signs_of_(grid.size[2], memory),
         first_vertex_(grid.size[2] + 1, 0, memory),
-        first_cell_(grid.size[2] + 1, 0, memory) {
+        first_cell_(grid.size[2] + 1, 0, memory),
+        first_triangle_(grid.size[2] + 1, 0, memory),
+        mesh_(memory) {
     job_.values = grid.values;
     job_.lattice.size = grid.size;
     job_.stride_y = grid.stride_y;
@@ -36,26 +78,19 @@ class GridMesher {
   Result<GridMesh> run();
 
  private:
-  /// Planes first..last - 1 and what is listed of them.
-  struct Slab {
-    Slab(size_t first_in, size_t last_in, std::pmr::memory_resource* memory)
-        : first(first_in), last(last_in), edges(memory), cells(memory) {}
-    size_t first, last;
-    RawArray<uint32_t> edges;
-    RawArray<uint64_t> cells;
-    uint64_t triangles = 0;
-  };
-  /// What one slab needs at a time; goes from slab to slab, since fresh memory costs more than the work in it.
-  struct Scratch {
-    explicit Scratch(std::pmr::memory_resource* memory) : numbers(memory), offsets(memory) {}
-    RawArray<uint32_t> numbers, offsets;
-  };
+  enum Signs : uint8_t { unread, being_read, read };
 
-  bool findSigns();
-  void list(Slab& slab);
-  void meshSlab(size_t number);
-  std::unique_ptr<Scratch> takeScratch();
-  void giveScratch(std::unique_ptr<Scratch> scratch);
+  void shareOut();
+  void expect();
+  void provide(uint64_t vertices, uint64_t triangles, size_t meshed);
+  void work(Worker& worker);
+  void readSigns(size_t z);
+  void list(Slab& slab, Worker& worker);
+  void settle(Slab& slab);
+  void meshInTurn(size_t number, Worker& worker);
+  void mesh(size_t number, Worker& worker);
+  void stop();
+  void release(Slab& slab);
 
   const GridSamples& grid_;
   JobSystem& jobs_;
@@ -63,121 +98,245 @@ class GridMesher {
   const MeshKernels& kernels_;
   GridJob job_;
   RawArray<uint64_t> signs_, uniform_;
+  std::pmr::vector<std::atomic<uint8_t>> signs_of_;  ///< by plane
   std::vector<Slab> slabs_;
-  std::pmr::vector<uint64_t> first_vertex_, first_cell_;  ///< by plane and by layer of cells; counts, then sums
-  std::mutex mutex_;                                      ///< of what slabs share, which is all below
+  /// By plane, and twice by the layer above it: of a slab that is listed its counts, when it is settled their sums.
+  std::pmr::vector<uint64_t> first_vertex_, first_cell_, first_triangle_;
+  GridMesh mesh_;
+  std::atomic<bool> finite_{true}, stopped_{false};
+  std::atomic<size_t> next_{0}, settled_{0};  ///< slabs
+  std::mutex mutex_;                          ///< of what slabs share, which is all below, and of settling
   GridBounds bounds_;
-  std::vector<std::unique_ptr<Scratch>> free_scratch_;
+  std::vector<std::unique_ptr<Worker>> workers_;
 };
 
-/// False where a value is not finite.
-bool GridMesher::findSigns() {
-  const size_t words = job_.lattice.words;
-  signs_.allocate(words * grid_.size[1] * grid_.size[2]);
-  uniform_.allocate(2 * grid_.size[1] * grid_.size[2]);
-  job_.lattice.signs = signs_.data();
-  job_.lattice.uniform = uniform_.data();
-  std::atomic<bool> finite{true};
-  parallelFor(jobs_, grid_.size[2], [&](size_t z) {
-    for (size_t y = 0; y < grid_.size[1]; ++y) {
-      if (!kernels_.signs(job_, y, z, signs_.data() + (z * grid_.size[1] + y) * words,
-                          uniform_.data() + (z * grid_.size[1] + y) * 2))
-        finite.store(false, std::memory_order_relaxed);
-    }
-  });
-  return finite.load();
+/// Makes room for a mesh as large as some rows make one expect. They are strewn over y and z, so that a surface that
+/// lies along the grid is hit as often as others are.
+void GridMesher::expect() {
+  constexpr double kGolden = 0.6180339887498949;
+  const size_t size_x = grid_.size[0], rows = std::min<size_t>(grid_.size[1], 3);
+  GridJob job = job_;
+  job.lattice.size = {size_x, rows, 2};
+  RawArray<uint64_t> signs(memory_), cells(memory_);
+  RawArray<uint32_t> edges(memory_);
+  std::array<uint64_t, 12> uniform;
+  signs.allocate(job.lattice.words * rows * 2);
+  cells.allocate(cellRoom(size_x, 1));
+  edges.allocate(edgeRoom(size_x, 1));
+  job.lattice.signs = signs.data();
+  job.lattice.uniform = uniform.data();
+  ListCounts sum;
+  for (size_t z = 0; z + 1 < grid_.size[2]; ++z) {
+    const double turn = static_cast<double>(z) * kGolden;
+    const auto first = static_cast<size_t>((turn - std::floor(turn)) * static_cast<double>(grid_.size[1] - rows + 1));
+    for (size_t row = 0; row < rows * 2; ++row)
+      kernels_.signs(job_, first + row % rows, z + row / rows, signs.data() + row * job.lattice.words,
+                     &uniform[row * 2]);
+    const ListCounts counts = kernels_.list(job.lattice, 0, 0, 1, edges.data(), cells.data());
+    sum.vertices += counts.vertices;
+    sum.triangles += counts.triangles;
+  }
+  const auto expected = [&](uint64_t count) { return std::min(count * grid_.size[1] / 8 * 9, kMostNumbers / 3); };
+  provide(expected(sum.vertices), expected(sum.triangles), 0);
 }
 
-void GridMesher::list(Slab& slab) {
+/// Arrays of just this room, with what has been meshed of the slabs before `meshed`.
+void GridMesher::provide(uint64_t vertices, uint64_t triangles, size_t meshed) {
+  uint64_t had_vertices = 0, had_triangles = 0;
+  if (meshed > 0) {
+    had_vertices = first_vertex_[slabs_[meshed - 1].last];
+    had_triangles = first_triangle_[slabs_[meshed - 1].last - 1];
+  }
+  mesh_.positions.resize(3 * had_vertices, 3 * vertices);
+  if (grid_.normals) mesh_.normals.resize(3 * had_vertices, 3 * vertices);
+  mesh_.indices.resize(3 * had_triangles, 3 * triangles);
+  job_.positions = mesh_.positions.data();
+  job_.normals = mesh_.normals.data();
+  job_.indices = mesh_.indices.data();
+}
+
+/// Ends what waits for slabs that will never be settled.
+void GridMesher::stop() {
+  const std::lock_guard lock(mutex_);
+  stopped_.store(true);
+  settled_.store(slabs_.size());
+  settled_.notify_all();
+}
+
+/// Returns when the signs of a plane are read, by whoever.
+void GridMesher::readSigns(size_t z) {
+  uint8_t state = unread;
+  if (!signs_of_[z].compare_exchange_strong(state, being_read)) {
+    while (signs_of_[z].load() != read) signs_of_[z].wait(being_read);
+    return;
+  }
+  const size_t words = job_.lattice.words, size_y = grid_.size[1];
+  bool finite = true;
+  for (size_t y = 0; y < size_y; ++y) {
+    const size_t row = z * size_y + y;
+    finite = kernels_.signs(job_, y, z, signs_.data() + row * words, uniform_.data() + row * 2) && finite;
+  }
+  if (!finite) {
+    finite_.store(false);
+    stop();
+  }
+  signs_of_[z].store(read);
+  signs_of_[z].notify_all();
+}
+
+void GridMesher::list(Slab& slab, Worker& worker) {
   // Room is made for some rows at a time: how much of a plane is crossed nobody knows, and planes can be large.
   constexpr size_t kRows = 16;
   const size_t size_x = grid_.size[0], size_y = grid_.size[1];
   uint64_t vertices = 0, cells = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (worker.free.empty()) worker.free.push_back(std::make_unique<Lists>(memory_));
+    slab.lists = std::move(worker.free.back());
+    worker.free.pop_back();
+    slab.worker = &worker;
+  }
+  RawArray<uint32_t>& edges = slab.lists->edges;
+  RawArray<uint64_t>& active = slab.lists->cells;
+  readSigns(slab.first);
   for (size_t z = slab.first; z < slab.last; ++z) {
+    if (z + 1 < grid_.size[2]) readSigns(z + 1);
     ListCounts plane;
     for (size_t y = 0; y < size_y; y += kRows) {
-      slab.edges.grow(vertices, vertices + edgeRoom(size_x, kRows));
-      slab.cells.grow(cells, cells + cellRoom(size_x, kRows));
-      const ListCounts counts = kernels_.list(job_.lattice, z, y, std::min(y + kRows, size_y),
-                                              slab.edges.data() + vertices, slab.cells.data() + cells);
+      edges.grow(vertices, vertices + edgeRoom(size_x, kRows));
+      active.grow(cells, cells + cellRoom(size_x, kRows));
+      const ListCounts counts = kernels_.list(job_.lattice, z, y, std::min(y + kRows, size_y), edges.data() + vertices,
+                                              active.data() + cells);
       vertices += counts.vertices;
       cells += counts.cells;
       plane.vertices += counts.vertices;
       plane.cells += counts.cells;
-      slab.triangles += counts.triangles;
+      plane.triangles += counts.triangles;
     }
     first_vertex_[z + 1] = plane.vertices;
     first_cell_[z + 1] = plane.cells;
+    first_triangle_[z + 1] = plane.triangles;
   }
 }
 
-std::unique_ptr<GridMesher::Scratch> GridMesher::takeScratch() {
+/// Makes sums of the counts of a slab that is listed, and of those that have waited for it.
+void GridMesher::settle(Slab& slab) {
   const std::lock_guard lock(mutex_);
-  if (free_scratch_.empty()) return std::make_unique<Scratch>(memory_);
-  std::unique_ptr<Scratch> scratch = std::move(free_scratch_.back());
-  free_scratch_.pop_back();
-  return scratch;
+  if (stopped_.load()) return;
+  slab.listed = true;
+  size_t settled = settled_.load();
+  for (; settled < slabs_.size() && slabs_[settled].listed; ++settled) {
+    for (size_t z = slabs_[settled].first; z < slabs_[settled].last; ++z) {
+      for (std::pmr::vector<uint64_t>* sums : {&first_vertex_, &first_cell_, &first_triangle_})
+        (*sums)[z + 1] += (*sums)[z];
+    }
+  }
+  settled_.store(settled);
+  settled_.notify_all();
 }
 
-void GridMesher::giveScratch(std::unique_ptr<Scratch> scratch) {
-  const std::lock_guard lock(mutex_);
-  free_scratch_.push_back(std::move(scratch));
+/// Under the lock, when one reader of a slab's lists has done.
+void GridMesher::release(Slab& slab) {
+  if (--slab.readers == 0) slab.worker->free.push_back(std::move(slab.lists));
 }
 
-void GridMesher::meshSlab(size_t number) {
+/// When all below is settled, and where there is room.
+void GridMesher::meshInTurn(size_t number, Worker& worker) {
+  for (size_t settled; (settled = settled_.load()) <= number;) settled_.wait(settled);
   const Slab& slab = slabs_[number];
-  GridSlab listed{slab.first,        slab.last, first_vertex_.data(), first_cell_.data(), slab.triangles,
-                  slab.edges.data(), nullptr,   slab.cells.data()};
-  if (number + 1 < slabs_.size()) listed.edges_above = slabs_[number + 1].edges.data();
-  std::unique_ptr<Scratch> scratch = takeScratch();
-  scratch->numbers.grow(0, 2 * grid_.size[0] * grid_.size[1]);
-  scratch->offsets.grow(0,
-                        first_vertex_[std::min(slab.last + 1, grid_.size[2])] - first_vertex_[slab.first] + kMostLanes);
-  const GridBounds bounds = kernels_.mesh(job_, listed, {scratch->numbers.data(), scratch->offsets.data()});
-  giveScratch(std::move(scratch));
+  if (!stopped_.load() && first_vertex_[slab.last] * 3 <= mesh_.positions.size() &&
+      first_triangle_[slab.last - 1] * 3 <= mesh_.indices.size())
+    mesh(number, worker);
+}
+
+void GridMesher::mesh(size_t number, Worker& worker) {
+  Slab& slab = slabs_[number];
+  GridSlab listed;
+  listed.first = slab.first;
+  listed.last = slab.last;
+  listed.first_vertex = first_vertex_.data();
+  listed.first_cell = first_cell_.data();
+  listed.edges = slab.lists->edges.data();
+  listed.cells = slab.lists->cells.data();
+  uint64_t first = 0;
+  if (number > 0) {
+    const Slab& below = slabs_[number - 1];
+    const size_t plane = slab.first - 1;
+    first = first_vertex_[plane];
+    listed.first_triangle = first_triangle_[plane];
+    listed.edges_below = below.lists->edges.data() + (first - first_vertex_[below.first]);
+    listed.cells_below = below.lists->cells.data() + (first_cell_[plane] - first_cell_[below.first]);
+  }
+  worker.numbers.grow(0, 2 * grid_.size[0] * grid_.size[1]);
+  worker.offsets.grow(0, first_vertex_[slab.last] - first + kMostLanes);
+  const GridBounds bounds = kernels_.mesh(job_, listed, {worker.numbers.data(), worker.offsets.data()});
+  slab.meshed = true;
   const std::lock_guard lock(mutex_);
+  release(slab);
+  if (number > 0) release(slabs_[number - 1]);
   for (size_t axis = 0; axis < 3; ++axis) {
     bounds_.lo[axis] = std::min(bounds_.lo[axis], bounds.lo[axis]);
     bounds_.hi[axis] = std::max(bounds_.hi[axis], bounds.hi[axis]);
   }
 }
 
-Result<GridMesh> GridMesher::run() {
-  if (!findSigns()) return Error{Code::invalid_argument, "a value of the grid is not finite", 0, 0};
-  // A few slabs a thread, since each may have more or less to do, but thick ones: each pays for one plane twice.
-  constexpr size_t kThinnest = 16;
-  const size_t planes = grid_.size[2], threads = jobs_.concurrency(), count = threads == 1 ? 1 : threads * 4;
-  const size_t thick = std::max(kThinnest, (planes + count - 1) / count);
-  for (size_t first = 0; first < planes; first += thick)
-    slabs_.emplace_back(first, std::min(planes, first + thick), memory_);
-  parallelFor(jobs_, slabs_.size(), [&](size_t slab) { list(slabs_[slab]); });
-  for (size_t z = 0; z < planes; ++z) {
-    first_vertex_[z + 1] += first_vertex_[z];
-    first_cell_[z + 1] += first_cell_[z];
+void GridMesher::shareOut() {
+  const size_t planes = grid_.size[2], thick = thicknessOf(grid_.size, jobs_.concurrency());
+  for (size_t first = 0; first < planes; first += thick) {
+    const size_t last = std::min(first + thick, planes);
+    slabs_.push_back({.first = first, .last = last, .readers = last < planes ? 2 : 1});
   }
-  uint64_t triangles = 0;  // until here: of each slab, from now on: before it
-  for (Slab& slab : slabs_) triangles += std::exchange(slab.triangles, triangles);
-  const uint64_t vertices = first_vertex_.back();
-  constexpr uint64_t kMostNumbers = std::numeric_limits<uint32_t>::max();
+  const size_t threads = std::min<size_t>(jobs_.concurrency(), slabs_.size());
+  while (workers_.size() < threads) workers_.push_back(std::make_unique<Worker>(memory_));
+}
+
+/// Slab after slab in their order. So those below one that is listed have been begun by somebody, who needs nothing of
+/// those above to list them.
+void GridMesher::work(Worker& worker) {
+  try {
+    for (size_t number; !stopped_.load() && (number = next_.fetch_add(1)) < slabs_.size();) {
+      list(slabs_[number], worker);
+      settle(slabs_[number]);
+      meshInTurn(number, worker);
+    }
+  } catch (...) {
+    stop();
+    throw;
+  }
+}
+
+Result<GridMesh> GridMesher::run() {
+  signs_.allocate(job_.lattice.words * grid_.size[1] * grid_.size[2]);
+  uniform_.allocate(2 * grid_.size[1] * grid_.size[2]);
+  job_.lattice.signs = signs_.data();
+  job_.lattice.uniform = uniform_.data();
+  shareOut();
+  // Otherwise most slabs would be listed before one is meshed, and then it is known what all will need.
+  if (slabs_.size() > workers_.size()) expect();
+  parallelFor(jobs_, workers_.size(), [&](size_t i) { work(*workers_[i]); });
+  if (!finite_.load()) return Error{Code::invalid_argument, "a value of the grid is not finite", 0, 0};
+
+  const uint64_t vertices = first_vertex_.back(), triangles = first_triangle_.back();
   if (vertices > kMostNumbers || triangles > kMostNumbers / 3)
     return Error{Code::limit, "the mesh has more vertices or indices than 32 bits can number", 0, 0};
+  const auto rest = std::find_if(slabs_.begin(), slabs_.end(), [](const Slab& slab) { return !slab.meshed; });
+  const auto meshed = static_cast<size_t>(rest - slabs_.begin());
+  const bool far_too_large = mesh_.positions.size() / 2 > 3 * vertices || mesh_.indices.size() / 2 > 3 * triangles;
+  if (meshed < slabs_.size() || far_too_large) provide(vertices, triangles, meshed);
+  next_.store(meshed);
+  parallelFor(jobs_, std::min(workers_.size(), slabs_.size() - meshed), [&](size_t i) {
+    for (size_t number; (number = next_.fetch_add(1)) < slabs_.size();) mesh(number, *workers_[i]);
+  });
 
-  GridMesh mesh(memory_);
-  mesh.positions.allocate(vertices * 3);
-  if (grid_.normals) mesh.normals.allocate(vertices * 3);
-  mesh.indices.allocate(triangles * 3);
-  if (vertices == 0) return mesh;
-  job_.positions = mesh.positions.data();
-  job_.normals = mesh.normals.data();
-  job_.indices = mesh.indices.data();
-
-  parallelFor(jobs_, slabs_.size(), [&](size_t slab) { meshSlab(slab); });
-  for (size_t axis = 0; axis < 3; ++axis) {
+  mesh_.positions.cut(vertices * 3);
+  mesh_.normals.cut(vertices * 3);
+  mesh_.indices.cut(triangles * 3);
+  for (size_t axis = 0; axis < 3 && vertices > 0; ++axis) {
     // As vertices are placed: rounding keeps their order.
-    mesh.bounds_min[axis] = static_cast<float>(bounds_.lo[axis] * job_.step);
-    mesh.bounds_max[axis] = static_cast<float>(bounds_.hi[axis] * job_.step);
+    mesh_.bounds_min[axis] = static_cast<float>(bounds_.lo[axis] * job_.step);
+    mesh_.bounds_max[axis] = static_cast<float>(bounds_.hi[axis] * job_.step);
   }
-  return mesh;
+  return std::move(mesh_);
 }
 
 }  // namespace

@@ -19,33 +19,41 @@ class RawArray {
 
  public:
   explicit RawArray(std::pmr::memory_resource* memory) : pages_(memory) {}
-  RawArray(RawArray&& other) noexcept : pages_(other.pages_), data_(other.data_), size_(other.size_) {
-    other.data_ = nullptr;
-    other.size_ = 0;
-  }
+  RawArray(RawArray&& other) noexcept
+      : pages_(other.pages_),
+        data_(std::exchange(other.data_, nullptr)),
+        size_(std::exchange(other.size_, 0)),
+        room_(std::exchange(other.room_, 0)) {}
   RawArray(const RawArray&) = delete;
   RawArray& operator=(const RawArray&) = delete;
   RawArray& operator=(RawArray&&) = delete;
   ~RawArray() {
-    if (data_ != nullptr) pages_.deallocate(data_, size_);
+    if (data_ != nullptr) pages_.deallocate(data_, room_);
   }
 
   /// Once, on an empty array. Throws std::bad_alloc.
   void allocate(size_t size) {
     if (size == 0) return;
     data_ = pages_.allocate(size);
-    size_ = size;
+    size_ = room_ = size;
   }
   /// Room for at least `size`; the first `used` elements stay. Grows to the double, so that many calls copy little.
   /// Throws std::bad_alloc, and is as before then.
   void grow(size_t used, size_t size) {
-    if (size <= size_) return;
-    RawArray larger(pages_.resource());
-    larger.allocate(std::max(size, 2 * size_));
-    if (used > 0) std::memcpy(larger.data_, data_, used * sizeof(T));
-    std::swap(data_, larger.data_);
-    std::swap(size_, larger.size_);
+    if (size > size_) resize(used, std::max(size, 2 * size_));
   }
+  /// Exactly `size` in memory of its own; the first `used` elements stay, of which there are no more. Throws
+  /// std::bad_alloc, and is as before then.
+  void resize(size_t used, size_t size) {
+    RawArray other(pages_.resource());
+    other.allocate(size);
+    if (used > 0) std::memcpy(other.data_, data_, used * sizeof(T));
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(room_, other.room_);
+  }
+  /// Leaves the first `size` elements. Their memory stays as large as it was.
+  void cut(size_t size) { size_ = std::min(size, size_); }
   T* data() { return data_; }
   const T* data() const { return data_; }
   size_t size() const { return size_; }
@@ -53,7 +61,7 @@ class RawArray {
  private:
   LargePages<T> pages_;
   T* data_ = nullptr;
-  size_t size_ = 0;
+  size_t size_ = 0, room_ = 0;  ///< elements that count, and those that there is memory for
 };
 
 }  // namespace sgm

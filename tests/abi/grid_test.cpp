@@ -143,6 +143,54 @@ TEST_CASE("random grids of odd sizes are closed inside, and equal for any number
   }
 }
 
+TEST_CASE("a grid of many slabs is meshed alike however many there are, and however much room was expected") {
+  const unsigned seed = 20261126;
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const char* const kinds[] = {"everywhere", "in a few places", "where it is looked for", "only at the end"};
+  for (int kind = 0; kind < 4; ++kind) {
+    INFO(kinds[kind]);
+    const auto side = [&](unsigned least) { return static_cast<uint32_t>(least + random() % 100); };
+    Grid grid(side(200), side(150), 40 + static_cast<uint32_t>(random() % 20));
+    grid.fill([&](double x, double y, double z) {
+      // Rows as the mesher chooses them to find out how much there will be (api/grid_mesh.cpp).
+      const double turn = z * 0.6180339887498949, row = std::floor((turn - std::floor(turn)) * (grid.size[1] - 2));
+      const bool solid[] = {std::sin(x * 0.31) + std::sin(y * 0.37) + std::sin(z * 0.41) < 0,
+                            x > 90 && x < 96 && y > 70 && y < 75 && (z < 3 || z > 30),
+                            std::fabs(y - row) <= 1 && std::fmod(x, 4) < 2, z + 4 > grid.size[2]};
+      const bool border =
+          x == 0 || y == 0 || z == 0 || x + 1 == grid.size[0] || y + 1 == grid.size[1] || z + 1 == grid.size[2];
+      const auto value = static_cast<float>(1 + random() % 1000) / 1000.0f;
+      return solid[kind] && !border ? -value : value;
+    });
+    uint64_t first = 0;
+    for (const uint32_t threads : {1u, 2u, 5u}) {
+      INFO(threads << " threads");
+      sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+      desc.threads = threads;
+      RuntimeOwner runtime = makeRuntime(&desc);
+      const SurfaceOwner surface = mesh(runtime.get(), grid.desc());
+      if (threads == 1) {
+        first = sgm_surface_hash(surface.get());
+        REQUIRE(viewOf(surface).index_count > 300);
+        CHECK(openEdges(viewOf(surface)) == 0);
+      }
+      CHECK(sgm_surface_hash(surface.get()) == first);
+    }
+    // A value that is no number, wherever it is, ends all who work.
+    grid.at(random() % grid.size[0], random() % grid.size[1], random() % grid.size[2]) = std::nanf("");
+    for (const uint32_t threads : {1u, 5u}) {
+      sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+      desc.threads = threads;
+      RuntimeOwner runtime = makeRuntime(&desc);
+      const sgm_grid_desc wrong = grid.desc();
+      sgm_surface* surface = nullptr;
+      CHECK(sgm_surface_from_grid(runtime.get(), &wrong, &surface, nullptr) == SGM_ERR_INVALID_ARGUMENT);
+      CHECK(surface == nullptr);
+    }
+  }
+}
+
 TEST_CASE("strides, cell and normals are what the descriptor says") {
   RuntimeOwner runtime = makeRuntime();
   Grid dense(20, 21, 22), padded(20, 21, 22, 5, 9);

@@ -1,7 +1,9 @@
 // Every allocation fails in turn: each call then says so, nothing leaks, and the next try works.
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 
 #include "failing_memory.h"
 #include "fixture.h"
@@ -179,6 +181,49 @@ TEST_CASE("each allocation of the C++ heap on the calling thread fails in turn")
 TEST_CASE("each allocation of the C++ heap on any thread fails in turn") {
   failHeap(
       3, [](int64_t n) { heap_left_everywhere = n; }, [] { heap_left_everywhere = INT64_MAX; });
+}
+
+TEST_CASE("threads that mesh a grid together end together, whichever of them has no memory") {
+  // Planes so large that four are a slab, of which there are more than threads; a ball reaches into all.
+  constexpr size_t kX = 512, kY = 256, kZ = 18;
+  constexpr size_t kCount = kX * kY * kZ;
+  const std::unique_ptr<float, void (*)(void*)> values(static_cast<float*>(std::malloc(kCount * sizeof(float))),
+                                                       std::free);
+  for (size_t i = 0; i < kCount; ++i) {
+    const double x = static_cast<double>(i % kX) - 250, y = static_cast<double>(i / kX % kY) - 100,
+                 z = static_cast<double>(i / (kX * kY)) - 9;
+    values.get()[i] = static_cast<float>(std::sqrt(x * x + y * y + 9 * z * z) - 24.5);
+  }
+  Failing failing;
+  const sgm_allocator allocator{Failing::allocate, Failing::release, &failing};
+  sgm_runtime_desc desc = SGM_RUNTIME_DESC_INIT;
+  desc.allocator = &allocator;
+  desc.threads = 3;
+  sgm_grid_desc grid = SGM_GRID_DESC_INIT;
+  grid.values = values.get();
+  grid.size[0] = kX;
+  grid.size[1] = kY;
+  grid.size[2] = kZ;
+  const auto failAt = [&](int64_t n, bool heap) {
+    sgm_runtime* runtime = nullptr;
+    REQUIRE(sgm_runtime_create(&desc, &runtime, nullptr) == SGM_OK);
+    sgm_surface* surface = nullptr;
+    (heap ? heap_left_everywhere : failing.left) = n;
+    const sgm_result result = sgm_surface_from_grid(runtime, &grid, &surface, nullptr);
+    heap_left_everywhere = failing.left = INT64_MAX;
+    CHECK((result == SGM_OK || result == SGM_ERR_OUT_OF_MEMORY));
+    CHECK((result == SGM_OK) == (surface != nullptr));
+    sgm_surface_destroy(surface);
+    CHECK(sgm_runtime_destroy(runtime) == SGM_OK);
+    CHECK(failing.live == 0);
+    return result == SGM_OK;
+  };
+  for (const bool heap : {false, true}) {
+    int64_t n = 0;
+    while (!failAt(n, heap)) ++n;
+    INFO("allocations " << n);
+    CHECK(n > (heap ? 1 : 10));
+  }
 }
 
 TEST_CASE("handles are ended, and ended again, without any memory") {

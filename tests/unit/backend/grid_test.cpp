@@ -108,11 +108,21 @@ Meshed meshed(const MeshKernels& kernels, GridJob job, size_t slabs, bool normal
   std::vector<uint32_t> numbers(2 * size_x * size_y), offsets(vertices.back() + kMostLanes);
   const size_t thick = (planes + slabs - 1) / slabs;
   for (size_t first = 0; first < planes; first += thick) {
-    const size_t last = std::min(planes, first + thick);
-    kernels.mesh(job,
-                 {first, last, vertices.data(), cells.data(), triangles[first], listed_edges.data() + vertices[first],
-                  listed_edges.data() + vertices[last], listed_cells.data() + cells[first]},
-                 {numbers.data(), offsets.data()});
+    const size_t last = std::min(planes, first + thick), below = first > 0 ? first - 1 : 0;
+    GridSlab slab{first,
+                  last,
+                  vertices.data(),
+                  cells.data(),
+                  triangles[below],
+                  listed_edges.data() + vertices[first],
+                  listed_cells.data() + cells[first],
+                  nullptr,
+                  nullptr};
+    if (first > 0) {
+      slab.edges_below = listed_edges.data() + vertices[below];
+      slab.cells_below = listed_cells.data() + cells[below];
+    }
+    kernels.mesh(job, slab, {numbers.data(), offsets.data()});
   }
   return result;
 }

@@ -4,23 +4,34 @@
 inline bool isSolid(float value, float scale) { return value * scale + 0.5f < 0.0f; }
 inline bool isFinite(float value) { return std::fabs(value) <= std::numeric_limits<float>::max(); }
 
+/// Floats, of a caller's grid whose signs are read row by row.
+inline constexpr size_t kFetchAhead = 512;
+
 inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, uint64_t* uniform) {
   const float* values = job.row(y, z);
   const size_t count = job.lattice.size[0];
   const Real scale = broadcast(job.scale), half = broadcast(0.5f), zero = broadcast(0.0f);
-  const Real most = broadcast(std::numeric_limits<float>::max());
-  Bool finite = zero <= zero;
+  // The largest magnitude in bits, which order as the magnitudes do, those of infinity and NaN above all others.
+  Int largest = broadcastInt(0);
   bool good = true;
   for (size_t first = 0; first < count; first += 64) {
     const size_t size = std::min<size_t>(64, count - first);
     uint64_t word = 0;
     size_t lane = 0;
-    for (; lane + kLanes <= size; lane += kLanes) {
+    const auto take = [&] {
       const Real v = loadValues(values + first + lane);
       PRECISE Real q = v * scale;
       q = q + half;
       word |= maskOf(q < zero) << lane;
-      finite = finite && (absReal(v) <= most);
+      largest = maxInt(largest, toIntBits(realToBits(v) & Uint(0x7FFFFFFFu)));
+    };
+    if (size == 64) {
+      // Memory is what this waits for: how far ahead the processor fetches by itself does not suffice.
+      for (size_t line = 0; line < 4; ++line) __builtin_prefetch(values + first + kFetchAhead + 16 * line);
+#pragma GCC unroll 16
+      for (lane = 0; lane < 64; lane += kLanes) take();
+    } else {
+      for (; lane + kLanes <= size; lane += kLanes) take();
     }
     for (; lane < size; ++lane) {
       word |= uint64_t{isSolid(values[first + lane], job.scale)} << lane;
@@ -28,7 +39,7 @@ inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, 
     }
     words[first / 64] = word;
   }
-  good = good && all(finite);
+  good = good && !any(largest > broadcastInt(0x7F7FFFFF));
   uint64_t some = 0, lacking = 0;  // of a group: whether a sample is solid, and whether one is void
   const size_t group = job.lattice.group();
   for (size_t word = 0; word < job.lattice.words; ++word) {
@@ -147,7 +158,8 @@ inline void lookAround(const GridJob& job, size_t z, const uint32_t* edges, Edge
     return at > zero && end < broadcastInt(static_cast<int32_t>(job.lattice.size[axis]) - 1);
   };
   // Of a row four samples are read, the last for nothing: it must not be behind the row's end.
-  around.there = all(inside(e.x, wrapAdd(e.x, sel(e.along_x, broadcastInt(2), one)), 0) && inside(e.y, wrapAdd(e.y, sel(e.along_y, one, zero)), 1) &&
+  around.there = all(inside(e.x, wrapAdd(e.x, sel(e.along_x, broadcastInt(2), one)), 0) &&
+                     inside(e.y, wrapAdd(e.y, sel(e.along_y, one, zero)), 1) &&
                      inside(e.z, wrapAdd(e.z, sel(e.along_z, one, zero)), 2));
   if (!around.there) return;
   const float* plane = job.row(0, z);
@@ -189,8 +201,8 @@ struct BoundsLanes {
 };
 
 FN void growBounds(BoundsLanes& bounds, size_t axis, Int at) {
-  bounds.lo[axis] = sel(at < bounds.lo[axis], at, bounds.lo[axis]);
-  bounds.hi[axis] = sel(at > bounds.hi[axis], at, bounds.hi[axis]);
+  bounds.lo[axis] = minInt(at, bounds.lo[axis]);
+  bounds.hi[axis] = maxInt(at, bounds.hi[axis]);
 }
 
 /// A vector of edges of plane z: where they are crossed, and with `write` positions and normals of the first `count`,
@@ -252,21 +264,23 @@ inline GridBounds meshSlab(const GridJob& job, const GridSlab& slab, const GridS
     bounds.lo[axis] = broadcastInt(GridBounds{}.lo[axis]);
     bounds.hi[axis] = broadcastInt(GridBounds{}.hi[axis]);
   }
-  const size_t size_x = job.lattice.size[0], first_vertex = slab.first_vertex[slab.first];
+  const size_t size_x = job.lattice.size[0], below = slab.first - (slab.first > 0 ? 1 : 0);
+  const size_t first_vertex = slab.first_vertex[below];
   uint32_t* low = scratch.numbers;
   uint32_t* high = scratch.numbers + size_x * job.lattice.size[1];
   LoopQueues queues(scratch.offsets, first_vertex, job.indices + slab.first_triangle * 3);
-  // The plane above the last belongs to another slab, which writes its vertices; their numbers and places are needed
+  // The plane below the first belongs to another slab, which writes its vertices; their numbers and places are needed
   // here, too.
-  for (size_t z = slab.first; z <= slab.last && z < job.lattice.size[2]; ++z) {
+  for (size_t z = below; z < slab.last; ++z) {
     const size_t vertex = slab.first_vertex[z], count = slab.first_vertex[z + 1] - vertex;
-    const uint32_t* edges = z == slab.last ? slab.edges_above : slab.edges + (vertex - first_vertex);
+    const bool own = z >= slab.first;
+    const uint32_t* edges = own ? slab.edges + (vertex - slab.first_vertex[slab.first]) : slab.edges_below;
     numberOwners(edges, count, vertex, size_x, high);
-    writePlane(job, z, edges, count, vertex, scratch.offsets + (vertex - first_vertex), z < slab.last, bounds);
-    if (z > slab.first) {
-      const uint64_t begin = slab.first_cell[z - 1];
-      meshCells(slab.cells + (begin - slab.first_cell[slab.first]), slab.first_cell[z] - begin, size_x, low, high,
-                queues);
+    writePlane(job, z, edges, count, vertex, scratch.offsets + (vertex - first_vertex), own, bounds);
+    if (z > below) {
+      const uint64_t cell = slab.first_cell[z - 1];
+      const uint64_t* cells = z > slab.first ? slab.cells + (cell - slab.first_cell[slab.first]) : slab.cells_below;
+      meshCells(cells, slab.first_cell[z] - cell, size_x, low, high, queues);
     }
     std::swap(low, high);
   }

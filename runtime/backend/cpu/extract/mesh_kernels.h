@@ -53,7 +53,7 @@ struct ListCounts {
 /// Lanes of the widest vector: passes may write as much behind the end of scratch.
 inline constexpr size_t kMostLanes = 16;
 
-/// Where a list of `rows` rows goes: edges (packed as signs.inl says) and cells need this room.
+/// Where a list of `rows` rows goes: edges (packed as lattice.inl says) and cells need this room.
 constexpr size_t edgeRoom(size_t size_x, size_t rows) { return 3 * size_x * rows + kMostLanes; }
 constexpr size_t cellRoom(size_t size_x, size_t rows) { return size_x * rows + kMostLanes; }
 
@@ -62,21 +62,24 @@ struct GridBounds {
   std::array<int32_t, 3> lo{INT32_MAX, INT32_MAX, INT32_MAX}, hi{INT32_MIN, INT32_MIN, INT32_MIN};
 };
 
-/// The planes first..last - 1 with the layers of cells above them: what is listed of them, and what comes before them.
+/// The planes first..last - 1 with the layers of cells below each: what is listed of them, and what comes before them.
+/// A layer has the number of the plane below it.
 struct GridSlab {
   size_t first = 0, last = 0;
   const uint64_t* first_vertex = nullptr;  ///< by plane, one more than there are
   const uint64_t* first_cell = nullptr;    ///< by layer, likewise
   uint64_t first_triangle = 0;             ///< of the slab
-  const uint32_t* edges = nullptr;         ///< of the slab
-  const uint32_t* edges_above = nullptr;   ///< of plane `last`; null where there is none
-  const uint64_t* cells = nullptr;         ///< of the slab
+  const uint32_t* edges = nullptr;         ///< of the slab's planes
+  const uint64_t* cells = nullptr;         ///< of the layers from `first` on
+  /// Of plane first - 1 and of the layer above it; null where `first` is 0.
+  const uint32_t* edges_below = nullptr;
+  const uint64_t* cells_below = nullptr;
 };
 
 /// Scratch of one slab: raw memory, nothing of it has to be cleared.
 struct GridScratch {
   uint32_t* numbers = nullptr;  ///< 2 * size[0] * size[1]
-  uint32_t* offsets = nullptr;  ///< one for each vertex of the slab and of the plane above it, and kMostLanes
+  uint32_t* offsets = nullptr;  ///< one for each vertex of the slab and of the plane below it, and kMostLanes
 };
 
 inline constexpr int kBrickSamples = 8;                      ///< on each axis; the last brick has one more
