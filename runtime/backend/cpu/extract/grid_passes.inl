@@ -5,7 +5,7 @@ inline bool isSolid(float value, float scale) { return value * scale + 0.5f < 0.
 inline bool isFinite(float value) { return std::fabs(value) <= std::numeric_limits<float>::max(); }
 
 /// Floats, of a caller's grid whose signs are read row by row.
-inline constexpr size_t kFetchAhead = 512;
+inline constexpr size_t kFetchAhead = 2048;
 
 inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, uint64_t* uniform) {
   const float* values = job.row(y, z);
@@ -42,9 +42,11 @@ inline bool signsOfRow(const GridJob& job, size_t y, size_t z, uint64_t* words, 
   good = good && !any(largest > broadcastInt(0x7F7FFFFF));
   uint64_t some = 0, lacking = 0;  // of a group: whether a sample is solid, and whether one is void
   const size_t group = job.lattice.group();
-  for (size_t word = 0; word < job.lattice.words; ++word) {
-    some |= uint64_t{words[word] != 0} << word / group;
-    lacking |= uint64_t{words[word] != wordMask(word, count)} << word / group;
+  for (size_t word = 0, bit = 0; word < job.lattice.words; ++bit) {
+    for (const size_t end = std::min(word + group, job.lattice.words); word < end; ++word) {
+      some |= uint64_t{words[word] != 0} << bit;
+      lacking |= uint64_t{words[word] != wordMask(word, count)} << bit;
+    }
   }
   uniform[0] = ~some;
   uniform[1] = ~lacking;
@@ -233,8 +235,7 @@ inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size
   // Vectors are taken in batches, so that values have long been written when they are read as vectors. The planes above
   // have not been read for long: what lies farther ahead in the list is fetched while this is worked on.
   constexpr size_t kBatch = 2, kAhead = 128;
-  const float* beyond[2] = {job.row(0, std::min(z + 1, job.lattice.size[2] - 1)),
-                            job.row(0, std::min(z + 2, job.lattice.size[2] - 1))};
+  const float* const beyond = job.row(0, std::min(z + 2, job.lattice.size[2] - 1));
   EdgeSurroundings around[kBatch];
   for (EdgeSurroundings& one : around) one.there = false;
   for (size_t first = 0; first < count; first += kBatch * kLanes) {
@@ -247,8 +248,7 @@ inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size
     }
     for (size_t i = first + kAhead; i < std::min(first + kAhead + kBatch * kLanes, count); ++i) {
       const size_t place = (edges[i] >> kPlaceBits & kPlaceMask) * job.stride_y + (edges[i] & kPlaceMask);
-      __builtin_prefetch(beyond[0] + place);
-      __builtin_prefetch(beyond[1] + place);
+      __builtin_prefetch(beyond + place);
     }
     if (write && job.normals != nullptr)
       for (size_t at = 0; at < some; at += kLanes) lookAround(job, z, block + at, around[at / kLanes]);

@@ -6,6 +6,22 @@ FN uint64_t wordMask(size_t word, size_t count) {
   return count >= first + 64 ? ~uint64_t{0} : count <= first ? 0 : (uint64_t{1} << (count - first)) - 1;
 }
 
+/// The groups of four rows that may have crossed edges or active cells: those whose samples, with the next group's, are
+/// not proven to be all alike. A word's last cells end in the next one.
+FN uint64_t mixedGroups(const SignLattice& lattice, const size_t (&y)[2], const size_t (&z)[2]) {
+  const size_t group = lattice.group(), groups = group == 1 ? lattice.words : (lattice.words + group - 1) / group;
+  if (lattice.words == 1 || lattice.uniform == nullptr) return wordMask(0, groups);
+  uint64_t empty = ~uint64_t{0}, solid = ~uint64_t{0};
+  for (size_t i = 0; i < 4; ++i) {
+    const uint64_t* row = lattice.uniformRow(y[i & 1], z[i >> 1]);
+    empty &= row[0];
+    solid &= row[1];
+  }
+  // Groups behind the last are uniform in both ways; whatever a row ends with, nothing begins there.
+  constexpr uint64_t kLast = uint64_t{1} << 63;
+  return ~((empty & (empty >> 1 | kLast)) | (solid & (solid >> 1 | kLast))) & wordMask(0, groups);
+}
+
 /// Of the rows first..last - 1, 64 at most and of one word each, bit i: whether row first + i, the next one and those
 /// above both are not all void, nor all solid.
 FN uint64_t mixedRows(const SignLattice& lattice, size_t z, size_t z_above, size_t first, size_t last) {

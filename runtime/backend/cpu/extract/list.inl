@@ -13,24 +13,11 @@ FN RowSigns signsOf(const SignLattice& lattice, const uint64_t* row, size_t word
   return {low, low >> 1 | (low & uint64_t{1} << (lattice.size[0] - 1) % 64)};
 }
 
-/// Calls f(word) for the words of four rows in turn, but for those that their uniform groups prove to be without
-/// crossed edges and active cells. A word's last cells end in the next one.
+/// Calls f(word) for the words of groups whose bits are set, in turn.
 template <class F>
-FN void forWords(const SignLattice& lattice, const size_t (&y)[2], const size_t (&z)[2], F&& f) {
-  uint64_t wanted = ~uint64_t{0};
-  if (lattice.words > 1 && lattice.uniform != nullptr) {
-    uint64_t empty = ~uint64_t{0}, solid = ~uint64_t{0};
-    for (size_t i = 0; i < 4; ++i) {
-      const uint64_t* row = lattice.uniformRow(y[i & 1], z[i >> 1]);
-      empty &= row[0];
-      solid &= row[1];
-    }
-    constexpr uint64_t kLast = uint64_t{1} << 63;
-    wanted = ~((empty & (empty >> 1 | kLast)) | (solid & (solid >> 1 | kLast)));
-  }
-  const size_t group = lattice.group(), groups = (lattice.words + group - 1) / group;
-  // Groups behind the last are uniform in both ways; whatever a row ends with, nothing begins there.
-  for (wanted &= wordMask(0, groups); wanted != 0; wanted &= wanted - 1) {
+FN void forWords(const SignLattice& lattice, uint64_t wanted, F&& f) {
+  const size_t group = lattice.group();
+  for (; wanted != 0; wanted &= wanted - 1) {
     const size_t first = static_cast<size_t>(std::countr_zero(wanted)) * group;
     for (size_t word = first; word < std::min(first + group, lattice.words); ++word) f(word);
   }
@@ -120,7 +107,7 @@ inline ListCounts listRows(const SignLattice& lattice, size_t z, size_t first_ro
     const uint64_t* const rows[4] = {lattice.row(ys[0], zs[0]), lattice.row(ys[1], zs[0]), lattice.row(ys[0], zs[1]),
                                      lattice.row(ys[1], zs[1])};
     const uint64_t* beyond_row = y + 2 < lattice.size[1] ? lattice.row(y + 2, z) : rows[1];
-    forWords(lattice, ys, zs, [&](size_t word) {
+    forWords(lattice, mixedGroups(lattice, ys, zs), [&](size_t word) {
       uint64_t corner[8 + 1];  // spreadBits may read one more
       uint64_t some = 0, every = ~uint64_t{0};
       for (size_t i = 0; i < 4; ++i) {

@@ -266,7 +266,10 @@ ListCounts listRowsVbmi2(const SignLattice& lattice, size_t z, size_t first, siz
         words[count++] = static_cast<uint32_t>(y + static_cast<size_t>(std::countr_zero(mixed))) << 8;
       y = std::min(y + 64, last);
     } else {
-      for (; y < last && count <= kWords; ++y) count += wordsOf(lattice, rowsAt(y), y, words + count);
+      for (; y < last && count <= kWords; ++y) {
+        const size_t ys[2] = {y, y + 1 < lattice.size[1] ? y + 1 : y}, zs[2] = {z, above ? z + 1 : z};
+        if (mixedGroups(lattice, ys, zs) != 0) count += wordsOf(lattice, rowsAt(y), y, words + count);
+      }
     }
     for (size_t i = 0; i < count; ++i) {
       const size_t row = words[i] >> 8;
