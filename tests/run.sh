@@ -3,10 +3,10 @@
 #
 #   bash tests/run.sh [--long] [--require-cuda] [--label LABEL]... [--without NAME]... [--jobs N]
 #
-#   --long          run property tests and fuzzers far longer, and AVX-512 under emulation (label emulated;
-#                   installs an emulator; without --long that test is skipped, and named so in the summary)
+#   --long          run property tests and fuzzers far longer, make three builds more, and run AVX-512 under emulation (label
+#                   emulated; installs an emulator; without --long that test is skipped, and named so in the summary)
 #   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, judges, style, gltf, threads, fuzz, godot, ...)
-#   --without NAME  leave out a build (fuzz, scalar, clang, tsan) or a label; each is named in the summary
+#   --without NAME  leave out a build (fuzz, plain, tsan) or a label; each is named in the summary
 #   --require-cuda  nvcc and an NVIDIA GPU must be there, for the tests of label cuda that run on one; without it those are
 #                   skipped, and named so in the summary
 #   --jobs N        at most N compilers and tests at one time (default: one for each processor)
@@ -14,20 +14,21 @@
 # The Godot plugin is tested in a real Godot, which editor_plugin/get_godot.sh finds or unpacks, unless --without godot
 # leaves it out. A Vulkan device must be there (software Vulkan is installed, and will do), unless --without vulkan leaves it out.
 #
-# Five builds: release has every test; fuzz (clang++, both sanitizers) runs the unit tests again, and the fuzzers; scalar
-# (no vector unit) and clang (another compiler; also the static package) those that compare bits; tsan those with threads. --long adds dev (both
-# sanitizers, g++). The last lines are ctest's summary over all of them. Exit status: 0 when all passed.
+# Four builds: release has every test; fuzz (clang++, both sanitizers) runs the unit tests again, and the fuzzers; plain
+# (clang++ again, optimised, but no vector unit; also the static package) those that compare bits; tsan those with
+# threads. --long adds dev (both sanitizers, g++, each file by itself), scalar (g++, no vector unit) and clang (clang++,
+# vectors). The last lines are ctest's summary over all of them. Exit status: 0 when all passed.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
-variants=(fuzz scalar clang tsan)
+variants=(fuzz plain tsan)
 labels=() without=() jobs=$(nproc) timeout=900
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
 die() { echo "tests/run.sh: error: $1" >&2; exit "${2:-1}"; }
 while (($#)); do
   case $1 in
-    --long) export SGM_LONG=1 && timeout=7200 variants+=(dev) ;;
+    --long) export SGM_LONG=1 && timeout=7200 variants+=(dev scalar clang) ;;
     --require-cuda) export SGM_REQUIRE_CUDA=1 ;;
     --label | --without | --jobs)
       (($# > 1)) || die "$1 needs a value" 2

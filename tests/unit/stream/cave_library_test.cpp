@@ -39,7 +39,7 @@ std::vector<bool> solidAt(const FieldProgram& program, const std::vector<Int3>& 
 
 }  // namespace
 
-TEST_CASE("water fills all that is open below its level, and nothing above", "[std]") {
+TEST_CASE("water fills all that is open below its level, and nothing above", "[std][costly]") {
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
   std::mt19937 random(seed);
@@ -101,7 +101,7 @@ TEST_CASE("water fills all that is open below its level, and nothing above", "[s
   }
 }
 
-TEST_CASE("flowstone lies on floors, and is as high as it says", "[std]") {
+TEST_CASE("flowstone lies on floors, and is as high as it says", "[std][costly]") {
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
   std::mt19937 random(seed);
@@ -135,7 +135,7 @@ TEST_CASE("flowstone lies on floors, and is as high as it says", "[std]") {
   CHECK(mounds > 20);
 }
 
-TEST_CASE("what stands in the cave with a lake has rock under it that does not fall away", "[std]") {
+TEST_CASE("what stands in the cave with a lake has rock under it that does not fall away", "[std][costly]") {
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
   std::mt19937 random(seed);

@@ -160,7 +160,7 @@ LeftOut compareLevels(unsigned seed, std::string (*rules)(std::mt19937&, unsigne
 
 }  // namespace
 
-TEST_CASE("chunks of coarse levels are those of whole cells, in whatever order levels are asked for") {
+TEST_CASE("chunks of coarse levels are those of whole cells, in whatever order levels are asked for", "[costly]") {
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
   CHECK(compareLevels(seed, randomRules, 0, rounds(120)).by_level > 0);

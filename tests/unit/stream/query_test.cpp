@@ -160,7 +160,7 @@ TEST_CASE("a ball is decided wherever the field's slope leaves no doubt, also be
   CHECK(among_crests > 0);
 }
 
-TEST_CASE("what is asked decides about shapes: the same in any order, and as the field says") {
+TEST_CASE("what is asked decides about shapes: the same in any order, and as the field says", "[costly]") {
   const std::vector<Int3> cells = cellsOfHall();
   const WorldField world(settingsOf(hall("0.7m", "query clear 1m of net"), 512), std::pmr::get_default_resource());
   const std::vector<Anchor> expected = anchorsIn(world, cells);
