@@ -3,6 +3,7 @@
 // within a round. A time counts only if the meshes are the same surface. See ../README.md.
 //
 //   node tests/bench/speed/speed.mjs BIN OUT [--cells 256] [--runs 7] [--rounds 3] [--threads 1,2] [--no-growth]
+//                      [--as-installed]
 //
 //   BIN   the folder of sgm_bench_ours and the other sides     OUT   where speed.csv, speed.json and the charts go
 //
@@ -13,15 +14,16 @@ import path from 'node:path';
 import { bars, curves, exponent, short } from './chart.mjs';
 
 const [bin, out, ...rest] = process.argv.slice(2);
-const options = { cells: 256, runs: 7, rounds: 3, threads: '1,2', growth: true };
+const options = { cells: 256, runs: 7, rounds: 3, threads: '1,2', growth: true, keep: true };
 const valid = { cells: /^(64|128|256|512)$/, runs: /^[1-9]\d*$/, rounds: /^[1-9]\d*$/, threads: /^[1-9]\d*(,[1-9]\d*)*$/ };
 for (let i = 0; i < rest.length; ++i) {
   const name = rest[i].replace(/^--/, '');
   if (rest[i] === '--no-growth') options.growth = false;
+  else if (rest[i] === '--as-installed') options.keep = false;
   else if (valid[name]?.test(rest[i + 1] ?? '')) options[name] = name === 'threads' ? rest[++i] : Number(rest[++i]);
   else fail(`unknown option or value: ${rest.slice(i).join(' ')}`);
 }
-if (!bin || !out) fail('usage: node speed.mjs BIN OUT [--cells 64|128|256|512] [--runs N] [--rounds N] [--threads 1,2] [--no-growth]');
+if (!bin || !out) fail('usage: node speed.mjs BIN OUT [--cells 64|128|256|512] [--runs N] [--rounds N] [--threads 1,2] [--no-growth] [--as-installed]');
 const threadCounts = options.threads.split(',').map(Number);
 const here = path.dirname(new URL(import.meta.url).pathname);
 for (const side of ['sgm_bench_ours', 'sgm_bench_machine'])
@@ -57,10 +59,10 @@ const ours = (set, ...args) => {
   return answer;
 };
 // As our runtime keeps its blocks, so malloc keeps a peer's, and asks for large pages as we do: where fresh pages are
-// dear, they would be all that is timed.
-const keeping = {
-  GLIBC_TUNABLES: 'glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=4294967296:glibc.malloc.hugetlb=1',
-};
+// dear, they would be all that is timed. With --as-installed they are.
+const keeping = options.keep
+  ? { GLIBC_TUNABLES: 'glibc.malloc.mmap_threshold=33554432:glibc.malloc.trim_threshold=4294967296:glibc.malloc.hugetlb=1' }
+  : {};
 const rival = (program, args) => run(program, args, keeping);
 const machine = (...args) => rival(path.join(bin, 'sgm_bench_machine'), args);
 
