@@ -1,5 +1,6 @@
 #pragma once
-// MeshKernels::list for processors that compress bytes within a register (AVX-512 VBMI2: since Ice Lake and Zen 4).
+// MeshKernels::list for processors that compress bytes within a register (AVX-512 VBMI2) and transpose bits (GFNI): since
+// Ice Lake and Zen 4.
 
 #include "backend/cpu/extract/mesh_kernels.h"
 
