@@ -27,7 +27,9 @@ struct Lists {
 /// What one thread needs; goes from slab to slab, since memory that is fresh, or that another processor has written,
 /// costs more than the work in it.
 struct Worker {
-  explicit Worker(std::pmr::memory_resource* memory) : numbers(memory), offsets(memory) {}
+  explicit Worker(std::pmr::memory_resource* memory)
+      : signs(memory), uniform(memory), numbers(memory), offsets(memory) {}
+  RawArray<uint64_t> signs, uniform;  ///< of a slab's planes and the one above them
   RawArray<uint32_t> numbers, offsets;
   std::vector<std::unique_ptr<Lists>> free;  ///< under the mesher's lock
 };
@@ -59,9 +61,8 @@ class GridMesher {
         jobs_(jobs),
         memory_(memory),
         kernels_(kernels),
-        signs_(memory),
-        uniform_(memory),
-        signs_of_(grid.size[2], memory),
+        shared_signs_(memory),
+        shared_uniform_(memory),
         first_vertex_(grid.size[2] + 1, 0, memory),
         first_cell_(grid.size[2] + 1, 0, memory),
         first_triangle_(grid.size[2] + 1, 0, memory),
@@ -84,7 +85,8 @@ class GridMesher {
   void expect();
   void provide(uint64_t vertices, uint64_t triangles, size_t meshed);
   void work(Worker& worker);
-  void readSigns(size_t z);
+  void readSigns(size_t z, uint64_t* signs, uint64_t* uniform);
+  void takeSigns(size_t z, uint64_t* signs, uint64_t* uniform);
   void list(Slab& slab, Worker& worker);
   void settle(Slab& slab);
   void meshInTurn(size_t number, Worker& worker);
@@ -97,9 +99,11 @@ class GridMesher {
   std::pmr::memory_resource* memory_;
   const MeshKernels& kernels_;
   GridJob job_;
-  RawArray<uint64_t> signs_, uniform_;
-  std::pmr::vector<std::atomic<uint8_t>> signs_of_;  ///< by plane
+  size_t thick_ = 0;  ///< planes of every slab but the last
   std::vector<Slab> slabs_;
+  /// Of the first plane of each slab, which the one below needs, too: whichever comes first reads it for both.
+  RawArray<uint64_t> shared_signs_, shared_uniform_;
+  std::vector<std::atomic<uint8_t>> shared_;
   /// By plane, and twice by the layer above it: of a slab that is listed its counts, when it is settled their sums.
   std::pmr::vector<uint64_t> first_vertex_, first_cell_, first_triangle_;
   GridMesh mesh_;
@@ -167,31 +171,36 @@ void GridMesher::stop() {
   settled_.notify_all();
 }
 
-/// Returns when the signs of a plane are read, by whoever.
-void GridMesher::readSigns(size_t z) {
-  uint8_t state = unread;
-  if (!signs_of_[z].compare_exchange_strong(state, being_read)) {
-    while (signs_of_[z].load() != read) signs_of_[z].wait(being_read);
-    return;
-  }
-  const size_t words = job_.lattice.words, size_y = grid_.size[1];
+void GridMesher::readSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   bool finite = true;
-  for (size_t y = 0; y < size_y; ++y) {
-    const size_t row = z * size_y + y;
-    finite = kernels_.signs(job_, y, z, signs_.data() + row * words, uniform_.data() + row * 2) && finite;
+  for (size_t y = 0; y < grid_.size[1]; ++y)
+    finite = kernels_.signs(job_, y, z, signs + y * job_.lattice.words, uniform + y * 2) && finite;
+  if (finite) return;
+  finite_.store(false);
+  stop();
+}
+
+/// As readSigns, but a plane that two slabs need is read once, by whoever.
+void GridMesher::takeSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
+  if (z % thick_ != 0) return readSigns(z, signs, uniform);
+  const size_t slab = z / thick_, words = job_.lattice.words * grid_.size[1], rows = 2 * grid_.size[1];
+  uint64_t *of_both = shared_signs_.data() + slab * words, *uniform_of_both = shared_uniform_.data() + slab * rows;
+  uint8_t state = unread;
+  if (shared_[slab].compare_exchange_strong(state, being_read)) {
+    readSigns(z, of_both, uniform_of_both);
+    shared_[slab].store(read);
+    shared_[slab].notify_all();
+  } else {
+    while (shared_[slab].load() != read) shared_[slab].wait(being_read);
   }
-  if (!finite) {
-    finite_.store(false);
-    stop();
-  }
-  signs_of_[z].store(read);
-  signs_of_[z].notify_all();
+  std::copy_n(of_both, words, signs);
+  std::copy_n(uniform_of_both, rows, uniform);
 }
 
 void GridMesher::list(Slab& slab, Worker& worker) {
   // Room is made for some rows at a time: how much of a plane is crossed nobody knows, and planes can be large.
   constexpr size_t kRows = 16;
-  const size_t size_x = grid_.size[0], size_y = grid_.size[1];
+  const size_t size_x = grid_.size[0], size_y = grid_.size[1], words = job_.lattice.words * size_y, rows = 2 * size_y;
   uint64_t vertices = 0, cells = 0;
   {
     const std::lock_guard lock(mutex_);
@@ -200,26 +209,36 @@ void GridMesher::list(Slab& slab, Worker& worker) {
     worker.free.pop_back();
     slab.worker = &worker;
   }
+  SignLattice lattice = job_.lattice;
+  lattice.size[2] = std::min(slab.last + 1, grid_.size[2]) - slab.first;
+  worker.signs.grow(0, words * lattice.size[2]);
+  worker.uniform.grow(0, rows * lattice.size[2]);
+  lattice.signs = worker.signs.data();
+  lattice.uniform = worker.uniform.data();
+  const auto take = [&](size_t plane) {
+    takeSigns(slab.first + plane, worker.signs.data() + plane * words, worker.uniform.data() + plane * rows);
+  };
   RawArray<uint32_t>& edges = slab.lists->edges;
   RawArray<uint64_t>& active = slab.lists->cells;
-  readSigns(slab.first);
+  take(0);
   for (size_t z = slab.first; z < slab.last; ++z) {
-    if (z + 1 < grid_.size[2]) readSigns(z + 1);
-    ListCounts plane;
+    const size_t plane = z - slab.first;
+    if (plane + 1 < lattice.size[2]) take(plane + 1);
+    ListCounts sum;
     for (size_t y = 0; y < size_y; y += kRows) {
       edges.grow(vertices, vertices + edgeRoom(size_x, kRows));
       active.grow(cells, cells + cellRoom(size_x, kRows));
-      const ListCounts counts = kernels_.list(job_.lattice, z, y, std::min(y + kRows, size_y), edges.data() + vertices,
-                                              active.data() + cells);
+      const ListCounts counts =
+          kernels_.list(lattice, plane, y, std::min(y + kRows, size_y), edges.data() + vertices, active.data() + cells);
       vertices += counts.vertices;
       cells += counts.cells;
-      plane.vertices += counts.vertices;
-      plane.cells += counts.cells;
-      plane.triangles += counts.triangles;
+      sum.vertices += counts.vertices;
+      sum.cells += counts.cells;
+      sum.triangles += counts.triangles;
     }
-    first_vertex_[z + 1] = plane.vertices;
-    first_cell_[z + 1] = plane.cells;
-    first_triangle_[z + 1] = plane.triangles;
+    first_vertex_[z + 1] = sum.vertices;
+    first_cell_[z + 1] = sum.cells;
+    first_triangle_[z + 1] = sum.triangles;
   }
 }
 
@@ -285,13 +304,17 @@ void GridMesher::mesh(size_t number, Worker& worker) {
 }
 
 void GridMesher::shareOut() {
-  const size_t planes = grid_.size[2], thick = thicknessOf(grid_.size, jobs_.concurrency());
-  for (size_t first = 0; first < planes; first += thick) {
-    const size_t last = std::min(first + thick, planes);
+  const size_t planes = grid_.size[2];
+  thick_ = thicknessOf(grid_.size, jobs_.concurrency());
+  for (size_t first = 0; first < planes; first += thick_) {
+    const size_t last = std::min(first + thick_, planes);
     slabs_.push_back({.first = first, .last = last, .readers = last < planes ? 2 : 1});
   }
   const size_t threads = std::min<size_t>(jobs_.concurrency(), slabs_.size());
   while (workers_.size() < threads) workers_.push_back(std::make_unique<Worker>(memory_));
+  shared_ = std::vector<std::atomic<uint8_t>>(slabs_.size());
+  shared_signs_.allocate(job_.lattice.words * grid_.size[1] * slabs_.size());
+  shared_uniform_.allocate(2 * grid_.size[1] * slabs_.size());
 }
 
 /// Slab after slab in their order. So those below one that is listed have been begun by somebody, who needs nothing of
@@ -310,10 +333,6 @@ void GridMesher::work(Worker& worker) {
 }
 
 Result<GridMesh> GridMesher::run() {
-  signs_.allocate(job_.lattice.words * grid_.size[1] * grid_.size[2]);
-  uniform_.allocate(2 * grid_.size[1] * grid_.size[2]);
-  job_.lattice.signs = signs_.data();
-  job_.lattice.uniform = uniform_.data();
   shareOut();
   // Otherwise most slabs would be listed before one is meshed, and then it is known what all will need.
   if (slabs_.size() > workers_.size()) expect();

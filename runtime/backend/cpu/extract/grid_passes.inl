@@ -232,10 +232,12 @@ inline void writeEdges(const GridJob& job, size_t z, const uint32_t* edges, cons
 /// The vertices of plane z, whose edges are listed; without `write` only where they lie on their edges.
 inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size_t count, size_t vertex,
                        uint32_t* offsets, bool write, BoundsLanes& bounds) {
-  // Vectors are taken in batches, so that values have long been written when they are read as vectors. The planes above
-  // have not been read for long: what lies farther ahead in the list is fetched while this is worked on.
+  // Vectors are taken in batches, so that values have long been written when they are read as vectors. Of the planes
+  // around, that above the next has not been read for long; and all where another thread has worked below, which may
+  // share no cache with this one. What lies farther ahead in the list is fetched there while this is worked on.
   constexpr size_t kBatch = 2, kAhead = 128;
   const float* const beyond = job.row(0, std::min(z + 2, job.lattice.size[2] - 1));
+  const size_t cold = write ? 0 : 2;
   EdgeSurroundings around[kBatch];
   for (EdgeSurroundings& one : around) one.there = false;
   for (size_t first = 0; first < count; first += kBatch * kLanes) {
@@ -249,6 +251,10 @@ inline void writePlane(const GridJob& job, size_t z, const uint32_t* edges, size
     for (size_t i = first + kAhead; i < std::min(first + kAhead + kBatch * kLanes, count); ++i) {
       const size_t place = (edges[i] >> kPlaceBits & kPlaceMask) * job.stride_y + (edges[i] & kPlaceMask);
       __builtin_prefetch(beyond + place);
+      for (size_t plane = z; plane < z + cold; ++plane) {
+        __builtin_prefetch(job.row(0, plane) + place);
+        __builtin_prefetch(job.row(1, plane) + place);
+      }
     }
     if (write && job.normals != nullptr)
       for (size_t at = 0; at < some; at += kLanes) lookAround(job, z, block + at, around[at / kLanes]);
