@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(SGM_MODULES base asset grammar derive field mesh measure texture cuda backend stream api)
+set(SGM_MODULES base asset grammar derive field mesh measure texture cuda backend stream store api)
 if(SGM_VULKAN)
   list(APPEND SGM_MODULES vulkan)
 endif()

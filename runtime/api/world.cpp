@@ -7,6 +7,7 @@
 #include "api/mesh.h"
 #include "api/world.h"
 #include "mesh/hash.h"
+#include "store/source.h"
 
 using namespace sgm::api;
 
@@ -102,6 +103,19 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     if (desc->cache_bytes != 0) settings.cache_bytes = desc->cache_bytes;
     sgm_runtime& runtime = field->runtime;
     settings.on_warning = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
+    if (desc->reserved != 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.reserved is not 0");
+    if (desc->store_count != 0) {
+      if (desc->stores == nullptr) return nullArgument(error, "desc.stores");
+      std::vector<std::filesystem::path> folders;
+      for (uint32_t i = 0; i < desc->store_count; ++i) {
+        if (desc->stores[i] == nullptr) return nullArgument(error, "desc.stores[i]");
+        folders.push_back(pathOf(desc->stores[i]));
+      }
+      sgm::Result<std::shared_ptr<sgm::BakedParts>> opened =
+          sgm::store::openStores(folders, settings.on_warning, &runtime.memory);
+      if (!opened) return failData(error, opened.error());
+      settings.baked = std::move(*opened);
+    }
     sgm::Result<std::unique_ptr<sgm::World>> world = sgm::World::create(
         worldField(field->content), *field->content->backend, *runtime.jobs, settings, &runtime.memory);
     if (!world) return failData(error, world.error());
@@ -287,6 +301,10 @@ sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, s
     stats->cache_misses = now.cache.misses;
     stats->cache_damaged = now.cache.damaged;
     stats->cache_bytes = now.cache.bytes;
+    stats->store_hits = now.baked.hits;
+    stats->store_misses = now.baked.misses;
+    stats->store_damaged = now.baked.damaged;
+    stats->store_bytes = now.baked.bytes;
     return SGM_OK;
   });
 }

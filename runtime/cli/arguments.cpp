@@ -75,6 +75,15 @@ std::string checkCamera(const std::string& text) {
   return fmt::format("'{}' is not x,y,z:x,y,z in metres (from where, and to where)", text);
 }
 
+std::string checkLevels(const std::string& text) {
+  return readLevels(text) ? std::string()
+                          : fmt::format("'{}' is not levels such as 0..4, from 0 to {}", text, kMaxLevel);
+}
+
+std::string checkShard(const std::string& text) {
+  return readShard(text) ? std::string() : fmt::format("'{}' is not a shard such as 3/16, counted from 0", text);
+}
+
 std::string checkPng(const std::string& out) {
   const std::string extension = std::filesystem::path(out).extension().string();
   return CLI::detail::to_lower(extension) == ".png" ? std::string() : "pictures are .png files";
@@ -240,6 +249,38 @@ Command addMesh(CLI::App& root) {
       "they count from the region's lowest corner instead, which is then printed as the origin.\n"
       "Example:\n  sgm mesh samples/grammars/cave.sgm --out cave.glb --region 0,0,0:192,192,192 --cell 0.5 --seed 7");
   return [options] { return mesh(*options); };
+}
+
+Command addBake(CLI::App& root) {
+  CLI::App* app = root.add_subcommand(
+      "bake", "Mesh a region at several levels ahead of time, into a store that worlds stream from");
+  const auto options = std::make_shared<BakeOptions>();
+  addWorldOptions(*app, *options);
+  addRegionOptions(*app, *options);
+  app->remove_option(app->get_option("--max-chunks"));
+  addSharpOption(*app, *options);
+  app->add_option("--levels", options->levels, "Levels of detail, the finest first")
+      ->type_name("A..B")
+      ->check(checkLevels)
+      ->capture_default_str();
+  app->add_option("--out", options->out, "Folder of the store: a new one, or one that holds other worlds already")
+      ->type_name("STORE")
+      ->required();
+  CLI::Option* shard =
+      app->add_option(
+             "--shard", options->shard,
+             "Bake only share I of N, counted from 0; shares take about as long as each other, and may be baked "
+             "at one time, in any order, on machines that share the folder")
+          ->type_name("I/N")
+          ->check(checkShard);
+  app->add_flag("--merge", options->merge, "Make a world of what all shares have baked")->excludes(shard);
+  app->footer(
+      "What is baked follows from grammar, parameters, seed, cells, region and levels alone: the store's bytes are "
+      "the\n"
+      "same however the work was shared. A bake that was stopped goes on where it was when it is called again. Chunks\n"
+      "that are the same are stored once, on whatever level and in whatever world of the store.\n"
+      "Example:\n  sgm bake samples/grammars/cave.sgm --region 0,0,0:256,256,256 --levels 0..3 --out store");
+  return [options] { return bake(*options); };
 }
 
 /// Of a process that reads a mesh file.
@@ -536,6 +577,10 @@ Command addFly(CLI::App& root) {
       ->check(checkVideo);
   app->add_option("--cache", options->cache, "Folder that keeps meshed chunks from one flight to the next")
       ->type_name("FOLDER");
+  app->add_option("--store", options->stores,
+                  "Folder of baked worlds to stream from (repeatable); what it does not have is derived")
+      ->type_name("FOLDER")
+      ->allow_extra_args(false);
   app->add_option("--journal", options->journal, "File that keeps what is dug from one flight to the next")
       ->type_name("FILE")
       ->excludes(compare);
@@ -693,8 +738,8 @@ Exit runCommandLine(int argc, char** argv) {
       "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
       "be read or written; the highest of several.");
   std::vector<Command> commands;
-  for (const auto add : {addCheck, addFmt, addExplain, addMesh, addMeasure, addClassify, addMasters, addRender, addFly,
-                         addServe, addInspect, addLsp, addBench, addPaper, addBackends})
+  for (const auto add : {addCheck, addFmt, addExplain, addMesh, addBake, addMeasure, addClassify, addMasters, addRender,
+                         addFly, addServe, addInspect, addLsp, addBench, addPaper, addBackends})
     commands.push_back(add(app));
 
   try {

@@ -45,6 +45,14 @@ struct MeshOptions : WorldOptions {
 };
 Exit mesh(const MeshOptions& options);
 
+struct BakeOptions : WorldOptions {
+  std::string out;              ///< the store's folder
+  std::string levels = "0..4";  ///< as readLevels takes them
+  std::string shard;            ///< as readShard takes it; empty: all, and merged
+  bool merge = false;           ///< merge what shards have made
+};
+Exit bake(const BakeOptions& options);
+
 struct MeasureOptions : WorldOptions {
   double weld = 0;  ///< metres
   uint32_t bins = 33;
@@ -132,6 +140,7 @@ struct FlyOptions : WorldOptions {
   bool levels = false;
   std::string video;           ///< an .mp4 file; empty: none
   std::string journal, cache;  ///< a file and a folder of the world's; empty: none
+  std::vector<std::string> stores;  ///< folders of baked worlds
   bool serve = false, keep_serving = false;
   ServingOptions serving;  ///< where `serve` is set
 };

@@ -110,6 +110,12 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   if (!options.journal.empty()) world_desc.journal = options.journal.c_str();
   // A flight to compare with meshes for itself.
   if (!options.cache.empty() && !by_distance) world_desc.cache_folder = options.cache.c_str();
+  std::vector<const char*> stores;
+  for (const std::string& store : options.stores) stores.push_back(store.c_str());
+  if (!by_distance) {
+    world_desc.stores = stores.data();
+    world_desc.store_count = static_cast<uint32_t>(stores.size());
+  }
   if (by_distance) world_desc.flags |= SGM_WORLD_BY_DISTANCE;
   if (options.sharp) world_desc.flags |= SGM_WORLD_SHARP;
   // A flight to compare with is not reported.

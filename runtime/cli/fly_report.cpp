@@ -70,6 +70,11 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
         {"disk_cache", r.stats.cache_bytes},
         {"handed_over_per_frame", {{"largest", r.peak_handed_over}, {"cap", flown.frame_bytes}}}}},
       {"cache", {{"hits", r.stats.cache_hits}, {"misses", r.stats.cache_misses}, {"damaged", r.stats.cache_damaged}}},
+      {"stores",
+       {{"hits", r.stats.store_hits},
+        {"misses", r.stats.store_misses},
+        {"damaged", r.stats.store_damaged},
+        {"bytes", r.stats.store_bytes}}},
       {"edits", r.stats.edits},
       {"backend", flown.backend.name},
       {"device", flown.backend.device},
@@ -150,6 +155,10 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
   if (!options.cache.empty()) {
     fmt::print("  cache     {} parts of chunks found, {} not ({} damaged), {:.1f} MB\n", r.stats.cache_hits,
                r.stats.cache_misses, r.stats.cache_damaged, megabytes(r.stats.cache_bytes));
+  }
+  if (!options.stores.empty()) {
+    fmt::print("  stores    {} parts of chunks found, {} not ({} damaged), {:.1f} MB read\n", r.stats.store_hits,
+               r.stats.store_misses, r.stats.store_damaged, megabytes(r.stats.store_bytes));
   }
   if (flown.backend.chunks > 0) {
     fmt::print("  device    {} meshed {} parts of chunks, the CPU {} in its stead; lost {} times\n",

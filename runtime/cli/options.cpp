@@ -9,6 +9,7 @@
 
 #include "api/parameter_values.h"
 #include "sgm/sgm.h"
+#include "stream/chunk_key.h"
 
 namespace sgm::cli {
 namespace {
@@ -55,6 +56,31 @@ std::optional<PictureSize> readSize(std::string_view text) {
   const auto fits = [](int pixels) { return pixels >= 1 && pixels <= kMaxPicture; };
   if (!fits(size.width) || !fits(size.height)) return std::nullopt;
   return size;
+}
+
+std::optional<std::pair<int, int>> readLevels(std::string_view text) {
+  std::pair<int, int> levels;
+  const char* end = text.data() + text.size();
+  const auto [middle, bad_first] = std::from_chars(text.data(), end, levels.first);
+  if (bad_first != std::errc()) return std::nullopt;
+  levels.second = levels.first;
+  if (middle != end) {
+    if (end - middle < 3 || middle[0] != '.' || middle[1] != '.') return std::nullopt;
+    const auto [rest, bad_last] = std::from_chars(middle + 2, end, levels.second);
+    if (bad_last != std::errc() || rest != end) return std::nullopt;
+  }
+  if (levels.first < 0 || levels.second > kMaxLevel || levels.first > levels.second) return std::nullopt;
+  return levels;
+}
+
+std::optional<std::pair<uint64_t, uint64_t>> readShard(std::string_view text) {
+  std::pair<uint64_t, uint64_t> shard;
+  const char* end = text.data() + text.size();
+  const auto [middle, bad_number] = std::from_chars(text.data(), end, shard.first);
+  if (bad_number != std::errc() || middle == end || *middle != '/') return std::nullopt;
+  const auto [rest, bad_count] = std::from_chars(middle + 1, end, shard.second);
+  if (bad_count != std::errc() || rest != end || shard.first >= shard.second) return std::nullopt;
+  return shard;
 }
 
 std::optional<Gaze> readCamera(std::string_view text) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/fixed.h"
@@ -43,6 +44,11 @@ std::optional<PictureSize> readSize(std::string_view text);
 using Gaze = std::array<std::array<double, 3>, 2>;
 /// "x,y,z:x,y,z"; nothing where the text is no such pair of points of the world.
 std::optional<Gaze> readCamera(std::string_view text);
+
+/// "0..4" or "2"; nothing where the text is no such range of levels, the finest first.
+std::optional<std::pair<int, int>> readLevels(std::string_view text);
+/// "3/16", counted from 0; nothing where the text is no such share.
+std::optional<std::pair<uint64_t, uint64_t>> readShard(std::string_view text);
 
 /// "x0,y0,z0:x1,y1,z1" in metres as a box of units, lo below hi on each axis. Error: invalid_argument.
 Result<IntBox> parseRegion(std::string_view text);

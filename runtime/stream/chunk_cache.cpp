@@ -16,6 +16,21 @@ std::optional<ChunkPart> fetch(DiskCache& cache, const ChunkPartInputs& inputs, 
   return found;
 }
 
+std::optional<ChunkPart> fetchBaked(BakedParts& baked, const DiskKey& world, const ChunkPartInputs& inputs, int part,
+                                    std::pmr::memory_resource* memory) {
+  const ChunkRequest& request = inputs.request();
+  const auto bytes = baked.get(world, request.key, part, memory);
+  if (!bytes) return std::nullopt;
+  std::optional<ChunkPart> found = decodeChunkPart(*bytes, part, inputs.asBaked(), memory);
+  if (!found) {
+    baked.reject(world, request.key, part);
+    return std::nullopt;
+  }
+  if (!request.anchors) found->anchors.clear();
+  if (!request.signs) found->voids.clear();
+  return found;
+}
+
 void leaveOut(int part, ChunkRequest& request) {
   if (part == 0) {
     request.body = request.signs = request.anchors = false;
@@ -80,12 +95,17 @@ void lookUp(const ChunkMesher& mesher, const EditSnapshot* edits, InWork& work) 
     return;
   }
   work.chunk.grid = *grid;
-  if (mesher.cache == nullptr || !mesher.backend.capabilities().exact) return;
+  if ((mesher.cache == nullptr && mesher.baked == nullptr) || !mesher.backend.capabilities().exact) return;
   work.inputs = ChunkPartInputs::of(mesher.world, work.request, edits);
-  for (int part = 0; work.inputs && part < kChunkParts; ++part) {
+  if (!work.inputs) return;
+  DiskKey world;
+  if (mesher.baked != nullptr) world = mesher.baked->worldOf(*bakedWorldInputs(mesher.world, work.request.sharp));
+  for (int part = 0; part < kChunkParts; ++part) {
     if (!asksFor(work.request, part)) continue;
     std::optional<ChunkPart>& of_part = work.found[static_cast<size_t>(part)];
-    of_part = fetch(*mesher.cache, *work.inputs, part, mesher.memory);
+    if (mesher.baked != nullptr && work.inputs->isAsBaked(part))
+      of_part = fetchBaked(*mesher.baked, world, *work.inputs, part, mesher.memory);
+    if (!of_part && mesher.cache != nullptr) of_part = fetch(*mesher.cache, *work.inputs, part, mesher.memory);
     if (of_part) leaveOut(part, work.rest);
   }
 }
@@ -121,7 +141,8 @@ void complete(const ChunkMesher& mesher, InWork& work) {
     if (work.rest.signs) work.voids = voidsOf(work.chunk.mesh);
     // A body from the cache was sampled, and a chunk that is drawn most likely.
     const bool sampled = work.request.body ? !work.chunk.mesh.uniform : work.before != nullptr;
-    if (work.inputs) keep(*mesher.cache, *work.inputs, work.rest, work.chunk, work.voids, sampled, mesher.memory);
+    if (work.inputs && mesher.cache != nullptr)
+      keep(*mesher.cache, *work.inputs, work.rest, work.chunk, work.voids, sampled, mesher.memory);
   }
   for (int part = 0; part < kChunkParts; ++part) {
     if (auto& of_part = work.found[static_cast<size_t>(part)]) place(std::move(*of_part), part, work.chunk, work.voids);

@@ -1,12 +1,13 @@
 #pragma once
-// One chunk of a world: from the disk cache what it has, meshed the rest, which is then kept (chunk_part.h): parts with
-// triangles, and those without where the chunk had to be sampled to know.
+// One chunk of a world: what was baked, else from the disk cache what it has, meshed the rest, which is then kept
+// (chunk_part.h): parts with triangles, and those without where the chunk had to be sampled to know.
 
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "mesh/void_components.h"
+#include "stream/baked_parts.h"
 #include "stream/chunk_surface.h"
 #include "stream/disk_cache.h"
 #include "stream/world_measures.h"
@@ -33,6 +34,7 @@ struct ChunkMesher {
   JobSystem& jobs;
   std::pmr::memory_resource* memory;   ///< of what it gives
   DiskCache* cache = nullptr;          ///< null: everything is meshed
+  BakedParts* baked = nullptr;         ///< null: nothing was
   bool resident = false;               ///< also has what it gives on the backend's device, as far as there is room
   bool sharp = false;                  ///< with sharp features
   MeasuringPool* measuring = nullptr;  ///< ChunkSurface::measures, of `before`, too; null: nothing is measured

@@ -71,6 +71,16 @@ bool asksFor(const ChunkRequest& request, int part) {
   return part == 0 ? request.body : (request.seams & seamBit(part)) != 0;
 }
 
+std::optional<std::vector<std::byte>> bakedWorldInputs(const WorldField& world, bool sharp) {
+  std::optional<std::vector<std::byte>> bytes = world.identity();
+  if (!bytes) return std::nullopt;
+  ByteWriter out(*bytes);
+  out.put(kMeshingVersion);
+  out.put(kChunkCodecVersion);
+  out.put(static_cast<uint8_t>(sharp));
+  return bytes;
+}
+
 std::optional<ChunkPartInputs> ChunkPartInputs::of(const WorldField& world, const ChunkRequest& request,
                                                    const EditSnapshot* edits) {
   std::optional<std::vector<std::byte>> identity = world.identity();
@@ -110,6 +120,12 @@ std::vector<std::byte> ChunkPartInputs::bytes(int part) const {
   putBrushes(brushes_, bytes);
   if (!body) putBrushes(coarser_, bytes);
   return bytes;
+}
+
+ChunkPartInputs ChunkPartInputs::asBaked() const {
+  ChunkPartInputs baked = *this;
+  baked.request_.anchors = baked.request_.signs = request_.key.level == 0;
+  return baked;
 }
 
 bool ChunkPartInputs::isOfBrush(uint16_t number, uint16_t Brush::*member) const {

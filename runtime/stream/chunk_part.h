@@ -26,6 +26,10 @@ inline constexpr int kChunkParts = 7;  ///< 0 is the body, 1 + Face a seam
 /// Whether the request asks for the part.
 bool asksFor(const ChunkRequest& request, int part);
 
+/// All that baked parts of a world depend on: equal where they are, for BakedParts::worldOf. None where the world has
+/// no identity.
+std::optional<std::vector<std::byte>> bakedWorldInputs(const WorldField& world, bool sharp);
+
 /// All that the parts of a request depend on. Immutable.
 class ChunkPartInputs {
  public:
@@ -35,6 +39,14 @@ class ChunkPartInputs {
 
   /// Equal where a part is: for DiskCache::keyOf.
   std::vector<std::byte> bytes(int part) const;
+
+  /// Whether the part is one of the world's own, as it is baked: no brush shows there, and a seam leads to the next
+  /// level's chunks.
+  bool isAsBaked(int part) const {
+    return brushes_.empty() && (part == 0 || (coarser_.empty() && !request_.outermost));
+  }
+  /// Those of a part that was baked, which has all that a streamed world may ask for.
+  ChunkPartInputs asBaked() const;
 
   const ChunkRequest& request() const { return request_; }
   const IntBox& box() const { return box_; }

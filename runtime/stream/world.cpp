@@ -74,7 +74,7 @@ uint64_t randomAuthor() {
 
 /// What is kept on disk is told from another field's by its identity.
 Result<void> checkHosts(const WorldField& field, const WorldSettings& settings) {
-  if (settings.journal.empty() && settings.cache.empty()) return {};
+  if (settings.journal.empty() && settings.cache.empty() && settings.baked == nullptr) return {};
   for (const HostField& host : field.settings().hosts) {
     if (host.identity != 0) continue;
     return Error{Code::invalid_argument,
@@ -405,6 +405,7 @@ const WorldSettings& World::settings() const { return core_->settings; }
 WorldStats World::stats() const {
   WorldStats stats;
   if (core_->cache != nullptr) stats.cache = core_->cache->stats();
+  if (core_->settings.baked != nullptr) stats.baked = core_->settings.baked->stats();
   const std::lock_guard lock(core_->mutex);
   stats.planner = core_->planner_stats;
   const WorldCore::Work work = core_->work();

@@ -17,6 +17,7 @@
 
 #include "backend/backend.h"
 #include "stream/collider.h"
+#include "stream/baked_parts.h"
 #include "stream/disk_cache.h"
 #include "stream/field_switch.h"
 #include "stream/planner.h"
@@ -60,6 +61,7 @@ struct WorldStats {
   uint64_t edits = 0, edits_drawn = 0;  ///< WorldState::number of now, and of what is drawn
   FieldSwitch::Turn fields;             ///< of setField()
   DiskCacheStats cache;
+  BakedStats baked;
   size_t surface_bytes = 0, peak_surface_bytes = 0;
   size_t collider_bytes = 0;
   bool idle = false;  ///< what the viewers want is drawn

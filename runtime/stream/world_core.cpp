@@ -411,8 +411,8 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, 
 
 MadeMeasures WorldCore::meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
                                   std::span<FinishedChunk> done) const {
-  const ChunkMesher mesher{*under.field, backend,           jobs,           memory_,
-                           cache.get(),  settings.resident, settings.sharp, measuring_.get()};
+  const ChunkMesher mesher{*under.field,         backend,           jobs,           memory_,         cache.get(),
+                           settings.baked.get(), settings.resident, settings.sharp, measuring_.get()};
   const Clock::time_point begun_at = Clock::now();
   MadeMeasures measured;
   const Error out_of_memory{Code::out_of_memory, kOutOfMemory};

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 
+#include "stream/baked_parts.h"
 #include "stream/edit_journal.h"
 #include "stream/edits.h"
 #include "stream/lod_target.h"
@@ -27,6 +29,7 @@ struct WorldSettings {
   std::filesystem::path journal;          ///< of the edits; empty: they are not kept
   std::filesystem::path cache;            ///< folder of meshed chunks that outlast the world; empty: none
   uint64_t cache_bytes = uint64_t{1} << 30;  ///< the most bytes of its files
+  std::shared_ptr<BakedParts> baked;         ///< chunks that were made before; null: none were
   /// Told of what costs work or detail and is no error, of scarce memory once until the world is at rest. Any thread;
   /// must not call back.
   std::function<void(const std::string&)> on_warning;

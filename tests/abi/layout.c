@@ -595,7 +595,7 @@ PLACE(sgm_surface_view, wedge_count, 176);
 PLACE(sgm_surface_view, wedge_stride, 184);
 PLACE(sgm_surface_view, reserved, 188);
 
-SIZE(sgm_world_desc, 88);
+SIZE(sgm_world_desc, 104);
 PLACE(sgm_world_desc, struct_size, 0);
 PLACE(sgm_world_desc, next, 8);
 PLACE(sgm_world_desc, top_level, 16);
@@ -608,6 +608,9 @@ PLACE(sgm_world_desc, journal, 56);
 PLACE(sgm_world_desc, cache_folder, 64);
 PLACE(sgm_world_desc, cache_bytes, 72);
 PLACE(sgm_world_desc, author, 80);
+PLACE(sgm_world_desc, stores, 88);
+PLACE(sgm_world_desc, store_count, 96);
+PLACE(sgm_world_desc, reserved, 100);
 
 SIZE(sgm_viewer, 56);
 PLACE(sgm_viewer, position, 0);
@@ -665,7 +668,7 @@ PLACE(sgm_drawn_chunk, mesh, 16);
 PLACE(sgm_drawn_chunk, seams, 24);
 PLACE(sgm_drawn_chunk, coarser, 28);
 
-SIZE(sgm_world_stats, 232);
+SIZE(sgm_world_stats, 264);
 PLACE(sgm_world_stats, struct_size, 0);
 PLACE(sgm_world_stats, next, 8);
 PLACE(sgm_world_stats, frame, 16);
@@ -696,6 +699,10 @@ PLACE(sgm_world_stats, cache_hits, 200);
 PLACE(sgm_world_stats, cache_misses, 208);
 PLACE(sgm_world_stats, cache_damaged, 216);
 PLACE(sgm_world_stats, cache_bytes, 224);
+PLACE(sgm_world_stats, store_hits, 232);
+PLACE(sgm_world_stats, store_misses, 240);
+PLACE(sgm_world_stats, store_damaged, 248);
+PLACE(sgm_world_stats, store_bytes, 256);
 
 SIZE(sgm_world_info, 896);
 PLACE(sgm_world_info, struct_size, 0);

@@ -1293,18 +1293,25 @@ typedef struct sgm_world_desc {
   uint64_t cache_bytes;     /* the most bytes of its files; 0: 1 GiB */
   uint64_t author; /* whose edits are made here: in worlds that exchange edits no two may have the same, nor may
                       a number be used again where edits may have been lost. 0: drawn at random */
+  const char* const* stores; /* UTF-8 paths of folders with worlds that were baked (sgm bake), looked into in their
+                                order before cache_folder; NULL where there are none. Chunks that a store has of this
+                                world (grammar, parameters, seed, cells, SGM_WORLD_SHARP, the library's meshing) are
+                                read instead of being derived, with the same bytes; edits lie on top. What it does not
+                                have, or is damaged there, is derived: the first time the log is told */
+  uint32_t store_count;
+  uint32_t reserved; /* 0 */
 } sgm_world_desc;
 
 #define SGM_WORLD_DESC_INIT \
-  { SGM_SIZEOF(sgm_world_desc), SGM_NULL, 8, 0, 24.0, 1000.0, 0, 0.0, SGM_NULL, SGM_NULL, 0, 0 }
+  { SGM_SIZEOF(sgm_world_desc), SGM_NULL, 8, 0, 24.0, 1000.0, 0, 0.0, SGM_NULL, SGM_NULL, 0, 0, SGM_NULL, 0, 0 }
 
 /* Reads the journal; what is wrong with it and could be mended is told to the log. SGM_ERR_LIMIT: mesh_bytes is too
  * small to stream with, or the distances take more chunks than can be planned for (the message says what would do); the
  * journal is in use, or too large. SGM_ERR_RANGE: the cells of top_level are larger than 2^22 units.
  * SGM_ERR_INVALID_ARGUMENT: top_level, or a distance that is not finite and above 0 (collider_distance: below 0); a
- * journal or a cache_folder with a host's field whose identity is 0.
+ * journal, a cache_folder or a store with a host's field whose identity is 0.
  * SGM_ERR_DATA: the journal is of another world (grammar, parameters, seed, cell, host's fields), or none: it stays as
- * it is.
+ * it is; a folder is no store, or one of another version.
  * SGM_ERR_IO: the journal or the folder can be neither read nor made. SGM_ERR_UNSUPPORTED: built without a disk cache;
  * SGM_WORLD_RESIDENT, and the field's backend is not on a lent device. */
 SGM_API sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_world** out, sgm_error* error);
@@ -1559,12 +1566,16 @@ typedef struct sgm_world_stats {
   uint64_t cache_misses;    /* parts that are proven to be empty among them: these are not kept */
   uint64_t cache_damaged;   /* of the misses, those where what was there could not be trusted */
   uint64_t cache_bytes;     /* of the folder's files, as far as they were looked at */
+  uint64_t store_hits;      /* parts of chunks that came from stores */
+  uint64_t store_misses;    /* parts that were looked for there, and are not */
+  uint64_t store_damaged;   /* of the misses, those where what was there could not be trusted */
+  uint64_t store_bytes;     /* read for the hits */
 } sgm_world_stats;
 
 #define SGM_WORLD_STATS_INIT                                                                                         \
   {                                                                                                                  \
     SGM_SIZEOF(sgm_world_stats), SGM_NULL, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, \
-        0, 0, 0, 0                                                                                                   \
+        0, 0, 0, 0, 0, 0, 0, 0                                                                                       \
   }
 
 SGM_API sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, sgm_error* error);

@@ -1,0 +1,175 @@
+#include "store/bake.h"
+
+#include <map>
+#include <optional>
+
+#include "base/bytes.h"
+#include "store/folder.h"
+#include "stream/mesh_chunks.h"
+#include "stream/reachability.h"
+
+namespace sgm::store {
+namespace {
+
+constexpr uint8_t kAllSeams = 0x3F;
+constexpr uint64_t kMostTileFile = uint64_t{1} << 28;
+constexpr uint32_t kTileMagic = 0x544D4753;  // "SGMT"
+constexpr uint32_t kTileVersion = 1;
+
+/// A part on its way into a file.
+struct Made {
+  ContentId id;
+  std::pmr::vector<std::byte> content;
+  std::optional<std::pmr::vector<std::byte>> frame;  ///< none where the content is to be inlined
+};
+
+struct MadeChunk {
+  std::array<Made, kChunkParts> parts;
+  measure::SurfaceSums measured;
+};
+
+Result<MadeChunk> makeChunk(const Bakery& bakery, const ChunkRequest& request, const PlacedChunk& chunk,
+                            MeasuringPool& measuring) {
+  MadeChunk made;
+  VoidComponents voids(bakery.memory);
+  if (request.signs) voids = voidsOf(chunk.mesh);
+  const MeshParts parts = partsOf(chunk.mesh);
+  const MeshPart none(bakery.memory);
+  for (int part = 0; part < kChunkParts; ++part) {
+    const MeshPart* mesh = parts[static_cast<size_t>(part)];
+    Made& own = made.parts[static_cast<size_t>(part)];
+    own.content = encodeChunkPart(part, mesh != nullptr ? *mesh : none, chunk.anchors, voids, bakery.memory);
+    own.id = idOf(own.content);
+    if (own.content.size() <= kMostInlined) continue;
+    Result<std::pmr::vector<std::byte>> frame = pack(own.content, bakery.memory);
+    if (!frame) return frame.error();
+    own.frame = std::move(*frame);
+  }
+  MadeMeasures measures;
+  measureParts(request, chunk, nullptr, measuring, measures);
+  made.measured = measures.sums;
+  return made;
+}
+
+}  // namespace
+
+Result<ContentId> worldKey(const WorldField& world, bool sharp) {
+  const std::optional<std::vector<std::byte>> bytes = bakedWorldInputs(world, sharp);
+  if (!bytes) return Error{Code::invalid_argument, "a world without an identity cannot be baked"};
+  return idOf(*bytes);
+}
+
+ContentId jobKey(const ContentId& world, const BakedRegion& region) {
+  std::vector<std::byte> bytes;
+  ByteWriter out(bytes);
+  out.put(world.high);
+  out.put(world.low);
+  for (const Int3 corner : {region.box.lo, region.box.hi}) {
+    for (int axis = 0; axis < 3; ++axis) out.put(corner[axis]);
+  }
+  out.put(int32_t{region.first_level});
+  out.put(int32_t{region.last_level});
+  return idOf(bytes);
+}
+
+std::vector<std::byte> encodeTileFile(const ContentId& job, const TileRecord& record) {
+  std::vector<std::byte> bytes;
+  ByteWriter out(bytes);
+  out.put(kTileMagic);
+  out.put(kTileVersion);
+  out.put(job.high);
+  out.put(job.low);
+  const std::vector<std::byte> encoded = encodeTile(record);
+  out.put(checksumOf(encoded));
+  bytes.insert(bytes.end(), encoded.begin(), encoded.end());
+  return bytes;
+}
+
+std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const std::byte> bytes) {
+  ByteReader in(bytes);
+  if (in.get<uint32_t>() != kTileMagic || in.get<uint32_t>() != kTileVersion) return std::nullopt;
+  ContentId of;
+  of.high = in.get<uint64_t>();
+  of.low = in.get<uint64_t>();
+  const auto checksum = in.get<uint64_t>();
+  if (in.failed() || of != job) return std::nullopt;
+  const std::span encoded = bytes.last(in.left());
+  if (checksumOf(encoded) != checksum) return std::nullopt;
+  return decodeTile(encoded);
+}
+
+std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile) {
+  const Result<ContentId> world = worldKey(bakery.world, bakery.sharp);
+  if (!world) return std::nullopt;
+  const Result<std::vector<std::byte>> bytes = readFile(tileFile(bakery.folder, tile), kMostTileFile);
+  if (!bytes) return std::nullopt;
+  std::optional<TileRecord> record = decodeTileFile(jobKey(*world, bakery.region), *bytes);
+  if (!record || record->key != tile) return std::nullopt;
+  std::error_code error;
+  const uint64_t there = std::filesystem::file_size(packFile(bakery.folder, tile), error);
+  if (!record->packs.empty() && (error || there != record->packs[0].bytes)) return std::nullopt;
+  return record;
+}
+
+Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Progress& progress) {
+  const Result<ContentId> world = worldKey(bakery.world, bakery.sharp);
+  if (!world) return world.error();
+  TileRecord record;
+  record.key = tile;
+  const std::vector<size_t> numbers = chunksIn(bakery.region, tile);
+  std::vector<ChunkRequest> requests;
+  for (const size_t number : numbers) {
+    ChunkRequest& request = requests.emplace_back();
+    request.key = chunkOf(tile, number);
+    request.seams = kAllSeams;
+    request.keys = false;
+    request.sharp = bakery.sharp;
+    request.anchors = request.signs = tile.level == 0;
+  }
+  Result<std::pmr::vector<PlacedChunk>> chunks =
+      meshChunks(bakery.world, bakery.backend, bakery.jobs, requests, progress);
+  if (!chunks) return chunks.error();
+
+  MeasuringPool measuring(bakery.memory);
+  std::vector<std::optional<Result<MadeChunk>>> made(numbers.size());
+  parallelFor(bakery.jobs, numbers.size(),
+              [&](size_t i) { made[i] = makeChunk(bakery, requests[i], (*chunks)[i], measuring); });
+
+  std::vector<std::byte> frames = packHead();
+  std::map<ContentId, uint16_t> known;
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    if (!*made[i]) return made[i]->error();
+    MadeChunk& chunk = **made[i];
+    record.measured.add(chunk.measured);
+    for (int part = 0; part < kChunkParts; ++part) {
+      const Made& own = chunk.parts[static_cast<size_t>(part)];
+      const auto [at, is_new] = known.try_emplace(own.id, static_cast<uint16_t>(record.contents.size() + 1));
+      record.part(numbers[i], part) = at->second;
+      record.plain_bytes += own.frame ? own.frame->size() : own.content.size();
+      if (!is_new) continue;
+      StoredContent content{own.id, static_cast<uint32_t>(own.content.size()), 0, kInlined, record.inlined.size()};
+      const std::span<const std::byte> stored = own.frame ? *own.frame : own.content;
+      content.stored = static_cast<uint32_t>(stored.size());
+      if (own.frame) {
+        content.pack = 0;
+        content.offset = frames.size();
+        frames.insert(frames.end(), stored.begin(), stored.end());
+      } else {
+        record.inlined.insert(record.inlined.end(), stored.begin(), stored.end());
+      }
+      record.contents.push_back(content);
+    }
+  }
+  record.chunks = static_cast<uint32_t>(numbers.size());
+  if (frames.size() > kPackHead) {
+    record.packs.push_back({idOf(frames), frames.size()});
+    if (Result<void> written = writeFile(packFile(bakery.folder, tile), frames, bakery.unfinished); !written)
+      return written.error();
+  }
+  const std::vector<std::byte> file = encodeTileFile(jobKey(*world, bakery.region), record);
+  if (Result<void> written = writeFile(tileFile(bakery.folder, tile), file, bakery.unfinished); !written)
+    return written.error();
+  return record;
+}
+
+}  // namespace sgm::store

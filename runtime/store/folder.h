@@ -1,0 +1,54 @@
+#pragma once
+// Where the files of a store lie.
+//
+//   STORE/format              "sgm store 1"
+//   STORE/worlds/KEY.sgmi     the index of a world (index.h), KEY.json: the same for people
+//   STORE/packs/3f/NAME.sgmp  contents (tile_record.h); named as its bytes are, and never changed
+//   STORE/baking/JOB/         what workers have made of a region so far: tiles L_X_Y_Z.tile with .pack, and the plan
+//
+// Everything appears whole or not at all (base/file_writer.h), and equal names mean equal bytes: any number of
+// processes may work in one store, readers included.
+
+#include <filesystem>
+
+#include "base/file_writer.h"
+#include "store/tile_record.h"
+
+namespace sgm::store {
+
+inline constexpr int kStoreVersion = 1;
+
+class Folder {
+ public:
+  explicit Folder(std::filesystem::path root) : root_(std::move(root)) {}
+
+  const std::filesystem::path& root() const { return root_; }
+  std::filesystem::path world(const ContentId& key) const { return root_ / "worlds" / (nameOf(key) + ".sgmi"); }
+  std::filesystem::path manifest(const ContentId& key) const { return root_ / "worlds" / (nameOf(key) + ".json"); }
+  std::filesystem::path pack(const ContentId& name) const;
+  std::filesystem::path baking(const ContentId& job) const { return root_ / "baking" / nameOf(job); }
+
+  /// Makes the store where there is none. io; bad_input: the folder holds something else, or a store of another
+  /// version.
+  Result<void> make() const;
+  /// io; bad_input: there is no store of this version.
+  Result<void> check() const;
+
+ private:
+  std::filesystem::path root_;
+};
+
+std::filesystem::path tileFile(const std::filesystem::path& baking, const TileKey& tile);
+std::filesystem::path packFile(const std::filesystem::path& baking, const TileKey& tile);
+
+/// io.
+Result<void> makeFolder(const std::filesystem::path& folder);
+/// The whole file. io; limit: it is larger than `most` bytes. Throws std::bad_alloc.
+Result<std::vector<std::byte>> readFile(const std::filesystem::path& file, uint64_t most);
+/// Some of its bytes. io, also where it ends before. Throws std::bad_alloc.
+Result<std::vector<std::byte>> readFile(const std::filesystem::path& file, uint64_t offset, size_t bytes);
+/// Whole or not at all. unfinished: as FileWriter::create takes it. io.
+Result<void> writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes,
+                       UnfinishedFiles* unfinished);
+
+}  // namespace sgm::store

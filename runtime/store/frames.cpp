@@ -1,0 +1,40 @@
+#include "store/frames.h"
+
+#include <zstd.h>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace sgm::store {
+namespace {
+
+// tests/bench/README.md has what other levels would take and save.
+constexpr int kZstdLevel = 9;
+
+}  // namespace
+
+Result<void> available() { return {}; }
+
+ContentId idOf(std::span<const std::byte> bytes) {
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  return {hash.high64, hash.low64};
+}
+
+uint64_t checksumOf(std::span<const std::byte> bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+
+Result<std::pmr::vector<std::byte>> pack(std::span<const std::byte> content, std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::byte> frame(ZSTD_compressBound(content.size()), memory);
+  const size_t bytes = ZSTD_compress(frame.data(), frame.size(), content.data(), content.size(), kZstdLevel);
+  if (ZSTD_isError(bytes)) return Error{Code::out_of_memory, "out of memory while packing a chunk"};
+  frame.resize(bytes);
+  return frame;
+}
+
+std::optional<std::pmr::vector<std::byte>> unpack(std::span<const std::byte> frame, size_t content_bytes,
+                                                  std::pmr::memory_resource* memory) {
+  std::pmr::vector<std::byte> content(content_bytes, memory);
+  // An error's code is larger than every size.
+  if (ZSTD_decompress(content.data(), content.size(), frame.data(), frame.size()) != content_bytes) return std::nullopt;
+  return content;
+}
+
+}  // namespace sgm::store

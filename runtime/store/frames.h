@@ -1,0 +1,38 @@
+#pragma once
+// Contents as the bytes of files, and what they are known by: all that needs zstd and xxHash.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+#include "stream/disk_cache.h"
+
+namespace sgm::store {
+
+/// 128 bits that stand for bytes.
+using ContentId = DiskKey;
+
+/// unsupported: this build has neither (SGM_DISK_CACHE=OFF); then nothing below may be called.
+Result<void> available();
+
+/// xxHash128.
+ContentId idOf(std::span<const std::byte> bytes);
+/// 64 bits that tell damage.
+uint64_t checksumOf(std::span<const std::byte> bytes);
+
+/// One zstd frame, for any number of readers to come: made once, it may take its time. The same bytes on every machine
+/// that has the same zstd. out_of_memory. Throws std::bad_alloc.
+Result<std::pmr::vector<std::byte>> pack(std::span<const std::byte> content, std::pmr::memory_resource* memory);
+/// The content; none unless the frame is whole and holds just so many bytes. For any bytes. Throws std::bad_alloc.
+std::optional<std::pmr::vector<std::byte>> unpack(std::span<const std::byte> frame, size_t content_bytes,
+                                                  std::pmr::memory_resource* memory);
+
+/// 32 hexadecimal digits.
+std::string nameOf(const ContentId& id);
+
+}  // namespace sgm::store

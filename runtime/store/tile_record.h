@@ -1,0 +1,57 @@
+#pragma once
+// What a store knows of a tile: where each part of its chunks lies, and what was measured.
+
+#include "measure/chunk_measures.h"
+#include "store/frames.h"
+#include "store/tile.h"
+#include "stream/chunk_part.h"
+
+namespace sgm::store {
+
+/// Contents without triangles, and others as small, lie within the record as they are: they are a few, are the same for
+/// most chunks, and nobody should have to read a file for each.
+inline constexpr uint32_t kInlined = 0xFFFFFFFF;
+inline constexpr size_t kMostInlined = 256;  ///< bytes
+
+/// A part as encodeChunkPart makes it.
+struct StoredContent {
+  ContentId id;         ///< idOf the content
+  uint32_t bytes = 0;   ///< of the content
+  uint32_t stored = 0;  ///< of its frame
+  uint32_t pack = 0;    ///< the file's number among TileRecord::packs, or kInlined
+  uint64_t offset = 0;  ///< in that file, or in TileRecord::inlined
+  friend bool operator==(const StoredContent&, const StoredContent&) = default;
+};
+
+/// A file of frames, one behind the other behind its head; named as its bytes are.
+struct PackFile {
+  ContentId name;
+  uint64_t bytes = 0;
+  friend bool operator==(const PackFile&, const PackFile&) = default;
+};
+
+/// Behind "SGMP" and the version, 4 bytes each.
+inline constexpr uint64_t kPackHead = 8;
+inline constexpr uint32_t kPackVersion = 1;
+std::vector<std::byte> packHead();
+
+struct TileRecord {
+  TileKey key;
+  std::vector<PackFile> packs;
+  std::vector<StoredContent> contents;  ///< each once, in the order in which chunks and their parts first have them
+  std::vector<std::byte> inlined;
+  /// By chunk and part: 0 where it was not baked, else one more than the content's number.
+  std::vector<uint16_t> parts = std::vector<uint16_t>(kTileChunks * kChunkParts);
+  measure::SurfaceSums measured;
+  uint32_t chunks = 0;       ///< that were baked
+  uint64_t plain_bytes = 0;  ///< of all parts, as if each were stored by itself
+
+  const uint16_t& part(size_t chunk, int part) const { return parts[chunk * kChunkParts + static_cast<size_t>(part)]; }
+  uint16_t& part(size_t chunk, int part) { return parts[chunk * kChunkParts + static_cast<size_t>(part)]; }
+};
+
+std::vector<std::byte> encodeTile(const TileRecord& record);
+/// For any bytes: none where they are not what encodeTile gives, or a number in them leads nowhere.
+std::optional<TileRecord> decodeTile(std::span<const std::byte> bytes);
+
+}  // namespace sgm::store

@@ -1,0 +1,39 @@
+#pragma once
+// Parts of chunks that were made ahead of time, wherever they are kept (store/).
+
+#include <optional>
+
+#include "stream/chunk_key.h"
+#include "stream/disk_cache.h"
+
+namespace sgm {
+
+/// Of this process, since the source was opened.
+struct BakedStats {
+  uint64_t hits = 0, misses = 0;  ///< one or the other for every get
+  uint64_t damaged = 0;           ///< misses where something was there that could not be trusted
+  uint64_t errors = 0;            ///< of the file system
+  uint64_t bytes = 0;             ///< read for hits, as they are stored
+};
+
+/// Read only. Thread-safe.
+class BakedParts {
+ public:
+  virtual ~BakedParts() = default;
+
+  /// Which world these bytes stand for (bakedWorldInputs of chunk_part.h).
+  virtual DiskKey worldOf(std::span<const std::byte> inputs) const = 0;
+
+  /// As encodeChunkPart made it of that world without edits, in `memory`: a body of level 0 with its anchors and voids,
+  /// a seam as one to the next level. None where it is not there, or cannot be read, or trusted. Takes as long as the
+  /// disk does. Throws std::bad_alloc.
+  virtual std::optional<std::pmr::vector<std::byte>> get(const DiskKey& world, const ChunkKey& chunk, int part,
+                                                         std::pmr::memory_resource* memory) = 0;
+
+  /// What get gave is none: counts a damaged miss instead of the hit, and is not given again.
+  virtual void reject(const DiskKey& world, const ChunkKey& chunk, int part) = 0;
+
+  virtual BakedStats stats() const = 0;
+};
+
+}  // namespace sgm
