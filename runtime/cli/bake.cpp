@@ -12,6 +12,7 @@
 #include "sgm/sgm.h"
 #include "store/merge.h"
 #include "store/plan.h"
+#include "store/verify.h"
 #include "store/world_file.h"
 #include "stream/chunk_codec.h"
 
@@ -100,6 +101,16 @@ void print(const BakeOptions& options, const Report& report, const std::string& 
              m.measured.sound() ? "no defect" : "with defects: see the manifest");
 }
 
+/// Whether just this is in the store already, whole as far as sizes tell.
+bool isThere(const store::Folder& folder, const store::ContentId& key, const store::BakedRegion& region) {
+  std::error_code error;
+  if (!fs::exists(folder.manifest(key), error)) return false;
+  const Result<store::WorldFile> world = store::WorldFile::open(folder.world(key));
+  if (!world || store::jobKey(key, world->index.region) != store::jobKey(key, region)) return false;
+  const Result<bool> packs = store::hasPacks(folder, *world);
+  return packs && *packs;
+}
+
 /// Bakes the tiles; those that are done already count as done.
 Result<Report> bakeTiles(const store::Bakery& bakery, const std::vector<store::TileKey>& tiles,
                          const std::vector<uint64_t>& costs, size_t first, size_t last) {
@@ -157,13 +168,9 @@ Exit bake(const BakeOptions& options) {
     print(options, report, store::nameOf(*key));
     return Exit::done;
   };
-  std::error_code error;
-  if (fs::exists(folder.world(*key), error) && fs::exists(folder.manifest(*key), error)) {
-    const Result<store::WorldFile> there = store::WorldFile::open(folder.world(*key));
-    if (there && store::jobKey(*key, there->index.region) == store::jobKey(*key, region)) {
-      report.there_before = true;
-      return finish();
-    }
+  if (isThere(folder, *key, region)) {
+    report.there_before = true;
+    return finish();
   }
   const store::Bakery bakery{world,
                              **backend,

@@ -53,6 +53,31 @@ struct BakeOptions : WorldOptions {
 };
 Exit bake(const BakeOptions& options);
 
+struct StoreOptions {
+  std::string store;
+  std::string world;  ///< the beginning of one's name; empty: all
+  bool json = false;
+};
+Exit storeInfo(const StoreOptions& options);
+Exit storeClean(const StoreOptions& options);
+
+/// WorldOptions: with a file, chunks of that world are baked again.
+struct StoreVerifyOptions : WorldOptions {
+  std::string store;
+  std::string world;
+  uint64_t samples = 100;
+  uint64_t draw = 1;  ///< seed of what is drawn
+};
+Exit storeVerify(const StoreVerifyOptions& options);
+
+struct StoreDiffOptions {
+  std::string store, other;
+  std::string from, to;  ///< worlds of theirs, by the beginning of their names; empty: the only ones
+  bool list = false;
+  bool json = false;
+};
+Exit storeDiff(const StoreDiffOptions& options);
+
 struct MeasureOptions : WorldOptions {
   double weld = 0;  ///< metres
   uint32_t bins = 33;
@@ -138,8 +163,8 @@ struct FlyOptions : WorldOptions {
   uint64_t pictures = 0;
   std::string out = "flight.png";
   bool levels = false;
-  std::string video;           ///< an .mp4 file; empty: none
-  std::string journal, cache;  ///< a file and a folder of the world's; empty: none
+  std::string video;                ///< an .mp4 file; empty: none
+  std::string journal, cache;       ///< a file and a folder of the world's; empty: none
   std::vector<std::string> stores;  ///< folders of baked worlds
   bool serve = false, keep_serving = false;
   ServingOptions serving;  ///< where `serve` is set

@@ -51,6 +51,16 @@ Result<MadeChunk> makeChunk(const Bakery& bakery, const ChunkRequest& request, c
   return made;
 }
 
+ChunkRequest requestOf(const Bakery& bakery, const ChunkKey& chunk) {
+  ChunkRequest request;
+  request.key = chunk;
+  request.seams = kAllSeams;
+  request.keys = false;
+  request.sharp = bakery.sharp;
+  request.anchors = request.signs = chunk.level == 0;
+  return request;
+}
+
 }  // namespace
 
 Result<ContentId> worldKey(const WorldField& world, bool sharp) {
@@ -70,6 +80,19 @@ ContentId jobKey(const ContentId& world, const BakedRegion& region) {
   out.put(int32_t{region.first_level});
   out.put(int32_t{region.last_level});
   return idOf(bytes);
+}
+
+Result<std::array<ContentId, kChunkParts>> idsOf(const Bakery& bakery, const ChunkKey& chunk) {
+  const ChunkRequest request = requestOf(bakery, chunk);
+  const Result<std::pmr::vector<PlacedChunk>> meshed =
+      meshChunks(bakery.world, bakery.backend, bakery.jobs, {&request, 1});
+  if (!meshed) return meshed.error();
+  MeasuringPool measuring(bakery.memory);
+  const Result<MadeChunk> made = makeChunk(bakery, request, meshed->front(), measuring);
+  if (!made) return made.error();
+  std::array<ContentId, kChunkParts> ids;
+  for (size_t part = 0; part < ids.size(); ++part) ids[part] = made->parts[part].id;
+  return ids;
 }
 
 std::vector<std::byte> encodeTileFile(const ContentId& job, const TileRecord& record) {
@@ -118,14 +141,7 @@ Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Pro
   record.key = tile;
   const std::vector<size_t> numbers = chunksIn(bakery.region, tile);
   std::vector<ChunkRequest> requests;
-  for (const size_t number : numbers) {
-    ChunkRequest& request = requests.emplace_back();
-    request.key = chunkOf(tile, number);
-    request.seams = kAllSeams;
-    request.keys = false;
-    request.sharp = bakery.sharp;
-    request.anchors = request.signs = tile.level == 0;
-  }
+  for (const size_t number : numbers) requests.push_back(requestOf(bakery, chunkOf(tile, number)));
   Result<std::pmr::vector<PlacedChunk>> chunks =
       meshChunks(bakery.world, bakery.backend, bakery.jobs, requests, progress);
   if (!chunks) return chunks.error();

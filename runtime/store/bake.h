@@ -1,6 +1,7 @@
 #pragma once
 // Makes the tiles of a store, each by itself.
 
+#include <array>
 #include <filesystem>
 
 #include "base/file_writer.h"
@@ -34,6 +35,9 @@ std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile);
 /// is there, the tile is done. Level 0 has anchors and voids, as a streamed world asks for them. A pure function of
 /// world, region and tile. Errors: those of meshing; io. Throws std::bad_alloc.
 Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Progress& progress = {});
+
+/// What the parts of a chunk come to, made anew: the ids of their contents. Errors: those of meshing.
+Result<std::array<ContentId, kChunkParts>> idsOf(const Bakery& bakery, const ChunkKey& chunk);
 
 /// A tile's file: the record, and what tells whether it is whole.
 std::vector<std::byte> encodeTileFile(const ContentId& job, const TileRecord& record);

@@ -1,6 +1,7 @@
 #include "store/folder.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -82,6 +83,21 @@ Result<void> Folder::check() const {
                                       text.substr(0, text.find('\n')) + "', and this is " + formatText().substr(4, 7) +
                                       "): bake it anew into another folder"};
   return {};
+}
+
+Result<StoreLock> StoreLock::take(const Folder& store) {
+  const fs::path path = store.root() / "format";
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return ioError(path, errno);
+  StoreLock lock(file);
+  if (::flock(file, LOCK_EX | LOCK_NB) == 0) return lock;
+  if (errno != EWOULDBLOCK) return ioError(path, errno);
+  return Error{Code::busy, "another process merges into '" + store.root().string() +
+                               "', or cleans it: try again when it has ended"};
+}
+
+StoreLock::~StoreLock() {
+  if (file_ >= 0) ::close(file_);
 }
 
 fs::path tileFile(const fs::path& baking, const TileKey& tile) { return baking / (placeName(tile) + ".tile"); }

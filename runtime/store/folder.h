@@ -10,6 +10,7 @@
 // processes may work in one store, readers included.
 
 #include <filesystem>
+#include <utility>
 
 #include "base/file_writer.h"
 #include "store/tile_record.h"
@@ -36,6 +37,20 @@ class Folder {
 
  private:
   std::filesystem::path root_;
+};
+
+/// Who changes what a store has, one at a time; readers and workers need none.
+class StoreLock {
+ public:
+  /// busy: another process has it. io.
+  static Result<StoreLock> take(const Folder& store);
+  StoreLock(StoreLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+  StoreLock& operator=(StoreLock&&) = delete;
+  ~StoreLock();
+
+ private:
+  explicit StoreLock(int file) : file_(file) {}
+  int file_;
 };
 
 std::filesystem::path tileFile(const std::filesystem::path& baking, const TileKey& tile);

@@ -29,18 +29,12 @@ class Merger {
 
   /// What the store's other worlds have, in the order of their names.
   Result<void> learn() {
-    std::vector<fs::path> worlds;
-    std::error_code error;
-    for (const fs::directory_entry& entry : fs::directory_iterator(store_.root() / "worlds", error)) {
-      if (entry.path().extension() == ".sgmi" && entry.path() != store_.world(world_)) worlds.push_back(entry.path());
-    }
-    if (error) return Error{Code::io, "'" + (store_.root() / "worlds").string() + "': " + error.message()};
-    std::sort(worlds.begin(), worlds.end());
-    for (const fs::path& path : worlds) {
-      const Result<WorldFile> file = WorldFile::open(path);
-      if (!file) return file.error();
-      for (const TileEntry& tile : file->index.tiles) {
-        const Result<TileRecord> record = file->record(tile, bakery_.memory);
+    const Result<std::vector<WorldFile>> worlds = WorldFile::all(store_);
+    if (!worlds) return worlds.error();
+    for (const WorldFile& file : *worlds) {
+      if (file.index.world == world_) continue;
+      for (const TileEntry& tile : file.index.tiles) {
+        const Result<TileRecord> record = file.record(tile, bakery_.memory);
         if (!record) return record.error();
         for (const StoredContent& content : record->contents) {
           if (content.pack == kInlined) continue;
@@ -167,6 +161,8 @@ Result<Merged> merge(const Folder& store, const Bakery& bakery, const Progress& 
   for (const char* folder : {"worlds", "packs"}) {
     if (Result<void> made = makeFolder(store.root() / folder); !made) return made.error();
   }
+  const Result<StoreLock> lock = StoreLock::take(store);
+  if (!lock) return lock.error();
   Merger merger(store, bakery, *world);
   if (Result<void> learnt = merger.learn(); !learnt) return learnt.error();
   const fs::path file = store.world(*world);

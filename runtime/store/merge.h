@@ -20,8 +20,8 @@ struct Merged {
 /// where another world of the store has it. Then writes the index, which is when the world is there, and removes the
 /// job's folder. Pure but for that: the same tiles and the same store give the same bytes. May be stopped at any time
 /// and begun again.
-/// invalid_argument: tiles are missing, and how many. bad_input: a tile or another world's index is damaged. io.
-/// Throws std::bad_alloc.
+/// busy: as StoreLock. invalid_argument: tiles are missing, and how many. bad_input: a tile or another world's index is
+/// damaged. io. Throws std::bad_alloc.
 Result<Merged> merge(const Folder& store, const Bakery& bakery, const Progress& progress = {});
 
 }  // namespace sgm::store

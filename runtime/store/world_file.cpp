@@ -1,8 +1,7 @@
 #include "store/world_file.h"
 
+#include <algorithm>
 #include <system_error>
-
-#include "store/folder.h"
 
 namespace sgm::store {
 namespace {
@@ -25,6 +24,25 @@ Result<WorldFile> WorldFile::open(const std::filesystem::path& path) {
   Result<WorldIndex> index = readIndex(readerOf(path), bytes);
   if (!index) return in(path, index.error());
   return WorldFile{path, std::move(*index)};
+}
+
+Result<std::vector<WorldFile>> WorldFile::all(const Folder& store) {
+  const std::filesystem::path folder = store.root() / "worlds";
+  std::vector<std::filesystem::path> paths;
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error)) return std::vector<WorldFile>();
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".sgmi") paths.push_back(entry.path());
+  }
+  if (error) return Error{Code::io, "'" + folder.string() + "': " + error.message()};
+  std::sort(paths.begin(), paths.end());
+  std::vector<WorldFile> worlds;
+  for (const std::filesystem::path& path : paths) {
+    Result<WorldFile> world = open(path);
+    if (!world) return world.error();
+    worlds.push_back(std::move(*world));
+  }
+  return worlds;
 }
 
 Result<TileRecord> WorldFile::record(const TileEntry& tile, std::pmr::memory_resource* memory) const {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "store/folder.h"
 #include "store/index.h"
 
 namespace sgm::store {
@@ -13,6 +14,8 @@ struct WorldFile {
 
   /// Errors: those of readIndex, with the file's name.
   static Result<WorldFile> open(const std::filesystem::path& path);
+  /// Of all worlds of a store, by name. Errors: io, and those of open.
+  static Result<std::vector<WorldFile>> all(const Folder& store);
   /// Errors: likewise. Throws std::bad_alloc.
   Result<TileRecord> record(const TileEntry& tile, std::pmr::memory_resource* memory) const;
 };

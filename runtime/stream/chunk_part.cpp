@@ -122,6 +122,12 @@ std::vector<std::byte> ChunkPartInputs::bytes(int part) const {
   return bytes;
 }
 
+bool ChunkPartInputs::isAsBaked(int part) const {
+  if (!brushes_.empty()) return false;
+  if (part != 0) return coarser_.empty() && !request_.outermost;
+  return request_.key.level == 0 || (!request_.anchors && !request_.signs);
+}
+
 ChunkPartInputs ChunkPartInputs::asBaked() const {
   ChunkPartInputs baked = *this;
   baked.request_.anchors = baked.request_.signs = request_.key.level == 0;

@@ -40,11 +40,9 @@ class ChunkPartInputs {
   /// Equal where a part is: for DiskCache::keyOf.
   std::vector<std::byte> bytes(int part) const;
 
-  /// Whether the part is one of the world's own, as it is baked: no brush shows there, and a seam leads to the next
-  /// level's chunks.
-  bool isAsBaked(int part) const {
-    return brushes_.empty() && (part == 0 || (coarser_.empty() && !request_.outermost));
-  }
+  /// Whether a baked part may have all that is asked for: no brush shows there, a seam leads to the next level's chunks,
+  /// and of coarser bodies nobody wants anchors or voids.
+  bool isAsBaked(int part) const;
   /// Those of a part that was baked, which has all that a streamed world may ask for.
   ChunkPartInputs asBaked() const;
 

@@ -685,6 +685,13 @@ TEST_CASE("world calls are checked") {
   CHECK(with([](auto& d) { d.view_distance = 1e7; }) == SGM_ERR_LIMIT);
   CHECK(with([](auto& d) { d.journal = "/no/such/folder/journal"; }) == SGM_ERR_IO);
   CHECK(with([](auto& d) { d.cache_folder = "/dev/null/folder"; }) != SGM_OK);
+  CHECK(with([](auto& d) { d.store_count = 1; }) == SGM_ERR_INVALID_ARGUMENT);
+  CHECK(with([](auto& d) { d.reserved = 1; }) == SGM_ERR_INVALID_ARGUMENT);
+  const char* const no_stores[] = {nullptr};
+  CHECK(with([&](auto& d) { d.stores = no_stores, d.store_count = 1; }) == SGM_ERR_INVALID_ARGUMENT);
+  const char* const stores[] = {"/no/such/store"};
+  CHECK(with([&](auto& d) { d.stores = stores, d.store_count = 1; }) ==
+        (SGM_TEST_DISK_CACHE ? SGM_ERR_DATA : SGM_ERR_UNSUPPORTED));
   const std::vector<sgm_viewer> crowd(1025, sgm_viewer SGM_VIEWER_INIT);
   CHECK(sgm_world_set_viewers(world, crowd.data(), 0, crowd.size(), &error) == SGM_ERR_LIMIT);
   sgm_brush brush = SGM_BRUSH_INIT;

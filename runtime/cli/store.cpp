@@ -1,0 +1,240 @@
+// sgm store: what a store of baked worlds has, whether it is whole, how two bakes differ, and what nobody needs.
+
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <set>
+
+#include "cli/commands.h"
+#include "cli/json.h"
+#include "cli/region.h"
+#include "store/verify.h"
+
+namespace sgm::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string chunkName(const ChunkKey& chunk) {
+  return fmt::format("{} {} {} {}", chunk.level, chunk.at.x, chunk.at.y, chunk.at.z);
+}
+
+double megabytes(uint64_t bytes) { return static_cast<double>(bytes) / 1e6; }
+
+/// All worlds of a store, or that of one name.
+Result<std::vector<store::WorldFile>> worldsOf(const store::Folder& folder, const std::string& name) {
+  if (Result<void> can = store::available(); !can) return can.error();
+  if (Result<void> good = folder.check(); !good) return good.error();
+  Result<std::vector<store::WorldFile>> worlds = store::WorldFile::all(folder);
+  if (!worlds || name.empty()) return worlds;
+  std::erase_if(*worlds,
+                [&](const store::WorldFile& world) { return store::nameOf(world.index.world).rfind(name, 0) != 0; });
+  if (worlds->size() == 1) return worlds;
+  return Error{Code::invalid_argument,
+               fmt::format("'{}' has {} worlds whose name begins with {}: sgm store info lists them",
+                           folder.root().string(), worlds->size(), name)};
+}
+
+/// The one that is meant.
+Result<store::WorldFile> worldOf(const store::Folder& folder, const std::string& name) {
+  Result<std::vector<store::WorldFile>> worlds = worldsOf(folder, name);
+  if (!worlds) return worlds.error();
+  if (worlds->size() == 1) return std::move(worlds->front());
+  return Error{Code::invalid_argument,
+               fmt::format("'{}' has {} worlds: say which with --from or --to (sgm store info lists them)",
+                           folder.root().string(), worlds->size())};
+}
+
+struct WorldSummary {
+  uint64_t chunks = 0, triangles = 0, contents = 0, bytes = 0;
+  std::set<store::ContentId> packs;
+};
+
+Result<WorldSummary> summaryOf(const store::WorldFile& world) {
+  WorldSummary summary;
+  for (const store::TileEntry& tile : world.index.tiles) {
+    const Result<store::TileRecord> record = world.record(tile, std::pmr::new_delete_resource());
+    if (!record) return record.error();
+    summary.chunks += record->chunks;
+    summary.triangles += record->measured.triangles;
+    for (const store::PackFile& pack : record->packs) {
+      if (summary.packs.insert(pack.name).second) summary.bytes += pack.bytes;
+    }
+  }
+  return summary;
+}
+
+Json boxJson(const IntBox& box) { return {metresJson(box.lo), metresJson(box.hi)}; }
+
+}  // namespace
+
+Exit storeInfo(const StoreOptions& options) {
+  const store::Folder folder(options.store);
+  const Result<std::vector<store::WorldFile>> worlds = worldsOf(folder, options.world);
+  if (!worlds) return complain(worlds.error());
+  Json all = Json::array();
+  for (const store::WorldFile& world : *worlds) {
+    const Result<WorldSummary> summary = summaryOf(world);
+    if (!summary) return complain(summary.error());
+    const store::BakedRegion& region = world.index.region;
+    const std::string name = store::nameOf(world.index.world);
+    all.push_back({{"world", name},
+                   {"manifest", folder.manifest(world.index.world).string()},
+                   {"region", boxJson(region.box)},
+                   {"levels", {region.first_level, region.last_level}},
+                   {"cell_units", region.finest_cell},
+                   {"tiles", world.index.tiles.size()},
+                   {"chunks", summary->chunks},
+                   {"triangles", summary->triangles},
+                   {"packs", summary->packs.size()},
+                   {"pack_bytes", summary->bytes}});
+    if (options.json) continue;
+    fmt::print(
+        "{}\n  region   {},{},{} to {},{},{} m, levels {} to {}, cells of {} m\n  chunks   {} in {} tiles, {} "
+        "triangles\n"
+        "  files    {} packs, {:.1f} MB\n",
+        name, metres(region.box.lo.x), metres(region.box.lo.y), metres(region.box.lo.z), metres(region.box.hi.x),
+        metres(region.box.hi.y), metres(region.box.hi.z), region.first_level, region.last_level,
+        metres(region.finest_cell), summary->chunks, world.index.tiles.size(), summary->triangles,
+        summary->packs.size(), megabytes(summary->bytes));
+  }
+  if (options.json) fmt::print("{}\n", Json{{"worlds", all}}.text());
+  if (!options.json && worlds->empty()) fmt::print("'{}' has no worlds yet\n", options.store);
+  return Exit::done;
+}
+
+Exit storeVerify(const StoreVerifyOptions& options) {
+  const store::Folder folder(options.store);
+  if (!options.file.empty()) {
+    const OpenedWorld opened = openWorld(options);
+    if (opened.program == nullptr) return opened.status;
+    const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
+    if (!jobs) return complain(jobs.error());
+    const Result<std::unique_ptr<Backend>> backend = backendOf(options, **jobs);
+    if (!backend) return complain(backend.error());
+    const WorldField world(opened.settings, std::pmr::new_delete_resource());
+    const Result<store::ContentId> key = store::worldKey(world, options.sharp);
+    if (!key) return complain(key.error());
+    const Result<store::WorldFile> file = worldOf(folder, store::nameOf(*key));
+    if (!file) return complain(file.error());
+    const store::Bakery bakery{world,         **backend, **jobs,  file->index.region,
+                               options.sharp, {},        nullptr, std::pmr::new_delete_resource()};
+    const Result<store::Problems> differ = store::compareWithBaking(bakery, *file, options.samples, options.draw);
+    if (!differ) return complain(differ.error());
+    for (const std::string& problem : differ->told) fmt::print(stderr, "sgm: error: {}\n", problem);
+    fmt::print("{}: {} chunks baked again, {} parts differ\n", options.store, options.samples, differ->count);
+    return differ->count == 0 ? Exit::done : Exit::input;
+  }
+  const Result<std::vector<store::WorldFile>> worlds = worldsOf(folder, options.world);
+  if (!worlds) return complain(worlds.error());
+  uint64_t problems = 0;
+  Json all = Json::array();
+  for (const store::WorldFile& world : *worlds) {
+    const store::Verified found = [&] {
+      ProgressBar bar("verifying");
+      return store::verify(folder, world, [&](uint64_t done, uint64_t total) {
+        bar.show(done, total);
+        return true;
+      });
+    }();
+    problems += found.problems.count;
+    for (const std::string& problem : found.problems.told) fmt::print(stderr, "sgm: error: {}\n", problem);
+    if (found.problems.count > found.problems.told.size())
+      fmt::print(stderr, "sgm: error: and {} more\n", found.problems.count - found.problems.told.size());
+    all.push_back({{"world", store::nameOf(world.index.world)},
+                   {"tiles", found.tiles},
+                   {"chunks", found.chunks},
+                   {"contents", found.contents},
+                   {"packs", found.packs},
+                   {"bytes", found.bytes},
+                   {"faces", found.faces},
+                   {"problems", found.problems.count}});
+    if (!options.json) {
+      fmt::print("{}: {} chunks in {} tiles, {} contents in {} packs ({:.1f} MB), {} faces between chunks: {}\n",
+                 store::nameOf(world.index.world), found.chunks, found.tiles, found.contents, found.packs,
+                 megabytes(found.bytes), found.faces,
+                 found.problems.count == 0 ? "whole and closed" : fmt::format("{} problems", found.problems.count));
+    }
+  }
+  if (options.json) fmt::print("{}\n", Json{{"worlds", all}}.text());
+  return problems == 0 ? Exit::done : Exit::input;
+}
+
+Exit storeDiff(const StoreDiffOptions& options) {
+  const store::Folder from(options.store), to(options.other);
+  const Result<store::WorldFile> before = worldOf(from, options.from), after = worldOf(to, options.to);
+  if (!before) return complain(before.error());
+  if (!after) return complain(after.error());
+  std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
+  std::set<store::ContentId> had;
+  for (const store::TileEntry& tile : before->index.tiles) {
+    const Result<store::TileRecord> record = before->record(tile, memory);
+    if (!record) return complain(record.error());
+    for (const store::StoredContent& content : record->contents) had.insert(content.id);
+  }
+  uint64_t changed = 0, added = 0, removed = 0, bytes = 0;
+  Json chunks = Json::array();
+  const auto tell = [&](const ChunkKey& chunk, const char* how) {
+    if (options.json) {
+      chunks.push_back({{"level", chunk.level}, {"at", {chunk.at.x, chunk.at.y, chunk.at.z}}, {"how", how}});
+    } else if (options.list) {
+      fmt::print("{} {}\n", how, chunkName(chunk));
+    }
+  };
+  std::set<store::TileKey> tiles;
+  for (const store::WorldFile* world : {&*before, &*after}) {
+    for (const store::TileEntry& tile : world->index.tiles) tiles.insert(tile.key);
+  }
+  for (const store::TileKey& tile : tiles) {
+    const auto recordOf = [&](const store::WorldFile& world) -> Result<store::TileRecord> {
+      const store::TileEntry* entry = world.index.find(tile);
+      if (entry == nullptr) return store::TileRecord{};
+      return world.record(*entry, memory);
+    };
+    const Result<store::TileRecord> old = recordOf(*before), now = recordOf(*after);
+    if (!old) return complain(old.error());
+    if (!now) return complain(now.error());
+    for (const store::StoredContent& content : now->contents) {
+      if (had.insert(content.id).second) bytes += content.stored;
+    }
+    for (size_t chunk = 0; chunk < store::kTileChunks; ++chunk) {
+      const bool was = old->part(chunk, 0) != 0, is = now->part(chunk, 0) != 0;
+      bool differs = false;
+      for (int part = 0; was && is && part < kChunkParts; ++part)
+        differs |= old->contents[old->part(chunk, part) - 1u].id != now->contents[now->part(chunk, part) - 1u].id;
+      changed += differs;
+      added += is && !was;
+      removed += was && !is;
+      if (differs || was != is) tell(store::chunkOf(tile, chunk), differs ? "changed" : is ? "added" : "removed");
+    }
+  }
+  if (options.json) {
+    fmt::print("{}\n",
+               Json{{"changed", changed}, {"added", added}, {"removed", removed}, {"bytes", bytes}, {"chunks", chunks}}
+                   .text());
+  } else {
+    fmt::print("{} chunks changed, {} added, {} removed; {:.2f} MB of contents are new\n", changed, added, removed,
+               megabytes(bytes));
+  }
+  return Exit::done;
+}
+
+Exit storeClean(const StoreOptions& options) {
+  const store::Folder folder(options.store);
+  if (const Result<void> can = store::available(); !can) return complain(can.error());
+  if (const Result<void> good = folder.check(); !good) return complain(good.error());
+  const Result<store::Cleaned> cleaned = store::clean(folder, std::pmr::new_delete_resource());
+  if (!cleaned) return complain(cleaned.error());
+  if (options.json) {
+    fmt::print("{}\n",
+               Json{{"packs", cleaned->packs}, {"bytes", cleaned->bytes}, {"unfinished", cleaned->unfinished}}.text());
+    return Exit::done;
+  }
+  fmt::print("{} packs removed, {:.1f} MB\n", cleaned->packs, megabytes(cleaned->bytes));
+  if (cleaned->unfinished != 0)
+    fmt::print("{} bakes are not merged yet: finish them, or remove '{}'\n", cleaned->unfinished,
+               (folder.root() / "baking").string());
+  return Exit::done;
+}
+
+}  // namespace sgm::cli

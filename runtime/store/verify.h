@@ -1,0 +1,48 @@
+#pragma once
+// Whether a store has what it says, and lets go of what nobody needs.
+
+#include <span>
+
+#include "store/bake.h"
+#include "store/world_file.h"
+
+namespace sgm::store {
+
+/// What is wrong, in words; the first few of it.
+struct Problems {
+  static constexpr size_t kMostTold = 20;
+  std::vector<std::string> told;
+  uint64_t count = 0;
+  void add(std::string problem) {
+    if (++count <= kMostTold) told.push_back(std::move(problem));
+  }
+};
+
+struct Verified {
+  uint64_t tiles = 0, chunks = 0, contents = 0, packs = 0, bytes = 0, faces = 0;
+  Problems problems;
+};
+
+/// Reads everything that a world needs: that records and packs are whole, that each content is there, is what its id
+/// says and can be decoded; and that bodies of a level fit together at every face that two baked chunks share, whoever
+/// made them (each edge of one has the other's in the opposite direction). Errors: of the job system and memory alone.
+/// Throws std::bad_alloc.
+Verified verify(const Folder& store, const WorldFile& world, const Progress& progress = {});
+
+/// Makes so many chunks of the world anew, drawn by the seed among those that have triangles as far as there are any,
+/// and compares. Errors: those of meshing; bad_input (verify says more).
+Result<Problems> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed);
+
+/// Whether all packs are there that the world needs, as far as their sizes tell. Errors: those of reading the index.
+Result<bool> hasPacks(const Folder& store, const WorldFile& world);
+
+struct Cleaned {
+  uint64_t packs = 0, bytes = 0;  ///< removed
+  uint64_t unfinished = 0;        ///< bakes that are not merged: these stay
+};
+
+/// Removes packs that no world of the store needs. busy: as StoreLock. Errors: of reading any index, before anything is
+/// removed; io.
+Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory);
+
+}  // namespace sgm::store

@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# sgm bake and sgm store: the same bytes however the work was shared, streamed to the same world, and what is refused.
+source "$(dirname "$0")/common.sh"
+cave=$SOURCE/samples/grammars/cave.sgm
+if [[ ${SGM_TEST_DISK_CACHE:-1} == 0 ]]; then
+  expect 3 "$SGM" bake "$cave" --region 0,0,0:8,8,8 --out store
+  err_has 'SGM_DISK_CACHE=ON'
+  one_line
+  finish
+  exit
+fi
+world=("$cave" --seed 3 --region 0,0,0:192,160,192 --levels 0..5 --backend cpu)
+
+expect 0 "$SGM" bake "${world[@]}" --out one --json
+json 'j.tiles > 10 && j.chunks > 1000 && j.triangles > 50000 && j.sound'
+json 'j.bytes_per_triangle > 1 && j.bytes_per_triangle < 12 && j.contents < j.chunks'
+name=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).world' "$work/.out")
+expect 0 "$SGM" bake "${world[@]}" --out one
+out_has 'baked already'
+
+# Three workers at one time, one of them killed in the middle, and all once more.
+expect 1 "$SGM" bake "${world[@]}" --out many --merge
+err_has 'tiles are not baked yet'
+one_line
+timeout -s KILL 0.15 "$SGM" bake "${world[@]}" --out many --shard 1/3 --threads 1 >/dev/null 2>&1
+for shard in 2 0 1; do "$SGM" bake "${world[@]}" --out many --shard "$shard/3" >"shard$shard.txt" 2>&1 & done
+wait
+expect 0 "$SGM" bake "${world[@]}" --out many --shard 1/3 --json
+json 'j.made === 0 && j.made_before === j.tiles && j.tiles > 0'
+expect 0 "$SGM" bake "${world[@]}" --out many --merge
+expect 0 diff -r one many
+rm -rf shard?.txt many
+
+expect 0 "$SGM" store info one --json
+json "j.worlds.length === 1 && j.worlds[0].world === '$name' && j.worlds[0].levels.join() === '0,5'"
+expect 0 node -e '
+  const m = JSON.parse(require("fs").readFileSync(process.argv[1]));
+  if (m.seed !== 3 || m.grammar.file !== "cave.sgm" || !m.grammar.text.includes("sgm 1") || m.levels[1] !== 5 ||
+      Object.values(m.defects).some((n) => n !== 0) || m.parameters.boxy !== 0.3) process.exit(1);' "one/worlds/$name.json"
+expect 0 "$SGM" store verify one --json
+json 'j.worlds[0].problems === 0 && j.worlds[0].faces > 100 && j.worlds[0].contents > 100'
+expect 0 "$SGM" store verify one "$cave" --seed 3 --region 0,0,0:1,1,1 --samples 20 --backend cpu
+out_has '20 chunks baked again, 0 parts differ'
+expect 1 "$SGM" store verify one "$cave" --seed 4 --region 0,0,0:1,1,1
+err_has 'whose name begins with'
+
+# Streamed: the same world, by the store, by deriving, and with digs on top.
+printf '{"points": [[40, 60, 60], [110, 96, 96], [120, 96, 100]]}' >path.json
+flight=(fly "$cave" --seed 3 --path path.json --speed 60 --frames 150 --finest 16 --top-level 5 --view 120 --unpaced --check
+  --backend cpu --json)
+for digs in 0 4; do
+  expect 0 "$SGM" "${flight[@]}" --edits "$digs"
+  json 'j.open_edges === 0 && j.stores.hits === 0'
+  hash=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).world_hash' "$work/.out")
+  expect 0 "$SGM" "${flight[@]}" --edits "$digs" --store one
+  json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits > 500 && j.stores.damaged === 0 && j.stores.bytes > 0"
+done
+
+# What is damaged is derived.
+for pack in one/packs/*/*.sgmp; do printf 'xxxxxxxx' | dd of="$pack" bs=1 seek=64 conv=notrunc 2>/dev/null; done
+expect 0 "$SGM" "${flight[@]}" --edits 0 --store one
+expect 1 "$SGM" store verify one
+err_has 'is damaged: remove it, and bake the world again'
+expect 0 "$SGM" store gc one
+rm one/packs/*/*.sgmp
+expect 0 "$SGM" "${flight[@]}" --edits 4 --store one
+json "j.world_hash === '$hash' && j.stores.damaged > 0 && j.open_edges === 0"
+expect 0 "$SGM" bake "${world[@]}" --out one
+out_has ' 0 of them made before'
+expect 0 "$SGM" store verify one
+
+# Another bake of the same, with one parameter changed, beside it: what is the same is there once.
+small=("$cave" --seed 3 --region 64,64,64:128,128,128 --levels 0..2 --backend cpu)
+expect 0 "$SGM" bake "${small[@]}" --out two
+expect 0 "$SGM" bake "${small[@]}" --set boxy=0.9 --out two
+expect 0 "$SGM" store info two --json
+json 'j.worlds.length === 2'
+read -r first second <<<"$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).worlds.map((w) => w.world).join(" ")' "$work/.out")"
+expect 0 "$SGM" store diff two two --from "$first" --to "$second" --json
+json 'j.changed === j.chunks.length && j.added === 0 && j.removed === 0 && j.changed > 0 === j.bytes > 0'
+expect 0 "$SGM" store diff two two --from "$first" --to "$first"
+out_has '^0 chunks changed, 0 added, 0 removed; 0.00 MB'
+expect 1 "$SGM" store diff two two
+err_has '2 worlds: say which'
+rm two/worlds/"$second".*
+expect 0 "$SGM" store gc two
+expect 0 "$SGM" store verify two
+
+# What is refused, in one line, and with nothing left behind.
+mkdir taken && touch taken/file
+for line in "1:taken:is not empty and no store" "1:old:store of another version"; do
+  IFS=: read -r wanted folder message <<<"$line"
+  [[ $folder != old ]] || { mkdir old && echo "sgm store 99" >old/format; }
+  expect "$wanted" "$SGM" bake "${small[@]}" --out "$folder"
+  err_has "$message"
+  one_line
+done
+expect 1 "$SGM" fly "$cave" --frames 1 --unpaced --store taken
+err_has 'is no store of baked worlds'
+for options in "--shard 3/3" "--shard x" "--levels 3..1" "--levels 0..99" "--merge --shard 0/2"; do
+  # shellcheck disable=SC2086
+  expect 2 "$SGM" bake "${small[@]}" --out new $options
+done
+expect 2 "$SGM" bake "$cave" --out new
+err_has 'say which part with --region'
+expect 1 "$SGM" bake "$cave" --region -2000000,-2000000,-2000000:2000000,2000000,2000000 --out new
+err_has 'more than 1048576 tiles'
+# A disk that is full: here, files that may not grow.
+expect 4 bash -c 'trap "" XFSZ; ulimit -f 8; exec "$@"' bash "$SGM" bake "${small[@]}" --out full
+one_line
+expect 0 "$SGM" bake "${small[@]}" --out full
+expect 0 "$SGM" store verify full
+only full old one path.json taken two
+finish

@@ -1,0 +1,141 @@
+// What comes from a store is what would have been derived, byte by byte.
+
+#include "store_support.h"
+
+using namespace sgm;
+
+namespace {
+
+struct Told {
+  std::vector<std::string> messages;
+  std::mutex mutex;
+  store::Log log() {
+    return [this](const std::string& message) {
+      const std::lock_guard lock(mutex);
+      messages.push_back(message);
+    };
+  }
+};
+
+std::shared_ptr<BakedParts> sourceOf(const fs::path& folder, store::Log log = {}) {
+  auto source = store::openStores(std::array{folder}, std::move(log), std::pmr::get_default_resource());
+  REQUIRE(source);
+  return *source;
+}
+
+}  // namespace
+
+TEST_CASE("a chunk from a store is what it would have been derived to, with edits on top", "[store]") {
+  const auto seed = GENERATE(take(1, random(0, 1 << 30)));
+  CAPTURE(seed);
+  std::mt19937 random(static_cast<uint32_t>(seed));
+  for (const bool sharp : {false, true}) {
+    const Excerpt& scene = scenes()[sharp ? 2 : 0];
+    const CacheFolder folder;
+    Baking baking(scene.settings(), regionOf(scene, 0, 2), folder.path);
+    baking.sharp = sharp;
+    baking.bakeAll();
+    baking.merge();
+    const std::shared_ptr<BakedParts> source = sourceOf(folder.path);
+    const CacheFolder cache_folder;
+    const auto cache = openCache(cache_folder, kAmple);
+    size_t triangles = 0, edited = 0, found = 0;
+    for (unsigned i = 0; i < rounds(30); ++i) {
+      CAPTURE(sharp, i);
+      const auto edits = i % 3 == 2 ? randomEdits(random, scene, 10) : nullptr;
+      ChunkRequest request = randomRequest(random, scene);
+      // As a streamed world asks, most often.
+      if (request.key.level != 0 && i % 4 != 0) request.anchors = request.signs = false;
+      const bool as_baked =
+          !edits && !request.outermost && (request.key.level == 0 || (!request.anchors && !request.signs));
+      // A world with nothing derived yet.
+      const WorldField fresh(scene.settings(), std::pmr::get_default_resource());
+      ChunkMesher derived = baking.machine.mesher(baking.world, nullptr),
+                  stored = baking.machine.mesher(fresh, nullptr);
+      derived.sharp = stored.sharp = sharp;
+      stored.baked = source.get();
+      if (i % 2) stored.cache = cache.get();
+      const uint64_t hits = source->stats().hits;
+      const MeshedChunk plain = meshed(derived, request, nullptr, edits.get());
+      const MeshedChunk from_store = meshed(stored, request, nullptr, edits.get());
+      CHECK(same(plain, from_store));
+      if (as_baked) {
+        CHECK(source->stats().hits - hits == partCount(request));
+        CHECK(fresh.cacheStats().misses == 0);
+        CHECK(from_store.from_disk);
+      }
+      triangles += plain.surface.mesh.indices.size() / 3;
+      edited += edits != nullptr;
+      found += as_baked;
+    }
+    CHECK(triangles > 1000);
+    CHECK(edited > 0);
+    CHECK(found > rounds(30) / 4);
+    CHECK(source->stats().damaged + source->stats().errors == 0);
+  }
+}
+
+TEST_CASE("what a store does not have is derived, and what is damaged there, which is told once", "[store]") {
+  const auto seed = GENERATE(take(1, random(0, 1 << 30)));
+  CAPTURE(seed);
+  std::mt19937 random(static_cast<uint32_t>(seed));
+  const Excerpt& scene = scenes()[0];
+  const CacheFolder folder;
+  const Baking baking(scene.settings(), regionOf(scene, 0, 1), folder.path);
+  baking.bakeAll();
+  baking.merge();
+  const auto compare = [&](BakedParts* source, const WorldField& world) {
+    for (unsigned i = 0; i < 12; ++i) {
+      const ChunkRequest request = randomRequest(random, scene);
+      ChunkMesher stored = baking.machine.mesher(world, nullptr);
+      stored.baked = source;
+      CHECK(same(meshed(baking.machine.mesher(world, nullptr), request), meshed(stored, request)));
+    }
+  };
+  {
+    INFO("another seed");
+    WorldFieldSettings other = scene.settings();
+    other.seed += 1;
+    Told told;
+    const auto source = sourceOf(folder.path, told.log());
+    compare(source.get(), WorldField(other, std::pmr::get_default_resource()));
+    CHECK(source->stats().hits == 0);
+    CHECK(told.messages.empty());
+  }
+  const std::vector<fs::path> files = folder.files();
+  for (const std::string extension : {".sgmp", ".sgmi"}) {
+    for (const bool cut : {false, true}) {
+      CAPTURE(extension, cut);
+      std::vector<std::pair<fs::path, Bytes>> kept;
+      for (const fs::path& file : files) {
+        if (file.extension() != extension) continue;
+        const Bytes bytes = readFile(file);
+        kept.emplace_back(file, bytes);
+        Bytes damaged = bytes;
+        if (cut) {
+          damaged.resize(damaged.size() / 3);
+        } else {
+          for (size_t i = 8; i < damaged.size(); i += 64) damaged[i] ^= std::byte{16};
+        }
+        writeFile(file, damaged);
+      }
+      REQUIRE(!kept.empty());
+      Told told;
+      const auto source = sourceOf(folder.path, told.log());
+      ChunkRequest request = caveRequest();
+      for (int again = 0; again < 3; ++again) {
+        ChunkMesher stored = baking.machine.mesher(baking.world, nullptr);
+        stored.baked = source.get();
+        CHECK(same(meshed(baking.machine.mesher(baking.world, nullptr), request), meshed(stored, request)));
+      }
+      compare(source.get(), baking.world);
+      CHECK(!told.messages.empty());
+      CHECK(told.messages.size() <= kept.size());
+      for (const std::string& message : told.messages) CHECK(message.find("derived instead") != std::string::npos);
+      for (const auto& [file, bytes] : kept) writeFile(file, bytes);
+    }
+  }
+  const auto mended = sourceOf(folder.path);
+  compare(mended.get(), baking.world);
+  CHECK(mended->stats().damaged == 0);
+}

@@ -1,0 +1,65 @@
+#pragma once
+// A world that is baked into a folder of its own.
+
+#include "chunk_cache_support.h"
+#include "store/merge.h"
+#include "store/plan.h"
+#include "store/source.h"
+#include "store/verify.h"
+
+namespace sgm {
+
+/// 64 m of the cave and the level above: 8 x 8 x 8 chunks of 8 m, and 4 x 4 x 4.
+inline store::BakedRegion regionOf(const Excerpt& scene, int first_level, int last_level) {
+  return {scene.box, first_level, last_level, scene.cell};
+}
+
+struct Baking {
+  Machine machine;
+  WorldField world;
+  store::Folder folder;
+  store::BakedRegion region;
+  bool sharp = false;
+
+  Baking(WorldFieldSettings settings, const store::BakedRegion& of, const fs::path& path)
+      : world(std::move(settings), std::pmr::get_default_resource()), folder(path), region(of) {
+    REQUIRE(folder.make());
+  }
+  store::Bakery bakery() const {
+    const auto key = store::worldKey(world, sharp);
+    REQUIRE(key);
+    const fs::path job = folder.baking(store::jobKey(*key, region));
+    REQUIRE(store::makeFolder(job));
+    return {world, *machine.backend, *machine.jobs, region, sharp, job};
+  }
+  void bakeAll() const {
+    const store::Bakery own = bakery();
+    for (const store::TileKey& tile : store::tilesOf(region)) {
+      const auto record = store::bakeTile(own, tile);
+      INFO((record ? "" : record.error().message));
+      REQUIRE(record);
+    }
+  }
+  store::Merged merge() const {
+    Result<store::Merged> merged = store::merge(folder, bakery());
+    INFO((merged ? "" : merged.error().message));
+    REQUIRE(merged);
+    return *merged;
+  }
+  store::WorldFile file() const {
+    Result<store::WorldFile> file = store::WorldFile::open(folder.world(*store::worldKey(world, sharp)));
+    INFO((file ? "" : file.error().message));
+    REQUIRE(file);
+    return std::move(*file);
+  }
+};
+
+/// Names and bytes of all files of a folder.
+inline std::vector<std::pair<std::string, Bytes>> contentsOf(const CacheFolder& folder) {
+  std::vector<std::pair<std::string, Bytes>> all;
+  for (const fs::path& file : folder.files())
+    all.emplace_back(fs::relative(file, folder.path).string(), readFile(file));
+  return all;
+}
+
+}  // namespace sgm
