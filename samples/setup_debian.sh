@@ -19,7 +19,7 @@ SGM_BUILD_PACKAGES=(
 )
 SGM_TEST_PACKAGES=(
   catch2 libcgal-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind
-  git=git ca-certificates nodejs=node npm=npm curl=curl prometheus chromium xvfb xauth
+  git=git ca-certificates nodejs=node npm=npm curl=curl prometheus chromium xvfb xauth slurm-wlm=sbatch munge=munged
 )
 # Only for AVX-512 where no processor has it: tests/scripts/avx512_emulated.sh.
 SGM_EMULATION_PACKAGES=(bochs bochs-term bochsbios vgabios isolinux syslinux-common xorriso busybox-static)

@@ -5,7 +5,7 @@
 #
 #   --long          run property tests and fuzzers far longer, make three builds more, and run AVX-512 under emulation (label
 #                   emulated; installs an emulator; without --long that test is skipped, and named so in the summary)
-#   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, judges, style, gltf, threads, fuzz, godot, ...)
+#   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, judges, style, gltf, threads, fuzz, godot, slurm, ...)
 #   --without NAME  leave out a build (fuzz, plain, tsan) or a label; each is named in the summary
 #   --require-cuda  nvcc and an NVIDIA GPU must be there, for the tests of label cuda that run on one; without it those are
 #                   skipped, and named so in the summary

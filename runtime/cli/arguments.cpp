@@ -273,7 +273,20 @@ Command addBake(CLI::App& root) {
              "at one time, in any order, on machines that share the folder")
           ->type_name("I/N")
           ->check(checkShard);
-  app->add_flag("--merge", options->merge, "Make a world of what all shares have baked")->excludes(shard);
+  CLI::Option* merge = app->add_flag("--merge", options->merge, "Make a world of what all shares have baked");
+  merge->excludes(shard);
+  CLI::Option* slurm =
+      app->add_option(
+             "--slurm", options->slurm,
+             "Bake in this many shares as an array of jobs of Slurm, then merge and verify; the nodes see the same "
+             "folders. What is under way already is shown")
+          ->check(CLI::Range(uint64_t{1}, uint64_t{100000}))
+          ->excludes(shard)
+          ->excludes(merge);
+  app->add_option("--sbatch", options->sbatch, "Option for every job, such as --sbatch=--partition=long (repeatable)")
+      ->allow_extra_args(false)
+      ->needs(slurm);
+  app->add_flag("--detach", options->detach, "Submit the jobs, and do not wait for them")->needs(slurm);
   app->footer(
       "What is baked follows from grammar, parameters, seed, cells, region and levels alone: the store's bytes are "
       "the\n"

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "cli/bake_slurm.h"
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/region.h"
@@ -192,6 +193,8 @@ Exit bake(const BakeOptions& options) {
       });
     }();
     if (!costs) return complain(costs.error());
+    if (options.slurm != 0)
+      return bakeBySlurm(options, slurmBakeOf(options, store::nameOf(store::jobKey(*key, region))));
     const auto [first, last] = store::tilesOfShard(*costs, shard->first, shard->second);
     Result<Report> baked = bakeTiles(bakery, tiles, *costs, first, last);
     if (!baked) return complain(baked.error());

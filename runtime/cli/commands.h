@@ -46,10 +46,13 @@ struct MeshOptions : WorldOptions {
 Exit mesh(const MeshOptions& options);
 
 struct BakeOptions : WorldOptions {
-  std::string out;              ///< the store's folder
-  std::string levels = "0..4";  ///< as readLevels takes them
-  std::string shard;            ///< as readShard takes it; empty: all, and merged
-  bool merge = false;           ///< merge what shards have made
+  std::string out;                  ///< the store's folder
+  std::string levels = "0..4";      ///< as readLevels takes them
+  std::string shard;                ///< as readShard takes it; empty: all, and merged
+  bool merge = false;               ///< merge what shards have made
+  uint64_t slurm = 0;               ///< so many shards as jobs of Slurm; 0: here
+  std::vector<std::string> sbatch;  ///< options of these jobs
+  bool detach = false;              ///< submit them, and do not wait
 };
 Exit bake(const BakeOptions& options);
 

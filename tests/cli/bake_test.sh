@@ -86,6 +86,14 @@ rm two/worlds/"$second".*
 expect 0 "$SGM" store gc two
 expect 0 "$SGM" store verify two
 
+# By hand, as another scheduler would have it.
+PATH=$(dirname "$SGM"):$PATH
+for share in 1 2; do SGE_TASK_ID=$share expect 0 bash "$SOURCE/samples/bake/share.sh" 2 sgm bake "${small[@]}" --out three; done
+expect 0 bash "$SOURCE/samples/bake/share.sh" end sgm bake "${small[@]}" --out three
+out_has 'whole and closed'
+expect 2 bash "$SOURCE/samples/bake/share.sh" 2 sgm bake "${small[@]}" --out three
+err_has 'set SHARE, from 0 to 1'
+
 # What is refused, in one line, and with nothing left behind.
 mkdir taken && touch taken/file
 for line in "1:taken:is not empty and no store" "1:old:store of another version"; do
@@ -110,5 +118,5 @@ expect 4 bash -c 'trap "" XFSZ; ulimit -f 8; exec "$@"' bash "$SGM" bake "${smal
 one_line
 expect 0 "$SGM" bake "${small[@]}" --out full
 expect 0 "$SGM" store verify full
-only full old one path.json taken two
+only full old one path.json taken three two
 finish

@@ -70,8 +70,8 @@ TEST_CASE("regions that cannot be baked say why", "[store]") {
   CHECK(store::check({{{0, 0, 0}, {1024, 0, 1024}}, 0, 3, 512}).error().code == Code::invalid_argument);
   CHECK(store::check({box, 0, 3, 0}).error().code == Code::invalid_argument);
   CHECK(store::check({IntBox::everything(), 0, 3, 512}).error().code == Code::range);
-  constexpr int32_t kFar = 1 << 30;
-  CHECK(store::check({{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}, 0, 3, 512}).error().code == Code::limit);
+  constexpr int32_t kOut = 1 << 30;
+  CHECK(store::check({{{-kOut, -kOut, -kOut}, {kOut, kOut, kOut}}, 0, 3, 512}).error().code == Code::limit);
 }
 
 TEST_CASE("shards have each tile once, and none costs much more than its share", "[store]") {

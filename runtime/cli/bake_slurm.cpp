@@ -1,0 +1,91 @@
+#include "cli/bake_slurm.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <thread>
+
+#include "cli/json.h"
+#include "store/folder.h"
+
+namespace sgm::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Slurm's controller answers many; once in a while is enough.
+constexpr auto kBetweenLooks = std::chrono::seconds(1);
+
+void report(const BakeOptions& options, const SlurmBake& bake, const SlurmJobs& jobs, const SlurmState& state) {
+  if (options.json) {
+    fmt::print("{}\n",
+               Json{{"jobs", {{"shards", jobs.shards}, {"merge", jobs.merge}, {"verification", jobs.verification}}},
+                    {"shards", bake.shards},
+                    {"waiting", state.waiting},
+                    {"running", state.running},
+                    {"done", state.done},
+                    {"failed", state.failed},
+                    {"merge", state.merge},
+                    {"verification", state.verification}}
+                   .text());
+    return;
+  }
+  fmt::print("{}: jobs {}, {} and {}: {} of {} shards done, {} failed; merge {}, verification {}\n", options.out,
+             jobs.shards, jobs.merge, jobs.verification, state.done, bake.shards, state.failed, state.merge,
+             state.verification);
+}
+
+}  // namespace
+
+SlurmBake slurmBakeOf(const BakeOptions& options, const std::string& name) {
+  const auto absolute = [](const std::string& path) { return fs::absolute(path).lexically_normal().string(); };
+  std::error_code error;
+  const std::string program = fs::read_symlink("/proc/self/exe", error).string();
+  SlurmBake bake;
+  bake.bake = {program,        "bake",   absolute(options.file),       "--out",     absolute(options.out), "--levels",
+               options.levels, "--seed", std::to_string(options.seed), "--backend", options.backend};
+  for (const std::string& set : options.sets) bake.bake.insert(bake.bake.end(), {"--set", set});
+  if (!options.region.empty()) bake.bake.insert(bake.bake.end(), {"--region", options.region});
+  if (options.cell) bake.bake.insert(bake.bake.end(), {"--cell", fmt::format("{}", *options.cell)});
+  if (options.density) bake.bake.insert(bake.bake.end(), {"--ld", fmt::format("{}", *options.density)});
+  if (options.sharp) bake.bake.push_back("--sharp");
+  bake.verify = {program, "store", "verify", absolute(options.out)};
+  bake.shards = options.slurm;
+  bake.options = options.sbatch;
+  bake.name = "sgm-" + name.substr(0, 8);
+  bake.folder = fs::path(absolute(options.out)) / "slurm" / name;
+  return bake;
+}
+
+Exit bakeBySlurm(const BakeOptions& options, const SlurmBake& bake) {
+  if (const Result<void> made = store::makeFolder(bake.folder); !made) return complain(made.error());
+  const Result<std::optional<SlurmJobs>> found = findJobs(bake);
+  if (!found) return complain(found.error());
+  const bool is_new = !found->has_value();
+  Result<SlurmJobs> jobs = is_new ? submitJobs(bake) : Result<SlurmJobs>(**found);
+  if (!jobs) return complain(jobs.error());
+  fmt::print(stderr,
+             "sgm: jobs {} (shards), {} (merge) and {} (verification) of Slurm {}; stopping this ends none of them, "
+             "scancel does\n",
+             jobs->shards, jobs->merge, jobs->verification, is_new ? "are submitted" : "are under way");
+  Result<SlurmState> state = stateOf(bake, *jobs);
+  {
+    ProgressBar bar("baking");
+    while (state && !options.detach && !state->ended()) {
+      bar.show(state->done, bake.shards);
+      std::this_thread::sleep_for(kBetweenLooks);
+      state = stateOf(bake, *jobs);
+    }
+  }
+  if (!state) return complain(state.error());
+  report(options, bake, *jobs, *state);
+  if (options.detach) return Exit::done;
+  const auto well = [](const std::string& job) { return job.empty() || job == "COMPLETED"; };
+  if (state->failed == 0 && well(state->merge) && well(state->verification)) return Exit::done;
+  return complain(Exit::input,
+                  fmt::format("not all of it has ended well: '{}' has what the jobs have printed; the same command "
+                              "bakes what is missing",
+                              bake.folder.string()));
+}
+
+}  // namespace sgm::cli

@@ -1,0 +1,42 @@
+#pragma once
+// A bake as jobs of Slurm: an array of shards, the merge when all have ended well, the verification after that. Slurm
+// starts a shard anew whose node has died; whatever a shard had done by then stays done.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/result.h"
+
+namespace sgm::cli {
+
+struct SlurmBake {
+  std::vector<std::string> bake;    ///< the command of a bake, without --shard and --merge; paths are absolute
+  std::vector<std::string> verify;  ///< the command of its verification
+  uint64_t shards = 1;
+  std::vector<std::string> options;  ///< of sbatch, for every job
+  std::string name;                  ///< of the jobs
+  std::filesystem::path folder;      ///< is there; scripts, what jobs print, and their numbers
+};
+
+/// Numbers of jobs.
+struct SlurmJobs {
+  std::string shards, merge, verification;
+};
+
+struct SlurmState {
+  uint64_t waiting = 0, running = 0, done = 0, failed = 0;  ///< shards
+  std::string merge, verification;                          ///< as Slurm calls it: "PENDING"; empty: not known any more
+  /// Nothing of it waits or runs.
+  bool ended() const;
+};
+
+/// Jobs of an earlier call that wait or run still; none where there are none.
+Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake);
+/// io: sbatch is not there, or refuses; the message has what it says.
+Result<SlurmJobs> submitJobs(const SlurmBake& bake);
+/// By Slurm's accounting where it keeps one, else by its queue, which forgets jobs some minutes after their end. io.
+Result<SlurmState> stateOf(const SlurmBake& bake, const SlurmJobs& jobs);
+
+}  // namespace sgm::cli

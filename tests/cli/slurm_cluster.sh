@@ -1,0 +1,87 @@
+# Sourced: a real Slurm of some nodes on this one machine, of processes of our own that end with the caller's shell. Needs
+# root, and Debian's slurm-wlm and munge. Neither the system's munge nor a Slurm of its own is touched.
+
+# cluster_start FOLDER NODES: SLURM_CONF is set.
+cluster_start() {
+  cluster=$1
+  local nodes=$2 host
+  host=$(hostname -s)
+  mkdir -p "$cluster"/{spool,state,log,munge}
+  chmod 700 "$cluster/munge"
+  (umask 077 && head -c 1024 /dev/urandom >"$cluster/munge/key")
+  munged --force --key-file="$cluster/munge/key" --socket="$cluster/munge/socket" --pid-file="$cluster/munge/pid" \
+    --log-file="$cluster/munge/log" --seed-file="$cluster/munge/seed" || return 1
+  export SLURM_CONF=$cluster/slurm.conf
+  cat >"$SLURM_CONF" <<CONF
+ClusterName=test
+SlurmctldHost=$host(127.0.0.1)
+SlurmctldPort=27817
+AuthType=auth/munge
+AuthInfo=socket=$cluster/munge/socket
+CredType=cred/munge
+SlurmUser=root
+SlurmdUser=root
+StateSaveLocation=$cluster/state
+SlurmdSpoolDir=$cluster/spool/%n
+SlurmctldPidFile=$cluster/slurmctld.pid
+SlurmdPidFile=$cluster/slurmd-%n.pid
+SlurmctldLogFile=$cluster/log/slurmctld.log
+SlurmdLogFile=$cluster/log/%n.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SelectType=select/cons_tres
+ReturnToService=2
+MpiDefault=none
+SlurmdTimeout=5
+NodeName=n[1-$nodes] NodeHostname=$host NodeAddr=127.0.0.1 Port=[27001-$((27000 + nodes))] CPUs=1 State=UNKNOWN
+PartitionName=main Nodes=n[1-$nodes] Default=YES MaxTime=INFINITE State=UP
+CONF
+  slurmctld || return 1
+  local i
+  for i in $(seq "$nodes"); do
+    mkdir -p "$cluster/spool/n$i"
+    slurmd -N "n$i" || return 1
+  done
+  for _ in $(seq 60); do
+    [[ $(sinfo -h -t idle -o %D 2>/dev/null) == "$nodes" ]] && return 0
+    sleep 0.5
+  done
+  return 1
+}
+
+# cluster_kill_node NAME: as if its power had gone, with what runs there. Status 1 where nothing did.
+cluster_kill_node() {
+  local pid parent jobs=()
+  # What a job starts has the node's name in its surroundings; a job that "runs" may still be about to.
+  for _ in $(seq 40); do
+    for pid in /proc/[0-9]*; do
+      if grep -qz "^SLURMD_NODENAME=$1\$" "$pid/environ" 2>/dev/null && grep -qz "^SLURM_CONF=$SLURM_CONF\$" "$pid/environ"; then
+        jobs+=("${pid#/proc/}")
+      fi
+    done
+    ((${#jobs[@]} == 0)) || break
+    sleep 0.05
+  done
+  kill -9 "$(<"$cluster/slurmd-$1.pid")" 2>/dev/null
+  # First what would tell the controller how the job has ended.
+  for pid in ${jobs[@]+"${jobs[@]}"}; do
+    parent=$(sed -n 's/^PPid:\t//p' "/proc/$pid/status" 2>/dev/null)
+    [[ $(cat "/proc/$parent/comm" 2>/dev/null) == slurmstepd ]] && kill -9 "$parent" 2>/dev/null
+  done
+  for pid in ${jobs[@]+"${jobs[@]}"}; do kill -9 "$pid" 2>/dev/null; done
+  ((${#jobs[@]} > 0))
+}
+
+cluster_stop() {
+  local file
+  for file in "$cluster"/slurmctld.pid "$cluster"/slurmd-*.pid "$cluster"/munge/pid; do
+    [[ -s $file ]] && kill "$(<"$file")" 2>/dev/null
+  done
+  for file in "$cluster"/slurmctld.pid "$cluster"/slurmd-*.pid "$cluster"/munge/pid; do
+    for _ in $(seq 50); do
+      [[ -s $file ]] && kill -0 "$(<"$file")" 2>/dev/null || break
+      sleep 0.1
+    done
+  done
+  return 0
+}

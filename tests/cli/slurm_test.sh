@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# sgm bake --slurm on a real Slurm of three nodes: the store of one process, also where a node dies in the middle.
+source "$(dirname "$0")/slurm_cluster.sh"
+source "$(dirname "$0")/common.sh"
+cave=$SOURCE/samples/grammars/cave.sgm
+world=("$cave" --seed 3 --region 0,0,0:512,512,256 --levels 0..6 --cell 0.25 --backend cpu)
+
+# Without Slurm there is one clear error.
+expect 4 env PATH=/nowhere "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0 --backend cpu --out none --slurm 2
+err_has 'sbatch cannot be run'
+one_line
+rm -r none
+
+skip() {
+  echo "skipped: $1"
+  exit 77
+}
+for program in slurmctld slurmd sbatch munged; do
+  [[ -n $(command -v $program) ]] || skip "$program is missing: install slurm-wlm and munge"
+done
+((EUID == 0)) || skip "a cluster of one machine needs root"
+trap 'cluster_stop; cleanup' EXIT
+if ! cluster_start "$work/cluster" 3; then
+  failed "the cluster does not start: $(tail -n 3 "$work"/cluster/log/*.log 2>&1)"
+  finish
+fi
+
+expect 0 "$SGM" bake "${world[@]}" --out alone
+expect 0 "$SGM" bake "${world[@]}" --out shared --slurm 7 --json
+json 'j.done === 7 && j.failed === 0 && j.merge === "COMPLETED" && j.verification === "COMPLETED"'
+err_has 'are submitted'
+expect 0 diff -r -x slurm alone shared
+expect 0 bash -c 'grep -h "whole and closed" shared/slurm/*/verify.txt'
+expect 0 "$SGM" bake "${world[@]}" --out shared --slurm 7
+out_has 'baked already'
+
+# A node dies while it bakes; its shard starts anew elsewhere, when the others have long ended.
+expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 3 --detach
+out_has '0 failed'
+victim=
+for _ in $(seq 200); do
+  victim=$(squeue -h -t RUNNING -o %N | tail -n 1)
+  [[ -n $victim ]] && break
+  sleep 0.05
+done
+[[ -n $victim ]] || failed "no shard has begun"
+cluster_kill_node "$victim" || failed "nothing ran on $victim any more"
+# Slurm lets a shard of a dead node wait for two minutes; nobody here wants to.
+(
+  for _ in $(seq 120); do
+    sleep 0.5
+    squeue -h -r -t PENDING -o '%i %r' | while read -r job reason; do
+      [[ $reason != BeginTime ]] || scontrol update JobId="$job" StartTime=now
+    done
+  done
+) >/dev/null 2>&1 &
+hurry=$!
+expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 3 --json
+err_has 'are under way'
+json 'j.done === 3 && j.failed === 0 && j.verification === "COMPLETED"'
+kill $hurry
+expect 0 diff -r -x slurm alone hurt
+grep -q "Requeuing\|requeue" cluster/log/slurmctld.log || failed "no shard was started anew"
+
+# What sbatch refuses is told as it says it, and nothing is left waiting.
+expect 4 "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0 --backend cpu --out none --slurm 2 \
+  --sbatch=--partition=none
+err_has 'invalid partition'
+[[ -z $(squeue -h) ]] || failed "jobs wait: $(squeue)"
+finish
