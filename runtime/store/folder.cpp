@@ -16,33 +16,6 @@ Error ioError(const fs::path& file, int code) {
   return {Code::io, "'" + file.string() + "': " + std::generic_category().message(code)};
 }
 
-/// A file that is open for reading.
-class File {
- public:
-  explicit File(const fs::path& path) : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-  ~File() {
-    if (file_ >= 0) ::close(file_);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  int get() const { return file_; }
-
- private:
-  int file_;
-};
-
-Result<std::vector<std::byte>> readFrom(const File& file, const fs::path& path, uint64_t offset, size_t bytes) {
-  std::vector<std::byte> content(bytes);
-  for (size_t done = 0; done < bytes;) {
-    const ssize_t got = ::pread(file.get(), content.data() + done, bytes - done, static_cast<off_t>(offset + done));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return ioError(path, errno);
-    if (got == 0) return Error{Code::io, "'" + path.string() + "' ends before byte " + std::to_string(offset + bytes)};
-    done += static_cast<size_t>(got);
-  }
-  return content;
-}
-
 std::string formatText() { return "sgm store " + std::to_string(kStoreVersion) + "\n"; }
 
 std::string placeName(const TileKey& tile) {
@@ -110,21 +83,45 @@ Result<void> makeFolder(const fs::path& folder) {
   return {};
 }
 
-Result<std::vector<std::byte>> readFile(const fs::path& path, uint64_t most) {
-  const File file(path);
+OpenFile::OpenFile(const fs::path& path)
+    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)), error_(file_ < 0 ? errno : 0) {}
+
+OpenFile::~OpenFile() {
+  if (file_ >= 0) ::close(file_);
+}
+
+Result<std::vector<std::byte>> OpenFile::read(uint64_t offset, size_t bytes) const {
+  if (file_ < 0) return ioError(path_, error_);
+  std::vector<std::byte> content(bytes);
+  for (size_t done = 0; done < bytes;) {
+    const ssize_t got = ::pread(file_, content.data() + done, bytes - done, static_cast<off_t>(offset + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return ioError(path_, errno);
+    if (got == 0) return Error{Code::io, "'" + path_.string() + "' ends before byte " + std::to_string(offset + bytes)};
+    done += static_cast<size_t>(got);
+  }
+  return content;
+}
+
+Result<uint64_t> OpenFile::size() const {
   struct stat status {};
-  if (file.get() < 0 || ::fstat(file.get(), &status) != 0) return ioError(path, errno);
-  if (!S_ISREG(status.st_mode)) return Error{Code::io, "'" + path.string() + "' is no regular file"};
-  const auto bytes = static_cast<uint64_t>(status.st_size);
-  if (bytes > most)
+  if (file_ < 0) return ioError(path_, error_);
+  if (::fstat(file_, &status) != 0) return ioError(path_, errno);
+  if (!S_ISREG(status.st_mode)) return Error{Code::io, "'" + path_.string() + "' is no regular file"};
+  return static_cast<uint64_t>(status.st_size);
+}
+
+Result<std::vector<std::byte>> readFile(const fs::path& path, uint64_t most) {
+  const OpenFile file(path);
+  const Result<uint64_t> bytes = file.size();
+  if (!bytes) return bytes.error();
+  if (*bytes > most)
     return Error{Code::limit, "'" + path.string() + "' has more than " + std::to_string(most) + " bytes"};
-  return readFrom(file, path, 0, static_cast<size_t>(bytes));
+  return file.read(0, static_cast<size_t>(*bytes));
 }
 
 Result<std::vector<std::byte>> readFile(const fs::path& path, uint64_t offset, size_t bytes) {
-  const File file(path);
-  if (file.get() < 0) return ioError(path, errno);
-  return readFrom(file, path, offset, bytes);
+  return OpenFile(path).read(offset, bytes);
 }
 
 Result<void> writeFile(const fs::path& file, std::span<const std::byte> bytes, UnfinishedFiles* unfinished) {

@@ -56,6 +56,23 @@ class StoreLock {
 std::filesystem::path tileFile(const std::filesystem::path& baking, const TileKey& tile);
 std::filesystem::path packFile(const std::filesystem::path& baking, const TileKey& tile);
 
+/// A file that is open for reading; any thread. Nothing where it could not be opened.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& path);
+  ~OpenFile();
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  /// io, also where it ends before. Throws std::bad_alloc.
+  Result<std::vector<std::byte>> read(uint64_t offset, size_t bytes) const;
+  /// io.
+  Result<uint64_t> size() const;
+
+ private:
+  std::filesystem::path path_;
+  int file_, error_;
+};
+
 /// io.
 Result<void> makeFolder(const std::filesystem::path& folder);
 /// The whole file. io; limit: it is larger than `most` bytes. Throws std::bad_alloc.

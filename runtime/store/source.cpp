@@ -16,6 +16,9 @@ namespace {
 /// Records of tiles that are kept in memory, each about 60 KB: a viewer sees a few hundred tiles of all levels.
 constexpr size_t kMostRecords = 256;
 
+/// Packs that stay open: those around a viewer.
+constexpr size_t kMostOpen = 32;
+
 /// One world of one store.
 struct StoredWorld {
   Folder folder;
@@ -154,6 +157,22 @@ class StoreSource final : public BakedParts {
     return record;
   }
 
+  std::shared_ptr<const OpenFile> packAt(const fs::path& path) {
+    {
+      const std::lock_guard lock(mutex_);
+      for (auto open = open_.begin(); open != open_.end(); ++open) {
+        if (open->first != path) continue;
+        open_.splice(open_.begin(), open_, open);
+        return open_.front().second;
+      }
+    }
+    auto file = std::make_shared<const OpenFile>(path);
+    const std::lock_guard lock(mutex_);
+    open_.emplace_front(path, file);
+    if (open_.size() > kMostOpen) open_.pop_back();
+    return file;
+  }
+
   std::optional<std::pmr::vector<std::byte>> contentOf(const Folder& folder, const TileRecord& record,
                                                        const StoredContent& content,
                                                        std::pmr::memory_resource* memory) {
@@ -163,7 +182,7 @@ class StoreSource final : public BakedParts {
       bytes.emplace(first, first + static_cast<ptrdiff_t>(content.stored), memory);
     } else {
       const fs::path path = folder.pack(record.packs[content.pack].name);
-      const Result<std::vector<std::byte>> frame = readFile(path, content.offset, content.stored);
+      const Result<std::vector<std::byte>> frame = packAt(path)->read(content.offset, content.stored);
       if (!frame) {
         tell(path, frame.error().message);
         return std::nullopt;
@@ -184,6 +203,7 @@ class StoreSource final : public BakedParts {
   std::map<ContentId, Worlds> worlds_;
   std::list<KeptRecord> kept_;  ///< the latest used first
   std::map<RecordKey, std::list<KeptRecord>::iterator> records_;
+  std::list<std::pair<fs::path, std::shared_ptr<const OpenFile>>> open_;  ///< packs, the latest used first
   std::set<ContentId> rejected_;
   std::set<std::string> told_;
   BakedStats stats_;

@@ -25,7 +25,7 @@ class BakedParts {
   virtual DiskKey worldOf(std::span<const std::byte> inputs) const = 0;
 
   /// As encodeChunkPart made it of that world without edits, in `memory`: a body of level 0 with its anchors and voids,
-  /// a seam as one to the next level. None where it is not there, or cannot be read, or trusted. Takes as long as the
+  /// a seam as one to the next level; compared with a hash of all its bytes. None where it is not there, or cannot be read, or trusted. Takes as long as the
   /// disk does. Throws std::bad_alloc.
   virtual std::optional<std::pmr::vector<std::byte>> get(const DiskKey& world, const ChunkKey& chunk, int part,
                                                          std::pmr::memory_resource* memory) = 0;

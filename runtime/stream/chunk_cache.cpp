@@ -21,7 +21,7 @@ std::optional<ChunkPart> fetchBaked(BakedParts& baked, const DiskKey& world, con
   const ChunkRequest& request = inputs.request();
   const auto bytes = baked.get(world, request.key, part, memory);
   if (!bytes) return std::nullopt;
-  std::optional<ChunkPart> found = decodeChunkPart(*bytes, part, inputs.asBaked(), memory);
+  std::optional<ChunkPart> found = decodeChunkPart(*bytes, part, inputs.asBaked(), memory, BytesAre::whole);
   if (!found) {
     baked.reject(world, request.key, part);
     return std::nullopt;

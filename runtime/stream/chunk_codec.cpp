@@ -43,22 +43,29 @@ std::byte* splitColumns(const void* records, size_t count, std::byte* to) {
   return to + count * sizeof words;
 }
 
-/// The reverse; where the next columns begin.
+/// The reverse; where the next columns begin. Some records at a time, so that steps are made of bytes in vectors.
 template <class Word, size_t kWords>
 const std::byte* joinColumns(const std::byte* from, size_t count, void* records) {
+  constexpr size_t kBlock = 64;
   auto* to = static_cast<std::byte*>(records);
   std::array<Word, kWords> words{};
-  for (size_t i = 0; i < count; ++i) {
+  std::array<std::array<Word, kBlock>, kWords> steps;
+  for (size_t first = 0; first < count; first += kBlock) {
+    const size_t some = std::min(kBlock, count - first);
     for (size_t w = 0; w < kWords; ++w) {
-      Word folded = 0;
-      for (size_t b = 0; b < sizeof(Word); ++b) {
-        const auto byte = static_cast<Word>(from[(w * sizeof(Word) + b) * count + i]);
-        folded = static_cast<Word>(folded | byte << 8 * b);
+      const std::byte* column = from + w * sizeof(Word) * count + first;
+      for (size_t i = 0; i < some; ++i) {
+        Word folded = 0;
+        for (size_t b = 0; b < sizeof(Word); ++b) {
+          folded = static_cast<Word>(folded | static_cast<Word>(column[b * count + i]) << 8 * b);
+        }
+        steps[w][i] = static_cast<Word>(folded >> 1 ^ static_cast<Word>(0 - (folded & 1)));
       }
-      const auto sign = static_cast<Word>(0 - (folded & 1));
-      words[w] = static_cast<Word>(words[w] + static_cast<Word>(folded >> 1 ^ sign));
     }
-    std::memcpy(to + i * sizeof words, words.data(), sizeof words);
+    for (size_t i = 0; i < some; ++i) {
+      for (size_t w = 0; w < kWords; ++w) words[w] = static_cast<Word>(words[w] + steps[w][i]);
+      std::memcpy(to + (first + i) * sizeof words, words.data(), sizeof words);
+    }
   }
   return from + count * sizeof words;
 }

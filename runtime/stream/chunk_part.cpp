@@ -169,7 +169,7 @@ std::pmr::vector<std::byte> encodeChunkPart(int part, const MeshPart& mesh, std:
 }
 
 std::optional<ChunkPart> decodeChunkPart(std::span<const std::byte> bytes, int part, const ChunkPartInputs& inputs,
-                                         std::pmr::memory_resource* memory) {
+                                         std::pmr::memory_resource* memory, BytesAre are) {
   Result<ChunkRecord> record = decodeChunk(bytes, memory);
   if (!record || record->seams != seamBit(part)) return std::nullopt;
   PackedMesh& mesh = record->mesh;
@@ -182,7 +182,11 @@ std::optional<ChunkPart> decodeChunkPart(std::span<const std::byte> bytes, int p
   ChunkPart found(memory);
   found.mesh.vertices = std::move(mesh.vertices);
   found.mesh.indices = std::move(mesh.indices);
-  hashPart(found.mesh);
+  if (are == BytesAre::whole) {
+    found.mesh.hash = range.hash;
+  } else {
+    hashPart(found.mesh);
+  }
   if (found.mesh.hash != range.hash) return std::nullopt;
   if (part == 0 ? !getExtra(record->extra, inputs, found) : !record->extra.empty()) return std::nullopt;
   return found;

@@ -40,8 +40,8 @@ class ChunkPartInputs {
   /// Equal where a part is: for DiskCache::keyOf.
   std::vector<std::byte> bytes(int part) const;
 
-  /// Whether a baked part may have all that is asked for: no brush shows there, a seam leads to the next level's chunks,
-  /// and of coarser bodies nobody wants anchors or voids.
+  /// Whether a baked part may have all that is asked for: no brush shows there, a seam leads to the next level's
+  /// chunks, and of coarser bodies nobody wants anchors or voids.
   bool isAsBaked(int part) const;
   /// Those of a part that was baked, which has all that a streamed world may ask for.
   ChunkPartInputs asBaked() const;
@@ -78,9 +78,12 @@ struct ChunkPart {
 std::pmr::vector<std::byte> encodeChunkPart(int part, const MeshPart& mesh, std::span<const Anchor> anchors,
                                             std::span<const VoidComponent> voids, std::pmr::memory_resource* memory);
 
+/// Whether somebody has compared the bytes with a hash of all of them.
+enum class BytesAre { unknown, whole };
+
 /// For any bytes. None where meshing cannot have given them: nothing is believed that a reader could stumble over, and
-/// the mesh has the hash that it says. Throws std::bad_alloc.
+/// the mesh has the hash that it says, which bytes that are known to be whole are believed. Throws std::bad_alloc.
 std::optional<ChunkPart> decodeChunkPart(std::span<const std::byte> bytes, int part, const ChunkPartInputs& inputs,
-                                         std::pmr::memory_resource* memory);
+                                         std::pmr::memory_resource* memory, BytesAre are = BytesAre::unknown);
 
 }  // namespace sgm

@@ -1,0 +1,138 @@
+// What streaming from a baked store saves: chunks of the cave, read and derived, in one run.
+//
+//   sgm_bench_store FOLDER [METRES] [LEVELS]     FOLDER: where the store is made, on the disk that is to be measured
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "grammar/compile.h"
+#include "measure.h"
+#include "store/merge.h"
+#include "store/source.h"
+#include "stream/chunk_cache.h"
+#include "stream/chunk_part.h"
+
+namespace {
+
+using namespace sgm;
+namespace fs = std::filesystem;
+
+template <class T>
+T orDie(Result<T> result) {
+  if (result) return std::move(*result);
+  std::fprintf(stderr, "sgm_bench_store: error: %s\n", result.error().message.c_str());
+  std::exit(1);
+}
+
+WorldFieldSettings caveSettings() {
+  std::ifstream file(SGM_BENCH_CAVE);
+  std::stringstream text;
+  text << file.rdbuf();
+  WorldFieldSettings settings;
+  settings.program = compileGrammar(text.str(), "cave.sgm").program;
+  settings.parameters = ParameterValues::defaults(*settings.program);
+  settings.seed = 3;
+  settings.finest_cell = kUnitsPerMetre / 4;
+  return settings;
+}
+
+/// Milliseconds of each chunk, one after the other.
+std::vector<double> meshAll(const ChunkMesher& mesher, const std::vector<ChunkRequest>& requests) {
+  std::vector<double> times;
+  for (const ChunkRequest& request : requests) {
+    const double start = bench::now();
+    if (!mesher.mesh(request, nullptr)) std::exit(1);
+    times.push_back(bench::now() - start);
+  }
+  return times;
+}
+
+double sum(const std::vector<double>& times) {
+  double all = 0;
+  for (const double time : times) all += time;
+  return all;
+}
+
+void print(const char* what, std::vector<double> times, double unit) {
+  std::sort(times.begin(), times.end());
+  const auto at = [&](double share) {
+    return times[static_cast<size_t>(share * static_cast<double>(times.size() - 1))] * unit;
+  };
+  std::printf("%-34s %8.1f a second, us: median %7.1f, p99 %7.1f, most %7.1f\n", what,
+              1e3 * static_cast<double>(times.size()) / sum(times), at(0.5), at(0.99), at(1));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: sgm_bench_store FOLDER [METRES] [LEVELS]\n");
+    return 2;
+  }
+  const int metres = argc > 2 ? std::atoi(argv[2]) : 128, levels = argc > 3 ? std::atoi(argv[3]) : 3;
+  std::pmr::memory_resource* memory = std::pmr::get_default_resource();
+  const std::unique_ptr<JobSystem> jobs = orDie(makeThreadPool(1));
+  const std::unique_ptr<Backend> backend = orDie(makeBackend({}, *jobs, memory));
+  const WorldField world(caveSettings(), memory);
+  const int32_t edge = metres * kUnitsPerMetre;
+  const store::BakedRegion region{{{0, 0, 0}, {edge, edge, edge}}, 0, levels - 1, world.settings().finest_cell};
+  const store::Folder folder(argv[1]);
+  if (!folder.make()) return 1;
+  const fs::path baking = folder.baking(store::jobKey(orDie(store::worldKey(world, false)), region));
+  if (!store::makeFolder(baking)) return 1;
+  const store::Bakery bakery{world, *backend, *jobs, region, false, baking, nullptr, memory};
+  const double start = bench::now();
+  for (const store::TileKey& tile : store::tilesOf(region)) orDie(store::bakeTile(bakery, tile));
+  const double baked = bench::now();
+  const store::Merged merged = orDie(store::merge(folder, bakery));
+  const double seconds = bench::now() - baked;
+  std::printf(
+      "baked: %llu chunks in %.2f s on one thread, merged in %.3f s; %.2f bytes a triangle, %llu contents\n",
+      static_cast<unsigned long long>(merged.chunks), (baked - start) / 1e3, seconds / 1e3,
+      static_cast<double>(merged.pack_bytes + merged.index_bytes) / static_cast<double>(merged.measured.triangles),
+      static_cast<unsigned long long>(merged.contents));
+
+  // Those that have a surface, with three of their seams, as a world asks most often.
+  std::vector<ChunkRequest> requests;
+  const ChunkMesher derived{world, *backend, *jobs, memory};
+  for (const store::TileKey& tile : store::tilesOf(region)) {
+    for (const size_t number : store::chunksIn(region, tile)) {
+      ChunkRequest request;
+      request.key = store::chunkOf(tile, number);
+      request.seams = 0b010101;
+      request.keys = false;
+      request.anchors = request.signs = tile.level == 0;
+      if (!orDie(derived.mesh(request, nullptr)).surface.mesh.indices.empty()) requests.push_back(request);
+    }
+  }
+  for (int round = 0; round < 3; ++round) {
+    // Nothing is derived yet, and nothing read: what a viewer meets who comes there first.
+    const WorldField fresh(caveSettings(), memory), other(caveSettings(), memory);
+    const std::shared_ptr<BakedParts> source = orDie(store::openStores(std::array{folder.root()}, {}, memory));
+    ChunkMesher stored{other, *backend, *jobs, memory};
+    stored.baked = source.get();
+    const std::vector<double> meshing = meshAll({fresh, *backend, *jobs, memory}, requests);
+    const std::vector<double> reading = meshAll(stored, requests);
+    std::vector<double> decoding;
+    for (const ChunkRequest& request : requests) {
+      const auto inputs = ChunkPartInputs::of(world, request, nullptr)->asBaked();
+      const DiskKey key = source->worldOf(*bakedWorldInputs(world, false));
+      const double begun = bench::now();
+      for (int part = 0; part < kChunkParts; ++part) {
+        if (!asksFor(request, part)) continue;
+        if (!decodeChunkPart(*source->get(key, request.key, part, memory), part, inputs, memory, BytesAre::whole))
+          return 1;
+      }
+      decoding.push_back(bench::now() - begun);
+    }
+    std::printf("%zu chunks with a surface, three seams each\n", requests.size());
+    print("derived and meshed", meshing, 1e3);
+    print("from the store", reading, 1e3);
+    print("  of that, read and decoded", decoding, 1e3);
+    std::printf("%.1f times the chunks\n", sum(meshing) / sum(reading));
+  }
+  return 0;
+}
