@@ -19,7 +19,7 @@ constexpr uint64_t kMostPlan = uint64_t{1} << 28;
 
 // Microseconds of one thread, as samples/grammars take (tests/bench/README.md): of a chunk proven uniform; of one that
 // is sampled, with its seams; and of each instruction that is left there.
-constexpr double kUniform = 20, kSampled = 900, kInstruction = 12;
+constexpr double kUniform = 28, kSampled = 740, kInstruction = 6;
 
 std::vector<std::byte> encodePlan(const ContentId& job, std::span<const uint64_t> costs) {
   std::vector<std::byte> bytes;
@@ -58,38 +58,59 @@ IntBox boxOf(const BakedRegion& region, const ChunkKey& first, int chunks) {
   return box;
 }
 
-/// A tile's chunks, two by two by two together: what is left of the field there tells what each will take.
-Result<double> costOf(const Bakery& bakery, const TileKey& tile) {
-  const std::vector<size_t> numbers = chunksIn(bakery.region, tile);
-  std::vector<bool> wanted(kTileChunks);
-  for (const size_t number : numbers) wanted[number] = true;
-  CellsAtHand at_hand;
-  PruneScratch scratch(bakery.memory);
-  PrunedProgram block(bakery.memory), chunk(bakery.memory);
-  double cost = 0;
-  for (int b = 0; b < 64; ++b) {
-    const ChunkKey first = {
-        tile.level, {8 * tile.at.x + 2 * (b % 4), 8 * tile.at.y + 2 * (b / 4 % 4), 8 * tile.at.z + 2 * (b / 16)}};
-    std::vector<ChunkKey> chunks;
-    for (int i = 0; i < 8; ++i) {
-      const ChunkKey one = neighbourOf(first, i & 1, i >> 1 & 1, i >> 2 & 1);
-      if (wanted[numberInTile(one)]) chunks.push_back(one);
+/// What is left of the field in a tile's chunks, four by four by four and smaller, tells what each will take.
+class Estimate {
+ public:
+  Estimate(const Bakery& bakery, const TileKey& tile)
+      : bakery_(bakery), tile_(tile), wanted_(kTileChunks), scratch_(bakery.memory) {
+    for (const size_t number : chunksIn(bakery.region, tile)) wanted_[number] = true;
+  }
+
+  Result<double> cost() {
+    CellsAtHand at_hand;
+    for (int block = 0; block < 8; ++block) {
+      const ChunkKey first = neighbourOf(chunkOf(tile_, 0), 4 * (block & 1), 4 * (block >> 1 & 1), 4 * (block >> 2));
+      if (count(first, 4) == 0) continue;
+      const IntBox box = boxOf(bakery_.region, first, 4);
+      const Result<std::shared_ptr<const FieldProgram>> program =
+          bakery_.world.compile(box, tile_.level, nullptr, &at_hand);
+      if (!program) return program.error();
+      look((*program)->view(), first, 4);
     }
-    if (chunks.empty()) continue;
-    const IntBox box = boxOf(bakery.region, first, 2);
-    const Result<std::shared_ptr<const FieldProgram>> program =
-        bakery.world.compile(box, tile.level, nullptr, &at_hand);
-    if (!program) return program.error();
-    prune((*program)->view(), box, scratch, block);
-    cost += kUniform * static_cast<double>(chunks.size());
-    if (block.solid() || block.empty()) continue;
-    for (const ChunkKey& one : chunks) {
-      prune(block.view(), boxOf(bakery.region, one, 1), scratch, chunk);
-      if (!chunk.solid() && !chunk.empty()) cost += kSampled + kInstruction * static_cast<double>(chunk.instrs.size());
+    return cost_;
+  }
+
+ private:
+  /// How many of the tile's chunks in the region begin in a cube of `edge` chunks.
+  size_t count(const ChunkKey& first, int edge) const {
+    size_t chunks = 0;
+    for (int i = 0; i < edge * edge * edge; ++i)
+      chunks += wanted_[numberInTile(neighbourOf(first, i % edge, i / edge % edge, i / edge / edge))];
+    return chunks;
+  }
+
+  void look(const ProgramView& field, const ChunkKey& first, int edge) {
+    const size_t chunks = count(first, edge);
+    if (chunks == 0) return;
+    PrunedProgram left(bakery_.memory);
+    prune(field, boxOf(bakery_.region, first, edge), scratch_, left);
+    if (left.solid() || left.empty()) {
+      cost_ += kUniform * static_cast<double>(chunks);
+    } else if (edge == 1) {
+      cost_ += kSampled + kInstruction * static_cast<double>(left.instrs.size());
+    } else {
+      const int half = edge / 2;
+      for (int part = 0; part < 8; ++part)
+        look(left.view(), neighbourOf(first, half * (part & 1), half * (part >> 1 & 1), half * (part >> 2)), half);
     }
   }
-  return cost;
-}
+
+  const Bakery& bakery_;
+  const TileKey tile_;
+  std::vector<bool> wanted_;
+  PruneScratch scratch_;
+  double cost_ = 0;
+};
 
 }  // namespace
 
@@ -110,7 +131,7 @@ Result<std::vector<uint64_t>> planOf(const Bakery& bakery, std::span<const TileK
       const std::lock_guard lock(mutex);
       if (error) return;
     }
-    const Result<double> cost = costOf(bakery, tiles[i]);
+    const Result<double> cost = Estimate(bakery, tiles[i]).cost();
     const std::lock_guard lock(mutex);
     if (!cost) {
       error = cost.error();
