@@ -10,7 +10,7 @@
 namespace sgm::store {
 namespace {
 
-constexpr uint64_t kMostTiles = uint64_t{1} << 20;
+constexpr uint64_t kMostTiles = uint64_t{1} << 22;
 
 int64_t floorOf(int64_t a, int64_t b) { return a / b - (a % b < 0); }
 

@@ -49,7 +49,7 @@ struct BakedRegion {
 };
 
 /// invalid_argument: no such levels, an empty box, a cell that is none. range: chunks leave the world. limit: more than
-/// 2^20 tiles.
+/// 2^22 tiles.
 Result<void> check(const BakedRegion& region);
 /// In their order. Precondition of both: check accepts the region.
 std::vector<TileKey> tilesOf(const BakedRegion& region);

@@ -112,7 +112,7 @@ done
 expect 2 "$SGM" bake "$cave" --out new
 err_has 'say which part with --region'
 expect 1 "$SGM" bake "$cave" --region -2000000,-2000000,-2000000:2000000,2000000,2000000 --out new
-err_has 'more than 1048576 tiles'
+err_has 'more than 4194304 tiles'
 # A disk that is full: here, files that may not grow.
 expect 4 bash -c 'trap "" XFSZ; ulimit -f 8; exec "$@"' bash "$SGM" bake "${small[@]}" --out full
 one_line

@@ -1,5 +1,8 @@
 // What comes from a store is what would have been derived, byte by byte.
 
+#include <atomic>
+#include <thread>
+
 #include "store_support.h"
 
 using namespace sgm;
@@ -138,4 +141,41 @@ TEST_CASE("what a store does not have is derived, and what is damaged there, whi
   const auto mended = sourceOf(folder.path);
   compare(mended.get(), baking.world);
   CHECK(mended->stats().damaged == 0);
+}
+
+TEST_CASE("threads that stream from one store get what one gets", "[store][threads]") {
+  const Excerpt& scene = scenes()[0];
+  const CacheFolder folder;
+  const Baking baking(scene.settings(), regionOf(scene, 0, 1), folder.path);
+  baking.bakeAll();
+  baking.merge();
+  const auto source = sourceOf(folder.path);
+  std::vector<ChunkRequest> requests;
+  std::mt19937 random(7);
+  while (requests.size() < 24) {
+    const ChunkRequest request = randomRequest(random, scene);
+    if (request.key.level > 1) continue;
+    requests.push_back(request);
+    requests.back().outermost = requests.back().anchors = requests.back().signs = false;
+  }
+  std::vector<MeshedChunk> expected;
+  for (const ChunkRequest& request : requests)
+    expected.push_back(meshed(baking.machine.mesher(baking.world, nullptr), request));
+  std::vector<std::thread> threads;
+  std::atomic<int> unlike = 0;
+  for (size_t t = 0; t < 4; ++t) {
+    threads.emplace_back([&, t] {
+      ChunkMesher stored = baking.machine.mesher(baking.world, nullptr);
+      stored.baked = source.get();
+      for (size_t i = 0; i < 2 * requests.size(); ++i) {
+        const size_t number = (i * (2 * t + 1)) % requests.size();
+        const Result<MeshedChunk> chunk = stored.mesh(requests[number], nullptr);
+        unlike += !chunk || !same(*chunk, expected[number]);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  CHECK(unlike == 0);
+  CHECK(source->stats().hits > 0);
+  CHECK(source->stats().misses == 0);
 }
