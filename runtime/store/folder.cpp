@@ -35,7 +35,8 @@ Result<void> Folder::make() const {
   const fs::path format = root_ / "format";
   std::error_code error;
   if (!fs::exists(format, error)) {
-    if (!fs::is_empty(root_, error) && !error)
+    // Another worker may have just made it.
+    if (!fs::is_empty(root_, error) && !error && !fs::exists(format, error))
       return Error{Code::bad_input, "'" + root_.string() + "' is not empty and no store: name another folder"};
     const std::string text = formatText();
     if (Result<void> written = writeFile(format, std::as_bytes(std::span(text)), nullptr); !written) return written;
