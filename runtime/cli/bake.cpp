@@ -2,7 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <charconv>
+#include <algorithm>
 #include <filesystem>
 
 #include "cli/bake_slurm.h"
@@ -13,8 +13,6 @@
 #include "sgm/sgm.h"
 #include "store/merge.h"
 #include "store/plan.h"
-#include "store/verify.h"
-#include "store/world_file.h"
 #include "stream/chunk_codec.h"
 
 namespace sgm::cli {
@@ -25,6 +23,7 @@ namespace fs = std::filesystem;
 struct Report {
   size_t tiles = 0, made = 0, made_before = 0;  ///< of this shard
   std::optional<store::Merged> merged;
+  uint64_t index_bytes = 0;
   bool there_before = false;
   double seconds = 0;
 };
@@ -34,11 +33,11 @@ double perTriangle(uint64_t bytes, uint64_t triangles) {
 }
 
 Json manifestOf(const BakeOptions& options, const OpenedWorld& world, const std::string& text,
-                const store::BakedRegion& region, const store::Merged& merged) {
+                const store::BakedRegion& region, const store::WorldSummary& baked) {
   Json parameters = Json::object();
   for (size_t i = 0; i < world.program->params.size(); ++i)
     parameters[world.program->text(world.program->params[i].name)] = world.settings.parameters.values[i];
-  const measure::SurfaceSums& sums = merged.measured;
+  const measure::SurfaceSums& sums = baked.measured;
   Json defects = Json::object();
   for (size_t i = 0; i < measure::kDefects; ++i)
     defects[measure::defectName(static_cast<measure::Defect>(i))] = sums.defects[i];
@@ -53,8 +52,8 @@ Json manifestOf(const BakeOptions& options, const OpenedWorld& world, const std:
           {"sharp", options.sharp},
           {"region", {metresJson(region.box.lo), metresJson(region.box.hi)}},
           {"levels", {region.first_level, region.last_level}},
-          {"tiles", merged.tiles},
-          {"chunks", merged.chunks},
+          {"tiles", baked.tiles},
+          {"chunks", baked.chunks},
           {"triangles", sums.triangles},
           {"area", sums.area},
           {"defects", defects}};
@@ -69,15 +68,16 @@ void print(const BakeOptions& options, const Report& report, const std::string& 
                  {"there_before", report.there_before},
                  {"seconds", report.seconds}};
     if (report.merged) {
-      const store::Merged& m = *report.merged;
-      json.update({{"chunks", m.chunks},
-                   {"contents", m.contents},
-                   {"triangles", m.measured.triangles},
-                   {"packs", m.packs},
-                   {"pack_bytes", m.pack_bytes},
-                   {"index_bytes", m.index_bytes},
-                   {"bytes_per_triangle", perTriangle(m.pack_bytes + m.index_bytes, m.measured.triangles)},
-                   {"sound", m.measured.sound()}});
+      const store::WorldSummary& baked = report.merged->world;
+      json.update({{"chunks", baked.chunks},
+                   {"contents", baked.contents},
+                   {"triangles", baked.measured.triangles},
+                   {"packs", baked.packs},
+                   {"pack_bytes", baked.pack_bytes},
+                   {"new_bytes", report.merged->new_bytes},
+                   {"index_bytes", report.index_bytes},
+                   {"bytes_per_triangle", perTriangle(baked.pack_bytes + report.index_bytes, baked.measured.triangles)},
+                   {"sound", baked.measured.sound()}});
     }
     fmt::print("{}\n", json.text());
     return;
@@ -92,24 +92,17 @@ void print(const BakeOptions& options, const Report& report, const std::string& 
     fmt::print("  The world is in the store when all shards are done: then sgm bake --merge\n");
     return;
   }
-  const store::Merged& m = *report.merged;
+  const store::WorldSummary& baked = report.merged->world;
+  const uint64_t bytes = baked.pack_bytes + report.index_bytes;
   fmt::print("  world    {}\n", world);
-  fmt::print("  chunks   {}, {} triangles; {} contents that differ\n", m.chunks, m.measured.triangles, m.contents);
-  fmt::print("  files    {:.1f} MB of {} packs have come, an index of {:.2f} MB: {:.2f} bytes a triangle\n",
-             static_cast<double>(m.pack_bytes) / 1e6, m.packs, static_cast<double>(m.index_bytes) / 1e6,
-             perTriangle(m.pack_bytes + m.index_bytes, m.measured.triangles));
-  fmt::print("  measured {:.1f} m2 on all levels, {}\n", m.measured.area,
-             m.measured.sound() ? "no defect" : "with defects: see the manifest");
-}
-
-/// Whether just this is in the store already, whole as far as sizes tell.
-bool isThere(const store::Folder& folder, const store::ContentId& key, const store::BakedRegion& region) {
-  std::error_code error;
-  if (!fs::exists(folder.manifest(key), error)) return false;
-  const Result<store::WorldFile> world = store::WorldFile::open(folder.world(key));
-  if (!world || store::jobKey(key, world->index.region) != store::jobKey(key, region)) return false;
-  const Result<bool> packs = store::hasPacks(folder, *world);
-  return packs && *packs;
+  fmt::print("  chunks   {}, {} triangles; {} contents that differ\n", baked.chunks, baked.measured.triangles,
+             baked.contents);
+  fmt::print(
+      "  files    {} packs of {:.1f} MB, of which {:.1f} are new, an index of {:.2f} MB: {:.2f} bytes a triangle\n",
+      baked.packs, static_cast<double>(baked.pack_bytes) / 1e6, static_cast<double>(report.merged->new_bytes) / 1e6,
+      static_cast<double>(report.index_bytes) / 1e6, perTriangle(bytes, baked.measured.triangles));
+  fmt::print("  measured {:.1f} m2 on all levels, {}\n", baked.measured.area,
+             baked.measured.sound() ? "no defect" : "with defects: see the manifest");
 }
 
 /// Bakes the tiles; those that are done already count as done.
@@ -120,19 +113,20 @@ Result<Report> bakeTiles(const store::Bakery& bakery, const std::vector<store::T
   uint64_t all = 0, done = 0;
   for (size_t i = first; i < last; ++i) all += costs[i] + 1;
   ProgressBar bar("baking");
+  const auto show = [&](uint64_t cost) { bar.show(1000 * (done + cost) / std::max<uint64_t>(all, 1), 1000); };
   for (size_t i = first; i < last; ++i) {
     if (store::madeBefore(bakery, tiles[i])) {
       ++report.made_before;
     } else {
       const Result<store::TileRecord> record = store::bakeTile(bakery, tiles[i], [&](uint64_t chunks, uint64_t of) {
-        bar.show(done + (costs[i] + 1) * chunks / (of + 1), all);
+        show((costs[i] + 1) * chunks / (of + 1));
         return true;
       });
       if (!record) return record.error();
       ++report.made;
     }
     done += costs[i] + 1;
-    bar.show(done, all);
+    show(0);
   }
   return report;
 }
@@ -155,67 +149,66 @@ Exit bake(const BakeOptions& options) {
   if (!jobs) return complain(jobs.error());
   const Result<std::unique_ptr<Backend>> backend = backendOf(options, **jobs);
   if (!backend) return complain(backend.error());
-  if (!(*backend)->capabilities().exact)
-    return complain(Exit::backend, "this device's meshes are not those of every other: bake with --backend cpu");
+  if (!(*backend)->capabilities().exact) return complain(Exit::backend, kNotExact);
   const WorldField world(opened.settings, std::pmr::new_delete_resource());
-  const Result<store::ContentId> key = store::worldKey(world, options.sharp);
-  if (!key) return complain(key.error());
-
   const store::Folder folder(options.out);
-  if (const Result<void> made = folder.make(); !made) return complain(made.error());
+  Result<store::Bakery> bakery =
+      store::bakeryOf(world, **backend, **jobs, region, options.sharp, folder, std::pmr::new_delete_resource());
+  if (!bakery) return complain(bakery.error());
+  bakery->unfinished = &unfinished_files;
+  if (const Result<void> made = options.merge ? folder.check() : folder.make(); !made) return complain(made.error());
   Report report;
   const auto finish = [&] {
     report.seconds = watch.seconds();
-    print(options, report, store::nameOf(*key));
+    print(options, report, store::nameOf(bakery->key));
     return Exit::done;
   };
-  if (isThere(folder, *key, region)) {
-    report.there_before = true;
-    return finish();
-  }
-  const store::Bakery bakery{world,
-                             **backend,
-                             **jobs,
-                             region,
-                             options.sharp,
-                             folder.baking(store::jobKey(*key, region)),
-                             &unfinished_files,
-                             std::pmr::new_delete_resource()};
-  if (const Result<void> made = store::makeFolder(bakery.folder); !made) return complain(made.error());
+  const auto isThere = [&]() -> Result<bool> {
+    const Result<bool> baked = store::isBaked(folder, *bakery);
+    report.there_before = baked && *baked;
+    return baked;
+  };
+  if (const Result<bool> there = isThere(); !there || *there) return there ? finish() : complain(there.error());
 
   if (!options.merge) {
+    if (const Result<void> made = store::makeFolder(bakery->folder); !made) return complain(made.error());
     const std::vector<store::TileKey> tiles = store::tilesOf(region);
     const Result<std::vector<uint64_t>> costs = [&] {
       ProgressBar bar("planning");
-      return store::planOf(bakery, tiles, [&](uint64_t done, uint64_t total) {
+      return store::planOf(*bakery, tiles, [&](uint64_t done, uint64_t total) {
         bar.show(done, total);
         return true;
       });
     }();
     if (!costs) return complain(costs.error());
-    if (options.slurm != 0)
-      return bakeBySlurm(options, slurmBakeOf(options, store::nameOf(store::jobKey(*key, region))));
+    if (options.slurm != 0) return bakeBySlurm(options, store::nameOf(bakery->job), isThere);
     const auto [first, last] = store::tilesOfShard(*costs, shard->first, shard->second);
-    Result<Report> baked = bakeTiles(bakery, tiles, *costs, first, last);
-    if (!baked) return complain(baked.error());
+    const Result<Report> baked = bakeTiles(*bakery, tiles, *costs, first, last);
+    if (!baked) {
+      // Another worker may have had the same tiles, and all have been merged meanwhile.
+      const Result<bool> there = isThere();
+      return there && *there ? finish() : complain(baked.error());
+    }
     report = *baked;
     if (!options.shard.empty()) return finish();
   }
+  const store::Manifest manifest = [&](const store::WorldSummary& baked) {
+    return manifestOf(options, opened, *text, region, baked).text() + "\n";
+  };
   const Result<store::Merged> merged = [&] {
     ProgressBar bar("merging");
-    return store::merge(folder, bakery, [&](uint64_t done, uint64_t total) {
+    return store::merge(folder, *bakery, manifest, [&](uint64_t done, uint64_t total) {
       bar.show(done, total);
       return true;
     });
   }();
   if (!merged) return complain(merged.error());
+  for (const std::string& warning : merged->warnings) fmt::print(stderr, "sgm: warning: {}\n", warning);
+  report.there_before = merged->there_before;
   report.merged = *merged;
-  report.tiles = merged->tiles;
-  const std::string manifest = manifestOf(options, opened, *text, region, *merged).text() + "\n";
-  if (const Result<void> written =
-          store::writeFile(folder.manifest(*key), std::as_bytes(std::span(manifest)), &unfinished_files);
-      !written)
-    return complain(written.error());
+  report.tiles = merged->world.tiles;
+  std::error_code error;
+  report.index_bytes = fs::file_size(folder.world(bakery->key), error);
   return finish();
 }
 

@@ -2,10 +2,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include "cli/json.h"
+#include "cli/slurm.h"
 #include "store/folder.h"
 
 namespace sgm::cli {
@@ -16,31 +18,32 @@ namespace fs = std::filesystem;
 /// Slurm's controller answers many; once in a while is enough.
 constexpr auto kBetweenLooks = std::chrono::seconds(1);
 
-void report(const BakeOptions& options, const SlurmBake& bake, const SlurmJobs& jobs, const SlurmState& state) {
+void report(const BakeOptions& options, const SlurmBake& bake, const SlurmJobs& jobs, const SlurmState& state,
+            bool there) {
   if (options.json) {
     fmt::print("{}\n",
                Json{{"jobs", {{"shards", jobs.shards}, {"merge", jobs.merge}, {"verification", jobs.verification}}},
                     {"shards", bake.shards},
                     {"waiting", state.waiting},
                     {"running", state.running},
-                    {"done", state.done},
                     {"failed", state.failed},
                     {"merge", state.merge},
-                    {"verification", state.verification}}
+                    {"verification", state.verification},
+                    {"baked", there}}
                    .text());
     return;
   }
-  fmt::print("{}: jobs {}, {} and {}: {} of {} shards done, {} failed; merge {}, verification {}\n", options.out,
-             jobs.shards, jobs.merge, jobs.verification, state.done, bake.shards, state.failed, state.merge,
-             state.verification);
+  fmt::print("{}: jobs {}, {} and {}: {} of {} shards wait, {} run, {} failed; merge {}, verification {}\n",
+             options.out, jobs.shards, jobs.merge, jobs.verification, state.waiting, bake.shards, state.running,
+             state.failed, state.merge.empty() ? "not known" : state.merge,
+             state.verification.empty() ? "not known" : state.verification);
 }
 
-}  // namespace
-
-SlurmBake slurmBakeOf(const BakeOptions& options, const std::string& name) {
+Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& name) {
   const auto absolute = [](const std::string& path) { return fs::absolute(path).lexically_normal().string(); };
   std::error_code error;
   const std::string program = fs::read_symlink("/proc/self/exe", error).string();
+  if (error) return Error{Code::io, "where this program lies cannot be told: " + error.message()};
   SlurmBake bake;
   bake.bake = {program,        "bake",   absolute(options.file),       "--out",     absolute(options.out), "--levels",
                options.levels, "--seed", std::to_string(options.seed), "--backend", options.backend};
@@ -57,35 +60,45 @@ SlurmBake slurmBakeOf(const BakeOptions& options, const std::string& name) {
   return bake;
 }
 
-Exit bakeBySlurm(const BakeOptions& options, const SlurmBake& bake) {
-  if (const Result<void> made = store::makeFolder(bake.folder); !made) return complain(made.error());
-  const Result<std::optional<SlurmJobs>> found = findJobs(bake);
+}  // namespace
+
+Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std::function<Result<bool>()>& isThere) {
+  const Result<SlurmBake> bake = slurmBakeOf(options, name);
+  if (!bake) return complain(bake.error());
+  if (const Result<void> made = store::makeFolder(bake->folder); !made) return complain(made.error());
+  const Result<std::optional<SlurmJobs>> found = findJobs(*bake);
   if (!found) return complain(found.error());
   const bool is_new = !found->has_value();
-  Result<SlurmJobs> jobs = is_new ? submitJobs(bake) : Result<SlurmJobs>(**found);
+  const Result<SlurmJobs> jobs = is_new ? submitJobs(*bake) : Result<SlurmJobs>(**found);
   if (!jobs) return complain(jobs.error());
   fmt::print(stderr,
              "sgm: jobs {} (shards), {} (merge) and {} (verification) of Slurm {}; stopping this ends none of them, "
              "scancel does\n",
              jobs->shards, jobs->merge, jobs->verification, is_new ? "are submitted" : "are under way");
-  Result<SlurmState> state = stateOf(bake, *jobs);
+  Result<SlurmState> state = stateOf(*jobs);
   {
     ProgressBar bar("baking");
-    while (state && !options.detach && !state->ended()) {
-      bar.show(state->done, bake.shards);
+    while (state && !options.detach && !state->ended) {
+      bar.show(bake->shards - std::min(bake->shards, state->waiting + state->running), bake->shards);
       std::this_thread::sleep_for(kBetweenLooks);
-      state = stateOf(bake, *jobs);
+      state = stateOf(*jobs);
     }
   }
   if (!state) return complain(state.error());
-  report(options, bake, *jobs, *state);
+  const Result<bool> there = isThere();
+  report(options, *bake, *jobs, *state, there && *there);
   if (options.detach) return Exit::done;
-  const auto well = [](const std::string& job) { return job.empty() || job == "COMPLETED"; };
-  if (state->failed == 0 && well(state->merge) && well(state->verification)) return Exit::done;
+  if (!there) return complain(there.error());
+  if (*there && state->verification == "COMPLETED") return Exit::done;
+  if (*there && state->verification.empty()) {
+    return complain(Exit::input,
+                    "the world is there, but Slurm does not tell how its verification has ended: sgm store verify says "
+                    "whether it is whole");
+  }
   return complain(Exit::input,
                   fmt::format("not all of it has ended well: '{}' has what the jobs have printed; the same command "
                               "bakes what is missing",
-                              bake.folder.string()));
+                              bake->folder.string()));
 }
 
 }  // namespace sgm::cli

@@ -45,6 +45,10 @@ struct MeshOptions : WorldOptions {
 };
 Exit mesh(const MeshOptions& options);
 
+/// What is said of a device whose meshes are not the same as all others'.
+inline constexpr const char* kNotExact =
+    "this device's meshes are not those of every other: take --backend cpu for a store";
+
 struct BakeOptions : WorldOptions {
   std::string out;                  ///< the store's folder
   std::string levels = "0..4";      ///< as readLevels takes them

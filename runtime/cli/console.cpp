@@ -31,6 +31,9 @@ Exit complain(Exit status, std::string_view message) {
   return status;
 }
 
+/// Seconds in which a bar has shown too little to tell from.
+constexpr double kBeforeEstimates = 3;
+
 ProgressBar::ProgressBar(std::string_view what) : what_(what), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
@@ -46,6 +49,12 @@ void ProgressBar::show(uint64_t done, uint64_t total) {
   constexpr uint64_t kWidth = 32;
   const uint64_t filled = std::min(kWidth, done * kWidth / total);
   fmt::print(stderr, "\r{} [{:#<{}}{: <{}}] {}/{}", what_, "", filled, "", kWidth - filled, done, total);
+  const double passed = std::chrono::duration<double>(now - begun_).count();
+  if (passed >= kBeforeEstimates && done > 0) {
+    const auto left = static_cast<uint64_t>(passed * static_cast<double>(total - done) / static_cast<double>(done));
+    fmt::print(stderr, ", {}:{:02}:{:02} left", left / 3600, left / 60 % 60, left % 60);
+  }
+  fmt::print(stderr, "\x1b[K");
   std::fflush(stderr);
 }
 

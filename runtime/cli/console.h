@@ -27,7 +27,8 @@ Exit exitOf(Code code);
 Exit complain(Exit status, std::string_view message);
 inline Exit complain(const Error& error) { return complain(exitOf(error.code), error.message); }
 
-/// A bar on stderr where that is a terminal, silence elsewhere. Erases itself when it ends.
+/// A bar on stderr where that is a terminal, silence elsewhere, with the time that is left where it takes long. Erases
+/// itself when it ends.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string_view what);
@@ -42,7 +43,7 @@ class ProgressBar {
   std::string what_;
   bool terminal_;
   bool drawn_ = false;
-  std::chrono::steady_clock::time_point last_{};
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now(), last_{};
 };
 
 /// Seconds since it was made.

@@ -1,7 +1,6 @@
 #include "cli/slurm.h"
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
 #include <optional>
 #include <set>
@@ -55,17 +54,28 @@ Result<std::string> submit(const SlurmBake& bake, const std::string& what, const
   return number;
 }
 
-bool isOver(const std::string& state) {
-  static const std::set<std::string> kOver{"BOOT_FAIL", "CANCELLED", "COMPLETED",     "DEADLINE",
-                                           "FAILED",    "NODE_FAIL", "OUT_OF_MEMORY", "TIMEOUT"};
-  return state.empty() || kOver.count(state) != 0;
+/// Tasks and jobs by state, of "NUMBER_TASK STATE" a line.
+using States = std::vector<std::pair<std::string, std::string>>;
+
+Result<States> statesFrom(const std::vector<std::string>& command) {
+  const Result<ProgramOutput> told = outputOf(command);
+  if (!told) return told.error();
+  // So the queue says that it knows none of them.
+  if (told->status != 0 && told->output.find("Invalid job id") != std::string::npos) return States();
+  if (told->status != 0) return Error{Code::io, command[0] + ": " + trimmed(told->output)};
+  States states;
+  std::istringstream lines(told->output);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string job, how;
+    if (words >> job >> how) states.emplace_back(job.substr(0, job.find('_')), how);
+  }
+  return states;
 }
 
 std::filesystem::path numbersOf(const SlurmBake& bake) { return bake.folder / "jobs"; }
 
 }  // namespace
-
-bool SlurmState::ended() const { return waiting == 0 && running == 0 && isOver(merge) && isOver(verification); }
 
 Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake) {
   const Result<std::vector<std::byte>> bytes = store::readFile(numbersOf(bake), 4096);
@@ -75,9 +85,9 @@ Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake) {
   uint64_t shards = 0;
   if (!(text >> jobs.shards >> jobs.merge >> jobs.verification >> shards) || shards != bake.shards)
     return std::optional<SlurmJobs>();
-  const Result<SlurmState> state = stateOf(bake, jobs);
+  const Result<SlurmState> state = stateOf(jobs);
   if (!state) return state.error();
-  return state->ended() ? std::optional<SlurmJobs>() : std::optional<SlurmJobs>(jobs);
+  return state->ended ? std::optional<SlurmJobs>() : std::optional<SlurmJobs>(jobs);
 }
 
 Result<SlurmJobs> submitJobs(const SlurmBake& bake) {
@@ -97,59 +107,46 @@ Result<SlurmJobs> submitJobs(const SlurmBake& bake) {
     own.push_back(log(what + ".txt"));
     return submit(bake, what, line, own);
   };
-  // Jobs that nothing follows would never be merged.
+  // Jobs that nothing follows, or nobody knows of, would be in the way of those of the next call.
   const auto giveUp = [&](const Error& error) {
-    (void)outputOf({"scancel", jobs.shards});
+    for (const std::string& job : {jobs.verification, jobs.merge, jobs.shards}) {
+      if (!job.empty()) (void)outputOf({"scancel", job});
+    }
     return error;
   };
   number = dependent("merge", lineOf(bake.bake) + " --merge" + threads, jobs.shards);
   if (!number) return giveUp(number.error());
   jobs.merge = *number;
   number = dependent("verify", lineOf(bake.verify), jobs.merge);
-  if (!number) {
-    (void)outputOf({"scancel", jobs.merge});
-    return giveUp(number.error());
-  }
+  if (!number) return giveUp(number.error());
   jobs.verification = *number;
   const std::string text = fmt::format("{} {} {} {}\n", jobs.shards, jobs.merge, jobs.verification, bake.shards);
   if (const Result<void> written = store::writeFile(numbersOf(bake), std::as_bytes(std::span(text)), nullptr); !written)
-    return written.error();
+    return giveUp(written.error());
   return jobs;
 }
 
-Result<SlurmState> stateOf(const SlurmBake& bake, const SlurmJobs& jobs) {
+Result<SlurmState> stateOf(const SlurmJobs& jobs) {
   const std::string all = fmt::format("{},{},{}", jobs.shards, jobs.merge, jobs.verification);
-  // "NUMBER_TASK STATE" a line.
-  Result<ProgramOutput> told = outputOf({"sacct", "-n", "-X", "--array", "-j", all, "-o", "JobID%40,State%20"});
-  if (!told || told->status != 0) told = outputOf({"squeue", "-h", "-r", "-t", "all", "-j", all, "-o", "%i %T"});
-  if (!told) return told.error();
-  // The queue knows none of them any more.
-  if (told->status != 0 && told->output.find("Invalid job id") != std::string::npos) *told = {};
-  if (told->status != 0) return Error{Code::io, "squeue: " + trimmed(told->output)};
+  const Result<States> queue = statesFrom({"squeue", "-h", "-r", "-j", all, "-o", "%i %T"});
+  if (!queue) return queue.error();
+  Result<States> ended = statesFrom({"sacct", "-n", "-X", "--array", "-j", all, "-o", "JobID%40,State%20"});
+  if (!ended) ended = statesFrom({"squeue", "-h", "-r", "-t", "all", "-j", all, "-o", "%i %T"});
   SlurmState state;
-  uint64_t listed = 0;
-  std::istringstream lines(told->output);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string job, how;
-    if (!(words >> job >> how)) continue;
-    const std::string number = job.substr(0, job.find('_'));
-    if (number == jobs.merge) state.merge = how;
-    if (number == jobs.verification) state.verification = how;
-    if (number != jobs.shards) continue;
-    ++listed;
-    if (how == "COMPLETED") {
-      ++state.done;
-    } else if (isOver(how)) {
-      ++state.failed;
-    } else if (how == "RUNNING" || how == "COMPLETING") {
-      ++state.running;
-    } else {
-      ++state.waiting;
+  state.ended = queue->empty();
+  // What the queue says last, since it is what holds.
+  for (const States* states : std::initializer_list<const States*>{ended ? &*ended : nullptr, &*queue}) {
+    for (size_t i = 0; states != nullptr && i < states->size(); ++i) {
+      const auto& [job, how] = (*states)[i];
+      if (job == jobs.merge) state.merge = how;
+      if (job == jobs.verification) state.verification = how;
+      if (job != jobs.shards) continue;
+      if (states == &*queue) ++(how == "RUNNING" || how == "COMPLETING" ? state.running : state.waiting);
+      static const std::set<std::string> kFailed{"BOOT_FAIL", "CANCELLED", "CANCELLED+", "DEADLINE",      "FAILED",
+                                                 "NODE_FAIL", "PREEMPTED", "REVOKED",    "OUT_OF_MEMORY", "TIMEOUT"};
+      if (states != &*queue) state.failed += kFailed.count(how);
     }
   }
-  // What the queue has forgotten has ended well, or the merge would have been cancelled with it.
-  if (listed < bake.shards && listed + state.failed > 0) state.done += bake.shards - listed;
   return state;
 }
 

@@ -26,17 +26,18 @@ struct SlurmJobs {
 };
 
 struct SlurmState {
-  uint64_t waiting = 0, running = 0, done = 0, failed = 0;  ///< shards
-  std::string merge, verification;                          ///< as Slurm calls it: "PENDING"; empty: not known any more
-  /// Nothing of it waits or runs.
-  bool ended() const;
+  uint64_t waiting = 0, running = 0,
+           failed = 0;              ///< shards; those that are none of it have ended well, as far as known
+  std::string merge, verification;  ///< as Slurm calls it: "PENDING"; empty: not known
+  bool ended = false;               ///< nothing of it is in the queue
 };
 
 /// Jobs of an earlier call that wait or run still; none where there are none.
 Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake);
-/// io: sbatch is not there, or refuses; the message has what it says.
+/// io: sbatch is not there, or refuses; the message has what it says. No job stays where one could not be submitted.
 Result<SlurmJobs> submitJobs(const SlurmBake& bake);
-/// By Slurm's accounting where it keeps one, else by its queue, which forgets jobs some minutes after their end. io.
-Result<SlurmState> stateOf(const SlurmBake& bake, const SlurmJobs& jobs);
+/// What waits and runs is what the queue has, which knows it at once. How the others have ended is told by Slurm's
+/// accounting, which may lag behind, or else by the queue, which forgets it after some minutes. io.
+Result<SlurmState> stateOf(const SlurmJobs& jobs);
 
 }  // namespace sgm::cli

@@ -21,23 +21,25 @@ std::string chunkName(const ChunkKey& chunk) {
 
 double megabytes(uint64_t bytes) { return static_cast<double>(bytes) / 1e6; }
 
-/// All worlds of a store, or that of one name.
-Result<std::vector<store::WorldFile>> worldsOf(const store::Folder& folder, const std::string& name) {
+/// Those of a store whose name begins so, all where nothing is said; what cannot be read among them, too.
+Result<std::vector<Result<store::WorldFile>>> openWorlds(const store::Folder& folder, const std::string& name) {
   if (Result<void> can = store::available(); !can) return can.error();
   if (Result<void> good = folder.check(); !good) return good.error();
-  Result<std::vector<store::WorldFile>> worlds = store::WorldFile::all(folder);
-  if (!worlds || name.empty()) return worlds;
-  std::erase_if(*worlds,
-                [&](const store::WorldFile& world) { return store::nameOf(world.index.world).rfind(name, 0) != 0; });
-  if (worlds->size() == 1) return worlds;
+  const Result<std::vector<fs::path>> paths = store::worldsOf(folder);
+  if (!paths) return paths.error();
+  std::vector<Result<store::WorldFile>> worlds;
+  for (const fs::path& path : *paths) {
+    if (path.stem().string().rfind(name, 0) == 0) worlds.push_back(store::WorldFile::open(path));
+  }
+  if (name.empty() || worlds.size() == 1) return worlds;
   return Error{Code::invalid_argument,
                fmt::format("'{}' has {} worlds whose name begins with {}: sgm store info lists them",
-                           folder.root().string(), worlds->size(), name)};
+                           folder.root().string(), worlds.size(), name)};
 }
 
 /// The one that is meant.
 Result<store::WorldFile> worldOf(const store::Folder& folder, const std::string& name) {
-  Result<std::vector<store::WorldFile>> worlds = worldsOf(folder, name);
+  Result<std::vector<Result<store::WorldFile>>> worlds = openWorlds(folder, name);
   if (!worlds) return worlds.error();
   if (worlds->size() == 1) return std::move(worlds->front());
   return Error{Code::invalid_argument,
@@ -45,103 +47,109 @@ Result<store::WorldFile> worldOf(const store::Folder& folder, const std::string&
                            folder.root().string(), worlds->size())};
 }
 
-struct WorldSummary {
-  uint64_t chunks = 0, triangles = 0, contents = 0, bytes = 0;
-  std::set<store::ContentId> packs;
-};
-
-Result<WorldSummary> summaryOf(const store::WorldFile& world) {
-  WorldSummary summary;
-  for (const store::TileEntry& tile : world.index.tiles) {
-    const Result<store::TileRecord> record = world.record(tile, std::pmr::new_delete_resource());
-    if (!record) return record.error();
-    summary.chunks += record->chunks;
-    summary.triangles += record->measured.triangles;
-    for (const store::PackFile& pack : record->packs) {
-      if (summary.packs.insert(pack.name).second) summary.bytes += pack.bytes;
-    }
-  }
-  return summary;
+/// What is wrong, to stderr.
+void tell(const store::Problems& problems) {
+  for (const std::string& problem : problems.told) fmt::print(stderr, "sgm: error: {}\n", problem);
+  if (problems.count > problems.told.size())
+    fmt::print(stderr, "sgm: error: and {} more\n", problems.count - problems.told.size());
 }
 
 Json boxJson(const IntBox& box) { return {metresJson(box.lo), metresJson(box.hi)}; }
+
+/// Some chunks of the world that the options say, baked again.
+Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder) {
+  const OpenedWorld opened = openWorld(options);
+  if (opened.program == nullptr) return opened.status;
+  const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
+  if (!jobs) return complain(jobs.error());
+  const Result<std::unique_ptr<Backend>> backend = backendOf(options, **jobs);
+  if (!backend) return complain(backend.error());
+  if (!(*backend)->capabilities().exact) return complain(Exit::backend, kNotExact);
+  std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
+  const WorldField world(opened.settings, memory);
+  const Result<store::ContentId> key = store::worldKey(world, options.sharp);
+  if (!key) return complain(key.error());
+  const Result<store::WorldFile> file = worldOf(folder, store::nameOf(*key));
+  if (!file) return complain(file.error());
+  const Result<store::Bakery> bakery =
+      store::bakeryOf(world, **backend, **jobs, file->index.region, options.sharp, folder, memory);
+  if (!bakery) return complain(bakery.error());
+  const Result<store::Compared> compared = store::compareWithBaking(*bakery, *file, options.samples, options.draw);
+  if (!compared) return complain(compared.error());
+  tell(compared->problems);
+  if (options.json) {
+    fmt::print("{}\n", Json{{"chunks", compared->chunks}, {"problems", compared->problems.count}}.text());
+  } else {
+    fmt::print("{}: {} chunks baked again, {} parts differ\n", options.store, compared->chunks,
+               compared->problems.count);
+  }
+  return compared->problems.count == 0 ? Exit::done : Exit::input;
+}
 
 }  // namespace
 
 Exit storeInfo(const StoreOptions& options) {
   const store::Folder folder(options.store);
-  const Result<std::vector<store::WorldFile>> worlds = worldsOf(folder, options.world);
+  const Result<std::vector<Result<store::WorldFile>>> worlds = openWorlds(folder, options.world);
   if (!worlds) return complain(worlds.error());
   Json all = Json::array();
-  for (const store::WorldFile& world : *worlds) {
-    const Result<WorldSummary> summary = summaryOf(world);
-    if (!summary) return complain(summary.error());
-    const store::BakedRegion& region = world.index.region;
-    const std::string name = store::nameOf(world.index.world);
+  Exit status = Exit::done;
+  for (const Result<store::WorldFile>& world : *worlds) {
+    const Result<store::WorldSummary> summary =
+        world ? store::summaryOf(*world, std::pmr::new_delete_resource()) : Result<store::WorldSummary>(world.error());
+    if (!summary) {
+      status = complain(summary.error());
+      continue;
+    }
+    const store::BakedRegion& region = world->index.region;
+    const std::string name = store::nameOf(world->index.world);
     all.push_back({{"world", name},
-                   {"manifest", folder.manifest(world.index.world).string()},
+                   {"manifest", folder.manifest(world->index.world).string()},
                    {"region", boxJson(region.box)},
                    {"levels", {region.first_level, region.last_level}},
                    {"cell_units", region.finest_cell},
-                   {"tiles", world.index.tiles.size()},
+                   {"tiles", summary->tiles},
                    {"chunks", summary->chunks},
-                   {"triangles", summary->triangles},
-                   {"packs", summary->packs.size()},
-                   {"pack_bytes", summary->bytes}});
+                   {"triangles", summary->measured.triangles},
+                   {"contents", summary->contents},
+                   {"packs", summary->packs},
+                   {"pack_bytes", summary->pack_bytes}});
     if (options.json) continue;
-    fmt::print(
-        "{}\n  region   {},{},{} to {},{},{} m, levels {} to {}, cells of {} m\n  chunks   {} in {} tiles, {} "
-        "triangles\n"
-        "  files    {} packs, {:.1f} MB\n",
-        name, metres(region.box.lo.x), metres(region.box.lo.y), metres(region.box.lo.z), metres(region.box.hi.x),
-        metres(region.box.hi.y), metres(region.box.hi.z), region.first_level, region.last_level,
-        metres(region.finest_cell), summary->chunks, world.index.tiles.size(), summary->triangles,
-        summary->packs.size(), megabytes(summary->bytes));
+    fmt::print("{}\n", name);
+    fmt::print("  region   {},{},{} to {},{},{} m, levels {} to {}, cells of {} m\n", metres(region.box.lo.x),
+               metres(region.box.lo.y), metres(region.box.lo.z), metres(region.box.hi.x), metres(region.box.hi.y),
+               metres(region.box.hi.z), region.first_level, region.last_level, metres(region.finest_cell));
+    fmt::print("  chunks   {} in {} tiles, {} triangles\n", summary->chunks, summary->tiles,
+               summary->measured.triangles);
+    fmt::print("  files    {} packs, {:.1f} MB\n", summary->packs, megabytes(summary->pack_bytes));
   }
   if (options.json) fmt::print("{}\n", Json{{"worlds", all}}.text());
   if (!options.json && worlds->empty()) fmt::print("'{}' has no worlds yet\n", options.store);
-  return Exit::done;
+  return status;
 }
 
 Exit storeVerify(const StoreVerifyOptions& options) {
   const store::Folder folder(options.store);
-  if (!options.file.empty()) {
-    const OpenedWorld opened = openWorld(options);
-    if (opened.program == nullptr) return opened.status;
-    const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
-    if (!jobs) return complain(jobs.error());
-    const Result<std::unique_ptr<Backend>> backend = backendOf(options, **jobs);
-    if (!backend) return complain(backend.error());
-    const WorldField world(opened.settings, std::pmr::new_delete_resource());
-    const Result<store::ContentId> key = store::worldKey(world, options.sharp);
-    if (!key) return complain(key.error());
-    const Result<store::WorldFile> file = worldOf(folder, store::nameOf(*key));
-    if (!file) return complain(file.error());
-    const store::Bakery bakery{world,         **backend, **jobs,  file->index.region,
-                               options.sharp, {},        nullptr, std::pmr::new_delete_resource()};
-    const Result<store::Problems> differ = store::compareWithBaking(bakery, *file, options.samples, options.draw);
-    if (!differ) return complain(differ.error());
-    for (const std::string& problem : differ->told) fmt::print(stderr, "sgm: error: {}\n", problem);
-    fmt::print("{}: {} chunks baked again, {} parts differ\n", options.store, options.samples, differ->count);
-    return differ->count == 0 ? Exit::done : Exit::input;
-  }
-  const Result<std::vector<store::WorldFile>> worlds = worldsOf(folder, options.world);
+  if (!options.file.empty()) return bakeAgain(options, folder);
+  const Result<std::vector<Result<store::WorldFile>>> worlds = openWorlds(folder, options.world);
   if (!worlds) return complain(worlds.error());
-  uint64_t problems = 0;
+  Exit status = Exit::done;
   Json all = Json::array();
-  for (const store::WorldFile& world : *worlds) {
+  for (const Result<store::WorldFile>& world : *worlds) {
+    if (!world) {
+      status = complain(world.error());
+      continue;
+    }
     const store::Verified found = [&] {
       ProgressBar bar("verifying");
-      return store::verify(folder, world, [&](uint64_t done, uint64_t total) {
+      return store::verify(folder, *world, [&](uint64_t done, uint64_t total) {
         bar.show(done, total);
         return true;
       });
     }();
-    problems += found.problems.count;
-    for (const std::string& problem : found.problems.told) fmt::print(stderr, "sgm: error: {}\n", problem);
-    if (found.problems.count > found.problems.told.size())
-      fmt::print(stderr, "sgm: error: and {} more\n", found.problems.count - found.problems.told.size());
-    all.push_back({{"world", store::nameOf(world.index.world)},
+    tell(found.problems);
+    if (found.problems.count != 0) status = Exit::input;
+    all.push_back({{"world", store::nameOf(world->index.world)},
                    {"tiles", found.tiles},
                    {"chunks", found.chunks},
                    {"contents", found.contents},
@@ -151,13 +159,13 @@ Exit storeVerify(const StoreVerifyOptions& options) {
                    {"problems", found.problems.count}});
     if (!options.json) {
       fmt::print("{}: {} chunks in {} tiles, {} contents in {} packs ({:.1f} MB), {} faces between chunks: {}\n",
-                 store::nameOf(world.index.world), found.chunks, found.tiles, found.contents, found.packs,
+                 store::nameOf(world->index.world), found.chunks, found.tiles, found.contents, found.packs,
                  megabytes(found.bytes), found.faces,
                  found.problems.count == 0 ? "whole and closed" : fmt::format("{} problems", found.problems.count));
     }
   }
   if (options.json) fmt::print("{}\n", Json{{"worlds", all}}.text());
-  return problems == 0 ? Exit::done : Exit::input;
+  return status;
 }
 
 Exit storeDiff(const StoreDiffOptions& options) {

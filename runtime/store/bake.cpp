@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "base/bytes.h"
-#include "store/folder.h"
 #include "stream/mesh_chunks.h"
 #include "stream/reachability.h"
 
@@ -69,16 +68,20 @@ Result<ContentId> worldKey(const WorldField& world, bool sharp) {
   return idOf(*bytes);
 }
 
+Result<Bakery> bakeryOf(const WorldField& world, Backend& backend, JobSystem& jobs, const BakedRegion& region,
+                        bool sharp, const Folder& store, std::pmr::memory_resource* memory) {
+  if (Result<void> good = check(region); !good) return good.error();
+  const Result<ContentId> key = worldKey(world, sharp);
+  if (!key) return key.error();
+  const ContentId job = jobKey(*key, region);
+  return Bakery{world, backend, jobs, region, sharp, *key, job, store.baking(job), nullptr, memory};
+}
+
 ContentId jobKey(const ContentId& world, const BakedRegion& region) {
   std::vector<std::byte> bytes;
   ByteWriter out(bytes);
-  out.put(world.high);
-  out.put(world.low);
-  for (const Int3 corner : {region.box.lo, region.box.hi}) {
-    for (int axis = 0; axis < 3; ++axis) out.put(corner[axis]);
-  }
-  out.put(int32_t{region.first_level});
-  out.put(int32_t{region.last_level});
+  putId(world, out);
+  putRegion(region, out);
   return idOf(bytes);
 }
 
@@ -100,8 +103,7 @@ std::vector<std::byte> encodeTileFile(const ContentId& job, const TileRecord& re
   ByteWriter out(bytes);
   out.put(kTileMagic);
   out.put(kTileVersion);
-  out.put(job.high);
-  out.put(job.low);
+  putId(job, out);
   const std::vector<std::byte> encoded = encodeTile(record);
   out.put(checksumOf(encoded));
   bytes.insert(bytes.end(), encoded.begin(), encoded.end());
@@ -111,9 +113,7 @@ std::vector<std::byte> encodeTileFile(const ContentId& job, const TileRecord& re
 std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   if (in.get<uint32_t>() != kTileMagic || in.get<uint32_t>() != kTileVersion) return std::nullopt;
-  ContentId of;
-  of.high = in.get<uint64_t>();
-  of.low = in.get<uint64_t>();
+  const ContentId of = getId(in);
   const auto checksum = in.get<uint64_t>();
   if (in.failed() || of != job) return std::nullopt;
   const std::span encoded = bytes.last(in.left());
@@ -122,11 +122,9 @@ std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const s
 }
 
 std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile) {
-  const Result<ContentId> world = worldKey(bakery.world, bakery.sharp);
-  if (!world) return std::nullopt;
   const Result<std::vector<std::byte>> bytes = readFile(tileFile(bakery.folder, tile), kMostTileFile);
   if (!bytes) return std::nullopt;
-  std::optional<TileRecord> record = decodeTileFile(jobKey(*world, bakery.region), *bytes);
+  std::optional<TileRecord> record = decodeTileFile(bakery.job, *bytes);
   if (!record || record->key != tile) return std::nullopt;
   std::error_code error;
   const uint64_t there = std::filesystem::file_size(packFile(bakery.folder, tile), error);
@@ -135,8 +133,6 @@ std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile) 
 }
 
 Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Progress& progress) {
-  const Result<ContentId> world = worldKey(bakery.world, bakery.sharp);
-  if (!world) return world.error();
   TileRecord record;
   record.key = tile;
   const std::vector<size_t> numbers = chunksIn(bakery.region, tile);
@@ -182,7 +178,7 @@ Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Pro
     if (Result<void> written = writeFile(packFile(bakery.folder, tile), frames, bakery.unfinished); !written)
       return written.error();
   }
-  const std::vector<std::byte> file = encodeTileFile(jobKey(*world, bakery.region), record);
+  const std::vector<std::byte> file = encodeTileFile(bakery.job, record);
   if (Result<void> written = writeFile(tileFile(bakery.folder, tile), file, bakery.unfinished); !written)
     return written.error();
   return record;

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/file_writer.h"
-#include "store/tile_record.h"
+#include "store/folder.h"
 #include "stream/world_measures.h"
 
 namespace sgm::store {
@@ -17,7 +17,8 @@ struct Bakery {
   JobSystem& jobs;
   BakedRegion region;
   bool sharp = false;                     ///< with sharp features
-  std::filesystem::path folder;           ///< Folder::baking of the job, which is there
+  ContentId key, job;                     ///< worldKey and jobKey of these
+  std::filesystem::path folder;           ///< Folder::baking of the job; where tiles are made it is there
   UnfinishedFiles* unfinished = nullptr;  ///< as FileWriter::create takes it
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
@@ -27,6 +28,10 @@ struct Bakery {
 Result<ContentId> worldKey(const WorldField& world, bool sharp);
 /// And of which region.
 ContentId jobKey(const ContentId& world, const BakedRegion& region);
+
+/// The bakery of a world and a region. Errors: those of check and worldKey.
+Result<Bakery> bakeryOf(const WorldField& world, Backend& backend, JobSystem& jobs, const BakedRegion& region,
+                        bool sharp, const Folder& store, std::pmr::memory_resource* memory);
 
 /// The tile's record where it was made before, and is whole.
 std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile);

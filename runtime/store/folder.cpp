@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -35,9 +36,13 @@ Result<void> Folder::make() const {
   const fs::path format = root_ / "format";
   std::error_code error;
   if (!fs::exists(format, error)) {
-    // Another worker may have just made it.
-    if (!fs::is_empty(root_, error) && !error && !fs::exists(format, error))
-      return Error{Code::bad_input, "'" + root_.string() + "' is not empty and no store: name another folder"};
+    // Another worker may be about to make it, or have been killed while it was.
+    for (fs::directory_iterator entry(root_, error), end; !error && entry != end; entry.increment(error)) {
+      const std::string name = entry->path().filename().string();
+      if (name != "format" && name.rfind("format.sgm-part", 0) != 0)
+        return Error{Code::bad_input, "'" + root_.string() + "' is not empty and no store: name another folder"};
+    }
+    if (error) return ioError(root_, error.value());
     const std::string text = formatText();
     if (Result<void> written = writeFile(format, std::as_bytes(std::span(text)), nullptr); !written) return written;
   }
@@ -61,13 +66,18 @@ Result<void> Folder::check() const {
 
 Result<StoreLock> StoreLock::take(const Folder& store) {
   const fs::path path = store.root() / "format";
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // Network file systems lock only what is open for writing.
+  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) return ioError(path, errno);
   StoreLock lock(file);
   if (::flock(file, LOCK_EX | LOCK_NB) == 0) return lock;
-  if (errno != EWOULDBLOCK) return ioError(path, errno);
-  return Error{Code::busy, "another process merges into '" + store.root().string() +
-                               "', or cleans it: try again when it has ended"};
+  if (errno == EWOULDBLOCK || errno == EACCES)
+    return Error{Code::busy, "another process merges into '" + store.root().string() +
+                                 "', or cleans it: try again when it has ended"};
+  if (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP || errno == EBADF)
+    return Error{Code::unsupported, "the file system of '" + store.root().string() +
+                                        "' has no locks, which merging needs: mount it with locks, or merge a copy"};
+  return ioError(path, errno);
 }
 
 StoreLock::~StoreLock() {
@@ -84,45 +94,73 @@ Result<void> makeFolder(const fs::path& folder) {
   return {};
 }
 
-OpenFile::OpenFile(const fs::path& path)
-    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)), error_(file_ < 0 ? errno : 0) {}
+OpenFile::OpenFile(fs::path path, int file, uint64_t size) : path_(std::move(path)), file_(file), size_(size) {}
 
-OpenFile::~OpenFile() {
-  if (file_ >= 0) ::close(file_);
+OpenFile::~OpenFile() { ::close(file_); }
+
+Result<std::shared_ptr<const OpenFile>> OpenFile::open(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return ioError(path, errno);
+  struct stat status {};
+  const int error = ::fstat(file, &status) == 0 ? 0 : errno;
+  if (error != 0 || !S_ISREG(status.st_mode)) {
+    ::close(file);
+    if (error != 0) return ioError(path, error);
+    return Error{Code::io, "'" + path.string() + "' is no regular file"};
+  }
+  return std::shared_ptr<const OpenFile>(new OpenFile(path, file, static_cast<uint64_t>(status.st_size)));
 }
 
 Result<std::vector<std::byte>> OpenFile::read(uint64_t offset, size_t bytes) const {
-  if (file_ < 0) return ioError(path_, error_);
+  const auto ends = [&] {
+    return Error{Code::io, "'" + path_.string() + "' ends before byte " + std::to_string(offset + bytes)};
+  };
+  if (offset > size_ || bytes > size_ - offset) return ends();
   std::vector<std::byte> content(bytes);
   for (size_t done = 0; done < bytes;) {
     const ssize_t got = ::pread(file_, content.data() + done, bytes - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return ioError(path_, errno);
-    if (got == 0) return Error{Code::io, "'" + path_.string() + "' ends before byte " + std::to_string(offset + bytes)};
+    if (got == 0) return ends();
     done += static_cast<size_t>(got);
   }
   return content;
 }
 
-Result<uint64_t> OpenFile::size() const {
-  struct stat status {};
-  if (file_ < 0) return ioError(path_, error_);
-  if (::fstat(file_, &status) != 0) return ioError(path_, errno);
-  if (!S_ISREG(status.st_mode)) return Error{Code::io, "'" + path_.string() + "' is no regular file"};
-  return static_cast<uint64_t>(status.st_size);
+Result<ContentId> idOfFile(const OpenFile& file) {
+  constexpr uint64_t kPiece = uint64_t{1} << 20;
+  IdStream stream;
+  for (uint64_t at = 0; at < file.size(); at += kPiece) {
+    const Result<std::vector<std::byte>> piece = file.read(at, std::min(kPiece, file.size() - at));
+    if (!piece) return piece.error();
+    stream.add(*piece);
+  }
+  return stream.id();
+}
+
+bool isPack(const fs::path& path, const PackFile& pack) {
+  const Result<std::shared_ptr<const OpenFile>> file = OpenFile::open(path);
+  if (!file || (*file)->size() != pack.bytes) return false;
+  const Result<ContentId> id = idOfFile(**file);
+  return id && *id == pack.name;
+}
+
+Result<void> syncFolder(const fs::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return ioError(folder, errno);
+  // Some file systems have nothing to do, and say so.
+  const int error = ::fsync(file) == 0 || errno == EINVAL ? 0 : errno;
+  ::close(file);
+  if (error != 0) return ioError(folder, error);
+  return {};
 }
 
 Result<std::vector<std::byte>> readFile(const fs::path& path, uint64_t most) {
-  const OpenFile file(path);
-  const Result<uint64_t> bytes = file.size();
-  if (!bytes) return bytes.error();
-  if (*bytes > most)
+  const Result<std::shared_ptr<const OpenFile>> file = OpenFile::open(path);
+  if (!file) return file.error();
+  if ((*file)->size() > most)
     return Error{Code::limit, "'" + path.string() + "' has more than " + std::to_string(most) + " bytes"};
-  return file.read(0, static_cast<size_t>(*bytes));
-}
-
-Result<std::vector<std::byte>> readFile(const fs::path& path, uint64_t offset, size_t bytes) {
-  return OpenFile(path).read(offset, bytes);
+  return (*file)->read(0, static_cast<size_t>((*file)->size()));
 }
 
 Result<void> writeFile(const fs::path& file, std::span<const std::byte> bytes, UnfinishedFiles* unfinished) {

@@ -10,6 +10,7 @@
 // processes may work in one store, readers included.
 
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "base/file_writer.h"
@@ -18,6 +19,8 @@
 namespace sgm::store {
 
 inline constexpr int kStoreVersion = 1;
+/// Of the name of a job's folder that has become a world, and is about to be removed.
+inline constexpr const char* kMergedEnding = ".merged";
 
 class Folder {
  public:
@@ -42,7 +45,7 @@ class Folder {
 /// Who changes what a store has, one at a time; readers and workers need none.
 class StoreLock {
  public:
-  /// busy: another process has it. io.
+  /// busy: another process has it. io; unsupported: the file system has no locks.
   static Result<StoreLock> take(const Folder& store);
   StoreLock(StoreLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   StoreLock& operator=(StoreLock&&) = delete;
@@ -56,29 +59,37 @@ class StoreLock {
 std::filesystem::path tileFile(const std::filesystem::path& baking, const TileKey& tile);
 std::filesystem::path packFile(const std::filesystem::path& baking, const TileKey& tile);
 
-/// A file that is open for reading; any thread. Nothing where it could not be opened.
+/// A regular file that is open for reading, as it was then: whoever replaces it changes nothing here. Any thread.
 class OpenFile {
  public:
-  explicit OpenFile(const std::filesystem::path& path);
+  /// io.
+  static Result<std::shared_ptr<const OpenFile>> open(const std::filesystem::path& path);
   ~OpenFile();
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
+
+  uint64_t size() const { return size_; }
   /// io, also where it ends before. Throws std::bad_alloc.
   Result<std::vector<std::byte>> read(uint64_t offset, size_t bytes) const;
-  /// io.
-  Result<uint64_t> size() const;
 
  private:
+  OpenFile(std::filesystem::path path, int file, uint64_t size);
   std::filesystem::path path_;
-  int file_, error_;
+  int file_;
+  uint64_t size_;
 };
 
+/// idOf the whole file, read in pieces. io.
+Result<ContentId> idOfFile(const OpenFile& file);
+/// Whether the file is just this pack: its size, and the id of its bytes. False also where it cannot be read.
+bool isPack(const std::filesystem::path& path, const PackFile& pack);
+
+/// What files have been named in a folder is on the disk. io.
+Result<void> syncFolder(const std::filesystem::path& folder);
 /// io.
 Result<void> makeFolder(const std::filesystem::path& folder);
 /// The whole file. io; limit: it is larger than `most` bytes. Throws std::bad_alloc.
 Result<std::vector<std::byte>> readFile(const std::filesystem::path& file, uint64_t most);
-/// Some of its bytes. io, also where it ends before. Throws std::bad_alloc.
-Result<std::vector<std::byte>> readFile(const std::filesystem::path& file, uint64_t offset, size_t bytes);
 /// Whole or not at all. unfinished: as FileWriter::create takes it. io.
 Result<void> writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes,
                        UnfinishedFiles* unfinished);

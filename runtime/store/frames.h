@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/bytes.h"
 #include "base/result.h"
 #include "stream/disk_cache.h"
 
@@ -32,7 +33,24 @@ Result<std::pmr::vector<std::byte>> pack(std::span<const std::byte> content, std
 std::optional<std::pmr::vector<std::byte>> unpack(std::span<const std::byte> frame, size_t content_bytes,
                                                   std::pmr::memory_resource* memory);
 
+/// idOf bytes that come one part after the other.
+class IdStream {
+ public:
+  /// Throws std::bad_alloc.
+  IdStream();
+  ~IdStream();
+  IdStream(const IdStream&) = delete;
+  IdStream& operator=(const IdStream&) = delete;
+  void add(std::span<const std::byte> bytes);
+  ContentId id() const;
+
+ private:
+  void* state_;
+};
+
 /// 32 hexadecimal digits.
 std::string nameOf(const ContentId& id);
+void putId(const ContentId& id, ByteWriter& out);
+ContentId getId(ByteReader& in);
 
 }  // namespace sgm::store

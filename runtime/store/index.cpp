@@ -62,14 +62,8 @@ Result<void> IndexWriter::commit(const ContentId& world, const BakedRegion& regi
   writer_.write(directory.data(), directory.size());
   std::vector<std::byte> end;
   ByteWriter out(end);
-  out.put(world.high);
-  out.put(world.low);
-  for (const Int3 corner : {region.box.lo, region.box.hi}) {
-    for (int axis = 0; axis < 3; ++axis) out.put(corner[axis]);
-  }
-  out.put(int32_t{region.first_level});
-  out.put(int32_t{region.last_level});
-  out.put(region.finest_cell);
+  putId(world, out);
+  putRegion(region, out);
   out.put(uint32_t{0});
   out.put(offset);
   out.put(uint64_t{tiles_.size()});
@@ -92,24 +86,20 @@ Result<WorldIndex> readIndex(const ReadAt& read, uint64_t file_bytes) {
   if (!end) return end.error();
   ByteReader in(*end);
   WorldIndex index;
-  index.world.high = in.get<uint64_t>();
-  index.world.low = in.get<uint64_t>();
-  for (Int3* corner : {&index.region.box.lo, &index.region.box.hi}) {
-    for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = in.get<int32_t>();
-  }
-  index.region.first_level = in.get<int32_t>();
-  index.region.last_level = in.get<int32_t>();
-  index.region.finest_cell = in.get<int32_t>();
+  index.world = getId(in);
+  index.region = getRegion(in);
   in.get<uint32_t>();
   const auto offset = in.get<uint64_t>(), count = in.get<uint64_t>(), checksum = in.get<uint64_t>();
   if (in.get<uint64_t>() != checksumOf(std::span(*end).first(kIndexEnd - 8))) return damaged("its end is not whole");
+  if (!check(index.region) || count != countTiles(index.region))
+    return damaged("its tiles are not those of its region");
   if (count > file_bytes / kEntryBytes || offset != file_bytes - kIndexEnd - count * kEntryBytes)
     return damaged("its size is wrong");
   const Result<std::vector<std::byte>> directory = read(offset, static_cast<size_t>(count * kEntryBytes));
   if (!directory) return directory.error();
   if (checksumOf(*directory) != checksum) return damaged("its directory is not whole");
   ByteReader entries(*directory);
-  for (uint64_t i = 0; i < count; ++i) {
+  for (const TileKey& key : tilesOf(index.region)) {
     TileEntry tile;
     tile.key.level = entries.get<int32_t>();
     for (int axis = 0; axis < 3; ++axis) tile.key.at[axis] = entries.get<int32_t>();
@@ -117,8 +107,7 @@ Result<WorldIndex> readIndex(const ReadAt& read, uint64_t file_bytes) {
     tile.stored = entries.get<uint32_t>();
     tile.bytes = entries.get<uint32_t>();
     tile.checksum = entries.get<uint64_t>();
-    const bool rises = index.tiles.empty() || index.tiles.back().key < tile.key;
-    if (!rises || tile.offset < kIndexHead || tile.offset > offset || tile.stored > offset - tile.offset ||
+    if (tile.key != key || tile.offset < kIndexHead || tile.offset > offset || tile.stored > offset - tile.offset ||
         tile.bytes > kMostRecord)
       return damaged("its directory leads nowhere");
     index.tiles.push_back(tile);

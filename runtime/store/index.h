@@ -26,7 +26,7 @@ struct TileEntry {
 struct WorldIndex {
   ContentId world;  ///< worldKey of bake.h
   BakedRegion region;
-  std::vector<TileEntry> tiles;  ///< by key
+  std::vector<TileEntry> tiles;  ///< tilesOf the region
 
   const TileEntry* find(const TileKey& key) const;
 };

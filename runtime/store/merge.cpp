@@ -5,15 +5,13 @@
 #include <system_error>
 #include <unordered_map>
 
-#include "store/world_file.h"
-
 namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
 
 /// Where a content lies that the store has already.
 struct Place {
-  uint32_t pack;  ///< number among the store's packs
+  uint32_t pack;  ///< number among the packs that were met
   uint32_t stored;
   uint64_t offset;
 };
@@ -24,59 +22,55 @@ struct IdHash {
 
 class Merger {
  public:
-  Merger(const Folder& store, const Bakery& bakery, const ContentId& world)
-      : store_(store), bakery_(bakery), world_(world) {}
+  Merger(const Folder& store, const Bakery& bakery) : store_(store), bakery_(bakery) {}
 
   /// What the store's other worlds have, in the order of their names.
-  Result<void> learn() {
-    const Result<std::vector<WorldFile>> worlds = WorldFile::all(store_);
+  Result<void> learn(std::vector<std::string>& warnings) {
+    const Result<std::vector<fs::path>> worlds = worldsOf(store_);
     if (!worlds) return worlds.error();
-    for (const WorldFile& file : *worlds) {
-      if (file.index.world == world_) continue;
-      for (const TileEntry& tile : file.index.tiles) {
-        const Result<TileRecord> record = file.record(tile, bakery_.memory);
-        if (!record) return record.error();
-        for (const StoredContent& content : record->contents) {
+    for (const fs::path& path : *worlds) {
+      if (path == store_.world(bakery_.key)) continue;
+      const auto learnFrom = [&](TileRecord&& record) -> Result<void> {
+        for (const StoredContent& content : record.contents) {
           if (content.pack == kInlined) continue;
-          known_.try_emplace(content.id, Place{numberOf(record->packs[content.pack]), content.stored, content.offset});
+          const uint32_t pack = numberOf(record.packs[content.pack]);
+          known_.try_emplace(content.id, Place{pack, content.stored, content.offset});
         }
-      }
+        return {};
+      };
+      const Result<WorldFile> file = WorldFile::open(path);
+      const Result<void> learnt = file ? file->forRecords(bakery_.memory, learnFrom) : Result<void>(file.error());
+      if (!learnt) warnings.push_back(learnt.error().message);
     }
     return {};
   }
 
   /// Puts the tile's contents where they belong, and says so in its record.
   Result<void> settle(TileRecord& record) {
-    std::vector<PackFile> packs;
-    const auto use = [&](uint32_t number) {
-      const auto at = static_cast<size_t>(std::find(packs.begin(), packs.end(), packs_[number]) - packs.begin());
-      if (at == packs.size()) packs.push_back(packs_[number]);
-      return static_cast<uint32_t>(at);
-    };
     std::vector<size_t> fresh;
-    for (size_t i = 0; i < record.contents.size(); ++i) {
-      if (record.contents[i].pack != kInlined && known_.find(record.contents[i].id) == known_.end()) fresh.push_back(i);
-    }
     size_t own = 0;
-    for (const StoredContent& content : record.contents) own += content.pack != kInlined;
-    std::optional<uint32_t> number;
-    if (!fresh.empty()) {
-      PackFile pack = record.packs[0];
-      if (fresh.size() < own) {
-        Result<PackFile> thinned = thin(record, fresh);
-        if (!thinned) return thinned.error();
-        pack = *thinned;
-      } else if (Result<void> moved = adopt(record.key, pack); !moved) {
-        return moved;
-      }
-      number = numberOf(pack);
-      for (const size_t i : fresh)
-        known_.try_emplace(record.contents[i].id, Place{*number, record.contents[i].stored, record.contents[i].offset});
+    for (size_t i = 0; i < record.contents.size(); ++i) {
+      if (record.contents[i].pack == kInlined) continue;
+      ++own;
+      if (!isKnown(record.contents[i].id)) fresh.push_back(i);
     }
+    if (!fresh.empty()) {
+      const Result<PackFile> pack = fresh.size() < own ? thin(record, fresh) : adopt(record.key, record.packs[0]);
+      if (!pack) return pack.error();
+      const uint32_t number = numberOf(*pack);
+      trusted_[number] = true;
+      for (const size_t i : fresh) {
+        const StoredContent& content = record.contents[i];
+        known_.insert_or_assign(content.id, Place{number, content.stored, content.offset});
+      }
+    }
+    std::vector<PackFile> packs;
     for (StoredContent& content : record.contents) {
       if (content.pack == kInlined) continue;
       const Place& place = known_.at(content.id);
-      content.pack = use(place.pack);
+      const auto at = static_cast<size_t>(std::find(packs.begin(), packs.end(), packs_[place.pack]) - packs.begin());
+      if (at == packs.size()) packs.push_back(packs_[place.pack]);
+      content.pack = static_cast<uint32_t>(at);
       content.stored = place.stored;
       content.offset = place.offset;
     }
@@ -84,38 +78,67 @@ class Merger {
     return {};
   }
 
-  uint64_t new_bytes() const { return new_bytes_; }
-  size_t known() const { return known_.size(); }
+  /// That the packs have their names is on the disk.
+  Result<void> sync() const {
+    for (const fs::path& folder : folders_) {
+      if (Result<void> synced = syncFolder(folder); !synced) return synced;
+    }
+    return syncFolder(store_.root() / "packs");
+  }
+
+  uint64_t newBytes() const { return new_bytes_; }
 
  private:
   uint32_t numberOf(const PackFile& pack) {
     const auto [at, is_new] = numbers_.try_emplace(pack.name, static_cast<uint32_t>(packs_.size()));
-    if (is_new) packs_.push_back(pack);
+    if (is_new) {
+      packs_.push_back(pack);
+      trusted_.emplace_back();
+    }
     return at->second;
   }
 
-  /// The tile's pack becomes the store's as it is.
-  Result<void> adopt(const TileKey& tile, const PackFile& pack) {
-    const fs::path from = packFile(bakery_.folder, tile), to = store_.pack(pack.name);
-    if (Result<void> made = makeFolder(to.parent_path()); !made) return made;
-    std::error_code error;
+  /// Whether the store has it, in a pack whose bytes are what its name says.
+  bool isKnown(const ContentId& id) {
+    const auto known = known_.find(id);
+    if (known == known_.end()) return false;
+    std::optional<bool>& trusted = trusted_[known->second.pack];
+    const PackFile& pack = packs_[known->second.pack];
+    if (!trusted) trusted = isPack(store_.pack(pack.name), pack);
+    return *trusted;
+  }
+
+  /// Where a pack is to stand, and whether it does.
+  Result<bool> isThere(const PackFile& pack) {
+    const fs::path folder = store_.pack(pack.name).parent_path();
+    if (folders_.insert(folder).second) {
+      if (Result<void> made = makeFolder(folder); !made) return made.error();
+    }
+    if (isPack(store_.pack(pack.name), pack)) return true;
     new_bytes_ += pack.bytes;
-    if (fs::exists(to, error)) return {};
+    return false;
+  }
+
+  /// The tile's pack becomes the store's as it is.
+  Result<PackFile> adopt(const TileKey& tile, const PackFile& pack) {
+    const fs::path from = packFile(bakery_.folder, tile), to = store_.pack(pack.name);
+    const Result<bool> there = isThere(pack);
+    if (!there) return there.error();
+    if (*there) return pack;
+    std::error_code error;
     fs::create_hard_link(from, to, error);
-    if (!error || error == std::errc::file_exists) return {};
-    // A file system without links.
+    if (!error) return pack;
+    // A damaged one stands there, or the file system has no links.
     const Result<std::vector<std::byte>> bytes = readFile(from, pack.bytes);
     if (!bytes) return bytes.error();
-    return writeFile(to, *bytes, bakery_.unfinished);
+    if (Result<void> written = writeFile(to, *bytes, bakery_.unfinished); !written) return written.error();
+    return pack;
   }
 
   /// A pack of only these contents, whose places change.
   Result<PackFile> thin(TileRecord& record, const std::vector<size_t>& fresh) {
-    const fs::path from = packFile(bakery_.folder, record.key);
-    const Result<std::vector<std::byte>> bytes = readFile(from, record.packs[0].bytes);
+    const Result<std::vector<std::byte>> bytes = readFile(packFile(bakery_.folder, record.key), record.packs[0].bytes);
     if (!bytes) return bytes.error();
-    if (bytes->size() != record.packs[0].bytes)
-      return Error{Code::bad_input, "'" + from.string() + "' is damaged: remove it, and bake again"};
     std::vector<std::byte> frames = packHead();
     for (const size_t i : fresh) {
       StoredContent& content = record.contents[i];
@@ -124,75 +147,110 @@ class Merger {
       frames.insert(frames.end(), first, first + static_cast<ptrdiff_t>(content.stored));
     }
     const PackFile pack{idOf(frames), frames.size()};
-    const fs::path to = store_.pack(pack.name);
-    if (Result<void> made = makeFolder(to.parent_path()); !made) return made.error();
-    new_bytes_ += pack.bytes;
-    std::error_code error;
-    if (fs::exists(to, error)) return pack;
-    if (Result<void> written = writeFile(to, frames, bakery_.unfinished); !written) return written.error();
+    const Result<bool> there = isThere(pack);
+    if (!there) return there.error();
+    if (*there) return pack;
+    if (Result<void> written = writeFile(store_.pack(pack.name), frames, bakery_.unfinished); !written)
+      return written.error();
     return pack;
   }
 
   const Folder& store_;
   const Bakery& bakery_;
-  const ContentId world_;
   std::unordered_map<ContentId, Place, IdHash> known_;
   std::unordered_map<ContentId, uint32_t, IdHash> numbers_;
   std::vector<PackFile> packs_;
+  std::vector<std::optional<bool>> trusted_;  ///< of each pack, where it was looked at
+  std::set<fs::path> folders_;                ///< that packs were put into
   uint64_t new_bytes_ = 0;
 };
 
+/// How many tiles have yet to be made. Those whose pack is not what it should be are made again.
+uint64_t missingOf(const Bakery& bakery, const std::vector<TileKey>& tiles) {
+  uint64_t missing = 0;
+  for (const TileKey& tile : tiles) {
+    const std::optional<TileRecord> record = madeBefore(bakery, tile);
+    if (record && (record->packs.empty() || isPack(packFile(bakery.folder, tile), record->packs[0]))) continue;
+    std::error_code error;
+    fs::remove(tileFile(bakery.folder, tile), error);
+    ++missing;
+  }
+  return missing;
+}
+
+/// First aside, so that a worker that comes too late finds none, instead of a part.
+void removeJob(const Bakery& bakery) {
+  fs::path aside = bakery.folder;
+  aside += kMergedEnding;
+  std::error_code error;
+  fs::rename(bakery.folder, aside, error);
+  fs::remove_all(aside, error);
+}
+
 }  // namespace
 
-Result<Merged> merge(const Folder& store, const Bakery& bakery, const Progress& progress) {
-  const Result<ContentId> world = worldKey(bakery.world, bakery.sharp);
-  if (!world) return world.error();
-  const std::vector<TileKey> tiles = tilesOf(bakery.region);
-  size_t missing = 0;
-  for (const TileKey& tile : tiles) {
-    std::error_code error;
-    missing += !fs::exists(tileFile(bakery.folder, tile), error);
-  }
-  const auto lacking = [&](size_t count) {
-    return Error{Code::invalid_argument, std::to_string(count) + " of " + std::to_string(tiles.size()) +
-                                             " tiles are not baked yet: run the shards that are missing again"};
-  };
-  if (missing != 0) return lacking(missing);
+Result<bool> isBaked(const Folder& store, const Bakery& bakery) {
+  const fs::path path = store.world(bakery.key);
+  std::error_code error;
+  if (!fs::exists(path, error)) return false;
+  const Result<WorldFile> world = WorldFile::open(path);
+  if (!world) return false;
+  if (jobKey(world->index.world, world->index.region) != bakery.job)
+    return Error{Code::invalid_argument, "'" + store.root().string() +
+                                             "' has another region of this world, or other levels: bake into another "
+                                             "store (a world streams from several), or remove '" +
+                                             path.string() + "'"};
+  const Result<bool> packs = hasPacks(store, *world, bakery.memory);
+  return packs && *packs;
+}
+
+Result<Merged> merge(const Folder& store, const Bakery& bakery, const Manifest& manifest, const Progress& progress) {
   for (const char* folder : {"worlds", "packs"}) {
     if (Result<void> made = makeFolder(store.root() / folder); !made) return made.error();
   }
   const Result<StoreLock> lock = StoreLock::take(store);
   if (!lock) return lock.error();
-  Merger merger(store, bakery, *world);
-  if (Result<void> learnt = merger.learn(); !learnt) return learnt.error();
-  const fs::path file = store.world(*world);
-  Result<IndexWriter> writer = IndexWriter::create(file, bakery.unfinished);
-  if (!writer) return writer.error();
   Merged merged;
-  std::set<ContentId> packs, inlined;
+  const Result<bool> baked = isBaked(store, bakery);
+  if (!baked) return baked.error();
+  if (*baked) {
+    const Result<WorldFile> world = WorldFile::open(store.world(bakery.key));
+    if (!world) return world.error();
+    Result<WorldSummary> summary = summaryOf(*world, bakery.memory);
+    if (!summary) return summary.error();
+    merged.world = std::move(*summary);
+    merged.there_before = true;
+    removeJob(bakery);
+    return merged;
+  }
+  const std::vector<TileKey> tiles = tilesOf(bakery.region);
+  if (const uint64_t missing = missingOf(bakery, tiles); missing != 0)
+    return Error{Code::invalid_argument, std::to_string(missing) + " of " + std::to_string(tiles.size()) +
+                                             " tiles are not baked yet: run the shards that are missing again"};
+  Merger merger(store, bakery);
+  if (Result<void> learnt = merger.learn(merged.warnings); !learnt) return learnt.error();
+  Result<IndexWriter> writer = IndexWriter::create(store.world(bakery.key), bakery.unfinished);
+  if (!writer) return writer.error();
   for (const TileKey& tile : tiles) {
     std::optional<TileRecord> record = madeBefore(bakery, tile);
-    if (!record) return lacking(1);
+    if (!record)
+      return Error{Code::io, "'" + tileFile(bakery.folder, tile).string() + "' has gone while it was merged"};
     if (Result<void> settled = merger.settle(*record); !settled) return settled.error();
     if (Result<void> added = writer->add(*record, bakery.memory); !added) return added.error();
-    for (const PackFile& pack : record->packs) packs.insert(pack.name);
-    for (const StoredContent& content : record->contents) {
-      if (content.pack == kInlined) inlined.insert(content.id);
-    }
-    ++merged.tiles;
-    merged.chunks += record->chunks;
-    merged.plain_bytes += record->plain_bytes;
-    merged.measured.add(record->measured);
-    if (progress && !progress(merged.tiles, tiles.size()) && merged.tiles < tiles.size())
+    merged.world.add(*record);
+    const uint64_t done = merged.world.tiles;
+    if (progress && !progress(done, tiles.size()) && done < tiles.size())
       return Error{Code::cancelled, "merging was cancelled"};
   }
-  if (Result<void> written = writer->commit(*world, bakery.region); !written) return written.error();
-  merged.contents = merger.known() + inlined.size();
-  merged.packs = packs.size();
-  merged.pack_bytes = merger.new_bytes();
-  std::error_code error;
-  merged.index_bytes = fs::file_size(file, error);
-  fs::remove_all(bakery.folder, error);
+  merged.new_bytes = merger.newBytes();
+  if (Result<void> synced = merger.sync(); !synced) return synced.error();
+  const std::string text = manifest(merged.world);
+  if (Result<void> written = writeFile(store.manifest(bakery.key), std::as_bytes(std::span(text)), bakery.unfinished);
+      !written)
+    return written.error();
+  if (Result<void> written = writer->commit(bakery.key, bakery.region); !written) return written.error();
+  if (Result<void> synced = syncFolder(store.root() / "worlds"); !synced) return synced.error();
+  removeJob(bakery);
   return merged;
 }
 

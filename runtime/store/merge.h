@@ -1,27 +1,34 @@
 #pragma once
 // From tiles that were baked each by itself to one world of a store.
 
+#include <functional>
+
 #include "store/bake.h"
-#include "store/folder.h"
+#include "store/world_file.h"
 
 namespace sgm::store {
 
 struct Merged {
-  uint64_t tiles = 0, chunks = 0;
-  uint64_t contents = 0;    ///< that differ from each other, inlined ones too
-  uint64_t packs = 0;       ///< files that the world needs
-  uint64_t pack_bytes = 0;  ///< of those that have come with it
-  uint64_t index_bytes = 0;
-  uint64_t plain_bytes = 0;  ///< as if each part were stored by itself
-  measure::SurfaceSums measured;
+  WorldSummary world;
+  uint64_t new_bytes = 0;             ///< of packs that have come with it
+  bool there_before = false;          ///< nothing was to be done
+  std::vector<std::string> warnings;  ///< other worlds that cannot be read, and so share nothing
 };
 
+/// Whether the store has just this already, whole as far as sizes tell. invalid_argument: it has another region, or
+/// other levels, of the same world, which this would replace.
+Result<bool> isBaked(const Folder& store, const Bakery& bakery);
+
+/// The text that lies beside the index, for people.
+using Manifest = std::function<std::string(const WorldSummary& world)>;
+
 /// Gives the store each content once, whatever tiles and worlds have it: where it comes first in the order of tiles, or
-/// where another world of the store has it. Then writes the index, which is when the world is there, and removes the
-/// job's folder. Pure but for that: the same tiles and the same store give the same bytes. May be stopped at any time
-/// and begun again.
-/// busy: as StoreLock. invalid_argument: tiles are missing, and how many. bad_input: a tile or another world's index is
-/// damaged. io. Throws std::bad_alloc.
-Result<Merged> merge(const Folder& store, const Bakery& bakery, const Progress& progress = {});
+/// where another world of the store has it. Then writes the manifest and the index, which is when the world is there,
+/// and removes the job's folder. Packs are trusted only after all their bytes were compared with their names; tiles
+/// with others count as missing. Pure but for that: the same tiles and the same store give the same bytes. May be
+/// stopped at any time and begun again. busy, unsupported: as StoreLock. invalid_argument: tiles are missing, and how
+/// many; as isBaked. io. Throws std::bad_alloc.
+Result<Merged> merge(const Folder& store, const Bakery& bakery, const Manifest& manifest,
+                     const Progress& progress = {});
 
 }  // namespace sgm::store

@@ -11,4 +11,16 @@ std::string nameOf(const ContentId& id) {
   return name;
 }
 
+void putId(const ContentId& id, ByteWriter& out) {
+  out.put(id.high);
+  out.put(id.low);
+}
+
+ContentId getId(ByteReader& in) {
+  ContentId id;
+  id.high = in.get<uint64_t>();
+  id.low = in.get<uint64_t>();
+  return id;
+}
+
 }  // namespace sgm::store

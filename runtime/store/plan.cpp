@@ -7,7 +7,6 @@
 
 #include "base/bytes.h"
 #include "field/prune.h"
-#include "store/folder.h"
 #include "stream/mesh_chunks.h"
 
 namespace sgm::store {
@@ -26,8 +25,7 @@ std::vector<std::byte> encodePlan(const ContentId& job, std::span<const uint64_t
   ByteWriter out(bytes);
   out.put(kPlanMagic);
   out.put(kPlanVersion);
-  out.put(job.high);
-  out.put(job.low);
+  putId(job, out);
   for (const uint64_t cost : costs) out.put(cost);
   out.put(checksumOf(bytes));
   return bytes;
@@ -52,8 +50,10 @@ IntBox boxOf(const BakedRegion& region, const ChunkKey& first, int chunks) {
   IntBox box;
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t lo = first.at[axis] * edge;
-    box.lo[axis] = static_cast<int32_t>(lo);
-    box.hi[axis] = static_cast<int32_t>(std::min<int64_t>(lo + chunks * edge, std::numeric_limits<int32_t>::max()));
+    // A block may reach out of the world, where no chunk of it is wanted.
+    constexpr int64_t kLow = std::numeric_limits<int32_t>::min(), kHigh = std::numeric_limits<int32_t>::max();
+    box.lo[axis] = static_cast<int32_t>(std::clamp(lo, kLow, kHigh));
+    box.hi[axis] = static_cast<int32_t>(std::clamp(lo + chunks * edge, kLow, kHigh));
   }
   return box;
 }
@@ -115,12 +115,10 @@ class Estimate {
 }  // namespace
 
 Result<std::vector<uint64_t>> planOf(const Bakery& bakery, std::span<const TileKey> tiles, const Progress& progress) {
-  const Result<ContentId> world = worldKey(bakery.world, bakery.sharp);
-  if (!world) return world.error();
-  const ContentId job = jobKey(*world, bakery.region);
   const std::filesystem::path file = bakery.folder / "plan";
   if (const Result<std::vector<std::byte>> bytes = readFile(file, kMostPlan)) {
-    if (std::optional<std::vector<uint64_t>> costs = decodePlan(job, *bytes, tiles.size())) return std::move(*costs);
+    if (std::optional<std::vector<uint64_t>> costs = decodePlan(bakery.job, *bytes, tiles.size()))
+      return std::move(*costs);
   }
   std::vector<uint64_t> costs(tiles.size());
   std::mutex mutex;
@@ -142,7 +140,7 @@ Result<std::vector<uint64_t>> planOf(const Bakery& bakery, std::span<const TileK
       error = Error{Code::cancelled, "planning was cancelled"};
   });
   if (error) return *error;
-  if (Result<void> written = writeFile(file, encodePlan(job, costs), bakery.unfinished); !written)
+  if (Result<void> written = writeFile(file, encodePlan(bakery.job, costs), bakery.unfinished); !written)
     return written.error();
   return costs;
 }

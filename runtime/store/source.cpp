@@ -1,5 +1,6 @@
 #include "store/source.h"
 
+#include <algorithm>
 #include <list>
 #include <map>
 #include <mutex>
@@ -21,7 +22,7 @@ constexpr size_t kMostOpen = 32;
 
 /// One world of one store.
 struct StoredWorld {
-  Folder folder;
+  const Folder& folder;
   std::optional<WorldFile> file;  ///< none where the store does not have it
 };
 
@@ -37,9 +38,11 @@ class StoreSource final : public BakedParts {
     bool damaged = false;
     for (const auto& stored : worldsOf(world)) {
       if (!stored->file) continue;
-      const std::shared_ptr<const TileRecord> record = recordOf(*stored, tileOf(chunk));
-      if (record == nullptr) continue;
-      const uint16_t number = record->part(numberInTile(chunk), part);
+      const TileEntry* entry = stored->file->index.find(tileOf(chunk));
+      if (entry == nullptr) continue;
+      const std::shared_ptr<const TileRecord> record = recordOf(*stored, *entry);
+      damaged = damaged || record == nullptr;
+      const uint16_t number = record == nullptr ? uint16_t{0} : record->part(numberInTile(chunk), part);
       if (number == 0) continue;
       const StoredContent& content = record->contents[number - 1u];
       if (isRejected(content.id)) continue;
@@ -58,18 +61,21 @@ class StoreSource final : public BakedParts {
   }
 
   void reject(const DiskKey& world, const ChunkKey& chunk, int part) override {
+    // Whichever store it came from: the others have the same, or as little.
     for (const auto& stored : worldsOf(world)) {
-      if (!stored->file) continue;
-      const std::shared_ptr<const TileRecord> record = recordOf(*stored, tileOf(chunk));
+      const TileEntry* entry = stored->file ? stored->file->index.find(tileOf(chunk)) : nullptr;
+      if (entry == nullptr) continue;
+      const std::shared_ptr<const TileRecord> record = recordOf(*stored, *entry);
       const uint16_t number = record == nullptr ? uint16_t{0} : record->part(numberInTile(chunk), part);
       if (number == 0) continue;
+      tell(stored->file->path, "'" + stored->file->path.string() + "' has contents that are no parts of chunks");
       const std::lock_guard lock(mutex_);
       rejected_.insert(record->contents[number - 1u].id);
-      --stats_.hits;
-      ++stats_.misses;
-      ++stats_.damaged;
-      return;
     }
+    const std::lock_guard lock(mutex_);
+    --stats_.hits;
+    ++stats_.misses;
+    ++stats_.damaged;
   }
 
   BakedStats stats() const override {
@@ -83,6 +89,11 @@ class StoreSource final : public BakedParts {
     const StoredWorld* world;
     TileKey tile;
     friend auto operator<=>(const RecordKey&, const RecordKey&) = default;
+  };
+  struct OpenPack {
+    const Folder* folder;
+    ContentId name;
+    std::shared_ptr<const OpenFile> file;
   };
   struct KeptRecord {
     RecordKey key;
@@ -128,10 +139,8 @@ class StoreSource final : public BakedParts {
     return worlds_.try_emplace(key, std::move(worlds)).first->second;
   }
 
-  std::shared_ptr<const TileRecord> recordOf(const StoredWorld& world, const TileKey& tile) {
-    const TileEntry* entry = world.file->index.find(tile);
-    if (entry == nullptr) return nullptr;
-    const RecordKey key{&world, tile};
+  std::shared_ptr<const TileRecord> recordOf(const StoredWorld& world, const TileEntry& entry) {
+    const RecordKey key{&world, entry.key};
     {
       const std::lock_guard lock(mutex_);
       if (const auto known = records_.find(key); known != records_.end()) {
@@ -140,7 +149,7 @@ class StoreSource final : public BakedParts {
       }
     }
     std::shared_ptr<const TileRecord> record;
-    Result<TileRecord> read = world.file->record(*entry, memory_);
+    Result<TileRecord> read = world.file->record(entry, memory_);
     if (read) {
       record = std::make_shared<const TileRecord>(std::move(*read));
     } else {
@@ -157,41 +166,50 @@ class StoreSource final : public BakedParts {
     return record;
   }
 
-  std::shared_ptr<const OpenFile> packAt(const fs::path& path) {
+  /// Null where it cannot be opened, which is told.
+  std::shared_ptr<const OpenFile> packOf(const Folder& folder, const ContentId& name) {
+    const auto is = [&](const OpenPack& pack) { return pack.folder == &folder && pack.name == name; };
     {
       const std::lock_guard lock(mutex_);
-      for (auto open = open_.begin(); open != open_.end(); ++open) {
-        if (open->first != path) continue;
+      if (const auto open = std::find_if(open_.begin(), open_.end(), is); open != open_.end()) {
         open_.splice(open_.begin(), open_, open);
-        return open_.front().second;
+        return open_.front().file;
       }
     }
-    auto file = std::make_shared<const OpenFile>(path);
+    const fs::path path = folder.pack(name);
+    Result<std::shared_ptr<const OpenFile>> file = OpenFile::open(path);
+    if (!file) {
+      tell(path, file.error().message);
+      return nullptr;
+    }
     const std::lock_guard lock(mutex_);
-    open_.emplace_front(path, file);
+    open_.push_front({&folder, name, *file});
     if (open_.size() > kMostOpen) open_.pop_back();
-    return file;
+    return std::move(*file);
   }
 
   std::optional<std::pmr::vector<std::byte>> contentOf(const Folder& folder, const TileRecord& record,
                                                        const StoredContent& content,
                                                        std::pmr::memory_resource* memory) {
-    std::optional<std::pmr::vector<std::byte>> bytes;
     if (content.pack == kInlined) {
       const auto first = record.inlined.begin() + static_cast<ptrdiff_t>(content.offset);
-      bytes.emplace(first, first + static_cast<ptrdiff_t>(content.stored), memory);
-    } else {
-      const fs::path path = folder.pack(record.packs[content.pack].name);
-      const Result<std::vector<std::byte>> frame = packAt(path)->read(content.offset, content.stored);
-      if (!frame) {
-        tell(path, frame.error().message);
-        return std::nullopt;
-      }
-      bytes = unpack(*frame, content.bytes, memory);
-      if (!bytes || idOf(*bytes) != content.id) {
-        tell(path, "'" + path.string() + "' is damaged: sgm store verify says where");
-        return std::nullopt;
-      }
+      std::pmr::vector<std::byte> bytes(first, first + static_cast<ptrdiff_t>(content.stored), memory);
+      if (idOf(bytes) != content.id) return std::nullopt;
+      return bytes;
+    }
+    const ContentId& name = record.packs[content.pack].name;
+    const std::shared_ptr<const OpenFile> file = packOf(folder, name);
+    if (file == nullptr) return std::nullopt;
+    const Result<std::vector<std::byte>> frame = file->read(content.offset, content.stored);
+    if (!frame) {
+      tell(folder.pack(name), frame.error().message);
+      return std::nullopt;
+    }
+    std::optional<std::pmr::vector<std::byte>> bytes = unpack(*frame, content.bytes, memory);
+    if (!bytes || idOf(*bytes) != content.id) {
+      const fs::path path = folder.pack(name);
+      tell(path, "'" + path.string() + "' is damaged: sgm store verify says where");
+      return std::nullopt;
     }
     return bytes;
   }
@@ -203,7 +221,7 @@ class StoreSource final : public BakedParts {
   std::map<ContentId, Worlds> worlds_;
   std::list<KeptRecord> kept_;  ///< the latest used first
   std::map<RecordKey, std::list<KeptRecord>::iterator> records_;
-  std::list<std::pair<fs::path, std::shared_ptr<const OpenFile>>> open_;  ///< packs, the latest used first
+  std::list<OpenPack> open_;  ///< the latest used first
   std::set<ContentId> rejected_;
   std::set<std::string> told_;
   BakedStats stats_;

@@ -30,10 +30,8 @@ Result<void> check(const BakedRegion& region) {
   if (region.first_level < 0 || region.last_level > kMaxLevel || region.first_level > region.last_level)
     return Error{Code::invalid_argument, "levels go from 0 to " + std::to_string(kMaxLevel) + ", the finest first"};
   if (region.finest_cell < 1) return Error{Code::invalid_argument, "a cell has at least one unit"};
-  uint64_t tiles = 0;
   for (int level = region.first_level; level <= region.last_level; ++level) {
     const int64_t edge = (int64_t{kChunkCells} * region.finest_cell) << level;
-    uint64_t of_level = 1;
     for (int axis = 0; axis < 3; ++axis) {
       if (region.box.lo[axis] >= region.box.hi[axis])
         return Error{Code::invalid_argument, "the region is empty: its first corner must lie below its second"};
@@ -42,14 +40,24 @@ Result<void> check(const BakedRegion& region) {
           (span.last + 1) * edge > std::numeric_limits<int32_t>::max())
         return Error{Code::range, "the region's chunks of level " + std::to_string(level) +
                                       " leave the world, which ends about 2,097 km from the origin"};
-      of_level = std::min(of_level * static_cast<uint64_t>(span.count(kTileEdge)), kMostTiles + 1);
     }
-    tiles += of_level;
   }
-  if (tiles > kMostTiles)
+  if (countTiles(region) > kMostTiles)
     return Error{Code::limit, "the region has more than " + std::to_string(kMostTiles) +
                                   " tiles of 8 x 8 x 8 chunks: bake it in parts, or with larger cells"};
   return {};
+}
+
+uint64_t countTiles(const BakedRegion& region) {
+  uint64_t tiles = 0;
+  for (int level = region.first_level; level <= region.last_level; ++level) {
+    uint64_t of_level = 1;
+    for (int axis = 0; axis < 3; ++axis)
+      of_level =
+          std::min(of_level * static_cast<uint64_t>(chunksOn(region, level, axis).count(kTileEdge)), kMostTiles + 1);
+    tiles += of_level;
+  }
+  return tiles;
 }
 
 std::vector<TileKey> tilesOf(const BakedRegion& region) {
@@ -84,6 +92,26 @@ std::vector<size_t> chunksIn(const BakedRegion& region, const TileKey& tile) {
     if (inside) numbers.push_back(number);
   }
   return numbers;
+}
+
+void putRegion(const BakedRegion& region, ByteWriter& out) {
+  for (const Int3 corner : {region.box.lo, region.box.hi}) {
+    for (int axis = 0; axis < 3; ++axis) out.put(corner[axis]);
+  }
+  out.put(int32_t{region.first_level});
+  out.put(int32_t{region.last_level});
+  out.put(region.finest_cell);
+}
+
+BakedRegion getRegion(ByteReader& in) {
+  BakedRegion region;
+  for (Int3* corner : {&region.box.lo, &region.box.hi}) {
+    for (int axis = 0; axis < 3; ++axis) (*corner)[axis] = in.get<int32_t>();
+  }
+  region.first_level = in.get<int32_t>();
+  region.last_level = in.get<int32_t>();
+  region.finest_cell = in.get<int32_t>();
+  return region;
 }
 
 }  // namespace sgm::store

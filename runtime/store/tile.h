@@ -7,6 +7,7 @@
 #include <compare>
 #include <vector>
 
+#include "base/bytes.h"
 #include "base/result.h"
 #include "stream/chunk_key.h"
 
@@ -51,9 +52,13 @@ struct BakedRegion {
 /// invalid_argument: no such levels, an empty box, a cell that is none. range: chunks leave the world. limit: more than
 /// 2^22 tiles.
 Result<void> check(const BakedRegion& region);
-/// In their order. Precondition of both: check accepts the region.
+/// In their order. Precondition of all three: check accepts the region.
 std::vector<TileKey> tilesOf(const BakedRegion& region);
+uint64_t countTiles(const BakedRegion& region);
 /// Numbers of the tile's chunks in the region, rising.
 std::vector<size_t> chunksIn(const BakedRegion& region, const TileKey& tile);
+
+void putRegion(const BakedRegion& region, ByteWriter& out);
+BakedRegion getRegion(ByteReader& in);
 
 }  // namespace sgm::store

@@ -4,20 +4,10 @@
 #include <cmath>
 
 #include "base/bytes.h"
+#include "stream/disk_entry.h"
 
 namespace sgm::store {
 namespace {
-
-void putId(const ContentId& id, ByteWriter& out) {
-  out.put(id.high);
-  out.put(id.low);
-}
-ContentId getId(ByteReader& in) {
-  ContentId id;
-  id.high = in.get<uint64_t>();
-  id.low = in.get<uint64_t>();
-  return id;
-}
 
 /// Calls f for every number of the sums, in order.
 template <class Sums, class F>
@@ -42,7 +32,8 @@ bool isSound(const TileRecord& record) {
       return content.bytes == content.stored && content.offset <= record.inlined.size() &&
              content.stored <= record.inlined.size() - content.offset;
     }
-    if (content.pack >= record.packs.size() || content.bytes > kMaxDiskContent) return false;
+    if (content.pack >= record.packs.size() || content.bytes > kMaxDiskContent || content.stored > kMaxDiskEntry)
+      return false;
     const uint64_t bytes = record.packs[content.pack].bytes;
     return content.offset >= kPackHead && content.offset <= bytes && content.stored <= bytes - content.offset;
   };

@@ -12,7 +12,6 @@ namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr uint64_t kMostPack = uint64_t{1} << 33;
 constexpr int kFaces = 6;
 
 /// By face of a body, over its triangles' edges that lie there: a number of the edge less that of its reverse. Edges
@@ -39,6 +38,11 @@ FaceSums faceSumsOf(const PackedMesh& mesh) {
   return sums;
 }
 
+std::string placeOf(const ChunkKey& chunk) {
+  return "chunk (" + std::to_string(chunk.at.x) + ", " + std::to_string(chunk.at.y) + ", " +
+         std::to_string(chunk.at.z) + ") of level " + std::to_string(chunk.level);
+}
+
 class Verifier {
  public:
   Verifier(const Folder& store, const WorldFile& world) : store_(store), world_(world) {}
@@ -49,10 +53,6 @@ class Verifier {
       ++found_.tiles;
       if (progress && !progress(found_.tiles, world_.index.tiles.size())) break;
     }
-    const std::vector<TileKey> wanted = tilesOf(world_.index.region);
-    const auto has = [&](const TileKey& tile) { return world_.index.find(tile) != nullptr; };
-    if (wanted.size() != world_.index.tiles.size() || !std::all_of(wanted.begin(), wanted.end(), has))
-      found_.problems.add("'" + world_.path.string() + "': tiles of its region are missing");
     compareFaces();
     found_.contents = known_.size();
     found_.packs = packs_.size();
@@ -60,12 +60,16 @@ class Verifier {
   }
 
  private:
+  using Pack = std::shared_ptr<const OpenFile>;
+
   void look(const TileEntry& entry) {
     const Result<TileRecord> record = world_.record(entry, memory_);
     if (!record) return found_.problems.add(record.error().message);
-    std::vector<std::vector<std::byte>> packs;
-    for (const PackFile& pack : record->packs) packs.push_back(read(pack));
-    for (size_t i = 0; i < record->contents.size(); ++i) lookAt(*record, record->contents[i], packs);
+    std::vector<Pack> packs;
+    for (const PackFile& pack : record->packs) packs.push_back(open(pack));
+    for (const StoredContent& content : record->contents) {
+      if (known_.count(content.id) == 0) known_[content.id] = lookAt(*record, content, packs);
+    }
     for (const size_t number : chunksIn(world_.index.region, entry.key)) {
       ++found_.chunks;
       for (int part = 0; part < kChunkParts; ++part) {
@@ -73,47 +77,53 @@ class Verifier {
           return found_.problems.add("'" + world_.path.string() + "': a part of a chunk is missing");
       }
       const StoredContent& body = record->contents[record->part(number, 0) - 1u];
-      const auto known = known_.find(body.id);
-      if (known != known_.end() && known->second != FaceSums{}) faces_[chunkOf(entry.key, number)] = known->second;
+      if (const FaceSums& sums = known_.at(body.id); sums != FaceSums{}) faces_[chunkOf(entry.key, number)] = sums;
     }
   }
 
-  /// The pack's bytes; empty where it cannot be read. Looked at once.
-  std::vector<std::byte> read(const PackFile& pack) {
+  /// Null where it cannot be read. The first time all its bytes are compared.
+  Pack open(const PackFile& pack) {
     const fs::path path = store_.pack(pack.name);
-    Result<std::vector<std::byte>> bytes = readFile(path, kMostPack);
     const bool is_new = packs_.insert(pack.name).second;
-    if (!bytes) {
-      if (is_new) found_.problems.add(bytes.error().message);
-      return {};
+    Result<Pack> file = OpenFile::open(path);
+    if (!file) {
+      if (is_new) found_.problems.add(file.error().message);
+      return nullptr;
     }
-    if (is_new) {
-      found_.bytes += bytes->size();
-      if (bytes->size() != pack.bytes || idOf(*bytes) != pack.name)
-        found_.problems.add("'" + path.string() + "' is damaged: remove it, and bake the world again");
+    if (!is_new) return std::move(*file);
+    found_.bytes += (*file)->size();
+    const Result<ContentId> id = idOfFile(**file);
+    const Result<std::vector<std::byte>> head = (*file)->read(0, kPackHead);
+    if (!id || (*file)->size() != pack.bytes || *id != pack.name) {
+      found_.problems.add("'" + path.string() + "' is damaged: remove it, and bake the world again");
+    } else if (!head || *head != packHead()) {
+      found_.problems.add("'" + path.string() +
+                          "' is a pack of another version: bake its world anew into another store");
     }
-    return std::move(*bytes);
+    return std::move(*file);
   }
 
-  void lookAt(const TileRecord& record, const StoredContent& content, std::span<const std::vector<std::byte>> packs) {
-    if (known_.count(content.id) != 0) return;
-    known_[content.id] = {};
-    const std::vector<std::byte>& from = content.pack == kInlined ? record.inlined : packs[content.pack];
+  FaceSums lookAt(const TileRecord& record, const StoredContent& content, std::span<const Pack> packs) {
     const auto wrong = [&] {
       found_.problems.add("content " + nameOf(content.id) + " of '" + world_.path.string() + "' is missing or damaged");
+      return FaceSums{};
     };
-    if (content.offset > from.size() || content.stored > from.size() - content.offset) return wrong();
-    const std::span stored = std::span(from).subspan(content.offset, content.stored);
-    std::pmr::vector<std::byte> bytes(stored.begin(), stored.end(), memory_);
-    if (content.pack != kInlined) {
-      std::optional<std::pmr::vector<std::byte>> unpacked = unpack(stored, content.bytes, memory_);
+    std::pmr::vector<std::byte> bytes(memory_);
+    if (content.pack == kInlined) {
+      const auto first = record.inlined.begin() + static_cast<ptrdiff_t>(content.offset);
+      bytes.assign(first, first + static_cast<ptrdiff_t>(content.stored));
+    } else {
+      if (packs[content.pack] == nullptr) return wrong();
+      const Result<std::vector<std::byte>> frame = packs[content.pack]->read(content.offset, content.stored);
+      if (!frame) return wrong();
+      std::optional<std::pmr::vector<std::byte>> unpacked = unpack(*frame, content.bytes, memory_);
       if (!unpacked) return wrong();
       bytes = std::move(*unpacked);
     }
     if (idOf(bytes) != content.id) return wrong();
     const Result<ChunkRecord> chunk = decodeChunk(bytes, memory_);
     if (!chunk) return wrong();
-    known_[content.id] = faceSumsOf(chunk->mesh);
+    return faceSumsOf(chunk->mesh);
   }
 
   void compareFaces() {
@@ -129,10 +139,7 @@ class Verifier {
         if (sums[face] == 0 && opposite == 0) continue;
         ++found_.faces;
         if (sums[face] + opposite != 0) {
-          found_.problems.add("the surface is not closed between the chunks (" + std::to_string(chunk.at.x) + ", " +
-                              std::to_string(chunk.at.y) + ", " + std::to_string(chunk.at.z) + ") and (" +
-                              std::to_string(other.at.x) + ", " + std::to_string(other.at.y) + ", " +
-                              std::to_string(other.at.z) + ") of level " + std::to_string(chunk.level));
+          found_.problems.add("the surface is not closed between " + placeOf(chunk) + " and " + placeOf(other));
         }
       }
     }
@@ -146,8 +153,8 @@ class Verifier {
   const WorldFile& world_;
   std::pmr::memory_resource* memory_ = std::pmr::get_default_resource();
   Verified found_;
-  std::unordered_map<ContentId, FaceSums, IdHash> known_;  ///< contents that were looked at
-  std::set<ContentId> packs_;
+  std::unordered_map<ContentId, FaceSums, IdHash> known_;       ///< contents that were looked at
+  std::set<ContentId> packs_;                                   ///< likewise
   std::unordered_map<ChunkKey, FaceSums, ChunkKeyHash> faces_;  ///< of bodies that end in a face
 };
 
@@ -157,83 +164,86 @@ Verified verify(const Folder& store, const WorldFile& world, const Progress& pro
   return Verifier(store, world).run(progress);
 }
 
-Result<Problems> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed) {
-  Problems problems;
+Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed) {
+  Compared compared;
   const std::vector<TileEntry>& tiles = world.index.tiles;
-  if (tiles.empty()) return problems;
-  size_t compared = 0;
   // Of tiles that hold nothing but rock each is tried, too, but few of them are enough.
-  for (uint64_t draw = 0; compared < chunks && draw < 16 * chunks; ++draw) {
+  for (uint64_t draw = 0; compared.chunks < chunks && draw < 16 * chunks; ++draw) {
     const uint64_t random = hashCombine(seed, draw);
     const Result<TileRecord> record = world.record(tiles[random % tiles.size()], bakery.memory);
     if (!record) return record.error();
+    const std::vector<size_t> all = chunksIn(world.index.region, record->key);
     std::vector<size_t> drawn;
-    for (const size_t number : chunksIn(world.index.region, record->key)) {
+    for (const size_t number : all) {
       const uint16_t body = record->part(number, 0);
       if (body != 0 && record->contents[body - 1u].pack != kInlined) drawn.push_back(number);
     }
     if (drawn.empty() && draw % 16 != 0) continue;
-    const std::vector<size_t>& from = drawn.empty() ? chunksIn(world.index.region, record->key) : drawn;
-    if (from.empty()) continue;
+    const std::vector<size_t>& from = drawn.empty() ? all : drawn;
     const size_t number = from[(random >> 32) % from.size()];
     const ChunkKey chunk = chunkOf(record->key, number);
     const Result<std::array<ContentId, kChunkParts>> ids = idsOf(bakery, chunk);
     if (!ids) return ids.error();
-    ++compared;
+    ++compared.chunks;
     for (int part = 0; part < kChunkParts; ++part) {
       const uint16_t stored = record->part(number, part);
       if (stored != 0 && record->contents[stored - 1u].id == (*ids)[static_cast<size_t>(part)]) continue;
-      problems.add("part " + std::to_string(part) + " of chunk (" + std::to_string(chunk.at.x) + ", " +
-                   std::to_string(chunk.at.y) + ", " + std::to_string(chunk.at.z) + ") of level " +
-                   std::to_string(chunk.level) + " is not what it is baked to here");
+      compared.problems.add("part " + std::to_string(part) + " of " + placeOf(chunk) +
+                            " is not what it is baked to here");
     }
   }
-  return problems;
-}
-
-Result<bool> hasPacks(const Folder& store, const WorldFile& world) {
-  for (const TileEntry& tile : world.index.tiles) {
-    const Result<TileRecord> record = world.record(tile, std::pmr::get_default_resource());
-    if (!record) return record.error();
-    for (const PackFile& pack : record->packs) {
-      std::error_code error;
-      if (fs::file_size(store.pack(pack.name), error) != pack.bytes || error) return false;
-    }
-  }
-  return true;
+  return compared;
 }
 
 Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory) {
   const Result<StoreLock> lock = StoreLock::take(store);
   if (!lock) return lock.error();
-  const Result<std::vector<WorldFile>> worlds = WorldFile::all(store);
+  const Result<std::vector<fs::path>> worlds = worldsOf(store);
   if (!worlds) return worlds.error();
-  std::set<fs::path> needed;
-  for (const WorldFile& world : *worlds) {
-    for (const TileEntry& tile : world.index.tiles) {
-      const Result<TileRecord> record = world.record(tile, memory);
-      if (!record) return record.error();
-      for (const PackFile& pack : record->packs) needed.insert(store.pack(pack.name));
-    }
+  std::set<fs::path> needed, done;
+  for (const fs::path& path : *worlds) {
+    const Result<WorldFile> world = WorldFile::open(path);
+    if (!world) return world.error();
+    done.insert(store.baking(jobKey(world->index.world, world->index.region)));
+    const Result<void> read = world->forRecords(memory, [&](TileRecord&& record) -> Result<void> {
+      for (const PackFile& pack : record.packs) needed.insert(store.pack(pack.name));
+      return {};
+    });
+    if (!read) return read.error();
   }
-  Cleaned cleaned;
   std::error_code error;
-  std::vector<fs::path> superfluous;
-  if (fs::exists(store.root() / "packs", error)) {
-    for (const auto& entry : fs::recursive_directory_iterator(store.root() / "packs", error)) {
-      if (entry.path().extension() == ".sgmp" && needed.count(entry.path()) == 0) superfluous.push_back(entry.path());
+  const auto failure = [&](const fs::path& path) {
+    return Error{Code::io, "'" + path.string() + "': " + error.message()};
+  };
+  Cleaned cleaned;
+  const fs::path packs = store.root() / "packs", baking = store.root() / "baking";
+  std::vector<std::pair<fs::path, uint64_t>> superfluous;
+  if (fs::exists(packs, error)) {
+    for (fs::recursive_directory_iterator at(packs, error), end; !error && at != end; at.increment(error)) {
+      if (at->path().extension() == ".sgmp" && needed.count(at->path()) == 0)
+        superfluous.emplace_back(at->path(), at->file_size(error));
     }
+    if (error) return failure(packs);
   }
-  for (const fs::path& path : superfluous) {
-    const uint64_t bytes = fs::file_size(path, error);
-    if (!fs::remove(path, error) || error)
-      return Error{Code::io, "'" + path.string() + "' cannot be removed: " + error.message()};
+  for (const auto& [path, bytes] : superfluous) {
+    fs::remove(path, error);
+    if (error) return failure(path);
     ++cleaned.packs;
     cleaned.bytes += bytes;
   }
-  if (fs::exists(store.root() / "baking", error)) {
-    for (const auto& entry : fs::directory_iterator(store.root() / "baking", error))
-      cleaned.unfinished += entry.is_directory();
+  if (!fs::exists(baking, error)) return cleaned;
+  std::vector<fs::path> leftovers;
+  for (fs::directory_iterator at(baking, error), end; !error && at != end; at.increment(error)) {
+    if (at->path().extension() == kMergedEnding || done.count(at->path()) != 0) {
+      leftovers.push_back(at->path());
+    } else {
+      ++cleaned.unfinished;
+    }
+  }
+  if (error) return failure(baking);
+  for (const fs::path& path : leftovers) {
+    fs::remove_all(path, error);
+    if (error) return failure(path);
   }
   return cleaned;
 }

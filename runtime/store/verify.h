@@ -29,20 +29,22 @@ struct Verified {
 /// Throws std::bad_alloc.
 Verified verify(const Folder& store, const WorldFile& world, const Progress& progress = {});
 
-/// Makes so many chunks of the world anew, drawn by the seed among those that have triangles as far as there are any,
-/// and compares. Errors: those of meshing; bad_input (verify says more).
-Result<Problems> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed);
+struct Compared {
+  uint64_t chunks = 0;
+  Problems problems;
+};
 
-/// Whether all packs are there that the world needs, as far as their sizes tell. Errors: those of reading the index.
-Result<bool> hasPacks(const Folder& store, const WorldFile& world);
+/// Makes so many chunks of the world anew, drawn by the seed among those that have triangles as far as there are any,
+/// and compares; fewer where few have. Errors: those of meshing; bad_input (verify says more).
+Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed);
 
 struct Cleaned {
   uint64_t packs = 0, bytes = 0;  ///< removed
   uint64_t unfinished = 0;        ///< bakes that are not merged: these stay
 };
 
-/// Removes packs that no world of the store needs. busy: as StoreLock. Errors: of reading any index, before anything is
-/// removed; io.
+/// Removes packs that no world of the store needs, and what is left of bakes that are merged. busy, unsupported: as
+/// StoreLock. Errors: of reading any index, before anything is removed; io.
 Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory);
 
 }  // namespace sgm::store

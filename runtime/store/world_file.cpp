@@ -4,51 +4,92 @@
 #include <system_error>
 
 namespace sgm::store {
+namespace fs = std::filesystem;
 namespace {
 
-ReadAt readerOf(const std::filesystem::path& path) {
-  return [path](uint64_t offset, size_t bytes) { return readFile(path, offset, bytes); };
+ReadAt readerOf(const OpenFile& file) {
+  return [&file](uint64_t offset, size_t bytes) { return file.read(offset, bytes); };
 }
 
-Error in(const std::filesystem::path& path, Error error) {
-  if (error.code == Code::bad_input) error.message = "'" + path.string() + "': " + error.message;
+Error in(const fs::path& path, Error error) {
+  if (error.code == Code::bad_input)
+    error.message = "'" + path.string() + "': " + error.message + "; remove it, and bake its world again";
   return error;
 }
 
 }  // namespace
 
-Result<WorldFile> WorldFile::open(const std::filesystem::path& path) {
-  std::error_code error;
-  const uint64_t bytes = std::filesystem::file_size(path, error);
-  if (error) return Error{Code::io, "'" + path.string() + "': " + error.message()};
-  Result<WorldIndex> index = readIndex(readerOf(path), bytes);
+Result<WorldFile> WorldFile::open(const fs::path& path) {
+  Result<std::shared_ptr<const OpenFile>> file = OpenFile::open(path);
+  if (!file) return file.error();
+  Result<WorldIndex> index = readIndex(readerOf(**file), (*file)->size());
   if (!index) return in(path, index.error());
-  return WorldFile{path, std::move(*index)};
-}
-
-Result<std::vector<WorldFile>> WorldFile::all(const Folder& store) {
-  const std::filesystem::path folder = store.root() / "worlds";
-  std::vector<std::filesystem::path> paths;
-  std::error_code error;
-  if (!std::filesystem::exists(folder, error)) return std::vector<WorldFile>();
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".sgmi") paths.push_back(entry.path());
-  }
-  if (error) return Error{Code::io, "'" + folder.string() + "': " + error.message()};
-  std::sort(paths.begin(), paths.end());
-  std::vector<WorldFile> worlds;
-  for (const std::filesystem::path& path : paths) {
-    Result<WorldFile> world = open(path);
-    if (!world) return world.error();
-    worlds.push_back(std::move(*world));
-  }
-  return worlds;
+  return WorldFile{path, std::move(*index), std::move(*file)};
 }
 
 Result<TileRecord> WorldFile::record(const TileEntry& tile, std::pmr::memory_resource* memory) const {
-  Result<TileRecord> record = readRecord(readerOf(path), tile, memory);
+  Result<TileRecord> record = readRecord(readerOf(*file), tile, memory);
   if (!record) return in(path, record.error());
   return record;
+}
+
+Result<void> WorldFile::forRecords(std::pmr::memory_resource* memory,
+                                   const std::function<Result<void>(TileRecord&&)>& f) const {
+  for (const TileEntry& tile : index.tiles) {
+    Result<TileRecord> one = record(tile, memory);
+    if (!one) return one.error();
+    if (Result<void> done = f(std::move(*one)); !done) return done;
+  }
+  return {};
+}
+
+void WorldSummary::add(const TileRecord& record) {
+  ++tiles;
+  chunks += record.chunks;
+  plain_bytes += record.plain_bytes;
+  measured.add(record.measured);
+  for (const StoredContent& content : record.contents) contents += contents_.insert(content.id).second;
+  for (const PackFile& pack : record.packs) {
+    if (!packs_.insert(pack.name).second) continue;
+    ++packs;
+    pack_bytes += pack.bytes;
+  }
+}
+
+Result<WorldSummary> summaryOf(const WorldFile& world, std::pmr::memory_resource* memory) {
+  WorldSummary summary;
+  const Result<void> read = world.forRecords(memory, [&](TileRecord&& record) -> Result<void> {
+    summary.add(record);
+    return {};
+  });
+  if (!read) return read.error();
+  return summary;
+}
+
+Result<bool> hasPacks(const Folder& store, const WorldFile& world, std::pmr::memory_resource* memory) {
+  bool all = true;
+  const Result<void> read = world.forRecords(memory, [&](TileRecord&& record) -> Result<void> {
+    for (const PackFile& pack : record.packs) {
+      std::error_code error;
+      all = all && fs::file_size(store.pack(pack.name), error) == pack.bytes && !error;
+    }
+    return {};
+  });
+  if (!read) return read.error();
+  return all;
+}
+
+Result<std::vector<fs::path>> worldsOf(const Folder& store) {
+  const fs::path folder = store.root() / "worlds";
+  std::vector<fs::path> paths;
+  std::error_code error;
+  if (!fs::exists(folder, error)) return paths;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (entry->path().extension() == ".sgmi") paths.push_back(entry->path());
+  }
+  if (error) return Error{Code::io, "'" + folder.string() + "': " + error.message()};
+  std::sort(paths.begin(), paths.end());
+  return paths;
 }
 
 }  // namespace sgm::store

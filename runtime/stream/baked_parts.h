@@ -12,7 +12,7 @@ namespace sgm {
 struct BakedStats {
   uint64_t hits = 0, misses = 0;  ///< one or the other for every get
   uint64_t damaged = 0;           ///< misses where something was there that could not be trusted
-  uint64_t errors = 0;            ///< of the file system
+  uint64_t errors = 0;            ///< times that a file could not be read, or was not what it should be
   uint64_t bytes = 0;             ///< read for hits, as they are stored
 };
 
@@ -25,8 +25,8 @@ class BakedParts {
   virtual DiskKey worldOf(std::span<const std::byte> inputs) const = 0;
 
   /// As encodeChunkPart made it of that world without edits, in `memory`: a body of level 0 with its anchors and voids,
-  /// a seam as one to the next level; compared with a hash of all its bytes. None where it is not there, or cannot be read, or trusted. Takes as long as the
-  /// disk does. Throws std::bad_alloc.
+  /// a seam as one to the next level; compared with a hash of all its bytes. None where it is not there, or cannot be
+  /// read, or trusted. Takes as long as the disk does. Throws std::bad_alloc.
   virtual std::optional<std::pmr::vector<std::byte>> get(const DiskKey& world, const ChunkKey& chunk, int part,
                                                          std::pmr::memory_resource* memory) = 0;
 

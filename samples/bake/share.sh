@@ -16,8 +16,9 @@ shift
 
 if [[ $shares == end ]]; then
   "$@" --merge
-  while (($# > 1)) && [[ $1 != --out ]]; do shift; done
-  exec sgm store verify "${2:?--out STORE is missing}"
+  while (($# > 0)) && [[ $1 != --out && $1 != --out=* ]]; do shift; done
+  if [[ ${1:-} == --out ]]; then exec sgm store verify "$2"; fi
+  exec sgm store verify "${1#--out=}"
 fi
 if [[ -n ${SHARE:-} ]]; then share=$SHARE
 elif [[ -n ${JOB_COMPLETION_INDEX:-} ]]; then share=$JOB_COMPLETION_INDEX             # Kubernetes, from 0

@@ -81,19 +81,19 @@ int main(int argc, char** argv) {
   const store::BakedRegion region{{{0, 0, 0}, {edge, edge, edge}}, 0, levels - 1, world.settings().finest_cell};
   const store::Folder folder(argv[1]);
   if (!folder.make()) return 1;
-  const fs::path baking = folder.baking(store::jobKey(orDie(store::worldKey(world, false)), region));
-  if (!store::makeFolder(baking)) return 1;
-  const store::Bakery bakery{world, *backend, *jobs, region, false, baking, nullptr, memory};
+  const store::Bakery bakery = orDie(store::bakeryOf(world, *backend, *jobs, region, false, folder, memory));
+  if (!store::makeFolder(bakery.folder)) return 1;
   const double start = bench::now();
   for (const store::TileKey& tile : store::tilesOf(region)) orDie(store::bakeTile(bakery, tile));
   const double baked = bench::now();
-  const store::Merged merged = orDie(store::merge(folder, bakery));
+  const store::Merged merged =
+      orDie(store::merge(folder, bakery, [](const store::WorldSummary&) { return std::string(); }));
   const double seconds = bench::now() - baked;
-  std::printf(
-      "baked: %llu chunks in %.2f s on one thread, merged in %.3f s; %.2f bytes a triangle, %llu contents\n",
-      static_cast<unsigned long long>(merged.chunks), (baked - start) / 1e3, seconds / 1e3,
-      static_cast<double>(merged.pack_bytes + merged.index_bytes) / static_cast<double>(merged.measured.triangles),
-      static_cast<unsigned long long>(merged.contents));
+  std::printf("baked: %llu chunks in %.2f s on one thread, merged in %.3f s; %.2f bytes a triangle, %llu contents\n",
+              static_cast<unsigned long long>(merged.world.chunks), (baked - start) / 1e3, seconds / 1e3,
+              static_cast<double>(merged.world.pack_bytes + fs::file_size(folder.world(bakery.key))) /
+                  static_cast<double>(merged.world.measured.triangles),
+              static_cast<unsigned long long>(merged.world.contents));
 
   // Those that have a surface, with three of their seams, as a world asks most often.
   std::vector<ChunkRequest> requests;

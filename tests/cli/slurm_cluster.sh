@@ -49,27 +49,23 @@ CONF
   return 1
 }
 
-# cluster_kill_node NAME: as if its power had gone, with what runs there. Status 1 where nothing did.
-cluster_kill_node() {
-  local pid parent jobs=()
-  # What a job starts has the node's name in its surroundings; a job that "runs" may still be about to.
-  for _ in $(seq 40); do
-    for pid in /proc/[0-9]*; do
-      if grep -qz "^SLURMD_NODENAME=$1\$" "$pid/environ" 2>/dev/null && grep -qz "^SLURM_CONF=$SLURM_CONF\$" "$pid/environ"; then
-        jobs+=("${pid#/proc/}")
-      fi
+# cluster_kill_node_of PATTERN: waits for a process of a job whose command line matches, and kills its node, called
+# `victim`, as if its power had gone. Status 1 where none came.
+cluster_kill_node_of() {
+  local pid parent
+  victim=
+  for _ in $(seq 1500); do
+    for pid in $(pgrep -f -- "$1"); do
+      victim=$(tr '\0' '\n' <"/proc/$pid/environ" 2>/dev/null | sed -n 's/^SLURMD_NODENAME=//p')
+      [[ -z $victim ]] || break 2
     done
-    ((${#jobs[@]} == 0)) || break
-    sleep 0.05
+    sleep 0.02
   done
-  kill -9 "$(<"$cluster/slurmd-$1.pid")" 2>/dev/null
+  [[ -n $victim ]] || return 1
   # First what would tell the controller how the job has ended.
-  for pid in ${jobs[@]+"${jobs[@]}"}; do
-    parent=$(sed -n 's/^PPid:\t//p' "/proc/$pid/status" 2>/dev/null)
-    [[ $(cat "/proc/$parent/comm" 2>/dev/null) == slurmstepd ]] && kill -9 "$parent" 2>/dev/null
-  done
-  for pid in ${jobs[@]+"${jobs[@]}"}; do kill -9 "$pid" 2>/dev/null; done
-  ((${#jobs[@]} > 0))
+  parent=$(sed -n 's/^PPid:\t//p' "/proc/$pid/status" 2>/dev/null)
+  [[ $(cat "/proc/$parent/comm" 2>/dev/null) == slurmstepd ]] || return 1
+  kill -9 "$parent" "$(<"$cluster/slurmd-$victim.pid")" "$pid"
 }
 
 cluster_stop() {

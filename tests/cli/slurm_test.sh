@@ -27,7 +27,7 @@ fi
 
 expect 0 "$SGM" bake "${world[@]}" --out alone
 expect 0 "$SGM" bake "${world[@]}" --out shared --slurm 7 --json
-json 'j.done === 7 && j.failed === 0 && j.merge === "COMPLETED" && j.verification === "COMPLETED"'
+json 'j.baked && j.failed === 0 && j.merge === "COMPLETED" && j.verification === "COMPLETED"'
 err_has 'are submitted'
 expect 0 diff -r -x slurm alone shared
 expect 0 bash -c 'grep -h "whole and closed" shared/slurm/*/verify.txt'
@@ -37,14 +37,7 @@ out_has 'baked already'
 # A node dies while it bakes; its shard starts anew elsewhere, when the others have long ended.
 expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 3 --detach
 out_has '0 failed'
-victim=
-for _ in $(seq 200); do
-  victim=$(squeue -h -t RUNNING -o %N | tail -n 1)
-  [[ -n $victim ]] && break
-  sleep 0.05
-done
-[[ -n $victim ]] || failed "no shard has begun"
-cluster_kill_node "$victim" || failed "nothing ran on $victim any more"
+cluster_kill_node_of "$work/hurt.*--shard [0-9]+/3" || failed "no shard has been met"
 # Slurm lets a shard of a dead node wait for two minutes; nobody here wants to.
 (
   for _ in $(seq 120); do
@@ -57,7 +50,7 @@ cluster_kill_node "$victim" || failed "nothing ran on $victim any more"
 hurry=$!
 expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 3 --json
 err_has 'are under way'
-json 'j.done === 3 && j.failed === 0 && j.verification === "COMPLETED"'
+json 'j.baked && j.failed === 0 && j.verification === "COMPLETED"'
 kill $hurry
 expect 0 diff -r -x slurm alone hurt
 grep -q "Requeuing\|requeue" cluster/log/slurmctld.log || failed "no shard was started anew"

@@ -83,53 +83,107 @@ TEST_CASE("a tile's record comes back as it was written, and bytes that are none
   }
 }
 
+namespace {
+
+/// An index of random records.
+struct RandomIndex {
+  store::ContentId world;
+  store::BakedRegion region{around(1, 2, 3, 40), 1, 4, 33};
+  std::vector<store::TileRecord> records;
+  Bytes bytes;
+
+  RandomIndex(std::mt19937& random, const fs::path& file) : world(keyNumber(random())) {
+    auto writer = store::IndexWriter::create(file, nullptr);
+    REQUIRE(writer);
+    for (const store::TileKey& tile : store::tilesOf(region)) {
+      records.push_back(randomRecord(random));
+      records.back().key = tile;
+      REQUIRE(writer->add(records.back(), std::pmr::get_default_resource()));
+    }
+    REQUIRE(writer->commit(world, region));
+    bytes = readFile(file);
+  }
+
+  /// Whether all of it can be read; as_written: and is what was written.
+  bool canBeRead(bool& as_written) const {
+    const auto index = store::readIndex(readerOf(bytes), bytes.size());
+    if (!index) return false;
+    as_written = index->world == world && index->region.box.lo == region.box.lo &&
+                 index->region.last_level == region.last_level && index->tiles.size() == records.size();
+    for (size_t i = 0; i < index->tiles.size(); ++i) {
+      const auto record = store::readRecord(readerOf(bytes), index->tiles[i], std::pmr::get_default_resource());
+      if (!record) return false;
+      as_written = as_written && i < records.size() && same(*record, records[i]);
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
 TEST_CASE("an index comes back as it was written, and no changed byte passes", "[store]") {
   const auto seed = GENERATE(take(2, random(0, 1 << 30)));
   CAPTURE(seed);
   std::mt19937 random(static_cast<uint32_t>(seed));
   const CacheFolder folder;
-  const fs::path file = folder.path / "index";
-  std::map<store::TileKey, store::TileRecord> records;
-  for (int i = 0; i < 12; ++i) {
-    const store::TileRecord record = randomRecord(random);
-    records[record.key] = record;
-  }
-  const store::ContentId world = keyNumber(random());
-  const store::BakedRegion region{around(1, 2, 3, 4), 1, 5, 333};
-  {
-    auto writer = store::IndexWriter::create(file, nullptr);
-    REQUIRE(writer);
-    for (const auto& [key, record] : records) REQUIRE(writer->add(record, std::pmr::get_default_resource()));
-    REQUIRE(writer->commit(world, region));
-  }
-  Bytes bytes = readFile(file);
-  const auto readAll = [&](bool& same_as_written) {
-    const auto index = store::readIndex(readerOf(bytes), bytes.size());
-    if (!index) return false;
-    same_as_written = index->world == world && index->region.box.lo == region.box.lo &&
-                      index->region.last_level == region.last_level && index->tiles.size() == records.size();
-    for (const store::TileEntry& tile : index->tiles) {
-      const auto record = store::readRecord(readerOf(bytes), tile, std::pmr::get_default_resource());
-      if (!record) return false;
-      same_as_written = same_as_written && records.count(tile.key) != 0 && same(*record, records[tile.key]);
-    }
-    return true;
-  };
+  RandomIndex index(random, folder.path / "index");
+  REQUIRE(index.records.size() > 10);
   bool as_written = false;
-  REQUIRE(readAll(as_written));
+  REQUIRE(index.canBeRead(as_written));
   CHECK(as_written);
-  for (unsigned i = 0; i < rounds(300); ++i) {
-    const size_t at = random() % bytes.size();
-    const std::byte was = bytes[at];
-    bytes[at] ^= static_cast<std::byte>(1 + random() % 255);
-    CAPTURE(at, bytes.size());
-    CHECK(!readAll(as_written));
-    bytes[at] = was;
+  for (unsigned i = 0; i < rounds(100); ++i) {
+    const size_t at = random() % index.bytes.size();
+    const std::byte was = index.bytes[at];
+    index.bytes[at] ^= static_cast<std::byte>(1 + random() % 255);
+    CAPTURE(at, index.bytes.size());
+    CHECK(!index.canBeRead(as_written));
+    index.bytes[at] = was;
   }
-  const Bytes whole = bytes;
+  const Bytes whole = index.bytes;
   for (const size_t cut : {size_t{0}, size_t{7}, size_t{90}, whole.size() / 2, whole.size() - 1}) {
-    bytes.assign(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(cut));
-    CHECK(!readAll(as_written));
+    index.bytes.assign(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(cut));
+    CHECK(!index.canBeRead(as_written));
+  }
+}
+
+TEST_CASE("an index whose numbers are wrong on purpose is refused", "[store]") {
+  const auto seed = GENERATE(take(1, random(0, 1 << 30)));
+  CAPTURE(seed);
+  std::mt19937 random(static_cast<uint32_t>(seed));
+  const CacheFolder folder;
+  const RandomIndex index(random, folder.path / "index");
+  // Behind the world: the box, two levels, the cell; checksums are made anew.
+  const auto with = [&](size_t number, int32_t value) {
+    Bytes bytes = index.bytes;
+    std::byte* end = bytes.data() + bytes.size() - store::kIndexEnd;
+    std::memcpy(end + 16 + 4 * number, &value, sizeof value);
+    const uint64_t checksum = store::checksumOf(std::span(end, store::kIndexEnd - 8));
+    std::memcpy(end + store::kIndexEnd - 8, &checksum, sizeof checksum);
+    return store::readIndex(readerOf(bytes), bytes.size());
+  };
+  REQUIRE(with(8, index.region.finest_cell));
+  constexpr int32_t kMost = std::numeric_limits<int32_t>::max(), kLeast = std::numeric_limits<int32_t>::min();
+  for (const size_t number : {size_t{0}, size_t{3}, size_t{6}, size_t{7}, size_t{8}}) {
+    for (const int32_t value : {kLeast, -1, 0, kMost}) {
+      CAPTURE(number, value);
+      const auto read = with(number, value);
+      // A corner may lie elsewhere, if the tiles are as many.
+      CHECK((read ? number < 6 && store::countTiles(read->region) == index.records.size()
+                  : read.error().code == Code::bad_input));
+    }
+  }
+  // The first tile's place in the directory, and where its record lies.
+  const size_t directory = index.bytes.size() - store::kIndexEnd - 40 * index.records.size();
+  for (const size_t at : {size_t{0}, size_t{4}, size_t{8}, size_t{12}, size_t{16}, size_t{24}, size_t{28}}) {
+    CAPTURE(at);
+    Bytes bytes = index.bytes;
+    std::byte* end = bytes.data() + bytes.size() - store::kIndexEnd;
+    std::memcpy(bytes.data() + directory + at, &kMost, sizeof kMost);
+    uint64_t checksum = store::checksumOf(std::span(bytes.data() + directory, 40 * index.records.size()));
+    std::memcpy(end + store::kIndexEnd - 16, &checksum, sizeof checksum);
+    checksum = store::checksumOf(std::span(end, store::kIndexEnd - 8));
+    std::memcpy(end + store::kIndexEnd - 8, &checksum, sizeof checksum);
+    CHECK(store::readIndex(readerOf(bytes), bytes.size()).error().code == Code::bad_input);
   }
 }
 
@@ -146,6 +200,9 @@ TEST_CASE("a folder that is no store, or one of another version, stays as it is"
   writeFile(store.root() / "format", text);
   CHECK(store.make().error().message.find("sgm store 99") != std::string::npos);
   CHECK(!store::openStores(std::array{store.root()}, {}, std::pmr::get_default_resource()));
+  // What a worker leaves that is killed while it makes a store.
+  writeFile(folder.path / "begun" / "format.sgm-part0", text);
+  CHECK(store::Folder(folder.path / "begun").make());
   writeFile(folder.path / "other" / "file", text);
   const store::Folder taken(folder.path / "other");
   CHECK(taken.make().error().code == Code::bad_input);

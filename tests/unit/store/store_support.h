@@ -26,11 +26,11 @@ struct Baking {
     REQUIRE(folder.make());
   }
   store::Bakery bakery() const {
-    const auto key = store::worldKey(world, sharp);
-    REQUIRE(key);
-    const fs::path job = folder.baking(store::jobKey(*key, region));
-    REQUIRE(store::makeFolder(job));
-    return {world, *machine.backend, *machine.jobs, region, sharp, job};
+    Result<store::Bakery> own = store::bakeryOf(world, *machine.backend, *machine.jobs, region, sharp, folder,
+                                                std::pmr::get_default_resource());
+    REQUIRE(own);
+    REQUIRE(store::makeFolder(own->folder));
+    return *own;
   }
   void bakeAll() const {
     const store::Bakery own = bakery();
@@ -40,14 +40,19 @@ struct Baking {
       REQUIRE(record);
     }
   }
+  Result<store::Merged> tryToMerge(const Progress& progress = {}) const {
+    const auto manifest = [](const store::WorldSummary& baked) { return std::to_string(baked.chunks) + " chunks\n"; };
+    return store::merge(folder, bakery(), manifest, progress);
+  }
   store::Merged merge() const {
-    Result<store::Merged> merged = store::merge(folder, bakery());
+    Result<store::Merged> merged = tryToMerge();
     INFO((merged ? "" : merged.error().message));
     REQUIRE(merged);
     return *merged;
   }
+  fs::path index() const { return folder.world(bakery().key); }
   store::WorldFile file() const {
-    Result<store::WorldFile> file = store::WorldFile::open(folder.world(*store::worldKey(world, sharp)));
+    Result<store::WorldFile> file = store::WorldFile::open(index());
     INFO((file ? "" : file.error().message));
     REQUIRE(file);
     return std::move(*file);
