@@ -61,8 +61,10 @@ class GridMesher {
         jobs_(jobs),
         memory_(memory),
         kernels_(kernels),
+        thick_(thicknessOf(grid.size, jobs.concurrency())),
         shared_signs_(memory),
         shared_uniform_(memory),
+        shared_((grid.size[2] + thick_ - 1) / thick_, memory),
         first_vertex_(grid.size[2] + 1, 0, memory),
         first_cell_(grid.size[2] + 1, 0, memory),
         first_triangle_(grid.size[2] + 1, 0, memory),
@@ -99,11 +101,11 @@ class GridMesher {
   std::pmr::memory_resource* memory_;
   const MeshKernels& kernels_;
   GridJob job_;
-  size_t thick_ = 0;  ///< planes of every slab but the last
+  const size_t thick_;  ///< planes of every slab but the last
   std::vector<Slab> slabs_;
   /// Of the first plane of each slab, which the one below needs, too: whichever comes first reads it for both.
   RawArray<uint64_t> shared_signs_, shared_uniform_;
-  std::vector<std::atomic<uint8_t>> shared_;
+  std::pmr::vector<std::atomic<uint8_t>> shared_;
   /// By plane, and twice by the layer above it: of a slab that is listed its counts, when it is settled their sums.
   std::pmr::vector<uint64_t> first_vertex_, first_cell_, first_triangle_;
   GridMesh mesh_;
@@ -171,6 +173,7 @@ void GridMesher::stop() {
   settled_.notify_all();
 }
 
+/// A plane's, row by row. A value that is not finite stops all.
 void GridMesher::readSigns(size_t z, uint64_t* signs, uint64_t* uniform) {
   bool finite = true;
   for (size_t y = 0; y < grid_.size[1]; ++y)
@@ -305,14 +308,12 @@ void GridMesher::mesh(size_t number, Worker& worker) {
 
 void GridMesher::shareOut() {
   const size_t planes = grid_.size[2];
-  thick_ = thicknessOf(grid_.size, jobs_.concurrency());
   for (size_t first = 0; first < planes; first += thick_) {
     const size_t last = std::min(first + thick_, planes);
     slabs_.push_back({.first = first, .last = last, .readers = last < planes ? 2 : 1});
   }
   const size_t threads = std::min<size_t>(jobs_.concurrency(), slabs_.size());
   while (workers_.size() < threads) workers_.push_back(std::make_unique<Worker>(memory_));
-  shared_ = std::vector<std::atomic<uint8_t>>(slabs_.size());
   shared_signs_.allocate(job_.lattice.words * grid_.size[1] * slabs_.size());
   shared_uniform_.allocate(2 * grid_.size[1] * slabs_.size());
 }
