@@ -156,6 +156,12 @@ Failure Session::makeWorld(const Settings& settings) {
   const std::string journal = systemPath(settings.journal), cache = systemPath(settings.cache_folder);
   if (!journal.empty()) desc.journal = journal.c_str();
   if (!cache.empty()) desc.cache_folder = cache.c_str();
+  std::vector<std::string> places;
+  for (const std::string& store : settings.stores) places.push_back(systemPath(store));
+  std::vector<const char*> stores;
+  for (const std::string& place : places) stores.push_back(place.c_str());
+  desc.stores = stores.data();
+  desc.store_count = static_cast<uint32_t>(stores.size());
   sgm_world* made = nullptr;
   sgm_error error = SGM_ERROR_INIT;
   if (sgm_world_create(field_.get(), &desc, &made, &error) < SGM_OK) return error.message;

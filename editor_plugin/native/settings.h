@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "godot/variant.h"
 
@@ -17,6 +18,7 @@ struct Settings {
   bool by_distance = false, sharp = false, morph = true, measure = true;
   int64_t mesh_memory = 256;  // MiB
   std::string journal, cache_folder;
+  std::vector<std::string> stores;  // folders, and addresses of web servers
 
   int64_t mapping = 0;  // 0 triplanar, 1 texture coordinates
   std::map<std::string, Variant> materials;

@@ -188,6 +188,7 @@ void World::registerClass(ClassRecord& record) {
       .group("Storage")
       .SGM_SETTING(journal, kRestart, {kFile, "*"})
       .SGM_SETTING(cache_folder, kRestart, {kDirectory})
+      .SGM_SETTING(stores, kRestart)
       .property<&World::setAnchorScenes, &World::anchorScenes>("anchor_scenes")
 #undef SGM_SETTING
       .readOnly<&World::running>("running", {0, "", "", kReadOnlyShown})

@@ -202,6 +202,9 @@ Dictionary World::statistics() const {
       {"cache_misses", s.cache_misses},
       {"cache_damaged", s.cache_damaged},
       {"cache_bytes", s.cache_bytes},
+      {"store_hits", s.store_hits},
+      {"store_misses", s.store_misses},
+      {"store_damaged", s.store_damaged},
   };
   for (const auto& [name, count] : counts) d.set(name, count);
   d.set("detail", s.detail);

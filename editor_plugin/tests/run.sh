@@ -23,7 +23,7 @@ if ((${#names[@]} == 0)); then
   mapfile -t names < <(cd "$tests" && ls {headless,rendered,opengl,editor}/*.gd 2>/dev/null | sed 's/\.gd$//')
 fi
 mkdir -p "$out/home" "$out/tests" "${SGM_PICTURES:=$out/pictures}"
-export GODOT=$godot SGM_PICTURES HOME=$out/home
+export GODOT=$godot SGM_PICTURES HOME=$out/home SGM_COMMAND=${SGM_COMMAND:-$out/prefix/bin/sgm}
 export XDG_DATA_HOME=$HOME/data XDG_CONFIG_HOME=$HOME/config XDG_CACHE_HOME=$HOME/cache
 
 # One copy for each test, so that they may run at one time: files by hard links, where the disk lets them.

@@ -41,6 +41,19 @@ struct Conversion<Typed<number>> {
   static Typed<number> from(const Variant& value) { return {value.type() == number ? value : Variant::ofType(number)}; }
   static Variant into(const Typed<number>& value) { return value.value; }
 };
+template <>
+struct Conversion<std::vector<std::string>> {
+  static constexpr int type = GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY;
+  static std::vector<std::string> from(const Variant& value) {
+    std::vector<std::string> texts;
+    // Scripts write ["one", "two"], which is an array of anything.
+    if (value.type() != GDEXTENSION_VARIANT_TYPE_PACKED_STRING_ARRAY && value.type() != GDEXTENSION_VARIANT_TYPE_ARRAY)
+      return texts;
+    for (int64_t i = 0; i < value.size(); ++i) texts.push_back(value.call("get", i).to<std::string>());
+    return texts;
+  }
+  static Variant into(const std::vector<std::string>& texts) { return strings(texts); }
+};
 /// Text that comes as the engine's StringName.
 struct NameText {
   std::string text;
