@@ -26,6 +26,14 @@ if(SGM_VULKAN OR SGM_BUILD_CLI)
   endif()
 endif()
 
+# Headers alone, likewise: libcurl is looked for when a store on a server is first read from.
+if(SGM_HTTP_STORES)
+  find_path(SGM_CURL_INCLUDE curl/curl.h)
+  if(NOT SGM_CURL_INCLUDE)
+    message(FATAL_ERROR "curl/curl.h is missing: install the package libcurl4-openssl-dev, or set SGM_HTTP_STORES=OFF to do without stores on servers")
+  endif()
+endif()
+
 if(SGM_DISK_CACHE)
   find_package(zstd CONFIG QUIET)
   if(NOT TARGET zstd::libzstd_shared)

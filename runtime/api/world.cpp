@@ -106,13 +106,13 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     if (desc->reserved != 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.reserved is not 0");
     if (desc->store_count != 0) {
       if (desc->stores == nullptr) return nullArgument(error, "desc.stores");
-      std::vector<std::filesystem::path> folders;
+      std::vector<std::string> places;
       for (uint32_t i = 0; i < desc->store_count; ++i) {
         if (desc->stores[i] == nullptr) return nullArgument(error, "desc.stores[i]");
-        folders.push_back(pathOf(desc->stores[i]));
+        places.emplace_back(desc->stores[i]);
       }
       sgm::Result<std::shared_ptr<sgm::BakedParts>> opened =
-          sgm::store::openStores(folders, settings.on_warning, &runtime.memory);
+          sgm::store::openStores(places, settings.on_warning, &runtime.memory);
       if (!opened) return failData(error, opened.error());
       settings.baked = std::move(*opened);
     }

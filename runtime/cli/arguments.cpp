@@ -663,9 +663,11 @@ Command addFly(CLI::App& root) {
       ->check(checkVideo);
   app->add_option("--cache", options->cache, "Folder that keeps meshed chunks from one flight to the next")
       ->type_name("FOLDER");
-  app->add_option("--store", options->stores,
-                  "Folder of baked worlds to stream from (repeatable); what it does not have is derived")
-      ->type_name("FOLDER")
+  app->add_option(
+         "--store", options->stores,
+         "Baked worlds to stream from, in a folder or at http:// or https:// (repeatable); what is not there is "
+         "derived")
+      ->type_name("STORE")
       ->allow_extra_args(false);
   app->add_option("--journal", options->journal, "File that keeps what is dug from one flight to the next")
       ->type_name("FILE")

@@ -78,7 +78,7 @@ std::filesystem::path numbersOf(const SlurmBake& bake) { return bake.folder / "j
 }  // namespace
 
 Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake) {
-  const Result<std::vector<std::byte>> bytes = store::readFile(numbersOf(bake), 4096);
+  const auto bytes = store::readFile(numbersOf(bake), 4096);
   if (!bytes) return std::optional<SlurmJobs>();
   std::istringstream text(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
   SlurmJobs jobs;

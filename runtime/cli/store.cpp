@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/region.h"
+#include "store/http_files.h"
 #include "store/verify.h"
 
 namespace sgm::cli {
@@ -24,6 +25,11 @@ double megabytes(uint64_t bytes) { return static_cast<double>(bytes) / 1e6; }
 /// Those of a store whose name begins so, all where nothing is said; what cannot be read among them, too.
 Result<std::vector<Result<store::WorldFile>>> openWorlds(const store::Folder& folder, const std::string& name) {
   if (Result<void> can = store::available(); !can) return can.error();
+  if (store::isAddress(folder.root().string()))
+    return Error{Code::invalid_argument,
+                 "'" + folder.root().string() +
+                     "' is on a server: sgm store works in folders, and sgm fly --store streams "
+                     "from both"};
   if (Result<void> good = folder.check(); !good) return good.error();
   const Result<std::vector<fs::path>> paths = store::worldsOf(folder);
   if (!paths) return paths.error();

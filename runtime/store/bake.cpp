@@ -122,7 +122,7 @@ std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const s
 }
 
 std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile) {
-  const Result<std::vector<std::byte>> bytes = readFile(tileFile(bakery.folder, tile), kMostTileFile);
+  const auto bytes = readFile(tileFile(bakery.folder, tile), kMostTileFile);
   if (!bytes) return std::nullopt;
   std::optional<TileRecord> record = decodeTileFile(bakery.job, *bytes);
   if (!record || record->key != tile) return std::nullopt;

@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "store/http_files.h"
+
 namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
@@ -17,6 +19,8 @@ Error ioError(const fs::path& file, int code) {
   return {Code::io, "'" + file.string() + "': " + std::generic_category().message(code)};
 }
 
+constexpr uint64_t kMostFormat = 64;  ///< bytes
+
 std::string formatText() { return "sgm store " + std::to_string(kStoreVersion) + "\n"; }
 
 std::string placeName(const TileKey& tile) {
@@ -24,22 +28,69 @@ std::string placeName(const TileKey& tile) {
          std::to_string(tile.at.z);
 }
 
+/// A folder's.
+class FolderFiles final : public StoreFiles {
+ public:
+  explicit FolderFiles(fs::path root) : root_(std::move(root)) {}
+
+  std::string nameOf(const std::string& file) const override {
+    return file.empty() ? root_.string() : (root_ / file).string();
+  }
+  Result<std::shared_ptr<const StoredFile>> open(const std::string& file, std::optional<uint64_t>) override {
+    const fs::path path = root_ / file;
+    std::error_code error;
+    if (!fs::exists(path, error) && !error) return std::shared_ptr<const StoredFile>();
+    Result<std::shared_ptr<const OpenFile>> opened = OpenFile::open(path);
+    if (!opened) return opened.error();
+    return std::shared_ptr<const StoredFile>(std::move(*opened));
+  }
+  bool isFar() const override { return false; }
+
+ private:
+  const fs::path root_;
+};
+
 }  // namespace
 
-fs::path Folder::pack(const ContentId& name) const {
+std::string worldFileName(const ContentId& key) { return "worlds/" + nameOf(key) + ".sgmi"; }
+std::string packFileName(const ContentId& name) {
   const std::string digits = nameOf(name);
-  return root_ / "packs" / digits.substr(0, 2) / (digits.substr(2) + ".sgmp");
+  return "packs/" + digits.substr(0, 2) + "/" + digits.substr(2) + ".sgmp";
+}
+
+Result<std::unique_ptr<StoreFiles>> storeFiles(const std::string& place, const Log& log,
+                                               std::pmr::memory_resource* memory) {
+  if (isAddress(place)) return httpFiles(place, log, memory);
+  return std::unique_ptr<StoreFiles>(std::make_unique<FolderFiles>(place));
+}
+
+Result<void> checkFormat(StoreFiles& files) {
+  const std::string root = files.nameOf("");
+  const auto none = [&] {
+    return Error{Code::bad_input, "'" + root + "' is no store of baked worlds: sgm bake --out makes one"};
+  };
+  const Result<std::shared_ptr<const StoredFile>> format = files.open(kFormatFile, std::nullopt);
+  if (!format) return format.error();
+  if (*format == nullptr || (*format)->size() > kMostFormat) return none();
+  const auto read = (*format)->read(0, static_cast<size_t>((*format)->size()), std::pmr::get_default_resource());
+  if (!read) return read.error();
+  const std::string text(reinterpret_cast<const char*>(read->data()), read->size());
+  if (text == formatText()) return {};
+  if (text.rfind("sgm store ", 0) != 0) return none();
+  return Error{Code::bad_input, "'" + root + "' is a store of another version ('" + text.substr(0, text.find('\n')) +
+                                    "', and this is " + formatText().substr(4, 7) +
+                                    "): bake it anew into another folder"};
 }
 
 Result<void> Folder::make() const {
   if (Result<void> made = makeFolder(root_); !made) return made;
-  const fs::path format = root_ / "format";
+  const fs::path format = root_ / kFormatFile;
   std::error_code error;
   if (!fs::exists(format, error)) {
     // Another worker may be about to make it, or have been killed while it was.
     for (fs::directory_iterator entry(root_, error), end; !error && entry != end; entry.increment(error)) {
       const std::string name = entry->path().filename().string();
-      if (name != "format" && name.rfind("format.sgm-part", 0) != 0)
+      if (name != kFormatFile && name.rfind("format.sgm-part", 0) != 0)
         return Error{Code::bad_input, "'" + root_.string() + "' is not empty and no store: name another folder"};
     }
     if (error) return ioError(root_, error.value());
@@ -50,22 +101,12 @@ Result<void> Folder::make() const {
 }
 
 Result<void> Folder::check() const {
-  const fs::path format = root_ / "format";
-  std::error_code error;
-  if (!fs::exists(format, error))
-    return Error{Code::bad_input, "'" + root_.string() + "' is no store of baked worlds: sgm bake --out makes one"};
-  const Result<std::vector<std::byte>> read = readFile(format, 64);
-  if (!read) return read.error();
-  const std::string text(reinterpret_cast<const char*>(read->data()), read->size());
-  if (text != formatText())
-    return Error{Code::bad_input, "'" + root_.string() + "' is a store of another version ('" +
-                                      text.substr(0, text.find('\n')) + "', and this is " + formatText().substr(4, 7) +
-                                      "): bake it anew into another folder"};
-  return {};
+  FolderFiles files(root_);
+  return checkFormat(files);
 }
 
 Result<StoreLock> StoreLock::take(const Folder& store) {
-  const fs::path path = store.root() / "format";
+  const fs::path path = store.root() / kFormatFile;
   // Network file systems lock only what is open for writing.
   const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) return ioError(path, errno);
@@ -111,12 +152,13 @@ Result<std::shared_ptr<const OpenFile>> OpenFile::open(const fs::path& path) {
   return std::shared_ptr<const OpenFile>(new OpenFile(path, file, static_cast<uint64_t>(status.st_size)));
 }
 
-Result<std::vector<std::byte>> OpenFile::read(uint64_t offset, size_t bytes) const {
+Result<std::pmr::vector<std::byte>> OpenFile::read(uint64_t offset, size_t bytes,
+                                                   std::pmr::memory_resource* memory) const {
   const auto ends = [&] {
     return Error{Code::io, "'" + path_.string() + "' ends before byte " + std::to_string(offset + bytes)};
   };
   if (offset > size_ || bytes > size_ - offset) return ends();
-  std::vector<std::byte> content(bytes);
+  std::pmr::vector<std::byte> content(bytes, memory);
   for (size_t done = 0; done < bytes;) {
     const ssize_t got = ::pread(file_, content.data() + done, bytes - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
@@ -127,11 +169,11 @@ Result<std::vector<std::byte>> OpenFile::read(uint64_t offset, size_t bytes) con
   return content;
 }
 
-Result<ContentId> idOfFile(const OpenFile& file) {
+Result<ContentId> idOfFile(const StoredFile& file) {
   constexpr uint64_t kPiece = uint64_t{1} << 20;
   IdStream stream;
   for (uint64_t at = 0; at < file.size(); at += kPiece) {
-    const Result<std::vector<std::byte>> piece = file.read(at, std::min(kPiece, file.size() - at));
+    const auto piece = file.read(at, std::min(kPiece, file.size() - at), std::pmr::get_default_resource());
     if (!piece) return piece.error();
     stream.add(*piece);
   }
@@ -155,7 +197,7 @@ Result<void> syncFolder(const fs::path& folder) {
   return {};
 }
 
-Result<std::vector<std::byte>> readFile(const fs::path& path, uint64_t most) {
+Result<std::pmr::vector<std::byte>> readFile(const fs::path& path, uint64_t most) {
   const Result<std::shared_ptr<const OpenFile>> file = OpenFile::open(path);
   if (!file) return file.error();
   if ((*file)->size() > most)

@@ -14,11 +14,19 @@
 #include <utility>
 
 #include "base/file_writer.h"
+#include "store/store_files.h"
 #include "store/tile_record.h"
 
 namespace sgm::store {
 
 inline constexpr int kStoreVersion = 1;
+/// Names of files in a store, as StoreFiles takes them.
+inline constexpr const char* kFormatFile = "format";
+std::string worldFileName(const ContentId& key);
+std::string packFileName(const ContentId& name);
+/// io; bad_input: there is no store of this version. As StoreFiles::open.
+Result<void> checkFormat(StoreFiles& files);
+
 /// Of the name of a job's folder that has become a world, and is about to be removed.
 inline constexpr const char* kMergedEnding = ".merged";
 
@@ -27,9 +35,9 @@ class Folder {
   explicit Folder(std::filesystem::path root) : root_(std::move(root)) {}
 
   const std::filesystem::path& root() const { return root_; }
-  std::filesystem::path world(const ContentId& key) const { return root_ / "worlds" / (nameOf(key) + ".sgmi"); }
+  std::filesystem::path world(const ContentId& key) const { return root_ / worldFileName(key); }
   std::filesystem::path manifest(const ContentId& key) const { return root_ / "worlds" / (nameOf(key) + ".json"); }
-  std::filesystem::path pack(const ContentId& name) const;
+  std::filesystem::path pack(const ContentId& name) const { return root_ / packFileName(name); }
   std::filesystem::path baking(const ContentId& job) const { return root_ / "baking" / nameOf(job); }
 
   /// Makes the store where there is none. io; bad_input: the folder holds something else, or a store of another
@@ -60,17 +68,18 @@ std::filesystem::path tileFile(const std::filesystem::path& baking, const TileKe
 std::filesystem::path packFile(const std::filesystem::path& baking, const TileKey& tile);
 
 /// A regular file that is open for reading, as it was then: whoever replaces it changes nothing here. Any thread.
-class OpenFile {
+class OpenFile final : public StoredFile {
  public:
   /// io.
   static Result<std::shared_ptr<const OpenFile>> open(const std::filesystem::path& path);
-  ~OpenFile();
+  ~OpenFile() override;
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
 
-  uint64_t size() const { return size_; }
-  /// io, also where it ends before. Throws std::bad_alloc.
-  Result<std::vector<std::byte>> read(uint64_t offset, size_t bytes) const;
+  uint64_t size() const override { return size_; }
+  Result<std::pmr::vector<std::byte>> read(
+      uint64_t offset, size_t bytes,
+      std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const override;
 
  private:
   OpenFile(std::filesystem::path path, int file, uint64_t size);
@@ -80,7 +89,7 @@ class OpenFile {
 };
 
 /// idOf the whole file, read in pieces. io.
-Result<ContentId> idOfFile(const OpenFile& file);
+Result<ContentId> idOfFile(const StoredFile& file);
 /// Whether the file is just this pack: its size, and the id of its bytes. False also where it cannot be read.
 bool isPack(const std::filesystem::path& path, const PackFile& pack);
 
@@ -89,7 +98,7 @@ Result<void> syncFolder(const std::filesystem::path& folder);
 /// io.
 Result<void> makeFolder(const std::filesystem::path& folder);
 /// The whole file. io; limit: it is larger than `most` bytes. Throws std::bad_alloc.
-Result<std::vector<std::byte>> readFile(const std::filesystem::path& file, uint64_t most);
+Result<std::pmr::vector<std::byte>> readFile(const std::filesystem::path& file, uint64_t most);
 /// Whole or not at all. unfinished: as FileWriter::create takes it. io.
 Result<void> writeFile(const std::filesystem::path& file, std::span<const std::byte> bytes,
                        UnfinishedFiles* unfinished);

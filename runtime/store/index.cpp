@@ -73,16 +73,20 @@ Result<void> IndexWriter::commit(const ContentId& world, const BakedRegion& regi
   return writer_.commit();
 }
 
-Result<WorldIndex> readIndex(const ReadAt& read, uint64_t file_bytes) {
+Result<WorldIndex> readIndex(const StoredFile& file) {
+  const uint64_t file_bytes = file.size();
+  const auto read = [&](uint64_t offset, size_t bytes) {
+    return file.read(offset, bytes, std::pmr::get_default_resource());
+  };
   if (file_bytes < kIndexHead + kIndexEnd) return damaged("it is cut off");
-  const Result<std::vector<std::byte>> head = read(0, kIndexHead);
+  const auto head = read(0, kIndexHead);
   if (!head) return head.error();
   ByteReader first(*head);
   if (first.get<uint32_t>() != kIndexMagic) return damaged("it is none");
   if (const auto version = first.get<uint32_t>(); version != kIndexVersion)
     return Error{Code::bad_input, "the world's index has version " + std::to_string(version) +
                                       ", and this library reads version " + std::to_string(kIndexVersion)};
-  const Result<std::vector<std::byte>> end = read(file_bytes - kIndexEnd, kIndexEnd);
+  const auto end = read(file_bytes - kIndexEnd, kIndexEnd);
   if (!end) return end.error();
   ByteReader in(*end);
   WorldIndex index;
@@ -95,7 +99,7 @@ Result<WorldIndex> readIndex(const ReadAt& read, uint64_t file_bytes) {
     return damaged("its tiles are not those of its region");
   if (count > file_bytes / kEntryBytes || offset != file_bytes - kIndexEnd - count * kEntryBytes)
     return damaged("its size is wrong");
-  const Result<std::vector<std::byte>> directory = read(offset, static_cast<size_t>(count * kEntryBytes));
+  const auto directory = read(offset, static_cast<size_t>(count * kEntryBytes));
   if (!directory) return directory.error();
   if (checksumOf(*directory) != checksum) return damaged("its directory is not whole");
   ByteReader entries(*directory);
@@ -115,8 +119,8 @@ Result<WorldIndex> readIndex(const ReadAt& read, uint64_t file_bytes) {
   return index;
 }
 
-Result<TileRecord> readRecord(const ReadAt& read, const TileEntry& entry, std::pmr::memory_resource* memory) {
-  const Result<std::vector<std::byte>> frame = read(entry.offset, entry.stored);
+Result<TileRecord> readRecord(const StoredFile& file, const TileEntry& entry, std::pmr::memory_resource* memory) {
+  const auto frame = file.read(entry.offset, entry.stored, memory);
   if (!frame) return frame.error();
   if (checksumOf(*frame) != entry.checksum) return damaged("a tile's record is not whole");
   const std::optional<std::pmr::vector<std::byte>> bytes = unpack(*frame, entry.bytes, memory);

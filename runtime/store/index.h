@@ -5,9 +5,8 @@
 // written from front to back, and read from its end: the end, the directory, and of the records those that are asked
 // for, which a server of plain files can give.
 
-#include <functional>
-
 #include "base/file_writer.h"
+#include "store/store_files.h"
 #include "store/tile_record.h"
 
 namespace sgm::store {
@@ -47,11 +46,9 @@ class IndexWriter {
   std::vector<TileEntry> tiles_;
 };
 
-/// Gives `bytes` bytes from `offset` on of the file whose size is known, or an error.
-using ReadAt = std::function<Result<std::vector<std::byte>>(uint64_t offset, size_t bytes)>;
-
-/// For any bytes. bad_input: they are no index, of another version, or damaged; errors of reading.
-Result<WorldIndex> readIndex(const ReadAt& read, uint64_t file_bytes);
-Result<TileRecord> readRecord(const ReadAt& read, const TileEntry& entry, std::pmr::memory_resource* memory);
+/// For any bytes. bad_input: they are no index, of another version, or damaged; errors of reading. Throws
+/// std::bad_alloc.
+Result<WorldIndex> readIndex(const StoredFile& file);
+Result<TileRecord> readRecord(const StoredFile& file, const TileEntry& entry, std::pmr::memory_resource* memory);
 
 }  // namespace sgm::store

@@ -129,7 +129,7 @@ class Merger {
     fs::create_hard_link(from, to, error);
     if (!error) return pack;
     // A damaged one stands there, or the file system has no links.
-    const Result<std::vector<std::byte>> bytes = readFile(from, pack.bytes);
+    const auto bytes = readFile(from, pack.bytes);
     if (!bytes) return bytes.error();
     if (Result<void> written = writeFile(to, *bytes, bakery_.unfinished); !written) return written.error();
     return pack;
@@ -137,7 +137,7 @@ class Merger {
 
   /// A pack of only these contents, whose places change.
   Result<PackFile> thin(TileRecord& record, const std::vector<size_t>& fresh) {
-    const Result<std::vector<std::byte>> bytes = readFile(packFile(bakery_.folder, record.key), record.packs[0].bytes);
+    const auto bytes = readFile(packFile(bakery_.folder, record.key), record.packs[0].bytes);
     if (!bytes) return bytes.error();
     std::vector<std::byte> frames = packHead();
     for (const size_t i : fresh) {

@@ -116,7 +116,7 @@ class Estimate {
 
 Result<std::vector<uint64_t>> planOf(const Bakery& bakery, std::span<const TileKey> tiles, const Progress& progress) {
   const std::filesystem::path file = bakery.folder / "plan";
-  if (const Result<std::vector<std::byte>> bytes = readFile(file, kMostPlan)) {
+  if (const auto bytes = readFile(file, kMostPlan)) {
     if (std::optional<std::vector<uint64_t>> costs = decodePlan(bakery.job, *bytes, tiles.size()))
       return std::move(*costs);
   }

@@ -74,7 +74,7 @@ class Verifier {
       ++found_.chunks;
       for (int part = 0; part < kChunkParts; ++part) {
         if (record->part(number, part) == 0)
-          return found_.problems.add("'" + world_.path.string() + "': a part of a chunk is missing");
+          return found_.problems.add("'" + world_.name + "': a part of a chunk is missing");
       }
       const StoredContent& body = record->contents[record->part(number, 0) - 1u];
       if (const FaceSums& sums = known_.at(body.id); sums != FaceSums{}) faces_[chunkOf(entry.key, number)] = sums;
@@ -93,10 +93,10 @@ class Verifier {
     if (!is_new) return std::move(*file);
     found_.bytes += (*file)->size();
     const Result<ContentId> id = idOfFile(**file);
-    const Result<std::vector<std::byte>> head = (*file)->read(0, kPackHead);
+    const auto head = (*file)->read(0, kPackHead);
     if (!id || (*file)->size() != pack.bytes || *id != pack.name) {
       found_.problems.add("'" + path.string() + "' is damaged: remove it, and bake the world again");
-    } else if (!head || *head != packHead()) {
+    } else if (!head || !std::ranges::equal(*head, packHead())) {
       found_.problems.add("'" + path.string() +
                           "' is a pack of another version: bake its world anew into another store");
     }
@@ -105,7 +105,7 @@ class Verifier {
 
   FaceSums lookAt(const TileRecord& record, const StoredContent& content, std::span<const Pack> packs) {
     const auto wrong = [&] {
-      found_.problems.add("content " + nameOf(content.id) + " of '" + world_.path.string() + "' is missing or damaged");
+      found_.problems.add("content " + nameOf(content.id) + " of '" + world_.name + "' is missing or damaged");
       return FaceSums{};
     };
     std::pmr::vector<std::byte> bytes(memory_);
@@ -114,7 +114,7 @@ class Verifier {
       bytes.assign(first, first + static_cast<ptrdiff_t>(content.stored));
     } else {
       if (packs[content.pack] == nullptr) return wrong();
-      const Result<std::vector<std::byte>> frame = packs[content.pack]->read(content.offset, content.stored);
+      const auto frame = packs[content.pack]->read(content.offset, content.stored);
       if (!frame) return wrong();
       std::optional<std::pmr::vector<std::byte>> unpacked = unpack(*frame, content.bytes, memory_);
       if (!unpacked) return wrong();

@@ -7,13 +7,9 @@ namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
 
-ReadAt readerOf(const OpenFile& file) {
-  return [&file](uint64_t offset, size_t bytes) { return file.read(offset, bytes); };
-}
-
-Error in(const fs::path& path, Error error) {
+Error in(const std::string& name, Error error) {
   if (error.code == Code::bad_input)
-    error.message = "'" + path.string() + "': " + error.message + "; remove it, and bake its world again";
+    error.message = "'" + name + "': " + error.message + "; remove it, and bake its world again";
   return error;
 }
 
@@ -22,14 +18,18 @@ Error in(const fs::path& path, Error error) {
 Result<WorldFile> WorldFile::open(const fs::path& path) {
   Result<std::shared_ptr<const OpenFile>> file = OpenFile::open(path);
   if (!file) return file.error();
-  Result<WorldIndex> index = readIndex(readerOf(**file), (*file)->size());
-  if (!index) return in(path, index.error());
-  return WorldFile{path, std::move(*index), std::move(*file)};
+  return of(path.string(), std::move(*file));
+}
+
+Result<WorldFile> WorldFile::of(std::string name, std::shared_ptr<const StoredFile> file) {
+  Result<WorldIndex> index = readIndex(*file);
+  if (!index) return in(name, index.error());
+  return WorldFile{std::move(name), std::move(*index), std::move(file)};
 }
 
 Result<TileRecord> WorldFile::record(const TileEntry& tile, std::pmr::memory_resource* memory) const {
-  Result<TileRecord> record = readRecord(readerOf(*file), tile, memory);
-  if (!record) return in(path, record.error());
+  Result<TileRecord> record = readRecord(*file, tile, memory);
+  if (!record) return in(name, record.error());
   return record;
 }
 

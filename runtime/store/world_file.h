@@ -1,5 +1,5 @@
 #pragma once
-// The index of a world as a file of a folder.
+// The index of a world as a file.
 
 #include <filesystem>
 #include <functional>
@@ -11,12 +11,13 @@
 namespace sgm::store {
 
 struct WorldFile {
-  std::filesystem::path path;
+  std::string name;  ///< for people
   WorldIndex index;
-  std::shared_ptr<const OpenFile> file;  ///< as it was when it was opened, whatever stands there now
+  std::shared_ptr<const StoredFile> file;  ///< as it was when it was opened, whatever stands there now
 
   /// Errors: io, and those of readIndex, with the file's name and what to do.
   static Result<WorldFile> open(const std::filesystem::path& path);
+  static Result<WorldFile> of(std::string name, std::shared_ptr<const StoredFile> file);
   /// Errors: likewise. Throws std::bad_alloc.
   Result<TileRecord> record(const TileEntry& tile, std::pmr::memory_resource* memory) const;
   /// Calls f for every record, to the first error, its own included. Throws std::bad_alloc.

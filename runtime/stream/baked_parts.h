@@ -33,6 +33,12 @@ class BakedParts {
   /// What get gave is none: counts a damaged miss instead of the hit, and is not given again.
   virtual void reject(const DiskKey& world, const ChunkKey& chunk, int part) = 0;
 
+  /// Whether some lie where each takes its time: who has a disk cache looks there first, and keeps them in it.
+  virtual bool isFar() const = 0;
+
+  /// Nobody has to wait any more: all that follows may be misses.
+  virtual void stop() noexcept = 0;
+
   virtual BakedStats stats() const = 0;
 };
 

@@ -31,6 +31,28 @@ std::optional<ChunkPart> fetchBaked(BakedParts& baked, const DiskKey& world, con
   return found;
 }
 
+/// Of a store that is far away, what is worth more than a look at its record.
+void keepBaked(DiskCache& cache, const ChunkPartInputs& inputs, int part, const ChunkPart& found,
+               std::pmr::memory_resource* memory) try {
+  if (found.mesh.indices.empty()) return;
+  cache.put(cache.keyOf(inputs.bytes(part)), encodeChunkPart(part, found.mesh, found.anchors, found.voids, memory));
+} catch (const std::bad_alloc&) {
+  // It is asked for again the next time.
+}
+
+/// Of the disk cache and the stores first what is nearer.
+std::optional<ChunkPart> lookUp(DiskCache* cache, BakedParts* baked, const DiskKey& world,
+                                const ChunkPartInputs& inputs, int part, std::pmr::memory_resource* memory) {
+  const bool is_far = baked != nullptr && baked->isFar();
+  std::optional<ChunkPart> found;
+  if (is_far && cache != nullptr) found = fetch(*cache, inputs, part, memory);
+  if (found) return found;
+  if (baked != nullptr && inputs.isAsBaked(part)) found = fetchBaked(*baked, world, inputs, part, memory);
+  if (found && is_far && cache != nullptr) keepBaked(*cache, inputs, part, *found, memory);
+  if (!found && !is_far && cache != nullptr) found = fetch(*cache, inputs, part, memory);
+  return found;
+}
+
 void leaveOut(int part, ChunkRequest& request) {
   if (part == 0) {
     request.body = request.signs = request.anchors = false;
@@ -103,9 +125,7 @@ void lookUp(const ChunkMesher& mesher, const EditSnapshot* edits, InWork& work) 
   for (int part = 0; part < kChunkParts; ++part) {
     if (!asksFor(work.request, part)) continue;
     std::optional<ChunkPart>& of_part = work.found[static_cast<size_t>(part)];
-    if (mesher.baked != nullptr && work.inputs->isAsBaked(part))
-      of_part = fetchBaked(*mesher.baked, world, *work.inputs, part, mesher.memory);
-    if (!of_part && mesher.cache != nullptr) of_part = fetch(*mesher.cache, *work.inputs, part, mesher.memory);
+    of_part = lookUp(mesher.cache, mesher.baked, world, *work.inputs, part, mesher.memory);
     if (of_part) leaveOut(part, work.rest);
   }
 }

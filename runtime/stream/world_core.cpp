@@ -65,6 +65,7 @@ void WorldCore::stop() noexcept {
     const std::lock_guard lock(mutex);
     stopped_ = true;
   }
+  if (settings.baked != nullptr) settings.baked->stop();
   {
     std::unique_lock lock(gate_->mutex);
     gate_->closed = true;

@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
   for (int round = 0; round < 3; ++round) {
     // Nothing is derived yet, and nothing read: what a viewer meets who comes there first.
     const WorldField fresh(caveSettings(), memory), other(caveSettings(), memory);
-    const std::shared_ptr<BakedParts> source = orDie(store::openStores(std::array{folder.root()}, {}, memory));
+    const std::shared_ptr<BakedParts> source = orDie(store::openStores(std::array{folder.root().string()}, {}, memory));
     ChunkMesher stored{other, *backend, *jobs, memory};
     stored.baked = source.get();
     const std::vector<double> meshing = meshAll({fresh, *backend, *jobs, memory}, requests);

@@ -1293,11 +1293,16 @@ typedef struct sgm_world_desc {
   uint64_t cache_bytes;     /* the most bytes of its files; 0: 1 GiB */
   uint64_t author; /* whose edits are made here: in worlds that exchange edits no two may have the same, nor may
                       a number be used again where edits may have been lost. 0: drawn at random */
-  const char* const* stores; /* UTF-8 paths of folders with worlds that were baked (sgm bake), looked into in their
-                                order before cache_folder; NULL where there are none. Chunks that a store has of this
-                                world (grammar, parameters, seed, cells, SGM_WORLD_SHARP, the library's meshing) are
-                                read instead of being derived, with the same bytes; edits lie on top. What it does not
-                                have, or is damaged there, is derived: the first time the log is told */
+  const char* const* stores; /* Worlds that were baked (sgm bake): UTF-8 paths of folders, or http:// and https://
+                                addresses of such folders on any web server with range requests, read through libcurl;
+                                NULL where there are none. They are looked into in their order, before cache_folder, but
+                                after it where one is on a server; what came from there is then kept in cache_folder.
+                                Chunks that a store has of this world (grammar, parameters, seed, cells,
+                                SGM_WORLD_SHARP, the library's meshing) are read instead of being derived, with the same
+                                bytes; edits lie on top. What it does not have, or is damaged there, is derived: the
+                                first time the log is told. A server is first asked when chunks are wanted; one that does
+                                not answer holds threads of the job system up for a few seconds, is told to the log and
+                                left alone for a while. 32 MiB of what servers sent are kept in memory */
   uint32_t store_count;
   uint32_t reserved; /* 0 */
 } sgm_world_desc;

@@ -48,13 +48,17 @@ bool same(const store::TileRecord& a, const store::TileRecord& b) {
          a.measured.defects == b.measured.defects;
 }
 
-store::ReadAt readerOf(const Bytes& bytes) {
-  return [&bytes](uint64_t offset, size_t count) -> Result<std::vector<std::byte>> {
-    if (offset > bytes.size() || count > bytes.size() - offset) return Error{Code::io, "the file ends before"};
-    const auto first = bytes.begin() + static_cast<ptrdiff_t>(offset);
-    return std::vector<std::byte>(first, first + static_cast<ptrdiff_t>(count));
-  };
-}
+struct BytesAsFile final : store::StoredFile {
+  const Bytes& all;
+  explicit BytesAsFile(const Bytes& bytes) : all(bytes) {}
+  uint64_t size() const override { return all.size(); }
+  Result<std::pmr::vector<std::byte>> read(uint64_t offset, size_t count,
+                                           std::pmr::memory_resource* memory) const override {
+    if (offset > all.size() || count > all.size() - offset) return Error{Code::io, "the file ends before"};
+    const auto first = all.begin() + static_cast<ptrdiff_t>(offset);
+    return std::pmr::vector<std::byte>(first, first + static_cast<ptrdiff_t>(count), memory);
+  }
+};
 
 }  // namespace
 
@@ -106,12 +110,12 @@ struct RandomIndex {
 
   /// Whether all of it can be read; as_written: and is what was written.
   bool canBeRead(bool& as_written) const {
-    const auto index = store::readIndex(readerOf(bytes), bytes.size());
+    const auto index = store::readIndex(BytesAsFile(bytes));
     if (!index) return false;
     as_written = index->world == world && index->region.box.lo == region.box.lo &&
                  index->region.last_level == region.last_level && index->tiles.size() == records.size();
     for (size_t i = 0; i < index->tiles.size(); ++i) {
-      const auto record = store::readRecord(readerOf(bytes), index->tiles[i], std::pmr::get_default_resource());
+      const auto record = store::readRecord(BytesAsFile(bytes), index->tiles[i], std::pmr::get_default_resource());
       if (!record) return false;
       as_written = as_written && i < records.size() && same(*record, records[i]);
     }
@@ -159,7 +163,7 @@ TEST_CASE("an index whose numbers are wrong on purpose is refused", "[store]") {
     std::memcpy(end + 16 + 4 * number, &value, sizeof value);
     const uint64_t checksum = store::checksumOf(std::span(end, store::kIndexEnd - 8));
     std::memcpy(end + store::kIndexEnd - 8, &checksum, sizeof checksum);
-    return store::readIndex(readerOf(bytes), bytes.size());
+    return store::readIndex(BytesAsFile(bytes));
   };
   REQUIRE(with(8, index.region.finest_cell));
   constexpr int32_t kMost = std::numeric_limits<int32_t>::max(), kLeast = std::numeric_limits<int32_t>::min();
@@ -183,7 +187,7 @@ TEST_CASE("an index whose numbers are wrong on purpose is refused", "[store]") {
     std::memcpy(end + store::kIndexEnd - 16, &checksum, sizeof checksum);
     checksum = store::checksumOf(std::span(end, store::kIndexEnd - 8));
     std::memcpy(end + store::kIndexEnd - 8, &checksum, sizeof checksum);
-    CHECK(store::readIndex(readerOf(bytes), bytes.size()).error().code == Code::bad_input);
+    CHECK(store::readIndex(BytesAsFile(bytes)).error().code == Code::bad_input);
   }
 }
 
@@ -199,7 +203,7 @@ TEST_CASE("a folder that is no store, or one of another version, stays as it is"
   std::memcpy(text.data(), other.data(), other.size());
   writeFile(store.root() / "format", text);
   CHECK(store.make().error().message.find("sgm store 99") != std::string::npos);
-  CHECK(!store::openStores(std::array{store.root()}, {}, std::pmr::get_default_resource()));
+  CHECK(!store::openStores(std::array{store.root().string()}, {}, std::pmr::get_default_resource()));
   // What a worker leaves that is killed while it makes a store.
   writeFile(folder.path / "begun" / "format.sgm-part0", text);
   CHECK(store::Folder(folder.path / "begun").make());

@@ -9,21 +9,8 @@ using namespace sgm;
 
 namespace {
 
-struct Told {
-  std::vector<std::string> messages;
-  std::mutex mutex;
-  store::Log log() {
-    return [this](const std::string& message) {
-      const std::lock_guard lock(mutex);
-      messages.push_back(message);
-    };
-  }
-};
-
 std::shared_ptr<BakedParts> sourceOf(const fs::path& folder, store::Log log = {}) {
-  auto source = store::openStores(std::array{folder}, std::move(log), std::pmr::get_default_resource());
-  REQUIRE(source);
-  return *source;
+  return sourceAt(folder.string(), std::move(log));
 }
 
 }  // namespace

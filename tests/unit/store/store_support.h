@@ -59,6 +59,24 @@ struct Baking {
   }
 };
 
+struct Told {
+  std::vector<std::string> messages;
+  std::mutex mutex;
+  store::Log log() {
+    return [this](const std::string& message) {
+      const std::lock_guard lock(mutex);
+      messages.push_back(message);
+    };
+  }
+};
+
+inline std::shared_ptr<BakedParts> sourceAt(const std::string& place, store::Log log = {}) {
+  auto source = store::openStores(std::array{place}, std::move(log), std::pmr::get_default_resource());
+  INFO((source ? "" : source.error().message));
+  REQUIRE(source);
+  return *source;
+}
+
 /// Names and bytes of all files of a folder.
 inline std::vector<std::pair<std::string, Bytes>> contentsOf(const CacheFolder& folder) {
   std::vector<std::pair<std::string, Bytes>> all;

@@ -1,0 +1,59 @@
+#pragma once
+// Parts of files from a server of plain files, through libcurl.
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <memory_resource>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "store/curl_library.h"
+
+namespace sgm::store {
+
+struct HttpPart {
+  uint64_t file_bytes = 0;            ///< of the whole file
+  std::pmr::vector<std::byte> bytes;  ///< shorter than asked for where the file ends before
+};
+
+/// Keeps connections for the next request. Any thread; who asks waits.
+class HttpClient {
+ public:
+  /// unsupported, out_of_memory.
+  static Result<std::unique_ptr<HttpClient>> create();
+  /// No request may be running.
+  ~HttpClient();
+  HttpClient(const HttpClient&) = delete;
+  HttpClient& operator=(const HttpClient&) = delete;
+
+  /// The file's bytes from `first` on; none where the server has no such file. count: 1 or more. Errors, with words
+  /// that follow on the server's or the file's name: busy: the server does not answer, not in time, or has failed, or
+  /// stop was called; io: it answers otherwise, and will. Throws std::bad_alloc.
+  Result<std::optional<HttpPart>> get(const std::string& address, uint64_t first, size_t count,
+                                      std::pmr::memory_resource* memory);
+  /// Ends requests within a second or so, at once those that would follow.
+  void stop() noexcept { stopped_ = true; }
+  bool isStopped() const { return stopped_; }
+
+ private:
+  explicit HttpClient(const CurlTable& curl) : curl_(curl) {}
+  static int progress(void* client, curl_off_t, curl_off_t, curl_off_t, curl_off_t);
+  /// One that is idle, or a new one. Throws std::bad_alloc.
+  CURL* take();
+  /// Gives it back.
+  struct Connection {
+    HttpClient& client;
+    CURL* handle;
+    ~Connection();
+  };
+
+  const CurlTable curl_;
+  std::atomic<bool> stopped_ = false;
+  std::mutex mutex_;
+  size_t handles_ = 0;       ///< idle or not
+  std::vector<CURL*> idle_;  ///< with their connections
+};
+
+}  // namespace sgm::store

@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# A world streamed from a store on a real web server: the same world, whether the server is there, goes, or never was.
+source "$(dirname "$0")/common.sh"
+nginx=$(PATH=$PATH:/usr/sbin command -v nginx) || {
+  [[ -z ${SGM_REQUIRE_ALL:-} ]] || { echo "nginx is missing: install the package nginx-light" >&2; exit 1; }
+  echo "skipped: nginx is not installed"
+  exit 77
+}
+# No proxy stands between a test and its own machine.
+unset http_proxy https_proxy all_proxy HTTP_PROXY HTTPS_PROXY ALL_PROXY
+cave=$SOURCE/samples/grammars/cave.sgm
+expect 0 "$SGM" bake "$cave" --seed 3 --region 0,0,0:192,160,192 --levels 0..5 --backend cpu --out public/caves/store
+
+stop_serving() { kill -TERM "$server" 2>/dev/null; wait "$server" 2>/dev/null; }
+# serve: nginx on a free port; the store's address in `address`.
+serve() {
+  local user='' port try i
+  ((EUID != 0)) || user='user root;'  # the folder is nobody else's
+  for ((try = 0; try < 5; ++try)); do
+    port=$((20000 + RANDOM % 20000))
+    cat >"$work/nginx.conf" <<END
+$user daemon off; pid $work/nginx.pid; error_log $work/nginx.log; worker_processes 1;
+events { worker_connections 64; }
+http {
+  access_log $work/access.log; default_type application/octet-stream;
+  client_body_temp_path $work/t1; proxy_temp_path $work/t2; fastcgi_temp_path $work/t3; uwsgi_temp_path $work/t4; scgi_temp_path $work/t5;
+  server { listen 127.0.0.1:$port; root $work/public;
+    location /moved/ { rewrite ^/moved/(.*)$ /caves/store/\$1 redirect; }
+    location /secret/ { return 401; } }
+}
+END
+    "$nginx" -p "$work" -c "$work/nginx.conf" 2>"$work/nginx.err" &
+    server=$!
+    for ((i = 0; i < 100; ++i)); do
+      kill -0 "$server" 2>/dev/null || break
+      curl -fs -o /dev/null "http://127.0.0.1:$port/caves/store/format" && address=http://127.0.0.1:$port/caves/store && return
+      sleep 0.05
+    done
+    stop_serving
+  done
+  failed "nginx does not start: $(cat "$work/nginx.err")"
+  finish
+  exit 1
+}
+server=
+cleanup() { [[ -z $server ]] || stop_serving; rm -rf "$work"; }
+serve
+
+printf '{"points": [[40, 60, 60], [110, 96, 96], [120, 96, 100]]}' >path.json
+flight=(fly "$cave" --seed 3 --path path.json --speed 60 --frames 150 --finest 16 --top-level 5 --view 120 --unpaced --check
+  --backend cpu --json)
+hash_of() { node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).world_hash' "$work/.out"; }
+expect 0 "$SGM" "${flight[@]}" --edits 4 --store public/caves/store
+json 'j.open_edges === 0 && j.stores.hits > 500'
+hash=$(hash_of)
+hits=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).stores.hits' "$work/.out")
+
+# There: parts come as they do from the folder, in far fewer requests than parts.
+expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$address/"
+json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits > $hits * 0.9 && j.stores.damaged === 0"
+err_empty
+[[ $(grep -c ' 206 ' access.log) -gt 5 && $(grep -c ' 206 ' access.log) -lt $((hits / 4)) ]] ||
+  failed "$(grep -c ' 206 ' access.log) requests for $hits parts"
+# Moved elsewhere: redirections are followed.
+expect 0 "$SGM" "${flight[@]}" --edits 4 --store "${address%/caves/store}/moved"
+json "j.world_hash === '$hash' && j.stores.hits > 500"
+err_empty
+
+# Nothing there, or nothing for us: one line, and the same world.
+for place in "${address%/store}/nothing" "${address%/caves/store}/secret"; do
+  expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$place"
+  json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits === 0"
+  err_has 'chunks are derived instead'
+  one_line
+done
+
+# With a cache folder what came once comes from there.
+expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$address" --cache cache
+json "j.world_hash === '$hash' && j.stores.hits > 500"
+stop_serving
+expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$address" --cache cache
+json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits === 0 && j.cache.hits > 100"
+err_has 'cannot be read from .*chunks are derived until it can'
+one_line
+# Never there at all.
+expect 0 "$SGM" "${flight[@]}" --edits 4 --store "$address"
+json "j.world_hash === '$hash' && j.open_edges === 0 && j.stores.hits === 0 && j.stores.damaged === 0"
+one_line
+# Gone, and back again, in the middle of a flight.
+serve
+"$SGM" "${flight[@]}" --edits 4 --store "$address" >"$work/.out" 2>"$work/.err" </dev/null &
+flying=$!
+sleep 0.3
+kill -TERM "$server"
+wait "$flying"
+status=$? out=$(<"$work/.out") err=$(<"$work/.err") last="a flight whose server goes"
+[[ $status == 0 ]] || failed "status 0 expected"
+json "j.world_hash === '$hash' && j.open_edges === 0"
+
+# What is refused, in one line.
+for place in http:// "http://host/a?b" "https://me:secret@host/ä"; do
+  expect 1 "$SGM" fly "$cave" --frames 1 --unpaced --store "$place"
+  err_has 'is no address of a store'
+  one_line
+  [[ $err != *secret* ]] || failed "a password is told"
+done
+expect 1 "$SGM" store verify "$address"
+err_has 'is on a server: sgm store works in folders'
+one_line
+finish
