@@ -161,12 +161,12 @@ Exit storeVerify(const StoreVerifyOptions& options) {
                    {"contents", found.contents},
                    {"packs", found.packs},
                    {"bytes", found.bytes},
-                   {"faces", found.faces},
+                   {"borders", found.borders},
                    {"problems", found.problems.count}});
     if (!options.json) {
-      fmt::print("{}: {} chunks in {} tiles, {} contents in {} packs ({:.1f} MB), {} faces between chunks: {}\n",
+      fmt::print("{}: {} chunks in {} tiles, {} contents in {} packs ({:.1f} MB), {} borders between chunks: {}\n",
                  store::nameOf(world->index.world), found.chunks, found.tiles, found.contents, found.packs,
-                 megabytes(found.bytes), found.faces,
+                 megabytes(found.bytes), found.borders,
                  found.problems.count == 0 ? "whole and closed" : fmt::format("{} problems", found.problems.count));
     }
   }
@@ -212,10 +212,12 @@ Exit storeDiff(const StoreDiffOptions& options) {
       if (had.insert(content.id).second) bytes += content.stored;
     }
     for (size_t chunk = 0; chunk < store::kTileChunks; ++chunk) {
-      const bool was = old->part(chunk, 0) != 0, is = now->part(chunk, 0) != 0;
+      const bool was = old->contentOf(chunk, 0) != nullptr, is = now->contentOf(chunk, 0) != nullptr;
       bool differs = false;
-      for (int part = 0; was && is && part < kChunkParts; ++part)
-        differs |= old->contents[old->part(chunk, part) - 1u].id != now->contents[now->part(chunk, part) - 1u].id;
+      for (int part = 0; was && is && part < kChunkParts; ++part) {
+        const store::StoredContent *one = old->contentOf(chunk, part), *other = now->contentOf(chunk, part);
+        differs |= one == nullptr || other == nullptr ? one != other : one->id != other->id;
+      }
       changed += differs;
       added += is && !was;
       removed += was && !is;

@@ -10,10 +10,9 @@
 namespace sgm::store {
 namespace {
 
-constexpr uint8_t kAllSeams = 0x3F;
 constexpr uint64_t kMostTileFile = uint64_t{1} << 28;
 constexpr uint32_t kTileMagic = 0x544D4753;  // "SGMT"
-constexpr uint32_t kTileVersion = 1;
+constexpr uint32_t kTileVersion = 2;
 
 /// A part on its way into a file.
 struct Made {
@@ -35,6 +34,7 @@ Result<MadeChunk> makeChunk(const Bakery& bakery, const ChunkRequest& request, c
   const MeshParts parts = partsOf(chunk.mesh);
   const MeshPart none(bakery.memory);
   for (int part = 0; part < kChunkParts; ++part) {
+    if (!asksFor(request, part)) continue;
     const MeshPart* mesh = parts[static_cast<size_t>(part)];
     Made& own = made.parts[static_cast<size_t>(part)];
     own.content = encodeChunkPart(part, mesh != nullptr ? *mesh : none, chunk.anchors, voids, bakery.memory);
@@ -53,7 +53,7 @@ Result<MadeChunk> makeChunk(const Bakery& bakery, const ChunkRequest& request, c
 ChunkRequest requestOf(const Bakery& bakery, const ChunkKey& chunk) {
   ChunkRequest request;
   request.key = chunk;
-  request.seams = kAllSeams;
+  request.seams = seamsOf(chunk);
   request.keys = false;
   request.sharp = bakery.sharp;
   request.anchors = request.signs = chunk.level == 0;
@@ -154,6 +154,7 @@ Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Pro
     MadeChunk& chunk = **made[i];
     record.measured.add(chunk.measured);
     for (int part = 0; part < kChunkParts; ++part) {
+      if (!asksFor(requests[i], part)) continue;
       const Made& own = chunk.parts[static_cast<size_t>(part)];
       const auto [at, is_new] = known.try_emplace(own.id, static_cast<uint16_t>(record.contents.size() + 1));
       record.part(numbers[i], part) = at->second;

@@ -36,12 +36,13 @@ Result<Bakery> bakeryOf(const WorldField& world, Backend& backend, JobSystem& jo
 /// The tile's record where it was made before, and is whole.
 std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile);
 
-/// Meshes the tile's chunks, each with all six seams, measures them, and writes the pack and then the record: when that
-/// is there, the tile is done. Level 0 has anchors and voids, as a streamed world asks for them. A pure function of
-/// world, region and tile. Errors: those of meshing; io. Throws std::bad_alloc.
+/// Meshes the tile's chunks, each with the seams that may be drawn of it, measures them, and writes the pack and then
+/// the record: when that is there, the tile is done. Level 0 has anchors and voids, as a streamed world asks for them.
+/// A pure function of world, region and tile. Errors: those of meshing; io. Throws std::bad_alloc.
 Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Progress& progress = {});
 
-/// What the parts of a chunk come to, made anew: the ids of their contents. Errors: those of meshing.
+/// What the parts of a chunk come to, made anew: the ids of their contents, of those that are baked. Errors: those of
+/// meshing.
 Result<std::array<ContentId, kChunkParts>> idsOf(const Bakery& bakery, const ChunkKey& chunk);
 
 /// A tile's file: the record, and what tells whether it is whole.

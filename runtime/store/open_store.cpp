@@ -100,8 +100,8 @@ Result<OpenStore::Place> OpenStore::placeOf(const ContentId& world, const ChunkK
   Result<Record> record = recordOf(**file, *entry);
   if (!record) return record.error();
   if (*record == nullptr) return Error{Code::io, "'" + (*file)->name + "' is damaged"};
-  const uint16_t number = (*record)->part(numberInTile(chunk), part);
-  return Place{std::move(*record), number};
+  const StoredContent* content = (*record)->contentOf(numberInTile(chunk), part);
+  return Place{std::move(*record), content};
 }
 
 Result<OpenStore::Pack> OpenStore::packOf(const PackFile& pack) {
@@ -142,9 +142,9 @@ Result<std::optional<FoundPart>> OpenStore::find(const ContentId& world, const C
                                                  std::pmr::memory_resource* memory) {
   const Result<Place> place = placeOf(world, chunk, part);
   if (!place) return place.error();
-  if (place->number == 0) return std::optional<FoundPart>();
+  if (place->content == nullptr) return std::optional<FoundPart>();
   const TileRecord& record = *place->record;
-  const StoredContent& content = record.contents[place->number - 1u];
+  const StoredContent& content = *place->content;
   {
     const std::lock_guard lock(mutex_);
     if (rejected_.count(content.id) != 0) return std::optional<FoundPart>();
@@ -157,11 +157,11 @@ Result<std::optional<FoundPart>> OpenStore::find(const ContentId& world, const C
 
 void OpenStore::reject(const ContentId& world, const ChunkKey& chunk, int part) {
   const Result<Place> place = placeOf(world, chunk, part);
-  if (!place || place->number == 0) return;
+  if (!place || place->content == nullptr) return;
   const std::string name = files_->nameOf(worldFileName(world));
   tell_(name, "'" + name + "' has contents that are no parts of chunks");
   const std::lock_guard lock(mutex_);
-  rejected_.insert(place->record->contents[place->number - 1u].id);
+  rejected_.insert(place->content->id);
 }
 
 }  // namespace sgm::store

@@ -55,7 +55,7 @@ class OpenStore {
   };
   struct Place {
     Record record;
-    uint16_t number = 0;  ///< of the content, from 1; 0: it is not there
+    const StoredContent* content = nullptr;  ///< in it; null: the store does not have the part
   };
 
   Error told(const std::string& file, std::string message);

@@ -94,6 +94,15 @@ std::vector<size_t> chunksIn(const BakedRegion& region, const TileKey& tile) {
   return numbers;
 }
 
+bool holds(const BakedRegion& region, const ChunkKey& chunk) {
+  if (chunk.level < region.first_level || chunk.level > region.last_level) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Span span = chunksOn(region, chunk.level, axis);
+    if (chunk.at[axis] < span.first || chunk.at[axis] > span.last) return false;
+  }
+  return true;
+}
+
 void putRegion(const BakedRegion& region, ByteWriter& out) {
   for (const Int3 corner : {region.box.lo, region.box.hi}) {
     for (int axis = 0; axis < 3; ++axis) out.put(corner[axis]);

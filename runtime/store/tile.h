@@ -42,6 +42,18 @@ inline ChunkKey chunkOf(const TileKey& tile, size_t number) {
   return {tile.level, {8 * tile.at.x + n % 8, 8 * tile.at.y + n / 8 % 8, 8 * tile.at.z + n / 64}};
 }
 
+/// Faces of a chunk across which a coarser one may lie, bit (1 << Face): those that are its parent's, too. Across the
+/// others lies a sibling. No other seams are ever drawn, or baked.
+inline uint8_t seamsOf(const ChunkKey& chunk) {
+  uint8_t faces = 0;
+  for (int axis = 0; axis < 3; ++axis) faces = static_cast<uint8_t>(faces | 1 << (2 * axis + (chunk.at[axis] & 1)));
+  return faces;
+}
+/// Whether a part of it is baked: 0 its body, 1 + Face a seam.
+inline bool isBakedPart(const ChunkKey& chunk, int part) {
+  return part == 0 || (seamsOf(chunk) >> (part - 1) & 1) != 0;
+}
+
 /// All chunks of the levels that meet the box lo <= p < hi.
 struct BakedRegion {
   IntBox box;
@@ -55,6 +67,8 @@ Result<void> check(const BakedRegion& region);
 /// In their order. Precondition of all three: check accepts the region.
 std::vector<TileKey> tilesOf(const BakedRegion& region);
 uint64_t countTiles(const BakedRegion& region);
+/// Whether the chunk is one of the region's.
+bool holds(const BakedRegion& region, const ChunkKey& chunk);
 /// Numbers of the tile's chunks in the region, rising.
 std::vector<size_t> chunksIn(const BakedRegion& region, const TileKey& tile);
 

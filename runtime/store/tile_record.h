@@ -46,6 +46,11 @@ struct TileRecord {
   uint32_t chunks = 0;       ///< that were baked
   uint64_t plain_bytes = 0;  ///< of all parts, as if each were stored by itself
 
+  /// Of a chunk's part; null where it was not baked.
+  const StoredContent* contentOf(size_t chunk, int part) const {
+    const uint16_t number = this->part(chunk, part);
+    return number == 0 ? nullptr : &contents[number - 1u];
+  }
   const uint16_t& part(size_t chunk, int part) const { return parts[chunk * kChunkParts + static_cast<size_t>(part)]; }
   uint16_t& part(size_t chunk, int part) { return parts[chunk * kChunkParts + static_cast<size_t>(part)]; }
 };

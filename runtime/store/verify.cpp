@@ -3,40 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <unordered_map>
+#include <unordered_set>
 
 #include "base/hash.h"
+#include "store/closure.h"
 #include "stream/chunk_codec.h"
 
 namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr int kFaces = 6;
-
-/// By face of a body, over its triangles' edges that lie there: a number of the edge less that of its reverse. Edges
-/// between two triangles of the body fall out, and so do a body's with those of the neighbour's that fits.
-using FaceSums = std::array<uint64_t, kFaces>;
-
-FaceSums faceSumsOf(const PackedMesh& mesh) {
-  constexpr int kFar = kChunkCells * 256;
-  FaceSums sums{};
-  const PackedRange& body = mesh.ranges[0];
-  for (size_t i = body.first_index; i < body.first_index + body.index_count; i += 3) {
-    for (size_t k = 0; k < 3; ++k) {
-      const Vertex &a = mesh.vertices[mesh.indices[i + k]], &b = mesh.vertices[mesh.indices[i + (k + 1) % 3]];
-      const std::array<int, 3> p{a.x, a.y, a.z}, q{b.x, b.y, b.z};
-      for (size_t axis = 0; axis < 3; ++axis) {
-        if (p[axis] != q[axis] || (p[axis] != 0 && p[axis] != kFar)) continue;
-        const auto place = [&](const std::array<int, 3>& at) {
-          return static_cast<uint64_t>(at[(axis + 1) % 3]) << 16 | static_cast<uint64_t>(at[(axis + 2) % 3]);
-        };
-        sums[2 * axis + (p[axis] == 0 ? 0 : 1)] += hashCombine(place(p), place(q)) - hashCombine(place(q), place(p));
-      }
-    }
-  }
-  return sums;
-}
 
 std::string placeOf(const ChunkKey& chunk) {
   return "chunk (" + std::to_string(chunk.at.x) + ", " + std::to_string(chunk.at.y) + ", " +
@@ -45,7 +20,10 @@ std::string placeOf(const ChunkKey& chunk) {
 
 class Verifier {
  public:
-  Verifier(const Folder& store, const WorldFile& world) : store_(store), world_(world) {}
+  Verifier(const Folder& store, const WorldFile& world)
+      : store_(store),
+        world_(world),
+        closure_(world.index.region, [this](const std::string& problem) { found_.problems.add(problem); }) {}
 
   Verified run(const Progress& progress) {
     for (const TileEntry& tile : world_.index.tiles) {
@@ -53,7 +31,8 @@ class Verifier {
       ++found_.tiles;
       if (progress && !progress(found_.tiles, world_.index.tiles.size())) break;
     }
-    compareFaces();
+    if (found_.tiles == world_.index.tiles.size()) closure_.finish();
+    found_.borders = closure_.borders();
     found_.contents = known_.size();
     found_.packs = packs_.size();
     return std::move(found_);
@@ -67,17 +46,22 @@ class Verifier {
     if (!record) return found_.problems.add(record.error().message);
     std::vector<Pack> packs;
     for (const PackFile& pack : record->packs) packs.push_back(open(pack));
-    for (const StoredContent& content : record->contents) {
-      if (known_.count(content.id) == 0) known_[content.id] = lookAt(*record, content, packs);
-    }
+    std::vector<BorderSums> borders;
+    for (const StoredContent& content : record->contents) borders.push_back(lookAt(*record, content, packs));
     for (const size_t number : chunksIn(world_.index.region, entry.key)) {
       ++found_.chunks;
+      const ChunkKey chunk = chunkOf(entry.key, number);
+      std::array<const BorderSums*, kChunkParts> parts{};
       for (int part = 0; part < kChunkParts; ++part) {
-        if (record->part(number, part) == 0)
-          return found_.problems.add("'" + world_.name + "': a part of a chunk is missing");
+        if (!isBakedPart(chunk, part)) continue;
+        const StoredContent* content = record->contentOf(number, part);
+        if (content == nullptr) {
+          found_.problems.add("'" + world_.name + "': a part of " + placeOf(chunk) + " is missing");
+        } else {
+          parts[static_cast<size_t>(part)] = &borders[static_cast<size_t>(content - record->contents.data())];
+        }
       }
-      const StoredContent& body = record->contents[record->part(number, 0) - 1u];
-      if (const FaceSums& sums = known_.at(body.id); sums != FaceSums{}) faces_[chunkOf(entry.key, number)] = sums;
+      closure_.add(chunk, parts);
     }
   }
 
@@ -103,10 +87,13 @@ class Verifier {
     return std::move(*file);
   }
 
-  FaceSums lookAt(const TileRecord& record, const StoredContent& content, std::span<const Pack> packs) {
+  /// Whether the content is all right, and the borders of what is in it. Where it is not its borders are none, and
+  /// open.
+  BorderSums lookAt(const TileRecord& record, const StoredContent& content, std::span<const Pack> packs) {
+    known_.insert(content.id);
     const auto wrong = [&] {
       found_.problems.add("content " + nameOf(content.id) + " of '" + world_.name + "' is missing or damaged");
-      return FaceSums{};
+      return BorderSums{};
     };
     std::pmr::vector<std::byte> bytes(memory_);
     if (content.pack == kInlined) {
@@ -123,26 +110,10 @@ class Verifier {
     if (idOf(bytes) != content.id) return wrong();
     const Result<ChunkRecord> chunk = decodeChunk(bytes, memory_);
     if (!chunk) return wrong();
-    return faceSumsOf(chunk->mesh);
-  }
-
-  void compareFaces() {
-    for (const auto& [chunk, sums] : faces_) {
-      for (size_t face = 0; face < kFaces; ++face) {
-        std::array<int, 3> step{};
-        step[face / 2] = face % 2 == 0 ? -1 : 1;
-        const ChunkKey other = neighbourOf(chunk, step[0], step[1], step[2]);
-        const std::vector<size_t> there = chunksIn(world_.index.region, tileOf(other));
-        if (!std::binary_search(there.begin(), there.end(), numberInTile(other))) continue;
-        const auto known = faces_.find(other);
-        const uint64_t opposite = known == faces_.end() ? 0 : known->second[face ^ 1];
-        if (sums[face] == 0 && opposite == 0) continue;
-        ++found_.faces;
-        if (sums[face] + opposite != 0) {
-          found_.problems.add("the surface is not closed between " + placeOf(chunk) + " and " + placeOf(other));
-        }
-      }
+    for (int part = 0; part < kChunkParts; ++part) {
+      if (chunk->mesh.ranges[static_cast<size_t>(part)].index_count != 0) return bordersOf(chunk->mesh, part);
     }
+    return {};
   }
 
   struct IdHash {
@@ -153,9 +124,9 @@ class Verifier {
   const WorldFile& world_;
   std::pmr::memory_resource* memory_ = std::pmr::get_default_resource();
   Verified found_;
-  std::unordered_map<ContentId, FaceSums, IdHash> known_;       ///< contents that were looked at
-  std::set<ContentId> packs_;                                   ///< likewise
-  std::unordered_map<ChunkKey, FaceSums, ChunkKeyHash> faces_;  ///< of bodies that end in a face
+  Closure closure_;
+  std::unordered_set<ContentId, IdHash> known_;  ///< contents that were looked at
+  std::set<ContentId> packs_;                    ///< likewise
 };
 
 }  // namespace
@@ -175,8 +146,8 @@ Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world,
     const std::vector<size_t> all = chunksIn(world.index.region, record->key);
     std::vector<size_t> drawn;
     for (const size_t number : all) {
-      const uint16_t body = record->part(number, 0);
-      if (body != 0 && record->contents[body - 1u].pack != kInlined) drawn.push_back(number);
+      const StoredContent* body = record->contentOf(number, 0);
+      if (body != nullptr && body->pack != kInlined) drawn.push_back(number);
     }
     if (drawn.empty() && draw % 16 != 0) continue;
     const std::vector<size_t>& from = drawn.empty() ? all : drawn;
@@ -186,8 +157,9 @@ Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world,
     if (!ids) return ids.error();
     ++compared.chunks;
     for (int part = 0; part < kChunkParts; ++part) {
-      const uint16_t stored = record->part(number, part);
-      if (stored != 0 && record->contents[stored - 1u].id == (*ids)[static_cast<size_t>(part)]) continue;
+      if (!isBakedPart(chunk, part)) continue;
+      const StoredContent* stored = record->contentOf(number, part);
+      if (stored != nullptr && stored->id == (*ids)[static_cast<size_t>(part)]) continue;
       compared.problems.add("part " + std::to_string(part) + " of " + placeOf(chunk) +
                             " is not what it is baked to here");
     }

@@ -19,14 +19,14 @@ struct Problems {
 };
 
 struct Verified {
-  uint64_t tiles = 0, chunks = 0, contents = 0, packs = 0, bytes = 0, faces = 0;
+  uint64_t tiles = 0, chunks = 0, contents = 0, packs = 0, bytes = 0;
+  uint64_t borders = 0;  ///< between chunks and levels, with edges
   Problems problems;
 };
 
 /// Reads everything that a world needs: that records and packs are whole, that each content is there, is what its id
-/// says and can be decoded; and that bodies of a level fit together at every face that two baked chunks share, whoever
-/// made them (each edge of one has the other's in the opposite direction). Errors: of the job system and memory alone.
-/// Throws std::bad_alloc.
+/// says and can be decoded; and that bodies and seams fit together at every border that two of them share, whoever made
+/// them, so that all frames that may be drawn of it are closed (closure.h). Throws std::bad_alloc.
 Verified verify(const Folder& store, const WorldFile& world, const Progress& progress = {});
 
 struct Compared {

@@ -39,7 +39,7 @@ expect 0 node -e '
   if (m.seed !== 3 || m.grammar.file !== "cave.sgm" || !m.grammar.text.includes("sgm 1") || m.levels[1] !== 5 ||
       Object.values(m.defects).some((n) => n !== 0) || m.parameters.boxy !== 0.3) process.exit(1);' "one/worlds/$name.json"
 expect 0 "$SGM" store verify one --json
-json 'j.worlds[0].problems === 0 && j.worlds[0].faces > 100 && j.worlds[0].contents > 100'
+json 'j.worlds[0].problems === 0 && j.worlds[0].borders > 100 && j.worlds[0].contents > 100'
 expect 0 "$SGM" store verify one "$cave" --seed 3 --region 0,0,0:1,1,1 --samples 20 --backend cpu --json
 json 'j.chunks === 20 && j.problems === 0'
 expect 1 "$SGM" store verify one "$cave" --seed 4 --region 0,0,0:1,1,1

@@ -240,7 +240,7 @@ TEST_CASE("verification finds what is wrong, and baking again tells other worlds
   const store::Verified whole = store::verify(baking.folder, baking.file());
   CAPTURE(whole.problems.told);
   CHECK(whole.problems.count == 0);
-  CHECK(whole.faces > 20);
+  CHECK(whole.borders > 20);
   const auto equal = store::compareWithBaking(baking.bakery(), baking.file(), 12, random());
   REQUIRE(equal);
   CHECK(equal->chunks == 12);

@@ -25,6 +25,7 @@ struct Baked {
       ChunkRequest request = requests.empty() ? caveRequest() : randomRequest(random, scenes()[0]);
       if (request.key.level > 1) continue;
       request.outermost = false;
+      request.seams &= store::seamsOf(request.key);
       if (request.key.level != 0) request.anchors = request.signs = false;
       requests.push_back(request);
       expected.push_back(meshed(baking.machine.mesher(baking.world, nullptr), request));

@@ -50,9 +50,13 @@ TEST_CASE("a chunk from a store is what it would have been derived to, with edit
       const MeshedChunk from_store = meshed(stored, request, nullptr, edits.get());
       CHECK(same(plain, from_store));
       if (as_baked) {
-        CHECK(source->stats().hits - hits == partCount(request));
-        CHECK(fresh.cacheStats().misses == 0);
-        CHECK(from_store.from_disk);
+        uint64_t baked = 0;
+        for (int part = 0; part < kChunkParts; ++part)
+          baked += asksFor(request, part) && store::isBakedPart(request.key, part);
+        CHECK(source->stats().hits - hits == baked);
+        const bool all = baked == partCount(request);
+        if (all) CHECK(from_store.from_disk);
+        if (all) CHECK(fresh.cacheStats().misses == 0);
       }
       triangles += plain.surface.mesh.indices.size() / 3;
       edited += edits != nullptr;
@@ -143,6 +147,7 @@ TEST_CASE("threads that stream from one store get what one gets", "[store][threa
     const ChunkRequest request = randomRequest(random, scene);
     if (request.key.level > 1) continue;
     requests.push_back(request);
+    requests.back().seams &= store::seamsOf(request.key);
     requests.back().outermost = requests.back().anchors = requests.back().signs = false;
   }
   std::vector<MeshedChunk> expected;
