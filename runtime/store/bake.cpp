@@ -110,7 +110,8 @@ std::vector<std::byte> encodeTileFile(const ContentId& job, const TileRecord& re
   return bytes;
 }
 
-std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const std::byte> bytes) {
+std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const std::byte> bytes,
+                                         std::pmr::memory_resource* memory) {
   ByteReader in(bytes);
   if (in.get<uint32_t>() != kTileMagic || in.get<uint32_t>() != kTileVersion) return std::nullopt;
   const ContentId of = getId(in);
@@ -118,13 +119,13 @@ std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const s
   if (in.failed() || of != job) return std::nullopt;
   const std::span encoded = bytes.last(in.left());
   if (checksumOf(encoded) != checksum) return std::nullopt;
-  return decodeTile(encoded);
+  return decodeTile(encoded, memory);
 }
 
 std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile) {
   const auto bytes = readFile(tileFile(bakery.folder, tile), kMostTileFile);
   if (!bytes) return std::nullopt;
-  std::optional<TileRecord> record = decodeTileFile(bakery.job, *bytes);
+  std::optional<TileRecord> record = decodeTileFile(bakery.job, *bytes, bakery.memory);
   if (!record || record->key != tile) return std::nullopt;
   std::error_code error;
   const uint64_t there = std::filesystem::file_size(packFile(bakery.folder, tile), error);
@@ -133,7 +134,7 @@ std::optional<TileRecord> madeBefore(const Bakery& bakery, const TileKey& tile) 
 }
 
 Result<TileRecord> bakeTile(const Bakery& bakery, const TileKey& tile, const Progress& progress) {
-  TileRecord record;
+  TileRecord record(bakery.memory);
   record.key = tile;
   const std::vector<size_t> numbers = chunksIn(bakery.region, tile);
   std::vector<ChunkRequest> requests;

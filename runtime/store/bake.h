@@ -47,6 +47,7 @@ Result<std::array<ContentId, kChunkParts>> idsOf(const Bakery& bakery, const Chu
 
 /// A tile's file: the record, and what tells whether it is whole.
 std::vector<std::byte> encodeTileFile(const ContentId& job, const TileRecord& record);
-std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const std::byte> bytes);
+std::optional<TileRecord> decodeTileFile(const ContentId& job, std::span<const std::byte> bytes,
+                                         std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 }  // namespace sgm::store

@@ -27,7 +27,7 @@ class BlockCache {
   using Fetch = std::function<Result<std::pmr::vector<std::byte>>(uint64_t offset, size_t bytes)>;
 
   /// memory: thread-safe; must outlive the cache.
-  explicit BlockCache(std::pmr::memory_resource* memory) : memory_(memory) {}
+  explicit BlockCache(std::pmr::memory_resource* memory) : memory_(memory), blocks_(memory), used_(memory) {}
 
   /// From a file, by a number of its own, of so many bytes; offset and bytes lie in it. Blocks that lie side by side
   /// are fetched at once. Errors: fetch's, which are forgotten. Throws std::bad_alloc.
@@ -43,7 +43,7 @@ class BlockCache {
   using Key = std::pair<uint64_t, uint64_t>;  ///< file and block
   struct Entry {
     std::shared_ptr<Block> block;
-    std::list<Key>::iterator used;
+    std::pmr::list<Key>::iterator used;
   };
   /// Of what one reader wants: blocks side by side.
   struct Wanted {
@@ -62,8 +62,8 @@ class BlockCache {
   std::pmr::memory_resource* const memory_;
   std::mutex mutex_;
   std::condition_variable finished_;
-  std::map<Key, Entry> blocks_;
-  std::list<Key> used_;  ///< the latest first
+  std::pmr::map<Key, Entry> blocks_;
+  std::pmr::list<Key> used_;  ///< the latest first
 };
 
 }  // namespace sgm::store

@@ -73,11 +73,9 @@ Result<void> IndexWriter::commit(const ContentId& world, const BakedRegion& regi
   return writer_.commit();
 }
 
-Result<WorldIndex> readIndex(const StoredFile& file) {
+Result<WorldIndex> readIndex(const StoredFile& file, std::pmr::memory_resource* memory) {
   const uint64_t file_bytes = file.size();
-  const auto read = [&](uint64_t offset, size_t bytes) {
-    return file.read(offset, bytes, std::pmr::get_default_resource());
-  };
+  const auto read = [&](uint64_t offset, size_t bytes) { return file.read(offset, bytes, memory); };
   if (file_bytes < kIndexHead + kIndexEnd) return damaged("it is cut off");
   const auto head = read(0, kIndexHead);
   if (!head) return head.error();
@@ -89,7 +87,7 @@ Result<WorldIndex> readIndex(const StoredFile& file) {
   const auto end = read(file_bytes - kIndexEnd, kIndexEnd);
   if (!end) return end.error();
   ByteReader in(*end);
-  WorldIndex index;
+  WorldIndex index(memory);
   index.world = getId(in);
   index.region = getRegion(in);
   in.get<uint32_t>();
@@ -103,6 +101,7 @@ Result<WorldIndex> readIndex(const StoredFile& file) {
   if (!directory) return directory.error();
   if (checksumOf(*directory) != checksum) return damaged("its directory is not whole");
   ByteReader entries(*directory);
+  index.tiles.reserve(static_cast<size_t>(count));
   for (const TileKey& key : tilesOf(index.region)) {
     TileEntry tile;
     tile.key.level = entries.get<int32_t>();
@@ -125,7 +124,7 @@ Result<TileRecord> readRecord(const StoredFile& file, const TileEntry& entry, st
   if (checksumOf(*frame) != entry.checksum) return damaged("a tile's record is not whole");
   const std::optional<std::pmr::vector<std::byte>> bytes = unpack(*frame, entry.bytes, memory);
   if (!bytes) return damaged("a tile's record cannot be unpacked");
-  std::optional<TileRecord> record = decodeTile(*bytes);
+  std::optional<TileRecord> record = decodeTile(*bytes, memory);
   if (!record || record->key != entry.key) return damaged("a tile's record is none");
   return std::move(*record);
 }

@@ -23,9 +23,11 @@ struct TileEntry {
 };
 
 struct WorldIndex {
+  explicit WorldIndex(std::pmr::memory_resource* memory) : tiles(memory) {}
+
   ContentId world;  ///< worldKey of bake.h
   BakedRegion region;
-  std::vector<TileEntry> tiles;  ///< tilesOf the region
+  std::pmr::vector<TileEntry> tiles;  ///< tilesOf the region
 
   const TileEntry* find(const TileKey& key) const;
 };
@@ -48,7 +50,8 @@ class IndexWriter {
 
 /// For any bytes. bad_input: they are no index, of another version, or damaged; errors of reading. Throws
 /// std::bad_alloc.
-Result<WorldIndex> readIndex(const StoredFile& file);
+Result<WorldIndex> readIndex(const StoredFile& file,
+                             std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 Result<TileRecord> readRecord(const StoredFile& file, const TileEntry& entry, std::pmr::memory_resource* memory);
 
 }  // namespace sgm::store

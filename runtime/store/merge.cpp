@@ -64,7 +64,7 @@ class Merger {
         known_.insert_or_assign(content.id, Place{number, content.stored, content.offset});
       }
     }
-    std::vector<PackFile> packs;
+    std::pmr::vector<PackFile> packs(bakery_.memory);
     for (StoredContent& content : record.contents) {
       if (content.pack == kInlined) continue;
       const Place& place = known_.at(content.id);

@@ -57,7 +57,7 @@ Result<OpenStore::World> OpenStore::worldOf(const ContentId& key) {
     return told(name, file.error().message);
   }
   if (*file == nullptr) return settle(nullptr);
-  Result<WorldFile> world = WorldFile::of(name, *file);
+  Result<WorldFile> world = WorldFile::of(name, *file, memory_);
   if (!world && world.error().code == Code::busy) return world.error();
   if (world && world->index.world == key) return settle(std::make_shared<const WorldFile>(std::move(*world)));
   settle(nullptr);

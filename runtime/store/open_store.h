@@ -25,7 +25,14 @@ class OpenStore {
 
   /// tell, memory (thread-safe) must outlive it.
   OpenStore(std::unique_ptr<StoreFiles> files, Tell tell, std::pmr::memory_resource* memory)
-      : files_(std::move(files)), tell_(std::move(tell)), memory_(memory) {}
+      : files_(std::move(files)),
+        tell_(std::move(tell)),
+        memory_(memory),
+        worlds_(memory),
+        kept_(memory),
+        records_(memory),
+        packs_(memory),
+        rejected_(memory) {}
 
   StoreFiles& files() { return *files_; }
 
@@ -72,11 +79,11 @@ class OpenStore {
   std::pmr::memory_resource* const memory_;
   std::mutex mutex_;  ///< of all below
   std::optional<bool> is_store_;
-  std::map<ContentId, World> worlds_;
-  std::list<KeptRecord> kept_;  ///< the latest used first
-  std::map<RecordKey, std::list<KeptRecord>::iterator> records_;
-  std::list<OpenPack> packs_;  ///< the latest used first
-  std::set<ContentId> rejected_;
+  std::pmr::map<ContentId, World> worlds_;
+  std::pmr::list<KeptRecord> kept_;  ///< the latest used first
+  std::pmr::map<RecordKey, std::pmr::list<KeptRecord>::iterator> records_;
+  std::pmr::list<OpenPack> packs_;  ///< the latest used first
+  std::pmr::set<ContentId> rejected_;
 };
 
 }  // namespace sgm::store

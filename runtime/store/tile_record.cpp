@@ -81,9 +81,9 @@ std::vector<std::byte> encodeTile(const TileRecord& record) {
   return bytes;
 }
 
-std::optional<TileRecord> decodeTile(std::span<const std::byte> bytes) {
+std::optional<TileRecord> decodeTile(std::span<const std::byte> bytes, std::pmr::memory_resource* memory) {
   ByteReader in(bytes);
-  TileRecord record;
+  TileRecord record(memory);
   record.key.level = in.get<int32_t>();
   for (int axis = 0; axis < 3; ++axis) record.key.at[axis] = in.get<int32_t>();
   record.chunks = in.get<uint32_t>();

@@ -36,12 +36,16 @@ inline constexpr uint32_t kPackVersion = 1;
 std::vector<std::byte> packHead();
 
 struct TileRecord {
+  explicit TileRecord(std::pmr::memory_resource* memory = std::pmr::get_default_resource())
+      : packs(memory), contents(memory), inlined(memory), parts(kTileChunks * kChunkParts, memory) {}
+
   TileKey key;
-  std::vector<PackFile> packs;
-  std::vector<StoredContent> contents;  ///< each once, in the order in which chunks and their parts first have them
-  std::vector<std::byte> inlined;
+  std::pmr::vector<PackFile> packs;
+  std::pmr::vector<StoredContent>
+      contents;  ///< each once, in the order in which chunks and their parts first have them
+  std::pmr::vector<std::byte> inlined;
   /// By chunk and part: 0 where it was not baked, else one more than the content's number.
-  std::vector<uint16_t> parts = std::vector<uint16_t>(kTileChunks * kChunkParts);
+  std::pmr::vector<uint16_t> parts;
   measure::SurfaceSums measured;
   uint32_t chunks = 0;       ///< that were baked
   uint64_t plain_bytes = 0;  ///< of all parts, as if each were stored by itself
@@ -57,6 +61,7 @@ struct TileRecord {
 
 std::vector<std::byte> encodeTile(const TileRecord& record);
 /// For any bytes: none where they are not what encodeTile gives, or a number in them leads nowhere.
-std::optional<TileRecord> decodeTile(std::span<const std::byte> bytes);
+std::optional<TileRecord> decodeTile(std::span<const std::byte> bytes,
+                                     std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 }  // namespace sgm::store

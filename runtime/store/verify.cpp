@@ -137,7 +137,7 @@ Verified verify(const Folder& store, const WorldFile& world, const Progress& pro
 
 Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world, size_t chunks, uint64_t seed) {
   Compared compared;
-  const std::vector<TileEntry>& tiles = world.index.tiles;
+  const std::pmr::vector<TileEntry>& tiles = world.index.tiles;
   // Of tiles that hold nothing but rock each is tried, too, but few of them are enough.
   for (uint64_t draw = 0; compared.chunks < chunks && draw < 16 * chunks; ++draw) {
     const uint64_t random = hashCombine(seed, draw);

@@ -21,8 +21,9 @@ Result<WorldFile> WorldFile::open(const fs::path& path) {
   return of(path.string(), std::move(*file));
 }
 
-Result<WorldFile> WorldFile::of(std::string name, std::shared_ptr<const StoredFile> file) {
-  Result<WorldIndex> index = readIndex(*file);
+Result<WorldFile> WorldFile::of(std::string name, std::shared_ptr<const StoredFile> file,
+                                std::pmr::memory_resource* memory) {
+  Result<WorldIndex> index = readIndex(*file, memory);
   if (!index) return in(name, index.error());
   return WorldFile{std::move(name), std::move(*index), std::move(file)};
 }

@@ -17,7 +17,8 @@ struct WorldFile {
 
   /// Errors: io, and those of readIndex, with the file's name and what to do.
   static Result<WorldFile> open(const std::filesystem::path& path);
-  static Result<WorldFile> of(std::string name, std::shared_ptr<const StoredFile> file);
+  static Result<WorldFile> of(std::string name, std::shared_ptr<const StoredFile> file,
+                              std::pmr::memory_resource* memory = std::pmr::get_default_resource());
   /// Errors: likewise. Throws std::bad_alloc.
   Result<TileRecord> record(const TileEntry& tile, std::pmr::memory_resource* memory) const;
   /// Calls f for every record, to the first error, its own included. Throws std::bad_alloc.

@@ -13,6 +13,28 @@ std::shared_ptr<BakedParts> sourceOf(const fs::path& folder, store::Log log = {}
   return sourceAt(folder.string(), std::move(log));
 }
 
+/// Gives out after so many allocations, for as long as is said.
+class Failing final : public std::pmr::memory_resource {
+ public:
+  std::atomic<int64_t> until = INT64_MAX, failures = 0, live = 0;
+  std::atomic<int64_t> failed = 0;
+
+ private:
+  void* do_allocate(size_t size, size_t alignment) override {
+    if (--until < 0 && --failures >= 0) {
+      ++failed;
+      throw std::bad_alloc();
+    }
+    ++live;
+    return std::pmr::new_delete_resource()->allocate(size, alignment);
+  }
+  void do_deallocate(void* memory, size_t size, size_t alignment) override {
+    --live;
+    std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+  }
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+};
+
 }  // namespace
 
 TEST_CASE("a chunk from a store is what it would have been derived to, with edits on top", "[store]") {
@@ -170,4 +192,66 @@ TEST_CASE("threads that stream from one store get what one gets", "[store][threa
   CHECK(unlike == 0);
   CHECK(source->stats().hits > 0);
   CHECK(source->stats().misses == 0);
+}
+
+TEST_CASE("a store whose memory gives out, anywhere, gives what it should once there is memory", "[store]") {
+  const auto seed = GENERATE(take(1, random(0, 1 << 30)));
+  CAPTURE(seed);
+  std::mt19937 random(static_cast<uint32_t>(seed));
+  const Excerpt& scene = scenes()[0];
+  const CacheFolder folder;
+  const Baking baking(scene.settings(), regionOf(scene, 0, 1), folder.path);
+  baking.bakeAll();
+  baking.merge();
+  std::vector<ChunkRequest> requests{caveRequest()};
+  requests[0].seams &= store::seamsOf(requests[0].key);
+  std::vector<MeshedChunk> expected;
+  while (requests.size() < 4) {
+    const ChunkRequest request = randomRequest(random, scene);
+    if (request.key.level == 0) requests.push_back(request);
+  }
+  for (const ChunkRequest& request : requests)
+    expected.push_back(meshed(baking.machine.mesher(baking.world, nullptr), request));
+  bool troubled = true;
+  int64_t n = 0;
+  for (; troubled; n += 1 + static_cast<int64_t>(random() % static_cast<uint64_t>(1 + n / 4))) {
+    CAPTURE(n);
+    Failing memory;
+    Told told;
+    {
+      memory.until = n;
+      memory.failures = random() % 2 == 0 ? 1 : 1 + static_cast<int64_t>(random() % 60);
+      std::shared_ptr<BakedParts> source;
+      while (source == nullptr) {
+        try {
+          auto opened = store::openStores(std::array{folder.path.string()}, told.log(), &memory);
+          REQUIRE(opened);
+          source = *opened;
+        } catch (const std::bad_alloc&) {
+          // As the caller of any of our functions would.
+        }
+      }
+      ChunkMesher mesher = baking.machine.mesher(baking.world, nullptr);
+      mesher.baked = source.get();
+      mesher.memory = &memory;
+      for (size_t i = 0; i < requests.size(); ++i) {
+        std::optional<Result<MeshedChunk>> chunk;
+        while (!chunk || !*chunk) {
+          try {
+            chunk.emplace(mesher.mesh(requests[i], nullptr));
+          } catch (const std::bad_alloc&) {
+            continue;
+          }
+          if (!*chunk) REQUIRE(chunk->error().code == Code::out_of_memory);
+        }
+        CHECK(same(**chunk, expected[i]));
+      }
+      CHECK(source->stats().hits > 0);
+      CHECK(source->stats().damaged == 0);
+      CHECK(told.messages.empty());
+      troubled = memory.failed > 0;
+    }
+    CHECK(memory.live == 0);
+  }
+  CHECK(n > 50);
 }
