@@ -130,7 +130,7 @@ Result<SlurmState> stateOf(const SlurmJobs& jobs) {
   const std::string all = fmt::format("{},{},{}", jobs.shards, jobs.merge, jobs.verification);
   const Result<States> queue = statesFrom({"squeue", "-h", "-r", "-j", all, "-o", "%i %T"});
   if (!queue) return queue.error();
-  Result<States> ended = statesFrom({"sacct", "-n", "-X", "--array", "-j", all, "-o", "JobID%40,State%20"});
+  Result<States> ended = statesFrom({"sacct", "-n", "-X", "-j", all, "-o", "JobID%40,State%20"});
   if (!ended) ended = statesFrom({"squeue", "-h", "-r", "-t", "all", "-j", all, "-o", "%i %T"});
   SlurmState state;
   state.ended = queue->empty();

@@ -60,7 +60,7 @@ void addBodyEdge(const VertexKey& p, const VertexKey& q, BorderSums& sums) {
     // The edge crosses one square of the face, whose lowest corner this is.
     const int half_u = std::min(p.corner[u], q.corner[u]) < kChunkCells / 2 ? 0 : 1;
     const int half_v = std::min(p.corner[v], q.corner[v]) < kChunkCells / 2 ? 0 : 1;
-    const auto finer = [&](const VertexKey& key) {
+    const auto finer = [=, u = u, v = v](const VertexKey& key) {
       return placeOf(key, 2 * key.corner[u] - kChunkCells * half_u, 2 * key.corner[v] - kChunkCells * half_v);
     };
     sums.quarters[f][static_cast<size_t>(half_u + 2 * half_v)] += sumOf(finer(p), finer(q));
