@@ -1,6 +1,9 @@
 // What streaming from a baked store saves: chunks of the cave, read and derived, in one run.
 //
-//   sgm_bench_store FOLDER [METRES] [LEVELS]     FOLDER: where the store is made, on the disk that is to be measured
+//   sgm_bench_store FOLDER [METRES] [LEVELS] [ADDRESS]
+//
+//   FOLDER   where the store is made, on the disk that is to be measured
+//   ADDRESS  http://...: where a web server shows that folder, which is then read from there
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -69,9 +72,10 @@ void print(const char* what, std::vector<double> times, double unit) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: sgm_bench_store FOLDER [METRES] [LEVELS]\n");
+    std::fprintf(stderr, "usage: sgm_bench_store FOLDER [METRES] [LEVELS] [ADDRESS]\n");
     return 2;
   }
+  const std::string place = argc > 4 ? argv[4] : argv[1];
   const int metres = argc > 2 ? std::atoi(argv[2]) : 128, levels = argc > 3 ? std::atoi(argv[3]) : 3;
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   const std::unique_ptr<JobSystem> jobs = orDie(makeThreadPool(1));
@@ -102,7 +106,7 @@ int main(int argc, char** argv) {
     for (const size_t number : store::chunksIn(region, tile)) {
       ChunkRequest request;
       request.key = store::chunkOf(tile, number);
-      request.seams = 0b010101;
+      request.seams = store::seamsOf(request.key);
       request.keys = false;
       request.anchors = request.signs = tile.level == 0;
       if (!orDie(derived.mesh(request, nullptr)).surface.mesh.indices.empty()) requests.push_back(request);
@@ -111,7 +115,7 @@ int main(int argc, char** argv) {
   for (int round = 0; round < 3; ++round) {
     // Nothing is derived yet, and nothing read: what a viewer meets who comes there first.
     const WorldField fresh(caveSettings(), memory), other(caveSettings(), memory);
-    const std::shared_ptr<BakedParts> source = orDie(store::openStores(std::array{folder.root().string()}, {}, memory));
+    const std::shared_ptr<BakedParts> source = orDie(store::openStores(std::array{place}, {}, memory));
     ChunkMesher stored{other, *backend, *jobs, memory};
     stored.baked = source.get();
     const std::vector<double> meshing = meshAll({fresh, *backend, *jobs, memory}, requests);
