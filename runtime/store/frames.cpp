@@ -46,9 +46,36 @@ Result<std::pmr::vector<std::byte>> pack(std::span<const std::byte> content, std
 
 std::optional<std::pmr::vector<std::byte>> unpack(std::span<const std::byte> frame, size_t content_bytes,
                                                   std::pmr::memory_resource* memory) {
+  return Unpacker().unpack(frame, content_bytes, memory);
+}
+
+Unpacker::~Unpacker() {
+  for (void* context : idle_) ZSTD_freeDCtx(static_cast<ZSTD_DCtx*>(context));
+}
+
+std::optional<std::pmr::vector<std::byte>> Unpacker::unpack(std::span<const std::byte> frame, size_t content_bytes,
+                                                            std::pmr::memory_resource* memory) {
   std::pmr::vector<std::byte> content(content_bytes, memory);
+  ZSTD_DCtx* context = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      context = static_cast<ZSTD_DCtx*>(idle_.back());
+      idle_.pop_back();
+    } else {
+      idle_.reserve(made_ + 1);
+      context = ZSTD_createDCtx();
+      if (context == nullptr) throw std::bad_alloc();
+      ++made_;
+    }
+  }
   // An error's code is larger than every size.
-  if (ZSTD_decompress(content.data(), content.size(), frame.data(), frame.size()) != content_bytes) return std::nullopt;
+  const size_t bytes = ZSTD_decompressDCtx(context, content.data(), content.size(), frame.data(), frame.size());
+  {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(context);
+  }
+  if (bytes != content_bytes) return std::nullopt;
   return content;
 }
 

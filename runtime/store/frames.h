@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,6 +33,23 @@ Result<std::pmr::vector<std::byte>> pack(std::span<const std::byte> content, std
 /// The content; none unless the frame is whole and holds just so many bytes. For any bytes. Throws std::bad_alloc.
 std::optional<std::pmr::vector<std::byte>> unpack(std::span<const std::byte> frame, size_t content_bytes,
                                                   std::pmr::memory_resource* memory);
+
+/// unpack, again and again: keeps what zstd works with, whose making takes as long as most frames do. It comes from the
+/// C heap, some 100 KB for each thread that has been here at one time. Any thread.
+class Unpacker {
+ public:
+  Unpacker() = default;
+  ~Unpacker();
+  Unpacker(const Unpacker&) = delete;
+  Unpacker& operator=(const Unpacker&) = delete;
+  std::optional<std::pmr::vector<std::byte>> unpack(std::span<const std::byte> frame, size_t content_bytes,
+                                                    std::pmr::memory_resource* memory);
+
+ private:
+  std::mutex mutex_;
+  std::vector<void*> idle_;
+  size_t made_ = 0;
+};
 
 /// idOf bytes that come one part after the other.
 class IdStream {

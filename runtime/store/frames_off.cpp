@@ -18,5 +18,10 @@ Result<std::pmr::vector<std::byte>> pack(std::span<const std::byte>, std::pmr::m
 std::optional<std::pmr::vector<std::byte>> unpack(std::span<const std::byte>, size_t, std::pmr::memory_resource*) {
   return std::nullopt;
 }
+Unpacker::~Unpacker() = default;
+std::optional<std::pmr::vector<std::byte>> Unpacker::unpack(std::span<const std::byte>, size_t,
+                                                            std::pmr::memory_resource*) {
+  return std::nullopt;
+}
 
 }  // namespace sgm::store

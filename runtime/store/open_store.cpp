@@ -133,7 +133,7 @@ Result<std::pmr::vector<std::byte>> OpenStore::bytesOf(const TileRecord& record,
   if (!file) return file.error();
   const auto frame = (*file)->read(content.offset, content.stored, memory);
   if (!frame) return frame.error();
-  std::optional<std::pmr::vector<std::byte>> bytes = unpack(*frame, content.bytes, memory);
+  std::optional<std::pmr::vector<std::byte>> bytes = unpacker_.unpack(*frame, content.bytes, memory);
   if (bytes && idOf(*bytes) == content.id) return std::move(*bytes);
   return Error{Code::io, "'" + files_->nameOf(packFileName(pack.name)) + "' is damaged: sgm store verify says where"};
 }

@@ -77,6 +77,7 @@ class OpenStore {
   const std::unique_ptr<StoreFiles> files_;
   const Tell tell_;
   std::pmr::memory_resource* const memory_;
+  Unpacker unpacker_;
   std::mutex mutex_;  ///< of all below
   std::optional<bool> is_store_;
   std::pmr::map<ContentId, World> worlds_;

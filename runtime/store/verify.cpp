@@ -103,7 +103,7 @@ class Verifier {
       if (packs[content.pack] == nullptr) return wrong();
       const auto frame = packs[content.pack]->read(content.offset, content.stored);
       if (!frame) return wrong();
-      std::optional<std::pmr::vector<std::byte>> unpacked = unpack(*frame, content.bytes, memory_);
+      std::optional<std::pmr::vector<std::byte>> unpacked = unpacker_.unpack(*frame, content.bytes, memory_);
       if (!unpacked) return wrong();
       bytes = std::move(*unpacked);
     }
@@ -123,6 +123,7 @@ class Verifier {
   const Folder& store_;
   const WorldFile& world_;
   std::pmr::memory_resource* memory_ = std::pmr::get_default_resource();
+  Unpacker unpacker_;
   Verified found_;
   Closure closure_;
   std::unordered_set<ContentId, IdHash> known_;  ///< contents that were looked at
