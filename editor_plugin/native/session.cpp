@@ -157,7 +157,10 @@ Failure Session::makeWorld(const Settings& settings) {
   if (!journal.empty()) desc.journal = journal.c_str();
   if (!cache.empty()) desc.cache_folder = cache.c_str();
   std::vector<std::string> places;
-  for (const std::string& store : settings.stores) places.push_back(systemPath(store));
+  // An element that the inspector has just added is empty.
+  for (const std::string& store : settings.stores) {
+    if (!store.empty()) places.push_back(systemPath(store));
+  }
   std::vector<const char*> stores;
   for (const std::string& place : places) stores.push_back(place.c_str());
   desc.stores = stores.data();

@@ -151,6 +151,7 @@ Exit bake(const BakeOptions& options) {
   if (!backend) return complain(backend.error());
   if (!(*backend)->capabilities().exact) return complain(Exit::backend, kNotExact);
   const WorldField world(opened.settings, std::pmr::new_delete_resource());
+  if (const Result<void> here = store::checkHere(options.out); !here) return complain(here.error());
   const store::Folder folder(options.out);
   Result<store::Bakery> bakery =
       store::bakeryOf(world, **backend, **jobs, region, options.sharp, folder, std::pmr::new_delete_resource());

@@ -37,6 +37,10 @@ Result<std::string> outputOrError(const std::vector<std::string>& command) {
   return trimmed(ran->output);
 }
 
+bool isNumber(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
 Result<std::string> submit(const SlurmBake& bake, const std::string& what, const std::string& line,
                            const std::vector<std::string>& own) {
   const std::filesystem::path script = bake.folder / (what + ".sh");
@@ -48,10 +52,15 @@ Result<std::string> submit(const SlurmBake& bake, const std::string& what, const
   command.insert(command.end(), own.begin(), own.end());
   command.insert(command.end(), bake.options.begin(), bake.options.end());
   command.push_back(script.string());
-  Result<std::string> number = outputOrError(command);
-  // "NUMBER;CLUSTER" where there are several.
-  if (number) *number = number->substr(0, number->find(';'));
-  return number;
+  const Result<std::string> said = outputOrError(command);
+  if (!said) return said.error();
+  // "NUMBER", or "NUMBER;CLUSTER" where there are several; and whatever else a site has sbatch say.
+  std::istringstream lines(*said);
+  for (std::string words; std::getline(lines, words);) {
+    const std::string number = words.substr(0, words.find(';'));
+    if (isNumber(number)) return number;
+  }
+  return Error{Code::io, "sbatch tells no number of a job: " + *said};
 }
 
 /// Tasks and jobs by state, of "NUMBER_TASK STATE" a line.
@@ -68,7 +77,10 @@ Result<States> statesFrom(const std::vector<std::string>& command) {
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string job, how;
-    if (words >> job >> how) states.emplace_back(job.substr(0, job.find('_')), how);
+    if (!(words >> job >> how)) continue;
+    job = job.substr(0, job.find('_'));
+    // Warnings are no jobs.
+    if (isNumber(job)) states.emplace_back(job, how);
   }
   return states;
 }

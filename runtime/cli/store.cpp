@@ -8,7 +8,6 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/region.h"
-#include "store/http_files.h"
 #include "store/verify.h"
 
 namespace sgm::cli {
@@ -22,15 +21,15 @@ std::string chunkName(const ChunkKey& chunk) {
 
 double megabytes(uint64_t bytes) { return static_cast<double>(bytes) / 1e6; }
 
+Result<void> checkFolder(const store::Folder& folder) {
+  if (Result<void> here = store::checkHere(folder.root().string()); !here) return here;
+  return folder.check();
+}
+
 /// Those of a store whose name begins so, all where nothing is said; what cannot be read among them, too.
 Result<std::vector<Result<store::WorldFile>>> openWorlds(const store::Folder& folder, const std::string& name) {
   if (Result<void> can = store::available(); !can) return can.error();
-  if (store::isAddress(folder.root().string()))
-    return Error{Code::invalid_argument,
-                 "'" + folder.root().string() +
-                     "' is on a server: sgm store works in folders, and sgm fly --store streams "
-                     "from both"};
-  if (Result<void> good = folder.check(); !good) return good.error();
+  if (Result<void> good = checkFolder(folder); !good) return good.error();
   const Result<std::vector<fs::path>> paths = store::worldsOf(folder);
   if (!paths) return paths.error();
   std::vector<Result<store::WorldFile>> worlds;
@@ -238,7 +237,7 @@ Exit storeDiff(const StoreDiffOptions& options) {
 Exit storeClean(const StoreOptions& options) {
   const store::Folder folder(options.store);
   if (const Result<void> can = store::available(); !can) return complain(can.error());
-  if (const Result<void> good = folder.check(); !good) return complain(good.error());
+  if (const Result<void> good = checkFolder(folder); !good) return complain(good.error());
   const Result<store::Cleaned> cleaned = store::clean(folder, std::pmr::new_delete_resource());
   if (!cleaned) return complain(cleaned.error());
   if (options.json) {

@@ -74,10 +74,11 @@ void BlockCache::fetchMine(Wanted& wanted, uint64_t file_bytes, const Fetch& fet
   for (size_t from = 0; from < count; ++from) {
     if (!wanted.is_mine[from]) continue;
     size_t to = from;
-    while (to < count && wanted.is_mine[to]) ++to;
+    while (to < count && wanted.is_mine[to] && to - from < kMostAtOnce) ++to;
     const uint64_t begin = (wanted.first + from) * kBlock;
     const uint64_t end = std::min<uint64_t>((wanted.first + to) * kBlock, file_bytes);
-    const Result<std::pmr::vector<std::byte>> got = fetch(begin, static_cast<size_t>(end - begin));
+    Result<std::pmr::vector<std::byte>> got = fetch(begin, static_cast<size_t>(end - begin));
+    if (got && got->size() != end - begin) got = Error{Code::io, "a file ends before its end"};
     for (size_t i = from; i < to; ++i) {
       if (!got) {
         fail(wanted, i, got.error());
@@ -115,6 +116,7 @@ Result<std::pmr::vector<std::byte>> BlockCache::read(uint64_t file, uint64_t fil
     if (block.error) return *block.error;
     const uint64_t begin = (wanted.first + i) * kBlock;
     const uint64_t from = std::max(begin, offset), to = std::min<uint64_t>(begin + block.bytes.size(), offset + bytes);
+    if (to < std::min<uint64_t>(begin + kBlock, offset + bytes)) return Error{Code::io, "a file ends before its end"};
     std::copy_n(block.bytes.begin() + static_cast<ptrdiff_t>(from - begin), to - from,
                 content.begin() + static_cast<ptrdiff_t>(from - offset));
   }

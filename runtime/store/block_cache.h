@@ -20,8 +20,9 @@ namespace sgm::store {
 /// Keeps the blocks that were read last. Who needs one that another is fetching waits for it. Any thread.
 class BlockCache {
  public:
-  static constexpr size_t kBlock = size_t{1} << 18;  ///< bytes; a file's last is shorter
-  static constexpr size_t kMostBlocks = 128;
+  static constexpr size_t kBlock = size_t{1} << 17;  ///< bytes; a file's last is shorter
+  static constexpr size_t kMostBlocks = 256;
+  static constexpr size_t kMostAtOnce = 4;  ///< blocks of one fetch: what came of a file over a slow line stays
 
   /// Bytes of a file, from the start of a block to the end of one.
   using Fetch = std::function<Result<std::pmr::vector<std::byte>>(uint64_t offset, size_t bytes)>;

@@ -19,7 +19,6 @@ Result<CurlTable> loadCurl() {
     complete = complete && function != nullptr;
   };
   load(table.global_init, "curl_global_init");
-  load(table.global_cleanup, "curl_global_cleanup");
   load(table.easy_init, "curl_easy_init");
   load(table.easy_cleanup, "curl_easy_cleanup");
   load(table.easy_setopt, "curl_easy_setopt");

@@ -10,7 +10,6 @@ namespace sgm::store {
 /// Its functions. What they allocate comes from its own heap.
 struct CurlTable {
   decltype(&::curl_global_init) global_init = nullptr;
-  decltype(&::curl_global_cleanup) global_cleanup = nullptr;
   decltype(&::curl_easy_init) easy_init = nullptr;
   decltype(&::curl_easy_cleanup) easy_cleanup = nullptr;
   decltype(&::curl_easy_setopt) easy_setopt = nullptr;

@@ -9,8 +9,6 @@
 #include <cerrno>
 #include <system_error>
 
-#include "store/http_files.h"
-
 namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
@@ -58,11 +56,7 @@ std::string packFileName(const ContentId& name) {
   return "packs/" + digits.substr(0, 2) + "/" + digits.substr(2) + ".sgmp";
 }
 
-Result<std::unique_ptr<StoreFiles>> storeFiles(const std::string& place, const Log& log,
-                                               std::pmr::memory_resource* memory) {
-  if (isAddress(place)) return httpFiles(place, log, memory);
-  return std::unique_ptr<StoreFiles>(std::make_unique<FolderFiles>(place));
-}
+std::unique_ptr<StoreFiles> folderFiles(const fs::path& root) { return std::make_unique<FolderFiles>(root); }
 
 Result<void> checkFormat(StoreFiles& files) {
   const std::string root = files.nameOf("");

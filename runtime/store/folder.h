@@ -24,6 +24,8 @@ inline constexpr int kStoreVersion = 1;
 inline constexpr const char* kFormatFile = "format";
 std::string worldFileName(const ContentId& key);
 std::string packFileName(const ContentId& name);
+/// Of the folder at this path, which is not looked at.
+std::unique_ptr<StoreFiles> folderFiles(const std::filesystem::path& root);
 /// io; bad_input: there is no store of this version. As StoreFiles::open.
 Result<void> checkFormat(StoreFiles& files);
 

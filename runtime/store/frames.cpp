@@ -55,6 +55,8 @@ Unpacker::~Unpacker() {
 
 std::optional<std::pmr::vector<std::byte>> Unpacker::unpack(std::span<const std::byte> frame, size_t content_bytes,
                                                             std::pmr::memory_resource* memory) {
+  // Nobody gets memory for what is not there.
+  if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != content_bytes) return std::nullopt;
   std::pmr::vector<std::byte> content(content_bytes, memory);
   ZSTD_DCtx* context = nullptr;
   {

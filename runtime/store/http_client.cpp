@@ -14,7 +14,7 @@ namespace sgm::store {
 namespace {
 
 // Chunks that are derived take some milliseconds each: a server that takes seconds is of no use to a stream.
-constexpr long kConnectMilliseconds = 3000, kMilliseconds = 30000;
+constexpr long kConnectMilliseconds = 3000, kMilliseconds = 10000;
 constexpr long kLeastBytesPerSecond = 1000, kSlowSeconds = 4;
 
 /// A connection that its server has closed raises SIGPIPE in whoever writes to it, which by default ends the program;
@@ -128,7 +128,8 @@ Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
   if (from_start) return std::optional(HttpPart{transfer.bytes.size(), std::move(transfer.bytes)});
   if (status == 200)
     return answers("answers no range requests, but sends the whole file: use another, such as nginx or Apache");
-  if (status == 408 || status == 429 || status >= 500)
+  // Others from 500 on are the file's own.
+  if (status == 408 || status == 429 || status == 502 || status == 503 || status == 504)
     return Error{Code::busy, "the server answers with status " + std::to_string(status)};
   if (status != 206) return answers("answers with status " + std::to_string(status));
   if (transfer.range_first != transfer.first || transfer.file_bytes.value_or(0) <= transfer.first ||
@@ -143,15 +144,21 @@ Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
 Result<std::unique_ptr<HttpClient>> HttpClient::create() {
   const Result<CurlTable> curl = loadCurl();
   if (!curl) return curl.error();
-  if (curl->global_init(CURL_GLOBAL_DEFAULT) != CURLE_OK)
-    return Error{Code::out_of_memory, "libcurl cannot be started: there is too little memory"};
+  // Once in a process and for good: before 7.84 neither this nor its opposite may be done beside another thread's.
+  static const CURLcode started = curl->global_init(CURL_GLOBAL_DEFAULT);
+  CURL* const handle = started == CURLE_OK ? curl->easy_init() : nullptr;
+  if (handle == nullptr) return Error{Code::out_of_memory, "libcurl cannot be started: there is too little memory"};
+  const bool is_new_enough = curl->easy_setopt(handle, CURLOPT_PROTOCOLS_STR, "http,https") == CURLE_OK;
+  curl->easy_cleanup(handle);
+  if (!is_new_enough)
+    return Error{Code::unsupported,
+                 "libcurl is older than 7.85: to read stores from servers, update the package libcurl4"};
   return std::unique_ptr<HttpClient>(new HttpClient(*curl));
 }
 
 HttpClient::~HttpClient() {
   const NoPipeSignal no_signal;
   for (CURL* handle : idle_) curl_.easy_cleanup(handle);
-  curl_.global_cleanup();
 }
 
 int HttpClient::progress(void* client, curl_off_t, curl_off_t, curl_off_t, curl_off_t) {
@@ -177,6 +184,8 @@ CURL* HttpClient::take() {
   ++handles_;
   const auto set = [&](CURLoption option, auto value) { curl_.easy_setopt(handle, option, value); };
   set(CURLOPT_NOSIGNAL, 1L);
+  // Or nothing ends before the system's resolver does, which knows neither of our times nor of stop.
+  set(CURLOPT_QUICK_EXIT, 1L);
   set(CURLOPT_PROTOCOLS_STR, "http,https");
   set(CURLOPT_REDIR_PROTOCOLS_STR, "http,https");
   set(CURLOPT_FOLLOWLOCATION, 1L);

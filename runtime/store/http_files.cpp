@@ -2,59 +2,25 @@
 
 #include <algorithm>
 #include <chrono>
+#include <condition_variable>
 #include <map>
 #include <mutex>
 
 #include "store/block_cache.h"
+#include "store/folder.h"
 #include "store/http_client.h"
+#include "store/outage.h"
 
 namespace sgm::store {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds kFirstRest{1}, kLongestRest{60};
+using Clock = Outage::Clock;
 
-/// Whether a server that did not answer is to be left alone. Any thread.
-class Outage {
- public:
-  /// Whether the caller may ask it. Of those that ask while it is away one may, now and then.
-  bool mayAsk() {
-    const std::lock_guard lock(mutex_);
-    if (rest_.count() == 0) return true;
-    if (is_asked_ || Clock::now() < until_) return false;
-    is_asked_ = true;
-    return true;
-  }
-  /// It did not; whether that is new.
-  bool begins() {
-    const std::lock_guard lock(mutex_);
-    const bool is_new = rest_.count() == 0;
-    // Others may have asked at the same time: that is one outage.
-    if (is_new || is_asked_) rest_ = is_new ? kFirstRest : std::min(2 * rest_, kLongestRest);
-    is_asked_ = false;
-    until_ = Clock::now() + rest_;
-    return is_new;
-  }
-  /// Who might have asked has not.
-  void isUnknown() {
-    const std::lock_guard lock(mutex_);
-    is_asked_ = false;
-  }
-  /// It has answered; whether that is new.
-  bool ends() {
-    const std::lock_guard lock(mutex_);
-    const bool was_away = rest_.count() != 0;
-    rest_ = std::chrono::seconds(0);
-    is_asked_ = false;
-    return was_away;
-  }
-
- private:
-  std::mutex mutex_;
-  std::chrono::seconds rest_{0};  ///< 0: it answers
-  Clock::time_point until_;
-  bool is_asked_ = false;
-};
+/// A server is asked for so many things at one time, and nobody waits for longer until it may be.
+constexpr int kMostRequests = 4;
+constexpr std::chrono::seconds kLongestWait{2};
+/// For how long a file that could not be had is not asked for again.
+constexpr std::chrono::seconds kFailedFor{60};
 
 /// What files of one server share; they may outlive who opened them.
 class Server {
@@ -71,47 +37,108 @@ class Server {
   std::string nameOf(const std::string& file) const { return file.empty() ? shown_ : shown_ + "/" + file; }
 
   Result<std::optional<HttpPart>> get(const std::string& file, uint64_t first, size_t count) {
-    if (!outage_.mayAsk()) return Error{Code::busy, "'" + shown_ + "' does not answer"};
-    Result<std::optional<HttpPart>> part = ask(file, first, count);
-    if (part || part.error().code != Code::busy) {
-      if (outage_.ends()) tell("'" + shown_ + "' answers again");
-    } else if (!client_->isStopped() && outage_.begins()) {
-      tell("'" + shown_ + "' cannot be read from (" + part.error().message +
-           "): chunks are derived until it can; it is asked again from time to time");
-    }
-    if (part || part.error().code == Code::busy) return part;
-    return Error{part.error().code, "'" + nameOf(file) + "': " + part.error().message};
+    if (!isThere()) return away();
+    return ask(file, first, count);
   }
 
-  Result<std::pmr::vector<std::byte>> read(const std::string& file, uint64_t number, uint64_t file_bytes,
-                                           uint64_t offset, size_t bytes, std::pmr::memory_resource* memory) {
+  Result<std::pmr::vector<std::byte>> read(const std::string& file, uint64_t file_bytes, uint64_t offset, size_t bytes,
+                                           std::pmr::memory_resource* memory) {
+    const std::optional<uint64_t> number = numberOf(file, file_bytes);
+    if (!number) return Error{Code::io, "'" + nameOf(file) + "' could not be had a while ago"};
     const auto fetch = [&](uint64_t first, size_t count) -> Result<std::pmr::vector<std::byte>> {
-      Result<std::optional<HttpPart>> part = get(file, first, count);
+      Result<std::optional<HttpPart>> part = ask(file, first, count);
       if (!part) return part.error();
       if (!*part) return Error{Code::io, "'" + nameOf(file) + "' is not there"};
-      if ((*part)->file_bytes != file_bytes)
-        return Error{Code::io, "'" + nameOf(file) + "' has " + std::to_string((*part)->file_bytes) +
-                                   " bytes instead of " + std::to_string(file_bytes)};
-      return std::move((*part)->bytes);
+      if ((*part)->file_bytes == file_bytes) return std::move((*part)->bytes);
+      return Error{Code::io, "'" + nameOf(file) + "' has " + std::to_string((*part)->file_bytes) +
+                                 " bytes instead of " + std::to_string(file_bytes)};
     };
-    return blocks_.read(number, file_bytes, offset, bytes, fetch, memory);
-  }
-
-  /// Files that are opened again have the number that they had, and so their blocks.
-  uint64_t numberOf(const std::string& file) {
-    const std::lock_guard lock(mutex_);
-    return numbers_.try_emplace(file, numbers_.size()).first->second;
+    // Before others wait for what is fetched here: while the server is away they are not to.
+    if (!isThere()) return away();
+    auto read = blocks_.read(*number, file_bytes, offset, bytes, fetch, memory);
+    if (!read && read.error().code == Code::io) {
+      const std::lock_guard lock(mutex_);
+      files_[{file, file_bytes}].failed_until = Clock::now() + kFailedFor;
+    }
+    return read;
   }
 
   void stop() noexcept { client_->stop(); }
 
  private:
-  Result<std::optional<HttpPart>> ask(const std::string& file, uint64_t first, size_t count) try {
+  struct FileState {
+    uint64_t number =
+        0;  ///< among those that were opened: it is the same when that happens again, and so are the blocks
+    Clock::time_point failed_until{};
+  };
+
+  Error away() const { return {Code::busy, "'" + shown_ + "' does not answer"}; }
+
+  /// Nothing where the file could not be had, not long ago.
+  std::optional<uint64_t> numberOf(const std::string& file, uint64_t file_bytes) {
+    const std::lock_guard lock(mutex_);
+    const auto [at, is_new] = files_.try_emplace({file, file_bytes});
+    if (is_new) at->second.number = files_.size();
+    if (Clock::now() < at->second.failed_until) return std::nullopt;
+    return at->second.number;
+  }
+
+  /// Whether it may be asked. While it is away one caller finds out, now and then, whether it is still.
+  bool isThere() {
+    const Outage::Look look = outage_.look(Clock::now());
+    if (look != Outage::Look::find_out) return look == Outage::Look::there;
+    const Result<std::optional<HttpPart>> part = ask(kFormatFile, 0, 1);
+    return part || part.error().code != Code::busy;
+  }
+
+  Result<std::optional<HttpPart>> ask(const std::string& file, uint64_t first, size_t count) {
+    const Slot slot(*this);
+    if (!slot.is_free) {
+      outage_.gaveUp();
+      return away();
+    }
+    const Clock::time_point begun = Clock::now();
+    Result<std::optional<HttpPart>> part = askNow(file, first, count);
+    const bool answers = part || part.error().code != Code::busy;
+    if (!answers && client_->isStopped()) {
+      outage_.gaveUp();
+    } else if (!answers && outage_.failed(begun, Clock::now())) {
+      tell("'" + shown_ + "' cannot be read from (" + part.error().message +
+           "): chunks are derived until it can; it is asked again from time to time");
+    } else if (answers && outage_.answered(begun, Clock::now())) {
+      tell("'" + shown_ + "' answers again");
+    }
+    if (part || part.error().code == Code::busy) return part;
+    return Error{part.error().code, "'" + nameOf(file) + "': " + part.error().message};
+  }
+
+  Result<std::optional<HttpPart>> askNow(const std::string& file, uint64_t first, size_t count) try {
     return client_->get(address_ + "/" + file, first, count, memory_);
   } catch (const std::bad_alloc&) {
-    outage_.isUnknown();
+    outage_.gaveUp();
     throw;
   }
+
+  /// The right to ask, where it comes soon enough.
+  struct Slot {
+    Server& server;
+    bool is_free;
+    explicit Slot(Server& of) : server(of) {
+      std::unique_lock lock(server.mutex_);
+      is_free = server.ended_.wait_for(lock, kLongestWait, [this] { return server.running_ < kMostRequests; });
+      server.running_ += is_free;
+    }
+    ~Slot() {
+      if (!is_free) return;
+      {
+        const std::lock_guard lock(server.mutex_);
+        --server.running_;
+      }
+      server.ended_.notify_one();
+    }
+    Slot(const Slot&) = delete;
+    Slot& operator=(const Slot&) = delete;
+  };
 
   void tell(const std::string& message) const {
     if (log_) log_(message);
@@ -123,27 +150,29 @@ class Server {
   std::pmr::memory_resource* const memory_;
   Outage outage_;
   BlockCache blocks_;
-  std::mutex mutex_;
-  std::map<std::string, uint64_t> numbers_;
+  std::mutex mutex_;  ///< of all below
+  std::condition_variable ended_;
+  int running_ = 0;
+  std::map<std::pair<std::string, uint64_t>, FileState> files_;
 };
 
 class HttpFile final : public StoredFile {
  public:
   HttpFile(std::shared_ptr<Server> server, std::string file, uint64_t bytes)
-      : server_(std::move(server)), file_(std::move(file)), number_(server_->numberOf(file_)), bytes_(bytes) {}
+      : server_(std::move(server)), file_(std::move(file)), bytes_(bytes) {}
 
   uint64_t size() const override { return bytes_; }
   Result<std::pmr::vector<std::byte>> read(uint64_t offset, size_t bytes,
                                            std::pmr::memory_resource* memory) const override {
     if (offset > bytes_ || bytes > bytes_ - offset)
       return Error{Code::io, "'" + server_->nameOf(file_) + "' ends before byte " + std::to_string(offset + bytes)};
-    return server_->read(file_, number_, bytes_, offset, bytes, memory);
+    return server_->read(file_, bytes_, offset, bytes, memory);
   }
 
  private:
   const std::shared_ptr<Server> server_;
   const std::string file_;
-  const uint64_t number_, bytes_;
+  const uint64_t bytes_;
 };
 
 class HttpFiles final : public StoreFiles {
@@ -168,23 +197,18 @@ class HttpFiles final : public StoreFiles {
   const std::shared_ptr<Server> server_;
 };
 
-/// Without the name and password that it may have, which belong into no log.
-std::string shownAs(const std::string& address) {
-  const size_t host = address.find("//") + 2, path = address.find('/', host);
-  const size_t at = address.substr(0, path).rfind('@');
-  if (at == std::string::npos || at < host) return address;
-  return address.substr(0, host) + address.substr(at + 1);
-}
-
 }  // namespace
 
 Result<std::unique_ptr<StoreFiles>> httpFiles(const std::string& address, const Log& log,
                                               std::pmr::memory_resource* memory) {
   std::string own = address;
   while (own.size() > 1 && own.back() == '/') own.pop_back();
-  const std::string shown = shownAs(own);
-  const size_t host = own.find("//") + 2;
-  const bool has_host = own.find("//") != std::string::npos && host < own.size() && own[host] != '/';
+  const std::string shown = shownPlace(own);
+  std::string scheme = own.substr(0, own.find(':'));
+  std::transform(scheme.begin(), scheme.end(), scheme.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  const size_t host = scheme.size() + 3;
+  const bool has_host = (scheme == "http" || scheme == "https") && host < own.size() && own[host] != '/';
   const bool is_plain =
       std::all_of(own.begin(), own.end(), [](char c) { return c > ' ' && c < 0x7F && c != '?' && c != '#'; });
   if (!has_host || !is_plain)

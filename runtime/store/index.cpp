@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t kIndexMagic = 0x574D4753;  // "SGMW"
 constexpr size_t kIndexHead = 8, kEntryBytes = 4 * 4 + 8 + 4 + 4 + 8;
-constexpr uint32_t kMostRecord = uint32_t{1} << 24;
+constexpr uint32_t kMostRecord = uint32_t{1} << 24, kMostFrame = kMostRecord + kMostRecord / 128;
 
 std::vector<std::byte> directoryOf(std::span<const TileEntry> tiles) {
   std::vector<std::byte> bytes;
@@ -111,7 +111,7 @@ Result<WorldIndex> readIndex(const StoredFile& file, std::pmr::memory_resource* 
     tile.bytes = entries.get<uint32_t>();
     tile.checksum = entries.get<uint64_t>();
     if (tile.key != key || tile.offset < kIndexHead || tile.offset > offset || tile.stored > offset - tile.offset ||
-        tile.bytes > kMostRecord)
+        tile.bytes > kMostRecord || tile.stored > kMostFrame)
       return damaged("its directory leads nowhere");
     index.tiles.push_back(tile);
   }

@@ -42,6 +42,14 @@ Result<OpenStore::World> OpenStore::worldOf(const ContentId& key) {
     const std::lock_guard lock(mutex_);
     if (const auto known = worlds_.find(key); known != worlds_.end()) return known->second;
   }
+  // Nobody waits for a server that somebody asks already; a disk answers at once.
+  std::unique_lock opening(opening_, std::defer_lock);
+  if (files_->isFar() && !opening.try_lock()) return Error{Code::busy, "the index is being read"};
+  if (!opening) opening.lock();
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = worlds_.find(key); known != worlds_.end()) return known->second;
+  }
   const Result<bool> is_store = isStore();
   if (!is_store) return is_store.error();
   const auto settle = [&](World world) {
@@ -135,7 +143,8 @@ Result<std::pmr::vector<std::byte>> OpenStore::bytesOf(const TileRecord& record,
   if (!frame) return frame.error();
   std::optional<std::pmr::vector<std::byte>> bytes = unpacker_.unpack(*frame, content.bytes, memory);
   if (bytes && idOf(*bytes) == content.id) return std::move(*bytes);
-  return Error{Code::io, "'" + files_->nameOf(packFileName(pack.name)) + "' is damaged: sgm store verify says where"};
+  return Error{Code::io, "'" + files_->nameOf(packFileName(pack.name)) + "' is damaged" +
+                             (files_->isFar() ? "" : ": sgm store verify says where")};
 }
 
 Result<std::optional<FoundPart>> OpenStore::find(const ContentId& world, const ChunkKey& chunk, int part,
@@ -152,7 +161,7 @@ Result<std::optional<FoundPart>> OpenStore::find(const ContentId& world, const C
   Result<std::pmr::vector<std::byte>> bytes = bytesOf(record, content, memory);
   if (bytes) return std::optional(FoundPart{content.stored, std::move(*bytes)});
   if (bytes.error().code == Code::busy) return bytes.error();
-  return told(packFileName(record.packs[content.pack].name), bytes.error().message);
+  return told(files_->nameOf(packFileName(record.packs[content.pack].name)), bytes.error().message);
 }
 
 void OpenStore::reject(const ContentId& world, const ChunkKey& chunk, int part) {

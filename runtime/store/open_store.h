@@ -78,7 +78,8 @@ class OpenStore {
   const Tell tell_;
   std::pmr::memory_resource* const memory_;
   Unpacker unpacker_;
-  std::mutex mutex_;  ///< of all below
+  std::mutex opening_;  ///< who reads an index
+  std::mutex mutex_;    ///< of all below
   std::optional<bool> is_store_;
   std::pmr::map<ContentId, World> worlds_;
   std::pmr::list<KeptRecord> kept_;  ///< the latest used first

@@ -16,6 +16,11 @@ class StoreSource final : public BakedParts {
 
   Result<void> open(const std::string& place) {
     Result<std::unique_ptr<StoreFiles>> files = storeFiles(place, log_, memory_);
+    if (!files && files.error().code == Code::unsupported) {
+      // As with a server that does not answer: the world is the same without.
+      if (log_) log_("'" + shownPlace(place) + "': " + files.error().message + "; chunks are derived instead");
+      return {};
+    }
     if (!files) return files.error();
     if (!(*files)->isFar()) {
       if (Result<void> good = checkFormat(**files); !good) return good;
@@ -27,8 +32,8 @@ class StoreSource final : public BakedParts {
 
   DiskKey worldOf(std::span<const std::byte> inputs) const override { return idOf(inputs); }
 
-  std::optional<std::pmr::vector<std::byte>> get(const DiskKey& world, const ChunkKey& chunk, int part,
-                                                 std::pmr::memory_resource* memory) override {
+  std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part,
+                               std::pmr::memory_resource* memory) override {
     bool damaged = false;
     for (const auto& store : stores_) {
       Result<std::optional<FoundPart>> found = store->find(world, chunk, part, memory);
@@ -37,7 +42,7 @@ class StoreSource final : public BakedParts {
       const std::lock_guard lock(mutex_);
       ++stats_.hits;
       stats_.bytes += (*found)->stored;
-      return std::move((*found)->bytes);
+      return BakedPart{std::move((*found)->bytes), store->files().isFar()};
     }
     const std::lock_guard lock(mutex_);
     ++stats_.misses;

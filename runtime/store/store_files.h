@@ -40,6 +40,14 @@ class StoreFiles {
   virtual void stop() noexcept {}
 };
 
+/// Whether a place is meant as an address, of whatever kind: "x://".
+bool isAddress(const std::string& place);
+/// An address without the name and password that it may have, which belong into no log; others as they are.
+std::string shownPlace(const std::string& place);
+
+/// invalid_argument: the place is an address, and the caller works in folders.
+Result<void> checkHere(const std::string& place);
+
 /// Of a folder's path, or of the address of a folder on a server (http_files.h); neither is looked at. log, memory
 /// (thread-safe): must outlive them; only servers use them. bad_input: the address is none; unsupported: this build, or
 /// machine, reads from no server.

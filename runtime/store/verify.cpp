@@ -18,6 +18,18 @@ std::string placeOf(const ChunkKey& chunk) {
          std::to_string(chunk.at.z) + ") of level " + std::to_string(chunk.level);
 }
 
+/// The one part that is in a content; none where there are several, or another's triangles.
+std::optional<int> partOf(const ChunkRecord& chunk) {
+  std::optional<int> part = chunk.seams == 0 ? std::optional(0) : std::nullopt;
+  for (int face = 0; face < 6; ++face) {
+    if (chunk.seams == 1 << face) part = 1 + face;
+  }
+  for (int other = 0; part && other < kChunkParts; ++other) {
+    if (other != *part && chunk.mesh.ranges[static_cast<size_t>(other)].index_count != 0) return std::nullopt;
+  }
+  return part;
+}
+
 class Verifier {
  public:
   Verifier(const Folder& store, const WorldFile& world)
@@ -39,6 +51,10 @@ class Verifier {
   }
 
  private:
+  struct Looked {
+    std::optional<int> part;  ///< none where the content is wrong
+    BorderSums borders;
+  };
   using Pack = std::shared_ptr<const OpenFile>;
 
   void look(const TileEntry& entry) {
@@ -46,8 +62,8 @@ class Verifier {
     if (!record) return found_.problems.add(record.error().message);
     std::vector<Pack> packs;
     for (const PackFile& pack : record->packs) packs.push_back(open(pack));
-    std::vector<BorderSums> borders;
-    for (const StoredContent& content : record->contents) borders.push_back(lookAt(*record, content, packs));
+    std::vector<Looked> looked;
+    for (const StoredContent& content : record->contents) looked.push_back(lookAt(*record, content, packs));
     for (const size_t number : chunksIn(world_.index.region, entry.key)) {
       ++found_.chunks;
       const ChunkKey chunk = chunkOf(entry.key, number);
@@ -57,9 +73,13 @@ class Verifier {
         const StoredContent* content = record->contentOf(number, part);
         if (content == nullptr) {
           found_.problems.add("'" + world_.name + "': a part of " + placeOf(chunk) + " is missing");
-        } else {
-          parts[static_cast<size_t>(part)] = &borders[static_cast<size_t>(content - record->contents.data())];
+          continue;
         }
+        const Looked& of_part = looked[static_cast<size_t>(content - record->contents.data())];
+        if (of_part.part && *of_part.part != part)
+          found_.problems.add("'" + world_.name + "': part " + std::to_string(part) + " of " + placeOf(chunk) +
+                              " is another part's content");
+        parts[static_cast<size_t>(part)] = &of_part.borders;
       }
       closure_.add(chunk, parts);
     }
@@ -89,11 +109,11 @@ class Verifier {
 
   /// Whether the content is all right, and the borders of what is in it. Where it is not its borders are none, and
   /// open.
-  BorderSums lookAt(const TileRecord& record, const StoredContent& content, std::span<const Pack> packs) {
+  Looked lookAt(const TileRecord& record, const StoredContent& content, std::span<const Pack> packs) {
     known_.insert(content.id);
     const auto wrong = [&] {
       found_.problems.add("content " + nameOf(content.id) + " of '" + world_.name + "' is missing or damaged");
-      return BorderSums{};
+      return Looked{};
     };
     std::pmr::vector<std::byte> bytes(memory_);
     if (content.pack == kInlined) {
@@ -110,10 +130,9 @@ class Verifier {
     if (idOf(bytes) != content.id) return wrong();
     const Result<ChunkRecord> chunk = decodeChunk(bytes, memory_);
     if (!chunk) return wrong();
-    for (int part = 0; part < kChunkParts; ++part) {
-      if (chunk->mesh.ranges[static_cast<size_t>(part)].index_count != 0) return bordersOf(chunk->mesh, part);
-    }
-    return {};
+    const std::optional<int> part = partOf(*chunk);
+    if (!part) return wrong();
+    return {part, bordersOf(chunk->mesh, *part)};
   }
 
   struct IdHash {

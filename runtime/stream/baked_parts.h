@@ -16,6 +16,11 @@ struct BakedStats {
   uint64_t bytes = 0;             ///< read for hits, as they are stored
 };
 
+struct BakedPart {
+  std::pmr::vector<std::byte> bytes;
+  bool is_far = false;  ///< took its time to come: who has a disk cache keeps it there
+};
+
 /// Read only. Thread-safe.
 class BakedParts {
  public:
@@ -27,13 +32,13 @@ class BakedParts {
   /// As encodeChunkPart made it of that world without edits, in `memory`: a body of level 0 with its anchors and voids,
   /// a seam as one to the next level; compared with a hash of all its bytes. None where it is not there, or cannot be
   /// read, or trusted. Takes as long as the disk does. Throws std::bad_alloc.
-  virtual std::optional<std::pmr::vector<std::byte>> get(const DiskKey& world, const ChunkKey& chunk, int part,
-                                                         std::pmr::memory_resource* memory) = 0;
+  virtual std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part,
+                                       std::pmr::memory_resource* memory) = 0;
 
   /// What get gave is none: counts a damaged miss instead of the hit, and is not given again.
   virtual void reject(const DiskKey& world, const ChunkKey& chunk, int part) = 0;
 
-  /// Whether some lie where each takes its time: who has a disk cache looks there first, and keeps them in it.
+  /// Whether some may be far: who has a disk cache looks there first.
   virtual bool isFar() const = 0;
 
   /// Nobody has to wait any more: all that follows may be misses.

@@ -16,19 +16,24 @@ std::optional<ChunkPart> fetch(DiskCache& cache, const ChunkPartInputs& inputs, 
   return found;
 }
 
-std::optional<ChunkPart> fetchBaked(BakedParts& baked, const DiskKey& world, const ChunkPartInputs& inputs, int part,
-                                    std::pmr::memory_resource* memory) {
+struct FoundBaked {
+  ChunkPart part;
+  bool is_far;
+};
+
+std::optional<FoundBaked> fetchBaked(BakedParts& baked, const DiskKey& world, const ChunkPartInputs& inputs, int part,
+                                     std::pmr::memory_resource* memory) {
   const ChunkRequest& request = inputs.request();
-  const auto bytes = baked.get(world, request.key, part, memory);
-  if (!bytes) return std::nullopt;
-  std::optional<ChunkPart> found = decodeChunkPart(*bytes, part, inputs.asBaked(), memory, BytesAre::whole);
+  const auto stored = baked.get(world, request.key, part, memory);
+  if (!stored) return std::nullopt;
+  std::optional<ChunkPart> found = decodeChunkPart(stored->bytes, part, inputs.asBaked(), memory, BytesAre::whole);
   if (!found) {
     baked.reject(world, request.key, part);
     return std::nullopt;
   }
   if (!request.anchors) found->anchors.clear();
   if (!request.signs) found->voids.clear();
-  return found;
+  return FoundBaked{std::move(*found), stored->is_far};
 }
 
 /// Of a store that is far away, what is worth more than a look at its record.
@@ -43,14 +48,18 @@ void keepBaked(DiskCache& cache, const ChunkPartInputs& inputs, int part, const 
 /// Of the disk cache and the stores first what is nearer.
 std::optional<ChunkPart> lookUp(DiskCache* cache, BakedParts* baked, const DiskKey& world,
                                 const ChunkPartInputs& inputs, int part, std::pmr::memory_resource* memory) {
-  const bool is_far = baked != nullptr && baked->isFar();
-  std::optional<ChunkPart> found;
-  if (is_far && cache != nullptr) found = fetch(*cache, inputs, part, memory);
-  if (found) return found;
-  if (baked != nullptr && inputs.isAsBaked(part)) found = fetchBaked(*baked, world, inputs, part, memory);
-  if (found && is_far && cache != nullptr) keepBaked(*cache, inputs, part, *found, memory);
-  if (!found && !is_far && cache != nullptr) found = fetch(*cache, inputs, part, memory);
-  return found;
+  const bool cache_first = cache != nullptr && baked != nullptr && baked->isFar();
+  std::optional<ChunkPart> kept;
+  if (cache_first) kept = fetch(*cache, inputs, part, memory);
+  if (kept) return kept;
+  if (baked != nullptr && inputs.isAsBaked(part)) {
+    if (auto found = fetchBaked(*baked, world, inputs, part, memory)) {
+      if (found->is_far && cache != nullptr) keepBaked(*cache, inputs, part, found->part, memory);
+      return std::move(found->part);
+    }
+  }
+  if (!cache_first && cache != nullptr) kept = fetch(*cache, inputs, part, memory);
+  return kept;
 }
 
 void leaveOut(int part, ChunkRequest& request) {

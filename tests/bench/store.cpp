@@ -127,8 +127,8 @@ int main(int argc, char** argv) {
       const double begun = bench::now();
       for (int part = 0; part < kChunkParts; ++part) {
         if (!asksFor(request, part)) continue;
-        if (!decodeChunkPart(*source->get(key, request.key, part, memory), part, inputs, memory, BytesAre::whole))
-          return 1;
+        const auto part_there = source->get(key, request.key, part, memory);
+        if (!part_there || !decodeChunkPart(part_there->bytes, part, inputs, memory, BytesAre::whole)) return 1;
       }
       decoding.push_back(bench::now() - begun);
     }

@@ -1300,9 +1300,10 @@ typedef struct sgm_world_desc {
                                 Chunks that a store has of this world (grammar, parameters, seed, cells,
                                 SGM_WORLD_SHARP, the library's meshing) are read instead of being derived, with the same
                                 bytes; edits lie on top. What it does not have, or is damaged there, is derived: the
-                                first time the log is told. A server is first asked when chunks are wanted; one that does
-                                not answer holds threads of the job system up for a few seconds, is told to the log and
-                                left alone for a while. 32 MiB of what servers sent are kept in memory */
+                                first time the log is told. A server is first asked when chunks are wanted: threads of the
+                                job system, and who helps them, wait for it, for some seconds where it does not answer
+                                and ten at most; then it is told to the log and left alone for a while. So it is where
+                                there is no libcurl. 32 MiB of what each sent are kept in memory */
   uint32_t store_count;
   uint32_t reserved; /* 0 */
 } sgm_world_desc;

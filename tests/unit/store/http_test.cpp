@@ -2,8 +2,9 @@
 
 #include <thread>
 
+#include "failing_memory.h"
 #include "file_server.h"
-#include "store/http_files.h"
+#include "store/outage.h"
 #include "store_support.h"
 
 using namespace sgm;
@@ -52,14 +53,18 @@ TEST_CASE("a store on a server is read as one in a folder", "[store][threads]") 
   const Baked baked;
   FileServer server(baked.folder.path);
   Told told;
-  const auto far = sourceAt(server.address() + "/", told.log()), near = sourceAt(baked.folder.path.string());
+  const auto far = sourceAt(server.address() + "/", told.log());
+  const auto near = sourceAt(baked.folder.path.string());
   CHECK(server.requests == 0);
+  // Who comes while another reads the index does not wait for it.
+  CHECK(baked.unlike(*far) == 0);
   std::atomic<size_t> unlike = 0;
   std::vector<std::thread> threads;
   for (size_t t = 0; t < 4; ++t) threads.emplace_back([&, t] { unlike += baked.unlike(*far, nullptr, 2 * t + 1); });
   for (std::thread& thread : threads) thread.join();
   CHECK(unlike == 0);
   for (size_t t = 0; t < 4; ++t) CHECK(baked.unlike(*near, nullptr, 2 * t + 1) == 0);
+  CHECK(baked.unlike(*near) == 0);
   CHECK(far->stats().hits == near->stats().hits);
   CHECK(far->stats().hits > 0);
   CHECK(far->stats().bytes == near->stats().bytes);
@@ -178,29 +183,153 @@ TEST_CASE("nobody waits for a silent server once reading is stopped", "[store][t
   server.fault = Fault::is_silent;
   Told told;
   const auto source = sourceAt(server.address(), told.log());
-  std::thread reader([&] { CHECK(baked.unlike(*source) == 0); });
+  std::atomic<size_t> unlike = 0;
+  std::thread reader([&] { unlike += baked.unlike(*source); });
   while (server.requests == 0) std::this_thread::yield();
+  const auto stopped = std::chrono::steady_clock::now();
   source->stop();
   reader.join();
-  CHECK(baked.unlike(*source) == 0);
+  // By itself it would end after four seconds, and libcurl looks up once a second.
+  CHECK(std::chrono::steady_clock::now() - stopped < std::chrono::milliseconds(3500));
+  unlike += baked.unlike(*source);
+  CHECK(unlike == 0);
   CHECK(source->stats().hits == 0);
   CHECK(server.requests == 1);
   CHECK(told.messages.empty());
 }
 
+TEST_CASE("a file that cannot be had is asked for once, and costs what lies in it", "[store]") {
+  const Baked baked(12);
+  const CacheFolder lacking;
+  fs::copy(baked.folder.path, lacking.path, fs::copy_options::recursive);
+  size_t removed = 0;
+  for (const fs::path& file : lacking.files()) {
+    if (file.extension() == ".sgmp") removed += fs::remove(file);
+  }
+  REQUIRE(removed > 0);
+  FileServer server(lacking.path);
+  Told told;
+  const auto source = sourceAt(server.address(), told.log());
+  CHECK(baked.unlike(*source) == 0);
+  const int requests = server.requests;
+  CHECK(baked.unlike(*source) == 0);
+  CHECK(server.requests == requests);
+  CHECK(source->stats().damaged > 0);
+  CHECK(!told.messages.empty());
+  CHECK(told.messages.size() <= removed);
+}
+
+TEST_CASE("memory that gives out while a server is read costs a try", "[store]") {
+  const Baked baked(2);
+  FileServer server(baked.folder.path);
+  bool troubled = true;
+  int64_t n = 0;
+  for (; troubled; n += 1 + n / 8) {
+    CAPTURE(n);
+    Failing memory;
+    Told told;
+    {
+      const auto opened = store::openStores(std::array{server.address()}, told.log(), &memory);
+      REQUIRE(opened);
+      BakedParts& source = **opened;
+      memory.until = n;
+      memory.failures = 1 + n % 3;
+      ChunkMesher mesher = baked.baking.machine.mesher(baked.baking.world, nullptr);
+      mesher.baked = &source;
+      mesher.memory = &memory;
+      for (size_t i = 0; i < baked.requests.size(); ++i) {
+        std::optional<Result<MeshedChunk>> chunk;
+        while (!chunk || !*chunk) chunk.emplace(mesher.mesh(baked.requests[i], nullptr));
+        CHECK(same(**chunk, baked.expected[i]));
+      }
+      CHECK(source.stats().hits > 0);
+      CHECK(source.stats().damaged == 0);
+      CHECK(told.messages.empty());
+      troubled = memory.failed > 0;
+    }
+    CHECK(memory.live == 0);
+  }
+  CHECK(n > 20);
+}
+
+TEST_CASE("an outage is told once a minute, and rests grow until it has been well for one", "[store]") {
+  using Look = store::Outage::Look;
+  store::Outage outage;
+  store::Outage::Clock::time_point now{std::chrono::hours(1)};
+  const auto pass = [&](double seconds) {
+    now += std::chrono::duration_cast<store::Outage::Clock::duration>(std::chrono::duration<double>(seconds));
+  };
+  CHECK(outage.look(now) == Look::there);
+  const auto early = now;
+  pass(1);
+  CHECK(outage.failed(early, now));
+  CHECK(!outage.failed(early, now));
+  // What was asked before says nothing of now.
+  CHECK(!outage.answered(early, now));
+  for (double rest : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 60.0, 60.0}) {
+    CAPTURE(rest);
+    pass(rest - 0.1);
+    CHECK(outage.look(now) == Look::away);
+    pass(0.2);
+    CHECK(outage.look(now) == Look::find_out);
+    CHECK(outage.look(now) == Look::away);
+    outage.gaveUp();
+    CHECK(outage.look(now) == Look::find_out);
+    const auto begun = now;
+    pass(0.1);
+    CHECK(!outage.failed(begun, now));
+  }
+  pass(61);
+  CHECK(outage.look(now) == Look::find_out);
+  auto begun = now;
+  pass(0.1);
+  CHECK(outage.answered(begun, now));
+  CHECK(outage.look(now) == Look::there);
+  // Again, soon after: told, for the last time was long ago; not answered at once.
+  begun = now;
+  pass(0.1);
+  CHECK(outage.failed(begun, now));
+  pass(30);
+  CHECK(outage.look(now) == Look::away);
+  pass(31);
+  CHECK(outage.look(now) == Look::find_out);
+  begun = now;
+  pass(0.1);
+  CHECK(outage.answered(begun, now));
+  pass(100);
+  begun = now;
+  pass(0.1);
+  CHECK(outage.failed(begun, now));
+  pass(1.1);
+  CHECK(outage.look(now) == Look::find_out);
+  // On and off: nobody is told of it each time.
+  begun = now;
+  pass(0.1);
+  CHECK(outage.answered(begun, now));
+  begun = now;
+  pass(0.1);
+  CHECK(!outage.failed(begun, now));
+  pass(3);
+  CHECK(outage.look(now) == Look::find_out);
+  begun = now;
+  pass(0.1);
+  CHECK(!outage.answered(begun, now));
+}
+
 TEST_CASE("addresses that are none are refused, and passwords stay unsaid", "[store]") {
   for (const char* address : {"http://", "http:///path", "https://host/a?b", "http://host/#x", "http://host/a b",
-                              "http://user:secret@host/\xC3\xA4"}) {
+                              "http://user:secret@host/\xC3\xA4", "ftp://user:secret@host/x",
+                              "HTTPS://user:secret@host/?", "http://me:se/secret@host/x?"}) {
     CAPTURE(address);
-    const auto files = store::httpFiles(address, {}, std::pmr::get_default_resource());
+    const auto files = store::storeFiles(address, {}, std::pmr::get_default_resource());
     REQUIRE(!files);
     CHECK(files.error().code == Code::bad_input);
     CHECK(files.error().message.find("secret") == std::string::npos);
   }
-  const auto files = store::httpFiles("http://user:secret@host:99/store//", {}, std::pmr::get_default_resource());
+  const auto files = store::storeFiles("http://user:secret@host:99/store//", {}, std::pmr::get_default_resource());
   REQUIRE(files);
   CHECK((*files)->nameOf("format") == "http://host:99/store/format");
-  const auto plain = store::httpFiles("https://host/a@b", {}, std::pmr::get_default_resource());
+  const auto plain = store::storeFiles("https://host/a@b", {}, std::pmr::get_default_resource());
   REQUIRE(plain);
   CHECK((*plain)->nameOf("") == "https://host/a@b");
 }

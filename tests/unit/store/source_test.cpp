@@ -3,6 +3,7 @@
 #include <atomic>
 #include <thread>
 
+#include "failing_memory.h"
 #include "store_support.h"
 
 using namespace sgm;
@@ -12,28 +13,6 @@ namespace {
 std::shared_ptr<BakedParts> sourceOf(const fs::path& folder, store::Log log = {}) {
   return sourceAt(folder.string(), std::move(log));
 }
-
-/// Gives out after so many allocations, for as long as is said.
-class Failing final : public std::pmr::memory_resource {
- public:
-  std::atomic<int64_t> until = INT64_MAX, failures = 0, live = 0;
-  std::atomic<int64_t> failed = 0;
-
- private:
-  void* do_allocate(size_t size, size_t alignment) override {
-    if (--until < 0 && --failures >= 0) {
-      ++failed;
-      throw std::bad_alloc();
-    }
-    ++live;
-    return std::pmr::new_delete_resource()->allocate(size, alignment);
-  }
-  void do_deallocate(void* memory, size_t size, size_t alignment) override {
-    --live;
-    std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
-  }
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-};
 
 }  // namespace
 
