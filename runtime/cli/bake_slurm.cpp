@@ -18,12 +18,11 @@ namespace fs = std::filesystem;
 /// Slurm's controller answers many; once in a while is enough.
 constexpr auto kBetweenLooks = std::chrono::seconds(1);
 
-void report(const BakeOptions& options, const SlurmBake& bake, const SlurmJobs& jobs, const SlurmState& state,
-            bool there) {
+void report(const BakeOptions& options, const SlurmJobs& jobs, const SlurmState& state, bool there) {
   if (options.json) {
     fmt::print("{}\n",
                Json{{"jobs", {{"shards", jobs.shards}, {"merge", jobs.merge}, {"verification", jobs.verification}}},
-                    {"shards", bake.shards},
+                    {"shards", jobs.count},
                     {"waiting", state.waiting},
                     {"running", state.running},
                     {"failed", state.failed},
@@ -34,7 +33,7 @@ void report(const BakeOptions& options, const SlurmBake& bake, const SlurmJobs& 
     return;
   }
   fmt::print("{}: jobs {}, {} and {}: {} of {} shards wait, {} run, {} failed; merge {}, verification {}\n",
-             options.out, jobs.shards, jobs.merge, jobs.verification, state.waiting, bake.shards, state.running,
+             options.out, jobs.shards, jobs.merge, jobs.verification, state.waiting, jobs.count, state.running,
              state.failed, state.merge.empty() ? "not known" : state.merge,
              state.verification.empty() ? "not known" : state.verification);
 }
@@ -79,14 +78,14 @@ Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std:
   {
     ProgressBar bar("baking");
     while (state && !options.detach && !state->ended) {
-      bar.show(bake->shards - std::min(bake->shards, state->waiting + state->running), bake->shards);
+      bar.show(jobs->count - std::min(jobs->count, state->waiting + state->running), jobs->count);
       std::this_thread::sleep_for(kBetweenLooks);
       state = stateOf(*jobs);
     }
   }
   if (!state) return complain(state.error());
   const Result<bool> there = isThere();
-  report(options, *bake, *jobs, *state, there && *there);
+  report(options, *jobs, *state, there && *there);
   if (options.detach) return Exit::done;
   if (!there) return complain(there.error());
   if (*there && state->verification == "COMPLETED") return Exit::done;

@@ -94,9 +94,7 @@ Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake) {
   if (!bytes) return std::optional<SlurmJobs>();
   std::istringstream text(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
   SlurmJobs jobs;
-  uint64_t shards = 0;
-  if (!(text >> jobs.shards >> jobs.merge >> jobs.verification >> shards) || shards != bake.shards)
-    return std::optional<SlurmJobs>();
+  if (!(text >> jobs.shards >> jobs.merge >> jobs.verification >> jobs.count)) return std::optional<SlurmJobs>();
   const Result<SlurmState> state = stateOf(jobs);
   if (!state) return state.error();
   return state->ended ? std::optional<SlurmJobs>() : std::optional<SlurmJobs>(jobs);
@@ -104,6 +102,7 @@ Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake) {
 
 Result<SlurmJobs> submitJobs(const SlurmBake& bake) {
   SlurmJobs jobs;
+  jobs.count = bake.shards;
   const auto log = [&](const std::string& name) { return "--output=" + (bake.folder / name).string(); };
   const std::string threads = " --threads \"${SLURM_CPUS_PER_TASK:-1}\"";
   Result<std::string> number = submit(

@@ -23,6 +23,7 @@ struct SlurmBake {
 /// Numbers of jobs.
 struct SlurmJobs {
   std::string shards, merge, verification;
+  uint64_t count = 0;  ///< of shards
 };
 
 struct SlurmState {
@@ -32,7 +33,7 @@ struct SlurmState {
   bool ended = false;               ///< nothing of it is in the queue
 };
 
-/// Jobs of an earlier call that wait or run still; none where there are none.
+/// Jobs of an earlier call, of whatever count of shards, that wait or run still; none where there are none.
 Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake);
 /// io: sbatch is not there, or refuses; the message has what it says. No job stays where one could not be submitted.
 Result<SlurmJobs> submitJobs(const SlurmBake& bake);

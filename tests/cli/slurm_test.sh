@@ -48,6 +48,10 @@ cluster_kill_node_of "$work/hurt.*--shard [0-9]+/3" || failed "no shard has been
   done
 ) >/dev/null 2>&1 &
 hurry=$!
+# Whatever count is named: what is under way is not begun anew.
+expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 5 --detach --json
+err_has 'are under way'
+json 'j.shards === 3'
 expect 0 "$SGM" bake "${world[@]}" --out hurt --slurm 3 --json
 err_has 'are under way'
 json 'j.baked && j.failed === 0 && j.verification === "COMPLETED"'
