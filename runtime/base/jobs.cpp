@@ -27,7 +27,7 @@ struct Job {
 
 class ThreadPool final : public JobSystem {
  public:
-  explicit ThreadPool(const Profiler& profiler) : profiler_(profiler) {}
+  ThreadPool(const Profiler& profiler, const char* names) : profiler_(profiler), names_(names) {}
   /// To be called once, before anything else. An error where not one thread starts.
   Result<void> start(unsigned workers) {
     const unsigned wanted = std::max(1u, workers - 1);
@@ -76,7 +76,7 @@ class ThreadPool final : public JobSystem {
  private:
   void work(size_t number) {
     char name[32];
-    std::snprintf(name, sizeof name, "sgm worker %zu", number);
+    std::snprintf(name, sizeof name, "%s %zu", names_, number);
     profiler_.nameThread(name);
     for (;;) {
       Job job;
@@ -92,6 +92,7 @@ class ThreadPool final : public JobSystem {
   }
 
   const Profiler profiler_;
+  const char* const names_;
   std::mutex mutex_;
   std::condition_variable wake_;
   std::priority_queue<Job> queue_;
@@ -137,9 +138,9 @@ void runShare(void* argument) noexcept {
 
 }  // namespace
 
-Result<std::unique_ptr<JobSystem>> makeThreadPool(unsigned workers, const Profiler& profiler) {
+Result<std::unique_ptr<JobSystem>> makeThreadPool(unsigned workers, const Profiler& profiler, const char* names) {
   if (workers == 0) workers = std::max(1u, std::thread::hardware_concurrency());
-  auto pool = std::make_unique<ThreadPool>(profiler);
+  auto pool = std::make_unique<ThreadPool>(profiler, names);
   if (Result<void> started = pool->start(workers); !started) return started.error();
   return std::unique_ptr<JobSystem>(std::move(pool));
 }

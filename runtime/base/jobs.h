@@ -30,9 +30,11 @@ class JobSystem {
 };
 
 /// Threads of our own. workers = 0: one for each processor. Where the machine does not let all of them start, those
-/// that did do the work, and concurrency() says how many. The profiler is told their names: "sgm worker 1" and so on.
-/// Errors, where not one thread starts: limit, out_of_memory.
-Result<std::unique_ptr<JobSystem>> makeThreadPool(unsigned workers, const Profiler& profiler = {});
+/// that did do the work, and concurrency() says how many. The profiler is told their names: "sgm worker 1" and so on;
+/// `names`, short and of static lifetime, in place of "sgm worker". Errors, where not one thread starts: limit,
+/// out_of_memory.
+Result<std::unique_ptr<JobSystem>> makeThreadPool(unsigned workers, const Profiler& profiler = {},
+                                                  const char* names = "sgm worker");
 
 /// Runs body(i) for i in [0, count) on the job system and returns when all are done; the caller's thread works too.
 /// The first exception of a body is thrown again here, after all have ended.

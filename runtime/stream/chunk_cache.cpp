@@ -1,6 +1,5 @@
 #include "stream/chunk_cache.h"
 
-#include "stream/chunk_part.h"
 #include "stream/reachability.h"
 
 namespace sgm {
@@ -97,45 +96,63 @@ void place(ChunkPart&& found, int part, PlacedChunk& chunk, VoidComponents& void
   seams[static_cast<size_t>(part - 1)] = std::move(found.mesh);
 }
 
-/// One order between what the disk had and what is handed out.
+ChunkRequest completed(ChunkRequest request, bool sharp) {
+  request.sharp = sharp;
+  if (!request.body) request.signs = request.anchors = false;
+  return request;
+}
+
+/// None where nothing is kept of such a request.
+std::optional<ChunkPartInputs> inputsOf(const ChunkMesher& mesher, const ChunkRequest& request,
+                                        const EditSnapshot* edits) {
+  if ((mesher.cache == nullptr && mesher.baked == nullptr) || !mesher.backend.capabilities().exact) return {};
+  return ChunkPartInputs::of(mesher.world, request, edits);
+}
+
+FoundParts lookUp(const ChunkMesher& mesher, BakedParts* baked, const ChunkPartInputs& inputs) {
+  const ChunkRequest& request = inputs.request();
+  FoundParts found;
+  DiskKey world;
+  if (baked != nullptr) world = baked->worldOf(*bakedWorldInputs(mesher.world, request.sharp));
+  for (int part = 0; part < kChunkParts; ++part) {
+    if (asksFor(request, part))
+      found[static_cast<size_t>(part)] = lookUp(mesher.cache, baked, world, inputs, part, mesher.memory);
+  }
+  return found;
+}
+
+/// One order between what there was and what is handed out.
 struct InWork {
-  ChunkRequest request, rest;  ///< rest: without what the disk had
+  ChunkRequest request, rest;  ///< rest: without what was found
   const ChunkSurface* before;
   std::optional<ChunkPartInputs> inputs;
-  std::array<std::optional<ChunkPart>, kChunkParts> found;
+  FoundParts found;
   PlacedChunk chunk;
   VoidComponents voids;
   std::optional<Error> error;
 
   InWork(const ChunkOrder& order, bool sharp, std::pmr::memory_resource* memory)
-      : request(order.request),
+      : request(completed(order.request, sharp)),
+        rest(request),
         before(order.before),
         chunk{order.request.key, {}, ChunkMesh(memory), {}},
-        voids(memory) {
-    request.sharp = sharp;
-    if (!request.body) request.signs = request.anchors = false;
-    rest = request;
-  }
+        voids(memory) {}
   bool isToMesh() const { return !error && (rest.body || rest.seams != 0); }
 };
 
-void lookUp(const ChunkMesher& mesher, const EditSnapshot* edits, InWork& work) {
+void begin(const ChunkMesher& mesher, const EditSnapshot* edits, FoundParts* found, InWork& work) {
   const Result<ChunkGrid> grid = chunkGrid(mesher.world, work.request.key);
   if (!grid) {
     work.error = grid.error();
     return;
   }
   work.chunk.grid = *grid;
-  if ((mesher.cache == nullptr && mesher.baked == nullptr) || !mesher.backend.capabilities().exact) return;
-  work.inputs = ChunkPartInputs::of(mesher.world, work.request, edits);
+  work.inputs = inputsOf(mesher, work.request, edits);
   if (!work.inputs) return;
-  DiskKey world;
-  if (mesher.baked != nullptr) world = mesher.baked->worldOf(*bakedWorldInputs(mesher.world, work.request.sharp));
+  const bool is_far = mesher.baked != nullptr && mesher.baked->isFar();
+  work.found = found != nullptr ? std::move(*found) : lookUp(mesher, is_far ? nullptr : mesher.baked, *work.inputs);
   for (int part = 0; part < kChunkParts; ++part) {
-    if (!asksFor(work.request, part)) continue;
-    std::optional<ChunkPart>& of_part = work.found[static_cast<size_t>(part)];
-    of_part = lookUp(mesher.cache, mesher.baked, world, *work.inputs, part, mesher.memory);
-    if (of_part) leaveOut(part, work.rest);
+    if (work.found[static_cast<size_t>(part)]) leaveOut(part, work.rest);
   }
 }
 
@@ -227,6 +244,13 @@ void forEach(JobSystem& jobs, std::vector<InWork>& work, const Body& body) {
 
 }  // namespace
 
+FoundParts ChunkMesher::find(const ChunkRequest& request, const EditSnapshot* edits) const {
+  const ChunkRequest of = completed(request, sharp);
+  if (!chunkGrid(world, of.key)) return {};
+  const std::optional<ChunkPartInputs> inputs = inputsOf(*this, of, edits);
+  return inputs ? lookUp(*this, baked, *inputs) : FoundParts();
+}
+
 Result<MeshedChunk> ChunkMesher::mesh(const ChunkRequest& request, const ChunkSurface* before,
                                       const EditSnapshot* edits) const {
   const ChunkOrder order{request, before};
@@ -238,7 +262,7 @@ std::vector<Result<MeshedChunk>> ChunkMesher::mesh(std::span<const ChunkOrder> o
   std::vector<InWork> work;
   work.reserve(orders.size());
   for (const ChunkOrder& order : orders) work.emplace_back(order, sharp, memory);
-  forEach(jobs, work, [&](size_t i) { lookUp(*this, edits, work[i]); });
+  forEach(jobs, work, [&](size_t i) { begin(*this, edits, orders[i].found, work[i]); });
   std::vector<size_t> to_mesh;
   for (size_t i = 0; i < work.size(); ++i) {
     if (work[i].isToMesh()) to_mesh.push_back(i);

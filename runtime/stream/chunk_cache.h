@@ -8,6 +8,7 @@
 
 #include "mesh/void_components.h"
 #include "stream/baked_parts.h"
+#include "stream/chunk_part.h"
 #include "stream/chunk_surface.h"
 #include "stream/disk_cache.h"
 #include "stream/world_measures.h"
@@ -25,6 +26,7 @@ struct MeshedChunk {
 struct ChunkOrder {
   ChunkRequest request;
   const ChunkSurface* before = nullptr;  ///< as surfaceOf takes it
+  FoundParts* found = nullptr;           ///< by find, with the same edits; is moved from. Null: is looked for
 };
 
 /// Meshes the chunks of one world. Borrows all that it names; as thread-safe as they are.
@@ -39,10 +41,13 @@ struct ChunkMesher {
   bool sharp = false;                  ///< with sharp features
   MeasuringPool* measuring = nullptr;  ///< ChunkSurface::measures, of `before`, too; null: nothing is measured
 
+  /// What there is of a request. Takes as long as disks do, and servers. Throws std::bad_alloc.
+  FoundParts find(const ChunkRequest& request, const EditSnapshot* edits) const;
+
   /// As surfaceOf makes it of what meshChunks gives, equal in every byte wherever it comes from. Signs and anchors come
   /// with the body only. What the cache has is not derived, so that notes of its cells may never be told. Of a backend
-  /// that is not exact nothing is kept. Takes as long as the disk does. Errors: those of meshChunks, and nothing is
-  /// kept. Throws std::bad_alloc.
+  /// that is not exact nothing is kept. Takes as long as the disk does, and no longer: in what is baked and far is not
+  /// looked here. Errors: those of meshChunks, and nothing is kept. Throws std::bad_alloc.
   Result<MeshedChunk> mesh(const ChunkRequest& request, const ChunkSurface* before,
                            const EditSnapshot* edits = nullptr) const;
   /// Many at once, each as if alone: the backend gets all of them together, and the job system the rest of the work.

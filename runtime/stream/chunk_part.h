@@ -10,6 +10,7 @@
 // of a grammar, but in layout or comments, leaves all entries of its worlds behind, to age and be evicted. A saved
 // world loses nothing by that but time: entries are only what meshing gives again.
 
+#include <array>
 #include <optional>
 
 #include "mesh/void_components.h"
@@ -74,6 +75,9 @@ struct ChunkPart {
 
   explicit ChunkPart(std::pmr::memory_resource* memory) : mesh(memory), voids(memory) {}
 };
+
+/// What there is of a chunk, by the numbers of its parts.
+using FoundParts = std::array<std::optional<ChunkPart>, kChunkParts>;
 
 std::pmr::vector<std::byte> encodeChunkPart(int part, const MeshPart& mesh, std::span<const Anchor> anchors,
                                             std::span<const VoidComponent> voids, std::pmr::memory_resource* memory);

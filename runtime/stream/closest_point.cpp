@@ -12,7 +12,7 @@ namespace {
 constexpr int kNearBrick = 4;         // cells on each axis whose samples are taken together
 constexpr int64_t kFirstSearch = 16;  // cells: what is near is found without compiling what is far
 constexpr int64_t kSearchGrowth = 4;
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr double kNoDistance = std::numeric_limits<double>::infinity();
 constexpr double kNearest = 0.25;  // units: less is no step towards the place
 
 /// Bricks that may hold the surface, or a box that does, and how near it can be.
@@ -71,13 +71,13 @@ class SurfaceSearch {
         look(next);
       }
     }
-    if (nearest_ == kNone) return std::optional<SurfacePoint>{};
+    if (nearest_ == kNoDistance) return std::optional<SurfacePoint>{};
     return std::optional<SurfacePoint>(foot((*program)->view()));
   }
 
  private:
   bool worthALook(const Candidate& candidate) const {
-    return nearest_ == kNone || candidate.lower < nearest_ - (cell_ / 4.0 + nearest_ / 64);
+    return nearest_ == kNoDistance || candidate.lower < nearest_ - (cell_ / 4.0 + nearest_ / 64);
   }
 
   IntBox unitBox(const IntBox& bricks) const {
@@ -226,7 +226,7 @@ class SurfaceSearch {
   Int3 first_cell_, last_cell_;
   bool inside_ = false;
   std::priority_queue<Candidate, std::pmr::vector<Candidate>> open_;
-  double nearest_ = kNone;
+  double nearest_ = kNoDistance;
   Int3 beyond_;  ///< the sample at that distance
 };
 

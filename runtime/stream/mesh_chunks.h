@@ -23,6 +23,8 @@ struct ChunkRequest {
   bool outermost = false;     ///< seams lead to virtual neighbours, whose field is the domain's own state (octree.h)
   bool sharp = false;         ///< with sharp features (sharpen_chunk.h)
   bool sums_only = false;     ///< in place of the mesh the sums over it (ChunkJob::sums_only); not of sharp chunks
+
+  friend bool operator==(const ChunkRequest&, const ChunkRequest&) = default;
 };
 
 /// A finished chunk and where it lies.

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "stream/chunk_part.h"
 #include "stream/chunk_store.h"
 #include "stream/commit_plan.h"
 #include "stream/drawn_frame.h"
@@ -20,6 +21,7 @@ namespace sgm {
 struct WorkItem {
   ChunkRequest request;
   std::shared_ptr<const ChunkSurface> before;  ///< where the request is for seams alone
+  std::shared_ptr<FoundParts> found;           ///< null: nobody has looked for it
   /// All of one rank come before those of the next.
   enum class Rank : uint8_t {
     edited,  ///< what is drawn of it is out of date
@@ -29,6 +31,12 @@ struct WorkItem {
   Rank rank = Rank::other;
   double urgency = 0;  ///< smaller first
 };
+
+/// An order: the most urgent is last.
+inline bool isLessUrgent(const WorkItem& a, const WorkItem& b) {
+  if (a.rank != b.rank) return a.rank > b.rank;
+  return a.urgency != b.urgency ? a.urgency > b.urgency : a.request.key > b.request.key;
+}
 
 struct FinishedChunk {
   ChunkRequest request;

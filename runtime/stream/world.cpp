@@ -83,6 +83,18 @@ Result<void> checkHosts(const WorldField& field, const WorldSettings& settings) 
   return {};
 }
 
+/// Threads to wait for servers. Where none starts, nothing is baked.
+std::unique_ptr<JobSystem> makeLookers(const Profiler& profiler, WorldSettings& settings) {
+  Result<std::unique_ptr<JobSystem>> lookers = makeThreadPool(AwaitedItems::kMostLookers + 1, profiler, "sgm store");
+  if (lookers) return std::move(*lookers);
+  if (settings.on_warning) {
+    settings.on_warning("no thread to read baked worlds from a server with (" + lookers.error().message +
+                        "): chunks are derived instead");
+  }
+  settings.baked = nullptr;
+  return nullptr;
+}
+
 Result<void> openJournal(WorldCore& core) {
   const std::shared_ptr<const WorldField> field = core.edits.state().field;
   const std::optional<std::vector<std::byte>> identity = field->identity();
@@ -110,7 +122,9 @@ Result<std::unique_ptr<World>> World::create(std::shared_ptr<const WorldField> f
   if (Result<void> good = checkHosts(*field, settings); !good) return good.error();
   WorldSettings own = settings;
   if (own.edits.author == 0) own.edits.author = randomAuthor();
-  auto core = std::make_unique<WorldCore>(std::move(field), backend, jobs, own, memory);
+  std::unique_ptr<JobSystem> lookers;
+  if (own.baked != nullptr && own.baked->isFar()) lookers = makeLookers(field->profiler(), own);
+  auto core = std::make_unique<WorldCore>(std::move(field), backend, jobs, own, std::move(lookers), memory);
   if (!own.journal.empty()) {
     if (Result<void> opened = openJournal(*core); !opened) return opened.error();
   }
@@ -177,6 +191,7 @@ void World::advance(size_t bytes) {
     core_->drawn = step->to;
     core_->edits_drawn = step->to->edits;
   }
+  core_->kickOverdue();
   if (core_->planIsDue()) core_->kickPlanner();
   core_->kickFieldSwitch();
 }
@@ -275,8 +290,8 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
     if (events_.size() > events) in_vain = 0;
     std::unique_lock lock(core_->mutex);
     if (core_->settled() && core_->failed.empty()) return {};
-    if ((core_->mesh_jobs > 0 && !core_->scarce) || core_->fields.busy() || core_->applied != frame ||
-        core_->planner_stats.meshed + core_->planner_stats.seam_jobs != finished)
+    if (((core_->mesh_jobs > 0 || core_->isLooking()) && !core_->scarce) || core_->fields.busy() ||
+        core_->applied != frame || core_->planner_stats.meshed + core_->planner_stats.seam_jobs != finished)
       in_vain = 0;
     frame = core_->applied;
     finished = core_->planner_stats.meshed + core_->planner_stats.seam_jobs;
@@ -307,9 +322,9 @@ Result<void> World::setField(std::shared_ptr<const WorldField> field) {
 }
 
 void World::cancel() {
-  std::vector<WorkItem> dropped;  // freed after the mutex
+  std::vector<WorkItem> dropped[2];  // freed after the mutex
   const std::lock_guard lock(core_->mutex);
-  dropped.swap(core_->queue);
+  core_->dropRequests(dropped);
   ++core_->generation;
   ++core_->viewers_set;  // to be planned anew
 }

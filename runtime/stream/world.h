@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "backend/backend.h"
-#include "stream/collider.h"
 #include "stream/baked_parts.h"
+#include "stream/collider.h"
 #include "stream/disk_cache.h"
 #include "stream/field_switch.h"
 #include "stream/planner.h"

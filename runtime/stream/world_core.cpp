@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <unordered_map>
 
 #include "stream/surface_shapes.h"
 
@@ -15,7 +16,7 @@ using namespace std::chrono_literals;
 constexpr size_t kFinishedToPlan = 64;
 /// How long at least the jobs mesh after a plan, in times that it took, before an update has the next one made.
 constexpr int kMeshingPerPlanning = 2;
-constexpr int kFlushPriority = 3, kPlanPriority = 2, kComparePriority = 2, kMeshPriority = 1;
+constexpr int kFlushPriority = 3, kPlanPriority = 2, kComparePriority = 2, kMeshPriority = 1, kLookPriority = 1;
 /// Between two plans: some milliseconds' work.
 constexpr size_t kCollidersAtOnce = 128;
 /// With the time that a disk takes: no more than a second's edits are ever lost.
@@ -30,7 +31,8 @@ PlannerSettings plannerSettings(const WorldSettings& settings) {
 }  // namespace
 
 WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_in, JobSystem& jobs_in,
-                     const WorldSettings& settings_in, std::pmr::memory_resource* memory)
+                     const WorldSettings& settings_in, std::unique_ptr<JobSystem> lookers,
+                     std::pmr::memory_resource* memory)
     : profiler(field->profiler()),
       backend(backend_in),
       jobs(jobs_in),
@@ -39,6 +41,7 @@ WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_i
       fields(settings_in.sharp),
       drawn(std::make_shared<DrawnFrame>(Octree(settings_in.lod.top, settings_in.lod.finest_cell))),
       memory_(memory),
+      lookers_(std::move(lookers)),
       gate_(std::make_shared<Gate>(*this)),
       surfaces_(std::make_shared<SurfacePool>(memory)),
       measuring_(settings_in.measure ? std::make_unique<MeasuringPool>(memory) : nullptr),
@@ -92,8 +95,8 @@ bool WorldCore::settled() const {
 }
 
 WorldCore::Work WorldCore::work() const {
-  const size_t all = queue.size() + meshing_;
-  return {queue.size(), meshing_, planned_with_.viewers != viewers_set ? all : std::min(meshing_, meshing_before_)};
+  const size_t queued = queue.size() + awaited_.size(), all = queued + meshing_;
+  return {queued, meshing_, planned_with_.viewers != viewers_set ? all : std::min(meshing_, meshing_before_)};
 }
 
 void WorldCore::countWork() {
@@ -104,10 +107,10 @@ void WorldCore::countWork() {
   times.job_seconds += seconds * static_cast<double>(meshing_jobs_);
 }
 
-bool WorldCore::submit(void (*function)(void*), int priority) noexcept {
+bool WorldCore::submit(JobSystem& to, void (*function)(void*), int priority) noexcept {
   try {
     auto owner = std::make_unique<std::shared_ptr<Gate>>(gate_);
-    jobs.submit(function, owner.get(), priority);
+    to.submit(function, owner.get(), priority);
     static_cast<void>(owner.release());
     return true;
   } catch (const std::bad_alloc&) {
@@ -218,6 +221,39 @@ void WorldCore::kickMeshing() {
   }
 }
 
+void WorldCore::kickLooking() {
+  if (lookers_ == nullptr) return;
+  for (size_t more = AwaitedItems::kMostLookers; more > 0; --more) {
+    {
+      const std::lock_guard lock(mutex);
+      if (stopped_ || look_jobs_ >= std::min(AwaitedItems::kMostLookers, awaited_.size()) || !isLooking()) return;
+      ++look_jobs_;
+    }
+    if (submit(*lookers_, run<&WorldCore::lookFar>, kLookPriority)) continue;
+    const std::lock_guard lock(mutex);
+    --look_jobs_;  // what is awaited will be overdue
+    return;
+  }
+}
+
+void WorldCore::kickOverdue() {
+  if (lookers_ == nullptr) return;
+  try {
+    const std::lock_guard lock(mutex);
+    // Where jobs are behind nobody is kept waiting.
+    if (!queue.empty() || !awaited_.giveUp(queue, Clock::now())) return;
+    std::sort(queue.begin(), queue.end(), isLessUrgent);
+  } catch (const std::bad_alloc&) {
+    return tellScarce();
+  }
+  kickMeshing();
+}
+
+void WorldCore::dropRequests(std::vector<WorkItem> (&dropped)[2]) {
+  dropped[0].swap(queue);
+  awaited_.replace(dropped[1], Clock::now());
+}
+
 PlanInput WorldCore::planInput() {
   PlanInput input;
   input.edits = edits.state();
@@ -252,11 +288,11 @@ bool WorldCore::planIsDue() const {
 }
 
 void WorldCore::losePlanner() {
-  std::vector<WorkItem> dropped;  // freed after the mutex
+  std::vector<WorkItem> dropped[2];  // freed after the mutex
   const std::lock_guard lock(mutex);
   planner_lost_ = true;
   planning_ = false;
-  dropped.swap(queue);
+  dropRequests(dropped);
   ++generation;
   ++plans;
   changed.notify_all();
@@ -280,6 +316,7 @@ void WorldCore::planOnce() {
       return losePlanner();
     }
     kickMeshing();
+    kickLooking();
     try {
       more_colliders = makeColliders();
     } catch (const std::bad_alloc&) {
@@ -326,17 +363,38 @@ void WorldCore::publish(Plan&& plan) {
     const std::lock_guard lock(mutex);
     begun = begun_;
   }
-  const auto leaveOut = [&plan](std::span<const ChunkKey> keys) {
+  std::vector<WorkItem> awaited;
+  const auto leaveOut = [&plan, &awaited](std::span<const ChunkKey> keys) {
     if (keys.empty()) return;
     const std::set<ChunkKey> gone(keys.begin(), keys.end());
-    std::erase_if(plan.queue, [&](const WorkItem& item) { return gone.contains(item.request.key); });
+    const auto is_gone = [&gone](const WorkItem& item) { return gone.contains(item.request.key); };
+    std::erase_if(plan.queue, is_gone);
+    std::erase_if(awaited, is_gone);
   };
   leaveOut(begun);
+  std::unordered_map<ChunkKey, size_t, ChunkKeyHash> places;  // in `awaited`
+  if (lookers_ != nullptr) {
+    // What was edited is in no store, and nobody is to wait for it.
+    const auto edited = std::find_if(plan.queue.begin(), plan.queue.end(),
+                                     [](const WorkItem& item) { return item.rank == WorkItem::Rank::edited; });
+    awaited.assign(std::make_move_iterator(plan.queue.begin()), std::make_move_iterator(edited));
+    plan.queue.erase(plan.queue.begin(), edited);
+    for (size_t i = 0; i < awaited.size(); ++i) places.emplace(awaited[i].request.key, i);
+  }
   const std::lock_guard lock(mutex);
+  if (queue_edits_.number == plan.edits.number) {
+    // What was found for the plan before need not be looked for again.
+    for (WorkItem& item : queue) {
+      const auto at = item.found ? places.find(item.request.key) : places.end();
+      if (at != places.end() && awaited[at->second].request == item.request)
+        awaited[at->second].found = std::move(item.found);
+    }
+  }
   leaveOut(std::span(begun_).subspan(std::min(begun.size(), begun_.size())));
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
   // What was there before goes with the plan, when nobody waits for it.
   queue.swap(plan.queue);
+  awaited_.replace(awaited, Clock::now());
   std::swap(queue_edits_, plan.edits);
   step.swap(plan.step);
   if (planned_with_.viewers != planning_with_.viewers) meshing_before_ = meshing_;
@@ -410,16 +468,51 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, 
   if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
 }
 
+ChunkMesher WorldCore::mesherOf(const WorldState& under) const {
+  return {*under.field,         backend,           jobs,           memory_,         cache.get(),
+          settings.baked.get(), settings.resident, settings.sharp, measuring_.get()};
+}
+
+void WorldCore::lookFar() {
+  for (;;) {
+    std::optional<AwaitedItems::Looking> looking;
+    WorldState under;
+    {
+      const std::lock_guard lock(mutex);
+      if (!stopped_ && isLooking()) looking = awaited_.look(Clock::now());
+      if (!looking) {
+        --look_jobs_;
+        return;
+      }
+      under = queue_edits_;
+    }
+    WorkItem& item = looking->item;
+    try {
+      if (!item.found)
+        item.found = std::make_shared<FoundParts>(mesherOf(under).find(item.request, under.brushes.get()));
+    } catch (const std::bad_alloc&) {
+      // It is meshed.
+    }
+    try {
+      const std::lock_guard lock(mutex);
+      if (!awaited_.end(looking->number, Clock::now())) continue;
+      queue.insert(std::upper_bound(queue.begin(), queue.end(), item, isLessUrgent), std::move(item));
+    } catch (const std::bad_alloc&) {
+      tellScarce();  // the next plan asks for it again
+    }
+    kickMeshing();
+  }
+}
+
 MadeMeasures WorldCore::meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
                                   std::span<FinishedChunk> done) const {
-  const ChunkMesher mesher{*under.field,         backend,           jobs,           memory_,         cache.get(),
-                           settings.baked.get(), settings.resident, settings.sharp, measuring_.get()};
+  const ChunkMesher mesher = mesherOf(under);
   const Clock::time_point begun_at = Clock::now();
   MadeMeasures measured;
   const Error out_of_memory{Code::out_of_memory, kOutOfMemory};
   try {
     std::vector<ChunkOrder> orders;
-    for (const WorkItem& item : items) orders.push_back({item.request, item.before.get()});
+    for (const WorkItem& item : items) orders.push_back({item.request, item.before.get(), item.found.get()});
     std::vector<Result<MeshedChunk>> chunks = mesher.mesh(orders, under.brushes.get(), progress);
     for (const Result<MeshedChunk>& chunk : chunks) {
       if (chunk) measured.add(chunk->measured);
@@ -466,6 +559,7 @@ void WorldCore::meshOnce() {
     under = queue_edits_;
     of_generation = generation;
   }
+  kickLooking();
   for (const WorkItem& item : items) {
     done.emplace_back();
     done.back().request = item.request;
@@ -508,8 +602,9 @@ void WorldCore::meshOnce() {
       }
     }
     // What was dug, and what it takes to stand, is drawn as soon as the last chunk of it is there.
-    const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.back().rank > rank);
-    plan = !out_of_memory && (rank_done || finished_.size() >= kFinishedToPlan || queue.empty());
+    const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.back().rank > rank) && !awaited_.hasUpTo(rank);
+    const bool all_begun = queue.empty() && awaited_.empty();
+    plan = !out_of_memory && (rank_done || finished_.size() >= kFinishedToPlan || all_begun);
     // Memory may suffice for what is less urgent; but what is tried in vain is little.
     const bool goes_on = !out_of_memory || !std::exchange(passed_over_, true);
     more = goes_on && !queue.empty() && hasRoom() && !stopped_;

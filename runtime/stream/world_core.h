@@ -1,5 +1,6 @@
 #pragma once
 // What a streamed world and its jobs share (world.h): a mailbox behind one mutex, a job that plans, and jobs that mesh.
+// Where chunks may come from a server, threads of the world's own look for them there before a job sees the request.
 //
 // Jobs may begin late: all that they own is a gate, which is closed after the world's end. No job takes longer than one
 // plan, one chunk or one batch of a device's, so that an engine's own jobs get their turn.
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "backend/backend.h"
+#include "stream/awaited_items.h"
 #include "stream/chunk_cache.h"
 #include "stream/collider.h"
 #include "stream/field_switch.h"
@@ -34,8 +36,9 @@ inline size_t largestChunk(const WorldSettings& settings) {
 
 class WorldCore {
  public:
+  /// lookers: threads that may wait for what is far; null: what is baked is near.
   WorldCore(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs, const WorldSettings& settings,
-            std::pmr::memory_resource* memory);
+            std::unique_ptr<JobSystem> lookers, std::pmr::memory_resource* memory);
 
   /// Has the work planned, unless that is being done: then once more after it.
   void kickPlanner();
@@ -45,13 +48,20 @@ class WorldCore {
   void kickJournal();
   /// Has the world go over to the field that is wanted next, when its turn comes.
   void kickFieldSwitch();
+  /// Has meshed what was looked for far away for too long.
+  void kickOverdue();
   /// Waits for jobs that have begun: no other will touch the core. Once, before its end. Writes the journal.
   void stop() noexcept;
 
   /// What the viewers of now want is there and drawn, edits included. Precondition: the mutex is held.
   bool settled() const;
   /// A plan or a chunk is being made. Precondition: the mutex is held.
-  bool atWork() const { return planning_ || mesh_jobs > 0; }
+  bool atWork() const { return planning_ || mesh_jobs > 0 || isLooking(); }
+  /// Something is being looked for far away. Precondition: the mutex is held.
+  bool isLooking() const { return !awaited_.empty() && queue.size() < mostReady(); }
+  /// Forgets what was planned, and no job has begun. Precondition: the mutex is held; what is in `dropped` then is to
+  /// be freed without.
+  void dropRequests(std::vector<WorkItem> (&dropped)[2]);
 
   const Profiler profiler;  ///< of the first field
   Backend& backend;
@@ -65,7 +75,7 @@ class WorldCore {
   std::condition_variable changed;
   std::vector<Viewer> viewers;
   uint64_t viewers_set = 0;     ///< counts changes
-  std::vector<WorkItem> queue;  ///< the most urgent last
+  std::vector<WorkItem> queue;  ///< for jobs to mesh, the most urgent last
   std::vector<ChunkKey> refused;
   std::vector<FailedChunk> failed;
   std::vector<ColliderChange> collider_changes;
@@ -106,6 +116,8 @@ class WorldCore {
     return settings.mesh_bytes - std::min(settings.mesh_bytes, used);
   }
   bool hasRoom() const { return room() >= largestChunk(settings); }
+  /// So many requests are ready to be meshed at most before more is looked for.
+  size_t mostReady() const { return std::max<size_t>(64, 2 * backend.batch()); }
 
   /// What jobs own.
   struct Gate {
@@ -118,8 +130,10 @@ class WorldCore {
   };
 
   /// False where no memory is left to do so.
-  bool submit(void (*function)(void*), int priority) noexcept;
+  bool submit(JobSystem& to, void (*function)(void*), int priority) noexcept;
+  bool submit(void (*function)(void*), int priority) noexcept { return submit(jobs, function, priority); }
   void kickMeshing();
+  void kickLooking();
   PlanInput planInput();
   void publish(Plan&& plan);
   void losePlanner();
@@ -128,6 +142,9 @@ class WorldCore {
   void planOnce();
   /// Whether to go on with it at once.
   bool makeColliders();
+  /// As long as there is something to look for.
+  void lookFar();
+  ChunkMesher mesherOf(const WorldState& under) const;
   void meshOnce();
   void meshAgain();
   /// Has `job` submit another of this job's kind: one that the job system runs at once finds handsOn() true and is to
@@ -155,6 +172,7 @@ class WorldCore {
   static void run(void* argument) noexcept;
 
   std::pmr::memory_resource* memory_;
+  const std::unique_ptr<JobSystem> lookers_;  ///< null: nothing is far
   const std::shared_ptr<Gate> gate_;
   std::shared_ptr<SurfacePool> surfaces_;
   const std::unique_ptr<MeasuringPool> measuring_;  ///< null: nothing is measured
@@ -169,7 +187,9 @@ class WorldCore {
     uint64_t viewers = 0, applied = 0, edits = 0;
   };
   Seen planning_with_, planned_with_;  ///< what the plan in the making has seen, and what the published one had
-  WorldState queue_edits_;             ///< that the queue is meshed under
+  WorldState queue_edits_;             ///< that the queue is meshed under, and what is awaited
+  AwaitedItems awaited_;               ///< go into the queue when they have been looked for
+  size_t look_jobs_ = 0;               ///< submitted or running
   std::vector<ChunkKey> begun_;
   std::vector<FinishedChunk> finished_;
   size_t meshing_before_ = 0;  ///< requests in work when the plan for these viewers came, less as many as have ended

@@ -1300,10 +1300,11 @@ typedef struct sgm_world_desc {
                                 Chunks that a store has of this world (grammar, parameters, seed, cells,
                                 SGM_WORLD_SHARP, the library's meshing) are read instead of being derived, with the same
                                 bytes; edits lie on top. What it does not have, or is damaged there, is derived: the
-                                first time the log is told. A server is first asked when chunks are wanted: threads of the
-                                job system, and who helps them, wait for it, for some seconds where it does not answer
-                                and ten at most; then it is told to the log and left alone for a while. So it is where
-                                there is no libcurl. 32 MiB of what each sent are kept in memory */
+                                first time the log is told. A server is first asked when chunks are wanted, on four
+                                threads of the world's own: no job waits for it, nor does the engine but to destroy the
+                                world, a second at most; and what has not come when nothing has for 0.2 s is derived.
+                                One that does not answer is told to the log and left alone for a while; so is the world
+                                derived where there is no libcurl. 32 MiB of what each sent are kept in memory */
   uint32_t store_count;
   uint32_t reserved; /* 0 */
 } sgm_world_desc;

@@ -42,9 +42,18 @@ struct Machine {
   }
 };
 
+/// As a streamed world does: what is far is looked for before.
+inline Result<MeshedChunk> tryToMesh(const ChunkMesher& mesher, const ChunkRequest& request,
+                                     const ChunkSurface* before = nullptr, const EditSnapshot* edits = nullptr) {
+  if (mesher.baked == nullptr || !mesher.baked->isFar()) return mesher.mesh(request, before, edits);
+  FoundParts found = mesher.find(request, edits);
+  const ChunkOrder order{request, before, &found};
+  return std::move(mesher.mesh({&order, 1}, edits).front());
+}
+
 inline MeshedChunk meshed(const ChunkMesher& mesher, const ChunkRequest& request, const ChunkSurface* before = nullptr,
                           const EditSnapshot* edits = nullptr) {
-  Result<MeshedChunk> chunk = mesher.mesh(request, before, edits);
+  Result<MeshedChunk> chunk = tryToMesh(mesher, request, before, edits);
   INFO((chunk ? "" : chunk.error().message));
   REQUIRE(chunk);
   return std::move(*chunk);
