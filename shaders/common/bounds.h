@@ -176,7 +176,8 @@ FN Bounds positionBounds(uint number, Params P, float middle, float sizes, Bound
   if (number == kOp_sweep) return makeBounds(-2.0e-6f, 1.0f + 2.0e-6f);
   if (number == kOp_lattice) {
     Bounds all = widened(samples, 2.0f * error * magnitudeOf(samples));
-    bool far = all.hi >= PF(P, 9) || all.lo <= -PF(P, 9);
+    float most = PF(P, 9);
+    bool far = all.hi >= most || all.lo <= -most;
     return far ? makeBounds(-kHeldAt, kHeldAt) : all;
   }
   Bounds x = offsetRange(box.lo_x, box.hi_x, PI(P, 1)), y = offsetRange(box.lo_y, box.hi_y, PI(P, 2));

@@ -4,7 +4,8 @@
 // that differs by sample has type Real, Int, Uint or Bool; a value equal for all samples has type float, int or uint.
 // PF, PI and PU read a word of an op's parameters that is the same for all samples, gatherReal one for each; QF, QI
 // and QU are PF, PI and PU where the word's number is no constant but under 28; RF, RI and RU where it may be any. Not
-// every backend reads these as fast.
+// every backend reads these as fast. No word is read on the right of && or || or in a branch that not all samples take:
+// a shader's invocations hand words around among each other, and one that does not come along hands on anything.
 // Every product or sum that feeds a sum is a local declared PRECISE, so that GLSL contracts nothing. No header here has
 // an include guard: a C++ source includes common.h once in each namespace for which it has defined the types (scalar
 // below, wide in backend/cpu/wide.h).

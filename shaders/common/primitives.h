@@ -380,11 +380,12 @@ FN Dual opPrism(Int px, Int py, Int pz, Params P) {
     gz = sel(nearer, sel(middle, nz, dz), gz);
     on_edge = (nearer && middle) || (on_edge && !nearer);
     // Crossing rule: the edge spans the point's z, and passes it on the side of +x.
-    PRECISE Real next_z = broadcast(RF(P, at + 1)) + RF(P, at + 3);
+    Real this_z = broadcast(RF(P, at + 1));
+    PRECISE Real next_z = this_z + RF(P, at + 3);
     PRECISE Real c = wz * RF(P, at + 2);
     PRECISE Real e = wx * RF(P, at + 3);
-    Bool upward = (broadcast(RF(P, at + 1)) <= q.z) && (q.z < next_z);
-    Bool downward = (next_z <= q.z) && (q.z < RF(P, at + 1));
+    Bool upward = (this_z <= q.z) && (q.z < next_z);
+    Bool downward = (next_z <= q.z) && (q.z < this_z);
     Bool cross = (upward && (c > e)) || (downward && (c < e));
     inside = (inside && !cross) || (!inside && cross);
   }

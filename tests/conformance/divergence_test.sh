@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# divergence.mjs finds what it should in small shaders, and nothing in those that the library has.
+#   divergence_test.sh SPIRV-DIS GLSLANG FOLDER-OF-SPIRV
+set -euo pipefail
+here=$(dirname "$0") dis=$1 glslang=$2 shaders=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# check EXPECTED-STATUS NAME BODY-OF-MAIN [FUNCTIONS]
+check() {
+  cat >"$work/$2.comp" <<END
+#version 450
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+layout(local_size_x = 32) in;
+layout(std430, binding = 0) buffer Words { uint words[]; };
+uint kept;
+uint word(uint i) { return subgroupShuffle(kept, i); }
+${4-}
+void main() {
+  uint lane = gl_LocalInvocationID.x, group = gl_WorkGroupID.x, sum = 0u;
+  kept = words[lane];
+  $3
+  words[lane] = sum + word(0u);
+}
+END
+  "$glslang" -V --quiet --target-env vulkan1.2 -o "$work/$2.spv" "$work/$2.comp"
+  local status=0
+  node "$here/divergence.mjs" "$dis" "$work/$2.spv" >"$work/out" || status=$?
+  [[ $status == "$1" ]] && return
+  echo "$2: status $status instead of $1"
+  cat "$work/out"
+  exit 1
+}
+
+check 1 right_of_and 'bool both = lane < 3u && word(1u) > 2u; if (both) sum = 1u;'
+check 1 right_of_or 'bool one = kept < 3u || word(1u) > 2u; if (one) sum = 1u;'
+check 1 choice 'sum = (lane & 1u) == 0u ? word(1u) : 2u;'
+check 1 branch 'if (lane > group) sum = word(2u);'
+check 1 deep 'if (kept == 0u) sum = twice(1u);' 'uint twice(uint i) { return 2u * word(i); }'
+check 1 loop 'for (uint i = 0u; i < lane; ++i) sum += word(i);'
+check 1 left_early 'for (uint i = 0u; i < 9u; ++i) { if (kept == i) break; sum += word(i); }'
+check 1 by_variable 'uint mine = 0u; if (lane > 3u) mine = 1u; if (mine > 0u) sum = word(1u);'
+check 1 by_result 'if (mine(2u)) sum = word(1u);' 'bool mine(uint i) { return kept > i; }'
+check 1 by_argument 'sum = asked(lane);' 'uint asked(uint i) { return i > 3u ? word(1u) : 0u; }'
+check 1 elected 'if (subgroupElect()) sum = word(1u);'
+check 1 barrier 'if (lane > 3u) barrier();'
+check 0 by_group 'if (group > 3u) sum = word(1u);'
+check 0 by_buffer 'if (words[group] > 3u && words[7] < 2u) sum = word(1u);'
+check 0 by_shuffle 'for (uint i = 0u; i < word(3u); ++i) sum += word(i);'
+check 0 by_sum 'if (subgroupAdd(kept) > 9u) sum = word(1u);'
+check 0 afterwards 'if (lane > 3u) sum = 1u; sum += word(1u); for (uint i = 0u; i < lane; ++i) sum += i; sum += word(2u);'
+check 0 read_before 'uint first = word(1u); bool both = lane < 3u && first > 2u; if (both) sum = 1u;'
+
+node "$here/divergence.mjs" "$dis" "$shaders"/*.spv
