@@ -19,7 +19,7 @@ using bench::must, bench::now;
 namespace {
 
 constexpr int kRuns = 5;
-constexpr size_t kBatchChunks = 64;
+constexpr size_t kBatchChunks = 256;  // as many as a device takes at one time
 std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
 
 std::vector<ChunkJob> jobsAround(const WorldField& world) {

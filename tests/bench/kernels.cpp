@@ -2,9 +2,9 @@
 //
 //   sgm_bench_kernels [GRAMMAR [CELL_UNITS]]
 //
-// Three loads: 256 chunks with a surface, from around a viewer in the sample cave; the cubes of 64^3 and 256^3 cells
-// about that viewer. Each is meshed over and over by launches alone. Where the meshes of a load differ from the CPU's
-// it fails.
+// Loads: 256 chunks with a surface, from around a viewer in the sample cave, and as many in each of several batches at
+// one time, as worlds give them to a device; the cubes of 64^3 and 256^3 cells about that viewer. Each is meshed over
+// and over by launches alone. Where the meshes of a load differ from the CPU's it fails.
 
 #include <algorithm>
 #include <cstdio>
@@ -38,6 +38,7 @@ void check(const Result<void>& result) {
 struct Load {
   std::string name;
   std::vector<ChunkJob> jobs;
+  size_t distinct = 0;  ///< the first so many, after which they come again
   size_t with_surface = 0, vertices = 0, indices = 0;
   uint64_t fields = 0;  ///< instructions of pruned programs, a sample each
   bench::OperationCount floats;
@@ -65,20 +66,27 @@ ChunkMesh meshOnCpu(const FieldKernels& kernels, const ChunkJob& job, ChunkScrat
 /// Meshes it on the CPU, and counts what that takes.
 void finish(Load& load) {
   bench::takeOperationCount();
-  ChunkScratch scratch(heap), counting(heap);
-  for (const ChunkJob& job : load.jobs) {
-    load.add(meshOnCpu(bench::floatCountingKernels(), job, scratch));
-    ChunkJob bodies = job;
+  ChunkScratch scratch(heap);
+  for (size_t i = 0; i < load.distinct; ++i) {
+    const ChunkMesh mesh = meshOnCpu(bench::floatCountingKernels(), load.jobs[i], scratch);
+    ChunkJob bodies = load.jobs[i];
     bodies.seams = 0;
+    ChunkScratch counting(heap);
     meshOnCpu(countingKernels(), bodies, counting);
+    const bench::OperationCount floats = bench::takeOperationCount();
+    for (size_t again = i; again < load.jobs.size(); again += load.distinct) {
+      load.add(mesh);
+      load.floats.arithmetic += floats.arithmetic;
+      load.floats.others += floats.others;
+      load.fields += counting.evaluation.operations;
+    }
   }
-  load.floats = bench::takeOperationCount();
-  load.fields = counting.evaluation.operations;
 }
 
-Load surfaceLoad(const WorldField& world) {
+Load surfaceLoad(const WorldField& world, size_t batches) {
   Load load;
-  load.name = std::to_string(cuda::kMostChunks) + " surface chunks";
+  const size_t chunks = batches * cuda::kMostChunks;
+  load.name = std::to_string(chunks) + " surface chunks, batches at one time: " + std::to_string(batches);
   ChunkScratch scratch(heap);
   std::vector<ChunkJob> found;
   for (const ChunkRequest& request : bench::aroundViewer(world.settings().finest_cell)) {
@@ -86,7 +94,8 @@ Load surfaceLoad(const WorldField& world) {
     if (!meshOnCpu(scalarKernels(), job, scratch).body.indices.empty()) found.push_back(std::move(job));
   }
   if (found.empty()) throw std::runtime_error("there is no surface around the viewer");
-  for (size_t i = 0; i < cuda::kMostChunks; ++i) load.jobs.push_back(found[i % found.size()]);
+  for (size_t i = 0; i < chunks; ++i) load.jobs.push_back(found[i % found.size()]);
+  load.distinct = std::min(found.size(), chunks);
   return load;
 }
 
@@ -100,6 +109,7 @@ Load cubeLoad(const WorldField& world, int cells) {
     load.jobs.push_back(
         jobOf(world, {{0, first + i % edge, first + i / edge % edge, first + i / (edge * edge)}, 0, Neighbourhood{}}));
   }
+  load.distinct = load.jobs.size();
   return load;
 }
 
@@ -118,7 +128,7 @@ class Resident {
     }
   }
 
-  /// All kernels of all batches, `repeats` times, one after the other as a stream has them.
+  /// All kernels of all batches, `repeats` times, a batch's one after the other as its stream has them.
   void run(int repeats) {
     for (int i = 0; i < repeats; ++i) {
       for (const auto& part : parts_) {
@@ -272,7 +282,7 @@ void measureAll(const char* grammar, int32_t cell) {
   std::printf("a copy on it: %.1f GB/s, read and written; %.1f Gop/s of floats at most; launch and wait %.4f ms\n",
               bandwidth / 1e9, floatRate(info) / 1e9, leastWait(*device));
   std::vector<Load> loads;
-  loads.push_back(surfaceLoad(world));
+  for (const size_t batches : {size_t{1}, size_t{3}, size_t{8}}) loads.push_back(surfaceLoad(world, batches));
   for (const int cells : {64, 256}) loads.push_back(cubeLoad(world, cells));
   for (Load& load : loads) measure(*device, load, bandwidth);
 }
