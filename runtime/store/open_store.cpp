@@ -42,10 +42,7 @@ Result<OpenStore::World> OpenStore::worldOf(const ContentId& key) {
     const std::lock_guard lock(mutex_);
     if (const auto known = worlds_.find(key); known != worlds_.end()) return known->second;
   }
-  // Nobody waits for a server that somebody asks already; a disk answers at once.
-  std::unique_lock opening(opening_, std::defer_lock);
-  if (files_->isFar() && !opening.try_lock()) return Error{Code::busy, "the index is being read"};
-  if (!opening) opening.lock();
+  const std::lock_guard opening(opening_);
   {
     const std::lock_guard lock(mutex_);
     if (const auto known = worlds_.find(key); known != worlds_.end()) return known->second;
@@ -64,7 +61,13 @@ Result<OpenStore::World> OpenStore::worldOf(const ContentId& key) {
     settle(nullptr);
     return told(name, file.error().message);
   }
-  if (*file == nullptr) return settle(nullptr);
+  if (*file == nullptr) {
+    {
+      const std::lock_guard lock(mutex_);
+      lacking_.insert(key);
+    }
+    return settle(nullptr);
+  }
   Result<WorldFile> world = WorldFile::of(name, *file, memory_);
   if (!world && world.error().code == Code::busy) return world.error();
   if (world && world->index.world == key) return settle(std::make_shared<const WorldFile>(std::move(*world)));
@@ -162,6 +165,11 @@ Result<std::optional<FoundPart>> OpenStore::find(const ContentId& world, const C
   if (bytes) return std::optional(FoundPart{content.stored, std::move(*bytes)});
   if (bytes.error().code == Code::busy) return bytes.error();
   return told(files_->nameOf(packFileName(record.packs[content.pack].name)), bytes.error().message);
+}
+
+bool OpenStore::lacks(const ContentId& world) {
+  const std::lock_guard lock(mutex_);
+  return lacking_.count(world) != 0;
 }
 
 void OpenStore::reject(const ContentId& world, const ChunkKey& chunk, int part) {

@@ -29,6 +29,7 @@ class OpenStore {
         tell_(std::move(tell)),
         memory_(memory),
         worlds_(memory),
+        lacking_(memory),
         kept_(memory),
         records_(memory),
         packs_(memory),
@@ -40,6 +41,8 @@ class OpenStore {
   /// StoreFiles::open. Throws std::bad_alloc.
   Result<std::optional<FoundPart>> find(const ContentId& world, const ChunkKey& chunk, int part,
                                         std::pmr::memory_resource* memory);
+  /// Whether it was looked for the world, and the store has none of it.
+  bool lacks(const ContentId& world);
   /// What was found is no part of a chunk: that is told, and it is not found again.
   void reject(const ContentId& world, const ChunkKey& chunk, int part);
 
@@ -82,7 +85,8 @@ class OpenStore {
   std::mutex mutex_;    ///< of all below
   std::optional<bool> is_store_;
   std::pmr::map<ContentId, World> worlds_;
-  std::pmr::list<KeptRecord> kept_;  ///< the latest used first
+  std::pmr::set<ContentId> lacking_;  ///< of these
+  std::pmr::list<KeptRecord> kept_;   ///< the latest used first
   std::pmr::map<RecordKey, std::pmr::list<KeptRecord>::iterator> records_;
   std::pmr::list<OpenPack> packs_;  ///< the latest used first
   std::pmr::set<ContentId> rejected_;

@@ -1,6 +1,7 @@
 #include "store/source.h"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <set>
 
@@ -26,16 +27,22 @@ class StoreSource final : public BakedParts {
       if (Result<void> good = checkFormat(**files); !good) return good;
     }
     const auto tell = [this](const std::string& file, const std::string& message) { this->tell(file, message); };
-    stores_.push_back(std::make_unique<OpenStore>(std::move(*files), tell, memory_));
+    const bool is_far = (*files)->isFar();
+    auto store = std::make_unique<OpenStore>(std::move(*files), tell, memory_);
+    // All that is near comes first: what two stores have is the same.
+    const auto first_far =
+        std::find_if(stores_.begin(), stores_.end(), [](const auto& other) { return other->files().isFar(); });
+    stores_.insert(is_far ? stores_.end() : first_far, std::move(store));
     return {};
   }
 
   DiskKey worldOf(std::span<const std::byte> inputs) const override { return idOf(inputs); }
 
-  std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part,
+  std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach,
                                std::pmr::memory_resource* memory) override {
     bool damaged = false;
     for (const auto& store : stores_) {
+      if (reach == Reach::near && store->files().isFar()) continue;
       Result<std::optional<FoundPart>> found = store->find(world, chunk, part, memory);
       damaged = damaged || (!found && found.error().code != Code::busy);
       if (!found || !*found) continue;
@@ -44,9 +51,12 @@ class StoreSource final : public BakedParts {
       stats_.bytes += (*found)->stored;
       return BakedPart{std::move((*found)->bytes), store->files().isFar()};
     }
-    const std::lock_guard lock(mutex_);
-    ++stats_.misses;
-    stats_.damaged += damaged;
+    {
+      const std::lock_guard lock(mutex_);
+      ++stats_.misses;
+      stats_.damaged += damaged;
+    }
+    tellIfLacking(world);
     return std::nullopt;
   }
 
@@ -73,6 +83,17 @@ class StoreSource final : public BakedParts {
   }
 
  private:
+  /// That no store has anything of a world, the first time: who animates parameters asks for many.
+  void tellIfLacking(const DiskKey& world) {
+    if (has_told_lack_ || !log_ || stores_.empty()) return;
+    const auto lacks = [&](const auto& store) { return store->lacks(world); };
+    if (!std::all_of(stores_.begin(), stores_.end(), lacks) || has_told_lack_.exchange(true)) return;
+    std::string places;
+    for (const auto& store : stores_) places += (places.empty() ? "'" : ", '") + store->files().nameOf("") + "'";
+    log_(places + (stores_.size() == 1 ? " has" : " have") +
+         " nothing of this world, which is another by its grammar, a parameter, the seed, the cells, sharp features or "
+         "the library's version (sgm store info lists what there is): all of it is derived");
+  }
   void tell(const std::string& file, const std::string& message) {
     bool is_new = false;
     {
@@ -86,6 +107,7 @@ class StoreSource final : public BakedParts {
   const Log log_;
   std::pmr::memory_resource* const memory_;
   std::vector<std::unique_ptr<OpenStore>> stores_;
+  std::atomic<bool> has_told_lack_ = false;
   mutable std::mutex mutex_;  ///< of all below
   std::set<std::string> told_;
   BakedStats stats_;

@@ -21,6 +21,9 @@ struct BakedPart {
   bool is_far = false;  ///< took its time to come: who has a disk cache keeps it there
 };
 
+/// Where to look: on this machine alone, which takes as long as its disk does, or on servers, too.
+enum class Reach : uint8_t { near, far };
+
 /// Read only. Thread-safe.
 class BakedParts {
  public:
@@ -31,15 +34,14 @@ class BakedParts {
 
   /// As encodeChunkPart made it of that world without edits, in `memory`: a body of level 0 with its anchors and voids,
   /// a seam as one to the next level; compared with a hash of all its bytes. None where it is not there, or cannot be
-  /// read, or trusted. Takes as long as the disk does, or the server. Throws std::bad_alloc.
-  virtual std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part,
+  /// read, or trusted. Throws std::bad_alloc.
+  virtual std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach,
                                        std::pmr::memory_resource* memory) = 0;
 
   /// What get gave is none: counts a damaged miss instead of the hit, and is not given again.
   virtual void reject(const DiskKey& world, const ChunkKey& chunk, int part) = 0;
 
-  /// Whether some may be far: then get is for threads that have nothing else to do, and a disk cache is looked into
-  /// first. Always the same.
+  /// Whether some may be far: whoever looks that far has time, and looks into a disk cache first. Always the same.
   virtual bool isFar() const = 0;
 
   /// Nobody has to wait any more: all that follows may be misses.

@@ -21,9 +21,9 @@ struct FoundBaked {
 };
 
 std::optional<FoundBaked> fetchBaked(BakedParts& baked, const DiskKey& world, const ChunkPartInputs& inputs, int part,
-                                     std::pmr::memory_resource* memory) {
+                                     Reach reach, std::pmr::memory_resource* memory) {
   const ChunkRequest& request = inputs.request();
-  const auto stored = baked.get(world, request.key, part, memory);
+  const auto stored = baked.get(world, request.key, part, reach, memory);
   if (!stored) return std::nullopt;
   std::optional<ChunkPart> found = decodeChunkPart(stored->bytes, part, inputs.asBaked(), memory, BytesAre::whole);
   if (!found) {
@@ -46,13 +46,14 @@ void keepBaked(DiskCache& cache, const ChunkPartInputs& inputs, int part, const 
 
 /// Of the disk cache and the stores first what is nearer.
 std::optional<ChunkPart> lookUp(DiskCache* cache, BakedParts* baked, const DiskKey& world,
-                                const ChunkPartInputs& inputs, int part, std::pmr::memory_resource* memory) {
+                                const ChunkPartInputs& inputs, int part, Reach reach,
+                                std::pmr::memory_resource* memory) {
   const bool cache_first = cache != nullptr && baked != nullptr && baked->isFar();
   std::optional<ChunkPart> kept;
   if (cache_first) kept = fetch(*cache, inputs, part, memory);
   if (kept) return kept;
   if (baked != nullptr && inputs.isAsBaked(part)) {
-    if (auto found = fetchBaked(*baked, world, inputs, part, memory)) {
+    if (auto found = fetchBaked(*baked, world, inputs, part, reach, memory)) {
       if (found->is_far && cache != nullptr) keepBaked(*cache, inputs, part, found->part, memory);
       return std::move(found->part);
     }
@@ -109,14 +110,14 @@ std::optional<ChunkPartInputs> inputsOf(const ChunkMesher& mesher, const ChunkRe
   return ChunkPartInputs::of(mesher.world, request, edits);
 }
 
-FoundParts lookUp(const ChunkMesher& mesher, BakedParts* baked, const ChunkPartInputs& inputs) {
+FoundParts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reach reach) {
   const ChunkRequest& request = inputs.request();
   FoundParts found;
   DiskKey world;
-  if (baked != nullptr) world = baked->worldOf(*bakedWorldInputs(mesher.world, request.sharp));
+  if (mesher.baked != nullptr) world = mesher.baked->worldOf(*bakedWorldInputs(mesher.world, request.sharp));
   for (int part = 0; part < kChunkParts; ++part) {
-    if (asksFor(request, part))
-      found[static_cast<size_t>(part)] = lookUp(mesher.cache, baked, world, inputs, part, mesher.memory);
+    if (!asksFor(request, part)) continue;
+    found[static_cast<size_t>(part)] = lookUp(mesher.cache, mesher.baked, world, inputs, part, reach, mesher.memory);
   }
   return found;
 }
@@ -131,7 +132,7 @@ struct InWork {
   VoidComponents voids;
   std::optional<Error> error;
 
-  InWork(const ChunkOrder& order, bool sharp, std::pmr::memory_resource* memory)
+  InWork(const MeshOrder& order, bool sharp, std::pmr::memory_resource* memory)
       : request(completed(order.request, sharp)),
         rest(request),
         before(order.before),
@@ -149,8 +150,7 @@ void begin(const ChunkMesher& mesher, const EditSnapshot* edits, FoundParts* fou
   work.chunk.grid = *grid;
   work.inputs = inputsOf(mesher, work.request, edits);
   if (!work.inputs) return;
-  const bool is_far = mesher.baked != nullptr && mesher.baked->isFar();
-  work.found = found != nullptr ? std::move(*found) : lookUp(mesher, is_far ? nullptr : mesher.baked, *work.inputs);
+  work.found = found != nullptr ? std::move(*found) : lookUp(mesher, *work.inputs, Reach::near);
   for (int part = 0; part < kChunkParts; ++part) {
     if (work.found[static_cast<size_t>(part)]) leaveOut(part, work.rest);
   }
@@ -248,20 +248,20 @@ FoundParts ChunkMesher::find(const ChunkRequest& request, const EditSnapshot* ed
   const ChunkRequest of = completed(request, sharp);
   if (!chunkGrid(world, of.key)) return {};
   const std::optional<ChunkPartInputs> inputs = inputsOf(*this, of, edits);
-  return inputs ? lookUp(*this, baked, *inputs) : FoundParts();
+  return inputs ? lookUp(*this, *inputs, Reach::far) : FoundParts();
 }
 
 Result<MeshedChunk> ChunkMesher::mesh(const ChunkRequest& request, const ChunkSurface* before,
                                       const EditSnapshot* edits) const {
-  const ChunkOrder order{request, before};
+  const MeshOrder order{request, before};
   return std::move(mesh({&order, 1}, edits).front());
 }
 
-std::vector<Result<MeshedChunk>> ChunkMesher::mesh(std::span<const ChunkOrder> orders, const EditSnapshot* edits,
+std::vector<Result<MeshedChunk>> ChunkMesher::mesh(std::span<const MeshOrder> orders, const EditSnapshot* edits,
                                                    const Progress& progress) const {
   std::vector<InWork> work;
   work.reserve(orders.size());
-  for (const ChunkOrder& order : orders) work.emplace_back(order, sharp, memory);
+  for (const MeshOrder& order : orders) work.emplace_back(order, sharp, memory);
   forEach(jobs, work, [&](size_t i) { begin(*this, edits, orders[i].found, work[i]); });
   std::vector<size_t> to_mesh;
   for (size_t i = 0; i < work.size(); ++i) {

@@ -23,10 +23,10 @@ struct MeshedChunk {
   bool from_disk = false;               ///< all that was asked for
 };
 
-struct ChunkOrder {
+struct MeshOrder {
   ChunkRequest request;
   const ChunkSurface* before = nullptr;  ///< as surfaceOf takes it
-  FoundParts* found = nullptr;           ///< by find, with the same edits; is moved from. Null: is looked for
+  FoundParts* found = nullptr;           ///< by find, with the same edits; is moved from. Null: what is near is found
 };
 
 /// Meshes the chunks of one world. Borrows all that it names; as thread-safe as they are.
@@ -41,7 +41,7 @@ struct ChunkMesher {
   bool sharp = false;                  ///< with sharp features
   MeasuringPool* measuring = nullptr;  ///< ChunkSurface::measures, of `before`, too; null: nothing is measured
 
-  /// What there is of a request. Takes as long as disks do, and servers. Throws std::bad_alloc.
+  /// What there is of a request, near or far: takes as long as servers do. Throws std::bad_alloc.
   FoundParts find(const ChunkRequest& request, const EditSnapshot* edits) const;
 
   /// As surfaceOf makes it of what meshChunks gives, equal in every byte wherever it comes from. Signs and anchors come
@@ -52,7 +52,7 @@ struct ChunkMesher {
                            const EditSnapshot* edits = nullptr) const;
   /// Many at once, each as if alone: the backend gets all of them together, and the job system the rest of the work.
   /// progress: as of meshChunks, also of parts of them, from the beginning each time.
-  std::vector<Result<MeshedChunk>> mesh(std::span<const ChunkOrder> orders, const EditSnapshot* edits,
+  std::vector<Result<MeshedChunk>> mesh(std::span<const MeshOrder> orders, const EditSnapshot* edits,
                                         const Progress& progress = {}) const;
 };
 

@@ -306,7 +306,10 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
     }
   }
   for (const MissingSeams& missing : missing_) request(missing.chunk, missing.faces, Rank::other, queue);
-  std::sort(queue.begin(), queue.end(), isLessUrgent);
+  std::sort(queue.begin(), queue.end(), [](const WorkItem& a, const WorkItem& b) {
+    if (a.rank != b.rank) return a.rank > b.rank;
+    return a.urgency != b.urgency ? a.urgency > b.urgency : a.request.key > b.request.key;
+  });
 }
 
 void Planner::request(const ChunkKey& key, int seams, Rank rank, std::vector<WorkItem>& queue) {

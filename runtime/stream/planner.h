@@ -4,6 +4,8 @@
 // One thread at a time. Everything comes in by plan() and goes out by its answer; whoever calls it runs the jobs and
 // hands frames to the engine (world.h).
 
+#include <chrono>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,11 +19,12 @@
 
 namespace sgm {
 
+struct Look;
+
 /// A request handed out, and come back.
 struct WorkItem {
   ChunkRequest request;
   std::shared_ptr<const ChunkSurface> before;  ///< where the request is for seams alone
-  std::shared_ptr<FoundParts> found;           ///< null: nobody has looked for it
   /// All of one rank come before those of the next.
   enum class Rank : uint8_t {
     edited,  ///< what is drawn of it is out of date
@@ -30,13 +33,11 @@ struct WorkItem {
   };
   Rank rank = Rank::other;
   double urgency = 0;  ///< smaller first
-};
 
-/// An order: the most urgent is last.
-inline bool isLessUrgent(const WorkItem& a, const WorkItem& b) {
-  if (a.rank != b.rank) return a.rank > b.rank;
-  return a.urgency != b.urgency ? a.urgency > b.urgency : a.request.key > b.request.key;
-}
+  // Where stores are far (work_queue.h).
+  std::shared_ptr<Look> look;                            ///< null: nobody has begun one
+  std::chrono::steady_clock::time_point in_sight_since;  ///< among those that are looked for
+};
 
 struct FinishedChunk {
   ChunkRequest request;

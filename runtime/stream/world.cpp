@@ -85,7 +85,7 @@ Result<void> checkHosts(const WorldField& field, const WorldSettings& settings) 
 
 /// Threads to wait for servers. Where none starts, nothing is baked.
 std::unique_ptr<JobSystem> makeLookers(const Profiler& profiler, WorldSettings& settings) {
-  Result<std::unique_ptr<JobSystem>> lookers = makeThreadPool(AwaitedItems::kMostLookers + 1, profiler, "sgm store");
+  Result<std::unique_ptr<JobSystem>> lookers = makeThreadPool(WorldCore::kLookers + 1, profiler, "sgm store");
   if (lookers) return std::move(*lookers);
   if (settings.on_warning) {
     settings.on_warning("no thread to read baked worlds from a server with (" + lookers.error().message +
@@ -322,9 +322,9 @@ Result<void> World::setField(std::shared_ptr<const WorldField> field) {
 }
 
 void World::cancel() {
-  std::vector<WorkItem> dropped[2];  // freed after the mutex
+  std::vector<WorkItem> dropped;  // freed after the mutex
   const std::lock_guard lock(core_->mutex);
-  core_->dropRequests(dropped);
+  core_->queue.replace(dropped, false, std::chrono::steady_clock::now());
   ++core_->generation;
   ++core_->viewers_set;  // to be planned anew
 }

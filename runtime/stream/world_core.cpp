@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <unordered_map>
 
 #include "stream/surface_shapes.h"
 
@@ -39,6 +38,7 @@ WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_i
       settings(settings_in),
       edits(std::move(field), settings_in.edits, memory),
       fields(settings_in.sharp),
+      queue(lookers != nullptr),
       drawn(std::make_shared<DrawnFrame>(Octree(settings_in.lod.top, settings_in.lod.finest_cell))),
       memory_(memory),
       lookers_(std::move(lookers)),
@@ -94,9 +94,14 @@ bool WorldCore::settled() const {
          colliders_done_ && collider_changes.empty();
 }
 
+bool WorldCore::isLooking() const {
+  // Without room they wait for that.
+  return lookers_ != nullptr && !queue.empty() && hasRoom() && !queue.nextReady(queue.size(), Clock::now());
+}
+
 WorldCore::Work WorldCore::work() const {
-  const size_t queued = queue.size() + awaited_.size(), all = queued + meshing_;
-  return {queued, meshing_, planned_with_.viewers != viewers_set ? all : std::min(meshing_, meshing_before_)};
+  const size_t all = queue.size() + meshing_;
+  return {queue.size(), meshing_, planned_with_.viewers != viewers_set ? all : std::min(meshing_, meshing_before_)};
 }
 
 void WorldCore::countWork() {
@@ -211,7 +216,8 @@ void WorldCore::kickMeshing() {
     {
       const std::lock_guard lock(mutex);
       const size_t most = scarce ? 1 : mostMeshJobs();
-      if (stopped_ || mesh_jobs >= most || mesh_jobs - meshing_jobs_ >= queue.size() || !hasRoom()) return;
+      if (stopped_ || mesh_jobs >= most || !hasRoom()) return;
+      if (mesh_jobs - meshing_jobs_ >= queue.countReady(Clock::now())) return;
       ++mesh_jobs;
     }
     if (submit(run<&WorldCore::meshOnce>, kMeshPriority)) continue;
@@ -221,37 +227,28 @@ void WorldCore::kickMeshing() {
   }
 }
 
-void WorldCore::kickLooking() {
-  if (lookers_ == nullptr) return;
-  for (size_t more = AwaitedItems::kMostLookers; more > 0; --more) {
-    {
-      const std::lock_guard lock(mutex);
-      if (stopped_ || look_jobs_ >= std::min(AwaitedItems::kMostLookers, awaited_.size()) || !isLooking()) return;
-      ++look_jobs_;
-    }
-    if (submit(*lookers_, run<&WorldCore::lookFar>, kLookPriority)) continue;
-    const std::lock_guard lock(mutex);
-    --look_jobs_;  // what is awaited will be overdue
-    return;
-  }
-}
-
 void WorldCore::kickOverdue() {
   if (lookers_ == nullptr) return;
-  try {
+  {
     const std::lock_guard lock(mutex);
-    // Where jobs are behind nobody is kept waiting.
-    if (!queue.empty() || !awaited_.giveUp(queue, Clock::now())) return;
-    std::sort(queue.begin(), queue.end(), isLessUrgent);
-  } catch (const std::bad_alloc&) {
-    return tellScarce();
+    if (passed_over_) return;  // the next plan tries again
   }
   kickMeshing();
 }
 
-void WorldCore::dropRequests(std::vector<WorkItem> (&dropped)[2]) {
-  dropped[0].swap(queue);
-  awaited_.replace(dropped[1], Clock::now());
+void WorldCore::kickLooking() {
+  if (lookers_ == nullptr) return;
+  for (unsigned more = kLookers; more > 0; --more) {
+    {
+      const std::lock_guard lock(mutex);
+      if (stopped_ || look_jobs_ >= std::min<size_t>(kLookers, queue.countToLook())) return;
+      ++look_jobs_;
+    }
+    if (submit(*lookers_, run<&WorldCore::lookFar>, kLookPriority)) continue;
+    const std::lock_guard lock(mutex);
+    --look_jobs_;  // jobs mesh it when its time is over
+    return;
+  }
 }
 
 PlanInput WorldCore::planInput() {
@@ -288,11 +285,11 @@ bool WorldCore::planIsDue() const {
 }
 
 void WorldCore::losePlanner() {
-  std::vector<WorkItem> dropped[2];  // freed after the mutex
+  std::vector<WorkItem> dropped;  // freed after the mutex
   const std::lock_guard lock(mutex);
   planner_lost_ = true;
   planning_ = false;
-  dropRequests(dropped);
+  queue.replace(dropped, false, Clock::now());
   ++generation;
   ++plans;
   changed.notify_all();
@@ -363,38 +360,17 @@ void WorldCore::publish(Plan&& plan) {
     const std::lock_guard lock(mutex);
     begun = begun_;
   }
-  std::vector<WorkItem> awaited;
-  const auto leaveOut = [&plan, &awaited](std::span<const ChunkKey> keys) {
+  const auto leaveOut = [&plan](std::span<const ChunkKey> keys) {
     if (keys.empty()) return;
     const std::set<ChunkKey> gone(keys.begin(), keys.end());
-    const auto is_gone = [&gone](const WorkItem& item) { return gone.contains(item.request.key); };
-    std::erase_if(plan.queue, is_gone);
-    std::erase_if(awaited, is_gone);
+    std::erase_if(plan.queue, [&](const WorkItem& item) { return gone.contains(item.request.key); });
   };
   leaveOut(begun);
-  std::unordered_map<ChunkKey, size_t, ChunkKeyHash> places;  // in `awaited`
-  if (lookers_ != nullptr) {
-    // What was edited is in no store, and nobody is to wait for it.
-    const auto edited = std::find_if(plan.queue.begin(), plan.queue.end(),
-                                     [](const WorkItem& item) { return item.rank == WorkItem::Rank::edited; });
-    awaited.assign(std::make_move_iterator(plan.queue.begin()), std::make_move_iterator(edited));
-    plan.queue.erase(plan.queue.begin(), edited);
-    for (size_t i = 0; i < awaited.size(); ++i) places.emplace(awaited[i].request.key, i);
-  }
   const std::lock_guard lock(mutex);
-  if (queue_edits_.number == plan.edits.number) {
-    // What was found for the plan before need not be looked for again.
-    for (WorkItem& item : queue) {
-      const auto at = item.found ? places.find(item.request.key) : places.end();
-      if (at != places.end() && awaited[at->second].request == item.request)
-        awaited[at->second].found = std::move(item.found);
-    }
-  }
   leaveOut(std::span(begun_).subspan(std::min(begun.size(), begun_.size())));
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
   // What was there before goes with the plan, when nobody waits for it.
-  queue.swap(plan.queue);
-  awaited_.replace(awaited, Clock::now());
+  queue.replace(plan.queue, queue_edits_.number == plan.edits.number, Clock::now());
   std::swap(queue_edits_, plan.edits);
   step.swap(plan.step);
   if (planned_with_.viewers != planning_with_.viewers) meshing_before_ = meshing_;
@@ -411,22 +387,24 @@ void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
   // A device is only busy with many chunks at one time; but each job is to have some, and room for them.
   const size_t idle = std::max<size_t>(1, mostMeshJobs() - std::min(mostMeshJobs(), meshing_jobs_));
   const auto shareOf = [idle](size_t of) { return (of + idle - 1) / idle; };
-  const size_t share = std::max(shareOf(queue.size()), std::min<size_t>(batch, 8));
+  const Clock::time_point now = Clock::now();
+  const size_t share = std::max(shareOf(queue.countReady(now)), std::min<size_t>(batch, 8));
   const size_t most =
       scarce ? 1 : std::min({batch, share, std::max<size_t>(1, shareOf(room() / largestChunk(settings)))});
-  while (items.size() < most && !queue.empty() && hasRoom()) {
+  for (auto at = queue.nextReady(queue.size(), now); at && items.size() < most && hasRoom();
+       at = queue.nextReady(*at, now)) {
+    const WorkItem& next = queue[*at];
     // What is more urgent does not wait for what is less.
-    if (!items.empty() && queue.back().rank != items.front().rank) break;
+    if (!items.empty() && next.rank != items.front().rank) break;
     try {
-      begun_.push_back(queue.back().request.key);
+      begun_.push_back(next.request.key);
     } catch (const std::bad_alloc&) {
       break;
     }
     ++meshing_;
-    ++meshing_of_rank_[static_cast<size_t>(queue.back().rank)];
+    ++meshing_of_rank_[static_cast<size_t>(next.rank)];
     reserved_ += largestChunk(settings);
-    items.push_back(std::move(queue.back()));
-    queue.pop_back();
+    items.push_back(queue.remove(*at, now));
   }
   if (items.empty()) return;
   countWork();
@@ -475,30 +453,35 @@ ChunkMesher WorldCore::mesherOf(const WorldState& under) const {
 
 void WorldCore::lookFar() {
   for (;;) {
-    std::optional<AwaitedItems::Looking> looking;
+    std::shared_ptr<Look> look;
+    FoundParts found;
+    try {
+      look = std::make_shared<Look>();
+    } catch (const std::bad_alloc&) {
+      // Jobs mesh what nobody looks for, when its time is over.
+    }
+    std::optional<ChunkRequest> request;
     WorldState under;
     {
       const std::lock_guard lock(mutex);
-      if (!stopped_ && isLooking()) looking = awaited_.look(Clock::now());
-      if (!looking) {
+      if (look != nullptr && !stopped_) request = queue.beginLook(look);
+      if (!request) {
         --look_jobs_;
         return;
       }
       under = queue_edits_;
     }
-    WorkItem& item = looking->item;
+    const Clock::time_point begun_at = Clock::now();
     try {
-      if (!item.found)
-        item.found = std::make_shared<FoundParts>(mesherOf(under).find(item.request, under.brushes.get()));
+      found = mesherOf(under).find(*request, under.brushes.get());
     } catch (const std::bad_alloc&) {
       // It is meshed.
     }
-    try {
+    {
       const std::lock_guard lock(mutex);
-      if (!awaited_.end(looking->number, Clock::now())) continue;
-      queue.insert(std::upper_bound(queue.begin(), queue.end(), item, isLessUrgent), std::move(item));
-    } catch (const std::bad_alloc&) {
-      tellScarce();  // the next plan asks for it again
+      look->found = std::move(found);
+      look->seconds = std::chrono::duration<double>(Clock::now() - begun_at).count();
+      look->has_ended = true;
     }
     kickMeshing();
   }
@@ -511,8 +494,9 @@ MadeMeasures WorldCore::meshItems(std::span<const WorkItem> items, const WorldSt
   MadeMeasures measured;
   const Error out_of_memory{Code::out_of_memory, kOutOfMemory};
   try {
-    std::vector<ChunkOrder> orders;
-    for (const WorkItem& item : items) orders.push_back({item.request, item.before.get(), item.found.get()});
+    std::vector<MeshOrder> orders;
+    for (const WorkItem& item : items)
+      orders.push_back({item.request, item.before.get(), item.look ? &item.look->found : nullptr});
     std::vector<Result<MeshedChunk>> chunks = mesher.mesh(orders, under.brushes.get(), progress);
     for (const Result<MeshedChunk>& chunk : chunks) {
       if (chunk) measured.add(chunk->measured);
@@ -586,9 +570,13 @@ void WorldCore::meshOnce() {
     const size_t left_of_rank = meshing_of_rank_[static_cast<size_t>(rank)] -= items.size();
     meshing_before_ -= std::min(meshing_before_, items.size());
     reserved_ -= items.size() * largestChunk(settings);
-    for (FinishedChunk& chunk : done) {
-      if (!chunk.error && chunk.request.body)
-        (chunk.from_disk ? times.read : times.mesh[static_cast<size_t>(chunk.request.key.level)]).add(share);
+    for (size_t i = 0; i < done.size(); ++i) {
+      FinishedChunk& chunk = done[i];
+      if (!chunk.error && chunk.request.body) {
+        const double looking = items[i].look ? items[i].look->seconds : 0;
+        auto& mesh = times.mesh[static_cast<size_t>(chunk.request.key.level)];
+        chunk.from_disk ? times.read.add(share + looking) : mesh.add(share);
+      }
       if (generation != of_generation) chunk.error = Error{Code::cancelled, "unwanted"};
       out_of_memory = out_of_memory || (chunk.error && chunk.error->code == Code::out_of_memory);
       if (!chunk.error) scarce = false;
@@ -602,12 +590,11 @@ void WorldCore::meshOnce() {
       }
     }
     // What was dug, and what it takes to stand, is drawn as soon as the last chunk of it is there.
-    const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.back().rank > rank) && !awaited_.hasUpTo(rank);
-    const bool all_begun = queue.empty() && awaited_.empty();
-    plan = !out_of_memory && (rank_done || finished_.size() >= kFinishedToPlan || all_begun);
+    const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.mostUrgent().rank > rank);
+    plan = !out_of_memory && (rank_done || finished_.size() >= kFinishedToPlan || queue.empty());
     // Memory may suffice for what is less urgent; but what is tried in vain is little.
     const bool goes_on = !out_of_memory || !std::exchange(passed_over_, true);
-    more = goes_on && !queue.empty() && hasRoom() && !stopped_;
+    more = goes_on && queue.nextReady(queue.size(), Clock::now()) && hasRoom() && !stopped_;
     if (!more) --mesh_jobs;
   }
   if (out_of_memory) tellScarce();

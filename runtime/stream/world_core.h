@@ -1,6 +1,6 @@
 #pragma once
 // What a streamed world and its jobs share (world.h): a mailbox behind one mutex, a job that plans, and jobs that mesh.
-// Where chunks may come from a server, threads of the world's own look for them there before a job sees the request.
+// Where chunks may come from far away, threads of the world's own look for them there: no job waits for a server.
 //
 // Jobs may begin late: all that they own is a gate, which is closed after the world's end. No job takes longer than one
 // plan, one chunk or one batch of a device's, so that an engine's own jobs get their turn.
@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "backend/backend.h"
-#include "stream/awaited_items.h"
 #include "stream/chunk_cache.h"
 #include "stream/collider.h"
 #include "stream/field_switch.h"
 #include "stream/planner.h"
 #include "stream/surface_pool.h"
+#include "stream/work_queue.h"
 #include "stream/world_edits.h"
 #include "stream/world_field.h"
 #include "stream/world_measures.h"
@@ -36,6 +36,8 @@ inline size_t largestChunk(const WorldSettings& settings) {
 
 class WorldCore {
  public:
+  static constexpr unsigned kLookers = 4;
+
   /// lookers: threads that may wait for what is far; null: what is baked is near.
   WorldCore(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs, const WorldSettings& settings,
             std::unique_ptr<JobSystem> lookers, std::pmr::memory_resource* memory);
@@ -48,7 +50,7 @@ class WorldCore {
   void kickJournal();
   /// Has the world go over to the field that is wanted next, when its turn comes.
   void kickFieldSwitch();
-  /// Has meshed what was looked for far away for too long.
+  /// Has jobs mesh what was looked for far away for too long.
   void kickOverdue();
   /// Waits for jobs that have begun: no other will touch the core. Once, before its end. Writes the journal.
   void stop() noexcept;
@@ -57,11 +59,8 @@ class WorldCore {
   bool settled() const;
   /// A plan or a chunk is being made. Precondition: the mutex is held.
   bool atWork() const { return planning_ || mesh_jobs > 0 || isLooking(); }
-  /// Something is being looked for far away. Precondition: the mutex is held.
-  bool isLooking() const { return !awaited_.empty() && queue.size() < mostReady(); }
-  /// Forgets what was planned, and no job has begun. Precondition: the mutex is held; what is in `dropped` then is to
-  /// be freed without.
-  void dropRequests(std::vector<WorkItem> (&dropped)[2]);
+  /// All that is planned is being looked for, or waits for its turn. Precondition: the mutex is held.
+  bool isLooking() const;
 
   const Profiler profiler;  ///< of the first field
   Backend& backend;
@@ -74,8 +73,8 @@ class WorldCore {
   mutable std::mutex mutex;  ///< guards what follows; held for the moving of pointers only
   std::condition_variable changed;
   std::vector<Viewer> viewers;
-  uint64_t viewers_set = 0;     ///< counts changes
-  std::vector<WorkItem> queue;  ///< for jobs to mesh, the most urgent last
+  uint64_t viewers_set = 0;  ///< counts changes
+  WorkQueue queue;
   std::vector<ChunkKey> refused;
   std::vector<FailedChunk> failed;
   std::vector<ColliderChange> collider_changes;
@@ -116,8 +115,6 @@ class WorldCore {
     return settings.mesh_bytes - std::min(settings.mesh_bytes, used);
   }
   bool hasRoom() const { return room() >= largestChunk(settings); }
-  /// So many requests are ready to be meshed at most before more is looked for.
-  size_t mostReady() const { return std::max<size_t>(64, 2 * backend.batch()); }
 
   /// What jobs own.
   struct Gate {
@@ -133,6 +130,7 @@ class WorldCore {
   bool submit(JobSystem& to, void (*function)(void*), int priority) noexcept;
   bool submit(void (*function)(void*), int priority) noexcept { return submit(jobs, function, priority); }
   void kickMeshing();
+  /// Has lookers look for what there is to look for, where there are too few.
   void kickLooking();
   PlanInput planInput();
   void publish(Plan&& plan);
@@ -142,7 +140,7 @@ class WorldCore {
   void planOnce();
   /// Whether to go on with it at once.
   bool makeColliders();
-  /// As long as there is something to look for.
+  /// A looker's work, as long as there is some.
   void lookFar();
   ChunkMesher mesherOf(const WorldState& under) const;
   void meshOnce();
@@ -187,9 +185,7 @@ class WorldCore {
     uint64_t viewers = 0, applied = 0, edits = 0;
   };
   Seen planning_with_, planned_with_;  ///< what the plan in the making has seen, and what the published one had
-  WorldState queue_edits_;             ///< that the queue is meshed under, and what is awaited
-  AwaitedItems awaited_;               ///< go into the queue when they have been looked for
-  size_t look_jobs_ = 0;               ///< submitted or running
+  WorldState queue_edits_;             ///< that the queue is meshed under
   std::vector<ChunkKey> begun_;
   std::vector<FinishedChunk> finished_;
   size_t meshing_before_ = 0;  ///< requests in work when the plan for these viewers came, less as many as have ended
@@ -198,6 +194,7 @@ class WorldCore {
   Clock::time_point counted_at_ = Clock::now();  ///< by countWork(), which comes before meshing_jobs_ changes
   std::array<size_t, 3> meshing_of_rank_{};      ///< likewise, by WorkItem::Rank
   size_t reserved_ = 0;                          ///< bytes that these may come to
+  size_t look_jobs_ = 0;                         ///< lookers at work, or about to be
   std::vector<std::thread::id> submitting_;      ///< threads that are handing on a mesh job
   bool planning_ = false;                        ///< submitted or running
   bool plan_again_ = false;

@@ -29,7 +29,7 @@ struct TimeHistogram {
 struct WorldTimes {
   TimeHistogram update, poll;                     ///< calls, with their wait for each other
   std::array<TimeHistogram, kMaxLevel + 1> mesh;  ///< of bodies by level; of a batch each has an equal share
-  TimeHistogram read;                             ///< of bodies that came from the disk cache, likewise
+  TimeHistogram read;                             ///< of bodies that came from disk or from far, likewise
   double clock_seconds = 0;                       ///< in which jobs meshed or read chunks
   double job_seconds = 0;                         ///< likewise, times how many jobs they were
 };

@@ -48,7 +48,7 @@ std::vector<double> meshAll(const ChunkMesher& mesher, const std::vector<ChunkRe
   for (const ChunkRequest& request : requests) {
     const double start = bench::now();
     FoundParts found = mesher.find(request, nullptr);
-    const ChunkOrder order{request, nullptr, &found};
+    const MeshOrder order{request, nullptr, &found};
     if (!mesher.mesh({&order, 1}, nullptr).front()) std::exit(1);
     times.push_back(bench::now() - start);
   }
@@ -129,7 +129,7 @@ int main(int argc, char** argv) {
       const double begun = bench::now();
       for (int part = 0; part < kChunkParts; ++part) {
         if (!asksFor(request, part)) continue;
-        const auto part_there = source->get(key, request.key, part, memory);
+        const auto part_there = source->get(key, request.key, part, Reach::far, memory);
         if (!part_there || !decodeChunkPart(part_there->bytes, part, inputs, memory, BytesAre::whole)) return 1;
       }
       decoding.push_back(bench::now() - begun);

@@ -1295,14 +1295,15 @@ typedef struct sgm_world_desc {
                       a number be used again where edits may have been lost. 0: drawn at random */
   const char* const* stores; /* Worlds that were baked (sgm bake): UTF-8 paths of folders, or http:// and https://
                                 addresses of such folders on any web server with range requests, read through libcurl;
-                                NULL where there are none. They are looked into in their order, before cache_folder, but
-                                after it where one is on a server; what came from there is then kept in cache_folder.
-                                Chunks that a store has of this world (grammar, parameters, seed, cells,
-                                SGM_WORLD_SHARP, the library's meshing) are read instead of being derived, with the same
-                                bytes; edits lie on top. What it does not have, or is damaged there, is derived: the
-                                first time the log is told. A server is first asked when chunks are wanted, on four
-                                threads of the world's own: no job waits for it, nor does the engine but to destroy the
-                                world, a second at most; and what has not come when nothing has for 0.2 s is derived.
+                                NULL where there are none. They are looked into in their order, folders first, before
+                                cache_folder, but after it where one is on a server; what came from there is then kept
+                                in cache_folder. Chunks that a store has of this world (grammar, parameters, seed,
+                                cells, SGM_WORLD_SHARP, the library's meshing) are read instead of being derived, with
+                                the same bytes; edits lie on top. What it does not have, or is damaged there, is
+                                derived: damage is told to the log the first time, and so is a store that has nothing
+                                of this world. Servers are first asked when chunks are wanted, on four threads of the
+                                world's own, which also submit jobs. No job waits for a server, nor does the engine but
+                                to destroy the world, a second at most; and what has not come after 0.2 s is derived.
                                 One that does not answer is told to the log and left alone for a while; so is the world
                                 derived where there is no libcurl. 32 MiB of what each sent are kept in memory */
   uint32_t store_count;
@@ -1546,7 +1547,7 @@ typedef struct sgm_world_stats {
   void* next;
   uint64_t frame;          /* number of the frame that is drawn now; rises, not always by one */
   uint64_t plans;          /* times that the work was planned */
-  uint64_t chunks_meshed;  /* bodies */
+  uint64_t chunks_meshed;  /* bodies, those that were read from stores and cache_folder included */
   uint64_t finest_meshed;  /* of these, those of level 0 */
   uint64_t seam_jobs;      /* chunks that were given further seams afterwards */
   uint64_t chunks_in_vain; /* meshed, never drawn and not wanted any more */
@@ -1574,7 +1575,7 @@ typedef struct sgm_world_stats {
   uint64_t cache_damaged;   /* of the misses, those where what was there could not be trusted */
   uint64_t cache_bytes;     /* of the folder's files, as far as they were looked at */
   uint64_t store_hits;      /* parts of chunks that came from stores */
-  uint64_t store_misses;    /* parts that were looked for there, and are not */
+  uint64_t store_misses;    /* parts that were looked for there, and are not, or did not come in time */
   uint64_t store_damaged;   /* of the misses, those where what was there could not be trusted */
   uint64_t store_bytes;     /* read for the hits */
 } sgm_world_stats;
@@ -1633,7 +1634,7 @@ typedef struct sgm_world_times {
   void* next;
   sgm_time_histogram update;                  /* of sgm_world_update, on the engine's thread */
   sgm_time_histogram poll;                    /* of sgm_world_poll */
-  sgm_time_histogram read;                    /* bodies that came from cache_folder, in jobs */
+  sgm_time_histogram read;                    /* bodies that came from cache_folder or stores, on any thread */
   sgm_time_histogram mesh[SGM_MAX_LEVEL + 1]; /* by level: bodies that were meshed, in jobs, from the grammar to what
                                                  sgm_mesh_get_view shows. Of those that a device meshed together each
                                                  has an equal share of the time */

@@ -6,7 +6,7 @@
 
 #include "rounds.h"
 #include "store_support.h"
-#include "stream/awaited_items.h"
+#include "stream/work_queue.h"
 #include "streaming_support.h"
 
 using namespace sgm;
@@ -42,6 +42,14 @@ class MarkedJobs final : public JobSystem {
   std::unique_ptr<JobSystem> jobs_;
 };
 
+/// Runs every job within submit, where it comes from.
+class InlineJobs final : public JobSystem {
+ public:
+  unsigned concurrency() const override { return 1; }
+  bool help() override { return false; }
+  void submit(void (*function)(void*), void* argument, int) override { function(argument); }
+};
+
 /// A folder that is said to be far, and takes its time.
 class FarFolder final : public BakedParts {
  public:
@@ -49,11 +57,13 @@ class FarFolder final : public BakedParts {
 
   /// Milliseconds of an answer, at most; below 0: it takes until reading is stopped.
   std::atomic<int> slowness = 0;
-  std::atomic<size_t> answers = 0, asked_by_jobs = 0;
+  std::atomic<size_t> asked = 0, answers = 0, asked_by_jobs = 0;
 
   DiskKey worldOf(std::span<const std::byte> inputs) const override { return parts_->worldOf(inputs); }
-  std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part,
+  std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach,
                                std::pmr::memory_resource* memory) override {
+    if (reach == Reach::near) return std::nullopt;
+    ++asked;
     asked_by_jobs += jobs_running > 0;
     {
       std::unique_lock lock(mutex_);
@@ -66,7 +76,7 @@ class FarFolder final : public BakedParts {
       if (stopped_) return std::nullopt;
     }
     ++answers;
-    std::optional<BakedPart> found = parts_->get(world, chunk, part, memory);
+    std::optional<BakedPart> found = parts_->get(world, chunk, part, reach, memory);
     if (found) found->is_far = true;
     return found;
   }
@@ -126,73 +136,85 @@ Brush digAt(const Viewer& viewer) {
 
 }  // namespace
 
-TEST_CASE("what is awaited is handed out once, whatever comes in between", "[threads]") {
-  using Clock = AwaitedItems::Clock;
-  for (uint32_t seed = 1; seed <= rounds(50); ++seed) {
+TEST_CASE("requests of a far store wait for their looks, in their order, and for no longer than is said", "[store]") {
+  using Clock = WorkQueue::Clock;
+  for (uint32_t seed = 1; seed <= rounds(60); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
-    AwaitedItems awaited;
-    Clock::time_point now{std::chrono::hours(1)}, progress = now;
-    std::set<ChunkKey> expected;  // of the plan in force
-    std::vector<AwaitedItems::Looking> looking;
-    std::set<uint64_t> current;  // numbers of those for this plan's items
-    for (int step = 0; step < 300; ++step) {
-      now += std::chrono::milliseconds(random() % 40);
+    WorkQueue queue(true);
+    Clock::time_point now{std::chrono::hours(1)};
+    std::vector<WorkItem> model;  // the most urgent last, as the queue is
+    std::vector<std::shared_ptr<Look>> looking;
+    const auto sight = [&] { return std::span(model).last(std::min(WorkQueue::kSight, model.size())); };
+    const auto isReady = [&](const WorkItem& item) {
+      return item.rank == WorkItem::Rank::edited || (item.look && item.look->has_ended) ||
+             now - item.in_sight_since >= WorkQueue::kPatience;
+    };
+    for (int step = 0; step < 400; ++step) {
+      now += std::chrono::milliseconds(random() % 20);
       switch (random() % 8) {
         case 0: {
-          std::vector<WorkItem> items(random() % 12);
-          expected.clear();
-          current.clear();
-          for (size_t i = 0; i < items.size(); ++i) {
-            items[i].request.key = {0, {step, static_cast<int32_t>(i), 0}};
-            items[i].rank = i < items.size() / 2 ? WorkItem::Rank::other : WorkItem::Rank::near;
-            items[i].urgency = static_cast<double>(items.size() - i);
-            expected.insert(items[i].request.key);
+          std::vector<WorkItem> plan;
+          const bool is_same_state = random() % 4 != 0;
+          const size_t size = random() % 2 ? random() % 12 : random() % (WorkQueue::kSight + 40);
+          std::set<ChunkKey> keys;
+          while (keys.size() < size) keys.insert({0, {static_cast<int32_t>(random() % 600), 0, 0}});
+          for (const ChunkKey& key : keys) {
+            WorkItem& item = plan.emplace_back();
+            item.request.key = key;
+            item.request.seams = static_cast<uint8_t>(random() % 8 == 0);
+            item.rank = plan.size() + 3 > size ? WorkItem::Rank::edited : WorkItem::Rank::other;
           }
-          awaited.replace(items, now);
-          if (looking.empty()) progress = now;
+          std::vector<WorkItem> next = plan;
+          for (WorkItem& item : std::span(next).last(std::min(WorkQueue::kSight, next.size()))) {
+            item.in_sight_since = now;
+            for (const WorkItem& old : sight()) {
+              if (old.request.key != item.request.key) continue;
+              item.in_sight_since = old.in_sight_since;
+              if (is_same_state && old.request == item.request) item.look = old.look;
+            }
+          }
+          model = std::move(next);
+          queue.replace(plan, is_same_state, now);
           break;
         }
-        case 1: {
-          std::vector<WorkItem> items;
-          const bool late = now - progress >= AwaitedItems::kPatience;
-          CHECK(awaited.giveUp(items, now) == (late && !expected.empty()));
-          if (items.empty()) break;
-          std::set<ChunkKey> given;
-          for (const WorkItem& item : items) CHECK(given.insert(item.request.key).second);
-          CHECK(given == expected);
-          expected.clear();
-          current.clear();
+        case 1:
+        case 2: {
+          const auto at = queue.nextReady(queue.size(), now);
+          const auto wanted =
+              std::find_if(model.rbegin(), model.rbegin() + static_cast<ptrdiff_t>(sight().size()), isReady);
+          REQUIRE(at.has_value() == (wanted != model.rbegin() + static_cast<ptrdiff_t>(sight().size())));
+          if (!at) break;
+          const WorkItem taken = queue.remove(*at, now);
+          REQUIRE(taken.request == wanted->request);
+          CHECK((taken.look == nullptr || taken.look->has_ended));
+          model.erase(std::next(wanted).base());
+          if (model.size() >= WorkQueue::kSight) model[model.size() - WorkQueue::kSight].in_sight_since = now;
           break;
         }
-        case 2:
         case 3:
-        case 4: {
-          if (looking.size() == AwaitedItems::kMostLookers) break;
-          const bool any = expected.size() > current.size();
-          auto next = awaited.look(now);
-          REQUIRE(next.has_value() == any);
-          if (!next) break;
-          if (looking.empty()) progress = now;
-          CHECK(expected.contains(next->item.request.key));
-          current.insert(next->number);
-          looking.push_back(std::move(*next));
+        case 4:
+        case 5: {
+          const auto look = std::make_shared<Look>();
+          const auto request = queue.beginLook(look);
+          const auto wanted = std::find_if(
+              model.rbegin(), model.rbegin() + static_cast<ptrdiff_t>(sight().size()),
+              [](const WorkItem& item) { return item.look == nullptr && item.rank != WorkItem::Rank::edited; });
+          REQUIRE(request.has_value() == (wanted != model.rbegin() + static_cast<ptrdiff_t>(sight().size())));
+          if (!request) break;
+          REQUIRE(*request == wanted->request);
+          wanted->look = look;
+          looking.push_back(look);
           break;
         }
-        default: {
+        default:
           if (looking.empty()) break;
           std::swap(looking[random() % looking.size()], looking.back());
-          const AwaitedItems::Looking ended = std::move(looking.back());
+          looking.back()->has_ended = true;
           looking.pop_back();
-          const bool wanted = current.erase(ended.number) > 0;
-          CHECK(awaited.end(ended.number, now) == wanted);
-          if (wanted) CHECK(expected.erase(ended.item.request.key) == 1);
-          progress = now;
-        }
       }
-      REQUIRE(awaited.size() == expected.size());
-      CHECK(awaited.hasUpTo(WorkItem::Rank::other) == !expected.empty());
-      CHECK(!awaited.hasUpTo(WorkItem::Rank::edited));
+      REQUIRE(queue.size() == model.size());
+      CHECK(queue.countReady(now) == static_cast<size_t>(std::ranges::count_if(sight(), isReady)));
     }
   }
 }
@@ -215,50 +237,109 @@ TEST_CASE("a far store is asked by no job, and what it has is drawn", "[store][t
   }
 }
 
-TEST_CASE("a store that does not answer keeps nothing waiting", "[store][threads]") {
+TEST_CASE("a store that does not answer, or slowly, holds up no viewer, whoever runs the jobs", "[store][threads]") {
   const BakedScene baked;
-  const auto far = baked.open();
-  far->slowness = -1;
-  Scene scene(markedJobs(2), caveText(), with(far));
-  Engine engine;
-  Viewer viewer = viewerAt(64, 64, 64);
-  for (int turn = 0; turn < 3; ++turn) {
-    REQUIRE(scene.world->setViewers({&viewer, 1}));
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
-    checkFrame(scene, engine);
-    viewer.position[0] += 20 * kUnitsPerMetre;
+  // None ever, or one part in a frame or three at most.
+  for (const int slowness : {-1, 60}) {
+    for (const int kind : {0, 1, 2, 3}) {
+      CAPTURE(slowness, kind);
+      const auto far = baked.open();
+      far->slowness = slowness;
+      std::unique_ptr<JobSystem> jobs;
+      if (kind < 2) jobs = markedJobs(kind == 0 ? 1 : 3);
+      if (kind == 2) jobs = std::make_unique<LateJobs>(7);
+      if (kind == 3) jobs = std::make_unique<InlineJobs>();
+      Scene scene(std::move(jobs), caveText(), with(far));
+      Engine engine;
+      // So that each frame has a plan of its own.
+      Viewer viewer = viewerAt(64, 64, 64);
+      for (int frame = 0; frame < 2000 && scene.world->stats().planner.meshed < 200; ++frame) {
+        viewer.position[0] += 0.02 * kUnitsPerMetre;
+        REQUIRE(scene.world->setViewers({&viewer, 1}));
+        scene.world->update(size_t{1} << 30);
+        engine.take(*scene.world);
+        workOrWait(scene);
+      }
+      CHECK(scene.world->stats().planner.meshed >= 200);
+      CHECK(far->asked > 0);
+      if (slowness < 0) CHECK(far->answers == 0);
+      CHECK(far->asked_by_jobs == 0);
+      REQUIRE(scene.world->waitIdle());
+      engine.take(*scene.world);
+      checkFrame(scene, engine);
+    }
   }
-  CHECK(far->answers == 0);
-  CHECK(far->asked_by_jobs == 0);
+}
+
+TEST_CASE("a world that has no room for what is wanted says so, whatever its store does", "[store][threads]") {
+  const BakedScene baked;
+  for (const int slowness : {0, -1}) {
+    CAPTURE(slowness);
+    const auto far = baked.open();
+    far->slowness = slowness;
+    WorldSettings settings = with(far);
+    settings.mesh_bytes = size_t{21} << 20;
+    settings.lod.finest_distance = 60.0 * kUnitsPerMetre;
+    Scene scene(markedJobs(2), caveText(), settings);
+    // One that takes meshes, and gives none back.
+    std::vector<std::shared_ptr<const ChunkSurface>> kept;
+    const auto waitAndTake = [&] {
+      const Result<void> waited = scene.world->waitIdle();
+      scene.world->poll([&](const WorldEvent& event) {
+        if (event.surface != nullptr) kept.push_back(event.surface);
+        return true;
+      });
+      return waited;
+    };
+    Viewer viewer = viewerAt(64, 64, 64);
+    Result<void> waited;
+    for (int turn = 0; turn < 60 && waited; ++turn) {
+      viewer.position[0] += 60 * kUnitsPerMetre;
+      REQUIRE(scene.world->setViewers({&viewer, 1}));
+      waited = waitAndTake();
+    }
+    REQUIRE(!waited);
+    CHECK(waited.error().code == Code::limit);
+    // And it goes on when there is room.
+    kept.clear();
+    viewer = viewerAt(64, 64, 64);
+    REQUIRE(scene.world->setViewers({&viewer, 1}));
+    for (int turn = 0; turn < 12 && !waited; ++turn) {
+      waited = waitAndTake();
+      kept.clear();
+    }
+    CHECK(waited);
+  }
 }
 
 TEST_CASE("a store that is slow changes no frame of a viewer who wanders and digs", "[store][threads]") {
   const BakedScene baked;
-  for (uint32_t seed = 1; seed <= rounds(2); ++seed) {
-    CAPTURE(seed);
-    std::mt19937 random(seed);
-    const auto far = baked.open();
-    far->slowness = seed % 2 ? 10 : 400;
-    Scene scene(markedJobs(2), caveText(), with(far));
-    Engine engine;
-    Viewer viewer = viewerAt(64, 64, 64);
-    for (int turn = 0; turn < 24; ++turn) {
-      viewer = wander(random, viewer);
-      REQUIRE(scene.world->setViewers({&viewer, 1}));
-      if (turn % 6 == 3) REQUIRE(scene.world->edit(digAt(viewer)));
-      if (turn % 10 == 9) scene.world->cancel();
-      for (int update = 0; update < 6; ++update) {
-        REQUIRE(scene.world->update(size_t{1} << 30));
-        engine.take(*scene.world);
-        workOrWait(scene);
+  for (const int slowness : {10, 400}) {
+    for (uint32_t seed = 1; seed <= rounds(1); ++seed) {
+      CAPTURE(slowness, seed);
+      std::mt19937 random(seed);
+      const auto far = baked.open();
+      far->slowness = slowness;
+      Scene scene(markedJobs(2), caveText(), with(far));
+      Engine engine;
+      Viewer viewer = viewerAt(64, 64, 64);
+      for (int turn = 0; turn < 24; ++turn) {
+        viewer = wander(random, viewer);
+        REQUIRE(scene.world->setViewers({&viewer, 1}));
+        if (turn % 6 == 3) REQUIRE(scene.world->edit(digAt(viewer)));
+        if (turn % 10 == 9) scene.world->cancel();
+        for (int update = 0; update < 6; ++update) {
+          REQUIRE(scene.world->update(size_t{1} << 30));
+          engine.take(*scene.world);
+          workOrWait(scene);
+        }
       }
+      REQUIRE(scene.world->waitIdle());
+      engine.take(*scene.world);
+      EditLog edits{EditSettings{}};
+      REQUIRE(edits.import(scene.world->exportEdits(0)));
+      checkFrame(scene, engine, edits.snapshot().get());
+      CHECK(far->asked_by_jobs == 0);
     }
-    REQUIRE(scene.world->waitIdle());
-    engine.take(*scene.world);
-    EditLog edits{EditSettings{}};
-    REQUIRE(edits.import(scene.world->exportEdits(0)));
-    checkFrame(scene, engine, edits.snapshot().get());
-    CHECK(far->asked_by_jobs == 0);
   }
 }

@@ -47,7 +47,7 @@ inline Result<MeshedChunk> tryToMesh(const ChunkMesher& mesher, const ChunkReque
                                      const ChunkSurface* before = nullptr, const EditSnapshot* edits = nullptr) {
   if (mesher.baked == nullptr || !mesher.baked->isFar()) return mesher.mesh(request, before, edits);
   FoundParts found = mesher.find(request, edits);
-  const ChunkOrder order{request, before, &found};
+  const MeshOrder order{request, before, &found};
   return std::move(mesher.mesh({&order, 1}, edits).front());
 }
 
