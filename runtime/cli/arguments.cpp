@@ -77,11 +77,13 @@ std::string checkCamera(const std::string& text) {
 
 std::string checkLevels(const std::string& text) {
   return readLevels(text) ? std::string()
-                          : fmt::format("'{}' is not levels such as 0..4, from 0 to {}", text, kMaxLevel);
+                          : fmt::format("'{}' is not levels such as 0..4, the finest first, or one alone, from 0 to {}",
+                                        text, kMaxLevel);
 }
 
 std::string checkShard(const std::string& text) {
-  return readShard(text) ? std::string() : fmt::format("'{}' is not a shard such as 3/16, counted from 0", text);
+  return readShard(text) ? std::string()
+                         : fmt::format("'{}' is not a shard such as 0/16, the last of which is 15/16", text);
 }
 
 std::string checkPng(const std::string& out) {

@@ -59,6 +59,12 @@ Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& nam
   return bake;
 }
 
+Error withoutSlurm(const Error& error) {
+  return {error.code, error.message +
+                          ". Where there is no Slurm, --shard bakes a share, and samples/bake has it done by "
+                          "other schedulers"};
+}
+
 }  // namespace
 
 Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std::function<Result<bool>()>& isThere) {
@@ -66,10 +72,10 @@ Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std:
   if (!bake) return complain(bake.error());
   if (const Result<void> made = store::makeFolder(bake->folder); !made) return complain(made.error());
   const Result<std::optional<SlurmJobs>> found = findJobs(*bake);
-  if (!found) return complain(found.error());
+  if (!found) return complain(withoutSlurm(found.error()));
   const bool is_new = !found->has_value();
   const Result<SlurmJobs> jobs = is_new ? submitJobs(*bake) : Result<SlurmJobs>(**found);
-  if (!jobs) return complain(jobs.error());
+  if (!jobs) return complain(withoutSlurm(jobs.error()));
   fmt::print(stderr,
              "sgm: jobs {} (shards), {} (merge) and {} (verification) of Slurm {}; stopping this ends none of them, "
              "scancel does\n",

@@ -40,21 +40,29 @@ ProgressBar::~ProgressBar() {
   if (drawn_) fmt::print(stderr, "\r\x1b[K");
 }
 
+std::string ProgressBar::left(uint64_t done, uint64_t total, std::chrono::steady_clock::time_point now) const {
+  const double passed = std::chrono::duration<double>(now - begun_).count();
+  if (passed < kBeforeEstimates || done == 0) return {};
+  const auto left = static_cast<uint64_t>(passed * static_cast<double>(total - done) / static_cast<double>(done));
+  return fmt::format(", {}:{:02}:{:02} left", left / 3600, left / 60 % 60, left % 60);
+}
+
 void ProgressBar::show(uint64_t done, uint64_t total) {
-  if (!terminal_ || total == 0) return;
+  if (total == 0) return;
   const auto now = std::chrono::steady_clock::now();
+  if (!terminal_) {
+    if (now - last_ < std::chrono::minutes(1)) return;
+    last_ = now;
+    fmt::print(stderr, "sgm: {}: {} %{}\n", what_, 100 * done / total, left(done, total, now));
+    return;
+  }
   if (drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
   drawn_ = true;
   constexpr uint64_t kWidth = 32;
   const uint64_t filled = std::min(kWidth, done * kWidth / total);
   fmt::print(stderr, "\r{} [{:#<{}}{: <{}}] {}/{}", what_, "", filled, "", kWidth - filled, done, total);
-  const double passed = std::chrono::duration<double>(now - begun_).count();
-  if (passed >= kBeforeEstimates && done > 0) {
-    const auto left = static_cast<uint64_t>(passed * static_cast<double>(total - done) / static_cast<double>(done));
-    fmt::print(stderr, ", {}:{:02}:{:02} left", left / 3600, left / 60 % 60, left % 60);
-  }
-  fmt::print(stderr, "\x1b[K");
+  fmt::print(stderr, "{}\x1b[K", left(done, total, now));
   std::fflush(stderr);
 }
 

@@ -27,8 +27,8 @@ Exit exitOf(Code code);
 Exit complain(Exit status, std::string_view message);
 inline Exit complain(const Error& error) { return complain(exitOf(error.code), error.message); }
 
-/// A bar on stderr where that is a terminal, silence elsewhere, with the time that is left where it takes long. Erases
-/// itself when it ends.
+/// A bar on stderr where that is a terminal, with the time that is left where it takes long; erases itself when it
+/// ends. Elsewhere a line each minute, for logs.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string_view what);
@@ -40,10 +40,13 @@ class ProgressBar {
   void show(uint64_t done, uint64_t total);
 
  private:
+  /// ", 0:12:30 left", once that can be told.
+  std::string left(uint64_t done, uint64_t total, std::chrono::steady_clock::time_point now) const;
+
   std::string what_;
   bool terminal_;
   bool drawn_ = false;
-  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now(), last_{};
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now(), last_ = begun_;
 };
 
 /// Seconds since it was made.

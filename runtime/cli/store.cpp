@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "cli/commands.h"
@@ -61,8 +63,32 @@ void tell(const store::Problems& problems) {
 
 Json boxJson(const IntBox& box) { return {metresJson(box.lo), metresJson(box.hi)}; }
 
-/// Some chunks of the world that the options say, baked again.
-Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder) {
+/// What the manifest of a world says it was baked from; nothing where that cannot be read.
+Json originOf(const fs::path& manifest) {
+  std::ifstream text(manifest);
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) return {};
+  Json origin = Json::object();
+  const auto take = [&](const char* name, const nlohmann::json& from, const char* key) {
+    const auto value = from.is_object() ? from.find(key) : from.end();
+    if (!from.is_object() || value == from.end()) return;
+    if (value->is_string()) origin[name] = value->get<std::string>();
+    if (value->is_boolean()) origin[name] = value->get<bool>();
+    if (value->is_number_unsigned()) origin[name] = value->get<uint64_t>();
+    if (value->is_number_float()) origin[name] = value->get<double>();
+  };
+  take("grammar", json.value("grammar", nlohmann::json()), "file");
+  for (const char* key : {"seed", "sharp", "library", "meshing"}) take(key, json, key);
+  Json& parameters = origin["parameters"] = Json::object();
+  const nlohmann::json values = json.value("parameters", nlohmann::json::object());
+  for (const auto& [name, value] : values.items()) {
+    if (value.is_number()) parameters[name] = value.get<double>();
+  }
+  return origin;
+}
+
+/// Some chunks of the world that the options say, baked again. Adds to what is told as JSON.
+Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder, Json& json) {
   const OpenedWorld opened = openWorld(options);
   if (opened.program == nullptr) return opened.status;
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
@@ -74,7 +100,13 @@ Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder) {
   const WorldField world(opened.settings, memory);
   const Result<store::ContentId> key = store::worldKey(world, options.sharp);
   if (!key) return complain(key.error());
-  const Result<store::WorldFile> file = worldOf(folder, store::nameOf(*key));
+  std::error_code error;
+  if (!fs::exists(folder.world(*key), error)) {
+    return complain(Exit::input, fmt::format("'{}' has no bake of '{}' with this seed, these parameters and cells: sgm "
+                                             "store info lists what it has",
+                                             options.store, options.file));
+  }
+  const Result<store::WorldFile> file = store::WorldFile::open(folder.world(*key));
   if (!file) return complain(file.error());
   const Result<store::Bakery> bakery =
       store::bakeryOf(world, **backend, **jobs, file->index.region, options.sharp, folder, memory);
@@ -82,10 +114,9 @@ Exit bakeAgain(const StoreVerifyOptions& options, const store::Folder& folder) {
   const Result<store::Compared> compared = store::compareWithBaking(*bakery, *file, options.samples, options.draw);
   if (!compared) return complain(compared.error());
   tell(compared->problems);
-  if (options.json) {
-    fmt::print("{}\n", Json{{"chunks", compared->chunks}, {"problems", compared->problems.count}}.text());
-  } else {
-    fmt::print("{}: {} chunks baked again, {} parts differ\n", options.store, compared->chunks,
+  json["baked_again"] = {{"chunks", compared->chunks}, {"problems", compared->problems.count}};
+  if (!options.json) {
+    fmt::print("{}: {} chunks baked again, {} parts differ\n", store::nameOf(*key), compared->chunks,
                compared->problems.count);
   }
   return compared->problems.count == 0 ? Exit::done : Exit::input;
@@ -108,8 +139,10 @@ Exit storeInfo(const StoreOptions& options) {
     }
     const store::BakedRegion& region = world->index.region;
     const std::string name = store::nameOf(world->index.world);
+    const Json origin = originOf(folder.manifest(world->index.world));
     all.push_back({{"world", name},
                    {"manifest", folder.manifest(world->index.world).string()},
+                   {"from", origin},
                    {"region", boxJson(region.box)},
                    {"levels", {region.first_level, region.last_level}},
                    {"cell_units", region.finest_cell},
@@ -121,6 +154,7 @@ Exit storeInfo(const StoreOptions& options) {
                    {"pack_bytes", summary->pack_bytes}});
     if (options.json) continue;
     fmt::print("{}\n", name);
+    fmt::print("  from     {}\n", origin.line());
     fmt::print("  region   {},{},{} to {},{},{} m, levels {} to {}, cells of {} m\n", metres(region.box.lo.x),
                metres(region.box.lo.y), metres(region.box.lo.z), metres(region.box.hi.x), metres(region.box.hi.y),
                metres(region.box.hi.z), region.first_level, region.last_level, metres(region.finest_cell));
@@ -135,9 +169,14 @@ Exit storeInfo(const StoreOptions& options) {
 
 Exit storeVerify(const StoreVerifyOptions& options) {
   const store::Folder folder(options.store);
-  if (!options.file.empty()) return bakeAgain(options, folder);
   const Result<std::vector<Result<store::WorldFile>>> worlds = openWorlds(folder, options.world);
   if (!worlds) return complain(worlds.error());
+  if (worlds->empty()) {
+    return complain(Exit::input,
+                    fmt::format("'{}' has no worlds to verify: a bake is there when it is merged (sgm bake, and for "
+                                "shards sgm bake --merge)",
+                                options.store));
+  }
   Exit status = Exit::done;
   Json all = Json::array();
   for (const Result<store::WorldFile>& world : *worlds) {
@@ -169,7 +208,12 @@ Exit storeVerify(const StoreVerifyOptions& options) {
                  found.problems.count == 0 ? "whole and closed" : fmt::format("{} problems", found.problems.count));
     }
   }
-  if (options.json) fmt::print("{}\n", Json{{"worlds", all}}.text());
+  Json json = {{"worlds", all}};
+  if (!options.file.empty()) {
+    const Exit again = bakeAgain(options, folder, json);
+    if (again != Exit::done) status = again;
+  }
+  if (options.json) fmt::print("{}\n", json.text());
   return status;
 }
 
@@ -178,6 +222,11 @@ Exit storeDiff(const StoreDiffOptions& options) {
   const Result<store::WorldFile> before = worldOf(from, options.from), after = worldOf(to, options.to);
   if (!before) return complain(before.error());
   if (!after) return complain(after.error());
+  if (before->index.region.finest_cell != after->index.region.finest_cell) {
+    return complain(Exit::input,
+                    fmt::format("the worlds have cells of {} and {} m: chunks of one are none of the other",
+                                metres(before->index.region.finest_cell), metres(after->index.region.finest_cell)));
+  }
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
   std::set<store::ContentId> had;
   for (const store::TileEntry& tile : before->index.tiles) {

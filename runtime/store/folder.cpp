@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <system_error>
+#include <thread>
 
 namespace sgm::store {
 namespace fs = std::filesystem;
@@ -15,6 +17,16 @@ namespace {
 
 Error ioError(const fs::path& file, int code) {
   return {Code::io, "'" + file.string() + "': " + std::generic_category().message(code)};
+}
+
+Error lockError(const Folder& store, const fs::path& path, int number) {
+  const std::string root = "'" + store.root().string() + "'";
+  if (number == EWOULDBLOCK || number == EACCES)
+    return {Code::busy, "another process merges into " + root + ", or cleans it: try again when it has ended"};
+  if (number == ENOLCK || number == ENOSYS || number == EOPNOTSUPP || number == EBADF)
+    return {Code::unsupported,
+            "the file system of " + root + " has no locks, which merging needs: mount it with locks, or merge a copy"};
+  return ioError(path, number);
 }
 
 constexpr uint64_t kMostFormat = 64;  ///< bytes
@@ -61,7 +73,8 @@ std::unique_ptr<StoreFiles> folderFiles(const fs::path& root) { return std::make
 Result<void> checkFormat(StoreFiles& files) {
   const std::string root = files.nameOf("");
   const auto none = [&] {
-    return Error{Code::bad_input, "'" + root + "' is no store of baked worlds: sgm bake --out makes one"};
+    return Error{Code::bad_input, "'" + root + "' is no store of baked worlds (its file '" + kFormatFile +
+                                      "' is missing, or another): sgm bake --out makes one"};
   };
   const Result<std::shared_ptr<const StoredFile>> format = files.open(kFormatFile, std::nullopt);
   if (!format) return format.error();
@@ -99,20 +112,24 @@ Result<void> Folder::check() const {
   return checkFormat(files);
 }
 
-Result<StoreLock> StoreLock::take(const Folder& store) {
+Result<StoreLock> StoreLock::take(const Folder& store, std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds kBetweenLooks{100};
+  const auto until = std::chrono::steady_clock::now() + patience;
   const fs::path path = store.root() / kFormatFile;
   // Network file systems lock only what is open for writing.
   const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) return ioError(path, errno);
   StoreLock lock(file);
-  if (::flock(file, LOCK_EX | LOCK_NB) == 0) return lock;
-  if (errno == EWOULDBLOCK || errno == EACCES)
-    return Error{Code::busy, "another process merges into '" + store.root().string() +
-                                 "', or cleans it: try again when it has ended"};
-  if (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP || errno == EBADF)
-    return Error{Code::unsupported, "the file system of '" + store.root().string() +
-                                        "' has no locks, which merging needs: mount it with locks, or merge a copy"};
-  return ioError(path, errno);
+  // Not without end: whoever has it may hang, on another machine.
+  while (::flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if ((errno == EWOULDBLOCK || errno == EACCES) && std::chrono::steady_clock::now() < until) {
+      std::this_thread::sleep_for(kBetweenLooks);
+      continue;
+    }
+    if (errno == EINTR) continue;
+    return lockError(store, path, errno);
+  }
+  return lock;
 }
 
 StoreLock::~StoreLock() {

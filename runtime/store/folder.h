@@ -9,6 +9,7 @@
 // Everything appears whole or not at all (base/file_writer.h), and equal names mean equal bytes: any number of
 // processes may work in one store, readers included.
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -55,8 +56,8 @@ class Folder {
 /// Who changes what a store has, one at a time; readers and workers need none.
 class StoreLock {
  public:
-  /// busy: another process has it. io; unsupported: the file system has no locks.
-  static Result<StoreLock> take(const Folder& store);
+  /// Waits for who has it. busy: another process still has it then. io; unsupported: the file system has no locks.
+  static Result<StoreLock> take(const Folder& store, std::chrono::milliseconds patience = std::chrono::minutes(10));
   StoreLock(StoreLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   StoreLock& operator=(StoreLock&&) = delete;
   ~StoreLock();

@@ -131,6 +131,9 @@ Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
   // Others from 500 on are the file's own.
   if (status == 408 || status == 429 || status == 502 || status == 503 || status == 504)
     return Error{Code::busy, "the server answers with status " + std::to_string(status)};
+  if (status == 401)
+    return answers(
+        "answers with status 401: put a name and a password into the address, as in http://name:password@...");
   if (status != 206) return answers("answers with status " + std::to_string(status));
   if (transfer.range_first != transfer.first || transfer.file_bytes.value_or(0) <= transfer.first ||
       transfer.too_long ||
@@ -223,7 +226,10 @@ Result<std::optional<HttpPart>> HttpClient::get(const std::string& address, uint
   set(CURLOPT_ERRORBUFFER, static_cast<char*>(nullptr));
   if (transfer.out_of_memory || code == CURLE_OUT_OF_MEMORY) throw std::bad_alloc();
   if (code == CURLE_OK || (code == CURLE_WRITE_ERROR && transfer.too_long)) return partOf(transfer);
-  return Error{Code::busy, words[0] != 0 ? words.data() : curl_.easy_strerror(code)};
+  std::string why = words[0] != 0 ? words.data() : curl_.easy_strerror(code);
+  // OpenSSL's way to say that the server does not speak TLS.
+  if (why.find("wrong version number") != std::string::npos) why += "; is it http:// instead of https://?";
+  return Error{Code::busy, std::move(why)};
 }
 
 }  // namespace sgm::store

@@ -226,7 +226,8 @@ Result<Merged> merge(const Folder& store, const Bakery& bakery, const Manifest& 
   const std::vector<TileKey> tiles = tilesOf(bakery.region);
   if (const uint64_t missing = missingOf(bakery, tiles); missing != 0)
     return Error{Code::invalid_argument, std::to_string(missing) + " of " + std::to_string(tiles.size()) +
-                                             " tiles are not baked yet: run the shards that are missing again"};
+                                             " tiles are not baked yet: run all shards, with the same options as this, "
+                                             "to the end; those that are done take no time"};
   Merger merger(store, bakery);
   if (Result<void> learnt = merger.learn(merged.warnings); !learnt) return learnt.error();
   Result<IndexWriter> writer = IndexWriter::create(store.world(bakery.key), bakery.unfinished);

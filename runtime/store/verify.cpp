@@ -91,15 +91,17 @@ class Verifier {
     const bool is_new = packs_.insert(pack.name).second;
     Result<Pack> file = OpenFile::open(path);
     if (!file) {
-      if (is_new) found_.problems.add(file.error().message);
+      if (is_new) found_.problems.add(file.error().message + ": bake the world again");
       return nullptr;
     }
-    if (!is_new) return std::move(*file);
+    if (!is_new) return damaged_.count(pack.name) != 0 ? nullptr : std::move(*file);
     found_.bytes += (*file)->size();
     const Result<ContentId> id = idOfFile(**file);
     const auto head = (*file)->read(0, kPackHead);
     if (!id || (*file)->size() != pack.bytes || *id != pack.name) {
       found_.problems.add("'" + path.string() + "' is damaged: remove it, and bake the world again");
+      damaged_.insert(pack.name);
+      return nullptr;
     } else if (!head || !std::ranges::equal(*head, packHead())) {
       found_.problems.add("'" + path.string() +
                           "' is a pack of another version: bake its world anew into another store");
@@ -120,7 +122,7 @@ class Verifier {
       const auto first = record.inlined.begin() + static_cast<ptrdiff_t>(content.offset);
       bytes.assign(first, first + static_cast<ptrdiff_t>(content.stored));
     } else {
-      if (packs[content.pack] == nullptr) return wrong();
+      if (packs[content.pack] == nullptr) return Looked{};  // that has been told
       const auto frame = packs[content.pack]->read(content.offset, content.stored);
       if (!frame) return wrong();
       std::optional<std::pmr::vector<std::byte>> unpacked = unpacker_.unpack(*frame, content.bytes, memory_);
@@ -146,7 +148,7 @@ class Verifier {
   Verified found_;
   Closure closure_;
   std::unordered_set<ContentId, IdHash> known_;  ///< contents that were looked at
-  std::set<ContentId> packs_;                    ///< likewise
+  std::set<ContentId> packs_, damaged_;          ///< likewise; damaged: of these
 };
 
 }  // namespace
@@ -208,6 +210,20 @@ Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory) {
     return Error{Code::io, "'" + path.string() + "': " + error.message()};
   };
   Cleaned cleaned;
+  std::vector<fs::path> alone;
+  const fs::path indexes = store.root() / "worlds";
+  if (fs::exists(indexes, error)) {
+    for (fs::directory_iterator at(indexes, error), end; !error && at != end; at.increment(error)) {
+      fs::path index = at->path();
+      if (at->path().extension() == ".json" && !fs::exists(index.replace_extension(".sgmi"), error))
+        alone.push_back(at->path());
+    }
+    if (error) return failure(indexes);
+  }
+  for (const fs::path& manifest : alone) {
+    fs::remove(manifest, error);
+    if (error) return failure(manifest);
+  }
   const fs::path packs = store.root() / "packs", baking = store.root() / "baking";
   std::vector<std::pair<fs::path, uint64_t>> superfluous;
   if (fs::exists(packs, error)) {

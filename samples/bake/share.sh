@@ -4,29 +4,40 @@
 #   share.sh SHARES sgm bake FILE.sgm ... --out STORE     the share that the scheduler's own number says
 #   share.sh end sgm bake FILE.sgm ... --out STORE        when all shares have ended well: merges, and verifies
 #
-#   PBS, OpenPBS:   qsub -J 0-15 -- share.sh 16 sgm bake ...        then   qsub -W depend=afterok:ID -- share.sh end sgm bake ...
-#   Grid Engine:    qsub -t 1-16 share.sh 16 sgm bake ...           then   qsub -hold_jid ID share.sh end sgm bake ...
-#   LSF:            bsub -J 'bake[1-16]' share.sh 16 sgm bake ...   then   bsub -w 'done(bake)' share.sh end sgm bake ...
-#   by hand:        SHARE=3 share.sh 16 sgm bake ...
+# With S=/where/it/is/share.sh:
 #
-# Shares need the same STORE: a folder that all machines see. One that has failed, or was stopped, is just run again.
+#   PBS, OpenPBS:   qsub -J 0-15 -- $S 16 sgm bake ...      then   qsub -W depend=afterok:'ID[]' -- $S end sgm bake ...
+#   Torque:         echo "$S 16 sgm bake ..." | qsub -t 0-15 then  echo "$S end sgm bake ..." | qsub -W depend=afterokarray:'ID[]'
+#   Grid Engine:    qsub -S /bin/bash -cwd -t 1-16 $S 16 sgm bake ...   then   qsub -S /bin/bash -cwd -hold_jid ID $S end sgm bake ...
+#   LSF:            bsub -J 'bake[1-16]' $S 16 sgm bake ...   then   bsub -w 'done(bake)' $S end sgm bake ...
+#   by hand:        SHARE=3 $S 16 sgm bake ...
+#
+# All take the same command, `sgm bake` or one that ends so before its options, and the same STORE: a folder that all
+# machines see. A share that has failed, or was stopped, is just run again.
 set -euo pipefail
-shares=${1:?the number of shares, or end}
+fail() { echo "share.sh: error: $1 ('head -n 20 $0' shows its use)" >&2 && exit 2; }
+(($# > 1)) || fail "say the number of shares, or 'end', and the command that bakes"
+shares=$1
 shift
+[[ $shares == end || $shares =~ ^[1-9][0-9]*$ ]] || fail "'$shares' is neither a number of shares nor 'end'"
+[[ -z ${PBS_O_WORKDIR:-} ]] || cd "$PBS_O_WORKDIR"  # PBS begins in the home folder
 
 if [[ $shares == end ]]; then
   "$@" --merge
-  while (($# > 0)) && [[ $1 != --out && $1 != --out=* ]]; do shift; done
-  if [[ ${1:-} == --out ]]; then exec sgm store verify "$2"; fi
-  exec sgm store verify "${1#--out=}"
+  program=() store=
+  while (($# > 0)) && [[ $1 != bake ]]; do program+=("$1") && shift; done
+  while (($# > 0)); do
+    case $1 in --out) store=${2:-} ;; --out=*) store=${1#--out=} ;; esac
+    shift
+  done
+  exec "${program[@]}" store verify "$store"
 fi
-if [[ -n ${SHARE:-} ]]; then share=$SHARE
-elif [[ -n ${JOB_COMPLETION_INDEX:-} ]]; then share=$JOB_COMPLETION_INDEX             # Kubernetes, from 0
-elif [[ -n ${PBS_ARRAY_INDEX:-${PBS_ARRAYID:-}} ]]; then share=${PBS_ARRAY_INDEX:-$PBS_ARRAYID}  # from 0, as above
+if [[ -n ${JOB_COMPLETION_INDEX:-} ]]; then share=$JOB_COMPLETION_INDEX              # Kubernetes, from 0
+elif [[ -n ${PBS_ARRAY_INDEX:-} ]]; then share=$PBS_ARRAY_INDEX                       # from 0, as above
+elif [[ -n ${PBS_ARRAYID:-} ]]; then share=$PBS_ARRAYID                               # Torque, likewise
 elif [[ ${SGE_TASK_ID:-undefined} != undefined ]]; then share=$((SGE_TASK_ID - 1))    # from 1
 elif [[ ${LSB_JOBINDEX:-0} != 0 ]]; then share=$((LSB_JOBINDEX - 1))                  # from 1
-else
-  echo "share.sh: error: no scheduler says which share this is: set SHARE, from 0 to $((shares - 1))" >&2
-  exit 2
+elif [[ -n ${SHARE:-} ]]; then share=$SHARE
+else fail "no scheduler says which share this is: set SHARE, from 0 to $((shares - 1))"
 fi
 exec "$@" --shard "$share/$shares"

@@ -1,5 +1,8 @@
 // A store is the same however it was made, and has each content once.
 
+#include <atomic>
+#include <thread>
+
 #include "store_support.h"
 
 using namespace sgm;
@@ -222,10 +225,20 @@ TEST_CASE("who changes a store is alone", "[store]") {
   const CacheFolder folder;
   const store::Folder store(folder.path);
   REQUIRE(store.make());
-  const auto lock = store::StoreLock::take(store);
+  auto lock = store::StoreLock::take(store);
   REQUIRE(lock);
-  CHECK(store::StoreLock::take(store).error().code == Code::busy);
-  CHECK(store::clean(store, std::pmr::get_default_resource()).error().code == Code::busy);
+  CHECK(store::StoreLock::take(store, std::chrono::milliseconds(10)).error().code == Code::busy);
+  // Who comes meanwhile waits.
+  std::optional<store::StoreLock> had(std::move(*lock));
+  std::atomic<bool> has_gone = false;
+  std::thread other([&] {
+    const auto cleaned = store::clean(store, std::pmr::get_default_resource());
+    if (!cleaned || !has_gone) std::abort();
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
+  has_gone = true;
+  had.reset();
+  other.join();
 }
 
 TEST_CASE("verification finds what is wrong, and baking again tells other worlds", "[store]") {
