@@ -6,7 +6,8 @@
 //   edit, setField      --->   mesh (mesh_chunks.h): one request at a time a job, the most urgent first
 //   poll events         <---   write the journal of edits
 //
-// What both sides share lies in a mailbox (world_core.h) behind one mutex that is held for the moving of pointers only.
+// Where a store is far away, threads of the world's own look for chunks there before a job sees the request (work_queue.h).
+// What all sides share lies in a mailbox (world_core.h) behind one mutex that is held for the moving of pointers only.
 // update() waits for nothing else, so that an engine never waits for a job or a device.
 
 #include <memory>
@@ -80,7 +81,8 @@ class World {
   static Result<std::unique_ptr<World>> create(std::shared_ptr<const WorldField> field, Backend& backend,
                                                JobSystem& jobs, const WorldSettings& settings,
                                                std::pmr::memory_resource* memory);
-  /// Waits for jobs that have begun; those that the job system runs later find nothing to do.
+  /// Waits for jobs that have begun, and a second or so for a server that is being asked; jobs that the job system runs
+  /// later find nothing to do.
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;

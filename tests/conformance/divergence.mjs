@@ -2,20 +2,26 @@
 // them (shaders/mesher/tape.glsl). Software Vulkan forgives them: its lanes hand on what they hold even where they are
 // masked. Hardware does not.
 //
-//   node divergence.mjs SPIRV-DIS FILE.spv...      status 1 where one is found
+//   node divergence.mjs SPIRV-DIS FILE.spv...      status 3 where one is found, 1 where that cannot be told
 //
-// A value diverges where invocations may see different ones. That is what an invocation's number brings, what reads it,
-// and what is written where a diverging branch has parted them; reading a buffer at one place gives one value. Whoever
-// calls is not told apart, nor the order of writes: so it may suspect too much, but overlooks nothing of that.
+// A value diverges where invocations may see different ones. That is what an invocation's number brings, what is made of
+// it, and what is written where a diverging branch has parted them; reading a buffer at one place gives one value, as it
+// does where nobody writes there meanwhile. Who calls is not told apart, nor the order of writes: it may suspect too much.
+// Invocations are taken to meet again where SPIR-V's constructs say so.
 import { execFileSync } from 'node:child_process';
 import { basename } from 'node:path';
 
-const NUMBERS = ['LocalInvocationId', 'LocalInvocationIndex', 'GlobalInvocationId', 'SubgroupLocalInvocationId'];
+const NUMBERS = ['LocalInvocationId', 'LocalInvocationIndex', 'GlobalInvocationId', 'SubgroupLocalInvocationId',
+  'SubgroupEqMask', 'SubgroupGeMask', 'SubgroupGtMask', 'SubgroupLeMask', 'SubgroupLtMask'];
 const BUFFERS = ['StorageBuffer', 'Uniform', 'PushConstant'];
-const TERMINATORS = ['OpBranchConditional', 'OpSwitch'];
-const BRANCHES = ['OpBranch', ...TERMINATORS];
+const CHOICES = ['OpBranchConditional', 'OpSwitch'];
+const BRANCHES = ['OpBranch', ...CHOICES];
+const LEAVING = ['OpReturn', 'OpReturnValue', 'OpKill', 'OpTerminateInvocation'];
+// What gives all of a subgroup the same; reductions do so, too.
+const SHARED = /^OpGroupNonUniform(All|Any|AllEqual|BroadcastFirst|Ballot|BallotFindLSB|BallotFindMSB)$/;
 const isAccess = (op) => op === 'OpAccessChain' || op === 'OpInBoundsAccessChain';
-const needsAll = (op) => op.startsWith('OpGroupNonUniform') || op === 'OpControlBarrier';
+const isSubgroup = (op) => op.startsWith('OpGroupNonUniform');
+const isBarrier = (op) => op === 'OpControlBarrier';
 
 /** Of a module's text: functions with their blocks of instructions, and all that stands outside of them. */
 function parse(text) {
@@ -38,66 +44,93 @@ function parse(text) {
   return module;
 }
 
-/** The blocks from a header's branch up to where its paths meet again. */
-function construct(blocks, header) {
-  const merge = blocks.get(header).find(({ op }) => op === 'OpSelectionMerge' || op === 'OpLoopMerge')?.operands[0];
-  const inside = new Set();
-  const open = [header];
+const endOf = (blocks, label) => blocks.get(label).at(-1);
+const nextOf = (blocks, label) => {
+  const { op, operands } = endOf(blocks, label);
+  return BRANCHES.includes(op) ? operands.filter((id) => blocks.has(id)) : [];
+};
+
+/** The blocks that follow on one, none of `stops` and none behind these. */
+function following(blocks, label, stops) {
+  const found = new Set();
+  const open = [label];
   while (open.length > 0) {
-    const end = blocks.get(open.pop()).at(-1);
-    if (!BRANCHES.includes(end.op)) continue;
-    for (const next of end.operands) {
-      if (!blocks.has(next) || next === merge || inside.has(next)) continue;
-      inside.add(next);
+    for (const next of nextOf(blocks, open.pop())) {
+      if (stops.includes(next) || found.has(next)) continue;
+      found.add(next);
       open.push(next);
     }
   }
-  return inside;
+  return found;
 }
 
-/** What a branch parts: its construct, or, where it has none of its own, all loops that it may leave or repeat. */
-function parted(blocks, label) {
-  const merges = (at, op) => blocks.get(at).some((instruction) => instruction.op === op);
-  if (merges(label, 'OpSelectionMerge')) return construct(blocks, label);
-  const all = new Set();
-  for (const header of blocks.keys()) {
-    if (!merges(header, 'OpLoopMerge')) continue;
-    const loop = construct(blocks, header).add(header);
-    if (loop.has(label)) for (const inside of loop) all.add(inside);
+/** Loops by their headers: their blocks, where they end, and where they go on. */
+function loopsOf(blocks) {
+  const loops = [];
+  for (const [header, instructions] of blocks) {
+    const [merge, next] = instructions.find(({ op }) => op === 'OpLoopMerge')?.operands ?? [];
+    if (merge) loops.push({ inside: following(blocks, header, [merge]).add(header), merge, next });
   }
+  return loops;
+}
+
+/** What runs apart after a branch that diverges: up to where its paths meet; where one leaves a loop, or goes on with it,
+ *  all of that; where one leaves the function, all that may follow. */
+function parted(blocks, loops, label) {
+  const around = loops.filter(({ inside }) => inside.has(label));
+  const ends = around.flatMap(({ merge, next }) => [merge, next]);
+  const merge = blocks.get(label).find(({ op }) => op === 'OpSelectionMerge')?.operands[0];
+  const own = merge ? following(blocks, label, [merge, ...ends]) : new Set();
+  const all = new Set(own);
+  const reached = [label, ...own].flatMap((block) => nextOf(blocks, block));
+  for (const loop of around) {
+    if (reached.includes(loop.merge) || reached.includes(loop.next)) for (const block of loop.inside) all.add(block);
+  }
+  if ([...own].some((block) => LEAVING.includes(endOf(blocks, block).op)))
+    for (const block of following(blocks, label, [])) all.add(block);
   return all;
 }
 
-function findDivergent(module) {
+/** The blocks that not all invocations may come to together: of a subgroup, or of a workgroup. */
+function findDivergent(module, ofWorkgroup) {
   const values = new Set(); // and variables, by their own name
   const blocks = new Set();
+  const calledApart = new Set();
   const roots = new Map();
+  const variables = new Set(module.globals.keys());
   const rootOf = (pointer) => (roots.has(pointer) ? rootOf(roots.get(pointer)) : pointer);
-  const functions = [...module.functions.values()];
-  for (const { blocks: own } of functions) {
-    for (const { result, op, operands } of [...own.values()].flat()) if (isAccess(op)) roots.set(result, operands[1]);
+  const loops = new Map();
+  for (const [id, { blocks: own }] of module.functions) {
+    loops.set(id, loopsOf(own));
+    for (const { result, op, operands } of [...own.values()].flat()) {
+      if (isAccess(op)) roots.set(result, operands[1]);
+      if (op === 'OpVariable') variables.add(result);
+    }
   }
-  for (const [id, builtin] of module.builtins) if (NUMBERS.includes(builtin)) values.add(id);
+  const differing = ofWorkgroup ? [...NUMBERS, 'SubgroupId'] : NUMBERS;
+  for (const [id, builtin] of module.builtins) if (differing.includes(builtin)) values.add(id);
   const isBuffer = (root) => BUFFERS.includes(module.globals.get(root)?.operands[1]);
   const any = (ids) => ids.some((id) => values.has(id));
 
   const divergesBy = ({ op, operands }) => {
     if (op === 'OpLoad') return any([operands[1], rootOf(operands[1])]);
     if (isAccess(op)) return any(operands.slice(2));
-    if (op === 'OpGroupNonUniformShuffle') return any([operands[3]]);
-    if (op.startsWith('OpGroupNonUniform'))
-      return /Elect|ShuffleXor|ShuffleUp|ShuffleDown|InverseBallot/.test(op) || operands.some((o) => /Scan/.test(o));
+    if (isSubgroup(op)) {
+      if (ofWorkgroup) return true;
+      if (/^OpGroupNonUniform(Shuffle|Broadcast)$/.test(op)) return any([operands[3]]);
+      return !SHARED.test(op) && !operands.includes('Reduce');
+    }
     if (op === 'OpFunctionCall') return values.has(operands[1]);
     if (op === 'OpPhi') return any(operands.slice(1)) || operands.slice(1).some((id) => blocks.has(id));
     return op.startsWith('OpAtomic') || any(operands.slice(1));
   };
 
-  let size = -1;
-  while (size !== values.size + blocks.size) {
-    size = values.size + blocks.size;
+  const count = () => values.size + blocks.size + calledApart.size;
+  for (let size = -1; size !== count(); ) {
+    size = count();
     for (const [id, { blocks: own }] of module.functions) {
       for (const [label, instructions] of own) {
-        const apart = blocks.has(label);
+        const apart = blocks.has(label) || calledApart.has(id);
         for (const instruction of instructions) {
           const { result, op, operands } = instruction;
           if (result && divergesBy(instruction)) values.add(result);
@@ -105,14 +138,16 @@ function findDivergent(module) {
           if (written && !isBuffer(written) && (apart || any(operands.slice(0, 2)))) values.add(written);
           if (op === 'OpReturnValue' && (apart || any(operands))) values.add(id);
           if (op !== 'OpFunctionCall') continue;
+          if (apart) calledApart.add(operands[1]);
           module.functions.get(operands[1]).parameters.forEach((parameter, i) => {
-            const given = operands[2 + i];
-            if (any([given, rootOf(given)])) values.add(parameter);
-            if (values.has(parameter) && !isBuffer(rootOf(given)) && roots.has(given)) values.add(rootOf(given));
+            const given = rootOf(operands[2 + i]);
+            if (any([operands[2 + i], given])) values.add(parameter);
+            if (values.has(parameter) && variables.has(given) && !isBuffer(given)) values.add(given);
           });
         }
         const end = instructions.at(-1);
-        if (TERMINATORS.includes(end.op) && any([end.operands[0]])) for (const b of parted(own, label)) blocks.add(b);
+        if (!CHOICES.includes(end.op) || !values.has(end.operands[0])) continue;
+        for (const block of parted(own, loops.get(id), label)) blocks.add(block);
       }
     }
   }
@@ -122,26 +157,31 @@ function findDivergent(module) {
 /** Sentences: which function comes to what where its invocations may be apart. */
 function findings(text) {
   const module = parse(text);
-  const instructions = (id) => [...module.functions.get(id).blocks.values()].flat();
-  const needing = new Set();
-  const needs = ({ op, operands }) => needsAll(op) || (op === 'OpFunctionCall' && needing.has(operands[1]));
-  for (let size = -1; size !== needing.size; ) {
-    size = needing.size;
-    for (const id of module.functions.keys()) if (instructions(id).some(needs)) needing.add(id);
-  }
-  const apart = findDivergent(module);
   const found = new Set();
   const nameOf = (id) => module.names.get(id) ?? id;
-  for (const [id, { blocks }] of module.functions) {
-    for (const [label, own] of blocks) {
-      if (!apart.has(label)) continue;
-      for (const instruction of own.filter(needs)) {
-        const what = instruction.op === 'OpFunctionCall' ? nameOf(instruction.operands[1]) : instruction.op;
-        found.add(`${nameOf(id)} comes to ${what} where its invocations may have parted`);
+  let count = 0;
+  for (const [isMeant, apart] of [
+    [isSubgroup, findDivergent(module, false)],
+    [isBarrier, findDivergent(module, true)],
+  ]) {
+    const meaning = new Set();
+    const means = ({ op, operands }) => isMeant(op) || (op === 'OpFunctionCall' && meaning.has(operands[1]));
+    for (let size = -1; size !== meaning.size; ) {
+      size = meaning.size;
+      for (const [id, { blocks }] of module.functions) if ([...blocks.values()].flat().some(means)) meaning.add(id);
+    }
+    count += meaning.size;
+    for (const [id, { blocks }] of module.functions) {
+      for (const [label, own] of blocks) {
+        if (!apart.has(label)) continue;
+        for (const instruction of own.filter(means)) {
+          const what = instruction.op === 'OpFunctionCall' ? nameOf(instruction.operands[1]) : instruction.op;
+          found.add(`${nameOf(id)} comes to ${what} where its invocations may have parted`);
+        }
       }
     }
   }
-  return { found: [...found], needing: needing.size };
+  return { found: [...found], count };
 }
 
 const [disassembler, ...files] = process.argv.slice(2);
@@ -149,10 +189,10 @@ let failed = false;
 let counted = 0;
 for (const file of files) {
   const text = execFileSync(disassembler, ['--no-indent', file], { encoding: 'utf8', maxBuffer: 1 << 28 });
-  const { found, needing } = findings(text);
-  counted += needing;
+  const { found, count } = findings(text);
+  counted += count;
   for (const finding of found) console.log(`${basename(file)}: ${finding}`);
   failed ||= found.length > 0;
 }
-console.log(`${files.length} shaders, ${counted} functions with subgroup operations`);
-process.exit(failed || counted === 0 ? 1 : 0);
+console.log(`${files.length} shaders, ${counted} functions with subgroup operations or barriers`);
+process.exit(failed ? 3 : counted === 0 ? 1 : 0);
