@@ -1,6 +1,6 @@
 #pragma once
-// What --json prints. A small writer of our own: the command only writes, and a large library would take longer to
-// compile than the rest of the command.
+// What --json prints. A small writer of our own: nearly all of the command only writes, and a large library would take
+// longer to compile than the rest of it.
 
 #include <concepts>
 #include <cstdint>

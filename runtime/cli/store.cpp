@@ -64,10 +64,10 @@ void tell(const store::Problems& problems) {
 Json boxJson(const IntBox& box) { return {metresJson(box.lo), metresJson(box.hi)}; }
 
 /// What the manifest of a world says it was baked from; nothing where that cannot be read.
-Json originOf(const fs::path& manifest) {
+std::optional<Json> originOf(const fs::path& manifest) {
   std::ifstream text(manifest);
   const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) return {};
+  if (!json.is_object()) return std::nullopt;
   Json origin = Json::object();
   const auto take = [&](const char* name, const nlohmann::json& from, const char* key) {
     const auto value = from.is_object() ? from.find(key) : from.end();
@@ -139,7 +139,9 @@ Exit storeInfo(const StoreOptions& options) {
     }
     const store::BakedRegion& region = world->index.region;
     const std::string name = store::nameOf(world->index.world);
-    const Json origin = originOf(folder.manifest(world->index.world));
+    const std::optional<Json> read = originOf(folder.manifest(world->index.world));
+    const bool has_origin = read.has_value();
+    const Json origin = read.value_or(Json());
     all.push_back({{"world", name},
                    {"manifest", folder.manifest(world->index.world).string()},
                    {"from", origin},
@@ -154,7 +156,7 @@ Exit storeInfo(const StoreOptions& options) {
                    {"pack_bytes", summary->pack_bytes}});
     if (options.json) continue;
     fmt::print("{}\n", name);
-    fmt::print("  from     {}\n", origin.line());
+    fmt::print("  from     {}\n", has_origin ? origin.line() : "a manifest that cannot be read");
     fmt::print("  region   {},{},{} to {},{},{} m, levels {} to {}, cells of {} m\n", metres(region.box.lo.x),
                metres(region.box.lo.y), metres(region.box.lo.z), metres(region.box.hi.x), metres(region.box.hi.y),
                metres(region.box.hi.z), region.first_level, region.last_level, metres(region.finest_cell));
@@ -178,6 +180,10 @@ Exit storeVerify(const StoreVerifyOptions& options) {
                                 options.store));
   }
   Exit status = Exit::done;
+  Json json = Json::object();
+  // Whatever the options say wrong is told before all is read.
+  if (!options.file.empty()) status = bakeAgain(options, folder, json);
+  if (status == Exit::usage || status == Exit::backend) return status;
   Json all = Json::array();
   for (const Result<store::WorldFile>& world : *worlds) {
     if (!world) {
@@ -208,11 +214,7 @@ Exit storeVerify(const StoreVerifyOptions& options) {
                  found.problems.count == 0 ? "whole and closed" : fmt::format("{} problems", found.problems.count));
     }
   }
-  Json json = {{"worlds", all}};
-  if (!options.file.empty()) {
-    const Exit again = bakeAgain(options, folder, json);
-    if (again != Exit::done) status = again;
-  }
+  json["worlds"] = std::move(all);
   if (options.json) fmt::print("{}\n", json.text());
   return status;
 }

@@ -133,7 +133,8 @@ Result<std::optional<HttpPart>> partOf(Transfer& transfer) {
     return Error{Code::busy, "the server answers with status " + std::to_string(status)};
   if (status == 401)
     return answers(
-        "answers with status 401: put a name and a password into the address, as in http://name:password@...");
+        "answers with status 401: the address has to have a name and the right password, as in "
+        "http://name:password@...");
   if (status != 206) return answers("answers with status " + std::to_string(status));
   if (transfer.range_first != transfer.first || transfer.file_bytes.value_or(0) <= transfer.first ||
       transfer.too_long ||

@@ -60,9 +60,11 @@ class StoreSource final : public BakedParts {
     return std::nullopt;
   }
 
-  void reject(const DiskKey& world, const ChunkKey& chunk, int part) override {
+  void reject(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach) override {
     // Whichever store it came from: the others have the same, or as little.
-    for (const auto& store : stores_) store->reject(world, chunk, part);
+    for (const auto& store : stores_) {
+      if (reach == Reach::far || !store->files().isFar()) store->reject(world, chunk, part);
+    }
     const std::lock_guard lock(mutex_);
     --stats_.hits;
     ++stats_.misses;

@@ -8,7 +8,7 @@
 
 namespace sgm::store {
 
-/// The parts of the first store that has them. places: as storeFiles takes them. A world finds its own index by its
+/// The parts of the first store that has them, folders before servers. places: as storeFiles takes them. A world finds its own index by its
 /// identity, when it first asks; so a store that has none of it costs nothing, and a server is asked for nothing
 /// before. What is wrong with a file is told and costs what lies in it, no more: who asks derives it. memory,
 /// thread-safe, must outlive the source. A server costs no more than that either where this build, or machine, can

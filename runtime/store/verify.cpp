@@ -214,9 +214,10 @@ Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory) {
   const fs::path indexes = store.root() / "worlds";
   if (fs::exists(indexes, error)) {
     for (fs::directory_iterator at(indexes, error), end; !error && at != end; at.increment(error)) {
-      fs::path index = at->path();
-      if (at->path().extension() == ".json" && !fs::exists(index.replace_extension(".sgmi"), error))
-        alone.push_back(at->path());
+      const fs::path name = at->path().stem();
+      const auto isOf = [&](const fs::path& world) { return world.stem() == name; };
+      const bool is_manifest = at->path().extension() == ".json" && name.string().size() == nameOf(ContentId()).size();
+      if (is_manifest && std::none_of(worlds->begin(), worlds->end(), isOf)) alone.push_back(at->path());
     }
     if (error) return failure(indexes);
   }

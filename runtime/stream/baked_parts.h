@@ -38,8 +38,8 @@ class BakedParts {
   virtual std::optional<BakedPart> get(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach,
                                        std::pmr::memory_resource* memory) = 0;
 
-  /// What get gave is none: counts a damaged miss instead of the hit, and is not given again.
-  virtual void reject(const DiskKey& world, const ChunkKey& chunk, int part) = 0;
+  /// What get gave, looking so far, is none: counts a damaged miss instead of the hit, and is not given again.
+  virtual void reject(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach) = 0;
 
   /// Whether some may be far: whoever looks that far has time, and looks into a disk cache first. Always the same.
   virtual bool isFar() const = 0;

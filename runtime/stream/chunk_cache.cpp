@@ -27,7 +27,7 @@ std::optional<FoundBaked> fetchBaked(BakedParts& baked, const DiskKey& world, co
   if (!stored) return std::nullopt;
   std::optional<ChunkPart> found = decodeChunkPart(stored->bytes, part, inputs.asBaked(), memory, BytesAre::whole);
   if (!found) {
-    baked.reject(world, request.key, part);
+    baked.reject(world, request.key, part, reach);
     return std::nullopt;
   }
   if (!request.anchors) found->anchors.clear();
@@ -110,9 +110,11 @@ std::optional<ChunkPartInputs> inputsOf(const ChunkMesher& mesher, const ChunkRe
   return ChunkPartInputs::of(mesher.world, request, edits);
 }
 
-FoundParts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reach reach) {
+using Parts = std::array<std::optional<ChunkPart>, kChunkParts>;
+
+Parts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reach reach) {
   const ChunkRequest& request = inputs.request();
-  FoundParts found;
+  Parts found;
   DiskKey world;
   if (mesher.baked != nullptr) world = mesher.baked->worldOf(*bakedWorldInputs(mesher.world, request.sharp));
   for (int part = 0; part < kChunkParts; ++part) {
@@ -122,12 +124,23 @@ FoundParts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reac
   return found;
 }
 
+/// What of it is what would be found now.
+Parts stillFound(FoundParts&& found, const ChunkPartInputs& inputs) {
+  Parts still;
+  for (int part = 0; part < kChunkParts; ++part) {
+    auto& of_part = found.parts[static_cast<size_t>(part)];
+    const bool is_same = of_part && asksFor(inputs.request(), part) && found.inputs.bytes(part) == inputs.bytes(part);
+    if (is_same) still[static_cast<size_t>(part)] = std::move(of_part);
+  }
+  return still;
+}
+
 /// One order between what there was and what is handed out.
 struct InWork {
   ChunkRequest request, rest;  ///< rest: without what was found
   const ChunkSurface* before;
   std::optional<ChunkPartInputs> inputs;
-  FoundParts found;
+  Parts found;
   PlacedChunk chunk;
   VoidComponents voids;
   std::optional<Error> error;
@@ -150,7 +163,8 @@ void begin(const ChunkMesher& mesher, const EditSnapshot* edits, FoundParts* fou
   work.chunk.grid = *grid;
   work.inputs = inputsOf(mesher, work.request, edits);
   if (!work.inputs) return;
-  work.found = found != nullptr ? std::move(*found) : lookUp(mesher, *work.inputs, Reach::near);
+  work.found =
+      found != nullptr ? stillFound(std::move(*found), *work.inputs) : lookUp(mesher, *work.inputs, Reach::near);
   for (int part = 0; part < kChunkParts; ++part) {
     if (work.found[static_cast<size_t>(part)]) leaveOut(part, work.rest);
   }
@@ -244,11 +258,13 @@ void forEach(JobSystem& jobs, std::vector<InWork>& work, const Body& body) {
 
 }  // namespace
 
-FoundParts ChunkMesher::find(const ChunkRequest& request, const EditSnapshot* edits) const {
+std::optional<FoundParts> ChunkMesher::find(const ChunkRequest& request, const EditSnapshot* edits) const {
   const ChunkRequest of = completed(request, sharp);
-  if (!chunkGrid(world, of.key)) return {};
-  const std::optional<ChunkPartInputs> inputs = inputsOf(*this, of, edits);
-  return inputs ? lookUp(*this, *inputs, Reach::far) : FoundParts();
+  if (!chunkGrid(world, of.key)) return std::nullopt;
+  std::optional<ChunkPartInputs> inputs = inputsOf(*this, of, edits);
+  if (!inputs) return std::nullopt;
+  Parts parts = lookUp(*this, *inputs, Reach::far);
+  return FoundParts{std::move(parts), std::move(*inputs)};
 }
 
 Result<MeshedChunk> ChunkMesher::mesh(const ChunkRequest& request, const ChunkSurface* before,

@@ -26,7 +26,8 @@ struct MeshedChunk {
 struct MeshOrder {
   ChunkRequest request;
   const ChunkSurface* before = nullptr;  ///< as surfaceOf takes it
-  FoundParts* found = nullptr;           ///< by find, with the same edits; is moved from. Null: what is near is found
+  FoundParts* found = nullptr;           ///< by find; what the edits have changed since is not taken, the rest is
+                                         ///< moved from. Null: what is near is found
 };
 
 /// Meshes the chunks of one world. Borrows all that it names; as thread-safe as they are.
@@ -41,8 +42,9 @@ struct ChunkMesher {
   bool sharp = false;                  ///< with sharp features
   MeasuringPool* measuring = nullptr;  ///< ChunkSurface::measures, of `before`, too; null: nothing is measured
 
-  /// What there is of a request, near or far: takes as long as servers do. Throws std::bad_alloc.
-  FoundParts find(const ChunkRequest& request, const EditSnapshot* edits) const;
+  /// What there is of a request, near or far: takes as long as servers do. None where nothing is kept of it. Throws
+  /// std::bad_alloc.
+  std::optional<FoundParts> find(const ChunkRequest& request, const EditSnapshot* edits) const;
 
   /// As surfaceOf makes it of what meshChunks gives, equal in every byte wherever it comes from. Signs and anchors come
   /// with the body only. What the cache has is not derived, so that notes of its cells may never be told. Of a backend

@@ -76,8 +76,11 @@ struct ChunkPart {
   explicit ChunkPart(std::pmr::memory_resource* memory) : mesh(memory), voids(memory) {}
 };
 
-/// What there is of a chunk, by the numbers of its parts.
-using FoundParts = std::array<std::optional<ChunkPart>, kChunkParts>;
+/// What there is of a chunk, by the numbers of its parts, and what that depends on.
+struct FoundParts {
+  std::array<std::optional<ChunkPart>, kChunkParts> parts;
+  ChunkPartInputs inputs;
+};
 
 std::pmr::vector<std::byte> encodeChunkPart(int part, const MeshPart& mesh, std::span<const Anchor> anchors,
                                             std::span<const VoidComponent> voids, std::pmr::memory_resource* memory);

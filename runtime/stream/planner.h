@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "stream/chunk_part.h"
 #include "stream/chunk_store.h"
 #include "stream/commit_plan.h"
 #include "stream/drawn_frame.h"

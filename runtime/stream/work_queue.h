@@ -1,22 +1,25 @@
 #pragma once
 // What a world has planned to mesh, the most urgent first; and where stores are far away, when a request's turn comes.
 //
-// Then threads that may wait look for the most urgent requests, and jobs mesh those that have been looked for. A
-// request that has been among these for kPatience is meshed all the same: a server that is slow costs no more than it
-// saves. Looks outlast the plan that asked for them.
+// Then lookers, threads that may wait, look for the most urgent requests, and jobs mesh those that have been looked
+// for. A request that has been among these for kPatience is meshed all the same, and where all lookers have been at the
+// same for so long, so are all that nobody looks for: a server that is slow is to cost no more than it saves. Looks
+// outlast the plan that asked for them.
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "stream/chunk_part.h"
 #include "stream/planner.h"
 
 namespace sgm {
 
-/// Of one request, for what was baked. Whoever has the queue guards it until it has ended.
+/// Of one request, for what was baked. Whoever has the queue guards it.
 struct Look {
-  FoundParts found;
+  std::optional<FoundParts> found;
   double seconds = 0;
   bool has_ended = false;
 };
@@ -26,11 +29,13 @@ class WorkQueue {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds kPatience{200};
-  /// So many of the most urgent requests are looked for; the others have to wait until they are among these.
+  /// So many of the most urgent requests are in sight: they are looked for, and wait for that.
   static constexpr size_t kSight = 256;
+  /// No more is looked for where so many have been found, and no job has taken them: their memory counts nowhere else.
+  static constexpr size_t kMostFound = 64;
 
-  /// is_far: otherwise there is nothing to look for, and every request may be meshed at once.
-  explicit WorkQueue(bool is_far) : is_far_(is_far) {}
+  /// lookers: how many there are; 0: there is nothing to look for, and every request may be meshed at once.
+  explicit WorkQueue(size_t lookers) : lookers_(lookers) {}
 
   bool empty() const { return items_.empty(); }
   size_t size() const { return items_.size(); }
@@ -39,29 +44,36 @@ class WorkQueue {
   const WorkItem& mostUrgent() const { return items_.back(); }
 
   /// A plan's requests, the most urgent last, in place of all others, which are in `items` then. Those that stay the
-  /// same keep their looks where the state is the same that they are meshed under, and all of a chunk how long they
-  /// wait.
-  void replace(std::vector<WorkItem>& items, bool is_same_state, Clock::time_point now) noexcept;
+  /// same keep their looks, and all of a chunk how long they have waited.
+  void replace(std::vector<WorkItem>& items, Clock::time_point now) noexcept;
 
   /// The most urgent request that may be meshed, of those before this place. None: all of them wait.
   std::optional<size_t> nextReady(size_t below, Clock::time_point now) const;
-  /// How many may be meshed, of those in sight.
+  /// How many may be meshed.
   size_t countReady(Clock::time_point now) const;
   /// Who takes a request that is still being looked for does without.
   WorkItem remove(size_t at, Clock::time_point now);
 
   /// The most urgent request that nobody looks for; has the look from now on. None: there is nothing to look for.
-  std::optional<ChunkRequest> beginLook(const std::shared_ptr<Look>& look);
-  /// How many there are to look for.
+  std::optional<ChunkRequest> beginLook(const std::shared_ptr<Look>& look, Clock::time_point now);
+  /// Of one that was begun, whoever has it now.
+  void endLook(Look& look, std::optional<FoundParts>&& found, double seconds, Clock::time_point now);
+  /// How many there are to look for, and how many lookers do.
   size_t countToLook() const;
+  size_t countLooking() const { return looking_; }
 
  private:
-  size_t sight() const { return is_far_ ? std::min(kSight, items_.size()) : items_.size(); }
-  bool isReady(const WorkItem& item, Clock::time_point now) const;
+  size_t sight() const { return lookers_ != 0 ? std::min(kSight, items_.size()) : 0; }
+  /// Whether no looker has begun or ended for so long, and all are at work.
+  bool isStalled(Clock::time_point now) const { return looking_ >= lookers_ && now - progress_ >= kPatience; }
+  bool isReady(size_t at, Clock::time_point now) const;
+  bool mayLook() const;
   static bool isToLook(const WorkItem& item) { return item.look == nullptr && item.rank != WorkItem::Rank::edited; }
 
-  const bool is_far_;
+  const size_t lookers_;
   std::vector<WorkItem> items_;
+  size_t looking_ = 0;
+  Clock::time_point progress_;
 };
 
 }  // namespace sgm

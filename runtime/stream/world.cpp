@@ -191,8 +191,11 @@ void World::advance(size_t bytes) {
     core_->drawn = step->to;
     core_->edits_drawn = step->to->edits;
   }
-  core_->kickOverdue();
-  if (core_->planIsDue()) core_->kickPlanner();
+  if (core_->planIsDue()) {
+    core_->kickPlanner();
+  } else {
+    core_->kickOverdue();
+  }
   core_->kickFieldSwitch();
 }
 
@@ -324,7 +327,7 @@ Result<void> World::setField(std::shared_ptr<const WorldField> field) {
 void World::cancel() {
   std::vector<WorkItem> dropped;  // freed after the mutex
   const std::lock_guard lock(core_->mutex);
-  core_->queue.replace(dropped, false, std::chrono::steady_clock::now());
+  core_->queue.replace(dropped, std::chrono::steady_clock::now());
   ++core_->generation;
   ++core_->viewers_set;  // to be planned anew
 }

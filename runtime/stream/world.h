@@ -6,9 +6,9 @@
 //   edit, setField      --->   mesh (mesh_chunks.h): one request at a time a job, the most urgent first
 //   poll events         <---   write the journal of edits
 //
-// Where a store is far away, threads of the world's own look for chunks there before a job sees the request (work_queue.h).
-// What all sides share lies in a mailbox (world_core.h) behind one mutex that is held for the moving of pointers only.
-// update() waits for nothing else, so that an engine never waits for a job or a device.
+// Where a store is far away, threads of the world's own look for chunks there before a job sees the request
+// (work_queue.h). What all sides share lies in a mailbox (world_core.h) behind one mutex that is held for the moving of
+// pointers only. update() waits for nothing else, so that an engine never waits for a job or a device.
 
 #include <memory>
 #include <mutex>

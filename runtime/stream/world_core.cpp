@@ -38,7 +38,7 @@ WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_i
       settings(settings_in),
       edits(std::move(field), settings_in.edits, memory),
       fields(settings_in.sharp),
-      queue(lookers != nullptr),
+      queue(lookers != nullptr ? lookers->concurrency() - 1 : 0),
       drawn(std::make_shared<DrawnFrame>(Octree(settings_in.lod.top, settings_in.lod.finest_cell))),
       memory_(memory),
       lookers_(std::move(lookers)),
@@ -216,7 +216,7 @@ void WorldCore::kickMeshing() {
     {
       const std::lock_guard lock(mutex);
       const size_t most = scarce ? 1 : mostMeshJobs();
-      if (stopped_ || mesh_jobs >= most || !hasRoom()) return;
+      if (stopped_ || passed_over_ || mesh_jobs >= most || !hasRoom()) return;
       if (mesh_jobs - meshing_jobs_ >= queue.countReady(Clock::now())) return;
       ++mesh_jobs;
     }
@@ -228,12 +228,7 @@ void WorldCore::kickMeshing() {
 }
 
 void WorldCore::kickOverdue() {
-  if (lookers_ == nullptr) return;
-  {
-    const std::lock_guard lock(mutex);
-    if (passed_over_) return;  // the next plan tries again
-  }
-  kickMeshing();
+  if (lookers_ != nullptr) kickMeshing();
 }
 
 void WorldCore::kickLooking() {
@@ -241,7 +236,8 @@ void WorldCore::kickLooking() {
   for (unsigned more = kLookers; more > 0; --more) {
     {
       const std::lock_guard lock(mutex);
-      if (stopped_ || look_jobs_ >= std::min<size_t>(kLookers, queue.countToLook())) return;
+      if (stopped_ || look_jobs_ >= kLookers || !hasRoom()) return;
+      if (look_jobs_ - queue.countLooking() >= queue.countToLook()) return;
       ++look_jobs_;
     }
     if (submit(*lookers_, run<&WorldCore::lookFar>, kLookPriority)) continue;
@@ -289,7 +285,7 @@ void WorldCore::losePlanner() {
   const std::lock_guard lock(mutex);
   planner_lost_ = true;
   planning_ = false;
-  queue.replace(dropped, false, Clock::now());
+  queue.replace(dropped, Clock::now());
   ++generation;
   ++plans;
   changed.notify_all();
@@ -370,7 +366,7 @@ void WorldCore::publish(Plan&& plan) {
   leaveOut(std::span(begun_).subspan(std::min(begun.size(), begun_.size())));
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
   // What was there before goes with the plan, when nobody waits for it.
-  queue.replace(plan.queue, queue_edits_.number == plan.edits.number, Clock::now());
+  queue.replace(plan.queue, Clock::now());
   std::swap(queue_edits_, plan.edits);
   step.swap(plan.step);
   if (planned_with_.viewers != planning_with_.viewers) meshing_before_ = meshing_;
@@ -454,7 +450,7 @@ ChunkMesher WorldCore::mesherOf(const WorldState& under) const {
 void WorldCore::lookFar() {
   for (;;) {
     std::shared_ptr<Look> look;
-    FoundParts found;
+    std::optional<FoundParts> found;
     try {
       look = std::make_shared<Look>();
     } catch (const std::bad_alloc&) {
@@ -464,7 +460,7 @@ void WorldCore::lookFar() {
     WorldState under;
     {
       const std::lock_guard lock(mutex);
-      if (look != nullptr && !stopped_) request = queue.beginLook(look);
+      if (look != nullptr && !stopped_ && hasRoom()) request = queue.beginLook(look, Clock::now());
       if (!request) {
         --look_jobs_;
         return;
@@ -479,9 +475,8 @@ void WorldCore::lookFar() {
     }
     {
       const std::lock_guard lock(mutex);
-      look->found = std::move(found);
-      look->seconds = std::chrono::duration<double>(Clock::now() - begun_at).count();
-      look->has_ended = true;
+      const Clock::time_point now = Clock::now();
+      queue.endLook(*look, std::move(found), std::chrono::duration<double>(now - begun_at).count(), now);
     }
     kickMeshing();
   }
@@ -496,7 +491,7 @@ MadeMeasures WorldCore::meshItems(std::span<const WorkItem> items, const WorldSt
   try {
     std::vector<MeshOrder> orders;
     for (const WorkItem& item : items)
-      orders.push_back({item.request, item.before.get(), item.look ? &item.look->found : nullptr});
+      orders.push_back({item.request, item.before.get(), item.look && item.look->found ? &*item.look->found : nullptr});
     std::vector<Result<MeshedChunk>> chunks = mesher.mesh(orders, under.brushes.get(), progress);
     for (const Result<MeshedChunk>& chunk : chunks) {
       if (chunk) measured.add(chunk->measured);

@@ -20,16 +20,19 @@ fail() { echo "share.sh: error: $1 ('head -n 20 $0' shows its use)" >&2 && exit 
 shares=$1
 shift
 [[ $shares == end || $shares =~ ^[1-9][0-9]*$ ]] || fail "'$shares' is neither a number of shares nor 'end'"
-[[ -z ${PBS_O_WORKDIR:-} ]] || cd "$PBS_O_WORKDIR"  # PBS begins in the home folder
+[[ ${PBS_ENVIRONMENT:-} != PBS_BATCH ]] || cd "$PBS_O_WORKDIR"  # PBS begins in the home folder
 
 if [[ $shares == end ]]; then
   "$@" --merge
-  program=() store=
-  while (($# > 0)) && [[ $1 != bake ]]; do program+=("$1") && shift; done
-  while (($# > 0)); do
-    case $1 in --out) store=${2:-} ;; --out=*) store=${1#--out=} ;; esac
-    shift
+  words=("$@") program=() store=
+  for ((i = 0; i < $#; ++i)); do
+    case ${words[i]} in
+      bake) program=("${words[@]:0:i}") ;;  # the last such word before the options
+      --out) store=${words[i + 1]:-} && break ;;
+      --out=*) store=${words[i]#--out=} && break ;;
+    esac
   done
+  ((${#program[@]} > 0)) && [[ -n $store ]] || fail "to verify it takes 'sgm bake' and --out in the command"
   exec "${program[@]}" store verify "$store"
 fi
 if [[ -n ${JOB_COMPLETION_INDEX:-} ]]; then share=$JOB_COMPLETION_INDEX              # Kubernetes, from 0

@@ -1303,7 +1303,9 @@ typedef struct sgm_world_desc {
                                 derived: damage is told to the log the first time, and so is a store that has nothing
                                 of this world. Servers are first asked when chunks are wanted, on four threads of the
                                 world's own, which also submit jobs. No job waits for a server, nor does the engine but
-                                to destroy the world, a second at most; and what has not come after 0.2 s is derived.
+                                to destroy the world, a second at most; a chunk that has not come 0.2 s after its turn
+                                is derived, and where a server keeps all threads for so long, so are all others. What
+                                was found and not used yet, 64 chunks at most, counts beside mesh_bytes.
                                 One that does not answer is told to the log and left alone for a while; so is the world
                                 derived where there is no libcurl. 32 MiB of what each sent are kept in memory */
   uint32_t store_count;
@@ -1574,7 +1576,7 @@ typedef struct sgm_world_stats {
   uint64_t cache_misses;    /* parts that are proven to be empty among them: these are not kept */
   uint64_t cache_damaged;   /* of the misses, those where what was there could not be trusted */
   uint64_t cache_bytes;     /* of the folder's files, as far as they were looked at */
-  uint64_t store_hits;      /* parts of chunks that came from stores */
+  uint64_t store_hits;      /* parts of chunks that came from stores; of slow servers some came too late to be used */
   uint64_t store_misses;    /* parts that were looked for there, and are not, or did not come in time */
   uint64_t store_damaged;   /* of the misses, those where what was there could not be trusted */
   uint64_t store_bytes;     /* read for the hits */

@@ -57,6 +57,8 @@ class FarFolder final : public BakedParts {
 
   /// Milliseconds of an answer, at most; below 0: it takes until reading is stopped.
   std::atomic<int> slowness = 0;
+  /// Requests that are never answered, of those that come first.
+  std::atomic<int> to_hang = 0;
   std::atomic<size_t> asked = 0, answers = 0, asked_by_jobs = 0;
 
   DiskKey worldOf(std::span<const std::byte> inputs) const override { return parts_->worldOf(inputs); }
@@ -67,7 +69,8 @@ class FarFolder final : public BakedParts {
     asked_by_jobs += jobs_running > 0;
     {
       std::unique_lock lock(mutex_);
-      if (slowness < 0) {
+      const bool hangs = to_hang > 0 && to_hang-- > 0;
+      if (slowness < 0 || hangs) {
         stopping_.wait(lock, [this] { return stopped_; });
       } else if (slowness > 0) {
         const auto time = std::chrono::microseconds(random_() % (1000 * static_cast<unsigned>(slowness)));
@@ -80,7 +83,9 @@ class FarFolder final : public BakedParts {
     if (found) found->is_far = true;
     return found;
   }
-  void reject(const DiskKey& world, const ChunkKey& chunk, int part) override { parts_->reject(world, chunk, part); }
+  void reject(const DiskKey& world, const ChunkKey& chunk, int part, Reach reach) override {
+    parts_->reject(world, chunk, part, reach);
+  }
   bool isFar() const override { return true; }
   void stop() noexcept override {
     {
@@ -141,21 +146,25 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
   for (uint32_t seed = 1; seed <= rounds(60); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);
-    WorkQueue queue(true);
+    constexpr size_t kLookers = 4;
+    WorkQueue queue(kLookers);
     Clock::time_point now{std::chrono::hours(1)};
     std::vector<WorkItem> model;  // the most urgent last, as the queue is
     std::vector<std::shared_ptr<Look>> looking;
+    Clock::time_point progress{};
     const auto sight = [&] { return std::span(model).last(std::min(WorkQueue::kSight, model.size())); };
+    const auto isStalled = [&] { return looking.size() >= kLookers && now - progress >= WorkQueue::kPatience; };
     const auto isReady = [&](const WorkItem& item) {
+      const bool is_in_sight = &item >= sight().data();
       return item.rank == WorkItem::Rank::edited || (item.look && item.look->has_ended) ||
-             now - item.in_sight_since >= WorkQueue::kPatience;
+             (!item.look && isStalled()) || (is_in_sight && now - item.in_sight_since >= WorkQueue::kPatience);
     };
+    const auto reached = [&] { return isStalled() ? std::span(model) : sight(); };
     for (int step = 0; step < 400; ++step) {
-      now += std::chrono::milliseconds(random() % 20);
+      now += std::chrono::milliseconds(random() % (step % 50 < 10 ? 100 : 20));
       switch (random() % 8) {
         case 0: {
           std::vector<WorkItem> plan;
-          const bool is_same_state = random() % 4 != 0;
           const size_t size = random() % 2 ? random() % 12 : random() % (WorkQueue::kSight + 40);
           std::set<ChunkKey> keys;
           while (keys.size() < size) keys.insert({0, {static_cast<int32_t>(random() % 600), 0, 0}});
@@ -171,50 +180,59 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
             for (const WorkItem& old : sight()) {
               if (old.request.key != item.request.key) continue;
               item.in_sight_since = old.in_sight_since;
-              if (is_same_state && old.request == item.request) item.look = old.look;
+              if (old.request == item.request) item.look = old.look;
             }
           }
           model = std::move(next);
-          queue.replace(plan, is_same_state, now);
+          queue.replace(plan, now);
           break;
         }
         case 1:
         case 2: {
           const auto at = queue.nextReady(queue.size(), now);
-          const auto wanted =
-              std::find_if(model.rbegin(), model.rbegin() + static_cast<ptrdiff_t>(sight().size()), isReady);
-          REQUIRE(at.has_value() == (wanted != model.rbegin() + static_cast<ptrdiff_t>(sight().size())));
+          const std::span<WorkItem> of = reached();
+          const auto wanted = std::find_if(of.rbegin(), of.rend(), isReady);
+          REQUIRE(at.has_value() == (wanted != of.rend()));
           if (!at) break;
           const WorkItem taken = queue.remove(*at, now);
           REQUIRE(taken.request == wanted->request);
           CHECK((taken.look == nullptr || taken.look->has_ended));
-          model.erase(std::next(wanted).base());
+          model.erase(model.begin() + (&*wanted - model.data()));
           if (model.size() >= WorkQueue::kSight) model[model.size() - WorkQueue::kSight].in_sight_since = now;
           break;
         }
         case 3:
         case 4:
         case 5: {
+          if (looking.size() == kLookers) break;
           const auto look = std::make_shared<Look>();
-          const auto request = queue.beginLook(look);
-          const auto wanted = std::find_if(
-              model.rbegin(), model.rbegin() + static_cast<ptrdiff_t>(sight().size()),
-              [](const WorkItem& item) { return item.look == nullptr && item.rank != WorkItem::Rank::edited; });
-          REQUIRE(request.has_value() == (wanted != model.rbegin() + static_cast<ptrdiff_t>(sight().size())));
+          const auto isFound = [](const WorkItem& item) { return item.look && item.look->has_ended; };
+          const auto found = static_cast<size_t>(std::ranges::count_if(sight(), isFound));
+          const std::span<WorkItem> of = sight();
+          const auto wanted = std::find_if(of.rbegin(), of.rend(), [](const WorkItem& item) {
+            return item.look == nullptr && item.rank != WorkItem::Rank::edited;
+          });
+          const bool is_there = wanted != of.rend() && found < WorkQueue::kMostFound;
+          CHECK((queue.countToLook() > 0) == is_there);
+          const auto request = queue.beginLook(look, now);
+          REQUIRE(request.has_value() == is_there);
           if (!request) break;
           REQUIRE(*request == wanted->request);
           wanted->look = look;
           looking.push_back(look);
+          progress = now;
           break;
         }
         default:
-          if (looking.empty()) break;
+          if (looking.empty() || step % 50 < 10) break;
           std::swap(looking[random() % looking.size()], looking.back());
-          looking.back()->has_ended = true;
+          queue.endLook(*looking.back(), std::nullopt, 0, now);
           looking.pop_back();
+          progress = now;
       }
+      REQUIRE(queue.countLooking() == looking.size());
       REQUIRE(queue.size() == model.size());
-      CHECK(queue.countReady(now) == static_cast<size_t>(std::ranges::count_if(sight(), isReady)));
+      CHECK(queue.countReady(now) == static_cast<size_t>(std::ranges::count_if(reached(), isReady)));
     }
   }
 }
@@ -247,8 +265,8 @@ TEST_CASE("a store that does not answer, or slowly, holds up no viewer, whoever 
       far->slowness = slowness;
       std::unique_ptr<JobSystem> jobs;
       if (kind < 2) jobs = markedJobs(kind == 0 ? 1 : 3);
-      if (kind == 2) jobs = std::make_unique<LateJobs>(7);
-      if (kind == 3) jobs = std::make_unique<InlineJobs>();
+      if (kind == 2) jobs = std::make_unique<MarkedJobs>(std::make_unique<LateJobs>(7));
+      if (kind == 3) jobs = std::make_unique<MarkedJobs>(std::make_unique<InlineJobs>());
       Scene scene(std::move(jobs), caveText(), with(far));
       Engine engine;
       // So that each frame has a plan of its own.
@@ -268,6 +286,35 @@ TEST_CASE("a store that does not answer, or slowly, holds up no viewer, whoever 
       engine.take(*scene.world);
       checkFrame(scene, engine);
     }
+  }
+}
+
+TEST_CASE("requests that hang cost their own lookers and no more", "[store][threads]") {
+  const BakedScene baked;
+  // Few requests at one time, which is when one looker in the way shows.
+  const auto hitsOfWalk = [&](std::shared_ptr<BakedParts> parts) {
+    WorldSettings settings;
+    settings.baked = parts;
+    Scene scene(markedJobs(2), caveText(), settings);
+    Engine engine;
+    Viewer viewer = viewerAt(16, 64, 64);
+    for (int turn = 0; turn < 6; ++turn) {
+      viewer.position[0] += 16 * kUnitsPerMetre;
+      REQUIRE(scene.world->setViewers({&viewer, 1}));
+      REQUIRE(scene.world->waitIdle());
+      engine.take(*scene.world);
+    }
+    checkFrame(scene, engine);
+    return parts->stats().hits;
+  };
+  const uint64_t near = hitsOfWalk(sourceAt(baked.folder.path.string()));
+  for (const int hanging : {1, 3}) {
+    CAPTURE(hanging, near);
+    const auto far = baked.open();
+    far->to_hang = hanging;
+    const uint64_t hits = hitsOfWalk(far);
+    CHECK(hits > near - near / 10);
+    CHECK(far->asked_by_jobs == 0);
   }
 }
 

@@ -46,8 +46,8 @@ struct Machine {
 inline Result<MeshedChunk> tryToMesh(const ChunkMesher& mesher, const ChunkRequest& request,
                                      const ChunkSurface* before = nullptr, const EditSnapshot* edits = nullptr) {
   if (mesher.baked == nullptr || !mesher.baked->isFar()) return mesher.mesh(request, before, edits);
-  FoundParts found = mesher.find(request, edits);
-  const MeshOrder order{request, before, &found};
+  std::optional<FoundParts> found = mesher.find(request, edits);
+  const MeshOrder order{request, before, found ? &*found : nullptr};
   return std::move(mesher.mesh({&order, 1}, edits).front());
 }
 
