@@ -124,13 +124,16 @@ Parts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reach rea
   return found;
 }
 
-/// What of it is what would be found now.
-Parts stillFound(FoundParts&& found, const ChunkPartInputs& inputs) {
+/// What of it is what would be found now; what is not is found near.
+Parts stillFound(const ChunkMesher& mesher, FoundParts&& found, const ChunkPartInputs& inputs) {
   Parts still;
+  std::optional<Parts> near;
   for (int part = 0; part < kChunkParts; ++part) {
-    auto& of_part = found.parts[static_cast<size_t>(part)];
-    const bool is_same = of_part && asksFor(inputs.request(), part) && found.inputs.bytes(part) == inputs.bytes(part);
-    if (is_same) still[static_cast<size_t>(part)] = std::move(of_part);
+    if (!asksFor(inputs.request(), part)) continue;
+    const auto p = static_cast<size_t>(part);
+    const bool is_same = found.inputs.bytes(part) == inputs.bytes(part);
+    if (!is_same && !near) near = lookUp(mesher, inputs, Reach::near);
+    still[p] = std::move(is_same ? found.parts[p] : (*near)[p]);
   }
   return still;
 }
@@ -163,8 +166,8 @@ void begin(const ChunkMesher& mesher, const EditSnapshot* edits, FoundParts* fou
   work.chunk.grid = *grid;
   work.inputs = inputsOf(mesher, work.request, edits);
   if (!work.inputs) return;
-  work.found =
-      found != nullptr ? stillFound(std::move(*found), *work.inputs) : lookUp(mesher, *work.inputs, Reach::near);
+  work.found = found != nullptr ? stillFound(mesher, std::move(*found), *work.inputs)
+                                : lookUp(mesher, *work.inputs, Reach::near);
   for (int part = 0; part < kChunkParts; ++part) {
     if (work.found[static_cast<size_t>(part)]) leaveOut(part, work.rest);
   }

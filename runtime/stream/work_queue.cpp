@@ -14,7 +14,7 @@ bool WorkQueue::isReady(size_t at, Clock::time_point now) const {
   return at >= items_.size() - sight() && now - item.in_sight_since >= kPatience;
 }
 
-void WorkQueue::replace(std::vector<WorkItem>& items, Clock::time_point now) noexcept {
+void WorkQueue::replace(std::vector<WorkItem>& items, bool may_look, Clock::time_point now) noexcept {
   items_.swap(items);
   if (lookers_ == 0) return;
   const auto inSight = [](std::vector<WorkItem>& of) { return std::span(of).last(std::min(kSight, of.size())); };
@@ -27,8 +27,8 @@ void WorkQueue::replace(std::vector<WorkItem>& items, Clock::time_point now) noe
   for (WorkItem& item : inSight(items_)) {
     const auto at = std::ranges::lower_bound(before.begin(), end, item.request.key, {}, keyOf);
     const bool is_known = at != end && (*at)->request.key == item.request.key;
-    item.in_sight_since = is_known ? (*at)->in_sight_since : now;
     if (is_known && (*at)->request == item.request) item.look = (*at)->look;
+    item.in_sight_since = is_known && (may_look || item.look != nullptr) ? (*at)->in_sight_since : now;
   }
 }
 
@@ -49,11 +49,12 @@ size_t WorkQueue::countReady(Clock::time_point now) const {
 }
 
 WorkItem WorkQueue::remove(size_t at, Clock::time_point now) {
+  const bool was_in_sight = at >= items_.size() - sight();
   WorkItem item = std::move(items_[at]);
   if (item.look != nullptr && !item.look->has_ended) item.look = nullptr;
   items_.erase(items_.begin() + static_cast<ptrdiff_t>(at));
   // One more is in sight.
-  if (lookers_ != 0 && items_.size() >= kSight) items_[items_.size() - kSight].in_sight_since = now;
+  if (was_in_sight && items_.size() >= kSight) items_[items_.size() - kSight].in_sight_since = now;
   return item;
 }
 

@@ -44,8 +44,8 @@ class WorkQueue {
   const WorkItem& mostUrgent() const { return items_.back(); }
 
   /// A plan's requests, the most urgent last, in place of all others, which are in `items` then. Those that stay the
-  /// same keep their looks, and all of a chunk how long they have waited.
-  void replace(std::vector<WorkItem>& items, Clock::time_point now) noexcept;
+  /// same keep their looks, and all of a chunk how long they have waited: as long as somebody may look for them.
+  void replace(std::vector<WorkItem>& items, bool may_look, Clock::time_point now) noexcept;
 
   /// The most urgent request that may be meshed, of those before this place. None: all of them wait.
   std::optional<size_t> nextReady(size_t below, Clock::time_point now) const;

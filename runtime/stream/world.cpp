@@ -83,15 +83,14 @@ Result<void> checkHosts(const WorldField& field, const WorldSettings& settings) 
   return {};
 }
 
-/// Threads to wait for servers. Where none starts, nothing is baked.
-std::unique_ptr<JobSystem> makeLookers(const Profiler& profiler, WorldSettings& settings) {
+/// Threads to wait for servers. Where none starts, what is near is all that is baked.
+std::unique_ptr<JobSystem> makeLookers(const Profiler& profiler, const WorldSettings& settings) {
   Result<std::unique_ptr<JobSystem>> lookers = makeThreadPool(WorldCore::kLookers + 1, profiler, "sgm store");
   if (lookers) return std::move(*lookers);
   if (settings.on_warning) {
     settings.on_warning("no thread to read baked worlds from a server with (" + lookers.error().message +
                         "): chunks are derived instead");
   }
-  settings.baked = nullptr;
   return nullptr;
 }
 
@@ -327,7 +326,7 @@ Result<void> World::setField(std::shared_ptr<const WorldField> field) {
 void World::cancel() {
   std::vector<WorkItem> dropped;  // freed after the mutex
   const std::lock_guard lock(core_->mutex);
-  core_->queue.replace(dropped, std::chrono::steady_clock::now());
+  core_->queue.replace(dropped, true, std::chrono::steady_clock::now());
   ++core_->generation;
   ++core_->viewers_set;  // to be planned anew
 }

@@ -99,6 +99,10 @@ bool WorldCore::isLooking() const {
   return lookers_ != nullptr && !queue.empty() && hasRoom() && !queue.nextReady(queue.size(), Clock::now());
 }
 
+bool WorldCore::isOverdue() const {
+  return lookers_ != nullptr && !passed_over_ && !scarce && hasRoom() && queue.nextReady(queue.size(), Clock::now());
+}
+
 WorldCore::Work WorldCore::work() const {
   const size_t all = queue.size() + meshing_;
   return {queue.size(), meshing_, planned_with_.viewers != viewers_set ? all : std::min(meshing_, meshing_before_)};
@@ -216,7 +220,9 @@ void WorldCore::kickMeshing() {
     {
       const std::lock_guard lock(mutex);
       const size_t most = scarce ? 1 : mostMeshJobs();
-      if (stopped_ || passed_over_ || mesh_jobs >= most || !hasRoom()) return;
+      // What lookers bring is not tried in vain, one after the other.
+      if (lookers_ != nullptr && passed_over_) return;
+      if (stopped_ || mesh_jobs >= most || !hasRoom()) return;
       if (mesh_jobs - meshing_jobs_ >= queue.countReady(Clock::now())) return;
       ++mesh_jobs;
     }
@@ -236,7 +242,7 @@ void WorldCore::kickLooking() {
   for (unsigned more = kLookers; more > 0; --more) {
     {
       const std::lock_guard lock(mutex);
-      if (stopped_ || look_jobs_ >= kLookers || !hasRoom()) return;
+      if (stopped_ || look_jobs_ >= kLookers || !mayLook()) return;
       if (look_jobs_ - queue.countLooking() >= queue.countToLook()) return;
       ++look_jobs_;
     }
@@ -276,7 +282,7 @@ bool WorldCore::planIsDue() const {
                     planning_with_.applied != applied || !finished_.empty() || !refused.empty();
   // Without room, out of memory, or between two states of edits of which one changed nothing.
   const bool nothing_to_draw = step == nullptr || step->from != applied;
-  const bool stuck = !atWork() && nothing_to_draw && (!idle_ || !colliders_done_);
+  const bool stuck = !atWork() && !isOverdue() && nothing_to_draw && (!idle_ || !colliders_done_);
   return stuck || (news && (queue.empty() || Clock::now() >= next_plan_));
 }
 
@@ -285,7 +291,7 @@ void WorldCore::losePlanner() {
   const std::lock_guard lock(mutex);
   planner_lost_ = true;
   planning_ = false;
-  queue.replace(dropped, Clock::now());
+  queue.replace(dropped, true, Clock::now());
   ++generation;
   ++plans;
   changed.notify_all();
@@ -366,7 +372,7 @@ void WorldCore::publish(Plan&& plan) {
   leaveOut(std::span(begun_).subspan(std::min(begun.size(), begun_.size())));
   failed.insert(failed.end(), std::make_move_iterator(plan.failed.begin()), std::make_move_iterator(plan.failed.end()));
   // What was there before goes with the plan, when nobody waits for it.
-  queue.replace(plan.queue, Clock::now());
+  queue.replace(plan.queue, mayLook(), Clock::now());
   std::swap(queue_edits_, plan.edits);
   step.swap(plan.step);
   if (planned_with_.viewers != planning_with_.viewers) meshing_before_ = meshing_;
@@ -460,7 +466,7 @@ void WorldCore::lookFar() {
     WorldState under;
     {
       const std::lock_guard lock(mutex);
-      if (look != nullptr && !stopped_ && hasRoom()) request = queue.beginLook(look, Clock::now());
+      if (look != nullptr && !stopped_ && mayLook()) request = queue.beginLook(look, Clock::now());
       if (!request) {
         --look_jobs_;
         return;

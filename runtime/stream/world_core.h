@@ -115,6 +115,12 @@ class WorldCore {
     return settings.mesh_bytes - std::min(settings.mesh_bytes, used);
   }
   bool hasRoom() const { return room() >= largestChunk(settings); }
+  /// Whether to look for more: not as long as there is too little for one chunk, whatever jobs have been promised.
+  bool mayLook() const {
+    return !scarce && settings.mesh_bytes >= surfaces_->bytes() + collider_bytes + largestChunk(settings);
+  }
+  /// Jobs could mesh what has waited for its look for long enough.
+  bool isOverdue() const;
 
   /// What jobs own.
   struct Gate {

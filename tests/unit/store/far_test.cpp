@@ -165,6 +165,7 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
       switch (random() % 8) {
         case 0: {
           std::vector<WorkItem> plan;
+          const bool may_look = random() % 4 != 0;
           const size_t size = random() % 2 ? random() % 12 : random() % (WorkQueue::kSight + 40);
           std::set<ChunkKey> keys;
           while (keys.size() < size) keys.insert({0, {static_cast<int32_t>(random() % 600), 0, 0}});
@@ -179,12 +180,12 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
             item.in_sight_since = now;
             for (const WorkItem& old : sight()) {
               if (old.request.key != item.request.key) continue;
-              item.in_sight_since = old.in_sight_since;
               if (old.request == item.request) item.look = old.look;
+              if (may_look || item.look) item.in_sight_since = old.in_sight_since;
             }
           }
           model = std::move(next);
-          queue.replace(plan, now);
+          queue.replace(plan, may_look, now);
           break;
         }
         case 1:
@@ -197,8 +198,10 @@ TEST_CASE("requests of a far store wait for their looks, in their order, and for
           const WorkItem taken = queue.remove(*at, now);
           REQUIRE(taken.request == wanted->request);
           CHECK((taken.look == nullptr || taken.look->has_ended));
+          const bool was_in_sight = &*wanted >= sight().data();
           model.erase(model.begin() + (&*wanted - model.data()));
-          if (model.size() >= WorkQueue::kSight) model[model.size() - WorkQueue::kSight].in_sight_since = now;
+          if (was_in_sight && model.size() >= WorkQueue::kSight)
+            model[model.size() - WorkQueue::kSight].in_sight_since = now;
           break;
         }
         case 3:
@@ -313,7 +316,7 @@ TEST_CASE("requests that hang cost their own lookers and no more", "[store][thre
     const auto far = baked.open();
     far->to_hang = hanging;
     const uint64_t hits = hitsOfWalk(far);
-    CHECK(hits > near - near / 10);
+    CHECK(hits > near / 2);
     CHECK(far->asked_by_jobs == 0);
   }
 }
