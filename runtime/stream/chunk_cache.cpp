@@ -110,7 +110,7 @@ std::optional<ChunkPartInputs> inputsOf(const ChunkMesher& mesher, const ChunkRe
   return ChunkPartInputs::of(mesher.world, request, edits);
 }
 
-using Parts = std::array<std::optional<ChunkPart>, kChunkParts>;
+using Parts = decltype(FoundParts::parts);
 
 Parts lookUp(const ChunkMesher& mesher, const ChunkPartInputs& inputs, Reach reach) {
   const ChunkRequest& request = inputs.request();

@@ -47,6 +47,22 @@ expect 0 "$SGM" store verify one "$cave" --seed 3 --region 0,0,0:1,1,1 --samples
 json 'j.worlds[0].problems === 0 && j.baked_again.chunks === 20 && j.baked_again.problems === 0'
 expect 1 "$SGM" store verify one "$cave" --seed 4 --region 0,0,0:1,1,1
 err_has 'no bake of .*cave.sgm. with this seed'
+one_line
+expect 0 "$SGM" store info one --json
+json 'j.worlds[0].from.grammar === "cave.sgm" && j.worlds[0].from.seed === 3 && j.worlds[0].from.parameters.boxy === 0.3'
+
+# What is not there is not verified, with a grammar or without.
+cp -r one bare
+rm -r bare/packs
+expect 1 "$SGM" store verify bare "$cave" --seed 3 --region 0,0,0:1,1,1 --samples 5 --backend cpu
+err_has 'bake the world again'
+rm bare/worlds/*.sgmi
+expect 1 "$SGM" store verify bare
+err_has 'no worlds to verify'
+one_line
+expect 0 "$SGM" store gc bare
+[[ -z $(ls bare/worlds) ]] || failed "a manifest stays without its index"
+rm -r bare
 
 # Streamed: the same world, by the store, by deriving, and with digs on top.
 printf '{"points": [[40, 60, 60], [110, 96, 96], [120, 96, 100]]}' >path.json
@@ -75,6 +91,12 @@ json "j.world_hash === '${hashes[4]}' && j.stores.damaged > 0 && j.open_edges ==
 expect 0 "$SGM" bake "${world[@]}" --out one
 out_has ' 0 of them made before'
 expect 0 "$SGM" store verify one
+
+expect 0 "$SGM" bake "$cave" --seed 3 --region 0,0,0:32,32,32 --levels 0 --cell 0.25 --backend cpu --out finer
+expect 1 "$SGM" store diff one finer
+err_has 'have cells of'
+one_line
+rm -r finer
 
 # Another bake of the same, with one parameter changed, beside it: what is the same is there once.
 small=("$cave" --seed 3 --region 192,0,0:384,192,192 --levels 1..2 --backend cpu)

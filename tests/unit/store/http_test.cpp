@@ -73,6 +73,26 @@ TEST_CASE("a store on a server is read as one in a folder", "[store][threads]") 
   CHECK(!near->isFar());
 }
 
+TEST_CASE("what lies in a folder is asked of no server, whichever comes first", "[store]") {
+  const Baked baked(4);
+  FileServer server(baked.folder.path);
+  const auto source =
+      store::openStores(std::array{server.address(), baked.folder.path.string()}, {}, std::pmr::get_default_resource());
+  REQUIRE(source);
+  CHECK((*source)->isFar());
+  CHECK(baked.unlike(**source) == 0);
+  CHECK((*source)->stats().hits > 0);
+  CHECK(server.requests == 0);
+  // And nobody who looks near asks one, where it has all.
+  const auto far = sourceAt(server.address());
+  const ChunkRequest& request = baked.requests[0];
+  const DiskKey world = far->worldOf(*bakedWorldInputs(baked.baking.world, false));
+  std::pmr::memory_resource* const memory = std::pmr::get_default_resource();
+  CHECK(!far->get(world, request.key, 0, Reach::near, memory));
+  CHECK(server.requests == 0);
+  CHECK(far->get(world, request.key, 0, Reach::far, memory));
+}
+
 TEST_CASE("what a server gave once is kept in the disk cache", "[store]") {
   const Baked baked;
   FileServer server(baked.folder.path);
