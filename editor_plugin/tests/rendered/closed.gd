@@ -6,10 +6,10 @@ const Checks := preload("res://tests/lib/checks.gd")
 const Cave := preload("res://tests/lib/cave.gd")
 const BEHIND := Color(1, 0, 1)
 const SIZE := Vector2i(320, 240)
-const STEP := 1.5
 
-## Of the flight.
+## Of the flight, at least, and between two looks.
 var metres := 150.0
+var step := 1.5
 
 var _checks := Checks.new()
 var _camera := Camera3D.new()
@@ -48,7 +48,7 @@ func _initialize() -> void:
 	var rest := 0.0
 	for i in range(1, way.size()):
 		rest += way[i - 1].distance_to(way[i])
-		if rest < STEP:
+		if rest < step:
 			continue
 		rest = 0.0
 		cave.viewer.global_position = way[i]
