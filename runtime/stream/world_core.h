@@ -3,8 +3,10 @@
 // Where chunks may come from far away, threads of the world's own look for them there: no job waits for a server.
 //
 // Jobs may begin late: all that they own is a gate, which is closed after the world's end. No job takes longer than one
-// plan, one chunk or one batch of a device's, so that an engine's own jobs get their turn.
+// plan, one chunk or one batch of a device's, so that an engine's own jobs get their turn. Planning and what is done now
+// and then is in world_core.cpp, meshing and looking in world_meshing.cpp.
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <condition_variable>
@@ -103,6 +105,8 @@ class WorldCore {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// Fits into a string without memory of its own.
+  static constexpr const char* kOutOfMemory = "out of memory";
 
   /// Those that wait for a device while it works on a batch are few: one prepares its chunks, one finishes them.
   size_t mostMeshJobs() const {
@@ -212,5 +216,34 @@ class WorldCore {
   Clock::time_point next_flush_;
   bool flush_failed_ = false;
 };
+
+template <void (WorldCore::*work)()>
+void WorldCore::run(void* argument) noexcept {
+  const std::unique_ptr<std::shared_ptr<Gate>> owner(static_cast<std::shared_ptr<Gate>*>(argument));
+  Gate& gate = **owner;
+  {
+    const std::lock_guard lock(gate.mutex);
+    if (gate.closed) return;
+    ++gate.running;
+  }
+  (gate.core.*work)();
+  const std::lock_guard lock(gate.mutex);
+  --gate.running;
+  gate.ended.notify_all();
+}
+
+template <class Submit>
+void WorldCore::handOn(const Submit& job) {
+  const std::thread::id self = std::this_thread::get_id();
+  try {
+    const std::lock_guard lock(mutex);
+    submitting_.push_back(self);
+  } catch (const std::bad_alloc&) {
+    return;
+  }
+  job();
+  const std::lock_guard lock(mutex);
+  submitting_.erase(std::find(submitting_.begin(), submitting_.end(), self));
+}
 
 }  // namespace sgm

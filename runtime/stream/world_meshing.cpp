@@ -1,0 +1,290 @@
+// The jobs that mesh what a world has planned, and the lookers, which look for it far away before.
+
+#include <algorithm>
+
+#include "stream/world_core.h"
+
+namespace sgm {
+
+namespace {
+
+/// Requests that come back before the planner looks at them, where more are waiting and no update comes.
+constexpr size_t kFinishedToPlan = 64;
+constexpr int kMeshPriority = 1, kLookPriority = 1;
+
+}  // namespace
+
+bool WorldCore::isLooking() const {
+  // Without room they wait for that.
+  return lookers_ != nullptr && !queue.empty() && hasRoom() && !queue.nextReady(queue.size(), Clock::now());
+}
+
+bool WorldCore::isOverdue() const {
+  return lookers_ != nullptr && !passed_over_ && !scarce && hasRoom() && queue.nextReady(queue.size(), Clock::now());
+}
+
+void WorldCore::kickMeshing() {
+  // A job system that runs jobs at once gets no more than these.
+  for (size_t more = mostMeshJobs(); more > 0; --more) {
+    {
+      const std::lock_guard lock(mutex);
+      const size_t most = scarce ? 1 : mostMeshJobs();
+      // What lookers bring is not tried in vain, one after the other.
+      if (lookers_ != nullptr && passed_over_) return;
+      if (stopped_ || mesh_jobs >= most || !hasRoom()) return;
+      if (mesh_jobs - meshing_jobs_ >= queue.countReady(Clock::now())) return;
+      ++mesh_jobs;
+    }
+    if (submit(run<&WorldCore::meshOnce>, kMeshPriority)) continue;
+    const std::lock_guard lock(mutex);
+    --mesh_jobs;
+    return;
+  }
+}
+
+void WorldCore::kickOverdue() {
+  if (lookers_ != nullptr) kickMeshing();
+}
+
+void WorldCore::kickLooking() {
+  if (lookers_ == nullptr) return;
+  for (unsigned more = kLookers; more > 0; --more) {
+    {
+      const std::lock_guard lock(mutex);
+      if (stopped_ || look_jobs_ >= kLookers || !mayLook()) return;
+      if (look_jobs_ - queue.countLooking() >= queue.countToLook()) return;
+      ++look_jobs_;
+    }
+    if (submit(*lookers_, run<&WorldCore::lookFar>, kLookPriority)) continue;
+    const std::lock_guard lock(mutex);
+    --look_jobs_;  // jobs mesh it when its time is over
+    return;
+  }
+}
+
+void WorldCore::takeItems(size_t batch, std::vector<WorkItem>& items) {
+  // A device is only busy with many chunks at one time; but each job is to have some, and room for them.
+  const size_t idle = std::max<size_t>(1, mostMeshJobs() - std::min(mostMeshJobs(), meshing_jobs_));
+  const auto shareOf = [idle](size_t of) { return (of + idle - 1) / idle; };
+  const Clock::time_point now = Clock::now();
+  const size_t share = std::max(shareOf(queue.countReady(now)), std::min<size_t>(batch, 8));
+  const size_t most =
+      scarce ? 1 : std::min({batch, share, std::max<size_t>(1, shareOf(room() / largestChunk(settings)))});
+  for (auto at = queue.nextReady(queue.size(), now); at && items.size() < most && hasRoom();
+       at = queue.nextReady(*at, now)) {
+    const WorkItem& next = queue[*at];
+    // What is more urgent does not wait for what is less.
+    if (!items.empty() && next.rank != items.front().rank) break;
+    try {
+      begun_.push_back(next.request.key);
+    } catch (const std::bad_alloc&) {
+      break;
+    }
+    ++meshing_;
+    ++meshing_of_rank_[static_cast<size_t>(next.rank)];
+    reserved_ += largestChunk(settings);
+    items.push_back(queue.remove(*at, now));
+  }
+  if (items.empty()) return;
+  countWork();
+  ++meshing_jobs_;
+}
+
+void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, FinishedChunk& done) const {
+  if (!chunk) {
+    done.error = chunk.error();
+    return;
+  }
+  done.from_disk = chunk->from_disk;
+  if (chunk->voids) done.voids = std::make_unique<const VoidComponents>(std::move(*chunk->voids));
+  if (settings.morph) {
+    Result<std::pmr::vector<MorphOffset>> morphs =
+        morphOffsets(*under.field, chunk->surface.mesh, chunk->surface.grid, under.brushes.get(), memory_);
+    if (!morphs) {
+      done.error = morphs.error();
+      return;
+    }
+    chunk->surface.morphs = std::move(*morphs);
+  }
+  if (settings.texture && !chunk->surface.mesh.indices.empty()) {
+    Result<Unwrapped> texture =
+        unwrapChunk(*under.field, chunk->surface.mesh, chunk->surface.grid, under.brushes.get(), kTile, memory_);
+    if (!texture) {
+      done.error = texture.error();
+      return;
+    }
+    chunk->surface.texture = std::move(*texture);
+  }
+  if (const size_t bytes = chunk->surface.bytes(); bytes > largestChunk(settings)) {
+    done.error =
+        Error{Code::limit, "a chunk has " + std::to_string(bytes) +
+                               " bytes with its anchors, morph offsets and texture coordinates, more than the " +
+                               std::to_string(largestChunk(settings)) + " of the largest; place fewer anchors"};
+    return;
+  }
+  if (!chunk->surface.empty()) done.surface = surfaces_->add(std::move(chunk->surface));
+}
+
+ChunkMesher WorldCore::mesherOf(const WorldState& under) const {
+  return {*under.field,         backend,           jobs,           memory_,         cache.get(),
+          settings.baked.get(), settings.resident, settings.sharp, measuring_.get()};
+}
+
+void WorldCore::lookFar() {
+  for (;;) {
+    std::shared_ptr<Look> look;
+    std::optional<FoundParts> found;
+    try {
+      look = std::make_shared<Look>();
+    } catch (const std::bad_alloc&) {
+      // Jobs mesh what nobody looks for, when its time is over.
+    }
+    std::optional<ChunkRequest> request;
+    WorldState under;
+    {
+      const std::lock_guard lock(mutex);
+      if (look != nullptr && !stopped_ && mayLook()) request = queue.beginLook(look, Clock::now());
+      if (!request) {
+        --look_jobs_;
+        return;
+      }
+      under = queue_edits_;
+    }
+    const Clock::time_point begun_at = Clock::now();
+    try {
+      found = mesherOf(under).find(*request, under.brushes.get());
+    } catch (const std::bad_alloc&) {
+      // It is meshed.
+    }
+    {
+      const std::lock_guard lock(mutex);
+      const Clock::time_point now = Clock::now();
+      queue.endLook(*look, std::move(found), std::chrono::duration<double>(now - begun_at).count(), now);
+    }
+    kickMeshing();
+  }
+}
+
+MadeMeasures WorldCore::meshItems(std::span<const WorkItem> items, const WorldState& under, const Progress& progress,
+                                  std::span<FinishedChunk> done) const {
+  const ChunkMesher mesher = mesherOf(under);
+  const Clock::time_point begun_at = Clock::now();
+  MadeMeasures measured;
+  const Error out_of_memory{Code::out_of_memory, kOutOfMemory};
+  try {
+    std::vector<MeshOrder> orders;
+    for (const WorkItem& item : items)
+      orders.push_back({item.request, item.before.get(), item.look && item.look->found ? &*item.look->found : nullptr});
+    std::vector<Result<MeshedChunk>> chunks = mesher.mesh(orders, under.brushes.get(), progress);
+    for (const Result<MeshedChunk>& chunk : chunks) {
+      if (chunk) measured.add(chunk->measured);
+    }
+    const double seconds = std::chrono::duration<double>(Clock::now() - begun_at).count();
+    measured.meshing = std::max(0.0, seconds - measured.measuring);
+    parallelFor(jobs, items.size(), [&](size_t i) {
+      try {
+        surfaceOne(chunks[i], under, done[i]);
+      } catch (const std::bad_alloc&) {
+        done[i].error = out_of_memory;
+      }
+    });
+  } catch (const std::bad_alloc&) {
+    for (FinishedChunk& chunk : done) {
+      if (chunk.surface == nullptr) chunk.error = out_of_memory;
+    }
+  }
+  return measured;
+}
+
+void WorldCore::meshOnce() {
+  std::vector<WorkItem> items;
+  std::vector<FinishedChunk> done;
+  const size_t batch = backend.batch();
+  try {
+    items.reserve(batch);
+    done.reserve(batch);
+  } catch (const std::bad_alloc&) {
+    const std::lock_guard lock(mutex);
+    --mesh_jobs;
+    return;
+  }
+  WorldState under;
+  uint64_t of_generation;
+  {
+    const std::lock_guard lock(mutex);
+    // A job system that runs what is handed on at once, within submit(), would mesh the whole queue in one call.
+    if (!handsOn()) takeItems(batch, items);
+    if (items.empty()) {
+      --mesh_jobs;
+      return;
+    }
+    under = queue_edits_;
+    of_generation = generation;
+  }
+  kickLooking();
+  for (const WorkItem& item : items) {
+    done.emplace_back();
+    done.back().request = item.request;
+    done.back().before = item.before;
+    done.back().edits = under.number;
+  }
+  // Of a batch that nobody wants any more what has not begun is left.
+  const auto wanted = [&](uint64_t, uint64_t) {
+    const std::lock_guard lock(mutex);
+    return !stopped_ && generation == of_generation;
+  };
+  const Clock::time_point begun_at = Clock::now();
+  const MadeMeasures measured = meshItems(items, under, items.size() > 1 ? Progress(wanted) : Progress(), done);
+  const double share =
+      std::chrono::duration<double>(Clock::now() - begun_at).count() / static_cast<double>(items.size());
+  bool plan, more, out_of_memory = false;
+  {
+    const std::lock_guard lock(mutex);
+    const WorkItem::Rank rank = items.front().rank;
+    if (settings.measure) made.add(measured);
+    countWork();
+    --meshing_jobs_;
+    meshing_ -= items.size();
+    const size_t left_of_rank = meshing_of_rank_[static_cast<size_t>(rank)] -= items.size();
+    meshing_before_ -= std::min(meshing_before_, items.size());
+    reserved_ -= items.size() * largestChunk(settings);
+    for (size_t i = 0; i < done.size(); ++i) {
+      FinishedChunk& chunk = done[i];
+      if (!chunk.error && chunk.request.body) {
+        const double looking = items[i].look ? items[i].look->seconds : 0;
+        auto& mesh = times.mesh[static_cast<size_t>(chunk.request.key.level)];
+        chunk.from_disk ? times.read.add(share + looking) : mesh.add(share);
+      }
+      if (generation != of_generation) chunk.error = Error{Code::cancelled, "unwanted"};
+      out_of_memory = out_of_memory || (chunk.error && chunk.error->code == Code::out_of_memory);
+      if (!chunk.error) scarce = false;
+      const ChunkKey key = chunk.request.key;
+      try {
+        finished_.push_back(std::move(chunk));
+      } catch (const std::bad_alloc&) {
+        // The planner would wait for this one for ever, and so would a new one that was told of its begin.
+        planner_lost_ = out_of_memory = true;
+        std::erase(begun_, key);
+      }
+    }
+    // What was dug, and what it takes to stand, is drawn as soon as the last chunk of it is there.
+    const bool rank_done = left_of_rank == 0 && (queue.empty() || queue.mostUrgent().rank > rank);
+    plan = !out_of_memory && (rank_done || finished_.size() >= kFinishedToPlan || queue.empty());
+    // Memory may suffice for what is less urgent; but what is tried in vain is little.
+    const bool goes_on = !out_of_memory || !std::exchange(passed_over_, true);
+    more = goes_on && queue.nextReady(queue.size(), Clock::now()) && hasRoom() && !stopped_;
+    if (!more) --mesh_jobs;
+  }
+  if (out_of_memory) tellScarce();
+  if (plan) kickPlanner();
+  if (more) meshAgain();
+}
+
+void WorldCore::meshAgain() {
+  bool submitted = false;
+  handOn([&] { return submitted = submit(run<&WorldCore::meshOnce>, kMeshPriority); });
+  const std::lock_guard lock(mutex);
+  if (!submitted) --mesh_jobs;
+}
+
+}  // namespace sgm
