@@ -1,6 +1,6 @@
 #pragma once
 // The subcommands of `sgm`, one source each: what they are asked, and what runs. How the command line asks is in
-// arguments.cpp alone.
+// arguments/ alone.
 
 #include <optional>
 #include <string>

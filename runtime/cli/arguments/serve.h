@@ -1,7 +1,5 @@
 #pragma once
-// The command line of what serves, beside arguments.cpp.
-
-#include <functional>
+// What is asked of those that serve.
 
 #include "cli/commands.h"
 
@@ -14,6 +12,5 @@ namespace sgm::cli {
 
 /// --listen to --waiting. needs: an option without which they say nothing; null: none.
 void addServingOptions(CLI::App& app, ServingOptions& options, CLI::Option* needs);
-std::function<Exit()> addServe(CLI::App& root);
 
 }  // namespace sgm::cli
