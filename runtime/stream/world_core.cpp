@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "stream/surface_shapes.h"
-
 namespace sgm {
 
 namespace {

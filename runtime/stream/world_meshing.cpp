@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "stream/surface_shapes.h"
 #include "stream/world_core.h"
 
 namespace sgm {

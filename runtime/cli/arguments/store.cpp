@@ -1,5 +1,7 @@
 // The commands that bake worlds, and look after stores of them.
 
+#include <fmt/core.h>
+
 #include <memory>
 #include <utility>
 #include <vector>
