@@ -10,6 +10,7 @@
 #include "cli/json.h"
 #include "cli/region.h"
 #include "cli/source.h"
+#include "cli/store_turn.h"
 #include "sgm/sgm.h"
 #include "store/merge.h"
 #include "store/plan.h"
@@ -196,13 +197,14 @@ Exit bake(const BakeOptions& options) {
   const store::Manifest manifest = [&](const store::WorldSummary& baked) {
     return manifestOf(options, opened, *text, region, baked).text() + "\n";
   };
-  const Result<store::Merged> merged = [&] {
+  const Result<store::Merged> merged = inTurn(folder, [&](auto patience) {
     ProgressBar bar("merging");
-    return store::merge(folder, *bakery, manifest, [&](uint64_t done, uint64_t total) {
+    const auto progress = [&](uint64_t done, uint64_t total) {
       bar.show(done, total);
       return true;
-    });
-  }();
+    };
+    return store::merge(folder, *bakery, manifest, progress, patience);
+  });
   if (!merged) return complain(merged.error());
   for (const std::string& warning : merged->warnings) fmt::print(stderr, "sgm: warning: {}\n", warning);
   report.there_before = merged->there_before;

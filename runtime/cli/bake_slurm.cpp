@@ -59,10 +59,12 @@ Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& nam
   return bake;
 }
 
+/// What to do where it is not there; else what it says.
 Error withoutSlurm(const Error& error) {
-  return {error.code, error.message +
-                          ". Where there is no Slurm, --shard bakes a share, and samples/bake has it done by "
-                          "other schedulers"};
+  if (error.code != Code::unsupported) return error;
+  return {Code::io, error.message +
+                        ". Where there is no Slurm, --shard bakes a share, and samples/bake has it done by "
+                        "other schedulers"};
 }
 
 }  // namespace

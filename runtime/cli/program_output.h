@@ -13,7 +13,8 @@ struct ProgramOutput {
   std::string output;  ///< standard output and standard error
 };
 
-/// Looks for the program in PATH; its standard input is empty. io: it cannot be started, with its name.
+/// Looks for the program in PATH; its standard input is empty. unsupported: it is not there; io: it cannot be started;
+/// both with its name.
 Result<ProgramOutput> outputOf(const std::vector<std::string>& command);
 
 }  // namespace sgm::cli

@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/json.h"
 #include "cli/region.h"
+#include "cli/store_turn.h"
 #include "store/verify.h"
 
 namespace sgm::cli {
@@ -289,7 +290,8 @@ Exit storeClean(const StoreOptions& options) {
   const store::Folder folder(options.store);
   if (const Result<void> can = store::available(); !can) return complain(can.error());
   if (const Result<void> good = checkFolder(folder); !good) return complain(good.error());
-  const Result<store::Cleaned> cleaned = store::clean(folder, std::pmr::new_delete_resource());
+  const Result<store::Cleaned> cleaned =
+      inTurn(folder, [&](auto patience) { return store::clean(folder, std::pmr::new_delete_resource(), patience); });
   if (!cleaned) return complain(cleaned.error());
   if (options.json) {
     fmt::print("{}\n",

@@ -56,8 +56,11 @@ class Folder {
 /// Who changes what a store has, one at a time; readers and workers need none.
 class StoreLock {
  public:
-  /// Waits for who has it. busy: another process still has it then. io; unsupported: the file system has no locks.
-  static Result<StoreLock> take(const Folder& store, std::chrono::milliseconds patience = std::chrono::minutes(10));
+  static constexpr std::chrono::minutes kPatience{10};
+
+  /// Waits for who has it, at most so long. busy: another process still has it then. io; unsupported: the file system
+  /// has no locks.
+  static Result<StoreLock> take(const Folder& store, std::chrono::milliseconds patience = kPatience);
   StoreLock(StoreLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   StoreLock& operator=(StoreLock&&) = delete;
   ~StoreLock();

@@ -204,11 +204,12 @@ Result<bool> isBaked(const Folder& store, const Bakery& bakery) {
   return packs && *packs;
 }
 
-Result<Merged> merge(const Folder& store, const Bakery& bakery, const Manifest& manifest, const Progress& progress) {
+Result<Merged> merge(const Folder& store, const Bakery& bakery, const Manifest& manifest, const Progress& progress,
+                     std::chrono::milliseconds patience) {
   for (const char* folder : {"worlds", "packs"}) {
     if (Result<void> made = makeFolder(store.root() / folder); !made) return made.error();
   }
-  const Result<StoreLock> lock = StoreLock::take(store);
+  const Result<StoreLock> lock = StoreLock::take(store, patience);
   if (!lock) return lock.error();
   Merged merged;
   const Result<bool> baked = isBaked(store, bakery);

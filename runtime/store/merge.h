@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "store/bake.h"
+#include "store/folder.h"
 #include "store/world_file.h"
 
 namespace sgm::store {
@@ -28,7 +29,7 @@ using Manifest = std::function<std::string(const WorldSummary& world)>;
 /// with others count as missing. Pure but for that: the same tiles and the same store give the same bytes. May be
 /// stopped at any time and begun again. busy, unsupported: as StoreLock. invalid_argument: tiles are missing, and how
 /// many; as isBaked. io. Throws std::bad_alloc.
-Result<Merged> merge(const Folder& store, const Bakery& bakery, const Manifest& manifest,
-                     const Progress& progress = {});
+Result<Merged> merge(const Folder& store, const Bakery& bakery, const Manifest& manifest, const Progress& progress = {},
+                     std::chrono::milliseconds patience = StoreLock::kPatience);
 
 }  // namespace sgm::store

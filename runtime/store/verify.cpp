@@ -189,8 +189,8 @@ Result<Compared> compareWithBaking(const Bakery& bakery, const WorldFile& world,
   return compared;
 }
 
-Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory) {
-  const Result<StoreLock> lock = StoreLock::take(store);
+Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory, std::chrono::milliseconds patience) {
+  const Result<StoreLock> lock = StoreLock::take(store, patience);
   if (!lock) return lock.error();
   const Result<std::vector<fs::path>> worlds = worldsOf(store);
   if (!worlds) return worlds.error();

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "store/bake.h"
+#include "store/folder.h"
 #include "store/world_file.h"
 
 namespace sgm::store {
@@ -45,6 +46,7 @@ struct Cleaned {
 
 /// Removes packs that no world of the store needs, and what is left of bakes that are merged. busy, unsupported: as
 /// StoreLock. Errors: of reading any index, before anything is removed; io.
-Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory);
+Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory,
+                      std::chrono::milliseconds patience = StoreLock::kPatience);
 
 }  // namespace sgm::store

@@ -114,7 +114,18 @@ expect 1 "$SGM" store diff two two
 err_has '2 worlds: say which'
 rm two/worlds/"$second".*
 expect 0 "$SGM" store gc two
+[[ -z $err ]] || failed "words of nothing: $err"
 expect 0 "$SGM" store verify two
+
+# Who changes a store waits for another one, and says so.
+exec {held}<two/format
+flock "$held"
+(sleep 1 && flock -u "$held") &
+expect 0 "$SGM" store gc two
+err_has 'waiting for it'
+one_line
+exec {held}<&-
+wait
 
 # By hand, as another scheduler would have it.
 PATH=$(dirname "$SGM"):$PATH

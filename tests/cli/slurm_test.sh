@@ -8,6 +8,7 @@ world=("$cave" --seed 3 --region 0,0,0:512,512,256 --levels 0..6 --cell 0.25 --b
 # Without Slurm there is one clear error.
 expect 4 env PATH=/nowhere "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0 --backend cpu --out none --slurm 2
 err_has 'sbatch cannot be run'
+err_has 'samples/bake'
 one_line
 rm -r none
 
@@ -63,5 +64,6 @@ grep -q "Requeuing\|requeue" cluster/log/slurmctld.log || failed "no shard was s
 expect 4 "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0 --backend cpu --out none --slurm 2 \
   --sbatch=--partition=none
 err_has 'invalid partition'
+[[ ! $err =~ samples/bake ]] || failed "where there is a Slurm, other schedulers are named"
 [[ -z $(squeue -h) ]] || failed "jobs wait: $(squeue)"
 finish
