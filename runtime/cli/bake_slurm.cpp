@@ -59,7 +59,7 @@ Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& nam
   return bake;
 }
 
-/// What to do where it is not there; else what it says.
+/// Of a command of Slurm's; where that is not there, what to do without.
 Error withoutSlurm(const Error& error) {
   if (error.code != Code::unsupported) return error;
   return {Code::io, error.message +
@@ -91,7 +91,7 @@ Exit bakeBySlurm(const BakeOptions& options, const std::string& name, const std:
       state = stateOf(*jobs);
     }
   }
-  if (!state) return complain(state.error());
+  if (!state) return complain(withoutSlurm(state.error()));
   const Result<bool> there = isThere();
   report(options, *jobs, *state, there && *there);
   if (options.detach) return Exit::done;

@@ -33,12 +33,14 @@ struct SlurmState {
   bool ended = false;               ///< nothing of it is in the queue
 };
 
+// Errors: unsupported where a command of Slurm's is not there; io where one fails, with what it says.
+
 /// Jobs of an earlier call, of whatever count of shards, that wait or run still; none where there are none.
 Result<std::optional<SlurmJobs>> findJobs(const SlurmBake& bake);
-/// io: sbatch is not there, or refuses; the message has what it says. No job stays where one could not be submitted.
+/// No job stays where one could not be submitted.
 Result<SlurmJobs> submitJobs(const SlurmBake& bake);
 /// What waits and runs is what the queue has, which knows it at once. How the others have ended is told by Slurm's
-/// accounting, which may lag behind, or else by the queue, which forgets it after some minutes. io.
+/// accounting, which may lag behind, or else by the queue, which forgets it after some minutes.
 Result<SlurmState> stateOf(const SlurmJobs& jobs);
 
 }  // namespace sgm::cli

@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <chrono>
+
 #include "store/folder.h"
 
 namespace sgm::cli {

@@ -11,6 +11,13 @@ err_has 'sbatch cannot be run'
 err_has 'samples/bake'
 one_line
 rm -r none
+# Nor is it another failure where only a part of it is there.
+mkdir part
+printf '#!/bin/sh\necho 1\n' >part/sbatch
+chmod +x part/sbatch
+expect 4 env PATH="$PWD/part" "$SGM" bake "$cave" --seed 3 --region 0,0,0:64,64,64 --levels 0 --backend cpu --out none --slurm 2
+err_has 'squeue cannot be run'
+rm -r none part
 
 skip() {
   echo "skipped: $1"

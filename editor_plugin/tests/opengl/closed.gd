@@ -1,6 +1,6 @@
 extends "res://tests/rendered/closed.gd"
-## The same on the Compatibility renderer, whose vertices come another way. In software it takes eight times as long for
-## each look, so there are fewer of them.
+## The same on the Compatibility renderer, whose vertices come another way. In software it takes far longer for each
+## look, so there are fewer of them.
 
 
 func _init() -> void:
