@@ -166,7 +166,7 @@ struct BodyTriangles {
         const int row_y = y + static_cast<int>(dy), row_z = z + static_cast<int>(axis == 2 ? 0 : second);
         const uint32_t number = rows[rowOf(row_y, row_z)].vertices + RowEdges(signs, row_y, row_z).before(x + dx, axis);
         const Vertex& v = b.vertices[part.first_vertex + number];
-        points[i] = {v.x, v.y, v.z, b.tables->cube_edge_faces[edge], number};
+        points[i] = {v.x, v.y, v.z, chordMask(b.tables->cube_edge_faces[edge], edge, n), number};
       }
       loop += n;
       uint32_t triangles[3 * (kLongestCubeLoop - 2)];

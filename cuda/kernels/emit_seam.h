@@ -166,7 +166,7 @@ struct SeamTriangles {
       }
       loop += n;
       uint32_t triangles[3 * (kLongestLoop - 2)];
-      const uint32_t* const last = triangulateAnyLoop(points, n, triangles);
+      const uint32_t* const last = triangulateFlatLoop(points, n, triangles);
       for (const uint32_t* corner = triangles; corner != last; ++corner, ++index) {
         b.indices[part.first_index + index] = *corner;
         sum.addIndex(*corner, index);

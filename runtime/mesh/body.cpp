@@ -149,7 +149,7 @@ void polygonizeBody(const ChunkSamples& samples, const ChunkGrid& grid, MeshPart
             const uint8_t e = loop[i];
             const uint32_t number = of_cell[offsets[e]];
             const Vertex& v = vertices[number];
-            return {v.x, v.y, v.z, kCubeEdgeFaces[e], number};
+            return {v.x, v.y, v.z, chordMask(kCubeEdgeFaces[e], e, n), number};
           });
           loop += n;
         }

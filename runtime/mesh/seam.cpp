@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "mesh/tables.h"
-#include "mesh/triangulate.h"
+#include "mesh/triangulate_any.h"
 #include "mesh/vertex.h"
 
 namespace sgm {
@@ -100,7 +100,7 @@ class SeamBuilder {
       }
       at += n;
       uint32_t triangles[3 * (kLongestLoop - 2)];
-      part_.indices.insert(part_.indices.end(), triangles, triangulateLoop(points, n, triangles));
+      part_.indices.insert(part_.indices.end(), triangles, triangulateFlatLoop(points, n, triangles));
     }
   }
 

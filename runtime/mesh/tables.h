@@ -18,12 +18,14 @@
 // The table is for a high face; over a low face the same loops are walked backwards, from the same first edge.
 //
 // Loops are counter-clockwise as seen from the void. The bytes of case c lie at LoopStart[c] .. LoopStart[c + 1]: for
-// each loop its length n, then its n edges. Two vertices of a loop may be joined where EdgeFaces of their edges share
-// no bit.
+// each loop its length n, then its n edges. A diagonal may join two vertices of a seam cell's loop if kSeamEdgeFaces of
+// their edges share no bit, and those of a cube's loop if chordMask of their edges share none.
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+
+#include "base/kernel.h"
 
 namespace sgm {
 
@@ -40,6 +42,17 @@ extern const uint8_t kCubeTriangles[256];  ///< triangles that a case makes
 /// What kCubeLoops says of a case's first loop: where its edges begin, its length << 16, and 1 << 24 if others follow.
 extern const uint32_t kCubeFirstLoop[256];
 extern const uint16_t kCubeEdgeFaces[kCubeEdges];
+
+/// The diagonals that a cube's loop of n points must not have join two edges whose masks share a bit: edges of one
+/// face, and in a loop of seven also two parallel edges that lie opposite each other. faces: kCubeEdgeFaces[edge].
+///
+/// A loop of seven has two pairs of such edges. Each of the four triangulations that can cut themselves, of the sixteen
+/// without a diagonal in a face, joins one of the pairs; no triangulation of a shorter loop can cut itself or another
+/// loop of its cell, wherever the vertices lie on their edges (tests/unit/mesh/self_cut_test.cpp proves both).
+SGM_KERNEL uint32_t chordMask(uint32_t faces, uint32_t edge, int n) {
+  const uint32_t pair = edge / 4 * 2 + ((edge ^ edge >> 1) & 1);
+  return n == kLongestCubeLoop ? faces | 64u << pair : faces;
+}
 
 extern const uint32_t kSeamLoopStart[8192 + 1];
 extern const uint8_t kSeamLoops[kSeamLoopBytes];

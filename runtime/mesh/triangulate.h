@@ -1,12 +1,12 @@
 #pragma once
-// One loop of cut edges becomes triangles: shared by cube cells and seam cells, in 32-bit integers alone, so that every
-// backend chooses the same diagonals.
+// One loop of cut edges becomes triangles, in 32-bit integers alone, so that every backend chooses the same diagonals.
 //
-// Among all triangulations whose diagonals lie in no face, the one whose smallest triangle is largest, by dynamic
-// programming over chords: best(i, j) is the largest possible smallest triangle of the loop's piece i..j, and for each
-// chord the first apex k in ascending order that reaches it is taken. The measure of a triangle is the L1 norm of the
-// cross product of two of its sides. Triangles come out in pre-order: (i, k, j), then those of (i, k), then those of
-// (k, j). A measure of 0 (a flat triangle) is allowed; a repeated vertex cannot happen.
+// Among all triangulations whose diagonals are allowed (LoopPoint::faces), the one whose smallest triangle is largest,
+// by dynamic programming over chords: best(i, j) is the largest possible smallest triangle of the loop's piece i..j,
+// and for each chord the first apex k in ascending order that reaches it is taken. The measure of a triangle is the L1
+// norm of the cross product of two of its sides. Triangles come out in pre-order: (i, k, j), then those of (i, k), then
+// those of (k, j). A measure of 0 (a flat triangle) is allowed; a repeated vertex cannot happen. A seam's loops are
+// flat, and least overlap comes before the largest smallest triangle (triangulateFlatLoop).
 
 #include <algorithm>
 #include <array>
@@ -126,7 +126,7 @@ inline uint32_t* triangulateLoopOf(uint32_t* out, Load&& point) {
   return out + 3 * (N - 2);
 }
 
-/// The way through for all lengths, quick for those that cubes have. point(i) gives the i-th LoopPoint.
+/// triangulateAnyLoop by length. point(i) gives the i-th LoopPoint. 3 <= n <= kLongestCubeLoop.
 template <class Load>
 inline uint32_t* triangulateLoop(int n, uint32_t* out, Load&& point) {
   switch (n) {
@@ -139,17 +139,9 @@ inline uint32_t* triangulateLoop(int n, uint32_t* out, Load&& point) {
       return triangulateLoopOf<5>(out, point);
     case 6:
       return triangulateLoopOf<6>(out, point);
-    case 7:
+    default:
       return triangulateLoopOf<7>(out, point);
-    default: {
-      LoopPoint points[kLongestLoop];
-      for (size_t i = 0; i < static_cast<size_t>(n); ++i) points[i] = point(i);
-      return triangulateAnyLoop(points, n, out);
-    }
   }
 }
-
-/// The same from points in memory, compiled once: for callers that are not in a hurry.
-uint32_t* triangulateLoop(const LoopPoint* loop, int n, uint32_t* out);
 
 }  // namespace sgm

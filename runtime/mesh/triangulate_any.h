@@ -15,17 +15,42 @@ namespace sgm {
 /// A vertex of a loop. Positions may be relative to anything; two points of a loop are at most 512 apart on each axis.
 struct LoopPoint {
   int32_t x, y, z;
-  uint32_t faces;   ///< the faces of the cell that the vertex's edge lies in
+  uint32_t faces;   ///< a diagonal joins no two points that share a bit: chordMask, or kSeamEdgeFaces (tables.h)
   uint32_t vertex;  ///< what is written into the index list
 };
 
+/// The L1 norm of twice the triangle's area vector.
 SGM_KERNEL int32_t triangleMeasure(const LoopPoint& a, const LoopPoint& b, const LoopPoint& c) {
   const int32_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
   const int32_t vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
   return std::abs(uy * vz - uz * vy) + std::abs(uz * vx - ux * vz) + std::abs(ux * vy - uy * vx);
 }
 
-/// For any length n from 3 to kLongest: writes 3 * (n - 2) indices and returns the end of them.
+/// Writes the triangles of a loop of n points in pre-order. apex[i * kSide + j]: the apex of the chord from i to j.
+/// Returns the end of the 3 * (n - 2) indices.
+template <int kSide>
+SGM_KERNEL uint32_t* writeTriangles(const LoopPoint* loop, int n, const uint8_t* apex, uint32_t* out) {
+  uint8_t stack[static_cast<size_t>(2 * kSide)];
+  int depth = 0;
+  stack[depth++] = 0;
+  stack[depth++] = static_cast<uint8_t>(n - 1);
+  while (depth > 0) {
+    const int j = stack[--depth], i = stack[--depth];
+    if (j - i < 2) continue;
+    const uint8_t k = apex[i * kSide + j];
+    out[0] = loop[i].vertex;
+    out[1] = loop[k].vertex;
+    out[2] = loop[j].vertex;
+    out += 3;
+    stack[depth++] = k;
+    stack[depth++] = static_cast<uint8_t>(j);
+    stack[depth++] = static_cast<uint8_t>(i);
+    stack[depth++] = k;
+  }
+  return out;
+}
+
+/// A cube's loop, for any length n from 3 to kLongest: writes 3 * (n - 2) indices and returns the end of them.
 template <int kLongest = kLongestLoop>
 SGM_KERNEL uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* out) {
   constexpr int kSide = kLongest;
@@ -50,24 +75,42 @@ SGM_KERNEL uint32_t* triangulateAnyLoop(const LoopPoint* loop, int n, uint32_t* 
       best[i * kSide + j] = largest;
     }
   }
-  uint8_t stack[static_cast<size_t>(2 * kSide)];
-  int depth = 0;
-  stack[depth++] = 0;
-  stack[depth++] = static_cast<uint8_t>(n - 1);
-  while (depth > 0) {
-    const int j = stack[--depth], i = stack[--depth];
-    if (j - i < 2) continue;
-    const uint8_t k = apex[i * kSide + j];
-    out[0] = loop[i].vertex;
-    out[1] = loop[k].vertex;
-    out[2] = loop[j].vertex;
-    out += 3;
-    stack[depth++] = k;
-    stack[depth++] = static_cast<uint8_t>(j);
-    stack[depth++] = static_cast<uint8_t>(i);
-    stack[depth++] = k;
+  return writeTriangles<kSide>(loop, n, apex, out);
+}
+
+/// A seam's loop, whose points lie in one plane: of the triangulations with the least total area the one whose smallest
+/// triangle is largest. The total is least where no two triangles overlap, if the loop allows that; a loop that crosses
+/// itself, since the two levels' contours do, gets the triangles that overlap least. Otherwise as triangulateAnyLoop.
+SGM_KERNEL uint32_t* triangulateFlatLoop(const LoopPoint* loop, int n, uint32_t* out) {
+  constexpr int kSide = kLongestLoop;
+  constexpr int32_t kForbidden = 1 << 24;  // more than the area of any loop: 10 triangles of at most 2^19
+  int32_t total[size_t{kSide} * kSide], best[size_t{kSide} * kSide];
+  uint8_t apex[size_t{kSide} * kSide];
+  for (int i = 0; i + 1 < n; ++i) {
+    total[i * kSide + i + 1] = 0;
+    best[i * kSide + i + 1] = std::numeric_limits<int32_t>::max();
   }
-  return out;
+  for (int span = 2; span < n; ++span) {
+    for (int i = 0; i + span < n; ++i) {
+      const int j = i + span;
+      int32_t least = kForbidden, largest = -1;
+      if (span == n - 1 || (loop[i].faces & loop[j].faces) == 0) {
+        for (int k = i + 1; k < j; ++k) {
+          const int left = i * kSide + k, right = k * kSide + j;
+          const int32_t measure = triangleMeasure(loop[i], loop[k], loop[j]);
+          const int32_t area = total[left] + total[right] + measure;
+          const int32_t smallest = std::min(std::min(best[left], best[right]), measure);
+          if (area > least || (area == least && smallest <= largest)) continue;
+          least = area;
+          largest = smallest;
+          apex[i * kSide + j] = static_cast<uint8_t>(k);
+        }
+      }
+      total[i * kSide + j] = least;
+      best[i * kSide + j] = largest;
+    }
+  }
+  return writeTriangles<kSide>(loop, n, apex, out);
 }
 
 }  // namespace sgm

@@ -1,7 +1,7 @@
 // Where the case tables lie in the words of binding 5, as GLSL and as C++ (backend/vulkan/case_tables.h).
 
 // A cube's case, four words: its edges in loop order, four bits each (two words); the loops' lengths from the first on,
-// three bits each; and a bit for each chord that lies in a face. Chord (i, j) of a loop of n points has bit
+// three bits each; and a bit for each chord that chordMask forbids (mesh/tables.h). Chord (i, j) of a loop of n points has bit
 // i + (j - 1) (j - 2) / 2, behind the (n - 1) (n - 2) / 2 bits of each loop before.
 const uint kCubeCases = 0u;
 

@@ -3,7 +3,7 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 // The triangles of all seams that have room: a workgroup a seam, an invocation an active cell. Runs when vertices have
-// their positions. Loops have up to 12 points and are cut as mesh/triangulate.cpp says.
+// their positions. Loops have up to 12 points and are cut as triangulateFlatLoop does (mesh/triangulate_any.h).
 layout(local_size_x = 32) in;
 #include "mesher/batch.glsl"
 #include "mesher/sizes.glsl"

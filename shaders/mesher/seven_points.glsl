@@ -16,8 +16,8 @@ int norm(ivec3 v) {
   return a.x + a.y + a.z;
 }
 
-// The piece of the loop between two points: the largest possible smallest triangle, -1 where their chord lies in a
-// face; and the apexes of its triangles in pre-order, three bits each.
+// The piece of the loop between two points: the largest possible smallest triangle, -1 where their chord is
+// forbidden; and the apexes of its triangles in pre-order, three bits each.
 struct Piece {
   int best;
   uint apexes;
@@ -30,15 +30,15 @@ void tryApex(inout Piece piece, Piece left, Piece right, ivec3 area, uint apex, 
   piece.apexes = better ? apex | left.apexes << 3 | right.apexes << (3u + 3u * left_triangles) : piece.apexes;
 }
 
-void forbid(inout Piece piece, uint in_face, uint i, uint j) {
-  if ((in_face >> (i + (j - 1u) * (j - 2u) / 2u) & 1u) != 0u) piece.best = -1;
+void forbid(inout Piece piece, uint forbidden, uint i, uint j) {
+  if ((forbidden >> (i + (j - 1u) * (j - 2u) / 2u) & 1u) != 0u) piece.best = -1;
 }
 
 // The loop's places: an invocation's own, since an argument would be copied, element by element.
 uint place[kPoints];
 
-// in_face: a bit for each chord (case_layout.h). The apexes of the whole loop of n points.
-uint chooseApexes(uint n, uint in_face) {
+// forbidden: a bit for each chord (case_layout.h). The apexes of the whole loop of n points.
+uint chooseApexes(uint n, uint forbidden) {
   const Piece side = Piece(0x7FFFFFFF, 0u), none = Piece(-1, 0u);
   uvec3 origin = highBits(place[0]);
   ivec3 p[kPoints];  // all indices are constants: these arrays are registers
@@ -51,7 +51,7 @@ uint chooseApexes(uint n, uint in_face) {
 #define TRY(i, k, j, twice_area) tryApex(piece AT(i, j), piece AT(i, k), piece AT(k, j), twice_area, k, k - i - 1u);
 #define FIRST(k, j) TRY(0u, k, j, area AT(k, j))
 #define OTHER(i, k, j) TRY(i, k, j, area AT(i, k) + area AT(k, j) - area AT(i, j))
-#define CLOSE(i, j) forbid(piece AT(i, j), in_face, i, j);
+#define CLOSE(i, j) forbid(piece AT(i, j), forbidden, i, j);
   POINT(1u) POINT(2u) POINT(3u) POINT(4u) POINT(5u) POINT(6u)
   AREA(1u, 2u) AREA(1u, 3u) AREA(1u, 4u) AREA(1u, 5u) AREA(1u, 6u)
   AREA(2u, 3u) AREA(2u, 4u) AREA(2u, 5u) AREA(2u, 6u)

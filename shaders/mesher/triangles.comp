@@ -31,7 +31,7 @@ void writeTriangles(ActiveCell cell, uint first_vertex, uint first_index, inout 
   number[11] = vertexOnEdge(cell.first.y, cell.owned.y, 5u);
 
   uvec4 loops = table_fours[kCubeCases / 4u + cell.cell_case];
-  uint lengths = loops.y >> 16, in_face = loops.z, index = cell.index;
+  uint lengths = loops.y >> 16, forbidden = loops.z, index = cell.index;
   do {
     uint n = lengths & 7u, edges = loops.x, i = 0u;
     do {
@@ -39,7 +39,7 @@ void writeTriangles(ActiveCell cell, uint first_vertex, uint first_index, inout 
       ++i;
     } while (i < n);
     loops.xy = uvec2(loops.x >> (4u * n) | loops.y << (32u - 4u * n), loops.y >> (4u * n));
-    uint apexes = chooseApexes(n, in_face);
+    uint apexes = chooseApexes(n, forbidden);
     Chords left = wholeLoop(n);
     do {
       uint apex = apexes & 7u, from = left.from, to = endOfFirst(left);
@@ -53,7 +53,7 @@ void writeTriangles(ActiveCell cell, uint first_vertex, uint first_index, inout 
       index += 3u;
       cutFirst(left, apex);
     } while (anyLeft(left));
-    in_face >>= (n - 1u) * (n - 2u) / 2u;
+    forbidden >>= (n - 1u) * (n - 2u) / 2u;
     lengths >>= 3;
   } while (lengths != 0u);
 }

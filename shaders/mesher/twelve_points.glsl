@@ -1,4 +1,4 @@
-// Where a loop of up to 12 points is cut: mesh/triangulate.cpp as it stands there.
+// Where a flat loop of up to 12 points is cut: triangulateFlatLoop of mesh/triangulate_any.h as it stands there.
 
 const uint kLongestLoop = 12u;
 
@@ -26,25 +26,35 @@ int bestOf(uint chord) { return int(chord) >> 4; }
 // An invocation's own. As arguments they would be copied, element by element.
 Point loop[kLongestLoop];
 uint chord[kLongestLoop * kLongestLoop];
+int total[kLongestLoop * kLongestLoop];  // by chord: the least area of its piece
 
 // Fills the chords of the loop of n points.
 void cutLoop(uint n) {
   const int side = 0x7FFFFFF;  // more than any triangle
+  const int never = 1 << 24;   // more than the area of any loop
   uint i = 0u, span = 2u;
   do {
     uint j = i + span, k = i + 1u, chosen = 0u;
-    int largest = -1;
+    int largest = -1, least = never;
     ivec3 from = placeOf(loop[i]), to = placeOf(loop[j]);
     do {
-      int left = k == i + 1u ? side : bestOf(chord[i * kLongestLoop + k]);
-      int right = j == k + 1u ? side : bestOf(chord[k * kLongestLoop + j]);
-      int smallest = min(min(left, right), measureOf(from, placeOf(loop[k]), to));
-      chosen = smallest > largest ? k : chosen;
-      largest = max(largest, smallest);
+      bool first = k == i + 1u, last = k + 1u == j;
+      uint left = i * kLongestLoop + k, right = k * kLongestLoop + j;
+      int measure = measureOf(from, placeOf(loop[k]), to);
+      int area = (first ? 0 : total[left]) + (last ? 0 : total[right]) + measure;
+      int smallest = min(min(first ? side : bestOf(chord[left]), last ? side : bestOf(chord[right])), measure);
+      bool better = area < least || (area == least && smallest > largest);
+      chosen = better ? k : chosen;
+      least = better ? area : least;
+      largest = better ? smallest : largest;
       ++k;
     } while (k < j);
-    if (span + 1u < n && shareFace(loop[i], loop[j])) largest = -1;
+    if (span + 1u < n && shareFace(loop[i], loop[j])) {
+      least = never;
+      largest = -1;
+    }
     chord[i * kLongestLoop + j] = uint(largest) << 4 | chosen;
+    total[i * kLongestLoop + j] = least;
     ++i;
     if (i + span >= n) {
       i = 0u;

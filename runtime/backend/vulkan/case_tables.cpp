@@ -17,7 +17,7 @@ static_assert(kSeamLoopBytes < 1u << kSeamTrianglesShift);
 
 void packCube(size_t cube_case, uint32_t* words) {
   uint64_t edges = 0;
-  uint32_t lengths = 0, in_face = 0;
+  uint32_t lengths = 0, forbidden = 0;
   int edge_bit = 0, length_bit = 0, chord_bit = 0;
   const uint8_t* end = kCubeLoops + kCubeLoopStart[cube_case + 1];
   for (const uint8_t* loop = kCubeLoops + kCubeLoopStart[cube_case]; loop != end;) {
@@ -27,14 +27,17 @@ void packCube(size_t cube_case, uint32_t* words) {
     for (int j = 0; j < n; ++j) {
       edges |= uint64_t{loop[j]} << edge_bit;
       edge_bit += 4;
-      for (int i = 0; i + 1 < j; ++i, ++chord_bit)
-        in_face |= uint32_t{(kCubeEdgeFaces[loop[i]] & kCubeEdgeFaces[loop[j]]) != 0} << chord_bit;
+      for (int i = 0; i + 1 < j; ++i, ++chord_bit) {
+        const uint32_t from = chordMask(kCubeEdgeFaces[loop[i]], loop[i], n);
+        const uint32_t to = chordMask(kCubeEdgeFaces[loop[j]], loop[j], n);
+        forbidden |= uint32_t{(from & to) != 0} << chord_bit;
+      }
     }
     loop += n;
   }
   words[0] = static_cast<uint32_t>(edges);
   words[1] = static_cast<uint32_t>(edges >> 32) | lengths << 16;
-  words[2] = in_face;
+  words[2] = forbidden;
 }
 
 }  // namespace

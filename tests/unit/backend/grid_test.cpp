@@ -192,16 +192,18 @@ TEST_CASE("a grid of a chunk's size is meshed as a chunk is") {
   }
 }
 
-TEST_CASE("no chord of a cube's loop of up to five edges lies in a face") {
+TEST_CASE("no chord of a cube's loop of up to five edges is forbidden") {
   // What cells.inl relies on (kForbids).
   size_t short_loops = 0, forbidden = 0;
   for (size_t at = 0; at < kCubeLoopBytes; at += size_t{kCubeLoops[at]} + 1) {
     const size_t n = kCubeLoops[at];
     for (size_t i = 0; i < n; ++i) {
       for (size_t j = i + 2; j < n - (i == 0 ? 1 : 0); ++j) {
-        const bool in_a_face = (kCubeEdgeFaces[kCubeLoops[at + 1 + i]] & kCubeEdgeFaces[kCubeLoops[at + 1 + j]]) != 0;
-        if (n <= 5) CHECK_FALSE(in_a_face);
-        forbidden += in_a_face;
+        const uint32_t from = kCubeLoops[at + 1 + i], to = kCubeLoops[at + 1 + j];
+        const bool is_forbidden = (chordMask(kCubeEdgeFaces[from], from, static_cast<int>(n)) &
+                                   chordMask(kCubeEdgeFaces[to], to, static_cast<int>(n))) != 0;
+        if (n <= 5) CHECK_FALSE(is_forbidden);
+        forbidden += is_forbidden;
       }
     }
     short_loops += n == 4 || n == 5;

@@ -79,7 +79,7 @@ MeshPart referenceBody(const ChunkSamples& s, const ChunkGrid& grid) {
             owner[axis == 2 ? 1 : 2] += second;
             const uint32_t vertex = number.at(owner);
             const Vertex& v = part.vertices[vertex];
-            points.push_back({v.x, v.y, v.z, kCubeEdgeFaces[e], vertex});
+            points.push_back({v.x, v.y, v.z, chordMask(kCubeEdgeFaces[e], static_cast<uint32_t>(e), n), vertex});
           }
           std::vector<uint32_t> triangles(static_cast<size_t>(3 * (n - 2)));
           triangulateAnyLoop(points.data(), n, triangles.data());

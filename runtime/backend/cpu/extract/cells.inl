@@ -30,11 +30,11 @@ constexpr CubePlaces makeCubePlaces() {
 }
 inline constexpr CubePlaces kCubePlaces = makeCubePlaces();
 
-/// Whether some loop of N edges has a chord that lies in a face. Of the cube's, those of 6 and 7 (tests/unit/backend).
+/// Whether some loop of N edges has a chord that chordMask forbids: the cube's loops of 6 and 7 (tests/unit/backend).
 template <size_t N>
 inline constexpr bool kForbids = N >= 6;
 
-/// kLanes loops of one length: their vertices; and by point its place, and the faces that its edge lies in.
+/// kLanes loops of one length: their vertices; and by point its place, and the chordMask of its edge.
 template <size_t N>
 struct LoopLanes {
   alignas(64) uint32_t vertex[kLanes][8];
@@ -201,7 +201,7 @@ class LoopQueues {
           const size_t number = loop.number[e];
           lanes.vertex[lane][i] = static_cast<uint32_t>(number);
           lanes.place[i][lane] = kCubePlaces.of_edge[e] + offsets_[number - first_];
-          if constexpr (kForbids<N>) lanes.faces[i][lane] = kCubeEdgeFaces[e];
+          if constexpr (kForbids<N>) lanes.faces[i][lane] = chordMask(kCubeEdgeFaces[e], e, N);
         }
       }
       // Lanes behind the last loop hold another: any will do.
