@@ -35,6 +35,7 @@ Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSyst
   for (const PlacedChunk& chunk : *chunks) {
     appendParts(chunk, parts);
     result.solid_samples += chunk.mesh.solid_samples;
+    result.rounded += chunk.mesh.rounded;
   }
   result.hash = hashParts(parts);
   const ChunkGrid &first = chunks->front().grid, &last = chunks->back().grid;

@@ -11,6 +11,7 @@ struct RegionMesh {
   IntBox extent;  ///< the region grown to whole chunks; hi does not belong to it
   uint64_t chunks = 0;
   uint64_t solid_samples = 0;  ///< of the samples on the low faces and between, 32^3 a chunk
+  uint64_t rounded = 0;        ///< places whose sharp features would make the surface invalid, and that have none
   ContentHash hash;            ///< of the set of its chunks' meshes
 
   explicit RegionMesh(std::pmr::memory_resource* memory) : mesh(memory) {}

@@ -68,6 +68,7 @@ struct ChunkMesh {
   MeshPart body;
   std::vector<MeshPart> seams;  ///< none, or six by Face
   uint32_t solid_samples = 0;   ///< solid ones of the lower 32^3 samples
+  uint32_t rounded = 0;         ///< loops of cells whose sharp features the body does not have (mesh/features.h)
   bool uniform = false;         ///< proven without a sample: no body
   /// Where asked for and not uniform: as ChunkSamples::signs. Of a uniform chunk solid_samples says the one sign.
   std::pmr::vector<uint64_t> signs;

@@ -119,6 +119,15 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
   }
 }
 
+/// What --sharp could not have.
+void noteRounded(const std::string& file, uint64_t rounded) {
+  if (rounded == 0) return;
+  fmt::print(stderr,
+             "{}: note: {} cells keep rounded edges, since sharp ones would fold or cut the surface; smaller cells "
+             "(--cell) have fewer of them\n",
+             file, rounded);
+}
+
 bool isCut(const Region& region) {
   const IntBox& extent = region.meshed.extent;
   const Int3 origin = region.meshed.mesh.origin;
@@ -261,6 +270,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   Result<Region> made = meshProgram(grammar.program, options, plan);
   if (!made) return failure(complain(made.error()));
   warnOfNotes(options.file, made->notes);
+  noteRounded(options.file, made->meshed.rounded);
   warnOfThinWalls(options.file, *grammar.program, made->cell);
   return {std::move(*made), Exit::done};
 }

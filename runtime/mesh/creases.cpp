@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/feature_kind.h"
 #include "mesh/vertex.h"
 
 namespace sgm {
@@ -12,6 +11,7 @@ namespace {
 constexpr double kSharpCosine = 0.9;      // normals that differ by more than 26 degrees may belong to a feature
 constexpr double kOffSurface = 1.0 / 25;  // of a cell
 constexpr double kSlide = 1.0 / 128;      // of a cell
+constexpr double kOnCrease = 3.0 / 256;   // of a cell: nearer, triangles are slivers as thin as their rounding
 
 Vector3 gradientOf(const FieldSample& s) { return {s.gradient[0], s.gradient[1], s.gradient[2]}; }
 
@@ -33,18 +33,12 @@ int16_t& coordinate(Vertex& v, int axis) { return axis == 0 ? v.x : axis == 1 ? 
 
 }  // namespace
 
-Creases::Creases(const ChunkGrid& grid, int level, const FieldSampler& field, MeshPart& part,
-                 std::pmr::memory_resource* memory)
-    : grid_(grid),
-      cell_(grid.cell << (level - grid.level)),
-      field_(field),
-      part_(part),
-      memory_(memory),
-      tangents_(part.vertices.size(), memory),
-      normals_(part.vertices.size(), memory),
-      sides_(memory) {}
+Creases::Creases(const ChunkGrid& grid, const FieldSampler& field, MeshPart& part, std::pmr::memory_resource* memory)
+    : grid_(grid), field_(field), part_(part), memory_(memory), tangents_(memory), normals_(memory) {}
 
 void Creases::settle(std::span<const uint32_t> vertices) {
+  tangents_.resize(part_.vertices.size());
+  normals_.resize(part_.vertices.size());
   touch(vertices);
   slide(vertices);
 }
@@ -64,7 +58,7 @@ void Creases::touch(std::span<const uint32_t> vertices) {
 /// The point of a vertex's edge at `step` 256ths of it.
 Int3 Creases::pointOnEdge(uint32_t vertex, int32_t step) const {
   Int3 point = part_.keys[vertex].corner;
-  point[part_.keys[vertex].axis] += localUnits(step, cell_);
+  point[part_.keys[vertex].axis] += localUnits(step, grid_.cell);
   return point;
 }
 
@@ -83,7 +77,7 @@ std::pmr::vector<FieldSample> Creases::sampleEdges(std::span<const uint32_t> ver
 void Creases::slide(std::span<const uint32_t> vertices) {
   std::pmr::vector<uint32_t> off(memory_), moving(memory_);
   for (const uint32_t v : vertices) {
-    if (std::fabs(tangents_[v].distance) > kSlide * cell_) off.push_back(v);
+    if (std::fabs(tangents_[v].distance) > kSlide * grid_.cell) off.push_back(v);
   }
   if (off.empty()) return;
   std::pmr::vector<int32_t> lo(off.size(), 0, memory_), hi(off.size(), kSubcell, memory_), step(memory_);
@@ -111,7 +105,7 @@ void Creases::slide(std::span<const uint32_t> vertices) {
     const VertexKey& key = part_.keys[moving[i]];
     Vertex& vertex = part_.vertices[moving[i]];
     const int32_t from = (key.corner[key.axis] - grid_.origin[key.axis]) / grid_.cell * kSubcell;
-    coordinate(vertex, key.axis) = static_cast<int16_t>(from + lo[i] * (cell_ / grid_.cell));
+    coordinate(vertex, key.axis) = static_cast<int16_t>(from + lo[i]);
     vertex.normal_x = settled[i].normal_x;
     vertex.normal_y = settled[i].normal_y;
     tangents_[moving[i]] = tangentAt(pointOnEdge(moving[i], lo[i]), settled[i]);
@@ -119,82 +113,64 @@ void Creases::slide(std::span<const uint32_t> vertices) {
   }
 }
 
-bool Creases::isSharp(uint32_t a, uint32_t b) const { return dot(normals_[a], normals_[b]) < kSharpCosine; }
-
-Creases::Side Creases::withOrderedEnds(uint32_t a, uint32_t b) const {
-  if (part_.keys[b] < part_.keys[a]) std::swap(a, b);
-  return {a, b, {}, 0};
+bool Creases::isSharp(uint32_t a, uint32_t b) const {
+  if (!(dot(normals_[a], normals_[b]) < kSharpCosine)) return false;
+  const Tangent &of_a = tangents_[a], &of_b = tangents_[b];
+  const auto isInPlane = [&](const Tangent& plane, const Tangent& of_vertex) {
+    return std::fabs(dot(plane.normal, between(plane.point, of_vertex.point)) - plane.distance) <=
+           kOnCrease * grid_.cell;
+  };
+  return !isInPlane(of_a, of_b) && !isInPlane(of_b, of_a);
 }
 
-void Creases::add(uint32_t a, uint32_t b, const Int3& corner, int axis) {
-  Side side = withOrderedEnds(a, b);
-  side.corner = corner;
-  side.axis = axis;
-  sides_.push_back(side);
-}
-
-/// The place on the crease of a side's two tangents that is nearest to the side's middle. Not where they meet in the
-/// face: that may be far away, and out of order with the next one, where the crease runs nearly along the face.
-std::optional<Int3> Creases::nearestOnCrease(const Side& side) const {
-  const Tangent &a = tangents_[side.from], &b = tangents_[side.to];
-  const Vector3 pa = between(side.corner, a.point), pb = between(side.corner, b.point);
-  const Vector3 middle{(pa[0] + pb[0]) / 2, (pa[1] + pb[1]) / 2, (pa[2] + pb[2]) / 2};
-  const Vector3 step = stepToBoth(a.normal, a.distance + dot(a.normal, minus(pa, middle)), b.normal,
-                                  b.distance + dot(b.normal, minus(pb, middle)));
-  return onGrid(side.corner, {middle[0] + step[0], middle[1] + step[1], middle[2] + step[2]}, side.axis);
-}
-
-void Creases::place() {
-  std::sort(sides_.begin(), sides_.end());
-  sides_.erase(std::unique(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) { return a.sameEnds(b); }),
-               sides_.end());
-  std::pmr::vector<Side*> found(memory_);
-  std::pmr::vector<Int3> places(memory_), points(memory_);
-  for (Side& side : sides_) {
-    const std::optional<Int3> place = nearestOnCrease(side);
-    if (!place) continue;
-    found.push_back(&side);
-    places.push_back(*place);
-    points.push_back(sampledAt(side.corner, *place));
-  }
-  std::pmr::vector<FieldSample> samples(points.size(), memory_);
-  if (!points.empty()) field_(points, samples, Sampled::all);
-  for (size_t i = 0; i < found.size(); ++i) {
-    if (!isOnSurface(samples[i])) continue;
-    Side& side = *found[i];
-    const VertexKey& from = part_.keys[side.from];
-    const int across = 3 - side.axis - from.axis;
-    const auto of_face = static_cast<uint8_t>(from.axis * 2 + (from.corner[across] == side.corner[across] ? 0 : 1));
-    side.vertex =
-        append({side.corner, from.level, static_cast<uint8_t>(kFaceVertex + side.axis), of_face}, places[i], side.from);
-  }
-}
-
-uint32_t Creases::faceVertex(uint32_t a, uint32_t b) const {
-  const Side wanted = withOrderedEnds(a, b);
-  const auto at = std::lower_bound(sides_.begin(), sides_.end(), wanted);
-  return at != sides_.end() && at->sameEnds(wanted) ? at->vertex : kNoVertex;
+Vector3 Creases::nearestOnCrease(uint32_t a, uint32_t b, const Int3& corner, const Vector3& start) const {
+  const Tangent &of_a = tangents_[a], &of_b = tangents_[b];
+  const Vector3 pa = between(corner, of_a.point), pb = between(corner, of_b.point);
+  const Vector3 step = stepToBoth(of_a.normal, of_a.distance + dot(of_a.normal, minus(pa, start)), of_b.normal,
+                                  of_b.distance + dot(of_b.normal, minus(pb, start)));
+  return {start[0] + step[0], start[1] + step[1], start[2] + step[2]};
 }
 
 std::optional<Int3> Creases::onGrid(const Int3& corner, const Vector3& units, int across) const {
   Int3 place;
   for (int k = 0; k < 3; ++k) {
-    const double at = std::floor(units[static_cast<size_t>(k)] / cell_ * kSubcell + 0.5);
-    if (!(at >= -kSubcell && at <= (k == across ? 1 : 2) * kSubcell)) return std::nullopt;
+    const double at = std::floor(units[static_cast<size_t>(k)] / grid_.cell * kSubcell + 0.5);
+    if (!(at >= -kMostOutside && at <= (k == across ? 0 : kSubcell) + kMostOutside)) return std::nullopt;
     place[k] = static_cast<int32_t>(at);
-    const int64_t point = int64_t{corner[k]} + localUnits(place[k], cell_);
+    const int64_t point = int64_t{corner[k]} + localUnits(place[k], grid_.cell);
     if (point != saturate(point)) return std::nullopt;
   }
   return place;
 }
 
+std::optional<Int3> Creases::onGridAlong(uint32_t a, uint32_t b, const Int3& corner, const Vector3& units,
+                                         int across) const {
+  const Vector3 along = cross(tangents_[a].normal, tangents_[b].normal);
+  // A little within the bounds, for onGrid's rounding.
+  const double beyond = (kMostOutside - 1) * (static_cast<double>(grid_.cell) / kSubcell);
+  double least = -1e30, most = 1e30;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<size_t>(k);
+    const double lo = -beyond - units[axis], hi = (k == across ? 0 : grid_.cell) + beyond - units[axis];
+    if (std::fabs(along[axis]) < 1e-6) {
+      if (lo > 0 || hi < 0) return std::nullopt;
+      continue;
+    }
+    least = std::max(least, (along[axis] > 0 ? lo : hi) / along[axis]);
+    most = std::min(most, (along[axis] > 0 ? hi : lo) / along[axis]);
+  }
+  if (least > most) return std::nullopt;
+  const double step = std::clamp(0.0, least, most);
+  return onGrid(corner, {units[0] + step * along[0], units[1] + step * along[1], units[2] + step * along[2]}, across);
+}
+
 Int3 Creases::sampledAt(const Int3& corner, const Int3& place) const {
   Int3 point;
-  for (int k = 0; k < 3; ++k) point[k] = corner[k] + localUnits(place[k], cell_);
+  for (int k = 0; k < 3; ++k) point[k] = corner[k] + localUnits(place[k], grid_.cell);
   return point;
 }
 
-double Creases::mostOffSurface() const { return kOffSurface * cell_ + 1; }
+double Creases::mostOffSurface() const { return kOffSurface * grid_.cell + 1; }
 
 bool Creases::isOnSurface(const FieldSample& sample) const {
   const Vector3 g = gradientOf(sample);
@@ -206,18 +182,6 @@ Vector3 Creases::unitsFrom(const Int3& corner, uint32_t vertex) const {
   const Vector3 start = between(corner, grid_.origin);
   const double step = static_cast<double>(grid_.cell) / kSubcell;
   return {start[0] + v.x * step, start[1] + v.y * step, start[2] + v.z * step};
-}
-
-uint32_t Creases::append(const VertexKey& key, const Int3& place, uint32_t like) {
-  Vertex vertex = part_.vertices[like];
-  for (int k = 0; k < 3; ++k) {
-    const int32_t from = (key.corner[k] - grid_.origin[k]) / grid_.cell * kSubcell;
-    coordinate(vertex, k) = static_cast<int16_t>(from + place[k] * (cell_ / grid_.cell));
-  }
-  vertex.kind = featureKind(key, place, grid_.level);
-  part_.vertices.push_back(vertex);
-  part_.keys.push_back(key);
-  return static_cast<uint32_t>(part_.vertices.size() - 1);
 }
 
 }  // namespace sgm

@@ -1,26 +1,29 @@
 #pragma once
-// Edges and corners of a chunk, which marching cubes cuts off: feature vertices from the field's gradients (after
-// Kobbelt et al. 2001, "Feature Sensitive Surface Extraction from Volume Data").
+// Edges and corners of a chunk, which marching cubes cuts off: the features of mesh/features.h, put into a body or
+// seam.
 //
-// A loop with face vertices (mesh/creases.h) becomes a fan about a CELL VERTEX, the point nearest to the planes of its
-// own vertices (mesh/least_squares.h). All other triangles stay as they are. A seam takes up the face vertices of both
-// levels that it joins: the triangles at those sides are divided. So what was closed stays closed, and manifold.
+// A loop with face vertices becomes a fan about its cell vertex. All other triangles stay as they are. A seam takes up
+// the face vertices of both levels that it joins: the triangles at those sides are divided. So a closed surface stays
+// closed, and manifold.
 
 #include "mesh/creases.h"
+#include "mesh/features.h"
 
 namespace sgm {
 
 /// Adds feature vertices behind the others, and hashes the part anew. A feature vertex lies at most 1/25 cell and a
-/// unit off the surface, and a cell beyond its face or cell; a cell vertex that finds no such place, as on noise as
-/// fine as the cells, lies amid its loop, and triangles may fold there. Else slivers of a fan may fold, by less than
-/// 1/50 of a cell's face; and where a corner lies beyond the loop that sees it, part of a flat side lies upon itself.
-/// Pure: the same bytes for the same part and field, with doubles and + - * / sqrt alone. The field is sampled up to a
-/// cell and a unit beyond the chunk. Throws std::bad_alloc.
-void sharpenBody(const ChunkGrid& grid, const FieldSampler& field, MeshPart& body,
-                 std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+/// unit off the surface, and less than half a cell outside of its cell, or of the cells of its face. No triangle has
+/// two corners in one place, none meets another one of the level wrongly (mesh/triangle_meeting.h): a loop for which a
+/// fan would is rounded, as it is without sharp features. Returns the number of rounded loops.
+///
+/// Pure: the same bytes for the same part and field, with doubles and + - * / sqrt alone. The field is sampled up to
+/// kReach + 1 cells and a unit beyond the chunk. Throws std::bad_alloc.
+uint32_t sharpenBody(const ChunkGrid& grid, const FieldSampler& field, MeshPart& body,
+                     std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// As sharpenBody, of the seam over a face. coarser: the field of the level above, sampled up to one of its cells and a
-/// unit beyond the chunk.
+/// As sharpenBody, of the seam over a face: with the face vertices that the bodies on both sides of it have. coarser:
+/// the field of the level above, sampled up to kReach + 1 of its cells and a unit beyond the
+/// face.
 void sharpenSeam(const ChunkGrid& grid, Face face, const FieldSampler& field, const FieldSampler& coarser,
                  MeshPart& seam, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

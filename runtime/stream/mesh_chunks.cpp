@@ -134,7 +134,7 @@ IntBox chunkBox(const ChunkGrid& grid) {
 
 IntBox sampledBox(const ChunkGrid& grid, int level, bool sharp) {
   const IntBox box = chunkBox(grid);
-  return sharp ? box.grown((grid.cell << (level - grid.level)) + kSampledBeyond) : box;
+  return sharp ? box.grown(saturate(sharpReach(int64_t{grid.cell} << (level - grid.level)))) : box;
 }
 
 Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,

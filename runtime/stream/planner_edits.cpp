@@ -51,7 +51,7 @@ void Planner::invalidate(std::span<const WorldChange> changes) {
       box.lo[axis] = saturate(key.at[axis] * edge);
       box.hi[axis] = saturate((key.at[axis] + int64_t{1}) * edge);
     }
-    if (settings_.sharp) box = box.grown(saturate(2 * cell + kSampledBeyond));
+    if (settings_.sharp) box = box.grown(saturate(sharpReach(2 * cell)));
     const std::vector<IntBox>& reach = reaches[static_cast<size_t>(key.level)];
     const bool touched = std::any_of(reach.begin(), reach.end(), [&box](const IntBox& r) { return r.meets(box); }) ||
                          std::any_of(changes.begin(), changes.end(), [&key](const WorldChange& change) {

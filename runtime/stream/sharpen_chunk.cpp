@@ -1,6 +1,7 @@
 #include "stream/sharpen_chunk.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "backend/cpu/instruction_sets.h"
@@ -77,8 +78,14 @@ class BrickSampler {
     }
     bestKernels().attributes(program, {x.data(), y.data(), z.data(), count}, scratch_, attributes);
     for (size_t i = 0; i < count; ++i) {
-      samples[own[i].second] = {value[i], {gx[i], gy[i], gz[i]}, normal_x[i], normal_y[i]};
+      samples[own[i].second] = {value[i], quantised(value[i]), {gx[i], gy[i], gz[i]}, normal_x[i], normal_y[i]};
     }
+  }
+
+  /// As the kernels quantise a sample (quantise() of shaders/common/real.h).
+  int32_t quantised(float value) const {
+    const float q = value * program_.q_scale;
+    return static_cast<int32_t>(std::floor(std::clamp(q + 0.5f, -float{kMaxQ}, float{kMaxQ})));
   }
 
   const FieldProgram& program_;
@@ -97,7 +104,7 @@ void sharpenChunk(const ChunkGrid& grid, const FieldProgram& field, const FieldP
   BrickSampler own(field, grid.origin, grid.cell, memory);
   mesh.on_device = {};
   if (!mesh.body.indices.empty()) {
-    sharpenBody(grid, std::ref(own), mesh.body, memory);
+    mesh.rounded = sharpenBody(grid, std::ref(own), mesh.body, memory);
     splitCreases(mesh.body, memory);
   }
   if (coarse == nullptr) return;
