@@ -90,9 +90,9 @@ inline Faults faultsOf(const asset::TriangleMesh& mesh, const measure::Cut* cut,
   faults.degenerate = identity.degenerate_triangles;
   faults.without_area = measures->flat_triangles;
   faults.nonmanifold = identity.non_manifold_edges;
-  faults.others = identity.pinched_vertices + identity.duplicate_triangles + (identity.open_edges - measures->cut_edges) +
-                  (identity.unmatched_edges - identity.open_edges) + measures->nesting.inside_out +
-                  measures->nesting.nested + measures->non_finite;
+  faults.others = identity.pinched_vertices + identity.duplicate_triangles +
+                  (identity.open_edges - measures->cut_edges) + (identity.unmatched_edges - identity.open_edges) +
+                  measures->nesting.inside_out + measures->nesting.nested + measures->non_finite;
   faults.valid = measures->validButForCut() && measures->triangles > 0;
   if (measures->self_intersections->pairs == 0) return faults;
   const measure::WeldedPoints welded = measure::weldPoints({mesh.points, mesh.triangles});

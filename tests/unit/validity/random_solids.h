@@ -72,10 +72,9 @@ inline std::string shape(std::mt19937& random) {
 
 /// Two to five shapes; of those behind the first, two of five are cut away.
 inline std::string randomSolid(std::mt19937& random) {
-  std::string text =
-      "sgm 1;\nunits m;\ndomain finite box(32m, 32m, 32m) empty;\nstart Solid;\nrule Solid {\n  " + turn(random) +
-      "box(" + metresText(between(random, 2, 7)) + ", " + metresText(between(random, 2, 7)) + ", " +
-      metresText(between(random, 2, 7)) + ");\n";
+  std::string text = "sgm 1;\nunits m;\ndomain finite box(32m, 32m, 32m) empty;\nstart Solid;\nrule Solid {\n  " +
+                     turn(random) + "box(" + metresText(between(random, 2, 7)) + ", " +
+                     metresText(between(random, 2, 7)) + ", " + metresText(between(random, 2, 7)) + ");\n";
   const int more = 1 + static_cast<int>(random() % 4);
   for (int i = 0; i < more; ++i) {
     text += random() % 5 < 2 ? "  cut " : "  ";

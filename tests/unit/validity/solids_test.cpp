@@ -134,9 +134,8 @@ SeamFaults seamFaultsOf(const std::pmr::vector<PlacedChunk>& chunks, JobSystem& 
   }
   for (const auto& [level, of_level] : bodies) {
     const asset::TriangleMesh mesh = measure::trianglesOf(*weld(of_level, {}));
-    const auto crossing = measure::selfIntersections({mesh.points, mesh.triangles},
-                                                     measure::Bvh({mesh.points, mesh.triangles}, jobs),
-                                                     uint64_t{1} << 40, jobs);
+    const auto crossing = measure::selfIntersections(
+        {mesh.points, mesh.triangles}, measure::Bvh({mesh.points, mesh.triangles}, jobs), uint64_t{1} << 40, jobs);
     faults.cuts += crossing.pairs;
   }
   const asset::TriangleMesh mesh = measure::trianglesOf(*weld(parts, {}));
@@ -181,15 +180,15 @@ void checkTrees(bool sharp) {
     all.cuts += faults.cuts;
     all.pierced += faults.pierced;
   }
-  std::printf("%s octrees: %zu of %zu good; %zu triangles in bodies, %zu in seams, %zu degenerate, %zu cuts, %zu pierced\n",
-              sharp ? "sharp" : "plain", good, seen, all.triangles, all.in_seams, all.degenerate, all.cuts,
-              all.pierced);
+  std::printf(
+      "%s octrees: %zu of %zu good; %zu triangles in bodies, %zu in seams, %zu degenerate, %zu cuts, %zu pierced\n",
+      sharp ? "sharp" : "plain", good, seen, all.triangles, all.in_seams, all.degenerate, all.cuts, all.pierced);
   CHECK(all.in_seams > 50 * seen);
 }
 
 }  // namespace
 
-TEST_CASE("random solids are valid as marching cubes make them", "[validity][solids][plain][costly]") {
+TEST_CASE("random solids are valid as marching cubes make them", "[.][validity][solids][plain][costly]") {
   checkSolids(false);
 }
 
