@@ -19,7 +19,9 @@ static_assert(isDefect(SGM_DEFECT_INDEX, Defect::index) && isDefect(SGM_DEFECT_O
               isDefect(SGM_DEFECT_DUPLICATE, Defect::duplicate) && isDefect(SGM_DEFECT_OPEN_EDGE, Defect::open_edge) &&
               isDefect(SGM_DEFECT_TURNED_EDGE, Defect::turned_edge) &&
               isDefect(SGM_DEFECT_NONMANIFOLD_EDGE, Defect::nonmanifold_edge) &&
-              isDefect(SGM_DEFECT_PINCHED_VERTEX, Defect::pinched_vertex));
+              isDefect(SGM_DEFECT_PINCHED_VERTEX, Defect::pinched_vertex) &&
+              isDefect(SGM_DEFECT_FOLDED, Defect::folded) &&
+              isDefect(SGM_DEFECT_SELF_INTERSECTION, Defect::self_intersection));
 
 sgm_chunk_sums sumsOf(const SurfaceSums& sums) {
   sgm_chunk_sums out = SGM_CHUNK_SUMS_INIT;

@@ -87,13 +87,15 @@ void fill(sgm_measures& out, const MeshMeasures& m) {
   out.turned_edges = m.identity.unmatched_edges - m.identity.open_edges;
   out.nonmanifold_edges = m.identity.non_manifold_edges;
   out.nonmanifold_vertices = m.identity.pinched_vertices;
-  out.degenerate_triangles = m.degenerate();
+  out.degenerate_triangles = m.identity.degenerate_triangles;
+  out.flat_triangles = m.flat_triangles;
   out.duplicate_triangles = m.identity.duplicate_triangles;
   out.sliver_triangles = m.slivers;
   out.inside_out_shells = m.nesting.inside_out;
   out.cavity_shells = m.nesting.cavities;
   out.nested_shells = m.nesting.nested;
-  out.self_intersections = m.self_intersections ? m.self_intersections->pairs : 0;
+  out.folded_triangles = m.self_intersections ? m.self_intersections->folded : 0;
+  out.self_intersections = m.self_intersections ? m.self_intersections->cuts() : 0;
   out.self_intersections_complete = m.self_intersections && m.self_intersections->complete;
   out.histogram_first = m.histogram.first_bin;
   out.histogram_bins = m.histogram.shares.size();

@@ -55,6 +55,9 @@ void keepLargest(FrameReport& worst, const FrameReport& now) {
   worst.open_edges = std::max(worst.open_edges, now.open_edges);
   worst.nonmanifold_edges = std::max(worst.nonmanifold_edges, now.nonmanifold_edges);
   worst.degenerate_triangles = std::max(worst.degenerate_triangles, now.degenerate_triangles);
+  worst.flat_triangles = std::max(worst.flat_triangles, now.flat_triangles);
+  worst.folded_triangles = std::max(worst.folded_triangles, now.folded_triangles);
+  worst.self_intersections = std::max(worst.self_intersections, now.self_intersections);
   worst.overlaps = std::max(worst.overlaps, now.overlaps);
 }
 
@@ -139,7 +142,8 @@ Result<void> FlightEngine::checkFrame(bool whole, CheckedFrames& checked) {
   if (whole) {
     const WholeReport anew = checker_->checkWhole();
     ++checked.whole_checks;
-    if (!anew.closed() || !(anew.frame == now)) ++checked.whole_failures;
+    checked.between_parts = std::max(checked.between_parts, anew.between_parts);
+    if (!anew.valid() || !(anew.frame == now)) ++checked.whole_failures;
   }
   return {};
 }

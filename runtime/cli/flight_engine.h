@@ -30,6 +30,7 @@ using DrawnMeshes = std::map<DrawnKey, DrawnMesh>;
 struct CheckedFrames {
   FrameReport worst;  ///< the largest counts of any frame
   uint64_t whole_checks = 0, whole_failures = 0;
+  uint64_t between_parts = 0;  ///< the largest of any whole check
 };
 
 struct ColliderReport {

@@ -36,9 +36,13 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
       {"open_edges", worst.open_edges},
       {"nonmanifold_edges", worst.nonmanifold_edges},
       {"degenerate_triangles", worst.degenerate_triangles},
+      {"flat_triangles", worst.flat_triangles},
+      {"folded_triangles", worst.folded_triangles},
+      {"self_intersections", worst.self_intersections},
       {"overlaps", worst.overlaps},
       {"whole_checks", r.checked.whole_checks},
       {"whole_failures", r.checked.whole_failures},
+      {"cuts_between_parts", r.checked.between_parts},
       {"main_thread_ms", toJson(r.main_thread)},
       {"time_to_walkable_ms", r.walkable_ms},
       {"chunks_meshed", r.stats.chunks_meshed},
@@ -103,6 +107,9 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
         "whole checks failed\n",
         worst.open_edges, worst.nonmanifold_edges, worst.overlaps, worst.triangles, r.checked.whole_failures,
         r.checked.whole_checks);
+    fmt::print("            {} degenerate triangles, {} flat, {} folded, {} self intersections, {} between parts\n",
+               worst.degenerate_triangles, worst.flat_triangles, worst.folded_triangles, worst.self_intersections,
+               r.checked.between_parts);
   }
   fmt::print("  frame     {:.3f} ms of the caller's thread in the middle, {:.3f} at 99 %, {:.3f} at most\n",
              r.main_thread.p50, r.main_thread.p99, r.main_thread.max);
@@ -171,7 +178,10 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
 
 std::optional<std::string> defectOf(const Flown& flown) {
   const FlightReport& report = flown.report;
-  if (!report.checked.worst.closed() || report.checked.whole_failures > 0) return "a frame's surface was not closed";
+  if (!report.checked.worst.closed()) return "a frame's surface was not closed";
+  if (!report.checked.worst.valid() || report.checked.between_parts > 0)
+    return "a frame's surface has triangles that are flat, fold or cut each other";
+  if (report.checked.whole_failures > 0) return "a check of a whole frame failed";
   if (!report.colliders.fit()) return "colliders are not those of what is drawn";
   if (report.digs.frames.max > kMostDigFrames)
     return fmt::format("a dig was drawn {} frames of changes later", report.digs.frames.max);

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "base/hash.h"
+#include "measure/bvh.h"
+#include "measure/triangle_pair.h"
 
 namespace sgm::cli {
 namespace {
@@ -59,22 +61,27 @@ void countUse(uint64_t forward, uint64_t backward, Counts& counts) {
   counts.nonmanifold += forward > 1 || backward > 1;
 }
 
-/// Calls use(from, to), indices both, for every edge of the triangles that are not degenerate; returns how many are.
+/// Calls use(from, to), indices both, for every edge of the triangles that have no vertex twice.
 template <class Use>
-uint64_t forEachEdge(const std::vector<uint32_t>& indices, const std::vector<uint32_t>& ids, const Use& use) {
-  uint64_t degenerate = 0;
+void forEachEdge(const std::vector<uint32_t>& indices, const std::vector<uint32_t>& ids, const Use& use) {
   for (size_t i = 0; i < indices.size(); i += 3) {
     const uint32_t a = indices[i], b = indices[i + 1], c = indices[i + 2];
-    if (ids[a] == ids[b] || ids[b] == ids[c] || ids[c] == ids[a]) {
-      ++degenerate;
-      continue;
-    }
+    if (ids[a] == ids[b] || ids[b] == ids[c] || ids[c] == ids[a]) continue;
     use(a, b);
     use(b, c);
     use(c, a);
   }
-  return degenerate;
 }
+
+bool samePlace(const VertexPlace& a, const VertexPlace& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/// Jobs are done where they are asked for: the flight's threads are the runtime's.
+class NoThreads final : public JobSystem {
+ public:
+  unsigned concurrency() const override { return 1; }
+  void submit(void (*function)(void*), void* argument, int) override { function(argument); }
+  bool help() override { return false; }
+};
 
 template <class T>
 T elementAt(const T* first, uint32_t stride, uint32_t i) {
@@ -234,6 +241,36 @@ bool FrameChecker::erase(const sgm_chunk_key& key) {
   return true;
 }
 
+FrameChecker::TriangleCounts FrameChecker::countTriangles(const Part& part, size_t number,
+                                                          std::span<const uint32_t> ids, PairScratch& scratch) {
+  TriangleCounts counts;
+  std::vector<PairCorner> corners;
+  if (number == 0) corners.reserve(part.indices.size());
+  for (size_t i = 0; i < part.indices.size(); i += 3) {
+    const std::array<uint32_t, 3> t{part.indices[i], part.indices[i + 1], part.indices[i + 2]};
+    bool degenerate = false;
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t a = t[k], b = t[(k + 1) % 3];
+      const VertexPlace &p = part.vertices[a], &q = part.vertices[b];
+      degenerate |= ids[a] == ids[b] || (samePlace(p, q) && !(number > 0 && maySharePlace(p.kind, q.kind)));
+    }
+    counts.degenerate += degenerate;
+    if (number > 0 || degenerate) continue;
+    std::array<Int3, 3> places{};
+    for (size_t k = 0; k < 3; ++k) places[k] = {part.vertices[t[k]].x, part.vertices[t[k]].y, part.vertices[t[k]].z};
+    if (IntegerSigns::seenAlong(places) < 0) {
+      ++counts.flat;
+      continue;
+    }
+    for (const uint32_t v : t) {
+      const VertexPlace& p = part.vertices[v];
+      corners.push_back({p.x, p.y, p.z, p.kind});
+    }
+  }
+  counts.pairs = countPairs(corners, scratch);
+  return counts;
+}
+
 void FrameChecker::show(Chunk& chunk, size_t number) {
   Part& part = chunk.parts[number];
   if (number == 0) numberByEdge(part, first_);
@@ -257,7 +294,8 @@ void FrameChecker::show(Chunk& chunk, size_t number) {
     part.ids[i] = use.id;
   }
   inside_.clear();
-  part.degenerate = forEachEdge(part.indices, part.ids, [&](uint32_t i, uint32_t j) {
+  part.triangles = countTriangles(part, number, part.ids, pairs_);
+  forEachEdge(part.indices, part.ids, [&](uint32_t i, uint32_t j) {
     if (((part.ids[i] | part.ids[j]) & kInside) == 0) {
       useEdge(part.ids[i], part.ids[j], true);
     } else {
@@ -276,8 +314,11 @@ void FrameChecker::show(Chunk& chunk, size_t number) {
   report_.edges += part.inside.edges;
   report_.open_edges += part.inside.open;
   report_.nonmanifold_edges += part.inside.nonmanifold;
-  report_.degenerate_triangles += part.degenerate;
   report_.triangles += part.indices.size() / 3;
+  report_.degenerate_triangles += part.triangles.degenerate;
+  report_.flat_triangles += part.triangles.flat;
+  report_.folded_triangles += part.triangles.pairs.folded;
+  report_.self_intersections += part.triangles.pairs.cut;
 }
 
 void FrameChecker::hide(Chunk& chunk, size_t number) {
@@ -297,8 +338,11 @@ void FrameChecker::hide(Chunk& chunk, size_t number) {
   report_.edges -= part.inside.edges;
   report_.open_edges -= part.inside.open;
   report_.nonmanifold_edges -= part.inside.nonmanifold;
-  report_.degenerate_triangles -= part.degenerate;
   report_.triangles -= part.indices.size() / 3;
+  report_.degenerate_triangles -= part.triangles.degenerate;
+  report_.flat_triangles -= part.triangles.flat;
+  report_.folded_triangles -= part.triangles.pairs.folded;
+  report_.self_intersections -= part.triangles.pairs.cut;
 }
 
 void FrameChecker::useEdge(uint32_t from, uint32_t to, bool more) {
@@ -338,6 +382,7 @@ WholeReport FrameChecker::checkWhole() const {
   std::pmr::unsynchronized_pool_resource pool;
   std::pmr::unordered_map<VertexKey, uint32_t, Hash> shared(&pool);
   std::vector<uint32_t> indices, first, numbers;
+  PairScratch scratch(std::pmr::new_delete_resource());
   uint32_t next = 0;
   for (const auto& [key, chunk] : chunks_) {
     forEachDrawn(chunk, [&](const Part& part, size_t number) {
@@ -355,6 +400,11 @@ WholeReport FrameChecker::checkWhole() const {
         numbers[i] = at->second;
       }
       for (const uint32_t index : part.indices) indices.push_back(numbers[index]);
+      const TriangleCounts counts = countTriangles(part, number, numbers, scratch);
+      whole.frame.degenerate_triangles += counts.degenerate;
+      whole.frame.flat_triangles += counts.flat;
+      whole.frame.folded_triangles += counts.pairs.folded;
+      whole.frame.self_intersections += counts.pairs.cut;
     });
     for (ChunkKey outer = key; outer.level < kMaxLevel;) whole.frame.overlaps += chunks_.count(outer = parentOf(outer));
   }
@@ -364,8 +414,61 @@ WholeReport FrameChecker::checkWhole() const {
   whole.frame.edges = whole.mesh.edges;
   whole.frame.open_edges = whole.mesh.unmatched_edges;
   whole.frame.nonmanifold_edges = whole.mesh.repeated_edges;
-  whole.frame.degenerate_triangles = whole.mesh.degenerate_triangles;
+  whole.between_parts = countBetweenParts();
   return whole;
+}
+
+uint64_t FrameChecker::countBetweenParts() const {
+  struct Owner {
+    int level;
+    bool body;
+  };
+  std::vector<Owner> parts;
+  std::vector<uint32_t> owners;  // by triangle
+  std::vector<measure::Point> points;
+  std::vector<measure::Triangle> triangles;
+  if (chunks_.empty()) return 0;
+  const Int3 origin = chunks_.begin()->second.grid.origin;
+  for (const auto& [key, chunk] : chunks_) {
+    forEachDrawn(chunk, [&, &grid = chunk.grid](const Part& part, size_t number) {
+      const auto first = static_cast<uint32_t>(points.size());
+      for (const VertexPlace& v : part.vertices) {
+        measure::Point& p = points.emplace_back();
+        const std::array<int, 3> at{v.x, v.y, v.z};
+        // 1/256 unit: exact.
+        for (int axis = 0; axis < 3; ++axis)
+          p[axis] = static_cast<double>((int64_t{grid.origin[axis]} - origin[axis]) * kSubcell +
+                                        int64_t{at[static_cast<size_t>(axis)]} * grid.cell);
+      }
+      for (size_t i = 0; i < part.indices.size(); i += 3) {
+        triangles.push_back({first + part.indices[i], first + part.indices[i + 1], first + part.indices[i + 2]});
+        owners.push_back(static_cast<uint32_t>(parts.size()));
+      }
+      parts.push_back({grid.level, number == 0});
+    });
+  }
+  NoThreads jobs;
+  const measure::Bvh tree({points, triangles}, jobs);
+  const auto cornersOf = [&](uint32_t t) {
+    const measure::Triangle& v = triangles[t];
+    return std::array<measure::Point, 3>{points[v[0]], points[v[1]], points[v[2]]};
+  };
+  uint64_t pairs = 0;
+  for (const measure::Bvh::Pair& pair : tree.parts(1)) {
+    measure::Bvh::Walk walk(pair);
+    tree.visitPairs(walk, UINT64_MAX, [&](uint32_t a, uint32_t b) {
+      const Owner &first = parts[owners[a]], &second = parts[owners[b]];
+      if (owners[a] == owners[b]) {
+        // A body's own pairs are counted with it; a seam's may lie upon each other.
+        if (first.body) return;
+      } else if (first.body && second.body && first.level == second.level) {
+        pairs += measure::pairFault(cornersOf(a), cornersOf(b)) != PairFault::none;
+        return;
+      }
+      pairs += measure::pierce(cornersOf(a), cornersOf(b));
+    });
+  }
+  return pairs;
 }
 
 }  // namespace sgm::cli

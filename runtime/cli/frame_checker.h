@@ -1,6 +1,7 @@
 #pragma once
 // Is what a frame draws a closed surface? Told chunk by chunk what changes, so that every frame of a flight can be
-// checked. Judged by exact vertex keys, formed from the public interface's meshes alone, never by place or by hash.
+// checked. Whether it closes is judged by exact vertex keys, formed from the public interface's meshes alone, never by
+// hash; what is wrong with its triangles by places too (mesh/triangle_faults.h).
 
 #include <sgm/sgm.h>
 
@@ -9,11 +10,13 @@
 #include <map>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "base/result.h"
+#include "mesh/body_pairs.h"
 #include "mesh/check.h"
 #include "mesh/fans.h"
 #include "stream/chunk_key.h"
@@ -49,18 +52,25 @@ struct FrameReport {
   uint64_t edges = 0;                 ///< undirected
   uint64_t open_edges = 0;            ///< used more often in one direction than in the other
   uint64_t nonmanifold_edges = 0;     ///< used twice or more in one direction, as all that three triangles use
-  uint64_t degenerate_triangles = 0;  ///< with a vertex twice; their edges do not count
+  uint64_t degenerate_triangles = 0;  ///< the edges of those with a vertex twice do not count
+  uint64_t flat_triangles = 0;        ///< of bodies, as the next two, which each have their pairs for themselves
+  uint64_t folded_triangles = 0;      ///< pairs
+  uint64_t self_intersections = 0;    ///< pairs
   uint64_t overlaps = 0;              ///< pairs of drawn chunks, one of which lies in the other
 
   bool closed() const { return open_edges + nonmanifold_edges + degenerate_triangles + overlaps == 0; }
+  bool valid() const { return closed() && flat_triangles + folded_triangles + self_intersections == 0; }
   friend bool operator==(const FrameReport&, const FrameReport&) = default;
 };
 
 struct WholeReport {
   FrameReport frame;  ///< counted anew: differs from check() only by a fault of the checker's own
   MeshReport mesh;    ///< with the links of all vertices
+  /// Pairs of triangles of different parts: of bodies of one level that fold or cut, of others that pierce each other.
+  uint64_t between_parts = 0;
 
   bool closed() const { return frame.closed() && mesh.closed(); }
+  bool valid() const { return closed() && frame.valid() && between_parts == 0; }
 };
 
 /// The drawn chunks of one world. Keeps what it needs of their meshes, seams that are not drawn included, so that they
@@ -82,7 +92,7 @@ class FrameChecker {
 
   /// What is drawn now. Takes no time: changes keep it true.
   const FrameReport& check() const { return report_; }
-  /// Checks all that is drawn from the beginning. About a microsecond a triangle.
+  /// Checks all that is drawn from the beginning. Some 4 us a triangle.
   WholeReport checkWhole() const;
 
  private:
@@ -102,12 +112,17 @@ class FrameChecker {
   struct Counts {
     uint64_t edges = 0, open = 0, nonmanifold = 0;
   };
+  /// What is wrong with a part's triangles by themselves.
+  struct TriangleCounts {
+    uint64_t degenerate = 0, flat = 0;
+    PairCounts pairs;
+  };
   struct Part {
     std::vector<VertexPlace> vertices;
     std::vector<uint32_t> indices;  ///< into vertices
     std::vector<uint32_t> ids;      ///< of the vertices, while drawn
     Counts inside;                  ///< of the edges that no other part can share, while drawn
-    uint64_t degenerate = 0;        ///< while drawn
+    TriangleCounts triangles;       ///< while drawn
   };
   struct Chunk {
     ChunkGrid grid;
@@ -126,6 +141,10 @@ class FrameChecker {
   static void forEachDrawn(ChunkOrConst& chunk, const Visit& visit);
   /// For every vertex of a body the lowest number of those on the same edge: its own, unless the mesh has one twice.
   static void numberByEdge(const Part& part, std::vector<uint32_t>& first);
+  /// ids: of the part's vertices, equal where they are one.
+  static TriangleCounts countTriangles(const Part& part, size_t number, std::span<const uint32_t> ids,
+                                       PairScratch& scratch);
+  uint64_t countBetweenParts() const;
   void show(Chunk& chunk, size_t number);
   void hide(Chunk& chunk, size_t number);
   void useEdge(uint32_t from, uint32_t to, bool more);
@@ -140,6 +159,7 @@ class FrameChecker {
   uint32_t next_id_ = 0;
   std::vector<uint32_t> first_;   ///< scratch, as inside_
   std::vector<uint64_t> inside_;  ///< edges by numbers in the body, the lower one first; last bit: the other way round
+  PairScratch pairs_{std::pmr::new_delete_resource()};
   FrameReport report_;
 };
 

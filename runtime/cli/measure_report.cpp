@@ -80,12 +80,17 @@ std::vector<std::string> problemsOf(const MeshMeasures& m, Point origin) {
   say(i.pinched_vertices, "point hangs several parts together", "points hang several parts together",
       DefectKind::pinched_vertex);
   say(i.duplicate_triangles, "triangle is there twice", "triangles are there twice", DefectKind::duplicate);
-  say(m.degenerate(), "triangle has no area", "triangles have no area", DefectKind::degenerate);
+  say(i.degenerate_triangles, "triangle has two corners in one place", "triangles have two corners in one place",
+      DefectKind::degenerate);
+  say(m.flat_triangles, "triangle has no area: its corners lie on a line",
+      "triangles have no area: their corners lie on lines", DefectKind::flat);
   say(m.nesting.inside_out, "closed part is inside out", "closed parts are inside out", DefectKind::inside_out);
   say(m.nesting.nested, "closed part stands in the solid of another, or cuts it",
       "closed parts stand in the solid of others, or cut it", DefectKind::nested);
   if (m.self_intersections) {
-    say(m.self_intersections->pairs, "pair of triangles cuts or touches each other",
+    say(m.self_intersections->folded, "pair of triangles lies upon each other at a common edge",
+        "pairs of triangles lie upon each other at a common edge", DefectKind::folded);
+    say(m.self_intersections->cuts(), "pair of triangles cuts or touches each other",
         "pairs of triangles cut or touch each other", DefectKind::self_intersection);
   }
   return problems;
@@ -139,7 +144,8 @@ Json toJson(const MeshMeasures& m, Point origin) {
                {"turned_edges", i.unmatched_edges - i.open_edges},
                {"nonmanifold_edges", i.non_manifold_edges},
                {"nonmanifold_vertices", i.pinched_vertices},
-               {"degenerate", m.degenerate()},
+               {"degenerate", i.degenerate_triangles},
+               {"flat", m.flat_triangles},
                {"duplicates", i.duplicate_triangles},
                {"slivers", m.slivers},
                {"inside_out", m.nesting.inside_out},
@@ -147,12 +153,14 @@ Json toJson(const MeshMeasures& m, Point origin) {
                {"nested", m.nesting.nested},
                {"not_judged", m.nesting.not_judged}};
   if (m.self_intersections) {
-    json["self_intersections"] = m.self_intersections->pairs;
+    json["folded"] = m.self_intersections->folded;
+    json["self_intersections"] = m.self_intersections->cuts();
     json["self_intersections_complete"] = m.self_intersections->complete;
     Json examples = Json::array();
     for (const auto& [a, b] : m.self_intersections->examples) examples.push_back({a, b});
     json["self_intersection_examples"] = examples;
   } else {
+    json["folded"] = nullptr;
     json["self_intersections"] = nullptr;
   }
   json["histogram"] = histogramJson(m.histogram);

@@ -50,6 +50,10 @@ const char* defectName(Defect defect) {
       return "non-manifold edges";
     case Defect::pinched_vertex:
       return "pinched vertices";
+    case Defect::folded:
+      return "folded triangles";
+    case Defect::self_intersection:
+      return "self intersections";
   }
   return "";
 }

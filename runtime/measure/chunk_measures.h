@@ -14,21 +14,24 @@
 namespace sgm::measure {
 
 /// Of a body, all of them; of a seam, which lies flat in its face and is closed by its neighbours, the first two and
-/// `degenerate`.
+/// `degenerate`, of corners that may not lie in one place there. What degenerate, flat, folded and cut are:
+/// mesh/triangle_faults.h.
 enum class Defect : uint8_t {
   index,             ///< triangles with an index beyond the vertices: left out of all that follows
   outside,           ///< vertices beyond the chunk, feature vertices beyond a cell around it: so are their triangles
   misplaced,         ///< vertices on no edge of the grid, or not in the order of these edges, one each
   unlike_samples,    ///< vertices on an edge whose samples have one sign, crossed edges without a vertex
-  degenerate,        ///< triangles with a corner twice: left out of what follows, not of the sums
-  flat,              ///< triangles whose corners are three places on a line, where no feature vertex is among them
+  degenerate,        ///< triangles with two corners in one, by number, which is left out of what follows, or by place
+  flat,              ///< triangles whose corners are three places on a line
   duplicate,         ///< triangles with the corners of another
   open_edge,         ///< edges with one triangle that are not in the chunk's border
   turned_edge,       ///< edges that two triangles pass in one direction
   nonmanifold_edge,  ///< edges with more than two triangles
   pinched_vertex,    ///< vertices whose triangles are more than one fan
+  folded,            ///< pairs of triangles that lie upon each other at an edge
+  self_intersection  ///< pairs of triangles that cut or touch each other elsewhere (mesh/body_pairs.h)
 };
-inline constexpr size_t kDefects = 11;
+inline constexpr size_t kDefects = 13;
 
 /// As users read it: "pinched vertices".
 const char* defectName(Defect defect);

@@ -9,11 +9,9 @@
 namespace sgm::measure {
 namespace {
 
-constexpr std::array<std::string_view, 9> kNames{"open_edge",      "turned_edge", "nonmanifold_edge",
-                                                 "pinched_vertex", "degenerate",  "duplicate",
-                                                 "inside_out",     "nested",      "self_intersection"};
-
-bool cornerTwice(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+constexpr std::array<std::string_view, 11> kNames{"open_edge",  "turned_edge", "nonmanifold_edge", "pinched_vertex",
+                                                  "degenerate", "flat",        "duplicate",        "inside_out",
+                                                  "nested",     "folded",      "self_intersection"};
 
 /// What is far from flat needs no exact answer.
 bool nearlyFlat(const Triangles& mesh, const Triangle& t) {
@@ -103,15 +101,19 @@ std::vector<DefectPlace> defectPlaces(const Triangles& mesh, const Edges& edges,
   addOfEdges(mesh, edges, cut, places);
   for (const auto& [vertex, triangle] : parts.pinched)
     places.add(DefectKind::pinched_vertex, triangle, mesh.points[vertex]);
-  for (uint32_t i = 0; i < mesh.triangles.size() && !places.full(DefectKind::degenerate); ++i) {
+  for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
-    if (cornerTwice(t) || (nearlyFlat(mesh, t) && isFlat(mesh.points, t)))
+    if (hasCornerTwice(t)) {
       places.addTriangle(DefectKind::degenerate, i);
+    } else if (!places.full(DefectKind::flat) && nearlyFlat(mesh, t) && isFlat(mesh.points, t)) {
+      places.addTriangle(DefectKind::flat, i);
+    }
   }
   for (const uint32_t shell : nesting.first_inside_out)
     places.addTriangle(DefectKind::inside_out, parts.shells[shell].first);
   for (const uint32_t shell : nesting.first_nested) places.addTriangle(DefectKind::nested, parts.shells[shell].first);
   if (self_intersections != nullptr) {
+    for (const auto& [a, b] : self_intersections->folded_examples) places.addTriangle(DefectKind::folded, a);
     for (const auto& [a, b] : self_intersections->examples) places.addTriangle(DefectKind::self_intersection, a);
   }
   return places.take();

@@ -16,11 +16,13 @@ enum class DefectKind {
   turned_edge,       ///< two triangles go along it in one direction
   nonmanifold_edge,  ///< of three triangles or more
   pinched_vertex,    ///< where several fans meet
-  degenerate,        ///< a triangle without area
+  degenerate,        ///< a triangle with two corners in one place
+  flat,              ///< a triangle whose corners lie on a line
   duplicate,         ///< a triangle that is there twice
   inside_out,        ///< a closed shell
   nested,            ///< a closed shell in the solid of another
-  self_intersection  ///< of two triangles
+  folded,            ///< two triangles that lie upon each other at an edge
+  self_intersection  ///< two triangles that meet elsewhere
 };
 
 /// As --json and the service name it.

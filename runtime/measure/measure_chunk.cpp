@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/feature_kind.h"
+#include "mesh/triangle_faults.h"
 #include "mesh/vertex.h"
 
 namespace sgm::measure {
@@ -31,6 +32,8 @@ uint8_t planesOfFeature(const Vertex& v) {
   const int cell = (at >> 8) - ((v.kind >> 2 * axis & 3) - 1);
   return static_cast<uint8_t>(((cell == 0) | (cell == kChunkCells) << 1) << 2 * axis);
 }
+
+bool samePlace(const Vertex& a, const Vertex& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 void store(const TermSums& sums, PartMeasures& part) {
   part.area = sums.area;
@@ -73,6 +76,9 @@ class BodyMeasurer {
     count(Defect::turned_edge) = stars.turned_edges;
     count(Defect::nonmanifold_edge) = stars.nonmanifold_edges;
     count(Defect::pinched_vertex) = stars.pinched_vertices;
+    const PairCounts pairs = countPairs(scratch_.corners, scratch_.pairs);
+    count(Defect::folded) = pairs.folded;
+    count(Defect::self_intersection) = pairs.cut;
   }
 
  private:
@@ -136,10 +142,12 @@ class BodyMeasurer {
 
   void addTriangles() {
     indices_.resize(3 * size_t{part_.triangles});
+    scratch_.corners.resize(3 * size_t{part_.triangles});
     // What is written here cannot be mistaken for what is read, so that sums stay in registers.
     TermSums sums;
-    uint32_t against = 0, flat = 0;
+    uint32_t against = 0, flat = 0, degenerate = 0;
     uint32_t* kept = indices_.data();
+    PairCorner* corner = scratch_.corners.data();
     const Vertex* const vertices = body_.vertices.data();
     const uint8_t* const planes = planes_.data();
     const PackedDirection* const directions = directions_.data();
@@ -156,13 +164,13 @@ class BodyMeasurer {
       const TriangleTerms terms = termsOf(vertices[a], vertices[b], vertices[c]);
       addTerms(terms, sums);
       if (terms.square == 0) {
-        if (a == b || b == c || c == a) {
-          ++count(Defect::degenerate);
-          continue;
-        }
-        flat += (marks & kIsFeature) == 0;
+        const bool in_one = samePlace(vertices[a], vertices[b]) || samePlace(vertices[b], vertices[c]) ||
+                            samePlace(vertices[c], vertices[a]);
+        ++(in_one ? degenerate : flat);
+        if (a == b || b == c || c == a) continue;
       } else {
         against += !facesAlong(terms, directions[a], directions[b], directions[c]);
+        for (const uint32_t v : {a, b, c}) *corner++ = {vertices[v].x, vertices[v].y, vertices[v].z, vertices[v].kind};
       }
       kept[0] = a;
       kept[1] = b;
@@ -170,9 +178,11 @@ class BodyMeasurer {
       kept += 3;
     }
     indices_.resize(static_cast<size_t>(kept - indices_.data()));
+    scratch_.corners.resize(static_cast<size_t>(corner - scratch_.corners.data()));
     store(sums, part_);
     part_.against_gradient = against;
     count(Defect::flat) = flat;
+    count(Defect::degenerate) = degenerate;
   }
 
   /// Feature vertices that a crease has split are one again: of equal place and kind, and so of equal key.
@@ -204,10 +214,8 @@ class BodyMeasurer {
     size_t kept = 0;
     for (size_t at = 0; at < indices_.size(); at += 3) {
       const uint32_t a = indices_[at], b = indices_[at + 1], c = indices_[at + 2];
-      if (a == b || b == c || c == a) {
-        ++count(Defect::degenerate);
-        continue;
-      }
+      // They lie in one place, and are counted.
+      if (a == b || b == c || c == a) continue;
       indices_[kept++] = a;
       indices_[kept++] = b;
       indices_[kept++] = c;
@@ -258,7 +266,11 @@ PartMeasures measureSeam(const PartView& seam) {
     }
     const Vertex &u = seam.vertices[a], &v = seam.vertices[b], &w = seam.vertices[c];
     if (outside(u) || outside(v) || outside(w)) continue;
-    part.defects[static_cast<size_t>(Defect::degenerate)] += a == b || b == c || c == a;
+    const auto areOne = [](uint32_t i, uint32_t j, const Vertex& p, const Vertex& q) {
+      return i == j || (samePlace(p, q) && !maySharePlace(p.kind, q.kind));
+    };
+    part.defects[static_cast<size_t>(Defect::degenerate)] +=
+        areOne(a, b, u, v) || areOne(b, c, v, w) || areOne(c, a, w, u);
     addTerms(termsOf(u, v, w), sums);
   }
   store(sums, part);

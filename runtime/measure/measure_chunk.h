@@ -7,6 +7,7 @@
 
 #include "measure/chunk_measures.h"
 #include "measure/chunk_stars.h"
+#include "mesh/body_pairs.h"
 #include "mesh/packed_mesh.h"
 #include "mesh/triangle_terms.h"
 
@@ -21,16 +22,25 @@ struct PartView {
 inline PartView viewOf(const MeshPart& part) { return {part.vertices, part.indices}; }
 PartView viewOf(const PackedMesh& mesh, size_t part);
 
-/// Memory that goes from chunk to chunk: as much as the largest needs, some 40 bytes a triangle. One thread at a time.
+/// Memory that goes from chunk to chunk: as much as the largest needs, some 80 bytes a triangle. One thread at a time.
 struct MeasureScratch {
   StarScratch stars;
   std::pmr::vector<uint8_t> planes;              ///< by vertex: bit (1 << Face), and what else the measurer notes
   std::pmr::vector<PackedDirection> directions;  ///< by vertex
   std::pmr::vector<uint32_t> indices;            ///< of triangles that are not left out
   std::pmr::vector<uint32_t> first, table;       ///< of feature vertices that stand for one
+  std::pmr::vector<PairCorner> corners;          ///< three a triangle that has an area
+  PairScratch pairs;
 
   explicit MeasureScratch(std::pmr::memory_resource* memory)
-      : stars(memory), planes(memory), directions(memory), indices(memory), first(memory), table(memory) {}
+      : stars(memory),
+        planes(memory),
+        directions(memory),
+        indices(memory),
+        first(memory),
+        table(memory),
+        corners(memory),
+        pairs(memory) {}
 };
 
 /// Measures the body into parts[0] and topology. signs: those of its samples (ChunkSamples::signs), or empty. Fewer

@@ -45,9 +45,11 @@ void numberAsGiven(const Triangles& mesh, MeshMeasures& result) {
   result.parts.of_triangle = std::move(shells);
   for (DefectPlace& place : result.places) place.triangle = given[place.triangle];
   if (!result.self_intersections) return;
-  for (auto& [a, b] : result.self_intersections->examples) {
-    a = given[a];
-    b = given[b];
+  for (auto* examples : {&result.self_intersections->examples, &result.self_intersections->folded_examples}) {
+    for (auto& [a, b] : *examples) {
+      a = given[a];
+      b = given[b];
+    }
   }
 }
 
@@ -68,8 +70,7 @@ void countShapes(const Triangles& mesh, JobSystem& jobs, MeshMeasures& result) {
       const double quality = qualityOf(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]);
       counts[block].slivers += quality < kSliver;
       // What is far from flat needs no exact answer.
-      const bool corner_twice = t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-      counts[block].flat += quality < 1e-6 && !corner_twice && isFlat(mesh.points, t);
+      counts[block].flat += quality < 1e-6 && !hasCornerTwice(t) && isFlat(mesh.points, t);
     }
   });
   for (const ShapeCounts& c : counts) {

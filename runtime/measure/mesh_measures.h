@@ -33,10 +33,10 @@ struct MeshMeasures {
   size_t non_finite = 0;             ///< triangles with a corner beyond kFarthest or NaN: left out of all that follows
   std::optional<uint32_t> first_non_finite;
 
-  /// Of the welded mesh, by vertices. `degenerate_triangles` have a corner twice.
+  /// Of the welded mesh, by vertices. What degenerate, flat, folded and cut are: mesh/triangle_faults.h.
   MeshReport identity;
-  size_t flat_triangles = 0;  ///< whose corners are three places on a line, exactly
-  size_t slivers = 0;         ///< of quality below kSliver, those without area included
+  size_t flat_triangles = 0;
+  size_t slivers = 0;  ///< of quality below kSliver, those without area included
   AreaVolume sums;
   Shells parts;
   Nesting nesting;
@@ -46,7 +46,7 @@ struct MeshMeasures {
   uint64_t cut_edges = 0;           ///< of identity.open_edges: those in MeshSettings::cut
   std::vector<DefectPlace> places;  ///< what is wrong, by kind
 
-  size_t degenerate() const { return identity.degenerate_triangles + flat_triangles; }
+  size_t withoutArea() const { return identity.degenerate_triangles + flat_triangles; }
   int64_t euler() const;                  ///< summed over shells
   std::optional<uint64_t> genus() const;  ///< likewise; nothing where one has none
   /// Every edge has two triangles that go along it in opposite directions, every vertex one fan, and none is there

@@ -26,9 +26,13 @@ SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint
     parallelFor(jobs, open.size(), [&](size_t i) {
       Part& part = *open[i];
       part.steps = tree.visitPairs(part.walk, share, [&](uint32_t a, uint32_t b) {
-        if (!meetWrongly(mesh.points, mesh.triangles[a], mesh.triangles[b])) return;
+        const PairFault fault = pairFault(mesh.points, mesh.triangles[a], mesh.triangles[b]);
+        if (fault == PairFault::none) return;
+        const bool folded = fault == PairFault::folded;
         ++part.found.pairs;
-        if (part.found.examples.size() < kMostExamples) part.found.examples.push_back(std::minmax(a, b));
+        part.found.folded += folded;
+        auto& examples = folded ? part.found.folded_examples : part.found.examples;
+        if (examples.size() < kMostExamples) examples.push_back(std::minmax(a, b));
       });
     });
     for (const Part* part : open) left -= part->steps;
@@ -36,11 +40,16 @@ SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint
   SelfIntersections all;
   for (const Part& part : parts) {
     all.pairs += part.found.pairs;
+    all.folded += part.found.folded;
     all.complete = all.complete && part.walk.ended();
     all.examples.insert(all.examples.end(), part.found.examples.begin(), part.found.examples.end());
+    all.folded_examples.insert(all.folded_examples.end(), part.found.folded_examples.begin(),
+                               part.found.folded_examples.end());
   }
-  std::sort(all.examples.begin(), all.examples.end());
-  all.examples.resize(std::min(all.examples.size(), kMostExamples));
+  for (auto* examples : {&all.examples, &all.folded_examples}) {
+    std::sort(examples->begin(), examples->end());
+    examples->resize(std::min(examples->size(), kMostExamples));
+  }
   return all;
 }
 

@@ -12,10 +12,14 @@
 namespace sgm::measure {
 
 struct SelfIntersections {
-  uint64_t pairs = 0;  ///< of triangles that meetWrongly(); at least so many where not all were looked at
+  uint64_t pairs = 0;   ///< of triangles that meetWrongly(); at least so many where not all were looked at
+  uint64_t folded = 0;  ///< of these: those that lie upon each other at an edge
   /// Not where so many triangles lie close to each other that the steps did not suffice.
   bool complete = true;
-  std::vector<std::pair<uint32_t, uint32_t>> examples;  ///< the lower triangle first; at most kMostExamples
+  /// The lower triangle first; at most kMostExamples of those that fold, and of those that cut.
+  std::vector<std::pair<uint32_t, uint32_t>> folded_examples, examples;
+
+  uint64_t cuts() const { return pairs - folded; }
 };
 
 /// Exact (triangle_pair.h). tree: of the same triangles. most_steps: looks at two nodes of it or at two triangles. The

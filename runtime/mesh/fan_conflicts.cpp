@@ -4,28 +4,12 @@
 #include <cstdlib>
 #include <utility>
 
-#include "mesh/triangle_meeting.h"
+#include "mesh/triangle_faults.h"
 
 namespace sgm {
 namespace {
 
 constexpr uint32_t kNone = Features::kNone;
-
-/// Places in 1/256 of a cell: differences are below 2^15, so that volumes fit 64 bits.
-struct IntegerGeometry {
-  using Point = Int3;
-  static int sign(int64_t v) { return v > 0 ? 1 : v < 0 ? -1 : 0; }
-  static int orientation(const Int3& a, const Int3& b, const Int3& c, const Int3& d) {
-    const int64_t ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z, vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-    const int64_t wx = d.x - a.x, wy = d.y - a.y, wz = d.z - a.z;
-    return sign(ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx));
-  }
-  static int orientationAlong(int drop, const Int3& a, const Int3& b, const Int3& c) {
-    const int u = (drop + 1) % 3, v = (drop + 2) % 3;
-    return sign(int64_t{b[u] - a[u]} * (c[v] - a[v]) - int64_t{b[v] - a[v]} * (c[u] - a[u]));
-  }
-};
-using Meeting = TriangleMeeting<IntegerGeometry>;
 
 struct Box {
   Int3 lo{INT32_MAX, INT32_MAX, INT32_MAX}, hi{INT32_MIN, INT32_MIN, INT32_MIN};
@@ -52,22 +36,23 @@ struct Possible {
   uint32_t side = kNone;  ///< that `when` speaks of
   Box box{};
 
-  bool hasArea() const { return Meeting::dropOf(at) >= 0; }
+  bool hasArea() const { return IntegerSigns::seenAlong(at) >= 0; }
   bool meets(const Possible& other) const {
     if (!box.meets(other.box)) return false;
     std::array<Int3, 3> a = at, b = other.at;
     std::array<uint32_t, 3> names_a = name, names_b = other.name;
-    size_t common = 0;
+    int common = 0;
     for (size_t i = 0; i < 3; ++i) {
-      for (size_t j = common; j < 3; ++j) {
+      for (auto j = static_cast<size_t>(common); j < 3; ++j) {
         if (names_a[i] != names_b[j]) continue;
-        std::swap(b[common], b[j]), std::swap(names_b[common], names_b[j]);
-        std::swap(a[common], a[i]), std::swap(names_a[common], names_a[i]);
+        const auto first = static_cast<size_t>(common);
+        std::swap(b[first], b[j]), std::swap(names_b[first], names_b[j]);
+        std::swap(a[first], a[i]), std::swap(names_a[first], names_a[i]);
         ++common;
         break;
       }
     }
-    return Meeting::meetWrongly(a, b, common);
+    return TrianglePair<IntegerSigns>::faultOf(a, b, common) != PairFault::none;
   }
 };
 

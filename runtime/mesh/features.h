@@ -11,7 +11,7 @@
 // is therefore placed at the mean of its own such place and those of the next sides of the two loops that it joins:
 // three sides on span more than one cell, so that the means come in order.
 //
-// Validity comes before crispness. A loop whose fan meets another triangle wrongly (mesh/triangle_meeting.h) is
+// Validity comes before crispness. A loop whose fan meets another triangle wrongly (mesh/triangle_faults.h) is
 // ROUNDED: it keeps its own triangles, as without features, and its sides lose their face vertices. So loops beside it
 // change, too, which may have them rounded in turn. Chunks that are meshed apart must agree on what becomes of the
 // loops at their border, and so such a loop is rounded if its fan is invalid in any state of the loops around it; that

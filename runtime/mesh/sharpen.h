@@ -13,7 +13,7 @@ namespace sgm {
 
 /// Adds feature vertices behind the others, and hashes the part anew. A feature vertex lies at most 1/25 cell and a
 /// unit off the surface, and less than half a cell outside of its cell, or of the cells of its face. No triangle has
-/// two corners in one place, none meets another one of the level wrongly (mesh/triangle_meeting.h): a loop for which a
+/// two corners in one place, none meets another one of the level wrongly (mesh/triangle_faults.h): a loop for which a
 /// fan would is rounded, as it is without sharp features. Returns the number of rounded loops.
 ///
 /// Pure: the same bytes for the same part and field, with doubles and + - * / sqrt alone. The field is sampled up to

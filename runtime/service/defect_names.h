@@ -8,8 +8,9 @@
 namespace sgm::service {
 
 /// By sgm_defect.
-inline constexpr std::array<const char*, SGM_DEFECT_PINCHED_VERTEX + 1> kDefectNames{
-    "index",     "outside",   "misplaced",   "samples",          "degenerate",    "flat",
-    "duplicate", "open_edge", "turned_edge", "nonmanifold_edge", "pinched_vertex"};
+inline constexpr std::array<const char*, SGM_DEFECT_SELF_INTERSECTION + 1> kDefectNames{
+    "index",          "outside",   "misplaced",        "samples",     "degenerate",
+    "flat",           "duplicate", "open_edge",        "turned_edge", "nonmanifold_edge",
+    "pinched_vertex", "folded",    "self_intersection"};
 
 }  // namespace sgm::service

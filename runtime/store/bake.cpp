@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint64_t kMostTileFile = uint64_t{1} << 28;
 constexpr uint32_t kTileMagic = 0x544D4753;  // "SGMT"
-constexpr uint32_t kTileVersion = 2;
+constexpr uint32_t kTileVersion = 3;
 
 /// A part on its way into a file.
 struct Made {

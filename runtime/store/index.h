@@ -11,7 +11,7 @@
 
 namespace sgm::store {
 
-inline constexpr uint32_t kIndexVersion = 1;
+inline constexpr uint32_t kIndexVersion = 2;
 inline constexpr size_t kIndexEnd = 88;
 
 /// Where a tile's record lies.

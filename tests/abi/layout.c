@@ -123,6 +123,8 @@ CHECK(defect_open_edge, SGM_DEFECT_OPEN_EDGE == 7);
 CHECK(defect_turned_edge, SGM_DEFECT_TURNED_EDGE == 8);
 CHECK(defect_nonmanifold_edge, SGM_DEFECT_NONMANIFOLD_EDGE == 9);
 CHECK(defect_pinched_vertex, SGM_DEFECT_PINCHED_VERTEX == 10);
+CHECK(defect_folded, SGM_DEFECT_FOLDED == 11);
+CHECK(defect_self_intersection, SGM_DEFECT_SELF_INTERSECTION == 12);
 CHECK(defect_force_32_bit, SGM_DEFECT_FORCE_32_BIT == 0x7FFFFFFF);
 CHECK(world_measure, SGM_WORLD_MEASURE == 32);
 CHECK(world_flag_force_32_bit, SGM_WORLD_FLAG_FORCE_32_BIT == 0x7FFFFFFF);
@@ -510,7 +512,7 @@ PLACE(sgm_measure_desc, flags, 96);
 PLACE(sgm_measure_desc, histogram_capacity, 100);
 PLACE(sgm_measure_desc, histogram, 104);
 
-SIZE(sgm_measures, 352);
+SIZE(sgm_measures, 368);
 PLACE(sgm_measures, struct_size, 0);
 PLACE(sgm_measures, next, 8);
 PLACE(sgm_measures, watertight, 16);
@@ -551,6 +553,8 @@ PLACE(sgm_measures, concave, 320);
 PLACE(sgm_measures, cubes_all, 328);
 PLACE(sgm_measures, cubes_any, 336);
 PLACE(sgm_measures, cubes_centre, 344);
+PLACE(sgm_measures, flat_triangles, 352);
+PLACE(sgm_measures, folded_triangles, 360);
 
 SIZE(sgm_density_desc, 104);
 PLACE(sgm_density_desc, struct_size, 0);

@@ -13,6 +13,7 @@ for flight in "5 1 --unpaced" "20 2" "60 3 --unpaced"; do
     --top-level 5 --view 200 --check --edits 5 --json $pace
   json "j.frames === $frames && j.commits > 3 && j.chunks_meshed > 300"
   json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.degenerate_triangles === 0 && j.overlaps === 0'
+  json 'j.flat_triangles === 0 && j.folded_triangles === 0 && j.self_intersections === 0 && j.cuts_between_parts === 0'
   [[ -n $pace ]] || json 'j.commits > 80 && j.chunks_meshed > 1500'
   json 'j.whole_checks >= 2 && j.whole_failures === 0'
   json 'j.peak_bytes.meshes > 1e6 && j.peak_bytes.meshes < 256 * 2 ** 20 && j.peak_bytes.meshes < j.peak_bytes.runtime'
@@ -48,7 +49,7 @@ out_has "over before anything was drawn"
 err_empty
 
 # Every chunk measured, of a cave that is dug into and of crisp edges: nothing is wrong, and what is drawn is closed.
-sound='Object.values(j.measures.made.defects).length === 11'
+sound='Object.values(j.measures.made.defects).length === 13'
 sound+=' && Object.values(j.measures.made.defects).every((n) => n === 0)'
 sound+=' && j.measures.made.bodies >= j.measures.drawn.bodies && j.measures.drawn.bodies > 0'
 sound+=' && j.measures.drawn.area > 100 && j.measures.drawn.area_vector.every((a) => Math.abs(a) < 1e-6)'
@@ -64,7 +65,7 @@ out_has 'nothing wrong'
 expect 0 "$SGM" fly "$SOURCE/samples/grammars/building.sgm" --sharp --cell 0.5 --seed 3 --speed 20 --frames 1000 \
   --finest 12 --top-level 3 --view 60 --check --edits 5 --unpaced --json
 json 'j.commits > 5 && j.chunks_meshed > 100 && j.digs > 2'
-json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.degenerate_triangles === 0 && j.whole_failures === 0'
+json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.self_intersections === 0 && j.whole_failures === 0'
 
 # Parameters that are driven while it flies: every frame is closed, and shows one field.
 expect 0 "$SGM" fly "$cave" "${small[@]}" --speed 20 --frames 400 --check --edits 5 --animate boxy wet

@@ -6,7 +6,7 @@ ball >ball.sgm
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --json
 json 'j.valid && j.watertight && j.problems.length === 0 && j.genus === 0 && j.euler === 2 && j.objects === 1 && j.shells === 1'
 json 'Math.abs(j.area / (4 * Math.PI * 9) - 1) < 0.005 && Math.abs(j.volume / (36 * Math.PI) - 1) < 0.005'
-json 'j.self_intersections === 0 && j.open_edges === 0 && j.nonmanifold_edges === 0 && j.degenerate === 0 && j.duplicates === 0'
+json 'j.self_intersections === 0 && j.open_edges === 0 && j.nonmanifold_edges === 0 && j.degenerate === 0 && j.flat === 0 && j.folded === 0 && j.duplicates === 0'
 json 'Math.abs(j.histogram.shares.reduce((a, b) => a + b) - 1) < 1e-12 && j.histogram.bins === 33 && j.histogram.convex > 0.9'
 json 'j.seed === 0 && j.cell === 0.25 && j.hash.length === 16'
 grammar_area=$(node -e 'console.log(JSON.parse(require("fs").readFileSync(process.argv[1], "utf8")).area)' .out)
@@ -27,7 +27,7 @@ expect 0 "$SGM" measure ball.ply --json --mode printed --bins 10 --cubes 0.2
 json 'j.histogram.mode === "printed" && j.histogram.first_bin === -3 && j.histogram.shares.length === 8 && j.histogram.entries_index_le_0 > 0'
 json 'j.cubes.all_corners < j.volume && j.cubes.any_corner > j.volume'
 expect 0 "$SGM" measure ball.ply --json --mode curvature --unique-edges --curvature-length 3 --no-self-intersections --weld 0.001
-json 'j.histogram.edges === j.edges && j.self_intersections === null && Math.abs(j.histogram.shares.reduce((a, v, i) => a + i * v, 0) - 24) < 1.5'
+json 'j.histogram.edges === j.edges && j.self_intersections === null && j.folded === null && Math.abs(j.histogram.shares.reduce((a, v, i) => a + i * v, 0) - 24) < 1.5'
 
 # Against the field: normals outward and near the gradient, vertices near the surface.
 expect 0 "$SGM" measure ball.sgm --cell 0.25 --field --json

@@ -43,8 +43,8 @@ Command addFly(CLI::App& root) {
           ->expected(0, -1);
   app->add_flag(
       "--check", options->check,
-      "Check every frame's surface for open and non-manifold edges by exact keys, and each 500th frame whole. "
-      "Status 1 where one is not closed");
+      "Check every frame's surface for open and non-manifold edges by exact keys, and for triangles that are degenerate, "
+      "flat, fold or cut; each 500th frame whole, between chunks too. Status 1 where there are any");
   app->add_flag("--measure", options->measure,
                 "Measure every chunk as soon as it is meshed: what is wrong with it, area, volume. Status 1 where "
                 "anything is wrong");

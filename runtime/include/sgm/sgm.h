@@ -743,8 +743,8 @@ typedef enum sgm_meshing_flag {
   SGM_MESHING_TEXTURE = 1, /* texture coordinates and blends of materials: wedges, in views of meshes and of surfaces */
   SGM_MESHING_SHARP = 2,   /* crisp edges and corners: feature vertices from the field's gradients, once for each side
                               of their crease with that side's normal, at the same position. Where a surface
-                              bends less than 26 degrees within a cell it keeps its triangles. Chunks agree on their
-                              faces, as without; seams join sharp chunks to sharp ones, so that all chunks of one
+                              bends less than 26 degrees within a cell it keeps its triangles, and so does a cell
+                              whose features would fold, cut or coincide. Chunks agree on their faces, as without; seams join sharp chunks to sharp ones, so that all chunks of one
                               surface are to be asked for alike */
   SGM_MESHING_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_meshing_flag;
@@ -1144,14 +1144,14 @@ typedef struct sgm_measures {
   uint64_t turned_edges;         /* whose triangles face different ways */
   uint64_t nonmanifold_edges;    /* of three triangles or more */
   uint64_t nonmanifold_vertices; /* that hang several fans together */
-  uint64_t degenerate_triangles; /* without area, exactly */
+  uint64_t degenerate_triangles; /* with two corners in one place; flat_triangles are without area too */
   uint64_t duplicate_triangles;
-  uint64_t sliver_triangles;   /* 4 sqrt(3) area / (sum of squared edges) below 0.05 */
-  uint64_t inside_out_shells;  /* closed, facing inward, in no solid */
-  uint64_t cavity_shells;      /* closed, facing inward, in a solid */
-  uint64_t nested_shells;      /* closed, facing outward, in a solid: what they hold counts twice */
-  uint64_t self_intersections; /* pairs of triangles that meet beside common corners and edges, exactly; at least so
-                                  many where the next is 0 */
+  uint64_t sliver_triangles;           /* 4 sqrt(3) area / (sum of squared edges) below 0.05 */
+  uint64_t inside_out_shells;          /* closed, facing inward, in no solid */
+  uint64_t cavity_shells;              /* closed, facing inward, in a solid */
+  uint64_t nested_shells;              /* closed, facing outward, in a solid: what they hold counts twice */
+  uint64_t self_intersections;         /* pairs of triangles that meet beside common corners and edges, exactly, but for
+                                          folded_triangles; at least so many where the next is 0 */
   int32_t self_intersections_complete; /* 0: not looked for, or too many lie close together: there may be more */
   int32_t histogram_first;             /* number of the first bin by equation 14: 1, in mode PRINTED less */
   uint64_t histogram_bins;             /* that there are; SGM_INCOMPLETE where histogram_capacity is less */
@@ -1160,12 +1160,14 @@ typedef struct sgm_measures {
   double flat, convex, concave;        /* shares of the edges */
   /* Equation 8: volume by all corners, by any corner, by the centre. 0 where cubes were not asked for. */
   double cubes_all, cubes_any, cubes_centre;
+  uint64_t flat_triangles;   /* whose corners are three places on a line, exactly */
+  uint64_t folded_triangles; /* pairs that share an edge and lie upon each other, exactly; as self_intersections */
 } sgm_measures;
 
 #define SGM_MEASURES_INIT                                                                                              \
   {                                                                                                                    \
     SGM_SIZEOF(sgm_measures), SGM_NULL, 0, 0, 0, 0, 0, 0, 0.0, 0.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, \
-        0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0                    \
+        0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0, 0              \
   }
 
 /* Measures any mesh, and judges whether it is the closed surface of a solid. Blocks; uses the job system; the same
@@ -1671,13 +1673,16 @@ typedef enum sgm_defect {
   SGM_DEFECT_SAMPLES = 3,     /* vertices on an edge whose samples do not differ in sign, edges without one whose
                                  samples do: level 0, where the chunk was meshed, not read; not with
                                  SGM_WORLD_BY_DISTANCE */
-  SGM_DEFECT_DEGENERATE = 4,  /* triangles with a corner twice: left out of what follows */
-  SGM_DEFECT_FLAT = 5,        /* triangles whose corners lie on a line, none of them a feature vertex */
+  SGM_DEFECT_DEGENERATE = 4,  /* triangles with two corners in one, by number (left out of what follows) or by place;
+                                 of a seam not where one is of each of its levels */
+  SGM_DEFECT_FLAT = 5,        /* triangles whose corners are three places on a line */
   SGM_DEFECT_DUPLICATE = 6,   /* triangles with the corners of another */
   SGM_DEFECT_OPEN_EDGE = 7,   /* edges of one triangle that do not lie in a face of the chunk */
   SGM_DEFECT_TURNED_EDGE = 8, /* edges that two triangles pass in one direction */
-  SGM_DEFECT_NONMANIFOLD_EDGE = 9, /* edges of more than two triangles */
-  SGM_DEFECT_PINCHED_VERTEX = 10,  /* vertices whose triangles are more than one fan */
+  SGM_DEFECT_NONMANIFOLD_EDGE = 9,   /* edges of more than two triangles */
+  SGM_DEFECT_PINCHED_VERTEX = 10,    /* vertices whose triangles are more than one fan */
+  SGM_DEFECT_FOLDED = 11,            /* pairs of triangles that share an edge and lie upon each other */
+  SGM_DEFECT_SELF_INTERSECTION = 12, /* pairs of triangles that meet elsewhere beside common corners and edges */
   SGM_DEFECT_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_defect;
 

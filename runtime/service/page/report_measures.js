@@ -14,9 +14,9 @@ const inWords = [
   [(m) => m.turned_edges > 0, 'Not watertight: neighbours face different ways'],
   [(m) => m.nonmanifold_edges > 0 || m.nonmanifold_vertices > 0, 'Not manifold: parts meet in an edge or a point'],
   [(m) => m.inside_out > 0, 'Inside out'],
-  [(m) => m.self_intersections > 0, 'Cuts itself'],
+  [(m) => m.self_intersections > 0 || m.folded > 0, 'Cuts itself'],
   [(m) => m.nested > 0, 'Covered twice: a solid in a solid'],
-  [(m) => m.degenerate > 0 || m.duplicates > 0, 'Flawed triangles'],
+  [(m) => m.degenerate > 0 || m.flat > 0 || m.duplicates > 0, 'Flawed triangles'],
   [(m) => !m.complete, 'Not sure: not all could be looked at'],
 ];
 
@@ -61,11 +61,13 @@ export function showReportMeasures(measures, unit) {
     none('Nonmanifold edges', 'nonmanifold_edges', 'defect', 'three triangles or more'),
     none('Nonmanifold points', 'nonmanifold_vertices', 'defect', 'several fans meet'),
     none('Turned edges', 'turned_edges', 'defect', 'neighbours face different ways'),
-    none('Degenerate triangles', 'degenerate', 'defect', 'without area'),
+    none('Degenerate triangles', 'degenerate', 'defect', 'two corners in one place'),
+    none('Flat triangles', 'flat', 'defect', 'corners on a line'),
     none('Duplicate triangles', 'duplicates', 'defect', 'there twice'),
     m.self_intersections === null
       ? measureRow('Self intersections', named('self_intersections', datum('', '–')), '', 'attention', 'not sought')
       : none('Self intersections', 'self_intersections', 'defect', 'pairs of triangles'),
+    ...(m.folded === null ? [] : [none('Folded triangles', 'folded', 'defect', 'pairs upon each other')]),
     ...(m.self_intersections_complete === false
       ? [measureRow('All pairs looked at', datum(false, 'no'), '', 'attention', 'too much in one place')]
       : []),

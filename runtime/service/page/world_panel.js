@@ -42,13 +42,15 @@ const defectNames = {
   outside: 'points outside of their chunk',
   misplaced: 'points off the surface',
   samples: 'samples that are no numbers',
-  degenerate: 'triangles without area',
-  flat: 'flat triangles',
+  degenerate: 'triangles with two corners in one place',
+  flat: 'triangles whose corners lie on a line',
   duplicate: 'triangles there twice',
   open_edge: 'open edges',
   turned_edge: 'turned edges',
   nonmanifold_edge: 'edges of three triangles or more',
   pinched_vertex: 'pinched points',
+  folded: 'folded triangles',
+  self_intersection: 'triangles that cut each other',
 };
 
 const countRow = (name, value, bad, why = '') =>

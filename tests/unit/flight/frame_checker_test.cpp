@@ -72,8 +72,10 @@ TEST_CASE("what an octree draws is closed, and stays so as octrees follow each o
         if (i == changes.size() / 2) half_done += agreed(checker).frame.closed() ? 0u : 1u;
       }
       drawn = next;
-      CHECK(agreed(checker).closed());
-      CHECK(checker.check().closed());
+      const WholeReport whole = agreed(checker);
+      CHECK(whole.mesh.closed());
+      CHECK(whole.valid());
+      CHECK(checker.check().valid());
       CHECK(checker.check().chunks == next.size());
       triangles += checker.check().triangles;
     }
@@ -318,6 +320,81 @@ TEST_CASE("an edge that three triangles use, and a triangle with a vertex twice,
     CHECK(checker.check().degenerate_triangles == 1);
     agreed(checker);
   }
+}
+
+TEST_CASE("triangles with two corners in one place, flat, folded and cutting ones are seen, and go again") {
+  MeshedWorld world(kClosedWorlds[0]);
+  std::mt19937 random(4);
+  const Drawing drawing = drawingOf(randomTree(random));
+  world.want(drawing);
+  const auto full = std::find_if(drawing.begin(), drawing.end(),
+                                 [&](const auto& c) { return world.view(c.first).body.index_count > 300; });
+  REQUIRE(full != drawing.end());
+  const sgm_mesh_view view = world.view(full->first);
+  sgm_mesh_view other = view;
+  for (sgm_mesh_range& seam : other.seams) seam = SGM_MESH_RANGE_INIT;
+  FrameChecker checker;
+  REQUIRE(checker.draw(other, {}));
+  const FrameReport plain = checker.check();
+  CHECK(plain.degenerate_triangles + plain.flat_triangles + plain.folded_triangles + plain.self_intersections == 0);
+  // A triangle of feature vertices, which may lie anywhere about its cell, and one that shares an edge with it.
+  const auto corner = [](int x, int y, int z, uint16_t fan) {
+    sgm_vertex v{};
+    v.x = static_cast<int16_t>(2048 + x), v.y = static_cast<int16_t>(2048 + y), v.z = static_cast<int16_t>(2048 + z);
+    v.kind = static_cast<uint16_t>(SGM_VERTEX_FEATURE | 1 << 14 | fan << 6 | 21);
+    return v;
+  };
+  const auto with = [&](std::array<sgm_vertex, 6> more) {
+    std::vector<sgm_vertex> vertices(view.vertices, view.vertices + view.vertex_count);
+    std::vector<uint32_t> indices(view.indices, view.indices + view.body.index_count);
+    // Behind the body's; nothing is left of the seams.
+    vertices.resize(view.body.first_vertex + view.body.vertex_count);
+    for (const sgm_vertex& v : more) {
+      indices.push_back(static_cast<uint32_t>(vertices.size()));
+      vertices.push_back(v);
+    }
+    other.vertices = vertices.data();
+    other.indices = indices.data();
+    other.vertex_count = static_cast<uint32_t>(vertices.size());
+    other.body.vertex_count = other.vertex_count - other.body.first_vertex;
+    other.index_count = other.body.index_count = static_cast<uint32_t>(indices.size());
+    REQUIRE(checker.draw(other, {}));
+    agreed(checker);
+    return checker.check();
+  };
+  const sgm_vertex a = corner(10, 10, 10, 0), b = corner(90, 10, 10, 1), c = corner(10, 90, 10, 2);
+  const auto counts = [](const FrameReport& r) {
+    return std::array<uint64_t, 4>{r.degenerate_triangles, r.flat_triangles, r.folded_triangles, r.self_intersections};
+  };
+  using Counts = std::array<uint64_t, 4>;
+  CHECK(counts(with({a, b, c, b, a, corner(20, 20, 60, 3)})) == Counts{0, 0, 0, 0});
+  CHECK(counts(with({a, b, corner(90, 10, 10, 4), b, a, c})) == Counts{1, 0, 0, 0});
+  CHECK(counts(with({a, b, corner(50, 10, 10, 4), b, a, c})) == Counts{0, 1, 0, 0});
+  CHECK(counts(with({a, b, c, b, a, corner(20, 20, 10, 4)})) == Counts{0, 0, 1, 0});
+  CHECK(counts(with({a, b, c, a, corner(40, 40, 0, 4), corner(40, 40, 30, 5)})) == Counts{0, 0, 0, 1});
+  CHECK_FALSE(checker.check().valid());
+  CHECK(checker.erase(view.key));
+  CHECK(checker.check() == FrameReport{});
+}
+
+TEST_CASE("parts that go through each other are seen when all is checked") {
+  MeshedWorld world(kClosedWorlds[0]);
+  std::mt19937 random(4);
+  const Drawing drawing = drawingOf(randomTree(random));
+  FrameChecker checker;
+  drawAll(checker, world, drawing);
+  CHECK(checker.checkWhole().between_parts == 0);
+  // A chunk of another level in the same place.
+  const auto coarse = std::find_if(drawing.begin(), drawing.end(), [&](const auto& chunk) {
+    return chunk.first.level > 0 && world.view(chunk.first).body.index_count > 300;
+  });
+  REQUIRE(coarse != drawing.end());
+  const Drawing finer{
+      {childOf(coarse->first, 0), {}}, {childOf(coarse->first, 5), {}}, {childOf(coarse->first, 7), {}}};
+  drawAll(checker, world, finer);
+  const WholeReport whole = checker.checkWhole();
+  CHECK(whole.between_parts > 10);
+  CHECK_FALSE(whole.valid());
 }
 
 TEST_CASE("changes cost less than half a microsecond an edge", "[.measure]") {

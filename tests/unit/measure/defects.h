@@ -103,7 +103,7 @@ inline const std::vector<Defect>& defects() {
            mesh.triangles.push_back({t[0], t[1], t[1]});
          }
        },
-       [](const MeshMeasures& m) { return m.degenerate() == 1; }},
+       [](const MeshMeasures& m) { return m.withoutArea() == 1; }},
       {"a triangle is there twice",
        [](Mesh& mesh, std::mt19937& random) {
          Triangle t = mesh.triangles[any(random, mesh.triangles.size())];

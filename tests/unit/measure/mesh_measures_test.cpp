@@ -35,11 +35,13 @@ void checkPlaces(const Mesh& mesh, const MeshMeasures& m) {
     if (m.identity.unmatched_edges == m.identity.open_edges)
       shown(DefectKind::pinched_vertex, m.identity.pinched_vertices);
   }
-  shown(DefectKind::degenerate, m.degenerate());
+  shown(DefectKind::degenerate, m.identity.degenerate_triangles);
+  shown(DefectKind::flat, m.flat_triangles);
   shown(DefectKind::duplicate, m.identity.duplicate_triangles);
   shown(DefectKind::inside_out, m.nesting.inside_out);
   shown(DefectKind::nested, m.nesting.nested);
-  shown(DefectKind::self_intersection, m.self_intersections->pairs);
+  shown(DefectKind::folded, m.self_intersections->folded);
+  shown(DefectKind::self_intersection, m.self_intersections->cuts());
   for (const DefectPlace& place : m.places) {
     const Triangle& t = mesh.triangles[place.triangle];
     Point low = mesh.points[t[0]], high = low;
@@ -68,7 +70,7 @@ TEST_CASE("a thousand good meshes raise no alarm", "[measures]") {
             found.nesting.inside_out);
     CHECK(found.watertight());
     CHECK(found.valid());
-    CHECK(found.degenerate() == 0);
+    CHECK(found.withoutArea() == 0);
     CHECK(found.genus().has_value());
     CHECK(found.sums.volume > 0);
     CHECK(found.welded_points == 0);
@@ -321,6 +323,7 @@ TEST_CASE("measures are the same for any number of threads", "[measures]") {
     CHECK(other.sums.volume == one.sums.volume);
     CHECK(other.histogram.shares == one.histogram.shares);
     CHECK(other.self_intersections->pairs == one.self_intersections->pairs);
+    CHECK(other.self_intersections->folded == one.self_intersections->folded);
     CHECK(other.self_intersections->examples == one.self_intersections->examples);
     CHECK(other.cubes->centre == one.cubes->centre);
     CHECK(other.cubes->all == one.cubes->all);

@@ -178,6 +178,7 @@ TEST_CASE("the tree finds all pairs that meet", "[self_intersection]") {
     const SelfIntersections here = found(mesh);
     CHECK(here.pairs == allPairs(mesh));
     CHECK(here.complete);
+    CHECK(here.folded == 0);  // no two share an edge
     CHECK(here.examples.size() == std::min<size_t>(here.pairs, kMostExamples));
     for (const auto& [a, b] : here.examples) {
       CHECK(a < b);

@@ -96,9 +96,9 @@ TEST_CASE("the summary has exactly its members") {
       if (!sample.measures) continue;
       CHECK(keysOf(world["measures"]) ==
             Keys{"area_square_meters", "volume_cubic_meters", "triangles", "slivers", "defects_total", "defects"});
-      CHECK(keysOf(world["measures"]["defects"]) == Keys{"index", "outside", "misplaced", "samples", "degenerate",
-                                                         "flat", "duplicate", "open_edge", "turned_edge",
-                                                         "nonmanifold_edge", "pinched_vertex"});
+      CHECK(keysOf(world["measures"]["defects"]) ==
+            Keys{"index", "outside", "misplaced", "samples", "degenerate", "flat", "duplicate", "open_edge",
+                 "turned_edge", "nonmanifold_edge", "pinched_vertex", "folded", "self_intersection"});
       CHECK(world["measures"]["defects"]["pinched_vertex"] == sample.measures->made.defects[SGM_DEFECT_PINCHED_VERTEX]);
       uint64_t total = 0;
       for (const json& defect : world["measures"]["defects"]) total += defect.get<uint64_t>();

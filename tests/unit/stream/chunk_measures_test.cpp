@@ -129,6 +129,16 @@ void pinch(Body& body, std::mt19937& random) {
   }
 }
 
+/// Moves a vertex to the middle between two others, which are moved by a step where they have none.
+void putBetween(Body& body, uint32_t moved, uint32_t from, uint32_t to) {
+  Vertex &v = body.vertices[moved], &a = body.vertices[from];
+  const Vertex& b = body.vertices[to];
+  for (int16_t Vertex::*axis : {&Vertex::x, &Vertex::y, &Vertex::z}) {
+    if (((a.*axis + b.*axis) & 1) != 0) a.*axis = static_cast<int16_t>(a.*axis + (a.*axis == 0 ? 1 : -1));
+    v.*axis = static_cast<int16_t>((a.*axis + b.*axis) / 2);
+  }
+}
+
 struct Damage {
   const char* name;
   std::function<void(PlacedChunk&, std::mt19937&)> make;
@@ -218,12 +228,76 @@ const std::vector<Damage>& damages() {
          triangle(chunk, random)[any(random, 3)] = random() % 2 == 0 ? count : UINT32_MAX;
        },
        Defect::index, 1},
-      {"a triangle is flat",
+      {"two corners of a triangle lie in one place",
        [](PlacedChunk& chunk, std::mt19937& random) {
          const auto at = triangle(chunk, random);
          chunk.mesh.body.vertices[at[0]] = chunk.mesh.body.vertices[at[1]];
        },
+       Defect::degenerate, 1},
+      {"two feature vertices of a triangle lie in one place",
+       [](PlacedChunk& chunk, std::mt19937& random) {
+         const auto at = triangle(chunk, random);
+         Vertex &first = chunk.mesh.body.vertices[at[0]], &second = chunk.mesh.body.vertices[at[1]];
+         first = second;
+         first.kind = kFeature | kFeatureOfCell | 21;
+         second.kind = kFeature | 21;
+       },
+       Defect::degenerate, 1},
+      {"a triangle is flat",
+       [](PlacedChunk& chunk, std::mt19937& random) {
+         const auto at = triangle(chunk, random);
+         putBetween(chunk.mesh.body, at[0], at[1], at[2]);
+       },
        Defect::flat, 1},
+      {"a triangle with a feature vertex is flat",
+       [](PlacedChunk& chunk, std::mt19937& random) {
+         const auto at = triangle(chunk, random);
+         putBetween(chunk.mesh.body, at[0], at[1], at[2]);
+         chunk.mesh.body.vertices[at[0]].kind = kFeature | kFeatureOfCell | 21;
+       },
+       Defect::flat, 1},
+      {"a triangle is folded onto its neighbour",
+       [](PlacedChunk& chunk, std::mt19937& random) {
+         Body& body = chunk.mesh.body;
+         const auto at = triangle(chunk, random);
+         const std::array<uint32_t, 3> t{at[0], at[1], at[2]};
+         const auto apex = static_cast<uint32_t>(body.vertices.size());
+         body.vertices.push_back(body.vertices[t[2]]);
+         putBetween(body, apex, t[0], t[2]);
+         const uint32_t more[3] = {t[1], t[0], apex};
+         body.indices.insert(body.indices.end(), more, more + 3);
+       },
+       Defect::folded, 1},
+      {"a triangle goes through another",
+       [](PlacedChunk& chunk, std::mt19937& random) {
+         Body& body = chunk.mesh.body;
+         // One whose middle is inside on every grid.
+         std::array<uint32_t, 3> t{};
+         std::array<int, 3> middle{}, across{};
+         do {
+           const auto at = triangle(chunk, random);
+           t = {at[0], at[1], at[2]};
+           const Vertex &a = body.vertices[t[0]], &b = body.vertices[t[1]], &c = body.vertices[t[2]];
+           middle = {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3, (a.z + b.z + c.z) / 3};
+           const TriangleTerms terms = termsOf(a, b, c);
+           const double length = std::sqrt(static_cast<double>(terms.square));
+           across = {static_cast<int>(100 * terms.x / length), static_cast<int>(100 * terms.y / length),
+                     static_cast<int>(100 * terms.z / length)};
+           // Not a sliver, and its middle far enough inside of the chunk.
+           if (isSliver(terms) || terms.square < int64_t{1} << 28) middle[0] = 0;
+         } while (*std::min_element(middle.begin(), middle.end()) < 200 ||
+                  *std::max_element(middle.begin(), middle.end()) > kChunkCells * kSubcell - 200);
+         const auto first = static_cast<uint32_t>(body.vertices.size());
+         for (const int side : {-1, 1, 2}) {
+           Vertex& v = body.vertices.emplace_back(body.vertices[t[0]]);
+           v.x = static_cast<int16_t>(middle[0] + (side == 2 ? 90 : side * across[0]));
+           v.y = static_cast<int16_t>(middle[1] + (side == 2 ? 70 : side * across[1]));
+           v.z = static_cast<int16_t>(middle[2] + (side == 2 ? -80 : side * across[2]));
+         }
+         const uint32_t more[3] = {first, first + 1, first + 2};
+         body.indices.insert(body.indices.end(), more, more + 3);
+       },
+       Defect::self_intersection, 1},
       {"two vertices are one", [](PlacedChunk& chunk, std::mt19937& random) { pinch(chunk.mesh.body, random); },
        Defect::pinched_vertex, 1},
       {"a sample is of the other sign",
@@ -239,8 +313,11 @@ const std::vector<Damage>& damages() {
 
 }  // namespace
 
-TEST_CASE("chunks of the samples have no defect, and count as checkParts does") {
+namespace {
+
+void checkSamples(bool sharp) {
   for (const Excerpt& scene : kExcerpts) {
+    if (scene.sharp != sharp) continue;
     CAPTURE(scene.grammar);
     const WorldField world(settingsOf(sample(scene.grammar), scene.cell, 3), std::pmr::get_default_resource());
     size_t bodies = 0, seams = 0, compared = 0, features = 0;
@@ -273,6 +350,12 @@ TEST_CASE("chunks of the samples have no defect, and count as checkParts does") 
     CHECK((features > 0) == scene.sharp);
   }
 }
+
+}  // namespace
+
+TEST_CASE("chunks of the samples have no defect, and count as checkParts does") { checkSamples(false); }
+
+TEST_CASE("sharp chunks of the samples have no defect, and count as checkParts does") { checkSamples(true); }
 
 TEST_CASE("chunks and seams of mixed levels add up to the area and the volume of the welded surface") {
   const WorldField world(settingsOf(kBoxes, kFinest, 3), std::pmr::get_default_resource());

@@ -1,0 +1,224 @@
+#pragma once
+// What is wrong with a triangle, and with two of them: the one definition for all that judges meshes, of chunks as they
+// are streamed, of frames as they are drawn, of regions and files as they are measured.
+//
+// A triangle is
+//   DEGENERATE  where two of its corners are one, by number or by place;
+//   FLAT        where its corners are three places on a line.
+// Two triangles that have an area
+//   FOLD        where they share two corners and lie upon each other: the angle between them is exactly 0;
+//   CUT         where they have any other point in common beside the corners and the edge that they share. To touch is
+//               to cut.
+// Two that share all three corners are duplicates, of which check.h tells. Every answer is exact.
+//
+// A file, a region of one level and the body of a chunk have none of these. A SEAM is a sheet without thickness in the
+// face between two levels: where both have the same surface its triangles are flat, fold, and lie upon others, and a
+// corner of each level may lie in one place, since keys tell them apart. So there these alone are wrong: two corners of
+// one triangle in one place that are not one of each level (maySharePlace), and what PIERCES another triangle, of any
+// part: an edge with its ends on both sides of it that goes through its inside.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+
+#include "mesh/feature_kind.h"
+
+namespace sgm {
+
+enum class PairFault : uint8_t { none, folded, cut };
+
+/// Whether corners of these kinds (Vertex::kind) may lie in one place in a triangle of a seam: one on its fine side,
+/// one on its coarse side. A lateral vertex is on both.
+constexpr bool maySharePlace(uint16_t a, uint16_t b) {
+  const auto sides = [](uint16_t kind) { return kind == kLateralEdge ? 3 : isOfCoarserLevel(kind) ? 2 : 1; };
+  return (sides(a) ^ sides(b)) == 3;
+}
+
+/// On which side, for places whose coordinates differ by less than 2^19.
+struct IntegerSigns {
+  using Place = Int3;
+
+  static constexpr int signOf(int64_t v) { return (v > 0) - (v < 0); }
+  /// 1, 0 or -1: d lies behind, in or in front of the plane in which a, b, c go round counter-clockwise seen from in
+  /// front.
+  static int orientation(const Place& a, const Place& b, const Place& c, const Place& d) {
+    const int64_t ux = a.x - d.x, uy = a.y - d.y, uz = a.z - d.z, vx = b.x - d.x, vy = b.y - d.y, vz = b.z - d.z,
+                  wx = c.x - d.x, wy = c.y - d.y, wz = c.z - d.z;
+    return signOf(ux * (vy * wz - vz * wy) + uy * (vz * wx - vx * wz) + uz * (vx * wy - vy * wx));
+  }
+  /// 1, 0 or -1: a, b, c go round counter-clockwise, lie on a line, or go round clockwise, seen from the end of the
+  /// axis `drop` (0..2).
+  static int orientationAlong(int drop, const Place& a, const Place& b, const Place& c) {
+    const int x = (drop + 1) % 3, y = (drop + 2) % 3;
+    return signOf(int64_t{a[x] - c[x]} * (b[y] - c[y]) - int64_t{a[y] - c[y]} * (b[x] - c[x]));
+  }
+  /// An axis along which a triangle does not look flat; -1 where it is flat.
+  static int seenAlong(const std::array<Place, 3>& t) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (orientationAlong(axis, t[0], t[1], t[2]) != 0) return axis;
+    return -1;
+  }
+};
+
+/// Two triangles, by the signs of some arithmetic (as IntegerSigns).
+template <class Signs>
+class TrianglePair {
+ public:
+  using Place = typename Signs::Place;
+  using Corners = std::array<Place, 3>;
+
+  /// The corners that both share come first, in the same order in both; `shared` says how many they are.
+  static PairFault faultOf(const Corners& a, const Corners& b, int shared) {
+    switch (shared) {
+      case 0:
+        return meetApart(a, b) ? PairFault::cut : PairFault::none;
+      case 1:
+        return meetBesideCorner(a, b) ? PairFault::cut : PairFault::none;
+      case 2:
+        return lieUponEachOther(a, b) ? PairFault::folded : PairFault::none;
+      default:
+        return PairFault::none;
+    }
+  }
+
+  static bool pierce(const Corners& a, const Corners& b) { return passesThrough(a, b) || passesThrough(b, a); }
+
+ private:
+  /// In the plane of the triangle, seen along `drop`.
+  static bool inTriangle(int drop, const Corners& t, const Place& p) {
+    const int turn = Signs::orientationAlong(drop, t[0], t[1], t[2]);
+    for (size_t k = 0; k < 3; ++k)
+      if (turn * Signs::orientationAlong(drop, t[k], t[(k + 1) % 3], p) < 0) return false;
+    return true;
+  }
+
+  /// Of points on one line.
+  static bool between(const Place& a, const Place& b, const Place& p) {
+    for (int axis = 0; axis < 3; ++axis)
+      if (p[axis] < std::min(a[axis], b[axis]) || p[axis] > std::max(a[axis], b[axis])) return false;
+    return true;
+  }
+
+  static bool segmentsMeet(int drop, const Place& a, const Place& b, const Place& c, const Place& d) {
+    const int c_side = Signs::orientationAlong(drop, a, b, c), d_side = Signs::orientationAlong(drop, a, b, d);
+    const int a_side = Signs::orientationAlong(drop, c, d, a), b_side = Signs::orientationAlong(drop, c, d, b);
+    if (c_side * d_side < 0 && a_side * b_side < 0) return true;
+    return (c_side == 0 && between(a, b, c)) || (d_side == 0 && between(a, b, d)) ||
+           (a_side == 0 && between(c, d, a)) || (b_side == 0 && between(c, d, b));
+  }
+
+  /// from_side, to_side: of the triangle's plane, by orientation().
+  static bool segmentMeets(const Place& from, const Place& to, int from_side, int to_side, const Corners& t, int drop) {
+    if (from_side * to_side > 0) return false;
+    if (from_side == 0 && to_side == 0) {
+      if (inTriangle(drop, t, from) || inTriangle(drop, t, to)) return true;
+      for (size_t k = 0; k < 3; ++k)
+        if (segmentsMeet(drop, from, to, t[k], t[(k + 1) % 3])) return true;
+      return false;
+    }
+    int seen = 0;
+    for (size_t k = 0; k < 3; ++k) {
+      const int side = Signs::orientation(from, to, t[k], t[(k + 1) % 3]);
+      if (side * seen < 0) return false;
+      if (side != 0) seen = side;
+    }
+    return true;
+  }
+
+  static std::array<int, 3> sidesOf(const Corners& plane, const Corners& t) {
+    std::array<int, 3> sides{};
+    for (size_t k = 0; k < 3; ++k) sides[k] = Signs::orientation(plane[0], plane[1], plane[2], t[k]);
+    return sides;
+  }
+
+  static bool allOnOneSide(const std::array<int, 3>& sides) {
+    return sides[0] != 0 && sides[0] == sides[1] && sides[1] == sides[2];
+  }
+
+  static bool anyEdgeMeets(const Corners& a, const std::array<int, 3>& a_sides, const Corners& b, int b_drop) {
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t next = (k + 1) % 3;
+      if (segmentMeets(a[k], a[next], a_sides[k], a_sides[next], b, b_drop)) return true;
+    }
+    return false;
+  }
+
+  /// Of triangles in one plane: whether the line through an edge of `t` has all of `other` strictly beyond it, but for
+  /// the first corner where both share that. Most neighbours on flat ground are told so.
+  static bool liesBeyond(int drop, const Corners& t, const Corners& other, size_t shared) {
+    const int turn = Signs::orientationAlong(drop, t[0], t[1], t[2]);
+    for (size_t k = 0; k < 3; ++k) {
+      // Of two that share their first corner, a line through it.
+      if (shared == 1 && k == 1) continue;
+      bool beyond = true;
+      for (size_t i = shared; i < 3 && beyond; ++i)
+        beyond = turn * Signs::orientationAlong(drop, t[k], t[(k + 1) % 3], other[i]) < 0;
+      if (beyond) return true;
+    }
+    return false;
+  }
+
+  static bool meetApart(const Corners& a, const Corners& b) {
+    const std::array<int, 3> b_sides = sidesOf(a, b);
+    if (allOnOneSide(b_sides)) return false;
+    const std::array<int, 3> a_sides = sidesOf(b, a);
+    if (allOnOneSide(a_sides)) return false;
+    const int a_drop = Signs::seenAlong(a), b_drop = Signs::seenAlong(b);
+    if (a_drop < 0 || b_drop < 0) return false;
+    if (b_sides == std::array<int, 3>{} && (liesBeyond(a_drop, a, b, 0) || liesBeyond(a_drop, b, a, 0))) return false;
+    return anyEdgeMeets(a, a_sides, b, b_drop) || anyEdgeMeets(b, b_sides, a, a_drop);
+  }
+
+  /// The first corner of both is the common one. Where they meet elsewhere, the edge of one that lies opposite it meets
+  /// the other: a line in both triangles from the common corner on ends at such an edge.
+  static bool meetBesideCorner(const Corners& a, const Corners& b) {
+    const int b1 = Signs::orientation(a[0], a[1], a[2], b[1]), b2 = Signs::orientation(a[0], a[1], a[2], b[2]);
+    if (b1 * b2 > 0) return false;
+    const int a1 = Signs::orientation(b[0], b[1], b[2], a[1]), a2 = Signs::orientation(b[0], b[1], b[2], a[2]);
+    if (a1 * a2 > 0) return false;
+    const int a_drop = Signs::seenAlong(a), b_drop = Signs::seenAlong(b);
+    if (a_drop < 0 || b_drop < 0) return false;
+    if (b1 == 0 && b2 == 0 && (liesBeyond(a_drop, a, b, 1) || liesBeyond(a_drop, b, a, 1))) return false;
+    return segmentMeets(b[1], b[2], b1, b2, a, a_drop) || segmentMeets(a[1], a[2], a1, a2, b, b_drop);
+  }
+
+  /// The first two corners of both are the common ones.
+  static bool lieUponEachOther(const Corners& a, const Corners& b) {
+    if (Signs::orientation(a[0], a[1], a[2], b[2]) != 0) return false;
+    const int drop = Signs::seenAlong(a);
+    if (drop < 0 || Signs::seenAlong(b) < 0) return false;
+    return Signs::orientationAlong(drop, a[0], a[1], a[2]) == Signs::orientationAlong(drop, a[0], a[1], b[2]);
+  }
+
+  static bool passesThrough(const Corners& edges, const Corners& wall) {
+    const std::array<int, 3> sides = sidesOf(wall, edges);
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t next = (k + 1) % 3;
+      if (sides[k] * sides[next] >= 0) continue;
+      const int turn = Signs::orientation(edges[k], edges[next], wall[0], wall[1]);
+      if (turn != 0 && turn == Signs::orientation(edges[k], edges[next], wall[1], wall[2]) &&
+          turn == Signs::orientation(edges[k], edges[next], wall[2], wall[0]))
+        return true;
+    }
+    return false;
+  }
+};
+
+/// Brings the corners that are one in both triangles to the front of both, in the same order; returns how many.
+template <class Corner>
+int sharedFirst(std::array<Corner, 3>& a, std::array<Corner, 3>& b) {
+  size_t shared = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = shared; j < 3; ++j) {
+      if (!(a[i] == b[j])) continue;
+      std::swap(b[shared], b[j]);
+      std::swap(a[shared], a[i]);
+      ++shared;
+      break;
+    }
+  }
+  return static_cast<int>(shared);
+}
+
+}  // namespace sgm

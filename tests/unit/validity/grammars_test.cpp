@@ -1,0 +1,148 @@
+// Every sample grammar gives a valid surface, at three cells, sharp and not.
+//
+// While working on the mesher: SGM_VALIDITY_ONLY=muller test_sharp_validity "[table]" has the rows of the grammars with
+// that in their name alone.
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "measured_surface.h"
+#include "rounds.h"
+
+using namespace sgm;
+using namespace sgm::test;
+
+namespace {
+
+/// Metres, lo <= p < hi; at most 512 chunks at every cell.
+struct Row {
+  const char* grammar;
+  std::array<double, 3> low, high;
+};
+
+constexpr double kCells[] = {0.5, 0.25, 0.125};
+constexpr uint64_t kMostChunks = 512;
+
+const Row kRows[] = {
+    {"arches", {-8, -8, -8}, {8, 8, 8}},
+    {"branchwork", {32, 48, 48}, {48, 64, 64}},
+    {"building", {-8, 0, -8}, {8, 16, 8}},
+    {"castle", {-32, -8, -24}, {-16, 8, -8}},
+    {"cave", {96, 64, 96}, {112, 80, 112}},
+    {"choice", {32, 0, 32}, {64, 8, 64}},
+    {"city", {16, 0, 16}, {32, 16, 32}},
+    {"cloud", {3120, 1376, 1744}, {3136, 1392, 1760}},
+    {"combine", {-8, -8, -8}, {8, 8, 8}},
+    {"edits", {32, 48, 32}, {48, 64, 48}},
+    {"houses", {8, -4, 8}, {24, 12, 24}},
+    {"lake", {96, 0, 80}, {112, 16, 96}},
+    {"morph", {-8, -8, -8}, {24, 8, 8}},
+    {"passage", {16, 0, 0}, {32, 16, 16}},
+    {"primitives", {-4, -4, -4}, {64, 4, 4}},
+    {"sphere", {-8, -8, -8}, {8, 8, 8}},
+    {"storeys", {-8, -4, -8}, {8, 12, 8}},
+    {"terrace", {0, 0, -16}, {16, 16, 0}},
+    {"terrain", {-16, -8, -16}, {0, 8, 0}},
+    {"tree", {-8, 0, -8}, {8, 16, 8}},
+    {"tunnels", {-32, -8, -8}, {-16, 8, 8}},
+    {"table4/birger", {224, 896, 512}, {240, 912, 528}},
+    {"table4/bouthors", {400, 1104, 352}, {416, 1120, 368}},
+    {"table4/cabral", {-16, 0, -16}, {0, 16, 0}},
+    {"table4/cui", {32, 32, 48}, {48, 48, 64}},
+    {"table4/gkm", {0, -8, 0}, {16, 8, 16}},
+    {"table4/greuter", {32, 0, 16}, {48, 16, 32}},
+    {"table4/lipp", {-8, -4, -8}, {8, 12, 8}},
+    {"table4/marson", {-8, -4, -8}, {8, 8, 8}},
+    {"table4/muller", {-8, -4, -8}, {8, 12, 8}},
+    {"table4/voxel", {-16, -16, -16}, {0, 0, 0}},
+};
+
+std::string textOf(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  REQUIRE(in);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+IntBox boxOf(const Row& row) {
+  IntBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lo[axis] = static_cast<int32_t>(row.low[static_cast<size_t>(axis)] * kUnitsPerMetre);
+    box.hi[axis] = static_cast<int32_t>(row.high[static_cast<size_t>(axis)] * kUnitsPerMetre);
+  }
+  return box;
+}
+
+bool isWanted(const std::string& grammar) {
+  const char* const only = std::getenv("SGM_VALIDITY_ONLY");
+  return only == nullptr || grammar.find(only) != std::string::npos;
+}
+
+/// One seed a grammar and cell; twenty in the long run.
+uint64_t seedsWanted() { return std::getenv("SGM_LONG") != nullptr ? 20 : 1; }
+
+void checkTable(bool sharp) {
+  const std::filesystem::path folder(SGM_SAMPLE_GRAMMARS);
+  const Workshop shop;
+  std::printf("%-16s %5s %5s %6s %9s %10s %8s %6s %5s %7s %6s %7s\n", sharp ? "sharp" : "plain", "cell", "seed",
+              "chunks", "triangles", "degenerate", "no area", "folded", "cuts", "3-edges", "others", "seconds");
+  size_t rows = 0, invalid = 0;
+  for (const Row& row : kRows) {
+    if (!isWanted(row.grammar)) continue;
+    const std::filesystem::path file = folder / (std::string(row.grammar) + ".sgm");
+    const std::shared_ptr<const Program> program = compiled(textOf(file), file.parent_path());
+    for (const double cell : kCells) {
+      size_t triangles = 0;
+      for (uint64_t seed = 1; seed <= seedsWanted(); ++seed) {
+        CAPTURE(row.grammar, cell, seed, sharp);
+        const auto start = std::chrono::steady_clock::now();
+        const WorldField world(worldOf(program, cell, seed), std::pmr::get_default_resource());
+        const MeshedRegion region = meshedRegion(world, shop, boxOf(row), sharp);
+        CHECK(region.chunks <= kMostChunks);
+        triangles += region.mesh.triangles.size();
+        // Of many seeds some have nothing in so small a place.
+        if (region.mesh.triangles.empty()) continue;
+        const Faults faults = faultsOf(region.mesh, &region.cut, *shop.jobs);
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        std::printf("%-16s %5g %5u %6u %9zu %10zu %8zu %6zu %5zu %7zu %6zu %7.2f%s\n", row.grammar, cell,
+                    static_cast<unsigned>(seed), static_cast<unsigned>(region.chunks), faults.triangles,
+                    faults.degenerate, faults.without_area, faults.folded, faults.cuts, faults.nonmanifold,
+                    faults.others, seconds, faults.valid ? "" : "  INVALID");
+        std::fflush(stdout);
+        ++rows;
+        invalid += !faults.valid;
+        INFO(faults);
+        CHECK(faults.valid);
+      }
+      CAPTURE(row.grammar, cell);
+      CHECK(triangles > 100);
+    }
+  }
+  std::printf("%zu rows, %zu invalid\n", rows, invalid);
+  CHECK(rows > 0);
+}
+
+}  // namespace
+
+TEST_CASE("the table has every sample grammar", "[validity]") {
+  const std::filesystem::path folder(SGM_SAMPLE_GRAMMARS);
+  std::set<std::string> found, listed;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".sgm") continue;
+    found.insert(std::filesystem::relative(entry.path(), folder).replace_extension().generic_string());
+  }
+  for (const Row& row : kRows) listed.insert(row.grammar);
+  CHECK(found == listed);
+}
+
+TEST_CASE("every sample grammar is valid as marching cubes make it", "[validity][table][plain][costly]") {
+  checkTable(false);
+}
+
+TEST_CASE("every sample grammar is valid with sharp features", "[validity][table][sharp][costly]") {
+  checkTable(true);
+}

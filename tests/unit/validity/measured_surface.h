@@ -1,0 +1,129 @@
+#pragma once
+// A region's surface as `sgm measure --strict` judges it, and which kinds of faults it has.
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "api/import.h"
+#include "api/region_mesh.h"
+#include "catch.h"
+#include "measure/exact_sign.h"
+#include "measure/mesh_measures.h"
+#include "measure/triangle_pair.h"
+#include "measure/weld_points.h"
+#include "measure/world_triangles.h"
+#include "stream/mesh_chunks.h"
+
+namespace sgm::test {
+
+inline std::shared_ptr<const Program> compiled(const std::string& text, const std::filesystem::path& folder = ".") {
+  api::FolderImports imports(folder);
+  CompileOptions options;
+  options.resolver = &imports;
+  const CompileResult result = compileGrammar(text, "test.sgm", options);
+  INFO(renderDiagnostics(result) << text);
+  REQUIRE(result.program);
+  return result.program;
+}
+
+inline WorldFieldSettings worldOf(std::shared_ptr<const Program> program, double cell, uint64_t seed) {
+  WorldFieldSettings settings;
+  settings.parameters = ParameterValues::defaults(*program);
+  settings.program = std::move(program);
+  settings.seed = seed;
+  settings.finest_cell = static_cast<int32_t>(cell * kUnitsPerMetre);
+  return settings;
+}
+
+/// Two cores, and what meshes on them.
+struct Workshop {
+  std::unique_ptr<JobSystem> jobs = *makeThreadPool(2);
+  std::unique_ptr<Backend> backend = *makeBackend({}, *jobs, std::pmr::get_default_resource());
+};
+
+/// What is wrong with a surface, counted by place as well as by vertex.
+struct Faults {
+  size_t triangles = 0;
+  size_t degenerate = 0;    ///< two corners in one place
+  size_t without_area = 0;  ///< three places on a line
+  size_t folded = 0;        ///< pairs that share an edge and lie upon each other
+  size_t cuts = 0;          ///< pairs that meet elsewhere
+  size_t nonmanifold = 0;   ///< edges of three triangles or more
+  size_t others = 0;        ///< pinched vertices, duplicates, holes, turned edges, shells that face wrongly
+  bool valid = false;       ///< as `sgm measure --strict` has it
+
+  friend std::ostream& operator<<(std::ostream& out, const Faults& f) {
+    return out << f.triangles << " triangles, " << f.degenerate << " degenerate, " << f.without_area
+               << " without area, " << f.folded << " folded, " << f.cuts << " cuts, " << f.nonmanifold
+               << " non-manifold edges, " << f.others << " others";
+  }
+};
+
+/// Calls visit(a, b) with each two triangles whose boxes overlap.
+template <class Visit>
+void forPairs(const measure::Triangles& mesh, JobSystem& jobs, const Visit& visit) {
+  const measure::Bvh tree(mesh, jobs);
+  for (const measure::Bvh::Pair& pair : tree.parts(1)) {
+    measure::Bvh::Walk walk(pair);
+    tree.visitPairs(walk, uint64_t{1} << 40, visit);
+  }
+}
+
+inline size_t commonCorners(const measure::Triangle& a, const measure::Triangle& b) {
+  return static_cast<size_t>(
+      std::count_if(a.begin(), a.end(), [&](uint32_t v) { return std::find(b.begin(), b.end(), v) != b.end(); }));
+}
+
+/// cut: the box that the mesh was cut from, or null. Vertices in one place are one.
+inline Faults faultsOf(const asset::TriangleMesh& mesh, const measure::Cut* cut, JobSystem& jobs) {
+  measure::MeshSettings settings;
+  if (cut != nullptr) settings.cut = *cut;
+  const Result<measure::MeshMeasures> measures = measure::measureMesh({mesh.points, mesh.triangles}, settings, jobs);
+  REQUIRE(measures);
+  const MeshReport& identity = measures->identity;
+  Faults faults;
+  faults.triangles = measures->triangles;
+  faults.degenerate = identity.degenerate_triangles;
+  faults.without_area = measures->flat_triangles;
+  faults.nonmanifold = identity.non_manifold_edges;
+  faults.others = identity.pinched_vertices + identity.duplicate_triangles +
+                  (identity.open_edges - measures->cut_edges) + (identity.unmatched_edges - identity.open_edges) +
+                  measures->nesting.inside_out + measures->nesting.nested + measures->non_finite;
+  faults.valid = measures->validButForCut() && measures->triangles > 0;
+  if (measures->self_intersections->pairs == 0) return faults;
+  const measure::WeldedPoints welded = measure::weldPoints({mesh.points, mesh.triangles});
+  forPairs({welded.points, welded.triangles}, jobs, [&](uint32_t a, uint32_t b) {
+    const measure::Triangle &first = welded.triangles[a], &second = welded.triangles[b];
+    if (measure::meetWrongly(welded.points, first, second)) {
+      ++(commonCorners(first, second) == 2 ? faults.folded : faults.cuts);
+    }
+  });
+  CHECK(faults.folded + faults.cuts == measures->self_intersections->pairs);
+  return faults;
+}
+
+struct MeshedRegion {
+  asset::TriangleMesh mesh;
+  measure::Cut cut;
+  uint64_t chunks = 0;
+};
+
+/// The chunks of one level that meet lo <= p < hi.
+inline MeshedRegion meshedRegion(const WorldField& world, const Workshop& shop, const IntBox& box, bool sharp) {
+  const Result<api::RegionMesh> region = api::meshRegion(world, *shop.backend, *shop.jobs, box, 0, 4096, sharp);
+  INFO((region ? "" : region.error().message));
+  REQUIRE(region);
+  MeshedRegion result{measure::trianglesOf(region->mesh), {}, region->chunks};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int64_t origin = region->mesh.origin[axis];
+    result.cut.low[axis] = static_cast<double>(region->extent.lo[axis] - origin) / kUnitsPerMetre;
+    result.cut.high[axis] = static_cast<double>(region->extent.hi[axis] - origin) / kUnitsPerMetre;
+  }
+  return result;
+}
+
+}  // namespace sgm::test
