@@ -72,6 +72,7 @@ Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera) {
     const Metres3 direction = glm::normalize(forward + right * (u * half_width) + up * (v * half_height));
     const Result<std::optional<RayEnd>> seen = world.cast(camera.position, direction, kViewMetres);
     if (!seen) return seen.error();
+    if (*seen && (*seen)->inside) return Outlook{0, true};
     distances[i] = *seen ? (*seen)->distance : kViewMetres;
     if (!world.roofless) continue;
     if (*seen && letsThrough(world, **seen)) {
@@ -87,7 +88,7 @@ Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera) {
   std::ranges::sort(distances);
   // Between the median and the upper quartile: frames are near, what they frame is what matters.
   const double depth = (distances[distances.size() / 2] + distances[distances.size() * 3 / 4]) / 2;
-  return Outlook{sum / static_cast<double>(distances.size()), depth};
+  return Outlook{sum / static_cast<double>(distances.size()), false, depth};
 }
 
 std::optional<Light> lightNamed(std::string_view name) {

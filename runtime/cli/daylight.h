@@ -54,7 +54,8 @@ struct Outlook {
   /// The share, 0..1, of the sky that is open to what the camera sees: the mean, over rays spread evenly over the
   /// picture, of how many of five directions upwards lie open where the ray ends.
   double daylight = 0;
-  double depth = 1;  ///< typical distance in metres to what is seen, at most 256
+  bool buried = false;  ///< the camera is in the solid itself: nothing else is known then
+  double depth = 1;     ///< typical distance in metres to what is seen, at most 256
 };
 
 /// Errors: those of the rays.

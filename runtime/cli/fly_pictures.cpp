@@ -65,6 +65,8 @@ Result<void> FlyPictures::look(const FlownScene& scene, uint64_t frame, const Fl
   if (wanted || options_.levels) world.roofless = false;  // no question
   const Result<Outlook> outlook = lookOut(world, camera);
   if (!outlook) return outlook.error();
+  // On a way through the rock all stays as it was.
+  if (outlook->buried && frame > 0) return {};
   seen_depth_ = outlook->depth;
   if (leapt || frame == 0) depth_ = seen_depth_;
   light_ = wanted ? *wanted : steady_.next(outlook->daylight, leapt);

@@ -250,9 +250,10 @@ Result<RegionPicture> drawRegion(const Renderer& renderer, const RenderOptions& 
     if (!wanted) {
       const Result<Outlook> outlook = lookOutFor(region, *view);
       if (!outlook) return outlook.error();
-      picture.daylight = outlook->daylight;
+      if (!outlook->buried) picture.daylight = outlook->daylight;
     }
-    picture.light = wanted ? *wanted : lightAt(*picture.daylight);
+    // A camera in the rock looks at a model that is cut open.
+    picture.light = wanted ? *wanted : picture.daylight ? lightAt(*picture.daylight) : Light::sun;
   }
   Result<Image> image = density ? drawVolume(renderer, *density, region, *view)
                                 : drawMesh(renderer, drawn, region, *view, picture.light, options.wires);

@@ -138,6 +138,9 @@ lit lamp 20-300 mouth.sgm --cell 0.5 --camera 0,0,-40:0,0,-60
 lit lamp 20-300 "$cave" --cell 1 --seed 7
 lit lamp 20-300 "$SOURCE/samples/grammars/passage.sgm" --cell 1 --camera 32,0,0:64,0,0 --region=0,-16,-16:160,16,16
 lit sun 150-700 "$SOURCE/samples/grammars/cloud.sgm"
+# From within the rock one looks at what is cut open.
+expect 0 "$SGM" render mouth.sgm --out lit.png --size 96x54 --json --cell 0.5 --camera 25,2,-40:0,0,-40
+json 'j.light === "sun" && j.daylight === null'
 expect 0 "$SGM" render hall.sgm --out lit.png --size 32x18 --cell 1 --camera 0,1.7,-15:0,3,15
 out_has 'light +lamp: 0.0 % of the sky'
 for light in sun lamp none; do

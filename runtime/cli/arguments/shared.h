@@ -40,7 +40,7 @@ inline constexpr const char* kLightFooter =
     "Light: from where the picture's rays end (at most 256 m away) five more go up, into the world itself, whatever "
     "of\n"
     "it is meshed. Where 3 % of them or more come to the sky, or to glass, cloud or snow, the sun shines; else the\n"
-    "camera has a head lamp.\n";
+    "camera has a head lamp. A camera in the rock itself looks by the sun at what is cut open.\n";
 
 /// All options but these.
 std::vector<CLI::Option*> optionsBeside(CLI::App& app, const std::vector<CLI::Option*>& others);

@@ -133,6 +133,8 @@ TEST_CASE("rock without an end has no sky, however far a ray goes") {
     return Error{Code::limit, "too far"};
   };
   CHECK(!lookOut(broken, {}));
+  CHECK(look(worldOf({kGround}), {0, -0.5, 0}, {1, 0, 0}).buried);
+  CHECK(!look(worldOf({kGround}), {0, 0.5, 0}, {1, 0, 0}).buried);
 }
 
 TEST_CASE("the light of a flight does not flicker") {
