@@ -24,7 +24,7 @@ prefix=${1:-$out/prefix}
 if (($# == 0)); then
   [[ -e $root/build/release/runtime/cmake_install.cmake ]] ||
     die "build/release is not built: cmake --preset release && cmake --build --preset release, or name a PREFIX"
-  quietly "installing build/release" cmake --install "$root/build/release" --prefix "$prefix"
+  quietly "installing build/release" cmake --install "$root/build/release" --prefix "$prefix" --component library
 fi
 godot=$(bash "$here/get_godot.sh")
 

@@ -31,7 +31,8 @@ if [[ ! -f build/release/build.ninja ]]; then
   }
 fi
 [[ -x build/release/bin/sgm ]] || echo "demo: building build/release/bin/sgm (some minutes the first time)"
-cmake --build --preset release --target sgm_cli >"$log" 2>&1 || {
+# With the library, which is linked of the same objects, so that both can be installed.
+cmake --build --preset release --target sgm_cli sgm >"$log" 2>&1 || {
   cat "$log" >&2
   die "building failed"
 }

@@ -10,6 +10,11 @@
 # could not be had. Nothing here reads standard input.
 
 # An entry is a Debian package, or PACKAGE=COMMAND where the command may also come from elsewhere.
+# The library alone: cmake --preset library.
+SGM_LIBRARY_PACKAGES=(
+  g++ cmake ninja-build libhwy-dev libzstd-dev libxxhash-dev libcurl4-openssl-dev libvulkan-dev
+  glslang-tools spirv-tools
+)
 SGM_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config
   libhwy-dev libzstd-dev libxxhash-dev libcurl4-openssl-dev

@@ -149,6 +149,7 @@ struct RenderOptions : WorldOptions {
   std::string at;
   std::string size = "1280x720";
   double fov = 68;
+  std::string light = "auto";  ///< sun, lamp, none, or auto: what the camera sees decides
   bool volume = false;  ///< the solid as fog instead of its surface
   bool wires = false;   ///< the mesh's edges, without materials
 };
@@ -169,6 +170,7 @@ struct FlyOptions : WorldOptions {
   uint64_t mesh_mb = 256;
   uint64_t pictures = 0;
   std::string out = "flight.png";
+  std::string light = "auto";  ///< of pictures, as RenderOptions::light
   bool levels = false;
   std::string video;                ///< an .mp4 file; empty: none
   std::string journal, cache;       ///< a file and a folder of the world's; empty: none

@@ -19,6 +19,8 @@ constexpr auto kFrame = std::chrono::microseconds(16667);
 /// Without a pace the next frame comes when the world was planned anew, and so late at the most.
 constexpr auto kLongestWait = std::chrono::milliseconds(4);
 constexpr auto kBetweenLooksForNews = std::chrono::microseconds(100);
+constexpr auto kBetweenLooksWhileStanding = std::chrono::milliseconds(4);
+constexpr auto kLongestStill = std::chrono::seconds(20);
 constexpr uint64_t kWholeCheckEvery = 500;
 constexpr int kRaysAFrame = 6;
 constexpr uint64_t kRaysToWalk = 48;
@@ -115,6 +117,9 @@ class Flight {
       if (frame == 0) start_ = begun;
       place_ = stop->place;
       if (Result<void> flown = flyFrame(frame); !flown) return flown.error();
+      if (watch.pictured && watch.pictured(frame)) {
+        if (Result<void> stood = standUntilDrawn(); !stood) return stood.error();
+      }
       if (!settings_.paced) {
         if (const Result<void> waited = awaitNews(); !waited) return waited.error();
       }
@@ -153,6 +158,7 @@ class Flight {
   /// What is there to be done for the place that is about to be left?
   void leap(uint64_t frame) {
     teleport_frame_ = frame;
+    arrived_ = false;
     sgm_world_stats stats = SGM_WORLD_STATS_INIT;
     sgm_world_get_stats(world_, &stats, nullptr);
     report_.work_at_teleports.push_back(stats.queued + stats.in_work);
@@ -171,6 +177,25 @@ class Flight {
     }
     if (Result<void> looked = look(frame); !looked) return looked;
     return engine_.checkFrame(frame % kWholeCheckEvery == kWholeCheckEvery - 1, report_.checked);
+  }
+
+  /// Nothing is drawn yet where the flight has just come to. Where nothing happens any more, as with too little memory
+  /// for meshes, what is there must do.
+  Result<void> standUntilDrawn() {
+    Clock::time_point changed = Clock::now();
+    for (uint64_t made = 0; !arrived_ && Clock::now() < changed + kLongestStill;) {
+      if (made != stats_.chunks_meshed + stats_.frame) changed = Clock::now();
+      made = stats_.chunks_meshed + stats_.frame;
+      const Result<bool> walkable = isWalkable();
+      if (!walkable) return walkable.error();
+      arrived_ = *walkable || stats_.idle != 0;
+      if (*walkable && report_.walkable_ms < 0) report_.walkable_ms = since(start_);
+      if (arrived_) return {};
+      std::this_thread::sleep_for(kBetweenLooksWhileStanding);
+      if (const Result<double> drawn = drawFrame(); !drawn) return drawn.error();
+      if (Result<void> checked = engine_.checkFrame(false, report_.checked); !checked) return checked;
+    }
+    return {};
   }
 
   /// The milliseconds that this took.
@@ -317,6 +342,7 @@ class Flight {
   std::vector<double> times_;
   uint64_t rays_ = 0, coarse_ray_ = 0, commits_ = 0;
   std::optional<uint64_t> teleport_frame_;
+  bool arrived_ = false;  ///< what is near has been drawn since the beginning, or the last leap
 };
 
 }  // namespace

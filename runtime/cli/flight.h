@@ -53,6 +53,9 @@ struct FlightReport {
 struct FlightWatch {
   /// Told of every frame whose place is known before a paced flight begins, so that planning does not hold it up.
   std::function<void(uint64_t frame)> planned;
+  /// Whether a picture of the frame is wanted. At the beginning and after leaps such a frame stands still until all
+  /// surfaces seen within kWalkableDistance are drawn at level 0, or nothing is left to be made.
+  std::function<bool(uint64_t frame)> pictured;
   /// Called after every frame; false ends the flight.
   std::function<bool(uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn)> flown;
 };

@@ -6,7 +6,6 @@
 #include <cstring>
 
 #include "mesh/vertex.h"
-#include "render/camera.h"
 
 namespace sgm::cli {
 namespace {
@@ -92,12 +91,12 @@ Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, s
   scene.vertices = mesh.vertices;
   scene.indices = mesh.indices;
   scene.materials = materials;
-  scene.camera = camera;
-  if (!mesh.indices.empty()) lightScene(viewFrom(mesh.vertices, mesh.indices, camera), scene);
+  View view;
+  view.camera = camera;
+  view.depth = static_cast<float>(wish.depth);
+  lightScene(view, wish.levels ? Light::lamp : wish.light, scene);
   if (wish.levels) {
     // So that far levels show their colours too.
-    scene.background = Background::cave;
-    scene.lamps.clear();
     scene.ambient = 0.2f;
     scene.exposure = 1.6f;
     scene.fog_distance = 1e6f;

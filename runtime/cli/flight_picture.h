@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/flight_curve.h"
+#include "render/camera.h"
 #include "render/renderer.h"
 
 namespace sgm::cli {
@@ -21,11 +22,14 @@ struct PictureWish {
   FlightPlace camera;
   double fov_degrees = 68;  ///< across the picture's height
   int width = 640, height = 360;
-  /// Each level of detail in a colour of its own, brightly lit; else materials, by the lamps of an explorer or the sun.
+  Light light = Light::sun;
+  double depth = 20;  ///< typical distance in metres to what is seen: how far the lamp reaches, and how thick haze is
+  /// Each level of detail in a colour of its own, brightly lit; else materials, in that light.
   bool levels = false;
 };
 
-/// The picture that the camera has of the chunks; black where there are none. Errors: those of Renderer::render.
+/// The picture that the camera has of the chunks. Under Light::lamp the camera's own lamp is the only one: others would
+/// jump from picture to picture. Errors: those of Renderer::render.
 Result<Image> drawChunks(const Renderer& renderer, const sgm_grammar* grammar, std::span<const PicturedChunk> chunks,
                          const PictureWish& wish);
 

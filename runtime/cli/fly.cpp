@@ -205,6 +205,7 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   }
   FlightPlace last;
   std::optional<ProgressBar> bar(std::in_place, "planning");
+  const FlownScene flown_scene{scene.grammar.get(), scene.world.get()};
   FlightWatch watch;
   watch.planned = [&](uint64_t frame) {
     if (signals && signals->came()) signals->pass();
@@ -215,8 +216,9 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
     bar->show(frame + 1, options.frames);
     last = place;
     if (signals && signals->came()) return false;
-    return pictures == nullptr || pictures->take(scene.grammar.get(), frame, place, drawn);
+    return pictures == nullptr || pictures->take(flown_scene, frame, place, drawn);
   };
+  if (pictures != nullptr) watch.pictured = [&](uint64_t frame) { return pictures->wants(frame); };
   Result<FlightReport> report = sgm::cli::fly(scene.world.get(), *path, settings, watch);
   bar.reset();
   if (signals && signals->came() && !report) {
@@ -228,6 +230,7 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
     if (Result<void> drawn = pictures->finish(); !drawn) return {{}, cli::complain(drawn.error())};
   }
   Flown flown;
+  if (pictures != nullptr) flown.lights = pictures->lights();
   flown.report = std::move(*report);
   flown.frame_bytes = settings.frame_bytes;
   if (animation) {

@@ -8,11 +8,23 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/daylight.h"
 #include "cli/flight.h"
 #include "cli/video_file.h"
 #include "render/renderer.h"
 
 namespace sgm::cli {
+
+/// What is flown through.
+struct FlownScene {
+  const sgm_grammar* grammar = nullptr;
+  sgm_world* world = nullptr;
+};
+
+/// How many pictures were lit by what.
+struct PictureLights {
+  uint64_t sun = 0, lamp = 0, none = 0;
+};
 
 /// Draws evenly spaced frames for the sheet, and every second frame for the video.
 class FlyPictures {
@@ -21,11 +33,17 @@ class FlyPictures {
 
   /// Opens the files, the device and the encoder that are asked for: a flight may take long, and be for nothing.
   Result<void> begin();
-  /// False where that cannot be drawn or written; finish() says why.
-  bool take(const sgm_grammar* grammar, uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn);
+  /// Whether the sheet or the video has this frame.
+  bool wants(uint64_t frame) const { return inSheet(frame) || inVideo(frame); }
+  /// Told of every frame. False where it cannot be drawn or written; finish() says why.
+  bool take(const FlownScene& scene, uint64_t frame, const FlightPlace& place, const DrawnMeshes& drawn);
   Result<void> finish();
+  const PictureLights& lights() const { return lights_; }
 
  private:
+  bool inSheet(uint64_t frame) const;
+  bool inVideo(uint64_t frame) const;
+  Result<void> look(const FlownScene& scene, uint64_t frame, const FlightPlace& place);
   Result<Image> draw(const sgm_grammar* grammar, const FlightPlace& place, const DrawnMeshes& drawn) const;
 
   const FlyOptions& options_;
@@ -33,6 +51,11 @@ class FlyPictures {
   std::optional<FileWriter> sheet_;
   std::unique_ptr<VideoFile> video_;
   std::vector<Image> images_;
+  Light light_ = Light::sun;  ///< of now
+  SteadyLight steady_;
+  double seen_depth_ = 1, depth_ = 1;  ///< metres, at the last look, and as it is drawn
+  std::optional<FlightPlace> last_;
+  PictureLights lights_;
   std::optional<Error> error_;
 };
 

@@ -86,6 +86,7 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
        {{"chunks", flown.backend.chunks - flown.backend.chunks_on_cpu},
         {"chunks_on_cpu", flown.backend.chunks_on_cpu},
         {"losses", flown.backend.losses}}},
+      {"pictures_by", {{"sun", flown.lights.sun}, {"lamp", flown.lights.lamp}, {"none", flown.lights.none}}},
       {"world_hash", fmt::format("{:016x}", flown.hash)},
       {"seconds", r.seconds}};
   if (flown.measures) json["measures"] = toJson(*flown.measures);
@@ -171,6 +172,10 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
     fmt::print("  device    {} meshed {} parts of chunks, the CPU {} in its stead; lost {} times\n",
                flown.backend.device, flown.backend.chunks - flown.backend.chunks_on_cpu, flown.backend.chunks_on_cpu,
                flown.backend.losses);
+  }
+  if (flown.lights.sun + flown.lights.lamp > 0 && options.light == "auto") {
+    fmt::print("  light     pictures by the sun: {}, by a lamp: {} (--light chooses)\n", flown.lights.sun,
+               flown.lights.lamp);
   }
   if (flown.measures) print(*flown.measures);
   fmt::print("  hash      {:016x} (level 0 within 32 m of the end, seed {})\n", flown.hash, options.seed);

@@ -6,6 +6,7 @@
 #include "cli/commands.h"
 #include "cli/flight.h"
 #include "cli/fly_measures.h"
+#include "cli/fly_pictures.h"
 #include "cli/json.h"
 
 namespace sgm::cli {
@@ -18,7 +19,8 @@ struct Flown {
   uint64_t fields = 0;                               ///< with other parameters, that the world was handed
   uint64_t fields_drawn = 0;                         ///< of them
   sgm_backend_info backend = SGM_BACKEND_INFO_INIT;  ///< at the end
-  std::optional<sgm_world_measures> measures;        ///< at the end, where they were asked for
+  PictureLights lights;
+  std::optional<sgm_world_measures> measures;  ///< at the end, where they were asked for
 };
 
 /// by_distance: of a second flight, with level 0 by distance alone.

@@ -198,7 +198,8 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
     }
   }
   const int32_t cell = settings.finest_cell;
-  const WorldField world(std::move(settings), memory);
+  const auto kept = std::make_shared<const WorldField>(std::move(settings), memory);
+  const WorldField& world = *kept;
   Result<api::RegionMesh> meshed = [&] {
     ProgressBar bar(plan.doing);
     return api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks, options.sharp,
@@ -236,7 +237,8 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
                 std::move(texture),
                 std::move(unsplit),
                 {},
-                std::move(*notes)};
+                std::move(*notes),
+                plan.keep_world ? kept : nullptr};
   if (result.meshed.mesh.indices.empty()) {
     Result<std::string> why = whyEmpty(world, result);
     if (!why) return why.error();

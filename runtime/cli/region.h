@@ -26,8 +26,9 @@ struct Region {
   std::optional<api::TexturedRegion> texture;  ///< where the plan asks for it
   /// Where options ask for sharp features: the closed mesh, whose vertices at creases meshed.mesh has once a side.
   std::optional<WorldMesh> unsplit;
-  std::string empty_because;      ///< where the mesh has no triangle: why that may be, and what to try
-  std::vector<DeriveNote> notes;  ///< what derivation left out
+  std::string empty_because;                ///< where the mesh has no triangle: why that may be, and what to try
+  std::vector<DeriveNote> notes;            ///< what derivation left out
+  std::shared_ptr<const WorldField> world;  ///< that the mesh is of, where the plan keeps it
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }
 };
@@ -63,6 +64,7 @@ struct RegionResult {
 struct RegionPlan {
   std::string doing = "meshing";  ///< beside the progress bar
   bool texture = false;           ///< with texture coordinates and blends of materials
+  bool keep_world = false;        ///< with its cache, for questions afterwards
   /// Refuses a grammar before any work.
   std::function<Result<void>(const Program& program)> check;
   /// Says which part of an endless world is meant where no --region does.

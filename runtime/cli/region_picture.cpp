@@ -8,6 +8,7 @@
 #include "cli/materials.h"
 #include "cli/surroundings.h"
 #include "mesh/vertex.h"
+#include "stream/queries.h"
 
 namespace sgm::cli {
 namespace {
@@ -132,8 +133,40 @@ void addWires(const Region& region, const RenderCamera& camera, Drawable& drawn)
   }
 }
 
+/// The region's world as light sees it: beyond the region's border too.
+LitWorld litWorld(const Region& region) {
+  const Program& program = *region.program;
+  LitWorld world = LitWorld::of(program.domain.solid, program.domain.infinite && program.domain.axes[1]);
+  for (const auto& material : program.materials)
+    world.translucent.push_back(program.domain.density || isTranslucent(material));
+  world.clearance_metres = metres(region.cell) / 4;
+  world.cast = [field = queryField(*region.world)](const Metres3& from, const Metres3& direction,
+                                                   double length) -> Result<std::optional<RayEnd>> {
+    const Metres3 start = from * static_cast<double>(kUnitsPerMetre);
+    const Result<std::optional<SurfacePoint>> hit =
+        rayCast(field, {start.x, start.y, start.z}, {direction.x, direction.y, direction.z}, length * kUnitsPerMetre);
+    if (!hit) return hit.error();
+    if (!*hit) return std::optional<RayEnd>();
+    const SurfacePoint& end = **hit;
+    return std::optional(
+        RayEnd{end.distance / kUnitsPerMetre, {end.normal[0], end.normal[1], end.normal[2]}, end.material, end.inside});
+  };
+  return world;
+}
+
+Result<Outlook> lookOutFor(const Region& region, const View& view) {
+  const RenderCamera& camera = view.camera;
+  const Int3 origin = region.meshed.mesh.origin;
+  CameraPlace place;
+  place.position = Metres3(camera.position) + Metres3(metres(origin.x), metres(origin.y), metres(origin.z));
+  place.direction = Metres3(camera.target - camera.position);
+  place.fov_degrees = camera.fov_degrees;
+  place.aspect = static_cast<double>(camera.width) / camera.height;
+  return lookOut(litWorld(region), place);
+}
+
 Result<Image> drawMesh(const Renderer& renderer, const Drawable& drawn, const Region& region, const View& view,
-                       bool wires) {
+                       Light light, bool wires) {
   std::vector<RenderMaterial> materials = renderMaterials(*region.program);
   if (wires) {
     materials.assign(materials.size(), kUnderWires);
@@ -144,7 +177,7 @@ Result<Image> drawMesh(const Renderer& renderer, const Drawable& drawn, const Re
   scene.indices = drawn.indices;
   scene.materials = materials;
   scene.origin = region.meshed.mesh.origin;
-  lightScene(view, scene);
+  lightScene(view, light, scene);
   return renderer.render(scene);
 }
 
@@ -163,10 +196,8 @@ Result<Image> drawVolume(const Renderer& renderer, const RegionDensity& density,
   // Over its edge density adds up to half the edge's width.
   scene.medium.extinction = static_cast<float>(2 * kEdgeDepth / (grid.edge / kUnitsPerMetre));
   scene.camera = view.camera;
-  const std::array<RenderMaterial, 1> vapour{materialByName("cloud")};
   RenderScene lit;
-  lit.materials = vapour;
-  lightScene(view, lit);
+  lightScene(view, Light::sun, lit);
   scene.fog_distance = lit.fog_distance;
   Result<VolumePicture> picture = renderer.render(scene);
   if (!picture) return picture.error();
@@ -190,6 +221,7 @@ std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) 
 RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity>& density) {
   RegionPlan plan;
   plan.texture = true;
+  plan.keep_world = true;
   plan.choose = [&options](const WorldField& world) -> Result<IntBox> {
     if (!options.camera.empty()) return surroundingsOf((*readCamera(options.camera))[0]);
     return surroundings(world, options.at);
@@ -212,10 +244,23 @@ Result<RegionPicture> drawRegion(const Renderer& renderer, const RenderOptions& 
   Result<View> view = viewOf(options, region, drawn);
   if (!view) return view.error();
   if (options.wires) addWires(region, view->camera, drawn);
-  Result<Image> image =
-      density ? drawVolume(renderer, *density, region, *view) : drawMesh(renderer, drawn, region, *view, options.wires);
+  RegionPicture picture;
+  if (!density) {
+    const std::optional<Light> wanted = lightNamed(options.light);
+    if (!wanted) {
+      const Result<Outlook> outlook = lookOutFor(region, *view);
+      if (!outlook) return outlook.error();
+      if (!outlook->buried) picture.daylight = outlook->daylight;
+    }
+    // A camera in the rock looks at a model that is cut open.
+    picture.light = wanted ? *wanted : picture.daylight ? lightAt(*picture.daylight) : Light::sun;
+  }
+  Result<Image> image = density ? drawVolume(renderer, *density, region, *view)
+                                : drawMesh(renderer, drawn, region, *view, picture.light, options.wires);
   if (!image) return image.error();
-  return RegionPicture{std::move(*image), std::move(*view)};
+  picture.image = std::move(*image);
+  picture.view = std::move(*view);
+  return picture;
 }
 
 }  // namespace sgm::cli

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "cli/commands.h"
+#include "cli/daylight.h"
 #include "cli/region.h"
 #include "cli/region_density.h"
 #include "render/camera.h"
@@ -15,6 +16,8 @@ namespace sgm::cli {
 struct RegionPicture {
   Image image;
   View view;
+  Light light = Light::sun;
+  std::optional<double> daylight;  ///< where that has decided on the light
 };
 
 /// Places of the region's anchors of that name, kind or tag, metres from its mesh's origin; of those that its border

@@ -74,7 +74,9 @@ Exit render(const RenderOptions& options) {
                   {{"position", {position[0], position[1], position[2]}},
                    {"target", {target[0], target[1], target[2]}},
                    {"fov", camera.fov_degrees},
-                   {"enclosed", view.enclosed}}}});
+                   {"enclosed", view.enclosed}}},
+                 {"light", lightName(picture->light)},
+                 {"daylight", picture->daylight ? Json(*picture->daylight) : Json(nullptr)}});
     fmt::print("{}\n", json.text());
   } else {
     fmt::print("{}: {}x{} pixels, {} triangles meshed in {:.2f} s, drawn in {:.2f} s on {}\n", options.out, image.width,
@@ -86,6 +88,9 @@ Exit render(const RenderOptions& options) {
     if (isCut(region)) fmt::print("  border   cuts the surface, which goes on: --region takes more of it, or less\n");
     fmt::print("  camera   at {:.1f},{:.1f},{:.1f} m{}\n", position[0], position[1], position[2],
                view.enclosed ? ", inside" : "");
+    if (picture->daylight)
+      fmt::print("  light    {}: {:.1f} % of the sky is open to what the camera sees (--light chooses)\n",
+                 lightName(picture->light), 100 * *picture->daylight);
   }
   return Exit::done;
 }

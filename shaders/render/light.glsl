@@ -43,9 +43,10 @@ vec3 reflected(Surface s, vec3 to_light, vec3 to_eye) {
   return result;
 }
 
-// Haze lit by a lamp between the eye and distance t along d: the integral of 1 / r^2.
-float glow(vec3 d, float t, vec3 lamp) {
+// Haze lit by a lamp between the eye and distance t along d: the integral of 1 / r^2. A lamp in haze has a wide halo and
+// no bright core, which would read as a highlight on something that shines.
+float glow(vec3 d, float t, vec3 lamp, float reach) {
   vec3 q = frame.eye.xyz - lamp;
-  float b = dot(d, q), s = inversesqrt(max(dot(q, q) - b * b, 0.02));
+  float b = dot(d, q), s = inversesqrt(max(dot(q, q) - b * b, 0.06 * reach * reach));
   return s * (atan((t + b) * s) - atan(b * s));
 }

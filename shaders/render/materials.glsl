@@ -12,18 +12,35 @@ struct Surface {
 float visible(float size, float footprint) { return clamp(size / (2.0 * footprint) - 1.0, 0.0, 1.0); }
 
 // Slope of a relief made of octaves from `period` metres down; ridged octaves have sharp crests, as broken rock has.
-vec3 relief(vec3 p, float period, int octaves, int ridged, float footprint) {
-  vec3 slope = vec3(0.0);
+// w: the variance of the slopes that are too fine to be seen.
+vec4 relief(vec3 p, float period, int octaves, int ridged, float footprint) {
+  const float kVariance = 0.5;  // of the slopes of one octave, along the surface
+  vec4 slope = vec4(0.0);
   float strength = 1.0;
   for (int i = 0; i < octaves; ++i) {
     float w = visible(period, footprint);
-    if (w <= 0.0) break;
-    vec4 n = noise(p / period + float(i) * 17.3);
-    slope += n.yzw * (w * strength * (i < ridged ? -n.x * inversesqrt(n.x * n.x + 0.012) : 1.0));
+    if (w > 0.0) {
+      vec4 n = noise(p / period + float(i) * 17.3);
+      slope.xyz += n.yzw * (w * strength * (i < ridged ? -n.x * inversesqrt(n.x * n.x + 0.012) : 1.0));
+    }
+    slope.w += kVariance * strength * strength * (1.0 - w * w);
     period *= 0.47;
     strength *= 0.84;
   }
   return slope;
+}
+
+// Roughness with relief that is too fine to be seen (after Olano and Baker, "LEAN mapping"): it spreads a highlight as
+// roughness does. Without it whatever lies far away would be a mirror.
+float roughened(float roughness, float variance) {
+  float a = roughness * roughness;
+  return sqrt(sqrt(min(1.0, a * a + 2.0 * variance)));
+}
+
+// A relief's normal at a place that is seen: what faces away from the eye is hidden behind what does not.
+vec3 turnedTo(vec3 to_eye, vec3 normal, vec3 n) {
+  float least = 0.3 * max(dot(n, to_eye), 0.0), facing = dot(normal, to_eye);
+  return facing >= least ? normal : normalize(normal + to_eye * (least - facing));
 }
 
 vec3 bend(vec3 normal, vec3 slope, float strength) {
@@ -86,7 +103,8 @@ Surface rock(vec3 p, vec3 n, vec3 colour, float roughness, float strength, float
   vec3 silt = mix(vec3(0.26, 0.185, 0.12), colour * 0.7, 0.35) * (1.0 + 0.22 * grain + 0.25 * mottle.x);
   albedo = mix(albedo, silt, 0.85 * floor_cover);
 
-  vec3 slope = relief(p, 1.35, 6, 2, footprint);
+  vec4 relief_slope = relief(p, 1.35, 6, 2, footprint);
+  vec3 slope = relief_slope.xyz;
   // Beds stand out as ledges along walls.
   slope.y += wall * 0.55 * lamina;
   slope *= mix(1.0, 0.55, floor_cover);
@@ -96,6 +114,7 @@ Surface rock(vec3 p, vec3 n, vec3 colour, float roughness, float strength, float
   s.albedo = albedo * mix(1.0, 0.80, damp);
   s.normal = bend(n, slope, 0.40 * strength);
   s.roughness = clamp(mix(roughness, roughness * 0.48, max(damp, 0.6 * sinter)), 0.08, 1.0);
+  s.roughness = roughened(s.roughness, 0.16 * strength * strength * relief_slope.w);
   s.specular = mix(0.03, 0.045, damp);
   s.translucency = 0.0;
   return s;
@@ -114,9 +133,12 @@ Surface flowstone(vec3 p, vec3 n, vec3 colour, float roughness, float strength, 
   s.albedo = mix(colour, honey, smoothstep(-0.15, 0.6, broad.x + 0.12 * rim));
   s.albedo *= 1.0 + 0.10 * flute.x + 0.05 * rim + 0.06 * grain;
   vec3 slope = flute.yzw * vec3(1.0, 0.1, 1.0) + vec3(0.0, 0.35 * cos(rim_height) * visible(0.35, footprint), 0.0);
-  slope += 0.4 * relief(p, 0.21, 3, 0, footprint);
+  vec4 relief_slope = relief(p, 0.21, 3, 0, footprint);
+  slope += 0.4 * relief_slope.xyz;
   s.normal = bend(n, slope, 0.34 * strength);
   s.roughness = clamp(roughness * (1.0 + 0.35 * broad.x), 0.08, 1.0);
+  float flutes = visible(0.14, footprint), lost = 0.16 * relief_slope.w + 0.5 * (1.0 - flutes * flutes);
+  s.roughness = roughened(s.roughness, 0.34 * 0.34 * strength * strength * lost);
   s.specular = 0.05;
   s.translucency = 0.35;
   return s;
@@ -139,8 +161,9 @@ Surface brickwork(vec3 p, vec3 n, vec3 colour, float roughness, float strength, 
   Surface s;
   s.albedo = mix(mix(fired, vec3(0.50, 0.47, 0.42) * (1.0 + 0.1 * grain), joint), mix(colour, vec3(0.45), 0.15), 1.0 - w);
   s.albedo *= 1.0 + 0.12 * noise(p * 0.7).x;
-  s.normal = bend(n, relief(p, 0.05, 2, 0, footprint) * (1.0 + joint), 0.25 * strength);
-  s.roughness = roughness;
+  vec4 relief_slope = relief(p, 0.05, 2, 0, footprint);
+  s.normal = bend(n, relief_slope.xyz * (1.0 + joint), 0.25 * strength);
+  s.roughness = roughened(roughness, 0.0625 * strength * strength * relief_slope.w);
   s.specular = 0.03;
   s.translucency = 0.0;
   return s;
@@ -150,8 +173,9 @@ Surface plain(vec3 p, vec3 n, vec3 colour, float roughness, float strength, floa
   float broad = noise(p * 0.8).x, grain = noise(p * 19.0).x * visible(0.05, footprint);
   Surface s;
   s.albedo = colour * (1.0 + strength * (0.10 * broad + 0.10 * grain));
-  s.normal = bend(n, relief(p, 0.6, 4, 0, footprint), 0.16 * strength);
-  s.roughness = roughness;
+  vec4 relief_slope = relief(p, 0.6, 4, 0, footprint);
+  s.normal = bend(n, relief_slope.xyz, 0.16 * strength);
+  s.roughness = roughened(roughness, 0.0256 * strength * strength * relief_slope.w);
   s.specular = 0.04;
   s.translucency = 0.0;
   return s;
@@ -163,7 +187,7 @@ Surface vapour(vec3 p, vec3 n, vec3 colour, float strength, float footprint) {
   float level = exp2(floor(log2(size)));
   Surface s;
   s.albedo = colour;
-  vec3 slope = mix(relief(p, level, 4, 0, footprint), relief(p, 2.0 * level, 4, 0, footprint), size / level - 1.0);
+  vec3 slope = mix(relief(p, level, 4, 0, footprint).xyz, relief(p, 2.0 * level, 4, 0, footprint).xyz, size / level - 1.0);
   s.normal = bend(n, slope, 0.30 * strength);
   s.roughness = 1.0;
   s.specular = 0.0;

@@ -78,7 +78,7 @@ vec3 haze(vec3 colour, vec3 d, float t) {
   vec3 scattered = vec3(0.0);
   for (uint i = 1u; i < frame.counts.x; ++i) {
     float reach = frame.lamp_position[i].w;
-    scattered += frame.lamp_colour[i].rgb * (reach * reach * glow(d, t, frame.lamp_position[i].xyz));
+    scattered += frame.lamp_colour[i].rgb * (reach * reach * glow(d, t, frame.lamp_position[i].xyz, reach));
   }
   return mix(background(d), colour, clear) + scattered * (0.010 / frame.forward.w);
 }
@@ -109,6 +109,7 @@ vec3 sampleAt(ivec2 at) {
   float footprint = t * frame.eye.w / mix(1.0, max(0.25, abs(dot(n, d))), 0.5);
   Surface s = surfaceAt(uint(seen.w) - 1u, p + frame.pattern_offset.xyz, n, footprint);
   if (facing.w > 0.0) s = chequered(facing.w, n);
+  s.normal = turnedTo(-d, s.normal, n);
   float wide = openness(at, p, n, t, clamp(0.12 * t, 0.5, 40.0), turn.x);
   float fine = openness(at, p, n, t, clamp(0.025 * t, 0.12, 8.0), turn.y);
   float open = wide * fine;

@@ -135,6 +135,32 @@ if node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1]))
   expect 0 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 3
   [[ $(<flight.mp4) == "$((2 * 640 * 360 * 4))"*' -s 640x360 -r 30 '* ]] || failed "the video is not two pictures"
   rm flight.mp4
+  # Pictures: the first one is not black, however soon it comes; the light is that of the place, and stays.
+  cat >yards.sgm <<'END'
+sgm 1;
+units m;
+domain infinite axes xz empty;
+layer ground cell 32m reach 4m { start Ground; }
+layer blocks cell 32m reach 16m { start Block; }
+rule Ground { at(16m, -1m, 16m) box(33m, 2m, 33m); mat slate; }
+rule Block { at(16m, 6m, 16m) box(22m, 12m, 22m); mat plaster; }
+END
+  printf '{"points": [[0, 2, 0], [0, 3, 60]]}' >street.json
+  sheet=(--cell 1 --finest 16 --top-level 2 --view 60 --speed 10 --out sheet.png --json)
+  for flight in "sun 150 yards.sgm --path street.json --frames 2" "lamp 20 $cave --seed 3 --frames 2" \
+    "lamp 20 $cave --seed 3 --frames 40 --teleports 1 --unpaced"; do
+    read -r light least flight <<<"$flight"
+    expect 0 "$SGM" fly "${sheet[@]}" --png 2 $flight
+    json "j.pictures_by.$light === 2 && j.pictures_by.sun + j.pictures_by.lamp + j.pictures_by.none === 2"
+    for corner in "8 8" "656 8"; do
+      read -r mean _ < <(node "$SOURCE/tests/cli/png.js" sheet.png $corner 640 360)
+      ((mean >= least)) || failed "the picture at $corner has a mean of $mean"
+    done
+  done
+  expect 0 "$SGM" fly "${sheet[@]}" --png 1 yards.sgm --path street.json --frames 2 --light lamp
+  json 'j.pictures_by.lamp === 1'
+  expect 2 "$SGM" fly "${sheet[@]}" --png 1 yards.sgm --path street.json --frames 2 --light lamp --levels
+  rm sheet.png street.json yards.sgm
   encoder 'head -c 1000000 >"$file"; echo "first words" >&2; echo "no room for a film" >&2; exit 7'
   expect 4 timeout 120 env PATH="$work/bin:$PATH" "$SGM" fly "$cave" "${video[@]}" --frames 99999999
   err_has 'status 7: no room for a film'

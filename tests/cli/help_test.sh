@@ -11,6 +11,11 @@ for command in check fmt explain lsp mesh bake store measure classify masters re
   out_has "sgm $command"
   err_empty
 done
+for command in render fly; do
+  expect 0 "$SGM" $command --help
+  out_has '--light TEXT:\{auto,sun,lamp,none\}=auto'
+  out_has 'Light: from where .* the sun shines'
+done
 expect 0 "$SGM" --version
 out_has '^sgm [0-9]+\.[0-9]+\.[0-9]+$'
 

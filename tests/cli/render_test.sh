@@ -55,32 +55,7 @@ rm sky.sgm sky.png part.png
 expect 0 "$SGM" render "$cave" --out level.png --level 1 --cell 1 --size 64x64 --seed 7 --json
 json 'j.level === 1 && j.cell === 2'
 # The mesh's edges, dark: more of them with finer cells.
-dark() {
-  node -e '
-    const fs = require("fs"), zlib = require("zlib"), png = fs.readFileSync(process.argv[1]), parts = [];
-    for (let at = 8; at < png.length; ) {
-      const size = png.readUInt32BE(at);
-      if (png.toString("latin1", at + 4, at + 8) === "IDAT") parts.push(png.subarray(at + 8, at + 8 + size));
-      at += size + 12;
-    }
-    const wide = png.readUInt32BE(16), high = png.readUInt32BE(20), rows = zlib.inflateSync(Buffer.concat(parts));
-    const line = 4 * wide, pixels = Buffer.alloc(line * high);
-    const paeth = (a, b, c) => {
-      const p = a + b - c, pa = Math.abs(p - a), pb = Math.abs(p - b), pc = Math.abs(p - c);
-      return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
-    };
-    for (let y = 0; y < high; ++y) {
-      const filter = rows[y * (line + 1)];
-      for (let x = 0; x < line; ++x) {
-        const a = x < 4 ? 0 : pixels[y * line + x - 4], b = y ? pixels[(y - 1) * line + x] : 0;
-        const c = x < 4 || !y ? 0 : pixels[(y - 1) * line + x - 4];
-        pixels[y * line + x] = rows[y * (line + 1) + 1 + x] + [0, a, b, (a + b) >> 1, paeth(a, b, c)][filter];
-      }
-    }
-    let count = 0;
-    for (let i = 0; i < pixels.length; i += 4) count += pixels[i] + pixels[i + 1] + pixels[i + 2] < 240;
-    console.log(count);' "$1"
-}
+dark() { node "$SOURCE/tests/cli/png.js" "$1" | cut -d" " -f2; }
 look=(--camera 0,2,9:0,0,0 --size 256x256)
 expect 0 "$SGM" render ball.sgm --out plain.png --cell 1 "${look[@]}"
 expect 0 "$SGM" render ball.sgm --out coarse.png --cell 1 --wires "${look[@]}"
@@ -113,6 +88,75 @@ one_line
 err_has 'edge'
 rm ./*.png fog.sgm
 only ball.sgm
+
+# What the camera sees decides between sun and lamp, wherever the region ends; what was taken is told, and can be chosen.
+# Means of red, green and blue together: a day is bright, a cave is not, and neither is black.
+cat >town.sgm <<'END'
+sgm 1;
+units m;
+domain infinite axes xz empty;
+layer ground cell 32m reach 4m { start Ground; }
+layer rows cell 32m reach 16m { start Row; }
+rule Ground { at(16m, -1m, 16m) box(33m, 2m, 33m); mat slate; }
+rule Row { at(16m, 6m, 16m) box(26m, 12m, 33m); mat plaster; }
+END
+cat >hall.sgm <<'END'
+sgm 1;
+units m;
+param open = 0 in 0..1 "of the hall's long wall";
+start Hall;
+rule Hall {
+  at(y 4m) box(14m, 10m, 40m);
+  cut { at(y 4m) box(10m, 8m, 36m); at(6m, 3m, 0m) box(6m, 4m*open + 0.01m, 30m*open + 0.01m); }
+  mat limestone;
+}
+END
+cat >mouth.sgm <<'END'
+sgm 1;
+units m;
+start Hill;
+rule Hill { at(0m, 10m, -40m) box(60m, 40m, 80m); cut capsule((0m, 0m, 4m), (0m, 0m, -70m), 3m); mat limestone; }
+END
+# lit LIGHT MEAN.. GRAMMAR OPTION...: by that light, and as bright as MEAN says, a range such as 100-400.
+lit() {
+  local light=$1 low=${2%-*} high=${2#*-} mean
+  shift 2
+  expect 0 "$SGM" render "$@" --out lit.png --size 96x54 --json
+  json "j.light === '$light' && (j.daylight >= 0.03) === ('$light' === 'sun')"
+  mean=$(node "$SOURCE/tests/cli/png.js" lit.png | cut -d" " -f1)
+  ((mean >= low && mean <= high)) || failed "mean brightness $mean, expected $low to $high"
+}
+lit sun 150-600 town.sgm --cell 1 --region=-32,-2,-32:32,16,32 --camera 0,1.7,-20:0,2,20
+lit sun 150-600 town.sgm --cell 1 --region=-16,-2,-16:16,16,16 --camera 0,1.7,0:2,8,4
+lit sun 150-600 town.sgm --cell 1 --region=-32,-2,-32:32,16,32 --camera 0,40,-20:0,0,30
+lit lamp 20-300 hall.sgm --cell 0.5 --camera 0,1.7,-15:0,3,15
+lit sun 100-600 hall.sgm --cell 0.5 --set open=1 --camera 0,1.7,-15:0,3,15
+lit sun 100-600 hall.sgm --cell 0.5
+lit sun 60-600 mouth.sgm --cell 0.5 --camera 0,0,-3:0,0,20
+lit sun 60-600 mouth.sgm --cell 0.5 --camera 0,0,14:0,0,-20
+lit lamp 20-300 mouth.sgm --cell 0.5 --camera 0,0,-40:0,0,-60
+lit lamp 20-300 "$cave" --cell 1 --seed 7
+lit lamp 20-300 "$SOURCE/samples/grammars/passage.sgm" --cell 1 --camera 32,0,0:64,0,0 --region=0,-16,-16:160,16,16
+lit sun 150-700 "$SOURCE/samples/grammars/cloud.sgm"
+# From within the rock one looks at what is cut open.
+expect 0 "$SGM" render mouth.sgm --out lit.png --size 96x54 --json --cell 0.5 --camera 25,2,-40:0,0,-40
+json 'j.light === "sun" && j.daylight === null'
+expect 0 "$SGM" render hall.sgm --out lit.png --size 32x18 --cell 1 --camera 0,1.7,-15:0,3,15
+out_has 'light +lamp: 0.0 % of the sky'
+for light in sun lamp none; do
+  expect 0 "$SGM" render town.sgm --out $light.png --size 96x54 --cell 1 --region=-32,-2,-32:32,16,32 \
+    --camera 0,1.7,-20:0,2,20 --light $light --json
+  json "j.light === '$light' && j.daylight === null"
+done
+cmp -s sun.png lamp.png && failed "--light changes nothing"
+cmp -s lamp.png none.png && failed "--light none has a lamp"
+# Even light from everywhere: no part of the street's ground is in the dark.
+read -r mean _ < <(node "$SOURCE/tests/cli/png.js" none.png 20 40 56 14)
+((mean > 60)) || failed "by --light none the ground's mean is $mean"
+expect 2 "$SGM" render town.sgm --out wrong.png --light moon
+expect 2 "$SGM" render town.sgm --out wrong.png --light lamp --volume
+err_has 'excludes'
+rm town.sgm hall.sgm mouth.sgm lit.png sun.png lamp.png none.png
 
 # Of anchors by the border and inside, one inside.
 printf '%s\n' 'sgm 1; domain infinite solid rock; layer a cell 32m reach 9m { start A; }' \

@@ -1,4 +1,11 @@
-# Installs the library alone into an empty prefix: cmake -DBUILD=... -DPREFIX=... -P install.cmake
+# Installs the library into an empty prefix, and the metrics service where it is asked for:
+# cmake -DBUILD=... -DPREFIX=... -DSERVICE=... -P install.cmake
 file(REMOVE_RECURSE ${PREFIX})
-execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} --component library
-  COMMAND_ERROR_IS_FATAL ANY)
+set(components library)
+if(SERVICE)
+  list(APPEND components service)
+endif()
+foreach(component IN LISTS components)
+  execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} --component ${component}
+    COMMAND_ERROR_IS_FATAL ANY)
+endforeach()

@@ -54,7 +54,7 @@ fi
 if [[ -e samples/setup_debian.sh ]]; then
   source samples/setup_debian.sh
   words=$(tr -s ' \\\n' ' ' <README.md)
-  for list in "${SGM_BUILD_PACKAGES[*]%%=*}" "${SGM_TEST_PACKAGES[*]%%=*}"; do
+  for list in "${SGM_LIBRARY_PACKAGES[*]%%=*}" "${SGM_BUILD_PACKAGES[*]%%=*}" "${SGM_TEST_PACKAGES[*]%%=*}"; do
     [[ $words == *"apt-get install $list "* ]] || complain "README.md lacks the packages of samples/setup_debian.sh" "$list"
   done
 fi

@@ -68,10 +68,14 @@ Command addFly(CLI::App& root) {
   app->add_option("--mesh-mb", options->mesh_mb, "Most megabytes (2^20 bytes) of meshes")
       ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 20))
       ->capture_default_str();
-  CLI::Option* png = app->add_option("--png", options->pictures, "Draw this many frames on one sheet")
-                         ->check(CLI::Range(uint64_t{1}, uint64_t{64}));
+  CLI::Option* png =
+      app->add_option("--png", options->pictures,
+                      "Draw this many frames on one sheet. The first one, and the first one after a leap, is drawn "
+                      "once what is near the viewer is there")
+          ->check(CLI::Range(uint64_t{1}, uint64_t{64}));
   app->add_option("--out", options->out, "The sheet, a .png file")->check(checkPng)->needs(png)->capture_default_str();
-  app->add_flag("--levels", options->levels, "Each level of detail in a colour of its own, in pictures");
+  app->add_flag("--levels", options->levels, "Each level of detail in a colour of its own, in pictures")
+      ->excludes(addLightOption(*app, options->light));
   app->add_option(
          "--video", options->video,
          "Draw every second frame into a video, an .mp4 file, by the program ffmpeg. The flight waits for each "
@@ -96,6 +100,8 @@ Command addFly(CLI::App& root) {
       ->needs(serve);
   addServingOptions(*app, options->serving, serve);
   app->footer(
+      std::string(kLightFooter) +
+      "In a flight the camera looks once a second, and two looks must agree on another light.\n"
       "Example:\n  sgm fly samples/grammars/cave.sgm --cell 0.25 --speed 20 --frames 1200 --png 6 --out flight.png");
   return [options, animate] {
     options->animate = animate->count() > 0;

@@ -126,10 +126,13 @@ Command addRender(CLI::App& root) {
   app->add_option("--fov", options->fov, "Angle across the picture's height, in degrees")
       ->check(numberIn(1.0, 150.0))
       ->capture_default_str();
+  CLI::Option* light = addLightOption(*app, options->light);
   app->add_flag("--volume", options->volume,
                 "Draw the solid as fog, by its density at the cells' corners; for grammars that say `output density`")
+      ->excludes(light)
       ->excludes(app->add_flag("--wires", options->wires, "Draw the mesh's edges, on a surface without materials"));
-  app->footer("Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7");
+  app->footer(std::string(kLightFooter) +
+              "Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7");
   return [options] { return render(*options); };
 }
 

@@ -127,6 +127,15 @@ void addRegionOptions(CLI::App& app, WorldOptions& options) {
       ->capture_default_str();
 }
 
+CLI::Option* addLightOption(CLI::App& app, std::string& light) {
+  return app
+      .add_option("--light", light,
+                  "Light of pictures: sun, lamp (on the camera), none (even, without shadows), or auto: by how much of "
+                  "the sky is open to what the camera sees")
+      ->check(CLI::IsMember({"auto", "sun", "lamp", "none"}))
+      ->capture_default_str();
+}
+
 std::vector<CLI::Option*> optionsBeside(CLI::App& app, const std::vector<CLI::Option*>& others) {
   std::vector<CLI::Option*> options = app.get_options([](const CLI::Option*) { return true; });
   std::erase_if(options, [&](CLI::Option* o) { return std::find(others.begin(), others.end(), o) != others.end(); });

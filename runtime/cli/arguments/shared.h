@@ -34,6 +34,13 @@ void addWorldOptions(CLI::App& app, WorldOptions& options);
 /// --region, --cell, --ld, --max-chunks.
 void addRegionOptions(CLI::App& app, WorldOptions& options);
 void addSharpOption(CLI::App& app, WorldOptions& options);
+/// --light, of pictures, and what --help says of it.
+CLI::Option* addLightOption(CLI::App& app, std::string& light);
+inline constexpr const char* kLightFooter =
+    "Light: from where the picture's rays end (at most 256 m away) five more go up, into the world itself, whatever "
+    "of\n"
+    "it is meshed. Where 3 % of them or more come to the sky, or to glass, cloud or snow, the sun shines; else the\n"
+    "camera has a head lamp. A camera in the rock itself looks by the sun at what is cut open.\n";
 
 /// All options but these.
 std::vector<CLI::Option*> optionsBeside(CLI::App& app, const std::vector<CLI::Option*>& others);

@@ -25,6 +25,7 @@ std::string commandOf(const RenderOptions& options) {
   std::string line = commandOf("render", options);
   if (!options.camera.empty()) line += " --camera=" + options.camera;
   if (options.fov != RenderOptions{}.fov) line += fmt::format(" --fov {}", options.fov);
+  if (options.light != RenderOptions{}.light) line += " --light " + options.light;
   if (options.wires) line += " --wires";
   if (options.volume) line += " --volume";
   return line + fmt::format(" --size {} --out {}", options.size, options.out);

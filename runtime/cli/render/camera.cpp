@@ -17,6 +17,7 @@ constexpr size_t kCandidates = 240;  // places tried
 constexpr size_t kFinalists = 16;    // places whose views are glanced at
 constexpr size_t kStudied = 3;       // places whose views are looked at closely
 constexpr float kEyeHeight = 1.7f;   // metres above the floor
+constexpr float kFarthestLamp = 3;   // in typical distances of the view
 constexpr float kGoldenAngle = 2.39996323f;
 
 // Evenly spread directions (Fibonacci sphere).
@@ -194,7 +195,8 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     if (crowded) return false;
     const Space space = spaceAround(mesh, p, far);
     if (space.clearance < 0.35f || space.behind > 0.05f || space.walls < 0.5f) return false;
-    lamps.push_back({p, colour, reach});
+    // No brighter than its own walls need.
+    lamps.push_back({p, colour, std::clamp(std::exp(space.openness), 1.0f, reach)});
     return true;
   };
   const glm::vec3 level = glm::cross(forward, glm::vec3(0, 1, 0));
@@ -215,8 +217,10 @@ std::vector<RenderLamp> lampsAlong(const RayCaster& mesh, glm::vec3 from, glm::v
     const float depth = fan.distances[i];
     if (deep == kColours.size() || depth < 1.15f * fan.median) break;
     if (depth >= far) continue;
-    const float reach = std::clamp(0.24f * depth, 1.5f, 14.0f);
-    if (hang(from + fan.directions[i] * (0.80f * depth), kColours[deep], reach, 0.4f * depth)) ++deep;
+    // Not far behind what the lamps before it light: a lit island in the dark reads as a ball.
+    const float away = std::min(0.80f * depth, kFarthestLamp * fan.typical);
+    const float reach = std::clamp(0.30f * away, 1.5f, 14.0f);
+    if (hang(from + fan.directions[i] * away, kColours[deep], reach, 0.5f * away)) ++deep;
   }
   return lamps;
 }
@@ -308,22 +312,29 @@ View viewFrom(std::span<const RenderVertex> vertices, std::span<const uint32_t> 
   const Fan fan = lookAlong(mesh, camera.position, forward, wish, kStudy, far);
   view.enclosed = spaceAround(mesh, camera.position, far).walls > 0.5f;
   view.depth = fan.typical;
-  if (view.enclosed) view.lamps = lampsAlong(mesh, camera.position, forward, fan, far);
+  view.lamps = lampsAlong(mesh, camera.position, forward, fan, far);
   return view;
 }
 
-void lightScene(const View& view, RenderScene& scene) {
+void lightScene(const View& view, Light light, RenderScene& scene) {
   scene.camera = view.camera;
-  scene.lamps = view.lamps;
-  const bool vapour =
-      std::ranges::any_of(scene.materials, [](const RenderMaterial& m) { return m.pattern == SurfacePattern::cloud; });
-  scene.background = view.enclosed && !vapour ? Background::cave : Background::sky;
-  if (scene.background == Background::sky) {
-    scene.fog_distance = 25 * view.depth;
-    return;
+  scene.background = light == Light::sun ? Background::sky : Background::cave;
+  switch (light) {
+    case Light::sun:
+      scene.fog_distance = 25 * view.depth;
+      return;
+    case Light::lamp:
+      scene.lamps = view.lamps;
+      // Alone it must light what is seen; else what lies near.
+      scene.headlamp.reach = std::clamp((view.lamps.empty() ? 0.90f : 0.30f) * view.depth, 1.2f, 30.0f);
+      scene.fog_distance = std::max(4 * view.depth, 10.0f);
+      return;
+    case Light::none:
+      scene.headlamp.colour = glm::vec3(0);
+      scene.ambient = 0.8f;
+      scene.fog_distance = 1e6f;
+      return;
   }
-  scene.headlamp.reach = std::clamp(0.30f * view.depth, 1.2f, 30.0f);
-  scene.fog_distance = std::max(4 * view.depth, 10.0f);
 }
 
 }  // namespace sgm

@@ -26,7 +26,14 @@ struct View {
   RenderCamera camera;
   bool enclosed = false;          ///< inside a void, walls all around; else the shape is seen from outside
   float depth = 1;                ///< typical distance in metres to what is seen
-  std::vector<RenderLamp> lamps;  ///< in the void, deeper along the view
+  std::vector<RenderLamp> lamps;  ///< in the void, deeper along the view: for Light::lamp
+};
+
+/// What lights a picture. The mesh alone does not tell (a street is walled as a cave is): callers decide.
+enum class Light : uint32_t {
+  sun,   ///< and the sky
+  lamp,  ///< on the explorer's helmet, and View::lamps
+  none,  ///< neither: even light from everywhere, which shows form alone
 };
 
 /// Looks for a view in the mesh: from inside the void where the mesh encloses one (at an anchor if there is one), where
@@ -36,11 +43,11 @@ struct View {
 Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
                           const CameraWish& wish, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// The view of a given camera: how deep it looks, whether it is in a void, where lamps would go.
+/// The view of a given camera: how deep it looks, whether walls are all around it, where lamps would go.
 View viewFrom(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices, const RenderCamera& camera,
               std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// Sets the scene's camera, lamps, fog and background to suit the view.
-void lightScene(const View& view, RenderScene& scene);
+/// Sets the scene's camera, lamps, fog, exposure and background to suit the view.
+void lightScene(const View& view, Light light, RenderScene& scene);
 
 }  // namespace sgm

@@ -22,7 +22,7 @@ TEST_CASE("inside a hollow the camera stands in it", "[render]") {
   RenderScene scene;
   const std::vector<RenderMaterial> materials{materialByName("limestone")};
   scene.materials = materials;
-  lightScene(*view, scene);
+  lightScene(*view, Light::lamp, scene);
   CHECK(scene.background == Background::cave);
   CHECK(scene.camera.position == view->camera.position);
 }
@@ -78,6 +78,28 @@ TEST_CASE("a given camera's view is measured", "[render]") {
   CHECK(view.enclosed);
   CHECK(view.depth == Approx(10).margin(0.3));
   CHECK(!viewFrom({}, {}, camera).enclosed);
+}
+
+TEST_CASE("the light that is asked for is set, whatever the view", "[render]") {
+  for (const bool enclosed : {false, true}) {
+    View view;
+    view.enclosed = enclosed;
+    view.depth = 10;
+    view.lamps.push_back({});
+    for (const Light light : {Light::sun, Light::lamp, Light::none}) {
+      RenderScene scene;
+      lightScene(view, light, scene);
+      CHECK((scene.background == Background::sky) == (light == Light::sun));
+      CHECK(scene.lamps.size() == (light == Light::lamp ? 1 : 0));
+      CHECK((glm::length(scene.headlamp.colour) > 0) == (light != Light::none));
+    }
+    // A lamp that is alone reaches farther.
+    RenderScene beside, alone;
+    lightScene(view, Light::lamp, beside);
+    view.lamps.clear();
+    lightScene(view, Light::lamp, alone);
+    CHECK(alone.headlamp.reach > 2 * beside.headlamp.reach);
+  }
 }
 
 TEST_CASE("materials are known by name, and unknown names keep their tint", "[render]") {

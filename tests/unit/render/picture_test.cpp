@@ -77,6 +77,27 @@ TEST_CASE("a void is seen from inside, and its walls' backs are open", "[render]
   CHECK(brightness(*outside, 48, 48, 20) > 60);  // the far wall, through the near one
 }
 
+TEST_CASE("relief that is too fine to be seen spreads highlights: what is far away is no mirror", "[render]") {
+  auto renderer = testRenderer();
+  if (!renderer) return;
+  // A dark wet ball 80 m away in a picture whose samples are as large as its relief, which is what it must be rough by.
+  const auto highlight = [&](float relief) {
+    Stage stage{sphereMesh({0, 0, -110}, 30, false, 48)};
+    stage.materials = {{SurfacePattern::rock, glm::vec3(0.05f), 0.1f, relief}};
+    RenderScene scene = stage.scene(64, 48);
+    scene.headlamp.reach = 30;
+    scene.fog_distance = 1e6f;
+    scene.exposure = 4;
+    auto image = renderer->render(scene);
+    REQUIRE(image);
+    return brightness(*image, 32, 24, 3) / brightness(*image, 32, 24 + 5, 3);
+  };
+  const double mirror = highlight(0), rough = highlight(1);
+  INFO("smooth " << mirror << ", rough " << rough);
+  CHECK(mirror > 1.5 * rough);
+  CHECK(rough < 2);
+}
+
 TEST_CASE("every pattern draws, under every background and supersampling, with no word from the validation layer",
           "[render]") {
   auto renderer = testRenderer();

@@ -1,0 +1,32 @@
+# sgm::sgm, the library that others use: the objects of every module in one library, shared or static as
+# BUILD_SHARED_LIBS says, with the C interface as its only face.
+include(GNUInstallDirs)
+
+set(SGM_MODULES base asset grammar derive field mesh measure texture cuda backend stream store api)
+if(SGM_VULKAN)
+  list(APPEND SGM_MODULES vulkan)
+endif()
+
+add_library(sgm)
+add_library(sgm::sgm ALIAS sgm)
+set_target_properties(sgm PROPERTIES LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
+  SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # the interface may change with each 0.x
+target_include_directories(sgm INTERFACE
+  $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+foreach(module IN LISTS SGM_MODULES)
+  target_sources(sgm PRIVATE $<TARGET_OBJECTS:sgm_${module}>)
+  get_target_property(libraries sgm_${module} LINK_LIBRARIES)
+  list(FILTER libraries EXCLUDE REGEX "^(sgm_.*|libraries-NOTFOUND)$")
+  target_link_libraries(sgm PRIVATE ${libraries})
+endforeach()
+if(SGM_SANITIZE)
+  target_link_options(sgm PUBLIC -fsanitize=${SGM_SANITIZE})
+endif()
+get_target_property(SGM_LIBRARY_TYPE sgm TYPE)
+if(SGM_LIBRARY_TYPE STREQUAL "STATIC_LIBRARY")
+  target_compile_definitions(sgm INTERFACE SGM_STATIC)
+else()
+  # Hidden visibility leaves template instances of the standard library in the open; the map leaves the interface alone.
+  target_link_options(sgm PRIVATE LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
+  set_property(TARGET sgm APPEND PROPERTY LINK_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/exports.map)
+endif()

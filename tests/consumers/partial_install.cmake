@@ -1,0 +1,103 @@
+# Installs a build of which some parts are missing, as after samples/demo.sh or after building the library alone: what is
+# there is installed whole, what is not is named, and nothing refers to it. The build's install scripts and its built
+# files are copied to WORK, so that parts can be taken away there.
+#
+#   cmake -DBUILD=... -DWORK=... "-DLIBRARY=files" "-DSERVICE=files" "-DCOMMAND=files" -P partial_install.cmake
+#
+# An empty list: the build has no such part. Leaves the library, installed from a tree that has it alone, in WORK/prefix.
+cmake_minimum_required(VERSION 3.25)
+set(tree ${WORK}/build)
+file(REMOVE_RECURSE ${WORK})
+
+file(GLOB_RECURSE scripts RELATIVE ${BUILD} ${BUILD}/cmake_install.cmake ${BUILD}/runtime/install/*.cmake
+  ${BUILD}/runtime/install/*.pc)
+list(FILTER scripts EXCLUDE REGEX "^tests/consumers/.*/")
+foreach(script IN LISTS scripts)
+  file(READ ${BUILD}/${script} text)
+  string(REPLACE "${BUILD}" "${tree}" text "${text}")
+  string(REPLACE "OLD_RPATH \"${tree}" "OLD_RPATH \"${BUILD}" text "${text}")  # which the built files have
+  file(CONFIGURE OUTPUT ${tree}/${script} CONTENT "@text@" @ONLY)
+endforeach()
+
+# install_with([PARTS ...] [ARGS ...]): installs the copied tree with these parts in it; sets case, status, said and
+# installed.
+function(install_with)
+  cmake_parse_arguments(ARG "" "" "PARTS;ARGS" ${ARGN})
+  file(REMOVE_RECURSE ${WORK}/prefix)
+  foreach(part LIBRARY SERVICE COMMAND)
+    foreach(built IN LISTS ${part})
+      file(RELATIVE_PATH path ${BUILD} ${built})
+      file(REMOVE ${tree}/${path})
+      if(part IN_LIST ARG_PARTS)
+        cmake_path(GET path PARENT_PATH folder)
+        file(COPY ${built} DESTINATION ${tree}/${folder})
+      endif()
+    endforeach()
+  endforeach()
+  execute_process(COMMAND ${CMAKE_COMMAND} --install ${tree} --prefix ${WORK}/prefix ${ARG_ARGS}
+    RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  file(GLOB_RECURSE files RELATIVE ${WORK}/prefix ${WORK}/prefix/*)
+  string(REGEX REPLACE "[ \n]+" " " words "${out}${err}")
+  set(case "with '${ARG_PARTS}' built, --install ${ARG_ARGS}" PARENT_SCOPE)
+  set(status ${result} PARENT_SCOPE)
+  set(said "${words}" PARENT_SCOPE)
+  list(JOIN files " " names)
+  set(installed " ${names} " PARENT_SCOPE)
+endfunction()
+macro(require what)
+  if(NOT (${ARGN}))
+    message(SEND_ERROR "${case}: ${what}\nstatus ${status}\ninstalled ${installed}\nsaid ${said}")
+  endif()
+endmacro()
+# The folders of the prefix differ by system: lib, lib64, lib/x86_64-linux-gnu.
+set(of_library " include/sgm/sgm[.]h " "/libsgm[.](so|a) " "/cmake/sgm/sgmConfig[.]cmake " "/cmake/sgm/sgmTargets[.]cmake "
+  "/pkgconfig/sgm[.]pc ")
+set(of_service " include/sgm/sgm_service[.]h " "/libsgm_service[.](so|a) " "/cmake/sgm/sgmServiceTargets[.]cmake "
+  "/pkgconfig/sgm_service[.]pc ")
+set(of_command " bin/sgm ")
+function(require_parts)
+  foreach(part library service command)
+    foreach(file IN LISTS of_${part})
+      if(part IN_LIST ARGN)
+        require("lacks ${file}" installed MATCHES "${file}")
+      else()
+        require("has ${file}" NOT installed MATCHES "${file}")
+      endif()
+    endforeach()
+  endforeach()
+endfunction()
+
+install_with()
+require("is refused" NOT status EQUAL 0 AND installed STREQUAL "  " AND said MATCHES "nothing is built")
+install_with(ARGS --component library)
+require("is refused" NOT status EQUAL 0 AND installed STREQUAL "  " AND said MATCHES "library is not built .*--target sgm[)]")
+install_with(PARTS LIBRARY ARGS --component nosuch)
+require("is refused" NOT status EQUAL 0 AND installed STREQUAL "  " AND said MATCHES "no component 'nosuch', but library")
+if(COMMAND)
+  install_with(PARTS COMMAND)
+  require("says what is left out" status EQUAL 0 AND said MATCHES "library is not built .*: left out")
+  require_parts(command)
+  install_with(PARTS COMMAND ARGS --component command)
+  require("installs" status EQUAL 0)
+  require_parts(command)
+  # What samples/demo.sh builds.
+  install_with(PARTS COMMAND LIBRARY)
+  require("installs" status EQUAL 0 AND NOT said MATCHES "(library|command) is not built")
+  require_parts(command library)
+  if(SERVICE)
+    install_with(PARTS COMMAND LIBRARY SERVICE)
+    require("installs" status EQUAL 0 AND NOT said MATCHES "left out")
+    require_parts(command library service)
+  endif()
+endif()
+if(SERVICE)
+  install_with(PARTS LIBRARY SERVICE ARGS --component library)
+  require("installs" status EQUAL 0)
+  require_parts(library)
+endif()
+install_with(PARTS LIBRARY ARGS --component library)
+require("installs" status EQUAL 0)
+require_parts(library)
+install_with(PARTS LIBRARY)
+require("installs" status EQUAL 0)
+require_parts(library)
