@@ -1,6 +1,7 @@
 #include "measure/triangle_pair.h"
 
 #include <cmath>
+#include <optional>
 
 #include "measure/exact_sign.h"
 
@@ -85,11 +86,29 @@ bool anyEdgeMeets(const Corners& a, const std::array<int, 3>& a_sides, const Cor
   return false;
 }
 
+/// The corner that lies on the other side than the other two; nothing where one lies in the plane.
+std::optional<size_t> loneCorner(const std::array<int, 3>& sides) {
+  if (sides[0] == 0 || sides[1] == 0 || sides[2] == 0) return std::nullopt;
+  return sides[0] == sides[1] ? 2 : sides[0] == sides[2] ? 1 : 0;
+}
+
+/// Both triangles cross the other's plane, in no corner. On the line of both planes each covers what lies between the
+/// two edges from its lone corner; which of two edges comes first there is one orientation (Guigue and Devillers, Fast
+/// and Robust Triangle-Triangle Overlap Test Using Orientation Predicates, 2003).
+bool crossingMeet(const Corners& a, size_t a_lone, int a_side, const Corners& b, size_t b_lone, int b_side) {
+  // As many turns as make both lone corners lie in front of the other plane.
+  const Corners p = {a[a_lone], a[(a_lone + (b_side > 0 ? 2 : 1)) % 3], a[(a_lone + (b_side > 0 ? 1 : 2)) % 3]};
+  const Corners q = {b[b_lone], b[(b_lone + (a_side > 0 ? 2 : 1)) % 3], b[(b_lone + (a_side > 0 ? 1 : 2)) % 3]};
+  return orientation(p[0], p[1], q[0], q[1]) >= 0 && orientation(p[0], p[2], q[0], q[2]) <= 0;
+}
+
 bool meetApart(const Corners& a, const Corners& b) {
   const std::array<int, 3> b_sides = sidesOf(a, b);
   if (allOnOneSide(b_sides)) return false;
   const std::array<int, 3> a_sides = sidesOf(b, a);
   if (allOnOneSide(a_sides)) return false;
+  const std::optional<size_t> a_lone = loneCorner(a_sides), b_lone = loneCorner(b_sides);
+  if (a_lone && b_lone) return crossingMeet(a, *a_lone, a_sides[*a_lone], b, *b_lone, b_sides[*b_lone]);
   const int a_drop = dropOf(a), b_drop = dropOf(b);
   if (a_drop < 0 || b_drop < 0) return false;
   return anyEdgeMeets(a, a_sides, b, b_drop) || anyEdgeMeets(b, b_sides, a, a_drop);
