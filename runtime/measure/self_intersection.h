@@ -25,8 +25,8 @@ struct SelfIntersections {
 using MeasureProgress = std::function<void(uint64_t done, uint64_t total)>;
 
 /// Exact (triangle_pair.h). tree: of the same triangles. most_steps: looks at two nodes of it or at two triangles; of
-/// triangles that meet, kStepsAPair: of a heap of them nobody needs to know how many exactly. The same for any number of
-/// threads.
+/// triangles that meet, kStepsAPair: of a heap of them nobody needs to know how many exactly. The same for any number
+/// of threads.
 SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t most_steps, JobSystem& jobs,
                                     const MeasureProgress& progress = {});
 
