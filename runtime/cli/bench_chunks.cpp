@@ -42,6 +42,7 @@ class Contest {
   }
 
   Result<Row> run(const IntBox& region) {
+    if (const Result<void> few = checkChunks(options_, region, world_.cellAt(0)); !few) return few.error();
     Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(row_.threads);
     if (!jobs) return jobs.error();
     jobs_ = std::move(*jobs);

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
+#include <system_error>
 
 namespace sgm::cli {
 
@@ -27,43 +29,93 @@ Exit exitOf(Code code) {
 }
 
 Exit complain(Exit status, std::string_view message) {
-  fmt::print(stderr, "sgm: {}: {}\n", status == Exit::usage ? "usage" : "error", message);
+  // A process that has been ended leaves its bar behind.
+  const char* erase = isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "";
+  fmt::print(stderr, "{}sgm: {}: {}\n", erase, status == Exit::usage ? "usage" : "error", message);
   return status;
 }
 
+namespace {
+
 /// Seconds in which a bar has shown too little to tell from.
 constexpr double kBeforeEstimates = 3;
+constexpr std::chrono::seconds kBetweenTicks{1};
+constexpr std::chrono::minutes kBetweenLines{1};
 
-ProgressBar::ProgressBar(std::string_view what) : what_(what), terminal_(isatty(STDERR_FILENO) == 1) {}
+std::string clockText(uint64_t seconds) {
+  return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string_view what) : what_(what), terminal_(isatty(STDERR_FILENO) == 1) {
+  // Signals are for the threads that were there before.
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  try {
+    ticker_ = std::thread([this] { tick(); });
+  } catch (const std::system_error&) {
+    // Where no thread is to be had, the bar shows what it is told.
+  }
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
 
 ProgressBar::~ProgressBar() {
+  {
+    const std::lock_guard lock(mutex_);
+    over_ = true;
+  }
+  ended_.notify_all();
+  if (ticker_.joinable()) ticker_.join();
   if (drawn_) fmt::print(stderr, "\r\x1b[K");
 }
 
-std::string ProgressBar::left(uint64_t done, uint64_t total, std::chrono::steady_clock::time_point now) const {
+void ProgressBar::tick() {
+  std::unique_lock lock(mutex_);
+  while (!ended_.wait_for(lock, kBetweenTicks, [this] { return over_; })) {
+    const Clock::time_point now = Clock::now();
+    if (now - last_ >= (terminal_ ? Clock::duration(kBetweenTicks) : Clock::duration(kBetweenLines))) draw(now);
+  }
+}
+
+std::string ProgressBar::left(Clock::time_point now) const {
   const double passed = std::chrono::duration<double>(now - begun_).count();
-  if (passed < kBeforeEstimates || done == 0) return {};
-  const auto left = static_cast<uint64_t>(passed * static_cast<double>(total - done) / static_cast<double>(done));
-  return fmt::format(", {}:{:02}:{:02} left", left / 3600, left / 60 % 60, left % 60);
+  if (passed < kBeforeEstimates || done_ == 0) return {};
+  const double left = passed * static_cast<double>(total_ - done_) / static_cast<double>(done_);
+  return ", " + clockText(static_cast<uint64_t>(left)) + " left";
+}
+
+void ProgressBar::draw(Clock::time_point now) {
+  last_ = now;
+  const auto passed = static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::seconds>(now - begun_).count());
+  const bool known = done_ > 0 && total_ > 0;
+  if (!terminal_) {
+    if (known)
+      fmt::print(stderr, "sgm: {}: {} %{}\n", what_, 100 * done_ / total_, left(now));
+    else
+      fmt::print(stderr, "sgm: {}: for {}\n", what_, clockText(passed));
+    return;
+  }
+  drawn_ = true;
+  if (known) {
+    constexpr uint64_t kWidth = 32;
+    const uint64_t filled = std::min(kWidth, done_ * kWidth / total_);
+    fmt::print(stderr, "\r{} [{:#<{}}{: <{}}] {}/{}{}\x1b[K", what_, "", filled, "", kWidth - filled, done_, total_,
+               left(now));
+  } else {
+    fmt::print(stderr, "\r{}: for {}\x1b[K", what_, clockText(passed));
+  }
+  std::fflush(stderr);
 }
 
 void ProgressBar::show(uint64_t done, uint64_t total) {
-  if (total == 0) return;
-  const auto now = std::chrono::steady_clock::now();
-  if (!terminal_) {
-    if (now - last_ < std::chrono::minutes(1)) return;
-    last_ = now;
-    fmt::print(stderr, "sgm: {}: {} %{}\n", what_, 100 * done / total, left(done, total, now));
-    return;
-  }
-  if (drawn_ && now - last_ < std::chrono::milliseconds(100)) return;
-  last_ = now;
-  drawn_ = true;
-  constexpr uint64_t kWidth = 32;
-  const uint64_t filled = std::min(kWidth, done * kWidth / total);
-  fmt::print(stderr, "\r{} [{:#<{}}{: <{}}] {}/{}", what_, "", filled, "", kWidth - filled, done, total);
-  fmt::print(stderr, "{}\x1b[K", left(done, total, now));
-  std::fflush(stderr);
+  const std::lock_guard lock(mutex_);
+  done_ = done;
+  total_ = total;
+  const Clock::time_point now = Clock::now();
+  const auto between = terminal_ ? Clock::duration(std::chrono::milliseconds(100)) : Clock::duration(kBetweenLines);
+  if (total > 0 && (now - last_ >= between || (terminal_ && !drawn_))) draw(now);
 }
 
 }  // namespace sgm::cli

@@ -166,6 +166,7 @@ Json toJson(const Said& said) {
   } else if (!said.per()) {
     json["value"] = valueJson(e.measure, outcome.measured[0]);
     if (!outcome.measured[0].why.empty()) json["reason"] = outcome.measured[0].why;
+    if (outcome.measured[0].cubes) json["cubes"] = *outcome.measured[0].cubes;
     if (e.measure == Measure::components) json["pieces"] = piecesJson(outcome.measured[0]);
   } else {
     const MeasuredSpread spread = measuredSpread(outcome.measured);
@@ -176,6 +177,7 @@ Json toJson(const Said& said) {
     for (const Measured& m : outcome.measured) {
       Json use{{"path", m.path}, {"at", metresJson(m.origin)}, {"value", valueJson(e.measure, m)}};
       if (!m.why.empty()) use["reason"] = m.why;
+      if (m.cubes) use["cubes"] = *m.cubes;
       if (e.expect) use["holds"] = m.holds;
       if (e.measure == Measure::components) use["pieces"] = piecesJson(m);
       json["values"].push_back(std::move(use));

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -32,6 +33,8 @@ template <class T, auto End>
 using Owner = std::unique_ptr<T, EndWith<End>>;
 
 struct Scene {
+  /// Warnings of the world go nowhere: what they are about is told as the command's error.
+  std::atomic<bool> quiet = false;
   Owner<sgm_runtime, sgm_runtime_destroy> runtime;
   Owner<sgm_grammar, sgm_grammar_destroy> grammar;
   Owner<sgm_parameters, sgm_parameters_destroy> parameters;
@@ -49,8 +52,18 @@ Exit complain(const sgm_error& error) {
 }
 
 /// What the world has to say, beside a progress bar: a damaged journal, a folder that cannot be written.
-void tellWarning(void*, sgm_log_level level, const char* message) {
-  if (level >= SGM_LOG_WARNING) std::fprintf(stderr, "sgm: warning: %s\n", message);
+void tellWarning(void* scene, sgm_log_level level, const char* message) {
+  if (level >= SGM_LOG_WARNING && !static_cast<Scene*>(scene)->quiet)
+    std::fprintf(stderr, "sgm: warning: %s\n", message);
+}
+
+/// Has the journal hold all edits. The message of what went wrong is the caller's to tell.
+Result<void> keepEdits(Scene& scene) {
+  scene.quiet = true;
+  sgm_error error = SGM_ERROR_INIT;
+  if (sgm_world_flush_edits(scene.world.get(), &error) != SGM_OK) return errorOf(error);
+  scene.quiet = false;
+  return {};
 }
 
 /// What the options say, through the public interface. Messages of the grammar have been printed before.
@@ -58,7 +71,7 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   sgm_error error = SGM_ERROR_INIT;
   sgm_runtime_desc runtime_desc = SGM_RUNTIME_DESC_INIT;
   runtime_desc.threads = options.threads;
-  const sgm_log_sink sink{tellWarning, nullptr};
+  const sgm_log_sink sink{tellWarning, &scene};
   runtime_desc.log = &sink;
   const std::string pipelines = pipelineFolder();
   if (!pipelines.empty()) runtime_desc.pipeline_folder = pipelines.c_str();
@@ -221,6 +234,9 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   if (pictures != nullptr) watch.pictured = [&](uint64_t frame) { return pictures->wants(frame); };
   Result<FlightReport> report = sgm::cli::fly(scene.world.get(), *path, settings, watch);
   bar.reset();
+  // Before all that may fail: what was dug is not there again.
+  const Result<void> kept = keepEdits(scene);
+  if (!kept && !report) return {{}, cli::complain(kept.error())};
   if (signals && signals->came() && !report) {
     fmt::print(stderr, "ended before the flight was over: there is no report\n");
     return {{}, Exit::done};
@@ -248,6 +264,7 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   }
   if (sgm_backend_query(scene.runtime.get(), backendNamed(options.backend), &flown.backend, &error) != SGM_OK)
     return {{}, complain(error)};
+  if (!kept) flown.edits_lost = kept.error();
   if (signals) signals->wait();
   return {std::move(flown), Exit::done};
 }
@@ -272,7 +289,9 @@ Exit fly(const FlyOptions& options) {
     print(options, *flight.flown, by_distance);
   }
   const std::optional<std::string> defect = defectOf(*flight.flown);
-  return defect ? cli::complain(Exit::input, *defect) : Exit::done;
+  if (defect) cli::complain(Exit::input, *defect);
+  if (flight.flown->edits_lost) return cli::complain(*flight.flown->edits_lost);
+  return defect ? Exit::input : Exit::done;
 }
 
 }  // namespace sgm::cli

@@ -20,7 +20,8 @@ struct Flown {
   uint64_t fields_drawn = 0;                         ///< of them
   sgm_backend_info backend = SGM_BACKEND_INFO_INIT;  ///< at the end
   PictureLights lights;
-  std::optional<sgm_world_measures> measures;  ///< at the end, where they were asked for
+  std::optional<sgm_world_measures> measures;        ///< at the end, where they were asked for
+  std::optional<Error> edits_lost;                   ///< the journal does not hold all edits
 };
 
 /// by_distance: of a second flight, with level 0 by distance alone.

@@ -44,7 +44,11 @@ Result<std::string> reportOf(const Subject& subject, const MeasureOptions& optio
   measure::MeshSettings settings = settingsOf(options);
   settings.cut = subject.cut;
   const asset::TriangleMesh& mesh = subject.mesh;
-  const Result<measure::MeshMeasures> measures = measure::measureMesh({mesh.points, mesh.triangles}, settings, jobs);
+  const Result<measure::MeshMeasures> measures = [&] {
+    ProgressBar bar("measuring");
+    settings.progress = [&bar](uint64_t done, uint64_t total) { bar.show(done, total); };
+    return measure::measureMesh({mesh.points, mesh.triangles}, settings, jobs);
+  }();
   if (!measures) return measures.error();
   const char verdict = measures->validButForCut() && measures->triangles > 0 ? kSound : kUnsound;
   if (options.json) {
@@ -74,6 +78,7 @@ Result<Section> against(const asset::TriangleMesh& mesh, asset::TriangleMesh oth
   const measure::AreaVolume sums = measure::areaVolume(triangles, jobs);
   measure::HausdorffSettings settings;
   settings.tolerance = 1e-4 * length(sums.high - sums.low);
+  const ProgressBar bar("comparing");
   const Result<measure::Hausdorff> found = hausdorff(triangles, {other.points, other.triangles}, settings, jobs);
   if (!found) return Error{found.error().code, "--against: " + found.error().message};
   return distanceSection(*found, options.against, other.triangles.size(), mesh.origin);
@@ -82,7 +87,11 @@ Result<Section> against(const asset::TriangleMesh& mesh, asset::TriangleMesh oth
 Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKind kind,
                                 asset::MeshFileKind against_kind) {
   const Stopwatch watch;
-  const Result<asset::TriangleMesh> mesh = readMeshFile(options.file, kind);
+  const auto read = [](const std::string& file, asset::MeshFileKind of) {
+    const ProgressBar bar("reading");
+    return readMeshFile(file, of);
+  };
+  const Result<asset::TriangleMesh> mesh = read(options.file, kind);
   if (!mesh) return mesh.error();
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return jobs.error();
@@ -91,7 +100,7 @@ Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKi
   if (options.texels) sections.emplace_back("texels", texelSection(*mesh, *options.texels));
   if (options.drawing) sections.emplace_back("drawing", drawingSection(drawingCost({mesh->points, mesh->triangles})));
   if (!options.against.empty()) {
-    Result<asset::TriangleMesh> other = readMeshFile(options.against, against_kind);
+    Result<asset::TriangleMesh> other = read(options.against, against_kind);
     if (!other) return other.error();
     Result<Section> section = against(*mesh, std::move(*other), options, **jobs);
     if (!section) return section.error();
@@ -105,6 +114,7 @@ Result<Section> levelsOf(const MeasureOptions& options, const WorldField& world,
                          const Region& region) {
   Section all;
   all.json = Json::array();
+  const ProgressBar bar("comparing levels");
   const WorldMesh* fine = region.unsplit ? &*region.unsplit : &region.meshed.mesh;
   IntBox extent = region.meshed.extent;
   api::RegionMesh held(world.memory());
@@ -148,6 +158,7 @@ Exit measureGrammar(const MeasureOptions& options, asset::MeshFileKind against_k
   plan.texture = options.texels.has_value();
   plan.after = [&](const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region) -> Result<void> {
     if (options.field) {
+      const ProgressBar bar("sampling the field");
       const Result<FieldAgreement> found = fieldAgreement(world, jobs, region.meshed.mesh, options.level);
       if (!found) return found.error();
       sections.emplace_back("field", fieldSection(*found, region.cell, region.meshed.mesh.origin));

@@ -170,6 +170,7 @@ Exit measureVoid(const MeasureOptions& options) {
   if (!jobs) return complain(jobs.error());
   const Stopwatch watch;
   const int32_t cell = opened.settings.finest_cell;
+  if (const Result<void> few = checkChunks(options, opened.region, cell); !few) return complain(few.error());
   const WorldField world(std::move(opened.settings), std::pmr::new_delete_resource());
   const SignField field = signField(queryField(world));
   const Result<VoidAnswer> answer = [&] {

@@ -12,6 +12,7 @@
 #include "cli/region.h"
 #include "mesh/export.h"
 #include "metrics/measure.h"
+#include "metrics/solid_volume.h"
 #include "sgm/sgm.h"
 
 namespace sgm::cli {
@@ -19,7 +20,8 @@ namespace {
 
 struct Summary {
   Measures measures;
-  double volume = 0, void_volume = 0;
+  double volume = 0, void_volume = 0;  ///< by the divergence theorem
+  double cubes = 0, void_cubes = 0;    ///< by equation 8
   std::vector<std::string> files;
   uint64_t bytes = 0;  ///< of all files
 };
@@ -29,6 +31,7 @@ void printJson(const MeshOptions& options, const Region& region, const Summary& 
   json.update({{"area", summary.measures.area},
                {"volume", summary.volume},
                {"void_volume", summary.void_volume},
+               {"cubes", {{"edge", metres(region.cell)}, {"solid", summary.cubes}, {"void", summary.void_cubes}}},
                {"objects", summary.measures.objects},
                {"device", region.device}});
   if (!options.out.empty()) {
@@ -54,8 +57,10 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
   if (const Int3 o = region.meshed.mesh.origin; o != Int3{})
     fmt::print("  origin   {},{},{} m: positions count from here\n", metres(o.x), metres(o.y), metres(o.z));
   fmt::print("  area     {:.1f} m2 (equation 7: half of each triangle's cross product)\n", summary.measures.area);
-  fmt::print("  volume   {:.1f} m3 solid, {:.1f} m3 open (equation 8: cubes of one cell, each centred on a sample)\n",
+  fmt::print("  volume   {:.1f} m3 solid, {:.1f} m3 open (divergence theorem, closed in the region's border)\n",
              summary.volume, summary.void_volume);
+  fmt::print("  cubes    {:.1f} m3 solid, {:.1f} m3 open (equation 8: cubes of one cell, each centred on a sample)\n",
+             summary.cubes, summary.void_cubes);
   fmt::print("  objects  {} (section 7.3: triangles joined by shared vertices)\n", summary.measures.objects);
   if (region.texture) {
     const TexelDensity& density = region.texture->density;
@@ -67,6 +72,22 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
   }
   fmt::print("  hash     {:016x} (seed {}, {} on {})\n", region.meshed.hash.value(), options.seed, region.backend,
              region.device);
+}
+
+/// What is measured of the region; volumes are those inside of it.
+Result<void> measureRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region,
+                           const MeshOptions& options, Summary& summary) {
+  const IntBox& extent = region.meshed.extent;
+  summary.measures = measuresOf(region.unsplit ? *region.unsplit : region.meshed.mesh, extent.lo);
+  const auto keys = chunksOfRegion(world, extent, options.level, options.max_chunks);
+  if (!keys) return keys.error();
+  const Result<double> border = borderFlux(world, backend, jobs, *keys, options.sharp);
+  if (!border) return border.error();
+  summary.volume = solidVolume(world, extent, summary.measures.flux + *border);
+  summary.cubes = cubeVolume(region.meshed.solid_samples, region.cell);
+  summary.void_cubes = cubeVolume(region.samples() - region.meshed.solid_samples, region.cell);
+  summary.void_volume = summary.cubes + summary.void_cubes - summary.volume;
+  return {};
 }
 
 }  // namespace
@@ -82,15 +103,15 @@ Exit mesh(const MeshOptions& options) {
     if (!opened) return complain(opened.error());
     file.emplace(std::move(*opened));
   }
+  Summary summary;
   RegionPlan plan;
   plan.texture = options.uv;
+  plan.after = [&](const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region) {
+    return measureRegion(world, backend, jobs, region, options, summary);
+  };
   const RegionResult made = meshRegion(options, plan);
   if (!made.region) return made.status;
   const Region& region = *made.region;
-  Summary summary;
-  summary.measures = measuresOf(region.unsplit ? *region.unsplit : region.meshed.mesh);
-  summary.volume = cubeVolume(region.meshed.solid_samples, region.cell);
-  summary.void_volume = cubeVolume(region.samples() - region.meshed.solid_samples, region.cell);
   if (file) {
     ExportInfo info;
     info.name = std::filesystem::path(options.file).stem().string();

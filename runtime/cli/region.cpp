@@ -128,6 +128,21 @@ void noteRounded(const std::string& file, uint64_t rounded) {
              file, rounded);
 }
 
+Result<void> checkChunks(const WorldOptions& options, const IntBox& region, int32_t finest_cell) {
+  const bool empty = region.lo.x >= region.hi.x || region.lo.y >= region.hi.y || region.lo.z >= region.hi.z;
+  const uint64_t most = std::min(options.max_chunks, kMostRegionChunks);
+  const uint64_t count = empty ? 0 : countChunks(region, int64_t{finest_cell} << options.level);
+  if (count <= most) return {};
+  const std::optional<double> fitting = fittingCell({&region, 1}, options.level, finest_cell, most);
+  return Error{
+      Code::limit,
+      fmt::format("the region has {} chunks with cells of {} m, more than {}: take larger cells{} or a smaller "
+                  "--region{}",
+                  count, metres(finest_cell << options.level), most,
+                  fitting ? fmt::format(" (--cell {} fits)", *fitting) : "",
+                  options.max_chunks < kMostRegionChunks ? ", or raise --max-chunks" : "")};
+}
+
 bool isCut(const Region& region) {
   const IntBox& extent = region.meshed.extent;
   const Int3 origin = region.meshed.mesh.origin;
@@ -198,17 +213,17 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
     }
   }
   const int32_t cell = settings.finest_cell;
+  if (const Result<void> few = checkChunks(options, *region, cell); !few) return few.error();
   const auto kept = std::make_shared<const WorldField>(std::move(settings), memory);
   const WorldField& world = *kept;
-  Result<api::RegionMesh> meshed = [&] {
-    ProgressBar bar(plan.doing);
-    return api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks, options.sharp,
-                           [&bar](uint64_t done, uint64_t total) {
-                             bar.show(done, total);
-                             return true;
-                           });
-  }();
+  std::optional<ProgressBar> bar(std::in_place, plan.doing);
+  Result<api::RegionMesh> meshed = api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks,
+                                                   options.sharp, [&bar](uint64_t done, uint64_t total) {
+                                                     bar->show(done, total);
+                                                     return true;
+                                                   });
   if (!meshed) return meshed.error();
+  bar.emplace("looking for anchors");
   Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);
   if (!anchors) return anchors.error();
   std::optional<WorldMesh> unsplit;
@@ -218,13 +233,16 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
   }
   std::optional<api::TexturedRegion> texture;
   if (plan.texture) {
+    bar.emplace("unwrapping");
     Result<api::TexturedRegion> unwrapped = api::unwrapRegion(world, *jobs, meshed->mesh, options.level, kTile);
     if (!unwrapped) return unwrapped.error();
     texture = std::move(*unwrapped);
   }
   const double seconds = watch.seconds();
+  bar.emplace("looking for notes");
   Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, cell << options.level);
   if (!notes) return notes.error();
+  bar.reset();
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
   Region result{std::move(compiled),

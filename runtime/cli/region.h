@@ -48,6 +48,9 @@ sgm_backend backendNamed(const std::string& name);
 /// What derivation left out, each message once a place in the grammar, to stderr.
 void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes);
 
+/// Refuses a region of more chunks than --max-chunks allows, and names a --cell that fits.
+Result<void> checkChunks(const WorldOptions& options, const IntBox& region, int32_t finest_cell);
+
 /// Whether the region's border cuts the surface, which goes on beyond it.
 bool isCut(const Region& region);
 

@@ -1,6 +1,7 @@
 #include "derive/derive.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdio>
 #include <map>
 
@@ -28,6 +29,19 @@ int64_t excess(const IntBox& box, const IntBox& limit) {
   return most;
 }
 
+/// By how much the bounds of shapes of this size may pass what is proven of them: ShapeBounds::level() has room for the
+/// rounding of floats.
+int64_t roundingOf(const IntBox& bound) {
+  const IntBox all = IntBox::everything();
+  int64_t longest = 0;
+  for (int a = 0; a < 3; ++a) {
+    if (bound.lo[a] > all.lo[a] && bound.hi[a] < all.hi[a]) {
+      longest = std::max(longest, int64_t{bound.hi[a]} - bound.lo[a]);
+    }
+  }
+  return longest >> 16;
+}
+
 }  // namespace
 
 bool isWhole(const Layer& layer) { return layer.cell_expr == kNoId; }
@@ -50,6 +64,35 @@ IntBox cellLimit(const Program& program, uint32_t layer_index, Int3 cell) {
     if (layer.cell[a] <= 0) continue;
     box.lo[a] = saturate(int64_t{box.lo[a]} - layer.reach - kReachSlack);
     box.hi[a] = saturate(int64_t{box.hi[a]} + 1 + layer.reach + kReachSlack);
+  }
+  return box;
+}
+
+ShapeSpan reachSpan(const Program& program, const Layer& layer, int axis) {
+  const IntBox all = IntBox::everything();
+  if (isWhole(layer)) {
+    return {int64_t{program.domain.box.lo[axis]} - kReachSlack, int64_t{program.domain.box.hi[axis]} + kReachSlack};
+  }
+  if (layer.cell[axis] <= 0) return {all.lo[axis], all.hi[axis]};
+  const int64_t reach = int64_t{layer.reach} + kReachSlack;
+  return {-reach, layer.cell[axis] + reach};
+}
+
+ShapeSpan shapeSpan(const Program& program, const Layer& layer, int axis) {
+  const ShapeSpan reach = reachSpan(program, layer, axis);
+  if (!layer.proven) return reach;
+  const int64_t room = kReachSlack + roundingOf(layer.bound);
+  return {std::max(reach.lo, layer.bound.lo[axis] - room), std::min(reach.hi, layer.bound.hi[axis] + room)};
+}
+
+IntBox shapeLimit(const Program& program, uint32_t layer_index, Int3 cell) {
+  const Layer& layer = program.layers[layer_index];
+  IntBox box;
+  for (int a = 0; a < 3; ++a) {
+    const ShapeSpan span = shapeSpan(program, layer, a);
+    const int64_t corner = isWhole(layer) ? 0 : int64_t{cell[a]} * layer.cell[a];
+    box.lo[a] = saturate(corner + span.lo);
+    box.hi[a] = saturate(corner + span.hi);
   }
   return box;
 }
@@ -168,6 +211,27 @@ void Interpreter::noteBeyond(uint32_t shape, const IntBox& box) {
        origin.span, origin.activation);
 }
 
+void Interpreter::addGroup(Group group, GrammarChunk& out) {
+  const IntBox proven = shapeLimit(program_, layer_index_, cell_);
+  if (!proven.contains(group.bounds)) {
+    // Each warp rounds places to units, for which its bounds have room.
+    const std::pmr::vector<Shape>& shapes = draft_.chunk().shapes;
+    const auto warps =
+        std::count_if(shapes.begin(), shapes.end(), [](const Shape& s) { return s.kind == ShapeKind::warp; });
+    const int64_t over = excess(group.bounds, proven);
+    assert(over <= warps && "a shape passes the bound that is proven of its layer");
+    if (over > warps) {
+      const Origin& origin = draft_.origin(group.root);
+      note("this shape passes the proven bound of its layer by " + metresText(over) +
+               " m and ends there: a bug in the library, please report it",
+           origin.span, origin.activation);
+    }
+    // Whoever gathers the cells of a chunk goes by the proven bound: what lies beyond it would show in some alone.
+    group.bounds = group.bounds.clipped(proven);
+  }
+  if (!group.bounds.empty()) out.groups.push_back(group);
+}
+
 void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& out) {
   const ShapeBounds bounds(draft_.chunk());
   const IntBox limit = cellLimit(program_, layer_index_, cell_);
@@ -178,7 +242,7 @@ void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& o
     if (box.empty()) continue;
     Group group{root, cut, box, draft_.origin(root).key};
     if (isWithin(box, limit)) {
-      out.groups.push_back(group);
+      addGroup(group, out);
       continue;
     }
     if (!copier) copier.emplace(draft_.chunk());
@@ -206,7 +270,7 @@ void Interpreter::collectGroups(const ShapeList& list, bool cut, GrammarChunk& o
       if (kept.size() < s.child_count) parted.emplace_back(from[i], std::move(kept));
     }
     group.bounds = parts->bounds;
-    if (!group.bounds.empty()) out.groups.push_back(group);
+    if (!group.bounds.empty()) addGroup(group, out);
   }
   for (const auto& [shape, kept] : parted) draft_.keepChildren(shape, kept);
 }

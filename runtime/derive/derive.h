@@ -36,16 +36,32 @@ IntBox cellBox(const Layer& layer, Int3 cell);
 /// far as declared must not fall to that rounding.
 inline constexpr int32_t kReachSlack = 64;
 
-/// The box that holds every shape of the cell; who gathers the cells of a chunk asks which of these meet it. cellBox()
-/// grown by the reach and kReachSlack; along axes that are not cut into cells there is no limit. Without layers (a
-/// top-level start): the domain's box, grown by the slack.
+/// The box that shapes of the cell must not pass: cellBox() grown by the reach and kReachSlack; along axes that are not
+/// cut into cells there is no limit. Without layers (a top-level start): the domain's box, grown by the slack.
 IntBox cellLimit(const Program& program, uint32_t layer, Int3 cell);
+
+/// Where the shapes of a layer's cells may lie along an axis, both ends included. In units from a cell's low corner;
+/// along axes that are not cut into cells, and without layers, from the world's origin. Empty where lo > hi.
+struct ShapeSpan {
+  int64_t lo = 0, hi = 0;
+};
+
+/// cellLimit() as a span, the same for all cells.
+ShapeSpan reachSpan(const Program& program, const Layer& layer, int axis);
+
+/// Of a proven layer the part of reachSpan() within Layer::bound, with room for rounding; otherwise all of it.
+ShapeSpan shapeSpan(const Program& program, const Layer& layer, int axis);
+
+/// The box that holds every group of the cell: shapeSpan() at the cell. Saturates.
+IntBox shapeLimit(const Program& program, uint32_t layer, Int3 cell);
 
 /// Pure: a value of the arguments and of what `lower` answers for layers that this one uses. Thread-safe.
 ///
 /// Shapes whose bounds are not within cellLimit(), or that have no bound, are left out whole, with a note: of a shape
-/// of several parts, those parts alone that `detail` or `lod` sets levels for, where the rest is within it. So are
-/// shapes with sizes that are not positive, and anchors outside of the cell (another cell owns those points).
+/// of several parts, those parts alone that `detail` or `lod` sets levels for, where the rest is within it. A group
+/// that passed shapeLimit() would show a fault in the proof of reach: an assertion fails in builds with assertions;
+/// others end the group there, with a note. Left out as well are shapes with sizes that are not positive, and anchors
+/// outside of the cell (another cell owns those points).
 ///
 /// Errors: invalid_argument (no such layer, a cell beyond the world, as many parameter values as there are not);
 /// limit, with the place in the grammar and the derivation path in the message.

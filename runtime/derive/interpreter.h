@@ -340,6 +340,8 @@ class Interpreter {
   /// Derives the layer's start; gives what it adds.
   ShapeList start();
   void collectGroups(const ShapeList& list, bool cut, GrammarChunk& out);
+  /// Adds a group that is within the cell's limit, and holds it to what is proven of the layer.
+  void addGroup(Group group, GrammarChunk& out);
   /// Of a shape that is left out, since its box is beyond what the cell may own.
   void noteBeyond(uint32_t shape, const IntBox& box);
   /// False where a shape has no bound.

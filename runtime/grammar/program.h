@@ -152,9 +152,9 @@ struct Layer {
   std::pmr::vector<uint32_t> uses;
   ExprId start = kNoId;  ///< a call of a rule
   ExprId cell_expr = kNoId, reach_expr = kNoId;
-  IntBox bound;  ///< proven bound of what the layer adds or cuts, from the cell's low corner, within cell + reach where
-                 ///< `proven`; otherwise derivation must reject what passes it
-  bool proven = false;
+  IntBox bound;  ///< of what the layer adds or cuts, from the cell's low corner; along axes without cells, and without
+                 ///< layers, from the world's origin
+  bool proven = false;  ///< `bound` lies within cell + reach; otherwise derivation must reject what passes the latter
   /// In units: at levels whose cells have a longer edge the layer shows nothing, whatever its parameters, seed and
   /// cell: by its own `detail`, or as all its shapes stand under one. INT32_MAX: no such edge; 0: it has no shapes.
   int32_t coarsest_cell = std::numeric_limits<int32_t>::max();

@@ -66,9 +66,11 @@ void ReachCheck::layerReach(uint32_t index) {
   }
   for (int axis = 0; axis < 3; ++axis) {
     const Interval side = extent.empty ? Interval{1, 0} : extent.at.may[static_cast<size_t>(axis)];
-    auto units = [](double v) { return saturate(static_cast<int64_t>(std::clamp(v, -3e9, 3e9))); };
-    layer.bound.lo[axis] = units(std::floor(side.lo * kUnitsPerMetre));
-    layer.bound.hi[axis] = units(std::ceil(side.hi * kUnitsPerMetre));
+    // An end that is not a number is no bound: the first operands of these are taken then.
+    const double lo = std::min(std::max(-3e9, std::floor(side.lo * kUnitsPerMetre)), 3e9);
+    const double hi = std::max(std::min(3e9, std::ceil(side.hi * kUnitsPerMetre)), -3e9);
+    layer.bound.lo[axis] = saturate(static_cast<int64_t>(lo));
+    layer.bound.hi[axis] = saturate(static_cast<int64_t>(hi));
   }
   if (finite && !boxed) return finiteBox(layer, extent);
   layer.proven = over_may <= 0 && !cut_short_;

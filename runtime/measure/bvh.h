@@ -56,14 +56,14 @@ class Bvh {
   };
 
   /// Calls visit(a, b) with the triangles of each two leaves of the walk whose boxes overlap, and stops after so many
-  /// steps: a call, or a look at two nodes. Returns how many it took.
+  /// steps: a call, with those that it returns besides, or a look at two nodes. Returns how many it took.
   template <class Visit>
   uint64_t visitPairs(Walk& walk, uint64_t most_steps, Visit&& visit) const {
     uint64_t steps = 0;
     for (; walk.count > 0 && steps < most_steps; ++steps) {
       const auto [a, b] = walk.waiting[--walk.count];
       if (a != b && isLeaf(a)) {
-        visit(triangle(a), triangle(b));
+        steps += visit(triangle(a), triangle(b));
       } else {
         walk.count += split({a, b}, &walk.waiting[walk.count]);
       }

@@ -11,17 +11,14 @@ void addPart(const PartMeasures& part, const ChunkGrid& grid, SurfaceSums& sums)
   sums.slivers += part.slivers;
   sums.against_gradient += part.against_gradient;
   for (size_t kind = 0; kind < kDefects; ++kind) sums.defects[kind] += part.defects[kind];
-  // A step is a 256th of a cell; all sums of steps are exact in a double, but those of chunks that are full to the
-  // brim.
-  const double step = static_cast<double>(grid.cell) / (kSubcell * kUnitsPerMetre), square = step * step;
+  const double step = static_cast<double>(grid.cell) / (kSubcell * kUnitsPerMetre);
   sums.area += areaOf(part, grid.cell);
-  double about_origin = 0;
+  std::array<double, 3> origin{};
   for (size_t axis = 0; axis < 3; ++axis) {
-    const double cross = static_cast<double>(part.cross[axis]) * square;
-    sums.area_vector[axis] += cross / 2;
-    about_origin += static_cast<double>(grid.origin[static_cast<int>(axis)]) / kUnitsPerMetre * cross;
+    sums.area_vector[axis] += static_cast<double>(part.cross[axis]) * (step * step) / 2;
+    origin[axis] = metres(grid.origin[static_cast<int>(axis)]);
   }
-  sums.flux += (static_cast<double>(part.six_volumes) * square * step + about_origin) / 6;
+  sums.flux += fluxOf(part, grid.cell, origin);
 }
 
 }  // namespace

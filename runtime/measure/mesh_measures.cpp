@@ -140,7 +140,7 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
   const std::array<std::function<void()>, 3> works{
       [&] {
         if (!settings.self_intersections) return;
-        result.self_intersections = selfIntersections(clean, tree, steps, jobs);
+        result.self_intersections = selfIntersections(clean, tree, steps, jobs, settings.progress);
       },
       [&] {
         edges.emplace(clean);

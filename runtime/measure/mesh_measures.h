@@ -24,6 +24,7 @@ struct MeshSettings {
   uint64_t steps_a_triangle = 5000;
   std::optional<double> cubes;  ///< the edge of the cubes that are counted; nothing: none are
   std::optional<Cut> cut;       ///< where the mesh was cut from a larger one
+  MeasureProgress progress;     ///< of the search for self-intersections, which takes longest
 };
 
 struct MeshMeasures {

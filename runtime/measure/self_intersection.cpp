@@ -1,12 +1,14 @@
 #include "measure/self_intersection.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "measure/triangle_pair.h"
 
 namespace sgm::measure {
 
-SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t most_steps, JobSystem& jobs) {
+SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint64_t most_steps, JobSystem& jobs,
+                                    const MeasureProgress& progress) {
   constexpr size_t kParts = 256;
   struct Part {
     Bvh::Walk walk;
@@ -15,6 +17,8 @@ SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint
   };
   std::vector<Part> parts;
   for (const Bvh::Pair& pair : tree.parts(kParts)) parts.push_back({Bvh::Walk(pair), {}, 0});
+  std::mutex mutex;
+  uint64_t done = 0;
   // What some parts leave of their shares the others have in the next round, whichever thread was quick.
   uint64_t left = most_steps;
   for (;;) {
@@ -25,17 +29,21 @@ SelfIntersections selfIntersections(const Triangles& mesh, const Bvh& tree, uint
     if (share == 0) break;
     parallelFor(jobs, open.size(), [&](size_t i) {
       Part& part = *open[i];
-      part.steps = tree.visitPairs(part.walk, share, [&](uint32_t a, uint32_t b) {
+      part.steps = tree.visitPairs(part.walk, share, [&](uint32_t a, uint32_t b) -> uint64_t {
         const PairFault fault = pairFault(mesh.points, mesh.triangles[a], mesh.triangles[b]);
-        if (fault == PairFault::none) return;
+        if (fault == PairFault::none) return 0;
         const bool folded = fault == PairFault::folded;
         ++part.found.pairs;
         part.found.folded += folded;
         auto& examples = folded ? part.found.folded_examples : part.found.examples;
         if (examples.size() < kMostExamples) examples.push_back(std::minmax(a, b));
+        return kStepsAPair - 1;
       });
+      if (!progress || !part.walk.ended()) return;
+      const std::lock_guard lock(mutex);
+      progress(++done, parts.size());
     });
-    for (const Part* part : open) left -= part->steps;
+    for (const Part* part : open) left -= std::min(left, part->steps);
   }
   SelfIntersections all;
   for (const Part& part : parts) {

@@ -1,6 +1,7 @@
 #include "measure/triangle_pair.h"
 
 #include <cmath>
+#include <optional>
 
 #include "measure/exact_sign.h"
 

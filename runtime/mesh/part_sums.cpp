@@ -16,4 +16,14 @@ double areaOf(const PartSums& sums, int32_t cell) {
   return static_cast<double>(sums.area) / (2.0 * (1 << kLengthBits)) * step * step;
 }
 
+double fluxOf(const PartSums& sums, int32_t cell, const std::array<double, 3>& origin) {
+  // A step is a 256th of a cell; all sums of steps are exact in a double, but those of chunks that are full to the
+  // brim.
+  const double step = static_cast<double>(cell) / (kSubcell * kUnitsPerMetre), square = step * step;
+  double about_origin = 0;
+  for (size_t axis = 0; axis < 3; ++axis)
+    about_origin += origin[axis] * (static_cast<double>(sums.cross[axis]) * square);
+  return (static_cast<double>(sums.six_volumes) * square * step + about_origin) / 6;
+}
+
 }  // namespace sgm

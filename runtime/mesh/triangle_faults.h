@@ -21,6 +21,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 
 #include "mesh/feature_kind.h"
 
@@ -159,11 +160,29 @@ class TrianglePair {
     return false;
   }
 
+  /// The corner that lies on the other side than the other two; nullopt if one lies in the plane.
+  static std::optional<size_t> loneCorner(const std::array<int, 3>& sides) {
+    if (sides[0] == 0 || sides[1] == 0 || sides[2] == 0) return std::nullopt;
+    return sides[0] == sides[1] ? 2 : sides[0] == sides[2] ? 1 : 0;
+  }
+
+  /// Both triangles cross the other's plane, in no corner. On the line of both planes each covers what lies between the
+  /// two edges from its lone corner; which of two edges comes first there is one orientation (Guigue and Devillers, Fast
+  /// and Robust Triangle-Triangle Overlap Test Using Orientation Predicates, 2003).
+  static bool crossingMeet(const Corners& a, size_t a_lone, int a_side, const Corners& b, size_t b_lone, int b_side) {
+    // As many turns as make both lone corners lie in front of the other plane.
+    const Corners p = {a[a_lone], a[(a_lone + (b_side > 0 ? 2 : 1)) % 3], a[(a_lone + (b_side > 0 ? 1 : 2)) % 3]};
+    const Corners q = {b[b_lone], b[(b_lone + (a_side > 0 ? 2 : 1)) % 3], b[(b_lone + (a_side > 0 ? 1 : 2)) % 3]};
+    return Signs::orientation(p[0], p[1], q[0], q[1]) >= 0 && Signs::orientation(p[0], p[2], q[0], q[2]) <= 0;
+  }
+
   static bool meetApart(const Corners& a, const Corners& b) {
     const std::array<int, 3> b_sides = sidesOf(a, b);
     if (allOnOneSide(b_sides)) return false;
     const std::array<int, 3> a_sides = sidesOf(b, a);
     if (allOnOneSide(a_sides)) return false;
+    const std::optional<size_t> a_lone = loneCorner(a_sides), b_lone = loneCorner(b_sides);
+    if (a_lone && b_lone) return crossingMeet(a, *a_lone, a_sides[*a_lone], b, *b_lone, b_sides[*b_lone]);
     const int a_drop = Signs::seenAlong(a), b_drop = Signs::seenAlong(b);
     if (a_drop < 0 || b_drop < 0) return false;
     if (b_sides == std::array<int, 3>{} && (liesBeyond(a_drop, a, b, 0) || liesBeyond(a_drop, b, a, 0))) return false;

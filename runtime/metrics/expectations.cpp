@@ -41,6 +41,7 @@ WantedMeasures wantedFor(const Program& program, std::span<const uint32_t> state
     const Measure measure = program.expectations[s].measure;
     wanted.topology |= measure == Measure::watertight || measure == Measure::genus;
     wanted.components |= measure == Measure::components;
+    wanted.volume |= measure == Measure::volume;
   }
   return wanted;
 }
@@ -81,6 +82,7 @@ Measured read(const Program& program, const Expectation& e, const RegionMeasures
     }
     case Measure::volume:
       result.value = region.volume;
+      result.cubes = region.cubes;
       break;
     case Measure::area:
       result.value = region.area;
@@ -165,8 +167,10 @@ class Evaluator {
     for (const IntBox& box : boxes) {
       chunks += countChunks(box, settings_.cell);
       if (chunks > settings_.max_chunks) {
-        return Error{Code::limit, "this takes more than " + std::to_string(settings_.max_chunks) +
-                                      " chunks; make the cells larger or the region smaller, or raise the limit"};
+        return Error{Code::limit,
+                     "this takes more than " + std::to_string(settings_.max_chunks) + " chunks; make the cells larger" +
+                         fittingCellText(boxes, 0, settings_.cell, settings_.max_chunks) +
+                         " or the region smaller, or raise the limit"};
       }
     }
     return settings_.cell;
@@ -232,7 +236,7 @@ class Evaluator {
       }
       for (uint32_t s : statements) {
         Measured measured = read(program_, program_.expectations[s], measures);
-        if (!instance.bounded) measured = {std::nullopt, "a shape of it has no bound", {}, {}, true};
+        if (!instance.bounded) measured = {std::nullopt, "a shape of it has no bound", {}, {}, true, {}, {}};
         if (program_.expectations[s].measure == Measure::anchors) measured.value = static_cast<double>(anchors);
         measured.path = instance.path;
         measured.origin = instance.origin;

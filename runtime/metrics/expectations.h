@@ -7,7 +7,8 @@
 //   joined
 //               as the mesh joins them (components.h); `above V`: of those whose samples stand for more than V, not
 //               measured where one sample does
-//   volume      m3 of the solid inside the region, whatever the domain is made of
+//   volume      m3 of the solid inside the region, whatever the domain is made of, by the divergence theorem
+//               (solid_volume.h)
 //   area        m2 of the surface inside the region, without the faces where the border cuts the solid
 //   triangles   of that surface
 //   genus       handles of the surface, summed over its shells; not measured where the border cuts the surface
@@ -59,6 +60,7 @@ struct Measured {
   Int3 origin;                          ///< of a use of a rule: its frame, in units
   bool holds = true;                    ///< of a report always
   std::vector<MeasuredPiece> pieces{};  ///< components: the smallest of those counted, rising; at most kMostPieces
+  std::optional<double> cubes{};        ///< volume: m3 by equation 8 of the paper (cubeVolume() in measure.h)
 };
 
 struct Outcome {

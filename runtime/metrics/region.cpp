@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "metrics/measure.h"
+#include "metrics/solid_volume.h"
 
 namespace sgm {
 namespace {
@@ -75,6 +76,7 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
   RegionMeasures result;
   result.chunks = keys->size();
   uint64_t solid_samples = 0;
+  double flux = 0;
   std::pmr::vector<PlacedChunk> surface(world.memory());
   for (size_t z = 0; z < counts[2]; ++z) {
     std::pmr::vector<ChunkRequest> requests(world.memory());
@@ -97,6 +99,7 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
       const PartSums sums = wanted.topology ? sumsOf(body.vertices, body.indices) : chunk.mesh.sums[0];
       result.triangles += sums.triangles;
       result.area += areaOf(sums, chunk.grid.cell);
+      flux += fluxOf(sums, chunk.grid.cell, originFrom(result.extent.lo, chunk.grid));
       solid_samples += chunk.mesh.solid_samples;
       if (body.indices.empty()) continue;
       chunk.mesh.signs = {};
@@ -105,7 +108,12 @@ Result<RegionMeasures> measureRegion(const WorldField& world, Backend& backend, 
   }
   const int32_t cell = world.settings().finest_cell;
   for (int axis = 0; axis < 3; ++axis) result.extent.hi[axis] += kChunkCells * cell;
-  result.volume = cubeVolume(solid_samples, cell);
+  if (wanted.volume) {
+    const Result<double> border = borderFlux(world, backend, jobs, *keys, false);
+    if (!border) return border.error();
+    result.volume = solidVolume(world, result.extent, flux + *border);
+  }
+  result.cubes = cubeVolume(solid_samples, cell);
   result.sample = cubeVolume(1, cell);
   result.cell = cell;
   if (planes) result.pieces = planes->pieces();

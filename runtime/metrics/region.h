@@ -14,13 +14,15 @@ namespace sgm {
 struct WantedMeasures {
   bool topology = false;
   bool components = false;  ///< pieces of solid and air
+  bool volume = false;
 };
 
 struct RegionMeasures {
   IntBox extent;  ///< the region grown to whole chunks; hi does not belong to it
   uint64_t chunks = 0;
   uint64_t triangles = 0;  ///< each once; none of the faces where the border cuts the solid
-  double volume = 0;       ///< m3 of the solid: equation 8 of the paper (cubeVolume() in measure.h)
+  double volume = 0;       ///< m3 of the solid, by the divergence theorem (solid_volume.h); 0 where not wanted
+  double cubes = 0;        ///< m3 of the solid: equation 8 of the paper (cubeVolume() in measure.h)
   double sample = 0;       ///< m3 that one stands for
   int32_t cell = 0;        ///< from one sample to the next, units; the first lies at extent.lo
   double area = 0;         ///< m2, equation 7, of the surface without the cut faces (areaOf() in part_sums.h)

@@ -149,15 +149,40 @@ Result<Bytes> readAll(const fs::path& path, int file) {
   return bytes;
 }
 
-Result<void> writeAt(const fs::path& path, int file, std::span<const std::byte> bytes, uint64_t at) {
-  while (!bytes.empty()) {
-    const ssize_t sent = pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
+struct Written {
+  size_t bytes = 0;  ///< that the disk has
+  int error = 0;     ///< errno where that is not all
+};
+
+/// Returns when the disk has the bytes, or as many of them as it takes.
+Written writeAt(int file, std::span<const std::byte> bytes, uint64_t at) {
+  Written done;
+  while (done.bytes < bytes.size() && done.error == 0) {
+    const auto rest = bytes.subspan(done.bytes);
+    const ssize_t sent = pwrite(file, rest.data(), rest.size(), static_cast<off_t>(at + done.bytes));
     if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return ioError(path, sent < 0 ? errno : EIO);
-    bytes = bytes.subspan(static_cast<size_t>(sent));
-    at += static_cast<uint64_t>(sent);
+    if (sent <= 0) done.error = sent < 0 ? errno : EIO;
+    if (sent > 0) done.bytes += static_cast<size_t>(sent);
   }
-  return fdatasync(file) == 0 ? Result<void>() : ioError(path, errno);
+  if (fdatasync(file) == 0) return done;
+  return {0, done.error != 0 ? done.error : errno};
+}
+
+/// The records that these bytes begin with, and the bytes that they take.
+struct WholeRecords {
+  size_t count = 0, bytes = 0;
+};
+
+/// Precondition: records stand in the bytes, of which the last may be cut off.
+WholeRecords wholeRecords(std::span<const std::byte> bytes) {
+  WholeRecords whole;
+  while (bytes.size() - whole.bytes >= kRecordHead) {
+    const size_t size = kRecordHead + ByteReader(bytes.subspan(whole.bytes)).get<uint32_t>();
+    if (size > bytes.size() - whole.bytes) break;
+    whole.bytes += size;
+    ++whole.count;
+  }
+  return whole;
 }
 
 /// A file's new name is on the disk only when its folder is. Some file systems cannot, and need not.
@@ -203,7 +228,7 @@ Result<OpenedJournal> EditJournal::open(const fs::path& given, const WorldIdenti
   const Bytes head = headOf(world);
   if (bytes->size() < kHeadBytes && std::equal(bytes->begin(), bytes->end(), head.begin())) {
     // New, or killed while it was.
-    if (Result<void> written = writeAt(path, file->get(), head, 0); !written) return written.error();
+    if (const Written written = writeAt(file->get(), head, 0); written.error != 0) return ioError(path, written.error);
     syncFolder(path);
     *bytes = head;
   }
@@ -280,11 +305,16 @@ Result<void> EditJournal::flush() {
     waiting_.clear();
   }
   if (unwritten_.empty()) return {};
-  // What a failed try has left stands where the next one writes.
-  if (Result<void> written = writeAt(path_, file_, unwritten_, size_); !written) return written;
-  size_ += unwritten_.size();
-  unwritten_.clear();
-  return {};
+  const Written written = writeAt(file_, unwritten_, size_);
+  // The rest of a record that was cut off stands where the next try writes.
+  const size_t kept = wholeRecords(std::span(unwritten_).first(written.bytes)).bytes;
+  size_ += kept;
+  unwritten_.erase(unwritten_.begin(), unwritten_.begin() + static_cast<std::ptrdiff_t>(kept));
+  if (unwritten_.empty()) return {};
+  Error error = ioError(path_, written.error);
+  const size_t lost = wholeRecords(unwritten_).count;
+  error.message += "; " + std::to_string(lost) + (lost == 1 ? " edit is not kept" : " edits are not kept");
+  return error;
 }
 
 }  // namespace sgm

@@ -35,7 +35,8 @@ class EditJournal {
   /// Takes operations into memory; never waits for the disk. Throws std::bad_alloc, and none is taken.
   void append(std::span<const EditOperation> operations);
   /// Writes what was appended, and returns when the disk has it: where it is called every second, on any thread but the
-  /// frame's, no more than that second can be lost. io: nothing is lost, and the next call tries again.
+  /// frame's, no more than that second can be lost. io: nothing is lost, and the next call tries again; the message says how
+  /// many operations the disk does not have.
   Result<void> flush();
 
  private:

@@ -18,8 +18,6 @@ constexpr size_t kBatchChunks = 256;
 constexpr size_t kPreparedTogether = 16;
 // Cells that one thread holds beyond the chunk that asked for them, whatever the cache lets go of.
 constexpr size_t kMostAtHand = 1024;
-// Of a region: what a machine holds with half a kilobyte and more a chunk, before any mesh.
-constexpr uint64_t kMostChunks = uint64_t{1} << 24;
 
 /// Whether the cells are more than one thread may hold between chunks: their number, and its share of the cache's
 /// bytes.
@@ -194,18 +192,6 @@ Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backen
   return chunks;
 }
 
-uint64_t countChunks(const IntBox& region, int64_t cell) {
-  const int64_t edge = kChunkCells * cell;
-  // The counts of three axes may overflow together; each alone is below 2^28.
-  long double count = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int64_t first = floorDiv(region.lo[axis], edge), last = floorDiv(int64_t{region.hi[axis]} - 1, edge);
-    count *= static_cast<long double>(last - first + 1);
-  }
-  constexpr uint64_t kMost = std::numeric_limits<int64_t>::max();
-  return count < static_cast<long double>(kMost) ? static_cast<uint64_t>(count) : kMost;
-}
-
 Result<std::pmr::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const IntBox& region, int level,
                                                   uint64_t max_chunks) {
   Result<ChunkGrid> unit = chunkGrid(world, {level, {}});
@@ -224,11 +210,11 @@ Result<std::pmr::vector<ChunkKey>> chunksOfRegion(const WorldField& world, const
     }
   }
   const uint64_t count = countChunks(region, unit->cell);
-  if (count > std::min(max_chunks, kMostChunks)) {
-    return Error{Code::limit, "the region has more than " + std::to_string(std::min(max_chunks, kMostChunks)) +
-                                  " chunks; make it smaller" +
-                                  (max_chunks < kMostChunks ? ", the cells larger, or raise the limit"
-                                                            : " or the cells larger: no limit can be higher")};
+  if (const uint64_t most = std::min(max_chunks, kMostRegionChunks); count > most) {
+    return Error{Code::limit, "the region has " + std::to_string(count) + " chunks, more than " + std::to_string(most) +
+                                  "; make the cells larger" +
+                                  fittingCellText({&region, 1}, level, world.cellAt(0), most) + " or the region smaller" +
+                                  (max_chunks < kMostRegionChunks ? ", or raise the limit" : ": no limit can be higher")};
   }
   std::pmr::vector<ChunkKey> keys(world.memory());
   keys.reserve(static_cast<size_t>(count));

@@ -7,6 +7,7 @@
 #include "mesh/features.h"
 #include "mesh/hash.h"
 #include "stream/chunk_key.h"
+#include "stream/fitting_cell.h"
 #include "stream/world_field.h"
 
 namespace sgm {
@@ -69,10 +70,6 @@ IntBox sampledBox(const ChunkGrid& grid, int level, bool sharp);
 Result<std::pmr::vector<PlacedChunk>> meshChunks(const WorldField& world, Backend& backend, JobSystem& jobs,
                                                  std::span<const ChunkRequest> requests, const Progress& progress = {},
                                                  const EditSnapshot* edits = nullptr);
-
-/// How many chunks of 32 cells of an edge meet the box lo <= p < hi; 2^63 - 1 where there are more. Precondition: the
-/// box is not empty, cell is positive.
-uint64_t countChunks(const IntBox& region, int64_t cell);
 
 /// All chunks of a level that meet the box lo <= p < hi, in order z, y, x, in the world's memory.
 /// invalid_argument: no such level, an empty box. range: they leave the world. limit: more than max_chunks, or 2^24.

@@ -6,13 +6,13 @@
 #include <string>
 
 #include "grammar/sink.h"
+#include "stream/fitting_cell.h"
 #include "stream/void_walk.h"
 
 namespace sgm {
 
 namespace {
 
-constexpr uint64_t kMostChunks = uint64_t{1} << 24;  // whatever the caller allows
 constexpr int kMostNeed = kMostClearance * kMostClearance;
 constexpr int kRadiiTogether = 16;      // sizes of agents that one look at the region tells apart
 constexpr size_t kChunksTogether = 64;  // chunks whose voids are there before they are joined
@@ -82,7 +82,7 @@ class VoidSearch {
                                                numberText(most / kUnitsPerMetre) + " m"};
     }
     const int64_t edge = int64_t{kChunkCells} * field_.cell;
-    const uint64_t most_chunks = std::min(question_.max_chunks, kMostChunks);
+    const uint64_t most_chunks = std::min(question_.max_chunks, kMostRegionChunks);
     uint64_t chunks = 1;
     for (int axis = 0; axis < 3; ++axis) {
       if (question_.region.lo[axis] >= question_.region.hi[axis])
@@ -98,7 +98,9 @@ class VoidSearch {
     }
     if (chunks > most_chunks) {
       return Error{Code::limit, "the region has more than " + std::to_string(most_chunks) +
-                                    " chunks; make the cells larger or the region smaller, or raise the limit"};
+                                    " chunks; make the cells larger" +
+                                    fittingCellText({&question_.region, 1}, 0, field_.cell, most_chunks) +
+                                    " or the region smaller, or raise the limit"};
     }
     return {};
   }

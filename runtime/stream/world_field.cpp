@@ -143,7 +143,7 @@ Result<std::vector<RuleInstance>> WorldField::instances(uint32_t rule, const Int
   std::vector<RuleInstance> found;
   for (uint32_t layer = 0; layer < deriving.size(); ++layer) {
     if (!deriving[layer]) continue;
-    const Result<void> walked = walkCells(layer, box, CellsOf::box, [&](const CellKey& key) -> Result<void> {
+    const Result<void> walked = walkCells(layer, box, CellsBy::reach, [&](const CellKey& key) -> Result<void> {
       Result<std::vector<RuleInstance>> derived =
           overLayersBelow<std::vector<RuleInstance>>(layer, key.cell, [&](const LowerLayers& below) {
             return deriveInstances(*settings_.program, settings_.parameters, settings_.seed, layer, key.cell, rule,
@@ -169,31 +169,37 @@ Result<std::vector<RuleInstance>> WorldField::instances(uint32_t rule, const Int
   return found;
 }
 
-Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsOf of,
+Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsBy by,
                                    const std::function<Result<void>(const CellKey&)>& visit) const {
-  const Layer& info = settings_.program->layers[layer];
+  const Program& program = *settings_.program;
+  const Layer& info = program.layers[layer];
   // A grammar without layers is one cell.
   if (info.cell_expr == kNoId || isWhole(info)) return visit({layer, {}});
   const IntBox home = moved(box, {saturate(-int64_t{settings_.shift.x}), saturate(-int64_t{settings_.shift.y}),
                                   saturate(-int64_t{settings_.shift.z})});
   std::array<int64_t, 3> first{}, last{};
-  const int64_t reach = int64_t{info.reach} + kReachSlack;
-  const int64_t most = of == CellsOf::chunk ? kMaxCellsOfChunk : kMaxCellsWalked;
+  const int64_t most = by == CellsBy::shapes ? kMaxCellsOfChunk : kMaxCellsWalked;
   int64_t count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<size_t>(axis);
     const int64_t edge = info.cell[axis];
-    if (edge == 0) continue;
+    ShapeSpan span = by == CellsBy::shapes ? shapeSpan(program, info, axis) : reachSpan(program, info, axis);
+    if (by == CellsBy::ownership && edge > 0) span = {0, edge - 1};
+    if (edge == 0) {
+      if (home.hi[axis] < span.lo || home.lo[axis] > span.hi) return {};
+      continue;
+    }
     // Cells that would lie partly outside of the world derive nothing.
     const int64_t world_first = floorDiv(int64_t{INT32_MIN} + edge - 1, edge),
                   world_last = floorDiv(INT32_MAX, edge) - 1;
-    first[a] = std::clamp(floorDiv(int64_t{home.lo[axis]} - reach, edge), world_first, world_last);
-    last[a] = std::clamp(floorDiv(int64_t{home.hi[axis]} + reach, edge), world_first, world_last);
+    first[a] = std::max(-floorDiv(span.hi - home.lo[axis], edge), world_first);
+    last[a] = std::min(floorDiv(home.hi[axis] - span.lo, edge), world_last);
+    if (last[a] < first[a]) return {};
     count *= last[a] - first[a] + 1;
     if (count > most) {
       const std::string what = "more than " + std::to_string(most) + " cells of the layer `" +
-                               std::string(settings_.program->text(info.name)) + "` reach into ";
-      return Error{Code::limit, of == CellsOf::chunk
+                               std::string(program.text(info.name)) + "` reach into ";
+      return Error{Code::limit, by == CellsBy::shapes
                                     ? what + "one chunk; make the layer's cells larger, or mesh at a finer level"
                                     : what + "the box; ask for a smaller one, or make the layer's cells larger"};
     }
@@ -210,7 +216,7 @@ Result<void> WorldField::walkCells(uint32_t layer, const IntBox& box, CellsOf of
 
 Result<void> WorldField::cellsAround(uint32_t layer, const IntBox& box,
                                      const std::function<Result<void>(Int3 cell)>& visit) const {
-  return walkCells(layer, box, CellsOf::box, [&](const CellKey& key) { return visit(key.cell); });
+  return walkCells(layer, box, CellsBy::reach, [&](const CellKey& key) { return visit(key.cell); });
 }
 
 FieldSettings WorldField::fieldSettings(int32_t finest_cell, int32_t cell) const {
@@ -257,7 +263,7 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileLayers(
   for (uint32_t layer = 0; layer < layers && !alone_; ++layer) {
     if (!settings_.program->layers[layer].shows(field.cell)) continue;
     keys.clear();
-    const Result<void> walked = walkCells(layer, reached, CellsOf::chunk, [&](const CellKey& key) -> Result<void> {
+    const Result<void> walked = walkCells(layer, reached, CellsBy::shapes, [&](const CellKey& key) -> Result<void> {
       keys.push_back(keyFor(key.layer, key.cell, field.cell));
       return {};
     });
@@ -317,13 +323,13 @@ Result<std::shared_ptr<const FieldProgram>> WorldField::compileBelow(uint32_t la
   return program;
 }
 
-Result<void> WorldField::forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,
+Result<void> WorldField::forEachCell(const IntBox& box, CellsBy by, const std::function<bool(const Layer&)>& wanted,
                                      const std::function<void(const GrammarChunk&)>& visit,
                                      const CellsAtHand* at_hand) const {
   if (alone_) return visit(alone_->chunk), Result<void>{};
   for (uint32_t layer = 0; layer < settings_.program->layers.size(); ++layer) {
     if (!wanted(settings_.program->layers[layer])) continue;
-    const Result<void> walked = walkCells(layer, box, CellsOf::box, [&](const CellKey& key) -> Result<void> {
+    const Result<void> walked = walkCells(layer, box, by, [&](const CellKey& key) -> Result<void> {
       if (at_hand != nullptr) {
         if (const auto found = at_hand->find(key); found != at_hand->end())
           return visit(found->second->chunk), Result<void>{};
@@ -346,7 +352,8 @@ Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box, const CellsAt
       if (holds(box, a.frame.origin)) found.push_back(a);
     }
   };
-  const Result<void> visited = forEachCell(box, wanted, visit, at_hand);
+  // A cell has no anchors outside of it.
+  const Result<void> visited = forEachCell(box, CellsBy::ownership, wanted, visit, at_hand);
   if (!visited) return visited.error();
   return found;
 }
@@ -354,7 +361,7 @@ Result<std::vector<Anchor>> WorldField::anchors(const IntBox& box, const CellsAt
 Result<std::vector<DeriveNote>> WorldField::notes(const IntBox& box, int32_t cell_edge) const {
   std::vector<DeriveNote> found;
   const auto wanted = [&](const Layer& layer) { return layer.shows(cell_edge) || layer.anchors; };
-  const Result<void> visited = forEachCell(box, wanted, [&](const GrammarChunk& chunk) {
+  const Result<void> visited = forEachCell(box, CellsBy::reach, wanted, [&](const GrammarChunk& chunk) {
     found.insert(found.end(), chunk.notes.begin(), chunk.notes.end());
   });
   if (!visited) return visited.error();

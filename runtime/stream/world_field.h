@@ -54,6 +54,8 @@ class WorldField {
 
   /// It holds `alone`.
   bool isAlone() const { return alone_ != nullptr; }
+  /// The state of the world where no shape is.
+  bool isSolidDomain() const { return !isAlone() && settings_.program->domain.solid; }
 
   /// Bytes that tell the field from every other: what changes any answer changes them, and layout and comments of the
   /// grammar do not. None of a world that holds `alone`, whose content has no name.
@@ -76,7 +78,7 @@ class WorldField {
   /// The cell, derived anew, and whence its shapes come.
   Result<TracedCell> trace(uint32_t layer, Int3 cell) const;
 
-  /// Visits the cells of a layer whose shapes can reach into the box, in order z, y, x, to the first error.
+  /// Visits the cells of a layer whose declared reach meets the box, in order z, y, x, to the first error.
   /// limit: more than 2^24 cells.
   Result<void> cellsAround(uint32_t layer, const IntBox& box,
                            const std::function<Result<void>(Int3 cell)>& visit) const;
@@ -98,16 +100,16 @@ class WorldField {
   Result<std::shared_ptr<const FieldProgram>> compileOutside(int level) const;
 
   /// Anchors in the box lo <= p < hi, by layer, cell and key.
-  /// limit: more than 2^24 cells of a layer reach into the box; errors of derivation. at_hand: cells are looked for
-  /// there first.
+  /// limit: the box holds points of more than 2^24 cells of a layer; errors of derivation. at_hand: cells are looked
+  /// for there first.
   Result<std::vector<Anchor>> anchors(const IntBox& box, const CellsAtHand* at_hand = nullptr) const;
 
-  /// What derivation had to leave out in the cells that reach into the box, of layers that show where cells have this
-  /// edge or may have anchors; each cell's notes once. Errors: as anchors.
+  /// What derivation had to leave out in the cells whose reach meets the box, of layers that show where cells have this
+  /// edge or may have anchors; each cell's notes once. limit: more than 2^24 cells of a layer; errors of derivation.
   Result<std::vector<DeriveNote>> notes(const IntBox& box, int32_t cell_edge) const;
 
   /// The uses of a rule whose frames stand in the box lo <= p < hi, by layer and cell, in order of derivation. Only
-  /// cells whose shapes can reach into the box are looked at.
+  /// cells whose reach meets the box are looked at.
   /// limit: more than `most` of them, or more than 2^24 cells of a layer; errors of derivation.
   Result<std::vector<RuleInstance>> instances(uint32_t rule, const IntBox& box, size_t most) const;
 
@@ -121,10 +123,11 @@ class WorldField {
  private:
   /// What the cache keeps a cell as for levels with cells of this edge.
   CellKey keyFor(uint32_t layer, Int3 at, int32_t cell_edge) const;
-  /// What cells are gathered for: one chunk's program, which holds all of them, or a look at each in turn.
-  enum class CellsOf { chunk, box };
-  /// Visits the cells of a layer whose shapes can reach into the box, in order z, y, x, to the first error.
-  Result<void> walkCells(uint32_t layer, const IntBox& box, CellsOf of,
+  /// Which cells matter in a box: those whose shapes may lie in it as far as the proof of reach tells, those whose
+  /// declared reach meets it, or those that own points of it.
+  enum class CellsBy { shapes, reach, ownership };
+  /// Visits the cells of a layer that matter in the box, in order z, y, x, to the first error.
+  Result<void> walkCells(uint32_t layer, const IntBox& box, CellsBy by,
                          const std::function<Result<void>(const CellKey&)>& visit) const;
   /// What a program was compiled of.
   struct GatheredCells {
@@ -136,8 +139,8 @@ class WorldField {
                                                             std::span<const HostField> hosts,
                                                             std::span<const Brush> brushes, CellsAtHand& at_hand,
                                                             GatheredCells* gathered = nullptr) const;
-  /// Visits the cells of all wanted layers that can reach into the box, in order.
-  Result<void> forEachCell(const IntBox& box, const std::function<bool(const Layer&)>& wanted,
+  /// Visits the cells of all wanted layers that matter in the box, in order.
+  Result<void> forEachCell(const IntBox& box, CellsBy by, const std::function<bool(const Layer&)>& wanted,
                            const std::function<void(const GrammarChunk&)>& visit,
                            const CellsAtHand* at_hand = nullptr) const;
   /// Takes those of the keys that are not at hand from the cache, or derives them.

@@ -194,6 +194,15 @@ expect 2 "$SGM" fly "$cave" --path path.json --teleports 2
 err_has 'usage'
 expect 2 "$SGM" fly "$cave" --frames 0
 expect 2 "$SGM" fly "$cave" --out sheet.png
+# On a full disk, which a limit on file sizes stands for, the flight ends as others do, and tells what is not kept.
+full=(--path path.json --speed 10 --frames 120 --edits 60 --journal full)
+expect 4 bash -c 'set -o pipefail; trap "" XFSZ; (ulimit -f 1; exec "$@") | cat' - "$SGM" fly "$cave" "${small[@]}" "${full[@]}"
+json 'j.edits > 20'
+err_has "sgm: error: journal '.*full': File too large; ([0-9]+) edits are not kept$"
+(($(grep -c 'edits are not kept' <<<"$err") == 2)) || failed 'it is told as it happens, and at the end'
+unkept=${BASH_REMATCH[1]} edits=$(sed -n 's/.*"edits": \([0-9]*\),.*/\1/p' <<<"$out" | head -n 1)
+((unkept > 0 && unkept < edits)) || failed "$unkept of $edits edits not kept"
+rm full
 expect 1 "$SGM" fly "$cave" --mesh-mb 1 --frames 10
 err_has 'mesh_bytes'
 expect 2 "$SGM" fly "$cave" --edits 61

@@ -332,6 +332,14 @@ expect 2 "$SGM" measure "$SOURCE/samples/grammars/cave.sgm" --radius 0
 err_has 'endless: say which part with --region'
 one_line
 
+# Work that takes long shows how far it is, where somebody looks.
+expect 0 "$SGM" mesh ball.sgm --cell 0.05 --out looked_at.glb
+if command -v script >/dev/null; then
+  run script -qec "$SGM measure looked_at.glb" /dev/null
+  out_has 'measuring \[#* *\] [0-9]+/[0-9]+'
+fi
+rm looked_at.glb
+
 # A caller that goes takes the reader with it.
 if [[ -e large.stl ]]; then
   "$SGM" measure large.stl >/dev/null 2>&1 &

@@ -10,6 +10,8 @@ json 'j.cell === 0.25 && j.cell_units === 256 && j.seed === 0 && j.out === "ball
 json 'Math.abs(j.area - 4 * Math.PI * 9) < 1 && Math.abs(j.volume - 36 * Math.PI) < 3 && j.objects === 1'
 json 'j.region[0].join() === "-8,-8,-8" && j.region[1].join() === "8,8,8"'
 json "j.bytes === $(stat -c %s ball.glb)"
+json 'Math.abs(j.volume + j.void_volume - 16 ** 3) < 1e-6 && Math.abs(j.cubes.solid + j.cubes.void - 16 ** 3) < 1e-6'
+json 'Math.abs(j.cubes.solid - 36 * Math.PI) < 6 && j.cubes.solid !== j.volume && j.cubes.edge === 0.25'
 [[ $(head -c 4 ball.glb) == glTF ]] || failed "no GLB"
 err_empty
 for format in obj ply stl GLB; do
@@ -107,6 +109,28 @@ expect 0 "$SGM" mesh rooms.sgm --cell 0.25
 expect 0 "$SGM" mesh rooms.sgm --cell 0.125
 err_empty
 rm rooms.sgm
+
+# The volume is the solid's in the region, cut by its border or not, crisp or round.
+printf 'sgm 1;\nstart A;\nrule A { box(10m, 1m, 10m); }\n' >slab.sgm
+for sharp in '' --sharp; do
+  expect 0 "$SGM" mesh slab.sgm --cell 0.1 $sharp --json
+  json 'Math.abs(j.volume - 100) < 1'
+  expect 0 "$SGM" mesh slab.sgm --cell 0.1 $sharp --region=0,-3,-6:6,3,0 --json
+  json 'j.cut && Math.abs(j.volume - 25) < 0.25'
+done
+rm slab.sgm
+expect 0 "$SGM" mesh "$cave" --region 64,64,64:128,128,128 --cell 1 --json
+json 'j.volume > 64 ** 3 / 2 && j.volume < 64 ** 3 && Math.abs(j.volume / j.cubes.solid - 1) < 0.01'
+
+# A region of too many chunks is told the cells that fit, and they do.
+for level in 0 2; do
+  expect 1 "$SGM" mesh ball.sgm --cell 0.01 --max-chunks 10 --level $level --region=-4,-4,-4:4,4,4
+  one_line
+  err_has '^sgm: error: the region has [0-9]+ chunks with cells of [0-9.]+ m, more than 10: .*--cell ([0-9.]+) fits'
+  expect 0 "$SGM" mesh ball.sgm --cell "${BASH_REMATCH[1]}" --max-chunks 10 --level $level --region=-4,-4,-4:4,4,4
+done
+expect 1 "$SGM" measure ball.sgm --cell 0.01 --max-chunks 10 --radius 1
+err_has '--cell 0.[0-9]+ fits'
 
 # Coarser levels: cells of twice the edge, chunks of twice the size.
 expect 0 "$SGM" mesh ball.sgm --cell 0.25 --level 1 --json

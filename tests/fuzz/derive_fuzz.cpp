@@ -37,7 +37,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   limits.steps = 50'000;
   limits.shapes = 2'000;
   limits.bytes = size_t{4} << 20;
-  const sgm::ParameterValues values = sgm::ParameterValues::defaults(program);
+  sgm::ParameterValues values = sgm::ParameterValues::defaults(program);
+  for (size_t i = 0; i < program.params.size(); ++i) {
+    const sgm::Param& param = program.params[i];
+    if (param.has_range && data[0] % 3 != 0) values.values[i] = data[0] % 3 == 1 ? param.low : param.high;
+  }
   for (uint32_t l = 0; l < program.layers.size() && l < 4; ++l) {
     const sgm::Layer& layer = program.layers[l];
     const int32_t at = data[1] % 5 - 2;
@@ -47,11 +51,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     require(bool(once) == bool(twice), "one cell derived in two ways");
     if (!once) continue;
     require(once->groups.size() == twice->groups.size(), "one cell derived in two ways");
-    const sgm::IntBox limit = sgm::cellLimit(program, l, cell);
-    for (const sgm::Group& group : once->groups) require(limit.contains(group.bounds), "a group beyond its reach");
+    const sgm::IntBox limit = sgm::shapeLimit(program, l, cell);
+    for (const sgm::Group& group : once->groups) require(limit.contains(group.bounds), "a group beyond its bound");
     for (const sgm::DeriveNote& note : once->notes) {
       require(note.line >= 1 && note.column >= 1, "a note without a place");
       if (layer.proven) require(note.message.find("may pass") == std::string::npos, "left out though it is proven");
+      require(note.message.find("proven bound") == std::string::npos, "ended where the proof ends");
     }
   }
   return 0;

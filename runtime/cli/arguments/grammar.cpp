@@ -17,7 +17,7 @@ constexpr const char* kCheckFooter =
     "  watertight  the surface is a manifold, open only in the region's outer border, where the solid is cut\n"
     "  components  connected pieces of the solid, or with (air) of the void, inside the region; (solid above 1m3)\n"
     "              counts those that are larger\n"
-    "  volume      m3 of the solid (equation 8 of the paper)\n"
+    "  volume      m3 of the solid, by the divergence theorem; --json has equation 8's, too\n"
     "  area        m2 of the surface (equation 7), without the faces where the border cuts the solid\n"
     "  triangles   of that surface\n"
     "  genus       handles, summed over closed surfaces; not measured, and so failed, where the border cuts one\n"

@@ -1520,7 +1520,7 @@ SGM_API sgm_result sgm_world_export_edits(sgm_world* world, uint64_t since, void
 SGM_API sgm_result sgm_world_import_edits(sgm_world* world, const void* bytes, size_t count, sgm_error* error);
 
 /* Returns when the journal has every edit made before, on the disk: for a save. Blocks. SGM_ERR_IO: it could not be
- * written; nothing is lost, and the next second tries again. */
+ * written; nothing is lost, the next second tries again, and the message says how many edits the disk does not have. */
 SGM_API sgm_result sgm_world_flush_edits(sgm_world* world, sgm_error* error);
 
 /* Of the set of edits; equal in worlds that know the same ones. 0 for NULL. */

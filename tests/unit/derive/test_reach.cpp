@@ -12,12 +12,13 @@ using namespace sgm;
 
 namespace {
 
-/// Values within the declared ranges; any at all where none is declared.
+/// Values within the declared ranges, of every other seed at their ends; any at all where none is declared.
 ParameterValues randomValues(const Program& program, uint64_t seed) {
   ParameterValues values = ParameterValues::defaults(program);
   for (size_t i = 0; i < program.params.size(); ++i) {
     const Param& param = program.params[i];
-    const double unit = PathKey{seed}.unit(i);
+    double unit = PathKey{seed}.unit(i);
+    if (seed % 2 == 0) unit = unit < 0.5 ? 0 : 1;
     double v = param.has_range ? param.low + (param.high - param.low) * unit : 100 * unit - 50;
     if (param.whole) v = std::floor(v + 0.5);
     values.values[i] = v;
@@ -42,6 +43,7 @@ int checkCell(const Program& program, const ParameterValues& values, uint64_t se
     INFO(note.message << " in " << note.path << " at " << note.line << ":" << note.column);
     CHECK(note.message.find("may pass") == std::string::npos);
     CHECK(note.message.find("has no bound") == std::string::npos);
+    CHECK(note.message.find("proven bound") == std::string::npos);
   }
   const Layer& layer = program.layers[0];
   CHECK((chunk->anchors.empty() || layer.anchors));
@@ -83,7 +85,9 @@ TEST_CASE("what is proven holds all that is derived") {
     for (uint64_t world = 1; world <= 4; ++world) {
       INFO("seed " << seed << ", world " << world << "\n" << text);
       const bool whole = isWhole(program.layers[0]);
-      const Int3 cell = whole ? Int3{} : Int3{static_cast<int32_t>(world) - 2, 0, 1};
+      Int3 cell = whole ? Int3{} : Int3{static_cast<int32_t>(world) - 2, 0, 1};
+      // Near the ends of the world, where floats have the fewest digits left.
+      if (!whole && world == 4) cell = {8180, -8180, 8180};
       groups += checkCell(program, randomValues(program, seed * 8 + world), world, cell);
     }
   }

@@ -215,6 +215,18 @@ TEST_CASE("a mesh with more pairs than may be tested says so, and the same for a
   }
   const SelfIntersections whole = found(mesh);
   CHECK(whole.complete);
+  {
+    const auto jobs = workers(2);
+    uint64_t told = 0, all = 0;
+    const auto progress = [&](uint64_t done, uint64_t total) {
+      CHECK(done == told + 1);
+      told = done;
+      all = total;
+    };
+    CHECK(selfIntersections(mesh, Bvh(mesh, *jobs), uint64_t{1} << 40, *jobs, progress).pairs == whole.pairs);
+    CHECK(told == all);
+    CHECK(all > 1);
+  }
   std::optional<uint64_t> pairs;
   for (const unsigned n : {1u, 2u, 5u}) {
     const auto jobs = workers(n);

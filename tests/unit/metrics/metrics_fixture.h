@@ -38,7 +38,7 @@ class World {
   Backend& backend() const { return *backend_; }
   JobSystem& jobs() const { return *jobs_; }
 
-  RegionMeasures measured(double cell, const IntBox& region, const WantedMeasures& wanted = {true, true}) const {
+  RegionMeasures measured(double cell, const IntBox& region, const WantedMeasures& wanted = {true, true, true}) const {
     WorldFieldSettings settings;
     settings.program = program_;
     settings.parameters = ParameterValues::defaults(*program_);
