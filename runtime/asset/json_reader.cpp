@@ -136,25 +136,6 @@ class JsonParser {
     return code;
   }
 
-  static void append(std::string& out, uint32_t code) {
-    const auto put = [&](uint32_t byte) { out += static_cast<char>(static_cast<unsigned char>(byte)); };
-    if (code < 0x80) {
-      put(code);
-    } else if (code < 0x800) {
-      put(0xC0 | code >> 6);
-      put(0x80 | (code & 63));
-    } else if (code < 0x10000) {
-      put(0xE0 | code >> 12);
-      put(0x80 | (code >> 6 & 63));
-      put(0x80 | (code & 63));
-    } else {
-      put(0xF0 | code >> 18);
-      put(0x80 | (code >> 12 & 63));
-      put(0x80 | (code >> 6 & 63));
-      put(0x80 | (code & 63));
-    }
-  }
-
   void escaped(std::string& out) {
     const char c = at_ < text_.size() ? text_[at_++] : '\0';
     constexpr std::string_view kNamed = "\"\\/bfnrt", kMeant = "\"\\/\b\f\n\r\t";
@@ -170,7 +151,7 @@ class JsonParser {
       code = pair ? std::optional(0x10000 + ((*code - 0xD800) << 10) + (*low - 0xDC00)) : std::nullopt;
     }
     if (!code || (*code >= 0xD800 && *code < 0xE000)) return fail("an escape that JSON does not have");
-    append(out, *code);
+    appendUtf8(out, *code);
   }
 
   std::string string() {
@@ -221,10 +202,13 @@ std::span<const JsonValue> JsonValue::list(std::string_view name) const {
 
 std::optional<size_t> JsonValue::count(std::string_view name) const {
   const JsonValue* member = find(name);
-  if (member == nullptr || member->kind != Kind::number) return std::nullopt;
-  const double value = member->number;
-  if (!(value >= 0 && value <= kLargestWhole) || value != std::floor(value)) return std::nullopt;
-  return static_cast<size_t>(value);
+  return member == nullptr ? std::nullopt : member->whole();
+}
+
+std::optional<size_t> JsonValue::whole() const {
+  if (kind != Kind::number || !(number >= 0 && number <= kLargestWhole) || number != std::floor(number))
+    return std::nullopt;
+  return static_cast<size_t>(number);
 }
 
 Result<JsonValue> readJson(std::string_view text) { return JsonParser(text).run(); }

@@ -30,6 +30,8 @@ class JsonValue {
   std::span<const JsonValue> list(std::string_view name) const;
   /// A member that is a whole number from 0 to 2^53; nothing where it is missing or something else.
   std::optional<size_t> count(std::string_view name) const;
+  /// Itself as a whole number from 0 to 2^53; nullopt if it is something else.
+  std::optional<size_t> whole() const;
 };
 
 /// Errors: bad_input, with the byte in the message.
