@@ -35,6 +35,13 @@ std::optional<std::vector<std::byte>> decodedBase64(std::string_view text) {
   return out;
 }
 
+/// Some programs write 0 for elements that lie side by side, which is what no stride says.
+std::optional<size_t> strideIn(const JsonValue& view) {
+  if (view.find("byteStride") == nullptr) return std::nullopt;
+  const size_t stride = view.count("byteStride").value_or(kNoOffset);
+  return stride == 0 ? std::nullopt : std::optional(stride);
+}
+
 std::string compressionOf(const JsonValue& view) {
   const JsonValue* extensions = view.find("extensions");
   if (extensions == nullptr) return {};
@@ -52,9 +59,7 @@ GlbBuffers::GlbBuffers(const JsonValue& root, const GlbContainer& file) {
     views_.push_back({.buffer = value.count("buffer"),
                       .offset = value.find("byteOffset") == nullptr ? 0 : value.count("byteOffset").value_or(kNoOffset),
                       .length = value.count("byteLength").value_or(0),
-                      .stride = value.find("byteStride") == nullptr
-                                    ? std::nullopt
-                                    : std::optional(value.count("byteStride").value_or(0)),
+                      .stride = strideIn(value),
                       .compression = compressionOf(value)});
 }
 

@@ -76,6 +76,8 @@ Result<GlbContainer> openGlb(std::span<const std::byte> bytes) {
                           byteText(at));
     at = endOfPart(bytes, begin, size);
   }
+  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; out.json.starts_with(kByteOrderMark))
+    out.json.remove_prefix(kByteOrderMark.size());
   // The padding of JSON is to be blanks.
   if (const size_t end = out.json.find_last_not_of('\0') + 1; end < out.json.size()) {
     out.notes.push_back("its JSON is padded with zero bytes, not with blanks");

@@ -263,14 +263,23 @@ Result<void> GlbMeshes::addStripOrFan(const Here& here, const GlbCorners& corner
   }
   if (list.size() < 3) return wrong(here, " has a strip or a fan of fewer than three corners", "");
   if (list.size() - 2 > limits_.triangles - mesh_.triangles.size()) return overLimit(limits_.triangles, "triangles");
+  const auto isTriangle = [&](size_t i) {
+    return list[i] != list[i + 1] && list[i + 1] != list[i + 2] && list[i + 2] != list[i];
+  };
+  // A strip whose triangles all stand at odd places is made of single ones, put together without regard to the rule.
+  bool unruly = p.mode == kStrip;
+  for (size_t i = 0; unruly && i + 2 < list.size(); i += 2) unruly = !isTriangle(i);
+  const size_t before = mesh_.triangles.size();
   for (size_t i = 0; i + 2 < list.size(); ++i) {
     // As the specification orders them (section 3.7.2.1).
-    std::array<uint32_t, 3> t{list[i], list[i + 1 + i % 2], list[i + 2 - i % 2]};
+    const size_t odd = unruly ? 0 : i % 2;
+    std::array<uint32_t, 3> t{list[i], list[i + 1 + odd], list[i + 2 - odd]};
     if (p.mode == kFan) t = {list[i + 1], list[i + 2], list[0]};
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
     if (corners.mirrored) std::swap(t[1], t[2]);
     mesh_.triangles.push_back({corners.first + t[0], corners.first + t[1], corners.first + t[2]});
   }
+  if (unruly && mesh_.triangles.size() > before) unruly_.add([&] { return pointerOf(here) + " of its JSON"; });
   return {};
 }
 
@@ -279,6 +288,8 @@ Result<TriangleMesh> GlbMeshes::finish() {
   addNote(notes, lines_, "primitive of lines or points is left out", "primitives of lines or points are left out");
   addNote(notes, placeless_, "primitive has no positions and is left out",
           "primitives have no positions and are left out");
+  addNote(notes, unruly_, "strip has triangles at odd places alone", "strips have triangles at odd places alone",
+          ": not turned round, as the format would have it");
   addNote(notes, zero_, "primitive has positions without bytes", "primitives have positions without bytes",
           ": all of them are 0");
   addNote(notes, uncharted_, "primitive lacks the texture coordinates that its material names",

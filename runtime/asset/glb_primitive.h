@@ -83,7 +83,7 @@ class GlbMeshes {
   GlbSkins skins_;
   std::vector<Mesh> meshes_;
   TriangleMesh mesh_;
-  NotedPlaces lines_, placeless_, zero_, uncharted_, unbound_;
+  NotedPlaces lines_, placeless_, unruly_, zero_, uncharted_, unbound_;
 };
 
 }  // namespace sgm::asset

@@ -11,6 +11,7 @@
 #include "asset/glb_primitive.h"
 #include "asset/glb_scene.h"
 #include "asset/json_reader.h"
+#include "asset/mesh_notes.h"
 #include "asset/text_reader.h"
 
 namespace sgm::asset {
@@ -77,9 +78,14 @@ Result<void> checkExtensions(const JsonValue& root, std::vector<std::string>& no
   for (const JsonValue& extension : required)
     if (!isIn(kDone, extension.text) && !isHarmless(extension.text))
       return wrongInJson("it needs the extension " + shown(extension.text), "/extensionsRequired");
+  NotedPlaces unknown;
   for (const JsonValue& extension : root.list("extensionsUsed"))
     if (!isIn(kDone, extension.text) && !isHarmless(extension.text) && !isIn(kPacking, extension.text))
-      notes.push_back("it uses the extension " + shown(extension.text) + ", which is left out");
+      unknown.add([&] { return shown(extension.text); });
+  if (unknown.count > 0)
+    notes.push_back(counted(unknown.count, "extension that it uses is left out, ",
+                            "extensions that it uses are left out, the first ") +
+                    unknown.first);
   return {};
 }
 
@@ -95,9 +101,9 @@ bool uses(const JsonValue& root, std::string_view extension) {
 Result<TriangleMesh> readGlb(std::span<const std::byte> bytes, const MeshLimits& limits) {
   Result<GlbContainer> file = openGlb(bytes);
   if (!file) return file.error();
-  // Of glTF as text the numbers are in the JSON too.
+  // Of glTF as text the numbers may be in the JSON too, within few values.
   if (!file->is_text && file->json.size() > limits.json_bytes) return overLimit(limits.json_bytes, "bytes of JSON");
-  const Result<JsonValue> root = readJson(file->json);
+  const Result<JsonValue> root = readJson(file->json, limits.json_bytes / 2 + 1);
   if (!root) return root.error();
   std::vector<std::string> notes = std::move(file->notes);
   if (Result<void> fine = checkExtensions(*root, notes); !fine) return fine.error();

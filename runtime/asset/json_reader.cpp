@@ -15,12 +15,14 @@ constexpr double kLargestWhole = 9007199254740992.0;
 
 class JsonParser {
  public:
-  explicit JsonParser(std::string_view text) : text_(text) {}
+  JsonParser(std::string_view text, size_t most_values) : text_(text), most_values_(most_values) {}
 
   Result<JsonValue> run() {
     JsonValue value = parse(0);
     skip();
     if (!failed_ && at_ < text_.size()) fail("more text behind the value");
+    if (values_ > most_values_)
+      return Error{Code::limit, "it has more than " + std::to_string(most_values_) + " values of JSON", 0, 0};
     if (failed_) return Error{Code::bad_input, message_, 0, 0};
     return value;
   }
@@ -53,7 +55,9 @@ class JsonParser {
   JsonValue parse(int depth) {
     JsonValue value;
     skip();
-    if (depth > kDeepest) {
+    if (++values_ > most_values_) {
+      fail("too many values");
+    } else if (depth > kDeepest) {
       fail("values within values, too deep,");
     } else if (at_ >= text_.size()) {
       fail("a value is missing");
@@ -180,7 +184,7 @@ class JsonParser {
   }
 
   std::string_view text_;
-  size_t at_ = 0;
+  size_t at_ = 0, values_ = 0, most_values_;
   bool failed_ = false;
   std::string message_;
 };
@@ -211,6 +215,6 @@ std::optional<size_t> JsonValue::whole() const {
   return static_cast<size_t>(number);
 }
 
-Result<JsonValue> readJson(std::string_view text) { return JsonParser(text).run(); }
+Result<JsonValue> readJson(std::string_view text, size_t most_values) { return JsonParser(text, most_values).run(); }
 
 }  // namespace sgm::asset

@@ -3,6 +3,7 @@
 // other; strict (RFC 8259), bounded in depth, linear in time and memory.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,7 +35,8 @@ class JsonValue {
   std::optional<size_t> whole() const;
 };
 
-/// Errors: bad_input, with the byte in the message.
-Result<JsonValue> readJson(std::string_view text);
+/// A value takes some hundred bytes of memory, and may take two of text. Errors: bad_input, with the byte in the
+/// message; limit, for more than `most_values`.
+Result<JsonValue> readJson(std::string_view text, size_t most_values = SIZE_MAX);
 
 }  // namespace sgm::asset

@@ -273,7 +273,7 @@ class ObjReader {
   }
 
   [[gnu::noinline]] void neverThere(Reach& reach) {
-    reach.never.add([&] { return lineText(text_.line()); });
+    reach.never.add([&] { return "those at " + lineText(text_.line()); });
   }
 
   [[gnu::always_inline]] bool triangle(const Corner& a, const Corner& b, const Corner& c) {
@@ -296,19 +296,24 @@ class ObjReader {
   /// Corners that name values which the file does not have are left without.
   template <class Value>
   void dropMissing(CornerValues<Value>& of, const Reach& reach, std::string_view what) {
+    const size_t there = of.values.size();
     NotedPlaces missing = reach.never;
-    if (reach.number > of.values.size()) {
-      const size_t there = of.values.size();
+    if (reach.number > there) {
       for (Corners& triangle : of.corners)
         for (uint32_t& corner : triangle)
           if (corner != kNoValue && corner >= there) {
             corner = kNoValue;
-            missing.add([&] { return lineText(reach.line); });
+            ++missing.count;
           }
       if (there == 0) of.corners.clear();
+      missing.first = "number " + std::to_string(reach.number) + " at " + lineText(reach.line);
     }
-    addNote(mesh_.notes, missing, "corner of a face names " + std::string(what) + " that the file does not have",
-            "corners of faces name " + std::string(what) + " that the file does not have", ": read without");
+    if (missing.count == 0) return;
+    mesh_.notes.push_back(counted(missing.count, "corner of a face names ", "corners of faces name ")
+                              .append(what)
+                              .append(" that the file does not have, such as ")
+                              .append(missing.first)
+                              .append(": read without"));
   }
 
   TextReader text_;

@@ -223,6 +223,7 @@ class PlyBodyReader {
 
   /// Of `face` or of `tristrips`.
   Result<void> faces(const PlyElement& element) {
+    if (element.count == 0) return {};
     const size_t count = element.properties.size();
     const size_t list = std::min(element.find("vertex_indices"), element.find("vertex_index"));
     if (list == count || !element.properties[list].count || element.properties[list].type >= PlyType::float32)

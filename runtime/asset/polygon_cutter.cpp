@@ -70,7 +70,7 @@ Result<void> PolygonCutter::finish() {
   for (const Polygon& polygon : later_)
     if (Result<void> done = cut(polygon); !done) return done;
   addNote(mesh_.notes, crossed_, "polygon crosses itself or has no area", "polygons cross themselves or have no area",
-          ": the triangles made of it may overlap");
+          ": triangles may overlap there");
   return {};
 }
 

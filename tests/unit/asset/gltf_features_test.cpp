@@ -86,6 +86,12 @@ TEST_CASE("glTF: strips and fans of triangles", "[asset][gltf]") {
   // Corners that stand twice lead on to the next strip and are no triangles.
   const TriangleMesh led = with(5, {0, 2, 1, 1, 0, 0, 1, 3});
   CHECK(led.triangles == std::vector<std::array<uint32_t, 3>>{{0, 2, 1}, {0, 3, 1}});
+  // Single triangles that are stitched together, each at an odd place: as they stand, with a note.
+  const TriangleMesh unruly = with(5, {0, 0, 2, 1, 1, 1, 0, 0, 1, 3, 3, 3, 1, 1, 2, 3, 3, 3, 2, 2, 0, 3});
+  CHECK(volumeOf(unruly) == Approx(1.0 / 6));
+  CHECK(unruly.notes == Notes{"1 strip has triangles at odd places alone, at /meshes/0/primitives/0 of its JSON: not "
+                              "turned round, as the format would have it"});
+  CHECK(led.notes.empty());
   const TriangleMesh fan = with(6, {3, 0, 1, 2, 0});
   CHECK(fan.triangles == std::vector<std::array<uint32_t, 3>>{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
   // Mirrored, they still look out.
@@ -451,7 +457,7 @@ TEST_CASE("glTF: extensions that change no triangles are accepted, others refuse
   }
   CHECK(gltf(with("extensionsUsed", "EXT_meshopt_compression")).notes.empty());
   CHECK(gltf(with("extensionsUsed", "ACME_displacement")).notes ==
-        Notes{"it uses the extension `ACME_displacement`, which is left out"});
+        Notes{"1 extension that it uses is left out, `ACME_displacement`"});
   // What is packed and has no plain numbers beside is no mesh of zeros.
   GltfBuilder packed;
   packed.accessor("VEC3", 5126, 8, "");
@@ -490,6 +496,7 @@ TEST_CASE("glTF: files that are not padded, and bytes behind the end, are read w
     CHECK(mesh.notes == Notes{"the length of a part is not a multiple of 4 (" + length + "), at byte 12"});
   }
   const std::string even = json + "  ";
+  CHECK(gltf(join("\xEF\xBB\xBF" + json + "   ", true, "")).notes.empty());
   const std::string whole = join(even, true, "");
   CHECK(gltf(whole).notes.empty());
   const TriangleMesh behind = gltf(whole + "abc");
@@ -516,5 +523,13 @@ TEST_CASE("glTF: text with its numbers in itself is read; other files are not op
         "buffer 0 has a `data:` URI that is not base64, at /buffers/0 of its JSON");
   CHECK(gltfRefusal(file.json(uri("cube.bin"))) ==
         "buffer 0 lies in another file, `cube.bin`, at /buffers/0 of its JSON");
+  // Its JSON may be long, and yet not hold many values, which take memory.
+  std::string many = file.json(uri("data:;base64," + coded));
+  many.insert(1, R"("extras":[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0],)");
+  CHECK(volumeOf(gltf(many)) == 8);
+  const auto capped = readGlb(std::as_bytes(std::span(many)), {.json_bytes = 100});
+  REQUIRE(!capped);
+  CHECK(capped.error().code == Code::limit);
+  CHECK(capped.error().message == "it has more than 51 values of JSON");
   CHECK(gltfRefusal(file.json()) == "buffer 0 has no bytes in the file, at /buffers/0 of its JSON");
 }

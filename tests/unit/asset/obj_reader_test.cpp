@@ -171,9 +171,9 @@ TEST_CASE("an OBJ file's concave polygons are cut, and crossing ones noted", "[a
     }
   }
   const TriangleMesh crossed = objOf(kSquare + "f 1 2 4 3\nf 1 2 3 4\nf 1 3 2 4\n");
-  CHECK(crossed.notes == std::vector<std::string>{
-                             "2 polygons cross themselves or have no area, the first at line 5: the triangles made of "
-                             "it may overlap"});
+  CHECK(crossed.notes ==
+        std::vector<std::string>{
+            "2 polygons cross themselves or have no area, the first at line 5: triangles may overlap there"});
   // A corner that stands twice in a row is one.
   CHECK(objOf(kSquare + "f 1 1 2 3 3 4 1").triangles == Triangles{{0, 1, 2}, {0, 2, 3}});
   CHECK(objOf(kSquare + "f 1 1 2 2").triangles.size() == 2);
@@ -187,16 +187,23 @@ TEST_CASE("an OBJ file's references to what is not there are read with a note", 
   CHECK(empty.normals.empty());
   const TriangleMesh without = objOf(kSquare + "f 1/1 2/2 3/3\n");
   CHECK(without.coordinates.empty());
-  CHECK(without.notes == Notes{"3 corners of faces name texture coordinates that the file does not have, the first at "
-                               "line 5: read without"});
+  CHECK(without.notes ==
+        Notes{"3 corners of faces name texture coordinates that the file does not have, such as number "
+              "3 at line 5: read without"});
   const TriangleMesh some = objOf(kSquare + "vt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/0\nf 1//-2 2//9 3//1\n");
   CHECK(some.coordinatesAt(0, 0) == TextureCoordinates{1, 1});
   CHECK(some.coordinatesAt(0, 1) == TextureCoordinates{});
   CHECK(some.normalAt(1, 2) == Normal{0, 0, 1});
   CHECK(some.normalAt(1, 1) == Normal{});
   CHECK(some.notes ==
-        Notes{"3 corners of faces name normals that the file does not have, the first at line 7: read without",
-              "1 corner of a face names texture coordinates that the file does not have, at line 7: read without"});
+        Notes{"3 corners of faces name normals that the file does not have, such as number 9 at line 8: "
+              "read without",
+              "1 corner of a face names texture coordinates that the file does not have, such as number 2 "
+              "at line 7: read without"});
+  const TriangleMesh never = objOf(kSquare + "vn 0 0 1\nf 1//1 2//0 3//1\n");
+  CHECK(never.notes ==
+        Notes{"1 corner of a face names normals that the file does not have, such as those at line 6: read "
+              "without"});
 }
 
 TEST_CASE("what an OBJ file has beside faces is left out with a note", "[asset][obj]") {
