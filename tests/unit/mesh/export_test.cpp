@@ -318,7 +318,7 @@ TEST_CASE("OBJ reads back, with its materials", "[mesh][export]") {
 }
 
 TEST_CASE("the materials of an .obj lie in a file whose name every reader finds", "[mesh][export]") {
-  const TemporaryFolder folder;
+  const Folder folder;
   const auto libraryOf = [&](const std::string& name) {
     const fs::path obj = folder.path / name;
     REQUIRE(exportMesh(WorldMesh(), {}, obj));
