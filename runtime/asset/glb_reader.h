@@ -15,9 +15,12 @@ namespace sgm::asset {
 inline constexpr std::string_view kGlbAdvice =
     "save it as binary glTF 2.0 (.glb), all in one file, as triangles, uncompressed";
 
-/// The triangles of the file's scene (of all nodes, where it has none), moved as its nodes say, with NORMAL and
-/// TEXCOORD_0 (zero for primitives that have none, where others have); of materials their names. Skins, morph targets,
-/// cameras and lights are left out. Errors: bad_input, with the JSON pointer or the byte in the message; limit.
+/// The triangles of the file's scene (of all nodes, if it has none): triangles, strips and fans, morphed by the default
+/// weights, held by their skins or moved as their nodes say, with NORMAL and the texture coordinates that the
+/// material's first texture names (zero for primitives that have none, if others have); of materials their names. Also
+/// glTF as JSON text whose buffers are `data:` URIs. Notes tell of lines and points, hidden nodes, other scenes and
+/// extensions that are left out, and of what is not as the format demands. Cameras, lights and animations are left out.
+/// Errors: bad_input, with the JSON pointer or the byte in the message; limit.
 Result<TriangleMesh> readGlb(std::span<const std::byte> bytes, const MeshLimits& limits = {});
 
 }  // namespace sgm::asset

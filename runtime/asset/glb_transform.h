@@ -2,6 +2,9 @@
 // How a GLB file's node moves what it shows.
 
 #include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
 
 #include "asset/json_reader.h"
 #include "asset/mesh_limits.h"
@@ -30,7 +33,24 @@ struct GlbTransform {
   }
 };
 
+/// Of a translation, a rotation as a quaternion of any length but 0 (x, y, z, w), and a scale.
+GlbTransform glbTransformOf(Point translation, const std::array<double, 4>& rotation, Point scale);
+/// Of a matrix, column by column; nullopt if it is not affine.
+std::optional<GlbTransform> glbTransformOf(const std::array<double, 16>& matrix);
 /// Of node `number`, by its matrix or by its translation, rotation and scale. Error: bad_input.
 Result<GlbTransform> glbTransformOf(const JsonValue& node, size_t number);
+
+/// Reads as many numbers as there are in `out`; false if the member is something else. Leaves `out` if it is missing.
+template <size_t N>
+bool readNumbers(const JsonValue& of, std::string_view name, std::array<double, N>& out) {
+  if (of.find(name) == nullptr) return true;
+  const auto list = of.list(name);
+  if (list.size() != N) return false;
+  for (size_t i = 0; i < N; ++i) {
+    if (list[i].kind != JsonValue::Kind::number || !(std::fabs(list[i].number) <= 1e9)) return false;
+    out[i] = list[i].number;
+  }
+  return true;
+}
 
 }  // namespace sgm::asset

@@ -15,12 +15,14 @@ constexpr double kLargestWhole = 9007199254740992.0;
 
 class JsonParser {
  public:
-  explicit JsonParser(std::string_view text) : text_(text) {}
+  JsonParser(std::string_view text, size_t most_values) : text_(text), most_values_(most_values) {}
 
   Result<JsonValue> run() {
     JsonValue value = parse(0);
     skip();
     if (!failed_ && at_ < text_.size()) fail("more text behind the value");
+    if (values_ > most_values_)
+      return Error{Code::limit, "it has more than " + std::to_string(most_values_) + " values of JSON", 0, 0};
     if (failed_) return Error{Code::bad_input, message_, 0, 0};
     return value;
   }
@@ -53,7 +55,9 @@ class JsonParser {
   JsonValue parse(int depth) {
     JsonValue value;
     skip();
-    if (depth > kDeepest) {
+    if (++values_ > most_values_) {
+      fail("too many values");
+    } else if (depth > kDeepest) {
       fail("values within values, too deep,");
     } else if (at_ >= text_.size()) {
       fail("a value is missing");
@@ -136,25 +140,6 @@ class JsonParser {
     return code;
   }
 
-  static void append(std::string& out, uint32_t code) {
-    const auto put = [&](uint32_t byte) { out += static_cast<char>(static_cast<unsigned char>(byte)); };
-    if (code < 0x80) {
-      put(code);
-    } else if (code < 0x800) {
-      put(0xC0 | code >> 6);
-      put(0x80 | (code & 63));
-    } else if (code < 0x10000) {
-      put(0xE0 | code >> 12);
-      put(0x80 | (code >> 6 & 63));
-      put(0x80 | (code & 63));
-    } else {
-      put(0xF0 | code >> 18);
-      put(0x80 | (code >> 12 & 63));
-      put(0x80 | (code >> 6 & 63));
-      put(0x80 | (code & 63));
-    }
-  }
-
   void escaped(std::string& out) {
     const char c = at_ < text_.size() ? text_[at_++] : '\0';
     constexpr std::string_view kNamed = "\"\\/bfnrt", kMeant = "\"\\/\b\f\n\r\t";
@@ -170,7 +155,7 @@ class JsonParser {
       code = pair ? std::optional(0x10000 + ((*code - 0xD800) << 10) + (*low - 0xDC00)) : std::nullopt;
     }
     if (!code || (*code >= 0xD800 && *code < 0xE000)) return fail("an escape that JSON does not have");
-    append(out, *code);
+    appendUtf8(out, *code);
   }
 
   std::string string() {
@@ -199,7 +184,7 @@ class JsonParser {
   }
 
   std::string_view text_;
-  size_t at_ = 0;
+  size_t at_ = 0, values_ = 0, most_values_;
   bool failed_ = false;
   std::string message_;
 };
@@ -221,12 +206,15 @@ std::span<const JsonValue> JsonValue::list(std::string_view name) const {
 
 std::optional<size_t> JsonValue::count(std::string_view name) const {
   const JsonValue* member = find(name);
-  if (member == nullptr || member->kind != Kind::number) return std::nullopt;
-  const double value = member->number;
-  if (!(value >= 0 && value <= kLargestWhole) || value != std::floor(value)) return std::nullopt;
-  return static_cast<size_t>(value);
+  return member == nullptr ? std::nullopt : member->whole();
 }
 
-Result<JsonValue> readJson(std::string_view text) { return JsonParser(text).run(); }
+std::optional<size_t> JsonValue::whole() const {
+  if (kind != Kind::number || !(number >= 0 && number <= kLargestWhole) || number != std::floor(number))
+    return std::nullopt;
+  return static_cast<size_t>(number);
+}
+
+Result<JsonValue> readJson(std::string_view text, size_t most_values) { return JsonParser(text, most_values).run(); }
 
 }  // namespace sgm::asset

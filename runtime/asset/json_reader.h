@@ -3,6 +3,7 @@
 // other; strict (RFC 8259), bounded in depth, linear in time and memory.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,9 +31,12 @@ class JsonValue {
   std::span<const JsonValue> list(std::string_view name) const;
   /// A member that is a whole number from 0 to 2^53; nothing where it is missing or something else.
   std::optional<size_t> count(std::string_view name) const;
+  /// Itself as a whole number from 0 to 2^53; nullopt if it is something else.
+  std::optional<size_t> whole() const;
 };
 
-/// Errors: bad_input, with the byte in the message.
-Result<JsonValue> readJson(std::string_view text);
+/// A value takes some hundred bytes of memory, and may take two of text. Errors: bad_input, with the byte in the
+/// message; limit, for more than `most_values`.
+Result<JsonValue> readJson(std::string_view text, size_t most_values = SIZE_MAX);
 
 }  // namespace sgm::asset

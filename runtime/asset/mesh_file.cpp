@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
+#include <utility>
 
+#include "asset/foreign_file.h"
+#include "asset/glb_container.h"
 #include "asset/glb_reader.h"
 #include "asset/mesh_origin.h"
 #include "asset/obj_reader.h"
 #include "asset/ply_reader.h"
 #include "asset/stl_reader.h"
+#include "asset/text_encoding.h"
 #include "asset/text_reader.h"
 
 namespace sgm::asset {
@@ -16,6 +20,7 @@ namespace sgm::asset {
 namespace {
 
 constexpr std::string_view kKindNames[] = {"glb", "obj", "ply", "stl"};
+constexpr std::string_view kKindTitles[] = {"glTF", "OBJ", "PLY", "STL"};
 
 Result<TriangleMesh> readKind(std::span<const std::byte> bytes, MeshFileKind kind, const MeshLimits& limits) {
   switch (kind) {
@@ -33,7 +38,7 @@ Result<TriangleMesh> readKind(std::span<const std::byte> bytes, MeshFileKind kin
 
 /// Whether the first line that is no comment is one of an OBJ file.
 bool beginsAsObj(std::string_view text) {
-  constexpr std::string_view kFirst[] = {"v", "vt", "vn", "mtllib", "usemtl", "o", "g", "s"};
+  constexpr std::string_view kFirst[] = {"v", "vt", "vn", "mtllib", "usemtl", "o", "g", "s", "f", "l", "p"};
   TextReader reader(text);
   std::string_view word = reader.word();
   while ((word.empty() || word[0] == '#') && reader.nextLine()) word = reader.word();
@@ -46,17 +51,19 @@ Result<MeshFileKind> meshFileKind(std::string_view path) {
   std::string end(path.substr(std::min(path.size(), path.find_last_of("./\\"))));
   for (char& c : end)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (end == ".gltf") return MeshFileKind::glb;
   for (size_t i = 0; i < std::size(kKindNames); ++i)
     if (end == "." + std::string(kKindNames[i])) return static_cast<MeshFileKind>(i);
   return Error{Code::invalid_argument,
-               std::string(path) + ": no mesh format that we can read; .glb, .obj, .ply and .stl are", 0, 0};
+               std::string(path) + ": no mesh format that we can read; .glb, .gltf, .obj, .ply and .stl are", 0, 0};
 }
 
 std::optional<MeshFileKind> meshFileKind(std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.starts_with("glTF")) return MeshFileKind::glb;
-  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return MeshFileKind::ply;
-  if (isBinaryStl(bytes) || text.starts_with("solid")) return MeshFileKind::stl;
+  if (text.starts_with("ply") && TextReader(text).rest() == "ply") return MeshFileKind::ply;
+  if (isBinaryStl(bytes) || isTextStl(bytes)) return MeshFileKind::stl;
+  if (beginsAsGltf(text)) return MeshFileKind::glb;
   if (beginsAsObj(text)) return MeshFileKind::obj;
   return std::nullopt;
 }
@@ -75,13 +82,35 @@ std::string_view meshFileAdvice(MeshFileKind kind) {
   return {};
 }
 
-Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, MeshFileKind kind, const MeshLimits& limits) {
-  Result<TriangleMesh> mesh = readKind(bytes, kind, limits);
-  if (mesh) mesh->origin = originOf(bytes);
+Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, MeshFileKind& kind, const MeshLimits& limits) {
+  if (bytes.empty()) return Error{Code::bad_input, "it is empty", 0, 0};
+  // What is binary by its beginning or its size is no text, whatever it begins with.
+  std::optional<MeshFileKind> found = isBinaryStl(bytes) ? std::optional(MeshFileKind::stl) : std::nullopt;
+  const DecodedText decoded(found ? std::span<const std::byte>() : bytes);
+  const std::span<const std::byte> content = found ? bytes : decoded.bytes();
+  if (!found) found = meshFileKind(content);
+  if (!found)
+    if (const std::string_view foreign = foreignFile(content); !foreign.empty())
+      return Error{Code::bad_input, "it is " + std::string(foreign), 0, 0};
+  const MeshFileKind named = std::exchange(kind, found.value_or(kind));
+  Result<TriangleMesh> mesh = readKind(content, kind, limits);
+  if (!mesh) return mesh;
+  mesh->origin = originOf(content);
+  mesh->in_metres = kind == MeshFileKind::glb;
+  if (kind != named)
+    mesh->notes.insert(mesh->notes.begin(), "by its bytes it is " +
+                                                std::string(kKindTitles[static_cast<size_t>(kind)]) + ", not " +
+                                                std::string(kKindTitles[static_cast<size_t>(named)]) +
+                                                " as its name or type says, and is read as such");
+  return mesh;
+}
+
+Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, MeshFileKind named, const MeshLimits& limits) {
+  Result<TriangleMesh> mesh = readMeshOf(bytes, named, limits);
   if (mesh || mesh.error().code == Code::invalid_argument) return mesh;
   Error error = mesh.error();
   error.message.append("; ").append(error.code == Code::limit ? "simplify it, or split it into several files"
-                                                              : meshFileAdvice(kind));
+                                                              : meshFileAdvice(named));
   return error;
 }
 

@@ -1,10 +1,13 @@
 #include "asset/obj_reader.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "asset/mesh_notes.h"
+#include "asset/polygon_cutter.h"
 #include "asset/text_reader.h"
 
 namespace sgm::asset {
@@ -14,6 +17,18 @@ namespace {
 using Corners = std::array<uint32_t, 3>;
 
 constexpr uint32_t kNoValue = 0xFFFFFFFFu;
+
+/// Words that begin lines without triangles, so that leaving these out changes nothing.
+constexpr std::string_view kIdleWords[] = {
+    "g",   "o",     "s",     "mg",         "mtllib",    "maplib", "usemap", "bevel", "c_interp", "d_interp", "lod",
+    "vp",  "step",  "bmat",  "deg",        "cstype",    "parm",   "trim",   "hole",  "scrv",     "sp",       "end",
+    "con", "ctech", "stech", "shadow_obj", "trace_obj", "bsp",    "bzp",    "cdc",   "cdp",      "res"};
+constexpr std::string_view kCurveWords[] = {"curv", "curv2", "surf"};
+
+template <size_t N>
+bool isIn(const std::string_view (&words)[N], std::string_view word) {
+  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
 
 /// The values of corners, or of points where all corners of each point have the same one; zero where there is none.
 template <class Value>
@@ -55,20 +70,26 @@ class ObjReader {
       if (!line(keyword)) return *error_;
       plain = keyword.starts_with('#');
     } while (text_.nextLine(plain));
-    if (!reaches(point_reach_, mesh_.points.size(), "point") ||
-        !reaches(normal_reach_, mesh_.normals.values.size(), "normal") ||
-        !reaches(coordinates_reach_, mesh_.coordinates.values.size(), "texture coordinates"))
-      return *error_;
+    if (point_reach_.number > mesh_.points.size())
+      return wrongAtLine("a face names point " + std::to_string(point_reach_.number) + ", and the file has " +
+                             std::to_string(mesh_.points.size()),
+                         point_reach_.line);
     if (mesh_.triangles.empty()) return Error{Code::bad_input, "it has no faces", 0, 0};
+    dropMissing(mesh_.normals, normal_reach_, "normals");
+    dropMissing(mesh_.coordinates, coordinates_reach_, "texture coordinates");
+    if (Result<void> done = cutter_.finish(); !done) return done.error();
+    addNotes();
     settleByPoint(mesh_.normals, mesh_.triangles, mesh_.points.size());
     settleByPoint(mesh_.coordinates, mesh_.triangles, mesh_.points.size());
     return std::move(mesh_);
   }
 
  private:
-  /// The highest number that faces have named so far, and where: what it names may come later.
+  /// The highest number that faces have named so far, and where: what it names may come later. And the numbers that can
+  /// name nothing.
   struct Reach {
     size_t number = 0, line = 0;
+    NotedPlaces never;
   };
   struct Corner {
     uint32_t point = kNoValue, coordinates = kNoValue, normal = kNoValue;
@@ -89,8 +110,35 @@ class ObjReader {
     if (keyword == "vn") return normal();
     if (keyword == "vt") return textureCoordinates();
     if (keyword == "usemtl") return material();
-    return keyword.empty() || keyword[0] == '#' || isName(keyword) ||
-           fail(shown(keyword) + " begins no line of an OBJ file");
+    if (keyword.empty() || keyword[0] == '#' || isIn(kIdleWords, keyword)) return true;
+    if (keyword == "fo") return face();
+    return otherLine(keyword);
+  }
+
+  [[gnu::noinline]] bool otherLine(std::string_view keyword) {
+    const auto here = [&] { return lineText(text_.line()); };
+    if (keyword == "l" || keyword == "p") {
+      lines_.add(here);
+    } else if (isIn(kCurveWords, keyword)) {
+      curves_.add(here);
+    } else if (keyword == "call" || keyword == "csh") {
+      calls_.add(here);
+    } else if (isName(keyword)) {
+      unknown_.add([&] { return here() + ", " + shown(keyword); });
+    } else {
+      return fail(shown(keyword) + " begins no line of an OBJ file");
+    }
+    return true;
+  }
+
+  void addNotes() {
+    addNote(mesh_.notes, lines_, "element of lines or points is left out", "elements of lines or points are left out");
+    addNote(mesh_.notes, curves_, "curve or surface is left out", "curves and surfaces are left out",
+            ": save it as polygons to have them");
+    addNote(mesh_.notes, calls_, "call of another file or a command is left out",
+            "calls of other files or commands are left out");
+    addNote(mesh_.notes, unknown_, "line begins with a word that OBJ does not have and is left out",
+            "lines begin with words that OBJ does not have and are left out");
   }
 
   static bool isName(std::string_view word) {
@@ -152,39 +200,57 @@ class ObjReader {
   }
 
   bool face() {
-    Corner first, last, next;
-    size_t count = 0;
-    for (;; ++count) {
-      const std::string_view word = text_.word();
-      if (word.empty() || word[0] == '#') break;
-      if (!corner(word, next)) return false;
-      if (count == 0) first = next;
-      if (count >= 2 && !triangle(first, last, next)) return false;
-      last = next;
+    // Most are triangles.
+    std::array<Corner, 3> first;
+    std::string_view word;
+    const auto more = [&] {
+      word = text_.word();
+      return !word.empty() && word[0] != '#';
+    };
+    for (Corner& one : first) {
+      if (!more()) return fail("a face has fewer than three corners");
+      if (!corner(word, one)) return false;
     }
-    return count >= 3 || fail("a face has fewer than three corners");
+    if (!more()) return triangle(first[0], first[1], first[2]);
+    corners_.assign(first.begin(), first.end());
+    for (Corner next; !word.empty() && word[0] != '#'; word = text_.word()) {
+      if (!corner(word, next)) return false;
+      corners_.push_back(next);
+    }
+    return polygon();
   }
 
-  /// `point`, `point/coordinates`, `point//normal` or `point/coordinates/normal`.
-  bool corner(std::string_view word, Corner& out) {
+  bool polygon() {
+    dropRepeatedCorners(corners_, [](const Corner& a, const Corner& b) { return a.point == b.point; });
+    for (size_t k = 2; k < corners_.size(); ++k)
+      if (!triangle(corners_[0], corners_[k - 1], corners_[k])) return false;
+    if (corners_.size() == 3) return true;
+    Result<void> cut = cutter_.add(corners_.size(), text_.line());
+    if (!cut) error_ = cut.error();
+    return bool(cut);
+  }
+
+  /// `point`, `point/coordinates`, `point//normal` or `point/coordinates/normal`; behind a slash there may be nothing.
+  [[gnu::always_inline]] bool corner(std::string_view word, Corner& out) {
     out = {};
     const char *at = word.data(), *const end = at + word.size();
-    bool good = number(at, end, mesh_.points.size(), point_reach_, out.point);
+    bool good = number(at, end, mesh_.points.size(), point_reach_, out.point) && out.point != kNoValue;
     if (good && at < end && *at == '/') {
       ++at;
       if (at < end && *at != '/')
         good = number(at, end, mesh_.coordinates.values.size(), coordinates_reach_, out.coordinates);
       if (good && at < end && *at == '/') {
         ++at;
-        good = number(at, end, mesh_.normals.values.size(), normal_reach_, out.normal);
+        if (at < end) good = number(at, end, mesh_.normals.values.size(), normal_reach_, out.normal);
       }
     }
     if (good && at == end) return true;
     return fail(shown(word) + " is no corner of a face");
   }
 
-  /// A number from 1, or from -1 backwards from what is `there` so far.
-  bool number(const char*& at, const char* end, size_t there, Reach& reach, uint32_t& out) {
+  /// A number from 1, or from -1 backwards from what is `there` so far. False if there are no digits; kNoValue of a
+  /// number that can name nothing.
+  [[gnu::always_inline]] bool number(const char*& at, const char* end, size_t there, Reach& reach, uint32_t& out) {
     // By hand: half of a file is such numbers. Longer ones than any that fits in 32 bits end as too large.
     const bool backwards = at < end && *at == '-';
     if (backwards) ++at;
@@ -194,13 +260,23 @@ class ObjReader {
     if (at == digits) return false;
     if (backwards) given = -given;
     if (given < 0) given += static_cast<int64_t>(there) + 1;
-    if (given <= 0 || given >= int64_t{kNoValue}) return false;
+    if (given <= 0 || given >= int64_t{kNoValue}) {
+      neverThere(reach);
+      return true;
+    }
     out = static_cast<uint32_t>(given - 1);
-    if (static_cast<size_t>(given) > reach.number) reach = {static_cast<size_t>(given), text_.line()};
+    if (static_cast<size_t>(given) > reach.number) {
+      reach.number = static_cast<size_t>(given);
+      reach.line = text_.line();
+    }
     return true;
   }
 
-  bool triangle(const Corner& a, const Corner& b, const Corner& c) {
+  [[gnu::noinline]] void neverThere(Reach& reach) {
+    reach.never.add([&] { return "those at " + lineText(text_.line()); });
+  }
+
+  [[gnu::always_inline]] bool triangle(const Corner& a, const Corner& b, const Corner& c) {
     if (mesh_.triangles.size() >= limits_.triangles) return failLimit(limits_.triangles, "triangles");
     addCorners(mesh_.normals.corners, {a.normal, b.normal, c.normal});
     addCorners(mesh_.coordinates.corners, {a.coordinates, b.coordinates, c.coordinates});
@@ -210,19 +286,34 @@ class ObjReader {
   }
 
   /// Nothing is kept before the first face that has any.
-  void addCorners(std::vector<Corners>& list, const Corners& corners) {
+  [[gnu::always_inline]] void addCorners(std::vector<Corners>& list, const Corners& corners) {
     constexpr Corners kNone{kNoValue, kNoValue, kNoValue};
     if (list.empty() && corners == kNone) return;
     list.resize(mesh_.triangles.size(), kNone);
     list.push_back(corners);
   }
 
-  bool reaches(const Reach& reach, size_t there, std::string_view of_what) {
-    if (reach.number <= there) return true;
-    error_ = wrongAtLine("a face names " + std::string(of_what) + " " + std::to_string(reach.number) +
-                             ", and the file has " + std::to_string(there),
-                         reach.line);
-    return false;
+  /// Corners that name values which the file does not have are left without.
+  template <class Value>
+  void dropMissing(CornerValues<Value>& of, const Reach& reach, std::string_view what) {
+    const size_t there = of.values.size();
+    NotedPlaces missing = reach.never;
+    if (reach.number > there) {
+      for (Corners& triangle : of.corners)
+        for (uint32_t& corner : triangle)
+          if (corner != kNoValue && corner >= there) {
+            corner = kNoValue;
+            ++missing.count;
+          }
+      if (there == 0) of.corners.clear();
+      missing.first = "number " + std::to_string(reach.number) + " at " + lineText(reach.line);
+    }
+    if (missing.count == 0) return;
+    mesh_.notes.push_back(counted(missing.count, "corner of a face names ", "corners of faces name ")
+                              .append(what)
+                              .append(" that the file does not have, such as ")
+                              .append(missing.first)
+                              .append(": read without"));
   }
 
   TextReader text_;
@@ -231,16 +322,16 @@ class ObjReader {
   std::map<std::string, uint32_t> materials_;
   uint32_t material_ = kNoMaterial;
   Reach point_reach_, normal_reach_, coordinates_reach_;
+  std::vector<Corner> corners_;
+  PolygonCutter cutter_{mesh_, "line"};
+  NotedPlaces lines_, curves_, calls_, unknown_;
   std::optional<Error> error_;
 };
 
 }  // namespace
 
 Result<TriangleMesh> readObj(std::span<const std::byte> bytes, const MeshLimits& limits) {
-  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; text.starts_with(kByteOrderMark))
-    text.remove_prefix(kByteOrderMark.size());
-  return ObjReader(text, limits).run();
+  return ObjReader({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, limits).run();
 }
 
 }  // namespace sgm::asset

@@ -71,7 +71,7 @@ class PlyHeaderReader {
     const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (error != std::errc() || stop != count.data() + count.size() || count.empty())
       return wrong(shown(count) + " is no number of elements");
-    const bool known = element.name == "vertex" || element.name == "face";
+    const bool known = element.name == "vertex" || element.name == "face" || element.name == "tristrips";
     for (const PlyElement& other : header_.elements)
       if (known && other.name == element.name) return wrong("it has two elements " + shown(element.name));
     header_.elements.push_back(std::move(element));

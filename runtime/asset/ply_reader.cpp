@@ -2,43 +2,24 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <functional>
 #include <initializer_list>
-#include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "asset/mesh_notes.h"
 #include "asset/ply_header.h"
+#include "asset/ply_values.h"
+#include "asset/polygon_cutter.h"
 #include "asset/text_reader.h"
 
 namespace sgm::asset {
 
 namespace {
-
-/// The numbers of a text, one behind the other; lines play no part but in messages.
-class PlyTextValues {
- public:
-  PlyTextValues(std::string_view file, const PlyHeader& header)
-      : text_(file.substr(header.bytes)), lines_before_(header.lines) {}
-
-  void beginElement() {}
-  bool take(PlyType, double& out) {
-    const std::string_view word = text_.wordOfAnyLine();
-    const std::optional<double> value = numberIn(word);
-    if (!value) problem_ = word.empty() ? "it ends" : "it has " + shown(word) + ", which is no number,";
-    out = value.value_or(0);
-    return value.has_value();
-  }
-  /// Each number takes a digit and a blank.
-  size_t most(const PlyElement& element) const { return (text_.bytesLeft() + 1) / (2 * element.properties.size()); }
-  const std::string& problem() const { return problem_; }
-  Error wrong(std::string_view what) const { return wrongAtLine(what, lines_before_ + text_.line()); }
-
- private:
-  TextReader text_;
-  size_t lines_before_;
-  std::string problem_;
-};
 
 template <class T, bool kBigEndian>
 double numberAt(const std::byte* at) {
@@ -56,8 +37,11 @@ class PlyBinaryValues {
   PlyBinaryValues(std::string_view file, const PlyHeader& header)
       : bytes_(std::as_bytes(std::span(file))), at_(header.bytes), element_(at_) {}
 
-  void beginElement() { element_ = at_; }
-  bool take(PlyType type, double& out) {
+  static constexpr std::string_view kUnit = "byte";
+
+  void beginRecord() { element_ = at_; }
+  bool endRecord() { return true; }
+  [[gnu::always_inline]] bool take(PlyType type, double& out) {
     if (bytes_.size() - at_ < sizeOf(type)) return false;
     const std::byte* const from = bytes_.data() + at_;
     at_ += sizeOf(type);
@@ -95,6 +79,15 @@ class PlyBinaryValues {
     return (bytes_.size() - at_) / least;
   }
   std::string problem() const { return "it ends"; }
+  size_t place() const { return element_; }
+  bool mustReadAll() const { return false; }
+  Result<void> end(bool whole, std::vector<std::string>& notes) {
+    if (whole && at_ < bytes_.size())
+      notes.push_back(
+          counted(bytes_.size() - at_, "byte behind its last element is", "bytes behind its last element are") +
+          " left out, at " + byteText(at_));
+    return {};
+  }
   Error wrong(std::string_view what) const { return wrongAtByte(what, element_); }
 
  private:
@@ -115,35 +108,45 @@ class PlyBodyReader {
     };
     const auto vertices = named("vertex");
     if (vertices == header_.elements.end()) return Error{Code::bad_input, "it has no element `vertex`", 0, 0};
-    if (named("face") == header_.elements.end()) return Error{Code::bad_input, "it has no element `face`", 0, 0};
+    const bool strips = named("tristrips") != header_.elements.end();
+    if (!strips && named("face") == header_.elements.end())
+      return Error{Code::bad_input, "it has no element `face`", 0, 0};
     vertex_count_ = std::min(vertices->count, limits_.mostPoints());
-    for (const PlyElement& element : header_.elements) {
-      if (Result<void> read = elements(element); !read) return read.error();
-      // What comes behind both is nobody's.
-      if (points_read_ && faces_read_) break;
-    }
+    size_t due = 0;  // elements up to the last one that holds points or triangles
+    for (size_t i = 0; i < header_.elements.size(); ++i)
+      if (isRead(header_.elements[i])) due = i + 1;
+    size_t next = 0;
+    for (; next < header_.elements.size() && (next < due || values_.mustReadAll()); ++next)
+      if (Result<void> read = elements(header_.elements[next]); !read) return read.error();
+    const bool whole = next == header_.elements.size();
+    if (Result<void> ended = values_.end(whole, mesh_.notes); !ended) return ended.error();
     if (mesh_.triangles.empty()) return Error{Code::bad_input, "it has no triangles", 0, 0};
+    if (Result<void> done = cutter_.finish(); !done) return done.error();
+    addNote(mesh_.notes, small_, "face has fewer than three corners and is left out",
+            "faces have fewer than three corners and are left out");
     mesh_.materials.assign(mesh_.triangles.size(), kNoMaterial);
     return std::move(mesh_);
   }
 
  private:
+  static bool isRead(const PlyElement& element) {
+    return element.name == "vertex" || element.name == "face" || element.name == "tristrips";
+  }
+
   Result<void> elements(const PlyElement& element) {
-    const bool vertex = element.name == "vertex", face = element.name == "face";
-    points_read_ = points_read_ || vertex;
-    faces_read_ = faces_read_ || face;
-    values_.beginElement();
+    values_.beginRecord();
     if (!element.properties.empty() && element.count > values_.most(element))
       return values_.wrong("it says that it has " + std::to_string(element.count) + " of the element " +
                            shown(element.name) + ", and has bytes for " + std::to_string(values_.most(element)) +
                            " at most");
-    if (vertex) return vertices(element);
-    if (face) return faces(element);
+    if (element.name == "vertex") return vertices(element);
+    if (isRead(element)) return faces(element);
     // Without properties they are nothing, however many.
     for (size_t i = 0; i < element.count && !element.properties.empty(); ++i) {
-      values_.beginElement();
+      values_.beginRecord();
       for (const PlyProperty& p : element.properties)
         if (!skip(p)) return endsWithin(element, i);
+      if (!values_.endRecord()) return endsWithin(element, i);
     }
     return {};
   }
@@ -195,11 +198,12 @@ class PlyBodyReader {
     if (has_coordinates_) mesh_.coordinates.values.reserve(element.count);
     for (size_t i = 0; i < element.count; ++i) {
       double v[kNowhere + 1] = {};
-      values_.beginElement();
+      values_.beginRecord();
       for (size_t p = 0; p < role.size(); ++p) {
         const PlyProperty& property = element.properties[p];
         if (property.count ? !skip(property) : !values_.take(property.type, v[role[p]])) return endsWithin(element, i);
       }
+      if (!values_.endRecord()) return endsWithin(element, i);
       const auto vertex = [&] { return "vertex " + std::to_string(i) + " has "; };
       if (!limits_.isPlace(v[0], v[1], v[2])) return values_.wrong(vertex() + "a position " + noPlaceWithin(limits_));
       mesh_.points.push_back({v[0], v[1], v[2]});
@@ -217,50 +221,89 @@ class PlyBodyReader {
     return {};
   }
 
+  /// Of `face` or of `tristrips`.
   Result<void> faces(const PlyElement& element) {
+    if (element.count == 0) return {};
     const size_t count = element.properties.size();
     const size_t list = std::min(element.find("vertex_indices"), element.find("vertex_index"));
     if (list == count || !element.properties[list].count || element.properties[list].type >= PlyType::float32)
-      return Error{Code::bad_input, "its element `face` has no list `vertex_indices` of whole numbers", 0, 0};
+      return Error{Code::bad_input,
+                   "its element " + shown(element.name) + " has no list `vertex_indices` of whole numbers", 0, 0};
+    const bool strips = element.name == "tristrips";
     mesh_.triangles.reserve(std::min(element.count, limits_.triangles));
     for (size_t i = 0; i < element.count; ++i) {
-      values_.beginElement();
+      values_.beginRecord();
       for (size_t p = 0; p < count; ++p) {
-        if (p != list && !skip(element.properties[p])) return endsWithin(element, i);
+        const PlyProperty& property = element.properties[p];
+        if (p != list && !skip(property)) return endsWithin(element, i);
         if (p != list) continue;
-        if (Result<void> read = face(element, i, element.properties[p]); !read) return read;
+        if (Result<void> read = face(element, i, property, strips); !read) return read;
       }
+      if (!values_.endRecord()) return endsWithin(element, i);
     }
     return {};
   }
 
-  Result<void> face(const PlyElement& element, size_t i, const PlyProperty& list) {
+  /// Of a list of strips the end of one is -1.
+  Result<void> face(const PlyElement& element, size_t i, const PlyProperty& list, bool strips) {
     double length = 0;
     if (!takeLength(list, length)) return endsWithin(element, i);
-    uint32_t first = 0, last = 0;
+    corners_.clear();
     for (double k = 0; k < length; ++k) {
       double value = 0;
       if (!values_.take(list.type, value)) return endsWithin(element, i);
-      if (!(value >= 0 && value < static_cast<double>(vertex_count_)) || value != std::floor(value))
-        return values_.wrong("face " + std::to_string(i) + " has a corner that is none of the file's " +
-                             std::to_string(vertex_count_) + " vertices");
-      const uint32_t corner = static_cast<uint32_t>(value);
-      if (k >= 2) {
-        if (mesh_.triangles.size() >= limits_.triangles) return overLimit(limits_.triangles, "triangles");
-        mesh_.triangles.push_back({first, last, corner});
-      }
-      if (k == 0) first = corner;
-      last = corner;
+      const bool ends = strips && value == -1;
+      if (!ends && (!(value >= 0 && value < static_cast<double>(vertex_count_)) || value != std::floor(value)))
+        return values_.wrong((strips ? "strip " : "face ") + std::to_string(i) +
+                             " has a corner that is none of the file's " + std::to_string(vertex_count_) + " vertices");
+      corners_.push_back(ends ? kStripEnd : static_cast<uint32_t>(value));
+    }
+    if (strips) return strip();
+    return corners_.size() == 3 ? triangle(corners_[0], corners_[1], corners_[2]) : polygon();
+  }
+
+  Result<void> triangle(uint32_t a, uint32_t b, uint32_t c) {
+    if (mesh_.triangles.size() >= limits_.triangles) return overLimit(limits_.triangles, "triangles");
+    mesh_.triangles.push_back({a, b, c});
+    return {};
+  }
+
+  Result<void> polygon() {
+    if (corners_.size() < 3) {
+      small_.add([&] { return std::string(Values::kUnit) + " " + std::to_string(values_.place()); });
+      return {};
+    }
+    dropRepeatedCorners(corners_, std::equal_to<uint32_t>());
+    for (size_t k = 2; k < corners_.size(); ++k)
+      if (Result<void> made = triangle(corners_[0], corners_[k - 1], corners_[k]); !made) return made;
+    return corners_.size() == 3 ? Result<void>() : cutter_.add(corners_.size(), values_.place());
+  }
+
+  /// Every other triangle of a strip is turned round; those that only lead on to the next one have a corner twice.
+  Result<void> strip() {
+    size_t begin = 0;
+    for (size_t k = 0; k < corners_.size(); ++k) {
+      if (corners_[k] == kStripEnd) begin = k + 1;
+      if (k < begin + 2) continue;
+      const uint32_t a = corners_[k - 2], b = corners_[k - 1], c = corners_[k];
+      if (a == b || b == c || c == a) continue;
+      const bool odd = (k - begin) % 2 == 1;
+      if (Result<void> made = odd ? triangle(b, a, c) : triangle(a, b, c); !made) return made;
     }
     return {};
   }
+
+  static constexpr uint32_t kStripEnd = 0xFFFFFFFFu;
 
   const PlyHeader& header_;
   const MeshLimits& limits_;
   Values values_;
   TriangleMesh mesh_;
+  PolygonCutter cutter_{mesh_, Values::kUnit};
+  std::vector<uint32_t> corners_;
+  NotedPlaces small_;
   size_t vertex_count_ = 0;
-  bool points_read_ = false, faces_read_ = false, bad_length_ = false;
+  bool bad_length_ = false;
   bool has_places_ = false, has_normals_ = false, has_coordinates_ = false;
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "asset/mesh_notes.h"
 #include "asset/text_reader.h"
 
 namespace sgm::asset {
@@ -36,12 +37,6 @@ bool isWord(std::string_view word, std::string_view lower) {
   return true;
 }
 
-/// A zero byte is in every binary header and count, and in no text.
-bool looksLikeText(std::span<const std::byte> bytes) {
-  const std::string_view start = textOf(bytes.first(std::min<size_t>(bytes.size(), 512)));
-  return isWord(TextReader(start).wordOfAnyLine(), "solid") && start.find('\0') == std::string_view::npos;
-}
-
 void addFacet(TriangleMesh& mesh, const Point (&corners)[3]) {
   const uint32_t first = static_cast<uint32_t>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), corners, corners + 3);
@@ -68,6 +63,9 @@ Result<TriangleMesh> readBinary(std::span<const std::byte> bytes, const MeshLimi
     }
     addFacet(mesh, corners);
   }
+  if (const size_t more = bytes.size() - sizeWith(count); more > 0)
+    mesh.notes.push_back(counted(more, "byte behind its last triangle is", "bytes behind its last triangle are") +
+                         " left out, at " + byteText(sizeWith(count)));
   return mesh;
 }
 
@@ -77,7 +75,18 @@ class StlTextReader {
 
   Result<TriangleMesh> run() {
     for (std::string_view word = text_.wordOfAnyLine(); !word.empty(); word = text_.wordOfAnyLine()) {
-      if (!isWord(word, "solid")) return failed("solid", word);
+      if (!isWord(word, "solid")) {
+        // What has no more facets is left out, such as a padding; what has some is damaged.
+        const size_t line = text_.line();
+        const bool begun = !mesh_.triangles.empty();
+        for (std::string_view more = word; begun && !isWord(more, "facet") && !isWord(more, "vertex");) {
+          more = text_.wordOfAnyLine();
+          if (!more.empty()) continue;
+          mesh_.notes.push_back("text behind its last `endsolid` is left out, at " + lineText(line));
+          return std::move(mesh_);
+        }
+        return wrongAtLine(shown(word) + " stands where `solid` is due", line);
+      }
       text_.rest();  // its name
       if (Result<void> read = solid(); !read) return read.error();
     }
@@ -136,9 +145,19 @@ class StlTextReader {
   TriangleMesh mesh_;
 };
 
+/// Whether the triangles that the header counts are there, and behind them no more than a program may add of its own:
+/// other files that happen to have a number there are no STL.
+bool hasLittleBehind(std::span<const std::byte> bytes) {
+  constexpr uint64_t kMostOwn = 4096;
+  if (bytes.size() < kFacetsAt || facetCount(bytes) == 0) return false;
+  const uint64_t due = sizeWith(facetCount(bytes));
+  return due < bytes.size() && bytes.size() - due <= kMostOwn + (due - kFacetsAt);
+}
+
 Result<TriangleMesh> readEither(std::span<const std::byte> bytes, const MeshLimits& limits) {
   if (isBinaryStl(bytes)) return readBinary(bytes, limits);
-  if (looksLikeText(bytes)) return StlTextReader(textOf(bytes), limits).run();
+  if (isTextStl(bytes)) return StlTextReader(textOf(bytes), limits).run();
+  if (hasLittleBehind(bytes)) return readBinary(bytes, limits);
   if (bytes.size() < kFacetsAt) return wrongAtByte("it is no STL file: it ends within its header", bytes.size());
   return wrongAtByte("it says that it has " + std::to_string(facetCount(bytes)) + " triangles, which take " +
                          std::to_string(sizeWith(facetCount(bytes))) + " bytes, and has " +
@@ -147,6 +166,12 @@ Result<TriangleMesh> readEither(std::span<const std::byte> bytes, const MeshLimi
 }
 
 }  // namespace
+
+bool isTextStl(std::span<const std::byte> bytes) {
+  // A zero byte is in every binary header and count, and in no text.
+  const std::string_view start = textOf(bytes.first(std::min<size_t>(bytes.size(), 512)));
+  return isWord(TextReader(start).wordOfAnyLine(), "solid") && start.find('\0') == std::string_view::npos;
+}
 
 bool isBinaryStl(std::span<const std::byte> bytes) {
   return bytes.size() >= kFacetsAt && sizeWith(facetCount(bytes)) == bytes.size();

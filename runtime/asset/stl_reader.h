@@ -14,8 +14,12 @@ namespace sgm::asset {
 /// "solid", as text does.
 bool isBinaryStl(std::span<const std::byte> bytes);
 
+/// Whether the bytes begin as STL does as text.
+bool isTextStl(std::span<const std::byte> bytes);
+
 /// The file's triangles, each with three points of its own: that corners meet is for the caller to find out. Facets'
-/// normals, colours and names are left out. Errors: bad_input, with the line or the byte in the message; limit.
+/// normals, colours and names are left out. Notes tell of what stands behind the end. Errors: bad_input, with the line
+/// or the byte in the message; limit.
 Result<TriangleMesh> readStl(std::span<const std::byte> bytes, const MeshLimits& limits = {});
 
 }  // namespace sgm::asset

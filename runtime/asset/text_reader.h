@@ -33,6 +33,12 @@ class TextReader {
   /// The rest of the line, without blanks around it.
   std::string_view rest();
 
+  /// Whether no more words stand on the line.
+  bool isLineDone() {
+    skipBlanks();
+    return at_ == end_ || isLineEnd(*at_);
+  }
+
   /// To the beginning of the next line; false where there is none. plain: without regard to a backslash.
   bool nextLine(bool plain = false);
 

@@ -36,7 +36,9 @@ struct TriangleMesh {
   std::vector<std::string> material_names;
   CornerValues<Normal> normals;
   CornerValues<TextureCoordinates> coordinates;
-  Point origin;  ///< where the points count from in their world, where that is known; metres
+  Point origin;                    ///< where the points count from in their world, where that is known; metres
+  bool in_metres = false;          ///< whether the file's format fixes the unit
+  std::vector<std::string> notes;  ///< sentences about parts of the file that are left out, or read in spite of faults
 
   /// Of corner k of a triangle, where there are any.
   const Normal& normalAt(size_t triangle, size_t k) const { return at(normals, triangle, k); }

@@ -75,7 +75,8 @@ Exit classifyMesh(const ClassifyOptions& options) {
       [&]() -> Result<std::string> {
         const Result<asset::TriangleMesh> mesh = readMeshFile(options.file, *kind);
         if (!mesh) return mesh.error();
-        return reportOf(*mesh, options, *base, options.density.value_or(0), {{"file", options.file}});
+        return reportOf(*mesh, options, *base, options.density.value_or(0),
+                        {{"file", options.file}, {"notes", mesh->notes}});
       },
       limits));
 }

@@ -50,7 +50,7 @@ std::string nameOf(const InspectOptions& options) {
   return options.name.empty() ? "upload." + options.kind : options.name;
 }
 
-/// Into a .glb file's JSON, as far as the message says; empty: not at all.
+/// Into the JSON of a glTF file, as far as the message says; empty if it says nothing of one.
 std::string placeOf(const std::string& message) {
   constexpr std::string_view kAccessor = "accessor ";
   const std::string_view pointer = asset::pointerIn(message);
@@ -127,10 +127,11 @@ InspectAnswer inspectUpload(std::span<const std::byte> bytes, const InspectOptio
   Result<asset::TriangleMesh> mesh = readMeshBytes(bytes, kind);
   if (!mesh) {
     InspectProblem problem = problemOf(mesh.error(), options);
-    if (kind == asset::MeshFileKind::glb) problem.pointer = placeOf(problem.detail);
+    problem.pointer = placeOf(problem.detail);
     return refused(problem);
   }
   subject.mesh = std::move(*mesh);
+  subject.known = {{"notes", subject.mesh.notes}};
   return judged(subject, options, base, watch);
 }
 

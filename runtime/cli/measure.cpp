@@ -95,7 +95,7 @@ Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKi
   if (!mesh) return mesh.error();
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return jobs.error();
-  Subject subject{*mesh, {}, {}, {}, kind == asset::MeshFileKind::glb ? " m" : "", {}};
+  Subject subject{*mesh, {}, {{"notes", mesh->notes}}, {}, mesh->in_metres ? " m" : "", {}};
   auto& sections = subject.sections;
   if (options.texels) sections.emplace_back("texels", texelSection(*mesh, *options.texels));
   if (options.drawing) sections.emplace_back("drawing", drawingSection(drawingCost({mesh->points, mesh->triangles})));

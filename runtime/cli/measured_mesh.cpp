@@ -72,6 +72,7 @@ Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFil
   if (!bytes) return bytes.error();
   Result<asset::TriangleMesh> mesh = readMeshBytes(*bytes, kind);
   if (!mesh) return Error{mesh.error().code, file + ": " + mesh.error().message};
+  for (const std::string& note : mesh->notes) fmt::print(stderr, "sgm: note: {}: {}\n", file, note);
   return mesh;
 }
 

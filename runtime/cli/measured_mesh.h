@@ -18,7 +18,7 @@ bool isGrammarFile(const std::string& path);
 /// The triangles of a file that is in memory, however many. Errors: those of readMesh.
 Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, asset::MeshFileKind kind);
 
-/// Errors: io; those of readMesh, with the file's name in front.
+/// With what the reader notes on stderr, a line each. Errors: io; those of readMesh, with the file's name in front.
 Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind);
 
 /// The same in a process of its own; points, triangles and the origin alone come out of it. To be called before this

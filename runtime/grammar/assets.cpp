@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "asset/glb_reader.h"
+#include "asset/mesh_file.h"
 #include "asset/polyhedron.h"
 #include "asset/weld_triangles.h"
 #include "base/hash.h"
@@ -37,8 +37,10 @@ std::optional<uint32_t> addAsset(Program& program, std::string_view path, std::s
                join({"cannot import `", path, "`: ", error.message}), std::string(advice));
     return std::nullopt;
   };
-  Result<asset::TriangleMesh> mesh = asset::readGlb(std::as_bytes(std::span(bytes)));
-  if (!mesh) return refuse(mesh.error(), asset::kGlbAdvice);
+  asset::MeshFileKind kind = asset::MeshFileKind::glb;
+  Result<asset::TriangleMesh> mesh = asset::readMeshOf(std::as_bytes(std::span(bytes)), kind);
+  if (!mesh) return refuse(mesh.error(), asset::meshFileAdvice(kind));
+  for (const std::string& note : mesh->notes) sink.warning(span, codes::kAsset, join({"`", path, "`: ", note}));
   Result<asset::Polyhedron> solid = asset::makePolyhedron(*mesh);
   if (!solid)
     return refuse(solid.error(), solid.error().code == Code::limit ? asset::kSimplifyAdvice : asset::kOpenAdvice);

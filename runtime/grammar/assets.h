@@ -10,7 +10,8 @@
 
 namespace sgm {
 
-/// Reads the asset of that path and puts it into Program::assets. Nothing, with an error at `span`, where it is none.
+/// Reads the asset of that path and puts it into Program::assets; the notes of its reader become warnings at `span`.
+/// nullopt, with an error there, if it is not an asset.
 std::optional<uint32_t> addAsset(Program& program, std::string_view path, std::string_view bytes, const Span& span,
                                  DiagnosticSink& sink);
 

@@ -25,7 +25,7 @@ Result<MeshFile> MeshFile::create(const std::filesystem::path& path, UnfinishedF
   MeshFile file(*format);
   file.paths_.push_back(path);
   if (*format == MeshFormat::obj) {
-    file.paths_.push_back(std::filesystem::path(path).replace_extension(".mtl"));
+    file.paths_.push_back(std::filesystem::path(path).replace_filename(materialLibraryName(path)));
     if (Result<void> may = mayReplaceLibrary(file.paths_.back()); !may) return may.error();
   }
   for (const std::filesystem::path& one : file.paths_) {

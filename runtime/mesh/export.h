@@ -33,7 +33,7 @@ struct ExportTexture {
   std::span<const std::array<float, 2>> coordinates;
   std::span<const ExportBlend> blends;  ///< one a place
   std::span<const uint32_t> corners;    ///< into these, in the place of the mesh's indices
-  std::span<const std::byte> png;     ///< a file that repeats over all of it; empty: none
+  std::span<const std::byte> png;       ///< a file that repeats over all of it; empty: none
 };
 
 /// What a file says beside the mesh. Indices beyond the tables are written as a grey material "material N".
@@ -57,8 +57,8 @@ Result<MeshFormat> meshFormatOf(const std::filesystem::path& path);
 ///        extras hold the origin in units and metres and the tag names. With a texture TEXCOORD_0 and _BLEND, the
 ///        shares of planes (xyz) and of the second material (w); pairs of materials have primitives of their own,
 ///        whose colours COLOR_0 blends and whose material's extras name the two
-///  .obj  text, with normals and usemtl, with a texture's coordinates; the materials in a .mtl file of the same name
-///        beside it
+///  .obj  text, with normals and usemtl, with a texture's coordinates; the materials in a .mtl file beside it,
+///        of the same name if that has plain letters, digits, `.`, `-` and `_` alone
 ///  .ply  binary little-endian: x y z nx ny nz red green blue material tag; origin, materials and tags as comments
 ///  .stl  binary, with facet normals: positions alone, so that a reader welds by position
 /// A triangle takes the material that two of its vertices share, else that of its first. An empty mesh makes a valid

@@ -15,6 +15,9 @@ Result<void> writeStl(const WorldMesh& mesh, const ExportInfo& info, FileWriter&
 /// library_name is what the file calls the library.
 Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::string& library_name,
                       FileWriter& library, FileWriter& file);
+/// The file name of the materials of an .obj. Many readers end a name at a blank and know no other letters than those
+/// of ASCII: a name with such characters is replaced by one that differs for each.
+std::string materialLibraryName(const std::filesystem::path& obj);
 /// Error: Code::io where something stands there that writeObj has not written.
 Result<void> mayReplaceLibrary(const std::filesystem::path& library);
 

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "base/hash.h"
 #include "mesh/export_formats.h"
 
 namespace sgm {
@@ -72,6 +73,23 @@ Result<void> writeObj(const WorldMesh& mesh, const ExportInfo& info, const std::
   Result<void> done = file.commit();
   if (!done) library.undo();
   return done;
+}
+
+std::string materialLibraryName(const std::filesystem::path& obj) {
+  const std::string stem = obj.stem().string();
+  std::string name = stem;
+  for (char& c : name) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '_';
+    if (!plain) c = '_';
+  }
+  if (name == stem) return name + ".mtl";
+  // Other names may become the same one.
+  constexpr char kDigits[] = "0123456789abcdef";
+  name += '_';
+  const uint64_t hash = hashText(stem);
+  for (unsigned shift = 0; shift < 32; shift += 4) name += kDigits[hash >> shift & 15];
+  return name + ".mtl";
 }
 
 Result<void> mayReplaceLibrary(const std::filesystem::path& library) {

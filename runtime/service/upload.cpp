@@ -20,7 +20,7 @@ struct KindName {
 };
 constexpr KindName kNames[] = {
     {UploadKind::glb, "glb"}, {UploadKind::obj, "obj"},     {UploadKind::ply, "ply"},
-    {UploadKind::stl, "stl"}, {UploadKind::grammar, "sgm"},
+    {UploadKind::stl, "stl"}, {UploadKind::grammar, "sgm"}, {UploadKind::glb, "gltf"},
 };
 
 struct KindType {
@@ -28,8 +28,9 @@ struct KindType {
   UploadKind kind;
 };
 constexpr KindType kTypes[] = {
-    {"model/gltf-binary", UploadKind::glb}, {"model/obj", UploadKind::obj}, {"model/ply", UploadKind::ply},
-    {"application/x-ply", UploadKind::ply}, {"model/stl", UploadKind::stl}, {"text/x-sgm", UploadKind::grammar},
+    {"model/gltf-binary", UploadKind::glb}, {"model/gltf+json", UploadKind::glb},   {"model/obj", UploadKind::obj},
+    {"model/ply", UploadKind::ply},         {"application/x-ply", UploadKind::ply}, {"model/stl", UploadKind::stl},
+    {"text/x-sgm", UploadKind::grammar},
 };
 
 std::string lowered(std::string_view text) {

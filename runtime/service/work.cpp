@@ -168,8 +168,9 @@ Admission Work::admitUpload(const Request& request) {
   if (!kind) {
     return refused(makeResponse(
         Problem{415, "unsupported_type",
-                "send a GLB, OBJ, PLY, STL or .sgm file as it is, with its Content-Type (model/gltf-binary, model/obj, "
-                "model/ply, model/stl, text/x-sgm), or as application/octet-stream with ?name=FILE.glb",
+                "send a GLB, OBJ, PLY, STL or .sgm file as it is, with its Content-Type (model/gltf-binary, "
+                "model/gltf+json, model/obj, model/ply, model/stl, text/x-sgm), or as application/octet-stream with "
+                "?name=FILE.glb",
                 ""}));
   }
   for (const auto& [key, value] : request.query) {

@@ -107,8 +107,8 @@ refused truncated.glb 'j.status === 422 && j.code === "bad_input" && /byte/.test
 refused out_of_bounds.glb 'j.status === 422 && j.pointer === "/accessors/1" && /corner/.test(j.detail)' --kind glb
 refused nan.glb 'j.status === 422 && j.pointer === "/accessors/0" && /no number/.test(j.detail)' --kind glb
 refused nan_bounds.glb 'j.status === 422' --kind glb
-refused external.glb 'j.status === 422 && j.pointer === "/bufferViews/0/buffer"' --kind glb
-refused elsewhere.glb 'j.status === 422 && j.pointer === "/bufferViews/0/buffer"' --kind glb
+refused external.glb 'j.status === 422 && j.pointer === "/buffers/1"' --kind glb
+refused elsewhere.glb 'j.status === 422 && j.pointer === "/buffers/0"' --kind glb
 refused sparse_range.glb 'j.status === 422 && j.pointer.startsWith("/accessors/0/sparse")' --kind glb
 refused count.glb 'j.status === 422 && j.pointer.startsWith("/accessors/1")' --kind glb
 

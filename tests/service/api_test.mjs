@@ -54,6 +54,7 @@ const known = { name: ['nothing'], id: ['0123456789abcdef'] };
 const masters = await (await fetch(`${base}/api/v1/masters`)).text();
 const bodies = {
   'model/gltf-binary': [mesh, mesh.subarray(0, 100), Buffer.alloc(0)],
+  'model/gltf+json': [mesh, '{"asset":{"version":"2.0"}}', '{'],
   'model/obj': ['v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n', 'f 1 2 9\n'],
   'model/stl': ['solid a\nendsolid a\n', 'not at all'],
   'text/x-sgm': ['sgm 1; units m; start Ball; rule Ball { sphere(2m); }', 'sgm 1; rule', 'sgm 1; import "/etc/passwd" as x;'],

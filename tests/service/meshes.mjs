@@ -155,7 +155,7 @@ export const files = {
         json.accessors[0].sparse = {
           count: 1,
           indices: { bufferView: 1, byteOffset: 8, componentType: 5125 },
-          values: { bufferView: 0, byteOffset: 0 },
+          values: { bufferView: 0, byteOffset: 2 ** 31 },
         };
       },
     }),

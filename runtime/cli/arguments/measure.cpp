@@ -35,7 +35,7 @@ Command addMeasure(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "measure", "Measure a mesh file, or a region of a grammar, and say whether it is the closed surface of a solid");
   const auto options = std::make_shared<MeasureOptions>();
-  app->add_option("FILE", options->file, "A .glb, .obj, .ply or .stl file, or a .sgm grammar")->required();
+  app->add_option("FILE", options->file, "A .glb, .gltf, .obj, .ply or .stl file, or a .sgm grammar")->required();
   app->add_flag("--json", options->json, "Print the result as one JSON object on standard output");
   const std::vector<CLI::Option*> of_all = optionsBeside(*app, {});
   app->add_flag("--strict", options->strict,
@@ -137,7 +137,7 @@ Command addClassify(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
       "classify", "Say whether a mesh file, or a region of a grammar, is a cave, a cloud, a building or unknown");
   const auto options = std::make_shared<ClassifyOptions>();
-  app->add_option("FILE", options->file, "A .glb, .obj, .ply or .stl file in metres, or a .sgm grammar")->required();
+  app->add_option("FILE", options->file, "A .glb, .gltf, .obj, .ply or .stl file in metres, or a .sgm grammar")->required();
   app->add_flag("--json", options->json, "Print the result as one JSON object on standard output");
   app->add_option("--masters", options->masters,
                   "A base of masters, from `sgm masters build`. Without it $XDG_DATA_HOME/sgm/masters.db, or "

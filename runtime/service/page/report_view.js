@@ -82,6 +82,7 @@ export class ReportView {
     const said = [
       ...report.measures.problems,
       ...report.measures.unknowns,
+      ...(report.measures.notes ?? []),
       ...(report.empty_because ? [report.empty_because] : []),
     ];
     if (said.length > 0)

@@ -47,7 +47,7 @@ export class UploadPanel {
         element(
           'p',
           {},
-          'or drop them anywhere on this page: meshes (.glb, .obj, .ply, .stl) or grammars (.sgm)',
+          'or drop them anywhere on this page: meshes (.glb, .gltf, .obj, .ply, .stl) or grammars (.sgm)',
           this.#limit,
         ),
       ),

@@ -2,7 +2,14 @@
 
 import { bytes } from './format.js';
 
-const types = { glb: 'model/gltf-binary', obj: 'model/obj', stl: 'model/stl', ply: 'model/ply', sgm: 'text/x-sgm' };
+const types = {
+  glb: 'model/gltf-binary',
+  gltf: 'model/gltf+json',
+  obj: 'model/obj',
+  stl: 'model/stl',
+  ply: 'model/ply',
+  sgm: 'text/x-sgm',
+};
 export const endings = Object.keys(types);
 
 const endingOf = (name) => name.slice(name.lastIndexOf('.') + 1).toLowerCase();

@@ -26,7 +26,8 @@ inline std::string refusalOf(const std::string& file, MeshFileKind kind, const M
   const std::string& message = mesh.error().message;
   const size_t advice = message.rfind("; ");
   CHECK(advice != std::string::npos);
-  if (mesh.error().code != Code::limit) CHECK(message.substr(advice + 2) == meshFileAdvice(kind));
+  if (mesh.error().code != Code::limit)
+    CHECK(message.substr(advice + 2) == meshFileAdvice(meshFileKind(bytesOf(file)).value_or(kind)));
   if (mesh.error().line != 0)
     CHECK(message.substr(0, advice).ends_with(", at line " + std::to_string(mesh.error().line)));
   return message.substr(0, advice);

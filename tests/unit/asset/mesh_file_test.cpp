@@ -141,14 +141,15 @@ TEST_CASE("texture coordinates that are exported read back, with points that sta
 
 TEST_CASE("a file's kind is told by its name or by its beginning", "[asset][mesh_file]") {
   CHECK(*meshFileKind("a.b/House.GLB") == MeshFileKind::glb);
+  CHECK(*meshFileKind("x.gltf") == MeshFileKind::glb);
   CHECK(*meshFileKind("x.obj") == MeshFileKind::obj);
   CHECK(*meshFileKind("x.Ply") == MeshFileKind::ply);
   CHECK(*meshFileKind(".stl") == MeshFileKind::stl);
-  for (const char* path : {"x.gltf", "glb", "", "a.obj/b", "x.obj.zip"}) {
+  for (const char* path : {"x.usd", "glb", "", "a.obj/b", "x.obj.zip"}) {
     const auto kind = meshFileKind(path);
     REQUIRE(!kind);
     CHECK(kind.error().message ==
-          std::string(path) + ": no mesh format that we can read; .glb, .obj, .ply and .stl are");
+          std::string(path) + ": no mesh format that we can read; .glb, .gltf, .obj, .ply and .stl are");
   }
   const auto of = [](const std::string& bytes) { return meshFileKind(bytesOf(bytes)); };
   CHECK(of("glTF") == MeshFileKind::glb);
@@ -156,7 +157,9 @@ TEST_CASE("a file's kind is told by its name or by its beginning", "[asset][mesh
   CHECK(of("solid x\n") == MeshFileKind::stl);
   CHECK(of("# comment\n\nmtllib a.mtl\n") == MeshFileKind::obj);
   CHECK(of(std::string(84, '\0')) == MeshFileKind::stl);
-  for (const char* bytes : {"", "\n#", "{\"asset\":{}}", "PK\x03\x04", "volume"}) CHECK(of(bytes) == std::nullopt);
+  CHECK(of(" {\"asset\":{}}") == MeshFileKind::glb);
+  for (const char* bytes : {"", "\n#", "{\"assets\":{}}", "PK\x03\x04", "volume", "plywood\n"})
+    CHECK(of(bytes) == std::nullopt);
 }
 
 TEST_CASE("what is refused says what to do", "[asset][mesh_file]") {
@@ -198,4 +201,99 @@ TEST_CASE("no damage to a mesh file does any harm", "[asset][mesh_file]") {
       CHECK(within);
     }
   }
+}
+
+namespace {
+
+const std::string kTetrahedronObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+
+/// The same in units of so many bytes each, plain ASCII.
+std::string widened(const std::string& text, size_t width, bool big_endian, bool mark) {
+  std::string out;
+  const auto put = [&](uint32_t code) {
+    for (size_t k = 0; k < width; ++k) out += static_cast<char>(code >> 8 * (big_endian ? width - 1 - k : k) & 0xFF);
+  };
+  if (mark) put(0xFEFF);
+  for (const char c : text) put(static_cast<unsigned char>(c));
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("text is read in every encoding", "[asset][mesh_file]") {
+  const std::string stl =
+      "solid s\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+      "endfacet\nendsolid s\n";
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+      "3 0 1 2\n";
+  const std::string
+      obj = "# house\n" + kTetrahedronObj,
+      gltf =
+          R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+          R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],"bufferViews":[{"buffer":0,)"
+          R"("byteLength":36}],"buffers":[{"byteLength":36,"uri":"data:;base64,)" +
+          std::string(48, 'A') + R"("}]})";
+  for (const auto& [text, kind] : {std::pair{stl, MeshFileKind::stl}, std::pair{ply, MeshFileKind::ply},
+                                   std::pair{obj, MeshFileKind::obj}, std::pair{gltf, MeshFileKind::glb}}) {
+    const size_t triangles = meshIn(text, kind).triangles.size();
+    CHECK(meshIn("\xEF\xBB\xBF" + text, kind).triangles.size() == triangles);
+    for (const size_t width : {size_t{2}, size_t{4}})
+      for (const bool big_endian : {false, true})
+        for (const bool mark : {false, true}) {
+          const TriangleMesh mesh = meshIn(widened(text, width, big_endian, mark), kind);
+          CHECK(mesh.triangles.size() == triangles);
+          CHECK(mesh.notes.empty());
+        }
+  }
+  // Letters beyond ASCII, and beyond the first 65,536.
+  std::string named = widened("usemtl ", 2, false, true);
+  for (const char16_t c : std::u16string(u"B\u00E4ume \U0001F332\xD800")) {
+    named += static_cast<char>(c & 0xFF);
+    named += static_cast<char>(c >> 8);
+  }
+  named += widened("\n" + kTetrahedronObj, 2, false, false);
+  CHECK(meshIn(named, MeshFileKind::obj).material_names ==
+        std::vector<std::string>{"B\xC3\xA4ume \xF0\x9F\x8C\xB2\xEF\xBF\xBD"});
+}
+
+TEST_CASE("a file is what its bytes are, whatever its name says", "[asset][mesh_file]") {
+  std::mt19937 random(7);
+  const WorldMesh mesh = randomWorldMesh(random);
+  constexpr const char* kTitles[] = {"glTF", "OBJ", "PLY", "STL"};
+  for (size_t is = 0; is < 4; ++is) {
+    const std::string file = exported(mesh, {}, kKinds[is]);
+    const size_t triangles = meshIn(file, static_cast<MeshFileKind>(is)).triangles.size();
+    for (size_t named = 0; named < 4; ++named) {
+      const TriangleMesh read = meshIn(file, static_cast<MeshFileKind>(named));
+      CHECK(read.triangles.size() == triangles);
+      CHECK(read.in_metres == (is == 0));
+      if (named == is)
+        CHECK(read.notes.empty());
+      else
+        CHECK(read.notes ==
+              std::vector<std::string>{std::string("by its bytes it is ") + kTitles[is] + ", not " + kTitles[named] +
+                                       " as its name or type says, and is read as such"});
+    }
+  }
+}
+
+TEST_CASE("what is no mesh is called by its name", "[asset][mesh_file]") {
+  using namespace std::string_literals;
+  const std::pair<std::string, std::string> cases[] = {
+      {"\x89PNG\r\n\x1A\n", "it is a PNG picture, not a mesh"},
+      {"PK\x03\x04....", "it is a ZIP archive (such as .zip, .3mf or .usdz), not a mesh file by itself"},
+      {"Kaydara FBX Binary  \0\x1A\0"s, "it is an FBX file, which sgm does not read"},
+      {"<?xml version=\"1.0\"?>\n<COLLADA>", "it is an XML file (such as COLLADA or X3D), which sgm does not read"},
+      {"<!DOCTYPE html>\n<html>", "it is a page of the web, not a mesh"},
+      {"sgm 1;\nunits m;\n", "it is a grammar (.sgm), not a mesh file"},
+      {"OFF\n8 6 0\n", "it is an OFF file, which sgm does not read"},
+      {"version https://git-lfs.github.com/spec/v1\n",
+       "it is a pointer of Git LFS, not the file itself: `git lfs pull` fetches that"},
+      {"", "it is empty"},
+  };
+  for (const auto& [file, what] : cases)
+    for (const MeshFileKind kind : {MeshFileKind::glb, MeshFileKind::obj, MeshFileKind::ply, MeshFileKind::stl})
+      CHECK(refusalOf(file, kind) == what);
 }

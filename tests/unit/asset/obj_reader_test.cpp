@@ -5,6 +5,7 @@
 #include <clocale>
 
 #include "catch.h"
+#include "gltf_builder.h"
 #include "mesh_bytes.h"
 
 using namespace sgm;
@@ -88,9 +89,10 @@ TEST_CASE("an OBJ file's normals and coordinates leave its points alone", "[asse
 
 TEST_CASE("what is wrong with an OBJ file is said with its line", "[asset][obj]") {
   const std::pair<std::string, std::string> cases[] = {
-      {"", "it has no faces"},
+      {"", "it is empty"},
       {kSquare, "it has no faces"},
-      {"sgm 1;\nstart Ball;\n", "it has no faces"},
+      {"sgm 1;\nstart Ball;\n", "it is a grammar (.sgm), not a mesh file"},
+      {"start 1;\nend Ball;\n", "it has no faces"},
       {std::string("\x7F"
                    "ELF\0\1\2",
                    7),
@@ -115,13 +117,13 @@ TEST_CASE("what is wrong with an OBJ file is said with its line", "[asset][obj]"
       {kSquare + "f 1 2 -5\n", "`-5` is no corner of a face, at line 5"},
       {kSquare + "f 1 2 3.5\n", "`3.5` is no corner of a face, at line 5"},
       {kSquare + "f 1 2 3/\n", ""},
-      {kSquare + "f 1 2 3//\n", "`3//` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 3//\n", ""},
+      {kSquare + "f 1 2 /3\n", "`/3` is no corner of a face, at line 5"},
+      {kSquare + "f 1 2 3/x\n", "`3/x` is no corner of a face, at line 5"},
       {kSquare + "f 1 2 3/1/1/1\n", "`3/1/1/1` is no corner of a face, at line 5"},
       {kSquare + "f 1 2 99999999999999999999\n", "`99999999999999999999` is no corner of a face, at line 5"},
       {kSquare + "f 1 2 4294967295\n", "`4294967295` is no corner of a face, at line 5"},
       {kSquare + "f 1 2 5\nf 1 2 3\n", "a face names point 5, and the file has 4, at line 5"},
-      {kSquare + "f 1 2 3\nf 1//1 2//2 3//3\n", "a face names normal 3, and the file has 0, at line 6"},
-      {kSquare + "vt 0 0\nf 1/1 2/1 3/2\n", "a face names texture coordinates 2, and the file has 1, at line 6"},
   };
   for (const auto& [file, message] : cases) {
     INFO(file);
@@ -132,4 +134,86 @@ TEST_CASE("what is wrong with an OBJ file is said with its line", "[asset][obj]"
   CHECK(readMesh(bytesOf(kSquare + "f 1 2 9"), MeshFileKind::obj).error().message ==
         "a face names point 9, and the file has 4, at line 5; save it again as Wavefront OBJ, with its faces as `f` "
         "lines");
+}
+
+TEST_CASE("an OBJ file's concave polygons are cut, and crossing ones noted", "[asset][obj][polygon]") {
+  // A prism over an L, from each of its corners.
+  const std::string ring[6] = {"2 0", "2 1", "1 1", "1 2", "0 2", "0 0"};
+  for (size_t first = 0; first < 6; ++first) {
+    std::string points, low, high, sides;
+    for (size_t i = 0; i < 6; ++i) {
+      points +=
+          "v " + ring[(first + i) % 6] + " 0\nv " + ring[(first + i) % 6] + " 1\nvt " + ring[(first + i) % 6] + "\n";
+      const size_t now = 2 * i + 1, next = 2 * ((i + 1) % 6) + 1;
+      const auto corner = [&](size_t point, size_t place) {
+        return " " + std::to_string(point) + "/" + std::to_string(place + 1);
+      };
+      low = corner(now, i) + low;
+      high += corner(now + 1, i);
+      sides += "f " + std::to_string(now) + " " + std::to_string(next) + " " + std::to_string(next + 1) + " " +
+               std::to_string(now + 1) + "\n";
+    }
+    // Faces before what they name are cut too.
+    for (const std::string& file :
+         {points + "f" + low + "\nf" + high + "\n" + sides, "f" + low + "\nf" + high + "\n" + sides + points}) {
+      const TriangleMesh mesh = objOf(file);
+      CHECK(mesh.notes.empty());
+      CHECK(openEdgesOf(mesh) == 0);
+      CHECK(volumeOf(mesh) == 3);
+      double area = 0;
+      for (const auto& [a, b, c] : mesh.triangles)
+        area += length(cross(mesh.points[b] - mesh.points[a], mesh.points[c] - mesh.points[a])) / 2;
+      CHECK(area == 14);
+      // Corners keep their texture coordinates, which are the places seen from above.
+      for (size_t t = 0; t < 8; ++t)
+        for (size_t k = 0; k < 3; ++k)
+          CHECK(double{mesh.coordinatesAt(t, k)[0]} == mesh.points[mesh.triangles[t][k]].x);
+    }
+  }
+  const TriangleMesh crossed = objOf(kSquare + "f 1 2 4 3\nf 1 2 3 4\nf 1 3 2 4\n");
+  CHECK(crossed.notes ==
+        std::vector<std::string>{
+            "2 polygons cross themselves or have no area, the first at line 5: triangles may overlap there"});
+  // A corner that stands twice in a row is one.
+  CHECK(objOf(kSquare + "f 1 1 2 3 3 4 1").triangles == Triangles{{0, 1, 2}, {0, 2, 3}});
+  CHECK(objOf(kSquare + "f 1 1 2 2").triangles.size() == 2);
+}
+
+TEST_CASE("an OBJ file's references to what is not there are read with a note", "[asset][obj]") {
+  using Notes = std::vector<std::string>;
+  const TriangleMesh empty = objOf(kSquare + "f 1// 2// 3//\nf 1/ 3/ 4/\n");
+  CHECK(empty.triangles.size() == 2);
+  CHECK(empty.notes.empty());
+  CHECK(empty.normals.empty());
+  const TriangleMesh without = objOf(kSquare + "f 1/1 2/2 3/3\n");
+  CHECK(without.coordinates.empty());
+  CHECK(without.notes ==
+        Notes{"3 corners of faces name texture coordinates that the file does not have, such as number "
+              "3 at line 5: read without"});
+  const TriangleMesh some = objOf(kSquare + "vt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/0\nf 1//-2 2//9 3//1\n");
+  CHECK(some.coordinatesAt(0, 0) == TextureCoordinates{1, 1});
+  CHECK(some.coordinatesAt(0, 1) == TextureCoordinates{});
+  CHECK(some.normalAt(1, 2) == Normal{0, 0, 1});
+  CHECK(some.normalAt(1, 1) == Normal{});
+  CHECK(some.notes ==
+        Notes{"3 corners of faces name normals that the file does not have, such as number 9 at line 8: "
+              "read without",
+              "1 corner of a face names texture coordinates that the file does not have, such as number 2 "
+              "at line 7: read without"});
+  const TriangleMesh never = objOf(kSquare + "vn 0 0 1\nf 1//1 2//0 3//1\n");
+  CHECK(never.notes ==
+        Notes{"1 corner of a face names normals that the file does not have, such as those at line 6: read "
+              "without"});
+}
+
+TEST_CASE("what an OBJ file has beside faces is left out with a note", "[asset][obj]") {
+  const TriangleMesh mesh =
+      objOf(kSquare + "vp 0.5\nl 1 2\np 3\ncurv2 1 2\nf 1 2 3\ncall other.obj\nfancy 1\nfo 1 3 4\n");
+  CHECK(mesh.triangles.size() == 2);
+  CHECK(mesh.notes == std::vector<std::string>{
+                          "2 elements of lines or points are left out, the first at line 6",
+                          "1 curve or surface is left out, at line 8: save it as polygons to have them",
+                          "1 call of another file or a command is left out, at line 10",
+                          "1 line begins with a word that OBJ does not have and is left out, at line 11, `fancy`"});
+  CHECK(objOf("o a name with blanks\ng one two\nmtllib a b.mtl c.mtl\n" + kSquare + "s off\nf 1 2 3\n").notes.empty());
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "catch.h"
+#include "gltf_builder.h"
 #include "mesh_bytes.h"
 
 using namespace sgm;
@@ -107,8 +108,8 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
   const size_t body = bytes.size() - plyBytes(false).size();
   const auto at = [&](size_t byte) { return ", at byte " + std::to_string(body + byte); };
   const std::pair<std::string, std::string> cases[] = {
-      {"", "it is no PLY file: it does not begin with `ply`, at line 1"},
-      {"solid\n", "it is no PLY file: it does not begin with `ply`, at line 1"},
+      {"", "it is empty"},
+      {"hello\n", "it is no PLY file: it does not begin with `ply`, at line 1"},
       {"ply\nformat ascii 1.0\n", "it ends within its header, at line 3"},
       {"ply\nend_header\n", "its header has no `format`, at line 2"},
       {with("ascii", "binary"),
@@ -133,7 +134,7 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
       {with("vertex 4", "vertex 4000000"),
        "it says that it has 4000000 of the element `vertex`, and has bytes for 7 at most, at line 28"},
       {with("255 -0.5", "255 x"),
-       "it has `x`, which is no number, within 2 of 4 of the element `vertex`, counted from "
+       "it has `x`, which is not a number, within 2 of 4 of the element `vertex`, counted from "
        "0, at line 31"},
       {with("255 -0.5", "255 nan"), "vertex 2 has a position that is no number from -1000000 to 1000000, at line 31"},
       {with("0 2 0 0\n", "0 inf 0 0\n"), "vertex 0 has a normal that is not finite, at line 29"},
@@ -145,7 +146,9 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
       {with("-1 4 0", "-1 -4 0"),
        "it has a list of no length within 0 of 3 of the element `face`, counted from 0, at "
        "line 33"},
-      {with("-1 4 0", "-1 1e300 0"), "face 0 has a corner that is none of the file's 4 vertices, at line 34"},
+      {with("-1 4 0", "-1 1e300 0"),
+       "a line has fewer values than the header declares within 0 of 3 of the element `face`, counted from 0, at line "
+       "33"},
       {with("element face 3", "element face 0"), "it has no triangles"},
       {text.substr(0, text.find("\n0 2 0 1 0")),
        "it ends within 2 of 3 of the element `face`, counted from 0, at line 34"},
@@ -167,4 +170,72 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
   const std::string list = "list uint8 uint vertex_indices";
   turned = replacedIn(turned, list, "list uint32 uint vertex_indices");
   CHECK(plyRefusal(turned).starts_with("face 0 has a corner that is none of the file's 4 vertices, at byte "));
+}
+
+TEST_CASE("a PLY text's line is a record: what it holds beyond is never taken for something else", "[asset][ply]") {
+  using Notes = std::vector<std::string>;
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 4\nproperty list uchar int vertex_indices\nproperty uchar red\nend_header\n";
+  const std::string points = "0 0 0\n3 0 0\n0 3 0\n0 0 3\n", faces = "3 0 2 1 7\n3 0 1 3 7\n3 1 2 3 7\n3 2 0 3 7\n";
+  const auto read = [&](const std::string& body) { return meshIn(header + body, MeshFileKind::ply); };
+  const TriangleMesh plain = read(points + faces);
+  CHECK(volumeOf(plain) == 4.5);
+  CHECK(plain.notes.empty());
+  // As exporters write it who forget a property, on faces or on vertices.
+  const TriangleMesh more = read(points + "3 0 2 1 7 9 9\n3 0 1 3 7 9 9\n3 1 2 3 7 9 9\n3 2 0 3 7 9 9\n");
+  CHECK(more.triangles == plain.triangles);
+  CHECK(more.notes == Notes{"4 lines have more values than the header declares, the first at line 15: left out"});
+  const TriangleMesh coloured = read("0 0 0 255\n3 0 0 255\n0 3 0 255\n0 0 3 255\n" + faces);
+  CHECK(volumeOf(coloured) == 4.5);
+  CHECK(coloured.notes.size() == 1);
+  // Records over several lines, and several on one.
+  CHECK(volumeOf(read("0\n0 0\n3 0\n0\n0 3 0\n0 0 3\n3\n0 2 1 7\n3 0 1 3\n7\n3 1 2 3 7\n3 2 0 3 7")) == 4.5);
+  CHECK(volumeOf(read("0 0 0 3 0 0 0 3 0 0 0 3 3 0 2 1 7 3 0 1 3 7 3 1 2 3 7 3 2 0 3 7")) == 4.5);
+  CHECK(read(points + faces + "# the end\n").notes == Notes{"text behind its last element is left out, at line 19"});
+  // Where it cannot be told whose a value is, there is an error.
+  CHECK(
+      plyRefusal(header + "0 0\n3 0 0\n0 3 0\n0 0 3\n" + faces) ==
+      "a line has fewer values than the header declares within 0 of 4 of the element `vertex`, counted from 0, at line "
+      "11");
+  CHECK(plyRefusal(header + "0 0\n0 3 0 0\n0 3 0\n0 0 3\n" + faces + "1\n1\n") ==
+        "a line has more values than the header declares, behind one with fewer within 0 of 4 of the element `vertex`, "
+        "counted from 0, at line 12");
+  CHECK(plyRefusal(header + "0 0 0 3 0 0 0 3 0 0 0 3 3 0 2 1 7 3 0 1 3 7 3 1 2 3 7 3 2 0 3 7 8") ==
+        "it has more values than the header declares, at line 11");
+}
+
+TEST_CASE("a PLY file's polygons are cut, and its strips are triangles", "[asset][ply][polygon]") {
+  const auto head = [](const std::string& format, size_t vertices) {
+    return "ply\nformat " + format + " 1.0\nelement vertex " + std::to_string(vertices) +
+           "\nproperty float x\nproperty float y\nproperty float z\n";
+  };
+  const std::string c = "0 0 0\n3 0 0\n3 1 0\n1 1 0\n1 2 0\n3 2 0\n3 3 0\n0 3 0\n";
+  const std::string list = "element face 1\nproperty list uchar int vertex_index\nend_header\n";
+  for (const std::string& file :
+       {head("ascii", 8) + list + c + "8 3 4 5 6 7 0 1 2\n", head("ascii", 8) + list + c + "9 3 4 5 6 7 0 1 2 2\n"}) {
+    const TriangleMesh mesh = meshIn(file, MeshFileKind::ply);
+    double area = 0;
+    for (const auto& [p, q, r] : mesh.triangles)
+      area += cross(mesh.points[q] - mesh.points[p], mesh.points[r] - mesh.points[p]).z / 2;
+    CHECK(mesh.triangles.size() == 6);
+    CHECK(area == 7);
+  }
+  const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+  const std::string tetrahedron = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  const TriangleMesh strip =
+      meshIn(head("ascii", 4) + strips + tetrahedron + "12 1 0 2 3 -1 2 3 1 -1 3 0 1\n", MeshFileKind::ply);
+  CHECK(strip.triangles == std::vector<std::array<uint32_t, 3>>{{1, 0, 2}, {2, 0, 3}, {2, 3, 1}, {3, 0, 1}});
+  CHECK(meshIn(head("ascii", 4) + "element face 2\nproperty list uchar int vertex_index\nend_header\n" + tetrahedron +
+                   "2 0 1\n3 0 1 2\n",
+               MeshFileKind::ply)
+            .notes == std::vector<std::string>{"1 face has fewer than three corners and is left out, at line 14"});
+  std::string binary = replacedIn(head("ascii", 3), "ascii", "binary_little_endian") + list;
+  for (const float v : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) putNumber(binary, v);
+  binary += '\3';
+  for (const int32_t corner : {0, 1, 2}) putNumber(binary, corner);
+  CHECK(meshIn(binary, MeshFileKind::ply).notes.empty());
+  CHECK(meshIn(binary + "xy", MeshFileKind::ply).notes ==
+        std::vector<std::string>{"2 bytes behind its last element are left out, at byte " +
+                                 std::to_string(binary.size())});
 }

@@ -58,12 +58,12 @@ TEST_CASE("an STL file's triangles have points of their own, binary and as text"
 TEST_CASE("what is wrong with an STL file is said with its line or its byte", "[asset][stl]") {
   const std::string size = std::to_string(binaryStl().size());
   const std::pair<std::string, std::string> cases[] = {
-      {"", "it is no STL file: it ends within its header, at byte 0"},
+      {"", "it is empty"},
       {"facet", "it is no STL file: it ends within its header, at byte 5"},
       {binaryStl("b", 3), "it says that it has 3 triangles, which take 234 bytes, and has 184 bytes, at byte 80"},
       {binaryStl("solid", 4294967295u),
        "it says that it has 4294967295 triangles, which take 214748364834 bytes, and has 184 bytes, at byte 80"},
-      {binaryStl() + "x", "it says that it has 2 triangles, which take 184 bytes, and has 185 bytes, at byte 80"},
+      {binaryStl("b", 0), "it says that it has 0 triangles, which take 84 bytes, and has 184 bytes, at byte 80"},
       {binaryStl("b", 0).substr(0, 84), "it has no triangles"},
       {"solid\nendsolid\n", "it has no triangles"},
       {"solid\n", "it ends where `facet` is due, at line 2"},
@@ -77,7 +77,7 @@ TEST_CASE("what is wrong with an STL file is said with its line or its byte", "[
       {replacedIn(kStlText, "vertex 1", "vertex inf"),
        "a triangle has a corner that is no number from -1000000 to 1000000, at line 5"},
       {kStlText.substr(0, kStlText.find("0 1 5")), "it ends within a triangle, at line 6"},
-      {kStlText + "solids", "`solids` stands where `solid` is due, at line 17"},
+      {kStlText + "solids\n" + kStlFacet, "`solids` stands where `solid` is due, at line 17"},
   };
   for (const auto& [file, message] : cases) {
     INFO(file);
@@ -91,4 +91,18 @@ TEST_CASE("what is wrong with an STL file is said with its line or its byte", "[
     CHECK(stlRefusal(file, {.triangles = 1}) == "it has more than 1 triangles");
     CHECK(stlRefusal(file, {.points = 5}) == "it has more than 1 triangles");
   }
+}
+
+TEST_CASE("what stands behind an STL file's end is left out with a note", "[asset][stl]") {
+  using Notes = std::vector<std::string>;
+  const TriangleMesh binary = meshIn(binaryStl() + "four", MeshFileKind::stl);
+  CHECK(binary.triangles.size() == 2);
+  CHECK(binary.notes == Notes{"4 bytes behind its last triangle are left out, at byte 184"});
+  CHECK(meshIn(binaryStl(), MeshFileKind::stl).notes.empty());
+  const TriangleMesh text = meshIn(kStlText + "\x1A", MeshFileKind::stl);
+  CHECK(text.triangles.size() == 2);
+  CHECK(text.notes == Notes{"text behind its last `endsolid` is left out, at line 17"});
+  // More than a program adds of its own is another file.
+  CHECK(stlRefusal(binaryStl() + std::string(5000, 'x')) ==
+        "it says that it has 2 triangles, which take 184 bytes, and has 5184 bytes, at byte 80");
 }

@@ -70,6 +70,29 @@ TEST_CASE("an asset's shape and materials are in the grammar's hash, and nothing
   CHECK(hashWith(mesh) != hash);
 }
 
+TEST_CASE("what an asset's file has beside its triangles is a warning at the import", "[grammar][assets]") {
+  MapResolver files = withAssets();
+  std::string& bay = files.files["bay.glb"];
+  bay += "behind";
+  const std::string end = std::to_string(bay.size() - 6);
+  // A file is what its bytes are, and a grammar says so of what it imports.
+  files.files["cube.glb"] =
+      "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\n"
+      "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nl 1 2\n";
+  const CompileResult result = compileText(
+      "sgm 1; import \"bay.glb\" as bay;\nimport \"cube.glb\" as cube; start A; rule A { size(3m, 4m, 1m) { fit bay; "
+      "fit cube; } }",
+      &files);
+  INFO(renderDiagnostics(result));
+  REQUIRE(result.program);
+  CHECK(inWords(result) ==
+        "1:15 warning asset: `bay.glb`: 6 bytes behind its end are left out, at byte " + end +
+            "\n2:8 warning asset: `cube.glb`: by its bytes it is OBJ, not glTF as its name or type says, and "
+            "is read as such\n2:8 warning asset: `cube.glb`: 1 element of lines or points is left out, at "
+            "line 15");
+  CHECK(result.program->assets[1].solid->volume() == Approx(8));
+}
+
 TEST_CASE("what is no asset is one error with what to do", "[grammar][assets]") {
   const auto importing = [](const std::string& file) {
     return said("sgm 1; import \"" + file + "\" as a; start A; rule A { fit a; }");
@@ -77,10 +100,9 @@ TEST_CASE("what is no asset is one error with what to do", "[grammar][assets]") 
   CHECK(importing("none.glb") ==
         "1:15 import-missing: cannot import `none.glb`: no such file | a path starts at the folder of the file that "
         "imports");
-  CHECK(
-      importing("text.glb") ==
-      "1:15 asset: cannot import `text.glb`: it is no GLB file: it does not begin with `glTF` | save it as binary glTF "
-      "2.0 (.glb), all in one file, as triangles, uncompressed");
+  CHECK(importing("text.glb") ==
+        "1:15 asset: cannot import `text.glb`: it is a grammar (.sgm), not a mesh file | save it as binary glTF "
+        "2.0 (.glb), all in one file, as triangles, uncompressed");
   CHECK_THAT(importing("open.glb"),
              Catch::Matchers::StartsWith("1:15 asset: cannot import `open.glb`: it is open at the edge from (") &&
                  Catch::Matchers::EndsWith(", which has no triangle on its other side | an asset is closed: in the "

@@ -317,6 +317,28 @@ TEST_CASE("OBJ reads back, with its materials", "[mesh][export]") {
   CHECK(defined == used);
 }
 
+TEST_CASE("the materials of an .obj lie in a file whose name every reader finds", "[mesh][export]") {
+  const Folder folder;
+  const auto libraryOf = [&](const std::string& name) {
+    const fs::path obj = folder.path / name;
+    REQUIRE(exportMesh(WorldMesh(), {}, obj));
+    const std::string text = readFile(obj), keyword = "mtllib ";
+    const size_t begin = text.find(keyword) + keyword.size();
+    const std::string library = text.substr(begin, text.find('\n', begin) - begin);
+    CHECK(fs::exists(folder.path / library));
+    return library;
+  };
+  CHECK(libraryOf("a-house_2.5.obj") == "a-house_2.5.mtl");
+  const std::string names[] = {"a house.obj", "a_house.obj", "a#house.obj", "\xC3\xA4 house.obj", "a  house.obj"};
+  std::set<std::string> libraries;
+  for (const std::string& name : names) {
+    const std::string library = libraryOf(name);
+    libraries.insert(library);
+    CHECK(library.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_.") == std::string::npos);
+  }
+  CHECK(libraries.size() == std::size(names));
+}
+
 TEST_CASE("materials that others wrote stay, and .obj and .mtl change together or not at all", "[mesh][export]") {
   const Folder folder;
   const fs::path obj = folder.path / "ball.obj", mtl = folder.path / "ball.mtl";

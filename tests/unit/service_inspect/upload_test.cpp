@@ -29,7 +29,8 @@ TEST_CASE("the kind of an upload comes from its type, or else from its name") {
   CHECK(kind("application/octet-stream", "cave.Sgm") == "sgm");
   CHECK(kind("application/octet-stream ; x=y", "a.stl") == "stl");
   CHECK(kind("", "glb") == "none");
-  CHECK(kind("", "a.gltf") == "none");
+  CHECK(kind("", "a.gltf") == "glb");
+  CHECK(kind("model/gltf+json", "") == "glb");
   CHECK(kind("", "a.") == "none");
   CHECK(kind("", "") == "none");
   CHECK(kind("text/html", "a.glb") == "none");

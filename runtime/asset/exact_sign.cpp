@@ -1,12 +1,10 @@
-#include "measure/exact_sign.h"
+#include "asset/exact_sign.h"
 
 #include <cmath>
 #include <limits>
 
-namespace sgm::measure {
+namespace sgm::asset {
 namespace {
-
-using asset::Point;
 
 constexpr double kHalfUlp = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kSpaceError = (7 + 56 * kHalfUlp) * kHalfUlp;
@@ -125,4 +123,4 @@ int orientationAlong(int drop, Point a, Point b, Point c) {
   return signOf(exact);
 }
 
-}  // namespace sgm::measure
+}  // namespace sgm::asset

@@ -1,0 +1,41 @@
+#pragma once
+// Notes of a reader: each tells what it left out of a file or how it read a part that is not as the format demands.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sgm::asset {
+
+/// Counts occurrences of one kind and keeps the place of the first one.
+struct NotedPlaces {
+  size_t count = 0;
+  std::string first;  ///< such as "line 12"
+
+  /// place is called for the first occurrence only.
+  template <class Place>
+  void add(const Place& place) {
+    if (count++ == 0) first = place();
+  }
+};
+
+/// "1 line", "3 lines"
+inline std::string counted(size_t count, std::string_view one, std::string_view several) {
+  return std::to_string(count).append(" ").append(count == 1 ? one : several);
+}
+
+/// Appends "3 lines are left out, the first at line 9: behind" if the places have any; `one` and `several` hold noun
+/// and verb.
+inline void addNote(std::vector<std::string>& notes, const NotedPlaces& places, std::string_view one,
+                    std::string_view several, std::string_view behind = {}) {
+  if (places.count == 0) return;
+  std::string text = counted(places.count, one, several);
+  if (!places.first.empty()) text.append(places.count == 1 ? ", at " : ", the first at ").append(places.first);
+  notes.push_back(text.append(behind));
+}
+
+inline std::string lineText(size_t line) { return "line " + std::to_string(line); }
+inline std::string byteText(size_t byte) { return "byte " + std::to_string(byte); }
+
+}  // namespace sgm::asset
