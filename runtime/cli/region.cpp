@@ -215,6 +215,8 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
   const double seconds = watch.seconds();
   Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, cell << options.level);
   if (!notes) return notes.error();
+  Result<std::vector<ThinPart>> thin = thinParts(world, meshed->extent, options.level);
+  if (!thin) return thin.error();
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
   Region result{std::move(compiled),
@@ -227,7 +229,8 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
                 std::move(texture),
                 std::move(unsplit),
                 {},
-                std::move(*notes)};
+                std::move(*notes),
+                std::move(*thin)};
   if (result.meshed.mesh.indices.empty()) {
     Result<std::string> why = whyEmpty(world, result);
     if (!why) return why.error();
@@ -262,6 +265,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   if (!made) return failure(complain(made.error()));
   warnOfNotes(options.file, made->notes);
   warnOfThinWalls(options.file, *grammar.program, made->cell);
+  sayThinParts(made->thin, made->cell);
   return {std::move(*made), Exit::done};
 }
 
