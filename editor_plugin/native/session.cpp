@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "files.h"
 #include "godot/log.h"
+#include "number_text.h"
 #include "plugin.h"
 
 namespace sgm_godot {
@@ -24,9 +24,7 @@ std::string wrongDistances(const Settings& settings) {
   std::string wrong;
   const auto look = [&](const char* name, double metres) {
     if (std::isfinite(metres) && metres > 0) return;
-    char text[80];
-    std::snprintf(text, sizeof text, "%s is %g m", name, metres);
-    wrong += std::string(wrong.empty() ? "" : ", ") + text;
+    wrong += std::string(wrong.empty() ? "" : ", ") + name + " is " + numberText(metres) + " m";
   };
   look("cell_size", settings.cell_size);
   look("finest_distance", settings.finest_distance);
@@ -101,10 +99,8 @@ void Session::tellOfParameters(const GrammarOwner& grammar, const Settings& sett
       known += (known.empty() ? "" : ", ") + std::string(info.name);
       found = name == info.name;
       if (!found || (value >= info.minimum && value <= info.maximum)) continue;
-      char text[120];
-      std::snprintf(text, sizeof text, " is %g; it may be from %g to %g, and the nearest counts", value, info.minimum,
-                    info.maximum);
-      message = "the parameter " + name + text;
+      message = "the parameter " + name + " is " + numberText(value) + "; it may be from " + numberText(info.minimum) +
+                " to " + numberText(info.maximum) + ", and the nearest counts";
     }
     if (!found) message = "the grammar has no parameter '" + name + "'; it has " + (known.empty() ? "none" : known);
     if (!message.empty() && told_.insert(message).second) logWarning("SgmWorld3D: " + message);

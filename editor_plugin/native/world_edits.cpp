@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "godot/log.h"
+#include "number_text.h"
 #include "world.h"
 
 namespace sgm_godot {
@@ -26,10 +26,8 @@ void place(const Placement& placement, const Vector3& position, int32_t units[3]
 bool isLength(const char* what, double metres, double least) {
   constexpr double kMost = 1024;
   if (metres >= least && metres <= kMost) return true;
-  char text[160];
-  std::snprintf(text, sizeof text, "SgmWorld3D: a brush's %s is %g m; it may be from %s to 1,024 m", what, metres,
-                least > 0 ? "1/1,024" : "0");
-  logError(text);
+  logError(std::string("SgmWorld3D: a brush's ") + what + " is " + numberText(metres) + " m; it may be from " +
+           (least > 0 ? "1/1,024" : "0") + " to 1,024 m");
   return false;
 }
 constexpr double kLeast = 1.0 / SGM_UNITS_PER_METRE;

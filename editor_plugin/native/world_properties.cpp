@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "godot/class_binder.h"
+#include "number_text.h"
 #include "palette.h"
 #include "world.h"
 
@@ -30,11 +31,7 @@ std::optional<sgm_parameter_info> parameterOf(const sgm_grammar* grammar, const 
   return std::nullopt;
 }
 
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
-}
+std::string number(double value) { return numberText(value, 9); }
 
 /// A slider over the parameter's range, in its unit; a field without bounds where the grammar gives none.
 std::string rangeOf(const sgm_parameter_info& info) {

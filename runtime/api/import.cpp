@@ -7,6 +7,8 @@
 #include <memory>
 #include <system_error>
 
+#include "base/plain_text.h"
+
 namespace sgm::api {
 namespace fs = std::filesystem;
 namespace {
@@ -30,10 +32,10 @@ Result<std::string> readTextFile(const fs::path& path, size_t limit) {
   std::error_code why;
   const fs::file_status status = fs::status(path, why);
   if (status.type() == fs::file_type::not_found) return ioError(path, "no such file");
-  if (!fs::exists(status)) return ioError(path, why.message());  // no permission for a folder, links in a circle
+  if (!fs::exists(status)) return ioError(path, systemMessage(why));  // no permission for a folder, links in a circle
   if (fs::is_directory(status)) return ioError(path, "it is a folder");
   std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (file == nullptr) return ioError(path, std::strerror(errno));
+  if (file == nullptr) return ioError(path, systemMessage(errno));
   std::string text;
   char buffer[16384];
   while (const size_t got = std::fread(buffer, 1, sizeof buffer, file.get())) {
@@ -41,16 +43,16 @@ Result<std::string> readTextFile(const fs::path& path, size_t limit) {
     if (text.size() > limit)
       return Error{Code::limit, path.string() + " is larger than " + std::to_string(limit) + " bytes", 0, 0};
   }
-  if (std::ferror(file.get())) return ioError(path, std::strerror(errno));
+  if (std::ferror(file.get())) return ioError(path, systemMessage(errno));
   return text;
 }
 
 Result<std::string> FolderImports::read(std::string_view path, size_t limit) {
   std::error_code why;
   const fs::path folder = fs::canonical(folder_, why);
-  if (why) return ioError(folder_, why.message());
+  if (why) return ioError(folder_, systemMessage(why));
   const fs::path file = fs::canonical(folder / path, why);
-  if (why) return ioError(folder / path, why.message());
+  if (why) return ioError(folder / path, systemMessage(why));
   if (!liesIn(folder, file)) return ioError(folder / path, "the link leaves the grammar's folder");
   if (!fs::is_regular_file(file, why)) return ioError(file, "not a regular file");
   return readTextFile(file, limit);

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/plain_text.h"
+
 namespace sgm {
 namespace fs = std::filesystem;
 namespace {
@@ -32,7 +34,7 @@ Result<std::string> followed(const fs::path& target) {
     std::error_code why;
     if (!fs::is_symlink(fs::symlink_status(place, why))) return place.string();
     const fs::path to = fs::read_symlink(place, why);
-    if (why) return writeError(target, why.message());
+    if (why) return writeError(target, systemMessage(why));
     place = place.parent_path() / to;
   }
   return writeError(target, ELOOP);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "base/plain_text.h"
 #include "cli/json.h"
 #include "cli/slurm.h"
 #include "store/folder.h"
@@ -42,7 +43,7 @@ Result<SlurmBake> slurmBakeOf(const BakeOptions& options, const std::string& nam
   const auto absolute = [](const std::string& path) { return fs::absolute(path).lexically_normal().string(); };
   std::error_code error;
   const std::string program = fs::read_symlink("/proc/self/exe", error).string();
-  if (error) return Error{Code::io, "where this program lies cannot be told: " + error.message()};
+  if (error) return Error{Code::io, "where this program lies cannot be told: " + systemMessage(error)};
   SlurmBake bake;
   bake.bake = {program,        "bake",   absolute(options.file),       "--out",     absolute(options.out), "--levels",
                options.levels, "--seed", std::to_string(options.seed), "--backend", options.backend};

@@ -73,9 +73,10 @@ std::string failureText(const ExpectationSummary& summary, const CheckOptions& o
 }
 
 /// "ok", "ok, 2 warnings", "ok, its 2 expectations hold with 10 seeds".
-std::string successText(const CompileResult& compiled, const ExpectationSummary* summary, uint64_t seeds) {
-  std::string text = "ok";
-  if (!compiled.diagnostics.empty()) text += ", " + countDiagnostics(compiled.diagnostics);
+std::string successText(const CheckResult& checked, const ExpectationSummary* summary, uint64_t seeds) {
+  std::string text = checked.library ? "ok, a library without a start" : "ok";
+  const std::vector<Diagnostic>& said = checked.compiled.diagnostics;
+  if (!said.empty()) text += ", " + countDiagnostics(said);
   if (summary == nullptr) return text;
   if (summary->expectations == 0) return text + ", no expectation";
   text += summary->expectations == 1 ? ", its expectation holds"
@@ -98,19 +99,23 @@ Exit check(const CheckOptions& options) {
     workshop.backend = std::move(*backend);
   }
   for (const std::string& file : options.files) {
-    const Result<CompileResult> compiled = compileFile(file);
-    if (!compiled) {
-      status = std::max(status, complain(compiled.error()));
+    const Result<CheckResult> checked = [&] {
+      const ProgressBar bar("checking");
+      return checkFileOnDisk(file);
+    }();
+    if (!checked) {
+      status = std::max(status, complain(checked.error()));
       if (options.json)
         all.push_back(
-            {{"file", file}, {"ok", false}, {"diagnostics", Json::array()}, {"error", compiled.error().message}});
+            {{"file", file}, {"ok", false}, {"diagnostics", Json::array()}, {"error", checked.error().message}});
       continue;
     }
+    const CompileResult* const compiled = &checked->compiled;
     const bool ok = compiled->program != nullptr;
     if (!ok) status = std::max(status, Exit::input);
     if (!options.json) fmt::print(stderr, "{}", renderDiagnostics(*compiled));
     std::optional<ExpectationSummary> summary;
-    if (ok && options.expect)
+    if (ok && options.expect && !checked->library)
       summary = sayExpectations(*compiled, options, options.seeds, *workshop.backend, *workshop.jobs);
     const bool holds = !summary || summary->status == Exit::done;
     if (!holds) status = std::max(status, summary->status);
@@ -118,12 +123,13 @@ Exit check(const CheckOptions& options) {
       Json json{{"file", file}, {"ok", ok && holds}, {"diagnostics", Json::array()}};
       for (const Diagnostic& d : compiled->diagnostics) json["diagnostics"].push_back(toJson(d));
       if (ok) json.update(describe(*compiled->program));
+      if (ok) json["library"] = checked->library;
       if (summary) json["expectations"] = std::move(summary->statements);
       all.push_back(std::move(json));
     } else if (!ok) {
       fmt::print("{}: {}\n", file, countDiagnostics(compiled->diagnostics));
     } else if (holds) {
-      fmt::print("{}: {}\n", file, successText(*compiled, summary ? &*summary : nullptr, options.seeds));
+      fmt::print("{}: {}\n", file, successText(*checked, summary ? &*summary : nullptr, options.seeds));
     } else if (summary->failed > 0) {
       fmt::print("{}: {}\n", file, failureText(*summary, options));
     }

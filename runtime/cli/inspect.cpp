@@ -19,6 +19,7 @@
 #include <cstring>
 #include <new>
 
+#include "base/plain_text.h"
 #include "cli/limited_process.h"
 
 namespace sgm::cli {
@@ -52,7 +53,7 @@ void holdTo(const InspectOptions& options) {
 /// All of standard input. Error: io.
 Result<std::vector<std::byte>> readInput() {
   const auto failed = [] {
-    return Error{Code::io, fmt::format("cannot read standard input: {}", std::strerror(errno))};
+    return Error{Code::io, fmt::format("cannot read standard input: {}", systemMessage(errno))};
   };
   struct stat info {};
   if (fstat(STDIN_FILENO, &info) != 0) return failed();

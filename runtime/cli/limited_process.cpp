@@ -22,6 +22,8 @@
 #include <new>
 #include <optional>
 
+#include "base/plain_text.h"
+
 namespace sgm::cli {
 namespace {
 
@@ -130,7 +132,7 @@ void limitThisProcess(const ProcessLimits& limits) {
 Result<std::string> runLimited(const std::function<Result<std::string>()>& work, const ProcessLimits& limits) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
-    return Error{Code::io, fmt::format("cannot open a pipe: {}", std::strerror(errno))};
+    return Error{Code::io, fmt::format("cannot open a pipe: {}", systemMessage(errno))};
   // What is buffered would come out of both processes.
   std::fflush(nullptr);
   // Where children are not waited for, how one ended is not told.
@@ -141,7 +143,7 @@ Result<std::string> runLimited(const std::function<Result<std::string>()>& work,
     close(ends[0]);
     close(ends[1]);
     std::signal(SIGCHLD, before);
-    return Error{Code::io, fmt::format("cannot start a process: {}", std::strerror(why))};
+    return Error{Code::io, fmt::format("cannot start a process: {}", systemMessage(why))};
   }
   if (child == 0) {
     close(ends[0]);
@@ -157,7 +159,7 @@ Result<std::string> runLimited(const std::function<Result<std::string>()>& work,
   do ended = wait4(child, &status, 0, &used);
   while (ended < 0 && errno == EINTR);
   std::signal(SIGCHLD, before);
-  if (ended < 0) return Error{Code::io, fmt::format("a process was lost: {}", std::strerror(errno))};
+  if (ended < 0) return Error{Code::io, fmt::format("a process was lost: {}", systemMessage(errno))};
 
   const double processor = static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1;
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;

@@ -6,7 +6,7 @@
 
 #include "api/import.h"
 #include "grammar/builtins.h"
-#include "grammar/compile.h"
+#include "grammar/check_file.h"
 #include "grammar/imports.h"
 #include "grammar/keywords.h"
 #include "grammar/word_help.h"
@@ -35,6 +35,18 @@ Json rangeJson(const DocumentText& text, TextRange range) {
 uint32_t offsetAt(const DocumentText& text, const Json& params) {
   const Json& position = params.at("position");
   return text.offset({position.at("line").get<uint32_t>(), position.at("character").get<uint32_t>()});
+}
+
+/// The whole text was agreed, but a client may send the range that its text takes the place of.
+DocumentText changed(const DocumentText& before, const Json& change) {
+  std::string text = change.at("text").get<std::string>();
+  if (!change.contains("range") || change.at("range").is_null()) return DocumentText(std::move(text));
+  const auto place = [&](const char* end) {
+    const Json& at = change.at("range").at(end);
+    return before.offset({at.at("line").get<uint32_t>(), at.at("character").get<uint32_t>()});
+  };
+  const auto [begin, end] = std::minmax({place("start"), place("end")});
+  return DocumentText(before.text().substr(0, begin) + text + before.text().substr(end));
 }
 
 std::string folderOf(const std::string& uri) {
@@ -197,7 +209,10 @@ void LanguageServer::notify(const std::string& method, const Json& params, std::
     const std::string uri = params.at("textDocument").at("uri");
     const Json& changes = params.at("contentChanges");
     if (!documents_.contains(uri) || changes.empty()) return;
-    documents_[uri] = DocumentText(changes.back().at("text").get<std::string>());
+    // All of them or none: a change that is not as the protocol says throws.
+    DocumentText text = documents_[uri];
+    for (const Json& change : changes) text = changed(text, change);
+    documents_[uri] = std::move(text);
     diagnoseAll(out);
   } else if (method == "textDocument/didClose") {
     const std::string uri = params.at("textDocument").at("uri");
@@ -224,7 +239,7 @@ void LanguageServer::diagnose(const std::string& uri, std::vector<Json>& out) {
   OpenImports imports(documents_, folder);
   CompileOptions options;
   options.resolver = &imports;
-  const CompileResult compiled = compileGrammar(documents_[uri].text(), uri, options);
+  const CompileResult compiled = checkFile(documents_[uri].text(), uri, options).compiled;
   std::map<std::string, Json> of_file{{uri, Json::array()}};
   for (const Diagnostic& d : compiled.diagnostics) {
     const bool own = d.file == uri;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "base/plain_text.h"
 #include "measure/world_triangles.h"
 
 namespace sgm::cli {
@@ -22,11 +23,11 @@ Result<std::vector<std::byte>> readBytes(const std::string& path) {
   std::error_code why;
   const std::filesystem::file_status status = std::filesystem::status(path, why);
   // Whatever else it may be, a pipe say, would be waited for.
-  if (!std::filesystem::exists(status)) return failed(why ? why.message() : "no such file");
+  if (!std::filesystem::exists(status)) return failed(why ? systemMessage(why) : "no such file");
   if (!std::filesystem::is_regular_file(status)) return failed("it is no file of bytes");
   const uintmax_t size = std::filesystem::file_size(path, why);
   std::ifstream file(path, std::ios::binary);
-  if (why || !file) return failed(why ? why.message() : std::strerror(errno));
+  if (why || !file) return failed(why ? systemMessage(why) : systemMessage(errno));
   std::vector<std::byte> bytes(size);
   file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (file.gcount() != static_cast<std::streamsize>(size)) return failed("it ended before its size");

@@ -242,6 +242,8 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
   bar.emplace("looking for notes");
   Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, cell << options.level);
   if (!notes) return notes.error();
+  Result<std::vector<ThinPart>> thin = thinParts(world, meshed->extent, options.level);
+  if (!thin) return thin.error();
   bar.reset();
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
@@ -256,6 +258,7 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
                 std::move(unsplit),
                 {},
                 std::move(*notes),
+                std::move(*thin),
                 plan.keep_world ? kept : nullptr};
   if (result.meshed.mesh.indices.empty()) {
     Result<std::string> why = whyEmpty(world, result);
@@ -292,6 +295,7 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   warnOfNotes(options.file, made->notes);
   noteRounded(options.file, made->meshed.rounded);
   warnOfThinWalls(options.file, *grammar.program, made->cell);
+  sayThinParts(made->thin, made->cell);
   return {std::move(*made), Exit::done};
 }
 

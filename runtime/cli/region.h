@@ -13,6 +13,7 @@
 #include "cli/json.h"
 #include "cli/options.h"
 #include "sgm/sgm.h"
+#include "stream/thin_parts.h"
 
 namespace sgm::cli {
 
@@ -28,6 +29,7 @@ struct Region {
   std::optional<WorldMesh> unsplit;
   std::string empty_because;                ///< where the mesh has no triangle: why that may be, and what to try
   std::vector<DeriveNote> notes;            ///< what derivation left out
+  std::vector<ThinPart> thin;               ///< what its mesh may miss
   std::shared_ptr<const WorldField> world;  ///< that the mesh is of, where the plan keeps it
 
   uint64_t samples() const { return meshed.chunks * kChunkCells * kChunkCells * kChunkCells; }

@@ -27,6 +27,12 @@ std::optional<double> wallOf(const Program& program, const StmtNode& s) {
   return n.kind == ExprKind::number ? std::optional(n.value) : std::nullopt;
 }
 
+/// "4 cm", "2.5 cm", "1.2 m".
+std::string lengthText(int32_t units) {
+  const double length = metres(units);
+  return length < 1 ? fmt::format("{:.3g} cm", 100 * length) : fmt::format("{:.3g} m", length);
+}
+
 }  // namespace
 
 Result<std::string> whyEmpty(const WorldField& world, const Region& region) {
@@ -44,6 +50,18 @@ Result<std::string> whyEmpty(const WorldField& world, const Region& region) {
                        metres(region.cell));
   return fmt::format("{} here, or is thinner than a cell of {} m: look at the cuts, or take smaller cells with --cell",
                      solid ? "what is cut is filled again" : "all is carved away", metres(region.cell));
+}
+
+void sayThinParts(const std::vector<ThinPart>& parts, int32_t cell) {
+  constexpr size_t kMostSaid = 10;
+  for (size_t i = 0; i < std::min(parts.size(), kMostSaid); ++i) {
+    const ThinPart& part = parts[i];
+    fmt::print(stderr, "note: {}{} is {} {}, cells {}: it may not be seen ({} {})\n", part.cut ? "what is cut in " : "",
+               part.rule, lengthText(part.thickness), part.cut ? "wide" : "thick", lengthText(cell), part.uses,
+               part.uses == 1 ? "use" : "uses");
+  }
+  if (parts.size() > kMostSaid)
+    fmt::print(stderr, "note: {} more rules have parts thinner than a cell\n", parts.size() - kMostSaid);
 }
 
 void warnOfThinWalls(const std::string& file, const Program& program, int32_t cell) {

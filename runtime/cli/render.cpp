@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "cli/commands.h"
@@ -26,6 +28,14 @@ std::string noAnchor(const Region& region, const std::string& wanted) {
                            : suggestion.best().empty() ? fmt::format("it has {}", fmt::join(known, ", "))
                                                        : fmt::format("did you mean '{}'?", suggestion.best());
   return fmt::format("--at: the region has no anchor of the name, kind or tag '{}'; {}", wanted, hint);
+}
+
+/// Whether the camera stands at an anchor: above or below it, as high as eyes are over a floor.
+bool standsAt(const View& view, const std::vector<glm::vec3>& anchors) {
+  constexpr float kNear = 0.05f;
+  return view.enclosed && std::ranges::any_of(anchors, [&](const glm::vec3& at) {
+           return std::abs(at.x - view.camera.position.x) < kNear && std::abs(at.z - view.camera.position.z) < kNear;
+         });
 }
 
 /// In metres of the world.
@@ -60,6 +70,10 @@ Exit render(const RenderOptions& options) {
   const Image& image = picture->image;
   const View& view = picture->view;
   if (Result<void> ok = writePng(image, *file); !ok) return complain(ok.error());
+  if (!options.at.empty() && !standsAt(view, anchorsAt(region, options.at)))
+    fmt::print(stderr,
+               "note: --at {} is not used: no such anchor stands in a room or a cave; --camera looks from anywhere\n",
+               options.at);
 
   const RenderCamera& camera = view.camera;
   const std::array<double, 3> position = worldPoint(region.meshed.mesh, camera.position),

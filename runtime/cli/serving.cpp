@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "base/plain_text.h"
 #include "cli/flight_engine.h"
 
 namespace sgm::cli {
@@ -30,7 +31,7 @@ Result<std::string> ownProgram() {
   std::string path(PATH_MAX, '\0');
   const ssize_t size = readlink("/proc/self/exe", path.data(), path.size());
   if (size <= 0 || static_cast<size_t>(size) >= path.size())
-    return Error{Code::io, fmt::format("cannot find this program's own file: {}", std::strerror(errno))};
+    return Error{Code::io, fmt::format("cannot find this program's own file: {}", systemMessage(errno))};
   path.resize(static_cast<size_t>(size));
   return path;
 }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/console.h"
-#include "grammar/compile.h"
+#include "grammar/check_file.h"
 
 namespace sgm::cli {
 
@@ -15,6 +15,9 @@ Result<std::string> readGrammarText(const std::string& file);
 /// Compiles the file; imports come from its folder. Error (io, limit) only where the file itself cannot be read: what
 /// is wrong in the text stands in the diagnostics.
 Result<CompileResult> compileFile(const std::string& file);
+
+/// The same of a file that may be a library for others to import.
+Result<CheckResult> checkFileOnDisk(const std::string& file);
 
 /// As compileFile, and prints every message to stderr as "file:line:column: error: ..." with the line and a caret. The
 /// status to end with where there is no program.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdio>
 #include <map>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 #include "derive/bounds.h"
 #include "derive/coarse_chunk.h"
 #include "derive/group_parts.h"
@@ -14,11 +14,7 @@
 namespace sgm {
 namespace {
 
-std::string metresText(int64_t units) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", static_cast<double>(units) / kUnitsPerMetre);
-  return text;
-}
+std::string metresText(int64_t units) { return fixedText(static_cast<double>(units) / kUnitsPerMetre, 2); }
 
 /// By how much `box` passes `limit`, in units.
 int64_t excess(const IntBox& box, const IntBox& limit) {

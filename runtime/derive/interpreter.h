@@ -243,6 +243,8 @@ class Interpreter {
   void repeat(const StmtNode& s, const Env& env, ShapeList& out);
   void forEach(const StmtNode& s, const Env& env, ShapeList& out);
   void scatter(const StmtNode& s, const Env& env, ShapeList& out);
+  void scatterPoints(const StmtNode& s, const Env& env, ShapeList& out);
+  void noteBuried(const StmtNode& s, const Env& env);
   void scatterPoint(const StmtNode& s, const Env& at, ShapeList& out);
   bool probe(const ScatterNode& node, Env& env);
   void split(const StmtNode& s, const Env& env, ShapeList& out);
@@ -377,6 +379,10 @@ class Interpreter {
   int32_t coarse_edge_ = 0;  ///< derive for levels with cells of this edge or a larger one alone; 0: for all
   uint32_t watched_rule_ = kNone;
   std::vector<WatchedCall> watched_;
+  /// Points of the scatter that runs: how many have been probed, and how many of them began inside.
+  struct ProbedPoints {
+    uint64_t all = 0, buried = 0;
+  } probed_;
   std::vector<DeriveNote> notes_;
   uint64_t dropped_notes_ = 0;
   uint64_t parameters_read_ = 0;

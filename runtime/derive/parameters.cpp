@@ -2,18 +2,14 @@
 
 #include <bit>
 #include <cmath>
-#include <cstdio>
 
 #include "base/math.h"
+#include "base/plain_text.h"
 
 namespace sgm {
 namespace {
 
-std::string numberText(double v) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", v);
-  return text;
-}
+std::string numberText(double v) { return generalText(v); }
 
 /// "; it has boxy, wet".
 std::string namesOf(const Program& program) {

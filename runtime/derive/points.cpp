@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/math.h"
 #include "derive/draws.h"
@@ -98,6 +99,26 @@ void Interpreter::forEach(const StmtNode& s, const Env& env, ShapeList& out) {
 }
 
 void Interpreter::scatter(const StmtNode& s, const Env& env, ShapeList& out) {
+  const ProbedPoints outside = std::exchange(probed_, {});
+  scatterPoints(s, env, out);
+  if (probed_.buried > 0 && !failed()) noteBuried(s, env);
+  probed_ = outside;
+}
+
+/// In a domain of rock most points lie in the rock, and are meant to find the caves in it. Elsewhere what is solid is
+/// the ground that somebody wants to stand things on.
+void Interpreter::noteBuried(const StmtNode& s, const Env& env) {
+  if (program_.domain.solid || 2 * probed_.buried < probed_.all) return;
+  const ScatterNode& node = program_.ast.scatters[s.extra];
+  const std::string below(program_.text(node.layer_name));
+  note((probed_.buried == probed_.all ? "all points of this scatter begin inside `"
+                                      : "most points of this scatter begin inside `") +
+           below + "`, and are left out: let them begin in the open, such as behind at(0m, " +
+           (node.probe > 0 ? "-" : "") + "50m, 0m), and probe farther",
+       s.span, env.activation);
+}
+
+void Interpreter::scatterPoints(const StmtNode& s, const Env& env, ShapeList& out) {
   const ScatterNode& node = program_.ast.scatters[s.extra];
   const double amount = real(node.count, env);
   const auto point = [&](Vec3 local, uint64_t key) {
@@ -193,7 +214,11 @@ bool Interpreter::probe(const ScatterNode& node, Env& env) {
   const Vec3 d = env.place.direction({0, node.probe > 0 ? 1.0 : -1.0, 0});
   const Int3 from = env.place.snap({});
   const std::optional<int32_t> hit = lower_.probe(node.layer, from, {d.x, d.y, d.z}, distance);
-  if (!hit) return false;
+  ++probed_.all;
+  if (!hit) {
+    if (!program_.domain.solid && lower_.solid(node.layer, from)) ++probed_.buried;
+    return false;
+  }
   if (node.gap != kNoId && env.slots != nullptr && node.slot < env.slots->size()) {
     const std::optional<int32_t> back = lower_.probe(node.layer, from, {-d.x, -d.y, -d.z}, within - *hit);
     if (!back) return false;

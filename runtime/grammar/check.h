@@ -50,13 +50,16 @@ struct WrittenStep;
 
 class Checker {
  public:
+  /// library: the root is a file for others to import, and derives nothing.
   Checker(Program& program, NameTable& names, std::vector<ModuleSyntax>& syntax, const CompileLimits& limits,
-          DiagnosticSink& sink);
+          DiagnosticSink& sink, bool library);
 
   /// All checks but recursion and reach. What failed is in the sink.
   void run();
 
   const std::vector<RuleCall>& calls() const { return calls_; }
+  /// Whether something that is used may be declared in a part of the text that was not parsed.
+  bool usesWhatIsLost() const { return uses_lost_; }
 
  private:
   struct Symbol {
@@ -87,6 +90,10 @@ class Checker {
 
   // check_collect.cpp
   void collect();
+  /// Whether a name that is not known in a module may be declared in a part of it that was not parsed.
+  bool mayBeLost(uint32_t module, NameId name);
+  /// Whether parts of a statement may be missing because they were not parsed.
+  bool isLossy(const StmtNode& s) const { return !syntax_[s.span.file].complete; }
   void declare(ModuleSyntax& module, NameId name, Symbol symbol);
   uint16_t tableIndex(std::pmr::vector<std::pmr::string>& table, NameId name, const Span& span);
 
@@ -263,6 +270,10 @@ class Checker {
   uint32_t override_ = kNoId;  ///< whose block is being checked, instead of a rule's
   uint32_t ordinal_ = 0, draws_ = 0;
   int expression_depth_ = 0;
+  const bool library_;
+  const uint32_t errors_before_;  ///< those of loading and parsing
+  const bool lossy_;              ///< they are some: not all of the text is here
+  bool uses_lost_ = false;
   bool layers_known_ = false;  ///< otherwise what is said of layers would only follow from another error
 };
 

@@ -14,7 +14,7 @@ uint32_t Checker::layerBelow(NameId name, const Span& span, std::string_view ver
     if (program_.layers[l].name == name) found = l;
     suggestion.offer(text(program_.layers[l].name));
   }
-  if (found == kNoId && layers_known_) {
+  if (found == kNoId && layers_known_ && !mayBeLost(0, name)) {
     const std::string hint = suggestion.hint();
     sink_.error(span, codes::kUnknownName, join({"unknown layer `", text(name), "`"}),
                 hint.empty() ? "name a layer of this file" : hint);

@@ -2,6 +2,7 @@
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
+#include "grammar/foreign_words.h"
 #include "grammar/imports.h"
 #include "grammar/keywords.h"
 
@@ -178,11 +179,12 @@ void Checker::offerNames(Suggestion& suggestion, bool calls) const {
 }
 
 void Checker::unknownName(const Span& span, NameId name, bool call, bool shape) {
+  if (mayBeLost(scope_.module, name)) return;
   const std::string_view word = text(name);
   Suggestion suggestion(word);
   offerNames(suggestion, call || shape);
-  if (const std::string_view ours = wordFor(word); !ours.empty()) {
-    sink_.error(span, codes::kUnknownName, join({"unknown name `", word, "`"}), join({"write `", ours, "`"}));
+  if (const std::string ours = hintFor(word); !ours.empty()) {
+    sink_.error(span, codes::kUnknownName, join({"unknown name `", word, "`"}), ours);
     return;
   }
   sink_.error(span, codes::kUnknownName, join({"unknown name `", word, "`"}),
@@ -195,6 +197,7 @@ void Checker::unknownName(const Span& span, NameId name, bool call, bool shape) 
 bool Checker::notImported(const ExprNode& receiver, bool shape) {
   const std::string_view word = text(receiver.name);
   if (isValueWord(word)) return false;
+  if (mayBeLost(scope_.module, receiver.name)) return true;
   const std::string path = join({"std/", word, ".sgm"});
   const bool standard = !standardModule(path).empty();
   if (!standard && !shape) return false;
@@ -212,6 +215,7 @@ bool Checker::resolveCallee(ExprId call, bool shape) {
   ExprNode& n = node(call);
   if (n.ref != Ref::none) return true;
   const std::map<NameId, Symbol>* table = &symbols_[scope_.module];
+  uint32_t module_of_callee = scope_.module;
   bool qualified = false;
   if (n.children.count > 0) {
     const ExprNode& receiver = node(child(n, 0));
@@ -225,7 +229,9 @@ bool Checker::resolveCallee(ExprId call, bool shape) {
     }
     if (!hidden && module == table->end() && notImported(receiver, shape)) return true;
     if (hidden || module == table->end() || !module->second.import) return false;
-    table = &symbols_[module->second.id];
+    if (module->second.id == kNoId && mayBeLost(kNoId, n.name)) return true;  // a file that could not be read
+    module_of_callee = module->second.id;
+    table = &symbols_[module_of_callee];
     qualified = true;
   }
   const auto found = table->find(n.name);
@@ -244,6 +250,7 @@ bool Checker::resolveCallee(ExprId call, bool shape) {
   }
   Span span = n.span;
   if (qualified) {
+    if (mayBeLost(module_of_callee, n.name)) return true;
     Suggestion suggestion(text(n.name));
     std::string all;
     for (const auto& [name, symbol] : *table) {

@@ -3,6 +3,7 @@
 
 #include "grammar/check.h"
 #include "grammar/codes.h"
+#include "grammar/foreign_words.h"
 
 namespace sgm {
 
@@ -189,15 +190,20 @@ Type Checker::method(ExprId id) {
   } else if (word == "links" && cell) {
     builtin = Builtin::cell_links;
   } else {
+    if (type.kind == ValueKind::unknown && uses_lost_) return kUnknownType;
     Suggestion suggestion(word);
     if (cell || face) suggestion.offer("point");
     if (cell) suggestion.offer("links");
+    const BuiltinInfo* builtin_of = findBuiltin(word);
+    const bool function = builtin_of != nullptr && builtin_of->id < Builtin::cell_point;
+    const std::string foreign = function ? join({"write `", word, "(...)` with the value within"}) : hintFor(word);
     sink_.error(n.span, codes::kUnknownMember, join({withArticle(typeName(type)), " has no `", word, "()`"}),
                 cell && word == "faces"
                     ? "write it without parentheses"
-                    : suggestion.hintOr(cell   ? "it has point() and links()"
-                                        : face ? "it has point()"
-                                               : "only cells and faces have functions of their own"));
+                    : suggestion.hintOr(cell              ? "it has point() and links()"
+                                        : face            ? "it has point()"
+                                        : foreign.empty() ? "only cells and faces have functions of their own"
+                                                          : foreign));
     return kUnknownType;
   }
   const BuiltinInfo& info = builtinTable()[static_cast<size_t>(builtin)];

@@ -6,13 +6,21 @@
 namespace sgm {
 
 Checker::Checker(Program& program, NameTable& names, std::vector<ModuleSyntax>& syntax, const CompileLimits& limits,
-                 DiagnosticSink& sink)
-    : program_(program), names_(names), syntax_(syntax), limits_(limits), sink_(sink), symbols_(syntax.size()) {}
+                 DiagnosticSink& sink, bool library)
+    : program_(program),
+      names_(names),
+      syntax_(syntax),
+      limits_(limits),
+      sink_(sink),
+      symbols_(syntax.size()),
+      library_(library),
+      errors_before_(sink.errorCount()),
+      lossy_(errors_before_ > 0) {}
 
 void Checker::run() {
   collect();
   assetMaterials();
-  if (sink_.errorCount() > 0) return;
+  if (sink_.errorCount() > errors_before_) return;
   params();
   seedAndDomain();
   layers();
@@ -21,6 +29,12 @@ void Checker::run() {
   keepCalls();
   layersAsked();
   expectations();
+}
+
+bool Checker::mayBeLost(uint32_t module, NameId name) {
+  if (module != kNoId && !syntax_[module].mayDeclare(name)) return false;
+  uses_lost_ = true;
+  return true;
 }
 
 IdRange Checker::store(const std::vector<uint32_t>& ids) {

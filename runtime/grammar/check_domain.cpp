@@ -56,8 +56,8 @@ std::optional<double> Checker::fold(ExprId id, int depth) {
 std::optional<double> Checker::constant(ExprId id, Dim dim, std::string_view what) {
   const uint32_t before = sink_.errorCount();
   scope_ = {};
-  demand(id, ValueKind::number, dim, what);
-  if (sink_.errorCount() > before) return std::nullopt;
+  const Type type = demand(id, ValueKind::number, dim, what);
+  if (sink_.errorCount() > before || type.kind == ValueKind::unknown) return std::nullopt;
   const auto value = fold(id, 0);
   if (!value || !std::isfinite(*value)) {
     sink_.error(node(id).span, codes::kNotConstant, join({what, " must be a constant"}),
@@ -84,6 +84,7 @@ void Checker::params() {
     if (param.module != 0) continue;
     scope_ = {};
     const Type type = expression(param.value_expr);
+    if (type.kind == ValueKind::unknown) continue;
     if (type.kind != ValueKind::number) {
       sink_.error(node(param.value_expr).span, codes::kTypeMismatch,
                   join({"a parameter is a number, and this is a ", typeName(type)}), "such as param a = 2m;");
@@ -192,10 +193,10 @@ void Checker::layers() {
   if (root.start == kNoId && root.layers.empty()) {
     Span span;
     span.line = span.column = span.end_line = span.end_column = 1;
-    const bool library = std::none_of(root.items.begin(), root.items.end(), [](const Item& item) {
+    const bool derives = std::any_of(root.items.begin(), root.items.end(), [](const Item& item) {
       return item.kind == ItemKind::alternative || item.kind == ItemKind::domain;
     });
-    if (!library)
+    if (derives && !library_ && !lossy_)
       sink_.error(span, codes::kNoStart, "nothing says where derivation starts", "add `start Rule;` or a layer");
     return;
   }
@@ -205,7 +206,7 @@ void Checker::layers() {
   if (root.start != kNoId && decl.infinite)
     sink_.error(root.start_span, codes::kDomain, "an infinite domain is derived by layers",
                 "layer name cell 100m reach 50m { start Rule; }");
-  if (!root.layers.empty() && !decl.infinite && !decl.box)
+  if (!root.layers.empty() && !decl.infinite && !decl.box && !lossy_)
     sink_.error(root.layers[0].span, codes::kDomain, "layers need an infinite domain or one with a box",
                 "write `domain infinite;` or `domain finite box(...)`");
   if (root.layers.size() > kMostLayers)
@@ -279,7 +280,9 @@ void Checker::sortLayers() {
         suggestion.offer(text(decls[other].name));
         if (decls[other].name == use.name) found = other;
       }
-      if (found == kNoId)
+      if (found == kNoId && mayBeLost(0, use.name))
+        continue;
+      else if (found == kNoId)
         sink_.error(use.span, codes::kUnknownName, join({"unknown layer `", text(use.name), "`"}),
                     suggestion.hintOr("name a layer of this file"));
       else if (found == l)
@@ -359,6 +362,7 @@ void Checker::expectations() {
       e.high_number = *high;
     if (e.per_name == kNoId) continue;
     const auto found = symbols_[0].find(e.per_name);
+    if (found == symbols_[0].end() && mayBeLost(0, e.per_name)) continue;
     if (found == symbols_[0].end() || found->second.ref != Ref::rule) {
       Suggestion suggestion(text(e.per_name));
       for (const Rule& rule : program_.rules) suggestion.offer(text(rule.name));

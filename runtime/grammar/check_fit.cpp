@@ -29,6 +29,9 @@ void Checker::fit(const StmtNode& s) {
     fit.asset = found->second.id;
     return;
   }
+  if (found == table.end() ? mayBeLost(scope_.module, s.name)
+                           : found->second.import && found->second.id == kNoId && mayBeLost(kNoId, s.name))
+    return;
   if (found != table.end()) {
     sink_.error(fit.name_span, codes::kWrongUse, join({"`", text(s.name), "` is no asset"}),
                 "`fit` takes what is imported from a .glb file, such as `import \"bay.glb\" as bay;`");

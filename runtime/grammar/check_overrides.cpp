@@ -66,6 +66,7 @@ int rankOf(const Override& edit) { return edit.by_tag ? 0 : edit.one_cell ? 2 : 
 void Checker::overrides() {
   const uint32_t before = sink_.errorCount();
   if (program_.overrides.empty()) return;
+  uses_lost_ = uses_lost_ || lossy_;
   if (!layers_known_) {
     if (before == 0)
       sink_.error(program_.overrides[0].span, codes::kNoStart, "nothing is derived here that could be edited",
@@ -87,9 +88,11 @@ void Checker::overrides() {
                    [](const Override& a, const Override& b) { return rankOf(a) < rankOf(b); });
   override_calls_.assign(program_.overrides.size(), {});
   override_asked_.assign(program_.overrides.size(), {});
-  for (uint32_t o = 0; o < program_.overrides.size() && !sink_.full(); ++o) overrideBlock(o);
+  for (uint32_t o = 0; o < program_.overrides.size() && !sink_.full(); ++o)
+    if (program_.overrides[o].by_tag || program_.overrides[o].steps.count > 0) overrideBlock(o);
   checkWaiting();
-  if (sink_.errorCount() > before) return;
+  // What rules derive, and which tags they give, may stand in a part of the text that was not parsed.
+  if (sink_.errorCount() > before || lossy_) return;
   overrideTags();
   orderPaths();
   hiddenOverrides();
@@ -101,7 +104,7 @@ uint32_t Checker::ruleOfStep(uint32_t module, const WrittenStep& step) {
   const std::map<NameId, Symbol>* table = &symbols_[module];
   if (!step.qualifier.empty()) {
     const auto import = table->find(names_.intern(step.qualifier));
-    if (import == table->end() || !import->second.import) return kNoId;
+    if (import == table->end() || !import->second.import || import->second.id == kNoId) return kNoId;
     table = &symbols_[import->second.id];
   }
   const auto rule = table->find(names_.intern(step.name));
@@ -148,6 +151,7 @@ void Checker::overridePath(Override& edit) {
                               : join({text(qualifier), ".", text(program_.rules[rule].name)});
   };
   const auto unknown = [&](const WrittenStep& step, std::string_view who, const std::vector<std::string>& known) {
+    if (lossy_) return;
     // Messages name what is derived within an override by such a step.
     if (step.name == "override") {
       sink_.error(spanIn(edit, step.place), codes::kUnknownName, join({who, " `override`"}),
@@ -205,6 +209,7 @@ bool Checker::overrideCell(Override& edit, const WrittenPath& written) {
     suggestion.offer(text(program_.layers[l].name));
   }
   if (edit.layer == kNoId) {
+    if (lossy_) return false;
     sink_.error(spanIn(edit, written.layer_place), codes::kUnknownName, join({"unknown layer `", written.layer, "`"}),
                 suggestion.hintOr("name a layer of this file"));
     return false;

@@ -97,7 +97,7 @@ bool Checker::unknownAxis(ExprId axis) {
   const NameId name = node(axis).name;
   const auto named = [name](const Local& local) { return local.name == name; };
   if (isValueWord(text(name)) || symbols_[scope_.module].contains(name) ||
-      std::any_of(scope_.locals.begin(), scope_.locals.end(), named))
+      std::any_of(scope_.locals.begin(), scope_.locals.end(), named) || mayBeLost(scope_.module, name))
     return false;
   sink_.error(node(axis).span, codes::kUnknownName,
               join({"the axis of `rot` is x, y, z or a vector, and `", text(name), "` is none"}),

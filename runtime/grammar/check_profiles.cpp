@@ -63,6 +63,7 @@ bool Checker::planUnknown(ExprId id) {
   const auto named = [&](const Local& local) { return local.name == plan.name; };
   if (std::any_of(scope_.locals.begin(), scope_.locals.end(), named) || symbols_[scope_.module].contains(plan.name))
     return false;
+  if (mayBeLost(scope_.module, plan.name)) return true;
   const std::string_view word = text(plan.name);
   std::string hint = join({"write `footprint rect(12m, 8m) as ", word, ";` before it in the rule"});
   const StmtId body =

@@ -9,7 +9,23 @@ namespace sgm {
 
 namespace {
 
+constexpr const char* kWeightHint = "write how often this head comes beside the others, such as weight 2";
 constexpr const char* kShapeHint = "write a shape such as sphere(2m), or a rule";
+
+/// Distance fields are joined by such functions elsewhere.
+std::string_view shapeHint(const ExprNode& call) {
+  if (call.ref != Ref::builtin) return kShapeHint;
+  switch (static_cast<Builtin>(call.id)) {
+    case Builtin::mix:
+      return "to blend two shapes, write `morph(A, B, 0.5);`";
+    case Builtin::min:
+      return "to join two shapes, write `union { ... }`";
+    case Builtin::max:
+      return "to keep what two shapes have in common, write `meet { ... }`";
+    default:
+      return kShapeHint;
+  }
+}
 
 bool roundOrBox(Primitive p) {
   return p == Primitive::sphere || p == Primitive::blob || p == Primitive::ellipsoid || p == Primitive::box ||
@@ -40,7 +56,7 @@ void Checker::checkRules() {
     }
     const bool lod = std::any_of(rule.alternatives.begin(), rule.alternatives.end(),
                                  [](const Alternative& a) { return a.lod != kNoId; });
-    if (otherwise && !when && !lod)
+    if (otherwise && !when && !lod && !syntax_[rule.module].mayDeclare(rule.name))
       sink_.error(rule.span, codes::kGuards, join({"`", text(rule.name), "` has an `else` and no `when`"}),
                   "add a head with `when`, or leave `else` out");
   }
@@ -114,6 +130,14 @@ void Checker::checkRule(uint32_t rule) {
   }
   ordinal_ = draws_ = 0;
   for (uint32_t a = 0; a < program_.rules[rule].alternatives.size(); ++a) checkAlternative(rule, a);
+  const auto& heads = program_.rules[rule].alternatives;
+  const bool never = std::ranges::all_of(heads, [&](const Alternative& head) {
+    return head.weight != kNoId && fold(head.weight, 0) == std::optional(0.0);
+  });
+  if (never)
+    sink_.error(node(heads[0].weight).span, codes::kValueRange,
+                join({"all heads of `", text(program_.rules[rule].name), "` have weight 0, so that none ever comes"}),
+                "give one of them a weight above 0");
 }
 
 void Checker::checkAlternative(uint32_t rule, uint32_t alternative) {
@@ -136,7 +160,12 @@ void Checker::checkAlternative(uint32_t rule, uint32_t alternative) {
   }
   scope_.next_slot = scope_.slot_count = head.formals.count;
   if (head.when != kNoId) demand(head.when, ValueKind::boolean, kRatio, "a guard");
-  if (head.weight != kNoId) demand(head.weight, ValueKind::number, kRatio, "a weight");
+  if (head.weight != kNoId) {
+    demand(head.weight, ValueKind::number, kRatio, "a weight");
+    if (const std::optional<double> weight = fold(head.weight, 0); weight && *weight < 0)
+      sink_.error(node(head.weight).span, codes::kValueRange,
+                  join({"a weight is 0 or more, and this is ", numberText(*weight)}), kWeightHint);
+  }
   if (head.depth != kNoId) demand(head.depth, ValueKind::number, kRatio, "a depth");
   constexpr double kDeepest = 64;  // DeriveLimits::depth
   if (head.depth != kNoId && node(head.depth).kind == ExprKind::number && node(head.depth).value > kDeepest)
@@ -176,7 +205,8 @@ void Checker::callRule(ExprId call, bool escape, bool shrunk) {
   if (n.ref == Ref::primitive) return primitiveCall(call);
   if (n.ref != Ref::rule) {
     if (n.ref != Ref::none)
-      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` gives a value and is no shape"}), kShapeHint);
+      sink_.error(n.span, codes::kWrongUse, join({"`", text(n.name), "` gives a value and is no shape"}),
+                  std::string(shapeHint(n)));
     for (uint32_t i = 0; i < n.args.count; ++i) expression(program_.ast.args[n.args.first + i].value);
     return;
   }
@@ -369,7 +399,8 @@ void Checker::morphStatement(const StmtNode& node_in, bool shrunk) {
     const StmtNode& s = program_.stmt(operand);
     const bool good = s.kind == StmtKind::call && node(s.expr).ref == Ref::primitive &&
                       roundOrBox(static_cast<Primitive>(node(s.expr).id));
-    if (!good && sink_.errorCount() == 0)
+    const bool understood = s.kind != StmtKind::call || node(s.expr).ref != Ref::none;
+    if (!good && understood)
       sink_.error(s.span, codes::kWrongUse, "`power` morphs spheres, ellipsoids, superquadrics and boxes",
                   "leave `power` out for a linear morph");
   }

@@ -39,7 +39,7 @@ void Checker::treemap(const StmtNode& s) {
           join({"`", part.floor == FloorPart::corridor ? "corridor" : "facade", "` stands twice in this treemap"}),
           "put both into one block behind it");
   }
-  if (rooms.empty() || rooms.size() > kMostRooms)
+  if ((rooms.empty() && !isLossy(s)) || rooms.size() > kMostRooms)
     sink_.error(s.span, codes::kArgumentCount, "a treemap has 1 to 32 rooms", "such as `living 28: Room;`");
   std::vector<std::pair<uint32_t, uint32_t>> linked;
   for (uint32_t i = 0; i < s.parts.count; ++i) {
@@ -61,6 +61,7 @@ bool Checker::link(const StmtNode& s, const std::vector<NameId>& rooms) {
   LinkNode& link = program_.ast.links[s.extra];
   for (const auto& [name, number] : {std::pair{s.name, &link.a}, std::pair{s.name2, &link.b}}) {
     const auto room = std::find(rooms.begin(), rooms.end(), name);
+    if (room == rooms.end() && mayBeLost(scope_.module, name)) return false;
     if (room == rooms.end()) {
       Suggestion suggestion(text(name));
       for (const NameId known : rooms) suggestion.offer(text(known));

@@ -63,7 +63,7 @@ void Checker::wave(const StmtNode& s) {
                   "give each tile a name of its own");
     tiles.push_back(part.label);
   }
-  if (tiles.empty() || tiles.size() > kMostTiles)
+  if ((tiles.empty() && !isLossy(s)) || tiles.size() > kMostTiles)
     sink_.error(s.span, codes::kArgumentCount, "a wfc has 1 to 64 tiles",
                 "such as `wall 3 turn, left brick, right brick: Wall;`");
   waveSides(s);

@@ -1,7 +1,10 @@
 #include "grammar/compile.h"
 
+#include <algorithm>
+
 #include "base/hash.h"
 #include "grammar/check.h"
+#include "grammar/check_file.h"
 #include "grammar/codes.h"
 #include "grammar/imports.h"
 #include "grammar/printer.h"
@@ -22,6 +25,27 @@ bool fits(std::string_view text, const CompileLimits& limits, DiagnosticSink& si
   return false;
 }
 
+/// Whether a file has nothing that an imported one may not have, and something to import.
+bool isLibrary(const ModuleSyntax& root) {
+  bool gives = false;
+  for (const Item& item : root.items) {
+    switch (item.kind) {
+      case ItemKind::version:
+      case ItemKind::import:
+      case ItemKind::units:
+        break;
+      case ItemKind::let:
+      case ItemKind::field:
+      case ItemKind::alternative:
+        gives = true;
+        break;
+      default:
+        return false;
+    }
+  }
+  return gives;
+}
+
 std::shared_ptr<Program> newProgram(std::string_view text, std::string_view path, std::pmr::memory_resource* memory) {
   auto program = std::allocate_shared<Program>(std::pmr::polymorphic_allocator<Program>(memory), memory);
   program->modules.emplace_back(memory);
@@ -31,41 +55,57 @@ std::shared_ptr<Program> newProgram(std::string_view text, std::string_view path
   return program;
 }
 
-}  // namespace
-
-CompileResult compileGrammar(std::string_view text, std::string_view path, const CompileOptions& options) {
-  CompileResult result;
+CheckResult compile(std::string_view text, std::string_view path, const CompileOptions& options, bool libraries) {
+  CheckResult check;
+  CompileResult& result = check.compiled;
   DiagnosticSink sink(options.limits.diagnostics);
   sink.addFile(path);
   result.files.push_back({std::string(path), std::string(text)});
   if (!fits(text, options.limits, sink)) {
     result.diagnostics = sink.take();
-    return result;
+    return check;
   }
   std::shared_ptr<Program> program = newProgram(text, path, options.memory);
   NameTable names(program->ast);
   std::vector<ModuleSyntax> syntax = loadModules(*program, names, options, sink, result.files);
-  if (sink.errorCount() == 0) {
+  const uint32_t unread = sink.errorCount();
+  check.library = libraries && isLibrary(syntax[0]);
+  if (unread == 0) {
     // Printed before the checker resolves names, which rewrites calls.
     program->canonical = printModule(*program, syntax[0]);
     program->hash = hashText("sgm 1");
     for (const ModuleSyntax& module : syntax)
       program->hash = hashCombine(program->hash, hashText(printMeaning(*program, module)));
     for (const Asset& asset : program->assets) program->hash = hashCombine(program->hash, asset.hash);
-    Checker checker(*program, names, syntax, options.limits, sink);
+  }
+  // What was parsed is checked, whatever else was not: one run tells all that is wrong.
+  if (!sink.full()) {
+    Checker checker(*program, names, syntax, options.limits, sink, check.library);
     checker.run();
-    if (sink.errorCount() == 0) checkRecursion(*program, checker.calls(), options.limits, sink);
-    if (sink.errorCount() == 0) checkReach(*program, options.limits, sink);
-    if (sink.errorCount() == 0) {
-      findLayerContents(*program, options.limits);
-      warnOfUnused(*program, syntax, sink);
-      warnOfOverlaps(*program, sink);
-      warnOfMaterials(*program, sink);
-    }
+    const bool understood = sink.errorCount() == unread && !checker.usesWhatIsLost();
+    const bool bounded = std::ranges::all_of(syntax, [](const ModuleSyntax& m) { return m.readable && m.bounded; });
+    if (understood) checkRecursion(*program, checker.calls(), options.limits, sink);
+    if (understood && bounded && sink.errorCount() == unread) checkReach(*program, options.limits, sink);
+  }
+  if (sink.errorCount() == 0) {
+    findLayerContents(*program, options.limits);
+    warnOfUnused(*program, syntax, sink);
+    warnOfOverlaps(*program, sink);
+    warnOfMaterials(*program, sink);
   }
   if (sink.errorCount() == 0) result.program = std::move(program);
   result.diagnostics = sink.take();
-  return result;
+  return check;
+}
+
+}  // namespace
+
+CompileResult compileGrammar(std::string_view text, std::string_view path, const CompileOptions& options) {
+  return compile(text, path, options, false).compiled;
+}
+
+CheckResult checkFile(std::string_view text, std::string_view path, const CompileOptions& options) {
+  return compile(text, path, options, true);
 }
 
 FormatResult formatGrammar(std::string_view text, std::string_view path, const CompileLimits& limits) {

@@ -134,6 +134,8 @@ Extent Extent::leaf(const IntervalVector& lower, const IntervalVector& upper, do
   return e;
 }
 
+bool Extent::lost() const { return !empty && (why != Unbound::none || !std::isfinite(size())); }
+
 double Extent::size() const {
   double out = 0;
   for (const Interval& side : at.may) out = std::max(out, side.magnitude());
@@ -144,6 +146,7 @@ void Extent::blame(ExprId call) {
   // What has no bound at all is best shown where it starts, anything else where the layer's own rule calls it.
   if (culprit != kNoId && !std::isfinite(culprit_size)) return;
   culprit = call;
+  inside = kNoId;
   culprit_size = size();
 }
 
@@ -159,9 +162,11 @@ void Extent::merge(const Extent& other) {
   limit = std::min(limit, other.limit);
   inner = std::max(inner, other.inner);
   if (why == Unbound::none) why = other.why, allowed = other.allowed;
+  if (loss == 0) loss = other.loss;
   if (other.culprit_size > culprit_size) {
     culprit = other.culprit;
     edit = other.edit;
+    inside = other.inside;
     culprit_size = other.culprit_size;
   }
 }
@@ -196,6 +201,7 @@ void Extent::either(const Extent& other) {
 void Extent::intersect(const Extent& other) {
   if (other.empty) *this = nothing();
   if (empty) return;
+  if (loss == 0) loss = other.loss;
   IntervalVector both;
   for (size_t i = 0; i < 3; ++i) {
     both[i] = {std::max(at.may[i].lo, other.at.may[i].lo), std::min(at.may[i].hi, other.at.may[i].hi)};

@@ -52,6 +52,8 @@ struct Extent {
   ExprId culprit = kNoId;  ///< the outermost call that extends farthest
   uint32_t edit = kNoId;   ///< the override that puts it there, or none
   double culprit_size = -1;
+  ExprId inside = kNoId;  ///< what it blames where that stands in the standard library, and the culprit calls it
+  uint32_t loss = 0;      ///< where its bound was lost, RangeEvaluator::losses(); 0: nowhere, or it is not known
   Unbound why = Unbound::none;
   double allowed = 0;  ///< Unbound::sum: a displacement must stay below this
 
@@ -76,6 +78,7 @@ struct Extent {
   void repeat(Interval times);  ///< of the number of shapes
   void summed();                ///< the compact sum of its shapes
   void blame(ExprId call);
+  bool lost() const;    ///< no bound is proven
   double size() const;  ///< largest distance of its box from the origin along an axis
 
  private:

@@ -11,6 +11,7 @@ struct Interval {
   static Interval exactly(double v) { return {v, v}; }
   static Interval everything();
   bool exact() const { return lo == hi; }
+  bool holds(double v) const { return lo <= v && v <= hi; }
   bool bounded() const;
   double magnitude() const;  ///< the largest absolute value in it
   double mignitude() const;  ///< the smallest

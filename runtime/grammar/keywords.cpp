@@ -31,30 +31,6 @@ constexpr std::array<std::string_view, 7> kMeasures = {"watertight", "components
 constexpr std::array<std::string_view, 9> kBoxParts = {"front",  "right", "back",  "left",  "top",
                                                        "bottom", "side",  "edges", "inside"};
 
-/// A word of OpenSCAD, CGA, Blender or a shader, in small letters, and ours.
-struct Foreign {
-  std::string_view theirs, ours;
-};
-constexpr std::array<Foreign, 19> kForeign = {{{"cone", "truncone"},
-                                               {"cube", "box"},
-                                               {"cuboid", "box"},
-                                               {"difference", "cut"},
-                                               {"ellipse", "ellipsoid"},
-                                               {"intersect", "meet"},
-                                               {"intersection", "meet"},
-                                               {"material", "mat"},
-                                               {"minus", "cut"},
-                                               {"move", "at"},
-                                               {"noise", "fractal"},
-                                               {"plane", "halfspace"},
-                                               {"random", "rand"},
-                                               {"rotate", "rot"},
-                                               {"smoothunion", "union"},
-                                               {"subtract", "cut"},
-                                               {"translate", "at"},
-                                               {"tunnel", "tube"},
-                                               {"voronoi", "cellnoise"}}};
-
 static_assert(std::is_sorted(kKeywords.begin(), kKeywords.end()));
 static_assert(std::is_sorted(kClauseWords.begin(), kClauseWords.end()));
 static_assert(std::is_sorted(kUnavailable.begin(), kUnavailable.end()));
@@ -68,16 +44,6 @@ std::span<const std::string_view> declarationTable() { return kDeclarations; }
 std::span<const std::string_view> transformTable() { return kTransforms; }
 std::span<const std::string_view> measureTable() { return kMeasures; }
 std::span<const std::string_view> boxPartTable() { return kBoxParts; }
-
-std::string_view wordFor(std::string_view foreign) {
-  const auto same = [foreign](const Foreign& word) {
-    return std::equal(word.theirs.begin(), word.theirs.end(), foreign.begin(), foreign.end(), [](char theirs, char c) {
-      return theirs == (c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c);
-    });
-  };
-  const auto found = std::find_if(kForeign.begin(), kForeign.end(), same);
-  return found == kForeign.end() ? std::string_view() : found->ours;
-}
 
 bool isValueWord(std::string_view word) {
   return word == "cell" || word == "scope" || word == "p" || word == "q" || word == "u";

@@ -9,6 +9,7 @@
 #include "base/utf8.h"
 #include "grammar/codes.h"
 #include "grammar/keywords.h"
+#include "grammar/text_encoding.h"
 
 namespace sgm {
 
@@ -53,19 +54,22 @@ class Lexer {
         file_(file),
         max_tokens_(max_tokens),
         sink_(sink),
-        out_{std::pmr::vector<Token>(memory), std::pmr::vector<Comment>(memory)} {}
+        out_{std::pmr::vector<Token>(memory), std::pmr::vector<Comment>(memory), true, {}, SIZE_MAX} {}
 
   LexResult run() {
+    if (const auto fault = encodingFault(text_)) return unreadable(*fault);
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = line_start_ = 3;
     while (skipBlank() && !sink_.full()) {
       if (out_.tokens.size() >= max_tokens_) {
         const Span here = spanFrom(at_, line_, at_ - line_start_);
-        sink_.error(here, codes::kTooLarge, join({"more than ", std::to_string(max_tokens_), " words and signs"}),
-                    "loops and rules say the same in fewer");
+        error(here, codes::kTooLarge, join({"more than ", std::to_string(max_tokens_), " words and signs"}),
+              "loops and rules say the same in fewer");
+        out_.readable = false;
         break;
       }
       token();
     }
+    sayForeignBytes();
     Token end;
     end.span = spanFrom(at_, line_, at_ - line_start_);
     out_.tokens.push_back(end);
@@ -73,6 +77,42 @@ class Lexer {
   }
 
  private:
+  void error(const Span& span, std::string_view code, std::string message, std::string hint) {
+    out_.broken_lines.push_back(span.line);
+    sink_.error(span, code, std::move(message), std::move(hint));
+  }
+
+  /// One error for the whole file: whatever its bytes would be read as is not what is written.
+  LexResult unreadable(const EncodingFault& fault) {
+    for (size_t i = 0; i < fault.at; ++i, ++at_)
+      if (text_[i] == '\n') ++line_, line_start_ = i + 1;
+    const size_t begin = at_;
+    if (at_ < text_.size()) ++at_;
+    const Span span = spanFrom(begin, line_, begin - line_start_);
+    error(span, codes::kBadCharacter, std::string(fault.message), std::string(fault.hint));
+    Token end;
+    end.span = span;
+    out_.tokens.push_back(end);
+    out_.readable = false;
+    return std::move(out_);
+  }
+
+  /// Bytes that are not UTF-8 have one cause and one remedy, however many they are.
+  void foreignByte(const Span& span) {
+    out_.broken_lines.push_back(span.line);
+    if (foreign_bytes_++ == 0) first_foreign_ = span;
+  }
+
+  void sayForeignBytes() {
+    if (foreign_bytes_ == 0) return;
+    Diagnostic& d =
+        sink_.error(first_foreign_, codes::kBadCharacter, "this byte is not UTF-8", "save the file as UTF-8");
+    if (foreign_bytes_ > 1)
+      d.notes.push_back(
+          join({std::to_string(foreign_bytes_ - 1),
+                foreign_bytes_ == 2 ? " more byte of this file is" : " more bytes of this file are", " not UTF-8"}));
+  }
+
   char peek(size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
   bool done() const { return at_ >= text_.size(); }
 
@@ -109,8 +149,7 @@ class Lexer {
         comment.begin = static_cast<uint32_t>(at_);
         comment.line = line_;
         comment.own_line = fresh_line_;
-        bool foreign = false;
-        while (!done() && peek() != '\n') foreign = character(foreign);
+        while (!done() && peek() != '\n') character();
         size_t end = at_;
         while (end > comment.begin && (text_[end - 1] == ' ' || text_[end - 1] == '\t' || text_[end - 1] == '\r'))
           --end;
@@ -124,18 +163,12 @@ class Lexer {
     return false;
   }
 
-  /// Steps over one character of a comment or a text. One that is no UTF-8 is said at its place, once in each comment
-  /// and text; gives whether there was one.
-  bool character(bool foreign) {
+  /// Steps over one character of a comment or a text.
+  void character() {
     const size_t size = utf8Size(text_.substr(at_));
-    if (size == 0 && !foreign) {
-      const size_t begin = at_++;
-      sink_.error(spanFrom(begin, line_, begin - line_start_), codes::kBadCharacter, "this byte is not UTF-8",
-                  "save the file as UTF-8");
-      return true;
-    }
-    at_ += size == 0 ? 1 : size;
-    return foreign;
+    const size_t begin = at_;
+    at_ += std::max(size, size_t{1});
+    if (size == 0) foreignByte(spanFrom(begin, line_, begin - line_start_));
   }
 
   void push(Tok kind, size_t begin, size_t column) {
@@ -167,10 +200,15 @@ class Lexer {
     Token& token = out_.tokens.back();
     const std::string_view name = text_.substr(begin, at_ - begin);
     if (name.size() > kLongestName)
-      sink_.error(token.span, codes::kTooLarge, join({"a name has at most ", std::to_string(kLongestName), " letters"}),
-                  "shorten it");
+      error(token.span, codes::kTooLarge, join({"a name has at most ", std::to_string(kLongestName), " letters"}),
+            "shorten it");
     token.keyword = isKeyword(name);
     token.unavailable = isUnavailable(name);
+  }
+
+  void brokenNumber(Token& token, std::string_view code, std::string message, std::string hint) {
+    token.broken = true;
+    error(token.span, code, std::move(message), std::move(hint));
   }
 
   void number(size_t begin, size_t column) {
@@ -197,7 +235,7 @@ class Lexer {
     push(Tok::number, begin, column);
     Token& token = out_.tokens.back();
     if (leading_point) {
-      sink_.error(token.span, codes::kBadNumber, "a number starts with a digit", join({"write 0", digits, unit}));
+      brokenNumber(token, codes::kBadNumber, "a number starts with a digit", join({"write 0", digits, unit}));
       return;
     }
     double value = 0;
@@ -216,8 +254,8 @@ class Lexer {
       }
       if (known == nullptr) {
         const std::string hint = suggestion.hint();
-        sink_.error(token.span, codes::kUnknownUnit, join({"unknown unit `", unit.substr(0, kLongestName), "`"}),
-                    hint.empty() ? "units are m, cm, mm, km, m2, m3, deg, rad and %" : hint);
+        brokenNumber(token, codes::kUnknownUnit, join({"unknown unit `", unit.substr(0, kLongestName), "`"}),
+                     hint.empty() ? "units are m, cm, mm, km, m2, m3, deg, rad and %" : hint);
         return;
       }
       token.dim = known->dim;
@@ -227,10 +265,10 @@ class Lexer {
                            : token.dim.length > 1 ? kLargestNumber * kLargestNumber
                                                   : kLargestNumber;
     if (!(value <= largest)) {
-      sink_.error(token.span, codes::kNumberRange, "number too large",
-                  token.dim == kLength   ? "the world ends at 2097 km"
-                  : token.dim.length > 1 ? "write at most 1e18"
-                                         : "write at most 1e9");
+      brokenNumber(token, codes::kNumberRange, "number too large",
+                   token.dim == kLength   ? "the world ends at 2097 km"
+                   : token.dim.length > 1 ? "write at most 1e18"
+                                          : "write at most 1e9");
       return;
     }
     token.value = value;
@@ -239,12 +277,12 @@ class Lexer {
   void textConstant(size_t begin, size_t column) {
     ++at_;
     std::string_view complaint, hint;
-    bool foreign = false;
     for (;;) {
       const char c = peek();
       if (done() || c == '\n') {
         push(Tok::text, begin, column);
-        sink_.error(out_.tokens.back().span, codes::kBadText, "text without its closing quote", "close it with \"");
+        out_.torn_at = std::min(out_.torn_at, begin);
+        error(out_.tokens.back().span, codes::kBadText, "text without its closing quote", "close it with \"");
         return;
       }
       if (c == '\\') {
@@ -259,7 +297,7 @@ class Lexer {
         complaint = "a text has no control characters";
         hint = "write a space";
       }
-      foreign = character(foreign);
+      character();
       if (c == '"') break;
     }
     if (at_ - begin > kLongestText + 2) {
@@ -267,15 +305,14 @@ class Lexer {
       hint = "shorten it";
     }
     push(Tok::text, begin, column);
-    if (!complaint.empty())
-      sink_.error(out_.tokens.back().span, codes::kBadText, std::string(complaint), std::string(hint));
+    if (!complaint.empty()) error(out_.tokens.back().span, codes::kBadText, std::string(complaint), std::string(hint));
   }
 
   /// Skipped whole, so that its words are not misread.
   void foreignComment(size_t begin, size_t column) {
     at_ += 2;
-    sink_.error(spanFrom(begin, line_, column), codes::kBadCharacter, "`/*` begins no comment here",
-                "comments start with // and end with their line");
+    error(spanFrom(begin, line_, column), codes::kBadCharacter, "`/*` begins no comment here",
+          "comments start with // and end with their line");
     while (!done() && !(peek() == '*' && peek(1) == '/')) {
       if (peek() == '\n')
         newLine();
@@ -326,18 +363,24 @@ class Lexer {
         break;
     }
     if (c == '!' && next == '=') return two(Tok::not_equal);
-    ++at_;
-    while (!done() && (static_cast<unsigned char>(peek()) & 0xC0) == 0x80) ++at_;
-    const Span span = spanFrom(begin, line_, column);
+    const size_t size = utf8Size(text_.substr(at_));
+    at_ += std::max(size, size_t{1});
+    push(Tok::broken, begin, column);
+    const Span span = out_.tokens.back().span;
+    if (size == 0) return foreignByte(span);
     std::string hint = "names are of the letters a to z, digits and `_`";
     if (c == '&') hint = "write `and`";
     if (c == '|') hint = "write `or`";
     if (c == '!') hint = "write `not`";
     if (c == '#') hint = "comments start with //";
     if (c == '\'') hint = "texts stand in double quotes";
+    if (c == '%') hint = "write `a - b*floor(a/b)` for what a division leaves";
+    if (c == '^') hint = "write `pow(a, b)`";
+    if (c == '?') hint = "write `if a < b then c else d`";
+    if (c == '[' || c == ']') hint = "write a vector as `(x, y, z)`";
     if (c == '&' || c == '|')
       while (peek() == c) ++at_;
-    sink_.error(span, codes::kBadCharacter, "this character has no place here", std::move(hint));
+    error(span, codes::kBadCharacter, "this character has no place here", std::move(hint));
   }
 
   std::string_view text_;
@@ -347,6 +390,8 @@ class Lexer {
   LexResult out_;
   size_t at_ = 0, line_start_ = 0;
   int line_ = 1;
+  size_t foreign_bytes_ = 0;
+  Span first_foreign_;
   bool fresh_line_ = true;
   bool blank_ = true;
 };

@@ -39,6 +39,7 @@ enum class Tok : uint8_t {
   equal,
   not_equal,
   tilde,
+  broken,  ///< a character that the language does not have
 };
 
 struct Token {
@@ -46,6 +47,7 @@ struct Token {
   bool keyword = false;
   bool unavailable = false;
   bool space_before = false;  ///< something blank stands before it
+  bool broken = false;        ///< a number with an error: it has no value
   Dim dim;
   double value = 0;
   Span span;
@@ -54,6 +56,9 @@ struct Token {
 struct LexResult {
   std::pmr::vector<Token> tokens;  ///< ends with Tok::end
   std::pmr::vector<Comment> comments;
+  bool readable = true;           ///< false: the file is not a text in UTF-8, or too long; nothing is to be parsed
+  std::vector<int> broken_lines;  ///< those with an error, in order: what else they hold may be misread
+  size_t torn_at = SIZE_MAX;      ///< offset from which on a text without its end may hide signs of the syntax
 };
 
 /// Whether numbers may have it as their unit.

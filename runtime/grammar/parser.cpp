@@ -22,10 +22,8 @@ Parser::Parser(Program& program, NameTable& names, uint32_t module, const Compil
       limits_(limits),
       sink_(sink),
       text_(program.modules[module].text),
-      errors_before_(sink.errorCount()),
       lexed_(lex(text_, module, limits.nodes, sink, program.modules.get_allocator().resource())),
       first_expr_(program.ast.exprs.size()) {
-  lexical_errors_ = sink.errorCount() > errors_before_;
   out_.module = module;
   panic_token_.span = lexed_.tokens.back().span;
   last_ = lexed_.tokens.front().span;
@@ -33,25 +31,35 @@ Parser::Parser(Program& program, NameTable& names, uint32_t module, const Compil
 }
 
 ModuleSyntax Parser::run() {
-  // What a torn text or number does to the syntax around it is not worth a complaint of its own.
-  if (lexical_errors_) return std::move(out_);
+  out_.readable = lexed_.readable;
+  out_.complete = lexed_.readable;
+  if (!lexed_.readable) return std::move(out_);
   const Span first = here();
   if (acceptWord("sgm")) {
-    if (at(Tok::number) && textOf(peek()) != "1")
+    const bool foreign_version = at(Tok::number) && !peek().broken && textOf(peek()) != "1";
+    if (foreign_version)
       fail(here(), codes::kVersion, join({"this is version 1 of the language, not ", textOf(peek())}),
            "write `sgm 1;`");
     else if (expect(Tok::number, "the version number 1"))
       expect(Tok::semicolon, "`;`");
+    if (foreign_version) {
+      out_.readable = out_.complete = false;
+      return std::move(out_);
+    }
     if (panic_)
-      synchronise(true);
+      synchronise(true, 0);
     else
       item(ItemKind::version, 0, first);
   } else if (!sink_.full()) {
     sink_.error(first, codes::kVersion, "a grammar starts with the version of its language", "write `sgm 1;` first");
   }
   while (!at(Tok::end) && !sink_.full()) {
+    const size_t begin = next_;
+    const bool of_rules = atWord("rule") || atWord("morphic") || atWord("let") || atWord("field") || atWord("import");
     declaration();
-    if (panic_) synchronise(true);
+    if (!panic_) continue;
+    synchronise(true, begin);
+    if (!of_rules) out_.bounded = false;
   }
   return std::move(out_);
 }
@@ -103,7 +111,23 @@ bool Parser::expectWord(std::string_view word) {
 void Parser::fail(const Span& span, std::string_view code, std::string message, std::string hint) {
   if (panic_ || exhausted_) return;
   panic_ = true;
-  sink_.error(span, code, std::move(message), std::move(hint));
+  if (!isSaid(span)) sink_.error(span, code, std::move(message), std::move(hint));
+}
+
+/// Whether an error of the text itself stands where it may be the cause of this one.
+bool Parser::isSaid(const Span& span) const {
+  const std::vector<int>& lines = lexed_.broken_lines;
+  const auto broken = [&](int line) { return std::find(lines.begin(), lines.end(), line) != lines.end(); };
+  return lexed_.tokens[next_].span.begin > lexed_.torn_at || broken(span.line) || broken(last_.end_line);
+}
+
+/// Names in it may be declared there: they are not told to be unknown.
+void Parser::leaveOut(size_t first) {
+  out_.complete = false;
+  if (joined_ > 0) out_.bounded = false;
+  const size_t end = exhausted_ ? lexed_.tokens.size() : next_;
+  for (size_t i = first; i < end; ++i)
+    if (lexed_.tokens[i].kind == Tok::word) out_.in_doubt.insert(intern(textOf(lexed_.tokens[i])));
 }
 
 std::string Parser::habitHint(std::string_view wanted, const Token& token) const {
@@ -228,10 +252,15 @@ bool Parser::Deeper::fits() {
   return false;
 }
 
-/// Skips to behind the next ';', or to the '}' of the block around, or behind a block that opened after the error. At
+/// To behind the next ';', or to the '}' of the block around, or behind a block that opened after the error. At
 /// top level a declaration's word at the start of a line ends the search as well.
-void Parser::synchronise(bool top_level) {
+void Parser::synchronise(bool top_level, size_t first) {
   panic_ = false;
+  skip(top_level);
+  leaveOut(first);
+}
+
+void Parser::skip(bool top_level) {
   uint32_t open = 0;
   while (!at(Tok::end)) {
     const Token& token = peek();

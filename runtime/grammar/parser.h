@@ -68,7 +68,11 @@ class Parser {
   void fail(const Span& span, std::string_view code, std::string message, std::string hint = {});
   void unexpected(std::string_view wanted);
   bool unavailable();
-  void synchronise(bool top_level);
+  /// Goes on behind what is wrong; first: the token with which the part began that is left out.
+  void synchronise(bool top_level, size_t first);
+  void skip(bool top_level);
+  void leaveOut(size_t first);
+  bool isSaid(const Span& span) const;
   std::string_view textOf(const Token& token) const;
   std::string_view nameOf(NameId id) const { return program_.text(id); }
   Span here() const { return peek().span; }
@@ -180,7 +184,6 @@ class Parser {
   CompileLimits limits_;
   DiagnosticSink& sink_;
   std::string_view text_;
-  uint32_t errors_before_;
   LexResult lexed_;
   ModuleSyntax out_;
   size_t next_ = 0;
@@ -192,9 +195,9 @@ class Parser {
   std::vector<uint16_t> depth_;  ///< of each expression, so that trees built by loops are capped as well
   size_t first_expr_ = 0;
   std::map<NameId, uint32_t> rules_;
-  bool lexical_errors_ = false;
   bool overriding_ = false;  ///< in the block of an override
   uint32_t inners_ = 0;      ///< in that block so far
+  uint32_t joined_ = 0;      ///< blocks of `meet` and `sum` around
 };
 
 }  // namespace sgm

@@ -165,7 +165,7 @@ ExprId Parser::primary() {
     case Tok::number:
       node.kind = ExprKind::number;
       node.value = peek().value;
-      node.type = {ValueKind::number, peek().dim, false, false};
+      if (!peek().broken) node.type = {ValueKind::number, peek().dim, false, false};
       node.name = intern(textOf(peek()));
       take();
       return addExpr(node, begin);

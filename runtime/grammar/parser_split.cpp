@@ -69,13 +69,14 @@ StmtId Parser::snapStatement() {
 void Parser::splitParts(Parts& parts, bool repeated) {
   while (!at(Tok::close_brace) && !at(Tok::end)) {
     if (accept(Tok::semicolon)) continue;
+    const size_t first = next_;
     if (at(Tok::open_brace))
       splitGroup(parts, repeated);
     else
       splitPart(parts, repeated);
     if (!panic_) continue;
     if (exhausted_ || sink_.full()) return;
-    synchronise(false);
+    synchronise(false, first);
   }
 }
 
@@ -124,10 +125,11 @@ StmtId Parser::compStatement() {
   Parts parts;
   while (!at(Tok::close_brace) && !at(Tok::end)) {
     if (accept(Tok::semicolon)) continue;
+    const size_t first = next_;
     compPart(parts);
     if (!panic_) continue;
     if (exhausted_ || sink_.full()) return kNoId;
-    synchronise(false);
+    synchronise(false, first);
   }
   if (!partsEnd(open)) return kNoId;
   if (parts.nodes.empty() && sink_.errorCount() == errors)

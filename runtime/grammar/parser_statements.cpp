@@ -1,6 +1,7 @@
 #include <array>
 
 #include "grammar/codes.h"
+#include "grammar/foreign_words.h"
 #include "grammar/keywords.h"
 #include "grammar/parser.h"
 
@@ -30,10 +31,11 @@ StmtId Parser::block() {
   std::vector<uint32_t> list;
   while (!at(Tok::close_brace) && !at(Tok::end)) {
     if (accept(Tok::semicolon)) continue;
+    const size_t first = next_;
     const StmtId stmt = statement();
     if (panic_) {
       if (exhausted_ || sink_.full()) return kNoId;
-      synchronise(false);
+      synchronise(false, first);
     } else if (stmt != kNoId) {
       list.push_back(stmt);
     }
@@ -140,7 +142,10 @@ StmtId Parser::combiner(StmtKind kind, bool smooth) {
     take();
     node.amount = expression();
   }
+  const bool joins = kind == StmtKind::meet || kind == StmtKind::sum;
+  joined_ += joins ? 1 : 0;
   node.body = bodyOf(word);
+  joined_ -= joins ? 1 : 0;
   return panic_ ? kNoId : addStmt(node, begin);
 }
 

@@ -16,10 +16,11 @@ StmtId Parser::treemapStatement() {
   Parts parts;
   while (!at(Tok::close_brace) && !at(Tok::end)) {
     if (accept(Tok::semicolon)) continue;
+    const size_t first = next_;
     floorPart(parts);
     if (!panic_) continue;
     if (exhausted_ || sink_.full()) return kNoId;
-    synchronise(false);
+    synchronise(false, first);
   }
   if (!partsEnd(open)) return kNoId;
   program_.ast.treemaps.push_back(treemap);

@@ -27,10 +27,11 @@ StmtId Parser::wfcStatement() {
   Parts parts;
   while (!at(Tok::close_brace) && !at(Tok::end)) {
     if (accept(Tok::semicolon)) continue;
+    const size_t first = next_;
     wavePart(parts);
     if (!panic_) continue;
     if (exhausted_ || sink_.full()) return kNoId;
-    synchronise(false);
+    synchronise(false, first);
   }
   if (!partsEnd(open)) return kNoId;
   program_.ast.waves.emplace_back();

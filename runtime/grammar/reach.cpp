@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/math.h"
-#include "grammar/codes.h"
 #include "grammar/reach_check.h"
 
 namespace sgm {
@@ -10,14 +10,15 @@ namespace sgm {
 namespace {
 
 constexpr double kUnit = 1.0 / kUnitsPerMetre;
-constexpr const char* kCutShort = "the rules are too many or too deep to follow; bound their recursion";
+constexpr double kFarthest = 1e6;  ///< metres; a finite domain without a box is not larger
 
 }  // namespace
 
 ReachCheck::ReachCheck(Program& program, const CompileLimits& limits, DiagnosticSink& sink)
     : program_(program),
       sink_(sink),
-      most_steps_(limits.bound_steps),
+      limits_(limits),
+      lossy_(sink.errorCount() > 0),
       steps_(limits.bound_steps),
       values_(program, steps_),
       active_(program.rules.size(), 0),
@@ -32,38 +33,28 @@ void ReachCheck::run() {
   if (sink_.errorCount() == 0 && !cut_short_) idleHeads();
 }
 
-void ReachCheck::layerReach(uint32_t index) {
-  Layer& layer = program_.layers[index];
-  const bool finite = !program_.domain.infinite && layer.cell_expr == kNoId;
-  const bool boxed = !program_.domain.box.empty();
+void ReachCheck::setCell(const Layer& layer) {
   IntervalVector edges;
   for (int axis = 0; axis < 3; ++axis) edges[static_cast<size_t>(axis)] = Interval::exactly(layer.cell[axis] * kUnit);
-  if (finite && !boxed) edges.fill({0, kInfinity});  // the shapes' bounds make the box, not the other way round
-  centred_ = finite;
+  // Of a finite domain without a box the shapes' bounds make the box, not the other way round.
+  if (isFinite(layer) && program_.domain.box.empty()) edges.fill({0, kInfinity});
+  centred_ = isFinite(layer);
   whole_ = layer.cell_expr == kNoId;
-  values_.setCell(edges, finite);
+  values_.setCell(edges, centred_);
   cell_ = edges;
-  Extent extent = startExtent(index);
-  if (cut_short_ && !few_pieces_) {
-    few_pieces_ = true;
-    cut_short_ = false;
-    steps_ = most_steps_;
-    extent = startExtent(index);
-  }
+}
+
+void ReachCheck::layerReach(uint32_t index) {
+  Layer& layer = program_.layers[index];
+  const bool boxed = !program_.domain.box.empty();
+  setCell(layer);
+  const uint32_t errors = sink_.errorCount();
+  const Extent extent = provenExtent(index);
   if (sink_.full()) return;
   seen(layer, values_.sight());
-  if (sink_.full()) return;
+  // What is divided by 0 has no bound, either, and that is no second fault.
+  if (sink_.full() || (sink_.errorCount() > errors && !isEnough(layer, extent))) return;
 
-  double over_may = 0, over_sure = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const size_t i = static_cast<size_t>(axis);
-    if (!program_.domain.axes[i] && program_.domain.infinite) continue;
-    double low = -layer.reach * kUnit, high = layer.cell[axis] * kUnit + layer.reach * kUnit;
-    if (finite) low = program_.domain.box.lo[axis] * kUnit, high = program_.domain.box.hi[axis] * kUnit;
-    if (extent.empty) continue;
-    over_may = std::max({over_may, low - extent.at.may[i].lo, extent.at.may[i].hi - high});
-    over_sure = std::max({over_sure, low - extent.sure_lo[i], extent.sure_hi[i] - high});
-  }
   for (int axis = 0; axis < 3; ++axis) {
     const Interval side = extent.empty ? Interval{1, 0} : extent.at.may[static_cast<size_t>(axis)];
     // An end that is not a number is no bound: the first operands of these are taken then.
@@ -72,9 +63,63 @@ void ReachCheck::layerReach(uint32_t index) {
     layer.bound.lo[axis] = saturate(static_cast<int64_t>(lo));
     layer.bound.hi[axis] = saturate(static_cast<int64_t>(hi));
   }
-  if (finite && !boxed) return finiteBox(layer, extent);
-  layer.proven = over_may <= 0 && !cut_short_;
-  if (!layer.proven) report(layer, extent, finite, over_may, over_sure);
+  if (isFinite(layer) && !boxed) return finiteBox(layer, extent);
+  layer.proven = isEnough(layer, extent);
+  if (!layer.proven) report(index, extent);
+}
+
+ReachCheck::Excess ReachCheck::excessOf(const Layer& layer, const Extent& extent) const {
+  Excess over;
+  const bool finite = isFinite(layer);
+  for (int axis = 0; axis < 3 && !extent.empty; ++axis) {
+    const size_t i = static_cast<size_t>(axis);
+    if (!program_.domain.axes[i] && program_.domain.infinite) continue;
+    double low = -layer.reach * kUnit, high = layer.cell[axis] * kUnit + layer.reach * kUnit;
+    if (finite) low = program_.domain.box.lo[axis] * kUnit, high = program_.domain.box.hi[axis] * kUnit;
+    over.may = std::max({over.may, low - extent.at.may[i].lo, extent.at.may[i].hi - high});
+    over.sure = std::max({over.sure, low - extent.sure_lo[i], extent.sure_hi[i] - high});
+  }
+  return over;
+}
+
+bool ReachCheck::isEnough(const Layer& layer, const Extent& extent) const {
+  if (cut_short_) return false;
+  if (isFinite(layer) && program_.domain.box.empty()) return extent.empty || extent.size() <= kFarthest;
+  return excessOf(layer, extent).may <= 0;
+}
+
+Extent ReachCheck::provenExtent(uint32_t index) {
+  const Layer& layer = program_.layers[index];
+  const uint32_t before = steps_;
+  Extent extent = startExtent(index);
+  if (cut_short_ && !few_pieces_) {
+    few_pieces_ = true;
+    cut_short_ = false;
+    steps_ = limits_.bound_steps;
+    extent = startExtent(index);
+  }
+  spent_ += before - std::min(before, steps_);
+  reportZeroDivisions();
+  if (cut_short_ || isEnough(layer, extent)) return extent;
+  const RangeEvaluator::Sight sight = values_.sight();
+  const auto attempt = [&](Pieces pieces, bool parameters) {
+    if (cut_short_ || isEnough(layer, extent)) return;
+    pieces_ = pieces;
+    values_.takePieces(true);
+    steps_ = limits_.bound_steps;
+    const Extent tighter = parameters ? overParameters(index) : startExtent(index);
+    spent_ += limits_.bound_steps - steps_;
+    // What the budget cut short says nothing.
+    if (!std::exchange(cut_short_, false) && (tighter.empty || tighter.size() < extent.size())) extent = tighter;
+    pieces_ = Pieces::none;
+    values_.takePieces(false);
+    values_.sight() = sight;
+    steps_ = limits_.bound_steps;
+  };
+  if (extent.lost()) attempt(Pieces::lost, false);
+  if (extent.lost()) attempt(Pieces::lost, true);
+  if (!extent.lost()) attempt(Pieces::all, false);
+  return extent;
 }
 
 Extent ReachCheck::startExtent(uint32_t index) {
@@ -88,73 +133,9 @@ Extent ReachCheck::startExtent(uint32_t index) {
   return callExtent(program_.layers[index].start, frame, Call::start);
 }
 
-/// What a cell depends on lies within its reach.
-void ReachCheck::seen(const Layer& layer, const RangeEvaluator::Sight& sight) {
-  const double reach = layer.reach * kUnit;
-  if (sight.query == kNoId || sight.far <= reach) return;
-  const bool bounded = std::isfinite(sight.far);
-  sink_.error(program_.expr(sight.query).span, codes::kReach,
-              join({"cannot prove reach: this query may look ", bounded ? metresText(sight.far) : "without bound",
-                    " from its cell, layer `", program_.text(layer.name), "` declares reach ", metresText(reach)}),
-              bounded ? join({"raise reach to ", metresText(std::ceil(sight.far)), " or ask nearer to the cell"})
-                      : "bound its radius and where it stands: a parameter's range, or clamp()");
-}
-
-ReachCheck::Culprit ReachCheck::culpritOf(const Layer& layer, const Extent& extent) const {
-  if (extent.edit != kNoId) return {"what this override derives", program_.overrides[extent.edit].address_span};
-  const ExprNode& node = program_.expr(extent.culprit == kNoId ? layer.start : extent.culprit);
-  return {node.shape ? join({"`", program_.text(node.name), "`"}) : "what this displaces", node.span};
-}
-
-/// over: by how much the shapes pass their reach.
-std::string ReachCheck::hint(const Extent& extent, bool finite, double reach, double over) const {
-  if (extent.why == Unbound::sum && extent.allowed <= 0)
-    return "a sum can be displaced only where its largest shape is sure to have some size: displace the shapes in it";
-  if (extent.why == Unbound::sum && std::isfinite(extent.allowed))
-    return join({"displace by less than ", numberText(std::floor(extent.allowed * 100) / 100),
-                 " m: a sum's field is no larger far away"});
-  if (extent.why == Unbound::radius)
-    return "give the smallest radius of what it displaces a bound from below, such as max(r, 1m)";
-  const ExprNode* blamed = extent.culprit == kNoId ? nullptr : &program_.expr(extent.culprit);
-  if (!std::isfinite(over) && blamed != nullptr && blamed->ref == Ref::primitive &&
-      static_cast<Primitive>(blamed->id) == Primitive::halfspace)
-    return "meet it with a box, or cut a shape with it";
-  if (!std::isfinite(over))
-    return "bound what it depends on: a parameter's range, clamp(), or `amp` of displace and warp";
-  if (finite) return "make the box larger or the shape smaller";
-  return join({"raise reach to ", metresText(std::ceil(over + reach)), " or make the shape smaller"});
-}
-
-void ReachCheck::report(const Layer& layer, const Extent& extent, bool finite, double over_may, double over_sure) {
-  const auto [shape, span] = culpritOf(layer, extent);
-  const std::string name = join({"`", program_.text(layer.name), "`"});
-  const double reach = layer.reach * kUnit;
-  const bool unbounded = !std::isfinite(over_may) || cut_short_;
-  // A finite grammar's declared box is its reach; a layer's is measured from its cell.
-  const std::string extends = unbounded ? "without bound" : metresText(over_may + (finite ? 0 : reach));
-  const std::string from = finite ? " beyond the domain's box" : " from its cell";
-  const std::string limit = finite ? "" : join({", layer ", name, " declares reach ", metresText(reach)});
-  if (unbounded || over_sure > 0) {
-    sink_.error(span, codes::kReach, join({"cannot prove reach: ", shape, " may extend ", extends, from, limit}),
-                cut_short_ ? kCutShort : hint(extent, finite, reach, unbounded ? kInfinity : over_may));
-    return;
-  }
-  sink_.warning(span, codes::kReachMaybe, join({shape, " may extend ", extends, from, limit}),
-                "shapes that go farther are left out whole");
-}
-
 void ReachCheck::finiteBox(Layer& layer, const Extent& extent) {
+  if (!isEnough(layer, extent)) return report(static_cast<uint32_t>(&layer - program_.layers.data()), extent);
   IntBox box;
-  double largest = 0;
-  for (const Interval& side : extent.at.may) largest = std::max(largest, side.magnitude());
-  if (!extent.empty && (!std::isfinite(largest) || largest > 1e6 || cut_short_)) {
-    const auto [shape, span] = culpritOf(layer, extent);
-    sink_.error(span, codes::kReach, join({"cannot prove reach: ", shape, " may extend without bound"}),
-                cut_short_                    ? kCutShort
-                : extent.why != Unbound::none ? hint(extent, true, 0, kInfinity)
-                                              : "give the domain a box: `domain finite box(x, y, z);`");
-    return;
-  }
   for (int axis = 0; axis < 3; ++axis) {
     const Interval side = extent.empty ? Interval{-1, 1} : extent.at.may[static_cast<size_t>(axis)];
     // The box is centred, as a written one is.

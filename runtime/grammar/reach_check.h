@@ -5,8 +5,9 @@
 // reach.cpp: layers and what is said of them. reach_rules.cpp: calls and choice. reach_statements.cpp: statements.
 // reach_transforms.cpp: transforms, loops, point sets. reach_split.cpp: parts of scopes. reach_treemap.cpp: rooms.
 // reach_wfc.cpp: tiles. reach_automaton.cpp: cellular automata. reach_profiles.cpp: footprints, extrusions, roofs,
-// assets. reach_overrides.cpp: overrides.
+// assets. reach_overrides.cpp: overrides. reach_pieces.cpp: ranges in pieces. reach_report.cpp: what is said.
 
+#include <functional>
 #include <map>
 #include <set>
 #include <tuple>
@@ -48,18 +49,49 @@ class ReachCheck {
     const UnderEdit* outer = nullptr;
   };
 
+  /// What is taken piece by piece of its range: nothing, what has no bound otherwise, or everything.
+  enum class Pieces : uint8_t { none, lost, all };
+
+  /// By how much shapes pass what their layer declares, metres: what some may, and what they do for certain.
+  struct Excess {
+    double may = 0, sure = 0;
+  };
+
   // Layers.
   void layerReach(uint32_t index);
   Extent startExtent(uint32_t index);
+  /// As tight as the budget allows where the plain proof is not enough.
+  Extent provenExtent(uint32_t index);
+  Extent overParameters(uint32_t layer);
+  void setCell(const Layer& layer);
+  bool isFinite(const Layer& layer) const { return !program_.domain.infinite && layer.cell_expr == kNoId; }
+  Excess excessOf(const Layer& layer, const Extent& extent) const;
+  bool isEnough(const Layer& layer, const Extent& extent) const;
   void seen(const Layer& layer, const RangeEvaluator::Sight& sight);
+
+  // Pieces.
+  bool cut(RangeValue& value, int depth, const std::function<Extent()>& extent, Extent& out, bool& first);
+  Extent overPieces(const std::vector<RangeValue*>& values, const std::function<Extent()>& extent);
+  Extent ruleInPieces(uint32_t rule, std::vector<RangeValue> args, const RangeFrame& caller, bool top);
+
+  // What is said.
   /// What extends farthest, and where it is written.
   struct Culprit {
     std::string name;
     Span span;
   };
   Culprit culpritOf(const Layer& layer, const Extent& extent) const;
-  std::string hint(const Extent& extent, bool finite, double reach, double over) const;
-  void report(const Layer& layer, const Extent& extent, bool finite, double over_may, double over_sure);
+  std::string hint(const Extent& extent) const;
+  bool needsBox(uint32_t index);
+  std::string lossHint(const BoundLoss& loss) const;
+  std::string lossText(const BoundLoss& loss) const;
+  std::string_view written(ExprId id) const;
+  /// What to declare so that all shapes of the layer fit, tried before it is said; empty where nothing would do.
+  std::string roomHint(uint32_t index, const Extent& extent);
+  static double cellOf(const Layer& layer);  ///< its edge along the axes that are cut into cells
+  void report(uint32_t index, const Extent& extent);
+  void reportOne(const Layer& layer, const Extent& extent, const std::string& room);
+  void reportZeroDivisions();
   void finiteBox(Layer& layer, const Extent& extent);
 
   // Rules.
@@ -70,6 +102,7 @@ class ReachCheck {
                     const std::vector<uint32_t>& edits);
   Extent alternatives(uint32_t rule, const std::vector<RangeValue>& args, const RangeFrame& caller, bool top);
   void idleHeads();
+  void judgeWeight(ExprId id, Interval weight);
   Extent alternativeExtent(uint32_t rule, const Alternative& head, RangeFrame& frame);
   Extent automaton(const ExprNode& n, const RangeFrame& frame);
   bool tooFar();
@@ -91,6 +124,7 @@ class ReachCheck {
   Extent statementKinds(const StmtNode& s, RangeFrame& frame);
   /// first: what stands before the block's own statements.
   Extent block(const StmtNode& s, RangeFrame& frame, Extent first = Extent::nothing());
+  Extent blockFrom(const StmtNode& s, uint32_t next, RangeFrame& frame, Extent out);
   Extent meet(const StmtNode& s, RangeFrame& frame);
   Extent morph(const StmtNode& s, RangeFrame& frame);
   Extent displaced(const StmtNode& s, RangeFrame& frame);
@@ -117,11 +151,18 @@ class ReachCheck {
 
   Program& program_;
   DiagnosticSink& sink_;
-  const uint32_t most_steps_;
-  uint32_t steps_;  ///< left, of all layers together
+  const CompileLimits limits_;
+  const bool lossy_;    ///< not all of the text is here
+  uint32_t steps_;      ///< left, of all layers together
+  uint64_t spent_ = 0;  ///< in the last layer, on all attempts
   /// Ranges of sizes are taken in pieces in the outermost splits alone: pieces of pieces of pieces take all steps.
   bool few_pieces_ = false;
-  int splits_ = 0;  ///< that this stands in
+  Pieces pieces_ = Pieces::none;
+  uint32_t rules_ = 0;  ///< rules on the path
+  bool collects_ = false;
+  std::vector<ExprId> top_calls_;  ///< where it collects: the calls that stand in the layer's own rule
+  ExprId only_ = kNoId;            ///< of the calls in a start rule, the one that counts; kNoId: all
+  int splits_ = 0;                 ///< that this stands in
   RangeEvaluator values_;
   IntervalVector cell_{};
   bool whole_ = false;                             ///< the start has no cells

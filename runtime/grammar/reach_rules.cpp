@@ -21,6 +21,10 @@ bool ReachCheck::tooFar() {
 Extent ReachCheck::callExtent(ExprId id, const RangeFrame& frame, Call call) {
   if (id == kNoId) return Extent::nothing();
   const ExprNode& n = program_.expr(id);
+  if (call == Call::written && rules_ == 1) {
+    if (only_ != kNoId && id != only_) return Extent::nothing();
+    if (collects_ && std::find(top_calls_.begin(), top_calls_.end(), id) == top_calls_.end()) top_calls_.push_back(id);
+  }
   if (n.ref == Ref::primitive) {
     const bool automaton_of = static_cast<Primitive>(n.id) == Primitive::ca;
     Extent e = automaton_of ? automaton(n, frame) : primitiveExtent(program_, n, values_, frame);
@@ -30,9 +34,18 @@ Extent ReachCheck::callExtent(ExprId id, const RangeFrame& frame, Call call) {
   if (n.ref != Ref::rule) return Extent::nothing();
   std::vector<RangeValue> args;
   for (uint32_t i = 0; i < n.bound.count; ++i) args.push_back(values_.evaluate(program_.idAt(n.bound, i), frame));
-  Extent e = ruleExtent(n.id, args, frame, call == Call::start);
+  values_.enter(id);
+  Extent e = pieces_ == Pieces::none ? ruleExtent(n.id, args, frame, call == Call::start)
+                                     : ruleInPieces(n.id, args, frame, call == Call::start);
+  values_.leave();
   // The outermost call is the one to name: what stands in the start rule.
   if (call == Call::written && !e.empty) e.blame(id);
+  // Nobody can mend the library: its caller is told.
+  if (e.culprit != kNoId && call != Call::start && isStandard(program_, program_.expr(e.culprit).span.file) &&
+      !isStandard(program_, n.span.file)) {
+    e.inside = e.culprit;
+    e.culprit = id;
+  }
   return e;
 }
 
@@ -78,6 +91,7 @@ Extent ReachCheck::remembered(uint32_t rule, const std::vector<RangeValue>& args
   const RangeEvaluator::Asked before = asked;
   asked = {};
   ++active_[rule];
+  ++rules_;
   if (counted_[rule]) ++counts_[rule];
   ++depth_;
   RangeFrame frame = caller;
@@ -85,6 +99,7 @@ Extent ReachCheck::remembered(uint32_t rule, const std::vector<RangeValue>& args
   const Extent out = use({rule, args, edits, nullptr, nullptr, 0, edits_, nullptr}, edits.size(), frame, nullptr);
   --depth_;
   if (counted_[rule] && --counts_[rule] == 0) counts_.erase(rule);
+  --rules_;
   --active_[rule];
   open_.erase(scaled);
   (asked.place ? placed_ : asked.scale ? scaled_ : known_)[asked.place ? placed : asked.scale ? scaled : key] = out;
@@ -118,6 +133,7 @@ Extent ReachCheck::alternatives(uint32_t rule, const std::vector<RangeValue>& ar
     }
     if (head.weight != kNoId) {
       const Interval weight = values_.number(head.weight, frame);
+      judgeWeight(head.weight, weight);
       if (weight.hi <= 0 && head.guard == Guard::none) weighted = true;
       weighted = weighted || !(weight.lo > 0 && weight.bounded());
     }
@@ -136,6 +152,19 @@ Extent ReachCheck::alternatives(uint32_t rule, const std::vector<RangeValue>& ar
   }
   if (weighted || levels || !(complete || surely_taken)) out.certain = false;
   return out;
+}
+
+/// Weights below 0 count as 0 when rules are derived, which nobody means by them.
+void ReachCheck::judgeWeight(ExprId id, Interval weight) {
+  if (pieces_ != Pieces::none || only_ != kNoId || weight.lo >= 0 || !weight.bounded()) return;
+  const ExprId caller = values_.callerOf(id);
+  const Span& span = program_.expr(caller != kNoId ? caller : id).span;
+  if (weight.hi < 0)
+    sink_.error(span, codes::kValueRange, join({"a weight is 0 or more, and this is at most ", numberText(weight.hi)}),
+                "write how often this head comes beside the others, such as weight 2");
+  else
+    sink_.warning(span, codes::kValueRange, join({"this weight may be as low as ", numberText(weight.lo)}),
+                  "below 0 it counts as 0: bound what it depends on, or write max(..., 0)");
 }
 
 /// Heads of the root's rules that no call derives, whatever the parameters are.

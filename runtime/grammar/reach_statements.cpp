@@ -31,7 +31,10 @@ Extent ReachCheck::statement(StmtId id, RangeFrame& frame) {
   if (tooFar()) return Extent::unbounded();
   --steps_;
   ++depth_;
+  values_.takeLoss();
   Extent e = statementKinds(program_.stmt(id), frame);
+  const uint32_t loss = values_.takeLoss();
+  if (e.loss == 0 && e.lost()) e.loss = loss;
   --depth_;
   return e;
 }
@@ -111,11 +114,21 @@ Extent ReachCheck::statementKinds(const StmtNode& s, RangeFrame& frame) {
 }
 
 Extent ReachCheck::block(const StmtNode& s, RangeFrame& frame, Extent first) {
-  Extent out = std::move(first);
-  for (uint32_t i = 0; i < s.children.count; ++i) {
+  return blockFrom(s, 0, frame, std::move(first));
+}
+
+Extent ReachCheck::blockFrom(const StmtNode& s, uint32_t next, RangeFrame& frame, Extent out) {
+  for (uint32_t i = next; i < s.children.count; ++i) {
     const StmtId child = program_.idAt(s.children, i);
     const StmtNode& inner = program_.stmt(program_.innermost(child));
     const Extent part = statement(child, frame);
+    if (inner.kind == StmtKind::let && pieces_ != Pieces::none && hasPieces(frame.slots[inner.slot])) {
+      const uint32_t slot = inner.slot;
+      return overPieces({&frame.slots[slot]}, [&] {
+        RangeFrame at = frame;
+        return blockFrom(s, i + 1, at, out);
+      });
+    }
     if (inner.kind == StmtKind::cut && !(inner.layer_level && frame.top)) {
       // What a nested cut takes away adds nothing, and leaves what stood before it uncertain.
       if (!part.empty) out.uncertain();
@@ -163,7 +176,7 @@ Extent ReachCheck::morph(const StmtNode& s, RangeFrame& frame) {
   bool apart = false;
   for (size_t i = 0; i < 3 && !a.empty && !b.empty; ++i)
     apart = apart || a.at.may[i].hi < b.at.may[i].lo || b.at.may[i].hi < a.at.may[i].lo;
-  if (apart)
+  if (apart && pieces_ == Pieces::none)
     sink_.warning(s.span, codes::kMorphDisjoint, "the two shapes of this morph lie apart, and may vanish half way",
                   "let them overlap");
   // A blend holds what both hold: only that is certain.

@@ -209,7 +209,9 @@ Extent ReachCheck::forEach(const StmtNode& s, RangeFrame& frame) {
     if (branch) times.hi = kMostSegments;
   }
   frame.slots[s.slot] = variable;
-  Extent e = body(s.body, frame);
+  Extent e = pieces_ != Pieces::none && hasPieces(variable)
+                 ? overPieces({&frame.slots[s.slot]}, [&] { return body(s.body, frame); })
+                 : body(s.body, frame);
   e.repeat(times);
   return e;
 }

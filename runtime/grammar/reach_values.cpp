@@ -9,6 +9,7 @@ namespace sgm {
 
 namespace {
 
+constexpr int kDeepestPiece = 8;    // cuts of one argument's range in two
 constexpr int kDeepestValue = 600;  // frames of this evaluation on the stack
 constexpr Interval kEither{0, 1};
 constexpr Interval kTrue{1, 1};
@@ -44,6 +45,32 @@ Interval sampledFloats(Interval v) {
 
 }  // namespace
 
+bool RangeValue::bounded() const {
+  if (kind == ValueKind::number) return v[0].bounded();
+  if (kind == ValueKind::pair) return v[0].bounded() && v[1].bounded();
+  return kind != ValueKind::vector || (v[0].bounded() && v[1].bounded() && v[2].bounded());
+}
+
+bool isStandard(const Program& program, uint32_t file) {
+  return file != 0 && program.modules[file].path.starts_with("std/");
+}
+
+bool hasPieces(const RangeValue& value) {
+  return value.kind == ValueKind::number && value.v[0].bounded() && middleOf(value.v[0]) > value.v[0].lo &&
+         middleOf(value.v[0]) < value.v[0].hi;
+}
+
+double middleOf(Interval range) {
+  return range.lo > 0 ? std::sqrt(range.lo) * std::sqrt(range.hi) : range.lo + (range.hi - range.lo) / 2;
+}
+
+RangeEvaluator::RangeEvaluator(const Program& program, uint32_t& steps)
+    : program_(program), steps_(steps), asked_parameters_(program.params.size(), false) {
+  // Without a range the host may set any number.
+  for (const Param& param : program.params)
+    parameters_.push_back(param.has_range ? Interval{param.low, param.high} : Interval::everything());
+}
+
 IntervalVector anyDirection(const IntervalVector& v) {
   double sum = 0;
   for (const Interval& part : v) sum += part.magnitude() * part.magnitude();
@@ -77,6 +104,35 @@ RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
   if (id == kNoId || steps_ == 0 || depth_ >= kDeepestValue) return RangeValue::unknown();
   --steps_;
   ++depth_;
+  const uint32_t before = std::exchange(loss_, 0);
+  RangeValue out = valueOf(id, frame);
+  // What a value is made of is to blame only while it has no bound itself.
+  if (out.bounded())
+    out.loss = 0;
+  else if (out.loss == 0)
+    out.loss = loss_;
+  loss_ = before != 0 ? before : out.loss;
+  --depth_;
+  return out;
+}
+
+ExprId RangeEvaluator::callerOf(ExprId id) const {
+  if (!isStandard(program_, program_.expr(id).span.file)) return kNoId;
+  const auto written = std::find_if(callers_.rbegin(), callers_.rend(),
+                                    [&](ExprId call) { return !isStandard(program_, program_.expr(call).span.file); });
+  return written == callers_.rend() ? kNoId : *written;
+}
+
+void RangeEvaluator::lose(BoundLoss::Cause cause, ExprId id, Interval divisor) {
+  constexpr size_t kMostKept = 256;
+  const bool zero = cause == BoundLoss::Cause::divisor && divisor == Interval{0, 0};
+  if (zero && zeros_.size() < kMostKept) zeros_.push_back({cause, id, callerOf(id), divisor});
+  if (loss_ != 0) return;
+  if (losses_.size() < kMostKept) losses_.push_back({cause, id, callerOf(id), divisor});
+  loss_ = static_cast<uint32_t>(losses_.size() - 1);
+}
+
+RangeValue RangeEvaluator::valueOf(ExprId id, const RangeFrame& frame) {
   const ExprNode& n = program_.expr(id);
   RangeValue out;
   switch (n.kind) {
@@ -99,7 +155,7 @@ RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
       break;
     }
     case ExprKind::binary:
-      out = binary(n, frame);
+      out = binary(id, frame);
       break;
     case ExprKind::conditional: {
       const Interval c = condition(child(n, 0), frame);
@@ -118,7 +174,7 @@ RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
     }
     case ExprKind::name:
     case ExprKind::call:
-      out = call(n, frame);
+      out = call(id, frame);
       break;
     case ExprKind::member:
       out = member(n, frame);
@@ -130,7 +186,6 @@ RangeValue RangeEvaluator::evaluate(ExprId id, const RangeFrame& frame) {
     case ExprKind::range:
       break;
   }
-  --depth_;
   return out;
 }
 
@@ -149,7 +204,8 @@ RangeValue RangeEvaluator::query(ExprId id, const RangeFrame& frame) {
   return RangeValue::condition(kEither);
 }
 
-RangeValue RangeEvaluator::binary(const ExprNode& n, const RangeFrame& frame) {
+RangeValue RangeEvaluator::binary(ExprId id, const RangeFrame& frame) {
+  const ExprNode& n = program_.expr(id);
   if (n.binary == BinaryOp::logical_and || n.binary == BinaryOp::logical_or) {
     const Interval a = condition(child(n, 0), frame), b = condition(child(n, 1), frame);
     return RangeValue::condition(n.binary == BinaryOp::logical_and ? minimum(a, b) : maximum(a, b));
@@ -174,6 +230,7 @@ RangeValue RangeEvaluator::binary(const ExprNode& n, const RangeFrame& frame) {
         out.v[i] = x * y;
         break;
       default:
+        if (i == 0 && y.holds(0) && b.loss == 0) lose(BoundLoss::Cause::divisor, id, y);
         out.v[i] = x / y;
         break;
     }
@@ -181,13 +238,13 @@ RangeValue RangeEvaluator::binary(const ExprNode& n, const RangeFrame& frame) {
   return out;
 }
 
-RangeValue RangeEvaluator::call(const ExprNode& n, const RangeFrame& frame) {
+RangeValue RangeEvaluator::call(ExprId id, const RangeFrame& frame) {
+  const ExprNode& n = program_.expr(id);
   switch (n.ref) {
-    case Ref::parameter: {
-      // Without a range the host may set any number.
-      const Param& param = program_.params[n.id];
-      return RangeValue::number(param.has_range ? Interval{param.low, param.high} : Interval::everything());
-    }
+    case Ref::parameter:
+      asked_parameters_[n.id] = true;
+      if (!parameters_[n.id].bounded()) lose(BoundLoss::Cause::parameter, id, {});
+      return RangeValue::number(parameters_[n.id]);
     case Ref::local:
       return n.id < frame.slots.size() ? frame.slots[n.id] : RangeValue::unknown();
     case Ref::value: {
@@ -205,7 +262,7 @@ RangeValue RangeEvaluator::call(const ExprNode& n, const RangeFrame& frame) {
     }
     case Ref::let:
     case Ref::field:
-      return applied(n, frame);
+      return applied(id, frame);
     case Ref::builtin:
       return builtin(n, frame);
     default:
@@ -213,7 +270,8 @@ RangeValue RangeEvaluator::call(const ExprNode& n, const RangeFrame& frame) {
   }
 }
 
-RangeValue RangeEvaluator::applied(const ExprNode& n, const RangeFrame& frame) {
+RangeValue RangeEvaluator::applied(ExprId id, const RangeFrame& frame) {
+  const ExprNode& n = program_.expr(id);
   const bool is_let = n.ref == Ref::let;
   const IdRange formals = is_let ? program_.lets[n.id].formals : program_.fields[n.id].formals;
   const ExprId body = is_let ? program_.lets[n.id].body : program_.fields[n.id].body;
@@ -227,7 +285,37 @@ RangeValue RangeEvaluator::applied(const ExprNode& n, const RangeFrame& frame) {
     if (inner.slots.size() <= slot) inner.slots.resize(slot + 1);
     inner.slots[slot] = evaluate(program_.idAt(n.bound, i), frame);
   }
-  return evaluate(body, inner);
+  enter(id);
+  RangeValue out = evaluate(body, inner);
+  for (uint32_t i = 0; pieces_ && !out.bounded() && i < formals.count && i < n.bound.count; ++i) {
+    const uint32_t slot = program_.ast.formals[formals.first + i].slot;
+    if (!hasPieces(inner.slots[slot])) continue;
+    if (const auto tighter = inPieces(body, inner, slot, inner.slots[slot].v[0], 0)) out = *tighter;
+  }
+  leave();
+  return out;
+}
+
+std::optional<RangeValue> RangeEvaluator::inPieces(ExprId body, RangeFrame& frame, uint32_t slot, Interval range,
+                                                   int depth) {
+  RangeValue& argument = frame.slots[slot];
+  const Interval whole = std::exchange(argument.v[0], range);
+  const bool cut = depth < kDeepestPiece && hasPieces(argument);
+  std::optional<RangeValue> out;
+  if (depth > 0) out = evaluate(body, frame);
+  if (depth == 0 || !out->bounded()) {
+    out.reset();
+    const double middle = middleOf(range);
+    const auto low = cut ? inPieces(body, frame, slot, {range.lo, middle}, depth + 1) : std::nullopt;
+    const auto high = low ? inPieces(body, frame, slot, {middle, range.hi}, depth + 1) : std::nullopt;
+    if (high && low->kind == high->kind) {
+      out = low;
+      for (size_t i = 0; i < 3; ++i)
+        out->v[i] = hull(low->v[i], high->v[i]), out->at[i] = hull(low->at[i], high->at[i]);
+    }
+  }
+  argument.v[0] = whole;
+  return out;
 }
 
 RangeValue RangeEvaluator::member(const ExprNode& n, const RangeFrame& frame) {
@@ -298,6 +386,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::smoothstep:
       return RangeValue::number(smoothStep(in(0), in(1), in(2)));
     case Builtin::fract:
+      in(0);  // what is divided in it
       return RangeValue::number({0, 1});
     case Builtin::sin:
       return RangeValue::number(sine(in(0)));
@@ -328,6 +417,7 @@ RangeValue RangeEvaluator::builtin(const ExprNode& n, const RangeFrame& frame) {
     case Builtin::cell_noise:
       return RangeValue::number({0, 1});
     case Builtin::fractal:
+      in(0);
       return RangeValue::number({-1, 1});
     case Builtin::cell_point:
     case Builtin::face_point: {

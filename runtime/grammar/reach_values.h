@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "grammar/interval.h"
@@ -17,6 +18,9 @@ struct RangeValue {
   ValueKind kind = ValueKind::unknown;
   IntervalVector v{Interval::everything(), Interval::everything(), Interval::everything()};
   IntervalVector at{};
+  uint32_t loss = 0;  ///< why it has no bound, into RangeEvaluator::losses(); 0: it has one, or nothing is known
+
+  bool bounded() const;  ///< or no number, vector or pair
 
   static RangeValue number(Interval i) { return {ValueKind::number, {i, {}, {}}, {}}; }
   static RangeValue condition(Interval i) { return {ValueKind::boolean, {i, {}, {}}, {}}; }
@@ -43,13 +47,29 @@ struct RangeFrame {
   bool top = false;        ///< the layer's own use of its start rule, in which a cut takes from the domain
 };
 
+/// Where a value loses its bound.
+struct BoundLoss {
+  enum class Cause : uint8_t { none, divisor, parameter } cause = Cause::none;
+  ExprId expr = kNoId;    ///< the quotient, or the use of the parameter
+  ExprId caller = kNoId;  ///< the innermost call around it that the library does not make; or kNoId
+  Interval divisor;
+};
+
+/// Whether a file (Span::file) is a part of the standard library that another file imports.
+bool isStandard(const Program& program, uint32_t file);
+
+/// What is wide enough to be proven piece by piece: a number with a finite range.
+bool hasPieces(const RangeValue& value);
+/// Where to cut such a range: by ratio where all of it is positive, as sizes are.
+double middleOf(Interval range);
+
 /// Any vector as long as one of these.
 IntervalVector anyDirection(const IntervalVector& v);
 
 class RangeEvaluator {
  public:
   /// steps: what is left of the caller's budget; at 0 every value is unknown.
-  RangeEvaluator(const Program& program, uint32_t& steps) : program_(program), steps_(steps) {}
+  RangeEvaluator(const Program& program, uint32_t& steps);
 
   /// The edges of a cell; `centred`: it lies about the origin of the start's scope, otherwise that is its low corner.
   void setCell(const IntervalVector& edges, bool centred) {
@@ -71,6 +91,24 @@ class RangeEvaluator {
   };
   Sight& sight() { return sight_; }
 
+  /// The calls of rules around what is evaluated, for what is told of its values.
+  void enter(ExprId call) { callers_.push_back(call); }
+  void leave() { callers_.pop_back(); }
+  /// Of what stands in the standard library: the innermost call around it that does not; otherwise kNoId.
+  ExprId callerOf(ExprId id) const;
+  /// Index 0 stands for none.
+  const std::vector<BoundLoss>& losses() const { return losses_; }
+  /// The loss of what has been evaluated since it was taken; 0 if all of it has a bound.
+  uint32_t takeLoss() { return std::exchange(loss_, 0); }
+  /// Divisions by what is 0 for certain.
+  const std::vector<BoundLoss>& zeroDivisions() const { return zeros_; }
+
+  /// What a parameter may be; at first all of its range.
+  Interval& parameter(uint32_t index) { return parameters_[index]; }
+  const std::vector<bool>& askedParameters() const { return asked_parameters_; }
+  /// Whether functions without a bound are followed piece by piece of their arguments.
+  void takePieces(bool takes) { pieces_ = takes; }
+
   RangeValue evaluate(ExprId id, const RangeFrame& frame);
   Interval number(ExprId id, const RangeFrame& frame);
   IntervalVector vector(ExprId id, const RangeFrame& frame);
@@ -82,11 +120,15 @@ class RangeEvaluator {
   void refine(ExprId condition, bool holds, RangeFrame& frame);
 
  private:
+  RangeValue valueOf(ExprId id, const RangeFrame& frame);
   RangeValue query(ExprId id, const RangeFrame& frame);
-  RangeValue binary(const ExprNode& n, const RangeFrame& frame);
-  RangeValue call(const ExprNode& n, const RangeFrame& frame);
+  RangeValue binary(ExprId id, const RangeFrame& frame);
+  RangeValue call(ExprId id, const RangeFrame& frame);
   RangeValue builtin(const ExprNode& n, const RangeFrame& frame);
-  RangeValue applied(const ExprNode& n, const RangeFrame& frame);
+  RangeValue applied(ExprId id, const RangeFrame& frame);
+  /// A function's value over a range of one argument, piece by piece; nothing if a piece has no bound either.
+  std::optional<RangeValue> inPieces(ExprId body, RangeFrame& frame, uint32_t slot, Interval range, int depth);
+  void lose(BoundLoss::Cause cause, ExprId id, Interval divisor);
   RangeValue member(const ExprNode& n, const RangeFrame& frame);
   /// A point of the cell, in the scope that the rule starts with.
   RangeValue point(const IntervalVector& from_cell, const RangeFrame& frame);
@@ -99,6 +141,12 @@ class RangeEvaluator {
   Asked asked_;
   Sight sight_;
   int depth_ = 0;
+  bool pieces_ = false;
+  std::vector<Interval> parameters_;
+  std::vector<bool> asked_parameters_;
+  std::vector<ExprId> callers_;
+  std::vector<BoundLoss> losses_{1}, zeros_;
+  uint32_t loss_ = 0;
 };
 
 }  // namespace sgm

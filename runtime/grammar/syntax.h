@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory_resource>
+#include <set>
 #include <vector>
 
 #include "grammar/program.h"
@@ -76,6 +77,14 @@ struct ModuleSyntax {
   ExprId seed = kNoId;   ///< a whole number or a text
   ExprId start = kNoId;  ///< top level
   Span unit_span, seed_span, start_span;
+
+  /// Whether all of the text was parsed.
+  bool complete = true;
+  bool readable = true;       ///< false: none of it was
+  bool bounded = true;        ///< false: what was not parsed may bound the rest: a domain, an operand of meet or sum
+  std::set<NameId> in_doubt;  ///< words of what was not parsed: they may be declared there
+
+  bool mayDeclare(NameId name) const { return !readable || in_doubt.contains(name); }
 };
 
 }  // namespace sgm

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
+#include "base/plain_text.h"
 #include "grammar/builtins.h"
 
 namespace sgm {
@@ -187,9 +187,7 @@ std::string form(std::string_view name, std::span<const BuiltinParam> params, bo
     if (i > 0) text += ", ";
     text += param.name;
     if (param.required) continue;
-    char fallback[32];
-    std::snprintf(fallback, sizeof fallback, " = %g", param.fallback);
-    text += fallback;
+    text += " = " + generalText(param.fallback);
   }
   return text += variadic ? ", ...)" : ")";
 }

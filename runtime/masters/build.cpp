@@ -1,13 +1,14 @@
 #include "masters/build.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <numeric>
 
 #include "base/hash.h"
+#include "base/plain_text.h"
 
 namespace sgm::masters {
 namespace {
@@ -106,9 +107,10 @@ std::vector<Master> mastersFor(const MasterKey& key, std::span<const Member> mem
 
 /// Three digits, so that it is exact in the source too.
 double toThreeDigits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return std::strtod(text, nullptr);
+  const std::string text = generalText(value, 3);
+  double out = value;
+  std::from_chars(text.data(), text.data() + text.size(), out);
+  return out;
 }
 
 double limitOf(std::vector<double>& distances) {
@@ -200,14 +202,13 @@ MasterSet mastersOf(std::span<const Specimen> specimens) {
 
 std::string sourceOf(const MasterSet& set, const std::string& command) {
   std::string text = "// Written by `" + command + "`, and by nothing else.\n";
-  char line[512];
   text += "\n// Bins, mode, curvature length, density, version, limits of the two distances, masters.\n";
   text += "constexpr BuiltInKey kKeys[] = {\n";
   for (const MasterLimits& l : set.limits) {
     const std::string mode(measure::nameOf(l.key.mode));
-    std::snprintf(line, sizeof line, "    {%u, HistogramMode::%s, %g, %g, %u, %g, %g, %zu},\n", l.key.bins,
-                  mode.c_str(), l.key.length, l.key.density, l.key.version, l.mse, l.emd, set.of(l.key).size());
-    text += line;
+    text += "    {" + std::to_string(l.key.bins) + ", HistogramMode::" + mode + ", " + generalText(l.key.length) +
+            ", " + generalText(l.key.density) + ", " + std::to_string(l.key.version) + ", " + generalText(l.mse) +
+            ", " + generalText(l.emd) + ", " + std::to_string(set.of(l.key).size()) + "},\n";
   }
   text += "};\n\n// In the order of the keys; of how many models; shares in millionths.\n";
   text += "constexpr BuiltInMaster kMasters[] = {\n";

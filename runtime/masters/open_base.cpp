@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "base/plain_text.h"
 #include "masters/base.h"
 
 namespace sgm::masters {
@@ -63,7 +64,7 @@ Result<OpenedBase> openBase(const std::filesystem::path& file) {
   OpenedBase opened{builtInMasters(), "built in", {}};
   const std::string aside = moveAside(name);
   if (aside.empty()) {
-    opened.notice = name + " is damaged (" + read.what + ") and cannot be moved aside (" + std::strerror(errno) +
+    opened.notice = name + " is damaged (" + read.what + ") and cannot be moved aside (" + systemMessage(errno) +
                     "): the masters that are built in are used";
     return opened;
   }

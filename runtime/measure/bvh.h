@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <utility>
+#include <type_traits>
 #include <vector>
 
 #include "base/jobs.h"
@@ -63,7 +64,11 @@ class Bvh {
     for (; walk.count > 0 && steps < most_steps; ++steps) {
       const auto [a, b] = walk.waiting[--walk.count];
       if (a != b && isLeaf(a)) {
-        steps += visit(triangle(a), triangle(b));
+        if constexpr (std::is_void_v<std::invoke_result_t<Visit&, uint32_t, uint32_t>>) {
+          visit(triangle(a), triangle(b));
+        } else {
+          steps += visit(triangle(a), triangle(b));
+        }
       } else {
         walk.count += split({a, b}, &walk.waiting[walk.count]);
       }

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "base/plain_text.h"
 
 namespace sgm::measure {
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+std::string number(double value) { return generalText(value); }
 
 std::string densityOf(const MasterKey& key) {
   return key.density > 0 ? number(key.density) + " cells per metre" : "any density";

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <utility>
 
+#include "base/plain_text.h"
+
 namespace sgm::service {
 namespace {
 
@@ -24,7 +26,7 @@ constexpr int kFirstFree = 3;  // behind the standard streams
 /// A process whose streams are open can have ended: one that it started holds them.
 constexpr std::chrono::milliseconds kBetweenLooks{50}, kBetweenLooksAtItsEnd{1};
 
-Error failed(const char* what, int why = errno) { return {Code::io, std::string(what) + ": " + std::strerror(why)}; }
+Error failed(const char* what, int why = errno) { return {Code::io, std::string(what) + ": " + systemMessage(why)}; }
 
 /// A host may have closed its standard streams: what is then opened under their numbers moves out of the way of those
 /// that the process is to have.

@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "base/plain_text.h"
+
 namespace sgm::service {
 namespace {
 
@@ -39,7 +41,7 @@ std::string lowered(std::string_view text) {
   return low;
 }
 
-Error failed(const std::string& what) { return {Code::io, what + ": " + std::strerror(errno)}; }
+Error failed(const std::string& what) { return {Code::io, what + ": " + systemMessage(errno)}; }
 
 /// A file that has no name any more, and that who opens it again may only read. -1, and errno, where there is none.
 int openNameless(const std::string& folder) {
@@ -82,7 +84,7 @@ Result<Upload> Upload::create(const std::string& folder) {
   if (in.empty()) {
     std::error_code why;
     in = std::filesystem::temp_directory_path(why).string();
-    if (why) return Error{Code::io, "there is no folder for temporary files: " + why.message()};
+    if (why) return Error{Code::io, "there is no folder for temporary files: " + systemMessage(why)};
   }
   const int file = openNameless(in);
   if (file < 0) return failed("cannot make a file in " + in);

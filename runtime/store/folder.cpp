@@ -11,6 +11,8 @@
 #include <system_error>
 #include <thread>
 
+#include "base/plain_text.h"
+
 namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
@@ -142,7 +144,7 @@ fs::path packFile(const fs::path& baking, const TileKey& tile) { return baking /
 Result<void> makeFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) return Error{Code::io, "'" + folder.string() + "' cannot be made: " + error.message()};
+  if (error) return Error{Code::io, "'" + folder.string() + "' cannot be made: " + systemMessage(error)};
   return {};
 }
 

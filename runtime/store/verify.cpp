@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "base/hash.h"
+#include "base/plain_text.h"
 #include "store/closure.h"
 #include "stream/chunk_codec.h"
 
@@ -207,7 +208,7 @@ Result<Cleaned> clean(const Folder& store, std::pmr::memory_resource* memory, st
   }
   std::error_code error;
   const auto failure = [&](const fs::path& path) {
-    return Error{Code::io, "'" + path.string() + "': " + error.message()};
+    return Error{Code::io, "'" + path.string() + "': " + systemMessage(error)};
   };
   Cleaned cleaned;
   std::vector<fs::path> alone;

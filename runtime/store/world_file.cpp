@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/plain_text.h"
+
 namespace sgm::store {
 namespace fs = std::filesystem;
 namespace {
@@ -88,7 +90,7 @@ Result<std::vector<fs::path>> worldsOf(const Folder& store) {
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (entry->path().extension() == ".sgmi") paths.push_back(entry->path());
   }
-  if (error) return Error{Code::io, "'" + folder.string() + "': " + error.message()};
+  if (error) return Error{Code::io, "'" + folder.string() + "': " + systemMessage(error)};
   std::sort(paths.begin(), paths.end());
   return paths;
 }

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <system_error>
 
+#include "base/plain_text.h"
 #include "stream/disk_entry.h"
 #include "stream/disk_folder.h"
 
@@ -206,7 +207,7 @@ Result<std::unique_ptr<DiskCache>> DiskCache::open(const std::filesystem::path& 
   if (!why) std::filesystem::create_directories(place, why);
   if (!why && !std::filesystem::is_directory(place, why) && !why)
     why = std::make_error_code(std::errc::not_a_directory);
-  if (why) return Error{Code::io, "cannot open the disk cache '" + folder.string() + "': " + why.message()};
+  if (why) return Error{Code::io, "cannot open the disk cache '" + folder.string() + "': " + systemMessage(why)};
   return std::unique_ptr<DiskCache>(new FileCache(place.string(), byte_limit, std::move(log), memory));
 }
 

@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "base/checksum.h"
+#include "base/plain_text.h"
 #include "mesh/hash.h"
 #include "stream/world_core.h"
 
@@ -41,11 +42,7 @@ class TimedCall {
   Clock::time_point begun_ = Clock::now();
 };
 
-std::string metres(double units) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g m", units / kUnitsPerMetre);
-  return text;
-}
+std::string metres(double units) { return generalText(units / kUnitsPerMetre) + " m"; }
 
 Result<void> checkLod(const LodSettings& lod) {
   if (lod.top < 0 || lod.top > kMaxLevel) {

@@ -12,13 +12,38 @@ json 'j.files[0].parameters[0].name === "radius" && j.files[0].parameters[0].def
 json '/^[0-9a-f]{16}$/.test(j.files[0].hash) && j.files[0].materials[0] === "marble" && j.files[0].layers[0].name === "main"'
 expect 0 "$SGM" check "$SOURCE"/samples/grammars/*.sgm
 
-# Bytes that are no UTF-8: an error at their place, and JSON all the same.
-printf 'sgm 1;\nparam a = 1m "na\xefve"; // \xe9\nstart R;\nrule R { sphere(a); }\n' >latin1.sgm
+# Bytes that are no UTF-8: one error at the first of them, and JSON all the same.
+printf 'sgm 1;\nparam a = 1m in 1m..2m "na\xefve"; // \xe9\nstart R;\nrule R { sphere(a); }\n' >latin1.sgm
 expect 1 "$SGM" check latin1.sgm
-err_has 'latin1.sgm:2:17: error: this byte is not UTF-8'
-err_has 'latin1.sgm:2:26: error: this byte is not UTF-8'
+err_has 'latin1.sgm:2:27: error: this byte is not UTF-8'
+err_has 'note: 1 more byte of this file is not UTF-8'
 expect 1 "$SGM" check --json latin1.sgm
-json 'j.files[0].diagnostics.map(d => d.line + ":" + d.column).join() === "2:17,2:26"'
+json 'j.files[0].diagnostics.map(d => d.line + ":" + d.column).join() === "2:27"'
+
+# What hides its cause easily: one error each, which names it.
+printf '\xff\xfes\0g\0m\0 \0001\0;\0' >utf16.sgm
+printf 'sgm 1;\nstart A;\nlet z = 0;\nrule A { sphere(1m/z); }' >divzero.sgm
+printf 'sgm 1;\nstart A;\nrule A weight -1 { sphere(1m); }\nrule A weight 2 { box(1m); }' >weight.sgm
+for case in 'utf16.sgm:1:1: error: the text is UTF-16, not UTF-8' 'divzero.sgm:4:20: error: division by zero: `z` is 0 here' \
+  'weight.sgm:3:15: error: a weight is 0 or more, and this is -1'; do
+  expect 1 "$SGM" check "${case%%:*}"
+  err_has "$case"
+  out_has '1 error, 0 warnings'
+done
+
+# A library is right by itself, the standard one too; a world needs a start.
+printf 'sgm 1;\nrule Post(h) { cylinder(0.1*h, h); }\n' >library.sgm
+expect 0 "$SGM" check library.sgm "$SOURCE"/runtime/grammar/std/*.sgm
+out_has '^library.sgm: ok, a library without a start'
+out_has 'cloud.sgm: ok, a library without a start'
+err_empty
+expect 0 "$SGM" check --json --expect library.sgm
+json 'j.files[0].library === true && j.files[0].rules === 1'
+expect 1 "$SGM" mesh library.sgm --out library.glb --region 0,0,0:8,8,8
+err_has 'nothing says where derivation starts'
+printf 'sgm 1;\nrule Post(h) { cylinder(h, 1); }\n' >library.sgm
+expect 1 "$SGM" check library.sgm
+err_has 'library.sgm:2:28: error: '
 cp ball.sgm "$(printf 'b\xe4ll.sgm')"
 expect 0 "$SGM" check --json "$(printf 'b\xe4ll.sgm')"
 json 'j.files[0].file === "b\ufffdll.sgm"'

@@ -7,6 +7,7 @@
 
 #include "base/checksum.h"
 #include "base/file_writer.h"
+#include "base/plain_text.h"
 
 namespace sgm::vulkan {
 namespace {
@@ -122,7 +123,7 @@ Result<void> PipelineCache::save() {
   std::error_code error;
   std::filesystem::create_directories(file_.parent_path(), error);
   if (error) {
-    return Error{Code::io, "cannot make the folder " + file_.parent_path().string() + ": " + error.message()};
+    return Error{Code::io, "cannot make the folder " + file_.parent_path().string() + ": " + systemMessage(error)};
   }
   auto writer = FileWriter::create(file_);
   if (!writer) return writer.error();

@@ -18,6 +18,7 @@
 
 #include "base/checksum.h"
 #include "base/file_writer.h"
+#include "base/plain_text.h"
 
 namespace sgm::cli {
 namespace {
@@ -33,7 +34,7 @@ class Beside {
  public:
   static Result<Beside> create(const fs::path& target) {
     std::string name = target.string() + ".sgm-partXXXXXX";
-    if (mkdtemp(name.data()) == nullptr) return failure(target, std::strerror(errno));
+    if (mkdtemp(name.data()) == nullptr) return failure(target, systemMessage(errno));
     return Beside(std::move(name));
   }
   Beside(Beside&& other) noexcept : path_(std::exchange(other.path_, {})) {}
@@ -96,7 +97,7 @@ std::optional<std::map<std::string, std::string>> sumsOf(const fs::path& report)
 Result<void> checkReplaceable(const fs::path& folder, const fs::path& target) {
   std::error_code why;
   fs::recursive_directory_iterator entries(folder, why);
-  if (why) return failure(target, why.message());
+  if (why) return failure(target, systemMessage(why));
   if (entries == fs::recursive_directory_iterator()) return {};
   const std::optional<std::map<std::string, std::string>> sums = sumsOf(folder);
   if (!sums) return failure(target, "the folder is not empty, and holds no earlier report");
@@ -114,7 +115,7 @@ Result<void> checkReplaceable(const fs::path& folder, const fs::path& target) {
     if (!bytes || sumOf(*bytes) != listed->second)
       return failure(target, fmt::format("{} in it was changed since the report was made: move that away", path));
   }
-  if (why) return failure(target, why.message());
+  if (why) return failure(target, systemMessage(why));
   return {};
 }
 
@@ -134,18 +135,18 @@ Result<bool> checkTarget(const fs::path& target) {
   std::error_code why;
   const fs::file_status status = fs::symlink_status(target, why);
   if (status.type() == fs::file_type::not_found) return false;
-  if (status.type() == fs::file_type::none) return failure(target, why.message());
+  if (status.type() == fs::file_type::none) return failure(target, systemMessage(why));
   if (status.type() != fs::file_type::directory) return failure(target, "it is there, and no folder");
   if (const Result<void> fits = checkReplaceable(target, target); !fits) return fits.error();
   const bool empty = fs::is_empty(target, why);
-  if (why) return failure(target, why.message());
+  if (why) return failure(target, systemMessage(why));
   return !empty;
 }
 
 Result<void> writeFile(const fs::path& path, const std::string& bytes) {
   std::error_code why;
   fs::create_directories(path.parent_path(), why);
-  if (why) return failure(path, why.message());
+  if (why) return failure(path, systemMessage(why));
   Result<FileWriter> file = FileWriter::create(path);
   if (!file) return file.error();
   file->write(bytes);
@@ -159,7 +160,7 @@ Result<void> takePlace(Beside& made, const fs::path& target) {
                   fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec | fs::perms::others_read |
                       fs::perms::others_exec,
                   why);
-  if (why) return failure(target, why.message());
+  if (why) return failure(target, systemMessage(why));
   // An empty folder is replaced by renaming alone.
   fs::rename(made.path(), target, why);
   if (!why) {

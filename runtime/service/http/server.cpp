@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "base/blocked_signals.h"
+#include "base/plain_text.h"
 #include "base/thread_name.h"
 #include "service/http/answer.h"
 #include "service/http/connection.h"
@@ -135,7 +136,7 @@ Result<void> LoopServer::listen() {
   if (!error) port_ = acceptor_.local_endpoint(error).port();
   if (error)
     return Error{Code::io, "cannot listen on " + loop_.settings.address + " port " +
-                               std::to_string(loop_.settings.port) + ": " + error.message()};
+                               std::to_string(loop_.settings.port) + ": " + systemMessage(error)};
   return {};
 }
 

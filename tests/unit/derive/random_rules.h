@@ -27,6 +27,8 @@ class RandomRules {
     out_ += "rule R3(r) minsize 0.8m -> sphere(r) { " + leaf() + " scale(0.7) R3(r); }\n";
     out_ += "rule Deep(r) depth 3 -> sphere(r) { box(r); at(" + length() + ", 1m, 0m) rot(z, 40deg) Deep(0.8*r); }\n";
     out_ += "rule Stand(plan) { extrude rand(1m, 3m) of plan; at(0m, 2m, 0m) roof hip(40deg) of plan; }\n";
+    out_ += "rule Swollen(r) { displace 0.12*r*fractal(3m) { sum { blob(r); at(0.5*r, 0m, 0m) blob(0.4*r); } } }\n";
+    out_ += "rule Share(r) { at(0m, 6m - r, 0m) sphere(0.5m*(r/(r - 0.5*r))); let s = r/(0.4*r); box(0.3m*s); }\n";
     out_ += "morphic Body(r) : blob(r) -> superq((r, 0.6*r, r), 0.7) by share;\n";
     return out_;
   }
@@ -80,8 +82,13 @@ class RandomRules {
   std::string whole() {
     std::string out = block(0);
     out.pop_back();
-    if (level_ == 2) return out + "Body(1m); R3(1m); Deep(1m); }";
+    if (level_ == 2) return out + "Body(1m); R3(1m); Deep(1m); " + correlated() + "}";
     return out + "R" + std::to_string(level_ + 1) + "(" + length() + "); }";
+  }
+
+  /// Uses of a value twice, for which intervals alone have no bound.
+  std::string correlated() {
+    return pick({"", "Swollen(rand(1m, 4m)); ", "Swollen(size_); ", "Share(rand(0.5m, 5m)); ", "Share(2*size_); "});
   }
 
   std::string length() {

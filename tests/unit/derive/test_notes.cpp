@@ -177,6 +177,35 @@ TEST_CASE("a morph or a meet of what was left out is left out whole, and both ar
   }
 }
 
+TEST_CASE("points that begin inside what they look for are noted, but in rock", "[notes]") {
+  const auto notesOf = [](const std::string& domain, int32_t ceiling, const std::string& way) {
+    const auto program =
+        compiled("sgm 1; domain " + domain +
+                 ";\nlayer ground cell 64m reach 8m { start Ground; }\nlayer trees cell 64m reach 40m uses "
+                 "ground { start Trees; }\nrule Ground { at(9m, 9m, 9m) sphere(1m); }\nrule Trees { "
+                 "at(32m, 0m, 32m) scatter 40 on box(9m, 20m, 9m) probe " +
+                 way + " 9m of ground sphere(1m); }");
+    std::string out;
+    for (const DeriveNote& note : derived(*program, {}, 7, 1, Ceiling(ceiling)).notes)
+      out += std::to_string(note.line) + ":" + std::to_string(note.column) + " " + note.message;
+    return out;
+  };
+  const std::string all =
+      "5:31 all points of this scatter begin inside `ground`, and are left out: let them begin in the open, such as "
+      "behind at(0m, -50m, 0m), and probe farther";
+  CHECK(notesOf("infinite", -64 * 1024, "up") == all);
+  CHECK(notesOf("infinite", -64 * 1024, "down") ==
+        "5:31 all points of this scatter begin inside `ground`, and are left out: let them begin in the open, such as "
+        "behind at(0m, 50m, 0m), and probe farther");
+  CHECK(notesOf("infinite", -5 * 1024, "up") ==
+        "5:31 most points of this scatter begin inside `ground`, and are left out: let them begin in the open, such as "
+        "behind at(0m, -50m, 0m), and probe farther");
+  CHECK(notesOf("infinite", 64 * 1024, "up") == "");
+  CHECK(notesOf("infinite", 5 * 1024, "up") == "");
+  // Most of rock is rock: its points look for the caves in it.
+  CHECK(notesOf("infinite solid", -64 * 1024, "up") == "");
+}
+
 TEST_CASE("what passes its reach, its domain or every bound is left out whole", "[notes]") {
   const auto far = compiled(
       "sgm 1; domain infinite; layer main cell 64m reach 8m { start Main; }\n"

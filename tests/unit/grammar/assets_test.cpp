@@ -129,7 +129,8 @@ TEST_CASE("what is no asset is one error with what to do", "[grammar][assets]") 
 
 TEST_CASE("what `fit` takes, and what takes no asset", "[grammar][assets]") {
   const auto inRule = [](const std::string& statement) {
-    return said("sgm 1; import \"bay.glb\" as bay; start A; rule A { fit bay; " + statement + " }");
+    return said("sgm 1; import \"bay.glb\" as bay; start A; rule A { fit bay; " + statement +
+                " } domain finite box(9m);");
   };
   CHECK(inRule("fit bya;") == "1:64 unknown-name: there is no asset `bya` | did you mean `bay`?");
   CHECK(inRule("fit tower;") ==

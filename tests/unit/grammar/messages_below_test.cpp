@@ -28,7 +28,7 @@ const MessageCase kQueries[] = {
     {"3:10 syntax: expected a statement, found `query`", "rule D { query clear of net; }"},
     {"3:6 reserved-word: `query` is a word of the language and cannot be the name of a rule | another name, such as "
      "`query_`",
-     "rule query { }"},
+     "rule query { } rule D { }"},
     {"3:17 type-mismatch: `r` of `sphere` is a length, and this is a condition | such as 2m",
      "rule D { sphere(query clear of net); }"},
     {"3:9 wrong-use: a query is known inside rules only: it asks about the scope's place | ask in a rule, and hand the "

@@ -327,11 +327,11 @@ const MessageCase kWholes[] = {
      "the override's own block, under transforms, loops and `detail` alone",
      "sgm 1; domain infinite; layer a cell 8m reach 4m { start A; }\noverride \"A\" { union { inner; } }\nrule A { cut "
      "{ sphere(1m); } }"},
-    {"1:26 reach: cannot prove reach: `halfspace` may extend without bound | give the domain a box: `domain finite "
-     "box(x, y, z);`",
+    {"1:26 reach: cannot prove reach: `halfspace` may extend without bound | meet it with a box, or cut a "
+     "shape with it",
      "sgm 1; start A; rule A { halfspace(below 2m); }"},
-    {"1:49 reach: cannot prove reach: `sphere` may extend 7 m beyond the domain's box | make the box larger or the "
-     "shape smaller",
+    {"1:49 reach: cannot prove reach: `sphere` may extend 7 m beyond the domain's box | write `box(18m, 18m, "
+     "18m)`, or make the shape smaller",
      "sgm 1; domain finite box(4m); start A; rule A { sphere(9m); }"},
     {"1:58 reach: cannot prove reach: what this displaces may extend without bound beyond the domain's box | bound "
      "what it depends on: a parameter's range, clamp(), or `amp` of displace and warp",

@@ -107,6 +107,50 @@ TEST_CASE("each request has one answer, and diagnostics lie in their text, whate
   CHECK_FALSE(server.ended());
 }
 
+TEST_CASE("a change with a range takes its place, and leaves the rest as it is") {
+  LanguageServer server;
+  server.handle(request(0, "initialize"));
+  const std::string uri = "file:///tmp/ranges.sgm";
+  const auto sent = [&](const std::string& method, Json extra) {
+    Json params{{"textDocument", {{"uri", uri}}}};
+    for (const auto& [key, value] : extra.items()) params[key] = value;
+    return server.handle({{"jsonrpc", "2.0"}, {"method", method}, {"params", params}});
+  };
+  const auto place = [](int line, int character) { return Json{{"line", line}, {"character", character}}; };
+  const auto change = [&](Json start, Json end, const std::string& text) {
+    return Json{{"range", {{"start", start}, {"end", end}}}, {"rangeLength", 0}, {"text", text}};
+  };
+  const auto errors = [](const std::vector<Json>& published) {
+    REQUIRE(published.size() == 1);
+    return published[0]["params"]["diagnostics"].size();
+  };
+  server.handle(
+      {{"jsonrpc", "2.0"},
+       {"method", "textDocument/didOpen"},
+       {"params",
+        {{"textDocument",
+          {{"uri", uri}, {"text", "sgm 1;\nstart A; // \xF0\x9F\x98\x80 here\nrule A { sphere(1m); }\n"}}}}}});
+  // One after the other, each in the text that those before have made; characters are UTF-16 units.
+  CHECK(errors(sent("textDocument/didChange",
+                    {{"contentChanges", Json::array({change(place(2, 9), place(2, 15), "box"),
+                                                     change(place(2, 13), place(2, 15), "1")})}})) == 1);
+  CHECK(errors(sent("textDocument/didChange",
+                    {{"contentChanges", Json::array({change(place(2, 14), place(2, 14), "m")})}})) == 0);
+  CHECK(errors(sent("textDocument/didChange",
+                    {{"contentChanges", Json::array({change(place(1, 12), place(1, 14), "ball"),
+                                                     change(place(0, 0), place(0, 0), "// first\n")})}})) == 0);
+  const auto formatted = server.handle(request(9, "textDocument/hover"));
+  REQUIRE(formatted.size() == 1);
+  // One that is not as the protocol says changes nothing, nor do those before it.
+  CHECK(
+      sent("textDocument/didChange",
+           {{"contentChanges", Json::array({change(place(0, 0), place(9, 0), ""), Json{{"range", 3}, {"text", "x"}}})}})
+          .empty());
+  // The whole text replaces it.
+  CHECK(errors(sent("textDocument/didChange", {{"contentChanges", Json::array({change(place(0, 0), place(0, 2), ""),
+                                                                               Json{{"text", "sgm 1;"}}})}})) == 0);
+}
+
 TEST_CASE("places of a text go to lines and UTF-16 units and back") {
   const DocumentText text("a\xC3\xA4\xF0\x9F\x98\x80z\n\nend");
   CHECK(text.position(0).character == 0);

@@ -1,0 +1,355 @@
+#include "stream/thin_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "field/evaluate.h"
+#include "stream/vec3.h"
+
+namespace sgm {
+namespace {
+
+constexpr size_t kMostLooks = 128;  ///< at parts of one rule; others of it are taken to be as these are
+
+/// A box about a shape, in which it is as thick as along its shortest axis.
+struct Slab {
+  Int3 origin;    ///< of the frame
+  Vec3 middle{};  ///< from there, in world axes
+  std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  Vec3 half{};
+
+  double thickness() const { return 2 * *std::min_element(half.begin(), half.end()); }
+};
+
+Vec3 sum(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+
+Int3 placeOf(const Slab& slab, const Vec3& offset) {
+  Int3 p;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = slab.middle[static_cast<size_t>(axis)] + offset[static_cast<size_t>(axis)];
+    p[axis] = saturate(int64_t{slab.origin[axis]} + static_cast<int64_t>(std::floor(std::clamp(at, -2e9, 2e9) + 0.5)));
+  }
+  return p;
+}
+
+/// Two axes across one, as good as any others.
+void axesAlong(Slab& slab, Vec3 along, double length) {
+  const size_t least = static_cast<size_t>(
+      std::min_element(along.begin(), along.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }) -
+      along.begin());
+  Vec3 other{};
+  other[least] = 1;
+  const auto cross = [](const Vec3& a, const Vec3& b) {
+    return Vec3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const auto unit = [](const Vec3& v) {
+    const double size = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    return size > 0 ? scaled(v, 1 / size) : Vec3{1, 0, 0};
+  };
+  slab.axes[1] = length > 0 ? unit(along) : Vec3{0, 1, 0};
+  slab.axes[0] = unit(cross(slab.axes[1], other));
+  slab.axes[2] = cross(slab.axes[0], slab.axes[1]);
+}
+
+/// Of a shape that stands for itself; nothing of half-spaces, voxels and combiners.
+std::optional<Slab> slabOf(const GrammarChunk& chunk, const Shape& s) {
+  Slab slab;
+  slab.origin = s.frame.origin;
+  for (size_t row = 0; row < 3; ++row)
+    for (size_t i = 0; i < 3; ++i) slab.axes[row][i] = static_cast<double>(s.frame.rows[3 * row + i]);
+  const auto size = [&](size_t i) { return static_cast<double>(s.size[i]); };
+  switch (s.kind) {
+    case ShapeKind::sphere:
+      slab.half = {size(0), size(0), size(0)};
+      return slab;
+    case ShapeKind::box:
+    case ShapeKind::ellipsoid:
+    case ShapeKind::superquadric:
+      slab.half = {size(0), size(1), size(2)};
+      return slab;
+    case ShapeKind::cylinder:
+      slab.half = {size(0), size(1), size(0)};
+      return slab;
+    case ShapeKind::truncone: {
+      const double widest = std::max(size(0), size(1));
+      slab.half = {widest, size(2), widest};
+      return slab;
+    }
+    case ShapeKind::capsule: {
+      const Vec3 along{size(1), size(2), size(3)};
+      const double length = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
+      axesAlong(slab, along, length);
+      slab.middle = scaled(along, 0.5);
+      slab.half = {size(0), size(0) + length / 2, size(0)};
+      return slab;
+    }
+    case ShapeKind::torus:
+      // Its ring goes round: along it, it is long.
+      slab.middle = scaled(slab.axes[0], size(0));
+      slab.half = {size(1), size(1), std::max(size(0), size(1))};
+      return slab;
+    case ShapeKind::prism: {
+      std::array<double, 2> low{1e30, 1e30}, high{-1e30, -1e30};
+      for (uint32_t i = 0; i < s.point_count; ++i) {
+        const Int3 corner = chunk.points[s.first_point + i];
+        for (size_t k = 0; k < 2; ++k) {
+          low[k] = std::min(low[k], static_cast<double>(corner[k == 0 ? 0 : 2]));
+          high[k] = std::max(high[k], static_cast<double>(corner[k == 0 ? 0 : 2]));
+        }
+      }
+      if (s.point_count == 0) return std::nullopt;
+      slab.middle = sum(scaled(slab.axes[0], (low[0] + high[0]) / 2), scaled(slab.axes[2], (low[1] + high[1]) / 2));
+      slab.half = {(high[0] - low[0]) / 2, size(0), (high[1] - low[1]) / 2};
+      return slab;
+    }
+    case ShapeKind::morph_power:
+      for (size_t i = 0; i < 3; ++i) slab.half[i] = std::max(size(i), size(i + 3));
+      return slab;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// One shape that is thin, of a cell.
+struct Candidate {
+  uint32_t shape = 0;
+  Slab slab;
+  bool cut = false;
+};
+
+/// Goes through the shapes of a cell as a level shows them.
+class ThinShapes {
+ public:
+  ThinShapes(const GrammarChunk& chunk, int32_t cell_edge) : chunk_(chunk), cell_edge_(cell_edge) {}
+
+  std::vector<Candidate> find() {
+    for (const Group& group : chunk_.groups) visit(group.root, group.cut);
+    return std::move(found_);
+  }
+
+ private:
+  bool shows(const Shape& s) const {
+    return (s.detail == 0 || s.detail >= cell_edge_) && (s.coarsest == 0 || s.coarsest <= cell_edge_);
+  }
+  uint32_t child(const Shape& s, uint32_t i) const { return chunk_.children[s.first_child + i]; }
+
+  /// A sweep's pieces are one shape.
+  bool isSweep(const Shape& s) const { return s.kind == ShapeKind::unite && s.point_count > 0; }
+
+  std::optional<Slab> alone(const Shape& s) const {
+    if (!isSweep(s)) return slabOf(chunk_, s);
+    Slab slab;
+    const uint32_t middle = s.first_point + (std::max(s.point_count, 2u) - 2) / 2;
+    const Int3 from = chunk_.points[middle],
+               to = chunk_.points[std::min(middle + 1, s.first_point + s.point_count - 1)];
+    slab.origin = from;
+    const Vec3 along{static_cast<double>(int64_t{to.x} - from.x), static_cast<double>(int64_t{to.y} - from.y),
+                     static_cast<double>(int64_t{to.z} - from.z)};
+    const double length = std::sqrt(along[0] * along[0] + along[1] * along[1] + along[2] * along[2]);
+    axesAlong(slab, along, length);
+    slab.middle = scaled(along, 0.5);
+    const double r = static_cast<double>(s.size[0]);
+    slab.half = {r, std::max(r + length / 2, 0.5 * cell_edge_), r};  // it goes on at both ends
+    return slab;
+  }
+
+  /// The thickest shape in a node: 0 where it shows nothing.
+  double thickness(uint32_t index, uint32_t* thickest = nullptr) const {
+    const Shape& s = chunk_.shapes[index];
+    if (!shows(s)) return 0;
+    if (const std::optional<Slab> slab = alone(s)) {
+      if (thickest != nullptr) *thickest = index;
+      return slab->thickness();
+    }
+    if (s.child_count == 0) return 1e30;  // a half-space, or voxels
+    double most = 0;
+    const bool first_alone = s.kind == ShapeKind::subtract || s.kind == ShapeKind::subtract_smooth;
+    for (uint32_t i = 0; i < (first_alone ? 1 : s.child_count); ++i) {
+      uint32_t of = index;
+      const double one = thickness(child(s, i), &of);
+      if (one > most && thickest != nullptr) *thickest = of;
+      most = std::max(most, one);
+    }
+    return most;
+  }
+
+  void add(uint32_t index, bool cut) {
+    const std::optional<Slab> slab = alone(chunk_.shapes[index]);
+    if (slab && slab->thickness() < cell_edge_) found_.push_back({index, *slab, cut});
+  }
+
+  void visit(uint32_t index, bool cut) {
+    const Shape& s = chunk_.shapes[index];
+    if (!shows(s)) return;
+    if (isSweep(s) || s.child_count == 0) return add(index, cut);
+    switch (s.kind) {
+      case ShapeKind::subtract:
+      case ShapeKind::subtract_smooth:
+        for (uint32_t i = 0; i < s.child_count; ++i) visit(child(s, i), cut != (i > 0));
+        return;
+      case ShapeKind::meet:
+      case ShapeKind::meet_smooth: {
+        // What two shapes have in common is no thicker than either.
+        double least = 1e30;
+        uint32_t thinnest = index;
+        for (uint32_t i = 0; i < s.child_count; ++i) {
+          uint32_t of = index;
+          const double one = thickness(child(s, i), &of);
+          if (one < least) least = one, thinnest = of;
+        }
+        if (least > 0) add(thinnest, cut);
+        return;
+      }
+      case ShapeKind::sum:
+      case ShapeKind::morph: {
+        uint32_t thickest = index;
+        if (thickness(index, &thickest) > 0) add(thickest, cut);
+        return;
+      }
+      default:
+        for (uint32_t i = 0; i < s.child_count; ++i) visit(child(s, i), cut);
+    }
+  }
+
+  const GrammarChunk& chunk_;
+  const int32_t cell_edge_;
+  std::vector<Candidate> found_;
+};
+
+/// What stands where in the world, near one part.
+class Surroundings {
+ public:
+  Surroundings(const WorldField& world, int level) : world_(world), level_(level), cell_(world.cellAt(level)) {}
+
+  /// Whether the part is there by itself: along more than half of it nothing thicker is beside it.
+  Result<bool> standsAlone(const Slab& slab, bool cut) {
+    // Along the axes that are not thin, places from end to end.
+    std::vector<Vec3> places{{}};
+    std::vector<size_t> thin;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      if (2 * slab.half[axis] < cell_) {
+        thin.push_back(axis);
+        continue;
+      }
+      std::vector<Vec3> more;
+      for (const Vec3& place : places)
+        for (const double share : {-0.7, 0.0, 0.7})
+          more.push_back(sum(place, scaled(slab.axes[axis], share * slab.half[axis])));
+      places = std::move(more);
+    }
+    double far = 0;
+    for (const double half : slab.half) far += half;
+    const auto reach = static_cast<int32_t>(std::min(far + 3.0 * cell_, 1e8));
+    const Int3 middle = placeOf(slab, {});
+    const Result<std::shared_ptr<const FieldProgram>> program =
+        world_.compile(IntBox{middle, middle}.grown(reach), level_);
+    if (!program) return program.error();
+    const auto there = [&](const Vec3& offset) { return (valueAt(**program, placeOf(slab, offset)) < 0) != cut; };
+    size_t present = 0, carried = 0;
+    for (const Vec3& place : places) {
+      if (!there(place)) continue;  // cut away, or filled again
+      const auto beside = [&](size_t axis, double way) {
+        const auto at = [&](double cells) {
+          return there(sum(place, scaled(slab.axes[axis], way * (slab.half[axis] + cells * cell_))));
+        };
+        return at(0.4) && at(0.9);
+      };
+      const auto both = [&](size_t axis) { return beside(axis, 1) && beside(axis, -1); };
+      if (cut && std::ranges::all_of(thin, both)) continue;  // outside of what it is taken from
+      ++present;
+      if (std::ranges::any_of(thin, [&](size_t axis) { return beside(axis, 1) || beside(axis, -1); })) ++carried;
+    }
+    return present > 0 && 2 * carried < present;
+  }
+
+ private:
+  double valueAt(const FieldProgram& program, Int3 p) {
+    float value = 0;
+    Attributes wanted;
+    wanted.value = &value;
+    scalarKernels().attributes(program.view(), {&p.x, &p.y, &p.z, 1}, scratch_, wanted);
+    return static_cast<double>(value);
+  }
+
+  const WorldField& world_;
+  const int level_;
+  const double cell_;
+  EvalScratch scratch_;
+};
+
+/// "net(0, 0, -1)/Node/cave.Column[3]" as "cave.Column".
+std::string ruleOf(const std::string& path) {
+  std::string last = path.substr(path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1);
+  if (last == "override") return "an override";
+  return last.substr(0, last.find('['));
+}
+
+}  // namespace
+
+Result<std::vector<ThinPart>> thinParts(const WorldField& world, const IntBox& box, int level) {
+  const int32_t cell_edge = world.cellAt(level);
+  const Program& program = *world.settings().program;
+  struct Found {
+    ThinPart part;
+    std::set<std::tuple<uint32_t, Int3, uint32_t>> uses;  ///< layer, cell, use
+    size_t looked = 0, alone = 0;
+  };
+  // Statements of a rule are judged one by one, so that a slab on the ground hides no pole beside it.
+  std::map<std::tuple<std::string, bool, uint32_t, uint32_t>, Found> by_place;
+  // Of the walls of a treemap the command warns by themselves, whatever is derived.
+  std::set<std::pair<uint32_t, uint32_t>> walls;
+  for (const StmtNode& s : program.ast.stmts)
+    if (s.kind == StmtKind::treemap) walls.emplace(s.span.file, s.span.begin);
+  Surroundings surroundings(world, level);
+  for (uint32_t layer = 0; layer < program.layers.size(); ++layer) {
+    if (!program.layers[layer].shows(cell_edge)) continue;
+    const auto visit = [&](Int3 at) -> Result<void> {
+      const auto cell = world.cellFor(layer, at, cell_edge);
+      if (!cell) return cell.error();
+      if (ThinShapes((*cell)->chunk, cell_edge).find().empty()) return {};
+      const Result<TracedCell> traced = world.trace(layer, at);
+      if (!traced) return traced.error();
+      for (const Candidate& thin : ThinShapes(traced->chunk, cell_edge).find()) {
+        const Int3 middle = placeOf(thin.slab, {});
+        if (!box.contains(middle)) continue;
+        const ShapeOrigin& origin = traced->origins[thin.shape];
+        if (walls.contains({origin.span.file, origin.span.begin})) continue;
+        const std::string rule = ruleOf(traced->uses[origin.use]);
+        Found& found = by_place[{rule, thin.cut, origin.span.file, origin.span.begin}];
+        bool counts = found.alone > 0;
+        if (found.looked < kMostLooks) {
+          const Result<bool> alone = surroundings.standsAlone(thin.slab, thin.cut);
+          if (!alone) return alone.error();
+          ++found.looked;
+          if (*alone) ++found.alone;
+          counts = *alone;
+        }
+        if (!counts) continue;
+        const auto thickness = static_cast<int32_t>(std::ceil(thin.slab.thickness() - 1e-3));
+        ThinPart& part = found.part;
+        part.thickness = found.uses.empty() ? thickness : std::min(part.thickness, thickness);
+        found.uses.insert({layer, at, origin.use});
+      }
+      return {};
+    };
+    if (const Result<void> visited = world.cellsAround(layer, box, visit); !visited) return visited.error();
+  }
+  std::map<std::pair<std::string, bool>, Found> by_rule;
+  for (auto& [place, found] : by_place) {
+    if (found.uses.empty()) continue;
+    Found& all = by_rule[{std::get<0>(place), std::get<1>(place)}];
+    all.part.thickness = all.uses.empty() ? found.part.thickness : std::min(all.part.thickness, found.part.thickness);
+    all.uses.merge(found.uses);
+  }
+  std::vector<ThinPart> parts;
+  for (const auto& [rule, found] : by_rule)
+    parts.push_back({rule.first, rule.second, found.part.thickness, found.uses.size()});
+  return parts;
+}
+
+}  // namespace sgm
