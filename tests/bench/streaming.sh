@@ -75,7 +75,7 @@ crowd() {
   rm "$report"
 }
 crowds() {
-  crowd walkers walkers --count 64 --seconds "$crowd_seconds"
+  crowd crowd walkers --count 64 --seconds "$crowd_seconds"
   crowd worlds worlds --count 32 --rate 125 --seconds "$((crowd_seconds == 10 ? 8 : crowd_seconds))"
   crowd edits fast --seconds "$crowd_seconds"
   crowd budget budget --seconds "$budget_seconds"

@@ -33,7 +33,7 @@ const lines = [
     most: 2, unit: '', more: (r) => `${r.digs} digs` },
   // No number is asked: more digs must not make it grow.
   { line: 'chunks that waited while digging', of: /^digs/, value: (r) => r.most_queued_while_digging, unit: '' },
-  { line: '64 walkers see cells of 4 m within 32 m', of: /^walkers$/, value: (r) => never(r.all_drawn_s), most: 10,
+  { line: '64 walkers see cells of 4 m within 32 m', of: /^crowd$/, value: (r) => never(r.all_drawn_s), most: 10,
     unit: 's' },
   { line: 'chunks in 8 s of 32 worlds at 125 Hz', of: /^worlds$/, value: (r) => r.chunks - r.in_vain, least: 8000,
     unit: '', more: (r) => `planning ${r.plan_seconds} s, meshing ${r.mesh_seconds} s` },
