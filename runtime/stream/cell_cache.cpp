@@ -9,7 +9,7 @@ namespace {
 /// Above this share of its limit the cache keeps no cell that nobody has asked for while so many others came: over new
 /// ground memory does not grow up to the limit.
 constexpr size_t kIdleShare = 4;
-constexpr uint64_t kIdle = 4096;
+constexpr uint64_t kIdle = 1024;
 
 size_t bytesOf(const GrammarChunk& c) {
   constexpr size_t kBookkeeping = 256;  // what the cache, an owner's count and the heap take beside
