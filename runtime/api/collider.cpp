@@ -20,6 +20,7 @@ sgm_result sgm_collider_get_view(const sgm_collider* collider, sgm_collider_view
     view->positions = of.positions.data();
     view->indices = of.indices.data();
     view->materials = of.materials.data();
+    view->hash = of.hash;
     return SGM_OK;
   });
 }

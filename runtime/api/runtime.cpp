@@ -134,6 +134,7 @@ sgm_result sgm_runtime_create(const sgm_runtime_desc* desc, sgm_runtime** out, s
       if (!pool) return fail(error, pool.error());
       runtime->jobs = std::move(*pool);
     }
+    runtime->plan_turns = std::make_shared<sgm::PlanTurns>(*runtime->jobs);
     runtime->log(SGM_LOG_INFO, sgm_build_info());
     if (desc->jobs == nullptr && runtime->jobs->concurrency() < desc->threads)
       runtime->log(SGM_LOG_WARNING, "this machine lets only " + std::to_string(runtime->jobs->concurrency()) + " of " +

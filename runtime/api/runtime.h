@@ -18,6 +18,7 @@
 #include "base/jobs.h"
 #include "base/profile.h"
 #include "sgm/sgm.h"
+#include "stream/plan_turns.h"
 
 namespace sgm::api {
 
@@ -97,7 +98,8 @@ struct sgm_runtime {
   sgm_log_sink sink{};
   sgm::Profiler profiler;
   std::unique_ptr<sgm::JobSystem> jobs;
-  std::filesystem::path pipeline_folder;  ///< empty: pipelines are not kept
+  std::shared_ptr<sgm::PlanTurns> plan_turns;  ///< of all worlds
+  std::filesystem::path pipeline_folder;       ///< empty: pipelines are not kept
   sgm::api::DeviceBackends devices;
   std::atomic<uint64_t> children{0};
 };

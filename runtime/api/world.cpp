@@ -103,7 +103,7 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
     if (desc->cache_bytes != 0) settings.cache_bytes = desc->cache_bytes;
     sgm_runtime& runtime = field->runtime;
     settings.on_warning = [&runtime](const std::string& message) { runtime.log(SGM_LOG_WARNING, message); };
-    if (desc->reserved != 0) return fail(error, SGM_ERR_INVALID_ARGUMENT, "desc.reserved is not 0");
+    if (desc->max_colliders != 0) settings.max_colliders = desc->max_colliders;
     if (desc->store_count != 0) {
       if (desc->stores == nullptr) return nullArgument(error, "desc.stores");
       std::vector<std::string> places;
@@ -116,8 +116,9 @@ sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_wo
       if (!opened) return failData(error, opened.error());
       settings.baked = std::move(*opened);
     }
-    sgm::Result<std::unique_ptr<sgm::World>> world = sgm::World::create(
-        worldField(field->content), *field->content->backend, *runtime.jobs, settings, &runtime.memory);
+    sgm::Result<std::unique_ptr<sgm::World>> world =
+        sgm::World::create(worldField(field->content), *field->content->backend, *runtime.jobs, settings,
+                           &runtime.memory, runtime.plan_turns);
     if (!world) return failData(error, world.error());
     *out = makeHandle<sgm_world>(runtime, field->content->backend, settings.lod.finest_cell, std::move(*world));
     return SGM_OK;
@@ -169,8 +170,7 @@ sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t even
     if (sgm_result r = checkStride<sgm_world_event>(error, event_stride, "event_stride"); r != SGM_OK) return r;
     const sgm::ProfileScope scope(world->runtime.profiler, sgm::zone::kPoll);
     char* at = reinterpret_cast<char*>(events);
-    world->world->poll([&](const sgm::WorldEvent& event) {
-      if (*count == room) return false;
+    const auto handOut = [&](const sgm::WorldEvent& event) {
       sgm_world_event out{};
       out.kind = kindOf(event.kind);
       out.key = keyOf(event.key);
@@ -186,7 +186,16 @@ sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t even
       std::memcpy(at, &out, sizeof out);
       at += event_stride;
       ++*count;
-      return true;
+    };
+    world->world->poll([&](const sgm::WorldEvent& event) {
+      if (*count == room) return false;
+      try {
+        handOut(event);
+        return true;
+      } catch (...) {
+        if (*count == 0) throw;
+        return false;  // what came before is delivered; this event is met again by the next call
+      }
     });
     return SGM_OK;
   });

@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/share_priority.h"
+
 namespace sgm {
 
 namespace {
@@ -154,7 +156,7 @@ void parallelFor(JobSystem& jobs, size_t count, const std::function<void(size_t)
   try {
     for (size_t i = 0; i < helpers; ++i) {
       auto share = std::make_unique<std::shared_ptr<ForState>>(state);
-      jobs.submit(runShare, share.get(), 0);
+      jobs.submit(runShare, share.get(), kSharePriority);
       share.release();
     }
   } catch (const std::bad_alloc&) {

@@ -6,11 +6,17 @@ namespace sgm {
 
 namespace {
 
+/// Above this share of its limit the cache keeps no cell that nobody has asked for while so many others came: over new
+/// ground memory does not grow up to the limit.
+constexpr size_t kIdleShare = 4;
+constexpr uint64_t kIdle = 1024;
+
 size_t bytesOf(const GrammarChunk& c) {
-  return sizeof(DerivedCell) + c.shapes.size() * sizeof(Shape) + c.children.size() * sizeof(uint32_t) +
-         c.exprs.size() * sizeof(Expr) + c.noises.size() * sizeof(NoiseSpec) + c.points.size() * sizeof(Int3) +
-         c.blocks.size() * sizeof(VoxelBlock) + c.voxels.size() * sizeof(uint64_t) +
-         c.groups.size() * (sizeof(Group) + 32) + c.anchors.size() * sizeof(Anchor);
+  constexpr size_t kBookkeeping = 256;  // what the cache, an owner's count and the heap take beside
+  constexpr size_t kIndexed = 64;       // a group's share of the index
+  const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+  return kBookkeeping + sizeof(DerivedCell) + of(c.shapes) + of(c.children) + of(c.exprs) + of(c.noises) +
+         of(c.points) + of(c.blocks) + of(c.voxels) + of(c.groups) + c.groups.size() * kIndexed + of(c.anchors);
 }
 
 }  // namespace
@@ -128,10 +134,14 @@ void CellCache::adopt(const CellCache& other, const std::function<bool(const Der
 }
 
 void CellCache::makeRoom(size_t bytes) {
-  while (stats_.bytes + bytes > byte_limit_ && !by_use_.empty()) {
+  const uint64_t now = clock_;
+  const auto isIdle = [now](uint64_t since) { return now - since > kIdle; };
+  while (!by_use_.empty() && stats_.bytes + bytes > byte_limit_ / kIdleShare) {
     const auto last = entries_.find(by_use_.back());
     Entry& entry = last->second;
-    if (entry.used != entry.listed_as) {
+    const bool is_full = stats_.bytes + bytes > byte_limit_;
+    if (!is_full && !isIdle(entry.listed_as)) return;
+    if (entry.used != entry.listed_as && !isIdle(entry.used)) {
       // A second chance: it was asked for since it got its place.
       entry.listed_as = entry.used;
       by_use_.splice(by_use_.begin(), by_use_, entry.listed);

@@ -23,7 +23,12 @@ struct KnownChunk {
   uint64_t queued = 0;  ///< the last plan that asked for it
   size_t queue_at = 0;  ///< where in that plan's list
 
-  size_t bytes() const { return surface != nullptr ? surface->bytes() : 0; }
+  /// Of all that is known of the chunk, its place in the store included.
+  size_t bytes() const {
+    constexpr size_t kPlace = sizeof(ChunkKey) + 3 * sizeof(void*);
+    return kPlace + sizeof *this + (surface != nullptr ? surface->bytes() : 0) +
+           (voids != nullptr ? sizeof *voids + voids->capacity() * sizeof(VoidComponent) : 0);
+  }
 };
 
 class ChunkStore {
@@ -43,13 +48,13 @@ class ChunkStore {
   void setEdits(uint64_t number) { edits_ = number; }
   size_t size() const { return records_.size(); }
 
-  /// Frees surfaces of records that no plan since `since` had a use for, those unused longest first, until `bytes` are
-  /// freed or none is left. Returns what it took away.
+  /// Forgets records that no plan since `since` had a use for, those unused longest first, until `bytes` are freed and
+  /// no more than `most` are left, or all of them are forgotten. Returns what it took away.
   struct Freed {
     size_t bytes = 0;
     uint64_t never_drawn = 0;  ///< chunks with a body that were meshed in vain
   };
-  Freed freeUnused(uint64_t since, size_t bytes);
+  Freed freeUnused(uint64_t since, size_t bytes, size_t most);
   void clear() { records_.clear(); }
 
   template <class Visit>

@@ -1,7 +1,11 @@
 #include "stream/collider.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+
+#include "mesh/hash.h"
+#include "stream/chunk_set.h"
 
 namespace sgm {
 
@@ -16,11 +20,49 @@ bool hasArea(const Vertex& a, const Vertex& b, const Vertex& c) {
   return uy * vz != uz * vy || uz * vx != ux * vz || ux * vy != uy * vx;
 }
 
-double nearest(const ChunkKey& key, std::span<const Viewer> viewers, int32_t finest_cell) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const Viewer& viewer : viewers) least = std::min(least, distanceToChunk(viewer.position, key, finest_cell));
-  return least;
+uint64_t hashOf(const Collider& collider) {
+  ContentHash hash;
+  addWord(hash, static_cast<uint32_t>(collider.positions.size()), 0);
+  uint32_t place = 1;
+  for (const float p : collider.positions) addWord(hash, std::bit_cast<uint32_t>(p), place++);
+  for (const uint32_t i : collider.indices) addWord(hash, i, place++);
+  for (const uint16_t m : collider.materials) addWord(hash, m, place++);
+  return hash.value();
 }
+
+/// Of what a collider is made of: chunks of which this is equal need not be looked at.
+uint64_t hashOfParts(const DrawnChunk& chunk) {
+  uint64_t hash = 0;
+  for (size_t part = 0; part < chunk.surface->mesh.ranges.size(); ++part) {
+    const PackedRange& range = chunk.surface->mesh.ranges[part];
+    if (range.index_count == 0 || (part > 0 && !(chunk.seams >> (part - 1) & 1))) continue;
+    hash = mix64(mix64(hash + part) ^ range.hash.value());
+  }
+  return hash;
+}
+
+/// Chunks, and what lies in the same place at other levels.
+class Overlaps {
+ public:
+  explicit Overlaps(int top) : top_(top) {}
+  void add(ChunkKey key) {
+    chunks_.insert(key);
+    for (; key.level < top_ && around_.insert(key); key = parentOf(key)) {
+    }
+    around_.insert(key);
+  }
+  bool meets(ChunkKey key) const {
+    if (around_.contains(key)) return true;
+    for (; key.level < top_; key = parentOf(key)) {
+      if (chunks_.contains(key)) return true;
+    }
+    return chunks_.contains(key);
+  }
+
+ private:
+  int top_;
+  ChunkSet chunks_, around_;  ///< around_: the chunks and all that hold them
+};
 
 }  // namespace
 
@@ -53,47 +95,57 @@ Collider colliderOf(const ChunkSurface& surface, uint8_t seams, std::pmr::memory
   collider.positions.shrink_to_fit();
   collider.indices.shrink_to_fit();
   collider.materials.shrink_to_fit();
+  collider.hash = hashOf(collider);
   return collider;
 }
 
-bool Colliders::update(const DrawnFrame& frame, std::span<const Viewer> viewers, size_t most,
-                       std::pmr::memory_resource* memory) {
+bool Colliders::update(const DrawnFrame& frame, const ViewerIndex& viewers, size_t most,
+                       std::pmr::memory_resource* memory, std::vector<ColliderChange>& changes) {
+  changes.clear();
   if (distance_ == 0) return true;
-  if (!changes_.empty()) return false;
   struct Wanted {
     double away;
     const DrawnChunk* chunk;
+    uint64_t parts;
   };
   std::vector<Wanted> missing;
   std::map<ChunkKey, Given> next;
-  std::vector<ColliderChange> changes;
   for (const DrawnChunk& chunk : frame.drawn) {
-    const double away = nearest(chunk.key, viewers, finest_cell_);
+    const double away = viewers.distance(chunk.key);
     const auto has = given_.find(chunk.key);
     if (away > distance_ * (has == given_.end() ? 1 : kKeptFarther)) continue;
     if (has != given_.end()) next.insert(*has);
-    if (has == given_.end() || has->second.surface != chunk.surface || has->second.seams != chunk.seams) {
-      missing.push_back({away, &chunk});
-    }
+    const uint64_t parts = hashOfParts(chunk);
+    if (has == given_.end() || has->second.parts != parts) missing.push_back({away, &chunk, parts});
   }
   std::sort(missing.begin(), missing.end(), [](const Wanted& a, const Wanted& b) {
     return a.away != b.away ? a.away < b.away : a.chunk->key < b.chunk->key;
   });
-  for (const Wanted& wanted : std::span(missing).first(std::min(most, missing.size()))) {
+  const size_t count = std::min(most, missing.size());
+  for (const Wanted& wanted : std::span(missing).first(count)) {
     const DrawnChunk& chunk = *wanted.chunk;
     auto made = std::allocate_shared<Collider>(std::pmr::polymorphic_allocator<>(memory),
                                                colliderOf(*chunk.surface, chunk.seams, memory));
-    next[chunk.key] = {chunk.surface, chunk.seams, made->bytes()};
-    changes.push_back({chunk.key, std::move(made)});
+    const auto [given, is_new] = next.try_emplace(chunk.key);
+    const bool same = !is_new && given->second.hash == made->hash;
+    given->second = {wanted.parts, made->hash, made->bytes()};
+    if (!same) changes.push_back({chunk.key, std::move(made)});
   }
+  // Nothing falls through what is replaced by chunks of another level.
+  Overlaps late(frame.tree.top());
+  for (const Wanted& wanted : std::span(missing).subspan(count)) late.add(wanted.chunk->key);
   for (const auto& [key, given] : given_) {
-    if (!next.contains(key)) changes.push_back({key, nullptr});
+    if (next.contains(key)) continue;
+    if (late.meets(key)) {
+      next.insert({key, given});
+    } else {
+      changes.push_back({key, nullptr});
+    }
   }
   given_.swap(next);
   bytes_ = 0;
   for (const auto& [key, given] : given_) bytes_ += given.bytes;
-  changes_.swap(changes);
-  return missing.size() <= most;
+  return count == missing.size();
 }
 
 }  // namespace sgm

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "stream/drawn_frame.h"
-#include "stream/viewer.h"
+#include "stream/viewer_index.h"
 
 namespace sgm {
 
@@ -19,6 +19,7 @@ struct Collider {
   std::pmr::vector<float> positions;     ///< three a vertex, metres from the grid's origin
   std::pmr::vector<uint32_t> indices;    ///< three a triangle; none without area
   std::pmr::vector<uint16_t> materials;  ///< one a triangle: that of its first vertex
+  uint64_t hash = 0;                     ///< of these three: equal colliders of a chunk have equal ones
 
   explicit Collider(std::pmr::memory_resource* memory) : positions(memory), indices(memory), materials(memory) {}
   size_t bytes() const {
@@ -40,28 +41,26 @@ struct ColliderChange {
 class Colliders {
  public:
   /// distance: units; 0: no chunk has one.
-  Colliders(double distance, int32_t finest_cell) : distance_(distance), finest_cell_(finest_cell) {}
+  explicit Colliders(double distance) : distance_(distance) {}
 
   /// The next changes, at most `most` new colliders among them, the nearest first; true where none are left after them.
-  /// Chunks keep theirs until they are a quarter of the distance farther away. Does nothing while changes of before
-  /// have not been taken. Throws std::bad_alloc, and nothing has happened.
-  bool update(const DrawnFrame& frame, std::span<const Viewer> viewers, size_t most, std::pmr::memory_resource* memory);
-  /// Emptied by whoever takes them.
-  std::vector<ColliderChange>& changes() { return changes_; }
+  /// A chunk whose collider would be the same keeps it without a change. Chunks keep theirs until they are a quarter of
+  /// the distance farther away; those that are drawn no more, until all that is drawn in their place has one. Throws
+  /// std::bad_alloc, and nothing has happened.
+  bool update(const DrawnFrame& frame, const ViewerIndex& viewers, size_t most, std::pmr::memory_resource* memory,
+              std::vector<ColliderChange>& changes);
 
   size_t bytes() const { return bytes_; }  ///< of those that chunks have
 
  private:
   struct Given {
-    std::shared_ptr<const ChunkSurface> surface;
-    uint8_t seams = 0;
+    uint64_t parts = 0;  ///< a hash of the hashes of what was drawn
+    uint64_t hash = 0;   ///< the collider's
     size_t bytes = 0;
   };
 
   double distance_;
-  int32_t finest_cell_;
   std::map<ChunkKey, Given> given_;
-  std::vector<ColliderChange> changes_;
   size_t bytes_ = 0;
 };
 

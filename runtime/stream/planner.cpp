@@ -22,6 +22,12 @@ constexpr double kLeastReach = 1e-6;
 constexpr double kNearShare = 2.0 / 3;
 /// Plans from one count of what is wanted to the next, where memory is not scarce.
 constexpr uint64_t kPlansToTally = 16;
+/// With so many nodes to stand on, a first picture of all comes before them: half a second's work and more. It has
+/// cells of level kPictureLevel, and so a 64th of the chunks.
+constexpr size_t kCrowd = 1024;
+constexpr int kPictureLevel = 3;
+/// Chunks that nobody wants are kept up to twice as many as are wanted, and so many more.
+constexpr size_t kKeptBeside = 1024;
 /// Plans after a change of detail before the next.
 constexpr uint64_t kPlansToSettle = 20;
 
@@ -29,6 +35,7 @@ constexpr uint64_t kPlansToSettle = 20;
 
 Planner::Planner(const PlannerSettings& settings, WorldState first)
     : settings_(settings),
+      viewers_({}, settings.lod),
       target_(settings.lod.top, settings.lod.finest_cell),
       applied_(std::make_shared<DrawnFrame>(Octree(settings.lod.top, settings.lod.finest_cell))),
       edits_(std::move(first)) {}
@@ -39,7 +46,7 @@ Plan Planner::plan(PlanInput&& input) {
   for (const ChunkKey& key : input.begun) store_.at(key).in_work = true;
   take(input.finished, plan);
   learnApplied(input.applied);
-  refuse(input.refused, plan);
+  forgetOffers(input.in_hand);
   findOutdated();
   takeUpEdits(input);
   plan.edits = edits_;
@@ -57,13 +64,18 @@ Plan Planner::plan(PlanInput&& input) {
     if (step_ != nullptr) offered_.push_back(step_->to);
   }
   plan.step = step_;
+  awaited_ = step_ != nullptr;
   fillQueue(plan.queue);
+  awaited_ = awaited_ || !plan.queue.empty();
   stats_.drawn = applied_->drawn.size();
   stats_.edits_drawn = edits_drawn_;
   stats_.edits_failed = edits_failed_;
   const bool edits_wait = edits_.number < input.edits.number && edits_failed_ < input.edits.number;
   plan.idle = plan.queue.empty() && plan.step == nullptr && !edits_wait;
-  if (plan.idle || plans_ % kPlansToTally == 0) tally();
+  if (plan.idle || plans_ % kPlansToTally == 0) {
+    tally();
+    forget(0);
+  }
   if (keepToBudget(input.live_bytes, input.collider_bytes)) plan.idle = false;
   if (plan.edits.number != edits_.number) {
     plan.queue.clear();
@@ -127,6 +139,13 @@ void Planner::learnApplied(uint64_t number) {
   }
 }
 
+void Planner::forgetOffers(const std::array<uint64_t, 2>& in_hand) {
+  std::erase_if(offered_, [&](const std::shared_ptr<const DrawnFrame>& frame) {
+    return frame->number != in_hand[0] && frame->number != in_hand[1] &&
+           (step_ == nullptr || frame->number != step_->to->number);
+  });
+}
+
 void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
   for (FinishedChunk& chunk : finished) {
     KnownChunk& record = store_.at(chunk.request.key);
@@ -159,30 +178,13 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
   }
 }
 
-void Planner::refuse(const std::vector<ChunkKey>& refused, Plan& plan) {
-  for (const ChunkKey& key : refused) {
-    KnownChunk& record = store_.at(key);
-    if (record.failed) continue;
-    const size_t bytes = record.bytes();
-    // One that is drawn stays as it is drawn.
-    const uint64_t edited = record.edited;
-    record = applied_->tree.isLeaf(key) && edited <= edits_drawn_ ? knownOfDrawn(key) : KnownChunk{};
-    record.edited = edited;
-    record.failed = true;
-    ++stats_.failed;
-    changed_ = true;
-    plan.failed.push_back({key, Error{Code::limit, "a chunk's mesh has " + std::to_string(bytes) +
-                                                       " bytes, more than may be handed over in one frame"}});
-  }
-}
-
 bool Planner::isReady(const ChunkKey& chunk, uint8_t seams) const {
   const KnownChunk* record = store_.find(chunk);
   return record != nullptr && record->body && (seams & ~record->seams) == 0;
 }
 
 void Planner::retarget(std::span<const Viewer> viewers) {
-  viewers_.assign(viewers.begin(), viewers.end());
+  viewers_ = ViewerIndex(viewers, settings_.lod, settings_.all_around);
   LodSettings lod = settings_.lod;
   lod.finest_distance *= stats_.detail;
   std::vector<LodViewer> wanting = lodViewers(viewers, lod);
@@ -287,9 +289,23 @@ void Planner::listNodes(const Octree& tree, std::vector<OctreeNode>& nodes) {
   }
 }
 
+void Planner::requestCoarse(std::vector<WorkItem>& queue) {
+  const Octree& drawn = applied_->tree;
+  bool any = false;
+  for (const OctreeNode& node : target_nodes_) {
+    if (node.key.level < kPictureLevel || drawn.isSplit(node.key) || drawn.isLeaf(node.key)) continue;
+    any = true;
+    // As far as others are drawn when it is.
+    request(node.key, node.faces | coarserFaces(drawn, node.key), Rank::coarse, queue);
+  }
+  if (!any) return;
+  for (const MissingSeams& missing : missing_) request(missing.chunk, missing.faces, Rank::coarse, queue);
+}
+
 void Planner::fillQueue(std::vector<WorkItem>& queue) {
   const Octree& drawn = applied_->tree;
   for (const ChunkKey& leaf : outdated_) request(leaf, coarserFaces(drawn, leaf), Rank::edited, queue);
+  if (near_nodes_.size() > kCrowd) requestCoarse(queue);
   for (const OctreeNode& node : near_nodes_) {
     if (node.split || drawn.isSplit(node.key)) continue;
     // What stands in for finer chunks is worth its time only where what is drawn is coarser still.
@@ -308,6 +324,9 @@ void Planner::fillQueue(std::vector<WorkItem>& queue) {
   for (const MissingSeams& missing : missing_) request(missing.chunk, missing.faces, Rank::other, queue);
   std::sort(queue.begin(), queue.end(), [](const WorkItem& a, const WorkItem& b) {
     if (a.rank != b.rank) return a.rank > b.rank;
+    if (a.rank == Rank::coarse && a.request.key.level != b.request.key.level) {
+      return a.request.key.level < b.request.key.level;
+    }
     return a.urgency != b.urgency ? a.urgency > b.urgency : a.request.key > b.request.key;
   });
 }
@@ -316,6 +335,7 @@ void Planner::request(const ChunkKey& key, int seams, Rank rank, std::vector<Wor
   KnownChunk& record = store_.at(key);
   record.wanted = plans_;
   const auto missing = static_cast<uint8_t>(seams & ~record.seams);
+  awaited_ = awaited_ || record.in_work;
   if (record.in_work || record.failed || (record.body && missing == 0)) return;
   if (record.queued == plans_) {
     uint8_t& faces = queue[record.queue_at].request.seams;
@@ -333,7 +353,7 @@ void Planner::request(const ChunkKey& key, int seams, Rank rank, std::vector<Wor
   item.request.outermost = key.level == target_.top();
   item.before = record.surface;
   item.rank = rank;
-  item.urgency = urgency(key, viewers_, settings_.lod, settings_.all_around);
+  item.urgency = viewers_.urgency(key);
   queue.push_back(std::move(item));
 }
 
@@ -343,19 +363,28 @@ void Planner::tally() {
     for (const ChunkKey& leaf : frame->tree.leaves()) store_.at(leaf).wanted = plans_;
   }
   stats_.records = store_.size();
+  stats_.record_bytes = 0;
   stats_.never_drawn = freed_in_vain_;
-  wanted_bytes_ = 0;
+  wanted_bytes_ = wanted_ = 0;
   for (const ChunkKey& leaf : outdated_) {
     const std::shared_ptr<const ChunkSurface> drawn = applied_->find(leaf);
     if (drawn != nullptr) wanted_bytes_ += drawn->bytes();
   }
   store_.forEach([&](const ChunkKey&, const KnownChunk& record) {
+    stats_.record_bytes += record.bytes() - (record.surface != nullptr ? record.surface->bytes() : 0);
     if (record.wanted == plans_) {
+      ++wanted_;
       wanted_bytes_ += record.bytes();
     } else if (record.body && !record.ever_drawn) {
       ++stats_.never_drawn;
     }
   });
+}
+
+void Planner::forget(size_t bytes) {
+  const size_t most = 2 * wanted_ + kKeptBeside;
+  if (bytes == 0 && store_.size() <= most) return;
+  freed_in_vain_ += store_.freeUnused(plans_, bytes, most).never_drawn;
 }
 
 bool Planner::canLowerDetail() const { return stats_.detail > kLeastDetail; }
@@ -364,10 +393,10 @@ bool Planner::keepToBudget(size_t live_bytes, size_t collider_bytes) {
   const auto share = [cap = static_cast<double>(settings_.mesh_bytes)](double part) {
     return static_cast<size_t>(part * cap);
   };
-  if (live_bytes > share(kKeptShare)) {
+  const size_t known_bytes = live_bytes + stats_.record_bytes;
+  if (known_bytes > share(kKeptShare)) {
     tally();
-    const ChunkStore::Freed freed = store_.freeUnused(plans_, live_bytes - share(kKeptShare));
-    freed_in_vain_ += freed.never_drawn;
+    forget(known_bytes - share(kKeptShare));
   }
   const bool squeezed = !outdated_.empty() && live_bytes > share(kSqueezedShare) && canLowerDetail();
   if (squeezed) postponeEdits();

@@ -4,6 +4,7 @@
 // One thread at a time. Everything comes in by plan() and goes out by its answer; whoever calls it runs the jobs and
 // hands frames to the engine (world.h).
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -13,7 +14,7 @@
 #include "stream/chunk_store.h"
 #include "stream/commit_plan.h"
 #include "stream/drawn_frame.h"
-#include "stream/viewer.h"
+#include "stream/viewer_index.h"
 #include "stream/world_edits.h"
 
 namespace sgm {
@@ -27,9 +28,11 @@ struct WorkItem {
   /// All of one rank come before those of the next.
   enum class Rank : uint8_t {
     edited,  ///< what is drawn of it is out of date
+    coarse,  ///< of many viewers' first picture, the coarsest level first
     near,    ///< it takes this to stand where a viewer is
     other,
   };
+  static constexpr size_t kRanks = 4;
   Rank rank = Rank::other;
   double urgency = 0;  ///< smaller first
 
@@ -63,9 +66,10 @@ struct FrameStep {
 struct PlanInput {
   std::vector<Viewer> viewers;
   std::vector<FinishedChunk> finished;
-  std::vector<ChunkKey> begun;      ///< handed out since the last plan
-  std::vector<ChunkKey> refused;    ///< whose surfaces are too large to be handed to the engine
-  uint64_t applied = 0;             ///< number of the frame that the engine draws
+  std::vector<ChunkKey> begun;  ///< handed out since the last plan
+  uint64_t applied = 0;         ///< number of the frame that the engine draws
+  /// Numbers of frames, 0: none, that it may be about to draw, beside that of the last plan's step.
+  std::array<uint64_t, 2> in_hand{};
   WorldState edits;                 ///< the latest
   std::vector<WorldChange> edited;  ///< what has changed since Planner::edits()
   size_t live_bytes = 0;            ///< of all surfaces, the engine's own included
@@ -83,7 +87,7 @@ struct Plan {
 struct PlannerSettings {
   LodSettings lod;
   size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces
-  double all_around = 0;                  ///< as urgency()'s: where colliders are wanted
+  double all_around = 0;                  ///< as urgencyFor()'s: where colliders are wanted
   bool by_reach = true;                   ///< level 0 only where a viewer's void leads to (reachability.h)
   bool sharp = false;                     ///< chunks have sharp features
 };
@@ -97,6 +101,7 @@ struct PlannerStats {
   uint64_t never_drawn = 0;  ///< meshed chunks that are neither drawn, nor wanted, nor ever were drawn
   uint64_t failed = 0;
   size_t records = 0;         ///< chunks known
+  size_t record_bytes = 0;    ///< of what is known of them, without their surfaces
   size_t drawn = 0;           ///< chunks drawn that have triangles
   uint64_t edits_drawn = 0;   ///< number of the state that is drawn
   uint64_t edits_failed = 0;  ///< of one that cannot be drawn, as a chunk of it cannot be made; 0: none
@@ -127,8 +132,12 @@ class Planner {
   };
 
   void learnApplied(uint64_t number);
-  /// Edits are taken up state by state: the next one when the one before is drawn. So a frame shows one state, a change
-  /// waits for two frames of changes at most, and however many there are, what is to be meshed again is what is drawn.
+  /// Forgets steps that were offered, and that nobody can take any more.
+  void forgetOffers(const std::array<uint64_t, 2>& in_hand);
+  /// Edits are taken up state by state: the next one when the one before is drawn, and a step that was offered is
+  /// taken. So a frame shows one state, a change waits for two frames of changes at most, and however many there are,
+  /// what is to be meshed again is what is drawn. While nothing is drawn they wait for the first frame: each of them
+  /// would have its coarsest chunks meshed again, and it would never come.
   void takeUpEdits(PlanInput& input);
   /// Goes back to the state that is drawn.
   void giveEditsBack();
@@ -140,7 +149,6 @@ class Planner {
   /// What comes nearest to the target of what is ready; none: what is drawn must stay.
   std::optional<Octree> nextTree();
   void take(std::vector<FinishedChunk>& finished, Plan& plan);
-  void refuse(const std::vector<ChunkKey>& refused, Plan& plan);
   bool canLowerDetail() const;
   /// Whether detail must be lowered yet.
   bool keepToBudget(size_t live_bytes, size_t collider_bytes);
@@ -148,6 +156,7 @@ class Planner {
   ChunkSet reachedParents(std::span<const LodViewer> viewers, const LodSettings& lod) const;
   std::shared_ptr<const FrameStep> nextStep();
   void fillQueue(std::vector<WorkItem>& queue);
+  void requestCoarse(std::vector<WorkItem>& queue);
   double nearDistance() const;
   static void listNodes(const Octree& tree, std::vector<OctreeNode>& nodes);
   /// Asks for what is not there yet, with what this plan asks for it already.
@@ -156,10 +165,13 @@ class Planner {
   KnownChunk knownOfDrawn(const ChunkKey& leaf) const;
   /// Counts what is wanted now, and what is not.
   void tally();
+  /// Forgets chunks that nobody wants until so many bytes are freed, and they are not many more than those wanted.
+  /// Precondition: tally() comes before.
+  void forget(size_t bytes);
 
   PlannerSettings settings_;
   ChunkStore store_;
-  std::vector<Viewer> viewers_;
+  ViewerIndex viewers_;
   std::vector<LodViewer> targeted_;  ///< what target_ was made for
   double targeted_detail_ = 0;
   ChunkSet reached_;            ///< level-1 nodes with chunks that the viewers' void leads to
@@ -168,7 +180,7 @@ class Planner {
   std::vector<OctreeNode> target_nodes_, near_nodes_;
   std::shared_ptr<const DrawnFrame> applied_;
   std::shared_ptr<const FrameStep> step_;                   ///< the last one offered, not known to be taken
-  std::vector<std::shared_ptr<const DrawnFrame>> offered_;  ///< what steps from applied_ lead to, any may be taken
+  std::vector<std::shared_ptr<const DrawnFrame>> offered_;  ///< what steps from applied_ lead to that may be taken
   std::vector<MissingSeams> missing_;
   WorldState edits_;
   uint64_t edits_drawn_ = 0;        ///< the state that applied_ shows
@@ -178,10 +190,12 @@ class Planner {
   bool postponed_ = false;          ///< edits found no room, and wait until less detail is drawn
   double room_beside_ = 0;          ///< the share of memory that this may take then
   uint64_t edits_failed_ = 0;       ///< a state that is not drawn: a chunk of it cannot be made
+  bool awaited_ = false;            ///< the last plan had something to mesh, in the making or to be drawn
   bool changed_ = true;             ///< since the last step was looked for
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
   uint64_t freed_in_vain_ = 0;
   size_t wanted_bytes_ = 0;  ///< of what the last plan had a use for
+  size_t wanted_ = 0;        ///< how many chunks that is
   PlannerStats stats_;
 };
 

@@ -80,22 +80,19 @@ std::vector<LodViewer> lodViewers(std::span<const Viewer> viewers, const LodSett
   return wanting;
 }
 
-double urgency(const ChunkKey& key, std::span<const Viewer> viewers, const LodSettings& settings, double all_around) {
+SeenBy::SeenBy(const Viewer& of) : viewer(of), soon(ahead(of)), reach(reachOf(of)) {}
+
+double urgencyFor(const ChunkKey& key, const SeenBy& seen, const LodSettings& settings, double all_around) {
+  const Viewer& viewer = seen.viewer;
   const double edge = std::ldexp(static_cast<double>(kChunkCells) * settings.finest_cell, key.level);
-  double most = std::numeric_limits<double>::infinity();
-  for (const Viewer& viewer : viewers) {
-    const double away = distanceToWay(viewer.position, ahead(viewer), key, settings.finest_cell);
-    double waits = away / (std::ldexp(settings.finest_distance, key.level) * reachOf(viewer));
-    const Vec3 towards{(key.at.x + 0.5) * edge - viewer.position[0], (key.at.y + 0.5) * edge - viewer.position[1],
-                       (key.at.z + 0.5) * edge - viewer.position[2]};
-    const double lengths = std::sqrt(dot(towards, towards) * dot(viewer.direction, viewer.direction));
-    // Around the viewer itself there is no behind: it may turn.
-    if (lengths > 0 && away > all_around) {
-      waits *= 1 + (kBehind - 1) * (1 - dot(towards, viewer.direction) / lengths) / 2;
-    }
-    most = std::min(most, waits);
-  }
-  return most;
+  const double away = distanceToWay(viewer.position, seen.soon, key, settings.finest_cell);
+  const double waits = away / (std::ldexp(settings.finest_distance, key.level) * seen.reach);
+  const Vec3 towards{(key.at.x + 0.5) * edge - viewer.position[0], (key.at.y + 0.5) * edge - viewer.position[1],
+                     (key.at.z + 0.5) * edge - viewer.position[2]};
+  const double lengths = std::sqrt(dot(towards, towards) * dot(viewer.direction, viewer.direction));
+  // Around the viewer itself there is no behind: it may turn.
+  if (lengths == 0 || away <= all_around) return waits;
+  return waits * (1 + (kBehind - 1) * (1 - dot(towards, viewer.direction) / lengths) / 2);
 }
 
 }  // namespace sgm

@@ -34,11 +34,18 @@ Result<void> checkViewer(const Viewer& viewer);
 /// so that a viewer who hardly moves wants the same.
 std::vector<LodViewer> lodViewers(std::span<const Viewer> viewers, const LodSettings& settings);
 
+/// A viewer, and what follows from it for every chunk.
+struct SeenBy {
+  explicit SeenBy(const Viewer& viewer);
+
+  Viewer viewer;
+  std::array<double, 3> soon;  ///< where it will be in kLookAhead
+  double reach;                ///< as LodViewer::reach
+};
+
 /// Smaller is more urgent: the chunk's distance from where the viewer is or will be within kLookAhead, measured by what
 /// the chunk's level is wanted within, so that what looks largest comes first; what is behind a viewer waits longer,
-/// unless it is nearer than `all_around` (units), where bodies may fall. At least 0. Precondition: viewers are not
-/// empty.
-double urgency(const ChunkKey& key, std::span<const Viewer> viewers, const LodSettings& settings,
-               double all_around = 0);
+/// unless it is nearer than `all_around` (units), where bodies may fall. At least 0.
+double urgencyFor(const ChunkKey& key, const SeenBy& seen, const LodSettings& settings, double all_around = 0);
 
 }  // namespace sgm

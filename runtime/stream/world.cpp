@@ -108,7 +108,8 @@ Result<void> openJournal(WorldCore& core) {
 World::World(std::unique_ptr<WorldCore> core, JobSystem& jobs) : core_(std::move(core)), jobs_(jobs) {}
 
 Result<std::unique_ptr<World>> World::create(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs,
-                                             const WorldSettings& settings, std::pmr::memory_resource* memory) {
+                                             const WorldSettings& settings, std::pmr::memory_resource* memory,
+                                             std::shared_ptr<PlanTurns> turns) {
   if (Result<void> good = checkLod(settings.lod); !good) return good.error();
   const size_t least = largestChunk(settings) * (jobs.concurrency() + 2);
   if (settings.mesh_bytes < least) {
@@ -120,7 +121,9 @@ Result<std::unique_ptr<World>> World::create(std::shared_ptr<const WorldField> f
   if (own.edits.author == 0) own.edits.author = randomAuthor();
   std::unique_ptr<JobSystem> lookers;
   if (own.baked != nullptr && own.baked->isFar()) lookers = makeLookers(field->profiler(), own);
-  auto core = std::make_unique<WorldCore>(std::move(field), backend, jobs, own, std::move(lookers), memory);
+  if (turns == nullptr) turns = std::make_shared<PlanTurns>(jobs);
+  auto core =
+      std::make_unique<WorldCore>(std::move(field), backend, jobs, std::move(turns), own, std::move(lookers), memory);
   if (!own.journal.empty()) {
     if (Result<void> opened = openJournal(*core); !opened) return opened.error();
   }
@@ -155,11 +158,26 @@ bool World::update(size_t bytes) {
   if (polled_ < events_.size()) return false;
   events_.clear();
   polled_ = 0;
-  advance(bytes);
+  advance(bytes, core_->settings.max_colliders);
   return true;
 }
 
-void World::advance(size_t bytes) {
+void World::tellColliders(size_t most) {
+  std::vector<ColliderChange>& changes = core_->collider_changes;
+  events_.reserve(events_.size() + changes.size());
+  size_t told = 0;
+  for (; told < changes.size() && (most > 0 || changes[told].collider == nullptr); ++told) {
+    ColliderChange& change = changes[told];
+    const bool is_new = change.collider != nullptr;
+    most -= is_new ? 1 : 0;
+    const auto kind = is_new ? WorldEvent::Kind::collider : WorldEvent::Kind::collider_removed;
+    events_.push_back({kind, change.key, nullptr, 0, 0, 0, {}, std::move(change.collider)});
+  }
+  changes.erase(changes.begin(), changes.begin() + static_cast<ptrdiff_t>(told));
+}
+
+void World::advance(size_t bytes, size_t colliders) {
+  credit_.begin(bytes);
   std::shared_ptr<const FrameStep> step;
   std::shared_ptr<const DrawnFrame> stays;
   events_.reserve(events_.size() + kFailedAtOnce);
@@ -168,20 +186,22 @@ void World::advance(size_t bytes) {
     if (core_->settled() && core_->failed.empty() && staged_ == nullptr) return;
     if (core_->step == nullptr) stays = core_->drawn;
     if (core_->step != nullptr && core_->step->from == core_->applied) step = core_->step;
+    core_->in_hand = {step != nullptr ? step->to->number : 0, staged_ != nullptr ? staged_->to->number : 0};
     const auto told = core_->failed.end() - std::min<ptrdiff_t>(kFailedAtOnce, std::ssize(core_->failed));
     for (auto chunk = told; chunk != core_->failed.end(); ++chunk) {
       events_.push_back({WorldEvent::Kind::failed, chunk->key, nullptr, 0, 0, 0, std::move(chunk->error)});
     }
     core_->failed.erase(told, core_->failed.end());
-    events_.reserve(events_.size() + core_->collider_changes.size());
-    for (ColliderChange& change : core_->collider_changes) {
-      const auto kind = change.collider ? WorldEvent::Kind::collider : WorldEvent::Kind::collider_removed;
-      events_.push_back({kind, change.key, nullptr, 0, 0, 0, {}, std::move(change.collider)});
-    }
-    core_->collider_changes.clear();
+    tellColliders(colliders);
   }
   if (stays != nullptr && staged_ != nullptr) restage(nullptr, *stays);
-  if (step != nullptr && stage(step, bytes)) {
+  // A better step does not keep back one that is drawn sooner: where meshing is quicker than handing over, steps would
+  // grow, and none would ever be whole.
+  if (step != nullptr && staged_ != nullptr && step != staged_ && staged_->from == step->from &&
+      bytesLeft(*staged_) <= bytesLeft(*step)) {
+    step = staged_;
+  }
+  if (step != nullptr && stage(step)) {
     const std::lock_guard lock(core_->mutex);
     core_->applied = step->to->number;
     core_->drawn = step->to;
@@ -191,6 +211,7 @@ void World::advance(size_t bytes) {
     core_->kickPlanner();
   } else {
     core_->kickOverdue();
+    core_->startDuePlans();
   }
   core_->kickFieldSwitch();
 }
@@ -211,31 +232,36 @@ void World::restage(const std::shared_ptr<const FrameStep>& step, const DrawnFra
   staged_changes_ = 0;
 }
 
-bool World::handOver(const FrameStep& step, size_t bytes) {
-  size_t given = 0;
+bool World::wasHanded(const DrawnChunk& chunk) const {
+  const auto handed = handed_.find(chunk.key);
+  return handed != handed_.end() && handed->second == chunk.surface;
+}
+
+size_t World::bytesLeft(const FrameStep& step) const {
+  size_t bytes = 0;
+  for (const FrameChange& change : step.changes) {
+    if (change.chunk.surface != nullptr && !wasHanded(change.chunk)) bytes += change.chunk.surface->mesh.bytes();
+  }
+  return bytes;
+}
+
+bool World::handOver(const FrameStep& step) {
   events_.reserve(events_.size() + step.changes.size() - staged_changes_);  // what counts as handed over is told
   for (; staged_changes_ < step.changes.size(); ++staged_changes_) {
     const DrawnChunk& chunk = step.changes[staged_changes_].chunk;
-    if (chunk.surface == nullptr) continue;
-    const auto handed = handed_.find(chunk.key);
-    if (handed != handed_.end() && handed->second == chunk.surface) continue;
+    if (chunk.surface == nullptr || wasHanded(chunk)) continue;
     const size_t size = chunk.surface->mesh.bytes();
-    if (size > bytes) {
-      const std::lock_guard lock(core_->mutex);
-      core_->refused.push_back(chunk.key);
-      return false;
-    }
-    if (size > bytes - given) return false;
+    if (!credit_.admits(size)) return false;
     handed_[chunk.key] = chunk.surface;
     events_.push_back({WorldEvent::Kind::ready, chunk.key, chunk.surface, 0, 0, 0, {}});
-    given += size;
+    credit_.take(size);
   }
   return true;
 }
 
-bool World::stage(const std::shared_ptr<const FrameStep>& step, size_t bytes) {
+bool World::stage(const std::shared_ptr<const FrameStep>& step) {
   if (step != staged_) restage(step, *step->to);
-  if (!handOver(*step, bytes)) return false;
+  if (!handOver(*step)) return false;
   const auto kindOf = [](FrameChange::Kind kind) {
     switch (kind) {
       case FrameChange::Kind::shown:
@@ -285,7 +311,7 @@ Result<void> World::waitIdle(const std::function<bool()>& more) {
   for (int in_vain = 0; in_vain < kLooksInVain; ++in_vain) {
     core_->kickJournal();
     const size_t events = events_.size();
-    advance(std::numeric_limits<size_t>::max());
+    advance(std::numeric_limits<size_t>::max(), std::numeric_limits<size_t>::max());
     if (events_.size() > events) in_vain = 0;
     std::unique_lock lock(core_->mutex);
     if (core_->settled() && core_->failed.empty()) return {};

@@ -18,9 +18,11 @@
 
 #include "backend/backend.h"
 #include "stream/baked_parts.h"
+#include "stream/byte_credit.h"
 #include "stream/collider.h"
 #include "stream/disk_cache.h"
 #include "stream/field_switch.h"
+#include "stream/plan_turns.h"
 #include "stream/planner.h"
 #include "stream/queries.h"
 #include "stream/world_edits.h"
@@ -77,10 +79,12 @@ class World {
  public:
   /// Reads the journal, where there is to be one. Errors: invalid_argument; limit (mesh_bytes is too small to stream
   /// with, or the distances are too large: the message says what would do); those of WorldEdits::open.
-  /// backend, jobs and memory must outlive the world; surfaces may outlive it, but not memory.
+  /// backend, jobs and memory must outlive the world; surfaces may outlive it, but not memory. turns: of all worlds on
+  /// these jobs; null: there is no other.
   static Result<std::unique_ptr<World>> create(std::shared_ptr<const WorldField> field, Backend& backend,
                                                JobSystem& jobs, const WorldSettings& settings,
-                                               std::pmr::memory_resource* memory);
+                                               std::pmr::memory_resource* memory,
+                                               std::shared_ptr<PlanTurns> turns = nullptr);
   /// Waits for jobs that have begun, and a second or so for a server that is being asked; jobs that the job system runs
   /// later find nothing to do.
   ~World();
@@ -91,8 +95,10 @@ class World {
   /// checkViewer; limit (more than kMostViewers).
   Result<void> setViewers(std::span<const Viewer> viewers);
 
-  /// Takes over what is finished, at most `bytes` of new surfaces, and has more work begun. Never waits. False, and
-  /// nothing happens, while events of the update before have not been polled. bytes must not be 0.
+  /// Takes over what is finished, at most `bytes` of new surfaces and settings' max_colliders, and has more work begun.
+  /// A surface that is larger is handed over as the first of an update all the same; later updates make up for it, so
+  /// that any of them in a row hand over at most their bytes and one surface (byte_credit.h). Never waits. False, and
+  /// nothing happens, while events of the update before have not been polled.
   bool update(size_t bytes);
 
   /// Gives `take` the next events, in order, until it returns false for one or none is left. An event that it refused,
@@ -153,13 +159,18 @@ class World {
 
  private:
   World(std::unique_ptr<WorldCore> core, JobSystem& jobs);
-  void advance(size_t bytes);
+  void advance(size_t bytes, size_t colliders);
+  /// Tells the next changes of colliders. Precondition: the core's mutex is held.
+  void tellColliders(size_t most);
   /// Takes back what was handed over for the staged step and is not in the frame that comes, or stays.
   void restage(const std::shared_ptr<const FrameStep>& step, const DrawnFrame& frame);
+  bool wasHanded(const DrawnChunk& chunk) const;
+  /// Of the step's surfaces that have not been handed over.
+  size_t bytesLeft(const FrameStep& step) const;
   /// Whether all of the step's surfaces have been handed over.
-  bool handOver(const FrameStep& step, size_t bytes);
+  bool handOver(const FrameStep& step);
   /// Hands over surfaces of a step, and when all are there its changes: then true.
-  bool stage(const std::shared_ptr<const FrameStep>& step, size_t bytes);
+  bool stage(const std::shared_ptr<const FrameStep>& step);
 
   std::unique_ptr<WorldCore> core_;
   JobSystem& jobs_;
@@ -167,6 +178,7 @@ class World {
   mutable std::mutex front_;
   std::vector<WorldEvent> events_;
   size_t polled_ = 0;
+  ByteCredit credit_;
   std::shared_ptr<const FrameStep> staged_;
   size_t staged_changes_ = 0;  ///< of staged_, whose surfaces have been handed over
   std::unordered_map<ChunkKey, std::shared_ptr<const ChunkSurface>, ChunkKeyHash> handed_;

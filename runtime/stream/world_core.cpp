@@ -9,11 +9,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How long at least the jobs mesh after a plan, in times that it took, before an update has the next one made.
-constexpr int kMeshingPerPlanning = 2;
 constexpr int kFlushPriority = 3, kPlanPriority = 2, kComparePriority = 2;
-/// Between two plans: some milliseconds' work.
-constexpr size_t kCollidersAtOnce = 128;
+/// So many updates may hand over colliders until the next are made.
+constexpr size_t kUpdatesOfColliders = 4;
 /// With the time that a disk takes: no more than a second's edits are ever lost.
 constexpr auto kBetweenFlushes = 250ms;
 
@@ -24,8 +22,8 @@ PlannerSettings plannerSettings(const WorldSettings& settings) {
 }  // namespace
 
 WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_in, JobSystem& jobs_in,
-                     const WorldSettings& settings_in, std::unique_ptr<JobSystem> lookers,
-                     std::pmr::memory_resource* memory)
+                     std::shared_ptr<PlanTurns> turns, const WorldSettings& settings_in,
+                     std::unique_ptr<JobSystem> lookers, std::pmr::memory_resource* memory)
     : profiler(field->profiler()),
       backend(backend_in),
       jobs(jobs_in),
@@ -37,10 +35,27 @@ WorldCore::WorldCore(std::shared_ptr<const WorldField> field, Backend& backend_i
       memory_(memory),
       lookers_(std::move(lookers)),
       gate_(std::make_shared<Gate>(*this)),
+      turns_(std::move(turns)),
       surfaces_(std::make_shared<SurfacePool>(memory)),
       measuring_(settings_in.measure ? std::make_unique<MeasuringPool>(memory) : nullptr),
       planner_(plannerSettings(settings_in), edits.state()),
-      colliders_(settings_in.collider_distance, settings_in.lod.finest_cell) {}
+      colliders_(settings_in.collider_distance) {
+  turn_.begin = beginPlan;
+  turn_.owner = gate_;
+  turns_->join(turn_);
+}
+
+bool WorldCore::Gate::enter() noexcept {
+  const std::lock_guard lock(mutex);
+  running += closed ? 0 : 1;
+  return !closed;
+}
+
+void WorldCore::Gate::leave() noexcept {
+  const std::lock_guard lock(mutex);
+  --running;
+  ended.notify_all();
+}
 
 void WorldCore::stop() noexcept {
   {
@@ -179,9 +194,20 @@ void WorldCore::kickPlanner() {
     }
     planning_ = true;
   }
-  if (submit(run<&WorldCore::planOnce>, kPlanPriority)) return;
-  const std::lock_guard lock(mutex);
-  planning_ = false;  // the next update tries again
+  turns_->request(turn_);
+  turns_->startDue();
+}
+
+void WorldCore::beginPlan(const std::shared_ptr<void>& owner) noexcept {
+  Gate& gate = *static_cast<Gate*>(owner.get());
+  if (!gate.enter()) return;
+  WorldCore& core = gate.core;
+  if (!core.submit(run<&WorldCore::planOnce>, kPlanPriority)) {
+    core.turns_->endPlan(core.turn_, 0);
+    const std::lock_guard lock(core.mutex);
+    core.planning_ = false;  // the next update tries again
+  }
+  gate.leave();
 }
 
 PlanInput WorldCore::planInput() {
@@ -195,8 +221,8 @@ PlanInput WorldCore::planInput() {
     planning_with_ = {viewers_set, applied, input.edits.number};
     input.finished.swap(finished_);
     input.begun.swap(begun_);
-    input.refused.swap(refused);
     input.applied = applied;
+    input.in_hand = in_hand;
   }
   surfaces_->collect();
   input.live_bytes = surfaces_->bytes();
@@ -206,78 +232,96 @@ PlanInput WorldCore::planInput() {
 
 bool WorldCore::planIsDue() const {
   const std::lock_guard lock(mutex);
-  // One state of edits after the other: while one is being meshed and drawn the next need not be looked at.
-  const bool new_edits = planning_with_.edits != edits.number();
-  if (new_edits && queue_edits_.number == edits_drawn) return true;
-  const bool news = new_edits || planner_lost_ || planning_with_.viewers != viewers_set ||
-                    planning_with_.applied != applied || !finished_.empty() || !refused.empty();
+  const bool news = planning_with_.edits != edits.number() || planner_lost_ || planning_with_.viewers != viewers_set ||
+                    planning_with_.applied != applied || !finished_.empty() ||
+                    (!colliders_done_ && collider_changes.empty());
   // Without room, out of memory, or between two states of edits of which one changed nothing.
   const bool nothing_to_draw = step == nullptr || step->from != applied;
   const bool stuck = !atWork() && !isOverdue() && nothing_to_draw && (!idle_ || !colliders_done_);
-  return stuck || (news && (queue.empty() || Clock::now() >= next_plan_));
+  return stuck || news;
 }
 
 void WorldCore::losePlanner() {
   std::vector<WorkItem> dropped;  // freed after the mutex
   const std::lock_guard lock(mutex);
   planner_lost_ = true;
-  planning_ = false;
   queue.replace(dropped, true, Clock::now());
   ++generation;
   ++plans;
   changed.notify_all();
 }
 
-void WorldCore::planOnce() {
-  for (bool again = true; again;) {
-    const Clock::time_point begun_at = Clock::now();
-    bool more_colliders = false;
-    try {
-      const ProfileScope scope(profiler, zone::kPlan);
-      if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
-      Plan plan = planner_.plan(planInput());
-      // A step that was offered before a restart may be taken after it: the planner has forgotten where that leads.
-      if (planner_.applied().number != planning_with_.applied) return losePlanner();
-      edits.forget(planner_.stats().edits_drawn);
-      publish(std::move(plan));
-    } catch (const std::bad_alloc&) {
-      // What the planner knows is no longer whole. It begins anew from what is drawn, at the next update.
-      tellScarce();
-      return losePlanner();
+bool WorldCore::makePlan() {
+  try {
+    const ProfileScope scope(profiler, zone::kPlan);
+    if (const std::shared_ptr<const DrawnFrame> frame = frameToRestartFrom()) planner_.restart(frame);
+    Plan plan = planner_.plan(planInput());
+    // A step that was offered before a restart may be taken after it: the planner has forgotten where that leads.
+    if (planner_.applied().number != planning_with_.applied) {
+      losePlanner();
+      return false;
     }
-    kickMeshing();
-    kickLooking();
-    try {
-      more_colliders = makeColliders();
-    } catch (const std::bad_alloc&) {
-      tellScarce();
-    }
-    const std::lock_guard lock(mutex);
-    const Clock::time_point now = Clock::now();
-    next_plan_ = now + kMeshingPerPlanning * (now - begun_at);
-    again = planning_ = (plan_again_ || more_colliders) && !stopped_;
-    changed.notify_all();
+    edits.forget(planner_.stats().edits_drawn);
+    publish(std::move(plan));
+    return true;
+  } catch (const std::bad_alloc&) {
+    // What the planner knows is no longer whole. It begins anew from what is drawn, at the next update.
+    tellScarce();
+    losePlanner();
+    return false;
   }
 }
 
-bool WorldCore::makeColliders() {
+void WorldCore::planOnce() {
+  const auto secondsSince = [](Clock::time_point begun_at) {
+    return std::chrono::duration<double>(Clock::now() - begun_at).count();
+  };
+  Clock::time_point begun_at = Clock::now();
+  const bool planned = makePlan();
+  double seconds = secondsSince(begun_at);
+  if (planned) {
+    kickMeshing();
+    kickLooking();
+    begun_at = Clock::now();
+    try {
+      makeColliders();
+    } catch (const std::bad_alloc&) {
+      tellScarce();
+    }
+    seconds += secondsSince(begun_at);
+  }
+  turns_->endPlan(turn_, seconds);  // before anyone may ask for another
+  bool again;
+  {
+    const std::lock_guard lock(mutex);
+    again = planning_ = planned && plan_again_ && !stopped_;
+    changed.notify_all();
+  }
+  if (again) turns_->request(turn_);
+  turns_->startDue();
+}
+
+void WorldCore::makeColliders() {
   std::shared_ptr<const DrawnFrame> frame;
   std::vector<Viewer> around;
   {
     const std::lock_guard lock(mutex);
+    if (!collider_changes.empty()) return;  // what has not been taken yet
     frame = drawn;
     around = viewers;
   }
   // Without viewers everything stays as it is.
   const size_t used = surfaces_->bytes() + colliders_.bytes();
   const size_t room = used < settings.mesh_bytes ? (settings.mesh_bytes - used) / largestChunk(settings) : 0;
-  const bool done = around.empty() || colliders_.update(*frame, around, std::min(room, kCollidersAtOnce), memory_);
+  const size_t most = std::min(room, kUpdatesOfColliders * settings.max_colliders);
+  std::vector<ColliderChange> changes;
+  const bool done =
+      around.empty() || colliders_.update(*frame, ViewerIndex(around, settings.lod), most, memory_, changes);
   const std::lock_guard lock(mutex);
-  if (collider_changes.empty()) collider_changes.swap(colliders_.changes());
+  collider_changes.swap(changes);
   collider_bytes = colliders_.bytes();
-  colliders_done_ = done && colliders_.changes().empty() && frame == drawn;
+  colliders_done_ = done && frame == drawn;
   if (settled()) scarce = scarce_told_ = false;
-  return !done && colliders_.changes().empty();
 }
 
 std::shared_ptr<const DrawnFrame> WorldCore::frameToRestartFrom() {

@@ -3,8 +3,8 @@
 // Where chunks may come from far away, threads of the world's own look for them there: no job waits for a server.
 //
 // Jobs may begin late: all that they own is a gate, which is closed after the world's end. No job takes longer than one
-// plan, one chunk or one batch of a device's, so that an engine's own jobs get their turn. Planning and what is done now
-// and then is in world_core.cpp, meshing and looking in world_meshing.cpp.
+// plan, one chunk or one batch of a device's, so that an engine's own jobs get their turn. Planning and what is done
+// now and then is in world_core.cpp, meshing and looking in world_meshing.cpp.
 
 #include <algorithm>
 #include <array>
@@ -19,6 +19,7 @@
 #include "stream/chunk_cache.h"
 #include "stream/collider.h"
 #include "stream/field_switch.h"
+#include "stream/plan_turns.h"
 #include "stream/planner.h"
 #include "stream/surface_pool.h"
 #include "stream/work_queue.h"
@@ -40,14 +41,20 @@ class WorldCore {
  public:
   static constexpr unsigned kLookers = 4;
 
-  /// lookers: threads that may wait for what is far; null: what is baked is near.
-  WorldCore(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs, const WorldSettings& settings,
-            std::unique_ptr<JobSystem> lookers, std::pmr::memory_resource* memory);
+  /// lookers: threads that may wait for what is far; null: what is baked is near. turns: of all worlds on these jobs.
+  WorldCore(std::shared_ptr<const WorldField> field, Backend& backend, JobSystem& jobs,
+            std::shared_ptr<PlanTurns> turns, const WorldSettings& settings, std::unique_ptr<JobSystem> lookers,
+            std::pmr::memory_resource* memory);
+  ~WorldCore() { turns_->leave(turn_); }
+  WorldCore(const WorldCore&) = delete;
+  WorldCore& operator=(const WorldCore&) = delete;
 
-  /// Has the work planned, unless that is being done: then once more after it.
+  /// Has the work planned when the world's turn comes (plan_turns.h); while that is being done, once more after it.
   void kickPlanner();
-  /// Whether an update should have the work planned: planning must leave the jobs time to mesh.
+  /// Whether a plan would have something new to look at.
   bool planIsDue() const;
+  /// Has plans begin that have waited for their turn, of whatever world.
+  void startDuePlans() { turns_->startDue(); }
   /// Has the journal written, at most every kBetweenFlushes.
   void kickJournal();
   /// Has the world go over to the field that is wanted next, when its turn comes.
@@ -77,10 +84,10 @@ class WorldCore {
   std::vector<Viewer> viewers;
   uint64_t viewers_set = 0;  ///< counts changes
   WorkQueue queue;
-  std::vector<ChunkKey> refused;
   std::vector<FailedChunk> failed;
-  std::vector<ColliderChange> collider_changes;
+  std::vector<ColliderChange> collider_changes;  ///< in the order in which they are to be told
   std::shared_ptr<const FrameStep> step;
+  std::array<uint64_t, 2> in_hand{};  ///< as PlanInput::in_hand
   uint64_t applied = 0;
   std::shared_ptr<const DrawnFrame> drawn;  ///< the frame of that number
   uint64_t edits_drawn = 0;                 ///< the state that it shows
@@ -115,13 +122,14 @@ class WorldCore {
   }
   /// Bytes that are neither taken nor promised.
   size_t room() const {
-    const size_t used = surfaces_->bytes() + collider_bytes + reserved_;
+    const size_t used = surfaces_->bytes() + planner_stats.record_bytes + collider_bytes + reserved_;
     return settings.mesh_bytes - std::min(settings.mesh_bytes, used);
   }
   bool hasRoom() const { return room() >= largestChunk(settings); }
   /// Whether to look for more: not as long as there is too little for one chunk, whatever jobs have been promised.
   bool mayLook() const {
-    return !scarce && settings.mesh_bytes >= surfaces_->bytes() + collider_bytes + largestChunk(settings);
+    return !scarce && settings.mesh_bytes >=
+                          surfaces_->bytes() + planner_stats.record_bytes + collider_bytes + largestChunk(settings);
   }
   /// Jobs could mesh what has waited for its look for long enough.
   bool isOverdue() const;
@@ -129,6 +137,10 @@ class WorldCore {
   /// What jobs own.
   struct Gate {
     explicit Gate(WorldCore& core_in) : core(core_in) {}
+    /// Keeps the core from ending until leave(). False where it has ended.
+    bool enter() noexcept;
+    void leave() noexcept;
+
     WorldCore& core;
     std::mutex mutex;  ///< guards what follows
     std::condition_variable ended;
@@ -139,6 +151,10 @@ class WorldCore {
   /// False where no memory is left to do so.
   bool submit(JobSystem& to, void (*function)(void*), int priority) noexcept;
   bool submit(void (*function)(void*), int priority) noexcept { return submit(jobs, function, priority); }
+  /// The world's turn to plan has come. owner: its gate.
+  static void beginPlan(const std::shared_ptr<void>& owner) noexcept;
+  /// Precondition: the mutex is held.
+  void setMeshJobs(size_t count) { turns_->setMeshJobs(turn_, mesh_jobs = count); }
   void kickMeshing();
   /// Has lookers look for what there is to look for, where there are too few.
   void kickLooking();
@@ -147,14 +163,17 @@ class WorldCore {
   void losePlanner();
   /// Null where the planner is whole.
   std::shared_ptr<const DrawnFrame> frameToRestartFrom();
+  /// False where memory gave out.
+  bool makePlan();
   void planOnce();
-  /// Whether to go on with it at once.
-  bool makeColliders();
+  void makeColliders();
   /// A looker's work, as long as there is some.
   void lookFar();
   ChunkMesher mesherOf(const WorldState& under) const;
   void meshOnce();
   void meshAgain();
+  /// No other follows this one.
+  void endMeshJob();
   /// Has `job` submit another of this job's kind: one that the job system runs at once finds handsOn() true and is to
   /// do nothing, so that no call does more than one job's work. Does nothing where memory is out.
   template <class Submit>
@@ -182,6 +201,8 @@ class WorldCore {
   std::pmr::memory_resource* memory_;
   const std::unique_ptr<JobSystem> lookers_;  ///< null: nothing is far
   const std::shared_ptr<Gate> gate_;
+  const std::shared_ptr<PlanTurns> turns_;
+  PlanTurns::Member turn_;
   std::shared_ptr<SurfacePool> surfaces_;
   const std::unique_ptr<MeasuringPool> measuring_;  ///< null: nothing is measured
   Planner planner_;                                 ///< of the planning job alone, which never runs twice at one time
@@ -202,17 +223,16 @@ class WorldCore {
   size_t meshing_ = 0;         ///< requests in work
   size_t meshing_jobs_ = 0;    ///< jobs at work on them
   Clock::time_point counted_at_ = Clock::now();  ///< by countWork(), which comes before meshing_jobs_ changes
-  std::array<size_t, 3> meshing_of_rank_{};      ///< likewise, by WorkItem::Rank
-  size_t reserved_ = 0;                          ///< bytes that these may come to
-  size_t look_jobs_ = 0;                         ///< lookers at work, or about to be
-  std::vector<std::thread::id> submitting_;      ///< threads that are handing on a mesh job
-  bool planning_ = false;                        ///< submitted or running
+  std::array<size_t, WorkItem::kRanks> meshing_of_rank_{};  ///< likewise, by WorkItem::Rank
+  size_t reserved_ = 0;                                     ///< bytes that these may come to
+  size_t look_jobs_ = 0;                                    ///< lookers at work, or about to be
+  std::vector<std::thread::id> submitting_;                 ///< threads that are handing on a mesh job
+  bool planning_ = false;                                   ///< waiting for its turn, submitted or running
   bool plan_again_ = false;
   bool flushing_ = false;  ///< likewise
   bool stopped_ = false;
   bool idle_ = false;
   bool colliders_done_ = true;
-  Clock::time_point next_plan_;  ///< not earlier, while there is something to mesh
   Clock::time_point next_flush_;
   bool flush_failed_ = false;
 };
@@ -221,15 +241,9 @@ template <void (WorldCore::*work)()>
 void WorldCore::run(void* argument) noexcept {
   const std::unique_ptr<std::shared_ptr<Gate>> owner(static_cast<std::shared_ptr<Gate>*>(argument));
   Gate& gate = **owner;
-  {
-    const std::lock_guard lock(gate.mutex);
-    if (gate.closed) return;
-    ++gate.running;
-  }
+  if (!gate.enter()) return;
   (gate.core.*work)();
-  const std::lock_guard lock(gate.mutex);
-  --gate.running;
-  gate.ended.notify_all();
+  gate.leave();
 }
 
 template <class Submit>

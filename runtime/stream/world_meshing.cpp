@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/share_priority.h"
 #include "stream/surface_shapes.h"
 #include "stream/world_core.h"
 
@@ -12,6 +13,7 @@ namespace {
 /// Requests that come back before the planner looks at them, where more are waiting and no update comes.
 constexpr size_t kFinishedToPlan = 64;
 constexpr int kMeshPriority = 1, kLookPriority = 1;
+static_assert(kMeshPriority <= kSharePriority, "parts of chunks that came too late would never be let go");
 
 }  // namespace
 
@@ -34,11 +36,11 @@ void WorldCore::kickMeshing() {
       if (lookers_ != nullptr && passed_over_) return;
       if (stopped_ || mesh_jobs >= most || !hasRoom()) return;
       if (mesh_jobs - meshing_jobs_ >= queue.countReady(Clock::now())) return;
-      ++mesh_jobs;
+      setMeshJobs(mesh_jobs + 1);
     }
     if (submit(run<&WorldCore::meshOnce>, kMeshPriority)) continue;
     const std::lock_guard lock(mutex);
-    --mesh_jobs;
+    setMeshJobs(mesh_jobs - 1);
     return;
   }
 }
@@ -205,9 +207,7 @@ void WorldCore::meshOnce() {
     items.reserve(batch);
     done.reserve(batch);
   } catch (const std::bad_alloc&) {
-    const std::lock_guard lock(mutex);
-    --mesh_jobs;
-    return;
+    return endMeshJob();
   }
   WorldState under;
   uint64_t of_generation;
@@ -215,13 +215,10 @@ void WorldCore::meshOnce() {
     const std::lock_guard lock(mutex);
     // A job system that runs what is handed on at once, within submit(), would mesh the whole queue in one call.
     if (!handsOn()) takeItems(batch, items);
-    if (items.empty()) {
-      --mesh_jobs;
-      return;
-    }
     under = queue_edits_;
     of_generation = generation;
   }
+  if (items.empty()) return endMeshJob();
   kickLooking();
   for (const WorkItem& item : items) {
     done.emplace_back();
@@ -236,8 +233,9 @@ void WorldCore::meshOnce() {
   };
   const Clock::time_point begun_at = Clock::now();
   const MadeMeasures measured = meshItems(items, under, items.size() > 1 ? Progress(wanted) : Progress(), done);
-  const double share =
-      std::chrono::duration<double>(Clock::now() - begun_at).count() / static_cast<double>(items.size());
+  const double seconds = std::chrono::duration<double>(Clock::now() - begun_at).count();
+  const double share = seconds / static_cast<double>(items.size());
+  turns_->earn(seconds);
   bool plan, more, out_of_memory = false;
   {
     const std::lock_guard lock(mutex);
@@ -274,18 +272,29 @@ void WorldCore::meshOnce() {
     // Memory may suffice for what is less urgent; but what is tried in vain is little.
     const bool goes_on = !out_of_memory || !std::exchange(passed_over_, true);
     more = goes_on && queue.nextReady(queue.size(), Clock::now()) && hasRoom() && !stopped_;
-    if (!more) --mesh_jobs;
   }
   if (out_of_memory) tellScarce();
   if (plan) kickPlanner();
-  if (more) meshAgain();
+  if (more) {
+    meshAgain();
+  } else {
+    endMeshJob();
+  }
 }
 
 void WorldCore::meshAgain() {
   bool submitted = false;
   handOn([&] { return submitted = submit(run<&WorldCore::meshOnce>, kMeshPriority); });
-  const std::lock_guard lock(mutex);
-  if (!submitted) --mesh_jobs;
+  if (!submitted) return endMeshJob();
+  turns_->startDue();
+}
+
+void WorldCore::endMeshJob() {
+  {
+    const std::lock_guard lock(mutex);
+    setMeshJobs(mesh_jobs - 1);
+  }
+  turns_->startDue();
 }
 
 }  // namespace sgm

@@ -20,6 +20,7 @@ struct WorldSettings {
   size_t mesh_bytes = size_t{256} << 20;  ///< the most bytes of surfaces, the engine's own and those in work included
   bool by_reach = true;                   ///< as PlannerSettings::by_reach
   double collider_distance = 0;           ///< units from a viewer within which chunks have a collider; 0: none has
+  size_t max_colliders = 4;               ///< new ones that an update hands over, at least 1
   bool resident = false;                  ///< surfaces are on the backend's device, too (ChunkSurface::on_device)
   bool morph = false;                     ///< surfaces have morph offsets (geomorph.h)
   bool sharp = false;                     ///< surfaces have sharp features (sharpen_chunk.h)

@@ -686,7 +686,6 @@ TEST_CASE("world calls are checked") {
   CHECK(with([](auto& d) { d.journal = "/no/such/folder/journal"; }) == SGM_ERR_IO);
   CHECK(with([](auto& d) { d.cache_folder = "/dev/null/folder"; }) != SGM_OK);
   CHECK(with([](auto& d) { d.store_count = 1; }) == SGM_ERR_INVALID_ARGUMENT);
-  CHECK(with([](auto& d) { d.reserved = 1; }) == SGM_ERR_INVALID_ARGUMENT);
   const char* const no_stores[] = {nullptr};
   CHECK(with([&](auto& d) { d.stores = no_stores, d.store_count = 1; }) == SGM_ERR_INVALID_ARGUMENT);
   const char* const stores[] = {"/no/such/store"};

@@ -614,7 +614,7 @@ PLACE(sgm_world_desc, cache_bytes, 72);
 PLACE(sgm_world_desc, author, 80);
 PLACE(sgm_world_desc, stores, 88);
 PLACE(sgm_world_desc, store_count, 96);
-PLACE(sgm_world_desc, reserved, 100);
+PLACE(sgm_world_desc, max_colliders, 100);
 
 SIZE(sgm_viewer, 56);
 PLACE(sgm_viewer, position, 0);
@@ -633,7 +633,7 @@ PLACE(sgm_world_event, seams, 40);
 PLACE(sgm_world_event, coarser, 44);
 PLACE(sgm_world_event, frame, 48);
 
-SIZE(sgm_collider_view, 80);
+SIZE(sgm_collider_view, 88);
 PLACE(sgm_collider_view, struct_size, 0);
 PLACE(sgm_collider_view, next, 8);
 PLACE(sgm_collider_view, key, 16);
@@ -643,6 +643,7 @@ PLACE(sgm_collider_view, index_count, 48);
 PLACE(sgm_collider_view, positions, 56);
 PLACE(sgm_collider_view, indices, 64);
 PLACE(sgm_collider_view, materials, 72);
+PLACE(sgm_collider_view, hash, 80);
 
 SIZE(sgm_brush, 72);
 PLACE(sgm_brush, shape, 0);

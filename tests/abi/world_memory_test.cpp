@@ -60,7 +60,10 @@ struct Session {
     size_t count = 0;
     do {
       count = 16;
-      if (!done(sgm_world_poll(world, events, 0, &count, nullptr)) && count == 0) break;
+      if (const sgm_result polled = sgm_world_poll(world, events, 0, &count, nullptr); !done(polled)) {
+        if (count != 0) wrong = SGM_ERR_INTERNAL;  // what fails has delivered nothing
+        break;
+      }
       for (size_t i = 0; i < count; ++i) {
         sgm_mesh_release(events[i].mesh);
         sgm_collider_release(events[i].collider);

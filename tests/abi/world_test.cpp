@@ -267,6 +267,7 @@ TEST_CASE("a world tells what it is, who looks, and how long its work takes", "[
   desc.finest_distance = 10;
   desc.view_distance = 60;
   desc.collider_distance = 5;
+  desc.max_colliders = 3;
   desc.flags = SGM_WORLD_BY_DISTANCE | SGM_WORLD_MEASURE;
   sgm_world* made = nullptr;
   REQUIRE(sgm_world_create(field.get(), &desc, &made, nullptr) == SGM_OK);
@@ -299,24 +300,34 @@ TEST_CASE("a world tells what it is, who looks, and how long its work takes", "[
   REQUIRE(sgm_world_get_viewers(made, back, 0, &count, nullptr) == SGM_OK);
   CHECK(std::memcmp(two, back, sizeof two) == 0);
 
-  uint64_t updates = 0, polls = 0;
+  uint64_t updates = 0, polls = 0, all_colliders = 0;
+  std::set<uint64_t> hashes;
   sgm_world_stats stats = SGM_WORLD_STATS_INIT;
-  std::vector<sgm_mesh*> meshes;
   do {
     REQUIRE(sgm_world_update(made, 1 << 20, nullptr) == SGM_OK);
     ++updates;
     sgm_world_event events[64];
+    size_t colliders = 0;
     for (size_t taken = 1; taken > 0; ++polls) {
       taken = std::size(events);
       REQUIRE(sgm_world_poll(made, events, 0, &taken, nullptr) == SGM_OK);
       for (size_t i = 0; i < taken; ++i) {
         sgm_mesh_release(events[i].mesh);
+        if (events[i].collider == nullptr) continue;
+        ++colliders;
+        sgm_collider_view view = SGM_COLLIDER_VIEW_INIT;
+        REQUIRE(sgm_collider_get_view(events[i].collider, &view, nullptr) == SGM_OK);
+        hashes.insert(view.hash);
         sgm_collider_release(events[i].collider);
       }
     }
+    CHECK(colliders <= 3);
+    all_colliders += colliders;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     REQUIRE(sgm_world_get_stats(made, &stats, nullptr) == SGM_OK);
   } while (stats.idle == 0);
+  CHECK(all_colliders > 0);
+  CHECK(hashes.count(0) == 0);
   sgm_world_times times = SGM_WORLD_TIMES_INIT;
   REQUIRE(sgm_world_get_times(made, &times, nullptr) == SGM_OK);
   const auto sum = [](const sgm_time_histogram& of) {

@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# Measures the streaming figures with `sgm fly`, and writes them with what was asked: streaming.csv, streaming.svg, and a
-# table on standard output. It judges no time: exit status 1 only where a flight fails, or a surface was not closed.
+# Measures the streaming figures with `sgm fly`, and with sgm_bench_crowds where that lies beside it: streaming.csv,
+# streaming.svg, and a table on standard output, with what was asked. It judges no time: exit status 1 only where a flight
+# fails, or a surface was not closed.
 #
 #   streaming.sh SGM [OUT_DIR] [--long | --quick]
 #
 #   SGM       the command
 #   OUT_DIR   for the results and each flight's own report (default: out/streaming)
-#   --long    digs for a minute, and 11,134 frames in each of the nine flights that are checked: 100,206
+#   --long    digs for a minute, 11,134 frames in each of the nine flights that are checked: 100,206, and half an hour
+#             over new ground
 #   --quick   a few frames of everything, to see that it runs: the figures mean nothing
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -20,15 +22,17 @@ done
 [[ -n $sgm ]] || { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}" >&2; exit 2; }
 out=${out:-out/streaming}
 mkdir -p "$out"
-rm -f "$out"/*.flight.json
+rm -f "$out"/*.flight.json "$out"/*.crowd.json
 
 cave=$here/../../samples/grammars/cave.sgm
 frames=600 dug=1200 checked=1000
 world=(--cell 0.25 --seed 3) speeds=(5 20 60) seeds=(1 2 3)
-[[ $mode == --long ]] && dug=3600 checked=11134
+crowd_seconds=10 budget_seconds=5 far_seconds=180
+[[ $mode == --long ]] && dug=3600 checked=11134 far_seconds=1800
 if [[ $mode == --quick ]]; then
   frames=40 dug=90 checked=90 speeds=(60) seeds=(1)
   world=(--cell 0.5 --seed 3 --top-level 3 --view 60)
+  crowd_seconds=1 budget_seconds=3 far_seconds=3
 fi
 
 failed=0
@@ -57,5 +61,31 @@ for speed in "${speeds[@]}"; do
       --top-level 5 --view 200 --teleports 10 --edits 5 --unpaced --check
   done
 done
+# crowd NAME ROW OPTION...: its figures and its command in NAME.crowd.json.
+crowd() {
+  local name=$1 status=0 report=$out/$1.report
+  shift
+  echo "sgm_bench_crowds cave.sgm $*" >&2
+  "$(dirname "$sgm")/sgm_bench_crowds" "$cave" "$@" >"$report" || status=$?
+  ((status == 0)) || { failed=1; echo "streaming: the row $name failed with status $status" >&2; }
+  node -e 'const [file, command] = process.argv.slice(1);
+    const text = require("fs").readFileSync(file, "utf8");
+    console.log(JSON.stringify({ command, report: text ? JSON.parse(text) : null }))' \
+    "$report" "sgm_bench_crowds samples/grammars/cave.sgm $*" >"$out/$name.crowd.json"
+  rm "$report"
+}
+crowds() {
+  crowd crowd walkers --count 64 --seconds "$crowd_seconds"
+  crowd worlds worlds --count 32 --rate 125 --seconds "$((crowd_seconds == 10 ? 8 : crowd_seconds))"
+  crowd edits fast --seconds "$crowd_seconds"
+  crowd budget budget --seconds "$budget_seconds"
+  crowd colliders walk --seconds "$crowd_seconds"
+  crowd far far --speed 60 --seconds "$far_seconds"
+}
+if [[ -x $(dirname "$sgm")/sgm_bench_crowds ]]; then
+  crowds
+else
+  echo "streaming: there is no sgm_bench_crowds beside $sgm: build the benchmarks to measure crowds" >&2
+fi
 node "$here/streaming_table.js" "$out" || failed=1
 exit "$failed"

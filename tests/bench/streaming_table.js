@@ -1,12 +1,14 @@
-// The flights that streaming.sh flew, against what was asked: streaming.csv, streaming.svg, a table on standard output.
+// The flights that streaming.sh flew, and its crowds, against what was asked: streaming.csv, streaming.svg, a table on standard output.
 // Exit status 1 where a flight has no report or a surface was not closed.
 'use strict';
 const fs = require('fs');
 const path = require('path');
 
 const folder = process.argv[2];
-const flights = fs.readdirSync(folder).filter((name) => name.endsWith('.flight.json')).sort().map((name) =>
+const read = (ending) => fs.readdirSync(folder).filter((name) => name.endsWith(ending)).sort().map((name) =>
   ({ name: name.split('.')[0], ...JSON.parse(fs.readFileSync(path.join(folder, name), 'utf8')) }));
+const flights = read('.flight.json');
+const crowds = read('.crowd.json');
 
 const percent = (share) => 100 * share;
 const never = (ms) => (ms < 0 ? Infinity : ms);
@@ -31,6 +33,19 @@ const lines = [
     most: 2, unit: '', more: (r) => `${r.digs} digs` },
   // No number is asked: more digs must not make it grow.
   { line: 'chunks that waited while digging', of: /^digs/, value: (r) => r.most_queued_while_digging, unit: '' },
+  { line: '64 walkers see cells of 4 m within 32 m', of: /^crowd$/, value: (r) => never(r.all_drawn_s), most: 10,
+    unit: 's' },
+  { line: 'chunks in 8 s of 32 worlds at 125 Hz', of: /^worlds$/, value: (r) => r.chunks - r.in_vain, least: 8000,
+    unit: '', more: (r) => `planning ${r.plan_seconds} s, meshing ${r.mesh_seconds} s` },
+  { line: 'chunks in 10 s of 4 fast viewers, 80 edits/s', of: /^edits$/, value: (r) => r.chunks - r.in_vain, least: 4000,
+    unit: '', more: (r) => `the slowest sees cells of 4 m from ${r.first_drawn_s} s on` },
+  { line: 'level 0 after 2 s of 65,536 bytes a frame', of: /^budget$/, value: (r) => never(r.level_0_back_s), most: 1,
+    unit: 's', more: (r) => `${r.level_0} of ${r.level_0_wanted} chunks, ${r.failed} failed` },
+  { line: 'colliders that replaced an equal one', of: /^colliders$/, value: (r) => r.equal_colliders, most: 0, unit: '',
+    more: (r) => `of ${r.colliders}, at most ${r.most_colliders_a_frame} a frame` },
+  { line: 'memory over new ground after a sixth of it', of: /^far$/, most: 1.05, unit: 'of before',
+    value: (r) => r.resident_mb_later / r.resident_mb_first_sixth,
+    more: (r) => `${r.resident_mb_first_sixth}, then ${r.resident_mb_later} MB on ${r.metres} m` },
   { line: 'open, non-manifold and overlapping edges', of: /^closed_/, value: unclosed, most: 0, unit: '',
     more: (r, all) => `${sum(all, 'frames')} frames, ${sum(all, 'commits')} changes of what is drawn` },
 ];
@@ -41,7 +56,7 @@ function sum(reports, what) {
 const text = (x) => (x === Infinity ? 'never' : String(+x.toPrecision(4)));
 
 function measure(line) {
-  const flown = flights.filter((flight) => line.of.test(flight.name));
+  const flown = [...flights, ...crowds].filter((flight) => line.of.test(flight.name));
   const reports = flown.map((flight) => flight.report);
   const command = flown.map((flight) => flight.command).filter((c, i, all) => all.indexOf(c) === i).join('; ');
   const unit = line.unit && ` ${line.unit}`;
@@ -96,4 +111,4 @@ for (const row of table) console.log(`| ${row.join(' | ')} |`);
 const closed = flights.filter((flight) => /^closed_/.test(flight.name));
 const whole = closed.length > 0 && closed.every((flight) => flight.report && unclosed(flight.report) === 0);
 if (!whole) console.error('streaming: a surface was not closed');
-process.exit(whole && flights.every((flight) => flight.report) ? 0 : 1);
+process.exit(whole && [...flights, ...crowds].every((flight) => flight.report) ? 0 : 1);

@@ -6,6 +6,7 @@
 
 #include "backend/cpu/instruction_sets.h"
 #include "backend/cpu/mesh_chunk.h"
+#include "base/share_priority.h"
 
 namespace sgm {
 
@@ -165,7 +166,7 @@ class CpuBackend final : public Backend {
     try {
       for (size_t i = 0; i < shares; ++i) {
         auto share = std::make_unique<std::shared_ptr<BatchState>>(state);
-        jobs_.submit(runShare, share.get(), 0);
+        jobs_.submit(runShare, share.get(), kSharePriority);
         share.release();
       }
     } catch (const std::bad_alloc&) {

@@ -1281,8 +1281,8 @@ typedef struct sgm_world_desc {
                                is 1 */
   double view_distance;     /* metres within which something is drawn, above 0 */
   uint64_t mesh_bytes;      /* the most bytes of meshes at one time, those that the engine holds and those in work
-                               included, and of the chunks' colliders: a hard cap. Where it does not suffice detail
-                               is drawn nearer. 0: 256 MiB */
+                               included, of the chunks' colliders, and of what is remembered of chunks: a hard cap. Where
+                               it does not suffice detail is drawn nearer. 0: 256 MiB */
   double collider_distance; /* metres from a viewer within which chunks have a collider: of what is drawn there, at
                                whatever level; 0: none has one */
   const char* journal;      /* UTF-8 path of the file that keeps the edits; made where there is none. A process that is
@@ -1311,7 +1311,8 @@ typedef struct sgm_world_desc {
                                 One that does not answer is told to the log and left alone for a while; so is the world
                                 derived where there is no libcurl. 32 MiB of what each sent are kept in memory */
   uint32_t store_count;
-  uint32_t reserved; /* 0 */
+  uint32_t max_colliders; /* the most COLLIDER events of one update, the nearest first: a physics engine takes its time
+                             for each. 0: 4 */
 } sgm_world_desc;
 
 #define SGM_WORLD_DESC_INIT \
@@ -1353,9 +1354,12 @@ SGM_API sgm_result sgm_world_set_viewers(sgm_world* world, const sgm_viewer* vie
 
 /* Takes over what is finished and has more work begun, on the job system. Waits for no job and no device (where the job
  * system refuses a job that job runs here, at once). At most max_bytes of vertices and indices are handed over; a frame
- * with more comes over several updates, and what is drawn changes with the last of them. A mesh that is larger than
- * max_bytes alone is FAILED, and not asked for again. SGM_INCOMPLETE, and nothing
- * happens: events of the update before have not all been polled. SGM_ERR_INVALID_ARGUMENT: max_bytes is 0. */
+ * with more comes over several updates, and what is drawn changes with the last of them. A small max_bytes delays, and
+ * loses nothing: a mesh that does not fit is handed over as the first of an update, and what it has too much is taken
+ * off the updates that follow. So any k updates hand over at most the sum of their max_bytes and one mesh. All worlds
+ * of a runtime plan in turn, in a quarter of the workers' time while there is enough to mesh: to update more often, or
+ * more worlds, does not keep the workers from meshing. SGM_INCOMPLETE, and nothing happens: events of the update before
+ * have not all been polled. SGM_ERR_INVALID_ARGUMENT: max_bytes is 0. */
 SGM_API sgm_result sgm_world_update(sgm_world* world, uint64_t max_bytes, sgm_error* error);
 
 typedef enum sgm_event_kind {
@@ -1370,9 +1374,11 @@ typedef enum sgm_event_kind {
                              in its place. Where edits had changed it, the world is drawn as before them until a
                              further edit, an undo for instance; where another field had, as before that field */
   SGM_EVENT_COLLIDER = 6, /* collide with `collider` instead of the chunk's earlier one: it belongs to the engine now,
-                             which releases it. Comes soon after what is drawn there has changed; not counted in
-                             max_bytes */
-  SGM_EVENT_COLLIDER_REMOVED = 7, /* collide with the chunk no more */
+                             which releases it. Comes soon after what is drawn there has changed, at most
+                             sgm_world_desc.max_colliders an update, and not for a collider equal to the earlier one; not
+                             counted in max_bytes */
+  SGM_EVENT_COLLIDER_REMOVED = 7, /* collide with the chunk no more. Where chunks of another level take its place, it
+                                     comes once these have their colliders */
   SGM_EVENT_KIND_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_event_kind;
 
@@ -1391,7 +1397,8 @@ typedef struct sgm_world_event {
 } sgm_world_event;
 
 /* The next events, in order. *count takes the array's room and returns how many were written; 0 when none is left. All
- * changes of a frame come between two updates: draw only when all are polled. */
+ * changes of a frame come between two updates: draw only when all are polled. On failure nothing was delivered, and
+ * *count is 0: the event that could not be (out of memory) comes first the next time. */
 SGM_API sgm_result sgm_world_poll(sgm_world* world, sgm_world_event* events, size_t event_stride, size_t* count,
                                   sgm_error* error);
 
@@ -1412,10 +1419,11 @@ typedef struct sgm_collider_view {
   const float* positions;    /* 3 a vertex, metres */
   const uint32_t* indices;   /* three a triangle, counter-clockwise seen from the void */
   const uint16_t* materials; /* one a triangle: index for sgm_grammar_material */
+  uint64_t hash;             /* of the three arrays: equal where a chunk's colliders are, in every run */
 } sgm_collider_view;
 
 #define SGM_COLLIDER_VIEW_INIT \
-  { SGM_SIZEOF(sgm_collider_view), SGM_NULL, {0, 0, 0, 0}, {0, 0, 0}, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL }
+  { SGM_SIZEOF(sgm_collider_view), SGM_NULL, {0, 0, 0, 0}, {0, 0, 0}, 0, 0, SGM_NULL, SGM_NULL, SGM_NULL, 0 }
 
 SGM_API sgm_result sgm_collider_get_view(const sgm_collider* collider, sgm_collider_view* view, sgm_error* error);
 
@@ -1560,7 +1568,7 @@ typedef struct sgm_world_stats {
   uint64_t queued;     /* chunks that wait to be meshed, now */
   uint64_t in_work;    /* chunks being meshed now */
   uint64_t drawn;      /* chunks drawn now that have triangles or anchors */
-  uint64_t kept;       /* chunks known now, drawn or not, empty or not */
+  uint64_t kept;       /* chunks known now, drawn or not, empty or not: at rest twice those wanted and 1,024 at most */
   uint64_t mesh_bytes; /* of all meshes now, the engine's included */
   uint64_t peak_mesh_bytes;
   double detail;            /* factor on the distances of detail: below 1 where memory is scarce */

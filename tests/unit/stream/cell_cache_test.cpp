@@ -2,6 +2,7 @@
 
 #include "stream/cell_cache.h"
 
+#include <algorithm>
 #include <atomic>
 #include <random>
 
@@ -60,6 +61,26 @@ TEST_CASE("cells that were asked for outlive those that were not, and the one th
   CHECK(has(cache, 3));
   CHECK(cache.stats().cells == 3);
   CHECK(cache.stats().evicted == 1);
+}
+
+TEST_CASE("cells that nobody asks for any more go before the cache is full, down to a quarter of it") {
+  for (const size_t room : {size_t{2000}, size_t{8000}}) {
+    CAPTURE(room);
+    CellCache cache = cacheOf(room);
+    for (int32_t i = 0; i < 30'000; ++i) {
+      REQUIRE(cache.get(keyOf(i), nothing));
+      REQUIRE(has(cache, 0));
+    }
+    // The last 1,024, or a quarter, and the one that is asked for all the time.
+    const size_t kept = std::max<size_t>(1025, room / 4);
+    CHECK(cache.stats().cells >= kept);
+    CHECK(cache.stats().cells <= kept + 2);
+    CHECK_FALSE(has(cache, 1));
+    CHECK(has(cache, 29'500));
+  }
+  CellCache cache = cacheOf(100'000);
+  for (int32_t i = 0; i < 24'000; ++i) REQUIRE(cache.get(keyOf(i), nothing));
+  CHECK(has(cache, 1));  // less than a quarter
 }
 
 TEST_CASE("a cell larger than the cache comes, and goes with the next") {

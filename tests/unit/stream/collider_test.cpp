@@ -110,3 +110,65 @@ TEST_CASE("colliders are what is drawn near a viewer that moves and digs, and go
     for (const auto& [key, collider] : engine.colliders) CHECK(engine.shown.count(key) == 1);
   }
 }
+
+TEST_CASE("an update tells of few colliders, of none that has not changed, and takes none away too early",
+          "[threads]") {
+  for (uint32_t seed = 1; seed <= rounds(2); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    WorldSettings settings;
+    settings.collider_distance = kColliderDistance;
+    settings.max_colliders = 1 + random() % 4;
+    Scene scene(*makeThreadPool(2), caveText(), settings);
+    std::map<ChunkKey, std::shared_ptr<const Collider>> given;
+    std::map<ChunkKey, std::shared_ptr<const ChunkSurface>> ready, shown;
+    Viewer viewer = viewerAt(96, 96, 96);
+    size_t most = 0, all = 0, equal = 0, holes = 0;
+    const auto frame = [&] {
+      REQUIRE(scene.world->update(size_t{1} << 30));
+      size_t told = 0;
+      scene.world->poll([&](const WorldEvent& event) {
+        using Kind = WorldEvent::Kind;
+        if (event.kind == Kind::ready) ready[event.key] = event.surface;
+        if (event.kind == Kind::shown || event.kind == Kind::replaced) shown[event.key] = ready[event.key];
+        if (event.kind == Kind::removed) shown.erase(event.key);
+        if (event.kind == Kind::collider) {
+          ++told;
+          ++all;
+          const auto has = given.find(event.key);
+          equal += has != given.end() && trianglesOf(*has->second) == trianglesOf(*event.collider) &&
+                   has->second->materials == event.collider->materials;
+          CHECK((has == given.end() || has->second->hash != event.collider->hash));
+          given[event.key] = event.collider;
+        }
+        if (event.kind == Kind::collider_removed) {
+          REQUIRE(given.erase(event.key) == 1);
+          // What was drawn in its place when this was decided has its colliders: some of what is drawn now, at least.
+          size_t near = 0, with = 0;
+          for (const auto& [key, surface] : shown) {
+            if (!holds(key, event.key) && !holds(event.key, key)) continue;
+            if (distanceToChunk(viewer.position, key, kStreamedCell) > kColliderDistance / 2) continue;
+            ++near;
+            with += given.contains(key);
+          }
+          holes += near > 0 && with == 0;
+        }
+        return true;
+      });
+      most = std::max(most, told);
+    };
+    for (int turn = 0; turn < 4; ++turn) {
+      for (double& p : viewer.position) p += static_cast<double>(random() % 30000) - 15000;
+      REQUIRE(scene.world->setViewers({&viewer, 1}));
+      for (int updates = 0; updates < 100'000 && (updates == 0 || !scene.world->stats().idle); ++updates) {
+        frame();
+        workOrWait(scene);
+      }
+      REQUIRE(scene.world->stats().idle);
+    }
+    CHECK(all > 10);
+    CHECK(most <= settings.max_colliders);
+    CHECK(equal == 0);
+    CHECK(holes == 0);
+  }
+}

@@ -1,5 +1,6 @@
 // What a plan asks for: each chunk once, with all its seams, whatever came before.
 
+#include <algorithm>
 #include <optional>
 #include <random>
 #include <set>
@@ -44,7 +45,7 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
     std::vector<WorkItem> queue;
     WorldState edits, under;
     std::vector<WorldChange> edited;
-    std::vector<std::shared_ptr<const FrameStep>> offered;  // that may be taken, however late
+    std::vector<std::shared_ptr<const FrameStep>> offered;  // that may be taken
     PlanInput input;
     Viewer viewer;
     uint64_t frames = 0;
@@ -77,18 +78,19 @@ TEST_CASE("a plan asks for each chunk once, and what it offers is whole") {
       }
       queue = std::move(plan.queue);
       under = plan.edits;
+      // Of those that were offered before, the engine has two in hand at most.
       std::erase_if(offered, [&](const auto& step) { return step->from != planner.applied().number; });
-      if (plan.step != nullptr) offered.push_back(plan.step);
+      std::shuffle(offered.begin(), offered.end(), random);
+      if (offered.size() > 2) offered.resize(2);
       input = {};
+      for (size_t i = 0; i < offered.size(); ++i) input.in_hand[i] = offered[i]->to->number;
+      if (plan.step != nullptr) offered.push_back(plan.step);
       input.applied = planner.applied().number;
       // Now and then memory seems full, so that whatever is not wanted goes.
       input.live_bytes = random() % 3 == 0 ? size_t{200} << 20 : 0;
       if (!offered.empty() && random() % 2 == 0) {
         input.applied = offered[random() % offered.size()]->to->number;
         ++frames;
-      }
-      if (plan.step != nullptr && !plan.step->to->drawn.empty() && random() % 4 == 0) {
-        input.refused.push_back(plan.step->to->drawn[random() % plan.step->to->drawn.size()].key);
       }
       for (auto jobs = random() % 120; jobs > 0 && !queue.empty(); --jobs) {
         const WorkItem item = queue.back();
@@ -165,4 +167,90 @@ TEST_CASE("an edited chunk that cannot be made keeps the edits back, and nothing
   dig();
   REQUIRE(settle());
   CHECK(planner.stats().edits_drawn == edits.number);
+}
+
+namespace {
+
+/// Plans for a viewer and meshes what is asked for, a number of chunks a plan; takes each step that is offered.
+class Flight {
+ public:
+  explicit Flight(bool by_reach) : planner(plannerSettings(by_reach)) {}
+
+  void plan(size_t chunks) {
+    input_.viewers = {viewer};
+    input_.edits = edits;
+    input_.edited.clear();
+    for (const WorldChange& change : changes) {
+      if (change.number > planner.edits().number) input_.edited.push_back(change);
+    }
+    Plan plan = planner.plan(std::move(input_));
+    input_ = {};
+    input_.applied = plan.step != nullptr ? plan.step->to->number : planner.applied().number;
+    idle = plan.idle;
+    for (; chunks > 0 && !plan.queue.empty(); --chunks) {
+      FinishedChunk done;
+      done.request = plan.queue.back().request;
+      done.before = plan.queue.back().before;
+      done.edits = plan.edits.number;
+      done.surface = surfaceFor(done.request, done.before.get());
+      plan.queue.pop_back();
+      input_.begun.push_back(done.request.key);
+      input_.finished.push_back(std::move(done));
+    }
+  }
+  void dig() {
+    const Int3 place{static_cast<int32_t>(viewer.position[0]), static_cast<int32_t>(viewer.position[1]),
+                     static_cast<int32_t>(viewer.position[2])};
+    changes.push_back({++edits.number, IntBox{place, place}.grown(1500)});
+  }
+
+  Planner planner;
+  Viewer viewer;
+  WorldState edits;
+  std::vector<WorldChange> changes;
+  bool idle = false;
+
+ private:
+  PlanInput input_;
+};
+
+}  // namespace
+
+TEST_CASE("digs that come with every plan keep nothing from being drawn") {
+  for (const bool by_reach : {false, true}) {
+    Flight flight(by_reach);
+    for (int turn = 0; turn < 400; ++turn) {
+      flight.dig();
+      flight.plan(20);
+    }
+    CHECK(flight.planner.applied().number > 0);
+    // Level 0 around the viewer, and digs not long before.
+    CHECK(flight.planner.applied().tree.isSplit({1, {0, 0, 0}}));
+    CHECK(flight.edits.number - flight.planner.stats().edits_drawn < 100);
+  }
+}
+
+TEST_CASE("what is known over new ground does not grow, and what is wanted is kept") {
+  Flight flight(false);
+  for (int turn = 0; turn < 500 && !flight.idle; ++turn) flight.plan(200);
+  REQUIRE(flight.idle);
+  const size_t wanted = flight.planner.stats().records;
+  size_t most = 0;
+  for (int turn = 0; turn < 3000; ++turn) {
+    flight.viewer.position[0] += 1.0 * kUnitsPerMetre;
+    flight.plan(200);
+    most = std::max(most, flight.planner.stats().records);
+  }
+  CHECK(flight.planner.stats().meshed > 10 * wanted);
+  // Three times what is wanted and 1,024, counted every 16 plans.
+  CHECK(most < 4 * wanted + 2048);
+  for (int turn = 0; turn < 500 && !flight.idle; ++turn) flight.plan(200);
+  REQUIRE(flight.idle);
+  CHECK(flight.planner.stats().record_bytes > 0);
+  const uint64_t meshed = flight.planner.stats().meshed;
+  // What was left just now is still there, and so is what is drawn.
+  flight.viewer.position[0] -= 20.0 * kUnitsPerMetre;
+  for (int turn = 0; turn < 100; ++turn) flight.plan(200);
+  REQUIRE(flight.idle);
+  CHECK(flight.planner.stats().meshed < meshed + 60);
 }
