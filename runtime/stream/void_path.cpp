@@ -24,7 +24,7 @@ struct End {
 };
 
 /// What one look finds for agents of one size.
-struct Look {
+struct Survey {
   int need = 1;  ///< square of the clearance, in cells, that makes a sample free
   VoidGraph graph;
   std::array<std::optional<uint32_t>, 2> ends{};  ///< the voids that the ends lie in
@@ -55,9 +55,9 @@ class VoidSearch {
     const int need = needed();
     std::vector<int> needs = question_.ends && question_.ends->widest ? between() : std::vector<int>();
     needs.push_back(need);
-    Result<std::vector<Look>> looks = look(std::move(needs), need);
+    Result<std::vector<Survey>> looks = look(std::move(needs), need);
     if (!looks) return looks.error();
-    const auto asked = std::find_if(looks->begin(), looks->end(), [&](const Look& l) { return l.need == need; });
+    const auto asked = std::find_if(looks->begin(), looks->end(), [&](const Survey& l) { return l.need == need; });
     answer.voids = asked->graph.voids();
     if (!question_.ends) return answer;
     Result<VoidWay> way = wayIn(*asked);
@@ -198,11 +198,11 @@ class VoidSearch {
   }
 
   /// What one look for all these needs finds, in ascending order; ways are kept for one of them.
-  Result<std::vector<Look>> look(std::vector<int> needs, int way) {
+  Result<std::vector<Survey>> look(std::vector<int> needs, int way) {
     std::sort(needs.begin(), needs.end());
     needs.erase(std::unique(needs.begin(), needs.end()), needs.end());
     const ChunkOrder order(count_);
-    std::vector<Look> looks;
+    std::vector<Survey> looks;
     for (const int need : needs) looks.push_back({need, VoidGraph(order, need == way, field_.memory)});
     const int rings = needs.back() > 1 ? 1 : 0;
     for (uint64_t first = 0; first < order.size(); first += kChunksTogether) {
@@ -229,7 +229,7 @@ class VoidSearch {
     return {low_.x + chunk.x, low_.y + chunk.y, low_.z + chunk.z};
   }
 
-  Result<void> addChunks(std::span<const Int3> some, std::vector<Look>& looks, uint64_t done, uint64_t total) {
+  Result<void> addChunks(std::span<const Int3> some, std::vector<Survey>& looks, uint64_t done, uint64_t total) {
     std::vector<std::vector<ChunkVoids>> voids(some.size());
     parallelFor(jobs_, some.size(), [&](size_t i) { voids[i] = voidsOf(some[i], looks); });
     for (size_t i = 0; i < some.size(); ++i) {
@@ -252,7 +252,7 @@ class VoidSearch {
 
   bool owns(Int3 chunk, size_t end) const { return ends_[end].sample && chunkOf(*ends_[end].sample) == chunk; }
 
-  std::vector<ChunkVoids> voidsOf(Int3 chunk, const std::vector<Look>& looks) const {
+  std::vector<ChunkVoids> voidsOf(Int3 chunk, const std::vector<Survey>& looks) const {
     const std::pmr::vector<uint16_t> clearance = window_.clearance(chunk, looks.back().need);
     Int3 owned;
     for (int axis = 0; axis < 3; ++axis) owned[axis] = kChunkCells + (chunk[axis] + 1 == high_[axis] ? 1 : 0);
@@ -261,23 +261,23 @@ class VoidSearch {
       if (owns(chunk, end)) marks.push_back(localIn(chunk, *ends_[end].sample));
     }
     std::vector<ChunkVoids> voids;
-    for (const Look& l : looks) voids.push_back(chunkVoids(rowsBelow(clearance, l.need), owned, marks, field_.memory));
+    for (const Survey& l : looks) voids.push_back(chunkVoids(rowsBelow(clearance, l.need), owned, marks, field_.memory));
     return voids;
   }
 
   /// Looks until the largest need that has a way is known.
-  Result<void> narrow(std::vector<Look>& looks) {
+  Result<void> narrow(std::vector<Survey>& looks) {
     learn(looks);
     for (std::vector<int> needs = between(); !needs.empty(); needs = between()) {
-      Result<std::vector<Look>> more = look(std::move(needs), 0);
+      Result<std::vector<Survey>> more = look(std::move(needs), 0);
       if (!more) return more.error();
       learn(*more);
     }
     return {};
   }
 
-  void learn(std::vector<Look>& looks) {
-    for (Look& l : looks) {
+  void learn(std::vector<Survey>& looks) {
+    for (Survey& l : looks) {
       if (l.joined()) {
         last_holding_ = std::max(last_holding_, l.need);
       } else {
@@ -286,7 +286,7 @@ class VoidSearch {
     }
   }
 
-  Result<VoidWay> wayIn(Look& asked) {
+  Result<VoidWay> wayIn(Survey& asked) {
     VoidWay way;
     way.from_clearance = leastAsFar(ends_[0].clearance);
     way.to_clearance = leastAsFar(ends_[1].clearance);
