@@ -11,6 +11,7 @@
 #include <span>
 
 #include "mesh/chunk.h"
+#include "mesh/feature_reach.h"
 #include "mesh/least_squares.h"
 
 namespace sgm {
@@ -40,11 +41,6 @@ inline Vector3 between(const Int3& from, const Int3& to) {
   return {static_cast<double>(int64_t{to.x} - from.x), static_cast<double>(int64_t{to.y} - from.y),
           static_cast<double>(int64_t{to.z} - from.z)};
 }
-
-/// How far a feature vertex may lie outside of its cell, or beyond its face, in 1/256 of a cell. A ridge with a right
-/// angle that no sample sees is up to sqrt(1/2) of a cell high. Below a whole cell, so that a fan never reaches a cell
-/// two cells away.
-inline constexpr int32_t kMostOutside = 200;
 
 /// The tangents of a part's vertices, which all lie on edges of the grid. Throws std::bad_alloc.
 class Creases {

@@ -91,7 +91,4 @@ VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from);
 /// Appends a cell and all cells within `reach` of it.
 void cellsAround(const Int3& cell, int32_t reach, std::pmr::vector<Int3>& cells);
 
-/// How many cells around a loop at a chunk's border decide about its fan.
-inline constexpr int32_t kReach = 3;
-
 }  // namespace sgm

@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "mesh/features.h"
+#include "mesh/feature_reach.h"
 #include "mesh/hash.h"
 #include "stream/chunk_key.h"
 #include "stream/fitting_cell.h"
@@ -58,9 +58,6 @@ Result<ChunkGrid> chunkGrid(const WorldField& world, const ChunkKey& key);
 
 /// The chunk with its borders: lo <= p <= hi. Precondition: chunkGrid gave the grid.
 IntBox chunkBox(const ChunkGrid& grid);
-
-/// How far from a chunk the field of a level with such cells is sampled for sharp features, in units.
-inline constexpr int64_t sharpReach(int64_t cell) { return (kReach + 1) * cell + 1; }
 
 /// Where the field of a level decides what becomes of a chunk: its own, or the one above, which its seams read.
 IntBox sampledBox(const ChunkGrid& grid, int level, bool sharp);
