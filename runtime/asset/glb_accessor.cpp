@@ -116,7 +116,8 @@ GlbAccessors::Accessor GlbAccessors::accessorIn(const JsonValue& value) {
                .normalized = normalized != nullptr && normalized->number == 1,
                .sparse = {}};
   if (sparse != nullptr) {
-    Sparse& s = out.sparse.emplace();
+    out.sparse = Sparse();
+    Sparse& s = *out.sparse;
     s.count = sparse->count("count").value_or(0);
     if (const JsonValue* indices = sparse->find("indices")) {
       s.index_view = indices->count("bufferView");

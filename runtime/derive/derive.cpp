@@ -215,7 +215,7 @@ void Interpreter::addGroup(Group group, GrammarChunk& out) {
     const auto warps =
         std::count_if(shapes.begin(), shapes.end(), [](const Shape& s) { return s.kind == ShapeKind::warp; });
     const int64_t over = excess(group.bounds, proven);
-    assert(over <= warps && "a shape passes the bound that is proven of its layer");
+    assert(over <= warps);
     if (over > warps) {
       const Origin& origin = draft_.origin(group.root);
       note("this shape passes the proven bound of its layer by " + metresText(over) +

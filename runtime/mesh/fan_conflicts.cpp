@@ -9,7 +9,7 @@
 namespace sgm {
 namespace {
 
-constexpr uint32_t kNone = Features::kNone;
+constexpr uint32_t kNoSide = Features::kNone;
 
 struct Box {
   Int3 lo{INT32_MAX, INT32_MAX, INT32_MAX}, hi{INT32_MIN, INT32_MIN, INT32_MIN};
@@ -33,7 +33,7 @@ struct Possible {
   std::array<Int3, 3> at;
   std::array<uint32_t, 3> name;  ///< of vertices: equal for those that are one
   When when;
-  uint32_t side = kNone;  ///< that `when` speaks of
+  uint32_t side = kNoSide;  ///< that `when` speaks of
   Box box{};
 
   bool hasArea() const { return IntegerSigns::seenAlong(at) >= 0; }
@@ -94,7 +94,7 @@ class TriangleMaker {
     const uint32_t name = kCellVertices + sharp.loop;
     for (uint32_t i = 0; i < loop.count; ++i) {
       const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count], s = sharp.sides[i];
-      const bool can_have = s != kNone && sides_[s].place;
+      const bool can_have = s != kNoSide && sides_[s].place;
       const uint32_t states = can_have ? has(sides_[s]) : 2;
       if ((states & 2) != 0) {
         triangles.add({{centre, vertexAt(a), vertexAt(b)}, {name, a, b}, can_have ? When::without : When::fan, s});
@@ -125,11 +125,11 @@ class TriangleMaker {
   std::span<const SharpSide> sides_;
 };
 
-/// The place of a loop of the patch among the sharp ones; kNone if it is not sharp.
+/// The place of a loop of the patch among the sharp ones; kNoSide if it is not sharp.
 uint32_t findSharp(std::span<const SharpLoop> loops, uint32_t number) {
   const auto at = std::lower_bound(loops.begin(), loops.end(), number,
                                    [](const SharpLoop& loop, uint32_t n) { return loop.loop < n; });
-  return at != loops.end() && at->loop == number ? static_cast<uint32_t>(at - loops.begin()) : kNone;
+  return at != loops.end() && at->loop == number ? static_cast<uint32_t>(at - loops.begin()) : kNoSide;
 }
 
 /// The loops near each other: whose triangles may meet. A fan may reach less than a cell beyond its own, and so two of
@@ -171,7 +171,7 @@ class Neighbours {
     const auto isFarSpare = [&](const std::optional<Int3>& spare) { return spare && isFar(*spare); };
     return isFar(*loop.centre) || isFarSpare(loop.spares[0]) || isFarSpare(loop.spares[1]) ||
            std::any_of(loop.sides.begin(), loop.sides.end(), [&](uint32_t s) {
-             if (s == kNone || !sides[s].place) return false;
+             if (s == kNoSide || !sides[s].place) return false;
              Int3 place = *sides[s].place;
              for (int k = 0; k < 3; ++k) place[k] += (sides[s].corner[k] - corner[k]) / patch_.grid().cell * kSubcell;
              return isFar(place);
@@ -190,7 +190,7 @@ bool hasFault(const Triangles& fan) {
   for (const Possible* a = fan.begin(); a != fan.end(); ++a) {
     if (!a->hasArea()) return true;
     for (const Possible* b = a + 1; b != fan.end(); ++b) {
-      const bool apart = a->side != kNone && a->side == b->side && a->when != b->when;
+      const bool apart = a->side != kNoSide && a->side == b->side && a->when != b->when;
       if (!apart && a->meets(*b)) return true;
     }
   }
@@ -228,7 +228,7 @@ void FanConflicts::roundInAnyState(std::span<const uint32_t> numbers) {
   };
   for (const uint32_t number : numbers) {
     const uint32_t place = findSharp(loops_, number);
-    if (place == kNone || !loops_[place].centre) continue;
+    if (place == kNoSide || !loops_[place].centre) continue;
     SharpLoop& own = loops_[place];
     Triangles fan;
     maker.addFan(own, kEitherWay, fan);
@@ -238,13 +238,13 @@ void FanConflicts::roundInAnyState(std::span<const uint32_t> numbers) {
       Triangles plain, other_fan;
       maker.addPlain(other_number, plain);
       const uint32_t other_place = findSharp(loops_, other_number);
-      const SharpLoop* other = other_place == kNone ? nullptr : &loops_[other_place];
+      const SharpLoop* other = other_place == kNoSide ? nullptr : &loops_[other_place];
       if (other != nullptr && other->centre) maker.addFan(*other, kEitherWay, other_fan);
       for (const Possible& a : fan) {
         for (const Possible& b : plain)
           if ((other == nullptr || hasPlain(*other, a)) && a.meets(b)) own.rounded = true;
         for (const Possible& b : other_fan)
-          if ((a.side == kNone || a.side != b.side || a.when == b.when) && a.meets(b)) own.rounded = true;
+          if ((a.side == kNoSide || a.side != b.side || a.when == b.when) && a.meets(b)) own.rounded = true;
       }
     });
   }
@@ -256,13 +256,13 @@ void FanConflicts::roundUntilValid(std::span<const uint32_t> numbers) {
   const auto isFan = [&](const SharpLoop& loop) { return loop.centre && !loop.rounded; };
   const auto hasNow = [&](const SharpSide& side) {
     const bool has = std::all_of(side.loops.begin(), side.loops.end(),
-                                 [&](uint32_t loop) { return loop == kNone || isFan(loops_[loop]); });
+                                 [&](uint32_t loop) { return loop == kNoSide || isFan(loops_[loop]); });
     return has ? 1u : 2u;
   };
   const auto triangles = [&](uint32_t number) {
     Triangles now;
     const uint32_t place = findSharp(loops_, number);
-    if (place != kNone && isFan(loops_[place])) {
+    if (place != kNoSide && isFan(loops_[place])) {
       maker.addFan(loops_[place], hasNow, now);
     } else {
       maker.addPlain(number, now);
@@ -274,7 +274,7 @@ void FanConflicts::roundUntilValid(std::span<const uint32_t> numbers) {
     changed.clear();
     for (const uint32_t number : dirty) {
       const uint32_t place = findSharp(loops_, number);
-      if (place == kNone || !isFan(loops_[place])) continue;
+      if (place == kNoSide || !isFan(loops_[place])) continue;
       const Triangles own = triangles(number);
       bool faulty = hasFault(own);
       neighbours.visit(number, [&](uint32_t other) {

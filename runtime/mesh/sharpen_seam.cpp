@@ -8,7 +8,7 @@
 namespace sgm {
 namespace {
 
-constexpr uint32_t kNone = Features::kNone;
+constexpr uint32_t kNoMiddle = Features::kNone;
 
 /// The lowest corner of the square across `axis` whose edges these are; nullopt if they share no square.
 std::optional<Int3> sharedSquare(const VertexKey& a, const VertexKey& b, int axis, int32_t cell) {
@@ -30,7 +30,7 @@ void divide(const std::array<uint32_t, 3>& corners, const std::array<uint32_t, 3
   size_t count = 0, middle = 0;
   for (size_t k = 0; k < 3; ++k) {
     ring[count++] = corners[k];
-    if (middles[k] == kNone) continue;
+    if (middles[k] == kNoMiddle) continue;
     middle = count;
     ring[count++] = middles[k];
   }
@@ -53,7 +53,7 @@ class LevelOfSeam {
         patch_({chunk.origin, chunk.cell << scale_, level}, field, memory),
         features_(patch_, field, memory),
         of_seam_(memory),
-        in_patch_(seam.vertices.size(), kNone, memory),
+        in_patch_(seam.vertices.size(), kNoMiddle, memory),
         middles_(memory),
         memory_(memory) {}
 
@@ -73,7 +73,7 @@ class LevelOfSeam {
     std::pmr::vector<Int3> beside(memory_), around(memory_);
     for (size_t i = 0; i < triangles_end; ++i) {
       const uint32_t a = seam_.indices[i], b = seam_.indices[i % 3 == 2 ? i - 2 : i + 1];
-      if (in_patch_[a] == kNone || in_patch_[b] == kNone) continue;
+      if (in_patch_[a] == kNoMiddle || in_patch_[b] == kNoMiddle) continue;
       if (!features_.creases().isSharp(in_patch_[a], in_patch_[b])) continue;
       // Both levels' squares have sides; diagonals lie in none of them.
       const std::optional<Int3> square = sharedSquare(seam_.keys[a], seam_.keys[b], axis(), patch_.grid().cell);
@@ -96,11 +96,11 @@ class LevelOfSeam {
     takeSlides();
   }
 
-  /// The face vertex between two of the seam's vertices; kNone if there is none.
+  /// The face vertex between two of the seam's vertices; kNoMiddle if there is none.
   uint32_t middleOf(uint32_t a, uint32_t b) const {
-    if (in_patch_[a] == kNone || in_patch_[b] == kNone || middles_.empty()) return kNone;
+    if (in_patch_[a] == kNoMiddle || in_patch_[b] == kNoMiddle || middles_.empty()) return kNoMiddle;
     const SharpSide* side = features_.sideBetween(in_patch_[a], in_patch_[b]);
-    return side == nullptr ? kNone : middles_[static_cast<size_t>(side - features_.sides().data())];
+    return side == nullptr ? kNoMiddle : middles_[static_cast<size_t>(side - features_.sides().data())];
   }
 
  private:
@@ -119,7 +119,7 @@ class LevelOfSeam {
 
   /// Only face vertices between two vertices of the seam.
   void append() {
-    middles_.assign(features_.sides().size(), kNone);
+    middles_.assign(features_.sides().size(), kNoMiddle);
     for (size_t s = 0; s < middles_.size(); ++s) {
       const SharpSide& side = features_.sides()[s];
       if (std::max(side.from, side.to) >= of_seam_.size() || !features_.hasFaceVertex(side)) continue;
@@ -159,7 +159,7 @@ class LevelOfSeam {
   SurfacePatch patch_;
   Features features_;
   std::pmr::vector<uint32_t> of_seam_;   ///< the seam's vertices of this level, which are the patch's first ones
-  std::pmr::vector<uint32_t> in_patch_;  ///< by the seam's vertex; kNone for the other level's
+  std::pmr::vector<uint32_t> in_patch_;  ///< by the seam's vertex; kNoMiddle for the other level's
   std::pmr::vector<uint32_t> middles_;   ///< of the seam, by sharp side
   std::pmr::memory_resource* memory_;
 };
@@ -182,9 +182,9 @@ void sharpenSeam(const ChunkGrid& grid, Face face, const FieldSampler& field, co
       const uint32_t a = seam.indices[i + k], b = seam.indices[i + (k + 1) % 3];
       corners[k] = a;
       middles[k] = fine.middleOf(a, b);
-      if (middles[k] == kNone) middles[k] = coarse.middleOf(a, b);
+      if (middles[k] == kNoMiddle) middles[k] = coarse.middleOf(a, b);
     }
-    if (std::count(middles.begin(), middles.end(), kNone) == 3) {
+    if (std::count(middles.begin(), middles.end(), kNoMiddle) == 3) {
       indices.insert(indices.end(), corners.begin(), corners.end());
     } else {
       divide(corners, middles, indices);

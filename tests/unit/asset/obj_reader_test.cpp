@@ -180,7 +180,7 @@ TEST_CASE("an OBJ file's concave polygons are cut, and crossing ones noted", "[a
 }
 
 TEST_CASE("an OBJ file's references to what is not there are read with a note", "[asset][obj]") {
-  using Notes = std::vector<std::string>;
+  using NoteTexts = std::vector<std::string>;
   const TriangleMesh empty = objOf(kSquare + "f 1// 2// 3//\nf 1/ 3/ 4/\n");
   CHECK(empty.triangles.size() == 2);
   CHECK(empty.notes.empty());
@@ -188,7 +188,7 @@ TEST_CASE("an OBJ file's references to what is not there are read with a note", 
   const TriangleMesh without = objOf(kSquare + "f 1/1 2/2 3/3\n");
   CHECK(without.coordinates.empty());
   CHECK(without.notes ==
-        Notes{"3 corners of faces name texture coordinates that the file does not have, such as number "
+        NoteTexts{"3 corners of faces name texture coordinates that the file does not have, such as number "
               "3 at line 5: read without"});
   const TriangleMesh some = objOf(kSquare + "vt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/1/0\nf 1//-2 2//9 3//1\n");
   CHECK(some.coordinatesAt(0, 0) == TextureCoordinates{1, 1});
@@ -196,13 +196,13 @@ TEST_CASE("an OBJ file's references to what is not there are read with a note", 
   CHECK(some.normalAt(1, 2) == Normal{0, 0, 1});
   CHECK(some.normalAt(1, 1) == Normal{});
   CHECK(some.notes ==
-        Notes{"3 corners of faces name normals that the file does not have, such as number 9 at line 8: "
+        NoteTexts{"3 corners of faces name normals that the file does not have, such as number 9 at line 8: "
               "read without",
               "1 corner of a face names texture coordinates that the file does not have, such as number 2 "
               "at line 7: read without"});
   const TriangleMesh never = objOf(kSquare + "vn 0 0 1\nf 1//1 2//0 3//1\n");
   CHECK(never.notes ==
-        Notes{"1 corner of a face names normals that the file does not have, such as those at line 6: read "
+        NoteTexts{"1 corner of a face names normals that the file does not have, such as those at line 6: read "
               "without"});
 }
 

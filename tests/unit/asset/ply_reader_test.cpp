@@ -173,7 +173,7 @@ TEST_CASE("what is wrong with a PLY file is said with its line or its byte", "[a
 }
 
 TEST_CASE("a PLY text's line is a record: what it holds beyond is never taken for something else", "[asset][ply]") {
-  using Notes = std::vector<std::string>;
+  using NoteTexts = std::vector<std::string>;
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 4\nproperty list uchar int vertex_indices\nproperty uchar red\nend_header\n";
@@ -185,14 +185,14 @@ TEST_CASE("a PLY text's line is a record: what it holds beyond is never taken fo
   // As exporters write it who forget a property, on faces or on vertices.
   const TriangleMesh more = read(points + "3 0 2 1 7 9 9\n3 0 1 3 7 9 9\n3 1 2 3 7 9 9\n3 2 0 3 7 9 9\n");
   CHECK(more.triangles == plain.triangles);
-  CHECK(more.notes == Notes{"4 lines have more values than the header declares, the first at line 15: left out"});
+  CHECK(more.notes == NoteTexts{"4 lines have more values than the header declares, the first at line 15: left out"});
   const TriangleMesh coloured = read("0 0 0 255\n3 0 0 255\n0 3 0 255\n0 0 3 255\n" + faces);
   CHECK(volumeOf(coloured) == 4.5);
   CHECK(coloured.notes.size() == 1);
   // Records over several lines, and several on one.
   CHECK(volumeOf(read("0\n0 0\n3 0\n0\n0 3 0\n0 0 3\n3\n0 2 1 7\n3 0 1 3\n7\n3 1 2 3 7\n3 2 0 3 7")) == 4.5);
   CHECK(volumeOf(read("0 0 0 3 0 0 0 3 0 0 0 3 3 0 2 1 7 3 0 1 3 7 3 1 2 3 7 3 2 0 3 7")) == 4.5);
-  CHECK(read(points + faces + "# the end\n").notes == Notes{"text behind its last element is left out, at line 19"});
+  CHECK(read(points + faces + "# the end\n").notes == NoteTexts{"text behind its last element is left out, at line 19"});
   // Where it cannot be told whose a value is, there is an error.
   CHECK(
       plyRefusal(header + "0 0\n3 0 0\n0 3 0\n0 0 3\n" + faces) ==

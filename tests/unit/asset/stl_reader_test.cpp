@@ -94,14 +94,14 @@ TEST_CASE("what is wrong with an STL file is said with its line or its byte", "[
 }
 
 TEST_CASE("what stands behind an STL file's end is left out with a note", "[asset][stl]") {
-  using Notes = std::vector<std::string>;
+  using NoteTexts = std::vector<std::string>;
   const TriangleMesh binary = meshIn(binaryStl() + "four", MeshFileKind::stl);
   CHECK(binary.triangles.size() == 2);
-  CHECK(binary.notes == Notes{"4 bytes behind its last triangle are left out, at byte 184"});
+  CHECK(binary.notes == NoteTexts{"4 bytes behind its last triangle are left out, at byte 184"});
   CHECK(meshIn(binaryStl(), MeshFileKind::stl).notes.empty());
   const TriangleMesh text = meshIn(kStlText + "\x1A", MeshFileKind::stl);
   CHECK(text.triangles.size() == 2);
-  CHECK(text.notes == Notes{"text behind its last `endsolid` is left out, at line 17"});
+  CHECK(text.notes == NoteTexts{"text behind its last `endsolid` is left out, at line 17"});
   // More than a program adds of its own is another file.
   CHECK(stlRefusal(binaryStl() + std::string(5000, 'x')) ==
         "it says that it has 2 triangles, which take 184 bytes, and has 5184 bytes, at byte 80");

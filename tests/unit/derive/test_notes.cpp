@@ -440,3 +440,20 @@ TEST_CASE("an override that finds nothing is counted where notes are full", "[no
     CHECK(chunk->notes.back().path == "main(0, 0, 0)/Main");
   }
 }
+
+#ifdef NDEBUG
+TEST_CASE("a shape beyond the bound that was proven of its layer is noted, and ends there", "[notes]") {
+  // The proof is falsified; a build with assertions ends at such a shape.
+  const auto program = compiled(
+      "sgm 1; units m; domain infinite; layer main cell 64m reach 16m { start Main; } rule Main { sphere(4m); }");
+  Program falsified = *program;
+  falsified.layers[0].bound = {{-1024, -1024, -1024}, {1024, 1024, 1024}};
+  const GrammarChunk chunk = derived(falsified);
+  REQUIRE(chunk.notes.size() == 1);
+  const std::string& message = chunk.notes[0].message;
+  CHECK(message.find("this shape passes the proven bound of its layer by") == 0);
+  CHECK(message.find("m and ends there: a bug in the library, please report it") != std::string::npos);
+  REQUIRE(chunk.groups.size() == 1);
+  CHECK(chunk.groups[0].bounds.hi.x < 4 * kUnitsPerMetre);
+}
+#endif

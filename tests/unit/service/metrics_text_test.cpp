@@ -144,7 +144,7 @@ TEST_CASE("metrics say what the samples say") {
       CHECK(isWritten(of("sgm_volume_cubic_meters"), world.measures->drawn.flux));
       CHECK(of("sgm_mesh_defects_total", {{"kind", "open_edge"}}) ==
             static_cast<double>(world.measures->made.defects[SGM_DEFECT_OPEN_EDGE]));
-      CHECK(metrics.at("sgm_mesh_defects_total").series.size() == 11);
+      CHECK(metrics.at("sgm_mesh_defects_total").series.size() == 13);
     }
     if (world.parallel_speedup) CHECK(isWritten(of("sgm_parallel_speedup_ratio"), *world.parallel_speedup));
 
