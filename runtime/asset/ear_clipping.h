@@ -25,6 +25,8 @@ class EarClipping {
   /// Boxes of the tree that all polygons together may look at: some seconds.
   static constexpr uint64_t kMostSteps = uint64_t{1} << 29;
 
+  explicit EarClipping(uint64_t most_steps = kMostSteps) : most_steps_(most_steps) {}
+
   /// Replaces `out` by as many triangles as there are corners, less two, of the corners' numbers; the fan of corner 0
   /// where that one is right. The plane is that of Newell's normal. At least four corners.
   Clipped run(std::span<const Point> corners, std::vector<std::array<uint32_t, 3>>& out);
@@ -64,7 +66,7 @@ class EarClipping {
   std::vector<Box> boxes_;
   std::vector<uint32_t> stack_;
   size_t leaves_ = 0, left_ = 0;
-  uint64_t steps_ = 0;
+  uint64_t steps_ = 0, most_steps_;
 };
 
 }  // namespace sgm::asset

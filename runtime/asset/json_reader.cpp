@@ -56,7 +56,7 @@ class JsonParser {
     JsonValue value;
     skip();
     if (++values_ > most_values_) {
-      fail("too many values");
+      failed_ = true;  // run() says why
     } else if (depth > kDeepest) {
       fail("values within values, too deep,");
     } else if (at_ >= text_.size()) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,7 +30,8 @@ void dropRepeatedCorners(std::vector<Corner>& corners, Same same) {
 class PolygonCutter {
  public:
   /// unit: of places, such as "line".
-  PolygonCutter(TriangleMesh& mesh, std::string_view unit) : mesh_(mesh), unit_(unit) {}
+  PolygonCutter(TriangleMesh& mesh, std::string_view unit, uint64_t most_steps = EarClipping::kMostSteps)
+      : mesh_(mesh), unit_(unit), clipping_(most_steps) {}
 
   /// The mesh's last triangles are the fan of a polygon with this many corners, at least four. One whose points are not
   /// all there yet is kept for finish(). Error: limit, where polygons are too intricate.
