@@ -295,7 +295,8 @@ RegionResult meshRegion(const WorldOptions& options, const RegionPlan& plan) {
   warnOfNotes(options.file, made->notes);
   noteRounded(options.file, made->meshed.rounded);
   warnOfThinWalls(options.file, *grammar.program, made->cell);
-  sayThinParts(made->thin, made->cell);
+  // A mesh without a triangle has its reason told.
+  if (!made->meshed.mesh.indices.empty()) sayThinParts(made->thin, made->cell);
   return {std::move(*made), Exit::done};
 }
 

@@ -21,8 +21,7 @@ void Planner::takeUpEdits(PlanInput& input) {
     edits_failed_ = edits_.number;
     giveEditsBack();
   }
-  if (edits_drawn_ != edits_.number || step_ != nullptr) return;
-  if (applied_->tree.empty() && awaited_) return;
+  if (edits_drawn_ != edits_.number) return;
   if (input.edits.number == edits_.number) postponed_ = false;
   if (input.edits.number == edits_.number || input.edits.number <= edits_failed_) return;
   if (postponed_ && canLowerDetail() &&

@@ -196,9 +196,9 @@ void World::advance(size_t bytes, size_t colliders) {
   }
   if (stays != nullptr && staged_ != nullptr) restage(nullptr, *stays);
   // A better step does not keep back one that is drawn sooner: where meshing is quicker than handing over, steps would
-  // grow, and none would ever be whole.
+  // grow, and none would ever be whole. But edits are in the next frame or the one after.
   if (step != nullptr && staged_ != nullptr && step != staged_ && staged_->from == step->from &&
-      bytesLeft(*staged_) <= bytesLeft(*step)) {
+      staged_->to->edits == step->to->edits && bytesLeft(*staged_) <= bytesLeft(*step)) {
     step = staged_;
   }
   if (step != nullptr && stage(step)) {
