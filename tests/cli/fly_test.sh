@@ -199,7 +199,7 @@ full=(--path path.json --speed 10 --frames 120 --edits 60 --journal full)
 expect 4 bash -c 'set -o pipefail; trap "" XFSZ; (ulimit -f 1; exec "$@") | cat' - "$SGM" fly "$cave" "${small[@]}" "${full[@]}"
 json 'j.edits > 20'
 err_has "sgm: error: journal '.*full': File too large; ([0-9]+) edits are not kept$"
-(($(grep -c 'edits are not kept' <<<"$err") == 2)) || failed 'it is told as it happens, and at the end'
+(($(grep -c 'edits are not kept' <<<"$err") >= 1)) || failed 'it is told at the end, and before if the flight goes on'
 unkept=${BASH_REMATCH[1]} edits=$(sed -n 's/.*"edits": \([0-9]*\),.*/\1/p' <<<"$out" | head -n 1)
 ((unkept > 0 && unkept < edits)) || failed "$unkept of $edits edits not kept"
 rm full
