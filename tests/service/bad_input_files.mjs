@@ -59,7 +59,6 @@ export const damaged = {
     line: 3,
     bytes: () => Buffer.from('solid a\nfacet normal 0 0 1\nouter hoop\nendloop\nendfacet\nendsolid a\n'),
   },
-  'glb_as.stl': { bytes: () => files['sphere.glb'].bytes() },
 };
 
 /** x.sgm is there, beside where the service runs and above. */

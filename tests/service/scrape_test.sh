@@ -70,7 +70,7 @@ of_world sgm_detail_ratio detail
 of_world sgm_triangles measures.triangles
 of_world 'sum(sgm_mesh_defects_total)' measures.defects_total
 same "defects" "$(value 'sum(sgm_mesh_defects_total)')" 0
-same "kinds of defects" "$(value 'count(sgm_mesh_defects_total)')" 11
+same "kinds of defects" "$(value 'count(sgm_mesh_defects_total)')" 13
 of_world 'sum(sgm_chunk_build_seconds_count)' chunks.meshed
 same area "$(value 'round(sgm_surface_area_square_meters)')" \
   "$(now_in summary 'Math.round(j.worlds[0].measures.area_square_meters)')"
