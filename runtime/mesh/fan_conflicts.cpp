@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "mesh/triangle_faults.h"
@@ -12,7 +13,8 @@ namespace {
 constexpr uint32_t kNoSide = Features::kNone;
 
 struct Box {
-  Int3 lo{INT32_MAX, INT32_MAX, INT32_MAX}, hi{INT32_MIN, INT32_MIN, INT32_MIN};
+  Int3 lo, hi;
+  static Box empty() { return {{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}}; }
   void take(const Int3& p) {
     for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], p[k]), hi[k] = std::max(hi[k], p[k]);
   }
@@ -33,8 +35,8 @@ struct Possible {
   std::array<Int3, 3> at;
   std::array<uint32_t, 3> name;  ///< of vertices: equal for those that are one
   When when;
-  uint32_t side = kNoSide;  ///< that `when` speaks of
-  Box box{};
+  uint32_t side;  ///< that `when` speaks of; kNoSide: none
+  Box box;
 
   bool hasArea() const { return IntegerSigns::seenAlong(at) >= 0; }
   bool meets(const Possible& other) const {
@@ -56,19 +58,23 @@ struct Possible {
   }
 };
 
-/// Triangles of one loop.
-struct Triangles {
-  static constexpr size_t kMost = 3 * kLongestCubeLoop + kLongestCubeLoop - 2;
-  std::array<Possible, kMost> all;
-  size_t count = 0;
-  Box box;
+/// Triangles of one loop, appended to a vector that others share.
+class Triangles {
+ public:
+  explicit Triangles(std::pmr::vector<Possible>& store) : store_(&store), first_(store.size()) {}
 
-  void add(Possible triangle) {
-    for (const Int3& p : triangle.at) triangle.box.take(p), box.take(p);
-    all[count++] = triangle;
+  void add(const std::array<Int3, 3>& at, const std::array<uint32_t, 3>& name, When when, uint32_t side = kNoSide) {
+    Possible& triangle = store_->emplace_back(Possible{at, name, when, side, Box::empty()});
+    for (const Int3& p : at) triangle.box.take(p), box.take(p);
+    ++count_;
   }
-  const Possible* begin() const { return all.data(); }
-  const Possible* end() const { return all.data() + count; }
+  std::span<const Possible> all() const { return {store_->data() + first_, count_}; }
+
+  Box box = Box::empty();
+
+ private:
+  std::pmr::vector<Possible>* store_;
+  size_t first_, count_ = 0;
 };
 
 /// Makes the triangles that loops can have.
@@ -80,7 +86,7 @@ class TriangleMaker {
     const SurfaceLoop& loop = patch_.loops()[number];
     for (uint32_t i = loop.first_index; i < loop.end_index; i += 3) {
       const uint32_t* v = &patch_.part().indices[i];
-      triangles.add({{vertexAt(v[0]), vertexAt(v[1]), vertexAt(v[2])}, {v[0], v[1], v[2]}, When::plain});
+      triangles.add({vertexAt(v[0]), vertexAt(v[1]), vertexAt(v[2])}, {v[0], v[1], v[2]}, When::plain);
     }
   }
 
@@ -97,12 +103,12 @@ class TriangleMaker {
       const bool can_have = s != kNoSide && sides_[s].place;
       const uint32_t states = can_have ? has(sides_[s]) : 2;
       if ((states & 2) != 0) {
-        triangles.add({{centre, vertexAt(a), vertexAt(b)}, {name, a, b}, can_have ? When::without : When::fan, s});
+        triangles.add({centre, vertexAt(a), vertexAt(b)}, {name, a, b}, can_have ? When::without : When::fan, s);
       }
       if ((states & 1) != 0) {
         const Int3 middle = faceVertexAt(s);
-        triangles.add({{centre, vertexAt(a), middle}, {name, a, kFaceVertices + s}, When::with, s});
-        triangles.add({{centre, middle, vertexAt(b)}, {name, kFaceVertices + s, b}, When::with, s});
+        triangles.add({centre, vertexAt(a), middle}, {name, a, kFaceVertices + s}, When::with, s);
+        triangles.add({centre, middle, vertexAt(b)}, {name, kFaceVertices + s, b}, When::with, s);
       }
     }
   }
@@ -187,11 +193,12 @@ constexpr auto kEitherWay = [](const SharpSide&) { return 3u; };
 
 /// Whether a triangle has no area or two meet wrongly, of those that one fan can have at one time.
 bool hasFault(const Triangles& fan) {
-  for (const Possible* a = fan.begin(); a != fan.end(); ++a) {
-    if (!a->hasArea()) return true;
-    for (const Possible* b = a + 1; b != fan.end(); ++b) {
-      const bool apart = a->side != kNoSide && a->side == b->side && a->when != b->when;
-      if (!apart && a->meets(*b)) return true;
+  const std::span<const Possible> all = fan.all();
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].hasArea()) return true;
+    for (size_t j = i + 1; j < all.size(); ++j) {
+      const bool apart = all[i].side != kNoSide && all[i].side == all[j].side && all[i].when != all[j].when;
+      if (!apart && all[i].meets(all[j])) return true;
     }
   }
   return false;
@@ -199,13 +206,59 @@ bool hasFault(const Triangles& fan) {
 
 bool anyMeets(const Triangles& first, const Triangles& second) {
   if (!first.box.meets(second.box)) return false;
-  for (const Possible& a : first) {
+  for (const Possible& a : first.all()) {
     if (!a.box.meets(second.box)) continue;
-    for (const Possible& b : second)
+    for (const Possible& b : second.all())
       if (a.meets(b)) return true;
   }
   return false;
 }
+
+/// The triangles that loops have now, made when they are asked for.
+class PresentTriangles {
+ public:
+  PresentTriangles(const SurfacePatch& patch, std::span<const SharpSide> sides, std::span<const SharpLoop> loops,
+                   std::pmr::memory_resource* memory)
+      : maker_(patch, sides), sides_(sides), loops_(loops), store_(memory), of_loop_(patch.loops().size(), memory) {}
+
+  /// Good until the next call of forget().
+  const Triangles& of(uint32_t number) {
+    std::optional<Triangles>& triangles = of_loop_[number];
+    if (triangles) return *triangles;
+    triangles.emplace(store_);
+    const uint32_t place = findSharp(loops_, number);
+    if (place != kNoSide && isFan(loops_[place])) {
+      maker_.addFan(
+          loops_[place], [&](const SharpSide& side) { return hasVertex(side) ? 1u : 2u; }, *triangles);
+    } else {
+      maker_.addPlain(number, *triangles);
+    }
+    return *triangles;
+  }
+  /// After a change of the loop.
+  void forget(const SharpLoop& loop) {
+    of_loop_[loop.loop].reset();
+    for (const uint32_t s : loop.sides) {
+      if (s == kNoSide) continue;
+      for (const uint32_t other : sides_[s].loops)
+        if (other != kNoSide) of_loop_[loops_[other].loop].reset();
+    }
+  }
+
+  static bool isFan(const SharpLoop& loop) { return loop.centre && !loop.rounded; }
+
+ private:
+  bool hasVertex(const SharpSide& side) const {
+    return std::all_of(side.loops.begin(), side.loops.end(),
+                       [&](uint32_t loop) { return loop == kNoSide || isFan(loops_[loop]); });
+  }
+
+  const TriangleMaker maker_;
+  std::span<const SharpSide> sides_;
+  std::span<const SharpLoop> loops_;
+  std::pmr::vector<Possible> store_;
+  std::pmr::vector<std::optional<Triangles>> of_loop_;
+};
 
 }  // namespace
 
@@ -214,7 +267,8 @@ FanConflicts::FanConflicts(const SurfacePatch& patch, std::span<const SharpSide>
     : patch_(patch), sides_(sides), loops_(loops), memory_(memory) {}
 
 bool FanConflicts::isSound(const SharpLoop& loop) const {
-  Triangles fan;
+  std::pmr::vector<Possible> store(memory_);
+  Triangles fan(store);
   TriangleMaker(patch_, sides_).addFan(loop, kAllVertices, fan);
   return !hasFault(fan);
 }
@@ -222,68 +276,74 @@ bool FanConflicts::isSound(const SharpLoop& loop) const {
 void FanConflicts::roundInAnyState(std::span<const uint32_t> numbers) {
   const TriangleMaker maker(patch_, sides_);
   const Neighbours neighbours(patch_, sides_, loops_, memory_);
+  std::pmr::vector<Possible> store(memory_);
   const auto hasPlain = [](const SharpLoop& loop, const Possible& other) {
     // Beside a loop that is no fan no side of it has a face vertex.
     return other.when != When::with || std::find(loop.sides.begin(), loop.sides.end(), other.side) == loop.sides.end();
+  };
+  const auto meetsPlain = [&](const Triangles& fan, uint32_t number, const SharpLoop* other) {
+    Triangles plain(store);
+    maker.addPlain(number, plain);
+    if (!fan.box.meets(plain.box)) return false;
+    for (const Possible& a : fan.all())
+      for (const Possible& b : plain.all())
+        if ((other == nullptr || hasPlain(*other, a)) && a.meets(b)) return true;
+    return false;
+  };
+  const auto meetsFan = [&](const Triangles& fan, const SharpLoop& other) {
+    Triangles second(store);
+    maker.addFan(other, kEitherWay, second);
+    if (!fan.box.meets(second.box)) return false;
+    for (const Possible& a : fan.all())
+      for (const Possible& b : second.all())
+        if ((a.side == kNoSide || a.side != b.side || a.when == b.when) && a.meets(b)) return true;
+    return false;
   };
   for (const uint32_t number : numbers) {
     const uint32_t place = findSharp(loops_, number);
     if (place == kNoSide || !loops_[place].centre) continue;
     SharpLoop& own = loops_[place];
-    Triangles fan;
+    store.clear();
+    // Triangles point into the store, which others are appended to.
+    Triangles fan(store);
     maker.addFan(own, kEitherWay, fan);
     own.rounded = own.rounded || hasFault(fan);
     neighbours.visit(number, [&](uint32_t other_number) {
       if (own.rounded) return;
-      Triangles plain, other_fan;
-      maker.addPlain(other_number, plain);
       const uint32_t other_place = findSharp(loops_, other_number);
       const SharpLoop* other = other_place == kNoSide ? nullptr : &loops_[other_place];
-      if (other != nullptr && other->centre) maker.addFan(*other, kEitherWay, other_fan);
-      for (const Possible& a : fan) {
-        for (const Possible& b : plain)
-          if ((other == nullptr || hasPlain(*other, a)) && a.meets(b)) own.rounded = true;
-        for (const Possible& b : other_fan)
-          if ((a.side == kNoSide || a.side != b.side || a.when == b.when) && a.meets(b)) own.rounded = true;
+      own.rounded = meetsPlain(fan, other_number, other);
+      if (other == nullptr || !other->centre) return;
+      // Within a chunk a loop may come to have a spare centre.
+      SharpLoop state = *other;
+      for (const std::optional<Int3>& centre : {other->centre, other->spares[0], other->spares[1]}) {
+        if (own.rounded || !centre) return;
+        state.centre = centre;
+        own.rounded = meetsFan(fan, state);
       }
     });
   }
 }
 
 void FanConflicts::roundUntilValid(std::span<const uint32_t> numbers) {
-  const TriangleMaker maker(patch_, sides_);
   const Neighbours neighbours(patch_, sides_, loops_, memory_);
-  const auto isFan = [&](const SharpLoop& loop) { return loop.centre && !loop.rounded; };
-  const auto hasNow = [&](const SharpSide& side) {
-    const bool has = std::all_of(side.loops.begin(), side.loops.end(),
-                                 [&](uint32_t loop) { return loop == kNoSide || isFan(loops_[loop]); });
-    return has ? 1u : 2u;
-  };
-  const auto triangles = [&](uint32_t number) {
-    Triangles now;
-    const uint32_t place = findSharp(loops_, number);
-    if (place != kNoSide && isFan(loops_[place])) {
-      maker.addFan(loops_[place], hasNow, now);
-    } else {
-      maker.addPlain(number, now);
-    }
-    return now;
-  };
+  PresentTriangles present(patch_, sides_, loops_, memory_);
   std::pmr::vector<uint32_t> dirty(numbers.begin(), numbers.end(), memory_), changed(memory_);
   while (!dirty.empty()) {
     changed.clear();
     for (const uint32_t number : dirty) {
       const uint32_t place = findSharp(loops_, number);
-      if (place == kNoSide || !isFan(loops_[place])) continue;
-      const Triangles own = triangles(number);
+      if (place == kNoSide || !PresentTriangles::isFan(loops_[place])) continue;
+      const Triangles own = present.of(number);
       bool faulty = hasFault(own);
       neighbours.visit(number, [&](uint32_t other) {
-        if (!faulty) faulty = anyMeets(own, triangles(other));
+        if (!faulty) faulty = anyMeets(own, present.of(other));
       });
       if (!faulty) continue;
       SharpLoop& loop = loops_[place];
       loop.rounded = !loop.spares[0];
       if (!loop.rounded) loop.centre = std::exchange(loop.spares[0], std::exchange(loop.spares[1], std::nullopt));
+      present.forget(loop);
       changed.push_back(number);
     }
     // What a changed loop is now, and the loops that have lost a face vertex to it, lie beside others.

@@ -37,12 +37,6 @@ bool endsBefore(const SharpSide& a, const SharpSide& b) { return a.from != b.fro
 
 }  // namespace
 
-void cellsAround(const Int3& cell, int32_t reach, std::pmr::vector<Int3>& cells) {
-  for (int32_t z = -reach; z <= reach; ++z)
-    for (int32_t y = -reach; y <= reach; ++y)
-      for (int32_t x = -reach; x <= reach; ++x) cells.push_back({cell.x + x, cell.y + y, cell.z + z});
-}
-
 bool Features::hasFaceVertex(const SharpSide& side) const {
   return side.place && std::all_of(side.loops.begin(), side.loops.end(), [&](uint32_t number) {
            return number == kNone || (loops_[number].centre && !loops_[number].rounded);

@@ -88,7 +88,4 @@ class Features {
 /// The key of a side's face vertex. from: of the vertex side.from.
 VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from);
 
-/// Appends a cell and all cells within `reach` of it.
-void cellsAround(const Int3& cell, int32_t reach, std::pmr::vector<Int3>& cells);
-
 }  // namespace sgm

@@ -134,15 +134,16 @@ uint32_t sharpenBody(const ChunkGrid& grid, const FieldSampler& field, MeshPart&
   Features features(patch, field, memory);
   features.settle();
   std::pmr::vector<uint32_t> inner(memory), border(memory);
-  std::pmr::vector<Int3> around(memory), beyond(memory);
+  CellSet around(memory);
+  std::pmr::vector<Int3> beyond(memory);
   for (uint32_t number = 0; number < own_loops; ++number) {
     const SurfaceLoop& loop = patch.loops()[number];
     if (!features.isSharp(loop)) continue;
     (isAtBorder(loop.cell) ? border : inner).push_back(number);
-    if (isAtBorder(loop.cell)) cellsAround(loop.cell, kReach, around);
+    if (isAtBorder(loop.cell)) around.addAround(loop.cell, kReach);
     visitBeyond(loop.cell, [&](const Int3& cell) {
       beyond.push_back(cell);
-      cellsAround(cell, kReach, around);
+      around.addAround(cell, kReach);
     });
   }
   if (!inner.empty() || !border.empty()) {

@@ -70,7 +70,8 @@ class LevelOfSeam {
     }
     if (of_seam_.empty()) return;
     features_.settle();
-    std::pmr::vector<Int3> beside(memory_), around(memory_);
+    std::pmr::vector<Int3> beside(memory_);
+    CellSet around(memory_);
     for (size_t i = 0; i < triangles_end; ++i) {
       const uint32_t a = seam_.indices[i], b = seam_.indices[i % 3 == 2 ? i - 2 : i + 1];
       if (in_patch_[a] == kNoMiddle || in_patch_[b] == kNoMiddle) continue;
@@ -84,10 +85,10 @@ class LevelOfSeam {
       --low[axis()];
       for (const Int3& cell : {low, high}) {
         beside.push_back(cell);
-        cellsAround(cell, kReach, around);
+        around.addAround(cell, kReach);
       }
     }
-    if (!around.empty()) {
+    if (!beside.empty()) {
       patch_.addCells(around);
       features_.settle();
       features_.find({}, loopsIn(beside));

@@ -9,18 +9,10 @@
 namespace sgm {
 namespace {
 
-/// Cells and samples lie within this many of the origin, below and above a chunk.
-constexpr int32_t kBelow = 16;
-constexpr int kCodeBits = 7;
-
-/// In the order of a body's cells: z, then y, then x.
-uint32_t codeOf(const Int3& cell) {
-  return static_cast<uint32_t>(cell.z + kBelow) << 2 * kCodeBits | static_cast<uint32_t>(cell.y + kBelow) << kCodeBits |
-         static_cast<uint32_t>(cell.x + kBelow);
-}
-
 /// Of the grid edge that starts at a sample.
-uint64_t edgeCode(const Int3& sample, int axis) { return uint64_t{codeOf(sample)} << 2 | static_cast<uint64_t>(axis); }
+uint64_t edgeCode(const Int3& sample, int axis) {
+  return uint64_t{CellSet::codeOf(sample)} << 2 | static_cast<uint64_t>(axis);
+}
 
 /// Whether two edges of a cell lie in one face.
 bool shareFace(const VertexKey& a, const VertexKey& b) {
@@ -83,7 +75,7 @@ Int3 SurfacePatch::cornerOf(const Int3& cell) const {
 }
 
 std::span<const uint32_t> SurfacePatch::loopsOf(const Int3& cell) const {
-  const auto [first, last] = std::equal_range(cells_.begin(), cells_.end(), codeOf(cell));
+  const auto [first, last] = std::equal_range(cells_.begin(), cells_.end(), CellSet::codeOf(cell));
   return {numbers_.data() + (first - cells_.begin()), static_cast<size_t>(last - first)};
 }
 
@@ -163,48 +155,32 @@ uint32_t SurfacePatch::addVertex(const Vertex& vertex, const VertexKey& key) {
   return number;
 }
 
-void SurfacePatch::addCells(std::span<const Int3> cells) {
-  std::pmr::vector<std::pair<uint32_t, Int3>> wanted(memory_);
-  for (const Int3& cell : cells) {
-    const uint32_t code = codeOf(cell);
-    if (isInBody(cell) || !isInWorld(cell) || std::binary_search(sampled_.begin(), sampled_.end(), code)) continue;
-    wanted.emplace_back(code, cell);
-  }
-  std::sort(wanted.begin(), wanted.end());
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  if (wanted.empty()) return;
-
-  std::pmr::vector<uint32_t> codes(memory_);
+void SurfacePatch::addCells(const CellSet& cells) {
   const auto sampleOf = [](const Int3& cell, int corner) {
     return Int3{cell.x + (corner & 1), cell.y + (corner >> 1 & 1), cell.z + (corner >> 2)};
   };
-  codes.reserve(8 * wanted.size());
-  for (const auto& [code, cell] : wanted)
-    for (int corner = 0; corner < 8; ++corner) codes.push_back(codeOf(sampleOf(cell, corner)));
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
-  std::pmr::vector<Int3> points(memory_);
-  points.reserve(codes.size());
-  for (const uint32_t code : codes) {
-    constexpr uint32_t kMask = (1u << kCodeBits) - 1;
-    points.push_back(
-        cornerOf({static_cast<int32_t>(code & kMask) - kBelow, static_cast<int32_t>(code >> kCodeBits & kMask) - kBelow,
-                  static_cast<int32_t>(code >> 2 * kCodeBits) - kBelow}));
-  }
+  std::pmr::vector<Int3> wanted(memory_), points(memory_);
+  CellSet corners(memory_);
+  cells.forEach([&](const Int3& cell) {
+    if (isInBody(cell) || !isInWorld(cell) || sampled_.has(cell)) return;
+    sampled_.add(cell);
+    wanted.push_back(cell);
+    for (int corner = 0; corner < 8; ++corner) corners.add(sampleOf(cell, corner));
+  });
+  if (wanted.empty()) return;
+  points.reserve(corners.number());
+  corners.forEach([&](const Int3& sample) { points.push_back(cornerOf(sample)); });
   std::pmr::vector<FieldSample> samples(points.size(), memory_);
   field_(points, samples, Sampled::value);
 
   const size_t first_loop = loops_.size();
-  for (const auto& [code, cell] : wanted) {
+  for (const Int3& cell : wanted) {
     std::array<int32_t, 8> q{};
     for (int corner = 0; corner < 8; ++corner) {
-      const auto at = std::lower_bound(codes.begin(), codes.end(), codeOf(sampleOf(cell, corner)));
-      q[static_cast<size_t>(corner)] = samples[static_cast<size_t>(at - codes.begin())].q;
+      q[static_cast<size_t>(corner)] = samples[corners.placeOf(sampleOf(cell, corner))].q;
     }
     addLoops(cell, q);
-    sampled_.push_back(code);
   }
-  std::sort(sampled_.begin(), sampled_.end());
   index(first_loop);
 }
 
@@ -252,7 +228,7 @@ void SurfacePatch::index(size_t first_loop) {
   all.reserve(loops_.size());
   for (size_t i = 0; i < numbers_.size(); ++i) all.emplace_back(cells_[i], numbers_[i]);
   for (size_t i = first_loop; i < loops_.size(); ++i)
-    all.emplace_back(codeOf(loops_[i].cell), static_cast<uint32_t>(i));
+    all.emplace_back(CellSet::codeOf(loops_[i].cell), static_cast<uint32_t>(i));
   const auto fresh = all.begin() + static_cast<std::ptrdiff_t>(numbers_.size());
   // A body's loops come in this order.
   if (!std::is_sorted(fresh, all.end())) std::sort(fresh, all.end());

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/cell_set.h"
 #include "mesh/creases.h"
 #include "mesh/tables.h"
 
@@ -36,7 +37,7 @@ class SurfacePatch {
   uint32_t addVertex(const Vertex& vertex, const VertexKey& key);
   /// Samples those of the cells that the patch does not have, and appends their loops and vertices. A cell that reaches
   /// beyond the world has none. Each call invalidates what loopsOf() gave.
-  void addCells(std::span<const Int3> cells);
+  void addCells(const CellSet& cells);
 
   const ChunkGrid& grid() const { return grid_; }
   MeshPart& part() { return part_; }
@@ -64,7 +65,7 @@ class SurfacePatch {
   MeshPart part_;
   std::pmr::vector<SurfaceLoop> loops_;
   std::pmr::vector<uint32_t> cells_, numbers_;  ///< by loop, sorted by cell: the cell's code, the loop's number
-  std::pmr::vector<uint32_t> sampled_;          ///< codes of cells that were asked for, sorted
+  CellSet sampled_;                             ///< cells that were asked for
   EdgeNumbers outer_;                           ///< vertices that cells outside of the body may share, by edge
 };
 
