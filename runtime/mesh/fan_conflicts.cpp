@@ -82,6 +82,16 @@ class TriangleMaker {
  public:
   TriangleMaker(const SurfacePatch& patch, std::span<const SharpSide> sides) : patch_(patch), sides_(sides) {}
 
+  /// In 1/256 of a cell from the patch's origin. Precondition: the side has a place.
+  Int3 faceVertexAt(uint32_t s) const {
+    Int3 at = *sides_[s].place;
+    const ChunkGrid& grid = patch_.grid();
+    for (int k = 0; k < 3; ++k) {
+      at[k] += static_cast<int32_t>((int64_t{sides_[s].corner[k]} - grid.origin[k]) / grid.cell) * kSubcell;
+    }
+    return at;
+  }
+
   void addPlain(uint32_t number, Triangles& triangles) const {
     const SurfaceLoop& loop = patch_.loops()[number];
     for (uint32_t i = loop.first_index; i < loop.end_index; i += 3) {
@@ -118,74 +128,82 @@ class TriangleMaker {
     const Vertex& vertex = patch_.part().vertices[v];
     return {vertex.x, vertex.y, vertex.z};
   }
-  Int3 faceVertexAt(uint32_t s) const {
-    Int3 at = *sides_[s].place;
-    const ChunkGrid& grid = patch_.grid();
-    for (int k = 0; k < 3; ++k) {
-      at[k] += static_cast<int32_t>((int64_t{sides_[s].corner[k]} - grid.origin[k]) / grid.cell) * kSubcell;
-    }
-    return at;
-  }
-
   const SurfacePatch& patch_;
   std::span<const SharpSide> sides_;
 };
 
-/// The place of a loop of the patch among the sharp ones; kNoSide if it is not sharp.
-uint32_t findSharp(std::span<const SharpLoop> loops, uint32_t number) {
-  const auto at = std::lower_bound(loops.begin(), loops.end(), number,
-                                   [](const SharpLoop& loop, uint32_t n) { return loop.loop < n; });
-  return at != loops.end() && at->loop == number ? static_cast<uint32_t>(at - loops.begin()) : kNoSide;
-}
-
-/// The loops near each other: whose triangles may meet. A fan may reach less than a cell beyond its own, and so two of
-/// them may meet if their cells are two apart, but only if one reaches farther than half a cell.
+/// Where the features of loops may lie, and which loops may meet for them.
 class Neighbours {
  public:
   Neighbours(const SurfacePatch& patch, std::span<const SharpSide> sides, std::span<const SharpLoop> loops,
              std::pmr::memory_resource* memory)
-      : patch_(patch), far_(memory) {
-    for (const SharpLoop& loop : loops)
-      if (loop.centre && reachesFar(loop, sides)) far_.push_back(loop.loop);
+      : patch_(patch), sharp_(patch.loops().size(), kNoSide, memory), features_(memory) {
+    features_.reserve(loops.size());
+    for (const SharpLoop& loop : loops) {
+      sharp_[loop.loop] = static_cast<uint32_t>(features_.size());
+      features_.push_back(featuresOf(loop, sides));
+    }
   }
+
+  /// The place of a loop of the patch among the sharp ones; kNoSide if it is not sharp.
+  uint32_t placeOf(uint32_t loop) const { return sharp_[loop]; }
 
   /// Calls visit(number) for all loops that may meet a loop, but for the loop itself.
   template <class Visit>
   void visit(uint32_t loop, const Visit& visit) const {
-    const Int3 cell = patch_.loops()[loop].cell;
-    const bool is_far = std::binary_search(far_.begin(), far_.end(), loop);
-    const int32_t reach = is_far ? 2 : 1;
-    for (int32_t z = -reach; z <= reach; ++z)
-      for (int32_t y = -reach; y <= reach; ++y)
-        for (int32_t x = -reach; x <= reach; ++x)
-          for (const uint32_t other : patch_.loopsOf({cell.x + x, cell.y + y, cell.z + z}))
-            if (other != loop) visit(other);
-    if (is_far) return;
-    for (const uint32_t other : far_) {
-      const Int3& at = patch_.loops()[other].cell;
-      if (std::max({std::abs(at.x - cell.x), std::abs(at.y - cell.y), std::abs(at.z - cell.z)}) == 2) visit(other);
+    const Box own = boxOf(loop);
+    Int3 lo, hi;
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = (own.lo[k] - kMostOutside) >> 8;
+      hi[k] = (own.hi[k] + kMostOutside) >> 8;
     }
+    patch_.forLoops(lo, hi, [&](uint32_t other) {
+      if (other != loop && own.meets(boxOf(other)) && !isApart(loop, other)) visit(other);
+    });
   }
 
  private:
-  bool reachesFar(const SharpLoop& loop, std::span<const SharpSide> sides) const {
-    const auto isFar = [](const Int3& place) {
-      return std::min({place.x, place.y, place.z}) < -kSubcell / 2 + 1 ||
-             std::max({place.x, place.y, place.z}) > kSubcell + kSubcell / 2 - 1;
-    };
-    const Int3 corner = patch_.cornerOf(patch_.loops()[loop.loop].cell);
-    const auto isFarSpare = [&](const std::optional<Int3>& spare) { return spare && isFar(*spare); };
-    return isFar(*loop.centre) || isFarSpare(loop.spares[0]) || isFarSpare(loop.spares[1]) ||
-           std::any_of(loop.sides.begin(), loop.sides.end(), [&](uint32_t s) {
-             if (s == kNoSide || !sides[s].place) return false;
-             Int3 place = *sides[s].place;
-             for (int k = 0; k < 3; ++k) place[k] += (sides[s].corner[k] - corner[k]) / patch_.grid().cell * kSubcell;
-             return isFar(place);
-           });
+  Box featuresOf(const SharpLoop& loop, std::span<const SharpSide> sides) const {
+    Box box = Box::empty();
+    if (!loop.centre) return box;
+    const Int3& cell = patch_.loops()[loop.loop].cell;
+    for (const std::optional<Int3>& centre : {loop.centre, loop.spares[0], loop.spares[1]}) {
+      if (!centre) continue;
+      box.take({cell.x * kSubcell + centre->x, cell.y * kSubcell + centre->y, cell.z * kSubcell + centre->z});
+    }
+    const TriangleMaker maker(patch_, sides);
+    for (const uint32_t s : loop.sides)
+      if (s != kNoSide && sides[s].place) box.take(maker.faceVertexAt(s));
+    return box;
+  }
+  Box boxOf(uint32_t loop) const {
+    const Int3& cell = patch_.loops()[loop].cell;
+    Box box = sharp_[loop] == kNoSide ? Box::empty() : features_[sharp_[loop]];
+    box.take({cell.x * kSubcell, cell.y * kSubcell, cell.z * kSubcell});
+    box.take({(cell.x + 1) * kSubcell, (cell.y + 1) * kSubcell, (cell.z + 1) * kSubcell});
+    return box;
+  }
+  /// Whether a plane between the cells has the features of each loop strictly on its own side. In that plane both have
+  /// what plain loops have there, which meet as they should.
+  bool isApart(uint32_t a, uint32_t b) const {
+    const Int3 &at = patch_.loops()[a].cell, &other = patch_.loops()[b].cell;
+    for (int k = 0; k < 3; ++k) {
+      if (std::abs(at[k] - other[k]) != 1) continue;
+      const bool is_low = at[k] < other[k];
+      const int32_t plane = std::max(at[k], other[k]) * kSubcell;
+      if (isBeside(is_low ? a : b, k, plane, true) && isBeside(is_low ? b : a, k, plane, false)) return true;
+    }
+    return false;
+  }
+  bool isBeside(uint32_t loop, int axis, int32_t plane, bool below) const {
+    if (sharp_[loop] == kNoSide) return true;
+    const Box& box = features_[sharp_[loop]];
+    return below ? box.hi[axis] < plane : box.lo[axis] > plane;
   }
 
   const SurfacePatch& patch_;
-  std::pmr::vector<uint32_t> far_;  ///< numbers of the loops whose fans reach farther than half a cell, ascending
+  std::pmr::vector<uint32_t> sharp_;  ///< by loop
+  std::pmr::vector<Box> features_;    ///< by sharp loop, in 1/256 of a cell from the patch's origin
 };
 
 constexpr auto kAllVertices = [](const SharpSide&) { return 1u; };
@@ -217,16 +235,21 @@ bool anyMeets(const Triangles& first, const Triangles& second) {
 /// The triangles that loops have now, made when they are asked for.
 class PresentTriangles {
  public:
-  PresentTriangles(const SurfacePatch& patch, std::span<const SharpSide> sides, std::span<const SharpLoop> loops,
-                   std::pmr::memory_resource* memory)
-      : maker_(patch, sides), sides_(sides), loops_(loops), store_(memory), of_loop_(patch.loops().size(), memory) {}
+  PresentTriangles(const SurfacePatch& patch, const Neighbours& neighbours, std::span<const SharpSide> sides,
+                   std::span<const SharpLoop> loops, std::pmr::memory_resource* memory)
+      : maker_(patch, sides),
+        neighbours_(neighbours),
+        sides_(sides),
+        loops_(loops),
+        store_(memory),
+        of_loop_(patch.loops().size(), memory) {}
 
   /// Good until the next call of forget().
   const Triangles& of(uint32_t number) {
     std::optional<Triangles>& triangles = of_loop_[number];
     if (triangles) return *triangles;
     triangles.emplace(store_);
-    const uint32_t place = findSharp(loops_, number);
+    const uint32_t place = neighbours_.placeOf(number);
     if (place != kNoSide && isFan(loops_[place])) {
       maker_.addFan(
           loops_[place], [&](const SharpSide& side) { return hasVertex(side) ? 1u : 2u; }, *triangles);
@@ -246,6 +269,10 @@ class PresentTriangles {
   }
 
   static bool isFan(const SharpLoop& loop) { return loop.centre && !loop.rounded; }
+  bool hasAllVertices(const SharpLoop& loop) const {
+    return std::all_of(loop.sides.begin(), loop.sides.end(),
+                       [&](uint32_t s) { return s == kNoSide || !sides_[s].place || hasVertex(sides_[s]); });
+  }
 
  private:
   bool hasVertex(const SharpSide& side) const {
@@ -254,6 +281,7 @@ class PresentTriangles {
   }
 
   const TriangleMaker maker_;
+  const Neighbours& neighbours_;
   std::span<const SharpSide> sides_;
   std::span<const SharpLoop> loops_;
   std::pmr::vector<Possible> store_;
@@ -300,7 +328,7 @@ void FanConflicts::roundInAnyState(std::span<const uint32_t> numbers) {
     return false;
   };
   for (const uint32_t number : numbers) {
-    const uint32_t place = findSharp(loops_, number);
+    const uint32_t place = neighbours.placeOf(number);
     if (place == kNoSide || !loops_[place].centre) continue;
     SharpLoop& own = loops_[place];
     store.clear();
@@ -310,7 +338,7 @@ void FanConflicts::roundInAnyState(std::span<const uint32_t> numbers) {
     own.rounded = own.rounded || hasFault(fan);
     neighbours.visit(number, [&](uint32_t other_number) {
       if (own.rounded) return;
-      const uint32_t other_place = findSharp(loops_, other_number);
+      const uint32_t other_place = neighbours.placeOf(other_number);
       const SharpLoop* other = other_place == kNoSide ? nullptr : &loops_[other_place];
       own.rounded = meetsPlain(fan, other_number, other);
       if (other == nullptr || !other->centre) return;
@@ -327,15 +355,16 @@ void FanConflicts::roundInAnyState(std::span<const uint32_t> numbers) {
 
 void FanConflicts::roundUntilValid(std::span<const uint32_t> numbers) {
   const Neighbours neighbours(patch_, sides_, loops_, memory_);
-  PresentTriangles present(patch_, sides_, loops_, memory_);
+  PresentTriangles present(patch_, neighbours, sides_, loops_, memory_);
   std::pmr::vector<uint32_t> dirty(numbers.begin(), numbers.end(), memory_), changed(memory_);
   while (!dirty.empty()) {
     changed.clear();
     for (const uint32_t number : dirty) {
-      const uint32_t place = findSharp(loops_, number);
+      const uint32_t place = neighbours.placeOf(number);
       if (place == kNoSide || !PresentTriangles::isFan(loops_[place])) continue;
       const Triangles own = present.of(number);
-      bool faulty = hasFault(own);
+      // With all of its face vertices the fan is sound; some may be lost by now.
+      bool faulty = !present.hasAllVertices(loops_[place]) && hasFault(own);
       neighbours.visit(number, [&](uint32_t other) {
         if (!faulty) faulty = anyMeets(own, present.of(other));
       });

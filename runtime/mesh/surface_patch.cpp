@@ -53,6 +53,7 @@ SurfacePatch::SurfacePatch(const ChunkGrid& grid, const FieldSampler& field, std
       loops_(memory),
       cells_(memory),
       numbers_(memory),
+      row_starts_(memory),
       sampled_(memory),
       outer_(memory) {}
 
@@ -236,6 +237,9 @@ void SurfacePatch::index(size_t first_loop) {
   cells_.resize(all.size());
   numbers_.resize(all.size());
   for (size_t i = 0; i < all.size(); ++i) std::tie(cells_[i], numbers_[i]) = all[i];
+  row_starts_.assign(64 * 64 + 1, 0);
+  for (const uint32_t cell : cells_) ++row_starts_[(cell >> 6) + 1];
+  for (size_t row = 1; row < row_starts_.size(); ++row) row_starts_[row] += row_starts_[row - 1];
 }
 
 }  // namespace sgm

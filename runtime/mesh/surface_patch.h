@@ -45,6 +45,20 @@ class SurfacePatch {
   const std::pmr::vector<SurfaceLoop>& loops() const { return loops_; }
   /// Numbers of the loops of a cell.
   std::span<const uint32_t> loopsOf(const Int3& cell) const;
+  /// Calls visit(number) for the loops of all cells lo <= cell <= hi.
+  template <class Visit>
+  void forLoops(const Int3& lo, const Int3& hi, const Visit& visit) const {
+    for (int32_t z = lo.z; z <= hi.z; ++z) {
+      for (int32_t y = lo.y; y <= hi.y; ++y) {
+        const size_t row = CellSet::codeOf({-CellSet::kBelow, y, z}) >> 6;
+        for (uint32_t i = row_starts_[row]; i < row_starts_[row + 1]; ++i) {
+          if (cells_[i] < CellSet::codeOf({lo.x, y, z})) continue;
+          if (cells_[i] > CellSet::codeOf({hi.x, y, z})) break;
+          visit(numbers_[i]);
+        }
+      }
+    }
+  }
   /// In units. Precondition: the patch has loops there.
   Int3 cornerOf(const Int3& cell) const;
 
@@ -65,6 +79,7 @@ class SurfacePatch {
   MeshPart part_;
   std::pmr::vector<SurfaceLoop> loops_;
   std::pmr::vector<uint32_t> cells_, numbers_;  ///< by loop, sorted by cell: the cell's code, the loop's number
+  std::pmr::vector<uint32_t> row_starts_;       ///< in cells_, by the cells' y and z; one more at the end
   CellSet sampled_;                             ///< cells that were asked for
   EdgeNumbers outer_;                           ///< vertices that cells outside of the body may share, by edge
 };
