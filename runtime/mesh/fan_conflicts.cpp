@@ -209,9 +209,31 @@ class Neighbours {
 constexpr auto kAllVertices = [](const SharpSide&) { return 1u; };
 constexpr auto kEitherWay = [](const SharpSide&) { return 3u; };
 
+/// Whether a fan, seen along some axis, goes round its centre once, and always the same way: then no two of its
+/// triangles lie upon each other there. Most fans do.
+bool isSeenWhole(std::span<const Possible> fan) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int v = (axis + 2) % 3;
+    int turn = 0, rounds = 0;
+    bool same = true;
+    for (size_t i = 0; i < fan.size() && same; ++i) {
+      const auto& [centre, from, to] = fan[i].at;
+      const int own = IntegerSigns::orientationAlong(axis, centre, from, to);
+      same = own != 0 && (turn == 0 || own == turn);
+      turn = own;
+      // Both ways past a side that may have a face vertex are as long: one of them counts.
+      const bool is_other_way = fan[i].when == When::without && i + 1 < fan.size() && fan[i + 1].side == fan[i].side;
+      if (!is_other_way) rounds += from[v] < centre[v] && to[v] >= centre[v];
+    }
+    if (same && rounds == 1) return true;
+  }
+  return false;
+}
+
 /// Whether a triangle has no area or two meet wrongly, of those that one fan can have at one time.
 bool hasFault(const Triangles& fan) {
   const std::span<const Possible> all = fan.all();
+  if (isSeenWhole(all)) return false;
   for (size_t i = 0; i < all.size(); ++i) {
     if (!all[i].hasArea()) return true;
     for (size_t j = i + 1; j < all.size(); ++j) {
@@ -309,18 +331,21 @@ void FanConflicts::roundInAnyState(std::span<const uint32_t> numbers) {
     // Beside a loop that is no fan no side of it has a face vertex.
     return other.when != When::with || std::find(loop.sides.begin(), loop.sides.end(), other.side) == loop.sides.end();
   };
+  std::pmr::vector<std::optional<Triangles>> plains(patch_.loops().size(), memory_), fans(loops_.size(), memory_);
+  const auto fanOf = [&](uint32_t place) -> const Triangles& {
+    if (!fans[place]) maker.addFan(loops_[place], kEitherWay, fans[place].emplace(store));
+    return *fans[place];
+  };
   const auto meetsPlain = [&](const Triangles& fan, uint32_t number, const SharpLoop* other) {
-    Triangles plain(store);
-    maker.addPlain(number, plain);
+    if (!plains[number]) maker.addPlain(number, plains[number].emplace(store));
+    const Triangles& plain = *plains[number];
     if (!fan.box.meets(plain.box)) return false;
     for (const Possible& a : fan.all())
       for (const Possible& b : plain.all())
         if ((other == nullptr || hasPlain(*other, a)) && a.meets(b)) return true;
     return false;
   };
-  const auto meetsFan = [&](const Triangles& fan, const SharpLoop& other) {
-    Triangles second(store);
-    maker.addFan(other, kEitherWay, second);
+  const auto meetsFan = [&](const Triangles& fan, const Triangles& second) {
     if (!fan.box.meets(second.box)) return false;
     for (const Possible& a : fan.all())
       for (const Possible& b : second.all())
@@ -331,23 +356,23 @@ void FanConflicts::roundInAnyState(std::span<const uint32_t> numbers) {
     const uint32_t place = neighbours.placeOf(number);
     if (place == kNoSide || !loops_[place].centre) continue;
     SharpLoop& own = loops_[place];
-    store.clear();
-    // Triangles point into the store, which others are appended to.
-    Triangles fan(store);
-    maker.addFan(own, kEitherWay, fan);
+    const Triangles fan = fanOf(place);
     own.rounded = own.rounded || hasFault(fan);
     neighbours.visit(number, [&](uint32_t other_number) {
       if (own.rounded) return;
       const uint32_t other_place = neighbours.placeOf(other_number);
       const SharpLoop* other = other_place == kNoSide ? nullptr : &loops_[other_place];
       own.rounded = meetsPlain(fan, other_number, other);
-      if (other == nullptr || !other->centre) return;
+      if (own.rounded || other == nullptr || !other->centre) return;
+      own.rounded = meetsFan(fan, fanOf(other_place));
       // Within a chunk a loop may come to have a spare centre.
       SharpLoop state = *other;
-      for (const std::optional<Int3>& centre : {other->centre, other->spares[0], other->spares[1]}) {
-        if (own.rounded || !centre) return;
-        state.centre = centre;
-        own.rounded = meetsFan(fan, state);
+      for (const std::optional<Int3>& spare : other->spares) {
+        if (own.rounded || !spare) return;
+        state.centre = spare;
+        Triangles second(store);
+        maker.addFan(state, kEitherWay, second);
+        own.rounded = meetsFan(fan, second);
       }
     });
   }

@@ -243,6 +243,7 @@ void Features::placeCellVertices() {
       if (!place) continue;
       const FieldSample& sample = samples[next++];
       if (!creases_.isOnSurface(sample) || !looksOut(sharp, *place)) continue;
+      if (place == sharp.centre || place == sharp.spares[0]) continue;
       SharpLoop candidate = sharp;
       candidate.centre = place;
       if (!conflicts.isSound(candidate)) continue;

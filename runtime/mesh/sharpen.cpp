@@ -12,13 +12,24 @@ bool isAtBorder(const Int3& cell) {
   return std::min({cell.x, cell.y, cell.z}) == 0 || std::max({cell.x, cell.y, cell.z}) == kChunkCells - 1;
 }
 
-/// The cells beyond the chunk's faces that a cell touches.
+/// The cells beyond the chunk's faces with which a loop shares a sharp side.
 template <class Visit>
-void visitBeyond(const Int3& cell, const Visit& visit) {
+void visitBeyond(const SurfacePatch& patch, const Features& features, const SurfaceLoop& loop, const Visit& visit) {
+  const RawVector<VertexKey>& keys = patch.part().keys;
   for (int axis = 0; axis < 3; ++axis) {
-    Int3 beyond = cell;
-    if (cell[axis] == 0) --beyond[axis], visit(beyond);
-    if (cell[axis] == kChunkCells - 1) ++beyond[axis], visit(beyond);
+    for (const int32_t step : {-1, 1}) {
+      if (loop.cell[axis] != (step < 0 ? 0 : kChunkCells - 1)) continue;
+      const int32_t plane = patch.cornerOf(loop.cell)[axis] + (step < 0 ? 0 : patch.grid().cell);
+      const auto isInPlane = [&](uint32_t v) { return keys[v].axis != axis && keys[v].corner[axis] == plane; };
+      for (uint32_t i = 0; i < loop.count; ++i) {
+        const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count];
+        if (!isInPlane(a) || !isInPlane(b) || !features.creases().isSharp(a, b)) continue;
+        Int3 beyond = loop.cell;
+        beyond[axis] += step;
+        visit(beyond);
+        break;
+      }
+    }
   }
 }
 
@@ -141,7 +152,7 @@ uint32_t sharpenBody(const ChunkGrid& grid, const FieldSampler& field, MeshPart&
     if (!features.isSharp(loop)) continue;
     (isAtBorder(loop.cell) ? border : inner).push_back(number);
     if (isAtBorder(loop.cell)) around.addAround(loop.cell, kReach);
-    visitBeyond(loop.cell, [&](const Int3& cell) {
+    visitBeyond(patch, features, loop, [&](const Int3& cell) {
       beyond.push_back(cell);
       around.addAround(cell, kReach);
     });

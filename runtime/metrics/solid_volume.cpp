@@ -37,7 +37,7 @@ Result<double> borderFlux(const WorldField& world, Backend& backend, JobSystem& 
     ChunkRequest& request = requests.emplace_back(ChunkRequest{key, faces});
     request.outermost = true;
     request.sharp = sharp;
-    request.body = sharp;
+    request.body = false;
     request.keys = sharp;
     request.sums_only = !sharp;
   }
