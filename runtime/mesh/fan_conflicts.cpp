@@ -77,6 +77,32 @@ class Triangles {
   size_t first_, count_ = 0;
 };
 
+/// Triangles of loops, or of fans, by number; made when they are asked for.
+class MadeTriangles {
+ public:
+  MadeTriangles(size_t numbers, std::pmr::memory_resource* memory)
+      : at_(numbers, kNoSide, memory), made_(memory), store_(memory) {
+    constexpr size_t kSome = 512;
+    store_.reserve(kSome);
+  }
+
+  /// Calls make(triangles) the first time. Good until the next call.
+  template <class Make>
+  const Triangles& of(size_t number, const Make& make) {
+    if (at_[number] == kNoSide) {
+      at_[number] = static_cast<uint32_t>(made_.size());
+      make(made_.emplace_back(store_));
+    }
+    return made_[at_[number]];
+  }
+  void forget(size_t number) { at_[number] = kNoSide; }
+
+ private:
+  std::pmr::vector<uint32_t> at_;  ///< in made_
+  std::pmr::vector<Triangles> made_;
+  std::pmr::vector<Possible> store_;
+};
+
 /// Makes the triangles that loops can have.
 class TriangleMaker {
  public:
@@ -263,30 +289,27 @@ class PresentTriangles {
         neighbours_(neighbours),
         sides_(sides),
         loops_(loops),
-        store_(memory),
-        of_loop_(patch.loops().size(), memory) {}
+        made_(patch.loops().size(), memory) {}
 
-  /// Good until the next call of forget().
+  /// Good until the next call.
   const Triangles& of(uint32_t number) {
-    std::optional<Triangles>& triangles = of_loop_[number];
-    if (triangles) return *triangles;
-    triangles.emplace(store_);
-    const uint32_t place = neighbours_.placeOf(number);
-    if (place != kNoSide && isFan(loops_[place])) {
-      maker_.addFan(
-          loops_[place], [&](const SharpSide& side) { return hasVertex(side) ? 1u : 2u; }, *triangles);
-    } else {
-      maker_.addPlain(number, *triangles);
-    }
-    return *triangles;
+    return made_.of(number, [&](Triangles& triangles) {
+      const uint32_t place = neighbours_.placeOf(number);
+      if (place != kNoSide && isFan(loops_[place])) {
+        maker_.addFan(
+            loops_[place], [&](const SharpSide& side) { return hasVertex(side) ? 1u : 2u; }, triangles);
+      } else {
+        maker_.addPlain(number, triangles);
+      }
+    });
   }
   /// After a change of the loop.
   void forget(const SharpLoop& loop) {
-    of_loop_[loop.loop].reset();
+    made_.forget(loop.loop);
     for (const uint32_t s : loop.sides) {
       if (s == kNoSide) continue;
       for (const uint32_t other : sides_[s].loops)
-        if (other != kNoSide) of_loop_[loops_[other].loop].reset();
+        if (other != kNoSide) made_.forget(loops_[other].loop);
     }
   }
 
@@ -306,8 +329,7 @@ class PresentTriangles {
   const Neighbours& neighbours_;
   std::span<const SharpSide> sides_;
   std::span<const SharpLoop> loops_;
-  std::pmr::vector<Possible> store_;
-  std::pmr::vector<std::optional<Triangles>> of_loop_;
+  MadeTriangles made_;
 };
 
 }  // namespace
@@ -331,14 +353,12 @@ void FanConflicts::roundInAnyState(std::span<const uint32_t> numbers) {
     // Beside a loop that is no fan no side of it has a face vertex.
     return other.when != When::with || std::find(loop.sides.begin(), loop.sides.end(), other.side) == loop.sides.end();
   };
-  std::pmr::vector<std::optional<Triangles>> plains(patch_.loops().size(), memory_), fans(loops_.size(), memory_);
+  MadeTriangles plains(patch_.loops().size(), memory_), fans(loops_.size(), memory_);
   const auto fanOf = [&](uint32_t place) -> const Triangles& {
-    if (!fans[place]) maker.addFan(loops_[place], kEitherWay, fans[place].emplace(store));
-    return *fans[place];
+    return fans.of(place, [&](Triangles& fan) { maker.addFan(loops_[place], kEitherWay, fan); });
   };
   const auto meetsPlain = [&](const Triangles& fan, uint32_t number, const SharpLoop* other) {
-    if (!plains[number]) maker.addPlain(number, plains[number].emplace(store));
-    const Triangles& plain = *plains[number];
+    const Triangles& plain = plains.of(number, [&](Triangles& triangles) { maker.addPlain(number, triangles); });
     if (!fan.box.meets(plain.box)) return false;
     for (const Possible& a : fan.all())
       for (const Possible& b : plain.all())

@@ -252,7 +252,7 @@ void Features::placeCellVertices() {
   }
 }
 
-/// Whether all triangles about the place look out of the solid, or lie in the surface.
+/// Whether all triangles about the place look out of the solid, but for slivers, and together do.
 bool Features::looksOut(const SharpLoop& sharp, const Int3& centre) const {
   const SurfaceLoop& loop = of(sharp);
   const Int3 corner = patch_.cornerOf(loop.cell);
@@ -270,19 +270,18 @@ bool Features::looksOut(const SharpLoop& sharp, const Int3& centre) const {
     if (s == kNone || !sides_[s].place) continue;
     ring[count++] = {plus(between(corner, sides_[s].corner), unitsOf(*sides_[s].place, cell)), nullptr};
   }
+  double all = 0;
   for (size_t i = 0; i < count; ++i) {
     const Spoke &a = ring[i], &b = ring[(i + 1) % count];
     const Vector3 area = cross(minus(a.at, place), minus(b.at, place));
     Vector3 out{};
-    double off = 0;
-    for (const Tangent* t : {a.tangent, b.tangent}) {
-      if (t == nullptr) continue;
-      out = plus(out, t->normal);
-      off = std::max(off, std::fabs(dot(t->normal, minus(place, between(corner, t->point))) - t->distance));
-    }
-    if (dot(area, out) < -kFold * cell * cell && off > creases_.mostOffSurface()) return false;
+    for (const Tangent* t : {a.tangent, b.tangent})
+      if (t != nullptr) out = plus(out, t->normal);
+    const double outward = dot(area, out);
+    if (outward < -kFold * cell * cell) return false;
+    all += outward;
   }
-  return true;
+  return all > 0;
 }
 
 }  // namespace sgm
