@@ -25,6 +25,8 @@ if (($# == 0)); then
   [[ -e $root/build/release/runtime/cmake_install.cmake ]] ||
     die "build/release is not built: cmake --preset release && cmake --build --preset release, or name a PREFIX"
   quietly "installing build/release" cmake --install "$root/build/release" --prefix "$prefix" --component library
+  # The tests bake with the command.
+  quietly "installing the command" cmake --install "$root/build/release" --prefix "$prefix" --component command
 fi
 godot=$(bash "$here/get_godot.sh")
 
