@@ -64,7 +64,9 @@ Plan Planner::plan(PlanInput&& input) {
     if (step_ != nullptr) offered_.push_back(step_->to);
   }
   plan.step = step_;
+  awaited_ = step_ != nullptr;
   fillQueue(plan.queue);
+  awaited_ = awaited_ || !plan.queue.empty();
   stats_.drawn = applied_->drawn.size();
   stats_.edits_drawn = edits_drawn_;
   stats_.edits_failed = edits_failed_;
@@ -333,6 +335,7 @@ void Planner::request(const ChunkKey& key, int seams, Rank rank, std::vector<Wor
   KnownChunk& record = store_.at(key);
   record.wanted = plans_;
   const auto missing = static_cast<uint8_t>(seams & ~record.seams);
+  awaited_ = awaited_ || record.in_work;
   if (record.in_work || record.failed || (record.body && missing == 0)) return;
   if (record.queued == plans_) {
     uint8_t& faces = queue[record.queue_at].request.seams;

@@ -190,6 +190,7 @@ class Planner {
   bool postponed_ = false;          ///< edits found no room, and wait until less detail is drawn
   double room_beside_ = 0;          ///< the share of memory that this may take then
   uint64_t edits_failed_ = 0;       ///< a state that is not drawn: a chunk of it cannot be made
+  bool awaited_ = false;            ///< the last plan had a chunk to mesh, one in work or a step to be drawn
   bool changed_ = true;             ///< since the last step was looked for
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
   uint64_t freed_in_vain_ = 0;

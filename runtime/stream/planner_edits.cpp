@@ -22,6 +22,8 @@ void Planner::takeUpEdits(PlanInput& input) {
     giveEditsBack();
   }
   if (edits_drawn_ != edits_.number) return;
+  // Edits that came with every plan would put the first frame off for ever.
+  if (applied_->tree.empty() && awaited_) return;
   if (input.edits.number == edits_.number) postponed_ = false;
   if (input.edits.number == edits_.number || input.edits.number <= edits_failed_) return;
   if (postponed_ && canLowerDetail() &&
