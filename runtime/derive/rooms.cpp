@@ -98,7 +98,7 @@ FloorPlan Interpreter::floorPlan(const FloorPlanSizes& sizes, std::span<const do
 
 void Interpreter::treemap(const StmtNode& s, const Env& env, ShapeList& out) {
   const TreemapNode& node = program_.ast.treemaps[s.extra];
-  const PartNode* parts = &program_.ast.parts[s.parts.first];
+  const PartNode* parts = program_.ast.parts.data() + s.parts.first;
   FloorPlanSizes sizes;
   sizes.wall = inSteps(floorMeasure(node.wall, kTreemapWall, kWallRange, env));
   sizes.door = inSteps(floorMeasure(node.door, 0.9, kDoorRange, env));

@@ -168,7 +168,7 @@ void Interpreter::split(const StmtNode& s, const Env& env, ShapeList& out) {
 }
 
 void Interpreter::comp(const StmtNode& s, const Env& env, ShapeList& out) {
-  const PartNode* parts = &program_.ast.parts[s.parts.first];
+  const PartNode* parts = program_.ast.parts.data() + s.parts.first;
   const Vec3 edges = env.scope;
   const auto named = [&](BoxPart of) {
     return std::any_of(parts, parts + s.parts.count, [&](const PartNode& p) { return p.of == of; });

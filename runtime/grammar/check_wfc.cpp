@@ -119,7 +119,7 @@ void Checker::waveSides(const StmtNode& s) {
 void Checker::waveAnswers(const StmtNode& s) {
   if (sink_.errorCount() > 0) return;
   const WaveNode& wave = program_.ast.waves[s.extra];
-  const SideKind* kinds = &program_.ast.side_kinds[wave.kinds.first];
+  const SideKind* kinds = program_.ast.side_kinds.data() + wave.kinds.first;
   const auto turnsOf = [](const TileNode& tile, size_t side) { return tile.turns && side < kUpright ? kUpright : 1; };
   const auto turned = [](size_t side, size_t turn) { return side < kUpright ? (side + turn) % kUpright : side; };
   // A border that is not named meets anything, but is no answer: most places do not lie there.

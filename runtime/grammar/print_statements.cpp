@@ -273,12 +273,12 @@ bool LinePrinter::hasParts(const StmtNode& node) {
 }
 
 bool LinePrinter::opensGroup(const StmtNode& node, uint32_t i) const {
-  const PartNode* parts = &program_.ast.parts[node.parts.first];
+  const PartNode* parts = program_.ast.parts.data() + node.parts.first;
   return parts[i].repeated && (i == 0 || !parts[i - 1].repeated);
 }
 
 bool LinePrinter::closesGroup(const StmtNode& node, uint32_t i) const {
-  const PartNode* parts = &program_.ast.parts[node.parts.first];
+  const PartNode* parts = program_.ast.parts.data() + node.parts.first;
   return parts[i].repeated && (i + 1 == node.parts.count || !parts[i + 1].repeated);
 }
 

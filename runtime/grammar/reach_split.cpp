@@ -28,7 +28,7 @@ Extent ReachCheck::split(const StmtNode& s, RangeFrame& frame) {
   const size_t axis = s.extra;
   const IntervalVector scope = frame.scope;
   const Interval length = notBelow(scope[axis]);
-  const PartNode* parts = &program_.ast.parts[s.parts.first];
+  const PartNode* parts = program_.ast.parts.data() + s.parts.first;
   std::vector<Interval> sizes;
   Sums others, group;
   for (uint32_t i = 0; i < s.parts.count; ++i) {
