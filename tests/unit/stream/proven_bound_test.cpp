@@ -126,7 +126,8 @@ bool sameProgram(const FieldProgram& a, const FieldProgram& b) {
            x.result == y.result && x.cut == y.cut && x.guarded == y.guarded && x.smooth == y.smooth;
   };
   return a.params == b.params && a.instrs.size() == b.instrs.size() &&
-         std::memcmp(a.instrs.data(), b.instrs.data(), a.instrs.size() * sizeof(Instr)) == 0 &&
+         (a.instrs.empty() ||
+          std::memcmp(a.instrs.data(), b.instrs.data(), a.instrs.size() * sizeof(Instr)) == 0) &&
          std::equal(a.groups.begin(), a.groups.end(), b.groups.begin(), b.groups.end(), sameGroup);
 }
 
