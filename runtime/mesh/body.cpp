@@ -144,14 +144,14 @@ void polygonizeBody(const ChunkSamples& samples, const ChunkGrid& grid, MeshPart
         const uint8_t* loop = kCubeLoops + kCubeLoopStart[cell_case];
         const uint8_t* end = kCubeLoops + kCubeLoopStart[cell_case + 1];
         while (loop != end) {
-          const int n = *loop++;
-          next_index = triangulateLoop(n, next_index, [&](size_t i) -> LoopPoint {
+          const int length = *loop++;
+          next_index = triangulateLoop(length, next_index, [&](size_t i, int n) -> LoopPoint {
             const uint8_t e = loop[i];
             const uint32_t number = of_cell[offsets[e]];
             const Vertex& v = vertices[number];
             return {v.x, v.y, v.z, chordMask(kCubeEdgeFaces[e], e, n), number};
           });
-          loop += n;
+          loop += length;
         }
       }
     }

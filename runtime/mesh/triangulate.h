@@ -126,21 +126,21 @@ inline uint32_t* triangulateLoopOf(uint32_t* out, Load&& point) {
   return out + 3 * (N - 2);
 }
 
-/// triangulateAnyLoop by length. point(i) gives the i-th LoopPoint. 3 <= n <= kLongestCubeLoop.
+/// triangulateAnyLoop by length. point(i, n) gives the i-th LoopPoint of n, a constant. 3 <= n <= kLongestCubeLoop.
 template <class Load>
 inline uint32_t* triangulateLoop(int n, uint32_t* out, Load&& point) {
   switch (n) {
     case 3:
-      for (size_t i = 0; i < 3; ++i) out[i] = point(i).vertex;
+      for (size_t i = 0; i < 3; ++i) out[i] = point(i, 3).vertex;
       return out + 3;
     case 4:
-      return triangulateLoopOf<4>(out, point);
+      return triangulateLoopOf<4>(out, [&](size_t i) SGM_ALWAYS_INLINE { return point(i, 4); });
     case 5:
-      return triangulateLoopOf<5>(out, point);
+      return triangulateLoopOf<5>(out, [&](size_t i) SGM_ALWAYS_INLINE { return point(i, 5); });
     case 6:
-      return triangulateLoopOf<6>(out, point);
+      return triangulateLoopOf<6>(out, [&](size_t i) SGM_ALWAYS_INLINE { return point(i, 6); });
     default:
-      return triangulateLoopOf<7>(out, point);
+      return triangulateLoopOf<7>(out, [&](size_t i) SGM_ALWAYS_INLINE { return point(i, 7); });
   }
 }
 

@@ -25,7 +25,7 @@ struct Table {
   uint32_t* triangulate(const std::vector<LoopPoint>& points, uint32_t* out) const {
     const auto n = static_cast<int>(points.size());
     if (flat) return triangulateFlatLoop(points.data(), n, out);
-    return triangulateLoop(n, out, [&](size_t i) { return points[i]; });
+    return triangulateLoop(n, out, [&](size_t i, int) { return points[i]; });
   }
 };
 
