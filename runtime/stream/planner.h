@@ -191,6 +191,7 @@ class Planner {
   double room_beside_ = 0;          ///< the share of memory that this may take then
   uint64_t edits_failed_ = 0;       ///< a state that is not drawn: a chunk of it cannot be made
   bool awaited_ = false;            ///< the last plan had a chunk to mesh, one in work or a step to be drawn
+  bool edited_first_ = false;       ///< while the first frame was awaited, edits were taken up
   bool changed_ = true;             ///< since the last step was looked for
   uint64_t plans_ = 0, frames_ = 0, detail_settled_ = 0;
   uint64_t freed_in_vain_ = 0;

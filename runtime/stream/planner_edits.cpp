@@ -22,14 +22,16 @@ void Planner::takeUpEdits(PlanInput& input) {
     giveEditsBack();
   }
   if (edits_drawn_ != edits_.number) return;
-  // Edits that came with every plan would put the first frame off for ever.
-  if (applied_->tree.empty() && awaited_) return;
+  // The first frame has the first edits, so that they come soon; edits with every plan would put it off for ever.
+  const bool is_first = applied_->tree.empty() && awaited_;
+  if (is_first && edited_first_) return;
   if (input.edits.number == edits_.number) postponed_ = false;
   if (input.edits.number == edits_.number || input.edits.number <= edits_failed_) return;
   if (postponed_ && canLowerDetail() &&
       wanted_bytes_ > static_cast<size_t>(room_beside_ * static_cast<double>(settings_.mesh_bytes))) {
     return;
   }
+  edited_first_ = is_first;
   edits_before_ = std::move(edits_);
   edits_ = std::move(input.edits);
   store_.setEdits(edits_.number);
