@@ -12,7 +12,6 @@
 
 #include "base/plain_text.h"
 #include "measure/world_triangles.h"
-#include "mesh/feature_reach.h"
 
 namespace sgm::cli {
 namespace {
@@ -118,7 +117,6 @@ measure::Cut cutOf(const Region& region) {
     cut.low[axis] = static_cast<double>(region.meshed.extent.lo[axis] - origin) / kUnitsPerMetre;
     cut.high[axis] = static_cast<double>(region.meshed.extent.hi[axis] - origin) / kUnitsPerMetre;
   }
-  if (region.unsplit) cut.beside = mostOutside(region.cell);
   return cut;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "measure/area_volume.h"
 #include "measure/triangle_pair.h"
@@ -80,10 +79,7 @@ std::string_view nameOf(DefectKind kind) { return kNames[static_cast<size_t>(kin
 
 bool Cut::holds(Point a, Point b) const {
   for (int axis = 0; axis < 3; ++axis) {
-    for (const double face : {low[axis], high[axis]}) {
-      const double from_a = std::fabs(a[axis] - face), from_b = std::fabs(b[axis] - face);
-      if (std::min(from_a, from_b) == 0 && std::max(from_a, from_b) <= beside) return true;
-    }
+    if (a[axis] == b[axis] && (a[axis] == low[axis] || a[axis] == high[axis])) return true;
   }
   return false;
 }

@@ -37,10 +37,8 @@ struct DefectPlace {
 /// The box that a mesh was cut from: open edges in one of its faces are no holes.
 struct Cut {
   Point low, high;
-  /// How far the border of the mesh may leave a face between two points in it: 0, but for sharp features.
-  double beside = 0;
 
-  /// Whether an edge lies in one face of the box, or leaves one of its points for a place beside it.
+  /// Whether both lie in one face of it.
   bool holds(Point a, Point b) const;
 };
 

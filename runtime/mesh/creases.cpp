@@ -11,7 +11,8 @@ namespace {
 constexpr double kSharpCosine = 0.9;      // normals that differ by more than 26 degrees may belong to a feature
 constexpr double kOffSurface = 1.0 / 25;  // of a cell
 constexpr double kSlide = 1.0 / 128;      // of a cell
-constexpr double kOnCrease = 3.0 / 256;   // of a cell: nearer, triangles are slivers as thin as their rounding
+constexpr double kLeastSine = 0.05;      // of the angle between two lines in a face, for their meeting to be known well
+constexpr double kOnCrease = 3.0 / 256;  // of a cell: nearer, triangles are slivers as thin as their rounding
 
 Vector3 gradientOf(const FieldSample& s) { return {s.gradient[0], s.gradient[1], s.gradient[2]}; }
 
@@ -23,35 +24,35 @@ Vector3 directionOf(const FieldSample& s) {
   return n;
 }
 
+int16_t& coordinate(Vertex& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+}  // namespace
+
 Tangent tangentAt(const Int3& point, const FieldSample& s) {
   const Vector3 n = directionOf(s);
   const double steepness = dot(n, gradientOf(s));
   return {point, n, steepness > 0 ? -double{s.value} / steepness : 0};
 }
 
-int16_t& coordinate(Vertex& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-}  // namespace
-
 Creases::Creases(const ChunkGrid& grid, const FieldSampler& field, MeshPart& part, std::pmr::memory_resource* memory)
     : grid_(grid), field_(field), part_(part), memory_(memory), tangents_(memory), normals_(memory) {}
 
-void Creases::settle(std::span<const uint32_t> vertices) {
+void Creases::settle() {
   tangents_.resize(part_.vertices.size());
   normals_.resize(part_.vertices.size());
-  touch(vertices);
-  slide(vertices);
+  touch();
+  slide();
 }
 
-void Creases::touch(std::span<const uint32_t> vertices) {
+void Creases::touch() {
   std::pmr::vector<Int3> points(memory_);
-  points.reserve(vertices.size());
-  for (const uint32_t v : vertices) points.push_back(vertexUnits(grid_, part_.vertices[v]));
+  points.reserve(part_.vertices.size());
+  for (const Vertex& vertex : part_.vertices) points.push_back(vertexUnits(grid_, vertex));
   std::pmr::vector<FieldSample> samples(points.size(), memory_);
   field_(points, samples, Sampled::all);
   for (size_t i = 0; i < points.size(); ++i) {
-    tangents_[vertices[i]] = tangentAt(points[i], samples[i]);
-    normals_[vertices[i]] = unpackNormal(samples[i].normal_x, samples[i].normal_y);
+    tangents_[i] = tangentAt(points[i], samples[i]);
+    normals_[i] = unpackNormal(samples[i].normal_x, samples[i].normal_y);
   }
 }
 
@@ -74,9 +75,9 @@ std::pmr::vector<FieldSample> Creases::sampleEdges(std::span<const uint32_t> ver
 }
 
 /// Moves vertices that lie off the surface, on grid edges that pass through a crease, by bisection.
-void Creases::slide(std::span<const uint32_t> vertices) {
+void Creases::slide() {
   std::pmr::vector<uint32_t> off(memory_), moving(memory_);
-  for (const uint32_t v : vertices) {
+  for (uint32_t v = 0; v < tangents_.size(); ++v) {
     if (std::fabs(tangents_[v].distance) > kSlide * grid_.cell) off.push_back(v);
   }
   if (off.empty()) return;
@@ -131,14 +132,31 @@ Vector3 Creases::nearestOnCrease(uint32_t a, uint32_t b, const Int3& corner, con
   return {start[0] + step[0], start[1] + step[1], start[2] + step[2]};
 }
 
+std::optional<FacePoint> Creases::meetingInFace(uint32_t a, uint32_t b, const Int3& corner, int axis) const {
+  const auto u = static_cast<size_t>((axis + 1) % 3), v = static_cast<size_t>((axis + 2) % 3);
+  const auto lineOf = [&](const Tangent& t) {
+    return std::array<double, 3>{t.normal[u], t.normal[v], t.distance + dot(t.normal, between(corner, t.point))};
+  };
+  const std::array<double, 3> of_a = lineOf(tangents_[a]), of_b = lineOf(tangents_[b]);
+  const double sine = of_a[0] * of_b[1] - of_a[1] * of_b[0];
+  const double lengths = std::sqrt((of_a[0] * of_a[0] + of_a[1] * of_a[1]) * (of_b[0] * of_b[0] + of_b[1] * of_b[1]));
+  if (!(std::fabs(sine) > kLeastSine * lengths)) return std::nullopt;
+  return FacePoint{(of_a[2] * of_b[1] - of_a[1] * of_b[2]) / sine, (of_a[0] * of_b[2] - of_a[2] * of_b[0]) / sine};
+}
+
+Creases::Range Creases::rangeOn(int axis, const Int3& corner, int across) const {
+  const auto chunk = static_cast<int32_t>((int64_t{grid_.origin[axis]} - corner[axis]) / grid_.cell) * kSubcell;
+  return {std::max(-kMostOutside, chunk + 1),
+          std::min((axis == across ? 0 : kSubcell) + kMostOutside, chunk + kChunkCells * kSubcell - 1)};
+}
+
 std::optional<Int3> Creases::onGrid(const Int3& corner, const Vector3& units, int across) const {
   Int3 place;
   for (int k = 0; k < 3; ++k) {
     const double at = std::floor(units[static_cast<size_t>(k)] / grid_.cell * kSubcell + 0.5);
     if (!(at >= -kMostOutside && at <= (k == across ? 0 : kSubcell) + kMostOutside)) return std::nullopt;
-    place[k] = static_cast<int32_t>(at);
-    const int64_t point = int64_t{corner[k]} + localUnits(place[k], grid_.cell);
-    if (point != saturate(point)) return std::nullopt;
+    const Range range = rangeOn(k, corner, across);
+    place[k] = std::clamp(static_cast<int32_t>(at), range.least, range.most);
   }
   return place;
 }
@@ -146,22 +164,29 @@ std::optional<Int3> Creases::onGrid(const Int3& corner, const Vector3& units, in
 std::optional<Int3> Creases::onGridAlong(uint32_t a, uint32_t b, const Int3& corner, const Vector3& units,
                                          int across) const {
   const Vector3 along = cross(tangents_[a].normal, tangents_[b].normal);
-  // A little within the bounds, for onGrid's rounding.
-  const double beyond = (kMostOutside - 1) * (static_cast<double>(grid_.cell) / kSubcell);
+  const double step = static_cast<double>(grid_.cell) / kSubcell;
   double least = -1e30, most = 1e30;
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<size_t>(k);
-    const double lo = -beyond - units[axis], hi = (k == across ? 0 : grid_.cell) + beyond - units[axis];
+    const Range range = rangeOn(k, corner, across);
+    const double lo = range.least * step - units[axis], hi = range.most * step - units[axis];
     if (std::fabs(along[axis]) < 1e-6) {
-      if (lo > 0 || hi < 0) return std::nullopt;
+      // A crease along the border of the chunk may lie outside by 1/256, by which onGrid moves the place.
+      if (lo > step || hi < -step) return std::nullopt;
       continue;
     }
     least = std::max(least, (along[axis] > 0 ? lo : hi) / along[axis]);
     most = std::min(most, (along[axis] > 0 ? hi : lo) / along[axis]);
   }
   if (least > most) return std::nullopt;
-  const double step = std::clamp(0.0, least, most);
-  return onGrid(corner, {units[0] + step * along[0], units[1] + step * along[1], units[2] + step * along[2]}, across);
+  const double at = std::clamp(0.0, least, most);
+  Vector3 place;
+  for (size_t k = 0; k < 3; ++k) {
+    // For the rounding of the ends.
+    const double lo = -kMostOutside * step, hi = ((static_cast<int>(k) == across ? 0 : kSubcell) + kMostOutside) * step;
+    place[k] = std::clamp(units[k] + at * along[k], lo, hi);
+  }
+  return onGrid(corner, place, across);
 }
 
 Int3 Creases::sampledAt(const Int3& corner, const Int3& place) const {

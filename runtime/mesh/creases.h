@@ -5,10 +5,13 @@
 // crease, the straight line between the values at its ends misses the surface: the vertex slides along its edge to the
 // place at which the field changes sign, which depends on that edge alone.
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory_resource>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "mesh/chunk.h"
 #include "mesh/feature_reach.h"
@@ -36,20 +39,26 @@ struct Tangent {
   double distance = 0;
 };
 
+/// 0 as its normal where the field has no gradient.
+Tangent tangentAt(const Int3& point, const FieldSample& sample);
+
 /// From one point to another, exact.
 inline Vector3 between(const Int3& from, const Int3& to) {
   return {static_cast<double>(int64_t{to.x} - from.x), static_cast<double>(int64_t{to.y} - from.y),
           static_cast<double>(int64_t{to.z} - from.z)};
 }
 
+/// A point in a face: along u = (axis + 1) % 3 and v = (axis + 2) % 3 from the face's corner, in units.
+using FacePoint = std::array<double, 2>;
+
 /// The tangents of a part's vertices, which all lie on edges of the grid. Throws std::bad_alloc.
 class Creases {
  public:
-  /// Borrows all. part: may grow between calls.
+  /// Borrows all.
   Creases(const ChunkGrid& grid, const FieldSampler& field, MeshPart& part, std::pmr::memory_resource* memory);
 
-  /// Finds the tangents of these vertices, and slides them. Once for each vertex.
-  void settle(std::span<const uint32_t> vertices);
+  /// Finds the tangents of all vertices, and slides them. Once.
+  void settle();
   const Tangent& tangent(uint32_t vertex) const { return tangents_[vertex]; }
 
   /// Whether the normals of two settled vertices differ so far that a feature may lie between them, and neither lies on
@@ -59,22 +68,32 @@ class Creases {
   /// The place on the crease of two vertices that is nearest to `start`; both in units from `corner`.
   Vector3 nearestOnCrease(uint32_t a, uint32_t b, const Int3& corner, const Vector3& start) const;
 
+  /// Where the crease of two vertices meets the face across `axis` through `corner`; nullopt where that is not known
+  /// well.
+  std::optional<FacePoint> meetingInFace(uint32_t a, uint32_t b, const Int3& corner, int axis) const;
+
   /// A place in units from a corner of the grid, in 1/256 of a cell; nullopt if it lies farther than kMostOutside
-  /// beyond the corner's cell, or beyond its face across `across`, or outside of the world.
+  /// beyond the corner's cell, or beyond its face across `across`. A place beyond the chunk is moved to 1/256 within
+  /// it.
   std::optional<Int3> onGrid(const Int3& corner, const Vector3& units, int across = -1) const;
   /// As onGrid, of the point of two vertices' crease nearest to `units`, which lies on it, that is not too far beyond.
   std::optional<Int3> onGridAlong(uint32_t a, uint32_t b, const Int3& corner, const Vector3& units, int across) const;
   /// Where the field is sampled for such a place.
   Int3 sampledAt(const Int3& corner, const Int3& place) const;
-  /// Units. A unit is for sampling at whole ones.
+  /// In units: how far a point on the surface may seem to be off it, a unit of which is for sampling at whole units.
   double mostOffSurface() const;
   bool isOnSurface(const FieldSample& sample) const;
   /// From a corner to a vertex of the part, in units.
   Vector3 unitsFrom(const Int3& corner, uint32_t vertex) const;
 
  private:
-  void touch(std::span<const uint32_t> vertices);
-  void slide(std::span<const uint32_t> vertices);
+  /// Where places may lie on an axis.
+  struct Range {
+    int32_t least, most;
+  };
+  Range rangeOn(int axis, const Int3& corner, int across) const;
+  void touch();
+  void slide();
   Int3 pointOnEdge(uint32_t vertex, int32_t step) const;
   std::pmr::vector<FieldSample> sampleEdges(std::span<const uint32_t> vertices, std::span<const int32_t> steps,
                                             Sampled what = Sampled::all) const;

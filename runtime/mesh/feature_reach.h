@@ -8,16 +8,12 @@
 namespace sgm {
 
 /// How far a feature vertex may lie outside of its cell, or beyond its face, in 1/256 of a cell. A ridge with a right
-/// angle that no sample sees is up to sqrt(1/2) of a cell high. Below a whole cell, so that a fan never reaches a cell two
-/// cells away.
+/// angle that no sample sees is up to sqrt(1/2) of a cell high. Below a whole cell, so that a fan never reaches a cell
+/// two cells away.
 inline constexpr int32_t kMostOutside = 200;
-/// The same in metres. cell: units.
-inline constexpr double mostOutside(int32_t cell) { return metres(cell) * kMostOutside / kSubcell; }
 
-/// How many cells around a loop at a chunk's border decide about its fan (mesh/features.h).
-inline constexpr int32_t kReach = 3;
-
-/// How far from a chunk the field of a level with such cells is sampled for sharp features, in units.
-inline constexpr int64_t sharpReach(int64_t cell) { return (kReach + 1) * cell + 1; }
+/// How far from a chunk the field of a level with such cells is sampled for sharp features, in units: in the cells
+/// beside its faces, for the signs of their corners (mesh/border_vertices.h).
+inline constexpr int64_t sharpReach(int64_t cell) { return cell + 1; }
 
 }  // namespace sgm

@@ -1,29 +1,16 @@
 #include "mesh/features.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <utility>
 
+#include "mesh/border_vertices.h"
 #include "mesh/fan_conflicts.h"
 
 namespace sgm {
 namespace {
 
-/// Of a cell's face: what slivers may look away for their vertices' rounding to 1/256 of a cell.
+/// Of a cell's face: the area by which a sliver may look inward because its corners are rounded.
 constexpr double kFold = 0.02;
-
-/// The axis of the face that two edges of a cell share; -1 if they share none.
-int sharedFace(const VertexKey& a, const VertexKey& b) {
-  if (a.axis != b.axis) {
-    const int axis = 3 - a.axis - b.axis;
-    return a.corner[axis] == b.corner[axis] ? axis : -1;
-  }
-  const int first = (a.axis + 1) % 3, second = (a.axis + 2) % 3;
-  if (a.corner[first] == b.corner[first]) return first;
-  return a.corner[second] == b.corner[second] ? second : -1;
-}
-
-Int3 lowest(const Int3& a, const Int3& b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 
 Vector3 plus(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Vector3 times(const Vector3& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
@@ -33,36 +20,18 @@ Vector3 unitsOf(const Int3& place, int32_t cell) {
   return {place.x * step, place.y * step, place.z * step};
 }
 
-bool endsBefore(const SharpSide& a, const SharpSide& b) { return a.from != b.from ? a.from < b.from : a.to < b.to; }
-
 }  // namespace
 
-bool Features::hasFaceVertex(const SharpSide& side) const {
-  return side.place && std::all_of(side.loops.begin(), side.loops.end(), [&](uint32_t number) {
-           return number == kNone || (loops_[number].centre && !loops_[number].rounded);
-         });
-}
+Features::Features(const BodyLoops& body, const Creases& creases, const FieldSampler& field,
+                   std::pmr::memory_resource* memory)
+    : body_(body), creases_(creases), field_(field), memory_(memory), sharp_(body, memory) {}
 
-VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from) {
-  const int across = 3 - side.axis - from.axis;
-  const int of_face = from.axis * 2 + (from.corner[across] == side.corner[across] ? 0 : 1);
-  return {side.corner, from.level, static_cast<uint8_t>(kFaceVertex + side.axis), static_cast<uint8_t>(of_face)};
-}
-
-Features::Features(SurfacePatch& patch, const FieldSampler& field, std::pmr::memory_resource* memory)
-    : patch_(patch),
-      field_(field),
-      memory_(memory),
-      creases_(patch.grid(), field, patch.part(), memory),
-      sides_(memory),
-      loops_(memory) {}
-
-void Features::settle() {
-  std::pmr::vector<uint32_t> fresh(patch_.part().vertices.size() - settled_, memory_);
-  if (fresh.empty()) return;
-  std::iota(fresh.begin(), fresh.end(), settled_);
-  creases_.settle(fresh);
-  settled_ += static_cast<uint32_t>(fresh.size());
+SharpLoops Features::find() && {
+  findSides();
+  placeFaceVertices();
+  placeCellVertices();
+  roundUntilValid(sharp_, memory_);
+  return std::move(sharp_);
 }
 
 bool Features::isSharp(const SurfaceLoop& loop) const {
@@ -72,57 +41,40 @@ bool Features::isSharp(const SurfaceLoop& loop) const {
   return false;
 }
 
-void Features::find(std::span<const uint32_t> inner, std::span<const uint32_t> border) {
-  findSides();
-  placeFaceVertices();
-  placeCellVertices();
-  FanConflicts conflicts(patch_, sides_, loops_, memory_);
-  conflicts.roundInAnyState(border);
-  conflicts.roundUntilValid(inner);
-}
-
 void Features::findSides() {
-  const RawVector<VertexKey>& keys = patch_.part().keys;
-  const auto sideOf = [&](uint32_t a, uint32_t b) {
-    if (keys[b] < keys[a]) std::swap(a, b);
-    return SharpSide{a, b, lowest(keys[a].corner, keys[b].corner), sharedFace(keys[a], keys[b]), {kNone, kNone}, {}};
-  };
-  for (uint32_t number = 0; number < patch_.loops().size(); ++number) {
-    const SurfaceLoop& loop = patch_.loops()[number];
+  const RawVector<VertexKey>& keys = body_.part().keys;
+  const ChunkGrid& grid = body_.grid();
+  std::pmr::vector<SharpSide>& sides = sharp_.sides;
+  for (uint32_t number = 0; number < body_.all().size(); ++number) {
+    const SurfaceLoop& loop = body_.all()[number];
     if (!isSharp(loop)) continue;
-    loops_.push_back({number, {}, {}, {}, false});
+    sharp_.loops.emplace_back().loop = number;
     for (uint32_t i = 0; i < loop.count; ++i) {
       const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count];
-      if (creases_.isSharp(a, b)) sides_.push_back(sideOf(a, b));
+      if (!creases_.isSharp(a, b)) continue;
+      SharpSide& side = sides.emplace_back(sideBetween(a, b, keys));
+      const int64_t from_chunk = int64_t{side.corner[side.axis]} - grid.origin[side.axis];
+      side.at_border = from_chunk == 0 || from_chunk == int64_t{kChunkCells} * grid.cell;
     }
   }
-  std::sort(sides_.begin(), sides_.end(), endsBefore);
-  sides_.erase(std::unique(sides_.begin(), sides_.end(),
-                           [](const SharpSide& a, const SharpSide& b) { return a.from == b.from && a.to == b.to; }),
-               sides_.end());
-  for (uint32_t number = 0; number < loops_.size(); ++number) {
-    SharpLoop& sharp = loops_[number];
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end(),
+                          [](const SharpSide& a, const SharpSide& b) { return a.from == b.from && a.to == b.to; }),
+              sides.end());
+  for (uint32_t number = 0; number < sharp_.loops.size(); ++number) {
+    SharpLoop& sharp = sharp_.loops[number];
     const SurfaceLoop& loop = of(sharp);
     sharp.sides.fill(kNone);
     for (uint32_t i = 0; i < loop.count; ++i) {
-      const SharpSide* side = sideBetween(loop.vertices[i], loop.vertices[(i + 1) % loop.count]);
-      if (side == nullptr) continue;
-      const auto at = static_cast<size_t>(side - sides_.data());
-      sharp.sides[i] = static_cast<uint32_t>(at);
+      const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count];
+      if (!creases_.isSharp(a, b)) continue;
+      const auto side = std::lower_bound(sides.begin(), sides.end(), sideBetween(a, b, keys));
+      sharp.sides[i] = static_cast<uint32_t>(side - sides.begin());
       // The cell on the high side of the face has its corner in the face's plane.
-      const bool is_high = patch_.cornerOf(loop.cell)[side->axis] == side->corner[side->axis];
-      sides_[at].loops[is_high ? 1 : 0] = number;
+      const bool is_high = body_.cornerOf(loop.cell)[side->axis] == side->corner[side->axis];
+      side->loops[is_high ? 1 : 0] = number;
     }
   }
-}
-
-const SharpSide* Features::sideBetween(uint32_t a, uint32_t b) const {
-  const RawVector<VertexKey>& keys = patch_.part().keys;
-  SharpSide wanted{};
-  wanted.from = keys[b] < keys[a] ? b : a;
-  wanted.to = wanted.from == a ? b : a;
-  const auto at = std::lower_bound(sides_.begin(), sides_.end(), wanted, endsBefore);
-  return at != sides_.end() && at->from == wanted.from && at->to == wanted.to ? &*at : nullptr;
 }
 
 /// Of a loop in which several creases meet, the point nearest to its vertices' planes; in units from `corner`.
@@ -132,7 +84,7 @@ Vector3 Features::meetingPoint(const SharpLoop& sharp, const Int3& corner, std::
   double count = 0;
   for (const uint32_t s : sharp.sides) {
     if (s == kNone) continue;
-    middle = plus(middle, plus(between(corner, sides_[s].corner), ideals[s]));
+    middle = plus(middle, plus(between(corner, sharp_.sides[s].corner), ideals[s]));
     count += 1;
   }
   middle = times(middle, 1 / count);
@@ -147,28 +99,33 @@ Vector3 Features::meetingPoint(const SharpLoop& sharp, const Int3& corner, std::
 /// The mean of a side's own ideal place and the next places on its crease: those of the next sides of its loops, or the
 /// points in which the crease ends there. In units from the side's corner.
 Vector3 Features::meanOnCrease(const SharpSide& side, std::span<const Vector3> ideals) const {
-  const auto own = static_cast<uint32_t>(&side - sides_.data());
+  const auto own = static_cast<uint32_t>(&side - sharp_.sides.data());
   Vector3 sum = times(ideals[own], 2);
   for (const uint32_t number : side.loops) {
     uint32_t next = kNone, others = 0;
     for (size_t i = 0; number != kNone && i < kLongestCubeLoop; ++i) {
-      const uint32_t other = loops_[number].sides[i];
+      const uint32_t other = sharp_.loops[number].sides[i];
       if (other == kNone || other == own) continue;
       next = other;
       ++others;
     }
     // Where nothing follows the side's own place stands for it, so that two sides do not get one mean.
     sum = plus(sum, others == 0   ? ideals[own]
-                    : others == 1 ? plus(between(side.corner, sides_[next].corner), ideals[next])
-                                  : meetingPoint(loops_[number], side.corner, ideals));
+                    : others == 1 ? plus(between(side.corner, sharp_.sides[next].corner), ideals[next])
+                                  : meetingPoint(sharp_.loops[number], side.corner, ideals));
   }
   return times(sum, 0.25);
 }
 
 void Features::placeFaceVertices() {
+  placeBorderVertices(body_.grid(), field_, creases_, body_.part().keys, sharp_.sides, memory_);
   std::pmr::vector<Vector3> ideals(memory_);
-  ideals.reserve(sides_.size());
-  for (const SharpSide& side : sides_) {
+  ideals.reserve(sharp_.sides.size());
+  for (const SharpSide& side : sharp_.sides) {
+    if (side.at_border && side.place) {
+      ideals.push_back(unitsOf(*side.place, body_.grid().cell));
+      continue;
+    }
     const Vector3 a = between(side.corner, creases_.tangent(side.from).point);
     const Vector3 b = between(side.corner, creases_.tangent(side.to).point);
     ideals.push_back(creases_.nearestOnCrease(side.from, side.to, side.corner, times(plus(a, b), 0.5)));
@@ -179,8 +136,9 @@ void Features::placeFaceVertices() {
   };
   std::pmr::vector<Choice> choices(memory_);  // best first, side by side
   std::pmr::vector<Int3> points(memory_);
-  for (size_t s = 0; s < sides_.size(); ++s) {
-    const SharpSide& side = sides_[s];
+  for (size_t s = 0; s < sharp_.sides.size(); ++s) {
+    const SharpSide& side = sharp_.sides[s];
+    if (side.at_border) continue;
     const auto add = [&](const Vector3& units) {
       const Vector3 on_crease = creases_.nearestOnCrease(side.from, side.to, side.corner, units);
       const std::optional<Int3> place = creases_.onGridAlong(side.from, side.to, side.corner, on_crease, side.axis);
@@ -194,70 +152,100 @@ void Features::placeFaceVertices() {
   std::pmr::vector<FieldSample> samples(points.size(), memory_);
   if (!points.empty()) field_(points, samples, Sampled::all);
   for (size_t i = 0; i < choices.size(); ++i) {
-    SharpSide& side = sides_[choices[i].side];
+    SharpSide& side = sharp_.sides[choices[i].side];
     if (!side.place && creases_.isOnSurface(samples[i])) side.place = choices[i].place;
   }
 }
 
+/// The places for the centre of a loop's fan, best first.
+Features::Centres Features::centresOf(const SharpLoop& sharp) const {
+  Centres centres;
+  const SurfaceLoop& loop = of(sharp);
+  const Int3 corner = body_.cornerOf(loop.cell);
+  Vector3 all{}, features{};
+  double feature_count = 0;
+  for (uint32_t i = 0; i < loop.count; ++i) {
+    all = plus(all, creases_.unitsFrom(corner, loop.vertices[i]));
+    const uint32_t s = sharp.sides[i];
+    if (s == kNone || !sharp_.sides[s].place) continue;
+    features = plus(features,
+                    plus(between(corner, sharp_.sides[s].corner), unitsOf(*sharp_.sides[s].place, body_.grid().cell)));
+    feature_count += 1;
+  }
+  if (feature_count == 0) return centres;
+  const Vector3 middle = feature_count > 1 ? times(features, 1 / feature_count)
+                                           : times(plus(all, features), 1 / (feature_count + loop.count));
+  const auto add = [&](const Vector3& units) {
+    const std::optional<Int3> place = creases_.onGrid(corner, units);
+    if (!place) return;
+    Int3 at = *place;
+    for (int k = 0; k < 3; ++k) at[k] += loop.cell[k] * kSubcell;
+    centres.add({at});
+  };
+  PlaneSum planes;
+  const auto take = [&](const Tangent& t) {
+    planes.add(t.normal, t.distance + dot(t.normal, minus(between(corner, t.point), middle)));
+  };
+  for (uint32_t i = 0; i < loop.count; ++i) take(creases_.tangent(loop.vertices[i]));
+  const PlaneAxes axes(planes);
+  bool has_third = false;
+  for (const uint32_t s : sharp.sides) {
+    if (s == kNone || !sharp_.sides[s].third) continue;
+    take(*sharp_.sides[s].third);
+    has_third = true;
+  }
+  if (has_third) add(plus(middle, PlaneAxes(planes).step(3)));
+  add(plus(middle, axes.step(3)));
+  for (const uint32_t s : sharp.sides) {
+    if (s == kNone || !sharp_.sides[s].at_border || !sharp_.sides[s].place) continue;
+    centres.add({sharp_.faceVertexAt(sharp_.sides[s]), s});
+  }
+  add(plus(middle, axes.step(2)));
+  add(middle);
+  return centres;
+}
+
 void Features::placeCellVertices() {
-  constexpr size_t kChoices = 3;
-  std::pmr::vector<std::array<std::optional<Int3>, kChoices>> choices(loops_.size(), memory_);
+  std::pmr::vector<Centres> centres(memory_);
   std::pmr::vector<Int3> points(memory_);
-  const int32_t cell = patch_.grid().cell;
-  for (size_t number = 0; number < loops_.size(); ++number) {
-    const SurfaceLoop& loop = of(loops_[number]);
-    const Int3 corner = patch_.cornerOf(loop.cell);
-    Vector3 all{}, features{};
-    double feature_count = 0;
-    for (uint32_t i = 0; i < loop.count; ++i) {
-      all = plus(all, creases_.unitsFrom(corner, loop.vertices[i]));
-      const uint32_t s = loops_[number].sides[i];
-      if (s == kNone || !sides_[s].place) continue;
-      features = plus(features, plus(between(corner, sides_[s].corner), unitsOf(*sides_[s].place, cell)));
-      feature_count += 1;
-    }
-    if (feature_count == 0) continue;
-    const Vector3 middle = feature_count > 1 ? times(features, 1 / feature_count)
-                                             : times(plus(all, features), 1 / (feature_count + loop.count));
-    PlaneSum planes;
-    for (uint32_t i = 0; i < loop.count; ++i) {
-      const Tangent& t = creases_.tangent(loop.vertices[i]);
-      planes.add(t.normal, t.distance + dot(t.normal, minus(between(corner, t.point), middle)));
-    }
-    const PlaneAxes axes(planes);
-    for (size_t choice = 0; choice + 1 < kChoices; ++choice) {
-      choices[number][choice] = creases_.onGrid(corner, plus(middle, axes.step(3 - choice)));
-    }
-    choices[number][kChoices - 1] = creases_.onGrid(corner, middle);
-    for (const std::optional<Int3>& place : choices[number]) {
-      if (place) points.push_back(creases_.sampledAt(corner, *place));
+  centres.reserve(sharp_.loops.size());
+  for (const SharpLoop& sharp : sharp_.loops) {
+    for (const FanCentre& centre : centres.emplace_back(centresOf(sharp)).all()) {
+      points.push_back(creases_.sampledAt(body_.grid().origin, centre.at));
     }
   }
   std::pmr::vector<FieldSample> samples(points.size(), memory_);
   if (!points.empty()) field_(points, samples, Sampled::all);
-  const FanConflicts conflicts(patch_, sides_, loops_, memory_);
   size_t next = 0;
-  for (size_t number = 0; number < loops_.size(); ++number) {
-    SharpLoop& sharp = loops_[number];
-    for (const std::optional<Int3>& place : choices[number]) {
-      if (!place) continue;
+  for (size_t number = 0; number < sharp_.loops.size(); ++number) {
+    SharpLoop& sharp = sharp_.loops[number];
+    for (const FanCentre& centre : centres[number].all()) {
       const FieldSample& sample = samples[next++];
-      if (!creases_.isOnSurface(sample) || !looksOut(sharp, *place)) continue;
-      if (place == sharp.centre || place == sharp.spares[0]) continue;
-      SharpLoop candidate = sharp;
-      candidate.centre = place;
-      if (!conflicts.isSound(candidate)) continue;
-      (!sharp.centre ? sharp.centre : !sharp.spares[0] ? sharp.spares[0] : sharp.spares[1]) = place;
+      const bool is_fan = sharp.isFan();
+      if (sharp.spares[1] || !creases_.isOnSurface(sample) || !looksOut(sharp, centre)) continue;
+      if ((is_fan && centre == sharp.centre) || centre == sharp.spares[0]) continue;
+      if (!isSoundFan(sharp_, sharp, centre)) {
+        if (!is_fan) sharp.shape = SharpLoop::Shape::rounded;
+        continue;
+      }
+      if (is_fan) {
+        (sharp.spares[0] ? sharp.spares[1] : sharp.spares[0]) = centre;
+      } else {
+        sharp.shape = SharpLoop::Shape::fan;
+        sharp.centre = centre;
+      }
     }
   }
 }
 
 /// Whether all triangles about the place look out of the solid, but for slivers, and together do.
-bool Features::looksOut(const SharpLoop& sharp, const Int3& centre) const {
+bool Features::looksOut(const SharpLoop& sharp, const FanCentre& centre) const {
   const SurfaceLoop& loop = of(sharp);
-  const Int3 corner = patch_.cornerOf(loop.cell);
-  const int32_t cell = patch_.grid().cell;
-  const Vector3 place = unitsOf(centre, cell);
+  const Int3 corner = body_.cornerOf(loop.cell);
+  const int32_t cell = body_.grid().cell;
+  Int3 from_cell = centre.at;
+  for (int k = 0; k < 3; ++k) from_cell[k] -= loop.cell[k] * kSubcell;
+  const Vector3 place = unitsOf(from_cell, cell);
   struct Spoke {
     Vector3 at;
     const Tangent* tangent;
@@ -267,8 +255,8 @@ bool Features::looksOut(const SharpLoop& sharp, const Int3& centre) const {
   for (uint32_t i = 0; i < loop.count; ++i) {
     ring[count++] = {creases_.unitsFrom(corner, loop.vertices[i]), &creases_.tangent(loop.vertices[i])};
     const uint32_t s = sharp.sides[i];
-    if (s == kNone || !sides_[s].place) continue;
-    ring[count++] = {plus(between(corner, sides_[s].corner), unitsOf(*sides_[s].place, cell)), nullptr};
+    if (s == kNone || !sharp_.sides[s].place) continue;
+    ring[count++] = {plus(between(corner, sharp_.sides[s].corner), unitsOf(*sharp_.sides[s].place, cell)), nullptr};
   }
   double all = 0;
   for (size_t i = 0; i < count; ++i) {

@@ -2,28 +2,27 @@
 // Edges and corners of a chunk, which marching cubes cuts off: the features of mesh/features.h, put into a body or
 // seam.
 //
-// A loop with face vertices becomes a fan about its cell vertex. All other triangles stay as they are. A seam takes up
-// the face vertices of both levels that it joins: the triangles at those sides are divided. So a closed surface stays
-// closed, and manifold.
+// A loop with face vertices becomes a fan (mesh/sharp_loops.h). All other loops keep their triangles. A seam takes up
+// the face vertices of both levels that it joins, which lie in its face: the triangles at those sides are divided. So a
+// closed surface stays closed, and manifold.
 
 #include "mesh/creases.h"
-#include "mesh/features.h"
 
 namespace sgm {
 
 /// Adds feature vertices behind the others, and hashes the part anew. A feature vertex lies at most 1/25 cell and a
-/// unit off the surface, and less than half a cell outside of its cell, or of the cells of its face. No triangle has
-/// two corners in one place, none meets another one of the level wrongly (mesh/triangle_faults.h): a loop for which a
-/// fan would is rounded, as it is without sharp features. Returns the number of rounded loops.
+/// unit off the surface, and less than a cell outside of its cell, or of the cells of its face; but the centre of a
+/// rounded loop that has face vertices in a face of the chunk lies anywhere in its cell. No feature vertex lies beyond
+/// the chunk. No triangle has two corners in one place, none meets another one of the level wrongly
+/// (mesh/triangle_faults.h): a loop for which a fan would is rounded. Returns the number of rounded loops.
 ///
 /// Pure: the same bytes for the same part and field, with doubles and + - * / sqrt alone. The field is sampled up to
-/// kReach + 1 cells and a unit beyond the chunk. Throws std::bad_alloc.
+/// sharpReach() beyond the chunk. grid: of a chunk, whose origin is a multiple of 32 cells. Throws std::bad_alloc.
 uint32_t sharpenBody(const ChunkGrid& grid, const FieldSampler& field, MeshPart& body,
                      std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// As sharpenBody, of the seam over a face: with the face vertices that the bodies on both sides of it have. coarser:
-/// the field of the level above, sampled up to kReach + 1 of its cells and a unit beyond the
-/// face.
+/// As sharpenBody, of the seam over a face: with the face vertices that the bodies on both sides of it have there.
+/// coarser: the field of the level above, sampled up to sharpReach() of its cells beyond the face.
 void sharpenSeam(const ChunkGrid& grid, Face face, const FieldSampler& field, const FieldSampler& coarser,
                  MeshPart& seam, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 

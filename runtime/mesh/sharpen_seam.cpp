@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "mesh/border_vertices.h"
 #include "mesh/feature_kind.h"
 #include "mesh/hash.h"
 #include "mesh/sharpen.h"
@@ -8,20 +9,7 @@
 namespace sgm {
 namespace {
 
-constexpr uint32_t kNoMiddle = Features::kNone;
-
-/// The lowest corner of the square across `axis` whose edges these are; nullopt if they share no square.
-std::optional<Int3> sharedSquare(const VertexKey& a, const VertexKey& b, int axis, int32_t cell) {
-  Int3 corner;
-  for (int k = 0; k < 3; ++k) corner[k] = std::min(a.corner[k], b.corner[k]);
-  for (const VertexKey* key : {&a, &b}) {
-    if (key->corner[axis] != corner[axis]) return std::nullopt;
-    const int across = 3 - axis - key->axis;
-    if (key->corner[key->axis] != corner[key->axis]) return std::nullopt;
-    if (key->corner[across] != corner[across] && key->corner[across] != corner[across] + cell) return std::nullopt;
-  }
-  return corner;
-}
+constexpr uint32_t kNoMiddle = SharpSide::kNone;
 
 /// The triangles of a polygon whose corners are a triangle's and, behind each, perhaps the middle of its side.
 void divide(const std::array<uint32_t, 3>& corners, const std::array<uint32_t, 3>& middles,
@@ -47,85 +35,88 @@ class LevelOfSeam {
               std::pmr::memory_resource* memory)
       : chunk_(chunk),
         scale_(level - chunk.level),
-        kind_(level == chunk.level ? kOwnEdge : kCoarserEdge),
-        face_(face),
+        grid_{chunk.origin, chunk.cell << scale_, level},
+        axis_(faceAxis(face)),
+        field_(field),
         seam_(seam),
-        patch_({chunk.origin, chunk.cell << scale_, level}, field, memory),
-        features_(patch_, field, memory),
+        part_(memory),
+        creases_(grid_, field, part_, memory),
         of_seam_(memory),
-        in_patch_(seam.vertices.size(), kNoMiddle, memory),
+        in_part_(seam.vertices.size(), kNoMiddle, memory),
+        sides_(memory),
         middles_(memory),
         memory_(memory) {}
 
   /// Finds the face vertices of the seam's sides of this level, slides its vertices, and appends what there is.
   void addFaceVertices(size_t triangles_end) {
-    for (uint32_t v = 0; v < in_patch_.size(); ++v) {
-      if (seam_.vertices[v].kind != kind_) continue;
-      Vertex vertex = seam_.vertices[v];
-      vertex.x = static_cast<int16_t>(vertex.x >> scale_);
-      vertex.y = static_cast<int16_t>(vertex.y >> scale_);
-      vertex.z = static_cast<int16_t>(vertex.z >> scale_);
-      in_patch_[v] = patch_.addVertex(vertex, seam_.keys[v]);
-      of_seam_.push_back(v);
-    }
+    takeVertices();
     if (of_seam_.empty()) return;
-    features_.settle();
-    std::pmr::vector<Int3> beside(memory_);
-    CellSet around(memory_);
-    for (size_t i = 0; i < triangles_end; ++i) {
-      const uint32_t a = seam_.indices[i], b = seam_.indices[i % 3 == 2 ? i - 2 : i + 1];
-      if (in_patch_[a] == kNoMiddle || in_patch_[b] == kNoMiddle) continue;
-      if (!features_.creases().isSharp(in_patch_[a], in_patch_[b])) continue;
-      // Both levels' squares have sides; diagonals lie in none of them.
-      const std::optional<Int3> square = sharedSquare(seam_.keys[a], seam_.keys[b], axis(), patch_.grid().cell);
-      if (!square) continue;
-      Int3 high;
-      for (int k = 0; k < 3; ++k) high[k] = ((*square)[k] - chunk_.origin[k]) / patch_.grid().cell;
-      Int3 low = high;
-      --low[axis()];
-      for (const Int3& cell : {low, high}) {
-        beside.push_back(cell);
-        around.addAround(cell, kReach);
-      }
-    }
-    if (!beside.empty()) {
-      patch_.addCells(around);
-      features_.settle();
-      features_.find({}, loopsIn(beside));
-      append();
-    }
+    creases_.settle();
+    findSides(triangles_end);
+    placeBorderVertices(grid_, field_, creases_, part_.keys, sides_, memory_);
     takeSlides();
+    append();
   }
 
   /// The face vertex between two of the seam's vertices; kNoMiddle if there is none.
   uint32_t middleOf(uint32_t a, uint32_t b) const {
-    if (in_patch_[a] == kNoMiddle || in_patch_[b] == kNoMiddle || middles_.empty()) return kNoMiddle;
-    const SharpSide* side = features_.sideBetween(in_patch_[a], in_patch_[b]);
-    return side == nullptr ? kNoMiddle : middles_[static_cast<size_t>(side - features_.sides().data())];
+    if (in_part_[a] == kNoMiddle || in_part_[b] == kNoMiddle) return kNoMiddle;
+    const SharpSide wanted = sideBetween(in_part_[a], in_part_[b], part_.keys);
+    const auto side = std::lower_bound(sides_.begin(), sides_.end(), wanted);
+    return side == sides_.end() || wanted < *side ? kNoMiddle : middles_[static_cast<size_t>(side - sides_.begin())];
   }
 
  private:
-  int axis() const { return faceAxis(face_); }
-
-  std::pmr::vector<uint32_t> loopsIn(const std::pmr::vector<Int3>& cells) const {
-    std::pmr::vector<uint32_t> numbers(memory_);
-    for (const Int3& cell : cells) {
-      const std::span<const uint32_t> loops = patch_.loopsOf(cell);
-      numbers.insert(numbers.end(), loops.begin(), loops.end());
+  void takeVertices() {
+    const uint16_t kind = scale_ == 0 ? kOwnEdge : kCoarserEdge;
+    for (uint32_t v = 0; v < in_part_.size(); ++v) {
+      if (seam_.vertices[v].kind != kind) continue;
+      Vertex vertex = seam_.vertices[v];
+      vertex.x = static_cast<int16_t>(vertex.x >> scale_);
+      vertex.y = static_cast<int16_t>(vertex.y >> scale_);
+      vertex.z = static_cast<int16_t>(vertex.z >> scale_);
+      in_part_[v] = static_cast<uint32_t>(of_seam_.size());
+      of_seam_.push_back(v);
+      part_.vertices.push_back(vertex);
+      part_.keys.push_back(seam_.keys[v]);
     }
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-    return numbers;
   }
 
-  /// Only face vertices between two vertices of the seam.
+  void findSides(size_t triangles_end) {
+    for (size_t i = 0; i < triangles_end; ++i) {
+      const uint32_t a = in_part_[seam_.indices[i]], b = in_part_[seam_.indices[i % 3 == 2 ? i - 2 : i + 1]];
+      if (a == kNoMiddle || b == kNoMiddle || !creases_.isSharp(a, b)) continue;
+      // Both levels' squares have sides; diagonals lie in none of them.
+      if (!shareSquare(part_.keys[a], part_.keys[b])) continue;
+      sides_.push_back(sideBetween(a, b, part_.keys));
+      sides_.back().axis = axis_;
+      sides_.back().at_border = true;
+    }
+    std::sort(sides_.begin(), sides_.end());
+    sides_.erase(std::unique(sides_.begin(), sides_.end(),
+                             [](const SharpSide& a, const SharpSide& b) { return a.from == b.from && a.to == b.to; }),
+                 sides_.end());
+  }
+
+  /// Whether these are edges of one square in the seam's face.
+  bool shareSquare(const VertexKey& a, const VertexKey& b) const {
+    Int3 corner;
+    for (int k = 0; k < 3; ++k) corner[k] = std::min(a.corner[k], b.corner[k]);
+    for (const VertexKey* key : {&a, &b}) {
+      const int across = 3 - axis_ - key->axis;
+      if (key->corner[axis_] != corner[axis_] || key->corner[key->axis] != corner[key->axis]) return false;
+      if (key->corner[across] != corner[across] && key->corner[across] != corner[across] + grid_.cell) return false;
+    }
+    return true;
+  }
+
   void append() {
-    middles_.assign(features_.sides().size(), kNoMiddle);
+    middles_.assign(sides_.size(), kNoMiddle);
     for (size_t s = 0; s < middles_.size(); ++s) {
-      const SharpSide& side = features_.sides()[s];
-      if (std::max(side.from, side.to) >= of_seam_.size() || !features_.hasFaceVertex(side)) continue;
-      const VertexKey key = faceVertexKey(side, patch_.part().keys[side.from]);
-      Vertex vertex = patch_.part().vertices[side.from];
+      const SharpSide& side = sides_[s];
+      if (!side.place) continue;
+      const VertexKey key = faceVertexKey(side, part_.keys[side.from]);
+      Vertex vertex = seam_.vertices[of_seam_[side.from]];
       const auto at = [&](int k) {
         const int32_t from = (key.corner[k] - chunk_.origin[k]) / chunk_.cell * kSubcell;
         return static_cast<int16_t>(from + (*side.place)[k] * (1 << scale_));
@@ -142,7 +133,7 @@ class LevelOfSeam {
 
   void takeSlides() {
     for (uint32_t i = 0; i < of_seam_.size(); ++i) {
-      const Vertex& settled = patch_.part().vertices[i];
+      const Vertex& settled = part_.vertices[i];
       Vertex& vertex = seam_.vertices[of_seam_[i]];
       vertex.x = static_cast<int16_t>(settled.x * (1 << scale_));
       vertex.y = static_cast<int16_t>(settled.y * (1 << scale_));
@@ -154,14 +145,16 @@ class LevelOfSeam {
 
   const ChunkGrid chunk_;
   const int scale_;  ///< levels above the chunk's
-  const uint16_t kind_;
-  const Face face_;
+  const ChunkGrid grid_;
+  const int axis_;
+  const FieldSampler& field_;
   MeshPart& seam_;
-  SurfacePatch patch_;
-  Features features_;
-  std::pmr::vector<uint32_t> of_seam_;   ///< the seam's vertices of this level, which are the patch's first ones
-  std::pmr::vector<uint32_t> in_patch_;  ///< by the seam's vertex; kNoMiddle for the other level's
-  std::pmr::vector<uint32_t> middles_;   ///< of the seam, by sharp side
+  MeshPart part_;  ///< the seam's vertices of this level
+  Creases creases_;
+  std::pmr::vector<uint32_t> of_seam_;  ///< by the part's vertex
+  std::pmr::vector<uint32_t> in_part_;  ///< by the seam's vertex; kNoMiddle for the other level's
+  std::pmr::vector<SharpSide> sides_;   ///< of the part, sorted
+  std::pmr::vector<uint32_t> middles_;  ///< of the seam, by side
   std::pmr::memory_resource* memory_;
 };
 

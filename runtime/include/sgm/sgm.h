@@ -741,11 +741,12 @@ typedef int32_t (*sgm_progress_function)(void* user, uint64_t done, uint64_t tot
 /* What meshes have beside their triangles. Worlds have flags of their own: sgm_world_flag. */
 typedef enum sgm_meshing_flag {
   SGM_MESHING_TEXTURE = 1, /* texture coordinates and blends of materials: wedges, in views of meshes and of surfaces */
-  SGM_MESHING_SHARP = 2,   /* crisp edges and corners: feature vertices from the field's gradients, once for each side
-                              of their crease with that side's normal, at the same position. Where a surface
-                              bends less than 26 degrees within a cell it keeps its triangles, and so does a cell
-                              whose features would fold, cut or coincide. Chunks agree on their faces, as without; seams join sharp chunks to sharp ones, so that all chunks of one
-                              surface are to be asked for alike */
+  SGM_MESHING_SHARP =
+      2, /* crisp edges and corners: feature vertices from the field's gradients, once for each side
+            of their crease with that side's normal, at the same position. Where a surface
+            bends less than 26 degrees within a cell it keeps its triangles, and so does a cell
+            whose features would fold, cut or coincide. Chunks agree on their faces, as without; seams join sharp chunks
+            to sharp ones, so that all chunks of one surface are to be asked for alike */
   SGM_MESHING_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_meshing_flag;
 
@@ -795,7 +796,8 @@ SGM_API sgm_result sgm_mesh_release(sgm_mesh* mesh);
  *            one vertex. level is the chunk's own, or with bit 13 of kind, in seams alone, that above; axis is 7 in a
  *            cell (bit 14), else 4 + bits 6 and 7. fan is bits 6 to 9 in a cell, else bits 8 to 10. corner is, on each
  *            axis, the position rounded down to multiples of the level's cell, less (b - 1) of these cells, b being the
- *            two bits from 2 * axis: a feature may lie up to a cell beyond its face or cell, and so beyond its chunk */
+ *            two bits from 2 * axis: a feature may lie up to a cell beyond its face or cell, but no feature of a body
+ *            lies beyond its chunk */
 typedef enum sgm_vertex_kind {
   SGM_VERTEX_OWN = 0,          /* on an edge of the chunk's own level; every vertex of a body that is no feature */
   SGM_VERTEX_COARSER = 1,      /* on an edge of the level above; in seams alone */
@@ -806,8 +808,8 @@ typedef enum sgm_vertex_kind {
 
 /* A packed vertex, 16 bytes, the same on every backend. */
 typedef struct sgm_vertex {
-  int16_t x, y, z;            /* 0 to 8,192 in 1/256 of the chunk's cell edge, from the chunk's origin; of features -512
-                                 to 8,704 */
+  int16_t x, y, z;            /* 0 to 8,192 in 1/256 of the chunk's cell edge, from the chunk's origin; of features
+                                 of the coarser level -256 to 8,448 */
   uint16_t material;          /* index for sgm_grammar_material */
   int16_t normal_x, normal_y; /* octahedral, +-32,767: with n = normal / 32767 and w = 1 - |n.x| - |n.y|, the normal is
                                  (n.x, n.y, w) where w >= 0, else ((1 - |n.y|) * sign(n.x), (1 - |n.x|) * sign(n.y), w),
@@ -1375,8 +1377,8 @@ typedef enum sgm_event_kind {
                              further edit, an undo for instance; where another field had, as before that field */
   SGM_EVENT_COLLIDER = 6, /* collide with `collider` instead of the chunk's earlier one: it belongs to the engine now,
                              which releases it. Comes soon after what is drawn there has changed, at most
-                             sgm_world_desc.max_colliders an update, and not for a collider equal to the earlier one; not
-                             counted in max_bytes */
+                             sgm_world_desc.max_colliders an update, and not for a collider equal to the earlier one;
+                             not counted in max_bytes */
   SGM_EVENT_COLLIDER_REMOVED = 7, /* collide with the chunk no more. Where chunks of another level take its place, it
                                      comes once these have their colliders */
   SGM_EVENT_KIND_FORCE_32_BIT = 0x7FFFFFFF

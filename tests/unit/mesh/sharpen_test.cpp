@@ -251,7 +251,8 @@ ContentHash hashOf(MeshPart part) {
 
 TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
   // One box in thirty has a corner that the samples see as a spike on one grid edge: there a fan cannot be valid, and
-  // is rounded.
+  // is rounded. As many have a corner so near to the border of the chunks, which passes through all boxes, that creases
+  // end at the border which should meet beyond it.
   size_t blunt = 0;
   for (uint64_t seed = 1; seed <= rounds(200); ++seed) {
     INFO("seed " << seed);
@@ -294,7 +295,7 @@ TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
     CHECK(off_mesh <= 0.75);
     CHECK(off_surface <= 0.75);
   }
-  CHECK(blunt * 25 <= rounds(200));
+  CHECK(blunt * 14 <= rounds(200));
 }
 
 TEST_CASE("chunks sharpened apart agree on their border", "[mesh][sharpen]") {
@@ -347,7 +348,7 @@ TEST_CASE("smooth shapes keep their bytes", "[mesh][sharpen]") {
 }
 
 TEST_CASE("keys of feature vertices follow from what is packed", "[mesh][sharpen]") {
-  size_t features = 0, beyond = 0;
+  size_t features = 0, in_border = 0;
   for (uint64_t seed = 1; seed <= 40; ++seed) {
     INFO("seed " << seed);
     Meshes meshes = sharpened(JoinedBoxes(seed * 100));
@@ -358,12 +359,14 @@ TEST_CASE("keys of feature vertices follow from what is packed", "[mesh][sharpen
       CHECK(part->keys == keys);
       for (const Vertex& v : part->vertices) {
         features += isFeature(v.kind);
-        beyond += std::min({v.x, v.y, v.z}) < 0 || std::max({v.x, v.y, v.z}) > kChunkCells * kSubcell;
+        CHECK(std::min({v.x, v.y, v.z}) >= 0);
+        CHECK(std::max({v.x, v.y, v.z}) <= kChunkCells * kSubcell);
+        in_border += isFeature(v.kind) && (v.x == 0 || v.x == kChunkCells * kSubcell);
       }
     }
   }
   CHECK(features > 10000);
-  CHECK(beyond > 10);
+  CHECK(in_border > 100);
 }
 
 TEST_CASE("creases are split into sides that face as the field does", "[mesh][sharpen]") {

@@ -34,6 +34,7 @@ void judgeSolids(bool sharp) {
     }
   }
   const auto verdicts = meshes.judge<measure::CgalVerdict>("'" + std::string(judge) + "'");
+  REQUIRE(verdicts.size() == ours.size());
   size_t valid = 0;
   for (size_t i = 0; i < verdicts.size(); ++i) {
     const measure::CgalVerdict& theirs = verdicts[i];

@@ -123,7 +123,6 @@ inline MeshedRegion meshedRegion(const WorldField& world, const Workshop& shop, 
     result.cut.low[axis] = static_cast<double>(region->extent.lo[axis] - origin) / kUnitsPerMetre;
     result.cut.high[axis] = static_cast<double>(region->extent.hi[axis] - origin) / kUnitsPerMetre;
   }
-  if (sharp) result.cut.beside = mostOutside(world.settings().finest_cell);
   return result;
 }
 

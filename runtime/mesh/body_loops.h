@@ -1,0 +1,63 @@
+#pragma once
+// The loops of marching cubes that a chunk's body was made from.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <vector>
+
+#include "mesh/chunk.h"
+#include "mesh/tables.h"
+
+namespace sgm {
+
+/// The axis of the face that two edges of a cell share; -1 if they share none.
+int sharedFace(const VertexKey& a, const VertexKey& b);
+
+/// A loop of cut edges in one cell. Its vertices go round counter-clockwise seen from the void, from the lowest edge.
+struct SurfaceLoop {
+  Int3 cell;                                          ///< from the chunk's origin, in cells
+  std::array<uint32_t, kLongestCubeLoop> vertices{};  ///< of the body
+  uint32_t count = 0;
+  uint32_t first_index = 0, end_index = 0;  ///< its triangles, in the body's indices
+};
+
+/// The loops of a body as meshed, in the order of its triangles. Throws std::bad_alloc.
+class BodyLoops {
+ public:
+  /// Borrows the body. Good until its triangles change.
+  BodyLoops(const ChunkGrid& grid, const MeshPart& body, std::pmr::memory_resource* memory);
+
+  const ChunkGrid& grid() const { return grid_; }
+  const MeshPart& part() const { return part_; }
+  const std::pmr::vector<SurfaceLoop>& all() const { return loops_; }
+  /// Calls visit(number) for the loops of all cells lo <= cell <= hi.
+  template <class Visit>
+  void visitWithin(Int3 lo, Int3 hi, const Visit& visit) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      lo[axis] = std::max(lo[axis], 0);
+      hi[axis] = std::min(hi[axis], kChunkCells - 1);
+    }
+    for (int32_t z = lo.z; z <= hi.z; ++z) {
+      for (int32_t y = lo.y; y <= hi.y; ++y) {
+        const auto row = static_cast<size_t>(z * kChunkCells + y);
+        for (uint32_t i = row_starts_[row]; i < row_starts_[row + 1] && loops_[i].cell.x <= hi.x; ++i)
+          if (loops_[i].cell.x >= lo.x) visit(i);
+      }
+    }
+  }
+  /// In units.
+  Int3 cornerOf(const Int3& cell) const;
+
+ private:
+  void findLoops();
+  Int3 cellOf(size_t first_index) const;
+
+  const ChunkGrid grid_;
+  const MeshPart& part_;
+  std::pmr::vector<SurfaceLoop> loops_;
+  std::pmr::vector<uint32_t> row_starts_;  ///< in loops_, by the cells' z and y; one more at the end
+};
+
+}  // namespace sgm

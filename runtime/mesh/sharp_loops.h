@@ -1,0 +1,121 @@
+#pragma once
+// Loops of marching cubes with sharp features (after Kobbelt et al. 2001, "Feature Sensitive Surface Extraction from
+// Volume Data"), and what becomes of them.
+//
+// A SIDE of a loop lies in a face of its cell and joins two vertices on edges of that face. If the normals at its ends
+// differ, the two tangent planes meet in a crease, and the side is SHARP: it may have a FACE VERTEX on the crease. A
+// loop with sharp sides becomes a fan about a CELL VERTEX, the point nearest to the planes of the loop's own vertices.
+//
+// Validity comes before crispness. A loop whose fan meets another triangle wrongly (mesh/triangle_faults.h) is ROUNDED:
+// it keeps its own triangles, as without features, and its sides lose their face vertices.
+//
+// The sides in a face of the CHUNK are another matter. Their face vertices lie in that face and depend on the field
+// beside it alone (mesh/border_vertices.h); all else of a chunk's features lies strictly inside of the chunk. So the
+// bodies on both sides of a face, of one level or two, and the seam between them, which lies in the face, meet only
+// where they should, whatever becomes of the loops of each: chunks that are meshed apart agree without a look at each
+// other. A rounded loop keeps these face vertices, and is a fan about a point strictly within its own cell
+// (roundedCentre).
+//
+// Rounded loops never meet each other wrongly, so that rounding ends. Such a fan is a cone over a simple polygon on the
+// boundary of its cell, which is convex: it stays in the cell, and has no other point in common with the boundary.
+// Where the cell has another loop the cone is tested against it. Where a face vertex lies outside of the side's square
+// the centre is 1/256 of a cell away from the chunk's face. So is the part of the cone beyond the cell, and it has a
+// square of the face beneath it that no contour crosses; triangles there whose corners are not in the face are 1/256
+// away or more. Of several sides with a face vertex in one such square each keeps to its own part of it.
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesh/body_loops.h"
+#include "mesh/creases.h"
+#include "mesh/loop_triangles.h"
+
+namespace sgm {
+
+/// A side whose ends have different normals.
+struct SharpSide {
+  static constexpr uint32_t kNone = UINT32_MAX;
+
+  uint32_t from = 0, to = 0;                    ///< vertices; the lower key first, so that both cells see the same side
+  Int3 corner;                                  ///< of its face: the lowest, in units
+  int axis = 0;                                 ///< that the face stands on
+  bool at_border = false;                       ///< its face is part of a face of the chunk
+  std::array<uint32_t, 2> loops{kNone, kNone};  ///< numbers of its sharp loops, the one in the lower cell first
+  std::optional<Tangent> third;  ///< tangent where the planes of its ends meet in the chunk's face, but off the surface
+  std::optional<Int3> place;  ///< of its face vertex, in 1/256 of a cell from `corner`; nullopt if it cannot have one
+
+  friend bool operator<(const SharpSide& a, const SharpSide& b) {
+    return a.from != b.from ? a.from < b.from : a.to < b.to;
+  }
+};
+
+/// The side of a cell between two vertices of the part that has these keys. Its other members have their defaults.
+SharpSide sideBetween(uint32_t a, uint32_t b, const RawVector<VertexKey>& keys);
+
+/// The key of a side's face vertex. from: of the vertex side.from.
+VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from);
+
+/// A face vertex in a face of the chunk.
+struct BorderVertex {
+  Int3 at;
+  int axis = 0;  ///< that the face stands on
+};
+
+/// The centre of a rounded loop with such face vertices, strictly within its cell: the mean of all its vertices; but
+/// close to the face if the face vertex lies beyond the cell, so that nothing else lies between the fan and the face.
+/// All places are in 1/256 of a cell from one origin.
+Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<const BorderVertex> at_border);
+
+/// The centre of a fan: a cell vertex, or one of the loop's own face vertices at the border, which a fan has anyway.
+struct FanCentre {
+  Int3 at;                           ///< in 1/256 of a cell from the chunk's origin
+  uint32_t side = SharpSide::kNone;  ///< number of the face vertex's side; kNone for a cell vertex
+  friend bool operator==(const FanCentre&, const FanCentre&) = default;
+};
+
+/// A loop with sharp sides.
+struct SharpLoop {
+  enum class Shape : uint8_t {
+    plain,    ///< its own triangles, or a fan that keeps the face vertices at the chunk's border
+    fan,      ///< about its centre, with all of its face vertices
+    rounded,  ///< as plain, although a centre for a fan lies on the surface: no fan would be valid
+  };
+
+  uint32_t loop = 0;                               ///< of the body
+  std::array<uint32_t, kLongestCubeLoop> sides{};  ///< numbers of the sides behind its vertices; kNone if not sharp
+  Shape shape = Shape::plain;
+  FanCentre centre;                                ///< of a fan
+  std::array<std::optional<FanCentre>, 2> spares;  ///< other centres that are not as good, best first
+
+  bool isFan() const { return shape == Shape::fan; }
+};
+
+/// All sharp loops of a body, in its order, and their sides, sorted.
+struct SharpLoops {
+  static constexpr uint32_t kNone = SharpSide::kNone;
+
+  const BodyLoops& body;
+  std::pmr::vector<SharpSide> sides;
+  std::pmr::vector<SharpLoop> loops;
+
+  SharpLoops(const BodyLoops& of_body, std::pmr::memory_resource* memory)
+      : body(of_body), sides(memory), loops(memory) {}
+
+  const SurfaceLoop& of(const SharpLoop& loop) const { return body.all()[loop.loop]; }
+  /// Whether the side has its face vertex, as its loops are now.
+  bool hasFaceVertex(const SharpSide& side) const;
+  /// Where it is, or would be, in 1/256 of a cell from the chunk's origin. Precondition: the side has a place.
+  Int3 faceVertexAt(const SharpSide& side) const;
+  /// The centre about which a loop is a fan now; nullopt if it keeps its own triangles.
+  std::optional<FanCentre> centreOf(const SharpLoop& loop) const;
+  /// The triangles of a loop as it is now.
+  LoopTriangles trianglesOf(const SharpLoop& loop) const;
+  /// The triangles of a fan with all face vertices that its sides can have.
+  LoopTriangles fullFan(const SharpLoop& loop, const FanCentre& centre) const;
+};
+
+}  // namespace sgm

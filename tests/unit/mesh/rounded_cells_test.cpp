@@ -1,0 +1,170 @@
+// Rounded cells at a chunk's face: the loops of single cells, and cones over them.
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include "catch.h"
+#include "mesh/body.h"
+#include "mesh/cell_loops.h"
+#include "mesh/sharp_loops.h"
+#include "rounds.h"
+
+using namespace sgm;
+
+namespace {
+
+constexpr ChunkGrid kGrid{{0, 0, 0}, 256, 0};
+
+int anyOf(std::mt19937& random, int count) { return static_cast<int>(random() % static_cast<uint32_t>(count)); }
+
+size_t sampleAt(const Int3& p) { return static_cast<size_t>(p.x + kChunkSamples * (p.y + kChunkSamples * p.z)); }
+
+std::array<int32_t, 8> cornersOf(const ChunkSamples& samples, const Int3& cell) {
+  std::array<int32_t, 8> q{};
+  for (int c = 0; c < 8; ++c)
+    q[static_cast<size_t>(c)] = samples.q[sampleAt({cell.x + (c & 1), cell.y + (c >> 1 & 1), cell.z + (c >> 2)})];
+  return q;
+}
+
+std::vector<VertexKey> keysOf(const MeshPart& part, const SurfaceLoop& loop) {
+  std::vector<VertexKey> keys;
+  for (uint32_t i = 0; i < loop.count; ++i) keys.push_back(part.keys[loop.vertices[i]]);
+  for (uint32_t i = loop.first_index; i < loop.end_index; ++i) keys.push_back(part.keys[part.indices[i]]);
+  return keys;
+}
+
+std::array<int32_t, 8> randomCell(std::mt19937& random) {
+  std::array<int32_t, 8> q{};
+  for (int32_t& value : q)
+    value = (anyOf(random, 2) == 0 ? 1 : -1) * (1 + anyOf(random, anyOf(random, 3) == 0 ? 3 : 1000));
+  return q;
+}
+
+/// A side of a loop in a low face of its cell, which no other side shares: where it may have a face vertex at a border.
+struct LowSide {
+  uint32_t behind;
+  int axis;
+};
+
+std::vector<LowSide> lowSidesOf(const MeshPart& part, const SurfaceLoop& loop) {
+  std::array<int, 3> count{};
+  std::vector<LowSide> all, once;
+  for (uint32_t i = 0; i < loop.count; ++i) {
+    const SharpSide side = sideBetween(loop.vertices[i], loop.vertices[(i + 1) % loop.count], part.keys);
+    if (side.corner[side.axis] != loop.cell[side.axis] * kGrid.cell) continue;
+    all.push_back({i, side.axis});
+    ++count[static_cast<size_t>(side.axis)];
+  }
+  std::copy_if(all.begin(), all.end(), std::back_inserter(once),
+               [&](const LowSide& side) { return count[static_cast<size_t>(side.axis)] == 1; });
+  return once;
+}
+
+/// Whether both corners of the low face's edge at the high or low end of `across` are on one side of the surface, so
+/// that a face vertex may lie beyond that edge.
+bool isUncut(const std::array<int32_t, 8>& q, int axis, int across, bool high) {
+  const int along = 3 - axis - across;
+  const size_t from = high ? size_t{1} << across : 0, to = from | size_t{1} << along;
+  return (q[from] < 0) == (q[to] < 0);
+}
+
+}  // namespace
+
+TEST_CASE("single cells have the loops that a body has", "[mesh][sharpen]") {
+  for (unsigned seed = 1; seed <= rounds(5); ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    ChunkSamples samples;
+    for (size_t i = 0; i < samples.q.size(); ++i) {
+      samples.q[i] = (anyOf(random, 2) == 0 ? 1 : -1) * anyOf(random, 1000);
+      const size_t row = i / kChunkSamples;
+      samples.signs[row] |= uint64_t{samples.q[i] < 0} << i % kChunkSamples;
+    }
+    MeshPart body;
+    polygonizeBody(samples, kGrid, body);
+    const BodyLoops loops(kGrid, body, std::pmr::get_default_resource());
+    size_t next = 0, wrong = 0;
+    for (int32_t z = 0; z < kChunkCells; ++z) {
+      for (int32_t y = 0; y < kChunkCells; ++y) {
+        for (int32_t x = 0; x < kChunkCells; ++x) {
+          MeshPart part;
+          std::pmr::vector<SurfaceLoop> alone;
+          addCellLoops(kGrid, {x, y, z}, cornersOf(samples, {x, y, z}), part, alone);
+          for (const SurfaceLoop& loop : alone) {
+            REQUIRE(next < loops.all().size());
+            const SurfaceLoop& of_body = loops.all()[next++];
+            auto theirs = keysOf(body, of_body), ours = keysOf(part, loop);
+            // A body's loop may start at another of its vertices.
+            const auto start = std::find(ours.begin(), ours.begin() + loop.count, theirs.front());
+            std::rotate(ours.begin(), start, ours.begin() + loop.count);
+            wrong += ours != theirs || of_body.cell != loop.cell;
+          }
+        }
+      }
+    }
+    CHECK(next == loops.all().size());
+    CHECK(next > 20000);
+    CHECK(wrong == 0);
+  }
+}
+
+TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sharpen]") {
+  size_t cones = 0, beyond = 0;
+  for (unsigned round = 0; round < rounds(30000); ++round) {
+    std::mt19937 random(round);
+    const std::array<int32_t, 8> q = randomCell(random);
+    MeshPart part;
+    std::pmr::vector<SurfaceLoop> loops;
+    const Int3 cell{anyOf(random, 3), anyOf(random, 3), anyOf(random, 3)};
+    addCellLoops(kGrid, cell, q, part, loops);
+    if (loops.size() != 1) continue;
+    const SurfaceLoop& loop = loops.front();
+    std::map<uint32_t, BorderVertex> middles;
+    std::vector<BorderVertex> at_border;
+    for (const LowSide& side : lowSidesOf(part, loop)) {
+      if (anyOf(random, 3) == 0) continue;
+      const int across = (side.axis + 1 + anyOf(random, 2)) % 3, along = 3 - side.axis - across;
+      Int3 place;
+      place[across] = 1 + anyOf(random, kSubcell - 1);
+      place[along] = 1 + anyOf(random, kSubcell - 1);
+      const bool high = anyOf(random, 2) == 0;
+      // Not beyond the faces of the chunk, of which these cells have low ones.
+      if (anyOf(random, 2) == 0 && high && isUncut(q, side.axis, across, high)) {
+        place[across] = kSubcell + 9 + anyOf(random, kSubcell / 2 - 9);
+        ++beyond;
+      }
+      for (int k = 0; k < 3; ++k) place[k] += cell[k] * kSubcell;
+      middles[side.behind] = {place, side.axis};
+      at_border.push_back(middles[side.behind]);
+    }
+    if (at_border.empty()) continue;
+    std::vector<Int3> ring;
+    for (uint32_t i = 0; i < loop.count; ++i) ring.push_back(placeOf(part, loop.vertices[i]));
+    const Int3 centre = roundedCentre(cell, ring, at_border);
+    LoopTriangles fan;
+    for (uint32_t i = 0; i < loop.count; ++i) {
+      const uint32_t a = loop.vertices[i], next = (i + 1) % loop.count, b = loop.vertices[next];
+      if (const auto middle = middles.find(i); middle != middles.end()) {
+        fan.add({centre, ring[i], middle->second.at}, {kCellVertices, a, kFaceVertices + i});
+        fan.add({centre, middle->second.at, ring[next]}, {kCellVertices, kFaceVertices + i, b});
+      } else {
+        fan.add({centre, ring[i], ring[next]}, {kCellVertices, a, b});
+      }
+    }
+    ++cones;
+    size_t faults = 0;
+    for (size_t i = 0; i < fan.all().size(); ++i) {
+      faults += !fan.all()[i].hasArea();
+      for (size_t j = i + 1; j < fan.all().size(); ++j) faults += fan.all()[i].meets(fan.all()[j]);
+    }
+    CAPTURE(round);
+    CHECK(faults == 0);
+    for (int k = 0; k < 3; ++k) {
+      CHECK(centre[k] > cell[k] * kSubcell);
+      CHECK(centre[k] < (cell[k] + 1) * kSubcell);
+    }
+  }
+  CHECK(cones * 10 > rounds(30000));
+  CHECK(beyond * 100 > rounds(30000));
+}
