@@ -49,16 +49,16 @@ bool hasFault(const LoopTriangles& fan) {
 class Neighbours {
  public:
   Neighbours(const SharpLoops& sharp, std::pmr::memory_resource* memory)
-      : body_(sharp.body), sharp_(body_.all().size(), kNone, memory), features_(memory) {
+      : sharp_(sharp), body_(sharp.body), place_(body_.all().size(), kNone, memory), features_(memory) {
     features_.reserve(sharp.loops.size());
     for (const SharpLoop& loop : sharp.loops) {
-      sharp_[loop.loop] = static_cast<uint32_t>(features_.size());
-      features_.push_back(featuresOf(sharp, loop));
+      place_[loop.loop] = static_cast<uint32_t>(features_.size());
+      features_.push_back(featuresOf(loop));
     }
   }
 
   /// The place of a loop of the body among the sharp ones; kNone if it is not sharp.
-  uint32_t placeOf(uint32_t loop) const { return sharp_[loop]; }
+  uint32_t placeOf(uint32_t loop) const { return place_[loop]; }
 
   /// Calls visit(number) for all loops that may meet a loop, but for the loop itself.
   template <class Visit>
@@ -70,48 +70,80 @@ class Neighbours {
       hi[k] = (own.hi[k] + kMostOutside) >> 8;
     }
     body_.visitWithin(lo, hi, [&](uint32_t other) {
-      if (other != loop && own.meets(boxOf(other)) && !isApart(loop, other)) visit(other);
+      if (other != loop && own.meets(boxOf(other)) && !areApart(loop, other)) visit(other);
     });
   }
 
  private:
-  static PlaceBox featuresOf(const SharpLoops& sharp, const SharpLoop& loop) {
-    PlaceBox box;
-    if (loop.isFan()) box.take(loop.centre.at);
+  struct Boxes {
+    PlaceBox all, off_squares;  ///< off_squares: without face vertices that lie in the inside of their side's square
+  };
+
+  Boxes featuresOf(const SharpLoop& loop) const {
+    Boxes boxes;
+    const auto take = [&boxes](const Int3& p) { boxes.all.take(p), boxes.off_squares.take(p); };
+    if (loop.isFan()) take(loop.centre.at);
     for (const std::optional<FanCentre>& centre : loop.spares)
-      if (centre) box.take(centre->at);
-    for (const uint32_t s : loop.sides)
-      if (s != kNone && sharp.sides[s].place) box.take(sharp.faceVertexAt(sharp.sides[s]));
-    return box;
+      if (centre) take(centre->at);
+    for (const uint32_t s : loop.sides) {
+      if (s == kNone || !sharp_.sides[s].place) continue;
+      const SharpSide& side = sharp_.sides[s];
+      boxes.all.take(sharp_.faceVertexAt(side));
+      if (!isInSquare(side)) boxes.off_squares.take(sharp_.faceVertexAt(side));
+    }
+    return boxes;
+  }
+  static bool isInSquare(const SharpSide& side) {
+    for (int k = 0; k < 3; ++k) {
+      const int32_t at = (*side.place)[k];
+      if (k == side.axis ? at != 0 : at <= 0 || at >= kSubcell) return false;
+    }
+    return true;
   }
   PlaceBox boxOf(uint32_t loop) const {
     const Int3& cell = body_.all()[loop].cell;
-    PlaceBox box = sharp_[loop] == kNone ? PlaceBox{} : features_[sharp_[loop]];
+    PlaceBox box = place_[loop] == kNone ? PlaceBox{} : features_[place_[loop]].all;
     box.take({cell.x * kSubcell, cell.y * kSubcell, cell.z * kSubcell});
     box.take({(cell.x + 1) * kSubcell, (cell.y + 1) * kSubcell, (cell.z + 1) * kSubcell});
     return box;
   }
-  /// Whether a plane between the cells has the features of each loop strictly on its own side. In that plane both have
-  /// what plain loops have there, which meet as they should.
-  bool isApart(uint32_t a, uint32_t b) const {
+  /// Whether a plane between the cells has the features of each loop strictly on its own side, but for face vertices in
+  /// the inside of their squares. In that plane both have what plain loops have there, which meet as they should, and
+  /// those face vertices: in different squares, or in a square of which they share the side.
+  bool areApart(uint32_t a, uint32_t b) const {
     const Int3 &at = body_.all()[a].cell, &other = body_.all()[b].cell;
     for (int k = 0; k < 3; ++k) {
       if (std::abs(at[k] - other[k]) != 1) continue;
       const bool is_low = at[k] < other[k];
       const int32_t plane = std::max(at[k], other[k]) * kSubcell;
-      if (isBeside(is_low ? a : b, k, plane, true) && isBeside(is_low ? b : a, k, plane, false)) return true;
+      Int3 across = other;
+      across[k] = at[k];
+      const bool is_strict = across == at && !shareSide(a, b);
+      if (isBeside(is_low ? a : b, k, plane, true, is_strict) && isBeside(is_low ? b : a, k, plane, false, is_strict)) {
+        return true;
+      }
     }
     return false;
   }
-  bool isBeside(uint32_t loop, int axis, int32_t plane, bool below) const {
-    if (sharp_[loop] == kNone) return true;
-    const PlaceBox& box = features_[sharp_[loop]];
+  bool shareSide(uint32_t a, uint32_t b) const {
+    if (place_[a] == kNone || place_[b] == kNone) return false;
+    const auto& sides = sharp_.loops[place_[a]].sides;
+    return std::any_of(sides.begin(), sides.end(), [&](uint32_t s) {
+      return s != kNone && std::find(sharp_.sides[s].loops.begin(), sharp_.sides[s].loops.end(), place_[b]) !=
+                               sharp_.sides[s].loops.end();
+    });
+  }
+  bool isBeside(uint32_t loop, int axis, int32_t plane, bool below, bool is_strict) const {
+    if (place_[loop] == kNone) return true;
+    const Boxes& boxes = features_[place_[loop]];
+    const PlaceBox& box = is_strict ? boxes.all : boxes.off_squares;
     return below ? box.hi[axis] < plane : box.lo[axis] > plane;
   }
 
+  const SharpLoops& sharp_;
   const BodyLoops& body_;
-  std::pmr::vector<uint32_t> sharp_;     ///< by loop
-  std::pmr::vector<PlaceBox> features_;  ///< by sharp loop, in 1/256 of a cell from the chunk's origin
+  std::pmr::vector<uint32_t> place_;  ///< in sharp_.loops, by loop of the body
+  std::pmr::vector<Boxes> features_;  ///< by sharp loop, in 1/256 of a cell from the chunk's origin
 };
 
 /// The triangles that loops have now, made when they are asked for.
