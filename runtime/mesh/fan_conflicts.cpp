@@ -12,21 +12,38 @@ namespace sgm {
 namespace {
 
 constexpr uint32_t kNone = SharpLoops::kNone;
-/// Whether a fan, seen along some axis, goes round its centre once, and always the same way: then no two of its
+/// Whether a fan, seen along some direction, goes round its centre once, and always the same way: then no two of its
 /// triangles lie upon each other there. Most fans about a cell vertex do.
 bool isSeenWhole(std::span<const NamedTriangle> fan) {
   // A fan about one of its own corners does not go round it.
   if (fan.front().name[1] != fan.back().name[2]) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int v = (axis + 2) % 3;
+  // Along the axes, and from the eight octants.
+  constexpr std::array<Int3, 7> kDirections{Int3{1, 0, 0},  Int3{0, 1, 0},  Int3{0, 0, 1}, Int3{1, 1, 1},
+                                            Int3{1, 1, -1}, Int3{1, -1, 1}, Int3{-1, 1, 1}};
+  std::array<std::array<int64_t, 3>, LoopTriangles::kMost> areas;
+  for (size_t i = 0; i < fan.size(); ++i) {
+    const auto& [centre, from, to] = fan[i].at;
+    const int64_t ux = from.x - centre.x, uy = from.y - centre.y, uz = from.z - centre.z;
+    const int64_t vx = to.x - centre.x, vy = to.y - centre.y, vz = to.z - centre.z;
+    areas[i] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
+  }
+  for (const Int3& d : kDirections) {
+    // Seen along d, a line through the centre: points on it have across . (p - centre) = 0.
+    const Int3 across = d.x != 0 && d.y != 0 ? Int3{d.y, -d.x, 0}
+                        : d.x != 0           ? Int3{0, 1, 0}
+                        : d.y != 0           ? Int3{0, 0, 1}
+                                             : Int3{1, 0, 0};
     int turn = 0, rounds = 0;
     bool same = true;
     for (size_t i = 0; i < fan.size() && same; ++i) {
       const auto& [centre, from, to] = fan[i].at;
-      const int own = IntegerSigns::orientationAlong(axis, centre, from, to);
+      const int own = IntegerSigns::signOf(d.x * areas[i][0] + d.y * areas[i][1] + d.z * areas[i][2]);
       same = own != 0 && (turn == 0 || own == turn);
       turn = own;
-      rounds += from[v] < centre[v] && to[v] >= centre[v];
+      const auto side = [&](const Int3& p) {
+        return across.x * (p.x - centre.x) + across.y * (p.y - centre.y) + across.z * (p.z - centre.z);
+      };
+      rounds += side(from) < 0 && side(to) >= 0;
     }
     if (same && rounds == 1) return true;
   }
@@ -60,6 +77,9 @@ class Neighbours {
   /// The place of a loop of the body among the sharp ones; kNone if it is not sharp.
   uint32_t placeOf(uint32_t loop) const { return place_[loop]; }
 
+  /// After a change of the centre of a sharp loop.
+  void update(uint32_t place) { features_[place] = featuresOf(sharp_.loops[place]); }
+
   /// Calls visit(number) for all loops that may meet a loop, but for the loop itself.
   template <class Visit>
   void visit(uint32_t loop, const Visit& visit) const {
@@ -83,8 +103,6 @@ class Neighbours {
     Boxes boxes;
     const auto take = [&boxes](const Int3& p) { boxes.all.take(p), boxes.off_squares.take(p); };
     if (loop.isFan()) take(loop.centre.at);
-    for (const std::optional<FanCentre>& centre : loop.spares)
-      if (centre) take(centre->at);
     for (const uint32_t s : loop.sides) {
       if (s == kNone || !sharp_.sides[s].place) continue;
       const SharpSide& side = sharp_.sides[s];
@@ -157,17 +175,10 @@ class PresentTriangles {
         is_stale_(memory) {}
 
   /// Good until the next call.
-  const LoopTriangles& of(uint32_t number) {
-    uint32_t& at = at_[number];
-    if (at == kNone) {
-      at = static_cast<uint32_t>(made_.size());
-      made_.push_back(make(number));
-      is_stale_.push_back(false);
-    } else if (is_stale_[at]) {
-      made_[at] = make(number);
-      is_stale_[at] = false;
-    }
-    return made_[at];
+  const LoopTriangles& of(uint32_t number) { return made_[made(number)]; }
+  bool anyMeets(uint32_t a, uint32_t b) {
+    const uint32_t at_a = made(a), at_b = made(b);
+    return sgm::anyMeets(made_[at_a], made_[at_b]);
   }
   /// After a change of the loop.
   void forget(const SharpLoop& loop) {
@@ -180,6 +191,18 @@ class PresentTriangles {
   }
 
  private:
+  uint32_t made(uint32_t number) {
+    uint32_t& at = at_[number];
+    if (at == kNone) {
+      at = static_cast<uint32_t>(made_.size());
+      made_.push_back(make(number));
+      is_stale_.push_back(false);
+    } else if (is_stale_[at]) {
+      made_[at] = make(number);
+      is_stale_[at] = false;
+    }
+    return at;
+  }
   void forget(uint32_t number) {
     if (at_[number] != kNone) is_stale_[at_[number]] = true;
   }
@@ -214,16 +237,27 @@ bool isSoundFan(const SharpLoops& sharp, const SharpLoop& loop, const FanCentre&
   return !hasFault(sharp.fullFan(loop, centre));
 }
 
-void roundUntilValid(SharpLoops& sharp, std::pmr::memory_resource* memory) {
-  const Neighbours neighbours(sharp, memory);
+void roundUntilValid(SharpLoops& sharp, const std::function<bool(SharpLoop&)>& takeNextCentre,
+                     std::pmr::memory_resource* memory) {
+  Neighbours neighbours(sharp, memory);
   PresentTriangles present(sharp, neighbours, memory);
   const auto lacksVertex = [&](const SharpLoop& loop) {
     return std::any_of(loop.sides.begin(), loop.sides.end(), [&](uint32_t s) {
       return s != kNone && sharp.sides[s].place && !sharp.hasFaceVertex(sharp.sides[s]);
     });
   };
-  std::pmr::vector<uint32_t> dirty(sharp.loops.size(), memory), changed(memory);  // numbers of sharp loops
+  // Numbers of sharp loops; and for each when it was tested last and when it changed, counted in tests.
+  std::pmr::vector<uint32_t> dirty(sharp.loops.size(), memory), changed(memory);
+  std::pmr::vector<uint64_t> tested_at(sharp.loops.size(), memory), changed_at(sharp.loops.size(), memory);
+  uint64_t now = 0;
   std::iota(dirty.begin(), dirty.end(), 0);
+  const auto visitSharing = [&](const SharpLoop& loop, const auto& visit) {
+    for (const uint32_t s : loop.sides) {
+      if (s == kNone || !sharp.sides[s].place) continue;
+      for (const uint32_t other : sharp.sides[s].loops)
+        if (other != kNone) visit(other);
+    }
+  };
   while (!dirty.empty()) {
     // Around a corner of the solid many loops have it for their centre: the one whose cell it is in shall keep it.
     std::sort(dirty.begin(), dirty.end(), [&](uint32_t a, uint32_t b) {
@@ -234,30 +268,36 @@ void roundUntilValid(SharpLoops& sharp, std::pmr::memory_resource* memory) {
     for (const uint32_t number : dirty) {
       SharpLoop& loop = sharp.loops[number];
       if (!loop.isFan()) continue;
-      const LoopTriangles own = present.of(loop.loop);
+      tested_at[number] = ++now;
       // With all of its face vertices the fan is sound; some may be lost by now.
-      bool faulty = lacksVertex(loop) && hasFault(own);
+      bool faulty = lacksVertex(loop) && hasFault(present.of(loop.loop));
       neighbours.visit(loop.loop, [&](uint32_t other) {
-        if (!faulty) faulty = anyMeets(own, present.of(other));
+        if (faulty) return;
+        const uint32_t place = neighbours.placeOf(other);
+        // The pair was tested, and neither has changed since.
+        const bool is_known = place != kNone && sharp.loops[place].isFan() && tested_at[place] > changed_at[place] &&
+                              tested_at[place] > changed_at[number];
+        if (!is_known) faulty = present.anyMeets(loop.loop, other);
       });
       if (!faulty) continue;
-      if (loop.spares[0]) {
-        loop.centre = *std::exchange(loop.spares[0], std::exchange(loop.spares[1], std::nullopt));
-      } else {
-        loop.shape = SharpLoop::Shape::rounded;
-      }
+      if (!takeNextCentre(loop)) loop.shape = SharpLoop::Shape::rounded;
+      neighbours.update(number);
       present.forget(loop);
+      changed_at[number] = ++now;
+      visitSharing(loop, [&](uint32_t other) { changed_at[other] = now; });
       changed.push_back(number);
     }
-    // What a changed loop is now, and the loops that have lost a face vertex to it, lie beside others.
+    // A changed loop, and the loops that have lost a face vertex to it, lie beside others.
     dirty.clear();
-    for (const uint32_t number : changed) {
+    const auto spread = [&](uint32_t number) {
       dirty.push_back(number);
-      neighbours.visit(sharp.loops[number].loop, [&](uint32_t near) {
-        neighbours.visit(near, [&](uint32_t other) {
-          if (neighbours.placeOf(other) != kNone) dirty.push_back(neighbours.placeOf(other));
-        });
+      neighbours.visit(sharp.loops[number].loop, [&](uint32_t other) {
+        if (neighbours.placeOf(other) != kNone) dirty.push_back(neighbours.placeOf(other));
       });
+    };
+    for (const uint32_t number : changed) {
+      spread(number);
+      visitSharing(sharp.loops[number], spread);
     }
     std::sort(dirty.begin(), dirty.end());
     dirty.erase(std::unique(dirty.begin(), dirty.end()), dirty.end());

@@ -1,6 +1,8 @@
 #pragma once
 // Which fans a surface cannot have, by exact tests in integers: the verdicts of mesh/sharp_loops.h.
 
+#include <functional>
+
 #include "mesh/sharp_loops.h"
 
 namespace sgm {
@@ -9,8 +11,10 @@ namespace sgm {
 /// other only where they are joined.
 bool isSoundFan(const SharpLoops& sharp, const SharpLoop& loop, const FanCentre& centre);
 
-/// A loop whose fan meets a triangle of another loop wrongly gets a spare centre, or is rounded, until no fan does.
-/// Loops that are not sharp keep their triangles. Throws std::bad_alloc.
-void roundUntilValid(SharpLoops& sharp, std::pmr::memory_resource* memory);
+/// A loop whose fan meets a triangle of another loop wrongly gets another centre, or is rounded, until no fan does.
+/// Loops that are not sharp keep their triangles. takeNextCentre: gives a loop the next centre that makes a sound fan;
+/// false if there is none. Throws std::bad_alloc.
+void roundUntilValid(SharpLoops& sharp, const std::function<bool(SharpLoop&)>& takeNextCentre,
+                     std::pmr::memory_resource* memory);
 
 }  // namespace sgm

@@ -1,6 +1,7 @@
 #include "mesh/features.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "mesh/border_vertices.h"
@@ -30,7 +31,8 @@ SharpLoops Features::find() && {
   findSides();
   placeFaceVertices();
   placeCellVertices();
-  roundUntilValid(sharp_, memory_);
+  roundUntilValid(
+      sharp_, [this](SharpLoop& loop) { return takeNextCentre(loop); }, memory_);
   return std::move(sharp_);
 }
 
@@ -205,37 +207,64 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   return centres;
 }
 
+/// Gives each loop the first of its possible centres that makes a sound fan, with one look at the field for all.
 void Features::placeCellVertices() {
-  std::pmr::vector<Centres> centres(memory_);
+  std::pmr::vector<uint32_t> without(sharp_.loops.size(), memory_), left(memory_);
+  std::iota(without.begin(), without.end(), 0);
+  std::pmr::vector<FanCentre> centres(memory_);
   std::pmr::vector<Int3> points(memory_);
-  centres.reserve(sharp_.loops.size());
-  for (const SharpLoop& sharp : sharp_.loops) {
-    for (const FanCentre& centre : centres.emplace_back(centresOf(sharp)).all()) {
-      points.push_back(creases_.sampledAt(body_.grid().origin, centre.at));
+  std::pmr::vector<FieldSample> samples(memory_);
+  while (!without.empty()) {
+    centres.clear();
+    points.clear();
+    left.clear();
+    for (const uint32_t number : without) {
+      const std::optional<FanCentre> centre = nextCentre(sharp_.loops[number]);
+      if (!centre) continue;
+      left.push_back(number);
+      centres.push_back(*centre);
+      points.push_back(creases_.sampledAt(body_.grid().origin, centre->at));
     }
+    samples.resize(points.size());
+    if (!points.empty()) field_(points, samples, Sampled::all);
+    without.clear();
+    for (size_t i = 0; i < left.size(); ++i)
+      if (!take(centres[i], samples[i], sharp_.loops[left[i]])) without.push_back(left[i]);
   }
-  std::pmr::vector<FieldSample> samples(points.size(), memory_);
-  if (!points.empty()) field_(points, samples, Sampled::all);
-  size_t next = 0;
-  for (size_t number = 0; number < sharp_.loops.size(); ++number) {
-    SharpLoop& sharp = sharp_.loops[number];
-    for (const FanCentre& centre : centres[number].all()) {
-      const FieldSample& sample = samples[next++];
-      const bool is_fan = sharp.isFan();
-      if (sharp.spares[1] || !creases_.isOnSurface(sample) || !looksOut(sharp, centre)) continue;
-      if ((is_fan && centre == sharp.centre) || centre == sharp.spares[0]) continue;
-      if (!isSoundFan(sharp_, sharp, centre)) {
-        if (!is_fan) sharp.shape = SharpLoop::Shape::rounded;
-        continue;
-      }
-      if (is_fan) {
-        (sharp.spares[0] ? sharp.spares[1] : sharp.spares[0]) = centre;
-      } else {
-        sharp.shape = SharpLoop::Shape::fan;
-        sharp.centre = centre;
-      }
-    }
+}
+
+bool Features::takeNextCentre(SharpLoop& sharp) const {
+  while (const std::optional<FanCentre> centre = nextCentre(sharp)) {
+    const Int3 point = creases_.sampledAt(body_.grid().origin, centre->at);
+    FieldSample sample;
+    field_({&point, 1}, {&sample, 1}, Sampled::all);
+    if (take(*centre, sample, sharp)) return true;
   }
+  return false;
+}
+
+/// The next of a loop's possible centres, which counts as tried then; nullopt if all were.
+std::optional<FanCentre> Features::nextCentre(SharpLoop& sharp) const {
+  const Centres centres = centresOf(sharp);
+  while (sharp.tried < centres.all().size()) {
+    const size_t at = sharp.tried++;
+    const auto first = centres.all().begin();
+    const auto found = std::find(first, first + static_cast<std::ptrdiff_t>(at), centres.all()[at]);
+    if (found == first + static_cast<std::ptrdiff_t>(at)) return centres.all()[at];
+  }
+  return std::nullopt;
+}
+
+/// Makes a loop a fan about a centre, if that fan is sound and looks out of the solid.
+bool Features::take(const FanCentre& centre, const FieldSample& sample, SharpLoop& sharp) const {
+  if (!creases_.isOnSurface(sample) || !looksOut(sharp, centre)) return false;
+  if (!isSoundFan(sharp_, sharp, centre)) {
+    if (!sharp.isFan()) sharp.shape = SharpLoop::Shape::rounded;
+    return false;
+  }
+  sharp.shape = SharpLoop::Shape::fan;
+  sharp.centre = centre;
+  return true;
 }
 
 /// Whether all triangles about the place look out of the solid, but for slivers, and together do.

@@ -47,6 +47,9 @@ class Features {
   Vector3 meetingPoint(const SharpLoop& loop, const Int3& corner, std::span<const Vector3> ideals) const;
   Vector3 meanOnCrease(const SharpSide& side, std::span<const Vector3> ideals) const;
   Centres centresOf(const SharpLoop& loop) const;
+  std::optional<FanCentre> nextCentre(SharpLoop& loop) const;
+  bool takeNextCentre(SharpLoop& loop) const;
+  bool take(const FanCentre& centre, const FieldSample& sample, SharpLoop& loop) const;
   bool looksOut(const SharpLoop& loop, const FanCentre& centre) const;
   const SurfaceLoop& of(const SharpLoop& loop) const { return sharp_.of(loop); }
 

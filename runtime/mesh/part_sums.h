@@ -25,8 +25,8 @@ PartSums sumsOf(std::span<const Vertex> vertices, std::span<const uint32_t> indi
 /// Square metres. cell: the chunk's, units.
 double areaOf(const PartSums& sums, int32_t cell);
 
-/// Cubic metres: a third of the flux of x about a place that the chunk's origin lies `origin` metres from. Over a closed
-/// surface these add up to the volume inside.
+/// Cubic metres: a third of the flux of x about a place that the chunk's origin lies `origin` metres from. Over a
+/// closed surface these add up to the volume inside.
 double fluxOf(const PartSums& sums, int32_t cell, const std::array<double, 3>& origin);
 
 }  // namespace sgm

@@ -33,8 +33,8 @@ inline Int3 coarseFacePoint(const ChunkGrid& grid, Face face, int a, int b) {
 /// but the fans in the keys of lateral vertices at the face's border: vertices, indices and hash are a pure function of
 /// chunk and face. Canonical order: vertices on fine edges by owning sample (b, then a), u-edge before v-edge; then
 /// those on coarse edges likewise by coarse sample; then lateral ones by coarse sample. Triangles by seam cell (b, a),
-/// loop (tables.h), then the order of triangulateFlatLoop. Fills x, y, z, kind and keys only, as polygonizeBody does. Where
-/// the attributes of a vertex come from: the field of the level in its key.
+/// loop (tables.h), then the order of triangulateFlatLoop. Fills x, y, z, kind and keys only, as polygonizeBody does.
+/// Where the attributes of a vertex come from: the field of the level in its key.
 void polygonizeSeam(Face face, const ChunkSamples& fine, const CoarseFace& coarse, const ChunkGrid& grid,
                     Neighbourhood coarser, MeshPart& part);
 

@@ -88,8 +88,8 @@ struct SharpLoop {
   uint32_t loop = 0;                               ///< of the body
   std::array<uint32_t, kLongestCubeLoop> sides{};  ///< numbers of the sides behind its vertices; kNone if not sharp
   Shape shape = Shape::plain;
-  FanCentre centre;                                ///< of a fan
-  std::array<std::optional<FanCentre>, 2> spares;  ///< other centres that are not as good, best first
+  FanCentre centre;   ///< of a fan
+  uint8_t tried = 0;  ///< how many of its possible centres were tried
 
   bool isFan() const { return shape == Shape::fan; }
 };

@@ -167,8 +167,8 @@ class TrianglePair {
   }
 
   /// Both triangles cross the other's plane, in no corner. On the line of both planes each covers what lies between the
-  /// two edges from its lone corner; which of two edges comes first there is one orientation (Guigue and Devillers, Fast
-  /// and Robust Triangle-Triangle Overlap Test Using Orientation Predicates, 2003).
+  /// two edges from its lone corner; which of two edges comes first there is one orientation (Guigue and Devillers,
+  /// Fast and Robust Triangle-Triangle Overlap Test Using Orientation Predicates, 2003).
   static bool crossingMeet(const Corners& a, size_t a_lone, int a_side, const Corners& b, size_t b_lone, int b_side) {
     // As many turns as make both lone corners lie in front of the other plane.
     const Corners p = {a[a_lone], a[(a_lone + (b_side > 0 ? 2 : 1)) % 3], a[(a_lone + (b_side > 0 ? 1 : 2)) % 3]};
