@@ -22,7 +22,7 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
                                             Int3{1, 1, -1}, Int3{1, -1, 1}, Int3{-1, 1, 1}};
   std::array<std::array<int64_t, 3>, LoopTriangles::kMost> areas;
   for (size_t i = 0; i < fan.size(); ++i) {
-    const auto& [centre, from, to] = fan[i].at;
+    const Int3 &centre = fan[i].at[0], &from = fan[i].at[1], &to = fan[i].at[2];
     const int64_t ux = from.x - centre.x, uy = from.y - centre.y, uz = from.z - centre.z;
     const int64_t vx = to.x - centre.x, vy = to.y - centre.y, vz = to.z - centre.z;
     areas[i] = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
@@ -36,7 +36,7 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
     int turn = 0, rounds = 0;
     bool same = true;
     for (size_t i = 0; i < fan.size() && same; ++i) {
-      const auto& [centre, from, to] = fan[i].at;
+      const Int3 &centre = fan[i].at[0], &from = fan[i].at[1], &to = fan[i].at[2];
       const int own = IntegerSigns::signOf(d.x * areas[i][0] + d.y * areas[i][1] + d.z * areas[i][2]);
       same = own != 0 && (turn == 0 || own == turn);
       turn = own;
