@@ -61,7 +61,7 @@ int checkCell(const Program& program, const ParameterValues& values, uint64_t se
 
 }  // namespace
 
-TEST_CASE("what is proven holds all that is derived") {
+TEST_CASE("what is proven holds all that is derived", "[costly]") {
   int proven = 0, groups = 0, fine = 0, edited = 0;
   const int programs = static_cast<int>(rounds(1200));
   for (uint64_t seed = 1; seed <= static_cast<uint64_t>(programs); ++seed) {
