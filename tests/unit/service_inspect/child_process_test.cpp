@@ -172,7 +172,9 @@ TEST_CASE("a grandchild that holds the streams is not waited for", "[threads]") 
   CHECK(outcome.status == 0);
   CHECK(endsSoon(std::stoi(outcome.output)));
   // Nor one that is in a session of its own, and goes on talking; only that one is nobody's to end.
-  const ChildOutcome escaped = outcomeOf(shell("setsid sh -c 'echo $$; exec yes >&2' & sleep 0.3; echo done"));
+  const ChildOutcome escaped =
+      outcomeOf(shell("told=$(mktemp -u); mkfifo $told; setsid sh -c 'echo $$; : >$0; exec yes >&2' $told & "
+                      "read -r end <$told; rm $told; sleep 0.3; echo done"));
   CHECK(escaped.end == ChildEnd::exited);
   CHECK(escaped.output.ends_with("done\n"));
   const int process = std::stoi(escaped.output);
