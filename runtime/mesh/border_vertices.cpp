@@ -48,7 +48,7 @@ class Surroundings {
 
   Surroundings(const SharpSide& side, int32_t cell) : side_(side), cell_(cell) {}
 
-  /// nullopt beyond the world, or if there is no such corner.
+  /// nullopt if the corner lies beyond the world or does not exist.
   std::optional<Int3> corner(size_t number) const {
     const int u = (side_.axis + 1) % 3, v = (side_.axis + 2) % 3;
     Int3 steps;

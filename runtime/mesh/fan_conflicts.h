@@ -13,7 +13,7 @@ bool isSoundFan(const SharpLoops& sharp, const SharpLoop& loop, const FanCentre&
 
 /// A loop whose fan meets a triangle of another loop wrongly gets another centre, or is rounded, until no fan does.
 /// Loops that are not sharp keep their triangles. takeNextCentre: gives a loop the next centre that makes a sound fan;
-/// false if there is none. Throws std::bad_alloc.
+/// false if no centre is left. Throws std::bad_alloc.
 void roundUntilValid(SharpLoops& sharp, const std::function<bool(SharpLoop&)>& takeNextCentre,
                      std::pmr::memory_resource* memory);
 

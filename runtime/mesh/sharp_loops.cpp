@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace sgm {
+
 SharpSide sideBetween(uint32_t a, uint32_t b, const RawVector<VertexKey>& keys) {
   SharpSide side;
   side.from = keys[b] < keys[a] ? b : a;

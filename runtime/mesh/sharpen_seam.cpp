@@ -58,7 +58,7 @@ class LevelOfSeam {
     append();
   }
 
-  /// The face vertex between two of the seam's vertices; kNoMiddle if there is none.
+  /// The face vertex between two of the seam's vertices; kNoMiddle if their side has no face vertex.
   uint32_t middleOf(uint32_t a, uint32_t b) const {
     if (in_part_[a] == kNoMiddle || in_part_[b] == kNoMiddle) return kNoMiddle;
     const SharpSide wanted = sideBetween(in_part_[a], in_part_[b], part_.keys);

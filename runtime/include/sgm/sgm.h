@@ -741,12 +741,12 @@ typedef int32_t (*sgm_progress_function)(void* user, uint64_t done, uint64_t tot
 /* What meshes have beside their triangles. Worlds have flags of their own: sgm_world_flag. */
 typedef enum sgm_meshing_flag {
   SGM_MESHING_TEXTURE = 1, /* texture coordinates and blends of materials: wedges, in views of meshes and of surfaces */
-  SGM_MESHING_SHARP =
-      2, /* crisp edges and corners: feature vertices from the field's gradients, once for each side
-            of their crease with that side's normal, at the same position. Where a surface
-            bends less than 26 degrees within a cell it keeps its triangles, and so does a cell
-            whose features would fold, cut or coincide. Chunks agree on their faces, as without; seams join sharp chunks
-            to sharp ones, so that all chunks of one surface are to be asked for alike */
+  SGM_MESHING_SHARP = 2,   /* crisp edges and corners: feature vertices from the field's gradients, once for each side
+                              of their crease with that side's normal, at the same position. Where a surface
+                              bends less than 26 degrees within a cell it keeps its triangles, and so does a cell
+                              whose features would fold, cut or coincide. Chunks agree on their faces, as without;
+                              seams join sharp chunks to sharp ones, so that all chunks of one surface are to be asked
+                              for alike */
   SGM_MESHING_FLAG_FORCE_32_BIT = 0x7FFFFFFF
 } sgm_meshing_flag;
 
