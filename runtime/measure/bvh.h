@@ -76,10 +76,13 @@ class Bvh {
     return steps;
   }
 
-  /// Calls visit(triangle) for each whose box reaches over or to the place, along z. Returns whether it came to the end
+  /// The part of the line through a place along z, the place included.
+  enum class Column : uint8_t { above, below };
+
+  /// Calls visit(triangle) for each whose box meets that part of the place's line. Returns whether it came to the end
   /// within so many steps, each a look at a node.
   template <class Visit>
-  bool visitAbove(Point at, uint64_t most_steps, Visit&& visit) const {
+  bool visitColumn(Point at, Column column, uint64_t most_steps, Visit&& visit) const {
     // Each row of the tree leaves one node at most behind.
     std::array<uint32_t, 34> waiting;
     waiting[0] = 1;
@@ -91,7 +94,9 @@ class Bvh {
       const auto reaches = [&](int axis) {
         return static_cast<double>(box.low[axis]) <= at[axis] && at[axis] <= static_cast<double>(box.high[axis]);
       };
-      if (!reaches(0) || !reaches(1) || static_cast<double>(box.high[2]) < at.z) continue;
+      const bool passed = column == Column::above ? static_cast<double>(box.high[2]) < at.z
+                                                  : static_cast<double>(box.low[2]) > at.z;
+      if (!reaches(0) || !reaches(1) || passed) continue;
       if (isLeaf(node)) {
         visit(triangle(node));
       } else {

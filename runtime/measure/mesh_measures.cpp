@@ -151,7 +151,7 @@ Result<MeshMeasures> measureMesh(const Triangles& mesh, const MeshSettings& sett
         } else {
           failed = histogram.error();
         }
-        result.nesting = nestingOf(clean, tree, result.parts, steps, jobs);
+        result.nesting = nestingOf(clean, tree, result.parts, settings.cut.has_value(), steps, jobs);
         countShapes(clean, jobs, result);
       },
       [&] {

@@ -1,6 +1,7 @@
 #include "measure/nesting.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "measure/column.h"
@@ -11,6 +12,45 @@ namespace {
 
 /// Whether the shell has an inside: only such ones make a place lie in a solid.
 bool bounds(const Shell& shell) { return shell.closed() && shell.manifold; }
+/// Whether a cut may have opened the shell, so that it has an inside as far as the mesh goes.
+bool boundsUpToCut(const Shell& shell) { return !shell.closed() && shell.manifold; }
+
+/// The height of a triangle that is seen along z over a place or under it.
+double heightAt(const std::array<Point, 3>& t, Point at) {
+  const Point normal = crossOf(t[0], t[1], t[2]);
+  const auto [low, high] = std::minmax({t[0].z, t[1].z, t[2].z});
+  const double height = t[0].z - (normal.x * (at.x - t[0].x) + normal.y * (at.y - t[0].y)) / normal.z;
+  return height >= low ? std::min(height, high) : low;
+}
+
+/// What an open shell says of a place.
+enum class BesideCut : uint8_t { unknown, in_solid, in_open };
+
+/// Asks the nearest open shell above a place; where there is none, the nearest below. Unknown where it only touches the
+/// line there. Nothing where that takes more than so many looks at the tree's nodes.
+std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const Shells& parts, Point at,
+                                   uint64_t most_steps) {
+  for (const Bvh::Column column : {Bvh::Column::above, Bvh::Column::below}) {
+    const int away = column == Bvh::Column::above ? 1 : -1;
+    double nearest = std::numeric_limits<double>::infinity();
+    int facing = 0;  // of the triangles there: those that face away from the place, less those that face it
+    const bool ended = tree.visitColumn(at, column, most_steps, [&](uint32_t triangle) {
+      const uint32_t shell = parts.of_triangle[triangle];
+      if (shell == kNoShell || !boundsUpToCut(parts.shells[shell])) return;
+      const Triangle& corners = mesh.triangles[triangle];
+      const std::array<Point, 3> t{mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
+      const int turn = turnOver(t, at.x, at.y);
+      if (turn == 0 || turn * orientation(t[0], t[1], t[2], at) * away <= 0) return;
+      const double height = heightAt(t, at) * away;
+      if (height > nearest) return;
+      facing = (height < nearest ? 0 : facing) + turn * away;
+      nearest = height;
+    });
+    if (!ended) return std::nullopt;
+    if (facing != 0) return facing > 0 ? BesideCut::in_solid : BesideCut::in_open;
+  }
+  return BesideCut::unknown;
+}
 
 }  // namespace
 
@@ -18,7 +58,7 @@ std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells&
                            uint64_t most_steps) {
   // On the way up to where nothing is, each triangle that faces up leaves a solid.
   int depth = 0;
-  const bool ended = tree.visitAbove(at, most_steps, [&](uint32_t triangle) {
+  const bool ended = tree.visitColumn(at, Bvh::Column::above, most_steps, [&](uint32_t triangle) {
     const uint32_t shell = parts.of_triangle[triangle];
     if (shell == all_but || shell == kNoShell || !bounds(parts.shells[shell])) return;
     const Triangle& corners = mesh.triangles[triangle];
@@ -29,7 +69,8 @@ std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells&
   return ended ? std::optional<int>(depth) : std::nullopt;
 }
 
-Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint64_t most_steps, JobSystem& jobs) {
+Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, bool is_cut, uint64_t most_steps,
+                  JobSystem& jobs) {
   constexpr size_t kTogether = 16;
   const size_t shells = parts.shells.size(), blocks = (shells + kTogether - 1) / kTogether;
   const uint64_t share = shells > 0 ? most_steps / shells + 1 : 0;
@@ -40,7 +81,15 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, u
       const Shell& shell = parts.shells[s];
       if (!bounds(shell)) continue;
       const Point at = mesh.points[mesh.triangles[shell.first][0]];
-      const std::optional<int> depth = shells > 1 ? depthAt(mesh, tree, parts, static_cast<uint32_t>(s), at, share) : 0;
+      std::optional<int> depth = shells > 1 ? depthAt(mesh, tree, parts, static_cast<uint32_t>(s), at, share) : 0;
+      if (is_cut && depth) {
+        // Corners of meshes on a grid often lie above others; the middle of a triangle does not.
+        const Triangle& corners = mesh.triangles[shell.first];
+        const Point middle = (1.0 / 3) * (mesh.points[corners[0]] + mesh.points[corners[1]] + mesh.points[corners[2]]);
+        const std::optional<BesideCut> beside = besideCut(mesh, tree, parts, middle, share);
+        const bool in_solid = beside == BesideCut::in_solid || (beside == BesideCut::unknown && shell.volume < 0);
+        depth = beside ? std::optional<int>(*depth + (in_solid ? 1 : 0)) : std::nullopt;
+      }
       if (!depth) {
         ++here.not_judged;
       } else if (shell.volume < 0 && *depth > 0) {

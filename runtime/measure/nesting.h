@@ -11,7 +11,7 @@
 
 namespace sgm::measure {
 
-/// Of shells that are closed and manifold: others have no inside.
+/// Of shells that are closed and manifold: of another the inside is not known.
 struct Nesting {
   uint64_t cavities = 0;                                 ///< that face inward, in a solid
   uint64_t inside_out = 0;                               ///< that face inward, in the open
@@ -25,8 +25,11 @@ struct Nesting {
 std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint32_t all_but, Point at,
                            uint64_t most_steps);
 
-/// Each shell is judged by its first corner. most_steps: looks at nodes of the tree, shared out evenly over the shells.
-/// The same for any number of threads.
-Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, uint64_t most_steps, JobSystem& jobs);
+/// Each shell is judged by its first corner. is_cut: the mesh was cut from a larger one. Then the nearest open shell
+/// above or below the shell's first triangle tells whether that lies in a solid that goes on beyond the cut; where none
+/// tells, a shell that faces inward is a cavity of such a solid. most_steps: looks at nodes of the tree, shared out
+/// evenly over the shells. The same for any number of threads.
+Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, bool is_cut, uint64_t most_steps,
+                  JobSystem& jobs);
 
 }  // namespace sgm::measure

@@ -70,7 +70,7 @@ void parts(const char* name, const Mesh& mesh, JobSystem& jobs) {
   Shells shells;
   row("shellsOf", [&] { shells = shellsOf(clean, *edges, sums.centre); });
   row("smoothNormals, histogram", [&] { (void)histogramOf(clean, smoothNormals(clean), &*edges, {}, jobs); });
-  row("nestingOf", [&] { (void)nestingOf(clean, *tree, shells, uint64_t{1} << 40, jobs); });
+  row("nestingOf", [&] { (void)nestingOf(clean, *tree, shells, false, uint64_t{1} << 40, jobs); });
   row("checkTriangles", [&] {
     (void)checkTriangles({clean.triangles.front().data(), 3 * clean.triangles.size()}, clean.points.size());
   });

@@ -143,6 +143,62 @@ TEST_CASE("shells that face inward are cavities within a solid, and inside out e
   CHECK_FALSE(found.valid());
 }
 
+TEST_CASE("shells beside a cut stand in the solid that the open shells bound", "[measures]") {
+  for (unsigned seed = 0; seed < rounds(50); ++seed) {
+    std::mt19937 random(seed);
+    const int axis = static_cast<int>(random() % 3);
+    const double face = random() % 2 == 0 ? 0 : 4;
+    CAPTURE(seed, axis, face);
+    // A box that is open where the cut went through it.
+    Mesh cut_box = box({4, 4, 4}, 4);
+    std::erase_if(cut_box.triangles, [&](const Triangle& t) {
+      return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return cut_box.points[v][axis] == face; });
+    });
+    MeshSettings settings;
+    settings.cut = Cut{{-20, -20, -20}, {20, 20, 20}};
+    (face == 0 ? settings.cut->low : settings.cut->high)[axis] = face;
+    const Mesh small = ball(1).moved([](Point p) { return 0.25 * p; });
+    const Point within{between(random, 1, 3), between(random, 1, 3), between(random, 1, 3)};
+    Point outside = within;
+    const int off = (axis + 1 + static_cast<int>(random() % 2)) % 3;
+    outside[off] += random() % 2 == 0 ? 4 : -4;
+    // What lies beside the box has the open shell neither above nor below it, unless it is moved along z.
+    const bool is_seen = off == 2;
+    const auto nestingWith = [&](Point at, bool inward) {
+      Mesh mesh = cut_box, other = small.at(at);
+      if (inward) other.invert();
+      mesh.add(other);
+      const MeshMeasures found = measured(mesh, settings);
+      CHECK(found.cut_edges == 16);
+      CHECK(found.identity.open_edges == 16);
+      CHECK(found.validButForCut() == (found.nesting.inside_out + found.nesting.nested == 0));
+      return std::array<uint64_t, 3>{found.nesting.cavities, found.nesting.inside_out, found.nesting.nested};
+    };
+    CHECK(nestingWith(within, true) == std::array<uint64_t, 3>{1, 0, 0});
+    CHECK(nestingWith(within, false) == std::array<uint64_t, 3>{0, 0, 1});
+    CHECK(nestingWith(outside, false) == std::array<uint64_t, 3>{0, 0, 0});
+    CHECK(nestingWith(outside, true) ==
+          (is_seen ? std::array<uint64_t, 3>{0, 1, 0} : std::array<uint64_t, 3>{1, 0, 0}));
+
+    // A ball in a cavity in that solid stands in the open; a hollow in a ball there, in a solid.
+    Mesh nested = cut_box, cavity = small.at(within), core = small.moved([](Point p) { return 0.5 * p; }).at(within);
+    cavity.invert();
+    nested.add(cavity);
+    nested.add(core);
+    CHECK(measured(nested, settings).validButForCut());
+    core.invert();
+    nested.add(core.moved([&](Point p) { return within + 0.5 * (p - within); }));
+    CHECK(measured(nested, settings).nesting.cavities == 2);
+    CHECK(measured(nested, settings).validButForCut());
+    // Without a cut the same open shell bounds nothing.
+    Mesh uncut = cut_box;
+    uncut.add(cavity);
+    CHECK(measured(uncut, settings).nesting.cavities == 1);
+    settings.cut.reset();
+    CHECK(measured(uncut, settings).nesting.inside_out == 1);
+  }
+}
+
 TEST_CASE("files repeat points, and have some that nothing uses", "[measures]") {
   Mesh soup;
   for (const Triangle& t : torus(8).triangles) {
