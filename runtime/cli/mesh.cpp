@@ -75,13 +75,12 @@ void printText(const MeshOptions& options, const Region& region, const Summary& 
 }
 
 /// What is measured of the region; volumes are those inside of it.
-Result<void> measureRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region,
-                           const MeshOptions& options, Summary& summary) {
+Result<void> measureRegion(const WorldField& world, const Region& region, const MeshOptions& options,
+                           Summary& summary) {
   const IntBox& extent = region.meshed.extent;
-  summary.measures = measuresOf(region.unsplit ? *region.unsplit : region.meshed.mesh, extent.lo);
-  const auto keys = chunksOfRegion(world, extent, options.level, options.max_chunks);
-  if (!keys) return keys.error();
-  const Result<double> border = borderFlux(world, backend, jobs, *keys, options.sharp);
+  const WorldMesh& mesh = region.unsplit ? *region.unsplit : region.meshed.mesh;
+  summary.measures = measuresOf(mesh, extent.lo);
+  const Result<double> border = borderFlux(world, extent, options.level, mesh);
   if (!border) return border.error();
   summary.volume = solidVolume(world, extent, summary.measures.flux + *border);
   summary.cubes = cubeVolume(region.meshed.solid_samples, region.cell);
@@ -106,8 +105,8 @@ Exit mesh(const MeshOptions& options) {
   Summary summary;
   RegionPlan plan;
   plan.texture = options.uv;
-  plan.after = [&](const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region) {
-    return measureRegion(world, backend, jobs, region, options, summary);
+  plan.after = [&](const WorldField& world, Backend&, JobSystem&, const Region& region) {
+    return measureRegion(world, region, options, summary);
   };
   const RegionResult made = meshRegion(options, plan);
   if (!made.region) return made.status;

@@ -116,3 +116,46 @@ TEST_CASE("volumes of regions side by side add up, near the origin and far out",
     }
   }
 }
+
+TEST_CASE("the border of a welded mesh says what its seams do", "[metrics]") {
+  const unsigned seed = std::random_device()();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  for (unsigned round = 0; round < rounds(12); ++round) {
+    const bool solid = round % 2 == 1, sharp = round % 4 >= 2;
+    std::string shapes = "at(4m, 4m, 4m) { " + randomShapes(random) + "}";
+    if (solid) shapes = "cut { " + shapes + " }";
+    const World maker("sgm 1; domain finite box(64m, 64m, 64m)" + std::string(solid ? " solid" : "") +
+                      "; start A; rule A { " + shapes + " }");
+    WorldFieldSettings settings;
+    settings.program = maker.settings().program;
+    settings.parameters = maker.settings().parameters;
+    settings.finest_cell = static_cast<int32_t>(0.25 * kUnitsPerMetre);
+    const WorldField world(settings, std::pmr::get_default_resource());
+    const IntBox region = chunksAt({-1, 0, 0}, {2, 1, 1}, 0.25);
+    const auto keys = chunksOfRegion(world, region, 0, 64);
+    REQUIRE(keys);
+    std::vector<ChunkRequest> requests;
+    for (const ChunkKey& key : *keys) {
+      requests.push_back(ChunkRequest{key});
+      requests.back().sharp = sharp;
+      requests.back().keys = true;
+    }
+    const auto chunks = meshChunks(world, maker.backend(), maker.jobs(), requests);
+    REQUIRE(chunks);
+    std::pmr::vector<PlacedPart> parts;
+    for (const PlacedChunk& chunk : *chunks) appendParts(chunk, parts);
+    const Result<WorldMesh> mesh = weld(parts, region.lo);
+    REQUIRE(mesh);
+    const Result<double> by_seams = borderFlux(world, maker.backend(), maker.jobs(), *keys, sharp);
+    const Result<double> by_edges = borderFlux(world, region, 0, *mesh);
+    REQUIRE(by_seams);
+    REQUIRE(by_edges);
+    CAPTURE(round, shapes);
+    CHECK(*by_edges == Approx(*by_seams).epsilon(1e-9).margin(1e-9));
+    // Wherever positions count from.
+    const Result<WorldMesh> elsewhere = weld(parts, {region.lo.x - 512, region.lo.y + 1024, region.lo.z});
+    REQUIRE(elsewhere);
+    CHECK(*borderFlux(world, region, 0, *elsewhere) == Approx(*by_seams).epsilon(1e-9).margin(1e-9));
+  }
+}
