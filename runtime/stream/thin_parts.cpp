@@ -8,13 +8,15 @@
 #include <tuple>
 #include <utility>
 
+#include "backend/cpu/instruction_sets.h"
 #include "field/evaluate.h"
 #include "stream/vec3.h"
 
 namespace sgm {
 namespace {
 
-constexpr size_t kMostLooks = 128;  ///< at parts of one rule; others of it are taken to be as these are
+constexpr size_t kMostLooks = 32;   ///< at parts of one statement; others of it are taken to be as these are
+constexpr size_t kTracedCells = 8;  ///< of a layer; later ones are traced if they have thin shapes that are new
 
 /// A box about a shape, in which it is as thick as along its shortest axis.
 struct Slab {
@@ -249,31 +251,48 @@ class Surroundings {
     const Result<std::shared_ptr<const FieldProgram>> program =
         world_.compile(IntBox{middle, middle}.grown(reach), level_);
     if (!program) return program.error();
-    const auto there = [&](const Vec3& offset) { return (valueAt(**program, placeOf(slab, offset)) < 0) != cut; };
-    size_t present = 0, carried = 0;
+    // At each place, and beside it along each thin axis on both sides, close and farther away.
+    std::vector<Int3> points;
     for (const Vec3& place : places) {
-      if (!there(place)) continue;  // cut away, or filled again
-      const auto beside = [&](size_t axis, double way) {
-        const auto at = [&](double cells) {
-          return there(sum(place, scaled(slab.axes[axis], way * (slab.half[axis] + cells * cell_))));
-        };
-        return at(0.4) && at(0.9);
+      points.push_back(placeOf(slab, place));
+      for (const size_t axis : thin)
+        for (const double way : {1.0, -1.0})
+          for (const double cells : {0.4, 0.9})
+            points.push_back(
+                placeOf(slab, sum(place, scaled(slab.axes[axis], way * (slab.half[axis] + cells * cell_)))));
+    }
+    const std::vector<bool> there = solidAt(**program, points, cut);
+    size_t present = 0, carried = 0;
+    for (size_t first = 0; first < points.size(); first += 1 + 4 * thin.size()) {
+      if (!there[first]) continue;  // cut away, or filled again
+      const auto beside = [&](size_t k, size_t way) {
+        const size_t close = first + 1 + 4 * k + 2 * way;
+        return there[close] && there[close + 1];
       };
-      const auto both = [&](size_t axis) { return beside(axis, 1) && beside(axis, -1); };
-      if (cut && std::ranges::all_of(thin, both)) continue;  // outside of what it is taken from
+      bool all_both = true, any = false;
+      for (size_t k = 0; k < thin.size(); ++k) {
+        all_both = all_both && beside(k, 0) && beside(k, 1);
+        any = any || beside(k, 0) || beside(k, 1);
+      }
+      if (cut && all_both) continue;  // outside of what it is taken from
       ++present;
-      if (std::ranges::any_of(thin, [&](size_t axis) { return beside(axis, 1) || beside(axis, -1); })) ++carried;
+      carried += any;
     }
     return present > 0 && 2 * carried < present;
   }
 
  private:
-  double valueAt(const FieldProgram& program, Int3 p) {
-    float value = 0;
+  /// Whether each point is solid, or void where `cut`.
+  std::vector<bool> solidAt(const FieldProgram& program, const std::vector<Int3>& points, bool cut) {
+    std::vector<int32_t> x, y, z;
+    for (const Int3& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+    std::vector<float> values(points.size());
     Attributes wanted;
-    wanted.value = &value;
-    scalarKernels().attributes(program.view(), {&p.x, &p.y, &p.z, 1}, scratch_, wanted);
-    return static_cast<double>(value);
+    wanted.value = values.data();
+    bestKernels().attributes(program.view(), {x.data(), y.data(), z.data(), points.size()}, scratch_, wanted);
+    std::vector<bool> solid;
+    for (const float value : values) solid.push_back((value < 0) != cut);
+    return solid;
   }
 
   const WorldField& world_;
@@ -289,67 +308,145 @@ std::string ruleOf(const std::string& path) {
   return last.substr(0, last.find('['));
 }
 
+/// What says which statement a thin shape is of, without deriving its cell anew.
+using Look = std::tuple<ShapeKind, double, bool, uint16_t, uint16_t, int32_t, int32_t>;
+Look lookOf(const GrammarChunk& chunk, const Candidate& thin) {
+  const Shape& s = chunk.shapes[thin.shape];
+  return {s.kind, thin.slab.thickness(), thin.cut, s.material, s.tag, s.detail, s.coarsest};
+}
+
+/// Counts the thin parts of a world, statement by statement, so that a slab on the ground hides no pole beside it.
+class PartCounter {
+ public:
+  PartCounter(const WorldField& world, const IntBox& box, int level)
+      : world_(world), box_(box), cell_edge_(world.cellAt(level)), surroundings_(world, level) {
+    // Of the walls of a treemap the command warns by themselves, whatever is derived.
+    for (const StmtNode& s : world.settings().program->ast.stmts)
+      if (s.kind == StmtKind::treemap) walls_.emplace(s.span.file, s.span.begin);
+  }
+
+  Result<void> count(uint32_t layer) {
+    known_.clear();
+    traced_ = 0;
+    return world_.cellsAround(layer, box_, [&](Int3 at) { return countCell(layer, at); });
+  }
+
+  std::vector<ThinPart> parts() const {
+    std::map<std::pair<std::string, bool>, ThinPart> by_rule;
+    std::map<std::pair<std::string, bool>, std::set<Use>> uses;
+    for (const auto& [place, found] : found_) {
+      if (found.uses.empty() && found.untraced == 0) continue;
+      const std::pair<std::string, bool> name{std::get<0>(place), std::get<1>(place)};
+      const auto [part, is_new] = by_rule.try_emplace(name, ThinPart{name.first, name.second, found.thickness, 0});
+      part->second.thickness = std::min(part->second.thickness, found.thickness);
+      part->second.uses += found.untraced;
+      uses[name].insert(found.uses.begin(), found.uses.end());
+    }
+    std::vector<ThinPart> parts;
+    for (auto& [name, part] : by_rule) {
+      part.uses += uses[name].size();
+      parts.push_back(part);
+    }
+    return parts;
+  }
+
+ private:
+  using Place = std::tuple<std::string, bool, uint32_t, uint32_t>;  ///< rule, cut, file and place of the statement
+  using Use = std::tuple<uint32_t, Int3, uint32_t>;                 ///< layer, cell, use
+  struct Found {
+    int32_t thickness = INT32_MAX;
+    std::set<Use> uses;   ///< of the rule, in cells that were traced
+    size_t untraced = 0;  ///< in others
+    size_t looked = 0, alone = 0;
+    std::set<Use> seen;          ///< uses with a thin shape of this statement
+    bool one_shape_each = true;  ///< as far as seen
+  };
+
+  Result<void> countCell(uint32_t layer, Int3 at) {
+    const auto cell = world_.cellFor(layer, at, cell_edge_);
+    if (!cell) return cell.error();
+    const GrammarChunk& chunk = (*cell)->chunk;
+    const std::vector<Candidate> thin = ThinShapes(chunk, cell_edge_).find();
+    if (thin.empty()) return {};
+    if (traced_ >= kTracedCells && std::ranges::all_of(thin, [&](const Candidate& c) { return isKnown(chunk, c); })) {
+      for (const Candidate& c : thin) {
+        const std::optional<Place>& place = known_.at(lookOf(chunk, c));
+        if (!place || !box_.contains(placeOf(c.slab, {}))) continue;
+        Found& found = found_[*place];
+        const Result<bool> counts = countsAs(found, c);
+        if (!counts) return counts.error();
+        if (*counts) ++found.untraced;
+      }
+      return {};
+    }
+    return countTraced(layer, at);
+  }
+
+  bool isKnown(const GrammarChunk& chunk, const Candidate& thin) const {
+    const auto known = known_.find(lookOf(chunk, thin));
+    if (known == known_.end() || several_.contains(known->first)) return false;
+    return !known->second || found_.at(*known->second).one_shape_each;
+  }
+
+  Result<void> countTraced(uint32_t layer, Int3 at) {
+    ++traced_;
+    const Result<TracedCell> traced = world_.trace(layer, at);
+    if (!traced) return traced.error();
+    for (const Candidate& thin : ThinShapes(traced->chunk, cell_edge_).find()) {
+      const ShapeOrigin& origin = traced->origins[thin.shape];
+      std::optional<Place> place;
+      if (!walls_.contains({origin.span.file, origin.span.begin}))
+        place = Place{ruleOf(traced->uses[origin.use]), thin.cut, origin.span.file, origin.span.begin};
+      const auto [known, is_new] = known_.try_emplace(lookOf(traced->chunk, thin), place);
+      if (!is_new && known->second != place) several_.insert(known->first);
+      if (!place) continue;
+      Found& found = found_[*place];
+      const Use use{layer, at, origin.use};
+      if (!found.seen.insert(use).second) found.one_shape_each = false;
+      if (!box_.contains(placeOf(thin.slab, {}))) continue;
+      const Result<bool> counts = countsAs(found, thin);
+      if (!counts) return counts.error();
+      if (*counts) found.uses.insert(use);
+    }
+    return {};
+  }
+
+  /// Whether a part counts: it stands alone, or is taken to, as others of its statement do.
+  Result<bool> countsAs(Found& found, const Candidate& thin) {
+    if (found.looked < kMostLooks) {
+      const Result<bool> alone = surroundings_.standsAlone(thin.slab, thin.cut);
+      if (!alone) return alone.error();
+      ++found.looked;
+      if (!*alone) return false;
+      ++found.alone;
+    } else if (found.alone == 0) {
+      return false;
+    }
+    found.thickness = std::min(found.thickness, static_cast<int32_t>(std::ceil(thin.slab.thickness() - 1e-3)));
+    return true;
+  }
+
+  const WorldField& world_;
+  const IntBox box_;
+  const int32_t cell_edge_;
+  Surroundings surroundings_;
+  std::set<std::pair<uint32_t, uint32_t>> walls_;
+  std::map<Place, Found> found_;
+  std::map<Look, std::optional<Place>> known_;  ///< of the layer's traced cells; nullopt for walls
+  std::set<Look> several_;                      ///< that shapes of several statements have
+  size_t traced_ = 0;                           ///< cells of the layer
+};
+
 }  // namespace
 
 Result<std::vector<ThinPart>> thinParts(const WorldField& world, const IntBox& box, int level) {
-  const int32_t cell_edge = world.cellAt(level);
   const Program& program = *world.settings().program;
-  struct Found {
-    ThinPart part;
-    std::set<std::tuple<uint32_t, Int3, uint32_t>> uses;  ///< layer, cell, use
-    size_t looked = 0, alone = 0;
-  };
-  // Statements of a rule are judged one by one, so that a slab on the ground hides no pole beside it.
-  std::map<std::tuple<std::string, bool, uint32_t, uint32_t>, Found> by_place;
-  // Of the walls of a treemap the command warns by themselves, whatever is derived.
-  std::set<std::pair<uint32_t, uint32_t>> walls;
-  for (const StmtNode& s : program.ast.stmts)
-    if (s.kind == StmtKind::treemap) walls.emplace(s.span.file, s.span.begin);
-  Surroundings surroundings(world, level);
+  PartCounter counter(world, box, level);
   for (uint32_t layer = 0; layer < program.layers.size(); ++layer) {
-    if (!program.layers[layer].shows(cell_edge)) continue;
-    const auto visit = [&](Int3 at) -> Result<void> {
-      const auto cell = world.cellFor(layer, at, cell_edge);
-      if (!cell) return cell.error();
-      if (ThinShapes((*cell)->chunk, cell_edge).find().empty()) return {};
-      const Result<TracedCell> traced = world.trace(layer, at);
-      if (!traced) return traced.error();
-      for (const Candidate& thin : ThinShapes(traced->chunk, cell_edge).find()) {
-        const Int3 middle = placeOf(thin.slab, {});
-        if (!box.contains(middle)) continue;
-        const ShapeOrigin& origin = traced->origins[thin.shape];
-        if (walls.contains({origin.span.file, origin.span.begin})) continue;
-        const std::string rule = ruleOf(traced->uses[origin.use]);
-        Found& found = by_place[{rule, thin.cut, origin.span.file, origin.span.begin}];
-        bool counts = found.alone > 0;
-        if (found.looked < kMostLooks) {
-          const Result<bool> alone = surroundings.standsAlone(thin.slab, thin.cut);
-          if (!alone) return alone.error();
-          ++found.looked;
-          if (*alone) ++found.alone;
-          counts = *alone;
-        }
-        if (!counts) continue;
-        const auto thickness = static_cast<int32_t>(std::ceil(thin.slab.thickness() - 1e-3));
-        ThinPart& part = found.part;
-        part.thickness = found.uses.empty() ? thickness : std::min(part.thickness, thickness);
-        found.uses.insert({layer, at, origin.use});
-      }
-      return {};
-    };
-    if (const Result<void> visited = world.cellsAround(layer, box, visit); !visited) return visited.error();
+    if (!program.layers[layer].shows(world.cellAt(level))) continue;
+    if (const Result<void> counted = counter.count(layer); !counted) return counted.error();
   }
-  std::map<std::pair<std::string, bool>, Found> by_rule;
-  for (auto& [place, found] : by_place) {
-    if (found.uses.empty()) continue;
-    Found& all = by_rule[{std::get<0>(place), std::get<1>(place)}];
-    all.part.thickness = all.uses.empty() ? found.part.thickness : std::min(all.part.thickness, found.part.thickness);
-    all.uses.merge(found.uses);
-  }
-  std::vector<ThinPart> parts;
-  for (const auto& [rule, found] : by_rule)
-    parts.push_back({rule.first, rule.second, found.part.thickness, found.uses.size()});
-  return parts;
+  return counter.parts();
 }
 
 }  // namespace sgm

@@ -19,7 +19,9 @@ struct ThinPart {
 /// The thin parts whose middle lies in the box, by name. The thickness of a shape is its least diameter; of an
 /// intersection, that of its thinnest operand; of a sum and of a morph, that of their thickest part. Left out are parts
 /// that `detail` and `lod` drop at this level, parts that lie on or in something thicker along half of their length or
-/// more (a slab on a wall, a pipe in the ground), and walls of treemaps. Errors: those of derivation.
+/// more (a slab on a wall, a pipe in the ground), and walls of treemaps. Of a layer's cells the first are derived anew,
+/// to see which statement each shape is of; later ones only if they have thin shapes unlike all of those. Errors: those
+/// of derivation.
 Result<std::vector<ThinPart>> thinParts(const WorldField& world, const IntBox& box, int level);
 
 }  // namespace sgm
