@@ -1,8 +1,10 @@
 #include "stream/sharpen_chunk.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
+#include <optional>
+#include <vector>
 
 #include "backend/cpu/instruction_sets.h"
 #include "field/prune.h"
@@ -21,64 +23,97 @@ class BrickSampler {
       : program_(program),
         origin_(origin),
         edge_(int64_t{kBrickCells} * cell),
-        memory_(memory),
         pruning_(memory),
         scratch_(memory),
-        bricks_(memory) {}
+        bricks_(memory),
+        brick_of_(memory),
+        order_(memory),
+        x_(memory),
+        y_(memory),
+        z_(memory),
+        value_(memory),
+        gradient_(memory),
+        normal_(memory) {}
 
   void operator()(std::span<const Int3> points, std::span<FieldSample> samples, Sampled what) {
-    std::pmr::vector<std::pair<Int3, uint32_t>> placed(memory_);
-    placed.reserve(points.size());
-    for (uint32_t i = 0; i < points.size(); ++i) {
-      Int3 brick;
-      for (int k = 0; k < 3; ++k) {
-        brick[k] = static_cast<int32_t>(floorDiv(int64_t{points[i][k]} - origin_[k], edge_));
-      }
-      placed.emplace_back(brick, i);
+    std::array<uint32_t, kElsewhere + 2> ends{};
+    brick_of_.resize(points.size());
+    order_.resize(points.size());
+    for (size_t i = 0; i < points.size(); ++i) {
+      brick_of_[i] = brickOf(points[i]);
+      ++ends[brick_of_[i] + 1];
     }
-    std::sort(placed.begin(), placed.end());
-    for (size_t first = 0, end = 0; first < placed.size(); first = end) {
-      while (end < placed.size() && placed[end].first == placed[first].first) ++end;
-      sample(programOf(placed[first].first), std::span(placed).subspan(first, end - first), points, samples, what);
+    for (size_t brick = 1; brick < ends.size(); ++brick) ends[brick] += ends[brick - 1];
+    for (uint32_t i = 0; i < points.size(); ++i) order_[ends[brick_of_[i]]++] = i;
+    uint32_t begin = 0;
+    for (uint32_t brick = 0; brick <= kElsewhere; ++brick) {
+      const uint32_t end = ends[brick];
+      if (end > begin) sample(programOf(brick), std::span(order_).subspan(begin, end - begin), points, samples, what);
+      begin = end;
     }
   }
 
  private:
-  ProgramView programOf(const Int3& brick) {
-    const auto [known, is_new] = bricks_.try_emplace(brick, memory_);
-    if (is_new) {
-      IntBox box;
-      for (int k = 0; k < 3; ++k) {
-        box.lo[k] = saturate(origin_[k] + brick[k] * edge_);
-        box.hi[k] = saturate(origin_[k] + (brick[k] + int64_t{1}) * edge_);
-      }
-      prune(program_.view(), box, pruning_, known->second, Uniform::keep);
+  /// On an axis: those of a chunk, and one beyond on each side.
+  static constexpr int32_t kBricks = kChunkCells / kBrickCells + 2;
+  static constexpr uint32_t kElsewhere = kBricks * kBricks * kBricks;
+
+  uint32_t brickOf(const Int3& point) const {
+    uint32_t brick = 0;
+    for (int k = 2; k >= 0; --k) {
+      const int64_t at = int64_t{point[k]} - origin_[k] + edge_;
+      if (at < 0 || at >= kBricks * edge_) return kElsewhere;
+      brick = brick * kBricks + static_cast<uint32_t>(static_cast<uint64_t>(at) / static_cast<uint64_t>(edge_));
     }
-    return known->second.view();
+    return brick;
   }
 
-  void sample(const ProgramView& program, std::span<const std::pair<Int3, uint32_t>> own, std::span<const Int3> points,
+  ProgramView programOf(uint32_t brick) {
+    if (brick == kElsewhere) return program_.view();
+    if (bricks_.empty()) bricks_.resize(kElsewhere);
+    std::optional<PrunedProgram>& known = bricks_[brick];
+    if (!known) {
+      IntBox box;
+      for (int k = 0; k < 3; ++k, brick /= kBricks) {
+        const int64_t low = origin_[k] + (int64_t{brick % kBricks} - 1) * edge_;
+        box.lo[k] = saturate(low);
+        box.hi[k] = saturate(low + edge_);
+      }
+      prune(program_.view(), box, pruning_, known.emplace(bricks_.get_allocator().resource()), Uniform::keep);
+    }
+    return known->view();
+  }
+
+  void sample(const ProgramView& program, std::span<const uint32_t> own, std::span<const Int3> points,
               std::span<FieldSample> samples, Sampled what) {
     const size_t count = own.size();
-    std::pmr::vector<int32_t> x(count, memory_), y(count, memory_), z(count, memory_);
-    std::pmr::vector<float> value(count, memory_), gx(count, memory_), gy(count, memory_), gz(count, memory_);
-    std::pmr::vector<int16_t> normal_x(count, memory_), normal_y(count, memory_);
-    for (size_t i = 0; i < count; ++i) {
-      const Int3& p = points[own[i].second];
-      x[i] = p.x, y[i] = p.y, z[i] = p.z;
+    if (x_.size() < count) {
+      for (auto* at : {&x_, &y_, &z_}) at->resize(count);
+      value_.resize(count);
+      gradient_.resize(3 * count);
+      normal_.resize(2 * count);
     }
+    for (size_t i = 0; i < count; ++i) {
+      const Int3& p = points[own[i]];
+      x_[i] = p.x, y_[i] = p.y, z_[i] = p.z;
+    }
+    float *const gx = gradient_.data(), *const gy = gx + count, *const gz = gy + count;
+    int16_t *const nx = normal_.data(), *const ny = nx + count;
     Attributes attributes;
-    attributes.value = value.data();
+    attributes.value = value_.data();
     if (what == Sampled::all) {
-      attributes.gradient_x = gx.data();
-      attributes.gradient_y = gy.data();
-      attributes.gradient_z = gz.data();
-      attributes.normal_x = normal_x.data();
-      attributes.normal_y = normal_y.data();
+      attributes.gradient_x = gx;
+      attributes.gradient_y = gy;
+      attributes.gradient_z = gz;
+      attributes.normal_x = nx;
+      attributes.normal_y = ny;
     }
-    bestKernels().attributes(program, {x.data(), y.data(), z.data(), count}, scratch_, attributes);
+    bestKernels().attributes(program, {x_.data(), y_.data(), z_.data(), count}, scratch_, attributes);
     for (size_t i = 0; i < count; ++i) {
-      samples[own[i].second] = {value[i], quantised(value[i]), {gx[i], gy[i], gz[i]}, normal_x[i], normal_y[i]};
+      FieldSample& sample = samples[own[i]];
+      sample = {value_[i], quantised(value_[i])};
+      if (what == Sampled::all)
+        sample.gradient = {gx[i], gy[i], gz[i]}, sample.normal_x = nx[i], sample.normal_y = ny[i];
     }
   }
 
@@ -91,10 +126,14 @@ class BrickSampler {
   const FieldProgram& program_;
   const Int3 origin_;
   const int64_t edge_;  ///< of a brick, units
-  std::pmr::memory_resource* memory_;
   PruneScratch pruning_;
   EvalScratch scratch_;
-  std::pmr::map<Int3, PrunedProgram> bricks_;
+  std::pmr::vector<std::optional<PrunedProgram>> bricks_;  ///< by number; empty until one is asked for
+  std::pmr::vector<uint32_t> brick_of_;                    ///< by point
+  std::pmr::vector<uint32_t> order_;                       ///< of the points, by brick
+  std::pmr::vector<int32_t> x_, y_, z_;                    ///< of the points of one brick, as what follows
+  std::pmr::vector<float> value_, gradient_;
+  std::pmr::vector<int16_t> normal_;
 };
 
 }  // namespace
