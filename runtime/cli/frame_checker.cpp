@@ -32,7 +32,7 @@ std::optional<VertexKey> featureKey(const ChunkGrid& grid, const VertexPlace& ve
   VertexKey key;
   key.level = static_cast<uint8_t>(grid.level + (coarser ? 1 : 0));
   key.axis = static_cast<uint8_t>(of_cell ? 7 : 4 + (vertex.kind >> 6 & 3));
-  key.fan = static_cast<uint8_t>(of_cell ? vertex.kind >> 6 & 15 : vertex.kind >> 8 & 7);
+  key.fan = static_cast<uint8_t>(of_cell ? vertex.kind >> 6 & 15 : vertex.kind >> 8 & 15);
   const std::array<int, 3> at{vertex.x, vertex.y, vertex.z};
   for (int axis = 0; axis < 3; ++axis) {
     const int64_t corner = floorDiv(at[static_cast<size_t>(axis)], step) - ((vertex.kind >> 2 * axis & 3) - 1);

@@ -12,11 +12,10 @@ int sharedFace(const VertexKey& a, const VertexKey& b) {
 }
 
 BodyLoops::BodyLoops(const ChunkGrid& grid, const MeshPart& body, std::pmr::memory_resource* memory)
-    : grid_(grid), part_(body), loops_(memory), row_starts_(size_t{kChunkCells} * kChunkCells + 1, memory) {
+    : grid_(grid), part_(body), loops_(memory), starts_(size_t{kChunkCells} * kChunkCells * kPieces + 1, memory) {
   findLoops();
-  for (const SurfaceLoop& loop : loops_)
-    ++row_starts_[static_cast<size_t>(loop.cell.z * kChunkCells + loop.cell.y) + 1];
-  for (size_t row = 1; row < row_starts_.size(); ++row) row_starts_[row] += row_starts_[row - 1];
+  for (const SurfaceLoop& loop : loops_) ++starts_[pieceOf(loop.cell) + 1];
+  for (size_t piece = 1; piece < starts_.size(); ++piece) starts_[piece] += starts_[piece - 1];
 }
 
 Int3 BodyLoops::cornerOf(const Int3& cell) const {
@@ -31,9 +30,10 @@ Int3 BodyLoops::cellOf(size_t first_index) const {
   for (int axis = 0; axis < 3; ++axis) {
     int32_t lo = 0;
     for (size_t k = 0; k < 3; ++k) {
-      const VertexKey& key = part_.keys[part_.indices[first_index + k]];
-      const int32_t sample = static_cast<int32_t>((int64_t{key.corner[axis]} - grid_.origin[axis]) / grid_.cell);
-      lo = std::max(lo, sample - (key.axis == axis ? 0 : 1));
+      const uint32_t v = part_.indices[first_index + k];
+      const Vertex& vertex = part_.vertices[v];
+      const int32_t sample = (axis == 0 ? vertex.x : axis == 1 ? vertex.y : vertex.z) / kSubcell;
+      lo = std::max(lo, sample - (part_.keys[v].axis == axis ? 0 : 1));
     }
     cell[axis] = lo;
   }

@@ -38,11 +38,12 @@ class BodyLoops {
     for (int axis = 0; axis < 3; ++axis) {
       lo[axis] = std::max(lo[axis], 0);
       hi[axis] = std::min(hi[axis], kChunkCells - 1);
+      if (lo[axis] > hi[axis]) return;
     }
     for (int32_t z = lo.z; z <= hi.z; ++z) {
       for (int32_t y = lo.y; y <= hi.y; ++y) {
-        const auto row = static_cast<size_t>(z * kChunkCells + y);
-        for (uint32_t i = row_starts_[row]; i < row_starts_[row + 1] && loops_[i].cell.x <= hi.x; ++i)
+        const uint32_t end = starts_[pieceOf({0, y, z}) + kPieces];
+        for (uint32_t i = starts_[pieceOf({lo.x, y, z})]; i < end && loops_[i].cell.x <= hi.x; ++i)
           if (loops_[i].cell.x >= lo.x) visit(i);
       }
     }
@@ -51,13 +52,19 @@ class BodyLoops {
   Int3 cornerOf(const Int3& cell) const;
 
  private:
+  /// Of a row of cells.
+  static constexpr int32_t kPieces = 4;
+  static size_t pieceOf(const Int3& cell) {
+    return static_cast<size_t>((cell.z * kChunkCells + cell.y) * kPieces + cell.x / (kChunkCells / kPieces));
+  }
+
   void findLoops();
   Int3 cellOf(size_t first_index) const;
 
   const ChunkGrid grid_;
   const MeshPart& part_;
   std::pmr::vector<SurfaceLoop> loops_;
-  std::pmr::vector<uint32_t> row_starts_;  ///< in loops_, by the cells' z and y; one more at the end
+  std::pmr::vector<uint32_t> starts_;  ///< in loops_, by piece; one more at the end
 };
 
 }  // namespace sgm

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/cell_loops.h"
-#include "mesh/loop_triangles.h"
+#include "mesh/rounded_cells.h"
+#include "mesh/tables.h"
 
 namespace sgm {
 namespace {
@@ -12,60 +12,69 @@ namespace {
 /// In 1/256 of a cell: how far a face vertex may move for convenience.
 constexpr int32_t kClose = 8;
 
-/// From a side's square to that of its face vertex; by 0 if that is its own.
-struct Step {
-  int axis = 0, by = 0;
-};
-Step stepToPlace(const SharpSide& side) {
-  for (const int k : {(side.axis + 1) % 3, (side.axis + 2) % 3}) {
-    if ((*side.place)[k] < 0) return {k, -1};
-    if ((*side.place)[k] > kSubcell) return {k, 1};
-  }
-  return {};
-}
-
 /// Whether the square beside a side's is in the same face of the chunk.
 bool isInFace(const SharpSide& side, int axis, int by, int32_t cell) {
   const int64_t square = floorDiv(side.corner[axis], cell);
   return floorDiv(square, kChunkCells) == floorDiv(square + by, kChunkCells);
 }
 
-/// At which end of a square's edge a place beside the square lies: 1 or -1 where it lies nearer to the edges there than
-/// to the square's own, 0 where it does not.
-int endOf(const SharpSide& side, const Step& beside) {
-  const int32_t at = (*side.place)[beside.axis];
-  const int32_t along = (*side.place)[3 - side.axis - beside.axis], height = at < 0 ? -at : at - kSubcell;
-  return height >= along ? -1 : height >= kSubcell - along ? 1 : 0;
+/// Where a side's face vertices lie beside its own square.
+struct Beside {
+  CellStep step;  ///< to their square; by 0 if that is the side's own
+  /// At which end of the edge between the squares: 1 or -1 where a face vertex lies nearer to the edges there than to
+  /// the square's own, 0 where none does.
+  int end = 0;
+  bool is_one = true;  ///< false if they lie in two squares beside, or at both ends
+};
+Beside besideOf(const SharpSide& side) {
+  Beside beside;
+  for (const Int3& place : side.places.all()) {
+    for (const int k : {(side.axis + 1) % 3, (side.axis + 2) % 3}) {
+      const int32_t height = std::max(-place[k], place[k] - kSubcell), along = place[3 - side.axis - k];
+      if (height <= 0) continue;
+      const CellStep step{k, place[k] < 0 ? -1 : 1};
+      const int end = height >= along ? -1 : height >= kSubcell - along ? 1 : 0;
+      if (beside.step.by != 0 && !(step == beside.step)) beside.is_one = false;
+      if (beside.end * end < 0) beside.is_one = false;
+      beside.step = step;
+      if (end != 0) beside.end = end;
+    }
+  }
+  return beside;
 }
 
-/// The field at the corners of the two cells beside a side, and of squares near it.
+/// The field at the corners of the two cells beside a side, and of what its face vertex may lie beside.
 class Surroundings {
  public:
   /// Corner a + 2b + 4c lies a along u = (axis + 1) % 3, b along v = (axis + 2) % 3, and c - 1 along the axis of the
-  /// face. The next two lie at the far edge of the square of the face vertex, if that is another; the last two at the
-  /// far edge of a third square, beside that one at the end at which the face vertex lies.
-  static constexpr size_t kCorners = 16, kOfCells = 12, kOfBoth = 14;
+  /// face. Where the face vertex lies in another square, kFar + a + 2c lies at the far edge of that: a along the edge,
+  /// c as before. The last two lie at the far edge of a third square, beside that one at the end at which the face
+  /// vertex lies.
+  static constexpr size_t kCorners = 20, kFar = 12, kThird = 18;
 
-  Surroundings(const SharpSide& side, int32_t cell) : side_(side), cell_(cell) {}
+  Surroundings(const SharpSide& side, int32_t cell) : side_(side), cell_(cell), beside_(besideOf(side)) {}
+
+  const CellStep& step() const { return beside_.step; }
 
   /// nullopt if the corner lies beyond the world or does not exist.
   std::optional<Int3> corner(size_t number) const {
     const int u = (side_.axis + 1) % 3, v = (side_.axis + 2) % 3;
     Int3 steps;
-    if (number < kOfCells) {
+    if (number < kFar) {
       steps[u] = static_cast<int32_t>(number & 1);
       steps[v] = static_cast<int32_t>(number >> 1 & 1);
       steps[side_.axis] = static_cast<int32_t>(number >> 2) - 1;
     } else {
-      const Step beside = stepToPlace(side_);
+      const CellStep& beside = beside_.step;
       if (beside.by == 0) return std::nullopt;
       const int along = u + v - beside.axis;
       const auto is_second = static_cast<int32_t>(number & 1);
-      if (number < kOfBoth) {
+      if (number < kThird) {
         steps[beside.axis] = beside.by < 0 ? -1 : 2;
         steps[along] = is_second;
+        steps[side_.axis] = static_cast<int32_t>((number - kFar) >> 1) - 1;
       } else {
-        const int end = endOf(side_, beside);
+        const int end = beside_.end;
         if (end == 0 || !isInFace(side_, along, end, cell_)) return std::nullopt;
         steps[beside.axis] = beside.by < 0 ? -is_second : 1 + is_second;
         steps[along] = end < 0 ? -1 : 2;
@@ -85,37 +94,50 @@ class Surroundings {
     for (size_t i = 0; i < kCorners; ++i) q_[i] = samples[i].q;
   }
 
-  /// Whether the surface passes once through the side's square, and not through that of its face vertex, if it is
-  /// another, nor through the third.
-  bool passesOnceInFace() const {
+  /// Whether the surface passes once through the side's square, and not through the third, where another face vertex
+  /// might get in the way.
+  bool passesOnce() const {
+    if (!beside_.is_one) return false;
     if (isSolid(4) == isSolid(7) && isSolid(5) == isSolid(6) && isSolid(4) != isSolid(5)) return false;
-    const Step beside = stepToPlace(side_);
-    if (beside.by == 0) return true;
-    const size_t stepped = beside.axis == (side_.axis + 1) % 3 ? 1 : 2;  // a bit of a corner's number
-    const size_t shared = 4 + (beside.by > 0 ? stepped : 0);
-    for (const size_t other : {shared + 3 - stepped, kOfCells, kOfCells + 1, kOfBoth, kOfBoth + 1})
-      if ((other < kOfBoth || corner(other)) && isSolid(other) != isSolid(shared)) return false;
-    return true;
+    return !corner(kThird) || (isSolid(kThird) == isSolid(shared()) && isSolid(kThird + 1) == isSolid(shared()));
+  }
+  /// Whether the face vertex lies in another square through which the surface passes.
+  bool passesBeside() const {
+    if (beside_.step.by == 0) return false;
+    const std::array<size_t, 3> others{shared() + 3 - bitOf(beside_.step.axis), kFar + 2, kFar + 3};
+    return std::any_of(others.begin(), others.end(), [&](size_t other) { return isSolid(other) != isSolid(shared()); });
   }
 
   /// The field at the corners of the cell below the face, or above it, as the case tables number them; nullopt if the
-  /// cell reaches beyond the world, and has no surface.
-  std::optional<std::array<int32_t, 8>> ofCell(bool above) const {
-    if (!corner(above ? kOfCells - 1 : 0)) return std::nullopt;
+  /// cell reaches beyond the world, and has no surface. beside: of the cell beside that one, at the square of the face
+  /// vertex.
+  std::optional<std::array<int32_t, 8>> ofCell(bool above, bool beside) const {
+    if (!corner(above ? kFar - 1 : 0) || (beside && !corner(above ? kThird - 1 : kFar))) return std::nullopt;
+    const CellStep step = beside ? beside_.step : CellStep{};
     std::array<int32_t, 8> q{};
     for (size_t i = 0; i < 8; ++i) {
-      const size_t number =
-          (i & 1) << (side_.axis + 1) % 3 | (i >> 1 & 1) << (side_.axis + 2) % 3 | i >> 2 << side_.axis;
-      q[number] = q_[i + (above ? 4 : 0)];
+      const size_t level = (i >> 2) + (above ? 1 : 0);
+      size_t from = (i & 3) + 4 * level;
+      if (step.by != 0) {
+        const size_t across = bitOf(step.axis), along = 3 - across;
+        const bool is_high = (i & across) != 0, is_far = is_high == (step.by > 0);
+        from = is_far ? kFar + ((i & along) != 0 ? 1 : 0) + 2 * level : from ^ across;
+      }
+      q[(i & 1) << (side_.axis + 1) % 3 | (i >> 1 & 1) << (side_.axis + 2) % 3 | i >> 2 << side_.axis] = q_[from];
     }
     return q;
   }
 
  private:
   bool isSolid(size_t corner) const { return q_[corner] < 0; }
+  /// Of a corner's number.
+  size_t bitOf(int axis) const { return axis == (side_.axis + 1) % 3 ? 1 : 2; }
+  /// A corner at the edge between the side's square and that of its face vertex, if it has another.
+  size_t shared() const { return 4 + (beside_.step.by > 0 ? bitOf(beside_.step.axis) : 0); }
 
   const SharpSide& side_;
   int32_t cell_;
+  Beside beside_;
   std::array<int32_t, kCorners> q_{};
 };
 
@@ -156,148 +178,135 @@ std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32
   return place;
 }
 
-/// Cells with several loops, of which the one with a side takes its face vertex if, rounded, it keeps clear of the
-/// others.
-class CrowdedCells {
+/// Whether a side that goes from its one end to the other by way of two places does not cross itself.
+bool isSimple(const Creases& creases, const SharpSide& side, const Int3& first, const Int3& second, int32_t cell) {
+  const auto u = static_cast<size_t>((side.axis + 1) % 3), v = static_cast<size_t>((side.axis + 2) % 3);
+  const auto placeOfEnd = [&](uint32_t end) {
+    const Vector3 units = creases.unitsFrom(side.corner, end);
+    Int3 at;
+    for (size_t k = 0; k < 3; ++k)
+      at[static_cast<int>(k)] = static_cast<int32_t>(std::floor(units[k] / cell * kSubcell + 0.5));
+    return at;
+  };
+  const auto turn = [&](const Int3& a, const Int3& b, const Int3& c) {
+    const auto iu = static_cast<int>(u), iv = static_cast<int>(v);
+    const int64_t area = int64_t{b[iu] - a[iu]} * (c[iv] - a[iv]) - int64_t{b[iv] - a[iv]} * (c[iu] - a[iu]);
+    return area > 0 ? 1 : area < 0 ? -1 : 0;
+  };
+  const Int3 from = placeOfEnd(side.from), to = placeOfEnd(side.to);
+  // The first and last pieces lie on the two sides of one of them.
+  const bool apart =
+      turn(from, first, second) * turn(from, first, to) > 0 || turn(second, to, from) * turn(second, to, first) > 0;
+  return apart && turn(from, first, second) != 0 && turn(first, second, to) != 0;
+}
+
+/// Gives sides at the border their places, and returns those that have any.
+class SurfacePlaces {
  public:
-  CrowdedCells(const ChunkGrid& grid, const FieldSampler& field, std::pmr::memory_resource* memory)
-      : grid_(grid), part_(memory), loops_(memory), claims_(memory), creases_(grid, field, part_, memory) {}
+  SurfacePlaces(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
+                std::pmr::memory_resource* memory)
+      : grid_(grid), field_(field), creases_(creases), points_(memory), samples_(memory), cut_off_(memory) {}
 
-  /// Borrows the side. from, to: the keys of its ends.
-  void add(SharpSide& side, const VertexKey& from, const VertexKey& to, bool above, const std::array<int32_t, 8>& q) {
-    Int3 cell;
-    for (int k = 0; k < 3; ++k) {
-      cell[k] = static_cast<int32_t>((int64_t{side.corner[k]} - grid_.origin[k]) / grid_.cell);
-    }
-    if (!above) --cell[side.axis];
-    const size_t first = loops_.size();
-    addCellLoops(grid_, cell, q, part_, loops_);
-    claims_.push_back({&side, from, to, first, loops_.size()});
-  }
-
-  /// Takes the place of those sides whose loop would not keep clear.
-  void judge() {
-    if (claims_.empty()) return;
-    creases_.settle();
-    for (const Claim& claim : claims_)
-      if (claim.side->place && !keepsClear(claim)) claim.side->place = std::nullopt;
+  std::pmr::vector<SharpSide*> give(std::span<SharpSide> sides, std::pmr::memory_resource* memory) {
+    std::pmr::vector<SharpSide*> placed(memory);
+    placeMeetings(sides, placed);
+    placeCutOff(placed);
+    return placed;
   }
 
  private:
-  struct Claim {
+  /// A side whose planes meet off the surface, with the places that its third plane may give it.
+  struct CutOff {
     SharpSide* side;
-    VertexKey from, to;
-    size_t first, end;  ///< of the cell's loops
+    std::optional<Int3> single, first, second;
   };
 
-  /// Whether another side of the cell may have a face vertex in a face of the chunk, of which nothing is known here.
-  bool hasOther(const Claim& claim) const {
-    for (size_t number = claim.first; number < claim.end; ++number) {
-      const SurfaceLoop& loop = loops_[number];
-      for (uint32_t i = 0; i < loop.count; ++i) {
-        const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count];
-        const SharpSide side = sideBetween(a, b, part_.keys);
-        if (floorDiv(side.corner[side.axis], grid_.cell) % kChunkCells != 0 || side.axis == claim.side->axis) continue;
-        if (creases_.isSharp(a, b)) return true;
-      }
+  /// Where the planes of a side's ends meet.
+  void placeMeetings(std::span<SharpSide> sides, std::pmr::vector<SharpSide*>& placed) {
+    std::pmr::vector<SharpSide*> tried(points_.get_allocator());
+    for (SharpSide& side : sides) {
+      if (!side.at_border) continue;
+      const auto point =
+          creases_.meetingInFace(creases_.tangent(side.from), creases_.tangent(side.to), side.corner, side.axis);
+      const std::optional<Int3> place = point ? placeAt(side, *point, grid_.cell) : std::nullopt;
+      if (!place) continue;
+      side.places = FacePlaces(*place);
+      tried.push_back(&side);
+      points_.push_back(creases_.sampledAt(side.corner, *place));
     }
-    return false;
-  }
-
-  bool keepsClear(const Claim& claim) const {
-    if (hasOther(claim)) return false;
-    for (size_t own = claim.first; own < claim.end; ++own) {
-      const SurfaceLoop& loop = loops_[own];
-      for (uint32_t i = 0; i < loop.count; ++i) {
-        const VertexKey &a = part_.keys[loop.vertices[i]], &b = part_.keys[loop.vertices[(i + 1) % loop.count]];
-        if (!(a == claim.from && b == claim.to) && !(a == claim.to && b == claim.from)) continue;
-        const LoopTriangles fan = roundedFan(*claim.side, loop, i);
-        for (size_t other = claim.first; other < claim.end; ++other)
-          if (other != own && anyMeets(fan, plainTriangles(part_, loops_[other]))) return false;
-        return true;
-      }
-    }
-    return false;
-  }
-
-  /// sharp: the number of the side that has the face vertex.
-  LoopTriangles roundedFan(const SharpSide& side, const SurfaceLoop& loop, uint32_t sharp) const {
-    Int3 middle = *side.place;
-    for (int k = 0; k < 3; ++k) {
-      middle[k] += static_cast<int32_t>((int64_t{side.corner[k]} - grid_.origin[k]) / grid_.cell) * kSubcell;
-    }
-    std::array<Int3, kLongestCubeLoop> ring;
-    for (uint32_t i = 0; i < loop.count; ++i) ring[i] = placeOf(part_, loop.vertices[i]);
-    const BorderVertex at_border{middle, side.axis};
-    const Int3 centre = roundedCentre(loop.cell, {ring.data(), loop.count}, {&at_border, 1});
-    LoopTriangles fan;
-    for (uint32_t i = 0; i < loop.count; ++i) {
-      const uint32_t next = (i + 1) % loop.count, a = loop.vertices[i], b = loop.vertices[next];
-      if (i == sharp) {
-        fan.add({centre, ring[i], middle}, {kCellVertices, a, kFaceVertices});
-        fan.add({centre, middle, ring[next]}, {kCellVertices, kFaceVertices, b});
+    sample();
+    for (size_t i = 0; i < tried.size(); ++i) {
+      if (creases_.isOnSurface(samples_[i])) {
+        placed.push_back(tried[i]);
       } else {
-        fan.add({centre, ring[i], ring[next]}, {kCellVertices, a, b});
+        cutOff(*tried[i], points_[i], samples_[i]);
       }
     }
-    return fan;
   }
 
-  const ChunkGrid grid_;
-  MeshPart part_;
-  std::pmr::vector<SurfaceLoop> loops_;
-  std::pmr::vector<Claim> claims_;
-  Creases creases_;
+  void cutOff(SharpSide& side, const Int3& point, const FieldSample& sample) {
+    const double step = static_cast<double>(grid_.cell) / kSubcell;
+    const Int3 place = side.places.all().front();
+    side.places = {};
+    side.third = tangentAt(point, sample);
+    const auto placeOfMeeting = [&](const Tangent& a, const Tangent& b) {
+      const std::optional<FacePoint> meeting = creases_.meetingInFace(a, b, side.corner, side.axis);
+      return meeting ? placeAt(side, *meeting, grid_.cell) : std::nullopt;
+    };
+    CutOff cut{&side,
+               {},
+               placeOfMeeting(creases_.tangent(side.from), *side.third),
+               placeOfMeeting(*side.third, creases_.tangent(side.to))};
+    const FacePoint from{place[(side.axis + 1) % 3] * step, place[(side.axis + 2) % 3] * step};
+    if (const std::optional<FacePoint> onto = ontoSurface(side, from, sample))
+      cut.single = placeAt(side, *onto, grid_.cell);
+    cut_off_.push_back(cut);
+  }
+
+  /// Where a third plane meets those of a side's ends, or on it.
+  void placeCutOff(std::pmr::vector<SharpSide*>& placed) {
+    points_.clear();
+    for (const CutOff& cut : cut_off_) {
+      const Int3 first = cut.first.value_or(Int3{}), second = cut.second.value_or(Int3{});
+      Int3 middle;
+      for (int k = 0; k < 3; ++k) middle[k] = (first[k] + second[k]) / 2;
+      for (const Int3& place : {cut.single.value_or(Int3{}), first, second, middle})
+        points_.push_back(creases_.sampledAt(cut.side->corner, place));
+    }
+    sample();
+    for (size_t i = 0; i < cut_off_.size(); ++i) {
+      const CutOff& cut = cut_off_[i];
+      SharpSide& side = *cut.side;
+      const auto isOn = [&](size_t k) { return creases_.isOnSurface(samples_[4 * i + k]); };
+      if (cut.first && cut.second && isOn(1) && isOn(2) && isOn(3) &&
+          isSimple(creases_, side, *cut.first, *cut.second, grid_.cell)) {
+        side.places = FacePlaces(*cut.first, *cut.second);
+        if (!besideOf(side).is_one) side.places = {};
+      }
+      if (side.places.empty() && cut.single && isOn(0)) side.places = FacePlaces(*cut.single);
+      if (!side.places.empty()) placed.push_back(&side);
+    }
+  }
+
+  void sample() {
+    samples_.resize(points_.size());
+    if (!points_.empty()) field_(points_, samples_, Sampled::all);
+  }
+
+  const ChunkGrid& grid_;
+  const FieldSampler& field_;
+  const Creases& creases_;
+  std::pmr::vector<Int3> points_;
+  std::pmr::vector<FieldSample> samples_;
+  std::pmr::vector<CutOff> cut_off_;
 };
 
-/// Gives sides the places that the tangents at their ends give them, if these lie on the surface; returns those sides.
-std::pmr::vector<SharpSide*> placeOnSurface(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
-                                            std::span<SharpSide> sides, std::pmr::memory_resource* memory) {
-  struct Try {
-    SharpSide* side;
-    FacePoint point;
-  };
-  std::pmr::vector<SharpSide*> placed(memory);
-  std::pmr::vector<Try> tries(memory), again(memory);
-  for (SharpSide& side : sides) {
-    if (!side.at_border) continue;
-    if (const std::optional<FacePoint> point = creases.meetingInFace(side.from, side.to, side.corner, side.axis))
-      tries.push_back({&side, *point});
-  }
-  std::pmr::vector<Int3> points(memory);
-  std::pmr::vector<FieldSample> samples(memory);
-  for (int round = 0; round < 2 && !tries.empty(); ++round, tries.swap(again)) {
-    points.clear();
-    again.clear();
-    for (const auto& [side, point] : tries) {
-      side->place = placeAt(*side, point, grid.cell);
-      points.push_back(creases.sampledAt(side->corner, side->place.value_or(Int3{})));
-    }
-    samples.resize(points.size());
-    field(points, samples, Sampled::all);
-    for (size_t i = 0; i < tries.size(); ++i) {
-      SharpSide& side = *tries[i].side;
-      if (!side.place) continue;
-      if (creases.isOnSurface(samples[i])) {
-        placed.push_back(&side);
-        continue;
-      }
-      const double step = static_cast<double>(grid.cell) / kSubcell;
-      const FacePoint at{(*side.place)[(side.axis + 1) % 3] * step, (*side.place)[(side.axis + 2) % 3] * step};
-      if (round == 0) side.third = tangentAt(creases.sampledAt(side.corner, *side.place), samples[i]);
-      side.place = std::nullopt;
-      if (const std::optional<FacePoint> point = ontoSurface(side, at, samples[i])) again.push_back({&side, *point});
-    }
-  }
-  return placed;
-}
-
-}  // namespace
-
-void placeBorderVertices(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
-                         const RawVector<VertexKey>& keys, std::span<SharpSide> sides,
-                         std::pmr::memory_resource* memory) {
-  const std::pmr::vector<SharpSide*> placed = placeOnSurface(grid, field, creases, sides, memory);
+/// Gives sides their places, as they have them if no rounded loop is in their way. Calls visit(side, surroundings) for
+/// those that have any.
+template <class Visit>
+void placeAlone(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases, std::span<SharpSide> sides,
+                std::pmr::memory_resource* memory, const Visit& visit) {
+  const std::pmr::vector<SharpSide*> placed = SurfacePlaces(grid, field, creases, memory).give(sides, memory);
   if (placed.empty()) return;
   std::pmr::vector<Int3> points(memory);
   points.reserve(placed.size() * Surroundings::kCorners);
@@ -307,20 +316,38 @@ void placeBorderVertices(const ChunkGrid& grid, const FieldSampler& field, const
   }
   std::pmr::vector<FieldSample> samples(points.size(), memory);
   field(points, samples, Sampled::value);
-  CrowdedCells crowded(grid, field, memory);
   for (size_t i = 0; i < placed.size(); ++i) {
     SharpSide& side = *placed[i];
     Surroundings around(side, grid.cell);
     around.take({samples.data() + i * Surroundings::kCorners, Surroundings::kCorners});
-    bool passes = around.passesOnceInFace();
-    for (const bool above : {false, true}) {
-      const std::optional<std::array<int32_t, 8>> q = around.ofCell(above);
-      if (!passes || !q || !hasTwoLoops(*q)) continue;
-      crowded.add(side, keys[side.from], keys[side.to], above, *q);
+    if (around.passesOnce()) {
+      visit(side, around);
+    } else {
+      side.places = {};
     }
-    if (!passes) side.place = std::nullopt;
   }
-  crowded.judge();
+}
+
+}  // namespace
+
+void placeBorderVertices(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
+                         const RawVector<VertexKey>& keys, std::span<SharpSide> sides,
+                         std::pmr::memory_resource* memory) {
+  const RoundedCells::PlaceAlone place_others = [&](const Creases& theirs, std::span<SharpSide> others) {
+    placeAlone(grid, field, theirs, others, memory, [](SharpSide&, const Surroundings&) {});
+  };
+  RoundedCells rounded(grid, field, place_others, memory);
+  placeAlone(grid, field, creases, sides, memory, [&](SharpSide& side, const Surroundings& around) {
+    const bool has_beside = around.passesBeside();
+    for (const bool above : {false, true}) {
+      const std::optional<std::array<int32_t, 8>> q = around.ofCell(above, false);
+      if (!q || (!has_beside && !hasTwoLoops(*q))) continue;
+      rounded.add(side, keys[side.from], keys[side.to], above, *q);
+      if (!has_beside) continue;
+      if (const auto beside = around.ofCell(above, true)) rounded.addBeside(around.step(), *beside);
+    }
+  });
+  rounded.judge();
 }
 
 }  // namespace sgm

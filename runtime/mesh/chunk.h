@@ -74,9 +74,11 @@ struct VertexKey {
 };
 inline constexpr uint8_t kLateral = 3;
 /// Axes of feature vertices (mesh/sharpen.h). kFaceVertex + the axis that its face stands on, with the face's lowest
-/// corner; kCellVertex with the cell's. `fan` tells the sides of a face, and the loops of a cell, apart.
+/// corner; kCellVertex with the cell's. `fan` tells the sides of a face, and the loops of a cell, apart; kSecondOfSide
+/// is added to it for the second face vertex of a side.
 inline constexpr uint8_t kFaceVertex = 4;
 inline constexpr uint8_t kCellVertex = 7;
+inline constexpr uint8_t kSecondOfSide = 8;
 
 /// Two 32-bit sums of mixed words, keyed by their index: equal on any device, in any order of addition.
 struct ContentHash {

@@ -132,12 +132,12 @@ Vector3 Creases::nearestOnCrease(uint32_t a, uint32_t b, const Int3& corner, con
   return {start[0] + step[0], start[1] + step[1], start[2] + step[2]};
 }
 
-std::optional<FacePoint> Creases::meetingInFace(uint32_t a, uint32_t b, const Int3& corner, int axis) const {
+std::optional<FacePoint> Creases::meetingInFace(const Tangent& a, const Tangent& b, const Int3& corner, int axis) {
   const auto u = static_cast<size_t>((axis + 1) % 3), v = static_cast<size_t>((axis + 2) % 3);
   const auto lineOf = [&](const Tangent& t) {
     return std::array<double, 3>{t.normal[u], t.normal[v], t.distance + dot(t.normal, between(corner, t.point))};
   };
-  const std::array<double, 3> of_a = lineOf(tangents_[a]), of_b = lineOf(tangents_[b]);
+  const std::array<double, 3> of_a = lineOf(a), of_b = lineOf(b);
   const double sine = of_a[0] * of_b[1] - of_a[1] * of_b[0];
   const double lengths = std::sqrt((of_a[0] * of_a[0] + of_a[1] * of_a[1]) * (of_b[0] * of_b[0] + of_b[1] * of_b[1]));
   if (!(std::fabs(sine) > kLeastSine * lengths)) return std::nullopt;

@@ -68,9 +68,9 @@ class Creases {
   /// The place on the crease of two vertices that is nearest to `start`; both in units from `corner`.
   Vector3 nearestOnCrease(uint32_t a, uint32_t b, const Int3& corner, const Vector3& start) const;
 
-  /// Where the crease of two vertices meets the face across `axis` through `corner`; nullopt where that is not known
+  /// Where the crease of two planes meets the face across `axis` through `corner`; nullopt where that is not known
   /// well.
-  std::optional<FacePoint> meetingInFace(uint32_t a, uint32_t b, const Int3& corner, int axis) const;
+  static std::optional<FacePoint> meetingInFace(const Tangent& a, const Tangent& b, const Int3& corner, int axis);
 
   /// A place in units from a corner of the grid, in 1/256 of a cell; nullopt if it lies farther than kMostOutside
   /// beyond the corner's cell, or beyond its face across `across`. A place beyond the chunk is moved to 1/256 within

@@ -17,6 +17,8 @@ constexpr uint32_t kNone = SharpLoops::kNone;
 bool isSeenWhole(std::span<const NamedTriangle> fan) {
   // A fan about one of its own corners does not go round it.
   if (fan.front().name[1] != fan.back().name[2]) return false;
+  for (size_t i = 1; i < fan.size(); ++i)
+    if (fan[i].name[0] != fan[0].name[0] || fan[i].name[1] != fan[i - 1].name[2]) return false;
   // Along the axes, and from the eight octants.
   constexpr std::array<Int3, 7> kDirections{Int3{1, 0, 0},  Int3{0, 1, 0},  Int3{0, 0, 1}, Int3{1, 1, 1},
                                             Int3{1, 1, -1}, Int3{1, -1, 1}, Int3{-1, 1, 1}};
@@ -50,18 +52,6 @@ bool isSeenWhole(std::span<const NamedTriangle> fan) {
   return false;
 }
 
-/// Whether a triangle of a fan has no area or two meet wrongly.
-bool hasFault(const LoopTriangles& fan) {
-  const std::span<const NamedTriangle> all = fan.all();
-  if (isSeenWhole(all)) return false;
-  for (size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].hasArea()) return true;
-    for (size_t j = i + 1; j < all.size(); ++j)
-      if (all[i].meets(all[j])) return true;
-  }
-  return false;
-}
-
 /// Where the features of loops may lie, and which loops may meet for them.
 class Neighbours {
  public:
@@ -89,9 +79,29 @@ class Neighbours {
       lo[k] = (own.lo[k] - kMostOutside) >> 8;
       hi[k] = (own.hi[k] + kMostOutside) >> 8;
     }
-    body_.visitWithin(lo, hi, [&](uint32_t other) {
-      if (other != loop && own.meets(boxOf(other)) && !areApart(loop, other)) visit(other);
-    });
+    visitCells(loop, own, lo, hi, visit);
+  }
+
+  /// As visit, but without fans that reach out of their cells, if the loop's own features do not. These meet no others
+  /// but those of the same cell and of cells that share a face with it.
+  template <class Visit>
+  void visitFromInside(uint32_t loop, const Visit& visit) const {
+    if (!isInside(loop)) return this->visit(loop, visit);
+    const Int3& cell = body_.all()[loop].cell;
+    const PlaceBox own = boxOf(loop);
+    visitCells(loop, own, {cell.x - 1, cell.y, cell.z}, {cell.x + 1, cell.y, cell.z}, visit);
+    for (const int k : {1, 2}) {
+      for (const int by : {-1, 1}) {
+        Int3 beside = cell;
+        beside[k] += by;
+        visitCells(loop, own, beside, beside, visit);
+      }
+    }
+  }
+  /// Whether visitFromInside(loop) comes to another loop that may meet it.
+  bool visitsFromInside(uint32_t loop, uint32_t other) const {
+    const Int3 &at = body_.all()[loop].cell, &beside = body_.all()[other].cell;
+    return std::abs(at.x - beside.x) + std::abs(at.y - beside.y) + std::abs(at.z - beside.z) <= 1 || !isInside(loop);
   }
 
  private:
@@ -99,23 +109,42 @@ class Neighbours {
     PlaceBox all, off_squares;  ///< off_squares: without face vertices that lie in the inside of their side's square
   };
 
+  template <class Visit>
+  void visitCells(uint32_t loop, const PlaceBox& own, const Int3& lo, const Int3& hi, const Visit& visit) const {
+    body_.visitWithin(lo, hi, [&](uint32_t other) {
+      if (other != loop && own.meets(boxOf(other)) && !areApart(loop, other)) visit(other);
+    });
+  }
+
+  /// Whether the features of a sharp loop lie in its cell, which is not at the chunk's border, and only those in
+  /// squares on its faces.
+  bool isInside(uint32_t loop) const {
+    const Int3& cell = body_.all()[loop].cell;
+    const Boxes& boxes = features_[place_[loop]];
+    for (int k = 0; k < 3; ++k) {
+      const int32_t lo = cell[k] * kSubcell, hi = lo + kSubcell;
+      if (cell[k] == 0 || cell[k] == kChunkCells - 1 || boxes.all.lo[k] < lo || boxes.all.hi[k] > hi) return false;
+      if (boxes.off_squares.lo[k] <= lo || boxes.off_squares.hi[k] >= hi) return false;
+    }
+    return true;
+  }
+
   Boxes featuresOf(const SharpLoop& loop) const {
     Boxes boxes;
-    const auto take = [&boxes](const Int3& p) { boxes.all.take(p), boxes.off_squares.take(p); };
-    if (loop.isFan()) take(loop.centre.at);
+    if (loop.isFan()) boxes.all.take(loop.centre.at), boxes.off_squares.take(loop.centre.at);
     for (const uint32_t s : loop.sides) {
-      if (s == kNone || !sharp_.sides[s].place) continue;
+      if (s == kNone) continue;
       const SharpSide& side = sharp_.sides[s];
-      boxes.all.take(sharp_.faceVertexAt(side));
-      if (!isInSquare(side)) boxes.off_squares.take(sharp_.faceVertexAt(side));
+      for (const Int3& place : side.places.all()) {
+        boxes.all.take(sharp_.fromChunk(side, place));
+        if (!isInSquare(side.axis, place)) boxes.off_squares.take(sharp_.fromChunk(side, place));
+      }
     }
     return boxes;
   }
-  static bool isInSquare(const SharpSide& side) {
-    for (int k = 0; k < 3; ++k) {
-      const int32_t at = (*side.place)[k];
-      if (k == side.axis ? at != 0 : at <= 0 || at >= kSubcell) return false;
-    }
+  static bool isInSquare(int axis, const Int3& place) {
+    for (int k = 0; k < 3; ++k)
+      if (k == axis ? place[k] != 0 : place[k] <= 0 || place[k] >= kSubcell) return false;
     return true;
   }
   PlaceBox boxOf(uint32_t loop) const {
@@ -170,53 +199,61 @@ class PresentTriangles {
   PresentTriangles(const SharpLoops& sharp, const Neighbours& neighbours, std::pmr::memory_resource* memory)
       : sharp_(sharp),
         neighbours_(neighbours),
-        at_(sharp.body.all().size(), kNone, memory),
-        made_(memory),
-        is_stale_(memory) {}
+        at_(sharp.body.all().size(), memory),
+        triangles_(memory),
+        boxes_(memory) {
+    triangles_.reserve(kUsual * sharp.loops.size());
+    boxes_.reserve(kUsual * sharp.loops.size());
+  }
 
-  /// Good until the next call.
-  const LoopTriangles& of(uint32_t number) { return made_[made(number)]; }
   bool anyMeets(uint32_t a, uint32_t b) {
-    const uint32_t at_a = made(a), at_b = made(b);
-    return sgm::anyMeets(made_[at_a], made_[at_b]);
+    make(a);
+    make(b);
+    return sgm::anyMeets(of(a), of(b));
   }
   /// After a change of the loop.
   void forget(const SharpLoop& loop) {
-    forget(loop.loop);
+    at_[loop.loop].count = 0;
     for (const uint32_t s : loop.sides) {
       if (s == kNone) continue;
       for (const uint32_t other : sharp_.sides[s].loops)
-        if (other != kNone) forget(sharp_.loops[other].loop);
+        if (other != kNone) at_[sharp_.loops[other].loop].count = 0;
     }
   }
 
  private:
-  uint32_t made(uint32_t number) {
-    uint32_t& at = at_[number];
-    if (at == kNone) {
-      at = static_cast<uint32_t>(made_.size());
-      made_.push_back(make(number));
-      is_stale_.push_back(false);
-    } else if (is_stale_[at]) {
-      made_[at] = make(number);
-      is_stale_[at] = false;
-    }
-    return at;
+  static constexpr size_t kUsual = 8;  ///< triangles of a sharp loop
+
+  /// Those of one loop, in triangles_ and boxes_; 0 are not made.
+  struct Range {
+    uint32_t begin = 0, count = 0;
+    PlaceBox box;
+  };
+
+  BoxedTriangles of(uint32_t number) const {
+    const Range& range = at_[number];
+    return {std::span(triangles_).subspan(range.begin, range.count),
+            std::span(boxes_).subspan(range.begin, range.count), range.box};
   }
-  void forget(uint32_t number) {
-    if (at_[number] != kNone) is_stale_[at_[number]] = true;
-  }
-  LoopTriangles make(uint32_t number) const {
+  void make(uint32_t number) {
+    Range& range = at_[number];
+    if (range.count > 0) return;
     const uint32_t place = neighbours_.placeOf(number);
-    if (place != kNone) return sharp_.trianglesOf(sharp_.loops[place]);
-    return plainTriangles(sharp_.body.part(), sharp_.body.all()[number]);
+    const LoopTriangles made = place != kNone ? sharp_.trianglesOf(sharp_.loops[place])
+                                              : plainTriangles(sharp_.body.part(), sharp_.body.all()[number]);
+    range = {static_cast<uint32_t>(triangles_.size()), static_cast<uint32_t>(made.count()), {}};
+    for (const NamedTriangle& triangle : made.all()) {
+      triangles_.push_back(triangle);
+      boxes_.push_back(boxOf(triangle));
+      range.box.take(boxes_.back().lo), range.box.take(boxes_.back().hi);
+    }
   }
 
   const SharpLoops& sharp_;
   const Neighbours& neighbours_;
-  std::pmr::vector<uint32_t> at_;  ///< in made_, by loop
-  std::pmr::vector<LoopTriangles> made_;
-  std::pmr::vector<bool> is_stale_;  ///< of made_
+  std::pmr::vector<Range> at_;  ///< by loop
+  std::pmr::vector<NamedTriangle> triangles_;
+  std::pmr::vector<PlaceBox> boxes_;  ///< of triangles_
 };
 
 /// How far the centre of a fan lies outside of its cell; less than 0 inside.
@@ -233,8 +270,16 @@ int32_t outsideOf(const SharpLoops& sharp, const SharpLoop& loop) {
 
 }  // namespace
 
-bool isSoundFan(const SharpLoops& sharp, const SharpLoop& loop, const FanCentre& centre) {
-  return !hasFault(sharp.fullFan(loop, centre));
+bool hasFault(const LoopTriangles& fan) {
+  const std::span<const NamedTriangle> all = fan.all();
+  if (all.empty()) return true;
+  if (isSeenWhole(all)) return false;
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].hasArea()) return true;
+    for (size_t j = i + 1; j < all.size(); ++j)
+      if (all[i].meets(all[j])) return true;
+  }
+  return false;
 }
 
 void roundUntilValid(SharpLoops& sharp, const std::function<bool(SharpLoop&)>& takeNextCentre,
@@ -243,40 +288,44 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(SharpLoop&)>& t
   PresentTriangles present(sharp, neighbours, memory);
   const auto lacksVertex = [&](const SharpLoop& loop) {
     return std::any_of(loop.sides.begin(), loop.sides.end(), [&](uint32_t s) {
-      return s != kNone && sharp.sides[s].place && !sharp.hasFaceVertex(sharp.sides[s]);
+      return s != kNone && !sharp.sides[s].places.empty() && !sharp.hasFaceVertices(sharp.sides[s]);
     });
   };
   // Numbers of sharp loops; and for each when it was tested last and when it changed, counted in tests.
   std::pmr::vector<uint32_t> dirty(sharp.loops.size(), memory), changed(memory);
   std::pmr::vector<uint64_t> tested_at(sharp.loops.size(), memory), changed_at(sharp.loops.size(), memory);
+  std::pmr::vector<uint64_t> order(memory);  // of the dirty ones, below their rank
   uint64_t now = 0;
   std::iota(dirty.begin(), dirty.end(), 0);
   const auto visitSharing = [&](const SharpLoop& loop, const auto& visit) {
     for (const uint32_t s : loop.sides) {
-      if (s == kNone || !sharp.sides[s].place) continue;
+      if (s == kNone || sharp.sides[s].places.empty()) continue;
       for (const uint32_t other : sharp.sides[s].loops)
         if (other != kNone) visit(other);
     }
   };
   while (!dirty.empty()) {
     // Around a corner of the solid many loops have it for their centre: the one whose cell it is in shall keep it.
-    std::sort(dirty.begin(), dirty.end(), [&](uint32_t a, uint32_t b) {
-      const int32_t of_a = outsideOf(sharp, sharp.loops[a]), of_b = outsideOf(sharp, sharp.loops[b]);
-      return of_a != of_b ? of_a > of_b : a < b;
-    });
-    changed.clear();
+    order.clear();
     for (const uint32_t number : dirty) {
+      const auto rank = static_cast<uint32_t>(INT32_MAX - outsideOf(sharp, sharp.loops[number]));
+      order.push_back(uint64_t{rank} << 32 | number);
+    }
+    std::sort(order.begin(), order.end());
+    changed.clear();
+    for (const uint64_t ordered : order) {
+      const auto number = static_cast<uint32_t>(ordered);
       SharpLoop& loop = sharp.loops[number];
       if (!loop.isFan()) continue;
       tested_at[number] = ++now;
       // With all of its face vertices the fan is sound; some may be lost by now.
-      bool faulty = lacksVertex(loop) && hasFault(present.of(loop.loop));
-      neighbours.visit(loop.loop, [&](uint32_t other) {
+      bool faulty = lacksVertex(loop) && hasFault(sharp.trianglesOf(loop));
+      neighbours.visitFromInside(loop.loop, [&](uint32_t other) {
         if (faulty) return;
         const uint32_t place = neighbours.placeOf(other);
         // The pair was tested, and neither has changed since.
         const bool is_known = place != kNone && sharp.loops[place].isFan() && tested_at[place] > changed_at[place] &&
-                              tested_at[place] > changed_at[number];
+                              tested_at[place] > changed_at[number] && neighbours.visitsFromInside(other, loop.loop);
         if (!is_known) faulty = present.anyMeets(loop.loop, other);
       });
       if (!faulty) continue;

@@ -7,9 +7,8 @@
 
 namespace sgm {
 
-/// Whether all triangles of a loop's fan about a centre, with all of its face vertices, have an area, and meet each
-/// other only where they are joined.
-bool isSoundFan(const SharpLoops& sharp, const SharpLoop& loop, const FanCentre& centre);
+/// Whether a fan has no triangles, one without area, or two that meet but where they are joined.
+bool hasFault(const LoopTriangles& fan);
 
 /// A loop whose fan meets a triangle of another loop wrongly gets another centre, or is rounded, until no fan does.
 /// Loops that are not sharp keep their triangles. takeNextCentre: gives a loop the next centre that makes a sound fan;

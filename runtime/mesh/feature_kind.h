@@ -5,7 +5,7 @@
 //   bit 15     1: a feature vertex
 //   bit 14     0: of a side in a face, 1: of a loop in a cell
 //   bit 13     0: of the chunk's own level, 1: of the level above, in seams alone
-//   bits 6-10  of a face: bits 6 and 7 the axis that it stands on, 8 to 10 VertexKey::fan; of a cell: 6 to 9 its fan
+//   bits 6-11  of a face: bits 6 and 7 the axis that it stands on, 8 to 11 VertexKey::fan; of a cell: 6 to 9 its fan
 //   bits 0-5   for each axis two bits: 1 + how many of its level's cells the vertex lies above the corner, rounded down
 
 #include "mesh/chunk.h"
@@ -45,7 +45,7 @@ constexpr VertexKey featureKey(const ChunkGrid& grid, const Vertex& vertex) {
   }
   key.level = static_cast<uint8_t>(grid.level + (coarser ? 1 : 0));
   key.axis = static_cast<uint8_t>(of_cell ? kCellVertex : kFaceVertex + (vertex.kind >> 6 & 3));
-  key.fan = static_cast<uint8_t>(of_cell ? vertex.kind >> 6 & 15 : vertex.kind >> 8 & 7);
+  key.fan = static_cast<uint8_t>(of_cell ? vertex.kind >> 6 & 15 : vertex.kind >> 8 & 15);
   return key;
 }
 

@@ -5,13 +5,12 @@
 #include <utility>
 
 #include "mesh/border_vertices.h"
+#include "mesh/facing.h"
 #include "mesh/fan_conflicts.h"
+#include "mesh/swallowed_parts.h"
 
 namespace sgm {
 namespace {
-
-/// Of a cell's face: the area by which a sliver may look inward because its corners are rounded.
-constexpr double kFold = 0.02;
 
 Vector3 plus(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Vector3 times(const Vector3& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
@@ -31,38 +30,39 @@ SharpLoops Features::find() && {
   findSides();
   placeFaceVertices();
   placeCellVertices();
-  roundUntilValid(
-      sharp_, [this](SharpLoop& loop) { return takeNextCentre(loop); }, memory_);
+  do {
+    roundUntilValid(
+        sharp_, [this](SharpLoop& loop) { return takeNextCentre(loop); }, memory_);
+  } while (roundAroundSwallowed(sharp_, memory_));
   return std::move(sharp_);
-}
-
-bool Features::isSharp(const SurfaceLoop& loop) const {
-  for (uint32_t i = 0; i < loop.count; ++i) {
-    if (creases_.isSharp(loop.vertices[i], loop.vertices[(i + 1) % loop.count])) return true;
-  }
-  return false;
 }
 
 void Features::findSides() {
   const RawVector<VertexKey>& keys = body_.part().keys;
   const ChunkGrid& grid = body_.grid();
-  std::pmr::vector<SharpSide>& sides = sharp_.sides;
+  const auto nameOf = [&](uint32_t a, uint32_t b) {
+    if (keys[b] < keys[a]) std::swap(a, b);
+    return uint64_t{a} << 32 | b;
+  };
+  std::pmr::vector<uint64_t> names(memory_);  // of sides, by their ends
   for (uint32_t number = 0; number < body_.all().size(); ++number) {
     const SurfaceLoop& loop = body_.all()[number];
-    if (!isSharp(loop)) continue;
-    sharp_.loops.emplace_back().loop = number;
+    const size_t before = names.size();
     for (uint32_t i = 0; i < loop.count; ++i) {
       const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count];
-      if (!creases_.isSharp(a, b)) continue;
-      SharpSide& side = sides.emplace_back(sideBetween(a, b, keys));
-      const int64_t from_chunk = int64_t{side.corner[side.axis]} - grid.origin[side.axis];
-      side.at_border = from_chunk == 0 || from_chunk == int64_t{kChunkCells} * grid.cell;
+      if (creases_.isSharp(a, b)) names.push_back(nameOf(a, b));
     }
+    if (names.size() > before) sharp_.loops.emplace_back().loop = number;
   }
-  std::sort(sides.begin(), sides.end());
-  sides.erase(std::unique(sides.begin(), sides.end(),
-                          [](const SharpSide& a, const SharpSide& b) { return a.from == b.from && a.to == b.to; }),
-              sides.end());
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  sharp_.sides.reserve(names.size());
+  for (const uint64_t name : names) {
+    SharpSide& side =
+        sharp_.sides.emplace_back(sideBetween(static_cast<uint32_t>(name >> 32), static_cast<uint32_t>(name), keys));
+    const int64_t from_chunk = int64_t{side.corner[side.axis]} - grid.origin[side.axis];
+    side.at_border = from_chunk == 0 || from_chunk == int64_t{kChunkCells} * grid.cell;
+  }
   for (uint32_t number = 0; number < sharp_.loops.size(); ++number) {
     SharpLoop& sharp = sharp_.loops[number];
     const SurfaceLoop& loop = of(sharp);
@@ -70,11 +70,12 @@ void Features::findSides() {
     for (uint32_t i = 0; i < loop.count; ++i) {
       const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count];
       if (!creases_.isSharp(a, b)) continue;
-      const auto side = std::lower_bound(sides.begin(), sides.end(), sideBetween(a, b, keys));
-      sharp.sides[i] = static_cast<uint32_t>(side - sides.begin());
+      sharp.sides[i] =
+          static_cast<uint32_t>(std::lower_bound(names.begin(), names.end(), nameOf(a, b)) - names.begin());
       // The cell on the high side of the face has its corner in the face's plane.
-      const bool is_high = body_.cornerOf(loop.cell)[side->axis] == side->corner[side->axis];
-      side->loops[is_high ? 1 : 0] = number;
+      SharpSide& side = sharp_.sides[sharp.sides[i]];
+      const bool is_high = body_.cornerOf(loop.cell)[side.axis] == side.corner[side.axis];
+      side.loops[is_high ? 1 : 0] = number;
     }
   }
 }
@@ -124,8 +125,10 @@ void Features::placeFaceVertices() {
   std::pmr::vector<Vector3> ideals(memory_);
   ideals.reserve(sharp_.sides.size());
   for (const SharpSide& side : sharp_.sides) {
-    if (side.at_border && side.place) {
-      ideals.push_back(unitsOf(*side.place, body_.grid().cell));
+    if (side.at_border && !side.places.empty()) {
+      Vector3 sum{};
+      for (const Int3& place : side.places.all()) sum = plus(sum, unitsOf(place, body_.grid().cell));
+      ideals.push_back(times(sum, 1.0 / static_cast<double>(side.places.count())));
       continue;
     }
     const Vector3 a = between(side.corner, creases_.tangent(side.from).point);
@@ -155,7 +158,7 @@ void Features::placeFaceVertices() {
   if (!points.empty()) field_(points, samples, Sampled::all);
   for (size_t i = 0; i < choices.size(); ++i) {
     SharpSide& side = sharp_.sides[choices[i].side];
-    if (!side.place && creases_.isOnSurface(samples[i])) side.place = choices[i].place;
+    if (side.places.empty() && creases_.isOnSurface(samples[i])) side.places = FacePlaces(choices[i].place);
   }
 }
 
@@ -169,10 +172,11 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   for (uint32_t i = 0; i < loop.count; ++i) {
     all = plus(all, creases_.unitsFrom(corner, loop.vertices[i]));
     const uint32_t s = sharp.sides[i];
-    if (s == kNone || !sharp_.sides[s].place) continue;
-    features = plus(features,
-                    plus(between(corner, sharp_.sides[s].corner), unitsOf(*sharp_.sides[s].place, body_.grid().cell)));
-    feature_count += 1;
+    if (s == kNone) continue;
+    for (const Int3& place : sharp_.sides[s].places.all()) {
+      features = plus(features, plus(between(corner, sharp_.sides[s].corner), unitsOf(place, body_.grid().cell)));
+      feature_count += 1;
+    }
   }
   if (feature_count == 0) return centres;
   const Vector3 middle = feature_count > 1 ? times(features, 1 / feature_count)
@@ -199,8 +203,10 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   if (has_third) add(plus(middle, PlaneAxes(planes).step(3)));
   add(plus(middle, axes.step(3)));
   for (const uint32_t s : sharp.sides) {
-    if (s == kNone || !sharp_.sides[s].at_border || !sharp_.sides[s].place) continue;
-    centres.add({sharp_.faceVertexAt(sharp_.sides[s]), s});
+    if (s == kNone || !sharp_.sides[s].at_border) continue;
+    const std::span<const Int3> places = sharp_.sides[s].places.all();
+    for (size_t k = 0; k < places.size(); ++k)
+      centres.add({sharp_.fromChunk(sharp_.sides[s], places[k]), SharpLoops::faceVertexOf(s, k)});
   }
   add(plus(middle, axes.step(2)));
   add(middle);
@@ -233,7 +239,9 @@ void Features::placeCellVertices() {
   }
 }
 
+/// Makes a loop another fan: about the same centre with other diagonals, or about the next centre.
 bool Features::takeNextCentre(SharpLoop& sharp) const {
+  if (sharp.isFan() && !sharp.by_patches && takeAs(sharp.centre, true, sharp)) return true;
   while (const std::optional<FanCentre> centre = nextCentre(sharp)) {
     const Int3 point = creases_.sampledAt(body_.grid().origin, centre->at);
     FieldSample sample;
@@ -255,50 +263,24 @@ std::optional<FanCentre> Features::nextCentre(SharpLoop& sharp) const {
   return std::nullopt;
 }
 
-/// Makes a loop a fan about a centre, if that fan is sound and looks out of the solid.
+/// Makes a loop a fan about a centre, if that fan is sound and faces out of the solid.
 bool Features::take(const FanCentre& centre, const FieldSample& sample, SharpLoop& sharp) const {
-  if (!creases_.isOnSurface(sample) || !looksOut(sharp, centre)) return false;
-  if (!isSoundFan(sharp_, sharp, centre)) {
+  if (!creases_.isOnSurface(sample)) return false;
+  // About a face vertex, diagonals to the centre may lie in the face of the chunk.
+  return (centre.face_vertex == kNone && takeAs(centre, false, sharp)) || takeAs(centre, true, sharp);
+}
+
+bool Features::takeAs(const FanCentre& centre, bool by_patches, SharpLoop& sharp) const {
+  const LoopTriangles fan = sharp_.fullFan(sharp, centre, by_patches);
+  if (!facesOut(fan, creases_)) return false;
+  if (hasFault(fan)) {
     if (!sharp.isFan()) sharp.shape = SharpLoop::Shape::rounded;
     return false;
   }
   sharp.shape = SharpLoop::Shape::fan;
   sharp.centre = centre;
+  sharp.by_patches = by_patches;
   return true;
-}
-
-/// Whether all triangles about the place look out of the solid, but for slivers, and together do.
-bool Features::looksOut(const SharpLoop& sharp, const FanCentre& centre) const {
-  const SurfaceLoop& loop = of(sharp);
-  const Int3 corner = body_.cornerOf(loop.cell);
-  const int32_t cell = body_.grid().cell;
-  Int3 from_cell = centre.at;
-  for (int k = 0; k < 3; ++k) from_cell[k] -= loop.cell[k] * kSubcell;
-  const Vector3 place = unitsOf(from_cell, cell);
-  struct Spoke {
-    Vector3 at;
-    const Tangent* tangent;
-  };
-  std::array<Spoke, 2 * kLongestCubeLoop> ring;
-  size_t count = 0;
-  for (uint32_t i = 0; i < loop.count; ++i) {
-    ring[count++] = {creases_.unitsFrom(corner, loop.vertices[i]), &creases_.tangent(loop.vertices[i])};
-    const uint32_t s = sharp.sides[i];
-    if (s == kNone || !sharp_.sides[s].place) continue;
-    ring[count++] = {plus(between(corner, sharp_.sides[s].corner), unitsOf(*sharp_.sides[s].place, cell)), nullptr};
-  }
-  double all = 0;
-  for (size_t i = 0; i < count; ++i) {
-    const Spoke &a = ring[i], &b = ring[(i + 1) % count];
-    const Vector3 area = cross(minus(a.at, place), minus(b.at, place));
-    Vector3 out{};
-    for (const Tangent* t : {a.tangent, b.tangent})
-      if (t != nullptr) out = plus(out, t->normal);
-    const double outward = dot(area, out);
-    if (outward < -kFold * cell * cell) return false;
-    all += outward;
-  }
-  return all > 0;
 }
 
 }  // namespace sgm

@@ -43,14 +43,13 @@ class Features {
   void findSides();
   void placeFaceVertices();
   void placeCellVertices();
-  bool isSharp(const SurfaceLoop& loop) const;
   Vector3 meetingPoint(const SharpLoop& loop, const Int3& corner, std::span<const Vector3> ideals) const;
   Vector3 meanOnCrease(const SharpSide& side, std::span<const Vector3> ideals) const;
   Centres centresOf(const SharpLoop& loop) const;
   std::optional<FanCentre> nextCentre(SharpLoop& loop) const;
   bool takeNextCentre(SharpLoop& loop) const;
   bool take(const FanCentre& centre, const FieldSample& sample, SharpLoop& loop) const;
-  bool looksOut(const SharpLoop& loop, const FanCentre& centre) const;
+  bool takeAs(const FanCentre& centre, bool by_patches, SharpLoop& loop) const;
   const SurfaceLoop& of(const SharpLoop& loop) const { return sharp_.of(loop); }
 
   const BodyLoops& body_;

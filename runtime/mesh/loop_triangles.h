@@ -32,11 +32,9 @@ struct PlaceBox {
 struct NamedTriangle {
   std::array<Int3, 3> at;
   std::array<uint32_t, 3> name{};  ///< of vertices: equal for those that are one
-  PlaceBox box;
 
   bool hasArea() const { return IntegerSigns::seenAlong(at) >= 0; }
   bool meets(const NamedTriangle& other) const {
-    if (!box.meets(other.box)) return false;
     std::array<Int3, 3> a = at, b = other.at;
     std::array<uint32_t, 3> names_a = name, names_b = other.name;
     int common = 0;
@@ -55,19 +53,35 @@ struct NamedTriangle {
 };
 
 /// The triangles of one loop.
-struct LoopTriangles {
-  static constexpr size_t kMost = 2 * kLongestCubeLoop;
+class LoopTriangles {
+ public:
+  /// A vertex and two face vertices a side.
+  static constexpr size_t kMost = 3 * kLongestCubeLoop;
 
-  std::array<NamedTriangle, kMost> store;
-  uint32_t count = 0;
-  PlaceBox box;
+  LoopTriangles() = default;
+  LoopTriangles(const LoopTriangles& other) { *this = other; }
+  LoopTriangles& operator=(const LoopTriangles& other) {
+    count_ = other.count_;
+    std::copy_n(other.store_.triangles.begin(), count_, store_.triangles.begin());
+    return *this;
+  }
 
   void add(const std::array<Int3, 3>& at, const std::array<uint32_t, 3>& name) {
-    NamedTriangle& triangle = store[count++];
-    triangle = {at, name, {}};
-    for (const Int3& p : at) triangle.box.take(p), box.take(p);
+    store_.triangles[count_++] = {at, name};
   }
-  std::span<const NamedTriangle> all() const { return {store.data(), count}; }
+  size_t count() const { return count_; }
+  std::span<const NamedTriangle> all() const { return {store_.triangles.data(), count_}; }
+  std::span<NamedTriangle> all() { return {store_.triangles.data(), count_}; }
+
+ private:
+  /// Without a value at first: most loops have few triangles.
+  union Store {
+    std::array<NamedTriangle, kMost> triangles;
+    Store() {}  // NOLINT(modernize-use-equals-default): that would be deleted
+  };
+
+  Store store_;
+  uint32_t count_ = 0;
 };
 
 inline Int3 placeOf(const MeshPart& part, uint32_t v) {
@@ -84,14 +98,43 @@ inline LoopTriangles plainTriangles(const MeshPart& part, const SurfaceLoop& loo
   return triangles;
 }
 
-inline bool anyMeets(const LoopTriangles& first, const LoopTriangles& second) {
+/// Triangles with their boxes: those of the triangles, and one about all.
+struct BoxedTriangles {
+  std::span<const NamedTriangle> triangles;
+  std::span<const PlaceBox> boxes;
+  PlaceBox box;
+};
+
+inline PlaceBox boxOf(const NamedTriangle& triangle) {
+  PlaceBox box;
+  for (const Int3& p : triangle.at) box.take(p);
+  return box;
+}
+
+inline bool anyMeets(const BoxedTriangles& first, const BoxedTriangles& second) {
   if (!first.box.meets(second.box)) return false;
-  for (const NamedTriangle& a : first.all()) {
-    if (!a.box.meets(second.box)) continue;
-    for (const NamedTriangle& b : second.all())
-      if (a.meets(b)) return true;
+  for (size_t i = 0; i < first.triangles.size(); ++i) {
+    if (!first.boxes[i].meets(second.box)) continue;
+    for (size_t j = 0; j < second.triangles.size(); ++j)
+      if (first.boxes[i].meets(second.boxes[j]) && first.triangles[i].meets(second.triangles[j])) return true;
   }
   return false;
+}
+
+inline bool anyMeets(const LoopTriangles& first, const LoopTriangles& second) {
+  struct Boxes {
+    std::array<PlaceBox, LoopTriangles::kMost> of;
+    PlaceBox all;
+    explicit Boxes(const LoopTriangles& triangles) {
+      for (size_t i = 0; i < triangles.count(); ++i) {
+        of[i] = boxOf(triangles.all()[i]);
+        all.take(of[i].lo), all.take(of[i].hi);
+      }
+    }
+  };
+  const Boxes a(first), b(second);
+  return anyMeets(BoxedTriangles{first.all(), {a.of.data(), first.count()}, a.all},
+                  BoxedTriangles{second.all(), {b.of.data(), second.count()}, b.all});
 }
 
 }  // namespace sgm

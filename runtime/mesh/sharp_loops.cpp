@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mesh/fan_triangles.h"
+
 namespace sgm {
 
 SharpSide sideBetween(uint32_t a, uint32_t b, const RawVector<VertexKey>& keys) {
@@ -13,16 +15,17 @@ SharpSide sideBetween(uint32_t a, uint32_t b, const RawVector<VertexKey>& keys) 
   return side;
 }
 
-VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from) {
+VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from, size_t which) {
   const int across = 3 - side.axis - from.axis;
   const int of_face = from.axis * 2 + (from.corner[across] == side.corner[across] ? 0 : 1);
-  return {side.corner, from.level, static_cast<uint8_t>(kFaceVertex + side.axis), static_cast<uint8_t>(of_face)};
+  return {side.corner, from.level, static_cast<uint8_t>(kFaceVertex + side.axis),
+          static_cast<uint8_t>(of_face + (which == 0 ? 0 : kSecondOfSide))};
 }
 
-bool SharpLoops::hasFaceVertex(const SharpSide& side) const {
-  return side.place && (side.at_border || std::all_of(side.loops.begin(), side.loops.end(), [&](uint32_t number) {
-                          return number != kNone && loops[number].isFan();
-                        }));
+bool SharpLoops::hasFaceVertices(const SharpSide& side) const {
+  return !side.places.empty() &&
+         (side.at_border || std::all_of(side.loops.begin(), side.loops.end(),
+                                        [&](uint32_t number) { return number != kNone && loops[number].isFan(); }));
 }
 
 Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<const BorderVertex> at_border) {
@@ -45,11 +48,11 @@ Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<c
 
 std::optional<FanCentre> SharpLoops::centreOf(const SharpLoop& sharp) const {
   if (sharp.isFan()) return sharp.centre;
-  std::array<BorderVertex, kLongestCubeLoop> at_border;
+  std::array<BorderVertex, FacePlaces::kMost * kLongestCubeLoop> at_border;
   size_t count = 0;
   for (const uint32_t s : sharp.sides) {
-    if (s != kNone && sides[s].at_border && sides[s].place)
-      at_border[count++] = {faceVertexAt(sides[s]), sides[s].axis};
+    if (s == kNone || !sides[s].at_border) continue;
+    for (const Int3& place : sides[s].places.all()) at_border[count++] = {fromChunk(sides[s], place), sides[s].axis};
   }
   if (count == 0) return std::nullopt;
   const SurfaceLoop& loop = of(sharp);
@@ -58,9 +61,9 @@ std::optional<FanCentre> SharpLoops::centreOf(const SharpLoop& sharp) const {
   return FanCentre{roundedCentre(loop.cell, {vertices.data(), loop.count}, {at_border.data(), count})};
 }
 
-Int3 SharpLoops::faceVertexAt(const SharpSide& side) const {
+Int3 SharpLoops::fromChunk(const SharpSide& side, const Int3& place) const {
   const ChunkGrid& grid = body.grid();
-  Int3 at = *side.place;
+  Int3 at = place;
   for (int k = 0; k < 3; ++k) {
     at[k] += static_cast<int32_t>((int64_t{side.corner[k]} - grid.origin[k]) / grid.cell) * kSubcell;
   }
@@ -69,25 +72,78 @@ Int3 SharpLoops::faceVertexAt(const SharpSide& side) const {
 
 namespace {
 
-/// has(side): whether a side that can have a face vertex has it.
+/// Whether no loop of the cell beside a loop's can have the same diagonal between two points of the ring: one in the
+/// face of both that has both, too.
+bool isFree(const SharpLoops& sharp, const SurfaceLoop& loop, uint32_t a, uint32_t b) {
+  if (a >= kCellVertices || b >= kCellVertices) return true;
+  const RawVector<VertexKey>& keys = sharp.body.part().keys;
+  const auto sideOf = [&](uint32_t name) {
+    return name < kFaceVertices ? nullptr : &sharp.sides[SharpLoops::sideOf(name - kFaceVertices)];
+  };
+  const SharpSide *const of_a = sideOf(a), *const of_b = sideOf(b);
+  // The ends of its side stand for a face vertex.
+  const std::array<uint32_t, 4> ends{of_a ? of_a->from : a, of_a ? of_a->to : a, of_b ? of_b->from : b,
+                                     of_b ? of_b->to : b};
+  const int axis = of_a ? of_a->axis : of_b ? of_b->axis : sharedFace(keys[a], keys[b]);
+  if (axis < 0) return true;
+  const int32_t plane = (of_a ? of_a->corner : of_b ? of_b->corner : keys[a].corner)[axis];
+  for (const uint32_t v : ends)
+    if (keys[v].axis == axis || keys[v].corner[axis] != plane) return true;
+  Int3 beside = loop.cell;
+  beside[axis] += plane == sharp.body.cornerOf(loop.cell)[axis] ? -1 : 1;
+  // Beyond the chunk nothing is known.
+  if (beside[axis] < 0 || beside[axis] >= kChunkCells) return false;
+  bool is_free = true;
+  sharp.body.visitWithin(beside, beside, [&](uint32_t number) {
+    const SurfaceLoop& other = sharp.body.all()[number];
+    const auto end = other.vertices.begin() + other.count;
+    const auto has = [&](uint32_t v) { return std::find(other.vertices.begin(), end, v) != end; };
+    if (std::all_of(ends.begin(), ends.end(), has)) is_free = false;
+  });
+  return is_free;
+}
+
+/// The vertices and face vertices of a loop, in its order; room for walking it twice.
+struct Ring {
+  std::array<FanPoint, 2 * LoopTriangles::kMost> points;
+  size_t count = 0;
+};
+
+/// has(side): whether a side that can have face vertices has them.
 template <class Has>
-LoopTriangles fanTriangles(const SharpLoops& sharp, const SharpLoop& own, const FanCentre& centre, const Has& has) {
-  LoopTriangles triangles;
-  const MeshPart& part = sharp.body.part();
+Ring ringOf(const SharpLoops& sharp, const SharpLoop& own, const Has& has) {
+  Ring ring;
   const SurfaceLoop& loop = sharp.of(own);
-  const uint32_t name = centre.side == SharpSide::kNone ? kCellVertices + own.loop : kFaceVertices + centre.side;
   for (uint32_t i = 0; i < loop.count; ++i) {
-    const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count], s = own.sides[i];
-    if (s != SharpSide::kNone && s == centre.side) continue;
-    if (s != SharpSide::kNone && sharp.sides[s].place && has(sharp.sides[s])) {
-      const Int3 middle = sharp.faceVertexAt(sharp.sides[s]);
-      triangles.add({centre.at, placeOf(part, a), middle}, {name, a, kFaceVertices + s});
-      triangles.add({centre.at, middle, placeOf(part, b)}, {name, kFaceVertices + s, b});
-    } else {
-      triangles.add({centre.at, placeOf(part, a), placeOf(part, b)}, {name, a, b});
+    const uint32_t v = loop.vertices[i], s = own.sides[i];
+    ring.points[ring.count++] = {placeOf(sharp.body.part(), v), v};
+    if (s == SharpSide::kNone || sharp.sides[s].places.empty() || !has(sharp.sides[s])) continue;
+    const SharpSide& side = sharp.sides[s];
+    for (size_t k = 0; k < side.places.count(); ++k) {
+      const size_t which = v == side.from ? k : side.places.count() - 1 - k;
+      const uint32_t name = kFaceVertices + SharpLoops::faceVertexOf(s, which);
+      ring.points[ring.count++] = {sharp.fromChunk(side, side.places.all()[which]), name, true};
     }
   }
-  return triangles;
+  return ring;
+}
+
+template <class Has>
+LoopTriangles fanTriangles(const SharpLoops& sharp, const SharpLoop& own, const FanCentre& centre, bool by_patches,
+                           const Has& has) {
+  const SurfaceLoop& loop = sharp.of(own);
+  const bool is_closed = centre.face_vertex == SharpSide::kNone;
+  const FanPoint middle{centre.at, is_closed ? kCellVertices + own.loop : kFaceVertices + centre.face_vertex, true};
+  Ring ring = ringOf(sharp, own, has);
+  size_t start = 0;
+  if (!is_closed) {
+    // From behind the centre, which is a point of the ring.
+    while (ring.points[start++].name != middle.name) continue;
+    std::copy_n(ring.points.begin(), start, ring.points.begin() + static_cast<std::ptrdiff_t>(ring.count));
+  }
+  const std::span<const FanPoint> points(ring.points.data() + start, ring.count - (is_closed ? 0 : 1));
+  if (!by_patches) return coneTriangles(middle, points, is_closed);
+  return patchTriangles(middle, points, is_closed, [&](uint32_t a, uint32_t b) { return isFree(sharp, loop, a, b); });
 }
 
 }  // namespace
@@ -95,11 +151,12 @@ LoopTriangles fanTriangles(const SharpLoops& sharp, const SharpLoop& own, const 
 LoopTriangles SharpLoops::trianglesOf(const SharpLoop& loop) const {
   const std::optional<FanCentre> centre = centreOf(loop);
   if (!centre) return plainTriangles(body.part(), of(loop));
-  return fanTriangles(*this, loop, *centre, [this](const SharpSide& side) { return hasFaceVertex(side); });
+  return fanTriangles(*this, loop, *centre, loop.isFan() && loop.by_patches,
+                      [this](const SharpSide& side) { return hasFaceVertices(side); });
 }
 
-LoopTriangles SharpLoops::fullFan(const SharpLoop& loop, const FanCentre& centre) const {
-  return fanTriangles(*this, loop, centre, [](const SharpSide&) { return true; });
+LoopTriangles SharpLoops::fullFan(const SharpLoop& loop, const FanCentre& centre, bool by_patches) const {
+  return fanTriangles(*this, loop, centre, by_patches, [](const SharpSide&) { return true; });
 }
 
 }  // namespace sgm

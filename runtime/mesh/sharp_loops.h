@@ -5,23 +5,26 @@
 // A SIDE of a loop lies in a face of its cell and joins two vertices on edges of that face. If the normals at its ends
 // differ, the two tangent planes meet in a crease, and the side is SHARP: it may have a FACE VERTEX on the crease. A
 // loop with sharp sides becomes a fan about a CELL VERTEX, the point nearest to the planes of the loop's own vertices.
+// The creases from there to the face vertices divide the fan into PATCHES, each about in one plane. A patch of which
+// the cell vertex does not see all gets other diagonals (mesh/fan_triangles.h).
 //
 // Validity comes before crispness. A loop whose fan meets another triangle wrongly (mesh/triangle_faults.h) is ROUNDED:
 // it keeps its own triangles, as without features, and its sides lose their face vertices.
 //
-// The sides in a face of the CHUNK are another matter. Their face vertices lie in that face and depend on the field
-// beside it alone (mesh/border_vertices.h); all else of a chunk's features lies strictly inside of the chunk. So the
-// bodies on both sides of a face, of one level or two, and the seam between them, which lies in the face, meet only
-// where they should, whatever becomes of the loops of each: chunks that are meshed apart agree without a look at each
-// other. A rounded loop keeps these face vertices, and is a fan about a point strictly within its own cell
-// (roundedCentre).
+// The sides in a face of the CHUNK are another matter. Their face vertices, two where a third plane cuts off the crease
+// of the other two, lie in that face and depend on the field beside it alone (mesh/border_vertices.h); all else of a
+// chunk's features lies strictly inside of the chunk. So the bodies on both sides of a face, of one level or two, and
+// the seam between them, which lies in the face, meet only where they should, whatever becomes of the loops of each:
+// chunks that are meshed apart agree without a look at each other. A rounded loop keeps these face vertices, and is a
+// fan about a point strictly within its own cell (roundedCentre).
 //
 // Rounded loops never meet each other wrongly, so that rounding ends. Such a fan is a cone over a simple polygon on the
 // boundary of its cell, which is convex: it stays in the cell, and has no other point in common with the boundary.
-// Where the cell has another loop the cone is tested against it. Where a face vertex lies outside of the side's square
-// the centre is 1/256 of a cell away from the chunk's face. So is the part of the cone beyond the cell, and it has a
-// square of the face beneath it that no contour crosses; triangles there whose corners are not in the face are 1/256
-// away or more. Of several sides with a face vertex in one such square each keeps to its own part of it.
+// Where the cell has another loop the cone is tested against it (mesh/rounded_cells.h). Where a face vertex lies
+// outside of the side's square the centre is 1/256 of a cell away from the chunk's face. So is the part of the cone
+// beyond the cell. If no contour crosses the square of the face beneath it, triangles there whose corners are not in
+// the face are 1/256 away or more; otherwise the cone is tested against the loops there. Of several sides with a face
+// vertex in one such square each keeps to its own part of it.
 
 #include <array>
 #include <cstdint>
@@ -36,6 +39,25 @@
 
 namespace sgm {
 
+/// The places of the face vertices of one side, in their order from its lower end: one, or two where a third plane cuts
+/// off the crease of the ends' planes. In 1/256 of a cell from the side's corner.
+class FacePlaces {
+ public:
+  static constexpr size_t kMost = 2;
+
+  FacePlaces() = default;
+  explicit FacePlaces(const Int3& only) : places_{only}, count_(1) {}
+  FacePlaces(const Int3& first, const Int3& second) : places_{first, second}, count_(2) {}
+
+  bool empty() const { return count_ == 0; }
+  size_t count() const { return count_; }
+  std::span<const Int3> all() const { return {places_.data(), count_}; }
+
+ private:
+  std::array<Int3, kMost> places_;
+  uint32_t count_ = 0;
+};
+
 /// A side whose ends have different normals.
 struct SharpSide {
   static constexpr uint32_t kNone = UINT32_MAX;
@@ -46,7 +68,7 @@ struct SharpSide {
   bool at_border = false;                       ///< its face is part of a face of the chunk
   std::array<uint32_t, 2> loops{kNone, kNone};  ///< numbers of its sharp loops, the one in the lower cell first
   std::optional<Tangent> third;  ///< tangent where the planes of its ends meet in the chunk's face, but off the surface
-  std::optional<Int3> place;  ///< of its face vertex, in 1/256 of a cell from `corner`; nullopt if it cannot have one
+  FacePlaces places;             ///< none if it cannot have a face vertex; two at the border alone
 
   friend bool operator<(const SharpSide& a, const SharpSide& b) {
     return a.from != b.from ? a.from < b.from : a.to < b.to;
@@ -56,8 +78,8 @@ struct SharpSide {
 /// The side of a cell between two vertices of the part that has these keys. Its other members have their defaults.
 SharpSide sideBetween(uint32_t a, uint32_t b, const RawVector<VertexKey>& keys);
 
-/// The key of a side's face vertex. from: of the vertex side.from.
-VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from);
+/// The key of a side's face vertex. from: of the vertex side.from. which: 0, or 1 for a second one.
+VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from, size_t which);
 
 /// A face vertex in a face of the chunk.
 struct BorderVertex {
@@ -72,8 +94,8 @@ Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<c
 
 /// The centre of a fan: a cell vertex, or one of the loop's own face vertices at the border, which a fan has anyway.
 struct FanCentre {
-  Int3 at;                           ///< in 1/256 of a cell from the chunk's origin
-  uint32_t side = SharpSide::kNone;  ///< number of the face vertex's side; kNone for a cell vertex
+  Int3 at;                                  ///< in 1/256 of a cell from the chunk's origin
+  uint32_t face_vertex = SharpSide::kNone;  ///< its number; kNone for a cell vertex
   friend bool operator==(const FanCentre&, const FanCentre&) = default;
 };
 
@@ -88,8 +110,9 @@ struct SharpLoop {
   uint32_t loop = 0;                               ///< of the body
   std::array<uint32_t, kLongestCubeLoop> sides{};  ///< numbers of the sides behind its vertices; kNone if not sharp
   Shape shape = Shape::plain;
-  FanCentre centre;   ///< of a fan
-  uint8_t tried = 0;  ///< how many of its possible centres were tried
+  FanCentre centre;         ///< of a fan
+  bool by_patches = false;  ///< whether a fan may have other diagonals than those to its centre
+  uint8_t tried = 0;        ///< how many of its possible centres were tried
 
   bool isFan() const { return shape == Shape::fan; }
 };
@@ -106,16 +129,21 @@ struct SharpLoops {
       : body(of_body), sides(memory), loops(memory) {}
 
   const SurfaceLoop& of(const SharpLoop& loop) const { return body.all()[loop.loop]; }
-  /// Whether the side has its face vertex, as its loops are now.
-  bool hasFaceVertex(const SharpSide& side) const;
-  /// Where it is, or would be, in 1/256 of a cell from the chunk's origin. Precondition: the side has a place.
-  Int3 faceVertexAt(const SharpSide& side) const;
+  /// The number of a side's face vertex, and the side of a number.
+  static uint32_t faceVertexOf(uint32_t side, size_t which) {
+    return side * static_cast<uint32_t>(FacePlaces::kMost) + static_cast<uint32_t>(which);
+  }
+  static uint32_t sideOf(uint32_t face_vertex) { return face_vertex / static_cast<uint32_t>(FacePlaces::kMost); }
+  /// Whether the side has its face vertices, as its loops are now.
+  bool hasFaceVertices(const SharpSide& side) const;
+  /// Where a place of a side is, in 1/256 of a cell from the chunk's origin.
+  Int3 fromChunk(const SharpSide& side, const Int3& place) const;
   /// The centre about which a loop is a fan now; nullopt if it keeps its own triangles.
   std::optional<FanCentre> centreOf(const SharpLoop& loop) const;
   /// The triangles of a loop as it is now.
   LoopTriangles trianglesOf(const SharpLoop& loop) const;
   /// The triangles of a fan with all face vertices that its sides can have.
-  LoopTriangles fullFan(const SharpLoop& loop, const FanCentre& centre) const;
+  LoopTriangles fullFan(const SharpLoop& loop, const FanCentre& centre, bool by_patches) const;
 };
 
 }  // namespace sgm

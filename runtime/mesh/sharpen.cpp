@@ -49,9 +49,12 @@ class BodyWriter {
 
   void write() {
     constexpr uint32_t kNone = SharpLoops::kNone;
-    std::pmr::vector<uint32_t> face_vertices(sharp_.sides.size(), kNone, memory_);
-    for (size_t s = 0; s < face_vertices.size(); ++s) {
-      if (sharp_.hasFaceVertex(sharp_.sides[s])) face_vertices[s] = addFaceVertex(sharp_.sides[s]);
+    std::pmr::vector<uint32_t> face_vertices(FacePlaces::kMost * sharp_.sides.size(), kNone, memory_);
+    for (uint32_t s = 0; s < sharp_.sides.size(); ++s) {
+      const SharpSide& side = sharp_.sides[s];
+      if (!sharp_.hasFaceVertices(side)) continue;
+      for (size_t k = 0; k < side.places.count(); ++k)
+        face_vertices[SharpLoops::faceVertexOf(s, k)] = addFaceVertex(side, k);
     }
     RawVector<uint32_t> indices(memory_);
     indices.reserve(body_.indices.size() + 15 * sharp_.loops.size());
@@ -66,7 +69,7 @@ class BodyWriter {
       const SurfaceLoop& loop = sharp_.of(sharp);
       copyTo(loop.first_index);
       copied = loop.end_index;
-      const uint32_t centre = fan->side == kNone ? addCellVertex(loop, fan->at) : kNone;
+      const uint32_t centre = fan->face_vertex == kNone ? addCellVertex(loop, fan->at) : kNone;
       const LoopTriangles triangles = sharp_.trianglesOf(sharp);
       for (const NamedTriangle& triangle : triangles.all()) {
         for (const uint32_t name : triangle.name) {
@@ -81,9 +84,9 @@ class BodyWriter {
   }
 
  private:
-  uint32_t addFaceVertex(const SharpSide& side) {
-    return append(sharp_.body.grid(), faceVertexKey(side, sharp_.body.part().keys[side.from]), *side.place,
-                  body_.vertices[side.from], body_);
+  uint32_t addFaceVertex(const SharpSide& side, size_t which) {
+    return append(sharp_.body.grid(), faceVertexKey(side, sharp_.body.part().keys[side.from], which),
+                  side.places.all()[which], body_.vertices[side.from], body_);
   }
   uint32_t addCellVertex(const SurfaceLoop& loop, const Int3& from_chunk) {
     const Int3 corner = sharp_.body.cornerOf(loop.cell);

@@ -11,16 +11,22 @@ namespace {
 
 constexpr uint32_t kNoMiddle = SharpSide::kNone;
 
-/// The triangles of a polygon whose corners are a triangle's and, behind each, perhaps the middle of its side.
-void divide(const std::array<uint32_t, 3>& corners, const std::array<uint32_t, 3>& middles,
+/// Face vertices on a side, in order; kNoMiddle where there are fewer.
+using Middles = std::array<uint32_t, FacePlaces::kMost>;
+constexpr Middles kNoMiddles{kNoMiddle, kNoMiddle};
+
+/// The triangles of a polygon whose corners are a triangle's and, behind each, perhaps the middles of its side.
+void divide(const std::array<uint32_t, 3>& corners, const std::array<Middles, 3>& middles,
             RawVector<uint32_t>& indices) {
-  std::array<uint32_t, 6> ring;
+  std::array<uint32_t, 3 + 3 * FacePlaces::kMost> ring;
   size_t count = 0, middle = 0;
   for (size_t k = 0; k < 3; ++k) {
     ring[count++] = corners[k];
-    if (middles[k] == kNoMiddle) continue;
-    middle = count;
-    ring[count++] = middles[k];
+    for (const uint32_t m : middles[k]) {
+      if (m == kNoMiddle) continue;
+      middle = count;
+      ring[count++] = m;
+    }
   }
   // About a middle: it is no corner of another triangle here, so that no edge comes twice.
   for (size_t i = 1; i + 1 < count; ++i) {
@@ -58,12 +64,15 @@ class LevelOfSeam {
     append();
   }
 
-  /// The face vertex between two of the seam's vertices; kNoMiddle if their side has no face vertex.
-  uint32_t middleOf(uint32_t a, uint32_t b) const {
-    if (in_part_[a] == kNoMiddle || in_part_[b] == kNoMiddle) return kNoMiddle;
+  /// The face vertices from one of the seam's vertices to another; none if these are no ends of a side.
+  Middles middlesOf(uint32_t a, uint32_t b) const {
+    if (in_part_[a] == kNoMiddle || in_part_[b] == kNoMiddle) return kNoMiddles;
     const SharpSide wanted = sideBetween(in_part_[a], in_part_[b], part_.keys);
     const auto side = std::lower_bound(sides_.begin(), sides_.end(), wanted);
-    return side == sides_.end() || wanted < *side ? kNoMiddle : middles_[static_cast<size_t>(side - sides_.begin())];
+    if (side == sides_.end() || wanted < *side) return kNoMiddles;
+    Middles middles = middles_[static_cast<size_t>(side - sides_.begin())];
+    if (wanted.from != in_part_[a]) std::reverse(middles.begin(), middles.end());
+    return middles;
   }
 
  private:
@@ -111,23 +120,25 @@ class LevelOfSeam {
   }
 
   void append() {
-    middles_.assign(sides_.size(), kNoMiddle);
+    middles_.assign(sides_.size(), kNoMiddles);
     for (size_t s = 0; s < middles_.size(); ++s) {
       const SharpSide& side = sides_[s];
-      if (!side.place) continue;
-      const VertexKey key = faceVertexKey(side, part_.keys[side.from]);
-      Vertex vertex = seam_.vertices[of_seam_[side.from]];
-      const auto at = [&](int k) {
-        const int32_t from = (key.corner[k] - chunk_.origin[k]) / chunk_.cell * kSubcell;
-        return static_cast<int16_t>(from + (*side.place)[k] * (1 << scale_));
-      };
-      vertex.x = at(0);
-      vertex.y = at(1);
-      vertex.z = at(2);
-      vertex.kind = featureKind(key, *side.place, chunk_.level);
-      middles_[s] = static_cast<uint32_t>(seam_.vertices.size());
-      seam_.vertices.push_back(vertex);
-      seam_.keys.push_back(key);
+      for (size_t which = 0; which < side.places.count(); ++which) {
+        const Int3& place = side.places.all()[which];
+        const VertexKey key = faceVertexKey(side, part_.keys[side.from], which);
+        Vertex vertex = seam_.vertices[of_seam_[side.from]];
+        const auto at = [&](int k) {
+          const int32_t from = (key.corner[k] - chunk_.origin[k]) / chunk_.cell * kSubcell;
+          return static_cast<int16_t>(from + place[k] * (1 << scale_));
+        };
+        vertex.x = at(0);
+        vertex.y = at(1);
+        vertex.z = at(2);
+        vertex.kind = featureKind(key, place, chunk_.level);
+        middles_[s][which] = static_cast<uint32_t>(seam_.vertices.size());
+        seam_.vertices.push_back(vertex);
+        seam_.keys.push_back(key);
+      }
     }
   }
 
@@ -154,7 +165,7 @@ class LevelOfSeam {
   std::pmr::vector<uint32_t> of_seam_;  ///< by the part's vertex
   std::pmr::vector<uint32_t> in_part_;  ///< by the seam's vertex; kNoMiddle for the other level's
   std::pmr::vector<SharpSide> sides_;   ///< of the part, sorted
-  std::pmr::vector<uint32_t> middles_;  ///< of the seam, by side
+  std::pmr::vector<Middles> middles_;   ///< of the seam, by side
   std::pmr::memory_resource* memory_;
 };
 
@@ -171,14 +182,15 @@ void sharpenSeam(const ChunkGrid& grid, Face face, const FieldSampler& field, co
   RawVector<uint32_t> indices(memory);
   indices.reserve(triangles_end);
   for (size_t i = 0; i < triangles_end; i += 3) {
-    std::array<uint32_t, 3> corners, middles;
+    std::array<uint32_t, 3> corners;
+    std::array<Middles, 3> middles;
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t a = seam.indices[i + k], b = seam.indices[i + (k + 1) % 3];
       corners[k] = a;
-      middles[k] = fine.middleOf(a, b);
-      if (middles[k] == kNoMiddle) middles[k] = coarse.middleOf(a, b);
+      middles[k] = fine.middlesOf(a, b);
+      if (middles[k] == kNoMiddles) middles[k] = coarse.middlesOf(a, b);
     }
-    if (std::count(middles.begin(), middles.end(), kNoMiddle) == 3) {
+    if (std::count(middles.begin(), middles.end(), kNoMiddles) == 3) {
       indices.insert(indices.end(), corners.begin(), corners.end());
     } else {
       divide(corners, middles, indices);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "mesh/hash.h"
 #include "mesh/least_squares.h"
@@ -15,26 +17,58 @@ constexpr uint32_t kNoCopy = UINT32_MAX;
 
 bool isFeatureKey(const VertexKey& key) { return key.axis >= kFaceVertex; }
 
-/// Mesh: keys, one a vertex, and indices; normal(v); give(v, like): v gets like's attributes; copy(v): appended.
+/// What a triangle gives its feature vertices: the attributes of a vertex of its side, and the side's normal.
+struct SideOfCrease {
+  uint32_t like = kNoCopy;
+  Vector3 normal{};
+  std::optional<std::array<int16_t, 2>> own_normal;  ///< packed, where that vertex has another
+};
+
+/// Mesh: keys, one a vertex, and indices; at(v) and normal(v); give(v, side); copy(v): appended.
+template <class Mesh>
+SideOfCrease sideOf(const Mesh& mesh, size_t triangle) {
+  // A triangle has a vertex or two on the side that it belongs to. One that joins features alone is followed by another
+  // one of that side, or is itself all that its cell has of it.
+  SideOfCrease side;
+  for (size_t i = triangle; side.like == kNoCopy && i < mesh.indices.size(); i += 3) {
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t v = mesh.indices[i + k];
+      if (!isFeatureKey(mesh.keys[v])) side.like = v;
+    }
+    if (side.like == kNoCopy) continue;
+    side.normal = mesh.normal(side.like);
+    if (i == triangle) break;
+    const Vector3 a = mesh.at(mesh.indices[triangle]);
+    const Vector3 area =
+        cross(minus(mesh.at(mesh.indices[triangle + 1]), a), minus(mesh.at(mesh.indices[triangle + 2]), a));
+    const double length = std::sqrt(dot(area, area));
+    if (length > 0 && dot(area, side.normal) < kSameSide * length) {
+      side.own_normal = packNormal(area);
+      side.normal = unpackNormal((*side.own_normal)[0], (*side.own_normal)[1]);
+    }
+  }
+  return side;
+}
+
 template <class Mesh>
 void split(Mesh&& mesh, std::pmr::memory_resource* memory) {
   // The copies of each vertex, in a chain; unset where a feature vertex has no side yet.
   std::pmr::vector<uint32_t> next(mesh.keys.size(), kNoCopy, memory);
   std::pmr::vector<bool> set(mesh.keys.size(), false, memory);
   for (size_t at = 0; at < mesh.indices.size(); at += 3) {
-    // A triangle of a fan has a vertex or two on the side that it belongs to.
-    const std::array<uint32_t, 3> triangle{mesh.indices[at], mesh.indices[at + 1], mesh.indices[at + 2]};
-    uint32_t side = kNoCopy;
-    for (const uint32_t v : triangle) side = isFeatureKey(mesh.keys[v]) ? side : v;
+    const auto isFeature = [&](size_t k) { return isFeatureKey(mesh.keys[mesh.indices[at + k]]); };
+    if (!isFeature(0) && !isFeature(1) && !isFeature(2)) continue;
+    const SideOfCrease side = sideOf(mesh, at);
+    if (side.like == kNoCopy) return;
     for (size_t k = 0; k < 3; ++k) {
-      uint32_t v = triangle[k];
-      if (!isFeatureKey(mesh.keys[v])) continue;
+      uint32_t v = mesh.indices[at + k];
+      if (!isFeature(k)) continue;
       if (!set[v]) {
         set[v] = true;
         mesh.give(v, side);
         continue;
       }
-      const auto same = [&] { return dot(mesh.normal(v), mesh.normal(side)) > kSameSide; };
+      const auto same = [&] { return dot(mesh.normal(v), side.normal) > kSameSide; };
       while (!same() && next[v] != kNoCopy) v = next[v];
       if (!same()) {
         const uint32_t added = mesh.copy(v);
@@ -54,8 +88,14 @@ struct SplitWorldMesh {
   std::pmr::vector<VertexKey>& keys;
   std::pmr::vector<uint32_t>& indices;
 
+  Vector3 at(uint32_t v) const { return positions[v]; }
   Vector3 normal(uint32_t v) const { return unpackNormal(attributes[v].normal_x, attributes[v].normal_y); }
-  void give(uint32_t v, uint32_t like) { attributes[v] = attributes[like]; }
+  void give(uint32_t v, const SideOfCrease& side) {
+    attributes[v] = attributes[side.like];
+    if (!side.own_normal) return;
+    attributes[v].normal_x = (*side.own_normal)[0];
+    attributes[v].normal_y = (*side.own_normal)[1];
+  }
   uint32_t copy(uint32_t v) {
     const std::array<double, 3> position = positions[v];
     const VertexAttributes of = attributes[v];
@@ -72,12 +112,13 @@ struct SplitPart {
   RawVector<VertexKey>& keys;
   RawVector<uint32_t>& indices;
 
+  Vector3 at(uint32_t v) const { return {1.0 * vertices[v].x, 1.0 * vertices[v].y, 1.0 * vertices[v].z}; }
   Vector3 normal(uint32_t v) const { return unpackNormal(vertices[v].normal_x, vertices[v].normal_y); }
-  void give(uint32_t v, uint32_t like) {
-    const Vertex from = vertices[like];
+  void give(uint32_t v, const SideOfCrease& side) {
+    const Vertex from = vertices[side.like];
     Vertex& to = vertices[v];
-    to.normal_x = from.normal_x;
-    to.normal_y = from.normal_y;
+    to.normal_x = side.own_normal ? (*side.own_normal)[0] : from.normal_x;
+    to.normal_y = side.own_normal ? (*side.own_normal)[1] : from.normal_y;
     to.material = from.material;
     to.tag = from.tag;
   }

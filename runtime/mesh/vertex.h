@@ -55,4 +55,16 @@ inline std::array<double, 3> unpackNormal(int16_t packed_x, int16_t packed_y) {
   return {x / length, y / length, z / length};
 }
 
+/// A direction that is not 0, of any length, as a packed normal.
+inline std::array<int16_t, 2> packNormal(const std::array<double, 3>& n) {
+  const double sum = std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]);
+  double x = n[0] / sum, y = n[1] / sum;
+  if (n[2] < 0) {
+    const double folded_x = (1 - std::fabs(y)) * (x < 0 ? -1 : 1);
+    y = (1 - std::fabs(x)) * (y < 0 ? -1 : 1);
+    x = folded_x;
+  }
+  return {static_cast<int16_t>(std::floor(x * 32767 + 0.5)), static_cast<int16_t>(std::floor(y * 32767 + 0.5))};
+}
+
 }  // namespace sgm

@@ -794,7 +794,7 @@ SGM_API sgm_result sgm_mesh_release(sgm_mesh* mesh);
  *   feature  where sharp features were asked for: a point of an edge or a corner of the surface, in a face of the
  *            grid or in a cell. A body has it once for each side of its crease, a seam once: those with equal keys are
  *            one vertex. level is the chunk's own, or with bit 13 of kind, in seams alone, that above; axis is 7 in a
- *            cell (bit 14), else 4 + bits 6 and 7. fan is bits 6 to 9 in a cell, else bits 8 to 10. corner is, on each
+ *            cell (bit 14), else 4 + bits 6 and 7. fan is bits 6 to 9 in a cell, else bits 8 to 11. corner is, on each
  *            axis, the position rounded down to multiples of the level's cell, less (b - 1) of these cells, b being the
  *            two bits from 2 * axis: a feature may lie up to a cell beyond its face or cell, but no feature of a body
  *            lies beyond its chunk */
@@ -1259,7 +1259,7 @@ typedef enum sgm_world_flag {
   SGM_WORLD_TEXTURE = 8,     /* meshes have texture coordinates: sgm_mesh_view.wedges. About twice the memory a mesh, in
                                 mesh_bytes; not on the device */
   SGM_WORLD_SHARP = 16, /* crisp edges and corners: as SGM_MESHING_SHARP, at every level, closed in every frame. A chunk
-                           takes longer: hardly in a cave, up to seven times as long where edges are everywhere, and
+                           takes longer: hardly in a cave, three times as long where edges are everywhere, and
                            ten times on noise as fine as the cells. Twice the room is set aside for each that is in work */
   SGM_WORLD_MEASURE = 32, /* every chunk is measured as soon as it is meshed or read from cache_folder, in the same job:
                              sgm_world_get_measures, sgm_mesh_get_measures. On the CPU that takes 2 to 12 % of the time

@@ -110,7 +110,7 @@ TEST_CASE("single cells have the loops that a body has", "[mesh][sharpen]") {
 }
 
 TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sharpen]") {
-  size_t cones = 0, beyond = 0;
+  size_t cones = 0, beyond = 0, twice = 0;
   for (unsigned round = 0; round < rounds(30000); ++round) {
     std::mt19937 random(round);
     const std::array<int32_t, 8> q = randomCell(random);
@@ -120,7 +120,7 @@ TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sh
     addCellLoops(kGrid, cell, q, part, loops);
     if (loops.size() != 1) continue;
     const SurfaceLoop& loop = loops.front();
-    std::map<uint32_t, BorderVertex> middles;
+    std::map<uint32_t, std::vector<BorderVertex>> middles;
     std::vector<BorderVertex> at_border;
     for (const LowSide& side : lowSidesOf(part, loop)) {
       if (anyOf(random, 3) == 0) continue;
@@ -135,8 +135,29 @@ TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sh
         ++beyond;
       }
       for (int k = 0; k < 3; ++k) place[k] += cell[k] * kSubcell;
-      middles[side.behind] = {place, side.axis};
-      at_border.push_back(middles[side.behind]);
+      std::vector<BorderVertex>& own = middles[side.behind];
+      own.push_back({place, side.axis});
+      // Another one, so that the way from the one end of the side by both to the other does not turn back.
+      const Int3 from = placeOf(part, loop.vertices[side.behind]),
+                 to = placeOf(part, loop.vertices[(side.behind + 1) % loop.count]);
+      const auto along_side = [&](const Int3& p) {
+        int64_t sum = 0;
+        for (int k = 0; k < 3; ++k) sum += int64_t{p[k]} * (to[k] - from[k]);
+        return sum;
+      };
+      Int3 second = place;
+      second[across] = cell[across] * kSubcell + 1 + anyOf(random, kSubcell - 1);
+      second[along] = cell[along] * kSubcell + 1 + anyOf(random, kSubcell - 1);
+      const auto lies_within = [&](const Int3& p) {
+        return along_side(from) < along_side(p) && along_side(p) < along_side(to);
+      };
+      if (anyOf(random, 2) == 0 && lies_within(place) && lies_within(second) &&
+          along_side(place) != along_side(second)) {
+        own.push_back({second, side.axis});
+        if (along_side(second) < along_side(place)) std::swap(own[0], own[1]);
+        ++twice;
+      }
+      at_border.insert(at_border.end(), own.begin(), own.end());
     }
     if (at_border.empty()) continue;
     std::vector<Int3> ring;
@@ -145,12 +166,14 @@ TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sh
     LoopTriangles fan;
     for (uint32_t i = 0; i < loop.count; ++i) {
       const uint32_t a = loop.vertices[i], next = (i + 1) % loop.count, b = loop.vertices[next];
-      if (const auto middle = middles.find(i); middle != middles.end()) {
-        fan.add({centre, ring[i], middle->second.at}, {kCellVertices, a, kFaceVertices + i});
-        fan.add({centre, middle->second.at, ring[next]}, {kCellVertices, kFaceVertices + i, b});
-      } else {
-        fan.add({centre, ring[i], ring[next]}, {kCellVertices, a, b});
+      Int3 at = ring[i];
+      uint32_t name = a;
+      for (uint32_t k = 0; k < middles[i].size(); ++k) {
+        fan.add({centre, at, middles[i][k].at}, {kCellVertices, name, kFaceVertices + 2 * i + k});
+        at = middles[i][k].at;
+        name = kFaceVertices + 2 * i + k;
       }
+      fan.add({centre, at, ring[next]}, {kCellVertices, name, b});
     }
     ++cones;
     size_t faults = 0;
@@ -167,4 +190,5 @@ TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sh
   }
   CHECK(cones * 10 > rounds(30000));
   CHECK(beyond * 100 > rounds(30000));
+  CHECK(twice * 100 > rounds(30000));
 }

@@ -250,9 +250,8 @@ ContentHash hashOf(MeshPart part) {
 }  // namespace
 
 TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
-  // One box in thirty has a corner that the samples see as a spike on one grid edge: there a fan cannot be valid, and
-  // is rounded. As many have a corner so near to the border of the chunks, which passes through all boxes, that creases
-  // end at the border which should meet beyond it.
+  // One box in sixty has a corner that the samples see apart from the rest: there no fan is valid. As many have one at
+  // the border of the chunks, which passes through all boxes, where the field does not tell the corner's third plane.
   size_t blunt = 0;
   for (uint64_t seed = 1; seed <= rounds(200); ++seed) {
     INFO("seed " << seed);
@@ -295,7 +294,7 @@ TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
     CHECK(off_mesh <= 0.75);
     CHECK(off_surface <= 0.75);
   }
-  CHECK(blunt * 14 <= rounds(200));
+  CHECK(blunt * 30 <= rounds(200));
 }
 
 TEST_CASE("chunks sharpened apart agree on their border", "[mesh][sharpen]") {
@@ -399,6 +398,20 @@ TEST_CASE("creases are split into sides that face as the field does", "[mesh][sh
     CHECK(again.positions == sharp.positions);
     CHECK(again.indices == sharp.indices);
     CHECK(again.keys == sharp.keys);
+  }
+}
+
+TEST_CASE("a direction is what its packed normal unpacks to", "[mesh]") {
+  for (uint64_t seed = 1; seed <= 1000; ++seed) {
+    std::array<double, 3> n{};
+    for (size_t k = 0; k < 3; ++k) n[k] = PathKey{seed}.unit(k) - 0.5;
+    // Axes and planes between octants, too.
+    if (seed % 3 == 0) n[seed / 3 % 3] = 0;
+    if (seed % 9 == 0) n[(seed / 3 + 1) % 3] = 0;
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const std::array<int16_t, 2> packed = sgm::packNormal(n);
+    const std::array<double, 3> unpacked = unpackNormal(packed[0], packed[1]);
+    for (size_t k = 0; k < 3; ++k) CHECK(std::fabs(unpacked[k] - n[k] / length) < 1e-4);
   }
 }
 

@@ -190,6 +190,17 @@ TEST_CASE("random solids are valid as marching cubes make them", "[validity][sol
 
 TEST_CASE("random solids are valid with sharp features", "[validity][solids][sharp][costly]") { checkSolids(true); }
 
+TEST_CASE("a speck that an edge grows round stays outside of the solid", "[validity][solids][sharp]") {
+  // Of a thousand random solids the one with a sample that touches the surface beside an edge: a ball round it is a
+  // part of its own, a 256th of a cell across, and the edge, which is right to a 25th of a cell, passed beyond it.
+  const Workshop shop;
+  std::mt19937 random(312);
+  const WorldField world(worldOf(compiled(randomSolid(random)), 0.5, 1), std::pmr::get_default_resource());
+  const Faults faults = faultsOf(meshedRegion(world, shop, kAll, true).mesh, nullptr, *shop.jobs);
+  INFO(faults);
+  CHECK(faults.valid);
+}
+
 TEST_CASE("octrees of random solids are closed, and nothing pierces anything", "[validity][octrees][plain][costly]") {
   checkTrees(false);
 }

@@ -1,0 +1,150 @@
+#include "mesh/rounded_cells.h"
+
+#include "mesh/cell_loops.h"
+#include "mesh/fan_triangles.h"
+
+namespace sgm {
+
+namespace {
+
+/// Of a claim's sides: with more, each of which may be there or not, there is no end of cases.
+constexpr size_t kMostOthers = 4;
+
+}  // namespace
+
+RoundedCells::RoundedCells(const ChunkGrid& grid, const FieldSampler& field, const PlaceAlone& place_alone,
+                           std::pmr::memory_resource* memory)
+    : grid_(grid),
+      place_alone_(place_alone),
+      part_(memory),
+      loops_(memory),
+      claims_(memory),
+      others_(memory),
+      creases_(grid, field, part_, memory),
+      memory_(memory) {}
+
+void RoundedCells::add(SharpSide& side, const VertexKey& from, const VertexKey& to, bool above,
+                       const std::array<int32_t, 8>& q) {
+  Int3 cell;
+  for (int k = 0; k < 3; ++k) {
+    cell[k] = static_cast<int32_t>((int64_t{side.corner[k]} - grid_.origin[k]) / grid_.cell);
+  }
+  if (!above) --cell[side.axis];
+  const size_t first = loops_.size();
+  addCellLoops(grid_, cell, q, part_, loops_);
+  claims_.push_back({&side, from, to, cell, first, loops_.size(), loops_.size()});
+}
+
+void RoundedCells::addBeside(const CellStep& step, const std::array<int32_t, 8>& q) {
+  Claim& claim = claims_.back();
+  Int3 cell = claim.cell;
+  cell[step.axis] += step.by;
+  addCellLoops(grid_, cell, q, part_, loops_);
+  claim.end_beside = loops_.size();
+}
+
+void RoundedCells::judge() {
+  if (claims_.empty()) return;
+  creases_.settle();
+  findOthers();
+  for (const Claim& claim : claims_)
+    if (!claim.side->places.empty() && !keepsClear(claim)) claim.side->places = {};
+}
+
+bool RoundedCells::isOwn(const Claim& claim, uint32_t a, uint32_t b) const {
+  return (part_.keys[a] == claim.from && part_.keys[b] == claim.to) ||
+         (part_.keys[a] == claim.to && part_.keys[b] == claim.from);
+}
+
+/// The sides but the claims' own that may have face vertices in a face of the chunk, and their places.
+void RoundedCells::findOthers() {
+  std::pmr::vector<SharpSide> sides(memory_);
+  for (Claim& claim : claims_) {
+    claim.first_other = others_.size();
+    for (size_t number = claim.first; number < claim.end_beside; ++number) {
+      const SurfaceLoop& loop = loops_[number];
+      for (uint32_t i = 0; i < loop.count; ++i) {
+        const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count];
+        SharpSide side = sideBetween(a, b, part_.keys);
+        if (floorDiv(side.corner[side.axis], grid_.cell) % kChunkCells != 0 || isOwn(claim, a, b)) continue;
+        if (!creases_.isSharp(a, b)) continue;
+        side.at_border = true;
+        others_.push_back({number, i, side});
+        sides.push_back(side);
+      }
+    }
+    claim.end_other = others_.size();
+  }
+  if (sides.empty()) return;
+  place_alone_(creases_, sides);
+  for (size_t i = 0; i < sides.size(); ++i) others_[i].side.places = sides[i].places;
+}
+
+std::optional<RoundedCells::Border> RoundedCells::ownOf(const Claim& claim) const {
+  for (size_t number = claim.first; number < claim.end; ++number) {
+    const SurfaceLoop& loop = loops_[number];
+    for (uint32_t i = 0; i < loop.count; ++i)
+      if (isOwn(claim, loop.vertices[i], loop.vertices[(i + 1) % loop.count])) return Border{number, i, *claim.side};
+  }
+  return std::nullopt;
+}
+
+bool RoundedCells::keepsClear(const Claim& claim) const {
+  const std::optional<Border> own = ownOf(claim);
+  const std::span<const Border> others(others_.data() + claim.first_other, claim.end_other - claim.first_other);
+  if (!own || others.size() > kMostOthers) return false;
+  for (uint32_t present = 0; present < 1u << others.size(); ++present) {
+    const LoopTriangles rounded = trianglesOf(own->loop, *own, others, present);
+    for (size_t other = claim.first; other < claim.end_beside; ++other)
+      if (other != own->loop && anyMeets(rounded, trianglesOf(other, *own, others, present))) return false;
+  }
+  return true;
+}
+
+/// The triangles of a loop where its own side and those of the others that are present have their face vertices. Its
+/// vertices have the names that they have in the own side's loop, if they are of both.
+LoopTriangles RoundedCells::trianglesOf(size_t number, const Border& own, std::span<const Border> others,
+                                        uint32_t present) const {
+  const SurfaceLoop &loop = loops_[number], &own_loop = loops_[own.loop];
+  const auto nameOf = [&](uint32_t v) {
+    for (uint32_t i = 0; i < own_loop.count; ++i)
+      if (part_.keys[own_loop.vertices[i]] == part_.keys[v]) return own_loop.vertices[i];
+    return v;
+  };
+  std::array<FanPoint, kLongestCubeLoop + FacePlaces::kMost*(kMostOthers + 1)> ring;
+  std::array<BorderVertex, FacePlaces::kMost*(kMostOthers + 1)> at_border;
+  std::array<Int3, kLongestCubeLoop> vertices;
+  size_t count = 0, at_border_count = 0;
+  const auto addSide = [&](const Border& border, size_t which_border) {
+    const SharpSide& side = border.side;
+    const std::span<const Int3> places = side.places.all();
+    const uint32_t a = loop.vertices[border.behind], b = loop.vertices[(border.behind + 1) % loop.count];
+    for (size_t k = 0; k < places.size(); ++k) {
+      const size_t which = part_.keys[a] < part_.keys[b] ? k : places.size() - 1 - k;
+      Int3 at = places[which];
+      for (int axis = 0; axis < 3; ++axis) {
+        at[axis] += static_cast<int32_t>((int64_t{side.corner[axis]} - grid_.origin[axis]) / grid_.cell) * kSubcell;
+      }
+      at_border[at_border_count++] = {at, side.axis};
+      const size_t name = FacePlaces::kMost * which_border + which;
+      ring[count++] = {at, kFaceVertices + static_cast<uint32_t>(name), true};
+    }
+  };
+  for (uint32_t i = 0; i < loop.count; ++i) {
+    vertices[i] = placeOf(part_, loop.vertices[i]);
+    ring[count++] = {vertices[i], nameOf(loop.vertices[i])};
+    if (own.loop == number && own.behind == i) addSide(own, others.size());
+    for (size_t k = 0; k < others.size(); ++k)
+      if (others[k].loop == number && others[k].behind == i && (present >> k & 1) != 0) addSide(others[k], k);
+  }
+  if (at_border_count > 0) {
+    const Int3 centre = roundedCentre(loop.cell, {vertices.data(), loop.count}, {at_border.data(), at_border_count});
+    return coneTriangles({centre, kCellVertices + static_cast<uint32_t>(number), true}, {ring.data(), count}, true);
+  }
+  LoopTriangles triangles = plainTriangles(part_, loop);
+  for (NamedTriangle& triangle : triangles.all())
+    for (uint32_t& name : triangle.name) name = nameOf(name);
+  return triangles;
+}
+
+}  // namespace sgm

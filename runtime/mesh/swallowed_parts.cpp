@@ -1,0 +1,155 @@
+#include "mesh/swallowed_parts.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace sgm {
+namespace {
+
+/// In cells: over how many a small part reaches on each axis.
+constexpr int32_t kMostCells = 3;
+
+/// The parts of a body's surface that are connected through vertices, by one of their vertices.
+class Parts {
+ public:
+  Parts(const BodyLoops& body, std::pmr::memory_resource* memory) : above_(body.part().vertices.size(), memory) {
+    std::iota(above_.begin(), above_.end(), 0);
+    for (const SurfaceLoop& loop : body.all())
+      for (uint32_t i = 1; i < loop.count; ++i) join(loop.vertices[0], loop.vertices[i]);
+  }
+
+  uint32_t of(uint32_t vertex) {
+    while (above_[vertex] != vertex) vertex = above_[vertex] = above_[above_[vertex]];
+    return vertex;
+  }
+
+ private:
+  void join(uint32_t a, uint32_t b) {
+    a = of(a), b = of(b);
+    above_[std::max(a, b)] = std::min(a, b);
+  }
+
+  std::pmr::vector<uint32_t> above_;  ///< of the same part, or the vertex itself
+};
+
+/// How often triangles above a place, along z, face up rather than down; of triangles around a common edge or corner
+/// those that go round the same way share the places on it out, as in measure/column.h.
+int turnsAbove(std::span<const NamedTriangle> triangles, const Int3& place) {
+  int turns = 0;
+  for (const NamedTriangle& triangle : triangles) {
+    const std::array<Int3, 3>& t = triangle.at;
+    const int round = IntegerSigns::orientationAlong(2, t[0], t[1], t[2]);
+    bool covers = round != 0;
+    for (size_t k = 0; covers && k < 3; ++k) {
+      Int3 a = t[k], b = t[(k + 1) % 3];
+      if (round < 0) std::swap(a, b);
+      const int side = IntegerSigns::orientationAlong(2, a, b, place);
+      covers = side > 0 || (side == 0 && (b.y < a.y || (b.y == a.y && b.x > a.x)));
+    }
+    if (covers && round * IntegerSigns::orientation(t[0], t[1], t[2], place) > 0) turns += round;
+  }
+  return turns;
+}
+
+class Swallowed {
+ public:
+  Swallowed(SharpLoops& sharp, std::pmr::memory_resource* memory)
+      : sharp_(sharp), body_(sharp.body), parts_(sharp.body, memory), memory_(memory) {}
+
+  bool round() {
+    place_.assign(body_.all().size(), SharpLoops::kNone);
+    for (uint32_t i = 0; i < sharp_.loops.size(); ++i) place_[sharp_.loops[i].loop] = i;
+    bool any = false;
+    for (const auto& [part, box] : smallParts()) {
+      const Int3 at = placeOf(body_.part(), part);
+      if (turnsOf(part, box, at) == 0) continue;
+      visitOthers(part, box.lo, box.hi, [&](SharpLoop& loop) {
+        if (!loop.isFan()) return;
+        loop.shape = SharpLoop::Shape::rounded;
+        any = true;
+      });
+    }
+    return any;
+  }
+
+ private:
+  struct SmallPart {
+    uint32_t vertex;
+    PlaceBox cells;
+  };
+
+  std::pmr::vector<SmallPart> smallParts() {
+    std::pmr::vector<PlaceBox> boxes(body_.part().vertices.size(), memory_);  // by part
+    for (const SurfaceLoop& loop : body_.all()) boxes[parts_.of(loop.vertices[0])].take(loop.cell);
+    std::pmr::vector<SmallPart> small(memory_);
+    for (uint32_t v = 0; v < boxes.size(); ++v) {
+      if (boxes[v].hi.x < boxes[v].lo.x) continue;
+      bool is_small = true;
+      for (int k = 0; k < 3; ++k) {
+        is_small = is_small && boxes[v].hi[k] - boxes[v].lo[k] < kMostCells && boxes[v].lo[k] > 0 &&
+                   boxes[v].hi[k] < kChunkCells - 1;
+      }
+      if (is_small) small.push_back({v, boxes[v]});
+    }
+    return small;
+  }
+
+  /// Calls visit for the sharp loops of other parts whose features may reach into these cells.
+  template <class Visit>
+  void visitOthers(uint32_t part, Int3 lo, Int3 hi, const Visit& visit) {
+    for (int k = 0; k < 3; ++k) --lo[k], ++hi[k];
+    body_.visitWithin(lo, hi, [&](uint32_t number) {
+      if (place_[number] != SharpLoops::kNone && parts_.of(body_.all()[number].vertices[0]) != part)
+        visit(sharp_.loops[place_[number]]);
+    });
+  }
+
+  /// How much more often the other parts go round the place with their features than without. These differ by closed
+  /// surfaces, but for what lies in the faces of the chunk.
+  int turnsOf(uint32_t part, const PlaceBox& cells, const Int3& at) {
+    int turns = 0;
+    visitOthers(part, {cells.lo.x, cells.lo.y, cells.lo.z}, {cells.hi.x, cells.hi.y, kChunkCells},
+                [&](const SharpLoop& loop) {
+                  if (!sharp_.centreOf(loop)) return;
+                  const LoopTriangles plain = plainTriangles(body_.part(), sharp_.of(loop));
+                  turns += turnsAbove(sharp_.trianglesOf(loop).all(), at) - turnsAbove(plain.all(), at);
+                  turns += turnsAbove(inTopFace(loop).all(), at);
+                });
+    return turns;
+  }
+
+  /// Between a loop's sides in the upper face of the chunk and the ways round by their face vertices.
+  LoopTriangles inTopFace(const SharpLoop& loop) const {
+    LoopTriangles triangles;
+    for (uint32_t i = 0; i < sharp_.of(loop).count; ++i) {
+      if (loop.sides[i] == SharpSide::kNone) continue;
+      const SharpSide& side = sharp_.sides[loop.sides[i]];
+      if (!side.at_border || side.axis != 2 || side.places.empty()) continue;
+      Int3 from = placeOf(body_.part(), side.from), to = placeOf(body_.part(), side.to);
+      if (from.z != kChunkCells * kSubcell) continue;
+      const bool is_forward = sharp_.of(loop).vertices[i] == side.from;
+      for (const Int3& place : side.places.all()) {
+        const Int3 middle = sharp_.fromChunk(side, place);
+        triangles.add(is_forward ? std::array<Int3, 3>{from, to, middle} : std::array<Int3, 3>{to, from, middle}, {});
+        from = middle;
+      }
+    }
+    return triangles;
+  }
+
+  SharpLoops& sharp_;
+  const BodyLoops& body_;
+  Parts parts_;
+  std::pmr::memory_resource* memory_;
+  std::pmr::vector<uint32_t> place_{memory_};  ///< in sharp_.loops, by loop of the body
+};
+
+}  // namespace
+
+bool roundAroundSwallowed(SharpLoops& sharp, std::pmr::memory_resource* memory) {
+  return Swallowed(sharp, memory).round();
+}
+
+}  // namespace sgm

@@ -1,0 +1,189 @@
+// Fans whose patches lie in planes, in which their centre may not see all: every patch is covered once.
+
+#include "mesh/fan_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <vector>
+
+#include "catch.h"
+#include "rounds.h"
+
+using namespace sgm;
+
+namespace {
+
+int between(std::mt19937& random, int low, int high) {
+  return low + static_cast<int>(random() % static_cast<uint32_t>(high - low + 1));
+}
+
+struct Place {
+  int x, y;
+};
+
+int64_t cross(const Place& a, const Place& b, const Place& c) {
+  return int64_t{b.x - a.x} * (c.y - a.y) - int64_t{b.y - a.y} * (c.x - a.x);
+}
+
+/// A simple polygon above the x axis on the segment from (left, 0) to (right, 0), from the right end round to the left
+/// one: as seen from a place above the segment, which need not be the fan's centre.
+std::vector<Place> randomPatch(std::mt19937& random, int left, int right) {
+  const Place eye{between(random, left + 20, right - 20), between(random, 30, 80)};
+  const double from = std::atan2(-eye.y, right - eye.x), to = std::atan2(-eye.y, left - eye.x) + 2 * 3.14159265358979;
+  const int count = between(random, 1, 5);
+  std::vector<Place> patch;
+  for (int i = 1; i <= count; ++i) {
+    const double angle = from + (to - from) * i / (count + 1), reach = between(random, 15, 150);
+    const Place p{eye.x + static_cast<int>(reach * std::cos(angle)), eye.y + static_cast<int>(reach * std::sin(angle))};
+    if (p.y > 2) patch.push_back(p);
+  }
+  return patch;
+}
+
+bool isSimple(const std::vector<Place>& polygon) {
+  const size_t n = polygon.size();
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = i + 1; j < n; ++j) {
+      const Place &a = polygon[i], &b = polygon[(i + 1) % n], &c = polygon[j], &d = polygon[(j + 1) % n];
+      if ((i + 1) % n == j || (j + 1) % n == i) {
+        const Place &end = (i + 1) % n == j ? a : c, &middle = (i + 1) % n == j ? b : d,
+                    &other = (i + 1) % n == j ? d : b;
+        if (cross(end, middle, other) == 0) return false;
+        continue;
+      }
+      const auto sign = [](int64_t v) { return v > 0 ? 1 : v < 0 ? -1 : 0; };
+      if (sign(cross(a, b, c)) * sign(cross(a, b, d)) <= 0 && sign(cross(c, d, a)) * sign(cross(c, d, b)) <= 0)
+        return false;
+    }
+  }
+  return true;
+}
+
+/// Two patches on a crease about along x: the first in the plane of x and y, the second about in that of x and z.
+struct TwoPatches {
+  FanPoint centre;
+  std::vector<FanPoint> ring;
+  std::array<int64_t, 2> areas{};  ///< doubled
+  bool is_simple = false;
+
+  explicit TwoPatches(std::mt19937& random) {
+    const int left = -between(random, 40, 120), right = between(random, 40, 120);
+    // Off the line between the face vertices, or on it.
+    const Place middle{between(random, left + 10, right - 10), random() % 2 == 0 ? 0 : -between(random, 1, 9)};
+    centre = {{middle.x, middle.y, 0}, kCellVertices, true};
+    const FanPoint first{{right, 0, 0}, kFaceVertices, true}, second{{left, 0, 0}, kFaceVertices + 1, true};
+    const std::vector<Place> upper = randomPatch(random, left, right), lower = randomPatch(random, left, right);
+    ring.push_back(first);
+    uint32_t name = 0;
+    for (const Place& p : upper) ring.push_back({{p.x, p.y, 0}, name++});
+    ring.push_back(second);
+    for (auto p = lower.rbegin(); p != lower.rend(); ++p) ring.push_back({{p->x, 0, p->y}, name++});
+    is_simple = !upper.empty() && !lower.empty();
+    for (const std::vector<Place>* patch : {&upper, &lower}) {
+      std::vector<Place> polygon{{right, 0}};
+      polygon.insert(polygon.end(), patch->begin(), patch->end());
+      polygon.push_back({left, 0});
+      if (patch == &upper && middle.y != 0) polygon.push_back(middle);
+      is_simple = is_simple && isSimple(polygon);
+      int64_t area = 0;
+      for (size_t i = 0; i < polygon.size(); ++i) {
+        const Place &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        area += int64_t{a.x} * b.y - int64_t{a.y} * b.x;
+      }
+      areas[patch == &lower] = area;
+    }
+  }
+};
+
+bool isOfFirst(const NamedTriangle& t) {
+  return std::all_of(t.at.begin(), t.at.end(), [](const Int3& p) { return p.z == 0; });
+}
+
+}  // namespace
+
+TEST_CASE("patches of a fan are covered once, whatever the centre sees of them", "[mesh][sharpen]") {
+  size_t seen = 0, whole_fans = 0, joined = 0;
+  for (unsigned seed = 1; seed <= rounds(20000); ++seed) {
+    std::mt19937 random(seed);
+    const TwoPatches patches(random);
+    if (!patches.is_simple) continue;
+    CAPTURE(seed);
+    const LoopTriangles fan =
+        patchTriangles(patches.centre, patches.ring, true, [](uint32_t, uint32_t) { return true; });
+    REQUIRE(fan.count() == patches.ring.size());
+    // One way along each side of the ring, both ways along all else, and no edge twice.
+    std::map<std::pair<uint32_t, uint32_t>, int> edges;
+    std::array<int64_t, 2> areas{};
+    bool all_forward = true;
+    for (const NamedTriangle& t : fan.all()) {
+      for (size_t k = 0; k < 3; ++k) ++edges[{t.name[k], t.name[(k + 1) % 3]}];
+      const bool is_first = isOfFirst(t);
+      const auto flat = [&](const Int3& p) { return Place{p.x, is_first ? p.y : p.z}; };
+      const int64_t area = cross(flat(t.at[0]), flat(t.at[1]), flat(t.at[2])) * (is_first ? 1 : -1);
+      if (is_first || patches.centre.at.y == 0) all_forward = all_forward && area > 0;
+      areas[is_first ? 0 : 1] += area;
+    }
+    for (const auto& [edge, count] : edges) CHECK(count == 1);
+    for (size_t i = 0; i < patches.ring.size(); ++i) {
+      const uint32_t a = patches.ring[i].name, b = patches.ring[(i + 1) % patches.ring.size()].name;
+      CHECK(edges.contains({a, b}));
+      CHECK_FALSE(edges.contains({b, a}));
+    }
+    CHECK(areas == patches.areas);
+    ++seen;
+    const bool is_fan = std::all_of(fan.all().begin(), fan.all().end(),
+                                    [&](const NamedTriangle& t) { return t.name[0] == patches.centre.name; });
+    whole_fans += is_fan;
+    joined += edges.contains({kFaceVertices, kFaceVertices + 1}) || edges.contains({kFaceVertices + 1, kFaceVertices});
+    // A plane polygon always has diagonals; but of two patches that need the one between the face vertices, one does
+    // without.
+    if (!all_forward) CHECK(edges.contains({kFaceVertices, kFaceVertices + 1}));
+  }
+  CHECK(seen * 10 > rounds(20000));
+  CHECK(whole_fans * 10 > seen);
+  CHECK(whole_fans < seen);
+  CHECK(joined > 0);
+}
+
+TEST_CASE("diagonals that are not free are not taken", "[mesh][sharpen]") {
+  size_t others = 0;
+  for (unsigned seed = 1; seed <= rounds(5000); ++seed) {
+    std::mt19937 random(seed);
+    const TwoPatches patches(random);
+    if (!patches.is_simple) continue;
+    CAPTURE(seed);
+    const auto isFree = [&](uint32_t a, uint32_t b) {
+      return a >= kCellVertices || b >= kCellVertices || ((std::min(a, b) * 31 + std::max(a, b) + seed) % 3) != 0;
+    };
+    const LoopTriangles fan = patchTriangles(patches.centre, patches.ring, true, isFree);
+    for (const NamedTriangle& t : fan.all()) {
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t a = t.name[k], b = t.name[(k + 1) % 3];
+        const auto at = [&](uint32_t name) {
+          return std::find_if(patches.ring.begin(), patches.ring.end(),
+                              [&](const FanPoint& p) { return p.name == name; }) -
+                 patches.ring.begin();
+        };
+        if (a >= kCellVertices || b >= kCellVertices) continue;
+        const auto apart = std::abs(at(a) - at(b)), count = static_cast<std::ptrdiff_t>(patches.ring.size());
+        if (apart == 1 || apart == count - 1) continue;
+        CHECK(isFree(a, b));
+        ++others;
+      }
+    }
+    // About a point of the ring, no spoke may lie where a diagonal must not.
+    const FanPoint centre = patches.ring.front();
+    const std::vector<FanPoint> rest(patches.ring.begin() + 1, patches.ring.end());
+    const LoopTriangles none = patchTriangles(centre, rest, false, [](uint32_t, uint32_t) { return false; });
+    // Of its patches only those of three corners have no spoke but the creases.
+    size_t corners = 1, most = 0;
+    for (const FanPoint& point : rest) {
+      most = std::max(most, ++corners);
+      if (point.is_feature) corners = 2;
+    }
+    CHECK((none.count() == 0) == (most > 3));
+  }
+  CHECK(others > 0);
+}
