@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/jobs.h"
@@ -76,8 +76,11 @@ class Bvh {
     return steps;
   }
 
-  /// The part of the line through a place along z, the place included.
-  enum class Column : uint8_t { above, below };
+  /// The part of the line through a place along an axis, the place included: towards higher coordinates, or lower ones.
+  struct Column {
+    int axis = 2;
+    bool above = true;
+  };
 
   /// Calls visit(triangle) for each whose box meets that part of the place's line. Returns whether it came to the end
   /// within so many steps, each a look at a node.
@@ -94,9 +97,9 @@ class Bvh {
       const auto reaches = [&](int axis) {
         return static_cast<double>(box.low[axis]) <= at[axis] && at[axis] <= static_cast<double>(box.high[axis]);
       };
-      const bool passed = column == Column::above ? static_cast<double>(box.high[2]) < at.z
-                                                  : static_cast<double>(box.low[2]) > at.z;
-      if (!reaches(0) || !reaches(1) || passed) continue;
+      const bool passed = column.above ? static_cast<double>(box.high[column.axis]) < at[column.axis]
+                                       : static_cast<double>(box.low[column.axis]) > at[column.axis];
+      if (!reaches((column.axis + 1) % 3) || !reaches((column.axis + 2) % 3) || passed) continue;
       if (isLeaf(node)) {
         visit(triangle(node));
       } else {

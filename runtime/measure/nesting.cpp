@@ -26,22 +26,29 @@ double heightAt(const std::array<Point, 3>& t, Point at) {
 /// What an open shell says of a place.
 enum class BesideCut : uint8_t { unknown, in_solid, in_open };
 
-/// Asks the nearest open shell above a place; where there is none, the nearest below. Unknown where it only touches the
-/// line there. Nothing where that takes more than so many looks at the tree's nodes.
+/// With another axis for z. Triangles go round the same way.
+Point turned(Point p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3], p[axis]}; }
+
+constexpr int kColumns = 6;
+
+/// Asks the nearest open shell above a place; where there is none, or it only touches the line there, the nearest
+/// below, and then along the other axes. Nothing where one of these takes more than so many looks at the tree's nodes.
 std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const Shells& parts, Point at,
                                    uint64_t most_steps) {
-  for (const Bvh::Column column : {Bvh::Column::above, Bvh::Column::below}) {
-    const int away = column == Bvh::Column::above ? 1 : -1;
+  for (int number = 0; number < kColumns; ++number) {
+    const Bvh::Column column{(2 + number / 2) % 3, number % 2 == 0};
+    const int away = column.above ? 1 : -1;
+    const Point place = turned(at, column.axis);
     double nearest = std::numeric_limits<double>::infinity();
     int facing = 0;  // of the triangles there: those that face away from the place, less those that face it
     const bool ended = tree.visitColumn(at, column, most_steps, [&](uint32_t triangle) {
       const uint32_t shell = parts.of_triangle[triangle];
       if (shell == kNoShell || !boundsUpToCut(parts.shells[shell])) return;
-      const Triangle& corners = mesh.triangles[triangle];
-      const std::array<Point, 3> t{mesh.points[corners[0]], mesh.points[corners[1]], mesh.points[corners[2]]};
-      const int turn = turnOver(t, at.x, at.y);
-      if (turn == 0 || turn * orientation(t[0], t[1], t[2], at) * away <= 0) return;
-      const double height = heightAt(t, at) * away;
+      std::array<Point, 3> t;
+      for (size_t k = 0; k < 3; ++k) t[k] = turned(mesh.points[mesh.triangles[triangle][k]], column.axis);
+      const int turn = turnOver(t, place.x, place.y);
+      if (turn == 0 || turn * orientation(t[0], t[1], t[2], place) * away <= 0) return;
+      const double height = heightAt(t, place) * away;
       if (height > nearest) return;
       facing = (height < nearest ? 0 : facing) + turn * away;
       nearest = height;
@@ -58,7 +65,7 @@ std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells&
                            uint64_t most_steps) {
   // On the way up to where nothing is, each triangle that faces up leaves a solid.
   int depth = 0;
-  const bool ended = tree.visitColumn(at, Bvh::Column::above, most_steps, [&](uint32_t triangle) {
+  const bool ended = tree.visitColumn(at, {}, most_steps, [&](uint32_t triangle) {
     const uint32_t shell = parts.of_triangle[triangle];
     if (shell == all_but || shell == kNoShell || !bounds(parts.shells[shell])) return;
     const Triangle& corners = mesh.triangles[triangle];
@@ -73,7 +80,11 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, b
                   JobSystem& jobs) {
   constexpr size_t kTogether = 16;
   const size_t shells = parts.shells.size(), blocks = (shells + kTogether - 1) / kTogether;
-  const uint64_t share = shells > 0 ? most_steps / shells + 1 : 0;
+  const uint64_t share = shells > 0 ? most_steps / shells / (is_cut ? 1 + kColumns : 1) + 1 : 0;
+  // Shells that nothing tells of stand in one place, so that those that face outward stand in the open.
+  const bool is_open = std::any_of(parts.shells.begin(), parts.shells.end(),
+                                   [](const Shell& shell) { return bounds(shell) && shell.volume > 0; }) &&
+                       std::none_of(parts.shells.begin(), parts.shells.end(), boundsUpToCut);
   std::vector<Nesting> found(blocks);
   parallelFor(jobs, blocks, [&](size_t block) {
     Nesting& here = found[block];
@@ -87,7 +98,8 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, b
         const Triangle& corners = mesh.triangles[shell.first];
         const Point middle = (1.0 / 3) * (mesh.points[corners[0]] + mesh.points[corners[1]] + mesh.points[corners[2]]);
         const std::optional<BesideCut> beside = besideCut(mesh, tree, parts, middle, share);
-        const bool in_solid = beside == BesideCut::in_solid || (beside == BesideCut::unknown && shell.volume < 0);
+        const bool in_solid =
+            beside == BesideCut::in_solid || (beside == BesideCut::unknown && shell.volume < 0 && !is_open);
         depth = beside ? std::optional<int>(*depth + (in_solid ? 1 : 0)) : std::nullopt;
       }
       if (!depth) {

@@ -26,8 +26,9 @@ std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells&
                            uint64_t most_steps);
 
 /// Each shell is judged by its first corner. is_cut: the mesh was cut from a larger one. Then the nearest open shell
-/// above or below the shell's first triangle tells whether that lies in a solid that goes on beyond the cut; where none
-/// tells, a shell that faces inward is a cavity of such a solid. most_steps: looks at nodes of the tree, shared out
+/// along an axis from the shell's first triangle tells whether that lies in a solid that goes on beyond the cut; where
+/// none tells, a shell that faces inward is a cavity of such a solid, unless there is no open shell and others face
+/// outward. most_steps: looks at nodes of the tree, shared out
 /// evenly over the shells. The same for any number of threads.
 Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, bool is_cut, uint64_t most_steps,
                   JobSystem& jobs);
