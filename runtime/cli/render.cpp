@@ -30,14 +30,6 @@ std::string noAnchor(const Region& region, const std::string& wanted) {
   return fmt::format("--at: the region has no anchor of the name, kind or tag '{}'; {}", wanted, hint);
 }
 
-/// Whether the camera stands at an anchor: above or below it, as high as eyes are over a floor.
-bool standsAt(const View& view, const std::vector<glm::vec3>& anchors) {
-  constexpr float kNear = 0.05f;
-  return view.enclosed && std::ranges::any_of(anchors, [&](const glm::vec3& at) {
-           return std::abs(at.x - view.camera.position.x) < kNear && std::abs(at.z - view.camera.position.z) < kNear;
-         });
-}
-
 /// In metres of the world.
 std::array<double, 3> worldPoint(const WorldMesh& mesh, const glm::vec3& point) {
   std::array<double, 3> world{};
@@ -70,7 +62,7 @@ Exit render(const RenderOptions& options) {
   const Image& image = picture->image;
   const View& view = picture->view;
   if (Result<void> ok = writePng(image, *file); !ok) return complain(ok.error());
-  if (!options.at.empty() && !standsAt(view, anchorsAt(region, options.at)))
+  if (!options.at.empty() && !view.at_anchor)
     fmt::print(stderr,
                "note: --at {} is not used: no such anchor stands in a room or a cave; --camera looks from anywhere\n",
                options.at);

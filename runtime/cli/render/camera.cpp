@@ -281,6 +281,7 @@ Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<cons
     if (inVoid(spaceAround(mesh, p, far))) places.push_back({p, 0});
     if (places.size() == kFinalists) break;
   }
+  const bool at_anchor = !places.empty();
   if (places.empty()) {
     if (seenFromOutside(mesh, centre, radius)) return outsideView(vertices, centre, wish);
     places = placesInVoid(mesh, far);
@@ -297,7 +298,9 @@ Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<cons
     Sight sight = bestSight(mesh, glances[i].position, wish, far);
     if (sight.fan.score > best.fan.score) best = std::move(sight);
   }
-  return insideView(mesh, best, wish, far);
+  View view = insideView(mesh, best, wish, far);
+  view.at_anchor = at_anchor;
+  return view;
 }
 
 View viewFrom(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices, const RenderCamera& camera,

@@ -25,6 +25,7 @@ struct CameraWish {
 struct View {
   RenderCamera camera;
   bool enclosed = false;          ///< inside a void, walls all around; else the shape is seen from outside
+  bool at_anchor = false;         ///< in the room or cave of an anchor that was wished for
   float depth = 1;                ///< typical distance in metres to what is seen
   std::vector<RenderLamp> lamps;  ///< in the void, deeper along the view: for Light::lamp
 };
