@@ -247,7 +247,8 @@ void ReachCheck::reportOne(const Layer& layer, const Extent& extent, const std::
     return;
   }
   const BoundLoss* loss = nullptr;
-  if (unbounded && !cut_short_ && extent.why == Unbound::none && extent.loss != 0)
+  // The message and the hint tell of one cause.
+  if (unbounded && !cut_short_ && extent.loss != 0 && hint(extent) == lossHint(values_.losses()[extent.loss]))
     loss = &values_.losses()[extent.loss];
   if (loss != nullptr) {
     message += lossText(*loss);

@@ -31,10 +31,12 @@ Extent ReachCheck::statement(StmtId id, RangeFrame& frame) {
   if (tooFar()) return Extent::unbounded();
   --steps_;
   ++depth_;
-  values_.takeLoss();
+  // What the statement around this one has evaluated: a place, a count.
+  const uint32_t around = values_.takeLoss();
   Extent e = statementKinds(program_.stmt(id), frame);
   const uint32_t loss = values_.takeLoss();
   if (e.loss == 0 && e.lost()) e.loss = loss;
+  values_.giveBackLoss(around);
   --depth_;
   return e;
 }

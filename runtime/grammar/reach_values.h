@@ -100,6 +100,10 @@ class RangeEvaluator {
   const std::vector<BoundLoss>& losses() const { return losses_; }
   /// The loss of what has been evaluated since it was taken; 0 if all of it has a bound.
   uint32_t takeLoss() { return std::exchange(loss_, 0); }
+  /// After others were taken between: of what had been evaluated before.
+  void giveBackLoss(uint32_t loss) {
+    if (loss != 0) loss_ = loss;
+  }
   /// Divisions by what is 0 for certain.
   const std::vector<BoundLoss>& zeroDivisions() const { return zeros_; }
 

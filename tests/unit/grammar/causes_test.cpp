@@ -96,6 +96,21 @@ TEST_CASE("what may be 0 or has no range is named, and the hint helps", "[gramma
         "4:10 reach: cannot prove reach: `sphere` may extend without bound: the parameter `a` has no range | give it "
         "one: `param a = -3m in LOW..HIGH`");
 
+  // Wherever the quotient stands: in a place, a scale, a copy's step, an amplitude, a blend.
+  for (const char* rule :
+       {"rule A { at(y 2m/(n - 1)) sphere(1m); }", "rule A { at(2m/(n - 1), 0m, 0m) { sphere(1m); } }",
+        "rule A { let gap = 2m/(n - 1); at(gap, 0m, 0m) sphere(1m); }", "rule A { scale(1/(n - 1)) sphere(1m); }",
+        "rule A { repeat 3 at(x 2m/(n - 1)) { sphere(1m); } }",
+        "rule A { displace noise.fbm(period 1m, amp 1m/(n - 1)) { sphere(1m); } }",
+        "rule A { union smooth 1m/(n - 1) { sphere(1m); } }"}) {
+    const CompileResult placed =
+        grammar("import \"std/noise.sgm\" as noise;\nstart A;\nparam n = 1 in 1..5;\n" + std::string(rule));
+    INFO(inWords(placed));
+    REQUIRE(placed.diagnostics.size() == 1);
+    CHECK(placed.diagnostics[0].message.ends_with("may extend without bound: `n - 1`, the divisor, may be 0"));
+    CHECK(placed.diagnostics[0].hint == "keep it away from 0: `max(n - 1, 0.1)`");
+  }
+
   // Of the library, its caller is told.
   const CompileResult cloudy = grammar("start A;\nrule A { cloud.Cumulus(rand(0m, 500m)); }");
   CHECK(inWords(cloudy) ==
