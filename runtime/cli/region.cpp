@@ -123,9 +123,8 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
 void noteRounded(const std::string& file, uint64_t rounded) {
   if (rounded == 0) return;
   fmt::print(stderr,
-             "{}: note: {} cells keep rounded edges, since sharp ones would fold or cut the surface; smaller cells "
-             "(--cell) have fewer of them\n",
-             file, rounded);
+             "{}: note: {} rounded edges, since sharp ones would fold or cut the surface there\n", file,
+             rounded == 1 ? "1 cell keeps" : fmt::format("{} cells keep", rounded));
 }
 
 Result<void> checkChunks(const WorldOptions& options, const IntBox& region, int32_t finest_cell) {

@@ -99,7 +99,7 @@ class Surroundings {
   bool passesOnce() const {
     if (!beside_.is_one) return false;
     if (isSolid(4) == isSolid(7) && isSolid(5) == isSolid(6) && isSolid(4) != isSolid(5)) return false;
-    return !corner(kThird) || (isSolid(kThird) == isSolid(shared()) && isSolid(kThird + 1) == isSolid(shared()));
+    return !corner(kThird) || !passesThird();
   }
   /// Whether the face vertex lies in another square through which the surface passes.
   bool passesBeside() const {
@@ -130,6 +130,13 @@ class Surroundings {
 
  private:
   bool isSolid(size_t corner) const { return q_[corner] < 0; }
+  /// Whether the surface passes through the third square, which has two corners of the face vertex's.
+  bool passesThird() const {
+    const size_t at_end = beside_.end > 0 ? 1 : 0;
+    const std::array<size_t, 3> others{kFar + 2 + at_end, kThird, kThird + 1};
+    const size_t near = shared() + at_end * (3 - bitOf(beside_.step.axis));
+    return std::any_of(others.begin(), others.end(), [&](size_t other) { return isSolid(other) != isSolid(near); });
+  }
   /// Of a corner's number.
   size_t bitOf(int axis) const { return axis == (side_.axis + 1) % 3 ? 1 : 2; }
   /// A corner at the edge between the side's square and that of its face vertex, if it has another.

@@ -7,7 +7,8 @@
 namespace sgm {
 
 /// Whether all triangles face out of the solid, but for slivers, and together do, by the tangents of the vertices that
-/// they have. creases: settled, of the part that the triangles are named after.
+/// they have: a triangle between features alone may face any way. creases: settled, of the part that the triangles are
+/// named after.
 bool facesOut(const LoopTriangles& triangles, const Creases& creases);
 
 }  // namespace sgm

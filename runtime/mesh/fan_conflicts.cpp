@@ -282,8 +282,8 @@ bool hasFault(const LoopTriangles& fan) {
   return false;
 }
 
-void roundUntilValid(SharpLoops& sharp, const std::function<bool(SharpLoop&)>& takeNextCentre,
-                     std::pmr::memory_resource* memory) {
+void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTriangles&)>& isSound,
+                     const std::function<bool(SharpLoop&)>& takeNextCentre, std::pmr::memory_resource* memory) {
   Neighbours neighbours(sharp, memory);
   PresentTriangles present(sharp, neighbours, memory);
   const auto lacksVertex = [&](const SharpLoop& loop) {
@@ -308,7 +308,7 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(SharpLoop&)>& t
     // Around a corner of the solid many loops have it for their centre: the one whose cell it is in shall keep it.
     order.clear();
     for (const uint32_t number : dirty) {
-      const auto rank = static_cast<uint32_t>(INT32_MAX - outsideOf(sharp, sharp.loops[number]));
+      const auto rank = static_cast<uint32_t>(kMostOutside - outsideOf(sharp, sharp.loops[number]));
       order.push_back(uint64_t{rank} << 32 | number);
     }
     std::sort(order.begin(), order.end());
@@ -319,7 +319,7 @@ void roundUntilValid(SharpLoops& sharp, const std::function<bool(SharpLoop&)>& t
       if (!loop.isFan()) continue;
       tested_at[number] = ++now;
       // With all of its face vertices the fan is sound; some may be lost by now.
-      bool faulty = lacksVertex(loop) && hasFault(sharp.trianglesOf(loop));
+      bool faulty = lacksVertex(loop) && !isSound(sharp.trianglesOf(loop));
       neighbours.visitFromInside(loop.loop, [&](uint32_t other) {
         if (faulty) return;
         const uint32_t place = neighbours.placeOf(other);

@@ -11,9 +11,10 @@ namespace sgm {
 bool hasFault(const LoopTriangles& fan);
 
 /// A loop whose fan meets a triangle of another loop wrongly gets another centre, or is rounded, until no fan does.
-/// Loops that are not sharp keep their triangles. takeNextCentre: gives a loop the next centre that makes a sound fan;
-/// false if no centre is left. Throws std::bad_alloc.
-void roundUntilValid(SharpLoops& sharp, const std::function<bool(SharpLoop&)>& takeNextCentre,
-                     std::pmr::memory_resource* memory);
+/// Loops that are not sharp keep their triangles. isSound: whether a fan that has lost face vertices may stay.
+/// takeNextCentre: gives a loop the next centre that makes a sound fan; false if no centre is left. Throws
+/// std::bad_alloc.
+void roundUntilValid(SharpLoops& sharp, const std::function<bool(const LoopTriangles&)>& isSound,
+                     const std::function<bool(SharpLoop&)>& takeNextCentre, std::pmr::memory_resource* memory);
 
 }  // namespace sgm

@@ -12,8 +12,8 @@ namespace sgm {
 /// two cells away.
 inline constexpr int32_t kMostOutside = 200;
 
-/// How far from a chunk the field of a level with such cells is sampled for sharp features, in units: in the cells
-/// beside its faces, for the signs of their corners (mesh/border_vertices.h).
-inline constexpr int64_t sharpReach(int64_t cell) { return cell + 1; }
+/// How far from a chunk the field of a level with such cells is sampled for sharp features, in units: at the corners of
+/// the cells beside its faces, and of the squares beside theirs (mesh/border_vertices.h, mesh/rounded_cells.h).
+inline constexpr int64_t sharpReach(int64_t cell) { return 2 * cell + 1; }
 
 }  // namespace sgm

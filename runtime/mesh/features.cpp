@@ -32,7 +32,8 @@ SharpLoops Features::find() && {
   placeCellVertices();
   do {
     roundUntilValid(
-        sharp_, [this](SharpLoop& loop) { return takeNextCentre(loop); }, memory_);
+        sharp_, [this](const LoopTriangles& fan) { return !hasFault(fan) && facesOut(fan, creases_); },
+        [this](SharpLoop& loop) { return takeNextCentre(loop); }, memory_);
   } while (roundAroundSwallowed(sharp_, memory_));
   return std::move(sharp_);
 }

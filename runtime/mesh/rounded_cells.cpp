@@ -1,6 +1,7 @@
 #include "mesh/rounded_cells.h"
 
 #include "mesh/cell_loops.h"
+#include "mesh/fan_conflicts.h"
 #include "mesh/fan_triangles.h"
 
 namespace sgm {
@@ -59,8 +60,9 @@ bool RoundedCells::isOwn(const Claim& claim, uint32_t a, uint32_t b) const {
 /// The sides but the claims' own that may have face vertices in a face of the chunk, and their places.
 void RoundedCells::findOthers() {
   std::pmr::vector<SharpSide> sides(memory_);
+  std::pmr::vector<Border> all(memory_);
   for (Claim& claim : claims_) {
-    claim.first_other = others_.size();
+    claim.first_other = all.size();
     for (size_t number = claim.first; number < claim.end_beside; ++number) {
       const SurfaceLoop& loop = loops_[number];
       for (uint32_t i = 0; i < loop.count; ++i) {
@@ -69,15 +71,23 @@ void RoundedCells::findOthers() {
         if (floorDiv(side.corner[side.axis], grid_.cell) % kChunkCells != 0 || isOwn(claim, a, b)) continue;
         if (!creases_.isSharp(a, b)) continue;
         side.at_border = true;
-        others_.push_back({number, i, side});
+        all.push_back({number, i, side});
         sides.push_back(side);
       }
     }
+    claim.end_other = all.size();
+  }
+  if (!sides.empty()) place_alone_(creases_, sides);
+  for (Claim& claim : claims_) {
+    const size_t first = claim.first_other, end = claim.end_other;
+    claim.first_other = others_.size();
+    for (size_t i = first; i < end; ++i) {
+      if (sides[i].places.empty()) continue;
+      others_.push_back(all[i]);
+      others_.back().side.places = sides[i].places;
+    }
     claim.end_other = others_.size();
   }
-  if (sides.empty()) return;
-  place_alone_(creases_, sides);
-  for (size_t i = 0; i < sides.size(); ++i) others_[i].side.places = sides[i].places;
 }
 
 std::optional<RoundedCells::Border> RoundedCells::ownOf(const Claim& claim) const {
@@ -95,6 +105,7 @@ bool RoundedCells::keepsClear(const Claim& claim) const {
   if (!own || others.size() > kMostOthers) return false;
   for (uint32_t present = 0; present < 1u << others.size(); ++present) {
     const LoopTriangles rounded = trianglesOf(own->loop, *own, others, present);
+    if (hasFault(rounded)) return false;
     for (size_t other = claim.first; other < claim.end_beside; ++other)
       if (other != own->loop && anyMeets(rounded, trianglesOf(other, *own, others, present))) return false;
   }

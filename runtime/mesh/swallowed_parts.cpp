@@ -8,9 +8,6 @@
 namespace sgm {
 namespace {
 
-/// In cells: over how many a small part reaches on each axis.
-constexpr int32_t kMostCells = 3;
-
 /// The parts of a body's surface that are connected through vertices, by one of their vertices.
 class Parts {
  public:
@@ -62,9 +59,8 @@ class Swallowed {
     place_.assign(body_.all().size(), SharpLoops::kNone);
     for (uint32_t i = 0; i < sharp_.loops.size(); ++i) place_[sharp_.loops[i].loop] = i;
     bool any = false;
-    for (const auto& [part, box] : smallParts()) {
-      const Int3 at = placeOf(body_.part(), part);
-      if (turnsOf(part, box, at) == 0) continue;
+    for (const auto& [part, box] : closedParts()) {
+      if (turnsOf(part, placeOf(body_.part(), part)) == 0) continue;
       visitOthers(part, box.lo, box.hi, [&](SharpLoop& loop) {
         if (!loop.isFan()) return;
         loop.shape = SharpLoop::Shape::rounded;
@@ -75,25 +71,25 @@ class Swallowed {
   }
 
  private:
-  struct SmallPart {
+  struct ClosedPart {
     uint32_t vertex;
     PlaceBox cells;
   };
 
-  std::pmr::vector<SmallPart> smallParts() {
-    std::pmr::vector<PlaceBox> boxes(body_.part().vertices.size(), memory_);  // by part
+  /// The parts that have no vertex in a face of the chunk.
+  std::pmr::vector<ClosedPart> closedParts() {
+    const MeshPart& part = body_.part();
+    std::pmr::vector<PlaceBox> boxes(part.vertices.size(), memory_);  // by part
     for (const SurfaceLoop& loop : body_.all()) boxes[parts_.of(loop.vertices[0])].take(loop.cell);
-    std::pmr::vector<SmallPart> small(memory_);
     for (uint32_t v = 0; v < boxes.size(); ++v) {
-      if (boxes[v].hi.x < boxes[v].lo.x) continue;
-      bool is_small = true;
-      for (int k = 0; k < 3; ++k) {
-        is_small = is_small && boxes[v].hi[k] - boxes[v].lo[k] < kMostCells && boxes[v].lo[k] > 0 &&
-                   boxes[v].hi[k] < kChunkCells - 1;
-      }
-      if (is_small) small.push_back({v, boxes[v]});
+      const Int3 at = placeOf(part, v);
+      if (std::min({at.x, at.y, at.z}) == 0 || std::max({at.x, at.y, at.z}) == kChunkCells * kSubcell)
+        boxes[parts_.of(v)] = {};
     }
-    return small;
+    std::pmr::vector<ClosedPart> closed(memory_);
+    for (uint32_t v = 0; v < boxes.size(); ++v)
+      if (boxes[v].lo.x <= boxes[v].hi.x) closed.push_back({v, boxes[v]});
+    return closed;
   }
 
   /// Calls visit for the sharp loops of other parts whose features may reach into these cells.
@@ -108,15 +104,15 @@ class Swallowed {
 
   /// How much more often the other parts go round the place with their features than without. These differ by closed
   /// surfaces, but for what lies in the faces of the chunk.
-  int turnsOf(uint32_t part, const PlaceBox& cells, const Int3& at) {
+  int turnsOf(uint32_t part, const Int3& at) {
     int turns = 0;
-    visitOthers(part, {cells.lo.x, cells.lo.y, cells.lo.z}, {cells.hi.x, cells.hi.y, kChunkCells},
-                [&](const SharpLoop& loop) {
-                  if (!sharp_.centreOf(loop)) return;
-                  const LoopTriangles plain = plainTriangles(body_.part(), sharp_.of(loop));
-                  turns += turnsAbove(sharp_.trianglesOf(loop).all(), at) - turnsAbove(plain.all(), at);
-                  turns += turnsAbove(inTopFace(loop).all(), at);
-                });
+    const Int3 cell{at.x / kSubcell, at.y / kSubcell, at.z / kSubcell};
+    visitOthers(part, {cell.x - 1, cell.y - 1, cell.z - 1}, {cell.x, cell.y, kChunkCells}, [&](const SharpLoop& loop) {
+      if (!sharp_.centreOf(loop)) return;
+      const LoopTriangles plain = plainTriangles(body_.part(), sharp_.of(loop));
+      turns += turnsAbove(sharp_.trianglesOf(loop).all(), at) - turnsAbove(plain.all(), at);
+      turns += turnsAbove(inTopFace(loop).all(), at);
+    });
     return turns;
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Small closed parts of a surface that a feature has swallowed: a fan grew round such a part without meeting it, so
+// Closed parts of a surface that features have swallowed: fans grew round such a part without meeting it, so
 // that the part stands in the solid that it stood beside, or a cavity in the open.
 
 #include <memory_resource>
@@ -8,8 +8,8 @@
 
 namespace sgm {
 
-/// Rounds the fans near such parts, and returns whether there were any. A part is small if its cells, of which none is
-/// at the chunk's border, reach over at most three on each axis: no fan goes round a larger one. Throws std::bad_alloc.
+/// Rounds the fans near such parts, and returns whether there were any. Looked at are the parts that have no vertex in
+/// a face of the chunk: features do not leave it, so that none grows round another part. Throws std::bad_alloc.
 bool roundAroundSwallowed(SharpLoops& sharp, std::pmr::memory_resource* memory);
 
 }  // namespace sgm

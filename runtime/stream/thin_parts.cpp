@@ -368,7 +368,9 @@ class PartCounter {
     const GrammarChunk& chunk = (*cell)->chunk;
     const std::vector<Candidate> thin = ThinShapes(chunk, cell_edge_).find();
     if (thin.empty()) return {};
-    if (traced_ >= kTracedCells && std::ranges::all_of(thin, [&](const Candidate& c) { return isKnown(chunk, c); })) {
+    std::set<Look> looks;
+    const auto isPlain = [&](const Candidate& c) { return isKnown(chunk, c) && looks.insert(lookOf(chunk, c)).second; };
+    if (traced_ >= kTracedCells && std::ranges::all_of(thin, isPlain)) {
       for (const Candidate& c : thin) {
         const std::optional<Place>& place = known_.at(lookOf(chunk, c));
         if (!place || !box_.contains(placeOf(c.slab, {}))) continue;

@@ -1259,7 +1259,7 @@ typedef enum sgm_world_flag {
   SGM_WORLD_TEXTURE = 8,     /* meshes have texture coordinates: sgm_mesh_view.wedges. About twice the memory a mesh, in
                                 mesh_bytes; not on the device */
   SGM_WORLD_SHARP = 16, /* crisp edges and corners: as SGM_MESHING_SHARP, at every level, closed in every frame. A chunk
-                           takes longer: hardly in a cave, three times as long where edges are everywhere, and
+                           takes longer: hardly in a cave, up to seven times as long where edges are everywhere, and
                            ten times on noise as fine as the cells. Twice the room is set aside for each that is in work */
   SGM_WORLD_MEASURE = 32, /* every chunk is measured as soon as it is meshed or read from cache_folder, in the same job:
                              sgm_world_get_measures, sgm_mesh_get_measures. On the CPU that takes 2 to 12 % of the time

@@ -11,6 +11,7 @@
 #include "fields.h"
 #include "mesh/check.h"
 #include "mesh/feature_kind.h"
+#include "mesh/feature_reach.h"
 #include "mesh/hash.h"
 #include "mesh/split_creases.h"
 #include "mesh/vertex.h"
@@ -334,6 +335,38 @@ TEST_CASE("boxes joined and cut at random stay closed, with keys of their own", 
     features += sharp.positions.size() - Meshes(boxes).welded().positions.size();
   }
   CHECK(features > 10000);
+}
+
+TEST_CASE("sharp features do not depend on the field farther away than they say", "[mesh][sharpen]") {
+  // What reaches only farther is missing from the program of one chunk, and there in the other's.
+  struct AtCorner : Field {
+    JoinedBoxes boxes;
+    explicit AtCorner(uint64_t seed) : boxes(seed) {}
+    double at(const Vector3& p, Vector3& gradient) const override {
+      return boxes.at({p[0], p[1] + 16 * kCell, p[2] + 16 * kCell}, gradient);
+    }
+  };
+  int64_t farthest = 0;
+  for (uint64_t seed = 1; seed <= rounds(60); ++seed) {
+    INFO("seed " << seed);
+    const AtCorner field(seed * 7);
+    const FieldSampler all = samplerOf(field);
+    for (const ChunkGrid& grid : {kLeft, kRight}) {
+      const FieldSampler near = [&](std::span<const Int3> points, std::span<FieldSample> samples, Sampled what) {
+        all(points, samples, what);
+        for (const Int3& point : points) {
+          for (int k = 0; k < 3; ++k) {
+            const int64_t at = int64_t{point[k]} - grid.origin[k], size = int64_t{kChunkCells} * grid.cell;
+            farthest = std::max({farthest, -at, at - size});
+          }
+        }
+      };
+      MeshPart body = meshChunk(field, grid);
+      sharpenBody(grid, near, body);
+    }
+  }
+  CHECK(farthest >= kCell);
+  CHECK(farthest <= sharpReach(kCell));
 }
 
 TEST_CASE("smooth shapes keep their bytes", "[mesh][sharpen]") {
