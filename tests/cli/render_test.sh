@@ -166,11 +166,11 @@ json 'j.camera.position[0] > 12'
 rm row.sgm row.png
 # A note says where the anchor is of no use; in a hollow it is, though the camera steps back from it.
 printf '%s\n' 'sgm 1; domain finite box(24m, 24m, 24m); start A;' \
-  'rule A { box(20m); cut { sphere(6m); anchor spawn; } at(0m, 11m, 0m) anchor roof; }' >hollow.sgm
+  'rule A { box(20m); cut { sphere(6m); anchor spawn; } at(0m, 11m, 0m) anchor beacon; }' >hollow.sgm
 expect 0 "$SGM" render hollow.sgm --out hollow.png --at spawn --cell 1 --size 32x32
 [[ $err != *'is not used'* ]] || failed "an anchor in a hollow is said not to be used"
-expect 0 "$SGM" render hollow.sgm --out hollow.png --at roof --cell 1 --size 32x32
-err_has 'note: --at roof is not used'
+expect 0 "$SGM" render hollow.sgm --out hollow.png --at beacon --cell 1 --size 32x32
+err_has 'note: --at beacon is not used'
 rm hollow.sgm hollow.png
 
 expect 1 "$SGM" render ball.sgm --out wrong.png --at nothing_of_that_name
