@@ -81,6 +81,7 @@ class PlyBinaryValues {
   std::string problem() const { return "it ends"; }
   size_t place() const { return element_; }
   bool mustReadAll() const { return false; }
+  static bool hasSpareLines() { return false; }
   Result<void> end(bool whole, std::vector<std::string>& notes) {
     if (whole && at_ < bytes_.size())
       notes.push_back(
@@ -154,7 +155,13 @@ class PlyBodyReader {
   Error endsWithin(const PlyElement& element, size_t i) const {
     return values_.wrong((bad_length_ ? "it has a list of no length" : values_.problem()) + " within " +
                          std::to_string(i) + " of " + std::to_string(element.count) + " of the element " +
-                         shown(element.name) + ", counted from 0");
+                         shown(element.name) + ", counted from 0" + perhapsVertices(element));
+  }
+
+  /// Behind the vertices, of a text: where a line makes no sense it may be another vertex.
+  std::string perhapsVertices(const PlyElement& element) const {
+    if (element.name == "vertex" || !values_.hasSpareLines()) return {};
+    return ": the file has more lines than the header declares, perhaps more vertices";
   }
 
   bool skip(const PlyProperty& property) {
@@ -255,7 +262,8 @@ class PlyBodyReader {
       const bool ends = strips && value == -1;
       if (!ends && (!(value >= 0 && value < static_cast<double>(vertex_count_)) || value != std::floor(value)))
         return values_.wrong((strips ? "strip " : "face ") + std::to_string(i) +
-                             " has a corner that is none of the file's " + std::to_string(vertex_count_) + " vertices");
+                             " has a corner that is none of the file's " + std::to_string(vertex_count_) + " vertices" +
+                             perhapsVertices(element));
       corners_.push_back(ends ? kStripEnd : static_cast<uint32_t>(value));
     }
     if (strips) return strip();

@@ -5,15 +5,25 @@
 
 namespace sgm::asset {
 
+PlyTextValues::Counts PlyTextValues::counts() const {
+  Counts counts;
+  for (const PlyElement& element : header_.elements)
+    if (!element.properties.empty()) counts.records += std::min<uint64_t>(element.count, UINT32_MAX);
+  TextReader all = all_;
+  do counts.lines += uint64_t{!all.isLineDone()};
+  while (all.nextLine());
+  return counts;
+}
+
+bool PlyTextValues::hasSpareLines() const {
+  const Counts all = counts();
+  return all.lines > all.records;
+}
+
 /// Counts the lines, once a line has more or fewer values than its record.
 void PlyTextValues::findLayout() {
   if (layout_ != Layout::unknown) return;
-  uint64_t records = 0, lines = 0;
-  for (const PlyElement& element : header_.elements)
-    if (!element.properties.empty()) records += std::min<uint64_t>(element.count, UINT32_MAX);
-  TextReader all = all_;
-  do lines += uint64_t{!all.isLineDone()};
-  while (all.nextLine());
+  const auto [records, lines] = counts();
   layout_ = lines >= records ? Layout::lines : Layout::words;
   line_a_record_ = lines == records;
 }

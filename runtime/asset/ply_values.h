@@ -54,12 +54,18 @@ class PlyTextValues {
   size_t place() const { return place_; }
   /// Whether only the count of all values shows that they are as declared.
   bool mustReadAll() const { return layout_ == Layout::words; }
+  /// Whether the file has more lines than the header declares records.
+  bool hasSpareLines() const;
   /// Adds notes. whole: all elements have been read. Error: bad_input, if values are left that may be anyone's.
   Result<void> end(bool whole, std::vector<std::string>& notes);
 
  private:
   enum class Layout { unknown, lines, words };
 
+  struct Counts {
+    uint64_t records = 0, lines = 0;
+  };
+  Counts counts() const;
   bool mayWrap();
   bool passSurplus();
   void findLayout();

@@ -90,6 +90,16 @@ TEST_CASE("a PLY file's elements may come in any order, and its header end as li
   CHECK(mesh.normals.empty());
   CHECK(plyRefusal(replacedIn(faces_first, "3 2 1 0", "3 2 1 3")) ==
         "face 0 has a corner that is none of the file's 3 vertices, at line 10");
+  // A vertex more than the header declares is taken for a face.
+  const std::string five =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  CHECK(plyRefusal(five + "1 7 1\n3 0 1 2\n") ==
+        "face 0 has a corner that is none of the file's 4 vertices: the file has more lines than the header declares, "
+        "perhaps more vertices, at line 14");
+  CHECK(plyRefusal(five + "0.5 1 1\n3 0 1 2\n") ==
+        "it has a list of no length within 0 of 1 of the element `face`, counted from 0: the file has more lines than "
+        "the header declares, perhaps more vertices, at line 14");
   // The first number begins with the byte of a line's end.
   std::string binary =
       "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar x\nproperty uchar y\n"
