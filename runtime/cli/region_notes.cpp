@@ -56,9 +56,9 @@ void sayThinParts(const std::vector<ThinPart>& parts, int32_t cell) {
   constexpr size_t kMostSaid = 10;
   for (size_t i = 0; i < std::min(parts.size(), kMostSaid); ++i) {
     const ThinPart& part = parts[i];
-    fmt::print(stderr, "note: {}{} is {} {}, cells {}: it may not be seen ({} {})\n", part.cut ? "what is cut in " : "",
-               part.rule, lengthText(part.thickness), part.cut ? "wide" : "thick", lengthText(cell), part.uses,
-               part.uses == 1 ? "use" : "uses");
+    fmt::print(stderr, "note: {}{} is {} {}, cells {}: it may not be seen ({}{} {})\n",
+               part.cut ? "what is cut in " : "", part.rule, lengthText(part.thickness), part.cut ? "wide" : "thick",
+               lengthText(cell), part.is_about ? "about " : "", part.uses, part.uses == 1 ? "use" : "uses");
   }
   if (parts.size() > kMostSaid)
     fmt::print(stderr, "note: {} more rules have parts thinner than a cell\n", parts.size() - kMostSaid);

@@ -337,9 +337,11 @@ class PartCounter {
     for (const auto& [place, found] : found_) {
       if (found.uses.empty() && found.untraced == 0) continue;
       const std::pair<std::string, bool> name{std::get<0>(place), std::get<1>(place)};
-      const auto [part, is_new] = by_rule.try_emplace(name, ThinPart{name.first, name.second, found.thickness, 0});
+      const auto [part, is_new] =
+          by_rule.try_emplace(name, ThinPart{name.first, name.second, found.thickness, 0, false});
       part->second.thickness = std::min(part->second.thickness, found.thickness);
       part->second.uses += found.untraced;
+      part->second.is_about = part->second.is_about || found.untraced > 0;
       uses[name].insert(found.uses.begin(), found.uses.end());
     }
     std::vector<ThinPart> parts;
@@ -368,9 +370,7 @@ class PartCounter {
     const GrammarChunk& chunk = (*cell)->chunk;
     const std::vector<Candidate> thin = ThinShapes(chunk, cell_edge_).find();
     if (thin.empty()) return {};
-    std::set<Look> looks;
-    const auto isPlain = [&](const Candidate& c) { return isKnown(chunk, c) && looks.insert(lookOf(chunk, c)).second; };
-    if (traced_ >= kTracedCells && std::ranges::all_of(thin, isPlain)) {
+    if (traced_ >= kTracedCells && std::ranges::all_of(thin, [&](const Candidate& c) { return isKnown(chunk, c); })) {
       for (const Candidate& c : thin) {
         const std::optional<Place>& place = known_.at(lookOf(chunk, c));
         if (!place || !box_.contains(placeOf(c.slab, {}))) continue;

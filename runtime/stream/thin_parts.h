@@ -14,6 +14,7 @@ struct ThinPart {
   bool cut = false;       ///< what is taken away is thin, not what is there
   int32_t thickness = 0;  ///< of the thinnest, units
   size_t uses = 0;        ///< of the rule, that have such a part
+  bool is_about = false;  ///< some of them were counted by their shapes, of which a use may have several
 };
 
 /// The thin parts whose middle lies in the box, by name. The thickness of a shape is its least diameter; of an
