@@ -31,8 +31,8 @@ Point turned(Point p, int axis) { return {p[(axis + 1) % 3], p[(axis + 2) % 3], 
 
 constexpr int kColumns = 6;
 
-/// Asks the nearest open shell above a place; where there is none, or it only touches the line there, the nearest
-/// below, and then along the other axes. Nothing where one of these takes more than so many looks at the tree's nodes.
+/// Asks the nearest open shell above a place. If no shell lies there, or the shell only touches the line, the function
+/// asks below, then along the other axes. nullopt if one of these searches exceeds most_steps nodes of the tree.
 std::optional<BesideCut> besideCut(const Triangles& mesh, const Bvh& tree, const Shells& parts, Point at,
                                    uint64_t most_steps) {
   for (int number = 0; number < kColumns; ++number) {
@@ -81,7 +81,7 @@ Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, b
   constexpr size_t kTogether = 16;
   const size_t shells = parts.shells.size(), blocks = (shells + kTogether - 1) / kTogether;
   const uint64_t share = shells > 0 ? most_steps / shells / (is_cut ? 1 + kColumns : 1) + 1 : 0;
-  // Shells that nothing tells of stand in one place, so that those that face outward stand in the open.
+  // Without an open shell all shells stand in one space: in the open, if one of them faces outward.
   const bool is_open = std::any_of(parts.shells.begin(), parts.shells.end(),
                                    [](const Shell& shell) { return bounds(shell) && shell.volume > 0; }) &&
                        std::none_of(parts.shells.begin(), parts.shells.end(), boundsUpToCut);

@@ -11,7 +11,7 @@
 
 namespace sgm::measure {
 
-/// Of shells that are closed and manifold: of another the inside is not known.
+/// Of shells that are closed and manifold: the inside of other shells is not known.
 struct Nesting {
   uint64_t cavities = 0;                                 ///< that face inward, in a solid
   uint64_t inside_out = 0;                               ///< that face inward, in the open
@@ -26,10 +26,10 @@ std::optional<int> depthAt(const Triangles& mesh, const Bvh& tree, const Shells&
                            uint64_t most_steps);
 
 /// Each shell is judged by its first corner. is_cut: the mesh was cut from a larger one. Then the nearest open shell
-/// along an axis from the shell's first triangle tells whether that lies in a solid that goes on beyond the cut; where
-/// none tells, a shell that faces inward is a cavity of such a solid, unless there is no open shell and others face
-/// outward. most_steps: looks at nodes of the tree, shared out
-/// evenly over the shells. The same for any number of threads.
+/// along an axis from the shell's first triangle tells whether that triangle lies in a solid that goes on beyond the
+/// cut. If no open shell lies along an axis, a shell that faces inward is a cavity of such a solid; but if the mesh has
+/// no open shell at all, and another shell faces outward, it is inside out. most_steps: nodes of the tree that are
+/// visited, shared out evenly over the shells. The same for any number of threads.
 Nesting nestingOf(const Triangles& mesh, const Bvh& tree, const Shells& parts, bool is_cut, uint64_t most_steps,
                   JobSystem& jobs);
 

@@ -36,7 +36,8 @@ class Patch {
   size_t count() const { return count_; }
   const FanPoint& corner(size_t i) const { return corners_[i]; }
 
-  /// As a fan about the centre, or otherwise; false if there are no triangles.
+  /// As a fan about the centre, or with other diagonals. False if the patch cannot be divided without a diagonal that
+  /// is not free.
   bool triangulate(const IsFree& is_free, LoopTriangles& triangles) const {
     const bool may_be_fan = hasFreeSpokes(is_free);
     if ((may_be_fan && isFan(normal())) || !triangulateFlat(is_free, triangles)) {
@@ -46,7 +47,7 @@ class Patch {
     return true;
   }
 
-  /// So that all triangles face one way; false if there are none that do.
+  /// So that all triangles face one way. False if no choice of diagonals does that.
   bool triangulateFlat(const IsFree& is_free, LoopTriangles& triangles) const {
     std::array<std::array<uint8_t, kMostPoints>, kMostPoints> apexes;
     if (!findDiagonals(is_free, normal(), apexes)) return false;

@@ -28,7 +28,7 @@ using IsFree = std::function<bool(uint32_t a, uint32_t b)>;
 /// patch that does not face one way as a part of the fan gets other diagonals with which it does, if there are such:
 /// those of the largest smallest triangle. A patch of a solid's surface lies about in one plane, in which the centre
 /// may be unable to see all of it. A triangle that joins features alone is followed by another one of its patch, but
-/// for that between the two face vertices of one side. No triangles where a diagonal would not be free.
+/// for that between the two face vertices of one side. The result is empty if a diagonal would not be free.
 LoopTriangles patchTriangles(const FanPoint& centre, std::span<const FanPoint> ring, bool is_closed,
                              const IsFree& is_free);
 

@@ -8,7 +8,7 @@ namespace sgm {
 
 namespace {
 
-/// Of a claim's sides: with more, each of which may be there or not, there is no end of cases.
+/// Other sides of a claim. Each may have its face vertices or lose them, so that every side doubles the cases.
 constexpr size_t kMostOthers = 4;
 
 }  // namespace

@@ -27,8 +27,8 @@ struct CellStep {
 /// way.
 class RoundedCells {
  public:
-  /// Gives sides at the border, between vertices with these creases, the places that they have if
-  /// no rounded loop is in their way.
+  /// Gives sides at the border, between vertices with these creases, the places that they have if no rounded loop is
+  /// in their way.
   using PlaceAlone = std::function<void(const Creases& creases, std::span<SharpSide>)>;
 
   /// Borrows all.

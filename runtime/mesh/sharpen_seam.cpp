@@ -64,7 +64,7 @@ class LevelOfSeam {
     append();
   }
 
-  /// The face vertices from one of the seam's vertices to another; none if these are no ends of a side.
+  /// The face vertices from one of the seam's vertices to another; kNoMiddles if the vertices do not end a side.
   Middles middlesOf(uint32_t a, uint32_t b) const {
     if (in_part_[a] == kNoMiddle || in_part_[b] == kNoMiddle) return kNoMiddles;
     const SharpSide wanted = sideBetween(in_part_[a], in_part_[b], part_.keys);

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 #include <vector>
+
+#include "mesh/column.h"
 
 namespace sgm {
 namespace {
@@ -31,21 +32,13 @@ class Parts {
   std::pmr::vector<uint32_t> above_;  ///< of the same part, or the vertex itself
 };
 
-/// How often triangles above a place, along z, face up rather than down; of triangles around a common edge or corner
-/// those that go round the same way share the places on it out, as in measure/column.h.
+/// How often triangles above a place, along z, face up rather than down.
 int turnsAbove(std::span<const NamedTriangle> triangles, const Int3& place) {
   int turns = 0;
   for (const NamedTriangle& triangle : triangles) {
     const std::array<Int3, 3>& t = triangle.at;
-    const int round = IntegerSigns::orientationAlong(2, t[0], t[1], t[2]);
-    bool covers = round != 0;
-    for (size_t k = 0; covers && k < 3; ++k) {
-      Int3 a = t[k], b = t[(k + 1) % 3];
-      if (round < 0) std::swap(a, b);
-      const int side = IntegerSigns::orientationAlong(2, a, b, place);
-      covers = side > 0 || (side == 0 && (b.y < a.y || (b.y == a.y && b.x > a.x)));
-    }
-    if (covers && round * IntegerSigns::orientation(t[0], t[1], t[2], place) > 0) turns += round;
+    const int turn = turnOver<IntegerSigns>(t, place);
+    if (turn != 0 && turn * IntegerSigns::orientation(t[0], t[1], t[2], place) > 0) turns += turn;
   }
   return turns;
 }

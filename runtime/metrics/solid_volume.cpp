@@ -12,7 +12,8 @@ namespace {
 
 constexpr size_t kChunksTogether = 4096;  ///< whose meshes are there at one time
 
-/// The faces that do not go through the region's lowest corner: through those there is no flux of x about it.
+/// The faces of a chunk in the region's upper border. The flux of x about the region's lowest corner through the lower
+/// border is 0.
 uint8_t upperFaces(const ChunkKey& key, const ChunkKey& last) {
   uint8_t faces = 0;
   for (int axis = 0; axis < 3; ++axis)

@@ -7,6 +7,7 @@
 #include "catch.h"
 #include "mesh/body.h"
 #include "mesh/cell_loops.h"
+#include "mesh/fan_triangles.h"
 #include "mesh/sharp_loops.h"
 #include "rounds.h"
 
@@ -163,18 +164,14 @@ TEST_CASE("rounded loops with face vertices at the border are valid", "[mesh][sh
     std::vector<Int3> ring;
     for (uint32_t i = 0; i < loop.count; ++i) ring.push_back(placeOf(part, loop.vertices[i]));
     const Int3 centre = roundedCentre(cell, ring, at_border);
-    LoopTriangles fan;
+    std::vector<FanPoint> points;
     for (uint32_t i = 0; i < loop.count; ++i) {
-      const uint32_t a = loop.vertices[i], next = (i + 1) % loop.count, b = loop.vertices[next];
-      Int3 at = ring[i];
-      uint32_t name = a;
-      for (uint32_t k = 0; k < middles[i].size(); ++k) {
-        fan.add({centre, at, middles[i][k].at}, {kCellVertices, name, kFaceVertices + 2 * i + k});
-        at = middles[i][k].at;
-        name = kFaceVertices + 2 * i + k;
-      }
-      fan.add({centre, at, ring[next]}, {kCellVertices, name, b});
+      points.push_back({ring[i], loop.vertices[i]});
+      for (uint32_t k = 0; k < middles[i].size(); ++k)
+        points.push_back({middles[i][k].at, kFaceVertices + 2 * i + k, true});
     }
+    const LoopTriangles fan = coneTriangles({centre, kCellVertices, true}, points, true);
+    REQUIRE(fan.count() == points.size());
     ++cones;
     size_t faults = 0;
     for (size_t i = 0; i < fan.all().size(); ++i) {
