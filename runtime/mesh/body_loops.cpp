@@ -11,6 +11,16 @@ int sharedFace(const VertexKey& a, const VertexKey& b) {
   return a.corner[second] == b.corner[second] ? second : -1;
 }
 
+uint8_t cubeEdge(const VertexKey& key, const Int3& corner) {
+  int edge = 4 * key.axis, bit = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == key.axis) continue;
+    edge += key.corner[axis] == corner[axis] ? 0 : bit;
+    bit = 2;
+  }
+  return static_cast<uint8_t>(edge);
+}
+
 BodyLoops::BodyLoops(const ChunkGrid& grid, const MeshPart& body, std::pmr::memory_resource* memory)
     : grid_(grid), part_(body), loops_(memory), starts_(size_t{kChunkCells} * kChunkCells * kPieces + 1, memory) {
   findLoops();
@@ -46,7 +56,7 @@ void BodyLoops::findLoops() {
     SurfaceLoop loop;
     loop.cell = cellOf(at);
     loop.first_index = static_cast<uint32_t>(at);
-    std::array<std::array<uint32_t, 2>, kLongestCubeLoop> sides{};
+    std::array<std::array<uint32_t, 2>, kLongestBodyLoop> sides{};
     uint32_t count = 0;
     const auto take = [&] {
       for (size_t k = 0; k < 3; ++k) {

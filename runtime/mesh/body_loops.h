@@ -15,10 +15,16 @@ namespace sgm {
 /// The axis of the face that two edges of a cell share; -1 if they share none.
 int sharedFace(const VertexKey& a, const VertexKey& b);
 
+/// Of a cell: as meshed it has at most kLongestCubeLoop vertices, but joined loops have more (mesh/ambiguous_faces.h).
+inline constexpr int kLongestBodyLoop = kCubeEdges;
+
+/// The number of a cube's edge that a vertex is on (mesh/tables.h). corner: the cube's lowest, in units.
+uint8_t cubeEdge(const VertexKey& key, const Int3& corner);
+
 /// A loop of cut edges in one cell. Its vertices go round counter-clockwise seen from the void, from the lowest edge.
 struct SurfaceLoop {
   Int3 cell;                                          ///< from the chunk's origin, in cells
-  std::array<uint32_t, kLongestCubeLoop> vertices{};  ///< of the body
+  std::array<uint32_t, kLongestBodyLoop> vertices{};  ///< of the body
   uint32_t count = 0;
   uint32_t first_index = 0, end_index = 0;  ///< its triangles, in the body's indices
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/rounded_cells.h"
+#include "mesh/surroundings.h"
 #include "mesh/tables.h"
 
 namespace sgm {
@@ -11,142 +12,6 @@ namespace {
 
 /// In 1/256 of a cell: how far a face vertex may move for convenience.
 constexpr int32_t kClose = 8;
-
-/// Whether the square beside a side's is in the same face of the chunk.
-bool isInFace(const SharpSide& side, int axis, int by, int32_t cell) {
-  const int64_t square = floorDiv(side.corner[axis], cell);
-  return floorDiv(square, kChunkCells) == floorDiv(square + by, kChunkCells);
-}
-
-/// Where a side's face vertices lie beside its own square.
-struct Beside {
-  CellStep step;  ///< to their square; by 0 if that is the side's own
-  /// At which end of the edge between the squares: 1 or -1 where a face vertex lies nearer to the edges there than to
-  /// the square's own, 0 where none does.
-  int end = 0;
-  bool is_one = true;  ///< false if they lie in two squares beside, or at both ends
-};
-Beside besideOf(const SharpSide& side) {
-  Beside beside;
-  for (const Int3& place : side.places.all()) {
-    for (const int k : {(side.axis + 1) % 3, (side.axis + 2) % 3}) {
-      const int32_t height = std::max(-place[k], place[k] - kSubcell), along = place[3 - side.axis - k];
-      if (height <= 0) continue;
-      const CellStep step{k, place[k] < 0 ? -1 : 1};
-      const int end = height >= along ? -1 : height >= kSubcell - along ? 1 : 0;
-      if (beside.step.by != 0 && !(step == beside.step)) beside.is_one = false;
-      if (beside.end * end < 0) beside.is_one = false;
-      beside.step = step;
-      if (end != 0) beside.end = end;
-    }
-  }
-  return beside;
-}
-
-/// The field at the corners of the two cells beside a side, and of what its face vertex may lie beside.
-class Surroundings {
- public:
-  /// Corner a + 2b + 4c lies a along u = (axis + 1) % 3, b along v = (axis + 2) % 3, and c - 1 along the axis of the
-  /// face. Where the face vertex lies in another square, kFar + a + 2c lies at the far edge of that: a along the edge,
-  /// c as before. The last two lie at the far edge of a third square, beside that one at the end at which the face
-  /// vertex lies.
-  static constexpr size_t kCorners = 20, kFar = 12, kThird = 18;
-
-  Surroundings(const SharpSide& side, int32_t cell) : side_(side), cell_(cell), beside_(besideOf(side)) {}
-
-  const CellStep& step() const { return beside_.step; }
-
-  /// nullopt if the corner lies beyond the world or does not exist.
-  std::optional<Int3> corner(size_t number) const {
-    const int u = (side_.axis + 1) % 3, v = (side_.axis + 2) % 3;
-    Int3 steps;
-    if (number < kFar) {
-      steps[u] = static_cast<int32_t>(number & 1);
-      steps[v] = static_cast<int32_t>(number >> 1 & 1);
-      steps[side_.axis] = static_cast<int32_t>(number >> 2) - 1;
-    } else {
-      const CellStep& beside = beside_.step;
-      if (beside.by == 0) return std::nullopt;
-      const int along = u + v - beside.axis;
-      const auto is_second = static_cast<int32_t>(number & 1);
-      if (number < kThird) {
-        steps[beside.axis] = beside.by < 0 ? -1 : 2;
-        steps[along] = is_second;
-        steps[side_.axis] = static_cast<int32_t>((number - kFar) >> 1) - 1;
-      } else {
-        const int end = beside_.end;
-        if (end == 0 || !isInFace(side_, along, end, cell_)) return std::nullopt;
-        steps[beside.axis] = beside.by < 0 ? -is_second : 1 + is_second;
-        steps[along] = end < 0 ? -1 : 2;
-      }
-    }
-    Int3 at = side_.corner;
-    for (int k = 0; k < 3; ++k) {
-      const int64_t moved = at[k] + int64_t{steps[k]} * cell_;
-      if (moved != saturate(moved)) return std::nullopt;
-      at[k] = static_cast<int32_t>(moved);
-    }
-    return at;
-  }
-
-  /// samples: at all corners.
-  void take(std::span<const FieldSample> samples) {
-    for (size_t i = 0; i < kCorners; ++i) q_[i] = samples[i].q;
-  }
-
-  /// Whether the surface passes once through the side's square, and not through the third, where another face vertex
-  /// might get in the way.
-  bool passesOnce() const {
-    if (!beside_.is_one) return false;
-    if (isSolid(4) == isSolid(7) && isSolid(5) == isSolid(6) && isSolid(4) != isSolid(5)) return false;
-    return !corner(kThird) || !passesThird();
-  }
-  /// Whether the face vertex lies in another square through which the surface passes.
-  bool passesBeside() const {
-    if (beside_.step.by == 0) return false;
-    const std::array<size_t, 3> others{shared() + 3 - bitOf(beside_.step.axis), kFar + 2, kFar + 3};
-    return std::any_of(others.begin(), others.end(), [&](size_t other) { return isSolid(other) != isSolid(shared()); });
-  }
-
-  /// The field at the corners of the cell below the face, or above it, as the case tables number them; nullopt if the
-  /// cell reaches beyond the world, and has no surface. beside: of the cell beside that one, at the square of the face
-  /// vertex.
-  std::optional<std::array<int32_t, 8>> ofCell(bool above, bool beside) const {
-    if (!corner(above ? kFar - 1 : 0) || (beside && !corner(above ? kThird - 1 : kFar))) return std::nullopt;
-    const CellStep step = beside ? beside_.step : CellStep{};
-    std::array<int32_t, 8> q{};
-    for (size_t i = 0; i < 8; ++i) {
-      const size_t level = (i >> 2) + (above ? 1 : 0);
-      size_t from = (i & 3) + 4 * level;
-      if (step.by != 0) {
-        const size_t across = bitOf(step.axis), along = 3 - across;
-        const bool is_high = (i & across) != 0, is_far = is_high == (step.by > 0);
-        from = is_far ? kFar + ((i & along) != 0 ? 1 : 0) + 2 * level : from ^ across;
-      }
-      q[(i & 1) << (side_.axis + 1) % 3 | (i >> 1 & 1) << (side_.axis + 2) % 3 | i >> 2 << side_.axis] = q_[from];
-    }
-    return q;
-  }
-
- private:
-  bool isSolid(size_t corner) const { return q_[corner] < 0; }
-  /// Whether the surface passes through the third square, which has two corners of the face vertex's.
-  bool passesThird() const {
-    const size_t at_end = beside_.end > 0 ? 1 : 0;
-    const std::array<size_t, 3> others{kFar + 2 + at_end, kThird, kThird + 1};
-    const size_t near = shared() + at_end * (3 - bitOf(beside_.step.axis));
-    return std::any_of(others.begin(), others.end(), [&](size_t other) { return isSolid(other) != isSolid(near); });
-  }
-  /// Of a corner's number.
-  size_t bitOf(int axis) const { return axis == (side_.axis + 1) % 3 ? 1 : 2; }
-  /// A corner at the edge between the side's square and that of its face vertex, if it has another.
-  size_t shared() const { return 4 + (beside_.step.by > 0 ? bitOf(beside_.step.axis) : 0); }
-
-  const SharpSide& side_;
-  int32_t cell_;
-  Beside beside_;
-  std::array<int32_t, kCorners> q_{};
-};
 
 bool hasTwoLoops(const std::array<int32_t, 8>& q) {
   size_t solid = 0;
@@ -175,10 +40,9 @@ std::optional<Int3> placeAt(const SharpSide& side, const FacePoint& point, int32
     if (!(at >= -kSubcell && at <= 2 * kSubcell)) return std::nullopt;
     place[k == 0 ? u : v] = static_cast<int32_t>(at);
   }
-  // Of two places in one square, from edges that lie opposite each other, each keeps to its half. And a place close to
-  // the edge is as good in the side's own square, where nothing comes in its way.
+  // A place close to the edge is as good in the side's own square, where nothing comes in its way.
   const int across = outside(place[u]) > outside(place[v]) ? u : v;
-  const bool is_beside = outside(place[across]) > kClose && outside(place[across]) < kSubcell / 2 &&
+  const bool is_beside = outside(place[across]) > kClose && outside(place[across]) <= kMostOutside &&
                          isInFace(side, across, place[across] < 0 ? -1 : 1, cell);
   for (const int k : {u, v})
     if (!is_beside || k != across) place[k] = std::clamp(place[k], 1, kSubcell - 1);
@@ -288,7 +152,7 @@ class SurfacePlaces {
       if (cut.first && cut.second && isOn(1) && isOn(2) && isOn(3) &&
           isSimple(creases_, side, *cut.first, *cut.second, grid_.cell)) {
         side.places = FacePlaces(*cut.first, *cut.second);
-        if (!besideOf(side).is_one) side.places = {};
+        if (!Surroundings(side, grid_.cell).areTogether()) side.places = {};
       }
       if (side.places.empty() && cut.single && isOn(0)) side.places = FacePlaces(*cut.single);
       if (!side.places.empty()) placed.push_back(&side);
@@ -308,53 +172,116 @@ class SurfacePlaces {
   std::pmr::vector<CutOff> cut_off_;
 };
 
-/// Gives sides their places, as they have them if no rounded loop is in their way. Calls visit(side, surroundings) for
-/// those that have any.
-template <class Visit>
-void placeAlone(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases, std::span<SharpSide> sides,
-                std::pmr::memory_resource* memory, const Visit& visit) {
-  const std::pmr::vector<SharpSide*> placed = SurfacePlaces(grid, field, creases, memory).give(sides, memory);
-  if (placed.empty()) return;
+/// Gives sides their places, as they have them if no rounded loop is in their way, and returns those that have any: in
+/// one square, where the surface passes once through the side's own.
+std::pmr::vector<SharpSide*> placeAlone(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
+                                        std::span<SharpSide> sides, std::pmr::memory_resource* memory) {
+  std::pmr::vector<SharpSide*> placed = SurfacePlaces(grid, field, creases, memory).give(sides, memory);
   std::pmr::vector<Int3> points(memory);
-  points.reserve(placed.size() * Surroundings::kCorners);
   for (const SharpSide* side : placed) {
-    const Surroundings around(*side, grid.cell);
-    for (size_t i = 0; i < Surroundings::kCorners; ++i) points.push_back(around.corner(i).value_or(side->corner));
+    for (const int corner : {0, 1, 2, 3}) {
+      points.push_back(side->corner);
+      points.back()[(side->axis + 1) % 3] += (corner & 1) * grid.cell;
+      points.back()[(side->axis + 2) % 3] += (corner >> 1) * grid.cell;
+    }
   }
   std::pmr::vector<FieldSample> samples(points.size(), memory);
-  field(points, samples, Sampled::value);
+  if (!points.empty()) field(points, samples, Sampled::value);
+  size_t kept = 0;
   for (size_t i = 0; i < placed.size(); ++i) {
     SharpSide& side = *placed[i];
-    Surroundings around(side, grid.cell);
-    around.take({samples.data() + i * Surroundings::kCorners, Surroundings::kCorners});
-    if (around.passesOnce()) {
-      visit(side, around);
+    const auto isSolid = [&](size_t corner) { return samples[4 * i + corner].q < 0; };
+    const bool is_ambiguous = isSolid(0) == isSolid(3) && isSolid(1) == isSolid(2) && isSolid(0) != isSolid(1);
+    if (!is_ambiguous && Surroundings(side, grid.cell).areTogether()) {
+      placed[kept++] = &side;
     } else {
       side.places = {};
     }
   }
+  placed.resize(kept);
+  return placed;
 }
 
+/// Takes the places of sides whose rounded loops would meet others.
+class RoundedLoops {
+ public:
+  RoundedLoops(const ChunkGrid& grid, const FieldSampler& field, std::pmr::memory_resource* memory)
+      : grid_(grid), field_(field), memory_(memory) {}
+
+  void judge(std::span<SharpSide* const> placed, const RawVector<VertexKey>& keys) {
+    const RoundedCells::PlaceAlone place_others = [this](const Creases& creases, std::span<SharpSide> others) {
+      placeAlone(grid_, field_, creases, others, memory_);
+    };
+    RoundedCells rounded(grid_, field_, place_others, memory_);
+    std::pmr::vector<Int3> points(memory_);
+    std::pmr::vector<size_t> ends(memory_);  // in points, by placed side
+    for (const SharpSide* side : placed) {
+      const Surroundings around(*side, grid_.cell);
+      for (size_t i = 0; i < Surroundings::kCorners; ++i)
+        if (const std::optional<Int3> corner = around.corner(i)) points.push_back(*corner);
+      ends.push_back(points.size());
+    }
+    std::pmr::vector<FieldSample> samples(points.size(), memory_);
+    if (!points.empty()) field_(points, samples, Sampled::value);
+    for (size_t i = 0; i < placed.size(); ++i) {
+      Surroundings around(*placed[i], grid_.cell);
+      const size_t begin = i == 0 ? 0 : ends[i - 1];
+      around.take({samples.data() + begin, ends[i] - begin});
+      claim(*placed[i], around, keys, rounded);
+    }
+    rounded.judge();
+  }
+
+ private:
+  static void claim(SharpSide& side, const Surroundings& around, const RawVector<VertexKey>& keys,
+                    RoundedCells& rounded) {
+    using Place = Surroundings::Place;
+    std::array<Place, 1 + Surroundings::kAround.size()> others;
+    size_t count = 0;
+    if (around.passes(Place::beside)) others[count++] = Place::beside;
+    for (const Place place : Surroundings::kAround)
+      if (around.leavesPart() && around.passes(place)) others[count++] = place;
+    for (const bool above : {false, true}) {
+      const std::optional<std::array<int32_t, 8>> q = around.ofCell(above, Place::own);
+      if (!q || (count == 0 && !hasTwoLoops(*q))) continue;
+      rounded.add(side, keys[side.from], keys[side.to], above, *q);
+      for (size_t i = 0; i < count; ++i)
+        if (const auto beside = around.ofCell(above, others[i])) rounded.addBeside(around.stepTo(others[i]), *beside);
+    }
+  }
+
+  const ChunkGrid& grid_;
+  const FieldSampler& field_;
+  std::pmr::memory_resource* memory_;
+};
+
 }  // namespace
+
+std::pmr::vector<SharpSide> borderSides(const BodyLoops& body, const Creases& creases, const FieldSampler& field,
+                                        std::pmr::memory_resource* memory) {
+  const RawVector<VertexKey>& keys = body.part().keys;
+  std::pmr::vector<SharpSide> sides(memory);
+  for (const SurfaceLoop& loop : body.all()) {
+    const Int3& cell = loop.cell;
+    if (std::min({cell.x, cell.y, cell.z}) > 0 && std::max({cell.x, cell.y, cell.z}) < kChunkCells - 1) continue;
+    for (uint32_t i = 0; i < loop.count; ++i) {
+      const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count];
+      if (!creases.isSharp(a, b)) continue;
+      SharpSide side = sideBetween(a, b, keys);
+      side.at_border = isAtBorder(body.grid(), side);
+      if (side.at_border) sides.push_back(side);
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  placeBorderVertices(body.grid(), field, creases, keys, sides, memory);
+  return sides;
+}
 
 void placeBorderVertices(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
                          const RawVector<VertexKey>& keys, std::span<SharpSide> sides,
                          std::pmr::memory_resource* memory) {
-  const RoundedCells::PlaceAlone place_others = [&](const Creases& theirs, std::span<SharpSide> others) {
-    placeAlone(grid, field, theirs, others, memory, [](SharpSide&, const Surroundings&) {});
-  };
-  RoundedCells rounded(grid, field, place_others, memory);
-  placeAlone(grid, field, creases, sides, memory, [&](SharpSide& side, const Surroundings& around) {
-    const bool has_beside = around.passesBeside();
-    for (const bool above : {false, true}) {
-      const std::optional<std::array<int32_t, 8>> q = around.ofCell(above, false);
-      if (!q || (!has_beside && !hasTwoLoops(*q))) continue;
-      rounded.add(side, keys[side.from], keys[side.to], above, *q);
-      if (!has_beside) continue;
-      if (const auto beside = around.ofCell(above, true)) rounded.addBeside(around.step(), *beside);
-    }
-  });
-  rounded.judge();
+  const std::pmr::vector<SharpSide*> placed = placeAlone(grid, field, creases, sides, memory);
+  if (!placed.empty()) RoundedLoops(grid, field, memory).judge(placed, keys);
 }
 
 }  // namespace sgm

@@ -114,8 +114,10 @@ void Creases::slide() {
   }
 }
 
+bool Creases::differ(uint32_t a, uint32_t b) const { return dot(normals_[a], normals_[b]) < kSharpCosine; }
+
 bool Creases::isSharp(uint32_t a, uint32_t b) const {
-  if (!(dot(normals_[a], normals_[b]) < kSharpCosine)) return false;
+  if (!differ(a, b)) return false;
   const Tangent &of_a = tangents_[a], &of_b = tangents_[b];
   const auto isInPlane = [&](const Tangent& plane, const Tangent& of_vertex) {
     return std::fabs(dot(plane.normal, between(plane.point, of_vertex.point)) - plane.distance) <=
@@ -124,12 +126,19 @@ bool Creases::isSharp(uint32_t a, uint32_t b) const {
   return !isInPlane(of_a, of_b) && !isInPlane(of_b, of_a);
 }
 
-Vector3 Creases::nearestOnCrease(uint32_t a, uint32_t b, const Int3& corner, const Vector3& start) const {
-  const Tangent &of_a = tangents_[a], &of_b = tangents_[b];
-  const Vector3 pa = between(corner, of_a.point), pb = between(corner, of_b.point);
-  const Vector3 step = stepToBoth(of_a.normal, of_a.distance + dot(of_a.normal, minus(pa, start)), of_b.normal,
-                                  of_b.distance + dot(of_b.normal, minus(pb, start)));
+Vector3 Creases::nearestOnCrease(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& start) {
+  const Vector3 pa = between(corner, a.point), pb = between(corner, b.point);
+  const Vector3 step = stepToBoth(a.normal, a.distance + dot(a.normal, minus(pa, start)), b.normal,
+                                  b.distance + dot(b.normal, minus(pb, start)));
   return {start[0] + step[0], start[1] + step[1], start[2] + step[2]};
+}
+
+bool Creases::isOnCrease(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& place) const {
+  const auto isInPlane = [&](const Tangent& t) {
+    const double off = dot(t.normal, minus(place, between(corner, t.point))) - t.distance;
+    return std::fabs(off) <= mostOffSurface();
+  };
+  return isInPlane(a) && isInPlane(b);
 }
 
 std::optional<FacePoint> Creases::meetingInFace(const Tangent& a, const Tangent& b, const Int3& corner, int axis) {
@@ -161,9 +170,9 @@ std::optional<Int3> Creases::onGrid(const Int3& corner, const Vector3& units, in
   return place;
 }
 
-std::optional<Int3> Creases::onGridAlong(uint32_t a, uint32_t b, const Int3& corner, const Vector3& units,
+std::optional<Int3> Creases::onGridAlong(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& units,
                                          int across) const {
-  const Vector3 along = cross(tangents_[a].normal, tangents_[b].normal);
+  const Vector3 along = cross(a.normal, b.normal);
   const double step = static_cast<double>(grid_.cell) / kSubcell;
   double least = -1e30, most = 1e30;
   for (int k = 0; k < 3; ++k) {

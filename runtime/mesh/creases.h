@@ -48,6 +48,12 @@ inline Vector3 between(const Int3& from, const Int3& to) {
           static_cast<double>(int64_t{to.z} - from.z)};
 }
 
+/// A place in 1/256 of a cell, in units.
+inline Vector3 unitsOf(const Int3& place, int32_t cell) {
+  const double step = static_cast<double>(cell) / kSubcell;
+  return {place.x * step, place.y * step, place.z * step};
+}
+
 /// A point in a face: along u = (axis + 1) % 3 and v = (axis + 2) % 3 from the face's corner, in units.
 using FacePoint = std::array<double, 2>;
 
@@ -65,8 +71,14 @@ class Creases {
   /// the crease itself.
   bool isSharp(uint32_t a, uint32_t b) const;
 
-  /// The place on the crease of two vertices that is nearest to `start`; both in units from `corner`.
-  Vector3 nearestOnCrease(uint32_t a, uint32_t b, const Int3& corner, const Vector3& start) const;
+  /// Whether the normals of two settled vertices differ so far, wherever the crease lies.
+  bool differ(uint32_t a, uint32_t b) const;
+
+  /// The place on the crease of two planes that is nearest to `start`; both in units from `corner`.
+  static Vector3 nearestOnCrease(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& start);
+
+  /// Whether a place in units from `corner` lies on the crease of two planes, as closely as places on the surface do.
+  bool isOnCrease(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& place) const;
 
   /// Where the crease of two planes meets the face across `axis` through `corner`; nullopt where that is not known
   /// well.
@@ -76,8 +88,9 @@ class Creases {
   /// beyond the corner's cell, or beyond its face across `across`. A place beyond the chunk is moved to 1/256 within
   /// it.
   std::optional<Int3> onGrid(const Int3& corner, const Vector3& units, int across = -1) const;
-  /// As onGrid, of the point of two vertices' crease nearest to `units`, which lies on it, that is not too far beyond.
-  std::optional<Int3> onGridAlong(uint32_t a, uint32_t b, const Int3& corner, const Vector3& units, int across) const;
+  /// As onGrid, of the point of two planes' crease nearest to `units`, which lies on it, that is not too far beyond.
+  std::optional<Int3> onGridAlong(const Tangent& a, const Tangent& b, const Int3& corner, const Vector3& units,
+                                  int across) const;
   /// Where the field is sampled for such a place.
   Int3 sampledAt(const Int3& corner, const Int3& place) const;
   /// In units: how far a point on the surface may seem to be off it, a unit of which is for sampling at whole units.

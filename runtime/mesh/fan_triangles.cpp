@@ -123,6 +123,33 @@ LoopTriangles coneTriangles(const FanPoint& centre, std::span<const FanPoint> ri
   return triangles;
 }
 
+LoopTriangles stripTriangles(std::span<const FanPoint> ring, bool from_second, const IsFree& is_free) {
+  const auto isFeature = [](const FanPoint& p) { return p.is_feature; };
+  auto first = std::find_if(ring.begin(), ring.end(), isFeature);
+  if (from_second && first != ring.end()) first = std::find_if(first + 1, ring.end(), isFeature);
+  const auto features = std::count_if(ring.begin(), ring.end(), isFeature);
+  if (features == 0 || features % 2 != 0) return {};
+  LoopTriangles triangles;
+  const auto start = static_cast<size_t>(first - ring.begin());
+  Patch rest(*first), cut_off(*first);
+  bool cuts_off = true, is_empty = true;
+  for (size_t i = 1; i <= ring.size(); ++i) {
+    const FanPoint& point = ring[(start + i) % ring.size()];
+    if (cuts_off) cut_off.add(point);
+    is_empty = is_empty && point.is_feature;
+    // The walk ends at the first face vertex, which the rest has.
+    if ((!cuts_off || point.is_feature) && i < ring.size()) rest.add(point);
+    if (!point.is_feature) continue;
+    if (!cuts_off && is_empty) return {};
+    if (cuts_off && cut_off.count() > 2 && !cut_off.triangulateFlat(is_free, triangles)) return {};
+    cuts_off = !cuts_off;
+    is_empty = true;
+    cut_off = Patch(point);
+  }
+  if (!rest.triangulateFlat(is_free, triangles)) return {};
+  return triangles;
+}
+
 LoopTriangles patchTriangles(const FanPoint& centre, std::span<const FanPoint> ring, bool is_closed,
                              const IsFree& is_free) {
   const auto features = std::count_if(ring.begin(), ring.end(), [](const FanPoint& p) { return p.is_feature; });

@@ -32,4 +32,11 @@ using IsFree = std::function<bool(uint32_t a, uint32_t b)>;
 LoopTriangles patchTriangles(const FanPoint& centre, std::span<const FanPoint> ring, bool is_closed,
                              const IsFree& is_free);
 
+/// Without a centre, of a ring that creases pass through: each joins two face vertices that follow each other on the
+/// ring, and cuts off the patch between them; the patch that is left lies between the creases. Every other patch is cut
+/// off, from the first face vertex on or, if `from_second`, from the second. A triangle that joins features alone is
+/// followed by another one of its patch. The result is empty if the number of face vertices is odd, if a diagonal would
+/// not be free, if a patch would not face one way, or if one that is left has no vertex.
+LoopTriangles stripTriangles(std::span<const FanPoint> ring, bool from_second, const IsFree& is_free);
+
 }  // namespace sgm

@@ -4,31 +4,19 @@
 #include <numeric>
 #include <utility>
 
-#include "mesh/border_vertices.h"
 #include "mesh/facing.h"
 #include "mesh/fan_conflicts.h"
+#include "mesh/inner_vertices.h"
 #include "mesh/swallowed_parts.h"
 
 namespace sgm {
-namespace {
-
-Vector3 plus(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vector3 times(const Vector3& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
-
-Vector3 unitsOf(const Int3& place, int32_t cell) {
-  const double step = static_cast<double>(cell) / kSubcell;
-  return {place.x * step, place.y * step, place.z * step};
-}
-
-}  // namespace
-
-Features::Features(const BodyLoops& body, const Creases& creases, const FieldSampler& field,
-                   std::pmr::memory_resource* memory)
-    : body_(body), creases_(creases), field_(field), memory_(memory), sharp_(body, memory) {}
+Features::Features(const BodyLoops& body, const Creases& creases, std::span<const SharpSide> border,
+                   const FieldSampler& field, std::pmr::memory_resource* memory)
+    : body_(body), creases_(creases), border_(border), field_(field), memory_(memory), sharp_(body, memory) {}
 
 SharpLoops Features::find() && {
   findSides();
-  placeFaceVertices();
+  placeInnerVertices(creases_, field_, sharp_, memory_);
   placeCellVertices();
   do {
     roundUntilValid(
@@ -38,9 +26,20 @@ SharpLoops Features::find() && {
   return std::move(sharp_);
 }
 
+/// Whether a crease passes through a loop without a sharp side, by way of vertices that lie on it.
+bool Features::passesVertices(const SurfaceLoop& loop) const {
+  const auto next = [&](uint32_t i) { return loop.vertices[(i + 1) % loop.count]; };
+  bool any = false;
+  for (uint32_t i = 0; i < loop.count; ++i) any = any || creases_.differ(loop.vertices[i], next(i));
+  if (!any) return false;
+  for (uint32_t i = 0; i < loop.count; ++i)
+    for (uint32_t j = i + 2; j < loop.count; ++j)
+      if (creases_.isSharp(loop.vertices[i], loop.vertices[j])) return true;
+  return false;
+}
+
 void Features::findSides() {
   const RawVector<VertexKey>& keys = body_.part().keys;
-  const ChunkGrid& grid = body_.grid();
   const auto nameOf = [&](uint32_t a, uint32_t b) {
     if (keys[b] < keys[a]) std::swap(a, b);
     return uint64_t{a} << 32 | b;
@@ -53,7 +52,7 @@ void Features::findSides() {
       const uint32_t a = loop.vertices[i], b = loop.vertices[(i + 1) % loop.count];
       if (creases_.isSharp(a, b)) names.push_back(nameOf(a, b));
     }
-    if (names.size() > before) sharp_.loops.emplace_back().loop = number;
+    if (names.size() > before || passesVertices(loop)) sharp_.loops.emplace_back().loop = number;
   }
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -61,8 +60,8 @@ void Features::findSides() {
   for (const uint64_t name : names) {
     SharpSide& side =
         sharp_.sides.emplace_back(sideBetween(static_cast<uint32_t>(name >> 32), static_cast<uint32_t>(name), keys));
-    const int64_t from_chunk = int64_t{side.corner[side.axis]} - grid.origin[side.axis];
-    side.at_border = from_chunk == 0 || from_chunk == int64_t{kChunkCells} * grid.cell;
+    side.at_border = isAtBorder(body_.grid(), side);
+    if (side.at_border) side = *std::lower_bound(border_.begin(), border_.end(), side);
   }
   for (uint32_t number = 0; number < sharp_.loops.size(); ++number) {
     SharpLoop& sharp = sharp_.loops[number];
@@ -78,88 +77,6 @@ void Features::findSides() {
       const bool is_high = body_.cornerOf(loop.cell)[side.axis] == side.corner[side.axis];
       side.loops[is_high ? 1 : 0] = number;
     }
-  }
-}
-
-/// Of a loop in which several creases meet, the point nearest to its vertices' planes; in units from `corner`.
-Vector3 Features::meetingPoint(const SharpLoop& sharp, const Int3& corner, std::span<const Vector3> ideals) const {
-  const SurfaceLoop& loop = of(sharp);
-  Vector3 middle{};
-  double count = 0;
-  for (const uint32_t s : sharp.sides) {
-    if (s == kNone) continue;
-    middle = plus(middle, plus(between(corner, sharp_.sides[s].corner), ideals[s]));
-    count += 1;
-  }
-  middle = times(middle, 1 / count);
-  PlaneSum planes;
-  for (uint32_t i = 0; i < loop.count; ++i) {
-    const Tangent& t = creases_.tangent(loop.vertices[i]);
-    planes.add(t.normal, t.distance + dot(t.normal, minus(between(corner, t.point), middle)));
-  }
-  return plus(middle, PlaneAxes(planes).step(3));
-}
-
-/// The mean of a side's own ideal place and the next places on its crease: those of the next sides of its loops, or the
-/// points in which the crease ends there. In units from the side's corner.
-Vector3 Features::meanOnCrease(const SharpSide& side, std::span<const Vector3> ideals) const {
-  const auto own = static_cast<uint32_t>(&side - sharp_.sides.data());
-  Vector3 sum = times(ideals[own], 2);
-  for (const uint32_t number : side.loops) {
-    uint32_t next = kNone, others = 0;
-    for (size_t i = 0; number != kNone && i < kLongestCubeLoop; ++i) {
-      const uint32_t other = sharp_.loops[number].sides[i];
-      if (other == kNone || other == own) continue;
-      next = other;
-      ++others;
-    }
-    // Where nothing follows the side's own place stands for it, so that two sides do not get one mean.
-    sum = plus(sum, others == 0   ? ideals[own]
-                    : others == 1 ? plus(between(side.corner, sharp_.sides[next].corner), ideals[next])
-                                  : meetingPoint(sharp_.loops[number], side.corner, ideals));
-  }
-  return times(sum, 0.25);
-}
-
-void Features::placeFaceVertices() {
-  placeBorderVertices(body_.grid(), field_, creases_, body_.part().keys, sharp_.sides, memory_);
-  std::pmr::vector<Vector3> ideals(memory_);
-  ideals.reserve(sharp_.sides.size());
-  for (const SharpSide& side : sharp_.sides) {
-    if (side.at_border && !side.places.empty()) {
-      Vector3 sum{};
-      for (const Int3& place : side.places.all()) sum = plus(sum, unitsOf(place, body_.grid().cell));
-      ideals.push_back(times(sum, 1.0 / static_cast<double>(side.places.count())));
-      continue;
-    }
-    const Vector3 a = between(side.corner, creases_.tangent(side.from).point);
-    const Vector3 b = between(side.corner, creases_.tangent(side.to).point);
-    ideals.push_back(creases_.nearestOnCrease(side.from, side.to, side.corner, times(plus(a, b), 0.5)));
-  }
-  struct Choice {
-    size_t side;
-    Int3 place;
-  };
-  std::pmr::vector<Choice> choices(memory_);  // best first, side by side
-  std::pmr::vector<Int3> points(memory_);
-  for (size_t s = 0; s < sharp_.sides.size(); ++s) {
-    const SharpSide& side = sharp_.sides[s];
-    if (side.at_border) continue;
-    const auto add = [&](const Vector3& units) {
-      const Vector3 on_crease = creases_.nearestOnCrease(side.from, side.to, side.corner, units);
-      const std::optional<Int3> place = creases_.onGridAlong(side.from, side.to, side.corner, on_crease, side.axis);
-      if (!place) return;
-      choices.push_back({s, *place});
-      points.push_back(creases_.sampledAt(side.corner, *place));
-    };
-    add(meanOnCrease(side, ideals));
-    add(ideals[s]);
-  }
-  std::pmr::vector<FieldSample> samples(points.size(), memory_);
-  if (!points.empty()) field_(points, samples, Sampled::all);
-  for (size_t i = 0; i < choices.size(); ++i) {
-    SharpSide& side = sharp_.sides[choices[i].side];
-    if (side.places.empty() && creases_.isOnSurface(samples[i])) side.places = FacePlaces(choices[i].place);
   }
 }
 
@@ -179,7 +96,8 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
       feature_count += 1;
     }
   }
-  if (feature_count == 0) return centres;
+  const bool has_sides = std::any_of(sharp.sides.begin(), sharp.sides.end(), [](uint32_t s) { return s != kNone; });
+  if (feature_count == 0 && has_sides) return centres;
   const Vector3 middle = feature_count > 1 ? times(features, 1 / feature_count)
                                            : times(plus(all, features), 1 / (feature_count + loop.count));
   const auto add = [&](const Vector3& units) {
@@ -207,9 +125,29 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
     if (s == kNone || !sharp_.sides[s].at_border) continue;
     const std::span<const Int3> places = sharp_.sides[s].places.all();
     for (size_t k = 0; k < places.size(); ++k)
-      centres.add({sharp_.fromChunk(sharp_.sides[s], places[k]), SharpLoops::faceVertexOf(s, k)});
+      centres.add(
+          {sharp_.fromChunk(sharp_.sides[s], places[k]), FanCentre::Kind::face_vertex, SharpLoops::faceVertexOf(s, k)});
+  }
+  if (feature_count >= 4) {
+    Int3 within = loop.cell;
+    for (int k = 0; k < 3; ++k) within[k] = within[k] * kSubcell + kSubcell / 2;
+    centres.add({within, FanCentre::Kind::strip});
+    centres.add({within, FanCentre::Kind::strip_from_second});
   }
   add(plus(middle, axes.step(2)));
+  if (feature_count == 1) {
+    // A crease may end in a vertex, which lies on it.
+    const uint32_t only = *std::find_if(sharp.sides.begin(), sharp.sides.end(),
+                                        [&](uint32_t s) { return s != kNone && !sharp_.sides[s].places.empty(); });
+    const SharpSide& side = sharp_.sides[only];
+    const Tangent &a = creases_.tangent(side.from), &b = creases_.tangent(side.to);
+    for (uint32_t i = 0; i < loop.count; ++i) {
+      const Vector3 end = creases_.unitsFrom(corner, loop.vertices[i]);
+      if (loop.vertices[i] == side.from || loop.vertices[i] == side.to || !creases_.isOnCrease(a, b, corner, end))
+        continue;
+      add(times(plus(features, end), 0.5));
+    }
+  }
   add(middle);
   return centres;
 }
@@ -266,9 +204,28 @@ std::optional<FanCentre> Features::nextCentre(SharpLoop& sharp) const {
 
 /// Makes a loop a fan about a centre, if that fan is sound and faces out of the solid.
 bool Features::take(const FanCentre& centre, const FieldSample& sample, SharpLoop& sharp) const {
+  if (centre.isStrip()) return takeStrip(centre, sharp);
   if (!creases_.isOnSurface(sample)) return false;
   // About a face vertex, diagonals to the centre may lie in the face of the chunk.
-  return (centre.face_vertex == kNone && takeAs(centre, false, sharp)) || takeAs(centre, true, sharp);
+  return (centre.kind == FanCentre::Kind::cell_vertex && takeAs(centre, false, sharp)) || takeAs(centre, true, sharp);
+}
+
+/// Makes a loop a strip, if that is sound and the middles of its triangles lie on the surface.
+bool Features::takeStrip(const FanCentre& centre, SharpLoop& sharp) const {
+  const LoopTriangles strip = sharp_.fullFan(sharp, centre, true);
+  if (strip.all().empty()) return false;
+  std::array<Int3, LoopTriangles::kMost> middles;
+  std::array<FieldSample, LoopTriangles::kMost> samples;
+  for (size_t i = 0; i < strip.count(); ++i) {
+    const std::array<Int3, 3>& at = strip.all()[i].at;
+    Int3 middle;
+    for (int k = 0; k < 3; ++k) middle[k] = (at[0][k] + at[1][k] + at[2][k]) / 3;
+    middles[i] = creases_.sampledAt(body_.grid().origin, middle);
+  }
+  field_({middles.data(), strip.count()}, {samples.data(), strip.count()}, Sampled::all);
+  for (size_t i = 0; i < strip.count(); ++i)
+    if (!creases_.isOnSurface(samples[i])) return false;
+  return takeAs(centre, true, sharp);
 }
 
 bool Features::takeAs(const FanCentre& centre, bool by_patches, SharpLoop& sharp) const {

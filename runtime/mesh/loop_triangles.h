@@ -56,7 +56,7 @@ struct NamedTriangle {
 class LoopTriangles {
  public:
   /// A vertex and two face vertices a side.
-  static constexpr size_t kMost = 3 * kLongestCubeLoop;
+  static constexpr size_t kMost = 3 * kLongestBodyLoop;
 
   LoopTriangles() = default;
   LoopTriangles(const LoopTriangles& other) { *this = other; }

@@ -36,10 +36,10 @@ void RoundedCells::add(SharpSide& side, const VertexKey& from, const VertexKey& 
   claims_.push_back({&side, from, to, cell, first, loops_.size(), loops_.size()});
 }
 
-void RoundedCells::addBeside(const CellStep& step, const std::array<int32_t, 8>& q) {
+void RoundedCells::addBeside(const Int3& steps, const std::array<int32_t, 8>& q) {
   Claim& claim = claims_.back();
   Int3 cell = claim.cell;
-  cell[step.axis] += step.by;
+  for (int k = 0; k < 3; ++k) cell[k] += steps[k];
   addCellLoops(grid_, cell, q, part_, loops_);
   claim.end_beside = loops_.size();
 }
@@ -132,10 +132,7 @@ LoopTriangles RoundedCells::trianglesOf(size_t number, const Border& own, std::s
     const uint32_t a = loop.vertices[border.behind], b = loop.vertices[(border.behind + 1) % loop.count];
     for (size_t k = 0; k < places.size(); ++k) {
       const size_t which = part_.keys[a] < part_.keys[b] ? k : places.size() - 1 - k;
-      Int3 at = places[which];
-      for (int axis = 0; axis < 3; ++axis) {
-        at[axis] += static_cast<int32_t>((int64_t{side.corner[axis]} - grid_.origin[axis]) / grid_.cell) * kSubcell;
-      }
+      const Int3 at = fromChunk(grid_, side, places[which]);
       at_border[at_border_count++] = {at, side.axis};
       const size_t name = FacePlaces::kMost * which_border + which;
       ring[count++] = {at, kFaceVertices + static_cast<uint32_t>(name), true};

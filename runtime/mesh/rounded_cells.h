@@ -1,6 +1,6 @@
 #pragma once
 // Whether rounded loops with a face vertex in a face of the chunk keep clear of other loops: of their own cell, and of
-// the cell beside it if the face vertex lies there.
+// cells beside it if the face vertex lies there.
 
 #include <array>
 #include <functional>
@@ -15,12 +15,6 @@
 #include "mesh/sharp_loops.h"
 
 namespace sgm {
-
-/// From a cell to one beside it, by 1 or -1 cell; by 0 to itself.
-struct CellStep {
-  int axis = 0, by = 0;
-  friend bool operator==(const CellStep&, const CellStep&) = default;
-};
 
 /// Judges sides at the border by the cells beside them, one claim a side and cell. Loops there that have other sharp
 /// sides in faces of the chunk may keep the face vertices of these or lose them: a side must keep clear of them either
@@ -38,8 +32,8 @@ class RoundedCells {
   /// Claims that the rounded loop of a side keeps clear in the cell above the side's face, or below it. Borrows the
   /// side. from, to: the keys of its ends. q: the field at the cell's corners.
   void add(SharpSide& side, const VertexKey& from, const VertexKey& to, bool above, const std::array<int32_t, 8>& q);
-  /// Adds the cell beside that of the last claim to it.
-  void addBeside(const CellStep& step, const std::array<int32_t, 8>& q);
+  /// Adds a cell beside that of the last claim to it, so many cells away on each axis.
+  void addBeside(const Int3& steps, const std::array<int32_t, 8>& q);
 
   /// Takes the places of those sides whose claims fail. Once.
   void judge();
@@ -49,7 +43,7 @@ class RoundedCells {
     SharpSide* side;
     VertexKey from, to;
     Int3 cell;
-    size_t first, end, end_beside;  ///< of the loops of the cell, and behind them of the one beside
+    size_t first, end, end_beside;  ///< of the loops of the cell, and behind them of those beside
     size_t first_other = 0, end_other = 0;
   };
   /// A sharp side in a face of the chunk: behind a vertex of a loop of a claim, or the claim's own.

@@ -15,6 +15,19 @@ SharpSide sideBetween(uint32_t a, uint32_t b, const RawVector<VertexKey>& keys) 
   return side;
 }
 
+bool isAtBorder(const ChunkGrid& grid, const SharpSide& side) {
+  const int64_t from_chunk = int64_t{side.corner[side.axis]} - grid.origin[side.axis];
+  return from_chunk == 0 || from_chunk == int64_t{kChunkCells} * grid.cell;
+}
+
+Int3 fromChunk(const ChunkGrid& grid, const SharpSide& side, const Int3& place) {
+  Int3 at = place;
+  for (int k = 0; k < 3; ++k) {
+    at[k] += static_cast<int32_t>((int64_t{side.corner[k]} - grid.origin[k]) / grid.cell) * kSubcell;
+  }
+  return at;
+}
+
 VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from, size_t which) {
   const int across = 3 - side.axis - from.axis;
   const int of_face = from.axis * 2 + (from.corner[across] == side.corner[across] ? 0 : 1);
@@ -48,7 +61,7 @@ Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<c
 
 std::optional<FanCentre> SharpLoops::centreOf(const SharpLoop& sharp) const {
   if (sharp.isFan()) return sharp.centre;
-  std::array<BorderVertex, FacePlaces::kMost * kLongestCubeLoop> at_border;
+  std::array<BorderVertex, FacePlaces::kMost * kLongestBodyLoop> at_border;
   size_t count = 0;
   for (const uint32_t s : sharp.sides) {
     if (s == kNone || !sides[s].at_border) continue;
@@ -56,18 +69,9 @@ std::optional<FanCentre> SharpLoops::centreOf(const SharpLoop& sharp) const {
   }
   if (count == 0) return std::nullopt;
   const SurfaceLoop& loop = of(sharp);
-  std::array<Int3, kLongestCubeLoop> vertices;
+  std::array<Int3, kLongestBodyLoop> vertices;
   for (uint32_t i = 0; i < loop.count; ++i) vertices[i] = placeOf(body.part(), loop.vertices[i]);
   return FanCentre{roundedCentre(loop.cell, {vertices.data(), loop.count}, {at_border.data(), count})};
-}
-
-Int3 SharpLoops::fromChunk(const SharpSide& side, const Int3& place) const {
-  const ChunkGrid& grid = body.grid();
-  Int3 at = place;
-  for (int k = 0; k < 3; ++k) {
-    at[k] += static_cast<int32_t>((int64_t{side.corner[k]} - grid.origin[k]) / grid.cell) * kSubcell;
-  }
-  return at;
 }
 
 namespace {
@@ -132,9 +136,13 @@ template <class Has>
 LoopTriangles fanTriangles(const SharpLoops& sharp, const SharpLoop& own, const FanCentre& centre, bool by_patches,
                            const Has& has) {
   const SurfaceLoop& loop = sharp.of(own);
-  const bool is_closed = centre.face_vertex == SharpSide::kNone;
+  const bool is_closed = centre.kind != FanCentre::Kind::face_vertex;
   const FanPoint middle{centre.at, is_closed ? kCellVertices + own.loop : kFaceVertices + centre.face_vertex, true};
   Ring ring = ringOf(sharp, own, has);
+  const IsFree is_free = [&](uint32_t a, uint32_t b) { return isFree(sharp, loop, a, b); };
+  if (centre.isStrip()) {
+    return stripTriangles({ring.points.data(), ring.count}, centre.kind == FanCentre::Kind::strip_from_second, is_free);
+  }
   size_t start = 0;
   if (!is_closed) {
     // From behind the centre, which is a point of the ring.
@@ -143,7 +151,7 @@ LoopTriangles fanTriangles(const SharpLoops& sharp, const SharpLoop& own, const 
   }
   const std::span<const FanPoint> points(ring.points.data() + start, ring.count - (is_closed ? 0 : 1));
   if (!by_patches) return coneTriangles(middle, points, is_closed);
-  return patchTriangles(middle, points, is_closed, [&](uint32_t a, uint32_t b) { return isFree(sharp, loop, a, b); });
+  return patchTriangles(middle, points, is_closed, is_free);
 }
 
 }  // namespace

@@ -6,7 +6,9 @@
 // differ, the two tangent planes meet in a crease, and the side is SHARP: it may have a FACE VERTEX on the crease. A
 // loop with sharp sides becomes a fan about a CELL VERTEX, the point nearest to the planes of the loop's own vertices.
 // The creases from there to the face vertices divide the fan into PATCHES, each about in one plane. A patch of which
-// the cell vertex does not see all gets other diagonals (mesh/fan_triangles.h).
+// the cell vertex does not see all gets other diagonals (mesh/fan_triangles.h). Where two creases pass through a cell
+// and do not meet, the loop has no cell vertex: it is a STRIP. Where a crease passes through a loop's vertices none of
+// its sides is sharp, but it becomes a fan, too.
 //
 // Validity comes before crispness. A loop whose fan meets another triangle wrongly (mesh/triangle_faults.h) is ROUNDED:
 // it keeps its own triangles, as without features, and its sides lose their face vertices.
@@ -24,7 +26,8 @@
 // outside of the side's square the centre is 1/256 of a cell away from the chunk's face. So is the part of the cone
 // beyond the cell. If no contour crosses the square of the face beneath it, triangles there whose corners are not in
 // the face are 1/256 away or more; otherwise the cone is tested against the loops there. Of several sides with a face
-// vertex in one such square each keeps to its own part of it.
+// vertex in one such square each keeps to its own part of it, or its cone is tested against those of the others
+// (mesh/surroundings.h).
 
 #include <array>
 #include <cstdint>
@@ -67,8 +70,8 @@ struct SharpSide {
   int axis = 0;                                 ///< that the face stands on
   bool at_border = false;                       ///< its face is part of a face of the chunk
   std::array<uint32_t, 2> loops{kNone, kNone};  ///< numbers of its sharp loops, the one in the lower cell first
-  std::optional<Tangent> third;  ///< tangent where the planes of its ends meet in the chunk's face, but off the surface
-  FacePlaces places;             ///< none if it cannot have a face vertex; two at the border alone
+  std::optional<Tangent> third;                 ///< tangent where the planes of its ends meet, but off the surface
+  FacePlaces places;                            ///< none if it cannot have a face vertex; two at the border alone
 
   friend bool operator<(const SharpSide& a, const SharpSide& b) {
     return a.from != b.from ? a.from < b.from : a.to < b.to;
@@ -77,6 +80,12 @@ struct SharpSide {
 
 /// The side of a cell between two vertices of the part that has these keys. Its other members have their defaults.
 SharpSide sideBetween(uint32_t a, uint32_t b, const RawVector<VertexKey>& keys);
+
+/// Whether a side is in a face of the chunk.
+bool isAtBorder(const ChunkGrid& grid, const SharpSide& side);
+
+/// Where a place of a side is, in 1/256 of a cell from the chunk's origin.
+Int3 fromChunk(const ChunkGrid& grid, const SharpSide& side, const Int3& place);
 
 /// The key of a side's face vertex. from: of the vertex side.from. which: 0, or 1 for a second one.
 VertexKey faceVertexKey(const SharpSide& side, const VertexKey& from, size_t which);
@@ -92,14 +101,20 @@ struct BorderVertex {
 /// All places are in 1/256 of a cell from one origin.
 Int3 roundedCentre(const Int3& cell, std::span<const Int3> vertices, std::span<const BorderVertex> at_border);
 
-/// The centre of a fan: a cell vertex, or one of the loop's own face vertices at the border, which a fan has anyway.
+/// The centre of a fan: a cell vertex, or one of the loop's own face vertices at the border, which a fan has anyway. Or
+/// the loop is a strip without a centre, which creases pass through that do not meet (stripTriangles).
 struct FanCentre {
-  Int3 at;                                  ///< in 1/256 of a cell from the chunk's origin
-  uint32_t face_vertex = SharpSide::kNone;  ///< its number; kNone for a cell vertex
+  enum class Kind : uint8_t { cell_vertex, face_vertex, strip, strip_from_second };
+
+  Int3 at;  ///< in 1/256 of a cell from the chunk's origin; of a strip within the cell
+  Kind kind = Kind::cell_vertex;
+  uint32_t face_vertex = SharpSide::kNone;  ///< its number, of that kind
+
+  bool isStrip() const { return kind == Kind::strip || kind == Kind::strip_from_second; }
   friend bool operator==(const FanCentre&, const FanCentre&) = default;
 };
 
-/// A loop with sharp sides.
+/// A loop with sharp sides, or through whose vertices a crease passes.
 struct SharpLoop {
   enum class Shape : uint8_t {
     plain,    ///< its own triangles, or a fan that keeps the face vertices at the chunk's border
@@ -108,7 +123,7 @@ struct SharpLoop {
   };
 
   uint32_t loop = 0;                               ///< of the body
-  std::array<uint32_t, kLongestCubeLoop> sides{};  ///< numbers of the sides behind its vertices; kNone if not sharp
+  std::array<uint32_t, kLongestBodyLoop> sides{};  ///< numbers of the sides behind its vertices; kNone if not sharp
   Shape shape = Shape::plain;
   FanCentre centre;         ///< of a fan
   bool by_patches = false;  ///< whether a fan may have other diagonals than those to its centre
@@ -136,8 +151,7 @@ struct SharpLoops {
   static uint32_t sideOf(uint32_t face_vertex) { return face_vertex / static_cast<uint32_t>(FacePlaces::kMost); }
   /// Whether the side has its face vertices, as its loops are now.
   bool hasFaceVertices(const SharpSide& side) const;
-  /// Where a place of a side is, in 1/256 of a cell from the chunk's origin.
-  Int3 fromChunk(const SharpSide& side, const Int3& place) const;
+  Int3 fromChunk(const SharpSide& side, const Int3& place) const { return sgm::fromChunk(body.grid(), side, place); }
   /// The centre about which a loop is a fan now; nullopt if it keeps its own triangles.
   std::optional<FanCentre> centreOf(const SharpLoop& loop) const;
   /// The triangles of a loop as it is now.

@@ -1,7 +1,11 @@
 #include "mesh/sharpen.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "mesh/ambiguous_faces.h"
+#include "mesh/border_vertices.h"
 #include "mesh/creases.h"
 #include "mesh/feature_kind.h"
 #include "mesh/features.h"
@@ -28,16 +32,7 @@ uint32_t append(const ChunkGrid& grid, const VertexKey& key, const Int3& place, 
 /// The number of a cube's edge by which the loops of a cell are told apart.
 uint8_t lowestEdge(const SurfaceLoop& loop, const Int3& corner, const RawVector<VertexKey>& keys) {
   uint8_t lowest = UINT8_MAX;
-  for (uint32_t i = 0; i < loop.count; ++i) {
-    const VertexKey& key = keys[loop.vertices[i]];
-    int edge = 4 * key.axis, bit = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (axis == key.axis) continue;
-      edge += key.corner[axis] == corner[axis] ? 0 : bit;
-      bit = 2;
-    }
-    lowest = std::min(lowest, static_cast<uint8_t>(edge));
-  }
+  for (uint32_t i = 0; i < loop.count; ++i) lowest = std::min(lowest, cubeEdge(keys[loop.vertices[i]], corner));
   return lowest;
 }
 
@@ -69,7 +64,7 @@ class BodyWriter {
       const SurfaceLoop& loop = sharp_.of(sharp);
       copyTo(loop.first_index);
       copied = loop.end_index;
-      const uint32_t centre = fan->face_vertex == kNone ? addCellVertex(loop, fan->at) : kNone;
+      const uint32_t centre = fan->kind == FanCentre::Kind::cell_vertex ? addCellVertex(loop, fan->at) : kNone;
       const LoopTriangles triangles = sharp_.trianglesOf(sharp);
       for (const NamedTriangle& triangle : triangles.all()) {
         for (const uint32_t name : triangle.name) {
@@ -109,8 +104,13 @@ uint32_t sharpenBody(const ChunkGrid& grid, const FieldSampler& field, MeshPart&
   if (body.indices.empty()) return 0;
   Creases creases(grid, field, body, memory);
   creases.settle();
-  const BodyLoops loops(grid, body, memory);
-  const SharpLoops sharp = Features(loops, creases, field, memory).find();
+  std::optional<BodyLoops> loops(std::in_place, grid, body, memory);
+  const std::pmr::vector<SharpSide> border = borderSides(*loops, creases, field, memory);
+  if (std::optional<RawVector<uint32_t>> indices = resolveAmbiguousFaces(*loops, creases, border, field, memory)) {
+    body.indices = std::move(*indices);
+    loops.emplace(grid, body, memory);
+  }
+  const SharpLoops sharp = Features(*loops, creases, border, field, memory).find();
   const auto rounded = std::count_if(sharp.loops.begin(), sharp.loops.end(),
                                      [](const SharpLoop& loop) { return loop.shape == SharpLoop::Shape::rounded; });
   BodyWriter(sharp, body, memory).write();

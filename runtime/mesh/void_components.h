@@ -3,7 +3,8 @@
 //
 // Voids are those that the mesh has, so they follow its rule for faces of a cell (mesh/case_rule.h), which cuts every
 // run of solid corners off by itself: void samples join along the axes and across the diagonal of a face. Joining along
-// the axes alone would call a void closed that the mesh leaves open.
+// the axes alone would call a void closed that the mesh leaves open. In a sharp mesh some of those diagonals are closed
+// (mesh/ambiguous_faces.h): there more voids join here than there, and nothing that can be seen is taken for hidden.
 
 #include <array>
 #include <cstdint>

@@ -187,3 +187,70 @@ TEST_CASE("diagonals that are not free are not taken", "[mesh][sharpen]") {
   }
   CHECK(others > 0);
 }
+
+TEST_CASE("strips between two creases are covered once, with the creases for edges", "[mesh][sharpen]") {
+  // Two walls stand on a floor's edges x = left and x = right; the ring goes up one wall, along the floor's ends and up
+  // the other.
+  size_t seen = 0;
+  for (unsigned seed = 1; seed <= rounds(3000); ++seed) {
+    std::mt19937 random(seed);
+    CAPTURE(seed);
+    const int left = -between(random, 20, 100), right = between(random, 20, 100), depth = between(random, 60, 200);
+    std::vector<FanPoint> ring;
+    uint32_t name = 0;
+    const auto addWall = [&](int x, int from, int to) {
+      const int count = between(random, 1, 3);
+      for (int i = 1; i <= count; ++i)
+        ring.push_back({{x, from + (to - from) * i / (count + 1), between(random, 20, 90)}, name++});
+    };
+    const auto addEnd = [&](int from, int to, int y) {
+      const int count = between(random, 1, 3);
+      for (int i = 1; i <= count; ++i)
+        ring.push_back(
+            {{from + (to - from) * i / (count + 1), y + (y == 0 ? -1 : 1) * between(random, 5, 40), 0}, name++});
+    };
+    ring.push_back({{right, 0, 0}, kFaceVertices, true});
+    addWall(right, 0, depth);
+    ring.push_back({{right, depth, 0}, kFaceVertices + 1, true});
+    addEnd(right, left, depth);
+    ring.push_back({{left, depth, 0}, kFaceVertices + 2, true});
+    addWall(left, depth, 0);
+    ring.push_back({{left, 0, 0}, kFaceVertices + 3, true});
+    addEnd(left, right, 0);
+    const auto start = static_cast<std::ptrdiff_t>(random() % ring.size());
+    std::rotate(ring.begin(), ring.begin() + start, ring.end());
+    // The walls are cut off where the walk begins at the first or the third face vertex.
+    const auto first = std::find_if(ring.begin(), ring.end(), [](const FanPoint& p) { return p.is_feature; });
+    const bool from_second = first->name % 2 != 0;
+    const auto isFree = [](uint32_t, uint32_t) { return true; };
+    const LoopTriangles strip = stripTriangles(ring, from_second, isFree);
+    // Walls' tops that are not convex may have no diagonals that face one way as the wall does.
+    if (strip.count() == 0) continue;
+    ++seen;
+    REQUIRE(strip.count() == ring.size() - 2);
+    std::map<std::pair<uint32_t, uint32_t>, int> edges;
+    for (const NamedTriangle& t : strip.all()) {
+      for (size_t k = 0; k < 3; ++k) ++edges[{t.name[k], t.name[(k + 1) % 3]}];
+      const auto all = [&](const auto& is) { return std::all_of(t.at.begin(), t.at.end(), is); };
+      const bool is_flat = all([](const Int3& p) { return p.z == 0; }) ||
+                           all([&](const Int3& p) { return p.x == left; }) ||
+                           all([&](const Int3& p) { return p.x == right; });
+      CHECK(is_flat);
+    }
+    for (const auto& [edge, count] : edges) CHECK(count == 1);
+    for (const uint32_t f : {0U, 2U}) {
+      CHECK(edges.contains({kFaceVertices + f, kFaceVertices + f + 1}));
+      CHECK(edges.contains({kFaceVertices + f + 1, kFaceVertices + f}));
+    }
+    CHECK(stripTriangles(ring, from_second, [](uint32_t, uint32_t) { return false; }).count() == 0);
+  }
+  CHECK(seen * 2 > rounds(3000));
+}
+
+TEST_CASE("a ring with an odd number of face vertices, or none, is no strip", "[mesh][sharpen]") {
+  const auto isFree = [](uint32_t, uint32_t) { return true; };
+  std::vector<FanPoint> ring{{{0, 0, 0}, 0}, {{100, 0, 0}, 1}, {{100, 100, 0}, 2}, {{0, 100, 0}, 3}};
+  CHECK(stripTriangles(ring, false, isFree).count() == 0);
+  ring.insert(ring.begin() + 1, {{50, 0, 0}, kFaceVertices, true});
+  CHECK(stripTriangles(ring, false, isFree).count() == 0);
+}
