@@ -198,6 +198,7 @@ Dictionary World::statistics() const {
       {"edits", s.edits},
       {"edits_state", s.edits_state},
       {"edits_drawn", s.edits_drawn},
+      {"rounded_cells", s.rounded_cells},
       {"cache_hits", s.cache_hits},
       {"cache_misses", s.cache_misses},
       {"cache_damaged", s.cache_damaged},

@@ -314,6 +314,7 @@ sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, s
     stats->store_misses = now.baked.misses;
     stats->store_damaged = now.baked.damaged;
     stats->store_bytes = now.baked.bytes;
+    stats->rounded_cells = now.planner.rounded;
     return SGM_OK;
   });
 }

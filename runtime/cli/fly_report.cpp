@@ -47,6 +47,7 @@ Json toJson(const FlyOptions& options, const Flown& flown, const std::optional<F
       {"time_to_walkable_ms", r.walkable_ms},
       {"chunks_meshed", r.stats.chunks_meshed},
       {"finest_meshed", r.stats.finest_meshed},
+      {"rounded_cells", r.stats.rounded_cells},
       {"seam_jobs", r.stats.seam_jobs},
       {"chunks_per_second", r.seconds > 0 ? static_cast<double>(r.stats.chunks_meshed) / r.seconds : 0.0},
       {"wasted_fraction", shareOf(r.stats.chunks_in_vain, r.stats.chunks_meshed)},
@@ -131,6 +132,10 @@ void print(const FlyOptions& options, const Flown& flown, const std::optional<Fl
   }
   fmt::print("  chunks    {} meshed ({} of level 0), {} given further seams, {:.1f} % in vain\n", r.stats.chunks_meshed,
              r.stats.finest_meshed, r.stats.seam_jobs, 100 * shareOf(r.stats.chunks_in_vain, r.stats.chunks_meshed));
+  if (r.stats.rounded_cells > 0) {
+    fmt::print("  edges     {} of their cells keep rounded ones, since sharp ones would fold or cut the surface\n",
+               r.stats.rounded_cells);
+  }
   if (!r.stale.empty()) {
     const Spread stale = spreadOf(r.stale);
     fmt::print("  leaps     2 frames later {:.1f} % of the work for the old place was left, {:.1f} % in the middle\n",

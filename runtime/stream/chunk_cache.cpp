@@ -239,8 +239,9 @@ MeshedChunk surfaced(const ChunkMesher& mesher, InWork& work) {
   if (mesher.measuring != nullptr) {
     measures = measureParts(work.request, work.chunk, work.before, *mesher.measuring, measured);
   }
+  const uint32_t rounded = work.chunk.mesh.rounded;
   MeshedChunk result{surfaceOf(work.request, std::move(work.chunk), work.before, mesher.memory), std::nullopt, measured,
-                     !work.isToMesh()};
+                     rounded, !work.isToMesh()};
   result.surface.measures = measures;
   if (work.request.signs) result.voids = std::move(work.voids);
   return result;

@@ -20,6 +20,7 @@ struct MeshedChunk {
   ChunkSurface surface;                 ///< may be without triangles
   std::optional<VoidComponents> voids;  ///< where signs were asked for
   MadeMeasures measured;                ///< of the parts that were asked for, without the time to mesh them
+  uint32_t rounded = 0;                 ///< ChunkMesh::rounded, if the body was meshed now
   bool from_disk = false;               ///< all that was asked for
 };
 

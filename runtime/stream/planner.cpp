@@ -168,6 +168,7 @@ void Planner::take(std::vector<FinishedChunk>& finished, Plan& plan) {
     changed_ = true;
     ++(chunk.request.body ? stats_.meshed : stats_.seam_jobs);
     if (chunk.request.body && chunk.request.key.level == 0) ++stats_.finest;
+    stats_.rounded += chunk.rounded;
     if (chunk.voids != nullptr) {
       record.voids = std::move(chunk.voids);
       voids_changed_ = true;

@@ -47,6 +47,7 @@ struct FinishedChunk {
   std::shared_ptr<const ChunkSurface> before;   ///< as in the work item: what `surface` adds to
   std::shared_ptr<const ChunkSurface> surface;  ///< null: no triangles, or an error
   std::unique_ptr<const VoidComponents> voids;  ///< where the request was for the signs
+  uint32_t rounded = 0;                         ///< cells whose sharp features the body does not have
   bool from_disk = false;                       ///< all that the request asks for came from the disk cache
   std::optional<Error> error;                   ///< cancelled: it was never begun, and may be asked for again
 };
@@ -95,6 +96,7 @@ struct PlannerSettings {
 struct PlannerStats {
   uint64_t meshed = 0;       ///< chunks whose body came back
   uint64_t finest = 0;       ///< of these, those of level 0
+  uint64_t rounded = 0;      ///< cells of theirs that keep rounded edges
   uint64_t seam_jobs = 0;    ///< requests for seams alone that came back
   uint64_t outdated = 0;     ///< chunks that were there, and that a change had meshed again
   uint64_t edited = 0;       ///< requests that came back after edits had changed their chunk

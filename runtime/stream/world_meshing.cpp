@@ -99,6 +99,7 @@ void WorldCore::surfaceOne(Result<MeshedChunk>& chunk, const WorldState& under, 
     return;
   }
   done.from_disk = chunk->from_disk;
+  done.rounded = chunk->rounded;
   if (chunk->voids) done.voids = std::make_unique<const VoidComponents>(std::move(*chunk->voids));
   if (settings.morph) {
     Result<std::pmr::vector<MorphOffset>> morphs =

@@ -673,7 +673,7 @@ PLACE(sgm_drawn_chunk, mesh, 16);
 PLACE(sgm_drawn_chunk, seams, 24);
 PLACE(sgm_drawn_chunk, coarser, 28);
 
-SIZE(sgm_world_stats, 264);
+SIZE(sgm_world_stats, 272);
 PLACE(sgm_world_stats, struct_size, 0);
 PLACE(sgm_world_stats, next, 8);
 PLACE(sgm_world_stats, frame, 16);
@@ -708,6 +708,7 @@ PLACE(sgm_world_stats, store_hits, 232);
 PLACE(sgm_world_stats, store_misses, 240);
 PLACE(sgm_world_stats, store_damaged, 248);
 PLACE(sgm_world_stats, store_bytes, 256);
+PLACE(sgm_world_stats, rounded_cells, 264);
 
 SIZE(sgm_world_info, 896);
 PLACE(sgm_world_info, struct_size, 0);

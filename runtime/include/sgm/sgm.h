@@ -1592,12 +1592,14 @@ typedef struct sgm_world_stats {
   uint64_t store_misses;    /* parts that were looked for there, and are not, or did not come in time */
   uint64_t store_damaged;   /* of the misses, those where what was there could not be trusted */
   uint64_t store_bytes;     /* read for the hits */
+  uint64_t rounded_cells;   /* of SGM_WORLD_SHARP: cells of chunks_meshed that keep rounded edges, since sharp ones would
+                               fold or cut the surface there; those of chunks from stores and cache_folder not counted */
 } sgm_world_stats;
 
 #define SGM_WORLD_STATS_INIT                                                                                         \
   {                                                                                                                  \
     SGM_SIZEOF(sgm_world_stats), SGM_NULL, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, \
-        0, 0, 0, 0, 0, 0, 0, 0                                                                                       \
+        0, 0, 0, 0, 0, 0, 0, 0, 0                                                                                    \
   }
 
 SGM_API sgm_result sgm_world_get_stats(const sgm_world* world, sgm_world_stats* stats, sgm_error* error);
