@@ -21,6 +21,9 @@ namespace {
 
 constexpr std::string_view kKindNames[] = {"glb", "obj", "ply", "stl"};
 constexpr std::string_view kKindTitles[] = {"glTF", "OBJ", "PLY", "STL"};
+constexpr std::string_view kNoFormat = "no mesh format that we can read; .glb, .gltf, .obj, .ply and .stl are";
+
+std::string titleOf(MeshFileKind kind) { return std::string(kKindTitles[static_cast<size_t>(kind)]); }
 
 Result<TriangleMesh> readKind(std::span<const std::byte> bytes, MeshFileKind kind, const MeshLimits& limits) {
   switch (kind) {
@@ -54,8 +57,7 @@ Result<MeshFileKind> meshFileKind(std::string_view path) {
   if (end == ".gltf") return MeshFileKind::glb;
   for (size_t i = 0; i < std::size(kKindNames); ++i)
     if (end == "." + std::string(kKindNames[i])) return static_cast<MeshFileKind>(i);
-  return Error{Code::invalid_argument,
-               std::string(path) + ": no mesh format that we can read; .glb, .gltf, .obj, .ply and .stl are", 0, 0};
+  return Error{Code::invalid_argument, std::string(path) + ": " + std::string(kNoFormat), 0, 0};
 }
 
 std::optional<MeshFileKind> meshFileKind(std::span<const std::byte> bytes) {
@@ -82,7 +84,8 @@ std::string_view meshFileAdvice(MeshFileKind kind) {
   return {};
 }
 
-Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, MeshFileKind& kind, const MeshLimits& limits) {
+Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, std::optional<MeshFileKind>& kind,
+                                const MeshLimits& limits) {
   if (bytes.empty()) return Error{Code::bad_input, "it is empty", 0, 0};
   // What is binary by its beginning or its size is no text, whatever it begins with.
   std::optional<MeshFileKind> found = isBinaryStl(bytes) ? std::optional(MeshFileKind::stl) : std::nullopt;
@@ -92,25 +95,27 @@ Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, MeshFileKind& 
   if (!found)
     if (const std::string_view foreign = foreignFile(content); !foreign.empty())
       return Error{Code::bad_input, "it is " + std::string(foreign), 0, 0};
-  const MeshFileKind named = std::exchange(kind, found.value_or(kind));
-  Result<TriangleMesh> mesh = readKind(content, kind, limits);
+  const std::optional<MeshFileKind> named = std::exchange(kind, found ? found : kind);
+  if (!kind) return Error{Code::bad_input, std::string(kNoFormat), 0, 0};
+  Result<TriangleMesh> mesh = readKind(content, *kind, limits);
   if (!mesh) return mesh;
   mesh->origin = originOf(content);
   mesh->in_metres = kind == MeshFileKind::glb;
-  if (kind != named)
-    mesh->notes.insert(mesh->notes.begin(), "by its bytes it is " +
-                                                std::string(kKindTitles[static_cast<size_t>(kind)]) + ", not " +
-                                                std::string(kKindTitles[static_cast<size_t>(named)]) +
-                                                " as its name or type says, and is read as such");
+  if (kind != named) {
+    std::string note = "by its bytes it is " + titleOf(*kind);
+    if (named) note += ", not " + titleOf(*named) + " as its name or type says";
+    mesh->notes.insert(mesh->notes.begin(), note + ", and is read as such");
+  }
   return mesh;
 }
 
-Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, MeshFileKind named, const MeshLimits& limits) {
+Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, std::optional<MeshFileKind> named,
+                              const MeshLimits& limits) {
   Result<TriangleMesh> mesh = readMeshOf(bytes, named, limits);
-  if (mesh || mesh.error().code == Code::invalid_argument) return mesh;
+  if (mesh || mesh.error().code == Code::invalid_argument || !named) return mesh;
   Error error = mesh.error();
   error.message.append("; ").append(error.code == Code::limit ? "simplify it, or split it into several files"
-                                                              : meshFileAdvice(named));
+                                                              : meshFileAdvice(*named));
   return error;
 }
 

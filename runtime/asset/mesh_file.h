@@ -23,12 +23,14 @@ std::optional<MeshFileKind> meshFileKind(std::span<const std::byte> bytes);
 std::string_view meshFileAdvice(MeshFileKind kind);
 
 /// The triangles of a file, as the reader of its kind says. The bytes decide the kind where they tell it: `named` is
-/// what a name or a media type says, and a note tells if it says something else. Text may be in UTF-8 or UTF-16. Linear
-/// in the file's size. Errors: bad_input, with the line, the byte or the JSON pointer in the message; limit. Behind
-/// what is wrong the message says what to do.
-Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, MeshFileKind named, const MeshLimits& limits = {});
+/// what a name or a media type says, nullopt if that says nothing, and a note tells if the bytes say something else.
+/// Text may be in UTF-8 or UTF-16. Linear in the file's size. Errors: bad_input, with the line, the byte or the JSON
+/// pointer in the message; limit. Behind what is wrong the message says what to do.
+Result<TriangleMesh> readMesh(std::span<const std::byte> bytes, std::optional<MeshFileKind> named,
+                              const MeshLimits& limits = {});
 
 /// The same, with messages that say what is wrong alone; `kind` becomes that of the bytes.
-Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, MeshFileKind& kind, const MeshLimits& limits = {});
+Result<TriangleMesh> readMeshOf(std::span<const std::byte> bytes, std::optional<MeshFileKind>& kind,
+                                const MeshLimits& limits = {});
 
 }  // namespace sgm::asset

@@ -62,9 +62,6 @@ Result<masters::OpenedBase> mastersOf(const std::string& file) {
 
 Exit classifyMesh(const ClassifyOptions& options) {
   const bool grammar = isGrammarFile(options.file);
-  const Result<asset::MeshFileKind> kind =
-      grammar ? asset::MeshFileKind{} : asset::meshFileKind(std::string_view(options.file));
-  if (!kind) return complain(Exit::usage, kind.error().message + "; or a grammar, .sgm");
   const Result<masters::OpenedBase> base = mastersOf(options.masters);
   if (!base) return complain(base.error());
   if (grammar) return classifyGrammar(options, *base);
@@ -73,7 +70,7 @@ Exit classifyMesh(const ClassifyOptions& options) {
   limits.seconds = options.seconds;
   return printOrComplain(runLimited(
       [&]() -> Result<std::string> {
-        const Result<asset::TriangleMesh> mesh = readMeshFile(options.file, *kind);
+        const Result<asset::TriangleMesh> mesh = readMeshFile(options.file);
         if (!mesh) return mesh.error();
         return reportOf(*mesh, options, *base, options.density.value_or(0),
                         {{"file", options.file}, {"notes", mesh->notes}});

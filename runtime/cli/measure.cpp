@@ -84,14 +84,13 @@ Result<Section> against(const asset::TriangleMesh& mesh, asset::TriangleMesh oth
   return distanceSection(*found, options.against, other.triangles.size(), mesh.origin);
 }
 
-Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKind kind,
-                                asset::MeshFileKind against_kind) {
+Result<std::string> measureFile(const MeasureOptions& options) {
   const Stopwatch watch;
-  const auto read = [](const std::string& file, asset::MeshFileKind of) {
+  const auto read = [](const std::string& file) {
     const ProgressBar bar("reading");
-    return readMeshFile(file, of);
+    return readMeshFile(file);
   };
-  const Result<asset::TriangleMesh> mesh = read(options.file, kind);
+  const Result<asset::TriangleMesh> mesh = read(options.file);
   if (!mesh) return mesh.error();
   const Result<std::unique_ptr<JobSystem>> jobs = makeThreadPool(options.threads);
   if (!jobs) return jobs.error();
@@ -100,7 +99,7 @@ Result<std::string> measureFile(const MeasureOptions& options, asset::MeshFileKi
   if (options.texels) sections.emplace_back("texels", texelSection(*mesh, *options.texels));
   if (options.drawing) sections.emplace_back("drawing", drawingSection(drawingCost({mesh->points, mesh->triangles})));
   if (!options.against.empty()) {
-    Result<asset::TriangleMesh> other = read(options.against, against_kind);
+    Result<asset::TriangleMesh> other = read(options.against);
     if (!other) return other.error();
     Result<Section> section = against(*mesh, std::move(*other), options, **jobs);
     if (!section) return section.error();
@@ -146,10 +145,10 @@ std::string textOf(const WorldOptions& options, const Region& region) {
                      metres(extent.hi.y), metres(extent.hi.z));
 }
 
-Exit measureGrammar(const MeasureOptions& options, asset::MeshFileKind against_kind, const ProcessLimits& limits) {
+Exit measureGrammar(const MeasureOptions& options, const ProcessLimits& limits) {
   std::optional<asset::TriangleMesh> other;
   if (!options.against.empty()) {
-    Result<asset::TriangleMesh> read = readMeshFileApart(options.against, against_kind, limits);
+    Result<asset::TriangleMesh> read = readMeshFileApart(options.against, limits);
     if (!read) return complain(read.error());
     other = std::move(*read);
   }
@@ -200,25 +199,19 @@ Exit measureMesh(const MeasureOptions& options) {
   ProcessLimits limits;
   limits.memory = options.memory << 20;
   limits.seconds = options.seconds;
-  const auto kindOf = [](const std::string& file) { return asset::meshFileKind(std::string_view(file)); };
-  Result<asset::MeshFileKind> against_kind = asset::MeshFileKind{};
-  if (!options.against.empty()) against_kind = kindOf(options.against);
-  if (!against_kind) return complain(Exit::usage, "--against: " + against_kind.error().message);
   if (grammar && options.against.empty() && !options.of_files.empty())
     return complain(Exit::usage, options.of_files.front() + " is for mesh files, and for a grammar's --against");
   if (grammar && options.level + options.levels > kMaxLevel)
     return complain(Exit::usage, fmt::format("--level and --levels reach level {}, and {} is the coarsest",
                                              options.level + options.levels, kMaxLevel));
-  if (grammar) return measureGrammar(options, *against_kind, limits);
-  const Result<asset::MeshFileKind> kind = kindOf(options.file);
-  if (!kind) return complain(Exit::usage, kind.error().message + "; or a grammar, .sgm");
+  if (grammar) return measureGrammar(options, limits);
   if (options.field || options.levels > 0) {
     return complain(Exit::usage, fmt::format("{} is for grammars: a mesh file has no field and no levels",
                                              options.field ? "--field" : "--levels"));
   }
   if (!options.of_grammars.empty())
     return complain(Exit::usage, options.of_grammars.front() + " is for grammars: a mesh file is measured as it is");
-  const Result<std::string> report = runLimited([&] { return measureFile(options, *kind, *against_kind); }, limits);
+  const Result<std::string> report = runLimited([&] { return measureFile(options); }, limits);
   return printed(report, options.strict);
 }
 

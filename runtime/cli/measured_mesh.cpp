@@ -58,7 +58,7 @@ bool isGrammarFile(const std::string& path) {
   return ending == ".sgm";
 }
 
-Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, asset::MeshFileKind kind) {
+Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, std::optional<asset::MeshFileKind> kind) {
   // What a file may hold is limited by the process's memory alone.
   asset::MeshLimits limits;
   limits.points = limits.triangles = std::numeric_limits<uint32_t>::max();
@@ -68,20 +68,21 @@ Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, asse
   return asset::readMesh(bytes, kind, limits);
 }
 
-Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind) {
+Result<asset::TriangleMesh> readMeshFile(const std::string& file) {
   const Result<std::vector<std::byte>> bytes = readBytes(file);
   if (!bytes) return bytes.error();
-  Result<asset::TriangleMesh> mesh = readMeshBytes(*bytes, kind);
+  // Where the name tells no kind the bytes may.
+  const Result<asset::MeshFileKind> named = asset::meshFileKind(std::string_view(file));
+  Result<asset::TriangleMesh> mesh = readMeshBytes(*bytes, named ? std::optional(*named) : std::nullopt);
   if (!mesh) return Error{mesh.error().code, file + ": " + mesh.error().message};
   for (const std::string& note : mesh->notes) fmt::print(stderr, "sgm: note: {}: {}\n", file, note);
   return mesh;
 }
 
-Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, asset::MeshFileKind kind,
-                                              const ProcessLimits& limits) {
+Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, const ProcessLimits& limits) {
   const Result<std::string> said = runLimited(
       [&]() -> Result<std::string> {
-        const Result<asset::TriangleMesh> mesh = readMeshFile(file, kind);
+        const Result<asset::TriangleMesh> mesh = readMeshFile(file);
         if (!mesh) return mesh.error();
         std::string bytes;
         append(bytes, std::vector<uint64_t>{mesh->points.size(), mesh->triangles.size()});

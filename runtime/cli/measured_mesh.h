@@ -16,15 +16,14 @@ namespace sgm::cli {
 bool isGrammarFile(const std::string& path);
 
 /// The triangles of a file that is in memory, however many. Errors: those of readMesh.
-Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, asset::MeshFileKind kind);
+Result<asset::TriangleMesh> readMeshBytes(std::span<const std::byte> bytes, std::optional<asset::MeshFileKind> kind);
 
 /// With what the reader notes on stderr, a line each. Errors: io; those of readMesh, with the file's name in front.
-Result<asset::TriangleMesh> readMeshFile(const std::string& file, asset::MeshFileKind kind);
+Result<asset::TriangleMesh> readMeshFile(const std::string& file);
 
 /// The same in a process of its own; points, triangles and the origin alone come out of it. To be called before this
 /// process has threads. Errors: those of readMeshFile and runLimited.
-Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, asset::MeshFileKind kind,
-                                              const ProcessLimits& limits);
+Result<asset::TriangleMesh> readMeshFileApart(const std::string& file, const ProcessLimits& limits);
 
 /// The box that was meshed, from the mesh's origin.
 measure::Cut cutOf(const Region& region);

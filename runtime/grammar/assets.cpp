@@ -37,9 +37,9 @@ std::optional<uint32_t> addAsset(Program& program, std::string_view path, std::s
                join({"cannot import `", path, "`: ", error.message}), std::string(advice));
     return std::nullopt;
   };
-  asset::MeshFileKind kind = asset::MeshFileKind::glb;
+  std::optional<asset::MeshFileKind> kind = asset::MeshFileKind::glb;
   Result<asset::TriangleMesh> mesh = asset::readMeshOf(std::as_bytes(std::span(bytes)), kind);
-  if (!mesh) return refuse(mesh.error(), asset::meshFileAdvice(kind));
+  if (!mesh) return refuse(mesh.error(), asset::meshFileAdvice(*kind));
   for (const std::string& note : mesh->notes) sink.warning(span, codes::kAsset, join({"`", path, "`: ", note}));
   Result<asset::Polyhedron> solid = asset::makePolyhedron(*mesh);
   if (!solid)

@@ -162,6 +162,16 @@ TEST_CASE("a file's kind is told by its name or by its beginning", "[asset][mesh
     CHECK(of(bytes) == std::nullopt);
 }
 
+TEST_CASE("a file whose name tells nothing is read by its bytes", "[asset][mesh_file]") {
+  const auto mesh = readMesh(bytesOf("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), std::nullopt);
+  REQUIRE(mesh);
+  CHECK(mesh->triangles.size() == 1);
+  CHECK(mesh->notes == std::vector<std::string>{"by its bytes it is OBJ, and is read as such"});
+  CHECK(readMesh(bytesOf("?"), std::nullopt).error().message ==
+        "no mesh format that we can read; .glb, .gltf, .obj, .ply and .stl are");
+  CHECK(readMesh(bytesOf("ply\n"), std::nullopt).error().message.ends_with(meshFileAdvice(MeshFileKind::ply)));
+}
+
 TEST_CASE("what is refused says what to do", "[asset][mesh_file]") {
   const std::string none = "?";
   const auto message = [&](MeshFileKind kind) { return readMesh(bytesOf(none), kind).error().message; };
