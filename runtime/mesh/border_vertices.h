@@ -22,7 +22,7 @@ std::pmr::vector<SharpSide> borderSides(const BodyLoops& body, const Creases& cr
 ///
 /// Pure; both chunks at a face and the seam between them find the same. grid: of the sides' level, whose chunks begin
 /// at multiples of 32 cells; its origin is a multiple of a cell. keys: of the vertices that the sides join. The field
-/// is sampled up to two cells and a unit away from the sides' squares. Throws std::bad_alloc.
+/// is sampled up to sharpReach() away from the sides' squares. Throws std::bad_alloc.
 void placeBorderVertices(const ChunkGrid& grid, const FieldSampler& field, const Creases& creases,
                          const RawVector<VertexKey>& keys, std::span<SharpSide> sides,
                          std::pmr::memory_resource* memory);

@@ -51,7 +51,7 @@ enum VertexKind : uint16_t {
 /// A packed vertex, 16 bytes, the same on every backend.
 struct Vertex {
   int16_t x, y, z;             ///< 1/256 of the chunk's cell edge, from the chunk's origin: 0..8192; of a feature
-                               ///< vertex of the coarser level in a seam -256..8448
+                               ///< vertex of the coarser level in a seam -400..8592
   uint16_t material;           ///< index into the grammar's materials
   int16_t normal_x, normal_y;  ///< octahedral, 1/32767; points out of the solid
   uint16_t tag;                ///< index into the grammar's tags

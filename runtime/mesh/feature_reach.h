@@ -12,8 +12,9 @@ namespace sgm {
 /// two cells away.
 inline constexpr int32_t kMostOutside = 200;
 
-/// How far from a chunk the field of a level with such cells is sampled for sharp features, in units: at the corners of
-/// the cells beside its faces, and of the squares beside theirs (mesh/border_vertices.h, mesh/rounded_cells.h).
-inline constexpr int64_t sharpReach(int64_t cell) { return 2 * cell + 1; }
+/// How far from a chunk the field of a level with such cells is sampled for sharp features, in units. A face vertex in
+/// the coarser chunk's face depends on loops up to two squares away from its side's own, beyond the finer chunk, too,
+/// and these on face vertices up to kMostOutside beyond theirs (mesh/surroundings.h, mesh/rounded_cells.h).
+inline constexpr int64_t sharpReach(int64_t cell) { return 3 * cell + 1; }
 
 }  // namespace sgm

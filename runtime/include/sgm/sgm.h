@@ -809,7 +809,7 @@ typedef enum sgm_vertex_kind {
 /* A packed vertex, 16 bytes, the same on every backend. */
 typedef struct sgm_vertex {
   int16_t x, y, z;            /* 0 to 8,192 in 1/256 of the chunk's cell edge, from the chunk's origin; of features
-                                 of the coarser level -256 to 8,448 */
+                                 of the coarser level -400 to 8,592 */
   uint16_t material;          /* index for sgm_grammar_material */
   int16_t normal_x, normal_y; /* octahedral, +-32,767: with n = normal / 32767 and w = 1 - |n.x| - |n.y|, the normal is
                                  (n.x, n.y, w) where w >= 0, else ((1 - |n.y|) * sign(n.x), (1 - |n.x|) * sign(n.y), w),

@@ -14,6 +14,7 @@
 #include "mesh/feature_kind.h"
 #include "mesh/feature_reach.h"
 #include "mesh/hash.h"
+#include "mesh/seam.h"
 #include "mesh/split_creases.h"
 #include "mesh/vertex.h"
 #include "mesh/vertex_keys.h"
@@ -136,8 +137,8 @@ ContentHash hashOf(MeshPart part) {
 }  // namespace
 
 TEST_CASE("edges of turned boxes are straight", "[mesh][sharpen][costly]") {
-  // One box in four hundred has a corner at the border of the chunks, which passes through all boxes, that the samples in
-  // the border see apart from the rest, or of which the field there does not tell the third plane.
+  // One box in four hundred has a corner at the border of the chunks, which passes through all boxes, that the samples
+  // in the border see apart from the rest, or of which the field there does not tell the third plane.
   size_t blunt = 0;
   for (uint64_t seed = 1; seed <= rounds(200); ++seed) {
     INFO("seed " << seed);
@@ -223,15 +224,22 @@ TEST_CASE("boxes joined and cut at random stay closed, with keys of their own", 
   CHECK(features > 10000);
 }
 
+namespace {
+
+/// Around a corner of the two chunks: the lowest or the highest of their common face.
+struct AtCorner : Field {
+  JoinedBoxes boxes;
+  double up;
+  explicit AtCorner(uint64_t seed, bool highest = false) : boxes(seed), up((highest ? -16 : 16) * kCell) {}
+  double at(const Vector3& p, Vector3& gradient) const override {
+    return boxes.at({p[0], p[1] + up, p[2] + up}, gradient);
+  }
+};
+
+}  // namespace
+
 TEST_CASE("sharp features do not depend on the field farther away than they say", "[mesh][sharpen]") {
   // What reaches only farther is missing from the program of one chunk, and there in the other's.
-  struct AtCorner : Field {
-    JoinedBoxes boxes;
-    explicit AtCorner(uint64_t seed) : boxes(seed) {}
-    double at(const Vector3& p, Vector3& gradient) const override {
-      return boxes.at({p[0], p[1] + 16 * kCell, p[2] + 16 * kCell}, gradient);
-    }
-  };
   int64_t farthest = 0;
   for (uint64_t seed = 1; seed <= rounds(60); ++seed) {
     INFO("seed " << seed);
@@ -253,6 +261,48 @@ TEST_CASE("sharp features do not depend on the field farther away than they say"
   }
   CHECK(farthest >= kCell);
   CHECK(farthest <= sharpReach(kCell));
+}
+
+TEST_CASE("seams do not depend on the coarser field farther away than they say", "[mesh][sharpen]") {
+  constexpr int32_t kCoarseCell = 2 * kCell;
+  int64_t farthest = 0;
+  for (uint64_t seed = 1; seed <= rounds(40); ++seed) {
+    INFO("seed " << seed);
+    // The coarser chunk's face goes on there.
+    const AtCorner boxes(seed * 7, true);
+    const auto coarse = [&](const Int3& p) {
+      Vector3 gradient{};
+      return static_cast<int32_t>(std::floor(boxes.at(exact(p), gradient) * 64));
+    };
+    const FieldSampler all = samplerOf(boxes);
+    CoarseFace face;
+    for (int b = 0; b < kCoarseSamples; ++b) {
+      for (int a = 0; a < kCoarseSamples; ++a) {
+        const int32_t q = coarse(coarseFacePoint(kLeft, Face::x_hi, a, b));
+        face.q[static_cast<size_t>(a + b * kCoarseSamples)] = q;
+        face.signs[static_cast<size_t>(b)] |= static_cast<uint32_t>(q < 0) << a;
+      }
+    }
+    MeshPart seam;
+    polygonizeSeam(Face::x_hi, samplesOf(boxes, kLeft), face, kLeft, 0, seam);
+    for (Vertex& v : seam.vertices) {
+      Vector3 gradient{};
+      boxes.at(exact(vertexUnits(kLeft, v)), gradient);
+      packNormal(gradient, v.normal_x, v.normal_y);
+    }
+    const FieldSampler above = [&](std::span<const Int3> points, std::span<FieldSample> samples, Sampled what) {
+      all(points, samples, what);
+      for (const Int3& point : points) {
+        for (int k = 1; k < 3; ++k) {
+          const int64_t at = int64_t{point[k]} - kLeft.origin[k], size = int64_t{kChunkCells} * kCell;
+          farthest = std::max({farthest, -at, at - size});
+        }
+      }
+    };
+    sharpenSeam(kLeft, Face::x_hi, all, above, seam);
+  }
+  CHECK(farthest >= kCoarseCell);
+  CHECK(farthest <= sharpReach(kCoarseCell));
 }
 
 TEST_CASE("smooth shapes keep their bytes", "[mesh][sharpen]") {

@@ -97,7 +97,7 @@ inline Vector3 exact(const Int3& p) {
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
-inline MeshPart meshChunk(const Field& field, const ChunkGrid& grid) {
+inline ChunkSamples samplesOf(const Field& field, const ChunkGrid& grid) {
   ChunkSamples samples;
   Vector3 gradient{};
   size_t i = 0;
@@ -110,6 +110,12 @@ inline MeshPart meshChunk(const Field& field, const ChunkGrid& grid) {
       }
     }
   }
+  return samples;
+}
+
+inline MeshPart meshChunk(const Field& field, const ChunkGrid& grid) {
+  const ChunkSamples samples = samplesOf(field, grid);
+  Vector3 gradient{};
   MeshPart part;
   polygonizeBody(samples, grid, part);
   for (Vertex& v : part.vertices) {
