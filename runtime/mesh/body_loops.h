@@ -1,5 +1,5 @@
 #pragma once
-// The loops of marching cubes that a chunk's body was made from.
+// The loops of marching cubes that a chunk's body is made of: as meshed, or with joined faces (mesh/ambiguous_faces.h).
 
 #include <algorithm>
 #include <array>
@@ -29,7 +29,7 @@ struct SurfaceLoop {
   uint32_t first_index = 0, end_index = 0;  ///< its triangles, in the body's indices
 };
 
-/// The loops of a body as meshed, in the order of its triangles. Throws std::bad_alloc.
+/// The loops of a body without features, in the order of its triangles. Throws std::bad_alloc.
 class BodyLoops {
  public:
   /// Borrows the body. Good until its triangles change.

@@ -152,7 +152,8 @@ Features::Centres Features::centresOf(const SharpLoop& sharp) const {
   return centres;
 }
 
-/// Gives each loop the first of its possible centres that makes a sound fan, with one look at the field for all.
+/// Gives each loop the first of its possible centres that makes a sound fan, with one look at the field for all of one
+/// rank; strips look for themselves.
 void Features::placeCellVertices() {
   std::pmr::vector<uint32_t> without(sharp_.loops.size(), memory_), left(memory_);
   std::iota(without.begin(), without.end(), 0);
@@ -213,7 +214,11 @@ bool Features::take(const FanCentre& centre, const FieldSample& sample, SharpLoo
 /// Makes a loop a strip, if that is sound and the middles of its triangles lie on the surface.
 bool Features::takeStrip(const FanCentre& centre, SharpLoop& sharp) const {
   const LoopTriangles strip = sharp_.fullFan(sharp, centre, true);
-  if (strip.all().empty()) return false;
+  if (!facesOut(strip, creases_)) return false;
+  if (hasFault(strip)) {
+    if (!sharp.isFan()) sharp.shape = SharpLoop::Shape::rounded;
+    return false;
+  }
   std::array<Int3, LoopTriangles::kMost> middles;
   std::array<FieldSample, LoopTriangles::kMost> samples;
   for (size_t i = 0; i < strip.count(); ++i) {
@@ -225,7 +230,8 @@ bool Features::takeStrip(const FanCentre& centre, SharpLoop& sharp) const {
   field_({middles.data(), strip.count()}, {samples.data(), strip.count()}, Sampled::all);
   for (size_t i = 0; i < strip.count(); ++i)
     if (!creases_.isOnSurface(samples[i])) return false;
-  return takeAs(centre, true, sharp);
+  makeFan(centre, true, sharp);
+  return true;
 }
 
 bool Features::takeAs(const FanCentre& centre, bool by_patches, SharpLoop& sharp) const {
@@ -235,10 +241,14 @@ bool Features::takeAs(const FanCentre& centre, bool by_patches, SharpLoop& sharp
     if (!sharp.isFan()) sharp.shape = SharpLoop::Shape::rounded;
     return false;
   }
+  makeFan(centre, by_patches, sharp);
+  return true;
+}
+
+void Features::makeFan(const FanCentre& centre, bool by_patches, SharpLoop& sharp) {
   sharp.shape = SharpLoop::Shape::fan;
   sharp.centre = centre;
   sharp.by_patches = by_patches;
-  return true;
 }
 
 }  // namespace sgm

@@ -32,7 +32,7 @@ class Features {
     std::span<const FanCentre> all() const { return {centres_.data(), count_}; }
 
    private:
-    std::array<FanCentre, 12> centres_;
+    std::array<FanCentre, 6 + FacePlaces::kMost * kLongestBodyLoop + kLongestBodyLoop> centres_;
     size_t count_ = 0;
   };
 
@@ -44,6 +44,7 @@ class Features {
   bool takeNextCentre(SharpLoop& loop) const;
   bool take(const FanCentre& centre, const FieldSample& sample, SharpLoop& loop) const;
   bool takeStrip(const FanCentre& centre, SharpLoop& loop) const;
+  static void makeFan(const FanCentre& centre, bool by_patches, SharpLoop& loop);
   bool takeAs(const FanCentre& centre, bool by_patches, SharpLoop& loop) const;
   const SurfaceLoop& of(const SharpLoop& loop) const { return sharp_.of(loop); }
 

@@ -3,8 +3,9 @@
 //
 // The order of face vertices along a crease follows from the places nearest to the sides' middles; but where the crease
 // passes near a corner of the grid these may come in another order than the sides, or fall together. Each face vertex
-// is therefore placed at the mean of its own such place, which counts twice, and those of the next sides of the two
-// loops that it joins: three sides on span more than one cell, so that the means come in order.
+// that no third plane cuts off is therefore placed at the mean of its own such place, which counts twice, and those of
+// the next sides of the two loops that it joins: three sides on span more than one cell, so that the means come in
+// order.
 
 #include <memory_resource>
 

@@ -2,9 +2,10 @@
 // Edges and corners of a chunk, which marching cubes cuts off: the features of mesh/features.h, put into a body or
 // seam.
 //
-// A loop with face vertices becomes a fan (mesh/sharp_loops.h). All other loops keep their triangles. A seam takes up
-// the face vertices of both levels that it joins, which lie in its face: the triangles at those sides are divided. So a
-// closed surface stays closed, and manifold.
+// A loop that a crease passes through becomes a fan or a strip (mesh/sharp_loops.h), and cells beside an ambiguous face
+// may get other loops (mesh/ambiguous_faces.h). All other loops keep their triangles. A seam takes up the face vertices
+// of both levels that it joins, which lie in its face: the triangles at those sides are divided. So a closed surface
+// stays closed, and manifold.
 
 #include "mesh/creases.h"
 

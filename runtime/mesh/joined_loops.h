@@ -1,0 +1,119 @@
+#pragma once
+// The loops of a body's cells where ambiguous faces are joined (mesh/ambiguous_faces.h).
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "mesh/body_loops.h"
+#include "mesh/triangulate_any.h"
+
+namespace sgm {
+
+/// By the cell on the high side of a face, and the axis that the face stands on.
+struct FaceName {
+  Int3 cell;
+  int axis = 0;
+  friend auto operator<=>(const FaceName& a, const FaceName& b) {
+    return std::array{a.cell.z, a.cell.y, a.cell.x, int32_t{a.axis}} <=>
+           std::array{b.cell.z, b.cell.y, b.cell.x, int32_t{b.axis}};
+  }
+  friend bool operator==(const FaceName&, const FaceName&) = default;
+
+  std::array<Int3, 2> cells() const {
+    Int3 below = cell;
+    --below[axis];
+    return {below, cell};
+  }
+  static std::array<FaceName, 6> of(const Int3& cell) {
+    std::array<FaceName, 6> names;
+    for (int k = 0; k < 3; ++k) {
+      const auto low = static_cast<size_t>(2 * k);
+      names[low] = names[low + 1] = {cell, k};
+      ++names[low + 1].cell[k];
+    }
+    return names;
+  }
+};
+
+struct AmbiguousFace {
+  FaceName name;
+  std::array<Int3, 2> solid;  ///< its solid corners, in units
+  bool is_joined = true;      ///< whether its solid corners are joined
+};
+
+/// A loop of one cell: its vertices, in 1/256 of a cell from the chunk's origin.
+struct CellLoop {
+  using Triangles = std::array<uint32_t, 3 * (kLongestBodyLoop - 2)>;
+
+  std::array<LoopPoint, kLongestBodyLoop> points;
+  int count = 0;
+
+  /// Whether it has triangles without a diagonal in a face of its cell.
+  bool canTriangulate() const;
+  /// Its triangles, three vertices each, kept in `triangles`. Precondition: canTriangulate().
+  std::span<const uint32_t> triangulated(Triangles& triangles) const;
+};
+
+/// The loops of one cell, in the order of their lowest edges.
+struct CellLoops {
+  std::array<CellLoop, kCubeEdges / 3> all;
+  size_t count = 0;
+
+  std::span<const CellLoop> loops() const { return {all.data(), count}; }
+};
+
+/// The loops of all cells of a body, some of whose faces are joined.
+class JoinedLoops {
+ public:
+  /// Borrows the body.
+  JoinedLoops(const BodyLoops& body, std::pmr::memory_resource* memory) : body_(body), faces_(memory) {}
+
+  const BodyLoops& body() const { return body_; }
+  /// The face that two vertices of a loop lie in, which share one.
+  FaceName faceOf(const SurfaceLoop& loop, uint32_t a, uint32_t b) const;
+  /// Calls visit(loop, from, to) for every side of a cell's loops as meshed.
+  template <class Visit>
+  void visitSides(const Int3& cell, const Visit& visit) const {
+    body_.visitWithin(cell, cell, [&](uint32_t number) {
+      const SurfaceLoop& loop = body_.all()[number];
+      for (uint32_t i = 0; i < loop.count; ++i) visit(loop, loop.vertices[i], loop.vertices[(i + 1) % loop.count]);
+    });
+  }
+
+  /// By name, without repetition.
+  void setFaces(std::pmr::vector<AmbiguousFace>&& faces) { faces_ = std::move(faces); }
+  std::span<const AmbiguousFace> faces() const { return faces_; }
+  bool isJoined(const FaceName& name) const;
+  bool isJoinedAt(const Int3& cell) const;
+  /// Precondition: the face is one of faces().
+  void setJoined(const FaceName& name, bool is_joined) { faces_[numberOf(name)].is_joined = is_joined; }
+  CellLoops loopsOf(const Int3& cell) const;
+
+ private:
+  static constexpr uint32_t kNone = UINT32_MAX;
+
+  /// The part of a loop in one face of a cell.
+  struct Side {
+    uint32_t from = 0, to = 0;
+    uint32_t face = kNone;  ///< number of the ambiguous face, if it may be joined
+  };
+
+  /// The sides of all loops of a cell, and the loops that they make.
+  struct CellSides {
+    std::array<Side, kCubeEdges> all;
+    size_t count = 0;
+
+    std::span<Side> sides() { return {all.data(), count}; }
+  };
+
+  uint32_t numberOf(const FaceName& name) const;
+  CellSides sidesOf(const Int3& cell) const;
+
+  const BodyLoops& body_;
+  std::pmr::vector<AmbiguousFace> faces_;
+};
+
+}  // namespace sgm
