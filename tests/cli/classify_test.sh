@@ -72,7 +72,9 @@ json 'j.class === "unknown" && /no edge/.test(j.reason) && j.edges === 0'
 # What cannot be classified.
 expect 4 "$SGM" classify none.glb
 one_line
-expect 2 "$SGM" classify letter.txt
+echo 'Dear Sir or Madam' >letter.txt
+expect 1 "$SGM" classify letter.txt
+err_has 'letter.txt: no mesh format that we can read; .glb'
 one_line
 printf 'glTF and nothing else' >bad.glb
 expect 1 "$SGM" classify bad.glb

@@ -178,8 +178,9 @@ expect 2 "$SGM" measure ball.sgm --levels 0
 expect 2 "$SGM" measure ball.sgm --levels 17
 expect 2 "$SGM" measure ball.glb --texels 0
 expect 2 "$SGM" measure ball.glb --texels nan
-expect 2 "$SGM" measure ball.glb --against ball.txt
-err_has '--against: .*glb'
+echo 'Dear Sir or Madam' >letter.txt
+expect 1 "$SGM" measure ball.glb --against letter.txt
+err_has 'letter.txt: no mesh format that we can read; .glb'
 one_line
 for subject in ball.glb ball.sgm; do
   expect 4 "$SGM" measure $subject --against nothing.glb
@@ -231,9 +232,16 @@ one_line
 mkfifo pipe.obj
 expect 4 "$SGM" measure pipe.obj
 one_line
-expect 2 "$SGM" measure ball.txt
-err_has 'glb'
+expect 4 "$SGM" measure ball.txt
+err_has 'cannot read ball.txt'
 one_line
+expect 1 "$SGM" measure letter.txt
+err_has 'letter.txt: no mesh format that we can read; .glb'
+one_line
+# A name without a known ending is no fault: the bytes tell the format.
+cp ball.glb unnamed
+expect 0 "$SGM" measure unnamed
+err_has 'unnamed: by its bytes it is glTF, and is read as such'
 # Endings count in letters of any case.
 cp ball.sgm CAPITALS.SGM
 cp ball.glb CAPITALS.GLB
