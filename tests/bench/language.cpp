@@ -112,7 +112,7 @@ void print(const char* what, const bench::Times& times) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) return fail("give a grammar of a city, such as samples/grammars/city.sgm");
+  if (argc < 2) return fail("give a grammar of a city, such as tests/bench/grammars/city.sgm");
   const int runs = argc > 2 ? std::max(1, std::atoi(argv[2])) : 15;
   const std::string houses = longGrammar();
   const auto lines = std::count(houses.begin(), houses.end(), '\n');

@@ -24,7 +24,7 @@ out=${out:-out/streaming}
 mkdir -p "$out"
 rm -f "$out"/*.flight.json "$out"/*.crowd.json
 
-cave=$here/../../samples/grammars/cave.sgm
+cave=$here/grammars/cave.sgm
 frames=600 dug=1200 checked=1000
 world=(--cell 0.25 --seed 3) speeds=(5 20 60) seeds=(1 2 3)
 crowd_seconds=10 budget_seconds=5 far_seconds=180
@@ -46,7 +46,7 @@ flight() {
   node -e 'const [file, status, command] = process.argv.slice(1);
     const text = require("fs").readFileSync(file, "utf8");
     console.log(JSON.stringify({ command, status: +status, report: text ? JSON.parse(text) : null }))' \
-    "$report" "$status" "sgm fly samples/grammars/cave.sgm $*" >"$out/$name.flight.json"
+    "$report" "$status" "sgm fly tests/bench/grammars/cave.sgm $*" >"$out/$name.flight.json"
   rm "$report"
 }
 
@@ -71,7 +71,7 @@ crowd() {
   node -e 'const [file, command] = process.argv.slice(1);
     const text = require("fs").readFileSync(file, "utf8");
     console.log(JSON.stringify({ command, report: text ? JSON.parse(text) : null }))' \
-    "$report" "sgm_bench_crowds samples/grammars/cave.sgm $*" >"$out/$name.crowd.json"
+    "$report" "sgm_bench_crowds tests/bench/grammars/cave.sgm $*" >"$out/$name.crowd.json"
   rm "$report"
 }
 crowds() {

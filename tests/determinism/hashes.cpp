@@ -1,4 +1,4 @@
-// Hashes of fixed pieces of the sample grammars, to compare over builds and machines.
+// Hashes of fixed pieces of the grammars that figures are compared by, over builds and machines.
 //
 //   sgm_hashes GRAMMARS GOLDEN [--record | --threads N [--first]]
 //

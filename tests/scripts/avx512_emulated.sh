@@ -53,7 +53,7 @@ fi
 rm -rf "$work/guest" "$work/iso"
 mkdir -p "$work"/guest/{bin,dev,lib,lib64,proc,tmp} "$work/iso"
 cp "$(command -v busybox)" "$work/guest/bin/busybox"
-cp -r "$root/samples/grammars" "$work/guest"
+cp -r "$root/tests/bench/grammars" "$work/guest"
 for program in "${programs[@]}"; do
   cp "$program" "$work/guest/bin"
   while read -r library; do
