@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "mesh/fan_conflicts.h"
 #include "mesh/fan_triangles.h"

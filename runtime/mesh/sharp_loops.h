@@ -7,8 +7,8 @@
 // loop with sharp sides becomes a fan about a CELL VERTEX, the point nearest to the planes of the loop's own vertices.
 // The creases from there to the face vertices divide the fan into PATCHES, each about in one plane. A patch of which
 // the cell vertex does not see all gets other diagonals (mesh/fan_triangles.h). Where two creases pass through a cell
-// and do not meet, the loop has no cell vertex: it is a STRIP. Where a crease passes through a loop's vertices none of
-// its sides is sharp, but it becomes a fan, too.
+// and do not meet, the loop has no cell vertex: it is a STRIP. Where a crease passes through a loop's vertices its
+// sides are not sharp, but it becomes a fan, too.
 //
 // Validity comes before crispness. A loop whose fan meets another triangle wrongly (mesh/triangle_faults.h) is ROUNDED:
 // it keeps its own triangles, as without features, and its sides lose their face vertices.

@@ -37,15 +37,6 @@ struct Slab : Field {
   }
 };
 
-struct Ball : Field {
-  double at(const Vector3& p, Vector3& gradient) const override {
-    const Vector3 d = minus(p, {16.0 * kCell + 17, 16.0 * kCell - 5, 16.0 * kCell + 60});
-    const double length = std::sqrt(dot(d, d));
-    gradient = times(d, 1 / length);
-    return length - 9.3 * kCell;
-  }
-};
-
 MeshPart resolved(const Field& field, MeshPart body) {
   const FieldSampler sampler = samplerOf(field);
   Creases creases(kChunk, sampler, body, std::pmr::get_default_resource());
@@ -137,7 +128,7 @@ TEST_CASE("slabs thinner than a face's diagonal have fewer parts, and stay close
 }
 
 TEST_CASE("surfaces without creases keep their triangles", "[mesh][sharpen]") {
-  const Ball ball;
+  const Sphere ball(9.3 * kCell, {16.0 * kCell + 17, 16.0 * kCell - 5, 16.0 * kCell + 60});
   const MeshPart plain = meshChunk(ball, kChunk);
   const MeshPart joined = resolved(ball, plain);
   CHECK(std::equal(joined.indices.begin(), joined.indices.end(), plain.indices.begin(), plain.indices.end()));

@@ -51,17 +51,6 @@ struct JoinedBoxes : Field {
   }
 };
 
-struct Sphere : Field {
-  double radius;
-  explicit Sphere(double r) : radius(r) {}
-  double at(const Vector3& p, Vector3& gradient) const override {
-    const Vector3 d = minus(p, {32.0 * kCell + 17, 16.0 * kCell - 5, 16.0 * kCell + 60});
-    const double length = std::sqrt(dot(d, d));
-    gradient = {d[0] / length, d[1] / length, d[2] / length};
-    return length - radius;
-  }
-};
-
 constexpr ChunkGrid kLeft{{0, 0, 0}, kCell, 0}, kRight{{kChunkCells * kCell, 0, 0}, kCell, 0};
 
 /// Two chunks side by side.
@@ -289,7 +278,7 @@ TEST_CASE("seams do not depend on the coarser field farther away than they say",
     for (Vertex& v : seam.vertices) {
       Vector3 gradient{};
       boxes.at(exact(vertexUnits(kLeft, v)), gradient);
-      packNormal(gradient, v.normal_x, v.normal_y);
+      setNormal(gradient, v);
     }
     const FieldSampler above = [&](std::span<const Int3> points, std::span<FieldSample> samples, Sampled what) {
       all(points, samples, what);

@@ -2,6 +2,7 @@
 // Solids with edges, whose chunks tests mesh and sharpen.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -80,17 +81,26 @@ struct TurnedBox : Field {
   }
 };
 
-/// As the runtime's shaders pack normals.
-inline void packNormal(const Vector3& n, int16_t& x, int16_t& y) {
-  const double sum = std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]);
-  double a = n[0] / sum, b = n[1] / sum;
-  if (n[2] < 0) {
-    const double folded = (1 - std::fabs(b)) * (a < 0 ? -1 : 1);
-    b = (1 - std::fabs(a)) * (b < 0 ? -1 : 1);
-    a = folded;
+struct Sphere : Field {
+  double radius;
+  Vector3 centre;
+  /// Around the middle of two chunks side by side in x, if no centre is given.
+  explicit Sphere(double r, const Vector3& c = {32.0 * kCell + 17, 16.0 * kCell - 5, 16.0 * kCell + 60})
+      : radius(r), centre(c) {}
+  double at(const Vector3& p, Vector3& gradient) const override {
+    const Vector3 d = minus(p, centre);
+    const double length = std::sqrt(dot(d, d));
+    gradient = {d[0] / length, d[1] / length, d[2] / length};
+    return length - radius;
   }
-  x = static_cast<int16_t>(std::floor(a * 32767 + 0.5));
-  y = static_cast<int16_t>(std::floor(b * 32767 + 0.5));
+};
+
+/// Gives a vertex or a sample a direction as its packed normal.
+template <class Packed>
+void setNormal(const Vector3& n, Packed& packed) {
+  const std::array<int16_t, 2> normal = packNormal(n);
+  packed.normal_x = normal[0];
+  packed.normal_y = normal[1];
 }
 
 inline Vector3 exact(const Int3& p) {
@@ -120,7 +130,7 @@ inline MeshPart meshChunk(const Field& field, const ChunkGrid& grid) {
   polygonizeBody(samples, grid, part);
   for (Vertex& v : part.vertices) {
     field.at(exact(vertexUnits(grid, v)), gradient);
-    packNormal(gradient, v.normal_x, v.normal_y);
+    setNormal(gradient, v);
   }
   return part;
 }
@@ -133,7 +143,7 @@ inline FieldSampler samplerOf(const Field& field) {
       samples[i].value = static_cast<float>(value);
       samples[i].q = static_cast<int32_t>(std::floor(value * 64));
       samples[i].gradient = {static_cast<float>(g[0]), static_cast<float>(g[1]), static_cast<float>(g[2])};
-      packNormal(g, samples[i].normal_x, samples[i].normal_y);
+      setNormal(g, samples[i]);
     }
   };
 }
