@@ -9,8 +9,8 @@ out_has '\| line \| asked \| reached \| met \|'
 [[ $(grep -c 'not measured' <<<"$out") == $((6 - crowds)) ]] || failed "something was not measured"
 lines=figures/streaming.csv
 [[ $(head -1 $lines) == line,asked,reached,met,command ]] || failed "the CSV has no such columns"
-[[ $(wc -l <$lines) == 19 && $(grep -c 'sgm fly samples/grammars/cave.sgm --' $lines) == 12 ]] || failed "18 lines expected"
-[[ $(grep -c 'sgm_bench_crowds samples/grammars/cave.sgm' $lines) == $crowds ]] || failed "$crowds lines of crowds expected"
+[[ $(wc -l <$lines) == 19 && $(grep -c 'sgm fly tests/bench/grammars/cave.sgm --' $lines) == 12 ]] || failed "18 lines expected"
+[[ $(grep -c 'sgm_bench_crowds tests/bench/grammars/cave.sgm' $lines) == $crowds ]] || failed "$crowds lines of crowds expected"
 grep -q '^<svg .*</svg>$' figures/streaming.svg || failed "no chart"
 
 # One that tells of an open edge, and one that says nothing.
