@@ -19,7 +19,7 @@ SGM_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config
   libhwy-dev libzstd-dev libxxhash-dev libcurl4-openssl-dev
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
-  libcli11-dev libfmt-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libsqlite3-dev
+  libcli11-dev libembree-dev libfmt-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libsqlite3-dev
   libboost-dev prometheus-cpp-dev
 )
 SGM_TEST_PACKAGES=(

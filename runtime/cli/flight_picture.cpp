@@ -26,7 +26,7 @@ constexpr std::array<glm::vec3, 8> kLevelColours{{{0.75f, 0.75f, 0.72f},
 std::vector<RenderMaterial> picturedMaterials(const sgm_grammar* grammar, bool levels) {
   std::vector<RenderMaterial> materials;
   for (const glm::vec3& colour : kLevelColours)
-    if (levels) materials.push_back({SurfacePattern::smooth, colour, 0.9f, 0.0f});
+    if (levels) materials.push_back({SurfacePattern::plain, colour, 0.9f, 0.0f});
   for (uint32_t i = 0; !levels && i < sgm_grammar_material_count(grammar); ++i)
     materials.push_back(materialByName(sgm_grammar_material(grammar, i)));
   if (materials.empty()) materials.emplace_back();

@@ -90,8 +90,8 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, const Dr
 }
 
 /// Without a pattern, which would hide the edges.
-constexpr RenderMaterial kUnderWires{SurfacePattern::smooth, {0.55f, 0.55f, 0.52f}, 0.9f, 0.0f};
-constexpr RenderMaterial kWire{SurfacePattern::smooth, {0.01f, 0.02f, 0.05f}, 1.0f, 0.0f};
+constexpr RenderMaterial kUnderWires{SurfacePattern::plain, {0.55f, 0.55f, 0.52f}, 0.9f, 0.0f};
+constexpr RenderMaterial kWire{SurfacePattern::plain, {0.01f, 0.02f, 0.05f}, 1.0f, 0.0f};
 
 /// Adds the mesh's edges as ribbons that face the camera, of one width in the picture whatever their distance.
 void addWires(const Region& region, const RenderCamera& camera, Drawable& drawn) {

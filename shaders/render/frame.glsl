@@ -3,7 +3,6 @@ const uint kMaxLamps = 8u;  // the headlamp first
 
 layout(std140, binding = 3) uniform Frame {
   mat4 view_projection;
-  mat4 sun_view_projection;
   vec4 eye;             // w: angle of one sample in radians
   vec4 pattern_offset;  // from the scene's origin to the patterns' own, metres; w: exposure
   vec4 forward;         // w: fog distance, metres
@@ -21,4 +20,3 @@ layout(std430, binding = 4) readonly buffer Materials { Material materials[]; };
 layout(std430, binding = 5) writeonly buffer Pixels { uint pixels[]; };
 layout(binding = 0) uniform sampler2D position_plane;
 layout(binding = 1) uniform sampler2D normal_plane;
-layout(binding = 2) uniform sampler2D shadow_plane;

@@ -5,21 +5,14 @@
 #include "render/noise.glsl"
 #include "render/materials.glsl"
 #include "render/light.glsl"
-#include "render/shadow.glsl"
+#include "render/traced.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-Surface surfaceAt(uint material, vec3 p, vec3 n, float footprint) {
+Surface surfaceAt(uint material, vec3 p, vec3 n, vec3 to_eye, float footprint, float wet) {
   Material m = materials[min(material, frame.counts.y - 1u)];
-  vec3 colour = m.colour_roughness.rgb;
-  float roughness = m.colour_roughness.w, strength = uintBitsToFloat(m.pattern.y);
-  switch (m.pattern.x) {
-    case 0u: return rock(p, n, colour, roughness, strength, footprint);
-    case 1u: return flowstone(p, n, colour, roughness, strength, footprint);
-    case 2u: return brickwork(p, n, colour, roughness, strength, footprint);
-    case 4u: return vapour(p, n, colour, strength, footprint);
-    default: return plain(p, n, colour, roughness, strength, footprint);
-  }
+  Spot at = Spot(p, n, to_eye, m.colour_roughness.rgb, m.colour_roughness.w, uintBitsToFloat(m.pattern.y), footprint, wet);
+  return patterned(m.pattern.x, at);
 }
 
 // Texture coordinates in the place of a material: what surface.frag has found of them.
@@ -31,43 +24,34 @@ Surface chequered(float field, vec3 n) {
   s.roughness = 0.8;
   s.specular = 0.03;
   s.translucency = 0.0;
+  s.within = vec3(0.0);
   return s;
 }
 
-vec3 lamps(Surface s, vec3 p, vec3 n, vec3 to_eye, float open, vec2 turn) {
-  vec3 sum = vec3(0.0), bounce = vec3(0.0);
+vec3 lamps(Surface s, vec3 p, vec3 n, vec3 to_eye, Traced traced) {
+  vec3 sum = vec3(0.0);
   for (uint i = 0u; i < frame.counts.x; ++i) {
+    float lit = traced.open[i / 4u][i % 4u];
     vec3 away = frame.lamp_position[i].xyz - p;
-    float reach = frame.lamp_position[i].w, d2 = dot(away, away), d = sqrt(d2);
-    float end = d / (kLampRange * reach);
-    if (end >= 1.0) continue;
-    float window = 1.0 - end * end;
+    float d = length(away), fall = lampFall(d, frame.lamp_position[i].w);
+    if (lit * fall <= 0.0) continue;
     vec3 l = away / d;
-    vec3 light = frame.lamp_colour[i].rgb * (window * window * 1.2 * reach * reach / (d2 + 0.32 * reach * reach));
-    // The beam of the headlamp is wide and its rim soft.
-    if (i == 0u) light *= mix(0.22, 1.0, smoothstep(0.60, 0.97, dot(-l, frame.forward.xyz)));
-    bool faces = dot(n, l) > -0.5 * s.translucency;
-    float lit = faces ? lampReaches(i, p, n, turn) : 0.0;
-    sum += light * lit * reflected(s, l, to_eye);
-    // Lit walls send part of the light back everywhere near them.
-    bounce += light * (0.35 + 0.65 * lit) * (0.6 + 0.4 * dot(n, l));
+    if (i == 0u) fall *= lampBeam(-dot(l, frame.forward.xyz));
+    sum += frame.lamp_colour[i].rgb * (fall * lit) * reflected(s, l, to_eye);
   }
-  return sum * mix(0.55, 1.0, open) + bounce * s.albedo * (0.05 * open);
+  return sum;
 }
 
-vec3 sunlight(Surface s, vec3 p, vec3 n, vec3 to_eye, float open, vec2 turn) {
-  float lit = sunReaches(p, n, turn);
-  vec3 ground = vec3(0.24, 0.23, 0.21), zenith = vec3(0.42, 0.58, 0.86);
+vec3 sunlight(Surface s, vec3 n, vec3 to_eye, float open, Traced traced) {
+  float lit = traced.open[0].x;
   if (s.translucency > 0.99) {
     // Vapour scatters so often that shade fills with light: it darkens by how far it faces away, not by its relief.
     float facing = 0.5 + 0.5 * dot(normalize(mix(n, s.normal, 0.6)), frame.sun.xyz);
     float day = facing * facing * mix(0.55, 1.0, lit) * mix(0.75, 1.0, open);
     float rim = pow(max(0.0, -dot(frame.sun.xyz, to_eye)), 4.0) * pow(1.0 - abs(dot(n, to_eye)), 3.0);
-    vec3 shade = mix(ground, zenith, 0.55 + 0.45 * n.y) * mix(0.6, 1.0, open);
-    return s.albedo * (0.80 * shade + vec3(1.22, 1.12, 0.97) * (day + rim));
+    return s.albedo * (1.1 * softOn(traced, n, s.normal) + 0.55 * sunLight() * (day + rim));
   }
-  vec3 result = vec3(2.2, 2.0, 1.7) * reflected(s, frame.sun.xyz, to_eye) * lit;
-  return result * mix(0.7, 1.0, open) + s.albedo * mix(ground, zenith, 0.5 + 0.5 * s.normal.y) * (0.9 * open);
+  return sunLight() * reflected(s, frame.sun.xyz, to_eye) * lit;
 }
 
 vec3 background(vec3 d) { return frame.size.w == 1u ? sky(d) : vec3(0.0022, 0.0025, 0.0030); }
@@ -107,21 +91,22 @@ vec3 sampleAt(ivec2 at) {
   float t = length(p - frame.eye.xyz);
   // Seen edge-on, a sample covers more of the surface; half of that is what looks sharp without flicker.
   float footprint = t * frame.eye.w / mix(1.0, max(0.25, abs(dot(n, d))), 0.5);
-  Surface s = surfaceAt(uint(seen.w) - 1u, p + frame.pattern_offset.xyz, n, footprint);
+  Traced traced = tracedAt(at, p, n, t);
+  Surface s = surfaceAt(uint(seen.w) - 1u, p + frame.pattern_offset.xyz, n, -d, footprint, traced.wet);
   if (facing.w > 0.0) s = chequered(facing.w, n);
   s.normal = turnedTo(-d, s.normal, n);
-  float wide = openness(at, p, n, t, clamp(0.12 * t, 0.5, 40.0), turn.x);
-  float fine = openness(at, p, n, t, clamp(0.025 * t, 0.12, 8.0), turn.y);
-  float open = wide * fine;
-  vec3 colour;
+  // Rays are too few to find what lies a hand's breadth away.
+  float open = openness(at, p, n, t, clamp(0.02 * t, 0.10, 4.0), turn.y);
+  vec3 colour = s.within;
   if (frame.size.w == 1u) {
-    colour = sunlight(s, p, n, -d, open, turn.yz);
+    colour += sunlight(s, n, -d, open, traced);
     if (s.translucency > 0.99) colour = mix(colour, sky(d), 0.8 * rimOf(at, turn.x));
   } else {
-    colour = lamps(s, p, n, -d, open, turn.yz);
-    vec3 everywhere = mix(vec3(0.90, 0.80, 0.70), vec3(0.85, 0.95, 1.10), 0.5 + 0.5 * s.normal.y);
-    colour += s.albedo * everywhere * (frame.sun.w * open);
+    colour += lamps(s, p, n, -d, traced);
   }
+  if (s.translucency <= 0.99) colour += s.albedo * softOn(traced, n, s.normal) * mix(0.35, 1.0, open);
+  float grazing = 1.0 - max(0.0, dot(s.normal, -d));
+  colour += traced.mirror * (s.specular + (1.0 - s.specular) * pow(grazing, 5.0));
   return haze(colour, d, t);
 }
 

@@ -69,7 +69,7 @@ std::vector<Place> placesInVoid(const RayCaster& mesh, float far) {
   std::vector<Place> places;
   const size_t count = std::min(kCandidates, mesh.triangleCount());
   for (size_t i = 0; i < count; ++i) {
-    const uint32_t triangle = mesh.inOrder(i * mesh.triangleCount() / count);
+    const auto triangle = static_cast<uint32_t>(i * mesh.triangleCount() / count);
     const glm::vec3 facing = mesh.facing(triangle);
     if (!(glm::dot(facing, facing) > 0)) continue;
     const glm::vec3 n = glm::normalize(facing);
@@ -270,9 +270,11 @@ View insideView(const RayCaster& mesh, const Sight& sight, const CameraWish& wis
 }  // namespace
 
 Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
-                          const CameraWish& wish, std::pmr::memory_resource* memory) {
+                          const CameraWish& wish) {
   if (indices.empty()) return Error{Code::invalid_argument, "there is nothing to look at: the mesh has no triangle"};
-  const RayCaster mesh(vertices, indices, memory);
+  const Result<RayCaster> tree = RayCaster::over(vertices, indices);
+  if (!tree) return tree.error();
+  const RayCaster& mesh = *tree;
   const glm::vec3 centre = 0.5f * (mesh.lo() + mesh.hi());
   const float radius = std::max(0.5f * glm::distance(mesh.lo(), mesh.hi()), 1e-3f), far = 2 * radius;
   std::vector<Place> places;
@@ -303,12 +305,14 @@ Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<cons
   return view;
 }
 
-View viewFrom(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices, const RenderCamera& camera,
-              std::pmr::memory_resource* memory) {
+Result<View> viewFrom(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
+                      const RenderCamera& camera) {
   View view;
   view.camera = camera;
   if (indices.empty()) return view;
-  const RayCaster mesh(vertices, indices, memory);
+  const Result<RayCaster> tree = RayCaster::over(vertices, indices);
+  if (!tree) return tree.error();
+  const RayCaster& mesh = *tree;
   const float far = glm::distance(mesh.lo(), mesh.hi()) + glm::distance(camera.position, mesh.lo());
   const CameraWish wish{camera.width, camera.height, camera.fov_degrees, {}, false};
   const glm::vec3 forward = glm::normalize(camera.target - camera.position);

@@ -2,7 +2,6 @@
 // A camera that finds its own place, and the light that goes with it.
 
 #include <glm/vec3.hpp>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -40,13 +39,15 @@ enum class Light : uint32_t {
 /// Looks for a view in the mesh: from inside the void where the mesh encloses one (at an anchor if there is one), where
 /// the space is widest and the view deep and varied; else the whole shape, three quarters from above (from below
 /// where it floats). The same mesh and
-/// wish give the same view. Errors: invalid_argument where there is no triangle.
+/// wish give the same view. Errors: invalid_argument where there is no triangle;
+/// out_of_memory.
 Result<View> chooseCamera(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
-                          const CameraWish& wish, std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+                          const CameraWish& wish);
 
 /// The view of a given camera: how deep it looks, whether walls are all around it, where lamps would go.
-View viewFrom(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices, const RenderCamera& camera,
-              std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+/// Error: out_of_memory.
+Result<View> viewFrom(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
+                      const RenderCamera& camera);
 
 /// Sets the scene's camera, lamps, fog, exposure and background to suit the view.
 void lightScene(const View& view, Light light, RenderScene& scene);

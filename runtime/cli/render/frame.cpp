@@ -36,28 +36,6 @@ glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   return m;
 }
 
-// Everything the sun sees, in parallel; reversed depth, as in the other passes.
-glm::mat4 sunViewProjection(const RenderScene& scene) {
-  glm::vec3 lo{1e30f}, hi{-1e30f};
-  for (const RenderVertex& vertex : scene.vertices) {
-    lo = glm::min(lo, vertex.position);
-    hi = glm::max(hi, vertex.position);
-  }
-  if (scene.vertices.empty()) lo = hi = glm::vec3(0);
-  const glm::vec3 centre = 0.5f * (lo + hi), to_sun = glm::normalize(scene.sun_direction);
-  const float scale = 1 / std::max(0.5f * glm::distance(lo, hi), 1e-3f);
-  const glm::vec3 level = glm::cross(to_sun, glm::vec3(0, 1, 0));
-  const glm::vec3 right = glm::dot(level, level) > 1e-8f ? glm::normalize(level) : glm::vec3(1, 0, 0);
-  const std::array<glm::vec3, 3> axes{right * scale, glm::cross(right, to_sun) * scale, to_sun * (0.5f * scale)};
-  glm::mat4 m(1);
-  for (int row = 0; row < 3; ++row) {
-    const glm::vec3 axis = axes[static_cast<size_t>(row)];
-    for (int column = 0; column < 3; ++column) m[column][row] = axis[column];
-    m[3][row] = (row == 2 ? 0.5f : 0.0f) - glm::dot(axis, centre);
-  }
-  return m;
-}
-
 }  // namespace
 
 bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -96,7 +74,6 @@ Frame frameOf(const RenderScene& scene) {
   const float samples = static_cast<float>(camera.height * scene.supersample);
   Frame frame{};
   frame.view_projection = viewProjection(camera, axes);
-  if (scene.background == Background::sky) frame.sun_view_projection = sunViewProjection(scene);
   frame.eye = glm::vec4(camera.position, 2 * axes.half_height / samples);
   frame.pattern_offset =
       glm::vec4(wrapped(scene.origin.x), wrapped(scene.origin.y), wrapped(scene.origin.z), scene.exposure);

@@ -12,7 +12,6 @@ namespace sgm {
 
 struct Frame {
   glm::mat4 view_projection;
-  glm::mat4 sun_view_projection;
   glm::vec4 eye;
   glm::vec4 pattern_offset;
   glm::vec4 forward;
@@ -24,7 +23,7 @@ struct Frame {
   glm::uvec4 size;
   glm::uvec4 counts;
 };
-static_assert(sizeof(Frame) == 128 + 6 * 16 + 2 * 16 * (kMaxLamps + 1) + 32);
+static_assert(sizeof(Frame) == 64 + 6 * 16 + 2 * 16 * (kMaxLamps + 1) + 32);
 
 struct FrameMaterial {
   glm::vec4 colour_roughness;

@@ -16,6 +16,11 @@ constexpr VkFormat kPositionFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
+constexpr std::array kShadeTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                 VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                 VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                 VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
 Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   const std::array attachments{
       clearedAttachment(kPositionFormat, VK_ATTACHMENT_STORE_OP_STORE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
@@ -48,39 +53,21 @@ Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   return scope.renderPass(info);
 }
 
-}  // namespace
-
-VkAttachmentDescription clearedAttachment(VkFormat format, VkAttachmentStoreOp store, VkImageLayout final_layout) {
-  VkAttachmentDescription description{};
-  description.format = format;
-  description.samples = VK_SAMPLE_COUNT_1_BIT;
-  description.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-  description.storeOp = store;
-  description.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-  description.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-  description.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-  description.finalLayout = final_layout;
-  return description;
-}
-
-Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout,
-                                    std::span<const uint32_t> vertex_spirv, std::span<const uint32_t> fragment_spirv) {
-  const bool coloured = !fragment_spirv.empty();
+/// Draws RenderVertex triangles' fronts into reversed depth and both planes.
+Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout) {
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (VkPipelineShaderStageCreateInfo& stage : stages) {
     stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     stage.pName = "main";
   }
-  auto vertex = scope.shader(vertex_spirv);
+  auto vertex = scope.shader(spirv::kSurfaceVert);
   if (!vertex) return vertex.error();
   stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
   stages[0].module = *vertex;
-  if (coloured) {
-    auto fragment = scope.shader(fragment_spirv);
-    if (!fragment) return fragment.error();
-    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-    stages[1].module = *fragment;
-  }
+  auto fragment = scope.shader(spirv::kSurfaceFrag);
+  if (!fragment) return fragment.error();
+  stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
+  stages[1].module = *fragment;
 
   const VkVertexInputBindingDescription binding{0, sizeof(RenderVertex), VK_VERTEX_INPUT_RATE_VERTEX};
   const std::array<VkVertexInputAttributeDescription, 6> attributes{
@@ -94,7 +81,7 @@ Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass
   input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
   input.vertexBindingDescriptionCount = 1;
   input.pVertexBindingDescriptions = &binding;
-  input.vertexAttributeDescriptionCount = coloured ? static_cast<uint32_t>(attributes.size()) : 1;
+  input.vertexAttributeDescriptionCount = static_cast<uint32_t>(attributes.size());
   input.pVertexAttributeDescriptions = attributes.data();
   VkPipelineInputAssemblyStateCreateInfo assembly{};
   assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
@@ -124,7 +111,7 @@ Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass
   }
   VkPipelineColorBlendStateCreateInfo blend{};
   blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-  blend.attachmentCount = coloured ? static_cast<uint32_t>(blends.size()) : 0;
+  blend.attachmentCount = static_cast<uint32_t>(blends.size());
   blend.pAttachments = blends.data();
   const std::array dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
   VkPipelineDynamicStateCreateInfo dynamic{};
@@ -134,7 +121,7 @@ Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass
 
   VkGraphicsPipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-  info.stageCount = coloured ? 2 : 1;
+  info.stageCount = static_cast<uint32_t>(stages.size());
   info.pStages = stages.data();
   info.pVertexInputState = &input;
   info.pInputAssemblyState = &assembly;
@@ -147,6 +134,21 @@ Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass
   info.layout = layout;
   info.renderPass = render_pass;
   return scope.graphicsPipeline(info);
+}
+
+}  // namespace
+
+VkAttachmentDescription clearedAttachment(VkFormat format, VkAttachmentStoreOp store, VkImageLayout final_layout) {
+  VkAttachmentDescription description{};
+  description.format = format;
+  description.samples = VK_SAMPLE_COUNT_1_BIT;
+  description.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+  description.storeOp = store;
+  description.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+  description.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  description.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  description.finalLayout = final_layout;
+  return description;
 }
 
 Result<VkFramebuffer> makeFramebuffer(VulkanScope& scope, VkRenderPass render_pass, std::span<const VkImageView> views,
@@ -185,57 +187,61 @@ Result<SurfacePass> makeSurfacePass(VulkanScope& scope, VkExtent2D extent) {
   auto layout = scope.pipelineLayout(VK_NULL_HANDLE, VK_SHADER_STAGE_VERTEX_BIT, sizeof(glm::mat4));
   if (!layout) return layout.error();
   pass.layout = *layout;
-  auto draw = makeMeshPipeline(scope, pass.render_pass, pass.layout, spirv::kSurfaceVert, spirv::kSurfaceFrag);
+  auto draw = makeMeshPipeline(scope, pass.render_pass, pass.layout);
   if (!draw) return draw.error();
   pass.draw = *draw;
   return pass;
 }
 
-Result<ShadePass> makeShadePass(VulkanScope& scope, const SurfacePass& surfaces, const VulkanImage& shadows,
-                                const VulkanBuffer& frame, const VulkanBuffer& materials, const VulkanBuffer& pixels) {
-  constexpr std::array kTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                              VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-                              VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-  ShadePass pass;
-  auto set_layout = scope.setLayout(kTypes, VK_SHADER_STAGE_COMPUTE_BIT);
+Result<ShadePipeline> makeShadePipeline(VulkanScope& scope, uint32_t patterns) {
+  ShadePipeline made;
+  made.patterns = patterns;
+  auto set_layout = scope.setLayout(kShadeTypes, VK_SHADER_STAGE_COMPUTE_BIT);
   if (!set_layout) return set_layout.error();
-  auto layout = scope.pipelineLayout(*set_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0);
+  made.set_layout = *set_layout;
+  auto layout = scope.pipelineLayout(made.set_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0);
   if (!layout) return layout.error();
-  pass.layout = *layout;
+  made.layout = *layout;
   auto shader = scope.shader(spirv::kShadeComp);
   if (!shader) return shader.error();
-  auto pipeline = scope.computePipeline(*shader, pass.layout);
+  auto pipeline = scope.computePipeline(*shader, made.layout, patterns);
   if (!pipeline) return pipeline.error();
-  pass.pipeline = *pipeline;
-  auto set = scope.descriptorSet(*set_layout, kTypes);
+  made.pipeline = *pipeline;
+  return made;
+}
+
+Result<VkDescriptorSet> makeShadeSet(VulkanScope& scope, const ShadePipeline& pipeline, const SurfacePass& surfaces,
+                                     const ShadeBuffers& buffers) {
+  auto set = scope.descriptorSet(pipeline.set_layout, kShadeTypes);
   if (!set) return set.error();
-  pass.set = *set;
   auto sampler = scope.sampler();
   if (!sampler) return sampler.error();
 
-  const std::array<VkDescriptorImageInfo, 3> images{
+  const std::array<VkDescriptorImageInfo, 2> images{
       {{*sampler, surfaces.positions.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
-       {*sampler, surfaces.normals.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
-       {*sampler, shadows.view, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL}}};
-  const std::array<VkDescriptorBufferInfo, 3> buffers{
-      {{frame.handle, 0, VK_WHOLE_SIZE}, {materials.handle, 0, VK_WHOLE_SIZE}, {pixels.handle, 0, VK_WHOLE_SIZE}}};
-  std::array<VkWriteDescriptorSet, kTypes.size()> writes{};
+       {*sampler, surfaces.normals.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}}};
+  const std::array<VkDescriptorBufferInfo, 5> infos{{{buffers.direct.handle, 0, VK_WHOLE_SIZE},
+                                                     {buffers.frame.handle, 0, VK_WHOLE_SIZE},
+                                                     {buffers.materials.handle, 0, VK_WHOLE_SIZE},
+                                                     {buffers.pixels.handle, 0, VK_WHOLE_SIZE},
+                                                     {buffers.soft.handle, 0, VK_WHOLE_SIZE}}};
+  std::array<VkWriteDescriptorSet, kShadeTypes.size()> writes{};
   for (uint32_t i = 0; i < writes.size(); ++i) {
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-    writes[i].dstSet = pass.set;
+    writes[i].dstSet = *set;
     writes[i].dstBinding = i;
     writes[i].descriptorCount = 1;
-    writes[i].descriptorType = kTypes[i];
+    writes[i].descriptorType = kShadeTypes[i];
     if (i < images.size()) {
       writes[i].pImageInfo = &images[i];
     } else {
-      writes[i].pBufferInfo = &buffers[i - images.size()];
+      writes[i].pBufferInfo = &infos[i - images.size()];
     }
   }
   const VulkanDevice& device = scope.device();
   device.calls().vkUpdateDescriptorSets(device.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0,
                                         nullptr);
-  return pass;
+  return *set;
 }
 
 }  // namespace sgm

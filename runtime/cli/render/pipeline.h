@@ -19,9 +19,11 @@ struct SurfacePass {
   VkPipeline draw = VK_NULL_HANDLE;
 };
 
-/// Reads the planes and writes pixels.
-struct ShadePass {
-  VkDescriptorSet set = VK_NULL_HANDLE;
+/// Lights what is seen, made of the patterns whose bits are set: a device compiles the whole of it in seconds, and what
+/// a scene needs in far less.
+struct ShadePipeline {
+  uint32_t patterns = 0;
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
   VkPipeline pipeline = VK_NULL_HANDLE;
 };
@@ -31,13 +33,14 @@ VkAttachmentDescription clearedAttachment(VkFormat format, VkAttachmentStoreOp s
 Result<VkFramebuffer> makeFramebuffer(VulkanScope& scope, VkRenderPass render_pass, std::span<const VkImageView> views,
                                       VkExtent2D extent);
 
-/// Draws RenderVertex triangles' fronts into reversed depth. With an empty fragment shader only depth is drawn and only
-/// the vertices' positions are read; else two colour attachments.
-Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout,
-                                    std::span<const uint32_t> vertex_spirv, std::span<const uint32_t> fragment_spirv);
-
 Result<SurfacePass> makeSurfacePass(VulkanScope& scope, VkExtent2D extent);
-Result<ShadePass> makeShadePass(VulkanScope& scope, const SurfacePass& surfaces, const VulkanImage& shadows,
-                                const VulkanBuffer& frame, const VulkanBuffer& materials, const VulkanBuffer& pixels);
+Result<ShadePipeline> makeShadePipeline(VulkanScope& scope, uint32_t patterns);
+
+/// What lighting reads and writes beside the planes.
+struct ShadeBuffers {
+  VulkanBuffer direct, frame, materials, pixels, soft;
+};
+Result<VkDescriptorSet> makeShadeSet(VulkanScope& scope, const ShadePipeline& pipeline, const SurfacePass& surfaces,
+                                     const ShadeBuffers& buffers);
 
 }  // namespace sgm

@@ -1,135 +1,113 @@
 #include "render/ray_caster.h"
 
-#include <algorithm>
-#include <array>
+#include <embree3/rtcore.h>
+
+#include <cstddef>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
 namespace sgm {
 namespace {
 
-constexpr size_t kLeafTriangles = 8;
+const Error kNoMemory{Code::out_of_memory, "out of memory while preparing a mesh for rays"};
 
-// Puts the triangles of the lower half along the widest axis first, then does the same within each half: node i of the
-// heap then holds a run of `leaves * kLeafTriangles` triangles. Ties go by number, so that the order is always the
-// same.
-void halve(std::span<uint32_t> order, size_t leaves, std::span<const glm::vec3> centres) {
-  const size_t half = leaves / 2 * kLeafTriangles;
-  if (leaves < 2 || order.size() <= kLeafTriangles) return;
-  if (order.size() > half) {
-    glm::vec3 lo{1e30f}, hi{-1e30f};
-    for (uint32_t t : order) {
-      lo = glm::min(lo, centres[t]);
-      hi = glm::max(hi, centres[t]);
-    }
-    const glm::vec3 size = hi - lo;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    std::ranges::nth_element(order, order.begin() + static_cast<std::ptrdiff_t>(half), [&](uint32_t a, uint32_t b) {
-      const float ca = centres[a][axis], cb = centres[b][axis];
-      return ca != cb ? ca < cb : a < b;
-    });
-    halve(order.subspan(half), leaves / 2, centres);
-  }
-  halve(order.first(std::min(half, order.size())), leaves / 2, centres);
+bool meetsFront(const RTCFilterFunctionNArguments& at) {
+  const RTCRay& ray = *reinterpret_cast<const RTCRay*>(at.ray);
+  const RTCHit& hit = *reinterpret_cast<const RTCHit*>(at.hit);
+  return ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z < 0;
 }
 
-// Entry distance of the ray into the box, or a negative number where it misses or the box lies beyond `limit`.
-inline float entry(const glm::vec3& lo, const glm::vec3& hi, const glm::vec3& from, const glm::vec3& inverse,
-                   float limit) {
-  const float ax = (lo.x - from.x) * inverse.x, bx = (hi.x - from.x) * inverse.x;
-  const float ay = (lo.y - from.y) * inverse.y, by = (hi.y - from.y) * inverse.y;
-  const float az = (lo.z - from.z) * inverse.z, bz = (hi.z - from.z) * inverse.z;
-  const float enter = std::max(std::max(std::min(ax, bx), std::min(ay, by)), std::max(std::min(az, bz), 0.0f));
-  const float leave = std::min(std::min(std::max(ax, bx), std::max(ay, by)), std::min(std::max(az, bz), limit));
-  return enter <= leave ? enter : -1.0f;
+// Embree asks these for each hit of a ray that sees one side alone.
+void dropBack(const RTCFilterFunctionNArguments* at) {
+  if (!meetsFront(*at)) at->valid[0] = 0;
+}
+void dropFront(const RTCFilterFunctionNArguments* at) {
+  if (meetsFront(*at)) at->valid[0] = 0;
+}
+
+template <class Ray>
+void aim(Ray& ray, glm::vec3 from, glm::vec3 direction, float max_distance) {
+  ray.org_x = from.x;
+  ray.org_y = from.y;
+  ray.org_z = from.z;
+  ray.tnear = 0;
+  ray.dir_x = direction.x;
+  ray.dir_y = direction.y;
+  ray.dir_z = direction.z;
+  ray.tfar = max_distance;
+  ray.time = 0;
+  ray.mask = ~0u;
+  ray.id = 0;
+  ray.flags = 0;
+}
+
+std::optional<RayHit> nearest(RTCScene scene, glm::vec3 from, glm::vec3 direction, float max_distance, bool fronts) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  if (fronts) context.filter = dropBack;
+  RTCRayHit met{};
+  aim(met.ray, from, direction, max_distance);
+  met.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  met.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(scene, &context, &met);
+  if (met.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  const float along = direction.x * met.hit.Ng_x + direction.y * met.hit.Ng_y + direction.z * met.hit.Ng_z;
+  return RayHit{met.ray.tfar, along < 0, met.hit.primID, met.hit.u, met.hit.v};
 }
 
 }  // namespace
 
-RayCaster::RayCaster(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
-                     std::pmr::memory_resource* memory)
-    : vertices_(vertices), indices_(indices), order_(memory), nodes_(memory) {
-  const size_t count = indices.size() / 3;
-  order_.resize(count);
-  std::pmr::vector<glm::vec3> centres(count, memory);
-  for (uint32_t t = 0; t < count; ++t) {
-    order_[t] = t;
-    centres[t] = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3.0f;
+void RayCaster::Release::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
+
+Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices) {
+  RayCaster caster(vertices, indices);
+  for (const uint32_t index : indices) {
+    caster.lo_ = glm::min(caster.lo_, vertices[index].position);
+    caster.hi_ = glm::max(caster.hi_, vertices[index].position);
   }
-  while (leaves_ * kLeafTriangles < count) leaves_ *= 2;
-  nodes_.resize(2 * leaves_ - 1);
-  halve(order_, leaves_, centres);
-  for (size_t i = 0; i < count; ++i) {
-    Node& leaf = nodes_[leaves_ - 1 + i / kLeafTriangles];
-    for (int c = 0; c < 3; ++c) {
-      leaf.lo = glm::min(leaf.lo, corner(order_[i], c));
-      leaf.hi = glm::max(leaf.hi, corner(order_[i], c));
-    }
+  // The caller's thread alone builds: the tree, and with it each picture, is the same every time.
+  const RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
+  if (!device) return kNoMemory;
+  caster.scene_.reset(rtcNewScene(device));
+  const RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  if (caster.scene_ && mesh && !indices.empty()) {
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices.data(),
+                               offsetof(RenderVertex, position), sizeof(RenderVertex), vertices.size());
+    rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0,
+                               3 * sizeof(uint32_t), indices.size() / 3);
+    rtcCommitGeometry(mesh);
+    rtcAttachGeometry(caster.scene_.get(), mesh);
+    // Filters of a ray are asked only where the scene was told that there will be some.
+    rtcSetSceneFlags(caster.scene_.get(), RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   }
-  for (size_t i = leaves_ - 1; i-- > 0;) {
-    nodes_[i].lo = glm::min(nodes_[2 * i + 1].lo, nodes_[2 * i + 2].lo);
-    nodes_[i].hi = glm::max(nodes_[2 * i + 1].hi, nodes_[2 * i + 2].hi);
-  }
+  if (caster.scene_) rtcCommitScene(caster.scene_.get());
+  if (mesh) rtcReleaseGeometry(mesh);
+  const bool failed = !mesh || rtcGetDeviceError(device) != RTC_ERROR_NONE;
+  rtcReleaseDevice(device);
+  if (failed || !caster.scene_) return kNoMemory;
+  return caster;
 }
 
 glm::vec3 RayCaster::facing(uint32_t triangle) const {
   return glm::cross(corner(triangle, 1) - corner(triangle, 0), corner(triangle, 2) - corner(triangle, 0));
 }
 
-// Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection" (1997).
-void RayCaster::meet(uint32_t triangle, glm::vec3 from, glm::vec3 direction, std::optional<RayHit>& nearest,
-                     float& limit) const {
-  const glm::vec3 a = corner(triangle, 0), ab = corner(triangle, 1) - a, ac = corner(triangle, 2) - a;
-  const glm::vec3 across = glm::cross(direction, ac);
-  const float det = glm::dot(ab, across);
-  if (det == 0) return;
-  const glm::vec3 to_ray = from - a;
-  const float u = glm::dot(to_ray, across) / det;
-  if (u < 0 || u > 1) return;
-  const glm::vec3 other = glm::cross(to_ray, ab);
-  const float v = glm::dot(direction, other) / det;
-  if (v < 0 || u + v > 1) return;
-  const float distance = glm::dot(ac, other) / det;
-  if (distance < 0 || distance >= limit) return;
-  limit = distance;
-  nearest = RayHit{distance, det > 0, triangle};
+std::optional<RayHit> RayCaster::cast(glm::vec3 from, glm::vec3 direction, float max_distance) const {
+  return nearest(scene_.get(), from, direction, max_distance, false);
 }
 
-std::optional<RayHit> RayCaster::cast(glm::vec3 from, glm::vec3 direction, float max_distance) const {
-  std::optional<RayHit> nearest;
-  if (order_.empty()) return nearest;
-  float limit = max_distance;
-  // A component of exactly 0 would make 0 * infinity on a box's side.
-  const glm::vec3 safe = direction + glm::vec3(glm::equal(direction, glm::vec3(0))) * 1e-12f;
-  const glm::vec3 inverse = 1.0f / safe;
-  struct Entry {
-    size_t node;
-    float distance;
-  };
-  std::array<Entry, 64> stack;  // a tree over 2^32 triangles is 30 deep, and each level leaves one entry behind
-  size_t depth = 0;
-  stack[depth++] = {0, 0};
-  while (depth > 0) {
-    const Entry top = stack[--depth];
-    if (top.distance > limit) continue;
-    if (top.node >= leaves_ - 1) {
-      const size_t first = (top.node - (leaves_ - 1)) * kLeafTriangles;
-      const size_t last = std::min(first + kLeafTriangles, order_.size());
-      for (size_t i = first; i < last; ++i) meet(order_[i], from, direction, nearest, limit);
-      continue;
-    }
-    const size_t left = 2 * top.node + 1, right = left + 1;
-    const float near_left = entry(nodes_[left].lo, nodes_[left].hi, from, inverse, limit);
-    const float near_right = entry(nodes_[right].lo, nodes_[right].hi, from, inverse, limit);
-    const bool left_first = near_left <= near_right;
-    // The nearer child is pushed last and so looked into first.
-    const Entry later = left_first ? Entry{right, near_right} : Entry{left, near_left};
-    const Entry sooner = left_first ? Entry{left, near_left} : Entry{right, near_right};
-    if (later.distance >= 0) stack[depth++] = later;
-    if (sooner.distance >= 0) stack[depth++] = sooner;
-  }
-  return nearest;
+std::optional<RayHit> RayCaster::castFronts(glm::vec3 from, glm::vec3 direction, float max_distance) const {
+  return nearest(scene_.get(), from, direction, max_distance, true);
+}
+
+bool RayCaster::isFree(glm::vec3 from, glm::vec3 direction, float max_distance) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.filter = dropFront;
+  RTCRay ray{};
+  aim(ray, from, direction, max_distance);
+  rtcOccluded1(scene_.get(), &context, &ray);
+  return ray.tfar >= 0;  // Embree says of a ray that meets something that it ends at -infinity
 }
 
 }  // namespace sgm

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "render/frame.h"
+#include "render/light_planes.h"
 #include "render/pipeline.h"
-#include "render/shadow.h"
 
 namespace sgm {
 namespace {
@@ -61,12 +61,48 @@ Result<VulkanBuffer> upload(VulkanScope& scope, std::span<const T> values, VkBuf
   return buffer;
 }
 
+/// Eyes and cameras adapt to the light, though not wholly: a dark place stays darker than a bright one.
+float exposureFor(const LightPlanes& light) {
+  constexpr float kUsual = 0.22f, kAdapted = 0.7f;
+  if (light.brightness <= 0) return 1;
+  return std::clamp(std::pow(kUsual / light.brightness, kAdapted), 0.5f, 4.0f);
+}
+
 }  // namespace
+
+/// The last pipeline for lighting, and what it was made in.
+struct Renderer::Kept {
+  std::unique_ptr<VulkanScope> scope;
+  ShadePipeline shade;
+
+  /// Error: those of the device.
+  Result<void> lightPatterns(const VulkanDevice& device, std::span<const RenderMaterial> materials) {
+    uint32_t patterns = 0;
+    for (const RenderMaterial& material : materials) patterns |= 1u << static_cast<uint32_t>(material.pattern);
+    if (scope && (patterns & ~shade.patterns) == 0) return {};
+    scope = std::make_unique<VulkanScope>(device);
+    auto made = makeShadePipeline(*scope, patterns | shade.patterns);
+    if (!made) {
+      scope.reset();
+      return made.error();
+    }
+    shade = *made;
+    return {};
+  }
+};
+
+Renderer::Renderer(std::unique_ptr<VulkanDevice> device, std::unique_ptr<JobSystem> jobs)
+    : device_(std::move(device)), jobs_(std::move(jobs)), kept_(std::make_unique<Kept>()) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 Result<Renderer> Renderer::create(const GpuOptions& options) {
   auto device = VulkanDevice::create(options);
   if (!device) return device.error();
-  return Renderer(std::move(*device));
+  auto jobs = makeThreadPool(0, {}, "sgm light");
+  if (!jobs) return jobs.error();
+  return Renderer(std::move(*device), std::move(*jobs));
 }
 
 Result<Image> Renderer::render(const RenderScene& scene) const {
@@ -74,13 +110,16 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
   const DrawingTable& calls = device_->calls();
   VulkanScope scope(*device_);
 
-  const Frame frame = frameOf(scene);
+  Frame frame = frameOf(scene);
+  const Result<LightPlanes> light = traceLight(scene, frame, *jobs_);
+  if (!light) return light.error();
+  frame.pattern_offset.w *= exposureFor(*light);
   const std::vector<FrameMaterial> materials = frameMaterials(scene);
   auto vertex_buffer = upload(scope, scene.vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
   if (!vertex_buffer) return vertex_buffer.error();
   auto index_buffer = upload(scope, scene.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   if (!index_buffer) return index_buffer.error();
-  auto frame_buffer = upload(scope, std::span(&frame, 1), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+  auto frame_buffer = upload(scope, std::span<const Frame>(&frame, 1), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
   if (!frame_buffer) return frame_buffer.error();
   auto material_buffer = upload(scope, std::span<const FrameMaterial>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (!material_buffer) return material_buffer.error();
@@ -90,16 +129,16 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
 
   auto surfaces = makeSurfacePass(scope, {width * frame.size.z, height * frame.size.z});
   if (!surfaces) return surfaces.error();
-  const ShadowPlan plan = planShadows(scene, frame);
-  auto shadow_indices = upload(scope, std::span<const uint32_t>(plan.indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-  if (!shadow_indices) return shadow_indices.error();
-  auto shadows = makeShadowPass(scope, plan.extent);
-  if (!shadows) return shadows.error();
-  auto shade = makeShadePass(scope, *surfaces, shadows->depth, *frame_buffer, *material_buffer, *pixels);
-  if (!shade) return shade.error();
+  auto direct = upload(scope, std::span<const DirectLight>(light->direct), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  if (!direct) return direct.error();
+  auto soft = upload(scope, std::span<const SoftLight>(light->soft), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  if (!soft) return soft.error();
+  if (auto ready = kept_->lightPatterns(*device_, scene.materials); !ready) return ready.error();
+  const ShadePipeline& shade = kept_->shade;
+  auto shade_set = makeShadeSet(scope, shade, *surfaces, {*direct, *frame_buffer, *material_buffer, *pixels, *soft});
+  if (!shade_set) return shade_set.error();
 
   auto drawn = device_->run([&](VkCommandBuffer commands) {
-    recordShadows(calls, commands, plan, *shadows, *vertex_buffer, *shadow_indices);
     const std::array<VkClearValue, 3> clear{};  // alpha 0 is the background, reversed depth 0 is infinity
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
@@ -124,8 +163,8 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
       calls.vkCmdDrawIndexed(commands, static_cast<uint32_t>(scene.indices.size()), 1, 0, 0, 0);
     }
     calls.vkCmdEndRenderPass(commands);
-    calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade->pipeline);
-    calls.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade->layout, 0, 1, &shade->set, 0,
+    calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade.pipeline);
+    calls.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade.layout, 0, 1, &*shade_set, 0,
                                   nullptr);
     calls.vkCmdDispatch(commands, (width + kGroup - 1) / kGroup, (height + kGroup - 1) / kGroup, 1);
     VkMemoryBarrier barrier{};

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/jobs.h"
 #include "base/result.h"
 #include "render/image.h"
 #include "render/scene.h"
@@ -15,13 +16,17 @@ namespace sgm {
 
 /// Draws scenes on one Vulkan device, software ones included. One thread at a time may use it.
 ///
-/// Two passes: the mesh is drawn into position, normal and material planes, supersampled; then a compute shader lights
-/// each sample once, however much of the mesh lay behind it, and averages them into pixels. The same scene gives the
-/// same bytes on the same device and driver.
+/// Processors trace the light that reaches what each pixel sees. The device draws the mesh into position, normal and
+/// material planes, supersampled; then a compute shader lights each sample once, however much of the mesh lay behind
+/// it, and averages them into pixels. The same scene gives the same bytes on the same device and driver.
 class Renderer {
  public:
   /// Errors: unsupported, with what to install.
   static Result<Renderer> create(const GpuOptions& options = {});
+
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
 
   /// Errors: invalid_argument (a size, an index or a vertex out of range, no material), out_of_memory, unsupported.
   Result<Image> render(const RenderScene& scene) const;
@@ -34,9 +39,13 @@ class Renderer {
   std::vector<std::string> messages() const { return device_->messages(); }
 
  private:
-  explicit Renderer(std::unique_ptr<VulkanDevice> device) : device_(std::move(device)) {}
+  struct Kept;
+
+  Renderer(std::unique_ptr<VulkanDevice> device, std::unique_ptr<JobSystem> jobs);
 
   std::unique_ptr<VulkanDevice> device_;
+  std::unique_ptr<JobSystem> jobs_;
+  std::unique_ptr<Kept> kept_;  ///< from picture to picture
 };
 
 }  // namespace sgm

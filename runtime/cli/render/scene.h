@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -24,13 +25,33 @@ struct RenderVertex {
   glm::vec2 texture{0};
 };
 
-/// The procedural pattern that a surface is covered with.
+/// The procedural pattern that a surface is covered with; shaders/render/materials.glsl has their numbers.
 enum class SurfacePattern : uint32_t {
-  rock,    ///< strata, mineral stains, cracks; silt on what lies flat
-  flow,    ///< calcite and other flowstone: fluted, pale, wet
-  brick,   ///< courses with mortar
-  smooth,  ///< colour with a fine grain: plaster, clay, metal
-  cloud,   ///< soft white, light passes through
+  rock,        ///< strata, mineral stains, cracks; silt on what lies flat
+  speckled,    ///< grains of several colours: granite
+  veined,      ///< marble
+  flow,        ///< calcite and other flowstone: fluted, pale, wet
+  brick,       ///< courses with mortar
+  ashlar,      ///< courses of dressed stone
+  rubble,      ///< walling of rough stones
+  paving,      ///< flags
+  cobbles,     ///< setts
+  roof_tiles,  ///< rows of clay tiles
+  slates,
+  plain,  ///< colour with a fine grain, stained by rain: plaster, paint, clay
+  concrete,
+  wooden,
+  metallic,
+  asphalt,
+  glass,     ///< a pane that mirrors, with a room behind it
+  granular,  ///< sand, soil, mud, snow
+  gravelly,
+  grassy,
+  leafy,
+  fibres,  ///< bark, thatch
+  mossy,
+  water,  ///< mirrors; the deeper the darker
+  cloud,  ///< soft white, light passes through
 };
 
 struct RenderMaterial {
@@ -40,7 +61,10 @@ struct RenderMaterial {
   float relief = 1;                       ///< strength of the shading relief, 0: as smooth as the mesh
 };
 
-/// What a grammar's `mat NAME` looks like. Names that are not known get plain rock in a tint of their own.
+/// What a grammar's `mat NAME` looks like: one of a table ("plaster"), tinted by a word behind it ("plaster_ochre") or
+/// wet ("wet_limestone"). nullopt: the name is none of these.
+std::optional<RenderMaterial> findMaterial(std::string_view name);
+/// The same; names that are not known get plain rock in a tint of their own.
 RenderMaterial materialByName(std::string_view name);
 
 /// A lamp that shines on all sides and falls off with the square of the distance.

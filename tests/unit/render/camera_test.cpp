@@ -74,10 +74,14 @@ TEST_CASE("a given camera's view is measured", "[render]") {
   RenderCamera camera;
   camera.position = {0, 0, 0};
   camera.target = {1, 0, 0};
-  const View view = viewFrom(mesh.vertices, mesh.indices, camera);
+  const Result<View> found = viewFrom(mesh.vertices, mesh.indices, camera);
+  REQUIRE(found);
+  const View& view = *found;
   CHECK(view.enclosed);
   CHECK(view.depth == Approx(10).margin(0.3));
-  CHECK(!viewFrom({}, {}, camera).enclosed);
+  const Result<View> nothing = viewFrom({}, {}, camera);
+  REQUIRE(nothing);
+  CHECK(!nothing->enclosed);
 }
 
 TEST_CASE("the light that is asked for is set, whatever the view", "[render]") {
@@ -107,5 +111,5 @@ TEST_CASE("materials are known by name, and unknown names keep their tint", "[re
   CHECK(materialByName("cloud").pattern == SurfacePattern::cloud);
   CHECK(materialByName("unobtainium").colour == materialByName("unobtainium").colour);
   CHECK(materialByName("unobtainium").colour != materialByName("adamant").colour);
-  CHECK(materialByName("").pattern == SurfacePattern::smooth);
+  CHECK(materialByName("").pattern == SurfacePattern::plain);
 }

@@ -13,8 +13,9 @@ std::optional<RayHit> castSlowly(const TestMesh& mesh, glm::vec3 from, glm::vec3
   std::optional<RayHit> nearest;
   for (uint32_t t = 0; t < mesh.indices.size() / 3; ++t) {
     const std::span<const uint32_t> one(mesh.indices.data() + size_t{3} * t, 3);
-    const RayCaster alone(mesh.vertices, one);
-    auto hit = alone.cast(from, direction, nearest ? nearest->distance : max_distance);
+    const Result<RayCaster> alone = RayCaster::over(mesh.vertices, one);
+    REQUIRE(alone);
+    auto hit = alone->cast(from, direction, nearest ? nearest->distance : max_distance);
     if (hit) nearest = RayHit{hit->distance, hit->front, t};
   }
   return nearest;
@@ -37,13 +38,14 @@ TEST_CASE("the tree finds what asking every triangle finds", "[render]") {
         mesh.vertices.push_back({centre + 1.5f * point(), {}, 0});
       }
     }
-    const RayCaster tree(mesh.vertices, mesh.indices);
+    const Result<RayCaster> tree = RayCaster::over(mesh.vertices, mesh.indices);
+    REQUIRE(tree);
     int hits = 0;
     for (int ray = 0; ray < 100; ++ray) {
       const glm::vec3 from = 12.0f * point();
       glm::vec3 direction = glm::normalize(-from + 6.0f * point());
       if (ray % 10 == 0) direction = {0, 0, from.z > 0 ? -1 : 1};
-      const auto fast = tree.cast(from, direction, 30), slow = castSlowly(mesh, from, direction, 30);
+      const auto fast = tree->cast(from, direction, 30), slow = castSlowly(mesh, from, direction, 30);
       REQUIRE(fast.has_value() == slow.has_value());
       if (!fast) continue;
       ++hits;
@@ -57,16 +59,18 @@ TEST_CASE("the tree finds what asking every triangle finds", "[render]") {
 
 TEST_CASE("sides and distances are told apart", "[render]") {
   const TestMesh solid = sphereMesh({0, 0, 0}, 2, false, 32);
-  const RayCaster tree(solid.vertices, solid.indices);
-  const auto outside = tree.cast({0, 0.1f, 10}, {0, 0, -1}, 100), inside = tree.cast({0, 0.1f, 0}, {0, 0, -1}, 100);
+  const Result<RayCaster> tree = RayCaster::over(solid.vertices, solid.indices);
+  REQUIRE(tree);
+  const auto outside = tree->cast({0, 0.1f, 10}, {0, 0, -1}, 100), inside = tree->cast({0, 0.1f, 0}, {0, 0, -1}, 100);
   REQUIRE((outside && inside));
   CHECK(outside->front);
   CHECK(!inside->front);
   CHECK(outside->distance == Approx(8).margin(0.05));
   CHECK(inside->distance == Approx(2).margin(0.05));
-  CHECK(!tree.cast({0, 0.1f, 10}, {0, 0, -1}, 7));
-  CHECK(!tree.cast({0, 0.1f, 10}, {0, 0, 1}, 100));
+  CHECK(!tree->cast({0, 0.1f, 10}, {0, 0, -1}, 7));
+  CHECK(!tree->cast({0, 0.1f, 10}, {0, 0, 1}, 100));
   const TestMesh empty;
-  const RayCaster nothing(empty.vertices, empty.indices);
-  CHECK(!nothing.cast({0, 0, 0}, {0, 0, 1}, 100));
+  const Result<RayCaster> nothing = RayCaster::over(empty.vertices, empty.indices);
+  REQUIRE(nothing);
+  CHECK(!nothing->cast({0, 0, 0}, {0, 0, 1}, 100));
 }

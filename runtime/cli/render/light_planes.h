@@ -1,0 +1,44 @@
+#pragma once
+// Light that reaches what each pixel sees, without the light that its material adds or takes.
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "base/jobs.h"
+#include "base/result.h"
+#include "render/frame.h"
+
+namespace sgm {
+
+/// Laid out as shaders/render/traced.glsl reads it.
+struct DirectLight {
+  uint32_t open[2] = {
+      0, 0};  ///< a byte for each lamp, the headlamp first; under a sky the first is the sun's: 255 all of it
+  /// Halves: what a mirror there shows, red, green, blue; then how wet it is, 0..1, or in water how deep, metres.
+  uint32_t mirror[2] = {0, 0};
+};
+
+struct SoftLight {
+  glm::vec4 light{0};  ///< rgb: mean radiance that comes from the sky and from other surfaces, weighed by the cosine
+  glm::vec4 lean{0};   ///< xyz: mean direction that it comes from, the shorter the more evenly it comes
+};
+
+/// One DirectLight for each pixel, one SoftLight for each square of kSoftPixels; both of the square's first sample.
+struct LightPlanes {
+  uint32_t width = 0, height = 0;
+  uint32_t soft_width = 0, soft_height = 0;
+  std::vector<DirectLight> direct;
+  std::vector<SoftLight> soft;
+  /// The logarithmic mean of what is seen, of all that is no background; 0 where nothing is.
+  float brightness = 0;
+};
+
+inline constexpr uint32_t kSoftPixels = 2;
+
+/// Traces rays over the scene's mesh. The same scene gives the same planes. scene must have been checked, and frame be
+/// its own. Error: out_of_memory.
+Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, JobSystem& jobs);
+
+}  // namespace sgm

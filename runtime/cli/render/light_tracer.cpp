@@ -1,0 +1,300 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/packing.hpp>
+#include <new>
+
+#include "render/light_filter.h"
+#include "render/light_planes.h"
+#include "render/ray_caster.h"
+#include "render/sampling.h"
+
+namespace sgm {
+namespace {
+
+#define FN inline
+using glm::dot, glm::exp, glm::max, glm::mix, glm::pow, glm::smoothstep, glm::vec3;
+#include "render/illumination.h"
+#undef FN
+
+constexpr int kSoftRays = 20;  // of a square of pixels; filtered later
+constexpr int kSunRays = 4, kLampRays = 2;
+constexpr int kBounces = 2;           // of a soft ray, before what is left is taken to be even
+constexpr float kSunRadius = 0.012f;  // of its disc at distance 1: a little hazy
+constexpr float kLampRadius = 0.03f;  // in reaches
+constexpr float kFar = 1e5f;          // metres
+
+/// A surface that a ray has met.
+struct MetSurface {
+  vec3 position{0};
+  vec3 normal{0};  ///< as the mesh is shaded, unit length
+  vec3 start{0};   ///< where rays away from it begin: off the triangle, which curves less than the surface
+  uint32_t material = 0;
+  float distance = -1;  ///< below 0: nothing was met
+
+  bool isThere() const { return distance >= 0; }
+};
+
+float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+class LightTracer {
+ public:
+  LightTracer(const RenderScene& scene, const Frame& frame, const RayCaster& mesh)
+      : scene_(scene), frame_(frame), mesh_(mesh), to_sun_(frame.sun), sky_(scene.background == Background::sky) {
+    for (const RenderMaterial& one : scene.materials) has_water_ |= one.pattern == SurfacePattern::water;
+  }
+
+  MetSurface seenAt(uint32_t x, uint32_t y) const {
+    const float side = static_cast<float>(scene_.supersample);
+    const float u = (static_cast<float>(x) * side + 0.5f) / (static_cast<float>(frame_.size.x) * side) * 2 - 1;
+    const float v = (static_cast<float>(y) * side + 0.5f) / (static_cast<float>(frame_.size.y) * side) * 2 - 1;
+    return meet(vec3(frame_.eye), glm::normalize(vec3(frame_.forward) + u * vec3(frame_.right) - v * vec3(frame_.up)));
+  }
+
+  DirectLight direct(const MetSurface& place, uint32_t x, uint32_t y) const {
+    DirectLight light;
+    const uint32_t lights = sky_ ? 1 : frame_.counts.x;
+    for (uint32_t i = 0; i < lights; ++i) {
+      UnitPoints points(x, y, i);
+      const float open = sky_ ? sunShare(place, points) : lampShare(place, i, points);
+      light.open[i / 4] |= static_cast<uint32_t>(open * 255 + 0.5f) << (8 * (i % 4));
+    }
+    float wet = 0;
+    vec3 seen(0);
+    if (isMirror(place.material)) {
+      UnitPoints points(x, y, 64);
+      const vec3 away = glm::normalize(place.position - vec3(frame_.eye));
+      seen = radiance(place.start, glm::reflect(away, place.normal), points, 1);
+    }
+    if (has_water_) {
+      UnitPoints points(x, y, 65);
+      wet = isWater(place.material) ? depthOf(place, points) : wetness(place);
+    }
+    light.mirror[0] = glm::packHalf2x16({seen.r, seen.g});
+    light.mirror[1] = glm::packHalf2x16({seen.b, wet});
+    return light;
+  }
+
+  SoftLight soft(const MetSurface& place, uint32_t x, uint32_t y) const {
+    UnitPoints points(x, y, 32), turns(x, y, 33);
+    vec3 sum(0), lean(0);
+    for (int i = 0; i < kSoftRays; ++i) {
+      const vec3 direction = cosineDirection(place.normal, points.next());
+      // One lamp seen at close quarters must not sparkle.
+      const vec3 light = glm::min(radiance(place.start, direction, turns, kBounces), vec3(6.0f));
+      sum += light;
+      lean += direction * luminance(light);
+    }
+    SoftLight result;
+    result.lean = glm::vec4(lean / std::max(luminance(sum), 1e-12f), 0);
+    result.light = glm::vec4(sum / static_cast<float>(kSoftRays), 1);
+    return result;
+  }
+
+  /// What would be seen of a place of plain colour.
+  float brightness(const MetSurface& place, const DirectLight& direct, const SoftLight& soft) const {
+    vec3 light(soft.light);
+    for (uint32_t i = 0; i < (sky_ ? 1 : frame_.counts.x); ++i) {
+      const float open = static_cast<float>(direct.open[i / 4] >> (8 * (i % 4)) & 255u) / 255;
+      if (open > 0) light += open * (sky_ ? sunOn(place.normal) : lampOn(place.position, place.normal, i));
+    }
+    return luminance(light * colourOf(place.material));
+  }
+
+ private:
+  const RenderMaterial& material(uint32_t index) const {
+    return scene_.materials[std::min<size_t>(index, scene_.materials.size() - 1)];
+  }
+  vec3 colourOf(uint32_t index) const { return material(index).colour; }
+  bool isMirror(uint32_t index) const {
+    const SurfacePattern pattern = material(index).pattern;
+    return pattern == SurfacePattern::water || pattern == SurfacePattern::glass;
+  }
+
+  bool isWater(uint32_t index) const { return material(index).pattern == SurfacePattern::water; }
+
+  /// Beds fall from the shore as gently as shores do: half as deep as the shore is far, on a mean of several ways.
+  float depthOf(const MetSurface& place, UnitPoints& points) const {
+    constexpr int kWays = 8;
+    constexpr float kFall = 0.5f, kDeepest = 8;
+    float shallow = 0;
+    const float turn = points.next().x;
+    for (int i = 0; i < kWays; ++i) {
+      const float angle = 6.28318531f * (static_cast<float>(i) + turn) / kWays;
+      const auto shore = mesh_.castFronts(place.start, vec3(std::cos(angle), 0.02f, std::sin(angle)), kDeepest / kFall);
+      shallow += 1 / (0.02f + (shore ? shore->distance * kFall : kDeepest));
+    }
+    return kWays / shallow;
+  }
+
+  /// What rises from water is wet for a hand's breadth.
+  float wetness(const MetSurface& place) const {
+    constexpr float kHigh = 0.35f;
+    const vec3 out = glm::normalize(vec3(place.normal.x, 0, place.normal.z) + vec3(1e-5f, 0, 0));
+    const auto below =
+        mesh_.castFronts(place.start + 0.03f * out, glm::normalize(vec3(0.35f * out.x, -1, 0.35f * out.z)), kHigh);
+    if (!below || !isWater(mesh_.vertex(below->triangle, 0).material)) return 0;
+    return 1 - below->distance / kHigh;
+  }
+
+  MetSurface meet(vec3 from, vec3 direction) const {
+    const auto hit = mesh_.castFronts(from, direction, kFar);
+    if (!hit) return {};
+    MetSurface place;
+    place.distance = hit->distance;
+    place.position = from + direction * hit->distance;
+    const std::array<float, 3> share{1 - hit->u - hit->v, hit->u, hit->v};
+    const vec3 facet = glm::normalize(mesh_.facing(hit->triangle));
+    vec3 lifted(0);
+    for (int i = 0; i < 3; ++i) {
+      const RenderVertex& vertex = mesh_.vertex(hit->triangle, i);
+      place.normal += share[static_cast<size_t>(i)] * vertex.normal;
+      // Hanika, "Hacking the shadow terminator", 2021: the surface curves out over the triangle.
+      const vec3 from_corner = place.position - vertex.position;
+      lifted += share[static_cast<size_t>(i)] * std::min(0.0f, dot(from_corner, vertex.normal)) * vertex.normal;
+    }
+    const float length = glm::length(place.normal);
+    place.normal = length > 0.1f ? place.normal / length : facet;
+    place.start = place.position - lifted + facet * (1e-3f + 2e-4f * hit->distance);
+    place.material = mesh_.vertex(hit->triangle, 0).material;
+    return place;
+  }
+
+  vec3 sunOn(vec3 n) const { return sunLight() * std::max(0.0f, dot(n, to_sun_)); }
+
+  vec3 lampOn(vec3 p, vec3 n, uint32_t lamp) const {
+    const vec3 away = vec3(frame_.lamp_position[lamp]) - p;
+    const float distance = glm::length(away), facing = dot(n, away) / std::max(distance, 1e-6f);
+    if (facing <= 0) return vec3(0);
+    float fall = lampFall(distance, frame_.lamp_position[lamp].w);
+    if (lamp == 0) fall *= lampBeam(-dot(away, vec3(frame_.forward)) / std::max(distance, 1e-6f));
+    return vec3(frame_.lamp_colour[lamp]) * (fall * facing);
+  }
+
+  float sunShare(const MetSurface& place, UnitPoints& points) const {
+    // What faces away, but for what lets light through, which is lit from within.
+    if (dot(place.normal, to_sun_) < -0.4f) return 0;
+    const Across across(to_sun_);
+    int open = 0;
+    for (int i = 0; i < kSunRays; ++i) {
+      const glm::vec2 at = kSunRadius * onDisc(points.next());
+      open += mesh_.isFree(place.start, glm::normalize(to_sun_ + at.x * across.x + at.y * across.y), kFar);
+    }
+    return static_cast<float>(open) / kSunRays;
+  }
+
+  float lampShare(const MetSurface& place, uint32_t lamp, UnitPoints& points) const {
+    const vec3 away = vec3(frame_.lamp_position[lamp]) - place.start;
+    const float reach = frame_.lamp_position[lamp].w, distance = glm::length(away);
+    if (lampFall(distance, reach) <= 0 || distance <= 1e-4f || dot(place.normal, away) < -0.4f * distance) return 0;
+    const vec3 towards = away / distance;
+    const Across across(towards);
+    int open = 0;
+    for (int i = 0; i < kLampRays; ++i) {
+      const glm::vec2 at = std::min(kLampRadius * reach, 0.2f * distance) * onDisc(points.next());
+      open += mesh_.isFree(place.start, away + at.x * across.x + at.y * across.y, 0.98f);
+    }
+    return static_cast<float>(open) / kLampRays;
+  }
+
+  /// Light that comes from the sun or one lamp, chosen by how much it could give, to a place and leaves it again.
+  vec3 lit(const MetSurface& place, glm::vec2 turn) const {
+    if (sky_) {
+      const vec3 light = sunOn(place.normal);
+      return light.r > 0 && mesh_.isFree(place.start, to_sun_, kFar) ? light : vec3(0);
+    }
+    std::array<vec3, kMaxLamps + 1> lights;
+    float all = 0;
+    for (uint32_t i = 0; i < frame_.counts.x; ++i)
+      all += luminance(lights[i] = lampOn(place.position, place.normal, i));
+    float left = turn.x * all;
+    for (uint32_t i = 0; i < frame_.counts.x; ++i) {
+      const float own = luminance(lights[i]);
+      if (own <= 0 || (left -= own) > 0) continue;
+      const vec3 away = vec3(frame_.lamp_position[i]) - place.start;
+      return mesh_.isFree(place.start, away, 0.98f) ? lights[i] * (all / own) : vec3(0);
+    }
+    return vec3(0);
+  }
+
+  vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces) const {
+    vec3 sum(0), weight(1);
+    for (int i = 0; i < bounces; ++i) {
+      const MetSurface place = meet(from, direction);
+      if (!place.isThere()) return sum + weight * (sky_ ? skyLight(direction, to_sun_) : vec3(frame_.sun.w));
+      // Even light fills what is wide open, and clefts the less the narrower they are.
+      const float wide = place.distance / (place.distance + 0.7f);
+      sum += weight * (sky_ ? 0.0f : frame_.sun.w * wide);
+      weight *= colourOf(place.material);
+      sum += weight * lit(place, turns.next());
+      if (i + 1 == bounces) {
+        sum += weight * (sky_ ? vec3(0.10f, 0.12f, 0.15f) : vec3(0.3f * frame_.sun.w));
+        break;
+      }
+      from = place.start;
+      direction = cosineDirection(place.normal, turns.next());
+    }
+    return sum;
+  }
+
+  const RenderScene& scene_;
+  const Frame& frame_;
+  const RayCaster& mesh_;
+  vec3 to_sun_;
+  bool sky_;
+  bool has_water_ = false;
+};
+
+}  // namespace
+
+Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, JobSystem& jobs) {
+  try {
+    const Result<RayCaster> mesh = RayCaster::over(scene.vertices, scene.indices);
+    if (!mesh) return mesh.error();
+    const LightTracer tracer(scene, frame, *mesh);
+    LightPlanes planes;
+    planes.width = frame.size.x;
+    planes.height = frame.size.y;
+    planes.soft_width = (planes.width + kSoftPixels - 1) / kSoftPixels;
+    planes.soft_height = (planes.height + kSoftPixels - 1) / kSoftPixels;
+    planes.direct.resize(size_t{planes.width} * planes.height);
+    planes.soft.resize(size_t{planes.soft_width} * planes.soft_height);
+    Guides fine(planes.width, planes.height), coarse(planes.soft_width, planes.soft_height);
+    std::vector<std::array<double, 2>> rows(planes.soft_height);  // sum of logarithms, and of how many
+    parallelFor(jobs, planes.soft_height, [&](size_t row) {
+      const auto begin = static_cast<uint32_t>(row) * kSoftPixels;
+      for (uint32_t y = begin; y < std::min(begin + kSoftPixels, planes.height); ++y) {
+        for (uint32_t x = 0; x < planes.width; ++x) {
+          const MetSurface place = tracer.seenAt(x, y);
+          const size_t at = size_t{y} * planes.width + x;
+          fine.set(at, place.position, place.normal, place.distance);
+          if (!place.isThere()) continue;
+          planes.direct[at] = tracer.direct(place, x, y);
+          if (x % kSoftPixels != 0 || y != begin) continue;
+          const size_t soft = row * planes.soft_width + x / kSoftPixels;
+          coarse.set(soft, place.position, place.normal, place.distance);
+          planes.soft[soft] = tracer.soft(place, x, y);
+          rows[row][0] += std::log(double{tracer.brightness(place, planes.direct[at], planes.soft[soft])} + 1e-4);
+          rows[row][1] += 1;
+        }
+      }
+    });
+    double sum = 0, count = 0;
+    for (const auto& row : rows) {
+      sum += row[0];
+      count += row[1];
+    }
+    if (count > 0) planes.brightness = static_cast<float>(std::exp(sum / count));
+    const float sample = frame.eye.w * static_cast<float>(frame.size.z);
+    filterSoft(planes.soft, coarse, sample * kSoftPixels, jobs);
+    filterDirect(planes.direct, fine, sample, jobs);
+    return planes;
+  } catch (const std::bad_alloc&) {
+    return Error{Code::out_of_memory, "out of memory while tracing light"};
+  }
+}
+
+}  // namespace sgm

@@ -1,0 +1,27 @@
+// Light that the sky, the sun and lamps send, in the subset of GLSL that C++ reads too: shaders light what is seen, and
+// runtime/cli/render/light_tracer.cpp what light reaches it by way of other surfaces.
+
+// Light from the sky in a direction, without the sun's disc. Below the horizon lies ground without an end.
+FN vec3 skyLight(vec3 d, vec3 to_sun) {
+  float h = max(d.y, 0.0f);
+  float low = exp(-9.0f * h);
+  vec3 c = mix(vec3(0.075f, 0.20f, 0.52f), vec3(0.34f, 0.50f, 0.74f), exp(-2.6f * h));
+  c = mix(c, vec3(0.72f, 0.76f, 0.80f), 0.75f * low);
+  float s = max(dot(d, to_sun), 0.0f);
+  c += vec3(1.0f, 0.82f, 0.58f) * (0.16f * pow(s, 6.0f) + 0.30f * pow(s, 48.0f));
+  return mix(c, vec3(0.22f, 0.21f, 0.19f), smoothstep(0.0f, -0.12f, d.y));
+}
+
+// What a surface that faces the sun gets.
+FN vec3 sunLight() { return vec3(2.75f, 2.38f, 1.92f); }
+
+// The share of a lamp's colour that a facing surface gets at a distance; the lamp's light ends at 4.5 reaches.
+FN float lampFall(float distance_to_lamp, float reach) {
+  float end = distance_to_lamp / (4.5f * reach);
+  if (end >= 1.0f) return 0.0f;
+  float window = 1.0f - end * end;
+  return window * window * 1.2f * reach * reach / (distance_to_lamp * distance_to_lamp + 0.32f * reach * reach);
+}
+
+// The headlamp's beam is wide and its rim soft. cosine: between the beam's axis and the way to the surface.
+FN float lampBeam(float cosine) { return mix(0.16f, 1.0f, smoothstep(0.45f, 0.97f, cosine)); }

@@ -1,0 +1,95 @@
+// What lies on the ground and what grows on it.
+
+// Sand, soil, mud: grains and ripples.
+Surface granular(Spot at) {
+  Surface s = surfaceOf(at);
+  float broad = noise(at.p * 0.5).x + 0.5 * noise(at.p * 2.2).x;
+  float grain = noise(at.p * 60.0).x * visible(0.017, at.footprint) + noise(at.p * 210.0).x * visible(0.005, at.footprint);
+  s.albedo = at.colour * (1.0 + 0.16 * broad + 0.14 * grain);
+  vec4 relief_slope = relief(at.p, 0.35, 6, 0, at.footprint);
+  s.normal = bend(at.n, relief_slope.xyz, 0.11 * at.relief);
+  s.specular = 0.03;
+  wetten(s, at.wet);
+  s.roughness = roughened(s.roughness, 0.012 * at.relief * at.relief * relief_slope.w);
+  return s;
+}
+
+// Pebbles side by side.
+Surface gravelly(Spot at) {
+  Chart chart = chartOf(at.p, abs(at.n.y) > 0.6 ? vec3(0.0, 1.0, 0.0) : at.n);
+  Block b = cellAt(chart.at + 0.02 * noise(at.p * 5.0).xy, 0.07, 0.022, 91);
+  float seen = visible(0.06, at.footprint);
+  Surface s = granular(at);
+  vec3 stone = at.colour * (0.6 + 0.75 * b.lot.x) * mix(vec3(1.06, 0.98, 0.9), vec3(0.92, 0.97, 1.03), b.lot.y);
+  s.albedo = mix(s.albedo, stone * (1.0 - 0.65 * smoothstep(0.010, 0.0, b.edge)), seen);
+  s.normal = bend(s.normal, chart.along * b.tilt.x + chart.up * b.tilt.y, 0.9 * seen * at.relief);
+  wetten(s, at.wet);
+  return s;
+}
+
+// Blades that lean all ways, clumps, and dry patches.
+Surface grassy(Spot at) {
+  Surface s = surfaceOf(at);
+  vec4 clump = noise(at.p * 3.1), broad = noise(at.p * 0.22 + 3.0);
+  float blade = noise(at.p * vec3(38.0, 9.0, 38.0)).x * visible(0.03, at.footprint) +
+                noise(at.p * vec3(120.0, 20.0, 120.0)).x * visible(0.009, at.footprint);
+  vec3 dry = mix(at.colour, vec3(0.30, 0.255, 0.14), 0.6), lush = at.colour * vec3(0.7, 0.95, 0.6);
+  s.albedo = mix(at.colour, dry, smoothstep(0.0, 0.7, broad.x + 0.4 * clump.x));
+  s.albedo = mix(s.albedo, lush, 0.6 * smoothstep(0.1, 0.7, -broad.x + 0.3 * noise(at.p * 1.1).x));
+  s.albedo *= 1.0 + 0.30 * blade + 0.22 * clump.x;
+  // Where it is too steep for grass the soil shows.
+  float bare = 1.0 - smoothstep(0.60, 0.80, at.n.y + 0.12 * clump.x);
+  s.albedo = mix(s.albedo, vec3(0.20, 0.155, 0.105) * (1.0 + 0.3 * clump.x), 0.8 * bare);
+  vec4 relief_slope = relief(at.p, 0.30, 6, 0, at.footprint);
+  s.normal = bend(at.n, relief_slope.xyz, 0.55 * at.relief);
+  s.roughness = 0.95;
+  s.specular = 0.02;
+  s.translucency = 0.25;
+  return s;
+}
+
+// Leaves of a crown, each its own way.
+Surface leafy(Spot at) {
+  Surface s = surfaceOf(at);
+  vec3 w = planeWeights(at.n);
+  vec2 plane = w.x > w.y && w.x > w.z ? at.p.zy : w.y > w.z ? at.p.xz : at.p.xy;
+  Block b = cellAt(plane + 0.05 * noise(at.p * 3.0).xy, 0.10, 0.03, 31);
+  float seen = visible(0.09, at.footprint);
+  vec4 clump = noise(at.p * 1.3);
+  s.albedo = at.colour * (1.0 + 0.35 * clump.x) * mix(vec3(1.0), vec3(1.3, 1.12, 0.7), 0.5 * b.lot.x * seen);
+  s.albedo *= mix(0.85, mix(0.35, 1.05, smoothstep(0.0, 0.020, b.edge)) * (0.7 + 0.6 * b.lot.y), seen);
+  vec3 turn = vec3(b.lot.x, b.lot.y, b.lot.z) - 0.5;
+  vec4 relief_slope = relief(at.p, 0.9, 4, 0, at.footprint);
+  s.normal = bend(at.n, 2.2 * turn * seen + 0.8 * relief_slope.xyz, 0.8 * at.relief);
+  s.roughness = 0.6;
+  s.specular = 0.03;
+  s.translucency = 0.5;
+  return s;
+}
+
+// Bark: ridges up the stem with furrows between. Thatch: straw down the slope.
+Surface fibrous(Spot at) {
+  Surface s = surfaceOf(at);
+  Chart chart = chartOf(at.p, at.n);
+  vec3 q = vec3(at.p.x * 11.0, at.p.y * 2.1, at.p.z * 11.0) + 1.2 * noise(at.p * 2.3).yzw * 0.3;
+  vec4 ridge = noise(q), fine = noise(q * 3.7);
+  float seen = visible(0.08, at.footprint), furrow = smoothstep(0.1, -0.35, ridge.x) * seen;
+  s.albedo = at.colour * (1.0 - 0.55 * furrow) * (1.0 + 0.18 * fine.x * visible(0.025, at.footprint) + 0.12 * noise(at.p).x);
+  s.normal = bend(at.n, (ridge.yzw * vec3(1.0, 0.2, 1.0) + 0.4 * fine.yzw) * seen, 0.5 * at.relief);
+  s.specular = 0.02;
+  return s;
+}
+
+// Cushions of moss.
+Surface mossy(Spot at) {
+  Surface s = surfaceOf(at);
+  vec4 cushion = noise(at.p * 9.0);
+  float fine = noise(at.p * 90.0).x * visible(0.011, at.footprint);
+  s.albedo = at.colour * (1.0 + 0.35 * cushion.x + 0.3 * fine + 0.25 * noise(at.p * 1.1).x);
+  vec4 relief_slope = relief(at.p, 0.16, 5, 0, at.footprint);
+  s.normal = bend(at.n, relief_slope.xyz, 0.5 * at.relief);
+  s.roughness = 1.0;
+  s.specular = 0.01;
+  s.translucency = 0.2;
+  return s;
+}

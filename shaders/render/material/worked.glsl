@@ -1,0 +1,102 @@
+// What is spread, poured, sawn or rolled: even by nature, never rocky.
+
+// Plaster, paint, clay: colour with a fine grain, broad stains, and streaks where rain runs.
+Surface plain(Spot at) {
+  Surface s = surfaceOf(at);
+  float broad = noise(at.p * 0.45).x + 0.5 * noise(at.p * 1.9 + 7.0).x;
+  float grain = noise(at.p * 45.0).x * visible(0.022, at.footprint) + noise(at.p * 160.0).x * visible(0.006, at.footprint);
+  s.albedo = at.colour * (1.0 + at.relief * (0.07 * broad + 0.05 * grain));
+  s.albedo *= 1.0 - 0.16 * at.relief * weathered(at.p, at.n);
+  vec4 relief_slope = relief(at.p, 0.05, 4, 0, at.footprint);
+  s.normal = bend(at.n, relief_slope.xyz, 0.09 * at.relief);
+  wetten(s, at.wet);
+  s.roughness = roughened(s.roughness, 0.008 * at.relief * at.relief * relief_slope.w);
+  return s;
+}
+
+// Concrete from forms: panels, holes of their ties, pores, stains.
+Surface concrete(Spot at) {
+  Chart chart = chartOf(at.p, at.n);
+  Block b = blockAt(chart.at, vec2(2.4, 1.2), 0.0, 0.0, 0.01);
+  Surface s = plain(at);
+  float seam = (1.0 - smoothstep(0.002, 0.006, b.edge)) * visible(0.02, at.footprint);
+  vec2 tie = abs(b.within) - vec2(0.8, 0.3);
+  float hole = (1.0 - smoothstep(0.010, 0.014, length(tie))) * visible(0.03, at.footprint);
+  float pores = smoothstep(0.45, 0.6, noise(at.p * 60.0).x) * visible(0.016, at.footprint);
+  s.albedo *= (1.0 + 0.08 * (b.lot.x - 0.5)) * (1.0 - 0.35 * seam - 0.6 * hole - 0.25 * pores);
+  return s;
+}
+
+// Boards and beams. Their grain runs up walls and along floors.
+Surface wooden(Spot at) {
+  Chart chart = chartOf(at.p, at.n);
+  vec2 q = chart.at;
+  float board = floor(q.x / 0.14);
+  vec3 lot = random3(ivec3(int(board), 41, 2));
+  vec3 fibre = vec3(q.x * 14.0, q.y * 0.9 + 9.0 * lot.x, dot(at.p, at.n) * 14.0);
+  vec4 ring = noise(fibre) * visible(0.05, at.footprint);
+  float fine = noise(fibre * vec3(5.0, 1.5, 5.0)).x * visible(0.012, at.footprint);
+  float gap = 1.0 - smoothstep(0.002, 0.006, min(fract(q.x / 0.14), 1.0 - fract(q.x / 0.14)) * 0.14);
+  Surface s = surfaceOf(at);
+  vec3 grey = vec3(dot(at.colour, vec3(0.4)));
+  s.albedo = mix(at.colour, grey, 0.25 * smoothstep(0.0, 0.6, noise(at.p * 0.8).x));
+  s.albedo *= (1.0 + 0.22 * (lot.y - 0.5)) * (1.0 + 0.25 * ring.x + 0.16 * fine) * (1.0 - 0.6 * gap * visible(0.02, at.footprint));
+  s.normal = bend(at.n, chart.along * ring.y + vec3(0.0), 0.12 * at.relief);
+  wetten(s, at.wet);
+  return s;
+}
+
+Surface metallic(Spot at) {
+  Surface s = surfaceOf(at);
+  float broad = noise(at.p * 1.1).x, stain = smoothstep(0.2, 0.7, noise(at.p * 2.3 + 8.0).x + 0.4 * noise(at.p * 11.0).x);
+  s.albedo = at.colour * (1.0 + 0.08 * broad);
+  s.albedo = mix(s.albedo, vec3(0.20, 0.10, 0.05), 0.25 * at.relief * stain);
+  s.roughness = clamp(at.roughness * (1.0 + 0.5 * broad + 0.6 * stain), 0.1, 1.0);
+  s.specular = 0.35;
+  return s;
+}
+
+// Tar with chips of stone, patched and worn.
+Surface asphalt(Spot at) {
+  Surface s = surfaceOf(at);
+  float chips = noise(at.p * 110.0).x * visible(0.01, at.footprint);
+  float broad = noise(at.p * 0.35).x + 0.4 * noise(at.p * 1.6).x;
+  float split = cracks(at.p + 0.3 * noise(at.p * 0.7).yzw, at.n, 3.1, 0.012, at.footprint) * smoothstep(0.1, 0.5, broad);
+  s.albedo = at.colour * (1.0 + 0.35 * chips + 0.16 * broad) * (1.0 - 0.45 * split);
+  vec4 relief_slope = relief(at.p, 0.04, 3, 0, at.footprint);
+  s.normal = bend(at.n, relief_slope.xyz, 0.14 * at.relief);
+  wetten(s, at.wet);
+  s.roughness = roughened(s.roughness, 0.02 * relief_slope.w);
+  return s;
+}
+
+// A pane, and behind it a room: floor, ceiling, back wall, curtains, drawn without their shapes being there (van Dongen,
+// "Interior mapping", 2008).
+Surface glazed(Spot at) {
+  Surface s = surfaceOf(at);
+  s.albedo = vec3(0.0);
+  s.roughness = 0.04;
+  s.specular = 0.06;
+  const vec3 kRoom = vec3(3.4, 3.0, 4.0);
+  Chart chart = chartOf(at.p, at.n);
+  vec2 q = chart.at / kRoom.xy;
+  ivec2 room = ivec2(floor(q));
+  vec3 lot = random3(ivec3(room, 77));
+  vec3 way = -vec3(dot(at.to_eye, chart.along), dot(at.to_eye, chart.up), dot(at.to_eye, at.n));
+  way.z = max(-way.z, 0.05);
+  vec2 from = (q - floor(q)) * kRoom.xy;
+  vec3 walls = vec3(way.x > 0.0 ? kRoom.x - from.x : from.x, way.y > 0.0 ? kRoom.y - from.y : from.y, kRoom.z);
+  vec3 t = walls / max(abs(vec3(way.xy, way.z)), vec3(1e-4));
+  float depth = min(t.x, min(t.y, t.z));
+  vec3 hit = vec3(from, 0.0) + depth * vec3(way.xy, way.z);
+  vec3 paint = mix(vec3(0.34, 0.31, 0.27), vec3(0.22, 0.25, 0.28), lot.x);
+  if (depth == t.y) paint = way.y > 0.0 ? vec3(0.42) : vec3(0.20, 0.14, 0.09);
+  // Daylight comes in by the window alone.
+  s.within = paint * (0.32 / (1.0 + 0.5 * hit.z * hit.z)) * (0.5 + lot.y);
+  if (lot.z > 0.45) {
+    float side = min(from.x, kRoom.x - from.x), fold = 0.5 + 0.5 * sin(from.x * 41.0);
+    float hung = 1.0 - smoothstep(0.0, 0.02, side - 0.25 - 0.9 * (lot.z - 0.45));
+    s.within = mix(s.within, vec3(0.42, 0.40, 0.36) * (0.55 + 0.45 * fold), 0.85 * hung);
+  }
+  return s;
+}

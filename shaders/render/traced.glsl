@@ -1,0 +1,72 @@
+// Light that rays have found, for the pixels and, softly, for squares of them: runtime/cli/render/light_planes.h. Each
+// sample takes it from neighbours that lie on its own surface.
+struct DirectLight { uvec2 open; uvec2 mirror; };
+struct SoftLight { vec4 light; vec4 lean; };
+layout(std430, binding = 2) readonly buffer Direct { DirectLight direct[]; };
+layout(std430, binding = 6) readonly buffer Soft { SoftLight soft[]; };
+const int kSoftPixels = 2;
+
+// How much the light at a sample of the planes tells of the light at p.
+float kinship(ivec2 at, vec3 p, vec3 n, float apart) {
+  vec4 q = texelFetch(position_plane, at, 0);
+  if (q.w == 0.0) return 0.0;
+  float off = abs(dot(q.xyz - p, n)) / apart, facing = max(0.0, dot(n, texelFetch(normal_plane, at, 0).xyz));
+  return exp(-min(off, 30.0)) * pow(facing, 8.0) + 1e-6;
+}
+
+// Four elements around a sample, those of `scale` samples on a side, and their weights.
+void around(ivec2 at, int scale, ivec2 size, vec3 p, vec3 n, float apart, out ivec4 elements, out vec4 weights) {
+  vec2 place = vec2(at) / float(scale), base = floor(place), f = place - base;
+  float sum = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 offset = ivec2(i & 1, i >> 1);
+    ivec2 element = clamp(ivec2(base) + offset, ivec2(0), size - 1);
+    float w = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
+    w = (w + 0.02) * kinship(element * scale, p, n, apart);
+    elements[i] = element.y * size.x + element.x;
+    weights[i] = w;
+    sum += w;
+  }
+  weights /= max(sum, 1e-12);
+}
+
+struct Traced {
+  vec4 open[2];  // of lamps 0 to 3 and 4 to 7; the sun's first
+  vec3 light;    // mean radiance from all sides
+  vec3 lean;
+  vec3 mirror;
+  float wet;  // 1 at the edge of standing water; in water its depth, metres
+};
+
+Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
+  Traced traced;
+  traced.open[0] = vec4(0.0);
+  traced.open[1] = vec4(0.0);
+  traced.light = traced.lean = traced.mirror = vec3(0.0);
+  traced.wet = 0.0;
+  int side = int(frame.size.z);
+  ivec2 pixels_size = ivec2(frame.size.xy), soft_size = (pixels_size + kSoftPixels - 1) / kSoftPixels;
+  float apart = 2.0 * t * frame.eye.w * float(side);
+  ivec4 elements;
+  vec4 weights;
+  around(at, side, pixels_size, p, n, apart, elements, weights);
+  for (int i = 0; i < 4; ++i) {
+    DirectLight d = direct[elements[i]];
+    traced.open[0] += weights[i] * unpackUnorm4x8(d.open.x);
+    traced.open[1] += weights[i] * unpackUnorm4x8(d.open.y);
+    vec2 last = unpackHalf2x16(d.mirror.y);
+    traced.mirror += weights[i] * vec3(unpackHalf2x16(d.mirror.x), last.x);
+    traced.wet += weights[i] * last.y;
+  }
+  around(at, side * kSoftPixels, soft_size, p, n, apart * float(kSoftPixels), elements, weights);
+  for (int i = 0; i < 4; ++i) {
+    traced.light += weights[i] * soft[elements[i]].light.rgb;
+    traced.lean += weights[i] * soft[elements[i]].lean.xyz;
+  }
+  return traced;
+}
+
+// The soft light that reaches a surface whose relief turns it from n to another normal.
+vec3 softOn(Traced traced, vec3 n, vec3 turned) {
+  return traced.light * clamp(1.0 + 1.5 * dot(traced.lean, turned - n), 0.25, 2.5);
+}

@@ -1,0 +1,242 @@
+// Light that rays find, in scenes whose light is known.
+
+#include <cstring>
+#include <glm/common.hpp>
+#include <random>
+
+#include "render/light_filter.h"
+#include "scenes.h"
+
+using namespace sgm;
+
+namespace {
+
+struct LitStage {
+  TestMesh mesh;
+  std::vector<RenderMaterial> materials;
+  RenderScene scene;
+
+  LitStage() { materials.push_back({SurfacePattern::plain, glm::vec3(0.5f), 0.9f, 0.0f}); }
+
+  /// A quad a b c d, counter-clockwise seen from the side that it faces.
+  void add(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d, uint32_t material = 0) {
+    const auto first = static_cast<uint32_t>(mesh.vertices.size());
+    const glm::vec3 n = glm::normalize(glm::cross(b - a, c - a));
+    for (const glm::vec3& corner : {a, b, c, d}) mesh.vertices.push_back({corner, n, material});
+    for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + i);
+  }
+
+  void addFloor(float half, float y, uint32_t material = 0) {
+    add({-half, y, half}, {half, y, half}, {half, y, -half}, {-half, y, -half}, material);
+  }
+
+  void addSphere(glm::vec3 centre, float radius, bool hollow) {
+    const auto first = static_cast<uint32_t>(mesh.vertices.size());
+    const TestMesh sphere = sphereMesh(centre, radius, hollow);
+    mesh.vertices.insert(mesh.vertices.end(), sphere.vertices.begin(), sphere.vertices.end());
+    for (const uint32_t index : sphere.indices) mesh.indices.push_back(first + index);
+  }
+
+  void look(glm::vec3 from, glm::vec3 to) { scene.camera = {from, to, 60, 64, 48}; }
+
+  LightPlanes traced(unsigned workers = 1) {
+    scene.vertices = mesh.vertices;
+    scene.indices = mesh.indices;
+    scene.materials = materials;
+    auto jobs = makeThreadPool(workers);
+    REQUIRE(jobs);
+    auto planes = traceLight(scene, frameOf(scene), **jobs);
+    REQUIRE(planes);
+    REQUIRE(planes->direct.size() == size_t{64} * 48);
+    REQUIRE(planes->soft.size() == size_t{32} * 24);
+    return std::move(*planes);
+  }
+};
+
+uint32_t openAt(const LightPlanes& planes, uint32_t x, uint32_t y, uint32_t light = 0) {
+  return planes.direct[size_t{y} * planes.width + x].open[light / 4] >> (8 * (light % 4)) & 255u;
+}
+glm::vec3 softAt(const LightPlanes& planes, uint32_t x, uint32_t y) {
+  return glm::vec3(planes.soft[size_t{y} / kSoftPixels * planes.soft_width + x / kSoftPixels].light);
+}
+
+}  // namespace
+
+TEST_CASE("in even light a convex body is as bright as the light, and a cleft is darker", "[render]") {
+  LitStage stage;
+  stage.addSphere({0, 0, 0}, 1, false);
+  stage.scene.ambient = 0.5f;
+  stage.scene.headlamp.colour = glm::vec3(0);
+  stage.look({0, 0, 5}, {0, 0, 0});
+  const LightPlanes alone = stage.traced();
+  CHECK(softAt(alone, 32, 24).g == Approx(0.5).margin(0.01));
+  CHECK(alone.brightness == Approx(0.25).margin(0.01));
+
+  LitStage cleft;
+  cleft.add({-0.2f, -9, 0}, {-0.2f, -9, -9}, {-0.2f, 9, -9}, {-0.2f, 9, 0});
+  cleft.add({0.2f, -9, -9}, {0.2f, -9, 0}, {0.2f, 9, 0}, {0.2f, 9, -9});
+  cleft.add({-0.2f, -9, -3}, {0.2f, -9, -3}, {0.2f, 9, -3}, {-0.2f, 9, -3});
+  cleft.scene.ambient = 0.5f;
+  cleft.scene.headlamp.colour = glm::vec3(0);
+  cleft.look({0, 0, 1}, {0, 0, -3});
+  CHECK(softAt(cleft.traced(), 32, 24).g < 0.4f);
+}
+
+TEST_CASE("a floor in the open gets the sky's mean, and its own shadow nowhere", "[render]") {
+  LitStage stage;
+  stage.addFloor(500, 0);
+  stage.scene.background = Background::sky;
+  stage.look({0, 4, 0}, {0, 0, -6});
+  const LightPlanes planes = stage.traced();
+  // The sky's blue over a hemisphere, by its cosine, as what a mirror sees of it says: brighter than red, none missing.
+  const glm::vec3 sky = softAt(planes, 32, 40);
+  CHECK(sky.b > 1.2f * sky.r);
+  CHECK(sky.g > 0.15f);
+  CHECK(sky.g < 0.7f);
+  for (uint32_t y = 26; y < 48; ++y)
+    for (uint32_t x = 0; x < 64; ++x) REQUIRE(openAt(planes, x, y) == 255);
+  for (uint32_t x = 0; x < 64; x += 9) {
+    const float relative = softAt(planes, x, 44).g / sky.g;
+    CHECK(relative == Approx(1).margin(0.12));
+  }
+}
+
+TEST_CASE("a ball shades the ground behind it from the sun, softly at the rim", "[render]") {
+  LitStage stage;
+  stage.addFloor(50, 0);
+  stage.addSphere({0, 3, 0}, 1, false);
+  stage.scene.background = Background::sky;
+  stage.scene.sun_direction = {0, 1, 0};
+  stage.look({6, 7, 0}, {0, 0, 0});
+  const LightPlanes planes = stage.traced();
+  uint32_t dark = 0, bright = 0, between = 0;
+  for (uint32_t x = 0; x < 64; ++x) {
+    const uint32_t open = openAt(planes, x, 24);
+    (open == 0 ? dark : open == 255 ? bright : between) += 1;
+  }
+  CHECK(openAt(planes, 32, 24) == 0);
+  CHECK(dark > 2);
+  CHECK(bright > 20);
+  CHECK(between > 0);
+  CHECK(between < 20);
+}
+
+TEST_CASE("what a lit wall sends back colours what stands beside it", "[render]") {
+  const auto bounced = [](glm::vec3 colour) {
+    LitStage stage;
+    stage.materials = {{SurfacePattern::plain, glm::vec3(0.6f), 0.9f, 0.0f},
+                       {SurfacePattern::plain, colour, 0.9f, 0.0f}};
+    stage.addFloor(4, 0);
+    stage.add({-2, 0, 4}, {-2, 0, -4}, {-2, 4, -4}, {-2, 4, 4}, 1);
+    stage.scene.ambient = 0;
+    stage.scene.headlamp.colour = glm::vec3(0);
+    stage.scene.lamps = {{{0, 2, 0}, {1, 1, 1}, 3}};
+    stage.look({0, 3, 0.1f}, {-1.5f, 0, 0});
+    return softAt(stage.traced(), 32, 24);
+  };
+  const glm::vec3 red = bounced({0.8f, 0.1f, 0.1f}), grey = bounced(glm::vec3(0.4f));
+  CHECK(red.r > 3 * red.b);
+  CHECK(grey.r == Approx(grey.b).epsilon(0.01));
+  CHECK(grey.r > 0.01f);
+}
+
+TEST_CASE("a lamp behind a wall does not reach, and the wall's back lets it through", "[render]") {
+  LitStage stage;
+  stage.addFloor(9, 0);
+  // A slab between the lamp and the left half of the floor.
+  stage.add({-4, 2, 4}, {0, 2, 4}, {0, 2, -4}, {-4, 2, -4});
+  stage.add({-4, 1.9f, -4}, {0, 1.9f, -4}, {0, 1.9f, 4}, {-4, 1.9f, 4});
+  stage.scene.lamps = {{{0, 5, 0}, {1, 1, 1}, 4}};
+  stage.look({0, 1, 6}, {0, 0, 0});
+  const LightPlanes planes = stage.traced();
+  CHECK(openAt(planes, 10, 26, 1) == 0);
+  CHECK(openAt(planes, 54, 26, 1) == 255);
+}
+
+TEST_CASE("water is the deeper the farther its shore, and what stands in it is wet at its foot", "[render]") {
+  LitStage stage;
+  stage.materials = {materialByName("limestone"), materialByName("water")};
+  stage.addFloor(6, 0, 1);
+  stage.add({-6, -1, -6}, {6, -1, -6}, {6, 5, -6}, {-6, 5, -6});
+  stage.look({0, 3, 6}, {0, 0.5f, -6});
+  const LightPlanes planes = stage.traced();
+  const auto wet = [&](uint32_t y) {
+    const uint32_t bits = planes.direct[size_t{y} * planes.width + 32].mirror[1] >> 16;
+    // A half of 0..64, without the sign: enough for a test.
+    const int exponent = static_cast<int>(bits >> 10 & 31u);
+    return exponent == 0 ? 0.0f : std::ldexp(1 + static_cast<float>(bits & 1023u) / 1024, exponent - 15);
+  };
+  uint32_t shore = 47;  // the last row, from the top, that shows the wall
+  while (shore > 0 && planes.direct[size_t{shore} * 64 + 32].mirror[0] != 0) --shore;
+  REQUIRE(shore > 4);
+  REQUIRE(shore < 40);
+  CHECK(wet(shore + 2) < wet(shore + 8));
+  CHECK(wet(shore + 8) < 8);
+  CHECK(wet(shore) > 0.3f);
+  CHECK(wet(0) == 0);
+}
+
+TEST_CASE("light is the same however many workers trace it", "[render]") {
+  LitStage stage;
+  stage.addSphere({0, 0, 0}, 4, true);
+  stage.scene.lamps = {{{1, 1, 0}, {1, 0.8f, 0.6f}, 3}};
+  stage.look({0, 0, 2}, {0, 0, -1});
+  const LightPlanes one = stage.traced(1), four = stage.traced(4);
+  CHECK(one.brightness == four.brightness);
+  CHECK(std::memcmp(one.direct.data(), four.direct.data(), one.direct.size() * sizeof(DirectLight)) == 0);
+  CHECK(std::memcmp(one.soft.data(), four.soft.data(), one.soft.size() * sizeof(SoftLight)) == 0);
+}
+
+TEST_CASE("the filter keeps even light, takes out noise, and stops at edges", "[render]") {
+  constexpr uint32_t kSide = 64;
+  auto jobs = makeThreadPool(1);
+  REQUIRE(jobs);
+  const unsigned seed = 7;
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> noise(0, 2);
+  Guides guides(kSide, kSide);
+  std::vector<SoftLight> light(size_t{kSide} * kSide);
+  for (uint32_t y = 0; y < kSide; ++y) {
+    for (uint32_t x = 0; x < kSide; ++x) {
+      // Two walls that meet in a corner: the left one dark, the right one bright and noisy.
+      const bool left = x < kSide / 2;
+      const float along = (static_cast<float>(x) - kSide / 2.0f) / kSide;
+      const size_t at = size_t{y} * kSide + x;
+      guides.set(at, {along, static_cast<float>(y) / kSide, left ? along : -along},
+                 left ? glm::vec3(0.7071f, 0, -0.7071f) : glm::vec3(-0.7071f, 0, -0.7071f), 1);
+      light[at].light = glm::vec4(left ? 0.25f : noise(random));
+    }
+  }
+  filterSoft(light, guides, 1.0f / kSide, **jobs);
+  double sum = 0, square = 0, dark = 0;
+  for (uint32_t y = 16; y < 48; ++y) {
+    for (uint32_t x = 40; x < 60; ++x) {
+      const double value = static_cast<double>(light[size_t{y} * kSide + x].light.r);
+      sum += value;
+      square += value * value;
+    }
+    dark = std::max(dark, static_cast<double>(light[size_t{y} * kSide + 31].light.r));
+  }
+  const double mean = sum / 640, deviation = std::sqrt(square / 640 - mean * mean);
+  CHECK(mean == Approx(1).margin(0.06));
+  CHECK(deviation < 0.12);  // 0.58 before
+  CHECK(dark == Approx(0.25).margin(1e-4));
+}
+
+TEST_CASE("materials are found by name, tint and wetness", "[render]") {
+  const auto ochre = findMaterial("plaster_ochre"), plaster = findMaterial("plaster");
+  REQUIRE((ochre && plaster));
+  CHECK(ochre->pattern == plaster->pattern);
+  CHECK(ochre->colour.b < 0.6f * plaster->colour.b);
+  const auto wet = findMaterial("wet_limestone"), dry = findMaterial("limestone");
+  REQUIRE((wet && dry));
+  CHECK(wet->pattern == dry->pattern);
+  CHECK(wet->roughness < 0.5f * dry->roughness);
+  CHECK(wet->colour.g < 0.7f * dry->colour.g);
+  CHECK(findMaterial("wet_roof_tile_red"));
+  for (const char* unknown : {"", "plastic", "plaster_", "plaster_mauve", "_ochre", "wet_", "wet_plastic"}) {
+    INFO(unknown);
+    CHECK(!findMaterial(unknown));
+  }
+}
