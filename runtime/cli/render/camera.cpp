@@ -328,7 +328,8 @@ void lightScene(const View& view, Light light, RenderScene& scene) {
   scene.background = light == Light::sun ? Background::sky : Background::cave;
   switch (light) {
     case Light::sun:
-      scene.fog_distance = 25 * view.depth;
+      // Between walls there is little air to scatter the sky's light.
+      scene.fog_distance = (view.enclosed ? 120.0f : 25.0f) * view.depth;
       return;
     case Light::lamp:
       scene.lamps = view.lamps;

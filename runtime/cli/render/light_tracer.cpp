@@ -116,10 +116,10 @@ class LightTracer {
 
   bool isWater(uint32_t index) const { return material(index).pattern == SurfacePattern::water; }
 
-  /// Beds fall from the shore as gently as shores do: half as deep as the shore is far, on a mean of several ways.
+  /// Beds fall from the shore as gently as shores do: a third as deep as the shore is far, on a mean of several ways.
   float depthOf(const MetSurface& place, UnitPoints& points) const {
     constexpr int kWays = 8;
-    constexpr float kFall = 0.5f, kDeepest = 8;
+    constexpr float kFall = 0.33f, kDeepest = 8;
     float shallow = 0;
     const float turn = points.next().x;
     for (int i = 0; i < kWays; ++i) {

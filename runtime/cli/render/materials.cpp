@@ -15,7 +15,7 @@ constexpr glm::vec3 rgb(float r, float g, float b) { return {r, g, b}; }
 
 using enum SurfacePattern;
 
-constexpr std::array<Named, 48> kTable{{
+constexpr std::array<Named, 49> kTable{{
     {"rock", {rock, rgb(0.40f, 0.36f, 0.31f), 0.82f, 1.0f}},
     {"limestone", {rock, rgb(0.47f, 0.42f, 0.345f), 0.80f, 1.0f}},
     {"dolomite", {rock, rgb(0.47f, 0.45f, 0.42f), 0.82f, 1.0f}},
@@ -42,8 +42,9 @@ constexpr std::array<Named, 48> kTable{{
     {"clay", {plain, rgb(0.36f, 0.22f, 0.14f), 0.88f, 1.4f}},
     {"concrete", {concrete, rgb(0.43f, 0.42f, 0.40f), 0.90f, 1.0f}},
     {"wood", {wooden, rgb(0.29f, 0.18f, 0.10f), 0.75f, 1.0f}},
+    {"boards", {boards, rgb(0.27f, 0.18f, 0.11f), 0.80f, 1.0f}},
     {"timber", {wooden, rgb(0.22f, 0.14f, 0.085f), 0.80f, 1.0f}},
-    {"metal", {metallic, rgb(0.34f, 0.34f, 0.35f), 0.42f, 0.5f}},
+    {"metal", {metallic, rgb(0.27f, 0.27f, 0.275f), 0.55f, 0.8f}},
     {"iron", {metallic, rgb(0.12f, 0.115f, 0.11f), 0.55f, 1.0f}},
     {"steel", {metallic, rgb(0.42f, 0.43f, 0.45f), 0.34f, 0.2f}},
     {"copper", {metallic, rgb(0.25f, 0.40f, 0.33f), 0.70f, 0.3f}},

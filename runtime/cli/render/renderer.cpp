@@ -61,11 +61,12 @@ Result<VulkanBuffer> upload(VulkanScope& scope, std::span<const T> values, VkBuf
   return buffer;
 }
 
-/// Eyes and cameras adapt to the light, though not wholly: a dark place stays darker than a bright one.
-float exposureFor(const LightPlanes& light) {
-  constexpr float kUsual = 0.22f, kAdapted = 0.7f;
+/// Eyes and cameras adapt to the light, though not wholly: a dark place stays darker than a bright one, and by day, when
+/// the light is known, pale things shall not burn out because dark ones are many.
+float exposureFor(const LightPlanes& light, Background background) {
   if (light.brightness <= 0) return 1;
-  return std::clamp(std::pow(kUsual / light.brightness, kAdapted), 0.5f, 4.0f);
+  if (background == Background::sky) return std::clamp(std::pow(0.20f / light.brightness, 0.4f), 0.6f, 1.5f);
+  return std::clamp(std::pow(0.16f / light.brightness, 0.7f), 0.5f, 4.0f);
 }
 
 }  // namespace
@@ -113,7 +114,7 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
   Frame frame = frameOf(scene);
   const Result<LightPlanes> light = traceLight(scene, frame, *jobs_);
   if (!light) return light.error();
-  frame.pattern_offset.w *= exposureFor(*light);
+  frame.pattern_offset.w *= exposureFor(*light, scene.background);
   const std::vector<FrameMaterial> materials = frameMaterials(scene);
   auto vertex_buffer = upload(scope, scene.vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
   if (!vertex_buffer) return vertex_buffer.error();

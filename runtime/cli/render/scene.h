@@ -52,6 +52,7 @@ enum class SurfacePattern : uint32_t {
   mossy,
   water,  ///< mirrors; the deeper the darker
   cloud,  ///< soft white, light passes through
+  boards,  ///< wood, a board beside the other
 };
 
 struct RenderMaterial {

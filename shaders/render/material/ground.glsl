@@ -36,12 +36,12 @@ Surface grassy(Spot at) {
   vec3 dry = mix(at.colour, vec3(0.30, 0.255, 0.14), 0.6), lush = at.colour * vec3(0.7, 0.95, 0.6);
   s.albedo = mix(at.colour, dry, smoothstep(0.0, 0.7, broad.x + 0.4 * clump.x));
   s.albedo = mix(s.albedo, lush, 0.6 * smoothstep(0.1, 0.7, -broad.x + 0.3 * noise(at.p * 1.1).x));
-  s.albedo *= 1.0 + 0.30 * blade + 0.22 * clump.x;
+  s.albedo *= 1.0 + 0.30 * blade + 0.14 * clump.x;
   // Where it is too steep for grass the soil shows.
   float bare = 1.0 - smoothstep(0.60, 0.80, at.n.y + 0.12 * clump.x);
   s.albedo = mix(s.albedo, vec3(0.20, 0.155, 0.105) * (1.0 + 0.3 * clump.x), 0.8 * bare);
   vec4 relief_slope = relief(at.p, 0.30, 6, 0, at.footprint);
-  s.normal = bend(at.n, relief_slope.xyz, 0.55 * at.relief);
+  s.normal = bend(at.n, relief_slope.xyz, 0.26 * at.relief);
   s.roughness = 0.95;
   s.specular = 0.02;
   s.translucency = 0.25;
@@ -53,14 +53,15 @@ Surface leafy(Spot at) {
   Surface s = surfaceOf(at);
   vec3 w = planeWeights(at.n);
   vec2 plane = w.x > w.y && w.x > w.z ? at.p.zy : w.y > w.z ? at.p.xz : at.p.xy;
-  Block b = cellAt(plane + 0.05 * noise(at.p * 3.0).xy, 0.10, 0.03, 31);
-  float seen = visible(0.09, at.footprint);
+  Block b = cellAt(plane + 0.06 * noise(at.p * 5.0).yz, 0.065, 0.02, 31);
+  float seen = visible(0.06, at.footprint), sprig = noise(at.p * 4.5 + 7.0).x;
   vec4 clump = noise(at.p * 1.3);
   s.albedo = at.colour * (1.0 + 0.35 * clump.x) * mix(vec3(1.0), vec3(1.3, 1.12, 0.7), 0.5 * b.lot.x * seen);
-  s.albedo *= mix(0.85, mix(0.35, 1.05, smoothstep(0.0, 0.020, b.edge)) * (0.7 + 0.6 * b.lot.y), seen);
+  s.albedo *= mix(0.85, mix(0.62, 1.0, smoothstep(0.0, 0.016, b.edge)) * (0.62 + 0.7 * b.lot.y), seen);
+  s.albedo *= 1.0 - 0.45 * smoothstep(0.0, -0.6, sprig);
   vec3 turn = vec3(b.lot.x, b.lot.y, b.lot.z) - 0.5;
   vec4 relief_slope = relief(at.p, 0.9, 4, 0, at.footprint);
-  s.normal = bend(at.n, 2.2 * turn * seen + 0.8 * relief_slope.xyz, 0.8 * at.relief);
+  s.normal = bend(at.n, 2.4 * turn * seen + 0.9 * relief_slope.xyz, 0.8 * at.relief);
   s.roughness = 0.6;
   s.specular = 0.03;
   s.translucency = 0.5;

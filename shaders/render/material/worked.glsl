@@ -27,16 +27,16 @@ Surface concrete(Spot at) {
   return s;
 }
 
-// Boards and beams. Their grain runs up walls and along floors.
-Surface wooden(Spot at) {
+// Beams, or boards side by side. The grain runs up walls and along floors.
+Surface wooden(Spot at, bool boarded) {
   Chart chart = chartOf(at.p, at.n);
   vec2 q = chart.at;
-  float board = floor(q.x / 0.14);
-  vec3 lot = random3(ivec3(int(board), 41, 2));
+  vec3 lot = boarded ? random3(ivec3(int(floor(q.x / 0.14)), 41, 2)) : vec3(0.5);
   vec3 fibre = vec3(q.x * 14.0, q.y * 0.9 + 9.0 * lot.x, dot(at.p, at.n) * 14.0);
   vec4 ring = noise(fibre) * visible(0.05, at.footprint);
   float fine = noise(fibre * vec3(5.0, 1.5, 5.0)).x * visible(0.012, at.footprint);
   float gap = 1.0 - smoothstep(0.002, 0.006, min(fract(q.x / 0.14), 1.0 - fract(q.x / 0.14)) * 0.14);
+  if (!boarded) gap = 0.0;
   Surface s = surfaceOf(at);
   vec3 grey = vec3(dot(at.colour, vec3(0.4)));
   s.albedo = mix(at.colour, grey, 0.25 * smoothstep(0.0, 0.6, noise(at.p * 0.8).x));
@@ -52,7 +52,7 @@ Surface metallic(Spot at) {
   s.albedo = at.colour * (1.0 + 0.08 * broad);
   s.albedo = mix(s.albedo, vec3(0.20, 0.10, 0.05), 0.25 * at.relief * stain);
   s.roughness = clamp(at.roughness * (1.0 + 0.5 * broad + 0.6 * stain), 0.1, 1.0);
-  s.specular = 0.35;
+  s.specular = 0.22;
   return s;
 }
 
@@ -64,9 +64,9 @@ Surface asphalt(Spot at) {
   float split = cracks(at.p + 0.3 * noise(at.p * 0.7).yzw, at.n, 3.1, 0.012, at.footprint) * smoothstep(0.1, 0.5, broad);
   s.albedo = at.colour * (1.0 + 0.35 * chips + 0.16 * broad) * (1.0 - 0.45 * split);
   vec4 relief_slope = relief(at.p, 0.04, 3, 0, at.footprint);
-  s.normal = bend(at.n, relief_slope.xyz, 0.14 * at.relief);
+  s.normal = bend(at.n, relief_slope.xyz, 0.06 * at.relief);
   wetten(s, at.wet);
-  s.roughness = roughened(s.roughness, 0.02 * relief_slope.w);
+  s.roughness = roughened(s.roughness, 0.004 * relief_slope.w);
   return s;
 }
 

@@ -1,6 +1,7 @@
 // One run tells all that is wrong: what was parsed is checked, whatever else was not, and nothing is told that only
 // follows from what is missing.
 
+#include "grammar/std_library.h"
 #include "grammar/check_file.h"
 #include "messages.h"
 
@@ -98,7 +99,8 @@ TEST_CASE("the standard library is right by itself", "[grammar][library]") {
   FolderResolver folder(SGM_SOURCE_DIR "/runtime/grammar/std");
   CompileOptions options;
   options.resolver = &folder;
-  for (const char* name : {"cave.sgm", "cloud.sgm", "noise.sgm", "rock.sgm"}) {
+  for (const StdFile& file : stdLibrary()) {
+    const std::string name(file.path.substr(file.path.find('/') + 1));
     const CheckResult result = checkFile(*folder.read(name, 0), name, options);
     INFO(name << "\n" << renderDiagnostics(result.compiled));
     CHECK(result.compiled.diagnostics.empty());

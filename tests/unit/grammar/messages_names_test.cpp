@@ -125,8 +125,8 @@ const MessageCase kDeclarations[] = {
      "sgm 1; start A; rule A { B; sphere(B()); } rule B { }"},
     {"1:66 unknown-name: `rock` has no `fmb` | did you mean `fbm`?",
      "sgm 1; import \"std/rock.sgm\" as rock; start A; rule A { displace rock.fmb(1m, 1m) { } }"},
-    {"1:66 unknown-name: `rock` has no `granite` | it has fbm, ridged, strata, bend, scallops",
-     "sgm 1; import \"std/rock.sgm\" as rock; start A; rule A { displace rock.granite(1m) { } }"},
+    {"1:68 unknown-name: `noise` has no `granite` | it has value, fbm, billow, ridged, swirl, part",
+     "sgm 1; import \"std/noise.sgm\" as noise; start A; rule A { displace noise.granite(1m) { } }"},
     {"1:64 wrong-use: `rock` is an import | name something of it: rock.name",
      "sgm 1; import \"std/rock.sgm\" as rock; start A; rule A { sphere(rock); }"},
     {"1:57 wrong-use: `rock` is an import | name something of it: rock.name",
@@ -134,7 +134,8 @@ const MessageCase kDeclarations[] = {
     {"1:15 import-missing: the standard library has no `std/rokc.sgm` | did you mean `std/rock.sgm`?",
      "sgm 1; import \"std/rokc.sgm\" as a; start A; rule A { }"},
     {"1:15 import-missing: the standard library has no `std/marble.sgm` | it has std/cave.sgm, std/cloud.sgm, "
-     "std/noise.sgm, std/rock.sgm",
+     "std/facade.sgm, std/fort.sgm, std/gothic.sgm, std/karst.sgm, std/mine.sgm, std/noise.sgm, std/plant.sgm, "
+     "std/rock.sgm, std/street.sgm, std/timber.sgm",
      "sgm 1; import \"std/marble.sgm\" as a; start A; rule A { }"},
     {"1:15 import-missing: cannot import `a.sgm`: no folder to read from | only the standard library can be imported "
      "here: \"std/rock.sgm\"",
