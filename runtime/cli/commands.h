@@ -149,10 +149,13 @@ struct RenderOptions : WorldOptions {
   std::string at;
   std::string size = "1280x720";
   double fov = 68;
-  std::string light = "auto";  ///< sun, lamp, none, or auto: what the camera sees decides
-  bool volume = false;  ///< the solid as fog instead of its surface
-  bool wires = false;   ///< the mesh's edges, without materials
+  std::string light = "auto";          ///< sun, lamp, none, or auto: what the camera sees decides
+  bool volume = false;                 ///< the solid as fog instead of its surface
+  bool wires = false;                  ///< the mesh's edges, without materials
+  bool plan = false;                   ///< a survey's plan in place of a picture
+  std::optional<std::string> section;  ///< a long section: "" or as survey::readCutLine takes it
 };
+/// A picture or a survey.
 Exit render(const RenderOptions& options);
 
 struct FlyOptions : WorldOptions {

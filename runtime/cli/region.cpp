@@ -54,6 +54,19 @@ Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, c
   return chosen;
 }
 
+/// Lets the plan choose the region where nobody else has, with cells that fit it where the options do not say.
+Result<void> settleRegion(ChosenWorld& chosen, const WorldOptions& options, const RegionPlan& plan) {
+  if (chosen.region) return {};
+  const Result<IntBox> region = plan.choose(WorldField(chosen.settings, std::pmr::new_delete_resource()));
+  if (!region) return region.error();
+  chosen.region = *region;
+  if (options.cell || options.density) return {};
+  const Result<int32_t> fitting = cellFor(std::span(&*region, 1), std::min(kChosenChunks, options.max_chunks));
+  if (!fitting) return fitting.error();
+  chosen.settings.finest_cell = *fitting;
+  return {};
+}
+
 /// The grammar, once what the command line alone can tell is right; what is wrong has been said.
 LoadedGrammar loadForWorld(const WorldOptions& options, const RegionPlan& plan) {
   const auto refused = [](Exit status) {
@@ -201,16 +214,7 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
   const Result<std::unique_ptr<Backend>> backend = backendOf(options, *jobs);
   if (!backend) return backend.error();
-  if (!region) {
-    const Result<IntBox> chosen = plan.choose(WorldField(settings, memory));
-    if (!chosen) return chosen.error();
-    region = *chosen;
-    if (!options.cell && !options.density) {
-      const Result<int32_t> fitting = cellFor(std::span(&*region, 1), std::min(kChosenChunks, options.max_chunks));
-      if (!fitting) return fitting.error();
-      settings.finest_cell = *fitting;
-    }
-  }
+  if (const Result<void> settled = settleRegion(*chosen_world, options, plan); !settled) return settled.error();
   const int32_t cell = settings.finest_cell;
   if (const Result<void> few = checkChunks(options, *region, cell); !few) return few.error();
   const auto kept = std::make_shared<const WorldField>(std::move(settings), memory);
@@ -270,14 +274,15 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
   return result;
 }
 
-OpenedWorld openWorld(const WorldOptions& options) {
+OpenedWorld openWorld(const WorldOptions& options, const RegionPlan& plan) {
   OpenedWorld opened;
-  const LoadedGrammar grammar = loadForWorld(options, {});
+  const LoadedGrammar grammar = loadForWorld(options, plan);
   opened.status = grammar.status;
   if (grammar.program == nullptr) return opened;
-  Result<ChosenWorld> chosen = chooseWorld(grammar.program, options, {});
-  if (!chosen) {
-    opened.status = complain(chosen.error());
+  Result<ChosenWorld> chosen = chooseWorld(grammar.program, options, plan);
+  const Result<void> settled = chosen ? settleRegion(*chosen, options, plan) : chosen.error();
+  if (!settled) {
+    opened.status = complain(settled.error());
     return opened;
   }
   opened.program = grammar.program;

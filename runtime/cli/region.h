@@ -86,8 +86,8 @@ struct OpenedWorld {
   IntBox region;  ///< --region, else all of a finite world
 };
 
-/// Of an endless world there must be a --region. Messages go to stderr.
-OpenedWorld openWorld(const WorldOptions& options);
+/// Of an endless world there must be a --region, or a plan that chooses one. Messages go to stderr.
+OpenedWorld openWorld(const WorldOptions& options, const RegionPlan& plan = {});
 
 /// Meshes what the options say of a grammar that is compiled. The region is as meshRegion() has it. A progress bar goes
 /// to stderr where that is a terminal, and no message. Errors: invalid_argument, for what the options say; those of

@@ -1,34 +1,18 @@
 // sgm render: a picture of a region of a grammar's world.
 
 #include <fmt/core.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
+#include <cctype>
+#include <filesystem>
 
 #include "cli/commands.h"
+#include "cli/drawable_region.h"
 #include "cli/json.h"
 #include "cli/region_picture.h"
-#include "grammar/sink.h"
+#include "cli/survey.h"
 
 namespace sgm::cli {
 namespace {
-
-/// What to say where the region has no such anchor.
-std::string noAnchor(const Region& region, const std::string& wanted) {
-  const Program& program = *region.program;
-  Suggestion suggestion(wanted);
-  std::set<std::string> known;
-  for (const Anchor& anchor : region.anchors)
-    for (const auto& name : {program.names[anchor.name], program.names[anchor.kind], program.tags[anchor.tag]})
-      if (!name.empty()) known.emplace(name);
-  for (const std::string& name : known) suggestion.offer(name);
-  const std::string hint = known.empty()               ? "it has no anchor at all"
-                           : suggestion.best().empty() ? fmt::format("it has {}", fmt::join(known, ", "))
-                                                       : fmt::format("did you mean '{}'?", suggestion.best());
-  return fmt::format("--at: the region has no anchor of the name, kind or tag '{}'; {}", wanted, hint);
-}
 
 /// In metres of the world.
 std::array<double, 3> worldPoint(const WorldMesh& mesh, const glm::vec3& point) {
@@ -39,9 +23,18 @@ std::array<double, 3> worldPoint(const WorldMesh& mesh, const glm::vec3& point) 
   return world;
 }
 
+bool isPng(const std::string& out) {
+  std::string extension = std::filesystem::path(out).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".png";
+}
+
 }  // namespace
 
 Exit render(const RenderOptions& options) {
+  if (options.plan || options.section) return drawSurvey(options);
+  if (!isPng(options.out))
+    return complain(Exit::usage, "--out: pictures are .png files; --plan and --section write .svg too");
   // The device and the file first: meshing may take long, and be for nothing.
   const Result<Renderer> renderer = Renderer::create();
   if (!renderer) return complain(renderer.error());
@@ -51,10 +44,7 @@ Exit render(const RenderOptions& options) {
   const RegionResult made = meshRegion(options, picturePlan(options, density));
   if (!made.region) return made.status;
   const Region& region = *made.region;
-  if (!options.at.empty() && anchorsAt(region, options.at).empty())
-    return complain(Exit::input, noAnchor(region, options.at));
-  if (region.meshed.mesh.indices.empty())
-    return complain(Exit::input, "there is no surface to draw: " + region.empty_because);
+  if (const Result<void> drawable = checkDrawable(options, region); !drawable) return complain(drawable.error());
 
   const Stopwatch watch;
   const Result<RegionPicture> picture = drawRegion(*renderer, options, region, density);

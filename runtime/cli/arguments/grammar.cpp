@@ -104,6 +104,33 @@ Command addMesh(CLI::App& root) {
   return [options] { return mesh(*options); };
 }
 
+namespace {
+
+constexpr const char* kSurveySize = "1600x1200";
+
+bool isSurvey(const RenderOptions& options) { return options.plan || options.section; }
+
+/// Drawings in place of pictures.
+void addSurveyOptions(CLI::App& app, RenderOptions& options) {
+  CLI::Option* plan = app.add_flag(
+      "--plan", options.plan,
+      "Draw a survey's plan instead: the void of a solid world, else what stands, seen from above, with walls, "
+      "contours, water, dripstone and a scale bar");
+  CLI::Option* section =
+      app.add_option_function<std::string>(
+             "--section", [&options](const std::string& line) { options.section = line; },
+             "Draw a long section instead, along the region's longer axis where most is cut, or along a line seen from "
+             "above in metres; with --plan both on one sheet")
+          ->type_name("X,Z:X,Z")
+          ->expected(0, 1)
+          ->default_str("")
+          ->check(checkCutLine);
+  for (const char* other : {"--camera", "--fov", "--light", "--uv", "--volume", "--wires", "--sharp"})
+    for (CLI::Option* survey : {plan, section}) survey->excludes(app.get_option(other));
+}
+
+}  // namespace
+
 Command addRender(CLI::App& root) {
   CLI::App* app = root.add_subcommand("render", "Draw a picture of a region, off-screen");
   const auto options = std::make_shared<RenderOptions>();
@@ -111,7 +138,9 @@ Command addRender(CLI::App& root) {
   addRegionOptions(*app, *options);
   addLevelOption(*app, *options);
   addSharpOption(*app, *options);
-  app->add_option("--out", options->out, "Picture to write, a .png file")->required()->check(checkPng);
+  app->add_option("--out", options->out, "Picture to write, a .png file; of --plan and --section also .svg")
+      ->required()
+      ->check(checkPicture);
   app->add_flag("--uv", options->uv,
                 "Show texture coordinates: chequers of half a metre, lines of u red and of v green at whole metres");
   CLI::Option* camera =
@@ -119,10 +148,13 @@ Command addRender(CLI::App& root) {
                       "From where to where to look in metres, x,y,z:x,y,z; without it, a view is chosen")
           ->type_name("VIEW")
           ->check(checkCamera);
-  app->add_option("--at", options->at, "Look from an anchor of this name, kind or tag")
+  app->add_option("--at", options->at, "Look from an anchor of this name, kind or tag; a plan lies around it")
       ->type_name("ANCHOR")
       ->excludes(camera);
-  app->add_option("--size", options->size, "Pixels, WIDTHxHEIGHT")->check(checkSize)->capture_default_str();
+  const CLI::Option* size =
+      app->add_option("--size", options->size, "Pixels, WIDTHxHEIGHT; 1600x1200 for --plan and --section")
+          ->check(checkSize)
+          ->capture_default_str();
   app->add_option("--fov", options->fov, "Angle across the picture's height, in degrees")
       ->check(numberIn(1.0, 150.0))
       ->capture_default_str();
@@ -131,9 +163,15 @@ Command addRender(CLI::App& root) {
                 "Draw the solid as fog, by its density at the cells' corners; for grammars that say `output density`")
       ->excludes(light)
       ->excludes(app->add_flag("--wires", options->wires, "Draw the mesh's edges, on a surface without materials"));
+  addSurveyOptions(*app, *options);
   app->footer(std::string(kLightFooter) +
-              "Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7");
-  return [options] { return render(*options); };
+              "Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7\n"
+              "  sgm render samples/grammars/lake.sgm --out plan.svg --plan --section --seed 3");
+  return [options, size] {
+    if (!isSurvey(*options)) return render(*options);
+    if (size->count() == 0) options->size = kSurveySize;
+    return render(*options);
+  };
 }
 
 }  // namespace sgm::cli

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "cli/survey/slice.h"
 #include "mesh/export.h"
 #include "stream/chunk_key.h"
 
@@ -73,6 +74,18 @@ std::string checkShard(const std::string& text) {
 std::string checkPng(const std::string& out) {
   const std::string extension = std::filesystem::path(out).extension().string();
   return CLI::detail::to_lower(extension) == ".png" ? std::string() : "pictures are .png files";
+}
+
+std::string checkPicture(const std::string& out) {
+  const std::string extension = CLI::detail::to_lower(std::filesystem::path(out).extension().string());
+  return extension == ".svg" || extension == ".png" ? std::string()
+                                                    : "pictures are .png files, surveys .png or .svg files";
+}
+
+std::string checkCutLine(const std::string& text) {
+  return text.empty() || survey::readCutLine(text)
+             ? std::string()
+             : fmt::format("'{}' is not a line X,Z:X,Z in metres between two places", text);
 }
 
 std::string checkVideo(const std::string& out) {

@@ -24,6 +24,9 @@ std::string checkCamera(const std::string& text);
 std::string checkLevels(const std::string& text);
 std::string checkShard(const std::string& text);
 std::string checkPng(const std::string& out);
+/// .png or .svg.
+std::string checkPicture(const std::string& out);
+std::string checkCutLine(const std::string& text);
 std::string checkVideo(const std::string& out);
 
 void addLevelOption(CLI::App& app, WorldOptions& options);

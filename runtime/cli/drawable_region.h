@@ -1,0 +1,18 @@
+#pragma once
+// Whether a region has what a picture of it is asked for.
+
+#include <span>
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/region.h"
+
+namespace sgm::cli {
+
+/// Error: invalid_argument where none of the anchors has the wanted name, kind or tag; none wanted is any.
+Result<void> checkAnchor(const Program& program, std::span<const Anchor> anchors, const std::string& wanted);
+
+/// Error: invalid_argument where the region has no surface, or not the anchor that --at names.
+Result<void> checkDrawable(const RenderOptions& options, const Region& region);
+
+}  // namespace sgm::cli

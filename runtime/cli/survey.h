@@ -1,0 +1,11 @@
+#pragma once
+// `sgm render --plan` and `--section`: a survey of a region in place of a picture.
+
+#include "cli/commands.h"
+
+namespace sgm::cli {
+
+/// Contract: options.plan or options.section. Needs no device.
+Exit drawSurvey(const RenderOptions& options);
+
+}  // namespace sgm::cli

@@ -1,0 +1,45 @@
+#pragma once
+// A drawing of lines, areas and letters, before it is an SVG file or a picture of pixels.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sgm::survey {
+
+/// Pixels from the upper left corner, x to the right, y down.
+struct Point {
+  double x = 0, y = 0;
+  friend bool operator==(const Point&, const Point&) = default;
+};
+
+using Line = std::vector<Point>;
+
+struct Ink {
+  uint8_t r = 0, g = 0, b = 0;
+};
+
+inline constexpr Ink kBlack{}, kWhite{255, 255, 255};
+
+/// Lines of one pen, or areas of one colour.
+struct Mark {
+  std::string_view name;    ///< static; what the mark stands for, as the class of an SVG element: "wall"
+  std::vector<Line> lines;  ///< of an area: rings, closed by themselves; what an odd number of rings holds is filled
+  bool filled = false;
+  Ink ink = kBlack;
+  double width = 1;            ///< of the pen, pixels
+  std::vector<double> dashes;  ///< lengths drawn and left out by turns; none: all is drawn
+  std::string text;            ///< of lettering, whose strokes are the lines
+};
+
+/// White paper with marks, the first ones below.
+struct Drawing {
+  int width = 0, height = 0;
+  std::vector<Mark> marks;
+};
+
+/// Parts of a line that a pen with these dashes draws. Precondition: the dashes' sum is positive, or there are none.
+std::vector<Line> dashed(const Line& line, const std::vector<double>& dashes);
+
+}  // namespace sgm::survey
