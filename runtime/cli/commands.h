@@ -152,10 +152,11 @@ struct RenderOptions : WorldOptions {
   std::string light = "auto";          ///< sun, lamp, none, or auto: what the camera sees decides
   bool volume = false;                 ///< the solid as fog instead of its surface
   bool wires = false;                  ///< the mesh's edges, without materials
+  std::string seeds;                   ///< of a contact sheet, as readSeeds takes them; empty: one picture of `seed`
   bool plan = false;                   ///< a survey's plan in place of a picture
   std::optional<std::string> section;  ///< a long section: "" or as survey::readCutLine takes it
 };
-/// A picture or a survey.
+/// A picture, a contact sheet or a survey.
 Exit render(const RenderOptions& options);
 
 struct FlyOptions : WorldOptions {

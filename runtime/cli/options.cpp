@@ -94,6 +94,36 @@ std::optional<Gaze> readCamera(std::string_view text) {
   return Gaze{*from, *to};
 }
 
+Result<std::vector<uint64_t>> readSeeds(std::string_view text) {
+  const auto number = [](std::string_view digits) -> std::optional<uint64_t> {
+    uint64_t value = 0;
+    const char* end = digits.data() + digits.size();
+    const auto [rest, why] = std::from_chars(digits.data(), end, value);
+    return why == std::errc() && rest == end ? std::optional(value) : std::nullopt;
+  };
+  std::vector<uint64_t> seeds;
+  for (std::string_view left = text;;) {
+    const size_t comma = std::min(left.find(','), left.size());
+    const std::string_view part = left.substr(0, comma);
+    const size_t dots = part.find("..");
+    const std::optional<uint64_t> first = number(part.substr(0, dots)),
+                                  last = dots == part.npos ? first : number(part.substr(dots + 2));
+    if (!first || !last)
+      return wrong(fmt::format("'{}' is not seeds such as 1..9 or 3,7,11: whole numbers from 0", text));
+    if (*first > *last) return wrong(fmt::format("'{}' runs backwards: write {}..{}", part, *last, *first));
+    if (*last - *first >= kMostSeeds - seeds.size())
+      return wrong(fmt::format("'{}' has more than {} seeds: a sheet has room for no more", text, kMostSeeds));
+    for (uint64_t seed = *first;; ++seed) {
+      if (std::ranges::find(seeds, seed) != seeds.end())
+        return wrong(fmt::format("'{}' has seed {} twice", text, seed));
+      seeds.push_back(seed);
+      if (seed == *last) break;
+    }
+    if (comma == left.size()) return seeds;
+    left.remove_prefix(comma + 1);
+  }
+}
+
 Result<IntBox> parseRegion(std::string_view text) {
   const size_t colon = std::min(text.find(':'), text.size());
   const auto from = readPoint(text.substr(0, colon)), to = readPoint(text.substr(std::min(colon + 1, text.size())));

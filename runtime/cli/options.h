@@ -47,6 +47,11 @@ std::optional<Gaze> readCamera(std::string_view text);
 
 /// "0..4" or "2"; nothing where the text is no such range of levels, the finest first.
 std::optional<std::pair<int, int>> readLevels(std::string_view text);
+/// The most seeds of one contact sheet.
+inline constexpr size_t kMostSeeds = 256;
+/// "1..9", "3,7,11" or "1..3,9": each once, as written. Error: invalid_argument, saying what to write.
+Result<std::vector<uint64_t>> readSeeds(std::string_view text);
+
 /// "3/16", counted from 0; nothing where the text is no such share.
 std::optional<std::pair<uint64_t, uint64_t>> readShard(std::string_view text);
 

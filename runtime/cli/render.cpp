@@ -9,6 +9,7 @@
 #include "cli/drawable_region.h"
 #include "cli/json.h"
 #include "cli/region_picture.h"
+#include "cli/seed_sheet.h"
 #include "cli/survey.h"
 
 namespace sgm::cli {
@@ -35,6 +36,7 @@ Exit render(const RenderOptions& options) {
   if (options.plan || options.section) return drawSurvey(options);
   if (!isPng(options.out))
     return complain(Exit::usage, "--out: pictures are .png files; --plan and --section write .svg too");
+  if (!options.seeds.empty()) return drawSeeds(options);
   // The device and the file first: meshing may take long, and be for nothing.
   const Result<Renderer> renderer = Renderer::create();
   if (!renderer) return complain(renderer.error());

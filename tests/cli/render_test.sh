@@ -173,6 +173,43 @@ expect 0 "$SGM" render hollow.sgm --out hollow.png --at beacon --cell 1 --size 3
 err_has 'note: --at beacon is not used'
 rm hollow.sgm hollow.png
 
+# Seeds side by side, about as many columns as rows; one that fails has its place, is told, and decides the status.
+cat >fickle.sgm <<'END'
+sgm 1;
+units m;
+start Maybe;
+rule Maybe weight 1 { sphere(rand(1m, 3m)); mat marble; }
+rule Maybe weight 1 { }
+END
+expect 1 "$SGM" render fickle.sgm --out sheet.png --seeds 1..7 --sheet --size 480x270 --region=-4,-4,-4:4,4,4 --json
+json 'j.columns === 3 && j.seeds.map(s => s.seed).join() === "1,2,3,4,5,6,7" && Math.abs(j.width - 480) < 12'
+json 'j.seeds.some(s => s.error) && j.seeds.some(s => !s.error && s.triangles > 50) && Math.abs(j.height - 270) < 24'
+[[ $(grep -c . <<<"$err") == 1 ]] || failed "the same reason is told more than once"
+err_has 'error: seeds? [0-9, ]+: there is no surface to draw'
+picture sheet.png "$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).width' "$work/.out")" \
+  "$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).height' "$work/.out")"
+expect 0 "$SGM" render ball.sgm --out sheet.png --seeds 3,9 --sheet --size 320x180 --cell 1
+out_has '2 seeds in 2 columns'
+expect 1 "$SGM" render fickle.sgm --out none.png --seeds 1..3 --sheet --region=100,100,100:110,110,110
+one_line
+err_has 'seeds 1, 2, 3: there is no surface'
+[[ ! -e none.png ]] || failed "a sheet without a picture was written"
+for seeds in 4..2 x 1.. ..3 1,1 1,,2 -1 1..9999 1..3,2; do
+  expect 2 "$SGM" render ball.sgm --out wrong.png --seeds=$seeds --sheet
+  err_has "usage: --seeds: '"
+done
+expect 2 "$SGM" render ball.sgm --out wrong.png --seeds 1..3
+err_has '--seeds requires --sheet'
+expect 2 "$SGM" render ball.sgm --out wrong.png --sheet
+err_has '--sheet requires --seeds'
+expect 2 "$SGM" render ball.sgm --out wrong.png --seeds 1..3 --sheet --seed 4
+err_has 'excludes'
+expect 2 "$SGM" render ball.sgm --out wrong.png --seeds 1..200 --sheet --size 320x180
+err_has 'larger --size or fewer --seeds'
+expect 1 "$SGM" render ball.sgm --out wrong.png --seeds 1..3 --sheet --cell 0
+one_line
+rm fickle.sgm sheet.png
+
 expect 1 "$SGM" render ball.sgm --out wrong.png --at nothing_of_that_name
 err_has "no anchor of the name, kind or tag 'nothing_of_that_name'; it has no anchor at all"
 printf 'sgm 1; start A; rule A { sphere(2m); anchor spawn "camp"; }\n' >named.sgm

@@ -125,8 +125,22 @@ void addSurveyOptions(CLI::App& app, RenderOptions& options) {
           ->expected(0, 1)
           ->default_str("")
           ->check(checkCutLine);
-  for (const char* other : {"--camera", "--fov", "--light", "--uv", "--volume", "--wires", "--sharp"})
+  for (const char* other : {"--camera", "--seeds", "--fov", "--light", "--uv", "--volume", "--wires", "--sharp"})
     for (CLI::Option* survey : {plan, section}) survey->excludes(app.get_option(other));
+}
+
+/// Which worlds.
+void addChoiceOptions(CLI::App& app, RenderOptions& options) {
+  CLI::Option* seeds =
+      app.add_option("--seeds", options.seeds, "With --sheet: one picture for each of these seeds, 1..9 or 3,7,11")
+          ->type_name("SEEDS")
+          ->excludes(app.get_option("--seed"))
+          ->check(checkSeeds);
+  CLI::Option* sheet =
+      app.add_flag("--sheet")
+          ->description("Put all pictures on one sheet of about --size, each with its seed in a corner")
+          ->needs(seeds);
+  seeds->needs(sheet);
 }
 
 }  // namespace
@@ -163,9 +177,11 @@ Command addRender(CLI::App& root) {
                 "Draw the solid as fog, by its density at the cells' corners; for grammars that say `output density`")
       ->excludes(light)
       ->excludes(app->add_flag("--wires", options->wires, "Draw the mesh's edges, on a surface without materials"));
+  addChoiceOptions(*app, *options);
   addSurveyOptions(*app, *options);
   app->footer(std::string(kLightFooter) +
               "Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7\n"
+              "  sgm render samples/grammars/cave.sgm --out sheet.png --seeds 1..9 --sheet\n"
               "  sgm render samples/grammars/lake.sgm --out plan.svg --plan --section --seed 3");
   return [options, size] {
     if (!isSurvey(*options)) return render(*options);

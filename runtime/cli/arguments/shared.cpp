@@ -88,6 +88,11 @@ std::string checkCutLine(const std::string& text) {
              : fmt::format("'{}' is not a line X,Z:X,Z in metres between two places", text);
 }
 
+std::string checkSeeds(const std::string& text) {
+  const Result<std::vector<uint64_t>> seeds = readSeeds(text);
+  return seeds ? std::string() : seeds.error().message;
+}
+
 std::string checkVideo(const std::string& out) {
   const std::string extension = std::filesystem::path(out).extension().string();
   return CLI::detail::to_lower(extension) == ".mp4" ? std::string() : "videos are .mp4 files";

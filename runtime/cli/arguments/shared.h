@@ -27,6 +27,7 @@ std::string checkPng(const std::string& out);
 /// .png or .svg.
 std::string checkPicture(const std::string& out);
 std::string checkCutLine(const std::string& text);
+std::string checkSeeds(const std::string& text);
 std::string checkVideo(const std::string& out);
 
 void addLevelOption(CLI::App& app, WorldOptions& options);
