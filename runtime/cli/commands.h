@@ -152,6 +152,7 @@ struct RenderOptions : WorldOptions {
   std::string light = "auto";          ///< sun, lamp, none, or auto: what the camera sees decides
   bool volume = false;                 ///< the solid as fog instead of its surface
   bool wires = false;                  ///< the mesh's edges, without materials
+  std::string frame;                   ///< a rule, or a path of uses, one of which the camera shows; empty: none
   std::string seeds;                   ///< of a contact sheet, as readSeeds takes them; empty: one picture of `seed`
   bool plan = false;                   ///< a survey's plan in place of a picture
   std::optional<std::string> section;  ///< a long section: "" or as survey::readCutLine takes it

@@ -44,7 +44,7 @@ Result<ChosenWorld> chooseWorld(const std::shared_ptr<const Program>& program, c
   }
   Result<ParameterValues> parameters = parameterValues(*program, options.sets);
   if (!parameters) return parameters.error();
-  if (options.region.empty() && !program->domain.infinite) chosen.region = program->domain.box;
+  if (options.region.empty() && !program->domain.infinite && !plan.part) chosen.region = program->domain.box;
   if (!chosen.region && !plan.choose) return Error{Code::invalid_argument, kEndless};
   chosen.settings.program = program;
   chosen.settings.parameters = std::move(*parameters);
@@ -61,6 +61,10 @@ Result<void> settleRegion(ChosenWorld& chosen, const WorldOptions& options, cons
   if (!region) return region.error();
   chosen.region = *region;
   if (options.cell || options.density) return {};
+  if (const int32_t cell = plan.cell ? plan.cell() : 0; cell > 0) {
+    chosen.settings.finest_cell = cell;
+    return {};
+  }
   const Result<int32_t> fitting = cellFor(std::span(&*region, 1), std::min(kChosenChunks, options.max_chunks));
   if (!fitting) return fitting.error();
   chosen.settings.finest_cell = *fitting;

@@ -74,6 +74,10 @@ struct RegionPlan {
   std::function<Result<void>(const Program& program)> check;
   /// Says which part of an endless world is meant where no --region does.
   std::function<Result<IntBox>(const WorldField& world)> choose;
+  bool part = false;  ///< `choose` is asked about a finite world too, which otherwise is taken whole
+  /// Edge of the cells, units, for the region that `choose` has chosen, where the options do not say; empty or 0: as
+  /// large as that needs.
+  std::function<int32_t()> cell;
   /// Asks the world for more, once the region is meshed.
   std::function<Result<void>(const WorldField& world, Backend& backend, JobSystem& jobs, const Region& region)> after;
 };

@@ -222,6 +222,10 @@ RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity
   RegionPlan plan;
   plan.texture = true;
   plan.keep_world = true;
+  if (!options.frame.empty()) {
+    planFrame(options, plan);
+    return plan;
+  }
   plan.choose = [&options](const WorldField& world) -> Result<IntBox> {
     if (!options.camera.empty()) return surroundingsOf((*readCamera(options.camera))[0]);
     return surroundings(world, options.at);
@@ -241,10 +245,11 @@ RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity
 Result<RegionPicture> drawRegion(const Renderer& renderer, const RenderOptions& options, const Region& region,
                                  const std::optional<RegionDensity>& density) {
   Drawable drawn = drawable(region, options.uv);
-  Result<View> view = viewOf(options, region, drawn);
+  RegionPicture picture;
+  Result<View> view = options.frame.empty() ? viewOf(options, region, drawn)
+                                            : frameUse(options, region, drawn.vertices, drawn.indices, picture.framed);
   if (!view) return view.error();
   if (options.wires) addWires(region, view->camera, drawn);
-  RegionPicture picture;
   if (!density) {
     const std::optional<Light> wanted = lightNamed(options.light);
     if (!wanted) {

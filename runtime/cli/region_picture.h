@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/daylight.h"
+#include "cli/framed_use.h"
 #include "cli/region.h"
 #include "cli/region_density.h"
 #include "render/camera.h"
@@ -17,7 +18,8 @@ struct RegionPicture {
   Image image;
   View view;
   Light light = Light::sun;
-  std::optional<double> daylight;  ///< where that has decided on the light
+  std::optional<double> daylight;   ///< where that has decided on the light
+  std::optional<FramedUse> framed;  ///< where --frame asks for a use of a rule
 };
 
 /// Places of the region's anchors of that name, kind or tag, metres from its mesh's origin; of those that its border

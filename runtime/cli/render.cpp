@@ -75,6 +75,7 @@ Exit render(const RenderOptions& options) {
                    {"enclosed", view.enclosed}}},
                  {"light", lightName(picture->light)},
                  {"daylight", picture->daylight ? Json(*picture->daylight) : Json(nullptr)}});
+    if (picture->framed) json["frame"] = toJson(*picture->framed);
     fmt::print("{}\n", json.text());
   } else {
     fmt::print("{}: {}x{} pixels, {} triangles meshed in {:.2f} s, drawn in {:.2f} s on {}\n", options.out, image.width,
@@ -86,6 +87,7 @@ Exit render(const RenderOptions& options) {
     if (isCut(region)) fmt::print("  border   cuts the surface, which goes on: --region takes more of it, or less\n");
     fmt::print("  camera   at {:.1f},{:.1f},{:.1f} m{}\n", position[0], position[1], position[2],
                view.enclosed ? ", inside" : "");
+    if (picture->framed) fmt::print("  frame    {}\n", textOf(*picture->framed));
     if (picture->daylight)
       fmt::print("  light    {}: {:.1f} % of the sky is open to what the camera sees (--light chooses)\n",
                  lightName(picture->light), 100 * *picture->daylight);

@@ -25,6 +25,7 @@ struct SeedPicture {
   Image image;
   std::optional<Error> error;
   size_t triangles = 0;
+  std::string path;  ///< of the use that --frame shows
 };
 
 int columnsFor(size_t count) { return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count)))); }
@@ -47,6 +48,7 @@ Result<void> drawSeed(const Renderer& renderer, const std::shared_ptr<const Prog
   if (!drawn) return drawn.error();
   picture.image = std::move(drawn->image);
   picture.triangles = region->meshed.mesh.indices.size() / 3;
+  if (drawn->framed) picture.path = drawn->framed->path;
   return {};
 }
 
@@ -117,6 +119,7 @@ Json toJson(const RenderOptions& options, const Image& sheet, int columns, const
   for (const SeedPicture& picture : pictures) {
     Json one{{"seed", picture.seed}, {"triangles", picture.triangles}};
     one["error"] = picture.error ? Json(picture.error->message) : Json(nullptr);
+    if (!picture.path.empty()) one["frame"] = picture.path;
     seeds.push_back(std::move(one));
   }
   return {{"out", options.out},        {"width", sheet.width},        {"height", sheet.height},

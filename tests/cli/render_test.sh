@@ -210,6 +210,48 @@ expect 1 "$SGM" render ball.sgm --out wrong.png --seeds 1..3 --sheet --cell 0
 one_line
 rm fickle.sgm sheet.png
 
+# A use of a rule, as large as it should be, from where it is seen.
+cat >posts.sgm <<'END'
+sgm 1;
+units m;
+domain infinite axes xz;
+layer rows cell 32m reach 8m { start Row; }
+rule Row { for i in 0..3 { at(8m + 8m*i, 2m, 16m) Post(1m + 0.5m*i); } at(16m, -1m, 16m) box(33m, 2m, 33m); }
+rule Post(h) { box(1m, 2*h, 1m); mat marble; }
+END
+expect 0 "$SGM" render posts.sgm --out post.png --frame "Row/Post[2]" --size 96x96 --json
+json 'j.frame.path.endsWith("/Row/Post[2]") && j.frame.seen > 0.8 && !j.frame.inside && j.frame.fill > 0.6 && j.frame.fill < 0.85'
+json 'j.cell < 0.5 && j.camera.position[1] > 0'
+picture post.png 96 96
+expect 0 "$SGM" render posts.sgm --out post.png --frame Post --size 32x32 --region=0,-4,0:32,8,32
+out_has 'frame +rows\(0, 0, 0\)/Row/Post\[[0-2]\], [0-9]+ % of its near side in sight'
+# A room is looked at from within.
+lake=$SOURCE/samples/grammars/lake.sgm
+expect 0 "$SGM" render "$lake" --out post.png --frame Room --seed 3 --size 32x32 --cell 1 --json
+json 'j.frame.inside && j.frame.path.endsWith("/Node/Room[0]") && j.light === "lamp"'
+expect 0 "$SGM" render "$lake" --out post.png --frame cave.Dripstone --seed 3 --size 32x32 --json
+json 'j.frame.path.includes("/cave.Dripstone[") && j.frame.seen > 0.5 && j.cell < 0.5'
+expect 1 "$SGM" render posts.sgm --out wrong.png --frame Pots
+one_line
+err_has "rule 'Pots' is not there: did you mean 'Post'\\?"
+expect 1 "$SGM" render posts.sgm --out wrong.png --frame Elephant
+one_line
+err_has "rule 'Elephant' is not there: the grammar has Post, Row"
+expect 1 "$SGM" render "$lake" --out wrong.png --frame Dripstone
+err_has "did you mean 'cave.Dripstone'\\?"
+expect 1 "$SGM" render posts.sgm --out wrong.png --frame "Row/Post[7]" --region=0,-4,0:32,8,32
+one_line
+err_has "'Row/Post\\[7\\]' is not used in the region"
+expect 1 "$SGM" render posts.sgm --out wrong.png --frame "Row//Post"
+one_line
+err_has 'neither a rule nor a path'
+printf 'rule Spare { sphere(1m); }\n' >>posts.sgm
+expect 1 "$SGM" render posts.sgm --out wrong.png --frame Spare
+err_has "'Spare' is not used within 512 m of the origin"
+expect 2 "$SGM" render posts.sgm --out wrong.png --frame Post --camera 0,0,8:0,0,0
+err_has 'excludes'
+rm posts.sgm post.png
+
 expect 1 "$SGM" render ball.sgm --out wrong.png --at nothing_of_that_name
 err_has "no anchor of the name, kind or tag 'nothing_of_that_name'; it has no anchor at all"
 printf 'sgm 1; start A; rule A { sphere(2m); anchor spawn "camp"; }\n' >named.sgm

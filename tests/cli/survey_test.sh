@@ -89,7 +89,7 @@ err_has 'at least 320x320'
 expect 2 "$SGM" render rooms.sgm --out wrong.svg
 err_has '.png files; --plan and --section write .svg too'
 expect 2 "$SGM" render rooms.sgm --out wrong.pdf --plan
-for other in "--camera 0,0,8:0,0,0" --wires --volume "--light sun" "--seeds 1..2 --sheet"; do
+for other in "--camera 0,0,8:0,0,0" --wires --volume "--light sun" "--frame Rooms" "--seeds 1..2 --sheet"; do
   # shellcheck disable=SC2086
   expect 2 "$SGM" render rooms.sgm --out wrong.svg --plan $other
   err_has 'excludes'

@@ -125,12 +125,19 @@ void addSurveyOptions(CLI::App& app, RenderOptions& options) {
           ->expected(0, 1)
           ->default_str("")
           ->check(checkCutLine);
-  for (const char* other : {"--camera", "--seeds", "--fov", "--light", "--uv", "--volume", "--wires", "--sharp"})
+  for (const char* other :
+       {"--camera", "--frame", "--seeds", "--fov", "--light", "--uv", "--volume", "--wires", "--sharp"})
     for (CLI::Option* survey : {plan, section}) survey->excludes(app.get_option(other));
 }
 
-/// Which worlds.
+/// Which use, and which worlds.
 void addChoiceOptions(CLI::App& app, RenderOptions& options) {
+  app.add_option("--frame", options.frame,
+                 "Show a use of this rule, two thirds of the picture large, from where it is seen best: Drip, "
+                 "cave.Dripstone, or a path such as Row/Post[2]. Without --region, the one nearest to the origin")
+      ->type_name("RULE")
+      ->excludes(app.get_option("--camera"))
+      ->excludes(app.get_option("--at"));
   CLI::Option* seeds =
       app.add_option("--seeds", options.seeds, "With --sheet: one picture for each of these seeds, 1..9 or 3,7,11")
           ->type_name("SEEDS")
@@ -182,7 +189,8 @@ Command addRender(CLI::App& root) {
   app->footer(std::string(kLightFooter) +
               "Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7\n"
               "  sgm render samples/grammars/cave.sgm --out sheet.png --seeds 1..9 --sheet\n"
-              "  sgm render samples/grammars/lake.sgm --out plan.svg --plan --section --seed 3");
+              "  sgm render samples/grammars/lake.sgm --out plan.svg --plan --section --seed 3\n"
+              "  sgm render samples/grammars/lake.sgm --out drip.png --frame cave.Dripstone");
   return [options, size] {
     if (!isSurvey(*options)) return render(*options);
     if (size->count() == 0) options->size = kSurveySize;
