@@ -43,8 +43,8 @@ inline constexpr int64_t kMostColumns = int64_t{1} << 24;
 inline constexpr int kTallest = 1 << 16;
 
 /// Samples of `region`, grown to whole steps, at a level. A column shows its uppermost stretch that a person could be
-/// in (a metre high), else its highest one. Errors: limit and range for what is too large; those of compiling the field;
-/// cancelled where progress returns false.
+/// in (a metre high), else its highest one. Errors: limit and range for what is too large; those of compiling the
+/// field; cancelled where progress returns false.
 Result<Columns> sampleColumns(const WorldField& world, const IntBox& region, int level, JobSystem& jobs,
                               const Progress& progress = {});
 

@@ -107,7 +107,8 @@ void drawLeads(const Columns& columns, const Placement& place, Lettered& lettere
       open.lines.push_back({place.at(at(first)), place.at(at(i - 1))});
       const Point a = place.at(at(first)), b = place.at(at(i - 1));
       const Point middle{(a.x + b.x) / 2 + 10 * outward.x, (a.y + b.y) / 2 + 10 * outward.y};
-      if (lettered.take(middle, 10, 12))
+      // Ground without an end is no question.
+      if (columns.subject == Subject::hollow && lettered.take(middle, 10, 12))
         drawing.marks.push_back(lettering("?", {middle.x, middle.y + kLetters / 2}, kLetters + 1, Align::middle));
     }
   };
@@ -161,8 +162,7 @@ void drawHeights(const Columns& columns, const MaterialSigns& signs, const Place
     const Stretch& shown = *columns.shownAt(i);
     if (hollow ? shown.cut_below : shown.cut_above) continue;
     const bool water = hollow && signs.isWater(columns.floor_label[i]);
-    std::string text = fmt::format("{:.0f}", hollow ? shown.bottom : shown.top);
-    if (text == "-0") text = "0";
+    const std::string text = wholeMetres(static_cast<double>(hollow ? shown.bottom : shown.top));
     const bool near = std::ranges::any_of(taken, [&](const auto& label) {
       const auto& [place_taken, other] = label;
       return std::hypot(place_taken.x - at.x, place_taken.y - at.y) <
@@ -183,6 +183,11 @@ void drawHeights(const Columns& columns, const MaterialSigns& signs, const Place
 }
 
 }  // namespace
+
+std::string wholeMetres(double height) {
+  const std::string text = fmt::format("{:.0f}", height);
+  return text == "-0" ? "0" : text;
+}
 
 MaterialSigns signsFor(const Program& program) {
   MaterialSigns signs;

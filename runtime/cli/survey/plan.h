@@ -25,6 +25,9 @@ struct MaterialSigns {
   }
 };
 
+/// "-12"; never "-0".
+std::string wholeMetres(double height);
+
 MaterialSigns signsFor(const Program& program);
 
 /// Where a grid lies on the paper.

@@ -183,8 +183,8 @@ void drawFooter(const Columns& columns, const Layout& layout, const SheetWish& w
   drawing.marks.push_back(lettering(heading, {kMargin, top + kTitle + 2}, height));
   std::string facts = wish.subtitle;
   if (wish.plan && !figures.plan.empty)
-    facts += fmt::format("; {} {:.0f} to {:.0f} m, area {:.0f} sq m", hollow ? "floors from" : "tops from",
-                         figures.plan.lowest, figures.plan.highest, figures.plan.area);
+    facts += fmt::format("; {} {} to {} m, area {:.0f} sq m", hollow ? "floors from" : "tops from",
+                         wholeMetres(figures.plan.lowest), wholeMetres(figures.plan.highest), figures.plan.area);
   double y = top + kTitle + 20;
   const std::string words = legend(columns, figures, wish.plan, section);
   for (const std::string* text : {static_cast<const std::string*>(&facts), &words}) {
