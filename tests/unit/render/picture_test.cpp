@@ -102,30 +102,30 @@ TEST_CASE("every pattern draws, under every background and supersampling, with n
           "[render]") {
   auto renderer = testRenderer();
   if (!renderer) return;
+  constexpr std::array kNames{"limestone", "granite", "marble",
+                              "calcite",   "brick",   "ashlar",
+                              "rubble",    "paving",  "cobble",
+                              "roof_tile", "slate",   "plaster",
+                              "concrete",  "wood",    "boards",
+                              "metal",     "asphalt", "glass",
+                              "sand",      "gravel",  "grass",
+                              "leaf",      "bark",    "moss",
+                              "water",     "cloud",   "nothing anyone has heard of"};
   Stage stage{sphereMesh({0, 0, -6}, 2, false)};
-  for (const char* name : {"limestone", "granite",
-                           "marble",    "calcite",
-                           "brick",     "ashlar",
-                           "rubble",    "paving",
-                           "cobble",    "roof_tile",
-                           "slate",     "plaster",
-                           "concrete",  "wood",
-                           "metal",     "asphalt",
-                           "glass",     "sand",
-                           "gravel",    "grass",
-                           "leaf",      "bark",
-                           "moss",      "water",
-                           "cloud",     "nothing anyone has heard of"}) {
+  // All in one scene, so that the device compiles once.
+  stage.materials.clear();
+  for (const char* name : kNames) stage.materials.push_back(materialByName(name));
+  for (uint32_t i = 0; i < kNames.size(); ++i) {
+    for (RenderVertex& vertex : stage.mesh.vertices) vertex.material = i;
     for (Background background : {Background::cave, Background::sky}) {
-      stage.materials = {materialByName(name)};
       RenderScene scene = stage.scene(65, 47);  // odd sizes: the last workgroup is not full
       scene.background = background;
       scene.supersample = background == Background::sky ? 3 : 1;
       scene.lamps.assign(kMaxLamps, RenderLamp{{3, 3, -3}, {1, 1, 1}, 2});
       auto image = renderer->render(scene);
-      INFO(name);
+      INFO(kNames[i]);
       REQUIRE(image);
-      CHECK(brightness(*image, 32, 23, 8) > 15);
+      CHECK(brightness(*image, 32, 23, 8) > 10);
     }
   }
   requireNoMessages(*renderer);
