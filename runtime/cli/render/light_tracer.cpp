@@ -21,7 +21,7 @@ using glm::dot, glm::exp, glm::max, glm::mix, glm::pow, glm::smoothstep, glm::ve
 #undef FN
 
 constexpr int kSoftRays = 20;  // of a square of pixels; filtered later
-constexpr int kSunRays = 4, kLampRays = 2;
+constexpr int kSunRays = 6, kLampRays = 3;
 constexpr int kBounces = 2;           // of a soft ray, before what is left is taken to be even
 constexpr float kSunRadius = 0.012f;  // of its disc at distance 1: a little hazy
 constexpr float kLampRadius = 0.03f;  // in reaches

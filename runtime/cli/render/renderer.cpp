@@ -61,8 +61,8 @@ Result<VulkanBuffer> upload(VulkanScope& scope, std::span<const T> values, VkBuf
   return buffer;
 }
 
-/// Eyes and cameras adapt to the light, though not wholly: a dark place stays darker than a bright one, and by day, when
-/// the light is known, pale things shall not burn out because dark ones are many.
+/// Eyes and cameras adapt to the light, though not wholly: a dark place stays darker than a bright one, and by day,
+/// when the light is known, pale things shall not burn out because dark ones are many.
 float exposureFor(const LightPlanes& light, Background background) {
   if (light.brightness <= 0) return 1;
   if (background == Background::sky) return std::clamp(std::pow(0.20f / light.brightness, 0.4f), 0.6f, 1.5f);

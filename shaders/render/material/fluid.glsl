@@ -7,9 +7,9 @@ Surface water(Spot at) {
                 0.6 * noise(at.p * vec3(4.1, 0.0, 4.1) + 9.0).yzw * visible(0.25, at.footprint);
   s.normal = bend(at.n, vec3(ripple.x, 0.0, ripple.z), 0.035 * at.relief);
   // Absorption of clear water over limestone, twice the way: down and up.
-  vec3 through = exp(-2.0 * at.wet * vec3(0.34, 0.085, 0.075));
+  vec3 through = exp(-2.0 * at.wet * vec3(0.30, 0.115, 0.125));
   float bed_grain = noise(at.p * 2.7).x + 0.5 * noise(at.p * 9.0).x;
-  vec3 bed = vec3(0.34, 0.29, 0.21) * (1.0 + 0.25 * bed_grain);
+  vec3 bed = vec3(0.26, 0.225, 0.165) * (1.0 + 0.25 * bed_grain);
   s.albedo = bed * through + at.colour * (1.0 - through.g);
   s.roughness = 0.06;
   s.specular = 0.02;

@@ -14,15 +14,24 @@ Surface granular(Spot at) {
   return s;
 }
 
-// Pebbles side by side.
+// Stones of two sizes over fines: each turned its own way, the larger ones lying on the smaller.
 Surface gravelly(Spot at) {
   Chart chart = chartOf(at.p, abs(at.n.y) > 0.6 ? vec3(0.0, 1.0, 0.0) : at.n);
-  Block b = cellAt(chart.at + 0.02 * noise(at.p * 5.0).xy, 0.07, 0.022, 91);
-  float seen = visible(0.06, at.footprint);
+  vec2 bent = chart.at + 0.012 * noise(at.p * 21.0).yz;
+  Block large = cellAt(bent, 0.085, 0.03, 91), small = cellAt(bent + 7.3, 0.034, 0.012, 93);
+  // Half of the large cells are empty: there the small stones show.
+  float lies = step(0.45, large.lot.z) * smoothstep(0.004, 0.012, large.edge - 0.014 * large.lot.x);
+  float seen = visible(0.05, at.footprint);
+  vec3 lot = mix(small.lot, large.lot, lies);
+  float edge = mix(small.edge, large.edge - 0.010, lies);
+  vec2 tilt = mix(small.tilt, large.tilt, lies);
   Surface s = granular(at);
-  vec3 stone = at.colour * (0.6 + 0.75 * b.lot.x) * mix(vec3(1.06, 0.98, 0.9), vec3(0.92, 0.97, 1.03), b.lot.y);
-  s.albedo = mix(s.albedo, stone * (1.0 - 0.65 * smoothstep(0.010, 0.0, b.edge)), seen);
-  s.normal = bend(s.normal, chart.along * b.tilt.x + chart.up * b.tilt.y, 0.9 * seen * at.relief);
+  vec3 stone = at.colour * (0.55 + 0.8 * lot.x) * mix(vec3(1.08, 0.98, 0.88), vec3(0.90, 0.96, 1.04), lot.y);
+  float grain = noise(at.p * 90.0).x * visible(0.011, at.footprint);
+  stone *= (1.0 - 0.7 * smoothstep(0.009, 0.0, edge)) * (1.0 + 0.15 * grain) * mix(0.8, 1.0, lies);
+  s.albedo = mix(s.albedo, stone, seen);
+  vec2 lean = 1.1 * (lot.yx - 0.5) + tilt;
+  s.normal = bend(s.normal, chart.along * lean.x + chart.up * lean.y, 0.8 * seen * at.relief);
   wetten(s, at.wet);
   return s;
 }

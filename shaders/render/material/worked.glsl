@@ -39,20 +39,26 @@ Surface wooden(Spot at, bool boarded) {
   if (!boarded) gap = 0.0;
   Surface s = surfaceOf(at);
   vec3 grey = vec3(dot(at.colour, vec3(0.4)));
-  s.albedo = mix(at.colour, grey, 0.25 * smoothstep(0.0, 0.6, noise(at.p * 0.8).x));
+  s.albedo = mix(at.colour, grey, 0.2 + 0.5 * smoothstep(-0.1, 0.6, noise(at.p * 0.8).x + 0.4 * noise(at.p * 3.7).x));
+  s.albedo *= 1.0 - 0.30 * smoothstep(0.1, 0.7, noise(at.p * 1.9 + 4.0).x + 0.4 * noise(at.p * 11.0).x);
   s.albedo *= (1.0 + 0.22 * (lot.y - 0.5)) * (1.0 + 0.25 * ring.x + 0.16 * fine) * (1.0 - 0.6 * gap * visible(0.02, at.footprint));
   s.normal = bend(at.n, chart.along * ring.y + vec3(0.0), 0.12 * at.relief);
   wetten(s, at.wet);
   return s;
 }
 
+// Metal that is handled: dull, with rust where the relief says that it is neglected.
 Surface metallic(Spot at) {
   Surface s = surfaceOf(at);
-  float broad = noise(at.p * 1.1).x, stain = smoothstep(0.2, 0.7, noise(at.p * 2.3 + 8.0).x + 0.4 * noise(at.p * 11.0).x);
-  s.albedo = at.colour * (1.0 + 0.08 * broad);
-  s.albedo = mix(s.albedo, vec3(0.20, 0.10, 0.05), 0.25 * at.relief * stain);
-  s.roughness = clamp(at.roughness * (1.0 + 0.5 * broad + 0.6 * stain), 0.1, 1.0);
-  s.specular = 0.22;
+  float broad = noise(at.p * 1.1).x, fine = noise(at.p * 23.0).x * visible(0.04, at.footprint);
+  float stain = smoothstep(-0.05, 0.55, noise(at.p * 2.3 + 8.0).x + 0.45 * noise(at.p * 9.0).x + 0.25 * fine);
+  stain = max(stain, 0.7 * weathered(at.p, at.n)) * at.relief;
+  s.albedo = at.colour * (1.0 + 0.10 * broad + 0.06 * fine);
+  s.albedo = mix(s.albedo, vec3(0.17, 0.085, 0.045) * (1.0 + 0.4 * fine), 0.75 * stain);
+  vec4 relief_slope = relief(at.p, 0.12, 4, 0, at.footprint);
+  s.normal = bend(at.n, relief_slope.xyz, 0.05 * at.relief);
+  s.roughness = clamp(mix(at.roughness * (1.0 + 0.3 * broad), 0.9, stain), 0.15, 1.0);
+  s.specular = mix(0.18, 0.03, stain);
   return s;
 }
 
