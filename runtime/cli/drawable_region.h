@@ -9,7 +9,7 @@
 
 namespace sgm::cli {
 
-/// Error: invalid_argument where none of the anchors has the wanted name, kind or tag; none wanted is any.
+/// Error: invalid_argument if no anchor has the wanted name, kind or tag. An empty name accepts all.
 Result<void> checkAnchor(const Program& program, std::span<const Anchor> anchors, const std::string& wanted);
 
 /// Error: invalid_argument where the region has no surface, or not the anchor that --at names.

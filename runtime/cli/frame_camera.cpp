@@ -17,7 +17,7 @@ constexpr int kHeadings = 20;
 constexpr std::array kPitches{-20.0f, 3.0f, 14.0f, 30.0f, 55.0f};  // degrees above the target
 constexpr std::array kNearer{1.0f, 0.84f, 0.7f,
                              0.5f, 0.3f,  0.2f};  // of the distance at which the box takes what it should
-constexpr float kLeastSeen = 0.35f;               // share in sight, below which a view is none
+constexpr float kLeastSeen = 0.35f;               // a view with a smaller share in sight does not count
 
 struct Spot {
   glm::vec3 position{0}, normal{0};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "api/parameter_values.h"
@@ -92,6 +93,11 @@ std::optional<Gaze> readCamera(std::string_view text) {
   for (const double x : {(*from)[0], (*from)[1], (*from)[2], (*to)[0], (*to)[1], (*to)[2]})
     if (!(std::fabs(x) < 2.2e6)) return std::nullopt;
   return Gaze{*from, *to};
+}
+
+bool hasExtension(const std::string& file, std::string_view extension) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::ranges::equal(std::filesystem::path(file).extension().string(), extension, {}, small);
 }
 
 Result<std::vector<uint64_t>> readSeeds(std::string_view text) {

@@ -39,6 +39,8 @@ struct PictureSize {
 };
 /// "1280x720", with 1 to kMaxPicture pixels each; nothing where the text is no such size.
 std::optional<PictureSize> readSize(std::string_view text);
+/// Whether a file's name ends so, in capitals or not; extension: with its dot, in small letters.
+bool hasExtension(const std::string& file, std::string_view extension);
 
 /// From where and to where, in metres.
 using Gaze = std::array<std::array<double, 3>, 2>;

@@ -2,9 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <cctype>
-#include <filesystem>
-
 #include "cli/commands.h"
 #include "cli/drawable_region.h"
 #include "cli/json.h"
@@ -24,17 +21,11 @@ std::array<double, 3> worldPoint(const WorldMesh& mesh, const glm::vec3& point) 
   return world;
 }
 
-bool isPng(const std::string& out) {
-  std::string extension = std::filesystem::path(out).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".png";
-}
-
 }  // namespace
 
 Exit render(const RenderOptions& options) {
   if (options.plan || options.section) return drawSurvey(options);
-  if (!isPng(options.out))
+  if (!hasExtension(options.out, ".png"))
     return complain(Exit::usage, "--out: pictures are .png files; --plan and --section write .svg too");
   if (!options.seeds.empty()) return drawSeeds(options);
   // The device and the file first: meshing may take long, and be for nothing.

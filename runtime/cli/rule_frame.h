@@ -39,7 +39,7 @@ struct FrameRegion {
 };
 
 /// Around the use that is nearest to the world's origin, of those that are not smaller than most. Errors:
-/// invalid_argument where there is none within 512 m, or in a finite world; those of derivation.
+/// invalid_argument if the rule has no use within 512 m, or in a finite world; those of derivation.
 Result<FrameRegion> regionAround(const WorldField& world, const FramedRule& wanted);
 
 }  // namespace sgm::cli

@@ -17,8 +17,6 @@ namespace {
 
 std::string nameOfFile(const std::string& file) { return std::filesystem::path(file).filename().string(); }
 
-bool isSvg(const std::string& file) { return std::filesystem::path(file).extension().string().starts_with(".s"); }
-
 std::string boxText(const IntBox& box) {
   return fmt::format("x {:g} to {:g}, y {:g} to {:g}, z {:g} to {:g} m", metres(box.lo.x), metres(box.hi.x),
                      metres(box.lo.y), metres(box.hi.y), metres(box.lo.z), metres(box.hi.z));
@@ -122,7 +120,7 @@ Exit drawSurvey(const RenderOptions& options) {
   wish.subtitle = fmt::format("seed {}, {}", options.seed, boxText(made->columns.extent));
   const survey::Drawing drawing = survey::drawSheet(made->columns, made->slice ? &*made->slice : nullptr,
                                                     survey::signsFor(*opened.program), wish, made->figures);
-  if (isSvg(options.out)) {
+  if (hasExtension(options.out, ".svg")) {
     file->write(survey::svgText(drawing, wish.title + ", " + wish.subtitle));
     if (const Result<void> written = file->commit(); !written) return complain(written.error());
   } else if (const Result<void> written = writePng(survey::rasterise(drawing), *file); !written) {

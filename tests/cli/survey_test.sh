@@ -28,6 +28,10 @@ json 'j.width === 1600 && j.height === 1200 && j.cell === 0.5 && j.subject === "
 json 'j.plan.leads === 2 && Math.abs(j.plan.area - (20 * 12 + 8 * 28)) < 20 && j.plan.water.join() === "3"'
 json 'Math.abs(j.plan.lowest + 11) < 0.1 && j.pixels_per_metre > 5'
 for class in wall water shore under open scale north text; do has $class plan.svg; done
+# An extension in capitals means the same file.
+expect 0 "$SGM" render rooms.sgm $all --out PLAN.SVG --plan
+cmp -s plan.svg PLAN.SVG || failed "PLAN.SVG is another drawing than plan.svg"
+rm PLAN.SVG
 for class in cut rock solid; do lacks $class plan.svg; done
 grep -q 'aria-label="rooms.sgm - plan"' plan.svg || failed "no title"
 grep -q 'aria-label="seed 0, ' plan.svg || failed "no seed"

@@ -72,14 +72,12 @@ std::string checkShard(const std::string& text) {
 }
 
 std::string checkPng(const std::string& out) {
-  const std::string extension = std::filesystem::path(out).extension().string();
-  return CLI::detail::to_lower(extension) == ".png" ? std::string() : "pictures are .png files";
+  return hasExtension(out, ".png") ? std::string() : "pictures are .png files";
 }
 
 std::string checkPicture(const std::string& out) {
-  const std::string extension = CLI::detail::to_lower(std::filesystem::path(out).extension().string());
-  return extension == ".svg" || extension == ".png" ? std::string()
-                                                    : "pictures are .png files, surveys .png or .svg files";
+  return hasExtension(out, ".svg") || hasExtension(out, ".png") ? std::string()
+                                                                : "pictures are .png files, surveys .png or .svg files";
 }
 
 std::string checkCutLine(const std::string& text) {

@@ -39,7 +39,7 @@ struct Drawing {
   std::vector<Mark> marks;
 };
 
-/// Parts of a line that a pen with these dashes draws. Precondition: the dashes' sum is positive, or there are none.
+/// Parts of a line that a pen with these dashes draws. Precondition: the dashes' sum is positive, or the list is empty.
 std::vector<Line> dashed(const Line& line, const std::vector<double>& dashes);
 
 }  // namespace sgm::survey

@@ -107,7 +107,7 @@ void drawLeads(const Columns& columns, const Placement& place, Lettered& lettere
       open.lines.push_back({place.at(at(first)), place.at(at(i - 1))});
       const Point a = place.at(at(first)), b = place.at(at(i - 1));
       const Point middle{(a.x + b.x) / 2 + 10 * outward.x, (a.y + b.y) / 2 + 10 * outward.y};
-      // Ground without an end is no question.
+      // Open ground that goes on past the region gets no question mark.
       if (columns.subject == Subject::hollow && lettered.take(middle, 10, 12))
         drawing.marks.push_back(lettering("?", {middle.x, middle.y + kLetters / 2}, kLetters + 1, Align::middle));
     }

@@ -11,7 +11,7 @@ struct Crop {
   int left = 0, right = 0, top = 0, bottom = 0;
 };
 
-/// All that has the subject, on the cut or beyond it, and a little around it; all of the slice where there is none.
+/// All that has the subject, on the cut or beyond it, and a little around it; all of the slice if it has no subject.
 Crop cropOf(const Slice& slice);
 
 struct SectionFigures {
