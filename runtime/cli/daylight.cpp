@@ -55,7 +55,8 @@ LitWorld LitWorld::of(bool solid, bool endless_height) {
 }
 
 bool isTranslucent(std::string_view material) {
-  return material == "glass" || materialByName(material).pattern == SurfacePattern::cloud;
+  const SurfacePattern pattern = materialByName(material).pattern;
+  return pattern == SurfacePattern::glass || pattern == SurfacePattern::cloud;
 }
 
 Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera) {

@@ -31,7 +31,7 @@ struct LightPlanes {
   uint32_t soft_width = 0, soft_height = 0;
   std::vector<DirectLight> direct;
   std::vector<SoftLight> soft;
-  /// The logarithmic mean of what is seen, of all that is no background; 0 where nothing is.
+  /// Logarithmic mean of the brightness of all surfaces in sight; 0 if no surface is.
   float brightness = 0;
 };
 

@@ -20,8 +20,9 @@ using glm::dot, glm::exp, glm::max, glm::mix, glm::pow, glm::smoothstep, glm::ve
 #include "render/illumination.h"
 #undef FN
 
-constexpr int kSoftRays = 20;  // of a square of pixels; filtered later
-constexpr int kSunRays = 6, kLampRays = 3;
+constexpr int kSoftRays = 14;  // of a square of pixels; filtered later
+/// Rays to a light: the first tell most places that lie wholly in light or in shade, the others how deep in an edge.
+constexpr int kFirstRays = 2, kAllRays = 6;
 constexpr int kBounces = 2;           // of a soft ray, before what is left is taken to be even
 constexpr float kSunRadius = 0.012f;  // of its disc at distance 1: a little hazy
 constexpr float kLampRadius = 0.03f;  // in reaches
@@ -130,9 +131,9 @@ class LightTracer {
     return kWays / shallow;
   }
 
-  /// What rises from water is wet for a hand's breadth.
+  /// A surface over water is wet up to kHigh above it, the less the higher.
   float wetness(const MetSurface& place) const {
-    constexpr float kHigh = 0.35f;
+    constexpr float kHigh = 0.35f;  // metres
     const vec3 out = glm::normalize(vec3(place.normal.x, 0, place.normal.z) + vec3(1e-5f, 0, 0));
     const auto below =
         mesh_.castFronts(place.start + 0.03f * out, glm::normalize(vec3(0.35f * out.x, -1, 0.35f * out.z)), kHigh);
@@ -147,7 +148,7 @@ class LightTracer {
     place.distance = hit->distance;
     place.position = from + direction * hit->distance;
     const std::array<float, 3> share{1 - hit->u - hit->v, hit->u, hit->v};
-    const vec3 facet = glm::normalize(mesh_.facing(hit->triangle));
+    const vec3 facet = glm::normalize(hit->facing);
     vec3 lifted(0);
     for (int i = 0; i < 3; ++i) {
       const RenderVertex& vertex = mesh_.vertex(hit->triangle, i);
@@ -174,16 +175,22 @@ class LightTracer {
     return vec3(frame_.lamp_colour[lamp]) * (fall * facing);
   }
 
+  /// The share of rays that are free; reaches() casts the next one.
+  template <class Reaches>
+  static float shareOf(Reaches reaches) {
+    int open = 0, cast = 0;
+    for (; cast < kFirstRays || (cast < kAllRays && open != 0 && open != cast); ++cast) open += reaches();
+    return static_cast<float>(open) / static_cast<float>(cast);
+  }
+
   float sunShare(const MetSurface& place, UnitPoints& points) const {
     // What faces away, but for what lets light through, which is lit from within.
     if (dot(place.normal, to_sun_) < -0.4f) return 0;
     const Across across(to_sun_);
-    int open = 0;
-    for (int i = 0; i < kSunRays; ++i) {
+    return shareOf([&] {
       const glm::vec2 at = kSunRadius * onDisc(points.next());
-      open += mesh_.isFree(place.start, glm::normalize(to_sun_ + at.x * across.x + at.y * across.y), kFar);
-    }
-    return static_cast<float>(open) / kSunRays;
+      return mesh_.isFree(place.start, glm::normalize(to_sun_ + at.x * across.x + at.y * across.y), kFar);
+    });
   }
 
   float lampShare(const MetSurface& place, uint32_t lamp, UnitPoints& points) const {
@@ -192,12 +199,10 @@ class LightTracer {
     if (lampFall(distance, reach) <= 0 || distance <= 1e-4f || dot(place.normal, away) < -0.4f * distance) return 0;
     const vec3 towards = away / distance;
     const Across across(towards);
-    int open = 0;
-    for (int i = 0; i < kLampRays; ++i) {
+    return shareOf([&] {
       const glm::vec2 at = std::min(kLampRadius * reach, 0.2f * distance) * onDisc(points.next());
-      open += mesh_.isFree(place.start, away + at.x * across.x + at.y * across.y, 0.98f);
-    }
-    return static_cast<float>(open) / kLampRays;
+      return mesh_.isFree(place.start, away + at.x * across.x + at.y * across.y, 0.98f);
+    });
   }
 
   /// Light that comes from the sun or one lamp, chosen by how much it could give, to a place and leaves it again.

@@ -52,7 +52,8 @@ std::optional<RayHit> nearest(RTCScene scene, glm::vec3 from, glm::vec3 directio
   rtcIntersect1(scene, &context, &met);
   if (met.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   const float along = direction.x * met.hit.Ng_x + direction.y * met.hit.Ng_y + direction.z * met.hit.Ng_z;
-  return RayHit{met.ray.tfar, along < 0, met.hit.primID, met.hit.u, met.hit.v};
+  return RayHit{met.ray.tfar, along < 0, met.hit.primID,
+                met.hit.u,    met.hit.v, {met.hit.Ng_x, met.hit.Ng_y, met.hit.Ng_z}};
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ struct RayHit {
   bool front = false;     ///< the surface was met from its void side
   uint32_t triangle = 0;  ///< index of the triangle
   float u = 0, v = 0;     ///< weights of the triangle's second and third corner
+  glm::vec3 facing{0};    ///< not normalised; points to the void side
 };
 
 /// A tree over triangles, which Embree builds. It keeps references to the spans given; many threads may cast at once.

@@ -71,6 +71,8 @@ float exposureFor(const LightPlanes& light, Background background) {
 
 }  // namespace
 
+static_assert(static_cast<uint32_t>(SurfacePattern::boards) < 32, "a pattern is a bit of ShadePipeline::patterns");
+
 /// The last pipeline for lighting, and what it was made in.
 struct Renderer::Kept {
   std::unique_ptr<VulkanScope> scope;

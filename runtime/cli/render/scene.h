@@ -50,8 +50,8 @@ enum class SurfacePattern : uint32_t {
   leafy,
   fibres,  ///< bark, thatch
   mossy,
-  water,  ///< mirrors; the deeper the darker
-  cloud,  ///< soft white, light passes through
+  water,   ///< mirrors; the deeper the darker
+  cloud,   ///< soft white, light passes through
   boards,  ///< wood, a board beside the other
 };
 
@@ -63,7 +63,7 @@ struct RenderMaterial {
 };
 
 /// What a grammar's `mat NAME` looks like: one of a table ("plaster"), tinted by a word behind it ("plaster_ochre") or
-/// wet ("wet_limestone"). nullopt: the name is none of these.
+/// wet ("wet_limestone"). nullopt: the name is unknown.
 std::optional<RenderMaterial> findMaterial(std::string_view name);
 /// The same; names that are not known get plain rock in a tint of their own.
 RenderMaterial materialByName(std::string_view name);

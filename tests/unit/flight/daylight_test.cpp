@@ -157,6 +157,7 @@ TEST_CASE("the light of a flight does not flicker") {
   for (const Light each : {Light::sun, Light::lamp, Light::none}) CHECK(cli::lightNamed(cli::lightName(each)) == each);
   CHECK(!cli::lightNamed("auto"));
   CHECK(cli::isTranslucent("glass"));
+  CHECK(cli::isTranslucent("glass_yellow"));
   CHECK(cli::isTranslucent("cloud"));
   CHECK(!cli::isTranslucent("limestone"));
   CHECK(!cli::isTranslucent(""));

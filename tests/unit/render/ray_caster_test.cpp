@@ -16,7 +16,7 @@ std::optional<RayHit> castSlowly(const TestMesh& mesh, glm::vec3 from, glm::vec3
     const Result<RayCaster> alone = RayCaster::over(mesh.vertices, one);
     REQUIRE(alone);
     auto hit = alone->cast(from, direction, nearest ? nearest->distance : max_distance);
-    if (hit) nearest = RayHit{hit->distance, hit->front, t};
+    if (hit) nearest = RayHit{hit->distance, hit->front, t, hit->u, hit->v, hit->facing};
   }
   return nearest;
 }
@@ -52,6 +52,8 @@ TEST_CASE("the tree finds what asking every triangle finds", "[render]") {
       CHECK(fast->distance == slow->distance);
       CHECK(fast->front == slow->front);
       CHECK(fast->triangle == slow->triangle);
+      const glm::vec3 facing = glm::normalize(tree->facing(fast->triangle));
+      CHECK(glm::distance(glm::normalize(fast->facing), facing) < 1e-3f);
     }
     CHECK((triangles < 100 || hits > 10));
   }
