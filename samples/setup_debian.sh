@@ -19,12 +19,12 @@ SGM_BUILD_PACKAGES=(
   g++ cmake ninja-build ccache pkg-config
   libhwy-dev libzstd-dev libxxhash-dev libcurl4-openssl-dev
   libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers glslang-tools spirv-tools libglm-dev
-  libcli11-dev libembree-dev libfmt-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev libsqlite3-dev
-  libboost-dev prometheus-cpp-dev
+  libcli11-dev libembree-dev libfmt-dev libglfw3-dev libimgui-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev
+  libsqlite3-dev libboost-dev prometheus-cpp-dev
 )
 SGM_TEST_PACKAGES=(
   catch2 libcgal-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind
-  git=git ca-certificates nodejs=node npm=npm curl=curl prometheus chromium xvfb xauth slurm-wlm=sbatch munge=munged
+  git=git ca-certificates nodejs=node npm=npm curl=curl prometheus chromium xvfb xauth xdotool slurm-wlm=sbatch munge=munged
   nginx-light=nginx
 )
 # Only for AVX-512 where no processor has it: tests/scripts/avx512_emulated.sh.

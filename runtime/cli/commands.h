@@ -160,6 +160,9 @@ struct RenderOptions : WorldOptions {
 /// A picture, a contact sheet or a survey.
 Exit render(const RenderOptions& options);
 
+/// A window, until its user closes it. Of the options, those of one picture count.
+Exit showPreview(const RenderOptions& options);
+
 struct FlyOptions : WorldOptions {
   std::string path;  ///< a JSON file; empty: the flight finds its own way
   double speed = 20;

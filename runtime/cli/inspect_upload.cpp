@@ -9,7 +9,7 @@
 #include "cli/master_key.h"
 #include "cli/measure_report.h"
 #include "cli/measured_mesh.h"
-#include "cli/preview.h"
+#include "cli/page_mesh.h"
 
 namespace sgm::cli {
 namespace {

@@ -139,8 +139,7 @@ void warnOfNotes(const std::string& file, const std::vector<DeriveNote>& notes) 
 /// What --sharp could not have.
 void noteRounded(const std::string& file, uint64_t rounded) {
   if (rounded == 0) return;
-  fmt::print(stderr,
-             "{}: note: {} rounded edges, since sharp ones would fold or cut the surface there\n", file,
+  fmt::print(stderr, "{}: note: {} rounded edges, since sharp ones would fold or cut the surface there\n", file,
              rounded == 1 ? "1 cell keeps" : fmt::format("{} cells keep", rounded));
 }
 
@@ -223,16 +222,24 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
   if (const Result<void> few = checkChunks(options, *region, cell); !few) return few.error();
   const auto kept = std::make_shared<const WorldField>(std::move(settings), memory);
   const WorldField& world = *kept;
-  std::optional<ProgressBar> bar(std::in_place, plan.doing);
+  std::optional<ProgressBar> bar;
+  const auto now = [&](std::string_view what) {
+    if (!plan.quiet) bar.emplace(what);
+  };
+  now(plan.doing);
   Result<api::RegionMesh> meshed = api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks,
-                                                   options.sharp, [&bar](uint64_t done, uint64_t total) {
-                                                     bar->show(done, total);
-                                                     return true;
+                                                   options.sharp, [&](uint64_t done, uint64_t total) {
+                                                     if (bar) bar->show(done, total);
+                                                     return !plan.go_on || plan.go_on();
                                                    });
   if (!meshed) return meshed.error();
-  bar.emplace("looking for anchors");
-  Result<std::vector<Anchor>> anchors = world.anchors(meshed->extent);
-  if (!anchors) return anchors.error();
+  std::vector<Anchor> anchors;
+  if (plan.anchors) {
+    now("looking for anchors");
+    Result<std::vector<Anchor>> found = world.anchors(meshed->extent);
+    if (!found) return found.error();
+    anchors = std::move(*found);
+  }
   std::optional<WorldMesh> unsplit;
   if (options.sharp) {
     unsplit = std::move(meshed->mesh);
@@ -240,32 +247,38 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
   }
   std::optional<api::TexturedRegion> texture;
   if (plan.texture) {
-    bar.emplace("unwrapping");
+    now("unwrapping");
     Result<api::TexturedRegion> unwrapped = api::unwrapRegion(world, *jobs, meshed->mesh, options.level, kTile);
     if (!unwrapped) return unwrapped.error();
     texture = std::move(*unwrapped);
   }
   const double seconds = watch.seconds();
-  bar.emplace("looking for notes");
-  Result<std::vector<DeriveNote>> notes = world.notes(meshed->extent, cell << options.level);
-  if (!notes) return notes.error();
-  Result<std::vector<ThinPart>> thin = thinParts(world, meshed->extent, options.level);
-  if (!thin) return thin.error();
+  std::vector<DeriveNote> notes;
+  std::vector<ThinPart> thin;
+  if (plan.notes) {
+    now("looking for notes");
+    Result<std::vector<DeriveNote>> left_out = world.notes(meshed->extent, cell << options.level);
+    if (!left_out) return left_out.error();
+    notes = std::move(*left_out);
+    Result<std::vector<ThinPart>> parts = thinParts(world, meshed->extent, options.level);
+    if (!parts) return parts.error();
+    thin = std::move(*parts);
+  }
   bar.reset();
 
   const BackendCapabilities& capabilities = (*backend)->capabilities();
   Region result{std::move(compiled),
                 std::move(*meshed),
                 cell << options.level,
-                std::move(*anchors),
+                std::move(anchors),
                 backendName(capabilities.kind),
                 capabilities.device,
                 seconds,
                 std::move(texture),
                 std::move(unsplit),
                 {},
-                std::move(*notes),
-                std::move(*thin),
+                std::move(notes),
+                std::move(thin),
                 plan.keep_world ? kept : nullptr};
   if (result.meshed.mesh.indices.empty()) {
     Result<std::string> why = whyEmpty(world, result);

@@ -68,8 +68,13 @@ struct RegionResult {
 /// What a command wants beside the mesh; each may be empty.
 struct RegionPlan {
   std::string doing = "meshing";  ///< beside the progress bar
-  bool texture = false;           ///< with texture coordinates and blends of materials
-  bool keep_world = false;        ///< with its cache, for questions afterwards
+  bool quiet = false;             ///< no progress bar
+  bool anchors = true;            ///< looks for the region's anchors, which takes all of its derivation
+  bool notes = true;              ///< asks what derivation left out and what the mesh may miss, which takes its time
+  /// Asked from any thread while the work goes on; false ends it with Code::cancelled. Empty: nobody asks.
+  std::function<bool()> go_on;
+  bool texture = false;     ///< with texture coordinates and blends of materials
+  bool keep_world = false;  ///< with its cache, for questions afterwards
   /// Refuses a grammar before any work.
   std::function<Result<void>(const Program& program)> check;
   /// Says which part of an endless world is meant where no --region does.

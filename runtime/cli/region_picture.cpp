@@ -27,16 +27,17 @@ std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
   return vertices;
 }
 
-/// A mesh as it is drawn: where charts or pairs of materials meet a vertex comes several times.
-struct Drawable {
-  std::vector<RenderVertex> vertices;
-  std::vector<uint32_t> indices;
-};
-
-Drawable drawable(const Region& region, bool uv) {
-  const std::vector<RenderVertex> vertices = drawable(region.meshed.mesh);
+/// The mesh as it is drawn. With texture coordinates, where charts or pairs of materials meet a vertex comes several
+/// times.
+void addMesh(const Region& region, bool uv, RegionScene& drawn) {
+  std::vector<RenderVertex> vertices = drawable(region.meshed.mesh);
+  if (!region.texture) {
+    drawn.indices.assign(region.meshed.mesh.indices.begin(), region.meshed.mesh.indices.end());
+    drawn.vertices = std::move(vertices);
+    return;
+  }
   const auto& corners = region.texture->unwrapped.corners;
-  Drawable drawn{{}, {corners.begin(), corners.end()}};
+  drawn.indices.assign(corners.begin(), corners.end());
   for (const Wedge& wedge : region.texture->unwrapped.wedges) {
     RenderVertex& vertex = drawn.vertices.emplace_back(vertices[wedge.vertex]);
     vertex.material = wedge.materials[0];
@@ -44,7 +45,6 @@ Drawable drawable(const Region& region, bool uv) {
     vertex.share = static_cast<float>(wedge.share) / 255.0f;
     if (uv) vertex.texture = {wedge.u, wedge.v};
   }
-  return drawn;
 }
 
 glm::vec3 fromOrigin(const WorldMesh& mesh, const std::array<double, 3>& world) {
@@ -65,7 +65,7 @@ bool isByBorder(const IntBox& extent, Int3 place) {
 }
 
 /// The view that the options ask for, or the one that finds itself.
-Result<View> viewOf(const RenderOptions& options, const Region& region, const Drawable& drawn) {
+Result<View> viewOf(const RenderOptions& options, const Region& region, const RegionScene& drawn) {
   const PictureSize size = *readSize(options.size);
   if (!options.camera.empty()) {
     const Gaze gaze = *readCamera(options.camera);
@@ -94,7 +94,7 @@ constexpr RenderMaterial kUnderWires{SurfacePattern::plain, {0.55f, 0.55f, 0.52f
 constexpr RenderMaterial kWire{SurfacePattern::plain, {0.01f, 0.02f, 0.05f}, 1.0f, 0.0f};
 
 /// Adds the mesh's edges as ribbons that face the camera, of one width in the picture whatever their distance.
-void addWires(const Region& region, const RenderCamera& camera, Drawable& drawn) {
+void addWires(const Region& region, const RenderCamera& camera, RegionScene& drawn) {
   constexpr float kWide = 0.55f, kLifted = 1.5f;  // pixels: to each side, and towards the camera
   constexpr float kShare = 0.035f;                // to each side, of the edge as it is seen: small triangles stay light
   const WorldMesh& mesh = region.meshed.mesh;
@@ -165,22 +165,6 @@ Result<Outlook> lookOutFor(const Region& region, const View& view) {
   return lookOut(litWorld(region), place);
 }
 
-Result<Image> drawMesh(const Renderer& renderer, const Drawable& drawn, const Region& region, const View& view,
-                       Light light, bool wires) {
-  std::vector<RenderMaterial> materials = renderMaterials(*region.program);
-  if (wires) {
-    materials.assign(materials.size(), kUnderWires);
-    materials.push_back(kWire);
-  }
-  RenderScene scene;
-  scene.vertices = drawn.vertices;
-  scene.indices = drawn.indices;
-  scene.materials = materials;
-  scene.origin = region.meshed.mesh.origin;
-  lightScene(view, light, scene);
-  return renderer.render(scene);
-}
-
 Result<Image> drawVolume(const Renderer& renderer, const RegionDensity& density, const Region& region,
                          const View& view) {
   // A third of the light gets through an edge on the shortest way: whatever its size, it looks soft.
@@ -242,30 +226,45 @@ RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity
   return plan;
 }
 
-Result<RegionPicture> drawRegion(const Renderer& renderer, const RenderOptions& options, const Region& region,
-                                 const std::optional<RegionDensity>& density) {
-  Drawable drawn = drawable(region, options.uv);
-  RegionPicture picture;
+Result<RegionScene> sceneOf(const RenderOptions& options, const Region& region) {
+  RegionScene drawn;
+  addMesh(region, options.uv, drawn);
   Result<View> view = options.frame.empty() ? viewOf(options, region, drawn)
-                                            : frameUse(options, region, drawn.vertices, drawn.indices, picture.framed);
+                                            : frameUse(options, region, drawn.vertices, drawn.indices, drawn.framed);
   if (!view) return view.error();
-  if (options.wires) addWires(region, view->camera, drawn);
-  if (!density) {
+  drawn.view = std::move(*view);
+  drawn.materials = renderMaterials(*region.program);
+  if (options.wires) {
+    addWires(region, drawn.view.camera, drawn);
+    drawn.materials.assign(drawn.materials.size(), kUnderWires);
+    drawn.materials.push_back(kWire);
+  }
+  if (!options.volume) {
     const std::optional<Light> wanted = lightNamed(options.light);
     if (!wanted) {
-      const Result<Outlook> outlook = lookOutFor(region, *view);
+      const Result<Outlook> outlook = lookOutFor(region, drawn.view);
       if (!outlook) return outlook.error();
-      if (!outlook->buried) picture.daylight = outlook->daylight;
+      if (!outlook->buried) drawn.daylight = outlook->daylight;
     }
     // A camera in the rock looks at a model that is cut open.
-    picture.light = wanted ? *wanted : picture.daylight ? lightAt(*picture.daylight) : Light::sun;
+    drawn.light = wanted ? *wanted : drawn.daylight ? lightAt(*drawn.daylight) : Light::sun;
   }
-  Result<Image> image = density ? drawVolume(renderer, *density, region, *view)
-                                : drawMesh(renderer, drawn, region, *view, picture.light, options.wires);
+  drawn.scene.vertices = drawn.vertices;
+  drawn.scene.indices = drawn.indices;
+  drawn.scene.materials = drawn.materials;
+  drawn.scene.origin = region.meshed.mesh.origin;
+  lightScene(drawn.view, drawn.light, drawn.scene);
+  return drawn;
+}
+
+Result<RegionPicture> drawRegion(const Renderer& renderer, const RenderOptions& options, const Region& region,
+                                 const std::optional<RegionDensity>& density) {
+  Result<RegionScene> drawn = sceneOf(options, region);
+  if (!drawn) return drawn.error();
+  Result<Image> image = density ? drawVolume(renderer, *density, region, drawn->view) : renderer.render(drawn->scene);
   if (!image) return image.error();
-  picture.image = std::move(*image);
-  picture.view = std::move(*view);
-  return picture;
+  return RegionPicture{std::move(*image), std::move(drawn->view), drawn->light, drawn->daylight,
+                       std::move(drawn->framed)};
 }
 
 }  // namespace sgm::cli

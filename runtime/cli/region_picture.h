@@ -22,6 +22,22 @@ struct RegionPicture {
   std::optional<FramedUse> framed;  ///< where --frame asks for a use of a rule
 };
 
+/// A region as it is to be drawn, from where the options look.
+struct RegionScene {
+  std::vector<RenderVertex> vertices;
+  std::vector<uint32_t> indices;
+  std::vector<RenderMaterial> materials;
+  RenderScene scene;  ///< of these three, which may be moved, but not copied
+  View view;
+  Light light = Light::sun;
+  std::optional<double> daylight;   ///< where that has decided on the light
+  std::optional<FramedUse> framed;  ///< where --frame asks for a use of a rule
+
+  RegionScene() = default;
+  RegionScene(RegionScene&&) = default;
+  RegionScene& operator=(RegionScene&&) = default;
+};
+
 /// Places of the region's anchors of that name, kind or tag, metres from its mesh's origin; of those that its border
 /// does not hide where there are such.
 std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted);
@@ -30,8 +46,12 @@ std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted);
 /// where they ask for fog, which goes to `density`. Both must outlive the plan.
 RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity>& density);
 
-/// The region from where the options look, or from where most of it is seen. Contract: it was meshed by picturePlan()
-/// and has a triangle. Errors: invalid_argument for a camera that looks nowhere; those of Renderer.
+/// The region's surface, from where the options look, or from where most of it is seen. Contract and errors as those of
+/// drawRegion(), but those of Renderer. A region without a texture is drawn in one material a triangle.
+Result<RegionScene> sceneOf(const RenderOptions& options, const Region& region);
+
+/// A picture of the region, from where the options look, or from where most of it is seen. Contract: it was meshed by
+/// picturePlan() and has a triangle. Errors: invalid_argument for a camera that looks nowhere; those of Renderer.
 Result<RegionPicture> drawRegion(const Renderer& renderer, const RenderOptions& options, const Region& region,
                                  const std::optional<RegionDensity>& density);
 

@@ -2,16 +2,16 @@
 # --help with an example for every command, --version, backends.
 source "$(dirname "$0")/common.sh"
 expect 0 "$SGM" --help
-for command in check fmt explain lsp mesh bake store measure classify masters render fly serve bench paper backends; do
+for command in check fmt explain lsp mesh bake store measure classify masters render preview fly serve bench paper backends; do
   out_has "$command"
 done
-for command in check fmt explain lsp mesh bake store measure classify masters render fly serve bench paper backends; do
+for command in check fmt explain lsp mesh bake store measure classify masters render preview fly serve bench paper backends; do
   expect 0 "$SGM" $command --help
   out_has "Example:"
   out_has "sgm $command"
   err_empty
 done
-for command in render fly; do
+for command in render preview fly; do
   expect 0 "$SGM" $command --help
   out_has '--light TEXT:\{auto,sun,lamp,none\}=auto'
   out_has 'Light: from where .* the sun shines'
@@ -45,7 +45,7 @@ err_has "^sgm: usage: there is no command 'meshh': did you mean 'mesh'\\?"
 expect 2 "$SGM" bench papr
 err_has "there is no command 'papr': did you mean 'paper'\\?"
 expect 2 "$SGM" photograph
-err_has "there is no command 'photograph': write one of check, fmt, explain, mesh, bake, store, measure, classify, masters, render, fly, serve, lsp, bench, paper, backends"
+err_has "there is no command 'photograph': write one of check, fmt, explain, mesh, bake, store, measure, classify, masters, render, preview, fly, serve, lsp, bench, paper, backends"
 expect 2 "$SGM" bench paper extra
 err_has 'argument was not expected: extra'
 finish

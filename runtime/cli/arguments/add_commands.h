@@ -19,6 +19,7 @@ Command addExplain(CLI::App& root);
 Command addLsp(CLI::App& root);
 Command addMesh(CLI::App& root);
 Command addRender(CLI::App& root);
+Command addPreview(CLI::App& root);
 Command addBake(CLI::App& root);
 Command addStore(CLI::App& root);
 Command addMeasure(CLI::App& root);

@@ -51,7 +51,7 @@ Exit runCommandLine(int argc, char** argv) {
       "be read or written; the highest of several.");
   std::vector<Command> commands;
   for (const auto add : {addCheck, addFmt, addExplain, addMesh, addBake, addStore, addMeasure, addClassify, addMasters,
-                         addRender, addFly, addServe, addInspect, addLsp, addBench, addPaper, addBackends})
+                         addRender, addPreview, addFly, addServe, addInspect, addLsp, addBench, addPaper, addBackends})
     commands.push_back(add(app));
 
   try {

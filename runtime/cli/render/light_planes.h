@@ -38,7 +38,7 @@ struct LightPlanes {
 inline constexpr uint32_t kSoftPixels = 2;
 
 /// Traces rays over the scene's mesh. The same scene gives the same planes. scene must have been checked, and frame be
-/// its own. Error: out_of_memory.
+/// its own. Errors: out_of_memory; cancelled, where scene.go_on says so.
 Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, JobSystem& jobs);
 
 }  // namespace sgm

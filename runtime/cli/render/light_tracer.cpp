@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
@@ -269,7 +270,12 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
     planes.soft.resize(size_t{planes.soft_width} * planes.soft_height);
     Guides fine(planes.width, planes.height), coarse(planes.soft_width, planes.soft_height);
     std::vector<std::array<double, 2>> rows(planes.soft_height);  // sum of logarithms, and of how many
+    std::atomic<bool> stopped = false;
     parallelFor(jobs, planes.soft_height, [&](size_t row) {
+      if (stopped || (scene.go_on && !scene.go_on())) {
+        stopped = true;
+        return;
+      }
       const auto begin = static_cast<uint32_t>(row) * kSoftPixels;
       for (uint32_t y = begin; y < std::min(begin + kSoftPixels, planes.height); ++y) {
         for (uint32_t x = 0; x < planes.width; ++x) {
@@ -287,6 +293,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
         }
       }
     });
+    if (stopped) return Error{Code::cancelled, "the picture is not wanted any more"};
     double sum = 0, count = 0;
     for (const auto& row : rows) {
       sum += row[0];

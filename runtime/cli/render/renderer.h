@@ -28,7 +28,8 @@ class Renderer {
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Errors: invalid_argument (a size, an index or a vertex out of range, no material), out_of_memory, unsupported.
+  /// Errors: invalid_argument (a size, an index or a vertex out of range, no material), out_of_memory, unsupported;
+  /// cancelled, where scene.go_on says so.
   Result<Image> render(const RenderScene& scene) const;
 
   /// Errors: invalid_argument (a camera, a size or a number out of range), limit, out_of_memory, unsupported.

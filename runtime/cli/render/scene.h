@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -105,6 +106,8 @@ struct RenderScene {
   float fog_distance = 60;                        ///< metres after which about two thirds of the light is lost to haze
   float exposure = 0.85f;
   int supersample = 2;  ///< samples on each side of a pixel, 1..3
+  /// Asked from any thread while light is traced; false ends the work with Code::cancelled. Empty: nobody asks.
+  std::function<bool()> go_on;
 };
 
 }  // namespace sgm

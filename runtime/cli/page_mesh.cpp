@@ -1,4 +1,4 @@
-#include "cli/preview.h"
+#include "cli/page_mesh.h"
 
 #include <meshoptimizer.h>
 

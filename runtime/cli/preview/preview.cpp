@@ -1,0 +1,20 @@
+// sgm preview: a window that shows a grammar while it is written.
+
+#include "cli/commands.h"
+#include "cli/preview/session.h"
+
+namespace sgm::cli {
+
+Exit showPreview(const RenderOptions& options) {
+  const PictureSize size = *readSize(options.size);
+  const Result<std::unique_ptr<preview::Window>> window =
+      preview::Window::open(options.file + " - sgm preview", size.width, size.height);
+  if (!window) return complain(window.error());
+  const Result<std::unique_ptr<preview::Painter>> painter = preview::Painter::create();
+  if (!painter) return complain(painter.error());
+  preview::Session session(options, **painter, **window);
+  if (const Result<void> done = session.run(); !done) return complain(done.error());
+  return Exit::done;
+}
+
+}  // namespace sgm::cli
