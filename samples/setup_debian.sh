@@ -23,7 +23,7 @@ SGM_BUILD_PACKAGES=(
   libsqlite3-dev libboost-dev prometheus-cpp-dev
 )
 SGM_TEST_PACKAGES=(
-  catch2 libcgal-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind
+  catch2 libcgal-dev librecast-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind
   git=git ca-certificates nodejs=node npm=npm curl=curl prometheus chromium xvfb xauth xdotool slurm-wlm=sbatch munge=munged
   nginx-light=nginx
 )

@@ -1,0 +1,220 @@
+// Caves that one can walk through, by a navigation mesh as games make it, and passages that are no pipes.
+//
+//   SGM_WALK_SEEDS=100 test_walk      so many seeds; SGM_WALK_ONLY=cave: the samples with that in their name alone
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <set>
+
+#include "../unit/validity/measured_surface.h"
+#include "backend/cpu/instruction_sets.h"
+#include "navmesh.h"
+
+using namespace sgm;
+using namespace sgm::test;
+
+namespace {
+
+using Point = std::array<double, 3>;
+
+constexpr double kCell = 0.25;  // metres, of the mesh and of Recast's voxels
+
+/// Metres. A block of cells in which halls are connected, as the sample's `expect components(air)` says.
+struct Walk {
+  const char* grammar;
+  Point low, high;
+  double hall;         ///< so far from a hall's anchor a passage may still be part of it
+  const char* beyond;  ///< the tag of halls that one cannot walk to, beyond a shaft or a sump; "": there are none
+};
+
+const Walk kWalks[] = {
+    {"cave", {0, -16, 0}, {288, 28, 288}, 20, ""},
+};
+
+uint64_t seedsWanted() {
+  if (const char* const seeds = std::getenv("SGM_WALK_SEEDS")) return std::strtoull(seeds, nullptr, 10);
+  return std::getenv("SGM_LONG") != nullptr ? 100 : 1;
+}
+
+double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+IntBox unitsOf(const Point& low, const Point& high) {
+  IntBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lo[axis] = static_cast<int32_t>(std::floor(low[static_cast<size_t>(axis)] * kUnitsPerMetre));
+    box.hi[axis] = static_cast<int32_t>(std::ceil(high[static_cast<size_t>(axis)] * kUnitsPerMetre));
+  }
+  return box;
+}
+
+/// Points along a way, a metre apart.
+std::vector<Point> eachMetre(const std::vector<Point>& corners) {
+  std::vector<Point> points;
+  double left = 0;
+  for (size_t i = 1; i < corners.size(); ++i) {
+    const double length = distance(corners[i - 1], corners[i]);
+    double at = left;
+    for (; at < length; at += 1) {
+      Point p{};
+      for (size_t axis = 0; axis < 3; ++axis)
+        p[axis] = corners[i - 1][axis] + (corners[i][axis] - corners[i - 1][axis]) * at / length;
+      points.push_back(p);
+    }
+    left = at - length;
+  }
+  return points;
+}
+
+/// The void's cross-section at a place, square metres: of the part, in the plane across a direction, that is connected
+/// with the place; at most what lies within kFar of it.
+class CrossSections {
+ public:
+  explicit CrossSections(const WorldField& world) : world_(world) {}
+
+  double at(const Point& place, const Point& direction) {
+    constexpr int kFar = 40;
+    constexpr double kStep = 0.25;
+    const double length = std::hypot(direction[0], direction[2]);
+    // Upright, across the way as it is seen from above.
+    const Point aside{-direction[2] / length, 0, direction[0] / length};
+    const double reach = kFar * kStep + 0.5;
+    const Result<std::shared_ptr<const FieldProgram>> program =
+        world_.compile(unitsOf({place[0] - reach, place[1] - reach, place[2] - reach},
+                               {place[0] + reach, place[1] + reach, place[2] + reach}),
+                       0);
+    REQUIRE(program);
+    constexpr int kSide = 2 * kFar + 1;
+    std::vector<int32_t> x, y, z;
+    for (int v = -kFar; v <= kFar; ++v) {
+      for (int u = -kFar; u <= kFar; ++u) {
+        x.push_back(static_cast<int32_t>((place[0] + u * kStep * aside[0]) * kUnitsPerMetre));
+        y.push_back(static_cast<int32_t>((place[1] + v * kStep) * kUnitsPerMetre));
+        z.push_back(static_cast<int32_t>((place[2] + u * kStep * aside[2]) * kUnitsPerMetre));
+      }
+    }
+    std::vector<int32_t> q(x.size());
+    bestKernels().samples((*program)->view(), {x.data(), y.data(), z.data(), x.size()}, scratch_, q.data());
+    std::vector<bool> seen(q.size());
+    std::deque<int> next;
+    const auto visit = [&](int at) {
+      if (seen[static_cast<size_t>(at)] || q[static_cast<size_t>(at)] < 0) return;
+      seen[static_cast<size_t>(at)] = true;
+      next.push_back(at);
+    };
+    visit(kSide * kFar + kFar);
+    size_t count = 0;
+    while (!next.empty()) {
+      const int at = next.front(), u = at % kSide, v = at / kSide;
+      next.pop_front();
+      ++count;
+      if (u > 0) visit(at - 1);
+      if (u + 1 < kSide) visit(at + 1);
+      if (v > 0) visit(at - kSide);
+      if (v + 1 < kSide) visit(at + kSide);
+    }
+    return static_cast<double>(count) * kStep * kStep;
+  }
+
+ private:
+  const WorldField& world_;
+  EvalScratch scratch_;
+};
+
+/// The least standard deviation of cross-sections by their mean, over all windows of 20 m of a way between two halls.
+/// Of what is nearer than `hall` to either end nothing counts; 1 where no window is left.
+double leastVariation(CrossSections& sections, const std::vector<Point>& way, double hall) {
+  constexpr size_t kWindow = 20;
+  const std::vector<Point> points = eachMetre(way);
+  std::vector<double> areas;
+  for (size_t i = 2; i + 2 < points.size(); ++i) {
+    if (distance(points[i], points.front()) < hall || distance(points[i], points.back()) < hall) continue;
+    Point along{};
+    for (size_t axis = 0; axis < 3; ++axis) along[axis] = points[i + 2][axis] - points[i - 2][axis];
+    if (std::hypot(along[0], along[2]) < 1e-6) continue;
+    areas.push_back(sections.at({points[i][0], points[i][1] + 1, points[i][2]}, along));
+  }
+  double least = 1;
+  for (size_t i = 0; i + kWindow <= areas.size(); ++i) {
+    double sum = 0, squares = 0;
+    for (size_t k = i; k < i + kWindow; ++k) {
+      sum += areas[k];
+      squares += areas[k] * areas[k];
+    }
+    const double mean = sum / kWindow;
+    least = std::min(least, std::sqrt(std::max(0.0, squares / kWindow - mean * mean)) / mean);
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("an agent walks from each hall of a cave to each other, through passages that vary", "[walk]") {
+  const std::filesystem::path folder(SGM_SAMPLE_GRAMMARS);
+  const Workshop shop;
+  const char* const only = std::getenv("SGM_WALK_ONLY");
+  for (const Walk& walk : kWalks) {
+    if (only != nullptr && std::string(walk.grammar).find(only) == std::string::npos) continue;
+    const std::filesystem::path file = folder / (std::string(walk.grammar) + ".sgm");
+    std::ifstream in(file);
+    REQUIRE(in);
+    std::stringstream text;
+    text << in.rdbuf();
+    const std::shared_ptr<const Program> program = compiled(text.str(), file.parent_path());
+    for (uint64_t seed = 1; seed <= seedsWanted(); ++seed) {
+      CAPTURE(walk.grammar, seed);
+      const auto begun = std::chrono::steady_clock::now();
+      const WorldField world(worldOf(program, kCell, seed), std::pmr::get_default_resource());
+      const IntBox box = unitsOf(walk.low, walk.high);
+      const Result<api::RegionMesh> region =
+          api::meshRegion(world, *shop.backend, *shop.jobs, box, 0, uint64_t{1} << 20, false);
+      REQUIRE(region);
+      const Navmesh floor(region->mesh, {}, static_cast<float>(kCell));
+
+      const Result<std::vector<Anchor>> anchors = world.anchors(box);
+      REQUIRE(anchors);
+      std::vector<Point> halls;
+      for (const Anchor& anchor : *anchors) {
+        if (*walk.beyond != '\0' && program->tags[anchor.tag] == walk.beyond) continue;
+        Point p{};
+        for (int axis = 0; axis < 3; ++axis)
+          p[static_cast<size_t>(axis)] = metres(anchor.frame.origin[axis]) - metres(region->mesh.origin[axis]);
+        halls.push_back(p);
+      }
+      REQUIRE(halls.size() >= 4);
+      CrossSections sections(world);
+      double least = 1;
+      size_t measured = 0;
+      for (size_t i = 1; i < halls.size(); ++i) {
+        CAPTURE(halls[0], halls[i]);
+        CHECK_FALSE(floor.way(halls[0], halls[i]).empty());
+        // Of neighbours whose way leads through no other hall.
+        for (size_t k = 0; k < i; ++k) {
+          if (distance(halls[i], halls[k]) > 110) continue;
+          const std::vector<Point> way = floor.way(halls[k], halls[i]);
+          const bool direct = !way.empty() && std::ranges::none_of(eachMetre(way), [&](const Point& p) {
+            for (size_t j = 0; j < halls.size(); ++j)
+              if (j != i && j != k && distance(p, halls[j]) < walk.hall) return true;
+            return false;
+          });
+          if (!direct) continue;
+          std::vector<Point> placed = way;
+          for (Point& p : placed)
+            for (int axis = 0; axis < 3; ++axis) p[static_cast<size_t>(axis)] += metres(region->mesh.origin[axis]);
+          CAPTURE(placed.front(), placed.back());
+          const double variation = leastVariation(sections, placed, walk.hall);
+          CHECK(variation >= 0.1);
+          least = std::min(least, variation);
+          ++measured;
+        }
+      }
+      CHECK(measured > 0);
+      std::printf("%-10s seed %3u: %zu halls, %d polygons, %zu passages vary by %.3f at least, %.1f s\n", walk.grammar,
+                  static_cast<unsigned>(seed), halls.size(), floor.polygons(), measured, least,
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+      std::fflush(stdout);
+    }
+  }
+}
