@@ -44,9 +44,12 @@ void Interpreter::transform(IdRange xforms, Env& env) {
         if (whole) {
           env.scope = first.vec();
         } else {
-          if (x.a != kNoId) env.scope.x = first.real();
-          if (x.b != kNoId) env.scope.y = part(x.b);
-          if (x.c != kNoId) env.scope.z = part(x.c);
+          // All edges are read in the scope as it was: `size(scope.z, scope.y, scope.x)` swaps two.
+          Vec3 edges = env.scope;
+          if (x.a != kNoId) edges.x = first.real();
+          if (x.b != kNoId) edges.y = part(x.b);
+          if (x.c != kNoId) edges.z = part(x.c);
+          env.scope = edges;
         }
         break;
       case XformKind::mirror:

@@ -80,6 +80,7 @@ struct ExprNode {
   bool parenthesised = false;    ///< written in parentheses that the printer keeps
   bool shape = false;            ///< call of a rule or terminal: needs no () where it has no arguments
   bool inside = false;           ///< query: whether all is solid, not whether all is void
+  bool circular = false;         ///< resolved, call of a rule: it may lead back to the rule that it stands in
   Type type;                     ///< resolved; of let functions and fields: as last instantiated
   double value = 0;              ///< number
   NameId name = kNoId;           ///< name, member, text; number: as written, unit and all; call: last part
@@ -325,9 +326,13 @@ struct WaveNode {
 /// A parameter of a rule, let function or field.
 struct FormalNode {
   NameId name = kNoId;
-  ExprId fallback = kNoId;  ///< written default
-  Type type;                ///< resolved for rules
-  uint32_t slot = kNoId;    ///< resolved: its place in the frame; of rules, lets and global fields: its position
+  ExprId fallback = kNoId;                     ///< written default
+  ExprId low_expr = kNoId, high_expr = kNoId;  ///< written range; of a rule's heads that of the first counts
+  Type type;                                   ///< resolved for rules
+  uint32_t slot = kNoId;  ///< resolved: its place in the frame; of rules, lets and global fields: its position
+  bool ranged = false;    ///< resolved: a number of `dim` from `low` to `high`, both allowed
+  Dim dim;
+  double low = 0, high = 0;
   Span span;
 };
 

@@ -98,6 +98,13 @@ class Checker {
   uint16_t tableIndex(std::pmr::vector<std::pmr::string>& table, NameId name, const Span& span);
 
   // check_domain.cpp
+  /// A range, and whether a default lies in it; none and false with an error.
+  struct Ends {
+    double low = 0, high = 0;
+  };
+  std::optional<Ends> rangeOf(ExprId low_expr, ExprId high_expr, Dim dim);
+  bool defaultLies(const Ends& range, ExprId value_expr, double value, Dim dim, NameId name);
+  void formalRanges();
   void params();
   void seedAndDomain();
   void layers();
@@ -111,6 +118,7 @@ class Checker {
 
   // check_statements.cpp, check_placement.cpp, check_split.cpp
   void checkRules();
+  void headRanges(const Rule& rule, const Alternative& head);
   void checkWaiting();
   void checkUnusedValues();
   void checkRule(uint32_t rule);
@@ -195,6 +203,11 @@ class Checker {
   bool bind(ExprId call, std::string_view callee, const std::vector<FormalView>& formals, bool variadic,
             std::vector<uint32_t>& bound);
   std::vector<FormalView> viewOf(IdRange formals) const;
+  /// What is known of formals before anything is given to them: the dimension of those with a range.
+  std::vector<Type> typesOf(IdRange formals) const;
+  /// Demands of what is given to formals that it has the dimension of their ranges.
+  void demandRanged(IdRange formals, std::span<const uint32_t> bound, std::span<const Type> types,
+                    std::string_view callee, bool sample);
   std::vector<FormalView> viewOf(std::span<const BuiltinParam> params) const;
   /// The written arguments of a transform or area, by position or name, to up to three expressions.
   bool bindWords(IdRange args, const Span& span, std::string_view callee, std::initializer_list<std::string_view> words,
@@ -277,9 +290,13 @@ class Checker {
   bool layers_known_ = false;  ///< otherwise what is said of layers would only follow from another error
 };
 
-/// Error for every rule that may call itself without end.
-void checkRecursion(const Program& program, const std::vector<RuleCall>& calls, const CompileLimits& limits,
+/// Error for every rule that may call itself without end. Fills ExprNode::circular.
+void checkRecursion(Program& program, const std::vector<RuleCall>& calls, const CompileLimits& limits,
                     DiagnosticSink& sink);
+
+/// Error for every call, derived or not, that gives a rule, let or field what lies outside of its range whatever the
+/// frame is that it stands in. What depends on the frame is checkReach()'s, where the frame is known.
+void checkRanges(const Program& program, const CompileLimits& limits, DiagnosticSink& sink);
 
 /// Proves how far each layer's shapes may extend from their cell, fills Layer::bound and a finite domain's box where it
 /// is not written.

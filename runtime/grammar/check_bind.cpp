@@ -28,6 +28,25 @@ std::vector<Checker::FormalView> Checker::viewOf(IdRange formals) const {
   return out;
 }
 
+std::vector<Type> Checker::typesOf(IdRange formals) const {
+  std::vector<Type> types(formals.count);
+  for (uint32_t i = 0; i < formals.count; ++i) {
+    const FormalNode& formal = program_.ast.formals[formals.first + i];
+    if (formal.ranged) types[i] = {ValueKind::number, formal.dim, false, false};
+  }
+  return types;
+}
+
+void Checker::demandRanged(IdRange formals, std::span<const uint32_t> bound, std::span<const Type> types,
+                           std::string_view callee, bool sample) {
+  for (uint32_t i = 0; i < formals.count && i < bound.size(); ++i) {
+    const FormalNode formal = program_.ast.formals[formals.first + i];
+    if (formal.ranged && bound[i] != formal.fallback)
+      demandType(bound[i], types[i], ValueKind::number, formal.dim,
+                 join({"`", text(formal.name), "` of `", callee, "`"}), sample);
+  }
+}
+
 std::vector<Checker::FormalView> Checker::viewOf(std::span<const BuiltinParam> params) const {
   std::vector<FormalView> out;
   for (const BuiltinParam& p : params) out.push_back({p.name, kNoId, p.required, p.named_only});

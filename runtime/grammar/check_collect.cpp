@@ -21,6 +21,7 @@ void Checker::run() {
   collect();
   assetMaterials();
   if (sink_.errorCount() > errors_before_) return;
+  formalRanges();
   params();
   seedAndDomain();
   layers();
@@ -63,10 +64,15 @@ void Checker::declare(ModuleSyntax& module, NameId name, Symbol symbol) {
 }
 
 void Checker::collect() {
-  for (const FormalNode& formal : program_.ast.formals)
+  for (const FormalNode& formal : program_.ast.formals) {
     if (formal.fallback != kNoId && !literal(formal.fallback))
       sink_.error(node(formal.fallback).span, codes::kNotConstant, "a default is made of numbers alone",
                   "such as r = 2m or r = 3*0.5m");
+    for (const ExprId end : {formal.low_expr, formal.high_expr})
+      if (end != kNoId && !literal(end))
+        sink_.error(node(end).span, codes::kNotConstant, "the range of what a rule takes is made of numbers alone",
+                    "such as r in 1m..60m");
+  }
   auto rootOnly = [&](const ModuleSyntax& module, const Span& span, std::string_view what) {
     if (module.module != 0)
       sink_.error(span, codes::kImportContent, join({"an imported file has no `", what, "`"}),

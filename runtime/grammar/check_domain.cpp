@@ -79,6 +79,44 @@ std::optional<int64_t> Checker::wholeUnits(ExprId id, std::string_view what) {
   return static_cast<int64_t>(whole);
 }
 
+std::optional<Checker::Ends> Checker::rangeOf(ExprId low_expr, ExprId high_expr, Dim dim) {
+  const auto low = constant(low_expr, dim, "the low end of a range");
+  const auto high = constant(high_expr, dim, "the high end of a range");
+  if (!low || !high) return std::nullopt;
+  if (*low <= *high) return Ends{*low, *high};
+  sink_.error(node(low_expr).span, codes::kParamRange, "the range is upside down", "write its low end first");
+  return std::nullopt;
+}
+
+bool Checker::defaultLies(const Ends& range, ExprId value_expr, double value, Dim dim, NameId name) {
+  if (value >= range.low && value <= range.high) return true;
+  const bool percent = dim == kRatio && range.high <= 1 && value / 100 >= range.low && value / 100 <= range.high;
+  sink_.error(node(value_expr).span, codes::kParamRange,
+              join({"the default of `", text(name), "` lies outside of its range"}),
+              percent ? join({"write ", numberText(value), "%"}) : "widen the range, or choose a default within it");
+  return false;
+}
+
+/// The ranges of what rules, lets and fields take.
+void Checker::formalRanges() {
+  for (size_t i = 0; i < program_.ast.formals.size(); ++i) {
+    FormalNode& formal = program_.ast.formals[i];
+    if (formal.low_expr == kNoId || formal.high_expr == kNoId) continue;
+    scope_ = {};
+    const Type low = expression(formal.low_expr), high = expression(formal.high_expr);
+    formal.dim = low.any_dim ? high.dim : low.dim;
+    const auto range = rangeOf(formal.low_expr, formal.high_expr, formal.dim);
+    if (!range) continue;
+    if (formal.fallback != kNoId) {
+      const auto value = constant(formal.fallback, formal.dim, "the default of a parameter");
+      if (!value || !defaultLies(*range, formal.fallback, *value, formal.dim, formal.name)) continue;
+    }
+    formal.ranged = true;
+    formal.low = range->low;
+    formal.high = range->high;
+  }
+}
+
 void Checker::params() {
   for (Param& param : program_.params) {
     if (param.module != 0) continue;
@@ -105,24 +143,10 @@ void Checker::params() {
       continue;
     }
     if (param.has_range) {
-      const auto low = constant(param.low_expr, param.dim, "the low end of a range");
-      const auto high = constant(param.high_expr, param.dim, "the high end of a range");
-      if (!low || !high) continue;
-      if (*low > *high) {
-        sink_.error(node(param.low_expr).span, codes::kParamRange, "the range is upside down",
-                    "write its low end first");
-        continue;
-      }
-      if (*value < *low || *value > *high) {
-        const bool percent = param.dim == kRatio && *high <= 1 && *value / 100 >= *low && *value / 100 <= *high;
-        sink_.error(
-            node(param.value_expr).span, codes::kParamRange,
-            join({"the default of `", text(param.name), "` lies outside of its range"}),
-            percent ? join({"write ", numberText(*value), "%"}) : "widen the range, or choose a default within it");
-        continue;
-      }
-      param.low = *low;
-      param.high = *high;
+      const auto range = rangeOf(param.low_expr, param.high_expr, param.dim);
+      if (!range || !defaultLies(*range, param.value_expr, *value, param.dim, param.name)) continue;
+      param.low = range->low;
+      param.high = range->high;
     }
     auto written_whole = [&](ExprId id) {
       return id == kNoId || (node(id).kind == ExprKind::number && node(id).value == std::floor(node(id).value) &&

@@ -112,8 +112,11 @@ bool Checker::xforms(IdRange range, bool copied) {
     ExprId out[3] = {kNoId, kNoId, kNoId};
     auto axisOf = [&](ExprId id) -> uint8_t {
       const std::string_view word = node(id).kind == ExprKind::name ? text(node(id).name) : std::string_view();
-      const bool hidden = std::any_of(scope_.locals.begin(), scope_.locals.end(),
-                                      [&](const Local& local) { return text(local.name) == word; });
+      // A number of that name, such as the width x of a board, is no axis and hides none.
+      const auto vector = [&](const Local& local) {
+        return text(local.name) == word && local.type.kind == ValueKind::vector;
+      };
+      const bool hidden = x.kind == XformKind::rot && std::any_of(scope_.locals.begin(), scope_.locals.end(), vector);
       if (hidden) return 3;
       return word == "x" ? 0 : word == "y" ? 1 : word == "z" ? 2 : 3;
     };

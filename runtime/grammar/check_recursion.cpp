@@ -22,9 +22,11 @@ class RecursionCheck {
         steps_(steps),
         values_(program, steps_) {}
 
-  void run() {
+  void run(Program& marked) {
     for (uint32_t c = 0; c < calls_.size(); ++c) out_[calls_[c].from].push_back(c);
     components();
+    for (const RuleCall& call : calls_)
+      marked.ast.exprs[call.call].circular = component_[call.from] == component_[call.to];
     // What is left without the calls that bring an end nearer must have no circle.
     std::vector<uint8_t> mark(program_.rules.size(), 0);
     for (uint32_t root = 0; root < program_.rules.size(); ++root) {
@@ -209,9 +211,9 @@ class RecursionCheck {
 
 }  // namespace
 
-void checkRecursion(const Program& program, const std::vector<RuleCall>& calls, const CompileLimits& limits,
+void checkRecursion(Program& program, const std::vector<RuleCall>& calls, const CompileLimits& limits,
                     DiagnosticSink& sink) {
-  RecursionCheck(program, calls, limits.bound_steps, sink).run();
+  RecursionCheck(program, calls, limits.bound_steps, sink).run(program);
 }
 
 }  // namespace sgm

@@ -53,6 +53,8 @@ void Checker::checkRules() {
                          " in its first head and ", std::to_string(a.formals.count), " in this one"}),
                    "the heads of a rule have the same parameters")
             .notes.push_back(join({"first at ", sink_.place(rule.alternatives[0].span)}));
+      else
+        headRanges(rule, a);
     }
     const bool lod = std::any_of(rule.alternatives.begin(), rule.alternatives.end(),
                                  [](const Alternative& a) { return a.lod != kNoId; });
@@ -81,7 +83,7 @@ void Checker::checkRules() {
     if (rule.module == 0 && calls_known && layers_known_ && !program_.layers.empty())
       sink_.warning(rule.span, codes::kUnusedRule, join({"nothing derives `", text(rule.name), "`"}),
                     "call it in a rule, or remove it");
-    rule_types_[r].assign(rule.alternatives[0].formals.count, Type{});
+    rule_types_[r] = typesOf(rule.alternatives[0].formals);
     checkRule(r);
   }
   checkUnusedValues();
@@ -103,6 +105,23 @@ void Checker::checkRules() {
   }
 }
 
+/// Callers give the same values to all heads: one range holds for them.
+void Checker::headRanges(const Rule& rule, const Alternative& head) {
+  for (uint32_t i = 0; i < head.formals.count; ++i) {
+    const FormalNode& first = program_.ast.formals[rule.alternatives[0].formals.first + i];
+    const FormalNode& here = program_.ast.formals[head.formals.first + i];
+    if (!here.ranged || (first.ranged && first.low == here.low && first.high == here.high && first.dim == here.dim))
+      continue;
+    const std::string what = join({"`", text(here.name), "` of `", text(rule.name), "`"});
+    sink_
+        .error(here.span, codes::kParamRange,
+               first.ranged ? join({"the range of ", what, " is another one than in the first head"})
+                            : join({what, " has a range here and none in the first head"}),
+               "the first head has the range for all of them")
+        .notes.push_back(join({"the first head is at ", sink_.place(rule.alternatives[0].span)}));
+  }
+}
+
 void Checker::checkWaiting() {
   for (; next_waiting_ < waiting_.size() && !sink_.full(); ++next_waiting_) checkRule(waiting_[next_waiting_]);
 }
@@ -113,7 +132,7 @@ void Checker::checkUnusedValues() {
   for (const auto& [key, type] : known_) used.emplace(std::get<0>(key), std::get<1>(key));
   scope_ = {};
   auto check = [&](Ref ref, uint32_t index, IdRange formals, ExprId body) {
-    if (used.count({ref, index}) == 0 && !sink_.full()) letOrField(body, ref, index, std::vector<Type>(formals.count));
+    if (used.count({ref, index}) == 0 && !sink_.full()) letOrField(body, ref, index, typesOf(formals));
   };
   for (uint32_t i = 0; i < program_.lets.size(); ++i)
     check(Ref::let, i, program_.lets[i].formals, program_.lets[i].body);
@@ -235,7 +254,11 @@ void Checker::callRule(ExprId call, bool escape, bool shrunk) {
   if (override_ != kNoId) override_calls_[override_].push_back(rule);
   if (rule_state_[rule] == 0) {
     rule_state_[rule] = 1;
-    rule_types_[rule] = types;
+    const IdRange formals = program_.rules[rule].alternatives[0].formals;
+    demandRanged(formals, bound, types, text(n.name), false);
+    rule_types_[rule] = typesOf(formals);
+    for (size_t i = 0; i < types.size(); ++i)
+      if (rule_types_[rule][i].kind == ValueKind::unknown) rule_types_[rule][i] = types[i];
     waiting_.push_back(rule);
     return;
   }

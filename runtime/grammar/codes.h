@@ -45,6 +45,7 @@ inline constexpr std::string_view kRandKey = "rand-key";
 inline constexpr std::string_view kNotConstant = "not-constant";
 inline constexpr std::string_view kValueRange = "value-range";
 inline constexpr std::string_view kParamRange = "param-range";
+inline constexpr std::string_view kArgumentRange = "argument-range";
 inline constexpr std::string_view kDivideByZero = "divide-by-zero";
 // Structure
 inline constexpr std::string_view kRecursiveValue = "recursive-value";

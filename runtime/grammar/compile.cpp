@@ -85,6 +85,7 @@ CheckResult compile(std::string_view text, std::string_view path, const CompileO
     const bool understood = sink.errorCount() == unread && !checker.usesWhatIsLost();
     const bool bounded = std::ranges::all_of(syntax, [](const ModuleSyntax& m) { return m.readable && m.bounded; });
     if (understood) checkRecursion(*program, checker.calls(), options.limits, sink);
+    if (understood) checkRanges(*program, options.limits, sink);
     if (understood && bounded && sink.errorCount() == unread) checkReach(*program, options.limits, sink);
   }
   if (sink.errorCount() == 0) {

@@ -147,9 +147,22 @@ class DeclarationReader {
         ++next_;
         return;
       }
-      if (first && isName()) addLocal(token().span, "parameter " + std::string(word()));
+      if (first && isName()) addLocal(token().span, "parameter " + formalText());
       first = kind() == Tok::comma && depth == 1;
     }
+  }
+
+  /// From here to the comma or parenthesis behind it: a name, with its default and its range.
+  std::string formalText() const {
+    size_t last = next_;
+    for (int depth = 0; last + 1 < lexed_.tokens.size(); ++last) {
+      const Tok next = lexed_.tokens[last + 1].kind;
+      if (next == Tok::open_brace || next == Tok::semicolon || next == Tok::end) break;
+      if (depth == 0 && (next == Tok::comma || next == Tok::close_paren)) break;
+      depth += next == Tok::open_paren ? 1 : next == Tok::close_paren ? -1 : 0;
+    }
+    const uint32_t begin = token().span.begin;
+    return oneLine(text_.substr(begin, lexed_.tokens[last].span.end - begin));
   }
 
   /// What a statement at this place declares.

@@ -123,6 +123,13 @@ IdRange Parser::formals() {
     formal.name = declaredName("the name of a parameter");
     formal.slot = static_cast<uint32_t>(list.size());
     if (accept(Tok::assign)) formal.fallback = expression();
+    if (acceptWord("in")) {
+      formal.low_expr = expression();
+      expect(Tok::dots, "`..`");
+      formal.high_expr = expression();
+      if (at(Tok::assign))
+        fail(here(), codes::kSyntax, "a default stands before the range", "such as r = 2m in 1m..60m");
+    }
     formal.span = since(begin);
     list.push_back(formal);
     if (list.size() > kMostFormals)

@@ -145,6 +145,12 @@ void LinePrinter::formals(std::string& out, IdRange range) const {
       out += " = ";
       expr(out, formal.fallback);
     }
+    // What it refuses changes no byte of what it derives.
+    if (formal.low_expr == kNoId || meaning_) continue;
+    out += " in ";
+    expr(out, formal.low_expr, kOr);
+    out += "..";
+    expr(out, formal.high_expr, kOr);
   }
   out += ')';
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/math.h"
+#include "grammar/argument_ranges.h"
 #include "grammar/reach_check.h"
 
 namespace sgm {
@@ -49,7 +50,11 @@ void ReachCheck::layerReach(uint32_t index) {
   const bool boxed = !program_.domain.box.empty();
   setCell(layer);
   const uint32_t errors = sink_.errorCount();
+  // Later attempts follow other cells than the layer's, or parts of ranges.
+  values_.judgeArguments(true);
   const Extent extent = provenExtent(index);
+  values_.judgeArguments(false);
+  reportMisfits(program_, values_.takeMisfits(), sink_);
   if (sink_.full()) return;
   seen(layer, values_.sight());
   // What is divided by 0 has no bound, either, and that is no second fault.

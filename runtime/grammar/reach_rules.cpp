@@ -34,6 +34,7 @@ Extent ReachCheck::callExtent(ExprId id, const RangeFrame& frame, Call call) {
   if (n.ref != Ref::rule) return Extent::nothing();
   std::vector<RangeValue> args;
   for (uint32_t i = 0; i < n.bound.count; ++i) args.push_back(values_.evaluate(program_.idAt(n.bound, i), frame));
+  values_.judge(id, program_.rules[n.id].alternatives[0].formals, args);
   values_.enter(id);
   Extent e = pieces_ == Pieces::none ? ruleExtent(n.id, args, frame, call == Call::start)
                                      : ruleInPieces(n.id, args, frame, call == Call::start);

@@ -280,11 +280,14 @@ RangeValue RangeEvaluator::applied(ExprId id, const RangeFrame& frame) {
   inner.start = frame.start;
   inner.place = frame.place;
   inner.scope = frame.scope;
+  std::vector<RangeValue> given;
   for (uint32_t i = 0; i < formals.count && i < n.bound.count; ++i) {
     const uint32_t slot = program_.ast.formals[formals.first + i].slot;
     if (inner.slots.size() <= slot) inner.slots.resize(slot + 1);
-    inner.slots[slot] = evaluate(program_.idAt(n.bound, i), frame);
+    given.push_back(evaluate(program_.idAt(n.bound, i), frame));
+    inner.slots[slot] = given.back();
   }
+  judge(id, formals, given);
   enter(id);
   RangeValue out = evaluate(body, inner);
   for (uint32_t i = 0; pieces_ && !out.bounded() && i < formals.count && i < n.bound.count; ++i) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -53,6 +54,16 @@ struct BoundLoss {
   ExprId expr = kNoId;    ///< the quotient, or the use of the parameter
   ExprId caller = kNoId;  ///< the innermost call around it that the library does not make; or kNoId
   Interval divisor;
+};
+
+/// What is given to a formal and does not lie in its range.
+struct Misfit {
+  ExprId argument = kNoId;
+  ExprId call = kNoId;
+  ExprId caller = kNoId;  ///< as in BoundLoss
+  uint32_t formal = 0;    ///< into Ast::formals
+  Interval given;
+  bool certain = false;  ///< all of it lies outside
 };
 
 /// Whether a file (Span::file) is a part of the standard library that another file imports.
@@ -107,6 +118,13 @@ class RangeEvaluator {
   /// Divisions by what is 0 for certain.
   const std::vector<BoundLoss>& zeroDivisions() const { return zeros_; }
 
+  /// Whether what is given to formals is held against their ranges.
+  void judgeArguments(bool judges) { judges_ = judges; }
+  /// What a call gives to its formals; `given` is what the bound arguments are.
+  void judge(ExprId call, IdRange formals, std::span<const RangeValue> given);
+  /// What did not fit since they were taken; of one argument and caller what is certain, or else what was first.
+  std::vector<Misfit> takeMisfits() { return std::exchange(misfits_, {}); }
+
   /// What a parameter may be; at first all of its range.
   Interval& parameter(uint32_t index) { return parameters_[index]; }
   const std::vector<bool>& askedParameters() const { return asked_parameters_; }
@@ -146,6 +164,8 @@ class RangeEvaluator {
   Sight sight_;
   int depth_ = 0;
   bool pieces_ = false;
+  bool judges_ = false;
+  std::vector<Misfit> misfits_;
   std::vector<Interval> parameters_;
   std::vector<bool> asked_parameters_;
   std::vector<ExprId> callers_;
