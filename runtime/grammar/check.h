@@ -205,9 +205,9 @@ class Checker {
   std::vector<FormalView> viewOf(IdRange formals) const;
   /// What is known of formals before anything is given to them: the dimension of those with a range.
   std::vector<Type> typesOf(IdRange formals) const;
-  /// Demands of what is given to formals that it has the dimension of their ranges.
-  void demandRanged(IdRange formals, std::span<const uint32_t> bound, std::span<const Type> types,
-                    std::string_view callee, bool sample);
+  /// Demands of what is given to formals that it has the dimension of their ranges, and goes on as if it had: one
+  /// fault is told once.
+  void demandRanged(IdRange formals, std::span<const uint32_t> bound, std::span<Type> types, std::string_view callee);
   std::vector<FormalView> viewOf(std::span<const BuiltinParam> params) const;
   /// The written arguments of a transform or area, by position or name, to up to three expressions.
   bool bindWords(IdRange args, const Span& span, std::string_view callee, std::initializer_list<std::string_view> words,
@@ -294,8 +294,8 @@ class Checker {
 void checkRecursion(Program& program, const std::vector<RuleCall>& calls, const CompileLimits& limits,
                     DiagnosticSink& sink);
 
-/// Error for every call, derived or not, that gives a rule, let or field what lies outside of its range whatever the
-/// frame is that it stands in. What depends on the frame is checkReach()'s, where the frame is known.
+/// Of every call, derived or not, that gives a rule, let or field what does not lie in its range, as far as that does
+/// not depend on the frame. What does is checkReach()'s, where the frame is known.
 void checkRanges(const Program& program, const CompileLimits& limits, DiagnosticSink& sink);
 
 /// Proves how far each layer's shapes may extend from their cell, fills Layer::bound and a finite domain's box where it

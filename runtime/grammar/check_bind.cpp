@@ -37,13 +37,15 @@ std::vector<Type> Checker::typesOf(IdRange formals) const {
   return types;
 }
 
-void Checker::demandRanged(IdRange formals, std::span<const uint32_t> bound, std::span<const Type> types,
-                           std::string_view callee, bool sample) {
+void Checker::demandRanged(IdRange formals, std::span<const uint32_t> bound, std::span<Type> types,
+                           std::string_view callee) {
   for (uint32_t i = 0; i < formals.count && i < bound.size(); ++i) {
     const FormalNode formal = program_.ast.formals[formals.first + i];
-    if (formal.ranged && bound[i] != formal.fallback)
+    if (!formal.ranged) continue;
+    if (bound[i] != formal.fallback)
       demandType(bound[i], types[i], ValueKind::number, formal.dim,
-                 join({"`", text(formal.name), "` of `", callee, "`"}), sample);
+                 join({"`", text(formal.name), "` of `", callee, "`"}), true);
+    types[i] = {ValueKind::number, formal.dim, types[i].sample, false};
   }
 }
 

@@ -48,7 +48,7 @@ Type Checker::callValue(ExprId id) {
       }
       if (n.bound.count == 0) n.bound = store(bound);
       for (uint32_t b : bound) types.push_back(expression(b));
-      demandRanged(formals, bound, types, text(n.name), true);
+      demandRanged(formals, bound, types, text(n.name));
       if (n.ref == Ref::let)
         for (uint32_t b : bound) deriveOnly(b, join({"an argument of `", text(n.name), "`"}));
       return letOrField(id, n.ref, n.id, types);
@@ -291,12 +291,11 @@ Type Checker::localFieldUse(ExprId id, const Local& local) {
   if (node(id).bound.count == 0) node(id).bound = store(bound);
   Key key{Ref::field, local.field, {}};
   std::vector<Type> args;
-  for (uint32_t b : bound) {
-    const Type t = expression(b);
-    args.push_back(t);
+  for (uint32_t b : bound) args.push_back(expression(b));
+  demandRanged(field.formals, bound, args, text(field.name));
+  for (const Type& t : args)
     std::get<2>(key).emplace_back(static_cast<int>(t.kind), t.dim.length, t.dim.angle, t.sample, t.any_dim);
-  }
-  demandRanged(field.formals, bound, args, text(field.name), true);
+
   const auto known = known_local_.find(key);
   if (known != known_local_.end()) return known->second;
   if (!fitsDeeper(id)) return {ValueKind::unknown, kRatio, true, false};

@@ -32,14 +32,19 @@ std::string_view written(const Program& program, ExprId id) {
   return std::string_view(program.modules[span.file].text).substr(span.begin, span.end - span.begin);
 }
 
-/// The unit of the high end of a range, or the first one of its dimension.
+/// What stands behind the digits of a number.
+std::string_view unitName(std::string_view number) {
+  return number.substr(std::min(number.find_last_of("0123456789.)") + 1, number.size()));
+}
+
+/// The unit of both ends of a range, or the first one of its dimension.
 Unit unitOf(const Program& program, const FormalNode& formal) {
-  const std::string_view text = written(program, formal.high_expr);
-  const std::string_view name = text.substr(std::min(text.find_last_of("0123456789.)") + 1, text.size()));
+  const std::string_view name = unitName(written(program, formal.high_expr));
+  const bool both = unitName(written(program, formal.low_expr)) == name;
   const Unit* first = nullptr;
   for (const Unit& unit : kUnits) {
     if (unit.dim != formal.dim) continue;
-    if (unit.name == name) return unit;
+    if (both && unit.name == name) return unit;
     if (first == nullptr) first = &unit;
   }
   return first != nullptr ? *first : Unit{"", formal.dim, 1};
@@ -83,10 +88,10 @@ void report(const Program& program, const Misfit& misfit, DiagnosticSink& sink) 
       join({several ? ", none of which is within " : ", which is not within ", low, "..", high});
   if (misfit.caller != kNoId) {
     const ExprNode& caller = program.expr(misfit.caller);
-    sink.error(caller.span, codes::kArgumentRange,
-               join({"with these arguments ", calleeName(program, caller), " gives ", calleeName(program, call), " ",
-                     argument, outside}),
-               "give it other arguments")
+    sink.error(
+            caller.span, codes::kArgumentRange,
+            join({calleeName(program, caller), " gives ", calleeName(program, call), " ", argument, " here", outside}),
+            "give it other arguments, or a scope of another size")
         .notes.push_back(join({"the call is at ", sink.place(call.span)}));
     return;
   }
@@ -115,19 +120,37 @@ void RangeEvaluator::judge(ExprId id, IdRange formals, std::span<const RangeValu
     const Interval value = given[i].v[0];
     const double low = formal.low - kSlack * std::fabs(formal.low),
                  high = formal.high + kSlack * std::fabs(formal.high);
-    if (value.lo >= low && value.hi <= high) continue;
-    const ExprId caller = callerOf(id);
     const bool certain = value.hi < low || value.lo > high;
+    const ExprId caller = callerOf(id);
+    const std::pair key(argument, caller);
+    if (loose_ > 0 && !certain) loosely_fitting_.insert(key);
+    if (value.lo >= low && value.hi <= high) continue;
     // Of what has no bound nothing is known, and nobody can bound what the library computes.
-    if (!certain && (!value.bounded() || caller != kNoId)) continue;
+    if (!certain && (loose_ > 0 || !value.bounded() || caller != kNoId)) continue;
+    const Misfit misfit{argument, id, caller, formals.first + i, value, certain, loose_ > 0};
     const auto known = std::find_if(misfits_.begin(), misfits_.end(),
-                                    [&](const Misfit& m) { return m.argument == argument && m.caller == caller; });
-    const Misfit misfit{argument, id, caller, formals.first + i, value, certain};
-    if (known == misfits_.end() && misfits_.size() < kMostMisfits)
-      misfits_.push_back(misfit);
-    else if (known != misfits_.end() && certain && !known->certain)
+                                    [&](const Misfit& m) { return std::pair(m.argument, m.caller) == key; });
+    if (known == misfits_.end()) {
+      if (misfits_.size() < kMostMisfits) misfits_.push_back(misfit);
+    } else if (known->loose && misfit.loose) {
+      known->given = hull(known->given, value);
+    } else if (known->loose || (certain && !known->certain)) {
       *known = misfit;
+    }
   }
+}
+
+std::vector<Misfit> RangeEvaluator::takeMisfits() {
+  std::vector<Misfit> out;
+  std::set<ExprId> callers;
+  for (const Misfit& misfit : misfits_) {
+    if (misfit.loose && loosely_fitting_.contains({misfit.argument, misfit.caller})) continue;
+    // Of a library's caller one fault is enough: what is given to it makes the others.
+    if (misfit.caller == kNoId || callers.insert(misfit.caller).second) out.push_back(misfit);
+  }
+  misfits_.clear();
+  loosely_fitting_.clear();
+  return out;
 }
 
 void reportMisfits(const Program& program, std::span<const Misfit> misfits, DiagnosticSink& sink) {
@@ -158,9 +181,7 @@ void checkRanges(const Program& program, const CompileLimits& limits, Diagnostic
                           : RangeValue::unknown());
     values.judge(id, formals, given);
   }
-  std::vector<Misfit> misfits = values.takeMisfits();
-  std::erase_if(misfits, [](const Misfit& m) { return !m.certain; });
-  reportMisfits(program, misfits, sink);
+  reportMisfits(program, values.takeMisfits(), sink);
 }
 
 }  // namespace sgm

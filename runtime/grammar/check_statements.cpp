@@ -254,11 +254,8 @@ void Checker::callRule(ExprId call, bool escape, bool shrunk) {
   if (override_ != kNoId) override_calls_[override_].push_back(rule);
   if (rule_state_[rule] == 0) {
     rule_state_[rule] = 1;
-    const IdRange formals = program_.rules[rule].alternatives[0].formals;
-    demandRanged(formals, bound, types, text(n.name), false);
-    rule_types_[rule] = typesOf(formals);
-    for (size_t i = 0; i < types.size(); ++i)
-      if (rule_types_[rule][i].kind == ValueKind::unknown) rule_types_[rule][i] = types[i];
+    demandRanged(program_.rules[rule].alternatives[0].formals, bound, types, text(n.name));
+    rule_types_[rule] = types;
     waiting_.push_back(rule);
     return;
   }

@@ -41,7 +41,9 @@ Extent ReachCheck::inPieces(StmtId child, const IntervalVector& edges, RangeFram
         by[axis] = std::isfinite(off) ? Interval{-off, off} : Interval::everything();
       }
       frame.place.move(by);
+      values_.enterLoose();
       Extent e = body(child, frame);
+      values_.leaveLoose();
       frame.scope = scope;
       frame.place = place;
       e.move(by);

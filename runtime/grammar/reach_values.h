@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -64,6 +65,7 @@ struct Misfit {
   uint32_t formal = 0;    ///< into Ast::formals
   Interval given;
   bool certain = false;  ///< all of it lies outside
+  bool loose = false;    ///< found where scopes are larger than they may be
 };
 
 /// Whether a file (Span::file) is a part of the standard library that another file imports.
@@ -122,8 +124,12 @@ class RangeEvaluator {
   void judgeArguments(bool judges) { judges_ = judges; }
   /// What a call gives to its formals; `given` is what the bound arguments are.
   void judge(ExprId call, IdRange formals, std::span<const RangeValue> given);
-  /// What did not fit since they were taken; of one argument and caller what is certain, or else what was first.
-  std::vector<Misfit> takeMisfits() { return std::exchange(misfits_, {}); }
+  /// In parts of scopes whose sizes have ranges wider than they are, or parts of these ranges, one by one: what may lie
+  /// outside there says nothing, and what does is certain only where it does in all of them.
+  void enterLoose() { ++loose_; }
+  void leaveLoose() { --loose_; }
+  /// What did not fit since they were taken; of one argument, or of one caller of the library, once.
+  std::vector<Misfit> takeMisfits();
 
   /// What a parameter may be; at first all of its range.
   Interval& parameter(uint32_t index) { return parameters_[index]; }
@@ -165,7 +171,9 @@ class RangeEvaluator {
   int depth_ = 0;
   bool pieces_ = false;
   bool judges_ = false;
-  std::vector<Misfit> misfits_;
+  int loose_ = 0;
+  std::vector<Misfit> misfits_;                          ///< one of each argument and caller
+  std::set<std::pair<ExprId, ExprId>> loosely_fitting_;  ///< what may lie in its range where scopes are loose
   std::vector<Interval> parameters_;
   std::vector<bool> asked_parameters_;
   std::vector<ExprId> callers_;

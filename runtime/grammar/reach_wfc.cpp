@@ -38,7 +38,9 @@ Extent ReachCheck::tile(StmtId child, const IntervalVector& edges, const Interva
     by[axis] = std::isfinite(off) ? Interval{-off, off} : Interval::everything();
   }
   frame.place.move(by);
+  values_.enterLoose();
   Extent e = body(child, frame);
+  values_.leaveLoose();
   frame.scope = written;
   frame.place = place;
   e.move(by);

@@ -87,3 +87,19 @@ TEST_CASE("points at no distance are none, and no failure") {
   REQUIRE(chunk.notes.size() == 1);
   CHECK(chunk.notes[0].message.find("positive") != std::string::npos);
 }
+
+TEST_CASE("edges of `size` are read in the scope as it was") {
+  const GrammarChunk swapped = derivedRules(
+      "rule Main { size(2m, 4m, 6m) Turned; } rule Turned { size(scope.z, scope.y, scope.x) box(scope); }");
+  REQUIRE(swapped.groups.size() == 1);
+  CHECK(tenths(swapped.groups[0].bounds.hi.x) == 3.0);
+  CHECK(tenths(swapped.groups[0].bounds.hi.y) == 2.0);
+  CHECK(tenths(swapped.groups[0].bounds.hi.z) == 1.0);
+  // What is left out keeps its edge; the next `size` stands in the scope of this one.
+  const GrammarChunk moved =
+      derivedRules("rule Main { size(2m, 4m, 6m) size(y scope.x, z scope.y) size(x scope.z) box(scope); }");
+  REQUIRE(moved.groups.size() == 1);
+  CHECK(tenths(moved.groups[0].bounds.hi.x) == 2.0);
+  CHECK(tenths(moved.groups[0].bounds.hi.y) == 1.0);
+  CHECK(tenths(moved.groups[0].bounds.hi.z) == 2.0);
+}

@@ -23,9 +23,9 @@ const MessageCase kZero[] = {
      "rule A { let w = rand(0, 0); sphere(1m/w); }"},
     {"4:46 divide-by-zero: division by zero: `n` is 0 here | divide by a number other than 0",
      "rule A { Post(0); } rule Post(n) { sphere(1m/n); }"},
-    {"4:19 divide-by-zero: division by zero: `strata` divides by what is 0 with these arguments | give it arguments "
-     "other than 0 | note: the division is at std/rock.sgm:15:60",
-     "rule A { displace rock.strata(thickness 0m, amp 0.1m) { sphere(2m); } }"},
+    {"4:24 divide-by-zero: division by zero: `swing` divides by what is 0 with these arguments | give it arguments "
+     "other than 0 | note: the division is at std/rock.sgm:76:48",
+     "rule A { displace 0.1m*rock.swing(0m) { sphere(2m); } }"},
 };
 
 const MessageCase kWeights[] = {
@@ -113,9 +113,12 @@ TEST_CASE("what may be 0 or has no range is named, and the hint helps", "[gramma
 
   // Of the library, its caller is told.
   const CompileResult cloudy = grammar("start A;\nrule A { cloud.Cumulus(rand(0m, 500m)); }");
-  CHECK(inWords(cloudy) ==
-        "3:10 reach: cannot prove reach: `Cumulus` may extend without bound | give it a size that cannot come near to "
-        "0, such as `max(r, 1m)` for r | note: the bound is lost at std/cloud.sgm:21:12");
+  CHECK(
+      inWords(cloudy) ==
+      "3:10 reach: cannot prove reach: `Cumulus` may extend without bound | give it a size that cannot come near to "
+      "0, such as `max(r, 1m)` for r | note: the bound is lost at std/cloud.sgm:21:12\n"
+      "3:24 warning argument-range: `cloud.Cumulus` may be given `r` = 0m..500m, not all of which is within 1m..20km | "
+      "bound what it depends on, or write clamp(..., 1m, 20km)");
   CHECK(grammar("start A;\nrule A { cloud.Cumulus(max(rand(0m, 500m), 1m)); }").program);
 }
 

@@ -131,7 +131,7 @@ TEST_CASE("heads and comments are told with a name", "[grammar][editor]") {
   const auto inside = static_cast<uint32_t>(text.find("sphere(t"));
   CHECK(declarations.find("t", inside)[0]->head == "let t = 2*r");
   CHECK(declarations.find("i", inside)[0]->head == "for i in 0..3");
-  CHECK(declarations.find("s", inside)[0]->head == "parameter s");
+  CHECK(declarations.find("s", inside)[0]->head == "parameter s = 2m");
   CHECK(declarations.find("t", static_cast<uint32_t>(text.find("box(r"))).empty());
   CHECK(declarations.find("a", static_cast<uint32_t>(text.size()) - 1).size() == 1);
 }

@@ -126,6 +126,7 @@ const Case kCases[] = {
     {"1:18 param-range", "sgm 1; param a = 3 in 0..2; start A; rule A { }"},
     {"1:23 param-range", "sgm 1; param a = 3 in 4..2; start A; rule A { }"},
     {"1:14 param-range", "sgm 1; param a = 3 animated; start A; rule A { }"},
+    {"2:12 argument-range", "sgm 1; start A; rule B(r in 1m..9m) { sphere(r); }\nrule A { B(0m); }"},
     {"1:38 unit-mismatch", "sgm 1; expect components(solid above 2m) == 1; start A; rule A { sphere(1m); }"},
     {"1:38 value-range", "sgm 1; expect components(solid above -2m3) == 1; start A; rule A { sphere(1m); }"},
     {"1:37 syntax", "sgm 1; expect components(solid above) == 1; start A; rule A { sphere(1m); }"},
