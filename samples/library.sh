@@ -11,7 +11,8 @@ page() {
 # The standard library
 
 What each part is made of, in the words of its own text, with an example of each. `import "std/karst.sgm" as karst;` brings a
-part. Lengths are metres. Whoever changes a comment in `runtime/grammar/std` writes this page anew: `samples/library.sh write`.
+part. Lengths are metres, and behind `in` is the range that a call has to keep. Whoever changes a comment or a head in
+`runtime/grammar/std` writes this page anew: `samples/library.sh write`.
 END
   local part module
   for part in "$root"/runtime/grammar/std/*.sgm; do

@@ -20,7 +20,7 @@ namespace sgm {
 
 /// Of all that stands between a grammar's meaning and a chunk's vertices, indices, anchors and voids. To be raised by
 /// every change of the library after which one of them comes out differently: with golden hashes, for seams as well.
-inline constexpr uint32_t kMeshingVersion = 9;
+inline constexpr uint32_t kMeshingVersion = 10;
 
 inline constexpr int kChunkParts = 7;  ///< 0 is the body, 1 + Face a seam
 
