@@ -1,6 +1,7 @@
 // Ranges of what rules, lets and fields take: what is given to them is held against these where its range is known.
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/math.h"
@@ -53,10 +54,10 @@ Unit unitOf(const Program& program, const FormalNode& formal) {
 /// A value outside of the range as a person writes it: of six digits where these do not bring it into the range.
 std::string valueText(double value, const FormalNode& formal, const Unit& unit) {
   const double exact = value / unit.value;
-  const double step = exact == 0 ? 1 : std::pow(10.0, std::floor(std::log10(std::fabs(exact))) - 5);
-  // A power of ten below 1 is no exact number, and its inverse is.
-  const double rounded =
-      step < 1 ? std::round(exact * std::round(1 / step)) / std::round(1 / step) : std::round(exact / step) * step;
+  char digits[40];
+  const auto end = std::to_chars(digits, digits + sizeof digits, exact, std::chars_format::general, 6).ptr;
+  double rounded = exact;
+  std::from_chars(digits, end, rounded);
   const bool moved_in = rounded * unit.value >= formal.low && rounded * unit.value <= formal.high &&
                         !(value >= formal.low && value <= formal.high);
   return join({numberText(moved_in ? exact : rounded), unit.name});

@@ -17,12 +17,12 @@ class Writer {
     if (chance(30)) comment();
     out_ += "import \"std/noise.sgm\" as noise;\n";
     out_ += "param size_ = 2m in 1m..3m \"a \\\"doc\\\"\";\nparam count = 3 in 1..5;\n";
-    out_ += "let twice(x) = 2*x;\nfield wave(amp, period = 2m) = amp*fractal(period);\n";
+    out_ += "let twice(x) = 2*x;\nfield wave(amp, period = 2m" + range() + ") = amp*fractal(period);\n";
     out_ += "domain finite box(4000m, 4000m, 4000m);\nlayer under cell 4000m reach 4000m { start R4(2m); }\n";
     out_ += "layer main cell 4000m reach 4000m uses under { start R0(1m); }\n";
     for (int r = 0; r < 4; ++r) rule(r);
-    out_ += "rule R4(r) { sphere(r); }\nmorphic M(r) : sphere(r) -> box(r, r, 2*r) by 0.5" +
-            std::string(pick({"", " power", " lerp"})) + ";\n";
+    out_ += "rule R4(r" + range() + ") { sphere(r); }\nmorphic M(r" + range() +
+            ") : sphere(r) -> box(r, r, 2*r) by 0.5" + std::string(pick({"", " power", " lerp"})) + ";\n";
     for (int i = 0; i < 3; ++i) edit();
     if (chance(50)) out_ += "expect volume in 1m3..2m3 per R0;\nreport area;\n";
     return out_;
@@ -32,6 +32,8 @@ class Writer {
   uint64_t draw(uint64_t below) { return hashCombine(key_.value, ++count_) % below; }
   bool chance(uint64_t percent) { return draw(100) < percent; }
   const char* pick(std::initializer_list<const char*> list) { return list.begin()[draw(list.size())]; }
+  /// Of a formal, so wide that all lengths lie in it.
+  std::string range() { return pick({"", " in -1000000km..1000000km", " in -(1000000km)..2 *  500000km"}); }
   void comment() { out_ += std::string("// note ") + std::to_string(draw(100)) + (chance(30) ? "  \n\n\n" : "\n"); }
   void blank() {
     const uint64_t kind = draw(12);
