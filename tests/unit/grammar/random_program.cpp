@@ -33,7 +33,7 @@ class Writer {
   bool chance(uint64_t percent) { return draw(100) < percent; }
   const char* pick(std::initializer_list<const char*> list) { return list.begin()[draw(list.size())]; }
   /// Of a formal, so wide that all lengths lie in it.
-  std::string range() { return pick({"", " in -1000000km..1000000km", " in -(1000000km)..2 *  500000km"}); }
+  std::string range() { return pick({"", " in -900km..900km", " in -(900km)..2 *  450km"}); }
   void comment() { out_ += std::string("// note ") + std::to_string(draw(100)) + (chance(30) ? "  \n\n\n" : "\n"); }
   void blank() {
     const uint64_t kind = draw(12);
