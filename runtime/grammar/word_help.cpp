@@ -136,7 +136,7 @@ constexpr std::array<Help, 154> kHelp = {{
     {"report", "a measure that `sgm check --expect` prints"},
     {"roof", "over a scope or a plan: `roof flat(1m)`, `roof gable(40deg)`, `roof hip(30deg, overhang 0.5m) of plan`"},
     {"rot", "turns what follows: `rot(y, 45deg)`, right-handed"},
-    {"rule", "how a name is derived; several heads are alternatives: `rule Hall(r) weight 3 { ... }`"},
+    {"rule", "how a name is derived; several heads are alternatives: `rule Hall(r in 1m..60m) weight 3 { ... }`"},
     {"scale", "makes what follows larger or smaller: `scale(0.5)`"},
     {"scatter", "points without order: `scatter poisson(2m) { ... }`, `scatter 6 on shell(r) { ... }`"},
     {"scope", "the edges of the scope's box: scope.x, scope.y, scope.z"},
