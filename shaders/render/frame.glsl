@@ -12,7 +12,7 @@ layout(std140, binding = 3) uniform Frame {
   vec4 lamp_position[kMaxLamps];  // w: reach, metres
   vec4 lamp_colour[kMaxLamps];
   uvec4 size;    // width and height in pixels, samples on each side of a pixel, background (0 cave, 1 sky)
-  uvec4 counts;  // lamps, materials
+  uvec4 counts;  // lamps, materials, 1 where there are clouds
 } frame;
 
 struct Material { vec4 colour_roughness; uvec4 pattern; };  // pattern.y: relief, float bits

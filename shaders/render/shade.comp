@@ -42,16 +42,8 @@ vec3 lamps(Surface s, vec3 p, vec3 n, vec3 to_eye, Traced traced) {
   return sum;
 }
 
-vec3 sunlight(Surface s, vec3 n, vec3 to_eye, float open, Traced traced) {
-  float lit = traced.open[0].x;
-  if (s.translucency > 0.99) {
-    // Vapour scatters so often that shade fills with light: it darkens by how far it faces away, not by its relief.
-    float facing = 0.5 + 0.5 * dot(normalize(mix(n, s.normal, 0.6)), frame.sun.xyz);
-    float day = facing * facing * mix(0.55, 1.0, lit) * mix(0.75, 1.0, open);
-    float rim = pow(max(0.0, -dot(frame.sun.xyz, to_eye)), 4.0) * pow(1.0 - abs(dot(n, to_eye)), 3.0);
-    return s.albedo * (1.1 * softOn(traced, n, s.normal) + 0.55 * sunLight() * (day + rim));
-  }
-  return sunLight() * reflected(s, frame.sun.xyz, to_eye) * lit;
+vec3 sunlight(Surface s, vec3 to_eye, Traced traced) {
+  return sunLight() * reflected(s, frame.sun.xyz, to_eye) * traced.open[0].x;
 }
 
 vec3 background(vec3 d) { return frame.size.w == 1u ? sky(d) : vec3(0.0022, 0.0025, 0.0030); }
@@ -67,22 +59,7 @@ vec3 haze(vec3 colour, vec3 d, float t) {
   return mix(background(d), colour, clear) + scattered * (0.010 / frame.forward.w);
 }
 
-// Vapour thins out towards its outline: the share of the sky near the sample.
-float rimOf(ivec2 at, float turn) {
-  const int kTaps = 8;
-  float radius = 0.014 * float(planeSize().y), open = 0.0;
-  for (int i = 0; i < kTaps; ++i) {
-    float angle = 6.2831853 * (float(i) + turn) / float(kTaps);
-    vec2 offset = vec2(cos(angle), sin(angle)) * radius * (0.35 + 0.65 * fract(turn * 7.0 + 0.618 * float(i)));
-    ivec2 tap = clamp(at + ivec2(offset), ivec2(0), planeSize() - 1);
-    open += texelFetch(position_plane, tap, 0).w == 0.0 ? 1.0 / float(kTaps) : 0.0;
-  }
-  return smoothstep(0.0, 0.7, open);
-}
-
-vec3 sampleAt(ivec2 at) {
-  vec2 centre = (vec2(at) + 0.5) / vec2(planeSize()) * 2.0 - 1.0;
-  vec3 d = normalize(frame.forward.xyz + centre.x * frame.right.xyz - centre.y * frame.up.xyz);
+vec3 bodyAt(ivec2 at, vec3 d) {
   vec4 seen = texelFetch(position_plane, at, 0);
   vec3 turn = random3(ivec3(at, 1));
   if (seen.w == 0.0) return frame.size.w == 1u ? sky(d) : haze(background(d), d, 4.0 * frame.forward.w);
@@ -99,15 +76,24 @@ vec3 sampleAt(ivec2 at) {
   float open = openness(at, p, n, t, clamp(0.02 * t, 0.10, 4.0), turn.y);
   vec3 colour = s.within;
   if (frame.size.w == 1u) {
-    colour += sunlight(s, n, -d, open, traced);
-    if (s.translucency > 0.99) colour = mix(colour, sky(d), 0.8 * rimOf(at, turn.x));
+    colour += sunlight(s, -d, traced);
   } else {
     colour += lamps(s, p, n, -d, traced);
   }
-  if (s.translucency <= 0.99) colour += s.albedo * softOn(traced, n, s.normal) * mix(0.35, 1.0, open);
+  colour += s.albedo * softOn(traced, n, s.normal) * mix(0.35, 1.0, open);
   float grazing = 1.0 - max(0.0, dot(s.normal, -d));
   colour += traced.mirror * (s.specular + (1.0 - s.specular) * pow(grazing, 5.0));
   return haze(colour, d, t);
+}
+
+vec3 sampleAt(ivec2 at) {
+  vec2 centre = (vec2(at) + 0.5) / vec2(planeSize()) * 2.0 - 1.0;
+  vec3 d = normalize(frame.forward.xyz + centre.x * frame.right.xyz - centre.y * frame.up.xyz);
+  Clouds clouds = cloudsBefore(at);
+  vec3 behind = clouds.through > 0.0 ? bodyAt(at, d) * clouds.through : vec3(0.0);
+  if (clouds.through >= 1.0) return behind;
+  float clear = exp(-clouds.distance / frame.forward.w);
+  return mix(hazeIn(d) * (1.0 - clouds.through), clouds.light, clear) + behind;
 }
 
 void main() {

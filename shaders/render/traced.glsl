@@ -5,6 +5,9 @@ struct SoftLight { vec4 light; vec4 lean; };
 layout(std430, binding = 2) readonly buffer Direct { DirectLight direct[]; };
 layout(std430, binding = 6) readonly buffer Soft { SoftLight soft[]; };
 const int kSoftPixels = 2;
+// What lies before the pixel's first sample of clouds: halves (red, green, blue, the share of what is behind that shows).
+struct VapourLight { uvec2 light; float distance; float reserved; };
+layout(std430, binding = 7) readonly buffer Vapour { VapourLight vapour[]; };
 
 // How much the light at a sample of the planes tells of the light at p.
 float kinship(ivec2 at, vec3 p, vec3 n, float apart) {
@@ -69,4 +72,41 @@ Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
 // The soft light that reaches a surface whose relief turns it from n to another normal.
 vec3 softOn(Traced traced, vec3 n, vec3 turned) {
   return traced.light * clamp(1.0 + 1.5 * dot(traced.lean, turned - n), 0.25, 2.5);
+}
+
+// Light of clouds before a sample, and the share of what is behind them. At the edges of bodies it is that of the pixels
+// whose first sample lies as far away.
+struct Clouds {
+  vec3 light;
+  float through;
+  float distance;  // metres, on a mean
+};
+
+Clouds cloudsBefore(ivec2 at) {
+  Clouds clouds = Clouds(vec3(0.0), 1.0, 0.0);
+  if (frame.counts.z == 0u) return clouds;
+  int side = int(frame.size.z);
+  ivec2 size = ivec2(frame.size.xy);
+  vec4 own = texelFetch(position_plane, at, 0);
+  float t = length(own.xyz - frame.eye.xyz), sum = 0.0, seen = 0.0;
+  vec2 place = vec2(at) / float(side), base = floor(place), f = place - base;
+  vec4 light = vec4(0.0);
+  for (int i = 0; i < 4; ++i) {
+    ivec2 offset = ivec2(i & 1, i >> 1);
+    ivec2 pixel = clamp(ivec2(base) + offset, ivec2(0), size - 1);
+    vec4 q = texelFetch(position_plane, pixel * side, 0);
+    bool alike = (q.w == 0.0) == (own.w == 0.0) && (own.w == 0.0 || abs(length(q.xyz - frame.eye.xyz) - t) < 0.1 * t);
+    float w = (offset.x == 1 ? f.x : 1.0 - f.x) * (offset.y == 1 ? f.y : 1.0 - f.y);
+    w = (w + 0.001) * (alike ? 1.0 : 0.001);
+    VapourLight v = vapour[pixel.y * size.x + pixel.x];
+    vec4 one = vec4(unpackHalf2x16(v.light.x), unpackHalf2x16(v.light.y));
+    light += w * one;
+    clouds.distance += w * (1.0 - one.a) * v.distance;
+    seen += w * (1.0 - one.a);
+    sum += w;
+  }
+  clouds.light = light.rgb / sum;
+  clouds.through = light.a / sum;
+  clouds.distance /= max(seen, 1e-6);
+  return clouds;
 }

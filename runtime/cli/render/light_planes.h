@@ -9,6 +9,7 @@
 #include "base/jobs.h"
 #include "base/result.h"
 #include "render/frame.h"
+#include "render/vapour.h"
 
 namespace sgm {
 
@@ -31,7 +32,8 @@ struct LightPlanes {
   uint32_t soft_width = 0, soft_height = 0;
   std::vector<DirectLight> direct;
   std::vector<SoftLight> soft;
-  /// Logarithmic mean of the brightness of all surfaces in sight; 0 if no surface is.
+  std::vector<VapourLight> vapour;  ///< one for each pixel, before what else is seen there; none without clouds
+  /// Logarithmic mean of the brightness of all surfaces in sight; 0 if no surface is. Clouds have none.
   float brightness = 0;
 };
 

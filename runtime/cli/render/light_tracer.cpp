@@ -7,7 +7,10 @@
 #include <glm/geometric.hpp>
 #include <glm/packing.hpp>
 #include <new>
+#include <optional>
+#include <utility>
 
+#include "render/illuminated.h"
 #include "render/light_filter.h"
 #include "render/light_planes.h"
 #include "render/ray_caster.h"
@@ -15,11 +18,6 @@
 
 namespace sgm {
 namespace {
-
-#define FN inline
-using glm::dot, glm::exp, glm::max, glm::mix, glm::pow, glm::smoothstep, glm::vec3;
-#include "render/illumination.h"
-#undef FN
 
 constexpr int kSoftRays = 14;  // of a square of pixels; filtered later
 /// Rays to a light: the first tell most places that lie wholly in light or in shade, the others how deep in an edge.
@@ -44,16 +42,30 @@ float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 class LightTracer {
  public:
-  LightTracer(const RenderScene& scene, const Frame& frame, const RayCaster& mesh)
-      : scene_(scene), frame_(frame), mesh_(mesh), to_sun_(frame.sun), sky_(scene.background == Background::sky) {
+  /// vapour: the scene's clouds, or nullptr.
+  LightTracer(const RenderScene& scene, const Frame& frame, const RayCaster& mesh, const Vapour* vapour)
+      : scene_(scene),
+        frame_(frame),
+        mesh_(mesh),
+        vapour_(vapour),
+        to_sun_(frame.sun),
+        sky_(scene.background == Background::sky) {
     for (const RenderMaterial& one : scene.materials) has_water_ |= one.pattern == SurfacePattern::water;
   }
 
-  MetSurface seenAt(uint32_t x, uint32_t y) const {
+  /// Through a pixel's first sample.
+  vec3 directionAt(uint32_t x, uint32_t y) const {
     const float side = static_cast<float>(scene_.supersample);
     const float u = (static_cast<float>(x) * side + 0.5f) / (static_cast<float>(frame_.size.x) * side) * 2 - 1;
     const float v = (static_cast<float>(y) * side + 0.5f) / (static_cast<float>(frame_.size.y) * side) * 2 - 1;
-    return meet(vec3(frame_.eye), glm::normalize(vec3(frame_.forward) + u * vec3(frame_.right) - v * vec3(frame_.up)));
+    return glm::normalize(vec3(frame_.forward) + u * vec3(frame_.right) - v * vec3(frame_.up));
+  }
+
+  MetSurface seenAt(uint32_t x, uint32_t y) const { return meet(vec3(frame_.eye), directionAt(x, y)); }
+
+  /// What is seen of clouds before a surface, or before the sky.
+  VapourLight vapourAt(const MetSurface& place, uint32_t x, uint32_t y) const {
+    return vapour_->march(vec3(frame_.eye), directionAt(x, y), place.isThere() ? place.distance : kFar, x, y);
   }
 
   DirectLight direct(const MetSurface& place, uint32_t x, uint32_t y) const {
@@ -188,10 +200,11 @@ class LightTracer {
     // What faces away, but for what lets light through, which is lit from within.
     if (dot(place.normal, to_sun_) < -0.4f) return 0;
     const Across across(to_sun_);
-    return shareOf([&] {
-      const glm::vec2 at = kSunRadius * onDisc(points.next());
-      return mesh_.isFree(place.start, glm::normalize(to_sun_ + at.x * across.x + at.y * across.y), kFar);
-    });
+    const float through = vapour_ ? vapour_->sunThrough(place.start) : 1;
+    return through * shareOf([&] {
+             const glm::vec2 at = kSunRadius * onDisc(points.next());
+             return mesh_.isFree(place.start, glm::normalize(to_sun_ + at.x * across.x + at.y * across.y), kFar);
+           });
   }
 
   float lampShare(const MetSurface& place, uint32_t lamp, UnitPoints& points) const {
@@ -226,11 +239,16 @@ class LightTracer {
     return vec3(0);
   }
 
+  vec3 skyIn(vec3 from, vec3 direction) const {
+    const vec3 sky = skyLight(direction, to_sun_);
+    return vapour_ ? vapour_->skyThrough(from, direction, sky) : sky;
+  }
+
   vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces) const {
     vec3 sum(0), weight(1);
     for (int i = 0; i < bounces; ++i) {
       const MetSurface place = meet(from, direction);
-      if (!place.isThere()) return sum + weight * (sky_ ? skyLight(direction, to_sun_) : vec3(frame_.sun.w));
+      if (!place.isThere()) return sum + weight * (sky_ ? skyIn(from, direction) : vec3(frame_.sun.w));
       // Even light fills what is wide open, and clefts the less the narrower they are.
       const float wide = place.distance / (place.distance + 0.7f);
       sum += weight * (sky_ ? 0.0f : frame_.sun.w * wide);
@@ -249,6 +267,7 @@ class LightTracer {
   const RenderScene& scene_;
   const Frame& frame_;
   const RayCaster& mesh_;
+  const Vapour* vapour_;
   vec3 to_sun_;
   bool sky_;
   bool has_water_ = false;
@@ -258,9 +277,16 @@ class LightTracer {
 
 Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, JobSystem& jobs) {
   try {
-    const Result<RayCaster> mesh = RayCaster::over(scene.vertices, scene.indices);
+    const SceneParts parts = partsOf(scene);
+    const Result<RayCaster> mesh = RayCaster::over(scene.vertices, parts.bodies);
     if (!mesh) return mesh.error();
-    const LightTracer tracer(scene, frame, *mesh);
+    std::optional<Vapour> vapour;
+    if (!parts.clouds.empty()) {
+      Result<Vapour> made = Vapour::over(scene, frame, parts.clouds, jobs);
+      if (!made) return made.error();
+      vapour = std::move(*made);
+    }
+    const LightTracer tracer(scene, frame, *mesh, vapour ? &*vapour : nullptr);
     LightPlanes planes;
     planes.width = frame.size.x;
     planes.height = frame.size.y;
@@ -268,6 +294,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
     planes.soft_height = (planes.height + kSoftPixels - 1) / kSoftPixels;
     planes.direct.resize(size_t{planes.width} * planes.height);
     planes.soft.resize(size_t{planes.soft_width} * planes.soft_height);
+    if (vapour) planes.vapour.resize(planes.direct.size());
     Guides fine(planes.width, planes.height), coarse(planes.soft_width, planes.soft_height);
     std::vector<std::array<double, 2>> rows(planes.soft_height);  // sum of logarithms, and of how many
     std::atomic<bool> stopped = false;
@@ -282,6 +309,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
           const MetSurface place = tracer.seenAt(x, y);
           const size_t at = size_t{y} * planes.width + x;
           fine.set(at, place.position, place.normal, place.distance);
+          if (vapour) planes.vapour[at] = tracer.vapourAt(place, x, y);
           if (!place.isThere()) continue;
           planes.direct[at] = tracer.direct(place, x, y);
           if (x % kSoftPixels != 0 || y != begin) continue;

@@ -19,7 +19,7 @@ constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr std::array kShadeTypes{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
                                  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
                                  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                 VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+                                 VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   const std::array attachments{
@@ -220,11 +220,12 @@ Result<VkDescriptorSet> makeShadeSet(VulkanScope& scope, const ShadePipeline& pi
   const std::array<VkDescriptorImageInfo, 2> images{
       {{*sampler, surfaces.positions.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL},
        {*sampler, surfaces.normals.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL}}};
-  const std::array<VkDescriptorBufferInfo, 5> infos{{{buffers.direct.handle, 0, VK_WHOLE_SIZE},
+  const std::array<VkDescriptorBufferInfo, 6> infos{{{buffers.direct.handle, 0, VK_WHOLE_SIZE},
                                                      {buffers.frame.handle, 0, VK_WHOLE_SIZE},
                                                      {buffers.materials.handle, 0, VK_WHOLE_SIZE},
                                                      {buffers.pixels.handle, 0, VK_WHOLE_SIZE},
-                                                     {buffers.soft.handle, 0, VK_WHOLE_SIZE}}};
+                                                     {buffers.soft.handle, 0, VK_WHOLE_SIZE},
+                                                     {buffers.vapour.handle, 0, VK_WHOLE_SIZE}}};
   std::array<VkWriteDescriptorSet, kShadeTypes.size()> writes{};
   for (uint32_t i = 0; i < writes.size(); ++i) {
     writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;

@@ -38,7 +38,7 @@ Result<ShadePipeline> makeShadePipeline(VulkanScope& scope, uint32_t patterns);
 
 /// What lighting reads and writes beside the planes.
 struct ShadeBuffers {
-  VulkanBuffer direct, frame, materials, pixels, soft;
+  VulkanBuffer direct, frame, materials, pixels, soft, vapour;
 };
 Result<VkDescriptorSet> makeShadeSet(VulkanScope& scope, const ShadePipeline& pipeline, const SurfacePass& surfaces,
                                      const ShadeBuffers& buffers);

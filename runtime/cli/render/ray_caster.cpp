@@ -60,7 +60,8 @@ std::optional<RayHit> nearest(RTCScene scene, glm::vec3 from, glm::vec3 directio
 
 void RayCaster::Release::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
 
-Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices) {
+Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
+                                  Gaps gaps) {
   RayCaster caster(vertices, indices);
   for (const uint32_t index : indices) {
     caster.lo_ = glm::min(caster.lo_, vertices[index].position);
@@ -79,7 +80,8 @@ Result<RayCaster> RayCaster::over(std::span<const RenderVertex> vertices, std::s
     rtcCommitGeometry(mesh);
     rtcAttachGeometry(caster.scene_.get(), mesh);
     // Filters of a ray are asked only where the scene was told that there will be some.
-    rtcSetSceneFlags(caster.scene_.get(), RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    const RTCSceneFlags closed = gaps == Gaps::closed ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
+    rtcSetSceneFlags(caster.scene_.get(), static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION | closed));
   }
   if (caster.scene_) rtcCommitScene(caster.scene_.get());
   if (mesh) rtcReleaseGeometry(mesh);

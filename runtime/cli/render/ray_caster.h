@@ -14,6 +14,9 @@ struct RTCSceneTy;
 
 namespace sgm {
 
+/// Whether a ray may slip through between two triangles that share an edge, for speed, or never does.
+enum class Gaps { tiny, closed };
+
 struct RayHit {
   float distance = 0;     ///< in lengths of the ray's direction
   bool front = false;     ///< the surface was met from its void side
@@ -26,7 +29,8 @@ struct RayHit {
 class RayCaster {
  public:
   /// Every index is below vertices.size(). Error: out_of_memory.
-  static Result<RayCaster> over(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices);
+  static Result<RayCaster> over(std::span<const RenderVertex> vertices, std::span<const uint32_t> indices,
+                                Gaps gaps = Gaps::tiny);
 
   std::optional<RayHit> cast(glm::vec3 from, glm::vec3 direction, float max_distance) const;
   /// The same, but triangles that are met from inside the solid let the ray through, as they let the eye through.

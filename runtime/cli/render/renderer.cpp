@@ -116,11 +116,13 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
   Frame frame = frameOf(scene);
   const Result<LightPlanes> light = traceLight(scene, frame, *jobs_);
   if (!light) return light.error();
+  frame.counts.z = light->vapour.empty() ? 0 : 1;
   frame.pattern_offset.w *= exposureFor(*light, scene.background);
   const std::vector<FrameMaterial> materials = frameMaterials(scene);
   auto vertex_buffer = upload(scope, scene.vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
   if (!vertex_buffer) return vertex_buffer.error();
-  auto index_buffer = upload(scope, scene.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  const std::vector<uint32_t> indices = partsOf(scene).bodies;
+  auto index_buffer = upload(scope, std::span<const uint32_t>(indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   if (!index_buffer) return index_buffer.error();
   auto frame_buffer = upload(scope, std::span<const Frame>(&frame, 1), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
   if (!frame_buffer) return frame_buffer.error();
@@ -136,9 +138,12 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
   if (!direct) return direct.error();
   auto soft = upload(scope, std::span<const SoftLight>(light->soft), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (!soft) return soft.error();
+  auto vapour = upload(scope, std::span<const VapourLight>(light->vapour), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  if (!vapour) return vapour.error();
   if (auto ready = kept_->lightPatterns(*device_, scene.materials); !ready) return ready.error();
   const ShadePipeline& shade = kept_->shade;
-  auto shade_set = makeShadeSet(scope, shade, *surfaces, {*direct, *frame_buffer, *material_buffer, *pixels, *soft});
+  auto shade_set =
+      makeShadeSet(scope, shade, *surfaces, {*direct, *frame_buffer, *material_buffer, *pixels, *soft, *vapour});
   if (!shade_set) return shade_set.error();
 
   auto drawn = device_->run([&](VkCommandBuffer commands) {
@@ -162,8 +167,8 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
     const VkDeviceSize offset = 0;
     calls.vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer->handle, &offset);
     calls.vkCmdBindIndexBuffer(commands, index_buffer->handle, 0, VK_INDEX_TYPE_UINT32);
-    if (!scene.indices.empty()) {
-      calls.vkCmdDrawIndexed(commands, static_cast<uint32_t>(scene.indices.size()), 1, 0, 0, 0);
+    if (!indices.empty()) {
+      calls.vkCmdDrawIndexed(commands, static_cast<uint32_t>(indices.size()), 1, 0, 0, 0);
     }
     calls.vkCmdEndRenderPass(commands);
     calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade.pipeline);

@@ -52,7 +52,7 @@ enum class SurfacePattern : uint32_t {
   fibres,  ///< bark, thatch
   mossy,
   water,   ///< mirrors; the deeper the darker
-  cloud,   ///< soft white, light passes through
+  cloud,   ///< soft white; under a sky it is no surface but a medium, which the mesh is the outline of
   boards,  ///< wood, a board beside the other
 };
 

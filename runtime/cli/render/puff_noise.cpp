@@ -1,0 +1,86 @@
+#include "render/puff_noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <vector>
+
+namespace sgm {
+namespace {
+
+constexpr int kSide = 64;       // points of the tile
+constexpr int kPuffs = 4;       // on an edge of the tile, of its first octave
+constexpr float kWorld = 1024;  // metres after which patterns repeat
+
+/// Jarzynski and Olano, "Hash functions for GPU rendering" (pcg3d).
+glm::vec3 random3(glm::uvec3 v) {
+  v = v * 1664525u + 1013904223u;
+  v.x += v.y * v.z, v.y += v.z * v.x, v.z += v.x * v.y;
+  v ^= v >> 16u;
+  v.x += v.y * v.z, v.y += v.z * v.x, v.z += v.x * v.y;
+  return glm::vec3(v >> 8u) / 16777216.0f;
+}
+
+/// Distance to the nearest of points, one drawn in each of `cells` cells on an edge of the unit cube, in cells (Worley
+/// 1996, "A cellular texture basis function"). It repeats beyond the cube.
+float nearestPoint(glm::vec3 at, int cells, uint32_t salt) {
+  const glm::vec3 p = at * static_cast<float>(cells);
+  const glm::ivec3 cell(glm::floor(p));
+  float best = 9;
+  for (int i = 0; i < 27; ++i) {
+    const glm::ivec3 c = cell + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+    const glm::vec3 off = glm::vec3(c) + random3(glm::uvec3((c + cells) % cells) + salt) - p;
+    best = std::min(best, glm::dot(off, off));
+  }
+  return std::sqrt(best);
+}
+
+const std::vector<uint8_t>& tile() {
+  static const std::vector<uint8_t> made = [] {
+    std::vector<uint8_t> values;
+    for (int z = 0; z < kSide; ++z) {
+      for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+          const glm::vec3 at = glm::vec3(x, y, z) / static_cast<float>(kSide);
+          const float hollow = 0.64f * nearestPoint(at, kPuffs, 11) + 0.24f * nearestPoint(at, 2 * kPuffs, 23) +
+                               0.12f * nearestPoint(at, 4 * kPuffs, 37);
+          values.push_back(static_cast<uint8_t>(std::min(1.0f, hollow) * 255));
+        }
+      }
+    }
+    return values;
+  }();
+  return made;
+}
+
+float tileAt(glm::vec3 p) {
+  const glm::vec3 floored = glm::floor(p), f = p - floored;
+  const glm::ivec3 a(floored);
+  const auto at = [&](int x, int y, int z) {
+    const auto wrapped = [](int i) { return static_cast<size_t>(i & (kSide - 1)); };
+    return static_cast<float>(tile()[(wrapped(a.z + z) * kSide + wrapped(a.y + y)) * kSide + wrapped(a.x + x)]);
+  };
+  const auto along = [&](int y, int z) { return glm::mix(at(0, y, z), at(1, y, z), f.x); };
+  return glm::mix(glm::mix(along(0, 0), along(1, 0), f.y), glm::mix(along(0, 1), along(1, 1), f.y), f.z) / 255;
+}
+
+}  // namespace
+
+float puffHollows(glm::vec3 position, float period, float finest) {
+  // Tiles of a power of two of the patterns' own period, so that the noise repeats with it.
+  float edge = std::exp2(std::round(std::log2(std::clamp(period * kPuffs, 1.0f / 16, kWorld))));
+  float sum = 0, weights = 0;
+  constexpr std::array kWeights{0.70f, 0.20f, 0.10f};
+  for (size_t i = 0; i < kWeights.size(); ++i, edge /= 8) {
+    if (i > 0 && edge / kPuffs < 2 * finest) break;
+    sum += kWeights[i] * tileAt(position * (kSide / edge));
+    weights += kWeights[i];
+  }
+  // Most of the mean distance lies in between: the whole range is used.
+  return std::clamp((sum / weights - 0.30f) / 0.48f, 0.0f, 1.0f);
+}
+
+}  // namespace sgm
