@@ -15,7 +15,7 @@ constexpr glm::vec3 rgb(float r, float g, float b) { return {r, g, b}; }
 
 using enum SurfacePattern;
 
-constexpr std::array<Named, 43> kTable{{
+constexpr std::array<Named, 44> kTable{{
     {"rock", {rock, rgb(0.40f, 0.36f, 0.31f), 0.82f, 1.0f}},
     {"limestone", {rock, rgb(0.47f, 0.42f, 0.345f), 0.80f, 1.0f}},
     {"dolomite", {rock, rgb(0.47f, 0.45f, 0.42f), 0.82f, 1.0f}},
@@ -58,7 +58,8 @@ constexpr std::array<Named, 43> kTable{{
     {"moss", {mossy, rgb(0.085f, 0.110f, 0.038f), 1.00f, 1.0f}},
     {"water", {water, rgb(0.012f, 0.050f, 0.058f), 0.06f, 1.0f}},
     {"snow", {granular, rgb(0.88f, 0.90f, 0.93f), 0.80f, 0.5f}},
-    {"cloud", {cloud, rgb(0.95f, 0.95f, 0.96f), 1.00f, 0.5f}},
+    {"cloud", {cloud, rgb(0.95f, 0.95f, 0.96f), 1.00f, 1.0f}},
+    {"cirrus", {cloud, rgb(0.97f, 0.98f, 1.00f), 0.28f, 0.25f}},
 }};
 
 /// What a word behind a material's name makes of its colour: a share of the way to another one.

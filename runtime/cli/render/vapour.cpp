@@ -22,6 +22,7 @@ constexpr int kCoarser = 2;  // cells between points of light
 constexpr float kStep = 0.5f, kOpaque = 0.004f;
 constexpr float kForward = 0.82f;  // mean cosine of the angle that droplets scatter by
 constexpr int kOctaves = 7;
+constexpr float kKept = 0.82f;  // of all octaves, so that no more light leaves a cloud than comes to it
 /// Detail moves the outline inwards and outwards by noise between these.
 constexpr float kThinnest = 0.08f, kErosion = 0.72f, kEdge = 0.16f;
 constexpr float kPuff = 11;  // cells: the period of the largest detail
@@ -52,8 +53,8 @@ vec3 meanLight(vec3 to_sun, float up) {
   return sum / static_cast<float>(kRings * kAround);
 }
 
-/// High up the sun is whiter than on the ground.
-vec3 whitened(vec3 light) { return mix(light, vec3(dot(light, vec3(0.2126f, 0.7152f, 0.0722f))), 0.6f); }
+/// High up the sun is whiter than on the ground, and clouds light each other white.
+vec3 whitened(vec3 light) { return mix(light, vec3(dot(light, vec3(0.2126f, 0.7152f, 0.0722f))), 0.55f); }
 
 }  // namespace
 
@@ -77,11 +78,12 @@ Vapour::Vapour(const RenderScene& scene, const Frame& frame, VapourDensity densi
     : density_(std::move(density)),
       to_sun_(frame.sun),
       sun_light_(whitened(sunLight())),
-      sky_light_(meanLight(to_sun_, 1)),
+      sky_light_(whitened(meanLight(to_sun_, 1))),
       ground_light_(meanLight(to_sun_, -1)),
       pattern_offset_(frame.pattern_offset),
       sample_angle_(frame.eye.w * static_cast<float>(frame.size.z)) {
-  for (const RenderMaterial& material : scene.materials) colours_.push_back(material.colour);
+  for (const RenderMaterial& material : scene.materials)
+    stuffs_.push_back({material.colour, material.roughness * material.roughness, std::min(1.0f, material.relief)});
   const Lattice& fine = density_.lattice();
   light_lattice_.corner = fine.corner;
   light_lattice_.spacing = fine.spacing * kCoarser;
@@ -101,6 +103,10 @@ Result<Vapour> Vapour::over(const RenderScene& scene, const Frame& frame, std::s
   }
 }
 
+const Vapour::Stuff& Vapour::stuffAt(vec3 place) const {
+  return stuffs_[std::min<size_t>(density_.materialAt(place), stuffs_.size() - 1)];
+}
+
 /// In mean free paths, in steps that grow with the way.
 float Vapour::opticalDepth(vec3 place, vec3 direction) const {
   const vec3 d = withoutZeros(direction);
@@ -111,7 +117,8 @@ float Vapour::opticalDepth(vec3 place, vec3 direction) const {
       t += ahead;
       continue;
     }
-    depth += density_.plainAt(place + d * (t + 0.5f * step)) * step;
+    const vec3 middle = place + d * (t + 0.5f * step);
+    depth += stuffAt(middle).density * density_.plainAt(middle) * step;
     t += step;
     step = std::min(1.25f * step, 8.0f);
   }
@@ -156,13 +163,14 @@ void Vapour::light(JobSystem& jobs) {
 
 // The outline with puffs in it, down to what is as fine as `footprint`, in cells.
 float Vapour::densityAt(vec3 place, float footprint) const {
+  const Stuff& stuff = stuffAt(place);
   const float outline = density_.outlineAt(place);
   if (outline <= kThinnest) return 0;
-  if (outline >= kThinnest + kErosion + kEdge) return 1;
+  if (outline >= kThinnest + kErosion + kEdge) return stuff.density;
   const float spacing = density_.lattice().spacing;
   const vec3 position = density_.lattice().corner + place * spacing + pattern_offset_;
   const float hollow = puffHollows(position, kPuff * spacing, footprint * spacing);
-  return std::clamp((outline - kThinnest - kErosion * hollow) / kEdge, 0.0f, 1.0f);
+  return stuff.density * std::clamp((outline - kThinnest - kErosion * stuff.puffs * hollow) / kEdge, 0.0f, 1.0f);
 }
 
 glm::vec4 Vapour::litAt(vec3 place) const {
@@ -188,15 +196,15 @@ vec3 Vapour::sourceAt(vec3 place, float cosine, float footprint) const {
     near += kLong[i] * densityAt(place + to_sun_ * kNear[i], std::max(footprint, 0.5f * kNear[i]));
   const float depth =
       near * density_.lattice().spacing / density_.meanFreePath() + litAt(place + to_sun_ * (1.2f + 1.5f + 2.8f)).x;
-  const float again = 0.97f * (1 - lit.w);
+  const float again = 0.92f * (1 - lit.w * lit.w);
   float sum = 0, share = 1, lost = 1, g = kForward;
   for (int octave = 0; octave < kOctaves; ++octave) {
     sum += share * phase(cosine, g) * std::exp(-depth * lost);
     share *= again;
-    lost *= 0.5f;
+    lost *= 0.58f;
     g *= 0.5f;
   }
-  return sun_light_ * (kPi * sum) + 0.5f * (sky_light_ * lit.y + ground_light_ * lit.z);
+  return sun_light_ * (kPi * kKept * sum) + 0.5f * (sky_light_ * lit.y + ground_light_ * lit.z);
 }
 
 VapourLight Vapour::march(vec3 from, vec3 direction, float end, uint32_t x, uint32_t y) const {
@@ -217,8 +225,7 @@ VapourLight Vapour::march(vec3 from, vec3 direction, float end, uint32_t x, uint
     const vec3 place = start + d * (t + jitter * step);
     if (const float density = densityAt(place, footprint); density > 0) {
       const float passed = std::exp(-density * step * paths), seen = through * (1 - passed);
-      const size_t material = std::min<size_t>(density_.materialAt(place), colours_.size() - 1);
-      sum += seen * colours_[material] * sourceAt(place, cosine, footprint);
+      sum += seen * stuffAt(place).colour * sourceAt(place, cosine, footprint);
       far += seen * t * spacing;
       through *= passed;
     }

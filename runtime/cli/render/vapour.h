@@ -43,8 +43,15 @@ class Vapour {
   glm::vec3 skyThrough(glm::vec3 position, glm::vec3 direction, glm::vec3 sky) const;
 
  private:
+  /// What a cloud is made of: droplets, or the thin ice of cirrus.
+  struct Stuff {
+    glm::vec3 colour;
+    float density, puffs;  ///< 0..1: of the light that is lost on the way, and how far puffs move the outline
+  };
+
   Vapour(const RenderScene& scene, const Frame& frame, VapourDensity density);
   void light(JobSystem& jobs);
+  const Stuff& stuffAt(glm::vec3 place) const;
   float densityAt(glm::vec3 place, float footprint) const;
   float opticalDepth(glm::vec3 place, glm::vec3 direction) const;
   glm::vec4 litAt(glm::vec3 place) const;
@@ -54,7 +61,7 @@ class Vapour {
   Lattice light_lattice_;
   std::vector<glm::vec4> lit_;  ///< by point: depth towards the sun, open shares upwards, downwards and on all sides
   std::vector<uint8_t> detail_;
-  std::vector<glm::vec3> colours_;
+  std::vector<Stuff> stuffs_;  ///< by material
   glm::vec3 to_sun_, sun_light_, sky_light_, ground_light_, pattern_offset_;
   float sample_angle_;
 };

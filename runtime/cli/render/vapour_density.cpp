@@ -13,8 +13,8 @@ namespace sgm {
 namespace {
 
 constexpr double kMostPoints = double{1 << 25};
-constexpr int kMargin = 6;      // points around the mesh, for what is softened
-constexpr int kSubColumns = 2;  // on each side of a cell
+constexpr int kMargin = 6;                  // points around the mesh, for what is softened
+constexpr int kSubColumns = 2;              // on each side of a cell
 constexpr std::array kSoftenings{1, 2, 3};  // cells
 /// A cloud that is so many mean free paths thick on a mean lets next to no light through in its middle, and its base is
 /// grey. It holds for clouds of any size: a small one beside a tower is as dense as a large one is far away.
@@ -51,9 +51,8 @@ Lattice latticeOver(const RayCaster& outline) {
 
 VapourDensity::VapourDensity(const RayCaster& outline, JobSystem& jobs) : lattice_(latticeOver(outline)) {
   outline_.assign(lattice_.count(), 0);
-  // Clouds are soft a little beyond the columns that meet their mesh.
-  column_materials_.assign(size_t(lattice_.size.x) * size_t(lattice_.size.z),
-                           static_cast<uint16_t>(outline.vertex(0, 0).material));
+  brick_count_ = (lattice_.size - 2 + kBrick) / kBrick;
+  bricks_.assign(size_t(brick_count_.x) * size_t(brick_count_.y) * size_t(brick_count_.z), kEmpty);
   fillColumns(outline, jobs);
   const double points = std::accumulate(outline_.begin(), outline_.end(), 0.0) / 255;
   const float volume = static_cast<float>(points) * lattice_.spacing * lattice_.spacing * lattice_.spacing;
@@ -67,43 +66,49 @@ VapourDensity::VapourDensity(const RayCaster& outline, JobSystem& jobs) : lattic
 // mesh open, it is closed by the lattice's own border.
 void VapourDensity::fillColumns(const RayCaster& outline, JobSystem& jobs) {
   const float high = outline.hi().y - outline.lo().y, step = 1e-5f * (high + lattice_.spacing);
-  parallelFor(jobs, size_t(lattice_.size.z), [&](size_t row) {
+  // All rows of a slice of bricks by one job, which gives these their materials.
+  parallelFor(jobs, size_t(brick_count_.z), [&](size_t slice) {
     std::vector<float> column(static_cast<size_t>(lattice_.size.y));
-    for (int x = 0; x < lattice_.size.x; ++x) {
-      std::ranges::fill(column, 0.0f);
-      const auto fill = [&](float from, float to) {  // metres above the mesh's lowest point
-        const float lo = from / lattice_.spacing + kMargin + 0.5f, hi = to / lattice_.spacing + kMargin + 0.5f;
-        for (int y = std::max(0, int(lo)); y <= std::min(int(hi), lattice_.size.y - 1); ++y) {
-          const float inside = std::min(hi, float(y + 1)) - std::max(lo, float(y));
-          column[size_t(y)] += std::max(0.0f, inside) / (kSubColumns * kSubColumns);
-        }
-      };
-      for (int sub = 0; sub < kSubColumns * kSubColumns; ++sub) {
-        // Off the planes that the mesh was sampled on.
-        const glm::vec2 off = (glm::vec2(float(sub % kSubColumns), float(sub / kSubColumns)) + 0.517f) / float(kSubColumns) - 0.5f;
-        const glm::vec3 from(lattice_.corner.x + lattice_.spacing * (float(x) + off.x), outline.lo().y - step,
-                             lattice_.corner.z + lattice_.spacing * (float(row) + off.y));
-        float at = -step, since = -1;
-        bool within = false, met = false;
-        for (;;) {
-          const glm::vec3 start(from.x, from.y + at + step, from.z);
-          const std::optional<RayHit> hit = outline.cast(start, glm::vec3(0.0f, 1.0f, 0.0f), high + 4 * step - at);
-          if (!hit) break;
-          at += hit->distance + step;
-          if (!met) {
-            column_materials_[row * size_t(lattice_.size.x) + size_t(x)] =
-                static_cast<uint16_t>(outline.vertex(hit->triangle, 0).material);
-            if (!hit->front) within = true, since = 0;
+    const int first = int(slice) * kBrick;
+    const int end = int(slice) + 1 == brick_count_.z ? lattice_.size.z : first + kBrick;
+    for (int z = first; z < end; ++z) {
+      for (int x = 0; x < lattice_.size.x; ++x) {
+        std::ranges::fill(column, 0.0f);
+        const auto fill = [&](float from, float to, uint32_t material) {  // metres above the mesh's lowest point
+          const float lo = from / lattice_.spacing + kMargin + 0.5f, hi = to / lattice_.spacing + kMargin + 0.5f;
+          for (int y = std::max(0, int(lo)); y <= std::min(int(hi), lattice_.size.y - 1); ++y) {
+            const float inside = std::min(hi, float(y + 1)) - std::max(lo, float(y));
+            column[size_t(y)] += std::max(0.0f, inside) / (kSubColumns * kSubColumns);
+            bricks_[brickIndex(glm::min(glm::ivec3(x, y, z) / kBrick, brick_count_ - 1))] =
+                static_cast<uint16_t>(material);
           }
-          met = true;
-          if (hit->front && !within) since = at;
-          if (!hit->front && within) fill(since, at);
-          within = hit->front;
+        };
+        for (int sub = 0; sub < kSubColumns * kSubColumns; ++sub) {
+          // Off the planes that the mesh was sampled on.
+          const glm::vec2 cell(float(sub % kSubColumns), float(sub / kSubColumns));
+          const glm::vec2 off = (cell + 0.517f) / float(kSubColumns) - 0.5f;
+          const float from_x = lattice_.corner.x + lattice_.spacing * (float(x) + off.x);
+          const float from_z = lattice_.corner.z + lattice_.spacing * (float(z) + off.y);
+          float at = -2 * step, since = 0;
+          bool within = false, met = false;
+          uint32_t material = 0;
+          for (;;) {
+            const glm::vec3 start(from_x, outline.lo().y + at + step, from_z);
+            const std::optional<RayHit> hit = outline.cast(start, glm::vec3(0.0f, 1.0f, 0.0f), high + 4 * step - at);
+            if (!hit) break;
+            at += hit->distance + step;
+            material = outline.vertex(hit->triangle, 0).material;
+            if (!met && !hit->front) within = true;
+            met = true;
+            if (hit->front && !within) since = at;
+            if (!hit->front && within) fill(since, at, material);
+            within = hit->front;
+          }
+          if (within) fill(since, high, material);
         }
-        if (within) fill(since, high);
+        for (int y = 0; y < lattice_.size.y; ++y)
+          outline_[lattice_.at(x, y, z)] = uint8_t(std::min(column[size_t(y)], 1.0f) * 255 + 0.5f);
       }
-      for (int y = 0; y < lattice_.size.y; ++y)
-        outline_[lattice_.at(x, y, int(row))] = uint8_t(std::min(column[size_t(y)], 1.0f) * 255 + 0.5f);
     }
   });
 }
@@ -131,22 +136,31 @@ void VapourDensity::soften(int reach, JobSystem& jobs) {
   }
 }
 
+// Bricks that clouds have softened into are of what those next to them are.
 void VapourDensity::markBricks(JobSystem& jobs) {
-  brick_count_ = (lattice_.size - 2 + kBrick) / kBrick;
-  bricks_.assign(size_t(brick_count_.x) * size_t(brick_count_.y) * size_t(brick_count_.z), kEmpty);
+  const std::vector<uint16_t> within = bricks_;
   parallelFor(jobs, size_t(brick_count_.z), [&](size_t slice) {
     for (int by = 0; by < brick_count_.y; ++by) {
       for (int bx = 0; bx < brick_count_.x; ++bx) {
-        const glm::ivec3 brick(bx, by, int(slice)), lo = brick * kBrick;
-        const glm::ivec3 hi = glm::min(lo + kBrick, lattice_.size - 1);
-        for (int z = lo.z; z <= hi.z; ++z)
-          for (int y = lo.y; y <= hi.y; ++y)
-            for (int x = lo.x; x <= hi.x; ++x)
-              if (outline_[lattice_.at(x, y, z)] > 0)
-                bricks_[brickIndex(brick)] = column_materials_[size_t(z) * size_t(lattice_.size.x) + size_t(x)];
+        const glm::ivec3 brick(bx, by, int(slice));
+        uint16_t& material = bricks_[brickIndex(brick)];
+        if (material != kEmpty || !hasOutline(brick)) continue;
+        for (int i = 0; i < 27 && material == kEmpty; ++i) {
+          const glm::ivec3 next = brick + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+          if (glm::clamp(next, glm::ivec3(0), brick_count_ - 1) == next) material = within[brickIndex(next)];
+        }
       }
     }
   });
+}
+
+bool VapourDensity::hasOutline(glm::ivec3 brick) const {
+  const glm::ivec3 lo = brick * kBrick, hi = glm::min(lo + kBrick, lattice_.size - 1);
+  for (int z = lo.z; z <= hi.z; ++z)
+    for (int y = lo.y; y <= hi.y; ++y)
+      for (int x = lo.x; x <= hi.x; ++x)
+        if (outline_[lattice_.at(x, y, z)] > 0) return true;
+  return false;
 }
 
 float VapourDensity::outlineAt(glm::vec3 place) const {

@@ -59,10 +59,10 @@ class VapourDensity {
   void fillColumns(const RayCaster& outline, JobSystem& jobs);
   void soften(int reach, JobSystem& jobs);
   void markBricks(JobSystem& jobs);
+  bool hasOutline(glm::ivec3 brick) const;
 
   Lattice lattice_;
   std::vector<uint8_t> outline_;  ///< by point, 255ths
-  std::vector<uint16_t> column_materials_;
   std::vector<uint16_t> bricks_;  ///< the material in each brick, or kEmpty
   glm::ivec3 brick_count_{0};
   float mean_free_path_ = 1;

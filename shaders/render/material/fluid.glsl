@@ -22,7 +22,7 @@ Surface vapour(Spot at) {
   Surface s = surfaceOf(at);
   s.albedo = at.colour;
   vec3 slope = mix(relief(at.p, level, 4, 0, at.footprint).xyz, relief(at.p, 2.0 * level, 4, 0, at.footprint).xyz, size / level - 1.0);
-  s.normal = bend(at.n, slope, 0.30 * at.relief);
+  s.normal = bend(at.n, slope, 0.15 * at.relief);
   s.roughness = 1.0;
   s.specular = 0.0;
   s.translucency = 1.0;

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
+#include <glm/packing.hpp>
 #include <random>
 
 #include "render/light_filter.h"
@@ -239,6 +240,147 @@ TEST_CASE("the filter keeps even light, takes out noise, and stops at edges", "[
   CHECK(mean == Approx(1).margin(0.06));
   CHECK(deviation < 0.12);  // 0.58 before
   CHECK(dark == Approx(0.25).margin(1e-4));
+}
+
+namespace {
+
+/// A ball of cloud, 100 m from its middle to its edge, seen from 400 m away with nothing behind it.
+struct CloudStage : LitStage {
+  explicit CloudStage(glm::vec3 to_sun) {
+    materials = {materialByName("cloud")};
+    addSphere({0, 0, 0}, 100, false);
+    scene.background = Background::sky;
+    scene.sun_direction = to_sun;
+    look({0, 0, 400}, {0, 0, 0});
+  }
+};
+
+/// Red, green, blue, and the share of what is behind that still shows.
+glm::vec4 cloudAt(const LightPlanes& planes, uint32_t x, uint32_t y) {
+  REQUIRE(planes.vapour.size() == planes.direct.size());
+  const VapourLight& one = planes.vapour[size_t{y} * planes.width + x];
+  const glm::vec2 first = glm::unpackHalf2x16(one.light[0]), last = glm::unpackHalf2x16(one.light[1]);
+  return {first, last};
+}
+
+/// Mean light, as the eye weighs it, over the part of a picture's row that is cloud.
+float meanOfRow(const LightPlanes& planes, uint32_t y, uint32_t from, uint32_t to) {
+  float sum = 0, weight = 0;
+  for (uint32_t x = from; x < to; ++x) {
+    const glm::vec4 seen = cloudAt(planes, x, y);
+    sum += seen.g;
+    weight += 1 - seen.w;
+  }
+  return sum / std::max(weight, 1e-6f);
+}
+
+}  // namespace
+
+TEST_CASE("a cloud has a rim that light comes through, and a middle that none does", "[render]") {
+  CloudStage stage({0, 1, 0});
+  const LightPlanes planes = stage.traced();
+  CHECK(cloudAt(planes, 32, 24).w == 0);
+  CHECK(cloudAt(planes, 0, 0).w == 1);
+  CHECK(cloudAt(planes, 0, 0).g == 0);
+  size_t thin = 0;
+  for (uint32_t y = 0; y < 48; ++y)
+    for (uint32_t x = 0; x < 64; ++x) thin += cloudAt(planes, x, y).w > 0.02f && cloudAt(planes, x, y).w < 0.98f;
+  CHECK(thin > 20);
+  CHECK(thin < 400);
+  // It is no surface: nothing else is seen there.
+  CHECK(planes.brightness == 0);
+}
+
+TEST_CASE("a cloud is brighter on the side of the sun, and its base is grey", "[render]") {
+  CloudStage stage({-1, 0.05f, 0});
+  const LightPlanes side = stage.traced();
+  CHECK(meanOfRow(side, 24, 18, 28) > 1.5f * meanOfRow(side, 24, 36, 46));
+  stage.scene.sun_direction = {0, 1, 0};
+  const LightPlanes noon = stage.traced();
+  CHECK(meanOfRow(noon, 13, 24, 40) > 2 * meanOfRow(noon, 35, 24, 40));
+}
+
+TEST_CASE("a cloud's rim shines where the sun stands behind it", "[render]") {
+  const auto rim = [](glm::vec3 to_sun) {
+    CloudStage stage(to_sun);
+    const LightPlanes planes = stage.traced();
+    float sum = 0, weight = 0;
+    for (uint32_t y = 0; y < 48; ++y) {
+      for (uint32_t x = 0; x < 64; ++x) {
+        const glm::vec4 seen = cloudAt(planes, x, y);
+        if (seen.w > 0.5f && seen.w < 0.97f) sum += seen.g, weight += 1 - seen.w;
+      }
+    }
+    return sum / weight;
+  };
+  CHECK(rim({0, 0.2f, -1}) > 2 * rim({1, 0.2f, 0}));
+}
+
+TEST_CASE("a cloud sends no more light than it gets", "[render]") {
+  // From twelve sides of the ball, evenly: the light that leaves it, by what the disc of the sun and the sky give it.
+  double sum = 0, sky = 0;
+  constexpr int kSides = 12;
+  const glm::vec3 to_sun = glm::normalize(glm::vec3(0.3f, 0.8f, 0.5f));
+  for (int i = 0; i < kSides; ++i) {
+    CloudStage stage(to_sun);
+    const float y = 1 - 2 * (static_cast<float>(i) + 0.5f) / kSides, r = std::sqrt(1 - y * y);
+    const float angle = 2.39996323f * static_cast<float>(i);
+    stage.look(400.0f * glm::vec3(r * std::cos(angle), y, r * std::sin(angle)), {0, 0, 0});
+    const LightPlanes planes = stage.traced();
+    double seen = 0;
+    for (uint32_t v = 0; v < 48; ++v)
+      for (uint32_t u = 0; u < 64; ++u) seen += static_cast<double>(cloudAt(planes, u, v).g);
+    // Pixels to square metres across the view at the ball's distance.
+    const double pixel = 2 * std::tan(0.5235988) * 400 / 48;
+    sum += seen * pixel * pixel / kSides;
+    sky += static_cast<double>(skyLight(glm::normalize(stage.scene.camera.position), to_sun).g) / kSides;
+  }
+  const double disc = 3.14159265 * 100 * 100;
+  // Radiance that leaves on all sides; of the sun, 3.14 times what sunLight says falls on the disc. What leaves from
+  // all sides of the sky is its mean radiance, over 4 pi as the rest.
+  const double leaves = sum * 4 * 3.14159265,
+               comes = disc * (3.14159265 * static_cast<double>(sunLight().g)) + disc * sky * 4 * 3.14159265;
+  INFO(leaves / comes);
+  CHECK(leaves < comes);
+  CHECK(leaves > 0.4 * comes);
+}
+
+TEST_CASE("clouds shade the ground, hide what is behind them, and are the same however many workers light them",
+          "[render]") {
+  CloudStage stage({0, 1, 0});
+  stage.materials.push_back({SurfacePattern::plain, glm::vec3(0.5f), 0.9f, 0.0f});
+  stage.addFloor(2000, -150, 1);
+  stage.look({0, 300, 500}, {0, -60, 0});
+  const LightPlanes one = stage.traced(1), four = stage.traced(4);
+  CHECK(std::memcmp(one.vapour.data(), four.vapour.data(), one.vapour.size() * sizeof(VapourLight)) == 0);
+  CHECK(std::memcmp(one.direct.data(), four.direct.data(), one.direct.size() * sizeof(DirectLight)) == 0);
+  uint32_t darkest = 255, brightest = 0;
+  for (uint32_t y = 0; y < 48; ++y) {
+    for (uint32_t x = 0; x < 64; ++x) {
+      if (cloudAt(one, x, y).w < 1 || openAt(one, x, y) == 0) continue;
+      darkest = std::min(darkest, openAt(one, x, y));
+      brightest = std::max(brightest, openAt(one, x, y));
+    }
+  }
+  CHECK(brightest == 255);
+  CHECK(darkest < 80);
+  // A wall before the cloud is not behind it.
+  const auto before = cloudAt(one, 32, 24).w;
+  stage.add({-300, -300, 200}, {300, -300, 200}, {300, 300, 200}, {-300, 300, 200}, 1);
+  stage.look({0, 0, 500}, {0, 0, 0});
+  CHECK(before == 0);
+  CHECK(cloudAt(stage.traced(), 32, 24).w == 1);
+}
+
+TEST_CASE("a cloud that is drawn with texture coordinates, or by lamps, has a surface", "[render]") {
+  CloudStage stage({0, 1, 0});
+  stage.scene.background = Background::cave;
+  CHECK(stage.traced().vapour.empty());
+  stage.scene.background = Background::sky;
+  for (size_t i = 0; i < stage.mesh.vertices.size(); ++i) stage.mesh.vertices[i].texture = glm::vec2(float(i), 1);
+  const LightPlanes planes = stage.traced();
+  CHECK(planes.vapour.empty());
+  CHECK(planes.brightness > 0);
 }
 
 TEST_CASE("materials are found by name, tint and wetness", "[render]") {
