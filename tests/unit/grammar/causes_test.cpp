@@ -116,7 +116,7 @@ TEST_CASE("what may be 0 or has no range is named, and the hint helps", "[gramma
   CHECK(
       inWords(cloudy) ==
       "3:10 reach: cannot prove reach: `Cumulus` may extend without bound | give it a size that cannot come near to "
-      "0, such as `max(r, 1m)` for r | note: the bound is lost at std/cloud.sgm:21:12\n"
+      "0, such as `max(r, 1m)` for r | note: the bound is lost at std/cloud.sgm:31:12\n"
       "3:24 warning argument-range: `cloud.Cumulus` may be given `r` = 0m..500m, not all of which is within 1m..20km | "
       "bound what it depends on, or write clamp(..., 1m, 20km)");
   CHECK(grammar("start A;\nrule A { cloud.Cumulus(max(rand(0m, 500m), 1m)); }").program);
