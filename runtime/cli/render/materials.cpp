@@ -59,7 +59,7 @@ constexpr std::array<Named, 44> kTable{{
     {"water", {water, rgb(0.012f, 0.050f, 0.058f), 0.06f, 1.0f}},
     {"snow", {granular, rgb(0.88f, 0.90f, 0.93f), 0.80f, 0.5f}},
     {"cloud", {cloud, rgb(0.95f, 0.95f, 0.96f), 1.00f, 1.0f}},
-    {"cirrus", {cloud, rgb(0.97f, 0.98f, 1.00f), 0.28f, 0.25f}},
+    {"cirrus", {cloud, rgb(0.97f, 0.98f, 1.00f), 0.17f, 0.2f}},
 }};
 
 /// What a word behind a material's name makes of its colour: a share of the way to another one.

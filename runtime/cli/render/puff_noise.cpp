@@ -73,7 +73,7 @@ float puffHollows(glm::vec3 position, float period, float finest) {
   // Tiles of a power of two of the patterns' own period, so that the noise repeats with it.
   float edge = std::exp2(std::round(std::log2(std::clamp(period * kPuffs, 1.0f / 16, kWorld))));
   float sum = 0, weights = 0;
-  constexpr std::array kWeights{0.70f, 0.20f, 0.10f};
+  constexpr std::array kWeights{0.80f, 0.15f, 0.05f};
   for (size_t i = 0; i < kWeights.size(); ++i, edge /= 8) {
     if (i > 0 && edge / kPuffs < 2 * finest) break;
     sum += kWeights[i] * tileAt(position * (kSide / edge));

@@ -24,8 +24,8 @@ constexpr float kForward = 0.82f;  // mean cosine of the angle that droplets sca
 constexpr int kOctaves = 7;
 constexpr float kKept = 0.82f;  // of all octaves, so that no more light leaves a cloud than comes to it
 /// Detail moves the outline inwards and outwards by noise between these.
-constexpr float kThinnest = 0.08f, kErosion = 0.72f, kEdge = 0.16f;
-constexpr float kPuff = 11;  // cells: the period of the largest detail
+constexpr float kThinnest = 0.08f, kErosion = 0.70f, kEdge = 0.16f;
+constexpr float kPuff = 12;  // cells: the period of the largest detail
 
 vec3 withoutZeros(vec3 d) {
   for (int axis = 0; axis < 3; ++axis)
