@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # sgm bake and sgm store: the same bytes however the work was shared, streamed to the same world, and what is refused.
 source "$(dirname "$0")/common.sh"
-cave=$SOURCE/samples/grammars/cave.sgm
+cave=$SOURCE/tests/bench/grammars/cave.sgm
 if [[ ${SGM_TEST_DISK_CACHE:-1} == 0 ]]; then
   expect 3 "$SGM" bake "$cave" --region 0,0,0:8,8,8 --out store
   err_has 'SGM_DISK_CACHE=ON'

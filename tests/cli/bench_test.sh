@@ -72,7 +72,7 @@ expect 0 "$SGM" bench chunks "$SOURCE"/samples/grammars/sphere.sgm --runs 2 --th
 json 'j.rows.length >= 2 && j.rows[0].instruction_set === "scalar" && j.rows.every(r => r.threads <= 2)'
 json 'new Set(j.rows.map(r => r.hash + r.triangles + r.chunks)).size === 1 && j.rows[0].triangles > 1000'
 json 'j.rows.every(r => r.median_ms > 0 && (r.threads > 1 || r.surface_chunk_most_ms >= r.surface_chunk_median_ms))'
-expect 0 "$SGM" bench chunks "$SOURCE"/samples/grammars/cave.sgm --region 0,0,0:96,96,96 --runs 1 --threads 1
+expect 0 "$SGM" bench chunks "$SOURCE"/tests/bench/grammars/cave.sgm --region 0,0,0:96,96,96 --runs 1 --threads 1
 err_empty
 out_has 'scalar +1 +[0-9.]+ +[0-9.]+'
 
@@ -94,7 +94,7 @@ usage() {
 }
 usage
 usage chunks
-usage chunks "$SOURCE"/samples/grammars/cave.sgm
+usage chunks "$SOURCE"/tests/bench/grammars/cave.sgm
 usage chunks "$SOURCE"/samples/grammars/sphere.sgm --backend vulkan
 usage speed
 usage paper extra

@@ -21,7 +21,7 @@ expect 0 "$SGM" explain edited.sgm --at=3,-7,7.2 --json
 json '!j.solid'
 
 # Of a cave: the void is cut by a hall, the rock is the domain's.
-cave=$SOURCE/samples/grammars/cave.sgm
+cave=$SOURCE/tests/bench/grammars/cave.sgm
 expect 0 "$SGM" explain "$cave" --at=95.98,82.95,100.18
 out_has 'morph at t = 0.300'
 out_has 'cave.hall'

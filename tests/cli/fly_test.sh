@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # sgm fly: flights that dig and whose every frame is closed, the same world whoever flies, and what it refuses.
 source "$(dirname "$0")/common.sh"
-cave=$SOURCE/samples/grammars/cave.sgm
+cave=$SOURCE/tests/bench/grammars/cave.sgm
 
 # SPEED SEED PACE: every frame checked, with leaps. Three of them are 3,000 frames; --long flies further. Paced flights
 # see more of what is drawn change, the others more frames at odds with the jobs.

@@ -82,7 +82,7 @@ json 'j.valid && j.measures.cell === 0.25 && j.diagnostics.length === 0'
 same ball.sgm sgm --cell 0.5 --region 0,0,0:16,16,16 --seed 3 --set radius=2.5m
 cp report.json .out
 json 'j.valid && !j.measures.valid && j.measures.cut_edges > 0 && j.measures.seed === 3'
-same "$SOURCE/samples/grammars/cave.sgm" sgm --region 64,64,64:128,128,128
+same "$SOURCE/tests/bench/grammars/cave.sgm" sgm --region 64,64,64:128,128,128
 judged ball.sgm --kind sgm --region 32,32,32:48,48,48
 json '!j.valid && j.measures.triangles === 0 && j.preview === null && j.empty_because.length > 0'
 

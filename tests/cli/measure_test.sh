@@ -336,7 +336,7 @@ one_line
 expect 1 "$SGM" measure rooms.sgm --from -14,0,0 --to 1e9,8,8
 err_has 'the end `to` of the way lies outside of the region: it is at \(1e\+09, 8, 8\), and the region goes from \(-32, -16, -16\) to \(32, 16, 16\), in metres'
 one_line
-expect 2 "$SGM" measure "$SOURCE/samples/grammars/cave.sgm" --radius 0
+expect 2 "$SGM" measure "$SOURCE/tests/bench/grammars/cave.sgm" --radius 0
 err_has 'endless: say which part with --region'
 one_line
 

@@ -2,7 +2,7 @@
 # sgm mesh: what it prints and writes, and what it refuses.
 source "$(dirname "$0")/common.sh"
 ball >ball.sgm
-cave=$SOURCE/samples/grammars/cave.sgm
+cave=$SOURCE/tests/bench/grammars/cave.sgm
 
 expect 0 "$SGM" mesh ball.sgm --out ball.glb --region=-4,-4,-4:4,4,4 --cell 0.25 --json
 json 'j.triangles > 1000 && j.vertices > 500 && j.chunks === 8 && j.seconds > 0 && /^[0-9a-f]{16}$/.test(j.hash)'

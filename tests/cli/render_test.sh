@@ -2,7 +2,7 @@
 # sgm render: pictures, cameras and what it refuses. Needs a Vulkan device, lavapipe at least.
 source "$(dirname "$0")/common.sh"
 ball >ball.sgm
-cave=$SOURCE/samples/grammars/cave.sgm
+cave=$SOURCE/tests/bench/grammars/cave.sgm
 
 expect 0 "$SGM" backends --json
 if ! node -e 'process.exit(JSON.parse(require("fs").readFileSync(process.argv[1])).vulkan_devices.length ? 0 : 1)' "$work/.out"; then
@@ -226,7 +226,7 @@ picture post.png 96 96
 expect 0 "$SGM" render posts.sgm --out post.png --frame Post --size 32x32 --region=0,-4,0:32,8,32
 out_has 'frame +rows\(0, 0, 0\)/Row/Post\[[0-2]\], [0-9]+ % of its near side in sight'
 # A room is looked at from within.
-lake=$SOURCE/samples/grammars/lake.sgm
+lake=$SOURCE/tests/bench/grammars/lake.sgm
 expect 0 "$SGM" render "$lake" --out post.png --frame Room --seed 3 --size 32x32 --cell 1 --json
 json 'j.frame.inside && j.frame.path.endsWith("/Node/Room[0]") && j.light === "lamp"'
 expect 0 "$SGM" render "$lake" --out post.png --frame cave.Dripstone --seed 3 --size 32x32 --json

@@ -2,7 +2,7 @@
 # sgm bake --slurm on a real Slurm of three nodes: the store of one process, also where a node dies in the middle.
 source "$(dirname "$0")/slurm_cluster.sh"
 source "$(dirname "$0")/common.sh"
-cave=$SOURCE/samples/grammars/cave.sgm
+cave=$SOURCE/tests/bench/grammars/cave.sgm
 world=("$cave" --seed 3 --region 0,0,0:512,512,256 --levels 0..6 --cell 0.25 --backend cpu)
 
 # Without Slurm there is one clear error.

@@ -8,7 +8,7 @@ nginx=$(PATH=$PATH:/usr/sbin command -v nginx) || {
 }
 # No proxy stands between a test and its own machine.
 unset http_proxy https_proxy all_proxy HTTP_PROXY HTTPS_PROXY ALL_PROXY
-cave=$SOURCE/samples/grammars/cave.sgm
+cave=$SOURCE/tests/bench/grammars/cave.sgm
 expect 0 "$SGM" bake "$cave" --seed 3 --region 0,0,0:192,160,192 --levels 0..5 --backend cpu --out public/caves/store
 
 stop_serving() { kill -TERM "$server" 2>/dev/null; wait "$server" 2>/dev/null; }

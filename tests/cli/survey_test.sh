@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # sgm render --plan and --section: drawings that need no device.
 source "$(dirname "$0")/common.sh"
-lake=$SOURCE/samples/grammars/lake.sgm
+lake=$SOURCE/tests/bench/grammars/lake.sgm
 
 cat >rooms.sgm <<'GRAMMAR'
 sgm 1;

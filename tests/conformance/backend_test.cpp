@@ -241,7 +241,7 @@ TEST_CASE("the sample grammars give the scalar backend's bytes on the device") {
                                       {"tree.sgm", 256, {-6, 0, -6}, {6, 10, 6}}};
   for (const Place& place : kPlaces) {
     CAPTURE(place.grammar);
-    const WorldField world(settingsOf(sample(place.grammar), place.cell, 3), std::pmr::get_default_resource());
+    const WorldField world(settingsOf(yardstick(place.grammar), place.cell, 3), std::pmr::get_default_resource());
     std::mt19937 random(seedOfAll());
     std::vector<ChunkRequest> requests;
     for (uint32_t i = 0; i < rounds(24); ++i) {

@@ -14,7 +14,7 @@ expect 0 "$SGM" mesh "$SOURCE/samples/grammars/sphere.sgm" --out sphere.glb
 echo 0123456789abcdef >token
 start_service --token-file token
 guarded=$service token_base=$base token_operations=$operations
-start_flight "$SOURCE/samples/grammars/cave.sgm" --measure --frames 600 --keep-serving --masters masters.db
+start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --measure --frames 600 --keep-serving --masters masters.db
 for ((i = 0; i < 100; ++i)); do
   run curl -sS "$operations/metrics"
   [[ $out == *'sgm_worlds 1'* ]] && break

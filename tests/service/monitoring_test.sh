@@ -15,7 +15,7 @@ node "$tests/dashboard.mjs" rules "$samples/dashboard.json" >dashboard_rules.yml
 checked "the dashboard's expressions" promtool check rules dashboard_rules.yml
 
 # The /metrics of a real flight, which has been asked for something on both ports.
-start_flight "$SOURCE/samples/grammars/cave.sgm" --measure --frames 60 --keep-serving
+start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --measure --frames 60 --keep-serving
 for ((i = 0; i < 300; ++i)); do
   curl -sS --max-time 20 "$base/api/v1/summary" -o summary && curl -sS --max-time 20 "$operations/metrics" -o metrics
   grep -q '^sgm_parallel_speedup_ratio' metrics && grep -q '^sgm_http_requests_total{port="operations"' metrics && break

@@ -12,8 +12,8 @@ fi
 
 expect 0 "$SGM" mesh "$SOURCE/samples/grammars/sphere.sgm" --out valid.glb
 # Cut at a region's border, so that it has holes.
-expect 0 "$SGM" mesh "$SOURCE/samples/grammars/cave.sgm" --seed 3 --region 96,-96,32:160,-48,96 --out open.glb
-start_flight "$SOURCE/samples/grammars/cave.sgm" --measure --frames 20000
+expect 0 "$SGM" mesh "$SOURCE/tests/bench/grammars/cave.sgm" --seed 3 --region 96,-96,32:160,-48,96 --out open.glb
+start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --measure --frames 20000
 checked "the page" node "$tests/page_test.mjs" "$base" "$operations" valid.glb open.glb "$pictures" "$modules"
 kill "$service"
 wait "$service"

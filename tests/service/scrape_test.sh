@@ -28,7 +28,7 @@ now_in() {
   node -pe 'const j = JSON.parse(require("fs").readFileSync(process.argv[1])); eval(process.argv[2])' "$1" "$2"
 }
 
-start_flight "$SOURCE/samples/grammars/cave.sgm" --measure --frames "$frames" --speed 60 --keep-serving --json
+start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --measure --frames "$frames" --speed 60 --keep-serving --json
 # Every second instead of every 5, and what is down is down after 2 s.
 sed "s/127\.0\.0\.1:9464/${operations#http://}/; s/: 5s$/: 1s/" "$samples/prometheus.yml" >prometheus.yml
 sed '/up{job="sgm"}/,/for:/s/for: 1m/for: 2s/' "$samples/alerts.yml" >alerts.yml

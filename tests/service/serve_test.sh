@@ -57,7 +57,7 @@ json 'j.version'
 stop_service
 
 # A flight, looked at while it flies, and its report at the end.
-start_flight "$SOURCE/samples/grammars/cave.sgm" --measure --frames 240 --keep-serving --json
+start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --measure --frames 240 --keep-serving --json
 for ((i = 0; i < 300; ++i)); do
   run get "$operations/metrics"
   [[ $out =~ sgm_world_update_seconds_count\{world=\"cave\"\}\ ([0-9]+) && ${BASH_REMATCH[1]} -ge 240 ]] && break
@@ -76,7 +76,7 @@ cp flight.out .out
 json 'j.frames === 240'
 
 # A signal ends a flight that is not over.
-start_flight "$SOURCE/samples/grammars/cave.sgm" --frames 3000 --keep-serving --json
+start_flight "$SOURCE/tests/bench/grammars/cave.sgm" --frames 3000 --keep-serving --json
 for ((i = 0; i < 300; ++i)); do
   run get "$operations/metrics"
   [[ $out =~ sgm_world_update_seconds_count\{world=\"cave\"\}\ ([0-9]+) && ${BASH_REMATCH[1]} -ge 10 ]] && break
@@ -87,6 +87,6 @@ grep -q 'no report' flight.err || failed "it does not say that there is no repor
 [[ ! -s flight.out ]] || failed "there is a report of a flight that was not flown"
 
 # --keep-serving and a port say nothing without --serve.
-expect 2 "$SGM" fly "$SOURCE/samples/grammars/cave.sgm" --keep-serving
-expect 2 "$SGM" fly "$SOURCE/samples/grammars/cave.sgm" --port 1
+expect 2 "$SGM" fly "$SOURCE/tests/bench/grammars/cave.sgm" --keep-serving
+expect 2 "$SGM" fly "$SOURCE/tests/bench/grammars/cave.sgm" --port 1
 finish

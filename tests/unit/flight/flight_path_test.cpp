@@ -94,7 +94,7 @@ std::string messageOf(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a flight through an endless cave keeps to the void and goes to new places") {
-  const FlownWorld world(sample("cave.sgm"), 512);
+  const FlownWorld world(yardstick("cave.sgm"), 512);
   AutoFlight settings;
   settings.seed = 5;
   FlightPath path = world.fly(settings);
@@ -109,7 +109,7 @@ TEST_CASE("a flight through an endless cave keeps to the void and goes to new pl
 }
 
 TEST_CASE("the same seed makes the same flight, another seed another one") {
-  const FlownWorld world(sample("cave.sgm"), 512), again(sample("cave.sgm"), 512);
+  const FlownWorld world(yardstick("cave.sgm"), 512), again(yardstick("cave.sgm"), 512);
   AutoFlight settings;
   settings.seed = 3;
   FlightPath first = world.fly(settings), second = again.fly(settings);
@@ -127,7 +127,7 @@ TEST_CASE("the same seed makes the same flight, another seed another one") {
 }
 
 TEST_CASE("teleports lead to far places in the void, each its own, from which the flight goes on") {
-  const FlownWorld world(sample("cave.sgm"), 512);
+  const FlownWorld world(yardstick("cave.sgm"), 512);
   FlightPath path = world.fly(), again = world.fly();
   const Metres3 home = placeAt(path, 0).position;
   std::set<double> places;

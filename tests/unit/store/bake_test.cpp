@@ -100,7 +100,7 @@ TEST_CASE("contents that worlds and levels share are stored once, and go when no
   const CacheFolder folder;
   const Excerpt& scene = scenes()[2];
   const store::BakedRegion region = regionOf(scene, 0, 1);
-  const std::string text = sample(scene.grammar);
+  const std::string text = yardstick(scene.grammar);
   const Baking first(settingsOf(text, scene.cell, 3), region, folder.path);
   first.bakeAll();
   const store::Merged alone = first.merge();
@@ -140,7 +140,7 @@ TEST_CASE("contents that worlds and levels share are stored once, and go when no
 TEST_CASE("a pack that two worlds share comes back when one of them is baked again", "[store]") {
   const Excerpt& scene = scenes()[2];
   const store::BakedRegion region = regionOf(scene, 0, 1);
-  const std::string text = sample(scene.grammar);
+  const std::string text = yardstick(scene.grammar);
   for (const bool removed : {true, false}) {
     CAPTURE(removed);
     const CacheFolder folder;
@@ -202,7 +202,7 @@ TEST_CASE("another region of a world does not take the place of the one that is 
 TEST_CASE("a damaged index is told, and stands in nobody's way but its own", "[store]") {
   const Excerpt& scene = scenes()[2];
   const CacheFolder folder;
-  const std::string text = sample(scene.grammar);
+  const std::string text = yardstick(scene.grammar);
   const store::BakedRegion region = regionOf(scene, 1, 1);
   const Baking good(settingsOf(text, scene.cell, 3), region, folder.path),
       bad(settingsOf(text + "\nparam unread = 1;\n", scene.cell, 3), region, folder.path);

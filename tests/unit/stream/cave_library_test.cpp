@@ -47,7 +47,7 @@ TEST_CASE("water fills all that is open below its level, and nothing above", "[s
     CAPTURE(flat);
     size_t filled = 0, open = 0;
     for (unsigned round = 0; round < 40 && (round < rounds(4) || filled <= 100 || open <= 100); ++round) {
-      const std::string text = flat ? sample("lake.sgm") : kSunkenHalls;
+      const std::string text = flat ? yardstick("lake.sgm") : kSunkenHalls;
       const uint64_t world_seed = random();
       const double level = flat ? -1.0 - static_cast<double>(random() % 10)
                                 : static_cast<double>(random() % 300) - 150 + static_cast<double>(random() % 8) / 8;
@@ -107,7 +107,7 @@ TEST_CASE("flowstone lies on floors, and is as high as it says", "[std][costly]"
   std::mt19937 random(seed);
   size_t mounds = 0;
   for (unsigned round = 0; round < 40 && (round < rounds(3) || mounds <= 20); ++round) {
-    const WorldField world(settingsOf(sample("lake.sgm"), 512, random()), std::pmr::get_default_resource());
+    const WorldField world(settingsOf(yardstick("lake.sgm"), 512, random()), std::pmr::get_default_resource());
     const int32_t far = static_cast<int32_t>(random() % 2000) * 1024;
     const IntBox box{{far, -30 * 1024, -far}, {far + 128 * 1024, 30 * 1024, -far + 128 * 1024}};
     const auto found = world.instances(ruleNamed(*world.settings().program, "Flowstone"), box, 100'000);
@@ -139,7 +139,7 @@ TEST_CASE("what stands in the cave with a lake has rock under it that does not f
   const unsigned seed = std::random_device()();
   CAPTURE(seed);
   std::mt19937 random(seed);
-  const WorldField world(settingsOf(sample("lake.sgm"), 512, random()), std::pmr::get_default_resource());
+  const WorldField world(settingsOf(yardstick("lake.sgm"), 512, random()), std::pmr::get_default_resource());
   const IntBox box{{0, -30 * 1024, 0}, {256 * 1024, 30 * 1024, 256 * 1024}};
   const auto rock = world.compileBelow(0, box.grown(8 * 1024));
   REQUIRE(rock);

@@ -40,7 +40,7 @@ TEST_CASE("whatever a part depends on is in its key, and what it does not is not
   CHECK(changes(other));
 
   // Every number in the grammar, by a little.
-  const std::string text = sample("cave.sgm");
+  const std::string text = yardstick("cave.sgm");
   size_t numbers = 0;
   for (size_t at = text.find("sgm 1;") + 6; at < text.size(); ++at) {
     const auto digit = [&](size_t i) { return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])); };

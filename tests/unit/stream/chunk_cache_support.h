@@ -17,7 +17,7 @@ struct Excerpt {
   int32_t cell;
   IntBox box;
 
-  WorldFieldSettings settings() const { return settingsOf(sample(grammar), cell, 3); }
+  WorldFieldSettings settings() const { return settingsOf(yardstick(grammar), cell, 3); }
 };
 
 inline IntBox around(int32_t x, int32_t y, int32_t z, int32_t metres) {

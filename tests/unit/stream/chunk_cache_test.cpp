@@ -101,7 +101,7 @@ TEST_CASE("anchors come out of the cache as they were derived", "[stream][disk]"
   const Machine machine;
   const CacheFolder folder;
   const auto cache = openCache(folder, kAmple);
-  const std::string five = replaced(sample("cave.sgm"), "anchor spawn \"chamber\";",
+  const std::string five = replaced(yardstick("cave.sgm"), "anchor spawn \"chamber\";",
                                     "for i in 0..5 { at(1m*i, 0m, 0m) { anchor spawn \"chamber\"; } }");
   const WorldField world(settingsOf(five, 1024, 3), std::pmr::get_default_resource());
   size_t anchors = 0;

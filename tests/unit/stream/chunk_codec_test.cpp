@@ -113,7 +113,7 @@ TEST_CASE("a chunk's record survives its bytes", "[stream][codec]") {
 }
 
 TEST_CASE("the cave's chunks survive their bytes, and their hashes hold", "[stream][codec]") {
-  const WorldField world(settingsOf(sample("cave.sgm"), 1024), std::pmr::get_default_resource());
+  const WorldField world(settingsOf(yardstick("cave.sgm"), 1024), std::pmr::get_default_resource());
   const LodViewer viewer{{96 * 1024.0, 96 * 1024.0, 96 * 1024.0}};
   LodSettings lod;
   lod.top = 2;

@@ -98,7 +98,7 @@ Octree randomTree(std::mt19937& random) {
 
 /// A chunk with much in it, without sharp features.
 PlacedChunk anyChunk(std::mt19937& random) {
-  static const WorldField world(settingsOf(sample("cave.sgm"), 256, 3), std::pmr::get_default_resource());
+  static const WorldField world(settingsOf(yardstick("cave.sgm"), 256, 3), std::pmr::get_default_resource());
   for (;;) {
     ChunkRequest request = randomRequest(random, kExcerpts[0]);
     request.seams = 0;
@@ -319,7 +319,7 @@ void checkSamples(bool sharp) {
   for (const Excerpt& scene : kExcerpts) {
     if (scene.sharp != sharp) continue;
     CAPTURE(scene.grammar);
-    const WorldField world(settingsOf(sample(scene.grammar), scene.cell, 3), std::pmr::get_default_resource());
+    const WorldField world(settingsOf(yardstick(scene.grammar), scene.cell, 3), std::pmr::get_default_resource());
     size_t bodies = 0, seams = 0, compared = 0, features = 0;
     std::mt19937 random(5);
     std::vector<ChunkRequest> requests;
@@ -459,7 +459,7 @@ TEST_CASE("a turned triangle faces against its normals, and a seam's damage is f
 
 TEST_CASE("measures are the same whoever has meshed the chunk") {
   const Excerpt& scene = kExcerpts[0];
-  const WorldField world(settingsOf(sample(scene.grammar), scene.cell, 3), std::pmr::get_default_resource());
+  const WorldField world(settingsOf(yardstick(scene.grammar), scene.cell, 3), std::pmr::get_default_resource());
   std::mt19937 random(23);
   std::vector<ChunkRequest> requests;
   for (unsigned i = 0; i < std::max(rounds(30), 10u); ++i) requests.push_back(randomRequest(random, scene));

@@ -161,7 +161,7 @@ TEST_CASE("a brush is solid or void inside, of its material, and nothing far awa
 }
 
 TEST_CASE("later brushes lie above earlier ones, and an undo brings every bit back", "[edits]") {
-  const WorldField world = worldOf(sample("cave.sgm"), 512);
+  const WorldField world = worldOf(yardstick("cave.sgm"), 512);
   const IntBox hall = IntBox{{96 * 1024, 96 * 1024, 96 * 1024}, {96 * 1024, 96 * 1024, 96 * 1024}}.grown(12'000);
   std::mt19937 random(5);
   Points3 places;
@@ -230,7 +230,7 @@ TEST_CASE("a smooth brush is the round union with what is there, as wide as it s
 }
 
 TEST_CASE("the field under brushes does not depend on which box asks, nor on pruning", "[edits]") {
-  const WorldField world = worldOf(sample("cave.sgm"), 512);
+  const WorldField world = worldOf(yardstick("cave.sgm"), 512);
   const Int3 middle{96 * 1024, 96 * 1024, 96 * 1024};
   const IntBox hall = IntBox{middle, middle}.grown(24'000);
   size_t dropped = 0, all = 0, sampled = 0;
@@ -291,7 +291,7 @@ TEST_CASE("a brush shows at every level whose cells are no wider than it is thic
 TEST_CASE("edited frames of several levels are closed, across every border", "[edits]") {
   // Drips and octaves are gone at the coarse levels, and so are small brushes: the levels' fields differ.
   const Int3 middle{96 * 1024, 96 * 1024, 96 * 1024};
-  const WorldField world(settingsOf(sample("cave.sgm"), 128, 3), std::pmr::get_default_resource());
+  const WorldField world(settingsOf(yardstick("cave.sgm"), 128, 3), std::pmr::get_default_resource());
   for (uint32_t seed = 1; seed <= rounds(2); ++seed) {
     CAPTURE(seed);
     std::mt19937 random(seed);

@@ -25,7 +25,7 @@ std::shared_ptr<const WorldField> fieldOf(const std::string& text, const std::st
 }
 
 /// The cave with all its layers, and drips that show where cells are half a metre wide.
-std::string drippingText() { return replaced(sample("cave.sgm"), "detail 0.3m", "detail 0.6m"); }
+std::string drippingText() { return replaced(yardstick("cave.sgm"), "detail 0.3m", "detail 0.6m"); }
 
 /// The cave with rules that are nested deeper than derivation goes, which is found at once.
 std::string tooDeepText() {

@@ -51,7 +51,7 @@ TEST_CASE("random octrees of a cave and of a cloud are closed in every vertex") 
   const Scene scenes[] = {{"cave.sgm", {96 * 1024, 96 * 1024, 96 * 1024}, 128},
                           {"cloud.sgm", {450 * 1024, 1200 * 1024, 450 * 1024}, 4096}};
   for (const Scene& scene : scenes) {
-    const WorldField world(settingsOf(sample(scene.grammar), scene.cell, 3), std::pmr::get_default_resource());
+    const WorldField world(settingsOf(yardstick(scene.grammar), scene.cell, 3), std::pmr::get_default_resource());
     size_t triangles = 0, seams = 0;
     for (uint32_t seed = 1; seed <= rounds(2); ++seed) {
       CAPTURE(scene.grammar, seed);
@@ -72,7 +72,7 @@ TEST_CASE("random octrees of a cave and of a cloud are closed in every vertex") 
 }
 
 TEST_CASE("a frame without one of its seams is seen to be open") {
-  const WorldField world(settingsOf(sample("cave.sgm"), 128, 3), std::pmr::get_default_resource());
+  const WorldField world(settingsOf(yardstick("cave.sgm"), 128, 3), std::pmr::get_default_resource());
   std::mt19937 random(5);
   const Octree tree = randomTreeAround(random, {96 * 1024, 96 * 1024, 96 * 1024}, 3, 128);
   std::pmr::vector<PlacedChunk> chunks = meshAll(world, frameRequests(tree), 2);
@@ -95,7 +95,7 @@ TEST_CASE("what viewers want of an endless world is closed, near the origin and 
   for (const int32_t far : {0, 1'500'000 * 1024}) {
     CAPTURE(far);
     // Without the drips, whose small cells a coarse chunk would have by the hundred thousand.
-    const std::string text = replaced(sample("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
+    const std::string text = replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
     const WorldField world(settingsOf(text, 256, 3), std::pmr::get_default_resource());
     LodSettings lod;
     lod.top = 6;

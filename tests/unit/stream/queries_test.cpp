@@ -35,7 +35,7 @@ WorldFieldSettings oneShape(const std::string& shape, int32_t cell = 256, Int3 s
 
 /// The cave without what probes for a place: a probe asks where it is, and not where a test has moved the world to.
 std::string withoutDrips() {
-  return replaced(sample("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
+  return replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
 }
 
 double length(const Vector& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }

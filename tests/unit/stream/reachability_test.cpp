@@ -297,7 +297,7 @@ TEST_CASE("a viewer in rock sees through it, and at the world's end what there i
 }
 
 TEST_CASE("around a spawn anchor of the cave a share of what is near lies behind rock") {
-  const WorldField world(settingsOf(sample("cave.sgm"), kFineCell), std::pmr::get_default_resource());
+  const WorldField world(settingsOf(yardstick("cave.sgm"), kFineCell), std::pmr::get_default_resource());
   const auto anchors = world.anchors({{0, 0, 0}, {2 * 192 * 1024, 2 * 192 * 1024, 2 * 192 * 1024}});
   REQUIRE(anchors);
   REQUIRE(anchors->size() > 4);

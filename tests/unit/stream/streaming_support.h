@@ -21,7 +21,7 @@ inline constexpr int32_t kStreamedCell = 512;
 
 /// The cave without its drips: small cells in plenty would make the tests slow, and nothing else.
 inline std::string caveText() {
-  return replaced(sample("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
+  return replaced(yardstick("cave.sgm"), "layer drip cell 24m reach 5m uses net { start Drips; }", "");
 }
 
 /// Jobs that run only when somebody helps, in an order drawn at random: the latest and the most disorderly system that

@@ -279,7 +279,7 @@ TEST_CASE("random caves: voids and verdicts are those of a flood of all samples,
 }
 
 TEST_CASE("caves of grammars: voids and verdicts are those of a flood of all samples, and ways hold") {
-  const std::string halls = sample("cave.sgm"), holes =
+  const std::string halls = yardstick("cave.sgm"), holes =
                                                     "sgm 1; domain infinite solid; layer main cell 32m reach 8m { "
                                                     "start Holes; } rule Holes { cut { scatter poisson(4.5m) { "
                                                     "sphere(3m); } } }";

@@ -12,12 +12,19 @@
 
 namespace sgm {
 
-inline std::string sample(const std::string& name) {
-  std::ifstream file(std::string(SGM_SAMPLE_GRAMMARS) + "/" + name);
+inline std::string textOfFile(const std::string& path) {
+  std::ifstream file(path);
   REQUIRE(file);
   std::stringstream text;
   text << file.rdbuf();
   return text.str();
+}
+
+inline std::string sample(const std::string& name) { return textOfFile(std::string(SGM_SAMPLE_GRAMMARS) + "/" + name); }
+
+/// The copy that does not change with the sample: for places and figures that a test knows.
+inline std::string yardstick(const std::string& name) {
+  return textOfFile(std::string(SGM_BENCH_GRAMMARS) + "/" + name);
 }
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {

@@ -39,7 +39,7 @@ const IntBox kHall{{64 * 1024, 64 * 1024, 64 * 1024}, {128 * 1024, 128 * 1024, 1
 
 TEST_CASE("the world's hash does not depend on visiting order, threads or the cache", "[threads]") {
   for (const char* name : {"cave.sgm", "cloud.sgm"}) {
-    const std::string text = sample(name);
+    const std::string text = yardstick(name);
     const bool cloud = name[1] == 'l';
     const int32_t cell = cloud ? 32 * 1024 : 1024;
     const uint64_t seed = cloud ? 5 : 7;  // one with clouds near the origin
@@ -70,7 +70,7 @@ TEST_CASE("the world's hash does not depend on visiting order, threads or the ca
 }
 
 TEST_CASE("chunks that need no keys are the same but for these") {
-  const WorldField world(settingsOf(sample("cave.sgm"), 1024), std::pmr::get_default_resource());
+  const WorldField world(settingsOf(yardstick("cave.sgm"), 1024), std::pmr::get_default_resource());
   std::vector<ChunkRequest> requests = requestsOf(world, kHall);
   for (ChunkRequest& request : requests) request.seams = 1u << 2;
   const auto keyed = meshAll(world, requests, 2);
@@ -99,7 +99,7 @@ TEST_CASE("chunks that need no keys are the same but for these") {
 }
 
 TEST_CASE("cells at hand give the same programs and anchors, and are not asked for again") {
-  const WorldField world(settingsOf(sample("cave.sgm"), 1024), std::pmr::get_default_resource());
+  const WorldField world(settingsOf(yardstick("cave.sgm"), 1024), std::pmr::get_default_resource());
   CellsAtHand at_hand;
   const std::vector<ChunkRequest> requests = requestsOf(world, kHall);
   for (const ChunkRequest& request : requests) {
@@ -125,7 +125,7 @@ TEST_CASE("cells at hand give the same programs and anchors, and are not asked f
 }
 
 TEST_CASE("doubling every reach changes nothing") {
-  const std::string text = sample("cave.sgm");
+  const std::string text = yardstick("cave.sgm");
   const std::string wide = replaced(replaced(text, "reach 176m", "reach 352m"), "reach 5m", "reach 10m");
   const WorldField narrow_world(settingsOf(text, 1024), std::pmr::get_default_resource());
   const WorldField wide_world(settingsOf(wide, 1024), std::pmr::get_default_resource());
@@ -134,7 +134,7 @@ TEST_CASE("doubling every reach changes nothing") {
 }
 
 TEST_CASE("shapes, anchors and noise moved together by whole chunks give the same chunks, to the end of the world") {
-  WorldFieldSettings s = settingsOf(sample("cave.sgm"), 1024);
+  WorldFieldSettings s = settingsOf(yardstick("cave.sgm"), 1024);
   const WorldField home(s, std::pmr::get_default_resource());
   const auto requests = requestsOf(home, kHall);
   const std::pmr::vector<PlacedChunk> expected = meshAll(home, requests, 2);
@@ -153,7 +153,7 @@ TEST_CASE("shapes, anchors and noise moved together by whole chunks give the sam
 }
 
 TEST_CASE("a region's chunks, welded by key, have no open edge inside") {
-  const WorldField world(settingsOf(sample("cave.sgm"), 1024), std::pmr::get_default_resource());
+  const WorldField world(settingsOf(yardstick("cave.sgm"), 1024), std::pmr::get_default_resource());
   const std::pmr::vector<PlacedChunk> chunks = meshAll(world, requestsOf(world, kHall), 2);
   std::vector<PlacedPart> parts;
   for (const PlacedChunk& c : chunks) appendParts(c, parts);
@@ -192,7 +192,7 @@ TEST_CASE("a probe in one go answers as the probe step by step") {
    private:
     const LayersBelow& below_;
   };
-  const WorldField world(settingsOf(sample("cave.sgm"), 512), std::pmr::get_default_resource());
+  const WorldField world(settingsOf(yardstick("cave.sgm"), 512), std::pmr::get_default_resource());
   const LayersBelow below(world, kHall);
   const StepByStep slow(below);
   std::mt19937 random(11);
