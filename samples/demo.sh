@@ -39,7 +39,7 @@ cmake --build --preset release --target sgm_cli sgm >"$log" 2>&1 || {
 
 sgm=build/release/bin/sgm
 cave=samples/grammars/cave.sgm
-region=0,-192,0:192,0,192
+region=0,-8,0:192,16,192
 "$sgm" mesh "$cave" --out out/demo/cave.glb --region "$region" --cell 0.25 --seed 3
 "$sgm" render "$cave" --out out/demo/cave.png --region "$region" --cell 0.25 --seed 3 --size 1600x900
 "$sgm" fly "$cave" --cell 0.25 --seed 3 --speed 20 --frames 1200 --png 6 --out out/demo/flight.png
