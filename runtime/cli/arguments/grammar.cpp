@@ -100,7 +100,7 @@ Command addMesh(CLI::App& root) {
   app->footer(
       "Positions in the file are metres from the world's origin. Where the region reaches further than 4096 m from it, "
       "they count from the region's lowest corner instead, which is then printed as the origin.\n"
-      "Example:\n  sgm mesh samples/grammars/cave.sgm --out cave.glb --region 0,0,0:192,192,192 --cell 0.5 --seed 7");
+      "Example:\n  sgm mesh samples/grammars/cave.sgm --out cave.glb --region 0,-8,0:192,16,192 --cell 0.5 --seed 7");
   return [options] { return mesh(*options); };
 }
 
@@ -190,7 +190,7 @@ Command addRender(CLI::App& root) {
               "Example:\n  sgm render samples/grammars/cave.sgm --out cave.png --at spawn --seed 7\n"
               "  sgm render samples/grammars/cave.sgm --out sheet.png --seeds 1..9 --sheet\n"
               "  sgm render samples/grammars/lake.sgm --out plan.svg --plan --section --seed 3\n"
-              "  sgm render samples/grammars/lake.sgm --out drip.png --frame cave.Dripstone");
+              "  sgm render samples/grammars/lake.sgm --out drip.png --frame karst.Dripstone");
   return [options, size] {
     if (!isSurvey(*options)) return render(*options);
     if (size->count() == 0) options->size = kSurveySize;

@@ -118,8 +118,8 @@ Command addMeasure(CLI::App& root) {
       "its radius; the surface may come nearer to the way than that by 2.5 cells, as a rule by one.\n"
       "Example:\n  sgm measure cave.glb --json\n"
       "  sgm measure samples/grammars/sphere.sgm --cell 0.25 --field --levels 3\n"
-      "  sgm measure samples/grammars/cave.sgm --seed 3 --region 96,-192,0:320,-32,192 --from 108,-72,72 \\\n"
-      "    --to 296,-104,104 --radius 0.5");
+      "  sgm measure samples/grammars/cave.sgm --seed 3 --region=-10,-8,-10:130,20,130 --from 30,0.8,30 \\\n"
+      "    --to 90,0.8,90 --radius 0.4");
   const auto given = [](const std::vector<CLI::Option*>& among) {
     std::vector<std::string> names;
     for (const CLI::Option* option : among)
