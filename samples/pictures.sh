@@ -12,7 +12,7 @@ bouthors table4/bouthors.sgm --seed 3 --cell 4 --fov 34 --region 0,640,0:800,128
 branchwork branchwork.sgm --cell 0.1 --seed 3 --at hall
 building building.sgm --sharp --cell 0.05 --fov 46 --size 1280x960 --camera 20,12,28.5:1,8.2,0
 castle castle.sgm --sharp --cell 0.2 --fov 50 --camera 46,28,50:0,1,0
-cave cave.sgm --cell 0.1 --seed 8 --at hall
+cave cave.sgm --cell 0.06 --seed 8 --region 12,-4,10:60,12,50 --at hall
 city city.sgm --sharp --cell 0.4 --region -128,0,-600:128,120,-180 --camera 1,48,-172:0,26,-300
 cloud cloud.sgm --seed 3 --cell 9 --fov 54 --region -2200,900,-2600:2400,4300,2000 --camera 2500,820,2300:-100,2200,-420
 cui table4/cui.sgm --cell 0.1 --seed 3 --at room
