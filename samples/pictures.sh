@@ -26,6 +26,7 @@ terrace terrace.sgm --sharp --cell 0.1 --fov 50 --size 1280x800 --region -4,-1,-
 town town.sgm --sharp --cell 0.1 --fov 62 --region -8,-1,-8:34,20,30 --camera -3.5,1.7,22:15,5.2,9
 tree tree.sgm --cell 0.05 --fov 46 --size 960x960 --region -13,-0.4,-13:13,14,13 --camera -8,1.7,15:0,5,0
 tunnels tunnels.sgm --cell 0.1 --fov 42 --camera -6,9,66:-1,-1,-6
+tunnels tunnels.sgm --cell 0.1 --fov 42 --region -48,-9,-17:48,9,50 --camera -15,-3.6,44:-4,-0.6,-6
 valley valley.sgm --cell 0.4 --fov 66 --region 16,-6,-12:240,116,206 --camera 40,9,132:108,26,72
 workings workings.sgm --cell 0.06 --fov 60 --region 8,11,8:14,16,44 --camera 10.8,13.5,16:11,13.1,30
 '
