@@ -12,7 +12,7 @@ bouthors table4/bouthors.sgm --seed 3 --cell 4 --fov 34 --region 0,640,0:800,128
 branchwork branchwork.sgm --cell 0.1 --seed 3 --at hall
 building building.sgm --sharp --cell 0.05 --fov 46 --size 1280x960 --camera 20,12,28.5:1,8.2,0
 castle castle.sgm --sharp --cell 0.2 --fov 50 --camera 46,28,50:0,1,0
-cave cave.sgm --cell 0.06 --seed 8 --region 12,-4,10:60,12,50 --at hall
+cave cave.sgm --cell 0.07 --seed 8 --region -20,-4,-20:84,14,84 --at hall
 city city.sgm --sharp --cell 0.4 --region -128,0,-600:128,120,-180 --camera 1,48,-172:0,26,-300
 cloud cloud.sgm --seed 3 --cell 9 --fov 54 --region -2200,900,-2600:2400,4300,2000 --camera 2500,820,2300:-100,2200,-420
 cui table4/cui.sgm --cell 0.1 --seed 3 --at room
@@ -27,6 +27,7 @@ town town.sgm --sharp --cell 0.1 --fov 62 --region -8,-1,-8:34,20,30 --camera -3
 tree tree.sgm --cell 0.05 --fov 46 --size 960x960 --region -13,-0.4,-13:13,14,13 --camera -8,1.7,15:0,5,0
 tunnels tunnels.sgm --cell 0.1 --fov 42 --camera -6,9,66:-1,-1,-6
 tunnels tunnels.sgm --cell 0.1 --fov 42 --region -48,-9,-17:48,9,50 --camera -15,-3.6,44:-4,-0.6,-6
+tunnels tunnels.sgm --cell 0.1 --fov 42 --region -48,-9,-17:48,9,50 --camera -15,-3.6,42:-3,1.2,-6
 valley valley.sgm --cell 0.4 --fov 66 --region 16,-6,-12:240,116,206 --camera 40,9,132:108,26,72
 workings workings.sgm --cell 0.06 --fov 60 --region 8,11,8:14,16,44 --camera 10.8,13.5,16:11,13.1,30
 '
