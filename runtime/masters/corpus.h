@@ -1,6 +1,7 @@
 #pragma once
-// Models of known class, made from the sample grammars: what masters are built from, and what classification is judged
-// by. A model is a function of its family and seed alone.
+// Models of known class, made from the grammars in tests/bench/grammars, copies of the samples that stay as they are:
+// what masters are built from, and what classification is judged by. A model is a function of its family and seed
+// alone.
 
 #include <memory>
 #include <span>
@@ -18,7 +19,7 @@ namespace sgm::masters {
 /// at most 0.4 to 2 edges of one, and voxels that are solid by chance.
 struct Family {
   std::string_view class_name;
-  std::string_view file;  ///< of samples/grammars, or the kind of noise
+  std::string_view file;  ///< of tests/bench/grammars, or the kind of noise
   std::string_view text;  ///< empty: the grid
   double cell = 0;        ///< metres; of the grid the quadrangles' edge
   double edge = 0;        ///< of the cube that is looked at, metres; 0: the whole world, which is finite

@@ -10,7 +10,7 @@
 namespace sgm::cli {
 
 struct BundledFile {
-  std::string_view path;  ///< as in samples/grammars
+  std::string_view path;  ///< as in samples/grammars or tests/bench/grammars
   std::string_view bytes;
 };
 std::span<const BundledFile> bundledFiles();

@@ -212,7 +212,7 @@ Exhibits architecturePart(Workshop& workshop) {
   }
   exhibit.ours = Workshop::row(row) + table("The same houses, measured", rows);
   exhibit.measured = fmt::format(
-      "The sample grammar building.sgm, LD = {}{}: cells of {} m. Convexity morphs the walls of storeys from boxes to "
+      "The grammar building.sgm, LD = {}{}: cells of {} m. Convexity morphs the walls of storeys from boxes to "
       "superquadrics.",
       workshop.pick(10, 5), workshop.pick("", " for the paper's 10, to be quick"), workshop.pick(0.1, 0.2));
   exhibit.numbers = {{"ld", workshop.pick(10.0, 5.0)}, {"houses", std::move(houses)}};
