@@ -342,7 +342,9 @@ Result<GrammarChunk> Interpreter::runCoarse(int32_t cell_edge, std::pmr::memory_
   if (path_overrides_.empty()) coarse_edge_ = cell_edge;
   const Result<GrammarChunk> chunk = run(std::pmr::get_default_resource());
   if (!chunk) return chunk.error();
-  return coarseChunk(*chunk, cell_edge, memory);
+  GrammarChunk coarse = coarseChunk(*chunk, cell_edge, memory);
+  coarse.notes.assign(chunk->notes.begin(), chunk->notes.end());
+  return coarse;
 }
 
 namespace {

@@ -69,9 +69,9 @@ Result<GrammarChunk> deriveCell(const Program& program, const ParameterValues& p
                                 uint32_t layer, Int3 cell, const LowerLayers& lower, const DeriveLimits& limits = {},
                                 std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
-/// Of the cell what levels show whose cells have this edge, units, or a larger one; without anchors and notes, which
-/// are those of the whole cell. Far levels show little of a cell full of windows, and that is derived many times faster
-/// and kept in a fraction of the memory.
+/// Of the cell what levels show whose cells have this edge, units, or a larger one; without anchors, which are those of
+/// the whole cell, and with the notes of what was derived alone. Far levels show little of a cell full of windows, and
+/// that is derived many times faster and kept in a fraction of the memory.
 ///
 /// Pure and thread-safe as deriveCell, and with its errors; but what `detail` leaves out counts against no limit. At
 /// these levels the shapes make the field that those of the whole cell make, bit for bit where the field is exact.

@@ -106,7 +106,9 @@ Result<GrammarChunk> WorldField::derive(uint32_t layer, Int3 at, int32_t cell_ed
     return derived;
   });
   if (chunk && settings_.shift != Int3{}) translate(*chunk, settings_.shift);
-  if (chunk && settings_.on_notes && !chunk->notes.empty()) settings_.on_notes(*chunk);
+  // Cells of far levels would tell the same again.
+  if (chunk && settings_.on_notes && !chunk->notes.empty() && cell_edge <= settings_.finest_cell)
+    settings_.on_notes(*chunk);
   return chunk;
 }
 
@@ -129,7 +131,9 @@ CellKey WorldField::keyFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
   constexpr int kLevelsTogether = 2;
   int32_t kept = settings_.finest_cell;
   while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
-  if (kept == settings_.finest_cell || !settings_.program->layers[layer].by_level) kept = 0;
+  // The finest level does not show all of a cell either: where cells are of 50 cm, houses have no glazing bars.
+  const Layer& info = settings_.program->layers[layer];
+  if (!info.by_level || (kept == settings_.finest_cell && isWhole(info))) kept = 0;
   return {layer, at, kept};
 }
 

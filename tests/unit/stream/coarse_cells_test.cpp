@@ -185,3 +185,18 @@ TEST_CASE("of a city block far levels derive and keep a fraction") {
   CHECK(far > 0);
   CHECK(far * 20 < whole);
 }
+
+TEST_CASE("of a city block the finest level derives what its cells show alone") {
+  const WorldField world(settingsOf(sample("city.sgm"), 512), std::pmr::get_default_resource());
+  size_t whole = 0, shown = 0;
+  for (int32_t x = 0; x < 4; ++x) {
+    const auto all = world.cell(1, {x, 0, 0});
+    const auto finest = world.cellFor(1, {x, 0, 0}, 512);
+    REQUIRE(all);
+    REQUIRE(finest);
+    whole += (*all)->chunk.shapes.size();
+    shown += (*finest)->chunk.shapes.size();
+  }
+  CHECK(shown > 100);
+  CHECK(shown * 4 < whole);
+}
