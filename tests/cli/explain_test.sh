@@ -2,7 +2,7 @@
 # sgm explain: which rules have made a place, in words and as JSON; what it prints is what overrides take.
 source "$(dirname "$0")/common.sh"
 
-lipp=$SOURCE/samples/grammars/table4/lipp.sgm
+lipp=$SOURCE/tests/bench/grammars/table4/lipp.sgm
 expect 0 "$SGM" explain "$lipp" --at=-9,-3,7.8
 out_has '^-9,-3,7.79[0-9]+ m, seed 0, cells of 0.5 m'
 out_has 'open: outside of what is nearest, Palace/Body\[0\]/Storey\[0\]/Facade\[0\]/Bay\[1\]/Pier\[0\]'

@@ -56,13 +56,13 @@ sound+=' && j.measures.drawn.area > 100 && j.measures.drawn.area_vector.every((a
 sound+=' && j.measures.measuring_seconds > 0 && j.measures.meshing_seconds > 0'
 expect 0 "$SGM" fly "$cave" "${small[@]}" --speed 20 --frames 200 --edits 5 --measure
 json "$sound && j.measures.made.compared > 0"
-expect 0 "$SGM" fly "$SOURCE/samples/grammars/building.sgm" --sharp "${small[@]}" --speed 20 --frames 200 --measure
+expect 0 "$SGM" fly "$SOURCE/tests/bench/grammars/building.sgm" --sharp "${small[@]}" --speed 20 --frames 200 --measure
 json "$sound"
 expect 0 "$SGM" fly "$cave" --cell 0.5 --seed 3 --frames 100 --unpaced --top-level 3 --view 60 --measure
 out_has 'nothing wrong'
 
 # Crisp edges at every level, dug into.
-expect 0 "$SGM" fly "$SOURCE/samples/grammars/building.sgm" --sharp --cell 0.5 --seed 3 --speed 20 --frames 1000 \
+expect 0 "$SGM" fly "$SOURCE/tests/bench/grammars/building.sgm" --sharp --cell 0.5 --seed 3 --speed 20 --frames 1000 \
   --finest 12 --top-level 3 --view 60 --check --edits 5 --unpaced --json
 json 'j.commits > 5 && j.chunks_meshed > 100 && j.digs > 2'
 json 'j.open_edges === 0 && j.nonmanifold_edges === 0 && j.self_intersections === 0 && j.whole_failures === 0'

@@ -68,7 +68,7 @@ expect 0 "$SGM" render "$lake" --out nearest.svg --plan --seed 3
 expect 0 "$SGM" render "$lake" --out level.svg --plan --seed 3 --level 1 --json
 json 'j.level === 1 && j.cell === 1'
 # What stands, of a world that is open.
-expect 0 "$SGM" render "$SOURCE/samples/grammars/building.sgm" --out house.svg --plan --section --json
+expect 0 "$SGM" render "$SOURCE/tests/bench/grammars/building.sgm" --out house.svg --plan --section --json
 json 'j.subject === "solid" && j.plan.area > 100 && j.plan.highest > 15'
 for class in solid wall contour beyond; do has $class house.svg; done
 lacks ceiling_step house.svg
