@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "catch.h"
@@ -90,16 +90,53 @@ class Navmesh {
 
   int polygons() const { return polygons_; }
 
-  /// The corners of a way from a place to another, metres from the mesh's origin; empty where there is none. Each end
-  /// may lie so far above the floor, and aside.
+  /// The corners of a way from one of the places to one of the others, metres from the mesh's origin; empty where there
+  /// is none. A place may lie so far above the floor, and aside: it may be the top of a boulder that nobody climbs,
+  /// which is why there are several.
+  std::vector<std::array<double, 3>> way(std::span<const std::array<double, 3>> from,
+                                         std::span<const std::array<double, 3>> to) const {
+    for (const std::array<double, 3>& start : from) {
+      for (const std::array<double, 3>& end : to) {
+        std::vector<std::array<double, 3>> found = way(start, end);
+        if (!found.empty()) return found;
+      }
+    }
+    return {};
+  }
+
+  /// The place nearest to another that can be reached from a place, to say where a way ends.
+  std::array<double, 3> reached(const std::array<double, 3>& from, const std::array<double, 3>& to) const {
+    constexpr int kMost = 4096;
+    const dtQueryFilter all;
+    const Ends ends(*query_, from, to);
+    if (ends.first == 0 || ends.goal == 0) return from;
+    std::vector<dtPolyRef> path(kMost);
+    int steps = 0;
+    query_->findPath(ends.first, ends.goal, ends.at.data(), ends.last.data(), &all, path.data(), &steps, kMost);
+    if (steps == 0) return from;
+    std::array<float, 3> place{};
+    query_->closestPointOnPoly(path[static_cast<size_t>(steps) - 1], ends.last.data(), place.data(), nullptr);
+    return {double{place[0]}, double{place[1]}, double{place[2]}};
+  }
+
+ private:
+  /// The floor next to two places.
+  struct Ends {
+    dtPolyRef first = 0, goal = 0;  ///< 0: there is none
+    std::array<float, 3> at{}, last{};
+
+    Ends(const dtNavMeshQuery& query, const std::array<double, 3>& from, const std::array<double, 3>& to) {
+      const dtQueryFilter all;
+      const std::array<float, 3> around{1, 4, 1}, start = rounded(from), end = rounded(to);
+      query.findNearestPoly(start.data(), around.data(), &all, &first, at.data());
+      query.findNearestPoly(end.data(), around.data(), &all, &goal, last.data());
+    }
+  };
+
   std::vector<std::array<double, 3>> way(const std::array<double, 3>& from, const std::array<double, 3>& to) const {
     constexpr int kMost = 4096;
     const dtQueryFilter all;
-    const std::array<float, 3> around{2, 4, 2};
-    std::array<float, 3> start = rounded(from), end = rounded(to), at{}, last{};
-    dtPolyRef first = 0, goal = 0;
-    query_->findNearestPoly(start.data(), around.data(), &all, &first, at.data());
-    query_->findNearestPoly(end.data(), around.data(), &all, &goal, last.data());
+    const auto [first, goal, at, last] = Ends(*query_, from, to);
     if (first == 0 || goal == 0) return {};
     std::vector<dtPolyRef> path(kMost);
     int steps = 0;
@@ -117,7 +154,6 @@ class Navmesh {
     return way;
   }
 
- private:
   static std::array<float, 3> rounded(const std::array<double, 3>& p) {
     return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
   }

@@ -8,15 +8,11 @@
 #include <new>
 
 #include "render/frame.h"
+#include "render/illuminated.h"
 #include "render/sampling.h"
 
 namespace sgm {
 namespace {
-
-#define FN inline
-using glm::dot, glm::exp, glm::max, glm::mix, glm::pow, glm::smoothstep, glm::vec3;
-#include "render/illumination.h"
-#undef FN
 
 constexpr int kNearRays = 4;  // that tell how narrow a place is
 constexpr float kFar = 1e5f;  // metres
