@@ -9,9 +9,10 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-Surface surfaceAt(uint material, vec3 p, vec3 n, vec3 to_eye, float footprint, float wet) {
+Surface surfaceAt(uint material, vec3 p, vec3 n, vec3 to_eye, float footprint, Traced traced) {
   Material m = materials[min(material, frame.counts.y - 1u)];
-  Spot at = Spot(p, n, to_eye, m.colour_roughness.rgb, m.colour_roughness.w, uintBitsToFloat(m.pattern.y), footprint, wet);
+  Spot at = Spot(p, n, to_eye, m.colour_roughness.rgb, m.colour_roughness.w, uintBitsToFloat(m.pattern.y), footprint,
+                 traced.wet, traced.depth);
   return patterned(m.pattern.x, at);
 }
 
@@ -69,8 +70,9 @@ vec3 bodyAt(ivec2 at, vec3 d) {
   // Seen edge-on, a sample covers more of the surface; half of that is what looks sharp without flicker.
   float footprint = t * frame.eye.w / mix(1.0, max(0.25, abs(dot(n, d))), 0.5);
   Traced traced = tracedAt(at, p, n, t);
-  Surface s = surfaceAt(uint(seen.w) - 1u, p + frame.pattern_offset.xyz, n, -d, footprint, traced.wet);
+  Surface s = surfaceAt(uint(seen.w) - 1u, p + frame.pattern_offset.xyz, n, -d, footprint, traced);
   if (facing.w > 0.0) s = chequered(facing.w, n);
+  if (facing.w < 0.0) s.albedo *= -facing.w;
   s.normal = turnedTo(-d, s.normal, n);
   // Rays are too few to find what lies a hand's breadth away.
   float open = openness(at, p, n, t, clamp(0.02 * t, 0.10, 4.0), turn.y);

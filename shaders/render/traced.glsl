@@ -38,7 +38,8 @@ struct Traced {
   vec3 light;    // mean radiance from all sides
   vec3 lean;
   vec3 mirror;
-  float wet;  // 1 at the edge of standing water; in water its depth, metres
+  float wet;    // 1 at the edge of standing water
+  float depth;  // of water, metres
 };
 
 Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
@@ -46,26 +47,47 @@ Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
   traced.open[0] = vec4(0.0);
   traced.open[1] = vec4(0.0);
   traced.light = traced.lean = traced.mirror = vec3(0.0);
-  traced.wet = 0.0;
+  traced.wet = traced.depth = 0.0;
   int side = int(frame.size.z);
   ivec2 pixels_size = ivec2(frame.size.xy), soft_size = (pixels_size + kSoftPixels - 1) / kSoftPixels;
   float apart = 2.0 * t * frame.eye.w * float(side);
   ivec4 elements;
   vec4 weights;
   around(at, side, pixels_size, p, n, apart, elements, weights);
+  float met = 0.0;
   for (int i = 0; i < 4; ++i) {
     DirectLight d = direct[elements[i]];
+    if (unpackHalf2x16(d.mirror.y).y < -1.5) continue;
+    met += weights[i];
     traced.open[0] += weights[i] * unpackUnorm4x8(d.open.x);
     traced.open[1] += weights[i] * unpackUnorm4x8(d.open.y);
     vec2 last = unpackHalf2x16(d.mirror.y);
     traced.mirror += weights[i] * vec3(unpackHalf2x16(d.mirror.x), last.x);
-    traced.wet += weights[i] * last.y;
+    traced.wet += weights[i] * max(-last.y, 0.0);
+    traced.depth += weights[i] * max(last.y, 0.0);
   }
+  // The outermost leaves have no surface behind them that rays could have met: nothing stands before them either.
+  if (met < 1e-3) {
+    traced.open[0] = traced.open[1] = vec4(1.0);
+  } else {
+    traced.open[0] /= met;
+    traced.open[1] /= met;
+    traced.mirror /= met;
+    traced.wet /= met;
+    traced.depth /= met;
+  }
+  met = 0.0;
   around(at, side * kSoftPixels, soft_size, p, n, apart * float(kSoftPixels), elements, weights);
   for (int i = 0; i < 4; ++i) {
     traced.light += weights[i] * soft[elements[i]].light.rgb;
     traced.lean += weights[i] * soft[elements[i]].lean.xyz;
+    met += weights[i] * soft[elements[i]].light.w;
   }
+  if (met < 1e-3)
+    traced.light = frame.size.w == 1u ? 0.5 * (skyLight(n, frame.sun.xyz) + skyLight(vec3(0.0, 1.0, 0.0), frame.sun.xyz))
+                                      : vec3(frame.sun.w);
+  else
+    traced.light /= met, traced.lean /= met;
   return traced;
 }
 

@@ -28,6 +28,7 @@ namespace sgm {
   X(vkCmdBindIndexBuffer)         \
   X(vkCmdSetViewport)             \
   X(vkCmdSetScissor)              \
+  X(vkCmdDraw)                    \
   X(vkCmdDrawIndexed)             \
   X(vkCmdCopyBufferToImage)
 

@@ -17,8 +17,11 @@ namespace sgm {
 struct DirectLight {
   uint32_t open[2] = {
       0, 0};  ///< a byte for each lamp, the headlamp first; under a sky the first is the sun's: 255 all of it
-  /// Halves: what a mirror there shows, red, green, blue; then how wet it is, 0..1, or in water how deep, metres.
-  uint32_t mirror[2] = {0, 0};
+  /// Halves: what a mirror there shows, red, green, blue; then in water how deep it is, metres, elsewhere how wet,
+  /// 0..-1; -2 where no surface was met.
+  uint32_t mirror[2] = {0, kNothingMet};
+
+  static constexpr uint32_t kNothingMet = 0xC0000000u;  ///< -2 as a half: no surface was met here
 };
 
 struct SoftLight {

@@ -85,7 +85,7 @@ class LightTracer {
     }
     if (has_water_) {
       UnitPoints points(x, y, 65);
-      wet = isWater(place.material) ? depthOf(place, points) : wetness(place);
+      wet = isWater(place.material) ? depthOf(place, points) : -wetness(place);
     }
     light.mirror[0] = glm::packHalf2x16({seen.r, seen.g});
     light.mirror[1] = glm::packHalf2x16({seen.b, wet});

@@ -4,7 +4,10 @@
 #include <cstddef>
 #include <glm/mat4x4.hpp>
 
+#include "render/foliage.h"
 #include "render/scene.h"
+#include "spirv/foliage_frag.h"
+#include "spirv/foliage_vert.h"
 #include "spirv/shade_comp.h"
 #include "spirv/surface_frag.h"
 #include "spirv/surface_vert.h"
@@ -53,18 +56,19 @@ Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   return scope.renderPass(info);
 }
 
-/// Draws RenderVertex triangles' fronts into reversed depth and both planes.
-Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout) {
+/// Draws RenderVertex triangles' fronts into reversed depth and both planes, by these two shaders.
+Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout,
+                                    std::span<const uint32_t> vertex_code, std::span<const uint32_t> fragment_code) {
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (VkPipelineShaderStageCreateInfo& stage : stages) {
     stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
     stage.pName = "main";
   }
-  auto vertex = scope.shader(spirv::kSurfaceVert);
+  auto vertex = scope.shader(vertex_code);
   if (!vertex) return vertex.error();
   stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
   stages[0].module = *vertex;
-  auto fragment = scope.shader(spirv::kSurfaceFrag);
+  auto fragment = scope.shader(fragment_code);
   if (!fragment) return fragment.error();
   stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
   stages[1].module = *fragment;
@@ -184,12 +188,15 @@ Result<SurfacePass> makeSurfacePass(VulkanScope& scope, VkExtent2D extent) {
   auto framebuffer = makeFramebuffer(scope, pass.render_pass, views, extent);
   if (!framebuffer) return framebuffer.error();
   pass.framebuffer = *framebuffer;
-  auto layout = scope.pipelineLayout(VK_NULL_HANDLE, VK_SHADER_STAGE_VERTEX_BIT, sizeof(glm::mat4));
+  auto layout = scope.pipelineLayout(VK_NULL_HANDLE, kSurfaceStages, sizeof(FoliageConstants));
   if (!layout) return layout.error();
   pass.layout = *layout;
-  auto draw = makeMeshPipeline(scope, pass.render_pass, pass.layout);
+  auto draw = makeMeshPipeline(scope, pass.render_pass, pass.layout, spirv::kSurfaceVert, spirv::kSurfaceFrag);
   if (!draw) return draw.error();
   pass.draw = *draw;
+  auto foliage = makeMeshPipeline(scope, pass.render_pass, pass.layout, spirv::kFoliageVert, spirv::kFoliageFrag);
+  if (!foliage) return foliage.error();
+  pass.foliage = *foliage;
   return pass;
 }
 

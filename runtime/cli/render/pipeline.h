@@ -15,9 +15,13 @@ struct SurfacePass {
   VulkanImage normals;    ///< RGBA16F
   VkRenderPass render_pass = VK_NULL_HANDLE;
   VkFramebuffer framebuffer = VK_NULL_HANDLE;
-  VkPipelineLayout layout = VK_NULL_HANDLE;  ///< push constant: the view-projection matrix
+  VkPipelineLayout layout = VK_NULL_HANDLE;  ///< push constants: those of foliage.h; `draw` takes the matrix alone
   VkPipeline draw = VK_NULL_HANDLE;
+  VkPipeline foliage = VK_NULL_HANDLE;  ///< draws layers, one an instance
 };
+
+/// The stages that read SurfacePass's push constants.
+inline constexpr VkShaderStageFlags kSurfaceStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 /// Lights what is seen, made of the patterns whose bits are set: a device compiles the whole of it in seconds, and what
 /// a scene needs in far less.

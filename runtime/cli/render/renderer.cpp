@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "render/foliage.h"
 #include "render/frame.h"
 #include "render/light_planes.h"
 #include "render/pipeline.h"
@@ -124,6 +125,13 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
   const std::vector<uint32_t> indices = partsOf(scene).bodies;
   auto index_buffer = upload(scope, std::span<const uint32_t>(indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   if (!index_buffer) return index_buffer.error();
+  const std::array<Foliage, 2> foliage = foliageOf(scene, frame);
+  std::array<VulkanBuffer, 2> grown;
+  for (size_t i = 0; i < foliage.size(); ++i) {
+    auto buffer = upload(scope, std::span<const RenderVertex>(foliage[i].vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    if (!buffer) return buffer.error();
+    grown[i] = *buffer;
+  }
   auto frame_buffer = upload(scope, std::span<const Frame>(&frame, 1), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
   if (!frame_buffer) return frame_buffer.error();
   auto material_buffer = upload(scope, std::span<const FrameMaterial>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -162,13 +170,20 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
     const VkViewport viewport{0, h, w, -h, 0, 1};
     calls.vkCmdSetViewport(commands, 0, 1, &viewport);
     calls.vkCmdSetScissor(commands, 0, 1, &begin.renderArea);
-    calls.vkCmdPushConstants(commands, surfaces->layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(glm::mat4),
-                             &frame.view_projection);
+    calls.vkCmdPushConstants(commands, surfaces->layout, kSurfaceStages, 0, sizeof(glm::mat4), &frame.view_projection);
     const VkDeviceSize offset = 0;
     calls.vkCmdBindVertexBuffers(commands, 0, 1, &vertex_buffer->handle, &offset);
     calls.vkCmdBindIndexBuffer(commands, index_buffer->handle, 0, VK_INDEX_TYPE_UINT32);
     if (!indices.empty()) {
       calls.vkCmdDrawIndexed(commands, static_cast<uint32_t>(indices.size()), 1, 0, 0, 0);
+    }
+    calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, surfaces->foliage);
+    for (size_t i = 0; i < foliage.size(); ++i) {
+      if (foliage[i].vertices.empty()) continue;
+      calls.vkCmdPushConstants(commands, surfaces->layout, kSurfaceStages, 0, sizeof(FoliageConstants),
+                               &foliage[i].constants);
+      calls.vkCmdBindVertexBuffers(commands, 0, 1, &grown[i].handle, &offset);
+      calls.vkCmdDraw(commands, static_cast<uint32_t>(foliage[i].vertices.size()), foliage[i].layers, 0, 0);
     }
     calls.vkCmdEndRenderPass(commands);
     calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade.pipeline);

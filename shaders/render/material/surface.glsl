@@ -18,7 +18,8 @@ struct Spot {
   float roughness;
   float relief;
   float footprint;  // metres that a sample covers
-  float wet;        // 1 at the edge of standing water, 0 away from it; in water, its depth in metres
+  float wet;        // 1 at the edge of standing water, 0 away from it
+  float depth;      // of water, metres
 };
 
 Surface surfaceOf(Spot at) {

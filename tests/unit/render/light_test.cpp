@@ -178,20 +178,23 @@ TEST_CASE("water is the deeper the farther its shore, and what stands in it is w
   stage.add({-6, -1, -6}, {6, -1, -6}, {6, 5, -6}, {-6, 5, -6});
   stage.look({0, 3, 6}, {0, 0.5f, -6});
   const LightPlanes planes = stage.traced();
-  const auto wet = [&](uint32_t y) {
+  // How deep water is there, or below 0 how wet the surface; -2: there is none.
+  const auto water = [&](uint32_t y) {
     const uint32_t bits = planes.direct[size_t{y} * planes.width + 32].mirror[1] >> 16;
-    // A half of 0..64, without the sign: enough for a test.
     const int exponent = static_cast<int>(bits >> 10 & 31u);
-    return exponent == 0 ? 0.0f : std::ldexp(1 + static_cast<float>(bits & 1023u) / 1024, exponent - 15);
+    const float size = exponent == 0 ? 0.0f : std::ldexp(1 + static_cast<float>(bits & 1023u) / 1024, exponent - 15);
+    return (bits & 0x8000u) != 0 ? -size : size;
   };
   uint32_t shore = 47;  // the last row, from the top, that shows the wall
   while (shore > 0 && planes.direct[size_t{shore} * 64 + 32].mirror[0] != 0) --shore;
   REQUIRE(shore > 4);
   REQUIRE(shore < 40);
-  CHECK(wet(shore + 2) < wet(shore + 8));
-  CHECK(wet(shore + 8) < 8);
-  CHECK(wet(shore) > 0.3f);
-  CHECK(wet(0) == 0);
+  CHECK(water(shore + 2) > 0);
+  CHECK(water(shore + 2) < water(shore + 8));
+  CHECK(water(shore + 8) < 8);
+  CHECK(water(shore) < -0.3f);
+  CHECK(water(shore) >= -1);
+  CHECK(water(0) == -2);
 }
 
 TEST_CASE("light is the same however many workers trace it", "[render]") {

@@ -1,0 +1,33 @@
+#pragma once
+// The blades of lawns and the leaves of crowns: which triangles carry them, and in how many layers they are drawn.
+
+#include <array>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "render/frame.h"
+
+namespace sgm {
+
+/// Push constants, as shaders/render/foliage.glsl reads them.
+struct FoliageConstants {
+  glm::mat4 view_projection;
+  glm::vec4 eye, offset, kind;
+};
+static_assert(sizeof(FoliageConstants) <= 128, "no device promises more");
+
+/// Layers of one kind over some triangles.
+struct Foliage {
+  FoliageConstants constants;
+  uint32_t layers = 0;
+  /// Three a triangle. RenderVertex::texture says of the first and of the second material whether they are of this
+  /// kind.
+  std::vector<RenderVertex> vertices;
+};
+
+/// Blades, and leaves, of what lies near enough to show them. scene must have been checked, and frame be its own. May
+/// throw std::bad_alloc.
+std::array<Foliage, 2> foliageOf(const RenderScene& scene, const Frame& frame);
+
+}  // namespace sgm

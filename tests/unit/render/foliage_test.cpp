@@ -1,0 +1,125 @@
+// Blades of lawns and leaves of crowns.
+
+#include "render/foliage.h"
+
+#include "scenes.h"
+
+using namespace sgm;
+
+namespace {
+
+constexpr int kSide = 240;
+
+/// A ball of 2 m that is seen whole.
+RenderScene ballScene(const TestMesh& ball, std::span<const RenderMaterial> materials) {
+  RenderScene scene;
+  scene.vertices = ball.vertices;
+  scene.indices = ball.indices;
+  scene.materials = materials;
+  scene.background = Background::sky;
+  scene.camera.position = {0, 0, 8};
+  scene.camera.target = {0, 0, 0};
+  scene.camera.fov_degrees = 45;
+  scene.camera.width = scene.camera.height = kSide;
+  return scene;
+}
+
+/// Of what is not the sky, but for what only the sky lights.
+bool isBody(const Image& image, int x, int y) {
+  const uint8_t* pixel = &image.rgba[static_cast<size_t>(4 * (y * image.width + x))];
+  return pixel[2] + 4 < std::max(pixel[0], pixel[1]);
+}
+
+/// Pixels by how far from the ball's middle they are seen, 1 at its outline: of bodies.
+struct Seen {
+  int inside = 0, inside_all = 0, near = 0, far = 0;
+};
+
+Seen seenOf(const Image& image) {
+  const double outline = std::tan(std::asin(2.0 / 8.0)) / std::tan(45 * 3.14159265 / 360) * kSide / 2;
+  Seen seen;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double from_middle = std::hypot(x + 0.5 - kSide / 2.0, y + 0.5 - kSide / 2.0) / outline;
+      if (from_middle < 0.97) {
+        ++seen.inside_all;
+        seen.inside += isBody(image, x, y);
+      } else if (from_middle > 1.03) {
+        (from_middle < 1.17 ? seen.near : seen.far) += isBody(image, x, y);
+      }
+    }
+  }
+  return seen;
+}
+
+}  // namespace
+
+TEST_CASE("leaves stand out from a crown, and no farther than they reach", "[render]") {
+  const std::optional<Renderer> renderer = testRenderer();
+  if (!renderer) return;
+  const TestMesh ball = sphereMesh({0, 0, 0}, 2, false);
+  const std::vector<RenderMaterial> leaf{materialByName("leaf")}, brick{materialByName("brick")};
+  const Result<Image> crown = renderer->render(ballScene(ball, leaf));
+  const Result<Image> bare = renderer->render(ballScene(ball, brick));
+  REQUIRE(crown);
+  REQUIRE(bare);
+  const Seen leaves = seenOf(*crown), bricks = seenOf(*bare);
+  CHECK(leaves.inside > 0.7 * leaves.inside_all);
+  CHECK(bricks.inside > 0.9 * bricks.inside_all);
+  CHECK(leaves.near > 300);
+  CHECK(bricks.near == 0);
+  CHECK(leaves.far == 0);
+  CHECK(bricks.far == 0);
+  // The outermost leaves, behind which no surface is, are lit too.
+  double sum = 0, count = 0;
+  for (int y = 0; y < kSide / 4; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      if (!isBody(*crown, x, y)) continue;
+      sum += crown->rgba[static_cast<size_t>(4 * (y * kSide + x) + 1)];
+      ++count;
+    }
+  }
+  REQUIRE(count > 20);
+  CHECK(sum / count > 40);
+}
+
+TEST_CASE("leaves are in the same places each time", "[render]") {
+  const std::optional<Renderer> renderer = testRenderer();
+  if (!renderer) return;
+  const TestMesh ball = sphereMesh({0, 0, 0}, 2, false);
+  const std::vector<RenderMaterial> leaf{materialByName("leaf")};
+  const Result<Image> one = renderer->render(ballScene(ball, leaf)), other = renderer->render(ballScene(ball, leaf));
+  REQUIRE(one);
+  REQUIRE(other);
+  CHECK(one->rgba == other->rgba);
+}
+
+TEST_CASE("blades and leaves grow where their material is, and near the camera", "[render]") {
+  const std::vector<RenderMaterial> materials{materialByName("brick"),
+                                              materialByName("grass"),
+                                              materialByName("leaf"),
+                                              {SurfacePattern::leafy, {0.1f, 0.2f, 0.1f}, 0.6f, 0.0f}};
+  TestMesh mesh;
+  const auto triangle = [&](uint32_t material, uint32_t second, float z, glm::vec2 texture = {0, 0}) {
+    const auto first = static_cast<uint32_t>(mesh.vertices.size());
+    for (int i = 0; i < 3; ++i)
+      mesh.vertices.push_back({{static_cast<float>(i), 0, z}, {0, 1, 0}, material, second, 0.5f, texture});
+    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
+  };
+  triangle(0, 0, 0);
+  triangle(1, 1, 0);
+  triangle(0, 1, 0);
+  triangle(1, 2, 0);
+  triangle(2, 2, -1000);            // too far away
+  triangle(3, 3, 0);                // without relief, as under wires
+  triangle(2, 2, 0, {0.5f, 0.5f});  // chequered
+  const RenderScene scene = ballScene(mesh, materials);
+  const std::array<Foliage, 2> foliage = foliageOf(scene, frameOf(scene));
+  REQUIRE(foliage[0].vertices.size() == 9);
+  CHECK(foliage[0].vertices[0].texture == glm::vec2(1, 1));
+  CHECK(foliage[0].vertices[3].texture == glm::vec2(0, 1));
+  CHECK(foliage[0].vertices[6].texture == glm::vec2(1, 0));
+  REQUIRE(foliage[1].vertices.size() == 3);
+  CHECK(foliage[1].vertices[0].texture == glm::vec2(0, 1));
+  CHECK(foliage[1].vertices[2].position == glm::vec3(2, 0, 0));
+}
