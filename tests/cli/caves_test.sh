@@ -23,7 +23,7 @@ caves lake 100 16
 caves table4/cui 100 64
 
 # A hall that is cut off is seen, and so are balls that float two metres below the ceilings.
-sed -e 's/^      Passage(.*//' -e '/^expect /d' "$SOURCE/samples/grammars/cave.sgm" >cut_off.sgm
+sed -e 's/^      karst.Passage(.*//' -e '/^expect /d' "$SOURCE/samples/grammars/cave.sgm" >cut_off.sgm
 echo 'expect components(air above 1m3) == 1 in block(4);' >>cut_off.sgm
 expect 1 "$SGM" check --expect cut_off.sgm --cell 0.5 --max-chunks 1000000
 err_has 'expected components\(air above 1m3\) == 1 in block\(4\), but it is 16'

@@ -1,6 +1,7 @@
 // Caves that one can walk through, by a navigation mesh as games make it, and passages that are no pipes.
 //
-//   SGM_WALK_SEEDS=100 test_walk      so many seeds; SGM_WALK_ONLY=cave: the samples with that in their name alone
+//   SGM_WALK_SEEDS=100 test_walk   so many seeds, from SGM_WALK_FIRST on; SGM_WALK_ONLY=cave: samples with that in their
+//                                  name alone
 
 #include <algorithm>
 #include <chrono>
@@ -34,10 +35,12 @@ const Walk kWalks[] = {
     {"cave", 18, ""},
 };
 
-uint64_t seedsWanted() {
-  if (const char* const seeds = std::getenv("SGM_WALK_SEEDS")) return std::strtoull(seeds, nullptr, 10);
-  return std::getenv("SGM_LONG") != nullptr ? 100 : 1;
+uint64_t numberOr(const char* variable, uint64_t otherwise) {
+  const char* const text = std::getenv(variable);
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
+uint64_t firstSeed() { return numberOr("SGM_WALK_FIRST", 1); }
+uint64_t seedsWanted() { return numberOr("SGM_WALK_SEEDS", std::getenv("SGM_LONG") != nullptr ? 100 : 1); }
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
@@ -184,7 +187,7 @@ TEST_CASE("an agent walks from each hall of a cave to each other, through passag
     const Result<IntBox> block = blockRegion(*program, 4);
     REQUIRE(block);
     const IntBox box = *block;
-    for (uint64_t seed = 1; seed <= seedsWanted(); ++seed) {
+    for (uint64_t seed = firstSeed(); seed < firstSeed() + seedsWanted(); ++seed) {
       CAPTURE(walk.grammar, seed);
       const auto begun = std::chrono::steady_clock::now();
       const WorldField world(worldOf(program, kCell, seed), std::pmr::get_default_resource());

@@ -186,12 +186,19 @@ TEST_CASE("of a city block far levels derive and keep a fraction") {
   CHECK(far * 20 < whole);
 }
 
-TEST_CASE("of a city block the finest level derives what its cells show alone") {
-  const WorldField world(settingsOf(sample("city.sgm"), 512), std::pmr::get_default_resource());
+TEST_CASE("of an apartment house the finest level derives what its cells show alone") {
+  constexpr const char* kHouses = R"(sgm 1;
+import "std/facade.sgm" as facade;
+units m;
+domain infinite axes xz empty;
+layer houses cell 32m reach 8m { start Plot; }
+rule Plot { at(16m, 9m, 16m) size(14m, 17m, 12m) facade.Flats(corner true); }
+)";
+  const WorldField world(settingsOf(kHouses, 512), std::pmr::get_default_resource());
   size_t whole = 0, shown = 0;
   for (int32_t x = 0; x < 4; ++x) {
-    const auto all = world.cell(1, {x, 0, 0});
-    const auto finest = world.cellFor(1, {x, 0, 0}, 512);
+    const auto all = world.cell(0, {x, 0, 0});
+    const auto finest = world.cellFor(0, {x, 0, 0}, 512);
     REQUIRE(all);
     REQUIRE(finest);
     whole += (*all)->chunk.shapes.size();
