@@ -131,9 +131,10 @@ CellKey WorldField::keyFor(uint32_t layer, Int3 at, int32_t cell_edge) const {
   constexpr int kLevelsTogether = 2;
   int32_t kept = settings_.finest_cell;
   while (kept <= (cell_edge >> kLevelsTogether)) kept <<= kLevelsTogether;
-  // The finest level does not show all of a cell either: where cells are of 50 cm, houses have no glazing bars.
+  // The finest level does not show all of a cell either: where cells are of 50 cm, houses have no glazing bars. Layers
+  // above ask for more than it shows: they see what is finer, too.
   const Layer& info = settings_.program->layers[layer];
-  if (!info.by_level || (kept == settings_.finest_cell && isWhole(info))) kept = 0;
+  if (!info.by_level || cell_edge < settings_.finest_cell || (kept == settings_.finest_cell && isWhole(info))) kept = 0;
   return {layer, at, kept};
 }
 

@@ -1,6 +1,7 @@
 // Caves that one can walk through, by a navigation mesh as games make it, and passages that are no pipes.
 //
-//   SGM_WALK_SEEDS=100 test_walk   so many seeds, from SGM_WALK_FIRST on; SGM_WALK_ONLY=cave: samples with that in their
+//   SGM_WALK_SEEDS=100 test_walk   so many seeds, from SGM_WALK_FIRST on; SGM_WALK_ONLY=cave: samples with that in
+//   their
 //                                  name alone
 
 #include <algorithm>
@@ -144,10 +145,15 @@ class CrossSections {
   EvalScratch scratch_;
 };
 
-/// The least standard deviation of cross-sections by their mean, over all windows of 20 m of a way between two halls.
-/// Of what is nearer than `hall` to either end nothing counts; 1 where no window is left.
-double leastVariation(CrossSections& sections, const std::vector<Point>& way, double hall) {
-  constexpr size_t kWindow = 20;
+/// Twenty metres of a way whose cross-sections vary least.
+struct Window {
+  double variation = 1;       ///< their standard deviation by their mean
+  std::vector<double> areas;  ///< square metres, a metre apart
+};
+
+/// Of all windows of a way between two halls; of what is nearer than `hall` to either end nothing counts.
+Window leastVaried(CrossSections& sections, const std::vector<Point>& way, double hall) {
+  constexpr ptrdiff_t kWindow = 20;
   const std::vector<Point> points = eachMetre(way);
   std::vector<double> areas;
   for (size_t i = 2; i + 2 < points.size(); ++i) {
@@ -157,15 +163,16 @@ double leastVariation(CrossSections& sections, const std::vector<Point>& way, do
     if (std::hypot(along[0], along[2]) < 1e-6) continue;
     areas.push_back(sections.at({points[i][0], points[i][1] + 1, points[i][2]}, along));
   }
-  double least = 1;
-  for (size_t i = 0; i + kWindow <= areas.size(); ++i) {
+  Window least;
+  for (auto from = areas.begin(); areas.end() - from >= kWindow; ++from) {
     double sum = 0, squares = 0;
-    for (size_t k = i; k < i + kWindow; ++k) {
-      sum += areas[k];
-      squares += areas[k] * areas[k];
+    for (auto at = from; at != from + kWindow; ++at) {
+      sum += *at;
+      squares += *at * *at;
     }
     const double mean = sum / kWindow;
-    least = std::min(least, std::sqrt(std::max(0.0, squares / kWindow - mean * mean)) / mean);
+    const double variation = std::sqrt(std::max(0.0, squares / kWindow - mean * mean)) / mean;
+    if (variation < least.variation) least = {variation, {from, from + kWindow}};
   }
   return least;
 }
@@ -236,9 +243,10 @@ TEST_CASE("an agent walks from each hall of a cave to each other, through passag
           for (Point& p : placed)
             for (int axis = 0; axis < 3; ++axis) p[static_cast<size_t>(axis)] += metres(region->mesh.origin[axis]);
           CAPTURE(placed.front(), placed.back());
-          const double variation = leastVariation(sections, placed, walk.hall);
-          CHECK(variation >= 0.1);
-          least = std::min(least, variation);
+          const Window window = leastVaried(sections, placed, walk.hall);
+          CAPTURE(window.areas);
+          CHECK(window.variation >= 0.1);
+          least = std::min(least, window.variation);
           ++measured;
         }
       }

@@ -207,3 +207,20 @@ rule Plot { at(16m, 9m, 16m) size(14m, 17m, 12m) facade.Flats(corner true); }
   CHECK(shown > 100);
   CHECK(shown * 4 < whole);
 }
+
+TEST_CASE("what stands upon a lower layer sees more of it than the finest level shows") {
+  constexpr const char* kProbed = R"(sgm 1;
+units m;
+domain infinite axes xz solid limestone;
+layer net cell 32m reach 4m { start Node; }
+layer balls cell 32m reach 4m uses net { start Balls; }
+rule Node { cut at(16m, 0m, 16m) Hall; }
+rule Hall { box(24m, 8m, 24m); }
+rule Hall lod 40cm { box(24.1m, 8.1m, 24.1m); }
+rule Balls { scatter 40 on disc(10m) at(16m, 0m, 16m) sphere(0.5m); at(16m, 0m, 16m) scatter 40 on disc(10m) probe up 8m of net sphere(0.5m); }
+)";
+  const WorldField world(settingsOf(kProbed, 512), std::pmr::get_default_resource());
+  const auto balls = world.cellFor(1, {0, 0, 0}, 512);
+  REQUIRE(balls);
+  CHECK((*balls)->chunk.shapes.size() == 80);
+}
