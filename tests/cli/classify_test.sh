@@ -2,7 +2,8 @@
 # sgm classify and sgm masters: the classes of grammars and of mesh files, what is unknown, and the base of masters.
 source "$(dirname "$0")/common.sh"
 export XDG_DATA_HOME=$work/.data
-grammars=$SOURCE/samples/grammars
+# As they were when the masters were made of them.
+grammars=$SOURCE/tests/bench/grammars
 only_here() { [[ ! -e $XDG_DATA_HOME ]] || failed "something was written to the base's place"; }
 
 for command in classify masters 'masters build' 'masters list'; do

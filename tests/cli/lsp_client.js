@@ -65,7 +65,7 @@ import "std/cave.sgm" as cave;
 import "parts/arch.sgm" as parts;
 units m;
 // Häuser 𝔸 and 😀: what is no ASCII counts as editors count.
-param wet = 50% in 0%..100% "how wet 😀 it is";
+param wet = 50% in 10%..100% "how wet 😀 it is";
 domain infinite solid limestone;
 layer net cell 96m reach 92m { start Node; }
 let hub(c) = c.point(jitter 0.3);
@@ -141,7 +141,7 @@ override "net(0, 0, 0)/Node/Room[0]" { sphere(0.5*r); }
 
   // Hover.
   const hover = async (word, n, into) => (await ask('textDocument/hover', uri, placeOf(cave, word, n, into)))?.contents.value;
-  check((await hover('wet); }')).includes('param wet = 50% in 0%..100%'), 'a parameter', await hover('wet); }'));
+  check((await hover('wet); }')).includes('param wet = 50% in 10%..100%'), 'a parameter', await hover('wet); }'));
   check((await hover('wet); }')).includes('how wet 😀 it is'), 'with its text');
   check((await hover('Node;')).includes('A room of a radius.'), 'a rule with the comment above it', await hover('Node;'));
   check((await hover('rand(')).includes('rand(a, b)'), 'a function', await hover('rand('));
