@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Every hall of a cave can be reached from every other through the void, and no piece of rock above eight cubic metres
 # floats: in so large cells a smaller stalactite may part from its ceiling, and the block's border cuts off nooks of a
-# room beyond it, of some cubic metres. At level 0, over blocks of 4 cells, with 16
-# halls, 64 where cells are stacked. In the long run with 1,000 seeds of cave.sgm and 100 of the others.
+# room beyond it, of some cubic metres. At level 0, over blocks of 4 cells, with 16 halls, 64 where cells are stacked. In
+# the long run with 1,000 seeds of cave.sgm and 100 of the others.
 source "$(dirname "$0")/common.sh"
 
 # caves NAME SEEDS HALLS: the sample NAME, in which each hall has an anchor where HALLS is not 0.
