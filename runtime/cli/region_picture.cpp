@@ -1,5 +1,7 @@
 #include "cli/region_picture.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -189,6 +191,21 @@ Result<Image> drawVolume(const Renderer& renderer, const RegionDensity& density,
 }
 
 }  // namespace
+
+Gaze worldGaze(const RenderCamera& camera, Int3 origin) {
+  Gaze gaze{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<size_t>(axis);
+    gaze[0][i] = double{camera.position[axis]} + metres(origin[axis]);
+    gaze[1][i] = double{camera.target[axis]} + metres(origin[axis]);
+  }
+  return gaze;
+}
+
+std::string gazeText(const Gaze& gaze) {
+  const auto& [from, to] = gaze;
+  return fmt::format("{:.4f},{:.4f},{:.4f}:{:.4f},{:.4f},{:.4f}", from[0], from[1], from[2], to[0], to[1], to[2]);
+}
 
 std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) {
   std::vector<Int3> origins;

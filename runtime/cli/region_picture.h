@@ -38,6 +38,11 @@ struct RegionScene {
   RegionScene& operator=(RegionScene&&) = default;
 };
 
+/// From where and to where a camera looks, in metres of the world, whatever its scene's origin.
+Gaze worldGaze(const RenderCamera& camera, Int3 origin);
+/// As --camera takes it, to a tenth of a millimetre.
+std::string gazeText(const Gaze& gaze);
+
 /// Places of the region's anchors of that name, kind or tag, metres from its mesh's origin; of those that its border
 /// does not hide where there are such.
 std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted);

@@ -10,19 +10,6 @@
 #include "cli/survey.h"
 
 namespace sgm::cli {
-namespace {
-
-/// In metres of the world.
-std::array<double, 3> worldPoint(const WorldMesh& mesh, const glm::vec3& point) {
-  std::array<double, 3> world{};
-  for (int axis = 0; axis < 3; ++axis)
-    world[static_cast<size_t>(axis)] =
-        static_cast<double>(point[axis]) + static_cast<double>(mesh.origin[axis]) / kUnitsPerMetre;
-  return world;
-}
-
-}  // namespace
-
 Exit render(const RenderOptions& options) {
   if (options.plan || options.section) return drawSurvey(options);
   if (!hasExtension(options.out, ".png"))
@@ -51,8 +38,7 @@ Exit render(const RenderOptions& options) {
                options.at);
 
   const RenderCamera& camera = view.camera;
-  const std::array<double, 3> position = worldPoint(region.meshed.mesh, camera.position),
-                              target = worldPoint(region.meshed.mesh, camera.target);
+  const auto [position, target] = worldGaze(camera, region.meshed.mesh.origin);
   if (options.json) {
     Json json{{"out", options.out}, {"width", image.width}, {"height", image.height}};
     json.update(toJson(options, region));

@@ -7,6 +7,13 @@ expect 3 env -u DISPLAY -u WAYLAND_DISPLAY "$SGM" preview ball.sgm
 err_has 'there is no display to open a window on .*: start it on a desktop, or draw a picture with `sgm render'
 one_line
 out_empty
+expect 4 "$SGM" preview missing.sgm
+err_has 'missing.sgm'
+one_line
+for wrong in --region=0,0,0:0,1,1 --cell=0; do
+  expect 1 "$SGM" preview ball.sgm $wrong
+  err_has "${wrong%%=*}"
+done
 expect 2 "$SGM" preview
 expect 2 "$SGM" preview ball.sgm --camera 1,2,3
 err_has '--camera'
@@ -113,7 +120,7 @@ waited 'j.event === "picture" && !j.draft && j.camera === '"$(node -p "JSON.stri
 xdotool search --sync --name 'sgm preview' mousemove --window %1 60 97 sleep 0.1 mousedown 1 sleep 0.1 mousemove --window %1 300 97 sleep 0.1 mouseup 1
 waited 'j.event === "picture" && !j.draft && j.sets.join() === "radius=3.5m"'
 key p
-waited 'j.event === "command" && /^sgm render ball.sgm .*--seed 3 --set radius=3.5m --region .*--camera /.test(j.command)'
+waited 'j.event === "command" && /^sgm render ball.sgm .*--seed 3 --set radius=3.5m --region=.* --cell .* --camera=/.test(j.command)'
 command=$(tail -1 events | node -p 'JSON.parse(require("fs").readFileSync(0)).command')
 # shellcheck disable=SC2086  # the command's words
 expect 0 "$SGM" ${command#sgm }

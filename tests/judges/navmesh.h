@@ -91,7 +91,7 @@ class Navmesh {
   int polygons() const { return polygons_; }
 
   /// The corners of a way from one of the places to one of the others, metres from the mesh's origin; empty where there
-  /// is none. A place may lie so far above the floor, and aside: it may be the top of a boulder that nobody climbs,
+  /// is none. A place may lie so far above the floor, and aside: it may be the top of a boulder that the agent does not climb,
   /// which is why there are several.
   std::vector<std::array<double, 3>> way(std::span<const std::array<double, 3>> from,
                                          std::span<const std::array<double, 3>> to) const {

@@ -109,7 +109,7 @@ Command addBake(CLI::App& root) {
       "the\n"
       "same however the work was shared. A bake that was stopped goes on where it was when it is called again. Chunks\n"
       "that are the same are stored once, on whatever level and in whatever world of the store.\n"
-      "Example:\n  sgm bake samples/grammars/cave.sgm --region 0,0,0:256,256,256 --levels 0..3 --out store");
+      "Example:\n  sgm bake samples/grammars/cave.sgm --region 0,-16,0:256,48,256 --levels 0..3 --out store");
   return [options] { return bake(*options); };
 }
 

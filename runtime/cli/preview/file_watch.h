@@ -19,7 +19,7 @@ class FileWatch {
   bool changed();
 
  private:
-  /// Of one file: the time of its last change, and one more than its size; zeros if there is none.
+  /// Of one file: the time of its last change, and one more than its size; zeros where the file does not exist.
   using Stamp = std::array<int64_t, 2>;
 
   std::vector<Stamp> look() const;

@@ -44,15 +44,6 @@ bool isWithin(const IntBox& box, const std::array<double, 3>& camera) {
   return true;
 }
 
-std::string gazeText(const RegionScene& drawn, Int3 origin) {
-  const auto point = [&](const glm::vec3& p) {
-    std::array<double, 3> world{};
-    for (int axis = 0; axis < 3; ++axis) world[static_cast<size_t>(axis)] = double{p[axis]} + metres(origin[axis]);
-    return pointText(world);
-  };
-  return point(drawn.view.camera.position) + ":" + point(drawn.view.camera.target);
-}
-
 /// A picture of the same shape with so many pixels at most.
 std::string draftSize(const std::string& size) {
   const cli::PictureSize whole = *cli::readSize(size);
@@ -208,6 +199,8 @@ Painted Painter::Worker::result(const Task& task) {
   painted.text_is_wrong = program == nullptr;
   painted.files = std::exchange(files, {});
   painted.messages = compile_messages + task.messages;
+  painted.box = task.options.region;
+  painted.cell = task.options.cell.value_or(0);
   painted.seconds = task.watch.seconds();
   return painted;
 }
@@ -224,7 +217,7 @@ Result<void> Painter::Worker::paintDraft(Task& task) {
   Result<RegionScene> drawn = cli::sceneOf(options, *draft);
   if (!drawn) return drawn.error();
   light = drawn->light;
-  if (options.camera.empty()) home = gazeText(*drawn, draft->meshed.mesh.origin);
+  if (options.camera.empty()) home = cli::gazeText(cli::worldGaze(drawn->view.camera, draft->meshed.mesh.origin));
   const Result<RayCaster> tree = RayCaster::over(drawn->vertices, drawn->indices);
   if (!tree) return tree.error();
   Result<Image> image = sketch(drawn->scene, *tree, *jobs);
@@ -255,11 +248,10 @@ Result<void> Painter::Worker::paintFine(Task& task) {
   Result<Image> image = renderer.render(drawn->scene);
   if (!image) return image.error();
 
-  for (const DeriveNote& note : fine->notes) {
-    task.messages +=
-        fmt::format("{}:{}:{}: warning: {} ({} places of this kind and others, first in {})\n", task.wish.options.file,
-                    note.line, note.column, note.message, fine->notes.size(), note.path);
-    break;
+  if (!fine->notes.empty()) {
+    const DeriveNote& note = fine->notes.front();
+    task.messages += fmt::format("{}:{}:{}: warning: {} ({} notes, this one first in {})\n", task.wish.options.file,
+                                 note.line, note.column, note.message, fine->notes.size(), note.path);
   }
   Painted painted = result(task);
   painted.region = fine;

@@ -30,7 +30,9 @@ struct Painted {
   std::vector<std::filesystem::path> files;  ///< that the grammar is made of; empty where it was not read anew
   bool text_is_wrong = false;
   std::string messages;                       ///< lines for people; empty: all is well
-  std::shared_ptr<const cli::Region> region;  ///< that the picture shows; null: there is no new picture
+  std::shared_ptr<const cli::Region> region;  ///< that the picture shows; null: the picture before stays
+  std::string box;                            ///< of the picture, as --region takes it, not of a draft's coarse chunks
+  double cell = 0;                            ///< of the picture, metres; a draft has larger ones
   Image image;
   View view;
   Light light = Light::sun;

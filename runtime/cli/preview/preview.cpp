@@ -2,10 +2,17 @@
 
 #include "cli/commands.h"
 #include "cli/preview/session.h"
+#include "cli/source.h"
 
 namespace sgm::cli {
 
 Exit showPreview(const RenderOptions& options) {
+  // A wrong command line is told at once; what is wrong in the text is told in the window.
+  if (const Result<std::string> text = readGrammarText(options.file); !text) return complain(text.error());
+  if (!options.region.empty()) {
+    if (const Result<IntBox> box = parseRegion(options.region); !box) return complain(box.error());
+  }
+  if (const Result<int32_t> cell = cellUnits(options); !cell) return complain(cell.error());
   const PictureSize size = *readSize(options.size);
   const Result<std::unique_ptr<preview::Window>> window =
       preview::Window::open(options.file + " - sgm preview", size.width, size.height);

@@ -11,7 +11,7 @@
 namespace sgm::preview {
 namespace {
 
-using cli::Json;
+using cli::gazeText, cli::Json;
 
 constexpr double kLook = 0.04;    // seconds between two looks at the files
 constexpr double kRest = 0.15;    // seconds that a pointer rests before its place is looked up
@@ -20,21 +20,8 @@ constexpr double kNearer = 0.85;  // of the distance, a step of the wheel
 constexpr double kWalk = 0.6;     // of the typical depth, a second
 constexpr double kRadians = 0.017453292519943295;
 
-std::string gazeText(const FreeCamera::Gaze& gaze) {
-  return fmt::format("{:.4f},{:.4f},{:.4f}:{:.4f},{:.4f},{:.4f}", gaze[0][0], gaze[0][1], gaze[0][2], gaze[1][0],
-                     gaze[1][1], gaze[1][2]);
-}
-
-/// Where a picture was taken from, in metres of the world.
 FreeCamera::Gaze gazeOf(const Painted& painted) {
-  const Int3 origin = painted.region->meshed.mesh.origin;
-  const RenderCamera& camera = painted.view.camera;
-  FreeCamera::Gaze gaze{};
-  for (int axis = 0; axis < 3; ++axis) {
-    gaze[0][static_cast<size_t>(axis)] = double{camera.position[axis]} + metres(origin[axis]);
-    gaze[1][static_cast<size_t>(axis)] = double{camera.target[axis]} + metres(origin[axis]);
-  }
-  return gaze;
+  return cli::worldGaze(painted.view.camera, painted.region->meshed.mesh.origin);
 }
 
 std::string textOf(const PointedPlace& place) {
@@ -207,7 +194,7 @@ void Session::say(const PointedPlace& place) const {
     return;
   }
   std::string line = place.source.empty() ? std::string() : place.source + ": ";
-  for (const char c : textOf(place).substr(0, std::string::npos)) line += c == '\n' ? ' ' : c;
+  for (const char c : textOf(place)) line += c == '\n' ? ' ' : c;
   printLine(line);
 }
 
@@ -217,11 +204,8 @@ void Session::sayCommand() const {
   line += fmt::format(" --seed {}", options.seed);
   for (const std::string& set : options.sets) line += " --set " + quoted(set);
   if (last_.region) {
-    const IntBox& box = last_.region->meshed.extent;
-    line += fmt::format(" --region {},{},{}:{},{},{} --cell {}", metres(box.lo.x), metres(box.lo.y), metres(box.lo.z),
-                        metres(box.hi.x), metres(box.hi.y), metres(box.hi.z),
-                        options.cell ? *options.cell : metres(last_.region->cell));
-    line += " --camera " + gazeText(gazeOf(last_));
+    line += fmt::format(" --region={} --cell {}", last_.box, last_.cell);
+    line += " --camera=" + gazeText(gazeOf(last_));
   }
   if (options.sharp) line += " --sharp";
   line += fmt::format(" --fov {} --light {}", options.fov, options.light);

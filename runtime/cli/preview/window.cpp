@@ -23,7 +23,8 @@ std::string reason() {
 
 }  // namespace
 
-/// What of OpenGL 1.1 a picture takes; loaded, so that the command starts where there is no OpenGL.
+/// The calls of OpenGL 1.1 that a picture takes. They are loaded, so that the command starts on machines without
+/// OpenGL.
 struct Window::PictureCalls {
   decltype(&glGenTextures) gen_textures = nullptr;
   decltype(&glDeleteTextures) delete_textures = nullptr;
