@@ -52,9 +52,9 @@ inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded
   size_t at = 0;
   for (size_t j = 0; at + width <= padded; j = j + 1 == box.size[1] ? 0 : j + 1, at += width) {
     const auto height = static_cast<uint32_t>(box.origin.y + static_cast<int32_t>(j) * box.step);
-    if (width == 8) {  // most boxes: of a length that the compiler knows
-      memcpy(x + at, row, 8 * sizeof(uint32_t));
-      for (size_t i = 0; i < 8; ++i) y[at + i] = height;
+    if (width == kRow) {  // most boxes: of a length that the compiler knows
+      memcpy(x + at, row, kRow * sizeof(uint32_t));
+      for (size_t i = 0; i < kRow; ++i) y[at + i] = height;
     } else {
       memcpy(x + at, row, width * sizeof(uint32_t));
       for (size_t i = 0; i < width; ++i) y[at + i] = height;
@@ -68,7 +68,20 @@ inline void loadSlices(const BlockFrame& f, const LatticeBox& box, size_t padded
 
 inline void evaluateBox(const ProgramView& program, const LatticeBox& box, EvalScratch& scratch,
                         const LatticeSamples& out) {
-  const BlockFrame f = makeFrame<false>(scratch);
+  if (box.size[0] > kRow) {  // by columns that are a row wide
+    LatticeBox first = box, rest = box;
+    first.size[0] = kRow;
+    rest.size[0] -= kRow;
+    rest.origin.x = static_cast<int32_t>(static_cast<uint32_t>(box.origin.x) +
+                                         static_cast<uint32_t>(box.step) * static_cast<uint32_t>(kRow));
+    LatticeSamples beside = out;
+    beside.q += kRow;
+    beside.first_bit += kRow;
+    evaluateBox(program, first, scratch, out);
+    evaluateBox(program, rest, scratch, beside);
+    return;
+  }
+  BlockFrame f = makeFrame<false>(scratch);
   const size_t width = box.size[0], slice = width * box.size[1], most = kEvalBlock / slice;
   size_t loaded = 0;
   for (size_t first = 0; first < box.size[2]; first += most) {
@@ -82,14 +95,16 @@ inline void evaluateBox(const ProgramView& program, const LatticeBox& box, EvalS
       const size_t end = k + 1 == slices ? n : (k + 1) * slice;
       for (size_t i = k * slice; i < end; ++i) z[i] = at;
     }
+    const BlockLattice lattice{{box.origin.x, box.origin.y, static_cast<int32_t>(z[0])}, box.step, box.size[1], slices};
+    f.lattice = width == kRow ? &lattice : nullptr;
     runBlock<false>(program, f, n);
     uint32_t* q = f.registers;
     SGM_EACH storeInt(quantise(loadDual<false>(f, kFoldRegister, i).v, program.q_scale), q + i);
     for (size_t k = first; k < first + slices; ++k) {
       for (size_t j = 0; j < box.size[1]; ++j, q += width) {
         int32_t* to = out.q + j * out.row + k * out.plane;
-        if (width == 8) {
-          memcpy(to, q, 8 * sizeof(int32_t));
+        if (width == kRow) {
+          memcpy(to, q, kRow * sizeof(int32_t));
         } else {
           memcpy(to, q, width * sizeof(int32_t));
         }

@@ -3,10 +3,20 @@
 // primitives pass through evaluate_lists.inl, which keeps in registers what goes from one to the next; elsewhere, as on a
 // GPU, whose register file holds them anyway, through one instruction after the other.
 
+inline constexpr size_t kRow = 8;  ///< points of a whole row of a block along x
+
+/// The points of a block that is part of a lattice: whole rows, `rows` of them a slice, `slices` slices.
+struct BlockLattice {
+  Int3 origin;
+  int32_t step;
+  size_t rows, slices;
+};
+
 struct BlockFrame {
   uint32_t* registers;
   uint32_t* places;
   uint32_t* jacobians;
+  const BlockLattice* lattice = nullptr;  ///< null where points lie anywhere
 };
 
 // A register holds one plane of kEvalBlock words for its value, and four more (gradient, label) in gradient mode.

@@ -1,3 +1,7 @@
+#ifdef SGM_WIDE
+#include "field/evaluate_noise.inl"
+#endif
+
 // Lists of primitives under one combination, which most programs consist of: what goes from one to the next stays in
 // registers. The same operations in the same order as one instruction after the other, so the same bits. Included by
 // evaluate_kernel.inl.
@@ -79,6 +83,11 @@ SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std:
 /// Runs the list that `instrs` begin with; returns its length, 0 where it is none.
 template <bool kGradient>
 SGM_KERNEL size_t runList(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
+#ifdef SGM_WIDE
+  if constexpr (!kGradient && kLanes >= 8) {
+    if (instrs[0].op == Op::noise) return latticeNoise(f, instrs[0], program.params.data() + instrs[0].params, n);
+  }
+#endif
   if (instrs.size() < 2 || instrs[0].place != 0 || instrs[1].a != instrs[0].dst) return 0;
   if (instrs[1].op == Op::sum_add && instrs[0].op == Op::blob)
     return addPairs<kGradient, Op::blob, Op::sum_add>(program, f, instrs, n);

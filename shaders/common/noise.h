@@ -39,6 +39,14 @@ FN LatticePlace latticePlace(Int offset, int period, float inv_period) {
 }
 
 // One of the twelve edge directions of a cube (four of them twice), as a vector of -1, 0, 1.
+#ifdef SGM_LANE_TABLES
+FN Vec3 latticeGradient(Uint h) {
+  constexpr float kX[16] = {1, -1, 1, -1, 1, -1, 1, -1, 0, 0, 0, 0, 1, 0, -1, 0};
+  constexpr float kY[16] = {1, 1, -1, -1, 0, 0, 0, 0, 1, -1, 1, -1, 1, -1, 1, -1};
+  constexpr float kZ[16] = {0, 0, 0, 0, 1, 1, -1, -1, 1, 1, -1, -1, 0, 1, 0, -1};
+  return makeVec3(lookUp16(kX, h), lookUp16(kY, h), lookUp16(kZ, h));
+}
+#else
 FN Vec3 latticeGradient(Uint h) {
   Int k = toIntBits(h & 15u);
   PRECISE Real s1 = sel(toIntBits(h & 1u) == 0, broadcast(1.0f), broadcast(-1.0f));
@@ -53,6 +61,7 @@ FN Vec3 latticeGradient(Uint h) {
   PRECISE Real gz = sel(second_y || second_x, zero, s2);
   return makeVec3(gx, gy, gz);
 }
+#endif
 
 FN Real fade(Real t) {
   PRECISE Real a = t * 6.0f;

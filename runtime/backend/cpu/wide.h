@@ -110,6 +110,25 @@ FN Real loadReal(const uint32_t* p) { return hn::BitCast(RealTag(), hn::Load(Uin
 FN Int loadInt(const uint32_t* p) { return hn::BitCast(IntTag(), hn::Load(UintTag(), p)); }
 FN void storeReal(Real r, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), r.v), UintTag(), p); }
 FN void storeInt(Int i, uint32_t* p) { hn::Store(hn::BitCast(UintTag(), i.v), UintTag(), p); }
+// Of each lane the entry of `table` that its index names, from 0 to kLanes - 1.
+FN Real lookUp(Real table, Int index) { return hn::TableLookupLanes(table.v, hn::IndicesFromVec(RealTag(), index.v)); }
+#if HWY_TARGET == HWY_AVX3
+#define SGM_LANE_TABLES
+// Of each lane the entry of a table of 16 that the index's lowest four bits name.
+FN Real lookUp16(const float* table, Uint index) {
+  return hn::Vec<RealTag>{_mm512_permutexvar_ps(index.v.raw, _mm512_loadu_ps(table))};
+}
+#endif
+// Rows of 8 lanes: the first, and where there are 16 lanes the second after it.
+FN Real loadRows(const uint32_t* first, [[maybe_unused]] const uint32_t* second) {
+#if HWY_TARGET == HWY_AVX3
+  const hn::Half<UintTag> half;
+  return hn::BitCast(RealTag(), hn::Combine(UintTag(), hn::LoadU(half, second), hn::LoadU(half, first)));
+#else
+  return hn::BitCast(RealTag(), hn::LoadU(UintTag(), first));
+#endif
+}
+FN Int toIntBits(Real r) { return hn::BitCast(IntTag(), r.v); }
 FN uint64_t maskOf(Bool b) {
 #if HWY_TARGET == HWY_AVX3
   return b.m.raw;

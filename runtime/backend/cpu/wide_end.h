@@ -10,4 +10,5 @@
 #undef RF
 #undef RI
 #undef SGM_VECTOR_FORMS
+#undef SGM_LANE_TABLES
 #undef SGM_WIDE

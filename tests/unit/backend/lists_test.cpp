@@ -98,6 +98,28 @@ FieldProgram listedProgram(std::mt19937& random) {
 
 }  // namespace
 
+/// A plane with noise on it, octaves down to periods that are shorter than a step of the lattice.
+FieldProgram noisyProgram(std::mt19937& random, const LatticeBox& box) {
+  ProgramBuilder builder(1 + static_cast<int32_t>(random() % 1024), false, 0);
+  Frame frame;
+  frame.origin = box.origin;
+  Value height = builder.constant(0);
+  for (auto k = 1 + random() % 3; k > 0; --k) {
+    NoiseSpec spec;
+    for (int axis = 0; axis < 3; ++axis) spec.origin[axis] = static_cast<int32_t>(random());
+    if (random() % 2 == 0) spec.origin = box.origin;
+    spec.period = 1 + box.step / 2 + static_cast<int32_t>(random() % static_cast<uint32_t>(40 * box.step));
+    spec.octaves = 1 + static_cast<uint32_t>(random() % 6);
+    spec.seed = static_cast<uint32_t>(random());
+    height = builder.binary(Op::add, height, builder.noise(spec, spec.octaves));
+  }
+  height = builder.binary(Op::multiply, height, builder.constant(static_cast<float>(box.step) / 256));
+  const Value root = builder.binary(Op::displace, builder.halfspace(frame, 3), height);
+  constexpr int32_t kEnd = 2147483647;
+  REQUIRE(builder.group(root, {{-kEnd, -kEnd, -kEnd}, {kEnd, kEnd, kEnd}}, 0, false));
+  return builder.finish();
+}
+
 TEST_CASE("lists of primitives give the bits of one instruction after the other") {
   const uint32_t seed = std::random_device{}();
   CAPTURE(seed);
@@ -121,9 +143,8 @@ TEST_CASE("a box of a lattice is evaluated as its points are") {
   const uint32_t seed = std::random_device{}();
   CAPTURE(seed);
   std::mt19937 random(seed);
-  for (unsigned round = 0; round < rounds(60); ++round) {
+  for (unsigned round = 0; round < rounds(120); ++round) {
     CAPTURE(round);
-    const FieldProgram program = round % 2 == 0 ? listedProgram(random) : randomProgram(random, {});
     LatticeBox box;
     for (int axis = 0; axis < 3; ++axis) {
       // As bricks are, or anything that a block holds.
@@ -131,6 +152,14 @@ TEST_CASE("a box of a lattice is evaluated as its points are") {
       box.origin[axis] = static_cast<int32_t>(random() % 12000) - 9000;
     }
     box.step = 1 << random() % 12;
+    const unsigned kind = round % 4;
+    if (kind > 1 && round % 5 == 0) {  // up to the world's end
+      for (int axis = 0; axis < 3; ++axis)
+        box.origin[axis] = 2147483647 - static_cast<int32_t>(box.size[static_cast<size_t>(axis)]) * box.step;
+    }
+    const FieldProgram program = kind == 0   ? listedProgram(random)
+                                 : kind == 1 ? randomProgram(random, {})
+                                             : noisyProgram(random, box);
     PointSet points;
     for (size_t k = 0; k < box.size[2]; ++k) {
       for (size_t j = 0; j < box.size[1]; ++j) {

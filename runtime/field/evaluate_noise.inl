@@ -1,0 +1,152 @@
+// Noise on a block that is part of a lattice. Most of what an octave takes is the same for many samples: the place in
+// its period is a matter of one axis, and the samples of one period share the gradients at its corners. Both are found
+// once, and each sample looks its corners' gradients up. A gradient has at most two parts that are not 0, so the sum of
+// three products is the same in every order, and so are the bits. Included by evaluate_lists.inl.
+
+inline constexpr size_t kMostNoisePeriods = 7;  ///< along an axis: kRow corners
+inline constexpr size_t kMostNoiseRows = kEvalBlock / kRow;
+
+/// One axis of a block in an octave. Each word stands kRow times, as vectors of rows read it.
+struct NoiseAxis {
+  size_t periods = 0;                                           ///< that the coordinates lie in
+  uint8_t period[kMostNoiseRows];                               ///< of each coordinate, counted from the first one's
+  alignas(64) uint32_t corner[(kMostNoisePeriods + 1) * kRow];  ///< the periods, and the one after them
+  alignas(64) uint32_t rest[kMostNoiseRows * kRow];             ///< where in its period each coordinate is
+  alignas(64) uint32_t faded[kMostNoiseRows * kRow];            ///< the same, eased
+};
+
+/// The places of `count` coordinates from `origin` on; false where they lie in too many periods.
+SGM_KERNEL bool placeAxis(NoiseAxis& axis, uint32_t origin, int32_t step, size_t count, int period, float inv_period) {
+  alignas(64) uint32_t cell[kMostNoiseRows], rest[kMostNoiseRows], faded[kMostNoiseRows];
+  for (size_t i = 0; i < kMostNoiseRows; ++i) cell[i] = origin + static_cast<uint32_t>(step) * static_cast<uint32_t>(i);
+  for (size_t i = 0; i < count; i += kLanes) {
+    const LatticePlace p = latticePlace(loadInt(cell + i), period, inv_period);
+    const Real f = toReal(p.rest) * inv_period;
+    storeInt(p.cell, cell + i);
+    storeReal(f, rest + i);
+    storeReal(fade(f), faded + i);
+  }
+  uint32_t last = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t beyond = cell[i] - cell[0];
+    if (beyond >= kMostNoisePeriods) return false;
+    axis.period[i] = static_cast<uint8_t>(beyond);
+    last = beyond > last ? beyond : last;
+    for (size_t lane = 0; lane < kRow; ++lane) {
+      axis.rest[i * kRow + lane] = rest[i];
+      axis.faded[i * kRow + lane] = faded[i];
+    }
+  }
+  axis.periods = last + 1;
+  for (uint32_t i = 0; i <= axis.periods; ++i) {
+    for (size_t lane = 0; lane < kRow; ++lane) axis.corner[i * kRow + lane] = cell[0] + i;
+  }
+  return true;
+}
+
+/// Gradients at the corners of all periods of a block: rows along x, those of one slice together.
+struct NoiseCorners {
+  static constexpr size_t kWords = (kMostNoisePeriods + 1) * (kMostNoisePeriods + 1) * kRow + kRow;
+  alignas(64) uint32_t x[kWords], y[kWords], z[kWords];
+
+  SGM_KERNEL void fill(uint32_t first_x, const NoiseAxis& rows, const NoiseAxis& slices, uint seed) {
+    alignas(64) uint32_t along[kLanes];
+    for (size_t i = 0; i < kLanes; ++i) along[i] = first_x + static_cast<uint32_t>(i % kRow);
+    const size_t height = rows.periods + 1, count = height * (slices.periods + 1);
+    for (size_t row = 0; row < count; row += kLanes / kRow) {
+      const size_t next = row + 1 < count ? row + 1 : row;
+      const Int cy = toIntBits(loadRows(rows.corner + row % height * kRow, rows.corner + next % height * kRow));
+      const Int cz = toIntBits(loadRows(slices.corner + row / height * kRow, slices.corner + next / height * kRow));
+      const Vec3 g = latticeGradient(hashLattice(loadInt(along), cy, cz, seed));
+      storeReal(g.x, x + row * kRow);
+      storeReal(g.y, y + row * kRow);
+      storeReal(g.z, z + row * kRow);
+    }
+  }
+};
+
+/// What an octave keeps for a block: it is large, and used again by the next one.
+struct NoiseBlock {
+  NoiseAxis columns, rows, slices;
+  NoiseCorners corners;
+  alignas(64) uint32_t column[kLanes], rest[kLanes], faded[kLanes];  ///< of each lane: its period, and as of NoiseAxis
+
+  SGM_KERNEL bool place(const BlockLattice& at, Params P, int period, float inv_period, uint seed) {
+    const auto from = [](int32_t origin, int32_t own) {
+      return static_cast<uint32_t>(origin) - static_cast<uint32_t>(own);
+    };
+    if (!placeAxis(columns, from(at.origin.x, PI(P, 0)), at.step, kRow, period, inv_period)) return false;
+    if (!placeAxis(rows, from(at.origin.y, PI(P, 1)), at.step, at.rows, period, inv_period)) return false;
+    if (!placeAxis(slices, from(at.origin.z, PI(P, 2)), at.step, at.slices, period, inv_period)) return false;
+    corners.fill(columns.corner[0], rows, slices, seed);
+    for (size_t i = 0; i < kLanes; ++i) {
+      const size_t lane = i % kRow;
+      column[i] = static_cast<uint32_t>(columns.period[lane] + i - lane);
+      rest[i] = columns.rest[lane * kRow];
+      faded[i] = columns.faded[lane * kRow];
+    }
+    return true;
+  }
+
+  /// Of two rows of samples, which 8 lanes have as one: (y, z) of each.
+  SGM_KERNEL Real sample(size_t y0, size_t z0, size_t y1, size_t z1) const {
+    const auto of = [&](const uint32_t* words, size_t a, size_t b) {
+      return loadRows(words + a * kRow, words + b * kRow);
+    };
+    const Real fx = loadReal(rest), gx = fx - 1.0f;
+    const Real fy = of(rows.rest, y0, y1), fz = of(slices.rest, z0, z1);
+    const Int near = loadInt(column), far = wrapAdd(near, broadcastInt(1));
+    const Real zero = broadcast(0.0f), u = loadReal(faded);
+    const Int none = broadcastInt(0);
+    const size_t height = rows.periods + 1;
+    const size_t row0 = slices.period[z0] * height + rows.period[y0],
+                 row1 = slices.period[z1] * height + rows.period[y1];
+    const auto edge = [&](size_t up, size_t behind) {  // what lies between two corners beside each other along x
+      const size_t a = row0 + behind * height + up, b = row1 + behind * height + up;
+      const Real slope = of(corners.x, a, b);
+      Real across = of(corners.y, a, b) * (up != 0 ? fy - 1.0f : fy);
+      Real deep = of(corners.z, a, b) * (behind != 0 ? fz - 1.0f : fz);
+      across = across + deep;
+      Real first = lookUp(slope, near) * fx, second = lookUp(slope, far) * gx;
+      first = first + lookUp(across, near);
+      second = second + lookUp(across, far);
+      return mixCorners(makeDual(first, zero, zero, zero, none), makeDual(second, zero, zero, zero, none), u, zero, 0);
+    };
+    const Real v = of(rows.faded, y0, y1), w = of(slices.faded, z0, z1);
+    const Dual front = mixCorners(edge(0, 0), edge(1, 0), v, zero, 1);
+    const Dual back = mixCorners(edge(0, 1), edge(1, 1), v, zero, 1);
+    return mixCorners(front, back, w, zero, 2).v;
+  }
+};
+
+/// opNoise for a whole block; 0 where it has to be done sample by sample, 1 where it is done.
+SGM_KERNEL size_t latticeNoise(const BlockFrame& f, const Instr& in, Params P, size_t n) {
+  if (f.lattice == nullptr || in.place != 0) return 0;
+  const size_t height = f.lattice->rows, depth = f.lattice->slices;
+  uint32_t* const out = f.registers + in.dst * kRegisterWords<false>;
+  NoiseBlock block;
+  float weight = PF(P, 5);
+  for (int k = 0; k < PI(P, 3); ++k, weight = weight * 0.5f) {
+    if (!block.place(*f.lattice, P, QI(P, 6 + 2 * k), QF(P, 7 + 2 * k), PU(P, 4) + 0x9E3779B9u * static_cast<uint>(k)))
+      return 0;
+    size_t y = 0, z = 0;
+    const auto step = [&] {  // stays where the block's last row is: lanes beyond it count for nothing
+      if (y + 1 < height) {
+        ++y;
+      } else if (z + 1 < depth) {
+        y = 0;
+        ++z;
+      }
+    };
+    for (size_t i = 0; i < n; i += kLanes) {
+      const size_t y0 = y, z0 = z;
+      if constexpr (kLanes > kRow) step();
+      const Real before = k == 0 ? broadcast(0.0f) : loadReal(out + i);
+      const Real own = block.sample(y0, z0, y, z) * weight;
+      storeReal(before + own, out + i);
+      step();
+    }
+  }
+  for (size_t i = 0; i < n; i += kLanes) storeReal(flushReal(clampReal(loadReal(out + i), -1.0f, 1.0f)), out + i);
+  return 1;
+}
