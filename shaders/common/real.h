@@ -64,7 +64,9 @@ FN Real divideReal(Real a, Real b) {
 // infinite (and infinity times 0 never NaN), none is a denormal that one device keeps and another flushes, and
 // reciprocals stay in their range. Vulkan promises nothing about any of these.
 FN Real holdReal(Real x) { return clampReal(x, -1.0e18f, 1.0e18f); }
+#ifndef SGM_VECTOR_FORMS
 FN Real flushReal(Real x) { return sel((x < -1.0e-30f) || (x > 1.0e-30f), x, broadcast(0.0f)); }
+#endif
 FN Real settleReal(Real x) { return flushReal(holdReal(x)); }
 
 #ifndef SGM_VECTOR_FORMS

@@ -97,6 +97,9 @@ FN Uint toUintBits(Int i) { return hn::BitCast(UintTag(), i.v); }
 FN Real minReal(Real a, Real b) { return hn::Min(a.v, b.v); }
 FN Real maxReal(Real a, Real b) { return hn::Max(a.v, b.v); }
 FN Real floorReal(Real x) { return hn::Add(hn::Floor(x.v), hn::Zero(RealTag())); }
+FN Real flushReal(Real x) {
+  return hn::IfThenElseZero(hn::Gt(hn::Abs(x.v), hn::Set(RealTag(), 1.0e-30f)), x.v);
+}
 FN Int saturatingSub(Int p, Int c) {
   const auto d = hn::Sub(p.v, c.v), overflow = hn::And(hn::Xor(p.v, c.v), hn::Xor(p.v, d));
   const auto limit = hn::Xor(hn::BroadcastSignBit(p.v), hn::Set(IntTag(), 0x7FFFFFFF));
