@@ -1,6 +1,7 @@
 #include "materials.h"
 
 #include <cmath>
+#include <map>
 
 #include "godot/log.h"
 #include "palette.h"
@@ -17,14 +18,32 @@ Variant singleton(const char* name) { return Variant(engine().global_get_singlet
 
 Variant make(const char* class_name) { return Variant(engine().classdb_construct_object(Name(class_name).get())); }
 
-Variant ownMaterial(int64_t mapping) {
+/// A shader of the plugin with the patterns alone that a world has: one with all takes seconds to compile. Worlds with
+/// the same patterns share it, as long as one of them is there.
+Variant shaderWith(const Variant& whole, const std::string& path, uint32_t patterns) {
+  static std::map<std::pair<std::string, uint32_t>, uint64_t> made;
+  uint64_t& id = made[{path, patterns}];
+  if (id != 0) {
+    if (const Object still = engine().object_get_instance_from_id(id); still != nullptr) return Variant(still);
+  }
+  std::string code = "#define SGM_PATTERNS_CHOSEN\n";
+  for (uint32_t i = 0; i < 32; ++i) {
+    if (patterns >> i & 1u) code += "#define SGM_PATTERN_" + std::to_string(i) + "\n";
+  }
+  const Variant shader = make("Shader");
+  shader.call("set_code", code + whole.call("get_code").to<std::string>());
+  id = engine().object_get_instance_id(shader.object());
+  return shader;
+}
+
+Variant ownMaterial(int64_t mapping, uint32_t patterns) {
   const char* path = kShaders[mapping == 1 ? 1 : 0];
   const Variant loader = singleton("ResourceLoader");
   if (loader.call("exists", path).truth()) {
     const Variant shader = loader.call("load", path);
     if (shader.object() != nullptr) {
       const Variant material = make("ShaderMaterial");
-      material.call("set_shader", shader);
+      material.call("set_shader", shaderWith(shader, path, patterns));
       return material;
     }
   }
@@ -35,9 +54,15 @@ Variant ownMaterial(int64_t mapping) {
 }  // namespace
 
 void Materials::rebuild(const std::vector<std::string>& names, const Settings& settings) {
-  materials_.assign(1, {"", Variant(), ownMaterial(settings.mapping)});
   slots_.assign(names.size(), 0);
   palette_.clear();
+  looks_.clear();
+  uint32_t patterns = 0;
+  for (const std::string& name : names) {
+    looks_.push_back(sgm::lookOf(name));
+    patterns |= uint32_t{1} << static_cast<uint32_t>(looks_.back().pattern);
+  }
+  materials_.assign(1, {"", Variant(), ownMaterial(settings.mapping, patterns)});
   for (size_t i = 0; i < names.size(); ++i) {
     const auto color = settings.colors.find(names[i]);
     palette_.push_back(color != settings.colors.end() ? color->second : colorOf(names[i]));
@@ -67,8 +92,17 @@ void Materials::update(const std::vector<Vector3>& viewers, const MorphRanges& r
   if (!sent_) {
     // The engine pads arrays that are too short, but not silently in all versions.
     Packed<Color> colors(kMostColors);
-    for (size_t i = 0; i < kMostColors; ++i) colors.data()[i] = i < palette_.size() ? palette_[i] : Color{};
+    Packed<int32_t> patterns(kMostColors);
+    Packed<float> reliefs(kMostColors);
+    for (size_t i = 0; i < kMostColors; ++i) {
+      const sgm::MaterialLook look = i < looks_.size() ? looks_[i] : sgm::MaterialLook();
+      colors.data()[i] = i < palette_.size() ? linear(palette_[i]) : Color{};
+      patterns.data()[i] = static_cast<int32_t>(look.pattern);
+      reliefs.data()[i] = look.relief;
+    }
     send("material_colors", colors.take());
+    send("material_patterns", patterns.take());
+    send("material_reliefs", reliefs.take());
     send("cell_size", cell_size);
     const auto wrapped = [](int32_t metres) { return static_cast<float>(metres % kPatternMetres); };
     send("pattern_offset",

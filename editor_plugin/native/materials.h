@@ -1,6 +1,7 @@
 #pragma once
 // The materials that a world's surfaces are drawn with. Main thread.
 
+#include "materials/material.h"
 #include "morph_ranges.h"
 #include "settings.h"
 
@@ -35,6 +36,7 @@ class Materials {
   std::vector<uint16_t> slots_;
   std::vector<Slot> materials_;
   std::vector<Color> palette_;
+  std::vector<sgm::MaterialLook> looks_;
   std::vector<Vector3> viewers_;
   MorphRanges ranges_;
   bool sent_ = false;

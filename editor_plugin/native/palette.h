@@ -1,14 +1,18 @@
 #pragma once
-// How materials look that a game has given no material of its own.
+// How materials look that a game has given no material of its own: as in the table that the sgm command draws from
+// (runtime/materials).
 
 #include <string_view>
 
 #include "godot/variant.h"
+#include "materials/material.h"
 
 namespace sgm_godot {
 
-/// A colour (sRGB; alpha: roughness) by what the grammar calls the material: a word that is known in its name
-/// ("wet_limestone"), else one that the name alone decides.
+/// The colour of what the grammar calls the material (sRGB, as in the inspector; alpha: roughness).
 Color colorOf(std::string_view material);
+
+/// As shaders take it; the roughness stays.
+Color linear(Color srgb);
 
 }  // namespace sgm_godot

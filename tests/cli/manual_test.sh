@@ -41,7 +41,7 @@ same words "$(section Words | sed -n '/^```text$/,/^```$/p' | grep -v '`' | tr '
 same shapes "$(section Shapes | sed -n 's/^| \(`.*`\) |.*/\1/p' | grep -o '`[a-z]*(' | tr -d '`(')" "$(names Primitive)"
 same functions "$(section Values | sed -n 's/^| \(`.*`\) |.*/\1/p' | grep -oE '`(c\.)?[a-z0-9]+\(' | sed 's/[`(]//g; s/^c\.//')" "$(names Builtin)"
 same materials "$(section Rules | tr '\n' ' ' | sed 's/.*know these looks://; s/; each with a tint.*//' | grep -o '`[a-z_]*`' | tr -d '`')" \
-  "$(grep -o '^    {"[a-z_]*", {' "$SOURCE/runtime/cli/render/materials.cpp" | grep -o '[a-z_]*')"
+  "$(grep -o '^    {"[a-z_]*", {' "$SOURCE/runtime/materials/material.cpp" | grep -o '[a-z_]*')"
 # The library's page is what the library says of itself, and all of it.
 bash "$SOURCE/samples/library.sh" | cmp -s - "$SOURCE/samples/grammars/library.md" ||
   failed 'samples/grammars/library.md is of another library: samples/library.sh write'

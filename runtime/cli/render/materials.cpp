@@ -1,131 +1,19 @@
-#include <algorithm>
-#include <array>
-
 #include "render/scene.h"
 
 namespace sgm {
 namespace {
 
-struct Named {
-  std::string_view name;
-  RenderMaterial material;
-};
-
-constexpr glm::vec3 rgb(float r, float g, float b) { return {r, g, b}; }
-
-using enum SurfacePattern;
-
-constexpr std::array<Named, 44> kTable{{
-    {"rock", {rock, rgb(0.40f, 0.36f, 0.31f), 0.82f, 1.0f}},
-    {"limestone", {rock, rgb(0.47f, 0.42f, 0.345f), 0.80f, 1.0f}},
-    {"dolomite", {rock, rgb(0.47f, 0.45f, 0.42f), 0.82f, 1.0f}},
-    {"sandstone", {rock, rgb(0.54f, 0.32f, 0.19f), 0.88f, 0.9f}},
-    {"granite", {speckled, rgb(0.40f, 0.38f, 0.37f), 0.72f, 1.0f}},
-    {"basalt", {rock, rgb(0.115f, 0.112f, 0.112f), 0.78f, 1.1f}},
-    {"marble", {veined, rgb(0.68f, 0.66f, 0.63f), 0.30f, 0.6f}},
-    {"calcite", {flow, rgb(0.78f, 0.69f, 0.55f), 0.36f, 1.0f}},
-    {"flowstone", {flow, rgb(0.72f, 0.58f, 0.41f), 0.34f, 1.0f}},
-    {"stalactite", {flow, rgb(0.75f, 0.65f, 0.50f), 0.36f, 1.0f}},
-    {"gypsum", {flow, rgb(0.82f, 0.80f, 0.76f), 0.50f, 0.7f}},
-    {"ice", {flow, rgb(0.62f, 0.76f, 0.84f), 0.12f, 0.6f}},
-    {"brick", {brick, rgb(0.40f, 0.155f, 0.10f), 0.88f, 1.0f}},
-    {"ashlar", {ashlar, rgb(0.52f, 0.46f, 0.37f), 0.85f, 1.0f}},
-    {"rubble", {rubble, rgb(0.42f, 0.37f, 0.30f), 0.90f, 1.0f}},
-    {"paving", {paving, rgb(0.40f, 0.385f, 0.36f), 0.80f, 1.0f}},
-    {"cobble", {cobbles, rgb(0.27f, 0.255f, 0.235f), 0.72f, 1.0f}},
-    {"roof_tile", {roof_tiles, rgb(0.46f, 0.19f, 0.105f), 0.85f, 1.0f}},
-    {"slate", {slates, rgb(0.135f, 0.145f, 0.165f), 0.60f, 1.0f}},
-    {"thatch", {fibres, rgb(0.34f, 0.26f, 0.15f), 0.95f, 1.0f}},
-    {"plaster", {plain, rgb(0.70f, 0.66f, 0.585f), 0.94f, 1.0f}},
-    {"paint", {plain, rgb(0.62f, 0.61f, 0.58f), 0.50f, 0.35f}},
-    {"clay", {plain, rgb(0.36f, 0.22f, 0.14f), 0.88f, 1.4f}},
-    {"concrete", {concrete, rgb(0.43f, 0.42f, 0.40f), 0.90f, 1.0f}},
-    {"wood", {wooden, rgb(0.225f, 0.155f, 0.098f), 0.75f, 1.0f}},
-    {"boards", {boards, rgb(0.215f, 0.155f, 0.105f), 0.80f, 1.0f}},
-    {"metal", {metallic, rgb(0.27f, 0.27f, 0.275f), 0.55f, 0.8f}},
-    {"iron", {metallic, rgb(0.12f, 0.115f, 0.11f), 0.55f, 1.0f}},
-    {"steel", {metallic, rgb(0.42f, 0.43f, 0.45f), 0.34f, 0.2f}},
-    {"copper", {metallic, rgb(0.25f, 0.40f, 0.33f), 0.70f, 0.3f}},
-    {"asphalt", {asphalt, rgb(0.085f, 0.085f, 0.09f), 0.92f, 1.0f}},
-    {"glass", {glass, rgb(0.22f, 0.30f, 0.33f), 0.08f, 0.0f}},
-    {"sand", {granular, rgb(0.56f, 0.45f, 0.30f), 0.95f, 1.0f}},
-    {"soil", {granular, rgb(0.21f, 0.145f, 0.09f), 0.95f, 1.3f}},
-    {"mud", {granular, rgb(0.20f, 0.145f, 0.095f), 0.45f, 0.8f}},
-    {"gravel", {gravelly, rgb(0.38f, 0.35f, 0.31f), 0.88f, 1.0f}},
-    {"grass", {grassy, rgb(0.125f, 0.150f, 0.060f), 0.95f, 1.0f}},
-    {"leaf", {leafy, rgb(0.072f, 0.108f, 0.036f), 0.60f, 1.0f}},
-    {"bark", {fibres, rgb(0.19f, 0.14f, 0.10f), 0.95f, 1.0f}},
-    {"moss", {mossy, rgb(0.085f, 0.110f, 0.038f), 1.00f, 1.0f}},
-    {"water", {water, rgb(0.012f, 0.050f, 0.058f), 0.06f, 1.0f}},
-    {"snow", {granular, rgb(0.88f, 0.90f, 0.93f), 0.80f, 0.5f}},
-    {"cloud", {cloud, rgb(0.95f, 0.95f, 0.96f), 1.00f, 1.0f}},
-    {"cirrus", {cloud, rgb(0.97f, 0.98f, 1.00f), 0.17f, 0.2f}},
-}};
-
-/// What a word behind a material's name makes of its colour: a share of the way to another one.
-struct Tint {
-  std::string_view word;
-  glm::vec3 colour;
-  float share;
-};
-
-constexpr std::array<Tint, 14> kTints{{{"white", rgb(0.80f, 0.79f, 0.76f), 0.85f},
-                                       {"cream", rgb(0.72f, 0.64f, 0.47f), 0.80f},
-                                       {"ochre", rgb(0.60f, 0.39f, 0.14f), 0.75f},
-                                       {"yellow", rgb(0.68f, 0.50f, 0.17f), 0.75f},
-                                       {"orange", rgb(0.58f, 0.25f, 0.09f), 0.75f},
-                                       {"rose", rgb(0.62f, 0.36f, 0.29f), 0.75f},
-                                       {"red", rgb(0.40f, 0.075f, 0.055f), 0.80f},
-                                       {"brown", rgb(0.20f, 0.115f, 0.065f), 0.80f},
-                                       {"green", rgb(0.08f, 0.15f, 0.075f), 0.80f},
-                                       {"blue", rgb(0.09f, 0.15f, 0.27f), 0.80f},
-                                       {"grey", rgb(0.33f, 0.33f, 0.325f), 0.80f},
-                                       {"black", rgb(0.03f, 0.03f, 0.032f), 0.85f},
-                                       {"dark", rgb(0.0f, 0.0f, 0.0f), 0.50f},
-                                       {"pale", rgb(0.85f, 0.84f, 0.82f), 0.40f}}};
-
-const RenderMaterial* known(std::string_view name) {
-  const auto* found = std::ranges::find(kTable, name, &Named::name);
-  return found == kTable.end() ? nullptr : &found->material;
-}
-
-/// "plaster_ochre", "wet_limestone": a known material, tinted or wet.
-std::optional<RenderMaterial> changed(std::string_view name) {
-  constexpr std::string_view kWet = "wet_";
-  if (name.starts_with(kWet)) {
-    std::optional<RenderMaterial> dry = findMaterial(name.substr(kWet.size()));
-    if (!dry) return {};
-    dry->colour *= 0.55f;
-    dry->roughness *= 0.30f;
-    return dry;
-  }
-  const size_t at = name.rfind('_');
-  if (at == std::string_view::npos) return {};
-  const auto* tint = std::ranges::find(kTints, name.substr(at + 1), &Tint::word);
-  const RenderMaterial* plain_one = known(name.substr(0, at));
-  if (tint == kTints.end() || !plain_one) return {};
-  RenderMaterial material = *plain_one;
-  material.colour = material.colour * (1 - tint->share) + tint->colour * tint->share;
-  return material;
+RenderMaterial drawn(const MaterialLook& look) {
+  return {look.pattern, {look.colour[0], look.colour[1], look.colour[2]}, look.roughness, look.relief};
 }
 
 }  // namespace
 
 std::optional<RenderMaterial> findMaterial(std::string_view name) {
-  const RenderMaterial* material = known(name);
-  return material ? *material : changed(name);
+  const std::optional<MaterialLook> look = findLook(name);
+  return look ? std::optional(drawn(*look)) : std::nullopt;
 }
 
-RenderMaterial materialByName(std::string_view name) {
-  if (const std::optional<RenderMaterial> found = findMaterial(name)) return *found;
-  // Shapes that have none are looked at for their form.
-  if (name.empty()) return {plain, rgb(0.50f, 0.48f, 0.44f), 0.9f, 0.5f};
-  uint32_t hash = 2166136261u;  // FNV-1a: the same name, the same tint, everywhere
-  for (char c : name) hash = (hash ^ static_cast<uint8_t>(c)) * 16777619u;
-  RenderMaterial material;
-  const auto tint = [&](unsigned shift) { return 0.85f + 0.30f * static_cast<float>(hash >> shift & 255u) / 255.0f; };
-  material.colour *= glm::vec3(tint(0), tint(8), tint(16));
-  return material;
-}
+RenderMaterial materialByName(std::string_view name) { return drawn(lookOf(name)); }
 
 }  // namespace sgm

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/fixed.h"
+#include "materials/material.h"
 
 namespace sgm {
 
@@ -26,37 +27,6 @@ struct RenderVertex {
   glm::vec2 texture{0};
 };
 
-/// The procedural pattern that a surface is covered with; shaders/render/materials.glsl has their numbers.
-enum class SurfacePattern : uint32_t {
-  rock,        ///< strata, mineral stains, cracks; silt on what lies flat
-  speckled,    ///< grains of several colours: granite
-  veined,      ///< marble
-  flow,        ///< calcite and other flowstone: fluted, pale, wet
-  brick,       ///< courses with mortar
-  ashlar,      ///< courses of dressed stone
-  rubble,      ///< walling of rough stones
-  paving,      ///< flags
-  cobbles,     ///< setts
-  roof_tiles,  ///< rows of clay tiles
-  slates,
-  plain,  ///< colour with a fine grain, stained by rain: plaster, paint, clay
-  concrete,
-  wooden,
-  metallic,
-  asphalt,
-  glass,     ///< a pane that mirrors, with a room behind it
-  granular,  ///< sand, soil, mud, snow
-  gravelly,
-  grassy,
-  leafy,
-  fibres,  ///< bark, thatch
-  mossy,
-  water,   ///< mirrors; the deeper the darker
-  cloud,   ///< soft white; under a sky it is no surface but a medium, which the mesh is the outline of:
-           ///< the denser the rougher, and the more puffs the more relief
-  boards,  ///< wood, a board beside the other
-};
-
 struct RenderMaterial {
   SurfacePattern pattern = SurfacePattern::rock;
   glm::vec3 colour{0.42f, 0.37f, 0.31f};  ///< linear, 0..1
@@ -64,10 +34,9 @@ struct RenderMaterial {
   float relief = 1;                       ///< strength of the shading relief, 0: as smooth as the mesh
 };
 
-/// What a grammar's `mat NAME` looks like: one of a table ("plaster"), tinted by a word behind it ("plaster_ochre") or
-/// wet ("wet_limestone"). nullopt: the name is unknown.
+/// What a grammar's `mat NAME` looks like (findLook). nullopt: the name is unknown.
 std::optional<RenderMaterial> findMaterial(std::string_view name);
-/// The same; names that are not known get plain rock in a tint of their own.
+/// The same; names that are not known get a look as well (lookOf).
 RenderMaterial materialByName(std::string_view name);
 
 /// A lamp that shines on all sides and falls off with the square of the distance.

@@ -402,3 +402,14 @@ TEST_CASE("materials are found by name, tint and wetness", "[render]") {
     CHECK(!findMaterial(unknown));
   }
 }
+
+TEST_CASE("a name that is not known looks as a word of it that is", "[render]") {
+  CHECK(!findMaterial("old_brick_wall"));
+  CHECK(materialByName("old_brick_wall").pattern == SurfacePattern::brick);
+  CHECK(materialByName("old_brick_wall").colour == materialByName("brick").colour);
+  CHECK(materialByName("main_road").colour == materialByName("asphalt").colour);
+  CHECK(materialByName("wall_ochre").colour == materialByName("plaster_ochre").colour);
+  CHECK(materialByName("old_wet_road").colour == materialByName("wet_asphalt").colour);
+  // A part of a word is none.
+  CHECK(materialByName("roadster").pattern == SurfacePattern::rock);
+}
