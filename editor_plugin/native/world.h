@@ -134,6 +134,10 @@ class World : public Instance {
   void addMonitors();
   void removeMonitors();
 
+  // world_density.cpp
+  Bytes sampleDensity(const Vector3& corner, double spacing, const Vector3i& size, const Vector3& to_sun, double fade,
+                      double edge);
+
   // world_measures.cpp
   Dictionary measures() const;
   Dictionary measureDrawn(int64_t bins) const;

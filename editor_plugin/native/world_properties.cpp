@@ -210,6 +210,7 @@ void World::registerClass(ClassRecord& record) {
       .method_<&World::closestPoint>("closest_point", {"position", "max_distance"})
       .method_<&World::findWay>("find_way", {"from", "to", "radius"})
       .method_<&World::anchors>("get_anchors", {"box"})
+      .method_<&World::sampleDensity>("sample_density", {"corner", "spacing", "size", "to_sun", "fade", "edge"}, {0.0})
       .method_<&World::bounds>("get_bounds")
       .method_<&World::worldHash>("get_world_hash", {"box", "level"}, {int64_t{0}})
       .method_<&World::statistics>("get_statistics")

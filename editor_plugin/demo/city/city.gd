@@ -2,10 +2,10 @@ class_name DemoCity
 extends DemoPlace
 ## An endless city of blocks and towers, to walk in and to fly over.
 
-## A crossing of two streets: the grammar has one at every corner of its cells.
-const CROSSING := Vector3(0.0, 40.0, 0.0)
+## Beside a crossing of two streets: the grammar has one at every corner of its cells.
+const CROSSING := Vector3(1.5, 2.5, 16.0)
 ## Along one of them, radians.
-const LOOK := -0.2
+const LOOK := 0.06
 
 
 func find_start() -> Transform3D:

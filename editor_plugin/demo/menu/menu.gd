@@ -4,6 +4,7 @@ extends Control
 const PLACES: Array[Dictionary] = [
 	{name = "Cave", scene = "res://cave/cave.tscn", text = "Walk, dig and build in endless caves"},
 	{name = "Clouds", scene = "res://sky/sky.tscn", text = "Drift among cumulus"},
+	{name = "Valley", scene = "res://valley/valley.tscn", text = "Walk along a stream, and into the caves of its cliffs"},
 	{name = "City", scene = "res://city/city.tscn", text = "Walk streets, or fly over them"},
 ]
 const MISSING := "The native library of SG+M is missing: run editor_plugin/build.sh, " \

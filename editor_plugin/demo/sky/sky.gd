@@ -8,10 +8,30 @@ const DRIFT_SPEED := 14.0
 const LEG := 2000.0
 
 
+@export var volume: DemoCloudVolume
+
+## Whether clouds are drawn as fog that light shines into, or as the meshes of their surfaces. Fog is for machines with a
+## graphics card.
+var fog := false:
+	set(value):
+		fog = value
+		volume.visible = value
+		world.visible = not value
+
+
 func _ready() -> void:
 	super()
+	fog = DemoQuality.is_fast()
 	player.arrived.connect(drift)
 	drift()
+
+
+func _unhandled_input(event: InputEvent) -> void:
+	if event.is_action_pressed("toggle_fog"):
+		fog = not fog
+		overlay.say("Clouds of fog" if fog else "Clouds of meshes")
+	else:
+		super(event)
 
 
 func find_start() -> Transform3D:

@@ -1,0 +1,97 @@
+class_name DemoCloudVolume
+extends MeshInstance3D
+## Clouds as what they are, fog that the sun shines into: the world's density in two volumes around the camera, a fine
+## one and one of all that is far, drawn by one shader over the whole picture. Threads sample them anew as the camera
+## moves on.
+
+## All that the volumes hold has been drawn at least once.
+signal filled
+
+## Metres of full density that leave 1/e of the sun's light in the volume's second channel.
+const FADE := 250.0
+## Metres below the surface of a cloud at which it is as dense as it gets: what the noise of the shader eats into.
+const EDGE := 110.0
+const BASE := 960.0
+const NAMES: Array[String] = ["near", "far"]
+const SPACINGS: Array[float] = [36.0, 150.0]
+const SIZES: Array[Vector3i] = [Vector3i(176, 72, 176), Vector3i(192, 18, 192)]
+## Share of a volume's width that the camera may move before it is sampled anew.
+const SLACK := 0.15
+
+@export var world: SgmWorld3D
+@export var sun: DirectionalLight3D
+## Materials that lie in the clouds' shadow: they get the volumes, too.
+@export var shaded: Array[ShaderMaterial] = []
+
+var _middles: Array[Vector3] = [Vector3.INF, Vector3.INF]
+var _tasks: Array[int] = [-1, -1]
+var _filled: Array[bool] = [false, false]
+
+
+func _ready() -> void:
+	world.restarted.connect(func() -> void: _middles.fill(Vector3.INF))
+	world.edited.connect(func(_id: PackedInt64Array) -> void: _middles.fill(Vector3.INF))
+	_set_all("to_sun", sun.global_basis.z)
+
+
+func _process(_delta: float) -> void:
+	var camera := get_viewport().get_camera_3d()
+	if camera == null or not world.is_running() or not visible:
+		return
+	global_position = camera.global_position
+	var level := camera.global_position * Vector3(1.0, 0.0, 1.0)
+	for i in NAMES.size():
+		var width := SPACINGS[i] * SIZES[i].x
+		if _tasks[i] < 0 and not level.distance_to(_middles[i]) < SLACK * width:
+			_middles[i] = level.snappedf(SPACINGS[i])
+			_tasks[i] = WorkerThreadPool.add_task(_sample.bind(i, _middles[i], sun.global_basis.z))
+
+
+func _exit_tree() -> void:
+	for task in _tasks:
+		if task >= 0:
+			WorkerThreadPool.wait_for_task_completion(task)
+	_tasks.fill(-1)
+
+
+func is_filled() -> bool:
+	return not _filled.has(false)
+
+
+# On a thread.
+func _sample(i: int, middle: Vector3, to_sun: Vector3) -> void:
+	var size := SIZES[i]
+	var corner := middle - SPACINGS[i] * 0.5 * Vector3(size.x, 0.0, size.z) + Vector3(0.0, BASE, 0.0)
+	var bytes := world.sample_density(corner, SPACINGS[i], size, to_sun, FADE, EDGE)
+	_take.call_deferred(i, corner, bytes)
+
+
+func _take(i: int, corner: Vector3, bytes: PackedByteArray) -> void:
+	if _tasks[i] < 0:
+		return
+	WorkerThreadPool.wait_for_task_completion(_tasks[i])
+	_tasks[i] = -1
+	if bytes.is_empty():
+		return
+	var size := SIZES[i]
+	var slice := size.x * size.y * 2
+	var images: Array[Image] = []
+	for z in size.z:
+		images.append(Image.create_from_data(
+				size.x, size.y, false, Image.FORMAT_RG8, bytes.slice(z * slice, (z + 1) * slice)))
+	var texture := ImageTexture3D.new()
+	texture.create(Image.FORMAT_RG8, size.x, size.y, size.z, false, images)
+	_set_all(NAMES[i] + "_volume", texture)
+	# From the middle of the first texel to that of the last.
+	_set_all(NAMES[i] + "_corner", corner - Vector3.ONE * 0.5 * SPACINGS[i])
+	_set_all(NAMES[i] + "_size", Vector3(size) * SPACINGS[i])
+	if not _filled[i]:
+		_filled[i] = true
+		if is_filled():
+			filled.emit()
+
+
+func _set_all(parameter: String, value: Variant) -> void:
+	(material_override as ShaderMaterial).set_shader_parameter(parameter, value)
+	for one in shaded:
+		one.set_shader_parameter(parameter, value)
