@@ -3,6 +3,9 @@
 #
 #   bash editor_plugin/tests/run.sh [FOLDER/NAME...]     headless/flight, rendered/pictures, ...; none: all of them
 #
+# pictures/readme draws the pictures of the README at 1920x1080, for which it takes its time (SGM_GODOT_TIMEOUT, seconds);
+# it is none of "all". SGM_PLACES names those that are wanted.
+#
 # Tests are scripts of a copy of the demo project, build/godot/project, so that nothing in the checkout changes:
 # headless/ run without a display, rendered/ under a virtual one on software Vulkan, opengl/ there by OpenGL, editor/ in
 # the editor there.
@@ -33,7 +36,10 @@ project_of() {
   mkdir -p "$project"
   cp -a "$demo/." "$project/"
   mkdir -p "$project/tests"
-  cp -a "$tests"/{lib,headless,rendered,opengl,editor} "$tests"/../native/doc "$project/tests/" 2>/dev/null || true
+  cp -a "$tests"/{lib,headless,rendered,opengl,editor,pictures} "$tests"/../native/doc "$project/tests/" 2>/dev/null || true
+  # Worlds that stay as they are: the demo's follow the samples.
+  mkdir -p "$project/tests/grammars"
+  cp "$root"/tests/bench/grammars/{cave,city,cloud}.sgm "$project/tests/grammars/"
   echo "$project"
 }
 
@@ -66,6 +72,8 @@ run_one() {
     headless) command=("$godot" --headless --path "$project" --script "tests/$name.gd") ;;
     rendered) command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution 1280x720
       --path "$project" --script "tests/$name.gd") ;;
+    pictures) command=(xvfb-run -a -s "-screen 0 1920x1200x24" "$godot" --rendering-driver vulkan --resolution 1920x1080
+      --path "$project" --script "tests/$name.gd") ;;
     opengl) command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-method gl_compatibility
       --rendering-driver opengl3 --resolution 1280x720 --path "$project" --script "tests/$name.gd") ;;
     editor)
@@ -76,7 +84,7 @@ run_one() {
       command=(xvfb-run -a -s "-screen 0 1600x900x24" "$godot" --rendering-driver vulkan --resolution 1600x900 --editor
         --path "$project")
       ;;
-    *) die "tests lie in headless, rendered, opengl and editor, not in '$kind'" ;;
+    *) die "tests lie in headless, rendered, opengl, editor and pictures, not in '$kind'" ;;
   esac
   timeout 300 "$godot" --headless --path "$project" --import >"$log.import" 2>&1 </dev/null || true
   timeout "${SGM_GODOT_TIMEOUT:-600}" "${command[@]}" >"$log" 2>&1 </dev/null || status=$?

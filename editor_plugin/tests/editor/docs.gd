@@ -150,6 +150,7 @@ func _check_parameters() -> void:
 	await _frames(5)
 	var world: SgmWorld3D = EditorInterface.get_edited_scene_root().get_node("World")
 	world.preview = false
+	world.grammar = load("res://tests/grammars/cave.sgm")
 	EditorInterface.edit_node(world)
 	await _frames(10)
 	var row := _row(BOXY)

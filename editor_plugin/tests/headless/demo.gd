@@ -2,7 +2,8 @@ extends SceneTree
 ## The demo's places as someone plays them: they are entered from the menu, walked, dug, grown anew and left.
 
 const Checks := preload("res://tests/lib/checks.gd")
-const PLACES: Array[String] = ["res://cave/cave.tscn", "res://sky/sky.tscn", "res://city/city.tscn"]
+const PLACES: Array[String] = ["res://cave/cave.tscn", "res://sky/sky.tscn", "res://valley/valley.tscn",
+		"res://city/city.tscn"]
 
 var _checks := Checks.new()
 
@@ -17,6 +18,8 @@ func _initialize() -> void:
 				await _cave(place as DemoCave)
 			"res://sky/sky.tscn":
 				await _sky(place as DemoSky)
+			"res://valley/valley.tscn":
+				await _stands(place, "the valley")
 			"res://city/city.tscn":
 				await _city(place)
 		await _panel(place)
@@ -90,7 +93,7 @@ func _cave(cave: DemoCave) -> void:
 	cave.world.set("parameters/wet", 0.9)
 	await cave.grow(2)
 	await _stands(cave, "seed 2 with other parameters")
-	cave.world.set("parameters/wet", 0.5)
+	cave.world.set("parameters/wet", 0.6)
 	await cave.grow(0)
 	_checks.equal(cave.world.get_edits_hash(), state, "what was dug is loaded when the parameters are back")
 

@@ -20,7 +20,7 @@ func _initialize() -> void:
 
 
 func _loads() -> void:
-	var grammar := load("res://grammars/cave.sgm") as SgmGrammar
+	var grammar := load("res://tests/grammars/cave.sgm") as SgmGrammar
 	if not _checks.check(grammar != null and grammar.is_valid(), "the demo's cave is loaded"):
 		return
 	_checks.equal(grammar.get_error_text(), "", "its error")
@@ -28,8 +28,8 @@ func _loads() -> void:
 	_checks.check(grammar.get_domain().infinite, "its domain is infinite")
 	var boxy: Dictionary = grammar.get_parameters().filter(func(p: Dictionary) -> bool: return p.name == "boxy")[0]
 	_checks.equal([boxy.minimum, boxy.maximum, boxy.default, boxy.quantity], [0.0, 1.0, 0.3, "number"], "boxy")
-	_checks.check(ResourceLoader.exists("res://grammars/cave.sgm"), "the engine knows that it is there")
-	_checks.check(load("res://grammars/cave.sgm") == grammar, "the engine keeps one of it")
+	_checks.check(ResourceLoader.exists("res://tests/grammars/cave.sgm"), "the engine knows that it is there")
+	_checks.check(load("res://tests/grammars/cave.sgm") == grammar, "the engine keeps one of it")
 	_checks.check(not grammar.get_version().is_empty() and not grammar.get_build_info().is_empty(), "versions")
 
 

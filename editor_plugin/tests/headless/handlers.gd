@@ -42,7 +42,7 @@ func _ends(signal_name: String, how: String) -> void:
 			"restart":
 				world.restart()
 			"grammar":
-				world.grammar = (load("res://grammars/city.sgm") as SgmGrammar)
+				world.grammar = (load("res://tests/grammars/city.sgm") as SgmGrammar)
 	var arguments := _arguments(signal_name)
 	var heard_by := handler.unbind(arguments) if arguments > 0 else handler
 	if signal_name == "restarted":
@@ -114,7 +114,7 @@ func _failed() -> void:
 	await cave.tree.process_frame
 	root.add_child(cave.world)
 	await process_frame
-	var other: SgmGrammar = load("res://grammars/cave.sgm")
+	var other: SgmGrammar = load("res://tests/grammars/cave.sgm")
 	cave.world.failed.connect(func(_message: String) -> void: cave.world.grammar = other)
 	_checks.expect_error("unknown name `spere`")
 	file = FileAccess.open(path, FileAccess.WRITE)

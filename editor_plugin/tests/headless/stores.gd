@@ -59,7 +59,7 @@ func _bake(around: Vector3, top_level: int) -> bool:
 	var high := (around + Vector3.ONE * 40).ceil()
 	var region := "%d,%d,%d:%d,%d,%d" % [low.x, low.y, low.z, high.x, high.y, high.z]
 	var output := []
-	var status := OS.execute(command, ["bake", ProjectSettings.globalize_path("res://grammars/cave.sgm"), "--seed", "7",
+	var status := OS.execute(command, ["bake", ProjectSettings.globalize_path("res://tests/grammars/cave.sgm"), "--seed", "7",
 			"--region", region, "--levels", "0..%d" % top_level, "--backend", "cpu", "--out",
 			ProjectSettings.globalize_path(STORE)], output, true)
 	return _checks.equal(status, 0, "sgm bake: %s" % output)

@@ -6,7 +6,7 @@ var world: SgmWorld3D
 var viewer: SgmViewer3D
 
 
-func _init(in_tree: SceneTree, grammar_path := "res://grammars/cave.sgm") -> void:
+func _init(in_tree: SceneTree, grammar_path := "res://tests/grammars/cave.sgm") -> void:
 	tree = in_tree
 	world = SgmWorld3D.new()
 	world.grammar = load(grammar_path)

@@ -10,6 +10,7 @@ var _checks := Checks.new()
 func _initialize() -> void:
 	await _cave()
 	await _sky()
+	await _valley()
 	await _city()
 	await _checks.finish(self)
 
@@ -29,10 +30,25 @@ func _cave() -> void:
 
 
 func _sky() -> void:
-	var place := await _enter("res://sky/sky.tscn")
+	var place := await _enter("res://sky/sky.tscn") as DemoSky
 	await _settle(place)
 	_shoot_ready(place)
 	await _shoot("sky")
+	# The same clouds as fog.
+	place.fog = true
+	var limit := Time.get_ticks_msec() + 60_000
+	while not place.volume.is_filled() and Time.get_ticks_msec() < limit:
+		await process_frame
+	_checks.check(place.volume.is_filled(), "the clouds' volumes are sampled")
+	await _shoot("sky_fog")
+	await _leave(place)
+
+
+func _valley() -> void:
+	var place := await _enter("res://valley/valley.tscn")
+	await _settle(place)
+	_shoot_ready(place)
+	await _shoot("valley")
 	await _leave(place)
 
 

@@ -1,0 +1,57 @@
+extends SceneTree
+## The pictures of the README: the demo's places as a machine with a graphics card shows them.
+
+const Checks := preload("res://tests/lib/checks.gd")
+## Where the camera stands (nowhere: where one begins), and how it looks: degrees to the left, and up.
+const VIEWS := {
+	cave = [Vector3.INF, 0.0, 0.0],
+	sky = [Vector3(1500.0, 1450.0, 1800.0), 40.0, 0.0],
+	valley = [Vector3(38.0, 1.6, 120.0), -50.0, 6.0],
+	city = [Vector3.INF, 0.0, 0.0],
+}
+const LONGEST := 900.0
+
+var _checks := Checks.new()
+
+
+func _initialize() -> void:
+	DemoQuality.always_fast = true
+	var wanted := OS.get_environment("SGM_PLACES").split(" ", false)
+	for name: String in VIEWS:
+		if wanted.is_empty() or name in wanted:
+			await _draw(name)
+	await _checks.finish(self)
+
+
+func _draw(name: String) -> void:
+	var place := (load("res://%s/%s.tscn" % [name, name]) as PackedScene).instantiate() as DemoPlace
+	for setting: String in place.fine:
+		place.world.set(setting, place.fine[setting])
+	root.add_child(place)
+	await process_frame
+	place.overlay.visible = false
+	var view: Array = VIEWS[name]
+	if view[0] != Vector3.INF:
+		place.player.flying = true
+		place.player.teleport(view[0] as Vector3 - Vector3.UP * DemoPlayer.EYE_HEIGHT)
+		place.player.look(deg_to_rad(view[1] as float), deg_to_rad(view[2] as float))
+		await process_frame
+	# Without drawing: a software renderer would leave the world's threads no time.
+	var limit := Time.get_ticks_msec() + roundi(LONGEST * 1000.0)
+	while not place.world.is_idle() and Time.get_ticks_msec() < limit:
+		place.world.wait_until_idle(10.0)
+	_checks.check(place.world.is_idle(), "%s comes to rest" % name)
+	for grass: DemoGrass in place.find_children("*", "DemoGrass", true, false):
+		grass.fill()
+	if place is DemoSky:
+		while not (place as DemoSky).volume.is_filled() and Time.get_ticks_msec() < limit:
+			await process_frame
+		_checks.check((place as DemoSky).volume.is_filled(), "the clouds' volumes are sampled")
+	for i in 2:
+		await process_frame
+	await RenderingServer.frame_post_draw
+	var image := root.get_texture().get_image()
+	_checks.equal(image.save_jpg(OS.get_environment("SGM_PICTURES") + "/" + name + ".jpg", 0.9), OK, name + " is saved")
+	place.queue_free()
+	for i in 2:
+		await process_frame
