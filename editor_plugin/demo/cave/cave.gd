@@ -3,8 +3,8 @@ extends DemoPlace
 ## An endless cave to walk in, to dig in, and to grow anew from other seeds. What is dug lies in a journal for each
 ## seed.
 
-## Around it one begins: so deep, the grammar's passages are round; farther up they turn square.
-const DEPTHS := Vector3(0.0, -240.0, 0.0)
+## One begins in the hall that is nearest to it.
+const MIDDLE := Vector3(30.0, 0.0, 30.0)
 ## The journal of the digs in a seed's cave. Cells of another size (here in mm) and other parameters are other caves.
 const JOURNAL := "user://cave_%d_%dmm_%08x.journal"
 ## Metres from the eyes in which one can dig and build.
@@ -80,7 +80,7 @@ func refine() -> void:
 
 
 func find_start() -> Transform3D:
-	return DemoGround.start(world, "spawn", DEPTHS)
+	return DemoGround.start(world, "spawn", MIDDLE)
 
 
 func welcome() -> String:

@@ -4,6 +4,8 @@ extends MultiMeshInstance3D
 ## has to be drawn for it, and what is dug away loses its grass when one comes back.
 
 const BLADES := 14
+## Of a tuft, metres.
+const WIDTH := 0.4
 ## Microseconds of a frame in which ground is looked for.
 const BUDGET := 1200
 ## Metres above and below the camera in which ground is looked for.
@@ -16,7 +18,9 @@ const STEP := 2.0
 @export var world: SgmWorld3D
 @export var materials: Array[String] = ["grass"]
 @export var radius := 20.0
-@export var spacing := 0.36
+## Metres from one look for the ground to the next: what lies between has its slope.
+@export var spacing := 0.9
+@export var tufts_in_cell := 7
 
 var _tufts := {}
 var _waiting: Array[Vector2i] = []
@@ -83,30 +87,34 @@ func _choose(eye: Vector3) -> void:
 	_changed = true
 
 
-# Where the tuft of a cell stands; null where there is no grass.
-func _at(cell: Vector2i, eye: Vector3) -> Variant:
+# The tufts of a cell; none where there is no grass.
+func _at(cell: Vector2i, eye: Vector3) -> Array[Transform3D]:
+	var tufts: Array[Transform3D] = []
+	var middle := (Vector2(cell) + Vector2(0.5, 0.5)) * spacing
+	var hit := world.ray_cast(Vector3(middle.x, eye.y + ABOVE, middle.y), Vector3.DOWN, DEPTH)
+	if hit.is_empty() or hit.inside or hit.material not in materials or hit.normal.y < STEEPEST:
+		return tufts
+	var normal: Vector3 = hit.normal
 	var random := RandomNumberGenerator.new()
 	random.seed = hash(cell)
-	var place := (Vector2(cell) + Vector2(random.randf(), random.randf())) * spacing
-	var hit := world.ray_cast(Vector3(place.x, eye.y + ABOVE, place.y), Vector3.DOWN, DEPTH)
-	if hit.is_empty() or hit.inside or hit.material not in materials or hit.normal.y < STEEPEST:
-		return null
-	var basis := Basis(Vector3.UP, random.randf() * TAU).scaled(Vector3(1.0, random.randf_range(0.55, 1.25), 1.0))
-	return Transform3D(basis, hit.position - Vector3.UP * 0.03)
+	for i in tufts_in_cell:
+		var way := Vector2(random.randf() - 0.5, random.randf() - 0.5) * spacing
+		var up := -(normal.x * way.x + normal.z * way.y) / normal.y
+		var basis := Basis(Vector3.UP, random.randf() * TAU).scaled(Vector3(1.0, random.randf_range(0.55, 1.25), 1.0))
+		tufts.append(Transform3D(basis, hit.position + Vector3(way.x, up - 0.03, way.y)))
+	return tufts
 
 
 func _show() -> void:
 	_changed = false
 	var buffer := PackedFloat32Array()
 	var count := 0
-	for tuft: Variant in _tufts.values():
-		if tuft == null:
-			continue
-		var t: Transform3D = tuft
-		var b := t.basis
-		buffer.append_array(PackedFloat32Array([b.x.x, b.y.x, b.z.x, t.origin.x, b.x.y, b.y.y, b.z.y, t.origin.y,
-				b.x.z, b.y.z, b.z.z, t.origin.z]))
-		count += 1
+	for tufts: Array[Transform3D] in _tufts.values():
+		for t in tufts:
+			var b := t.basis
+			buffer.append_array(PackedFloat32Array([b.x.x, b.y.x, b.z.x, t.origin.x, b.x.y, b.y.y, b.z.y, t.origin.y,
+					b.x.z, b.y.z, b.z.z, t.origin.z]))
+			count += 1
 	multimesh.instance_count = count
 	if count > 0:
 		multimesh.buffer = buffer
@@ -123,7 +131,7 @@ func _tuft() -> ArrayMesh:
 		var turn := random.randf() * TAU
 		var out := Vector3(cos(turn), 0.0, sin(turn))
 		var across := Vector3(-out.z, 0.0, out.x) * random.randf_range(0.004, 0.008)
-		var foot := Vector3(random.randf_range(-0.5, 0.5), 0.0, random.randf_range(-0.5, 0.5)) * spacing
+		var foot := Vector3(random.randf_range(-0.5, 0.5), 0.0, random.randf_range(-0.5, 0.5)) * WIDTH
 		var high := random.randf_range(0.07, 0.2)
 		var lean := high * random.randf_range(0.25, 0.9)
 		var knee := foot + out * lean * 0.3 + Vector3.UP * high * 0.6
