@@ -13,6 +13,7 @@ layout(std140, binding = 3) uniform Frame {
   vec4 lamp_colour[kMaxLamps];
   uvec4 size;    // width and height in pixels, samples on each side of a pixel, background (0 cave, 1 sky)
   uvec4 counts;  // lamps, materials, 1 where there are clouds
+  vec4 land;     // around the world: its height, its material (below 0: none), 1 where it is bare; w: 1 in fair weather
 } frame;
 
 struct Material { vec4 colour_roughness; uvec4 pattern; };  // pattern.y: relief, float bits

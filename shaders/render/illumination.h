@@ -1,14 +1,13 @@
 // Light that the sky, the sun and lamps send, in the subset of GLSL that C++ reads too: shaders light what is seen, and
 // runtime/cli/render/light_tracer.cpp what light reaches it by way of other surfaces.
 
-// Light from the sky in a direction, without the sun's disc. Below the horizon lies ground without an end.
+// Light from the sky in a direction, without the sun's disc: deep blue overhead, paler through more air, and nearly white
+// where the haze of a whole horizon lies; brighter around the sun. Below the horizon lies ground without an end.
 FN vec3 skyLight(vec3 d, vec3 to_sun) {
-  float h = max(d.y, 0.0f);
-  float low = exp(-9.0f * h);
-  vec3 c = mix(vec3(0.075f, 0.20f, 0.52f), vec3(0.34f, 0.50f, 0.74f), exp(-2.6f * h));
-  c = mix(c, vec3(0.72f, 0.76f, 0.80f), 0.75f * low);
-  float s = max(dot(d, to_sun), 0.0f);
-  c += vec3(1.0f, 0.82f, 0.58f) * (0.16f * pow(s, 6.0f) + 0.30f * pow(s, 48.0f));
+  float h = max(d.y, 0.0f), s = max(dot(d, to_sun), 0.0f);
+  vec3 c = mix(vec3(0.085f, 0.21f, 0.49f), vec3(0.33f, 0.50f, 0.75f), exp(-3.0f * h));
+  c = mix(c, vec3(0.74f, 0.80f, 0.86f), 0.82f * exp(-10.0f * h));
+  c += vec3(1.0f, 0.86f, 0.66f) * (0.16f * pow(s, 6.0f) + 0.26f * pow(s, 40.0f) + 0.5f * pow(s, 400.0f));
   return mix(c, vec3(0.22f, 0.21f, 0.19f), smoothstep(0.0f, -0.12f, d.y));
 }
 

@@ -6,8 +6,9 @@
 #include "render/material/ground.glsl"
 #include "render/material/fluid.glsl"
 
-// A bit for each pattern that the scene has: the others are not compiled.
+// A bit for each pattern that the scene has, and the highest for a sky: the others are not compiled.
 layout(constant_id = 0) const uint kPatterns = 0xFFFFFFFFu;
+const uint kSkyBit = 31u;
 bool has(uint pattern) { return (kPatterns >> pattern & 1u) != 0u; }
 
 Surface patterned(uint pattern, Spot at) {

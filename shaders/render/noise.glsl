@@ -37,6 +37,21 @@ vec4 noise(vec3 p) {
   return vec4(value, slope) * 1.4;
 }
 
+// The same noise without its derivative, for what is asked often.
+float plainNoise(vec3 p) {
+  vec3 cell = floor(p), f = p - cell, u = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+  vec4 low, high;
+  for (int k = 0; k < 4; ++k) {
+    ivec3 corner = ivec3(k & 1, k >> 1, 0);
+    low[k] = dot(gradientAt(ivec3(cell) + corner), f - vec3(corner));
+    corner.z = 1;
+    high[k] = dot(gradientAt(ivec3(cell) + corner), f - vec3(corner));
+  }
+  vec4 v = mix(low, high, u.z);
+  vec2 w = mix(v.xz, v.yw, u.x);
+  return 1.4 * mix(w.x, w.y, u.y);
+}
+
 // Distance from p to the nearest border of a Voronoi cell, in cells.
 float borderDistance(vec2 p, int seed) {
   vec2 cell = floor(p), f = p - cell;

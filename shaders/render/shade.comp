@@ -6,6 +6,8 @@
 #include "render/materials.glsl"
 #include "render/light.glsl"
 #include "render/traced.glsl"
+#include "render/clouds.glsl"
+#include "render/land.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -60,10 +62,16 @@ vec3 haze(vec3 colour, vec3 d, float t) {
   return mix(background(d), colour, clear) + scattered * (0.010 / frame.forward.w);
 }
 
-vec3 bodyAt(ivec2 at, vec3 d) {
+// What is seen outdoors where no body is. overhead: the sky there.
+vec3 outdoors(vec3 d, vec3 overhead) {
+  if (frame.land.y < 0.0 || !has(kSkyBit)) return overhead;
+  return land(d, overhead, materials[uint(frame.land.y)].colour_roughness.rgb);
+}
+
+vec3 bodyAt(ivec2 at, vec3 d, vec3 overhead) {
   vec4 seen = texelFetch(position_plane, at, 0);
   vec3 turn = random3(ivec3(at, 1));
-  if (seen.w == 0.0) return frame.size.w == 1u ? sky(d) : haze(background(d), d, 4.0 * frame.forward.w);
+  if (seen.w == 0.0) return frame.size.w == 1u ? outdoors(d, overhead) : haze(background(d), d, 4.0 * frame.forward.w);
   vec4 facing = texelFetch(normal_plane, at, 0);
   vec3 p = seen.xyz, n = normalize(facing.xyz);
   float t = length(p - frame.eye.xyz);
@@ -88,14 +96,31 @@ vec3 bodyAt(ivec2 at, vec3 d) {
   return haze(colour, d, t);
 }
 
-vec3 sampleAt(ivec2 at) {
-  vec2 centre = (vec2(at) + 0.5) / vec2(planeSize()) * 2.0 - 1.0;
-  vec3 d = normalize(frame.forward.xyz + centre.x * frame.right.xyz - centre.y * frame.up.xyz);
+vec3 directionAt(vec2 place) {
+  vec2 centre = place / vec2(planeSize()) * 2.0 - 1.0;
+  return normalize(frame.forward.xyz + centre.x * frame.right.xyz - centre.y * frame.up.xyz);
+}
+
+vec3 sampleAt(ivec2 at, vec3 overhead) {
+  vec3 d = directionAt(vec2(at) + 0.5);
   Clouds clouds = cloudsBefore(at);
-  vec3 behind = clouds.through > 0.0 ? bodyAt(at, d) * clouds.through : vec3(0.0);
+  vec3 behind = clouds.through > 0.0 ? bodyAt(at, d, overhead) * clouds.through : vec3(0.0);
   if (clouds.through >= 1.0) return behind;
   float clear = exp(-clouds.distance / frame.forward.w);
   return mix(hazeIn(d) * (1.0 - clouds.through), clouds.light, clear) + behind;
+}
+
+// The sky of a pixel, which is soft enough to be found once for all of its samples.
+vec3 skyOver(ivec2 pixel, int side) {
+  if (frame.size.w != 1u || !has(kSkyBit)) return vec3(0.0);
+  vec3 d = directionAt((vec2(pixel) + 0.5) * float(side));
+  if (frame.land.w == 0.0) return sky(d);
+  bool seen = false;
+  for (int i = 0; i < side * side && !seen; ++i)
+    seen = texelFetch(position_plane, pixel * side + ivec2(i % side, i / side), 0).w == 0.0;
+  // Interleaved gradient noise (Jimenez, "Next generation post processing in Call of Duty", 2014).
+  float turn = fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715))));
+  return seen ? fairSky(d, turn) : vec3(0.0);
 }
 
 void main() {
@@ -104,10 +129,10 @@ void main() {
   int side = int(frame.size.z);
   vec2 from_centre = (vec2(pixel) + 0.5) / vec2(frame.size.xy) - 0.5;
   float vignette = frame.size.w == 1u ? 1.0 : 1.0 - 0.55 * dot(from_centre, from_centre);
-  vec3 sum = vec3(0.0);
+  vec3 sum = vec3(0.0), overhead = skyOver(ivec2(pixel), side);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      sum += toneMap(sampleAt(ivec2(pixel) * side + ivec2(x, y)) * (frame.pattern_offset.w * vignette));
+      sum += toneMap(sampleAt(ivec2(pixel) * side + ivec2(x, y), overhead) * (frame.pattern_offset.w * vignette));
     }
   }
   vec3 colour = encodeSrgb(sum / float(side * side));

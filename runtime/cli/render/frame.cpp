@@ -10,6 +10,7 @@
 #include <string>
 
 #include "render/image.h"
+#include "render/land.h"
 
 namespace sgm {
 namespace {
@@ -34,6 +35,16 @@ glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
     m[column] = glm::vec4(x[column], y[column], column == 3 ? kNear : 0.0f, w[column]);
   }
   return m;
+}
+
+/// As shaders/render/frame.glsl has it.
+glm::vec4 landOf(const RenderScene& scene) {
+  const bool own_clouds = std::ranges::any_of(
+      scene.materials, [](const RenderMaterial& one) { return one.pattern == SurfacePattern::cloud; });
+  const std::optional<Land> land = own_clouds ? std::nullopt : landAround(scene);
+  const float fair = own_clouds ? 0.0f : 1.0f;
+  if (!land) return {0, -1, 0, fair};
+  return {land->height, static_cast<float>(land->material), land->bare ? 1.0f : 0.0f, fair};
 }
 
 }  // namespace
@@ -93,6 +104,7 @@ Frame frameOf(const RenderScene& scene) {
                           static_cast<uint32_t>(scene.supersample), static_cast<uint32_t>(scene.background));
   frame.counts =
       glm::uvec4(static_cast<uint32_t>(scene.lamps.size() + 1), static_cast<uint32_t>(scene.materials.size()), 0, 0);
+  if (scene.background == Background::sky) frame.land = landOf(scene);
   return frame;
 }
 

@@ -22,8 +22,9 @@ struct Frame {
   glm::vec4 lamp_colour[kMaxLamps + 1];
   glm::uvec4 size;
   glm::uvec4 counts;
+  glm::vec4 land;
 };
-static_assert(sizeof(Frame) == 64 + 6 * 16 + 2 * 16 * (kMaxLamps + 1) + 32);
+static_assert(sizeof(Frame) == 64 + 6 * 16 + 2 * 16 * (kMaxLamps + 1) + 48);
 
 struct FrameMaterial {
   glm::vec4 colour_roughness;

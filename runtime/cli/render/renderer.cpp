@@ -72,7 +72,7 @@ float exposureFor(const LightPlanes& light, Background background) {
 
 }  // namespace
 
-static_assert(static_cast<uint32_t>(SurfacePattern::boards) < 32, "a pattern is a bit of ShadePipeline::patterns");
+static_assert(static_cast<uint32_t>(SurfacePattern::boards) < 31, "a pattern is a bit of ShadePipeline::patterns");
 
 /// The last pipeline for lighting, and what it was made in.
 struct Renderer::Kept {
@@ -80,9 +80,10 @@ struct Renderer::Kept {
   ShadePipeline shade;
 
   /// Error: those of the device.
-  Result<void> lightPatterns(const VulkanDevice& device, std::span<const RenderMaterial> materials) {
-    uint32_t patterns = 0;
-    for (const RenderMaterial& material : materials) patterns |= 1u << static_cast<uint32_t>(material.pattern);
+  Result<void> lightPatterns(const VulkanDevice& device, const RenderScene& scene) {
+    constexpr uint32_t kSkyBit = 1u << 31;
+    uint32_t patterns = scene.background == Background::sky ? kSkyBit : 0;
+    for (const RenderMaterial& material : scene.materials) patterns |= 1u << static_cast<uint32_t>(material.pattern);
     if (scope && (patterns & ~shade.patterns) == 0) return {};
     scope = std::make_unique<VulkanScope>(device);
     auto made = makeShadePipeline(*scope, patterns | shade.patterns);
@@ -148,7 +149,7 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
   if (!soft) return soft.error();
   auto vapour = upload(scope, std::span<const VapourLight>(light->vapour), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (!vapour) return vapour.error();
-  if (auto ready = kept_->lightPatterns(*device_, scene.materials); !ready) return ready.error();
+  if (auto ready = kept_->lightPatterns(*device_, scene); !ready) return ready.error();
   const ShadePipeline& shade = kept_->shade;
   auto shade_set =
       makeShadeSet(scope, shade, *surfaces, {*direct, *frame_buffer, *material_buffer, *pixels, *soft, *vapour});

@@ -9,6 +9,8 @@ using namespace sgm;
 namespace {
 
 constexpr int kSide = 240;
+/// A world with its own clouds has no others.
+constexpr RenderMaterial kPlainSky{SurfacePattern::cloud};
 
 /// A ball of 2 m that is seen whole.
 RenderScene ballScene(const TestMesh& ball, std::span<const RenderMaterial> materials) {
@@ -58,14 +60,14 @@ TEST_CASE("leaves stand out from a crown, and no farther than they reach", "[ren
   const std::optional<Renderer> renderer = testRenderer();
   if (!renderer) return;
   const TestMesh ball = sphereMesh({0, 0, 0}, 2, false);
-  const std::vector<RenderMaterial> leaf{materialByName("leaf")}, brick{materialByName("brick")};
+  const std::vector<RenderMaterial> leaf{materialByName("leaf"), kPlainSky}, brick{materialByName("brick"), kPlainSky};
   const Result<Image> crown = renderer->render(ballScene(ball, leaf));
   const Result<Image> bare = renderer->render(ballScene(ball, brick));
   REQUIRE(crown);
   REQUIRE(bare);
   const Seen leaves = seenOf(*crown), bricks = seenOf(*bare);
   CHECK(leaves.inside > 0.7 * leaves.inside_all);
-  CHECK(bricks.inside > 0.9 * bricks.inside_all);
+  CHECK(bricks.inside > 0.88 * bricks.inside_all);
   CHECK(leaves.near > 300);
   CHECK(bricks.near == 0);
   CHECK(leaves.far == 0);

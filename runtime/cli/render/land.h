@@ -1,0 +1,22 @@
+#pragma once
+// The land that goes on where the world that is drawn ends.
+
+#include <cstdint>
+#include <optional>
+
+#include "render/scene.h"
+
+namespace sgm {
+
+/// A plane around the world, seen from above.
+struct Land {
+  float height = 0;       ///< metres from the scene's origin
+  uint32_t material = 0;  ///< of most of the ground at the world's border
+  bool bare = false;      ///< rock, sand, gravel or snow: no meadows and woods behind it
+};
+
+/// The ground at the border of what is drawn, on the side that the camera looks to: at its median height, by area.
+/// nullopt: too little of the border is ground below the camera. scene must have been checked.
+std::optional<Land> landAround(const RenderScene& scene);
+
+}  // namespace sgm

@@ -1,0 +1,80 @@
+// The land around the world: where a region is cut off its ground goes on as a plane at the height of its border, under
+// meadows and fields or bare, and woods and hills stand before the horizon. frame.land says which.
+
+// What air does to what lies t metres away: it takes the light's red last and adds its own blue.
+vec3 throughAir(vec3 colour, vec3 haze, float t) { return mix(haze, colour, exp(-t / vec3(9200.0, 7400.0, 5600.0))); }
+
+vec3 landLight(vec3 n) {
+  return sunLight() * max(dot(n, frame.sun.xyz), 0.0) + 0.8 * skyLight(vec3(0.0, 1.0, 0.0), frame.sun.xyz);
+}
+
+bool isBare() { return frame.land.z > 0.5; }
+
+// Fields, hedges between them and woods; bare land has broad stains alone. Near the world it is what the world ends in.
+vec3 landAlbedo(vec2 at, float away, float footprint, vec3 own) {
+  // Metres of each noise; a loop, for its body is compiled once.
+  const float kWide[6] = float[6](210.0, 37.0, 4.1, 6.0, 330.0, 41.0);
+  float n[6];
+  for (int i = 0; i < 6; ++i) n[i] = plainNoise(vec3(at.x, 5.0 * float(i), at.y) / kWide[i]);
+  float middle = n[1] * visible(20.0, footprint), fine = n[2] * visible(3.0, footprint);
+  vec3 near = own * (1.0 + 0.22 * n[0] + 0.14 * middle);
+  if (isBare()) return near;
+  Block field = cellAt(at + 9.0 * vec2(n[1], n[5]), 165.0, 1.0, 401);
+  vec3 meadow = mix(vec3(0.105, 0.135, 0.050), vec3(0.150, 0.160, 0.072), field.lot.x);
+  vec3 crop = mix(vec3(0.215, 0.190, 0.095), vec3(0.150, 0.125, 0.080), field.lot.z);
+  float seen = visible(60.0, footprint);
+  vec3 c = mix(vec3(0.130, 0.142, 0.064), field.lot.y > 0.76 ? crop : meadow, seen);
+  c *= 1.0 + 0.16 * n[0] + 0.12 * middle + 0.10 * fine;
+  c = mix(near * (1.0 + 0.1 * fine), c, smoothstep(60.0, 420.0, away));
+  float hedge = (1.0 - smoothstep(2.0, 4.5, field.edge + 1.6 * n[3])) * seen * smoothstep(90.0, 160.0, away);
+  float wood = smoothstep(0.28, 0.36, n[4] + 0.25 * n[5]) * smoothstep(150.0, 300.0, away);
+  return mix(c, vec3(0.042, 0.058, 0.026) * (1.0 + 0.3 * fine), max(0.85 * hedge, 0.9 * wood));
+}
+
+// How high a row of woods or hills, `away` metres off, stands over the plane in a direction. tall: its lowest and its
+// highest; wave: metres from one rise to the next; crowns: how far trees stand out of it.
+float skyline(vec2 way, float away, vec2 tall, float wave, float crowns, float seed) {
+  float h = 0.5, size = 0.75, top = 0.0, every = wave;
+  for (int i = 0; i < 5; ++i) {
+    if (i == 3) every = 11.0;
+    float n = plainNoise(vec3(way * (away / every), seed + float(i)));
+    if (i < 3) h += size * n;
+    else top += crowns * (i == 3 ? 1.0 : 0.5) * (0.6 - abs(n));
+    size *= 0.5;
+    every *= 0.42;
+  }
+  return mix(tall.x, tall.y, clamp(h, 0.0, 1.0)) + top;
+}
+
+// What is seen in a direction under or just over the horizon where nothing stands before it; above that, `above`.
+vec3 land(vec3 d, vec3 above, vec3 own) {
+  if (d.y > 0.2 || frame.land.y < 0.0) return above;
+  float eye = max(frame.eye.y - frame.land.x, 0.3);
+  vec2 way = normalize(d.xz + vec2(1e-6, 0.0));
+  float slope = d.y / max(length(d.xz), 1e-4);
+  vec3 haze = hazeIn(vec3(d.x, 0.0, d.z)) * vec3(0.88, 0.94, 1.0);
+  vec3 wood = isBare() ? 0.75 * own : vec3(0.050, 0.066, 0.032);
+  // From near to far; a row hides all that is behind it.
+  const float kAway[4] = float[4](420.0, 1300.0, 4800.0, 13000.0), kWave[4] = float[4](150.0, 700.0, 2100.0, 4700.0);
+  const vec2 kTall[4] = vec2[4](vec2(-20.0, 15.0), vec2(6.0, 36.0), vec2(10.0, 230.0), vec2(60.0, 620.0));
+  const float kCrowns[4] = float[4](5.0, 6.0, 0.0, 0.0);
+  for (int row = isBare() ? 1 : 0; row < 4; ++row) {
+    float away = kAway[row];
+    if (slope < -eye / away || slope > (kTall[row].y + kCrowns[row] - eye) / away) continue;
+    float high = skyline(way, away, kTall[row], kWave[row], isBare() ? 0.0 : kCrowns[row], float(10 * row + 1));
+    float over = slope * away + eye;
+    if (high <= 0.5 || over > high) continue;
+    // Crowns: lit above, dark below; hills: woods and meadows by turns.
+    bool hill = row >= 2;
+    vec2 wide = hill ? vec2(420.0, 60.0) : vec2(5.0, 4.0);
+    float grain = plainNoise(vec3(way * (away / wide.x), over / wide.y + 3.0));
+    vec3 c = wood * (1.0 + 0.45 * grain) * (hill ? 0.9 : mix(0.45, 1.0, smoothstep(0.0, 1.0, over / high)));
+    if (hill && !isBare()) c = mix(c, vec3(0.125, 0.140, 0.062), smoothstep(0.05, 0.35, grain));
+    return throughAir(c * landLight(normalize(vec3(-way.x, 0.9, -way.y))), haze, away);
+  }
+  if (d.y >= -1e-4) return above;
+  float t = eye / -d.y;
+  vec2 at = frame.eye.xz + frame.pattern_offset.xz + d.xz * t;
+  vec3 c = landAlbedo(at, t, t * frame.eye.w / max(0.05, sqrt(-d.y)), own) * landLight(vec3(0.0, 1.0, 0.0));
+  return throughAir(c, haze, t);
+}
