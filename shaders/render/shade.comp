@@ -4,6 +4,7 @@
 #include "render/frame.glsl"
 #include "render/noise.glsl"
 #include "render/materials.glsl"
+#include "render/weather.glsl"
 #include "render/light.glsl"
 #include "render/traced.glsl"
 #include "render/clouds.glsl"
@@ -15,7 +16,9 @@ Surface surfaceAt(uint material, vec3 p, vec3 n, vec3 to_eye, float footprint, T
   Material m = materials[min(material, frame.counts.y - 1u)];
   Spot at = Spot(p, n, to_eye, m.colour_roughness.rgb, m.colour_roughness.w, uintBitsToFloat(m.pattern.y), footprint,
                  traced.wet, traced.depth);
-  return patterned(m.pattern.x, at);
+  Surface s = patterned(m.pattern.x, at);
+  if (has(kSkyBit) && frame.size.w == 1u) weather(s, at, m.pattern.x, traced.lie);
+  return s;
 }
 
 // Texture coordinates in the place of a material: what surface.frag has found of them.

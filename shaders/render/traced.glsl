@@ -1,7 +1,7 @@
 // Light that rays have found, for the pixels and, softly, for squares of them: runtime/cli/render/light_planes.h. Each
 // sample takes it from neighbours that lie on its own surface.
 struct DirectLight { uvec2 open; uvec2 mirror; };
-struct SoftLight { vec4 light; vec4 lean; };
+struct SoftLight { vec4 light; vec4 lean; vec4 lie; };
 layout(std430, binding = 2) readonly buffer Direct { DirectLight direct[]; };
 layout(std430, binding = 6) readonly buffer Soft { SoftLight soft[]; };
 const int kSoftPixels = 2;
@@ -40,13 +40,14 @@ struct Traced {
   vec3 mirror;
   float wet;    // 1 at the edge of standing water
   float depth;  // of water, metres
+  vec3 lie;     // how much is near, how much a ledge keeps rain off, how near a wall's foot is, 0..1
 };
 
 Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
   Traced traced;
   traced.open[0] = vec4(0.0);
   traced.open[1] = vec4(0.0);
-  traced.light = traced.lean = traced.mirror = vec3(0.0);
+  traced.light = traced.lean = traced.mirror = traced.lie = vec3(0.0);
   traced.wet = traced.depth = 0.0;
   int side = int(frame.size.z);
   ivec2 pixels_size = ivec2(frame.size.xy), soft_size = (pixels_size + kSoftPixels - 1) / kSoftPixels;
@@ -81,13 +82,14 @@ Traced tracedAt(ivec2 at, vec3 p, vec3 n, float t) {
   for (int i = 0; i < 4; ++i) {
     traced.light += weights[i] * soft[elements[i]].light.rgb;
     traced.lean += weights[i] * soft[elements[i]].lean.xyz;
+    traced.lie += weights[i] * soft[elements[i]].lie.xyz;
     met += weights[i] * soft[elements[i]].light.w;
   }
   if (met < 1e-3)
     traced.light = frame.size.w == 1u ? 0.5 * (skyLight(n, frame.sun.xyz) + skyLight(vec3(0.0, 1.0, 0.0), frame.sun.xyz))
                                       : vec3(frame.sun.w);
   else
-    traced.light /= met, traced.lean /= met;
+    traced.light /= met, traced.lean /= met, traced.lie /= met;
   return traced;
 }
 

@@ -53,13 +53,16 @@ void filterSoft(std::vector<SoftLight>& light, const Guides& guides, float eleme
   for (const int step : {1, 2, 4, 8}) {
     overNeighbours(guides, step, element, jobs, [&](size_t at, auto tell) {
       SoftLight sum;
-      float weights = 0;
+      float weights = 0, near = 0;
       tell([&](size_t other, float weight) {
         sum.light += weight * light[other].light;
         sum.lean += weight * light[other].lean;
+        near += weight * light[other].lie.x;
         weights += weight;
       });
-      next[at] = {sum.light / weights, sum.lean / weights};
+      // The rest of how a place lies is known without chance, and its edges are sharp.
+      const glm::vec4 lie(near / weights, light[at].lie.y, light[at].lie.z, light[at].lie.w);
+      next[at] = {sum.light / weights, sum.lean / weights, lie};
     });
     light.swap(next);
   }

@@ -27,6 +27,9 @@ struct DirectLight {
 struct SoftLight {
   glm::vec4 light{0};  ///< rgb: mean radiance that comes from the sky and from other surfaces, weighed by the cosine
   glm::vec4 lean{0};   ///< xyz: mean direction that it comes from, the shorter the more evenly it comes
+  /// How the place lies, for what weather does there, each 0..1: x: how much of what is around is near; y: a ledge over
+  /// it keeps rain off, 1 just below the ledge; z: what rain splashes from lies under it, 1 at its foot. All 0 in caves.
+  glm::vec4 lie{0};
 };
 
 /// One DirectLight for each pixel, one SoftLight for each square of kSoftPixels; both of the square's first sample.
@@ -38,6 +41,7 @@ struct LightPlanes {
   std::vector<VapourLight> vapour;  ///< one for each pixel, before what else is seen there; none without clouds
   /// Logarithmic mean of the brightness of all surfaces in sight; 0 if no surface is. Clouds have none.
   float brightness = 0;
+  float highlight = 0;  ///< so bright or brighter are the brightest twentieth; 0 if no surface is in sight
 };
 
 inline constexpr uint32_t kSoftPixels = 2;

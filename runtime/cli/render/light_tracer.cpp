@@ -26,6 +26,11 @@ constexpr int kBounces = 2;           // of a soft ray, before what is left is t
 constexpr float kSunRadius = 0.012f;  // of its disc at distance 1: a little hazy
 constexpr float kLampRadius = 0.03f;  // in reaches
 constexpr float kFar = 1e5f;          // metres
+constexpr float kDirtReach = 0.9f;    // metres: what lies nearer than this catches dirt
+constexpr float kUnderLedge = 2.4f;   // metres that a ledge's streaks run down
+constexpr float kSplash = 1.5f;       // metres that rain splashes up, and damp rises
+/// Bins of brightness from 2^-12 on, eight for each doubling.
+constexpr size_t kBins = 128;
 
 /// A surface that a ray has met.
 struct MetSurface {
@@ -95,16 +100,20 @@ class LightTracer {
   SoftLight soft(const MetSurface& place, uint32_t x, uint32_t y) const {
     UnitPoints points(x, y, 32), turns(x, y, 33);
     vec3 sum(0), lean(0);
+    float near = 0;
     for (int i = 0; i < kSoftRays; ++i) {
       const vec3 direction = cosineDirection(place.normal, points.next());
+      float distance = kFar;
       // One lamp seen at close quarters must not sparkle.
-      const vec3 light = glm::min(radiance(place.start, direction, turns, kBounces), vec3(6.0f));
+      const vec3 light = glm::min(radiance(place.start, direction, turns, kBounces, &distance), vec3(6.0f));
+      near += std::max(0.0f, 1 - distance / kDirtReach);
       sum += light;
       lean += direction * luminance(light);
     }
     SoftLight result;
     result.lean = glm::vec4(lean / std::max(luminance(sum), 1e-12f), 0);
     result.light = glm::vec4(sum / static_cast<float>(kSoftRays), 1);
+    if (sky_) result.lie = {near / static_cast<float>(kSoftRays), ledgeOver(place), footUnder(place), 0};
     return result;
   }
 
@@ -244,10 +253,26 @@ class LightTracer {
     return vapour_ ? vapour_->skyThrough(from, direction, sky) : sky;
   }
 
-  vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces) const {
+  /// How much a ledge keeps rain off a wall, 0..1.
+  float ledgeOver(const MetSurface& place) const {
+    if (std::abs(place.normal.y) > 0.5f) return 0;
+    const auto over = mesh_.castFronts(place.start, glm::normalize(vec3(0, 1, 0) + 0.12f * place.normal), kUnderLedge);
+    return over ? 1 - over->distance / kUnderLedge : 0;
+  }
+
+  /// How near the foot of a wall is, 0..1: whatever lies flat before it.
+  float footUnder(const MetSurface& place) const {
+    if (std::abs(place.normal.y) > 0.7f) return 0;
+    const auto under = mesh_.castFronts(place.start, glm::normalize(vec3(0, -1, 0) + 0.10f * place.normal), kSplash);
+    return under && under->facing.y > 0.5f * glm::length(under->facing) ? 1 - under->distance / kSplash : 0;
+  }
+
+  /// distance: of what the ray meets first, unless it meets nothing.
+  vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces, float* distance = nullptr) const {
     vec3 sum(0), weight(1);
     for (int i = 0; i < bounces; ++i) {
       const MetSurface place = meet(from, direction);
+      if (distance && i == 0 && place.isThere()) *distance = place.distance;
       if (!place.isThere()) return sum + weight * (sky_ ? skyIn(from, direction) : vec3(frame_.sun.w));
       // Even light fills what is wide open, and clefts the less the narrower they are.
       const float wide = place.distance / (place.distance + 0.7f);
@@ -273,6 +298,27 @@ class LightTracer {
   bool has_water_ = false;
 };
 
+size_t binOf(float brightness) {
+  const float bin = 8 * (std::log2(std::max(brightness, 1e-6f)) + 12);
+  return static_cast<size_t>(std::clamp(bin, 0.0f, static_cast<float>(kBins - 1)));
+}
+
+float highlightOf(const std::vector<std::array<uint32_t, kBins>>& rows) {
+  std::array<uint64_t, kBins> sums{};
+  uint64_t all = 0;
+  for (const auto& row : rows) {
+    for (size_t i = 0; i < kBins; ++i) {
+      sums[i] += row[i];
+      all += row[i];
+    }
+  }
+  if (all == 0) return 0;
+  uint64_t brighter = 0;
+  size_t bin = kBins;
+  while (bin > 0 && 20 * brighter < all) brighter += sums[--bin];
+  return std::exp2((static_cast<float>(bin) + 0.5f) / 8 - 12);
+}
+
 }  // namespace
 
 Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, JobSystem& jobs) {
@@ -297,6 +343,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
     if (vapour) planes.vapour.resize(planes.direct.size());
     Guides fine(planes.width, planes.height), coarse(planes.soft_width, planes.soft_height);
     std::vector<std::array<double, 2>> rows(planes.soft_height);  // sum of logarithms, and of how many
+    std::vector<std::array<uint32_t, kBins>> bins(planes.soft_height);
     std::atomic<bool> stopped = false;
     parallelFor(jobs, planes.soft_height, [&](size_t row) {
       if (stopped || (scene.go_on && !scene.go_on())) {
@@ -316,8 +363,10 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
           const size_t soft = row * planes.soft_width + x / kSoftPixels;
           coarse.set(soft, place.position, place.normal, place.distance);
           planes.soft[soft] = tracer.soft(place, x, y);
-          rows[row][0] += std::log(double{tracer.brightness(place, planes.direct[at], planes.soft[soft])} + 1e-4);
+          const float brightness = tracer.brightness(place, planes.direct[at], planes.soft[soft]);
+          rows[row][0] += std::log(double{brightness} + 1e-4);
           rows[row][1] += 1;
+          ++bins[row][binOf(brightness)];
         }
       }
     });
@@ -328,6 +377,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
       count += row[1];
     }
     if (count > 0) planes.brightness = static_cast<float>(std::exp(sum / count));
+    planes.highlight = highlightOf(bins);
     const float sample = frame.eye.w * static_cast<float>(frame.size.z);
     filterSoft(planes.soft, coarse, sample * kSoftPixels, jobs);
     filterDirect(planes.direct, fine, sample, jobs);

@@ -66,7 +66,11 @@ Result<VulkanBuffer> upload(VulkanScope& scope, std::span<const T> values, VkBuf
 /// when the light is known, pale things shall not burn out because dark ones are many.
 float exposureFor(const LightPlanes& light, Background background) {
   if (light.brightness <= 0) return 1;
-  if (background == Background::sky) return std::clamp(std::pow(0.20f / light.brightness, 0.4f), 0.6f, 1.5f);
+  if (background == Background::sky) {
+    constexpr float kWhite = 1.2f;  // comes out just below white
+    const float mean = std::pow(0.20f / light.brightness, 0.4f);
+    return std::clamp(std::min(mean, kWhite / light.highlight), 0.6f, 1.5f);
+  }
   return std::clamp(std::pow(0.16f / light.brightness, 0.7f), 0.5f, 4.0f);
 }
 

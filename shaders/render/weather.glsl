@@ -1,0 +1,91 @@
+// What rain, dirt and use leave on what people built: by how a place lies (Traced::lie), in patches and streaks.
+
+bool isRoof(uint pattern) { return pattern == 9u || pattern == 10u; }
+bool isStreet(uint pattern) { return pattern == 7u || pattern == 8u || pattern == 12u || pattern == 15u; }
+/// Masonry, tiles, plaster, concrete, wood, asphalt: not what grew, and neither metal nor glass.
+bool weathers(uint pattern) { return pattern >= 4u && pattern <= 15u && pattern != 14u || pattern == 25u; }
+
+// Noise at 4.3, 1.2 and 0.34 metres.
+vec3 patches(vec3 p, float footprint) {
+  vec3 n;
+  for (int i = 0; i < 3; ++i) {
+    float size = i == 0 ? 4.3 : i == 1 ? 1.2 : 0.34;
+    n[i] = plainNoise(p / size + 13.0 * float(i)) * visible(0.5 * size, footprint);
+  }
+  return n;
+}
+
+// Drops run down: streaks a hand wide and finer ones, long upwards. -1..1.
+float streaks(vec3 p, float footprint) {
+  return plainNoise(vec3(p.x * 5.3, p.y * 0.33, p.z * 5.3)) * visible(0.15, footprint) +
+         0.6 * plainNoise(vec3(p.x * 17.0, p.y * 0.6, p.z * 17.0) + 7.0) * visible(0.05, footprint);
+}
+
+void weatherWall(inout Surface s, Spot at, vec3 lie, vec3 patchy, float much) {
+  float runs = streaks(at.p, at.footprint);
+  float tone = 0.15 * patchy.x + 0.08 * patchy.y + 0.04 * patchy.z;
+  s.albedo *= 1.0 + much * tone;
+  s.albedo *= mix(vec3(1.0), vec3(1.02, 0.98, 0.90), much * smoothstep(-0.4, 0.6, patchy.y - patchy.x));
+  // Below a ledge the wall is not washed: soot stays, and runs down where water drips off.
+  float dripped = lie.y * (0.22 + 0.78 * smoothstep(-0.15, 0.75, runs + 0.25 * patchy.y));
+  s.albedo *= mix(vec3(1.0), vec3(0.56, 0.54, 0.51), much * 0.75 * dripped);
+  // Splashed soil and rising damp, and algae where it never dries.
+  float foot = smoothstep(0.12, 0.95, lie.z + 0.22 * patchy.y + 0.16 * patchy.z + 0.10 * runs);
+  s.albedo *= mix(vec3(1.0), vec3(0.50, 0.445, 0.365), 0.85 * foot);
+  s.albedo = mix(s.albedo, vec3(0.105, 0.110, 0.062), 0.30 * foot * foot);
+  float corner = smoothstep(0.16, 0.75, lie.x + 0.12 * patchy.z + 0.08 * patchy.y);
+  s.albedo *= mix(vec3(1.0), vec3(0.60, 0.57, 0.53), much * 0.6 * corner);
+  s.roughness = clamp(s.roughness * (1.0 + much * (0.12 * patchy.y + 0.1 * dripped)), 0.05, 1.0);
+}
+
+void weatherRoof(inout Surface s, Spot at, vec3 lie, vec3 patchy) {
+  Chart chart = chartOf(at.p, at.n);
+  float run = plainNoise(vec3(chart.at.x * 2.6, chart.at.y * 0.3, 3.0)) * visible(0.2, at.footprint);
+  s.albedo *= 1.0 + 0.16 * patchy.x + 0.10 * patchy.y + 0.12 * run;
+  float moss = smoothstep(0.25, 0.95, 0.9 * lie.x + 0.55 * patchy.y + 0.35 * patchy.z + 0.3 * patchy.x);
+  s.albedo = mix(s.albedo, vec3(0.075, 0.085, 0.040), 0.55 * moss);
+  float soot = smoothstep(0.2, 0.9, run - patchy.x + lie.x);
+  s.albedo *= mix(vec3(1.0), vec3(0.66, 0.65, 0.64), 0.6 * soot);
+}
+
+void weatherStreet(inout Surface s, Spot at, uint pattern, vec3 lie, vec3 patchy) {
+  vec2 q = at.p.xz;
+  s.albedo *= 1.0 + 0.11 * patchy.x + 0.07 * patchy.y + 0.05 * patchy.z;
+  float dirt = smoothstep(0.10, 0.7, lie.x + 0.18 * patchy.y + 0.12 * patchy.z);
+  s.albedo = mix(s.albedo, vec3(0.105, 0.088, 0.066), 0.55 * dirt);
+  // Oil and what else has dripped; the larger the rarer.
+  Block spot = cellAt(q + 0.2 * patchy.yz, 2.6, 1.0, 501);
+  float wide = 0.10 + 0.45 * spot.lot.y * spot.lot.y;
+  float stain = step(spot.lot.x, 0.30) * (1.0 - smoothstep(0.4 * wide, wide, length(spot.within) + 0.12 * patchy.z));
+  s.albedo *= 1.0 - 0.42 * stain * (0.6 + 0.4 * spot.lot.z);
+  if (pattern != 15u) return;
+  // Where pipes were laid the asphalt is newer, in cut rectangles with a seam of tar.
+  Block cut = blockAt(q + 0.03 * patchy.zy, vec2(5.2, 3.4), 0.37, 0.3, 0.05);
+  vec2 half_size = vec2(0.9 + 1.1 * cut.lot.y, 0.5 + 0.8 * cut.lot.z);
+  vec2 outside = abs(cut.within + vec2(0.3, -0.2)) - half_size;
+  float edge = max(outside.x, outside.y), there = step(cut.lot.x, 0.22);
+  s.albedo *= 1.0 - 0.26 * there * (1.0 - smoothstep(-0.02, 0.02, edge));
+  s.albedo *= 1.0 - 0.5 * there * (1.0 - smoothstep(0.012, 0.03 + 0.5 * at.footprint, abs(edge))) * visible(0.06, at.footprint);
+  // Polished and bleached by wheels, in broad bands that the eye takes for lanes.
+  s.albedo *= mix(vec3(1.0), vec3(1.22, 1.20, 1.16), smoothstep(-0.1, 0.6, patchy.x) * (1.0 - stain));
+}
+
+// lie: Traced::lie of the place.
+void weather(inout Surface s, Spot at, uint pattern, vec3 lie) {
+  if (!weathers(pattern) || at.relief <= 0.0) return;
+  vec3 patchy = patches(at.p, at.footprint);
+  if (isRoof(pattern)) {
+    weatherRoof(s, at, lie, patchy);
+    return;
+  }
+  float wall = 1.0 - smoothstep(0.45, 0.75, abs(at.n.y));
+  if (wall > 0.0) {
+    // What is painted is washed more often.
+    Surface worn = s;
+    weatherWall(worn, at, lie, patchy, clamp(0.2 + 0.8 * at.relief, 0.0, 1.0));
+    s.albedo = mix(s.albedo, worn.albedo, wall);
+    s.roughness = mix(s.roughness, worn.roughness, wall);
+  } else if (at.n.y > 0.75 && isStreet(pattern)) {
+    weatherStreet(s, at, pattern, lie, patchy);
+  }
+}
