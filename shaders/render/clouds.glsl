@@ -1,5 +1,5 @@
-// Clouds of fair weather in the sky behind everything: small cumulus at one height and, far above, streaks of cirrus. They
-// hang on the sky and depend on the direction alone, so that they stay where they are while an eye moves.
+// Clouds of fair weather in the sky behind everything: small cumulus at one height and, far above, streaks of cirrus.
+// They hang on the sky and depend on the direction alone, so that they stay where they are while an eye moves.
 
 // The way in metres to a level over a round earth. up: the direction's sine over the horizon.
 float wayTo(float level, float up) {

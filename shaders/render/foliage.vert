@@ -1,9 +1,10 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // Layers over a lawn or a crown, one an instance: blades and leaves are where a layer passes through them (Kajiya and
-// Kay's fur, as Lengyel drew it: "Real-time fur over arbitrary surfaces", 2001). The first instance is the ground
-// between them, in their shade.
+// Kay's fur, as Lengyel drew it: "Real-time fur over arbitrary surfaces", 2001). Of lawns the first instance is the
+// ground between the blades, in their shade; those of crowns begin within the crown, whose own surface is not drawn.
 #include "render/foliage.glsl"
+#include "render/noise.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -19,6 +20,7 @@ layout(location = 4) flat out uint out_second;
 layout(location = 5) flat out vec2 out_grown;
 layout(location = 6) out float out_share;
 layout(location = 7) flat out float out_height;  // of the layer, 0..1
+layout(location = 8) out float out_growth;       // blades: how high the tallest are, 0..1; leaves: below 0 between sprigs
 
 void main() {
   vec3 n = dot(normal, normal) > 0.01 ? normalize(normal) : vec3(0.0, 1.0, 0.0);
@@ -26,11 +28,15 @@ void main() {
   // Blades grow upwards on a slope too.
   vec3 up = kind.x == 0.0 ? normalize(n + vec3(0.0, 2.0, 0.0)) : n;
   out_root = position;
-  out_position = position + up * (offset.w * out_height + 0.002);
+  out_position = position + up * (mix(-kind.w, offset.w, out_height) + 0.002);
   out_normal = n;
   out_material = material;
   out_second = second;
   out_grown = grown;
   out_share = share;
+  vec3 at = position + offset.xyz;
+  // Tufts, and between them what is mown or trodden; sprigs, and gaps between them.
+  out_growth = kind.x == 0.0 ? clamp(0.62 + 0.45 * plainNoise(at * 0.9) + 0.30 * plainNoise(at * 4.3), 0.25, 1.0)
+                             : plainNoise(at * 1.15) + 0.55 * plainNoise(at * 3.3 + 5.0);
   gl_Position = view_projection * vec4(out_position, 1.0);
 }

@@ -1,8 +1,8 @@
 // Light that the sky, the sun and lamps send, in the subset of GLSL that C++ reads too: shaders light what is seen, and
 // runtime/cli/render/light_tracer.cpp what light reaches it by way of other surfaces.
 
-// Light from the sky in a direction, without the sun's disc: deep blue overhead, paler through more air, and nearly white
-// where the haze of a whole horizon lies; brighter around the sun. Below the horizon lies ground without an end.
+// Light from the sky in a direction, without the sun's disc: deep blue overhead, paler through more air, and nearly
+// white where the haze of a whole horizon lies; brighter around the sun. Below the horizon lies ground without an end.
 FN vec3 skyLight(vec3 d, vec3 to_sun) {
   float h = max(d.y, 0.0f), s = max(dot(d, to_sun), 0.0f);
   vec3 c = mix(vec3(0.085f, 0.21f, 0.49f), vec3(0.33f, 0.50f, 0.75f), exp(-3.0f * h));

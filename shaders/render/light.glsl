@@ -28,7 +28,9 @@ vec3 reflected(Surface s, vec3 to_light, vec3 to_eye) {
   float nl = dot(s.normal, to_light);
   float wrap = 0.6 * s.translucency;
   float diffuse = max(0.0, (nl + wrap) / (1.0 + wrap));
-  vec3 through = mix(vec3(1.0), vec3(1.0, 0.80, 0.58), s.translucency * (1.0 - smoothstep(-0.2, 0.6, nl)));
+  // What comes through has been coloured twice.
+  vec3 twice = s.albedo / max(max(s.albedo.r, s.albedo.g), max(s.albedo.b, 1e-4));
+  vec3 through = mix(vec3(1.0), twice, s.translucency * (1.0 - smoothstep(-0.2, 0.6, nl)));
   vec3 result = s.albedo * through * diffuse;
   if (nl > 0.0 && s.specular > 0.0) {
     vec3 h = normalize(to_light + to_eye);

@@ -65,7 +65,8 @@ void weatherStreet(inout Surface s, Spot at, uint pattern, vec3 lie, vec3 patchy
   vec2 outside = abs(cut.within + vec2(0.3, -0.2)) - half_size;
   float edge = max(outside.x, outside.y), there = step(cut.lot.x, 0.22);
   s.albedo *= 1.0 - 0.26 * there * (1.0 - smoothstep(-0.02, 0.02, edge));
-  s.albedo *= 1.0 - 0.5 * there * (1.0 - smoothstep(0.012, 0.03 + 0.5 * at.footprint, abs(edge))) * visible(0.06, at.footprint);
+  float seam = 1.0 - smoothstep(0.012, 0.03 + 0.5 * at.footprint, abs(edge));
+  s.albedo *= 1.0 - 0.5 * there * seam * visible(0.06, at.footprint);
   // Polished and bleached by wheels, in broad bands that the eye takes for lanes.
   s.albedo *= mix(vec3(1.0), vec3(1.22, 1.20, 1.16), smoothstep(-0.1, 0.6, patchy.x) * (1.0 - stain));
 }

@@ -9,10 +9,22 @@ namespace {
 struct Kind {
   SurfacePattern pattern;
   uint32_t layers;
-  float height;  ///< metres
+  float height;  ///< metres over the surface
+  float depth;   ///< metres under it
   float far;     ///< metres
 };
-constexpr std::array kKinds{Kind{SurfacePattern::grassy, 14, 0.11f, 45}, Kind{SurfacePattern::leafy, 14, 0.26f, 220}};
+constexpr std::array kKinds{Kind{SurfacePattern::grassy, 14, 0.13f, 0, 45},
+                            Kind{SurfacePattern::leafy, 14, 0.36f, 0.30f, 220}};
+constexpr const Kind& kLeaves = kKinds[1];
+
+bool grows(const Kind& kind, uint32_t material, const RenderScene& scene) {
+  const RenderMaterial& one = scene.materials[std::min<size_t>(material, scene.materials.size() - 1)];
+  return one.pattern == kind.pattern && one.relief > 0;
+}
+
+bool isNear(const Kind& kind, const RenderVertex& corner, const Frame& frame) {
+  return corner.texture == glm::vec2(0) && glm::distance(corner.position, glm::vec3(frame.eye)) <= kind.far;
+}
 
 Foliage foliageOf(const Kind& kind, float which, const RenderScene& scene, const Frame& frame) {
   Foliage foliage;
@@ -20,17 +32,11 @@ Foliage foliageOf(const Kind& kind, float which, const RenderScene& scene, const
   foliage.constants.view_projection = frame.view_projection;
   foliage.constants.eye = frame.eye;
   foliage.constants.offset = glm::vec4(glm::vec3(frame.pattern_offset), kind.height);
-  foliage.constants.kind = glm::vec4(which, static_cast<float>(kind.layers), kind.far, 0);
-  const auto grows = [&](uint32_t material) {
-    const RenderMaterial& one = scene.materials[std::min<size_t>(material, scene.materials.size() - 1)];
-    return one.pattern == kind.pattern && one.relief > 0;
-  };
-  const glm::vec3 eye(frame.eye);
+  foliage.constants.kind = glm::vec4(which, static_cast<float>(kind.layers), kind.far, kind.depth);
   for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
     const RenderVertex& one = scene.vertices[scene.indices[i]];
-    const glm::vec2 grown(grows(one.material) ? 1 : 0, grows(one.second) ? 1 : 0);
-    const bool chequered = one.texture != glm::vec2(0);
-    if (chequered || grown.x + grown.y == 0 || glm::distance(one.position, eye) > kind.far) continue;
+    const glm::vec2 grown(grows(kind, one.material, scene) ? 1 : 0, grows(kind, one.second, scene) ? 1 : 0);
+    if (grown.x + grown.y == 0 || !isNear(kind, one, frame)) continue;
     for (size_t k = 0; k < 3; ++k) {
       RenderVertex vertex = scene.vertices[scene.indices[i + k]];
       vertex.texture = grown;
@@ -44,6 +50,20 @@ Foliage foliageOf(const Kind& kind, float which, const RenderScene& scene, const
 
 std::array<Foliage, 2> foliageOf(const RenderScene& scene, const Frame& frame) {
   return {foliageOf(kKinds[0], 0, scene, frame), foliageOf(kKinds[1], 1, scene, frame)};
+}
+
+std::vector<uint32_t> withoutCrowns(const RenderScene& scene, const Frame& frame, std::span<const uint32_t> indices) {
+  std::vector<uint32_t> rest;
+  rest.reserve(indices.size());
+  for (size_t i = 0; i + 2 < indices.size(); i += 3) {
+    const std::span<const uint32_t> triangle = indices.subspan(i, 3);
+    const RenderVertex& one = scene.vertices[triangle[0]];
+    const auto isAlone = [&](uint32_t corner) { return scene.vertices[corner].share == 0; };
+    const bool leafy = grows(kLeaves, one.material, scene) &&
+                       (grows(kLeaves, one.second, scene) || std::ranges::all_of(triangle, isAlone));
+    if (!leafy || !isNear(kLeaves, one, frame)) rest.insert(rest.end(), triangle.begin(), triangle.end());
+  }
+  return rest;
 }
 
 }  // namespace sgm

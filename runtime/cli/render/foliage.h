@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "render/frame.h"
@@ -29,5 +30,9 @@ struct Foliage {
 /// Blades, and leaves, of what lies near enough to show them. scene must have been checked, and frame be its own. May
 /// throw std::bad_alloc.
 std::array<Foliage, 2> foliageOf(const RenderScene& scene, const Frame& frame);
+
+/// Those triangles of `indices` that are drawn beside foliage: of a crown that has leaves the leaves alone are seen,
+/// and between them what is behind it. scene must have been checked, and frame be its own. May throw std::bad_alloc.
+std::vector<uint32_t> withoutCrowns(const RenderScene& scene, const Frame& frame, std::span<const uint32_t> indices);
 
 }  // namespace sgm

@@ -28,7 +28,8 @@ struct SoftLight {
   glm::vec4 light{0};  ///< rgb: mean radiance that comes from the sky and from other surfaces, weighed by the cosine
   glm::vec4 lean{0};   ///< xyz: mean direction that it comes from, the shorter the more evenly it comes
   /// How the place lies, for what weather does there, each 0..1: x: how much of what is around is near; y: a ledge over
-  /// it keeps rain off, 1 just below the ledge; z: what rain splashes from lies under it, 1 at its foot. All 0 in caves.
+  /// it keeps rain off, 1 just below the ledge; z: what rain splashes from lies under it, 1 at its foot. All 0 in
+  /// caves.
   glm::vec4 lie{0};
 };
 

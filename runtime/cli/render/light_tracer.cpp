@@ -324,8 +324,12 @@ float highlightOf(const std::vector<std::array<uint32_t, kBins>>& rows) {
 Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, JobSystem& jobs) {
   try {
     const SceneParts parts = partsOf(scene);
-    const Result<RayCaster> mesh = RayCaster::over(scene.vertices, parts.bodies);
+    Result<RayCaster> mesh = RayCaster::over(scene.vertices, parts.bodies);
     if (!mesh) return mesh.error();
+    std::vector<uint8_t> leafy;
+    for (const RenderMaterial& one : scene.materials)
+      leafy.push_back(one.pattern == SurfacePattern::leafy && one.relief > 0);
+    if (std::ranges::count(leafy, 1) > 0) mesh->loosen(leafy, vec3(frame.pattern_offset));
     std::optional<Vapour> vapour;
     if (!parts.clouds.empty()) {
       Result<Vapour> made = Vapour::over(scene, frame, parts.clouds, jobs);

@@ -23,8 +23,8 @@ struct SurfacePass {
 /// The stages that read SurfacePass's push constants.
 inline constexpr VkShaderStageFlags kSurfaceStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-/// Lights what is seen, made of the patterns whose bits are set, and of the sky where the highest is: a device compiles the whole of it in seconds, and what
-/// a scene needs in far less.
+/// Lights what is seen, made of the patterns whose bits are set, and of the sky where the highest is: a device compiles
+/// the whole of it in seconds, and what a scene needs in far less.
 struct ShadePipeline {
   uint32_t patterns = 0;
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;

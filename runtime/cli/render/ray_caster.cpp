@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "render/puff_noise.h"
+
 namespace sgm {
 namespace {
 
@@ -23,6 +25,31 @@ void dropBack(const RTCFilterFunctionNArguments* at) {
 }
 void dropFront(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) at->valid[0] = 0;
+}
+
+/// A ray to a light, with what its filter must know.
+struct LightRay {
+  RTCIntersectContext context;  // first: Embree hands on a pointer to it
+  const RayCaster* mesh;
+  std::span<const uint8_t> leafy;
+  glm::vec3 offset;
+};
+
+// The same for light among crowns: it passes between sprigs.
+void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
+  if (meetsFront(*at)) {
+    at->valid[0] = 0;
+    return;
+  }
+  const auto& light = *reinterpret_cast<const LightRay*>(at->context);
+  const RTCRay& ray = *reinterpret_cast<const RTCRay*>(at->ray);
+  const RTCHit& hit = *reinterpret_cast<const RTCHit*>(at->hit);
+  const uint32_t material = light.mesh->vertex(hit.primID, 0).material;
+  if (material >= light.leafy.size() || light.leafy[material] == 0) return;
+  constexpr float kSprig = 0.5f, kGap = 0.52f;  // metres; the share of noise that is no gap
+  const glm::vec3 place =
+      glm::vec3(ray.org_x, ray.org_y, ray.org_z) + ray.tfar * glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z);
+  if (puffHollows(place + light.offset, kSprig, 0.1f) > kGap) at->valid[0] = 0;
 }
 
 template <class Ray>
@@ -103,13 +130,18 @@ std::optional<RayHit> RayCaster::castFronts(glm::vec3 from, glm::vec3 direction,
   return nearest(scene_.get(), from, direction, max_distance, true);
 }
 
+void RayCaster::loosen(std::span<const uint8_t> leafy, glm::vec3 offset) {
+  leafy_ = leafy;
+  offset_ = offset;
+}
+
 bool RayCaster::isFree(glm::vec3 from, glm::vec3 direction, float max_distance) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.filter = dropFront;
+  LightRay light{{}, this, leafy_, offset_};
+  rtcInitIntersectContext(&light.context);
+  light.context.filter = leafy_.empty() ? dropFront : dropFrontAndGaps;
   RTCRay ray{};
   aim(ray, from, direction, max_distance);
-  rtcOccluded1(scene_.get(), &context, &ray);
+  rtcOccluded1(scene_.get(), &light.context, &ray);
   return ray.tfar >= 0;  // Embree says of a ray that meets something that it ends at -infinity
 }
 

@@ -127,7 +127,7 @@ Result<Image> Renderer::render(const RenderScene& scene) const {
   const std::vector<FrameMaterial> materials = frameMaterials(scene);
   auto vertex_buffer = upload(scope, scene.vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
   if (!vertex_buffer) return vertex_buffer.error();
-  const std::vector<uint32_t> indices = partsOf(scene).bodies;
+  const std::vector<uint32_t> indices = withoutCrowns(scene, frame, partsOf(scene).bodies);
   auto index_buffer = upload(scope, std::span<const uint32_t>(indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   if (!index_buffer) return index_buffer.error();
   const std::array<Foliage, 2> foliage = foliageOf(scene, frame);

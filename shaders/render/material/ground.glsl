@@ -45,6 +45,11 @@ Surface grassy(Spot at) {
   vec3 dry = mix(at.colour, vec3(0.30, 0.255, 0.14), 0.6), lush = at.colour * vec3(0.7, 0.95, 0.6);
   s.albedo = mix(at.colour, dry, smoothstep(0.0, 0.7, broad.x + 0.4 * clump.x));
   s.albedo = mix(s.albedo, lush, 0.6 * smoothstep(0.1, 0.7, -broad.x + 0.3 * noise(at.p * 1.1).x));
+  // Clover and moss in patches, and what has been trodden thin.
+  float clover = smoothstep(0.22, 0.42, noise(at.p * 0.55 + 21.0).x + 0.30 * noise(at.p * 2.7).x);
+  s.albedo = mix(s.albedo, at.colour * vec3(0.58, 0.86, 0.72), 0.7 * clover);
+  float worn = smoothstep(0.42, 0.75, noise(at.p * 0.33 + 60.0).x + 0.35 * clump.x + 0.2 * noise(at.p * 8.0).x);
+  s.albedo = mix(s.albedo, vec3(0.185, 0.150, 0.090), 0.6 * worn);
   s.albedo *= 1.0 + 0.30 * blade + 0.14 * clump.x;
   // Where it is too steep for grass the soil shows.
   float bare = 1.0 - smoothstep(0.60, 0.80, at.n.y + 0.12 * clump.x);
@@ -68,6 +73,9 @@ Surface leafy(Spot at) {
   s.albedo = at.colour * (1.0 + 0.35 * clump.x) * mix(vec3(1.0), vec3(1.3, 1.12, 0.7), 0.5 * b.lot.x * seen);
   s.albedo *= mix(0.85, mix(0.62, 1.0, smoothstep(0.0, 0.016, b.edge)) * (0.62 + 0.7 * b.lot.y), seen);
   s.albedo *= 1.0 - 0.45 * smoothstep(0.0, -0.6, sprig);
+  // Trees and their boughs differ in hue.
+  float hue = noise(at.p * 0.07 + 30.0).x + 0.4 * noise(at.p * 0.75 + 50.0).x;
+  s.albedo *= mix(vec3(0.84, 0.97, 1.0), vec3(1.22, 1.06, 0.76), smoothstep(-0.7, 0.7, hue));
   vec3 turn = vec3(b.lot.x, b.lot.y, b.lot.z) - 0.5;
   vec4 relief_slope = relief(at.p, 0.9, 4, 0, at.footprint);
   s.normal = bend(at.n, 2.4 * turn * seen + 0.9 * relief_slope.xyz, 0.8 * at.relief);

@@ -35,6 +35,7 @@ bool isBody(const Image& image, int x, int y) {
 /// Pixels by how far from the ball's middle they are seen, 1 at its outline: of bodies.
 struct Seen {
   int inside = 0, inside_all = 0, near = 0, far = 0;
+  int middle_gaps = 0, middle = 0, rim_gaps = 0, rim = 0;  ///< of the inside: where the background shows, and all
 };
 
 Seen seenOf(const Image& image) {
@@ -46,6 +47,8 @@ Seen seenOf(const Image& image) {
       if (from_middle < 0.97) {
         ++seen.inside_all;
         seen.inside += isBody(image, x, y);
+        (from_middle < 0.6 ? seen.middle : seen.rim) += 1;
+        (from_middle < 0.6 ? seen.middle_gaps : seen.rim_gaps) += !isBody(image, x, y);
       } else if (from_middle > 1.03) {
         (from_middle < 1.17 ? seen.near : seen.far) += isBody(image, x, y);
       }
@@ -66,7 +69,10 @@ TEST_CASE("leaves stand out from a crown, and no farther than they reach", "[ren
   REQUIRE(crown);
   REQUIRE(bare);
   const Seen leaves = seenOf(*crown), bricks = seenOf(*bare);
-  CHECK(leaves.inside > 0.7 * leaves.inside_all);
+  CHECK(leaves.inside > 0.6 * leaves.inside_all);
+  // Its rim lets the sky through, its middle hardly does.
+  CHECK(leaves.rim_gaps * leaves.middle > 2 * leaves.middle_gaps * leaves.rim);
+  CHECK(leaves.middle_gaps < 0.2 * leaves.middle);
   CHECK(bricks.inside > 0.88 * bricks.inside_all);
   CHECK(leaves.near > 300);
   CHECK(bricks.near == 0);
@@ -124,4 +130,23 @@ TEST_CASE("blades and leaves grow where their material is, and near the camera",
   REQUIRE(foliage[1].vertices.size() == 3);
   CHECK(foliage[1].vertices[0].texture == glm::vec2(0, 1));
   CHECK(foliage[1].vertices[2].position == glm::vec3(2, 0, 0));
+}
+
+TEST_CASE("of near crowns the leaves alone are drawn, of all else its surface", "[render]") {
+  const std::vector<RenderMaterial> materials{materialByName("leaf"), materialByName("bark")};
+  TestMesh mesh;
+  const auto triangle = [&](uint32_t material, uint32_t second, float share, float z) {
+    const auto first = static_cast<uint32_t>(mesh.vertices.size());
+    for (int i = 0; i < 3; ++i)
+      mesh.vertices.push_back({{static_cast<float>(i), 0, z}, {0, 1, 0}, material, second, share});
+    mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 2});
+  };
+  triangle(0, 0, 0, 0);
+  triangle(0, 1, 0, 0);      // the second has no share
+  triangle(0, 1, 0.4f, 0);   // leaves pass into bark
+  triangle(1, 1, 0, 0);      // bark
+  triangle(0, 0, 0, -1000);  // too far away for leaves
+  const RenderScene scene = ballScene(mesh, materials);
+  const std::vector<uint32_t> drawn = withoutCrowns(scene, frameOf(scene), scene.indices);
+  CHECK(drawn == std::vector<uint32_t>{6, 7, 8, 9, 10, 11, 12, 13, 14});
 }

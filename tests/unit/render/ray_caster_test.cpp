@@ -76,3 +76,26 @@ TEST_CASE("sides and distances are told apart", "[render]") {
   REQUIRE(nothing);
   CHECK(!nothing->cast({0, 0, 0}, {0, 0, 1}, 100));
 }
+
+TEST_CASE("some light passes a crown that was loosened, and none passes other bodies", "[render]") {
+  const TestMesh ball = sphereMesh({0, 0, 0}, 3, false);
+  Result<RayCaster> mesh = RayCaster::over(ball.vertices, ball.indices);
+  REQUIRE(mesh);
+  const auto passing = [&] {
+    int free = 0;
+    for (int i = 0; i < 40 * 40; ++i) {
+      const glm::vec3 from(0.1f * static_cast<float>(i % 40 - 20), -9, 0.1f * static_cast<float>(i / 40 - 20));
+      free += mesh->isFree(from, {0, 1, 0}, 100);
+    }
+    return free;
+  };
+  CHECK(passing() == 0);
+  const std::array<uint8_t, 1> leaf{1}, other{0};
+  mesh->loosen(leaf, glm::vec3(0));
+  const int through = passing();
+  CHECK(through > 1600 * 0.04);
+  CHECK(through < 1600 * 0.45);
+  CHECK(passing() == through);
+  mesh->loosen(other, glm::vec3(0));
+  CHECK(passing() == 0);
+}
