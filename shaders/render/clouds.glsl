@@ -38,7 +38,7 @@ float cumulusDensity(vec3 p, float heap, float share, int octaves) {
 
 // Light, and how much of what is behind shows, along a direction. turn: 0..1, where within a step it begins.
 vec4 cumulus(vec3 d, vec3 to_sun, vec3 behind, float turn) {
-  const float kStep = 1.0 / 34.0, kLost = 0.0075;  // of light, a metre, in the full density
+  const float kStep = 1.0 / 28.0, kLost = 0.0075;  // of light, a metre, in the full density
   if (d.y < 0.012) return vec4(0.0, 0.0, 0.0, 1.0);
   float begin = wayTo(kCloudBase, d.y), way = wayTo(kCloudBase + kCloudDepth, d.y) - begin;
   float through = 1.0, forward = pow(max(dot(d, to_sun), 0.0), 8.0);
@@ -58,10 +58,10 @@ vec4 cumulus(vec3 d, vec3 to_sun, vec3 behind, float turn) {
     }
     // Here, and then on the way to the sun.
     float density = 0.0, deep = 0.0;
-    for (int k = 0; k < 4; ++k) {
-      float ahead = k == 0 ? 0.0 : 17.0 * exp2(1.4 * float(k));
+    for (int k = 0; k < 3; ++k) {
+      float ahead = k == 0 ? 0.0 : 22.0 * exp2(1.6 * float(k));
       // Short ways away the cloud stands as it does here.
-      float at = share + to_sun.y * ahead / kCloudDepth, other = k == 3 ? heap - 0.1 : heap;
+      float at = share + to_sun.y * ahead / kCloudDepth, other = k == 2 ? heap - 0.08 : heap;
       float one = cumulusDensity(p + to_sun * ahead, other, at, k == 0 ? 3 : 1);
       if (k == 0) density = one;
       else deep += 0.8 * ahead * one;

@@ -9,7 +9,7 @@ layout(location = 1) in vec3 root;
 layout(location = 2) in vec3 normal;
 layout(location = 3) flat in uint material;
 layout(location = 4) flat in uint second;
-layout(location = 5) flat in vec2 grown;
+layout(location = 5) flat in float grown;
 layout(location = 6) in float share;
 layout(location = 7) flat in float height;
 layout(location = 8) in float growth;
@@ -51,15 +51,15 @@ float reachAt(float facing) {
 vec3 leaf(vec3 at, vec3 n, float footprint, float reach) {
   float ends = 0.22 + 0.78 * reach;
   if (reach < 0.0 || height > ends) return vec3(0.0);
-  float cell = sized(0.075, footprint);
+  float cell = sized(0.075, footprint), far = smoothstep(0.10, 0.35, cell);
   vec3 q = at / cell, base = floor(q);
   vec3 lot = random3(ivec3(base) + ivec3(0, 0, 77)), turn = random3(ivec3(base) + ivec3(0, 0, 79));
-  // The fewer the farther out.
-  if (lot.z < 0.08 + 0.72 * height / ends) return vec3(0.0);
+  // The fewer the farther out. From afar single gaps would be noise: sprigs close, and gaps between them stay.
+  if (lot.z < (0.08 + 0.72 * height / ends) * mix(1.0, 0.55, far)) return vec3(0.0);
   vec3 off = q - (base + 0.5 + 0.3 * (lot - 0.5));
   vec3 facing = normalize(turn * 2.0 - 1.0 + 0.6 * n + 1e-3);
-  float thick = max(0.07, 0.6 * (offset.w + kind.w) / (kind.y * cell)), across = dot(off, facing);
-  if (abs(across) > thick || length(off - across * facing) > 0.48) return vec3(0.0);
+  float thick = max(0.07, 0.6 * (offset.w + kind.w) / (kind.y * cell)) + 0.6 * far, across = dot(off, facing);
+  if (abs(across) > thick || length(off - across * facing) > 0.48 + 0.4 * far) return vec3(0.0);
   return normalize(facing * (dot(facing, n) < 0.0 ? -0.6 : 0.6) + n);
 }
 
@@ -69,7 +69,7 @@ void main() {
     float ragged = 0.5 + 0.22 * noise(root * 3.1).x + 0.10 * noise(root * 13.0).x;
     is_second = share > ragged;
   }
-  if ((is_second ? grown.y : grown.x) == 0.0) discard;
+  if (grown != 3.0 && (grown == 2.0) != is_second) discard;
   bool lawn = kind.x == 0.0;
   float t = length(position - eye.xyz), footprint = t * eye.w;
   vec3 n = normalize(normal);

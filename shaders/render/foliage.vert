@@ -4,12 +4,11 @@
 // Kay's fur, as Lengyel drew it: "Real-time fur over arbitrary surfaces", 2001). Of lawns the first instance is the
 // ground between the blades, in their shade; those of crowns begin within the crown, whose own surface is not drawn.
 #include "render/foliage.glsl"
-#include "render/noise.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint material;
-layout(location = 3) in vec2 grown;  // x: the first material has blades or leaves, y: the second has
+layout(location = 3) in vec2 grown;  // as Foliage::vertices tells, runtime/cli/render/foliage.h
 layout(location = 4) in uint second;
 layout(location = 5) in float share;
 layout(location = 0) out vec3 out_position;
@@ -17,10 +16,10 @@ layout(location = 1) out vec3 out_root;
 layout(location = 2) out vec3 out_normal;
 layout(location = 3) flat out uint out_material;
 layout(location = 4) flat out uint out_second;
-layout(location = 5) flat out vec2 out_grown;
+layout(location = 5) flat out float out_grown;
 layout(location = 6) out float out_share;
 layout(location = 7) flat out float out_height;  // of the layer, 0..1
-layout(location = 8) out float out_growth;       // blades: how high the tallest are, 0..1; leaves: below 0 between sprigs
+layout(location = 8) out float out_growth;       // likewise
 
 void main() {
   vec3 n = dot(normal, normal) > 0.01 ? normalize(normal) : vec3(0.0, 1.0, 0.0);
@@ -32,11 +31,8 @@ void main() {
   out_normal = n;
   out_material = material;
   out_second = second;
-  out_grown = grown;
+  out_grown = grown.x;
   out_share = share;
-  vec3 at = position + offset.xyz;
-  // Tufts, and between them what is mown or trodden; sprigs, and gaps between them.
-  out_growth = kind.x == 0.0 ? clamp(0.62 + 0.45 * plainNoise(at * 0.9) + 0.30 * plainNoise(at * 4.3), 0.25, 1.0)
-                             : plainNoise(at * 1.15) + 0.55 * plainNoise(at * 3.3 + 5.0);
+  out_growth = grown.y;
   gl_Position = view_projection * vec4(out_position, 1.0);
 }

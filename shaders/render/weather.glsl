@@ -41,7 +41,10 @@ void weatherWall(inout Surface s, Spot at, vec3 lie, vec3 patchy, float much) {
 void weatherRoof(inout Surface s, Spot at, vec3 lie, vec3 patchy) {
   Chart chart = chartOf(at.p, at.n);
   float run = plainNoise(vec3(chart.at.x * 2.6, chart.at.y * 0.3, 3.0)) * visible(0.2, at.footprint);
-  s.albedo *= 1.0 + 0.16 * patchy.x + 0.10 * patchy.y + 0.12 * run;
+  s.albedo *= 1.0 + 0.20 * patchy.x + 0.12 * patchy.y + 0.14 * run;
+  // Lichen greys what the kiln left bright.
+  float lichen = smoothstep(-0.2, 0.7, 0.6 * patchy.x + 0.5 * patchy.y + 0.6 * patchy.z);
+  s.albedo = mix(s.albedo, vec3(0.21, 0.185, 0.15), 0.38 * lichen);
   float moss = smoothstep(0.25, 0.95, 0.9 * lie.x + 0.55 * patchy.y + 0.35 * patchy.z + 0.3 * patchy.x);
   s.albedo = mix(s.albedo, vec3(0.075, 0.085, 0.040), 0.55 * moss);
   float soot = smoothstep(0.2, 0.9, run - patchy.x + lie.x);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "render/puff_noise.h"
+
 namespace sgm {
 namespace {
 
@@ -14,7 +16,7 @@ struct Kind {
   float far;     ///< metres
 };
 constexpr std::array kKinds{Kind{SurfacePattern::grassy, 14, 0.13f, 0, 45},
-                            Kind{SurfacePattern::leafy, 14, 0.36f, 0.30f, 220}};
+                            Kind{SurfacePattern::leafy, 12, 0.36f, 0.30f, 220}};
 constexpr const Kind& kLeaves = kKinds[1];
 
 bool grows(const Kind& kind, uint32_t material, const RenderScene& scene) {
@@ -26,6 +28,14 @@ bool isNear(const Kind& kind, const RenderVertex& corner, const Frame& frame) {
   return corner.texture == glm::vec2(0) && glm::distance(corner.position, glm::vec3(frame.eye)) <= kind.far;
 }
 
+/// As Foliage::vertices tells it: sprigs and tufts are puffs, with gaps between them.
+float growthAt(const Kind& kind, glm::vec3 position, const Frame& frame) {
+  const float finest = frame.eye.w * glm::distance(position, glm::vec3(frame.eye));
+  const float hollow = puffHollows(position + glm::vec3(frame.pattern_offset), 0.95f, finest);
+  return kind.pattern == SurfacePattern::grassy ? std::clamp(1.1f - 0.9f * hollow, 0.25f, 1.0f)
+                                                : std::clamp(0.9f - 2 * hollow, -1.0f, 1.0f);
+}
+
 Foliage foliageOf(const Kind& kind, float which, const RenderScene& scene, const Frame& frame) {
   Foliage foliage;
   foliage.layers = kind.layers;
@@ -35,11 +45,11 @@ Foliage foliageOf(const Kind& kind, float which, const RenderScene& scene, const
   foliage.constants.kind = glm::vec4(which, static_cast<float>(kind.layers), kind.far, kind.depth);
   for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
     const RenderVertex& one = scene.vertices[scene.indices[i]];
-    const glm::vec2 grown(grows(kind, one.material, scene) ? 1 : 0, grows(kind, one.second, scene) ? 1 : 0);
-    if (grown.x + grown.y == 0 || !isNear(kind, one, frame)) continue;
+    const int grown = (grows(kind, one.material, scene) ? 1 : 0) + (grows(kind, one.second, scene) ? 2 : 0);
+    if (grown == 0 || !isNear(kind, one, frame)) continue;
     for (size_t k = 0; k < 3; ++k) {
       RenderVertex vertex = scene.vertices[scene.indices[i + k]];
-      vertex.texture = grown;
+      vertex.texture = {static_cast<float>(grown), growthAt(kind, vertex.position, frame)};
       foliage.vertices.push_back(vertex);
     }
   }

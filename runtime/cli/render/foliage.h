@@ -22,8 +22,8 @@ static_assert(sizeof(FoliageConstants) <= 128, "no device promises more");
 struct Foliage {
   FoliageConstants constants;
   uint32_t layers = 0;
-  /// Three a triangle. RenderVertex::texture says of the first and of the second material whether they are of this
-  /// kind.
+  /// Three a triangle. RenderVertex::texture.x says which of its materials are of this kind: 1 the first, 2 the second,
+  /// 3 both; y how it grows there: the height of the tallest blades, 0..1, or of leaves -1..1, below 0 between sprigs.
   std::vector<RenderVertex> vertices;
 };
 
