@@ -10,9 +10,11 @@
 #include <optional>
 #include <utility>
 
+#include "render/brightness_tally.h"
 #include "render/illuminated.h"
 #include "render/light_filter.h"
 #include "render/light_planes.h"
+#include "render/puff_noise.h"
 #include "render/ray_caster.h"
 #include "render/sampling.h"
 
@@ -29,8 +31,6 @@ constexpr float kFar = 1e5f;          // metres
 constexpr float kDirtReach = 0.9f;    // metres: what lies nearer than this catches dirt
 constexpr float kUnderLedge = 2.4f;   // metres that a ledge's streaks run down
 constexpr float kSplash = 1.5f;       // metres that rain splashes up, and damp rises
-/// Bins of brightness from 2^-12 on, eight for each doubling.
-constexpr size_t kBins = 128;
 
 /// A surface that a ray has met.
 struct MetSurface {
@@ -86,7 +86,8 @@ class LightTracer {
     if (isMirror(place.material)) {
       UnitPoints points(x, y, 64);
       const vec3 away = glm::normalize(place.position - vec3(frame_.eye));
-      seen = radiance(place.start, glm::reflect(away, place.normal), points, 1);
+      const vec3 normal = isWater(place.material) ? place.normal : paneNormal(place);
+      seen = radiance(place.start, glm::reflect(away, normal), points, 1, nullptr, true);
     }
     if (has_water_) {
       UnitPoints points(x, y, 65);
@@ -135,6 +136,14 @@ class LightTracer {
   bool isMirror(uint32_t index) const {
     const SurfacePattern pattern = material(index).pattern;
     return pattern == SurfacePattern::water || pattern == SurfacePattern::glass;
+  }
+
+  /// Panes are set by hand and drawn unevenly: each mirrors another part of the sky, a little bent.
+  vec3 paneNormal(const MetSurface& place) const {
+    const vec3 p = place.position + vec3(frame_.pattern_offset);
+    const vec3 wave(std::sin(1.9f * p.y + 0.7f * p.x), std::sin(2.3f * (p.x + p.z) + 0.6f * p.y),
+                    std::sin(1.7f * p.z + 1.1f * p.y));
+    return glm::normalize(place.normal + 0.022f * wave);
   }
 
   bool isWater(uint32_t index) const { return material(index).pattern == SurfacePattern::water; }
@@ -248,8 +257,17 @@ class LightTracer {
     return vec3(0);
   }
 
-  vec3 skyIn(vec3 from, vec3 direction) const {
-    const vec3 sky = skyLight(direction, to_sun_);
+  /// With fair-weather clouds, roughly as shaders/render/clouds.glsl draws them: where it is mirrored one by one, else
+  /// their share of the sky.
+  vec3 skyIn(vec3 from, vec3 direction, bool mirrored) const {
+    vec3 sky = skyLight(direction, to_sun_);
+    if (frame_.land.w > 0 && direction.y > 0) {
+      constexpr float kShare = 0.15f;
+      const vec3 level = 300.0f * direction / (direction.y + 0.12f);
+      const float share =
+          mirrored ? 0.8f * smoothstep(0.45f, 0.85f, 1 - puffHollows(vec3(level.x, 0, level.z), 128, 8)) : kShare;
+      sky = mix(sky, vec3(1.05f, 1.05f, 1.03f), share * smoothstep(0.0f, 0.1f, direction.y));
+    }
     return vapour_ ? vapour_->skyThrough(from, direction, sky) : sky;
   }
 
@@ -267,13 +285,14 @@ class LightTracer {
     return under && under->facing.y > 0.5f * glm::length(under->facing) ? 1 - under->distance / kSplash : 0;
   }
 
-  /// distance: of what the ray meets first, unless it meets nothing.
-  vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces, float* distance = nullptr) const {
+  /// distance: of what the ray meets first, unless it meets nothing. mirrored: it shows in a pane.
+  vec3 radiance(vec3 from, vec3 direction, UnitPoints& turns, int bounces, float* distance = nullptr,
+                bool mirrored = false) const {
     vec3 sum(0), weight(1);
     for (int i = 0; i < bounces; ++i) {
       const MetSurface place = meet(from, direction);
       if (distance && i == 0 && place.isThere()) *distance = place.distance;
-      if (!place.isThere()) return sum + weight * (sky_ ? skyIn(from, direction) : vec3(frame_.sun.w));
+      if (!place.isThere()) return sum + weight * (sky_ ? skyIn(from, direction, mirrored) : vec3(frame_.sun.w));
       // Even light fills what is wide open, and clefts the less the narrower they are.
       const float wide = place.distance / (place.distance + 0.7f);
       sum += weight * (sky_ ? 0.0f : frame_.sun.w * wide);
@@ -297,27 +316,6 @@ class LightTracer {
   bool sky_;
   bool has_water_ = false;
 };
-
-size_t binOf(float brightness) {
-  const float bin = 8 * (std::log2(std::max(brightness, 1e-6f)) + 12);
-  return static_cast<size_t>(std::clamp(bin, 0.0f, static_cast<float>(kBins - 1)));
-}
-
-float highlightOf(const std::vector<std::array<uint32_t, kBins>>& rows) {
-  std::array<uint64_t, kBins> sums{};
-  uint64_t all = 0;
-  for (const auto& row : rows) {
-    for (size_t i = 0; i < kBins; ++i) {
-      sums[i] += row[i];
-      all += row[i];
-    }
-  }
-  if (all == 0) return 0;
-  uint64_t brighter = 0;
-  size_t bin = kBins;
-  while (bin > 0 && 20 * brighter < all) brighter += sums[--bin];
-  return std::exp2((static_cast<float>(bin) + 0.5f) / 8 - 12);
-}
 
 }  // namespace
 
@@ -346,8 +344,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
     planes.soft.resize(size_t{planes.soft_width} * planes.soft_height);
     if (vapour) planes.vapour.resize(planes.direct.size());
     Guides fine(planes.width, planes.height), coarse(planes.soft_width, planes.soft_height);
-    std::vector<std::array<double, 2>> rows(planes.soft_height);  // sum of logarithms, and of how many
-    std::vector<std::array<uint32_t, kBins>> bins(planes.soft_height);
+    std::vector<BrightnessTally> rows(planes.soft_height);
     std::atomic<bool> stopped = false;
     parallelFor(jobs, planes.soft_height, [&](size_t row) {
       if (stopped || (scene.go_on && !scene.go_on())) {
@@ -367,21 +364,15 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
           const size_t soft = row * planes.soft_width + x / kSoftPixels;
           coarse.set(soft, place.position, place.normal, place.distance);
           planes.soft[soft] = tracer.soft(place, x, y);
-          const float brightness = tracer.brightness(place, planes.direct[at], planes.soft[soft]);
-          rows[row][0] += std::log(double{brightness} + 1e-4);
-          rows[row][1] += 1;
-          ++bins[row][binOf(brightness)];
+          rows[row].add(tracer.brightness(place, planes.direct[at], planes.soft[soft]));
         }
       }
     });
     if (stopped) return Error{Code::cancelled, "the picture is not wanted any more"};
-    double sum = 0, count = 0;
-    for (const auto& row : rows) {
-      sum += row[0];
-      count += row[1];
-    }
-    if (count > 0) planes.brightness = static_cast<float>(std::exp(sum / count));
-    planes.highlight = highlightOf(bins);
+    BrightnessTally all;
+    for (const BrightnessTally& row : rows) all.add(row);
+    planes.brightness = all.mean();
+    planes.highlight = all.highlight();
     const float sample = frame.eye.w * static_cast<float>(frame.size.z);
     filterSoft(planes.soft, coarse, sample * kSoftPixels, jobs);
     filterDirect(planes.direct, fine, sample, jobs);

@@ -83,7 +83,7 @@ Surface glazed(Spot at) {
   s.albedo = vec3(0.0);
   s.roughness = 0.04;
   s.specular = 0.06;
-  const vec3 kRoom = vec3(3.4, 3.0, 4.0);
+  const vec3 kRoom = vec3(2.3, 3.0, 4.0);
   Chart chart = chartOf(at.p, at.n);
   vec2 q = chart.at / kRoom.xy;
   ivec2 room = ivec2(floor(q));
@@ -97,12 +97,17 @@ Surface glazed(Spot at) {
   vec3 hit = vec3(from, 0.0) + depth * vec3(way.xy, way.z);
   vec3 paint = mix(vec3(0.34, 0.31, 0.27), vec3(0.22, 0.25, 0.28), lot.x);
   if (depth == t.y) paint = way.y > 0.0 ? vec3(0.42) : vec3(0.20, 0.14, 0.09);
-  // Daylight comes in by the window alone.
-  s.within = paint * (0.32 / (1.0 + 0.5 * hit.z * hit.z)) * (0.5 + lot.y);
-  if (lot.z > 0.45) {
-    float side = min(from.x, kRoom.x - from.x), fold = 0.5 + 0.5 * sin(from.x * 41.0);
-    float hung = 1.0 - smoothstep(0.0, 0.02, side - 0.25 - 0.9 * (lot.z - 0.45));
-    s.within = mix(s.within, vec3(0.42, 0.40, 0.36) * (0.55 + 0.45 * fold), 0.85 * hung);
+  // Daylight comes in by the window alone: by day rooms are dark, some more than others.
+  s.within = paint * (0.20 / (1.0 + 0.5 * hit.z * hit.z)) * (0.35 + lot.y);
+  if (lot.z > 0.35) {
+    float side = min(from.x, kRoom.x - from.x), fold = 0.5 + 0.5 * sin(from.x * 41.0 + 3.0 * sin(from.x * 7.0));
+    float hung = 1.0 - smoothstep(0.0, 0.03, side - 0.15 - 0.9 * (lot.z - 0.35));
+    vec3 cloth = mix(vec3(0.30, 0.29, 0.27), vec3(0.20, 0.15, 0.11), step(0.75, lot.x)) * (0.45 + 0.55 * fold);
+    s.within = mix(s.within, 0.8 * cloth * mix(0.7, 1.1, from.y / kRoom.y), 0.8 * hung);
+  } else if (lot.x > 0.6) {
+    // A blind, let down some of the way.
+    float below = 1.0 - smoothstep(0.0, 0.02, kRoom.y - from.y - kRoom.y * (0.25 + 0.45 * lot.y));
+    s.within = mix(s.within, vec3(0.27, 0.26, 0.23) * (0.85 + 0.15 * step(0.5, fract(from.y * 22.0))), 0.85 * below);
   }
   return s;
 }

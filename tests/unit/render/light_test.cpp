@@ -106,6 +106,7 @@ TEST_CASE("in even light a convex body is as bright as the light, and a cleft is
 TEST_CASE("a floor in the open gets the sky's mean, and its own shadow nowhere", "[render]") {
   LitStage stage;
   stage.addFloor(500, 0);
+  stage.materials.push_back({SurfacePattern::cloud});  // a world with its own clouds has no others
   stage.scene.background = Background::sky;
   stage.look({0, 4, 0}, {0, 0, -6});
   const LightPlanes planes = stage.traced();

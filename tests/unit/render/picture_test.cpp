@@ -125,7 +125,7 @@ TEST_CASE("every pattern draws, under every background and supersampling, with n
       auto image = renderer->render(scene);
       INFO(kNames[i]);
       REQUIRE(image);
-      CHECK(brightness(*image, 32, 23, 8) > 15);
+      CHECK(brightness(*image, 32, 23, 8) > 9);  // behind a pane lies a dark room
     }
   }
   requireNoMessages(*renderer);
