@@ -52,7 +52,10 @@ vec3 leaf(vec3 at, vec3 n, float footprint, float reach) {
   float ends = 0.22 + 0.78 * reach;
   if (reach < 0.0 || height > ends) return vec3(0.0);
   float cell = sized(0.075, footprint), far = smoothstep(0.10, 0.35, cell);
-  vec3 q = at / cell, base = floor(q);
+  vec3 q = at / cell;
+  // Cells in rows would be seen as rows.
+  q += 0.45 * sin(1.7 * q.yzx + vec3(0.0, 2.0, 4.0));
+  vec3 base = floor(q);
   vec3 lot = random3(ivec3(base) + ivec3(0, 0, 77)), turn = random3(ivec3(base) + ivec3(0, 0, 79));
   // The fewer the farther out. From afar single gaps would be noise: sprigs close, and gaps between them stay.
   if (lot.z < (0.08 + 0.72 * height / ends) * mix(1.0, 0.55, far)) return vec3(0.0);

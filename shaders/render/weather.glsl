@@ -28,7 +28,7 @@ void weatherWall(inout Surface s, Spot at, vec3 lie, vec3 patchy, float much) {
   s.albedo *= mix(vec3(1.0), vec3(1.02, 0.98, 0.90), much * smoothstep(-0.4, 0.6, patchy.y - patchy.x));
   // Below a ledge the wall is not washed: soot stays, and runs down where water drips off.
   float dripped = lie.y * (0.22 + 0.78 * smoothstep(-0.15, 0.75, runs + 0.25 * patchy.y));
-  s.albedo *= mix(vec3(1.0), vec3(0.56, 0.54, 0.51), much * 0.75 * dripped);
+  s.albedo *= mix(vec3(1.0), vec3(0.56, 0.54, 0.51), much * 0.62 * dripped);
   // Splashed soil and rising damp, and algae where it never dries.
   float foot = smoothstep(0.12, 0.95, lie.z + 0.22 * patchy.y + 0.16 * patchy.z + 0.10 * runs);
   s.albedo *= mix(vec3(1.0), vec3(0.50, 0.445, 0.365), 0.85 * foot);

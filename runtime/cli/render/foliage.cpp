@@ -1,6 +1,7 @@
 #include "render/foliage.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "render/puff_noise.h"
@@ -60,6 +61,13 @@ Foliage foliageOf(const Kind& kind, float which, const RenderScene& scene, const
 
 std::array<Foliage, 2> foliageOf(const RenderScene& scene, const Frame& frame) {
   return {foliageOf(kKinds[0], 0, scene, frame), foliageOf(kKinds[1], 1, scene, frame)};
+}
+
+bool isCrownGap(const Frame& frame, glm::vec3 position, float facing) {
+  if (glm::distance(position, glm::vec3(frame.eye)) > kLeaves.far) return false;
+  // As reachAt() of shaders/render/foliage.frag.
+  const float rim = 1 - glm::smoothstep(0.05f, 0.6f, facing);
+  return growthAt(kLeaves, position, frame) < glm::mix(-0.46f, 0.0f, rim);
 }
 
 std::vector<uint32_t> withoutCrowns(const RenderScene& scene, const Frame& frame, std::span<const uint32_t> indices) {

@@ -31,6 +31,9 @@ struct Foliage {
 /// throw std::bad_alloc.
 std::array<Foliage, 2> foliageOf(const RenderScene& scene, const Frame& frame);
 
+/// Whether one sees through a crown at a place of its surface, between sprigs: by the cosine of its normal to the eye.
+bool isCrownGap(const Frame& frame, glm::vec3 position, float facing);
+
 /// Those triangles of `indices` that are drawn beside foliage: of a crown that has leaves the leaves alone are seen,
 /// and between them what is behind it. scene must have been checked, and frame be its own. May throw std::bad_alloc.
 std::vector<uint32_t> withoutCrowns(const RenderScene& scene, const Frame& frame, std::span<const uint32_t> indices);

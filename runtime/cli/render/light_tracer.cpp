@@ -8,13 +8,15 @@
 #include <glm/packing.hpp>
 #include <new>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "render/brightness_tally.h"
+#include "render/foliage.h"
 #include "render/illuminated.h"
 #include "render/light_filter.h"
 #include "render/light_planes.h"
-#include "render/puff_noise.h"
+#include "render/pane.h"
 #include "render/ray_caster.h"
 #include "render/sampling.h"
 
@@ -47,11 +49,13 @@ float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 class LightTracer {
  public:
-  /// vapour: the scene's clouds, or nullptr.
-  LightTracer(const RenderScene& scene, const Frame& frame, const RayCaster& mesh, const Vapour* vapour)
+  /// leafy: of each material, whether leaves are drawn for it. vapour: the scene's clouds, or nullptr.
+  LightTracer(const RenderScene& scene, const Frame& frame, const RayCaster& mesh, std::span<const uint8_t> leafy,
+              const Vapour* vapour)
       : scene_(scene),
         frame_(frame),
         mesh_(mesh),
+        leafy_(leafy),
         vapour_(vapour),
         to_sun_(frame.sun),
         sky_(scene.background == Background::sky) {
@@ -66,7 +70,20 @@ class LightTracer {
     return glm::normalize(vec3(frame_.forward) + u * vec3(frame_.right) - v * vec3(frame_.up));
   }
 
-  MetSurface seenAt(uint32_t x, uint32_t y) const { return meet(vec3(frame_.eye), directionAt(x, y)); }
+  /// The eye sees through gaps of crowns.
+  MetSurface seenAt(uint32_t x, uint32_t y) const {
+    constexpr int kMostGaps = 6;
+    constexpr float kBehind = 0.02f;  // metres
+    const vec3 direction = directionAt(x, y);
+    vec3 from(frame_.eye);
+    MetSurface place = meet(from, direction);
+    for (int i = 0; i < kMostGaps && isGap(place, direction); ++i) {
+      from = place.position + kBehind * direction;
+      place = meet(from, direction);
+      if (place.isThere()) place.distance = glm::distance(place.position, vec3(frame_.eye));
+    }
+    return place;
+  }
 
   /// What is seen of clouds before a surface, or before the sky.
   VapourLight vapourAt(const MetSurface& place, uint32_t x, uint32_t y) const {
@@ -86,7 +103,9 @@ class LightTracer {
     if (isMirror(place.material)) {
       UnitPoints points(x, y, 64);
       const vec3 away = glm::normalize(place.position - vec3(frame_.eye));
-      const vec3 normal = isWater(place.material) ? place.normal : paneNormal(place);
+      const vec3 normal = isWater(place.material)
+                              ? place.normal
+                              : paneNormal(place.normal, place.position + vec3(frame_.pattern_offset));
       seen = radiance(place.start, glm::reflect(away, normal), points, 1, nullptr, true);
     }
     if (has_water_) {
@@ -138,12 +157,9 @@ class LightTracer {
     return pattern == SurfacePattern::water || pattern == SurfacePattern::glass;
   }
 
-  /// Panes are set by hand and drawn unevenly: each mirrors another part of the sky, a little bent.
-  vec3 paneNormal(const MetSurface& place) const {
-    const vec3 p = place.position + vec3(frame_.pattern_offset);
-    const vec3 wave(std::sin(1.9f * p.y + 0.7f * p.x), std::sin(2.3f * (p.x + p.z) + 0.6f * p.y),
-                    std::sin(1.7f * p.z + 1.1f * p.y));
-    return glm::normalize(place.normal + 0.022f * wave);
+  bool isGap(const MetSurface& place, vec3 direction) const {
+    return place.isThere() && leafy_[std::min<size_t>(place.material, leafy_.size() - 1)] != 0 &&
+           isCrownGap(frame_, place.position, -dot(place.normal, direction));
   }
 
   bool isWater(uint32_t index) const { return material(index).pattern == SurfacePattern::water; }
@@ -257,15 +273,12 @@ class LightTracer {
     return vec3(0);
   }
 
-  /// With fair-weather clouds, roughly as shaders/render/clouds.glsl draws them: where it is mirrored one by one, else
-  /// their share of the sky.
+  /// With fair-weather clouds: where it is mirrored one by one, else their share of the sky.
   vec3 skyIn(vec3 from, vec3 direction, bool mirrored) const {
     vec3 sky = skyLight(direction, to_sun_);
     if (frame_.land.w > 0 && direction.y > 0) {
       constexpr float kShare = 0.15f;
-      const vec3 level = 300.0f * direction / (direction.y + 0.12f);
-      const float share =
-          mirrored ? 0.8f * smoothstep(0.45f, 0.85f, 1 - puffHollows(vec3(level.x, 0, level.z), 128, 8)) : kShare;
+      const float share = mirrored ? mirroredClouds(direction) : kShare;
       sky = mix(sky, vec3(1.05f, 1.05f, 1.03f), share * smoothstep(0.0f, 0.1f, direction.y));
     }
     return vapour_ ? vapour_->skyThrough(from, direction, sky) : sky;
@@ -311,6 +324,7 @@ class LightTracer {
   const RenderScene& scene_;
   const Frame& frame_;
   const RayCaster& mesh_;
+  std::span<const uint8_t> leafy_;
   const Vapour* vapour_;
   vec3 to_sun_;
   bool sky_;
@@ -334,7 +348,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
       if (!made) return made.error();
       vapour = std::move(*made);
     }
-    const LightTracer tracer(scene, frame, *mesh, vapour ? &*vapour : nullptr);
+    const LightTracer tracer(scene, frame, *mesh, leafy, vapour ? &*vapour : nullptr);
     LightPlanes planes;
     planes.width = frame.size.x;
     planes.height = frame.size.y;
