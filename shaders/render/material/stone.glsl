@@ -32,22 +32,50 @@ Surface rock(Spot at) {
   float split = cracks(p + 0.25 * patches.yzw, n, 1.9, 0.03, footprint) * smoothstep(-0.1, 0.35, patches.x + 0.2);
   albedo *= 1.0 - 0.5 * split;
 
-  // Silt and clay settle on whatever is flat enough.
+  // Old seeps have left iron and manganese along their ways, in patches; between them the stone is fresh.
+  float seep = smoothstep(0.10, 0.55, noise(run * vec3(0.8, 1.4, 0.8) + 11.0).x + 0.45 * patches.z);
+  albedo = mix(albedo, at.colour * vec3(0.95, 0.60, 0.34) * (1.0 + 0.25 * grain), 0.50 * seep * (0.4 + 0.6 * wall));
+  float soot = smoothstep(0.30, 0.62, noise(p * 0.71 + 55.0).x + 0.35 * mottle.x);
+  albedo = mix(albedo, at.colour * vec3(0.34, 0.31, 0.29), 0.45 * soot);
+
+  // Silt, clay and small stones settle on whatever is flat enough.
   float floor_cover = smoothstep(0.70, 0.92, n.y + 0.18 * patches.x + 0.08 * mottle.x);
   vec3 silt = mix(vec3(0.27, 0.20, 0.135), at.colour * 0.7, 0.45) * (1.0 + 0.22 * grain + 0.2 * mottle.x);
   albedo = mix(albedo, silt, 0.7 * floor_cover);
+  float mud = floor_cover * smoothstep(0.0, 0.35, noise(p * vec3(0.31, 0.2, 0.31) + 21.0).x + 0.3 * mottle.x);
+  albedo = mix(albedo, silt * vec3(0.62, 0.56, 0.50), 0.8 * mud);
+  vec3 strewn = vec3(0.0);
+  if (floor_cover > 0.05 && footprint < 0.06) {
+    vec4 wobble = noise(p * 13.0);
+    vec2 on = p.xz + 0.04 * noise(p * 5.0).yz + 0.008 * wobble.yz;
+    Block large = cellAt(on, 0.26, 0.05, 71), small = cellAt(on + 5.3, 0.072, 0.02, 73);
+    float much = 0.52 - 0.40 * patches.y - 0.25 * mottle.z + 0.25 * mud;
+    float round_large = 1.0 - length(large.within * vec2(1.0 + 0.5 * large.lot.x, 1.3 - 0.4 * large.lot.y)) / (0.035 + 0.085 * large.lot.x);
+    float round_small = 1.0 - length(small.within) / (0.014 + 0.026 * small.lot.x);
+    float here = floor_cover * step(much + 0.18, large.lot.z) * visible(0.14, footprint);
+    float big = here * smoothstep(0.0, 0.10, min(round_large, 12.0 * large.edge));
+    float little = floor_cover * step(much, small.lot.z) * smoothstep(0.0, 0.2, round_small) * visible(0.05, footprint) * (1.0 - big);
+    albedo *= 1.0 - 0.45 * here * smoothstep(-0.25, 0.0, round_large) * (1.0 - big);
+    albedo = mix(albedo, at.colour * mix(0.45, 1.05, small.lot.y) * (1.0 + 0.2 * grain), little);
+    albedo = mix(albedo, at.colour * mix(0.50, 1.05, large.lot.y) * (1.0 + 0.3 * grain + 0.2 * mottle.x), big);
+    vec2 lean = big * (8.0 * large.within + 0.6 * (large.lot.xy - 0.5)) + little * (14.0 * small.within + 0.4 * (small.lot.xy - 0.5));
+    lean = -lean;
+    strewn = vec3(lean.x, 0.0, lean.y);
+    mud *= 1.0 - max(big, little);
+  }
 
   // Geometry has what is larger than a step; relief begins where that ends.
   vec4 relief_slope = relief(p, 0.62, 7, 3, footprint);
   vec3 slope = relief_slope.xyz;
   slope.y += wall * 0.4 * lamina;
-  slope *= mix(1.0, 0.55, floor_cover);
+  slope *= mix(1.0, mix(0.55, 0.30, mud), floor_cover);
+  slope += 2.2 * strewn;
 
   Surface s = surfaceOf(at);
   s.albedo = albedo;
   s.normal = bend(n, slope, 0.34 * at.relief);
-  s.roughness = clamp(mix(at.roughness, at.roughness * 0.55, max(0.8 * film, 0.5 * sinter)), 0.08, 1.0);
-  s.specular = mix(0.03, 0.045, film);
+  s.roughness = clamp(mix(at.roughness, at.roughness * 0.45, max(max(0.9 * film, 0.5 * sinter), 0.9 * mud)), 0.08, 1.0);
+  s.specular = mix(0.03, 0.045, max(film, mud));
   wetten(s, at.wet);
   s.roughness = roughened(s.roughness, 0.12 * at.relief * at.relief * relief_slope.w);
   return s;
@@ -83,27 +111,38 @@ Surface veined(Spot at) {
 Surface flowstone(Spot at) {
   vec3 p = at.p, n = at.n;
   float footprint = at.footprint;
-  vec4 broad = noise(p * 0.5 + 12.0);
-  // Flutes run with the water; rims cross them where each film has dried.
-  vec3 run = vec3(p.x * 7.0, p.y * 0.45, p.z * 7.0) + 0.6 * broad.yzw;
+  vec4 broad = noise(p * 0.5 + 12.0), patches = noise(p * 1.9 + 4.0);
+  // Each run of water has its own colour, from white over honey to rust; it wanders on its way down.
+  vec3 run = vec3(p.x * 6.0, p.y * 0.40, p.z * 6.0) + 0.9 * broad.yzw + 0.25 * patches.yzw;
   float wall = 1.0 - smoothstep(0.6, 0.95, abs(n.y));
   vec4 flute = noise(run) * visible(0.14, footprint) * wall;
-  float rim_height = p.y * 9.0 + 1.5 * broad.x + 0.4 * flute.x;
-  float rim = sin(rim_height) * visible(0.35, footprint) * wall;
-  float grain = noise(p * 29.0).x * visible(0.035, footprint) + 0.7 * noise(p * 97.0).x * visible(0.01, footprint);
-  vec3 honey = at.colour * vec3(0.92, 0.70, 0.46);
+  float stripe = noise(run * vec3(0.45, 0.8, 0.45) + 33.0).x;
+  // Films that dry leave bands of unequal width, which are broken where the water has found another way.
+  float band = noise(vec3(p.x * 0.7, p.y * 11.0 + 2.5 * broad.x + 0.8 * patches.x, p.z * 0.7)).x * visible(0.09, footprint) * wall;
+  float grain = noise(p * 29.0).x * visible(0.035, footprint) + 0.8 * noise(p * 97.0).x * visible(0.01, footprint);
+  vec3 honey = at.colour * vec3(0.90, 0.68, 0.44), rust = at.colour * vec3(0.62, 0.38, 0.22);
   Surface s = surfaceOf(at);
-  s.albedo = mix(at.colour, honey, smoothstep(-0.15, 0.7, broad.x + 0.12 * rim));
-  s.albedo *= 1.0 + 0.10 * flute.x + 0.05 * rim + 0.06 * grain;
-  vec3 slope = flute.yzw * vec3(1.0, 0.1, 1.0) + vec3(0.0, 0.30 * cos(rim_height) * visible(0.35, footprint) * wall, 0.0);
-  vec4 relief_slope = relief(p, 0.21, 5, 0, footprint);
-  slope += 0.4 * relief_slope.xyz;
+  float age = broad.x + 0.55 * stripe + 0.25 * patches.x;
+  s.albedo = mix(at.colour, honey, smoothstep(-0.20, 0.45, age));
+  s.albedo = mix(s.albedo, rust, 0.75 * smoothstep(0.28, 0.75, age + 0.15 * band));
+  s.albedo *= 1.0 + 0.14 * flute.x + 0.10 * band + 0.10 * grain;
+  // Clay lies on what faces up and sticks to old, dry calcite.
+  float dirt = smoothstep(0.45, 0.95, n.y + 0.35 * patches.x) * smoothstep(-0.25, 0.25, patches.y + 0.5 * broad.z) +
+               0.6 * smoothstep(0.25, 0.6, noise(p * 0.9 + 61.0).x + 0.3 * patches.z);
+  dirt = min(dirt, 1.0);
+  s.albedo = mix(s.albedo, vec3(0.235, 0.175, 0.115) * (1.0 + 0.3 * grain), 0.55 * dirt);
+  vec3 slope = flute.yzw * vec3(1.0, 0.1, 1.0) + vec3(0.0, 0.45 * band, 0.0);
+  vec4 relief_slope = relief(p, 0.24, 6, 2, footprint);
+  slope += mix(0.45, 0.8, smoothstep(0.0, 0.5, patches.z)) * relief_slope.xyz;
   s.normal = bend(n, slope, 0.30 * at.relief);
-  float flutes = visible(0.14, footprint), lost = 0.16 * relief_slope.w + 0.5 * (1.0 - flutes * flutes);
-  s.roughness = clamp(at.roughness * (1.0 + 0.35 * broad.x), 0.08, 1.0);
-  s.specular = 0.05;
+  float flutes = visible(0.14, footprint), lost = 0.25 * relief_slope.w + 0.5 * (1.0 - flutes * flutes);
+  // Water still runs here and there; elsewhere the calcite has dried to a dull crust.
+  float runs = smoothstep(0.05, 0.45, noise(run * vec3(0.6, 0.5, 0.6) + 80.0).x + 0.3 * broad.y);
+  s.roughness = clamp(mix(1.75, 0.65, runs) * at.roughness * (1.0 + 0.35 * dirt), 0.08, 1.0);
+  s.albedo *= mix(1.0, 0.80, runs);
+  s.specular = 0.045;
   wetten(s, 0.6 * at.wet);
   s.roughness = roughened(s.roughness, 0.30 * 0.30 * at.relief * at.relief * lost);
-  s.translucency = 0.35;
+  s.translucency = 0.20;
   return s;
 }
