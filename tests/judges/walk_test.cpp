@@ -25,15 +25,19 @@ using Point = std::array<double, 3>;
 
 constexpr double kCell = 0.2;  // metres, of the mesh and of Recast's voxels
 
-/// A sample whose halls are connected within a block of four cells, as its `expect components(air)` says.
+/// A sample whose halls are connected within a block of so many cells, as its `expect components(air)` says.
 struct Walk {
   const char* grammar;
+  const char* anchor;  ///< the name of the anchors in its halls
+  uint32_t cells;      ///< on an edge of the block: a power of two, which links of a tree connect
   double hall;         ///< metres: so far from a hall's anchor a passage may still be part of it
   const char* beyond;  ///< the tag of halls that one cannot walk to, beyond a shaft or a sump; "": there are none
 };
 
 const Walk kWalks[] = {
-    {"cave", 18, ""},
+    {"cave", "hall", 4, 18, ""},
+    {"lake", "room", 4, 18, ""},
+    {"branchwork", "hall", 2, 18, ""},
 };
 
 uint64_t numberOr(const char* variable, uint64_t otherwise) {
@@ -191,7 +195,7 @@ TEST_CASE("an agent walks from each hall of a cave to each other, through passag
     std::stringstream text;
     text << in.rdbuf();
     const std::shared_ptr<const Program> program = compiled(text.str(), file.parent_path());
-    const Result<IntBox> block = blockRegion(*program, 4);
+    const Result<IntBox> block = blockRegion(*program, walk.cells);
     REQUIRE(block);
     const IntBox box = *block;
     for (uint64_t seed = firstSeed(); seed < firstSeed() + seedsWanted(); ++seed) {
