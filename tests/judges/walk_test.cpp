@@ -28,16 +28,16 @@ constexpr double kCell = 0.2;  // metres, of the mesh and of Recast's voxels
 /// A sample whose halls are connected within a block of so many cells, as its `expect components(air)` says.
 struct Walk {
   const char* grammar;
-  const char* anchor;  ///< the name of the anchors in its halls
-  uint32_t cells;      ///< on an edge of the block: a power of two, which links of a tree connect
+  int32_t cells;       ///< on an edge of the block: a power of two, which links of a tree connect
+  double far;          ///< metres: halls that lie nearer than that may be neighbours
   double hall;         ///< metres: so far from a hall's anchor a passage may still be part of it
   const char* beyond;  ///< the tag of halls that one cannot walk to, beyond a shaft or a sump; "": there are none
 };
 
 const Walk kWalks[] = {
-    {"cave", "hall", 4, 18, ""},
-    {"lake", "room", 4, 18, ""},
-    {"branchwork", "hall", 2, 18, ""},
+    {"cave", 4, 110, 18, ""},
+    {"lake", 4, 110, 18, ""},
+    {"branchwork", 2, 200, 18, ""},
 };
 
 uint64_t numberOr(const char* variable, uint64_t otherwise) {
@@ -235,7 +235,7 @@ TEST_CASE("an agent walks from each hall of a cave to each other, through passag
         reached += is_reached;
         // Of neighbours whose way leads through no other hall.
         for (size_t k = 0; k < i; ++k) {
-          if (distance(halls[i], halls[k]) > 110) continue;
+          if (distance(halls[i], halls[k]) > walk.far) continue;
           const std::vector<Point> way = walked(k, i);
           const bool direct = !way.empty() && std::ranges::none_of(eachMetre(way), [&](const Point& p) {
             for (size_t j = 0; j < halls.size(); ++j)

@@ -21,17 +21,17 @@ Surface water(Spot at) {
   vec3 silt = vec3(0.215, 0.180, 0.128) * (1.0 + 0.22 * broad.x + 0.16 * mottle.x + 0.10 * fine.x);
   // Stones lie here and not there; each is lit from one side, and dark where it meets the silt.
   float many = 0.5 * broad.x + 0.2 * mottle.x;
-  float round_small = 1.0 - length(small.within) / (0.035 + 0.045 * small.lot.x);
-  float strewn = step(0.30, small.lot.z + many) * smoothstep(0.0, 0.2, round_small) * visible(0.10, at.footprint);
-  vec3 pebble = mix(vec3(0.16, 0.14, 0.11), vec3(0.40, 0.37, 0.31), small.lot.y);
+  float round_small = 1.0 - length(small.within) * (1.0 + 0.5 * fine.w) / (0.03 + 0.045 * small.lot.x);
+  float strewn = step(0.42, small.lot.z + many) * smoothstep(0.0, 0.2, round_small) * visible(0.10, at.footprint);
+  vec3 pebble = mix(vec3(0.13, 0.11, 0.085), vec3(0.31, 0.28, 0.225), small.lot.y * small.lot.y);
   pebble *= (0.72 + 0.4 * max(round_small, 0.0) + 2.5 * small.within.x) * (1.0 + 0.15 * fine.x);
-  float round_large = 1.0 - length(large.within * vec2(1.0 + 0.4 * large.lot.x, 1.2 - 0.3 * large.lot.y)) / (0.10 + 0.17 * large.lot.x);
+  float round_large = 1.0 - length(large.within * vec2(1.0 + 0.4 * large.lot.x, 1.2 - 0.3 * large.lot.y)) * (1.0 + 0.3 * mottle.w + 0.18 * fine.w) / (0.09 + 0.18 * large.lot.x);
   float here = step(0.52, large.lot.z + many) * visible(0.30, at.footprint);
   float lies = here * smoothstep(0.0, 0.12, round_large);
   vec3 stone = mix(vec3(0.15, 0.13, 0.105), vec3(0.37, 0.33, 0.27), large.lot.y);
   stone *= (0.68 + 0.45 * max(round_large, 0.0) + 0.8 * large.within.x) * (1.0 + 0.25 * mottle.x + 0.15 * fine.x);
   vec3 bed = mix(silt, pebble, strewn);
-  bed *= 1.0 - 0.5 * here * smoothstep(-0.22, 0.0, round_large);
+  bed *= 1.0 - 0.35 * here * smoothstep(-0.22, 0.0, round_large);
   bed = mix(bed, stone, lies);
   s.albedo = bed * through + 0.6 * at.colour * (1.0 - through.g);
   s.roughness = 0.06;
