@@ -26,9 +26,9 @@ Surface water(Spot at) {
   vec3 pebble = mix(vec3(0.13, 0.11, 0.085), vec3(0.31, 0.28, 0.225), small.lot.y * small.lot.y);
   pebble *= (0.72 + 0.4 * max(round_small, 0.0) + 2.5 * small.within.x) * (1.0 + 0.15 * fine.x);
   float round_large = 1.0 - length(large.within * vec2(1.0 + 0.4 * large.lot.x, 1.2 - 0.3 * large.lot.y)) * (1.0 + 0.3 * mottle.w + 0.18 * fine.w) / (0.09 + 0.18 * large.lot.x);
-  float here = step(0.52, large.lot.z + many) * visible(0.30, at.footprint);
+  float here = step(0.60, large.lot.z + many) * visible(0.30, at.footprint);
   float lies = here * smoothstep(0.0, 0.12, round_large);
-  vec3 stone = mix(vec3(0.15, 0.13, 0.105), vec3(0.37, 0.33, 0.27), large.lot.y);
+  vec3 stone = mix(vec3(0.12, 0.10, 0.08), vec3(0.29, 0.255, 0.20), large.lot.y);
   stone *= (0.68 + 0.45 * max(round_large, 0.0) + 0.8 * large.within.x) * (1.0 + 0.25 * mottle.x + 0.15 * fine.x);
   vec3 bed = mix(silt, pebble, strewn);
   bed *= 1.0 - 0.35 * here * smoothstep(-0.22, 0.0, round_large);
