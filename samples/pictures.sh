@@ -29,7 +29,7 @@ nave nave.sgm --sharp --cell 0.1 --fov 62 --region -15,-1,2:15,34,50 --camera 0,
 terrace terrace.sgm --sharp --cell 0.07 --fov 58 --size 1280x800 --region 0,-1,-12:92,20,34 --camera 3,2.2,13:40,4.2,7
 town town.sgm --sharp --cell 0.1 --fov 62 --region -8,-1,-8:34,20,30 --camera -3.5,1.7,22:15,5.2,9
 tree tree.sgm --cell 0.05 --fov 46 --size 960x960 --region -13,-0.4,-13:13,14,13 --camera -8,1.7,15:0,5,0
-tunnels tunnels.sgm --cell 0.12 --fov 42 --region -56,-9,-40:56,16,50 --camera -15,-3.6,42:-3,1.2,-6
+tunnels tunnels.sgm --cell 0.12 --fov 50 --region -56,-9,-40:56,16,50 --camera=-14,-4.2,31:-2,-0.2,-6
 valley valley.sgm --cell 0.4 --fov 66 --region 16,-6,-12:240,116,206 --camera 40,9,132:108,26,72
 workings workings.sgm --cell 0.06 --fov 60 --region 8,11,8:14,16,44 --camera 10.8,13.5,16:11,13.1,30
 '

@@ -41,17 +41,20 @@ double squareTo(const IntBox& box) {
 }
 
 Result<std::optional<Int3>> nearestAnchor(const WorldField& world, std::string_view wanted) {
-  for (const int64_t metres : {128, 256, 512}) {
+  std::optional<Int3> nearest;
+  // From near to far, for cells that stand on each other without an end are many in a large cube.
+  for (const int64_t metres : {16, 32, 64, 128, 256, 512}) {
     const Result<std::vector<Anchor>> anchors = world.anchors(cube(metres));
     if (!anchors) return anchors.error();
-    std::optional<Int3> nearest;
     for (const Anchor& anchor : *anchors) {
       if (!isWanted(*world.settings().program, anchor, wanted)) continue;
       if (!nearest || squareOf(anchor.frame.origin) < squareOf(*nearest)) nearest = anchor.frame.origin;
     }
-    if (nearest) return nearest;
+    // In a corner of the cube one may be farther away than another beyond its faces.
+    const double units = static_cast<double>(metres * kUnitsPerMetre);
+    if (nearest && squareOf(*nearest) <= units * units) break;
   }
-  return std::optional<Int3>();
+  return nearest;
 }
 
 bool isLarge(const IntBox& box) {
