@@ -4,7 +4,7 @@
 const fs = require('fs');
 const path = require('path');
 
-const materials = ['plaster', 'brick', 'slate', 'marble', 'glass', 'wood'];
+const materials = ['plaster', 'brick', 'slate', 'concrete_cream', 'glass', 'wood', 'paint_white'];
 
 class Body {
   constructor() { this.byMaterial = materials.map(() => []); }
@@ -90,23 +90,23 @@ const octagon = (x, y, r) => [...Array(8).keys()].map((i) => {
   const turn = (Math.PI * (2 * i + 1)) / 8;
   return [x + r * Math.cos(turn), y + r * Math.sin(turn)];
 });
-/// Two panes, set back.
+/// Two panes in a frame, set back far enough that cells of a decimetre show straight edges.
 const window_ = (x0, y0, x1, y1) => ({
-  loop: rect(x0, y0, x1, y1), depth: -0.12, material: 'wood', sides: 'plaster',
+  loop: rect(x0, y0, x1, y1), depth: -0.16, material: 'paint_white', sides: 'plaster',
   features: [
-    { loop: rect(x0 + 0.08, y0 + 0.08, (x0 + x1) / 2 - 0.04, y1 - 0.08), depth: -0.06, material: 'glass', sides: 'wood' },
-    { loop: rect((x0 + x1) / 2 + 0.04, y0 + 0.08, x1 - 0.08, y1 - 0.08), depth: -0.06, material: 'glass', sides: 'wood' },
+    { loop: rect(x0 + 0.11, y0 + 0.11, (x0 + x1) / 2 - 0.06, y1 - 0.11), depth: -0.1, material: 'glass', sides: 'paint_white' },
+    { loop: rect((x0 + x1) / 2 + 0.06, y0 + 0.11, x1 - 0.11, y1 - 0.11), depth: -0.1, material: 'glass', sides: 'paint_white' },
   ],
 });
-const sill = (x0, x1, y) => ({ loop: rect(x0 - 0.1, y - 0.12, x1 + 0.1, y - 0.01), depth: 0.12, material: 'marble', sides: 'marble' });
+const sill = (x0, x1, y) => ({ loop: rect(x0 - 0.1, y - 0.16, x1 + 0.1, y - 0.01), depth: 0.15, material: 'concrete_cream', sides: 'concrete_cream' });
 
 function house() {
   const body = new Body();
   const outline = [[0.3, 0], [5.7, 0], [5.7, 6.4], [6, 6.4], [6, 6.6], [3, 9.6], [0, 6.6], [0, 6.4], [0.3, 6.4]];
   const features = [
-    { loop: arch(2.3, 0.2, 3.7, 1.7, 8), depth: -0.4, material: 'wood', sides: 'marble' },
-    { loop: rect(0.4, 2.8, 5.6, 3), depth: 0.12, material: 'marble', sides: 'marble' },
-    { loop: octagon(3, 7.7, 0.5), depth: -0.2, material: 'glass', sides: 'marble' },
+    { loop: arch(2.3, 0.2, 3.7, 1.7, 8), depth: -0.4, material: 'wood', sides: 'concrete_cream' },
+    { loop: rect(0.4, 2.8, 5.6, 3), depth: 0.12, material: 'concrete_cream', sides: 'concrete_cream' },
+    { loop: octagon(3, 7.7, 0.5), depth: -0.2, material: 'glass', sides: 'concrete_cream' },
   ];
   for (const x of [0.9, 4.2]) features.push(window_(x, 1, x + 0.9, 2.3), sill(x, x + 0.9, 1));
   for (const x of [0.9, 2.55, 4.2]) features.push(window_(x, 3.9, x + 0.9, 5.4), sill(x, x + 0.9, 3.9));
@@ -121,9 +121,9 @@ function arcade() {
   const outline = rect(0, 0, 4, 5);
   body.face(outline, 0, 'brick', [
     { loop: arch(1, 0.3, 3, 2.4, 10), depth: -1.6, material: 'plaster', sides: 'brick' },
-    { loop: rect(0.4, 0.3, 0.7, 3.9), depth: 0.12, material: 'marble', sides: 'marble' },
-    { loop: rect(3.3, 0.3, 3.6, 3.9), depth: 0.12, material: 'marble', sides: 'marble' },
-    { loop: rect(0.1, 4.1, 3.9, 4.4), depth: 0.25, material: 'marble', sides: 'marble' },
+    { loop: rect(0.4, 0.3, 0.7, 3.9), depth: 0.12, material: 'concrete_cream', sides: 'concrete_cream' },
+    { loop: rect(3.3, 0.3, 3.6, 3.9), depth: 0.12, material: 'concrete_cream', sides: 'concrete_cream' },
+    { loop: rect(0.1, 4.1, 3.9, 4.4), depth: 0.25, material: 'concrete_cream', sides: 'concrete_cream' },
   ]);
   body.band(outline, -4, 0, (a, b) => (Math.min(a[1], b[1]) === 5 ? 'slate' : 'brick'));
   body.face(outline, -4, 'brick', [], -1);
