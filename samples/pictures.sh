@@ -25,7 +25,7 @@ lake lake.sgm --cell 0.08 --seed 3 --fov 66 --region -75,-8,-18:21,14,78 --camer
 lava_tube lava_tube.sgm --cell 0.1 --fov 75 --light lamp --region 4,-5,24:90,14,56 --camera 26,0.2,40.6:40,-0.4,40.4
 lipp table4/lipp.sgm --sharp --cell 0.08 --fov 46 --region -50,-12,-40:50,20,30 --camera 13,-6.9,34:-2,-1.6,0
 muller table4/muller.sgm --sharp --cell 0.08 --fov 52 --size 960x960 --region -50,-20,-30:44,24,44 --camera 27,-14.4,36:1,-1,0
-nave nave.sgm --sharp --cell 0.1 --fov 62 --region -15,-1,2:15,34,50 --camera 0,1.7,3.4:0,7.6,34
+nave nave.sgm --sharp --light sun --cell 0.1 --fov 62 --region -15,-1,2:15,34,50 --camera 0,1.7,3.4:0,7.6,34
 terrace terrace.sgm --sharp --cell 0.07 --fov 58 --size 1280x800 --region 0,-1,-10:92,18,30 --camera 3,1.75,13.9:40,3.6,7.4
 town town.sgm --sharp --cell 0.09 --fov 60 --region -8,-1,-30:60,22,34 --camera -3.5,1.7,22:15,4.6,7
 tree tree.sgm --seed 3 --cell 0.05 --fov 56 --size 960x960 --region -20,-0.4,-34:30,14,13 --camera -5,1.6,12:0.5,4.8,0
