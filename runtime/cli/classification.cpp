@@ -18,7 +18,10 @@ Result<MasterKey> keyFor(const std::string& mode, const masters::MasterSet& set,
   std::string there;
   for (const measure::MasterLimits& limits : set.limits) {
     const MasterKey& key = limits.key;
-    there += fmt::format("{}{}", there.empty() ? "" : "; ", textOf(key));
+    const bool ours = key.version == measure::kMasterVersion;
+    there += fmt::format("{}{}{}", there.empty() ? "" : "; ", textOf(key),
+                         ours ? "" : fmt::format(" (of version {}: sgm masters build makes them anew)", key.version));
+    if (!ours) continue;
     if (measure::nameOf(key.mode) != mode) continue;
     if (key.density == 0 || key.density == density) return key;
   }

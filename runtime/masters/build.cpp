@@ -36,11 +36,11 @@ Shares meanOf(std::span<const Member> members) {
   return mean;
 }
 
-size_t nearestOf(const Shares& shares, std::span<const Shares> centres) {
+size_t nearestOf(HistogramMode mode, const Shares& shares, std::span<const Shares> centres) {
   size_t nearest = 0;
   double least = HUGE_VAL;
   for (size_t i = 0; i < centres.size(); ++i) {
-    const double mse = measure::meanSquaredError(shares, centres[i]);
+    const double mse = measure::classError(mode, shares, centres[i]);
     if (mse < least) {
       least = mse;
       nearest = i;
@@ -50,18 +50,18 @@ size_t nearestOf(const Shares& shares, std::span<const Shares> centres) {
 }
 
 /// Lloyd's algorithm, from members that lie far from each other: without chance.
-std::vector<std::vector<Member>> clustersOf(std::span<const Member> members) {
+std::vector<std::vector<Member>> clustersOf(HistogramMode mode, std::span<const Member> members) {
   std::vector<Shares> centres{*members.front().shares};
-  while (centres.size() < std::min(kMastersAClass, members.size())) {
+  while (centres.size() < std::min(mastersAGrammar(mode), members.size())) {
     const auto distance = [&](const Member& member) {
-      return measure::meanSquaredError(*member.shares, centres[nearestOf(*member.shares, centres)]);
+      return measure::classError(mode, *member.shares, centres[nearestOf(mode, *member.shares, centres)]);
     };
     centres.push_back(*std::ranges::max_element(members, {}, distance)->shares);
   }
   std::vector<std::vector<Member>> clusters;
   for (int round = 0; round < 20; ++round) {
     clusters.assign(centres.size(), {});
-    for (const Member& member : members) clusters[nearestOf(*member.shares, centres)].push_back(member);
+    for (const Member& member : members) clusters[nearestOf(mode, *member.shares, centres)].push_back(member);
     std::erase_if(clusters, [](const std::vector<Member>& cluster) { return cluster.empty(); });
     centres.clear();
     for (const std::vector<Member>& cluster : clusters) centres.push_back(meanOf(cluster));
@@ -82,23 +82,15 @@ Shares rounded(const Shares& shares) {
   return parts;
 }
 
-/// "table4/cui.sgm" of a cluster that has more models of this grammar than of any other.
-std::string_view mostly(std::span<const Member> members) {
-  std::map<std::string_view, size_t> counts;
-  for (const Member& member : members) ++counts[member.family->file];
-  return std::ranges::max_element(counts, {}, [](const auto& count) { return count.second; })->first;
-}
-
 std::vector<Master> mastersFor(const MasterKey& key, std::span<const Member> members) {
   std::vector<Master> masters;
-  std::map<std::string_view, std::vector<Member>> classes;
-  for (const Member& member : members) classes[member.family->class_name].push_back(member);
-  for (const auto& [class_name, all] : classes) {
-    size_t number = 0;
-    for (const std::vector<Member>& cluster : clustersOf(all)) {
-      const std::string class_text(class_name);
-      masters.push_back({class_text,
-                         class_text + " " + std::to_string(++number) + ", most like " + std::string(mostly(cluster)),
+  std::map<std::string_view, size_t> numbers;
+  std::map<std::pair<std::string_view, std::string_view>, std::vector<Member>> grammars;
+  for (const Member& member : members) grammars[{member.family->class_name, member.family->file}].push_back(member);
+  for (const auto& [names, all] : grammars) {
+    const std::string class_name(names.first), file(names.second);
+    for (const std::vector<Member>& cluster : clustersOf(key.mode, all)) {
+      masters.push_back({class_name, class_name + " " + std::to_string(++numbers[names.first]) + ", most like " + file,
                          key, static_cast<uint32_t>(cluster.size()), rounded(meanOf(cluster))});
     }
   }
@@ -128,7 +120,7 @@ MasterLimits limitsFor(const MasterKey& key, std::span<const Member> members) {
     for (const Member& member : held_out) {
       double least_mse = HUGE_VAL, least_emd = HUGE_VAL;
       for (const Master& master : masters) {
-        least_mse = std::min(least_mse, measure::meanSquaredError(*member.shares, master.shares));
+        least_mse = std::min(least_mse, measure::classError(key.mode, *member.shares, master.shares));
         least_emd = std::min(least_emd, measure::earthMoversDistance(*member.shares, master.shares));
       }
       mse.push_back(least_mse);
@@ -144,6 +136,8 @@ bool isOf(const MasterKey& key, const Family& family) { return key.density == 0 
 }  // namespace
 
 MasterKey defaultKey() { return {65, HistogramMode::curvature, 1, 0, measure::kMasterVersion}; }
+
+size_t mastersAGrammar(HistogramMode mode) { return mode == HistogramMode::curvature ? 6 : 2; }
 
 std::vector<MasterKey> masterKeys() {
   std::vector<MasterKey> keys{defaultKey()};

@@ -26,7 +26,7 @@ Result<void> fits(const Master& master, const MasterKey& key) {
 }
 
 void nearer(ClassDistance& of, const Master& master, std::span<const double> shares) {
-  const double mse = meanSquaredError(shares, master.shares);
+  const double mse = classError(master.key.mode, shares, master.shares);
   if (mse < of.mse) {
     of.mse = mse;
     of.nearest = master.name;
@@ -70,6 +70,16 @@ std::string differenceOf(const MasterKey& a, const MasterKey& b) {
 double meanSquaredError(std::span<const double> a, std::span<const double> b) {
   double sum = 0;
   for (size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return a.empty() ? 0 : sum / static_cast<double>(a.size());
+}
+
+double classError(HistogramMode mode, std::span<const double> a, std::span<const double> b) {
+  if (mode != HistogramMode::curvature) return meanSquaredError(a, b);
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) {
+    const double off = std::sqrt(a[i]) - std::sqrt(b[i]);
+    sum += off * off;
+  }
   return a.empty() ? 0 : sum / static_cast<double>(a.size());
 }
 

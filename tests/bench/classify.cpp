@@ -1,10 +1,8 @@
 // How often models are put into the right class: held-out models of every family, of seeds and parameters that no
 // master was made of, and meshes that are nothing but noise, which must be unknown.
 //
-//   sgm_bench_classify [MODELS] [SEED]       so many in all, a third of each class (300); fails below 95 % right
+//   sgm_bench_classify [MODELS] [SEED]       so many in all, as many of each class (300); fails below 95 % right
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -19,8 +17,6 @@
 namespace {
 
 using namespace sgm;
-
-constexpr std::array<const char*, 3> kClasses{"cave", "cloud", "building"};
 
 struct Judge {
   masters::MasterSet set = masters::builtInMasters();
@@ -73,7 +69,8 @@ int main(int argc, char** argv) {
   std::map<std::string, std::map<std::string, uint64_t>> matrix;
   uint64_t right = 0, agreed = 0, total = 0;
   double least_margin = 1;
-  for (const char* class_name : kClasses) {
+  const std::vector<std::string_view> classes = masters::classNames();
+  for (const std::string_view class_name : classes) {
     std::vector<masters::ModelMaker> makers;
     for (const masters::Family& family : masters::families()) {
       if (family.class_name != class_name) continue;
@@ -81,14 +78,14 @@ int main(int argc, char** argv) {
       if (!maker) giveUp(maker.error());
       makers.push_back(std::move(*maker));
     }
-    for (uint64_t i = 0; i < models / kClasses.size(); ++i) {
+    for (uint64_t i = 0; i < models / classes.size(); ++i) {
       // A few models take every grammar's turn, not those of the first grammar at its densities.
       const masters::ModelMaker& maker = makers[i * 7 % makers.size()];
       const auto mesh = maker.make(hashCombine(seed, i), **backend, **jobs);
       if (!mesh) giveUp(mesh.error());
       const auto said = judge.classify(*mesh, **jobs);
       if (!said) giveUp(said.error());
-      ++matrix[class_name][said->verdict];
+      ++matrix[std::string(class_name)][said->verdict];
       ++total;
       agreed += said->second_opinion == class_name;
       if (said->verdict == class_name) {
@@ -102,13 +99,14 @@ int main(int argc, char** argv) {
                   said->second_opinion.c_str());
     }
   }
+  std::vector<std::string> columns(classes.begin(), classes.end());
+  columns.emplace_back(measure::kUnknown);
   std::printf("%-10s", "");
-  for (const char* column : {"cave", "cloud", "building", "unknown"}) std::printf("%10s", column);
-  for (const char* row : kClasses) {
-    std::printf("\n%-10s", row);
-    for (const char* column : {"cave", "cloud", "building", "unknown"}) {
-      std::printf("%10llu", static_cast<unsigned long long>(matrix[row][column]));
-    }
+  for (const std::string& column : columns) std::printf("%10s", column.c_str());
+  for (const std::string_view row : classes) {
+    std::map<std::string, uint64_t>& counts = matrix[std::string(row)];
+    std::printf("\n%-10s", std::string(row).c_str());
+    for (const std::string& column : columns) std::printf("%10llu", static_cast<unsigned long long>(counts[column]));
   }
   std::printf(
       "\n%llu of %llu right, %.1f %%; by the earth mover's distance alone %.1f %%; least margin of a right one %.2f\n",

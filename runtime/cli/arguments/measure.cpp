@@ -135,9 +135,11 @@ Command addMeasure(CLI::App& root) {
 
 Command addClassify(CLI::App& root) {
   CLI::App* app = root.add_subcommand(
-      "classify", "Say whether a mesh file, or a region of a grammar, is a cave, a cloud, a building or unknown");
+      "classify",
+      "Say whether a mesh file, or a region of a grammar, is a cave, a cloud, a building, terrain, trees or unknown");
   const auto options = std::make_shared<ClassifyOptions>();
-  app->add_option("FILE", options->file, "A .glb, .gltf, .obj, .ply or .stl file in metres, or a .sgm grammar")->required();
+  app->add_option("FILE", options->file, "A .glb, .gltf, .obj, .ply or .stl file in metres, or a .sgm grammar")
+      ->required();
   app->add_flag("--json", options->json, "Print the result as one JSON object on standard output");
   app->add_option("--masters", options->masters,
                   "A base of masters, from `sgm masters build`. Without it $XDG_DATA_HOME/sgm/masters.db, or "
@@ -154,8 +156,9 @@ Command addClassify(CLI::App& root) {
   addLevelOption(*app, *options);
   addSharpOption(*app, *options);
   app->footer(
-      "The class of the nearest master by the mean squared error, as in the paper; `unknown` where no master is near,\n"
-      "or one of noise is nearest. Edges that touch a border of the mesh do not count: there a region is cut off.\n"
+      "The class of the nearest master by the mean squared error, as in the paper; with --mode curvature by that of the\n"
+      "shares' square roots, so that rare bends count beside the many flat edges. `unknown` where no master is near, or\n"
+      "one of noise is nearest. Edges that touch a border of the mesh do not count: there a region is cut off.\n"
       "Without --region all of a finite world, or one cell of its largest layer. --ld also says the density of a mesh\n"
       "file, which --mode printed and corrected need. --seed to --sharp are for grammars. Exit status 0 also for\n"
       "`unknown`.\n"
@@ -167,7 +170,7 @@ Command addMasters(CLI::App& root) {
   CLI::App* group = root.add_subcommand("masters", "Make the masters that sgm classify compares with, and list them");
   group->require_subcommand(1);
   CLI::App* build = group->add_subcommand(
-      "build", "Generate caves, clouds and buildings from the sample grammars, and make masters of them");
+      "build", "Generate models of each class from the sample grammars, and make masters of them");
   const auto built = std::make_shared<MastersBuildOptions>();
   build
       ->add_option("--out", built->out,

@@ -184,7 +184,6 @@ Result<Exhibit> densityExhibit(Workshop& workshop) {
 
 // Figure 15.
 
-constexpr std::array<const char*, 3> kClasses = {"cave", "cloud", "building"};
 /// Models of other seeds than those that the built-in masters are made of.
 constexpr uint64_t kHeldOut = uint64_t{1} << 32;
 
@@ -247,7 +246,9 @@ Result<Judged> judge(std::span<const masters::Specimen> specimens, size_t key_nu
 }
 
 Markup confusion(const Judged& judged) {
-  std::vector<std::vector<std::string>> rows{{"is", "cave", "cloud", "building", "unknown"}};
+  std::vector<std::vector<std::string>> rows{{"is"}};
+  for (const std::string_view name : masters::classNames()) rows[0].emplace_back(name);
+  rows[0].emplace_back(measure::kUnknown);
   for (const auto& [is, verdicts] : judged.verdicts) {
     std::vector<std::string>& row = rows.emplace_back(std::vector<std::string>{is});
     for (size_t c = 1; c < rows[0].size(); ++c) {
@@ -258,7 +259,7 @@ Markup confusion(const Judged& judged) {
   const std::string noise(measure::kNoise);
   const auto unknown = judged.verdicts.contains(noise) ? judged.verdicts.at(noise) : std::map<std::string, int>{};
   return table(
-      fmt::format("{}: {} of {} caves, clouds and buildings right; {} of {} of noise, of which unknown is right{}",
+      fmt::format("{}: {} of {} models of things right; {} of {} of noise, of which unknown is right{}",
                   textOf(judged.key), judged.right, judged.all, unknown.contains("unknown") ? unknown.at("unknown") : 0,
                   judged.models.contains(noise) ? judged.models.at(noise) : 0,
                   judged.key.density == 0 ? "" : "; models with that many cells a metre alone"),
@@ -266,15 +267,21 @@ Markup confusion(const Judged& judged) {
 }
 
 Markup errorTable(const Judged& judged) {
-  std::vector<std::vector<std::string>> rows{{"is", "to cave", "to cloud", "to building", "to noise"}};
+  std::vector<std::string_view> classes = masters::classNames();
+  classes.emplace_back(measure::kNoise);
+  std::vector<std::vector<std::string>> rows{{"is"}};
+  for (const std::string_view to : classes) rows[0].push_back("to " + std::string(to));
   for (const auto& [is, errors] : judged.mse) {
     std::vector<std::string>& row = rows.emplace_back(std::vector<std::string>{is});
-    for (const char* to : {"cave", "cloud", "building", "noise"}) {
-      const auto found = errors.find(to);
+    for (const std::string_view to : classes) {
+      const auto found = errors.find(std::string(to));
       row.push_back(found == errors.end() ? "-" : fmt::format("{:.3f}", 1000 * found->second / judged.models.at(is)));
     }
   }
-  return table("Mean squared error to the nearest master of each class, in thousandths, mean over the models", rows);
+  return table(
+      "Mean squared error of the shares' roots to the nearest master of each class, in thousandths, mean over the "
+      "models",
+      rows);
 }
 
 Result<Exhibit> classesExhibit(Workshop& workshop) {
@@ -298,13 +305,15 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
         keys, [mode](const measure::MasterKey& k) { return k.mode == mode && (k.density == 0 || k.density == 1); });
     const Result<Judged> judged = judge(*models, static_cast<size_t>(key - keys.begin()), set);
     if (!judged) return judged.error();
-    LineChart chart = histogramChart(mode, "caves, clouds and buildings");
+    LineChart chart = histogramChart(mode, "the classes");
     measure::HistogramSettings settings = key->settings();
     const auto bins = static_cast<int32_t>(measure::binsOf(settings));
     const int32_t first = mode == HistogramMode::printed ? 1 - bins / 2 : 1;
-    for (const char* name : kClasses)
+    for (const std::string_view class_name : masters::classNames()) {
+      const std::string name(class_name);
       if (judged->mean.contains(name))
         chart.series.push_back(stepsOf(name, judged->mean.at(name), first, settings.bins));
+    }
     charts += drawn(chart);
     tables += confusion(*judged);
     if (*key == masters::defaultKey()) tables += errorTable(*judged);
@@ -317,13 +326,12 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
   const auto noise = std::ranges::count_if(
       *models, [](const masters::Specimen& s) { return s.family->class_name == measure::kNoise; });
   exhibit.measured = fmt::format(
-      "{} models, {} of them noise, the others caves, clouds and buildings, by {} grammars and densities, with "
-      "parameters drawn from their "
-      "whole ranges and seeds of which the "
-      "built-in masters know none. Masters by clusters, eight a class, since caves of halls and caves of dripstone "
-      "have no "
-      "common mean; past a limit, or nearest to noise, the answer is unknown, where the paper always answers.",
-      models->size(), noise, families.size());
+      "{} models, {} of them noise, the others caves, clouds, buildings, terrain and trees, by {} grammars and "
+      "densities, with parameters drawn from their whole ranges and seeds of which the built-in masters know none. "
+      "Masters by clusters, {} a grammar at most, since caves of halls and caves of dripstone have no common mean. For "
+      "curvature the error is that of the shares' square roots, so that the bin of flat edges does not decide alone. "
+      "Past a limit, or nearest to noise, the answer is unknown, where the paper always answers.",
+      models->size(), noise, families.size(), masters::mastersAGrammar(HistogramMode::curvature));
   exhibit.commands = {commandOfPart(workshop.options(), "histograms"), "sgm masters list --json",
                       "sgm classify grammars/table4/muller.sgm"};
   exhibit.numbers = {{"models", models->size()}, {"modes", std::move(judgements)}};

@@ -86,7 +86,7 @@ TEST_CASE("what is built in has masters of every class for each key", "[masters]
   const MasterSet set = builtInMasters();
   REQUIRE_FALSE(set.limits.empty());
   for (const measure::MasterLimits& limits : set.limits) {
-    for (const char* name : {"cave", "cloud", "building", measure::kNoise}) {
+    for (const char* name : {"cave", "cloud", "building", "terrain", "tree", measure::kNoise}) {
       CAPTURE(measure::nameOf(limits.key.mode), limits.key.density, name);
       CHECK(std::ranges::count(set.of(limits.key), name, &measure::Master::class_name) >= 1);
     }

@@ -66,6 +66,22 @@ TEST_CASE("single bars have one error however far apart, and the earth mover see
   CHECK(earthMoversDistance(bar(1, 0), bar(1, 0)) == 0);
 }
 
+TEST_CASE("of curvature the error is that of the shares' roots, of the paper's modes that of the shares",
+          "[classify]") {
+  // Both lack a tenth of what is flat; one of them has it elsewhere in one bin, the other in two.
+  const std::vector<double> flat{0, 1, 0}, convex{0, 0.9, 0.1}, both{0.05, 0.9, 0.05};
+  CHECK(classError(HistogramMode::printed, flat, convex) == meanSquaredError(flat, convex));
+  CHECK(classError(HistogramMode::corrected, flat, both) == meanSquaredError(flat, both));
+  const double off = 1 - std::sqrt(0.9);
+  CHECK(classError(HistogramMode::curvature, flat, convex) == Approx((off * off + 0.1) / 3));
+  CHECK(classError(HistogramMode::curvature, flat, both) == Approx((off * off + 2 * 0.05) / 3));
+  // Which of two rare bends a thing has says as much as how much of it is flat.
+  const std::vector<double> flatter{0, 0.99, 0.01}, concave{0.01, 0.99, 0}, less{0, 0.95, 0.05};
+  CHECK(classError(HistogramMode::curvature, flatter, concave) > classError(HistogramMode::curvature, flatter, less));
+  CHECK(meanSquaredError(flatter, concave) < meanSquaredError(flatter, less));
+  CHECK(classError(HistogramMode::curvature, {}, {}) == 0);
+}
+
 TEST_CASE("the nearest master gives the class, and the others stand behind it", "[classify]") {
   for (const Master& master : kThree) {
     const auto said = classify(master.shares, smallKey(), kThree, kWide);
@@ -101,7 +117,8 @@ TEST_CASE("between two classes there is no margin", "[classify]") {
 
 TEST_CASE("past either limit, and without an edge, it is unknown", "[classify]") {
   const std::vector<double> off{0.7, 0.3, 0, 0, 0};
-  const double mse = meanSquaredError(off, kThree[0].shares), emd = earthMoversDistance(off, kThree[0].shares);
+  const double mse = classError(HistogramMode::curvature, off, kThree[0].shares),
+               emd = earthMoversDistance(off, kThree[0].shares);
   const auto said = [&](double most_mse, double most_emd, const std::vector<double>& shares) {
     return *classify(shares, smallKey(), kThree, {smallKey(), most_mse, most_emd});
   };
@@ -137,7 +154,7 @@ TEST_CASE("unlike histograms are not compared, and what differs is said", "[clas
       {other([](MasterKey& k) { k.mode = HistogramMode::corrected; }), "mode corrected, not curvature"},
       {other([](MasterKey& k) { k.length = 2; }), "curvature length 2, not 1"},
       {other([](MasterKey& k) { k.density = 4; }), "4 cells per metre, not any density"},
-      {other([](MasterKey& k) { k.version = 9; }), "version 9, not 1"}};
+      {other([](MasterKey& k) { k.version = 9; }), "version 9, not " + std::to_string(kMasterVersion)}};
   for (const auto& [wrong, what] : cases) {
     CAPTURE(what);
     CHECK(differenceOf(wrong, key) == what);
