@@ -4,7 +4,7 @@
 # From where an example is seen, where that is not from the front right and a little above: NAME AZIMUTH ELEVATION in
 # degrees, and options of `sgm render`.
 views='
-cave.Branchwork 20 50
+cave.Water 28 20
 facade.Plant 28 32
 facade.Stacks 28 26
 fort.Circuit 28 36
@@ -37,14 +37,11 @@ street.Lawn 28 34
 street.Site 28 30
 '
 
-# What stands around an example that shows nothing by itself: NAME | DECLARATIONS | a rule's body.
+# What is drawn instead of an example that shows nothing by itself, or more of itself as a cast of its void: NAME | DECLARATIONS | a rule's body.
 scenes='
-cave.Water | domain finite box(24m, 24m, 24m); | { { box(13m, 7m, 10m); mat limestone; } cut { ellipsoid(5m, 3m, 4m); } meet { ellipsoid(5m, 3m, 4m); cave.Water(-0.5m, deep 3m); } cut { at(z 5m) box(14m, 10m, 10m); mat clay; } }
-'
-
-# Along which axis the block around a void is sawn through, where that is not across what is long, else along z.
-sawn='
-cave.Branchwork y
+cave.Branchwork | | rot(z, 100deg) cave.Branchwork(10, step 5m, r 2.5m);
+karst.sole | | for i in 0..24 { at(karst.sole((0m, 0m, 0m), (70m, -4m, 20m), i/23)) sphere(1m); }
+cave.Water | domain finite box(24m, 24m, 24m); | { union { { box(13m, 7m, 10m); mat limestone; } cut { ellipsoid(5m, 3m, 4m); } } meet { ellipsoid(5m, 3m, 4m); at(-10.8m, -10.8m, -10.8m) scale(0.9) cave.Water(11.4m, deep 3m); } cut { at(z 5m) box(14m, 10m, 10m); mat clay; } }
 '
 
 # What has no material of its own gets that of its part.
@@ -124,7 +121,7 @@ middle() {
 opened() {
   awk -v b="$1" -v material="$2" -v example="$3" -v axis="$4" -v whole="$5" 'BEGIN {
     split(b, c, " ")
-    k = axis == "x" ? 1 : axis == "y" ? 2 : 3
+    k = axis == "x" ? 1 : 3
     for (i = 1; i <= 3; ++i) { m[i] = (c[i] + c[i + 3])/2; s[i] = c[i + 3] - c[i] }
     wall = 0.5*(s[1] < s[2] ? s[1] : s[2])
     if (wall > 0.18*s[1] + 0.02*s[2]) wall = 0.18*s[1] + 0.02*s[2]
@@ -143,7 +140,7 @@ line_of() { awk -v n="$2" '$1 == n { sub(/^[^ ]+ */, ""); print }' <<<"$1"; }
 
 draw_one() {  # draw_one SGM FOLDER PART NAME EXAMPLE
   local sgm=$1 folder=$2 part=$3 name=$3.$4 body=$5 box view scene axis whole=1 options=() fov=24 material
-  local azimuth=28 elevation=14 more='' camera pixel cell file=$2/$3.$4.sgm
+  local azimuth=28 elevation=14 more='' camera pixel cell region file=$2/$3.$4.sgm
   material=$(material_of "$part")
   scene=$(line_of "$scenes" "$name")
   if [[ -n $scene ]]; then
@@ -151,14 +148,11 @@ draw_one() {  # draw_one SGM FOLDER PART NAME EXAMPLE
   elif [[ $body == cut\ * ]]; then
     program "$file" "$part" "${body#cut }" || return
     box=$(bounds "$sgm" "$file") || return
-    axis=$(line_of "$sawn" "$name")
-    if [[ -z $axis ]]; then
-      axis=$(long_axis "$box")
-      if [[ -n $axis ]]; then
-        program "$file" "$part" "meet { ${body#cut } $(middle "$box" "$axis") }"
-        box=$(bounds "$sgm" "$file") || return
-        whole=0
-      fi
+    axis=$(long_axis "$box")
+    if [[ -n $axis ]]; then
+      program "$file" "$part" "meet { ${body#cut } $(middle "$box" "$axis") }"
+      box=$(bounds "$sgm" "$file") || return
+      whole=0
     fi
     [[ $axis != x ]] || azimuth=66
     body=$(opened "$box" "$material" "$body" "${axis:-z}" $whole)
@@ -170,7 +164,12 @@ draw_one() {  # draw_one SGM FOLDER PART NAME EXAMPLE
   read -r -a options <<<"$view" || true
   read -r camera pixel <<<"$(camera "$box" "$azimuth" "$elevation" $fov)"
   cell=$(awk -v p="$pixel" 'BEGIN { c = 1.2*p; print c < 0.005 ? 0.005 : c }')
-  "$sgm" render "$file" --sharp --cell "$cell" --max-chunks 100000 --fov $fov --size 480x320 "$camera" \
+  region=$(awk -v b="$box" -v p="$pixel" 'BEGIN {
+    split(b, c, " ")
+    e = 10*p
+    printf "--region=%.3f,%.3f,%.3f:%.3f,%.3f,%.3f", c[1] - e, c[2] - e, c[3] - e, c[4] + e, c[5] + e, c[6] + e
+  }')
+  "$sgm" render "$file" --sharp --cell "$cell" "$region" --max-chunks 100000 --fov $fov --size 360x240 "$camera" \
     ${options[@]+"${options[@]}"} --out "$folder/$name.png" >/dev/null 2>"$folder/said" || { cat "$folder/said" >&2; return 1; }
   convert "$folder/$name.png" -quality 85 -sampling-factor 4:2:0 -strip "$images/$name.jpg"
 }

@@ -47,6 +47,14 @@ bash "$SOURCE/samples/library.sh" | cmp -s - "$SOURCE/samples/grammars/library.m
   failed 'samples/grammars/library.md is of another library: samples/library.sh write'
 [[ $(grep -c '^### ' "$SOURCE/samples/grammars/library.md") == $(cat "$SOURCE"/runtime/grammar/std/*.sgm | grep -c '^// Example: ') ]] ||
   failed 'the page of the library leaves some of it out'
+# What has a shape has a picture beside it, and no picture is of what is no longer there. One number of a cell has none.
+pictured=$(bash "$SOURCE/samples/library.sh" names | sort)
+there=$(cd "$SOURCE/samples/images/library" && printf '%s\n' *.jpg | sed 's/\.jpg$//' | sort)
+[[ $pictured == "$there" ]] || failed "pictures of the library: samples/library.sh pictures SGM draws them: $(diff <(echo "$pictured") <(echo "$there"))"
+[[ $(grep -c . <<<"$pictured") == $(($(grep -c '^### ' "$SOURCE/samples/grammars/library.md") - 1)) ]] ||
+  failed 'more than one of the library has no picture'
+[[ $(grep -o '(\.\./images/library/[^)]*\.jpg)' "$SOURCE/samples/grammars/library.md" | sed 's#.*/##; s#\.jpg)$##' | sort) == "$pictured" ]] ||
+  failed 'the page of the library does not show all of its pictures'
 sed -n '/^```ebnf$/,/^```$/p' "$manual" | sed '1d;$d' | cmp -s - "$SOURCE/runtime/grammar/grammar.ebnf" ||
   failed 'the grammar in the manual is not runtime/grammar/grammar.ebnf'
 finish
