@@ -5,6 +5,7 @@
 #   samples/library.sh                        # prints the page
 #   samples/library.sh write                  # writes it where it belongs
 #   samples/library.sh names                  # lists what has a picture, as PART.NAME
+#   samples/library.sh missing                # lists what has none yet
 #   samples/library.sh pictures SGM [NAME]... # draws the pictures with the command SGM: all of them, or those named
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -74,9 +75,10 @@ case ${1-} in
   '') page ;;
   write) page >"$root/samples/grammars/library.md" ;;
   names) names ;;
+  missing) names | while read -r name; do [[ -f $images/$name.jpg ]] || echo "$name"; done ;;
   pictures)
     [[ -x ${2-} ]] || { echo 'library.sh: error: pictures needs the command: samples/library.sh pictures SGM' >&2; exit 2; }
     draw_pictures "${@:2}"
     ;;
-  *) sed -n '2,9s/^# \{0,1\}//p' "$0" && exit 2 ;;
+  *) sed -n '2,10s/^# \{0,1\}//p' "$0" && exit 2 ;;
 esac

@@ -104,13 +104,13 @@ long_axis() {
   }'
 }
 
-# middle BOUNDS AXIS: a box around that part of BOUNDS that lies just before its middle.
+# middle BOUNDS AXIS: a box around that part of BOUNDS that lies just behind its middle, seen from where the sun shines.
 middle() {
   awk -v b="$1" -v axis="$2" 'BEGIN {
     split(b, c, " ")
     k = axis == "x" ? 1 : 3
     half = (c[k] + c[k + 3])/2; deep = 0.14*(c[k + 3] - c[k])
-    c[k] = half - deep; c[k + 3] = half
+    if (k == 1) { c[1] = half; c[4] = half + deep } else { c[3] = half - deep; c[6] = half }
     for (i = 1; i <= 3; ++i) { m[i] = (c[i] + c[i + 3])/2; s[i] = c[i + 3] - c[i] + (i == k ? 0 : 1) }
     printf "at(%.4fm, %.4fm, %.4fm) box(%.4fm, %.4fm, %.4fm);\n", m[1], m[2], m[3], s[1], s[2], s[3]
   }'
@@ -125,11 +125,11 @@ opened() {
     for (i = 1; i <= 3; ++i) { m[i] = (c[i] + c[i + 3])/2; s[i] = c[i + 3] - c[i] }
     wall = 0.5*(s[1] < s[2] ? s[1] : s[2])
     if (wall > 0.18*s[1] + 0.02*s[2]) wall = 0.18*s[1] + 0.02*s[2]
-    cut = whole ? m[k] : c[k + 3]
+    cut = whole ? m[k] : k == 1 ? c[1] : c[6]
     for (i = 1; i <= 3; ++i) s[i] += 2*wall
     printf "{ { at(%.4fm, %.4fm, %.4fm) box(%.4fm, %.4fm, %.4fm); mat %s; } %s", m[1], m[2], m[3], s[1], s[2], s[3],
       material, example
-    m[k] = cut + s[k]
+    m[k] = k == 1 ? cut - s[k] : cut + s[k]
     for (i = 1; i <= 3; ++i) s[i] *= 2
     printf " cut { at(%.4fm, %.4fm, %.4fm) box(%.4fm, %.4fm, %.4fm); mat clay; } }", m[1], m[2], m[3], s[1], s[2], s[3]
   }'
@@ -154,7 +154,7 @@ draw_one() {  # draw_one SGM FOLDER PART NAME EXAMPLE
       box=$(bounds "$sgm" "$file") || return
       whole=0
     fi
-    [[ $axis != x ]] || azimuth=66
+    [[ $axis != x ]] || azimuth=-62
     body=$(opened "$box" "$material" "$body" "${axis:-z}" $whole)
   fi
   program "$file" "$part" "{ $body mat $material; }" "$more"
