@@ -40,7 +40,7 @@ street.Site 28 30
 # What is drawn instead of an example that shows nothing by itself, or more of itself as a cast of its void: NAME | DECLARATIONS | a rule's body.
 scenes='
 cave.Branchwork | | rot(z, 100deg) cave.Branchwork(10, step 5m, r 2.5m);
-karst.sole | | for i in 0..24 { at(karst.sole((0m, 0m, 0m), (70m, -4m, 20m), i/23)) sphere(1m); }
+karst.sole | | for i in 0..24 { at(karst.sole((0m, 0m, 0m), (70m, -4m, 20m), i/23)) sphere(2.2m); }
 cave.Water | domain finite box(24m, 24m, 24m); | { union { { box(13m, 7m, 10m); mat limestone; } cut { ellipsoid(5m, 3m, 4m); } } meet { ellipsoid(5m, 3m, 4m); at(-10.8m, -10.8m, -10.8m) scale(0.9) cave.Water(11.4m, deep 3m); } cut { at(z 5m) box(14m, 10m, 10m); mat clay; } }
 '
 
