@@ -1,4 +1,4 @@
-#ifdef SGM_WIDE
+#ifdef SGM_ROWS
 #include "field/evaluate_noise.inl"
 #endif
 
@@ -83,7 +83,7 @@ SGM_KERNEL size_t addPairs(const ProgramView& program, const BlockFrame& f, std:
 /// Runs the list that `instrs` begin with; returns its length, 0 where it is none.
 template <bool kGradient>
 SGM_KERNEL size_t runList(const ProgramView& program, const BlockFrame& f, std::span<const Instr> instrs, size_t n) {
-#ifdef SGM_WIDE
+#ifdef SGM_ROWS
   if constexpr (!kGradient && kLanes >= 8) {
     if (instrs[0].op == Op::noise) return latticeNoise(f, instrs[0], program.params.data() + instrs[0].params, n);
   }

@@ -122,6 +122,7 @@ FN Real lookUp16(const float* table, Uint index) {
   return hn::Vec<RealTag>{_mm512_permutexvar_ps(index.v.raw, _mm512_loadu_ps(table))};
 }
 #endif
+#define SGM_ROWS
 // Rows of 8 lanes: the first, and where there are 16 lanes the second after it.
 FN Real loadRows(const uint32_t* first, [[maybe_unused]] const uint32_t* second) {
 #if HWY_TARGET == HWY_AVX3

@@ -11,4 +11,5 @@
 #undef RI
 #undef SGM_VECTOR_FORMS
 #undef SGM_LANE_TABLES
+#undef SGM_ROWS
 #undef SGM_WIDE
