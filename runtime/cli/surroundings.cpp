@@ -45,6 +45,7 @@ Result<std::optional<Int3>> nearestAnchor(const WorldField& world, std::string_v
   // From near to far, for cells that stand on each other without an end are many in a large cube.
   for (const int64_t metres : {16, 32, 64, 128, 256, 512}) {
     const Result<std::vector<Anchor>> anchors = world.anchors(cube(metres));
+    if (!anchors && nearest) break;  // one that is near will do
     if (!anchors) return anchors.error();
     for (const Anchor& anchor : *anchors) {
       if (!isWanted(*world.settings().program, anchor, wanted)) continue;

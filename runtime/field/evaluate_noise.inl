@@ -123,6 +123,10 @@ struct NoiseBlock {
 SGM_KERNEL size_t latticeNoise(const BlockFrame& f, const Instr& in, Params P, size_t n) {
   if (f.lattice == nullptr || in.place != 0) return 0;
   const size_t height = f.lattice->rows, depth = f.lattice->slices;
+  size_t longest = kRow > height ? kRow : height;
+  longest = longest > depth ? longest : depth;
+  const int64_t finest = QI(P, 6 + 2 * (PI(P, 3) - 1));
+  if (f.lattice->step * static_cast<int64_t>(longest - 1) > static_cast<int64_t>(kMostNoisePeriods) * finest) return 0;
   uint32_t* const out = f.registers + in.dst * kRegisterWords<false>;
   NoiseBlock block;
   float weight = PF(P, 5);

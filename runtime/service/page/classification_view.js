@@ -56,8 +56,8 @@ export function showClassification(report) {
         class: 'muted',
         text:
           'Masters are meshes whose class is known. MSE (mean squared error) and EMD (earth mover’s distance) tell ' +
-          'how far the histogram of this mesh is from theirs: the smaller, the more alike. MSE is that of the shares’ ' +
-          'square roots, so that rare bends count beside the many flat edges. The margin is how much ' +
+          'how far the histogram of this mesh is from theirs: the smaller, the more alike. In mode curvature MSE is that of the ' +
+          'shares’ square roots, so that rare bends count beside the many flat edges. The margin is how much ' +
           'nearer the first class is than the next by MSE: 0 % is undecided, 100 % is sure.',
       }),
       element('p', {

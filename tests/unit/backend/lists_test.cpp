@@ -96,10 +96,8 @@ FieldProgram listedProgram(std::mt19937& random) {
   return maker.finish();
 }
 
-}  // namespace
-
-/// A plane with noise on it, octaves down to periods that are shorter than a step of the lattice.
-FieldProgram noisyProgram(std::mt19937& random, const LatticeBox& box) {
+/// A plane with noise on it, periods of many steps of the lattice, or octaves down to less than one.
+FieldProgram noisyProgram(std::mt19937& random, const LatticeBox& box, bool coarse) {
   ProgramBuilder builder(1 + static_cast<int32_t>(random() % 1024), false, 0);
   Frame frame;
   frame.origin = box.origin;
@@ -109,7 +107,8 @@ FieldProgram noisyProgram(std::mt19937& random, const LatticeBox& box) {
     for (int axis = 0; axis < 3; ++axis) spec.origin[axis] = static_cast<int32_t>(random());
     if (random() % 2 == 0) spec.origin = box.origin;
     spec.period = 1 + box.step / 2 + static_cast<int32_t>(random() % static_cast<uint32_t>(40 * box.step));
-    spec.octaves = 1 + static_cast<uint32_t>(random() % 6);
+    if (coarse) spec.period += 3 * box.step;
+    spec.octaves = coarse ? 1 : 1 + static_cast<uint32_t>(random() % 6);
     spec.seed = static_cast<uint32_t>(random());
     height = builder.binary(Op::add, height, builder.noise(spec, spec.octaves));
   }
@@ -119,6 +118,8 @@ FieldProgram noisyProgram(std::mt19937& random, const LatticeBox& box) {
   REQUIRE(builder.group(root, {{-kEnd, -kEnd, -kEnd}, {kEnd, kEnd, kEnd}}, 0, false));
   return builder.finish();
 }
+
+}  // namespace
 
 TEST_CASE("lists of primitives give the bits of one instruction after the other") {
   const uint32_t seed = std::random_device{}();
@@ -159,7 +160,7 @@ TEST_CASE("a box of a lattice is evaluated as its points are") {
     }
     const FieldProgram program = kind == 0   ? listedProgram(random)
                                  : kind == 1 ? randomProgram(random, {})
-                                             : noisyProgram(random, box);
+                                             : noisyProgram(random, box, kind == 2);
     PointSet points;
     for (size_t k = 0; k < box.size[2]; ++k) {
       for (size_t j = 0; j < box.size[1]; ++j) {
