@@ -110,30 +110,26 @@ const MaterialLook* known(std::string_view name) {
   return found == kTable.end() ? nullptr : &found->look;
 }
 
-const MaterialLook* knownWord(std::string_view word) {
+const MaterialLook* meant(std::string_view word) {
   const auto* found = std::ranges::find(kSynonyms, word, &Synonym::word);
-  return known(found == kSynonyms.end() ? word : found->means);
+  return found == kSynonyms.end() ? nullptr : known(found->means);
 }
+
+constexpr float kSmoothest = 0.05f;  // the least roughness of MaterialLook
 
 void wet(MaterialLook& look) {
   for (float& share : look.colour) share *= 0.55f;
-  look.roughness *= 0.30f;
+  look.roughness = std::max(kSmoothest, 0.30f * look.roughness);
 }
 
 void tint(MaterialLook& look, const Tint& by) {
   for (size_t i = 0; i < 3; ++i) look.colour[i] += (by.colour[i] - look.colour[i]) * by.share;
 }
 
-constexpr std::string_view kWet = "wet";
+constexpr std::string_view kWet = "wet", kWetBefore = "wet_";
 
-/// "plaster_ochre", "wet_limestone": a known material, tinted or wet.
-std::optional<MaterialLook> changed(std::string_view name) {
-  const size_t first = name.find('_');
-  if (first != std::string_view::npos && name.substr(0, first) == kWet) {
-    std::optional<MaterialLook> dry = findLook(name.substr(first + 1));
-    if (dry) wet(*dry);
-    return dry;
-  }
+/// "plaster_ochre": a known material, tinted.
+std::optional<MaterialLook> tinted(std::string_view name) {
   const size_t at = name.rfind('_');
   if (at == std::string_view::npos) return {};
   const auto* by = std::ranges::find(kTints, name.substr(at + 1), &Tint::word);
@@ -144,9 +140,10 @@ std::optional<MaterialLook> changed(std::string_view name) {
   return look;
 }
 
-/// The look of the first word that has one, with the name's other words as tints.
+/// The look of the first word that is a material, else of the first that means one, with the name's other words as
+/// tints: a wall of bricks is brick, a wall of which no more is said is plaster.
 std::optional<MaterialLook> byWords(std::string_view name) {
-  std::optional<MaterialLook> look;
+  const MaterialLook *named = nullptr, *meant_one = nullptr;
   bool is_wet = false;
   const Tint* last = nullptr;
   for (std::string_view rest = name; !rest.empty();) {
@@ -156,19 +153,26 @@ std::optional<MaterialLook> byWords(std::string_view name) {
     const auto* by = std::ranges::find(kTints, word, &Tint::word);
     if (by != kTints.end()) last = by;
     is_wet |= word == kWet;
-    if (const MaterialLook* found = look ? nullptr : knownWord(word)) look = *found;
+    if (!named) named = known(word);
+    if (!meant_one) meant_one = meant(word);
   }
-  if (!look) return {};
-  if (last != nullptr) tint(*look, *last);
-  if (is_wet) wet(*look);
+  if (!named && !meant_one) return {};
+  MaterialLook look = named ? *named : *meant_one;
+  if (last != nullptr) tint(look, *last);
+  if (is_wet) wet(look);
   return look;
 }
 
 }  // namespace
 
 std::optional<MaterialLook> findLook(std::string_view name) {
-  const MaterialLook* look = known(name);
-  return look ? *look : changed(name);
+  // Names come from grammars and may be as long as one likes. What is wet twice is no wetter.
+  bool is_wet = false;
+  for (; name.starts_with(kWetBefore); name.remove_prefix(kWetBefore.size())) is_wet = true;
+  const MaterialLook* by_name = known(name);
+  std::optional<MaterialLook> look = by_name ? std::optional(*by_name) : tinted(name);
+  if (look && is_wet) wet(*look);
+  return look;
 }
 
 MaterialLook lookOf(std::string_view name) {

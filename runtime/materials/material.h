@@ -50,8 +50,8 @@ struct MaterialLook {
 /// The look of a name: one of the table ("plaster"), tinted by a word behind it ("plaster_ochre") or wet
 /// ("wet_limestone"). nullopt: the name is unknown.
 std::optional<MaterialLook> findLook(std::string_view name);
-/// The same; a name that is not known looks as the first of its words that is ("old_brick_wall" as brick, "road" as
-/// asphalt), and else as rock in a tint of its own.
+/// The same; a name that is not known looks as the first of its words that is ("old_brick_wall" as brick), then as the
+/// first that means a material ("road" as asphalt), and else as rock in a tint of its own.
 MaterialLook lookOf(std::string_view name);
 
 }  // namespace sgm

@@ -398,6 +398,17 @@ TEST_CASE("materials are found by name, tint and wetness", "[render]") {
   CHECK(wet->roughness < 0.5f * dry->roughness);
   CHECK(wet->colour.g < 0.7f * dry->colour.g);
   CHECK(findMaterial("wet_roof_tile_red"));
+  // The smoothest of all stays within the range that shaders divide by.
+  for (const char* smooth : {"wet_water", "wet_glass", "wet_ice", "wet_wet_wet_limestone"}) {
+    INFO(smooth);
+    REQUIRE(findMaterial(smooth));
+    CHECK(findMaterial(smooth)->roughness >= 0.05f);
+  }
+  CHECK(findMaterial("wet_wet_limestone")->colour == wet->colour);
+  std::string long_name;
+  for (int i = 0; i < 1'000'000; ++i) long_name += "wet_";
+  CHECK(findMaterial(long_name + "limestone"));
+  CHECK(!findMaterial(long_name + "plastic"));
   for (const char* unknown : {"", "plastic", "plaster_", "plaster_mauve", "_ochre", "wet_", "wet_plastic"}) {
     INFO(unknown);
     CHECK(!findMaterial(unknown));
@@ -411,6 +422,12 @@ TEST_CASE("a name that is not known looks as a word of it that is", "[render]") 
   CHECK(materialByName("main_road").colour == materialByName("asphalt").colour);
   CHECK(materialByName("wall_ochre").colour == materialByName("plaster_ochre").colour);
   CHECK(materialByName("old_wet_road").colour == materialByName("wet_asphalt").colour);
+  // Words that are materials come before words that only mean one, wherever they stand.
+  CHECK(materialByName("wall_brick").pattern == SurfacePattern::brick);
+  CHECK(materialByName("roof_slate").pattern == SurfacePattern::slates);
+  CHECK(materialByName("floor_wood").pattern == SurfacePattern::wooden);
+  CHECK(materialByName("old_roof_tile").pattern == SurfacePattern::roof_tiles);
+  CHECK(materialByName("road_wall").pattern == SurfacePattern::asphalt);
   // A part of a word is none.
   CHECK(materialByName("roadster").pattern == SurfacePattern::rock);
 }
