@@ -161,6 +161,11 @@ std::shared_ptr<Session> World::session() const {
   return session_;
 }
 
+World::PlacedSession World::placedSession() const {
+  const std::lock_guard lock(session_mutex_);
+  return {session_, settings_.origin};
+}
+
 void World::stopSession() {
   picture_.reset();
   retired_.reset();
@@ -203,7 +208,7 @@ void World::startSession() {
   retired_ = std::move(before);
   setSession(std::move(session));
   retired_materials_ = materials_;
-  materials_.rebuild(materialNames(), settings_);
+  materials_.rebuild(plugin(), materialNames(), settings_);
   picture_ = std::make_unique<Picture>(plugin(), look());
   if (settings_.collision && !plugin().in_editor) {
     colliders_ = std::make_unique<Colliders>(
@@ -257,7 +262,7 @@ void World::followChanges() {
   }
   if (dirty & (kPaint | kRepack)) {
     if (dirty & kRepack) retired_materials_ = materials_;
-    materials_.rebuild(materialNames(), settings_);
+    materials_.rebuild(plugin(), materialNames(), settings_);
     if (dirty & kRepack) {
       auto next = std::make_unique<Picture>(plugin(), look());
       next->takeDrawn(session_->drawn(), *picture_);

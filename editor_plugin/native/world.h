@@ -5,6 +5,7 @@
 #include <functional>
 #include <mutex>
 #include <unordered_map>
+#include <utility>
 
 #include "anchors.h"
 #include "colliders.h"
@@ -47,7 +48,11 @@ class World : public Instance {
   template <auto member, Effect effect>
   void change(SettingType<member> value) {
     if (settings_.*member == value) return;
-    settings_.*member = std::move(value);
+    {
+      // Other threads read the origin. What was there before ends outside of the lock.
+      const std::lock_guard lock(session_mutex_);
+      std::swap(settings_.*member, value);
+    }
     dirty_ |= effect;
     // What is drawn follows at once: the frame that the world sees may come later than the player's, or be paused.
     if constexpr (effect == kPlacement || effect == kLook) followPlace();
@@ -67,6 +72,12 @@ class World : public Instance {
   void stopSession();
   void setSession(std::shared_ptr<Session> session);
   std::shared_ptr<Session> session() const;  // any thread
+  struct PlacedSession {
+    std::shared_ptr<Session> session;
+    Vector3i origin;
+  };
+  /// The session and the place of its world in the node's coordinates, of one moment. Any thread.
+  PlacedSession placedSession() const;
   void setGrammar(Object grammar);
   Object grammar() const { return grammar_.object(); }
   void grammarChanged();
@@ -150,7 +161,7 @@ class World : public Instance {
   std::string error_;
 
   std::shared_ptr<Session> session_;
-  mutable std::mutex session_mutex_;  // held to change session_, and to copy it on other threads
+  mutable std::mutex session_mutex_;  // held to change session_ or settings_, and to read them on other threads
   Materials materials_;
   Materials retired_materials_;  // that retired_ is drawn with
   std::unique_ptr<Picture> picture_;

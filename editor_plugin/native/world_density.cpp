@@ -1,6 +1,12 @@
 // What an SgmWorld3D tells renderers of fog.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "godot/log.h"
 #include "world.h"
@@ -10,10 +16,17 @@ namespace {
 
 constexpr int64_t kMostPoints = int64_t{1} << 27;
 
+/// The nearest whole number of units; nothing where the runtime's coordinates have none, or `units` is no number.
+std::optional<int32_t> wholeUnits(double units) {
+  if (!(std::abs(units) <= std::numeric_limits<int32_t>::max())) return {};
+  return static_cast<int32_t>(std::lround(units));
+}
+
 /// Metres of full density between each point and the sun, from the topmost layer down: each layer's light comes through
 /// the one above it. `to_sun` points up.
 class SunDepth {
  public:
+  /// `spacing`: metres, of the grid that was sampled.
   SunDepth(Vector3i size, double spacing, Vector3 to_sun)
       : width_(static_cast<size_t>(size.x)),
         depth_(static_cast<size_t>(size.z)),
@@ -57,22 +70,35 @@ class SunDepth {
 // Any thread: nothing of the scene is looked at.
 Bytes World::sampleDensity(const Vector3& corner, double spacing, const Vector3i& size, const Vector3& to_sun,
                            double fade, double edge) {
-  const std::shared_ptr<Session> session = this->session();
-  if (session == nullptr) return {};
+  const PlacedSession placed = placedSession();
+  if (placed.session == nullptr) return {};
   const int64_t points = int64_t{size.x} * size.y * size.z;
   const double length = std::hypot(to_sun.x, to_sun.y, to_sun.z);
   if (size.x < 1 || size.y < 1 || size.z < 1 || size.x > 4096 || size.y > 4096 || size.z > 4096 ||
-      points > kMostPoints || !(to_sun.y > 0.05 * length) || !(fade > 0) || !(spacing > 0)) {
+      points > kMostPoints || !(to_sun.y > 0.05 * length) || !(fade > 0) || !(spacing > 0) || !(edge >= 0)) {
     logError(
         "SgmWorld3D: sample_density takes 1 to 4,096 points along each axis and 134,217,728 in all, a spacing and a "
-        "fade above 0, and a sun that stands 3 degrees above the horizon or higher");
+        "fade above 0, an edge of 0 or more, and a sun that stands 3 degrees above the horizon or higher");
     return {};
   }
-  const Placement local{Transform(), settings_.origin};
-  const Units first = local.localUnits(corner);
   sgm_density_desc desc = SGM_DENSITY_DESC_INIT;
-  for (size_t axis = 0; axis < 3; ++axis) desc.origin[axis] = static_cast<int32_t>(std::lround(first[axis]));
-  desc.spacing = static_cast<int32_t>(std::max(1L, std::lround(spacing * SGM_UNITS_PER_METRE)));
+  const Units first = Placement{Transform(), placed.origin}.localUnits(corner);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const std::optional<int32_t> units = wholeUnits(first[axis]);
+    if (!units) {
+      logError("SgmWorld3D: sample_density: the corner's coordinate " + std::string(1, "xyz"[axis]) +
+               " lies outside of the world; pass a number that with the node's origin is between -2,097,151 and "
+               "2,097,151 metres");
+      return {};
+    }
+    desc.origin[axis] = *units;
+  }
+  const std::optional<int32_t> step = wholeUnits(spacing * SGM_UNITS_PER_METRE);
+  if (!step) {
+    logError("SgmWorld3D: sample_density: the spacing is wider than the world; pass one of 2,097,151 metres or less");
+    return {};
+  }
+  desc.spacing = std::max(1, *step);
   desc.size[0] = static_cast<uint32_t>(size.x);
   desc.size[1] = static_cast<uint32_t>(size.y);
   desc.size[2] = static_cast<uint32_t>(size.z);
@@ -80,13 +106,15 @@ Bytes World::sampleDensity(const Vector3& corner, double spacing, const Vector3i
   desc.edge = edge;
   desc.values = densities.data();
   sgm_error error = SGM_ERROR_INIT;
-  if (sgm_world_sample_density(session->world(), &desc, &error) < SGM_OK) {
+  if (sgm_world_sample_density(placed.session->world(), &desc, &error) < SGM_OK) {
     logError(std::string("SgmWorld3D: ") + error.message);
     return {};
   }
   Packed<uint8_t> result(static_cast<size_t>(points) * 2);
   const size_t width = desc.size[0], slice = width * desc.size[1];
-  SunDepth light(size, spacing, to_sun * static_cast<float>(1 / length));
+  const auto share_of = [length](float part) { return static_cast<float>(part / length); };
+  SunDepth light(size, 1.0 * desc.spacing / SGM_UNITS_PER_METRE,
+                 {share_of(to_sun.x), share_of(to_sun.y), share_of(to_sun.z)});
   for (size_t y = desc.size[1]; y-- > 0;) {
     const std::vector<float>& depths = light.lower(densities.data() + y * width, slice);
     for (size_t z = 0; z < desc.size[2]; ++z) {
