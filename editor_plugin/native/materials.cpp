@@ -1,10 +1,10 @@
 #include "materials.h"
 
 #include <cmath>
-#include <map>
 
 #include "godot/log.h"
 #include "palette.h"
+#include "plugin.h"
 
 namespace sgm_godot {
 namespace {
@@ -19,31 +19,32 @@ Variant singleton(const char* name) { return Variant(engine().global_get_singlet
 Variant make(const char* class_name) { return Variant(engine().classdb_construct_object(Name(class_name).get())); }
 
 /// A shader of the plugin with the patterns alone that a world has: one with all takes seconds to compile. Worlds with
-/// the same patterns share it, as long as one of them is there.
-Variant shaderWith(const Variant& whole, const std::string& path, uint32_t patterns) {
-  static std::map<std::pair<std::string, uint32_t>, uint64_t> made;
-  uint64_t& id = made[{path, patterns}];
-  if (id != 0) {
-    if (const Object still = engine().object_get_instance_from_id(id); still != nullptr) return Variant(still);
-  }
+/// the same patterns share it, as long as one of them is there and its file stays as it was.
+Variant shaderWith(Plugin& plugin, const Variant& whole, const std::string& path, uint32_t patterns) {
   std::string code = "#define SGM_PATTERNS_CHOSEN\n";
   for (uint32_t i = 0; i < 32; ++i) {
     if (patterns >> i & 1u) code += "#define SGM_PATTERN_" + std::to_string(i) + "\n";
   }
+  code += whole.call("get_code").to<std::string>();
+  uint64_t& id = plugin.shaders[{path, patterns}];
+  if (const Object there = id == 0 ? nullptr : engine().object_get_instance_from_id(id); there != nullptr) {
+    const Variant shared(there);
+    if (shared.call("get_code").to<std::string>() == code) return shared;
+  }
   const Variant shader = make("Shader");
-  shader.call("set_code", code + whole.call("get_code").to<std::string>());
+  shader.call("set_code", code);
   id = engine().object_get_instance_id(shader.object());
   return shader;
 }
 
-Variant ownMaterial(int64_t mapping, uint32_t patterns) {
+Variant ownMaterial(Plugin& plugin, int64_t mapping, uint32_t patterns) {
   const char* path = kShaders[mapping == 1 ? 1 : 0];
   const Variant loader = singleton("ResourceLoader");
   if (loader.call("exists", path).truth()) {
     const Variant shader = loader.call("load", path);
     if (shader.object() != nullptr) {
       const Variant material = make("ShaderMaterial");
-      material.call("set_shader", shaderWith(shader, path, patterns));
+      material.call("set_shader", shaderWith(plugin, shader, path, patterns));
       return material;
     }
   }
@@ -53,7 +54,7 @@ Variant ownMaterial(int64_t mapping, uint32_t patterns) {
 
 }  // namespace
 
-void Materials::rebuild(const std::vector<std::string>& names, const Settings& settings) {
+void Materials::rebuild(Plugin& plugin, const std::vector<std::string>& names, const Settings& settings) {
   slots_.assign(names.size(), 0);
   palette_.clear();
   looks_.clear();
@@ -62,7 +63,7 @@ void Materials::rebuild(const std::vector<std::string>& names, const Settings& s
     looks_.push_back(sgm::lookOf(name));
     patterns |= uint32_t{1} << static_cast<uint32_t>(looks_.back().pattern);
   }
-  materials_.assign(1, {"", Variant(), ownMaterial(settings.mapping, patterns)});
+  materials_.assign(1, {"", Variant(), ownMaterial(plugin, settings.mapping, patterns)});
   for (size_t i = 0; i < names.size(); ++i) {
     const auto color = settings.colors.find(names[i]);
     palette_.push_back(color != settings.colors.end() ? color->second : colorOf(names[i]));

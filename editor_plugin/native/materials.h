@@ -7,10 +7,12 @@
 
 namespace sgm_godot {
 
+struct Plugin;
+
 class Materials {
  public:
   /// Loads the plugin's own shader; where it is not there, a plain material takes its place, and the log is told.
-  void rebuild(const std::vector<std::string>& names, const Settings& settings);
+  void rebuild(Plugin& plugin, const std::vector<std::string>& names, const Settings& settings);
 
   const std::vector<uint16_t>& slots() const { return slots_; }  // by material of the grammar
   std::vector<Rid> rids() const;                                 // by slot
