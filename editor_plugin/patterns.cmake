@@ -3,8 +3,20 @@
 #   cmake -DSHADERS=FOLDER_OF_render -DOUTPUT=FILE.gdshaderinc -P editor_plugin/patterns.cmake
 #
 # Godot's shading language is GLSL without a conversion of whole numbers in constructors, and without #include of ours.
+# A line that is not known to be translated is an error, so that a change of the patterns shows here and not in an engine.
+#
+# The file is written only where it would change, and in one step: several builds may share it, and an engine that is
+# open sees it whole.
 cmake_minimum_required(VERSION 3.25)
 set(text "")
+# fail(FILE LINE WHAT): a line that this script does not know how to translate.
+function(fail file line what)
+  string(REPLACE "@semicolon@" ";" line "${line}")
+  string(REPLACE "@open@" "[" line "${line}")
+  string(REPLACE "@close@" "]" line "${line}")
+  message(FATAL_ERROR "${SHADERS}/${file}: ${what}:\n  ${line}\nWrite it as the lines around it are written, or teach "
+    "editor_plugin/patterns.cmake to translate it.")
+endfunction()
 # take(FILE): appends it, and first what it includes, each once.
 set(taken "")
 function(take file)
@@ -14,6 +26,9 @@ function(take file)
   list(APPEND taken ${file})
   # Semicolons and brackets mean something in CMake's lists: they go by other names until the end.
   file(READ ${SHADERS}/${file} source)
+  if(source MATCHES "\\\\")
+    fail(${file} "\\" "backslashes mean something in CMake's lists and are not translated")
+  endif()
   string(REPLACE ";" "@semicolon@" source "${source}")
   string(REPLACE "[" "@open@" source "${source}")
   string(REPLACE "]" "@close@" source "${source}")
@@ -24,9 +39,12 @@ function(take file)
       continue()
     endif()
     # A pattern is compiled where a material of the world has it.
-    if(line MATCHES "^(.*)if \\(pattern == ([0-9]+)u && has\\([0-9]+u\\)\\) (return .*)$")
+    if(line MATCHES "^(.*)if \\(pattern == ([0-9]+)u && has\\(([0-9]+)u\\)\\) (return .*)$")
+      if(NOT CMAKE_MATCH_2 EQUAL CMAKE_MATCH_3)
+        fail(${file} "${line}" "it asks for two different patterns")
+      endif()
       string(APPEND text "#if !defined(SGM_PATTERNS_CHOSEN) || defined(SGM_PATTERN_${CMAKE_MATCH_2})\n"
-        "${CMAKE_MATCH_1}if (pattern == ${CMAKE_MATCH_2}u) {\n${CMAKE_MATCH_1}${CMAKE_MATCH_1}${CMAKE_MATCH_3}\n"
+        "${CMAKE_MATCH_1}if (pattern == ${CMAKE_MATCH_2}u) {\n${CMAKE_MATCH_1}${CMAKE_MATCH_1}${CMAKE_MATCH_4}\n"
         "${CMAKE_MATCH_1}}\n#endif\n")
       continue()
     elseif(line MATCHES "^(.*)if \\(has\\(([0-9]+)u\\)\\) (return .*)$")
@@ -34,12 +52,26 @@ function(take file)
         "${CMAKE_MATCH_1}if (pattern == ${CMAKE_MATCH_2}u) {\n${CMAKE_MATCH_1}${CMAKE_MATCH_1}${CMAKE_MATCH_3}\n"
         "${CMAKE_MATCH_1}}\n#endif\n")
       continue()
-    elseif(line MATCHES "kPatterns")
+    elseif(line MATCHES "^layout\\(constant_id = 0\\) const uint kPatterns = [^@]*@semicolon@$" OR
+        line MATCHES "^bool has\\(uint pattern\\) { return [^@]*kPatterns[^@]*@semicolon@ }$")
       continue()
+    elseif(line MATCHES "^const uint k([A-Z][a-z]+) = ([0-9]+)u@semicolon@$")
+      # A pattern that has a name: shaders ask for SGM_HAS_NAME, whether it is compiled.
+      string(TOUPPER ${CMAKE_MATCH_1} name)
+      string(APPEND text "#if !defined(SGM_PATTERNS_CHOSEN) || defined(SGM_PATTERN_${CMAKE_MATCH_2})\n"
+        "#define SGM_HAS_${name}\n#endif\n")
     endif()
     string(REGEX REPLACE "([^i]vec2)\\(x, y\\)" "\\1(ivec2(x, y))" line "${line}")
     string(REGEX REPLACE "([^i]vec3)\\(([0-9]+), ([0-9]+), ([0-9]+)\\)" "\\1(\\2.0, \\3.0, \\4.0)" line "${line}")
     string(REGEX REPLACE ">> 8\\)" ">> 8u)" line "${line}")
+    string(REGEX REPLACE "//.*$" "" code "${line}")
+    if(code MATCHES "(^|[^a-zA-Z_])has\\(|kPatterns")
+      fail(${file} "${line}" "it asks for a pattern in another way than \"if (pattern == 7u && has(7u)) return\"")
+    elseif(code MATCHES "^ *#(include|version|extension)|^ *layout|(^|[^a-zA-Z_])(buffer|texelFetch|shared)[^a-zA-Z_]")
+      fail(${file} "${line}" "Godot's shading language has nothing like it")
+    elseif(code MATCHES "(^|[^a-zA-Z_])vec[234]\\(([^()]*, *)?-?[0-9]+ *[,)]")
+      fail(${file} "${line}" "a vector of whole numbers, which Godot does not convert")
+    endif()
     string(APPEND text "${line}\n")
   endforeach()
   set(text "${text}" PARENT_SCOPE)
@@ -50,5 +82,18 @@ take(render/materials.glsl)
 string(REPLACE "@semicolon@" ";" text "${text}")
 string(REPLACE "@open@" "[" text "${text}")
 string(REPLACE "@close@" "]" text "${text}")
-file(WRITE ${OUTPUT} "// Made by editor_plugin/patterns.cmake of shaders/render: what materials look like.\n//\n"
-  "// Where SGM_PATTERNS_CHOSEN is defined, only the patterns are compiled whose SGM_PATTERN_NUMBER is.\n\n${text}")
+if(NOT text MATCHES "#define SGM_HAS_LEAFY")
+  message(FATAL_ERROR "${SHADERS}/render/materials.glsl names no pattern kLeafy, which triplanar.gdshader asks for: write "
+    "\"const uint kLeafy = NUMBER;\" on a line of its own.")
+endif()
+string(PREPEND text "// Made by editor_plugin/patterns.cmake of shaders/render: what materials look like.\n//\n"
+  "// Where SGM_PATTERNS_CHOSEN is defined, only the patterns are compiled whose SGM_PATTERN_NUMBER is.\n\n")
+set(before "")
+if(EXISTS ${OUTPUT})
+  file(READ ${OUTPUT} before)
+endif()
+if(NOT text STREQUAL before)
+  string(RANDOM LENGTH 12 random)
+  file(WRITE ${OUTPUT}.${random} "${text}")
+  file(RENAME ${OUTPUT}.${random} ${OUTPUT})
+endif()
