@@ -224,7 +224,7 @@ put 'j.masters[3].models = -1' /masters/3/models
 put 'j.masters[3].models = 1.5' /masters/3/models
 put 'j.masters[3].key.bins = 7' /masters/3/key
 put 'j.masters[3].key.mode = "x"' /masters/3/key/mode
-put 'j.masters[3].key.version = 2' /masters/3/key/version
+put 'j.masters[3].key.version += 1' /masters/3/key/version
 put 'j.masters[3].shares.push(0)' /masters/3/shares
 put 'j.masters[3].shares[7] = -1e-3' /masters/3/shares/7
 put 'j.masters[3].shares[7] = null' /masters/3/shares/7
