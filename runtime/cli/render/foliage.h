@@ -31,6 +31,12 @@ struct Foliage {
 /// throw std::bad_alloc.
 std::array<Foliage, 2> foliageOf(const RenderScene& scene, const Frame& frame);
 
+/// Whether leaves are drawn for a material.
+bool hasLeaves(const RenderMaterial& material);
+
+/// Whether a triangle with these corners is part of a crown: its leaves are drawn, and its own surface is not.
+bool isCrown(const RenderScene& scene, const Frame& frame, const std::array<const RenderVertex*, 3>& corners);
+
 /// Whether one sees through a crown at a place of its surface, between sprigs: by the cosine of its normal to the eye.
 bool isCrownGap(const Frame& frame, glm::vec3 position, float facing);
 

@@ -39,6 +39,7 @@ struct MetSurface {
   vec3 position{0};
   vec3 normal{0};  ///< as the mesh is shaded, unit length
   vec3 start{0};   ///< where rays away from it begin: off the triangle, which curves less than the surface
+  uint32_t triangle = 0;
   uint32_t material = 0;
   float distance = -1;  ///< below 0: nothing was met
 
@@ -49,13 +50,11 @@ float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 class LightTracer {
  public:
-  /// leafy: of each material, whether leaves are drawn for it. vapour: the scene's clouds, or nullptr.
-  LightTracer(const RenderScene& scene, const Frame& frame, const RayCaster& mesh, std::span<const uint8_t> leafy,
-              const Vapour* vapour)
+  /// vapour: the scene's clouds, or nullptr.
+  LightTracer(const RenderScene& scene, const Frame& frame, const RayCaster& mesh, const Vapour* vapour)
       : scene_(scene),
         frame_(frame),
         mesh_(mesh),
-        leafy_(leafy),
         vapour_(vapour),
         to_sun_(frame.sun),
         sky_(scene.background == Background::sky) {
@@ -158,7 +157,9 @@ class LightTracer {
   }
 
   bool isGap(const MetSurface& place, vec3 direction) const {
-    return place.isThere() && leafy_[std::min<size_t>(place.material, leafy_.size() - 1)] != 0 &&
+    if (!place.isThere()) return false;
+    const auto corner = [&](int i) { return &mesh_.vertex(place.triangle, i); };
+    return isCrown(scene_, frame_, {corner(0), corner(1), corner(2)}) &&
            isCrownGap(frame_, place.position, -dot(place.normal, direction));
   }
 
@@ -207,6 +208,7 @@ class LightTracer {
     const float length = glm::length(place.normal);
     place.normal = length > 0.1f ? place.normal / length : facet;
     place.start = place.position - lifted + facet * (1e-3f + 2e-4f * hit->distance);
+    place.triangle = hit->triangle;
     place.material = mesh_.vertex(hit->triangle, 0).material;
     return place;
   }
@@ -324,7 +326,6 @@ class LightTracer {
   const RenderScene& scene_;
   const Frame& frame_;
   const RayCaster& mesh_;
-  std::span<const uint8_t> leafy_;
   const Vapour* vapour_;
   vec3 to_sun_;
   bool sky_;
@@ -339,8 +340,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
     Result<RayCaster> mesh = RayCaster::over(scene.vertices, parts.bodies);
     if (!mesh) return mesh.error();
     std::vector<uint8_t> leafy;
-    for (const RenderMaterial& one : scene.materials)
-      leafy.push_back(one.pattern == SurfacePattern::leafy && one.relief > 0);
+    for (const RenderMaterial& one : scene.materials) leafy.push_back(hasLeaves(one));
     if (std::ranges::count(leafy, 1) > 0) mesh->loosen(leafy, vec3(frame.pattern_offset));
     std::optional<Vapour> vapour;
     if (!parts.clouds.empty()) {
@@ -348,7 +348,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
       if (!made) return made.error();
       vapour = std::move(*made);
     }
-    const LightTracer tracer(scene, frame, *mesh, leafy, vapour ? &*vapour : nullptr);
+    const LightTracer tracer(scene, frame, *mesh, vapour ? &*vapour : nullptr);
     LightPlanes planes;
     planes.width = frame.size.x;
     planes.height = frame.size.y;

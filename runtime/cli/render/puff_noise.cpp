@@ -38,7 +38,7 @@ float nearestPoint(glm::vec3 at, int cells, uint32_t salt) {
   return std::sqrt(best);
 }
 
-const std::vector<uint8_t>& tile() {
+const std::vector<uint8_t>& puffTile() {
   static const std::vector<uint8_t> made = [] {
     std::vector<uint8_t> values;
     for (int z = 0; z < kSide; ++z) {
@@ -56,12 +56,12 @@ const std::vector<uint8_t>& tile() {
   return made;
 }
 
-float tileAt(glm::vec3 p) {
+float tileAt(const std::vector<uint8_t>& tile, glm::vec3 p) {
   const glm::vec3 floored = glm::floor(p), f = p - floored;
   const glm::ivec3 a(floored);
   const auto at = [&](int x, int y, int z) {
     const auto wrapped = [](int i) { return static_cast<size_t>(i & (kSide - 1)); };
-    return static_cast<float>(tile()[(wrapped(a.z + z) * kSide + wrapped(a.y + y)) * kSide + wrapped(a.x + x)]);
+    return static_cast<float>(tile[(wrapped(a.z + z) * kSide + wrapped(a.y + y)) * kSide + wrapped(a.x + x)]);
   };
   const auto along = [&](int y, int z) { return glm::mix(at(0, y, z), at(1, y, z), f.x); };
   return glm::mix(glm::mix(along(0, 0), along(1, 0), f.y), glm::mix(along(0, 1), along(1, 1), f.y), f.z) / 255;
@@ -72,11 +72,12 @@ float tileAt(glm::vec3 p) {
 float puffHollows(glm::vec3 position, float period, float finest) {
   // Tiles of a power of two of the patterns' own period, so that the noise repeats with it.
   float edge = std::exp2(std::round(std::log2(std::clamp(period * kPuffs, 1.0f / 16, kWorld))));
+  const std::vector<uint8_t>& tile = puffTile();
   float sum = 0, weights = 0;
   constexpr std::array kWeights{0.80f, 0.15f, 0.05f};
   for (size_t i = 0; i < kWeights.size(); ++i, edge /= 8) {
     if (i > 0 && edge / kPuffs < 2 * finest) break;
-    sum += kWeights[i] * tileAt(position * (kSide / edge));
+    sum += kWeights[i] * tileAt(tile, position * (kSide / edge));
     weights += kWeights[i];
   }
   // Most of the mean distance lies in between: the whole range is used.

@@ -2,6 +2,9 @@
 
 #include "render/foliage.h"
 
+#include <algorithm>
+
+#include "render/light_planes.h"
 #include "scenes.h"
 
 using namespace sgm;
@@ -153,4 +156,31 @@ TEST_CASE("of near crowns the leaves alone are drawn, of all else its surface", 
   const RenderScene scene = ballScene(mesh, materials);
   const std::vector<uint32_t> drawn = withoutCrowns(scene, frameOf(scene), scene.indices);
   CHECK(drawn == std::vector<uint32_t>{6, 7, 8, 9, 10, 11, 12, 13, 14});
+}
+
+TEST_CASE("rays of the eye pass gaps of those triangles alone whose surface is not drawn", "[render]") {
+  const std::vector<RenderMaterial> materials{materialByName("leaf"), materialByName("bark"), materialByName("glass")};
+  // Before a pane stands a sheet of leaves; only the pane mirrors.
+  const auto seen = [&](uint32_t second, float share, glm::vec2 texture) {
+    TestMesh mesh;
+    const auto addSquare = [&](float half, float z, RenderVertex like) {
+      const auto first = static_cast<uint32_t>(mesh.vertices.size());
+      for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
+        like.position = glm::vec3(half * corner, z);
+        mesh.vertices.push_back(like);
+      }
+      for (const uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
+    };
+    addSquare(9, 0, {{}, {0, 0, 1}, 0, second, share, texture});
+    addSquare(90, -5, {{}, {0, 0, 1}, 2, 2});
+    const RenderScene scene = ballScene(mesh, materials);
+    const Result<LightPlanes> planes = traceLight(scene, frameOf(scene), **makeThreadPool(1));
+    REQUIRE(planes);
+    return std::ranges::count_if(planes->direct, [](const DirectLight& one) { return one.mirror[0] != 0; });
+  };
+  CHECK(seen(0, 0, {0, 0}) > 100);
+  CHECK(seen(0, 0.4f, {0, 0}) == seen(0, 0, {0, 0}));
+  CHECK(seen(1, 0, {0, 0}) == seen(0, 0, {0, 0}));  // the second has no share
+  CHECK(seen(1, 0.4f, {0, 0}) == 0);
+  CHECK(seen(0, 0, {0.5f, 0.5f}) == 0);
 }
