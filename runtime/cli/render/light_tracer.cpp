@@ -105,7 +105,10 @@ class LightTracer {
       const vec3 normal = isWater(place.material)
                               ? place.normal
                               : paneNormal(place.normal, place.position + vec3(frame_.pattern_offset));
-      seen = radiance(place.start, glm::reflect(away, normal), points, 1, nullptr, true);
+      vec3 back = glm::reflect(away, normal);
+      // At grazing angles a bent normal would send the ray into the pane.
+      if (const float outwards = dot(back, place.normal); outwards < 0) back -= 2 * outwards * place.normal;
+      seen = radiance(place.start, back, points, 1, nullptr, true);
     }
     if (has_water_) {
       UnitPoints points(x, y, 65);
