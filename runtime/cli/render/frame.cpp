@@ -37,14 +37,9 @@ glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   return m;
 }
 
-/// As shaders/render/frame.glsl has it.
-glm::vec4 landOf(const RenderScene& scene) {
-  const bool own_clouds = std::ranges::any_of(
-      scene.materials, [](const RenderMaterial& one) { return one.pattern == SurfacePattern::cloud; });
-  const std::optional<Land> land = own_clouds ? std::nullopt : landAround(scene);
-  const float fair = own_clouds ? 0.0f : 1.0f;
-  if (!land) return {0, -1, 0, fair};
-  return {land->height, static_cast<float>(land->material), land->bare ? 1.0f : 0.0f, fair};
+bool hasFairWeather(const RenderScene& scene) {
+  const auto isCloud = [](const RenderMaterial& one) { return one.pattern == SurfacePattern::cloud; };
+  return scene.background == Background::sky && std::ranges::none_of(scene.materials, isCloud);
 }
 
 }  // namespace
@@ -104,8 +99,14 @@ Frame frameOf(const RenderScene& scene) {
                           static_cast<uint32_t>(scene.supersample), static_cast<uint32_t>(scene.background));
   frame.counts =
       glm::uvec4(static_cast<uint32_t>(scene.lamps.size() + 1), static_cast<uint32_t>(scene.materials.size()), 0, 0);
-  if (scene.background == Background::sky) frame.land = landOf(scene);
+  frame.land = {0, -1, 0, hasFairWeather(scene) ? 1.0f : 0.0f};
   return frame;
+}
+
+void findLand(const RenderScene& scene, Frame& frame) {
+  if (!hasFairWeather(scene)) return;
+  const std::optional<Land> land = landAround(scene);
+  if (land) frame.land = {land->height, static_cast<float>(land->material), land->bare ? 1.0f : 0.0f, 1};
 }
 
 std::vector<FrameMaterial> frameMaterials(const RenderScene& scene) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <new>
 #include <utility>
 
 #include "render/foliage.h"
@@ -115,11 +116,20 @@ Result<Renderer> Renderer::create(const GpuOptions& options) {
 }
 
 Result<Image> Renderer::render(const RenderScene& scene) const {
+  try {
+    return draw(scene);
+  } catch (const std::bad_alloc&) {
+    return Error{Code::out_of_memory, "out of memory while drawing a picture"};
+  }
+}
+
+Result<Image> Renderer::draw(const RenderScene& scene) const {
   if (auto checked = check(scene, device_->limits()); !checked) return checked.error();
   const DrawingTable& calls = device_->calls();
   VulkanScope scope(*device_);
 
   Frame frame = frameOf(scene);
+  findLand(scene, frame);
   const Result<LightPlanes> light = traceLight(scene, frame, *jobs_);
   if (!light) return light.error();
   frame.counts.z = light->vapour.empty() ? 0 : 1;

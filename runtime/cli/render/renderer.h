@@ -42,6 +42,9 @@ class Renderer {
  private:
   struct Kept;
 
+  /// May throw std::bad_alloc.
+  Result<Image> draw(const RenderScene& scene) const;
+
   Renderer(std::unique_ptr<VulkanDevice> device, std::unique_ptr<JobSystem> jobs);
 
   std::unique_ptr<VulkanDevice> device_;
