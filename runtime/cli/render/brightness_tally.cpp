@@ -6,6 +6,7 @@
 namespace sgm {
 
 void BrightnessTally::add(float brightness) {
+  if (!(brightness >= 0)) return;  // NaN has no bin
   logarithms_ += std::log(double{brightness} + 1e-4);
   ++count_;
   const float bin = kFinest * (std::log2(std::max(brightness, 1e-6f)) + kLeast);

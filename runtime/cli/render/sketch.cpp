@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <new>
 
+#include "render/brightness_tally.h"
 #include "render/frame.h"
 #include "render/illuminated.h"
 #include "render/sampling.h"
@@ -100,14 +101,12 @@ Result<Image> sketch(const RenderScene& scene, const RayCaster& mesh, JobSystem&
         colours[y * static_cast<size_t>(width) + static_cast<size_t>(x)] = picture.at(x, static_cast<int>(y));
     });
     // As bright as the real picture comes out, which adapts too: by the logarithmic mean.
-    double sum = 0, count = 0;
+    BrightnessTally tally;
     for (const vec3& colour : colours) {
       const float light = dot(colour, vec3(0.2126f, 0.7152f, 0.0722f));
-      if (light <= 0) continue;
-      sum += std::log(double{light} + 1e-4);
-      ++count;
+      if (light > 0) tally.add(light);
     }
-    const float mean = count > 0 ? static_cast<float>(std::exp(sum / count)) : 1.0f;
+    const float mean = tally.mean() > 0 ? tally.mean() : 1.0f;
     const float gain = picture.exposure() * std::clamp(std::pow(0.18f / mean, 0.6f), 0.5f, 4.0f);
     Image image;
     image.width = width;
