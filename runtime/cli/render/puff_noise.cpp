@@ -24,29 +24,41 @@ glm::vec3 random3(glm::uvec3 v) {
   return glm::vec3(v >> 8u) / 16777216.0f;
 }
 
-/// Distance to the nearest of points, one drawn in each of `cells` cells on an edge of the unit cube, in cells (Worley
-/// 1996, "A cellular texture basis function"). It repeats beyond the cube.
-float nearestPoint(glm::vec3 at, int cells, uint32_t salt) {
-  const glm::vec3 p = at * static_cast<float>(cells);
-  const glm::ivec3 cell(glm::floor(p));
-  float best = 9;
-  for (int i = 0; i < 27; ++i) {
-    const glm::ivec3 c = cell + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
-    const glm::vec3 off = glm::vec3(c) + random3(glm::uvec3((c + cells) % cells) + salt) - p;
-    best = std::min(best, glm::dot(off, off));
+/// Points, one drawn in each of `cells` cells on an edge of the unit cube; they repeat beyond it.
+class Points {
+ public:
+  Points(int cells, uint32_t salt) : cells_(cells) {
+    for (int i = 0; i < cells * cells * cells; ++i)
+      points_.push_back(random3(glm::uvec3(i % cells, i / cells % cells, i / cells / cells) + salt));
   }
-  return std::sqrt(best);
-}
+
+  /// Distance to the nearest of them, in cells (Worley 1996, "A cellular texture basis function").
+  float nearest(glm::vec3 at) const {
+    const glm::vec3 p = at * static_cast<float>(cells_);
+    const glm::ivec3 cell(glm::floor(p));
+    float best = 9;
+    for (int i = 0; i < 27; ++i) {
+      const glm::ivec3 c = cell + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1, w = (c + cells_) % cells_;
+      const glm::vec3 off = glm::vec3(c) + points_[static_cast<size_t>((w.z * cells_ + w.y) * cells_ + w.x)] - p;
+      best = std::min(best, glm::dot(off, off));
+    }
+    return std::sqrt(best);
+  }
+
+ private:
+  int cells_;
+  std::vector<glm::vec3> points_;
+};
 
 const std::vector<uint8_t>& puffTile() {
   static const std::vector<uint8_t> made = [] {
+    const Points large(kPuffs, 11), middle(2 * kPuffs, 23), small(4 * kPuffs, 37);
     std::vector<uint8_t> values;
     for (int z = 0; z < kSide; ++z) {
       for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
           const glm::vec3 at = glm::vec3(x, y, z) / static_cast<float>(kSide);
-          const float hollow = 0.64f * nearestPoint(at, kPuffs, 11) + 0.24f * nearestPoint(at, 2 * kPuffs, 23) +
-                               0.12f * nearestPoint(at, 4 * kPuffs, 37);
+          const float hollow = 0.64f * large.nearest(at) + 0.24f * middle.nearest(at) + 0.12f * small.nearest(at);
           values.push_back(static_cast<uint8_t>(std::min(1.0f, hollow) * 255));
         }
       }
