@@ -10,21 +10,26 @@ float wayTo(float level, float up) {
 
 const float kCloudBase = 1250.0, kCloudDepth = 800.0;  // metres
 
-// Where cumulus stands: 0 at its rim, up to 1 in its middle; below 0 there is none.
-float cumulusAt(vec2 at) {
+// Where cumulus stands: 0 at its rim, up to 1 in its middle; below 0 there is none. Of what lies below `least` for
+// certain no more is found than that.
+float cumulusAt(vec2 at, float least) {
   vec3 p = vec3(at.x, 900.0, at.y) / 7300.0;
   float heap = -0.40, size = 0.55;
   for (int i = 0; i < 3; ++i) {
     heap += size * plainNoise(p);
+    if (i == 1 && heap < least - 0.40) return heap;
     size = i == 0 ? 1.0 : 0.36;
     p *= i == 0 ? 4.8 : 2.5;
   }
   return heap;
 }
 
+// The least of cumulusAt() with which there may be a cloud, at a share of its depth over its base.
+float leastHeap(float share) { return 0.76 * share * share - 0.24; }
+
 // 0..1. heap: cumulusAt() there; share: of the cloud's depth over its base. Bases are flat, tops are heaped.
 float cumulusDensity(vec3 p, float heap, float share, int octaves) {
-  float body = 1.25 * heap - 0.95 * share * share - 0.3 * smoothstep(0.10, 0.0, share) - 0.14;
+  float body = 1.25 * heap - 0.95 * share * share - 0.3 * (1.0 - smoothstep(0.0, 0.10, share)) - 0.14;
   if (body <= -0.5) return 0.0;
   vec3 q = p / 310.0;
   float size = 0.55;
@@ -38,43 +43,39 @@ float cumulusDensity(vec3 p, float heap, float share, int octaves) {
 
 // Light, and how much of what is behind shows, along a direction. turn: 0..1, where within a step it begins.
 vec4 cumulus(vec3 d, vec3 to_sun, vec3 behind, float turn) {
-  const float kStep = 1.0 / 28.0, kLost = 0.0075;  // of light, a metre, in the full density
+  const int kSteps = 28, kShort = 4;
+  const float kStep = 1.0 / float(kSteps), kLost = 0.0075;  // of light, a metre, in the full density
   if (d.y < 0.012) return vec4(0.0, 0.0, 0.0, 1.0);
   float begin = wayTo(kCloudBase, d.y), way = wayTo(kCloudBase + kCloudDepth, d.y) - begin;
   float through = 1.0, forward = pow(max(dot(d, to_sun), 0.0), 8.0);
   vec3 sum = vec3(0.0);
-  // Long steps through the clear, short ones where a cloud may be.
-  bool within = false;
-  for (float share = kStep * turn; share < 1.0 && through > 0.02;) {
-    vec3 p = d * (begin + share * way);
-    float heap = cumulusAt(p.xz);
-    bool near = 1.25 * heap + 0.30 > 0.95 * share * share;
-    if (near && !within) share = max(share - 0.75 * kStep, 0.0);
-    float stride = near ? 0.25 * kStep : kStep;
-    if (!near || !within) {
-      within = near;
-      share += stride;
-      continue;
-    }
-    // Here, and then on the way to the sun.
-    float density = 0.0, deep = 0.0;
-    for (int k = 0; k < 3; ++k) {
-      float ahead = k == 0 ? 0.0 : 22.0 * exp2(1.6 * float(k));
-      // Short ways away the cloud stands as it does here.
-      float at = share + to_sun.y * ahead / kCloudDepth, other = k == 2 ? heap - 0.08 : heap;
-      float one = cumulusDensity(p + to_sun * ahead, other, at, k == 0 ? 3 : 1);
-      if (k == 0) density = one;
-      else deep += 0.8 * ahead * one;
-      if (density <= 0.0) break;
-    }
-    if (density > 0.0) {
+  // Short steps where a cloud may be: it stands there as it does at both ends of the long step.
+  float after = -1.0;
+  for (int i = -1; i < kSteps && through > 0.02; ++i) {
+    float low = kStep * (float(i) + turn), before = after, least = leastHeap(max(low, 0.0));
+    after = cumulusAt(d.xz * (begin + (low + kStep) * way), least);
+    if (i < 0 || max(before, after) <= least) continue;
+    for (int k = 0; k < kShort; ++k) {
+      float part = float(k) / float(kShort), share = low + kStep * part, heap = mix(before, after, part);
+      vec3 p = d * (begin + share * way);
+      // Here, and then on the way to the sun.
+      float density = 0.0, deep = 0.0;
+      for (int j = 0; j < 3; ++j) {
+        float ahead = j == 0 ? 0.0 : 22.0 * exp2(1.6 * float(j));
+        // Short ways away the cloud stands as it does here.
+        float at = share + to_sun.y * ahead / kCloudDepth, other = j == 2 ? heap - 0.08 : heap;
+        float one = cumulusDensity(p + to_sun * ahead, other, at, j == 0 ? 3 : 1);
+        if (j == 0) density = one;
+        else deep += 0.8 * ahead * one;
+        if (density <= 0.0) break;
+      }
+      if (density <= 0.0) continue;
       float lit = 0.62 * exp(-kLost * deep) + 0.38 * exp(-0.22 * kLost * deep);
       vec3 light = sunLight() * (0.52 * lit * (1.0 + 1.2 * forward)) + vec3(0.30, 0.36, 0.44) * (0.55 + 0.75 * share);
-      float passed = exp(-kLost * density * min(stride * way, 260.0));
+      float passed = exp(-kLost * density * min(kStep / float(kShort) * way, 260.0));
       sum += through * (1.0 - passed) * light;
       through *= passed;
     }
-    share += stride;
   }
   // Far clouds drown in the air before them.
   float shown = smoothstep(0.012, 0.05, d.y), clear = exp(-begin / 21000.0);
@@ -90,6 +91,7 @@ float cirrus(vec3 d) {
   for (int i = 0; i < 6; ++i) {
     float n = plainNoise(vec3(i == 0 ? along / 15000.0 : i == 1 ? along / 8000.0 : along * apart, 9.0 - float(i)));
     if (i == 0) patches = smoothstep(-0.1, 0.7, n);
+    if (patches == 0.0) return 0.0;
     if (i == 1) along += vec2(300.0, 700.0) * n;
     if (i < 2) continue;
     streaks += size * n;
@@ -101,10 +103,10 @@ float cirrus(vec3 d) {
 
 // The sky with the sun's disc and with clouds.
 vec3 fairSky(vec3 d, float turn) {
-  vec3 to_sun = frame.sun.xyz, c = sky(d);
+  vec3 to_sun = frame.sun.xyz, clear = sky(d), c = clear;
   float s = dot(d, to_sun);
   c += vec3(9.0, 8.0, 6.5) * smoothstep(0.99996, 0.99998, s);
   c = mix(c, vec3(0.86, 0.89, 0.92) + 0.35 * sunLight() * pow(max(s, 0.0), 12.0), cirrus(d));
-  vec4 near = cumulus(d, to_sun, sky(d), turn);
+  vec4 near = cumulus(d, to_sun, clear, turn);
   return c * near.a + near.rgb;
 }

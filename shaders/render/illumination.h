@@ -8,7 +8,7 @@ FN vec3 skyLight(vec3 d, vec3 to_sun) {
   vec3 c = mix(vec3(0.085f, 0.21f, 0.49f), vec3(0.33f, 0.50f, 0.75f), exp(-3.0f * h));
   c = mix(c, vec3(0.74f, 0.80f, 0.86f), 0.82f * exp(-10.0f * h));
   c += vec3(1.0f, 0.86f, 0.66f) * (0.16f * pow(s, 6.0f) + 0.26f * pow(s, 40.0f) + 0.5f * pow(s, 400.0f));
-  return mix(c, vec3(0.22f, 0.21f, 0.19f), smoothstep(0.0f, -0.12f, d.y));
+  return mix(vec3(0.22f, 0.21f, 0.19f), c, smoothstep(-0.12f, 0.0f, d.y));
 }
 
 // What a surface that faces the sun gets.
