@@ -25,7 +25,9 @@ Surface water(Spot at) {
   float strewn = step(0.42, small.lot.z + many) * smoothstep(0.0, 0.2, round_small) * visible(0.10, at.footprint);
   vec3 pebble = mix(vec3(0.13, 0.11, 0.085), vec3(0.31, 0.28, 0.225), small.lot.y * small.lot.y);
   pebble *= (0.72 + 0.4 * max(round_small, 0.0) + 2.5 * small.within.x) * (1.0 + 0.15 * fine.x);
-  float round_large = 1.0 - length(large.within * vec2(1.0 + 0.4 * large.lot.x, 1.2 - 0.3 * large.lot.y)) * (1.0 + 0.3 * mottle.w + 0.18 * fine.w) / (0.09 + 0.18 * large.lot.x);
+  vec2 oval = large.within * vec2(1.0 + 0.4 * large.lot.x, 1.2 - 0.3 * large.lot.y);
+  float uneven = 1.0 + 0.3 * mottle.w + 0.18 * fine.w;
+  float round_large = 1.0 - length(oval) * uneven / (0.09 + 0.18 * large.lot.x);
   float here = step(0.60, large.lot.z + many) * visible(0.30, at.footprint);
   float lies = here * smoothstep(0.0, 0.12, round_large);
   vec3 stone = mix(vec3(0.12, 0.10, 0.08), vec3(0.29, 0.255, 0.20), large.lot.y);
@@ -38,13 +40,15 @@ Surface water(Spot at) {
   s.specular = 0.02;
   return s;
 }
+
 Surface vapour(Spot at) {
   // Sizes follow the picture: a cloud's billows repeat at every scale that is seen.
   float size = max(at.footprint * 90.0, 0.5);
   float level = exp2(floor(log2(size)));
   Surface s = surfaceOf(at);
   s.albedo = at.colour;
-  vec3 slope = mix(relief(at.p, level, 4, 0, at.footprint).xyz, relief(at.p, 2.0 * level, 4, 0, at.footprint).xyz, size / level - 1.0);
+  vec3 fine = relief(at.p, level, 4, 0, at.footprint).xyz, wide = relief(at.p, 2.0 * level, 4, 0, at.footprint).xyz;
+  vec3 slope = mix(fine, wide, size / level - 1.0);
   s.normal = bend(at.n, slope, 0.15 * at.relief);
   s.roughness = 1.0;
   s.specular = 0.0;

@@ -4,7 +4,7 @@
 Surface granular(Spot at) {
   Surface s = surfaceOf(at);
   float broad = noise(at.p * 0.5).x + 0.5 * noise(at.p * 2.2).x;
-  float grain = noise(at.p * 60.0).x * visible(0.017, at.footprint) + noise(at.p * 210.0).x * visible(0.005, at.footprint);
+  float grain = fineNoise(at.p * 60.0, 0.017, at.footprint) + fineNoise(at.p * 210.0, 0.005, at.footprint);
   s.albedo = at.colour * (1.0 + 0.16 * broad + 0.14 * grain);
   vec4 relief_slope = relief(at.p, 0.35, 6, 0, at.footprint);
   s.normal = bend(at.n, relief_slope.xyz, 0.11 * at.relief);
@@ -27,8 +27,8 @@ Surface gravelly(Spot at) {
   vec2 tilt = mix(small.tilt, large.tilt, lies);
   Surface s = granular(at);
   vec3 stone = at.colour * (0.55 + 0.8 * lot.x) * mix(vec3(1.08, 0.98, 0.88), vec3(0.90, 0.96, 1.04), lot.y);
-  float grain = noise(at.p * 90.0).x * visible(0.011, at.footprint);
-  stone *= (1.0 - 0.7 * smoothstep(0.009, 0.0, edge)) * (1.0 + 0.15 * grain) * mix(0.8, 1.0, lies);
+  float grain = fineNoise(at.p * 90.0, 0.011, at.footprint);
+  stone *= (0.3 + 0.7 * smoothstep(0.0, 0.009, edge)) * (1.0 + 0.15 * grain) * mix(0.8, 1.0, lies);
   s.albedo = mix(s.albedo, stone, seen);
   vec2 lean = 1.1 * (lot.yx - 0.5) + tilt;
   s.normal = bend(s.normal, chart.along * lean.x + chart.up * lean.y, 0.8 * seen * at.relief);
@@ -40,8 +40,8 @@ Surface gravelly(Spot at) {
 Surface grassy(Spot at) {
   Surface s = surfaceOf(at);
   vec4 clump = noise(at.p * 3.1), broad = noise(at.p * 0.22 + 3.0);
-  float blade = noise(at.p * vec3(38.0, 9.0, 38.0)).x * visible(0.03, at.footprint) +
-                noise(at.p * vec3(120.0, 20.0, 120.0)).x * visible(0.009, at.footprint);
+  float blade = fineNoise(at.p * vec3(38.0, 9.0, 38.0), 0.03, at.footprint) +
+                fineNoise(at.p * vec3(120.0, 20.0, 120.0), 0.009, at.footprint);
   vec3 dry = mix(at.colour, vec3(0.30, 0.255, 0.14), 0.6), lush = at.colour * vec3(0.7, 0.95, 0.6);
   s.albedo = mix(at.colour, dry, smoothstep(0.0, 0.7, broad.x + 0.4 * clump.x));
   s.albedo = mix(s.albedo, lush, 0.6 * smoothstep(0.1, 0.7, -broad.x + 0.3 * noise(at.p * 1.1).x));
@@ -72,7 +72,7 @@ Surface leafy(Spot at) {
   vec4 clump = noise(at.p * 1.3);
   s.albedo = at.colour * (1.0 + 0.35 * clump.x) * mix(vec3(1.0), vec3(1.3, 1.12, 0.7), 0.5 * b.lot.x * seen);
   s.albedo *= mix(0.85, mix(0.62, 1.0, smoothstep(0.0, 0.016, b.edge)) * (0.62 + 0.7 * b.lot.y), seen);
-  s.albedo *= 1.0 - 0.45 * smoothstep(0.0, -0.6, sprig);
+  s.albedo *= 0.55 + 0.45 * smoothstep(-0.6, 0.0, sprig);
   // Trees and their boughs differ in hue.
   float hue = noise(at.p * 0.07 + 30.0).x + 0.4 * noise(at.p * 0.75 + 50.0).x;
   s.albedo *= mix(vec3(0.84, 0.97, 1.0), vec3(1.22, 1.06, 0.76), smoothstep(-0.7, 0.7, hue));
@@ -91,7 +91,7 @@ Surface fibrous(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   vec3 q = vec3(at.p.x * 11.0, at.p.y * 2.1, at.p.z * 11.0) + 1.2 * noise(at.p * 2.3).yzw * 0.3;
   vec4 ridge = noise(q), fine = noise(q * 3.7);
-  float seen = visible(0.08, at.footprint), furrow = smoothstep(0.1, -0.35, ridge.x) * seen;
+  float seen = visible(0.08, at.footprint), furrow = (1.0 - smoothstep(-0.35, 0.1, ridge.x)) * seen;
   s.albedo = at.colour * (1.0 - 0.55 * furrow) * (1.0 + 0.18 * fine.x * visible(0.025, at.footprint) + 0.12 * noise(at.p).x);
   s.normal = bend(at.n, (ridge.yzw * vec3(1.0, 0.2, 1.0) + 0.4 * fine.yzw) * seen, 0.5 * at.relief);
   s.specular = 0.02;
@@ -102,7 +102,7 @@ Surface fibrous(Spot at) {
 Surface mossy(Spot at) {
   Surface s = surfaceOf(at);
   vec4 cushion = noise(at.p * 9.0);
-  float fine = noise(at.p * 90.0).x * visible(0.011, at.footprint);
+  float fine = fineNoise(at.p * 90.0, 0.011, at.footprint);
   s.albedo = at.colour * (1.0 + 0.35 * cushion.x + 0.3 * fine + 0.25 * noise(at.p * 1.1).x);
   vec4 relief_slope = relief(at.p, 0.16, 5, 0, at.footprint);
   s.normal = bend(at.n, relief_slope.xyz, 0.5 * at.relief);

@@ -7,7 +7,7 @@ Surface laid(Spot at, Block b, Chart chart, float joint, float size, vec3 stone,
   // A joint that is thinner than a sample darkens it by its share.
   float blur = 0.5 * at.footprint;
   float gap = (1.0 - smoothstep(max(0.6 * joint - blur, 0.0), 1.3 * joint + blur, b.edge)) * min(1.0, joint / blur);
-  float grain = noise(at.p * 23.0).x * visible(0.04, at.footprint) + noise(at.p * 71.0).x * visible(0.014, at.footprint);
+  float grain = fineNoise(at.p * 23.0, 0.04, at.footprint) + fineNoise(at.p * 71.0, 0.014, at.footprint);
   float broad = noise(at.p * 0.6).x;
   // Far away a wall has the mean of both.
   float share = min(1.0, 2.5 * joint / size);
@@ -90,10 +90,11 @@ Surface roofTiles(Spot at) {
   vec3 clay = at.colour * (0.72 + 0.5 * lot.x) * mix(vec3(1.0), vec3(0.82, 0.78, 0.72), lot.y * lot.y);
   float moss = smoothstep(0.25, 0.7, noise(at.p * 0.9 + 5.0).x + 0.5 * noise(at.p * 6.0).x);
   clay = mix(clay, vec3(0.16, 0.15, 0.10), 0.35 * moss);
-  float valley = smoothstep(0.30, 0.5, abs(f.x - 0.5)), lip = smoothstep(0.90, 0.99, f.y) + 0.6 * smoothstep(0.10, 0.0, f.y);
+  float valley = smoothstep(0.30, 0.5, abs(f.x - 0.5));
+  float lip = smoothstep(0.90, 0.99, f.y) + 0.6 * (1.0 - smoothstep(0.0, 0.10, f.y));
   Surface s = surfaceOf(at);
   s.albedo = mix(at.colour * 0.86, clay * (1.0 - 0.6 * valley) * (1.0 - 0.7 * min(lip, 1.0)), seen);
-  float grain = noise(at.p * 40.0).x * visible(0.025, at.footprint);
+  float grain = fineNoise(at.p * 40.0, 0.025, at.footprint);
   s.albedo *= 1.0 + 0.10 * grain;
   vec3 slope = chart.along * (1.3 * sin(6.2831853 * (f.x - 0.5))) + chart.up * (0.25 - 0.8 * smoothstep(0.9, 1.0, f.y));
   slope += chart.along * (0.2 * (lot.z - 0.5));

@@ -6,14 +6,14 @@ Surface rock(Spot at) {
   vec4 broad = noise(p * 0.11 + 5.0);
   vec4 patches = noise(p * 0.43 + 40.0);
   vec4 mottle = noise(p * 1.7 + 9.0);
-  float grain = noise(p * 11.0).x * visible(0.09, footprint) + 0.7 * noise(p * 37.0).x * visible(0.027, footprint) +
-                0.6 * noise(p * 131.0).x * visible(0.0076, footprint);
+  float grain = fineNoise(p * 11.0, 0.09, footprint) + 0.7 * fineNoise(p * 37.0, 0.027, footprint) +
+                0.6 * fineNoise(p * 131.0, 0.0076, footprint);
 
   // Beds lie nearly level and are bent gently; some are pale, some carry iron.
   float height = p.y + 1.6 * broad.x + 0.30 * patches.x + 0.05 * mottle.x;
   float bed = noise(vec3(height * 0.55, 3.0, broad.y)).x;
-  float lamina = noise(vec3(0.5, height * 3.4, patches.y * 0.3)).x * visible(0.3, footprint);
   float wall = 1.0 - smoothstep(0.55, 0.9, abs(n.y));
+  float lamina = wall > 0.0 ? fineNoise(vec3(0.5, height * 3.4, patches.y * 0.3), 0.3, footprint) : 0.0;
 
   vec3 pale = mix(at.colour, vec3(dot(at.colour, vec3(0.33))), 0.25) * 1.22;
   vec3 iron = at.colour * vec3(0.92, 0.70, 0.50);
@@ -23,7 +23,8 @@ Surface rock(Spot at) {
 
   // Water runs down walls: thin dark films, and pale sinter where it has dried.
   vec3 run = vec3(p.x * 1.1, p.y * 0.11, p.z * 1.1) + 0.5 * vec3(patches.y, 0.0, mottle.x);
-  float streak = noise(run + 70.0).x + 0.5 * noise(run * vec3(2.7, 1.7, 2.7) + 31.0).x;
+  float streak = 0.0;
+  if (wall > 0.0) streak = noise(run + 70.0).x + 0.5 * noise(run * vec3(2.7, 1.7, 2.7) + 31.0).x;
   float film = wall * smoothstep(0.35, 0.85, streak);
   float sinter = wall * smoothstep(0.35, 0.85, -streak + 0.35 * broad.x);
   albedo = mix(albedo, albedo * vec3(0.60, 0.57, 0.55), 0.7 * film);
@@ -42,25 +43,30 @@ Surface rock(Spot at) {
   float floor_cover = smoothstep(0.70, 0.92, n.y + 0.18 * patches.x + 0.08 * mottle.x);
   vec3 silt = mix(vec3(0.27, 0.20, 0.135), at.colour * 0.7, 0.45) * (1.0 + 0.22 * grain + 0.2 * mottle.x);
   albedo = mix(albedo, silt, 0.7 * floor_cover);
-  float mud = floor_cover * smoothstep(0.0, 0.35, noise(p * vec3(0.31, 0.2, 0.31) + 21.0).x + 0.3 * mottle.x);
+  float mud = 0.0;
+  if (floor_cover > 0.0) {
+    mud = floor_cover * smoothstep(0.0, 0.35, noise(p * vec3(0.31, 0.2, 0.31) + 21.0).x + 0.3 * mottle.x);
+  }
   albedo = mix(albedo, silt * vec3(0.62, 0.56, 0.50), 0.8 * mud);
   vec3 strewn = vec3(0.0);
-  if (floor_cover > 0.05 && footprint < 0.06) {
+  if (floor_cover > 0.05 && footprint < 0.07) {
     vec4 wobble = noise(p * 13.0);
     vec2 on = p.xz + 0.04 * noise(p * 5.0).yz + 0.008 * wobble.yz;
     Block large = cellAt(on, 0.26, 0.05, 71), small = cellAt(on + 5.3, 0.072, 0.02, 73);
     float much = 0.52 - 0.40 * patches.y - 0.25 * mottle.z + 0.25 * mud;
-    float round_large = 1.0 - length(large.within * vec2(1.0 + 0.5 * large.lot.x, 1.3 - 0.4 * large.lot.y)) / (0.035 + 0.085 * large.lot.x);
+    vec2 oval = large.within * vec2(1.0 + 0.5 * large.lot.x, 1.3 - 0.4 * large.lot.y);
+    float round_large = 1.0 - length(oval) / (0.035 + 0.085 * large.lot.x);
     float round_small = 1.0 - length(small.within) / (0.014 + 0.026 * small.lot.x);
     float here = floor_cover * step(much + 0.18, large.lot.z) * visible(0.14, footprint);
     float big = here * smoothstep(0.0, 0.10, min(round_large, 12.0 * large.edge));
-    float little = floor_cover * step(much, small.lot.z) * smoothstep(0.0, 0.2, round_small) * visible(0.05, footprint) * (1.0 - big);
+    float little = floor_cover * step(much, small.lot.z) * visible(0.05, footprint);
+    little *= smoothstep(0.0, 0.2, round_small) * (1.0 - big);
     albedo *= 1.0 - 0.45 * here * smoothstep(-0.25, 0.0, round_large) * (1.0 - big);
     albedo = mix(albedo, at.colour * mix(0.45, 1.05, small.lot.y) * (1.0 + 0.2 * grain), little);
     albedo = mix(albedo, at.colour * mix(0.50, 1.05, large.lot.y) * (1.0 + 0.3 * grain + 0.2 * mottle.x), big);
-    vec2 lean = big * (8.0 * large.within + 0.6 * (large.lot.xy - 0.5)) + little * (14.0 * small.within + 0.4 * (small.lot.xy - 0.5));
-    lean = -lean;
-    strewn = vec3(lean.x, 0.0, lean.y);
+    vec2 lean = big * (8.0 * large.within + 0.6 * (large.lot.xy - 0.5));
+    lean += little * (14.0 * small.within + 0.4 * (small.lot.xy - 0.5));
+    strewn = vec3(-lean.x, 0.0, -lean.y);
     mud *= 1.0 - max(big, little);
   }
 
@@ -115,11 +121,16 @@ Surface flowstone(Spot at) {
   // Each run of water has its own colour, from white over honey to rust; it wanders on its way down.
   vec3 run = vec3(p.x * 6.0, p.y * 0.40, p.z * 6.0) + 0.9 * broad.yzw + 0.25 * patches.yzw;
   float wall = 1.0 - smoothstep(0.6, 0.95, abs(n.y));
-  vec4 flute = noise(run) * visible(0.14, footprint) * wall;
+  float fluted = visible(0.14, footprint) * wall;
+  vec4 flute = fluted > 0.0 ? noise(run) * fluted : vec4(0.0);
   float stripe = noise(run * vec3(0.45, 0.8, 0.45) + 33.0).x;
   // Films that dry leave bands of unequal width, which are broken where the water has found another way.
-  float band = noise(vec3(p.x * 0.7, p.y * 11.0 + 2.5 * broad.x + 0.8 * patches.x, p.z * 0.7)).x * visible(0.09, footprint) * wall;
-  float grain = noise(p * 29.0).x * visible(0.035, footprint) + 0.8 * noise(p * 97.0).x * visible(0.01, footprint);
+  float band = 0.0;
+  if (wall > 0.0) {
+    vec3 bands = vec3(p.x * 0.7, p.y * 11.0 + 2.5 * broad.x + 0.8 * patches.x, p.z * 0.7);
+    band = wall * fineNoise(bands, 0.09, footprint);
+  }
+  float grain = fineNoise(p * 29.0, 0.035, footprint) + 0.8 * fineNoise(p * 97.0, 0.01, footprint);
   vec3 honey = at.colour * vec3(0.90, 0.68, 0.44), rust = at.colour * vec3(0.62, 0.38, 0.22);
   Surface s = surfaceOf(at);
   float age = broad.x + 0.55 * stripe + 0.25 * patches.x;
@@ -132,7 +143,7 @@ Surface flowstone(Spot at) {
   dirt = min(dirt, 1.0);
   s.albedo = mix(s.albedo, vec3(0.235, 0.175, 0.115) * (1.0 + 0.3 * grain), 0.55 * dirt);
   vec3 slope = flute.yzw * vec3(1.0, 0.1, 1.0) + vec3(0.0, 0.45 * band, 0.0);
-  vec4 relief_slope = relief(p, 0.24, 6, 2, footprint);
+  vec4 relief_slope = relief(p, 0.24, 5, 2, footprint);
   slope += mix(0.45, 0.8, smoothstep(0.0, 0.5, patches.z)) * relief_slope.xyz;
   s.normal = bend(n, slope, 0.30 * at.relief);
   float flutes = visible(0.14, footprint), lost = 0.25 * relief_slope.w + 0.5 * (1.0 - flutes * flutes);

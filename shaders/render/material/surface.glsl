@@ -36,6 +36,12 @@ Surface surfaceOf(Spot at) {
 // Weight of detail of a size where one sample covers `footprint` metres: gone before it would flicker.
 float visible(float size, float footprint) { return clamp(size / (2.0 * footprint) - 1.0, 0.0, 1.0); }
 
+// Noise with details of a size, which is found only where they would be seen.
+float fineNoise(vec3 p, float size, float footprint) {
+  float seen = visible(size, footprint);
+  return seen > 0.0 ? seen * plainNoise(p) : 0.0;
+}
+
 // Slope of a relief made of octaves from `period` metres down; ridged octaves have sharp crests, as broken rock has.
 // w: the variance of the slopes that are too fine to be seen.
 vec4 relief(vec3 p, float period, int octaves, int ridged, float footprint) {
@@ -143,8 +149,8 @@ Block blockAt(vec2 at, vec2 size, float shift, float vary, float round_edge) {
   float l = (f - left) * size.x, r = (right - f) * size.x, d = at.y - course * size.y, u = size.y - d;
   b.within = vec2(0.5 * (l - r), 0.5 * (d - u));
   b.edge = min(min(l, r), min(d, u));
-  b.tilt = vec2(smoothstep(round_edge, 0.0, r) - smoothstep(round_edge, 0.0, l),
-                smoothstep(round_edge, 0.0, u) - smoothstep(round_edge, 0.0, d));
+  b.tilt = vec2(smoothstep(0.0, round_edge, l) - smoothstep(0.0, round_edge, r),
+                smoothstep(0.0, round_edge, d) - smoothstep(0.0, round_edge, u));
   return b;
 }
 
@@ -177,7 +183,7 @@ Block cellAt(vec2 at, float size, float round_edge, int seed) {
   b.lot = random3(ivec3(chosen, seed + 1));
   b.within = -nearest * size;
   b.edge = border * size;
-  b.tilt = towards * smoothstep(round_edge, 0.0, b.edge);
+  b.tilt = towards * (1.0 - smoothstep(0.0, round_edge, b.edge));
   return b;
 }
 

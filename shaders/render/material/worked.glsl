@@ -4,7 +4,7 @@
 Surface plain(Spot at) {
   Surface s = surfaceOf(at);
   float broad = noise(at.p * 0.45).x + 0.5 * noise(at.p * 1.9 + 7.0).x;
-  float grain = noise(at.p * 45.0).x * visible(0.022, at.footprint) + noise(at.p * 160.0).x * visible(0.006, at.footprint);
+  float grain = fineNoise(at.p * 45.0, 0.022, at.footprint) + fineNoise(at.p * 160.0, 0.006, at.footprint);
   s.albedo = at.colour * (1.0 + at.relief * (0.07 * broad + 0.05 * grain));
   s.albedo *= 1.0 - 0.16 * at.relief * weathered(at.p, at.n);
   vec4 relief_slope = relief(at.p, 0.05, 4, 0, at.footprint);
@@ -34,7 +34,7 @@ Surface wooden(Spot at, bool boarded) {
   vec3 lot = boarded ? random3(ivec3(int(floor(q.x / 0.14)), 41, 2)) : vec3(0.5);
   vec3 fibre = vec3(q.x * 14.0, q.y * 0.9 + 9.0 * lot.x, dot(at.p, at.n) * 14.0);
   vec4 ring = noise(fibre) * visible(0.05, at.footprint);
-  float fine = noise(fibre * vec3(5.0, 1.5, 5.0)).x * visible(0.012, at.footprint);
+  float fine = fineNoise(fibre * vec3(5.0, 1.5, 5.0), 0.012, at.footprint);
   float gap = 1.0 - smoothstep(0.002, 0.006, min(fract(q.x / 0.14), 1.0 - fract(q.x / 0.14)) * 0.14);
   if (!boarded) gap = 0.0;
   Surface s = surfaceOf(at);
@@ -50,7 +50,7 @@ Surface wooden(Spot at, bool boarded) {
 // Metal that is handled: dull, with rust where the relief says that it is neglected.
 Surface metallic(Spot at) {
   Surface s = surfaceOf(at);
-  float broad = noise(at.p * 1.1).x, fine = noise(at.p * 23.0).x * visible(0.04, at.footprint);
+  float broad = noise(at.p * 1.1).x, fine = fineNoise(at.p * 23.0, 0.04, at.footprint);
   float stain = smoothstep(-0.05, 0.55, noise(at.p * 2.3 + 8.0).x + 0.45 * noise(at.p * 9.0).x + 0.25 * fine);
   stain = max(stain, 0.7 * weathered(at.p, at.n)) * at.relief;
   s.albedo = at.colour * (1.0 + 0.10 * broad + 0.06 * fine);
@@ -65,7 +65,7 @@ Surface metallic(Spot at) {
 // Tar with chips of stone, patched and worn.
 Surface asphalt(Spot at) {
   Surface s = surfaceOf(at);
-  float chips = noise(at.p * 110.0).x * visible(0.01, at.footprint);
+  float chips = fineNoise(at.p * 110.0, 0.01, at.footprint);
   float broad = noise(at.p * 0.35).x + 0.4 * noise(at.p * 1.6).x;
   float split = cracks(at.p + 0.3 * noise(at.p * 0.7).yzw, at.n, 3.1, 0.012, at.footprint) * smoothstep(0.1, 0.5, broad);
   s.albedo = at.colour * (1.0 + 0.35 * chips + 0.16 * broad) * (1.0 - 0.45 * split);
