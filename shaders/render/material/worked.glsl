@@ -76,13 +76,18 @@ Surface asphalt(Spot at) {
   return s;
 }
 
+// The colour of glass in the table of materials (runtime/materials/material.cpp).
+const vec3 kClearGlass = vec3(0.22, 0.30, 0.33);
+
 // A pane, and behind it a room: floor, ceiling, back wall, curtains, drawn without their shapes being there (van Dongen,
-// "Interior mapping", 2008).
+// "Interior mapping", 2008). What is tinted, as a car's panes are, hides what is behind it.
 Surface glazed(Spot at) {
   Surface s = surfaceOf(at);
-  s.albedo = vec3(0.0);
   s.roughness = 0.04;
   s.specular = 0.06;
+  s.albedo = 0.4 * at.colour;
+  if (distance(at.colour, kClearGlass) > 0.04) return s;
+  s.albedo = vec3(0.0);
   const vec3 kRoom = vec3(2.3, 3.0, 4.0);
   Chart chart = chartOf(at.p, at.n);
   vec2 q = chart.at / kRoom.xy;

@@ -132,6 +132,25 @@ TEST_CASE("every pattern draws, under every background and supersampling, with n
   requireNoMessages(*renderer);
 }
 
+TEST_CASE("a room shows behind a pane of clear glass, and none behind a tinted one", "[render]") {
+  auto renderer = testRenderer();
+  if (!renderer) return;
+  // Without any light but the room's own.
+  const auto within = [&](const char* material) {
+    Stage stage{sphereMesh({0, 0, -6}, 2, false)};
+    stage.materials = {materialByName(material)};
+    RenderScene scene = stage.scene(64, 48);
+    scene.headlamp.colour = glm::vec3(0);
+    scene.ambient = 0;
+    auto image = renderer->render(scene);
+    REQUIRE(image);
+    return brightness(*image, 32, 24, 9);
+  };
+  CHECK(within("glass") > 10);
+  CHECK(within("glass_black") < 3);
+  CHECK(within("glass_green") < 3);
+}
+
 TEST_CASE("the same scene gives the same bytes, wherever its origin lies", "[render]") {
   auto renderer = testRenderer();
   if (!renderer) return;
