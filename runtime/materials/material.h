@@ -9,7 +9,7 @@
 
 namespace sgm {
 
-/// The procedural pattern that a surface is covered with; shaders/render/materials.glsl has their numbers.
+/// The procedural pattern that a surface is covered with; shaders/render/materials.glsl and patterns.h have its number.
 enum class SurfacePattern : uint32_t {
   rock,        ///< strata, mineral stains, cracks; silt on what lies flat
   speckled,    ///< grains of several colours: granite

@@ -8,7 +8,6 @@
 
 // A bit for each pattern that the scene has, and the highest for a sky: the others are not compiled.
 layout(constant_id = 0) const uint kPatterns = 0xFFFFFFFFu;
-const uint kLeafy = 20u;
 const uint kSkyBit = 31u;
 bool has(uint pattern) { return (kPatterns >> pattern & 1u) != 0u; }
 

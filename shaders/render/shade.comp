@@ -3,6 +3,7 @@
 // Lights every sample of the picture and averages them into pixels.
 #include "render/frame.glsl"
 #include "render/noise.glsl"
+#include "render/patterns.h"
 #include "render/materials.glsl"
 #include "render/weather.glsl"
 #include "render/light.glsl"
@@ -17,7 +18,7 @@ Surface surfaceAt(uint material, vec3 p, vec3 n, vec3 to_eye, float footprint, T
   Spot at = Spot(p, n, to_eye, m.colour_roughness.rgb, m.colour_roughness.w, uintBitsToFloat(m.pattern.y), footprint,
                  traced.wet, traced.depth);
   Surface s = patterned(m.pattern.x, at);
-  if (has(kSkyBit) && frame.size.w == 1u) weather(s, at, m.pattern.x, traced.lie);
+  if (has(kSkyBit) && (kPatterns & kWeathering) != 0u && frame.size.w == 1u) weather(s, at, m.pattern.x, traced.lie);
   return s;
 }
 

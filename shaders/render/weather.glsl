@@ -1,24 +1,27 @@
 // What rain, dirt and use leave on what people built: by how a place lies (Traced::lie), in patches and streaks.
 
-bool isRoof(uint pattern) { return pattern == 9u || pattern == 10u; }
-bool isStreet(uint pattern) { return pattern == 7u || pattern == 8u || pattern == 12u || pattern == 15u; }
-/// Masonry, tiles, plaster, concrete, wood, asphalt: not what grew, and neither metal nor glass.
-bool weathers(uint pattern) { return pattern >= 4u && pattern <= 15u && pattern != 14u || pattern == 25u; }
+// Bits of patterns. What weathers is neither what grew, nor metal, nor glass.
+const uint kRoofs = 1u << kRoofTiles | 1u << kSlates;
+const uint kStreets = 1u << kPaving | 1u << kCobbles | 1u << kConcrete | 1u << kAsphalt;
+const uint kWeathering = kRoofs | kStreets | 1u << kBrick | 1u << kAshlar | 1u << kRubble | 1u << kPlain |
+                         1u << kWooden | 1u << kBoards;
+// Whether a pattern is one of them; what the scene has none of is not compiled.
+bool isOf(uint patterns, uint pattern) { return (kPatterns & patterns) != 0u && (patterns >> pattern & 1u) != 0u; }
 
 // Noise at 4.3, 1.2 and 0.34 metres.
 vec3 patches(vec3 p, float footprint) {
   vec3 n;
   for (int i = 0; i < 3; ++i) {
     float size = i == 0 ? 4.3 : i == 1 ? 1.2 : 0.34;
-    n[i] = plainNoise(p / size + 13.0 * float(i)) * visible(0.5 * size, footprint);
+    n[i] = fineNoise(p / size + 13.0 * float(i), 0.5 * size, footprint);
   }
   return n;
 }
 
 // Drops run down: streaks a hand wide and finer ones, long upwards. -1..1.
 float streaks(vec3 p, float footprint) {
-  return plainNoise(vec3(p.x * 5.3, p.y * 0.33, p.z * 5.3)) * visible(0.15, footprint) +
-         0.6 * plainNoise(vec3(p.x * 17.0, p.y * 0.6, p.z * 17.0) + 7.0) * visible(0.05, footprint);
+  return fineNoise(vec3(p.x * 5.3, p.y * 0.33, p.z * 5.3), 0.15, footprint) +
+         0.6 * fineNoise(vec3(p.x * 17.0, p.y * 0.6, p.z * 17.0) + 7.0, 0.05, footprint);
 }
 
 void weatherWall(inout Surface s, Spot at, vec3 lie, vec3 patchy, float much) {
@@ -40,7 +43,7 @@ void weatherWall(inout Surface s, Spot at, vec3 lie, vec3 patchy, float much) {
 
 void weatherRoof(inout Surface s, Spot at, vec3 lie, vec3 patchy) {
   Chart chart = chartOf(at.p, at.n);
-  float run = plainNoise(vec3(chart.at.x * 2.6, chart.at.y * 0.3, 3.0)) * visible(0.2, at.footprint);
+  float run = fineNoise(vec3(chart.at.x * 2.6, chart.at.y * 0.3, 3.0), 0.2, at.footprint);
   s.albedo *= 1.0 + 0.20 * patchy.x + 0.12 * patchy.y + 0.14 * run;
   // Lichen greys what the kiln left bright.
   float lichen = smoothstep(-0.2, 0.7, 0.6 * patchy.x + 0.5 * patchy.y + 0.6 * patchy.z);
@@ -61,7 +64,7 @@ void weatherStreet(inout Surface s, Spot at, uint pattern, vec3 lie, vec3 patchy
   float wide = 0.10 + 0.45 * spot.lot.y * spot.lot.y;
   float stain = step(spot.lot.x, 0.30) * (1.0 - smoothstep(0.4 * wide, wide, length(spot.within) + 0.12 * patchy.z));
   s.albedo *= 1.0 - 0.42 * stain * (0.6 + 0.4 * spot.lot.z);
-  if (pattern != 15u) return;
+  if (pattern != kAsphalt) return;
   // Where pipes were laid the asphalt is newer, in cut rectangles with a seam of tar.
   Block cut = blockAt(q + 0.03 * patchy.zy, vec2(5.2, 3.4), 0.37, 0.3, 0.05);
   vec2 half_size = vec2(0.9 + 1.1 * cut.lot.y, 0.5 + 0.8 * cut.lot.z);
@@ -76,20 +79,20 @@ void weatherStreet(inout Surface s, Spot at, uint pattern, vec3 lie, vec3 patchy
 
 // lie: Traced::lie of the place.
 void weather(inout Surface s, Spot at, uint pattern, vec3 lie) {
-  if (!weathers(pattern) || at.relief <= 0.0) return;
-  vec3 patchy = patches(at.p, at.footprint);
-  if (isRoof(pattern)) {
-    weatherRoof(s, at, lie, patchy);
-    return;
-  }
+  if (!isOf(kWeathering, pattern) || at.relief <= 0.0) return;
   float wall = 1.0 - smoothstep(0.45, 0.75, abs(at.n.y));
-  if (wall > 0.0) {
+  bool roof = isOf(kRoofs, pattern), street = isOf(kStreets, pattern) && at.n.y > 0.75;
+  if (!roof && !street && wall <= 0.0) return;
+  vec3 patchy = patches(at.p, at.footprint);
+  if (roof) {
+    weatherRoof(s, at, lie, patchy);
+  } else if (street) {
+    weatherStreet(s, at, pattern, lie, patchy);
+  } else {
     // What is painted is washed more often.
     Surface worn = s;
     weatherWall(worn, at, lie, patchy, clamp(0.2 + 0.8 * at.relief, 0.0, 1.0));
     s.albedo = mix(s.albedo, worn.albedo, wall);
     s.roughness = mix(s.roughness, worn.roughness, wall);
-  } else if (at.n.y > 0.75 && isStreet(pattern)) {
-    weatherStreet(s, at, pattern, lie, patchy);
   }
 }
