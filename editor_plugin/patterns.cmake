@@ -55,7 +55,7 @@ function(take file)
     elseif(line MATCHES "^layout\\(constant_id = 0\\) const uint kPatterns = [^@]*@semicolon@$" OR
         line MATCHES "^bool has\\(uint pattern\\) { return [^@]*kPatterns[^@]*@semicolon@ }$")
       continue()
-    elseif(line MATCHES "^const uint k([A-Z][a-z]+) = ([0-9]+)u@semicolon@$")
+    elseif(file STREQUAL "render/patterns.h" AND line MATCHES "^const uint k([A-Za-z]+) = ([0-9]+)u@semicolon@$")
       # A pattern that has a name: shaders ask for SGM_HAS_NAME, whether it is compiled.
       string(TOUPPER ${CMAKE_MATCH_1} name)
       string(APPEND text "#if !defined(SGM_PATTERNS_CHOSEN) || defined(SGM_PATTERN_${CMAKE_MATCH_2})\n"
@@ -78,12 +78,13 @@ function(take file)
   set(taken "${taken}" PARENT_SCOPE)
 endfunction()
 take(render/noise.glsl)
+take(render/patterns.h)
 take(render/materials.glsl)
 string(REPLACE "@semicolon@" ";" text "${text}")
 string(REPLACE "@open@" "[" text "${text}")
 string(REPLACE "@close@" "]" text "${text}")
 if(NOT text MATCHES "#define SGM_HAS_LEAFY")
-  message(FATAL_ERROR "${SHADERS}/render/materials.glsl names no pattern kLeafy, which triplanar.gdshader asks for: write "
+  message(FATAL_ERROR "${SHADERS}/render/patterns.h names no pattern kLeafy, which triplanar.gdshader asks for: write "
     "\"const uint kLeafy = NUMBER;\" on a line of its own.")
 endif()
 string(PREPEND text "// Made by editor_plugin/patterns.cmake of shaders/render: what materials look like.\n//\n"

@@ -34,7 +34,7 @@ refused() {
 refused "a pattern that asks for another one" materials.glsl 's/has(7u)/has(8u)/'
 refused "a pattern that is asked for in another way" materials.glsl 's/if (pattern == 7u/if (7u == pattern/'
 refused "another declaration of the patterns" materials.glsl 's/constant_id = 0/constant_id = 5/'
-refused "a name that shaders ask for and is gone" materials.glsl 's/kLeafy/kLeaves/'
+refused "a name that shaders ask for and is gone" patterns.h 's/kLeafy/kLeaves/'
 refused "a line that goes on in the next one" materials.glsl 's/return paving(at);/return \\/'
 refused "a vector of whole numbers" noise.glsl '$avec2 corner(vec2 a) { return a + vec2(1, 0); }'
 cmp -s <(ls "$work/out") <(echo patterns.gdshaderinc) || wrong "files are left behind: $(ls "$work/out")"

@@ -1,4 +1,15 @@
 // The numbers of patterns that shaders ask for by name, in the subset of GLSL that C++ reads too:
 // runtime/cli/render/materials.cpp checks them against SurfacePattern.
-const uint kBrick = 4u, kAshlar = 5u, kRubble = 6u, kPaving = 7u, kCobbles = 8u, kRoofTiles = 9u, kSlates = 10u;
-const uint kPlain = 11u, kConcrete = 12u, kWooden = 13u, kAsphalt = 15u, kLeafy = 20u, kBoards = 25u;
+const uint kBrick = 4u;
+const uint kAshlar = 5u;
+const uint kRubble = 6u;
+const uint kPaving = 7u;
+const uint kCobbles = 8u;
+const uint kRoofTiles = 9u;
+const uint kSlates = 10u;
+const uint kPlain = 11u;
+const uint kConcrete = 12u;
+const uint kWooden = 13u;
+const uint kAsphalt = 15u;
+const uint kLeafy = 20u;
+const uint kBoards = 25u;
