@@ -13,6 +13,7 @@ namespace {
 
 constexpr float kBorder = 0.06f;  // its width in the world's own
 constexpr float kLeast = 0.05f;   // of the border before the camera, that must be ground
+constexpr float kEdge = 0.005f;   // of the world's width: what comes nearer to its end has been cut off there
 constexpr float kAlive = 0.1f;    // of the ground, that makes it land where things grow
 constexpr float kLevel = 0.7f;    // the least cosine between ground's normal and the vertical
 constexpr float kBelow = 0.3f;    // metres from ground up to an eye over it
@@ -26,6 +27,12 @@ bool isBare(SurfacePattern pattern) {
 bool isAlive(SurfacePattern pattern) {
   using enum SurfacePattern;
   return pattern == grassy || pattern == mossy || pattern == leafy;
+}
+
+/// Land is never of water, nor of what covers things that are made.
+bool isGround(SurfacePattern pattern) {
+  using enum SurfacePattern;
+  return pattern != water && pattern != plain && pattern != glass && pattern != metallic;
 }
 
 struct Patch {
@@ -51,6 +58,11 @@ std::optional<Land> landAround(const RenderScene& scene) {
     const glm::vec2 way = at - glm::vec2(eye.x, eye.z);
     return glm::dot(way, ahead) > kAside * glm::length(way);
   };
+  const glm::vec2 edge = kEdge * (hi - lo), edge_lo = lo + edge, edge_hi = hi - edge;
+  const auto isCut = [&](glm::vec3 p) {
+    return p.x < edge_lo.x || p.z < edge_lo.y || p.x > edge_hi.x || p.z > edge_hi.y;
+  };
+  bool goes_on = false;  // what is whole, such as a ball, stands on no land
   std::vector<Patch> patches;
   for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
     const RenderVertex& one = scene.vertices[scene.indices[i]];
@@ -63,7 +75,8 @@ std::optional<Land> landAround(const RenderScene& scene) {
     const float size = glm::length(facing);
     if (!(size > 0) || facing.y < kLevel * size) continue;
     const auto material = std::min<size_t>(one.material, scene.materials.size() - 1);
-    if (scene.materials[material].pattern == SurfacePattern::water) continue;
+    if (!isGround(scene.materials[material].pattern)) continue;
+    goes_on |= isCut(one.position) || isCut(b) || isCut(c);
     patches.push_back({one.position.y, size / 2, static_cast<uint32_t>(material)});
   }
   // The border before the camera, by a grid of places over the world.
@@ -82,7 +95,7 @@ std::optional<Land> landAround(const RenderScene& scene) {
     area += patch.area;
     by_material[patch.material] += patch.area;
   }
-  if (!(area > kLeast * border)) return {};
+  if (!goes_on || !(area > kLeast * border)) return {};
   std::ranges::sort(patches, {}, &Patch::height);
   float below = 0;
   const auto median =

@@ -16,8 +16,8 @@ struct Land {
 };
 
 /// The ground at the border of what is drawn, on the side that the camera looks to: at its median height, by area.
-/// nullopt: too little of the border is ground below the camera. scene must have been checked. May
-/// throw std::bad_alloc.
+/// nullopt: too little of the border is ground below the camera, or none of it is cut off there. scene must have been
+/// checked. May throw std::bad_alloc.
 std::optional<Land> landAround(const RenderScene& scene);
 
 }  // namespace sgm
