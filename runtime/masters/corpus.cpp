@@ -117,14 +117,21 @@ constexpr std::array kKinds{
     Kind{measure::kNoise, kGridScales, "random grid", 0, ""},
 };
 
-std::vector<Family> expanded() {
-  std::vector<Family> all;
+constexpr size_t countFamilies() {
+  size_t count = 0;
+  for (const Kind& kind : kKinds) count += kind.scales.size();
+  return count;
+}
+
+constexpr auto kFamilies = [] {
+  std::array<Family, countFamilies()> all;
+  size_t at = 0;
   for (const Kind& kind : kKinds) {
     for (const Scale& scale : kind.scales)
-      all.push_back({kind.class_name, kind.file, kind.text, scale.cell, scale.edge, kind.middle});
+      all[at++] = {kind.class_name, kind.file, kind.text, scale.cell, scale.edge, kind.middle};
   }
   return all;
-}
+}();
 
 /// The box of that edge about a point, lo <= p < hi.
 IntBox cubeAround(const measure::Point& p, double edge) {
@@ -211,10 +218,7 @@ ModelMesh modelOf(const WorldMesh& mesh) {
 
 }  // namespace
 
-std::span<const Family> families() {
-  static const std::vector<Family> kFamilies = expanded();
-  return kFamilies;
-}
+std::span<const Family> families() { return kFamilies; }
 
 std::vector<std::string_view> classNames() {
   std::vector<std::string_view> names;

@@ -2,9 +2,9 @@
 // classification by them is worth.
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "cli/master_key.h"
@@ -326,12 +326,13 @@ Result<Exhibit> classesExhibit(Workshop& workshop) {
   const auto noise = std::ranges::count_if(
       *models, [](const masters::Specimen& s) { return s.family->class_name == measure::kNoise; });
   exhibit.measured = fmt::format(
-      "{} models, {} of them noise, the others caves, clouds, buildings, terrain and trees, by {} grammars and "
+      "{} models, {} of them noise, the others of the classes {}, by {} grammars and "
       "densities, with parameters drawn from their whole ranges and seeds of which the built-in masters know none. "
       "Masters by clusters, {} a grammar at most, since caves of halls and caves of dripstone have no common mean. For "
       "curvature the error is that of the shares' square roots, so that the bin of flat edges does not decide alone. "
       "Past a limit, or nearest to noise, the answer is unknown, where the paper always answers.",
-      models->size(), noise, families.size(), masters::mastersAGrammar(HistogramMode::curvature));
+      models->size(), noise, fmt::join(masters::classNames(), ", "), families.size(),
+      masters::mastersAGrammar(HistogramMode::curvature));
   exhibit.commands = {commandOfPart(workshop.options(), "histograms"), "sgm masters list --json",
                       "sgm classify grammars/table4/muller.sgm"};
   exhibit.numbers = {{"models", models->size()}, {"modes", std::move(judgements)}};
