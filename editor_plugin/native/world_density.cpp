@@ -16,7 +16,7 @@ namespace {
 
 constexpr int64_t kMostPoints = int64_t{1} << 27;
 
-/// The nearest whole number of units; nothing where the runtime's coordinates have none, or `units` is no number.
+/// The nearest whole number of units; nullopt where `units` is not finite or beyond the runtime's coordinates.
 std::optional<int32_t> wholeUnits(double units) {
   if (!(std::abs(units) <= std::numeric_limits<int32_t>::max())) return {};
   return static_cast<int32_t>(std::lround(units));

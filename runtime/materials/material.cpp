@@ -166,7 +166,7 @@ std::optional<MaterialLook> byWords(std::string_view name) {
 }  // namespace
 
 std::optional<MaterialLook> findLook(std::string_view name) {
-  // Names come from grammars and may be as long as one likes. What is wet twice is no wetter.
+  // Names come from grammars and have no longest length. A second `wet_` changes nothing.
   bool is_wet = false;
   for (; name.starts_with(kWetBefore); name.remove_prefix(kWetBefore.size())) is_wet = true;
   const MaterialLook* by_name = known(name);

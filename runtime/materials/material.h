@@ -35,7 +35,7 @@ enum class SurfacePattern : uint32_t {
   fibres,  ///< bark, thatch
   mossy,
   water,   ///< mirrors; the deeper the darker
-  cloud,   ///< soft white; under a sky it is no surface but a medium, which the mesh is the outline of:
+  cloud,   ///< soft white; under a sky a medium is drawn, and the mesh is its outline:
            ///< the denser the rougher, and the more puffs the more relief
   boards,  ///< wood, a board beside the other
 };

@@ -10,7 +10,7 @@ float wayTo(float level, float up) {
 
 const float kCloudBase = 1250.0, kCloudDepth = 800.0;  // metres
 
-// Where cumulus stands: 0 at its rim, up to 1 in its middle; below 0 there is none. Of what lies below `least` for
+// Where cumulus stands: 0 at its rim, up to 1 in its middle, below 0 outside. Of what lies below `least` for
 // certain no more is found than that.
 float cumulusAt(vec2 at, float least) {
   vec3 p = vec3(at.x, 900.0, at.y) / 7300.0;

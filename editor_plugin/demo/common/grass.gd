@@ -87,7 +87,7 @@ func _choose(eye: Vector3) -> void:
 	_changed = true
 
 
-# The tufts of a cell; none where there is no grass.
+# The tufts of a cell; the list is empty where no grass grows.
 func _at(cell: Vector2i, eye: Vector3) -> Array[Transform3D]:
 	var tufts: Array[Transform3D] = []
 	var middle := (Vector2(cell) + Vector2(0.5, 0.5)) * spacing

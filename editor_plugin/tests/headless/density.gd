@@ -1,5 +1,5 @@
 extends SceneTree
-## What a renderer of fog gets: density and light of a known solid, from any thread, and an error for what is no place.
+## A renderer of fog gets density and light of a known solid, from any thread, and an error where a place is not finite.
 
 const Checks := preload("res://tests/lib/checks.gd")
 ## A ball 8 m across in each square of 16 m, which is full from a metre below its surface on.
@@ -18,7 +18,7 @@ func _initialize() -> void:
 	grammar.text = BALLS
 	_checks.check(grammar.is_valid(), "the grammar: " + grammar.get_error_text())
 	_world.grammar = grammar
-	_checks.check(_one(MIDDLE).is_empty(), "nothing where no world runs")
+	_checks.check(_one(MIDDLE).is_empty(), "the answer is empty while no world runs")
 	root.add_child(_world)
 	# The world begins with its first frame.
 	for i in 3:

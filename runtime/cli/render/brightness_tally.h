@@ -9,7 +9,7 @@ namespace sgm {
 
 class BrightnessTally {
  public:
-  /// What is no number, or below 0, is not counted.
+  /// A brightness below 0, or NaN, is not counted.
   void add(float brightness);
   void add(const BrightnessTally& other);
 

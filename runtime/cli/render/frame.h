@@ -45,7 +45,7 @@ struct CameraAxes {
 /// camera must have been checked.
 CameraAxes axesOf(const RenderCamera& camera);
 
-/// scene must have been checked. Frame::land says that there is none: findLand() looks for it.
+/// scene must have been checked. Frame::land is empty until findLand() fills it.
 Frame frameOf(const RenderScene& scene);
 /// Tells the scene's frame of the land around the world, for which it looks at the whole mesh. May throw
 /// std::bad_alloc.

@@ -46,7 +46,7 @@ void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
   const RTCHit& hit = *reinterpret_cast<const RTCHit*>(at->hit);
   const uint32_t material = light.mesh->vertex(hit.primID, 0).material;
   if (material >= light.leafy.size() || light.leafy[material] == 0) return;
-  constexpr float kSprig = 0.5f, kGap = 0.60f;  // metres; the share of noise that is no gap
+  constexpr float kSprig = 0.5f, kGap = 0.60f;  // metres; noise above this share is a gap
   const glm::vec3 place =
       glm::vec3(ray.org_x, ray.org_y, ray.org_z) + ray.tfar * glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z);
   if (puffHollows(place + light.offset, kSprig, 0.1f) > kGap) at->valid[0] = 0;
