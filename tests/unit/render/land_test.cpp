@@ -63,6 +63,27 @@ TEST_CASE("land goes on at the height of the ground that the camera looks to", "
   CHECK(behind->bare);
 }
 
+TEST_CASE("no land lies under what is whole, nor under what is made", "[render]") {
+  const std::vector<RenderMaterial> materials{materialByName("grass"), materialByName("plaster"),
+                                              materialByName("water")};
+  for (const uint32_t material : {0u, 1u, 2u}) {
+    CAPTURE(material);
+    TestMesh cut;
+    addFloor(cut, {-50, -50}, {50, 50}, 0, material);
+    CHECK(landAround(outdoors(cut, materials)).has_value() == (material == 0));
+  }
+  // A floor between two walls: it ends before the border, which the walls alone reach.
+  TestMesh whole;
+  addFloor(whole, {-49, -49}, {49, 49}, 0, 0);
+  for (const float x : {-50.0f, 50.0f}) {
+    const auto first = static_cast<uint32_t>(whole.vertices.size());
+    for (const glm::vec2 corner : {glm::vec2(-50, -1), glm::vec2(50, -1), glm::vec2(0, 4)})
+      whole.vertices.push_back({{x, corner.y, corner.x}, {1, 0, 0}, 0, 0});
+    for (uint32_t i = 0; i < 3; ++i) whole.indices.push_back(first + i);
+  }
+  CHECK_FALSE(landAround(outdoors(whole, materials)));
+}
+
 TEST_CASE("where something grows the land is alive, however much rock stands beside it", "[render]") {
   const std::vector<RenderMaterial> materials{materialByName("limestone"), materialByName("grass")};
   TestMesh mesh;
