@@ -5,6 +5,22 @@
 
 using namespace sgm;
 
+namespace {
+
+/// How many parts of chunks the engine shows, bodies and seams, that have a surface.
+size_t drawnParts(const sgm::Engine& engine) {
+  size_t count = 0;
+  for (const auto& [key, shown] : engine.shown) {
+    for (size_t i = 0; i < shown.surface->mesh.ranges.size(); ++i) {
+      const bool drawn = i == 0 || (shown.seams >> (i - 1) & 1) != 0;
+      count += drawn && shown.surface->mesh.ranges[i].index_count > 0;
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
 TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and draws the same", "[threads]") {
   const CacheFolder folder;
   WorldSettings settings;
@@ -24,8 +40,11 @@ TEST_CASE("a world takes from the disk cache what an earlier one has meshed, and
     const DiskCacheStats cache = scene.world->stats().cache;
     if (again) {
       CHECK(hash == first);
-      CHECK(cache.hits > 50);
-      CHECK(cache.stored < cache.hits / 4);
+      // Both worlds end at the same frame. Each meshes coarser chunks on its way there, as its threads happen to run,
+      // and the second one stores those that the first has not met.
+      const size_t drawn = drawnParts(engine);
+      CHECK(drawn > 50);
+      CHECK(cache.hits >= drawn);
     } else {
       first = hash;
       CHECK(cache.stored > 50);
