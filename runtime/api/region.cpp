@@ -83,7 +83,8 @@ sgm_result sgm_surface_from_region(sgm_field* field, const sgm_region_desc* desc
     fillSurface(*region, *surface);
     if ((desc->flags & SGM_MESHING_TEXTURE) != 0) {
       sgm::Result<TexturedRegion> textured =
-          unwrapRegion(field->content->world, *field->runtime.jobs, region->mesh, desc->level, sgm::kTile);
+          unwrapRegion(field->content->world, *field->runtime.jobs, region->mesh,
+                       chunksOfLevel(field->content->world, desc->level), sgm::kTile);
       if (!textured) return fail(error, textured.error());
       surface->texture = std::move(textured->unwrapped);
     }

@@ -1,6 +1,10 @@
 #include "api/region_mesh.h"
 
 #include <cstdlib>
+#include <string>
+
+#include "stream/chunk_set.h"
+#include "stream/frame.h"
 
 namespace sgm::api {
 namespace {
@@ -12,6 +16,32 @@ Int3 originFor(const IntBox& extent) {
     if (std::abs(int64_t{extent.lo[axis]}) > kNear || std::abs(int64_t{extent.hi[axis]}) > kNear) return extent.lo;
   }
   return {};
+}
+
+/// Meshes the requests of a region whose coarsest chunks are the keys, in order z, y, x.
+Result<RegionMesh> meshRequests(const WorldField& world, Backend& backend, JobSystem& jobs,
+                                std::span<const ChunkKey> keys, std::span<const ChunkRequest> requests,
+                                const Progress& progress) {
+  const Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, requests, progress);
+  if (!chunks) return chunks.error();
+  RegionMesh result(world.memory());
+  result.chunks = chunks->size();
+  std::pmr::vector<PlacedPart> parts(world.memory());
+  for (const PlacedChunk& chunk : *chunks) {
+    appendParts(chunk, parts);
+    result.solid_samples += chunk.mesh.solid_samples;
+    result.rounded += chunk.mesh.rounded;
+  }
+  result.hash = hashParts(parts);
+  const Result<ChunkGrid> first = chunkGrid(world, keys.front()), last = chunkGrid(world, keys.back());
+  if (!first) return first.error();
+  if (!last) return last.error();
+  result.extent = {first->origin, last->origin};
+  for (int axis = 0; axis < 3; ++axis) result.extent.hi[axis] += kChunkCells * last->cell;
+  Result<WorldMesh> mesh = weld(parts, originFor(result.extent), world.memory());
+  if (!mesh) return mesh.error();
+  result.mesh = std::move(*mesh);
+  return result;
 }
 
 }  // namespace
@@ -26,25 +56,30 @@ Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSyst
     requests.push_back({key, 0, Neighbourhood{}});
     requests.back().sharp = sharp;
   }
-  const Result<std::pmr::vector<PlacedChunk>> chunks = meshChunks(world, backend, jobs, requests, progress);
-  if (!chunks) return chunks.error();
+  return meshRequests(world, backend, jobs, *keys, requests, progress);
+}
 
-  RegionMesh result(world.memory());
-  result.chunks = chunks->size();
-  std::pmr::vector<PlacedPart> parts(world.memory());
-  for (const PlacedChunk& chunk : *chunks) {
-    appendParts(chunk, parts);
-    result.solid_samples += chunk.mesh.solid_samples;
-    result.rounded += chunk.mesh.rounded;
+Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
+                              const Octree& tree, uint64_t max_chunks, bool sharp, const Progress& progress) {
+  const Result<std::pmr::vector<ChunkKey>> keys = chunksOfRegion(world, region, tree.top(), max_chunks);
+  if (!keys) return keys.error();
+  ChunkSet coarsest;
+  for (const ChunkKey& key : *keys) coarsest.insert(key);
+  std::pmr::vector<ChunkRequest> requests(world.memory());
+  for (ChunkRequest& request : frameRequests(tree)) {
+    ChunkKey root = request.key;
+    while (root.level < tree.top()) root = parentOf(root);
+    if (!coarsest.contains(root)) continue;
+    // The region's border cuts the surface: nothing closes it towards what is not drawn.
+    if (request.outermost) request = {request.key, 0, Neighbourhood{}};
+    request.sharp = sharp;
+    requests.push_back(request);
   }
-  result.hash = hashParts(parts);
-  const ChunkGrid &first = chunks->front().grid, &last = chunks->back().grid;
-  result.extent = {first.origin, last.origin};
-  for (int axis = 0; axis < 3; ++axis) result.extent.hi[axis] += kChunkCells * last.cell;
-  Result<WorldMesh> mesh = weld(parts, originFor(result.extent), world.memory());
-  if (!mesh) return mesh.error();
-  result.mesh = std::move(*mesh);
-  return result;
+  if (requests.size() > max_chunks) {
+    return Error{Code::limit, std::to_string(requests.size()) + " chunks of all levels are more than " +
+                                  std::to_string(max_chunks) + ": take larger cells or a smaller region"};
+  }
+  return meshRequests(world, backend, jobs, *keys, requests, progress);
 }
 
 }  // namespace sgm::api

@@ -3,6 +3,7 @@
 
 #include "mesh/weld.h"
 #include "stream/mesh_chunks.h"
+#include "stream/octree.h"
 
 namespace sgm::api {
 
@@ -23,5 +24,12 @@ struct RegionMesh {
 /// leaves the world; limit; those of meshChunks and weld.
 Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
                               int level, uint64_t max_chunks, bool sharp, const Progress& progress = {});
+
+/// The same region in chunks of several levels: those of the tree's coarsest level that meet it, as far as the tree has
+/// split them. solid_samples counts those of each level as they are. Precondition: the tree is closed under its rules
+/// and has split all virtual nodes that meet the region or touch one that does, but at the world's ends. Errors: those
+/// of meshRegion.
+Result<RegionMesh> meshRegion(const WorldField& world, Backend& backend, JobSystem& jobs, const IntBox& region,
+                              const Octree& tree, uint64_t max_chunks, bool sharp, const Progress& progress = {});
 
 }  // namespace sgm::api

@@ -15,12 +15,12 @@ namespace {
 
 /// A vertex and the chunk that it lies in: what one program holds.
 struct Placed {
-  Int3 block;
+  ChunkKey block;
   Int3 point;  ///< units
   uint32_t vertex = 0;
 };
 
-std::pmr::vector<Placed> placedByBlock(std::span<const TexturePoint> positions, int64_t edge,
+std::pmr::vector<Placed> placedByBlock(std::span<const TexturePoint> positions, const ChunkAt& chunk_at,
                                        std::pmr::memory_resource* memory) {
   std::pmr::vector<Placed> placed(memory);
   placed.reserve(positions.size());
@@ -29,8 +29,8 @@ std::pmr::vector<Placed> placedByBlock(std::span<const TexturePoint> positions, 
     one.vertex = static_cast<uint32_t>(i);
     for (int axis = 0; axis < 3; ++axis) {
       one.point[axis] = saturate(static_cast<int64_t>(std::floor(positions[i][static_cast<size_t>(axis)] + 0.5)));
-      one.block[axis] = static_cast<int32_t>(floorDiv(one.point[axis], edge));
     }
+    one.block = chunk_at(one.point);
   }
   std::sort(placed.begin(), placed.end(),
             [](const Placed& a, const Placed& b) { return std::tie(a.block, a.vertex) < std::tie(b.block, b.vertex); });
@@ -49,8 +49,16 @@ std::pmr::vector<size_t> bordersOf(std::span<const Placed> placed, std::pmr::mem
 
 }  // namespace
 
-Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh, int level,
-                                    int32_t tile) {
+ChunkAt chunksOfLevel(const WorldField& world, int level) {
+  return [level, edge = int64_t{kChunkCells} * world.cellAt(level)](Int3 place) {
+    ChunkKey key{level, {}};
+    for (int axis = 0; axis < 3; ++axis) key.at[axis] = static_cast<int32_t>(floorDiv(place[axis], edge));
+    return key;
+  };
+}
+
+Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh,
+                                    const ChunkAt& chunk_at, int32_t tile) {
   std::pmr::memory_resource* memory = world.memory();
   std::pmr::vector<TexturePoint> positions(memory), normals(memory);
   positions.reserve(mesh.positions.size());
@@ -62,7 +70,7 @@ Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, co
   for (const VertexAttributes& attributes : mesh.attributes) {
     normals.push_back(unpackNormal(attributes.normal_x, attributes.normal_y));
   }
-  const std::pmr::vector<Placed> placed = placedByBlock(positions, int64_t{kChunkCells} * world.cellAt(level), memory);
+  const std::pmr::vector<Placed> placed = placedByBlock(positions, chunk_at, memory);
   const std::pmr::vector<size_t> borders = bordersOf(placed, memory);
   const size_t blocks = borders.size() - 1;
 
@@ -77,7 +85,7 @@ Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, co
       leaning.push_back(normals[one.vertex]);
     }
     std::pmr::vector<MaterialMix> around(own.size(), memory);
-    const Result<void> mixed = materialsAround(world, level, nullptr, points, leaning, around);
+    const Result<void> mixed = materialsAround(world, own.front().block.level, nullptr, points, leaning, around);
     if (!mixed) errors[b] = mixed.error();
     for (size_t i = 0; i < own.size(); ++i) materials[own[i].vertex] = around[i];
   });
@@ -93,7 +101,8 @@ Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, co
     points.clear();
     for (size_t i = borders[b]; i < borders[b + 1]; ++i) points.push_back(placed[i].point);
     of_block.resize(points.size());
-    if (Result<void> labelled = shapes.label(level, points, of_block); !labelled) return labelled.error();
+    if (Result<void> labelled = shapes.label(placed[borders[b]].block.level, points, of_block); !labelled)
+      return labelled.error();
     for (size_t i = 0; i < points.size(); ++i) labels[placed[borders[b] + i].vertex] = of_block[i];
   }
   const UnwrapInput input{

@@ -1,9 +1,12 @@
 #pragma once
 // Texture coordinates of a region's mesh: what the C interface's surfaces and the command's files and pictures have.
 
+#include <functional>
+
 #include "base/jobs.h"
 #include "base/result.h"
 #include "mesh/weld.h"
+#include "stream/chunk_key.h"
 #include "stream/world_field.h"
 #include "texture/unwrap.h"
 
@@ -15,9 +18,15 @@ struct TexturedRegion {
   TexelDensity density;
 };
 
+/// The chunk whose level decides about a place, units. Called from one thread.
+using ChunkAt = std::function<ChunkKey(Int3 place)>;
+
+/// The chunk of that level of the world that the place is in.
+ChunkAt chunksOfLevel(const WorldField& world, int level);
+
 /// One coordinate system for the whole region, so that a vertex between two chunks has one place in a chart. tile: the
 /// edge that coordinates count, units. Errors: those of WorldField::compileShapes and compile. Throws std::bad_alloc.
-Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh, int level,
-                                    int32_t tile);
+Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh,
+                                    const ChunkAt& chunk_at, int32_t tile);
 
 }  // namespace sgm::api

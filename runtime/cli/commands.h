@@ -149,6 +149,7 @@ struct RenderOptions : WorldOptions {
   std::string at;
   std::string size = "1280x720";
   double fov = 68;
+  std::optional<double> pixels;        ///< how wide a cell may look, where that asks for smaller ones
   std::string light = "auto";          ///< sun, lamp, none, or auto: what the camera sees decides
   bool volume = false;                 ///< the solid as fog instead of its surface
   bool wires = false;                  ///< the mesh's edges, without materials

@@ -197,7 +197,7 @@ Result<View> frameUse(const RenderOptions& options, const Region& region, std::s
   std::vector<ShownUse> shown;
   for (const RuleUse* use : inOrder(*uses, extent, region.cell)) {
     if (shown.size() == kMostTargets) break;
-    Result<std::optional<ShownUse>> one = showUse(drawn, *use, options.level);
+    Result<std::optional<ShownUse>> one = showUse(drawn, *use, region.level);
     if (!one) return one.error();
     if (*one) shown.push_back(std::move(**one));
   }
@@ -224,7 +224,7 @@ Result<View> frameUse(const RenderOptions& options, const Region& region, std::s
   // An error counts as rock.
   const Result<std::optional<FramedView>> framing = frameTargets(vertices, indices, targets, wish, [&](glm::vec3 p) {
     const Int3 at = drawn.units(p);
-    const Result<std::vector<float>> value = survey::valuesAt(*region.world, options.level, {at, at}, {&at, 1});
+    const Result<std::vector<float>> value = survey::valuesAt(*region.world, region.level, {at, at}, {&at, 1});
     return value && (*value)[0] > 0;
   });
   if (!framing) return framing.error();

@@ -19,7 +19,9 @@ namespace {
 
 constexpr size_t kMostNotes = 10;
 constexpr const char* kEndless = "the grammar's world is endless: say which part with --region x0,y0,z0:x1,y1,z1";
-constexpr uint64_t kChosenChunks = 4096;  // at most, of a region that the user has not chosen
+constexpr uint64_t kChosenChunks = 4096;               // at most, of a region that the user has not chosen
+constexpr int32_t kFinestSeen = kUnitsPerMetre / 100;  // the smallest cells that a view asks for
+constexpr double kNearestSeen = kUnitsPerMetre;        // from a camera: what is nearer may look larger
 
 RegionResult failure(Exit status) { return {std::nullopt, status}; }
 
@@ -218,7 +220,10 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
   const Result<std::unique_ptr<Backend>> backend = backendOf(options, *jobs);
   if (!backend) return backend.error();
   if (const Result<void> settled = settleRegion(*chosen_world, options, plan); !settled) return settled.error();
-  const int32_t cell = settings.finest_cell;
+  const int halvings = plan.view ? halvingsFor(*plan.view, settings.finest_cell, kFinestSeen, kNearestSeen) : 0;
+  settings.finest_cell = settings.finest_cell >> halvings;
+  const int level = options.level + halvings;
+  const int32_t cell = settings.finest_cell << halvings;
   if (const Result<void> few = checkChunks(options, *region, cell); !few) return few.error();
   const auto kept = std::make_shared<const WorldField>(std::move(settings), memory);
   const WorldField& world = *kept;
@@ -227,11 +232,15 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
     if (!plan.quiet) bar.emplace(what);
   };
   now(plan.doing);
-  Result<api::RegionMesh> meshed = api::meshRegion(world, **backend, *jobs, *region, options.level, options.max_chunks,
-                                                   options.sharp, [&](uint64_t done, uint64_t total) {
-                                                     if (bar) bar->show(done, total);
-                                                     return !plan.go_on || plan.go_on();
-                                                   });
+  const Progress progress = [&](uint64_t done, uint64_t total) {
+    if (bar) bar->show(done, total);
+    return !plan.go_on || plan.go_on();
+  };
+  std::optional<Octree> tree;
+  if (halvings > 0) tree = viewTarget(*plan.view, *region, level, world.cellAt(0));
+  Result<api::RegionMesh> meshed =
+      tree ? api::meshRegion(world, **backend, *jobs, *region, *tree, options.max_chunks, options.sharp, progress)
+           : api::meshRegion(world, **backend, *jobs, *region, level, options.max_chunks, options.sharp, progress);
   if (!meshed) return meshed.error();
   std::vector<Anchor> anchors;
   if (plan.anchors) {
@@ -248,7 +257,9 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
   std::optional<api::TexturedRegion> texture;
   if (plan.texture) {
     now("unwrapping");
-    Result<api::TexturedRegion> unwrapped = api::unwrapRegion(world, *jobs, meshed->mesh, options.level, kTile);
+    const api::ChunkAt chunk_at =
+        tree ? [&tree](Int3 place) { return tree->leafAt(place); } : api::chunksOfLevel(world, level);
+    Result<api::TexturedRegion> unwrapped = api::unwrapRegion(world, *jobs, meshed->mesh, chunk_at, kTile);
     if (!unwrapped) return unwrapped.error();
     texture = std::move(*unwrapped);
   }
@@ -260,7 +271,7 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
     Result<std::vector<DeriveNote>> left_out = world.notes(meshed->extent, cell << options.level);
     if (!left_out) return left_out.error();
     notes = std::move(*left_out);
-    Result<std::vector<ThinPart>> parts = thinParts(world, meshed->extent, options.level);
+    Result<std::vector<ThinPart>> parts = thinParts(world, meshed->extent, level);
     if (!parts) return parts.error();
     thin = std::move(*parts);
   }
@@ -270,6 +281,7 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
   Region result{std::move(compiled),
                 std::move(*meshed),
                 cell << options.level,
+                level,
                 std::move(anchors),
                 backendName(capabilities.kind),
                 capabilities.device,

@@ -14,13 +14,15 @@
 #include "cli/options.h"
 #include "sgm/sgm.h"
 #include "stream/thin_parts.h"
+#include "stream/view_target.h"
 
 namespace sgm::cli {
 
 struct Region {
   std::shared_ptr<const Program> program;
   api::RegionMesh meshed;
-  int32_t cell = 0;             ///< of the level, units
+  int32_t cell = 0;             ///< of the level, units: the largest where a view has chosen several
+  int level = 0;                ///< of the world that these cells are of
   std::vector<Anchor> anchors;  ///< in the region
   std::string backend, device;
   double seconds = 0;                          ///< from the compiled grammar to the welded mesh
@@ -80,6 +82,8 @@ struct RegionPlan {
   /// Says which part of an endless world is meant where no --region does.
   std::function<Result<IntBox>(const WorldField& world)> choose;
   bool part = false;  ///< `choose` is asked about a finite world too, which otherwise is taken whole
+  /// Meshes with smaller cells than asked for where this view would show them too large.
+  std::optional<PictureView> view;
   /// Edge of the cells, units, for the region that `choose` has chosen, where the options do not say; empty or 0: as
   /// large as that needs.
   std::function<int32_t()> cell;

@@ -219,8 +219,23 @@ std::vector<glm::vec3> anchorsAt(const Region& region, std::string_view wanted) 
   return places;
 }
 
+PictureView pictureView(const RenderOptions& options) {
+  const PictureSize size = *readSize(options.size);
+  const auto [from, to] = *readCamera(options.camera);
+  const double up = std::tan(glm::radians(options.fov) / 2), across = up * size.width / size.height;
+  PictureView view;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    view.position[axis] = from[axis] * kUnitsPerMetre;
+    view.direction[axis] = to[axis] - from[axis];
+  }
+  view.half_angle = std::atan(std::hypot(up, across));
+  view.cell_angle = *options.pixels * 2 * up / size.height;
+  return view;
+}
+
 RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity>& density) {
   RegionPlan plan;
+  if (options.pixels && !options.camera.empty()) plan.view = pictureView(options);
   plan.texture = true;
   plan.keep_world = true;
   if (!options.frame.empty()) {
@@ -234,7 +249,7 @@ RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity
   if (options.volume) {
     plan.check = checkDensity;
     plan.after = [&](const WorldField& world, Backend&, JobSystem& jobs, const Region& region) -> Result<void> {
-      Result<RegionDensity> sampled = sampleRegion(world, jobs, region, options.level);
+      Result<RegionDensity> sampled = sampleRegion(world, jobs, region, region.level);
       if (!sampled) return sampled.error();
       density = std::move(*sampled);
       return {};

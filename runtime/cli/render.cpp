@@ -10,7 +10,47 @@
 #include "cli/survey.h"
 
 namespace sgm::cli {
-Exit render(const RenderOptions& options) {
+namespace {
+
+std::string cornerText(Int3 corner) {
+  return fmt::format("{:.10f},{:.10f},{:.10f}", metres(corner.x), metres(corner.y), metres(corner.z));
+}
+
+/// Options that name the camera which was chosen in a region of equal cells, and that region.
+Result<RenderOptions> withCamera(const RenderOptions& options, const Region& region) {
+  const Result<RegionScene> scene = sceneOf(options, region);
+  if (!scene) return scene.error();
+  RenderOptions settled = options;
+  settled.camera = gazeText(worldGaze(scene->view.camera, region.meshed.mesh.origin));
+  settled.fov = scene->view.camera.fov_degrees;
+  settled.region = cornerText(region.meshed.extent.lo) + ':' + cornerText(region.meshed.extent.hi);
+  settled.frame.clear();
+  settled.cell = metres(region.cell);
+  settled.density.reset();
+  settled.level = 0;
+  return settled;
+}
+
+/// The region as the options say. Where cells shall be small near a camera that they do not name, that camera is chosen
+/// first, among equal cells, and the region meshed again.
+RegionResult meshPicture(RenderOptions& options, std::optional<RegionDensity>& density) {
+  RegionResult made = meshRegion(options, picturePlan(options, density));
+  if (!made.region || !options.pixels || !options.camera.empty() || !checkDrawable(options, *made.region)) return made;
+  Result<RenderOptions> settled = withCamera(options, *made.region);
+  if (!settled) return {std::nullopt, complain(settled.error())};
+  options = std::move(*settled);
+  RegionPlan plan = picturePlan(options, density);
+  plan.notes = false;  // they were told
+  Result<Region> again = meshProgram(made.region->program, options, plan);
+  if (!again) return {std::nullopt, complain(again.error())};
+  made.region = std::move(*again);
+  return made;
+}
+
+}  // namespace
+
+Exit render(const RenderOptions& asked) {
+  RenderOptions options = asked;
   if (options.plan || options.section) return drawSurvey(options);
   if (!hasExtension(options.out, ".png"))
     return complain(Exit::usage, "--out: pictures are .png files; --plan and --section write .svg too");
@@ -21,7 +61,7 @@ Exit render(const RenderOptions& options) {
   Result<FileWriter> file = FileWriter::create(options.out, &unfinished_files);
   if (!file) return complain(file.error());
   std::optional<RegionDensity> density;
-  const RegionResult made = meshRegion(options, picturePlan(options, density));
+  const RegionResult made = meshPicture(options, density);
   if (!made.region) return made.status;
   const Region& region = *made.region;
   if (const Result<void> drawable = checkDrawable(options, region); !drawable) return complain(drawable.error());

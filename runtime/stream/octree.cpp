@@ -25,11 +25,19 @@ void appendLeaves(const Octree& tree, const ChunkKey& node, std::vector<ChunkKey
 
 }  // namespace
 
-Octree::Octree(int top, int32_t finest_cell) : top_(top) {
+Octree::Octree(int top, int32_t finest_cell) : top_(top), finest_cell_(finest_cell) {
   const int64_t edge = int64_t{kChunkCells} * finest_cell << (top + 1);
   // The world's first unit is a multiple of every power of two, but of no other edge; division rounds towards 0.
   first_virtual_ = static_cast<int32_t>(std::numeric_limits<int32_t>::min() / edge);
   last_virtual_ = static_cast<int32_t>(std::numeric_limits<int32_t>::max() / edge - 1);
+}
+
+ChunkKey Octree::leafAt(Int3 place) const {
+  ChunkKey key{0, {}};
+  for (int axis = 0; axis < 3; ++axis)
+    key.at[axis] = static_cast<int32_t>(floorDiv(place[axis], int64_t{kChunkCells} * finest_cell_));
+  while (key.level < top_ && !isSplit(parentOf(key))) key = parentOf(key);
+  return key;
 }
 
 bool Octree::canSplit(const ChunkKey& node) const {

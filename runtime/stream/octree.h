@@ -27,6 +27,8 @@ class Octree {
   bool isSplit(const ChunkKey& node) const { return split_.contains(node); }
   /// Whether this chunk is drawn.
   bool isLeaf(const ChunkKey& node) const { return node.level <= top_ && isSplit(parentOf(node)) && !isSplit(node); }
+  /// The chunk drawn at a place, units; of the top level where the virtual node there is not split.
+  ChunkKey leafAt(Int3 place) const;
   /// Whether split() would accept the node.
   bool canSplit(const ChunkKey& node) const;
   bool empty() const { return split_.empty(); }
@@ -45,6 +47,7 @@ class Octree {
 
  private:
   int top_;
+  int32_t finest_cell_;                            ///< units
   int32_t first_virtual_ = 0, last_virtual_ = -1;  ///< places, on every axis, of virtual nodes inside the world
   ChunkSet split_;
 };

@@ -126,7 +126,7 @@ void addSurveyOptions(CLI::App& app, RenderOptions& options) {
           ->default_str("")
           ->check(checkCutLine);
   for (const char* other :
-       {"--camera", "--frame", "--seeds", "--fov", "--light", "--uv", "--volume", "--wires", "--sharp"})
+       {"--camera", "--frame", "--seeds", "--fov", "--light", "--pixels", "--uv", "--volume", "--wires", "--sharp"})
     for (CLI::Option* survey : {plan, section}) survey->excludes(app.get_option(other));
 }
 
@@ -179,10 +179,17 @@ Command addRender(CLI::App& root) {
   app->add_option("--fov", options->fov, "Angle across the picture's height, in degrees")
       ->check(numberIn(1.0, 150.0))
       ->capture_default_str();
+  CLI::Option* pixels =
+      app->add_option("--pixels", options->pixels,
+                      "Let no cell look wider than this many pixels: smaller ones near the camera, down to 1 cm, and "
+                      "those of --cell far away")
+          ->type_name("N")
+          ->check(numberIn(0.25, 1000.0));
   CLI::Option* light = addLightOption(*app, options->light);
   app->add_flag("--volume", options->volume,
                 "Draw the solid as fog, by its density at the cells' corners; for grammars that say `output density`")
       ->excludes(light)
+      ->excludes(pixels)
       ->excludes(app->add_flag("--wires", options->wires, "Draw the mesh's edges, on a surface without materials"));
   addChoiceOptions(*app, *options);
   addSurveyOptions(*app, *options);
