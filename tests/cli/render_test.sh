@@ -37,6 +37,20 @@ json 'j.texture.wedges > j.vertices'
 picture chequered.png 64 64
 cmp -s chequered.png looked.png && failed "chequers are not drawn"
 rm chequered.png
+# Smaller cells near the camera, and the same camera where the command chooses it.
+expect 0 "$SGM" render ball.sgm --out plain.png --size 160x90 --json
+even=$(<"$work/.out")
+expect 0 "$SGM" render ball.sgm --out fine.png --pixels 2 --size 160x90 --json
+EVEN=$even json 'const e = JSON.parse(process.env.EVEN); j.triangles > 4 * e.triangles && j.cell === e.cell &&
+  j.camera.position.every((x, i) => Math.abs(x - e.camera.position[i]) < 0.001) && j.region.join() === e.region.join()'
+picture fine.png 160 90
+cmp -s plain.png fine.png && failed "--pixels does not matter"
+expect 0 "$SGM" render ball.sgm --out fine.png --pixels 1000 --camera 0,0,8:0,0,0 --size 64x64
+cmp -s fine.png looked.png || failed "--pixels matters where no cell looks as wide"
+rm plain.png fine.png
+expect 2 "$SGM" render ball.sgm --out ball.png --pixels 0
+expect 2 "$SGM" render ball.sgm --out ball.png --pixels 2 --volume
+expect 2 "$SGM" render ball.sgm --out ball.png --pixels 2 --plan
 expect 0 "$SGM" render "$cave" --out at.png --at spawn --region=0,0,0:192,192,192 --cell 2 --size 64x64 --seed 7
 picture at.png 64 64
 # Of an endless world, what there is nearest to the origin, whole, with cells as large as that needs.

@@ -1,0 +1,87 @@
+// A region in chunks of several levels, as a picture has it.
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "api/region_mesh.h"
+#include "api/region_texture.h"
+#include "mesh/check.h"
+#include "mesh/chunk.h"
+#include "stream/surface_shapes.h"
+#include "stream/view_target.h"
+#include "stream/world_support.h"
+
+using namespace sgm;
+
+namespace {
+
+/// Edges with one triangle that do not lie in the extent's faces.
+size_t holesIn(const WorldMesh& mesh, const IntBox& extent) {
+  std::vector<std::pair<uint32_t, uint32_t>> edges;
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    for (size_t k = 0; k < 3; ++k) edges.emplace_back(mesh.indices[i + k], mesh.indices[i + (k + 1) % 3]);
+  }
+  std::sort(edges.begin(), edges.end());
+  const auto onBorder = [&](uint32_t vertex) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double place = mesh.positions[vertex][static_cast<size_t>(axis)] * kUnitsPerMetre + mesh.origin[axis];
+      if (std::abs(place - extent.lo[axis]) < 1e-6 || std::abs(place - extent.hi[axis]) < 1e-6) return true;
+    }
+    return false;
+  };
+  size_t holes = 0;
+  for (const auto& [a, b] : edges) {
+    if (!std::binary_search(edges.begin(), edges.end(), std::pair(b, a))) holes += !onBorder(a) || !onBorder(b);
+  }
+  return holes;
+}
+
+}  // namespace
+
+TEST_CASE("a region of several levels has no open edge inside, plain and sharp", "[threads]") {
+  const IntBox hall{{64 * 1024, 64 * 1024, 64 * 1024}, {112 * 1024, 112 * 1024, 112 * 1024}};
+  const std::unique_ptr<JobSystem> jobs = *makeThreadPool(2);
+  const WorldField world(settingsOf(yardstick("cave.sgm"), 128), std::pmr::get_default_resource());
+  const Result<std::unique_ptr<Backend>> backend = makeBackend({}, *jobs, world.memory());
+  REQUIRE(backend);
+  constexpr int kTop = 3;
+  std::mt19937 random(7);
+  for (int round = 0; round < 4; ++round) {
+    CAPTURE(round);
+    PictureView view;
+    for (size_t axis = 0; axis < 3; ++axis)
+      view.position[axis] = static_cast<double>(hall.lo[0] + static_cast<int32_t>(random() % (48 * 1024)));
+    view.half_angle = 3.2;  // all around
+    view.cell_angle = 0.012 + 0.003 * round;
+    const Octree tree = viewTarget(view, hall, kTop, world.cellAt(0));
+    const bool sharp = round % 2 == 1;
+    Result<api::RegionMesh> region = api::meshRegion(world, **backend, *jobs, hall, tree, 100'000, sharp);
+    REQUIRE(region);
+    REQUIRE(region->mesh.indices.size() > 3000);
+    CHECK(holesIn(region->mesh, region->extent) == 0);
+    const MeshReport report = checkTriangles(region->mesh.indices, region->mesh.positions.size());
+    INFO(describe(report));
+    CHECK(report.manifold());
+
+    // Each vertex has the materials of its own level: those that the chunk alone would have.
+    std::vector<bool> levels(kTop + 1);
+    const Result<api::TexturedRegion> textured = api::unwrapRegion(
+        world, *jobs, region->mesh,
+        [&](Int3 place) {
+          const ChunkKey leaf = tree.leafAt(place);
+          levels[static_cast<size_t>(leaf.level)] = true;
+          return leaf;
+        },
+        kTile);
+    REQUIRE(textured);
+    CHECK(textured->unwrapped.corners.size() == region->mesh.indices.size());
+    CHECK(std::count(levels.begin(), levels.end(), true) >= 2);
+
+    const Result<api::RegionMesh> few = api::meshRegion(world, **backend, *jobs, hall, tree, region->chunks - 1, sharp);
+    REQUIRE_FALSE(few);
+    CHECK(few.error().code == Code::limit);
+  }
+}
