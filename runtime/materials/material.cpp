@@ -47,7 +47,7 @@ constexpr std::array<Named, 44> kTable{{
     {"iron", {metallic, rgb(0.12f, 0.115f, 0.11f), 0.55f, 1.0f}},
     {"steel", {metallic, rgb(0.42f, 0.43f, 0.45f), 0.34f, 0.2f}},
     {"copper", {metallic, rgb(0.25f, 0.40f, 0.33f), 0.70f, 0.3f}},
-    {"asphalt", {asphalt, rgb(0.085f, 0.085f, 0.09f), 0.92f, 1.0f}},
+    {"asphalt", {asphalt, rgb(0.105f, 0.104f, 0.106f), 0.92f, 1.0f}},
     {"glass", {glass, rgb(0.22f, 0.30f, 0.33f), 0.08f, 0.0f}},
     {"sand", {granular, rgb(0.56f, 0.45f, 0.30f), 0.95f, 1.0f}},
     {"soil", {granular, rgb(0.21f, 0.145f, 0.09f), 0.95f, 1.3f}},

@@ -13,10 +13,32 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+// Spot::light of a place.
+vec3 lightOn(vec3 p, vec3 n, Traced traced) {
+  const vec3 kSeen = vec3(0.2126, 0.7152, 0.0722);
+  float all = dot(traced.light, kSeen);
+  vec3 sum = all * traced.lean;
+  if (frame.size.w == 1u) {
+    float sun = dot(sunLight(), kSeen) * traced.open[0].x * max(dot(n, frame.sun.xyz), 0.0);
+    return (sum + sun * frame.sun.xyz) / max(all + sun, 1e-6);
+  }
+  for (uint i = 0u; i < frame.counts.x; ++i) {
+    vec3 away = frame.lamp_position[i].xyz - p;
+    float d = length(away), lit = traced.open[i / 4u][i % 4u] * lampFall(d, frame.lamp_position[i].w);
+    if (lit <= 0.0) continue;
+    vec3 l = away / d;
+    if (i == 0u) lit *= lampBeam(-dot(l, frame.forward.xyz));
+    lit *= dot(frame.lamp_colour[i].rgb, kSeen) * max(dot(n, l), 0.0);
+    sum += lit * l;
+    all += lit;
+  }
+  return sum / max(all, 1e-6);
+}
+
 Surface surfaceAt(uint material, vec3 p, vec3 n, vec3 to_eye, float footprint, Traced traced) {
   Material m = materials[min(material, frame.counts.y - 1u)];
   Spot at = Spot(p, n, to_eye, m.colour_roughness.rgb, m.colour_roughness.w, uintBitsToFloat(m.pattern.y), footprint,
-                 traced.wet, traced.depth);
+                 traced.wet, traced.depth, lightOn(p - frame.pattern_offset.xyz, n, traced));
   Surface s = patterned(m.pattern.x, at);
   if (has(kSkyBit) && (kPatterns & kWeathering) != 0u && frame.size.w == 1u) weather(s, at, m.pattern.x, traced.lie);
   return s;

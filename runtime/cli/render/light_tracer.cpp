@@ -27,6 +27,8 @@ constexpr int kSoftRays = 14;  // of a square of pixels; filtered later
 /// Rays to a light: the first tell most places that lie wholly in light or in shade, the others how deep in an edge.
 constexpr int kFirstRays = 2, kAllRays = 6;
 constexpr int kBounces = 2;           // of a soft ray, before what is left is taken to be even
+constexpr int kMirrorBounces = 2;     // of a ray from a mirror
+constexpr int kMirrorRays = 4;        // of a pixel: one alone would draw edges of what it mirrors as steps
 constexpr float kSunRadius = 0.012f;  // of its disc at distance 1: a little hazy
 constexpr float kLampRadius = 0.03f;  // in reaches
 constexpr float kFar = 1e5f;          // metres
@@ -61,11 +63,11 @@ class LightTracer {
     for (const RenderMaterial& one : scene.materials) has_water_ |= one.pattern == SurfacePattern::water;
   }
 
-  /// Through a pixel's first sample.
-  vec3 directionAt(uint32_t x, uint32_t y) const {
-    const float side = static_cast<float>(scene_.supersample);
-    const float u = (static_cast<float>(x) * side + 0.5f) / (static_cast<float>(frame_.size.x) * side) * 2 - 1;
-    const float v = (static_cast<float>(y) * side + 0.5f) / (static_cast<float>(frame_.size.y) * side) * 2 - 1;
+  /// Through a pixel's first sample, or `off` pixels beside it.
+  vec3 directionAt(uint32_t x, uint32_t y, glm::vec2 off = glm::vec2(0)) const {
+    const float first = 0.5f / static_cast<float>(scene_.supersample);
+    const float u = (static_cast<float>(x) + first + off.x) / static_cast<float>(frame_.size.x) * 2 - 1;
+    const float v = (static_cast<float>(y) + first + off.y) / static_cast<float>(frame_.size.y) * 2 - 1;
     return glm::normalize(vec3(frame_.forward) + u * vec3(frame_.right) - v * vec3(frame_.up));
   }
 
@@ -99,17 +101,7 @@ class LightTracer {
     }
     float wet = 0;
     vec3 seen(0);
-    if (isMirror(place.material)) {
-      UnitPoints points(x, y, 64);
-      const vec3 away = glm::normalize(place.position - vec3(frame_.eye));
-      const vec3 normal = isWater(place.material)
-                              ? place.normal
-                              : paneNormal(place.normal, place.position + vec3(frame_.pattern_offset));
-      vec3 back = glm::reflect(away, normal);
-      // At grazing angles a bent normal would send the ray into the pane.
-      if (const float outwards = dot(back, place.normal); outwards < 0) back -= 2 * outwards * place.normal;
-      seen = radiance(place.start, back, points, 1, nullptr, true);
-    }
+    if (isMirror(place.material)) seen = mirrored(place, x, y);
     if (has_water_) {
       UnitPoints points(x, y, 65);
       wet = isWater(place.material) ? depthOf(place, points) : -wetness(place);
@@ -157,6 +149,29 @@ class LightTracer {
   bool isMirror(uint32_t index) const {
     const SurfacePattern pattern = material(index).pattern;
     return pattern == SurfacePattern::water || pattern == SurfacePattern::glass;
+  }
+
+  /// What a pane or water shows in a pixel: the mean of rays through all of it, each to its own place of the mirror.
+  vec3 mirrored(const MetSurface& place, uint32_t x, uint32_t y) const {
+    UnitPoints spread(x, y, 63), turns(x, y, 64);
+    const vec3 eye(frame_.eye);
+    const float facing = dot(place.position - eye, place.normal);
+    vec3 sum(0);
+    for (int i = 0; i < kMirrorRays; ++i) {
+      const vec3 through = directionAt(x, y, spread.next() - 0.5f);
+      // Where it meets the mirror's plane, unless that is nearly edge-on.
+      const float steep = dot(through, place.normal), way = facing / std::min(steep, -1e-4f);
+      const vec3 beside = steep < 0 && way < 1.5f * place.distance ? eye + way * through - place.position : vec3(0);
+      const vec3 at = place.position + beside + vec3(frame_.pattern_offset);
+      const vec3 normal = !isWater(place.material) ? paneNormal(place.normal, at)
+                          : sky_                   ? rippledNormal(place.normal, at)
+                                                   : place.normal;
+      vec3 back = glm::reflect(glm::normalize(place.position + beside - eye), normal);
+      // At grazing angles a bent normal would send the ray into the pane.
+      if (const float outwards = dot(back, place.normal); outwards < 0) back -= 2 * outwards * place.normal;
+      sum += radiance(place.start + beside, back, turns, kMirrorBounces, nullptr, true);
+    }
+    return sum / static_cast<float>(kMirrorRays);
   }
 
   bool isGap(const MetSurface& place, vec3 direction) const {
@@ -258,6 +273,22 @@ class LightTracer {
     });
   }
 
+  /// Light that comes from the sun and all lamps to a place that a mirror shows: what is left to chance would sparkle.
+  vec3 litByAll(const MetSurface& place, UnitPoints& turns) const {
+    if (sky_) return lit(place, turns.next());
+    vec3 sum(0);
+    for (uint32_t i = 0; i < frame_.counts.x; ++i) {
+      const vec3 light = lampOn(place.position, place.normal, i);
+      if (luminance(light) <= 1e-4f) continue;
+      const vec3 away = vec3(frame_.lamp_position[i]) - place.start;
+      const float distance = glm::length(away);
+      const Across across(away / std::max(distance, 1e-6f));
+      const glm::vec2 at = std::min(kLampRadius * frame_.lamp_position[i].w, 0.2f * distance) * onDisc(turns.next());
+      if (mesh_.isFree(place.start, away + at.x * across.x + at.y * across.y, 0.98f)) sum += light;
+    }
+    return sum;
+  }
+
   /// Light that comes from the sun or one lamp, chosen by how much it could give, to a place and leaves it again.
   vec3 lit(const MetSurface& place, glm::vec2 turn) const {
     if (sky_) {
@@ -315,7 +346,7 @@ class LightTracer {
       const float wide = place.distance / (place.distance + 0.7f);
       sum += weight * (sky_ ? 0.0f : frame_.sun.w * wide);
       weight *= colourOf(place.material);
-      sum += weight * lit(place, turns.next());
+      sum += weight * (mirrored && i == 0 ? litByAll(place, turns) : lit(place, turns.next()));
       if (i + 1 == bounces) {
         sum += weight * (sky_ ? vec3(0.10f, 0.12f, 0.15f) : vec3(0.3f * frame_.sun.w));
         break;

@@ -16,25 +16,31 @@ Surface water(Spot at) {
 
   vec4 broad = noise(vec3(bed_at * 0.45, 3.0)), mottle = noise(vec3(bed_at * 2.3, 8.0));
   vec4 fine = noise(vec3(bed_at * 9.0, 1.0));
-  vec2 bent = bed_at + 0.05 * mottle.yz + 0.012 * fine.yz;
-  Block large = cellAt(bent, 0.55, 0.10, 51), small = cellAt(bent + 3.7, 0.15, 0.04, 53);
-  vec3 silt = vec3(0.215, 0.180, 0.128) * (1.0 + 0.22 * broad.x + 0.16 * mottle.x + 0.10 * fine.x);
-  // Stones lie here and not there; each is lit from one side, and dark where it meets the silt.
-  float many = 0.5 * broad.x + 0.2 * mottle.x;
-  float round_small = 1.0 - length(small.within) * (1.0 + 0.5 * fine.w) / (0.03 + 0.045 * small.lot.x);
-  float strewn = step(0.42, small.lot.z + many) * smoothstep(0.0, 0.2, round_small) * visible(0.10, at.footprint);
-  vec3 pebble = mix(vec3(0.13, 0.11, 0.085), vec3(0.31, 0.28, 0.225), small.lot.y * small.lot.y);
-  pebble *= (0.72 + 0.4 * max(round_small, 0.0) + 2.5 * small.within.x) * (1.0 + 0.15 * fine.x);
-  vec2 oval = large.within * vec2(1.0 + 0.4 * large.lot.x, 1.2 - 0.3 * large.lot.y);
-  float uneven = 1.0 + 0.3 * mottle.w + 0.18 * fine.w;
-  float round_large = 1.0 - length(oval) * uneven / (0.09 + 0.18 * large.lot.x);
-  float here = step(0.60, large.lot.z + many) * visible(0.30, at.footprint);
-  float lies = here * smoothstep(0.0, 0.12, round_large);
-  vec3 stone = mix(vec3(0.12, 0.10, 0.08), vec3(0.29, 0.255, 0.20), large.lot.y);
-  stone *= (0.68 + 0.45 * max(round_large, 0.0) + 0.8 * large.within.x) * (1.0 + 0.25 * mottle.x + 0.15 * fine.x);
-  vec3 bed = mix(silt, pebble, strewn);
-  bed *= 1.0 - 0.35 * here * smoothstep(-0.22, 0.0, round_large);
-  bed = mix(bed, stone, lies);
+  float grain = fineNoise(vec3(bed_at * 37.0, 2.0), 0.03, at.footprint);
+  vec3 bed = vec3(0.215, 0.180, 0.128) * (1.0 + 0.22 * broad.x + 0.16 * mottle.x + 0.10 * fine.x + 0.08 * grain);
+  // Stones lie here and not there, large ones on small ones, and throw shadows on what lies beside them.
+  vec2 bent = bed_at + 0.030 * mottle.yz + 0.006 * fine.yz;
+  float many = 0.5 * broad.x + 0.2 * mottle.x, dark = 0.55 * length(at.light);
+  vec3 to_light = at.light * vec3(0.75, 1.0, 0.75);
+  const float kLarge = 0.42, kSmall = 0.115;
+  float far = visible(0.8 * kSmall, at.footprint);
+  Strewn large = strewnAt(bent, down, kLarge, 0.34 + many, 51), small = large;
+  vec2 open = lightAmong(large, to_light, kLarge, 0.34 + many, 51), among = vec2(1.0);
+  if (large.there == 0.0 && far > 0.0) {
+    small = strewnAt(bent, down, kSmall, 0.62 + many, 53);
+    among = mix(vec2(1.0), lightAmong(small, to_light, kSmall, 0.62 + many, 53), far);
+  }
+  if (small.there > 0.0) {
+    vec3 lot = small.lot;
+    vec3 stone = mix(vec3(0.125, 0.105, 0.080), vec3(0.31, 0.275, 0.215), lot.y * lot.y) * (1.0 + 0.12 * fine.x);
+    stone *= 1.0 + 0.25 * grain + 0.15 * mottle.x;
+    bed = mix(bed, stone, large.there > 0.0 ? visible(0.5 * kLarge, at.footprint) : far);
+  }
+  // The surface is level and the stones are not: they turn to the light, or from it.
+  vec3 facing = normalize(small.normal + 0.10 * vec3(fine.y, 0.0, fine.z) + 0.05 * vec3(mottle.y, 0.0, mottle.z));
+  float turned = dot(facing, normalize(to_light + vec3(0.0, 1e-3, 0.0))) / max(normalize(to_light + vec3(0.0, 1e-3, 0.0)).y, 0.35);
+  vec2 all = open * among;
+  bed *= mix(all.y * (0.72 + 0.28 * facing.y), all.x * clamp(turned, 0.0, 1.6), dark);
   s.albedo = bed * through + 0.6 * at.colour * (1.0 - through.g);
   s.roughness = 0.06;
   s.specular = 0.02;

@@ -14,25 +14,32 @@ Surface granular(Spot at) {
   return s;
 }
 
-// Stones of two sizes over fines: each turned its own way, the larger ones lying on the smaller.
+// Stones of two sizes over fines, the larger ones lying on the smaller: each has its height, its shadow and its colour.
 Surface gravelly(Spot at) {
   Chart chart = chartOf(at.p, abs(at.n.y) > 0.6 ? vec3(0.0, 1.0, 0.0) : at.n);
-  vec2 bent = chart.at + 0.012 * noise(at.p * 21.0).yz;
-  Block large = cellAt(bent, 0.085, 0.03, 91), small = cellAt(bent + 7.3, 0.034, 0.012, 93);
-  // Half of the large cells are empty: there the small stones show.
-  float lies = step(0.45, large.lot.z) * smoothstep(0.004, 0.012, large.edge - 0.014 * large.lot.x);
-  float seen = visible(0.05, at.footprint);
-  vec3 lot = mix(small.lot, large.lot, lies);
-  float edge = mix(small.edge, large.edge - 0.010, lies);
-  vec2 tilt = mix(small.tilt, large.tilt, lies);
+  const float kLarge = 0.080, kSmall = 0.030;
   Surface s = granular(at);
-  vec3 stone = at.colour * (0.55 + 0.8 * lot.x) * mix(vec3(1.08, 0.98, 0.88), vec3(0.90, 0.96, 1.04), lot.y);
+  float seen = visible(0.9 * kLarge, at.footprint), fine = visible(kSmall, at.footprint);
+  if (seen <= 0.0) return s;
+  vec2 bent = chart.at + 0.007 * noise(at.p * 21.0).yz;
   float grain = fineNoise(at.p * 90.0, 0.011, at.footprint);
-  stone *= (0.3 + 0.7 * smoothstep(0.0, 0.009, edge)) * (1.0 + 0.15 * grain) * mix(0.8, 1.0, lies);
-  s.albedo = mix(s.albedo, stone, seen);
-  vec2 lean = 1.1 * (lot.yx - 0.5) + tilt;
-  s.normal = bend(s.normal, chart.along * lean.x + chart.up * lean.y, 0.8 * seen * at.relief);
+  vec3 way = -vec3(dot(at.to_eye, chart.along), dot(at.to_eye, at.n), dot(at.to_eye, chart.up));
+  vec3 to_light = vec3(dot(at.light, chart.along), dot(at.light, at.n), dot(at.light, chart.up));
+  Strewn large = strewnAt(bent, way, kLarge, 0.55, 91), small = large;
+  vec2 open = mix(vec2(1.0), lightAmong(large, to_light, kLarge, 0.55, 91), seen);
+  if (large.there == 0.0 && fine > 0.0) {
+    small = strewnAt(bent, way, kSmall, 1.0, 93);
+    open *= mix(vec2(1.0), lightAmong(small, to_light, kSmall, 1.0, 93), fine);
+  }
+  float shown = small.there * (large.there > 0.0 ? seen : fine);
+  vec3 lot = small.lot;
+  vec3 stone = at.colour * (0.62 + 0.75 * lot.x) * mix(vec3(1.10, 0.98, 0.86), vec3(0.88, 0.96, 1.06), lot.y);
+  s.albedo = mix(0.8 * s.albedo, stone * (1.0 + 0.18 * grain), shown);
+  s.albedo *= mix(open.y, open.x, 0.6 * length(at.light));
+  vec3 normal = chart.along * small.normal.x + at.n * small.normal.y + chart.up * small.normal.z;
+  s.normal = normalize(mix(s.normal, normal + 0.5 * (s.normal - at.n), shown * min(1.0, at.relief)));
   wetten(s, at.wet);
+  s.roughness = roughened(s.roughness, 0.1 * (1.0 - fine));
   return s;
 }
 

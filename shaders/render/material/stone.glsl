@@ -50,24 +50,23 @@ Surface rock(Spot at) {
   albedo = mix(albedo, silt * vec3(0.62, 0.56, 0.50), 0.8 * mud);
   vec3 strewn = vec3(0.0);
   if (floor_cover > 0.05 && footprint < 0.07) {
-    vec4 wobble = noise(p * 13.0);
-    vec2 on = p.xz + 0.04 * noise(p * 5.0).yz + 0.008 * wobble.yz;
-    Block large = cellAt(on, 0.26, 0.05, 71), small = cellAt(on + 5.3, 0.072, 0.02, 73);
-    float much = 0.52 - 0.40 * patches.y - 0.25 * mottle.z + 0.25 * mud;
-    vec2 oval = large.within * vec2(1.0 + 0.5 * large.lot.x, 1.3 - 0.4 * large.lot.y);
-    float round_large = 1.0 - length(oval) / (0.035 + 0.085 * large.lot.x);
-    float round_small = 1.0 - length(small.within) / (0.014 + 0.026 * small.lot.x);
-    float here = floor_cover * step(much + 0.18, large.lot.z) * visible(0.14, footprint);
-    float big = here * smoothstep(0.0, 0.10, min(round_large, 12.0 * large.edge));
-    float little = floor_cover * step(much, small.lot.z) * visible(0.05, footprint);
-    little *= smoothstep(0.0, 0.2, round_small) * (1.0 - big);
-    albedo *= 1.0 - 0.45 * here * smoothstep(-0.25, 0.0, round_large) * (1.0 - big);
-    albedo = mix(albedo, at.colour * mix(0.45, 1.05, small.lot.y) * (1.0 + 0.2 * grain), little);
-    albedo = mix(albedo, at.colour * mix(0.50, 1.05, large.lot.y) * (1.0 + 0.3 * grain + 0.2 * mottle.x), big);
-    vec2 lean = big * (8.0 * large.within + 0.6 * (large.lot.xy - 0.5));
-    lean += little * (14.0 * small.within + 0.4 * (small.lot.xy - 0.5));
-    strewn = vec3(-lean.x, 0.0, -lean.y);
-    mud *= 1.0 - max(big, little);
+    vec2 on = p.xz + 0.014 * noise(p * 5.0).yz + 0.004 * noise(p * 13.0).yz;
+    const float kLarge = 0.23, kSmall = 0.065;
+    float much = floor_cover * (0.62 + 0.40 * patches.y + 0.25 * mottle.z - 0.25 * mud);
+    float many = much - 0.22 - 0.5 * (1.0 - floor_cover);
+    float seen = visible(0.6 * kLarge, footprint), fine = visible(0.8 * kSmall, footprint);
+    vec3 way = -vec3(at.to_eye.x, dot(at.to_eye, n), at.to_eye.z), to_light = vec3(at.light.x, dot(at.light, n), at.light.z);
+    Strewn large = strewnAt(on, way, kLarge, many, 71), small = large;
+    vec2 open = mix(vec2(1.0), lightAmong(large, to_light, kLarge, many, 71), seen);
+    if (large.there == 0.0 && fine > 0.0) {
+      small = strewnAt(on, way, kSmall, much, 73);
+      open *= mix(vec2(1.0), lightAmong(small, to_light, kSmall, much, 73), fine);
+    }
+    float shown = small.there * (large.there > 0.0 ? seen : fine);
+    albedo = mix(albedo, at.colour * mix(0.50, 1.05, small.lot.y) * (1.0 + 0.25 * grain + 0.1 * mottle.x), shown);
+    albedo *= mix(open.y, open.x, 0.6 * length(at.light));
+    strewn = -vec3(small.normal.x, 0.0, small.normal.z) / max(small.normal.y, 0.35) * shown;
+    mud *= 1.0 - shown;
   }
 
   // Geometry has what is larger than a step; relief begins where that ends.
@@ -75,7 +74,7 @@ Surface rock(Spot at) {
   vec3 slope = relief_slope.xyz;
   slope.y += wall * 0.4 * lamina;
   slope *= mix(1.0, mix(0.55, 0.30, mud), floor_cover);
-  slope += 2.2 * strewn;
+  slope += strewn / (0.34 * max(at.relief, 0.3));
 
   Surface s = surfaceOf(at);
   s.albedo = albedo;

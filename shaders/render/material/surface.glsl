@@ -20,6 +20,7 @@ struct Spot {
   float footprint;  // metres that a sample covers
   float wet;        // 1 at the edge of standing water, 0 away from it
   float depth;      // of water, metres
+  vec3 light;       // towards most of its light, the longer the more of it comes from there, 0..1
 };
 
 Surface surfaceOf(Spot at) {
@@ -99,8 +100,9 @@ float cracks(vec3 p, vec3 n, float size, float width, float footprint) {
   return depth * w;
 }
 
-// A surface unrolled: metres along its level direction and up its slope. Walls turn in steps, so that a tower's courses
-// are as long as they would be on its stones' own faces.
+// A surface unrolled: metres along its level direction and up its slope. Courses are counted by height alone, so that they
+// meet at corners and do not slide where a wall, a rib or a vault curves; their lengths turn in steps, so that a column's
+// drum and a round tower show whole faces of stones. Where a surface leans its courses grow in steps too.
 struct Chart {
   vec2 at;
   vec3 along;
@@ -109,18 +111,21 @@ struct Chart {
 
 Chart chartOf(vec3 p, vec3 n) {
   Chart c;
-  if (abs(n.y) > 0.96) {
+  float level = length(n.xz);
+  if (level < 0.28) {
     c.along = vec3(1.0, 0.0, 0.0);
     c.up = vec3(0.0, 0.0, 1.0);
-  } else {
-    const float kStep = 6.2831853 / 32.0;
-    float turn = floor(atan(n.z, n.x) / kStep + 0.5) * kStep;
-    vec3 out_of = vec3(cos(turn), 0.0, sin(turn));
-    c.along = vec3(-out_of.z, 0.0, out_of.x);
-    float level = length(n.xz);
-    c.up = normalize(vec3(-out_of.x * n.y, level, -out_of.z * n.y));
+    c.at = p.xz;
+    return c;
   }
-  c.at = vec2(dot(p, c.along), dot(p, c.up));
+  // A little off the half: faces of an octagon's half angle would waver between two steps.
+  const float kStep = 6.2831853 / 8.0;
+  float turn = floor(atan(n.z, n.x) / kStep + 0.56) * kStep;
+  vec3 out_of = vec3(cos(turn), 0.0, sin(turn));
+  c.along = vec3(-out_of.z, 0.0, out_of.x);
+  c.up = normalize(vec3(-out_of.x * n.y, level, -out_of.z * n.y));
+  float steep = exp2(0.5 * floor(2.0 * log2(level) + 0.5));
+  c.at = vec2(dot(p, c.along), p.y / steep);
   return c;
 }
 
@@ -185,6 +190,85 @@ Block cellAt(vec2 at, float size, float round_edge, int seed) {
   b.edge = border * size;
   b.tilt = towards * (1.0 - smoothstep(0.0, round_edge, b.edge));
   return b;
+}
+
+// A stone of a layer that lies strewn over a plane: an ellipsoid in its own cell, turned its own way. The layer's axes are
+// x and z along the plane and y out of it.
+struct Stone {
+  vec3 middle;  // metres
+  vec3 radii;   // 0: there is none
+  vec2 turn;    // cosine and sine
+  vec3 lot;     // random numbers of its own
+};
+
+Stone stoneIn(ivec2 cell, float size, float many, int seed) {
+  Stone s;
+  vec3 place = random3(ivec3(cell, seed));
+  s.lot = random3(ivec3(cell, seed + 1));
+  float wide = size * (0.28 + 0.30 * s.lot.x) * smoothstep(0.0, 0.2, s.lot.z + many - 1.0);
+  s.radii = wide * vec3(1.0, 0.42 + 0.30 * place.z, 0.62 + 0.30 * s.lot.y);
+  vec2 on = (vec2(cell) + 0.2 + 0.6 * place.xy) * size;
+  s.middle = vec3(on.x, 0.3 * s.radii.y, on.y);
+  s.turn = vec2(cos(40.0 * place.z), sin(40.0 * place.z));
+  return s;
+}
+
+// A vector in the axes in which the stone is a ball of radius 1.
+vec3 inStone(Stone s, vec3 v) {
+  return vec3(s.turn.x * v.x + s.turn.y * v.z, v.y, s.turn.x * v.z - s.turn.y * v.x) / s.radii;
+}
+
+// What is seen of a layer of stones.
+struct Strewn {
+  float there;  // 1 where it is a stone
+  vec3 at;      // metres in the layer's axes
+  vec3 normal;  // likewise
+  vec3 lot;     // of the stone
+  ivec2 cell;
+};
+
+// The stone that an eye's ray meets first which would meet the plane at `at`. way: the ray's direction in the layer's axes;
+// size: metres from stone to stone; many: the share of cells that have one.
+Strewn strewnAt(vec2 at, vec3 way, float size, float many, int seed) {
+  vec3 base = vec3(at.x, 0.0, at.y);
+  // Seen flatter than this, stones would hide each other as they do in rows; few cells would not hold them all.
+  vec3 ray = normalize(vec3(way.x, min(way.y, -0.4), way.z));
+  Strewn found = Strewn(0.0, base, vec3(0.0, 1.0, 0.0), vec3(0.5), ivec2(1 << 20));
+  ivec2 middle = ivec2(floor((at - ray.xz / -ray.y * (0.16 * size)) / size));
+  float first = 0.0;
+  for (int i = 0; i < 9; ++i) {
+    ivec2 cell = middle + ivec2(i % 3 - 1, i / 3 - 1);
+    Stone s = stoneIn(cell, size, many, seed);
+    if (s.radii.x < 0.05 * size) continue;
+    vec3 o = inStone(s, base - s.middle), d = inStone(s, ray);
+    float a = dot(d, d), b = dot(o, d), c = dot(o, o) - 1.0, root = b * b - a * c;
+    if (root <= 0.0) continue;
+    float t = (-b - sqrt(root)) / a;
+    if (t >= first) continue;
+    first = t;
+    vec3 ball = (o + t * d) / s.radii;
+    vec3 normal = normalize(vec3(s.turn.x * ball.x - s.turn.y * ball.z, ball.y, s.turn.y * ball.x + s.turn.x * ball.z));
+    found = Strewn(1.0, base + t * ray, normal, s.lot, cell);
+  }
+  return found;
+}
+
+// How much of the light from a direction reaches a place among a layer's stones (x) and how open it is to all sides (y).
+vec2 lightAmong(Strewn seen, vec3 to_light, float size, float many, int seed) {
+  vec3 l = normalize(vec3(to_light.x, max(to_light.y, 0.25), to_light.z));
+  ivec2 middle = ivec2(floor((seen.at.xz + 0.25 * size * l.xz / l.y) / size));
+  vec2 open = vec2(1.0);
+  for (int i = 0; i < 9; ++i) {
+    ivec2 cell = middle + ivec2(i % 3 - 1, i / 3 - 1);
+    if (seen.there > 0.0 && cell == seen.cell) continue;
+    Stone s = stoneIn(cell, size, many, seed);
+    if (s.radii.x < 0.05 * size) continue;
+    vec3 o = inStone(s, seen.at - s.middle), d = inStone(s, l);
+    float away = dot(o, o), b = dot(o, d), across = away - b * b / dot(d, d);
+    open.y *= 1.0 - 0.55 * exp(-2.5 * max(sqrt(away) - 1.0, 0.0));
+    if (b < 0.0) open.x = min(open.x, smoothstep(0.55, 1.1, across));
+  }
+  return open;
 }
 
 // Darkens and smooths what standing water has wetted.

@@ -62,17 +62,29 @@ Surface metallic(Spot at) {
   return s;
 }
 
-// Tar with chips of stone, patched and worn.
+// Tar with chips of stone, which wheels have laid bare in places; it has sunk, cracked and been sealed again.
 Surface asphalt(Spot at) {
   Surface s = surfaceOf(at);
-  float chips = fineNoise(at.p * 110.0, 0.01, at.footprint);
   float broad = noise(at.p * 0.35).x + 0.4 * noise(at.p * 1.6).x;
-  float split = cracks(at.p + 0.3 * noise(at.p * 0.7).yzw, at.n, 3.1, 0.012, at.footprint) * smoothstep(0.1, 0.5, broad);
-  s.albedo = at.colour * (1.0 + 0.35 * chips + 0.16 * broad) * (1.0 - 0.45 * split);
-  vec4 relief_slope = relief(at.p, 0.04, 3, 0, at.footprint);
-  s.normal = bend(at.n, relief_slope.xyz, 0.06 * at.relief);
+  float mottle = fineNoise(at.p * 6.0, 0.16, at.footprint), clots = fineNoise(at.p * 25.0, 0.04, at.footprint);
+  float chips = fineNoise(at.p * 120.0, 0.009, at.footprint), dust = fineNoise(at.p * 64.0, 0.016, at.footprint);
+  // Chips stand pale out of the tar, the more the more it is worn.
+  float bare = smoothstep(0.05, 0.40, chips + 0.35 * dust + 0.15 * clots + 0.12 * broad);
+  s.albedo = at.colour * (1.0 + 0.16 * broad + 0.13 * mottle + 0.20 * clots + 0.22 * dust) * (1.0 - 0.2 * max(-chips, 0.0));
+  s.albedo = mix(s.albedo, vec3(0.20, 0.195, 0.185) * (1.0 + 0.5 * dust), 0.55 * bare);
+  vec3 bent = at.p + 0.3 * noise(at.p * 0.7).yzw + 0.03 * noise(at.p * 5.0).yzw;
+  float old = smoothstep(0.0, 0.4, broad);
+  float split = cracks(bent, at.n, 3.1, 0.012, at.footprint) * old;
+  s.albedo *= 1.0 - 0.60 * split;
+  // Most of the long cracks have been sealed with a band of fresh tar.
+  float band = cracks(0.7 * at.p + 0.2 * noise(at.p * 0.45).yzw + 7.0, at.n, 4.7, 0.035, at.footprint);
+  float sealed = smoothstep(0.25, 0.45, band) * smoothstep(-0.05, 0.15, noise(at.p * 0.21 + 9.0).x);
+  s.albedo = mix(s.albedo, vec3(0.028, 0.028, 0.030), 0.75 * sealed);
+  s.roughness = mix(s.roughness, 0.55, sealed);
+  vec4 relief_slope = relief(at.p, 0.035, 4, 0, at.footprint);
+  s.normal = bend(at.n, relief_slope.xyz, 0.13 * at.relief * (1.0 - 0.8 * sealed));
   wetten(s, at.wet);
-  s.roughness = roughened(s.roughness, 0.004 * relief_slope.w);
+  s.roughness = roughened(s.roughness, 0.016 * relief_slope.w);
   return s;
 }
 
