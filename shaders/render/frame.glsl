@@ -16,6 +16,9 @@ layout(std140, binding = 3) uniform Frame {
   vec4 land;     // around the world: its height, its material (below 0: none), 1 where it is bare; w: 1 in fair weather
 } frame;
 
+// Whether the land around the world has no green.
+bool isBare() { return frame.land.z > 0.5; }
+
 struct Material { vec4 colour_roughness; uvec4 pattern; };  // pattern.y: relief, float bits
 layout(std430, binding = 4) readonly buffer Materials { Material materials[]; };
 layout(std430, binding = 5) writeonly buffer Pixels { uint pixels[]; };

@@ -8,8 +8,6 @@ vec3 landLight(vec3 n) {
   return sunLight() * max(dot(n, frame.sun.xyz), 0.0) + 0.8 * skyLight(vec3(0.0, 1.0, 0.0), frame.sun.xyz);
 }
 
-bool isBare() { return frame.land.z > 0.5; }
-
 // Fields, hedges between them and woods; bare land has broad stains alone. Near the world it is what the world ends in.
 vec3 landAlbedo(vec2 at, float away, float footprint, vec3 own) {
   // Metres of each noise; a loop, for its body is compiled once.

@@ -1,5 +1,6 @@
 // The numbers of patterns that shaders ask for by name, in the subset of GLSL that C++ reads too:
 // runtime/cli/render/materials.cpp checks them against SurfacePattern.
+const uint kRock = 0u;
 const uint kBrick = 4u;
 const uint kAshlar = 5u;
 const uint kRubble = 6u;

@@ -40,7 +40,7 @@ Surface surfaceAt(uint material, vec3 p, vec3 n, vec3 to_eye, float footprint, T
   Spot at = Spot(p, n, to_eye, m.colour_roughness.rgb, m.colour_roughness.w, uintBitsToFloat(m.pattern.y), footprint,
                  traced.wet, traced.depth, lightOn(p - frame.pattern_offset.xyz, n, traced));
   Surface s = patterned(m.pattern.x, at);
-  if (has(kSkyBit) && (kPatterns & kWeathering) != 0u && frame.size.w == 1u) weather(s, at, m.pattern.x, traced.lie);
+  if (has(kSkyBit) && (kPatterns & kWeathering) != 0u && frame.size.w == 1u) weather(s, at, m.pattern.x, traced.lie, frame.land.y >= 0.0 && !isBare());
   return s;
 }
 

@@ -12,9 +12,11 @@ vec3 sky(vec3 d) {
 // What the air between the eye and whatever lies in direction d adds, once it hides all of it.
 vec3 hazeIn(vec3 d) { return sky(normalize(vec3(d.x, max(d.y, 0.03), d.z))); }
 
-vec3 toneMap(vec3 c) {  // Narkowicz's fit of the ACES curve
+// Narkowicz's fit of the ACES curve, and a plain exposure beside it: film's deep shade would be too black out of doors.
+vec3 toneMap(vec3 c) {
   c *= 0.8;
-  return clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0);
+  vec3 film = clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0);
+  return mix(film, 1.0 - exp(-1.35 * c), 0.4);
 }
 
 vec3 encodeSrgb(vec3 c) {

@@ -1,9 +1,9 @@
-// What rain, dirt and use leave on what people built: by how a place lies (Traced::lie), in patches and streaks.
+// What rain, dirt and use leave on rock and on what people built: by how a place lies (Traced::lie), in patches and streaks.
 
-// Bits of patterns. What weathers is neither what grew, nor metal, nor glass.
+// Bits of patterns. What weathers is neither what grows, nor metal, nor glass.
 const uint kRoofs = 1u << kRoofTiles | 1u << kSlates;
 const uint kStreets = 1u << kPaving | 1u << kCobbles | 1u << kConcrete | 1u << kAsphalt;
-const uint kWeathering = kRoofs | kStreets | 1u << kBrick | 1u << kAshlar | 1u << kRubble | 1u << kPlain |
+const uint kWeathering = 1u << kRock | kRoofs | kStreets | 1u << kBrick | 1u << kAshlar | 1u << kRubble | 1u << kPlain |
                          1u << kWooden | 1u << kBoards;
 // Whether a pattern is one of them; a pattern that the scene does not use is not compiled.
 bool isOf(uint patterns, uint pattern) { return (kPatterns & patterns) != 0u && (patterns >> pattern & 1u) != 0u; }
@@ -30,14 +30,14 @@ void weatherWall(inout Surface s, Spot at, vec3 lie, vec3 patchy, float much) {
   s.albedo *= 1.0 + much * tone;
   s.albedo *= mix(vec3(1.0), vec3(1.02, 0.98, 0.90), much * smoothstep(-0.4, 0.6, patchy.y - patchy.x));
   // Below a ledge the wall is not washed: soot stays, and runs down where water drips off.
-  float dripped = lie.y * (0.22 + 0.78 * smoothstep(-0.15, 0.75, runs + 0.25 * patchy.y));
-  s.albedo *= mix(vec3(1.0), vec3(0.56, 0.54, 0.51), much * 0.62 * dripped);
+  float dripped = lie.y * (0.10 + 0.90 * smoothstep(0.0, 0.80, runs + 0.15 * patchy.y));
+  s.albedo *= mix(vec3(1.0), vec3(0.60, 0.59, 0.57), much * 0.42 * dripped);
   // Splashed soil and rising damp, and algae where it never dries.
   float foot = smoothstep(0.12, 0.95, lie.z + 0.22 * patchy.y + 0.16 * patchy.z + 0.10 * runs);
-  s.albedo *= mix(vec3(1.0), vec3(0.50, 0.445, 0.365), 0.85 * foot);
-  s.albedo = mix(s.albedo, vec3(0.105, 0.110, 0.062), 0.30 * foot * foot);
-  float corner = smoothstep(0.16, 0.75, lie.x + 0.12 * patchy.z + 0.08 * patchy.y);
-  s.albedo *= mix(vec3(1.0), vec3(0.60, 0.57, 0.53), much * 0.6 * corner);
+  s.albedo *= mix(vec3(1.0), vec3(0.56, 0.515, 0.455), 0.70 * foot);
+  s.albedo = mix(s.albedo, vec3(0.105, 0.110, 0.062), 0.22 * foot * foot);
+  float corner = smoothstep(0.24, 0.85, lie.x + 0.12 * patchy.z + 0.08 * patchy.y);
+  s.albedo *= mix(vec3(1.0), vec3(0.66, 0.645, 0.62), much * 0.45 * corner);
   s.roughness = clamp(s.roughness * (1.0 + much * (0.12 * patchy.y + 0.1 * dripped)), 0.05, 1.0);
 }
 
@@ -77,15 +77,52 @@ void weatherStreet(inout Surface s, Spot at, uint pattern, vec3 lie, vec3 patchy
   s.albedo *= mix(vec3(1.0), vec3(1.22, 1.20, 1.16), smoothstep(-0.1, 0.6, patchy.x) * (1.0 - stain));
 }
 
-// lie: Traced::lie of the place.
-void weather(inout Surface s, Spot at, uint pattern, vec3 lie) {
+// Rock under a sky: rain greys what it washes, algae run down in dark bands, and what an overhang keeps dry stays warm and
+// bright. On ledges soil gathers, and where the land is green something grows on it.
+void weatherRock(inout Surface s, Spot at, vec3 lie, vec3 patchy, bool green) {
+  float wall = 1.0 - smoothstep(0.45, 0.80, abs(at.n.y)), tone = dot(at.colour, vec3(0.3, 0.5, 0.2));
+  float broad = plainNoise(at.p / 17.0 + 5.0), fine = fineNoise(at.p * 7.0, 0.14, at.footprint);
+  float dry = max(lie.y, 0.8 * smoothstep(0.05, 0.45, -at.n.y));
+  float washed = smoothstep(-0.45, 0.35, broad + 0.45 * patchy.x + 0.25 * patchy.y + 0.10 * fine) * (1.0 - 0.85 * dry);
+  s.albedo = mix(s.albedo, 0.62 * (vec3(tone) * vec3(1.0, 0.99, 0.96)) + 0.30 * s.albedo, 0.62 * washed);
+  s.albedo *= mix(vec3(1.0), vec3(1.06, 0.96, 0.82), 0.6 * dry);
+  // Bands begin where water comes over an edge, at many heights, and are ragged on both sides.
+  vec3 q = vec3(at.p.x, 0.055 * at.p.y, at.p.z) + vec3(0.5 * patchy.y, 0.0, 0.5 * patchy.z);
+  float run = plainNoise(q / 2.6 + 40.0) + 0.55 * fineNoise(q / 0.75, 0.4, at.footprint) +
+              0.30 * fineNoise(q / 0.21, 0.11, at.footprint);
+  float band = smoothstep(0.14, 0.55, run + 0.45 * broad - 0.5 * dry) * wall;
+  s.albedo *= mix(vec3(1.0), vec3(0.40, 0.40, 0.41), 0.68 * band);
+  if (!green) return;
+  float ledge = smoothstep(0.55, 0.85, at.n.y + 0.20 * patchy.z + 0.10 * fine);
+  float grown = ledge * smoothstep(-0.10, 0.30, 0.7 * patchy.x + 0.5 * patchy.y + 0.4 * patchy.z + 0.25 * fine + lie.x - 0.25);
+  vec3 sward = mix(vec3(0.110, 0.125, 0.055), vec3(0.205, 0.180, 0.095), smoothstep(-0.3, 0.4, patchy.y - patchy.z));
+  s.albedo = mix(s.albedo, sward * (1.0 + 0.35 * fine), 0.85 * grown);
+}
+
+// Paint that is walked or driven on wears off in flakes, and what is left is scuffed.
+void weatherPaint(inout Surface s, Spot at, vec3 patchy) {
+  float fine = fineNoise(at.p * 9.0, 0.11, at.footprint) + 0.7 * fineNoise(at.p * 34.0, 0.03, at.footprint);
+  float off = smoothstep(0.12, 0.62, 0.55 * patchy.y + 0.65 * patchy.z + 0.65 * fine + 0.25 * patchy.x);
+  s.albedo *= (1.0 + 0.08 * patchy.y + 0.07 * fine) * vec3(0.86, 0.855, 0.84);
+  s.albedo = mix(s.albedo, vec3(0.125, 0.122, 0.118) * (1.0 + 0.3 * fine), 0.62 * off);
+}
+
+// lie: Traced::lie of the place; green: whether the land around is.
+void weather(inout Surface s, Spot at, uint pattern, vec3 lie, bool green) {
   if (!isOf(kWeathering, pattern) || at.relief <= 0.0) return;
+  if (isOf(1u << kRock, pattern)) {
+    weatherRock(s, at, lie, patches(at.p, at.footprint), green);
+    return;
+  }
   float wall = 1.0 - smoothstep(0.45, 0.75, abs(at.n.y));
   bool roof = isOf(kRoofs, pattern), street = isOf(kStreets, pattern) && at.n.y > 0.75;
-  if (!roof && !street && wall <= 0.0) return;
+  bool paint = isOf(1u << kPlain, pattern) && at.n.y > 0.9 && at.relief < 0.5;
+  if (!roof && !street && !paint && wall <= 0.0) return;
   vec3 patchy = patches(at.p, at.footprint);
   if (roof) {
     weatherRoof(s, at, lie, patchy);
+  } else if (paint) {
+    weatherPaint(s, at, patchy);
   } else if (street) {
     weatherStreet(s, at, pattern, lie, patchy);
   } else {

@@ -9,13 +9,13 @@ using uint = uint32_t;
 }  // namespace shaders
 
 constexpr bool is(SurfacePattern pattern, uint32_t number) { return static_cast<uint32_t>(pattern) == number; }
-static_assert(is(SurfacePattern::brick, shaders::kBrick) && is(SurfacePattern::ashlar, shaders::kAshlar) &&
-              is(SurfacePattern::rubble, shaders::kRubble) && is(SurfacePattern::paving, shaders::kPaving) &&
-              is(SurfacePattern::cobbles, shaders::kCobbles) && is(SurfacePattern::roof_tiles, shaders::kRoofTiles) &&
-              is(SurfacePattern::slates, shaders::kSlates) && is(SurfacePattern::plain, shaders::kPlain) &&
-              is(SurfacePattern::concrete, shaders::kConcrete) && is(SurfacePattern::wooden, shaders::kWooden) &&
-              is(SurfacePattern::asphalt, shaders::kAsphalt) && is(SurfacePattern::leafy, shaders::kLeafy) &&
-              is(SurfacePattern::boards, shaders::kBoards));
+static_assert(is(SurfacePattern::rock, shaders::kRock) && is(SurfacePattern::brick, shaders::kBrick) &&
+              is(SurfacePattern::ashlar, shaders::kAshlar) && is(SurfacePattern::rubble, shaders::kRubble) &&
+              is(SurfacePattern::paving, shaders::kPaving) && is(SurfacePattern::cobbles, shaders::kCobbles) &&
+              is(SurfacePattern::roof_tiles, shaders::kRoofTiles) && is(SurfacePattern::slates, shaders::kSlates) &&
+              is(SurfacePattern::plain, shaders::kPlain) && is(SurfacePattern::concrete, shaders::kConcrete) &&
+              is(SurfacePattern::wooden, shaders::kWooden) && is(SurfacePattern::asphalt, shaders::kAsphalt) &&
+              is(SurfacePattern::leafy, shaders::kLeafy) && is(SurfacePattern::boards, shaders::kBoards));
 
 RenderMaterial drawn(const MaterialLook& look) {
   return {look.pattern, {look.colour[0], look.colour[1], look.colour[2]}, look.roughness, look.relief};

@@ -11,13 +11,19 @@ namespace sgm {
 /// The normal of a pane at a place in the patterns' own metres: panes are set by hand and drawn unevenly, and each
 /// mirrors another part of the sky, a little bent.
 inline vec3 paneNormal(vec3 normal, vec3 p) {
+  // Sashes hang a little askew, each its own way.
+  const auto lot = [&](float by) {
+    const float v = std::sin(by + 12.99f * std::floor(0.9f * (p.x + p.z)) + 78.23f * std::floor(0.42f * p.y)) * 43.76f;
+    return v - std::floor(v) - 0.5f;
+  };
+  const vec3 askew(lot(0), lot(1.7f), lot(3.1f));
   const vec3 wave(std::sin(1.9f * p.y + 0.7f * p.x), std::sin(2.3f * (p.x + p.z) + 0.6f * p.y),
                   std::sin(1.7f * p.z + 1.1f * p.y));
-  return glm::normalize(normal + 0.022f * wave);
+  return glm::normalize(normal + 0.016f * wave + 0.045f * askew);
 }
 
-/// The normal of open water at a place in the patterns' own metres: a light wind raises ripples of several lengths, which
-/// run across each other and are stronger here than there.
+/// The normal of open water at a place in the patterns' own metres: a light wind raises ripples of several lengths,
+/// which run across each other and are stronger here than there.
 inline vec3 rippledNormal(vec3 normal, vec3 p) {
   constexpr int kWaves = 6;
   const float gust = 0.6f + 0.4f * std::sin(0.31f * p.x + 1.7f * std::sin(0.23f * p.z)) * std::sin(0.27f * p.z);

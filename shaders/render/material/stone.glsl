@@ -73,6 +73,8 @@ Surface rock(Spot at) {
   vec4 relief_slope = relief(p, 0.62, 7, 3, footprint);
   vec3 slope = relief_slope.xyz;
   slope.y += wall * 0.4 * lamina;
+  // Faces that broke along a joint are smooth, others rough.
+  slope *= mix(0.42, 1.15, smoothstep(-0.35, 0.45, patches.z + 0.6 * broad.z));
   slope *= mix(1.0, mix(0.55, 0.30, mud), floor_cover);
   slope += strewn / (0.34 * max(at.relief, 0.3));
 
