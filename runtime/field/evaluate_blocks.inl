@@ -3,6 +3,7 @@
 
 #ifndef SGM_ONE_BY_ONE  // as tests define it, which compare
 #define SGM_LISTS
+#include "field/operands.inl"
 #endif
 #include "field/evaluate_kernel.inl"
 #undef SGM_LISTS

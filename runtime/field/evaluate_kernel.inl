@@ -200,8 +200,9 @@ SGM_KERNEL bool runAlone(const ProgramView&, const BlockFrame&, const ProgramGro
   return false;
 }
 template <bool kGradient>
-SGM_KERNEL size_t runList(const ProgramView&, const BlockFrame&, std::span<const Instr>, size_t) {
-  return 0;
+SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const ProgramGroup& g, size_t n) {
+  for (const Instr& in : program.instrs.subspan(g.first, g.count))
+    runInstr<kGradient>(f, in, program.params.data() + in.params, n);
 }
 #endif
 
@@ -224,15 +225,7 @@ SGM_KERNEL void runBlock(const ProgramView& program, const BlockFrame& f, size_t
     const bool first_cut = cuts && (k == 0 || !program.groups[k - 1].cut || program.groups[k - 1].layer != g.layer);
     if (first_cut) SGM_EACH storeDual<kGradient>(f, kCutRegister, i, farAway());
     if (!runAlone<kGradient>(program, f, g, n)) {
-      const std::span<const Instr> instrs = program.instrs.subspan(g.first, g.count);
-      for (size_t at = 0; at < instrs.size();) {
-        if (const size_t done = runList<kGradient>(program, f, instrs.subspan(at), n); done > 0) {
-          at += done;
-          continue;
-        }
-        runInstr<kGradient>(f, instrs[at], program.params.data() + instrs[at].params, n);
-        ++at;
-      }
+      runInstrs<kGradient>(program, f, g, n);
       foldGroup<kGradient>(f, g, n);
     }
     const bool last_cut = cuts && (k + 1 == program.groups.size() || program.groups[k + 1].layer != g.layer);

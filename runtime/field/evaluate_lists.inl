@@ -138,3 +138,99 @@ SGM_KERNEL bool runAlone(const ProgramView& program, const BlockFrame& f, const 
       return false;
   }
 }
+
+/// Registers that hold a constant which nobody has written into their planes yet. Most constants are operands of
+/// arithmetic, which takes them as they are, so that they need neither be stored nor loaded.
+struct HeldConstants {
+  uint32_t held = 0;  ///< a bit a register
+  float value[kMaxRegisters] = {};
+
+  SGM_KERNEL bool has(size_t r) const { return held >> r & 1; }
+  FN Dual of(size_t r) const {
+    const Real zero = broadcast(0.0f);
+    return makeDual(broadcast(value[r]), zero, zero, zero, broadcastInt(0));
+  }
+  SGM_KERNEL void hold(size_t r, Params P) {
+    held |= 1u << r;
+    value[r] = PF(P, 0);
+  }
+  SGM_KERNEL void forget(uint32_t registers) { held &= ~registers; }
+  /// Writes those that are wanted in their planes.
+  template <bool kGradient>
+  SGM_KERNEL void settle(const BlockFrame& f, uint32_t registers, size_t n) {
+    const uint32_t wanted = held & registers;
+    if (wanted == 0) return;
+    for (size_t r = 0; r < kMaxRegisters; ++r) {
+      if (wanted >> r & 1) SGM_EACH storeDual<kGradient>(f, r, i, of(r));
+    }
+    held &= ~wanted;
+  }
+};
+
+SGM_KERNEL uint32_t writtenMask(const Instr& in) {
+  switch (in.op) {
+    case Op::warp:
+      return 0;
+    case Op::round_begin:
+    case Op::round_add:
+    case Op::sum_begin:
+    case Op::sum_add:
+      return 1u << in.dst | 1u << in.b;
+    default:
+      return 1u << in.dst;
+  }
+}
+
+/// Runs an operation one of whose two operands is a constant; false where it is another.
+template <bool kGradient>
+SGM_KERNEL bool runWithConstant(const BlockFrame& f, const Instr& in, const HeldConstants& constants, size_t n) {
+#define SGM_WITH(NAME, FUNCTION)                                                                                  \
+  case Op::NAME:                                                                                                  \
+    if (constants.has(in.a)) {                                                                                    \
+      const Dual a = constants.of(in.a);                                                                          \
+      SGM_EACH storeDual<kGradient>(f, in.dst, i, FUNCTION(a, loadDual<kGradient>(f, in.b, i)));                  \
+    } else {                                                                                                      \
+      const Dual b = constants.of(in.b);                                                                          \
+      SGM_EACH storeDual<kGradient>(f, in.dst, i, FUNCTION(loadDual<kGradient>(f, in.a, i), b));                  \
+    }                                                                                                             \
+    return true;
+  if (constants.has(in.a) == constants.has(in.b)) return false;
+  switch (in.op) {
+    SGM_WITH(add, opAdd)
+    SGM_WITH(subtract, opSubtract)
+    SGM_WITH(multiply, opMultiply)
+    SGM_WITH(minimum, opMinimum)
+    SGM_WITH(maximum, opMaximum)
+    default:
+      return false;
+  }
+#undef SGM_WITH
+}
+
+/// Runs a group's instructions.
+template <bool kGradient>
+SGM_KERNEL void runInstrs(const ProgramView& program, const BlockFrame& f, const ProgramGroup& g, size_t n) {
+  const std::span<const Instr> instrs = program.instrs.subspan(g.first, g.count);
+  HeldConstants constants;
+  for (size_t at = 0; at < instrs.size();) {
+    const Instr& in = instrs[at];
+    const Params P = program.params.data() + in.params;
+    if (in.op == Op::constant) {
+      constants.hold(in.dst, P);
+      ++at;
+      continue;
+    }
+    if (const size_t done = runList<kGradient>(program, f, instrs.subspan(at), n); done > 0) {
+      constants.forget(1u << in.dst);  // the accumulation's own registers hold none
+      at += done;
+      continue;
+    }
+    if (!runWithConstant<kGradient>(f, in, constants, n)) {
+      constants.settle<kGradient>(f, operandMask(in), n);
+      runInstr<kGradient>(f, in, P, n);
+    }
+    constants.forget(writtenMask(in));
+    ++at;
+  }
+  constants.settle<kGradient>(f, 1u << g.result, n);
+}

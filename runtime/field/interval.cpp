@@ -117,6 +117,103 @@ Interval noiseBounds(const uint32_t* p, const PlaceBox& box) {
   return {std::max(-1.0, v - change - error), std::min(1.0, v + change + error)};
 }
 
+// What is monotone in the distances from its own three planes, from the ranges of those in the box: nearly tight where
+// the frame stands straight, however long the box's diagonal is.
+struct LocalRange {
+  std::array<double, 3> near{}, far{};  ///< |q| by local axis, at least and at most
+};
+
+LocalRange localRange(const uint32_t* p, const CentredBox& c) {
+  const std::array<double, 3> at{c.x, c.y, c.z};
+  std::array<double, 3> d{};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    d[axis] = offsets({at[axis], at[axis]}, wholeAt(p, 1 + static_cast<int>(axis))).lo;
+  }
+  LocalRange r;
+  for (size_t i = 0; i < 3; ++i) {
+    const int row = 4 + 3 * static_cast<int>(i);
+    const double x = realAt(p, row), y = realAt(p, row + 1), z = realAt(p, row + 2);
+    const double q = std::abs(x * d[0] + y * d[1] + z * d[2]);
+    const double reach = std::abs(x) * c.hx + std::abs(y) * c.hy + std::abs(z) * c.hz;
+    r.near[i] = std::max(0.0, q - reach);
+    r.far[i] = q + reach;
+  }
+  return r;
+}
+
+double boxDistance(const uint32_t* p, const std::array<double, 3>& q) {
+  double square = 0, inner = -kLimit;
+  for (size_t i = 0; i < 3; ++i) {
+    const double a = q[i] - realAt(p, 13 + static_cast<int>(i)), out = std::max(a, 0.0);
+    square += out * out;
+    inner = std::max(inner, a);
+  }
+  return std::sqrt(square) + std::min(inner, 0.0);
+}
+
+double cylinderDistance(double radius, double half_height, const std::array<double, 3>& q) {
+  const double a = std::sqrt(q[0] * q[0] + q[2] * q[2]) - radius, b = q[1] - half_height;
+  const double outer_a = std::max(a, 0.0), outer_b = std::max(b, 0.0);
+  return std::sqrt(outer_a * outer_a + outer_b * outer_b) + std::min(std::max(a, b), 0.0);
+}
+
+// A distance from something convex is convex, so that it lies nowhere under its tangent in the middle of the box; and
+// nothing is farther away than the point of the axis that is nearest there.
+Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
+  auto offset = [&](double at, int word) { return offsets({at, at}, wholeAt(p, word)).lo; };
+  std::array<double, 3> d{offset(c.x, 1), offset(c.y, 2), offset(c.z, 3)};
+  const std::array<double, 3> axis{realAt(p, 4), realAt(p, 5), realAt(p, 6)}, half{c.hx, c.hy, c.hz};
+  double along = 0, length2 = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    along += d[i] * axis[i];
+    length2 += axis[i] * axis[i];
+  }
+  const double t = length2 > 0 ? std::clamp(along / length2, 0.0, 1.0) : 0.0;
+  double square = 0, slope = 0, far2 = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const double away = std::abs(d[i] - t * axis[i]);
+    square += away * away;
+    slope += away * half[i];
+    far2 += (away + half[i]) * (away + half[i]);
+  }
+  const double distance = std::sqrt(square);
+  const double lowest = distance > 0 ? distance - slope / distance : 0.0;
+  return {std::max(lowest, 0.0) - realAt(p, 8), std::sqrt(far2) - realAt(p, 8)};
+}
+
+// Tighter than a value in the middle and half the diagonal each way; all there is where nothing is known.
+Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
+  switch (op) {
+    case Op::capsule:
+      return capsuleRange(p, c);
+    case Op::box: {
+      const LocalRange r = localRange(p, c);
+      return {boxDistance(p, r.near), boxDistance(p, r.far)};
+    }
+    case Op::cylinder: {
+      const LocalRange r = localRange(p, c);
+      return {cylinderDistance(realAt(p, 13), realAt(p, 14), r.near),
+              cylinderDistance(realAt(p, 13), realAt(p, 14), r.far)};
+    }
+    case Op::truncone: {  // between the cylinders that it holds and that hold it
+      const LocalRange r = localRange(p, c);
+      const double bottom = realAt(p, 13), top = realAt(p, 14), height = realAt(p, 15);
+      return {cylinderDistance(std::max(bottom, top), height, r.near),
+              cylinderDistance(std::min(bottom, top), height, r.far)};
+    }
+    case Op::ellipsoid: {
+      const LocalRange r = localRange(p, c);
+      auto at = [&](const std::array<double, 3>& q) {
+        const double x = q[0] * realAt(p, 13), y = q[1] * realAt(p, 14), z = q[2] * realAt(p, 15);
+        return (std::sqrt(x * x + y * y + z * z) - 1) * realAt(p, 16);
+      };
+      return {at(r.near), at(r.far)};
+    }
+    default:
+      return {-kLimit, kLimit};
+  }
+}
+
 double farthestOffset(const uint32_t* p, const PlaceBox& b) { return std::sqrt(distance2(p, b).hi); }
 
 }  // namespace
@@ -226,7 +323,12 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
     return widened({scaled(low, true), scaled(std::sqrt(high2), false)}, error);
   }
   const double v = referencePrimitive(op, p, c.x, c.y, c.z);
-  return widened({v - radius, v + radius}, error);
+  if (op == Op::halfspace) {  // linear
+    const double reach = std::abs(realAt(p, 7)) * c.hx + std::abs(realAt(p, 8)) * c.hy + std::abs(realAt(p, 9)) * c.hz;
+    return widened({v - reach, v + reach}, error);
+  }
+  const Interval range = primitiveRange(op, p, c);
+  return widened({std::max(v - radius, range.lo), std::min(v + radius, range.hi)}, error);
 }
 
 Interval boundOperands(Op op, const uint32_t* p, Interval a, Interval b, Interval c) {

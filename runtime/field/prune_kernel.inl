@@ -6,6 +6,8 @@
 //   kNever, kLess, kMore               beyond every bound; factors that outweigh the rounding of a sum
 //   minOf, maxOf, floatOf              of two numbers; the float that a parameter's word is
 
+#include "field/operands.inl"
+
 enum Choice { kBoth, kFirst, kSecond };
 
 SGM_KERNEL bool readsPosition(Op op) {
@@ -36,9 +38,6 @@ SGM_KERNEL bool readsPosition(Op op) {
   return false;
 }
 
-SGM_KERNEL uint32_t operandMask(const Instr& in) {
-  const uint32_t a = 1u << in.a, b = 1u << in.b, c = 1u << in.c;
-  switch (in.op) {
 #undef SGM_FORM_CONSTANT
 #undef SGM_FORM_POSITION
 #undef SGM_FORM_POSITION_1
@@ -54,31 +53,6 @@ SGM_KERNEL uint32_t operandMask(const Instr& in) {
 #undef SGM_FORM_SUM_ADD
 #undef SGM_FORM_SUM_END
 #undef SGM_FORM_WARP
-#define SGM_FORM_CONSTANT 0
-#define SGM_FORM_POSITION 0
-#define SGM_FORM_POSITION_1 a
-#define SGM_FORM_UNARY a
-#define SGM_FORM_UNARY_P a
-#define SGM_FORM_BINARY a | b
-#define SGM_FORM_TERNARY a | b | c
-#define SGM_FORM_COPY a
-#define SGM_FORM_ROUND_BEGIN 0
-#define SGM_FORM_ROUND_ADD a | b | 1u << in.dst
-#define SGM_FORM_ROUND_END a | b
-#define SGM_FORM_SUM_BEGIN 0
-#define SGM_FORM_SUM_ADD a | b | 1u << in.dst
-#define SGM_FORM_SUM_END a | b
-#define SGM_FORM_WARP a | b | c
-#define SGM_OP(name, function, form, error) \
-  case Op::name:                            \
-    return SGM_FORM_##form;
-#include "field/ops.def"
-#undef SGM_OP
-    case Op::count:
-      break;
-  }
-  return 0;
-}
 
 // Bounds of one group's result; a mark by instr for the way back: the choice of a min, max, cut or morph in lo, and the
 // bounds of the operand of an accumulation.
