@@ -90,21 +90,38 @@ const octagon = (x, y, r) => [...Array(8).keys()].map((i) => {
   const turn = (Math.PI * (2 * i + 1)) / 8;
   return [x + r * Math.cos(turn), y + r * Math.sin(turn)];
 });
-/// Two panes in a frame, set back far enough that cells of a decimetre show straight edges.
-const window_ = (x0, y0, x1, y1) => ({
-  loop: rect(x0, y0, x1, y1), depth: -0.16, material: 'paint_white', sides: 'plaster',
-  features: [
-    { loop: rect(x0 + 0.11, y0 + 0.11, (x0 + x1) / 2 - 0.06, y1 - 0.11), depth: -0.1, material: 'glass', sides: 'paint_white' },
-    { loop: rect((x0 + x1) / 2 + 0.06, y0 + 0.11, x1 - 0.11, y1 - 0.11), depth: -0.1, material: 'glass', sides: 'paint_white' },
-  ],
-});
+/// A casement of four panes in a surround of stone, set back far enough that cells of a decimetre show straight edges.
+const window_ = (x0, y0, x1, y1) => {
+  const middle = (x0 + x1) / 2, step = (y1 - y0 - 0.2) / 2;
+  const panes = [];
+  for (const [l, r] of [[x0 + 0.1, middle - 0.05], [middle + 0.05, x1 - 0.1]]) {
+    for (let k = 0; k < 2; ++k) {
+      const low = y0 + 0.1 + k * (step + 0.03);
+      panes.push({ loop: rect(l, low, r, low + step - 0.03), depth: -0.08, material: 'glass', sides: 'paint_white' });
+    }
+  }
+  return {
+    loop: rect(x0 - 0.13, y0, x1 + 0.13, y1 + 0.14), depth: 0.1, material: 'concrete_cream', sides: 'concrete_cream',
+    features: [{
+      loop: rect(x0, y0 + 0.01, x1, y1), depth: -0.28, material: 'paint_white', sides: 'plaster', features: panes,
+    }],
+  };
+};
 const sill = (x0, x1, y) => ({ loop: rect(x0 - 0.1, y - 0.16, x1 + 0.1, y - 0.01), depth: 0.15, material: 'concrete_cream', sides: 'concrete_cream' });
 
 function house() {
   const body = new Body();
   const outline = [[0.3, 0], [5.7, 0], [5.7, 6.4], [6, 6.4], [6, 6.6], [3, 9.6], [0, 6.6], [0, 6.4], [0.3, 6.4]];
   const features = [
-    { loop: arch(2.3, 0.2, 3.7, 1.7, 8), depth: -0.4, material: 'wood', sides: 'concrete_cream' },
+    {
+      loop: arch(2.12, 0.2, 3.88, 1.7, 8), depth: 0.12, material: 'concrete_cream', sides: 'concrete_cream',
+      features: [{
+        loop: arch(2.3, 0.21, 3.7, 1.7, 8), depth: -0.42, material: 'wood', sides: 'concrete_cream',
+        features: [2.42, 3.06].map((x) => ({
+          loop: rect(x, 0.45, x + 0.52, 1.55), depth: 0.06, material: 'wood', sides: 'wood',
+        })),
+      }],
+    },
     { loop: rect(0.4, 2.8, 5.6, 3), depth: 0.12, material: 'concrete_cream', sides: 'concrete_cream' },
     { loop: octagon(3, 7.7, 0.5), depth: -0.2, material: 'glass', sides: 'concrete_cream' },
   ];
