@@ -14,7 +14,7 @@ building building.sgm --sharp --cell 0.64 --pixels 2 --fov 56 --size 1280x960 --
 cabral table4/cabral.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --region -34,-2,-20:50,25,20 --camera=-20,1.75,1.6:10,5.2,-2.6
 castle castle.sgm --sharp --cell 0.18 --fov 46 --region -150,-14,-180:180,75,124 --camera 66,6,112:4,23,10
 cave cave.sgm --cell 0.07 --seed 8 --region -20,-5,-72:72,14,20 --at hall
-city city.sgm --sharp --cell 0.1 --fov 58 --seed 1 --region -50,-1,-100:46,40,18 --camera=-2,1.75,15:-1,7.5,-40
+city city.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --seed 1 --region -50,-1,-100:46,40,18 --camera=-5.7,1.75,-4.4:2.2,4.2,-34
 cloud cloud.sgm --seed 3 --cell 9 --fov 54 --region -2200,900,-2600:2400,4300,2000 --camera 2500,820,2300:-100,2200,-420
 cui table4/cui.sgm --cell 0.1 --seed 3 --at room
 desert desert.sgm --cell 0.25 --fov 60 --region -10,-10,10:130,40,118 --camera 46,1.5,116:63,10,84
@@ -26,7 +26,7 @@ lava_tube lava_tube.sgm --cell 0.1 --fov 75 --light lamp --region 4,-5,24:90,14,
 lipp table4/lipp.sgm --sharp --cell 0.64 --pixels 2 --fov 46 --region -50,-12,-40:50,20,30 --camera 11.5,-7.2,24:0.5,-2.8,7
 muller table4/muller.sgm --sharp --cell 0.64 --pixels 2 --fov 52 --size 960x960 --region -50,-20,-30:44,24,44 --camera 14,-14.4,24:0,-6,7
 nave nave.sgm --sharp --light sun --cell 0.64 --pixels 2 --fov 62 --region -15,-1,2:15,34,50 --camera 0,2.3,3.4:0,8.6,34
-terrace terrace.sgm --sharp --cell 0.07 --fov 58 --size 1280x800 --region 0,-1,-10:92,18,30 --camera 3,1.75,13.9:40,3.6,7.4
+terrace terrace.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --size 1280x800 --region 0,-1,-10:92,18,30 --camera 5.4,1.75,14.4:42,2.6,8.6
 town town.sgm --sharp --cell 0.09 --fov 60 --region -8,-1,-30:60,22,34 --camera -3.5,1.7,22:15,4.6,7
 tree tree.sgm --seed 3 --cell 0.05 --fov 56 --size 960x960 --region -20,-0.4,-34:30,14,13 --camera -5,1.6,12:0.5,4.8,0
 tunnels tunnels.sgm --cell 0.12 --fov 50 --region -56,-9,-40:56,16,50 --camera=-14,-4.2,31:-2,-0.2,-6
