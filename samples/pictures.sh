@@ -27,7 +27,7 @@ lipp table4/lipp.sgm --sharp --cell 0.64 --pixels 2 --fov 46 --region -50,-12,-4
 muller table4/muller.sgm --sharp --cell 0.64 --pixels 2 --fov 52 --size 960x960 --region -50,-20,-30:44,24,44 --camera 14,-14.4,24:0,-6,7
 nave nave.sgm --sharp --light sun --cell 0.64 --pixels 2 --fov 62 --region -15,-1,2:15,34,50 --camera 0,2.3,3.4:0,8.6,34
 terrace terrace.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --size 1280x800 --region 0,-1,-10:92,18,30 --camera 5.4,1.75,14.4:42,2.6,8.6
-town town.sgm --sharp --cell 0.09 --fov 60 --region -8,-1,-30:60,22,34 --camera -3.5,1.7,22:15,4.6,7
+town town.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --size 1280x800 --region -10,-1,-40:60,22,40 --camera 8.4,1.65,1.4:17.2,2.5,5.7
 tree tree.sgm --seed 3 --cell 0.05 --fov 56 --size 960x960 --region -20,-0.4,-34:30,14,13 --camera -5,1.6,12:0.5,4.8,0
 tunnels tunnels.sgm --cell 0.12 --fov 50 --region -56,-9,-40:56,16,50 --camera=-14,-4.2,31:-2,-0.2,-6
 valley valley.sgm --cell 0.4 --fov 66 --region 16,-6,-12:240,116,206 --camera 40,9,132:108,26,72
