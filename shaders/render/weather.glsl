@@ -90,8 +90,8 @@ void weatherRock(inout Surface s, Spot at, vec3 lie, vec3 patchy, bool green) {
   vec3 q = vec3(at.p.x, 0.055 * at.p.y, at.p.z) + vec3(0.5 * patchy.y, 0.0, 0.5 * patchy.z);
   float run = plainNoise(q / 2.6 + 40.0) + 0.55 * fineNoise(q / 0.75, 0.4, at.footprint) +
               0.30 * fineNoise(q / 0.21, 0.11, at.footprint);
-  float band = smoothstep(0.14, 0.55, run + 0.45 * broad - 0.5 * dry) * wall;
-  s.albedo *= mix(vec3(1.0), vec3(0.40, 0.40, 0.41), 0.68 * band);
+  float band = smoothstep(0.08, 0.50, run + 0.45 * broad - 0.5 * dry) * wall;
+  s.albedo *= mix(vec3(1.0), vec3(0.34, 0.34, 0.35), 0.72 * band);
   if (!green) return;
   float ledge = smoothstep(0.55, 0.85, at.n.y + 0.20 * patchy.z + 0.10 * fine);
   float grown = ledge * smoothstep(-0.10, 0.30, 0.7 * patchy.x + 0.5 * patchy.y + 0.4 * patchy.z + 0.25 * fine + lie.x - 0.25);

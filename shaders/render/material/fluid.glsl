@@ -20,7 +20,7 @@ Surface water(Spot at) {
   vec3 bed = vec3(0.215, 0.180, 0.128) * (1.0 + 0.22 * broad.x + 0.16 * mottle.x + 0.10 * fine.x + 0.08 * grain);
   // Stones lie here and not there, large ones on small ones, and throw shadows on what lies beside them.
   vec2 bent = bed_at + 0.030 * mottle.yz + 0.006 * fine.yz;
-  float many = 0.5 * broad.x + 0.2 * mottle.x, dark = 0.55 * length(at.light);
+  float many = 0.5 * broad.x + 0.2 * mottle.x, dark = 0.75 * length(at.light);
   vec3 to_light = at.light * vec3(0.75, 1.0, 0.75);
   const float kLarge = 0.42, kSmall = 0.115;
   float far = visible(0.8 * kSmall, at.footprint);
@@ -38,7 +38,8 @@ Surface water(Spot at) {
   }
   // The surface is level and the stones are not: they turn to the light, or from it.
   vec3 facing = normalize(small.normal + 0.10 * vec3(fine.y, 0.0, fine.z) + 0.05 * vec3(mottle.y, 0.0, mottle.z));
-  float turned = dot(facing, normalize(to_light + vec3(0.0, 1e-3, 0.0))) / max(normalize(to_light + vec3(0.0, 1e-3, 0.0)).y, 0.35);
+  vec3 from = normalize(to_light + vec3(0.0, 1e-3, 0.0));
+  float turned = dot(facing, from) / max(from.y, 0.35);
   vec2 all = open * among;
   bed *= mix(all.y * (0.72 + 0.28 * facing.y), all.x * clamp(turned, 0.0, 1.6), dark);
   s.albedo = bed * through + 0.6 * at.colour * (1.0 - through.g);

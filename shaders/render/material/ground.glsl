@@ -17,7 +17,7 @@ Surface granular(Spot at) {
 // Stones of two sizes over fines, the larger ones lying on the smaller: each has its height, its shadow and its colour.
 Surface gravelly(Spot at) {
   Chart chart = chartOf(at.p, abs(at.n.y) > 0.6 ? vec3(0.0, 1.0, 0.0) : at.n);
-  const float kLarge = 0.080, kSmall = 0.030;
+  const float kLarge = 0.062, kSmall = 0.024, kMany = 0.42;
   Surface s = granular(at);
   float seen = visible(0.9 * kLarge, at.footprint), fine = visible(kSmall, at.footprint);
   if (seen <= 0.0) return s;
@@ -25,15 +25,15 @@ Surface gravelly(Spot at) {
   float grain = fineNoise(at.p * 90.0, 0.011, at.footprint);
   vec3 way = -vec3(dot(at.to_eye, chart.along), dot(at.to_eye, at.n), dot(at.to_eye, chart.up));
   vec3 to_light = vec3(dot(at.light, chart.along), dot(at.light, at.n), dot(at.light, chart.up));
-  Strewn large = strewnAt(bent, way, kLarge, 0.55, 91), small = large;
-  vec2 open = mix(vec2(1.0), lightAmong(large, to_light, kLarge, 0.55, 91), seen);
+  Strewn large = strewnAt(bent, way, kLarge, kMany, 91), small = large;
+  vec2 open = mix(vec2(1.0), lightAmong(large, to_light, kLarge, kMany, 91), seen);
   if (large.there == 0.0 && fine > 0.0) {
     small = strewnAt(bent, way, kSmall, 1.0, 93);
     open *= mix(vec2(1.0), lightAmong(small, to_light, kSmall, 1.0, 93), fine);
   }
   float shown = small.there * (large.there > 0.0 ? seen : fine);
   vec3 lot = small.lot;
-  vec3 stone = at.colour * (0.62 + 0.75 * lot.x) * mix(vec3(1.10, 0.98, 0.86), vec3(0.88, 0.96, 1.06), lot.y);
+  vec3 stone = at.colour * (0.74 + 0.50 * lot.x) * mix(vec3(1.07, 0.99, 0.90), vec3(0.92, 0.97, 1.04), lot.y);
   s.albedo = mix(0.8 * s.albedo, stone * (1.0 + 0.18 * grain), shown);
   s.albedo *= mix(open.y, open.x, 0.6 * length(at.light));
   vec3 normal = chart.along * small.normal.x + at.n * small.normal.y + chart.up * small.normal.z;

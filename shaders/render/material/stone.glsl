@@ -30,8 +30,9 @@ Surface rock(Spot at) {
   albedo = mix(albedo, albedo * vec3(0.60, 0.57, 0.55), 0.7 * film);
   albedo = mix(albedo, vec3(0.60, 0.54, 0.45) * (1.0 + 0.10 * grain), 0.35 * sinter);
 
-  float split = cracks(p + 0.25 * patches.yzw, n, 1.9, 0.03, footprint) * smoothstep(-0.1, 0.35, patches.x + 0.2);
-  albedo *= 1.0 - 0.5 * split;
+  float split = cracks(p + 0.25 * patches.yzw + 0.10 * mottle.yzw, n, 1.9, 0.03, footprint);
+  split *= smoothstep(0.0, 0.5, patches.x + 0.5 * mottle.y);
+  albedo *= 1.0 - 0.45 * split;
 
   // Old seeps have left iron and manganese along their ways, in patches; between them the stone is fresh.
   float seep = smoothstep(0.10, 0.55, noise(run * vec3(0.8, 1.4, 0.8) + 11.0).x + 0.45 * patches.z);
@@ -50,7 +51,8 @@ Surface rock(Spot at) {
   albedo = mix(albedo, silt * vec3(0.62, 0.56, 0.50), 0.8 * mud);
   vec3 strewn = vec3(0.0);
   if (floor_cover > 0.05 && footprint < 0.07) {
-    vec2 on = p.xz + 0.014 * noise(p * 5.0).yz + 0.004 * noise(p * 13.0).yz;
+    vec4 uneven = noise(p * 13.0);
+    vec2 on = p.xz + 0.020 * noise(p * 5.0).yz + 0.009 * uneven.yz;
     const float kLarge = 0.23, kSmall = 0.065;
     float much = floor_cover * (0.62 + 0.40 * patches.y + 0.25 * mottle.z - 0.25 * mud);
     float many = much - 0.22 - 0.5 * (1.0 - floor_cover);
@@ -63,9 +65,11 @@ Surface rock(Spot at) {
       open *= mix(vec2(1.0), lightAmong(small, to_light, kSmall, much, 73), fine);
     }
     float shown = small.there * (large.there > 0.0 ? seen : fine);
-    albedo = mix(albedo, at.colour * mix(0.50, 1.05, small.lot.y) * (1.0 + 0.25 * grain + 0.1 * mottle.x), shown);
+    albedo = mix(albedo, at.colour * mix(0.42, 0.88, small.lot.y) * (1.0 + 0.30 * grain + 0.1 * mottle.x), shown);
     albedo *= mix(open.y, open.x, 0.6 * length(at.light));
-    strewn = -vec3(small.normal.x, 0.0, small.normal.z) / max(small.normal.y, 0.35) * shown;
+    // Broken, not rolled: faces meet at blunt edges.
+    vec3 facing = small.normal + 0.16 * uneven.yzw;
+    strewn = -vec3(facing.x, 0.0, facing.z) / max(facing.y, 0.4) * shown;
     mud *= 1.0 - shown;
   }
 
