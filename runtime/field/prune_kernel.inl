@@ -54,6 +54,26 @@ SGM_KERNEL bool readsPosition(Op op) {
 #undef SGM_FORM_SUM_END
 #undef SGM_FORM_WARP
 
+// Which registers hold the floor of what another one still holds: what lies above its floor is from 0 to 1, which the
+// bounds of the two do not tell.
+struct FloorSources {
+  uint32_t known = 0;  // registers that hold such a floor
+  uint32_t floors[kMaxRegisters] = {};  // of each register's value: the registers that hold its floor
+  uint8_t source[kMaxRegisters] = {};
+
+  SGM_KERNEL bool floorOf(uint8_t a, uint8_t b) const { return (known >> b & 1) != 0 && source[b] == a; }
+  SGM_KERNEL void overwrite(uint8_t r) {
+    known &= ~(floors[r] | 1u << r);
+    floors[r] = 0;
+  }
+  SGM_KERNEL void hold(uint8_t r, uint8_t from) {
+    if (r == from) return;
+    known |= 1u << r;
+    floors[from] |= 1u << r;
+    source[r] = from;
+  }
+};
+
 // Bounds of one group's result; a mark by instr for the way back: the choice of a min, max, cut or morph in lo, and the
 // bounds of the operand of an accumulation.
 template <class Marks>
@@ -61,6 +81,7 @@ SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, c
   Bound r[kMaxRegisters];
   Places places[kMaxPlaces];
   places[0] = box;
+  FloorSources floors;
   for (uint32_t i = 0; i < g.count; ++i) {
     const Instr& in = program.instrs[g.first + i];
     const uint32_t* params = program.params.data() + in.params;
@@ -70,6 +91,8 @@ SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, c
       case Op::round_begin:
         r[in.dst] = {Scalar{kFar}, Scalar{kFar}};
         r[in.b] = {0, 0};
+        floors.overwrite(in.dst);
+        floors.overwrite(in.b);
         break;
       case Op::round_add: {
         const Bound share = boundRoundShare(params, a);
@@ -82,10 +105,13 @@ SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, c
       case Op::round_end:
         marks[g.first + i] = a;
         r[in.dst] = boundRoundEnd(params, a, b);
+        floors.overwrite(in.dst);
         continue;
       case Op::sum_begin:
         r[in.dst] = {0, 0};
         r[in.b] = {0, 0};
+        floors.overwrite(in.dst);
+        floors.overwrite(in.b);
         break;
       case Op::sum_add:
         marks[g.first + i] = a;
@@ -94,6 +120,7 @@ SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, c
         continue;
       case Op::sum_end:
         r[in.dst] = boundSumEnd(params, b);
+        floors.overwrite(in.dst);
         break;
       case Op::warp:
         places[in.dst] = movePlaces(places[in.place], a, b, c);
@@ -112,6 +139,10 @@ SGM_KERNEL Bound boundGroup(const ProgramView& program, const ProgramGroup& g, c
                     : choice == kSecond    ? b
                     : readsPosition(in.op) ? boundPosition(in.op, params, places[in.place], a)
                                            : boundOperands(in.op, params, a, b, c);
+        if (in.op == Op::subtract && floors.floorOf(in.a, in.b) && a.lo > Scalar{-1.0e9f} && a.hi < Scalar{1.0e9f})
+          r[in.dst] = {maxOf(r[in.dst].lo, Scalar{0}), minOf(r[in.dst].hi, Scalar{1})};
+        floors.overwrite(in.dst);
+        if (in.op == Op::floor) floors.hold(in.dst, in.a);
         break;
     }
     marks[g.first + i] = {static_cast<Scalar>(choice), 0};
