@@ -158,7 +158,8 @@ double cylinderDistance(double radius, double half_height, const std::array<doub
 }
 
 // A distance from something convex is convex, so that it lies nowhere under its tangent in the middle of the box; and
-// nothing is farther away than the point of the axis that is nearest there.
+// nothing is farther away than from the point of the axis that is nearest there. Neither is wider than half the diagonal
+// each way.
 Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
   auto offset = [&](double at, int word) { return offsets({at, at}, wholeAt(p, word)).lo; };
   std::array<double, 3> d{offset(c.x, 1), offset(c.y, 2), offset(c.z, 3)};
@@ -181,11 +182,9 @@ Interval capsuleRange(const uint32_t* p, const CentredBox& c) {
   return {std::max(lowest, 0.0) - realAt(p, 8), std::sqrt(far2) - realAt(p, 8)};
 }
 
-// Tighter than a value in the middle and half the diagonal each way; all there is where nothing is known.
+// Often tighter than a value in the middle and half the diagonal each way; all there is where nothing is known.
 Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   switch (op) {
-    case Op::capsule:
-      return capsuleRange(p, c);
     case Op::box: {
       const LocalRange r = localRange(p, c);
       return {boxDistance(p, r.near), boxDistance(p, r.far)};
@@ -214,7 +213,11 @@ Interval primitiveRange(Op op, const uint32_t* p, const CentredBox& c) {
   }
 }
 
-double farthestOffset(const uint32_t* p, const PlaceBox& b) { return std::sqrt(distance2(p, b).hi); }
+// At least as far as anything of the box is from the centre: by axes, which takes no root.
+double farthestOffset(const uint32_t* p, const CentredBox& c) {
+  auto offset = [&](double at, int word) { return std::abs(offsets({at, at}, wholeAt(p, word)).lo); };
+  return offset(c.x, 1) + c.hx + offset(c.y, 2) + c.hy + offset(c.z, 3) + c.hz;
+}
 
 }  // namespace
 
@@ -288,7 +291,7 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
   // No primitive is steeper than 1 (primitives.h): its value at the centre, and half the diagonal each way.
   const CentredBox c = centred(box);
   const double radius = std::sqrt(c.hx * c.hx + c.hy * c.hy + c.hz * c.hz);
-  const double error = errorOf(op) * (farthestOffset(p, box) + sizeSum(op, p)) + radius * 1e-6;
+  const double error = errorOf(op) * (farthestOffset(p, c) + sizeSum(op, p)) + radius * 1e-6;
   if (op == Op::power_morph) {
     // Between its ends the norm falls as t grows the exponent, and the radii move: bounded from both ends of t, with
     // the two effects taken apart. ||u||_n <= ||u||_2 and >= ||u||_max, each for the smaller and the larger radii.
@@ -322,6 +325,7 @@ Interval boundPosition(Op op, const uint32_t* p, const PlaceBox& box, Interval t
     };
     return widened({scaled(low, true), scaled(std::sqrt(high2), false)}, error);
   }
+  if (op == Op::capsule) return widened(capsuleRange(p, c), error);
   const double v = referencePrimitive(op, p, c.x, c.y, c.z);
   if (op == Op::halfspace) {  // linear
     const double reach = std::abs(realAt(p, 7)) * c.hx + std::abs(realAt(p, 8)) * c.hy + std::abs(realAt(p, 9)) * c.hz;
