@@ -1,10 +1,10 @@
-// Makes the assets of cabral.sgm, house.glb and arcade.glb, beside this file: node make.js
+// Makes the assets of cabral.sgm, house.glb, shuttered.glb and arcade.glb, beside this file: node make.js
 // A solid is an outline in x and y (metres), pulled back along z, with pockets cut into its front and bosses on it.
 'use strict';
 const fs = require('fs');
 const path = require('path');
 
-const materials = ['plaster', 'brick', 'slate', 'concrete_cream', 'glass', 'wood', 'paint_white'];
+const materials = ['plaster', 'brick', 'slate', 'concrete_cream', 'glass', 'wood', 'paint_white', 'plaster_rose', 'paint_green'];
 
 class Body {
   constructor() { this.byMaterial = materials.map(() => []); }
@@ -100,16 +100,34 @@ const window_ = (x0, y0, x1, y1) => {
       panes.push({ loop: rect(l, low, r, low + step - 0.03), depth: -0.08, material: 'glass', sides: 'paint_white' });
     }
   }
-  return {
+  return [{
     loop: rect(x0 - 0.13, y0, x1 + 0.13, y1 + 0.14), depth: 0.1, material: 'concrete_cream', sides: 'concrete_cream',
     features: [{
       loop: rect(x0, y0 + 0.01, x1, y1), depth: -0.28, material: 'paint_white', sides: 'plaster', features: panes,
     }],
-  };
+  }];
+};
+/// Two panes in a frame between open shutters, which are one plate with them: a border has few corners so.
+const shuttered_ = (x0, y0, x1, y1) => {
+  const middle = (x0 + x1) / 2, pane = { depth: -0.08, material: 'glass', sides: 'paint_white' };
+  const panel = (l, r) => ({
+    loop: rect(l, y0 + 0.1, r, y1 - 0.1), depth: -0.04, material: 'paint_green', sides: 'paint_green',
+  });
+  return [{
+    loop: rect(x0 - 0.27, y0, x1 + 0.27, y1), depth: 0.08, material: 'paint_green', sides: 'paint_green',
+    features: [panel(x0 - 0.23, x0 - 0.06), panel(x1 + 0.06, x1 + 0.23), {
+      loop: rect(x0, y0 + 0.01, x1, y1 - 0.01), depth: -0.28, material: 'paint_white', sides: 'plaster',
+      features: [
+        { loop: rect(x0 + 0.08, y0 + 0.08, middle - 0.05, y1 - 0.08), ...pane },
+        { loop: rect(middle + 0.05, y0 + 0.08, x1 - 0.08, y1 - 0.08), ...pane },
+      ],
+    }],
+  }];
 };
 const sill = (x0, x1, y) => ({ loop: rect(x0 - 0.1, y - 0.16, x1 + 0.1, y - 0.01), depth: 0.15, material: 'concrete_cream', sides: 'concrete_cream' });
 
-function house() {
+/// A gabled house; shuttered, it is of another colour.
+function house(name, wall, shuttered) {
   const body = new Body();
   const outline = [[0.3, 0], [5.7, 0], [5.7, 6.4], [6, 6.4], [6, 6.6], [3, 9.6], [0, 6.6], [0, 6.4], [0.3, 6.4]];
   const features = [
@@ -125,12 +143,13 @@ function house() {
     { loop: rect(0.4, 2.8, 5.6, 3), depth: 0.12, material: 'concrete_cream', sides: 'concrete_cream' },
     { loop: octagon(3, 7.7, 0.5), depth: -0.2, material: 'glass', sides: 'concrete_cream' },
   ];
-  for (const x of [0.9, 4.2]) features.push(window_(x, 1, x + 0.9, 2.3), sill(x, x + 0.9, 1));
-  for (const x of [0.9, 2.55, 4.2]) features.push(window_(x, 3.9, x + 0.9, 5.4), sill(x, x + 0.9, 3.9));
-  body.face(outline, 0, 'plaster', features);
-  body.band(outline, -5, 0, (a, b) => (Math.min(a[1], b[1]) >= 6.4 ? 'slate' : 'plaster'));
-  body.face(outline, -5, 'plaster', [], -1);
-  body.write('house');
+  const opening = shuttered ? shuttered_ : window_;
+  for (const x of [0.9, 4.2]) features.push(...opening(x, 1, x + 0.9, 2.3), sill(x, x + 0.9, 1));
+  for (const x of [0.9, 2.55, 4.2]) features.push(...opening(x, 3.9, x + 0.9, 5.4), sill(x, x + 0.9, 3.9));
+  body.face(outline, 0, wall, features);
+  body.band(outline, -5, 0, (a, b) => (Math.min(a[1], b[1]) >= 6.4 ? 'slate' : wall));
+  body.face(outline, -5, wall, [], -1);
+  body.write(name);
 }
 
 function arcade() {
@@ -147,5 +166,6 @@ function arcade() {
   body.write('arcade');
 }
 
-house();
+house('house', 'plaster', false);
+house('shuttered', 'plaster_rose', true);
 arcade();
