@@ -11,7 +11,7 @@ birger table4/birger.sgm --seed 3 --cell 8 --fov 52 --region 0,700,-1600:2400,11
 bouthors table4/bouthors.sgm --seed 3 --cell 4 --fov 34 --region 0,640,0:800,1280,800 --camera 1050,720,950:420,985,400
 branchwork branchwork.sgm --cell 0.1 --seed 3 --fov 64 --region -112,-4,15:-15,10,112 --camera=-62,1.3,66:-85,-0.2,64
 building building.sgm --sharp --cell 0.64 --pixels 2 --fov 56 --size 1280x960 --region -50,-3,-36:50,32,44 --camera 11.8,1.7,15.4:-0.6,5.3,8.6
-cabral table4/cabral.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --region -34,-2,-20:50,25,20 --camera=-16.5,1.7,3.2:-2,4.6,-6
+cabral table4/cabral.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --region -34,-2,-20:50,25,20 --camera=-16,1.7,3.2:-1,4.6,-5.4
 castle castle.sgm --sharp --cell 0.18 --fov 46 --region -150,-14,-180:180,75,124 --camera 66,6,112:4,23,10
 cave cave.sgm --cell 0.07 --seed 8 --region -20,-5,-72:72,14,20 --at hall
 city city.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --seed 1 --region -50,-1,-100:46,40,18 --camera=-5.7,1.75,-4.4:2.2,4.2,-34
