@@ -10,7 +10,7 @@ basalt basalt.sgm --sharp --cell 0.1 --fov 60 --region 2,-1,12:30,20,46 --camera
 birger table4/birger.sgm --seed 3 --cell 8 --fov 52 --region 0,700,-1600:2400,1150,0 --camera 2300,250,300:1000,960,-900
 bouthors table4/bouthors.sgm --seed 3 --cell 4 --fov 34 --region 0,640,0:800,1280,800 --camera 1050,720,950:420,985,400
 branchwork branchwork.sgm --cell 0.1 --seed 3 --fov 64 --region -112,-4,15:-15,10,112 --camera=-62,1.3,66:-85,-0.2,64
-building building.sgm --sharp --cell 0.64 --pixels 3 --fov 56 --size 1280x960 --region -50,-3,-36:50,32,44 --camera 11.8,1.7,15.4:-0.6,5.3,8.6
+building building.sgm --sharp --cell 0.64 --pixels 3.5 --fov 56 --size 1280x960 --region -50,-3,-36:50,32,44 --camera 11.8,1.7,15.4:-0.6,5.3,8.6
 cabral table4/cabral.sgm --sharp --cell 0.64 --pixels 3 --fov 58 --region -34,-2,-20:50,25,20 --camera=-16,1.7,3.2:-1,4.6,-5.4
 castle castle.sgm --sharp --cell 0.18 --fov 46 --region -150,-14,-180:180,75,124 --camera 66,6,112:4,23,10
 cave cave.sgm --cell 0.07 --seed 8 --region -20,-5,-72:72,14,20 --at hall
@@ -25,7 +25,7 @@ lake lake.sgm --cell 0.08 --seed 3 --fov 66 --region -75,-8,-18:21,14,78 --camer
 lava_tube lava_tube.sgm --cell 0.1 --fov 75 --light lamp --region 4,-5,24:90,14,56 --camera 26,0.2,40.6:40,-0.4,40.4
 lipp table4/lipp.sgm --sharp --cell 0.64 --pixels 3 --fov 46 --region -50,-12,-40:50,20,30 --camera 13,-7.2,23.5:1,-2.8,7
 muller table4/muller.sgm --sharp --cell 0.64 --pixels 3 --fov 52 --size 960x960 --region -50,-20,-30:44,24,44 --camera 14,-14.4,24:0,-6,7
-nave nave.sgm --sharp --light sun --cell 0.64 --pixels 2 --fov 62 --region -15,-1,2:15,34,50 --camera 0,2.3,3.4:0,8.6,34
+nave nave.sgm --sharp --light sun --cell 0.64 --pixels 2.5 --fov 62 --region -15,-1,2:15,34,50 --camera 0,2.3,3.4:0,8.6,34
 terrace terrace.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --size 1280x800 --region 0,-1,-10:92,18,30 --camera 5.4,1.75,14.4:42,2.6,8.6
 town town.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --size 1280x800 --region -10,-1,-40:60,22,40 --camera 8.4,1.65,1.4:17.2,2.5,5.7
 tree tree.sgm --seed 3 --cell 0.05 --fov 56 --size 960x960 --region -20,-0.4,-34:30,14,13 --camera -5,1.6,12:0.5,4.8,0
