@@ -26,7 +26,7 @@ lava_tube lava_tube.sgm --cell 0.1 --fov 75 --light lamp --region 4,-5,24:90,14,
 lipp table4/lipp.sgm --sharp --cell 0.64 --pixels 3 --fov 46 --region -50,-12,-40:50,20,30 --camera 13,-7.2,23.5:1,-2.8,7
 muller table4/muller.sgm --sharp --cell 0.64 --pixels 3 --fov 52 --size 960x960 --region -50,-20,-30:44,24,44 --camera 14,-14.4,24:0,-6,7
 nave nave.sgm --sharp --light sun --cell 0.64 --pixels 2.5 --fov 62 --region -15,-1,2:15,34,50 --camera 0,2.3,3.4:0,8.6,34
-terrace terrace.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --size 1280x800 --region 0,-1,-10:92,18,30 --camera 5.4,1.75,14.4:42,2.6,8.6
+terrace terrace.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --size 1280x800 --region 8,-1,-10:100,18,30 --camera 16.4,1.7,15.1:50,2.7,9.6
 town town.sgm --sharp --cell 0.64 --pixels 2 --fov 58 --size 1280x800 --region -10,-1,-40:60,22,40 --camera 8.4,1.65,1.4:17.2,2.5,5.7
 tree tree.sgm --seed 3 --cell 0.05 --fov 56 --size 960x960 --region -20,-0.4,-34:30,14,13 --camera -5,1.6,12:0.5,4.8,0
 tunnels tunnels.sgm --cell 0.12 --fov 50 --region -56,-9,-40:56,16,50 --camera=-14,-4.2,31:-2,-0.2,-6
