@@ -20,7 +20,7 @@ cui table4/cui.sgm --cell 0.1 --seed 3 --at room
 desert desert.sgm --cell 0.25 --fov 60 --region -10,-10,10:130,40,118 --camera 46,1.5,116:63,10,84
 gkm table4/gkm.sgm --seed 3 --set cover=1 --sharp --cell 1.28 --pixels 3 --fov 66 --region -260,-40,-420:200,250,10 --camera=-55,-5,-42:-52.5,2.2,-70
 greuter table4/greuter.sgm --sharp --cell 1.28 --pixels 3 --fov 60 --region -110,-1,-330:110,110,-104 --camera=-1.5,5.5,-132:3,17,-190
-houses houses.sgm --sharp --cell 0.1 --fov 56 --region 20,-6,24:104,20,72 --camera 30,2.3,59.6:50,2.8,46
+houses houses.sgm --sharp --cell 0.64 --pixels 2 --fov 56 --region 20,-6,14:110,20,72 --camera 41,1.8,60.2:48.5,2.7,45
 lake lake.sgm --cell 0.08 --seed 3 --fov 66 --region -75,-8,-18:21,14,78 --camera=-27,0.8,44.5:-25,0.8,20
 lava_tube lava_tube.sgm --cell 0.1 --fov 75 --light lamp --region 4,-5,24:90,14,56 --camera 26,0.2,40.6:40,-0.4,40.4
 lipp table4/lipp.sgm --sharp --cell 0.64 --pixels 3 --fov 46 --region -50,-12,-40:50,20,30 --camera 13,-7.2,23.5:1,-2.8,7
