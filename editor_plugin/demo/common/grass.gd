@@ -14,6 +14,9 @@ const DEPTH := 40.0
 const STEEPEST := 0.72
 ## Metres that the camera moves before tufts are planted and pulled out.
 const STEP := 2.0
+## With a graphics card there is more of it.
+const FINE_RADIUS := 30.0
+const FINE_TUFTS := 13
 
 @export var world: SgmWorld3D
 @export var materials: Array[String] = ["grass"]
@@ -29,6 +32,9 @@ var _changed := false
 
 
 func _ready() -> void:
+	if DemoQuality.is_fast():
+		radius = FINE_RADIUS
+		tufts_in_cell = FINE_TUFTS
 	multimesh = MultiMesh.new()
 	multimesh.transform_format = MultiMesh.TRANSFORM_3D
 	multimesh.mesh = _tuft()
@@ -130,9 +136,9 @@ func _tuft() -> ArrayMesh:
 	for i in BLADES:
 		var turn := random.randf() * TAU
 		var out := Vector3(cos(turn), 0.0, sin(turn))
-		var across := Vector3(-out.z, 0.0, out.x) * random.randf_range(0.004, 0.008)
+		var across := Vector3(-out.z, 0.0, out.x) * random.randf_range(0.0035, 0.007)
 		var foot := Vector3(random.randf_range(-0.5, 0.5), 0.0, random.randf_range(-0.5, 0.5)) * WIDTH
-		var high := random.randf_range(0.07, 0.2)
+		var high := random.randf_range(0.08, 0.26)
 		var lean := high * random.randf_range(0.25, 0.9)
 		var knee := foot + out * lean * 0.3 + Vector3.UP * high * 0.6
 		var tip := foot + out * lean + Vector3.UP * high

@@ -25,3 +25,6 @@ static func apply(viewport: Viewport, environment: Environment) -> void:
 	environment.ssao_enabled = fast
 	environment.ssil_enabled = fast
 	environment.ssr_enabled = fast and environment.ssr_max_steps > 0
+	if environment.sky != null and not fast:
+		for parameter: String in ["has_cumulus", "has_cirrus"]:
+			(environment.sky.sky_material as ShaderMaterial).set_shader_parameter(parameter, false)

@@ -1,13 +1,16 @@
 extends SceneTree
 ## The pictures of the README: the demo's places as a machine with a graphics card shows them.
+##
+## SGM_PLACES names those that are wanted; SGM_PICTURE_SIZE=960x540 makes them smaller, for drafts.
 
 const Checks := preload("res://tests/lib/checks.gd")
-## Where the camera stands (nowhere: where one begins), and how it looks: degrees to the left, and up.
+## Where the camera stands (nowhere: where one begins), how it looks, degrees to the left and up, and how much it sees,
+## degrees from the lower to the upper edge: less than in play, as a photographer's lens does.
 const VIEWS := {
-	cave = [Vector3.INF, -90.0, 0.0],
-	sky = [Vector3(1900.0, 1370.0, 2250.0), 40.0, 5.0],
-	valley = [Vector3(38.0, 1.6, 121.0), -56.0, 7.0],
-	city = [Vector3.INF, 0.0, 0.0],
+	cave = [Vector3.INF, -90.0, 0.0, 70.0],
+	sky = [Vector3(1900.0, 1370.0, 2250.0), 40.0, 5.0, 60.0],
+	valley = [Vector3(38.0, 1.6, 121.0), -56.0, 7.0, 60.0],
+	city = [Vector3(-2.0, 1.75, 15.0), -1.0, 4.0, 58.0],
 }
 const LONGEST := 900.0
 const CAVE_SEED := 8
@@ -17,6 +20,9 @@ var _checks := Checks.new()
 
 func _initialize() -> void:
 	DemoQuality.always_fast = true
+	var size := OS.get_environment("SGM_PICTURE_SIZE").split("x", false)
+	if size.size() == 2:
+		root.size = Vector2i(size[0].to_int(), size[1].to_int())
 	var wanted := OS.get_environment("SGM_PLACES").split(" ", false)
 	for name: String in VIEWS:
 		if wanted.is_empty() or name in wanted:
@@ -30,6 +36,8 @@ func _draw(name: String) -> void:
 		place.world.set(setting, place.fine[setting])
 	if place is DemoCave:
 		place.world.seed = CAVE_SEED
+	# Frames are drawn when all that they show is there: a software renderer would leave the world's threads no time.
+	RenderingServer.render_loop_enabled = false
 	root.add_child(place)
 	await process_frame
 	place.overlay.visible = false
@@ -37,12 +45,13 @@ func _draw(name: String) -> void:
 	var eye: Vector3 = view[0]
 	if place is DemoCave:
 		eye = _hall(place as DemoCave)
+	place.player.camera.fov = view[3]
+	place.player.viewer.fov = view[3]
 	if eye != Vector3.INF:
 		place.player.flying = true
 		place.player.teleport(eye - Vector3.UP * DemoPlayer.EYE_HEIGHT)
 		place.player.look(deg_to_rad(view[1] as float), deg_to_rad(view[2] as float))
 		await process_frame
-	# Without drawing: a software renderer would leave the world's threads no time.
 	var limit := Time.get_ticks_msec() + roundi(LONGEST * 1000.0)
 	while not place.world.is_idle() and Time.get_ticks_msec() < limit:
 		place.world.wait_until_idle(10.0)
@@ -53,6 +62,7 @@ func _draw(name: String) -> void:
 		while not (place as DemoSky).volume.is_filled() and Time.get_ticks_msec() < limit:
 			await process_frame
 		_checks.check((place as DemoSky).volume.is_filled(), "the clouds' volumes are sampled")
+	RenderingServer.render_loop_enabled = true
 	for i in 2:
 		await process_frame
 	await RenderingServer.frame_post_draw
