@@ -10,7 +10,7 @@ basalt basalt.sgm --sharp --cell 0.64 --pixels 2 --fov 60 --region=-60,-1,-120:9
 birger table4/birger.sgm --seed 3 --cell 8 --fov 52 --region 0,700,-1600:2400,1150,0 --camera 2300,250,300:1000,960,-900
 bouthors table4/bouthors.sgm --seed 3 --cell 4 --fov 34 --region 0,640,0:800,1280,800 --camera 1050,720,950:420,985,400
 branchwork branchwork.sgm --cell 0.64 --pixels 2 --seed 3 --fov 64 --light lamp --region -112,-4,15:-15,10,112 --camera=-63.3,0.8,60:-53,0.1,45
-building building.sgm --sharp --cell 0.64 --pixels 3.5 --fov 56 --size 1280x960 --region -50,-3,-36:50,32,44 --camera 11.8,1.7,15.4:-0.6,5.3,8.6
+building building.sgm --sharp --cell 0.64 --pixels 3.5 --fov 56 --size 1280x960 --region -50,-3,-36:50,32,44 --camera 11.8,1.7,15.4:1.4,5.3,8.6
 cabral table4/cabral.sgm --sharp --cell 0.64 --pixels 3 --fov 58 --region -34,-2,-20:50,25,20 --camera=-16,1.7,3.2:-1,4.6,-5.4
 castle castle.sgm --sharp --cell 2.56 --pixels 2 --fov 38 --region -150,-14,-180:180,75,124 --camera 58,20,122:6,20,6
 cave cave.sgm --cell 0.64 --pixels 2 --seed 8 --fov 64 --light lamp --region -10,-5,-10:85,14,85 --camera 32.6,0.4,31.2:43,1.2,42
@@ -18,7 +18,7 @@ city city.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --seed 1 --region -50,-1
 cloud cloud.sgm --seed 3 --cell 9 --fov 54 --region -2200,900,-2600:2400,4300,2000 --camera 2500,820,2300:-100,2200,-420
 cui table4/cui.sgm --seed 3 --cell 0.64 --pixels 2 --fov 66 --light lamp --region 15,48,25:80,74,80 --camera 30.5,60.2,51.5:50,60,42
 desert desert.sgm --cell 1.6 --pixels 2 --fov 60 --region -10,-10,10:130,40,126 --camera 46,1.5,116:63,10,84
-gkm table4/gkm.sgm --seed 3 --set cover=1 --sharp --cell 1.28 --pixels 3 --fov 66 --region -260,-40,-420:200,250,10 --camera=-55,-5,-42:-52.5,2.2,-70
+gkm table4/gkm.sgm --seed 3 --sharp --cell 1.28 --pixels 3 --fov 66 --region -260,-40,-420:200,250,10 --camera=-55,-5,-42:-52.5,2.2,-70
 greuter table4/greuter.sgm --sharp --cell 1.28 --pixels 3 --fov 60 --region -110,-1,-330:110,110,-104 --camera=-1.5,5.5,-132:3,17,-190
 houses houses.sgm --sharp --cell 0.64 --pixels 2.3 --fov 56 --region 20,-6,14:110,20,72 --camera 41,1.8,60.2:48.5,2.7,45
 lake lake.sgm --cell 0.64 --pixels 2 --seed 3 --fov 66 --region -75,-8,-18:21,14,78 --camera=-27,0.8,44.5:-25,0.8,20
