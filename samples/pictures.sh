@@ -26,7 +26,7 @@ lava_tube lava_tube.sgm --cell 0.64 --pixels 2 --fov 64 --light lamp --region -2
 lipp table4/lipp.sgm --sharp --cell 0.64 --pixels 3 --fov 46 --region -50,-12,-40:50,20,30 --camera 13,-7.2,23.5:1,-2.8,7
 muller table4/muller.sgm --sharp --cell 0.64 --pixels 3 --fov 52 --size 960x960 --region -50,-20,-30:44,24,44 --camera 14,-14.4,24:0,-6,7
 nave nave.sgm --sharp --light sun --cell 0.64 --pixels 2.5 --fov 62 --region -15,-1,2:15,34,50 --camera 0,2.3,3.4:0,8.6,34
-terrace terrace.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --size 1280x800 --region 8,-1,-10:100,18,30 --camera 13.6,1.7,15.1:47,2.7,9.6
+terrace terrace.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --size 1280x800 --region 8,-1,-10:100,18,30 --camera 16.4,1.7,15.1:50,2.7,9.6
 town town.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --size 1280x800 --region -10,-1,-40:60,22,40 --camera 8.4,1.65,1.4:17.2,2.5,5.7
 tree tree.sgm --seed 3 --cell 0.64 --pixels 2 --fov 48 --size 960x960 --region -44,-1.6,-60:44,18,16 --camera -5,1.6,13:0.2,4.6,0
 tunnels tunnels.sgm --sharp --cell 0.64 --pixels 2 --fov 56 --region -56,-9,-40:56,16,50 --camera=-22,-4.1,17:-5,-1.2,-1
