@@ -17,7 +17,7 @@ cave cave.sgm --cell 0.64 --pixels 2 --seed 8 --fov 64 --light lamp --region -10
 city city.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --seed 1 --region -50,-1,-100:46,40,18 --camera=-5.7,1.75,-4.4:2.2,4.2,-34
 cloud cloud.sgm --seed 3 --cell 9 --fov 54 --region -2200,900,-2600:2400,4300,2000 --camera 2500,820,2300:-100,2200,-420
 cui table4/cui.sgm --seed 3 --cell 0.64 --pixels 2 --fov 66 --light lamp --region 15,48,25:80,74,80 --camera 30.5,60.2,51.5:50,60,42
-desert desert.sgm --cell 1.6 --pixels 2 --fov 60 --region -10,-10,10:130,40,126 --camera 46,1.5,116:63,10,84
+desert desert.sgm --cell 1.6 --pixels 2 --fov 60 --region=-10,-10,10:130,40,126 --camera 46,1.7,116:63,10,84
 gkm table4/gkm.sgm --seed 3 --sharp --cell 1.28 --pixels 3 --fov 64 --region -260,-40,-420:200,250,10 --camera=-34,2.6,-66:-52,11,-96
 greuter table4/greuter.sgm --sharp --cell 1.28 --pixels 3 --fov 60 --region -110,-1,-330:110,110,-104 --camera=-1.5,5.5,-132:3,17,-190
 houses houses.sgm --sharp --cell 0.64 --pixels 2.3 --fov 56 --region 20,-6,14:110,20,72 --camera 41,1.8,60.2:48.5,2.7,45
