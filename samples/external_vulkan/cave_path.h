@@ -43,7 +43,7 @@ class CavePath {
   }
 
  private:
-  static constexpr double kStep = 1, kRoom = 1.5, kFarthest = 48, kAhead = 4;  // metres
+  static constexpr double kStep = 1, kRoom = 1.1, kFarthest = 48, kAhead = 4;  // metres
   static constexpr int kHeadings = 24;
 
   static Place along(const Place& from, const Place& way, double distance) {

@@ -273,7 +273,7 @@ TEST_CASE("the caller of an import is told, and the caller of the library for wh
   CHECK(
       rangeWords(facade + "size(0.05m, 4m, 0m) facade.Shop; } start A;") ==
       "3:30 argument-range: `facade.Shop` gives `Glazing` `w` = 0m here, which is not within 0.1m..20m | give it other "
-      "arguments, or a scope of another size | note: the call is at std/facade.sgm:240:17");
+      "arguments, or a scope of another size | note: the call is at std/facade.sgm:366:17");
 }
 
 TEST_CASE("a range is printed as it is written, and changes no world", "[grammar][ranges]") {

@@ -24,7 +24,7 @@ const MessageCase kZero[] = {
     {"4:46 divide-by-zero: division by zero: `n` is 0 here | divide by a number other than 0",
      "rule A { Post(0); } rule Post(n) { sphere(1m/n); }"},
     {"4:24 divide-by-zero: division by zero: `swing` divides by what is 0 with these arguments | give it arguments "
-     "other than 0 | note: the division is at std/rock.sgm:79:48",
+     "other than 0 | note: the division is at std/rock.sgm:89:48",
      "rule A { displace 0.1m*rock.swing(0m) { sphere(2m); } }"},
 };
 
