@@ -59,6 +59,7 @@ struct Scale {
 constexpr std::array kPlainScales{Scale{0.5, 32}, Scale{1, 64}};
 constexpr std::array kScales{Scale{0.25, 16}, Scale{0.5, 32}, Scale{1, 64}};
 constexpr std::array kTreeScales{Scale{0.1, 8}, Scale{0.25, 16}, Scale{0.5, 32}, Scale{1, 64}};
+constexpr std::array kOrchardScales{Scale{0.1, 8}, Scale{0.25, 16}, Scale{0.5, 32}, Scale{0.5, 0}, Scale{1, 64}};
 constexpr std::array kSkyScales{Scale{0.5, 48}, Scale{1, 64}, Scale{4, 256}, Scale{8, 512}};
 constexpr std::array kWholeScales{Scale{0.25, 0}, Scale{0.5, 0}};
 constexpr std::array kGridScales{Scale{0.25, 0}, Scale{0.5, 0}, Scale{1, 0}};
@@ -111,7 +112,7 @@ constexpr std::array kKinds{
     Kind{"terrain", kScales, "valley.sgm"},
     Kind{"terrain", kScales, "desert.sgm"},
     Kind{"terrain", kScales, "basalt.sgm"},
-    Kind{"tree", kTreeScales, "tree.sgm"},
+    Kind{"tree", kOrchardScales, "tree.sgm"},
     Kind{"tree", kTreeScales, "a wood", 0, kWoodText},
     Kind{measure::kNoise, kVoxelScales, "random voxels", 0, kVoxelText},
     Kind{measure::kNoise, kGridScales, "random grid", 0, ""},
