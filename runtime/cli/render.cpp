@@ -25,6 +25,7 @@ Result<RenderOptions> withCamera(const RenderOptions& options, const Region& reg
   settled.fov = scene->view.camera.fov_degrees;
   settled.region = cornerText(region.meshed.extent.lo) + ':' + cornerText(region.meshed.extent.hi);
   settled.frame.clear();
+  if (scene->view.at_anchor) settled.at.clear();  // the camera stands there
   settled.cell = metres(region.cell);
   settled.density.reset();
   settled.level = 0;

@@ -183,6 +183,8 @@ printf '%s\n' 'sgm 1; domain finite box(24m, 24m, 24m); start A;' \
   'rule A { box(20m); cut { sphere(6m); anchor spawn; } at(0m, 11m, 0m) anchor beacon; }' >hollow.sgm
 expect 0 "$SGM" render hollow.sgm --out hollow.png --at spawn --cell 1 --size 32x32
 [[ $err != *'is not used'* ]] || failed "an anchor in a hollow is said not to be used"
+expect 0 "$SGM" render hollow.sgm --out hollow.png --at spawn --cell 1 --size 32x32 --pixels 2
+[[ $err != *'is not used'* ]] || failed "an anchor in a hollow is said not to be used with small cells near it"
 expect 0 "$SGM" render hollow.sgm --out hollow.png --at beacon --cell 1 --size 32x32
 err_has 'note: --at beacon is not used'
 rm hollow.sgm hollow.png
