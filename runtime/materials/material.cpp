@@ -16,7 +16,7 @@ constexpr Rgb rgb(float r, float g, float b) { return {r, g, b}; }
 
 using enum SurfacePattern;
 
-constexpr std::array<Named, 44> kTable{{
+constexpr std::array<Named, 45> kTable{{
     {"rock", {rock, rgb(0.40f, 0.36f, 0.31f), 0.82f, 1.0f}},
     {"limestone", {rock, rgb(0.47f, 0.42f, 0.345f), 0.80f, 1.0f}},
     {"dolomite", {rock, rgb(0.47f, 0.45f, 0.42f), 0.82f, 1.0f}},
@@ -39,6 +39,7 @@ constexpr std::array<Named, 44> kTable{{
     {"thatch", {fibres, rgb(0.34f, 0.26f, 0.15f), 0.95f, 1.0f}},
     {"plaster", {plain, rgb(0.70f, 0.66f, 0.585f), 0.94f, 1.0f}},
     {"paint", {plain, rgb(0.62f, 0.61f, 0.58f), 0.50f, 0.35f}},
+    {"lacquer", {plain, rgb(0.22f, 0.222f, 0.225f), 0.07f, 0.0f}},
     {"clay", {plain, rgb(0.36f, 0.22f, 0.14f), 0.88f, 1.4f}},
     {"concrete", {concrete, rgb(0.43f, 0.42f, 0.40f), 0.90f, 1.0f}},
     {"wood", {wooden, rgb(0.225f, 0.155f, 0.098f), 0.75f, 1.0f}},

@@ -146,12 +146,14 @@ class LightTracer {
     return scene_.materials[std::min<size_t>(index, scene_.materials.size() - 1)];
   }
   vec3 colourOf(uint32_t index) const { return material(index).colour; }
+  /// Water, and what is as smooth as glass: panes and lacquer.
   bool isMirror(uint32_t index) const {
-    const SurfacePattern pattern = material(index).pattern;
-    return pattern == SurfacePattern::water || pattern == SurfacePattern::glass;
+    constexpr float kSmooth = 0.1f;
+    const RenderMaterial& look = material(index);
+    return isWater(index) || (look.relief == 0 && look.roughness <= kSmooth);
   }
 
-  /// What a pane or water shows in a pixel: the mean of rays through all of it, each to its own place of the mirror.
+  /// What a mirror shows in a pixel: the mean of rays through all of it, each to its own place of the mirror.
   vec3 mirrored(const MetSurface& place, uint32_t x, uint32_t y) const {
     UnitPoints spread(x, y, 63), turns(x, y, 64);
     const vec3 eye(frame_.eye);
@@ -163,9 +165,10 @@ class LightTracer {
       const float steep = dot(through, place.normal), way = facing / std::min(steep, -1e-4f);
       const vec3 beside = steep < 0 && way < 1.5f * place.distance ? eye + way * through - place.position : vec3(0);
       const vec3 at = place.position + beside + vec3(frame_.pattern_offset);
-      const vec3 normal = !isWater(place.material) ? paneNormal(place.normal, at)
-                          : sky_                   ? rippledNormal(place.normal, at)
-                                                   : place.normal;
+      const SurfacePattern pattern = material(place.material).pattern;
+      const vec3 normal = pattern == SurfacePattern::glass           ? paneNormal(place.normal, at)
+                          : pattern == SurfacePattern::water && sky_ ? rippledNormal(place.normal, at)
+                                                                     : place.normal;
       vec3 back = glm::reflect(glm::normalize(place.position + beside - eye), normal);
       // At grazing angles a bent normal would send the ray into the pane.
       if (const float outwards = dot(back, place.normal); outwards < 0) back -= 2 * outwards * place.normal;
