@@ -146,11 +146,12 @@ class LightTracer {
     return scene_.materials[std::min<size_t>(index, scene_.materials.size() - 1)];
   }
   vec3 colourOf(uint32_t index) const { return material(index).colour; }
-  /// Water, and what is as smooth as glass: panes and lacquer.
+  /// Water, panes, and paint as smooth as they are.
   bool isMirror(uint32_t index) const {
     constexpr float kSmooth = 0.1f;
     const RenderMaterial& look = material(index);
-    return isWater(index) || (look.relief == 0 && look.roughness <= kSmooth);
+    const bool lacquer = look.pattern == SurfacePattern::plain && look.relief == 0 && look.roughness <= kSmooth;
+    return lacquer || isWater(index) || look.pattern == SurfacePattern::glass;
   }
 
   /// What a mirror shows in a pixel: the mean of rays through all of it, each to its own place of the mirror.

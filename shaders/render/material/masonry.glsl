@@ -70,8 +70,9 @@ Surface paving(Spot at) {
 // Setts of a street, rounded by wheels.
 Surface cobbles(Spot at) {
   Chart chart = chartOf(at.p, at.n);
-  vec2 arched = chart.at + vec2(0.0, 0.10 * sin(chart.at.x * 2.6));
-  Block b = blockAt(arched, vec2(0.15, 0.12), 0.5, 0.3, 0.05);
+  // Rows are straight but for the ground, which has sunk under them.
+  vec2 sunk = chart.at + 0.035 * noise(at.p * 0.55).yz;
+  Block b = blockAt(sunk, vec2(0.15, 0.12), 0.5, 0.3, 0.05);
   vec3 stone = at.colour * (0.72 + 0.5 * b.lot.x) * mix(vec3(1.0), vec3(1.05, 0.97, 0.9), b.lot.y);
   stone = mix(at.colour, stone, visible(0.12, at.footprint));
   return laid(at, b, chart, 0.009, 0.12, stone, at.colour * 0.38, 1.2);
