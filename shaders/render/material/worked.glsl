@@ -8,9 +8,9 @@ Surface plain(Spot at) {
   s.albedo = at.colour * (1.0 + at.relief * (0.07 * broad + 0.05 * grain));
   s.albedo *= 1.0 - 0.16 * at.relief * weathered(at.p, at.n);
   vec4 relief_slope = relief(at.p, 0.05, 4, 0, at.footprint);
-  s.normal = bend(at.n, relief_slope.xyz, 0.09 * at.relief);
+  s.normal = bend(at.n, relief_slope.xyz, 0.05 * at.relief);
   wetten(s, at.wet);
-  s.roughness = roughened(s.roughness, 0.008 * at.relief * at.relief * relief_slope.w);
+  s.roughness = roughened(s.roughness, 0.0025 * at.relief * at.relief * relief_slope.w);
   return s;
 }
 
