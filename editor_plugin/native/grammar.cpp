@@ -232,6 +232,7 @@ void Grammar::registerClass(ClassRecord& record) {
       .method_<&Grammar::tags>("get_tags")
       .method_<&Grammar::anchorNames>("get_anchor_names")
       .method_<&Grammar::domain>("get_domain")
+      .method_<&Grammar::meaningHash>("get_meaning_hash")
       .method_<&Grammar::reload>("reload")
       .method_<&Grammar::setFilesAreText>("_set_files_are_text", {"on"})
       .method_<&Grammar::libraryVersion>("get_version")

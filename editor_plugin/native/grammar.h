@@ -34,6 +34,7 @@ class Grammar : public Instance {
   Strings tags() const;
   Strings anchorNames() const;
   Dictionary domain() const;
+  int64_t meaningHash() const { return static_cast<int64_t>(sgm_grammar_hash(compiled_.get())); }
   int64_t reload();
   void setFilesAreText(bool on);
   std::string libraryVersion() const { return sgm_version_string(); }

@@ -13,8 +13,8 @@ const crowds = read('.crowd.json');
 const percent = (share) => 100 * share;
 const never = (ms) => (ms < 0 ? Infinity : ms);
 const unclosed = (r) => (r.checked ? r.open_edges + r.nonmanifold_edges + r.overlaps + r.whole_failures : Infinity);
-// Each line has a name, its flights, the value of a report (undefined where the flight had nothing to measure: the machine
-// was too busy for any work to wait at a leap, or for a dig), the most or the least that is asked, and the unit.
+// Each line has a name, its flights, the value of a report (null: it is missing; undefined: the flight had nothing to
+// measure), the most or the least that is asked, and the unit.
 const lines = [
   { line: 'caller\'s thread, 99 % of frames', of: /^walk/, value: (r) => r.main_thread_ms.p99, most: 1, unit: 'ms' },
   { line: 'caller\'s thread, longest frame', of: /^walk/, value: (r) => r.main_thread_ms.max, most: 2, unit: 'ms' },
@@ -28,9 +28,11 @@ const lines = [
   { line: 'level 0 saved by reachability', of: /^reach/, value: (r) => percent(r.finest_saved), least: 40, unit: '%',
     more: (r) => `${r.finest_meshed} chunks instead of ${r.finest_meshed_by_distance}` },
   { line: 'stale work gone 2 frames after a leap', of: /^leaps/, least: 95, unit: '%',
-    value: (r) => (r.stale_after_2_frames ? percent(1 - r.stale_after_2_frames.worst) : undefined),
+    // On a busy machine no work waits at any leap.
+    value: (r) => (r.work_at_teleports.every((work) => work === 0) ? undefined
+      : r.stale_after_2_frames && percent(1 - r.stale_after_2_frames.worst)),
     more: (r) => `work at the leaps: ${r.work_at_teleports.join(' ')}` },
-  { line: 'changes of what is drawn until a dig is', of: /^digs/, value: (r) => (r.digs > 0 ? r.dig_frames.max : undefined),
+  { line: 'changes of what is drawn until a dig is', of: /^digs/, value: (r) => (r.digs > 0 ? r.dig_frames.max : null),
     most: 2, unit: '', more: (r) => `${r.digs} digs` },
   // No number is asked: more digs must not make it grow.
   { line: 'chunks that waited while digging', of: /^digs/, value: (r) => r.most_queued_while_digging, unit: '' },

@@ -5,7 +5,8 @@ extends DemoPlace
 
 ## One begins in the hall that is nearest to it.
 const MIDDLE := Vector3(30.0, 0.0, 30.0)
-## The journal of the digs in a seed's cave. Cells of another size (here in mm) and other parameters are other caves.
+## The journal of the digs in a seed's cave. Another grammar, cells of another size (here in mm) and other parameters make
+## other caves.
 const JOURNAL := "user://cave_%d_%dmm_%08x.journal"
 ## Metres from the eyes in which one can dig and build.
 const REACH := 14.0
@@ -144,7 +145,7 @@ func grow(new_seed: int) -> void:
 
 
 func _journal() -> String:
-	var values := []
+	var values := [world.grammar.get_meaning_hash()]
 	for parameter: Dictionary in world.grammar.get_parameters():
 		values.append(world.get("parameters/" + parameter.name))
 	return JOURNAL % [world.seed, roundi(world.cell_size * 1000.0), hash(values)]

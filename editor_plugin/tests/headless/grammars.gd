@@ -46,6 +46,13 @@ func _checks_texts() -> void:
 	_checks.equal([found[0].severity, found[0].line, found[0].column], ["error", 2, 7], "its place")
 	_checks.check(found[0].hint.contains("sphere"), "its hint: %s" % found[0].hint)
 	_checks.equal(grammar.text, GOOD, "checking changes nothing")
+	var meaning := grammar.get_meaning_hash()
+	grammar.text = GOOD + "// a comment\n"
+	_checks.equal(grammar.get_meaning_hash(), meaning, "a comment changes no meaning")
+	grammar.text = GOOD.replace("sphere", "box")
+	_checks.check(meaning != 0 and grammar.get_meaning_hash() != meaning, "another shape does")
+	_checks.equal(SgmGrammar.new().get_meaning_hash(), 0, "without a text")
+	grammar.text = GOOD
 
 
 func _saves() -> void:

@@ -196,7 +196,7 @@ Block cellAt(vec2 at, float size, float round_edge, int seed) {
 // x and z along the plane and y out of it.
 struct Stone {
   vec3 middle;  // metres
-  vec3 radii;   // 0: there is none
+  vec3 radii;   // metres; 0 in a cell without a stone
   vec2 turn;    // cosine and sine
   vec3 lot;     // random numbers of its own
 };
@@ -222,7 +222,7 @@ vec3 inStone(Stone s, vec3 v) {
 struct Strewn {
   float there;  // 1 where it is a stone
   vec3 at;      // metres in the layer's axes
-  vec3 normal;  // likewise
+  vec3 normal;  // of length 1, in the layer's axes
   vec3 lot;     // of the stone
   ivec2 cell;
 };
