@@ -148,7 +148,7 @@ func _panel(place: DemoPlace) -> void:
 func _stands(place: DemoPlace, what: String) -> void:
 	var player := place.player
 	_checks.check(not DemoGround.is_inside(place.world, player.eye()), "%s: the eyes are free at the start" % what)
-	await _until(func() -> bool: return player.ground_ready and player.is_on_floor(), 60.0)
+	await _until(func() -> bool: return player.ground_ready and player.is_on_floor(), 180.0)
 	_checks.check(player.ground_ready and player.is_on_floor(), "%s: the player stands" % what)
 	_checks.check(player.global_position.distance_to(place.start_place) < 2.0, "%s: nobody has fallen" % what)
 
