@@ -21,6 +21,6 @@ bool isBare() { return frame.land.z > 0.5; }
 
 struct Material { vec4 colour_roughness; uvec4 pattern; };  // pattern.y: relief, float bits
 layout(std430, binding = 4) readonly buffer Materials { Material materials[]; };
-layout(std430, binding = 5) writeonly buffer Pixels { uint pixels[]; };
+layout(std430, binding = 5) writeonly buffer Pixels { uint pixels[]; };  // three words each: runtime/cli/render/lens.h
 layout(binding = 0) uniform sampler2D position_plane;
 layout(binding = 1) uniform sampler2D normal_plane;

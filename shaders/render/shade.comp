@@ -170,15 +170,18 @@ void main() {
   int side = int(frame.size.z);
   vec2 from_centre = (vec2(pixel) + 0.5) / vec2(frame.size.xy) - 0.5;
   float vignette = frame.size.w == 1u ? 1.0 : 1.0 - 0.55 * dot(from_centre, from_centre);
-  vec3 sum = vec3(0.0), overhead = skyOver(ivec2(pixel), side);
+  vec3 light = vec3(0.0), film = vec3(0.0), overhead = skyOver(ivec2(pixel), side);
   for (int y = 0; y < side; ++y) {
     for (int x = 0; x < side; ++x) {
-      sum += toneMap(sampleAt(ivec2(pixel) * side + ivec2(x, y), overhead) * (frame.pattern_offset.w * vignette));
+      vec3 seen = sampleAt(ivec2(pixel) * side + ivec2(x, y), overhead) * (frame.pattern_offset.w * vignette);
+      light += min(seen, vec3(1000.0));
+      film += toneMap(seen);
     }
   }
-  vec3 colour = encodeSrgb(sum / float(side * side));
-  // Half a step of noise keeps the dark gradients of a cave from banding.
-  colour += (random3(ivec3(pixel, 7)) - 0.5) / 255.0;
-  uvec3 bytes = uvec3(clamp(colour, 0.0, 1.0) * 255.0 + 0.5);
-  pixels[pixel.y * frame.size.x + pixel.x] = bytes.r | bytes.g << 8 | bytes.b << 16 | 0xFF000000u;
+  light /= float(side * side);
+  film /= float(side * side);
+  uint at = 3u * (pixel.y * frame.size.x + pixel.x);
+  pixels[at] = packHalf2x16(film.rg);
+  pixels[at + 1u] = packHalf2x16(vec2(film.b, light.r));
+  pixels[at + 2u] = packHalf2x16(light.gb);
 }

@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <new>
 #include <utility>
 
 #include "render/foliage.h"
 #include "render/frame.h"
+#include "render/lens.h"
 #include "render/light_planes.h"
 #include "render/pipeline.h"
 
@@ -69,8 +71,10 @@ float exposureFor(const LightPlanes& light, Background background) {
   if (light.brightness <= 0) return 1;
   if (background == Background::sky) {
     constexpr float kWhite = 1.2f;  // comes out just below white
-    const float mean = std::pow(0.20f / light.brightness, 0.4f);
-    return std::clamp(std::min(mean, kWhite / light.highlight), 0.6f, 1.5f);
+    // Under a roof, where next to nothing is in the sun, a camera opens until the sky in the windows burns out.
+    const float indoors = 1 - glm::smoothstep(0.15f, 0.6f, light.highlight);
+    const float mean = std::pow(0.20f / light.brightness, glm::mix(0.4f, 0.8f, indoors));
+    return std::clamp(std::min(mean, kWhite / light.highlight), 0.6f, glm::mix(1.5f, 3.0f, indoors));
   }
   return std::clamp(std::pow(0.16f / light.brightness, 0.7f), 0.5f, 4.0f);
 }
@@ -152,7 +156,7 @@ Result<Image> Renderer::draw(const RenderScene& scene) const {
   auto material_buffer = upload(scope, std::span<const FrameMaterial>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (!material_buffer) return material_buffer.error();
   const uint32_t width = frame.size.x, height = frame.size.y;
-  auto pixels = scope.buffer(VkDeviceSize{4} * width * height, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  auto pixels = scope.buffer(VkDeviceSize{sizeof(ExposedPixel)} * width * height, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (!pixels) return pixels.error();
 
   auto surfaces = makeSurfacePass(scope, {width * frame.size.z, height * frame.size.z});
@@ -213,12 +217,8 @@ Result<Image> Renderer::draw(const RenderScene& scene) const {
                                &barrier, 0, nullptr, 0, nullptr);
   });
   if (!drawn) return drawn.error();
-  Image image;
-  image.width = scene.camera.width;
-  image.height = scene.camera.height;
-  image.rgba.resize(size_t{4} * width * height);
-  std::memcpy(image.rgba.data(), pixels->data, image.rgba.size());
-  return image;
+  const std::span exposed(reinterpret_cast<const ExposedPixel*>(pixels->data), size_t{width} * height);
+  return developed(exposed, scene.camera.width, scene.camera.height);
 }
 
 }  // namespace sgm
