@@ -56,7 +56,7 @@ LitWorld LitWorld::of(bool solid, bool endless_height) {
 
 bool isTranslucent(std::string_view material) {
   const SurfacePattern pattern = materialByName(material).pattern;
-  return pattern == SurfacePattern::glass || pattern == SurfacePattern::cloud;
+  return pattern == SurfacePattern::glass || pattern == SurfacePattern::leaded || pattern == SurfacePattern::cloud;
 }
 
 Result<Outlook> lookOut(const LitWorld& world, const CameraPlace& camera) {

@@ -16,7 +16,7 @@ constexpr Rgb rgb(float r, float g, float b) { return {r, g, b}; }
 
 using enum SurfacePattern;
 
-constexpr std::array<Named, 45> kTable{{
+constexpr std::array<Named, 46> kTable{{
     {"rock", {rock, rgb(0.40f, 0.36f, 0.31f), 0.82f, 1.0f}},
     {"limestone", {rock, rgb(0.47f, 0.42f, 0.345f), 0.80f, 1.0f}},
     {"dolomite", {rock, rgb(0.47f, 0.45f, 0.42f), 0.82f, 1.0f}},
@@ -50,6 +50,7 @@ constexpr std::array<Named, 45> kTable{{
     {"copper", {metallic, rgb(0.25f, 0.40f, 0.33f), 0.70f, 0.3f}},
     {"asphalt", {asphalt, rgb(0.105f, 0.104f, 0.106f), 0.92f, 1.0f}},
     {"glass", {glass, rgb(0.22f, 0.30f, 0.33f), 0.08f, 0.0f}},
+    {"leaded", {leaded, rgb(0.66f, 0.68f, 0.60f), 0.08f, 0.0f}},
     {"sand", {granular, rgb(0.56f, 0.45f, 0.30f), 0.95f, 1.0f}},
     {"soil", {granular, rgb(0.21f, 0.145f, 0.09f), 0.95f, 1.3f}},
     {"mud", {granular, rgb(0.20f, 0.145f, 0.095f), 0.45f, 0.8f}},

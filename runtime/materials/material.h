@@ -38,6 +38,7 @@ enum class SurfacePattern : uint32_t {
   cloud,   ///< soft white; under a sky a medium is drawn, and the mesh is its outline:
            ///< the denser the rougher, and the more puffs the more relief
   boards,  ///< wood, a board beside the other
+  leaded,  ///< small panes of stained glass in strips of lead, which let light through
 };
 
 struct MaterialLook {

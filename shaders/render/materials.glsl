@@ -37,6 +37,7 @@ Surface patterned(uint pattern, Spot at) {
   if (pattern == 22u && has(22u)) return mossy(at);
   if (pattern == 23u && has(23u)) return water(at);
   if (pattern == 25u && has(25u)) return wooden(at, true);
+  if (pattern == 26u && has(26u)) return leaded(at);
   if (has(24u)) return vapour(at);
   return surfaceOf(at);
 }

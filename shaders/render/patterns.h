@@ -14,3 +14,4 @@ const uint kWooden = 13u;
 const uint kAsphalt = 15u;
 const uint kLeafy = 20u;
 const uint kBoards = 25u;
+const uint kLeaded = 26u;

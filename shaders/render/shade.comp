@@ -133,7 +133,8 @@ vec3 bodyAt(ivec2 at, vec3 d, vec3 overhead) {
   }
   colour += s.albedo * softOn(traced, n, s.normal) * mix(0.35, 1.0, open);
   float grazing = 1.0 - max(0.0, dot(s.normal, -d));
-  colour += traced.mirror * (s.specular + (1.0 - s.specular) * pow(grazing, 5.0));
+  vec3 shown = has(kLeaded) && s.clear != vec3(0.0) ? s.clear : vec3(s.specular + (1.0 - s.specular) * pow(grazing, 5.0));
+  colour += traced.mirror * shown;
   return haze(colour, d, t);
 }
 

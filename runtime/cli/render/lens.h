@@ -16,7 +16,8 @@ struct ExposedPixel {
 
 /// Spreads a small share of the light over the whole picture, as glass does, which is seen around what is far brighter
 /// than white (after Jimenez, "Next generation post processing in Call of Duty: Advanced Warfare", 2014), and adds a
-/// fine grain. The same pixels give the same bytes. pixels: width * height, rows from the top. May throw std::bad_alloc.
+/// fine grain. The same pixels give the same bytes. pixels: width * height, rows from the top. May throw
+/// std::bad_alloc.
 Image developed(std::span<const ExposedPixel> pixels, int width, int height);
 
 }  // namespace sgm

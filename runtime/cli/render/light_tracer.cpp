@@ -27,6 +27,8 @@ constexpr int kSoftRays = 14;  // of a square of pixels; filtered later
 /// Rays to a light: the first tell most places that lie wholly in light or in shade, the others how deep in an edge.
 constexpr int kFirstRays = 2, kAllRays = 6;
 constexpr int kBounces = 2;           // of a soft ray, before what is left is taken to be even
+constexpr int kMostPanes = 2;         // that a ray goes through before it meets something else
+constexpr float kThroughPane = 0.8f;  // what lead and dirt leave of the light
 constexpr int kMirrorBounces = 2;     // of a ray from a mirror
 constexpr int kMirrorRays = 4;        // of a pixel: one alone would draw edges of what it mirrors as steps
 constexpr float kSunRadius = 0.012f;  // of its disc at distance 1: a little hazy
@@ -49,6 +51,11 @@ struct MetSurface {
 };
 
 float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+Passage passageOf(const RenderMaterial& look) {
+  if (look.pattern == SurfacePattern::leaded) return Passage::all;
+  return hasLeaves(look) ? Passage::spots : Passage::none;
+}
 
 class LightTracer {
  public:
@@ -102,6 +109,7 @@ class LightTracer {
     float wet = 0;
     vec3 seen(0);
     if (isMirror(place.material)) seen = mirrored(place, x, y);
+    if (isLeaded(place.material)) seen = seenThrough(place, x, y);
     if (has_water_) {
       UnitPoints points(x, y, 65);
       wet = isWater(place.material) ? depthOf(place, points) : -wetness(place);
@@ -185,6 +193,23 @@ class LightTracer {
            isCrownGap(frame_, place.position, -dot(place.normal, direction));
   }
 
+  bool isLeaded(uint32_t index) const { return material(index).pattern == SurfacePattern::leaded; }
+
+  /// What lies behind a window, in a pixel: old glass bends and blurs what is seen through it.
+  vec3 seenThrough(const MetSurface& place, uint32_t x, uint32_t y) const {
+    UnitPoints spread(x, y, 66), turns(x, y, 67);
+    constexpr float kBlur = 0.2f;
+    const vec3 bent = 2.0f * (paneNormal(place.normal, place.position + vec3(frame_.pattern_offset)) - place.normal);
+    const Across across(directionAt(x, y));
+    vec3 sum(0);
+    for (int i = 0; i < kMirrorRays; ++i) {
+      const glm::vec2 off = kBlur * onDisc(spread.next());
+      const vec3 direction = glm::normalize(directionAt(x, y) + bent + off.x * across.x + off.y * across.y);
+      sum += radiance(behind(place, direction), direction, turns, kMirrorBounces, nullptr, true);
+    }
+    return sum / static_cast<float>(kMirrorRays);
+  }
+
   bool isWater(uint32_t index) const { return material(index).pattern == SurfacePattern::water; }
 
   /// Beds fall from the shore as gently as shores do: a third as deep as the shore is far, on a mean of several ways.
@@ -234,6 +259,9 @@ class LightTracer {
     place.material = mesh_.vertex(hit->triangle, 0).material;
     return place;
   }
+
+  /// Where a ray goes on that a window lets through: within its pane, whose other side is met from inside.
+  static vec3 behind(const MetSurface& pane, vec3 direction) { return pane.position + 2e-3f * direction; }
 
   vec3 sunOn(vec3 n) const { return sunLight() * std::max(0.0f, dot(n, to_sun_)); }
 
@@ -343,7 +371,12 @@ class LightTracer {
                 bool mirrored = false) const {
     vec3 sum(0), weight(1);
     for (int i = 0; i < bounces; ++i) {
-      const MetSurface place = meet(from, direction);
+      MetSurface place = meet(from, direction);
+      for (int panes = 0; panes < kMostPanes && place.isThere() && isLeaded(place.material); ++panes) {
+        weight *= kThroughPane * colourOf(place.material);
+        from = behind(place, direction);
+        place = meet(from, direction);
+      }
       if (distance && i == 0 && place.isThere()) *distance = place.distance;
       if (!place.isThere()) return sum + weight * (sky_ ? skyIn(from, direction, mirrored) : vec3(frame_.sun.w));
       // Even light fills what is wide open, and clefts the less the narrower they are.
@@ -377,9 +410,10 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
     const SceneParts parts = partsOf(scene);
     Result<RayCaster> mesh = RayCaster::over(scene.vertices, parts.bodies);
     if (!mesh) return mesh.error();
-    std::vector<uint8_t> leafy;
-    for (const RenderMaterial& one : scene.materials) leafy.push_back(hasLeaves(one));
-    if (std::ranges::count(leafy, 1) > 0) mesh->loosen(leafy, vec3(frame.pattern_offset));
+    std::vector<Passage> passages;
+    for (const RenderMaterial& one : scene.materials) passages.push_back(passageOf(one));
+    const bool closed = std::ranges::count(passages, Passage::none) == std::ssize(passages);
+    if (!closed) mesh->loosen(passages, vec3(frame.pattern_offset));
     std::optional<Vapour> vapour;
     if (!parts.clouds.empty()) {
       Result<Vapour> made = Vapour::over(scene, frame, parts.clouds, jobs);

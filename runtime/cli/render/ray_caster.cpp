@@ -31,12 +31,12 @@ void dropFront(const RTCFilterFunctionNArguments* at) {
 struct LightRay {
   RTCIntersectContext context;  // first: Embree hands on a pointer to it
   const RayCaster* mesh;
-  std::span<const uint8_t> leafy;
+  std::span<const Passage> passages;
   glm::vec3 offset;
 };
 
-// The same for light among crowns: it passes between sprigs.
-void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
+// The same for light that passes between sprigs, and through glass.
+void dropFrontAndLoose(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) {
     at->valid[0] = 0;
     return;
@@ -45,7 +45,11 @@ void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
   const RTCRay& ray = *reinterpret_cast<const RTCRay*>(at->ray);
   const RTCHit& hit = *reinterpret_cast<const RTCHit*>(at->hit);
   const uint32_t material = light.mesh->vertex(hit.primID, 0).material;
-  if (material >= light.leafy.size() || light.leafy[material] == 0) return;
+  if (material >= light.passages.size() || light.passages[material] == Passage::none) return;
+  if (light.passages[material] == Passage::all) {
+    at->valid[0] = 0;
+    return;
+  }
   constexpr float kSprig = 0.5f, kGap = 0.60f;  // metres; noise above this share is a gap
   const glm::vec3 place =
       glm::vec3(ray.org_x, ray.org_y, ray.org_z) + ray.tfar * glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z);
@@ -130,15 +134,15 @@ std::optional<RayHit> RayCaster::castFronts(glm::vec3 from, glm::vec3 direction,
   return nearest(scene_.get(), from, direction, max_distance, true);
 }
 
-void RayCaster::loosen(std::span<const uint8_t> leafy, glm::vec3 offset) {
-  leafy_ = leafy;
+void RayCaster::loosen(std::span<const Passage> passages, glm::vec3 offset) {
+  passages_ = passages;
   offset_ = offset;
 }
 
 bool RayCaster::isFree(glm::vec3 from, glm::vec3 direction, float max_distance) const {
-  LightRay light{{}, this, leafy_, offset_};
+  LightRay light{{}, this, passages_, offset_};
   rtcInitIntersectContext(&light.context);
-  light.context.filter = leafy_.empty() ? dropFront : dropFrontAndGaps;
+  light.context.filter = passages_.empty() ? dropFront : dropFrontAndLoose;
   RTCRay ray{};
   aim(ray, from, direction, max_distance);
   rtcOccluded1(scene_.get(), &light.context, &ray);

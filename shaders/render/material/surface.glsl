@@ -7,6 +7,7 @@ struct Surface {
   float specular;      // reflectance at normal incidence
   float translucency;  // how far light wraps around, 0..1
   vec3 within;         // light that comes through the surface from behind it
+  vec3 clear;          // the share of what lies behind that is seen, 0..1
 };
 
 // What a pattern starts from: a place on the surface of a body, in the patterns' own metres.
@@ -31,6 +32,7 @@ Surface surfaceOf(Spot at) {
   s.specular = 0.04;
   s.translucency = 0.0;
   s.within = vec3(0.0);
+  s.clear = vec3(0.0);
   return s;
 }
 

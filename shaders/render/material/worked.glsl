@@ -128,3 +128,44 @@ Surface glazed(Spot at) {
   }
   return s;
 }
+
+// A window of stained glass: diamonds, pale as old glass is, each a little otherwise, in strips of lead on bars of iron, and
+// in every other field a wheel of colours.
+Surface leaded(Spot at) {
+  const vec2 kField = vec2(0.90, 1.20), kDiamond = vec2(0.15, 0.20);
+  Surface s = surfaceOf(at);
+  vec2 p = chartOf(at.p, at.n).at;
+  vec2 q = vec2(p.x / kDiamond.x + p.y / kDiamond.y, p.x / kDiamond.x - p.y / kDiamond.y);
+  vec3 lot = random3(ivec3(ivec2(floor(q)), 311));
+  vec3 tint = at.colour * (0.72 + 0.28 * lot.x) * mix(vec3(1.0), vec3(1.06, 0.98, 0.80), 0.7 * lot.y);
+  float from_lead = 0.12 * min(min(fract(q.x), 1.0 - fract(q.x)), min(fract(q.y), 1.0 - fract(q.y)));
+  ivec2 field = ivec2(floor(p / kField));
+  vec2 from_middle = p - (vec2(field) + 0.5) * kField;
+  float r = length(from_middle);
+  if (((field.x + field.y) & 1) == 0 && r < 0.40) {
+    float turn = atan(from_middle.y, from_middle.x) / 6.2831853 + 0.5;
+    float ring = r < 0.13 ? 0.0 : r < 0.31 ? 1.0 : 2.0, parts = ring == 0.0 ? 4.0 : ring == 1.0 ? 8.0 : 24.0;
+    float part = floor(turn * parts);
+    vec3 own = random3(ivec3(field, int(part) + 32 * int(ring)));
+    float even = mod(part, 2.0);
+    vec3 ruby = vec3(0.46, 0.025, 0.03), cobalt = vec3(0.035, 0.09, 0.50), amber = vec3(0.75, 0.42, 0.06);
+    vec3 green = vec3(0.06, 0.30, 0.10);
+    tint = ring == 0.0 ? amber : ring == 1.0 ? mix(ruby, cobalt, even) : mix(cobalt, own.x < 0.3 ? green : ruby, even);
+    tint *= 0.75 + 0.5 * own.y;
+    float across = abs(fract(turn * parts + 0.5) - 0.5) / parts * 6.2831853 * r;
+    from_lead = min(across, min(abs(r - 0.13), min(abs(r - 0.31), 0.40 - r)));
+  } else if (r < 0.43 && ((field.x + field.y) & 1) == 0) {
+    from_lead = min(from_lead, r - 0.40);
+  }
+  float soft = 0.5 * at.footprint + 0.001;
+  float lead = 1.0 - smoothstep(0.004 - soft, 0.004 + soft, from_lead);
+  float bar = abs(p.y / 0.6 - floor(p.y / 0.6) - 0.5) * 0.6;
+  lead = max(lead, 1.0 - smoothstep(0.011 - soft, 0.011 + soft, bar));
+  // Glass that was blown is streaked and has dirt at its edges.
+  float streaks = fineNoise(vec3(p * vec2(14.0, 3.0), 0.0), 0.07, at.footprint);
+  tint *= (1.0 + 0.16 * streaks) * mix(0.55, 1.0, smoothstep(0.004, 0.022, from_lead));
+  s.clear = tint * (1.0 - lead);
+  s.albedo = mix(0.03 * at.colour, vec3(0.045, 0.046, 0.050), lead);
+  s.roughness = mix(0.12, 0.6, lead);
+  return s;
+}

@@ -102,15 +102,11 @@ TEST_CASE("every pattern draws, under every background and supersampling, with n
           "[render]") {
   auto renderer = testRenderer();
   if (!renderer) return;
-  constexpr std::array kNames{"limestone", "granite", "marble",
-                              "calcite",   "brick",   "ashlar",
-                              "rubble",    "paving",  "cobble",
-                              "roof_tile", "slate",   "plaster",
-                              "concrete",  "wood",    "boards",
-                              "metal",     "asphalt", "glass",
-                              "sand",      "gravel",  "grass",
-                              "leaf",      "bark",    "moss",
-                              "water",     "cloud",   "nothing anyone has heard of"};
+  constexpr std::array kNames{
+      "limestone", "granite", "marble",    "calcite", "brick",   "ashlar",   "rubble",
+      "paving",    "cobble",  "roof_tile", "slate",   "plaster", "concrete", "wood",
+      "boards",    "metal",   "asphalt",   "glass",   "sand",    "gravel",   "grass",
+      "leaf",      "bark",    "moss",      "water",   "cloud",   "leaded",   "nothing anyone has heard of"};
   Stage stage{sphereMesh({0, 0, -6}, 2, false)};
   // All in one scene, so that the device compiles once.
   stage.materials.clear();
@@ -149,6 +145,28 @@ TEST_CASE("a room shows behind a pane of clear glass, and none behind a tinted o
   CHECK(within("glass") > 10);
   CHECK(within("glass_black") < 3);
   CHECK(within("glass_green") < 3);
+}
+
+TEST_CASE("the sky shows behind a window of stained glass, and nothing where there is none", "[render]") {
+  auto renderer = testRenderer();
+  if (!renderer) return;
+  const auto seen = [&](const char* material, Background background) {
+    Stage stage{sphereMesh({0, 0, -6}, 2, false)};
+    stage.materials = {materialByName(material)};
+    RenderScene scene = stage.scene(64, 48);
+    scene.background = background;
+    scene.sun_direction = {0, 1, -4};  // behind the window
+    scene.headlamp.colour = glm::vec3(0);
+    scene.ambient = 0;
+    auto image = renderer->render(scene);
+    REQUIRE(image);
+    // By the sky beside it: the camera opens where a window is dark.
+    return brightness(*image, 32, 24, 9) / (background == Background::sky ? brightness(*image, 5, 40, 4) : 1);
+  };
+  const double pale = seen("leaded", Background::sky), dark = seen("leaded_black", Background::sky);
+  INFO("pale " << pale << ", dark " << dark);
+  CHECK(pale > 1.1 * dark);
+  CHECK(seen("leaded", Background::cave) < 3);
 }
 
 TEST_CASE("the same scene gives the same bytes, wherever its origin lies", "[render]") {

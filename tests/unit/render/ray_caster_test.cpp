@@ -77,7 +77,7 @@ TEST_CASE("sides and distances are told apart", "[render]") {
   CHECK(!nothing->cast({0, 0, 0}, {0, 0, 1}, 100));
 }
 
-TEST_CASE("some light passes a crown that was loosened, and none passes other bodies", "[render]") {
+TEST_CASE("some light passes a crown that was loosened, all a pane, and none other bodies", "[render]") {
   const TestMesh ball = sphereMesh({0, 0, 0}, 3, false);
   Result<RayCaster> mesh = RayCaster::over(ball.vertices, ball.indices);
   REQUIRE(mesh);
@@ -90,7 +90,7 @@ TEST_CASE("some light passes a crown that was loosened, and none passes other bo
     return free;
   };
   CHECK(passing() == 0);
-  const std::array<uint8_t, 1> leaf{1}, other{0};
+  const std::array leaf{Passage::spots}, pane{Passage::all}, other{Passage::none};
   mesh->loosen(leaf, glm::vec3(0));
   const int through = passing();
   CHECK(through > 1600 * 0.04);
@@ -98,4 +98,6 @@ TEST_CASE("some light passes a crown that was loosened, and none passes other bo
   CHECK(passing() == through);
   mesh->loosen(other, glm::vec3(0));
   CHECK(passing() == 0);
+  mesh->loosen(pane, glm::vec3(0));
+  CHECK(passing() == 40 * 40);
 }
