@@ -35,10 +35,10 @@ Surface brickwork(Spot at) {
   const vec2 kBricks = vec2(0.25, 0.075);
   Block b = blockAt(chart.at, kBricks, 0.5, 0.0, 0.006);
   vec3 grey = vec3(dot(at.colour, vec3(0.35, 0.45, 0.2)));
-  vec3 fired = mix(at.colour, grey, 0.12) * (0.70 + 0.5 * b.lot.x) * mix(vec3(1.0), vec3(1.12, 0.88, 0.80), b.lot.y * b.lot.y);
+  vec3 fired = mix(at.colour, grey, 0.24) * (0.66 + 0.5 * b.lot.x) * mix(vec3(1.0), vec3(1.12, 0.88, 0.80), b.lot.y * b.lot.y);
   // Some were burnt dark at the end that lay next to the fire.
   fired *= b.lot.z > 0.86 ? vec3(0.62, 0.66, 0.74) : vec3(1.0);
-  vec3 mean = mix(at.colour, grey, 0.17) * 0.88;
+  vec3 mean = mix(at.colour, grey, 0.26) * 0.86;
   // Where single bricks are too fine to be seen, an eye still finds loads of them that differ, courses, and soot.
   vec2 load = chart.at / vec2(0.9, 0.3);
   float loads = fineNoise(vec3(load, dot(at.p, at.n) * 0.3), 0.15, at.footprint) +

@@ -207,7 +207,7 @@ Block settAt(vec2 at, vec2 size, float loose, float round_edge, int seed) {
     int column = int(floor(q.x - shift)) + i % 3 - 1;
     cells[i] = ivec2(column, r);
     vec2 off = loose * vec2(1.0, 0.6) * (2.0 * random3(ivec3(column, r, seed)).xy - 1.0);
-    mids[i] = (vec2(float(column) + shift, float(r)) + 0.5 + off - q) * size;
+    mids[i] = (vec2(float(column) + shift, float(r)) + 0.5 + off - q) * size * vec2(1.0, 1.5);  // rows part first
     float l = dot(mids[i], mids[i]);
     if (l < best) { best = l; chosen = i; }
   }
