@@ -70,13 +70,21 @@ Surface rubble(Spot at) {
   return laid(at, b, chart, 0.012, 0.36, stone, at.colour * 0.72, 1.1);
 }
 
-// Flags of a pavement.
+// Flags of a pavement: some were laid anew, some are cracked; dirt lies in joints, and gum is trodden on all.
 Surface paving(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   Block b = blockAt(chart.at, vec2(0.75, 0.5), 0.5, 0.2, 0.008);
-  vec3 stone = at.colour * (0.86 + 0.28 * b.lot.x);
-  stone = mix(at.colour, stone, visible(0.4, at.footprint)) * (1.0 - 0.15 * smoothstep(0.2, 0.8, noise(at.p * 1.3).x));
-  return laid(at, b, chart, 0.006, 0.5, stone, at.colour * 0.42, 0.7);
+  float broad = noise(at.p * 1.3).x, fine = fineNoise(at.p * 7.0, 0.14, at.footprint);
+  vec3 stone = at.colour * (0.80 + 0.34 * b.lot.x) * mix(vec3(1.04, 1.0, 0.93), vec3(0.95, 0.98, 1.02), b.lot.y);
+  stone *= b.lot.z > 0.9 ? 0.82 : 1.0;
+  stone = mix(at.colour * 0.97, stone, visible(0.4, at.footprint)) * (1.0 - 0.20 * smoothstep(0.1, 0.8, broad + 0.4 * fine));
+  float dirt = (1.0 - smoothstep(0.0, 0.07, b.edge + 0.03 * fine)) * visible(0.1, at.footprint);
+  stone *= 1.0 - 0.20 * dirt;
+  float split = b.lot.z < 0.16 ? cracks(at.p + 0.04 * noise(at.p * 4.0).yzw, at.n, 0.6, 0.006, at.footprint) : 0.0;
+  Block gum = cellAt(chart.at, 0.55, 1.0, 307);
+  float trodden = step(gum.lot.x, 0.45) * (1.0 - smoothstep(0.010, 0.020, length(gum.within) + 0.004 * fine));
+  stone *= (1.0 - 0.5 * split) * (1.0 - 0.38 * trodden * visible(0.03, at.footprint));
+  return laid(at, b, chart, 0.007, 0.5, stone, at.colour * 0.34, 0.7);
 }
 
 // Setts of a street, rounded and polished by wheels, with earth and moss between them.
