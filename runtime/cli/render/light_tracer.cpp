@@ -35,7 +35,8 @@ constexpr float kFar = 1e5f;          // metres
 constexpr float kDirtReach = 0.9f;    // metres: what lies nearer than this catches dirt
 constexpr float kUnderLedge = 2.4f;   // metres that a ledge's streaks run down
 constexpr float kSplash = 1.5f;       // metres that rain splashes up, and damp rises
-constexpr float kWiderThanLedge = 0.4f, kLedgeStep = 0.25f;  // metres: a ground's width, and how far it may rise or fall there
+constexpr float kWiderThanLedge = 0.4f;  // metres: how far ground that splashes reaches from a wall, at least
+constexpr float kLedgeStep = 0.25f;      // metres that it may rise or fall there
 
 /// A surface that a ray has met.
 struct MetSurface {
@@ -338,7 +339,8 @@ class LightTracer {
     const vec3 down(0, -1, 0);
     const auto under = mesh_.castFronts(place.start, glm::normalize(down + 0.10f * place.normal), kSplash);
     if (!under || under->facing.y <= 0.5f * glm::length(under->facing)) return 0;
-    const auto beside = mesh_.castFronts(place.start + kWiderThanLedge * place.normal, down, under->distance + kLedgeStep);
+    const vec3 away = place.start + kWiderThanLedge * place.normal;
+    const auto beside = mesh_.castFronts(away, down, under->distance + kLedgeStep);
     return beside && beside->distance > under->distance - kLedgeStep ? 1 - under->distance / kSplash : 0;
   }
 

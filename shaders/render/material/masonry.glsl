@@ -14,7 +14,8 @@ Surface laid(Spot at, Block b, Chart chart, float joint, float size, vec3 stone,
   vec3 mean = mix(stone, mortar, share);
   s.albedo = mix(mean, mix(stone, mortar, gap), seen) * (1.0 + 0.10 * grain + 0.13 * broad);
   vec4 relief_slope = relief(at.p, 0.10, 4, 1, at.footprint);
-  vec3 slope = relief_slope.xyz * 0.22 + (chart.along * b.tilt.x + chart.up * b.tilt.y) * (-tilt * visible(0.03, at.footprint));
+  // Stones are round at their edges: they fall towards them.
+  vec3 slope = relief_slope.xyz * 0.22 - (chart.along * b.tilt.x + chart.up * b.tilt.y) * (tilt * visible(0.03, at.footprint));
   slope += (chart.along * (b.lot.y - 0.5) + chart.up * (b.lot.z - 0.5)) * (0.12 * seen);
   s.normal = bend(at.n, slope, 0.5 * at.relief);
   s.specular = 0.03;
@@ -35,7 +36,8 @@ Surface brickwork(Spot at) {
   const vec2 kBricks = vec2(0.25, 0.075);
   Block b = blockAt(chart.at, kBricks, 0.5, 0.0, 0.006);
   vec3 grey = vec3(dot(at.colour, vec3(0.35, 0.45, 0.2)));
-  vec3 fired = mix(at.colour, grey, 0.24) * (0.66 + 0.5 * b.lot.x) * mix(vec3(1.0), vec3(1.12, 0.88, 0.80), b.lot.y * b.lot.y);
+  vec3 fired = mix(at.colour, grey, 0.24) * (0.66 + 0.5 * b.lot.x);
+  fired *= mix(vec3(1.0), vec3(1.12, 0.88, 0.80), b.lot.y * b.lot.y);
   // Some were burnt dark at the end that lay next to the fire.
   fired *= b.lot.z > 0.86 ? vec3(0.62, 0.66, 0.74) : vec3(1.0);
   vec3 mean = mix(at.colour, grey, 0.26) * 0.86;

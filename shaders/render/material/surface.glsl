@@ -134,7 +134,7 @@ struct Block {
   vec3 lot;     // random numbers of its own
   vec2 within;  // metres from its middle
   float edge;   // metres to its nearest edge
-  vec2 tilt;    // slope of its rounded edges, along and up
+  vec2 tilt;    // how its rounded edges fall, along and up
 };
 
 // Courses of blocks, `size` metres, each course shifted by `shift` blocks, the lengths within one varying by `vary` 0..0.5.
