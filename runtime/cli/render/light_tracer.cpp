@@ -37,6 +37,8 @@ constexpr float kFar = 1e5f;          // metres
 constexpr float kDirtReach = 0.9f;    // metres: what lies nearer than this catches dirt
 constexpr float kUnderLedge = 2.4f;   // metres that a ledge's streaks run down
 constexpr float kSplash = 1.5f;       // metres that rain splashes up, and damp rises
+constexpr float kWiderThanLedge = 0.4f;  // metres: how far ground that splashes reaches from a wall, at least
+constexpr float kLedgeStep = 0.25f;      // metres that it may rise or fall there
 
 /// A surface that a ray has met.
 struct MetSurface {
@@ -359,11 +361,15 @@ class LightTracer {
     return over ? 1 - over->distance / kUnderLedge : 0;
   }
 
-  /// How near the foot of a wall is, 0..1: whatever lies flat before it.
+  /// How near the foot of a wall is, 0..1: whatever lies flat before it, and is wider than a ledge.
   float footUnder(const MetSurface& place) const {
     if (std::abs(place.normal.y) > 0.7f) return 0;
-    const auto under = mesh_.castFronts(place.start, glm::normalize(vec3(0, -1, 0) + 0.10f * place.normal), kSplash);
-    return under && under->facing.y > 0.5f * glm::length(under->facing) ? 1 - under->distance / kSplash : 0;
+    const vec3 down(0, -1, 0);
+    const auto under = mesh_.castFronts(place.start, glm::normalize(down + 0.10f * place.normal), kSplash);
+    if (!under || under->facing.y <= 0.5f * glm::length(under->facing)) return 0;
+    const vec3 away = place.start + kWiderThanLedge * place.normal;
+    const auto beside = mesh_.castFronts(away, down, under->distance + kLedgeStep);
+    return beside && beside->distance > under->distance - kLedgeStep ? 1 - under->distance / kSplash : 0;
   }
 
   /// distance: of what the ray meets first, unless it meets nothing. mirrored: it shows in a pane.

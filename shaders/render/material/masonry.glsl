@@ -9,12 +9,13 @@ Surface laid(Spot at, Block b, Chart chart, float joint, float size, vec3 stone,
   float gap = (1.0 - smoothstep(max(0.6 * joint - blur, 0.0), 1.3 * joint + blur, b.edge)) * min(1.0, joint / blur);
   float grain = fineNoise(at.p * 23.0, 0.04, at.footprint) + fineNoise(at.p * 71.0, 0.014, at.footprint);
   float broad = noise(at.p * 0.6).x;
-  // Far away a wall has the mean of both.
-  float share = min(1.0, 2.5 * joint / size);
+  // Far away a wall has the mean of both, and joints lie in shadow.
+  float share = min(1.0, 1.5 * joint / size);
   vec3 mean = mix(stone, mortar, share);
   s.albedo = mix(mean, mix(stone, mortar, gap), seen) * (1.0 + 0.10 * grain + 0.13 * broad);
   vec4 relief_slope = relief(at.p, 0.10, 4, 1, at.footprint);
-  vec3 slope = relief_slope.xyz * 0.22 + (chart.along * b.tilt.x + chart.up * b.tilt.y) * (tilt * visible(0.03, at.footprint));
+  // Stones are round at their edges: they fall towards them.
+  vec3 slope = relief_slope.xyz * 0.22 - (chart.along * b.tilt.x + chart.up * b.tilt.y) * (tilt * visible(0.03, at.footprint));
   slope += (chart.along * (b.lot.y - 0.5) + chart.up * (b.lot.z - 0.5)) * (0.12 * seen);
   s.normal = bend(at.n, slope, 0.5 * at.relief);
   s.specular = 0.03;
@@ -32,10 +33,23 @@ float weathered(vec3 p, vec3 n) {
 
 Surface brickwork(Spot at) {
   Chart chart = chartOf(at.p, at.n);
-  Block b = blockAt(chart.at, vec2(0.25, 0.075), 0.5, 0.0, 0.006);
-  vec3 fired = at.colour * (0.72 + 0.5 * b.lot.x) * mix(vec3(1.0), vec3(1.15, 0.85, 0.75), b.lot.y * b.lot.y);
-  fired = mix(at.colour, fired, visible(0.07, at.footprint)) * (1.0 - 0.22 * weathered(at.p, at.n));
-  return laid(at, b, chart, 0.005, 0.075, fired, vec3(0.48, 0.45, 0.40), 0.8);
+  const vec2 kBricks = vec2(0.25, 0.075);
+  Block b = blockAt(chart.at, kBricks, 0.5, 0.0, 0.006);
+  vec3 grey = vec3(dot(at.colour, vec3(0.35, 0.45, 0.2)));
+  vec3 fired = mix(at.colour, grey, 0.24) * (0.66 + 0.5 * b.lot.x);
+  fired *= mix(vec3(1.0), vec3(1.12, 0.88, 0.80), b.lot.y * b.lot.y);
+  // Some were burnt dark at the end that lay next to the fire.
+  fired *= b.lot.z > 0.86 ? vec3(0.62, 0.66, 0.74) : vec3(1.0);
+  vec3 mean = mix(at.colour, grey, 0.26) * 0.86;
+  // Where single bricks are too fine to be seen, an eye still finds loads of them that differ, courses, and soot.
+  vec2 load = chart.at / vec2(0.9, 0.3);
+  float loads = fineNoise(vec3(load, dot(at.p, at.n) * 0.3), 0.15, at.footprint) +
+                0.8 * fineNoise(vec3(load * vec2(3.1, 2.3), 4.0), 0.06, at.footprint);
+  float broad = plainNoise(at.p * vec3(0.23, 0.4, 0.23) + 31.0);
+  vec3 wall = mix(mean, fired, visible(0.11, at.footprint)) * (1.0 - 0.22 * weathered(at.p, at.n));
+  wall *= 1.0 + 0.16 * loads + 0.12 * broad;
+  wall = mix(wall, grey * 0.62, 0.22 * smoothstep(0.0, 0.8, broad + 0.5 * loads));
+  return laid(at, b, chart, 0.005, 0.075, wall, vec3(0.40, 0.37, 0.32), 0.8);
 }
 
 // Courses of dressed stone.
@@ -58,24 +72,55 @@ Surface rubble(Spot at) {
   return laid(at, b, chart, 0.012, 0.36, stone, at.colour * 0.72, 1.1);
 }
 
-// Flags of a pavement.
+// Flags of a pavement: some were laid anew, some are cracked; dirt lies in joints, and gum is trodden on all.
 Surface paving(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   Block b = blockAt(chart.at, vec2(0.75, 0.5), 0.5, 0.2, 0.008);
-  vec3 stone = at.colour * (0.86 + 0.28 * b.lot.x);
-  stone = mix(at.colour, stone, visible(0.4, at.footprint)) * (1.0 - 0.15 * smoothstep(0.2, 0.8, noise(at.p * 1.3).x));
-  return laid(at, b, chart, 0.006, 0.5, stone, at.colour * 0.42, 0.7);
+  float broad = noise(at.p * 1.3).x, fine = fineNoise(at.p * 7.0, 0.14, at.footprint);
+  vec3 stone = at.colour * (0.80 + 0.34 * b.lot.x) * mix(vec3(1.04, 1.0, 0.93), vec3(0.95, 0.98, 1.02), b.lot.y);
+  stone *= b.lot.z > 0.9 ? 0.82 : 1.0;
+  stone = mix(at.colour * 0.97, stone, visible(0.4, at.footprint)) * (1.0 - 0.20 * smoothstep(0.1, 0.8, broad + 0.4 * fine));
+  float dirt = (1.0 - smoothstep(0.0, 0.07, b.edge + 0.03 * fine)) * visible(0.1, at.footprint);
+  stone *= 1.0 - 0.20 * dirt;
+  float split = b.lot.z < 0.16 ? cracks(at.p + 0.04 * noise(at.p * 4.0).yzw, at.n, 0.6, 0.006, at.footprint) : 0.0;
+  Block gum = cellAt(chart.at, 0.55, 1.0, 307);
+  float trodden = step(gum.lot.x, 0.45) * (1.0 - smoothstep(0.010, 0.020, length(gum.within) + 0.004 * fine));
+  stone *= (1.0 - 0.5 * split) * (1.0 - 0.38 * trodden * visible(0.03, at.footprint));
+  return laid(at, b, chart, 0.007, 0.5, stone, at.colour * 0.34, 0.7);
 }
 
-// Setts of a street, rounded by wheels.
+// Setts of a street, rounded and polished by wheels, with earth and moss between them.
 Surface cobbles(Spot at) {
   Chart chart = chartOf(at.p, at.n);
-  // Rows are straight but for the ground, which has sunk under them.
-  vec2 sunk = chart.at + 0.035 * noise(at.p * 0.55).yz;
-  Block b = blockAt(sunk, vec2(0.15, 0.12), 0.5, 0.3, 0.05);
-  vec3 stone = at.colour * (0.72 + 0.5 * b.lot.x) * mix(vec3(1.0), vec3(1.05, 0.97, 0.9), b.lot.y);
-  stone = mix(at.colour, stone, visible(0.12, at.footprint));
-  return laid(at, b, chart, 0.009, 0.12, stone, at.colour * 0.38, 1.2);
+  // The ground has sunk under the rows.
+  vec2 sunk = chart.at + 0.06 * noise(at.p * 0.55).yz + 0.012 * noise(at.p * 2.6 + 3.0).yz;
+  Block b = settAt(sunk, vec2(0.155, 0.125), 0.2, 0.06, 83);
+  float seen = visible(0.12, at.footprint), broad = noise(at.p * 0.37).x, patchy = noise(at.p * 1.7 + 9.0).x;
+  float grain = fineNoise(at.p * 60.0, 0.017, at.footprint) + 0.7 * fineNoise(at.p * 190.0, 0.006, at.footprint);
+  // Loads from several quarries: most are grey, some brown, some nearly black.
+  vec3 stone = at.colour * (0.74 + 0.52 * b.lot.x) * mix(vec3(0.96, 1.0, 1.04), vec3(1.14, 0.98, 0.82), b.lot.y * b.lot.y);
+  stone *= b.lot.z > 0.9 ? 0.62 : 1.0;
+  // Tops are worn bright and smooth.
+  float worn = smoothstep(0.012, 0.05, b.edge);
+  stone *= (0.86 + 0.22 * worn) * (1.0 + 0.22 * grain);
+  float blur = 0.5 * at.footprint, joint = 0.010 + 0.006 * patchy;
+  float gap = (1.0 - smoothstep(max(0.55 * joint - blur, 0.0), 1.5 * joint + blur, b.edge)) * min(1.0, 1.4 * joint / blur);
+  vec3 earth = vec3(0.085, 0.070, 0.052) * (1.0 + 0.4 * grain);
+  float moss = smoothstep(0.05, 0.45, broad + 0.6 * patchy);
+  earth = mix(earth, vec3(0.055, 0.066, 0.026) * (1.0 + 0.5 * grain), 0.8 * moss);
+  vec3 far = mix(at.colour * 1.02, earth, 0.18);
+  Surface s = surfaceOf(at);
+  s.albedo = mix(far, mix(stone, earth, gap), seen) * (1.0 + 0.12 * broad);
+  vec4 relief_slope = relief(at.p, 0.05, 3, 1, at.footprint);
+  vec3 slope = relief_slope.xyz * 0.12;
+  slope += (chart.along * b.tilt.x + chart.up * b.tilt.y) * (-1.5 * visible(0.05, at.footprint));
+  slope += (chart.along * (b.lot.y - 0.5) + chart.up * (b.lot.z - 0.5)) * (0.16 * seen);
+  s.normal = bend(at.n, slope, 0.5 * at.relief);
+  s.specular = mix(0.035, 0.02, gap);
+  s.roughness = mix(at.roughness, mix(at.roughness * (1.0 - 0.22 * worn), 0.95, gap), seen);
+  wetten(s, at.wet);
+  s.roughness = roughened(s.roughness, 0.010 * relief_slope.w + 0.04 * (1.0 - seen));
+  return s;
 }
 
 // Rows of clay tiles, round ones side by side, each row over the one below.

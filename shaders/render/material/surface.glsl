@@ -136,7 +136,7 @@ struct Block {
   vec3 lot;     // random numbers of its own
   vec2 within;  // metres from its middle
   float edge;   // metres to its nearest edge
-  vec2 tilt;    // slope of its rounded edges, along and up
+  vec2 tilt;    // how its rounded edges fall, along and up
 };
 
 // Courses of blocks, `size` metres, each course shifted by `shift` blocks, the lengths within one varying by `vary` 0..0.5.
@@ -191,6 +191,43 @@ Block cellAt(vec2 at, float size, float round_edge, int seed) {
   b.within = -nearest * size;
   b.edge = border * size;
   b.tilt = towards * (1.0 - smoothstep(0.0, round_edge, b.edge));
+  return b;
+}
+
+// Stones that were laid in rows by eye, about `size` metres: each is as large as it came, has lost its corners, and rows
+// waver. `loose` says how far a stone lies from where it should, 0..0.5.
+Block settAt(vec2 at, vec2 size, float loose, float round_edge, int seed) {
+  vec2 q = at / size;
+  int row = int(floor(q.y));
+  vec2 mids[9];
+  ivec2 cells[9];
+  int chosen = 0;
+  float best = 64.0, scale = min(size.x, size.y);
+  for (int i = 0; i < 9; ++i) {
+    int r = row + i / 3 - 1;
+    float shift = random3(ivec3(r, 7, seed)).x;
+    int column = int(floor(q.x - shift)) + i % 3 - 1;
+    cells[i] = ivec2(column, r);
+    vec2 off = loose * vec2(1.0, 0.6) * (2.0 * random3(ivec3(column, r, seed)).xy - 1.0);
+    mids[i] = (vec2(float(column) + shift, float(r)) + 0.5 + off - q) * size * vec2(1.0, 1.5);  // rows part first
+    float l = dot(mids[i], mids[i]);
+    if (l < best) { best = l; chosen = i; }
+  }
+  // A smooth minimum of the distances to all borders rounds the corners.
+  float sum = 0.0, sharp = 14.0 / scale;
+  vec2 towards = vec2(0.0);
+  for (int i = 0; i < 9; ++i) {
+    if (i == chosen) continue;
+    vec2 away = normalize(mids[i] - mids[chosen]);
+    float w = exp(-sharp * dot(0.5 * (mids[i] + mids[chosen]), away));
+    sum += w;
+    towards += w * away;
+  }
+  Block b;
+  b.lot = random3(ivec3(cells[chosen], seed + 1));
+  b.within = -mids[chosen];
+  b.edge = max(0.0, -log(max(sum, 1e-6)) / sharp);
+  b.tilt = towards / max(sum, 1e-6) * (1.0 - smoothstep(0.0, round_edge, b.edge));
   return b;
 }
 

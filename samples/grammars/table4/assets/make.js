@@ -4,7 +4,8 @@
 const fs = require('fs');
 const path = require('path');
 
-const materials = ['plaster', 'brick', 'slate', 'concrete_cream', 'glass', 'wood', 'paint_white', 'plaster_rose', 'paint_green'];
+// '' is the material of whoever fits the asset.
+const materials = ['', 'plaster', 'brick', 'slate', 'concrete_cream', 'glass', 'wood', 'paint_white', 'plaster_rose', 'paint_green'];
 
 class Body {
   constructor() { this.byMaterial = materials.map(() => []); }
@@ -57,8 +58,8 @@ class Body {
       const bytes = Buffer.from(new Float32Array(points.flat()).buffer);
       views.push({ buffer: 0, byteOffset: at, byteLength: bytes.length });
       accessors.push({ bufferView: views.length - 1, componentType: 5126, count: points.length, type: 'VEC3', min: low, max: high });
-      primitives.push({ attributes: { POSITION: accessors.length - 1 }, material: used.length });
-      used.push({ name: materials[i] });
+      primitives.push({ attributes: { POSITION: accessors.length - 1 }, ...(materials[i] && { material: used.length }) });
+      if (materials[i]) used.push({ name: materials[i] });
       chunks.push(bytes);
       at += bytes.length;
     });
@@ -101,9 +102,9 @@ const window_ = (x0, y0, x1, y1) => {
     }
   }
   return [{
-    loop: rect(x0 - 0.13, y0, x1 + 0.13, y1 + 0.14), depth: 0.1, material: 'concrete_cream', sides: 'concrete_cream',
+    loop: rect(x0 - 0.13, y0, x1 + 0.13, y1 + 0.14), depth: 0.05, material: 'concrete_cream', sides: 'concrete_cream',
     features: [{
-      loop: rect(x0, y0 + 0.01, x1, y1), depth: -0.28, material: 'paint_white', sides: 'plaster', features: panes,
+      loop: rect(x0, y0 + 0.01, x1, y1), depth: -0.19, material: 'paint_white', sides: 'concrete_cream', features: panes,
     }],
   }];
 };
@@ -114,9 +115,9 @@ const shuttered_ = (x0, y0, x1, y1) => {
     loop: rect(l, y0 + 0.1, r, y1 - 0.1), depth: -0.04, material: 'paint_green', sides: 'paint_green',
   });
   return [{
-    loop: rect(x0 - 0.27, y0, x1 + 0.27, y1), depth: 0.08, material: 'paint_green', sides: 'paint_green',
+    loop: rect(x0 - 0.27, y0, x1 + 0.27, y1), depth: 0.06, material: 'paint_green', sides: 'paint_green',
     features: [panel(x0 - 0.23, x0 - 0.06), panel(x1 + 0.06, x1 + 0.23), {
-      loop: rect(x0, y0 + 0.01, x1, y1 - 0.01), depth: -0.28, material: 'paint_white', sides: 'plaster',
+      loop: rect(x0, y0 + 0.01, x1, y1 - 0.01), depth: -0.2, material: 'paint_white', sides: 'plaster',
       features: [
         { loop: rect(x0 + 0.08, y0 + 0.08, middle - 0.05, y1 - 0.08), ...pane },
         { loop: rect(middle + 0.05, y0 + 0.08, x1 - 0.08, y1 - 0.08), ...pane },
@@ -124,7 +125,7 @@ const shuttered_ = (x0, y0, x1, y1) => {
     }],
   }];
 };
-const sill = (x0, x1, y) => ({ loop: rect(x0 - 0.1, y - 0.16, x1 + 0.1, y - 0.01), depth: 0.15, material: 'concrete_cream', sides: 'concrete_cream' });
+const sill = (x0, x1, y) => ({ loop: rect(x0 - 0.1, y - 0.12, x1 + 0.1, y - 0.01), depth: 0.11, material: 'concrete_cream', sides: 'concrete_cream' });
 
 /// A gabled house; shuttered, it is of another colour.
 function house(name, wall, shuttered) {
@@ -140,7 +141,7 @@ function house(name, wall, shuttered) {
         })),
       }],
     },
-    { loop: rect(0.4, 2.8, 5.6, 3), depth: 0.12, material: 'concrete_cream', sides: 'concrete_cream' },
+    { loop: rect(0.4, 2.84, 5.6, 3), depth: 0.08, material: 'concrete_cream', sides: 'concrete_cream' },
     { loop: octagon(3, 7.7, 0.5), depth: -0.2, material: 'glass', sides: 'concrete_cream' },
   ];
   const opening = shuttered ? shuttered_ : window_;
@@ -166,6 +167,6 @@ function arcade() {
   body.write('arcade');
 }
 
-house('house', 'plaster', false);
-house('shuttered', 'plaster_rose', true);
+house('house', '', false);
+house('shuttered', '', true);
 arcade();
