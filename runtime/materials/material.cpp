@@ -16,7 +16,7 @@ constexpr Rgb rgb(float r, float g, float b) { return {r, g, b}; }
 
 using enum SurfacePattern;
 
-constexpr std::array<Named, 45> kTable{{
+constexpr std::array<Named, 46> kTable{{
     {"rock", {rock, rgb(0.40f, 0.36f, 0.31f), 0.82f, 1.0f}},
     {"limestone", {rock, rgb(0.47f, 0.42f, 0.345f), 0.80f, 1.0f}},
     {"dolomite", {rock, rgb(0.47f, 0.45f, 0.42f), 0.82f, 1.0f}},
@@ -56,6 +56,7 @@ constexpr std::array<Named, 45> kTable{{
     {"gravel", {gravelly, rgb(0.38f, 0.35f, 0.31f), 0.88f, 1.0f}},
     {"grass", {grassy, rgb(0.125f, 0.150f, 0.060f), 0.95f, 1.0f}},
     {"leaf", {leafy, rgb(0.072f, 0.108f, 0.036f), 0.60f, 1.0f}},
+    {"leaf_dark", {leafy, rgb(0.046f, 0.072f, 0.030f), 0.60f, 0.8f}},
     {"bark", {fibres, rgb(0.19f, 0.14f, 0.10f), 0.95f, 1.0f}},
     {"moss", {mossy, rgb(0.085f, 0.110f, 0.038f), 1.00f, 1.0f}},
     {"water", {water, rgb(0.012f, 0.050f, 0.058f), 0.06f, 1.0f}},
