@@ -15,7 +15,7 @@ cabral table4/cabral.sgm --sharp --cell 0.64 --pixels 3 --fov 58 --region -34,-2
 castle castle.sgm --sharp --cell 2.56 --pixels 2 --fov 38 --region -150,-14,-180:180,75,124 --camera 58,20,122:6,20,6
 cave cave.sgm --cell 0.64 --pixels 2 --seed 8 --fov 64 --light lamp --region -10,-5,-10:85,14,85 --camera 32.6,0.4,31.2:43,1.2,42
 city city.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --seed 1 --region -50,-1,-100:46,40,18 --camera=-5.7,1.75,-4.4:2.2,4.2,-34
-cloud cloud.sgm --seed 3 --cell 9 --fov 54 --region -2200,900,-2600:2400,4300,2000 --camera 2500,820,2300:-100,2200,-420
+cloud cloud.sgm --seed 3 --cell 9 --fov 54 --region -2200,900,-2600:2400,4300,2000 --camera 2500,900,2300:-100,1500,-420
 cui table4/cui.sgm --seed 3 --cell 0.64 --pixels 2 --fov 66 --light lamp --region 15,48,25:80,74,80 --camera 30.5,60.2,51.5:50,60,42
 desert desert.sgm --cell 1.6 --pixels 2 --fov 60 --region=-10,-10,10:130,40,126 --camera 46,1.7,116:63,10,84
 gkm table4/gkm.sgm --seed 3 --sharp --cell 1.28 --pixels 3 --fov 64 --region -260,-40,-420:200,250,10 --camera=-34,2.6,-66:-52,11,-96

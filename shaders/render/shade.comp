@@ -114,7 +114,8 @@ vec3 haze(vec3 colour, vec3 d, float t) {
 // What is seen outdoors where no body is. overhead: the sky there.
 vec3 outdoors(vec3 d, vec3 overhead) {
   if (frame.land.y < 0.0 || !has(kSkyBit)) return overhead;
-  return land(d, overhead, materials[uint(frame.land.y)].colour_roughness.rgb);
+  vec3 own = frame.land.y >= 1e6 ? vec3(0.125, 0.150, 0.060) : materials[uint(frame.land.y)].colour_roughness.rgb;
+  return land(d, overhead, own);
 }
 
 vec3 bodyAt(ivec2 at, vec3 d, vec3 overhead) {
