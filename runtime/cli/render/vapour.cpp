@@ -201,10 +201,10 @@ vec3 Vapour::sourceAt(vec3 place, float cosine, float footprint) const {
   for (int octave = 0; octave < kOctaves; ++octave) {
     sum += share * phase(cosine, g) * std::exp(-depth * lost);
     share *= again;
-    lost *= 0.54f;
+    lost *= 0.57f;
     g *= 0.5f;
   }
-  return sun_light_ * (kPi * kKept * sum) + 0.72f * sky_light_ * lit.y + 0.6f * ground_light_ * lit.z;
+  return sun_light_ * (kPi * kKept * sum) + 0.58f * sky_light_ * lit.y + 0.5f * ground_light_ * lit.z;
 }
 
 VapourLight Vapour::march(vec3 from, vec3 direction, float end, uint32_t x, uint32_t y) const {

@@ -52,6 +52,11 @@ Surface grassy(Spot at) {
   vec3 dry = mix(at.colour, vec3(0.30, 0.255, 0.14), 0.42), lush = at.colour * vec3(0.62, 0.90, 0.52);
   s.albedo = mix(at.colour, dry, smoothstep(0.1, 0.8, broad.x + 0.4 * clump.x));
   s.albedo = mix(s.albedo, lush, 0.75 * smoothstep(-0.1, 0.6, -broad.x + 0.3 * noise(at.p * 1.1).x));
+  // Where it has not been mown it stands high and pale, in stands with an edge; and from afar tussocks are dark dots.
+  float stand = noise(at.p * 0.045 + 11.0).x + 0.35 * noise(at.p * 0.19).x + 0.12 * clump.x;
+  s.albedo = mix(s.albedo, vec3(0.205, 0.180, 0.085) * (1.0 + 0.2 * clump.x), 0.55 * smoothstep(0.16, 0.34, stand));
+  float tussock = smoothstep(0.15, 0.6, fineNoise(at.p * 1.6 + 5.0, 0.6, at.footprint));
+  s.albedo *= mix(vec3(1.0), vec3(0.60, 0.68, 0.55), 0.7 * tussock);
   // Clover and moss in patches, and what has been trodden thin.
   float clover = smoothstep(0.22, 0.42, noise(at.p * 0.55 + 21.0).x + 0.30 * noise(at.p * 2.7).x);
   s.albedo = mix(s.albedo, at.colour * vec3(0.58, 0.86, 0.72), 0.7 * clover);
