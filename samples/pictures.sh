@@ -28,7 +28,7 @@ muller table4/muller.sgm --sharp --cell 0.64 --pixels 3 --fov 52 --size 960x960 
 nave nave.sgm --sharp --light sun --cell 0.64 --pixels 2.5 --fov 62 --region -15,-1,2:15,34,50 --camera 0,2.3,3.4:0,8.6,34
 terrace terrace.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --size 1280x800 --region 8,-1,-10:100,18,30 --camera 16.4,1.7,15.1:50,2.7,9.6
 town town.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --size 1280x800 --region -10,-1,-40:60,22,40 --camera 8.4,1.65,1.4:17.2,2.5,5.7
-tree tree.sgm --seed 12 --cell 0.64 --pixels 3 --fov 48 --size 960x960 --region -44,-1.6,-60:44,18,16 --camera -5,1.6,13:0.2,4.6,0
+tree tree.sgm --seed 12 --cell 0.64 --pixels 4 --fov 48 --size 960x960 --region -44,-1.6,-60:44,18,16 --camera -5,1.6,13:0.2,4.6,0
 tunnels tunnels.sgm --sharp --cell 0.64 --pixels 2 --fov 56 --region -56,-9,-40:56,16,50 --camera=-22,-4.1,17:-5,-1.2,-1
 valley valley.sgm --cell 3.2 --pixels 2 --fov 66 --region 16,-6,-12:240,116,206 --camera 40,9,132:108,26,72
 workings workings.sgm --cell 0.32 --pixels 2 --fov 50 --region 8,11,8:14,16,44 --camera 10.9,13.45,17.45:11,13.1,30

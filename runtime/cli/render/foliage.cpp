@@ -17,10 +17,11 @@ struct Kind {
 };
 constexpr Kind kLawn{SurfacePattern::grassy, 70}, kLeaves{SurfacePattern::leafy, 220};
 
-constexpr float kTallest = 0.20f;                 ///< metres, of blades
+constexpr float kBladeWidth = 0.0052f;            ///< metres, of the near ones
+constexpr float kTallest = 0.23f;                 ///< metres, of blades
 constexpr float kReach = 0.15f, kDepth = 0.14f;   ///< metres that leaves stand out from a crown's surface, and within
 constexpr float kLeafLength = 0.072f;             ///< metres
-constexpr float kLeastGrowth = -0.18f;            ///< crowns have no leaves where growthAt() is below
+constexpr float kLeastGrowth = -0.15f;            ///< crowns have no leaves where growthAt() is below
 constexpr size_t kMostSprouts = size_t{6} << 20;  ///< a picture's
 constexpr float kSteepest = 0.72f;                ///< of a lawn's normal upwards
 
@@ -121,17 +122,17 @@ class Sower {
            std::abs(glm::dot(v, up)) <= high * (high * std::max(z, 0.0f) + (1 + high) * margin);
   }
 
-  float bladeWidth(float t) const { return std::max(0.0045f, 1.15f * frame_.eye.w * t); }
+  float bladeWidth(float t) const { return std::max(kBladeWidth, 1.15f * frame_.eye.w * t); }
   /// A square metre's. Far away one looks along the ground, and few of them cover it.
   float bladesAt(float t) const {
-    const float near = 5500, own = 0.0045f / bladeWidth(t);
+    const float near = 5500, own = kBladeWidth / bladeWidth(t);
     return near * own * own * std::clamp((kLawn.far - t) / (0.45f * kLawn.far), 0.0f, 1.0f);
   }
 
   float leafLength(float t) const { return std::max(kLeafLength, 2.6f * frame_.eye.w * t); }
   float leavesAt(float t) const {
     const float length = leafLength(t);
-    return 5.0f / (length * length);
+    return 4.6f / (length * length);
   }
 
   void addBlade(Sprout sprout, float t, Dice& dice, std::vector<Sprout>& sprouts) const {

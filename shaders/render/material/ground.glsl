@@ -102,7 +102,7 @@ Surface fibrous(Spot at) {
   Surface s = surfaceOf(at);
   Chart chart = chartOf(at.p, at.n);
   // Furrows are where a noise passes through zero: long lines that part and meet again, with plates between them.
-  vec3 q = vec3(at.p.x * 12.0, at.p.y * 1.3, at.p.z * 12.0) + 0.28 * noise(at.p * 3.1).yzw;
+  vec3 q = vec3(at.p.x * 15.0, at.p.y * 0.95, at.p.z * 15.0) + 0.30 * noise(at.p * 3.1).yzw;
   vec4 ridge = noise(q), narrow = noise(q * 2.3 + 11.0), fine = noise(q * 7.1);
   float seen = visible(0.07, at.footprint), close = visible(0.03, at.footprint), grain = fine.x * visible(0.012, at.footprint);
   float furrow = (1.0 - smoothstep(0.04, 0.36, abs(ridge.x) + 0.12 * fine.x)) * seen;
