@@ -18,7 +18,7 @@ city city.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --seed 1 --region -50,-1
 cloud cloud.sgm --seed 3 --cell 9 --fov 54 --region -2200,900,-2600:2400,4300,2000 --camera 2500,900,2300:-100,1500,-420
 cui table4/cui.sgm --seed 3 --cell 0.64 --pixels 2 --fov 66 --light lamp --region 15,48,25:80,74,80 --camera 30.5,60.2,51.5:50,60,42
 desert desert.sgm --cell 1.6 --pixels 2 --fov 60 --region=-10,-10,10:130,40,126 --camera 46,1.7,116:63,10,84
-gkm table4/gkm.sgm --seed 3 --sharp --cell 1.28 --pixels 3.5 --fov 64 --region -420,-40,-520:200,760,10 --camera=-34,2.6,-66:-52,11,-96
+gkm table4/gkm.sgm --seed 3 --sharp --cell 1.28 --pixels 3.5 --fov 64 --region -520,-40,-720:300,660,10 --camera=-34,2.6,-66:-52,11,-96
 greuter table4/greuter.sgm --sharp --cell 1.28 --pixels 3 --fov 60 --region -110,-1,-330:110,110,-104 --camera=-1.5,5.5,-132:3,17,-190
 houses houses.sgm --sharp --cell 0.64 --pixels 2.3 --fov 56 --region 20,-6,14:110,20,72 --camera 41,1.8,60.2:48.5,2.7,45
 lake lake.sgm --cell 0.64 --pixels 2 --seed 3 --fov 66 --region -75,-8,-18:21,14,78 --camera=-27,0.8,44.5:-25,0.8,20
