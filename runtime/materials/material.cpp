@@ -57,6 +57,7 @@ constexpr std::array<Named, 46> kTable{{
     {"gravel", {gravelly, rgb(0.38f, 0.35f, 0.31f), 0.88f, 1.0f}},
     {"grass", {grassy, rgb(0.125f, 0.150f, 0.060f), 0.95f, 1.0f}},
     {"leaf", {leafy, rgb(0.072f, 0.108f, 0.036f), 0.60f, 1.0f}},
+    {"leaf_dark", {leafy, rgb(0.046f, 0.072f, 0.030f), 0.60f, 0.8f}},
     {"bark", {fibres, rgb(0.19f, 0.14f, 0.10f), 0.95f, 1.0f}},
     {"moss", {mossy, rgb(0.085f, 0.110f, 0.038f), 1.00f, 1.0f}},
     {"water", {water, rgb(0.012f, 0.050f, 0.058f), 0.06f, 1.0f}},

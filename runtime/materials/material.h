@@ -31,7 +31,7 @@ enum class SurfacePattern : uint32_t {
   granular,  ///< sand, soil, mud, snow
   gravelly,
   grassy,
-  leafy,
+  leafy,  ///< broad leaves where relief is 0.9 or more, else needles
   fibres,  ///< bark, thatch
   mossy,
   water,   ///< mirrors; the deeper the darker

@@ -10,6 +10,11 @@ float wayTo(float level, float up) {
 
 const float kCloudBase = 1250.0, kCloudDepth = 800.0;  // metres
 
+// Their base over the eye.
+float cloudBase() {
+  return kCloudBase - (frame.land.y < 0.0 ? 0.0 : clamp(frame.eye.y - frame.land.x, 0.0, kCloudBase - 150.0));
+}
+
 // Where cumulus stands: 0 at its rim, up to 1 in its middle, below 0 outside. Of what lies below `least` for
 // certain no more is found than that.
 float cumulusAt(vec2 at, float least) {
@@ -43,20 +48,26 @@ float cumulusDensity(vec3 p, float heap, float share, int octaves) {
 
 // Light, and how much of what is behind shows, along a direction. turn: 0..1, where within a step it begins.
 vec4 cumulus(vec3 d, vec3 to_sun, vec3 behind, float turn) {
-  const int kSteps = 28, kShort = 4;
-  const float kStep = 1.0 / float(kSteps), kLost = 0.0075;  // of light, a metre, in the full density
+  const int kShort = 4;
+  const float kLost = 0.0075;  // of light, a metre, in the full density
+  // The lower the clouds hang over the eye, the longer the ways through them.
+  int steps = frame.land.w < 0.0 ? 84 : 28;
+  float step_share = 1.0 / float(steps);
+  float base = cloudBase(), beyond = max(-frame.land.w, 0.0);
   if (d.y < 0.012) return vec4(0.0, 0.0, 0.0, 1.0);
-  float begin = wayTo(kCloudBase, d.y), way = wayTo(kCloudBase + kCloudDepth, d.y) - begin;
+  float begin = wayTo(base, d.y), way = wayTo(base + kCloudDepth, d.y) - begin;
+  if (begin + way < beyond) return vec4(0.0, 0.0, 0.0, 1.0);
   float through = 1.0, forward = pow(max(dot(d, to_sun), 0.0), 8.0);
   vec3 sum = vec3(0.0);
   // Short steps where a cloud may be: it stands there as it does at both ends of the long step.
   float after = -1.0;
-  for (int i = -1; i < kSteps && through > 0.02; ++i) {
-    float low = kStep * (float(i) + turn), before = after, least = leastHeap(max(low, 0.0));
-    after = cumulusAt(d.xz * (begin + (low + kStep) * way), least);
+  for (int i = -1; i < steps && through > 0.02; ++i) {
+    float low = step_share * (float(i) + turn), before = after, least = leastHeap(max(low, 0.0));
+    after = cumulusAt(d.xz * (begin + (low + step_share) * way), least);
+    if (beyond > 0.0) after -= 1.0 - smoothstep(beyond, 1.3 * beyond, begin + (low + step_share) * way);
     if (i < 0 || max(before, after) <= least) continue;
     for (int k = 0; k < kShort; ++k) {
-      float part = float(k) / float(kShort), share = low + kStep * part, heap = mix(before, after, part);
+      float part = float(k) / float(kShort), share = low + step_share * part, heap = mix(before, after, part);
       vec3 p = d * (begin + share * way);
       // Here, and then on the way to the sun.
       float density = 0.0, deep = 0.0;
@@ -72,7 +83,7 @@ vec4 cumulus(vec3 d, vec3 to_sun, vec3 behind, float turn) {
       if (density <= 0.0) continue;
       float lit = 0.62 * exp(-kLost * deep) + 0.38 * exp(-0.22 * kLost * deep);
       vec3 light = sunLight() * (0.52 * lit * (1.0 + 1.2 * forward)) + vec3(0.30, 0.36, 0.44) * (0.55 + 0.75 * share);
-      float passed = exp(-kLost * density * min(kStep / float(kShort) * way, 260.0));
+      float passed = exp(-kLost * density * min(step_share / float(kShort) * way, 260.0));
       sum += through * (1.0 - passed) * light;
       through *= passed;
     }
@@ -109,4 +120,12 @@ vec3 fairSky(vec3 d, float turn) {
   c = mix(c, vec3(0.86, 0.89, 0.92) + 0.35 * sunLight() * pow(max(s, 0.0), 12.0), cirrus(d));
   vec4 near = cumulus(d, to_sun, clear, turn);
   return c * near.a + near.rgb;
+}
+
+// How much of the sun's light comes through the clouds to the land, at metres from under the eye.
+float sunOnLand(vec2 from_eye) {
+  if (frame.land.w == 0.0) return 1.0;
+  vec3 to_sun = frame.sun.xyz;
+  vec2 at = from_eye + to_sun.xz / max(to_sun.y, 0.1) * cloudBase();
+  return mix(0.22, 1.0, 1.0 - smoothstep(-0.02, 0.30, 1.25 * cumulusAt(at, -1.0) - 0.08));
 }

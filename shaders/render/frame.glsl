@@ -13,7 +13,9 @@ layout(std140, binding = 3) uniform Frame {
   vec4 lamp_colour[kMaxLamps];
   uvec4 size;    // width and height in pixels, samples on each side of a pixel, background (0 cave, 1 sky)
   uvec4 counts;  // lamps, materials, 1 where there are clouds
-  vec4 land;     // around the world: its height, its material (below 0: none), 1 where it is bare; w: 1 in fair weather
+  // Around the world: its height; its material, below 0: none, from 1e6: meadows; 1 where it is bare. w: clouds of fair
+  // weather, 1: all over the sky, below 0: beyond so many metres, 0: none.
+  vec4 land;
 } frame;
 
 // Whether the land around the world has no green.

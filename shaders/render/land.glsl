@@ -2,10 +2,14 @@
 // meadows and fields or bare, and woods and hills stand before the horizon. frame.land says which.
 
 // What air does to what lies t metres away: it takes the light's red last and adds its own blue.
-vec3 throughAir(vec3 colour, vec3 haze, float t) { return mix(haze, colour, exp(-t / vec3(9200.0, 7400.0, 5600.0))); }
+// Haze lies low: from high above one sees farther.
+vec3 throughAir(vec3 colour, vec3 haze, float t) {
+  float low = 1.0 / (1.0 + max(frame.eye.y - frame.land.x, 0.0) / 700.0);
+  return mix(haze, colour, exp(-t * low / vec3(9200.0, 7400.0, 5600.0)));
+}
 
-vec3 landLight(vec3 n) {
-  return sunLight() * max(dot(n, frame.sun.xyz), 0.0) + 0.8 * skyLight(vec3(0.0, 1.0, 0.0), frame.sun.xyz);
+vec3 landLight(vec3 n, float open) {
+  return sunLight() * (open * max(dot(n, frame.sun.xyz), 0.0)) + 0.8 * skyLight(vec3(0.0, 1.0, 0.0), frame.sun.xyz);
 }
 
 // Fields, hedges between them and woods; bare land has broad stains alone. Near the world it is what the world ends in.
@@ -17,7 +21,12 @@ vec3 landAlbedo(vec2 at, float away, float footprint, vec3 own) {
   float middle = n[1] * visible(20.0, footprint), fine = n[2] * visible(3.0, footprint);
   vec3 near = own * (1.0 + 0.22 * n[0] + 0.14 * middle);
   if (isBare()) return near;
-  Block field = cellAt(at + 9.0 * vec2(n[1], n[5]), 165.0, 1.0, 401);
+  // Parishes of fields in rows, each turned its own way.
+  Block parish = cellAt(at + 60.0 * vec2(n[4], n[0]), 900.0, 1.0, 407);
+  float turn = 3.1 * parish.lot.x;
+  vec2 rows = mat2(cos(turn), sin(turn), -sin(turn), cos(turn)) * (at + 9.0 * vec2(n[1], n[5]));
+  Block field = blockAt(rows, vec2(120.0 + 160.0 * parish.lot.y, 90.0 + 70.0 * parish.lot.z), 0.37, 0.55, 1.0);
+  field.edge = min(field.edge, parish.edge);
   vec3 meadow = mix(vec3(0.105, 0.135, 0.050), vec3(0.150, 0.160, 0.072), field.lot.x);
   vec3 crop = mix(vec3(0.215, 0.190, 0.095), vec3(0.150, 0.125, 0.080), field.lot.z);
   float seen = visible(60.0, footprint);
@@ -58,6 +67,8 @@ vec3 land(vec3 d, vec3 above, vec3 own) {
   const float kCrowns[4] = float[4](5.0, 6.0, 0.0, 0.0);
   for (int row = isBare() ? 1 : 0; row < 4; ++row) {
     float away = kAway[row];
+    // From high above, hills that are lower are land like the rest.
+    if (eye > 1.5 * (kTall[row].y + kCrowns[row])) continue;
     if (slope < -eye / away || slope > (kTall[row].y + kCrowns[row] - eye) / away) continue;
     float high = skyline(way, away, kTall[row], kWave[row], isBare() ? 0.0 : kCrowns[row], float(10 * row + 1));
     float over = slope * away + eye;
@@ -68,11 +79,13 @@ vec3 land(vec3 d, vec3 above, vec3 own) {
     float grain = plainNoise(vec3(way * (away / wide.x), over / wide.y + 3.0));
     vec3 c = wood * (1.0 + 0.45 * grain) * (hill ? 0.9 : mix(0.45, 1.0, smoothstep(0.0, 1.0, over / high)));
     if (hill && !isBare()) c = mix(c, vec3(0.125, 0.140, 0.062), smoothstep(0.05, 0.35, grain));
-    return throughAir(c * landLight(normalize(vec3(-way.x, 0.9, -way.y))), haze, away);
+    // Hills rise gently out of the plain.
+    if (hill && !isBare()) c = mix(vec3(0.120, 0.132, 0.058), c, smoothstep(0.0, 0.5, over / high));
+    return throughAir(c * landLight(normalize(vec3(-way.x, 0.9, -way.y)), sunOnLand(way * away)), haze, away);
   }
   if (d.y >= -1e-4) return above;
   float t = eye / -d.y;
   vec2 at = frame.eye.xz + frame.pattern_offset.xz + d.xz * t;
-  vec3 c = landAlbedo(at, t, t * frame.eye.w / max(0.05, sqrt(-d.y)), own) * landLight(vec3(0.0, 1.0, 0.0));
+  vec3 c = landAlbedo(at, t, t * frame.eye.w / max(0.05, sqrt(-d.y)), own) * landLight(vec3(0.0, 1.0, 0.0), sunOnLand(d.xz * t));
   return throughAir(c, haze, t);
 }

@@ -57,16 +57,24 @@ Surface chequered(float field, vec3 n) {
   return s;
 }
 
-// Blades and leaves, as foliage.frag tells of them: how bright one is by how deep it lies, and blooms.
-void growing(inout Surface s, float told, uint pattern) {
-  float bloom = floor(told / 8.0), bright = told - 8.0 * bloom;
-  if (bloom > 0.0) {
-    s.albedo = bloom == 1.0 ? vec3(0.62, 0.61, 0.56) : vec3(0.60, 0.43, 0.04);
+// Blades and leaves, as sprout.vert tells of them: how bright one is by how deep it lies; white and yellow blossoms, and
+// stalks that are dry. open: the share of the sun's light that comes there.
+void growing(inout Surface s, float told, uint pattern, vec3 d, float open) {
+  float kind = floor(told / 4.0), bright = told - 4.0 * kind;
+  if (kind == 1.0 || kind == 2.0) {
+    s.albedo = kind == 1.0 ? vec3(0.62, 0.61, 0.56) : vec3(0.60, 0.43, 0.04);
     return;
   }
+  if (kind == 3.0) s.albedo = mix(s.albedo, vec3(0.30, 0.245, 0.125), 0.85);
   // Tips are young.
-  s.albedo *= bright * mix(vec3(1.0), vec3(1.18, 1.06, 0.72), clamp(1.4 * (bright - 0.9), 0.0, 1.0));
-  if (pattern != kLeafy || frame.size.w != 1u) return;
+  bool leafy = pattern == kLeafy;
+  s.albedo *= bright * mix(vec3(1.0), leafy ? vec3(1.18, 1.06, 0.72) : vec3(1.06, 1.0, 0.85), clamp(1.4 * (bright - 0.9), 0.0, 1.0));
+  if (frame.size.w != 1u) return;
+  // Against the sun they glow.
+  s.translucency = leafy ? 0.7 : 0.5;
+  float against = max(dot(d, frame.sun.xyz), 0.0);
+  s.within += s.albedo * vec3(1.30, 1.25, 0.40) * sunLight() * (open * 0.45 * against * against);
+  if (!leafy) return;
   // Light that has come through the crown's other leaves, from above and from the sun, green as they are.
   vec3 above = 0.5 * skyLight(vec3(0.0, 1.0, 0.0), frame.sun.xyz) + 0.10 * sunLight() * max(frame.sun.y, 0.0);
   s.within += s.albedo * vec3(1.0, 1.15, 0.55) * above * (0.55 - 0.25 * s.normal.y);
@@ -106,7 +114,8 @@ vec3 haze(vec3 colour, vec3 d, float t) {
 // What is seen outdoors where no body is. overhead: the sky there.
 vec3 outdoors(vec3 d, vec3 overhead) {
   if (frame.land.y < 0.0 || !has(kSkyBit)) return overhead;
-  return land(d, overhead, materials[uint(frame.land.y)].colour_roughness.rgb);
+  vec3 own = frame.land.y >= 1e6 ? vec3(0.125, 0.150, 0.060) : materials[uint(frame.land.y)].colour_roughness.rgb;
+  return land(d, overhead, own);
 }
 
 vec3 bodyAt(ivec2 at, vec3 d, vec3 overhead) {
@@ -121,7 +130,7 @@ vec3 bodyAt(ivec2 at, vec3 d, vec3 overhead) {
   Traced traced = tracedAt(at, p, n, t);
   Surface s = surfaceAt(uint(seen.w) - 1u, p + frame.pattern_offset.xyz, n, -d, footprint, traced);
   if (facing.w > 0.0) s = chequered(facing.w, n);
-  if (facing.w < 0.0) growing(s, -facing.w, materials[min(uint(seen.w) - 1u, frame.counts.y - 1u)].pattern.x);
+  if (facing.w < 0.0) growing(s, -facing.w, materials[min(uint(seen.w) - 1u, frame.counts.y - 1u)].pattern.x, d, traced.open[0].x);
   s.normal = turnedTo(-d, s.normal, n);
   // Rays are too few to find what lies a hand's breadth away.
   float open = openness(at, p, n, t, clamp(0.02 * t, 0.10, 4.0), turn.y);

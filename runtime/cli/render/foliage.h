@@ -1,5 +1,5 @@
 #pragma once
-// The blades of lawns and the leaves of crowns: which triangles carry them, and in how many layers they are drawn.
+// The blades of lawns and the leaves of crowns: where they stand on the mesh.
 
 #include <array>
 #include <glm/mat4x4.hpp>
@@ -14,22 +14,41 @@ namespace sgm {
 /// Push constants, as shaders/render/foliage.glsl reads them.
 struct FoliageConstants {
   glm::mat4 view_projection;
-  glm::vec4 eye, offset, kind;
+  glm::vec4 eye, offset;
 };
 static_assert(sizeof(FoliageConstants) <= 128, "no device promises more");
 
-/// Layers of one kind over some triangles.
+/// What a sprout is drawn as; shaders/render/sprout.vert has the numbers.
+enum class SproutForm : uint32_t { blade, leaf, white_blossom, yellow_blossom, dry_blade };
+
+/// A blade, a leaf or a blossom, laid out as shaders/render/sprout.vert reads it. Lengths in metres.
+struct Sprout {
+  glm::vec3 root{0};  ///< of a leaf: its middle
+  float length = 0;
+  glm::vec3 normal{0};  ///< of the surface that it grows on
+  float width = 0;
+  uint32_t material = 0;
+  uint32_t lot = 0;  ///< drawn by chance: which way it turns
+  SproutForm form = SproutForm::blade;
+  float bright = 1;  ///< less than 1 deep in a crown
+};
+static_assert(sizeof(Sprout) == 48);
+
+/// Corners of the strip that a sprout is drawn as.
+inline constexpr uint32_t kSproutCorners = 7;
+
+/// What grows in a picture.
 struct Foliage {
   FoliageConstants constants;
-  uint32_t layers = 0;
-  /// Three a triangle. RenderVertex::texture.x says which of its materials are of this kind: 1 the first, 2 the second,
-  /// 3 both; y how it grows there: the height of the tallest blades, 0..1, or of leaves -1..1, below 0 between sprigs.
-  std::vector<RenderVertex> vertices;
+  /// The ground between blades, three corners a triangle. RenderVertex::texture.x says which of its materials is a
+  /// lawn: 1 the first, 2 the second, 3 both; y how tall blades grow there, 0..1.
+  std::vector<RenderVertex> ground;
+  std::vector<Sprout> sprouts;
 };
 
-/// Blades, and leaves, of what lies near enough to show them. scene must have been checked, and frame be its own. May
-/// throw std::bad_alloc.
-std::array<Foliage, 2> foliageOf(const RenderScene& scene, const Frame& frame);
+/// Blades and leaves of what lies near enough to show them and within the picture. The farther away, the fewer and the
+/// larger they are. scene must have been checked, and frame be its own. May throw std::bad_alloc.
+Foliage foliageOf(const RenderScene& scene, const Frame& frame);
 
 /// Whether leaves are drawn for a material.
 bool hasLeaves(const RenderMaterial& material);

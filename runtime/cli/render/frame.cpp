@@ -37,6 +37,9 @@ glm::mat4 viewProjection(const RenderCamera& camera, const CameraAxes& axes) {
   return m;
 }
 
+constexpr float kMeadow = 1e6f;   // in Frame::land, as shaders/render/frame.glsl tells
+constexpr float kBeyond = 0.85f;  // of the reach of a world's own clouds, where the sky's others begin
+
 bool hasFairWeather(const RenderScene& scene) {
   const auto isCloud = [](const RenderMaterial& one) { return one.pattern == SurfacePattern::cloud; };
   return scene.background == Background::sky && std::ranges::none_of(scene.materials, isCloud);
@@ -104,9 +107,13 @@ Frame frameOf(const RenderScene& scene) {
 }
 
 void findLand(const RenderScene& scene, Frame& frame) {
-  if (!hasFairWeather(scene)) return;
-  const std::optional<Land> land = landAround(scene);
-  if (land) frame.land = {land->height, static_cast<float>(land->material), land->bare ? 1.0f : 0.0f, 1};
+  if (scene.background != Background::sky) return;
+  std::optional<Land> land = landAround(scene);
+  if (!land) land = landUnderClouds(scene);
+  if (!land) return;
+  const float material = land->material == Land::kMeadow ? kMeadow : static_cast<float>(land->material);
+  const float clouds = hasFairWeather(scene) ? 1 : -std::max(2.0f, kBeyond * reachOfClouds(scene));
+  frame.land = {land->height, material, land->bare ? 1.0f : 0.0f, clouds};
 }
 
 std::vector<FrameMaterial> frameMaterials(const RenderScene& scene) {

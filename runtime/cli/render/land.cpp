@@ -35,6 +35,11 @@ bool isGround(SurfacePattern pattern) {
   return pattern != water && pattern != plain && pattern != glass && pattern != metallic;
 }
 
+bool isCloud(const RenderScene& scene, const RenderVertex& vertex) {
+  const size_t material = std::min<size_t>(vertex.material, scene.materials.size() - 1);
+  return scene.materials[material].pattern == SurfacePattern::cloud;
+}
+
 struct Patch {
   float height, area;
   uint32_t material;
@@ -110,6 +115,28 @@ std::optional<Land> landAround(const RenderScene& scene) {
   land.material = static_cast<uint32_t>(std::ranges::max_element(shares) - shares.begin());
   land.bare = isBare(scene.materials[land.material].pattern);
   return land;
+}
+
+std::optional<Land> landUnderClouds(const RenderScene& scene) {
+  if (scene.indices.empty()) return {};
+  for (const uint32_t index : scene.indices)
+    if (!isCloud(scene, scene.vertices[index])) return {};
+  Land land;
+  land.height = static_cast<float>(-metres(scene.origin.y));
+  land.material = Land::kMeadow;
+  if (scene.camera.position.y < land.height + kBelow) return {};
+  return land;
+}
+
+float reachOfClouds(const RenderScene& scene) {
+  const glm::vec2 eye(scene.camera.position.x, scene.camera.position.z);
+  float reach = 0;
+  for (const uint32_t index : scene.indices) {
+    const RenderVertex& vertex = scene.vertices[index];
+    if (isCloud(scene, vertex))
+      reach = std::max(reach, glm::distance(glm::vec2(vertex.position.x, vertex.position.z), eye));
+  }
+  return reach;
 }
 
 }  // namespace sgm

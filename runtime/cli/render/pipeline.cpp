@@ -9,6 +9,8 @@
 #include "spirv/foliage_frag.h"
 #include "spirv/foliage_vert.h"
 #include "spirv/shade_comp.h"
+#include "spirv/sprout_frag.h"
+#include "spirv/sprout_vert.h"
 #include "spirv/surface_frag.h"
 #include "spirv/surface_vert.h"
 
@@ -56,9 +58,41 @@ Result<VkRenderPass> makeRenderPass(VulkanScope& scope) {
   return scope.renderPass(info);
 }
 
-/// Draws RenderVertex triangles' fronts into reversed depth and both planes, by these two shaders.
+/// What a pipeline draws: corners or instances with these attributes.
+struct Drawn {
+  VkVertexInputBindingDescription binding;
+  std::array<VkVertexInputAttributeDescription, 6> attributes;
+  VkPrimitiveTopology topology;
+  VkCullModeFlags culled;
+};
+
+constexpr Drawn kTriangles{{0, sizeof(RenderVertex), VK_VERTEX_INPUT_RATE_VERTEX},
+                           {{{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RenderVertex, position)},
+                             {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RenderVertex, normal)},
+                             {2, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, material)},
+                             {3, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(RenderVertex, texture)},
+                             {4, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, second)},
+                             {5, 0, VK_FORMAT_R32_SFLOAT, offsetof(RenderVertex, share)}}},
+                           VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+                           // A solid's inner side is never seen from the void; from outside a cave this opens it like
+                           // a doll's house.
+                           VK_CULL_MODE_BACK_BIT};
+
+/// Sprouts are seen from both sides.
+constexpr Drawn kSprouts{{0, sizeof(Sprout), VK_VERTEX_INPUT_RATE_INSTANCE},
+                         {{{0, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Sprout, root)},
+                           {1, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(Sprout, normal)},
+                           {2, 0, VK_FORMAT_R32_UINT, offsetof(Sprout, material)},
+                           {3, 0, VK_FORMAT_R32_UINT, offsetof(Sprout, lot)},
+                           {4, 0, VK_FORMAT_R32_UINT, offsetof(Sprout, form)},
+                           {5, 0, VK_FORMAT_R32_SFLOAT, offsetof(Sprout, bright)}}},
+                         VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP,
+                         VK_CULL_MODE_NONE};
+
+/// Draws into reversed depth and both planes, by these two shaders.
 Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass, VkPipelineLayout layout,
-                                    std::span<const uint32_t> vertex_code, std::span<const uint32_t> fragment_code) {
+                                    const Drawn& drawn, std::span<const uint32_t> vertex_code,
+                                    std::span<const uint32_t> fragment_code) {
   std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
   for (VkPipelineShaderStageCreateInfo& stage : stages) {
     stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -73,31 +107,22 @@ Result<VkPipeline> makeMeshPipeline(VulkanScope& scope, VkRenderPass render_pass
   stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
   stages[1].module = *fragment;
 
-  const VkVertexInputBindingDescription binding{0, sizeof(RenderVertex), VK_VERTEX_INPUT_RATE_VERTEX};
-  const std::array<VkVertexInputAttributeDescription, 6> attributes{
-      {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RenderVertex, position)},
-       {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(RenderVertex, normal)},
-       {2, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, material)},
-       {3, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(RenderVertex, texture)},
-       {4, 0, VK_FORMAT_R32_UINT, offsetof(RenderVertex, second)},
-       {5, 0, VK_FORMAT_R32_SFLOAT, offsetof(RenderVertex, share)}}};
   VkPipelineVertexInputStateCreateInfo input{};
   input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
   input.vertexBindingDescriptionCount = 1;
-  input.pVertexBindingDescriptions = &binding;
-  input.vertexAttributeDescriptionCount = static_cast<uint32_t>(attributes.size());
-  input.pVertexAttributeDescriptions = attributes.data();
+  input.pVertexBindingDescriptions = &drawn.binding;
+  input.vertexAttributeDescriptionCount = static_cast<uint32_t>(drawn.attributes.size());
+  input.pVertexAttributeDescriptions = drawn.attributes.data();
   VkPipelineInputAssemblyStateCreateInfo assembly{};
   assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
-  assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+  assembly.topology = drawn.topology;
   VkPipelineViewportStateCreateInfo viewport{};
   viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
   viewport.viewportCount = 1;
   viewport.scissorCount = 1;
   VkPipelineRasterizationStateCreateInfo raster{};
   raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-  // A solid's inner side is never seen from the void; from outside a cave this opens it like a doll's house.
-  raster.cullMode = VK_CULL_MODE_BACK_BIT;
+  raster.cullMode = drawn.culled;
   raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
   raster.lineWidth = 1;
   VkPipelineMultisampleStateCreateInfo samples{};
@@ -191,12 +216,18 @@ Result<SurfacePass> makeSurfacePass(VulkanScope& scope, VkExtent2D extent) {
   auto layout = scope.pipelineLayout(VK_NULL_HANDLE, kSurfaceStages, sizeof(FoliageConstants));
   if (!layout) return layout.error();
   pass.layout = *layout;
-  auto draw = makeMeshPipeline(scope, pass.render_pass, pass.layout, spirv::kSurfaceVert, spirv::kSurfaceFrag);
+  auto draw =
+      makeMeshPipeline(scope, pass.render_pass, pass.layout, kTriangles, spirv::kSurfaceVert, spirv::kSurfaceFrag);
   if (!draw) return draw.error();
   pass.draw = *draw;
-  auto foliage = makeMeshPipeline(scope, pass.render_pass, pass.layout, spirv::kFoliageVert, spirv::kFoliageFrag);
+  auto foliage =
+      makeMeshPipeline(scope, pass.render_pass, pass.layout, kTriangles, spirv::kFoliageVert, spirv::kFoliageFrag);
   if (!foliage) return foliage.error();
   pass.foliage = *foliage;
+  auto sprouts =
+      makeMeshPipeline(scope, pass.render_pass, pass.layout, kSprouts, spirv::kSproutVert, spirv::kSproutFrag);
+  if (!sprouts) return sprouts.error();
+  pass.sprouts = *sprouts;
   return pass;
 }
 

@@ -17,7 +17,8 @@ struct SurfacePass {
   VkFramebuffer framebuffer = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;  ///< push constants: those of foliage.h; `draw` takes the matrix alone
   VkPipeline draw = VK_NULL_HANDLE;
-  VkPipeline foliage = VK_NULL_HANDLE;  ///< draws layers, one an instance
+  VkPipeline foliage = VK_NULL_HANDLE;  ///< draws the ground of lawns
+  VkPipeline sprouts = VK_NULL_HANDLE;  ///< draws blades and leaves, one an instance
 };
 
 /// The stages that read SurfacePass's push constants.

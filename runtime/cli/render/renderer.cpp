@@ -144,13 +144,11 @@ Result<Image> Renderer::draw(const RenderScene& scene) const {
   const std::vector<uint32_t> indices = withoutCrowns(scene, frame, partsOf(scene).bodies);
   auto index_buffer = upload(scope, std::span<const uint32_t>(indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   if (!index_buffer) return index_buffer.error();
-  const std::array<Foliage, 2> foliage = foliageOf(scene, frame);
-  std::array<VulkanBuffer, 2> grown;
-  for (size_t i = 0; i < foliage.size(); ++i) {
-    auto buffer = upload(scope, std::span<const RenderVertex>(foliage[i].vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    if (!buffer) return buffer.error();
-    grown[i] = *buffer;
-  }
+  const Foliage foliage = foliageOf(scene, frame);
+  auto ground = upload(scope, std::span<const RenderVertex>(foliage.ground), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  if (!ground) return ground.error();
+  auto sprouts = upload(scope, std::span<const Sprout>(foliage.sprouts), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  if (!sprouts) return sprouts.error();
   auto frame_buffer = upload(scope, std::span<const Frame>(&frame, 1), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
   if (!frame_buffer) return frame_buffer.error();
   auto material_buffer = upload(scope, std::span<const FrameMaterial>(materials), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -197,12 +195,16 @@ Result<Image> Renderer::draw(const RenderScene& scene) const {
       calls.vkCmdDrawIndexed(commands, static_cast<uint32_t>(indices.size()), 1, 0, 0, 0);
     }
     calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, surfaces->foliage);
-    for (size_t i = 0; i < foliage.size(); ++i) {
-      if (foliage[i].vertices.empty()) continue;
-      calls.vkCmdPushConstants(commands, surfaces->layout, kSurfaceStages, 0, sizeof(FoliageConstants),
-                               &foliage[i].constants);
-      calls.vkCmdBindVertexBuffers(commands, 0, 1, &grown[i].handle, &offset);
-      calls.vkCmdDraw(commands, static_cast<uint32_t>(foliage[i].vertices.size()), foliage[i].layers, 0, 0);
+    calls.vkCmdPushConstants(commands, surfaces->layout, kSurfaceStages, 0, sizeof(FoliageConstants),
+                             &foliage.constants);
+    if (!foliage.ground.empty()) {
+      calls.vkCmdBindVertexBuffers(commands, 0, 1, &ground->handle, &offset);
+      calls.vkCmdDraw(commands, static_cast<uint32_t>(foliage.ground.size()), 1, 0, 0);
+    }
+    if (!foliage.sprouts.empty()) {
+      calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, surfaces->sprouts);
+      calls.vkCmdBindVertexBuffers(commands, 0, 1, &sprouts->handle, &offset);
+      calls.vkCmdDraw(commands, kSproutCorners, static_cast<uint32_t>(foliage.sprouts.size()), 0, 0);
     }
     calls.vkCmdEndRenderPass(commands);
     calls.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, shade.pipeline);

@@ -78,8 +78,8 @@ Vapour::Vapour(const RenderScene& scene, const Frame& frame, VapourDensity densi
     : density_(std::move(density)),
       to_sun_(frame.sun),
       sun_light_(whitened(sunLight())),
-      sky_light_(whitened(meanLight(to_sun_, 1))),
-      ground_light_(meanLight(to_sun_, -1)),
+      sky_light_(glm::mix(meanLight(to_sun_, 1), whitened(meanLight(to_sun_, 1)), 0.6f)),
+      ground_light_(whitened(meanLight(to_sun_, -1))),
       pattern_offset_(frame.pattern_offset),
       sample_angle_(frame.eye.w * static_cast<float>(frame.size.z)) {
   for (const RenderMaterial& material : scene.materials)
@@ -201,10 +201,10 @@ vec3 Vapour::sourceAt(vec3 place, float cosine, float footprint) const {
   for (int octave = 0; octave < kOctaves; ++octave) {
     sum += share * phase(cosine, g) * std::exp(-depth * lost);
     share *= again;
-    lost *= 0.58f;
+    lost *= 0.57f;
     g *= 0.5f;
   }
-  return sun_light_ * (kPi * kKept * sum) + 0.5f * (sky_light_ * lit.y + ground_light_ * lit.z);
+  return sun_light_ * (kPi * kKept * sum) + 0.58f * sky_light_ * lit.y + 0.5f * ground_light_ * lit.z;
 }
 
 VapourLight Vapour::march(vec3 from, vec3 direction, float end, uint32_t x, uint32_t y) const {

@@ -49,9 +49,14 @@ Surface grassy(Spot at) {
   vec4 clump = noise(at.p * 3.1), broad = noise(at.p * 0.22 + 3.0);
   float blade = fineNoise(at.p * vec3(38.0, 9.0, 38.0), 0.03, at.footprint) +
                 fineNoise(at.p * vec3(120.0, 20.0, 120.0), 0.009, at.footprint);
-  vec3 dry = mix(at.colour, vec3(0.30, 0.255, 0.14), 0.6), lush = at.colour * vec3(0.7, 0.95, 0.6);
-  s.albedo = mix(at.colour, dry, smoothstep(0.0, 0.7, broad.x + 0.4 * clump.x));
-  s.albedo = mix(s.albedo, lush, 0.6 * smoothstep(0.1, 0.7, -broad.x + 0.3 * noise(at.p * 1.1).x));
+  vec3 dry = mix(at.colour, vec3(0.30, 0.255, 0.14), 0.42), lush = at.colour * vec3(0.62, 0.90, 0.52);
+  s.albedo = mix(at.colour, dry, smoothstep(0.1, 0.8, broad.x + 0.4 * clump.x));
+  s.albedo = mix(s.albedo, lush, 0.75 * smoothstep(-0.1, 0.6, -broad.x + 0.3 * noise(at.p * 1.1).x));
+  // Where it has not been mown it stands high and pale, in stands with an edge; and from afar tussocks are dark dots.
+  float stand = noise(at.p * 0.045 + 11.0).x + 0.35 * noise(at.p * 0.19).x + 0.12 * clump.x;
+  s.albedo = mix(s.albedo, vec3(0.205, 0.180, 0.085) * (1.0 + 0.2 * clump.x), 0.55 * smoothstep(0.16, 0.34, stand));
+  float tussock = smoothstep(0.15, 0.6, fineNoise(at.p * 1.6 + 5.0, 0.6, at.footprint));
+  s.albedo *= mix(vec3(1.0), vec3(0.60, 0.68, 0.55), 0.7 * tussock);
   // Clover and moss in patches, and what has been trodden thin.
   float clover = smoothstep(0.22, 0.42, noise(at.p * 0.55 + 21.0).x + 0.30 * noise(at.p * 2.7).x);
   s.albedo = mix(s.albedo, at.colour * vec3(0.58, 0.86, 0.72), 0.7 * clover);
@@ -96,11 +101,21 @@ Surface leafy(Spot at) {
 Surface fibrous(Spot at) {
   Surface s = surfaceOf(at);
   Chart chart = chartOf(at.p, at.n);
-  vec3 q = vec3(at.p.x * 11.0, at.p.y * 2.1, at.p.z * 11.0) + 1.2 * noise(at.p * 2.3).yzw * 0.3;
-  vec4 ridge = noise(q), fine = noise(q * 3.7);
-  float seen = visible(0.08, at.footprint), furrow = (1.0 - smoothstep(-0.35, 0.1, ridge.x)) * seen;
-  s.albedo = at.colour * (1.0 - 0.55 * furrow) * (1.0 + 0.18 * fine.x * visible(0.025, at.footprint) + 0.12 * noise(at.p).x);
-  s.normal = bend(at.n, (ridge.yzw * vec3(1.0, 0.2, 1.0) + 0.4 * fine.yzw) * seen, 0.5 * at.relief);
+  // Furrows are where a noise passes through zero: long lines that part and meet again, with plates between them.
+  vec3 q = vec3(at.p.x * 15.0, at.p.y * 0.95, at.p.z * 15.0) + 0.30 * noise(at.p * 3.1).yzw;
+  vec4 ridge = noise(q), narrow = noise(q * 2.3 + 11.0), fine = noise(q * 7.1);
+  float seen = visible(0.07, at.footprint), close = visible(0.03, at.footprint), grain = fine.x * visible(0.012, at.footprint);
+  float furrow = (1.0 - smoothstep(0.04, 0.36, abs(ridge.x) + 0.12 * fine.x)) * seen;
+  furrow = max(furrow, 0.6 * (1.0 - smoothstep(0.0, 0.34, abs(narrow.x) + 0.15 * fine.x)) * close);
+  float broad = noise(at.p * 1.3).x;
+  s.albedo = at.colour * (1.0 + 0.16 * broad + 0.22 * ridge.x * seen + 0.25 * grain);
+  // Grey where it has weathered, green with algae in patches.
+  s.albedo = mix(s.albedo, vec3(dot(s.albedo, vec3(0.34))) * vec3(1.04, 1.02, 0.94), 0.30 + 0.40 * smoothstep(-0.3, 0.4, broad));
+  s.albedo *= mix(vec3(1.0), vec3(0.40, 0.37, 0.35), furrow);
+  vec3 slope = (sign(ridge.x) * ridge.yzw * (1.0 - smoothstep(0.1, 0.4, abs(ridge.x))) * seen +
+                0.6 * sign(narrow.x) * narrow.yzw * (1.0 - smoothstep(0.1, 0.4, abs(narrow.x))) * close + 0.35 * fine.yzw * close) *
+               vec3(1.0, 0.25, 1.0);
+  s.normal = bend(at.n, -slope, -0.45 * at.relief);
   s.specular = 0.02;
   return s;
 }

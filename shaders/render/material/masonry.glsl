@@ -67,7 +67,7 @@ Surface rubble(Spot at) {
   Chart chart = chartOf(at.p, at.n);
   vec2 bent = chart.at + 0.06 * vec2(noise(at.p * 2.1).x, noise(at.p * 2.1 + 50.0).x);
   Block b = cellAt(bent * vec2(0.72, 1.25), 0.36, 0.07, 61);
-  vec3 stone = at.colour * (0.70 + 0.55 * b.lot.x) * mix(vec3(1.05, 0.98, 0.88), vec3(0.92, 0.95, 1.0), b.lot.y);
+  vec3 stone = at.colour * (0.80 + 0.36 * b.lot.x) * mix(vec3(1.05, 0.98, 0.88), vec3(0.92, 0.95, 1.0), b.lot.y);
   stone = mix(at.colour, stone, visible(0.25, at.footprint)) * (1.0 - 0.25 * weathered(at.p, at.n));
   return laid(at, b, chart, 0.012, 0.36, stone, at.colour * 0.72, 1.1);
 }
@@ -123,6 +123,13 @@ Surface cobbles(Spot at) {
   return s;
 }
 
+// Roofs are mended in pieces, and rows of one year differ from those of another.
+float mended(vec2 at, float footprint) {
+  Block piece = blockAt(at, vec2(2.3, 0.95), 0.4, 0.8, 0.1);
+  float row = random3(ivec3(int(floor(at.y / 0.33)), 71, 3)).x - 0.5;
+  return 1.0 + (0.30 * (piece.lot.x - 0.5) * visible(0.9, footprint)) + 0.20 * row * visible(0.33, footprint);
+}
+
 // Rows of clay tiles, round ones side by side, each row over the one below.
 Surface roofTiles(Spot at) {
   Chart chart = chartOf(at.p, at.n);
@@ -141,7 +148,7 @@ Surface roofTiles(Spot at) {
   Surface s = surfaceOf(at);
   s.albedo = mix(at.colour * 0.86, clay * (1.0 - 0.6 * valley) * (1.0 - 0.7 * min(lip, 1.0)), seen);
   float grain = fineNoise(at.p * 40.0, 0.025, at.footprint);
-  s.albedo *= 1.0 + 0.10 * grain;
+  s.albedo *= (1.0 + 0.10 * grain) * mended(chart.at, at.footprint);
   vec3 slope = chart.along * (1.3 * sin(6.2831853 * (f.x - 0.5))) + chart.up * (0.25 - 0.8 * smoothstep(0.9, 1.0, f.y));
   slope += chart.along * (0.2 * (lot.z - 0.5));
   s.normal = bend(at.n, slope, 0.55 * at.relief * seen);
@@ -161,7 +168,7 @@ Surface slates(Spot at) {
   Surface s = surfaceOf(at);
   float lichen = smoothstep(0.35, 0.7, noise(at.p * 1.7).x + 0.5 * noise(at.p * 13.0).x);
   stone = mix(stone, vec3(0.34, 0.34, 0.28), 0.25 * lichen);
-  s.albedo = mix(at.colour, stone * (1.0 - 0.55 * max(0.7 * side, butt)), seen);
+  s.albedo = mix(at.colour, stone * (1.0 - 0.55 * max(0.7 * side, butt)), seen) * mended(chart.at, at.footprint);
   vec3 slope = chart.up * (0.16 + 0.5 * butt) + (chart.along * (b.lot.y - 0.5) + chart.up * (b.lot.z - 0.5)) * 0.25;
   vec4 relief_slope = relief(at.p, 0.08, 3, 1, at.footprint);
   s.normal = bend(at.n, slope * seen + 0.25 * relief_slope.xyz, 0.6 * at.relief);
