@@ -1,11 +1,12 @@
-# Writes the renderer's patterns (shaders/render) as an include of Godot's shaders: the same stone and bricks everywhere.
+# Writes the renderer's patterns and clouds (shaders/render) as includes of Godot's shaders, patterns.gdshaderinc and
+# clouds.gdshaderinc: the same stone, the same bricks and the same sky everywhere.
 #
-#   cmake -DSHADERS=FOLDER_OF_render -DOUTPUT=FILE.gdshaderinc -P editor_plugin/patterns.cmake
+#   cmake -DSHADERS=FOLDER_OF_render -DOUTPUT=FOLDER -P editor_plugin/patterns.cmake
 #
 # Godot's shading language is GLSL without a conversion of whole numbers in constructors, and without #include of ours.
 # A line that is not known to be translated is an error, so that a change of the patterns shows here and not in an engine.
 #
-# The file is written only where it would change, and in one step: several builds may share it, and an engine that is
+# A file is written only where it would change, and in one step: several builds may share it, and an engine that is
 # open sees it whole.
 cmake_minimum_required(VERSION 3.25)
 set(text "")
@@ -77,24 +78,33 @@ function(take file)
   set(text "${text}" PARENT_SCOPE)
   set(taken "${taken}" PARENT_SCOPE)
 endfunction()
+# put(NAME WHAT): writes the text that was taken, and begins another one.
+function(put name what)
+  string(REPLACE "@semicolon@" ";" text "${text}")
+  string(REPLACE "@open@" "[" text "${text}")
+  string(REPLACE "@close@" "]" text "${text}")
+  string(PREPEND text "// Made by editor_plugin/patterns.cmake of shaders/render: ${what}\n\n")
+  set(before "")
+  if(EXISTS ${OUTPUT}/${name})
+    file(READ ${OUTPUT}/${name} before)
+  endif()
+  if(NOT text STREQUAL before)
+    string(RANDOM LENGTH 12 random)
+    file(WRITE ${OUTPUT}/${name}.${random} "${text}")
+    file(RENAME ${OUTPUT}/${name}.${random} ${OUTPUT}/${name})
+  endif()
+  set(text "" PARENT_SCOPE)
+  set(taken "" PARENT_SCOPE)
+endfunction()
 take(render/noise.glsl)
 take(render/patterns.h)
 take(render/materials.glsl)
-string(REPLACE "@semicolon@" ";" text "${text}")
-string(REPLACE "@open@" "[" text "${text}")
-string(REPLACE "@close@" "]" text "${text}")
 if(NOT text MATCHES "#define SGM_HAS_LEAFY")
   message(FATAL_ERROR "${SHADERS}/render/patterns.h names no pattern kLeafy, which triplanar.gdshader asks for: write "
     "\"const uint kLeafy = NUMBER;\" on a line of its own.")
 endif()
-string(PREPEND text "// Made by editor_plugin/patterns.cmake of shaders/render: what materials look like.\n//\n"
-  "// Where SGM_PATTERNS_CHOSEN is defined, only the patterns are compiled whose SGM_PATTERN_NUMBER is.\n\n")
-set(before "")
-if(EXISTS ${OUTPUT})
-  file(READ ${OUTPUT} before)
-endif()
-if(NOT text STREQUAL before)
-  string(RANDOM LENGTH 12 random)
-  file(WRITE ${OUTPUT}.${random} "${text}")
-  file(RENAME ${OUTPUT}.${random} ${OUTPUT})
-endif()
+put(patterns.gdshaderinc "what materials look like.\n//\n// Where SGM_PATTERNS_CHOSEN is defined, only the patterns are \
+compiled whose SGM_PATTERN_NUMBER is.")
+take(render/noise.glsl)
+take(render/cloud_layer.glsl)
+put(clouds.gdshaderinc "clouds of fair weather, in the direction d of the eye.")

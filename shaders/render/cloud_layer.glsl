@@ -1,0 +1,115 @@
+// Clouds of fair weather in the sky behind everything: small cumulus at one height and, far above, streaks of cirrus.
+// They hang on the sky and depend on the direction alone, so that they stay where they are while an eye moves.
+// Whoever includes this has render/noise.glsl.
+
+// The way in metres to a level over a round earth. up: the direction's sine over the horizon.
+float wayTo(float level, float up) {
+  const float kEarth = 6.371e6;
+  float b = kEarth * up, c = level * (2.0 * kEarth + level);
+  return c / (sqrt(b * b + c) + b);
+}
+
+const float kCloudBase = 1250.0;  // metres over the land
+const float kCloudDepth = 800.0;
+
+// Where cumulus stands: 0 at its rim, up to 1 in its middle, below 0 outside. Of what lies below `least` for
+// certain no more is found than that.
+float cumulusAt(vec2 at, float least) {
+  vec3 p = vec3(at.x, 900.0, at.y) / 7300.0;
+  float heap = -0.40, size = 0.55;
+  for (int i = 0; i < 3; ++i) {
+    heap += size * plainNoise(p);
+    if (i == 1 && heap < least - 0.40) return heap;
+    size = i == 0 ? 1.0 : 0.36;
+    p *= i == 0 ? 4.8 : 2.5;
+  }
+  return heap;
+}
+
+// The least of cumulusAt() with which there may be a cloud, at a share of its depth over its base.
+float leastHeap(float share) { return 0.76 * share * share - 0.24; }
+
+// 0..1. heap: cumulusAt() there; share: of the cloud's depth over its base. Bases are flat, tops are heaped.
+float cumulusDensity(vec3 p, float heap, float share, int octaves) {
+  float body = 1.25 * heap - 0.95 * share * share - 0.3 * (1.0 - smoothstep(0.0, 0.10, share)) - 0.14;
+  if (body <= -0.5) return 0.0;
+  vec3 q = p / 310.0;
+  float size = 0.55;
+  for (int i = 0; i < octaves; ++i) {
+    body += size * (abs(plainNoise(q)) - (i == 0 ? 0.0 : 0.28));
+    q *= 2.6;
+    size *= 0.54;
+  }
+  return smoothstep(0.0, 0.34, body);
+}
+
+// Clouds as an eye sees them.
+struct CloudLayer {
+  float base;    // over the eye, metres
+  float beyond;  // there are none nearer than this, metres
+  int steps;     // along a direction
+};
+
+// Light, and how much of what is behind shows, along a direction. turn: 0..1, where within a step it begins.
+vec4 cumulus(CloudLayer layer, vec3 d, vec3 to_sun, vec3 sun_light, vec3 behind, float turn) {
+  const int kShort = 4;
+  const float kLost = 0.0075;  // of light, a metre, in the full density
+  int steps = layer.steps;
+  float step_share = 1.0 / float(steps), base = layer.base, beyond = layer.beyond;
+  if (d.y < 0.012) return vec4(0.0, 0.0, 0.0, 1.0);
+  float begin = wayTo(base, d.y), way = wayTo(base + kCloudDepth, d.y) - begin;
+  if (begin + way < beyond) return vec4(0.0, 0.0, 0.0, 1.0);
+  float through = 1.0, forward = pow(max(dot(d, to_sun), 0.0), 8.0);
+  vec3 sum = vec3(0.0);
+  // Short steps where a cloud may be: it stands there as it does at both ends of the long step.
+  float after = -1.0;
+  for (int i = -1; i < steps && through > 0.02; ++i) {
+    float low = step_share * (float(i) + turn), before = after, least = leastHeap(max(low, 0.0));
+    after = cumulusAt(d.xz * (begin + (low + step_share) * way), least);
+    if (beyond > 0.0) after -= 1.0 - smoothstep(beyond, 1.3 * beyond, begin + (low + step_share) * way);
+    if (i < 0 || max(before, after) <= least) continue;
+    for (int k = 0; k < kShort; ++k) {
+      float part = float(k) / float(kShort), share = low + step_share * part, heap = mix(before, after, part);
+      vec3 p = d * (begin + share * way);
+      // Here, and then on the way to the sun.
+      float density = 0.0, deep = 0.0;
+      for (int j = 0; j < 3; ++j) {
+        float ahead = j == 0 ? 0.0 : 22.0 * exp2(1.6 * float(j));
+        // Short ways away the cloud stands as it does here.
+        float at = share + to_sun.y * ahead / kCloudDepth, other = j == 2 ? heap - 0.08 : heap;
+        float one = cumulusDensity(p + to_sun * ahead, other, at, j == 0 ? 3 : 1);
+        if (j == 0) density = one;
+        else deep += 0.8 * ahead * one;
+        if (density <= 0.0) break;
+      }
+      if (density <= 0.0) continue;
+      float lit = 0.62 * exp(-kLost * deep) + 0.38 * exp(-0.22 * kLost * deep);
+      vec3 light = sun_light * (0.52 * lit * (1.0 + 1.2 * forward)) + vec3(0.30, 0.36, 0.44) * (0.55 + 0.75 * share);
+      float passed = exp(-kLost * density * min(step_share / float(kShort) * way, 260.0));
+      sum += through * (1.0 - passed) * light;
+      through *= passed;
+    }
+  }
+  // Far clouds drown in the air before them.
+  float shown = smoothstep(0.012, 0.05, d.y), clear = exp(-begin / 21000.0);
+  return vec4(shown * mix(behind * (1.0 - through), sum, clear), mix(1.0, through, shown));
+}
+
+// How much of the sky cirrus hides: streaks along the wind, in patches.
+float cirrus(vec3 d) {
+  if (d.y < 0.02) return 0.0;
+  vec2 at = d.xz * wayTo(8500.0, d.y), along = vec2(0.83 * at.x + 0.56 * at.y, 0.83 * at.y - 0.56 * at.x);
+  float patches = 0.0, streaks = 0.0, size = 1.0;
+  vec2 apart = vec2(1.0 / 11000.0, 1.0 / 1900.0);
+  for (int i = 0; i < 6; ++i) {
+    float n = plainNoise(vec3(i == 0 ? along / 15000.0 : i == 1 ? along / 8000.0 : along * apart, 9.0 - float(i)));
+    if (i == 0) patches = smoothstep(-0.1, 0.7, n);
+    if (patches == 0.0) return 0.0;
+    if (i == 1) along += vec2(300.0, 700.0) * n;
+    if (i < 2) continue;
+    streaks += size * n;
+    apart *= vec2(2.1, 2.4);
+    size *= 0.52;
+  }
+  return 0.42 * patches * smoothstep(-0.35, 1.2, streaks) * smoothstep(0.02, 0.16, d.y);
+}
