@@ -37,7 +37,9 @@ enum class SurfacePattern : uint32_t {
   water,   ///< mirrors; the deeper the darker
   cloud,   ///< soft white; under a sky a medium is drawn, and the mesh is its outline:
            ///< the denser the rougher, and the more puffs the more relief
-  boards,  ///< wood, a board beside the other
+  boards,   ///< wood, a board beside the other
+  glowing,  ///< shines by itself: the pane of a lit lantern, embers
+  lying,    ///< wood whose grain runs level: beams, planks, sleepers
 };
 
 struct MaterialLook {

@@ -14,3 +14,5 @@ const uint kWooden = 13u;
 const uint kAsphalt = 15u;
 const uint kLeafy = 20u;
 const uint kBoards = 25u;
+const uint kGlowing = 26u;
+const uint kLying = 27u;

@@ -48,6 +48,11 @@ struct MetSurface {
   bool isThere() const { return distance >= 0; }
 };
 
+LetsLight letsLight(const RenderMaterial& material) {
+  if (material.pattern == SurfacePattern::glowing) return LetsLight::always;
+  return hasLeaves(material) ? LetsLight::in_spots : LetsLight::never;
+}
+
 float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 class LightTracer {
@@ -377,9 +382,10 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
     const SceneParts parts = partsOf(scene);
     Result<RayCaster> mesh = RayCaster::over(scene.vertices, parts.bodies);
     if (!mesh) return mesh.error();
-    std::vector<uint8_t> leafy;
-    for (const RenderMaterial& one : scene.materials) leafy.push_back(hasLeaves(one));
-    if (std::ranges::count(leafy, 1) > 0) mesh->loosen(leafy, vec3(frame.pattern_offset));
+    std::vector<LetsLight> lets;
+    for (const RenderMaterial& one : scene.materials) lets.push_back(letsLight(one));
+    if (!std::ranges::all_of(lets, [](LetsLight one) { return one == LetsLight::never; }))
+      mesh->loosen(lets, vec3(frame.pattern_offset));
     std::optional<Vapour> vapour;
     if (!parts.clouds.empty()) {
       Result<Vapour> made = Vapour::over(scene, frame, parts.clouds, jobs);

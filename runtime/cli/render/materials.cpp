@@ -15,7 +15,9 @@ static_assert(is(SurfacePattern::rock, shaders::kRock) && is(SurfacePattern::bri
               is(SurfacePattern::roof_tiles, shaders::kRoofTiles) && is(SurfacePattern::slates, shaders::kSlates) &&
               is(SurfacePattern::plain, shaders::kPlain) && is(SurfacePattern::concrete, shaders::kConcrete) &&
               is(SurfacePattern::wooden, shaders::kWooden) && is(SurfacePattern::asphalt, shaders::kAsphalt) &&
-              is(SurfacePattern::leafy, shaders::kLeafy) && is(SurfacePattern::boards, shaders::kBoards));
+              is(SurfacePattern::leafy, shaders::kLeafy) && is(SurfacePattern::boards, shaders::kBoards) &&
+              is(SurfacePattern::glowing, shaders::kGlowing) &&
+              is(SurfacePattern::lying, shaders::kLying));
 
 RenderMaterial drawn(const MaterialLook& look) {
   return {look.pattern, {look.colour[0], look.colour[1], look.colour[2]}, look.roughness, look.relief};

@@ -31,11 +31,11 @@ void dropFront(const RTCFilterFunctionNArguments* at) {
 struct LightRay {
   RTCIntersectContext context;  // first: Embree hands on a pointer to it
   const RayCaster* mesh;
-  std::span<const uint8_t> leafy;
+  std::span<const LetsLight> lets;
   glm::vec3 offset;
 };
 
-// The same for light among crowns: it passes between sprigs.
+// The same for light among crowns: it passes between sprigs. Panes of lamps do not stop the light of their own flames.
 void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) {
     at->valid[0] = 0;
@@ -45,7 +45,11 @@ void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
   const RTCRay& ray = *reinterpret_cast<const RTCRay*>(at->ray);
   const RTCHit& hit = *reinterpret_cast<const RTCHit*>(at->hit);
   const uint32_t material = light.mesh->vertex(hit.primID, 0).material;
-  if (material >= light.leafy.size() || light.leafy[material] == 0) return;
+  if (material >= light.lets.size() || light.lets[material] == LetsLight::never) return;
+  if (light.lets[material] == LetsLight::always) {
+    at->valid[0] = 0;
+    return;
+  }
   constexpr float kSprig = 0.5f, kGap = 0.60f;  // metres; noise above this share is a gap
   const glm::vec3 place =
       glm::vec3(ray.org_x, ray.org_y, ray.org_z) + ray.tfar * glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z);
@@ -130,15 +134,15 @@ std::optional<RayHit> RayCaster::castFronts(glm::vec3 from, glm::vec3 direction,
   return nearest(scene_.get(), from, direction, max_distance, true);
 }
 
-void RayCaster::loosen(std::span<const uint8_t> leafy, glm::vec3 offset) {
-  leafy_ = leafy;
+void RayCaster::loosen(std::span<const LetsLight> lets, glm::vec3 offset) {
+  lets_ = lets;
   offset_ = offset;
 }
 
 bool RayCaster::isFree(glm::vec3 from, glm::vec3 direction, float max_distance) const {
-  LightRay light{{}, this, leafy_, offset_};
+  LightRay light{{}, this, lets_, offset_};
   rtcInitIntersectContext(&light.context);
-  light.context.filter = leafy_.empty() ? dropFront : dropFrontAndGaps;
+  light.context.filter = lets_.empty() ? dropFront : dropFrontAndGaps;
   RTCRay ray{};
   aim(ray, from, direction, max_distance);
   rtcOccluded1(scene_.get(), &light.context, &ray);

@@ -17,6 +17,9 @@ namespace sgm {
 /// Whether a ray may slip through between two triangles that share an edge, for speed, or never does.
 enum class Gaps { tiny, closed };
 
+/// Whether light passes a material: leaves in spots, the panes of lamps everywhere.
+enum class LetsLight : uint8_t { never, in_spots, always };
+
 struct RayHit {
   float distance = 0;     ///< in lengths of the ray's direction
   bool front = false;     ///< the surface was met from its void side
@@ -35,11 +38,11 @@ class RayCaster {
   std::optional<RayHit> cast(glm::vec3 from, glm::vec3 direction, float max_distance) const;
   /// The same, but triangles that are met from inside the solid let the ray through, as they let the eye through.
   std::optional<RayHit> castFronts(glm::vec3 from, glm::vec3 direction, float max_distance) const;
-  /// Lets light pass crowns in spots from now on: `leafy` says which materials are leaves; offset: from the scene's
-  /// origin to the patterns' own, metres. It keeps a reference to the span.
-  void loosen(std::span<const uint8_t> leafy, glm::vec3 offset);
+  /// Lets light pass bodies from now on, as `lets` says of their materials; offset: from the scene's origin to the
+  /// patterns' own, metres. It keeps a reference to the span.
+  void loosen(std::span<const LetsLight> lets, glm::vec3 offset);
   /// Whether light comes along the ray from its end: triangles that face the ray's start let it through, as they let an
-  /// eye through at its end, and so do the gaps of a crown that was loosened.
+  /// eye through at its end, and so do bodies that were loosened.
   bool isFree(glm::vec3 from, glm::vec3 direction, float max_distance) const;
 
   size_t triangleCount() const { return indices_.size() / 3; }
@@ -64,7 +67,7 @@ class RayCaster {
   std::span<const RenderVertex> vertices_;
   std::span<const uint32_t> indices_;
   std::unique_ptr<RTCSceneTy, Release> scene_;
-  std::span<const uint8_t> leafy_;  ///< by material; empty: none is
+  std::span<const LetsLight> lets_;  ///< by material; empty: none does
   glm::vec3 offset_{0};
   glm::vec3 lo_{1e30f}, hi_{-1e30f};
 };
