@@ -22,7 +22,7 @@ gkm table4/gkm.sgm --seed 3 --sharp --cell 1.28 --pixels 3 --fov 64 --region -26
 greuter table4/greuter.sgm --sharp --cell 1.28 --pixels 3 --fov 60 --region -110,-1,-330:110,110,-104 --camera=-1.5,5.5,-132:3,17,-190
 houses houses.sgm --sharp --cell 0.64 --pixels 2.3 --fov 56 --region 20,-6,14:110,20,72 --camera 41,1.8,60.2:48.5,2.7,45
 lake lake.sgm --cell 0.64 --pixels 2 --seed 3 --fov 66 --region -75,-8,-18:21,14,78 --camera=-27,0.8,44.5:-25,0.8,20
-lava_tube lava_tube.sgm --cell 0.64 --pixels 2 --fov 64 --light lamp --region -20,-6,14:90,14,66 --camera 13,-0.8,44:36,0.1,43
+lava_tube lava_tube.sgm --cell 0.64 --pixels 2 --fov 64 --light lamp --region -20,-6,14:90,14,66 --camera 13,-0.8,44:36,-0.7,43
 lipp table4/lipp.sgm --sharp --cell 0.64 --pixels 3 --fov 46 --region -50,-12,-40:50,20,30 --camera 13,-7.2,23.5:1,-2.8,7
 muller table4/muller.sgm --sharp --cell 0.64 --pixels 3 --fov 52 --size 960x960 --region -50,-20,-30:44,24,44 --camera 14,-14.4,24:0,-6,7
 nave nave.sgm --sharp --light sun --cell 0.64 --pixels 2.5 --fov 62 --region -15,-1,2:15,34,50 --camera 0,2.3,3.4:0,8.6,34

@@ -16,13 +16,14 @@ constexpr Rgb rgb(float r, float g, float b) { return {r, g, b}; }
 
 using enum SurfacePattern;
 
-constexpr std::array<Named, 48> kTable{{
+constexpr std::array<Named, 49> kTable{{
     {"rock", {rock, rgb(0.40f, 0.36f, 0.31f), 0.82f, 1.0f}},
     {"limestone", {rock, rgb(0.47f, 0.42f, 0.345f), 0.80f, 1.0f}},
     {"dolomite", {rock, rgb(0.47f, 0.45f, 0.42f), 0.82f, 1.0f}},
     {"sandstone", {rock, rgb(0.54f, 0.32f, 0.19f), 0.88f, 0.9f}},
     {"granite", {speckled, rgb(0.40f, 0.38f, 0.37f), 0.72f, 1.0f}},
     {"basalt", {rock, rgb(0.115f, 0.112f, 0.112f), 0.78f, 1.1f}},
+    {"lava", {lava, rgb(0.078f, 0.073f, 0.072f), 0.62f, 1.0f}},
     {"marble", {veined, rgb(0.68f, 0.66f, 0.63f), 0.30f, 0.6f}},
     {"calcite", {flow, rgb(0.78f, 0.69f, 0.55f), 0.36f, 1.0f}},
     {"flowstone", {flow, rgb(0.72f, 0.58f, 0.41f), 0.34f, 1.0f}},

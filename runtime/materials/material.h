@@ -40,6 +40,7 @@ enum class SurfacePattern : uint32_t {
   boards,   ///< wood, a board beside the other
   glowing,  ///< shines by itself: the pane of a lit lantern, embers
   lying,    ///< wood whose grain runs level: beams, planks, sleepers
+  lava,     ///< basalt as it ran and froze: dark crust, glazed and rusty in patches, cracked on floors
 };
 
 struct MaterialLook {

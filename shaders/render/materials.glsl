@@ -39,6 +39,7 @@ Surface patterned(uint pattern, Spot at) {
   if (pattern == 25u && has(25u)) return boarded(at);
   if (pattern == 26u && has(26u)) return glowing(at);
   if (pattern == 27u && has(27u)) return lying(at);
+  if (pattern == 28u && has(28u)) return lava(at);
   if (has(24u)) return vapour(at);
   return surfaceOf(at);
 }

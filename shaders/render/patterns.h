@@ -16,3 +16,4 @@ const uint kLeafy = 20u;
 const uint kBoards = 25u;
 const uint kGlowing = 26u;
 const uint kLying = 27u;
+const uint kLava = 28u;

@@ -143,7 +143,11 @@ class LightTracer {
       const float open = static_cast<float>(direct.open[i / 4] >> (8 * (i % 4)) & 255u) / 255;
       if (open > 0) light += open * (sky_ ? sunOn(place.normal) : lampOn(place.position, place.normal, i));
     }
-    return luminance(light * colourOf(place.material));
+    const vec3 colour = colourOf(place.material);
+    if (sky_) return luminance(light * colour);
+    // By lamps: an eye that knows stone by its light takes lava for dark, and not for a place that is badly lit.
+    constexpr float kStone = 0.3f;
+    return luminance(light * colour) * std::sqrt(kStone / std::max(luminance(colour), 0.02f));
   }
 
  private:

@@ -17,7 +17,8 @@ static_assert(is(SurfacePattern::rock, shaders::kRock) && is(SurfacePattern::bri
               is(SurfacePattern::wooden, shaders::kWooden) && is(SurfacePattern::asphalt, shaders::kAsphalt) &&
               is(SurfacePattern::leafy, shaders::kLeafy) && is(SurfacePattern::boards, shaders::kBoards) &&
               is(SurfacePattern::glowing, shaders::kGlowing) &&
-              is(SurfacePattern::lying, shaders::kLying));
+              is(SurfacePattern::lying, shaders::kLying) &&
+              is(SurfacePattern::lava, shaders::kLava));
 
 RenderMaterial drawn(const MaterialLook& look) {
   return {look.pattern, {look.colour[0], look.colour[1], look.colour[2]}, look.roughness, look.relief};

@@ -77,7 +77,7 @@ float exposureFor(const LightPlanes& light, Background background) {
 
 }  // namespace
 
-static_assert(static_cast<uint32_t>(SurfacePattern::lying) < 31, "a pattern is a bit of ShadePipeline::patterns");
+static_assert(static_cast<uint32_t>(SurfacePattern::lava) < 31, "a pattern is a bit of ShadePipeline::patterns");
 
 /// The last pipeline for lighting, and what it was made in.
 struct Renderer::Kept {
