@@ -9,7 +9,7 @@ views='
 basalt basalt.sgm --sharp --cell 0.64 --pixels 2 --fov 60 --region=-60,-1,-120:90,20,46 --camera 3,2.9,16:11,1.7,22
 birger table4/birger.sgm --seed 3 --cell 8 --fov 52 --region 0,700,-1600:2400,1150,0 --camera 2300,250,300:1000,960,-900
 bouthors table4/bouthors.sgm --seed 3 --cell 4 --fov 34 --region 0,640,0:800,1280,800 --camera 1050,720,950:420,985,400
-branchwork branchwork.sgm --cell 0.64 --pixels 2 --seed 3 --fov 64 --light lamp --region -112,-4,15:-15,10,112 --camera=-63.3,0.8,60:-53,0.1,45
+branchwork branchwork.sgm --cell 0.64 --pixels 2 --seed 3 --fov 64 --light lamp --region -112,-4,15:-15,10,112 --camera=-59.4,1,55.2:-52.6,1.1,43
 building building.sgm --sharp --cell 0.64 --pixels 3.5 --fov 56 --size 1280x960 --region -50,-3,-36:50,32,44 --camera 11.8,1.7,15.4:1.4,5.3,8.6
 cabral table4/cabral.sgm --sharp --cell 0.64 --pixels 3 --fov 58 --region -34,-2,-20:50,25,20 --camera=-16,1.7,3.2:-1,4.6,-5.4
 castle castle.sgm --sharp --cell 2.56 --pixels 2 --fov 38 --region -150,-14,-180:180,75,124 --camera 58,20,122:6,20,6

@@ -95,7 +95,7 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, const Re
 std::vector<RenderLamp> builtLamps(const Region& region, const RenderCamera& camera) {
   constexpr float kReach = 1.5f;       // metres: of a lantern's flame
   constexpr float kBehind = -3.0f;     // metres: lanterns so far behind the camera light what it sees
-  const glm::vec3 colour(1.0f, 0.68f, 0.36f), forward = glm::normalize(camera.target - camera.position);
+  const glm::vec3 colour(1.0f, 0.76f, 0.50f), forward = glm::normalize(camera.target - camera.position);
   std::vector<RenderLamp> lamps;
   for (const Anchor& anchor : region.anchors) {
     if (region.program->names[anchor.kind] != "light") continue;

@@ -60,7 +60,7 @@ constexpr std::array<Named, 49> kTable{{
     {"grass", {grassy, rgb(0.125f, 0.150f, 0.060f), 0.95f, 1.0f}},
     {"leaf", {leafy, rgb(0.072f, 0.108f, 0.036f), 0.60f, 1.0f}},
     {"bark", {fibres, rgb(0.19f, 0.14f, 0.10f), 0.95f, 1.0f}},
-    {"root", {fibres, rgb(0.150f, 0.105f, 0.070f), 0.92f, 0.8f}},
+    {"root", {fibres, rgb(0.240f, 0.175f, 0.120f), 0.92f, 0.8f}},
     {"moss", {mossy, rgb(0.085f, 0.110f, 0.038f), 1.00f, 1.0f}},
     {"water", {water, rgb(0.012f, 0.050f, 0.058f), 0.06f, 1.0f}},
     {"snow", {granular, rgb(0.88f, 0.90f, 0.93f), 0.80f, 0.5f}},

@@ -85,7 +85,14 @@ Surface rock(Spot at) {
   Surface s = surfaceOf(at);
   s.albedo = albedo;
   s.normal = bend(n, slope, 0.34 * at.relief);
-  s.roughness = clamp(mix(at.roughness, at.roughness * 0.45, max(max(0.9 * film, 0.5 * sinter), 0.9 * mud)), 0.08, 1.0);
+  // Wet stone gleams where water runs or stands in hollows; between, it is damp and dull, and paler.
+  float base = at.roughness;
+  if (base < 0.4) {
+    float damp = smoothstep(-0.35, 0.25, -patches.y - 0.35 * mottle.z - 0.25 * grain) * (1.0 - film);
+    base = mix(base, 0.60, 0.85 * damp);
+    s.albedo *= 1.0 + 0.30 * damp;
+  }
+  s.roughness = clamp(mix(base, base * 0.45, max(max(0.9 * film, 0.5 * sinter), 0.9 * mud)), 0.10, 1.0);
   s.specular = mix(0.03, 0.045, max(film, mud));
   wetten(s, at.wet);
   s.roughness = roughened(s.roughness, 0.12 * at.relief * at.relief * relief_slope.w);
