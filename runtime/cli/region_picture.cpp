@@ -91,10 +91,11 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, const Re
   return chooseCamera(drawn.vertices, drawn.indices, wish);
 }
 
-/// Lamps at the region's anchors of kind `light` that shine into the picture, those near the camera before those far away.
+/// Lamps at the region's anchors of kind `light` that shine into the picture, those near the camera before those far
+/// away.
 std::vector<RenderLamp> builtLamps(const Region& region, const RenderCamera& camera) {
-  constexpr float kReach = 1.5f;       // metres: of a lantern's flame
-  constexpr float kBehind = -3.0f;     // metres: lanterns so far behind the camera light what it sees
+  constexpr float kReach = 1.5f;    // metres: of a lantern's flame
+  constexpr float kBehind = -3.0f;  // metres: lanterns so far behind the camera light what it sees
   const glm::vec3 colour(1.0f, 0.76f, 0.50f), forward = glm::normalize(camera.target - camera.position);
   std::vector<RenderLamp> lamps;
   for (const Anchor& anchor : region.anchors) {
@@ -103,8 +104,8 @@ std::vector<RenderLamp> builtLamps(const Region& region, const RenderCamera& cam
     const glm::vec3 place = fromOrigin(region.meshed.mesh, {metres(at.x), metres(at.y), metres(at.z)});
     if (glm::dot(place - camera.position, forward) > kBehind) lamps.push_back({place, colour, kReach});
   }
-  std::ranges::stable_sort(
-      lamps, {}, [&](const RenderLamp& lamp) { return glm::distance(lamp.position, camera.position); });
+  std::ranges::stable_sort(lamps, {},
+                           [&](const RenderLamp& lamp) { return glm::distance(lamp.position, camera.position); });
   if (lamps.size() > kMaxLamps) lamps.resize(kMaxLamps);
   return lamps;
 }

@@ -147,7 +147,7 @@ class LightTracer {
     if (sky_) return luminance(light * colour);
     // By lamps: an eye that knows stone by its light takes lava for dark, and not for a place that is badly lit.
     constexpr float kStone = 0.3f;
-    return luminance(light * colour) * std::sqrt(kStone / std::max(luminance(colour), 0.02f));
+    return luminance(light * colour) * std::sqrt(kStone / std::clamp(luminance(colour), 0.02f, kStone));
   }
 
  private:
