@@ -9,7 +9,7 @@ views='
 basalt basalt.sgm --sharp --cell 0.64 --pixels 2 --fov 60 --region=-60,-1,-120:90,20,46 --camera 3,2.9,16:11,1.7,22
 birger table4/birger.sgm --seed 3 --cell 8 --fov 52 --region 0,700,-1600:2400,1150,0 --camera 2300,250,300:1000,960,-900
 bouthors table4/bouthors.sgm --seed 3 --cell 4 --fov 34 --region 0,640,0:800,1280,800 --camera 1050,720,950:420,985,400
-branchwork branchwork.sgm --cell 0.64 --pixels 2 --seed 3 --fov 64 --light lamp --region -112,-4,15:-15,10,112 --camera=-63.3,0.8,60:-53,0.1,45
+branchwork branchwork.sgm --cell 0.64 --pixels 2 --seed 3 --fov 64 --light lamp --region -112,-4,15:-15,10,112 --camera=-59.4,1,55.2:-52.6,1.1,43
 building building.sgm --sharp --cell 0.64 --pixels 3.5 --fov 56 --size 1280x960 --region -50,-3,-36:50,32,44 --camera 11.8,1.7,15.4:1.4,5.3,8.6
 cabral table4/cabral.sgm --sharp --cell 0.64 --pixels 2.3 --fov 58 --region -34,-2,-20:50,25,20 --camera=-16,1.7,3.2:-1,4.4,-5.4
 castle castle.sgm --sharp --cell 2.56 --pixels 2.5 --fov 38 --region -150,-14,-180:180,75,124 --camera 58,20,122:6,20,6
@@ -22,7 +22,7 @@ gkm table4/gkm.sgm --seed 3 --sharp --cell 1.28 --pixels 3.5 --fov 64 --region -
 greuter table4/greuter.sgm --sharp --cell 1.28 --pixels 3 --fov 60 --region 84,-1,-560:176,130,-368 --camera=132.6,1.75,-379:126.9,19,-440
 houses houses.sgm --sharp --cell 0.64 --pixels 2.3 --fov 52 --region 84,-8,20:150,20,66 --camera=102.5,2.2,58.5:109.5,3.9,44
 lake lake.sgm --cell 0.64 --pixels 2 --seed 3 --fov 66 --region -75,-8,-18:21,14,78 --camera=-27,0.8,44.5:-25,0.8,20
-lava_tube lava_tube.sgm --cell 0.64 --pixels 2 --fov 64 --light lamp --region -20,-6,14:90,14,66 --camera 13,-0.8,44:36,0.1,43
+lava_tube lava_tube.sgm --cell 0.64 --pixels 2 --fov 64 --light lamp --region -20,-6,14:90,14,66 --camera 13,-0.8,44:36,-0.7,43
 lipp table4/lipp.sgm --sharp --cell 0.64 --pixels 3 --fov 46 --region -50,-12,-40:50,20,30 --camera 13,-7.2,23.5:1,-2.8,7
 muller table4/muller.sgm --sharp --cell 0.64 --pixels 3 --fov 52 --size 960x960 --region -50,-20,-30:44,24,44 --camera 14,-14.4,24:0,-6,7
 nave nave.sgm --sharp --light sun --cell 0.64 --pixels 2.5 --fov 62 --region -15,-1,2:15,34,50 --camera 0,2.3,3.4:0,8.6,34

@@ -91,6 +91,25 @@ Result<View> viewOf(const RenderOptions& options, const Region& region, const Re
   return chooseCamera(drawn.vertices, drawn.indices, wish);
 }
 
+/// Lamps at the region's anchors of kind `light` that shine into the picture, those near the camera before those far
+/// away.
+std::vector<RenderLamp> builtLamps(const Region& region, const RenderCamera& camera) {
+  constexpr float kReach = 1.5f;    // metres: of a lantern's flame
+  constexpr float kBehind = -3.0f;  // metres: lanterns so far behind the camera light what it sees
+  const glm::vec3 colour(1.0f, 0.76f, 0.50f), forward = glm::normalize(camera.target - camera.position);
+  std::vector<RenderLamp> lamps;
+  for (const Anchor& anchor : region.anchors) {
+    if (region.program->names[anchor.kind] != "light") continue;
+    const Int3 at = anchor.frame.origin;
+    const glm::vec3 place = fromOrigin(region.meshed.mesh, {metres(at.x), metres(at.y), metres(at.z)});
+    if (glm::dot(place - camera.position, forward) > kBehind) lamps.push_back({place, colour, kReach});
+  }
+  std::ranges::stable_sort(lamps, {},
+                           [&](const RenderLamp& lamp) { return glm::distance(lamp.position, camera.position); });
+  if (lamps.size() > kMaxLamps) lamps.resize(kMaxLamps);
+  return lamps;
+}
+
 /// Without a pattern, which would hide the edges.
 constexpr RenderMaterial kUnderWires{SurfacePattern::plain, {0.55f, 0.55f, 0.52f}, 0.9f, 0.0f};
 constexpr RenderMaterial kWire{SurfacePattern::plain, {0.01f, 0.02f, 0.05f}, 1.0f, 0.0f};
@@ -285,7 +304,12 @@ Result<RegionScene> sceneOf(const RenderOptions& options, const Region& region) 
   drawn.scene.indices = drawn.indices;
   drawn.scene.materials = drawn.materials;
   drawn.scene.origin = region.meshed.mesh.origin;
+  // Where lamps were built the explorer sets down none, and turns the own one low.
+  std::vector<RenderLamp> lamps = builtLamps(region, drawn.view.camera);
+  const bool lit = !lamps.empty();
+  if (lit) drawn.view.lamps = std::move(lamps);
   lightScene(drawn.view, drawn.light, drawn.scene);
+  if (lit) drawn.scene.headlamp.reach *= 0.5f;
   return drawn;
 }
 

@@ -16,13 +16,14 @@ constexpr Rgb rgb(float r, float g, float b) { return {r, g, b}; }
 
 using enum SurfacePattern;
 
-constexpr std::array<Named, 47> kTable{{
+constexpr std::array<Named, 51> kTable{{
     {"rock", {rock, rgb(0.40f, 0.36f, 0.31f), 0.82f, 1.0f}},
     {"limestone", {rock, rgb(0.47f, 0.42f, 0.345f), 0.80f, 1.0f}},
     {"dolomite", {rock, rgb(0.47f, 0.45f, 0.42f), 0.82f, 1.0f}},
     {"sandstone", {rock, rgb(0.54f, 0.32f, 0.19f), 0.88f, 0.9f}},
     {"granite", {speckled, rgb(0.40f, 0.38f, 0.37f), 0.72f, 1.0f}},
     {"basalt", {rock, rgb(0.115f, 0.112f, 0.112f), 0.78f, 1.1f}},
+    {"lava", {lava, rgb(0.078f, 0.073f, 0.072f), 0.62f, 1.0f}},
     {"marble", {veined, rgb(0.68f, 0.66f, 0.63f), 0.30f, 0.6f}},
     {"calcite", {flow, rgb(0.78f, 0.69f, 0.55f), 0.36f, 1.0f}},
     {"flowstone", {flow, rgb(0.72f, 0.58f, 0.41f), 0.34f, 1.0f}},
@@ -44,6 +45,7 @@ constexpr std::array<Named, 47> kTable{{
     {"concrete", {concrete, rgb(0.43f, 0.42f, 0.40f), 0.90f, 1.0f}},
     {"wood", {wooden, rgb(0.225f, 0.155f, 0.098f), 0.75f, 1.0f}},
     {"boards", {boards, rgb(0.215f, 0.155f, 0.105f), 0.80f, 1.0f}},
+    {"joist", {lying, rgb(0.225f, 0.155f, 0.098f), 0.75f, 1.0f}},
     {"metal", {metallic, rgb(0.27f, 0.27f, 0.275f), 0.55f, 0.8f}},
     {"iron", {metallic, rgb(0.12f, 0.115f, 0.11f), 0.55f, 1.0f}},
     {"steel", {metallic, rgb(0.42f, 0.43f, 0.45f), 0.34f, 0.2f}},
@@ -51,6 +53,7 @@ constexpr std::array<Named, 47> kTable{{
     {"asphalt", {asphalt, rgb(0.105f, 0.104f, 0.106f), 0.92f, 1.0f}},
     {"glass", {glass, rgb(0.22f, 0.30f, 0.33f), 0.08f, 0.0f}},
     {"leaded", {leaded, rgb(0.66f, 0.68f, 0.60f), 0.08f, 0.0f}},
+    {"glow", {glowing, rgb(1.00f, 0.60f, 0.24f), 0.30f, 0.0f}},
     {"sand", {granular, rgb(0.56f, 0.45f, 0.30f), 0.95f, 1.0f}},
     {"soil", {granular, rgb(0.21f, 0.145f, 0.09f), 0.95f, 1.3f}},
     {"mud", {granular, rgb(0.20f, 0.145f, 0.095f), 0.45f, 0.8f}},
@@ -59,6 +62,7 @@ constexpr std::array<Named, 47> kTable{{
     {"leaf", {leafy, rgb(0.072f, 0.108f, 0.036f), 0.60f, 1.0f}},
     {"leaf_dark", {leafy, rgb(0.046f, 0.072f, 0.030f), 0.60f, 0.8f}},
     {"bark", {fibres, rgb(0.19f, 0.14f, 0.10f), 0.95f, 1.0f}},
+    {"root", {fibres, rgb(0.240f, 0.175f, 0.120f), 0.92f, 0.8f}},
     {"moss", {mossy, rgb(0.085f, 0.110f, 0.038f), 1.00f, 1.0f}},
     {"water", {water, rgb(0.012f, 0.050f, 0.058f), 0.06f, 1.0f}},
     {"snow", {granular, rgb(0.88f, 0.90f, 0.93f), 0.80f, 0.5f}},

@@ -31,14 +31,17 @@ enum class SurfacePattern : uint32_t {
   granular,  ///< sand, soil, mud, snow
   gravelly,
   grassy,
-  leafy,  ///< broad leaves where relief is 0.9 or more, else needles
+  leafy,   ///< broad leaves where relief is 0.9 or more, else needles
   fibres,  ///< bark, thatch
   mossy,
-  water,   ///< mirrors; the deeper the darker
-  cloud,   ///< soft white; under a sky a medium is drawn, and the mesh is its outline:
-           ///< the denser the rougher, and the more puffs the more relief
-  boards,  ///< wood, a board beside the other
-  leaded,  ///< small panes of stained glass in strips of lead, which let light through
+  water,    ///< mirrors; the deeper the darker
+  cloud,    ///< soft white; under a sky a medium is drawn, and the mesh is its outline:
+            ///< the denser the rougher, and the more puffs the more relief
+  boards,   ///< wood, a board beside the other
+  glowing,  ///< shines by itself: the pane of a lit lantern, embers
+  lying,    ///< wood whose grain runs level: beams, planks, sleepers
+  lava,     ///< basalt as it ran and froze: dark crust, glazed and rusty in patches, cracked on floors
+  leaded,   ///< small panes of stained glass in strips of lead, which let light through
 };
 
 struct MaterialLook {

@@ -25,7 +25,7 @@ Surface patterned(uint pattern, Spot at) {
   if (pattern == 10u && has(10u)) return slates(at);
   if (pattern == 11u && has(11u)) return plain(at);
   if (pattern == 12u && has(12u)) return concrete(at);
-  if (pattern == 13u && has(13u)) return wooden(at, false);
+  if (pattern == 13u && has(13u)) return wooden(at);
   if (pattern == 14u && has(14u)) return metallic(at);
   if (pattern == 15u && has(15u)) return asphalt(at);
   if (pattern == 16u && has(16u)) return glazed(at);
@@ -36,8 +36,11 @@ Surface patterned(uint pattern, Spot at) {
   if (pattern == 21u && has(21u)) return fibrous(at);
   if (pattern == 22u && has(22u)) return mossy(at);
   if (pattern == 23u && has(23u)) return water(at);
-  if (pattern == 25u && has(25u)) return wooden(at, true);
-  if (pattern == 26u && has(26u)) return leaded(at);
+  if (pattern == 25u && has(25u)) return boarded(at);
+  if (pattern == 26u && has(26u)) return glowing(at);
+  if (pattern == 27u && has(27u)) return lying(at);
+  if (pattern == 28u && has(28u)) return lava(at);
+  if (pattern == 29u && has(29u)) return leaded(at);
   if (has(24u)) return vapour(at);
   return surfaceOf(at);
 }

@@ -4,7 +4,7 @@
 const uint kRoofs = 1u << kRoofTiles | 1u << kSlates;
 const uint kStreets = 1u << kPaving | 1u << kCobbles | 1u << kConcrete | 1u << kAsphalt;
 const uint kWeathering = 1u << kRock | kRoofs | kStreets | 1u << kBrick | 1u << kAshlar | 1u << kRubble | 1u << kPlain |
-                         1u << kWooden | 1u << kBoards;
+                         1u << kWooden | 1u << kLying | 1u << kBoards;
 // Whether a pattern is one of them; a pattern that the scene does not use is not compiled.
 bool isOf(uint patterns, uint pattern) { return (kPatterns & patterns) != 0u && (patterns >> pattern & 1u) != 0u; }
 

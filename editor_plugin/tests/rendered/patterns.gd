@@ -5,7 +5,8 @@ const Checks := preload("res://tests/lib/checks.gd")
 ## A material for each SurfacePattern, in its order (runtime/materials/material.h).
 const NAMES := ["rock", "granite", "marble", "flowstone", "brick", "ashlar", "rubble", "paving", "cobble", "roof_tile",
 		"slate", "plaster", "concrete", "wood", "iron", "asphalt", "glass", "sand", "gravel", "grass", "leaf", "bark",
-		"moss", "water", "cloud", "boards", "leaded"]
+		"moss", "water", "cloud", "boards", "glow", "joist",
+		"lava", "leaded"]
 const COLUMNS := 6
 const METRES := 4.0  # from box to box
 const TILE := 48  # pixels

@@ -26,7 +26,7 @@ struct View {
   bool enclosed = false;          ///< inside a void, walls all around; else the shape is seen from outside
   bool at_anchor = false;         ///< in the room or cave of an anchor that was wished for
   float depth = 1;                ///< typical distance in metres to what is seen
-  std::vector<RenderLamp> lamps;  ///< in the void, deeper along the view: for Light::lamp
+  std::vector<RenderLamp> lamps;  ///< built there, else in the void, deeper along the view: for Light::lamp
 };
 
 /// What lights a picture. The mesh alone does not tell (a street is walled as a cave is): callers decide.

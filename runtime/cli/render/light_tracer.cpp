@@ -26,17 +26,17 @@ namespace {
 constexpr int kSoftRays = 14;  // of a square of pixels; filtered later
 /// Rays to a light: the first tell most places that lie wholly in light or in shade, the others how deep in an edge.
 constexpr int kFirstRays = 2, kAllRays = 6;
-constexpr int kBounces = 2;           // of a soft ray, before what is left is taken to be even
-constexpr int kMostPanes = 2;         // that a ray goes through before it meets something else
-constexpr float kThroughPane = 0.8f;  // what lead and dirt leave of the light
-constexpr int kMirrorBounces = 2;     // of a ray from a mirror
-constexpr int kMirrorRays = 4;        // of a pixel: one alone would draw edges of what it mirrors as steps
-constexpr float kSunRadius = 0.012f;  // of its disc at distance 1: a little hazy
-constexpr float kLampRadius = 0.03f;  // in reaches
-constexpr float kFar = 1e5f;          // metres
-constexpr float kDirtReach = 0.9f;    // metres: what lies nearer than this catches dirt
-constexpr float kUnderLedge = 2.4f;   // metres that a ledge's streaks run down
-constexpr float kSplash = 1.5f;       // metres that rain splashes up, and damp rises
+constexpr int kBounces = 2;              // of a soft ray, before what is left is taken to be even
+constexpr int kMostPanes = 2;            // that a ray goes through before it meets something else
+constexpr float kThroughPane = 0.8f;     // what lead and dirt leave of the light
+constexpr int kMirrorBounces = 2;        // of a ray from a mirror
+constexpr int kMirrorRays = 4;           // of a pixel: one alone would draw edges of what it mirrors as steps
+constexpr float kSunRadius = 0.012f;     // of its disc at distance 1: a little hazy
+constexpr float kLampRadius = 0.03f;     // in reaches
+constexpr float kFar = 1e5f;             // metres
+constexpr float kDirtReach = 0.9f;       // metres: what lies nearer than this catches dirt
+constexpr float kUnderLedge = 2.4f;      // metres that a ledge's streaks run down
+constexpr float kSplash = 1.5f;          // metres that rain splashes up, and damp rises
 constexpr float kWiderThanLedge = 0.4f;  // metres: how far ground that splashes reaches from a wall, at least
 constexpr float kLedgeStep = 0.25f;      // metres that it may rise or fall there
 
@@ -52,12 +52,13 @@ struct MetSurface {
   bool isThere() const { return distance >= 0; }
 };
 
-float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
-
-Passage passageOf(const RenderMaterial& look) {
-  if (look.pattern == SurfacePattern::leaded) return Passage::all;
-  return hasLeaves(look) ? Passage::spots : Passage::none;
+LetsLight letsLight(const RenderMaterial& material) {
+  if (material.pattern == SurfacePattern::glowing || material.pattern == SurfacePattern::leaded)
+    return LetsLight::always;
+  return hasLeaves(material) ? LetsLight::in_spots : LetsLight::never;
 }
+
+float luminance(vec3 c) { return dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 class LightTracer {
  public:
@@ -148,7 +149,11 @@ class LightTracer {
       const float open = static_cast<float>(direct.open[i / 4] >> (8 * (i % 4)) & 255u) / 255;
       if (open > 0) light += open * (sky_ ? sunOn(place.normal) : lampOn(place.position, place.normal, i));
     }
-    return luminance(light * colourOf(place.material));
+    const vec3 colour = colourOf(place.material);
+    if (sky_) return luminance(light * colour);
+    // By lamps: an eye that knows stone by its light takes lava for dark, and not for a place that is badly lit.
+    constexpr float kStone = 0.3f;
+    return luminance(light * colour) * std::sqrt(kStone / std::clamp(luminance(colour), 0.02f, kStone));
   }
 
  private:
@@ -416,10 +421,10 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
     const SceneParts parts = partsOf(scene);
     Result<RayCaster> mesh = RayCaster::over(scene.vertices, parts.bodies);
     if (!mesh) return mesh.error();
-    std::vector<Passage> passages;
-    for (const RenderMaterial& one : scene.materials) passages.push_back(passageOf(one));
-    const bool closed = std::ranges::count(passages, Passage::none) == std::ssize(passages);
-    if (!closed) mesh->loosen(passages, vec3(frame.pattern_offset));
+    std::vector<LetsLight> lets;
+    for (const RenderMaterial& one : scene.materials) lets.push_back(letsLight(one));
+    if (!std::ranges::all_of(lets, [](LetsLight one) { return one == LetsLight::never; }))
+      mesh->loosen(lets, vec3(frame.pattern_offset));
     std::optional<Vapour> vapour;
     if (!parts.clouds.empty()) {
       Result<Vapour> made = Vapour::over(scene, frame, parts.clouds, jobs);

@@ -16,7 +16,8 @@ static_assert(is(SurfacePattern::rock, shaders::kRock) && is(SurfacePattern::bri
               is(SurfacePattern::plain, shaders::kPlain) && is(SurfacePattern::concrete, shaders::kConcrete) &&
               is(SurfacePattern::wooden, shaders::kWooden) && is(SurfacePattern::asphalt, shaders::kAsphalt) &&
               is(SurfacePattern::leafy, shaders::kLeafy) && is(SurfacePattern::boards, shaders::kBoards) &&
-              is(SurfacePattern::leaded, shaders::kLeaded));
+              is(SurfacePattern::glowing, shaders::kGlowing) && is(SurfacePattern::lying, shaders::kLying) &&
+              is(SurfacePattern::lava, shaders::kLava) && is(SurfacePattern::leaded, shaders::kLeaded));
 
 RenderMaterial drawn(const MaterialLook& look) {
   return {look.pattern, {look.colour[0], look.colour[1], look.colour[2]}, look.roughness, look.relief};

@@ -31,12 +31,12 @@ void dropFront(const RTCFilterFunctionNArguments* at) {
 struct LightRay {
   RTCIntersectContext context;  // first: Embree hands on a pointer to it
   const RayCaster* mesh;
-  std::span<const Passage> passages;
+  std::span<const LetsLight> lets;
   glm::vec3 offset;
 };
 
-// The same for light that passes between sprigs, and through glass.
-void dropFrontAndLoose(const RTCFilterFunctionNArguments* at) {
+// The same for light among crowns: it passes between sprigs. Panes of lamps do not stop the light of their own flames.
+void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) {
     at->valid[0] = 0;
     return;
@@ -45,8 +45,8 @@ void dropFrontAndLoose(const RTCFilterFunctionNArguments* at) {
   const RTCRay& ray = *reinterpret_cast<const RTCRay*>(at->ray);
   const RTCHit& hit = *reinterpret_cast<const RTCHit*>(at->hit);
   const uint32_t material = light.mesh->vertex(hit.primID, 0).material;
-  if (material >= light.passages.size() || light.passages[material] == Passage::none) return;
-  if (light.passages[material] == Passage::all) {
+  if (material >= light.lets.size() || light.lets[material] == LetsLight::never) return;
+  if (light.lets[material] == LetsLight::always) {
     at->valid[0] = 0;
     return;
   }
@@ -134,15 +134,15 @@ std::optional<RayHit> RayCaster::castFronts(glm::vec3 from, glm::vec3 direction,
   return nearest(scene_.get(), from, direction, max_distance, true);
 }
 
-void RayCaster::loosen(std::span<const Passage> passages, glm::vec3 offset) {
-  passages_ = passages;
+void RayCaster::loosen(std::span<const LetsLight> lets, glm::vec3 offset) {
+  lets_ = lets;
   offset_ = offset;
 }
 
 bool RayCaster::isFree(glm::vec3 from, glm::vec3 direction, float max_distance) const {
-  LightRay light{{}, this, passages_, offset_};
+  LightRay light{{}, this, lets_, offset_};
   rtcInitIntersectContext(&light.context);
-  light.context.filter = passages_.empty() ? dropFront : dropFrontAndLoose;
+  light.context.filter = lets_.empty() ? dropFront : dropFrontAndGaps;
   RTCRay ray{};
   aim(ray, from, direction, max_distance);
   rtcOccluded1(scene_.get(), &light.context, &ray);

@@ -14,11 +14,11 @@ struct RTCSceneTy;
 
 namespace sgm {
 
-/// What light does that meets a material: it ends there, passes in spots as between leaves, or goes through.
-enum class Passage : uint8_t { none, spots, all };
-
 /// Whether a ray may slip through between two triangles that share an edge, for speed, or never does.
 enum class Gaps { tiny, closed };
+
+/// Whether light passes a material: leaves in spots, the panes of lamps everywhere.
+enum class LetsLight : uint8_t { never, in_spots, always };
 
 struct RayHit {
   float distance = 0;     ///< in lengths of the ray's direction
@@ -38,11 +38,11 @@ class RayCaster {
   std::optional<RayHit> cast(glm::vec3 from, glm::vec3 direction, float max_distance) const;
   /// The same, but triangles that are met from inside the solid let the ray through, as they let the eye through.
   std::optional<RayHit> castFronts(glm::vec3 from, glm::vec3 direction, float max_distance) const;
-  /// Lets light pass from now on where a material does; offset: from the scene's origin to the patterns' own, metres.
-  /// It keeps a reference to the span, which has an element for each material.
-  void loosen(std::span<const Passage> passages, glm::vec3 offset);
+  /// Lets light pass bodies from now on, as `lets` says of their materials; offset: from the scene's origin to the
+  /// patterns' own, metres. It keeps a reference to the span.
+  void loosen(std::span<const LetsLight> lets, glm::vec3 offset);
   /// Whether light comes along the ray from its end: triangles that face the ray's start let it through, as they let an
-  /// eye through at its end, and so does what was loosened.
+  /// eye through at its end, and so do bodies that were loosened.
   bool isFree(glm::vec3 from, glm::vec3 direction, float max_distance) const;
 
   size_t triangleCount() const { return indices_.size() / 3; }
@@ -67,7 +67,7 @@ class RayCaster {
   std::span<const RenderVertex> vertices_;
   std::span<const uint32_t> indices_;
   std::unique_ptr<RTCSceneTy, Release> scene_;
-  std::span<const Passage> passages_;  ///< by material; empty: nothing passes
+  std::span<const LetsLight> lets_;  ///< by material; empty: none does
   glm::vec3 offset_{0};
   glm::vec3 lo_{1e30f}, hi_{-1e30f};
 };

@@ -12,12 +12,12 @@ Surface water(Spot at) {
   // Beds are seen as if 60 cm deep: the depth that rays find is too rough to bend the view by.
   vec2 bed_at = at.p.xz + down.xz * 0.8;
   // Absorption of clear water over limestone: down to the bed, and up to the eye.
-  vec3 through = exp(-(at.depth + way) * vec3(0.22, 0.078, 0.074));
+  vec3 through = exp(-(at.depth + way) * vec3(0.36, 0.085, 0.075));
 
   vec4 broad = noise(vec3(bed_at * 0.45, 3.0)), mottle = noise(vec3(bed_at * 2.3, 8.0));
   vec4 fine = noise(vec3(bed_at * 9.0, 1.0));
   float grain = fineNoise(vec3(bed_at * 37.0, 2.0), 0.03, at.footprint);
-  vec3 bed = vec3(0.215, 0.180, 0.128) * (1.0 + 0.22 * broad.x + 0.16 * mottle.x + 0.10 * fine.x + 0.08 * grain);
+  vec3 bed = vec3(0.235, 0.212, 0.168) * (1.0 + 0.22 * broad.x + 0.16 * mottle.x + 0.10 * fine.x + 0.08 * grain);
   // Stones lie here and not there, large ones on small ones, and throw shadows on what lies beside them.
   vec2 bent = bed_at + 0.030 * mottle.yz + 0.006 * fine.yz;
   float many = 0.5 * broad.x + 0.2 * mottle.x, dark = 0.75 * length(at.light);

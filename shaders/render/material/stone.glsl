@@ -85,7 +85,14 @@ Surface rock(Spot at) {
   Surface s = surfaceOf(at);
   s.albedo = albedo;
   s.normal = bend(n, slope, 0.34 * at.relief);
-  s.roughness = clamp(mix(at.roughness, at.roughness * 0.45, max(max(0.9 * film, 0.5 * sinter), 0.9 * mud)), 0.08, 1.0);
+  // Wet stone gleams where water runs or stands in hollows; between, it is damp and dull, and paler.
+  float base = at.roughness;
+  if (base < 0.4) {
+    float damp = smoothstep(-0.35, 0.25, -patches.y - 0.35 * mottle.z - 0.25 * grain) * (1.0 - film);
+    base = mix(base, 0.60, 0.85 * damp);
+    s.albedo *= 1.0 + 0.30 * damp;
+  }
+  s.roughness = clamp(mix(base, base * 0.45, max(max(0.9 * film, 0.5 * sinter), 0.9 * mud)), 0.10, 1.0);
   s.specular = mix(0.03, 0.045, max(film, mud));
   wetten(s, at.wet);
   s.roughness = roughened(s.roughness, 0.12 * at.relief * at.relief * relief_slope.w);
@@ -160,5 +167,47 @@ Surface flowstone(Spot at) {
   wetten(s, 0.6 * at.wet);
   s.roughness = roughened(s.roughness, 0.30 * 0.30 * at.relief * at.relief * lost);
   s.translucency = 0.20;
+  return s;
+}
+
+// Lava as it ran and froze. Walls have a glaze that has dripped, which hot gas has rusted in patches; where it has come off,
+// the stone is full of bubbles. Floors are a crust in wrinkles, which has cracked as it shrank.
+Surface lava(Spot at) {
+  vec3 p = at.p, n = at.n;
+  float footprint = at.footprint;
+  vec4 broad = noise(p * 0.16 + 5.0), patches = noise(p * 0.55 + 40.0), mottle = noise(p * 2.1 + 9.0);
+  float grain = fineNoise(p * 14.0, 0.07, footprint) + 0.8 * fineNoise(p * 47.0, 0.021, footprint) +
+                0.6 * fineNoise(p * 150.0, 0.0066, footprint);
+  float floor_share = smoothstep(0.62, 0.88, n.y + 0.10 * mottle.x);
+  vec3 albedo = at.colour * (1.0 + 0.22 * grain + 0.25 * mottle.x + 0.3 * broad.x);
+
+  float rust = smoothstep(0.10, 0.60, broad.z + 0.55 * patches.x + 0.25 * mottle.y + 0.10 * grain) * (1.0 - 0.7 * floor_share);
+  albedo = mix(albedo, vec3(0.130, 0.062, 0.041) * (1.0 + 0.35 * grain), 0.52 * rust);
+  float glaze = smoothstep(-0.10, 0.30, patches.y + 0.5 * broad.y + 0.25 * mottle.z) * (1.0 - 0.85 * floor_share);
+  albedo = mix(albedo, albedo * vec3(0.60, 0.60, 0.64), glaze);
+  // Salts that seeping water has left: a thin bloom along cracks and ledges.
+  float salt = smoothstep(0.42, 0.75, noise(p * vec3(1.3, 0.6, 1.3) + 71.0).x + 0.35 * patches.z + 0.12 * grain);
+  albedo = mix(albedo, vec3(0.30, 0.285, 0.26), 0.30 * salt * (1.0 - glaze));
+
+  float bubbles = smoothstep(0.28, 0.50, noise(p * 33.0).x) * visible(0.03, footprint) * (1.0 - glaze);
+  albedo *= 1.0 - 0.4 * bubbles;
+  vec3 bent = p + 0.16 * patches.yzw + 0.05 * mottle.yzw;
+  float split = floor_share > 0.0 ? cracks(bent, n, 1.1, 0.035, footprint) * smoothstep(-0.35, 0.1, patches.z) : 0.0;
+  split *= floor_share;
+  albedo *= (1.0 - 0.8 * split) * (1.0 - 0.25 * floor_share);
+
+  // Drips run down walls; wrinkles lie over the glaze.
+  vec3 run = vec3(p.x * 7.0, p.y * 1.1, p.z * 7.0) + 0.5 * mottle.yzw;
+  vec4 drips = noise(run) * (visible(0.14, footprint) * (1.0 - floor_share));
+  vec4 relief_slope = relief(p, 0.40, 7, 1, footprint);
+  vec3 slope = relief_slope.xyz * mix(1.0, 0.55, glaze) + drips.yzw * vec3(0.5, 0.1, 0.5);
+  slope -= noise(p * 33.0).yzw * (0.6 * bubbles);
+  Surface s = surfaceOf(at);
+  s.albedo = albedo;
+  s.normal = bend(n, slope, 0.34 * at.relief);
+  s.roughness = clamp(at.roughness * mix(1.25, 0.50, glaze) * (1.0 + 0.15 * grain), 0.12, 1.0);
+  s.specular = mix(0.03, 0.07, glaze);
+  wetten(s, at.wet);
+  s.roughness = roughened(s.roughness, 0.10 * at.relief * at.relief * relief_slope.w);
   return s;
 }

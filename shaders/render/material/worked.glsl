@@ -27,23 +27,54 @@ Surface concrete(Spot at) {
   return s;
 }
 
-// Beams, or boards side by side. The grain runs up walls and along floors.
-Surface wooden(Spot at, bool boarded) {
-  Chart chart = chartOf(at.p, at.n);
-  vec2 q = chart.at;
-  vec3 lot = boarded ? random3(ivec3(int(floor(q.x / 0.14)), 41, 2)) : vec3(0.5);
-  vec3 fibre = vec3(q.x * 14.0, q.y * 0.9 + 9.0 * lot.x, dot(at.p, at.n) * 14.0);
-  vec4 ring = noise(fibre) * visible(0.05, at.footprint);
-  float fine = fineNoise(fibre * vec3(5.0, 1.5, 5.0), 0.012, at.footprint);
-  float gap = 1.0 - smoothstep(0.002, 0.006, min(fract(q.x / 0.14), 1.0 - fract(q.x / 0.14)) * 0.14);
-  if (!boarded) gap = 0.0;
+// Wood along an axis of length 1: bands of grain, checks where it has dried, knots, and dents of the tool that has shaped
+// it. lot: random numbers of its own, so that one board differs from the next.
+Surface grained(Spot at, vec3 axis, vec3 lot) {
+  float along = dot(at.p, axis);
+  vec3 across = at.p - along * axis;
+  // Fibres bend around knots.
+  vec4 knots = noise(across * 4.2 + axis * (along * 1.9 + 7.0 * lot.z) + 3.0);
+  float knot = smoothstep(0.50, 0.66, knots.x) * visible(0.10, at.footprint);
+  vec4 swing = noise(at.p * 1.3 + 5.0);
+  vec3 fibre = across * 16.0 + axis * (along * 0.9 + 9.0 * lot.x) + 0.9 * swing.x + 1.6 * knot * knots.yzw;
+  vec4 ring = noise(fibre) * visible(0.05, at.footprint), hair = noise(fibre * vec3(3.7)) * visible(0.016, at.footprint);
+  float fine = fineNoise(fibre * 9.0 - axis * (along * 3.0), 0.008, at.footprint);
+  // Checks run along the grain, open in the middle and closed at both ends.
+  vec4 split = noise(across * 9.0 + axis * (along * 0.55 + 5.0 * lot.y) + 0.35 * swing.y + 21.0);
+  float dry = smoothstep(0.0, 0.35, noise(across * 3.0 + axis * along * 1.3 + 50.0).x);
+  float check = (1.0 - smoothstep(0.015, 0.07, abs(split.x))) * dry * visible(0.016, at.footprint);
   Surface s = surfaceOf(at);
   vec3 grey = vec3(dot(at.colour, vec3(0.4)));
   s.albedo = mix(at.colour, grey, 0.2 + 0.5 * smoothstep(-0.1, 0.6, noise(at.p * 0.8).x + 0.4 * noise(at.p * 3.7).x));
   s.albedo *= 1.0 - 0.30 * smoothstep(0.1, 0.7, noise(at.p * 1.9 + 4.0).x + 0.4 * noise(at.p * 11.0).x);
-  s.albedo *= (1.0 + 0.22 * (lot.y - 0.5)) * (1.0 + 0.25 * ring.x + 0.16 * fine) * (1.0 - 0.6 * gap * visible(0.02, at.footprint));
-  s.normal = bend(at.n, chart.along * ring.y + vec3(0.0), 0.12 * at.relief);
+  s.albedo *= (1.0 + 0.30 * (lot.y - 0.5)) * (1.0 + 0.26 * ring.x + 0.16 * hair.x + 0.14 * fine);
+  s.albedo *= (1.0 - 0.6 * check) * (1.0 - 0.55 * knot);
+  vec3 slope = 0.5 * ring.yzw + 0.35 * hair.yzw - sign(split.x) * split.yzw * (1.2 * check);
+  slope += 0.5 * noise(at.p * 7.0 + 17.0).yzw * visible(0.14, at.footprint) + 0.8 * knots.yzw * knot;
+  s.normal = bend(at.n, slope, 0.22 * at.relief);
+  s.roughness = clamp(at.roughness * (1.0 + 0.2 * ring.x), 0.05, 1.0);
   wetten(s, at.wet);
+  return s;
+}
+
+// Posts, and all that is of one piece. The grain runs up walls and along floors.
+Surface wooden(Spot at) {
+  return grained(at, length(at.n.xz) < 0.28 ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0), vec3(0.5));
+}
+
+// Beams, planks and logs that lie: across the way up their sides. In steps, or places far from the origin would waver.
+Surface lying(Spot at) {
+  const float kStep = 3.14159265 / 12.0;
+  float turn = length(at.n.xz) < 0.06 ? 0.0 : floor(atan(at.n.x, -at.n.z) / kStep + 0.5) * kStep;
+  return grained(at, vec3(cos(turn), 0.0, sin(turn)), vec3(0.5));
+}
+
+// Boards side by side.
+Surface boarded(Spot at) {
+  Chart chart = chartOf(at.p, at.n);
+  float board = chart.at.x / 0.14, edge = 0.14 * min(fract(board), 1.0 - fract(board));
+  Surface s = grained(at, chart.up, random3(ivec3(int(floor(board)), 41, 2)));
+  s.albedo *= 1.0 - 0.6 * (1.0 - smoothstep(0.002, 0.006, edge)) * visible(0.02, at.footprint);
   return s;
 }
 
@@ -167,5 +198,16 @@ Surface leaded(Spot at) {
   s.clear = tint * (1.0 - lead);
   s.albedo = mix(0.03 * at.colour, vec3(0.045, 0.046, 0.050), lead);
   s.roughness = mix(0.12, 0.6, lead);
+  return s;
+}
+
+// What shines by itself. A flame behind a pane is brightest in the middle; towards the rim the pane is seen, which is hot and
+// coloured.
+Surface glowing(Spot at) {
+  Surface s = surfaceOf(at);
+  float facing = max(dot(at.n, at.to_eye), 0.0);
+  s.albedo = 0.1 * at.colour;
+  s.within = at.colour * mix(0.9, 3.4, facing * facing) + vec3(0.9, 0.7, 0.4) * pow(facing, 6.0);
+  s.within *= 1.0 + 0.15 * noise(at.p * 13.0).x;
   return s;
 }
