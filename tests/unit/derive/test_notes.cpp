@@ -408,14 +408,14 @@ TEST_CASE("uses within uses have a limit together", "[notes]") {
 TEST_CASE("what goes wrong in an imported file names that file", "[notes]") {
   const std::string head =
       "sgm 1; import \"std/mine.sgm\" as mine; domain infinite; layer main cell 64m reach 64m { start Main; }\n";
-  const auto program = compiled(head + "rule Main { mine.Log((0m, 0m, 0m), (0m, 1m, 0m), rand(-2m, -1m)); }");
+  const auto program = compiled(head + "rule Main { mine.Log(1m, rand(-2m, -1m)); }");
   const GrammarChunk chunk = derived(*program);
   REQUIRE_FALSE(chunk.notes.empty());
   CHECK(chunk.notes[0].path == "main(0, 0, 0)/Main/mine.Log[0]");
   CHECK(chunk.notes[0].message.ends_with(" (std/mine.sgm)"));
   DeriveLimits none;
   none.shapes = 0;
-  const auto sound = compiled(head + "rule Main { mine.Log((0m, 0m, 0m), (0m, 1m, 0m), 1m); }");
+  const auto sound = compiled(head + "rule Main { mine.Log(1m, 1m); }");
   CHECK(deriveCell(*sound, {}, 7, 0, {}, Ceiling(0), none).error().message ==
         "more than 0 shapes in one cell (derive fewer, or make the cells smaller), in main(0, 0, 0)/"
         "Main/mine.Log[0] (std/mine.sgm)");
