@@ -42,6 +42,7 @@ struct LightPlanes {
   std::vector<VapourLight> vapour;  ///< one for each pixel, before what else is seen there; none without clouds
   /// Logarithmic mean of the brightness of all surfaces in sight; 0 if no surface is. Clouds have none.
   float brightness = 0;
+  float lit = 0;        ///< the same, as if all surfaces were white
   float highlight = 0;  ///< so bright or brighter are the brightest twentieth; 0 if no surface is in sight
 };
 

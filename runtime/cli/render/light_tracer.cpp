@@ -142,13 +142,18 @@ class LightTracer {
     return result;
   }
 
-  /// What would be seen of a place of plain colour.
-  float brightness(const MetSurface& place, const DirectLight& direct, const SoftLight& soft) const {
+  /// The light that falls on a place.
+  vec3 lightOn(const MetSurface& place, const DirectLight& direct, const SoftLight& soft) const {
     vec3 light(soft.light);
     for (uint32_t i = 0; i < (sky_ ? 1 : frame_.counts.x); ++i) {
       const float open = static_cast<float>(direct.open[i / 4] >> (8 * (i % 4)) & 255u) / 255;
       if (open > 0) light += open * (sky_ ? sunOn(place.normal) : lampOn(place.position, place.normal, i));
     }
+    return light;
+  }
+
+  /// What would be seen of a place of plain colour in a light.
+  float brightness(const MetSurface& place, vec3 light) const {
     const vec3 colour = colourOf(place.material);
     if (sky_) return luminance(light * colour);
     // By lamps: an eye that knows stone by its light takes lava for dark, and not for a place that is badly lit.
@@ -441,7 +446,7 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
     planes.soft.resize(size_t{planes.soft_width} * planes.soft_height);
     if (vapour) planes.vapour.resize(planes.direct.size());
     Guides fine(planes.width, planes.height), coarse(planes.soft_width, planes.soft_height);
-    std::vector<BrightnessTally> rows(planes.soft_height);
+    std::vector<BrightnessTally> rows(planes.soft_height), lit_rows(planes.soft_height);
     std::atomic<bool> stopped = false;
     parallelFor(jobs, planes.soft_height, [&](size_t row) {
       if (stopped || (scene.go_on && !scene.go_on())) {
@@ -461,13 +466,17 @@ Result<LightPlanes> traceLight(const RenderScene& scene, const Frame& frame, Job
           const size_t soft = row * planes.soft_width + x / kSoftPixels;
           coarse.set(soft, place.position, place.normal, place.distance);
           planes.soft[soft] = tracer.soft(place, x, y);
-          rows[row].add(tracer.brightness(place, planes.direct[at], planes.soft[soft]));
+          const vec3 light = tracer.lightOn(place, planes.direct[at], planes.soft[soft]);
+          rows[row].add(tracer.brightness(place, light));
+          lit_rows[row].add(luminance(light));
         }
       }
     });
     if (stopped) return Error{Code::cancelled, "the picture is not wanted any more"};
-    BrightnessTally all;
+    BrightnessTally all, lit;
     for (const BrightnessTally& row : rows) all.add(row);
+    for (const BrightnessTally& row : lit_rows) lit.add(row);
+    planes.lit = lit.mean();
     planes.brightness = all.mean();
     planes.highlight = all.highlight();
     const float sample = frame.eye.w * static_cast<float>(frame.size.z);

@@ -71,8 +71,9 @@ float exposureFor(const LightPlanes& light, Background background) {
   if (light.brightness <= 0) return 1;
   if (background == Background::sky) {
     constexpr float kWhite = 1.2f;  // comes out just below white
-    // Under a roof, where next to nothing is in the sun, a camera opens until the sky in the windows burns out.
-    const float indoors = 1 - glm::smoothstep(0.15f, 0.6f, light.highlight);
+    // Under a roof, where little light comes to what is in sight, a camera opens until the sky in the windows burns
+    // out.
+    const float indoors = 1 - glm::smoothstep(0.20f, 0.45f, light.lit);
     const float mean = std::pow(0.20f / light.brightness, glm::mix(0.4f, 0.8f, indoors));
     return std::clamp(std::min(mean, kWhite / light.highlight), 0.6f, glm::mix(1.5f, 3.0f, indoors));
   }
