@@ -81,10 +81,10 @@ TEST_CASE("Cabral: textures keep their scale in every size", "[table4]") {
     const TexelDensity density = densityOf(worldOf(
         "sgm 1; import \"assets/" + asset + ".glb\" as " + asset + "; start A; rule A { " + how + "; }", 64, 1));
     // One tile a metre on every face; what marching cubes cuts off at edges and corners leans by a little, and surrounds
-    // of windows have many of these.
+    // of windows, which are as thin as a cell, have many of these.
     CHECK(density.middle == Approx(1).margin(0.002));
     CHECK(density.high == Approx(1).margin(0.01));
-    CHECK(density.low > 0.88);
+    CHECK(density.low > 0.86);
   }
 }
 
