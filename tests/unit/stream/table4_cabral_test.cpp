@@ -84,7 +84,7 @@ TEST_CASE("Cabral: textures keep their scale in every size", "[table4]") {
     // of windows, which are as thin as a cell, have many of these.
     CHECK(density.middle == Approx(1).margin(0.002));
     CHECK(density.high == Approx(1).margin(0.01));
-    CHECK(density.low > 0.86);
+    CHECK(density.low > 0.87);
   }
 }
 
@@ -94,6 +94,7 @@ TEST_CASE("Cabral: every house of the street fits, and none is as the other", "[
     const WorldField world = worldOf(sample("table4/cabral.sgm"), 512, seed);
     const auto notes = world.notes(kStreet, 128);
     REQUIRE(notes);
+    for (const auto& note : *notes) UNSCOPED_INFO(note.path << ": " << note.message);
     CHECK(notes->empty());
     const auto houses = world.instances(ruleNamed(*world.settings().program, "House"), kStreet, 1000);
     REQUIRE(houses);

@@ -125,7 +125,7 @@ const shuttered_ = (x0, y0, x1, y1) => {
     }],
   }];
 };
-const sill = (x0, x1, y) => ({ loop: rect(x0 - 0.1, y - 0.12, x1 + 0.1, y - 0.01), depth: 0.11, material: 'concrete_cream', sides: 'concrete_cream' });
+const sill = (x0, x1, y) => ({ loop: rect(x0 - 0.1, y - 0.16, x1 + 0.1, y - 0.01), depth: 0.11, material: 'concrete_cream', sides: 'concrete_cream' });
 
 /// A gabled house; shuttered, it is of another colour.
 function house(name, wall, shuttered) {
@@ -141,7 +141,7 @@ function house(name, wall, shuttered) {
         })),
       }],
     },
-    { loop: rect(0.4, 2.84, 5.6, 3), depth: 0.08, material: 'concrete_cream', sides: 'concrete_cream' },
+    { loop: rect(0.4, 2.8, 5.6, 3), depth: 0.08, material: 'concrete_cream', sides: 'concrete_cream' },
     { loop: octagon(3, 7.7, 0.5), depth: -0.2, material: 'glass', sides: 'concrete_cream' },
   ];
   const opening = shuttered ? shuttered_ : window_;
