@@ -79,6 +79,12 @@ float chance(uint32_t& state) {
   return static_cast<float>((word >> 22u) ^ word) * 0x1p-32f;
 }
 
+/// From 0 to a limit; what is not a number is 0, since one such pixel would spread over the whole picture.
+glm::vec3 held(const glm::vec3& c, float limit) {
+  const auto one = [&](float v) { return v > 0 ? std::min(v, limit) : 0.0f; };
+  return {one(c.x), one(c.y), one(c.z)};
+}
+
 float encodedSrgb(float c) { return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
 
 }  // namespace
@@ -88,7 +94,7 @@ Image developed(std::span<const ExposedPixel> pixels, int width, int height) {
   for (size_t i = 0; i < pixels.size(); ++i) {
     const glm::vec2 middle = glm::unpackHalf2x16(pixels[i].film_blue_light_red);
     const glm::vec2 last = glm::unpackHalf2x16(pixels[i].light_green_blue);
-    light.light[i] = glm::clamp(glm::vec3(middle.y, last.x, last.y), 0.0f, kBrightest);
+    light.light[i] = held(glm::vec3(middle.y, last.x, last.y), kBrightest);
   }
   const LightMap glare = glareOf(std::move(light));
   Image image;
@@ -97,7 +103,7 @@ Image developed(std::span<const ExposedPixel> pixels, int width, int height) {
   image.rgba.resize(4 * pixels.size());
   for (size_t i = 0; i < pixels.size(); ++i) {
     const glm::vec2 first = glm::unpackHalf2x16(pixels[i].film_red_green);
-    const glm::vec3 film(first.x, first.y, glm::unpackHalf2x16(pixels[i].film_blue_light_red).x);
+    const glm::vec3 film = held({first.x, first.y, glm::unpackHalf2x16(pixels[i].film_blue_light_red).x}, 1);
     const glm::vec3 added = glare.light[i] / (1.0f + glare.light[i]);
     const glm::vec3 lit = film * (1 - kGlare) + (1.0f - film) * added;
     auto state = static_cast<uint32_t>(i);
