@@ -304,7 +304,7 @@ Result<RegionScene> sceneOf(const RenderOptions& options, const Region& region) 
   drawn.scene.indices = drawn.indices;
   drawn.scene.materials = drawn.materials;
   drawn.scene.origin = region.meshed.mesh.origin;
-  // Where lamps were built the explorer sets down none, and turns the own one low.
+  // Lamps of the grammar take the place of those that an explorer sets down, and the headlamp is turned low.
   std::vector<RenderLamp> lamps = builtLamps(region, drawn.view.camera);
   const bool lit = !lamps.empty();
   if (lit) drawn.view.lamps = std::move(lamps);

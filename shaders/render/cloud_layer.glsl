@@ -46,7 +46,7 @@ float cumulusDensity(vec3 p, float heap, float share, int octaves) {
 // Clouds as an eye sees them.
 struct CloudLayer {
   float base;    // over the eye, metres
-  float beyond;  // there are none nearer than this, metres
+  float beyond;  // metres: no cloud stands nearer than this
   int steps;     // along a direction
 };
 

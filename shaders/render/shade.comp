@@ -188,10 +188,7 @@ void main() {
       film += toneMap(seen);
     }
   }
-  light /= float(side * side);
-  film /= float(side * side);
+  uvec3 exposed = exposedPixel(film / float(side * side), light / float(side * side));
   uint at = 3u * (pixel.y * frame.size.x + pixel.x);
-  pixels[at] = packHalf2x16(film.rg);
-  pixels[at + 1u] = packHalf2x16(vec2(film.b, light.r));
-  pixels[at + 2u] = packHalf2x16(light.gb);
+  for (int word = 0; word < 3; ++word) pixels[at + uint(word)] = exposed[word];
 }

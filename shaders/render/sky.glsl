@@ -19,6 +19,7 @@ vec3 toneMap(vec3 c) {
   return mix(film, 1.0 - exp(-1.35 * c), 0.4);
 }
 
-vec3 encodeSrgb(vec3 c) {
-  return mix(12.92 * c, 1.055 * pow(max(c, vec3(1e-6)), vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+// A pixel as ExposedPixel of runtime/cli/render/lens.h has it.
+uvec3 exposedPixel(vec3 film, vec3 light) {
+  return uvec3(packHalf2x16(film.rg), packHalf2x16(vec2(film.b, light.r)), packHalf2x16(light.gb));
 }

@@ -85,8 +85,6 @@ glm::vec3 held(const glm::vec3& c, float limit) {
   return {one(c.x), one(c.y), one(c.z)};
 }
 
-float encodedSrgb(float c) { return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
-
 }  // namespace
 
 Image developed(std::span<const ExposedPixel> pixels, int width, int height) {

@@ -8,8 +8,8 @@
 
 namespace sgm {
 
-/// A pixel as shade.comp writes it: two numbers of 16 bits a word. The film's red, green and blue, 0..1, linear, then
-/// the light's, which the film may be too small for.
+/// A pixel as shade.comp and compose.comp write it: two numbers of 16 bits a word. The film's red, green and blue,
+/// 0..1, linear, then the light's, which the film may be too small for.
 struct ExposedPixel {
   uint32_t film_red_green, film_blue_light_red, light_green_blue;
 };

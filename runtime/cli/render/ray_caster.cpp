@@ -35,7 +35,7 @@ struct LightRay {
   glm::vec3 offset;
 };
 
-// The same for light among crowns: it passes between sprigs. Panes of lamps do not stop the light of their own flames.
+// The same for light among bodies that it passes: between sprigs of crowns, and through panes.
 void dropFrontAndGaps(const RTCFilterFunctionNArguments* at) {
   if (meetsFront(*at)) {
     at->valid[0] = 0;

@@ -17,7 +17,7 @@ namespace sgm {
 /// Whether a ray may slip through between two triangles that share an edge, for speed, or never does.
 enum class Gaps { tiny, closed };
 
-/// Whether light passes a material: leaves in spots, the panes of lamps everywhere.
+/// Whether light passes a material: it passes leaves in spots, and panes of lamps and of stained glass everywhere.
 enum class LetsLight : uint8_t { never, in_spots, always };
 
 struct RayHit {

@@ -18,10 +18,6 @@ namespace {
 constexpr int kNearRays = 4;  // that tell how narrow a place is
 constexpr float kFar = 1e5f;  // metres
 
-float encoded(float linear) {
-  return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
 class Sketch {
  public:
   Sketch(const RenderScene& scene, const RayCaster& mesh)
@@ -117,7 +113,7 @@ Result<Image> sketch(const RenderScene& scene, const RayCaster& mesh, JobSystem&
         // Narkowicz's fit of the ACES curve, as the shaders have it.
         const float c = 0.8f * gain * colour[channel];
         const float toned = std::clamp(c * (2.51f * c + 0.03f) / (c * (2.43f * c + 0.59f) + 0.14f), 0.0f, 1.0f);
-        image.rgba.push_back(static_cast<uint8_t>(encoded(toned) * 255 + 0.5f));
+        image.rgba.push_back(static_cast<uint8_t>(encodedSrgb(toned) * 255 + 0.5f));
       }
       image.rgba.push_back(255);
     }

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <span>
 #include <string>
 
 #include "render/frame.h"
+#include "render/lens.h"
 #include "render/renderer.h"
 #include "render/volume_pass.h"
 
@@ -60,10 +62,8 @@ Result<VolumePicture> Renderer::render(const VolumeScene& scene) const {
   VolumePicture picture;
   picture.light.resize(size_t{pass->picture.width} * pass->picture.height);
   std::memcpy(picture.light.data(), pass->light.data, picture.light.size() * sizeof(glm::vec4));
-  picture.image.width = scene.camera.width;
-  picture.image.height = scene.camera.height;
-  picture.image.rgba.resize(4 * picture.light.size());
-  std::memcpy(picture.image.rgba.data(), pass->pixels.data, picture.image.rgba.size());
+  const std::span exposed(reinterpret_cast<const ExposedPixel*>(pass->pixels.data), picture.light.size());
+  picture.image = developed(exposed, scene.camera.width, scene.camera.height);
   return picture;
 }
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/frame.h"
+#include "render/lens.h"
 #include "spirv/compose_comp.h"
 #include "spirv/light_comp.h"
 #include "spirv/march_comp.h"
@@ -140,7 +141,7 @@ Result<VolumePass> makeVolumePass(VulkanScope& scope, const VolumeScene& scene) 
   if (!upload) return upload.error();
   auto light = scope.buffer(pixel_count * sizeof(glm::vec4), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (!light) return light.error();
-  auto pixels = scope.buffer(pixel_count * 4, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  auto pixels = scope.buffer(pixel_count * sizeof(ExposedPixel), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (!pixels) return pixels.error();
   auto density =
       scope.volume(pass.extent, VK_FORMAT_R8_UNORM, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
