@@ -121,7 +121,8 @@ xdotool search --sync --name 'sgm preview' mousemove --window %1 60 97 sleep 0.1
 waited 'j.event === "picture" && !j.draft && j.sets.join() === "radius=3.5m"'
 key p
 waited 'j.event === "command" && /^sgm render ball.sgm .*--seed 3 --set radius=3.5m --region=.* --cell .* --camera=/.test(j.command)'
-command=$(tail -1 events | node -p 'JSON.parse(require("fs").readFileSync(0)).command')
+# Pictures may still come after it.
+command=$(grep '"event":"command"' events | tail -1 | node -p 'JSON.parse(require("fs").readFileSync(0)).command')
 # shellcheck disable=SC2086  # the command's words
 expect 0 "$SGM" ${command#sgm }
 [[ -s picture.png ]] || failed "the printed command draws no picture"
