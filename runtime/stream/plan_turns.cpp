@@ -18,11 +18,15 @@ void PlanTurns::join(Member&) {
 }
 
 void PlanTurns::leave(Member& member) noexcept {
-  const std::lock_guard lock(mutex_);
-  std::erase(waiting_, &member);
-  busy_ -= member.mesh_jobs_ + (member.plans_ ? 1 : 0);
-  if (member.plans_) expected_ -= member.expected_;
-  --members_;
+  {
+    const std::lock_guard lock(mutex_);
+    std::erase(waiting_, &member);
+    busy_ -= member.mesh_jobs_ + (member.plans_ ? 1 : 0);
+    if (member.plans_) expected_ -= member.expected_;
+    --members_;
+  }
+  // Another world may have waited for the workers that are free now.
+  startDue();
 }
 
 void PlanTurns::request(Member& member) noexcept {

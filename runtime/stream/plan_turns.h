@@ -47,7 +47,8 @@ class PlanTurns {
 
   /// Throws std::bad_alloc.
   void join(Member& member);
-  /// No other call for the member may be at work, or follow.
+  /// Takes the member's jobs off the count, and begins the plans of other members that waited for those workers. No
+  /// other call for the member may run or follow.
   void leave(Member& member) noexcept;
 
   /// From now on the member waits until startDue(), called by anyone, begins its plan. Precondition: it neither waits

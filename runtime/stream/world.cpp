@@ -211,8 +211,9 @@ void World::advance(size_t bytes, size_t colliders) {
     core_->kickPlanner();
   } else {
     core_->kickOverdue();
-    core_->startDuePlans();
   }
+  // Also if this world's own plan waits: the time that has passed may pay for it now (plan_turns.h).
+  core_->startDuePlans();
   core_->kickFieldSwitch();
 }
 
