@@ -36,6 +36,10 @@ struct sgm_field {
 
 namespace sgm::api {
 
+/// Units a metre, for the doubles that the interface takes in metres.
+inline constexpr double kUnits = SGM_UNITS_PER_METRE;
+/// The limit on chunks of a region or of a search, if the caller names none.
+inline constexpr uint64_t kDefaultMostChunks = 65536;
 inline constexpr int32_t kLargestFinestCell = 1 << 20;
 /// Of any level: what the rounding of vertices to units holds for (mesh/vertex.h).
 inline constexpr int64_t kLargestCell = int64_t{1} << 22;

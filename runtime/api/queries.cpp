@@ -8,8 +8,6 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr double kUnits = SGM_UNITS_PER_METRE;
-
 std::array<double, 3> vectorOf(const double (&v)[3]) { return {v[0], v[1], v[2]}; }
 
 /// A point, or none, or why there is neither. out's struct_size and next stay.

@@ -13,8 +13,6 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr uint64_t kDefaultMostChunks = 65536;
-
 void fillSurface(const RegionMesh& region, sgm_surface& surface) {
   const sgm::WorldMesh& mesh = region.mesh;
   const size_t count = mesh.positions.size();

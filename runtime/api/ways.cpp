@@ -9,9 +9,6 @@ using namespace sgm::api;
 
 namespace {
 
-constexpr uint64_t kDefaultMostChunks = 65536;
-constexpr double kUnits = SGM_UNITS_PER_METRE;
-
 static_assert(static_cast<int>(sgm::WayVerdict::found) == SGM_WAY_FOUND &&
               static_cast<int>(sgm::WayVerdict::from_in_rock) == SGM_WAY_FROM_IN_ROCK &&
               static_cast<int>(sgm::WayVerdict::to_in_rock) == SGM_WAY_TO_IN_ROCK &&

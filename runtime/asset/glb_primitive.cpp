@@ -11,7 +11,7 @@ constexpr size_t kAbsent = SIZE_MAX, kWrong = SIZE_MAX - 1;
 /// A primitive's mode.
 constexpr size_t kLineStrip = 3, kTriangles = 4, kStrip = 5, kFan = 6;
 
-size_t numberIn(const JsonValue* of, std::string_view name) {
+size_t indexIn(const JsonValue* of, std::string_view name) {
   return of == nullptr || of->find(name) == nullptr ? kAbsent : of->count(name).value_or(kWrong);
 }
 
@@ -35,22 +35,22 @@ GlbMeshes::GlbMeshes(const JsonValue& root, const GlbAccessors& accessors, std::
 }
 
 GlbMeshes::Attributes GlbMeshes::attributesIn(const JsonValue* of, size_t set) {
-  return {numberIn(of, "POSITION"), numberIn(of, "NORMAL"), numberIn(of, setName("TEXCOORD", set))};
+  return {indexIn(of, "POSITION"), indexIn(of, "NORMAL"), indexIn(of, setName("TEXCOORD", set))};
 }
 
 GlbMeshes::Primitive GlbMeshes::primitiveIn(const JsonValue& value) const {
   const JsonValue *const attributes = value.find("attributes"), *const extensions = value.find("extensions");
   Primitive out{};
-  out.mode = value.find("mode") == nullptr ? kTriangles : numberIn(&value, "mode");
-  out.material = numberIn(&value, "material");
-  out.indices = numberIn(&value, "indices");
+  out.mode = value.find("mode") == nullptr ? kTriangles : indexIn(&value, "mode");
+  out.material = indexIn(&value, "material");
+  out.indices = indexIn(&value, "indices");
   if (out.material < materials_.size()) out.coordinates_set = materials_[out.material].coordinates;
   out.own = attributesIn(attributes, out.coordinates_set);
   for (const JsonValue& target : value.list("targets"))
     out.targets.push_back(attributesIn(&target, out.coordinates_set));
   for (size_t set = 0;; ++set) {
-    const size_t joints = numberIn(attributes, setName("JOINTS", set));
-    const size_t weights = numberIn(attributes, setName("WEIGHTS", set));
+    const size_t joints = indexIn(attributes, setName("JOINTS", set));
+    const size_t weights = indexIn(attributes, setName("WEIGHTS", set));
     if (joints == kAbsent || weights == kAbsent) break;
     out.binding.joints.push_back(joints);
     out.binding.weights.push_back(weights);

@@ -13,6 +13,7 @@
 #include "asset/json_reader.h"
 #include "asset/mesh_notes.h"
 #include "asset/text_reader.h"
+#include "asset/word_list.h"
 
 namespace sgm::asset {
 
@@ -61,11 +62,6 @@ constexpr std::string_view kHarmless[] = {"KHR_materials_",
 /// Extensions that pack what the core of the format holds too where they are not required.
 constexpr std::string_view kPacking[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
                                          "KHR_meshopt_compression"};
-
-template <size_t N>
-bool isIn(const std::string_view (&names)[N], std::string_view name) {
-  return std::find(std::begin(names), std::end(names), name) != std::end(names);
-}
 
 bool isHarmless(std::string_view extension) {
   return std::any_of(std::begin(kHarmless), std::end(kHarmless),

@@ -78,8 +78,8 @@ Result<void> GlbSkins::readJoints(size_t skin) {
 Result<std::vector<GlbTransform>> GlbSkins::pose(size_t skin, const GlbBinding& binding, size_t points) {
   if (Result<void> read = readJoints(skin); !read) return read.error();
   const std::vector<GlbTransform>& joints = joints_[skin];
-  constexpr GlbTransform kNone{{Point{}, Point{}, Point{}}, {}};
-  std::vector<GlbTransform> out(points, kNone);
+  constexpr GlbTransform kUnmoved{{Point{}, Point{}, Point{}}, {}};
+  std::vector<GlbTransform> out(points, kUnmoved);
   std::vector<double> sums(points, 0.0);
   std::vector<std::array<double, 4>> numbers, weights;
   for (size_t set = 0; set < binding.joints.size(); ++set) {
@@ -105,7 +105,7 @@ Result<std::vector<GlbTransform>> GlbSkins::pose(size_t skin, const GlbBinding& 
     if (sums[i] == 1) continue;
     // Weights are rounded; a point without any goes with the first joint.
     const GlbTransform sum = out[i];
-    out[i] = sums[i] > 0 ? kNone : joints[0];
+    out[i] = sums[i] > 0 ? kUnmoved : joints[0];
     if (sums[i] > 0) addTo(out[i], 1 / sums[i], sum);
   }
   return out;

@@ -9,6 +9,7 @@
 #include "asset/mesh_notes.h"
 #include "asset/polygon_cutter.h"
 #include "asset/text_reader.h"
+#include "asset/word_list.h"
 
 namespace sgm::asset {
 
@@ -24,11 +25,6 @@ constexpr std::string_view kIdleWords[] = {
     "vp",  "step",  "bmat",  "deg",        "cstype",    "parm",   "trim",   "hole",  "scrv",     "sp",       "end",
     "con", "ctech", "stech", "shadow_obj", "trace_obj", "bsp",    "bzp",    "cdc",   "cdp",      "res"};
 constexpr std::string_view kCurveWords[] = {"curv", "curv2", "surf"};
-
-template <size_t N>
-bool isIn(const std::string_view (&words)[N], std::string_view word) {
-  return std::find(std::begin(words), std::end(words), word) != std::end(words);
-}
 
 /// The values of corners, or of points where all corners of each point have the same one; zero where there is none.
 template <class Value>
@@ -287,9 +283,9 @@ class ObjReader {
 
   /// Nothing is kept before the first face that has any.
   [[gnu::always_inline]] void addCorners(std::vector<Corners>& list, const Corners& corners) {
-    constexpr Corners kNone{kNoValue, kNoValue, kNoValue};
-    if (list.empty() && corners == kNone) return;
-    list.resize(mesh_.triangles.size(), kNone);
+    constexpr Corners kNoCorners{kNoValue, kNoValue, kNoValue};
+    if (list.empty() && corners == kNoCorners) return;
+    list.resize(mesh_.triangles.size(), kNoCorners);
     list.push_back(corners);
   }
 

@@ -10,7 +10,6 @@ namespace sgm {
 
 namespace {
 
-constexpr double kUnit = 1.0 / kUnitsPerMetre;
 constexpr double kFarthest = 1e6;  ///< metres; a finite domain without a box is not larger
 
 }  // namespace

@@ -18,6 +18,8 @@
 
 namespace sgm {
 
+inline constexpr double kUnit = 1.0 / kUnitsPerMetre;  ///< metres
+
 class ReachCheck {
  public:
   ReachCheck(Program& program, const CompileLimits& limits, DiagnosticSink& sink);

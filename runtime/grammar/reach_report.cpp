@@ -13,7 +13,6 @@ namespace sgm {
 
 namespace {
 
-constexpr double kUnit = 1.0 / kUnitsPerMetre;
 constexpr const char* kCutShort = "the rules are too many or too deep to follow; bound their recursion";
 constexpr const char* kGiveBox = "give the domain a box: `domain finite box(20m, 20m, 20m);`";
 constexpr const char* kSmaller = "make the shape smaller";

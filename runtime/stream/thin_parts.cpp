@@ -309,8 +309,8 @@ std::string ruleOf(const std::string& path) {
 }
 
 /// What says which statement a thin shape is of, without deriving its cell anew.
-using Look = std::tuple<ShapeKind, double, bool, uint16_t, uint16_t, int32_t, int32_t>;
-Look lookOf(const GrammarChunk& chunk, const Candidate& thin) {
+using ThinKind = std::tuple<ShapeKind, double, bool, uint16_t, uint16_t, int32_t, int32_t>;
+ThinKind lookOf(const GrammarChunk& chunk, const Candidate& thin) {
   const Shape& s = chunk.shapes[thin.shape];
   return {s.kind, thin.slab.thickness(), thin.cut, s.material, s.tag, s.detail, s.coarsest};
 }
@@ -434,9 +434,9 @@ class PartCounter {
   Surroundings surroundings_;
   std::set<std::pair<uint32_t, uint32_t>> walls_;
   std::map<Place, Found> found_;
-  std::map<Look, std::optional<Place>> known_;  ///< of the layer's traced cells; nullopt for walls
-  std::set<Look> several_;                      ///< that shapes of several statements have
-  size_t traced_ = 0;                           ///< cells of the layer
+  std::map<ThinKind, std::optional<Place>> known_;  ///< of the layer's traced cells; nullopt for walls
+  std::set<ThinKind> several_;                      ///< that shapes of several statements have
+  size_t traced_ = 0;                               ///< cells of the layer
 };
 
 }  // namespace

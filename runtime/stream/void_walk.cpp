@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSide = kChunkSamples;
 constexpr size_t kSamples = size_t{kSide} * kSide * kSide;
-constexpr uint64_t kUnreached = std::numeric_limits<uint64_t>::max();
+constexpr uint64_t kNotReached = std::numeric_limits<uint64_t>::max();
 constexpr uint8_t kStart = 27;                         // no step leads here: it is where a walk enters the chunk
 constexpr size_t kChunksAtOnce = 64;                   // chunks that are looked at together
 constexpr uint64_t kAlongAxis = 70, kAcrossFace = 99;  // their ratio is the root of 2, to 5 in 100,000
@@ -45,7 +45,7 @@ using Steps = std::pmr::vector<uint8_t>;  ///< of each sample of a chunk the las
 class ChunkWalks {
  public:
   ChunkWalks(std::span<const uint64_t> closed, std::span<const Entry> entries, std::pmr::memory_resource* memory)
-      : steps(kSamples, kStart, memory), cost_(kSamples, kUnreached, memory) {
+      : steps(kSamples, kStart, memory), cost_(kSamples, kNotReached, memory) {
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     for (const Entry& entry : entries) {
       cost_[entry.at] = entry.cost;
@@ -77,7 +77,7 @@ class ChunkWalks {
   Entries entriesTo(Int3 side) const {
     Entries found(cost_.get_allocator());
     for (size_t i = 0; i < kSamples; ++i) {
-      if (cost_[i] == kUnreached) continue;
+      if (cost_[i] == kNotReached) continue;
       const Int3 local = localOf(i);
       bool shared = true;
       for (int axis = 0; axis < 3; ++axis)
