@@ -1,6 +1,6 @@
 #pragma once
-// The job system that a runtime is given (or makes): the one way in which our code computes in parallel. (A world whose
-// store is far away has threads of its own that wait for it, stream/world_core.h.)
+// The job system that a runtime is given (or makes): the one way in which the library computes in parallel. Apart from
+// it are threads that wait for a store on a server (stream/world_core.h), and one that compiles shaders.
 //
 // N threads mean N workers. concurrency() counts the thread that asks for the work: a loop or a batch is never worked
 // on by more threads than that at one time, its caller's included. So a thread pool of N workers starts N - 1 threads

@@ -1,6 +1,7 @@
 #pragma once
-// One chunk of a world: what was baked, else from the disk cache what it has, meshed the rest, which is then kept
-// (chunk_part.h): parts with triangles, and those without where the chunk had to be sampled to know.
+// One chunk of a world. Its parts come from baked stores, or else from the disk cache; with a store on a server, first
+// from the disk cache. The rest is meshed and kept in the cache (chunk_part.h): parts with triangles, and those without
+// triangles if the chunk had to be sampled to know.
 
 #include <optional>
 #include <span>

@@ -6,9 +6,10 @@
 //
 // An entry serves as long as nothing changes that it depends on, and is never found again after: kMeshingVersion, the
 // codec's version (chunk_codec.h), the meaning of the grammar's files, those of the standard library that it imports
-// included, the parameters' values, the seed, the finest cell, and the brushes that show around the chunk. So a change
-// of a grammar, but in layout or comments, leaves all entries of its worlds behind, to age and be evicted. A saved
-// world loses nothing by that but time: entries are only what meshing gives again.
+// included, its assets, the parameters' values, the seed, the finest cell, the host's fields, the flags of the request
+// (crisp edges, for example), and the brushes that show around the chunk. So a change of a grammar, but in layout or
+// comments, leaves all entries of its worlds behind, to age and be evicted. A saved world loses nothing by that but
+// time: entries are only what meshing gives again.
 
 #include <array>
 #include <optional>

@@ -63,7 +63,8 @@ void Planner::invalidate(std::span<const WorldChange> changes) {
                          });
     if (!touched) return;
     if (record.body) ++stats_.outdated;
-    // The void's parts stay until the new ones are there: an unknown chunk would count as passable.
+    // The old parts of the void stay until the new ones are there. An unknown chunk leads nowhere (reachability.h), so
+    // that without them the chunks behind it would lose the finest level for a while.
     record.surface = nullptr;
     record.body = record.failed = false;
     record.seams = 0;

@@ -3,12 +3,12 @@
 //
 //   engine's thread            jobs
 //   setViewers, update  --->   plan (planner.h): which chunks, which frame next
-//   edit, setField      --->   mesh (mesh_chunks.h): one request at a time a job, the most urgent first
+//   edit, setField      --->   mesh (mesh_chunks.h): each job meshes a request or a device batch, urgent ones first
 //   poll events         <---   write the journal of edits
 //
 // Where a store is far away, threads of the world's own look for chunks there before a job sees the request
-// (work_queue.h). What all sides share lies in a mailbox (world_core.h) behind one mutex that is held for the moving of
-// pointers only. update() waits for nothing else, so that an engine never waits for a job or a device.
+// (work_queue.h). What all sides share lies in a mailbox (world_core.h) behind one mutex that is held for short work
+// without waiting. update() waits for nothing else, so that an engine never waits for a job or a device.
 
 #include <memory>
 #include <mutex>
@@ -97,8 +97,9 @@ class World {
 
   /// Takes over what is finished, at most `bytes` of new surfaces and settings' max_colliders, and has more work begun.
   /// A surface that is larger is handed over as the first of an update all the same; later updates make up for it, so
-  /// that any of them in a row hand over at most their bytes and one surface (byte_credit.h). Never waits. False, and
-  /// nothing happens, while events of the update before have not been polled.
+  /// that any of them in a row hand over at most their bytes and one surface (byte_credit.h). Never waits. While
+  /// events of the previous update have not been polled it returns false, and does nothing but schedule a write of the
+  /// journal.
   bool update(size_t bytes);
 
   /// Gives `take` the next events, in order, until it returns false for one or none is left. An event that it refused,

@@ -79,7 +79,7 @@ class WorldCore {
   FieldSwitch fields;
   std::unique_ptr<DiskCache> cache;  ///< null: none; set before the first job
 
-  mutable std::mutex mutex;  ///< guards what follows; held for the moving of pointers only
+  mutable std::mutex mutex;  ///< guards what follows; held for short work without waiting
   std::condition_variable changed;
   std::vector<Viewer> viewers;
   uint64_t viewers_set = 0;  ///< counts changes
