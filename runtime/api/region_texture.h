@@ -29,4 +29,7 @@ ChunkAt chunksOfLevel(const WorldField& world, int level);
 Result<TexturedRegion> unwrapRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh,
                                     const ChunkAt& chunk_at, int32_t tile);
 
+/// The same without coordinates, as pairMaterials makes it: a texture's space is not looked for.
+Result<Unwrapped> blendRegion(const WorldField& world, JobSystem& jobs, const WorldMesh& mesh, const ChunkAt& chunk_at);
+
 }  // namespace sgm::api

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include "base/hash.h"
 
@@ -98,6 +99,35 @@ Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory) {
     }
   }
   out.wedges.shrink_to_fit();
+  return out;
+}
+
+Unwrapped pairMaterials(std::span<const uint32_t> indices, std::span<const MaterialMix> materials,
+                        std::pmr::memory_resource* memory) {
+  Unwrapped out(memory);
+  out.corners.reserve(indices.size());
+  out.wedges.reserve(materials.size());
+  // Nearly all vertices have one wedge: the others hang in a list behind it.
+  std::pmr::vector<uint32_t> first(materials.size(), kNone, memory), next(memory);
+  next.reserve(materials.size());
+  for (size_t t = 0; t + 2 < indices.size(); t += 3) {
+    const MaterialBlend blend =
+        materialBlend(materials[indices[t]], materials[indices[t + 1]], materials[indices[t + 2]]);
+    for (size_t corner = 0; corner < 3; ++corner) {
+      const uint32_t vertex = indices[t + corner];
+      uint32_t at = first[vertex];
+      while (at != kNone && out.wedges[at].materials != blend.materials) at = next[at];
+      if (at == kNone) {
+        at = static_cast<uint32_t>(out.wedges.size());
+        Wedge& wedge = out.wedges.emplace_back();
+        wedge.vertex = vertex;
+        wedge.materials = blend.materials;
+        wedge.share = blend.share[corner];
+        next.push_back(std::exchange(first[vertex], at));
+      }
+      out.corners.push_back(at);
+    }
+  }
   return out;
 }
 

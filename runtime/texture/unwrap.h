@@ -31,6 +31,11 @@ inline constexpr double kTilesKept = 4096;
 /// (material_blend.h). Pure. Throws std::bad_alloc.
 Unwrapped unwrap(const UnwrapInput& mesh, std::pmr::memory_resource* memory);
 
+/// The mesh without coordinates: a vertex comes once for each pair of materials that its triangles show. u, v and
+/// plane_shares of wedges are 0. indices: three a triangle; materials: one a vertex. Pure. Throws std::bad_alloc.
+Unwrapped pairMaterials(std::span<const uint32_t> indices, std::span<const MaterialMix> materials,
+                        std::pmr::memory_resource* memory);
+
 /// How evenly a texture lies on a mesh: tiles on a tile's length of surface. 1: as it is meant.
 struct TexelDensity {
   double low = 0, middle = 0, high = 0;  ///< 5 %, half and 95 % of the area have no more

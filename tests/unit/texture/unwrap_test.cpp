@@ -8,6 +8,7 @@
 #include "base/math.h"
 #include "catch.h"
 #include "rounds.h"
+#include "seed.h"
 #include "texture/unwrap.h"
 
 using namespace sgm;
@@ -101,7 +102,7 @@ TEST_CASE("a triangle lies in the space of two of its vertices, and the world's 
 }
 
 TEST_CASE("all corners of a triangle have one pair of materials, and only pairs double vertices") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(20); ++round) {
@@ -147,6 +148,32 @@ TEST_CASE("all corners of a triangle have one pair of materials, and only pairs 
     // The rings below and above the border's stand in two pairs each, and so does the cut in them.
     CHECK(unwrapped.wedges.size() == plain + 2 * (size_t{around} + 1));
   }
+}
+
+TEST_CASE("pairs of materials are the same without coordinates, with a wedge for each vertex and pair") {
+  const unsigned seed = testSeed();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  for (unsigned round = 0; round < rounds(20); ++round) {
+    const uint32_t around = static_cast<uint32_t>(3 + random() % 40), rings = static_cast<uint32_t>(2 + random() % 20);
+    Tube tube(2000, 5000, around, rings);
+    for (MaterialMix& mix : tube.materials)
+      for (uint16_t& material : mix) material = static_cast<uint16_t>(random() % 4);
+    const Unwrapped with = unwrap(tube.input(), std::pmr::get_default_resource());
+    const Unwrapped without = pairMaterials(tube.indices, tube.materials, std::pmr::get_default_resource());
+    REQUIRE(without.corners.size() == tube.indices.size());
+    std::set<std::pair<uint32_t, std::array<uint16_t, 2>>> places;
+    for (size_t i = 0; i < without.corners.size(); ++i) {
+      const Wedge &wedge = without.wedges[without.corners[i]], &charted = with.wedges[with.corners[i]];
+      CHECK(wedge.vertex == tube.indices[i]);
+      CHECK(wedge.materials == charted.materials);
+      CHECK(wedge.share == charted.share);
+      CHECK((wedge.u == 0 && wedge.v == 0));
+      places.insert({wedge.vertex, wedge.materials});
+    }
+    CHECK(without.wedges.size() == places.size());
+  }
+  CHECK(pairMaterials({}, {}, std::pmr::get_default_resource()).wedges.empty());
 }
 
 TEST_CASE("a mesh without triangles has no wedges and no density") {
