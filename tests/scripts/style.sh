@@ -38,6 +38,8 @@ complain "package hosts: packages come by name from the machine's own clients" \
 complain "files over 1,000 lines" \
   "$(tracked "${code[@]}" '*.sh' '*.py' ':!runtime/include/sgm/sgm.h' \
     ':!runtime/masters/built_in_masters.inc' | xargs -r -d '\n' wc -l | awk '$2 != "total" && $1 > 1000')"
+complain "a test begins from testSeed() (tests/unit/seed.h), which is the same in every run but the long one" \
+  "$(search 'random_device' 'tests/**' ':!tests/unit/seed.h')"
 # field/reference.* only judges what the kernels compute.
 complain "libm in code that feeds derived data: use base/math.h (std::sqrt, floor, fabs are exact)" \
   "$(search '\bstd::(sin|cos|tan|asin|acos|atan|atan2|exp|exp2|log|log2|pow|cbrt|hypot|fma)f?\(' \

@@ -10,6 +10,7 @@
 
 #include "catch.h"
 #include "rounds.h"
+#include "seed.h"
 
 using namespace sgm;
 using sgm::api::KeptBlocks;
@@ -73,14 +74,14 @@ TEST_CASE("a block that came back is given out again for nearly the same size") 
 }
 
 TEST_CASE("kept blocks hold what is written, at what they are aligned to, over random sizes") {
-  const uint32_t seed = std::random_device{}();
+  const uint32_t seed = testSeed();
   CAPTURE(seed);
   KeptBlocks blocks;
   CHECK(useBlocks(blocks, seed, rounds(4000)) == 0);
 }
 
 TEST_CASE("threads may take and give blocks at one time", "[threads]") {
-  const uint32_t seed = std::random_device{}();
+  const uint32_t seed = testSeed();
   CAPTURE(seed);
   KeptBlocks blocks;
   std::atomic<size_t> wrong{0};

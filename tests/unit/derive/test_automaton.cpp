@@ -4,6 +4,7 @@
 
 #include "derive_fixture.h"
 #include "rounds.h"
+#include "seed.h"
 
 using namespace sgm;
 
@@ -88,7 +89,7 @@ std::vector<uint8_t> straightforward(const Automaton& automaton, const VoxelBox&
 }  // namespace
 
 TEST_CASE("an automaton in a box is part of the one over the whole world") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t solid = 0, all = 0;
@@ -146,7 +147,7 @@ bool solidAt(const GrammarChunk& chunk, const VoxelBlock& b, Int3 index) {
 }  // namespace
 
 TEST_CASE("cells share the voxels between them, and hold all that decide about theirs") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(12); ++round) {

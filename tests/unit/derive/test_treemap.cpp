@@ -8,6 +8,7 @@
 #include "derive/floor_plan.h"
 #include "derive_fixture.h"
 #include "rounds.h"
+#include "seed.h"
 
 using namespace sgm;
 
@@ -76,7 +77,7 @@ TEST_CASE("the example of the paper on squarified treemaps comes out as in its f
 }
 
 TEST_CASE("rooms share a floor in proportion, without gaps, and are nearer to squares than slices", "[treemap]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -116,7 +117,7 @@ TEST_CASE("rooms share a floor in proportion, without gaps, and are nearer to sq
 }
 
 TEST_CASE("every room of a thousand floors can be reached from outside, through doors alone", "[treemap]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(1000); ++round) {
@@ -190,7 +191,7 @@ TEST_CASE("most floors have a corridor, and most rooms that are linked meet", "[
 }
 
 TEST_CASE("rooms that are linked come to lie beside each other, in the shapes of the treemap", "[treemap]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -247,7 +248,7 @@ TEST_CASE("rooms that are linked come to lie beside each other, in the shapes of
 }
 
 TEST_CASE("what a floor costs is known, and a search that may cost less ends in time", "[treemap]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);

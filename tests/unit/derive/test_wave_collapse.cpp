@@ -8,6 +8,7 @@
 #include "catch.h"
 #include "derive/wave_collapse.h"
 #include "rounds.h"
+#include "seed.h"
 
 using namespace sgm;
 
@@ -107,7 +108,7 @@ std::vector<WaveTile> pipes() {
 }  // namespace
 
 TEST_CASE("a wave collapses to a solution exactly where trying everything finds one", "[wfc]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   unsigned solved = 0, impossible = 0;
@@ -130,7 +131,7 @@ TEST_CASE("a wave collapses to a solution exactly where trying everything finds 
 }
 
 TEST_CASE("large lattices of drawn tiles are filled so that every side fits, or it is said why not", "[wfc]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   unsigned solved = 0;

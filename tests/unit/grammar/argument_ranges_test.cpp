@@ -272,8 +272,8 @@ TEST_CASE("the caller of an import is told, and the caller of the library for wh
   const std::string facade = "import \"std/facade.sgm\" as facade;\nrule A { ";
   CHECK(
       rangeWords(facade + "size(0.05m, 4m, 0m) facade.Shop; } start A;") ==
-      "3:30 argument-range: `facade.Shop` gives `Glazing` `w` = 0m here, which is not within 0.1m..20m | give it other "
-      "arguments, or a scope of another size | note: the call is at std/facade.sgm:366:17");
+      "3:30 argument-range: `facade.Shop` gives `Frame` `w` = 0m here, which is not within 0.1m..20m | give it other "
+      "arguments, or a scope of another size | note: the call is at std/facade.sgm:389:3");
 }
 
 TEST_CASE("a range is printed as it is written, and changes no world", "[grammar][ranges]") {

@@ -14,6 +14,7 @@
 #include "mesh/chunk.h"
 #include "mesh/triangulate.h"
 #include "rounds.h"
+#include "seed.h"
 
 using namespace sgm;
 
@@ -291,7 +292,7 @@ TEST_CASE("of a loop of seven, the triangulations that chordMask forbids are hal
 TEST_CASE("seams overlap no more than their loops make them", "[mesh][tables]") {
   // In its plane a loop's triangles overlap where their areas add up to more than the least total of any triangulation.
   const Cell cell = seamCell();
-  const uint64_t seed = std::random_device{}();
+  const uint64_t seed = testSeed();
   CAPTURE(seed);
   std::mt19937_64 random(seed);
   const auto placeOn = [&](int edge, int t) -> std::array<int, 2> {

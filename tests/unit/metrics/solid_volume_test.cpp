@@ -7,6 +7,7 @@
 
 #include "metrics_fixture.h"
 #include "rounds.h"
+#include "seed.h"
 
 using namespace sgm;
 using namespace sgm::test;
@@ -91,7 +92,7 @@ TEST_CASE("regions without a surface are full or empty", "[metrics]") {
 }
 
 TEST_CASE("volumes of regions side by side add up, near the origin and far out", "[metrics]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(6); ++round) {
@@ -118,7 +119,7 @@ TEST_CASE("volumes of regions side by side add up, near the origin and far out",
 }
 
 TEST_CASE("the border of a welded mesh says what its seams do", "[metrics]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(12); ++round) {

@@ -9,6 +9,7 @@
 #include "derive/random_rules.h"
 #include "field/compile.h"
 #include "rounds.h"
+#include "seed.h"
 #include "stream/world_field.h"
 #include "world_support.h"
 
@@ -126,8 +127,7 @@ bool sameProgram(const FieldProgram& a, const FieldProgram& b) {
            x.result == y.result && x.cut == y.cut && x.guarded == y.guarded && x.smooth == y.smooth;
   };
   return a.params == b.params && a.instrs.size() == b.instrs.size() &&
-         (a.instrs.empty() ||
-          std::memcmp(a.instrs.data(), b.instrs.data(), a.instrs.size() * sizeof(Instr)) == 0) &&
+         (a.instrs.empty() || std::memcmp(a.instrs.data(), b.instrs.data(), a.instrs.size() * sizeof(Instr)) == 0) &&
          std::equal(a.groups.begin(), a.groups.end(), b.groups.begin(), b.groups.end(), sameGroup);
 }
 
@@ -171,7 +171,7 @@ void comparePrograms(const WorldField& world, std::mt19937& random, int boxes, C
 }  // namespace
 
 TEST_CASE("the groups of every sample lie within what is proven of its layers") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t groups = 0;
@@ -200,7 +200,7 @@ TEST_CASE("the groups of every sample lie within what is proven of its layers") 
 }
 
 TEST_CASE("chunks of every sample have the program of all cells in reach, also in shifted worlds") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   Compared compared;
@@ -217,7 +217,7 @@ TEST_CASE("chunks of every sample have the program of all cells in reach, also i
 }
 
 TEST_CASE("chunks of random rules and overrides have the program of all cells in reach") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   Compared compared;

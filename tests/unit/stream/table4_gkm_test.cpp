@@ -12,6 +12,7 @@
 #include "mesh/vertex.h"
 #include "mesh/weld.h"
 #include "rounds.h"
+#include "seed.h"
 #include "stream/surface_shapes.h"
 #include "world_support.h"
 
@@ -101,7 +102,7 @@ size_t trianglesOf(const std::pmr::vector<PlacedChunk>& chunks) {
 }  // namespace
 
 TEST_CASE("GK-M: clouds, towers and caves follow their parameters", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(3); ++round) {
@@ -132,7 +133,7 @@ TEST_CASE("GK-M: clouds, towers and caves follow their parameters", "[table4]") 
 }
 
 TEST_CASE("GK-M: one number morphs halls, storeys and clouds, and nothing else", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   const WorldField cubes = worldOf(seed, "round", 0), balls = worldOf(seed, "round", 1);
   // A storey's upper edge between two ledges: there in a box, gone in a cushion.
@@ -175,7 +176,7 @@ TEST_CASE("GK-M: one number morphs halls, storeys and clouds, and nothing else",
 }
 
 TEST_CASE("GK-M: welded, nothing hidden, textured, and far less from afar", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   const WorldField world = worldOf(seed);
   const std::pmr::vector<PlacedChunk> chunks = chunksOf(world, 0);

@@ -11,6 +11,7 @@
 #include "field/evaluate.h"
 #include "mesh/check.h"
 #include "rounds.h"
+#include "seed.h"
 #include "stream/frame.h"
 #include "world_support.h"
 
@@ -91,7 +92,7 @@ WorldField roofOf(const std::string& roof) {
 }  // namespace
 
 TEST_CASE("Greuter: fly any distance, return, and find identical buildings from a bounded cache", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   // As large as a few blocks are: what lies behind is soon forgotten.
@@ -113,7 +114,7 @@ TEST_CASE("Greuter: fly any distance, return, and find identical buildings from 
 }
 
 TEST_CASE("Greuter: a city without holes, near and far", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   Octree tree(1, 512);
@@ -134,7 +135,7 @@ TEST_CASE("Greuter: a city without holes, near and far", "[table4]") {
 }
 
 TEST_CASE("Greuter: every point of a roof is as steep as it says, on two sides or on four", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   for (unsigned round = 0; round < rounds(8); ++round) {

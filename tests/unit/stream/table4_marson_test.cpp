@@ -6,6 +6,7 @@
 #include <set>
 
 #include "rounds.h"
+#include "seed.h"
 #include "walked_void.h"
 #include "world_support.h"
 
@@ -26,7 +27,7 @@ constexpr IntBox kHouse{{-40 * 1024, -40 * 1024, -40 * 1024}, {40 * 1024, 40 * 1
 }  // namespace
 
 TEST_CASE("Marson: every room of a house can be walked into from outside", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   // Without its windows, through which one could climb.

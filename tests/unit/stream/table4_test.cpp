@@ -8,6 +8,7 @@
 
 #include "field/evaluate.h"
 #include "rounds.h"
+#include "seed.h"
 #include "world_support.h"
 
 using namespace sgm;
@@ -52,7 +53,7 @@ double distanceOf(Int3 a, Int3 b) { return std::hypot(a.x - b.x, a.y - b.y, a.z 
 }  // namespace
 
 TEST_CASE("Bouthors: blobs stand upon blobs, each level on the surface of the one before", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   const WorldField world = cloudOf(2, seed);
   const auto heaps = world.instances(ruleNamed(*world.settings().program, "Heap"), kCloud, 10'000);
@@ -82,15 +83,22 @@ TEST_CASE("Bouthors: blobs stand upon blobs, each level on the surface of the on
     CHECK(share > 0.35 - 1e-3);
     CHECK(share < 0.6 + 1e-3);
   }
-  // Of each cloud: the first, those upon it, and those upon these, which nothing stands upon. Of a neighbour the box
-  // may meet the first alone.
-  const auto clouds = std::ranges::count_if(first, [&](const std::string& path) { return away.count(path) > 0; });
-  CHECK(clouds >= 1);
-  CHECK(away.size() == 7 * static_cast<size_t>(clouds));
+  // Upon the first heap of a cloud stand others, and others upon these, which nothing stands upon; upon the heaps of
+  // its foot stands one level alone. Of a neighbour the box may meet no more than the first.
+  size_t grown = 0, tall = 0;
+  for (const std::string& path : first) {
+    if (away.count(path) == 0) continue;
+    const auto upon = away.upper_bound(path);
+    const bool is_tall = upon != away.end() && upon->first.starts_with(path + "/");
+    tall += is_tall ? 1u : 0u;
+    grown += is_tall ? 7u : 1u;
+  }
+  CHECK(tall >= 1);
+  CHECK(away.size() == grown);
 }
 
 TEST_CASE("Bouthors: more levels only add, and from afar there are fewer", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   const WorldField few = cloudOf(1, seed), many = cloudOf(3, seed);
@@ -167,7 +175,7 @@ Cut cutOf(double cover, double octaves, uint64_t seed) {
 }  // namespace
 
 TEST_CASE("Birger: noise covers as much of the sky as is asked for, and is as fine as its octaves", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   for (const double cover : {0.1, 0.3, 0.5, 0.7, 0.9}) {
     const Cut cut = cutOf(cover, 5, seed);
@@ -184,7 +192,7 @@ TEST_CASE("Birger: noise covers as much of the sky as is asked for, and is as fi
 }
 
 TEST_CASE("Cui: what drips hangs from ceilings, stands on floors, and joins the two", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   size_t hanging = 0, standing = 0, joining = 0;

@@ -9,6 +9,7 @@
 #include "field/evaluate.h"
 #include "mesh/check.h"
 #include "rounds.h"
+#include "seed.h"
 #include "stream/frame.h"
 #include "world_support.h"
 
@@ -126,7 +127,7 @@ MeshReport reportOf(const std::pmr::vector<PlacedChunk>& chunks) {
 }  // namespace
 
 TEST_CASE("Voxel: the same caves, to the bit, however the world is cut into cells", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   const std::string cave = sample("table4/voxel.sgm");
@@ -156,7 +157,7 @@ TEST_CASE("Voxel: the same caves, to the bit, however the world is cut into cell
 }
 
 TEST_CASE("Voxel: the automaton does what its controls say", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   const std::string cave = sample("table4/voxel.sgm");
   const auto voxels = [&](std::initializer_list<Setting> settings) {
@@ -189,7 +190,7 @@ TEST_CASE("Voxel: the automaton does what its controls say", "[table4]") {
 }
 
 TEST_CASE("Voxel: from each hall there is a way to each other", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   const WorldField world = voxelCave(sample("table4/voxel.sgm"), seed);
   // Two cells of the net along each axis, which its links join, and room around for the bends.
@@ -213,7 +214,7 @@ TEST_CASE("Voxel: from each hall there is a way to each other", "[table4]") {
 }
 
 TEST_CASE("Voxel: caves that are dug and filled have no holes, nor where levels meet", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   const WorldField world = voxelCave(sample("table4/voxel.sgm"), seed);
@@ -266,7 +267,7 @@ TEST_CASE("Voxel: caves that are dug and filled have no holes, nor where levels 
 }
 
 TEST_CASE("Voxel: in a layer without height the automaton is that of the paper, in two dimensions", "[table4]") {
-  const unsigned seed = std::random_device()();
+  const unsigned seed = testSeed();
   CAPTURE(seed);
   const WorldField world = voxelCave(
       "sgm 1; units m; domain infinite axes xz;\nlayer map cell 16m reach 1m { start Map; }\n"
