@@ -40,7 +40,7 @@ function(take file)
       continue()
     endif()
     # A pattern is compiled where a material of the world has it.
-    if(line MATCHES "^(.*)if \\(pattern == ([0-9]+)u && has\\(([0-9]+)u\\)\\) (return .*)$")
+    if(line MATCHES "^( *)if \\(has\\(([0-9]+)u\\)\\) { if \\(pattern == ([0-9]+)u\\) (return .*) }$")
       if(NOT CMAKE_MATCH_2 EQUAL CMAKE_MATCH_3)
         fail(${file} "${line}" "it asks for two different patterns")
       endif()
@@ -54,7 +54,7 @@ function(take file)
         "${CMAKE_MATCH_1}}\n#endif\n")
       continue()
     elseif(line MATCHES "^layout\\(constant_id = 0\\) const uint kPatterns = [^@]*@semicolon@$" OR
-        line MATCHES "^bool has\\(uint pattern\\) { return [^@]*kPatterns[^@]*@semicolon@ }$")
+        line MATCHES "^#define has\\(pattern\\) \\(\\(kPatterns ")
       continue()
     elseif(file STREQUAL "render/patterns.h" AND line MATCHES "^const uint k([A-Za-z]+) = ([0-9]+)u@semicolon@$")
       # A pattern that has a name: shaders ask for SGM_HAS_NAME, whether it is compiled.
@@ -62,13 +62,16 @@ function(take file)
       string(APPEND text "#if !defined(SGM_PATTERNS_CHOSEN) || defined(SGM_PATTERN_${CMAKE_MATCH_2})\n"
         "#define SGM_HAS_${name}\n#endif\n")
     endif()
-    string(REGEX REPLACE "([^i]vec2)\\(x, y\\)" "\\1(ivec2(x, y))" line "${line}")
+    # Loops have no attributes there: a bound that the compiler does not know does the same.
+    string(REGEX REPLACE "@open@@open@dont_unroll@close@@close@ for \\(int ([a-z]) = 0@semicolon@ [a-z] < ([0-9]+)@semicolon@"
+      "for (int \\1 = 0@semicolon@ \\1 < \\2 * whole_loops@semicolon@" line "${line}")
     string(REGEX REPLACE "([^i]vec3)\\(([0-9]+), ([0-9]+), ([0-9]+)\\)" "\\1(\\2.0, \\3.0, \\4.0)" line "${line}")
     string(REGEX REPLACE ">> 8\\)" ">> 8u)" line "${line}")
     string(REGEX REPLACE "//.*$" "" code "${line}")
     if(code MATCHES "(^|[^a-zA-Z_])has\\(|kPatterns")
-      fail(${file} "${line}" "it asks for a pattern in another way than \"if (pattern == 7u && has(7u)) return\"")
-    elseif(code MATCHES "^ *#(include|version|extension)|^ *layout|(^|[^a-zA-Z_])(buffer|texelFetch|shared)[^a-zA-Z_]")
+      fail(${file} "${line}" "it asks for a pattern in another way than \"if (has(7u)) { if (pattern == 7u) return\"")
+    elseif(code MATCHES "^ *#(include|version|extension)|^ *layout|(^|[^a-zA-Z_])(buffer|texelFetch|shared)[^a-zA-Z_]" OR
+        code MATCHES "@open@@open@")
       fail(${file} "${line}" "Godot's shading language has nothing like it")
     elseif(code MATCHES "(^|[^a-zA-Z_])vec[234]\\(([^()]*, *)?-?[0-9]+ *[,)]")
       fail(${file} "${line}" "a vector of whole numbers, which Godot does not convert")
@@ -83,7 +86,11 @@ function(put name what)
   string(REPLACE "@semicolon@" ";" text "${text}")
   string(REPLACE "@open@" "[" text "${text}")
   string(REPLACE "@close@" "]" text "${text}")
-  string(PREPEND text "// Made by editor_plugin/patterns.cmake of shaders/render: ${what}\n\n")
+  string(PREPEND text "// Made by editor_plugin/patterns.cmake of shaders/render: ${what}\n\n"
+    "// A factor of 1. Compilers of SPIR-V must not know it, so that they do not unroll loops, which takes minutes; compilers\n"
+    "// of OpenGL take minutes if they do not know it.\n"
+    "#if defined(CURRENT_RENDERER) && CURRENT_RENDERER == RENDERER_COMPATIBILITY\nconst int whole_loops = 1;\n#else\n"
+    "group_uniforms sgm;\nuniform int whole_loops = 1;\ngroup_uniforms;\n#endif\n\n")
   set(before "")
   if(EXISTS ${OUTPUT}/${name})
     file(READ ${OUTPUT}/${name} before)

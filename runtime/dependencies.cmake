@@ -19,10 +19,10 @@ if(NOT SGM_XXHASH_INCLUDE)
 endif()
 
 # Headers alone: the loader is looked for when a program runs. The command draws pictures with it.
-if(SGM_VULKAN OR SGM_BUILD_CLI)
+if(SGM_VULKAN OR NOT SGM_TOOLS STREQUAL "off")
   find_path(SGM_VULKAN_INCLUDE vulkan/vulkan.h)
   if(NOT SGM_VULKAN_INCLUDE)
-    message(FATAL_ERROR "vulkan/vulkan.h is missing: install the package libvulkan-dev, or set SGM_VULKAN=OFF and SGM_BUILD_CLI=OFF to do without")
+    message(FATAL_ERROR "vulkan/vulkan.h is missing: install the package libvulkan-dev, or set SGM_VULKAN=OFF and SGM_TOOLS=off to do without")
   endif()
 endif()
 

@@ -22,6 +22,8 @@ SGM_BUILD_PACKAGES=(
   libcli11-dev libembree-dev libfmt-dev libglfw3-dev libimgui-dev libmeshoptimizer-dev libstb-dev nlohmann-json3-dev
   libsqlite3-dev libboost-dev prometheus-cpp-dev
 )
+# The quick tests alone: tests/run.sh without options.
+SGM_QUICK_TEST_PACKAGES=(catch2 librecast-dev vulkan-validationlayers git=git nodejs=node)
 SGM_TEST_PACKAGES=(
   catch2 libcgal-dev librecast-dev clang libclang-rt-14-dev vulkan-validationlayers valgrind
   git=git ca-certificates nodejs=node npm=npm curl=curl prometheus chromium xvfb xauth xdotool slurm-wlm=sbatch munge=munged

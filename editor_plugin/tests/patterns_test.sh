@@ -37,6 +37,7 @@ refused "another declaration of the patterns" materials.glsl 's/constant_id = 0/
 refused "a name that shaders ask for and is gone" patterns.h 's/kLeafy/kLeaves/'
 refused "a line that goes on in the next one" materials.glsl 's/return paving(at);/return \\/'
 refused "what Godot has nothing like" cloud_layer.glsl '$abuffer Clouds { float base; };'
+refused "an attribute that Godot has nothing like" noise.glsl 's/dont_unroll/unroll/'
 refused "a vector of whole numbers" noise.glsl '$avec2 corner(vec2 a) { return a + vec2(1, 0); }'
 cmp -s <(ls "$work/out") <(printf '%s\n' clouds.gdshaderinc patterns.gdshaderinc) || wrong "files are left behind: $(ls "$work/out")"
 make "$root/shaders" || wrong "the patterns are not made in the end"

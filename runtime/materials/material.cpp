@@ -16,7 +16,7 @@ constexpr Rgb rgb(float r, float g, float b) { return {r, g, b}; }
 
 using enum SurfacePattern;
 
-constexpr std::array<Named, 51> kTable{{
+constexpr std::array<Named, 56> kTable{{
     {"rock", {rock, rgb(0.40f, 0.36f, 0.31f), 0.82f, 1.0f}},
     {"limestone", {rock, rgb(0.47f, 0.42f, 0.345f), 0.80f, 1.0f}},
     {"dolomite", {rock, rgb(0.47f, 0.45f, 0.42f), 0.82f, 1.0f}},
@@ -52,6 +52,11 @@ constexpr std::array<Named, 51> kTable{{
     {"copper", {metallic, rgb(0.25f, 0.40f, 0.33f), 0.70f, 0.3f}},
     {"asphalt", {asphalt, rgb(0.105f, 0.104f, 0.106f), 0.92f, 1.0f}},
     {"glass", {glass, rgb(0.22f, 0.30f, 0.33f), 0.08f, 0.0f}},
+    {"windscreen", {glass, rgb(0.66f, 0.71f, 0.69f), 0.08f, kClearPane}},
+    {"shop_window", {glass, rgb(0.22f, 0.30f, 0.33f), 0.08f, kShopBehind}},
+    {"office_window", {glass, rgb(0.22f, 0.30f, 0.33f), 0.08f, kOfficeBehind}},
+    {"curtained_window", {glass, rgb(0.58f, 0.56f, 0.51f), 0.08f, kCurtainBehind}},
+    {"blind_window", {glass, rgb(0.55f, 0.51f, 0.42f), 0.08f, kBlindBehind}},
     {"leaded", {leaded, rgb(0.66f, 0.68f, 0.60f), 0.08f, 0.0f}},
     {"glow", {glowing, rgb(1.00f, 0.60f, 0.24f), 0.30f, 0.0f}},
     {"sand", {granular, rgb(0.56f, 0.45f, 0.30f), 0.95f, 1.0f}},

@@ -27,7 +27,7 @@ enum class SurfacePattern : uint32_t {
   wooden,
   metallic,
   asphalt,
-  glass,     ///< a pane that mirrors, with a room behind it
+  glass,     ///< a pane that mirrors, with a room or something else behind it
   granular,  ///< sand, soil, mud, snow
   gravelly,
   grassy,
@@ -44,11 +44,17 @@ enum class SurfacePattern : uint32_t {
   leaded,   ///< small panes of stained glass in strips of lead, which let light through
 };
 
+/// What lies behind a pane of glass, as its look's relief says: a room to live in, whatever there is, a shop, an
+/// office, or a curtain or a blind that hangs close behind it.
+constexpr float kRoomBehind = 0, kClearPane = 1, kShopBehind = 2, kOfficeBehind = 3, kCurtainBehind = 4,
+                kBlindBehind = 5;
+
 struct MaterialLook {
   SurfacePattern pattern = SurfacePattern::rock;
   std::array<float, 3> colour{0.42f, 0.37f, 0.31f};  ///< linear, 0..1
   float roughness = 0.75f;                           ///< 0.05..1
-  float relief = 1;                                  ///< strength of the shading relief, 0: as smooth as the mesh
+  /// Strength of the shading relief, 0: as smooth as the mesh; of glass, what lies behind it.
+  float relief = 1;
 };
 
 /// The look of a name: one of the table ("plaster"), tinted by a word behind it ("plaster_ochre") or wet

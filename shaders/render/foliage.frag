@@ -1,4 +1,5 @@
 #version 450
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // The taller the blades, the darker the ground between them.
 #include "render/foliage.glsl"

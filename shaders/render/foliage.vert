@@ -1,4 +1,5 @@
 #version 450
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // The ground between the blades of a lawn, in their shade: a skin upon the lawn's own surface.
 #include "render/foliage.glsl"

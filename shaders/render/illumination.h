@@ -19,7 +19,7 @@ FN float lampFall(float distance_to_lamp, float reach) {
   float end = distance_to_lamp / (4.5f * reach);
   if (end >= 1.0f) return 0.0f;
   float window = 1.0f - end * end;
-  return window * window * 1.2f * reach * reach / (distance_to_lamp * distance_to_lamp + 0.32f * reach * reach);
+  return window * window * 1.4f * reach * reach / (distance_to_lamp * distance_to_lamp + 0.45f * reach * reach);
 }
 
 // The headlamp's beam is wide and its rim soft. cosine: between the beam's axis and the way to the surface.

@@ -15,9 +15,9 @@ vec3 landLight(vec3 n, float open) {
 // Fields, hedges between them and woods; bare land has broad stains alone. Near the world it is what the world ends in.
 vec3 landAlbedo(vec2 at, float away, float footprint, vec3 own) {
   // Metres of each noise; a loop, for its body is compiled once.
-  const float kWide[6] = float[6](210.0, 37.0, 4.1, 6.0, 330.0, 41.0);
-  float n[6];
-  for (int i = 0; i < 6; ++i) n[i] = plainNoise(vec3(at.x, 5.0 * float(i), at.y) / kWide[i]);
+  const float kWide[8] = float[8](210.0, 37.0, 4.1, 6.0, 330.0, 41.0, 1500.0, 110.0);
+  float n[8];
+  for (int i = 0; i < 8; ++i) n[i] = plainNoise(vec3(at.x, 5.0 * float(i), at.y) / kWide[i]);
   float middle = n[1] * visible(20.0, footprint), fine = n[2] * visible(3.0, footprint);
   vec3 near = own * (1.0 + 0.22 * n[0] + 0.14 * middle);
   if (isBare()) return near;
@@ -25,17 +25,26 @@ vec3 landAlbedo(vec2 at, float away, float footprint, vec3 own) {
   Block parish = cellAt(at + 60.0 * vec2(n[4], n[0]), 900.0, 1.0, 407);
   float turn = 3.1 * parish.lot.x;
   vec2 rows = mat2(cos(turn), sin(turn), -sin(turn), cos(turn)) * (at + 9.0 * vec2(n[1], n[5]));
-  Block field = blockAt(rows, vec2(120.0 + 160.0 * parish.lot.y, 90.0 + 70.0 * parish.lot.z), 0.37, 0.55, 1.0);
+  // Some parishes have small fields between hedges, others wide ones with a bank or a track here and there.
+  float open = smoothstep(0.35, 0.65, parish.lot.y);
+  vec2 wide = mix(vec2(130.0, 95.0), vec2(340.0, 170.0), open) * (0.8 + 0.5 * parish.lot.z);
+  Block field = blockAt(rows, wide, 0.37, 0.5, 1.0);
   field.edge = min(field.edge, parish.edge);
-  vec3 meadow = mix(vec3(0.105, 0.135, 0.050), vec3(0.150, 0.160, 0.072), field.lot.x);
-  vec3 crop = mix(vec3(0.215, 0.190, 0.095), vec3(0.150, 0.125, 0.080), field.lot.z);
+  // A farmer sows much of the same side by side.
+  float sown = fract(0.55 * field.lot.y + 0.45 * random3(ivec3(floor(rows / (2.3 * wide.yx)), 5)).x + parish.lot.z);
+  vec3 meadow = mix(vec3(0.098, 0.132, 0.046), vec3(0.158, 0.162, 0.076), field.lot.x);
+  vec3 grain = mix(vec3(0.235, 0.200, 0.100), vec3(0.180, 0.168, 0.080), field.lot.x);
+  vec3 soil = mix(vec3(0.172, 0.142, 0.085), vec3(0.140, 0.128, 0.070), field.lot.z);
   float seen = visible(60.0, footprint);
-  vec3 c = mix(vec3(0.130, 0.142, 0.064), field.lot.y > 0.76 ? crop : meadow, seen);
-  c *= 1.0 + 0.16 * n[0] + 0.12 * middle + 0.10 * fine;
+  vec3 c = mix(vec3(0.132, 0.142, 0.066), sown < 0.62 ? meadow : sown < 0.86 ? grain : soil, 0.75 * seen);
+  c *= 1.0 + 0.16 * n[0] + 0.12 * middle + 0.10 * fine + 0.18 * n[6] + 0.14 * n[7];
   c = mix(near * (1.0 + 0.1 * fine), c, smoothstep(60.0, 420.0, away));
-  float hedge = (1.0 - smoothstep(2.0, 4.5, field.edge + 1.6 * n[3])) * seen * smoothstep(90.0, 160.0, away);
-  float wood = smoothstep(0.28, 0.36, n[4] + 0.25 * n[5]) * smoothstep(150.0, 300.0, away);
-  return mix(c, vec3(0.042, 0.058, 0.026) * (1.0 + 0.3 * fine), max(0.85 * hedge, 0.9 * wood));
+  float kept = smoothstep(-0.25, 0.15, n[7] + 0.5 * n[5] - 0.55 * open);
+  float hedge = (1.0 - smoothstep(1.5, 4.0, field.edge + 1.8 * n[3])) * kept * seen * smoothstep(90.0, 160.0, away);
+  // Woods lie together, with ragged edges and copses about them.
+  float wood = smoothstep(0.24, 0.30, 0.62 * n[4] + 0.85 * n[6] + 0.30 * n[7] + 0.16 * n[5]) * smoothstep(150.0, 300.0, away);
+  float crowns = 1.0 + 0.3 * fine + 0.25 * n[3] * visible(6.0, footprint) + 0.2 * n[5];
+  return mix(c, vec3(0.042, 0.058, 0.026) * crowns, max(0.8 * hedge, 0.92 * wood));
 }
 
 // How high a row of woods or hills, `away` metres off, stands over the plane in a direction. tall: its lowest and its

@@ -11,45 +11,35 @@ uvec3 scramble(uvec3 v) {  // Jarzynski and Olano, "Hash functions for GPU rende
 vec3 random3(ivec3 c) { return vec3(scramble(uvec3(c)) >> 8) * (1.0 / 16777216.0); }
 vec3 gradientAt(ivec3 c) { return random3(c) * 2.0 - 1.0; }
 
+// Loops over the neighbours of a place are marked [[dont_unroll]]: drivers inline each of hundreds of calls, and the time
+// that Mesa takes to unroll one loop grows with the size of the whole shader.
+
 // Gradient noise, about -1..1 in x, with its derivative in yzw.
 vec4 noise(vec3 p) {
   vec3 cell = floor(p), f = p - cell;
-  ivec3 i = ivec3(cell);
   vec3 u = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
   vec3 du = 30.0 * f * f * (f * (f - 2.0) + 1.0);
-  vec3 ga = gradientAt(i), gb = gradientAt(i + ivec3(1, 0, 0));
-  vec3 gc = gradientAt(i + ivec3(0, 1, 0)), gd = gradientAt(i + ivec3(1, 1, 0));
-  vec3 ge = gradientAt(i + ivec3(0, 0, 1)), gf = gradientAt(i + ivec3(1, 0, 1));
-  vec3 gg = gradientAt(i + ivec3(0, 1, 1)), gh = gradientAt(i + ivec3(1, 1, 1));
-  float va = dot(ga, f), vb = dot(gb, f - vec3(1, 0, 0));
-  float vc = dot(gc, f - vec3(0, 1, 0)), vd = dot(gd, f - vec3(1, 1, 0));
-  float ve = dot(ge, f - vec3(0, 0, 1)), vf = dot(gf, f - vec3(1, 0, 1));
-  float vg = dot(gg, f - vec3(0, 1, 1)), vh = dot(gh, f - vec3(1, 1, 1));
-  float k1 = vb - va, k2 = vc - va, k3 = ve - va;
-  float k4 = va - vb - vc + vd, k5 = va - vc - ve + vg, k6 = va - vb - ve + vf;
-  float k7 = -va + vb + vc - vd + ve - vf - vg + vh;
-  float value = va + u.x * k1 + u.y * k2 + u.z * k3 + u.x * u.y * k4 + u.y * u.z * k5 + u.z * u.x * k6 +
-                u.x * u.y * u.z * k7;
-  vec3 slope = ga + u.x * (gb - ga) + u.y * (gc - ga) + u.z * (ge - ga) + u.x * u.y * (ga - gb - gc + gd) +
-               u.y * u.z * (ga - gc - ge + gg) + u.z * u.x * (ga - gb - ge + gf) +
-               u.x * u.y * u.z * (-ga + gb + gc - gd + ge - gf - gg + gh) +
-               du * (vec3(k1, k2, k3) + u.yzx * vec3(k4, k5, k6) + u.zxy * vec3(k6, k4, k5) + u.yzx * u.zxy * k7);
-  return vec4(value, slope) * 1.4;
+  vec4 sum = vec4(0.0);
+  [[dont_unroll]] for (int k = 0; k < 8; ++k) {
+    ivec3 corner = ivec3(k & 1, (k >> 1) & 1, k >> 2);
+    vec3 away = vec3(corner), w = mix(1.0 - u, u, away), dw = mix(-du, du, away);
+    vec3 gradient = gradientAt(ivec3(cell) + corner);
+    float value = dot(gradient, f - away), weight = w.x * w.y * w.z;
+    sum += vec4(weight * value, weight * gradient + value * dw * w.yzx * w.zxy);
+  }
+  return sum * 1.4;
 }
 
 // The same noise without its derivative, for what is asked often.
 float plainNoise(vec3 p) {
   vec3 cell = floor(p), f = p - cell, u = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-  vec4 low, high;
-  for (int k = 0; k < 4; ++k) {
-    ivec3 corner = ivec3(k & 1, k >> 1, 0);
-    low[k] = dot(gradientAt(ivec3(cell) + corner), f - vec3(corner));
-    corner.z = 1;
-    high[k] = dot(gradientAt(ivec3(cell) + corner), f - vec3(corner));
+  float sum = 0.0;
+  [[dont_unroll]] for (int k = 0; k < 8; ++k) {
+    ivec3 corner = ivec3(k & 1, (k >> 1) & 1, k >> 2);
+    vec3 away = vec3(corner), w = mix(1.0 - u, u, away);
+    sum += w.x * w.y * w.z * dot(gradientAt(ivec3(cell) + corner), f - away);
   }
-  vec4 v = mix(low, high, u.z);
-  vec2 w = mix(v.xz, v.yw, u.x);
-  return 1.4 * mix(w.x, w.y, u.y);
+  return sum * 1.4;
 }
 
 // Distance from p to the nearest border of a Voronoi cell, in cells.
@@ -58,20 +48,18 @@ float borderDistance(vec2 p, int seed) {
   ivec2 i = ivec2(cell);
   vec2 nearest = vec2(0.0);
   float best = 8.0;
-  for (int y = -1; y <= 1; ++y) {
-    for (int x = -1; x <= 1; ++x) {
-      vec2 d = vec2(x, y) + random3(ivec3(i + ivec2(x, y), seed)).xy - f;
-      float l = dot(d, d);
-      if (l < best) { best = l; nearest = d; }
-    }
+  [[dont_unroll]] for (int k = 0; k < 9; ++k) {
+    ivec2 aside = ivec2(k % 3 - 1, k / 3 - 1);
+    vec2 d = vec2(aside) + random3(ivec3(i + aside, seed)).xy - f;
+    float l = dot(d, d);
+    if (l < best) { best = l; nearest = d; }
   }
   float border = 8.0;
-  for (int y = -1; y <= 1; ++y) {
-    for (int x = -1; x <= 1; ++x) {
-      vec2 d = vec2(x, y) + random3(ivec3(i + ivec2(x, y), seed)).xy - f;
-      vec2 across = d - nearest;
-      if (dot(across, across) > 1e-4) border = min(border, dot(0.5 * (nearest + d), normalize(across)));
-    }
+  [[dont_unroll]] for (int k = 0; k < 9; ++k) {
+    ivec2 aside = ivec2(k % 3 - 1, k / 3 - 1);
+    vec2 d = vec2(aside) + random3(ivec3(i + aside, seed)).xy - f;
+    vec2 across = d - nearest;
+    if (dot(across, across) > 1e-4) border = min(border, dot(0.5 * (nearest + d), normalize(across)));
   }
   return border;
 }

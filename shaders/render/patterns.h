@@ -12,9 +12,16 @@ const uint kPlain = 11u;
 const uint kConcrete = 12u;
 const uint kWooden = 13u;
 const uint kAsphalt = 15u;
+const uint kGlass = 16u;
 const uint kLeafy = 20u;
 const uint kBoards = 25u;
 const uint kGlowing = 26u;
 const uint kLying = 27u;
 const uint kLava = 28u;
 const uint kLeaded = 29u;
+// What lies behind a pane of glass: runtime/materials/material.h.
+const uint kClearPane = 1u;
+const uint kShopBehind = 2u;
+const uint kOfficeBehind = 3u;
+const uint kCurtainBehind = 4u;
+const uint kBlindBehind = 5u;

@@ -1,4 +1,5 @@
 #version 450
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // Lights every sample of the picture and averages them into pixels.
 #include "render/frame.glsl"
@@ -38,7 +39,7 @@ vec3 lightOn(vec3 p, vec3 n, Traced traced) {
 Surface surfaceAt(uint material, vec3 p, vec3 n, vec3 to_eye, float footprint, Traced traced) {
   Material m = materials[min(material, frame.counts.y - 1u)];
   Spot at = Spot(p, n, to_eye, m.colour_roughness.rgb, m.colour_roughness.w, uintBitsToFloat(m.pattern.y), footprint,
-                 traced.wet, traced.depth, lightOn(p - frame.pattern_offset.xyz, n, traced));
+                 traced.wet, traced.depth, lightOn(p - frame.pattern_offset.xyz, n, traced), frame.size.w != 1u);
   Surface s = patterned(m.pattern.x, at);
   if (has(kSkyBit) && (kPatterns & kWeathering) != 0u && frame.size.w == 1u) weather(s, at, m.pattern.x, traced.lie, frame.land.y >= 0.0 && !isBare());
   return s;
@@ -142,7 +143,7 @@ vec3 bodyAt(ivec2 at, vec3 d, vec3 overhead) {
   }
   colour += s.albedo * softOn(traced, n, s.normal) * mix(0.35, 1.0, open);
   float grazing = 1.0 - max(0.0, dot(s.normal, -d));
-  vec3 shown = has(kLeaded) && s.clear != vec3(0.0) ? s.clear : vec3(s.specular + (1.0 - s.specular) * pow(grazing, 5.0));
+  vec3 shown = s.clear != vec3(0.0) ? s.clear : vec3(s.specular + (1.0 - s.specular) * pow(grazing, 5.0));
   colour += traced.mirror * shown;
   return haze(colour, d, t);
 }

@@ -1,4 +1,5 @@
 #version 450
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // A blade, a leaf or a blossom is an instance: a strip of seven corners, of which leaves and blossoms use six.
 #include "render/foliage.glsl"

@@ -1,4 +1,5 @@
 #version 450
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // What is seen at a sample: where it lies, which way it faces, what it is made of. Lit later, once.
 #include "render/noise.glsl"

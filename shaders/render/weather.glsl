@@ -24,18 +24,25 @@ float streaks(vec3 p, float footprint) {
          0.6 * fineNoise(vec3(p.x * 17.0, p.y * 0.6, p.z * 17.0) + 7.0, 0.05, footprint);
 }
 
-void weatherWall(inout Surface s, Spot at, vec3 lie, vec3 patchy, float much) {
+// flakes: whether it is plaster.
+void weatherWall(inout Surface s, Spot at, vec3 lie, vec3 patchy, float much, bool flakes) {
   float runs = streaks(at.p, at.footprint);
   float tone = 0.15 * patchy.x + 0.08 * patchy.y + 0.04 * patchy.z;
   s.albedo *= 1.0 + much * tone;
   s.albedo *= mix(vec3(1.0), vec3(1.02, 0.98, 0.90), much * smoothstep(-0.4, 0.6, patchy.y - patchy.x));
   // Below a ledge the wall is not washed: soot stays, and runs down where water drips off.
   float dripped = lie.y * (0.10 + 0.90 * smoothstep(0.0, 0.80, runs + 0.15 * patchy.y));
-  s.albedo *= mix(vec3(1.0), vec3(0.60, 0.59, 0.57), much * 0.42 * dripped);
+  s.albedo *= mix(vec3(1.0), vec3(0.52, 0.51, 0.49), much * 0.62 * dripped);
   // Splashed soil and rising damp, and algae where it never dries.
   float foot = smoothstep(0.12, 0.95, lie.z + 0.22 * patchy.y + 0.16 * patchy.z + 0.10 * runs);
   s.albedo *= mix(vec3(1.0), vec3(0.56, 0.515, 0.455), 0.70 * foot);
   s.albedo = mix(s.albedo, vec3(0.105, 0.110, 0.062), 0.22 * foot * foot);
+  if (flakes) {
+    // Where damp rises plaster comes off in sheets, and shows the coat below, grey and coarse.
+    float fine = fineNoise(at.p * 9.0, 0.11, at.footprint) + 0.5 * fineNoise(at.p * 27.0, 0.04, at.footprint);
+    float off = smoothstep(0.50, 0.54 + 2.0 * at.footprint, lie.z + 0.50 * patchy.y + 0.32 * patchy.z + 0.14 * fine + 0.3 * patchy.x - 0.25);
+    s.albedo = mix(s.albedo, vec3(0.30, 0.265, 0.22) * (1.0 + 0.25 * fine + 0.2 * patchy.z), 0.9 * off);
+  }
   float corner = smoothstep(0.24, 0.85, lie.x + 0.12 * patchy.z + 0.08 * patchy.y);
   s.albedo *= mix(vec3(1.0), vec3(0.66, 0.645, 0.62), much * 0.45 * corner);
   s.roughness = clamp(s.roughness * (1.0 + much * (0.12 * patchy.y + 0.1 * dripped)), 0.05, 1.0);
@@ -128,7 +135,8 @@ void weather(inout Surface s, Spot at, uint pattern, vec3 lie, bool green) {
   } else {
     // What is painted is washed more often.
     Surface worn = s;
-    weatherWall(worn, at, lie, patchy, clamp(0.2 + 0.8 * at.relief, 0.0, 1.0));
+    bool flakes = isOf(1u << kPlain, pattern) && at.relief >= 0.9 && at.relief <= 1.1;
+    weatherWall(worn, at, lie, patchy, clamp(0.2 + 0.8 * at.relief, 0.0, 1.0), flakes);
     s.albedo = mix(s.albedo, worn.albedo, wall);
     s.roughness = mix(s.roughness, worn.roughness, wall);
   }

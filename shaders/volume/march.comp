@@ -1,4 +1,5 @@
 #version 450
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 // Marches rays through the volume for each pixel, front to back: the light that comes to the eye, and the share of
 // what is behind that still shows. An engine lays that over its scene.

@@ -181,7 +181,7 @@ Result<std::shared_ptr<const Region>> Painter::Worker::meshed(const Task& task, 
   std::optional<cli::RegionDensity> no_density;
   cli::RegionPlan plan = cli::picturePlan(options, no_density);
   plan.quiet = true;
-  plan.notes = plan.texture = !draft_only;
+  plan.notes = !draft_only;
   // Anchors are places to look from: they are needed once.
   plan.anchors = options.camera.empty() && home.empty();
   if (!draft_only) plan.go_on = [this, number = task.number] { return painter.isNewest(number); };

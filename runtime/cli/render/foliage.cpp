@@ -20,7 +20,7 @@ constexpr Kind kLawn{SurfacePattern::grassy, 70}, kLeaves{SurfacePattern::leafy,
 constexpr float kBladeWidth = 0.0052f;            ///< metres, of the near ones
 constexpr float kTallest = 0.23f;                 ///< metres, of blades
 constexpr float kReach = 0.15f, kDepth = 0.14f;   ///< metres that leaves stand out from a crown's surface, and within
-constexpr float kLeafLength = 0.072f;             ///< metres
+constexpr float kLeafLength = 0.062f;             ///< metres
 constexpr float kLeastGrowth = -0.15f;            ///< crowns have no leaves where growthAt() is below
 constexpr size_t kMostSprouts = size_t{6} << 20;  ///< a picture's
 constexpr float kSteepest = 0.72f;                ///< of a lawn's normal upwards

@@ -25,14 +25,14 @@ namespace {
 
 constexpr int kSoftRays = 14;  // of a square of pixels; filtered later
 /// Rays to a light: the first tell most places that lie wholly in light or in shade, the others how deep in an edge.
-constexpr int kFirstRays = 2, kAllRays = 6;
+constexpr int kFirstRays = 2, kAllRays = 8;
 constexpr int kBounces = 2;              // of a soft ray, before what is left is taken to be even
 constexpr int kMostPanes = 2;            // that a ray goes through before it meets something else
 constexpr float kThroughPane = 0.8f;     // what lead and dirt leave of the light
 constexpr int kMirrorBounces = 2;        // of a ray from a mirror
 constexpr int kMirrorRays = 4;           // of a pixel: one alone would draw edges of what it mirrors as steps
 constexpr float kSunRadius = 0.012f;     // of its disc at distance 1: a little hazy
-constexpr float kLampRadius = 0.03f;     // in reaches
+constexpr float kLampRadius = 0.05f;     // in reaches
 constexpr float kFar = 1e5f;             // metres
 constexpr float kDirtReach = 0.9f;       // metres: what lies nearer than this catches dirt
 constexpr float kUnderLedge = 2.4f;      // metres that a ledge's streaks run down
@@ -47,13 +47,19 @@ struct MetSurface {
   vec3 start{0};   ///< where rays away from it begin: off the triangle, which curves less than the surface
   uint32_t triangle = 0;
   uint32_t material = 0;
+  uint32_t second = 0;  ///< that it passes into within the triangle
   float distance = -1;  ///< below 0: nothing was met
 
   bool isThere() const { return distance >= 0; }
 };
 
+/// A pane that what lies behind it is seen through: see MaterialLook.
+bool isClear(const RenderMaterial& material) {
+  return material.pattern == SurfacePattern::glass && material.relief == kClearPane;
+}
+
 LetsLight letsLight(const RenderMaterial& material) {
-  if (material.pattern == SurfacePattern::glowing || material.pattern == SurfacePattern::leaded)
+  if (material.pattern == SurfacePattern::glowing || material.pattern == SurfacePattern::leaded || isClear(material))
     return LetsLight::always;
   return hasLeaves(material) ? LetsLight::in_spots : LetsLight::never;
 }
@@ -112,7 +118,17 @@ class LightTracer {
     float wet = 0;
     vec3 seen(0);
     if (isMirror(place.material)) seen = mirrored(place, x, y);
-    if (isLeaded(place.material)) seen = seenThrough(place, x, y);
+    // Along the rim of a pane, paint mirrors as little of this light as it should: the sky alone would shine in the
+    // pane.
+    if (isClear(material(place.material)) || isClear(material(place.second))) {
+      const uint32_t pane = isClear(material(place.material)) ? place.material : place.second;
+      // What it mirrors and what is behind it are one light here: the shader adds it as it is.
+      const float facing = -dot(directionAt(x, y), place.normal);
+      const float mirrors = 0.06f + 0.94f * std::pow(1 - std::clamp(facing, 0.0f, 1.0f), 5.0f);
+      seen = mix(colourOf(pane) * seenThrough(place, x, y), seen, mirrors);
+    } else if (isLeaded(place.material)) {
+      seen = seenThrough(place, x, y);
+    }
     if (has_water_) {
       UnitPoints points(x, y, 65);
       wet = isWater(place.material) ? depthOf(place, points) : -wetness(place);
@@ -207,15 +223,20 @@ class LightTracer {
 
   bool isLeaded(uint32_t index) const { return material(index).pattern == SurfacePattern::leaded; }
 
-  /// What lies behind a window, in a pixel: old glass bends and blurs what is seen through it.
+  /// Panes that rays go through.
+  bool isPane(uint32_t index) const { return isLeaded(index) || isClear(material(index)); }
+
+  /// What lies behind a pane, in a pixel: old glass bends and blurs what is seen through it.
   vec3 seenThrough(const MetSurface& place, uint32_t x, uint32_t y) const {
     UnitPoints spread(x, y, 66), turns(x, y, 67);
-    constexpr float kBlur = 0.2f;
-    const vec3 bent = 2.0f * (paneNormal(place.normal, place.position + vec3(frame_.pattern_offset)) - place.normal);
+    const bool old = isLeaded(place.material);
+    const float blur = old ? 0.2f : 0.0f;
+    const vec3 bent =
+        (old ? 2.0f : 0.0f) * (paneNormal(place.normal, place.position + vec3(frame_.pattern_offset)) - place.normal);
     const Across across(directionAt(x, y));
     vec3 sum(0);
     for (int i = 0; i < kMirrorRays; ++i) {
-      const glm::vec2 off = kBlur * onDisc(spread.next());
+      const glm::vec2 off = blur * onDisc(spread.next());
       const vec3 direction = glm::normalize(directionAt(x, y) + bent + off.x * across.x + off.y * across.y);
       sum += radiance(behind(place, direction), direction, turns, kMirrorBounces, nullptr, true);
     }
@@ -269,6 +290,7 @@ class LightTracer {
     place.start = place.position - lifted + facet * (1e-3f + 2e-4f * hit->distance);
     place.triangle = hit->triangle;
     place.material = mesh_.vertex(hit->triangle, 0).material;
+    place.second = mesh_.vertex(hit->triangle, 0).second;
     return place;
   }
 
@@ -312,7 +334,7 @@ class LightTracer {
     const vec3 towards = away / distance;
     const Across across(towards);
     return shareOf([&] {
-      const glm::vec2 at = std::min(kLampRadius * reach, 0.2f * distance) * onDisc(points.next());
+      const glm::vec2 at = std::min(kLampRadius * reach, 0.25f * distance) * onDisc(points.next());
       return mesh_.isFree(place.start, away + at.x * across.x + at.y * across.y, 0.98f);
     });
   }
@@ -327,7 +349,7 @@ class LightTracer {
       const vec3 away = vec3(frame_.lamp_position[i]) - place.start;
       const float distance = glm::length(away);
       const Across across(away / std::max(distance, 1e-6f));
-      const glm::vec2 at = std::min(kLampRadius * frame_.lamp_position[i].w, 0.2f * distance) * onDisc(turns.next());
+      const glm::vec2 at = std::min(kLampRadius * frame_.lamp_position[i].w, 0.25f * distance) * onDisc(turns.next());
       if (mesh_.isFree(place.start, away + at.x * across.x + at.y * across.y, 0.98f)) sum += light;
     }
     return sum;
@@ -388,7 +410,7 @@ class LightTracer {
     vec3 sum(0), weight(1);
     for (int i = 0; i < bounces; ++i) {
       MetSurface place = meet(from, direction);
-      for (int panes = 0; panes < kMostPanes && place.isThere() && isLeaded(place.material); ++panes) {
+      for (int panes = 0; panes < kMostPanes && place.isThere() && isPane(place.material); ++panes) {
         weight *= kThroughPane * colourOf(place.material);
         from = behind(place, direction);
         place = meet(from, direction);

@@ -16,8 +16,14 @@ static_assert(is(SurfacePattern::rock, shaders::kRock) && is(SurfacePattern::bri
               is(SurfacePattern::plain, shaders::kPlain) && is(SurfacePattern::concrete, shaders::kConcrete) &&
               is(SurfacePattern::wooden, shaders::kWooden) && is(SurfacePattern::asphalt, shaders::kAsphalt) &&
               is(SurfacePattern::leafy, shaders::kLeafy) && is(SurfacePattern::boards, shaders::kBoards) &&
-              is(SurfacePattern::glowing, shaders::kGlowing) && is(SurfacePattern::lying, shaders::kLying) &&
-              is(SurfacePattern::lava, shaders::kLava) && is(SurfacePattern::leaded, shaders::kLeaded));
+              is(SurfacePattern::glass, shaders::kGlass) && is(SurfacePattern::glowing, shaders::kGlowing) &&
+              is(SurfacePattern::lying, shaders::kLying) && is(SurfacePattern::lava, shaders::kLava) &&
+              is(SurfacePattern::leaded, shaders::kLeaded));
+
+constexpr bool lies(float behind, uint32_t number) { return behind == static_cast<float>(number); }
+static_assert(lies(kClearPane, shaders::kClearPane) && lies(kShopBehind, shaders::kShopBehind) &&
+              lies(kOfficeBehind, shaders::kOfficeBehind) && lies(kCurtainBehind, shaders::kCurtainBehind) &&
+              lies(kBlindBehind, shaders::kBlindBehind));
 
 RenderMaterial drawn(const MaterialLook& look) {
   return {look.pattern, {look.colour[0], look.colour[1], look.colour[2]}, look.roughness, look.relief};

@@ -37,7 +37,7 @@ inline vec3 rippledNormal(vec3 normal, vec3 p) {
     turn += 2.4f;
     wave *= 1.62f;
   }
-  return glm::normalize(normal + 0.011f * gust * vec3(east, 0, south));
+  return glm::normalize(normal + 0.022f * gust * vec3(east, 0, south));
 }
 
 /// How much of a fair sky clouds hide in a direction upwards, roughly as shaders/render/clouds.glsl draws them.

@@ -6,6 +6,7 @@
 
 #include "render/foliage.h"
 #include "render/scene.h"
+#include "render/specialize.h"
 #include "spirv/foliage_frag.h"
 #include "spirv/foliage_vert.h"
 #include "spirv/shade_comp.h"
@@ -240,9 +241,11 @@ Result<ShadePipeline> makeShadePipeline(VulkanScope& scope, uint32_t patterns) {
   auto layout = scope.pipelineLayout(made.set_layout, VK_SHADER_STAGE_COMPUTE_BIT, 0);
   if (!layout) return layout.error();
   made.layout = *layout;
-  auto shader = scope.shader(spirv::kShadeComp);
+  const auto code = specialized(spirv::kShadeComp, patterns);
+  if (!code) return code.error();
+  auto shader = scope.shader(*code);
   if (!shader) return shader.error();
-  auto pipeline = scope.computePipeline(*shader, made.layout, patterns);
+  auto pipeline = scope.computePipeline(*shader, made.layout);
   if (!pipeline) return pipeline.error();
   made.pipeline = *pipeline;
   return made;

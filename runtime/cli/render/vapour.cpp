@@ -23,9 +23,10 @@ constexpr float kStep = 0.5f, kOpaque = 0.004f;
 constexpr float kForward = 0.82f;  // mean cosine of the angle that droplets scatter by
 constexpr int kOctaves = 7;
 constexpr float kKept = 0.82f;  // of all octaves, so that no more light leaves a cloud than comes to it
-/// Detail moves the outline inwards and outwards by noise between these.
-constexpr float kThinnest = 0.08f, kErosion = 0.70f, kEdge = 0.16f;
-constexpr float kPuff = 12;  // cells: the period of the largest detail
+/// Detail moves the outline inwards and outwards by noise between these, and rims thin out over the edge.
+constexpr float kThinnest = 0.05f, kErosion = 0.92f, kEdge = 0.24f;
+constexpr float kDeepest = 0.78f;  // of creases: deeper ones would be dark dots where three puffs meet
+constexpr float kPuff = 9;         // cells: the period of the largest detail
 
 vec3 withoutZeros(vec3 d) {
   for (int axis = 0; axis < 3; ++axis)
@@ -166,11 +167,11 @@ float Vapour::densityAt(vec3 place, float footprint) const {
   const Stuff& stuff = stuffAt(place);
   const float outline = density_.outlineAt(place);
   if (outline <= kThinnest) return 0;
-  if (outline >= kThinnest + kErosion + kEdge) return stuff.density;
   const float spacing = density_.lattice().spacing;
   const vec3 position = density_.lattice().corner + place * spacing + pattern_offset_;
-  const float hollow = puffHollows(position, kPuff * spacing, footprint * spacing);
-  return stuff.density * std::clamp((outline - kThinnest - kErosion * stuff.puffs * hollow) / kEdge, 0.0f, 1.0f);
+  const float hollow = std::min(puffHollows(position, kPuff * spacing, footprint * spacing), kDeepest);
+  const float within = std::clamp((outline - kThinnest - kErosion * stuff.puffs * hollow) / kEdge, 0.0f, 1.0f);
+  return stuff.density * within * within;
 }
 
 glm::vec4 Vapour::litAt(vec3 place) const {

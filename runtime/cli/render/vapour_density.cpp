@@ -18,10 +18,10 @@ constexpr int kSubColumns = 2;              // on each side of a cell
 constexpr std::array kSoftenings{1, 2, 3};  // cells
 /// A cloud that is so many mean free paths thick on a mean lets next to no light through in its middle, and its base is
 /// grey. It holds for clouds of any size: a small one beside a tower is as dense as a large one is far away.
-constexpr float kMeanDepth = 30;
+constexpr float kMeanDepth = 20;
 constexpr float kLongestChord = 600;  // metres; of decks without an end
 /// The part of the outline that is cloud: it begins a little outside of the mesh.
-constexpr float kThin = 0.22f, kDense = 0.70f;
+constexpr float kThin = 0.28f, kDense = 0.85f;
 
 float areaOf(const RayCaster& mesh) {
   double sum = 0;

@@ -174,16 +174,13 @@ Result<VkPipelineLayout> VulkanScope::pipelineLayout(VkDescriptorSetLayout set, 
               "a pipeline layout");
 }
 
-Result<VkPipeline> VulkanScope::computePipeline(VkShaderModule shader, VkPipelineLayout layout, uint32_t constant) {
-  const VkSpecializationMapEntry entry{0, 0, sizeof constant};
-  const VkSpecializationInfo specialization{1, &entry, sizeof constant, &constant};
+Result<VkPipeline> VulkanScope::computePipeline(VkShaderModule shader, VkPipelineLayout layout) {
   VkComputePipelineCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
   info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
   info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
   info.stage.module = shader;
   info.stage.pName = "main";
-  info.stage.pSpecializationInfo = &specialization;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
   const DrawingTable& calls = device_.calls();

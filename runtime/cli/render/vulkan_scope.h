@@ -46,8 +46,7 @@ class VulkanScope {
   Result<VkDescriptorSet> descriptorSet(VkDescriptorSetLayout layout, std::span<const VkDescriptorType> types);
   /// set may be null: no descriptors; push_bytes 0: no push constants.
   Result<VkPipelineLayout> pipelineLayout(VkDescriptorSetLayout set, VkShaderStageFlags stages, uint32_t push_bytes);
-  /// constant: the shader's specialization constant 0, where it has one.
-  Result<VkPipeline> computePipeline(VkShaderModule shader, VkPipelineLayout layout, uint32_t constant = 0);
+  Result<VkPipeline> computePipeline(VkShaderModule shader, VkPipelineLayout layout);
   Result<VkRenderPass> renderPass(const VkRenderPassCreateInfo& info);
   Result<VkFramebuffer> framebuffer(const VkFramebufferCreateInfo& info);
   Result<VkPipeline> graphicsPipeline(const VkGraphicsPipelineCreateInfo& info);

@@ -14,26 +14,68 @@ Surface granular(Spot at) {
   return s;
 }
 
+// Sand and snow that the wind has moved: ripples across it, in fields that end where the ground is firm, and on sand the
+// small stones that it has left behind.
+Surface windblown(Spot at) {
+  Surface s = granular(at);
+  float flat_share = smoothstep(0.80, 0.94, at.n.y);
+  const float kSoil = 0.3;  // and mud: darker, and they stick
+  if (at.sheltered || flat_share <= 0.0 || at.colour.r < kSoil) return s;
+  vec2 q = at.p.xz;
+  vec4 broad = noise(vec3(q * 0.16, 31.0)), patches = noise(vec3(q * 0.9, 17.0));
+  float fine = noise(vec3(q * 4.3, 9.0)).x;
+  float firm = smoothstep(-0.05, 0.35, broad.x + 0.35 * patches.x + 0.10 * fine);
+  // Ripples lie across the wind; their crests wander, part and meet, and their lee is steep.
+  const float kLength = 0.115;
+  vec2 wind = normalize(vec2(0.86, 0.51));
+  float phase = dot(q, wind) / kLength + 1.1 * patches.y + 0.32 * fine + 2.6 * broad.y;
+  float crest = fract(phase), seen = visible(0.8 * kLength, at.footprint) * flat_share * (1.0 - firm);
+  float slope = crest < 0.70 ? 1.0 / 0.70 : -1.0 / 0.30;
+  slope *= smoothstep(0.0, 0.10, min(crest, 1.0 - crest)) * smoothstep(0.0, 0.10, abs(crest - 0.70));
+  vec2 tilt = slope * wind * (0.75 + 0.5 * noise(vec3(q * 2.1, 3.0)).x) * seen;
+  s.normal = bend(s.normal, vec3(tilt.x, 0.0, tilt.y), 0.17 * at.relief);
+  s.albedo *= 1.0 + seen * (crest < 0.70 ? 0.05 * crest : -0.10);
+  s.albedo *= mix(vec3(1.0), vec3(0.90, 0.87, 0.84), flat_share * firm);
+  const float kSand = 0.75;  // snow is paler
+  if (max(at.colour.r, at.colour.g) > kSand) return s;
+  const float kStones = 0.05;
+  float near = visible(0.9 * kStones, at.footprint) * flat_share, many = 0.40 * firm - 0.14 + 0.16 * patches.z;
+  if (near <= 0.0 || many <= 0.0) return s;
+  vec3 way = -vec3(at.to_eye.x, dot(at.to_eye, at.n), at.to_eye.z), to_light = vec3(at.light.x, dot(at.light, at.n), at.light.z);
+  vec2 bent = q + 0.006 * noise(at.p * 23.0).yz;
+  Strewn stone = strewnAt(bent, way, kStones, many, 97);
+  vec2 open = mix(vec2(1.0), lightAmong(stone, to_light, kStones, many, 97), near);
+  float shown = stone.there * near;
+  vec3 own = at.colour * mix(vec3(0.42, 0.40, 0.42), vec3(0.95, 0.88, 0.82), stone.lot.y);
+  s.albedo = mix(s.albedo, own, shown) * mix(open.y, open.x, 0.6 * length(at.light));
+  s.normal = normalize(mix(s.normal, stone.normal, 0.8 * shown));
+  return s;
+}
+
 // Stones of two sizes over fines, the larger ones lying on the smaller: each has its height, its shadow and its colour.
 Surface gravelly(Spot at) {
   Chart chart = chartOf(at.p, abs(at.n.y) > 0.6 ? vec3(0.0, 1.0, 0.0) : at.n);
-  const float kLarge = 0.062, kSmall = 0.024, kMany = 0.42;
+  const float kLarge = 0.062, kSmall = 0.024;
   Surface s = granular(at);
+  // Water and wheels have sorted it: coarse here, fine there, and dust in between.
+  float sorted = noise(at.p * 0.43 + 3.0).x + 0.5 * noise(at.p * 1.3 + 12.0).x;
+  float many = clamp(0.42 + 0.45 * sorted, 0.08, 0.85), strewn_small = clamp(0.95 + 0.75 * sorted, 0.35, 1.0);
+  s.albedo *= 1.0 - 0.14 * clamp(sorted, -1.0, 1.0);
   float seen = visible(0.9 * kLarge, at.footprint), fine = visible(kSmall, at.footprint);
   if (seen <= 0.0) return s;
   vec2 bent = chart.at + 0.007 * noise(at.p * 21.0).yz;
   float grain = fineNoise(at.p * 90.0, 0.011, at.footprint);
   vec3 way = -vec3(dot(at.to_eye, chart.along), dot(at.to_eye, at.n), dot(at.to_eye, chart.up));
   vec3 to_light = vec3(dot(at.light, chart.along), dot(at.light, at.n), dot(at.light, chart.up));
-  Strewn large = strewnAt(bent, way, kLarge, kMany, 91), small = large;
-  vec2 open = mix(vec2(1.0), lightAmong(large, to_light, kLarge, kMany, 91), seen);
+  Strewn large = strewnAt(bent, way, kLarge, many, 91), small = large;
+  vec2 open = mix(vec2(1.0), lightAmong(large, to_light, kLarge, many, 91), seen);
   if (large.there == 0.0 && fine > 0.0) {
-    small = strewnAt(bent, way, kSmall, 1.0, 93);
-    open *= mix(vec2(1.0), lightAmong(small, to_light, kSmall, 1.0, 93), fine);
+    small = strewnAt(bent, way, kSmall, strewn_small, 93);
+    open *= mix(vec2(1.0), lightAmong(small, to_light, kSmall, strewn_small, 93), fine);
   }
   float shown = small.there * (large.there > 0.0 ? seen : fine);
   vec3 lot = small.lot;
-  vec3 stone = at.colour * (0.74 + 0.50 * lot.x) * mix(vec3(1.07, 0.99, 0.90), vec3(0.92, 0.97, 1.04), lot.y);
+  vec3 stone = at.colour * (0.62 + 0.66 * lot.x) * mix(vec3(1.10, 0.99, 0.88), vec3(0.90, 0.97, 1.06), lot.y);
   s.albedo = mix(0.8 * s.albedo, stone * (1.0 + 0.18 * grain), shown);
   s.albedo *= mix(open.y, open.x, 0.6 * length(at.light));
   vec3 normal = chart.along * small.normal.x + at.n * small.normal.y + chart.up * small.normal.z;
@@ -102,7 +144,7 @@ Surface fibrous(Spot at) {
   Surface s = surfaceOf(at);
   Chart chart = chartOf(at.p, at.n);
   // Furrows are where a noise passes through zero: long lines that part and meet again, with plates between them.
-  vec3 q = vec3(at.p.x * 15.0, at.p.y * 0.95, at.p.z * 15.0) + 0.30 * noise(at.p * 3.1).yzw;
+  vec3 q = vec3(at.p.x * 16.0, at.p.y * 0.50, at.p.z * 16.0) + vec3(0.30, 0.06, 0.30) * noise(at.p * 3.1).yzw;
   vec4 ridge = noise(q), narrow = noise(q * 2.3 + 11.0), fine = noise(q * 7.1);
   float seen = visible(0.07, at.footprint), close = visible(0.03, at.footprint), grain = fine.x * visible(0.012, at.footprint);
   float furrow = (1.0 - smoothstep(0.04, 0.36, abs(ridge.x) + 0.12 * fine.x)) * seen;

@@ -1,7 +1,7 @@
 // What masons, tilers and pavers laid.
 
-// Joins stones and mortar: `joint` metres of mortar on each side of a block's edge.
-Surface laid(Spot at, Block b, Chart chart, float joint, float size, vec3 stone, vec3 mortar, float tilt) {
+// Joins stones and mortar: `joint` metres of mortar on each side of a block's edge; rough: how uneven the stones are.
+Surface laid(Spot at, Block b, Chart chart, float joint, float size, vec3 stone, vec3 mortar, float tilt, float rough) {
   Surface s = surfaceOf(at);
   float seen = visible(0.5 * size, at.footprint);
   // A joint that is thinner than a sample darkens it by its share.
@@ -15,7 +15,7 @@ Surface laid(Spot at, Block b, Chart chart, float joint, float size, vec3 stone,
   s.albedo = mix(mean, mix(stone, mortar, gap), seen) * (1.0 + 0.10 * grain + 0.13 * broad);
   vec4 relief_slope = relief(at.p, 0.10, 4, 1, at.footprint);
   // Stones are round at their edges: they fall towards them.
-  vec3 slope = relief_slope.xyz * 0.22 - (chart.along * b.tilt.x + chart.up * b.tilt.y) * (tilt * visible(0.03, at.footprint));
+  vec3 slope = relief_slope.xyz * rough - (chart.along * b.tilt.x + chart.up * b.tilt.y) * (tilt * visible(0.03, at.footprint));
   slope += (chart.along * (b.lot.y - 0.5) + chart.up * (b.lot.z - 0.5)) * (0.12 * seen);
   s.normal = bend(at.n, slope, 0.5 * at.relief);
   s.specular = 0.03;
@@ -49,7 +49,7 @@ Surface brickwork(Spot at) {
   vec3 wall = mix(mean, fired, visible(0.11, at.footprint)) * (1.0 - 0.22 * weathered(at.p, at.n));
   wall *= 1.0 + 0.16 * loads + 0.12 * broad;
   wall = mix(wall, grey * 0.62, 0.22 * smoothstep(0.0, 0.8, broad + 0.5 * loads));
-  return laid(at, b, chart, 0.005, 0.075, wall, vec3(0.40, 0.37, 0.32), 0.8);
+  return laid(at, b, chart, 0.005, 0.075, wall, vec3(0.40, 0.37, 0.32), 0.8, 0.22);
 }
 
 // Courses of dressed stone.
@@ -59,7 +59,7 @@ Surface ashlar(Spot at) {
   vec3 stone = at.colour * (0.84 + 0.32 * b.lot.x) * mix(vec3(1.0), vec3(1.06, 0.98, 0.86), b.lot.y);
   stone = mix(at.colour, stone, visible(0.3, at.footprint));
   stone *= 1.0 - 0.30 * weathered(at.p, at.n);
-  return laid(at, b, chart, 0.005, 0.34, stone, at.colour * 0.62, 0.9);
+  return laid(at, b, chart, 0.005, 0.34, stone, at.colour * 0.62, 0.9, 0.20);
 }
 
 // Walling of rough stones.
@@ -69,7 +69,7 @@ Surface rubble(Spot at) {
   Block b = cellAt(bent * vec2(0.72, 1.25), 0.36, 0.07, 61);
   vec3 stone = at.colour * (0.80 + 0.36 * b.lot.x) * mix(vec3(1.05, 0.98, 0.88), vec3(0.92, 0.95, 1.0), b.lot.y);
   stone = mix(at.colour, stone, visible(0.25, at.footprint)) * (1.0 - 0.25 * weathered(at.p, at.n));
-  return laid(at, b, chart, 0.012, 0.36, stone, at.colour * 0.72, 1.1);
+  return laid(at, b, chart, 0.012, 0.36, stone, at.colour * 0.72, 1.1, 0.22);
 }
 
 // Flags of a pavement: some were laid anew, some are cracked; dirt lies in joints, and gum is trodden on all.
@@ -86,7 +86,7 @@ Surface paving(Spot at) {
   Block gum = cellAt(chart.at, 0.55, 1.0, 307);
   float trodden = step(gum.lot.x, 0.45) * (1.0 - smoothstep(0.010, 0.020, length(gum.within) + 0.004 * fine));
   stone *= (1.0 - 0.5 * split) * (1.0 - 0.38 * trodden * visible(0.03, at.footprint));
-  return laid(at, b, chart, 0.007, 0.5, stone, at.colour * 0.34, 0.7);
+  return laid(at, b, chart, 0.007, 0.5, stone, at.colour * 0.34, 0.7, 0.06);
 }
 
 // Setts of a street, rounded and polished by wheels, with earth and moss between them.
@@ -140,16 +140,16 @@ Surface roofTiles(Spot at) {
   vec2 f = q - floor(q);
   vec3 lot = random3(ivec3(tile, 12));
   float seen = visible(0.12, at.footprint);
-  vec3 clay = at.colour * (0.72 + 0.5 * lot.x) * mix(vec3(1.0), vec3(0.82, 0.78, 0.72), lot.y * lot.y);
+  vec3 clay = at.colour * (0.83 + 0.26 * lot.x) * mix(vec3(1.0), vec3(0.86, 0.82, 0.76), lot.y * lot.y);
   float moss = smoothstep(0.25, 0.7, noise(at.p * 0.9 + 5.0).x + 0.5 * noise(at.p * 6.0).x);
   clay = mix(clay, vec3(0.16, 0.15, 0.10), 0.35 * moss);
   float valley = smoothstep(0.30, 0.5, abs(f.x - 0.5));
   float lip = smoothstep(0.90, 0.99, f.y) + 0.6 * (1.0 - smoothstep(0.0, 0.10, f.y));
   Surface s = surfaceOf(at);
-  s.albedo = mix(at.colour * 0.86, clay * (1.0 - 0.6 * valley) * (1.0 - 0.7 * min(lip, 1.0)), seen);
+  s.albedo = mix(at.colour * 0.86, clay * (1.0 - 0.42 * valley) * (1.0 - 0.7 * min(lip, 1.0)), seen);
   float grain = fineNoise(at.p * 40.0, 0.025, at.footprint);
   s.albedo *= (1.0 + 0.10 * grain) * mended(chart.at, at.footprint);
-  vec3 slope = chart.along * (1.3 * sin(6.2831853 * (f.x - 0.5))) + chart.up * (0.25 - 0.8 * smoothstep(0.9, 1.0, f.y));
+  vec3 slope = chart.along * (0.9 * sin(6.2831853 * (f.x - 0.5))) + chart.up * (0.25 - 0.8 * smoothstep(0.9, 1.0, f.y));
   slope += chart.along * (0.2 * (lot.z - 0.5));
   s.normal = bend(at.n, slope, 0.55 * at.relief * seen);
   s.roughness = roughened(at.roughness, 0.12 * (1.0 - seen));

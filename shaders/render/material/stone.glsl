@@ -1,6 +1,58 @@
 // Stone as it grew and broke: beds, stains, cracks, flowstone.
 
+// Basalt that has stood in the weather: dark and even, brown where its skin has weathered, browner and paler where it is
+// walked and washed. It has neither beds nor sinter; it is full of small pits, split by joints across its columns, and
+// crusts of lichen grow on it, most where the sun comes.
+Surface basaltic(Spot at) {
+  vec3 p = at.p, n = at.n;
+  float footprint = at.footprint;
+  vec4 broad = noise(p * 0.21 + 5.0), patches = noise(p * 0.9 + 40.0), mottle = noise(p * 3.7 + 9.0);
+  float fine = fineNoise(p * 23.0, 0.045, footprint);
+  float grain = fineNoise(p * 71.0, 0.014, footprint) + 0.7 * fineNoise(p * 190.0, 0.0052, footprint);
+  float top = smoothstep(0.55, 0.85, n.y + 0.08 * mottle.x);
+  vec3 albedo = at.colour * (1.0 + 0.20 * broad.x + 0.16 * patches.x + 0.14 * mottle.x + 0.14 * fine + 0.20 * grain);
+  vec3 skin = at.colour * vec3(1.75, 1.50, 1.22);
+  float weathered = smoothstep(-0.35, 0.55, patches.y + 0.45 * broad.y + 0.35 * mottle.y + 0.2 * fine);
+  albedo = mix(albedo, skin * (1.0 + 0.16 * fine + 0.22 * grain), weathered * mix(0.42, 0.72, top));
+
+  // Ball joints part a column in drums of unequal height; their seams are thin and here and there chipped.
+  float wall = 1.0 - smoothstep(0.35, 0.65, abs(n.y)), seam = 0.0;
+  if (wall > 0.0) {
+    vec3 drum = floor(p / vec3(0.47, 100.0, 0.41) + 0.35 * patches.yxw * vec3(1.0, 0.0, 1.0));
+    float height = p.y / 0.46 + random3(ivec3(int(drum.x), 77, int(drum.z))).x * 7.0 + 0.05 * mottle.x;
+    float from_seam = abs(fract(height + 0.3 * random3(ivec3(int(drum.x), int(floor(height)), int(drum.z))).y) - 0.5) * 0.46;
+    seam = (1.0 - smoothstep(0.004, 0.016, from_seam + 0.006 * mottle.z)) * visible(0.03, footprint) * wall;
+    albedo *= 1.0 - 0.55 * seam;
+  }
+  float pits = smoothstep(0.34, 0.52, fineNoise(p * 41.0 + 3.0, 0.025, footprint)) * smoothstep(-0.3, 0.4, patches.z);
+  albedo *= 1.0 - 0.5 * pits;
+
+  // Lichens: pale crusts in rounded patches with dark rims, and a little orange.
+  float stays = (1.0 - at.wet) * smoothstep(-0.55, 0.15, n.y + 0.3 * broad.w);
+  float crust = noise(p * 15.0 + 21.0).x + 0.45 * noise(p * 37.0 + 4.0).x + 0.30 * patches.w + 0.30 * broad.z;
+  float lichen = stays * smoothstep(0.48, 0.64, crust);
+  albedo = mix(albedo, vec3(0.250, 0.250, 0.220) * (1.0 + 0.22 * fine + 0.15 * grain), 0.50 * lichen);
+  float orange = stays * smoothstep(0.78, 0.90, noise(p * 13.0 + 63.0).x + 0.30 * patches.y - 0.3 * broad.z + 0.3 * fine);
+  albedo = mix(albedo, vec3(0.28, 0.175, 0.055) * (1.0 + 0.2 * grain), 0.35 * orange);
+
+  vec4 relief_slope = relief(p, 0.24, 6, 1, footprint);
+  vec3 slope = relief_slope.xyz * mix(0.75, 1.1, weathered);
+  slope -= noise(p * 41.0 + 3.0).yzw * (0.5 * pits);
+  Surface s = surfaceOf(at);
+  s.albedo = albedo;
+  s.normal = bend(n, slope, 0.27 * at.relief);
+  s.roughness = clamp(at.roughness + 0.14 * weathered, 0.10, 1.0);
+  s.specular = 0.03;
+  // The sea blackens what it reaches.
+  s.albedo *= mix(1.0, 0.55, smoothstep(0.0, 0.5, at.wet + 0.2 * patches.x * step(0.01, at.wet)));
+  wetten(s, at.wet);
+  s.roughness = roughened(s.roughness, 0.09 * at.relief * at.relief * relief_slope.w);
+  return s;
+}
+
 Surface rock(Spot at) {
+  const float kDarkest = 0.16;  // of other rock than basalt
+  if (max(at.colour.r, max(at.colour.g, at.colour.b)) < kDarkest) return basaltic(at);
   vec3 p = at.p, n = at.n;
   float footprint = at.footprint;
   vec4 broad = noise(p * 0.11 + 5.0);
@@ -43,14 +95,15 @@ Surface rock(Spot at) {
   // Silt, clay and small stones settle on whatever is flat enough.
   float floor_cover = smoothstep(0.70, 0.92, n.y + 0.18 * patches.x + 0.08 * mottle.x);
   vec3 silt = mix(vec3(0.27, 0.20, 0.135), at.colour * 0.7, 0.45) * (1.0 + 0.22 * grain + 0.2 * mottle.x);
-  albedo = mix(albedo, silt, 0.7 * floor_cover);
+  float settled = at.sheltered ? 1.0 : 0.4;  // rain washes it away
+  albedo = mix(albedo, silt, 0.7 * settled * floor_cover);
   float mud = 0.0;
-  if (floor_cover > 0.0) {
+  if (floor_cover > 0.0 && at.sheltered) {
     mud = floor_cover * smoothstep(0.0, 0.35, noise(p * vec3(0.31, 0.2, 0.31) + 21.0).x + 0.3 * mottle.x);
   }
   albedo = mix(albedo, silt * vec3(0.62, 0.56, 0.50), 0.8 * mud);
   vec3 strewn = vec3(0.0);
-  if (floor_cover > 0.05 && footprint < 0.07) {
+  if (floor_cover > 0.05 && footprint < 0.07 && at.sheltered) {
     vec4 uneven = noise(p * 13.0);
     vec2 on = p.xz + 0.020 * noise(p * 5.0).yz + 0.009 * uneven.yz;
     const float kLarge = 0.23, kSmall = 0.065;
@@ -74,28 +127,32 @@ Surface rock(Spot at) {
   }
 
   // Geometry has what is larger than a step; relief begins where that ends.
-  vec4 relief_slope = relief(p, 0.62, 7, 3, footprint);
+  vec4 relief_slope = relief(p, 0.36, 7, 2, footprint);
   vec3 slope = relief_slope.xyz;
   slope.y += wall * 0.4 * lamina;
   // Faces that broke along a joint are smooth, others rough.
-  slope *= mix(0.42, 1.15, smoothstep(-0.35, 0.45, patches.z + 0.6 * broad.z));
+  slope *= mix(0.55, 1.10, smoothstep(-0.35, 0.45, patches.z + 0.6 * broad.z));
   slope *= mix(1.0, mix(0.55, 0.30, mud), floor_cover);
   slope += strewn / (0.34 * max(at.relief, 0.3));
 
   Surface s = surfaceOf(at);
   s.albedo = albedo;
-  s.normal = bend(n, slope, 0.34 * at.relief);
-  // Wet stone gleams where water runs or stands in hollows; between, it is damp and dull, and paler.
-  float base = at.roughness;
+  s.normal = bend(n, slope, 0.29 * at.relief);
+  // Wet stone gleams where water runs, in drops and thin films; between, it is damp and dull, and paler.
+  float base = at.roughness, gleam = max(max(0.9 * film, 0.5 * sinter), 0.9 * mud);
   if (base < 0.4) {
-    float damp = smoothstep(-0.35, 0.25, -patches.y - 0.35 * mottle.z - 0.25 * grain) * (1.0 - film);
-    base = mix(base, 0.60, 0.85 * damp);
-    s.albedo *= 1.0 + 0.30 * damp;
+    float beads = smoothstep(0.10, 0.60, fineNoise(p * 19.0 + 7.0, 0.05, footprint) +
+                                         0.5 * fineNoise(p * 53.0, 0.02, footprint));
+    float runs = smoothstep(0.0, 0.5, streak + 0.5 * patches.y) * wall;
+    float shine = max(runs * (0.35 + 0.65 * beads), 0.5 * beads * smoothstep(0.0, 0.5, patches.y));
+    base = mix(0.72, base, shine);
+    gleam *= 0.4 + 0.6 * beads;
+    s.albedo *= 1.0 + 0.30 * (1.0 - shine);
   }
-  s.roughness = clamp(mix(base, base * 0.45, max(max(0.9 * film, 0.5 * sinter), 0.9 * mud)), 0.10, 1.0);
-  s.specular = mix(0.03, 0.045, max(film, mud));
+  s.roughness = clamp(mix(base, max(0.24, base * 0.5), gleam), 0.10, 1.0);
+  s.specular = mix(0.025, 0.04, gleam);
   wetten(s, at.wet);
-  s.roughness = roughened(s.roughness, 0.12 * at.relief * at.relief * relief_slope.w);
+  s.roughness = roughened(s.roughness, 0.085 * at.relief * at.relief * relief_slope.w);
   return s;
 }
 
@@ -161,7 +218,7 @@ Surface flowstone(Spot at) {
   float flutes = visible(0.14, footprint), lost = 0.25 * relief_slope.w + 0.5 * (1.0 - flutes * flutes);
   // Water still runs here and there; elsewhere the calcite has dried to a dull crust.
   float runs = smoothstep(0.05, 0.45, noise(run * vec3(0.6, 0.5, 0.6) + 80.0).x + 0.3 * broad.y);
-  s.roughness = clamp(mix(1.75, 0.65, runs) * at.roughness * (1.0 + 0.35 * dirt), 0.08, 1.0);
+  s.roughness = clamp(mix(1.9, 0.85, runs) * at.roughness * (1.0 + 0.35 * dirt), 0.08, 1.0);
   s.albedo *= mix(1.0, 0.80, runs);
   s.specular = 0.045;
   wetten(s, 0.6 * at.wet);
@@ -170,44 +227,51 @@ Surface flowstone(Spot at) {
   return s;
 }
 
-// Lava as it ran and froze. Walls have a glaze that has dripped, which hot gas has rusted in patches; where it has come off,
-// the stone is full of bubbles. Floors are a crust in wrinkles, which has cracked as it shrank.
+// Lava as it ran and froze: dark, matt and full of small bubbles, with level lines where a flow has stood for a while. In
+// patches hot gas has rusted it, a glaze is left that has dripped, or seeping water has put down a pale bloom. Floors are a
+// crust, which has cracked as it shrank.
 Surface lava(Spot at) {
   vec3 p = at.p, n = at.n;
   float footprint = at.footprint;
-  vec4 broad = noise(p * 0.16 + 5.0), patches = noise(p * 0.55 + 40.0), mottle = noise(p * 2.1 + 9.0);
-  float grain = fineNoise(p * 14.0, 0.07, footprint) + 0.8 * fineNoise(p * 47.0, 0.021, footprint) +
-                0.6 * fineNoise(p * 150.0, 0.0066, footprint);
-  float floor_share = smoothstep(0.62, 0.88, n.y + 0.10 * mottle.x);
-  vec3 albedo = at.colour * (1.0 + 0.22 * grain + 0.25 * mottle.x + 0.3 * broad.x);
+  vec4 broad = noise(p * 0.19 + 5.0), patches = noise(p * 0.7 + 40.0), mottle = noise(p * 2.7 + 9.0);
+  float fine = fineNoise(p * 11.0, 0.09, footprint);
+  float grain = fineNoise(p * 37.0, 0.027, footprint) + 0.8 * fineNoise(p * 110.0, 0.009, footprint);
+  float floor_share = smoothstep(0.62, 0.88, n.y + 0.10 * mottle.x), wall = 1.0 - smoothstep(0.45, 0.80, abs(n.y));
+  vec3 albedo = at.colour * (1.0 + 0.20 * broad.x + 0.14 * patches.x + 0.15 * mottle.x + 0.16 * fine + 0.24 * grain);
+  albedo *= mix(vec3(0.94, 1.0, 1.06), vec3(1.06, 1.01, 0.96), smoothstep(-0.4, 0.5, patches.z + 0.6 * broad.y));
 
-  float rust = smoothstep(0.10, 0.60, broad.z + 0.55 * patches.x + 0.25 * mottle.y + 0.10 * grain) * (1.0 - 0.7 * floor_share);
-  albedo = mix(albedo, vec3(0.130, 0.062, 0.041) * (1.0 + 0.35 * grain), 0.52 * rust);
-  float glaze = smoothstep(-0.10, 0.30, patches.y + 0.5 * broad.y + 0.25 * mottle.z) * (1.0 - 0.85 * floor_share);
-  albedo = mix(albedo, albedo * vec3(0.60, 0.60, 0.64), glaze);
-  // Salts that seeping water has left: a thin bloom along cracks and ledges.
-  float salt = smoothstep(0.42, 0.75, noise(p * vec3(1.3, 0.6, 1.3) + 71.0).x + 0.35 * patches.z + 0.12 * grain);
-  albedo = mix(albedo, vec3(0.30, 0.285, 0.26), 0.30 * salt * (1.0 - glaze));
+  float rust = smoothstep(0.15, 0.75, broad.z + 0.45 * patches.x + 0.3 * mottle.y + 0.2 * fine) * (1.0 - 0.7 * floor_share);
+  albedo = mix(albedo, vec3(0.098, 0.062, 0.048) * (1.0 + 0.2 * fine + 0.3 * grain), 0.30 * rust);
+  float glaze = smoothstep(0.20, 0.50, patches.y + 0.4 * broad.y + 0.30 * mottle.z) * (1.0 - floor_share);
+  albedo *= mix(vec3(1.0), vec3(0.72, 0.72, 0.76), glaze);
+  // Bloom clings to bubbles and ledges, in specks that grow together.
+  float salt = smoothstep(0.30, 0.75, noise(p * 0.9 + 71.0).x + 0.30 * patches.w + 0.28 * mottle.w + 0.22 * fine + 0.22 * grain);
+  albedo = mix(albedo, vec3(0.22, 0.212, 0.195) * (1.0 + 0.2 * grain), 0.30 * salt * (1.0 - 0.6 * floor_share));
+  // Where the flow stood: thin level lines, paler above and darker below, broken in places.
+  float height = p.y + 0.10 * broad.x + 0.025 * mottle.x;
+  float line = fineNoise(vec3(0.5, height * 7.0, 0.5 + 0.4 * broad.y), 0.12, footprint) +
+               0.6 * fineNoise(vec3(0.5, height * 19.0, 2.5), 0.045, footprint);
+  albedo *= 1.0 + 0.22 * wall * line * smoothstep(-0.4, 0.3, patches.y - broad.z);
 
-  float bubbles = smoothstep(0.28, 0.50, noise(p * 33.0).x) * visible(0.03, footprint) * (1.0 - glaze);
-  albedo *= 1.0 - 0.4 * bubbles;
+  float bubbles = smoothstep(0.26, 0.48, fineNoise(p * 36.0, 0.028, footprint)) * (1.0 - 0.7 * glaze);
+  albedo *= 1.0 - 0.40 * bubbles;
   vec3 bent = p + 0.16 * patches.yzw + 0.05 * mottle.yzw;
-  float split = floor_share > 0.0 ? cracks(bent, n, 1.1, 0.035, footprint) * smoothstep(-0.35, 0.1, patches.z) : 0.0;
-  split *= floor_share;
-  albedo *= (1.0 - 0.8 * split) * (1.0 - 0.25 * floor_share);
+  float split = floor_share > 0.0 ? cracks(bent, n, 0.9, 0.022, footprint) * smoothstep(-0.15, 0.25, patches.z) : 0.0;
+  albedo *= 1.0 - 0.7 * split * floor_share;
+  // Grit and dust lie in what is flat.
+  float dust = floor_share * smoothstep(-0.2, 0.5, patches.w + 0.4 * mottle.z + 0.3 * fine);
+  albedo = mix(albedo, vec3(0.085, 0.077, 0.069) * (1.0 + 0.2 * fine + 0.25 * grain), 0.4 * dust);
 
-  // Drips run down walls; wrinkles lie over the glaze.
-  vec3 run = vec3(p.x * 7.0, p.y * 1.1, p.z * 7.0) + 0.5 * mottle.yzw;
-  vec4 drips = noise(run) * (visible(0.14, footprint) * (1.0 - floor_share));
-  vec4 relief_slope = relief(p, 0.40, 7, 1, footprint);
-  vec3 slope = relief_slope.xyz * mix(1.0, 0.55, glaze) + drips.yzw * vec3(0.5, 0.1, 0.5);
-  slope -= noise(p * 33.0).yzw * (0.6 * bubbles);
+  vec4 relief_slope = relief(p, 0.26, 6, 1, footprint);
+  vec3 slope = relief_slope.xyz * mix(1.0, 0.6, max(glaze, 0.6 * dust));
+  slope.y += 0.35 * wall * line;
+  slope -= noise(p * 36.0).yzw * (0.5 * bubbles);
   Surface s = surfaceOf(at);
   s.albedo = albedo;
-  s.normal = bend(n, slope, 0.34 * at.relief);
-  s.roughness = clamp(at.roughness * mix(1.25, 0.50, glaze) * (1.0 + 0.15 * grain), 0.12, 1.0);
-  s.specular = mix(0.03, 0.07, glaze);
+  s.normal = bend(n, slope, 0.27 * at.relief);
+  s.roughness = clamp(at.roughness * mix(1.45, 0.95, glaze) * (1.0 + 0.08 * grain), 0.12, 1.0);
+  s.specular = mix(0.02, 0.04, glaze);
   wetten(s, at.wet);
-  s.roughness = roughened(s.roughness, 0.10 * at.relief * at.relief * relief_slope.w);
+  s.roughness = roughened(s.roughness, 0.075 * at.relief * at.relief * relief_slope.w);
   return s;
 }

@@ -22,6 +22,7 @@ struct Spot {
   float wet;        // 1 at the edge of standing water, 0 away from it
   float depth;      // of water, metres
   vec3 light;       // towards most of its light, the longer the more of it comes from there, 0..1
+  bool sheltered;   // no rain comes here
 };
 
 Surface surfaceOf(Spot at) {
@@ -167,24 +168,22 @@ Block cellAt(vec2 at, float size, float round_edge, int seed) {
   ivec2 i = ivec2(cell), chosen = i;
   vec2 nearest = vec2(0.0);
   float best = 8.0;
-  for (int y = -1; y <= 1; ++y) {
-    for (int x = -1; x <= 1; ++x) {
-      vec2 d = vec2(x, y) + 0.1 + 0.8 * random3(ivec3(i + ivec2(x, y), seed)).xy - f;
-      float l = dot(d, d);
-      if (l < best) { best = l; nearest = d; chosen = i + ivec2(x, y); }
-    }
+  [[dont_unroll]] for (int k = 0; k < 9; ++k) {
+    ivec2 aside = ivec2(k % 3 - 1, k / 3 - 1);
+    vec2 d = vec2(aside) + 0.1 + 0.8 * random3(ivec3(i + aside, seed)).xy - f;
+    float l = dot(d, d);
+    if (l < best) { best = l; nearest = d; chosen = i + aside; }
   }
   float border = 8.0;
   vec2 towards = vec2(0.0);
-  for (int y = -1; y <= 1; ++y) {
-    for (int x = -1; x <= 1; ++x) {
-      vec2 d = vec2(x, y) + 0.1 + 0.8 * random3(ivec3(i + ivec2(x, y), seed)).xy - f;
-      vec2 across = d - nearest;
-      if (dot(across, across) < 1e-4) continue;
-      vec2 away = normalize(across);
-      float distance_to = dot(0.5 * (nearest + d), away);
-      if (distance_to < border) { border = distance_to; towards = away; }
-    }
+  [[dont_unroll]] for (int k = 0; k < 9; ++k) {
+    ivec2 aside = ivec2(k % 3 - 1, k / 3 - 1);
+    vec2 d = vec2(aside) + 0.1 + 0.8 * random3(ivec3(i + aside, seed)).xy - f;
+    vec2 across = d - nearest;
+    if (dot(across, across) < 1e-4) continue;
+    vec2 away = normalize(across);
+    float distance_to = dot(0.5 * (nearest + d), away);
+    if (distance_to < border) { border = distance_to; towards = away; }
   }
   Block b;
   b.lot = random3(ivec3(chosen, seed + 1));
@@ -203,7 +202,7 @@ Block settAt(vec2 at, vec2 size, float loose, float round_edge, int seed) {
   ivec2 cells[9];
   int chosen = 0;
   float best = 64.0, scale = min(size.x, size.y);
-  for (int i = 0; i < 9; ++i) {
+  [[dont_unroll]] for (int i = 0; i < 9; ++i) {
     int r = row + i / 3 - 1;
     float shift = random3(ivec3(r, 7, seed)).x;
     int column = int(floor(q.x - shift)) + i % 3 - 1;
@@ -216,7 +215,7 @@ Block settAt(vec2 at, vec2 size, float loose, float round_edge, int seed) {
   // A smooth minimum of the distances to all borders rounds the corners.
   float sum = 0.0, sharp = 14.0 / scale;
   vec2 towards = vec2(0.0);
-  for (int i = 0; i < 9; ++i) {
+  [[dont_unroll]] for (int i = 0; i < 9; ++i) {
     if (i == chosen) continue;
     vec2 away = normalize(mids[i] - mids[chosen]);
     float w = exp(-sharp * dot(0.5 * (mids[i] + mids[chosen]), away));
@@ -245,7 +244,7 @@ Stone stoneIn(ivec2 cell, float size, float many, int seed) {
   vec3 place = random3(ivec3(cell, seed));
   s.lot = random3(ivec3(cell, seed + 1));
   float wide = size * (0.28 + 0.30 * s.lot.x) * smoothstep(0.0, 0.2, s.lot.z + many - 1.0);
-  s.radii = wide * vec3(1.0, 0.42 + 0.30 * place.z, 0.62 + 0.30 * s.lot.y);
+  s.radii = wide * vec3(1.0, 0.52 + 0.34 * place.z, 0.58 + 0.36 * s.lot.y);
   vec2 on = (vec2(cell) + 0.2 + 0.6 * place.xy) * size;
   s.middle = vec3(on.x, 0.3 * s.radii.y, on.y);
   s.turn = vec2(cos(40.0 * place.z), sin(40.0 * place.z));
@@ -275,7 +274,7 @@ Strewn strewnAt(vec2 at, vec3 way, float size, float many, int seed) {
   Strewn found = Strewn(0.0, base, vec3(0.0, 1.0, 0.0), vec3(0.5), ivec2(1 << 20));
   ivec2 middle = ivec2(floor((at - ray.xz / -ray.y * (0.16 * size)) / size));
   float first = 0.0;
-  for (int i = 0; i < 9; ++i) {
+  [[dont_unroll]] for (int i = 0; i < 9; ++i) {
     ivec2 cell = middle + ivec2(i % 3 - 1, i / 3 - 1);
     Stone s = stoneIn(cell, size, many, seed);
     if (s.radii.x < 0.05 * size) continue;
@@ -297,7 +296,7 @@ vec2 lightAmong(Strewn seen, vec3 to_light, float size, float many, int seed) {
   vec3 l = normalize(vec3(to_light.x, max(to_light.y, 0.25), to_light.z));
   ivec2 middle = ivec2(floor((seen.at.xz + 0.25 * size * l.xz / l.y) / size));
   vec2 open = vec2(1.0);
-  for (int i = 0; i < 9; ++i) {
+  [[dont_unroll]] for (int i = 0; i < 9; ++i) {
     ivec2 cell = middle + ivec2(i % 3 - 1, i / 3 - 1);
     if (seen.there > 0.0 && cell == seen.cell) continue;
     Stone s = stoneIn(cell, size, many, seed);

@@ -1,16 +1,26 @@
 // What is spread, poured, sawn or rolled: even by nature, never rocky.
 
-// Plaster, paint, clay: colour with a fine grain, broad stains, and streaks where rain runs.
+// Plaster, paint, clay: colour with a fine grain, broad stains, and streaks where rain runs. Plaster has been mended in
+// pieces of another day, and has cracked as fine as hairs.
 Surface plain(Spot at) {
   Surface s = surfaceOf(at);
   float broad = noise(at.p * 0.45).x + 0.5 * noise(at.p * 1.9 + 7.0).x;
   float grain = fineNoise(at.p * 45.0, 0.022, at.footprint) + fineNoise(at.p * 160.0, 0.006, at.footprint);
   s.albedo = at.colour * (1.0 + at.relief * (0.07 * broad + 0.05 * grain));
   s.albedo *= 1.0 - 0.16 * at.relief * weathered(at.p, at.n);
-  vec4 relief_slope = relief(at.p, 0.05, 4, 0, at.footprint);
-  s.normal = bend(at.n, relief_slope.xyz, 0.05 * at.relief);
+  if (at.relief >= 0.9 && at.relief <= 1.1 && abs(at.n.y) < 0.5) {
+    Chart chart = chartOf(at.p, at.n);
+    Block piece = cellAt(chart.at * vec2(0.8, 1.0) + 0.12 * noise(at.p * 2.7).yz, 2.7, 1.0, 113);
+    float newer = step(piece.lot.x, 0.22) * smoothstep(0.01, 0.03 + at.footprint, piece.edge - 0.25);
+    s.albedo *= mix(vec3(1.0), mix(vec3(0.90, 0.90, 0.91), vec3(1.06, 1.05, 1.03), piece.lot.y), 0.8 * newer);
+    float hair = cracks(at.p + 0.10 * noise(at.p * 1.9).yzw + 0.02 * noise(at.p * 11.0).yzw, at.n, 2.3, 0.004, 0.3 * at.footprint);
+    s.albedo *= 1.0 - 0.34 * hair * smoothstep(0.0, 0.4, noise(at.p * 0.5 + 70.0).x);
+  }
+  // A float leaves broad, shallow strokes, and sand its grain.
+  vec4 strokes = relief(at.p * vec3(1.0, 1.6, 1.0), 0.30, 2, 0, at.footprint), fine = relief(at.p, 0.012, 2, 0, at.footprint);
+  s.normal = bend(at.n, strokes.xyz + 0.9 * fine.xyz, 0.016 * at.relief);
   wetten(s, at.wet);
-  s.roughness = roughened(s.roughness, 0.0025 * at.relief * at.relief * relief_slope.w);
+  s.roughness = roughened(s.roughness, 0.0006 * at.relief * at.relief * (strokes.w + fine.w));
   return s;
 }
 
@@ -45,8 +55,10 @@ Surface grained(Spot at, vec3 axis, vec3 lot) {
   float check = (1.0 - smoothstep(0.015, 0.07, abs(split.x))) * dry * visible(0.016, at.footprint);
   Surface s = surfaceOf(at);
   vec3 grey = vec3(dot(at.colour, vec3(0.4)));
-  s.albedo = mix(at.colour, grey, 0.2 + 0.5 * smoothstep(-0.1, 0.6, noise(at.p * 0.8).x + 0.4 * noise(at.p * 3.7).x));
-  s.albedo *= 1.0 - 0.30 * smoothstep(0.1, 0.7, noise(at.p * 1.9 + 4.0).x + 0.4 * noise(at.p * 11.0).x);
+  // What greys it and what stains it follows the grain.
+  vec3 drawn = across * 5.5 + axis * (along * 0.42 + 3.0 * lot.x);
+  s.albedo = mix(at.colour, grey, 0.12 + 0.30 * smoothstep(-0.2, 0.6, noise(drawn).x + 0.3 * noise(at.p * 0.5).x));
+  s.albedo *= 1.0 - 0.22 * smoothstep(0.1, 0.7, noise(drawn * 1.7 + 4.0).x + 0.3 * hair.x);
   s.albedo *= (1.0 + 0.30 * (lot.y - 0.5)) * (1.0 + 0.26 * ring.x + 0.16 * hair.x + 0.14 * fine);
   s.albedo *= (1.0 - 0.6 * check) * (1.0 - 0.55 * knot);
   vec3 slope = 0.5 * ring.yzw + 0.35 * hair.yzw - sign(split.x) * split.yzw * (1.2 * check);
@@ -122,40 +134,160 @@ Surface asphalt(Spot at) {
 // The colour of glass in the table of materials (runtime/materials/material.cpp).
 const vec3 kClearGlass = vec3(0.22, 0.30, 0.33);
 
-// A pane, and behind it a room: floor, ceiling, back wall, curtains, drawn without their shapes being there (van Dongen,
-// "Interior mapping", 2008). What is tinted, as a car's panes are, hides what is behind it.
+// What a ray meets in a room behind a pane: the room is drawn without its shapes being there (van Dongen, "Interior
+// mapping", 2008).
+struct Room {
+  vec2 from;   // where the ray enters, metres from the room's low left corner
+  vec3 way;    // along the wall, up, and into the room
+  vec3 hit;    // where it ends, metres from that corner; z: from the pane
+  float side;  // what it meets: 0 a side wall, 1 the floor, 2 the ceiling, 3 the back
+  vec3 lot;    // random numbers of the room
+};
+
+Room roomBehind(Spot at, vec3 size, int seed) {
+  Room r;
+  Chart chart = chartOf(at.p, at.n);
+  vec2 q = chart.at / size.xy;
+  ivec2 room = ivec2(floor(q));
+  r.lot = random3(ivec3(room, seed));
+  r.way = -vec3(dot(at.to_eye, chart.along), dot(at.to_eye, chart.up), dot(at.to_eye, at.n));
+  r.way.z = max(-r.way.z, 0.05);
+  r.from = (q - floor(q)) * size.xy;
+  vec3 walls = vec3(r.way.x > 0.0 ? size.x - r.from.x : r.from.x, r.way.y > 0.0 ? size.y - r.from.y : r.from.y, size.z);
+  vec3 t = walls / max(abs(r.way), vec3(1e-4));
+  float depth = min(t.x, min(t.y, t.z));
+  r.hit = vec3(r.from, 0.0) + depth * r.way;
+  r.side = depth == t.y ? (r.way.y > 0.0 ? 2.0 : 1.0) : depth == t.z ? 3.0 : 0.0;
+  return r;
+}
+
+// Where a ray into a room meets the upright plane that is `deep` metres behind its pane.
+vec2 atDepth(Room r, float deep) { return r.from + r.way.xy * (deep / r.way.z); }
+
+// 1 in a box about `middle`, soft at its rim by what a sample covers.
+float inBox(vec2 p, vec2 middle, vec2 half_size, float footprint) {
+  vec2 out_of = abs(p - middle) - half_size;
+  return 1.0 - smoothstep(-0.5 * footprint - 0.004, 0.5 * footprint + 0.004, max(out_of.x, out_of.y));
+}
+
+// A room to live in. Daylight comes in by the window alone: by day rooms are dark, some more than others, and in a few a
+// lamp is lit.
+vec3 dwelling(Spot at) {
+  Room r = roomBehind(at, vec3(3.6, 3.0, 4.2), 77);
+  vec3 paint = mix(vec3(0.36, 0.32, 0.27), vec3(0.24, 0.26, 0.28), r.lot.x);
+  if (r.side == 1.0) paint = vec3(0.19, 0.13, 0.085);
+  if (r.side == 2.0) paint = vec3(0.44);
+  if (r.side == 3.0) {
+    // A cupboard or a picture on the back wall.
+    float thing = inBox(r.hit.xy, vec2(0.8 + 2.0 * r.lot.z, 1.0), vec2(0.5, 1.0), at.footprint);
+    paint = mix(paint, mix(vec3(0.13, 0.085, 0.055), vec3(0.30, 0.27, 0.22), step(0.6, r.lot.x)), thing);
+    float picture = inBox(r.hit.xy, vec2(0.6 + 2.4 * fract(3.0 * r.lot.y), 1.75), vec2(0.28, 0.22), at.footprint);
+    paint = mix(paint, vec3(0.32, 0.28, 0.20) * (0.4 + r.lot.z), picture);
+  }
+  vec3 seen = paint * (0.17 / (1.0 + 0.55 * r.hit.z * r.hit.z)) * (0.25 + 0.9 * r.lot.y);
+  if (r.lot.z > 0.90) {
+    vec3 lamp = vec3(1.0 + 2.0 * r.lot.x, 2.3, 2.4);
+    vec3 away = r.hit - lamp;
+    seen += paint * vec3(1.0, 0.72, 0.42) * (0.9 / (0.7 + dot(away, away)));
+  }
+  return seen;
+}
+
+// An office: a ceiling with rows of lights, of which some are lit, desks, and a blind that is let down some of the way.
+vec3 office(Spot at) {
+  Room r = roomBehind(at, vec3(6.0, 3.4, 7.0), 79);
+  bool lit = r.lot.x > 0.45;
+  vec3 paint = r.side == 1.0 ? vec3(0.10, 0.105, 0.115) : r.side == 2.0 ? vec3(0.46) : vec3(0.33, 0.33, 0.32);
+  vec3 seen = paint * (0.16 / (1.0 + 0.35 * r.hit.z * r.hit.z)) * (0.4 + 0.6 * r.lot.y);
+  if (lit) seen += paint * vec3(0.115, 0.112, 0.10);
+  if (r.side == 2.0) {
+    vec2 lights = vec2(fract(r.hit.x / 1.5) * 1.5, fract(r.hit.z / 1.8) * 1.8);
+    seen += vec3(0.95, 0.93, 0.85) * (lit ? 0.9 : 0.02) * inBox(lights, vec2(0.75, 0.9), vec2(0.15, 0.6), at.footprint);
+  }
+  // Desks with screens stand near the window, pillars farther in.
+  vec2 desk = atDepth(r, 1.2);
+  float place = fract(desk.x / 2.1) * 2.1;
+  float there = step(desk.y, 0.78) + inBox(vec2(place, desk.y), vec2(1.0, 1.02), vec2(0.30, 0.17), at.footprint);
+  if (1.2 < r.hit.z) seen = mix(seen, vec3(0.020, 0.020, 0.022) + (lit ? 0.02 : 0.0), clamp(there, 0.0, 1.0) * 0.85);
+  // Each bay has a blind of its own.
+  Chart chart = chartOf(at.p, at.n);
+  vec3 own = random3(ivec3(int(floor(chart.at.x / 1.5)), int(floor(chart.at.y / 3.4)), 83));
+  float low = 3.4 * (own.x < 0.45 ? 0.0 : own.x < 0.85 ? 0.28 * own.y : 0.85 * own.y);
+  float drawn = smoothstep(-0.01, 0.01, r.from.y - (3.4 - low));
+  float slat = visible(0.03, at.footprint) * 0.12 * step(0.5, fract(r.from.y * 28.0));
+  return mix(seen, vec3(0.27, 0.265, 0.25) * (1.0 - slat), 0.9 * drawn);
+}
+
+// A shop: goods stand in the window, on shelves along the back, under lights.
+vec3 shop(Spot at) {
+  Room r = roomBehind(at, vec3(4.4, 3.9, 5.0), 89);
+  vec3 kept = mix(vec3(0.42, 0.36, 0.28), vec3(0.34, 0.36, 0.37), r.lot.x);
+  vec3 paint = r.side == 1.0 ? vec3(0.17, 0.12, 0.08) : r.side == 2.0 ? vec3(0.5) : kept;
+  vec2 wall = r.side == 3.0 ? r.hit.xy : vec2(r.hit.z, r.hit.y);
+  if ((r.side == 3.0 || r.side == 0.0) && wall.y < 2.6) {
+    // Shelves, and on them goods of many colours in lots that are alike.
+    vec2 q = vec2(wall.x / 0.11, wall.y / 0.42), lots = vec2(floor(wall.x / 0.66), floor(q.y));
+    vec3 lot = random3(ivec3(ivec2(lots), 97)), own = random3(ivec3(int(floor(q.x)), int(lots.y), 101));
+    vec3 goods = mix(mix(vec3(0.30, 0.25, 0.18), vec3(0.22, 0.10, 0.07), step(0.6, lot.x)),
+                     mix(vec3(0.10, 0.14, 0.15), vec3(0.42, 0.40, 0.36), step(0.5, lot.z)), step(0.5, lot.y));
+    float tall = 0.35 + 0.5 * lot.y + 0.08 * own.x, up = fract(q.y) / 0.92;
+    float filled = step(up, tall) * step(0.12, fract(q.x)) * step(own.z, 0.9);
+    vec3 shelf = mix(0.35 * kept, goods * (0.8 + 0.3 * own.y), filled);
+    if (up > 1.0) shelf = 0.8 * kept;
+    paint = mix(0.6 * kept, shelf, visible(0.25, at.footprint));
+  }
+  vec3 warm = vec3(1.0, 0.86, 0.66) * (0.20 + 0.22 * r.lot.y);
+  vec3 seen = paint * (warm + 0.25 / (1.0 + 0.5 * r.hit.z * r.hit.z));
+  if (r.side == 2.0) {
+    vec2 spots = fract(vec2(r.hit.x, r.hit.z) / 1.1) - 0.5;
+    seen += vec3(2.2, 1.9, 1.4) * (1.0 - smoothstep(0.05, 0.07, length(spots)));
+  }
+  // What is on show stands half a metre behind the pane, on a ledge: boxes, busts, bottles, each with a light side.
+  for (int i = 0; i < 2; ++i) {
+    float deep = i == 0 ? 0.95 : 0.45;
+    vec2 p = atDepth(r, deep);
+    float wide = 0.34 + 0.16 * r.lot.z, n = floor(p.x / wide + 0.37 * float(i));
+    vec3 own = random3(ivec3(int(n), int(floor(chartOf(at.p, at.n).at.x / 4.4)) + 7 * i, 103));
+    float x = p.x / wide + 0.37 * float(i) - n - 0.5, top = 0.85 + 0.35 * own.x + 0.25 * float(1 - i), y = p.y - 0.55;
+    // Boxes and cards, and round things on a foot.
+    float body = own.z < 0.7 ? max(abs(x) - 0.20 - 0.14 * own.y, y - (top - 0.55) * (0.5 + 0.5 * own.z))
+                             : min(length(vec2(x, (y - 0.22) / 0.7)) - 0.26, max(abs(x) - 0.07, y - 0.2));
+    float shown = step(deep, r.hit.z) * step(own.y, 0.6) * (1.0 - smoothstep(-0.02, 0.02, body));
+    vec3 colour = own.x < 0.5 ? vec3(0.40, 0.36, 0.29) : mix(vec3(0.09, 0.10, 0.12), vec3(0.26, 0.13, 0.08), own.y);
+    seen = mix(seen, colour * (0.55 + 0.35 * r.lot.y) * (0.75 + 0.8 * x), shown);
+    if (y < 0.0) seen = mix(seen, kept * 0.34, step(deep, r.hit.z) * smoothstep(0.0, -0.03, y));
+  }
+  return 0.62 * seen;
+}
+
+// A pane, and what lies behind it: see kClearPane and what follows it. What is tinted hides it.
 Surface glazed(Spot at) {
   Surface s = surfaceOf(at);
   s.roughness = 0.04;
   s.specular = 0.06;
-  s.albedo = 0.4 * at.colour;
-  if (distance(at.colour, kClearGlass) > 0.04) return s;
   s.albedo = vec3(0.0);
-  const vec3 kRoom = vec3(2.3, 3.0, 4.0);
-  Chart chart = chartOf(at.p, at.n);
-  vec2 q = chart.at / kRoom.xy;
-  ivec2 room = ivec2(floor(q));
-  vec3 lot = random3(ivec3(room, 77));
-  vec3 way = -vec3(dot(at.to_eye, chart.along), dot(at.to_eye, chart.up), dot(at.to_eye, at.n));
-  way.z = max(-way.z, 0.05);
-  vec2 from = (q - floor(q)) * kRoom.xy;
-  vec3 walls = vec3(way.x > 0.0 ? kRoom.x - from.x : from.x, way.y > 0.0 ? kRoom.y - from.y : from.y, kRoom.z);
-  vec3 t = walls / max(abs(vec3(way.xy, way.z)), vec3(1e-4));
-  float depth = min(t.x, min(t.y, t.z));
-  vec3 hit = vec3(from, 0.0) + depth * vec3(way.xy, way.z);
-  vec3 paint = mix(vec3(0.34, 0.31, 0.27), vec3(0.22, 0.25, 0.28), lot.x);
-  if (depth == t.y) paint = way.y > 0.0 ? vec3(0.42) : vec3(0.20, 0.14, 0.09);
-  // Daylight comes in by the window alone: by day rooms are dark, some more than others.
-  s.within = paint * (0.20 / (1.0 + 0.5 * hit.z * hit.z)) * (0.35 + lot.y);
-  if (lot.z > 0.35) {
-    float side = min(from.x, kRoom.x - from.x), fold = 0.5 + 0.5 * sin(from.x * 41.0 + 3.0 * sin(from.x * 7.0));
-    float hung = 1.0 - smoothstep(0.0, 0.03, side - 0.15 - 0.9 * (lot.z - 0.35));
-    vec3 cloth = mix(vec3(0.30, 0.29, 0.27), vec3(0.20, 0.15, 0.11), step(0.75, lot.x)) * (0.45 + 0.55 * fold);
-    s.within = mix(s.within, 0.8 * cloth * mix(0.7, 1.1, from.y / kRoom.y), 0.8 * hung);
-  } else if (lot.x > 0.6) {
-    // A blind, let down some of the way.
-    float below = 1.0 - smoothstep(0.0, 0.02, kRoom.y - from.y - kRoom.y * (0.25 + 0.45 * lot.y));
-    s.within = mix(s.within, vec3(0.27, 0.26, 0.23) * (0.85 + 0.15 * step(0.5, fract(from.y * 22.0))), 0.85 * below);
+  uint behind = uint(at.relief + 0.5);
+  if (behind == kClearPane) {
+    s.clear = vec3(1.0);
+  } else if (behind == kShopBehind) {
+    s.within = shop(at);
+  } else if (behind == kOfficeBehind) {
+    s.within = office(at);
+  } else if (behind == kCurtainBehind) {
+    // Folds hang from a rail, wide ones and narrow ones; a pane takes some of the light on its way in and out.
+    Chart chart = chartOf(at.p, at.n);
+    float x = chart.at.x + 0.02 * sin(1.7 * chart.at.y + 9.0 * chart.at.x);
+    float fold = sin(47.0 * x + 2.0 * sin(11.0 * x)) + 0.5 * sin(113.0 * x + 1.0);
+    s.albedo = 0.52 * at.colour * (0.86 + 0.16 * fold * visible(0.07, at.footprint));
+    s.normal = normalize(at.n + chart.along * (0.35 * cos(47.0 * x + 2.0 * sin(11.0 * x)) * visible(0.07, at.footprint)));
+  } else if (behind == kBlindBehind) {
+    Chart chart = chartOf(at.p, at.n);
+    float slat = fract(chart.at.y / 0.05);
+    s.albedo = 0.55 * at.colour * (1.0 - 0.22 * smoothstep(0.75, 1.0, slat) * visible(0.05, at.footprint));
+  } else if (distance(at.colour, kClearGlass) > 0.04) {
+    s.albedo = 0.4 * at.colour;
+  } else {
+    s.within = dwelling(at);
   }
   return s;
 }
@@ -172,21 +304,28 @@ Surface leaded(Spot at) {
   float from_lead = 0.12 * min(min(fract(q.x), 1.0 - fract(q.x)), min(fract(q.y), 1.0 - fract(q.y)));
   ivec2 field = ivec2(floor(p / kField));
   vec2 from_middle = p - (vec2(field) + 0.5) * kField;
-  float r = length(from_middle);
-  if (((field.x + field.y) & 1) == 0 && r < 0.40) {
-    float turn = atan(from_middle.y, from_middle.x) / 6.2831853 + 0.5;
-    float ring = r < 0.13 ? 0.0 : r < 0.31 ? 1.0 : 2.0, parts = ring == 0.0 ? 4.0 : ring == 1.0 ? 8.0 : 24.0;
+  // Each wheel has its own size, spokes and colours, and some fields have a lozenge or none.
+  vec3 kind = random3(ivec3(field, 317));
+  bool figured = ((field.x + field.y) & 1) == 0 && kind.z < 0.9;
+  float outer = 0.32 + 0.10 * kind.x;
+  float r = kind.z > 0.62 ? 0.66 * (abs(from_middle.x) * 1.25 + abs(from_middle.y)) : length(from_middle);
+  if (figured && r < outer) {
+    float turn = atan(from_middle.y, from_middle.x) / 6.2831853 + 0.5, hub = outer * (0.22 + 0.2 * kind.y);
+    float middle = outer * (0.70 + 0.12 * kind.x), spokes = 4.0 + 2.0 * floor(3.0 * kind.y);
+    float ring = r < hub ? 0.0 : r < middle ? 1.0 : 2.0, parts = ring == 0.0 ? 4.0 : ring == 1.0 ? spokes : 3.0 * spokes;
     float part = floor(turn * parts);
     vec3 own = random3(ivec3(field, int(part) + 32 * int(ring)));
     float even = mod(part, 2.0);
     vec3 ruby = vec3(0.46, 0.025, 0.03), cobalt = vec3(0.035, 0.09, 0.50), amber = vec3(0.75, 0.42, 0.06);
-    vec3 green = vec3(0.06, 0.30, 0.10);
-    tint = ring == 0.0 ? amber : ring == 1.0 ? mix(ruby, cobalt, even) : mix(cobalt, own.x < 0.3 ? green : ruby, even);
+    vec3 green = vec3(0.06, 0.30, 0.10), violet = vec3(0.24, 0.05, 0.30);
+    vec3 first = kind.x < 0.4 ? ruby : kind.x < 0.7 ? green : violet, second = kind.y < 0.6 ? cobalt : amber;
+    tint = ring == 0.0 ? mix(amber, vec3(0.72, 0.74, 0.66), step(0.6, kind.y)) : ring == 1.0 ? mix(first, second, even)
+                                                                      : mix(cobalt, own.x < 0.3 ? green : ruby, even);
     tint *= 0.75 + 0.5 * own.y;
     float across = abs(fract(turn * parts + 0.5) - 0.5) / parts * 6.2831853 * r;
-    from_lead = min(across, min(abs(r - 0.13), min(abs(r - 0.31), 0.40 - r)));
-  } else if (r < 0.43 && ((field.x + field.y) & 1) == 0) {
-    from_lead = min(from_lead, r - 0.40);
+    from_lead = min(across, min(abs(r - hub), min(abs(r - middle), outer - r)));
+  } else if (figured && r < outer + 0.03) {
+    from_lead = min(from_lead, r - outer);
   }
   float soft = 0.5 * at.footprint + 0.001;
   float lead = 1.0 - smoothstep(0.004 - soft, 0.004 + soft, from_lead);
@@ -202,12 +341,13 @@ Surface leaded(Spot at) {
 }
 
 // What shines by itself. A flame behind a pane is brightest in the middle; towards the rim the pane is seen, which is hot and
-// coloured.
+// coloured, and sooty in streaks.
 Surface glowing(Spot at) {
   Surface s = surfaceOf(at);
   float facing = max(dot(at.n, at.to_eye), 0.0);
+  float soot = smoothstep(-0.2, 0.6, noise(at.p * vec3(21.0, 7.0, 21.0)).x + 0.5 * noise(at.p * 47.0).x);
   s.albedo = 0.1 * at.colour;
-  s.within = at.colour * mix(0.9, 3.4, facing * facing) + vec3(0.9, 0.7, 0.4) * pow(facing, 6.0);
-  s.within *= 1.0 + 0.15 * noise(at.p * 13.0).x;
+  s.within = at.colour * mix(0.35, 1.15, facing * facing) + vec3(0.75, 0.60, 0.34) * pow(facing, 9.0);
+  s.within *= mix(vec3(1.0), vec3(0.62, 0.54, 0.46), 0.8 * soot);
   return s;
 }
