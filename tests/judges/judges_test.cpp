@@ -27,7 +27,7 @@ std::vector<CgalVerdict> cgalOf(JudgedMeshes& meshes) {
   return meshes.judge<CgalVerdict>("'" + setting("SGM_JUDGE_CGAL") + "'");
 }
 std::vector<ManifoldVerdict> manifoldOf(JudgedMeshes& meshes) {
-  return meshes.judge<ManifoldVerdict>("node '" + setting("SGM_JUDGE_MANIFOLD") + "' '" + setting("SGM_TOOLS") + "'");
+  return meshes.judge<ManifoldVerdict>("node '" + setting("SGM_JUDGE_MANIFOLD") + "' '" + setting("SGM_NODE_MODULES") + "'");
 }
 
 MeshMeasures measured(const Triangles& mesh) {

@@ -6,7 +6,7 @@ set -euo pipefail
 judge=$1 program=$2
 case $judge in
   cgal) missing=$([[ -n ${SGM_JUDGE_CGAL:-} ]] || echo "CGAL: install the package libcgal-dev, and configure again") ;;
-  manifold) missing=$([[ -e $SGM_TOOLS/manifold-3d ]] || echo "manifold-3d in $SGM_TOOLS: tests/run.sh installs it") ;;
+  manifold) missing=$([[ -e $SGM_NODE_MODULES/manifold-3d ]] || echo "manifold-3d in $SGM_NODE_MODULES: tests/run.sh installs it") ;;
 esac
 if [[ -n $missing ]]; then
   echo "SKIPPED: no $missing"
