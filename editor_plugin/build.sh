@@ -24,6 +24,8 @@ prefix=${1:-$out/prefix}
 if (($# == 0)); then
   [[ -e $root/build/release/runtime/cmake_install.cmake ]] ||
     die "build/release is not built: cmake --preset release && cmake --build --preset release, or name a PREFIX"
+  grep -q '^SGM_TOOLS:[A-Z]*=all' "$root/build/release/CMakeCache.txt" ||
+    die "build/release has the core commands alone: cmake --preset release && cmake --build --preset release"
   quietly "installing build/release" cmake --install "$root/build/release" --prefix "$prefix" --component library
   # The tests bake with the command.
   quietly "installing the command" cmake --install "$root/build/release" --prefix "$prefix" --component command
@@ -52,4 +54,5 @@ quietly "building" cmake --build "$out/build"
   { mkdir -p "$here/demo/.godot" && echo "res://addons/sgm/sgm.gdextension" >"$here/demo/.godot/extension_list.cfg"; }
 HOME=$out/home quietly "importing the demo project" timeout 300 "$godot" --headless --path "$here/demo" --import
 ! grep -E '^(ERROR|SCRIPT ERROR)' "$out/build.log" >&2 || die "the demo project was imported with errors"
+touch "$here/demo/.godot/sgm_imported"  # tests/run.sh imports the project again if a file of it is newer
 echo "the plugin is in editor_plugin/demo/addons/sgm, built with the headers of Godot $version"

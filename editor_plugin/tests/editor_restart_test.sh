@@ -11,6 +11,8 @@ godot=$(bash "$root/editor_plugin/get_godot.sh" 2>/dev/null) || {
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 export HOME=$folder/home XDG_DATA_HOME=$folder/home XDG_CONFIG_HOME=$folder/home XDG_CACHE_HOME=$folder/home
+# What the driver keeps is, for it takes long to make.
+export MESA_SHADER_CACHE_DIR=$root/build/godot/home/cache
 project=$folder/demo
 mkdir -p "$HOME" "$project/tests"
 cp -a "$root/editor_plugin/demo/." "$project/"

@@ -17,6 +17,9 @@ script() {
   printf 'extends SceneTree\nconst Checks := preload("res://tests/lib/checks.gd")\nvar _checks := Checks.new()\n\nfunc _initialize() -> void:\n%s\n' \
     "$2" >"$out/editor_plugin/tests/headless/$1.gd"
 }
+# There is nothing to import in it.
+mkdir "$out/demo/.godot"
+touch "$out/demo/.godot/sgm_imported"
 failed=0
 # judged NAME STATUS PATTERN
 judged() {

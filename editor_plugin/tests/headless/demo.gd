@@ -2,6 +2,9 @@ extends SceneTree
 ## The demo's places as someone plays them: they are entered from the menu, walked, dug, grown anew and left.
 
 const Checks := preload("res://tests/lib/checks.gd")
+## Seconds without progress after which a world counts as stuck. Its threads have a low priority, and other tests run
+## beside this one.
+const PATIENCE := 90.0
 const PLACES: Array[String] = ["res://cave/cave.tscn", "res://sky/sky.tscn", "res://valley/valley.tscn",
 		"res://city/city.tscn"]
 
@@ -20,6 +23,7 @@ func _initialize() -> void:
 				await _sky(place as DemoSky)
 			"res://valley/valley.tscn":
 				await _stands(place, "the valley")
+				await _leaves(place)
 			"res://city/city.tscn":
 				await _city(place)
 		await _panel(place)
@@ -148,14 +152,37 @@ func _panel(place: DemoPlace) -> void:
 func _stands(place: DemoPlace, what: String) -> void:
 	var player := place.player
 	_checks.check(not DemoGround.is_inside(place.world, player.eye()), "%s: the eyes are free at the start" % what)
-	await _until(func() -> bool: return player.ground_ready and player.is_on_floor(), 180.0)
-	_checks.check(player.ground_ready and player.is_on_floor(), "%s: the player stands" % what)
+	await _until_while_it_works(func() -> bool: return player.ground_ready and player.is_on_floor(), place.world)
+	_checks.check(player.ground_ready and player.is_on_floor(),
+			"%s: the player stands: %s" % [what, place.world.get_statistics()])
 	_checks.check(player.global_position.distance_to(place.start_place) < 2.0, "%s: nobody has fallen" % what)
+
+
+func _leaves(place: DemoPlace) -> void:
+	var leaves := place.get_node("Leaves") as DemoLeaves
+	await _until_while_it_works(func() -> bool: return place.world.is_idle(), place.world)
+	await leaves.grow()
+	_checks.check(leaves.multimesh.instance_count > 0, "leaves grow over frames: %s" % place.world.get_statistics())
 
 
 func _until(condition: Callable, seconds: float) -> void:
 	var limit := Time.get_ticks_msec() + roundi(seconds * 1000.0)
 	while not condition.call() and Time.get_ticks_msec() < limit:
+		await process_frame
+
+
+## Waits for the condition as long as the world makes progress.
+func _until_while_it_works(condition: Callable, world: SgmWorld3D) -> void:
+	var done := -1
+	var limit := 0
+	while not condition.call():
+		var statistics: Dictionary = world.get_statistics()
+		var now: int = statistics.get("chunks_meshed", 0) + statistics.get("plans", 0)
+		if now != done:
+			done = now
+			limit = Time.get_ticks_msec() + roundi(PATIENCE * 1000.0)
+		elif Time.get_ticks_msec() > limit:
+			return
 		await process_frame
 
 

@@ -8,9 +8,9 @@ const Checks := preload("res://tests/lib/checks.gd")
 ## degrees from the lower to the upper edge: less than in play, as a photographer's lens does.
 const VIEWS := {
 	cave = [Vector3.INF, -90.0, 0.0, 70.0],
-	sky = [Vector3(1900.0, 1370.0, 2250.0), 40.0, 5.0, 60.0],
+	sky = [Vector3(1900.0, 1370.0, 2250.0), 40.0, -1.0, 50.0],
 	valley = [Vector3(38.0, 1.6, 121.0), -56.0, 7.0, 60.0],
-	city = [Vector3(-2.0, 1.75, 15.0), -1.0, 4.0, 58.0],
+	city = [Vector3(-5.7, 1.75, -4.4), -14.9, 4.6, 58.0],
 }
 const LONGEST := 900.0
 const CAVE_SEED := 8
@@ -34,6 +34,8 @@ func _draw(name: String) -> void:
 	var place := (load("res://%s/%s.tscn" % [name, name]) as PackedScene).instantiate() as DemoPlace
 	for setting: String in place.fine:
 		place.world.set(setting, place.fine[setting])
+	# What has been meshed once is there sooner when a picture is drawn again.
+	place.world.cache_folder = "user://meshes"
 	if place is DemoCave:
 		place.world.seed = CAVE_SEED
 	# Frames are drawn when all that they show is there: a software renderer would leave the world's threads no time.
@@ -58,6 +60,8 @@ func _draw(name: String) -> void:
 	_checks.check(place.world.is_idle(), "%s comes to rest" % name)
 	for grass: DemoGrass in place.find_children("*", "DemoGrass", true, false):
 		grass.fill()
+	for leaves: DemoLeaves in place.find_children("*", "DemoLeaves", true, false):
+		leaves.fill()
 	if place is DemoSky:
 		while not (place as DemoSky).volume.is_filled() and Time.get_ticks_msec() < limit:
 			await process_frame
