@@ -25,14 +25,19 @@ function(sgm_target_flags target)
   endif()
 endfunction()
 
-# sgm_module(NAME [AS path] SOURCES ... [LINK private libraries ...] [PUBLIC libraries whose headers ours include ...])
-# makes the static library sgm_NAME from the caller's folder. Headers are included as "NAME/file.h", or "path/file.h".
+# sgm_module(NAME [AS path] [BATCH count] SOURCES ... [LINK private libraries ...] [PUBLIC libraries whose headers ours
+# include ...]) makes the static library sgm_NAME from the caller's folder. Headers are included as "NAME/file.h", or
+# "path/file.h". BATCH: so many files are one unit of a unity build, where most of a unit's time goes to headers that they
+# share; names in their unnamed namespaces differ then. mesh does without: more functions in a unit change what is inlined.
 function(sgm_module name)
-  cmake_parse_arguments(ARG "" "AS" "SOURCES;LINK;PUBLIC" ${ARGN})
+  cmake_parse_arguments(ARG "" "AS;BATCH" "SOURCES;LINK;PUBLIC" ${ARGN})
   if(NOT ARG_AS)
     set(ARG_AS ${name})
   endif()
   add_library(sgm_${name} STATIC ${ARG_SOURCES})
+  if(ARG_BATCH)
+    set_target_properties(sgm_${name} PROPERTIES UNITY_BUILD_BATCH_SIZE ${ARG_BATCH})
+  endif()
   # A folder sees its own headers and those of the modules it names, nothing else.
   set(include_root ${CMAKE_CURRENT_BINARY_DIR}/include_root)
   cmake_path(GET ARG_AS PARENT_PATH parent)

@@ -23,16 +23,41 @@ esac
 
 mkdir -p build out/demo
 log=build/demo.log
+
+# Shows how far a build is: on one line that changes, or in a file every tenth part.
+show_progress() {
+  local line done all tenth last=-1
+  while IFS= read -r line; do
+    printf '%s\n' "$line" >>"$log"
+    [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+    done=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
+    tenth=$((10 * done / all))
+    if [[ -t 1 ]]; then
+      printf '\rdemo: built %d of %d parts, %d s ' "$done" "$all" $((SECONDS - started))
+    elif ((tenth > last && all > 10)); then
+      printf 'demo: built %d of %d parts, %d s\n' "$done" "$all" $((SECONDS - started))
+      last=$tenth
+    fi
+  done
+  [[ ! -t 1 || -z ${all:-} ]] || echo
+}
+
 if [[ ! -f build/release/build.ninja ]]; then
-  echo "demo: configuring build/release, without the tests (cmake --preset release turns them on)"
-  cmake --preset release -D SGM_BUILD_TESTS=OFF -D SGM_BUILD_BENCH=OFF >"$log" 2>&1 || {
+  echo "demo: configuring build/release with the core commands (cmake --preset release adds the rest)"
+  # The kernels for NVIDIA GPUs take long to compile: only where a driver could run them.
+  cuda=OFF
+  [[ $(/sbin/ldconfig -p 2>/dev/null) != *libcuda.so.1* ]] || cuda=AUTO
+  cmake --preset release -D SGM_TOOLS=core -D SGM_CUDA=$cuda -D SGM_SERVICE=OFF -D SGM_BUILD_TESTS=OFF -D SGM_BUILD_BENCH=OFF \
+    -D SGM_BUILD_SAMPLES=OFF >"$log" 2>&1 || {
     cat "$log" >&2
     die "configuring failed"
   }
 fi
-[[ -x build/release/bin/sgm ]] || echo "demo: building build/release/bin/sgm (some minutes the first time)"
+[[ -x build/release/bin/sgm ]] || echo "demo: building build/release/bin/sgm, which takes some minutes the first time"
+started=$SECONDS
+: >"$log"
 # With the library, which is linked of the same objects, so that both can be installed.
-cmake --build --preset release --target sgm_cli sgm >"$log" 2>&1 || {
+cmake --build --preset release --target sgm_cli sgm 2>&1 | show_progress || {
   cat "$log" >&2
   die "building failed"
 }

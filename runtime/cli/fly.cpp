@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 
+#include "cli/awaited_signals.h"
 #include "cli/commands.h"
 #include "cli/flight_animation.h"
 #include "cli/fly_pictures.h"
@@ -44,11 +45,11 @@ struct Scene {
   sgm_field_desc field_desc = SGM_FIELD_DESC_INIT;
 };
 
-Exit complain(const sgm_error& error) {
+Exit reportError(const sgm_error& error) {
   const Exit status = error.code == SGM_ERR_UNSUPPORTED ? Exit::backend
                       : error.code == SGM_ERR_IO        ? Exit::file
                                                         : Exit::input;
-  return cli::complain(status, error.message);
+  return complain(status, error.message);
 }
 
 /// What the world has to say, beside a progress bar: a damaged journal, a folder that cannot be written.
@@ -76,11 +77,11 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   const std::string pipelines = pipelineFolder();
   if (!pipelines.empty()) runtime_desc.pipeline_folder = pipelines.c_str();
   sgm_runtime* runtime = nullptr;
-  if (sgm_runtime_create(&runtime_desc, &runtime, &error) != SGM_OK) return complain(error);
+  if (sgm_runtime_create(&runtime_desc, &runtime, &error) != SGM_OK) return reportError(error);
   scene.runtime.reset(runtime);
 
   const Result<std::string> text = readGrammarText(options.file);
-  if (!text) return cli::complain(text.error());
+  if (!text) return complain(text.error());
   const std::string folder = std::filesystem::path(options.file).parent_path().string();
   sgm_grammar_desc grammar_desc = SGM_GRAMMAR_DESC_INIT;
   grammar_desc.text = text->data();
@@ -88,20 +89,20 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   grammar_desc.name = options.file.c_str();
   grammar_desc.import_folder = folder.empty() ? "." : folder.c_str();
   sgm_grammar* grammar = nullptr;
-  if (sgm_grammar_compile(runtime, &grammar_desc, &grammar, nullptr, &error) != SGM_OK) return complain(error);
+  if (sgm_grammar_compile(runtime, &grammar_desc, &grammar, nullptr, &error) != SGM_OK) return reportError(error);
   scene.grammar.reset(grammar);
   sgm_parameters* parameters = nullptr;
-  if (sgm_parameters_create(grammar, &parameters, &error) != SGM_OK) return complain(error);
+  if (sgm_parameters_create(grammar, &parameters, &error) != SGM_OK) return reportError(error);
   scene.parameters.reset(parameters);
   for (const std::string& set : options.sets) {
     const size_t equals = set.find('=');
     if (sgm_parameters_set_text(parameters, set.substr(0, equals).c_str(), set.substr(equals + 1).c_str(), &error) !=
         SGM_OK)
-      return complain(error);
+      return reportError(error);
   }
 
   const Result<int32_t> cell = cellUnits(options);
-  if (!cell) return cli::complain(cell.error());
+  if (!cell) return complain(cell.error());
   scene.cell = *cell;
   sgm_field_desc& field_desc = scene.field_desc;
   field_desc.grammar = grammar;
@@ -110,7 +111,7 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   field_desc.cell_units = *cell;
   field_desc.backend = backendNamed(options.backend);
   sgm_field* field = nullptr;
-  if (sgm_field_create(runtime, &field_desc, &field, &error) != SGM_OK) return complain(error);
+  if (sgm_field_create(runtime, &field_desc, &field, &error) != SGM_OK) return reportError(error);
   scene.field.reset(field);
 
   sgm_world_desc world_desc = SGM_WORLD_DESC_INIT;
@@ -134,7 +135,7 @@ Exit makeScene(const FlyOptions& options, bool by_distance, Scene& scene) {
   // A flight to compare with is not reported.
   if (options.measure && !by_distance) world_desc.flags |= SGM_WORLD_MEASURE;
   sgm_world* world = nullptr;
-  if (sgm_world_create(field, &world_desc, &world, &error) != SGM_OK) return complain(error);
+  if (sgm_world_create(field, &world_desc, &world, &error) != SGM_OK) return reportError(error);
   scene.world.reset(world);
   return Exit::done;
 }
@@ -182,6 +183,18 @@ struct FlightResult {
   Exit status = Exit::done;
 };
 
+/// Returns the text as a name under which the service can watch a world: other characters become '_'.
+std::string worldName(std::string_view text) {
+  constexpr size_t kLongest = 64;
+  std::string name(text.substr(0, kLongest));
+  for (char& c : name) {
+    const bool fits =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
+    if (!fits) c = '_';
+  }
+  return name.empty() ? "world" : name;
+}
+
 /// A service that watches the scene's world, and says on stderr where: standard output is the report's.
 Result<Serving> serveWorld(const FlyOptions& options, const Scene& scene) {
   Result<Serving> serving = Serving::start(options.serving);
@@ -202,17 +215,17 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   std::optional<Serving> serving;
   if (serves) {
     Result<Serving> started = serveWorld(options, scene);
-    if (!started) return {{}, cli::complain(started.error())};
+    if (!started) return {{}, complain(started.error())};
     serving = std::move(*started);
   }
   Result<FlightPath> path = pathOf(options, scene);
-  if (!path) return {{}, cli::complain(path.error())};
+  if (!path) return {{}, complain(path.error())};
   FlightSettings settings = settingsOf(options, scene);
   std::optional<FlightAnimation> animation;
   if (options.animate) {
     Result<FlightAnimation> made =
         FlightAnimation::of(scene.runtime.get(), scene.field_desc, scene.parameters.get(), options.animated);
-    if (!made) return {{}, cli::complain(made.error())};
+    if (!made) return {{}, complain(made.error())};
     animation = std::move(*made);
     settings.each_frame = [&](double seconds) { return animation->show(scene.world.get(), seconds); };
   }
@@ -236,14 +249,14 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
   bar.reset();
   // Before all that may fail: what was dug is not there again.
   const Result<void> kept = keepEdits(scene);
-  if (!kept && !report) return {{}, cli::complain(kept.error())};
+  if (!kept && !report) return {{}, complain(kept.error())};
   if (signals && signals->came() && !report) {
     fmt::print(stderr, "ended before the flight was over: there is no report\n");
     return {{}, Exit::done};
   }
-  if (!report && report.error().code != Code::cancelled) return {{}, cli::complain(report.error())};
+  if (!report && report.error().code != Code::cancelled) return {{}, complain(report.error())};
   if (pictures != nullptr) {
-    if (Result<void> drawn = pictures->finish(); !drawn) return {{}, cli::complain(drawn.error())};
+    if (Result<void> drawn = pictures->finish(); !drawn) return {{}, complain(drawn.error())};
   }
   Flown flown;
   if (pictures != nullptr) flown.lights = pictures->lights();
@@ -254,16 +267,16 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
     flown.fields_drawn = animation->drawn();
   }
   const Result<uint64_t> hash = hashAround(scene, last);
-  if (!hash) return {{}, cli::complain(hash.error())};
+  if (!hash) return {{}, complain(hash.error())};
   flown.hash = *hash;
   sgm_runtime_memory(scene.runtime.get(), nullptr, &flown.runtime_peak_bytes);
   sgm_error error = SGM_ERROR_INIT;
   if (options.measure && pictures != nullptr) {
     flown.measures = SGM_WORLD_MEASURES_INIT;
-    if (sgm_world_get_measures(scene.world.get(), &*flown.measures, &error) != SGM_OK) return {{}, complain(error)};
+    if (sgm_world_get_measures(scene.world.get(), &*flown.measures, &error) != SGM_OK) return {{}, reportError(error)};
   }
   if (sgm_backend_query(scene.runtime.get(), backendNamed(options.backend), &flown.backend, &error) != SGM_OK)
-    return {{}, complain(error)};
+    return {{}, reportError(error)};
   if (!kept) flown.edits_lost = kept.error();
   if (signals) signals->wait();
   return {std::move(flown), Exit::done};
@@ -274,7 +287,7 @@ FlightResult flyOnce(const FlyOptions& options, FlyPictures* pictures) {
 Exit fly(const FlyOptions& options) {
   if (const LoadedGrammar loaded = loadGrammar(options.file); loaded.program == nullptr) return loaded.status;
   FlyPictures pictures(options);
-  if (Result<void> begun = pictures.begin(); !begun) return cli::complain(begun.error());
+  if (Result<void> begun = pictures.begin(); !begun) return complain(begun.error());
   const FlightResult flight = flyOnce(options, &pictures);
   if (!flight.flown) return flight.status;
   std::optional<FlightReport> by_distance;
@@ -289,8 +302,8 @@ Exit fly(const FlyOptions& options) {
     print(options, *flight.flown, by_distance);
   }
   const std::optional<std::string> defect = defectOf(*flight.flown);
-  if (defect) cli::complain(Exit::input, *defect);
-  if (flight.flown->edits_lost) return cli::complain(*flight.flown->edits_lost);
+  if (defect) complain(Exit::input, *defect);
+  if (flight.flown->edits_lost) return complain(*flight.flown->edits_lost);
   return defect ? Exit::input : Exit::done;
 }
 

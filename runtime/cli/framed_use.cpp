@@ -14,9 +14,9 @@
 namespace sgm::cli {
 namespace {
 
-constexpr float kNearSurface = 0.3f;    // cells, from a use's own surface
-constexpr size_t kMostTargets = 12;     // looked at
-constexpr size_t kFewestTriangles = 6;  // triangles, of what can be told in a picture
+constexpr float kNearOwnSurface = 0.3f;  // cells, from a use's own surface
+constexpr size_t kMostTargets = 12;      // looked at
+constexpr size_t kFewestTriangles = 6;   // triangles, of what can be told in a picture
 
 /// The drawn mesh, and where its places lie in the world.
 struct DrawnRegion {
@@ -92,7 +92,7 @@ Result<OwnSurface> ownOf(const DrawnRegion& drawn, const RuleUse& use, int level
   OwnSurface own;
   size_t within = 0;
   for (size_t i = 0; i < triangles.size(); ++i) {
-    if (std::fabs((*values)[3 * i]) >= kNearSurface * static_cast<float>(drawn.region.cell)) continue;
+    if (std::fabs((*values)[3 * i]) >= kNearOwnSurface * static_cast<float>(drawn.region.cell)) continue;
     own.triangles.push_back(triangles[i]);
     within += (*values)[3 * i + 1] < (*values)[3 * i + 2];
   }

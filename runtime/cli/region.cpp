@@ -255,13 +255,19 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
     meshed->mesh = splitCreases(*unsplit, memory);
   }
   std::optional<api::TexturedRegion> texture;
+  std::optional<Unwrapped> blends;
+  const api::ChunkAt chunk_at =
+      tree ? [&tree](Int3 place) { return tree->leafAt(place); } : api::chunksOfLevel(world, level);
   if (plan.texture) {
     now("unwrapping");
-    const api::ChunkAt chunk_at =
-        tree ? [&tree](Int3 place) { return tree->leafAt(place); } : api::chunksOfLevel(world, level);
     Result<api::TexturedRegion> unwrapped = api::unwrapRegion(world, *jobs, meshed->mesh, chunk_at, kTile);
     if (!unwrapped) return unwrapped.error();
     texture = std::move(*unwrapped);
+  } else if (plan.blends) {
+    now("blending materials");
+    Result<Unwrapped> blended = api::blendRegion(world, *jobs, meshed->mesh, chunk_at);
+    if (!blended) return blended.error();
+    blends = std::move(*blended);
   }
   const double seconds = watch.seconds();
   std::vector<DeriveNote> notes;
@@ -287,6 +293,7 @@ Result<Region> meshProgram(std::shared_ptr<const Program> compiled, const WorldO
                 capabilities.device,
                 seconds,
                 std::move(texture),
+                std::move(blends),
                 std::move(unsplit),
                 {},
                 std::move(notes),

@@ -27,6 +27,7 @@ struct Region {
   std::string backend, device;
   double seconds = 0;                          ///< from the compiled grammar to the welded mesh
   std::optional<api::TexturedRegion> texture;  ///< where the plan asks for it
+  std::optional<Unwrapped> blends;             ///< the same, where it asks for no coordinates
   /// Where options ask for sharp features: the closed mesh, whose vertices at creases meshed.mesh has once a side.
   std::optional<WorldMesh> unsplit;
   std::string empty_because;                ///< where the mesh has no triangle: why that may be, and what to try
@@ -76,6 +77,7 @@ struct RegionPlan {
   /// Asked from any thread while the work goes on; false ends it with Code::cancelled. Empty: nobody asks.
   std::function<bool()> go_on;
   bool texture = false;     ///< with texture coordinates and blends of materials
+  bool blends = false;      ///< with blends of materials alone
   bool keep_world = false;  ///< with its cache, for questions afterwards
   /// Refuses a grammar before any work.
   std::function<Result<void>(const Program& program)> check;

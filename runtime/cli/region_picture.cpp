@@ -29,18 +29,13 @@ std::vector<RenderVertex> drawable(const WorldMesh& mesh) {
   return vertices;
 }
 
-/// The mesh as it is drawn. With texture coordinates, where charts or pairs of materials meet a vertex comes several
-/// times.
+/// The mesh as it is drawn. Where charts or pairs of materials meet a vertex comes several times.
 void addMesh(const Region& region, bool uv, RegionScene& drawn) {
-  std::vector<RenderVertex> vertices = drawable(region.meshed.mesh);
-  if (!region.texture) {
-    drawn.indices.assign(region.meshed.mesh.indices.begin(), region.meshed.mesh.indices.end());
-    drawn.vertices = std::move(vertices);
-    return;
-  }
-  const auto& corners = region.texture->unwrapped.corners;
-  drawn.indices.assign(corners.begin(), corners.end());
-  for (const Wedge& wedge : region.texture->unwrapped.wedges) {
+  const std::vector<RenderVertex> vertices = drawable(region.meshed.mesh);
+  const Unwrapped& seen = region.texture ? region.texture->unwrapped : *region.blends;
+  drawn.indices.assign(seen.corners.begin(), seen.corners.end());
+  drawn.vertices.reserve(seen.wedges.size());
+  for (const Wedge& wedge : seen.wedges) {
     RenderVertex& vertex = drawn.vertices.emplace_back(vertices[wedge.vertex]);
     vertex.material = wedge.materials[0];
     vertex.second = wedge.materials[1];
@@ -255,7 +250,8 @@ PictureView pictureView(const RenderOptions& options) {
 RegionPlan picturePlan(const RenderOptions& options, std::optional<RegionDensity>& density) {
   RegionPlan plan;
   if (options.pixels && !options.camera.empty()) plan.view = pictureView(options);
-  plan.texture = true;
+  plan.texture = options.uv;
+  plan.blends = !options.uv;
   plan.keep_world = true;
   if (!options.frame.empty()) {
     planFrame(options, plan);

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "cli/awaited_signals.h"
 #include "cli/commands.h"
 
 namespace sgm::cli {

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <climits>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 
@@ -49,25 +48,7 @@ void allowManyFiles() {
   setrlimit(RLIMIT_NOFILE, &files);
 }
 
-sigset_t awaited() {
-  sigset_t set;
-  sigemptyset(&set);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
-  return set;
-}
-
 }  // namespace
-
-std::string worldName(std::string_view text) {
-  constexpr size_t kLongest = 64;
-  std::string name(text.substr(0, kLongest));
-  for (char& c : name) {
-    const bool fits =
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '.';
-    if (!fits) c = '_';
-  }
-  return name.empty() ? "world" : name;
-}
 
 Result<Serving> Serving::start(const ServingOptions& options) {
   allowManyFiles();
@@ -110,43 +91,14 @@ Result<Serving> Serving::start(const ServingOptions& options) {
   return serving;
 }
 
+void Serving::Stop::operator()(sgm_service* service) const {
+  static_cast<void>(sgm_service_stop(service, kGraceMilliseconds));
+}
+
 Result<void> Serving::watch(const std::string& name, sgm_world* world) {
   sgm_error error = SGM_ERROR_INIT;
   if (sgm_service_watch_world(service_.get(), name.c_str(), world, &error) != SGM_OK) return errorOf(error);
   return {};
-}
-
-AwaitedSignals::AwaitedSignals() {
-  const sigset_t set = awaited();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
-}
-
-AwaitedSignals::~AwaitedSignals() { release(); }
-
-void AwaitedSignals::release() {
-  if (!held_) return;
-  held_ = false;
-  const sigset_t set = awaited();
-  pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
-}
-
-bool AwaitedSignals::came() {
-  const sigset_t set = awaited();
-  const timespec now{};
-  if (came_ == 0) came_ = std::max(0, sigtimedwait(&set, nullptr, &now));
-  return came_ != 0;
-}
-
-void AwaitedSignals::pass() {
-  release();
-  std::raise(came_);
-}
-
-void AwaitedSignals::wait() {
-  const sigset_t set = awaited();
-  while (came_ == 0)
-    if (sigwait(&set, &came_) != 0) came_ = 0;
-  release();
 }
 
 }  // namespace sgm::cli

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/result.h"
@@ -24,13 +23,10 @@ struct ServingOptions {
   uint32_t seconds = 60, jobs = 2, waiting = 16;
 };
 
-/// A name that a world can be watched by, as like to this text as can be.
-std::string worldName(std::string_view text);
-
 /// One thread. What it watches must outlive it.
 class Serving {
  public:
-  /// Errors: io for the token's file and the ports; invalid_argument.
+  /// Errors: io for the token's file and the ports; invalid_argument; unsupported (serving_off.cpp).
   static Result<Serving> start(const ServingOptions& options);
 
   Result<void> watch(const std::string& name, sgm_world* world);
@@ -42,33 +38,11 @@ class Serving {
   /// What is asked at the end may still be answered within this time.
   static constexpr uint32_t kGraceMilliseconds = 5000;
   struct Stop {
-    void operator()(sgm_service* service) const { static_cast<void>(sgm_service_stop(service, kGraceMilliseconds)); }
+    void operator()(sgm_service* service) const;
   };
 
   std::unique_ptr<sgm_service, Stop> service_;
   std::string work_, operations_;
-};
-
-/// Holds SIGINT, SIGTERM and SIGHUP back, from this thread and those that it starts, until it is waited for one.
-class AwaitedSignals {
- public:
-  AwaitedSignals();
-  ~AwaitedSignals();
-  AwaitedSignals(const AwaitedSignals&) = delete;
-  AwaitedSignals& operator=(const AwaitedSignals&) = delete;
-
-  /// Whether one has come. Never waits.
-  bool came();
-  /// Ends the process by the signal that has come, as if it had never been held back.
-  void pass();
-  /// Blocks until one comes, unless one has. The next one ends the process.
-  void wait();
-
- private:
-  void release();
-
-  bool held_ = true;
-  int came_ = 0;  ///< the signal
 };
 
 }  // namespace sgm::cli

@@ -2,6 +2,8 @@
 // Each declares a command, and returns what to run where it is the one given.
 
 #include <functional>
+#include <span>
+#include <string_view>
 
 #include "cli/console.h"
 
@@ -12,6 +14,12 @@ class App;
 namespace sgm::cli {
 
 using Command = std::function<Exit()>;
+using AddCommand = Command (*)(CLI::App& root);
+
+/// The commands of this build, in the order of help: those of all_commands.cpp or of core_commands.cpp.
+std::span<const AddCommand> commandsToAdd();
+/// Names of commands that this build leaves out.
+std::span<const std::string_view> commandsLeftOut();
 
 Command addCheck(CLI::App& root);
 Command addFmt(CLI::App& root);

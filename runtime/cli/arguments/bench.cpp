@@ -1,4 +1,4 @@
-// The commands that say what this machine can do, and how this runtime stands beside its paper.
+// The commands that measure this machine, and compare the runtime with its paper.
 
 #include <memory>
 
@@ -102,14 +102,6 @@ Command addPaper(CLI::App& root) {
       "the same report.\n"
       "Example:\n  sgm paper --out paper --quick");
   return [options] { return reproducePaper(*options); };
-}
-
-Command addBackends(CLI::App& root) {
-  CLI::App* app = root.add_subcommand("backends", "List what can compute and draw on this machine, and why not");
-  const auto json = std::make_shared<bool>(false);
-  app->add_flag("--json", *json, "Print the list as one JSON object on standard output");
-  app->footer("Example:\n  sgm backends --json");
-  return [json] { return listBackends(*json); };
 }
 
 }  // namespace sgm::cli

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/arguments/add_commands.h"
@@ -50,10 +51,15 @@ Exit runCommandLine(int argc, char** argv) {
       "Exit status: 0 done; 1 the input is wrong; 2 usage; 3 no such backend or device here; 4 a file could not "
       "be read or written; the highest of several.");
   std::vector<Command> commands;
-  for (const auto add : {addCheck, addFmt, addExplain, addMesh, addBake, addStore, addMeasure, addClassify, addMasters,
-                         addRender, addPreview, addFly, addServe, addInspect, addLsp, addBench, addPaper, addBackends})
-    commands.push_back(add(app));
+  for (const AddCommand add : commandsToAdd()) commands.push_back(add(app));
 
+  // Before CLI11 looks: it would answer `sgm bake --help` with the help of sgm.
+  if (argc > 1 && std::ranges::count(commandsLeftOut(), std::string_view(argv[1])) > 0) {
+    return complain(Exit::usage,
+                    fmt::format("this build of sgm leaves out '{}': configure it with SGM_TOOLS=all (cmake "
+                                "--preset release), and build it again",
+                                argv[1]));
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "cli/arguments/serve.h"
+#include "cli/arguments/serving_options.h"
 #include "cli/arguments/shared.h"
 #include "stream/chunk_key.h"
 
@@ -43,8 +43,8 @@ Command addFly(CLI::App& root) {
           ->expected(0, -1);
   app->add_flag(
       "--check", options->check,
-      "Check every frame's surface for open and non-manifold edges by exact keys, and for triangles that are degenerate, "
-      "flat, fold or cut; each 500th frame whole, between chunks too. Status 1 where there are any");
+      "Check every frame's surface for open and non-manifold edges by exact keys, and for triangles that are "
+      "degenerate, flat, fold or cut; each 500th frame whole, between chunks too. Status 1 where there are any");
   app->add_flag("--measure", options->measure,
                 "Measure every chunk as soon as it is meshed: what is wrong with it, area, volume. Status 1 where "
                 "anything is wrong");
@@ -92,13 +92,7 @@ Command addFly(CLI::App& root) {
   app->add_option("--journal", options->journal, "File that keeps what is dug from one flight to the next")
       ->type_name("FILE")
       ->excludes(compare);
-  CLI::Option* serve =
-      app->add_flag("--serve", options->serve,
-                    "Show the flight on a page and in metrics over HTTP, as sgm serve does, while it goes on");
-  app->add_flag("--keep-serving", options->keep_serving,
-                "Serve on when the flight has ended, until SIGINT, SIGTERM or SIGHUP; the report comes then")
-      ->needs(serve);
-  addServingOptions(*app, options->serving, serve);
+  addFlightServing(*app, *options);
   app->footer(
       std::string(kLightFooter) +
       "In a flight the camera looks once a second, and two looks must agree on another light.\n"

@@ -1331,8 +1331,8 @@ typedef struct sgm_world_desc {
  * SGM_WORLD_RESIDENT, and the field's backend is not on a lent device. */
 SGM_API sgm_result sgm_world_create(sgm_field* field, const sgm_world_desc* desc, sgm_world** out, sgm_error* error);
 
-/* Waits for the chunks that are being meshed at this moment, and for no others, and writes the journal. Meshes that the
- * engine holds stay good until it releases them. */
+/* Waits for the world's running jobs, each a plan, a chunk or a batch, and writes the journal. It starts no other job of
+ * this world; plans of other worlds may start. Meshes stay valid until the engine releases them. */
 SGM_API sgm_result sgm_world_destroy(sgm_world* world);
 
 /* A camera, or anything else that the world is there for. */
@@ -1360,8 +1360,8 @@ SGM_API sgm_result sgm_world_set_viewers(sgm_world* world, const sgm_viewer* vie
  * loses nothing: a mesh that does not fit is handed over as the first of an update, and what it has too much is taken
  * off the updates that follow. So any k updates hand over at most the sum of their max_bytes and one mesh. All worlds
  * of a runtime plan in turn, in a quarter of the workers' time while there is enough to mesh: to update more often, or
- * more worlds, does not keep the workers from meshing. SGM_INCOMPLETE, and nothing happens: events of the update before
- * have not all been polled. SGM_ERR_INVALID_ARGUMENT: max_bytes is 0. */
+ * more worlds, does not keep the workers from meshing. SGM_INCOMPLETE, and nothing changes: events of the previous
+ * update have not all been polled. SGM_ERR_INVALID_ARGUMENT: max_bytes is 0. */
 SGM_API sgm_result sgm_world_update(sgm_world* world, uint64_t max_bytes, sgm_error* error);
 
 typedef enum sgm_event_kind {

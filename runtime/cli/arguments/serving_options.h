@@ -1,5 +1,5 @@
 #pragma once
-// What is asked of those that serve.
+// The options of commands that start the metrics service.
 
 #include "cli/commands.h"
 
@@ -9,6 +9,9 @@ class Option;
 }  // namespace CLI
 
 namespace sgm::cli {
+
+/// --serve, --keep-serving, and those below. In a small build --serve is a usage error that says so.
+void addFlightServing(CLI::App& app, FlyOptions& options);
 
 /// --listen to --waiting. needs: an option without which they say nothing; null: none.
 void addServingOptions(CLI::App& app, ServingOptions& options, CLI::Option* needs);
