@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Prints the path of a Godot that the plugin can be built for and tested in; its version goes to stderr.
 #
-#   bash editor_plugin/get_godot.sh
+#   bash editor_plugin/get_godot.sh [--no-download]
 #
 # The first of these that is there: $GODOT; godot4 or godot in PATH, from 4.3 on; one that was unpacked before, below
 # build/tools/godot (or $SGM_GODOT_CACHE); else it is unpacked there, with its libraries and a software Vulkan device,
-# from a newer suite of Debian (amd64; about 900 MB; nothing is installed). Exit status: 0, or 1 after one line that
-# says what to do.
+# from a newer suite of Debian (amd64; about 900 MB; nothing is installed), unless --no-download forbids it. Exit status: 0,
+# or 1 after one line that says what to do.
 set -euo pipefail
 [[ ${1:-} != --help ]] || { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; exit 0; }
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -43,6 +43,7 @@ unpacked() {
   return 1
 }
 unpacked || true
+[[ ${1:-} != --no-download ]] || die "there is no Godot here; without --no-download it is unpacked"
 help="set GODOT to a Godot 4.3 or newer (from godotengine.org), or leave its tests out: tests/run.sh --without godot"
 [[ $(dpkg --print-architecture 2>/dev/null) == amd64 ]] && command -v apt-get >/dev/null ||
   die "there is no Godot here, and it can be unpacked on Debian amd64 alone; $help"

@@ -1,38 +1,54 @@
 #!/usr/bin/env bash
-# Builds everything and runs every test, on a bare Debian 12 as root or with sudo. Installs what is missing, and says so.
+# Builds and runs the tests, on a bare Debian 12 as root or with sudo. Installs what is missing, and says so.
 #
-#   bash tests/run.sh [--long] [--require-cuda] [--label LABEL]... [--without NAME]... [--jobs N]
+#   bash tests/run.sh                 the quick tests: one optimised build, the library's own tests
+#   bash tests/run.sh --module NAME   the tests of one module (grammar, derive, field, mesh, stream, ...)
+#   bash tests/run.sh --all           every test, in four builds; this is what is run before a change lands
+#   bash tests/run.sh --long          as --all with far longer property tests and fuzzers, which begin from new random
+#                                     seeds, three more builds, and AVX-512 under emulation (label emulated; installs an
+#                                     emulator)
 #
-#   --long          run property tests and fuzzers far longer, make three builds more, and run AVX-512 under emulation (label
-#                   emulated; installs an emulator; without --long that test is skipped, and named so in the summary)
-#   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, judges, style, gltf, threads, fuzz, godot, slurm, ...)
+#   --label LABEL   only tests with this ctest label (unit, cpu, vulkan, cli, judges, style, gltf, threads, fuzz, godot, slurm,
+#                   ...); implies --all
 #   --without NAME  leave out a build (fuzz, plain, tsan) or a label; each is named in the summary
 #   --require-cuda  nvcc and an NVIDIA GPU must be there, for the tests of label cuda that run on one; without it those are
-#                   skipped, and named so in the summary
-#   --jobs N        at most N compilers and tests at one time (default: one for each processor)
+#                   skipped, and named so in the summary; implies --all
+#   --jobs N        at most N compilers and tests at once (default: one for each processor)
 #
-# The Godot plugin is tested in a real Godot, which editor_plugin/get_godot.sh finds or unpacks, unless --without godot
-# leaves it out. A Vulkan device must be there (software Vulkan is installed, and will do), unless --without vulkan leaves it out.
+# A failed test prints its seed, and SGM_SEED=n repeats the test with that seed (after --long: SGM_LONG=1 SGM_SEED=n).
+#
+# The quick tests need no Godot and no browser; with a Godot at hand (editor_plugin/get_godot.sh) one script runs in it. They
+# end with the names of the tests that were left out, and the command that runs them.
+#
+# --all tests the Godot plugin in a real Godot, which editor_plugin/get_godot.sh finds or unpacks, unless --without godot
+# leaves it out. A Vulkan device must be there (software Vulkan is installed, and is enough), unless --without vulkan
+# leaves it out.
 #
 # Four builds: release has every test; fuzz (clang++, both sanitizers) runs the unit tests again, and the fuzzers; plain
 # (clang++ again, optimised, but no vector unit; also the static package) those that compare bits; tsan those with
 # threads. --long adds dev (both sanitizers, g++, each file by itself), scalar (g++, no vector unit) and clang (clang++,
-# vectors). The last lines are ctest's summary over all of them. Exit status: 0 when all passed.
+# vectors). The last lines are ctest's summary over all of them. Exit status: 0 if every test passed.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
 
-variants=(fuzz plain tsan)
+tier=quick module= variants=(fuzz plain tsan)
 labels=() without=() jobs=$(nproc) timeout=900
 usage() { sed -n '2,/^set /{/^set /d;s/^# \{0,1\}//;p}' "${BASH_SOURCE[0]}"; }
 die() { echo "tests/run.sh: error: $1" >&2; exit "${2:-1}"; }
 while (($#)); do
   case $1 in
-    --long) export SGM_LONG=1 && timeout=7200 variants+=(dev scalar clang) ;;
-    --require-cuda) export SGM_REQUIRE_CUDA=1 ;;
-    --label | --without | --jobs)
+    --all) tier=all ;;
+    --long) export SGM_LONG=1 && tier=all timeout=7200 variants+=(dev scalar clang) ;;
+    --require-cuda) export SGM_REQUIRE_CUDA=1 && tier=all ;;
+    --module | --label | --without | --jobs)
       (($# > 1)) || die "$1 needs a value" 2
-      case $1 in --label) labels+=("$2") ;; --without) without+=("$2") ;; --jobs) jobs=$2 ;; esac
+      case $1 in
+        --module) module=$2 ;;
+        --label) labels+=("$2") && tier=all ;;
+        --without) without+=("$2") ;;
+        --jobs) jobs=$2 ;;
+      esac
       shift
       ;;
     -h | --help) usage && exit 0 ;;
@@ -40,6 +56,10 @@ while (($#)); do
   esac
   shift
 done
+modules=$(grep -l sgm_unit_test tests/*/CMakeLists.txt tests/unit/*/CMakeLists.txt | xargs -n 1 dirname | xargs -n 1 basename)
+[[ -z $module || " ${modules//$'\n'/ } " == *" $module "* ]] || die "no module '$module'; there are: ${modules//$'\n'/ }" 2
+[[ -z $module || $tier == quick ]] || die "--module runs one module's tests in the release build: leave the other options out" 2
+[[ $tier == all || ${#without[@]} == 0 ]] || die "--without goes with --all or --long" 2
 [[ " ${without[*]-} " == *" vulkan "* ]] || export SGM_REQUIRE_VULKAN=1
 [[ $jobs =~ ^[1-9][0-9]*$ ]] || die "--jobs needs a number, not '$jobs'" 2
 
@@ -49,8 +69,44 @@ export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
 started=$SECONDS
 step() { printf '\n== %s (after %d s)\n' "$1" $((SECONDS - started)); }
 
+# build PRESET [TARGET]: quiet if all is well, the whole log if not.
+build() {
+  step "build $1"
+  local log=build/$1.configure.log options=() target=()
+  [[ $1 != release || -z ${SGM_REQUIRE_CUDA:-} ]] || options=(-DSGM_CUDA=ON)
+  [[ -z ${2:-} ]] || target=(--target "$2")
+  mkdir -p build
+  cmake --preset "$1" ${options[@]+"${options[@]}"} >"$log" 2>&1 || { cat "$log" >&2; die "configuring $1 failed"; }
+  grep -i -A3 'warning' "$log" || true
+  cmake --build --preset "$1" -j "$jobs" ${target[@]+"${target[@]}"} -- --quiet || die "building $1 failed"
+}
+
 step "packages"
 source samples/setup_debian.sh
+if [[ $tier == quick ]]; then
+  sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_QUICK_TEST_PACKAGES[@]}"
+  label=quick target=sgm_quick_tests
+  if [[ -n $module ]]; then
+    label=module_$module target=sgm_tests_$module
+  fi
+  build release "$target"
+  step "tests"
+  status=0
+  ctest --test-dir build/release --output-on-failure --no-tests=error --no-label-summary --timeout "$timeout" -j "$jobs" \
+    -L "^$label\$" </dev/null || status=$?
+  if [[ -z $module ]]; then
+    # One script in the real engine, where it is at hand.
+    if bash editor_plugin/get_godot.sh --no-download >/dev/null 2>&1; then
+      step "the Godot plugin"
+      bash editor_plugin/build.sh && bash editor_plugin/tests/run.sh headless/grammars || status=1
+    fi
+    echo
+    echo "Left out (bash tests/run.sh --all runs everything):"
+    ctest --test-dir build/release --show-only -LE '^quick$' | sed -n 's/^ *Test *#[0-9]*: //p' | paste -sd ' ' | fold -s -w 110 | sed 's/^/  /; s/ *$//'
+    echo "  and all unit tests with sanitizers (fuzz, tsan) and with another compiler (plain)"
+  fi
+  exit "$status"
+fi
 sgm_setup "${SGM_BUILD_PACKAGES[@]}" "${SGM_TEST_PACKAGES[@]}"
 sgm_setup_npm build/tools gltf-validator 2.0.0-dev.3.10 manifold-3d 3.5.4 vscode-languageserver-protocol 3.17.5 \
   vscode-textmate 9.3.2 vscode-oniguruma 2.0.1 playwright-core 1.65.1 ajv 8.20.0 ajv-formats 3.0.1 \
@@ -60,16 +116,6 @@ if [[ " ${without[*]-} " != *" godot "* ]]; then
   step "Godot"
   bash editor_plugin/get_godot.sh >/dev/null || die "the plugin cannot be tested; --without godot leaves its tests out"
 fi
-
-# build PRESET: quiet while all is well, the whole story when not.
-build() {
-  step "build $1"
-  local log=build/$1.configure.log options=()
-  [[ $1 != release || -z ${SGM_REQUIRE_CUDA:-} ]] || options=(-DSGM_CUDA=ON)
-  cmake --preset "$1" ${options[@]+"${options[@]}"} >"$log" 2>&1 || { cat "$log" >&2; die "configuring $1 failed"; }
-  grep -i -A3 'warning' "$log" || true
-  cmake --build --preset "$1" -j "$jobs" -- --quiet || die "building $1 failed"
-}
 
 chosen=(release) left_out_labels=()
 for variant in "${variants[@]}"; do

@@ -88,11 +88,17 @@ colour() {
     const c = [pixel >> 16 & 255, pixel >> 8 & 255, pixel & 255];
     process.exit(eval(process.argv[3]) ? 0 : (console.error(width, c), 1));' "$1" "$2" "$3"
 }
-sleep 0.5
-run colour 400 300 'c[0] > 60 && Math.abs(c[0] - c[2]) < 60'
-[[ $status == 0 ]] || failed "no ball in the middle of the window"
-run colour 780 20 'c[2] > c[0] + 20'
-[[ $status == 0 ]] || failed "no sky beside it"
+# shown X Y EXPRESSION MESSAGE: awaits it, since the window shows a picture some time after the preview has told of it.
+shown() {
+  for _ in {1..40}; do
+    run colour "$1" "$2" "$3"
+    [[ $status == 0 ]] && return
+    sleep 0.25
+  done
+  failed "$4"
+}
+shown 400 300 'c[0] > 60 && Math.abs(c[0] - c[2]) < 60' "no ball in the middle of the window"
+shown 780 20 'c[2] > c[0] + 20' "no sky beside it"
 
 # A save is drawn at once; so is one of an imported file. What is wrong is told, and the last picture stays.
 world 1.5m >ball.sgm
@@ -102,8 +108,7 @@ sed -i 's/sphere(r)/box(r, r, r)/' parts.sgm
 waited 'j.event === "picture" && !j.draft'
 echo 'rule Ball { nothing(1); }' >>ball.sgm
 waited 'j.event === "message" && /ball.sgm:7:\d+: error: /.test(j.messages)'
-run colour 400 300 'c[0] > 60'
-[[ $status == 0 ]] || failed "the last picture is gone"
+shown 400 300 'c[0] > 60' "the last picture is gone"
 world 3m >ball.sgm
 sed -i 's/box(r, r, r)/sphere(r)/' parts.sgm
 waited 'j.event === "picture" && !j.draft && j.messages === ""'

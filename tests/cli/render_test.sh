@@ -118,8 +118,10 @@ cat >hall.sgm <<'END'
 sgm 1;
 units m;
 param open = 0 in 0..1 "of the hall's long wall";
+param side = 0 in -1..1 "that a lantern is on; 0: there is none";
 start Hall;
 rule Hall {
+  for i in 0..abs(side) { at(4m*side, 3m, 2m) anchor light "lantern"; }
   at(y 4m) box(14m, 10m, 40m);
   cut { at(y 4m) box(10m, 8m, 36m); at(6m, 3m, 0m) box(6m, 4m*open + 0.01m, 30m*open + 0.01m); }
   mat limestone;
@@ -167,10 +169,20 @@ cmp -s lamp.png none.png && failed "--light none has a lamp"
 # Even light from everywhere: no part of the street's ground is in the dark.
 read -r mean _ < <(node "$SOURCE/tests/cli/png.js" none.png 20 40 56 14)
 ((mean > 60)) || failed "by --light none the ground's mean is $mean"
+# A lamp is where an anchor of the kind `light` is: of two walls it lights the one beside it more. x grows to the left.
+walls() {
+  expect 0 "$SGM" render hall.sgm --out walls.png --size 96x54 --cell 0.5 --camera 0,1.7,-15:0,3,15 --light lamp --set "side=$1"
+  left=$(node "$SOURCE/tests/cli/png.js" walls.png 33 20 6 10 | cut -d" " -f1)
+  right=$(node "$SOURCE/tests/cli/png.js" walls.png 57 20 6 10 | cut -d" " -f1)
+}
+walls 1
+((left > right + 20)) || failed "with a lantern on the left the walls' means are $left and $right"
+walls -1
+((right > left + 20)) || failed "with a lantern on the right the walls' means are $left and $right"
 expect 2 "$SGM" render town.sgm --out wrong.png --light moon
 expect 2 "$SGM" render town.sgm --out wrong.png --light lamp --volume
 err_has 'excludes'
-rm town.sgm hall.sgm mouth.sgm lit.png sun.png lamp.png none.png
+rm town.sgm hall.sgm mouth.sgm lit.png sun.png lamp.png none.png walls.png
 
 # Of anchors by the border and inside, one inside.
 printf '%s\n' 'sgm 1; domain infinite solid rock; layer a cell 32m reach 9m { start A; }' \

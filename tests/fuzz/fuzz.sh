@@ -2,9 +2,9 @@
 # Runs one fuzzer: a fixed number of inputs from a fixed seed, or for half an hour with SGM_LONG=1. An input that fails
 # stays in FOLDER, named in the output.
 #
-#   fuzz.sh PROGRAM RUNS FOLDER [SEEDS]
+#   fuzz.sh PROGRAM RUNS FOLDER [SEEDS [LONG_SEEDS]]
 set -euo pipefail
-program=$1 runs=$2 folder=$3 seeds=${4-}
+program=$1 runs=$2 folder=$3 seeds=${4-} long_seeds=${5-}
 mkdir -p "$folder/found" "$folder/failed"
 # A short run says the same every time, whatever earlier runs found.
 how=(-runs="$runs" -seed=1)
@@ -16,8 +16,9 @@ else
   mkdir "$folder/found"
 fi
 if [[ -n $seeds ]]; then
-  [[ -d $seeds ]] || { echo "fuzz.sh: no folder $seeds" >&2; exit 1; }
   corpus+=("$seeds")
+  [[ -z $long_seeds || ${SGM_LONG-} != 1 ]] || corpus+=("$long_seeds")
+  for of in "${corpus[@]}"; do [[ -d $of ]] || { echo "fuzz.sh: there is no folder $of" >&2; exit 1; }; done
 else
   # Nothing to start from: long inputs at once, or a short run sees none.
   how+=(-len_control=0)

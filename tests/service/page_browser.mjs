@@ -40,7 +40,12 @@ export async function openPage(browser, base, { before = async () => {}, at = '/
   );
   await before(page);
   await page.goto(base + at);
-  return { page, noted, close: () => context.close() };
+  const close = async () => {
+    // An answer that is being changed when the page goes is nobody's any more.
+    await page.unrouteAll({ behavior: 'ignoreErrors' });
+    await context.close();
+  };
+  return { page, noted, close };
 }
 
 /** Drops files on the page: [{name, bytes}]. told(): called while they hang over it. */
